@@ -1,0 +1,1 @@
+"""Reactive calculation documents for the design of mechanisms."""

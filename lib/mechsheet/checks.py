@@ -1,0 +1,92 @@
+"""Checks as values: a residual against its limit, with a verdict."""
+
+import html
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from mechsheet import units
+
+
+@dataclass(frozen=True)
+class Check:
+    """One statement that a worksheet proves about itself.
+
+    ``residual`` and ``limit`` are in ``unit``; the check passes where ``residual <= limit``, so NaN fails.
+    A check that is ``essential`` stops a script run before anything is written.
+    """
+
+    name: str
+    residual: float
+    limit: float
+    unit: str = "-"
+    reason: str = ""
+    essential: bool = False
+
+    @property
+    def passed(self) -> bool:
+        return self.residual <= self.limit
+
+    def __str__(self) -> str:
+        verdict = "pass" if self.passed else "FAIL"
+        text = f"{verdict}  {self.name}: {self.residual:.3g} <= {self.limit:.3g} {self.unit}".removesuffix(" -")
+        return f"{text}; {self.reason}" if self.reason else text
+
+    def _mime_(self) -> tuple[str, str]:
+        colour = "#2e7d32" if self.passed else "#c62828"
+        unit = "" if self.unit == "-" else f" {html.escape(self.unit)}"
+        sign = "≤" if self.passed else "≰"
+        return "text/html", (
+            f'<div class="ms-check"><span style="background:{colour};color:#fff;border-radius:.3em;padding:0 .5em;'
+            f'font-size:.8em">{"PASS" if self.passed else "FAIL"}</span> {html.escape(self.name)}: '
+            f"{self.residual:.2g} {sign} {self.limit:.2g}{unit}"
+            f'<span style="opacity:.7"> {html.escape(self.reason)}</span></div>'
+        )
+
+
+def check(name: str, residual: ArrayLike, limit: float, unit: str = "-") -> Check:
+    """Check that the largest magnitude of ``residual`` is at most ``limit``, both in SI; shown in ``unit``.
+
+    Elements that are NaN make it fail.
+    """
+    worst, factor = float(np.max(np.abs(residual))), units.parse(unit).factor
+    return Check(name, worst / factor, limit / factor, unit)
+
+
+def check_slope(
+    name: str,
+    slope: ArrayLike,
+    f: Callable[[NDArray[np.float64]], NDArray[np.float64]],
+    x: NDArray[np.float64],
+    lo: float,
+    hi: float,
+    unit: str = "-",
+) -> Check:
+    """Check a derivative against adaptive differences of ``f`` at ``x``, taken inside ``lo``..``hi``.
+
+    The limit is 1e-8 of the greatest slope, or ten times what the differences say of their own error.
+    """
+    from scipy.differentiate import derivative
+
+    ends = np.where(x == lo, 1, np.where(x == hi, -1, 0))
+    found = derivative(f, x, initial_step=0.04 * (hi - lo), step_direction=ends)
+    limit = max(1e-8 * float(np.max(np.abs(slope))), 10 * float(np.max(found.error)))
+    return check(name, np.asarray(slope) - found.df, limit, unit)
+
+
+def assembled(name: str, point: ArrayLike, over: ArrayLike, reaches: tuple[Any, Any], what: str, unit: str) -> Check:
+    """Check that a group closes at every position: no element of ``point`` is NaN.
+
+    ``what`` names the quantity ``over`` which the positions run; ``reaches`` are the limits between which
+    the group closes. The reason names the first position that does not.
+    """
+    lost, factor = np.isnan(point), units.parse(unit).factor
+    count = int(np.count_nonzero(lost))
+    if not count:
+        return Check(name, 0, 0, "open positions", essential=True)
+    x, lo, hi = (float(np.broadcast_to(v, np.shape(lost))[lost].flat[0]) / factor for v in (np.asarray(over), *reaches))
+    reason = f"no position closes for {what} = {x:.7g} {unit}: it reaches {lo:.7g}..{hi:.7g} {unit}"
+    return Check(name, count, 0, "open positions", reason, essential=True)

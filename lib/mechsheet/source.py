@@ -1,0 +1,60 @@
+"""A cell reads its own source: its statements, their comments and the call that is being made."""
+
+import ast
+import io
+import linecache
+import tokenize
+from dataclasses import dataclass
+from functools import lru_cache
+from types import FrameType
+
+
+@dataclass(frozen=True)
+class Cell:
+    """Statements of the running cell, with the comment of each line and where the cell stands."""
+
+    body: tuple[ast.stmt, ...]
+    comments: dict[int, str]
+    filename: str
+
+    def at(self, line: int) -> str:
+        """Place of a line as an error names it."""
+        return f"line {line} of {self.filename}"
+
+
+def cell(frame: FrameType) -> Cell:
+    """Cell that runs in ``frame``: a whole cell module in the editor, a function of the file in a script."""
+    tree, comments = _file(frame)
+    return Cell(_body(tree, frame.f_lineno), comments, frame.f_code.co_filename)
+
+
+def call(frame: FrameType) -> ast.Call:
+    """Call expression that ``frame`` is making now."""
+    position = list(frame.f_code.co_positions())[frame.f_lasti // 2]
+    body = _body(_file(frame)[0], frame.f_lineno)
+    # a cell runs without the indentation that it has in the file
+    indent = body[0].col_offset
+    for node in (n for statement in body for n in ast.walk(statement) if isinstance(n, ast.Call)):
+        end_column = (node.end_col_offset or 0) - indent
+        if position == (node.lineno, node.end_lineno, node.col_offset - indent, end_column):
+            return node
+    raise RuntimeError(f"the source of {frame.f_code.co_filename} line {frame.f_lineno} cannot be read")
+
+
+def _file(frame: FrameType) -> tuple[ast.Module, dict[int, str]]:
+    linecache.checkcache(frame.f_code.co_filename)
+    return _parse("".join(linecache.getlines(frame.f_code.co_filename)))
+
+
+def _body(tree: ast.Module, line: int) -> tuple[ast.stmt, ...]:
+    for node in tree.body:
+        if isinstance(node, ast.FunctionDef) and node.lineno <= line <= (node.end_lineno or 0):
+            return tuple(node.body)
+    return tuple(tree.body)
+
+
+@lru_cache(maxsize=256)
+def _parse(text: str) -> tuple[ast.Module, dict[int, str]]:
+    tokens = tokenize.generate_tokens(io.StringIO(text).readline)
+    comments = {t.start[0]: t.string.lstrip("# ") for t in tokens if t.type == tokenize.COMMENT}
+    return ast.parse(text), comments

@@ -1,0 +1,85 @@
+"""Names of variables as symbols of the field: ``phi34`` is φ with index 34."""
+
+import re
+from functools import cache
+
+GREEK = {
+    "alpha": "α", "beta": "β", "gamma": "γ", "delta": "δ", "eps": "ε", "epsilon": "ε", "zeta": "ζ", "eta": "η",
+    "theta": "θ", "kappa": "κ", "mu": "μ", "nu": "ν", "xi": "ξ", "pi": "π", "rho": "ρ", "sigma": "σ", "tau": "τ",
+    "phi": "φ", "chi": "χ", "psi": "ψ", "omega": "ω", "Gamma": "Γ", "Delta": "Δ", "Theta": "Θ", "Sigma": "Σ",
+    "Phi": "Φ", "Psi": "Ψ", "Omega": "Ω",
+}  # fmt: skip
+_TEX = {"eps": r"\varepsilon", "epsilon": r"\varepsilon", "phi": r"\varphi"}
+_NAME = re.compile(rf"(d?)({'|'.join(sorted(GREEK, key=len, reverse=True))}|[A-Za-z])_?(\w*)")
+
+
+@cache
+def parts(name: str) -> tuple[str, str, str]:
+    """Differential mark, base and index of a name; one word of small letters stays whole.
+
+    The rule: a leading ``d`` before a Greek or capital letter is a difference or derivative; the base is
+    one Greek word or one letter; the rest, without underscores, is the index.
+
+    >>> parts("phi34"), parts("GS6_max"), parts("dphi3"), parts("dRa"), parts("reserve")
+    (('', 'phi', '34'), ('', 'G', 'S6 max'), ('d', 'phi', '3'), ('d', 'R', 'a'), ('', 'reserve', ''))
+    """
+    if name not in GREEK and re.fullmatch(r"[a-z]{3,}", name) and not re.match("|".join(GREEK), name):
+        return "", name, ""
+    for pattern in (_NAME, re.compile(r"()([A-Za-z])_?(\w*)")):
+        if (match := pattern.fullmatch(name)) and not (match[1] and match[2].islower() and match[2] not in GREEK):
+            return match[1], match[2], match[3].replace("_", " ").strip()
+    return "", name, ""
+
+
+def is_field(name: str) -> bool:
+    """Whether the name says "over S": ``phi34_S`` is printed φ34(S)."""
+    return name.endswith("_S") and len(name) > 2
+
+
+def plain(name: str) -> str:
+    """Name as a table heading prints it: without the ``_S`` of a field and without underscores.
+
+    >>> plain("phi34_S"), plain("GS6_max"), plain("S_p")
+    ('phi34', 'GS6max', 'Sp')
+    """
+    return (name[:-2] if is_field(name) else name).replace("_", "")
+
+
+def latex(name: str) -> str:
+    r"""Name in LaTeX.
+
+    >>> latex("phi34_S"), latex("dRa")
+    ('\\varphi_{34}(S)', '\\Delta R_{a}')
+    """
+    mark, base, index = parts(name[:-2] if is_field(name) else name)
+    if base in GREEK:
+        text = _TEX.get(base, rf"\{base}")
+    else:
+        text = base if len(base) == 1 else rf"\mathrm{{{base}}}".replace("_", r"\_")
+    if mark:
+        text = rf"\mathrm{{d}}{text}" if base in GREEK else rf"\Delta {text}"
+    if index:
+        text += "_{" + index.replace(" ", r"\,") + "}"
+    return text + "(S)" * is_field(name)
+
+
+def html(name: str) -> str:
+    """Name in HTML, for headings of tables and legends.
+
+    >>> html("phi34"), html("R56x")
+    ('φ<sub>34</sub>', 'R<sub>56x</sub>')
+    """
+    mark, base, index = parts(name[:-2] if is_field(name) else name)
+    text = GREEK.get(base, base)
+    if mark:
+        text = ("d" if base in GREEK else "Δ") + text
+    return text + (f"<sub>{index}</sub>" if index else "")
+
+
+def text(name: str) -> str:
+    """Name in plain characters, for charts and the terminal.
+
+    >>> text("phi34"), text("dRa")
+    ('φ34', 'ΔRa')
+    """
+    return re.sub("</?sub>", "", html(name))

@@ -1,0 +1,181 @@
+"""Tables and figures as values, one description for the page, the workbook and pandas."""
+
+import ast
+import html
+import sys
+from collections.abc import Mapping
+from dataclasses import dataclass
+from types import FrameType
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mechsheet import formula, source, symbol, units
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+DECIMALS = {"m": 3, "mm": 1, "deg": 1, "N": 0, "Pa": 0, "MPa": 2, "kN": 2, "%": 1}
+_OTHER_DECIMALS = 3
+_BLOCK = 6
+
+
+@dataclass(frozen=True)
+class Column:
+    """One quantity over the rows of a table: its symbol, display unit, meaning and values in that unit."""
+
+    symbol: str
+    unit: str
+    meaning: str
+    decimals: int
+    values: NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Table:
+    """A numbered table; all columns have the same length, the first one names the rows."""
+
+    number: str
+    title: str
+    columns: tuple[Column, ...]
+    note: str = ""
+
+    def frame(self) -> "pd.DataFrame":
+        """The table as a pandas DataFrame, headings ``symbol [unit]``."""
+        import pandas as pd
+
+        return pd.DataFrame({f"{c.symbol} [{c.unit}]": c.values for c in self.columns})
+
+    def _mime_(self) -> tuple[str, str]:
+        head, *rest = self.columns
+        blocks = [rest[i : i + _BLOCK] for i in range(0, len(rest), _BLOCK)]
+        caption = f"<b>Table {html.escape(self.number)}</b> – {html.escape(self.title)}"
+        note = f'<div style="font-size:.9em;opacity:.75">{html.escape(self.note)}</div>' if self.note else ""
+        return "text/html", f'<div class="ms-table">{caption}{"".join(_block([head, *b]) for b in blocks)}{note}</div>'
+
+
+def _block(columns: list[Column]) -> str:
+    cell = 'style="text-align:right;padding:.1em .7em;font-variant-numeric:tabular-nums"'
+    heads = "".join(f'<th {cell} title="{html.escape(c.meaning)}"><i>{symbol.html(c.symbol)}</i></th>' for c in columns)
+    unit_row = "".join(f"<th {cell}>[{html.escape(c.unit)}]</th>" for c in columns)
+    texts = [[f"{v:.{c.decimals}f}" if np.isfinite(v) else "–" for v in c.values] for c in columns]
+    rows = "".join("<tr>" + "".join(f"<td {cell}>{t}</td>" for t in row) + "</tr>" for row in zip(*texts, strict=True))
+    return (
+        '<table style="border-collapse:collapse;margin:.4em 0 1em"><thead>'
+        f'<tr>{heads}</tr><tr style="opacity:.6;border-bottom:1px solid currentColor">{unit_row}</tr></thead>'
+        f"<tbody>{rows}</tbody></table>"
+    )
+
+
+@dataclass(frozen=True)
+class Figure:
+    """A numbered line chart of some columns over another; ``marks`` are labelled positions on the x axis."""
+
+    number: str
+    title: str
+    x: Column
+    lines: tuple[Column, ...]
+    marks: tuple[tuple[str, float], ...] = ()
+
+    def _mime_(self) -> tuple[str, str]:
+        import marimo as mo
+
+        return "text/html", mo.as_html(self.chart()).text
+
+    def chart(self) -> Any:
+        """The figure as an altair chart."""
+        import altair as alt
+
+        names = [symbol.text(c.symbol) for c in self.lines]
+        rows = [
+            {"x": float(x), "y": float(y), "line": name}
+            for column, name in zip(self.lines, names, strict=True)
+            for x, y in zip(self.x.values, column.values, strict=True)
+            if np.isfinite(y)
+        ]
+        y_title = f"{', '.join(names)} [{self.lines[0].unit}]"
+        base = alt.Chart(alt.InlineData(rows)).encode(
+            x=alt.X(
+                "x:Q", title=f"{symbol.text(self.x.symbol)} [{self.x.unit}]", scale=alt.Scale(zero=False, nice=False)
+            ),
+            y=alt.Y("y:Q", title=y_title, scale=alt.Scale(zero=False)),
+            color=alt.Color(
+                "line:N", title=None, sort=names, legend=alt.Legend(orient="top") if len(names) > 1 else None
+            ),
+            tooltip=[
+                alt.Tooltip("line:N", title="quantity"),
+                alt.Tooltip("x:Q", title=symbol.text(self.x.symbol), format=f".{self.x.decimals}f"),
+                alt.Tooltip("y:Q", title="value", format=f",.{self.lines[0].decimals}f"),
+            ],
+        )
+        layers = [base.mark_line(), base.mark_point(filled=True, size=36)]
+        for name, x in self.marks:
+            at = alt.Chart(alt.InlineData([{"x": x, "name": name}])).encode(x="x:Q")
+            layers += [
+                at.mark_rule(strokeDash=[5, 4], opacity=0.6),
+                at.mark_text(align="left", dx=4, y=8, fontSize=12).encode(text="name:N"),
+            ]
+        title = f"Figure {self.number} – {self.title}"
+        return alt.layer(*layers).properties(title=title, width=620, height=300)
+
+
+def table(number: str, title: str, *columns: Any, show: Mapping[str, str] | None = None, note: str = "") -> Table:
+    """Table of the given quantities: symbols, units and meanings are read from the lines that define them.
+
+    An argument is a name, ``P23_S.real`` or ``.imag`` (columns X23, Y23 of a point, R56x, R56y of a
+    force) or ``abs(R56)`` (column R56). ``show`` gives another display unit for some symbols.
+    ``note`` stands below the table.
+    """
+    frame = sys._getframe(1)
+    return Table(number, title, _columns(frame, source.call(frame).args[2:], columns, show or {}), note)
+
+
+def figure(number: str, title: str, x: Any, *lines: Any, marks: Mapping[str, float] | None = None) -> Figure:
+    """Line chart of the given quantities over ``x``, read as in `table`; ``marks`` are positions in SI."""
+    frame = sys._getframe(1)
+    first, *rest = _columns(frame, source.call(frame).args[2:], (x, *lines), {})
+    factor = units.parse(first.unit).factor
+    return Figure(number, title, first, tuple(rest), tuple((k, v / factor) for k, v in (marks or {}).items()))
+
+
+def _columns(
+    frame: FrameType, nodes: list[ast.expr], values: tuple[Any, ...], show: Mapping[str, str]
+) -> tuple[Column, ...]:
+    known, columns = formula.registry(frame.f_globals), []
+    nodes = [n for node in nodes for n in (node.value.elts if _is_group(node) else [node])]  # type: ignore[attr-defined]
+    length = max(np.size(v) for v in values)
+    for node, value in zip(nodes, values, strict=True):
+        name, part = _name(node)
+        if name not in known:
+            raise LookupError(
+                f"column {ast.unparse(node)}: no line declares {name} with its unit, such as # [m] meaning"
+            )
+        line = known[name]
+        heading = _heading(symbol.plain(name), part)
+        unit = show.get(heading, line.unit)
+        shown = np.broadcast_to(np.asarray(value) / units.parse(unit).factor, length)
+        columns.append(Column(heading, unit, line.meaning, DECIMALS.get(unit, _OTHER_DECIMALS), shown))
+    return tuple(columns)
+
+
+def _is_group(node: ast.expr) -> bool:
+    return isinstance(node, ast.Starred) and isinstance(node.value, ast.Tuple)
+
+
+def _name(node: ast.expr) -> tuple[str, str]:
+    match node:
+        case ast.Name(name):
+            return name, ""
+        case ast.Attribute(ast.Name(name), ("real" | "imag") as part):
+            return name, part
+        case ast.Call(ast.Name("abs"), [ast.Name(name)]):
+            return name, ""
+    raise LookupError(f"column {ast.unparse(node)}: a column is a name, name.real, name.imag or abs(name)")
+
+
+def _heading(name: str, part: str) -> str:
+    if not part:
+        return name
+    axis = {"real": "x", "imag": "y"}[part]
+    return axis.upper() + name[1:] if name.startswith("P") else name + axis
