@@ -1,5 +1,22 @@
 """The one error that a worksheet raises to its reader."""
 
+import sys
+from typing import Any, NoReturn
+
 
 class SheetError(ValueError):
     """Input or a result that cannot be used; the message is one line for the person at the worksheet."""
+
+
+def refuse(error: SheetError, shown: Any = None) -> NoReturn:
+    """Stop the running cell and those that need it: in a page the reason stands in its place, elsewhere raise.
+
+    A served page hides the text of exceptions, so the reason is shown as the cell's output: ``shown``, or
+    the message of the error.
+    """
+    if "marimo" in sys.modules:
+        import marimo as mo
+
+        if mo.running_in_notebook():
+            mo.stop(True, shown if shown is not None else mo.callout(str(error), kind="danger"))
+    raise error

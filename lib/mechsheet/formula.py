@@ -92,7 +92,8 @@ class Typeset:
 
         lines = []
         for row, value in zip(self.rows, self.values, strict=True):
-            tex = f"{_left(row)} = {latex(row.expression)}"
+            left, right = _left(row), latex(row.expression)
+            tex = left if right == left else f"{left} = {right}"
             if not row.arguments:
                 shown = value_latex(value, row.unit)
                 tex = f"{tex} = {shown}" if _computes(row.expression) else f"{symbol.latex(row.name)} = {shown}"
@@ -167,8 +168,8 @@ def _tex(node: ast.expr) -> tuple[str, int]:
             return rf"\operatorname{{Re}} {_wrap(inner, 5)}", 2
         case ast.Attribute(inner, "imag"):
             return rf"\operatorname{{Im}} {_wrap(inner, 5)}", 2
-        case ast.Attribute(inner, "value"):
-            return rf"\operatorname{{Find}}\,{_wrap(inner, 5)}", 2
+        case ast.Attribute(ast.Name(name), "value"):
+            return rf"\operatorname{{Find}}\,{symbol.latex(name.removesuffix('_found'))}", 2
         case ast.UnaryOp(ast.USub(), inner):
             return f"-{_wrap(inner, 3)}", 1
         case ast.UnaryOp(ast.UAdd(), inner):
@@ -182,6 +183,8 @@ def _tex(node: ast.expr) -> tuple[str, int]:
             return (rf"\left({base}\right)" if base.startswith(r"\frac") else base) + f"^{{{latex(right)}}}", 4
         case ast.BinOp(left, ast.Mult(), right):
             return _product(left, right), 2
+        case ast.BinOp(left, ast.Mod(), right):
+            return rf"{_wrap(left, 2)} \bmod {_wrap(right, 2)}", 2
         case ast.BinOp(left, (ast.Add() | ast.Sub()) as op, right):
             sign = "+" if isinstance(op, ast.Add) else "-"
             return f"{_wrap(left, 1)} {sign} {_wrap(right, 1 if sign == '+' else 2)}", 1
@@ -205,19 +208,23 @@ def _constant(value: object) -> tuple[str, int]:
 
 def _wrap(node: ast.expr, level: int) -> str:
     text, precedence = _tex(node)
-    return text if precedence >= level else rf"\left({text}\right)"
+    return text if precedence >= level else _brackets([node])
 
 
 def _product(left: ast.expr, right: ast.expr) -> str:
-    a, b = _wrap(left, 2), _wrap(right, 2 if not isinstance(right, ast.BinOp) else 4)
-    if isinstance(right, ast.BinOp) and isinstance(right.op, ast.Div):
-        b = latex(right)
-    times = r" \cdot " if b[0].isdigit() or b.startswith("-") else r"\,"
-    return a + times + b
+    match right:
+        case ast.UnaryOp():
+            b = _brackets([right])
+        case ast.BinOp(op=ast.Div()):
+            b = latex(right)
+        case _:
+            b = _wrap(right, 4 if isinstance(right, ast.BinOp) else 2)
+    return _wrap(left, 2) + (r" \cdot " if b[0].isdigit() or isinstance(right, ast.UnaryOp) else r"\,") + b
 
 
 def _brackets(args: list[ast.expr]) -> str:
-    return r"\left(" + r",\ ".join(latex(a) for a in args) + r"\right)"
+    inner = r",\ ".join(latex(a) for a in args)
+    return rf"\left({inner}\right)" if r"\frac" in inner else f"({inner})"
 
 
 def _call(name: str, args: list[ast.expr]) -> tuple[str, int]:

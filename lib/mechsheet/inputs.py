@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, TypeVar, dataclass_transform
 import numpy as np
 
 from mechsheet import formula, scene, source, symbol, units
-from mechsheet.errors import SheetError
+from mechsheet.errors import SheetError, refuse
 
 if TYPE_CHECKING:
     import marimo as mo
@@ -147,28 +147,32 @@ def ask(cls: type) -> "mo.ui.batch":
     import marimo as mo
 
     g: Any = build(cls, scene.arguments(cls.__worksheet__).inputs)  # type: ignore[attr-defined]
-    rows, fields, section = [], {}, None
+    sections: dict[str, list[str]] = {}
+    fields = {}
     for field in declared(cls):
-        if field.section != section:
-            section = field.section
-            rows.append(
-                f'<tr><th colspan="4" style="text-align:left;padding:.7em .4em .2em 0">{html.escape(section)}</th></tr>'
-            )
         limits = ", ".join(f"{sign} {other}" for sign, other in field.limits)
         unit = "" if field.unit == "-" else field.unit
-        rows.append(
-            f"<tr><td><i>{symbol.html(field.name)}</i></td><td>{{{field.name}}}</td><td>{html.escape(unit)}</td>"
-            f'<td style="padding-left:1em">{html.escape(field.meaning)}'
-            f'<span style="opacity:.5;padding-left:.8em">{html.escape(limits)}</span></td></tr>'
+        sections.setdefault(field.section, []).append(
+            f"<tr><td>{symbol.html(field.name)}</td><td>{{{field.name}}}</td><td>{html.escape(unit)}</td>"
+            f'<td style="padding-left:.7em;line-height:1.2">{html.escape(field.meaning)}'
+            f'<span style="opacity:.5;padding-left:.6em">{html.escape(limits)}</span></td></tr>'
         )
         fields[field.name] = mo.ui.text(value=text(field, getattr(g, field.name)), debounce=True)
-    return mo.Html(f'<table class="ms-inputs">{"".join(rows)}</table>').batch(**fields)
+    blocks = "".join(
+        f'<div style="break-inside:avoid"><b>{html.escape(section)}</b><table>{"".join(rows)}</table></div>'
+        for section, rows in sections.items()
+    )
+    style = "columns:28em;column-gap:2em;font-size:.93em"
+    return mo.Html(f'<div class="ms-inputs" style="{style}">{blocks}</div>').batch(**fields)
 
 
 def read(cls: type[T], form: "mo.ui.batch") -> T:
     """Inputs as the text fields of ``form`` hold them, checked as in `build`."""
     values: dict[str, object] = form.value
-    return build(cls, values)
+    try:
+        return build(cls, values)
+    except SheetError as error:
+        refuse(error)
 
 
 @dataclass(frozen=True)
@@ -188,7 +192,7 @@ class Used:
             unit = "" if field.unit == "-" else f"&nbsp;{html.escape(field.unit)}"
             weight = "bold" if field.name in changed else "normal"
             items.append(
-                f'<span style="white-space:nowrap;font-weight:{weight}"><i>{symbol.html(field.name)}</i>'
+                f'<span style="white-space:nowrap;font-weight:{weight}">{symbol.html(field.name)}'
                 f"&nbsp;=&nbsp;{value:.10g}{unit}</span>"
             )
         return (

@@ -20,7 +20,10 @@ class Scene:
 
 def is_script(worksheet: str) -> bool:
     """Whether the worksheet itself was started, as ``python worksheet.py``."""
-    return bool(sys.argv and sys.argv[0]) and Path(sys.argv[0]).resolve() == Path(worksheet).resolve()
+    import marimo as mo
+
+    started = bool(sys.argv and sys.argv[0]) and Path(sys.argv[0]).resolve() == Path(worksheet).resolve()
+    return started and not mo.running_in_notebook()  # an export to HTML runs in the name of the worksheet too
 
 
 def arguments(worksheet: str) -> Scene:

@@ -10,25 +10,25 @@ GREEK = {
     "Phi": "Φ", "Psi": "Ψ", "Omega": "Ω",
 }  # fmt: skip
 _TEX = {"eps": r"\varepsilon", "epsilon": r"\varepsilon", "phi": r"\varphi"}
-_NAME = re.compile(rf"(d?)({'|'.join(sorted(GREEK, key=len, reverse=True))}|[A-Za-z])_?(\w*)")
+_WORDS = "|".join(sorted(GREEK, key=len, reverse=True))
+_NAME = re.compile(rf"(d(?=[A-Z]|{_WORDS}))?({_WORDS}|[A-Za-z])_?(\w*)")
 
 
 @cache
 def parts(name: str) -> tuple[str, str, str]:
     """Differential mark, base and index of a name; one word of small letters stays whole.
 
-    The rule: a leading ``d`` before a Greek or capital letter is a difference or derivative; the base is
-    one Greek word or one letter; the rest, without underscores, is the index.
+    The rule: a leading ``d`` before a Greek word or a capital letter is a difference or derivative; the base
+    is one Greek word or one letter; the rest is the index, its underscores commas.
 
-    >>> parts("phi34"), parts("GS6_max"), parts("dphi3"), parts("dRa"), parts("reserve")
-    (('', 'phi', '34'), ('', 'G', 'S6 max'), ('d', 'phi', '3'), ('d', 'R', 'a'), ('', 'reserve', ''))
+    >>> parts("phi34"), parts("GS6_max"), parts("dphi3"), parts("dRa"), parts("delta1"), parts("gap")
+    (('', 'phi', '34'), ('', 'G', 'S6,max'), ('d', 'phi', '3'), ('d', 'R', 'a'), ('', 'delta', '1'), ('', 'gap', ''))
     """
-    if name not in GREEK and re.fullmatch(r"[a-z]{3,}", name) and not re.match("|".join(GREEK), name):
+    greek = re.match(_WORDS, name)
+    if not greek and re.fullmatch(r"[a-z]{3,}", name) and not re.match(f"d({_WORDS})", name):
         return "", name, ""
-    for pattern in (_NAME, re.compile(r"()([A-Za-z])_?(\w*)")):
-        if (match := pattern.fullmatch(name)) and not (match[1] and match[2].islower() and match[2] not in GREEK):
-            return match[1], match[2], match[3].replace("_", " ").strip()
-    return "", name, ""
+    match = (re.fullmatch(rf"()({_WORDS})_?(\w*)", name) if greek else None) or _NAME.fullmatch(name)
+    return (match[1] or "", match[2], match[3].strip("_").replace("_", ",")) if match else ("", name, "")
 
 
 def is_field(name: str) -> bool:
@@ -59,7 +59,7 @@ def latex(name: str) -> str:
     if mark:
         text = rf"\mathrm{{d}}{text}" if base in GREEK else rf"\Delta {text}"
     if index:
-        text += "_{" + index.replace(" ", r"\,") + "}"
+        text += "_{" + index + "}"
     return text + "(S)" * is_field(name)
 
 
@@ -67,10 +67,10 @@ def html(name: str) -> str:
     """Name in HTML, for headings of tables and legends.
 
     >>> html("phi34"), html("R56x")
-    ('φ<sub>34</sub>', 'R<sub>56x</sub>')
+    ('<i>φ</i><sub>34</sub>', '<i>R</i><sub>56x</sub>')
     """
     mark, base, index = parts(name[:-2] if is_field(name) else name)
-    text = GREEK.get(base, base)
+    text = f"<i>{GREEK.get(base, base)}</i>"
     if mark:
         text = ("d" if base in GREEK else "Δ") + text
     return text + (f"<sub>{index}</sub>" if index else "")
@@ -82,4 +82,4 @@ def text(name: str) -> str:
     >>> text("phi34"), text("dRa")
     ('φ34', 'ΔRa')
     """
-    return re.sub("</?sub>", "", html(name))
+    return re.sub("<[^>]*>", "", html(name))

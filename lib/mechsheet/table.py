@@ -49,7 +49,7 @@ class Table:
 
     def _mime_(self) -> tuple[str, str]:
         head, *rest = self.columns
-        blocks = [rest[i : i + _BLOCK] for i in range(0, len(rest), _BLOCK)]
+        blocks = [rest[i : i + _BLOCK] for i in range(0, max(len(rest), 1), _BLOCK)]
         caption = f"<b>Table {html.escape(self.number)}</b> – {html.escape(self.title)}"
         note = f'<div style="font-size:.9em;opacity:.75">{html.escape(self.note)}</div>' if self.note else ""
         return "text/html", f'<div class="ms-table">{caption}{"".join(_block([head, *b]) for b in blocks)}{note}</div>'
@@ -57,7 +57,7 @@ class Table:
 
 def _block(columns: list[Column]) -> str:
     cell = 'style="text-align:right;padding:.1em .7em;font-variant-numeric:tabular-nums"'
-    heads = "".join(f'<th {cell} title="{html.escape(c.meaning)}"><i>{symbol.html(c.symbol)}</i></th>' for c in columns)
+    heads = "".join(f'<th {cell} title="{html.escape(c.meaning)}">{symbol.html(c.symbol)}</th>' for c in columns)
     unit_row = "".join(f"<th {cell}>[{html.escape(c.unit)}]</th>" for c in columns)
     texts = [[f"{v:.{c.decimals}f}" if np.isfinite(v) else "–" for v in c.values] for c in columns]
     rows = "".join("<tr>" + "".join(f"<td {cell}>{t}</td>" for t in row) + "</tr>" for row in zip(*texts, strict=True))

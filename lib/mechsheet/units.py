@@ -55,7 +55,7 @@ def parse(text: str) -> Unit:
         return UNITS[text]
     try:
         return _unit(ast.parse(text, mode="eval").body)
-    except (SyntaxError, TypeError, KeyError):
+    except (SyntaxError, ValueError, TypeError, KeyError):
         raise ValueError(f"unit [{text}] is not known; write units as m, kN*m, rad/s**2 or 1/m") from None
 
 

@@ -1,0 +1,109 @@
+"""The end of a worksheet: the workbook in the page, and in a script the report, the file and the exit code."""
+
+import ast
+import sys
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any, TypeVar
+
+from mechsheet import excel, formula, inputs, scene, units
+from mechsheet.checks import Check
+from mechsheet.errors import SheetError
+from mechsheet.find import Found
+from mechsheet.table import Figure, Table
+
+T = TypeVar("T")
+
+
+def export(title: str, namespace: Mapping[str, Any]) -> Any:
+    """Workbook of every table, figure, check, found value and input in ``namespace``; the last cell's ``globals()``.
+
+    In the page: a button that builds it when pressed. In ``python worksheet.py``: prints the found values
+    and the checks, writes ``exports/NAME.xlsx`` (or into ``--out``), and exits with 1 where a name that
+    some cell returns does not exist or a check fails. Where a group does not close, nothing is written.
+    """
+    worksheet = Path(namespace["__file__"])
+    if scene.is_script(str(worksheet)):
+        _script(title, namespace, worksheet)
+        return None
+    import marimo as mo
+
+    return mo.download(
+        lambda: _workbook(title, namespace, worksheet), filename=f"{worksheet.stem}.xlsx", label="Excel workbook"
+    )
+
+
+def _script(title: str, namespace: Mapping[str, Any], worksheet: Path) -> None:
+    missing = [name for name in returned(worksheet) if name not in namespace]
+    if missing:
+        raise SheetError(f"some cells did not run: {', '.join(missing)} missing")
+    checks = list(_all(Check, namespace, worksheet))
+    for check in checks:
+        if check.essential and not check.passed:
+            raise SheetError(f"{check.name}: {check.reason}" if check.reason else str(check))
+    for found in _all(Found, namespace, worksheet):
+        print(found)
+    for check in checks:
+        print(check)
+    out = scene.arguments(str(worksheet)).out or worksheet.resolve().parent.parent / "exports"
+    try:
+        out.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise SheetError(f"folder {out} cannot be made: {error.strerror}") from None
+    path = out / f"{worksheet.stem}.xlsx"
+    excel.save(_workbook(title, namespace, worksheet), path)
+    print(f"written {path}")
+    if not all(check.passed for check in checks):
+        sys.exit(1)
+
+
+def _workbook(title: str, namespace: Mapping[str, Any], worksheet: Path) -> bytes:
+    return excel.workbook(
+        title,
+        inputs=[
+            excel.Row(f.name, value, f.unit, f.meaning, f.section) for f, value in inputs.Used(namespace["g"]).rows()
+        ],
+        found=list(_found(namespace, worksheet)),
+        tables=list(_all(Table, namespace, worksheet)),
+        figures=list(_all(Figure, namespace, worksheet)),
+        checks=list(_all(Check, namespace, worksheet)),
+    )
+
+
+def returned(worksheet: Path) -> list[str]:
+    """Names that the cells of a worksheet file return, in the order of the file."""
+    names = []
+    for node in ast.parse(worksheet.read_text(encoding="utf-8")).body:
+        if isinstance(node, ast.FunctionDef) and node.body and isinstance(last := node.body[-1], ast.Return):
+            names += [n.id for n in ast.walk(last) if isinstance(n, ast.Name)]
+    return names
+
+
+def _all(kind: type[T], namespace: Mapping[str, Any], worksheet: Path) -> Iterator[T]:
+    order = {name: i for i, name in enumerate(returned(worksheet))}
+    for name in sorted(namespace, key=lambda name: order.get(name, len(order))):
+        value = namespace[name]
+        yield from (v for v in (value if isinstance(value, tuple | list) else [value]) if isinstance(v, kind))
+
+
+def _found(namespace: Mapping[str, Any], worksheet: Path) -> Iterator[excel.FoundRow]:
+    for line in formula.registry(namespace).values():
+        match line.expression:
+            case ast.Attribute(ast.Name(source), "value") if isinstance(namespace.get(source), Found):
+                found: Found = namespace[source]
+                unit, target = units.parse(line.unit).factor, units.parse(found.words.unit).factor
+                others = [r for r in found.roots if (r.value, r.branch) != (found.value, found.branch or 0)]
+                yield excel.FoundRow(
+                    line.name,
+                    found.value / unit,
+                    line.unit,
+                    line.meaning,
+                    found.residual / target,
+                    found.words.unit,
+                    found.interval[0] / unit,
+                    found.interval[1] / unit,
+                    found.evaluations,
+                    ", ".join(
+                        f"{r.value / unit:.6g}" + (f" (branch {r.branch:+d})" if r.branch else "") for r in others
+                    ),
+                )

@@ -1,0 +1,40 @@
+"""Checks as values."""
+
+import numpy as np
+import pytest
+
+from mechsheet.checks import Check, assembled, check, check_slope
+
+
+@pytest.mark.parametrize(("residual", "passed"), [(1e-12, True), ([0, -2e-12], False), (np.nan, False), (1e-12j, True)])
+def test_worst_element_decides_and_nan_fails(residual, passed):
+    assert check("c", residual, 1e-12).passed is passed
+
+
+def test_shown_in_its_unit():
+    c = check("c", 0.5, 2.0, "mm")
+    assert (c.residual, c.limit) == (500, 2000)
+    assert str(c) == "pass  c: 500 <= 2e+03 mm"
+
+
+def test_slope_against_differences():
+    x = np.linspace(0.5, 1, 5)
+    assert check_slope("cube", 3 * x**2, lambda x: x**3, x, 0.5, 1).passed
+    assert not check_slope("cube", 3 * x**2 + 1e-6, lambda x: x**3, x, 0.5, 1).passed
+
+
+def test_slope_is_taken_inside_the_range():
+    x = np.linspace(0, 1, 3)[1:]
+    assert check_slope("root", 0.5 / np.sqrt(x), lambda x: np.where(x <= 1, np.sqrt(np.abs(x)), np.nan), x, 0, 1).passed
+
+
+def test_open_position_is_named_with_its_reach():
+    S = np.array([0.5, 0.9])
+    c = assembled("group closes", np.array([1j, np.nan]), S, (0.3733, 0.7733), "S", "m")
+    assert not c.passed and c.essential
+    assert c.reason == "no position closes for S = 0.9 m: it reaches 0.3733..0.7733 m"
+    assert assembled("group closes", np.array([1j, 2]), S, (0.3733, 0.7733), "S", "m").passed
+
+
+def test_verdict_is_shown():
+    assert "FAIL" in Check("a<b", 2, 1)._mime_()[1] and "a&lt;b" in Check("a<b", 2, 1)._mime_()[1]

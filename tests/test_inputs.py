@@ -1,0 +1,108 @@
+"""Declared inputs: read from their own lines, checked, replaced in display units."""
+
+from dataclasses import replace
+from math import pi
+
+import numpy as np
+import pytest
+from cells import run
+from hypothesis import given
+from hypothesis import strategies as st
+
+from mechsheet import inputs
+from mechsheet.errors import SheetError
+
+CELL = """
+from math import pi
+from mechsheet.inputs import inputs
+@inputs
+class Arm:
+    # 1.1 Lengths
+    L5: float = 0.480  # [m] lower link; > 0
+    phi: float = 22 * pi / 180  # [deg] angle
+    # 1.2 Range
+    S_min: float = 0.42  # [m] least stroke; > 0 < S_max
+    S_max: float = 0.67  # [m] greatest stroke
+    N: int = 10  # [-] positions; >= 2
+"""
+
+
+@pytest.fixture(scope="module")
+def Arm():
+    return run(CELL)["Arm"]
+
+
+def test_lines_declare_unit_meaning_section_and_limits(Arm):
+    L5, phi, S_min, _, N = inputs.declared(Arm)
+    assert (L5.name, L5.unit, L5.meaning, L5.section, L5.limits) == (
+        "L5",
+        "m",
+        "lower link",
+        "1.1 Lengths",
+        ((">", "0"),),
+    )
+    assert (phi.unit, phi.limits) == ("deg", ())
+    assert (S_min.section, S_min.limits) == ("1.2 Range", ((">", "0"), ("<", "S_max")))
+    assert N.whole
+
+
+@pytest.mark.parametrize(
+    ("values", "message"),
+    [
+        ({"L5": "-0,48"}, "lower link L5 = -0.48 m must be positive"),
+        ({"L5": "0"}, "lower link L5 = 0.0 m must be positive"),
+        ({"S_min": 0.9}, "least stroke S_min = 0.9 m must be < S_max = 0.67"),
+        ({"N": 2.5}, "positions N = 2.5 must be a whole number"),
+        ({"N": 1}, "positions N = 1 must be >= 2"),
+        ({"L5": "0.4.8"}, "lower link L5 = '0.4.8' m is no number"),
+        ({"L5": "nan"}, "lower link L5 = 'nan' m is no number"),
+        ({"L5": "1e999"}, "lower link L5 = inf m must be a finite number"),
+        ({"L5": "1 000"}, "lower link L5 = '1 000' m is no number"),
+        ({"L5": ""}, "lower link L5 = '' m is no number"),
+        ({"L5": True}, "lower link L5 = True m is no number"),
+        ({"L55": 1}, "input L55 is unknown; nearest: L5"),
+    ],
+)
+def test_bad_input_is_named_with_value_and_limit(Arm, values, message):
+    with pytest.raises(SheetError) as error:
+        inputs.build(Arm, values)
+    assert str(error.value) == message
+
+
+def test_replaced_inputs_are_checked_too(Arm):
+    with pytest.raises(SheetError, match="lower link L5 = nan m must be a finite number"):
+        replace(Arm(), L5=float("nan"))
+    with pytest.raises(SheetError, match="lower link L5"):
+        replace(Arm(), L5=np.array([0.1, -0.1]))
+
+
+def test_display_units_at_the_edge(Arm):
+    assert inputs.build(Arm, {"phi": "90"}).phi == pytest.approx(pi / 2, rel=1e-15)
+    assert inputs.build(Arm, {"phi": "22,0"}) == Arm(), "the default's own text gives the default, to the last bit"
+    assert {f.name: v for f, v in inputs.Used(Arm()).rows()} == {
+        "L5": 0.48,
+        "phi": 22,
+        "S_min": 0.42,
+        "S_max": 0.67,
+        "N": 10,
+    }
+
+
+@given(st.floats(allow_nan=False, allow_infinity=False), st.booleans())
+def test_number_reads_what_python_writes_with_point_or_comma(x, comma):
+    text = repr(x).replace(".", ",") if comma else repr(x)
+    assert inputs.number(f" {text} ") == x
+
+
+@given(st.text(max_size=8))
+def test_number_takes_all_or_rejects(text):
+    try:
+        value = inputs.number(text)
+    except ValueError:
+        return
+    assert float(text.strip().replace(",", ".")) == value
+
+
+def test_input_without_a_unit_is_an_error_that_names_the_line():
+    with pytest.raises(SheetError, match=r"line 4 of .*: input x needs a comment with its unit"):
+        run("from mechsheet.inputs import inputs\n@inputs\nclass A:\n    x: float = 1.0  # metre\n")

@@ -1,0 +1,248 @@
+"""The command line: what it makes of its arguments, and when it makes an environment."""
+
+from __future__ import annotations
+
+import ast
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tomllib
+import venv
+from pathlib import Path
+
+import pytest
+from mechsheet import __main__ as launcher
+
+ROOT = Path(__file__).resolve().parents[1]
+LAUNCHER = ROOT / "lib" / "mechsheet" / "__main__.py"
+
+
+@pytest.fixture
+def calls(monkeypatch: pytest.MonkeyPatch) -> list[list[str]]:
+    """Commands that would have been started."""
+    made: list[list[str]] = []
+
+    def record(command: list[str], cwd: Path | None = None) -> int:
+        made.append(command)
+        return 7
+
+    monkeypatch.setattr(launcher, "call", record)
+    return made
+
+
+@pytest.fixture
+def sheet(tmp_path: Path) -> Path:
+    """A script that prints its arguments and exits with 3."""
+    path = tmp_path / "sheet.py"
+    path.write_text("import sys\nprint(*sys.argv[1:], 'φ')\nsys.exit(3)\n", encoding="utf-8")
+    return path
+
+
+def refusal(*argv: str) -> str:
+    """The one line with which a command ends that cannot be carried out."""
+    with pytest.raises(SystemExit) as exit_:
+        launcher.main(list(argv))
+    message = exit_.value.code
+    assert isinstance(message, str)  # a text goes to stderr and makes the exit code 1
+    assert "\n" not in message
+    return message
+
+
+def test_help_names_every_command(capsys: pytest.CaptureFixture[str]) -> None:
+    assert launcher.main(["--help"]) == 0
+    printed = capsys.readouterr().out
+    assert re.findall(r"^  (\w+)", printed, re.MULTILINE) == ["run", "edit", "test"]
+
+
+@pytest.mark.parametrize("argv", [[], ["rn", "hitch"], ["--version"]])
+def test_any_other_command_names_the_three(argv: list[str], calls: list[list[str]]) -> None:
+    assert "run, edit and test" in refusal(*argv)
+    assert not calls
+
+
+def test_run_passes_the_rest_on_and_the_exit_code_back(sheet: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    assert launcher.main(["run", str(sheet), "--P6=30e3", "--phi_BD=-3.5", "--help"]) == 3
+    assert capfd.readouterr().out.split() == ["--P6=30e3", "--phi_BD=-3.5", "--help", "φ"]
+
+
+def test_a_name_stands_for_the_worksheet_of_the_project(
+    sheet: Path, calls: list[list[str]], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(launcher, "ROOT", sheet.parent)
+    (sheet.parent / "worksheets").mkdir()
+    known = shutil.copy(sheet, sheet.parent / "worksheets" / "hitch.py")
+    assert launcher.main(["run", "hitch", "--N_pol=21"]) == 7
+    assert calls == [[sys.executable, str(known), "--N_pol=21"]]
+    assert refusal("run", "hitsch") == "mechsheet: no worksheet hitsch: give a file or one of hitch"
+    assert refusal("run") == "mechsheet: run needs a worksheet: give a file or one of hitch"
+
+
+def test_edit_opens_the_worksheet_in_marimo(sheet: Path, calls: list[list[str]]) -> None:
+    assert launcher.main(["edit", str(sheet), "--headless"]) == 7
+    assert calls == [[sys.executable, "-m", "marimo", "edit", "--headless", str(sheet)]]
+
+
+def test_test_hands_its_arguments_to_pytest(calls: list[list[str]]) -> None:
+    assert launcher.main(["test", "-k", "planar"]) == 7
+    assert calls == [[sys.executable, "-m", "pytest", "-k", "planar"]]
+
+
+def test_test_needs_a_clone(tmp_path: Path, calls: list[list[str]], monkeypatch: pytest.MonkeyPatch) -> None:
+    """An installed wheel has no tests, and pytest would look for them wherever it was called."""
+    monkeypatch.setattr(launcher, "ROOT", tmp_path)
+    assert "clone" in refusal("test")
+    assert not calls
+
+
+def test_an_old_python_is_named_with_the_limit(calls: list[list[str]], monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(sys, "version_info", (3, 9, 2, "final", 0))
+    assert refusal("run", "hitch").startswith("mechsheet: Python 3.11 or newer is needed, this is Python 3.9 (")
+    assert not calls
+
+
+def test_an_old_python_can_read_the_file_at_all() -> None:
+    """Where the syntax is newer than the interpreter, a SyntaxError takes the place of the message."""
+    ast.parse(LAUNCHER.read_text(encoding="utf-8"), feature_version=(3, 6))
+
+
+def test_the_limit_is_the_one_of_the_package() -> None:
+    needed = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]["requires-python"]
+    assert needed == ">=" + ".".join(map(str, launcher.MINIMUM))
+
+
+def test_the_modules_of_the_package_shadow_nothing(tmp_path: Path) -> None:
+    """Running a folder puts it before the standard library on the path."""
+    folder = tmp_path / "lib" / "mechsheet"
+    folder.mkdir(parents=True)
+    shutil.copy(LAUNCHER, folder)
+    for name in ("subprocess", "hashlib", "pathlib", "venv", "signal", "table"):
+        (folder / f"{name}.py").write_text("raise ImportError('shadowed')\n")
+    run = subprocess.run([sys.executable, folder, "--help"], capture_output=True, text=True)
+    assert (run.returncode, run.stdout, run.stderr) == (0, launcher.HELP, "")
+
+
+@pytest.mark.parametrize("way", [["-m", "mechsheet"], [str(ROOT / "lib" / "mechsheet")]], ids=["module", "folder"])
+def test_both_ways_to_start_it_report_an_error_alike(way: list[str]) -> None:
+    run = subprocess.run([sys.executable, *way, "rn"], capture_output=True, text=True)
+    assert (run.returncode, run.stdout) == (1, "")
+    assert run.stderr.startswith("mechsheet: command rn is not known") and run.stderr.count("\n") == 1
+
+
+class Project:
+    """A project's folder whose installations are noted down instead of carried out."""
+
+    def __init__(self, root: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+        self.root, self.steps = root, list[str]()
+        self.fail: BaseException | None = None
+        self.python = root / ".venv" / ("Scripts/python.exe" if os.name == "nt" else "bin/python")
+        (root / "pyproject.toml").write_text("[project]\n")
+        monkeypatch.setattr(venv, "EnvBuilder", lambda **_: self)
+        monkeypatch.setattr(launcher, "install", self.install)
+
+    def create(self, folder: Path) -> None:
+        """What ``venv.EnvBuilder`` does."""
+        self.steps.append("create")
+        self.python.parent.mkdir(parents=True)
+        self.python.touch()
+
+    def install(self, root: Path, python: Path, extra: str) -> None:
+        assert (root, python) == (self.root, self.python)
+        self.steps.append(f"install {extra}".strip())
+        if self.fail:
+            raise self.fail
+
+    def steps_for(self, extra: str) -> list[str]:
+        """Steps taken by a command that needs this extra."""
+        self.steps.clear()
+        assert launcher.environment(self.root, extra) == str(self.python)
+        return self.steps
+
+
+@pytest.fixture
+def project(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Project:
+    return Project(tmp_path, monkeypatch)
+
+
+def test_the_environment_is_made_once(project: Project, capsys: pytest.CaptureFixture[str]) -> None:
+    assert project.steps_for("") == ["create", "install"]
+    assert "creating .venv and installing mechsheet" in capsys.readouterr().err
+    assert project.steps_for("") == []
+    assert capsys.readouterr().err == ""
+
+
+def test_the_test_tools_are_added_to_what_is_there(project: Project) -> None:
+    project.steps_for("")
+    assert project.steps_for("dev") == ["install dev"]
+    assert project.steps_for("") == project.steps_for("dev") == []
+
+
+def test_a_changed_project_file_makes_it_anew(project: Project) -> None:
+    project.steps_for("dev")
+    left_over = project.root / ".venv" / "old"
+    left_over.touch()
+    (project.root / "pyproject.toml").write_text("[project]\ndependencies = []\n")
+    assert project.steps_for("") == ["create", "install"]
+    assert not left_over.exists()
+    assert project.steps_for("dev") == ["install dev"]
+
+
+def test_another_version_of_python_makes_it_anew(project: Project, monkeypatch: pytest.MonkeyPatch) -> None:
+    project.steps_for("")
+    monkeypatch.setattr(sys, "version_info", (3, 99, 0, "final", 0))
+    assert project.steps_for("") == ["create", "install"]
+
+
+def test_a_vanished_interpreter_makes_it_anew(project: Project) -> None:
+    project.steps_for("")
+    project.python.unlink()
+    assert project.steps_for("") == ["create", "install"]
+
+
+def test_a_moved_folder_makes_it_anew(project: Project, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The editable installation would still import the package of the old place."""
+    project.steps_for("")
+    copy = tmp_path / "copy"
+    shutil.copytree(tmp_path, copy)
+    assert Project(copy, monkeypatch).steps_for("") == ["create", "install"]
+
+
+@pytest.mark.parametrize("before", [None, ""], ids=["at first", "while the tools are added"])
+@pytest.mark.parametrize(
+    ("error", "message"),
+    [
+        (KeyboardInterrupt(), "interrupted"),
+        (OSError(28, "No space left on device"), "No space left on device"),
+        (subprocess.CalledProcessError(1, ["python", "-m", "pip"]), "pip ended with 1"),
+    ],
+    ids=["Ctrl-C", "full disk", "no network"],
+)
+def test_an_unfinished_installation_is_begun_anew(
+    project: Project, before: str | None, error: BaseException, message: str
+) -> None:
+    if before is not None:
+        project.steps_for(before)
+    project.fail = error
+    with pytest.raises(SystemExit, match=message):
+        launcher.environment(project.root, "dev")
+    project.fail = None
+    assert project.steps_for("dev") == ["create", "install dev"]
+
+
+def test_an_environment_made_by_other_means_is_left_alone(project: Project) -> None:
+    own = project.root / ".venv" / "own.txt"
+    own.parent.mkdir()
+    own.touch()
+    with pytest.raises(SystemExit, match="made by other means"):
+        launcher.environment(project.root, "")
+    assert own.exists() and not project.steps
+
+
+def test_the_folder_looks_for_its_environment_and_the_installed_package_does_not(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(launcher, "environment", lambda root, extra: f"{root} {extra}")
+    assert launcher.interpreter("dev") == sys.executable
+    monkeypatch.setattr(launcher, "__package__", "")
+    assert launcher.interpreter("dev") == f"{ROOT} dev"

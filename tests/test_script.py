@@ -1,0 +1,116 @@
+"""The hitch worksheet as a script: exit codes, messages, what is written and what is left alone."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from openpyxl import load_workbook
+
+HITCH = Path(__file__).parents[1] / "worksheets" / "hitch.py"
+
+
+def run(*arguments: str, sheet: Path = HITCH, flags: tuple[str, ...] = ()) -> subprocess.CompletedProcess[str]:
+    return subprocess.run([sys.executable, *flags, str(sheet), *arguments], capture_output=True, encoding="utf-8")
+
+
+def test_writes_the_workbook_and_reports(tmp_path):
+    done = run(f"--out={tmp_path}")
+    assert (done.returncode, done.stderr) == (0, "")
+    lines = done.stdout.splitlines()
+    assert [line.split(" = ")[1][:8] for line in lines[:3]] == ["0.661283", "0.469357", "0.75217 "[:8]]
+    assert sum(line.startswith("pass  ") for line in lines) >= 15
+    assert lines[-1] == f"written {tmp_path / 'hitch.xlsx'}"
+    assert [p.name for p in tmp_path.iterdir()] == ["hitch.xlsx"]
+
+
+def test_scene_and_arguments_replace_inputs_in_display_units(tmp_path):
+    scene = tmp_path / "scene.toml"
+    scene.write_text("[inputs]\nP6 = 30000\nphi_P6 = 85\n")
+    out = tmp_path / "out"
+    assert run(f"--scene={scene}", "--P6=20000,5", f"--out={out}").returncode == 0
+    used = {row[0]: row[1] for row in load_workbook(out / "hitch.xlsx")["Inputs"].iter_rows(values_only=True)}
+    assert (used["P6"], used["phi_P6"], used["L5"]) == (20000.5, 85, 0.48)
+
+
+@pytest.mark.parametrize(
+    ("argument", "message"),
+    [
+        ("--L5=-0.48", "error: lower link, to the lifting rod L5 = -0.48 m must be positive"),
+        ("--S_min=0.7", "error: least length of the cylinder S_min = 0.7 m must be < S_max = 0.67"),
+        ("--L55=1", "error: input L55 is unknown; nearest: L5, L56"),
+        ("--P6=heavy", "error: weight of the implement P6 = 'heavy' N is no number"),
+        ("--P6", "error: argument '--P6' must be --NAME=VALUE"),
+        ("--N_pol=1", "error: number of positions N_pol = 1 must be >= 2"),
+        ("--scene=none.toml", "error: scene none.toml cannot be read"),
+        ("--S_max=0.9", "error: group (2, 3) closes: no position closes for cylinder S = 0.7"),
+        ("--Y56_min=-2", "error: lifting rod L4"),
+        ("--Y_P56=3", "error: working stroke S_p"),
+        ("--phi_P6=1", "error: upper link L7"),
+    ],
+)
+def test_bad_input_is_one_line_and_touches_no_file(tmp_path, argument, message):
+    old = tmp_path / "hitch.xlsx"
+    old.write_bytes(b"old")
+    done = run(argument, f"--out={tmp_path}")
+    assert done.returncode == 1
+    assert done.stderr.startswith(message)
+    assert done.stderr.count("\n") == 1
+    assert [p.name for p in tmp_path.iterdir()] == ["hitch.xlsx"]
+    assert old.read_bytes() == b"old"
+
+
+def test_unwritable_folder_is_one_line(tmp_path):
+    (tmp_path / "file").write_text("")
+    done = run(f"--out={tmp_path / 'file'}")
+    assert done.returncode == 1
+    assert done.stderr.startswith("error: ") and done.stderr.count("\n") == 1
+
+
+def changed(tmp_path: Path, old: str, new: str) -> Path:
+    text = HITCH.read_text(encoding="utf-8")
+    assert old in text
+    (tmp_path / "worksheets").mkdir()
+    sheet = tmp_path / "worksheets" / "hitch.py"
+    sheet.write_text(text.replace(old, new), encoding="utf-8")
+    return sheet
+
+
+def test_stopped_cell_is_no_success(tmp_path):
+    sheet = changed(tmp_path, "    Ra = (", "    mo.stop(True)\n    Ra = (")
+    done = run(f"--out={tmp_path}", sheet=sheet)
+    assert done.returncode == 1
+    assert done.stderr.startswith("error: some cells did not run: ") and "table_61" in done.stderr
+    assert not (tmp_path / "hitch.xlsx").exists()
+
+
+def test_failed_check_is_no_success_but_is_written(tmp_path):
+    sheet = changed(tmp_path, "Isp = k_p * (", "Isp = 1.001 * k_p * (")
+    done = run(f"--out={tmp_path}", sheet=sheet)
+    assert done.returncode == 1
+    assert "FAIL  instant centre: Isp = IS6" in done.stdout
+    assert (tmp_path / "hitch.xlsx").exists()
+
+
+def test_raising_cell_is_no_success(tmp_path):
+    sheet = changed(tmp_path, "    Ra = (", "    1 / 0\n    Ra = (")
+    done = run(f"--out={tmp_path}", sheet=sheet)
+    assert done.returncode == 1
+    assert "ZeroDivisionError" in done.stderr
+    assert not (tmp_path / "hitch.xlsx").exists()
+
+
+def test_unknown_unit_is_one_line_that_names_its_place(tmp_path):
+    sheet = changed(tmp_path, "# [MPa] pressure", "# [MPaa] pressure")
+    done = run(f"--out={tmp_path}", sheet=sheet)
+    assert done.returncode == 1
+    assert "unit [MPaa] is not known" in done.stderr and done.stderr.count("\n") == 1
+    assert f"of {sheet}" in done.stderr
+
+
+def test_script_leaves_out_what_it_does_not_show(tmp_path):
+    done = run(f"--out={tmp_path}", flags=("-X", "importtime"))
+    assert done.returncode == 0
+    loaded = {line.rsplit("|", 1)[-1].strip() for line in done.stderr.splitlines()}
+    assert "xlsxwriter" in loaded
+    assert not {"altair", "pandas", "openpyxl", "matplotlib"} & loaded

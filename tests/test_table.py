@@ -1,0 +1,65 @@
+"""Tables and figures read their columns from the lines that define them."""
+
+import numpy as np
+import pytest
+from cells import run
+
+CELL = """
+import numpy as np
+from mechsheet.formula import typeset
+S = np.array([0.42, 0.67])  # [m] stroke
+P23_S = S * (1 + 2j)  # [m] pin
+R56 = S * (3000 + 4000j)  # [kN] reaction
+dRa = 0.2381  # [%] share
+typeset()
+"""
+
+
+@pytest.fixture
+def names():
+    return run("from mechsheet.table import figure, table", run(CELL))
+
+
+def test_columns_of_points_and_forces(names):
+    run(
+        't = table("1", "T", S, *(P23_S.real, P23_S.imag), R56.real,\n  abs(R56), dRa, show={"R56": "N"}, note="n")',
+        names,
+    )
+    t = names["t"]
+    assert [(c.symbol, c.unit, c.decimals) for c in t.columns] == [
+        ("S", "m", 3), ("X23", "m", 3), ("Y23", "m", 3), ("R56x", "kN", 2), ("R56", "N", 0), ("dRa", "%", 1),
+    ]  # fmt: skip
+    assert np.allclose([c.values for c in t.columns], [
+        [0.42, 0.67], [0.42, 0.67], [0.84, 1.34], [1.26, 2.01], [2100, 3350], [23.81, 23.81],
+    ])  # fmt: skip
+    assert (t.columns[0].meaning, t.note) == ("stroke", "n")
+    assert list(t.frame().columns) == ["S [m]", "X23 [m]", "Y23 [m]", "R56x [kN]", "R56 [N]", "dRa [%]"]
+
+
+def test_two_calls_in_one_cell_read_their_own_arguments(names):
+    run('a, b = table("1", "T", S), table("2", "T", dRa)', names)
+    assert [names[k].columns[0].symbol for k in "ab"] == ["S", "dRa"]
+
+
+def test_undeclared_column_says_what_is_missing(names):
+    with pytest.raises(LookupError, match=r"column Q: no line declares Q with its unit"):
+        run('Q = S\ntable("1", "T", S, Q)', names)
+    with pytest.raises(LookupError, match="column S \\+ 1: a column is a name"):
+        run('table("1", "T", S + 1)', names)
+
+
+def test_page_leaves_what_is_not_assembled_empty(names):
+    run("S = np.array([0.42, np.nan])  # [m] stroke\ntypeset()", names)
+    run('t = table("2.1", "<T>", S)', names)
+    text = names["t"]._mime_()[1]
+    assert "<td" in text and "0.420" in text and "–" in text and "nan" not in text
+    assert "&lt;T&gt;" in text
+
+
+def test_figure_marks_are_in_the_unit_of_the_axis(names):
+    run('f = figure("3.1", "F", S, R56.imag, marks={"S_p": 0.5})', names)
+    f = names["f"]
+    assert (f.x.symbol, [c.symbol for c in f.lines], f.marks) == ("S", ["R56y"], (("S_p", 0.5),))
+    spec = f.chart().to_dict()
+    assert spec["title"] == "Figure 3.1 – F"
+    assert spec["layer"][0]["encoding"]["y"]["title"] == "R56y [kN]"

@@ -1,0 +1,36 @@
+"""Display units."""
+
+import pytest
+
+from mechsheet.units import parse
+
+
+@pytest.mark.parametrize(
+    ("text", "factor", "dims"),
+    [
+        ("m", 1, (1, 0, 0)),
+        ("cm**2", 1e-4, (2, 0, 0)),
+        ("MPa", 1e6, (-1, 1, -2)),
+        ("kN*m", 1e3, (2, 1, -2)),
+        ("rad/s**2", 1, (0, 0, -2)),
+        ("1/m", 1, (-1, 0, 0)),
+        ("kgf/cm**2", 98066.5, (-1, 1, -2)),
+        ("%", 0.01, (0, 0, 0)),
+        ("-", 1, (0, 0, 0)),
+    ],
+)
+def test_factor_to_si_and_dimension(text, factor, dims):
+    assert parse(text).factor == pytest.approx(factor, rel=1e-15)
+    assert parse(text).dims == dims
+
+
+@pytest.mark.parametrize("text", ["", "m^2", "foo", "2*m", "m*", "m**x", "f(m)", "Mpa", "m**'2'"])
+def test_unknown_unit_is_named(text):
+    with pytest.raises(ValueError, match="is not known") as error:
+        parse(text)
+    assert f"[{text}]" in str(error.value)
+
+
+def test_newton_is_kilogram_metre_per_second_squared():
+    assert parse("N") == parse("kg*m/s**2")
+    assert parse("W") == parse("N*m/s")

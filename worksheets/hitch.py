@@ -1,0 +1,910 @@
+import marimo
+
+__generated_with = "0.25.2"
+app = marimo.App(width="medium", app_title="Tractor hitch")
+
+with app.setup:
+    import marimo as mo
+    import numpy as np
+    from numpy import abs, arange, cos, exp, pi, sin, sqrt
+    from numpy import arccos as acos
+    from numpy import arctan2 as atan2
+
+    from mechsheet.checks import assembled, check, check_slope
+    from mechsheet.drawing import Drawing
+    from mechsheet.dyads import rrr, rrr_reach
+    from mechsheet.find import find
+    from mechsheet.formula import typeset
+    from mechsheet.inputs import Used, ask, inputs, read
+    from mechsheet.kinetostatics import Load, rrr_reactions
+    from mechsheet.planar import angle, cross
+    from mechsheet.report import export
+    from mechsheet.table import figure, table
+
+    deg = pi / 180
+
+
+@app.cell(hide_code=True)
+def title():
+    mo.md("""
+    # Tractor hitch
+
+    Geometry, kinematics, lifting capacity, forces and steering stability of a three-point hitch (MN) that a
+    hydraulic cylinder (GC) lifts, with the implement (NM) that it carries on a tractor (MSHA).
+    Change an input or a formula: everything below follows.
+    """)
+    return
+
+
+@app.cell(hide_code=True)
+def section_1():
+    mo.md("""
+    ## 1 Input data
+    """)
+    return
+
+
+@app.class_definition
+@inputs
+class Hitch:
+    # 1.1 Hinges on the tractor, from the rear axle
+    X01: float = 0.415  # [m] cylinder hinge O1, x
+    X03: float = 0.250  # [m] lift arm hinge O3, x
+    X05: float = 0.135  # [m] lower link hinge O5, x
+    X07: float = 0.415  # [m] upper link hinge O7, x
+    Y01: float = 0.563  # [m] cylinder hinge O1, y
+    Y03: float = 1.112  # [m] lift arm hinge O3, y
+    Y05: float = 0.480  # [m] lower link hinge O5, y
+    Y07: float = 0.895  # [m] upper link hinge O7, y
+
+    # 1.2 Lengths of the links
+    L3: float = 0.200  # [m] lift arm, to the cylinder pin; > 0
+    L5: float = 0.480  # [m] lower link, to the lifting rod; > 0
+    L6: float = 0.595 - 0.08  # [m] mast of the implement; > 0
+    L34: float = 0.325  # [m] lift arm, to the lifting rod; > 0
+    L56: float = 1.035  # [m] lower link, whole; > 0
+    phi_BD: float = 22 * deg  # [deg] angle between the two sides of the lift arm
+    L7_0: float = 0.7  # [m] preliminary length of the upper link; > 0
+    L4_0: float = 0.6  # [m] preliminary length of the lifting rod; > 0
+    Y56_min: float = 0.2  # [m] height of the suspension axis P56 at the least stroke
+
+    # 1.3 Generalised coordinate
+    S_min: float = 0.420  # [m] least length of the cylinder; > 0 < S_max
+    S_max: float = 0.670  # [m] greatest length of the cylinder; > 0
+    N_pol: int = 10  # [-] number of positions; >= 2 <= 100000
+
+    # 1.4 Implement
+    P6: float = 27500  # [N] weight of the implement; >= 0
+    X6: float = 0.857  # [m] centre of mass from the suspension axis, along the ground
+    Y6: float = 0.156  # [m] centre of mass above the suspension axis
+    Y_P56: float = 0.4  # [m] suspension axis above the ground at work
+    phi_P6: float = 90 * deg  # [deg] angle of the mast to the x axis at work; > 0 < 180
+
+    # 1.5 Hydraulic drive of the tractor
+    eta: float = 0.84  # [-] efficiency of the hydraulic system; > 0 <= 1
+    D_gc: float = 0.08  # [m] piston diameter of a cylinder; > 0
+    P_gc_max: float = 17.5e6  # [Pa] greatest pressure of the hydraulic system; > 0
+    k_gc: int = 2  # [-] number of cylinders; >= 1
+
+    # 1.6 Tractor
+    a: float = 0.6  # [m] counterweights to the front axle; >= 0
+    b: float = 1.62  # [m] rear axle to the tractor's centre of mass; >= 0
+    L: float = 2.960  # [m] wheelbase; > 0
+    P_gr: float = 8000  # [N] weight of the counterweights; >= 0
+    P_msha: float = 56000  # [N] weight of the tractor; > 0
+
+    """After # stand the unit and the meaning, after ; the limits; the page and the code take the same units."""
+
+
+@app.cell
+def form():
+    form = ask(Hitch)
+    form
+    return (form,)
+
+
+@app.cell
+def given(form):
+    g = read(Hitch, form)
+    Used(g)
+    return (g,)
+
+
+@app.cell
+def coordinate(g):
+    dS = (g.S_max - g.S_min) / (g.N_pol - 1)  # [m] step of the generalised coordinate
+    k = arange(g.N_pol)  # [-] number of the position
+    t = k / (g.N_pol - 1)  # [-] part of the stroke
+    S = g.S_min * (1 - t) + g.S_max * t  # [m] generalised coordinate, the length of the cylinder
+    typeset()
+    return S, dS
+
+
+@app.cell(hide_code=True)
+def section_2():
+    mo.md("""
+    ## 2 Geometry
+
+    Points are complex numbers $x + iy$ from the rear axle. Each structural group of two links closes in two
+    ways; the last argument of `rrr` names the one meant: +1 puts the inner pin to the left of the line from the
+    first outer pin to the second.
+    """)
+    return
+
+
+@app.cell
+def hinges(g):
+    O1 = g.X01 + 1j * g.Y01  # [m] cylinder hinge
+    O3 = g.X03 + 1j * g.Y03  # [m] lift arm hinge
+    O5 = g.X05 + 1j * g.Y05  # [m] lower link hinge
+    O7 = g.X07 + 1j * g.Y07  # [m] upper link hinge
+    typeset()
+    return O1, O3, O5, O7
+
+
+@app.cell(hide_code=True)
+def section_21():
+    mo.md("""
+    ### 2.1 First structural group: cylinder and lift arm (2, 3)
+    """)
+    return
+
+
+@app.cell
+def group_1(O1, O3, g):
+    L13 = abs(O1 - O3)  # [m] distance of the hinges O1, O3
+    phi13 = atan2(g.Y03 - g.Y01, g.X01 - g.X03)  # [deg] slope of the line O1 O3
+
+    def P23(S):
+        return rrr(O1, O3, S, g.L3, -1)  # [m] pin of the cylinder on the lift arm
+
+    def phi3(S):
+        return angle(P23(S) - O3)  # [deg] lift arm, side of the cylinder
+
+    def phi12(S):
+        return angle(P23(S) - O1)  # [deg] cylinder
+
+    def phi34(S):
+        return phi3(S) + g.phi_BD  # [deg] lift arm, side of the lifting rod
+
+    def P34(S):
+        return O3 + g.L34 * exp(1j * phi34(S))  # [m] pin of the lifting rod on the lift arm
+
+    typeset()
+    return L13, P23, P34, phi12, phi13, phi3, phi34
+
+
+@app.cell(hide_code=True)
+def section_22():
+    mo.md(r"""
+    ### 2.2 Second structural group: lifting rod and lower link (4, 5)
+
+    The length of the lifting rod $L_4$ is unknown; it must put the suspension axis $P_{56}$ at the height
+    $Y_{56\,min}$ when the cylinder is shortest.
+    """)
+    return
+
+
+@app.cell
+def group_2(O3, O5, P34, g):
+    L35 = abs(O3 - O5)  # [m] distance of the hinges O3, O5
+    delta1 = pi - angle(O3 - O5)  # [deg] slope of the line O5 O3, as the document counts it
+
+    def P45(S, L4, branch=+1):
+        return rrr(P34(S), O5, L4, g.L5, branch)  # [m] pin of the lifting rod on the lower link
+
+    def phi4(S, L4):
+        return angle(P45(S, L4) - P34(S))  # [deg] lifting rod
+
+    def phi5(S, L4, branch=+1):
+        return angle(P45(S, L4, branch) - O5)  # [deg] lower link
+
+    def P56(S, L4, branch=+1):
+        return O5 + g.L56 * exp(1j * phi5(S, L4, branch))  # [m] suspension axis
+
+    typeset()
+    return L35, P45, P56, delta1, phi4, phi5
+
+
+@app.cell
+def find_L4(O5, P34, P56, g):
+    L4_guess = (g.L4_0 * 0.1 + g.L4_0 * 1.5) * 0.5  # [m] start of the document's Find
+    L4_found = find(
+        lambda L4, branch: P56(g.S_min, L4, branch).imag,
+        *rrr_reach(P34(g.S_min), O5, g.L5),
+        equals=g.Y56_min,
+        guess=L4_guess,
+        branches=(+1, -1),
+        branch=+1,
+        unknown="lifting rod L4",
+        quantity="height Y56 of the suspension axis",
+        unit="m",
+        unknown_unit="m",
+    )
+    L4 = L4_found.value  # [m] lifting rod, found
+    typeset(L4_found)
+    return L4, L4_found, L4_guess
+
+
+@app.cell(hide_code=True)
+def section_23():
+    mo.md(r"""
+    ### 2.3 Third structural group: mast and upper link (6, 7)
+
+    The working stroke $S_p$ puts the suspension axis at its working height; the length of the upper link $L_7$
+    then sets the mast to the angle $\varphi_{P6}$.
+    """)
+    return
+
+
+@app.cell
+def find_S_p(L4, P56, g):
+    S_p_found = find(
+        lambda S: P56(S, L4).imag,
+        g.S_min,
+        g.S_max,
+        equals=g.Y_P56,
+        guess=0.5 * (g.S_max + g.S_min),
+        unknown="working stroke S_p",
+        quantity="height Y56 of the suspension axis",
+        unit="m",
+        unknown_unit="m",
+    )
+    S_p = S_p_found.value  # [m] working stroke, found
+    typeset(S_p_found)
+    return S_p, S_p_found
+
+
+@app.cell
+def group_3(L4, O5, O7, P56, g):
+    L57 = abs(O7 - O5)  # [m] distance of the hinges O5, O7
+    delta2 = pi - angle(O7 - O5)  # [rad] slope of the line O5 O7, as the document counts it
+
+    def P67(S, L7, branch=-1):
+        return rrr(P56(S, L4), O7, g.L6, L7, branch)  # [m] pin of the upper link on the mast
+
+    def phi6(S, L7, branch=-1):
+        return angle(P67(S, L7, branch) - P56(S, L4))  # [deg] mast
+
+    def phi7(S, L7):
+        return angle(P67(S, L7) - O7)  # [deg] upper link
+
+    typeset()
+    return L57, P67, delta2, phi6, phi7
+
+
+@app.cell
+def find_L7(L4, O7, P56, S_p, g, phi6):
+    L7_guess = (g.L7_0 * 0.1 + g.L7_0 * 1.5) * 0.5  # [m] start of the document's Find
+    L7_found = find(
+        lambda L7, branch: phi6(S_p, L7, branch),
+        *rrr_reach(P56(S_p, L4), O7, g.L6),
+        equals=g.phi_P6,
+        guess=L7_guess,
+        branches=(+1, -1),
+        branch=-1,
+        unknown="upper link L7",
+        quantity="mast angle phi6",
+        unit="deg",
+        unknown_unit="m",
+    )
+    L7 = L7_found.value  # [m] upper link, found
+    typeset(L7_found)
+    return L7, L7_found, L7_guess
+
+
+@app.cell(hide_code=True)
+def section_24():
+    mo.md("""
+    ### 2.4 Fields over the stroke
+
+    With the lengths found, the positions are computed once for all $S$. The group closes wherever its two links
+    reach each other; a position that does not close is left empty.
+    """)
+    return
+
+
+@app.cell
+def fields(L4, L7, O5, P23, P34, P45, P56, P67, S, phi12, phi3, phi34, phi4, phi5, phi6, phi7):
+    P23_S = P23(S)  # [m] pin of the cylinder on the lift arm
+    P34_S = P34(S)  # [m] pin of the lifting rod on the lift arm
+    P45_S = P45(S, L4)  # [m] pin of the lifting rod on the lower link
+    P56_S = P56(S, L4)  # [m] suspension axis
+    P67_S = P67(S, L7)  # [m] pin of the upper link on the mast
+    phi12_S = phi12(S)  # [deg] cylinder
+    phi3_S = phi3(S)  # [deg] lift arm, side of the cylinder
+    phi34_S = phi34(S)  # [deg] lift arm, side of the lifting rod
+    phi4_S = phi4(S, L4)  # [deg] lifting rod
+    phi5_S = phi5(S, L4)  # [deg] lower link
+    phi6_S = phi6(S, L7)  # [deg] mast
+    phi7_S = phi7(S, L7)  # [deg] upper link
+    typeset()
+    return (P23_S, P34_S, P45_S, P56_S, P67_S, phi12_S, phi34_S, phi3_S, phi4_S, phi5_S, phi6_S, phi7_S)
+
+
+@app.cell
+def closing(L4, L57, L7, O1, O3, O5, O7, P23_S, P34_S, P45_S, P56_S, P67_S, S, g):
+    checks_closing = (
+        assembled("group (2, 3) closes", P23_S, S, rrr_reach(O1, O3, g.L3), "cylinder S", "m"),
+        assembled("group (4, 5) closes", P45_S, abs(P34_S - O5), (abs(L4 - g.L5), L4 + g.L5), "distance O5 P34", "m"),
+        assembled("group (6, 7) closes", P67_S, abs(P56_S - O7), (abs(L7 - g.L6), L7 + g.L6), "distance O7 P56", "m"),
+    )
+    typeset(*checks_closing)
+    return (checks_closing,)
+
+
+@app.cell(hide_code=True)
+def section_25():
+    mo.md("""
+    ### 2.5 Centre of mass of the implement
+
+    $X_6, Y_6$ are given at work, in the axes of the tractor; turned back by the mast's angle there, they stay with
+    the mast.
+    """)
+    return
+
+
+@app.cell
+def centre_of_mass(L4, L7, P56, P67, S_p, g, phi6):
+    LS6 = sqrt(g.X6**2 + g.Y6**2)  # [m] suspension axis to the centre of mass
+    r_s = abs(g.X6 + 1j * g.Y6 - P67(S_p, L7))  # [m] printed by the document, mixes two frames; nothing uses it
+    phiS6 = (atan2(g.Y6, g.X6) - phi6(S_p, L7)) % (2 * pi)  # [deg] from the mast to the centre of mass
+
+    def PS6(S):
+        return P56(S, L4) + LS6 * exp(1j * (phiS6 + phi6(S, L7)))  # [m] centre of mass of the implement
+
+    typeset()
+    return LS6, PS6, phiS6, r_s
+
+
+@app.cell
+def mass_field(PS6, S):
+    PS6_S = PS6(S)  # [m] centre of mass of the implement
+    typeset()
+    return (PS6_S,)
+
+
+@app.cell(hide_code=True)
+def section_scheme():
+    mo.md("""
+    ### Scheme of the hitch
+
+    Drawn to scale from the computed points; the slider moves it from the least stroke to the greatest, which are
+    shown faintly. The blue lines are the paths of the suspension axis and of the implement's centre of mass.
+    """)
+    return
+
+
+@app.cell
+def stroke():
+    part = mo.ui.slider(0, 1, step=0.005, value=0.2, label="part of the stroke", show_value=True)
+    part
+    return (part,)
+
+
+@app.cell
+def frame(O1, O3, O5, O7, P23_S, P34_S, P45_S, P56_S, P67_S, PS6_S):
+    frame = np.concatenate([[O1, O3, O5, O7], P23_S, P34_S, P45_S, P56_S, P67_S, PS6_S])
+    return (frame,)
+
+
+@app.cell
+def scheme(L4, L7, O1, O3, O5, O7, P23, P34, P45, P56, P67, PS6, frame):
+    def scheme(S):
+        p23, p34, p45, p56, p67, s6 = P23(S), P34(S), P45(S, L4), P56(S, L4), P67(S, L7), PS6(S)
+        links = Drawing(frame=frame).plate([O3, p23, p34], "3").cylinder(O1, p23, "S").link(p34, p45, "4")
+        links = links.link(O5, p56, "5").plate([p56, p67, s6], "6").link(O7, p67, "7")
+        pins = links.support(O1, "O1").support(O3, "O3").support(O5, "O5").support(O7, "O7").hinge(p23, "P23")
+        return pins.hinge(p34, "P34").hinge(p45, "P45").hinge(p56, "P56").hinge(p67, "P67").mass(s6, "S6")
+
+    return (scheme,)
+
+
+@app.cell
+def drawing_21(P56_S, PS6_S, g, part, scheme):
+    S_t = g.S_min * (1 - part.value) + g.S_max * part.value  # [m] stroke as drawn
+    ends = scheme(g.S_min).faint() + scheme(g.S_max).faint()
+    drawing_21 = (scheme(S_t) + ends).path(P56_S).path(PS6_S)
+    typeset(drawing_21, mo.md("**Figure 2.1** – Kinematic scheme of the hitch"))
+    return (drawing_21,)
+
+
+@app.cell(hide_code=True)
+def section_26():
+    mo.md(r"""
+    ### 2.6 Check
+
+    Each pin is computed again round the other way of its loop. The document's formula for $\varphi_{12}$
+    misses the pin: it is shown as printed, beside the right one.
+    """)
+    return
+
+
+@app.cell
+def loops(L13, L4, L7, O1, P34_S, P45_S, P56_S, P23_S, P67_S, S, g, phi12_S, phi13, phi4_S, phi6_S):
+    phi12_printed = phi13 - acos((S**2 + L13**2 - g.L3**2) / (2 * S * L13))  # [deg] cylinder, as printed (erratum)
+    P23s_S = O1 + S * exp(1j * phi12_printed)  # [m] as printed: misses P23 (erratum)
+    P23c_S = O1 + S * exp(1j * phi12_S)  # [m] pin of the cylinder from O1
+    P34s_S = P45_S - L4 * exp(1j * phi4_S)  # [m] pin of the lifting rod on the lift arm, from P45
+    P45s_S = P34_S + L4 * exp(1j * phi4_S)  # [m] pin of the lifting rod on the lower link, from P34
+    P67s_S = P56_S + g.L6 * exp(1j * phi6_S)  # [m] pin of the upper link, from P56
+    checks_loops = (
+        check("loop of group (2, 3)", P23c_S - P23_S, 1e-12 * L13, "m"),
+        check("loop of group (4, 5)", P34s_S - P34_S, 1e-12 * L4, "m"),
+        check("loop of group (6, 7)", P67s_S - P67_S, 1e-12 * L7, "m"),
+    )
+    typeset(*checks_loops)
+    return P23c_S, P23s_S, P34s_S, P45s_S, P67s_S, checks_loops, phi12_printed
+
+
+@app.cell
+def table_21(S, phi34_S, phi3_S, phi4_S, phi5_S, phi6_S, phi7_S):
+    table_21 = table("2.1", "Link angles", S, phi34_S, phi3_S, phi4_S, phi5_S, phi6_S, phi7_S)
+    table_21
+    return (table_21,)
+
+
+@app.cell
+def table_22(P23_S, P23c_S, P23s_S, P34_S, P34s_S, P45_S, P45s_S, P56_S, P67_S, P67s_S, PS6_S, S):
+    table_22 = table(
+        "2.2",
+        "Points",
+        S,
+        *(P23_S.real, P23_S.imag, P23s_S.real, P23s_S.imag, P34_S.real, P34_S.imag),
+        *(P34s_S.real, P34s_S.imag, P45_S.real, P45_S.imag, P45s_S.real, P45s_S.imag),
+        *(P56_S.real, P56_S.imag, P67_S.real, P67_S.imag, P67s_S.real, P67s_S.imag),
+        *(PS6_S.real, PS6_S.imag, P23c_S.real, P23c_S.imag),
+        note="X23s, Y23s follow the document's formula for phi12 and miss P23; X23c, Y23c close the loop.",
+    )
+    table_22
+    return (table_22,)
+
+
+@app.cell(hide_code=True)
+def section_3():
+    mo.md("""
+    ## 3 Kinematics
+
+    ### 3.1 Transmission ratios and velocity analogues
+
+    The loop of each group, differentiated and projected across one of its links, gives the ratio of two angular
+    velocities. Analogues are derivatives with respect to $S$.
+    """)
+    return
+
+
+@app.cell
+def ratios(L4, L7, g, phi34_S, phi4_S, phi5_S, phi6_S, phi7_S):
+    U43 = g.L34 * sin(phi5_S - phi34_S) / (L4 * sin(phi4_S - phi5_S))  # [-] lifting rod to lift arm
+    U53 = g.L34 * sin(phi34_S - phi4_S) / (g.L5 * sin(phi5_S - phi4_S))  # [-] lower link to lift arm
+    U65 = g.L56 * sin(phi7_S - phi5_S) / (g.L6 * sin(phi6_S - phi7_S))  # [-] mast to lower link
+    U75 = g.L56 * sin(phi5_S - phi6_S) / (L7 * sin(phi7_S - phi6_S))  # [-] upper link to lower link
+    typeset()
+    return U43, U53, U65, U75
+
+
+@app.cell
+def analogues(LS6, U43, U53, U65, U75, g, phi12_S, phi3_S, phi5_S, phi6_S, phiS6):
+    dphi3 = 1 / (g.L3 * sin(phi12_S - phi3_S))  # [rad/m] lift arm
+    dphi4 = dphi3 * U43  # [rad/m] lifting rod
+    dphi5 = dphi3 * U53  # [rad/m] lower link
+    dphi6 = dphi3 * U65 * U53  # [rad/m] mast
+    dphi7 = dphi3 * U75 * U53  # [rad/m] upper link
+    I56 = dphi5 * g.L56 * cos(phi5_S)  # [-] transmission number of the suspension axis
+    IS6 = I56 + dphi6 * LS6 * cos(phi6_S + phiS6)  # [-] main transmission number, of the centre of mass
+    typeset()
+    return I56, IS6, dphi3, dphi4, dphi5, dphi6, dphi7
+
+
+@app.cell(hide_code=True)
+def section_32():
+    mo.md("""
+    ### 3.2 The same derivatives by another way
+
+    The positions alone are differentiated numerically, with no formula of velocities.
+    """)
+    return
+
+
+@app.cell
+def differences(I56, IS6, L4, P56, PS6, S, dphi3, g, phi3):
+    checks_analogues = (
+        check_slope("dphi3 is the slope of phi3", dphi3, phi3, S, g.S_min, g.S_max),
+        check_slope("I56 is the slope of Y56", I56, lambda s: P56(s, L4).imag, S, g.S_min, g.S_max),
+        check_slope("IS6 is the slope of YS6", IS6, lambda s: PS6(s).imag, S, g.S_min, g.S_max),
+    )
+    typeset(*checks_analogues)
+    return (checks_analogues,)
+
+
+@app.cell
+def table_31(I56, IS6, S, U43, U53, U65, U75, dphi3, dphi4, dphi5, dphi6, dphi7):
+    table_31 = table("3.1", "Kinematics", S, U43, U53, U65, U75, I56, IS6, dphi3, dphi4, dphi5, dphi6, dphi7)
+    table_31
+    return (table_31,)
+
+
+@app.cell
+def figure_31(S, S_p, dphi3):
+    figure_31 = figure("3.1", "Velocity analogue of the lift arm", S, dphi3, marks={"S_p": S_p})
+    figure_31
+    return (figure_31,)
+
+
+@app.cell
+def figure_32(I56, IS6, S, S_p):
+    figure_32 = figure("3.2", "Transmission numbers", S, I56, IS6, marks={"S_p": S_p})
+    figure_32
+    return (figure_32,)
+
+
+@app.cell(hide_code=True)
+def section_4():
+    mo.md("""
+    ## 4 Lifting capacity
+    """)
+    return
+
+
+@app.cell
+def capacity(I56, IS6, g):
+    F_gc = g.P6 * IS6  # [N] force on the hydraulic cylinders
+    A_gc = pi * g.D_gc**2 / 4  # [cm**2] piston area
+    P_gc = F_gc / (g.k_gc * A_gc * g.eta)  # [MPa] pressure in the cylinders
+    G56 = g.k_gc * g.P_gc_max * g.eta * A_gc / I56  # [N] capacity at the suspension axis
+    GS6 = g.k_gc * g.P_gc_max * g.eta * A_gc / IS6  # [N] capacity at the centre of mass
+    dGS65 = (GS6 - g.P6) / g.P6  # [%] reserve of capacity
+    typeset()
+    return A_gc, F_gc, G56, GS6, P_gc, dGS65
+
+
+@app.cell
+def table_41(F_gc, G56, GS6, P_gc, S, dGS65):
+    table_41 = table("4.1", "Lifting capacity", S, F_gc, P_gc, G56, GS6, dGS65, show={"Pgc": "Pa"})
+    table_41
+    return (table_41,)
+
+
+@app.cell
+def figure_41(G56, GS6, S, S_p):
+    figure_41 = figure("4.1", "Lifting capacity", S, G56, GS6, marks={"S_p": S_p})
+    figure_41
+    return (figure_41,)
+
+
+@app.cell
+def figure_42(F_gc, S, S_p):
+    figure_42 = figure("4.2", "Force on the cylinders", S, F_gc, marks={"S_p": S_p})
+    figure_42
+    return (figure_42,)
+
+
+@app.cell
+def figure_43(P_gc, S, S_p):
+    figure_43 = figure("4.3", "Pressure in the cylinders", S, P_gc, marks={"S_p": S_p})
+    figure_43
+    return (figure_43,)
+
+
+@app.cell(hide_code=True)
+def section_5():
+    mo.md("""
+    ## 5 Forces
+
+    The groups are taken from the implement to the cylinder, each cut free and closed by the moments about its
+    inner pin. Every reaction says which body acts on which.
+
+    ### 5.1 Third group (6, 7)
+    """)
+    return
+
+
+@app.cell
+def forces_3(O7, P56_S, P67_S, PS6_S, g):
+    G6 = -1j * g.P6  # [N] weight of the implement, at its centre of mass
+    group_67 = rrr_reactions(P56_S, O7, P67_S, [Load(G6, PS6_S)])
+    R56 = group_67.R_A  # [N] lower link 5 on the mast 6, at P56
+    R07 = group_67.R_B  # [N] frame on the upper link 7, at O7
+    R67 = -R07  # [N] mast 6 on the upper link 7, at P67
+    typeset()
+    return G6, R07, R56, R67
+
+
+@app.cell(hide_code=True)
+def section_52():
+    mo.md("""
+    ### 5.2 Second group (4, 5)
+    """)
+    return
+
+
+@app.cell
+def forces_2(O5, P34_S, P45_S, P56_S, R56):
+    R65 = -R56  # [N] mast 6 on the lower link 5, at P56
+    group_45 = rrr_reactions(P34_S, O5, P45_S, [], [Load(R65, P56_S)])
+    R34 = -group_45.R_A  # [N] lifting rod 4 on the lift arm 3, at P34
+    R05 = -group_45.R_B  # [N] lower link 5 on the frame, at O5
+    R45 = R34  # [N] lower link 5 on the lifting rod 4, at P45
+    typeset()
+    return R05, R34, R45, R65
+
+
+@app.cell(hide_code=True)
+def section_53():
+    mo.md("""
+    ### 5.3 First group (2, 3)
+    """)
+    return
+
+
+@app.cell
+def forces_1(O1, O3, P23_S, P34_S, R34):
+    group_23 = rrr_reactions(O1, O3, P23_S, [], [Load(R34, P34_S)])
+    R01 = group_23.R_A  # [N] frame on the cylinder 2, at O1
+    R03 = group_23.R_B  # [N] frame on the lift arm 3, at O3
+    R23 = R01  # [N] cylinder 2 on the lift arm 3, at P23
+    typeset()
+    return R01, R03, R23
+
+
+@app.cell(hide_code=True)
+def section_groups():
+    mo.md("""
+    The groups cut free, at the position of the table nearest to the slider of figure 2.1. Arrows are the forces that
+    act on the group; all arrows of a drawing have one scale.
+    """)
+    return
+
+
+@app.cell
+def position(S, part):
+    k_t = round(part.value * (len(S) - 1))  # [-] position drawn, of 0..N_pol-1
+    S_k = S[k_t]  # [m] its stroke
+    typeset()
+    return S_k, k_t
+
+
+@app.cell
+def drawing_51(G6, O7, P56_S, P67_S, PS6_S, R07, R56, k_t):
+    p56, p67, s6 = P56_S[k_t], P67_S[k_t], PS6_S[k_t]
+    group = Drawing(width=560, height=420).plate([p56, p67, s6], "6").link(O7, p67, "7")
+    pins_67 = group.hinge(O7, "O7").hinge(p67, "P67").hinge(p56, "P56").mass(s6, "S6")
+    drawing_51 = pins_67.force(p56, R56[k_t], "R56").force(O7, R07[k_t], "R07").force(s6, G6, "P6")
+    typeset(drawing_51, mo.md("**Figure 5.1** – Assur group (6, 7)"))
+    return (drawing_51,)
+
+
+@app.cell
+def drawing_52(O5, P34_S, P45_S, P56_S, R05, R34, R65, k_t):
+    links_45 = Drawing(width=560, height=420).link(P34_S[k_t], P45_S[k_t], "4").link(O5, P56_S[k_t], "5")
+    pins_45 = links_45.hinge(O5, "O5").hinge(P34_S[k_t], "P34").hinge(P45_S[k_t], "P45").hinge(P56_S[k_t], "P56")
+    forces_45 = pins_45.force(P56_S[k_t], R65[k_t], "R65").force(O5, -R05[k_t], "-R05")
+    drawing_52 = forces_45.force(P34_S[k_t], -R34[k_t], "-R34")
+    typeset(drawing_52, mo.md("**Figure 5.2** – Assur group (4, 5)"))
+    return (drawing_52,)
+
+
+@app.cell
+def drawing_53(O1, O3, P23_S, P34_S, R01, R03, R34, k_t):
+    arm = Drawing(width=560, height=420).plate([O3, P23_S[k_t], P34_S[k_t]], "3").cylinder(O1, P23_S[k_t], "S")
+    pins_23 = arm.hinge(O1, "O1").hinge(O3, "O3").hinge(P23_S[k_t], "P23").hinge(P34_S[k_t], "P34")
+    forces_23 = pins_23.force(O1, R01[k_t], "R01").force(O3, R03[k_t], "R03")
+    drawing_53 = forces_23.force(P34_S[k_t], R34[k_t], "R34")
+    typeset(drawing_53, mo.md("**Figure 5.3** – Assur group (2, 3)"))
+    return (drawing_53,)
+
+
+@app.cell(hide_code=True)
+def section_54():
+    mo.md("""
+    ### 5.4 Check: equilibrium of every body, and virtual work
+    """)
+    return
+
+
+@app.cell
+def equilibrium(
+    F_gc,
+    G6,
+    L13,
+    O1,
+    O3,
+    O5,
+    O7,
+    P23_S,
+    P34_S,
+    P45_S,
+    P56_S,
+    P67_S,
+    PS6_S,
+    R01,
+    R03,
+    R05,
+    R07,
+    R23,
+    R34,
+    R45,
+    R56,
+    R65,
+    R67,
+    S,
+    g,
+    phi12_S,
+):
+    F2 = R01 - R23  # [N] forces on the cylinder 2
+    F3 = R03 + R23 + R34  # [N] forces on the lift arm 3
+    F4 = R45 - R34  # [N] forces on the lifting rod 4
+    F5 = R65 - R05 - R45  # [N] forces on the lower link 5
+    F6 = R56 - R67 + G6  # [N] forces on the mast 6
+    F7 = R07 + R67  # [N] forces on the upper link 7
+    M2 = cross(O1 - P23_S, R01)  # [N*m] moments on the cylinder 2 about P23
+    M3 = cross(P23_S - O3, R23) + cross(P34_S - O3, R34)  # [N*m] moments on the lift arm 3 about O3
+    M4 = cross(P34_S - P45_S, R34)  # [N*m] moments on the lifting rod 4 about P45
+    M5 = cross(P56_S - O5, R65) - cross(P45_S - O5, R45)  # [N*m] moments on the lower link 5 about O5
+    M6 = cross(P56_S - P67_S, R56) + cross(PS6_S - P67_S, G6)  # [N*m] moments on the mast 6 about P67
+    M7 = cross(O7 - P67_S, R07)  # [N*m] moments on the upper link 7 about P67
+    largest = np.max(abs([R01, R03, R05, R07, R34, R56]))
+    checks_forces = (
+        check("equilibrium of forces, bodies 2..7", [F2, F3, F4, F5, F6, F7], 1e-12 * largest, "N"),
+        check("equilibrium of moments, bodies 2..7", [M2, M3, M4, M5, M6, M7], 1e-12 * largest * g.L56, "N*m"),
+        check("virtual work: R01 = P6 IS6 along the cylinder", R01 - F_gc * exp(1j * phi12_S), 1e-10 * largest, "N"),
+    )
+    typeset(*checks_forces)
+    return (checks_forces,)
+
+
+@app.cell
+def table_51(F_gc, R01, R03, R05, R07, R23, R34, R45, R56, S):
+    table_51 = table(
+        "5.1",
+        "Reactions",
+        S,
+        *(R56.real, R56.imag, R07.real, R07.imag, R23.real, R23.imag, R05.real, R05.imag),
+        *(R34.real, R34.imag, R45.real, R45.imag, R03.real, R03.imag, R01.real, R01.imag),
+        *(abs(R56), abs(R07), abs(R03), abs(R05), abs(R34), abs(R23), abs(R45), abs(R01), F_gc),
+        note="R05 acts on the frame and R34 on the lift arm; the others act on the body named last in their line.",
+    )
+    table_51
+    return (table_51,)
+
+
+@app.cell
+def figure_54(R01, R03, R05, R07, R34, R56, S, S_p):
+    figure_54 = figure(
+        "5.4", "Reactions", S, abs(R01), abs(R03), abs(R05), abs(R07), abs(R34), abs(R56), marks={"S_p": S_p}
+    )
+    figure_54
+    return (figure_54,)
+
+
+@app.cell(hide_code=True)
+def section_6():
+    mo.md(r"""
+    ## 6 Steering stability
+
+    Moments about the rear axle give the load $R_a$ on the steered front wheels. At least a fifth of the whole weight
+    must stay on them. The printed formula for the greatest implement subtracts newtons from newton metres and keeps
+    the present implement's weight in the limit; the right one takes $R_a = 0.2\,(P + P_{msha} + P_{gr})$.
+    """)
+    return
+
+
+@app.cell
+def stability(PS6_S, g):
+    Ra = (g.P_gr * (g.a + g.L) + g.P_msha * g.b - g.P6 * PS6_S.real) / g.L  # [N] load on the front axle
+    Rb = g.P_gr + g.P_msha + g.P6 - Ra  # [N] load on the rear axle
+    dRa = Ra / (g.P6 + g.P_msha + g.P_gr)  # [%] share of the front axle
+    dRb = Rb / (g.P6 + g.P_msha + g.P_gr)  # [%] share of the rear axle
+    Ra_min = 0.2 * (g.P6 + g.P_msha + g.P_gr)  # [N] least load on the front axle
+    GS6_max = (g.P_msha * g.b + g.P_gr * (g.a + g.L) - Ra_min) / PS6_S.real  # [N] greatest load, as printed (erratum)
+    GS6_lim = (g.P_msha * g.b + g.P_gr * (g.a + g.L) - 0.2 * g.L * (g.P_msha + g.P_gr)) / (
+        PS6_S.real + 0.2 * g.L
+    )  # [N] greatest load
+    typeset()
+    return GS6_lim, GS6_max, Ra, Ra_min, Rb, dRa, dRb
+
+
+@app.cell
+def drawing_61(PS6_S, Ra, Rb, frame, g, k_t, S, scheme):
+    rear, front = 0.8, 0.55  # radii of the wheels, for the picture only
+    ground = np.array([-g.L - g.a - 0.4, np.max(frame.real) + 0.3])
+    machine = (
+        Drawing(width=900, height=480).ground(*ground[::-1]).wheel(1j * rear, rear).wheel(-g.L + 1j * front, front)
+    )
+    lifted = machine + scheme(S[k_t]).faint()
+    loads = (
+        lifted.mass(-g.b + 1j, "C")
+        .force(-g.b + 1j, -1j * g.P_msha, "P_msha")
+        .force(-g.L - g.a + 0.7j, -1j * g.P_gr, "P_gr")
+    )
+    wheels = loads.force(-g.L + 0j, 1j * Ra[k_t], "Ra", into=True).force(0j, 1j * Rb[k_t], "Rb", into=True)
+    drawing_61 = wheels.mass(PS6_S[k_t], "S6").force(PS6_S[k_t], -1j * g.P6, "P6")
+    typeset(drawing_61, mo.md("**Figure 6.1** – The machine with its loads; wheels for the picture only"))
+    return (drawing_61,)
+
+
+@app.cell
+def stability_check(GS6_lim, PS6_S, g):
+    Ra_lim = (
+        g.P_gr * (g.a + g.L) + g.P_msha * g.b - GS6_lim * PS6_S.real
+    ) / g.L  # [N] front axle under the greatest load
+    checks_stability = check("front axle keeps 20 % under GS6lim", Ra_lim / (GS6_lim + g.P_msha + g.P_gr) - 0.2, 1e-12)
+    typeset(checks_stability)
+    return (checks_stability,)
+
+
+@app.cell
+def table_61(GS6_lim, GS6_max, Ra, Rb, S, dRa, dRb):
+    table_61 = table(
+        "6.1",
+        "Stability",
+        *(S, Ra, Rb, dRa, dRb, GS6_max, GS6_lim),
+        note="GS6max follows the document's formula, which is wrong; GS6lim is the greatest stable load.",
+    )
+    table_61
+    return (table_61,)
+
+
+@app.cell
+def figure_62(S, S_p, dRa):
+    figure_62 = figure("6.2", "Share of the weight on the steered wheels", S, dRa, marks={"S_p": S_p})
+    figure_62
+    return (figure_62,)
+
+
+@app.cell(hide_code=True)
+def section_7():
+    mo.md("""
+    ## 7 Check by the instant centre
+
+    The mast turns about the point where the lines of the lower link and of the upper link meet. Its transmission
+    numbers follow from the distances to that pole, whose abscissa from $O_5$ is $N_p / D_p$; multiplied out, the
+    check holds for parallel links too, where the pole lies at infinity.
+    """)
+    return
+
+
+@app.cell
+def pole(L7, O5, O7, P56_S, P67_S, PS6_S, dphi5, g, phi6_S, phi7_S):
+    D_p = cross(P56_S - O5, P67_S - O7)  # [m**2] zero where the links are parallel
+    N_p = cross(O7 - O5, P67_S - O7) * (P56_S - O5).real  # [m**3] abscissa of the pole from O5, times D_p
+    k_p = dphi5 / (g.L6 * L7 * sin(phi6_S - phi7_S))  # [1/m**3] angular velocity analogue of the mast over D_p
+    Imp = k_p * ((P56_S - O5).real * D_p - N_p)  # [-] transmission number of the suspension axis
+    Isp = k_p * ((PS6_S - O5).real * D_p - N_p)  # [-] main transmission number
+    typeset()
+    return Imp, Isp
+
+
+@app.cell
+def pole_check(I56, IS6, Imp, Isp):
+    checks_pole = (
+        check("instant centre: Imp = I56", Imp - I56, 1e-11 * np.max(abs(I56))),
+        check("instant centre: Isp = IS6", Isp - IS6, 1e-11 * np.max(abs(IS6))),
+    )
+    typeset(*checks_pole)
+    return (checks_pole,)
+
+
+@app.cell
+def table_7(I56, IS6, Imp, Isp, S):
+    table_7 = table("7", "Instant centre", S, I56, IS6, Imp, Isp)
+    table_7
+    return (table_7,)
+
+
+@app.cell(hide_code=True)
+def section_8():
+    mo.md("""
+    ## Workbook
+    """)
+    return
+
+
+@app.cell
+def workbook():
+    export("Tractor hitch", globals())
+    return
+
+
+if __name__ == "__main__":
+    app.run()
