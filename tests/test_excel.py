@@ -166,6 +166,17 @@ def test_pages_are_a4_with_title_and_number() -> None:
         assert sheet.sheet_properties.pageSetUpPr.fitToPage
 
 
+@pytest.mark.parametrize(("title", "printed"), [("R&D", "R&&D"), ("R&G", "R&& G"), ("7 bar", "7 bar")])
+def test_title_in_the_header_is_no_code(title: str, printed: str) -> None:
+    """&D would print the date, &G ask for a picture, and a digit after the font size enlarge it."""
+    content = excel.workbook(title, inputs=[], found=[], tables=[], figures=[], checks=[])
+    with ZipFile(BytesIO(content)) as file:
+        header = html.unescape(
+            re.findall("<oddHeader>(.*)</oddHeader>", file.read("xl/worksheets/sheet1.xml").decode())[0]
+        )
+    assert header == f"&L&8 {printed}&R&8 &A"
+
+
 def test_wide_sheets_are_printed_on_their_side() -> None:
     wide = Table("2", "wide", tuple(replace(S, symbol=f"X{n}") for n in range(14)))
     opened = book(tables=[replace(TABLE, number="1"), wide], figures=[])
@@ -228,6 +239,11 @@ def test_marks_are_vertical_lines_over_the_height_of_the_figure() -> None:
     assert (mark.xVal.numRef.f, mark.yVal.numRef.f) == ("Marks!$C$3:$D$3", "Marks!$E$3:$F$3")
     scale = chart.y_axis.scaling
     assert rows(opened["Marks"])[2] == ["Figure 4.1 - Capacity", "S_p", 0.4694, 0.4694, scale.min, scale.max]
+
+
+def test_mark_beyond_the_data_is_within_the_axis() -> None:
+    (chart,) = book(figures=[replace(FIGURE, marks=(("S_end", 0.93),))])["4.1 Lifting capacity"]._charts
+    assert chart.x_axis.scaling.max >= 0.93
 
 
 def test_figure_of_other_columns_gets_a_sheet_of_its_own_data() -> None:

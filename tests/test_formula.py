@@ -70,6 +70,7 @@ def test_lines_with_a_unit_are_the_formulas():
         (0.14, "%", r"14\,\%"),
         (1.5e-7, "m", r"1.5 \cdot 10^{-7}\ \mathrm{m}"),
         (-2.5e12, "-", r"-2.5 \cdot 10^{12}"),
+        (129613.7, "N", r"129614\ \mathrm{N}"),
         (999999.9, "N", r"1000000\ \mathrm{N}"),
         (0.5 - 2j, "m", r"(0.5,\ -2)\ \mathrm{m}"),
         (np.array([1.0, 2.0, 3.0]), "N*m", r"1 \,\ldots\, 3\ \mathrm{N\cdot m}"),

@@ -401,10 +401,16 @@ def scheme(L4, L7, O1, O3, O5, O7, P23, P34, P45, P56, P67, PS6, frame):
 
 
 @app.cell
-def drawing_21(P56_S, PS6_S, g, part, scheme):
+def paths(L4, P56, PS6, g):
+    fine = np.linspace(g.S_min, g.S_max, 100)
+    paths = Drawing().path(P56(fine, L4)).path(PS6(fine))
+    return (paths,)
+
+
+@app.cell
+def drawing_21(g, part, paths, scheme):
     S_t = g.S_min * (1 - part.value) + g.S_max * part.value  # [m] stroke as drawn
-    ends = scheme(g.S_min).faint() + scheme(g.S_max).faint()
-    drawing_21 = (scheme(S_t) + ends).path(P56_S).path(PS6_S)
+    drawing_21 = scheme(S_t) + scheme(g.S_min).faint() + scheme(g.S_max).faint() + paths
     typeset(drawing_21, mo.md("**Figure 2.1** – Kinematic scheme of the hitch"))
     return (drawing_21,)
 
@@ -581,7 +587,7 @@ def figure_42(F_gc, S, S_p):
 
 @app.cell
 def figure_43(P_gc, S, S_p):
-    figure_43 = figure("4.3", "Pressure in the cylinders", S, P_gc, marks={"S_p": S_p})
+    figure_43 = figure("4.3", "Pressure in the cylinders", S, P_gc, marks={"S_p": S_p}, show={"Pgc": "Pa"})
     figure_43
     return (figure_43,)
 
@@ -658,8 +664,8 @@ def section_groups():
 
 @app.cell
 def position(S, part):
-    k_t = round(part.value * (len(S) - 1))  # [-] position drawn, of 0..N_pol-1
-    S_k = S[k_t]  # [m] its stroke
+    k_t = round(part.value * (len(S) - 1))
+    S_k = S[k_t]  # [m] stroke of the position drawn
     typeset()
     return S_k, k_t
 
@@ -807,18 +813,15 @@ def stability(PS6_S, g):
 @app.cell
 def drawing_61(PS6_S, Ra, Rb, frame, g, k_t, S, scheme):
     rear, front = 0.8, 0.55  # radii of the wheels, for the picture only
-    ground = np.array([-g.L - g.a - 0.4, np.max(frame.real) + 0.3])
-    machine = (
-        Drawing(width=900, height=480).ground(*ground[::-1]).wheel(1j * rear, rear).wheel(-g.L + 1j * front, front)
-    )
-    lifted = machine + scheme(S[k_t]).faint()
-    loads = (
-        lifted.mass(-g.b + 1j, "C")
-        .force(-g.b + 1j, -1j * g.P_msha, "P_msha")
-        .force(-g.L - g.a + 0.7j, -1j * g.P_gr, "P_gr")
-    )
+    nose = -g.L - g.a
+    body = [nose + 0.6j, nose + 1.05j, -g.b + 1.25j, 0.2 + 1.25j, 0.2 + 0.6j]
+    ground = Drawing(width=900, height=480).ground(nose - 0.3, np.max(frame.real) + 0.3)
+    machine = ground.wheel(1j * rear, rear).wheel(-g.L + 1j * front, front).polygon(body) + scheme(S[k_t]).faint()
+    weights = machine.mass(-g.b + 0.9j, "C").force(-g.b + 0.9j, -1j * g.P_msha, "P_msha")
+    loads = weights.force(nose + 0.6j, -1j * g.P_gr, "P_gr").mass(PS6_S[k_t], "S6").force(PS6_S[k_t], -1j * g.P6, "P6")
     wheels = loads.force(-g.L + 0j, 1j * Ra[k_t], "Ra", into=True).force(0j, 1j * Rb[k_t], "Rb", into=True)
-    drawing_61 = wheels.mass(PS6_S[k_t], "S6").force(PS6_S[k_t], -1j * g.P6, "P6")
+    lengths = wheels.dimension(nose + 1.05j, -g.L + 1.05j, "a").dimension(-g.L + 1.6j, 1.6j, "L")
+    drawing_61 = lengths.dimension(-g.b + 1.25j, 1.25j, "b")
     typeset(drawing_61, mo.md("**Figure 6.1** – The machine with its loads; wheels for the picture only"))
     return (drawing_61,)
 

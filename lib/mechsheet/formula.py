@@ -115,10 +115,12 @@ def _computes(node: ast.expr) -> bool:
 
 
 def number_latex(x: float) -> str:
-    """Number with five significant digits, as a textbook prints it; powers of ten outside 1e-3..1e6."""
+    """Number with five significant digits or all before the point; as a power of ten outside 1e-3..1e6."""
     if not np.isfinite(x):
         return r"\text{none}"
-    if x == 0 or 1e-3 <= abs(x) < 1e6:
+    if 1e5 <= abs(x) < 1e6:
+        return f"{x:.0f}"
+    if x == 0 or 1e-3 <= abs(x) < 1e5:
         return np.format_float_positional(float(f"{x:.5g}"), trim="-")
     mantissa, exponent = f"{x:.4e}".split("e")
     return rf"{mantissa.rstrip('0').rstrip('.')} \cdot 10^{{{int(exponent)}}}"
@@ -168,8 +170,10 @@ def _tex(node: ast.expr) -> tuple[str, int]:
             return rf"\operatorname{{Re}} {_wrap(inner, 5)}", 2
         case ast.Attribute(inner, "imag"):
             return rf"\operatorname{{Im}} {_wrap(inner, 5)}", 2
-        case ast.Attribute(ast.Name(name), "value"):
+        case ast.Attribute(ast.Name(name), "value") if name.endswith("_found"):
             return rf"\operatorname{{Find}}\,{symbol.latex(name.removesuffix('_found'))}", 2
+        case ast.Attribute(ast.Name(name), "value"):  # of a slider or field of the page
+            return symbol.latex(name), 5
         case ast.UnaryOp(ast.USub(), inner):
             return f"-{_wrap(inner, 3)}", 1
         case ast.UnaryOp(ast.UAdd(), inner):

@@ -131,10 +131,17 @@ def table(number: str, title: str, *columns: Any, show: Mapping[str, str] | None
     return Table(number, title, _columns(frame, source.call(frame).args[2:], columns, show or {}), note)
 
 
-def figure(number: str, title: str, x: Any, *lines: Any, marks: Mapping[str, float] | None = None) -> Figure:
+def figure(
+    number: str,
+    title: str,
+    x: Any,
+    *lines: Any,
+    marks: Mapping[str, float] | None = None,
+    show: Mapping[str, str] | None = None,
+) -> Figure:
     """Line chart of the given quantities over ``x``, read as in `table`; ``marks`` are positions in SI."""
     frame = sys._getframe(1)
-    first, *rest = _columns(frame, source.call(frame).args[2:], (x, *lines), {})
+    first, *rest = _columns(frame, source.call(frame).args[2:], (x, *lines), show or {})
     factor = units.parse(first.unit).factor
     return Figure(number, title, first, tuple(rest), tuple((k, v / factor) for k, v in (marks or {}).items()))
 

@@ -1,0 +1,501 @@
+"""The workbook of a worksheet: inputs, found values, tables with their charts, and checks as an Excel file."""
+
+import math
+import os
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from datetime import datetime
+from io import BytesIO
+from itertools import groupby
+from pathlib import Path
+from typing import Any
+from uuid import uuid4
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mechsheet.checks import Check
+from mechsheet.errors import SheetError
+from mechsheet.table import Column, Figure, Table
+
+
+@dataclass(frozen=True)
+class Row:
+    """One input: ``value`` is in ``unit``; neighbours of one ``section`` stand under its heading."""
+
+    symbol: str
+    value: float | int | str
+    unit: str
+    meaning: str
+    section: str = ""
+
+
+@dataclass(frozen=True)
+class FoundRow:
+    """One solved value in ``unit``, searched for in ``lower..upper``, and the ``residual`` that it leaves."""
+
+    symbol: str
+    value: float
+    unit: str
+    meaning: str
+    residual: float
+    residual_unit: str
+    lower: float
+    upper: float
+    evaluations: int
+    other_roots: str = ""
+
+
+def workbook(
+    title: str,
+    *,
+    inputs: Sequence[Row],
+    found: Sequence[FoundRow],
+    tables: Sequence[Table],
+    figures: Sequence[Figure],
+    checks: Sequence[Check],
+) -> bytes:
+    """Bytes of an .xlsx file; the same input gives the same bytes.
+
+    Sheets: Inputs, Find, one for each table named by its number and title, Checks. A table's sheet has its
+    title in row 1, its note in row 2, symbols in row 3, units in row 4, then the numbers to their last bit;
+    pandas reads it by ``read_excel(file, sheet_name=name, header=2, skiprows=[3])``. NaN is the error value
+    #N/A and an infinite number #NUM!: pandas reads both as NaN, charts leave a gap.
+
+    A figure is a chart on the first table's sheet that holds all its columns, else on a sheet of its own
+    data; the lines of its marks are drawn from the sheet Marks.
+    """
+    import xlsxwriter  # type: ignore[import-untyped]  # imported on use: a run that writes nothing starts without it
+
+    buffer = BytesIO()
+    book = _Book(xlsxwriter.Workbook(buffer, _options()), _text(title))
+    book.inputs(inputs)
+    book.found(found)
+    holders = [_holder(figure, tables) for figure in figures]
+    for table in tables:
+        held = [figure for figure, holder in zip(figures, holders, strict=True) if holder is table]
+        book.table(f"{table.number} {table.title}", _heading("Table", table), table.note, table.columns, held)
+    for figure, holder in zip(figures, holders, strict=True):
+        if holder is None:
+            columns = (figure.x, *figure.lines)
+            book.table(f"Fig {figure.number} data", f"Data of {_heading('figure', figure)}", "", columns, [figure])
+    book.checks(checks)
+    book.marks()
+    book.file.close()
+    return buffer.getvalue()
+
+
+def save(data: bytes, path: Path) -> None:
+    """Write a file whole or not at all.
+
+    Raises SheetError where the folder or the disk refuses; an older file at ``path`` then stays as it was.
+    """
+    temporary = path.with_name(f".{path.name}.{uuid4().hex}")
+    try:
+        try:
+            with temporary.open("xb") as file:
+                file.write(data)
+                file.flush()
+                os.fsync(file.fileno())
+            os.replace(temporary, path)
+        finally:
+            temporary.unlink(missing_ok=True)
+    except OSError as error:
+        raise SheetError(f"workbook {path} cannot be written: {error.strerror or error}") from error
+
+
+def _options() -> dict[str, object]:
+    return {
+        "in_memory": True,  # stamps the parts of the file with a fixed date
+        "default_format_properties": {"font_name": "Arial", "font_size": 10, "font_scheme": False},
+        "strings_to_formulas": False,
+        "strings_to_urls": False,
+        "strings_to_numbers": False,
+    }
+
+
+_PROPERTIES = {"author": "mechsheet", "created": datetime(2000, 1, 1)}
+_SHEETS = ("Inputs", "Find", "Checks", "Marks")
+
+_Look = Mapping[str, object]
+_INK, _RULE = "#1F3864", "#7F7F7F"
+_HEAD: _Look = {"bold": True, "font_color": _INK, "bg_color": "#E9EDF4"}
+_TOP: _Look = {"top": 1, "top_color": _RULE}
+_BOTTOM: _Look = {"bottom": 1, "bottom_color": _RULE}
+_SECTION: _Look = {"bold": True, "font_color": _INK, "valign": "bottom", "indent": 1}
+_NOTE: _Look = {"italic": True, "font_size": 9}
+_KEY: _Look = {"font_color": _INK}
+_CELL: _Look = {"bottom": 4, "bottom_color": "#C8C8C8"}
+_TEXT: _Look = {"align": "left", "indent": 1, "text_wrap": True}
+_NUMBER: _Look = {"align": "right"}
+_FIELD: _Look = {**_NUMBER, "bg_color": "#FFF8D6", "border": 4, "border_color": _RULE}
+_VALUE: _Look = {**_NUMBER, "num_format": "0.000000"}
+_SMALL: _Look = {**_NUMBER, "num_format": "0.0E+00;-0.0E+00;0"}
+_VERDICT: _Look = {"align": "center", "bold": True}
+_PASS: _Look = {"font_color": "#2F6B2F"}
+_FAIL: _Look = {"font_color": "#FFFFFF", "bg_color": "#A61C1C"}  # stands out on black-and-white paper too
+
+# Pixels at 96 dpi: a character, a cell's padding, a row; the printable part of A4 upright and on its side.
+_CHAR, _PAD, _ROW = 7, 18, 21
+_UPRIGHT, _SIDEWAYS = (680, 980), (1000, 650)
+_WIDEST, _WRAP = 48, 58  # digits that the widest column holds, letters that fill a line of it
+_FIRST = 4  # rows over the numbers of a table: title, note, symbols, units
+_LONG = 40  # rows; a longer table has its charts beside it, not below
+_ONE, _MANY, _GAP = (590, 330), (455, 300), 14  # a chart alone, a chart among others, between charts
+
+_LARGEST = 1e307  # Excel's numbers end at 9.99e307
+_CHART = {"name": "Arial", "size": 9, "color": "#262626"}
+_COLORS = ("#1F4E79", "#C55A11", "#548235", "#7030A0", "#000000", "#A61C1C", "#2E8B8B", "#806000")
+_MARKERS = ("circle", "square", "triangle", "diamond", "x", "plus", "star", "short_dash")
+_DASHES = ("solid", "dash", "long_dash_dot", "round_dot")
+
+
+class _Exact(float):
+    """A float stored to its last bit, for XlsxWriter formats numbers with 16 digits, one too few."""
+
+    def __format__(self, spec: str) -> str:
+        return float.__repr__(self)
+
+
+class _Book:
+    """The workbook while it is written; XlsxWriter has no types, so its objects are Any."""
+
+    def __init__(self, file: Any, title: str) -> None:
+        self.file, self.title = file, title
+        self.names = {name.lower() for name in _SHEETS}
+        self.styles: dict[str, Any] = {}
+        self.marked: list[tuple[str | float, ...]] = []
+        file.set_properties({**_PROPERTIES, "title": title})
+
+    def style(self, *looks: _Look) -> Any:
+        """The cell format of these looks, later ones prevailing."""
+        look: dict[str, object] = {"valign": "vcenter"}
+        for part in looks:
+            look |= part
+        key = repr(look)
+        if key not in self.styles:
+            self.styles[key] = self.file.add_format(look)
+        return self.styles[key]
+
+    def name(self, text: str) -> str:
+        """A sheet name that Excel accepts: up to 31 UTF-16 units, none of ``[]:*?/\\``, not yet taken."""
+        # _x0041_ in a sheet's name is an A to Excel.
+        plain = re.sub(r"[\[\]:*?/\\\s]+|_(?=x[0-9a-fA-F]{4}_)", " ", _text(text)).strip("' ") or "Table"
+        name, number = _cut(plain, 31), 1
+        if name != plain and len(whole := name.rpartition(" ")[0]) > 15:
+            name = whole
+        while name.lower() in self.names:
+            number += 1
+            name = f"{_cut(plain, 31 - len(f' ({number})'))} ({number})"
+        self.names.add(name.lower())
+        return name
+
+    def sheet(self, name: str, heading: str, widths: Sequence[int], top: int, size: tuple[int, int]) -> Any:
+        """An empty sheet with its title line, ``top`` frozen rows and print setup for ``size`` in pixels."""
+        sheet = self.file.add_worksheet(name)
+        sheet.hide_gridlines(2)
+        sheet.set_default_row(_ROW * 0.75)
+        sheet.set_row(0, 24)
+        for col, width in enumerate(widths):
+            sheet.set_column_pixels(col, col, width)
+        sheet.freeze_panes(top, 1)
+        _put(sheet, 0, 0, heading, self.style({"bold": True, "font_size": 13, "font_color": _INK}))
+        sheet.set_paper(9)
+        page = _page(size[0])
+        if page is _SIDEWAYS:
+            sheet.set_landscape()
+        # Up to a half too large is scaled down to one page; what is larger goes on over several.
+        wide = 1 if size[0] < 1.5 * page[0] else math.ceil(size[0] / page[0])
+        sheet.fit_to_pages(wide, 1 if size[1] < 1.5 * page[1] else 0)
+        sheet.set_margins(left=0.6, right=0.6, top=0.8, bottom=0.7)
+        sheet.repeat_rows(0, top - 1)
+        sheet.repeat_columns(0)
+        # && is an ampersand, &G and &[ ask for a picture even behind another one.
+        title = re.sub(r"&(?=[G\[])", "& ", _cut(self.title, 100)).replace("&", "&&")
+        sheet.set_header(f"&L&8 {title}&R&8 &A")
+        sheet.set_footer("&C&8 &P / &N")
+        return sheet
+
+    def listing(
+        self,
+        name: str,
+        heading: str,
+        fields: Sequence[tuple[str, _Look]],
+        rows: Sequence[Sequence[str | float]],
+    ) -> Any:
+        """A sheet of rows under (heading, look) fields; a row of one text heads a section."""
+        texts = [[head for head, _ in fields], *(row for row in rows if len(row) > 1)]
+        widths = [_CHAR * min(_WIDEST, max(map(_length, column))) + 2 * _PAD for column in zip(*texts, strict=True)]
+        sheet = self.sheet(name, heading, widths, 2, (sum(widths), _ROW * (len(rows) + 3)))
+        for col, (head, look) in enumerate(fields):
+            _put(sheet, 1, col, head, self.style(_HEAD, _TOP, _BOTTOM, _side(look)))
+        for n, row in enumerate(rows, 2):
+            if len(row) == 1:
+                sheet.set_row_pixels(n, _ROW + 10)
+                _put(sheet, n, 0, row[0], self.style(_SECTION))
+                continue
+            lines = math.ceil(max(map(_length, row)) / _WRAP)
+            sheet.set_row_pixels(n, _ROW + (lines - 1) * (_ROW - 5))
+            for col, (value, (_, look)) in enumerate(zip(row, fields, strict=True)):
+                _put(sheet, n, col, value, self.style(_CELL, look))
+        return sheet
+
+    def inputs(self, rows: Sequence[Row]) -> None:
+        listed: list[tuple[str | float, ...]] = []
+        for section, members in groupby(rows, key=lambda row: row.section):
+            listed += [(section,)] if section else []
+            listed += [(row.symbol, row.value, row.unit, row.meaning) for row in members]
+        fields = (("Symbol", _TEXT), ("Value", _FIELD), ("Unit", _TEXT), ("Meaning", _TEXT))
+        self.listing("Inputs", f"{self.title} - inputs", fields, listed)
+
+    def found(self, rows: Sequence[FoundRow]) -> None:
+        fields = (
+            *(("Symbol", _TEXT), ("Value", _VALUE), ("Unit", _TEXT), ("Meaning", _TEXT)),
+            *(("Residual", _SMALL), ("Unit", _TEXT), ("From", _VALUE), ("To", _VALUE)),
+            *(("Evaluations", _NUMBER), ("Other roots", _TEXT)),
+        )
+        listed = [
+            (
+                *(row.symbol, row.value, row.unit, row.meaning, row.residual, row.residual_unit),
+                *(row.lower, row.upper, row.evaluations, row.other_roots),
+            )
+            for row in rows
+        ]
+        self.listing("Find", "Found values, the residuals that they leave and the intervals searched", fields, listed)
+
+    def checks(self, checks: Sequence[Check]) -> None:
+        fields = (
+            *(("Check", _TEXT), ("Residual", _SMALL), ("Limit", _SMALL), ("Unit", _TEXT)),
+            *(("Verdict", _VERDICT), ("Reason", _TEXT)),
+        )
+        listed = [(c.name, c.residual, c.limit, c.unit, "PASS" if c.passed else "FAIL", c.reason) for c in checks]
+        passed = sum(check.passed for check in checks)
+        sheet = self.listing("Checks", f"Checks: {passed} of {len(checks)} passed", fields, listed)
+        for verdict, look in (("PASS", _PASS), ("FAIL", _FAIL)):
+            rule = {"type": "cell", "criteria": "==", "value": f'"{verdict}"', "format": self.file.add_format(look)}
+            sheet.conditional_format(2, 4, len(listed) + 2, 4, rule)
+
+    def marks(self) -> None:
+        fields = (
+            ("Figure", _TEXT),
+            ("Mark", _TEXT),
+            ("x", _VALUE),
+            ("x", _VALUE),
+            ("y from", _NUMBER),
+            ("y to", _NUMBER),
+        )
+        if self.marked:
+            self.listing("Marks", "Ends of the vertical lines in the figures", fields, self.marked)
+
+    def table(self, name: str, heading: str, note: str, columns: Sequence[Column], figures: Sequence[Figure]) -> None:
+        """A sheet of numbers under their symbols and units, with the charts of ``figures``."""
+        name, rows, count = self.name(name), len(columns[0].values), len(figures)
+        widths = [_CHAR * min(_WIDEST, _digits(column)) + _PAD for column in columns]
+        width, height = _ONE if count == 1 else _MANY
+        # Charts stand clear of the frozen rows and column, which would cut them when the sheet is scrolled.
+        if rows <= _LONG:
+            high = (_FIRST + rows + 2) * _ROW + math.ceil(count / 2) * (height + _GAP)
+            wide = max(sum(widths), widths[0] + min(count, 2) * (width + _GAP))
+            sheet = self.sheet(name, heading, widths, _FIRST, (wide, high))
+            places = [(_FIRST + rows + 1, 1, n % 2 * (width + _GAP), n // 2 * (height + _GAP)) for n in range(count)]
+        else:
+            wide = sum(widths) + min(count, 1) * (width + _GAP)
+            sheet = self.sheet(name, heading, widths, _FIRST, (wide, rows * _ROW))
+            held = _break(sheet, wide, rows)
+            fitting = round(held * _ROW / height)
+            pitch = held // fitting
+            height = pitch * _ROW - _GAP
+            places = [(_FIRST + n // fitting * held + n % fitting * pitch, len(columns), _GAP, 0) for n in range(count)]
+        sheet.set_row_pixels(1, _ROW if note else _ROW // 3)
+        _put(sheet, 1, 0, note, self.style(_NOTE))
+        for col, column in enumerate(columns):
+            _put(sheet, 2, col, column.symbol, self.style(_HEAD, _NUMBER, _TOP))
+            _put(sheet, 3, col, column.unit, self.style(_HEAD, _NUMBER, _BOTTOM, {"bold": False}))
+            if column.meaning:
+                sheet.write_comment(2, col, _text(column.meaning), {"font_name": "Arial", "font_size": 9})
+            look = {**_NUMBER, **({} if col else _KEY), "num_format": f"{0:.{column.decimals}f}"}
+            style, last = self.style(look, _CELL), self.style(look, _BOTTOM)
+            for row, value in enumerate(column.values, _FIRST):
+                _put(sheet, row, col, float(value), style if row < _FIRST + rows - 1 else last)
+        for figure, (row, col, right, down) in zip(figures, places, strict=True):
+            chart = self.chart(figure, name, columns)
+            chart.set_size({"width": width, "height": height})
+            place = {"x_offset": right, "y_offset": down, "object_position": 2}
+            sheet.insert_chart(row, col, chart, {**place, "description": _heading("Figure", figure)})
+
+    def chart(self, figure: Figure, name: str, columns: Sequence[Column]) -> Any:
+        """A chart of the cells of sheet ``name``; positions to mark are noted for the sheet Marks."""
+        rows = len(figure.x.values)
+        chart = self.file.add_chart({"type": "scatter", "subtype": "straight_with_markers"})
+
+        def cells(column: Column) -> list[str | int]:
+            col = next(col for col, other in enumerate(columns) if _same(column, other))
+            return [name, _FIRST, col, _FIRST + rows - 1, col]
+
+        for n, line in enumerate(figure.lines):
+            color = _COLORS[n % len(_COLORS)]
+            marker = {"type": _MARKERS[n % len(_MARKERS)], "size": 5, "border": {"color": color}}
+            chart.add_series(
+                {
+                    "name": [name, 2, cells(line)[2]],
+                    "categories": cells(figure.x),
+                    "values": cells(line),
+                    # What a viewer draws that reads no cells; without it #N/A would be a zero there.
+                    "categories_data": _drawn(figure.x.values),
+                    "values_data": _drawn(line.values),
+                    "line": {"color": color, "width": 1.75, "dash_type": _DASHES[n // 2 % len(_DASHES)]},
+                    "marker": {**marker, "fill": {"color": color}} if rows <= _LONG else {"type": "none"},
+                    "smooth": False,
+                }
+            )
+        x = _axis(np.append(figure.x.values, [at for _, at in figure.marks]))
+        y = _axis(np.concatenate([line.values for line in figure.lines]))
+        for label, at in figure.marks:
+            row = len(self.marked) + 2
+            self.marked.append((_heading("Figure", figure), label, at, at, y["min"], y["max"]))
+            chart.add_series(
+                {
+                    "name": ["Marks", row, 1],
+                    "categories": ["Marks", row, 2, row, 3],
+                    "values": ["Marks", row, 4, row, 5],
+                    "line": {"color": "#404040", "width": 1, "dash_type": "dash"},
+                    "marker": {"type": "none"},
+                    "data_labels": {
+                        "series_name": True,
+                        "position": "right",
+                        "font": _CHART,
+                        "custom": [{"delete": True}],
+                    },
+                    "smooth": False,
+                }
+            )
+        chart.set_title({"name": _label(_heading("Figure", figure)), "name_font": {**_CHART, "size": 11, "bold": True}})
+        look = {
+            "name_font": {**_CHART, "bold": False},
+            "num_font": _CHART,
+            "label_position": "low",
+            "line": {"color": _RULE},
+            "major_gridlines": {"visible": True, "line": {"color": "#D9D9D9", "width": 0.5}},
+        }
+        chart.set_x_axis({**look, **x, "name": _label(_quantity([figure.x]))})
+        chart.set_y_axis({**look, **y, "name": _label(_quantity(figure.lines))})
+        several = len(figure.lines) > 1
+        marks = list(range(len(figure.lines), len(figure.lines) + len(figure.marks)))
+        chart.set_legend({"position": "bottom" if several else "none", "font": _CHART, "delete_series": marks})
+        chart.set_chartarea({"border": {"color": "#BFBFBF"}})
+        chart.show_na_as_empty_cell()
+        return chart
+
+
+def _put(sheet: Any, row: int, col: int, value: str | float, style: Any) -> None:
+    """A text as a text, a number as a number, NaN as #N/A; a text of nothing leaves the cell empty."""
+    if value == "":
+        sheet.write_blank(row, col, None, style)
+    elif isinstance(value, str):
+        sheet.write_string(row, col, _text(value), style)
+    elif _fits(value):
+        sheet.write_number(row, col, value if isinstance(value, int) else _Exact(value), style)
+    else:
+        # XlsxWriter has no cell of an error alone; the formula that is this error keeps it as its value.
+        error = "#N/A" if math.isnan(value) else "#NUM!"
+        sheet.write_formula(row, col, f"={error}", style, error)
+
+
+def _page(wide: int) -> tuple[int, int]:
+    return _UPRIGHT if wide <= _UPRIGHT[0] else _SIDEWAYS
+
+
+def _break(sheet: Any, wide: int, rows: int) -> int:
+    """Break a long table into pages one page wide; the rows of a page.
+
+    Breaks are ignored where a sheet is fitted to pages, and a page's end might cut a chart: so the scale is set.
+    """
+    page = _page(wide)
+    scale = max(0.1, min(1.0, 0.97 * page[0] / wide))
+    held = int(page[1] / scale / _ROW) - 5
+    sheet.set_print_scale(int(100 * scale))
+    sheet.set_h_pagebreaks(range(_FIRST + held, _FIRST + rows, held))
+    return held
+
+
+def _fits(value: float) -> bool:
+    """Whether Excel can hold the number; it has no NaN."""
+    return abs(value) < _LARGEST
+
+
+def _text(text: str) -> str:
+    """Text that a cell can hold: characters that XML forbids are shown as �.
+
+    XlsxWriter takes ``<r>..</r>`` for markup of its own, so a space is put before it.
+    """
+    text = re.sub("[\x00-\x08\x0b-\x1f\x7f\ud800-\udfff\ufffe\uffff]", "�", text)
+    return f" {text}" if text.startswith("<r>") else text
+
+
+def _label(text: str) -> str:
+    """Text of a chart, which XlsxWriter would take for a reference where it holds one such as ``!A1``."""
+    return _text(text).replace("!", "! ")
+
+
+def _cut(text: str, units: int) -> str:
+    """The beginning of a text that has at most so many UTF-16 units, as Excel counts them."""
+    return text.encode("utf-16-le")[: 2 * units].decode("utf-16-le", "ignore").rstrip("' ")
+
+
+def _side(look: _Look) -> _Look:
+    return {key: look[key] for key in ("align", "indent") if key in look}
+
+
+def _length(value: str | float) -> int:
+    return len(value) if isinstance(value, str) else 12
+
+
+def _digits(column: Column) -> int:
+    """Characters of the widest cell."""
+    return max(6, len(column.symbol), len(column.unit), *(len(f"{v:.{column.decimals}f}") for v in column.values))
+
+
+def _heading(kind: str, numbered: Table | Figure) -> str:
+    return _text(f"{kind} {numbered.number} - {numbered.title}")
+
+
+def _quantity(columns: Sequence[Column]) -> str:
+    """Symbols and units of what an axis shows: ``S [m]``, ``G56, GS6 [N]``, ``R56 .. R01 [N]``."""
+    parts = []
+    for unit, members in groupby(columns, key=lambda column: column.unit):
+        symbols = [column.symbol for column in members]
+        names = ", ".join(symbols) if len(symbols) <= 4 else f"{symbols[0]} .. {symbols[-1]}"
+        parts.append(f"{names} [{unit}]")
+    return ", ".join(parts)
+
+
+def _same(a: Column, b: Column) -> bool:
+    return a is b or ((a.symbol, a.unit) == (b.symbol, b.unit) and np.array_equal(a.values, b.values, equal_nan=True))
+
+
+def _holder(figure: Figure, tables: Sequence[Table]) -> Table | None:
+    """The first table that has every column of the figure."""
+    wanted = (figure.x, *figure.lines)
+    held = (t for t in tables if all(any(_same(column, other) for other in t.columns) for column in wanted))
+    return next(held, None)
+
+
+def _drawn(values: NDArray[np.float64]) -> list[float | None]:
+    return [float(value) if _fits(value) else None for value in values]
+
+
+def _axis(values: NDArray[np.float64]) -> dict[str, Any]:
+    """Limits, step and number format of an axis in round numbers; Excel's own often start at zero."""
+    values = values[np.abs(values) < _LARGEST]
+    low, high = (float(values.min()), float(values.max())) if values.size else (0.0, 1.0)
+    if high - low <= max(1e-9 * abs(low), 1e-9 * abs(high), 1e-300):
+        low, high = low - (abs(low) / 2 or 0.5), high + (abs(high) / 2 or 0.5)
+    fifth = (high - low) / 5
+    power = math.floor(math.log10(fifth))
+    steps = ((1, 0), (2, 0), (2.5, 1), (5, 0), (10, -1))
+    step, more = next((m * 10.0**power, more) for m, more in steps if m * 10.0**power >= 0.999 * fifth)
+    low, high = (round(end(edge / step) * step, 1 - power) for end, edge in ((math.floor, low), (math.ceil, high)))
+    decimals = max(0, more - power)
+    plain = decimals < 6 and max(abs(low), abs(high)) < 1e7
+    return {"min": low, "max": high, "major_unit": step, "num_format": f"{0:.{decimals}f}" if plain else "0.0E+00"}

@@ -1,0 +1,49 @@
+"""What the README shows does what it says."""
+
+import re
+import subprocess
+import sys
+import tomllib
+from pathlib import Path
+
+from openpyxl import load_workbook
+
+ROOT = Path(__file__).parents[1]
+README = (ROOT / "README.md").read_text(encoding="utf-8")
+
+
+def blocks(language: str) -> list[str]:
+    return re.findall(rf"```{language}\n(.*?)```", README, re.DOTALL)
+
+
+def test_worksheet_of_the_readme_runs_and_writes_its_workbook(tmp_path):
+    (tmp_path / "worksheets").mkdir()
+    sheet = tmp_path / "worksheets" / "lever.py"
+    sheet.write_text(next(b for b in blocks("python") if "app.setup" in b), encoding="utf-8")
+    done = subprocess.run([sys.executable, str(sheet)], capture_output=True, encoding="utf-8")
+    assert (done.returncode, done.stderr) == (0, "")
+    book = load_workbook(tmp_path / "exports" / "lever.xlsx")
+    assert book.sheetnames[:3] == ["Inputs", "Find", "1 Moment of the lever"]
+    check = subprocess.run([sys.executable, "-m", "marimo", "check", "--strict", str(sheet)], capture_output=True)
+    assert check.returncode == 0
+
+
+def test_lines_quoted_from_the_hitch_stand_there():
+    hitch = (ROOT / "worksheets" / "hitch.py").read_text(encoding="utf-8")
+    quoted = next(b for b in blocks("python") if "F_gc" in b)
+    assert all(line in hitch for line in quoted.splitlines())
+
+
+def test_scene_and_arguments_of_the_readme_are_inputs_of_the_hitch():
+    from worksheets.hitch import Hitch
+
+    given = set(tomllib.loads(blocks("toml")[0])["inputs"]) | set(re.findall(r"--(\w+)=[\d.e]+ ", README))
+    assert given == {"P6", "phi_P6"} and given <= set(Hitch.__dataclass_fields__)
+
+
+def test_every_worksheet_and_every_file_named_is_there():
+    assert {m for m in re.findall(r"^\| `(\w+)` \|", README, re.MULTILINE)} == {
+        p.stem for p in (ROOT / "worksheets").glob("*.py")
+    }
+    for name in re.findall(r"`([\w./]+/[\w.]+)`", README):
+        assert (ROOT / name).exists() or name == "worksheets/lever.py", name
