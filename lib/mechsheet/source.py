@@ -32,12 +32,11 @@ def call(frame: FrameType) -> ast.Call:
     """Call expression that ``frame`` is making now."""
     position = list(frame.f_code.co_positions())[frame.f_lasti // 2]
     body = _body(_file(frame)[0], frame.f_lineno)
-    # a cell runs without the indentation that it has in the file
-    indent = body[0].col_offset
     for node in (n for statement in body for n in ast.walk(statement) if isinstance(n, ast.Call)):
-        end_column = (node.end_col_offset or 0) - indent
-        if position == (node.lineno, node.end_lineno, node.col_offset - indent, end_column):
-            return node
+        for indent in (0, body[0].col_offset):  # marimo runs a cell without the indentation that it has in the file
+            end_column = (node.end_col_offset or 0) - indent
+            if position == (node.lineno, node.end_lineno, node.col_offset - indent, end_column):
+                return node
     raise RuntimeError(f"the source of {frame.f_code.co_filename} line {frame.f_lineno} cannot be read")
 
 
