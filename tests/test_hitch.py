@@ -10,11 +10,11 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 from printed import agrees, rows
-from worksheets import hitch
 
 from mechsheet import units
 from mechsheet.checks import Check
 from mechsheet.table import Table
+from worksheets import hitch
 
 TABLES = sorted(p.name for p in (Path(__file__).parent / "reference" / "hitch").glob("table_*.csv"))
 

@@ -39,5 +39,5 @@ def test_bad_scene_file_is_named(tmp_path, text, message):
 
 
 def test_missing_scene_file_is_named(tmp_path):
-    with pytest.raises(SheetError, match="none.toml cannot be read: No such file"):
+    with pytest.raises(SheetError, match=r"none\.toml cannot be read: No such file"):
         scene.read([f"--scene={tmp_path / 'none.toml'}"])
