@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from mechsheet.checks import Check, assembled, check, check_slope
+from mechsheet.checks import Check, assembled, check, check_slope, summary
 
 
 @pytest.mark.parametrize(("residual", "passed"), [(1e-12, True), ([0, -2e-12], False), (np.nan, False), (1e-12j, True)])
@@ -38,3 +38,13 @@ def test_open_position_is_named_with_its_reach():
 
 def test_verdict_is_shown():
     assert "FAIL" in Check("a<b", 2, 1)._mime_()[1] and "a&lt;b" in Check("a<b", 2, 1)._mime_()[1]
+
+
+def test_summary_counts_and_leads_to_each_check():
+    checks = (Check("a < b", 0, 1), Check("c", 2, 1))
+    text = summary(checks[0], (checks[1],))._mime_()[1]
+    assert "1 of 2 checks pass" in text
+    assert text.index("FAIL") < text.index("PASS"), "what fails stands first"
+    for each in checks:
+        anchor = each._mime_()[1].split('id="')[1].split('"')[0]
+        assert f'href="#{anchor}"' in text

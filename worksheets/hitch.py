@@ -10,7 +10,7 @@ with app.setup:
     from numpy import arccos as acos
     from numpy import arctan2 as atan2
 
-    from mechsheet.checks import assembled, check, check_slope
+    from mechsheet.checks import assembled, check, check_slope, summary
     from mechsheet.drawing import Drawing
     from mechsheet.dyads import rrr, rrr_reach
     from mechsheet.find import find
@@ -33,6 +33,12 @@ def title():
     hydraulic cylinder (GC) lifts, with the implement (NM) that it carries on a tractor (MSHA).
     Change an input or a formula: everything below follows.
     """)
+    return
+
+
+@app.cell(hide_code=True)
+def verdict(checks_analogues, checks_closing, checks_forces, checks_loops, checks_pole, checks_stability):
+    summary(checks_closing, checks_loops, checks_analogues, checks_forces, checks_stability, checks_pole)
     return
 
 

@@ -1,6 +1,7 @@
 """Checks as values: a residual against its limit, with a verdict."""
 
 import html
+import re
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
@@ -36,15 +37,46 @@ class Check:
         return f"{text}; {self.reason}" if self.reason else text
 
     def _mime_(self) -> tuple[str, str]:
-        colour = "#2e7d32" if self.passed else "#c62828"
         unit = "" if self.unit == "-" else f" {html.escape(self.unit)}"
         sign = "≤" if self.passed else "≰"
         return "text/html", (
-            f'<div class="ms-check"><span style="background:{colour};color:#fff;border-radius:.3em;padding:0 .5em;'
-            f'font-size:.8em">{"PASS" if self.passed else "FAIL"}</span> {html.escape(self.name)}: '
-            f"{self.residual:.2g} {sign} {self.limit:.2g}{unit}"
-            f'<span style="opacity:.7"> {html.escape(self.reason)}</span></div>'
+            f'<div id="{_anchor(self)}">{_badge(self)} {html.escape(self.name)}: {self.residual:.2g} {sign} '
+            f'{self.limit:.2g}{unit}<span style="opacity:.7"> {html.escape(self.reason)}</span></div>'
         )
+
+
+def _badge(check: Check) -> str:
+    colour, verdict = ("#2e7d32", "PASS") if check.passed else ("#c62828", "FAIL")
+    style = f"background:{colour};color:#fff;border-radius:.3em;padding:0 .5em;font-size:.8em"
+    return f'<span style="{style}">{verdict}</span>'
+
+
+def _anchor(check: Check) -> str:
+    return "check-" + re.sub(r"\W+", "-", check.name)
+
+
+@dataclass(frozen=True)
+class Summary:
+    """All checks of a worksheet in one place, each a link to where it stands."""
+
+    checks: tuple[Check, ...]
+
+    def _mime_(self) -> tuple[str, str]:
+        passed = sum(check.passed for check in self.checks)
+        items = "".join(
+            f'<a href="#{_anchor(check)}" title="{html.escape(check.name)}" style="white-space:nowrap;font-size:.85em;'
+            f'text-decoration:none;color:inherit">{_badge(check)} {html.escape(check.name)}</a>'
+            for check in sorted(self.checks, key=lambda check: check.passed)
+        )
+        return "text/html", (
+            f"<div><b>{passed} of {len(self.checks)} checks pass</b>"
+            f'<div style="display:flex;flex-wrap:wrap;gap:.3em 1.2em;margin-top:.3em">{items}</div></div>'
+        )
+
+
+def summary(*checks: Check | tuple[Check, ...]) -> Summary:
+    """Verdicts of checks and groups of checks, those that fail first."""
+    return Summary(tuple(c for group in checks for c in (group if isinstance(group, tuple) else (group,))))
 
 
 def check(name: str, residual: ArrayLike, limit: float, unit: str = "-") -> Check:
