@@ -211,4 +211,5 @@ def test_centre_of_mass_in_all_quadrants(Z, phi6):
 def test_weightless_implement_and_one_position_less(sheet):
     """P6 = 0 is a transport case: no reaction, no pressure, and checks that still hold."""
     empty = hitch.app.run(defs={"g": replace(sheet["g"], P6=0.0, N_pol=2)})[1]
-    assert np.all(empty["R01"] == 0) and np.all(empty["Ra"] > 0)
+    assert np.all(empty["R01"] == 0) and np.all(empty["Ra"] > 0) and np.all(np.isinf(empty["dGS65"]))
+    assert "∞" in empty["table_41"]._mime_()[1]

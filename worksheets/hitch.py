@@ -22,6 +22,7 @@ with app.setup:
     from mechsheet.table import figure, table
 
     deg = pi / 180
+    np.seterr(divide="ignore")  # a reserve without load is infinite, and is shown so
 
 
 @app.cell(hide_code=True)

@@ -117,7 +117,7 @@ def _computes(node: ast.expr) -> bool:
 def number_latex(x: float) -> str:
     """Number with five significant digits or all before the point; as a power of ten outside 1e-3..1e6."""
     if not np.isfinite(x):
-        return r"\text{none}"
+        return r"\text{none}" if np.isnan(x) else (r"\infty" if x > 0 else r"-\infty")
     if 1e5 <= abs(x) < 1e6:
         return f"{x:.0f}"
     if x == 0 or 1e-3 <= abs(x) < 1e5:

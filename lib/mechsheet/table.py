@@ -59,13 +59,17 @@ def _block(columns: list[Column]) -> str:
     cell = 'style="text-align:right;padding:.1em .7em;font-variant-numeric:tabular-nums"'
     heads = "".join(f'<th {cell} title="{html.escape(c.meaning)}">{symbol.html(c.symbol)}</th>' for c in columns)
     unit_row = "".join(f"<th {cell}>[{html.escape(c.unit)}]</th>" for c in columns)
-    texts = [[f"{v:.{c.decimals}f}" if np.isfinite(v) else "–" for v in c.values] for c in columns]
+    texts = [[_digits(v, c.decimals) for v in c.values] for c in columns]
     rows = "".join("<tr>" + "".join(f"<td {cell}>{t}</td>" for t in row) + "</tr>" for row in zip(*texts, strict=True))
     return (
         '<table style="border-collapse:collapse;margin:.4em 0 1em"><thead>'
         f'<tr>{heads}</tr><tr style="opacity:.6;border-bottom:1px solid currentColor">{unit_row}</tr></thead>'
         f"<tbody>{rows}</tbody></table>"
     )
+
+
+def _digits(value: float, decimals: int) -> str:
+    return "–" if np.isnan(value) else f"{value:.{decimals}f}".replace("inf", "∞")
 
 
 @dataclass(frozen=True)
