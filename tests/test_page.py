@@ -36,7 +36,9 @@ def test_opens_computed_with_every_section(opened, console_errors):
         assert opened.locator(f".ms-table:has-text('Table {number} ')").count() == 1, number
     assert cell(opened, "4.1", 1, 2) == "129614"
     assert opened.get_by_text("FAIL").count() == 0
-    assert opened.get_by_text("Traceback").count() == 0
+    for trouble in ("Traceback", "Something went wrong", "internal error"):
+        assert opened.get_by_text(trouble).count() == 0, trouble
+    assert opened.get_by_text("15 of 15 checks pass").count() == 1
     assert console_errors == []
 
 

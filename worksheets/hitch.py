@@ -21,8 +21,8 @@ with app.setup:
     from mechsheet.report import export
     from mechsheet.table import figure, table
 
-    deg = pi / 180
     np.seterr(divide="ignore")  # a reserve without load is infinite, and is shown so
+    deg = pi / 180
 
 
 @app.cell(hide_code=True)

@@ -64,8 +64,8 @@ class Summary:
     def _mime_(self) -> tuple[str, str]:
         passed = sum(check.passed for check in self.checks)
         items = "".join(
-            f'<a href="#{_anchor(check)}" title="{html.escape(check.name)}" style="white-space:nowrap;font-size:.85em;'
-            f'text-decoration:none;color:inherit">{_badge(check)} {html.escape(check.name)}</a>'
+            f'<span style="white-space:nowrap;font-size:.85em">{_badge(check)} '
+            f'<a href="#{_anchor(check)}">{html.escape(check.name)}</a></span>'
             for check in sorted(self.checks, key=lambda check: check.passed)
         )
         return "text/html", (
