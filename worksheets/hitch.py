@@ -396,12 +396,14 @@ def frame(O1, O3, O5, O7, P23_S, P34_S, P45_S, P56_S, P67_S, PS6_S):
 
 
 @app.cell
-def scheme(L4, L7, O1, O3, O5, O7, P23, P34, P45, P56, P67, PS6, frame):
+def scheme(L4, L7, O1, O3, O5, O7, P23, P34, P45, P56, P67, PS6, frame, g):
     def scheme(S):
         p23, p34, p45, p56, p67, s6 = P23(S), P34(S), P45(S, L4), P56(S, L4), P67(S, L7), PS6(S)
-        links = Drawing(frame=frame).plate([O3, p23, p34], "3").cylinder(O1, p23, "S").link(p34, p45, "4")
+        links = (
+            Drawing(frame=frame).plate([O3, p23, p34], "3").cylinder(O1, p23, "S", 0.9 * g.S_min).link(p34, p45, "4")
+        )
         links = links.link(O5, p56, "5").plate([p56, p67, s6], "6").link(O7, p67, "7")
-        pins = links.support(O1, "O1").support(O3, "O3").support(O5, "O5").support(O7, "O7").hinge(p23, "P23")
+        pins = links.support(O1, "O1").support(O3, "O3").support(O5, "O5").support(O7, "O7", pi).hinge(p23, "P23")
         return pins.hinge(p34, "P34").hinge(p45, "P45").hinge(p56, "P56").hinge(p67, "P67").mass(s6, "S6")
 
     return (scheme,)
@@ -678,9 +680,20 @@ def position(S, part):
 
 
 @app.cell
-def drawing_51(G6, O7, P56_S, P67_S, PS6_S, R07, R56, k_t):
+def group_drawing(R01, R05, R34, R56):
+    def group_drawing(*points):
+        frame = np.concatenate([np.atleast_1d(p) for p in points])  # over the whole stroke, so that nothing jumps
+        size = max(np.ptp(frame.real), np.ptp(frame.imag))
+        largest = np.max(abs([R01, R05, R34, R56])) or 1.0
+        return Drawing(width=560, height=420, frame=frame, scales={"N": 0.3 * size / largest})
+
+    return (group_drawing,)
+
+
+@app.cell
+def drawing_51(G6, O7, P56_S, P67_S, PS6_S, R07, R56, group_drawing, k_t):
     p56, p67, s6 = P56_S[k_t], P67_S[k_t], PS6_S[k_t]
-    group = Drawing(width=560, height=420).plate([p56, p67, s6], "6").link(O7, p67, "7")
+    group = group_drawing(O7, P56_S, P67_S, PS6_S).plate([p56, p67, s6], "6").link(O7, p67, "7")
     pins_67 = group.hinge(O7, "O7").hinge(p67, "P67").hinge(p56, "P56").mass(s6, "S6")
     drawing_51 = pins_67.force(p56, R56[k_t], "R56").force(O7, R07[k_t], "R07").force(s6, G6, "P6")
     typeset(drawing_51, mo.md("**Figure 5.1** – Assur group (6, 7)"))
@@ -688,8 +701,8 @@ def drawing_51(G6, O7, P56_S, P67_S, PS6_S, R07, R56, k_t):
 
 
 @app.cell
-def drawing_52(O5, P34_S, P45_S, P56_S, R05, R34, R65, k_t):
-    links_45 = Drawing(width=560, height=420).link(P34_S[k_t], P45_S[k_t], "4").link(O5, P56_S[k_t], "5")
+def drawing_52(O5, P34_S, P45_S, P56_S, R05, R34, R65, group_drawing, k_t):
+    links_45 = group_drawing(O5, P34_S, P45_S, P56_S).link(P34_S[k_t], P45_S[k_t], "4").link(O5, P56_S[k_t], "5")
     pins_45 = links_45.hinge(O5, "O5").hinge(P34_S[k_t], "P34").hinge(P45_S[k_t], "P45").hinge(P56_S[k_t], "P56")
     forces_45 = pins_45.force(P56_S[k_t], R65[k_t], "R65").force(O5, -R05[k_t], "-R05")
     drawing_52 = forces_45.force(P34_S[k_t], -R34[k_t], "-R34")
@@ -698,8 +711,9 @@ def drawing_52(O5, P34_S, P45_S, P56_S, R05, R34, R65, k_t):
 
 
 @app.cell
-def drawing_53(O1, O3, P23_S, P34_S, R01, R03, R34, k_t):
-    arm = Drawing(width=560, height=420).plate([O3, P23_S[k_t], P34_S[k_t]], "3").cylinder(O1, P23_S[k_t], "S")
+def drawing_53(O1, O3, P23_S, P34_S, R01, R03, R34, g, group_drawing, k_t):
+    plate = group_drawing(O1, O3, P23_S, P34_S).plate([O3, P23_S[k_t], P34_S[k_t]], "3")
+    arm = plate.cylinder(O1, P23_S[k_t], "S", 0.9 * g.S_min)
     pins_23 = arm.hinge(O1, "O1").hinge(O3, "O3").hinge(P23_S[k_t], "P23").hinge(P34_S[k_t], "P34")
     forces_23 = pins_23.force(O1, R01[k_t], "R01").force(O3, R03[k_t], "R03")
     drawing_53 = forces_23.force(P34_S[k_t], R34[k_t], "R34")
