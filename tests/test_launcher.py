@@ -13,6 +13,7 @@ import venv
 from pathlib import Path
 
 import pytest
+
 from mechsheet import __main__ as launcher
 
 ROOT = Path(__file__).resolve().parents[1]

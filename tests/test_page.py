@@ -19,7 +19,7 @@ def cell(page, table: str, row: int, column: int) -> str:
 
 
 def ready(page) -> None:
-    page.get_by_text("Table 7 ").wait_for(timeout=60_000)
+    page.get_by_text("Table 7 ").wait_for(timeout=120_000)
 
 
 @pytest.fixture(params=["run", "edit"])
@@ -48,7 +48,7 @@ def test_changed_input_changes_the_tables(serve, page, console_errors):
     field = page.locator(".ms-inputs tr:has-text('weight of the implement') input")
     field.fill("30000,5")
     field.press("Enter")
-    page.get_by_text("30000.5").wait_for(timeout=30_000)
+    page.locator(".ms-screen", has_text="30000.5").wait_for(timeout=30_000)
     page.wait_for_function("() => document.body.innerText.includes('141399')", timeout=30_000)
     assert cell(page, "4.1", 1, 2) == "141399", "129614 * 30000.5 / 27500"
     assert console_errors == []
@@ -94,3 +94,24 @@ def test_download_is_the_workbook(serve, page, tmp_path):
     download.value.save_as(path)
     assert path.name == "hitch.xlsx"
     assert load_workbook(path).sheetnames[:2] == ["Inputs", "Find"]
+
+
+def test_printed_page_is_a_document(serve, page, tmp_path):
+    """A4 with page numbers, inputs as a table, sharp charts, and none of the controls."""
+    from pypdf import PdfReader
+
+    page.goto(serve("run", HITCH))
+    ready(page)
+    page.locator("svg.marks").nth(6).wait_for()
+    page.pdf(path=tmp_path / "hitch.pdf", prefer_css_page_size=True, print_background=True)
+    pages = PdfReader(tmp_path / "hitch.pdf").pages
+    texts = [p.extract_text() for p in pages]
+    assert 10 < len(pages) < 25
+    assert all(abs(float(p.mediabox.width) - 595) < 2 and abs(float(p.mediabox.height) - 842) < 2 for p in pages)
+    assert all(f"{i} / {len(pages)}" in text for i, text in enumerate(texts, 1))
+    whole = "\n".join(texts)
+    assert all(word in whole for word in [*SECTIONS, "weight of the implement", "27500", "129614", "57569"])
+    assert "Excel workbook" not in whole
+    assert not any(len(p.images) for p in pages), "charts are drawn, not photographed"
+    headings = [text.rstrip().splitlines()[-2:] for text in texts]
+    assert not any(line.startswith("Table ") for lines in headings for line in lines), "a caption torn from its table"

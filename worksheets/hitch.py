@@ -1,7 +1,7 @@
 import marimo
 
 __generated_with = "0.25.2"
-app = marimo.App(width="medium", app_title="Tractor hitch")
+app = marimo.App(width="medium", app_title="Tractor hitch", css_file="page.css")
 
 with app.setup:
     import marimo as mo
@@ -914,14 +914,6 @@ def table_7(I56, IS6, Imp, Isp, S):
     table_7 = table("7", "Instant centre", S, I56, IS6, Imp, Isp)
     table_7
     return (table_7,)
-
-
-@app.cell(hide_code=True)
-def section_8():
-    mo.md("""
-    ## Workbook
-    """)
-    return
 
 
 @app.cell

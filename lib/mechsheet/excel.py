@@ -43,7 +43,6 @@ class FoundRow:
     residual_unit: str
     lower: float
     upper: float
-    evaluations: int
     other_roots: str = ""
 
 
@@ -253,12 +252,12 @@ class _Book:
         fields = (
             *(("Symbol", _TEXT), ("Value", _VALUE), ("Unit", _TEXT), ("Meaning", _TEXT)),
             *(("Residual", _SMALL), ("Unit", _TEXT), ("From", _VALUE), ("To", _VALUE)),
-            *(("Evaluations", _NUMBER), ("Other roots", _TEXT)),
+            ("Other roots", _TEXT),
         )
         listed = [
             (
                 *(row.symbol, row.value, row.unit, row.meaning, row.residual, row.residual_unit),
-                *(row.lower, row.upper, row.evaluations, row.other_roots),
+                *(row.lower, row.upper, row.other_roots),
             )
             for row in rows
         ]

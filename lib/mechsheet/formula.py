@@ -5,7 +5,7 @@ import html
 import re
 import sys
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -15,6 +15,7 @@ from mechsheet.errors import SheetError
 
 _DECLARED = re.compile(r"\[([^\]]*)\]\s*(.*)")
 _REGISTRY = "__formulas__"
+_ROW = "display:flex;align-items:center;gap:1.5em;flex-wrap:wrap;padding:.15em 0"
 
 
 @dataclass(frozen=True)
@@ -65,16 +66,18 @@ def registry(namespace: Mapping[str, Any]) -> Mapping[str, Formula]:
     return known
 
 
-def typeset(*shown: Any) -> "Typeset":
+def typeset(*shown: Any, display: Mapping[str, str] | None = None) -> "Typeset":
     """Formulas of the calling cell with their values, then whatever else is ``shown``: the last line of a cell.
 
     Reads the cell's own source, so nothing is typed twice; declares each name's unit and meaning to the
-    tables and figures below. Nothing is rendered until the page asks.
+    tables and figures below. Nothing is rendered until the page asks. ``display`` gives another display unit
+    for some of the declared ones, such as ``{"kgf": "N"}``.
 
     Raises SheetError naming the line where a unit is not known.
     """
     frame = sys._getframe(1)
-    rows = tuple(formulas(source.cell(frame)))
+    instead = display or {}
+    rows = tuple(replace(row, unit=instead.get(row.unit, row.unit)) for row in formulas(source.cell(frame)))
     frame.f_globals.setdefault(_REGISTRY, {}).update({row.name: row for row in rows})
     return Typeset(rows, tuple(frame.f_globals[row.name] for row in rows), shown)
 
@@ -87,6 +90,11 @@ class Typeset:
     values: tuple[Any, ...]
     shown: tuple[Any, ...] = ()
 
+    def at(self, position: int) -> "Typeset":
+        """The same formulas with the values at one position of their fields."""
+        values = (np.asarray(v)[..., position] if np.ndim(v) else v for v in self.values)
+        return replace(self, values=tuple(values))
+
     def _mime_(self) -> tuple[str, str]:
         import marimo as mo
 
@@ -98,7 +106,7 @@ class Typeset:
                 shown = value_latex(value, row.unit)
                 tex = f"{tex} = {shown}" if _computes(row.expression) else f"{symbol.latex(row.name)} = {shown}"
             lines.append(
-                f'<div style="display:flex;align-items:center;gap:1.5em;flex-wrap:wrap;padding:.15em 0">'
+                f'<div class="ms-line" style="{_ROW}">'
                 f'<marimo-tex class="arithmatex">||(\\displaystyle {html.escape(tex)}||)</marimo-tex>'
                 f'<span style="opacity:.7;font-size:.9em">{html.escape(row.meaning)}</span></div>'
             )
@@ -149,6 +157,7 @@ def unit_latex(unit: str) -> str:
 
 
 _PRECEDENCE = {ast.Add: 1, ast.Sub: 1, ast.Mult: 2, ast.Div: 2, ast.USub: 3, ast.UAdd: 3, ast.Pow: 4}
+_SYMBOL = re.compile(rf"([A-Z]+|{'|'.join(symbol.GREEK)})(_|$)")  # VC, eps_BC
 _FUNCTIONS = {"sin": r"\sin", "cos": r"\cos", "tan": r"\tan", "angle": r"\arg", "exp": r"\exp", "log": r"\ln"}
 
 
@@ -251,7 +260,7 @@ def _call(name: str, args: list[ast.expr]) -> tuple[str, int]:
 
 
 def _is_symbol(name: str) -> bool:
-    return bool(re.search(r"\d", name)) or len(name) == 1
+    return len(name) == 1 or bool(re.search(r"\d", name) or _SYMBOL.match(name))
 
 
 def _words(name: str) -> str:

@@ -187,15 +187,23 @@ class Used:
 
     def _mime_(self) -> tuple[str, str]:
         changed = {f.name for f in dataclasses.fields(self.g) if getattr(self.g, f.name) != f.default}
-        items = []
+        items, rows, section = [], [], ""
         for field, value in self.rows():
-            unit = "" if field.unit == "-" else f"&nbsp;{html.escape(field.unit)}"
+            unit = "" if field.unit == "-" else html.escape(field.unit)
             weight = "bold" if field.name in changed else "normal"
-            items.append(
-                f'<span style="white-space:nowrap;font-weight:{weight}">{symbol.html(field.name)}'
-                f"&nbsp;=&nbsp;{value:.10g}{unit}</span>"
+            name = symbol.html(field.name)
+            shown = f"{name}&nbsp;=&nbsp;{value:.10g}&nbsp;{unit}"
+            items.append(f'<span style="white-space:nowrap;font-weight:{weight}">{shown}</span>')
+            if field.section != section:
+                section = field.section
+                rows.append(f'<tr><th colspan="4" style="text-align:left">{html.escape(section)}</th></tr>')
+            rows.append(
+                f'<tr style="font-weight:{weight}"><td>{name}</td>'
+                f'<td style="text-align:right;padding:0 .5em">{value:.10g}</td>'
+                f'<td style="padding-right:1em">{unit}</td><td>{html.escape(field.meaning)}</td></tr>'
             )
-        return (
-            "text/html",
-            f'<div style="display:flex;flex-wrap:wrap;gap:.2em 1.6em;font-size:.9em">{"".join(items)}</div>',
+        style = "display:flex;flex-wrap:wrap;gap:.2em 1.6em;font-size:.9em"
+        return "text/html", (
+            f'<div class="ms-screen" style="{style}">{"".join(items)}</div>'
+            f'<table class="ms-print ms-table">{"".join(rows)}</table>'
         )

@@ -74,9 +74,14 @@ def returned(worksheet: Path) -> list[str]:
     """Names that the cells of a worksheet file return, in the order of the file."""
     names = []
     for node in ast.parse(worksheet.read_text(encoding="utf-8")).body:
-        if isinstance(node, ast.FunctionDef) and node.body and isinstance(last := node.body[-1], ast.Return):
+        if isinstance(node, ast.FunctionDef) and _is_cell(node) and isinstance(last := node.body[-1], ast.Return):
             names += [n.id for n in ast.walk(last) if isinstance(n, ast.Name)]
     return names
+
+
+def _is_cell(node: ast.FunctionDef) -> bool:
+    # an @app.function of the file is a value of the worksheet, its names are its own
+    return any(ast.unparse(decorator).startswith("app.cell") for decorator in node.decorator_list)
 
 
 def _all(kind: type[T], namespace: Mapping[str, Any], worksheet: Path) -> Iterator[T]:
@@ -102,7 +107,6 @@ def _found(namespace: Mapping[str, Any], worksheet: Path) -> Iterator[excel.Foun
                     found.words.unit,
                     found.interval[0] / unit,
                     found.interval[1] / unit,
-                    found.evaluations,
                     ", ".join(
                         f"{r.value / unit:.6g}" + (f" (branch {r.branch:+d})" if r.branch else "") for r in others
                     ),

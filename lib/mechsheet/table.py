@@ -16,9 +16,13 @@ from mechsheet import formula, source, symbol, units
 if TYPE_CHECKING:
     import pandas as pd
 
-DECIMALS = {"m": 3, "mm": 1, "deg": 1, "N": 0, "Pa": 0, "MPa": 2, "kN": 2, "%": 1}
+DECIMALS = {
+    "m": 3, "cm": 2, "mm": 1, "deg": 1, "N": 0, "kgf": 0, "kN": 2, "Pa": 0, "MPa": 2, "kgf/cm**2": 0, "%": 1,
+    "kgf*cm": 0, "kgf/cm": 1, "N*m": 0, "N/mm": 1, "mm**2": 1, "cm**4": 1, "mm**4": 0, "mm**3": 0,
+}  # fmt: skip
 _OTHER_DECIMALS = 3
 _BLOCK = 6
+_MARKED = 60  # points of a curve that are marked one by one; more of them hide the line
 
 
 @dataclass(frozen=True)
@@ -50,7 +54,7 @@ class Table:
     def _mime_(self) -> tuple[str, str]:
         head, *rest = self.columns
         blocks = [rest[i : i + _BLOCK] for i in range(0, max(len(rest), 1), _BLOCK)]
-        caption = f"<b>Table {html.escape(self.number)}</b> – {html.escape(self.title)}"
+        caption = f'<div class="ms-caption"><b>Table {html.escape(self.number)}</b> – {html.escape(self.title)}</div>'
         note = f'<div style="font-size:.9em;opacity:.75">{html.escape(self.note)}</div>' if self.note else ""
         return "text/html", f'<div class="ms-table">{caption}{"".join(_block([head, *b]) for b in blocks)}{note}</div>'
 
@@ -93,10 +97,9 @@ class Figure:
 
         names = [symbol.text(c.symbol) for c in self.lines]
         rows = [
-            {"x": float(x), "y": float(y), "line": name}
+            {"x": float(x), "y": float(y) if np.isfinite(y) else None, "line": name}  # None is a gap
             for column, name in zip(self.lines, names, strict=True)
             for x, y in zip(self.x.values, column.values, strict=True)
-            if np.isfinite(y)
         ]
         y_title = f"{', '.join(names)} [{self.lines[0].unit}]"
         base = alt.Chart(alt.InlineData(rows)).encode(
@@ -113,7 +116,9 @@ class Figure:
                 alt.Tooltip("y:Q", title="value", format=f",.{self.lines[0].decimals}f"),
             ],
         )
-        layers = [base.mark_line(), base.mark_point(filled=True, size=36)]
+        layers = [base.mark_line()]
+        if self.x.values.size <= _MARKED:
+            layers.append(base.mark_point(filled=True, size=36))
         for name, x in self.marks:
             at = alt.Chart(alt.InlineData([{"x": x, "name": name}])).encode(x="x:Q")
             layers += [
@@ -121,18 +126,30 @@ class Figure:
                 at.mark_text(align="left", dx=4, y=8, fontSize=12).encode(text="name:N"),
             ]
         title = f"Figure {self.number} – {self.title}"
-        return alt.layer(*layers).properties(title=title, width=620, height=300)
+        sharp = {"embedOptions": {"renderer": "svg"}}  # on paper too
+        return alt.layer(*layers).properties(title=title, width=620, height=300, usermeta=sharp)
 
 
-def table(number: str, title: str, *columns: Any, show: Mapping[str, str] | None = None, note: str = "") -> Table:
+def table(
+    number: str,
+    title: str,
+    *columns: Any,
+    show: Mapping[str, str] | None = None,
+    note: str = "",
+    decimals: int | None = None,
+    every: int = 1,
+) -> Table:
     """Table of the given quantities: symbols, units and meanings are read from the lines that define them.
 
     An argument is a name, ``P23_S.real`` or ``.imag`` (columns X23, Y23 of a point, R56x, R56y of a
-    force) or ``abs(R56)`` (column R56). ``show`` gives another display unit for some symbols.
-    ``note`` stands below the table.
+    force) or ``abs(R56)`` (column R56). Quantities over several axes are listed with the last one running
+    fastest. ``show`` gives another display unit for some symbols.
+    ``note`` stands below the table. ``decimals`` are printed in all columns, by default as many as the unit
+    asks for; whole numbers have none. ``every`` lists only every so many positions, from the first.
     """
     frame = sys._getframe(1)
-    return Table(number, title, _columns(frame, source.call(frame).args[2:], columns, show or {}), note)
+    nodes = source.call(frame).args[2:]
+    return Table(number, title, _columns(frame, nodes, columns, show or {}, decimals, every), note)
 
 
 def figure(
@@ -151,11 +168,16 @@ def figure(
 
 
 def _columns(
-    frame: FrameType, nodes: list[ast.expr], values: tuple[Any, ...], show: Mapping[str, str]
+    frame: FrameType,
+    nodes: list[ast.expr],
+    values: tuple[Any, ...],
+    show: Mapping[str, str],
+    decimals: int | None = None,
+    every: int = 1,
 ) -> tuple[Column, ...]:
     known, columns = formula.registry(frame.f_globals), []
     nodes = [n for node in nodes for n in (node.value.elts if _is_group(node) else [node])]  # type: ignore[attr-defined]
-    length = max(np.size(v) for v in values)
+    shape = np.broadcast_shapes((1,), *(np.shape(v) for v in values))
     for node, value in zip(nodes, values, strict=True):
         name, part = _name(node)
         if name not in known:
@@ -165,8 +187,10 @@ def _columns(
         line = known[name]
         heading = _heading(symbol.plain(name), part)
         unit = show.get(heading, line.unit)
-        shown = np.broadcast_to(np.asarray(value) / units.parse(unit).factor, length)
-        columns.append(Column(heading, unit, line.meaning, DECIMALS.get(unit, _OTHER_DECIMALS), shown))
+        shown = np.broadcast_to(np.asarray(value) / units.parse(unit).factor, shape)[..., ::every].ravel()
+        whole = np.asarray(value).dtype.kind in "iu"
+        usual = DECIMALS.get(unit, _OTHER_DECIMALS) if decimals is None else decimals
+        columns.append(Column(heading, unit, line.meaning, 0 if whole else usual, shown))
     return tuple(columns)
 
 

@@ -1,0 +1,140 @@
+"""The command line: ``mechsheet COMMAND``, ``python -m mechsheet COMMAND``, or ``python lib/mechsheet COMMAND``.
+
+The last form needs nothing but Python: it first makes the project's own ``.venv`` with the package in it.
+The file uses the standard library alone and the syntax of Python 3.6, so that an older Python reads as far as
+the line that tells its user which one is needed.
+"""
+
+import sys
+
+if not __package__:  # run as a folder, which heads the path: its modules must not shadow the standard library's
+    del sys.path[0]
+
+import hashlib
+import os
+import shutil
+import subprocess
+import venv
+from pathlib import Path
+
+MINIMUM = (3, 11)
+ROOT = Path(__file__).resolve().parents[2]
+HELP = """\
+usage: mechsheet COMMAND              where the package is installed
+       python lib/mechsheet COMMAND   in a clone of the project
+
+  run WORKSHEET [--NAME=VALUE ...]    compute the worksheet and write its workbook
+  edit WORKSHEET [OPTIONS]            open the worksheet in the browser (options of marimo edit)
+  test [OPTIONS]                      run the project's tests (options of pytest)
+
+WORKSHEET is a file, or the name of one in worksheets/ such as hitch.
+"""
+
+
+def main(argv: "list[str] | None" = None) -> int:
+    """Exit code of one command; every error of usage or installation ends in one line on stderr."""
+    if sys.version_info < MINIMUM:
+        needed, found = (".".join(map(str, version[:2])) for version in (MINIMUM, sys.version_info))
+        sys.exit(f"mechsheet: Python {needed} or newer is needed, this is Python {found} ({sys.executable})")
+    command, *options = (sys.argv[1:] if argv is None else argv) or [""]
+    if command in ("-h", "--help"):
+        print(HELP, end="")
+        return 0
+    if command in ("run", "edit"):
+        if not options:
+            sys.exit(f"mechsheet: {command} needs a worksheet: {known_worksheets()}")
+        name, *options = options
+        sheet = worksheet(name)
+        arguments = [sheet, *options] if command == "run" else ["-m", "marimo", "edit", *options, sheet]
+        return call([interpreter(""), *arguments])
+    if command == "test":
+        if not (ROOT / "tests").is_dir():
+            sys.exit(f"mechsheet: the tests are in a clone of the project, not beside {Path(__file__).parent}")
+        return call([interpreter("dev"), "-m", "pytest", *options], cwd=ROOT)
+    problem = f"command {command} is not known" if command else "no command given"
+    sys.exit(f"mechsheet: {problem}: there are run, edit and test, and --help tells more")
+
+
+def worksheet(name: str) -> str:
+    """Path of the worksheet given as a file or by its name alone."""
+    for path in (Path(name), ROOT / "worksheets" / f"{name}.py"):
+        if path.is_file():
+            return str(path)
+    sys.exit(f"mechsheet: no worksheet {name}: {known_worksheets()}")
+
+
+def known_worksheets() -> str:
+    names = sorted(path.stem for path in (ROOT / "worksheets").glob("*.py"))
+    return f"give a file or one of {', '.join(names)}" if names else "give a file"
+
+
+def call(command: "list[str]", cwd: "Path | None" = None) -> int:
+    """Exit code of a program in this terminal, with UTF-8 output also where Windows would encode it otherwise."""
+    sys.stdout.flush()
+    with subprocess.Popen(command, cwd=cwd, env={**os.environ, "PYTHONUTF8": "1"}) as process:
+        while True:
+            try:
+                return process.wait()
+            except KeyboardInterrupt:  # Ctrl-C reaches the program too, and how to end is for it to say
+                pass
+
+
+def interpreter(extra: str) -> str:
+    """The Python that has the package: this one where it is installed, else that of the project's .venv."""
+    return sys.executable if __package__ else environment(ROOT, extra)
+
+
+def environment(root: Path, extra: str) -> str:
+    """Python of ``root/.venv``, which is made, or made anew, unless it holds the package with that extra.
+
+    ``.venv/mechsheet.installed`` says what a finished installation was made of; it is empty while one goes on,
+    so that an interrupted one is never taken for good.
+    """
+    folder = root / ".venv"
+    mark = folder / "mechsheet.installed"
+    python = folder / ("Scripts/python.exe" if os.name == "nt" else "bin/python")
+    # An environment is stale where the project's file, its place on the disk or the version of Python has changed.
+    source = (root / "pyproject.toml").read_bytes() + f"{root} {sys.version_info[:2]}".encode()
+    fingerprint = hashlib.sha256(source).hexdigest()
+    installed, _, has = mark.read_text().partition(" ") if mark.exists() else ("", "", "")
+    current = installed == fingerprint and python.exists()
+    if current and has in (extra, "dev"):
+        return str(python)
+    if folder.exists() and not mark.exists():
+        sys.exit(f"mechsheet: {folder} was made by other means: call mechsheet inside it, or remove it")
+    try:
+        if current:
+            print("mechsheet: adding the tools of the tests to .venv (once, half a minute)", file=sys.stderr)
+            mark.write_text("")
+        else:
+            print("mechsheet: creating .venv and installing mechsheet (once, about a minute)", file=sys.stderr)
+            create(folder, mark)
+        install(root, python, extra)
+        mark.write_text(f"{fingerprint} {extra}")
+    except OSError as error:
+        sys.exit(f"mechsheet: the installation into {folder} failed: {error}")
+    except subprocess.CalledProcessError as error:  # of python -m pip, or of python -m ensurepip while .venv is made
+        sys.exit(f"mechsheet: the installation into {folder} failed: {error.cmd[2]} ended with {error.returncode}")
+    except KeyboardInterrupt:
+        sys.exit("mechsheet: the installation was interrupted; the next command begins it anew")
+    return str(python)
+
+
+def create(folder: Path, mark: Path) -> None:
+    """Make an empty environment with the mark of an unfinished one."""
+    if folder.exists():
+        shutil.rmtree(folder)
+    folder.mkdir()
+    mark.write_text("")
+    venv.EnvBuilder(with_pip=True, symlinks=os.name != "nt").create(folder)
+
+
+def install(root: Path, python: Path, extra: str) -> None:
+    """Install the project editable; what pip has to complain of, it says itself."""
+    target = f".[{extra}]" if extra else "."
+    pip = [str(python), "-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--editable", target]
+    subprocess.run(pip, cwd=root, check=True)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,154 @@
+"""Programs, servers and pages for the tests; a test is marked by the programs that it uses."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import socket
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, contextmanager
+from functools import cache
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import pytest
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Browser, Page
+
+ROOT = Path(__file__).resolve().parents[1]
+READY_WITHIN = 120.0  # seconds for a marimo server to answer
+
+CHROMIUM_FLAGS = [
+    "--no-sandbox",
+    "--disable-gpu",
+    "--disable-quic",
+    "--no-first-run",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+]
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Mark the tests that need a browser or LibreOffice by their fixtures, so that no mark can be forgotten."""
+    for item in items:
+        fixtures = getattr(item, "fixturenames", ())
+        for program, mark in {"chromium": "browser", "soffice": "office"}.items():
+            if program in fixtures:
+                item.add_marker(mark)
+
+
+def program(what: str, *names: str) -> str:
+    """Path of the first of the programs that is there; without one a test is skipped, in CI it fails."""
+    for path in map(shutil.which, names):
+        if path:
+            return path
+    reason = f"{what} is not on the PATH (looked for {', '.join(names)})"
+    if os.environ.get("CI"):
+        pytest.fail(reason)
+    pytest.skip(reason)
+
+
+@pytest.fixture(scope="session")
+def chromium() -> str:
+    """Path of a Chromium or Chrome."""
+    return program("Chromium", "chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome")
+
+
+@pytest.fixture(scope="session")
+def soffice() -> str:
+    """Path of LibreOffice."""
+    return program("LibreOffice", "soffice", "libreoffice")
+
+
+@contextmanager
+def marimo_server(mode: str, worksheet: Path, folder: Path) -> Iterator[str]:
+    """Address of ``marimo run`` or ``marimo edit`` of a copy of the worksheet, under the project's settings.
+
+    The copy keeps what the editor saves out of the project.
+    """
+    (folder / "worksheets").mkdir()
+    sheet = shutil.copy(worksheet, folder / "worksheets")
+    shutil.copy(ROOT / "worksheets" / "page.css", folder / "worksheets")
+    shutil.copy(ROOT / "pyproject.toml", folder)
+    with socket.socket() as free:
+        free.bind(("127.0.0.1", 0))
+        port = free.getsockname()[1]
+    options = ["--headless", "--no-token", "--host=127.0.0.1", f"--port={port}"]
+    if mode == "edit":
+        options.append("--skip-update-check")
+    # A configuration folder of its own: the settings of whoever runs the tests must not change the page.
+    environment = {**os.environ, "XDG_CONFIG_HOME": str(folder), "PYTHONUTF8": "1"}
+    with (folder / "server.log").open("w+", encoding="utf-8") as log:
+        server = subprocess.Popen(
+            [sys.executable, "-m", "marimo", mode, *options, sheet],
+            cwd=folder,
+            env=environment,
+            stdin=subprocess.DEVNULL,
+            stdout=log,
+            stderr=subprocess.STDOUT,
+        )
+        try:
+            deadline = time.monotonic() + READY_WITHIN
+            while not answers(port):
+                if server.poll() is not None or time.monotonic() > deadline:
+                    log.seek(0)
+                    pytest.fail(f"marimo {mode} {worksheet.name} did not start:\n{log.read()}")
+                time.sleep(0.1)
+            yield f"http://127.0.0.1:{port}"
+        finally:
+            server.terminate()
+            try:
+                server.wait(timeout=15)
+            except subprocess.TimeoutExpired:
+                server.kill()
+                server.wait()
+
+
+def answers(port: int) -> bool:
+    with socket.socket() as connection:
+        return connection.connect_ex(("127.0.0.1", port)) == 0
+
+
+@pytest.fixture(scope="session")
+def serve(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Callable[[str, Path], str]]:
+    """``serve("run" or "edit", worksheet)``: address of a marimo server, started once and kept for the session."""
+    with ExitStack() as servers:
+
+        @cache
+        def address(mode: str, worksheet: Path) -> str:
+            return servers.enter_context(marimo_server(mode, worksheet, tmp_path_factory.mktemp(mode)))
+
+        yield address
+
+
+@pytest.fixture(scope="session")
+def browser(chromium: str) -> Iterator[Browser]:
+    """A headless browser on a profile of its own."""
+    from playwright.sync_api import sync_playwright
+
+    with sync_playwright() as playwright:
+        started = playwright.chromium.launch(executable_path=chromium, args=CHROMIUM_FLAGS)
+        yield started
+        started.close()
+
+
+@pytest.fixture
+def page(browser: Browser) -> Iterator[Page]:
+    """A page without cookies or history, wide enough for a worksheet."""
+    with browser.new_context(viewport={"width": 1280, "height": 1600}, locale="en-US") as context:
+        yield context.new_page()
+
+
+@pytest.fixture
+def console_errors(page: Page) -> list[str]:
+    """What the page has reported as errors so far."""
+    errors: list[str] = []
+    page.on("console", lambda message: errors.append(message.text) if message.type == "error" else None)
+    page.on("pageerror", lambda error: errors.append(str(error)))
+    return errors
