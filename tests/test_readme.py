@@ -34,6 +34,13 @@ def test_lines_quoted_from_the_hitch_stand_there():
     assert all(line in hitch for line in quoted.splitlines())
 
 
+def test_six_bar_of_the_readme_balances():
+    names: dict = {}
+    exec(next(b for b in blocks("python") if "coupling_drive" in b), names)
+    assert abs(names["group23"].R_A).max() > 100
+    assert abs(names["M"]).max() < 1e3
+
+
 def test_scene_and_arguments_of_the_readme_are_inputs_of_the_hitch():
     from worksheets.hitch import Hitch
 

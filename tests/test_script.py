@@ -46,7 +46,7 @@ def test_scene_and_arguments_replace_inputs_in_display_units(tmp_path):
         ("--S_max=0.9", "error: group (2, 3) closes: no position closes for cylinder S = 0.7"),
         ("--Y56_min=-2", "error: lifting rod L4"),
         ("--Y_P56=3", "error: working stroke S_p"),
-        ("--phi_P6=1", "error: upper link L7"),
+        ("--phi_P6=1", "error: group (6, 7) closes: no position closes for distance O7 P56 = "),
     ],
 )
 def test_bad_input_is_one_line_and_touches_no_file(tmp_path, argument, message):

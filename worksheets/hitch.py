@@ -21,7 +21,7 @@ with app.setup:
     from mechsheet.report import export
     from mechsheet.table import figure, table
 
-    np.seterr(divide="ignore")  # a reserve without load is infinite, and is shown so
+    np.seterr(divide="ignore", invalid="ignore")  # no load: infinite reserve; no closure: NaN; both are shown so
     deg = pi / 180
 
 
@@ -683,8 +683,9 @@ def position(S, part):
 def group_drawing(R01, R05, R34, R56):
     def group_drawing(*points):
         frame = np.concatenate([np.atleast_1d(p) for p in points])  # over the whole stroke, so that nothing jumps
-        size = max(np.ptp(frame.real), np.ptp(frame.imag))
-        largest = np.max(abs([R01, R05, R34, R56])) or 1.0
+        closed = frame[np.isfinite(frame)]
+        size = max(np.ptp(closed.real), np.ptp(closed.imag))
+        largest = np.nanmax(abs([R01, R05, R34, R56]), initial=0.0) or 1.0
         return Drawing(width=560, height=420, frame=frame, scales={"N": 0.3 * size / largest})
 
     return (group_drawing,)

@@ -1,0 +1,160 @@
+"""The groups at 50 digits: positions straight from the loop equations, derivatives by differencing the positions."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator
+from typing import Any
+
+import numpy as np
+from hypothesis import settings
+from mpmath import expj, lu_solve, matrix, mp, mpc, mpf, sqrt
+
+mp.dps = 110  # central second differences with this step keep 50 digits
+STEP = mpf(10) ** -30
+EPS = 2.0**-53  # relative error of one rounding
+unhurried = settings(deadline=None)  # a busy machine is no error
+
+
+def exact(*arrays: Any) -> Iterator[list[mpc]]:
+    """The elements of the broadcast arrays, one tuple of exact numbers after the other."""
+    for row in np.broadcast(*arrays):
+        yield [mpc(complex(x)) for x in row]
+
+
+def cross(a: mpc, b: mpc) -> mpf:
+    return a.real * b.imag - a.imag * b.real
+
+
+def dot(a: mpc, b: mpc) -> mpf:
+    return a.real * b.real + a.imag * b.imag
+
+
+def sign(x: mpf) -> int:
+    return 1 if x > 0 else -1
+
+
+def rrr(A: mpc, B: mpc, r_A: mpf, r_B: mpf, branch: int) -> mpc | None:
+    """C with |C - A| = r_A and |C - B| = r_B; None where the circles do not meet."""
+    L = abs(B - A)
+    x = (L**2 + r_A**2 - r_B**2) / (2 * L)
+    y2 = r_A**2 - x**2
+    return None if y2 < 0 else A + mpc(x, branch * sqrt(y2)) * (B - A) / L
+
+
+def rrp(A: mpc, B: mpc, u: mpc, r_A: mpf, branch: int, e: mpf) -> mpc | None:
+    """C with |C - A| = r_A at the distance e to the left of the line through B along u."""
+    u = u / abs(u)
+    z = (A - B) / u
+    x2 = r_A**2 - (z.imag - e) ** 2
+    return None if x2 < 0 else B + mpc(z.real + branch * sqrt(x2), e) * u
+
+
+def rpr(A: mpc, B: mpc, branch: int, e: mpf) -> tuple[mpc, mpf] | None:
+    """u and s with A - B = (s + i e) u."""
+    s2 = abs(A - B) ** 2 - e**2
+    if s2 < 0:
+        return None
+    s = branch * sqrt(s2)
+    return (A - B) / mpc(s, e), s
+
+
+def lines(A: mpc, B: mpc, u_A: mpc, u_B: mpc) -> mpc:
+    """Crossing of the line through A along u_A with the line through B along u_B."""
+    return A + u_A * cross(B - A, u_B) / cross(u_A, u_B)
+
+
+def path(x: mpc, v: mpc, a: mpc) -> Callable[[mpf], mpc]:
+    """Quantity with the given value, first and second derivative at t = 0."""
+    return lambda t: x + v * t + a * t**2 / 2
+
+
+def turning(u: mpc, omega: mpc, epsilon: mpc) -> Callable[[mpf], mpc]:
+    """Unit vector along u at t = 0, turning with the angular velocity and acceleration."""
+    return lambda t: u / abs(u) * expj((omega * t + epsilon * t**2 / 2).real)
+
+
+def derivatives(f: Callable[[mpf], mpc]) -> tuple[mpc, mpc]:
+    """First and second derivative at t = 0."""
+    ahead, here, behind = f(STEP), f(mpf(0)), f(-STEP)
+    return (ahead - behind) / (2 * STEP), (ahead - 2 * here + behind) / STEP**2
+
+
+def rotation(a: Callable[[mpf], mpc]) -> tuple[mpf, mpf]:
+    """Angular velocity and acceleration of the vector a(t) at t = 0."""
+    first, second = derivatives(a)
+    rate = first / a(mpf(0))
+    return rate.imag, (second / a(mpf(0)) - rate**2).imag
+
+
+def floats(values: Iterable[Any]) -> np.ndarray[Any, Any]:
+    """Exact numbers, rounded once; NaN for None."""
+    return np.array([complex("nan+nanj") if z is None else complex(z) for z in values])
+
+
+# --- random mechanisms ---------------------------------------------------------------------------------------
+
+SIZE = 100
+FAMILIES = ["ordinary", "links spread over 1e12", "near a dead centre", "1e6 links from the origin"]
+
+
+def triangles(family: str) -> tuple[np.random.Generator, Any, Any, Any]:
+    """A random generator and the pins A, B, C of random groups, with the angle mu between CA and CB."""
+    rng = np.random.default_rng(FAMILIES.index(family))
+    r_A, r_B = 10 ** rng.uniform(*((-6, 6) if "spread" in family else (-0.5, 0.5)), (2, SIZE))
+    mu = rng.uniform(0.2, np.pi - 0.2, SIZE) * rng.choice([-1, 1], SIZE)
+    if "dead" in family:
+        mu = rng.choice([0, np.pi], SIZE) + 10 ** rng.uniform(-9, -1, SIZE)
+    C = vectors(rng) + (1e6 if "origin" in family else 0)
+    direction = np.exp(1j * rng.uniform(0, 7, SIZE))
+    return rng, C + r_A * direction, C + r_B * direction * np.exp(1j * mu), C
+
+
+def vectors(rng: np.random.Generator, *shape: int) -> Any:
+    return rng.normal(size=(*shape, SIZE)) + 1j * rng.normal(size=(*shape, SIZE))
+
+
+def numbers(rng: np.random.Generator, *shape: int) -> Any:
+    return rng.normal(size=(*shape, SIZE))
+
+
+# --- equilibrium -----------------------------------------------------------------------------------------------
+
+
+def equations(unknowns: list[list[tuple[Any, ...]]], loads: list[tuple[Any, ...]], poles: list[Any]) -> Any:
+    """Matrix and right-hand side of the equilibrium of all bodies, for exact numbers and for arrays.
+
+    A load is (body, force, point, couple); an unknown is the list of loads that its unit puts on the bodies. Moments
+    of a body are taken about its pole.
+    """
+    zero = 0 * poles[0].real
+
+    def column(terms: list[tuple[Any, ...]]) -> list[Any]:
+        sums = [zero] * (3 * len(poles))
+        for body, force, point, couple in terms:
+            sums[3 * body] = sums[3 * body] + force.real
+            sums[3 * body + 1] = sums[3 * body + 1] + force.imag
+            sums[3 * body + 2] = sums[3 * body + 2] + couple + cross(point - poles[body], force)
+        return sums
+
+    return [column(terms) for terms in unknowns], [-x for x in column(loads)]
+
+
+def pin(P: Any, on: int, by: int | None = None) -> list[list[tuple[Any, ...]]]:
+    """Unknown force components in a pin at P, on one body and opposite on the other (None: the frame)."""
+    one = 1 + 0 * P
+    return [_pair(force, P, 0, on, by) for force in (one, 1j * one)]
+
+
+def slide(P: Any, u: Any, on: int, by: int | None = None) -> list[list[tuple[Any, ...]]]:
+    """Unknown normal force through P and couple in a prismatic pair along the unit vector u."""
+    return [_pair(1j * u, P, 0, on, by), _pair(0 * u, P, 1, on, by)]
+
+
+def _pair(force: Any, P: Any, couple: Any, on: int, by: int | None) -> list[tuple[Any, ...]]:
+    return [(on, force, P, couple)] + ([] if by is None else [(by, -force, P, -couple)])
+
+
+def reactions(unknowns: Any, loads: Any, poles: Any) -> list[mpf]:
+    """The unknowns at 50 digits."""
+    columns, right = equations(unknowns, loads, poles)
+    return list(lu_solve(matrix(columns).T, matrix(right)))
