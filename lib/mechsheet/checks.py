@@ -99,13 +99,16 @@ def check_slope(
 ) -> Check:
     """Check a derivative against adaptive differences of ``f`` at ``x``, taken inside ``lo``..``hi``.
 
-    The limit is 1e-8 of the greatest slope, or ten times what the differences say of their own error.
+    The limit is 1e-8 of the greatest slope, or ten times what the differences say of their own error, or what
+    rounding of ``f`` makes of them.
     """
     from scipy.differentiate import derivative
 
     ends = np.where(x == lo, 1, np.where(x == hi, -1, 0))
-    found = derivative(f, x, initial_step=0.04 * (hi - lo), step_direction=ends)
-    limit = max(1e-8 * float(np.max(np.abs(slope))), 10 * float(np.max(found.error)))
+    step = 0.04 * (hi - lo)
+    found = derivative(f, x, initial_step=step, step_direction=ends)
+    rounding = 100 * float(np.finfo(float).eps * np.max(np.abs(f(x)))) / step
+    limit = max(1e-8 * float(np.max(np.abs(slope))), 10 * float(np.max(found.error)), rounding)
     return check(name, np.asarray(slope) - found.df, limit, unit)
 
 

@@ -462,6 +462,8 @@ class Drawing:
     scales : mapping of unit to float, optional
         Length of an arrow of one unit [m], such as ``{"N": 2e-6}``. By default the longest arrow of each unit
         is a fifth of the picture.
+    unit : str, optional
+        Unit of the points if they are no places: ``"N"`` for a diagram of forces, whose arrows then have its scale.
 
     Examples
     --------
@@ -478,6 +480,7 @@ class Drawing:
     scales: Mapping[str, float] = field(default_factory=dict)
     shapes: tuple[_Shape, ...] = field(default=(), repr=False)
     behind: tuple[_Shape, ...] = field(default=(), repr=False)
+    unit: str = "m"
 
     def __post_init__(self) -> None:
         if not (4 * _MARGIN <= self.width < _FAR and 4 * _MARGIN <= self.height < _FAR):
@@ -710,14 +713,14 @@ class Drawing:
             if s.vector is not None and _finite((*s.points, s.vector)):
                 longest[s.unit] = max(_length(s.vector), longest.get(s.unit, 0.0))
         auto = {unit: 2 * _PART * max(half.real, half.imag) / v if v else 0.0 for unit, v in longest.items()}
-        scales = {**auto, **self.scales}
+        scales = {**auto, self.unit: 1.0, **self.scales}
         if not given:
             centre, half = _box([p for s in shapes for p in _finite(s.ends(scales))])
         k = min((self.width / 2 - _MARGIN) / half.real, (self.height / 2 - _MARGIN) / half.imag)
         page = _Page(k * half + (1 + 1j) * _MARGIN if given else None)
         for i, shape in enumerate(shapes):
             page.draw(shape, [k * (p - centre).conjugate() for p in shape.ends(scales)], i < len(self.behind))
-        return page.svg({"m": k} | {unit: k * scales[unit] for unit in longest})
+        return page.svg({self.unit: k} | {unit: k * scales[unit] for unit in longest})
 
     def _mime_(self) -> tuple[str, str]:
         return "text/html", self.svg()
@@ -737,4 +740,4 @@ class Drawing:
         at = _points(kind, points, least)
         tip = ": ".join(filter(None, (name, measure(*at[:2]) if measure else "")))
         shape = _Shape(kind, at, draw, tip, fixed, vector, unit)
-        return Drawing(self.width, self.height, self.frame, self.scales, (*self.shapes, shape), self.behind)
+        return replace(self, shapes=(*self.shapes, shape))

@@ -129,7 +129,7 @@ def number_latex(x: float) -> str:
     if 1e5 <= abs(x) < 1e6:
         return f"{x:.0f}"
     if x == 0 or 1e-3 <= abs(x) < 1e5:
-        return np.format_float_positional(float(f"{x:.5g}"), trim="-")
+        return np.format_float_positional(float(f"{x:.5g}") + 0.0, trim="-")  # + 0.0: no sign of zero
     mantissa, exponent = f"{x:.4e}".split("e")
     return rf"{mantissa.rstrip('0').rstrip('.')} \cdot 10^{{{int(exponent)}}}"
 
@@ -168,6 +168,8 @@ def latex(node: ast.expr) -> str:
 
 def _tex(node: ast.expr) -> tuple[str, int]:
     """LaTeX and precedence of its outermost operation (5: needs no brackets)."""
+    if positive := _without_minus(node):
+        return f"-{latex(positive)}", 1
     match node:
         case ast.Constant(value):
             return _constant(value)
@@ -200,7 +202,8 @@ def _tex(node: ast.expr) -> tuple[str, int]:
             return rf"{_wrap(left, 2)} \bmod {_wrap(right, 2)}", 2
         case ast.BinOp(left, (ast.Add() | ast.Sub()) as op, right):
             sign = "+" if isinstance(op, ast.Add) else "-"
-            return f"{_wrap(left, 1)} {sign} {_wrap(right, 1 if sign == '+' else 2)}", 1
+            second = _wrap(right, 1 if sign == "+" else 2)
+            return f"{_wrap(left, 1)} {sign} {_brackets([right]) if second.startswith('-') else second}", 1
         case ast.Call(ast.Name(name), args, keywords):
             return _call(name, [*args, *(k.value for k in keywords)])
         case ast.Subscript(inner, index):
@@ -208,6 +211,16 @@ def _tex(node: ast.expr) -> tuple[str, int]:
         case ast.Tuple(items):
             return r"\left(" + r",\ ".join(latex(i) for i in items) + r"\right)", 5
     return r"\texttt{" + re.sub(r"([#$%&_{}])", r"\\\1", ast.unparse(node)) + "}", 5
+
+
+def _without_minus(node: ast.expr) -> ast.expr | None:
+    """A product or quotient without the minus of its first factor; None where it has none."""
+    match node:
+        case ast.BinOp(ast.UnaryOp(ast.USub(), first), (ast.Mult() | ast.Div()) as op, right):
+            return ast.BinOp(first, op, right)
+        case ast.BinOp(left, (ast.Mult() | ast.Div()) as op, right) if positive := _without_minus(left):
+            return ast.BinOp(positive, op, right)
+    return None
 
 
 def _constant(value: object) -> tuple[str, int]:
@@ -229,7 +242,7 @@ def _product(left: ast.expr, right: ast.expr) -> str:
         case ast.UnaryOp():
             b = _brackets([right])
         case ast.BinOp(op=ast.Div()):
-            b = latex(right)
+            b = _wrap(right, 2)
         case _:
             b = _wrap(right, 4 if isinstance(right, ast.BinOp) else 2)
     return _wrap(left, 2) + (r" \cdot " if b[0].isdigit() or isinstance(right, ast.UnaryOp) else r"\,") + b

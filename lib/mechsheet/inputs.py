@@ -205,5 +205,5 @@ class Used:
         style = "display:flex;flex-wrap:wrap;gap:.2em 1.6em;font-size:.9em"
         return "text/html", (
             f'<div class="ms-screen" style="{style}">{"".join(items)}</div>'
-            f'<table class="ms-print ms-table">{"".join(rows)}</table>'
+            f'<table class="ms-print" style="display:none">{"".join(rows)}</table>'
         )

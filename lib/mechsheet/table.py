@@ -73,7 +73,7 @@ def _block(columns: list[Column]) -> str:
 
 
 def _digits(value: float, decimals: int) -> str:
-    return "–" if np.isnan(value) else f"{value:.{decimals}f}".replace("inf", "∞")
+    return "–" if np.isnan(value) else f"{value:z.{decimals}f}".replace("inf", "∞")
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,47 @@
+"""Every worksheet in a real browser: it opens computed, and a changed input changes its tables."""
+
+import re
+import time
+from pathlib import Path
+
+import pytest
+
+WORKSHEETS = Path(__file__).parents[1] / "worksheets"
+# an input of each sheet by its meaning, and a new value for it
+CHANGED = {
+    "hitch": ("weight of the implement", "30000"),
+    "landing_gear": ("mass", "1000"),
+    "slotted_link": ("angular velocity of the crank", "-12,5"),
+    "kinetostatics": ("rod AB", "0.43"),
+    "joint": ("bending moment, case 1", "510000"),
+}
+
+
+def test_every_worksheet_is_opened():
+    assert set(CHANGED) == {path.stem for path in WORKSHEETS.glob("*.py")}
+
+
+def tables(page) -> str:
+    return "\n".join(page.locator(".ms-table").all_inner_texts())
+
+
+@pytest.mark.parametrize("name", sorted(CHANGED))
+def test_opens_and_reacts(name, serve, page, console_errors):
+    meaning, value = CHANGED[name]
+    page.goto(serve("run", WORKSHEETS / f"{name}.py"))
+    page.get_by_text("Excel workbook").wait_for(timeout=120_000)
+    count = page.get_by_text(re.compile(r"^\d+ of \d+ checks pass$")).first
+    count.wait_for(timeout=120_000)
+    passed, checks = re.findall(r"\d+", count.inner_text())
+    assert passed == checks
+    before = tables(page)
+    field = page.locator(f".ms-inputs tr:has-text('{meaning}') input").first
+    field.fill(value)
+    field.press("Enter")
+    deadline = time.monotonic() + 60
+    while tables(page) == before:
+        assert time.monotonic() < deadline, "the tables rest"
+        page.wait_for_timeout(200)
+    for trouble in ("Traceback", "Something went wrong", "internal error"):
+        assert page.get_by_text(trouble).count() == 0, trouble
+    assert console_errors == []

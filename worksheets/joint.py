@@ -1,0 +1,718 @@
+import marimo
+
+__generated_with = "0.25.2"
+app = marimo.App(width="medium", app_title="Joints of compartments", css_file="page.css")
+
+with app.setup:
+    from itertools import pairwise
+
+    import marimo as mo
+    import numpy as np
+    from numpy import abs, arange, cos, exp, heaviside, isfinite, isnan, nan, pi, sin, where
+    from numpy import arcsin as asin
+
+    from mechsheet.checks import Check, check, summary
+    from mechsheet.drawing import Drawing
+    from mechsheet.formula import typeset
+    from mechsheet.inputs import Used, ask, inputs, read
+    from mechsheet.joint import bending, circular_joint, neutral_axis
+    from mechsheet.report import export
+    from mechsheet.table import table
+    from mechsheet.units import parse
+
+    np.seterr(divide="ignore", invalid="ignore")  # an axis at infinity or a joint without load is shown so
+    kgf, cm, deg = 9.80665, 0.01, pi / 180
+
+
+@app.cell(hide_code=True)
+def title():
+    mo.md("""
+    # Joints of compartments
+
+    Forces and stresses in the joints of aircraft compartments under a bending moment and an axial force, after the
+    industry standard OST 92-9236-79: a rectangular joint of beams and stringers, whose elements carry with one area
+    in tension and with another in compression (appendices 1 and 3), and a circular joint, whose bolts carry the
+    tension and whose rims the compression (appendix 2). Change an input or a formula: everything below follows.
+    """)
+    return
+
+
+@app.cell(hide_code=True)
+def verdict(checks_joint, checks_ring):
+    summary(checks_joint, checks_ring)
+    return
+
+
+@app.cell(hide_code=True)
+def section_1():
+    mo.md("""
+    ## 1 Input data
+
+    The circular joint is an example of ours; all other numbers are the document's. An axial force is positive in
+    tension. Inputs are in the document's units; the last one shows all results in SI units.
+    """)
+    return
+
+
+@app.class_definition
+@inputs
+class Joint:
+    # 1.1 Rectangular joint
+    h: float = 50 * cm  # [cm] side along Y, between the beams; > 0
+    b: float = 25 * cm  # [cm] side along Z, between the beams; > 0
+    F_b: float = 1 * cm**2  # [cm**2] beam; > 0
+    F_s: float = 0.5 * cm**2  # [cm**2] stringer; >= 0
+    delta: float = 0.1 * cm  # [cm] thickness of the skin; >= 0
+    E_al: float = 0.72e6 * kgf / cm**2  # [kgf/cm**2] modulus of skin and stringers, aluminium; > 0
+    E_st: float = 2.1e6 * kgf / cm**2  # [kgf/cm**2] modulus of the beams, steel; > 0
+    psi: float = 0.65  # [-] part of a side whose skin works with the beams in tension; >= 0 <= 1
+    k_a: float = 30  # [-] width of skin that works with an element in compression, in thicknesses; >= 0
+
+    # 1.2 Rounding of the document's example
+    d_E: float = 0.01  # [-] step of the ratio of the moduli, 0 for all digits; >= 0
+    d_F: float = 0.01 * cm**2  # [cm**2] step of the beam's reduced additional area, 0 for all digits; >= 0
+
+    # 1.3 Loads of the rectangular joint
+    M_1: float = 5e5 * kgf * cm  # [kgf*cm] bending moment, case 1
+    N_1: float = 13e3 * kgf  # [kgf] axial force, case 1
+    M_2: float = 3e5 * kgf * cm  # [kgf*cm] bending moment, case 2
+    N_2: float = -13e3 * kgf  # [kgf] axial force, case 2
+
+    # 1.4 Search for the neutral axis
+    y_00: float = 0 * cm  # [cm] first neutral axis
+    k_max: int = 10  # [-] greatest number of iterations; >= 1 <= 1000
+
+    # 1.5 Circular joint, an example of ours
+    r: float = 60 * cm  # [cm] radius of the joint; > 0
+    m: int = 24  # [-] number of bolts, evenly spaced; >= 3 <= 1000
+    phi_1: float = 0 * deg  # [deg] first bolt from plane 1
+    phi_2: float = 7.5 * deg  # [deg] first bolt from plane 2
+    t: float = 15 * cm  # [cm] pitch of the stringers; > 0
+    M_r1: float = 2e6 * kgf * cm  # [kgf*cm] bending moment, case 1
+    N_r1: float = -2e4 * kgf  # [kgf] axial force, case 1
+    M_r2: float = 1.2e6 * kgf * cm  # [kgf*cm] bending moment, case 2
+    N_r2: float = 2.5e4 * kgf  # [kgf] axial force, case 2
+
+    # 1.6 Units of the results
+    SI: int = 0  # [-] units of the results, 1 for SI and 0 for kgf, cm; >= 0 <= 1
+
+    """After # stand the unit and the meaning, after ; the limits; the page and the code take the same units."""
+
+
+@app.function
+def rounded(x, step):
+    """Number rounded to a step; a step of 0 keeps it."""
+    return step * np.round(x / step) if step else x
+
+
+@app.function
+def planes(first, second):
+    """Values of the two planes of the load, on the first axis of three: plane, load case, element."""
+    return np.array([first, second])[:, None, None]
+
+
+@app.function
+def cases(*values):
+    """Values of the load cases, on the second axis."""
+    return np.array(values)[:, None]
+
+
+@app.function
+def counted(x):
+    """Numbers along the first axis of x, from 1."""
+    return np.arange(1, len(x) + 1).reshape(-1, *[1] * (x.ndim - 1))
+
+
+@app.function
+def of_cases(x):
+    """Results of the load cases, with an axis of one element more."""
+    return x[..., None]
+
+
+@app.function
+def elements(beams, stringers):
+    """Values of the four beams and the eight stringers, on the last axis."""
+    return np.concatenate([beams + np.zeros(4), stringers + np.zeros(8)], axis=-1)
+
+
+@app.function
+def beams(x):
+    """The four beams of all elements."""
+    return x[..., :4]
+
+
+@app.function
+def stringers(x):
+    """The eight stringers of all elements."""
+    return x[..., 4:]
+
+
+@app.function
+def total(x):
+    """Sum over the elements."""
+    return x.sum(-1, keepdims=True)
+
+
+@app.function
+def greatest(x):
+    """Greatest of the elements."""
+    return x.max(-1, keepdims=True)
+
+
+@app.function
+def positive(x):
+    """Positive part."""
+    return where(x > 0, x, 0)
+
+
+@app.cell
+def form():
+    form = ask(Joint)
+    form
+    return (form,)
+
+
+@app.cell
+def given(form):
+    g = read(Joint, form)
+    Used(g)
+    return (g,)
+
+
+@app.cell
+def units_shown(g):
+    si = {"kgf": "N", "cm": "mm", "cm**2": "mm**2", "cm**3": "mm**3", "cm**4": "mm**4"}
+    si |= {"kgf*cm": "N*m", "kgf/cm": "N/mm", "kgf/cm**2": "MPa"}
+    display = si if g.SI else {}
+    unit_F, unit_M, unit_p = (display.get(unit, unit) for unit in ("kgf", "kgf*cm", "kgf/cm"))
+    return display, unit_F, unit_M, unit_p
+
+
+@app.cell
+def load_cases(display, g):
+    M = cases(g.M_1, g.M_2)  # [kgf*cm] bending moment
+    N = cases(g.N_1, g.N_2)  # [kgf] axial force, positive in tension
+    plane = planes(1, 2)  # [-] plane of the load: 1 is YOX, 2 is ZOX
+    case = counted(M)  # [-] load case
+    typeset(display=display)
+    return M, N, case, plane
+
+
+@app.cell(hide_code=True)
+def section_2():
+    mo.md(r"""
+    ## 2 Reduced areas (sheets 55, 56)
+
+    All areas are reduced to steel. In tension a beam works together with the skin beside it and with each stringer
+    that stands within the width of that skin; the stringers themselves are not joined in tension. In compression
+    every element works with a strip of skin.
+    """)
+    return
+
+
+@app.cell
+def reduced_areas(display, g):
+    beta = rounded(g.E_al / g.E_st, g.d_E)  # [-] aluminium reduced to steel
+    t_b = g.b / 4  # [cm] beam to stringer on the side b
+    t_h = g.h / 4  # [cm] beam to stringer on the side h
+    l_b = 0.5 * g.psi * g.b  # [cm] width of skin on the side b
+    l_h = 0.5 * g.psi * g.h  # [cm] width of skin on the side h
+    F_sb = g.F_s * heaviside(l_b - t_b, 1)  # [cm**2] stringer of the side b, if within the width
+    F_sh = g.F_s * heaviside(l_h - t_h, 1)  # [cm**2] stringer of the side h, if within the width
+    F_sk = (l_b + t_h) * g.delta  # [cm**2] skin, added up as the document does
+    dF_t = F_sk + F_sb + F_sh  # [cm**2] additional area of a beam in tension
+    dF_tr = rounded(beta * dF_t, g.d_F)  # [cm**2] the same, reduced
+    dF_cr = beta * g.k_a * g.delta**2  # [cm**2] additional area of a beam in compression, reduced
+    F_bt = g.F_b + dF_tr  # [cm**2] beam in tension
+    F_bc = g.F_b + dF_cr  # [cm**2] beam in compression
+    F_sc = beta * (g.F_s + g.k_a * g.delta**2)  # [cm**2] stringer in compression
+    F_bt2 = g.F_b + beta * ((l_b + l_h) * g.delta + F_sb + F_sh)  # [cm**2] beam in tension, both widths whole
+    typeset(display=display)
+    return F_bc, F_bt, F_bt2, F_sc, F_sk, beta, l_b, l_h, t_b, t_h
+
+
+@app.cell
+def printed_areas(F_bt, F_bt2, l_b, l_h):
+    mo.md(f"""
+    The document prints 8.15 cm for the width {l_b / cm:.4g} cm and 16.3 cm for {l_h / cm:.5g} cm; with its rounding,
+    which 1.2 repeats, both give the same beam. It then adds the whole width of skin on the side *b*, but on the
+    side *h* only the part up to the stringer. With both widths whole the beam in tension would be
+    {F_bt2 / cm**2:.3f} cm² and not {F_bt / cm**2:.3f} cm². The rule for the width stood in a part of the standard that
+    is lost, so the sum is kept as printed.
+    """)
+    return
+
+
+@app.cell
+def section_of_elements(F_bc, F_bt, F_sc, display, g):
+    h_p = planes(g.h, g.b)  # [cm] height of the section in the plane of the load
+    b_p = planes(g.b, g.h)  # [cm] width of the section across it
+    y_b = h_p / 2 * [1, -1, -1, 1]  # [cm] level of the beams
+    y_s = h_p / 2 * [1, 0.5, -0.5, -1, -1, -0.5, 0.5, 1]  # [cm] level of the stringers
+    z_b = b_p / 2 * [1, 1, -1, -1]  # [cm] place of the beams across the plane
+    z_s = b_p / 2 * [0.5, 1, 1, 0.5, -0.5, -1, -1, -0.5]  # [cm] place of the stringers across the plane
+    y = elements(y_b, y_s)  # [cm] level of the elements
+    z = elements(z_b, z_s)  # [cm] place of the elements across the plane
+    A_t = elements(F_bt, 0)  # [cm**2] areas in tension
+    A_c = elements(F_bc, F_sc)  # [cm**2] areas in compression
+    typeset(display=display)
+    return A_c, A_t, b_p, h_p, y, z
+
+
+@app.cell(hide_code=True)
+def section_3():
+    mo.md(r"""
+    ## 3 Neutral axis (appendix 1)
+
+    The section stays plane and every element carries with the area that belongs to the sign of its stress. Which
+    area that is depends on the neutral axis, and the axis on the areas.
+
+    The forces are unique. The stress $\sigma = a + b y$ has the energy $\frac12 \sum A_i \sigma_i^2$, which is
+    convex in $a$ and $b$ although the areas change with the sign, and its derivatives are $N$ and $M$: two
+    equilibria could not have different forces. An area changes only where the axis passes an element. Each such
+    place answers to a ray of loads, in order round the plane of $N$ and $M$; between two neighbouring rays no area
+    changes and one linear problem holds. So the rays beside the given load name the areas at once, in a number of
+    steps known beforehand.
+    """)
+    return
+
+
+@app.cell
+def equilibrium(A_c, A_t, M, N, display, y):
+    joint = neutral_axis(y, A_t, A_c, M[:, 0], N[:, 0])
+    A = joint.area  # [cm**2] areas that act
+    F = total(A)  # [cm**2] area of the section
+    S = total(A * y)  # [cm**3] first moment of area
+    y_c = S / F  # [cm] centroid
+    I_c = total(A * (y - y_c) ** 2)  # [cm**4] second moment of area about the centroid
+    M_c = M - N * y_c  # [kgf*cm] reduced moment, about the centroid
+    y_0 = y_c - N * I_c / (F * M_c)  # [cm] neutral axis
+    y_0c = y_0 - y_c  # [cm] neutral axis from the centroid
+    sigma = N / F + M_c * (y - y_c) / I_c  # [kgf/cm**2] stress
+    P = sigma * A  # [kgf] force in an element
+    typeset(display=display)
+    return A, F, I_c, M_c, P, S, joint, sigma, y_c, y_0, y_0c
+
+
+@app.cell
+def table_31(F, I_c, M, M_c, N, S, case, plane, y_c, y_0, y_0c):
+    table_31 = table("3.1", "Section in equilibrium", plane, case, M, N, M_c, y_0, y_0c, y_c, F, S, I_c)
+    table_31
+    return (table_31,)
+
+
+@app.cell
+def states(joint):
+    found = [f"- plane {p + 1}, case {k + 1}: {state}" for (p, k), state in np.ndenumerate(joint.state)]
+    mo.md("\n".join(found))
+    return
+
+
+@app.cell
+def printed_section(F, y_c):
+    mo.md(f"""
+    For plane 1 and case 1 the scan reads *F* = 6.928 cm² and *y*<sub>c</sub> = 4.677 cm. Only {
+        F[0, 0, 0] / cm**2:.3f} cm² and {
+        y_c[0, 0, 0] / cm:.3f} cm agree with the other printed numbers of that line, *S* = 33.3 cm³,
+    *I* = 4105 cm⁴, the axis at −13.02 cm, and with table 1: one digit of each is misread.
+    """)
+    return
+
+
+@app.cell(hide_code=True)
+def section_32():
+    mo.md(r"""
+    ### 3.2 The document's iteration
+
+    The document starts from an assumed axis, takes the areas that belong to it, finds the axis of that section, and
+    begins again. This is Newton's method for a system that is linear piece by piece: once the areas repeat, they are
+    the right ones. It ends after a few steps, but without an axis where it meets areas that cannot carry the load,
+    and no proof says that it always ends. It is shown for comparison; the results do not use it.
+    """)
+    return
+
+
+@app.cell
+def iteration(A_c, A_t, M, N, g, y):
+    def iterated():
+        """Neutral axes of the successive steps, and from which step on the areas repeat."""
+        stretched, axes, settled = (y - g.y_00) * where(M < 0, -1, 1) > 0, [], []
+        for _ in range(g.k_max):
+            step = bending(y, where(stretched, A_t, A_c), M[:, 0], N[:, 0])
+            before, stretched = stretched, step.sigma > 0
+            axes.append(step.y_0[..., None])
+            settled.append(((stretched == before) & isfinite(step.sigma)).all(-1, keepdims=True))
+            if settled[-1].all():
+                break
+        ends = np.array(settled)
+        return np.array(axes), where(ends.any(0), ends.argmax(0) + 1, 0)
+
+    axes, steps = iterated()
+    return axes, steps
+
+
+@app.cell
+def iteration_shown(axes, case, display, plane, steps):
+    y_k = axes  # [cm] neutral axis of the step
+    n_k = steps  # [-] steps until the areas repeat, 0 where they do not
+    step = counted(axes)  # [-] step
+    typeset(display=display)
+    table_32 = table("3.2", "Iteration of the neutral axis", step, plane, case, y_k, n_k)
+    table_32
+    return n_k, step, table_32, y_k
+
+
+@app.cell(hide_code=True)
+def section_33():
+    mo.md("""
+    ### 3.3 Check: equilibrium, and the sign of every stress
+    """)
+    return
+
+
+@app.cell
+def joint_check(A, A_c, A_t, M, N, P, g, joint, sigma, unit_F, unit_M, y):
+    lost = np.argwhere(joint.state == "no equilibrium")
+    reason = "; ".join(
+        f"plane {p + 1}, case {k + 1}: no elements carry M = {M[k, 0] / (kgf * cm):.7g} kgf*cm"
+        f" with N = {N[k, 0] / kgf:.7g} kgf"
+        for p, k in lost
+    )
+    opposite = (A - where(sigma > 0, A_t, A_c)) * sigma
+    largest = np.max(total(abs(P)))
+    checks_joint = (
+        Check("equilibrium exists", len(lost), 0, "cases", reason, essential=True),
+        check("equilibrium of forces", total(P) - N, 1e-12 * largest, unit_F),
+        check("equilibrium of moments", total(P * y) - M, 1e-12 * largest * max(g.h, g.b), unit_M),
+        check("areas belong to the signs of the stresses", opposite, 1e-12 * largest, unit_F),
+    )
+    typeset(*checks_joint)
+    return (checks_joint,)
+
+
+@app.cell(hide_code=True)
+def section_4():
+    mo.md(r"""
+    ## 4 Results (appendix 3, item 6)
+
+    Stresses are reduced to steel; the stress in the aluminium itself is $\beta$ times as much. A stretched stringer
+    carries nothing.
+    """)
+    return
+
+
+@app.cell
+def of_beams(A, P, display, sigma):
+    beam = arange(1, 5)  # [-] beam
+    P_b = beams(P)  # [kgf] force in the beam
+    sigma_b = beams(sigma)  # [kgf/cm**2] stress in the beam
+    A_b = beams(A)  # [cm**2] area of the beam that acts
+    typeset(display=display)
+    return A_b, P_b, beam, sigma_b
+
+
+@app.cell
+def table_1(A_b, P_b, beam, case, plane, sigma_b):
+    table_1 = table("1", "Forces and stresses in the beams", plane, case, beam, A_b, P_b, sigma_b)
+    table_1
+    return (table_1,)
+
+
+@app.cell
+def of_stringers(A, P, beta, display, sigma):
+    acts = A > 0
+    stringer = arange(1, 9)  # [-] stringer
+    P_s = stringers(P)  # [kgf] force in the stringer
+    sigma_s = stringers(sigma * acts)  # [kgf/cm**2] stress in the stringer, reduced to steel
+    sigma_al = beta * sigma_s  # [kgf/cm**2] stress in the aluminium
+    A_s = stringers(A)  # [cm**2] area of the stringer that acts
+    typeset(display=display)
+    return A_s, P_s, sigma_al, sigma_s, stringer
+
+
+@app.cell
+def table_2(A_s, P_s, case, plane, sigma_al, sigma_s, stringer):
+    table_2 = table("2", "Forces and stresses in the stringers", plane, case, stringer, A_s, P_s, sigma_s, sigma_al)
+    table_2
+    return (table_2,)
+
+
+@app.cell(hide_code=True)
+def section_41():
+    mo.md("""
+    ### 4.1 The section with its neutral axis and stresses
+
+    The load acts in the vertical plane. Red is tension, blue compression; an element without colour does not carry.
+    The diagram on the right shows the stress over the height.
+    """)
+    return
+
+
+@app.cell
+def drawn_case(N):
+    drawn = mo.ui.slider(1, len(N), value=1, label="load case", show_value=True)
+    drawn
+    return (drawn,)
+
+
+@app.cell
+def scheme(A, b_p, display, h_p, sigma, y, y_0, z):
+    unit_sigma = display.get("kgf/cm**2", "kgf/cm**2")
+
+    def scheme(p, k, side, across):
+        """Section in plane p under load case k; side and across name its dimensions."""
+        half, reach, size = h_p[p, 0, 0] / 2, b_p[p, 0, 0] / 2, np.max(h_p)
+        corners = np.array([-reach - 1j * half, -reach + 1j * half, reach + 1j * half, reach - 1j * half])
+        picture = Drawing(width=760, height=420).polygon(corners)
+        picture = picture.dimension(corners[0], corners[1], side).dimension(corners[3], corners[0], across)
+        square = size * np.array([-1 - 1j, 1 - 1j, 1 + 1j, -1 + 1j])
+        for place, part, stress, area in zip(
+            z[p, 0] + 1j * y[p, 0], elements(0.015, 0.009), sigma[p, k], A[p, k], strict=True
+        ):
+            colour = ("red" if stress > 0 else "blue") if area else ""
+            picture = picture.polygon(place + part * square, colour=colour)
+        axis = y_0[p, k, 0]
+        if abs(axis) < half:
+            picture = picture.path([-1.3 * reach + 1j * axis, 1.3 * reach + 1j * axis], "n.a.", "green")
+        base, scale = 1.6 * reach + 0.2 * size, 0.3 * size / np.max(abs(sigma))
+        levels = np.unique([-half, axis if abs(axis) < half else half, half])
+        stress = np.interp(levels, [-half, half], sigma[p, k, [1, 0]])  # the first two beams are at the two sides
+        for (low, high), (s_low, s_high) in zip(pairwise(levels), pairwise(stress), strict=True):
+            outline = [base + 1j * low, base + scale * s_low + 1j * low]
+            outline += [base + scale * s_high + 1j * high, base + 1j * high]
+            picture = picture.polygon(outline, colour="red" if s_low + s_high > 0 else "blue")
+        for level, value in ((-half, stress[0]), (half, stress[-1])):
+            text = f"{value / parse(unit_sigma).factor:.4g} {unit_sigma.replace('**2', '²')}"
+            picture = picture.text(base + 1j * (level + np.sign(level) * 0.03 * size), text)
+        return picture
+
+    return (scheme,)
+
+
+@app.cell
+def drawing_41(drawn, scheme):
+    drawing_41 = scheme(0, drawn.value - 1, "h", "b")
+    typeset(drawing_41, mo.md("**Figure 4.1** – Load in the plane YOX"))
+    return (drawing_41,)
+
+
+@app.cell
+def drawing_42(drawn, scheme):
+    drawing_42 = scheme(1, drawn.value - 1, "b", "h")
+    typeset(drawing_42, mo.md("**Figure 4.2** – Load in the plane ZOX"))
+    return (drawing_42,)
+
+
+@app.cell(hide_code=True)
+def section_5():
+    mo.md(r"""
+    ## 5 Circular joint (appendix 2)
+
+    The scan has lost signs here, so the method is derived again from equilibrium. A uniform ring would carry the
+    line load $q = (M\cos\varphi + N r/2)/\pi r^2$, which is proportional to $\cos\varphi + c$ with $c = N r / 2 M$.
+    The bolts where $q > 0$ pull in proportion to $q$, the rims press on each other in proportion to $q$ where $q <
+    0$; what a bolt and what the rim carries for one unit of $q$ follows from the equilibrium of forces and of
+    moments.
+
+    Where $c \ge 1$ all bolts pull and carry the load alone, with forces linear in $\cos\varphi$; where $c \le -1$
+    all is compressed and the rims carry $q$ itself; where $M = 0$ the load is spread evenly. Written with $q$,
+    nothing is divided by $M$. Bolts at uneven angles are solved approximately: $M_x$ is the moment across the plane
+    of the load that they leave over. A line load in compression is negative.
+    """)
+    return
+
+
+@app.cell
+def ring_loads(display, g):
+    M_r = cases(g.M_r1, g.M_r2)  # [kgf*cm] bending moment
+    N_r = cases(g.N_r1, g.N_r2)  # [kgf] axial force, positive in tension
+    phi = planes(g.phi_1, g.phi_2) + 2 * pi * arange(g.m) / g.m  # [deg] angle of the bolts
+    load = counted(M_r)  # [-] load case
+    bolt = arange(1, g.m + 1)  # [-] bolt
+    typeset(display=display)
+    return M_r, N_r, bolt, load, phi
+
+
+@app.cell
+def ring_equilibrium(M_r, N_r, display, g, phi):
+    ring = circular_joint(phi, g.r, M_r[:, 0], N_r[:, 0])
+    c = N_r * g.r / (2 * M_r)  # [-] force parameter of the joint
+    y_r0 = -(N_r * g.r**2 / (2 * M_r))  # [cm] neutral axis
+    phi_no = of_cases(ring.phi_0)  # [deg] angle of the neutral axis, half of the pulled arc
+    P_k = ring.P  # [kgf] force in a bolt
+    P_max = greatest(P_k)  # [kgf] greatest force in a bolt
+    p_o = of_cases(ring.p_0)  # [kgf/cm] greatest line load of the compressed arc
+    P_str = p_o * g.t  # [kgf] force on a stringer there
+    M_x = of_cases(ring.M_x)  # [kgf*cm] moment across the plane, left over
+    typeset(display=display)
+    return M_x, P_k, P_max, P_str, c, p_o, phi_no, ring, y_r0
+
+
+@app.cell
+def ring_states(ring):
+    held = [f"- plane {p + 1}, case {k + 1}: {state}" for (p, k), state in np.ndenumerate(ring.state)]
+    mo.md("\n".join(held))
+    return
+
+
+@app.cell(hide_code=True)
+def section_52():
+    mo.md("""
+    ### 5.2 The document's formulas, and the equivalent forces
+
+    The document's formulas with their signs restored hold where the moment is positive and one part is pulled, the
+    other compressed; elsewhere they are left empty. The equivalent forces are those of a uniform ring where it is
+    loaded most; the last two columns compare the bolts and the rims with it.
+    """)
+    return
+
+
+@app.cell
+def ring_printed(M_r, N_r, c, display, g, phi, ring):
+    holds = (ring.state == "tension and compression")[..., None] & (M_r > 0)
+    c_n = where(holds, c, nan)  # [-] force parameter, where the formulas hold
+    phi_n = 0.5 * pi + asin(c_n)  # [deg] angle of the neutral axis
+    k_0 = c_n * (pi - phi_n) - sin(phi_n)  # [-] compressed arc, sum of cos(phi) + c
+    k_1 = (0.5 * (pi - phi_n) - 0.25 * sin(2 * phi_n) - c_n * sin(phi_n)) / k_0  # [-] lever of the compressed arc
+    k_2 = (1 - c_n) / (2 * k_0)  # [-] greatest line load of the arc to its resultant
+    S_1 = total(positive(cos(phi) + c_n))  # [-] pulled bolts
+    S_2 = total(positive(cos(phi) + c_n) * cos(phi))  # [-] their levers
+    P_1 = (M_r / g.r - k_1 * N_r) / (S_2 - k_1 * S_1)  # [kgf] force of a bolt for cos(phi) + c = 1
+    P_n = P_1 * (greatest(cos(phi)) + c_n)  # [kgf] greatest force in a bolt
+    p_n = k_2 * (S_1 * P_1 - N_r) / g.r  # [kgf/cm] greatest line load
+    typeset(display=display)
+    return P_n, holds, k_0, p_n
+
+
+@app.cell
+def equivalent_forces(M_r, N_r, P_max, display, g, p_o):
+    N_e1 = N_r + 2 * abs(M_r) / g.r  # [kgf] equivalent force in tension
+    P_e = N_e1 / g.m  # [kgf] force in a bolt from it
+    N_e2 = N_r - 2 * abs(M_r) / g.r  # [kgf] equivalent force in compression
+    p_e = N_e2 / (2 * pi * g.r)  # [kgf/cm] line load from it
+    i_P = P_max / P_e  # [-] greatest force in a bolt to the equivalent one
+    i_p = p_o / p_e  # [-] greatest line load to the equivalent one
+    typeset(display=display)
+    return N_e1, N_e2, P_e, i_P, i_p, p_e
+
+
+@app.cell
+def table_51(M_r, M_x, N_r, P_max, P_str, c, p_o, phi_no, load, plane, y_r0):
+    table_51 = table("5.1", "Circular joint", plane, load, M_r, N_r, c, y_r0, phi_no, P_max, p_o, P_str, M_x)
+    table_51
+    return (table_51,)
+
+
+@app.cell
+def table_52(N_e1, N_e2, P_e, i_P, i_p, p_e, load, plane):
+    table_52 = table("5.2", "Equivalent forces", plane, load, N_e1, P_e, N_e2, p_e, i_P, i_p)
+    table_52
+    return (table_52,)
+
+
+@app.cell(hide_code=True)
+def section_53():
+    mo.md("""
+    ### 5.3 Check: equilibrium of the ring
+    """)
+    return
+
+
+@app.cell
+def ring_check(M_r, N_r, P_k, P_max, P_n, g, holds, k_0, p_n, p_o, phi, ring, unit_F, unit_M, unit_p):
+    failed = np.argwhere(isnan(ring.R))
+    why = "; ".join(
+        f"plane {p + 1}, case {k + 1}: {ring.state[p, k]} for M = {M_r[k, 0] / (kgf * cm):.7g} kgf*cm"
+        f" with N = {N_r[k, 0] / kgf:.7g} kgf"
+        for p, k in failed
+    )
+    forces = total(P_k) + ring.R[..., None]
+    moments = total(P_k * g.r * cos(phi)) + ring.M_R[..., None]
+    most = np.max(total(abs(P_k)) + abs(ring.R[..., None]))
+    digits = 1e-13 / np.min(where(holds, abs(k_0), 1))  # the document's k_1 and k_2 lose digits as the arc closes
+    checks_ring = (
+        Check("ring in equilibrium exists", len(failed), 0, "cases", why, essential=True),
+        check("equilibrium of forces in the ring", forces - N_r, 1e-12 * most, unit_F),
+        check("equilibrium of moments in the ring", moments - M_r, 1e-12 * most * g.r, unit_M),
+        check("document's greatest bolt force", where(holds, P_n - P_max, 0), digits * most, unit_F),
+        check("document's greatest line load", where(holds, p_n - p_o, 0), digits * most / g.r, unit_p),
+    )
+    typeset(*checks_ring)
+    return (checks_ring,)
+
+
+@app.cell(hide_code=True)
+def section_54():
+    mo.md("""
+    ### 5.4 Force in every bolt, and the ring with its load
+
+    Red bars outside are the forces of the bolts, the blue area inside is the line load of the rims, both for the
+    load case chosen here; the load acts in the vertical plane.
+    """)
+    return
+
+
+@app.cell
+def drawn_ring_case(N_r):
+    drawn_ring = mo.ui.slider(1, len(N_r), value=1, label="load case", show_value=True)
+    drawn_ring
+    return (drawn_ring,)
+
+
+@app.cell
+def ring_scheme(M_r, N_r, P_k, g, p_o, phi, phi_no, y_r0):
+    def ring_scheme(p, k):
+        def out(angle, radius):
+            return radius * 1j * exp(-1j * angle)  # angles from the vertical, clockwise
+
+        picture = Drawing(width=430, height=430, frame=1.4 * g.r * np.array([-1 - 1j, 1 + 1j]))
+        picture = picture.path(out(np.linspace(0, 2 * pi, 181), g.r), colour="")
+        if p_o[p, k, 0] < 0:
+            middle, half = (pi if M_r[k, 0] >= 0 else 0), pi - phi_no[p, k, 0]
+            arc = middle + half * np.linspace(-1, 1, 91)
+            load = N_r[k, 0] * g.r / 2 + M_r[k, 0] * cos(arc)
+            depth = 0.3 * load / load[45] * p_o[p, k, 0] / np.min(p_o)
+            picture = picture.polygon([*out(arc, g.r), *out(arc, g.r * (1 - depth))[::-1]], colour="blue")
+        for angle, force in zip(phi[p, 0], P_k[p, k], strict=True):
+            picture = picture.hinge(out(angle, g.r))
+            if force > 0:
+                length = 0.35 * force / np.max(P_k)
+                picture = picture.path([out(angle, g.r), out(angle, g.r * (1 + length))], colour="red")
+        axis = y_r0[k, 0]
+        if abs(axis) < g.r:
+            picture = picture.path([-1.1 * g.r + 1j * axis, 1.1 * g.r + 1j * axis], "n.a.", "green")
+        return picture
+
+    return (ring_scheme,)
+
+
+@app.cell
+def drawing_51(drawn_ring, ring_scheme):
+    drawing_51 = tuple(ring_scheme(p, drawn_ring.value - 1) for p in (0, 1))
+    typeset(mo.hstack(drawing_51, justify="start"), mo.md("**Figure 5.1** – Load in plane 1 and in plane 2"))
+    return (drawing_51,)
+
+
+@app.cell
+def table_53(P_k, bolt, phi, load, plane):
+    table_53 = table("5.3", "Forces in the bolts", plane, load, bolt, phi, P_k)
+    table_53
+    return (table_53,)
+
+
+@app.cell(hide_code=True)
+def section_6():
+    mo.md("""
+    ## Workbook
+    """)
+    return
+
+
+@app.cell
+def workbook():
+    export("Joints of compartments", globals())
+    return
+
+
+if __name__ == "__main__":
+    app.run()

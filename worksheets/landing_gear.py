@@ -1,0 +1,896 @@
+import marimo
+
+__generated_with = "0.25.2"
+app = marimo.App(width="medium", app_title="Landing gear", css_file="page.css")
+
+with app.setup:
+    import marimo as mo
+    import numpy as np
+    from numpy import abs, arange, cos, exp, hypot, linspace, maximum, pi, sin, sqrt
+    from numpy import arccos as acos
+    from numpy import arcsin as asin
+    from numpy import arctan2 as atan2
+
+    from mechsheet.checks import check, check_slope, summary
+    from mechsheet.drawing import Drawing
+    from mechsheet.dyads import rrr, rrr_acceleration, rrr_condition, rrr_velocity
+    from mechsheet.errors import SheetError, refuse
+    from mechsheet.find import find
+    from mechsheet.formula import typeset
+    from mechsheet.inputs import Used, ask, inputs, read
+    from mechsheet.kinetostatics import Load, cylinder_drive, inertia, rrr_reactions
+    from mechsheet.planar import angle, angle_opposite, cross, dot, link_acceleration, link_velocity
+    from mechsheet.report import export
+    from mechsheet.table import figure, table
+
+    deg = pi / 180
+    ulp = np.finfo(float).eps
+
+
+@app.cell(hide_code=True)
+def title():
+    mo.md("""
+    # Landing gear
+
+    Synthesis by the pressure angle and kinematics of the lever mechanism that retracts a main leg, after the method
+    for the computer course project of the Kuibyshev Aviation Institute (1982); then the choice of the retraction time
+    and the forces. The numbers in brackets are the document's formulas, the steps those of its algorithm.
+
+    The document prints no numbers: the dimensions, masses and areas below are ours, plausible for an airliner.
+    """)
+    return
+
+
+@app.cell(hide_code=True)
+def verdict(checks_analogues, checks_ends, checks_forces, checks_least, checks_pressure, checks_time):
+    summary(checks_pressure, checks_ends, checks_analogues, checks_least, checks_time, checks_forces)
+    return
+
+
+@app.cell(hide_code=True)
+def section_1():
+    mo.md(r"""
+    ## 1 Initial data
+
+    The leg 3 is a bell crank on the hinge $O_2$, the origin; the axis x points to the right, y upwards. The cylinder
+    1, 2 on the hinge $O_1$ pushes its crank $O_2 A$ and lengthens: the leg, hanging at first, swings clockwise, to the
+    side of $O_1$.
+    """)
+    return
+
+
+@app.class_definition
+@inputs
+class LandingGear:
+    # 1.1 Mechanism
+    a: float = 0.20  # [m] cylinder hinge O1 above the leg hinge O2
+    b: float = 1.20  # [m] cylinder hinge O1 to the left of O2
+    l3: float = 0.30  # [m] crank O2 A; > 0
+    theta: float = 85 * deg  # [deg] swing of the leg; > 0 < 180
+    t_r: float = 8  # [s] retraction time; > 0
+    R: int = 6  # [-] parts of the stroke; >= 1 <= 1000
+
+    # 1.2 Choice of the retraction time
+    t_a: float = 5  # [s] shortest time of the curves; > 0 < t_b
+    t_b: float = 10  # [s] longest time of the curves; > 0
+    eps_lim: float = 0.1  # [rad/s**2] permitted angular acceleration of the leg; > 0
+
+    # 1.3 Leg with wheels
+    m3: float = 950  # [kg] mass; >= 0
+    r3: float = 2.1  # [m] O2 to the centre of mass; >= 0
+    J3: float = 700  # [kg*m**2] moment of inertia about the centre of mass; >= 0
+    l_w: float = 2.9  # [m] O2 to the axle; > 0
+    r_w: float = 0.58  # [m] radius of the wheel; > 0
+
+    # 1.4 Weight and air
+    g_n: float = 9.81  # [m/s**2] acceleration of gravity; >= 0
+    rho: float = 1.225  # [kg/m**3] density of the air; >= 0
+    U: float = 80  # [m/s] airspeed along x, positive against the retraction
+    C_w: float = 0.6  # [m**2] drag area of the wheels; >= 0
+    C_s: float = 0.7  # [m**2] drag area of the strut, broadside on; >= 0
+
+    """After # stand the unit and the meaning, after ; the limits; the page and the code take the same units."""
+
+
+@app.cell
+def form():
+    form = ask(LandingGear)
+    form
+    return (form,)
+
+
+@app.cell
+def given(form):
+    g = read(LandingGear, form)
+    Used(g)
+    return (g,)
+
+
+@app.cell(hide_code=True)
+def section_2():
+    mo.md(r"""
+    ## 2 Synthesis by the pressure angle
+
+    The pressure angle $\alpha$ lies between the force along the rod and the velocity of $A$. It vanishes where the line
+    $O_1 A$ touches the circle of $A$. The swing is laid off by halves to both sides of that position, so that $\alpha$
+    is small and about equal at its two ends.
+
+    ### Step 1: angle μ of the tangent position
+    """)
+    return
+
+
+@app.cell
+def step_1(g):
+    O1 = -g.b + 1j * g.a  # [m] cylinder hinge
+    O2 = 0j  # [m] leg hinge
+    beta0 = atan2(g.b, g.a)  # [deg] (2)
+    l12 = hypot(g.a, g.b)  # [m] (3) distance of the hinges O1, O2
+    if np.any(g.l3 >= l12):
+        refuse(SheetError(f"crank l3 = {g.l3} m must be shorter than the distance O1 O2 = {np.round(l12, 4)} m"))
+    mu = acos(g.l3 / l12)  # [deg] (4) between O2 O1 and the crank that O1 A touches
+    typeset()
+    return O1, O2, beta0, l12, mu
+
+
+@app.cell(hide_code=True)
+def section_22():
+    mo.md(r"""
+    ### Step 2: mounting angle ψ
+
+    $\psi$ lies between the leg and its crank. The crank passes no dead centre while its angle from $O_2 O_1$ stays
+    between 0° and 180°.
+    """)
+    return
+
+
+@app.cell
+def step_2(beta0, g, mu):
+    if np.any(g.theta >= 2 * mu):
+        _swing, _limit = (np.round(x / deg, 4) for x in (g.theta, 2 * mu))
+        refuse(
+            SheetError(f"swing theta = {_swing} deg must be < 2 mu = {_limit} deg: the crank passes the dead centre")
+        )
+    gamma_0 = mu - g.theta / 2  # [deg] crank from O2 O1, extended
+    gamma_n = mu + g.theta / 2  # [deg] crank from O2 O1, retracted
+    psi = pi + mu - (beta0 + g.theta / 2)  # [deg] (5) mounting angle
+    typeset()
+    return gamma_0, gamma_n, psi
+
+
+@app.cell(hide_code=True)
+def section_23():
+    mo.md(r"""
+    ### Step 3: stroke H of the piston
+
+    The law of cosines (7), (8) is written as the length of a difference of vectors, and the difference (6) in factors:
+    the same numbers with their digits kept. In (6) the document prints $\ell_{O_2 A_0}$ for $\ell_{O_1 A_0}$.
+    """)
+    return
+
+
+@app.cell
+def step_3(g, gamma_0, gamma_n, l12, mu):
+    l20 = abs(l12 - g.l3 * exp(1j * gamma_0))  # [m] (7) cylinder, extended leg
+    l2n = abs(l12 - g.l3 * exp(1j * gamma_n))  # [m] (8) cylinder, retracted leg
+    H = 4 * g.l3 * l12 * sin(mu) * sin(g.theta / 2) / (l2n + l20)  # [m] (6) stroke, l2n - l20
+    typeset()
+    return H, l20, l2n
+
+
+@app.cell(hide_code=True)
+def section_24():
+    mo.md(r"""
+    ### Pressure angles at both ends
+
+    The angles of the synthesis are equal only in the limit of a short crank. They are exactly equal, and then
+    $\theta/2$ whatever the lengths, where $O_1$ lies on the line through both end positions of $A$: the swing is then
+    laid off about $\mu_{eq}$ instead of $\mu$. No mounting angle makes the larger of the two smaller than that.
+    """)
+    return
+
+
+@app.cell
+def pressure_ends(g, gamma_0, gamma_n, l12, mu, psi):
+    alpha_0 = atan2(cos(gamma_0) - g.l3 / l12, sin(gamma_0))  # [deg] pressure angle, extended
+    alpha_n = atan2(cos(gamma_n) - g.l3 / l12, sin(gamma_n))  # [deg] pressure angle, retracted
+    mu_eq = acos(g.l3 / l12 * cos(g.theta / 2))  # [deg] middle of the swing for equal pressure angles
+    psi_eq = psi + mu_eq - mu  # [deg] mounting angle for equal pressure angles
+    alpha_eq = atan2(cos(mu_eq - g.theta / 2) - g.l3 / l12, sin(mu_eq - g.theta / 2))  # [deg] both of them
+    checks_pressure = (check("equal pressure angles are theta/2", alpha_eq - g.theta / 2, 1e-9, "deg"),)
+    typeset(*checks_pressure)
+    return alpha_0, alpha_eq, alpha_n, checks_pressure, mu_eq, psi_eq
+
+
+@app.cell(hide_code=True)
+def section_3():
+    mo.md(r"""
+    ## 3 Analytical study
+
+    ### Step 4: division of the stroke
+    """)
+    return
+
+
+@app.cell
+def step_4(H, g, l20):
+    i = arange(g.R + 1)  # [-] number of the position
+    l2i = l20 + i / g.R * H  # [m] (9) cylinder, length O1 A
+    typeset()
+    return i, l2i
+
+
+@app.cell(hide_code=True)
+def section_35():
+    mo.md(r"""
+    ### Steps 5 to 7: angles of cylinder and crank
+
+    $\beta_2$ is the document's $\Delta\beta_i$, the angle at $O_1$ of the triangle $O_1 A O_2$: (27) in the form that
+    keeps its digits. $\varphi_2$ is the direction from $A$ to $O_1$, $\varphi_3$ that from $O_2$ to $A$, and
+    $\varphi_{32}$ the document's $\Delta\varphi$.
+
+    Formula (28) takes $\varphi_3$ from one projection of the loop (17), by the arcsine; one of the programs takes the
+    arccosine. Each is right on one half of the circle only. Both projections together, $\ell_3 e^{i\varphi_3} = O_1 -
+    \ell_2 e^{i\varphi_2}$, give the two-argument arctangent; it is counted from the tangent position $\varphi_{3k}$,
+    from which the crank never turns as far as 90°.
+    """)
+    return
+
+
+@app.cell
+def steps_5_to_7(O1, beta0, g, l12, mu):
+    phi3k = pi / 2 + beta0 - mu  # [deg] crank in the tangent position
+
+    def beta2(l2):
+        return angle_opposite(g.l3, l2, l12)  # [deg] (27) between O1 O2 and the cylinder
+
+    def phi2(l2):
+        return pi / 2 + beta0 + beta2(l2)  # [deg] (26) cylinder
+
+    def phi3(l2):
+        return phi3k + angle((O1 - l2 * exp(1j * phi2(l2))) / exp(1j * phi3k))  # [deg] (17) crank
+
+    def phi32(l2):
+        return phi3(l2) - phi2(l2)  # [deg] crank from the cylinder
+
+    def A(l2):
+        return g.l3 * exp(1j * phi3(l2))  # [m] pin of the rod on the crank
+
+    @np.errstate(invalid="ignore")  # rounding may take the sine beyond 1: no angle then
+    def phi3_half(l2):
+        return asin((g.a - l2 * sin(phi2(l2))) / g.l3)  # [deg] (28) as printed, half of the circle (erratum)
+
+    typeset()
+    return A, beta2, phi2, phi3, phi32, phi3_half, phi3k
+
+
+@app.cell
+def angles(A, O1, O2, beta2, l2i, phi2, phi3, phi32, phi3_half):
+    beta2i = beta2(l2i)  # [deg] between O1 O2 and the cylinder
+    phi2i = phi2(l2i)  # [deg] cylinder
+    phi3i = phi3(l2i)  # [deg] crank
+    phi32i = phi32(l2i)  # [deg] crank from the cylinder
+    phi3_printed = phi3_half(l2i)  # [deg] (28) as printed, half of the circle (erratum)
+    Ai = A(l2i)  # [m] pin of the rod on the crank
+    # limit of the checks: from positions to velocities the digits lost are twice those of the condition number
+    lost = 32 * ulp * np.max(rrr_condition(O1, O2, Ai)) ** 2
+    typeset()
+    return Ai, beta2i, lost, phi2i, phi32i, phi3_printed, phi3i
+
+
+@app.cell(hide_code=True)
+def section_pressure():
+    mo.md(r"""
+    ### Pressure angle along the stroke
+
+    The force on $A$ points away from $O_1$, the velocity of $A$ is square to the crank: $\alpha = \varphi_{32} + 90°$.
+    It is zero at the tangent position, where the cylinder has the length $\ell_{2k}$.
+    """)
+    return
+
+
+@app.cell
+def pressure(alpha_0, alpha_n, g, l12, lost, phi32i):
+    alpha = phi32i + pi / 2  # [deg] pressure angle, positive before the tangent position
+    l2k = sqrt((l12 - g.l3) * (l12 + g.l3))  # [m] cylinder in the tangent position
+    checks_ends = (
+        check("pressure angle, extended", alpha[..., :1] - alpha_0, lost, "deg"),
+        check("pressure angle, retracted", alpha[..., -1:] - alpha_n, lost, "deg"),
+    )
+    typeset(*checks_ends)
+    return alpha, checks_ends, l2k
+
+
+@app.cell
+def table_31(alpha, beta2i, l2i, phi2i, phi32i, phi3_printed, phi3i):
+    table_31 = table(
+        "3.1",
+        "Angles",
+        *(l2i, beta2i, phi2i, phi3i, phi32i, alpha, phi3_printed),
+        note="phi3printed is formula (28) as printed: wrong wherever phi3 is outside -90..90 deg.",
+    )
+    table_31
+    return (table_31,)
+
+
+@app.cell
+def figure_31(alpha, l2i, l2k):
+    figure_31 = figure("3.1", "Pressure angle", l2i, alpha, marks={"l2k": l2k})
+    figure_31
+    return (figure_31,)
+
+
+@app.cell(hide_code=True)
+def section_scheme():
+    mo.md("""
+    ### Scheme of the landing gear
+
+    Drawn to scale from the computed points; the slider moves it from the extended position to the retracted one, which
+    are shown faintly.
+    """)
+    return
+
+
+@app.cell
+def stroke():
+    part = mo.ui.slider(0, 1, step=0.005, value=0.3, label="part of the stroke", show_value=True)
+    part
+    return (part,)
+
+
+@app.cell
+def leg(O2, g, phi3, psi):
+    def e3(l2):
+        return exp(1j * (phi3(l2) + psi))  # [-] direction of the leg
+
+    def W3(l2):
+        return O2 + g.l_w * e3(l2)  # [m] axle
+
+    def D3(l2):
+        return O2 + g.l_w / 2 * e3(l2)  # [m] middle of the strut
+
+    def S3(l2):
+        return O2 + g.r3 * e3(l2)  # [m] centre of mass of the leg
+
+    typeset()
+    return D3, W3, S3, e3
+
+
+@app.cell
+def scheme(A, H, O1, O2, W3, g, l20, part):
+    l2_t = l20 + part.value * H  # [m] cylinder as drawn
+    path_A, path_w = (_P(l20 + linspace(0, 1, 61) * H) for _P in (A, W3))
+    # to the right of O2 room for arrows
+    frame = [O1, O2, O2 + g.l_w / 2, *path_A, *(_P + g.r_w * _d for _P in path_w for _d in (1, 1j, -1, -1j))]
+
+    def scheme(l2):
+        a, w = A(l2), W3(l2)
+        links = Drawing(width=760, height=560, frame=frame).cylinder(O1, a, "l2").link(O2, a, "l3").link(O2, w, "3")
+        return links.wheel(w, g.r_w).support(O1, "O1", pi / 2).support(O2, "O2", 0.0).hinge(a, "A")
+
+    typeset()
+    return l2_t, path_A, path_w, scheme
+
+
+@app.cell
+def drawing_32(H, l20, l2_t, path_A, path_w, scheme):
+    ends = scheme(l20).faint() + scheme(l20 + H).faint()
+    drawing_32 = (scheme(l2_t) + ends).path(path_A).path(path_w)
+    typeset(drawing_32, mo.md("**Figure 3.2** – Scheme of the landing gear"))
+    return (drawing_32,)
+
+
+@app.cell(hide_code=True)
+def section_38():
+    mo.md(r"""
+    ### Step 8: analogues of the angular velocities
+
+    Derivatives with respect to $\ell_2$: the angular velocities per unit of the rod's speed.
+    """)
+    return
+
+
+@app.cell
+def step_8(g, phi32):
+    def omega3_l2(l2):
+        return 1 / (g.l3 * sin(phi32(l2)))  # [rad/m] (20) crank
+
+    def omega2_l2(l2):
+        return -(g.l3 * omega3_l2(l2) * cos(phi32(l2)) / l2)  # [rad/m] (21) cylinder
+
+    typeset()
+    return omega2_l2, omega3_l2
+
+
+@app.cell(hide_code=True)
+def section_39():
+    mo.md(r"""
+    ### Step 9: analogues of the angular accelerations
+
+    From (23) the fraction (24) has a minus, which the document's print lacks; (25) takes its value and inherits the
+    mistake. Both are shown.
+    """)
+    return
+
+
+@app.cell
+def step_9(g, omega2_l2, omega3_l2, phi32):
+    def eps3_l2(l2):
+        return -(
+            (l2 * omega2_l2(l2) ** 2 + g.l3 * omega3_l2(l2) ** 2 * cos(phi32(l2))) / (g.l3 * sin(phi32(l2)))
+        )  # [rad/m**2] (24) crank
+
+    def eps2_l2(l2):
+        return (
+            g.l3 * omega3_l2(l2) ** 2 * sin(phi32(l2)) - g.l3 * eps3_l2(l2) * cos(phi32(l2)) - 2 * omega2_l2(l2)
+        ) / l2  # [rad/m**2] (25) cylinder
+
+    typeset()
+    return eps2_l2, eps3_l2
+
+
+@app.cell
+def analogues(eps2_l2, eps3_l2, g, l2i, omega2_l2, omega3_l2, phi32i):
+    omega3_l2i = omega3_l2(l2i)  # [rad/m] crank
+    omega2_l2i = omega2_l2(l2i)  # [rad/m] cylinder
+    eps3_l2i = eps3_l2(l2i)  # [rad/m**2] crank
+    eps2_l2i = eps2_l2(l2i)  # [rad/m**2] cylinder
+    eps3_printed = (l2i * omega2_l2i**2 + g.l3 * omega3_l2i**2 * cos(phi32i)) / (
+        g.l3 * sin(phi32i)
+    )  # [rad/m**2] (24) as printed, without the minus (erratum)
+    typeset()
+    return eps2_l2i, eps3_printed, eps3_l2i, omega2_l2i, omega3_l2i
+
+
+@app.cell
+def table_32(eps2_l2i, eps3_printed, eps3_l2i, l2i, omega2_l2i, omega3_l2i):
+    table_32 = table(
+        "3.2",
+        "Analogues",
+        *(l2i, omega3_l2i, omega2_l2i, eps3_l2i, eps2_l2i, eps3_printed),
+        note="eps3printed is formula (24) as printed: the sign is wrong.",
+    )
+    table_32
+    return (table_32,)
+
+
+@app.cell
+def figure_33(l2i, l2k, omega2_l2i, omega3_l2i):
+    figure_33 = figure("3.3", "Velocity analogues", l2i, omega3_l2i, omega2_l2i, marks={"l2k": l2k})
+    figure_33
+    return (figure_33,)
+
+
+@app.cell
+def figure_34(eps2_l2i, eps3_l2i, l2i, l2k):
+    figure_34 = figure("3.4", "Acceleration analogues", l2i, eps3_l2i, eps2_l2i, marks={"l2k": l2k})
+    figure_34
+    return (figure_34,)
+
+
+@app.cell(hide_code=True)
+def section_310():
+    mo.md(r"""
+    ### Steps 10 and 11: speed of the rod and true values
+
+    The pump's flow is constant, so is the speed of the rod. In (14) the document prints $V_{21}$ without its square:
+    that is not an angular acceleration, as its unit shows.
+    """)
+    return
+
+
+@app.cell
+def steps_10_11(H, eps2_l2i, eps3_l2i, g, omega2_l2i, omega3_l2i):
+    V21 = H / g.t_r  # [m/s] (1) rod in the cylinder
+    omega3i = V21 * omega3_l2i  # [rad/s] (11) crank
+    eps3i = V21**2 * eps3_l2i  # [rad/s**2] (12) crank
+    omega2i = V21 * omega2_l2i  # [rad/s] (13) cylinder
+    eps2i = V21**2 * eps2_l2i  # [rad/s**2] (14) cylinder
+    eps2_printed = V21 * eps2_l2i  # [rad/(m*s)] (14) as printed (erratum)
+    typeset()
+    return V21, eps2_printed, eps2i, eps3i, omega2i, omega3i
+
+
+@app.cell(hide_code=True)
+def section_312():
+    mo.md(r"""
+    ### Step 12: comparison with other methods
+
+    Instead of graphs: the pin $A$ and the analogues by the general solution for a group of two links, one of which
+    lengthens, and the slopes of $\varphi_3$, $\varphi_2$ and of their analogues by differences. The nearer a dead
+    centre, the more digits are lost, which the limits allow for.
+    """)
+    return
+
+
+@app.cell
+def step_12(
+    Ai,
+    H,
+    O1,
+    O2,
+    eps2_l2,
+    eps2_l2i,
+    eps3_l2,
+    eps3_l2i,
+    g,
+    l12,
+    l20,
+    l2i,
+    l2n,
+    lost,
+    omega2_l2,
+    omega2_l2i,
+    omega3_l2,
+    omega3_l2i,
+    phi2,
+    phi3,
+):
+    A_group = rrr(O1, O2, l2i, g.l3, +1)  # [m] pin A of the group
+    v_group = rrr_velocity(O1, O2, A_group, 0, 0, dr_A=1)
+    a_group = rrr_acceleration(O1, O2, A_group, v_group.omega_A, v_group.omega_B, 0, 0, dr_A=1)
+    scale = np.max(abs([eps3_l2i, eps2_l2i, omega3_l2i**2]))
+    checks_analogues = (
+        check("stroke: l2n - l20 = H", l2n - l20 - H, 1e-12 * l12, "m"),
+        check("pin A is that of the group", Ai - A_group, lost * g.l3, "m"),
+        check("omega3 is that of the group", v_group.omega_B / omega3_l2i - 1, lost),
+        check("omega2 is that of the group", v_group.omega_A - omega2_l2i, lost * np.max(abs(omega3_l2i)), "rad/m"),
+        check("eps3 is that of the group", a_group.epsilon_B - eps3_l2i, lost * scale, "rad/m**2"),
+        check("eps2 is that of the group", a_group.epsilon_A - eps2_l2i, lost * scale, "rad/m**2"),
+        check_slope("omega3 is the slope of phi3", omega3_l2i, phi3, l2i, l20, l20 + H, "rad/m"),
+        check_slope("omega2 is the slope of phi2", omega2_l2i, phi2, l2i, l20, l20 + H, "rad/m"),
+        check_slope("eps3 is the slope of omega3", eps3_l2i, omega3_l2, l2i, l20, l20 + H, "rad/m**2"),
+        check_slope("eps2 is the slope of omega2", eps2_l2i, omega2_l2, l2i, l20, l20 + H, "rad/m**2"),
+    )
+    typeset(*checks_analogues)
+    return A_group, a_group, checks_analogues, scale, v_group
+
+
+@app.cell(hide_code=True)
+def section_4():
+    mo.md("""
+    ## 4 Results, as the Fortran program prints them
+    """)
+    return
+
+
+@app.cell
+def table_41(eps2i, eps3i, l2i, omega2i, omega3i, phi3i, psi):
+    table_41 = table("4.1", "Results of the calculation", psi, l2i, phi3i, omega3i, omega2i, eps3i, eps2i)
+    table_41
+    return (table_41,)
+
+
+@app.cell
+def table_42(eps2_printed, eps2i, l2i):
+    table_42 = table(
+        "4.2",
+        "Formula (14) as printed and right",
+        *(l2i, eps2i, eps2_printed),
+        note="eps2printed is formula (14) as printed, with V21 not squared.",
+    )
+    table_42
+    return (table_42,)
+
+
+@app.cell(hide_code=True)
+def section_5():
+    mo.md(r"""
+    ## 5 Choice of the retraction time
+
+    A short retraction saves fuel in the take-off but loads rod and piston. The document looks for the position of the
+    least analogue $(\varepsilon_3)_{\ell_2}$ and draws $\varepsilon_3$ over $t$. In magnitude the least is zero, in the
+    tangent position $\ell_{2k}$, at part $p_k$ of the stroke; what the limit must be kept against is the greatest.
+    $(\omega_3)_{\ell_2}^{-2}$ is concave in $\ell_2$, so $|(\omega_3)_{\ell_2}|$ is convex, its slope grows from end to
+    end, and the greatest $|(\varepsilon_3)_{\ell_2}|$ is at one of the ends.
+    """)
+    return
+
+
+@app.cell
+def least(H, eps3_l2, eps3_l2i, l20, l2k, lost, scale):
+    p_k = (l2k - l20) / H  # [%] part of the stroke at which the analogue is least
+    eps3_k = eps3_l2(l2k)  # [rad/m**2] least analogue, zero but for rounding
+    eps3_m = maximum(abs(eps3_l2(l20)), abs(eps3_l2(l20 + H)))  # [rad/m**2] greatest analogue
+    checks_least = (
+        check("the analogue vanishes in the tangent position", eps3_k, lost * scale, "rad/m**2"),
+        check("the greatest is at an end", np.max(abs(eps3_l2i), axis=-1, keepdims=True) / eps3_m - 1, lost),
+    )
+    typeset(*checks_least)
+    return checks_least, eps3_k, eps3_m, p_k
+
+
+@app.cell
+def curves(H, eps3_l2, g, l20):
+    t = linspace(g.t_a, g.t_b, 11)  # [s] retraction time
+
+    def eps3_t(t, p):
+        return (H / t) ** 2 * eps3_l2(l20 + p * H)  # [rad/s**2] (12) crank at part p of the stroke
+
+    eps3_p0 = eps3_t(t, 0)  # [rad/s**2] extended
+    eps3_p25 = eps3_t(t, 0.25)  # [rad/s**2] after 25 % of the stroke
+    eps3_p75 = eps3_t(t, 0.75)  # [rad/s**2] after 75 %
+    eps3_p100 = eps3_t(t, 1)  # [rad/s**2] retracted
+    eps_max = g.eps_lim  # [rad/s**2] limit
+    eps_min = -g.eps_lim  # [rad/s**2] limit in the other direction
+    typeset()
+    return eps3_p0, eps3_p100, eps3_p25, eps3_p75, eps_max, eps_min, t
+
+
+@app.cell
+def find_t_lim(H, eps3_m, g):
+    def eps3_g(t):
+        return (H / t) ** 2 * eps3_m  # [rad/s**2] greatest angular acceleration of the leg in magnitude
+
+    t_lim_found = find(
+        eps3_g,
+        equals=g.eps_lim,
+        guess=g.t_r,
+        unknown="retraction time t_lim",
+        quantity="greatest angular acceleration eps3_g of the leg",
+        unit="rad/s**2",
+        unknown_unit="s",
+    )
+    t_lim = t_lim_found.value  # [s] shortest retraction time that keeps the limit
+    typeset(t_lim_found)
+    return eps3_g, t_lim, t_lim_found
+
+
+@app.cell(hide_code=True)
+def section_closed():
+    mo.md(r"""
+    $\varepsilon_3$ falls with the square of the time, so the time has a closed form too.
+    """)
+    return
+
+
+@app.cell
+def t_closed(H, eps3_l2i, eps3_m, eps3i, g, lost, t_lim):
+    t_c = H * sqrt(eps3_m / g.eps_lim)  # [s] the same time in closed form
+    eps3_lim = (H / t_lim) ** 2 * eps3_l2i  # [rad/s**2] (12) crank at that time
+    checks_time = (
+        check("Find agrees with the closed form", t_lim / t_c - 1, 1e-14),
+        check("t_lim just keeps the limit", np.max(abs(eps3_lim), axis=-1, keepdims=True) / g.eps_lim - 1, lost),
+        check("t_r keeps the limit", eps3i, g.eps_lim, "rad/s**2"),
+    )
+    typeset(*checks_time)
+    return checks_time, eps3_lim, t_c
+
+
+@app.cell
+def table_51(eps3_p0, eps3_p100, eps3_p25, eps3_p75, eps_max, eps_min, t):
+    table_51 = table(
+        "5.1",
+        "Angular acceleration of the leg and retraction time",
+        *(t, eps3_p0, eps3_p25, eps3_p75, eps3_p100),
+        *(eps_max, eps_min),
+    )
+    table_51
+    return (table_51,)
+
+
+@app.cell
+def figure_51(eps3_p0, eps3_p100, eps3_p25, eps3_p75, eps_max, eps_min, t, t_lim):
+    figure_51 = figure(
+        "5.1",
+        "Angular acceleration of the leg over the retraction time",
+        *(t, eps3_p0, eps3_p25, eps3_p75, eps3_p100, eps_max, eps_min),
+        marks={"t_lim": t_lim},
+    )
+    figure_51
+    return (figure_51,)
+
+
+@app.cell(hide_code=True)
+def section_6():
+    mo.md(r"""
+    ## 6 Forces and power
+
+    Beyond the document. The leg swings in the plane of the flow, at the speed $V_{21}$ between the ends of the stroke;
+    what starts and stops it there is left out, so are friction and the mass of the cylinder. On the leg act its weight
+    and inertia at $S_3$, the drag of the wheels at the axle, and at the middle of the strut the drag of the flow across
+    it; the leg's own speed is small beside the flow.
+    """)
+    return
+
+
+@app.cell
+def loads(O2, D3, W3, S3, V21, e3, eps3_l2, g, omega3_l2):
+    q = g.rho * g.U * abs(g.U) / 2  # [Pa] dynamic pressure, with the sign of the flow
+    G3 = -1j * g.m3 * g.g_n  # [N] weight of the leg, at S3
+    Q_w = q * g.C_w  # [N] drag of the wheels, at the axle
+
+    def Q3(l2):
+        return -1j * q * g.C_s * e3(l2).imag * abs(e3(l2).imag) * e3(l2)  # [N] drag across the strut
+
+    def a_S3(l2):
+        return link_acceleration(
+            S3(l2), O2, 0, V21 * omega3_l2(l2), V21**2 * eps3_l2(l2)
+        )  # [m/s**2] acceleration of the centre of mass
+
+    def I3(l2):
+        return inertia(g.m3, g.J3, S3(l2), a_S3(l2), V21**2 * eps3_l2(l2))
+
+    def acting(l2):
+        return [Load(G3, S3(l2)), I3(l2), Load(Q_w, W3(l2)), Load(Q3(l2), D3(l2))]
+
+    typeset()
+    return I3, G3, Q3, Q_w, acting, q
+
+
+@app.cell(hide_code=True)
+def section_61():
+    mo.md(r"""
+    ### 6.1 Reactions of the group (2, 3)
+    """)
+    return
+
+
+@app.cell
+def reactions(A, Ai, O1, O2, acting, l2i):
+    def reactions(l2):
+        return rrr_reactions(O1, O2, A(l2), [], acting(l2))
+
+    group_23 = reactions(l2i)
+    R01 = group_23.R_A  # [N] frame on the cylinder, at O1
+    R03 = group_23.R_B  # [N] frame on the leg 3, at O2
+    R23 = -group_23.R_C  # [N] rod 2 on the leg 3, at A
+    F_c = cylinder_drive(O1, Ai, group_23.R_C).F  # [N] fluid on the rod, positive where it pushes
+    typeset()
+    return F_c, R01, R03, R23, group_23, reactions
+
+
+@app.cell(hide_code=True)
+def section_62():
+    mo.md(r"""
+    ### 6.2 Shares of the loads, by virtual work
+
+    Each load moves with the velocity analogue of its point; the work of the cylinder on $d\ell_2$ is that against the
+    loads.
+    """)
+    return
+
+
+@app.cell
+def shares(I3, G3, O2, D3, W3, Q3, Q_w, S3, V21, F_c, l2i, omega3_l2i):
+    v_S3 = link_velocity(S3(l2i), O2, 0, omega3_l2i)  # [-] velocity analogue of the centre of mass
+    v_W3 = link_velocity(W3(l2i), O2, 0, omega3_l2i)  # [-] of the axle
+    v_D3 = link_velocity(D3(l2i), O2, 0, omega3_l2i)  # [-] of the middle of the strut
+    I3i = I3(l2i)
+    F_in = I3i.F  # [N] inertia force of the leg, at S3
+    M_in = I3i.M  # [N*m] inertia moment of the leg
+    F_G = -dot(G3, v_S3)  # [N] share of the weight
+    F_Q = -dot(Q_w, v_W3) - dot(Q3(l2i), v_D3)  # [N] share of the drag
+    F_I = -dot(F_in, v_S3) - M_in * omega3_l2i  # [N] share of the inertia
+    P_c = F_c * V21  # [kW] power of the cylinder
+    typeset()
+    return F_G, F_I, F_Q, F_in, I3i, M_in, P_c, v_D3, v_S3, v_W3
+
+
+@app.cell(hide_code=True)
+def section_63():
+    mo.md(r"""
+    ### 6.3 Check: equilibrium, virtual work, power
+
+    The energy of the leg is differentiated numerically: its growth and the work against the drag are what the cylinder
+    gives.
+    """)
+    return
+
+
+@app.cell
+def equilibrium(
+    Ai,
+    F_G,
+    F_I,
+    F_Q,
+    F_c,
+    G3,
+    H,
+    O1,
+    D3,
+    W3,
+    Q3,
+    Q_w,
+    R01,
+    R03,
+    R23,
+    S3,
+    V21,
+    g,
+    F_in,
+    M_in,
+    l20,
+    l2i,
+    lost,
+    omega3_l2,
+):
+    F3 = R03 + R23 + G3 + F_in + Q_w + Q3(l2i)  # [N] forces on the leg 3
+    M3 = (
+        cross(Ai, R23) + cross(S3(l2i), G3 + F_in) + M_in + cross(W3(l2i), Q_w) + cross(D3(l2i), Q3(l2i))
+    )  # [N*m] moments on the leg 3 about O2
+    M2 = cross(Ai - O1, R01)  # [N*m] moments on the cylinder about A
+
+    def E3(l2):
+        return (g.J3 + g.m3 * g.r3**2) * (V21 * omega3_l2(l2)) ** 2 / 2 + g.m3 * g.g_n * S3(l2).imag  # [J] energy
+
+    largest = np.max(abs([R01, R03, R23]))
+    checks_forces = (
+        check("equilibrium of forces on the leg", F3, lost * largest, "N"),
+        check("equilibrium of moments on the leg", M3, lost * largest * g.l_w, "N*m"),
+        check("equilibrium of moments on the cylinder", M2, lost * largest * g.l3, "N*m"),
+        check("virtual work: the shares make the force", F_G + F_Q + F_I - F_c, lost * largest, "N"),
+        check_slope("power: what the drag leaves raises the leg", F_c - F_Q, E3, l2i, l20, l20 + H, "N"),
+    )
+    typeset(*checks_forces)
+    return E3, checks_forces
+
+
+@app.cell(hide_code=True)
+def section_drawn():
+    mo.md("""
+    The forces at the position of the slider, the loads and the reactions each with their own scale.
+    """)
+    return
+
+
+@app.cell
+def drawing_61(D3, G3, H, I3, Q3, Q_w, S3, W3, l20, l2_t, part, scheme):
+    s3 = S3(l2_t)
+    leg_t = scheme(l2_t).mass(s3, "S3") + scheme(l20).faint() + scheme(l20 + H).faint()
+    at_mass = leg_t.force(s3, G3, "G3").force(s3, I3(l2_t).F, "F_in")
+    drawing_61 = at_mass.force(W3(l2_t), Q_w, "Q_w").force(D3(l2_t), Q3(l2_t), "Q3")
+    typeset(part, drawing_61, mo.md("**Figure 6.1** – Loads on the leg"))
+    return (drawing_61,)
+
+
+@app.cell
+def drawing_62(A, O2, l2_t, reactions, scheme):
+    at = reactions(l2_t)
+    drawing_62 = scheme(l2_t).force(A(l2_t), -at.R_C, "R23").force(O2, at.R_B, "R03")
+    typeset(drawing_62, mo.md("**Figure 6.2** – Reactions on the leg"))
+    return (drawing_62,)
+
+
+@app.cell
+def table_61(F_G, F_I, F_Q, F_c, P_c, R01, R03, R23, l2i):
+    table_61 = table(
+        "6.1",
+        "Forces and power",
+        *(l2i, F_c, F_G, F_Q, F_I, P_c, abs(R03)),
+        *(R03.real, R03.imag, R23.real, R23.imag, R01.real, R01.imag),
+    )
+    table_61
+    return (table_61,)
+
+
+@app.cell
+def figure_63(F_G, F_I, F_Q, F_c, l2i):
+    figure_63 = figure("6.3", "Force of the cylinder and its shares", l2i, F_c, F_G, F_Q, F_I)
+    figure_63
+    return (figure_63,)
+
+
+@app.cell
+def figure_64(P_c, l2i):
+    figure_64 = figure("6.4", "Power of the cylinder", l2i, P_c)
+    figure_64
+    return (figure_64,)
+
+
+@app.cell(hide_code=True)
+def section_7():
+    mo.md("""
+    ## Workbook
+    """)
+    return
+
+
+@app.cell
+def workbook():
+    export("Landing gear", globals())
+    return
+
+
+if __name__ == "__main__":
+    app.run()

@@ -1,0 +1,698 @@
+import marimo
+
+__generated_with = "0.25.2"
+app = marimo.App(width="medium", app_title="Slotted link", css_file="page.css")
+
+with app.setup:
+    import marimo as mo
+    import numpy as np
+    from numpy import abs, arange, copysign, cos, exp, isfinite, linspace, minimum, nan, pi, sin, sqrt, where
+    from numpy import arctan2 as atan2
+
+    from mechsheet.checks import Check, check, summary
+    from mechsheet.drawing import Drawing
+    from mechsheet.dyads import rpr, rpr_acceleration, rpr_velocity
+    from mechsheet.formula import typeset
+    from mechsheet.inputs import Used, ask, inputs, read
+    from mechsheet.planar import angle, angle_between, dot
+    from mechsheet.report import export
+    from mechsheet.table import figure, table
+
+    deg = pi / 180
+    ulp = np.finfo(float).eps
+
+
+@app.cell(hide_code=True)
+def title():
+    mo.md("""
+    # Slotted link
+
+    Positions, velocities and accelerations of a quick-return mechanism: the pin A of the crank 1 carries a slider 2,
+    which drives the slotted link 3 about the hinge B; the point C is on the link. First the six equations are solved
+    at once, as the document does, then the same numbers follow in closed form.
+    Change an input or a formula: everything below follows.
+    """)
+    return
+
+
+@app.cell(hide_code=True)
+def verdict(checks_agreement, checks_equations, checks_found, checks_strokes):
+    summary(checks_found, checks_agreement, checks_equations, checks_strokes)
+    return
+
+
+@app.cell(hide_code=True)
+def section_1():
+    mo.md("""
+    ## 1 Input data
+
+    Angles count counter-clockwise, so the sign of the crank's angular velocity is its sense of turning. Only a crank
+    that turns clockwise gives the signs of the document's table, whose crank angles fall and whose link begins with a
+    negative angular velocity. With the other sign all velocities change theirs, and no acceleration does.
+    """)
+    return
+
+
+@app.class_definition
+@inputs
+class SlottedLink:
+    # 1.1 Dimensions
+    L1: float = 0.8  # [m] crank; > 0
+    L3: float = 3.5  # [m] link 3 from its hinge B to the point C; > 0
+    L0: float = 2.4  # [m] crank's hinge O1 above the link's hinge B; >= 0
+
+    # 1.2 Motion of the crank
+    omega1: float = -10  # [rad/s] angular velocity of the crank, negative clockwise
+    phi_0: float = 360 * deg  # [deg] position of the crank at k = 0
+    n: int = 6  # [-] steps of a full turn; >= 2 <= 360
+
+    # 1.3 First approximations of Find
+    phi3_0: float = 1.5  # [rad] angle of the link 3
+    SAB_0: float = 2  # [m] slider's distance from B along the link; > 0
+    omega3_0: float = 1  # [rad/s] angular velocity of the link 3
+    VAB_0: float = 0.3  # [m/s] velocity of the slider along the link
+    eps3_0: float = 11  # [rad/s**2] angular acceleration of the link 3
+    WAB_0: float = 1  # [m/s**2] acceleration of the slider along the link
+
+    """After # stand the unit and the meaning, after ; the limits; the page and the code take the same units."""
+
+
+@app.cell
+def form():
+    form = ask(SlottedLink)
+    form
+    return (form,)
+
+
+@app.cell
+def given(form):
+    g = read(SlottedLink, form)
+    Used(g)
+    return (g,)
+
+
+@app.cell
+def coordinate(g):
+    dphi1 = copysign(2 * pi / g.n, g.omega1)  # [deg] step of the crank, in its sense of turning
+    k = arange(g.n + 1)  # [-] number of the position
+    phi1_k = g.phi_0 + k * dphi1  # [deg] crank
+    typeset()
+    return dphi1, k, phi1_k
+
+
+@app.cell(hide_code=True)
+def section_2():
+    mo.md(r"""
+    ## 2 The six equations
+
+    The loop $B A O_1$ is projected on both axes and differentiated twice. Each equation stands as its residual, left
+    side minus right side, which Find makes zero: what is typeset here is what is solved.
+    """)
+    return
+
+
+@app.cell
+def equations(g):
+    def f1(phi1, phi3, SAB):
+        return SAB * cos(phi3) - g.L1 * cos(phi1)  # [m] position, x
+
+    def f2(phi1, phi3, SAB):
+        return SAB * sin(phi3) - g.L0 - g.L1 * sin(phi1)  # [m] position, y
+
+    def f3(phi1, phi3, SAB, omega3, VAB):
+        return VAB * cos(phi3) - SAB * sin(phi3) * omega3 + g.L1 * sin(phi1) * g.omega1  # [m/s] velocity, x
+
+    def f4(phi1, phi3, SAB, omega3, VAB):
+        return VAB * sin(phi3) + SAB * cos(phi3) * omega3 - g.L1 * cos(phi1) * g.omega1  # [m/s] velocity, y
+
+    def f5(phi1, phi3, SAB, omega3, VAB, eps3, WAB):
+        return (
+            WAB * cos(phi3)
+            - 2 * VAB * sin(phi3) * omega3
+            - SAB * cos(phi3) * omega3**2
+            - SAB * sin(phi3) * eps3
+            + g.L1 * cos(phi1) * g.omega1**2
+        )  # [m/s**2] acceleration, x
+
+    def f6(phi1, phi3, SAB, omega3, VAB, eps3, WAB):
+        return (
+            WAB * sin(phi3)
+            + 2 * VAB * cos(phi3) * omega3
+            - SAB * sin(phi3) * omega3**2
+            + SAB * cos(phi3) * eps3
+            + g.L1 * sin(phi1) * g.omega1**2
+        )  # [m/s**2] acceleration, y
+
+    typeset()
+    return f1, f2, f3, f4, f5, f6
+
+
+@app.cell(hide_code=True)
+def section_3():
+    mo.md(r"""
+    ## 3 Find
+
+    One Find solves all six equations for every position, from the same first approximations. It is Newton's method,
+    undamped; the slopes of the equations are taken from the equations themselves by a complex step, which is exact.
+    An evaluation is one value of all six equations.
+    """)
+    return
+
+
+@app.function
+def newton(f, guess, size, most=60):
+    """Roots of f(x) = 0 for many positions at once, and the evaluations of f that each one took.
+
+    ``f`` takes and returns arrays of shape (unknowns, ..., positions), complex too; ``guess`` has shape (unknowns,
+    positions), ``size`` (unknowns, 1) holds magnitudes against which a step counts as small. A root that is not
+    found in ``most`` steps is NaN.
+    """
+    tilt = 1e-100  # of the complex step: its square vanishes beside 1
+    x, unknowns = guess, len(guess)
+    evaluations, moving = np.zeros(guess.shape[1], int), np.ones(guess.shape[1], bool)
+    with np.errstate(all="ignore"):
+        for _ in range(most):
+            y = f(x[:, None] + 1j * tilt * np.eye(unknowns)[:, :, None])
+            slopes = np.moveaxis(y.imag / tilt, 2, 0)
+            slopes[np.linalg.det(slopes) == 0] = nan
+            step = np.linalg.solve(slopes, y.real[:, 0].T[..., None])[..., 0].T
+            x = where(moving, x - step, x)
+            evaluations += unknowns * moving
+            moving &= ~np.all(abs(step) <= 1e-9 * np.maximum(size, abs(x)), axis=0)
+            if not moving.any():
+                break
+    return where(moving, nan, x), evaluations
+
+
+@app.cell
+def system(f1, f2, f3, f4, f5, f6, g):
+    def residuals(x, phi1):
+        phi3, SAB, omega3, VAB, eps3, WAB = x
+        position = f1(phi1, phi3, SAB), f2(phi1, phi3, SAB)
+        velocity = f3(phi1, phi3, SAB, omega3, VAB), f4(phi1, phi3, SAB, omega3, VAB)
+        acceleration = f5(phi1, phi3, SAB, omega3, VAB, eps3, WAB), f6(phi1, phi3, SAB, omega3, VAB, eps3, WAB)
+        return np.array([*position, *velocity, *acceleration])
+
+    guess = np.array([[g.phi3_0, g.SAB_0, g.omega3_0, g.VAB_0, g.eps3_0, g.WAB_0]]).T
+    L, w = g.L0 + g.L1, abs(g.omega1)
+    size = np.maximum(abs(guess), np.array([[1, L, w, L * w, w**2, L * w**2]]).T)
+
+    def Find(phi1, first=guess):
+        return newton(lambda x: residuals(x, phi1), first + 0 * phi1, size)
+
+    return Find, guess, residuals, size
+
+
+@app.cell
+def found(Find, phi1_k):
+    F, evaluations = Find(phi1_k)
+    phi3_F = F[0]  # [deg] link 3, found
+    SAB_F = F[1]  # [m] slider from B along the link, found
+    omega3_F = F[2]  # [rad/s] angular velocity of the link 3, found
+    VAB_F = F[3]  # [m/s] velocity of the slider along the link, found
+    eps3_F = F[4]  # [rad/s**2] angular acceleration of the link 3, found
+    WAB_F = F[5]  # [m/s**2] acceleration of the slider along the link, found
+    N_F = evaluations  # [-] evaluations of the six equations
+    typeset()
+    return F, N_F, SAB_F, VAB_F, WAB_F, eps3_F, evaluations, omega3_F, phi3_F
+
+
+@app.cell(hide_code=True)
+def section_4():
+    mo.md(r"""
+    ## 4 Closed form
+
+    Slider and slotted link are the Assur group of the third kind: with $u$ the direction of the link,
+
+    $$u = \frac{A - B}{S_{AB}}, \qquad V_A = (\dot S_{AB} + i\,\omega\,S_{AB})\,u, \qquad
+      W_A = \big(\ddot S_{AB} - \omega^2 S_{AB} + i\,(\varepsilon\,S_{AB} + 2\,\omega\,\dot S_{AB})\big)\,u,$$
+
+    so that the position alone fixes $u$ and $S_{AB}$, and the rest is linear. The link points from B to the slider,
+    $S_{AB} > 0$: that is the branch +1 of the group. Points are complex numbers $x + iy$ from B. The angle
+    $\varphi_3$ is counted from $\varphi_s = \pi/2$, or from the crank, $\varphi_s = \varphi_1$, where the link goes
+    round with it: so it never jumps by a turn.
+    """)
+    return
+
+
+@app.cell
+def crank(g):
+    B = 0j  # [m] hinge of the link 3
+    O1 = 1j * g.L0  # [m] hinge of the crank
+
+    def A(phi1):
+        return O1 + g.L1 * exp(1j * phi1)  # [m] pin of the crank, with the slider
+
+    def VA(phi1):
+        return 1j * g.omega1 * (A(phi1) - O1)  # [m/s] velocity of A
+
+    def WA(phi1):
+        return g.omega1**2 * (O1 - A(phi1))  # [m/s**2] acceleration of A
+
+    typeset()
+    return A, B, O1, VA, WA
+
+
+@app.cell
+def group(A, B, VA, WA, g):
+    def slider(phi1):
+        # nearer to the hinge than the roundings of its own coordinates the slider gives the link no direction
+        return where(abs(A(phi1) - B) > 16 * ulp * (g.L0 + g.L1), A(phi1), nan)
+
+    def u(phi1):
+        return rpr(slider(phi1), B, +1).u  # [-] direction of the link 3
+
+    def phi3(phi1):
+        phi_s = where(g.L1 > g.L0, phi1, pi / 2)
+        return phi_s + angle(u(phi1) * exp(-1j * phi_s))  # [deg] link 3
+
+    def SAB(phi1):
+        return rpr(slider(phi1), B, +1).s  # [m] slider from B along the link
+
+    def omega_BC(phi1):
+        return rpr_velocity(slider(phi1), B, u(phi1), VA(phi1)).omega  # [rad/s] angular velocity of the link 3
+
+    def VAB(phi1):
+        return rpr_velocity(slider(phi1), B, u(phi1), VA(phi1)).ds  # [m/s] velocity of the slider along the link
+
+    def eps_BC(phi1):
+        rates = omega_BC(phi1), VAB(phi1)
+        return rpr_acceleration(slider(phi1), B, u(phi1), *rates, WA(phi1)).epsilon  # [rad/s**2] angular acceleration
+
+    def WAB(phi1):
+        rates = omega_BC(phi1), VAB(phi1)
+        return rpr_acceleration(slider(phi1), B, u(phi1), *rates, WA(phi1)).dds  # [m/s**2] sliding acceleration
+
+    typeset()
+    return SAB, VAB, WAB, eps_BC, omega_BC, phi3, u
+
+
+@app.cell
+def point_C(B, eps_BC, g, omega_BC, u):
+    def C(phi1):
+        return B + g.L3 * u(phi1)  # [m] point C
+
+    def VC(phi1):
+        return 1j * omega_BC(phi1) * g.L3 * u(phi1)  # [m/s] velocity of C
+
+    def WC(phi1):
+        return (1j * eps_BC(phi1) - omega_BC(phi1) ** 2) * g.L3 * u(phi1)  # [m/s**2] acceleration of C
+
+    typeset()
+    return C, VC, WC
+
+
+@app.cell
+def fields(C, SAB, VAB, VC, WAB, WC, eps_BC, g, omega_BC, phi1_k, phi3):
+    phi3_k = phi3(phi1_k)  # [deg] link 3
+    SAB_k = SAB(phi1_k)  # [m] slider from B along the link
+    omega_BC_k = omega_BC(phi1_k)  # [rad/s] angular velocity of the link 3
+    VAB_k = VAB(phi1_k)  # [m/s] velocity of the slider along the link
+    eps_BC_k = eps_BC(phi1_k)  # [rad/s**2] angular acceleration of the link 3
+    WAB_k = WAB(phi1_k)  # [m/s**2] acceleration of the slider along the link
+    P_C_k = C(phi1_k)  # [m] point C
+    VC_k = VC(phi1_k)  # [m/s] velocity of C
+    WC_k = WC(phi1_k)  # [m/s**2] acceleration of C
+    WCn_k = omega_BC_k**2 * g.L3  # [m/s**2] normal acceleration of C, from C to B
+    WCt_k = eps_BC_k * g.L3  # [m/s**2] tangential acceleration of C, to the left of BC
+    typeset()
+    return P_C_k, SAB_k, VAB_k, VC_k, WAB_k, WC_k, WCn_k, WCt_k, eps_BC_k, omega_BC_k, phi3_k
+
+
+@app.cell
+def table_1(SAB_k, VC_k, WC_k, eps_BC_k, omega_BC_k, phi1_k, phi3_k):
+    table_1 = table("1", "Results", phi1_k, phi3_k, SAB_k, omega_BC_k, eps_BC_k, abs(VC_k), abs(WC_k), decimals=3)
+    table_1
+    return (table_1,)
+
+
+@app.cell
+def table_2(P_C_k, VAB_k, VC_k, WAB_k, WC_k, WCn_k, WCt_k, phi1_k):
+    table_2 = table(
+        "2",
+        "Point C and slider, by components",
+        phi1_k,
+        *(P_C_k.real, P_C_k.imag, VC_k.real, VC_k.imag, WC_k.real, WC_k.imag, WCn_k, WCt_k, VAB_k, WAB_k),
+    )
+    table_2
+    return (table_2,)
+
+
+@app.cell(hide_code=True)
+def section_5():
+    mo.md(r"""
+    ## 5 Find against the closed form
+
+    The six equations have more roots than the mechanism has positions: beside $(\varphi_3, S_{AB})$ stand
+    $(\varphi_3 + 2\pi j, S_{AB})$, the same link, and $(\varphi_3 + \pi + 2\pi j, -S_{AB})$, the link that points
+    away from the slider, on which C stands on the other side of B and moves the opposite way. In which one a Find ends
+    depends on its first approximations; nothing in the equations tells. The closed form names its branch, so its
+    numbers are used everywhere else. The checks compare each root with the closed form of the branch that it is on.
+    """)
+    return
+
+
+@app.cell
+def table_3(N_F, SAB_F, VAB_F, WAB_F, eps3_F, omega3_F, phi1_k, phi3_F):
+    table_3 = table("3", "Find", phi1_k, phi3_F, SAB_F, omega3_F, eps3_F, VAB_F, WAB_F, N_F, decimals=3)
+    table_3
+    return (table_3,)
+
+
+@app.cell
+def solved(F, SAB_k, VAB_k, WAB_k, eps_BC_k, g, omega_BC_k, phi1_k, phi3_k, residuals, size):
+    closed = np.array([phi3_k, SAB_k, omega_BC_k, VAB_k, eps_BC_k, WAB_k])
+    largest = np.maximum(size, np.nanmax(abs(closed), axis=1, keepdims=True))[:, 0]
+    exists = isfinite(SAB_k)
+    found_k = exists & isfinite(F[0])
+    kappa = (g.L0 + g.L1) / np.nanmin(SAB_k)  # [-] factor by which the divisions by the distance AB widen roundings
+    r = where(found_k, residuals(F, phi1_k), 0)
+
+    def every_position(name, lost, why):
+        angles = ", ".join(f"{x / deg:.6g}" for x in phi1_k[lost])
+        count = int(np.count_nonzero(lost))
+        return Check(name, count, 0, "positions", f"{why} at phi1 = {angles} deg" if count else "")
+
+    checks_found = (
+        every_position("the link has a direction", ~exists, "the slider is at the hinge B"),
+        every_position("Find ends in a root", exists & ~found_k, "none from these first approximations"),
+        check("residual of Find, positions", r[:2], 1e-12 * kappa * largest[1], "m"),
+        check("residual of Find, velocities", r[2:4], 1e-12 * kappa * largest[3], "m/s"),
+        check("residual of Find, accelerations", r[4:], 1e-12 * kappa * largest[5], "m/s**2"),
+    )
+    typeset(*checks_found)
+    return checks_found, closed, exists, found_k, kappa, largest
+
+
+@app.cell
+def agreement(A, B, F, VAB_k, WAB_k, eps_BC_k, found_k, kappa, largest, omega_BC_k, phi1_k):
+    side = np.sign(F[1])
+
+    def agrees(name, found, closed, i, unit):
+        return check(f"Find = closed form, {name}", where(found_k, found - closed, 0), 1e-12 * kappa * largest[i], unit)
+
+    checks_agreement = (
+        agrees("position of the slider", F[1] * exp(1j * F[0]), A(phi1_k) - B, 1, "m"),
+        agrees("angular velocity", F[2], omega_BC_k, 2, "rad/s"),
+        agrees("sliding velocity", side * F[3], VAB_k, 3, "m/s"),
+        agrees("angular acceleration", F[4], eps_BC_k, 4, "rad/s**2"),
+        agrees("sliding acceleration", side * F[5], WAB_k, 5, "m/s**2"),
+    )
+    typeset(*checks_agreement)
+    return (checks_agreement,)
+
+
+@app.cell(hide_code=True)
+def section_51():
+    mo.md(r"""
+    ### 5.1 Other first approximations
+
+    The same Find from other angles of the link, all else as given: at how many positions it ends on each branch.
+    """)
+    return
+
+
+@app.cell
+def others(Find, guess, phi1_k):
+    phi3_g = linspace(-pi, pi, 13)  # [deg] first approximation of the link's angle
+    first = np.repeat(guess, len(phi3_g) * len(phi1_k), axis=1)
+    first[0] = np.repeat(phi3_g, len(phi1_k))
+    ends_g, values_g = Find(np.tile(phi1_k, len(phi3_g)), first)
+    S_g = ends_g[1].reshape(len(phi3_g), -1)
+    N_same = np.sum(S_g > 0, axis=1)  # [-] positions found on the branch +1: the link points to the slider
+    N_other = np.sum(S_g < 0, axis=1)  # [-] positions found on the branch -1: it points away
+    N_none = np.sum(np.isnan(S_g), axis=1)  # [-] positions not found
+    N_g = np.sum(values_g.reshape(len(phi3_g), -1), axis=1)  # [-] evaluations of the six equations, in all
+    typeset()
+    return N_g, N_none, N_other, N_same, phi3_g
+
+
+@app.cell
+def table_4(N_g, N_none, N_other, N_same, phi3_g):
+    table_4 = table("4", "Find from other angles of the link", phi3_g, N_same, N_other, N_none, N_g)
+    table_4
+    return (table_4,)
+
+
+@app.cell(hide_code=True)
+def section_52():
+    mo.md("""
+    ### 5.2 The equations themselves
+
+    The closed form satisfies the six equations, and each pair of them is the time derivative of the pair above it,
+    again by a complex step: the position equations alone are taken on trust.
+    """)
+    return
+
+
+@app.cell
+def derivatives(closed, exists, g, largest, phi1_k, residuals):
+    rates = np.concatenate([closed[2:], 0 * closed[:2]])  # the third derivatives are in none of the slopes taken
+    tilt = 1e-100j  # of the complex step: its square vanishes beside 1
+    slopes = residuals(closed + tilt * rates, phi1_k + tilt * g.omega1)[:4].imag / tilt.imag
+    own = where(exists, residuals(closed, phi1_k), 0)
+    wrong = where(exists, slopes - residuals(closed, phi1_k)[2:], 0)
+    checks_equations = (
+        check("closed form in the position equations", own[:2], 1e-12 * largest[1], "m"),
+        check("closed form in the velocity equations", own[2:4], 1e-12 * largest[3], "m/s"),
+        check("closed form in the acceleration equations", own[4:], 1e-12 * largest[5], "m/s**2"),
+        check("velocity equations are the slopes of the position equations", wrong[:2], 1e-12 * largest[3], "m/s"),
+        check("acceleration equations are the slopes of these", wrong[2:], 1e-12 * largest[5], "m/s**2"),
+    )
+    typeset(*checks_equations)
+    return (checks_equations,)
+
+
+@app.cell(hide_code=True)
+def section_6():
+    mo.md(r"""
+    ## 6 Strokes
+
+    A swinging link turns back where it touches the crank's circle; a link that goes round has its C at the ends of
+    its travel along x where it lies along the x axis. In both cases the crank is then $\varphi_q / 2$ off the direction
+    from $O_1$ to B, and takes the quick stroke through the angle $\varphi_q$ on the side of B.
+    """)
+    return
+
+
+@app.cell
+def strokes(A, B, g, phi1_k):
+    gap = where(g.L1 == g.L0, nan, g.L1 - g.L0)  # [m] depth of B inside the crank's circle; none on it
+    s_e = sqrt(abs(gap * (g.L0 + g.L1)))  # [m] slider from B at the ends of the strokes
+    phi_q = 2 * atan2(s_e, minimum(g.L0, g.L1))  # [deg] turn of the crank in the quick stroke
+    phi_w = 2 * pi - phi_q  # [deg] turn of the crank in the slow stroke
+    K = phi_w / phi_q  # [-] stroke ratio: time of the slow stroke to that of the quick one
+    phi_e1 = -pi / 2 - phi_q / 2  # [deg] crank at one end of the quick stroke
+    phi_e2 = -pi / 2 + phi_q / 2  # [deg] crank at the other end
+    psi = angle_between(A(phi_e1) - B, A(phi_e2) - B)  # [deg] turn of the link in each stroke
+    H = 2 * g.L3 * sin(psi / 2)  # [m] distance between the ends of the travel of C
+    omega_near = g.omega1 * g.L1 / gap  # [rad/s] angular velocity of the link as the crank points at B
+    omega_far = g.omega1 * g.L1 / (g.L0 + g.L1)  # [rad/s] angular velocity of the link as the crank points away
+    start = np.min(phi1_k)
+    turned = {"e1": start + (phi_e1 - start) % (2 * pi), "e2": start + (phi_e2 - start) % (2 * pi)}
+    ends = {name: float(x) for name, x in turned.items() if isfinite(x)}
+    typeset()
+    return H, K, ends, gap, omega_far, omega_near, phi_e1, phi_e2, phi_q, phi_w, psi, s_e
+
+
+@app.cell
+def strokes_check(ends, g, u):
+    what = "the link touches the crank's circle" if g.L1 < g.L0 else "the link lies along the x axis"
+    checks_strokes = tuple(
+        check(f"at the end {e}: {what}", dot(u(x), exp(1j * x)) if g.L1 < g.L0 else u(x).imag, 1e-12)
+        for e, x in ends.items()
+    )
+    typeset(*checks_strokes)
+    return (checks_strokes,)
+
+
+@app.cell(hide_code=True)
+def section_7():
+    mo.md("""
+    ## 7 Scheme of the mechanism
+
+    Drawn to scale; moving the knob turns the crank from its first position through one turn, in its own sense. The
+    ends of the strokes are shown faintly, the paths of A and C in blue. Velocities are green, accelerations orange;
+    their scales hold for the whole turn.
+    """)
+    return
+
+
+@app.cell
+def turn():
+    part = mo.ui.slider(0, 360, step=1, value=30, label="turn of the crank, degrees", show_value=True)
+    part
+    return (part,)
+
+
+@app.cell
+def position(VC, WC, g, part, phi3):
+    phi1 = g.phi_0 + copysign(part.value * deg, g.omega1)  # [deg] crank as drawn
+    phi3_1 = phi3(phi1)  # [deg] link 3 as drawn
+    VC_1 = VC(phi1)  # [m/s] velocity of C
+    WC_1 = WC(phi1)  # [m/s**2] acceleration of C
+    typeset()
+    return VC_1, WC_1, phi1, phi3_1
+
+
+@app.cell
+def scales(A, B, O1, P_C_t, VA, VC_t, WA, WC_t, g, phi1_t):
+    def longest(*vectors):
+        return np.nanmax(abs(np.concatenate(vectors)))
+
+    reach = 0.3 * (g.L0 + g.L1 + g.L3)  # of the longest arrow in the turn
+    most = {"m/s": longest(VA(phi1_t), VC_t), "m/s²": longest(WA(phi1_t), WC_t)}
+    arrows = {unit: reach / value for unit, value in most.items() if value > 1e-290}
+    tips = [P_C_t + arrows.get("m/s", 0) * VC_t, P_C_t + arrows.get("m/s²", 0) * WC_t]
+    frame = np.concatenate([[B, O1], A(phi1_t), P_C_t, *tips])
+    return arrows, frame
+
+
+@app.cell
+def scheme(A, B, C, O1, g, u):
+    def scheme(phi1):
+        a, c = A(phi1), C(phi1)
+        near, far = B + abs(g.L0 - g.L1) * u(phi1), B + (g.L0 + g.L1) * u(phi1)
+        tip = B + np.maximum(g.L3, g.L0 + g.L1) * u(phi1)
+        links = Drawing().link(B, tip).slot(near, far, "3").slider(a, angle(u(phi1)), "2").link(O1, a, "1")
+        return links.support(O1, "O1").support(B, "B").hinge(a, "A").hinge(c, "C")
+
+    return (scheme,)
+
+
+@app.cell
+def drawing_1(A, C, P_C_t, VA, VC_1, WA, WC_1, arrows, ends, frame, phi1, phi1_t, scheme):
+    drawn = Drawing(frame=frame, scales=arrows, height=560).path(A(phi1_t)).path(P_C_t) + scheme(phi1)
+    for _end in ends.values():
+        drawn = drawn + scheme(_end).faint()
+    velocities = drawn.arrow(A(phi1), VA(phi1), "VA", "m/s").arrow(C(phi1), VC_1, "VC", "m/s")
+    both = velocities.arrow(A(phi1), WA(phi1), "WA", "m/s²", "orange")
+    drawing_1 = both.arrow(C(phi1), WC_1, "WC", "m/s²", "orange")
+    typeset(drawing_1, mo.md("**Figure 1** – Slotted link with the velocities and accelerations of A and C"))
+    return (drawing_1,)
+
+
+@app.cell(hide_code=True)
+def section_8():
+    mo.md("""
+    ## 8 The full turn
+
+    The same formulas at every degree of the crank; the workbook holds the numbers as table 5. The dashed lines are
+    the ends of the strokes.
+    """)
+    return
+
+
+@app.cell
+def fine(C, SAB, VC, WC, eps_BC, g, omega_BC, phi3):
+    phi1_t = g.phi_0 + copysign(1, g.omega1) * linspace(0, 2 * pi, 361)  # [deg] crank
+    phi3_t = phi3(phi1_t)  # [deg] link 3
+    SAB_t = SAB(phi1_t)  # [m] slider from B along the link
+    omega_BC_t = omega_BC(phi1_t)  # [rad/s] angular velocity of the link 3
+    eps_BC_t = eps_BC(phi1_t)  # [rad/s**2] angular acceleration of the link 3
+    P_C_t = C(phi1_t)  # [m] point C
+    VC_t = VC(phi1_t)  # [m/s] velocity of C
+    WC_t = WC(phi1_t)  # [m/s**2] acceleration of C
+    typeset()
+    return P_C_t, SAB_t, VC_t, WC_t, eps_BC_t, omega_BC_t, phi1_t, phi3_t
+
+
+@app.cell
+def table_5(P_C_t, SAB_t, VC_t, WC_t, eps_BC_t, omega_BC_t, phi1_t, phi3_t):
+    table_5 = table(
+        "5",
+        "Full turn",
+        *(phi1_t, phi3_t, SAB_t, omega_BC_t, eps_BC_t, P_C_t.real, P_C_t.imag),
+        *(VC_t.real, VC_t.imag, abs(VC_t), WC_t.real, WC_t.imag, abs(WC_t)),
+    )
+    return (table_5,)
+
+
+@app.cell
+def figure_2(ends, phi1_t, phi3_t):
+    figure_2 = figure("2", "Angle of the link", phi1_t, phi3_t, marks=ends)
+    figure_2
+    return (figure_2,)
+
+
+@app.cell
+def figure_3(SAB_t, ends, phi1_t):
+    figure_3 = figure("3", "Slider from the hinge B", phi1_t, SAB_t, marks=ends)
+    figure_3
+    return (figure_3,)
+
+
+@app.cell
+def figure_4(ends, omega_BC_t, phi1_t):
+    figure_4 = figure("4", "Angular velocity of the link", phi1_t, omega_BC_t, marks=ends)
+    figure_4
+    return (figure_4,)
+
+
+@app.cell
+def figure_5(ends, eps_BC_t, phi1_t):
+    figure_5 = figure("5", "Angular acceleration of the link", phi1_t, eps_BC_t, marks=ends)
+    figure_5
+    return (figure_5,)
+
+
+@app.cell
+def figure_6(VC_t, ends, phi1_t):
+    figure_6 = figure("6", "Velocity of C", phi1_t, VC_t.real, VC_t.imag, abs(VC_t), marks=ends)
+    figure_6
+    return (figure_6,)
+
+
+@app.cell
+def figure_7(WC_t, ends, phi1_t):
+    figure_7 = figure("7", "Acceleration of C", phi1_t, WC_t.real, WC_t.imag, abs(WC_t), marks=ends)
+    figure_7
+    return (figure_7,)
+
+
+@app.cell(hide_code=True)
+def section_9():
+    mo.md(r"""
+    ## 9 Where the crank passes the hinge
+
+    The slider's distance from B runs between $|L_0 - L_1|$, as the crank points at B, and $L_0 + L_1$.
+
+    - $L_1 < L_0$: B lies outside the crank's circle. The link swings; in the quick stroke it turns against the crank.
+      The nearer the circle comes to B, the wider the swing, up to half a turn, and the shorter and faster the quick
+      stroke: the stroke ratio grows without bound.
+    - $L_1 > L_0$: B lies inside the circle. The link goes round with the crank, once for each turn, always in the
+      crank's sense, fastest as the slider is nearest to B. Its strokes are its half turns below and above B.
+    - $L_1 = L_0$: the circle goes through B. Everywhere else the link turns evenly, at half the crank's speed; as the
+      crank points at B the slider is at the hinge itself, and the link can take any direction. From there it either
+      turns on, with the slider on its other side ($S_{AB}$ changes sign, the branch -1 follows), or it is thrown round
+      by half a turn and the branch stays. The equations leave both open, and $\varepsilon_3$ drops out of them. That
+      position alone has no numbers here, and a check names it if it is in the tables; there is no quick stroke and no
+      stroke ratio.
+    """)
+    return
+
+
+@app.cell(hide_code=True)
+def here(K, g, omega_far, omega_near, psi):
+    if g.L1 < g.L0:
+        says = f"the link swings through {psi / deg:.4g}°, stroke ratio {K:.4g}"
+    elif g.L1 > g.L0:
+        says = f"the link goes round, stroke ratio of its half turns {K:.4g}"
+    else:
+        says = "the crank's circle goes through the hinge"
+    near = f"{omega_near:.4g} rad/s" if isfinite(omega_near) else "none"
+    mo.md(
+        f"**Here** L₁ = {g.L1:.6g} m, L₀ = {g.L0:.6g} m: {says}. "
+        f"Angular velocity of the link near the hinge: {near}; far from it: {omega_far:.4g} rad/s."
+    )
+    return
+
+
+@app.cell
+def workbook():
+    export("Slotted link", globals())
+    return
+
+
+if __name__ == "__main__":
+    app.run()
