@@ -207,6 +207,17 @@ def test_scale_bars_are_round_and_true() -> None:
             assert length > 40
 
 
+def test_diagram_of_forces_has_their_scale_and_no_other() -> None:
+    root = parsed(Drawing(unit="N").path([0j, 3000 + 4000j]).force(0j, 3000 + 4000j))
+    curve, force = lines(shapes(root, "path")[0])[0], shapes(root, "arrow")[0]
+    assert arrow(force) == pytest.approx(curve[1] - curve[0], abs=2 * DIAGONAL)
+    (bar,) = shapes(root, "scale")
+    (label,) = texts(root)
+    number, unit = label.split()
+    newtons = float(number) * {"N": 1, "kN": 1000}[unit]
+    assert abs(arrow(bar)) / abs(arrow(force)) == pytest.approx(newtons / 5000, abs=0.01)
+
+
 # Left out
 
 

@@ -31,12 +31,22 @@ IMPORT = "from mechsheet.formula import typeset\n"
         ("(a**b)**c", r"(a^{b})^{c}"),
         ("a/(b*c)*d", r"\frac{a}{b\,c}\,d"),
         ("a*-b", r"a \cdot (-b)"),
+        ("-m2*a_S2", r"-m_{2}\,a_{S2}"),
+        ("-1j*m2*g_n", r"-i\,m_{2}\,g_{n}"),
+        ("-(a + b)/c", r"-\frac{a + b}{c}"),
+        ("a - -b/c", r"a - \left(-\frac{b}{c}\right)"),
+        ("a + -b*c", r"a + (-b\,c)"),
+        ("2*(-a/b)", r"2\,\left(-\frac{a}{b}\right)"),
+        ("(-a*b)**2", r"(-a\,b)^{2}"),
         ("2*3", r"2 \cdot 3"),
         ("1.5e7*x", r"1.5 \cdot 10^{7}\,x"),
         ("sin(x)**2", r"\sin^{2} (x)"),
         ("abs(O1 - O3)", r"\left|O_{1} - O_{3}\right|"),
         ("cross(A - B, F)", r"(A - B) \times F"),
         ("x % (2*pi)", r"x \bmod 2\,\pi"),
+        ("group_67.R_A", r"R_{A}(\text{group 67})"),
+        ("[0.5, -1]", r"\left[0.5,\ -1\right]"),
+        ("phi3[k]", r"{\varphi_{3}}_{k}"),
         ("L4_found.value", r"\operatorname{Find}\,L_{4}"),
     ],
 )
@@ -76,6 +86,7 @@ def test_lines_with_a_unit_are_the_formulas():
         (np.array([1.0, 2.0, 3.0]), "N*m", r"1 \,\ldots\, 3\ \mathrm{N\cdot m}"),
         (np.array([1.0, np.nan]), "m**2", r"1 \,\ldots\, \text{none}\ \mathrm{m^{2}}"),
         (7, "-", "7"),
+        (-0.0, "m", r"0\ \mathrm{m}"),
     ],
 )
 def test_value_in_its_display_unit(value, unit, tex):
@@ -85,6 +96,15 @@ def test_value_in_its_display_unit(value, unit, tex):
 def test_unknown_unit_names_the_line():
     with pytest.raises(SheetError, match=r"line 3 of <cell \d+>: unit \[MPaa\] is not known"):
         run(IMPORT + "a = 1.0  # [m] fine\np = 2.0  # [MPaa] wrong\ntypeset()")
+
+
+def test_one_position_of_the_fields():
+    names = run(
+        IMPORT + "import numpy as np\nL = 2.0  # [m] link\nx = L * np.arange(3)  # [m] place\nshown = typeset().at(1)"
+    )
+    assert names["shown"].values == (2.0, 2.0)
+    assert [row.name for row in names["shown"].rows] == ["L", "x"]
+    assert r"\ldots" not in names["shown"]._mime_()[1]
 
 
 def test_page_shows_symbol_formula_value_and_meaning():

@@ -41,6 +41,13 @@ def test_two_calls_in_one_cell_read_their_own_arguments(names):
     assert [names[k].columns[0].symbol for k in "ab"] == ["S", "dRa"]
 
 
+def test_every_so_many_positions_of_each_variant(names):
+    run("import numpy as np\nx = np.arange(5.0)  # [m] x\ny = np.array([[0.0], [10.0]]) + x  # [m] y\ntypeset()", names)
+    run('t, u = table("1", "T", x, y, every=2), table("2", "T", S, dRa, every=2)', names)
+    assert [c.values.tolist() for c in names["t"].columns] == [[0, 2, 4, 0, 2, 4], [0, 2, 4, 10, 12, 14]]
+    assert [c.values.tolist() for c in names["u"].columns] == [[0.42], [23.81]]
+
+
 def test_undeclared_column_says_what_is_missing(names):
     with pytest.raises(LookupError, match=r"column Q: no line declares Q with its unit"):
         run('Q = S\ntable("1", "T", S, Q)', names)

@@ -37,7 +37,7 @@ class Check:
         return f"{text}; {self.reason}" if self.reason else text
 
     def _mime_(self) -> tuple[str, str]:
-        unit = "" if self.unit == "-" else f" {html.escape(self.unit)}"
+        unit = "" if self.unit == "-" else f" {html.escape(units.shown(self.unit))}"
         sign = "≤" if self.passed else "≰"
         return "text/html", (
             f'<div id="{_anchor(self)}">{_badge(self)} {html.escape(self.name)}: {self.residual:.2g} {sign} '

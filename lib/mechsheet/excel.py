@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from mechsheet.checks import Check
 from mechsheet.errors import SheetError
 from mechsheet.table import Column, Figure, Table
+from mechsheet.units import shown
 
 
 @dataclass(frozen=True)
@@ -57,8 +58,8 @@ def workbook(
 ) -> bytes:
     """Bytes of an .xlsx file; the same input gives the same bytes.
 
-    Sheets: Inputs, Find, one for each table named by its number and title, Checks. A table's sheet has its
-    title in row 1, its note in row 2, symbols in row 3, units in row 4, then the numbers to their last bit;
+    Sheets: Inputs, Find where there are found values, one for each table named by its number and title, Checks.
+    A table's sheet has its title in row 1, its note in row 2, symbols in row 3, units in row 4, then the numbers to their last bit;
     pandas reads it by ``read_excel(file, sheet_name=name, header=2, skiprows=[3])``. NaN is the error value
     #N/A and an infinite number #NUM!: pandas reads both as NaN, charts leave a gap.
 
@@ -70,7 +71,8 @@ def workbook(
     buffer = BytesIO()
     book = _Book(xlsxwriter.Workbook(buffer, _options()), _text(title))
     book.inputs(inputs)
-    book.found(found)
+    if found:
+        book.found(found)
     holders = [_holder(figure, tables) for figure in figures]
     for table in tables:
         held = [figure for figure, holder in zip(figures, holders, strict=True) if holder is table]
@@ -244,7 +246,7 @@ class _Book:
         listed: list[tuple[str | float, ...]] = []
         for section, members in groupby(rows, key=lambda row: row.section):
             listed += [(section,)] if section else []
-            listed += [(row.symbol, row.value, row.unit, row.meaning) for row in members]
+            listed += [(row.symbol, row.value, shown(row.unit), row.meaning) for row in members]
         fields = (("Symbol", _TEXT), ("Value", _FIELD), ("Unit", _TEXT), ("Meaning", _TEXT))
         self.listing("Inputs", f"{self.title} - inputs", fields, listed)
 
@@ -256,7 +258,7 @@ class _Book:
         )
         listed = [
             (
-                *(row.symbol, row.value, row.unit, row.meaning, row.residual, row.residual_unit),
+                *(row.symbol, row.value, shown(row.unit), row.meaning, row.residual, shown(row.residual_unit)),
                 *(row.lower, row.upper, row.other_roots),
             )
             for row in rows
@@ -268,7 +270,9 @@ class _Book:
             *(("Check", _TEXT), ("Residual", _SMALL), ("Limit", _SMALL), ("Unit", _TEXT)),
             *(("Verdict", _VERDICT), ("Reason", _TEXT)),
         )
-        listed = [(c.name, c.residual, c.limit, c.unit, "PASS" if c.passed else "FAIL", c.reason) for c in checks]
+        listed = [
+            (c.name, c.residual, c.limit, shown(c.unit), "PASS" if c.passed else "FAIL", c.reason) for c in checks
+        ]
         passed = sum(check.passed for check in checks)
         sheet = self.listing("Checks", f"Checks: {passed} of {len(checks)} passed", fields, listed)
         for verdict, look in (("PASS", _PASS), ("FAIL", _FAIL)):
@@ -310,7 +314,7 @@ class _Book:
         _put(sheet, 1, 0, note, self.style(_NOTE))
         for col, column in enumerate(columns):
             _put(sheet, 2, col, column.symbol, self.style(_HEAD, _NUMBER, _TOP))
-            _put(sheet, 3, col, column.unit, self.style(_HEAD, _NUMBER, _BOTTOM, {"bold": False}))
+            _put(sheet, 3, col, shown(column.unit), self.style(_HEAD, _NUMBER, _BOTTOM, {"bold": False}))
             if column.meaning:
                 sheet.write_comment(2, col, _text(column.meaning), {"font_name": "Arial", "font_size": 9})
             look = {**_NUMBER, **({} if col else _KEY), "num_format": f"{0:.{column.decimals}f}"}
@@ -465,7 +469,7 @@ def _quantity(columns: Sequence[Column]) -> str:
     for unit, members in groupby(columns, key=lambda column: column.unit):
         symbols = [column.symbol for column in members]
         names = ", ".join(symbols) if len(symbols) <= 4 else f"{symbols[0]} .. {symbols[-1]}"
-        parts.append(f"{names} [{unit}]")
+        parts.append(f"{names} [{shown(unit)}]")
     return ", ".join(parts)
 
 

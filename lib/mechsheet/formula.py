@@ -185,6 +185,8 @@ def _tex(node: ast.expr) -> tuple[str, int]:
             return rf"\operatorname{{Find}}\,{symbol.latex(name.removesuffix('_found'))}", 2
         case ast.Attribute(ast.Name(name), "value"):  # of a slider or field of the page
             return symbol.latex(name), 5
+        case ast.Attribute(ast.Name(name), part):  # a result of several parts
+            return rf"{symbol.latex(part)}(\text{{{name.replace('_', ' ')}}})", 5
         case ast.UnaryOp(ast.USub(), inner):
             return f"-{_wrap(inner, 3)}", 1
         case ast.UnaryOp(ast.UAdd(), inner):
@@ -207,7 +209,9 @@ def _tex(node: ast.expr) -> tuple[str, int]:
         case ast.Call(ast.Name(name), args, keywords):
             return _call(name, [*args, *(k.value for k in keywords)])
         case ast.Subscript(inner, index):
-            return f"{_wrap(inner, 5)}_{{{latex(index)}}}", 5
+            return f"{{{_wrap(inner, 5)}}}_{{{latex(index)}}}", 5
+        case ast.List(items):
+            return r"\left[" + r",\ ".join(latex(i) for i in items) + r"\right]", 5
         case ast.Tuple(items):
             return r"\left(" + r",\ ".join(latex(i) for i in items) + r"\right)", 5
     return r"\texttt{" + re.sub(r"([#$%&_{}])", r"\\\1", ast.unparse(node)) + "}", 5

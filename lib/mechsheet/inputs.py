@@ -151,7 +151,7 @@ def ask(cls: type) -> "mo.ui.batch":
     fields = {}
     for field in declared(cls):
         limits = ", ".join(f"{sign} {other}" for sign, other in field.limits)
-        unit = "" if field.unit == "-" else field.unit
+        unit = "" if field.unit == "-" else units.shown(field.unit)
         sections.setdefault(field.section, []).append(
             f"<tr><td>{symbol.html(field.name)}</td><td>{{{field.name}}}</td><td>{html.escape(unit)}</td>"
             f'<td style="padding-left:.7em;line-height:1.2">{html.escape(field.meaning)}'
@@ -189,7 +189,7 @@ class Used:
         changed = {f.name for f in dataclasses.fields(self.g) if getattr(self.g, f.name) != f.default}
         items, rows, section = [], [], ""
         for field, value in self.rows():
-            unit = "" if field.unit == "-" else html.escape(field.unit)
+            unit = "" if field.unit == "-" else html.escape(units.shown(field.unit))
             weight = "bold" if field.name in changed else "normal"
             name = symbol.html(field.name)
             shown = f"{name}&nbsp;=&nbsp;{value:.10g}&nbsp;{unit}"

@@ -62,7 +62,7 @@ class Table:
 def _block(columns: list[Column]) -> str:
     cell = 'style="text-align:right;padding:.1em .7em;font-variant-numeric:tabular-nums"'
     heads = "".join(f'<th {cell} title="{html.escape(c.meaning)}">{symbol.html(c.symbol)}</th>' for c in columns)
-    unit_row = "".join(f"<th {cell}>[{html.escape(c.unit)}]</th>" for c in columns)
+    unit_row = "".join(f"<th {cell}>[{html.escape(units.shown(c.unit))}]</th>" for c in columns)
     texts = [[_digits(v, c.decimals) for v in c.values] for c in columns]
     rows = "".join("<tr>" + "".join(f"<td {cell}>{t}</td>" for t in row) + "</tr>" for row in zip(*texts, strict=True))
     return (
@@ -101,10 +101,12 @@ class Figure:
             for column, name in zip(self.lines, names, strict=True)
             for x, y in zip(self.x.values, column.values, strict=True)
         ]
-        y_title = f"{', '.join(names)} [{self.lines[0].unit}]"
+        y_title = f"{', '.join(names)} [{units.shown(self.lines[0].unit)}]"
         base = alt.Chart(alt.InlineData(rows)).encode(
             x=alt.X(
-                "x:Q", title=f"{symbol.text(self.x.symbol)} [{self.x.unit}]", scale=alt.Scale(zero=False, nice=False)
+                "x:Q",
+                title=f"{symbol.text(self.x.symbol)} [{units.shown(self.x.unit)}]",
+                scale=alt.Scale(zero=False, nice=False),
             ),
             y=alt.Y("y:Q", title=y_title, scale=alt.Scale(zero=False)),
             color=alt.Color(

@@ -1,6 +1,7 @@
 """Display units: written as in ``[kN*m]``, read into a factor to SI and the exponents of m, kg, s."""
 
 import ast
+import re
 from dataclasses import dataclass
 from functools import cache
 from math import pi
@@ -57,6 +58,18 @@ def parse(text: str) -> Unit:
         return _unit(ast.parse(text, mode="eval").body)
     except (SyntaxError, ValueError, TypeError, KeyError):
         raise ValueError(f"unit [{text}] is not known; write units as m, kN*m, rad/s**2 or 1/m") from None
+
+
+_POWERS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+
+
+def shown(text: str) -> str:
+    """Unit as a page or a workbook prints it.
+
+    >>> shown("kgf/cm**2"), shown("N*m")
+    ('kgf/cm²', 'N·m')
+    """
+    return re.sub(r"\*\*(-?\d+)", lambda power: power[1].translate(_POWERS), text).replace("*", "·")
 
 
 def _unit(node: ast.expr) -> Unit:
