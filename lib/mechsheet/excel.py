@@ -60,8 +60,8 @@ def workbook(
 
     Sheets: Inputs, Find where there are found values, one for each table named by its number and title, Checks.
     A table's sheet has its title in row 1, its note in row 2, symbols in row 3, units in row 4, then the numbers
-    to their last bit; pandas reads it by ``read_excel(file, sheet_name=name, header=2, skiprows=[3])``. NaN is the error value
-    #N/A and an infinite number #NUM!: pandas reads both as NaN, charts leave a gap.
+    to their last bit; pandas reads it by ``read_excel(file, sheet_name=name, header=2, skiprows=[3])``. NaN is
+    the error value #N/A and an infinite number #NUM!: pandas reads both as NaN, charts leave a gap.
 
     A figure is a chart on the first table's sheet that holds all its columns, else on a sheet of its own
     data; the lines of its marks are drawn from the sheet Marks.
