@@ -1,0 +1,1788 @@
+import marimo
+
+__generated_with = "0.25.2"
+app = marimo.App(width="medium", app_title="Kinetostatics", css_file="page.css")
+
+with app.setup:
+    import marimo as mo
+    import numpy as np
+    from numpy import abs, cos, exp, hypot, isfinite, linspace, maximum, pi, sin, trapezoid, where
+    from numpy import arctan2 as atan2
+    from numpy import max as most
+    from numpy import min as least
+
+    from mechsheet.checks import Check, assembled, check, check_slope, summary
+    from mechsheet.drawing import Drawing
+    from mechsheet.dyads import (
+        rpr,
+        rpr_acceleration,
+        rpr_condition,
+        rpr_velocity,
+        rrp,
+        rrp_acceleration,
+        rrp_condition,
+        rrp_reach,
+        rrp_transmission_angle,
+        rrp_velocity,
+        rrr,
+        rrr_acceleration,
+        rrr_condition,
+        rrr_transmission_angle,
+        rrr_velocity,
+    )
+    from mechsheet.formula import typeset
+    from mechsheet.inputs import Used, ask, inputs, read
+    from mechsheet.kinetostatics import (
+        Load,
+        coupling_drive,
+        gear_drive,
+        inertia,
+        rpr_reactions,
+        rrp_reactions,
+        rrr_reactions,
+    )
+    from mechsheet.planar import angle, cross, dot, link_acceleration, link_velocity
+    from mechsheet.report import export
+    from mechsheet.table import figure, table
+
+    np.seterr(divide="ignore", invalid="ignore")  # the arm of a force that is zero is shown as none
+    deg = pi / 180
+    ulp = np.finfo(float).eps
+
+
+@app.cell(hide_code=True)
+def title():
+    mo.md("""
+    # Kinetostatics
+
+    Reactions in the pairs of a lever mechanism of the second class, its links' inertia included, after I. G. Shebanov,
+    *Force analysis*, Kharkiv Aviation Institute, 2003. The numbers in brackets are the document's formulas.
+
+    The document gives the method for one group of each kind and prints no numbers. The mechanism here is ours: a
+    plunger pump, whose dimensions, masses and loads are plausible and no more. Its crank drives a group of the first
+    kind, whose rocker drives one of the second kind, the plunger, and one of the third kind, a gas cylinder. Change
+    an input or a formula: everything below follows.
+    """)
+    return
+
+
+@app.cell(hide_code=True)
+def verdict(
+    checks_23,
+    checks_45,
+    checks_67,
+    checks_bodies,
+    checks_closing,
+    checks_coupling,
+    checks_dense,
+    checks_existence,
+    checks_gear,
+    checks_piston,
+    checks_work,
+):
+    summary(
+        checks_closing,
+        checks_piston,
+        checks_45,
+        checks_67,
+        checks_23,
+        checks_gear,
+        checks_coupling,
+        checks_existence,
+        checks_bodies,
+        checks_work,
+        checks_dense,
+    )
+    return
+
+
+@app.cell(hide_code=True)
+def section_1():
+    mo.md(r"""
+    ## 1 Input data
+
+    The crank 1 turns about $O_1$, the origin; the axis x points to the right, y upwards, angles count
+    counter-clockwise. The rod 2 joins the crank's pin A to the pin B of the rocker 3, which turns about C. On the
+    rocker, the pin D carries the rod 4 of the plunger 5, whose pin E moves along a fixed guide, and the pin K carries
+    the piston rod 6 of the cylinder 7 on the hinge H.
+    """)
+    return
+
+
+@app.class_definition
+@inputs
+class Mechanism:
+    # 1.1 Hinges and guide, from the crank's hinge O1
+    X_C: float = 0.45  # [m] rocker's hinge C, x
+    Y_C: float = -0.10  # [m] rocker's hinge C, y
+    X_H: float = 0.98  # [m] cylinder's hinge H, x
+    Y_H: float = 0.22  # [m] cylinder's hinge H, y
+    X05: float = 0.90  # [m] a point of the path of E, x
+    Y05: float = -0.40  # [m] a point of the path of E, y
+    phi05: float = -10 * deg  # [deg] direction of the guide
+
+    # 1.2 Lengths of the links
+    l1: float = 0.10  # [m] crank O1 A; > 0
+    l2: float = 0.42  # [m] rod AB; > 0
+    l3: float = 0.28  # [m] rocker CB; > 0
+    l_CD: float = 0.22  # [m] rocker, C to D; > 0
+    delta_D: float = 170 * deg  # [deg] rocker, from CB to CD
+    l_CK: float = 0.20  # [m] rocker, C to K; > 0
+    delta_K: float = -35 * deg  # [deg] rocker, from CB to CK
+    l4: float = 0.45  # [m] rod DE; > 0
+    l6: float = 0.30  # [m] rod with piston, from K; > 0
+    l7: float = 0.32  # [m] cylinder, from H; > 0
+
+    # 1.3 Centres of mass, on the lines of the pins
+    l_O1S1: float = 0.02  # [m] crank, O1 to S1
+    l_BS2: float = 0.22  # [m] rod 2, B to S2
+    l_BS3: float = 0.24  # [m] rocker, B to S3
+    l_ES4: float = 0.25  # [m] rod 4, E to S4
+    l_KS6: float = 0.14  # [m] rod with piston, K to S6
+    l_HS7: float = 0.13  # [m] cylinder, H to S7
+
+    # 1.4 Masses and moments of inertia about the centres of mass
+    m1: float = 9.0  # [kg] crank; >= 0
+    m2: float = 3.2  # [kg] rod 2; >= 0
+    m3: float = 6.5  # [kg] rocker; >= 0
+    m4: float = 2.6  # [kg] rod 4; >= 0
+    m5: float = 8.0  # [kg] plunger; >= 0
+    m6: float = 1.8  # [kg] rod with piston; >= 0
+    m7: float = 4.5  # [kg] cylinder; >= 0
+    J1: float = 0.05  # [kg*m**2] crank; >= 0
+    J2: float = 0.06  # [kg*m**2] rod 2; >= 0
+    J3: float = 0.12  # [kg*m**2] rocker; >= 0
+    J4: float = 0.05  # [kg*m**2] rod 4; >= 0
+    J6: float = 0.015  # [kg*m**2] rod with piston; >= 0
+    J7: float = 0.05  # [kg*m**2] cylinder; >= 0
+
+    # 1.5 Loads
+    g_n: float = 9.81  # [m/s**2] acceleration of gravity; >= 0
+    Q5: float = 4500  # [N] resistance to the plunger in its working stroke, along the guide; >= 0
+    p_g: float = 0.6e6  # [MPa] pressure of the gas above that of the air; >= 0
+    D_g: float = 0.05  # [m] diameter of the piston; > 0
+
+    # 1.6 Drive
+    n1: float = 300 * 2 * pi / 60  # [rpm] speed of the crank, negative clockwise
+    eps1: float = 0.0  # [rad/s**2] angular acceleration of the crank
+    l_O1P: float = 0.16  # [m] pitch radius of the crank's gear; > 0
+    alpha_w: float = 20 * deg  # [deg] pressure angle of the gear; >= 0 < 90
+
+    # 1.7 Tables
+    step: int = 15  # [-] degrees of the crank from row to row; >= 1 <= 180
+
+    """After # stand the unit and the meaning, after ; the limits; the page and the code take the same units."""
+
+
+@app.cell
+def form():
+    form = ask(Mechanism)
+    form
+    return (form,)
+
+
+@app.cell
+def given(form):
+    g = read(Mechanism, form)
+    Used(g)
+    return (g,)
+
+
+@app.function
+def largest_of(*fields):
+    """Largest magnitude of the finite elements, 1 where there is none but zero."""
+    sizes = np.concatenate([np.ravel(abs(np.asarray(field))) for field in fields])
+    return np.max(sizes, initial=0, where=isfinite(sizes)) or 1.0
+
+
+@app.function
+def group_drawing(points, forces):
+    """Empty drawing that has room for the points and the arrows of the forces over the whole turn."""
+    ends = np.concatenate([np.ravel(point) for point in points])
+    seen = ends[isfinite(ends)]
+    scale = 0.25 * max(np.ptp(seen.real), np.ptp(seen.imag)) / largest_of(*(F for _, F in forces))
+    tips = [np.ravel(P + sign * scale * F) for P, F in forces for sign in (1, -1)]
+    return Drawing(width=760, height=460, frame=np.concatenate([ends, *tips]), scales={"N": scale})
+
+
+@app.function
+def pin_force(P, F, name, other):
+    """Force at a pin, drawn on the side of it on which the link to its other pin does not lie."""
+    return Drawing().force(P, F, name, into=bool(dot(F, other - P) > 0))
+
+
+@app.function
+def polar(R):
+    """Path of the end of a force over the turn, with axes and the quarters of the turn."""
+    seen = np.append(R[isfinite(R)], 0)
+    x, y, reach = seen.real, seen.imag, 0.1 * largest_of(seen)
+    ends = [np.min(x) - reach, np.max(x) + reach, 1j * (np.min(y) - reach), 1j * (np.max(y) + reach)]
+    axes = Drawing(width=320, height=300, unit="N", frame=[ends[0] + ends[2], ends[1] + ends[3]])
+    curve = axes.path(ends[:2], "x", "").path(ends[2:], "y", "").path(R)
+    for k in (0, 90, 180, 270):
+        curve = curve.hinge(R[k], f"{k}°")
+    return curve
+
+
+@app.cell(hide_code=True)
+def section_2():
+    mo.md(r"""
+    ## 2 Kinematics
+
+    Points are complex numbers $x + iy$, functions of the crank's angle $\varphi_1$. $V$ and $u$ are velocity analogues:
+    the velocity of a point and the angular velocity of a link for a crank that turns with 1 rad/s.
+    All fields below have one value at each degree of the crank.
+    """)
+    return
+
+
+@app.cell
+def base(g):
+    O1 = 0j  # [m] crank's hinge
+    C = g.X_C + 1j * g.Y_C  # [m] rocker's hinge
+    H = g.X_H + 1j * g.Y_H  # [m] cylinder's hinge
+    O5 = g.X05 + 1j * g.Y05  # [m] a point of the path of E
+    u5 = exp(1j * g.phi05)  # [-] direction of the guide
+    omega1 = g.n1  # [rad/s] angular velocity of the crank
+    phi1 = linspace(0, 2 * pi, 361)  # [deg] crank
+    typeset()
+    return C, H, O1, O5, omega1, phi1, u5
+
+
+@app.cell(hide_code=True)
+def section_21():
+    mo.md(r"""
+    ### 2.1 Crank 1 and group (2, 3)
+
+    The last argument of `rrr`, `rrp` and `rpr` names the branch of assembly.
+    """)
+    return
+
+
+@app.cell
+def kinematics_23(C, O1, g):
+    def P_A(phi1):
+        return O1 + g.l1 * exp(1j * phi1)  # [m] pin of the crank
+
+    def V_A(phi1):
+        return 1j * (P_A(phi1) - O1)  # [m] velocity analogue of A
+
+    def P_B(phi1):
+        return rrr(P_A(phi1), C, g.l2, g.l3, +1)  # [m] pin of the rod 2 on the rocker
+
+    def motion_23(phi1):
+        return rrr_velocity(P_A(phi1), C, P_B(phi1), V_A(phi1), 0)
+
+    def u2(phi1):
+        return motion_23(phi1).omega_A  # [-] rod 2 to crank
+
+    def u3(phi1):
+        return motion_23(phi1).omega_B  # [-] rocker 3 to crank
+
+    typeset()
+    return P_A, P_B, V_A, motion_23, u2, u3
+
+
+@app.cell
+def rocker(C, P_B, g, u3):
+    def P_D(phi1):
+        return C + g.l_CD / g.l3 * (P_B(phi1) - C) * exp(1j * g.delta_D)  # [m] pin of the rod 4 on the rocker
+
+    def V_D(phi1):
+        return 1j * u3(phi1) * (P_D(phi1) - C)  # [m] velocity analogue of D
+
+    def P_K(phi1):
+        return C + g.l_CK / g.l3 * (P_B(phi1) - C) * exp(1j * g.delta_K)  # [m] pin of the rod 6 on the rocker
+
+    def V_K(phi1):
+        return 1j * u3(phi1) * (P_K(phi1) - C)  # [m] velocity analogue of K
+
+    typeset()
+    return P_D, P_K, V_D, V_K
+
+
+@app.cell(hide_code=True)
+def section_22():
+    mo.md("""
+    ### 2.2 Groups (4, 5) and (6, 7)
+    """)
+    return
+
+
+@app.cell
+def kinematics_45(O5, P_D, V_D, g, u5):
+    def P_E(phi1):
+        return rrp(P_D(phi1), O5, u5, g.l4, +1)  # [m] pin of the plunger
+
+    def motion_45(phi1):
+        return rrp_velocity(P_D(phi1), O5, P_E(phi1), u5, V_D(phi1))
+
+    def V_E(phi1):
+        return motion_45(phi1).v_C  # [m] velocity analogue of E
+
+    def u4(phi1):
+        return motion_45(phi1).omega_A  # [-] rod 4 to crank
+
+    typeset()
+    return P_E, V_E, motion_45, u4
+
+
+@app.cell
+def kinematics_67(H, P_K, V_K):
+    def e7(phi1):
+        return rpr(P_K(phi1), H, +1).u  # [-] direction of the cylinder, from H to K
+
+    def motion_67(phi1):
+        return rpr_velocity(P_K(phi1), H, e7(phi1), V_K(phi1))
+
+    def u6(phi1):
+        return motion_67(phi1).omega  # [-] rod 6 and cylinder 7 to crank
+
+    typeset()
+    return e7, motion_67, u6
+
+
+@app.cell(hide_code=True)
+def section_23():
+    mo.md("""
+    ### 2.3 Positions
+
+    Drawn to scale. The slider turns the crank here and in all drawings below; formulas over the turn show their values
+    at its position. The blue lines are the paths of the pins.
+    """)
+    return
+
+
+@app.cell
+def turn():
+    turn = mo.ui.slider(0, 360, step=1, value=40, label="crank, degrees", show_value=True)
+    turn
+    return (turn,)
+
+
+@app.cell
+def fields(C, H, O5, P_A, P_B, P_D, P_E, P_K, g, phi1, u5):
+    A = P_A(phi1)  # [m] pin of the crank
+    B = P_B(phi1)  # [m] pin of the rod 2 on the rocker
+    D = P_D(phi1)  # [m] pin of the rod 4 on the rocker
+    E = P_E(phi1)  # [m] pin of the plunger
+    K = P_K(phi1)  # [m] pin of the rod 6 on the rocker
+    phi2 = angle(B - A)  # [deg] rod 2, from A to B
+    phi3 = angle(B - C)  # [deg] rocker, from C to B
+    phi4 = angle(E - D)  # [deg] rod 4, from D to E
+    phi6 = angle(H - K)  # [deg] rod 6, from K to H
+    s5 = dot(E - O5, u5)  # [m] plunger along the guide
+    s7 = g.l6 + g.l7 - abs(H - K)  # [m] stroke of the piston
+    mu23 = rrr_transmission_angle(A, C, B)  # [deg] between rod 2 and rocker
+    mu45 = rrp_transmission_angle(D, E, u5)  # [deg] between rod 4 and the normal of the guide
+    position_lines = typeset()
+    return A, B, D, E, K, mu23, mu45, phi2, phi3, phi4, phi6, position_lines, s5, s7
+
+
+@app.cell
+def scheme(A, B, C, D, E, H, K, O1, O5, g, s5, u5):
+    frame = np.concatenate([[O1, C, H, O1 - g.l_O1P], A, B, D, E, K])
+    along = s5[isfinite(s5)]
+    paths = Drawing(width=820, height=520, frame=frame).path(A).path(B).path(D).path(K)
+    guided = paths.guide(O5 + (along.min() - 0.03) * u5, O5 + (along.max() + 0.03) * u5) if along.size else paths
+
+    def scheme(k):
+        bars = guided.link(O1, A[k], "1").link(A[k], B[k], "2").plate([C, B[k], K[k], D[k]], "3").link(D[k], E[k], "4")
+        bodies = bars.slider(E[k], g.phi05, "5").cylinder(H, K[k], "7", g.l7)
+        fixed = bodies.support(O1, "O1").support(C, "C", 0.0).support(H, "H", 0.0)
+        return fixed.hinge(A[k], "A").hinge(B[k], "B").hinge(D[k], "D").hinge(E[k], "E").hinge(K[k], "K")
+
+    return along, frame, guided, paths, scheme
+
+
+@app.cell
+def drawing_21(scheme, turn):
+    drawing_21 = scheme(turn.value)
+    typeset(drawing_21, mo.md(f"**Figure 2.1** – Scheme of the mechanism, φ₁ = {turn.value}°"))
+    return (drawing_21,)
+
+
+@app.cell
+def positions_shown(position_lines, turn):
+    position_lines.at(turn.value)
+    return
+
+
+@app.cell(hide_code=True)
+def section_24():
+    mo.md("""
+    The groups must close, and the piston must stay in its cylinder: its stroke is the document's $l_{BC}$, from the
+    open end of the cylinder to the piston.
+    """)
+    return
+
+
+@app.cell
+def closing(A, B, C, D, E, H, K, O5, g, s7, u5):
+    checks_closing = (
+        assembled("group (2, 3) closes", B, abs(A - C), (abs(g.l2 - g.l3), g.l2 + g.l3), "distance A C", "m"),
+        assembled("group (4, 5) closes", where(isfinite(D), E, 0), g.l4, rrp_reach(D, O5, u5), "rod l4", "m"),
+    )
+    checks_piston = (check("the piston stays in its cylinder", maximum(0, maximum(-s7, s7 - g.l7)), 0, "m"),)
+    # limit of the checks: from positions to forces the digits lost are twice those of the groups' condition numbers
+    kappa = [np.max(rrr_condition(A, C, B)), np.max(rrp_condition(D, O5, E, u5)), np.max(rpr_condition(K, H, H - K))]
+    lost = 32 * ulp * max(kappa) ** 2
+    typeset(*checks_closing, *checks_piston)
+    return checks_closing, checks_piston, kappa, lost
+
+
+@app.cell
+def table_21(g, phi1, phi2, phi3, phi4, phi6, s5, s7):
+    table_21 = table("2.1", "Positions", phi1, phi2, phi3, phi4, phi6, s5, s7, every=g.step)
+    table_21
+    return (table_21,)
+
+
+@app.cell
+def figure_22(mu23, mu45, phi1):
+    figure_22 = figure("2.2", "Transmission angles", phi1, mu23, mu45)
+    figure_22
+    return (figure_22,)
+
+
+@app.cell(hide_code=True)
+def section_3():
+    mo.md(r"""
+    ## 3 Loads
+
+    ### 3.1 Velocities and accelerations
+
+    The crank turns with $\omega_1$ and $\varepsilon_1$ in every position.
+    """)
+    return
+
+
+@app.cell
+def angular(motion_45, motion_67, omega1, phi1, u2, u3, u4, u6):
+    omega2 = omega1 * u2(phi1)  # [rad/s] rod 2
+    omega3 = omega1 * u3(phi1)  # [rad/s] rocker 3
+    omega4 = omega1 * u4(phi1)  # [rad/s] rod 4
+    omega6 = omega1 * u6(phi1)  # [rad/s] rod 6 and cylinder 7
+    v5 = omega1 * motion_45(phi1).ds  # [m/s] plunger along the guide
+    v6 = omega1 * motion_67(phi1).ds  # [m/s] rod 6 in the cylinder, outwards
+    motion_lines = typeset()
+    return motion_lines, omega2, omega3, omega4, omega6, v5, v6
+
+
+@app.cell
+def accelerations(A, B, C, D, E, H, K, O1, O5, g, omega1, omega2, omega3, omega4, omega6, u5, v5, v6):
+    a_A = (1j * g.eps1 - omega1**2) * (A - O1)  # [m/s**2] pin A
+    change_23 = rrr_acceleration(A, C, B, omega2, omega3, a_A, 0)
+    eps2 = change_23.epsilon_A  # [rad/s**2] rod 2
+    eps3 = change_23.epsilon_B  # [rad/s**2] rocker 3
+    a_D = (1j * eps3 - omega3**2) * (D - C)  # [m/s**2] pin D
+    a_K = (1j * eps3 - omega3**2) * (K - C)  # [m/s**2] pin K
+    change_45 = rrp_acceleration(D, O5, E, u5, omega4, v5, a_D)
+    eps4 = change_45.epsilon_A  # [rad/s**2] rod 4
+    a_E = change_45.a_C  # [m/s**2] plunger
+    eps6 = rpr_acceleration(K, H, K - H, omega6, v6, a_K).epsilon  # [rad/s**2] rod 6 and cylinder 7
+    change_lines = typeset()
+    return a_A, a_D, a_E, a_K, change_23, change_45, change_lines, eps2, eps3, eps4, eps6
+
+
+@app.cell
+def centres(C, H, O1, P_A, P_B, P_D, P_E, P_K, e7, g):
+    def P_S1(phi1):
+        return O1 + g.l_O1S1 * exp(1j * phi1)  # [m] crank
+
+    def P_S2(phi1):
+        return P_B(phi1) + g.l_BS2 / g.l2 * (P_A(phi1) - P_B(phi1))  # [m] rod 2
+
+    def P_S3(phi1):
+        return P_B(phi1) + g.l_BS3 / g.l3 * (C - P_B(phi1))  # [m] rocker
+
+    def P_S4(phi1):
+        return P_E(phi1) + g.l_ES4 / g.l4 * (P_D(phi1) - P_E(phi1))  # [m] rod 4
+
+    def P_S6(phi1):
+        return P_K(phi1) - g.l_KS6 * e7(phi1)  # [m] rod with piston
+
+    def P_S7(phi1):
+        return H + g.l_HS7 * e7(phi1)  # [m] cylinder
+
+    typeset()
+    return P_S1, P_S2, P_S3, P_S4, P_S6, P_S7
+
+
+@app.cell
+def centre_fields(
+    A,
+    C,
+    D,
+    H,
+    K,
+    O1,
+    P_S1,
+    P_S2,
+    P_S3,
+    P_S4,
+    P_S6,
+    P_S7,
+    a_A,
+    a_D,
+    a_K,
+    eps2,
+    eps3,
+    eps4,
+    eps6,
+    g,
+    omega1,
+    omega2,
+    omega3,
+    omega4,
+    omega6,
+    phi1,
+):
+    S1 = P_S1(phi1)  # [m] crank
+    S2 = P_S2(phi1)  # [m] rod 2
+    S3 = P_S3(phi1)  # [m] rocker
+    S4 = P_S4(phi1)  # [m] rod 4
+    S6 = P_S6(phi1)  # [m] rod with piston
+    S7 = P_S7(phi1)  # [m] cylinder
+    a_S1 = link_acceleration(S1, O1, 0, omega1, g.eps1)  # [m/s**2] crank
+    a_S2 = link_acceleration(S2, A, a_A, omega2, eps2)  # [m/s**2] rod 2
+    a_S3 = link_acceleration(S3, C, 0, omega3, eps3)  # [m/s**2] rocker
+    a_S4 = link_acceleration(S4, D, a_D, omega4, eps4)  # [m/s**2] rod 4
+    a_S6 = link_acceleration(S6, K, a_K, omega6, eps6)  # [m/s**2] rod with piston
+    a_S7 = link_acceleration(S7, H, 0, omega6, eps6)  # [m/s**2] cylinder
+    centre_lines = typeset()
+    return S1, S2, S3, S4, S6, S7, a_S1, a_S2, a_S3, a_S4, a_S6, a_S7, centre_lines
+
+
+@app.cell
+def motion_shown(centre_lines, change_lines, motion_lines, turn):
+    typeset(motion_lines.at(turn.value), change_lines.at(turn.value), centre_lines.at(turn.value))
+    return
+
+
+@app.cell(hide_code=True)
+def section_32():
+    mo.md(r"""
+    ### 3.2 Inertia forces and moments
+
+    Forces are complex numbers too. The plunger does not turn, so it has no inertia moment; the crank has none while it
+    turns evenly.
+    """)
+    return
+
+
+@app.cell
+def inertia_forces(a_E, a_S1, a_S2, a_S3, a_S4, a_S6, a_S7, eps2, eps3, eps4, eps6, g):
+    F_in1 = -g.m1 * a_S1  # [N] (1.1) crank, at S1
+    F_in2 = -g.m2 * a_S2  # [N] (1.1) rod 2, at S2
+    F_in3 = -g.m3 * a_S3  # [N] (1.1) rocker, at S3
+    F_in4 = -g.m4 * a_S4  # [N] (1.1) rod 4, at S4
+    F_in5 = -g.m5 * a_E  # [N] (1.1) plunger, at E
+    F_in6 = -g.m6 * a_S6  # [N] (1.1) rod with piston, at S6
+    F_in7 = -g.m7 * a_S7  # [N] (1.1) cylinder, at S7
+    M_in1 = -g.J1 * g.eps1  # [N*m] (1.2) crank
+    M_in2 = -g.J2 * eps2  # [N*m] (1.2) rod 2
+    M_in3 = -g.J3 * eps3  # [N*m] (1.2) rocker
+    M_in4 = -g.J4 * eps4  # [N*m] (1.2) rod 4
+    M_in6 = -g.J6 * eps6  # [N*m] (1.2) rod with piston
+    M_in7 = -g.J7 * eps6  # [N*m] (1.2) cylinder
+    inertia_lines = typeset()
+    return F_in1, F_in2, F_in3, F_in4, F_in5, F_in6, F_in7, M_in1, M_in2, M_in3, M_in4, M_in6, M_in7, inertia_lines
+
+
+@app.cell
+def inertia_shown(inertia_lines, turn):
+    inertia_lines.at(turn.value)
+    return
+
+
+@app.cell(hide_code=True)
+def section_33():
+    mo.md(r"""
+    ### 3.3 Weights, resistance, gas
+
+    The resistance $Q_5$ acts in the working stroke, in which the plunger moves in the direction of the guide. The gas
+    pushes the piston out of the cylinder and the cylinder the other way.
+    """)
+    return
+
+
+@app.cell
+def weights(e7, g, motion_45, omega1, phi1, u5):
+    G1 = -1j * g.m1 * g.g_n  # [N] crank
+    G2 = -1j * g.m2 * g.g_n  # [N] rod 2
+    G3 = -1j * g.m3 * g.g_n  # [N] rocker
+    G4 = -1j * g.m4 * g.g_n  # [N] rod 4
+    G5 = -1j * g.m5 * g.g_n  # [N] plunger
+    G6 = -1j * g.m6 * g.g_n  # [N] rod with piston
+    G7 = -1j * g.m7 * g.g_n  # [N] cylinder
+    working = motion_45(phi1).ds * where(omega1 < 0, -1, 1) > 0
+    F_Q = where(working, -g.Q5, 0) * u5  # [N] resistance to the plunger, at E
+    F_g = g.p_g * pi * g.D_g**2 / 4  # [N] force of the gas on the piston
+    F_gas = F_g * e7(phi1)  # [N] gas on the piston, along the cylinder
+    load_lines = typeset()
+    return F_Q, F_g, F_gas, G1, G2, G3, G4, G5, G6, G7, load_lines, working
+
+
+@app.cell
+def loads_shown(load_lines, turn):
+    load_lines.at(turn.value)
+    return
+
+
+@app.cell
+def table_31(a_E, eps2, eps3, eps4, eps6, g, phi1):
+    table_31 = table("3.1", "Accelerations", phi1, eps2, eps3, eps4, eps6, abs(a_E), every=g.step, decimals=1)
+    table_31
+    return (table_31,)
+
+
+@app.cell
+def table_32(F_in2, F_in3, F_in4, F_in5, F_in6, F_in7, g, phi1):
+    table_32 = table(
+        "3.2",
+        "Inertia forces",
+        *(phi1, abs(F_in2), abs(F_in3), abs(F_in4), abs(F_in5), abs(F_in6), abs(F_in7)),
+        every=g.step,
+    )
+    table_32
+    return (table_32,)
+
+
+@app.cell
+def table_33(M_in2, M_in3, M_in4, M_in6, M_in7, g, phi1):
+    table_33 = table("3.3", "Inertia moments", phi1, M_in2, M_in3, M_in4, M_in6, M_in7, every=g.step, decimals=1)
+    table_33
+    return (table_33,)
+
+
+@app.cell(hide_code=True)
+def section_4():
+    mo.md(r"""
+    ## 4 Second kind: group (4, 5), rod and slider (SR2)
+
+    The groups are taken from the last to the first (1.2). The document's links 1, 2, 3, 4 and points A, B of the second
+    kind are here the links 3, 4, 5, 0 and the points D, E; its $\varphi_4$ is $\varphi_{05}$. So its $R_{12}$ is here
+    $R_{34}$, the force of the link 3 on the link 4, its $R_{43}$ is $R_{05}$ and its $R_{23}$ is $R_{45}$.
+
+    Loads and inertia of a link make one force $F$, of the direction $\gamma$, at its centre of mass, and one moment
+    $M$. A component keeps its sign with its number, so the document's cases "if minus, then $\gamma = \varphi -
+    0.5\,\pi$" are not needed; the two-argument arctangent gives the angles of all quadrants, for which the document
+    has the cases (1.28), (1.32) and the programs UGL2 to UGL4.
+    """)
+    return
+
+
+@app.cell
+def loads_45(F_Q, F_in4, F_in5, G4, G5, M_in4):
+    F4_sum = G4 + F_in4  # [N] loads on the rod 4, at S4
+    F4 = abs(F4_sum)  # [N] loads on the rod 4
+    gamma4 = angle(F4_sum)  # [deg] their direction
+    M4 = M_in4  # [N*m] their moment
+    F5_sum = G5 + F_in5 + F_Q  # [N] loads on the plunger 5, at E
+    F5 = abs(F5_sum)  # [N] loads on the plunger 5
+    gamma5 = angle(F5_sum)  # [deg] their direction
+    given_45 = typeset()
+    return F4, F4_sum, F5, F5_sum, M4, gamma4, gamma5, given_45
+
+
+@app.cell
+def kind_2(F4, F5, M4, g, gamma4, gamma5, phi4):
+    R34_t = (F4 * g.l_ES4 * sin(phi4 - gamma4) + M4) / g.l4  # [N] (1.24) at D, across the rod
+    gamma34_t = phi4 + 0.5 * pi  # [deg] its direction
+    A_45 = R34_t * cos(gamma34_t) + F4 * cos(gamma4) + F5 * cos(gamma5)  # [N] (1.26) known forces, x
+    B_45 = R34_t * sin(gamma34_t) + F4 * sin(gamma4) + F5 * sin(gamma5)  # [N] (1.26) known forces, y
+    R34_n = -(A_45 * cos(g.phi05) + B_45 * sin(g.phi05)) / cos(phi4 - g.phi05)  # [N] at D, along the rod
+    R05 = (A_45 * sin(phi4) - B_45 * cos(phi4)) / cos(phi4 - g.phi05)  # [N] of the guide, across it
+    gamma05 = g.phi05 + 0.5 * pi  # [deg] its direction
+    R34 = hypot(R34_n, R34_t)  # [N] (1.27) rocker 3 on the rod 4, at D
+    gamma34 = (phi4 + atan2(R34_t, R34_n)) % (2 * pi)  # [deg] (1.28)
+    R45_x = -(R05 * cos(gamma05) + F5 * cos(gamma5))  # [N] (1.30) rod 4 on the plunger 5, at E
+    R45_y = -(R05 * sin(gamma05) + F5 * sin(gamma5))  # [N] (1.30)
+    R45 = hypot(R45_x, R45_y)  # [N] (1.31)
+    gamma45 = atan2(R45_y, R45_x) % (2 * pi)  # [deg] (1.32)
+    kind_2 = typeset()
+    return A_45, B_45, R05, R34, R34_n, R34_t, R45, R45_x, R45_y, gamma05, gamma34, gamma34_t, gamma45, kind_2
+
+
+@app.cell
+def library_45(D, E, F_Q, G4, G5, R05, R34, R45, S4, a_E, a_S4, eps4, g, gamma05, gamma34, gamma45, lost, u5):
+    group_45 = rrp_reactions(
+        *(D, E, u5),
+        [Load(G4, S4), inertia(g.m4, g.J4, S4, a_S4, eps4)],
+        [Load(G5 + F_Q, E), inertia(g.m5, 0, E, a_E, 0)],
+    )
+    R_D = group_45.R_A  # [N] rocker 3 on the rod 4, at D
+    R_05 = group_45.R_B  # [N] guide on the plunger 5, at E
+    R_E = -group_45.R_C  # [N] rod 4 on the plunger 5, at E
+    _limit = lost * largest_of(R_D, R_05, R_E)
+    checks_45 = (
+        check("second kind: R34 is that of the library", R34 * exp(1j * gamma34) - R_D, _limit, "N"),
+        check("second kind: R05 is that of the library", R05 * exp(1j * gamma05) - R_05, _limit, "N"),
+        check("second kind: R45 is that of the library", R45 * exp(1j * gamma45) - R_E, _limit, "N"),
+    )
+    vectors_45 = typeset()
+    return R_05, R_D, R_E, checks_45, group_45, vectors_45
+
+
+@app.cell
+def bare_45(D, E, F4_sum, F5_sum, R_05, R_D, S4):
+    bare_45 = group_drawing([D, E], [(D, R_D), (S4, F4_sum), (E, F5_sum), (E, R_05)])
+    return (bare_45,)
+
+
+@app.cell
+def drawing_41(D, E, F4_sum, F5_sum, R_05, R_D, S4, bare_45, g, turn, u5):
+    _k = turn.value
+    _links = bare_45.guide(E[_k] - 0.06 * u5, E[_k] + 0.06 * u5).link(D[_k], E[_k], "4").slider(E[_k], g.phi05, "5")
+    _pins = _links.hinge(D[_k], "D").hinge(E[_k], "E").mass(S4[_k], "S4")
+    _loads = _pins.force(S4[_k], F4_sum[_k], "F4") + pin_force(E[_k], F5_sum[_k], "F5", D[_k])
+    drawing_41 = _loads.force(E[_k], R_05[_k], "R05") + pin_force(D[_k], R_D[_k], "R34", E[_k])
+    typeset(turn, drawing_41, mo.md(f"**Figure 4.1** – Group (4, 5) with its forces, φ₁ = {_k}°"))
+    return (drawing_41,)
+
+
+@app.cell
+def kind_2_shown(given_45, kind_2, turn):
+    typeset(given_45.at(turn.value), kind_2.at(turn.value))
+    return
+
+
+@app.cell(hide_code=True)
+def section_41():
+    mo.md(r"""
+    The same vectors by the mechanics library, which solves the group's equations in another form:
+    """)
+    return
+
+
+@app.cell
+def library_45_shown(checks_45, turn, vectors_45):
+    typeset(vectors_45.at(turn.value), *checks_45)
+    return
+
+
+@app.cell(hide_code=True)
+def section_42():
+    mo.md(r"""
+    **Erratum.** The second line of the system after (1.26) is printed with a minus, $R_{12}^n \sin\varphi_2 - R_{43}
+    \cos\varphi_4 = -B$; in (1.26) it has the plus. What each line leaves, and the reactions that solve the system as
+    printed:
+    """)
+    return
+
+
+@app.cell
+def errata_45(A_45, B_45, R05, R34_n, g, phi4):
+    r_45 = R34_n * sin(phi4) + R05 * cos(g.phi05) + B_45  # [N] left by the line with the plus
+    r_45_printed = R34_n * sin(phi4) - R05 * cos(g.phi05) + B_45  # [N] left by the line as printed (erratum)
+    R34_n_printed = -(A_45 * cos(g.phi05) - B_45 * sin(g.phi05)) / cos(phi4 + g.phi05)  # [N] as printed (erratum)
+    R05_printed = -(A_45 * sin(phi4) - B_45 * cos(phi4)) / cos(phi4 + g.phi05)  # [N] as printed (erratum)
+    lines_42 = typeset()
+    return R05_printed, R34_n_printed, lines_42, r_45, r_45_printed
+
+
+@app.cell
+def errata_45_shown(lines_42, turn):
+    lines_42.at(turn.value)
+    return
+
+
+@app.cell(hide_code=True)
+def section_5():
+    mo.md(r"""
+    ## 5 Third kind: group (6, 7), rod with piston and cylinder (SR3)
+
+    The document's links 1, 2, 3, 4 and points A, E are here the links 3, 6, 7, 0 and the points K, H; its $\varphi_2$
+    is $\varphi_6$, from K to H. So its $R_{12}$ is here $R_{36}$, its $R_{32}$, the force of the cylinder on the rod
+    square to their common line, is $R_{76}$, and its $R_{43}$ is $R_{07}$.
+    """)
+    return
+
+
+@app.cell
+def loads_67(F_gas, F_in6, F_in7, G6, G7, M_in6, M_in7):
+    F6_sum = G6 + F_in6 + F_gas  # [N] loads on the rod with piston 6, at S6
+    F6 = abs(F6_sum)  # [N] loads on the rod with piston 6
+    gamma6 = angle(F6_sum)  # [deg] their direction
+    M6 = M_in6  # [N*m] their moment
+    F7_sum = G7 + F_in7 - F_gas  # [N] loads on the cylinder 7, at S7
+    F7 = abs(F7_sum)  # [N] loads on the cylinder 7
+    gamma7 = angle(F7_sum)  # [deg] their direction
+    M7 = M_in7  # [N*m] their moment
+    given_67 = typeset()
+    return F6, F6_sum, F7, F7_sum, M6, M7, gamma6, gamma7, given_67
+
+
+@app.cell
+def kind_3(F6, F7, M6, M7, g, gamma6, gamma7, phi6, s7):
+    l_HK = (g.l6 - s7) + g.l7  # [m] (1.33) H to K
+    l_HS6 = l_HK - g.l_KS6  # [m] (1.33) H to S6
+    T6 = F6 * l_HS6 * sin(phi6 - gamma6) + M6  # [N*m] (1.34) moment of the loads on 6 about H
+    T7 = F7 * g.l_HS7 * sin(phi6 - gamma7) + M7  # [N*m] (1.34) moment of the loads on 7 about H
+    R36_t = (T6 + T7) / l_HK  # [N] (1.35) at K, across the rod
+    gamma36_t = phi6 + 0.5 * pi  # [deg] its direction
+    A_67 = R36_t * cos(gamma36_t) + F6 * cos(gamma6)  # [N] (1.37) known forces, x
+    B_67 = R36_t * sin(gamma36_t) + F6 * sin(gamma6)  # [N] (1.37) known forces, y
+    R36_n = -(A_67 * cos(phi6) + B_67 * sin(phi6))  # [N] at K, along the rod
+    R76 = A_67 * sin(phi6) - B_67 * cos(phi6)  # [N] cylinder 7 on the rod 6, across it
+    gamma76 = phi6 + 0.5 * pi  # [deg] its direction
+    R36 = hypot(R36_n, R36_t)  # [N] (1.38) rocker 3 on the rod 6, at K
+    gamma36 = (phi6 + atan2(R36_t, R36_n)) % (2 * pi)  # [deg] (1.39)
+    gamma67 = gamma76 + pi  # [deg] rod 6 on the cylinder 7
+    R07_x = -(R76 * cos(gamma67) + F7 * cos(gamma7))  # [N] (1.41) frame on the cylinder 7, at H
+    R07_y = -(R76 * sin(gamma67) + F7 * sin(gamma7))  # [N] (1.41)
+    R07 = hypot(R07_x, R07_y)  # [N] (1.42)
+    gamma07 = atan2(R07_y, R07_x) % (2 * pi)  # [deg] (1.43)
+    h76 = -(F6 * g.l_KS6 * sin(gamma6 - phi6) + M6) / (R76 * sin(gamma76 - phi6))  # [m] (1.46) its arm from K
+    kind_3 = typeset()
+    return (
+        A_67,
+        B_67,
+        R07,
+        R07_x,
+        R07_y,
+        R36,
+        R36_n,
+        R36_t,
+        R76,
+        T6,
+        T7,
+        gamma07,
+        gamma36,
+        gamma36_t,
+        gamma67,
+        gamma76,
+        h76,
+        kind_3,
+        l_HK,
+        l_HS6,
+    )
+
+
+@app.cell
+def library_67(
+    F_gas, G6, G7, H, K, R07, R36, R76, S6, S7, a_S6, a_S7, eps6, g, gamma07, gamma36, gamma76, h76, l_HK, lost
+):
+    group_67 = rpr_reactions(
+        *(K, H, K - H),
+        [Load(G6 + F_gas, S6), inertia(g.m6, g.J6, S6, a_S6, eps6)],
+        [Load(G7 - F_gas, S7), inertia(g.m7, g.J7, S7, a_S7, eps6)],
+    )
+    R_K = group_67.R_A  # [N] rocker 3 on the rod 6, at K
+    R_H = group_67.R_B  # [N] frame on the cylinder 7, at H
+    R_76 = group_67.R_C  # [N] cylinder 7 on the rod 6
+    M_76 = group_67.M_C  # [N*m] its moment about K
+    _limit = lost * largest_of(R_K, R_H, R_76)
+    _moments = where(R76 == 0, 0, R76 * h76) - M_76
+    checks_67 = (
+        check("third kind: R36 is that of the library", R36 * exp(1j * gamma36) - R_K, _limit, "N"),
+        check("third kind: R76 is that of the library", R76 * exp(1j * gamma76) - R_76, _limit, "N"),
+        check("third kind: R07 is that of the library", R07 * exp(1j * gamma07) - R_H, _limit, "N"),
+        check("third kind: R76 h76 is the library's moment", _moments, _limit * largest_of(l_HK), "N*m"),
+    )
+    vectors_67 = typeset()
+    return M_76, R_76, R_H, R_K, checks_67, group_67, vectors_67
+
+
+@app.cell
+def bare_67(F6_sum, F7_sum, H, K, R_H, R_K, S6, S7):
+    bare_67 = group_drawing([K, H], [(K, R_K), (H, R_H), (S6, F6_sum), (S7, F7_sum)])
+    return (bare_67,)
+
+
+@app.cell
+def drawing_51(F6_sum, F7_sum, H, K, R_H, R_K, S6, S7, bare_67, g, turn):
+    _k = turn.value
+    _links = bare_67.cylinder(H, K[_k], "7", g.l7).hinge(H, "H").hinge(K[_k], "K")
+    _masses = _links.mass(S6[_k], "S6").mass(S7[_k], "S7")
+    _loads = _masses.force(S6[_k], F6_sum[_k], "F6").force(S7[_k], F7_sum[_k], "F7")
+    drawing_51 = _loads + pin_force(K[_k], R_K[_k], "R36", H) + pin_force(H, R_H[_k], "R07", K[_k])
+    typeset(turn, drawing_51, mo.md(f"**Figure 5.1** – Group (6, 7) with its forces, φ₁ = {_k}°"))
+    return (drawing_51,)
+
+
+@app.cell
+def kind_3_shown(given_67, kind_3, turn):
+    typeset(given_67.at(turn.value), kind_3.at(turn.value))
+    return
+
+
+@app.cell(hide_code=True)
+def section_51():
+    mo.md(r"""
+    The same vectors by the library; $R_{76}$ at the arm $h_{76}$ does the same as the library's $R_{76}$ at K with its
+    moment.
+    """)
+    return
+
+
+@app.cell
+def library_67_shown(checks_67, turn, vectors_67):
+    typeset(vectors_67.at(turn.value), *checks_67)
+    return
+
+
+@app.cell(hide_code=True)
+def section_52():
+    mo.md(r"""
+    **Errata.** The second term of (1.35) is printed with $\sin(\varphi_2 - \gamma_2)$, the direction of the other
+    link's load. (1.34) is printed with $\sin(\varphi_2 + 0.5)$ for $\sin(\varphi_2 + 0.5\,\pi)$: the determinant over
+    $l_{EA} R_{12}^\tau$ is -1 with the $\pi$. The first line of the system after (1.37) is printed with $R_{43}$ for
+    $R_{32}$. The printed and the right numbers:
+    """)
+    return
+
+
+@app.cell
+def errata_67(A_67, F7, M7, R07, R36_n, R76, T6, g, gamma6, l_HK, phi6):
+    T7_printed = F7 * g.l_HS7 * sin(phi6 - gamma6) + M7  # [N*m] (1.35) as printed (erratum)
+    R36_t_printed = (T6 + T7_printed) / l_HK  # [N] (1.35) as printed (erratum)
+    d_134 = cos(phi6 + pi) * sin(phi6 + 0.5 * pi) - sin(phi6 + pi) * cos(phi6 + 0.5 * pi)  # [-] (1.34)
+    d_134_printed = cos(phi6 + pi) * sin(phi6 + 0.5) - sin(phi6 + pi) * cos(phi6 + 0.5 * pi)  # [-] as printed (erratum)
+    r_67 = R36_n * cos(phi6) - R76 * sin(phi6) + A_67  # [N] (1.37) left by the first line
+    r_67_printed = R36_n * cos(phi6) - R07 * sin(phi6) + A_67  # [N] left by the line as printed (erratum)
+    lines_52 = typeset()
+    return R36_t_printed, T7_printed, d_134, d_134_printed, lines_52, r_67, r_67_printed
+
+
+@app.cell
+def errata_67_shown(lines_52, turn):
+    typeset(lines_52.at(turn.value))
+    return
+
+
+@app.cell(hide_code=True)
+def section_6():
+    mo.md(r"""
+    ## 6 First kind: group (2, 3), rod and rocker (SR1)
+
+    Points and links have the document's names, but for its link 4, which is here the frame 0: its $R_{43}$ is
+    $R_{03}$. The reactions found above act back on the rocker at D and K; with its own loads they make the force
+    $F_3$ at $S_3$ and the moment $M_3$.
+    """)
+    return
+
+
+@app.cell
+def loads_23(D, F_in2, F_in3, G2, G3, K, M_in2, M_in3, R34, R36, S3, gamma34, gamma36):
+    F2_sum = G2 + F_in2  # [N] loads on the rod 2, at S2
+    F2 = abs(F2_sum)  # [N] loads on the rod 2
+    gamma2 = angle(F2_sum)  # [deg] their direction
+    M2 = M_in2  # [N*m] their moment
+    R43 = -R34 * exp(1j * gamma34)  # [N] rod 4 on the rocker 3, at D
+    R63 = -R36 * exp(1j * gamma36)  # [N] rod 6 on the rocker 3, at K
+    F3_own = G3 + F_in3  # [N] weight and inertia of the rocker 3, at S3
+    F3_sum = F3_own + R43 + R63  # [N] loads on the rocker 3, at S3
+    F3 = abs(F3_sum)  # [N] loads on the rocker 3
+    gamma3 = angle(F3_sum)  # [deg] their direction
+    M3 = M_in3 + cross(D - S3, R43) + cross(K - S3, R63)  # [N*m] their moment
+    given_23 = typeset()
+    return F2, F2_sum, F3, F3_own, F3_sum, M2, M3, R43, R63, gamma2, gamma3, given_23
+
+
+@app.cell
+def kind_1(F2, F3, M2, M3, g, gamma2, gamma3, phi2, phi3):
+    R12_t = (F2 * g.l_BS2 * sin(phi2 - gamma2) + M2) / g.l2  # [N] (1.5) at A, across the rod
+    gamma12_t = phi2 + 0.5 * pi  # [deg] its direction
+    R03_t = (F3 * g.l_BS3 * sin(phi3 - gamma3) + M3) / g.l3  # [N] (1.8) at C, across the rocker
+    gamma03_t = phi3 + 0.5 * pi  # [deg] its direction
+    A_2 = R12_t * cos(gamma12_t) + F2 * cos(gamma2)  # [N] (1.10) known forces on 2, x
+    A_3 = R03_t * cos(gamma03_t) + F3 * cos(gamma3)  # [N] (1.10) known forces on 3, x
+    A_23 = A_2 + A_3  # [N] (1.10) known forces, x
+    B_2 = R12_t * sin(gamma12_t) + F2 * sin(gamma2)  # [N] (1.10) known forces on 2, y
+    B_3 = R03_t * sin(gamma03_t) + F3 * sin(gamma3)  # [N] (1.10) known forces on 3, y
+    B_23 = B_2 + B_3  # [N] (1.10) known forces, y
+    R12_n = -(A_23 * sin(phi3) - B_23 * cos(phi3)) / sin(phi3 - phi2)  # [N] at A, along the rod
+    R03_n = -(A_23 * sin(phi2) - B_23 * cos(phi2)) / sin(phi2 - phi3)  # [N] at C, along the rocker
+    R12 = hypot(R12_n, R12_t)  # [N] (1.11) crank 1 on the rod 2, at A
+    R03 = hypot(R03_n, R03_t)  # [N] (1.12) frame on the rocker 3, at C
+    gamma12 = (phi2 + atan2(R12_t, R12_n)) % (2 * pi)  # [deg] (1.13), (1.14)
+    gamma03 = (phi3 + atan2(R03_t, R03_n)) % (2 * pi)  # [deg] (1.15), (1.16)
+    R23_x = -(R03 * cos(gamma03) + F3 * cos(gamma3))  # [N] (1.18) rod 2 on the rocker 3, at B
+    R23_y = -(R03 * sin(gamma03) + F3 * sin(gamma3))  # [N] (1.19)
+    R23 = hypot(R23_x, R23_y)  # [N] (1.20)
+    gamma23 = atan2(R23_y, R23_x) % (2 * pi)  # [deg] (1.21)
+    kind_1 = typeset()
+    return (
+        A_2,
+        A_23,
+        A_3,
+        B_2,
+        B_23,
+        B_3,
+        R03,
+        R03_n,
+        R03_t,
+        R12,
+        R12_n,
+        R12_t,
+        R23,
+        R23_x,
+        R23_y,
+        gamma03,
+        gamma03_t,
+        gamma12,
+        gamma12_t,
+        gamma23,
+        kind_1,
+    )
+
+
+@app.cell
+def library_23(
+    A,
+    B,
+    C,
+    D,
+    G2,
+    G3,
+    K,
+    R03,
+    R12,
+    R23,
+    R_05,
+    R_D,
+    R_E,
+    R_H,
+    R_K,
+    S2,
+    S3,
+    a_S2,
+    a_S3,
+    eps2,
+    eps3,
+    g,
+    gamma03,
+    gamma12,
+    gamma23,
+    lost,
+):
+    group_23 = rrr_reactions(
+        *(A, C, B),
+        [Load(G2, S2), inertia(g.m2, g.J2, S2, a_S2, eps2)],
+        [Load(G3, S3), inertia(g.m3, g.J3, S3, a_S3, eps3), Load(-R_D, D), Load(-R_K, K)],
+    )
+    R_A = group_23.R_A  # [N] crank 1 on the rod 2, at A
+    R_C = group_23.R_B  # [N] frame on the rocker 3, at C
+    R_B = -group_23.R_C  # [N] rod 2 on the rocker 3, at B
+    largest = largest_of(R_A, R_B, R_C, R_D, R_E, R_05, R_K, R_H)
+    checks_23 = (
+        check("first kind: R12 is that of the library", R12 * exp(1j * gamma12) - R_A, lost * largest, "N"),
+        check("first kind: R03 is that of the library", R03 * exp(1j * gamma03) - R_C, lost * largest, "N"),
+        check("first kind: R23 is that of the library", R23 * exp(1j * gamma23) - R_B, lost * largest, "N"),
+    )
+    vectors_23 = typeset()
+    return R_A, R_B, R_C, checks_23, group_23, largest, vectors_23
+
+
+@app.cell
+def bare_23(A, B, C, D, F2_sum, F3_own, K, R_A, R_C, R_D, R_K, S2, S3):
+    bare_23 = group_drawing([A, B, C, D, K], [(A, R_A), (C, R_C), (S2, F2_sum), (S3, F3_own), (D, -R_D), (K, -R_K)])
+    return (bare_23,)
+
+
+@app.cell
+def drawing_61(A, B, C, D, F2_sum, F3_own, K, R_A, R_C, R_D, R_K, S2, S3, bare_23, turn):
+    _k = turn.value
+    _links = bare_23.link(A[_k], B[_k], "2").plate([C, B[_k], K[_k], D[_k]], "3").mass(S2[_k], "S2").mass(S3[_k], "S3")
+    _pins = _links.hinge(A[_k], "A").hinge(B[_k], "B").hinge(C, "C").hinge(D[_k], "D").hinge(K[_k], "K")
+    _back = _pins + pin_force(D[_k], -R_D[_k], "R43", C) + pin_force(K[_k], -R_K[_k], "R63", C)
+    _loads = _back.force(S2[_k], F2_sum[_k], "F2").force(S3[_k], F3_own[_k], "F3_own")
+    drawing_61 = _loads + pin_force(A[_k], R_A[_k], "R12", B[_k]) + pin_force(C, R_C[_k], "R03", B[_k])
+    typeset(turn, drawing_61, mo.md(f"**Figure 6.1** – Group (2, 3) with its forces, φ₁ = {_k}°"))
+    return (drawing_61,)
+
+
+@app.cell
+def kind_1_shown(given_23, kind_1, turn):
+    typeset(given_23.at(turn.value), kind_1.at(turn.value))
+    return
+
+
+@app.cell(hide_code=True)
+def section_61():
+    mo.md(r"""
+    The same vectors by the library:
+    """)
+    return
+
+
+@app.cell
+def library_23_shown(checks_23, turn, vectors_23):
+    typeset(vectors_23.at(turn.value), *checks_23)
+    return
+
+
+@app.cell(hide_code=True)
+def section_7():
+    mo.md(r"""
+    ## 7 Driving link
+
+    On the crank act its weight and inertia and, at A, the reaction of the first group.
+    """)
+    return
+
+
+@app.cell
+def loads_1(F_in1, G1, M_in1, R12, gamma12):
+    F1_sum = G1 + F_in1  # [N] loads on the crank, at S1
+    F1 = abs(F1_sum)  # [N] loads on the crank
+    gamma1 = angle(F1_sum)  # [deg] their direction
+    M1 = M_in1  # [N*m] their moment
+    R21 = R12  # [N] rod 2 on the crank 1, at A
+    gamma21 = gamma12 + pi  # [deg] its direction
+    given_1 = typeset()
+    return F1, F1_sum, M1, R21, gamma1, gamma21, given_1
+
+
+@app.cell
+def loads_1_shown(given_1, turn):
+    given_1.at(turn.value)
+    return
+
+
+@app.cell(hide_code=True)
+def section_71():
+    mo.md(r"""
+    ### 7.1 Drive by a gear (SRWL1)
+
+    The wheel on the crank is driven at its pitch point P, to the left of $O_1$. Whichever flank of its teeth works, the
+    force on it points inwards, $\alpha_w$ off the tangent: where (1.49) comes out with minus, the direction is
+    $1.5\,\pi + \alpha_w$.
+    """)
+    return
+
+
+@app.cell
+def gear(F1, M1, R21, g, gamma1, gamma21, phi1):
+    gamma_b0 = 0.5 * pi - g.alpha_w  # [deg] direction assumed first
+    T1 = F1 * g.l_O1S1 * sin(gamma1 - phi1) + M1  # [N*m] (1.49) moment of the loads about O1
+    T2 = R21 * g.l1 * sin(gamma21 - phi1)  # [N*m] (1.49) moment of R21 about O1
+    F_b = (T1 + T2) / (g.l_O1P * sin(gamma_b0))  # [N] (1.49) balancing force
+    gamma_b = where(F_b < 0, 1.5 * pi + g.alpha_w, gamma_b0)  # [deg] its direction
+    R_O1g_x = -(F1 * cos(gamma1) + abs(F_b) * cos(gamma_b) + R21 * cos(gamma21))  # [N] (1.51) frame on the crank, at O1
+    R_O1g_y = -(F1 * sin(gamma1) + abs(F_b) * sin(gamma_b) + R21 * sin(gamma21))  # [N] (1.51)
+    R_O1g = hypot(R_O1g_x, R_O1g_y)  # [N] (1.52) frame on the crank, gear
+    gamma_O1g = atan2(R_O1g_y, R_O1g_x) % (2 * pi)  # [deg] (1.53)
+    gear_lines = typeset()
+    return F_b, R_O1g, R_O1g_x, R_O1g_y, T1, T2, gamma_O1g, gamma_b, gamma_b0, gear_lines
+
+
+@app.cell
+def library_gear(A, F_b, G1, O1, R_A, R_O1g, S1, a_S1, g, gamma_O1g, gamma_b, lost):
+    loads_O1 = [Load(G1, S1), inertia(g.m1, g.J1, S1, a_S1, g.eps1), Load(-R_A, A)]
+    P_w = O1 - g.l_O1P  # [m] pitch point
+    drive_g = gear_drive(O1, P_w, g.alpha_w, loads_O1)
+    F_w = drive_g.F  # [N] balancing force on the crank's wheel, at P
+    R_1g = drive_g.R_O1  # [N] frame on the crank, at O1
+    _limit = lost * largest_of(F_w, R_1g, R_A)
+    checks_gear = (
+        check("gear: the force is that of the library", abs(F_b) * exp(1j * gamma_b) - F_w, _limit, "N"),
+        check("gear: RO1 is that of the library", R_O1g * exp(1j * gamma_O1g) - R_1g, _limit, "N"),
+    )
+    gear_vectors = typeset()
+    return F_w, P_w, R_1g, checks_gear, drive_g, gear_vectors, loads_O1
+
+
+@app.cell
+def bare_gear(A, F1_sum, F_w, O1, P_w, R_1g, R_A, S1, g):
+    _wheel = [O1 + g.l_O1P * _side for _side in (1, 1j, -1, -1j)]
+    bare_gear = group_drawing([A, *_wheel], [(P_w, F_w), (O1, R_1g), (A, -R_A), (S1, F1_sum)]).wheel(O1, g.l_O1P)
+    return (bare_gear,)
+
+
+@app.cell
+def drawing_71(A, F1_sum, F_w, O1, P_w, R_1g, R_A, S1, bare_gear, turn):
+    _k = turn.value
+    _links = bare_gear.link(O1, A[_k], "1").hinge(O1, "O1").hinge(A[_k], "A").hinge(P_w, "P")
+    _loads = _links.force(S1[_k], F1_sum[_k], "F1") + pin_force(A[_k], -R_A[_k], "R21", O1)
+    drawing_71 = _loads.force(P_w, F_w[_k], "F_b", into=True) + pin_force(O1, R_1g[_k], "R_O1", A[_k])
+    typeset(turn, drawing_71, mo.md(f"**Figure 7.1** – Crank driven by a gear, φ₁ = {_k}°"))
+    return (drawing_71,)
+
+
+@app.cell
+def gear_shown(checks_gear, gear_lines, gear_vectors, turn):
+    typeset(gear_lines.at(turn.value), gear_vectors.at(turn.value), *checks_gear)
+    return
+
+
+@app.cell(hide_code=True)
+def section_72():
+    mo.md(r"""
+    ### 7.2 Drive by a coupling (SRWL2)
+
+    The coupling gives the crank a moment and no force.
+
+    **Errata.** In (1.54) the products are garbled: a moment is multiplied by a length there. It must read
+    $M_b + M_1 + l_{O_1A} \times R_{21} + l_{O_1S_1} \times F_1 = 0$, which (1.55) has right. (1.56) is printed without
+    the minus that (1.55) gives.
+    """)
+    return
+
+
+@app.cell
+def coupling(F1, R21, T1, T2, gamma1, gamma21):
+    M_b_printed = T2 + T1  # [N*m] (1.56) as printed (erratum)
+    M_b = -(T2 + T1)  # [N*m] (1.56) balancing moment
+    R_O1c_x = -(R21 * cos(gamma21) + F1 * cos(gamma1))  # [N] (1.58) frame on the crank, at O1
+    R_O1c_y = -(R21 * sin(gamma21) + F1 * sin(gamma1))  # [N] (1.58)
+    R_O1c = hypot(R_O1c_x, R_O1c_y)  # [N] (1.58) frame on the crank, coupling
+    gamma_O1c = atan2(R_O1c_y, R_O1c_x) % (2 * pi)  # [deg] (1.59)
+    coupling_lines = typeset()
+    return M_b, M_b_printed, R_O1c, R_O1c_x, R_O1c_y, coupling_lines, gamma_O1c
+
+
+@app.cell
+def library_coupling(M_b, O1, R_A, R_O1c, g, gamma_O1c, loads_O1, lost):
+    drive_c = coupling_drive(O1, loads_O1)
+    M_c = drive_c.M  # [N*m] balancing moment
+    R_1c = drive_c.R_O1  # [N] frame on the crank, at O1
+    _limit = lost * largest_of(R_1c, R_A)
+    checks_coupling = (
+        check("coupling: the moment is that of the library", M_b - M_c, _limit * g.l1, "N*m"),
+        check("coupling: RO1 is that of the library", R_O1c * exp(1j * gamma_O1c) - R_1c, _limit, "N"),
+    )
+    coupling_vectors = typeset()
+    return M_c, R_1c, checks_coupling, coupling_vectors, drive_c
+
+
+@app.cell
+def bare_coupling(A, F1_sum, O1, R_1c, R_A, S1):
+    bare_coupling = group_drawing([A, O1], [(O1, R_1c), (A, -R_A), (S1, F1_sum)])
+    return (bare_coupling,)
+
+
+@app.cell
+def drawing_72(A, F1_sum, M_c, O1, R_1c, R_A, S1, bare_coupling, turn):
+    _k = turn.value
+    _links = bare_coupling.link(O1, A[_k], "1").hinge(O1, "O1").hinge(A[_k], "A")
+    _loads = _links.force(S1[_k], F1_sum[_k], "F1") + pin_force(A[_k], -R_A[_k], "R21", O1)
+    drawing_72 = _loads + pin_force(O1, R_1c[_k], "R_O1", A[_k])
+    _says = f"balancing moment {M_c[_k]:.4g} N·m" if isfinite(M_c[_k]) else "no balancing moment"
+    typeset(turn, drawing_72, mo.md(f"**Figure 7.2** – Crank driven by a coupling, φ₁ = {_k}°: {_says}"))
+    return (drawing_72,)
+
+
+@app.cell
+def coupling_shown(checks_coupling, coupling_lines, coupling_vectors, turn):
+    typeset(coupling_lines.at(turn.value), coupling_vectors.at(turn.value), *checks_coupling)
+    return
+
+
+@app.cell(hide_code=True)
+def section_8():
+    mo.md("""
+    ## 8 Full turn
+    """)
+    return
+
+
+@app.cell
+def table_81(R05, R34, R45, g, gamma34, gamma45, phi1):
+    table_81 = table("8.1", "Reactions, second kind", phi1, R34, gamma34, R05, R45, gamma45, every=g.step)
+    table_81
+    return (table_81,)
+
+
+@app.cell
+def table_82(R07, R36, R76, g, gamma07, gamma36, h76, phi1):
+    table_82 = table(
+        "8.2",
+        "Reactions, third kind",
+        *(phi1, R36, gamma36, R76, h76, R07, gamma07),
+        every=g.step,
+        note="Where R76 passes through zero its arm h76 grows without bound: the pair then passes on a moment alone.",
+    )
+    table_82
+    return (table_82,)
+
+
+@app.cell
+def table_83(R03, R12, R23, g, gamma03, gamma12, gamma23, phi1):
+    table_83 = table("8.3", "Reactions, first kind", phi1, R12, gamma12, R23, gamma23, R03, gamma03, every=g.step)
+    table_83
+    return (table_83,)
+
+
+@app.cell
+def table_84(F_b, R_O1g, g, gamma_O1g, gamma_b, phi1):
+    table_84 = table("8.4", "Drive by a gear", phi1, F_b, gamma_b, R_O1g, gamma_O1g, every=g.step)
+    table_84
+    return (table_84,)
+
+
+@app.cell
+def power(M_b, g, omega1, phi1, s5):
+    P_b = M_b * omega1  # [kW] power of the drive
+    W_b = trapezoid(M_b, phi1)  # [J] work of the drive in a turn
+    M_mean = W_b / (2 * pi)  # [N*m] mean moment
+    W_Q = g.Q5 * (most(s5) - least(s5))  # [J] work against the resistance in a turn
+    power_lines = typeset()
+    return M_mean, P_b, W_Q, W_b, power_lines
+
+
+@app.cell
+def table_85(M_b, P_b, R_O1c, g, gamma_O1c, phi1):
+    table_85 = table("8.5", "Drive by a coupling", phi1, M_b, R_O1c, gamma_O1c, P_b, every=g.step)
+    table_85
+    return (table_85,)
+
+
+@app.cell
+def power_shown(power_lines, turn):
+    power_lines.at(turn.value)
+    return
+
+
+@app.cell
+def figure_81(R05, R34, R45, phi1):
+    figure_81 = figure("8.1", "Reactions of the second kind", phi1, R34, R45, R05)
+    figure_81
+    return (figure_81,)
+
+
+@app.cell
+def figure_82(R07, R36, R76, phi1):
+    figure_82 = figure("8.2", "Reactions of the third kind", phi1, R36, R07, R76)
+    figure_82
+    return (figure_82,)
+
+
+@app.cell
+def figure_83(R03, R12, R23, phi1):
+    figure_83 = figure("8.3", "Reactions of the first kind", phi1, R12, R23, R03)
+    figure_83
+    return (figure_83,)
+
+
+@app.cell
+def figure_84(F_b, phi1):
+    figure_84 = figure("8.4", "Balancing force of the gear", phi1, F_b)
+    figure_84
+    return (figure_84,)
+
+
+@app.cell
+def figure_85(M_b, phi1):
+    figure_85 = figure("8.5", "Balancing moment of the coupling", phi1, M_b)
+    figure_85
+    return (figure_85,)
+
+
+@app.cell
+def figure_86(R_O1c, R_O1g, phi1):
+    figure_86 = figure("8.6", "Reactions of the frame on the crank", phi1, R_O1g, R_O1c)
+    figure_86
+    return (figure_86,)
+
+
+@app.cell(hide_code=True)
+def section_81():
+    mo.md("""
+    ### Polar diagrams
+
+    Each curve is the path of the end of a reaction, drawn from one point in the axes x, y of the frame; the crank's
+    angle is marked at the quarters of the turn, the arrow is the reaction at the slider's position. Straight pieces are
+    jumps, where the resistance begins and ends.
+    """)
+    return
+
+
+@app.cell
+def polar_sheets(R_1c, R_1g, R_A, R_B, R_C, R_D, R_E, R_H, R_K):
+    polars = {
+        "R12": (R_A, "crank on the rod 2, at A"),
+        "R23": (R_B, "rod 2 on the rocker 3, at B"),
+        "R03": (R_C, "frame on the rocker 3, at C"),
+        "R34": (R_D, "rocker 3 on the rod 4, at D"),
+        "R45": (R_E, "rod 4 on the plunger 5, at E"),
+        "R36": (R_K, "rocker 3 on the rod 6, at K"),
+        "R07": (R_H, "frame on the cylinder 7, at H"),
+        "R_O1g": (R_1g, "frame on the crank, at O1, gear"),
+        "R_O1c": (R_1c, "frame on the crank, at O1, coupling"),
+    }
+    diagrams = {name: polar(R) for name, (R, _) in polars.items()}
+    return diagrams, polars
+
+
+@app.cell
+def figure_87(diagrams, polars, turn):
+    _shown = [
+        mo.vstack([diagrams[_name].force(0j, _R[turn.value], _name), mo.md(_what)], align="center")
+        for _name, (_R, _what) in polars.items()
+    ]
+    _rows = [mo.hstack(_shown[_i : _i + 3], widths="equal") for _i in range(0, len(_shown), 3)]
+    typeset(turn, *_rows, mo.md("**Figure 8.7** – Polar diagrams of the reactions"))
+    return
+
+
+@app.cell(hide_code=True)
+def section_9():
+    mo.md(r"""
+    ## 9 Checks
+
+    ### 9.1 Equilibrium of every body
+
+    By the reactions of the document's formulas.
+    """)
+    return
+
+
+@app.cell
+def existence(R_A, R_D, R_K):
+    _where = np.nonzero(~isfinite(R_A + R_D + R_K))[-1]
+    _first = f"first at phi1 = {_where[0]} deg" if _where.size else ""
+    checks_existence = (Check("no position is a dead centre", _where.size, 0, "positions", _first, essential=True),)
+    typeset(*checks_existence)
+    return (checks_existence,)
+
+
+@app.cell
+def bodies(
+    R03,
+    R05,
+    R07,
+    R12,
+    R23,
+    R45,
+    R76,
+    R_O1c,
+    gamma03,
+    gamma05,
+    gamma07,
+    gamma12,
+    gamma23,
+    gamma45,
+    gamma76,
+    gamma_O1c,
+    h76,
+):
+    R12_v = R12 * exp(1j * gamma12)  # [N] crank 1 on the rod 2
+    R23_v = R23 * exp(1j * gamma23)  # [N] rod 2 on the rocker 3
+    R03_v = R03 * exp(1j * gamma03)  # [N] frame on the rocker 3
+    R45_v = R45 * exp(1j * gamma45)  # [N] rod 4 on the plunger 5
+    R05_v = R05 * exp(1j * gamma05)  # [N] guide on the plunger 5
+    R76_v = R76 * exp(1j * gamma76)  # [N] cylinder 7 on the rod 6
+    R07_v = R07 * exp(1j * gamma07)  # [N] frame on the cylinder 7
+    R_O1_v = R_O1c * exp(1j * gamma_O1c)  # [N] frame on the crank
+    M_67 = where(R76 == 0, 0, -R76 * h76)  # [N*m] rod 6 on the cylinder 7, about K
+    return M_67, R03_v, R05_v, R07_v, R12_v, R23_v, R45_v, R76_v, R_O1_v
+
+
+@app.cell
+def equilibrium(
+    A,
+    B,
+    C,
+    D,
+    E,
+    F1_sum,
+    F2_sum,
+    F3_sum,
+    F4_sum,
+    F5_sum,
+    F6_sum,
+    F7_sum,
+    H,
+    K,
+    M1,
+    M2,
+    M3,
+    M4,
+    M6,
+    M7,
+    M_67,
+    M_b,
+    O1,
+    R03_v,
+    R05_v,
+    R07_v,
+    R12_v,
+    R23_v,
+    R43,
+    R45_v,
+    R63,
+    R76_v,
+    R_O1_v,
+    S1,
+    S2,
+    S3,
+    S4,
+    S6,
+    S7,
+    largest,
+    lost,
+):
+    Z1 = R_O1_v + F1_sum - R12_v  # [N] forces on the crank 1
+    Z2 = R12_v + F2_sum - R23_v  # [N] forces on the rod 2
+    Z3 = R23_v + F3_sum + R03_v  # [N] forces on the rocker 3
+    Z4 = -R43 + F4_sum - R45_v  # [N] forces on the rod 4
+    Z5 = R45_v + F5_sum + R05_v  # [N] forces on the plunger 5
+    Z6 = -R63 + F6_sum + R76_v  # [N] forces on the rod with piston 6
+    Z7 = R07_v + F7_sum - R76_v  # [N] forces on the cylinder 7
+    Y1 = M_b + M1 + cross(S1 - O1, F1_sum) - cross(A - O1, R12_v)  # [N*m] moments on the crank 1 about O1
+    Y2 = M2 + cross(A - S2, R12_v) - cross(B - S2, R23_v)  # [N*m] moments on the rod 2 about S2
+    Y3 = M3 + cross(B - S3, R23_v) + cross(C - S3, R03_v)  # [N*m] moments on the rocker 3 about S3
+    Y4 = M4 - cross(D - S4, R43) - cross(E - S4, R45_v)  # [N*m] moments on the rod 4 about S4
+    Y6 = M6 - M_67 + cross(S6 - K, F6_sum)  # [N*m] moments on the rod with piston 6 about K
+    Y7 = M7 + M_67 + cross(S7 - K, F7_sum) + cross(H - K, R07_v)  # [N*m] moments on the cylinder 7 about K
+    longest = largest_of(A - O1, B - C, A - B, D - E, H - K)
+    checks_bodies = (
+        check("equilibrium of forces, bodies 1..7", [Z1, Z2, Z3, Z4, Z5, Z6, Z7], lost * largest, "N"),
+        check("equilibrium of moments, bodies 1..7", [Y1, Y2, Y3, Y4, Y6, Y7], lost * largest * longest, "N*m"),
+    )
+    typeset(*checks_bodies)
+    return Y1, Y2, Y3, Y4, Y6, Y7, Z1, Z2, Z3, Z4, Z5, Z6, Z7, checks_bodies, longest
+
+
+@app.cell(hide_code=True)
+def section_92():
+    mo.md(r"""
+    ### 9.2 Power and energy
+
+    Virtual work: the balancing moment and all loads, each with the velocity analogue of its point, do no work together,
+    whatever the reactions. The gear gives the power of the coupling.
+
+    Energy: with the reduced moment of inertia $J_r$ and the potential $U$ of weights and gas,
+    $M_b = J_r\,\varepsilon_1 + \tfrac{1}{2}\,\omega_1^2\,\mathrm{d}J_r/\mathrm{d}\varphi_1 +
+    \mathrm{d}U/\mathrm{d}\varphi_1 - F_Q \cdot V_E$. Here the derivatives are taken numerically, so no formula of
+    accelerations, inertia forces or reactions takes part.
+    """)
+    return
+
+
+@app.cell
+def energy(C, F_g, H, P_A, P_D, P_E, P_K, P_S1, P_S2, P_S3, P_S4, P_S6, P_S7, V_A, V_D, V_E, V_K, g, u2, u3, u4, u6):
+    def V_S2(phi1):
+        return link_velocity(P_S2(phi1), P_A(phi1), V_A(phi1), u2(phi1))  # [m] velocity analogue of S2
+
+    def V_S3(phi1):
+        return link_velocity(P_S3(phi1), C, 0, u3(phi1))  # [m] velocity analogue of S3
+
+    def V_S4(phi1):
+        return link_velocity(P_S4(phi1), P_D(phi1), V_D(phi1), u4(phi1))  # [m] velocity analogue of S4
+
+    def V_S6(phi1):
+        return link_velocity(P_S6(phi1), P_K(phi1), V_K(phi1), u6(phi1))  # [m] velocity analogue of S6
+
+    def V_S7(phi1):
+        return link_velocity(P_S7(phi1), H, 0, u6(phi1))  # [m] velocity analogue of S7
+
+    def J_m(phi1):
+        return (
+            g.m1 * g.l_O1S1**2
+            + g.m2 * abs(V_S2(phi1)) ** 2
+            + g.m3 * abs(V_S3(phi1)) ** 2
+            + g.m4 * abs(V_S4(phi1)) ** 2
+            + g.m5 * abs(V_E(phi1)) ** 2
+            + g.m6 * abs(V_S6(phi1)) ** 2
+            + g.m7 * abs(V_S7(phi1)) ** 2
+        )  # [kg*m**2] reduced masses
+
+    def J_r(phi1):
+        return (
+            J_m(phi1)
+            + g.J1
+            + g.J2 * u2(phi1) ** 2
+            + g.J3 * u3(phi1) ** 2
+            + g.J4 * u4(phi1) ** 2
+            + (g.J6 + g.J7) * u6(phi1) ** 2
+        )  # [kg*m**2] reduced moment of inertia
+
+    def Y_m(phi1):
+        return (
+            g.m1 * P_S1(phi1).imag
+            + g.m2 * P_S2(phi1).imag
+            + g.m3 * P_S3(phi1).imag
+            + g.m4 * P_S4(phi1).imag
+            + g.m5 * P_E(phi1).imag
+            + g.m6 * P_S6(phi1).imag
+            + g.m7 * P_S7(phi1).imag
+        )  # [kg*m] masses times their heights
+
+    def U(phi1):
+        return g.g_n * Y_m(phi1) - F_g * abs(P_K(phi1) - H)  # [J] potential of weights and gas
+
+    typeset()
+    return J_m, J_r, U, V_S2, V_S3, V_S4, V_S6, V_S7, Y_m
+
+
+@app.cell
+def work(
+    F1_sum,
+    F2_sum,
+    F3_own,
+    F4_sum,
+    F5_sum,
+    F6_sum,
+    F7_sum,
+    M1,
+    M2,
+    M4,
+    M6,
+    M7,
+    M_in3,
+    O1,
+    S1,
+    V_E,
+    V_S2,
+    V_S3,
+    V_S4,
+    V_S6,
+    V_S7,
+    phi1,
+    u2,
+    u3,
+    u4,
+    u6,
+):
+    V_S1 = 1j * (S1 - O1)  # [m] velocity analogue of S1
+    W_1 = dot(F1_sum, V_S1) + M1  # [N*m] work of the loads on the crank, for a radian of the crank
+    W_2 = dot(F2_sum, V_S2(phi1)) + M2 * u2(phi1)  # [N*m] on the rod 2
+    W_3 = dot(F3_own, V_S3(phi1)) + M_in3 * u3(phi1)  # [N*m] on the rocker 3
+    W_4 = dot(F4_sum, V_S4(phi1)) + M4 * u4(phi1)  # [N*m] on the rod 4
+    W_5 = dot(F5_sum, V_E(phi1))  # [N*m] on the plunger 5
+    W_6 = dot(F6_sum, V_S6(phi1)) + M6 * u6(phi1)  # [N*m] on the rod with piston 6
+    W_7 = dot(F7_sum, V_S7(phi1)) + M7 * u6(phi1)  # [N*m] on the cylinder 7
+    work_lines = typeset()
+    return V_S1, W_1, W_2, W_3, W_4, W_5, W_6, W_7, work_lines
+
+
+@app.cell
+def work_shown(turn, work_lines):
+    work_lines.at(turn.value)
+    return
+
+
+@app.cell
+def work_checks(
+    F_Q, F_w, J_r, M_b, O1, P_w, U, V_E, W_1, W_2, W_3, W_4, W_5, W_6, W_7, g, largest, longest, lost, omega1, phi1
+):
+    def energy(phi1):
+        return omega1**2 * J_r(phi1) / 2 + U(phi1)  # [J] energy at the speed of the crank
+
+    driven = M_b - g.eps1 * J_r(phi1) + dot(F_Q, V_E(phi1))  # [N*m] left of the moment for the change of energy
+    _every = slice(None, None, 15)
+    _limit = lost * largest * longest
+    _gear = dot(F_w, 1j * (P_w - O1))
+    checks_work = (
+        check("virtual work of moment and loads", M_b + W_1 + W_2 + W_3 + W_4 + W_5 + W_6 + W_7, _limit, "N*m"),
+        check("the gear gives the power of the coupling", _gear - M_b, _limit, "N*m"),
+        check_slope(
+            "energy: the moment is its slope", driven[_every], energy, phi1[_every], -pi / 2, 5 * pi / 2, "N*m"
+        ),
+    )
+    typeset(*checks_work)
+    return checks_work, driven, energy
+
+
+@app.cell(hide_code=True)
+def section_93():
+    mo.md(r"""
+    ### 9.3 One system for the whole mechanism
+
+    Three equations of equilibrium for each of the seven bodies, with moments about $O_1$, hold the balancing moment,
+    both components of the force in each of the eight hinges, and force and moment in both prismatic pairs: 21
+    equations for 21 unknowns, solved at once in every position.
+    """)
+    return
+
+
+@app.function
+def balance(units, loads, shape):
+    """Magnitudes of the unknown loads that hold the bodies 1, 2, .. in equilibrium under one known load on each.
+
+    An unknown is (force, moment, point, from the body, on the body) for the magnitude 1, a known load is
+    (force, moment, point). NaN where the system has no solution.
+    """
+
+    def rows(F, M, P):
+        return np.stack(np.broadcast_arrays(np.real(F), np.imag(F), M + cross(P, F)), axis=-1)
+
+    size = 3 * len(loads) + 3
+    system, right = np.zeros((*shape, size, len(units))), np.zeros((*shape, size, 1))
+    for j, (F, M, P, giver, taker) in enumerate(units):
+        system[..., 3 * giver : 3 * giver + 3, j] -= rows(F, M, P)
+        system[..., 3 * taker : 3 * taker + 3, j] += rows(F, M, P)
+    for i, load in enumerate(loads, start=1):
+        right[..., 3 * i : 3 * i + 3, 0] = -rows(*load)
+    system, right = system[..., 3:, :], right[..., 3:, :]  # the frame, body 0, needs no equilibrium
+    system[np.linalg.det(system) == 0] = np.nan
+    return np.linalg.solve(system, right)[..., 0]
+
+
+@app.cell
+def dense(
+    A,
+    B,
+    C,
+    D,
+    E,
+    F1_sum,
+    F2_sum,
+    F3_own,
+    F4_sum,
+    F5_sum,
+    F6_sum,
+    F7_sum,
+    H,
+    K,
+    M1,
+    M2,
+    M4,
+    M6,
+    M7,
+    M_b,
+    M_in3,
+    O1,
+    S1,
+    S2,
+    S3,
+    S4,
+    S6,
+    S7,
+    e7,
+    phi1,
+    u5,
+):
+    u7 = e7(phi1)
+    hinges = [(O1, 0, 1), (A, 1, 2), (B, 2, 3), (C, 0, 3), (D, 3, 4), (E, 4, 5), (K, 3, 6), (H, 0, 7)]
+    loads_2to4 = [(F2_sum, M2, S2), (F3_own, M_in3, S3), (F4_sum, M4, S4)]
+    loads_5to7 = [(F5_sum, 0, E), (F6_sum, M6, S6), (F7_sum, M7, S7)]
+    units = [
+        (0, 1, O1, 0, 1),
+        *((_F, 0, _P, _giver, _taker) for _P, _giver, _taker in hinges for _F in (1, 1j)),
+        *((_F, _M, E, 0, 5) for _F, _M in ((1j * u5, 0), (0, 1))),
+        *((_F, _M, K, 7, 6) for _F, _M in ((1j * u7, 0), (0, 1))),
+    ]
+    dense = balance(units, [(F1_sum, M1, S1), *loads_2to4, *loads_5to7], np.shape(M_b))
+    return dense, hinges, loads_2to4, loads_5to7, u7, units
+
+
+@app.cell
+def dense_checks(M_76, M_c, R_05, R_1c, R_76, R_A, R_B, R_C, R_D, R_E, R_H, R_K, dense, largest, longest, lost, u5, u7):
+    _hinges = [dense[..., _j] + 1j * dense[..., _j + 1] for _j in range(1, 17, 2)]
+    _chain = [R_1c, R_A, R_B, R_C, R_D, R_E, R_K, R_H]
+    _normals = [dense[..., 17] - dot(R_05, 1j * u5), dense[..., 19] - dot(R_76, 1j * u7)]
+    _limit = lost * largest
+    checks_dense = (
+        check("one system: balancing moment", dense[..., 0] - M_c, _limit * longest, "N*m"),
+        check("one system: forces in the hinges", [x - y for x, y in zip(_hinges, _chain, strict=True)], _limit, "N"),
+        check("one system: forces in the prismatic pairs", _normals, _limit, "N"),
+        check("one system: moment of the guide", dense[..., 18], _limit * longest, "N*m"),
+        check("one system: moment of the cylinder on the rod", dense[..., 20] - M_76, _limit * longest, "N*m"),
+    )
+    typeset(*checks_dense)
+    return (checks_dense,)
+
+
+@app.cell
+def workbook():
+    export("Kinetostatics", globals())
+    return
+
+
+if __name__ == "__main__":
+    app.run()
