@@ -57,6 +57,8 @@ def test_lines_declare_unit_meaning_section_and_limits(Arm):
         ({"L5": "0.4.8"}, "lower link L5 = '0.4.8' m is no number"),
         ({"L5": "nan"}, "lower link L5 = 'nan' m is no number"),
         ({"L5": "1e999"}, "lower link L5 = inf m must be a finite number"),
+        ({"L5": "1e-61"}, "lower link L5 = 1e-61 m must be at least 1e-60"),
+        ({"N": 10**70}, f"positions N = {int(1e70)}" + " must be at most 1e+60 in size"),
         ({"L5": "1 000"}, "lower link L5 = '1 000' m is no number"),
         ({"L5": ""}, "lower link L5 = '' m is no number"),
         ({"L5": True}, "lower link L5 = True m is no number"),

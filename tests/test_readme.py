@@ -37,8 +37,10 @@ def test_lines_quoted_from_the_hitch_stand_there():
 def test_six_bar_of_the_readme_balances():
     names: dict = {}
     exec(next(b for b in blocks("python") if "coupling_drive" in b), names)
-    assert abs(names["group23"].R_A).max() > 100
-    assert abs(names["M"]).max() < 1e3
+    R_A, A, M = names["group23"].R_A, names["A"], names["M"]
+    assert abs(R_A).max() > 100
+    assert abs(names["R_O1"] - R_A).max() < 1e-9, "forces on the crank"
+    assert abs(M - (A.conjugate() * R_A).imag).max() < 1e-9, "moments on the crank"
 
 
 def test_scene_and_arguments_of_the_readme_are_inputs_of_the_hitch():

@@ -44,6 +44,9 @@ def test_scene_and_arguments_replace_inputs_in_display_units(tmp_path):
         ("--N_pol=1", "error: number of positions N_pol = 1 must be >= 2"),
         ("--scene=none.toml", "error: scene none.toml cannot be read"),
         ("--S_max=0.9", "error: group (2, 3) closes: no position closes for cylinder S = 0.7"),
+        ("--L3=2", "error: no position closes for cylinder S = 0.42 m: it reaches 1.42"),
+        ("--k_gc=1e70", "error: number of cylinders k_gc = "),
+        ("--out=", "error: argument '--out=' must be --NAME=VALUE"),
         ("--Y56_min=-2", "error: lifting rod L4"),
         ("--Y_P56=3", "error: working stroke S_p"),
         ("--phi_P6=1", "error: group (6, 7) closes: no position closes for distance O7 P56 = "),
@@ -52,7 +55,7 @@ def test_scene_and_arguments_replace_inputs_in_display_units(tmp_path):
 def test_bad_input_is_one_line_and_touches_no_file(tmp_path, argument, message):
     old = tmp_path / "hitch.xlsx"
     old.write_bytes(b"old")
-    done = run(argument, f"--out={tmp_path}")
+    done = run(f"--out={tmp_path}", argument)
     assert done.returncode == 1
     assert done.stderr.startswith(message)
     assert done.stderr.count("\n") == 1
@@ -114,3 +117,10 @@ def test_script_leaves_out_what_it_does_not_show(tmp_path):
     loaded = {line.rsplit("|", 1)[-1].strip() for line in done.stderr.splitlines()}
     assert "xlsxwriter" in loaded
     assert not {"altair", "pandas", "openpyxl", "matplotlib"} & loaded
+
+
+def test_implement_beyond_the_machine_fails_but_is_written(tmp_path):
+    done = run("--P6=1e12", f"--out={tmp_path}")
+    assert done.returncode == 1
+    assert done.stdout.count("FAIL  ") == 3 and "FAIL  front axle keeps its least load" in done.stdout
+    assert (tmp_path / "hitch.xlsx").exists()

@@ -10,7 +10,7 @@ with app.setup:
     from numpy import arccos as acos
     from numpy import arctan2 as atan2
 
-    from mechsheet.checks import assembled, check, check_slope, summary
+    from mechsheet.checks import Check, assembled, check, check_slope, require, summary
     from mechsheet.drawing import Drawing
     from mechsheet.dyads import rrr, rrr_reach
     from mechsheet.find import find
@@ -38,8 +38,10 @@ def title():
 
 
 @app.cell(hide_code=True)
-def verdict(checks_analogues, checks_closing, checks_forces, checks_loops, checks_pole, checks_stability):
-    summary(checks_closing, checks_loops, checks_analogues, checks_forces, checks_stability, checks_pole)
+def verdict(
+    checks_analogues, checks_closing, checks_design, checks_forces, checks_loops, checks_pole, checks_stability
+):
+    summary(checks_design, checks_closing, checks_loops, checks_analogues, checks_forces, checks_stability, checks_pole)
     return
 
 
@@ -78,7 +80,7 @@ class Hitch:
     # 1.3 Generalised coordinate
     S_min: float = 0.420  # [m] least length of the cylinder; > 0 < S_max
     S_max: float = 0.670  # [m] greatest length of the cylinder; > 0
-    N_pol: int = 10  # [-] number of positions; >= 2 <= 100000
+    N_pol: int = 10  # [-] number of positions; >= 2 <= 10000
 
     # 1.4 Implement
     P6: float = 27500  # [N] weight of the implement; >= 0
@@ -214,7 +216,8 @@ def group_2(O3, O5, P34, g):
 
 
 @app.cell
-def find_L4(O5, P34, P56, g):
+def find_L4(O1, O3, O5, P34, P56, g):
+    require(P34(g.S_min), g.S_min, rrr_reach(O1, O3, g.L3), "cylinder S", "m")
     L4_guess = (g.L4_0 * 0.1 + g.L4_0 * 1.5) * 0.5  # [m] start of the document's Find
     L4_found = find(
         lambda L4, branch: P56(g.S_min, L4, branch).imag,
@@ -524,7 +527,7 @@ def section_32():
 @app.cell
 def differences(I56, IS6, L4, P56, PS6, S, dphi3, g, phi3):
     checks_analogues = (
-        check_slope("dphi3 is the slope of phi3", dphi3, phi3, S, g.S_min, g.S_max),
+        check_slope("dphi3 is the slope of phi3", dphi3, phi3, S, g.S_min, g.S_max, "rad/m"),
         check_slope("I56 is the slope of Y56", I56, lambda s: P56(s, L4).imag, S, g.S_min, g.S_max),
         check_slope("IS6 is the slope of YS6", IS6, lambda s: PS6(s).imag, S, g.S_min, g.S_max),
     )
@@ -566,7 +569,9 @@ def capacity(I56, IS6, g):
     F_gc = g.P6 * IS6  # [N] force on the hydraulic cylinders
     A_gc = pi * g.D_gc**2 / 4  # [cm**2] piston area
     P_gc = F_gc / (g.k_gc * A_gc * g.eta)  # [MPa] pressure in the cylinders
-    G56 = g.k_gc * g.P_gc_max * g.eta * A_gc / I56  # [N] capacity at the suspension axis
+    G56 = (
+        g.k_gc * g.P_gc_max * g.eta * A_gc / I56
+    )  # [N] capacity at the suspension axis; the document prints IS6, its numbers follow I56
     GS6 = g.k_gc * g.P_gc_max * g.eta * A_gc / IS6  # [N] capacity at the centre of mass
     dGS65 = (GS6 - g.P6) / g.P6  # [%] reserve of capacity
     typeset()
@@ -603,13 +608,18 @@ def figure_43(P_gc, S, S_p):
 
 @app.cell(hide_code=True)
 def section_5():
-    mo.md("""
+    mo.md(r"""
     ## 5 Forces
 
     The groups are taken from the implement to the cylinder, each cut free and closed by the moments about its
     inner pin. Every reaction says which body acts on which.
 
     ### 5.1 Third group (6, 7)
+
+    $$R_{56} + R_{07} + G_6 = 0, \qquad (O_7 - P_{67}) \times R_{07} = 0, \qquad
+    (P_{56} - P_{67}) \times R_{56} + (P_{S6} - P_{67}) \times G_6 = 0$$
+
+    The document prints its last equation with a plus before $R_{56y}(X_{67} - X_{56})$; its numbers follow the minus.
     """)
     return
 
@@ -627,8 +637,11 @@ def forces_3(O7, P56_S, P67_S, PS6_S, g):
 
 @app.cell(hide_code=True)
 def section_52():
-    mo.md("""
+    mo.md(r"""
     ### 5.2 Second group (4, 5)
+
+    $$-R_{34} - R_{05} + R_{65} = 0, \qquad (P_{34} - P_{45}) \times R_{34} = 0, \qquad
+    -(O_5 - P_{45}) \times R_{05} + (P_{56} - P_{45}) \times R_{65} = 0$$
     """)
     return
 
@@ -646,8 +659,11 @@ def forces_2(O5, P34_S, P45_S, P56_S, R56):
 
 @app.cell(hide_code=True)
 def section_53():
-    mo.md("""
+    mo.md(r"""
     ### 5.3 First group (2, 3)
+
+    $$R_{01} + R_{03} + R_{34} = 0, \qquad (O_1 - P_{23}) \times R_{01} = 0, \qquad
+    (O_3 - P_{23}) \times R_{03} + (P_{34} - P_{23}) \times R_{34} = 0$$
     """)
     return
 
@@ -856,6 +872,28 @@ def stability_check(GS6_lim, PS6_S, g):
     checks_stability = check("front axle keeps 20 % under GS6lim", Ra_lim / (GS6_lim + g.P_msha + g.P_gr) - 0.2, 1e-12)
     typeset(checks_stability)
     return (checks_stability,)
+
+
+@app.cell(hide_code=True)
+def section_62():
+    mo.md("""
+    ### 6.2 Does the machine carry the implement?
+
+    At every position the pressure must stay below the greatest one, the weight below the capacity, and the front axle
+    must keep its least load.
+    """)
+    return
+
+
+@app.cell
+def design(GS6, P_gc, Ra, Ra_min, g):
+    checks_design = (
+        Check("pressure within its limit: P_gc - P_gc_max", float(np.max(P_gc - g.P_gc_max)) / 1e6, 0.0, "MPa"),
+        Check("weight within the capacity: P6 - GS6", float(np.max(g.P6 - GS6)), 0.0, "N"),
+        Check("front axle keeps its least load: Ra_min - Ra", float(np.max(Ra_min - Ra)), 0.0, "N"),
+    )
+    typeset(*checks_design)
+    return (checks_design,)
 
 
 @app.cell

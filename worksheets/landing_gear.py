@@ -408,7 +408,7 @@ def section_39():
     ### Step 9: analogues of the angular accelerations
 
     From (23) the fraction (24) has a minus, which the document's print lacks; (25) takes its value and inherits the
-    mistake. Both are shown.
+    mistake with it. (24) is shown both ways.
     """)
     return
 

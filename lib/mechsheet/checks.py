@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mechsheet import units
+from mechsheet.errors import SheetError, refuse
 
 
 @dataclass(frozen=True)
@@ -65,7 +66,7 @@ class Summary:
         passed = sum(check.passed for check in self.checks)
         items = "".join(
             f'<span style="white-space:nowrap;font-size:.85em">{_badge(check)} '
-            f'<a href="#{_anchor(check)}">{html.escape(check.name)}</a></span>'
+            f'<a href="#{_anchor(check)}">{html.escape(check.name)}</a> {html.escape(check.reason)}</span>'
             for check in sorted(self.checks, key=lambda check: check.passed)
         )
         return "text/html", (
@@ -118,10 +119,22 @@ def assembled(name: str, point: ArrayLike, over: ArrayLike, reaches: tuple[Any, 
     ``what`` names the quantity ``over`` which the positions run; ``reaches`` are the limits between which
     the group closes. The reason names the first position that does not.
     """
-    lost, factor = np.isnan(point), units.parse(unit).factor
+    lost = np.isnan(point)
     count = int(np.count_nonzero(lost))
     if not count:
         return Check(name, 0, 0, "open positions", essential=True)
-    x, lo, hi = (float(np.broadcast_to(v, np.shape(lost))[lost].flat[0]) / factor for v in (np.asarray(over), *reaches))
-    reason = f"no position closes for {what} = {x:.7g} {unit}: it reaches {lo:.7g}..{hi:.7g} {unit}"
+    reason = _unreached(lost, over, reaches, what, unit)
     return Check(name, count, 0, "open positions", reason, essential=True)
+
+
+def require(point: ArrayLike, over: ArrayLike, reaches: tuple[Any, Any], what: str, unit: str) -> None:
+    """Refuse to go on where a group closes nowhere; the arguments are those of `assembled`."""
+    lost = np.isnan(point)
+    if lost.all():
+        refuse(SheetError(_unreached(lost, over, reaches, what, unit)))
+
+
+def _unreached(lost: NDArray[np.bool_], over: ArrayLike, reaches: tuple[Any, Any], what: str, unit: str) -> str:
+    factor = units.parse(unit).factor
+    x, lo, hi = (float(np.broadcast_to(v, np.shape(lost))[lost].flat[0]) / factor for v in (np.asarray(over), *reaches))
+    return f"no position closes for {what} = {x:.7g} {unit}: it reaches {lo:.7g}..{hi:.7g} {unit}"

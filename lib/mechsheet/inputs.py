@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 
 T = TypeVar("T")
 _LIMIT = re.compile(r"(<=|>=|<|>)\s*(\S+)")
+_MOST = 1e60  # products of a few inputs of this size are still numbers
 _COMPARE = {"<": np.less, "<=": np.less_equal, ">": np.greater, ">=": np.greater_equal}
 
 
@@ -94,13 +95,18 @@ def _validate(self: Any) -> None:
     shown = {name: field.display(getattr(self, name)) for name, field in fields.items()}
     for name, field in fields.items():
         value = shown[name]
-        if not np.all(np.isfinite(value)):
+        size = np.abs(np.asarray(value, dtype=float))
+        if not np.all(np.isfinite(size)):
             raise SheetError(f"{field.says(value)} must be a finite number")
+        if not np.all(size <= _MOST):
+            raise SheetError(f"{field.says(value)} must be at most {_MOST:g} in size")
         for sign, other in field.limits:
             limit = shown[other] if other in shown else float(other)
             if not np.all(_COMPARE[sign](value, limit)):
                 must = "positive" if (sign, other) == (">", "0") else f"{sign} {other}"
                 raise SheetError(f"{field.says(value)} must be {must}{f' = {limit}' if other in shown else ''}")
+            if (sign, other) == (">", "0") and not np.all(size >= 1 / _MOST):
+                raise SheetError(f"{field.says(value)} must be at least {1 / _MOST:g}")
 
 
 def number(text: object) -> float:
@@ -150,12 +156,13 @@ def ask(cls: type) -> "mo.ui.batch":
     sections: dict[str, list[str]] = {}
     fields = {}
     for field in declared(cls):
-        limits = ", ".join(f"{sign} {other}" for sign, other in field.limits)
+        limits = ", ".join(f"{_SIGNS.get(sign, sign)}&nbsp;{_limit(other)}" for sign, other in field.limits)
         unit = "" if field.unit == "-" else units.shown(field.unit)
         sections.setdefault(field.section, []).append(
-            f"<tr><td>{symbol.html(field.name)}</td><td>{{{field.name}}}</td><td>{html.escape(unit)}</td>"
+            f'<tr><td style="padding-right:.5em">{symbol.html(field.name)}</td><td>{{{field.name}}}</td>'
+            f'<td style="padding-left:.4em">{html.escape(unit)}</td>'
             f'<td style="padding-left:.7em;line-height:1.2">{html.escape(field.meaning)}'
-            f'<span style="opacity:.5;padding-left:.6em">{html.escape(limits)}</span></td></tr>'
+            f'<span style="opacity:.5;padding-left:.6em">{limits}</span></td></tr>'
         )
         fields[field.name] = mo.ui.text(value=text(field, getattr(g, field.name)), debounce=True)
     blocks = "".join(
@@ -173,6 +180,13 @@ def read(cls: type[T], form: "mo.ui.batch") -> T:
         return build(cls, values)
     except SheetError as error:
         refuse(error)
+
+
+_SIGNS = {"<": "&lt;", ">": "&gt;", "<=": "≤", ">=": "≥"}
+
+
+def _limit(text: str) -> str:
+    return symbol.html(text) if text[0].isalpha() else text
 
 
 @dataclass(frozen=True)

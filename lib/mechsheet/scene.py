@@ -46,7 +46,7 @@ def read(arguments: list[str]) -> Scene:
     out = None
     for argument in arguments:
         name, equals, value = argument.removeprefix("--").partition("=")
-        if not (argument.startswith("--") and name and equals):
+        if not (argument.startswith("--") and name and equals and value):
             raise SheetError(f"argument {argument!r} must be --NAME=VALUE, --scene=FILE.toml or --out=FOLDER")
         if name == "scene":
             inputs |= load(Path(value))
@@ -60,7 +60,7 @@ def read(arguments: list[str]) -> Scene:
 def load(path: Path) -> dict[str, object]:
     """Inputs of a scene file: the TOML table ``[inputs]`` of names and values in display units."""
     try:
-        scene = tomllib.loads(path.read_text(encoding="utf-8"))
+        scene = tomllib.loads(path.read_text(encoding="utf-8-sig"))
     except OSError as error:
         raise SheetError(f"scene {path} cannot be read: {error.strerror}") from None
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:

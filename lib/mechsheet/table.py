@@ -5,6 +5,7 @@ import html
 import sys
 from collections.abc import Mapping
 from dataclasses import dataclass
+from itertools import takewhile
 from types import FrameType
 from typing import TYPE_CHECKING, Any
 
@@ -38,7 +39,7 @@ class Column:
 
 @dataclass(frozen=True)
 class Table:
-    """A numbered table; all columns have the same length, the first one names the rows."""
+    """A numbered table; all columns have the same length, the first ones of whole numbers name the rows."""
 
     number: str
     title: str
@@ -52,11 +53,13 @@ class Table:
         return pd.DataFrame({f"{c.symbol} [{c.unit}]": c.values for c in self.columns})
 
     def _mime_(self) -> tuple[str, str]:
-        head, *rest = self.columns
+        whole = list(takewhile(lambda c: c.unit == "-" and c.decimals == 0, self.columns))
+        keys = self.columns[: max(1, len(whole))] if len(whole) < len(self.columns) else self.columns[:1]
+        rest = self.columns[len(keys) :]
         blocks = [rest[i : i + _BLOCK] for i in range(0, max(len(rest), 1), _BLOCK)]
         caption = f'<div class="ms-caption"><b>Table {html.escape(self.number)}</b> – {html.escape(self.title)}</div>'
         note = f'<div style="font-size:.9em;opacity:.75">{html.escape(self.note)}</div>' if self.note else ""
-        return "text/html", f'<div class="ms-table">{caption}{"".join(_block([head, *b]) for b in blocks)}{note}</div>'
+        return "text/html", f'<div class="ms-table">{caption}{"".join(_block([*keys, *b]) for b in blocks)}{note}</div>'
 
 
 def _block(columns: list[Column]) -> str:
