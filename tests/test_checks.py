@@ -28,6 +28,11 @@ def test_slope_is_taken_inside_the_range():
     assert check_slope("root", 0.5 / np.sqrt(x), lambda x: np.where(x <= 1, np.sqrt(np.abs(x)), np.nan), x, 0, 1).passed
 
 
+def test_slope_over_an_empty_range_fails_in_words():
+    c = check_slope("point", np.ones(2), lambda x: x, np.ones(2), 1.0, 1.0)
+    assert not c.passed and c.reason == "the range is empty"
+
+
 def test_open_position_is_named_with_its_reach():
     S = np.array([0.5, 0.9])
     c = assembled("group closes", np.array([1j, np.nan]), S, (0.3733, 0.7733), "S", "m")

@@ -50,6 +50,8 @@ def section_1():
 
     The circular joint is an example of ours; all other numbers are the document's. An axial force is positive in
     tension. Inputs are in the document's units; the last one shows all results in SI units.
+
+    Another load case needs two input lines like those of case 1, and their names in `cases` below.
     """)
     return
 

@@ -105,6 +105,8 @@ def check_slope(
     """
     from scipy.differentiate import derivative
 
+    if not hi > lo:
+        return Check(name, np.nan, 0.0, unit, "the range is empty")
     ends = np.where(x == lo, 1, np.where(x == hi, -1, 0))
     step = 0.04 * (hi - lo)
     found = derivative(f, x, initial_step=step, step_direction=ends)
