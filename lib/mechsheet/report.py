@@ -2,7 +2,7 @@
 
 import ast
 import sys
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -11,6 +11,7 @@ from mechsheet.checks import Check
 from mechsheet.errors import SheetError
 from mechsheet.find import Found
 from mechsheet.table import Figure, Table
+from mechsheet.worksheet import results
 
 T = TypeVar("T")
 
@@ -29,69 +30,63 @@ def export(title: str, namespace: Mapping[str, Any]) -> Any:
     import marimo as mo
 
     return mo.download(
-        lambda: _workbook(title, namespace, worksheet), filename=f"{worksheet.stem}.xlsx", label="Excel workbook"
+        lambda: _workbook(title, namespace, _values(namespace, results(worksheet))),
+        filename=f"{worksheet.stem}.xlsx",
+        label="Excel workbook",
     )
 
 
 def _script(title: str, namespace: Mapping[str, Any], worksheet: Path) -> None:
-    missing = [name for name in returned(worksheet) if name not in namespace]
+    names = results(worksheet)
+    missing = [name for name in names if name not in namespace]
     if missing:
         raise SheetError(f"some cells did not run: {', '.join(missing)} missing")
-    checks = list(_all(Check, namespace, worksheet))
+    values = _values(namespace, names)
+    checks = _of(Check, values)
     for check in checks:
         if check.essential and not check.passed:
             raise SheetError(f"{check.name}: {check.reason}" if check.reason else str(check))
-    for found in _all(Found, namespace, worksheet):
+    for found in _of(Found, values):
         print(found)
     for check in checks:
         print(check)
-    out = scene.arguments(str(worksheet)).out or worksheet.resolve().parent.parent / "exports"
+    out = scene.read(sys.argv[1:]).out or worksheet.resolve().parent.parent / "exports"
     try:
         out.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise SheetError(f"folder {out} cannot be made: {error.strerror}") from None
     path = out / f"{worksheet.stem}.xlsx"
-    excel.save(_workbook(title, namespace, worksheet), path)
+    excel.save(_workbook(title, namespace, values), path)
     print(f"written {path}")
     if not all(check.passed for check in checks):
         sys.exit(1)
 
 
-def _workbook(title: str, namespace: Mapping[str, Any], worksheet: Path) -> bytes:
+def _workbook(title: str, namespace: Mapping[str, Any], values: list[Any]) -> bytes:
     return excel.workbook(
         title,
         inputs=[
             excel.Row(f.name, value, f.unit, f.meaning, f.section) for f, value in inputs.Used(namespace["g"]).rows()
         ],
-        found=list(_found(namespace, worksheet)),
-        tables=list(_all(Table, namespace, worksheet)),
-        figures=list(_all(Figure, namespace, worksheet)),
-        checks=list(_all(Check, namespace, worksheet)),
+        found=list(_found(namespace)),
+        tables=_of(Table, values),
+        figures=_of(Figure, values),
+        checks=_of(Check, values),
     )
 
 
-def returned(worksheet: Path) -> list[str]:
-    """Names that the cells of a worksheet file return, in the order of the file."""
-    names = []
-    for node in ast.parse(worksheet.read_text(encoding="utf-8")).body:
-        if isinstance(node, ast.FunctionDef) and _is_cell(node) and isinstance(last := node.body[-1], ast.Return):
-            names += [n.id for n in ast.walk(last) if isinstance(n, ast.Name)]
-    return names
+def _values(namespace: Mapping[str, Any], names: Iterable[str]) -> list[Any]:
+    """Values by their place in the worksheet, each of a group on its own."""
+    order = {name: i for i, name in enumerate(names)}
+    ordered = (namespace[name] for name in sorted(namespace, key=lambda name: order.get(name, len(order))))
+    return [v for value in ordered for v in (value if isinstance(value, tuple | list) else [value])]
 
 
-def _is_cell(node: ast.FunctionDef) -> bool:
-    # an @app.function of the file is a value of the worksheet, its names are its own
-    return any(ast.unparse(decorator).startswith("app.cell") for decorator in node.decorator_list)
+def _of(kind: type[T], values: Iterable[Any]) -> list[T]:
+    return [value for value in values if isinstance(value, kind)]
 
 
-def _all(kind: type[T], namespace: Mapping[str, Any], worksheet: Path) -> Iterator[T]:
-    order = {name: i for i, name in enumerate(returned(worksheet))}
-    for name in sorted(namespace, key=lambda name: order.get(name, len(order))):
-        value = namespace[name]
-        yield from (v for v in (value if isinstance(value, tuple | list) else [value]) if isinstance(v, kind))
-
-
-def _found(namespace: Mapping[str, Any], worksheet: Path) -> Iterator[excel.FoundRow]:
+def _found(namespace: Mapping[str, Any]) -> Iterator[excel.FoundRow]:
     for line in formula.registry(namespace).values():
         match line.expression:
             case ast.Attribute(ast.Name(source), "value") if isinstance(namespace.get(source), Found):

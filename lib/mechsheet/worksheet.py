@@ -83,6 +83,12 @@ def evaluate(worksheet: str | Path, want: Iterable[str], **given: Any) -> dict[s
     return {name: names[name] for name in want}
 
 
+def results(path: str | Path) -> list[str]:
+    """Names that the cells of a worksheet file define, in the order of the file; nothing is run."""
+    tree = ast.parse(Path(path).read_text(encoding="utf-8"))
+    return [name for node in _functions(tree) for name in _gives(node)]
+
+
 def load(path: str | Path) -> Worksheet:
     """Cells of a worksheet file; read again when the file changes.
 
@@ -125,9 +131,17 @@ def _shared(tree: ast.Module) -> Iterator[ast.stmt]:
 
 
 def _cells(tree: ast.Module, path: Path) -> Iterator[Cell]:
+    for node in _functions(tree):
+        code = compile(ast.Module(node.body[:-1], []), path, "exec")
+        yield Cell(node.name, frozenset(a.arg for a in node.args.args), _gives(node), code)
+
+
+def _functions(tree: ast.Module) -> Iterator[ast.FunctionDef]:
+    """The cells as they stand in the file: functions that end by returning what they define."""
     for node in tree.body:
         if isinstance(node, ast.FunctionDef) and any(_is_app(d, ("cell",)) for d in node.decorator_list):
-            *lines, last = node.body
-            gives = tuple(n.id for n in ast.walk(last) if isinstance(n, ast.Name))
-            code = compile(ast.Module(lines, []), path, "exec")
-            yield Cell(node.name, frozenset(a.arg for a in node.args.args), gives, code)
+            yield node
+
+
+def _gives(node: ast.FunctionDef) -> tuple[str, ...]:
+    return tuple(n.id for n in ast.walk(node.body[-1]) if isinstance(n, ast.Name))
