@@ -8,9 +8,10 @@ with app.setup:
     import numpy as np
     from numpy import abs, arange, cos, exp, pi, sin, sqrt
     from numpy import arccos as acos
+    from numpy import arcsin as asin
     from numpy import arctan2 as atan2
 
-    from mechsheet.checks import Check, assembled, check, check_slope, require, summary
+    from mechsheet.checks import Check, assembled, check, check_slope, closed_form, require, summary
     from mechsheet.drawing import Drawing
     from mechsheet.dyads import rrr, rrr_reach
     from mechsheet.find import find
@@ -39,9 +40,19 @@ def title():
 
 @app.cell(hide_code=True)
 def verdict(
-    checks_analogues, checks_closing, checks_design, checks_forces, checks_loops, checks_pole, checks_stability
+    checks_L4,
+    checks_L7,
+    checks_S_p,
+    checks_analogues,
+    checks_closing,
+    checks_design,
+    checks_forces,
+    checks_loops,
+    checks_pole,
+    checks_stability,
 ):
-    summary(checks_design, checks_closing, checks_loops, checks_analogues, checks_forces, checks_stability, checks_pole)
+    found = (checks_L4, checks_S_p, checks_L7, checks_closing, checks_loops)
+    summary(checks_design, *found, checks_analogues, checks_forces, checks_stability, checks_pole)
     return
 
 
@@ -236,6 +247,16 @@ def find_L4(O1, O3, O5, P34, P56, g):
     return L4, L4_found, L4_guess
 
 
+@app.cell
+def closed_L4(L4_found, O5, P34, g):
+    phi5_0 = asin((g.Y56_min - g.Y05) / g.L56)  # [deg] lower link at the least stroke
+    P45_0 = O5 + g.L5 * exp(1j * phi5_0)  # [m] its pin for the lifting rod
+    L4_c = abs(P45_0 - P34(g.S_min))  # [m] lifting rod as the distance of two points, which are now known
+    checks_L4 = closed_form(L4_found, L4_c)
+    typeset(checks_L4)
+    return (checks_L4,)
+
+
 @app.cell(hide_code=True)
 def section_23():
     mo.md(r"""
@@ -263,6 +284,18 @@ def find_S_p(L4, P56, g):
     S_p = S_p_found.value  # [m] working stroke, found
     typeset(S_p_found)
     return S_p, S_p_found
+
+
+@app.cell
+def closed_S_p(L4, O1, O3, O5, S_p_found, g):
+    phi5_p = asin((g.Y_P56 - g.Y05) / g.L56)  # [deg] lower link at work
+    P45_p = O5 + g.L5 * exp(1j * phi5_p)  # [m] its pin for the lifting rod
+    P34_p = rrr(O3, P45_p, g.L34, L4, +1)  # [m] pin of the lifting rod on the lift arm
+    P23_p = O3 + g.L3 * exp(1j * (angle(P34_p - O3) - g.phi_BD))  # [m] pin of the cylinder
+    S_c = abs(P23_p - O1)  # [m] working stroke as the distance of two points
+    checks_S_p = closed_form(S_p_found, S_c)
+    typeset(checks_S_p)
+    return (checks_S_p,)
 
 
 @app.cell
@@ -301,6 +334,14 @@ def find_L7(L4, O7, P56, S_p, g, phi6):
     L7 = L7_found.value  # [m] upper link, found
     typeset(L7_found)
     return L7, L7_found, L7_guess
+
+
+@app.cell
+def closed_L7(L4, L7_found, O7, P56, S_p, g):
+    L7_c = abs(P56(S_p, L4) + g.L6 * exp(1j * g.phi_P6) - O7)  # [m] upper link as the distance of two points
+    checks_L7 = closed_form(L7_found, L7_c)
+    typeset(checks_L7)
+    return (checks_L7,)
 
 
 @app.cell(hide_code=True)

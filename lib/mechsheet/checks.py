@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from mechsheet import units
 from mechsheet.errors import SheetError, refuse
+from mechsheet.find import Found
 
 
 @dataclass(frozen=True)
@@ -113,6 +114,17 @@ def check_slope(
     rounding = 100 * float(np.finfo(float).eps * np.max(np.abs(f(x)))) / step
     limit = max(1e-8 * float(np.max(np.abs(slope))), 10 * float(np.max(found.error)), rounding)
     return check(name, np.asarray(slope) - found.df, limit, unit)
+
+
+def closed_form(found: Found, value: ArrayLike, tolerance: float = 1e-10) -> Check:
+    """Check that a solve block found what the unknown is in closed form, to a part of its own size.
+
+    A workbook then computes the unknown by its closed form, so that it follows changed inputs.
+    """
+    name, unit = found.words.unknown, found.words.unknown_unit
+    return check(
+        f"{name}: Find and the closed form", np.asarray(value) - found.value, tolerance * abs(found.value), unit
+    )
 
 
 def assembled(name: str, point: ArrayLike, over: ArrayLike, reaches: tuple[Any, Any], what: str, unit: str) -> Check:

@@ -3,22 +3,36 @@
 import math
 import os
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from datetime import datetime
+from functools import cache
 from io import BytesIO
 from itertools import groupby
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 from uuid import uuid4
 
 import numpy as np
 from numpy.typing import NDArray
 
+from mechsheet.cells import Home, letters
 from mechsheet.checks import Check
 from mechsheet.errors import SheetError
+from mechsheet.live import Line, Recording
 from mechsheet.table import Column, Figure, Table
-from mechsheet.units import shown
+from mechsheet.twin import Section, Twin
+from mechsheet.units import parse, shown, si
+
+
+class Live(NamedTuple):
+    """Content of a cell: a formula, and the value that the worksheet has for it."""
+
+    formula: str
+    value: float | str
+
+
+_Content = str | float | Live
 
 
 @dataclass(frozen=True)
@@ -34,7 +48,10 @@ class Row:
 
 @dataclass(frozen=True)
 class FoundRow:
-    """One solved value in ``unit``, searched for in ``lower..upper``, and the ``residual`` that it leaves."""
+    """One solved value in ``unit``, searched for in ``lower..upper``, and the ``residual`` that it leaves.
+
+    ``unknown`` is what the solve block calls it, ``target`` the value that its equation must have.
+    """
 
     symbol: str
     value: float
@@ -45,6 +62,8 @@ class FoundRow:
     lower: float
     upper: float
     other_roots: str = ""
+    unknown: str = ""
+    target: float = 0.0
 
 
 def workbook(
@@ -55,10 +74,13 @@ def workbook(
     tables: Sequence[Table],
     figures: Sequence[Figure],
     checks: Sequence[Check],
+    recording: Recording | None = None,
 ) -> bytes:
     """Bytes of an .xlsx file; the same input gives the same bytes.
 
     Sheets: Inputs, Find where there are found values, one for each table named by its number and title, Checks.
+    With a ``recording`` of the worksheet the cells hold formulas beside their values, and what stands behind the tables
+    is listed by sections on sheets of its own, in SI units.
     A table's sheet has its title in row 1, its note in row 2, symbols in row 3, units in row 4, then the numbers
     to their last bit; pandas reads it by ``read_excel(file, sheet_name=name, header=2, skiprows=[3])``. NaN is
     the error value #N/A and an infinite number #NUM!: pandas reads both as NaN, charts leave a gap.
@@ -70,17 +92,28 @@ def workbook(
 
     buffer = BytesIO()
     book = _Book(xlsxwriter.Workbook(buffer, _options()), _text(title))
+    names = [book.name(f"{table.number} {table.title}") for table in tables]
+    if recording:
+        rows = {row.symbol: n for n, row in _listed(inputs) if isinstance(row, Row)}
+        solved = {row.symbol: n for n, row in enumerate(found, 2)}
+        book.twin = Twin(recording, tables, names, rows, solved, _FIRST, book.name)
+        for name, meaning in book.twin.defined:
+            book.file.define_name(name, meaning)
     book.inputs(inputs)
     if found:
         book.found(found)
     holders = [_holder(figure, tables) for figure in figures]
-    for table in tables:
+    for table, name in zip(tables, names, strict=True):
         held = [figure for figure, holder in zip(figures, holders, strict=True) if holder is table]
-        book.table(f"{table.number} {table.title}", _heading("Table", table), table.note, table.columns, held)
+        book.table(name, _heading("Table", table), table.note, book.contents(table), held)
     for figure, holder in zip(figures, holders, strict=True):
         if holder is None:
-            columns = (figure.x, *figure.lines)
-            book.table(f"Fig {figure.number} data", f"Data of {_heading('figure', figure)}", "", columns, [figure])
+            columns = [(c, c.values.tolist()) for c in (figure.x, *figure.lines)]
+            name = book.name(f"Fig {figure.number} data")
+            book.table(name, f"Data of {_heading('figure', figure)}", "", columns, [figure])
+    if book.twin:
+        for section in book.twin.sections:
+            book.section(section)
     book.checks(checks)
     book.marks()
     book.file.close()
@@ -104,6 +137,21 @@ def save(data: bytes, path: Path) -> None:
             temporary.unlink(missing_ok=True)
     except OSError as error:
         raise SheetError(f"workbook {path} cannot be written: {error.strerror or error}") from error
+
+
+@cache
+def _sheet_class() -> Any:
+    """XlsxWriter's worksheet, which otherwise looks for thirty new functions of Excel in every formula."""
+    from xlsxwriter.worksheet import Worksheet  # type: ignore[import-untyped]
+
+    class Sheet(Worksheet):  # type: ignore[misc]
+        def write_live(self, row: int, col: int, formula: str, style: Any, value: float | str) -> None:
+            self._write_formula(row, col, formula, style, value)
+
+        def _prepare_formula(self, formula: str, expand_future_functions: bool = False) -> str:
+            return formula.removeprefix("=")
+
+    return Sheet
 
 
 def _options() -> dict[str, object]:
@@ -133,6 +181,8 @@ _NUMBER: _Look = {"align": "right"}
 _FIELD: _Look = {**_NUMBER, "bg_color": "#FFF8D6", "border": 4, "border_color": _RULE}
 _VALUE: _Look = {**_NUMBER, "num_format": "0.000000"}
 _SMALL: _Look = {**_NUMBER, "num_format": "0.0E+00;-0.0E+00;0"}
+_SI: _Look = {**_NUMBER, "num_format": "0.000000E+00", "font_color": "#595959"}
+_SI_DECIMALS = 6
 _VERDICT: _Look = {"align": "center", "bold": True}
 _PASS: _Look = {"font_color": "#2F6B2F"}
 _FAIL: _Look = {"font_color": "#FFFFFF", "bg_color": "#A61C1C"}  # stands out on black-and-white paper too
@@ -166,7 +216,8 @@ class _Book:
         self.file, self.title = file, title
         self.names = {name.lower() for name in _SHEETS}
         self.styles: dict[str, Any] = {}
-        self.marked: list[tuple[str | float, ...]] = []
+        self.marked: list[tuple[_Content, ...]] = []
+        self.twin: Twin | None = None
         file.set_properties({**_PROPERTIES, "title": title})
 
     def style(self, *looks: _Look) -> Any:
@@ -194,7 +245,7 @@ class _Book:
 
     def sheet(self, name: str, heading: str, widths: Sequence[int], top: int, size: tuple[int, int]) -> Any:
         """An empty sheet with its title line, ``top`` frozen rows and print setup for ``size`` in pixels."""
-        sheet = self.file.add_worksheet(name)
+        sheet = self.file.add_worksheet(name, _sheet_class())
         sheet.hide_gridlines(2)
         sheet.set_default_row(_ROW * 0.75)
         sheet.set_row(0, 24)
@@ -223,7 +274,7 @@ class _Book:
         name: str,
         heading: str,
         fields: Sequence[tuple[str, _Look]],
-        rows: Sequence[Sequence[str | float]],
+        rows: Sequence[Sequence[_Content]],
     ) -> Any:
         """A sheet of rows under (heading, look) fields; a row of one text heads a section."""
         texts = [[head for head, _ in fields], *(row for row in rows if len(row) > 1)]
@@ -242,37 +293,96 @@ class _Book:
                 _put(sheet, n, col, value, self.style(_CELL, look))
         return sheet
 
+    def contents(self, table: Table) -> list[tuple[Column, Sequence[_Content]]]:
+        """Columns of a table with what stands in their cells."""
+        columns: list[tuple[Column, Sequence[_Content]]] = []
+        for n, column in enumerate(table.columns):
+            formulas = self.twin.column(table, n) if self.twin else None
+            columns.append((column, _live(formulas, column.values.tolist())))
+        return columns
+
     def inputs(self, rows: Sequence[Row]) -> None:
-        listed: list[tuple[str | float, ...]] = []
-        for section, members in groupby(rows, key=lambda row: row.section):
-            listed += [(section,)] if section else []
-            listed += [(row.symbol, row.value, shown(row.unit), row.meaning) for row in members]
         fields = (("Symbol", _TEXT), ("Value", _FIELD), ("Unit", _TEXT), ("Meaning", _TEXT))
-        self.listing("Inputs", f"{self.title} - inputs", fields, listed)
+        live = (("in SI units", _SI), ("Unit", _TEXT), ("Name", _TEXT)) if self.twin else ()
+        listed: list[tuple[_Content, ...]] = []
+        for n, row in _listed(rows):
+            if not isinstance(row, Row):
+                listed.append((row,))
+                continue
+            line: tuple[_Content, ...] = (row.symbol, row.value, shown(row.unit), row.meaning)
+            if self.twin:
+                node = self.twin.recording.inputs[row.symbol]
+                value = Live(_taken(f"B{n + 1}", parse(row.unit).factor), float(node.value))
+                line += (value, shown(si(row.unit)), node.home.name)
+            listed.append(line)
+        self.listing("Inputs", f"{self.title} - inputs", (*fields, *live), listed)
 
     def found(self, rows: Sequence[FoundRow]) -> None:
         fields = (
             *(("Symbol", _TEXT), ("Value", _VALUE), ("Unit", _TEXT), ("Meaning", _TEXT)),
             *(("Residual", _SMALL), ("Unit", _TEXT), ("From", _VALUE), ("To", _VALUE)),
-            ("Other roots", _TEXT),
+            *(("Other roots", _TEXT), ("Value is", _TEXT)),
         )
-        listed = [
-            (
-                *(row.symbol, row.value, shown(row.unit), row.meaning, row.residual, shown(row.residual_unit)),
-                *(row.lower, row.upper, row.other_roots),
-            )
-            for row in rows
+        listed: list[tuple[_Content, ...]] = []
+        for row in rows:
+            numbers = (row.value, row.residual, row.lower, row.upper)
+            formulas = self.twin.found(row.unknown, row.unit, row.residual_unit) if self.twin else (None,) * 4
+            value, residual, lower, upper = (Live(f, x) if f else x for f, x in zip(formulas, numbers, strict=True))
+            kind = "its closed form" if formulas[0] else "found"
+            line = (row.symbol, value, shown(row.unit), row.meaning, residual, shown(row.residual_unit), lower, upper)
+            listed.append((*line, row.other_roots, kind))
+        title = "Found values, the residuals that they leave and the intervals searched"
+        sheet = self.listing("Find", title, fields, listed)
+        for n, row in enumerate(rows, 2):
+            rule = {"type": "formula", "format": self.file.add_format(_FAIL)}
+            limit = 1e-9 * max(1.0, abs(row.target))
+            sheet.conditional_format(n, 4, n, 4, {**rule, "criteria": f"=NOT(ABS($E${n + 1})<={limit!r})"})
+
+    def section(self, section: Section) -> None:
+        """Sheets of what stands behind the tables of a section, in SI units."""
+        fields = (("Name", _TEXT), ("Value", _SI), ("Unit", _TEXT), ("Meaning", _TEXT), ("Line", _TEXT))
+        listed: list[tuple[_Content, ...]] = [
+            (line.node.home.name, self.value(line)[0], shown(si(line.unit)), line.meaning, line.text)
+            for line in section.single
         ]
-        self.listing("Find", "Found values, the residuals that they leave and the intervals searched", fields, listed)
+        listed += [
+            (line.node.home.name, f"column {letters(n)}", shown(si(line.unit)), line.meaning, line.text)
+            for n, line in enumerate(section.fields)
+        ]
+        title = f"{section.title} - lines behind the tables, in SI units"
+        self.listing(section.listing, title, fields, listed)
+        if section.fields:
+            columns: list[tuple[Column, Sequence[_Content]]] = []
+            for line in section.fields:
+                values = np.asarray(line.node.value, float).reshape(-1)
+                columns.append((Column(line.node.home.name, si(line.unit), "", _SI_DECIMALS, values), self.value(line)))
+            self.table(section.sheet, f"{section.title} - fields, in SI units", "", columns, [], _SI)
+
+    def value(self, line: Line) -> Sequence[_Content]:
+        formulas = self.twin.line(line) if self.twin else None
+        return _live(formulas, np.asarray(line.node.value, float).reshape(-1).tolist())
 
     def checks(self, checks: Sequence[Check]) -> None:
         fields = (
             *(("Check", _TEXT), ("Residual", _SMALL), ("Limit", _SMALL), ("Unit", _TEXT)),
             *(("Verdict", _VERDICT), ("Reason", _TEXT)),
         )
-        listed = [
-            (c.name, c.residual, c.limit, shown(c.unit), "PASS" if c.passed else "FAIL", c.reason) for c in checks
-        ]
+        listed: list[tuple[_Content, ...]] = []
+        for n, c in enumerate(checks, 3):
+            live = self.twin and self.twin.check(c.name)
+            known = "PASS" if c.passed else "FAIL"
+            verdict: _Content = known
+            residual: _Content = c.residual
+            limit: _Content = c.limit
+            if live:
+                residual, limit = Live(live[0], c.residual), Live(live[1], c.limit)
+                verdict = Live(f'=IF(IFERROR(B{n}<=C{n},FALSE),"PASS","FAIL")', known)
+            listed.append((c.name, residual, limit, shown(c.unit), verdict, c.reason))
+        if self.twin and (guard := self.twin.guard()):
+            n = len(checks) + 3
+            what = "made for these inputs: where this fails, export the worksheet again"
+            verdict = Live(f'=IF(IFERROR(B{n}<=C{n},FALSE),"PASS","FAIL")', "PASS")
+            listed.append((what, Live(guard, 0.0), 0.0, "-", verdict, ""))
         passed = sum(check.passed for check in checks)
         sheet = self.listing("Checks", f"Checks: {passed} of {len(checks)} passed", fields, listed)
         for verdict, look in (("PASS", _PASS), ("FAIL", _FAIL)):
@@ -291,10 +401,19 @@ class _Book:
         if self.marked:
             self.listing("Marks", "Ends of the vertical lines in the figures", fields, self.marked)
 
-    def table(self, name: str, heading: str, note: str, columns: Sequence[Column], figures: Sequence[Figure]) -> None:
+    def table(
+        self,
+        name: str,
+        heading: str,
+        note: str,
+        contents: Sequence[tuple[Column, Sequence[_Content]]],
+        figures: Sequence[Figure],
+        numbers: _Look | None = None,
+    ) -> None:
         """A sheet of numbers under their symbols and units, with the charts of ``figures``."""
-        name, rows, count = self.name(name), len(columns[0].values), len(figures)
-        widths = [_CHAR * min(_WIDEST, _digits(column)) + _PAD for column in columns]
+        columns = [column for column, _ in contents]
+        rows, count = max(len(column.values) for column in columns), len(figures)
+        widths = [_CHAR * (13 if numbers else min(_WIDEST, _digits(column))) + _PAD for column in columns]
         width, height = _ONE if count == 1 else _MANY
         # Charts stand clear of the frozen rows and column, which would cut them when the sheet is scrolled.
         if rows <= _LONG:
@@ -312,15 +431,15 @@ class _Book:
             places = [(_FIRST + n // fitting * held + n % fitting * pitch, len(columns), _GAP, 0) for n in range(count)]
         sheet.set_row_pixels(1, _ROW if note else _ROW // 3)
         _put(sheet, 1, 0, note, self.style(_NOTE))
-        for col, column in enumerate(columns):
+        for col, (column, cells) in enumerate(contents):
             _put(sheet, 2, col, column.symbol, self.style(_HEAD, _NUMBER, _TOP))
             _put(sheet, 3, col, shown(column.unit), self.style(_HEAD, _NUMBER, _BOTTOM, {"bold": False}))
             if column.meaning:
                 sheet.write_comment(2, col, _text(column.meaning), {"font_name": "Arial", "font_size": 9})
-            look = {**_NUMBER, **({} if col else _KEY), "num_format": f"{0:.{column.decimals}f}"}
+            look = {**_NUMBER, **({} if col else _KEY), "num_format": f"{0:.{column.decimals}f}", **(numbers or {})}
             style, last = self.style(look, _CELL), self.style(look, _BOTTOM)
-            for row, value in enumerate(column.values, _FIRST):
-                _put(sheet, row, col, float(value), style if row < _FIRST + rows - 1 else last)
+            for row, value in enumerate(cells, _FIRST):
+                _put(sheet, row, col, value, style if row < _FIRST + rows - 1 else last)
         for figure, (row, col, right, down) in zip(figures, places, strict=True):
             chart = self.chart(figure, name, columns)
             chart.set_size({"width": width, "height": height})
@@ -352,11 +471,23 @@ class _Book:
                     "smooth": False,
                 }
             )
+
+        def range_of(place: list[str | int]) -> str:
+            sheet, top, col, bottom, _ = place
+            return Home("", str(sheet), int(top), int(col)).range(0, int(bottom) - int(top))
+
         x = _axis(np.append(figure.x.values, [at for _, at in figure.marks]))
         y = _axis(np.concatenate([line.values for line in figure.lines]))
         for label, at in figure.marks:
             row = len(self.marked) + 2
-            self.marked.append((_heading("Figure", figure), label, at, at, y["min"], y["max"]))
+            place: _Content = at
+            ends: list[_Content] = [y["min"], y["max"]]
+            if formula := self.twin and self.twin.mark(figure.number, label, figure.x.unit):
+                place = Live(formula, at)
+                numbers = np.concatenate([line.values for line in figure.lines])
+                ranges = ",".join(range_of(cells(line)) for line in figure.lines)
+                ends = [Live(f"={f}({ranges})", float(g(numbers))) for f, g in (("MIN", np.min), ("MAX", np.max))]
+            self.marked.append((_heading("Figure", figure), label, place, place, *ends))
             chart.add_series(
                 {
                     "name": ["Marks", row, 1],
@@ -381,6 +512,8 @@ class _Book:
             "line": {"color": _RULE},
             "major_gridlines": {"visible": True, "line": {"color": "#D9D9D9", "width": 0.5}},
         }
+        if self.twin:  # axes follow the numbers
+            x = y = {}
         chart.set_x_axis({**look, **x, "name": _label(_quantity([figure.x]))})
         chart.set_y_axis({**look, **y, "name": _label(_quantity(figure.lines))})
         several = len(figure.lines) > 1
@@ -391,9 +524,34 @@ class _Book:
         return chart
 
 
-def _put(sheet: Any, row: int, col: int, value: str | float, style: Any) -> None:
+def _listed(rows: Sequence[Row]) -> Iterator[tuple[int, Row | str]]:
+    """Inputs and the headings of their sections, with the rows of the sheet in which they stand."""
+    n = 2
+    for section, members in groupby(rows, key=lambda row: row.section):
+        for item in [section, *members] if section else members:
+            yield n, item
+            n += 1
+
+
+def _taken(cell: str, factor: float) -> str:
+    """Formula of an input in SI units: of a number, or of a text with a decimal comma or point."""
+    text = f'_xlfn.NUMBERVALUE(SUBSTITUTE({cell},",","."),".")'
+    number = f"IF(ISNUMBER({cell}),{cell},IF(LEN({cell})=0,NA(),IFERROR({text},NA())))"
+    return f"={number}" if factor == 1 else f"={number}*" + ("PI()/180" if factor == math.pi / 180 else repr(factor))
+
+
+def _live(formulas: Sequence[str] | None, values: Sequence[float]) -> Sequence[_Content]:
+    return [Live(*pair) for pair in zip(formulas, values, strict=True)] if formulas else values
+
+
+def _put(sheet: Any, row: int, col: int, value: _Content, style: Any) -> None:
     """A text as a text, a number as a number, NaN as #N/A; a text of nothing leaves the cell empty."""
-    if value == "":
+    if isinstance(value, Live):
+        known = value.value
+        if isinstance(known, float) and not _fits(known):
+            known = "#N/A"
+        sheet.write_live(row, col, value.formula, style, known)
+    elif value == "":
         sheet.write_blank(row, col, None, style)
     elif isinstance(value, str):
         sheet.write_string(row, col, _text(value), style)
@@ -450,7 +608,7 @@ def _side(look: _Look) -> _Look:
     return {key: look[key] for key in ("align", "indent") if key in look}
 
 
-def _length(value: str | float) -> int:
+def _length(value: _Content) -> int:
     return len(value) if isinstance(value, str) else 12
 
 

@@ -6,6 +6,7 @@ import re
 import sys
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
+from types import FrameType
 from typing import Any
 
 import numpy as np
@@ -76,10 +77,16 @@ def typeset(*shown: Any, display: Mapping[str, str] | None = None) -> "Typeset":
     Raises SheetError naming the line where a unit is not known.
     """
     frame = sys._getframe(1)
+    rows = declare(frame, display)
+    return Typeset(rows, tuple(frame.f_globals[row.name] for row in rows), shown)
+
+
+def declare(frame: FrameType, display: Mapping[str, str] | None = None) -> tuple[Formula, ...]:
+    """Formulas of the cell that runs in ``frame``, made known to the tables and figures below it."""
     instead = display or {}
     rows = tuple(replace(row, unit=instead.get(row.unit, row.unit)) for row in formulas(source.cell(frame)))
     frame.f_globals.setdefault(_REGISTRY, {}).update({row.name: row for row in rows})
-    return Typeset(rows, tuple(frame.f_globals[row.name] for row in rows), shown)
+    return rows
 
 
 @dataclass(frozen=True)

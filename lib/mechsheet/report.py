@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any, TypeVar
 
-from mechsheet import excel, formula, inputs, scene, units
+from mechsheet import excel, formula, inputs, live, scene, units
 from mechsheet.checks import Check
 from mechsheet.errors import SheetError
 from mechsheet.find import Found
@@ -72,6 +72,7 @@ def _workbook(title: str, namespace: Mapping[str, Any], values: list[Any]) -> by
         tables=_of(Table, values),
         figures=_of(Figure, values),
         checks=_of(Check, values),
+        recording=live.record(namespace),
     )
 
 
@@ -105,4 +106,6 @@ def _found(namespace: Mapping[str, Any]) -> Iterator[excel.FoundRow]:
                     ", ".join(
                         f"{r.value / unit:.6g}" + (f" (branch {r.branch:+d})" if r.branch else "") for r in others
                     ),
+                    found.words.unknown,
+                    found.equals / target,
                 )

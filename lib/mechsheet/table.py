@@ -190,12 +190,12 @@ def _columns(
                 f"column {ast.unparse(node)}: no line declares {name} with its unit, such as # [m] meaning"
             )
         line = known[name]
-        heading = _heading(symbol.plain(name), part)
-        unit = show.get(heading, line.unit)
+        head = heading(symbol.plain(name), part)
+        unit = show.get(head, line.unit)
         shown = np.broadcast_to(np.asarray(value) / units.parse(unit).factor, shape)[..., ::every].ravel()
         whole = np.asarray(value).dtype.kind in "iu"
         usual = DECIMALS.get(unit, _OTHER_DECIMALS) if decimals is None else decimals
-        columns.append(Column(heading, unit, line.meaning, 0 if whole else usual, shown))
+        columns.append(Column(head, unit, line.meaning, 0 if whole else usual, shown))
     return tuple(columns)
 
 
@@ -214,7 +214,8 @@ def _name(node: ast.expr) -> tuple[str, str]:
     raise LookupError(f"column {ast.unparse(node)}: a column is a name, name.real, name.imag or abs(name)")
 
 
-def _heading(name: str, part: str) -> str:
+def heading(name: str, part: str) -> str:
+    """Heading of a quantity, or of the ``real`` or ``imag`` coordinate of a point P56 (X56) or a vector R56 (R56x)."""
     if not part:
         return name
     axis = {"real": "x", "imag": "y"}[part]

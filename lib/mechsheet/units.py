@@ -72,6 +72,27 @@ def shown(text: str) -> str:
     return re.sub(r"\*\*(-?\d+)", lambda power: power[1].translate(_POWERS), text).replace("*", "·")
 
 
+def si(text: str) -> str:
+    """The unit without a factor that measures the same.
+
+    >>> si("kgf*cm"), si("MPa"), si("deg"), si("%")
+    ('N*m', 'Pa', 'rad', '-')
+    """
+
+    def plain(match: re.Match[str]) -> str:
+        name = match[0]
+        unit = UNITS[name]
+        if unit.factor == 1:
+            return name
+        if unit.dims == (0, 0, 0):
+            return "rad" if name in ("deg", "rev") else "-"
+        if name == "rpm":
+            return "rad/s"
+        return next(n for n, u in UNITS.items() if u.dims == unit.dims and u.factor == 1)
+
+    return re.sub(r"[A-Za-z%]+", plain, text)
+
+
 def _unit(node: ast.expr) -> Unit:
     match node:
         case ast.Name(name):

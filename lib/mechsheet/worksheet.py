@@ -105,6 +105,11 @@ def load(path: str | Path) -> Worksheet:
 
 @lru_cache(maxsize=32)
 def _load(path: Path, _changed: int) -> Worksheet:
+    return read(path)
+
+
+def read(path: Path) -> Worksheet:
+    """Cells of a worksheet file, with shared names of their own."""
     tree = ast.parse(path.read_text(encoding="utf-8"))
     common: dict[str, Any] = {"__file__": str(path), "__name__": path.stem}
     exec(compile(ast.Module(list(_shared(tree)), []), path, "exec"), common)
