@@ -80,6 +80,12 @@ def test_a_name_stands_for_the_worksheet_of_the_project(
     assert refusal("run") == "mechsheet: run needs a worksheet: give a file or one of hitch"
 
 
+@pytest.mark.parametrize("options", [["a.toml"], ["--out=b", "a.toml", "c.xlsx"]])
+def test_run_with_scenes_computes_them_side_by_side(sheet: Path, calls: list[list[str]], options: list[str]) -> None:
+    assert launcher.main(["run", str(sheet), *options]) == 7
+    assert calls == [[sys.executable, "-m", "mechsheet.scenes", str(sheet), *options]]
+
+
 def test_edit_opens_the_worksheet_in_marimo(sheet: Path, calls: list[list[str]]) -> None:
     assert launcher.main(["edit", str(sheet), "--headless"]) == 7
     assert calls == [[sys.executable, "-m", "marimo", "edit", "--headless", str(sheet)]]

@@ -3,10 +3,11 @@
 import re
 import subprocess
 import sys
-import tomllib
 from pathlib import Path
 
 from openpyxl import load_workbook
+
+from mechsheet import scenes
 
 ROOT = Path(__file__).parents[1]
 README = (ROOT / "README.md").read_text(encoding="utf-8")
@@ -43,11 +44,25 @@ def test_six_bar_of_the_readme_balances():
     assert abs(M - (A.conjugate() * R_A).imag).max() < 1e-9, "moments on the crank"
 
 
-def test_scene_and_arguments_of_the_readme_are_inputs_of_the_hitch():
+def test_arguments_of_the_readme_are_inputs_of_the_hitch():
     from worksheets.hitch import Hitch
 
-    given = set(tomllib.loads(blocks("toml")[0])["inputs"]) | set(re.findall(r"--(\w+)=[\d.e]+ ", README))
+    given = set(re.findall(r"--(\w+)=[\d.e]+ ", README))
     assert given == {"P6", "phi_P6"} and given <= set(Hitch.__dataclass_fields__)
+
+
+def test_scene_of_the_readme_passes(tmp_path, capsys):
+    scene = tmp_path / "scene.toml"
+    scene.write_text(blocks("toml")[0], encoding="utf-8")
+    assert scenes.run(str(ROOT / "worksheets" / "hitch.py"), [str(scene)]) == 0
+    assert "checks passed" in capsys.readouterr().out
+
+
+def test_evaluation_of_the_readme_gives_the_capacity(monkeypatch):
+    monkeypatch.chdir(ROOT)
+    names: dict = {}
+    exec(next(b for b in blocks("python") if "evaluate(" in b), names)
+    assert names["GS6"].shape == (10,) and names["GS6"].min() > 28e3
 
 
 def test_every_worksheet_and_every_file_named_is_there():

@@ -1,43 +1,211 @@
-"""Scenes from arguments and files."""
+"""Scenes from arguments, TOML files and workbooks that were exported and edited."""
 
+import itertools
+import subprocess
+from datetime import datetime
 from pathlib import Path
 
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from openpyxl import Workbook, load_workbook
 
-from mechsheet import scene
+from mechsheet import edited, inputs, report, scene
 from mechsheet.errors import SheetError
+from mechsheet.scene import Limit, Scene
+from mechsheet.worksheet import load
+from worksheets.hitch import Hitch
+
+HITCH = Path(__file__).parents[1] / "worksheets" / "hitch.py"
+FIELDS = inputs.declared(Hitch)
+
+
+def written(folder: Path, text: str) -> Path:
+    file = folder / "scene.toml"
+    file.write_text(text, encoding="utf-8")
+    return file
 
 
 def test_arguments_replace_inputs_in_their_order(tmp_path):
-    file = tmp_path / "heavy.toml"
-    file.write_text("[inputs]\nP6 = 40e3\nphi_P6 = 85\n")
-    found = scene.read([f"--scene={file}", "--P6=30e3", "--out=somewhere"])
-    assert found == scene.Scene({"P6": "30e3", "phi_P6": 85}, Path("somewhere"))
+    file = written(tmp_path, "[inputs]\nP6 = 40e3\nphi_P6 = 85\n")
+    found = scene.read([f"--scene={file}", "--P6=30e3", "--out=somewhere"], FIELDS)
+    assert found == Scene({"P6": "30e3", "phi_P6": 85}, Path("somewhere"))
+
+
+def test_a_later_scene_adds_to_an_earlier_one(tmp_path):
+    first = written(tmp_path, 'want = ["GS6"]\n[inputs]\nP6 = 1\n[limits]\nGS6 = {min = 1}\n')
+    second = tmp_path / "second.toml"
+    second.write_text("[inputs]\nP6 = 2\n[limits]\ndRa = {max = 1}\n")
+    found = scene.read([f"--scene={first}", f"--scene={second}"], FIELDS)
+    assert found == Scene({"P6": 2}, None, ("GS6",), {"GS6": Limit(min=1), "dRa": Limit(max=1)})
 
 
 @pytest.mark.parametrize("argument", ["P6=3", "--P6", "--=3", "-P6=3", "--scene", ""])
 def test_other_forms_are_refused(argument):
     with pytest.raises(SheetError, match="must be --NAME=VALUE"):
-        scene.read([argument])
+        scene.read([argument], FIELDS)
+
+
+def test_all_parts_of_a_scene_file(tmp_path):
+    text = """
+        want = ["GS6", "abs(R56)"]
+        [inputs]
+        P6 = "27500,5"
+        [limits]
+        GS6 = {min = "30,5", max = 4e4}
+        "loop of group (2, 3)" = {max = 1e-9}
+    """
+    limits = {"GS6": Limit(30.5, 4e4), "loop of group (2, 3)": Limit(max=1e-9)}
+    assert scene.load(written(tmp_path, text), FIELDS) == Scene({"P6": "27500,5"}, None, ("GS6", "abs(R56)"), limits)
 
 
 @pytest.mark.parametrize(
     ("text", "message"),
     [
         ("[inputs\n", "is no valid TOML"),
-        ("P6 = 3\n", r"must hold a table \[inputs\] and nothing else; it has \['P6'\]"),
-        ("", r"must hold a table \[inputs\]"),
-        ("inputs = 3\n", r"must hold a table \[inputs\]"),
+        ("[inputs]\nP6 = 27,5\n", r'is no valid TOML: .*; a number with a comma stands in quotes: "27,5"'),
+        ("P6 = 3\n", r"may hold \[inputs\], want and \[limits\] and nothing else; it has P6"),
+        ("", r"may hold \[inputs\], want and \[limits\] and nothing else; it is empty"),
+        ("inputs = 3\n", r"inputs = 3 must be a table \[inputs\]"),
+        ("[inputs]\nP6 = [1, 2]\n", r"input P6 = \[1, 2\] must be one number"),
+        ("[inputs.P6]\nmin = 1\n", r"input P6 = \{'min': 1\} must be one number"),
+        ('want = "GS6"\n', r"want = 'GS6' must be a list of names"),
+        ("want = []\n", r"want = \[\] must be a list of names"),
+        ("want = [6]\n", r"want = \[6\] must be a list of names"),
+        ("limits = 1\n", r"limits = 1 must be a table \[limits\]"),
+        ("[limits]\nGS6 = 3\n", r"limit GS6 = 3 must be \{min = NUMBER\}, \{max = NUMBER\} or both"),
+        ("[limits]\nGS6 = {least = 3}\n", r"limit GS6 = \{'least': 3\} must be \{min"),
+        ("[limits]\nGS6 = {}\n", r"limit GS6 = \{\} must be \{min"),
+        ('[limits]\nGS6 = {min = "much"}\n', r"limit GS6 = .*: 'much' is no number"),
+        ("[limits]\nGS6 = {min = nan}\n", r"limit GS6 = .*: nan is no number"),
+        ("[limits]\nGS6 = {min = 2, max = 1}\n", r"limit GS6 = .*: min is above max"),
     ],
 )
 def test_bad_scene_file_is_named(tmp_path, text, message):
-    file = tmp_path / "bad.toml"
-    file.write_text(text)
+    file = written(tmp_path, text)
     with pytest.raises(SheetError, match=message) as error:
-        scene.read([f"--scene={file}"])
-    assert str(file) in str(error.value)
+        scene.read([f"--scene={file}"], FIELDS)
+    assert str(file) in str(error.value) and "\n" not in str(error.value)
 
 
-def test_missing_scene_file_is_named(tmp_path):
-    with pytest.raises(SheetError, match=r"none\.toml cannot be read: No such file"):
-        scene.read([f"--scene={tmp_path / 'none.toml'}"])
+@pytest.mark.parametrize("name", ["none.toml", "none.xlsx"])
+def test_missing_scene_file_is_named(tmp_path, name):
+    with pytest.raises(SheetError, match=rf"{name} cannot be read: No such file"):
+        scene.read([f"--scene={tmp_path / name}"], FIELDS)
+
+
+@pytest.fixture(scope="module")
+def exported(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Workbook of the hitch on other inputs than its own."""
+    sheet, file = load(HITCH), tmp_path_factory.mktemp("exported") / "hitch.xlsx"
+    g = inputs.build(Hitch, {"P6": 20000.5, "phi_P6": 85, "N_pol": 4, "X6": "0,1234567890123456789"})
+    file.write_bytes(report.workbook("Hitch", sheet.run(sheet.results, {"g": g}), {}))
+    return file
+
+
+def test_exported_workbook_reads_back_to_the_very_same_inputs(exported):
+    found = inputs.build(Hitch, edited.inputs(exported, FIELDS))
+    assert found == inputs.build(Hitch, {"P6": 20000.5, "phi_P6": 85, "N_pol": 4, "X6": "0,1234567890123456789"})
+
+
+@given(st.floats(1, 179, exclude_min=True), st.floats(-2, 2))
+@settings(max_examples=200)
+def test_inputs_written_in_display_units_are_read_back_to_the_last_bit(angle, length):
+    g = inputs.build(Hitch, {"phi_P6": angle, "X6": length})
+    shown = {field.name: value for field, value in inputs.Used(g).rows()}
+    assert inputs.build(Hitch, shown) == g
+
+
+class Edited:
+    """The sheet of inputs of an exported workbook, to be changed as a user would."""
+
+    def __init__(self, source: Path, path: Path) -> None:
+        self.book, self.path = load_workbook(source), path
+        self.sheet = self.book["Inputs"]
+
+    def cell(self, name: str, heading: str):
+        head = next(row for row in self.sheet.iter_rows() if any(c.value == "Symbol" for c in row))
+        column = next(c.column for c in head if c.value == heading)
+        symbol = next(c.column for c in head if c.value == "Symbol")
+        rows = range(head[0].row, self.sheet.max_row + 1)
+        return self.sheet.cell(next(r for r in rows if self.sheet.cell(r, symbol).value == name), column)
+
+    def read(self) -> dict[str, object]:
+        self.book.save(self.path)
+        return edited.inputs(self.path, FIELDS)
+
+
+@pytest.fixture
+def edit(exported: Path, tmp_path: Path) -> Edited:
+    return Edited(exported, tmp_path / "edited.xlsx")
+
+
+@pytest.mark.parametrize(("typed", "value"), [(30e3, 30e3), ("30000,5", 30000.5), (" 3e4 ", 3e4), (31000, 31000)])
+def test_a_number_or_a_text_of_one_may_be_typed(edit, typed, value):
+    edit.cell("P6", "Value").value = typed
+    assert edit.read()["P6"] == value
+
+
+def test_rows_and_columns_may_be_inserted_and_rows_taken_out(edit):
+    edit.cell("P6", "Value").value = 1234
+    edit.sheet.delete_rows(edit.cell("X6", "Value").row)
+    edit.sheet.insert_rows(3, 2)
+    edit.sheet.insert_cols(2)
+    found = edit.read()
+    assert found["P6"] == 1234 and "X6" not in found and len(found) == len(FIELDS) - 1
+
+
+@pytest.mark.parametrize(
+    ("name", "heading", "typed", "message"),
+    [
+        ("P6", "Value", "heavy", "P6 = heavy is no number"),
+        ("P6", "Value", "1 000", "P6 = 1 000 is no number"),
+        ("P6", "Value", "#N/A", "P6 = #N/A is no number"),
+        ("P6", "Value", True, "P6 = True is no number"),
+        ("P6", "Value", datetime(2024, 5, 1), "P6 = 2024-05-01 00:00:00 is no number"),
+        ("P6", "Value", None, "P6: the value is missing"),
+        ("k_gc", "Value", None, "k_gc: the value is missing"),
+        ("P6", "Value", "=2*13750", "P6: the formula =2*13750 has no value; open and save the file"),
+        ("P6", "Symbol", "P66", "P66 is no input; nearest: P6"),
+        ("P6", "Symbol", None, "an empty cell is no input"),
+        ("L6", "Symbol", "L5", "L5 stands in A"),
+        ("P6", "Unit", "kN", "kN is not the unit of P6, which is N"),
+        ("P6", "Unit", None, "an empty cell is not the unit of P6, which is N"),
+    ],
+)
+def test_what_cannot_be_used_is_named_with_its_cell(edit, name, heading, typed, message):
+    cell = edit.cell(name, heading)
+    cell.value = typed
+    with pytest.raises(SheetError) as error:
+        edit.read()
+    start = f"workbook {edit.path}, cell {cell.coordinate}: "
+    assert str(error.value).startswith(start + message), str(error.value)
+
+
+def test_a_workbook_without_the_sheet_or_its_headings_is_named(edit, tmp_path):
+    edit.cell("Symbol", "Value").value = "Wert"
+    with pytest.raises(SheetError, match=r"edited\.xlsx, sheet Inputs: no row has the headings Symbol, Value, Unit"):
+        edit.read()
+    other = tmp_path / "other.xlsx"
+    Workbook().save(other)
+    with pytest.raises(SheetError, match=r"other\.xlsx has no sheet Inputs; it has Sheet"):
+        edited.inputs(other, FIELDS)
+    other.write_text("P6;3")
+    with pytest.raises(SheetError, match=r"other\.xlsx is no Excel workbook"):
+        edited.inputs(other, FIELDS)
+
+
+def test_libreoffice_saves_what_is_read_back(exported, soffice, tmp_path):
+    """Also a formula that the user typed: the program stores its value."""
+    book = load_workbook(exported)
+    Edited.cell(type("", (), {"sheet": book["Inputs"]}), "P6", "Value").value = "=2*13750.25"
+    typed = tmp_path / "typed.xlsx"
+    book.save(typed)
+    out = tmp_path / "saved"
+    convert = ["--headless", "--convert-to", "xlsx:Calc MS Excel 2007 XML", "--outdir", str(out), str(typed)]
+    profile = f"-env:UserInstallation={(tmp_path / 'profile').as_uri()}"
+    subprocess.run([soffice, profile, *convert], check=True, capture_output=True, timeout=120)
+    found, before = (edited.inputs(path, FIELDS) for path in (out / "typed.xlsx", exported))
+    assert found.pop("P6") == 27500.5
+    different = [name for name in found if found[name] != pytest.approx(before[name], rel=1e-14)]
+    assert not different and set(found) == set(itertools.chain(before)) - {"P6"}

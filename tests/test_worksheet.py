@@ -1,5 +1,7 @@
 """A worksheet as a function: the right cells, the right values, the right machine."""
 
+import subprocess
+import sys
 from dataclasses import replace
 from pathlib import Path
 
@@ -7,10 +9,10 @@ import numpy as np
 import pytest
 
 from mechsheet.errors import SheetError
-from mechsheet.worksheet import evaluate, load
+from mechsheet.worksheet import checks, evaluate, load
 from worksheets import hitch
 
-HITCH = Path(__file__).parents[1] / "worksheets" / "hitch.py"
+HITCH = Path(__file__).resolve().parents[1] / "worksheets" / "hitch.py"
 
 
 def test_capacity_runs_only_what_it_depends_on():
@@ -20,6 +22,57 @@ def test_capacity_runs_only_what_it_depends_on():
         *("fields", "centre_of_mass", "ratios", "analogues", "capacity"),
     }
     assert len(needed) < len(load(HITCH).cells) / 4
+
+
+COUNT = """
+import sys
+
+ran = 0
+
+def count(frame, event, argument):
+    global ran
+    code = frame.f_code
+    ran += event == "call" and code.co_name == "<module>" and code.co_filename == {path!r}
+
+sys.setprofile(count)
+{run}
+sys.setprofile(None)
+print(ran, *sorted(name for name in sys.modules if "." not in name))
+"""
+
+
+def ran(run: str) -> tuple[int, set[str]]:
+    """How many blocks of the hitch worksheet a fresh process runs, setup among them, and the packages it loads."""
+    code = COUNT.format(path=str(HITCH), run=run)
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, encoding="utf-8")
+    assert done.returncode == 0, done.stderr
+    blocks, *packages = done.stdout.splitlines()[-1].split()
+    return int(blocks), set(packages)
+
+
+HEAVY = {"marimo", "altair", "pandas", "scipy", "openpyxl", "xlsxwriter", "matplotlib"}
+
+
+@pytest.mark.parametrize(
+    "run",
+    [
+        "from mechsheet.worksheet import evaluate; evaluate({path!r}, want=['GS6'], P6=30e3)",
+        "from mechsheet.scenes import run; run({path!r}, [{scene!r}])",
+    ],
+    ids=["evaluate", "scene"],
+)
+def test_capacity_runs_its_thirteen_cells_and_loads_no_page_chart_or_workbook(run, tmp_path):
+    scene = tmp_path / "capacity.toml"
+    scene.write_text('want = ["GS6"]\n[inputs]\nP6 = 30e3\n[limits]\nGS6 = {min = 20e3}\n')
+    blocks, packages = ran(run.format(path=str(HITCH), scene=str(scene)))
+    assert blocks == 1 + 13
+    assert not HEAVY & packages
+
+
+def test_reactions_and_charts_are_counted_where_they_are_asked_for():
+    blocks, packages = ran(f"from mechsheet.worksheet import evaluate; evaluate({str(HITCH)!r}, ['figure_54'])")
+    assert blocks == 1 + len(load(HITCH).needed(["figure_54"], ["g"])) > 1 + 13
+    assert "altair" not in packages, "a figure is drawn by the page"
 
 
 def test_same_values_as_the_whole_run():
@@ -38,6 +91,35 @@ def test_inputs_in_display_units_or_whole():
     )
 
 
+def test_parts_of_results_and_checks_by_their_names():
+    wanted = ["abs(R56)", "P56_S.imag", "instant centre: Imp = I56", "checks_pole"]
+    some = evaluate(HITCH, wanted)
+    whole = evaluate(HITCH, ["R56", "P56_S"])
+    assert list(some) == wanted
+    assert np.array_equal(some["abs(R56)"], np.abs(whole["R56"]))
+    assert np.array_equal(some["P56_S.imag"], whole["P56_S"].imag)
+    assert some["instant centre: Imp = I56"] is some["checks_pole"][0]
+    assert {cell.name for cell in load(HITCH).needed(wanted[2:3], ["g"])} >= {"pole", "pole_check"}
+
+
+def test_a_check_whose_name_is_composed_is_found():
+    slotted = HITCH.with_name("slotted_link.py")
+    name = next(check.name for check in checks(load(slotted).run(load(slotted).results, {})) if "Find = " in check.name)
+    needed = load(slotted).needed([name])
+    assert len(needed) < len(load(slotted).cells) / 2
+    assert evaluate(slotted, [name])[name].passed
+
+
+def test_a_stopped_cell_is_an_error_that_names_it(tmp_path):
+    sheet = tmp_path / "sheet.py"
+    sheet.write_text(
+        "import marimo\napp = marimo.App()\n\nwith app.setup:\n    import marimo as mo\n\n\n"
+        "@app.cell\ndef one():\n    mo.stop(True)\n    a = 1\n    return (a,)\n"
+    )
+    with pytest.raises(SheetError, match="cell one stopped before its end"):
+        load(sheet).run(["a"], {})
+
+
 def test_intermediate_results_can_be_given():
     names = load(HITCH).run(["P56_S"], {"g": hitch.Hitch(), "L4": 0.7})
     assert names["L4"] == 0.7 and "L4_found" not in names
@@ -46,7 +128,16 @@ def test_intermediate_results_can_be_given():
 @pytest.mark.parametrize(
     ("want", "given", "message"),
     [
-        ("GS66", {}, "GS66 is defined by no cell of "),
+        ("GS66", {}, f"GS66 is defined by no cell of {HITCH}; nearest: GS6, "),
+        ("zzz", {}, f"zzz is defined by no cell of {HITCH}"),
+        ("abs(R55)", {}, f"R55 is defined by no cell of {HITCH}; nearest: R65, R56"),
+        (
+            "instant centre: Imp = I65",
+            {},
+            "no check is named 'instant centre: Imp = I65'; nearest: 'instant centre: Imp",
+        ),
+        ("3.1", {}, "no check is named '3.1'"),
+        ("table_31.real", {}, "table_31.real: table_31 is no number"),
         ("GS6", {"P66": 1}, "input P66 is unknown; nearest: P6"),
         ("GS6", {"P6": -1}, "weight of the implement P6 = -1.0 N must be >= 0"),
         ("GS6", {"Y_P56": 3}, "working stroke S_p: height Y56 of the suspension axis reaches"),

@@ -24,6 +24,7 @@ usage: mechsheet COMMAND              where the package is installed
        python lib/mechsheet COMMAND   in a clone of the project
 
   run WORKSHEET [--NAME=VALUE ...]    compute the worksheet and write its workbook
+      WORKSHEET SCENE ...             compute scenes side by side, and write workbooks where --out=FOLDER says
   edit WORKSHEET [OPTIONS]            open the worksheet in the browser (options of marimo edit)
   test [OPTIONS]                      run the project's tests (options of pytest)
 
@@ -45,8 +46,10 @@ def main(argv: "list[str] | None" = None) -> int:
             sys.exit(f"mechsheet: {command} needs a worksheet: {known_worksheets()}")
         name, *options = options
         sheet = worksheet(name)
-        arguments = [sheet, *options] if command == "run" else ["-m", "marimo", "edit", *options, sheet]
-        return call([interpreter(""), *arguments])
+        if command == "edit":
+            return call([interpreter(""), "-m", "marimo", "edit", *options, sheet])
+        scenes = any(not option.startswith("-") for option in options)
+        return call([interpreter(""), *(["-m", "mechsheet.scenes"] if scenes else []), sheet, *options])
     if command == "test":
         if not (ROOT / "tests").is_dir():
             sys.exit(f"mechsheet: the tests are in a clone of the project, not beside {Path(__file__).parent}")

@@ -120,6 +120,28 @@ def workbook(
     return buffer.getvalue()
 
 
+def comparison(
+    title: str, names: Sequence[str], rows: Sequence[Sequence[str | float]], tables: Sequence[Table]
+) -> bytes:
+    """Bytes of an .xlsx file with scenes side by side on the sheet Scenes, then a sheet for each table.
+
+    A row is a symbol, its unit, its meaning and a number, verdict or text for each of the ``names``; a row of
+    one text heads a section. A table's sheet is named by its title.
+    """
+    import xlsxwriter
+
+    buffer = BytesIO()
+    book = _Book(xlsxwriter.Workbook(buffer, _options()), _text(title))
+    fields = [("Symbol", _TEXT), ("Unit", _TEXT), ("Meaning", _TEXT), *((name, _NUMBER) for name in names)]
+    sheet = book.listing("Scenes", f"{title} - scenes side by side", fields, rows)
+    sheet.set_column_pixels(3, 2 + len(names), _CHAR * 17 + _PAD)  # a number with all its digits
+    book.verdicts(sheet, len(rows), 3, 2 + len(names))
+    for table in tables:
+        book.table(table.title, table.title, table.note, table.columns, ())
+    book.file.close()
+    return buffer.getvalue()
+
+
 def save(data: bytes, path: Path) -> None:
     """Write a file whole or not at all.
 
@@ -165,7 +187,7 @@ def _options() -> dict[str, object]:
 
 
 _PROPERTIES = {"author": "mechsheet", "created": datetime(2000, 1, 1)}
-_SHEETS = ("Inputs", "Find", "Checks", "Marks")
+_SHEETS = ("Inputs", "Find", "Checks", "Marks", "Scenes")
 
 _Look = Mapping[str, object]
 _INK, _RULE = "#1F3864", "#7F7F7F"
@@ -385,9 +407,13 @@ class _Book:
             listed.append((what, Live(guard, 0.0), 0.0, "-", verdict, ""))
         passed = sum(check.passed for check in checks)
         sheet = self.listing("Checks", f"Checks: {passed} of {len(checks)} passed", fields, listed)
+        self.verdicts(sheet, len(listed), 4, 4)
+
+    def verdicts(self, sheet: Any, rows: int, first: int, last: int) -> None:
+        """Colour the verdicts in some columns of a listing."""
         for verdict, look in (("PASS", _PASS), ("FAIL", _FAIL)):
             rule = {"type": "cell", "criteria": "==", "value": f'"{verdict}"', "format": self.file.add_format(look)}
-            sheet.conditional_format(2, 4, len(listed) + 2, 4, rule)
+            sheet.conditional_format(2, first, rows + 2, last, rule)
 
     def marks(self) -> None:
         fields = (

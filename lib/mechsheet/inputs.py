@@ -45,6 +45,15 @@ class Input:
         """SI value of a number in the display unit."""
         return int(value) if self.whole else value * units.parse(self.unit).factor
 
+    def written(self, value: Any, default: Any) -> Any:
+        """Value in the display unit that is read back as the very same value, where there is one."""
+        shown = self.display(value)
+        if self.whole or np.ndim(value) or value == default or self.si(shown) == value:
+            return shown
+        x = value / units.parse(self.unit).factor
+        near = (x, *(float(np.nextafter(x, end)) for end in (-np.inf, np.inf)))
+        return next((y for y in near if self.si(y) == value), x)
+
     def says(self, value: object) -> str:
         """The input as an error names it: meaning, symbol, value and unit."""
         return f"{self.meaning} {self.name} = {value}" + (f" {self.unit}" if self.unit != "-" else "")
@@ -152,7 +161,7 @@ def ask(cls: type) -> "mo.ui.batch":
     """Text fields for all inputs, section by section, with the defaults or what arguments and scenes give."""
     import marimo as mo
 
-    g: Any = build(cls, scene.arguments(cls.__worksheet__).inputs)  # type: ignore[attr-defined]
+    g: Any = build(cls, scene.arguments(cls.__worksheet__, declared(cls)).inputs)  # type: ignore[attr-defined]
     sections: dict[str, list[str]] = {}
     fields = {}
     for field in declared(cls):
@@ -197,7 +206,10 @@ class Used:
 
     def rows(self) -> list[tuple[Input, Any]]:
         """Each input with its value in the display unit."""
-        return [(field, field.display(getattr(self.g, field.name))) for field in declared(type(self.g))]
+        cls = type(self.g)
+        return [
+            (field, field.written(getattr(self.g, field.name), getattr(cls, field.name))) for field in declared(cls)
+        ]
 
     def _mime_(self) -> tuple[str, str]:
         changed = {f.name for f in dataclasses.fields(self.g) if getattr(self.g, f.name) != f.default}

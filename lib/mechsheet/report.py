@@ -10,6 +10,8 @@ from mechsheet import excel, formula, inputs, live, scene, units
 from mechsheet.checks import Check
 from mechsheet.errors import SheetError
 from mechsheet.find import Found
+from mechsheet.results import limited
+from mechsheet.scene import Limit
 from mechsheet.table import Figure, Table
 from mechsheet.worksheet import results
 
@@ -41,7 +43,8 @@ def _script(title: str, namespace: Mapping[str, Any], worksheet: Path) -> None:
     missing = [name for name in names if name not in namespace]
     if missing:
         raise SheetError(f"some cells did not run: {', '.join(missing)} missing")
-    values = _values(namespace, names)
+    given = scene.read(sys.argv[1:], inputs.declared(type(namespace["g"])))
+    values = limited(_values(namespace, names), given.limits, namespace)
     checks = _of(Check, values)
     for check in checks:
         if check.essential and not check.passed:
@@ -50,7 +53,7 @@ def _script(title: str, namespace: Mapping[str, Any], worksheet: Path) -> None:
         print(found)
     for check in checks:
         print(check)
-    out = scene.read(sys.argv[1:]).out or worksheet.resolve().parent.parent / "exports"
+    out = given.out or worksheet.resolve().parent.parent / "exports"
     try:
         out.mkdir(parents=True, exist_ok=True)
     except OSError as error:
@@ -60,6 +63,12 @@ def _script(title: str, namespace: Mapping[str, Any], worksheet: Path) -> None:
     print(f"written {path}")
     if not all(check.passed for check in checks):
         sys.exit(1)
+
+
+def workbook(title: str, namespace: Mapping[str, Any], limits: Mapping[str, Limit]) -> bytes:
+    """Workbook of a whole run of a worksheet, its checks under the limits of a scene."""
+    values = _values(namespace, results(namespace["__file__"]))
+    return _workbook(title, namespace, limited(values, limits, namespace))
 
 
 def _workbook(title: str, namespace: Mapping[str, Any], values: list[Any]) -> bytes:

@@ -1,0 +1,279 @@
+"""Many scenes of a worksheet: the example scenes hold, a bad one stays alone, files are whole or not there."""
+
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from openpyxl import load_workbook
+from test_exports import differences
+
+from mechsheet import excel, scenes
+from mechsheet.errors import SheetError
+from mechsheet.worksheet import evaluate, load
+
+ROOT = Path(__file__).resolve().parents[1]
+HITCH = ROOT / "worksheets" / "hitch.py"
+EXAMPLES = ROOT / "worksheets" / "scenes"
+
+
+def scene(folder: Path, name: str, text: str) -> str:
+    file = folder / f"{name}.toml"
+    file.write_text(text, encoding="utf-8")
+    return str(file)
+
+
+def script(*arguments: str) -> subprocess.CompletedProcess[str]:
+    return subprocess.run([sys.executable, str(HITCH), *arguments], capture_output=True, encoding="utf-8")
+
+
+def row(printed: str, head: str) -> list[str]:
+    """Cells of a row of the printed summary."""
+    return next(line for line in printed.splitlines() if line.startswith(head)).removeprefix(head).split()
+
+
+def test_the_example_scenes_pass_side_by_side(tmp_path, capsys):
+    assert scenes.run(str(HITCH), [str(EXAMPLES / "*.toml"), f"--out={tmp_path}"]) == 0
+    printed = capsys.readouterr()
+    assert row(printed.out, "verdict") == 4 * ["pass"]
+    assert row(printed.out, "P6 [N]") == ["34000", "9000", "16000", "33000"]
+    assert printed.out.endswith(f"4 of 4 scenes pass, written to {tmp_path}\n")
+    assert printed.err == "", "no bar where stderr is no terminal"
+    whole = {"hitch_heavy.xlsx", "hitch_other_tractor.xlsx"}
+    assert {path.name for path in tmp_path.iterdir()} == {"hitch_scenes.xlsx", *whole}
+
+
+def test_the_example_scenes_are_what_they_say(capsys):
+    assert scenes.run(str(HITCH), [str(EXAMPLES / "heavy.toml"), "--D_gc=0.08"]) == 1, "it takes the larger cylinders"
+    assert scenes.run(str(HITCH), [str(EXAMPLES / "heavy.toml"), "--P_gr=8000"]) == 1, "and the counterweights"
+    assert "heavy: FAIL  front axle keeps its least load" in capsys.readouterr().out
+    sheet = load(HITCH)
+    road, _ = scenes.compute(sheet, "", scenes.scene.load(EXAMPLES / "transport.toml", ()))
+    raised = {q.name: q.values for q in road.quantities}
+    document = evaluate(HITCH, ["L4", "L7", "P56", "PS6", "phi6"])
+    assert raised["L4"] == pytest.approx(document["L4"], abs=1e-5)
+    assert raised["L7"] == pytest.approx(document["L7"], abs=1e-5)
+    S = np.array([0.66, 0.665, 0.67])
+    assert raised["P56_S.imag"] == pytest.approx(document["P56"](S, document["L4"]).imag, abs=2e-5)
+    assert raised["PS6_S.imag"] == pytest.approx(document["PS6"](S).imag, abs=1e-4)
+
+
+def test_one_bad_scene_does_not_stop_the_others(tmp_path, capsys):
+    files = [
+        scene(tmp_path, "typing", "[inputs\n"),
+        scene(tmp_path, "good", 'want = ["GS6"]\n[limits]\nGS6 = {min = 25e3}\n'),
+        scene(tmp_path, "unknown", "[inputs]\nP66 = 1\n"),
+        scene(tmp_path, "open", "[inputs]\nS_max = 0.9\n"),
+        scene(tmp_path, "gaps", 'want = ["GS6"]\n[inputs]\nS_max = 0.9\n'),
+        scene(tmp_path, "weak", 'want = ["GS6"]\n[limits]\nGS6 = {min = 30e3, max = 32e3}\n'),
+        str(tmp_path / "missing.toml"),
+    ]
+    out = tmp_path / "out"
+    assert scenes.run(str(HITCH), [*files, f"--out={out}"]) == 1
+    lines = capsys.readouterr().out.splitlines()
+    assert row("\n".join(lines), "verdict") == ["error", "pass", "error", "error", "FAIL", "FAIL", "error"]
+    reasons = [line for line in lines if ": " in line]
+    starts = [
+        f"typing: scene {files[0]} is no valid TOML",
+        "unknown: input P66 is unknown; nearest: P6",
+        "open: group (2, 3) closes: no position closes for cylinder S = 0.7",
+        "gaps: FAIL  GS6 does not exist at ",
+        "weak: FAIL  GS6 >= 30000 N: 41.2 <= 0 N; it is 29958.8..",
+        "weak: FAIL  GS6 <= 32000 N: 1.44e+03 <= 0 N; it is 29958.8..",
+        f"missing: scene {files[-1]} cannot be read",
+    ]
+    assert len(reasons) == len(starts)
+    assert all(reason.startswith(start) for reason, start in zip(reasons, starts, strict=True)), reasons
+    assert lines[-1] == f"1 of 7 scenes pass, written to {out}"
+    assert [path.name for path in out.iterdir()] == ["hitch_scenes.xlsx"]
+
+
+def test_an_exception_of_one_scene_is_its_one_line(tmp_path, capsys):
+    sheet = tmp_path / "sheet.py"
+    sheet.write_text(
+        "import marimo\napp = marimo.App()\n\nwith app.setup:\n    from mechsheet.formula import typeset\n"
+        "    from mechsheet.inputs import inputs\n\n\n@app.class_definition\n@inputs\nclass A:\n"
+        '    x: float = 2.0  # [m] length\n\n    """Text."""\n\n\n'
+        "@app.cell\ndef one(g):\n    y = int(1 // g.x)  # [1/m] curvature\n    typeset()\n    return (y,)\n"
+    )
+    files = [scene(tmp_path, name, f'want = ["y"]\n[inputs]\nx = {x}\n') for name, x in (("a", 0), ("b", 0.5))]
+    assert scenes.run(str(sheet), files) == 1
+    printed = capsys.readouterr().out
+    assert row(printed, "verdict") == ["error", "pass"] and row(printed, "y [1/m]") == ["2"]
+    assert "a: sheet.py, line 19: ZeroDivisionError: float floor division by zero" in printed
+
+
+def test_workbook_of_a_scene_is_that_of_the_script(tmp_path):
+    file = scene(tmp_path, "own", "[inputs]\nP6 = 20e3\n")
+    assert scenes.run(str(HITCH), [file, f"--out={tmp_path}"]) == 0
+    assert script(f"--scene={file}", f"--out={tmp_path}").returncode == 0
+    different = list(differences(tmp_path / "hitch.xlsx", tmp_path / "hitch_own.xlsx"))
+    assert set(different) == {"Inputs!A1: 'Tractor hitch - inputs' became 'Tractor hitch: own - inputs'"}
+
+
+@pytest.mark.parametrize("sheet", sorted((ROOT / "worksheets").glob("*.py")), ids=lambda path: path.stem)
+def test_every_worksheet_takes_scenes(sheet, tmp_path):
+    file = scene(tmp_path, "own", '[limits]\n"no such check" = {max = 0}\n')
+    with pytest.raises(SheetError, match="no check is named 'no such check'"):
+        scenes.compute(load(sheet), "own", scenes.scene.load(Path(file), ()))
+    outcome, _ = scenes.compute(load(sheet), "own", scenes.Scene())
+    assert outcome.verdict == "pass" and outcome.checks
+
+
+def test_summary_workbook(tmp_path):
+    want = 'want = ["GS6", "L4", "table_41"]\n'
+    files = [
+        scene(tmp_path, "a", want + "[inputs]\nP6 = 20e3\nN_pol = 3\n"),
+        scene(tmp_path, "b", want + "[limits]\nGS6 = {min = 30e3}\n"),
+        scene(tmp_path, "c", "[inputs]\nP6 = -1\n"),
+    ]
+    assert scenes.run(str(HITCH), [*files, f"--out={tmp_path}"]) == 1
+    book = load_workbook(tmp_path / "hitch_scenes.xlsx")
+    assert book.sheetnames == ["Scenes", "GS6", "a 4.1 Lifting capacity", "b 4.1 Lifting capacity"]
+    cells = {line[0]: line[1:] for line in book["Scenes"].iter_rows(min_row=2, values_only=True)}
+    assert cells["Symbol"] == ("Unit", "Meaning", "a", "b", "c")
+    assert cells["P6"] == ("N", "weight of the implement", 20000, 27500, None)
+    assert cells["N_pol"][2:] == (3, 10, None) and "L5" not in cells
+    GS6 = evaluate(HITCH, ["GS6"], P6=20e3, N_pol=3)["GS6"], evaluate(HITCH, ["GS6"])["GS6"]
+    assert cells["GS6 least"] == ("N", "capacity at the centre of mass", *(x.min() for x in GS6), None)
+    assert cells["GS6 greatest"][2:4] == tuple(x.max() for x in GS6)
+    assert cells["L4"][2] == cells["L4"][3] == evaluate(HITCH, ["L4"])["L4"]
+    assert cells["GS6 >= 30000 N"][2:] == (None, "FAIL", None)
+    assert cells["verdict"][2:] == ("PASS", "FAIL", "FAIL")
+    assert cells["reason"][4] == "weight of the implement P6 = -1.0 N must be >= 0"
+    values = [line[1:] for line in book["GS6"].iter_rows(min_row=5, values_only=True)]
+    assert [line[0] for line in values[:3]] == list(GS6[0]) and values[3][0] == "=#N/A"
+    assert [line[1] for line in values] == list(GS6[1])
+
+
+def test_limits_of_checks_stand_for_their_own(tmp_path, capsys):
+    name = "instant centre: Imp = I56"
+    files = [
+        scene(tmp_path, "strict", f'want = ["{name}"]\n[limits]\n"{name}" = {{max = 1e-30}}\n'),
+        scene(tmp_path, "least", f'want = ["{name}"]\n[limits]\n"{name}" = {{min = 1}}\n'),
+        scene(tmp_path, "point", 'want = ["L4"]\n[limits]\nP56_S = {min = 1}\n'),
+        scene(tmp_path, "function", 'want = ["P56"]\n'),
+        scene(tmp_path, "drawing", 'want = ["figure_41"]\n'),
+    ]
+    assert scenes.run(str(HITCH), files) == 1
+    assert [line for line in capsys.readouterr().out.splitlines() if ": " in line] == [
+        "strict: FAIL  instant centre: Imp = I56: 1.78e-15 <= 1e-30",
+        f"least: limit of the check '{name}' must be {{max = NUMBER}}",
+        "point: limit of P56_S: it is complex; limit P56_S.real, P56_S.imag or abs(P56_S)",
+        "function: P56 is a function of S, L4, branch; numbers with a unit, checks and tables can be asked for",
+        "drawing: figure_41 is declared by no line with its unit; numbers with a unit, checks and tables can be asked"
+        " for",
+    ]
+
+
+@pytest.mark.parametrize("files", [("a", "b"), ("a",)], ids=["first", "summary"])
+def test_ctrl_c_leaves_whole_files_only(files, tmp_path, monkeypatch, capsys):
+    """The signal comes when the last file has been written beside its place and is about to be moved there."""
+    given = [scene(tmp_path, name, "[inputs]\nP6 = 20e3\n") for name in files]
+    out, moved, move = tmp_path / "out", [], os.replace
+
+    def replace(source, target):
+        if len(moved) == 1:
+            raise KeyboardInterrupt
+        move(source, target)
+        moved.append(Path(target))
+
+    monkeypatch.setattr(excel.os, "replace", replace)
+    assert scenes.run(str(HITCH), [*given, f"--out={out}"]) == 130
+    assert list(out.iterdir()) == moved == [out / "hitch_a.xlsx"]
+    load_workbook(moved[0])
+    printed = capsys.readouterr()
+    assert printed.err == f"\ninterrupted after 1 of {len(files)} scenes\n" and printed.out == ""
+
+
+def test_bar_on_a_terminal(tmp_path, monkeypatch, capsys):
+    files = [scene(tmp_path, name, 'want = ["L4"]\n') for name in ("a", "b")]
+    monkeypatch.setattr(sys.stderr, "isatty", lambda: True, raising=False)
+    assert scenes.run(str(HITCH), files) == 0
+    first, second, last, after = capsys.readouterr().err.split("\r")[1:]
+    assert first.strip() == f"[{30 * '.'}] 0 of 2  a"
+    assert second.strip() == f"[{15 * '#'}{15 * '.'}] 1 of 2  b"
+    assert last == " " * len(second) and after == "", "nothing of it stays"
+
+
+def test_files_that_would_overwrite_one_another_are_refused(tmp_path):
+    (tmp_path / "other").mkdir()
+    a, b = scene(tmp_path, "a", 'want = ["L4"]\n'), scene(tmp_path / "other", "a", 'want = ["L4"]\n')
+    with pytest.raises(SheetError, match=re.escape(f"scene {b} has the name of {a}")):
+        scenes.run(str(HITCH), [a, b])
+    with pytest.raises(SheetError, match="has the name of the summary"):
+        scenes.run(str(HITCH), [scene(tmp_path, "scenes", 'want = ["L4"]\n')])
+    book = tmp_path / "hitch_a.xlsx"
+    book.write_bytes(b"edited by hand")
+    with pytest.raises(SheetError, match="would be overwritten; give another folder"):
+        scenes.run(str(HITCH), [a, str(book), f"--out={tmp_path}"])
+    assert book.read_bytes() == b"edited by hand"
+
+
+def test_an_edited_workbook_is_a_scene_like_another(tmp_path, capsys):
+    assert script(f"--out={tmp_path}").returncode == 0
+    book = load_workbook(tmp_path / "hitch.xlsx")
+    cell = next(line[1] for line in book["Inputs"].iter_rows() if line[0].value == "P6")
+    cell.value = "20000,5"
+    edited = tmp_path / "mine.xlsx"
+    book.save(edited)
+    assert scenes.run(str(HITCH), [str(edited), str(tmp_path / "hitch.xlsx"), f"--out={tmp_path / 'out'}"]) == 0
+    assert row(capsys.readouterr().out, "P6 [N]") == ["20000.5", "27500"]
+    done = script(f"--scene={edited}", f"--out={tmp_path}")
+    assert (done.returncode, done.stderr) == (0, "")
+    used = {line[0]: line[1] for line in load_workbook(tmp_path / "hitch.xlsx")["Inputs"].iter_rows(values_only=True)}
+    assert used["P6"] == 20000.5
+
+
+def test_script_of_a_scene_that_wants_some_results_answers_those(tmp_path):
+    file = scene(tmp_path, "a", 'want = ["GS6", "table_41"]\n[limits]\nGS6 = {min = 29e3}\nPS6_S.imag = {}\n')
+    assert script(f"--scene={file}").stderr.startswith("error: scene ")
+    scene(tmp_path, "a", 'want = ["GS6", "table_41"]\n[limits]\nGS6 = {min = 29e3}\n')
+    exported = (ROOT / "exports" / "hitch.xlsx").stat().st_mtime_ns
+    done = script(f"--scene={file}")
+    assert (done.returncode, done.stderr) == (0, "")
+    lines = done.stdout.splitlines()
+    assert lines[:2] == ["GS6 = 29958.8..33441.2 N, capacity at the centre of mass", "Table 4.1 - Lifting capacity"]
+    assert lines[2].split() == ["S", "Fgc", "Pgc", "G56", "GS6", "dGS65"] and lines[4].split()[0] == "0.420"
+    assert lines[-1].startswith("pass  GS6 >= 29000 N: ") and len(lines) == 4 + 10 + 1
+    assert (ROOT / "exports" / "hitch.xlsx").stat().st_mtime_ns == exported, "nothing is written without --out"
+    done = script(f"--scene={file}", "--X6=1.2", f"--out={tmp_path / 'out'}")
+    assert done.returncode == 1 and "FAIL  GS6 >= 29000 N: " in done.stdout and done.stderr == ""
+    assert [path.name for path in (tmp_path / "out").iterdir()] == ["hitch_scenes.xlsx"]
+
+
+def test_script_of_the_whole_worksheet_keeps_the_limits_of_its_scene(tmp_path):
+    file = scene(tmp_path, "a", '[limits]\ndRa = {min = 30}\n"loop of group (2, 3)" = {max = 1e-30}\n')
+    done = script(f"--scene={file}", f"--out={tmp_path}")
+    assert done.returncode == 1 and done.stderr == ""
+    failed = [line for line in done.stdout.splitlines() if line.startswith("FAIL")]
+    assert [line.split(":")[0] for line in failed] == ["FAIL  loop of group (2, 3)", "FAIL  dRa >= 30 %"]
+    listed = [line[0].value for line in load_workbook(tmp_path / "hitch.xlsx")["Checks"].iter_rows()]
+    assert listed[-1] == "dRa >= 30 %"
+
+
+def test_a_wide_summary_is_broken_at_the_width_of_the_terminal(tmp_path, monkeypatch, capsys):
+    files = [scene(tmp_path, name, 'want = ["GS6"]\n') for name in ("one", "two", "three")]
+    monkeypatch.setenv("COLUMNS", "60")
+    assert scenes.run(str(HITCH), files) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert max(map(len, lines)) <= 60
+    assert lines[0].split() == ["one", "two"]
+    assert sum(line.startswith("verdict") for line in lines) == 2
+
+
+def test_command_line_in_a_process_of_its_own(tmp_path):
+    """From the launcher on, with a pattern that no shell has expanded."""
+    scene(tmp_path, "a", 'want = ["L4"]\n')
+    scene(tmp_path, "b", 'want = ["L4"]\n')
+    command = [sys.executable, "-m", "mechsheet", "run", "hitch", str(tmp_path / "*.toml")]
+    done = subprocess.run(command, capture_output=True, encoding="utf-8")
+    assert (done.returncode, done.stderr) == (0, "")
+    assert row(done.stdout, "verdict") == ["pass", "pass"]
+    done = subprocess.run([*command, "--P66=1"], capture_output=True, encoding="utf-8")
+    assert done.returncode == 1 and "a: input P66 is unknown; nearest: P6" in done.stdout
+    done = subprocess.run([*command, f"--out={tmp_path / 'a.toml'}"], capture_output=True, encoding="utf-8")
+    assert done.returncode == 1 and done.stderr.startswith("error: folder ") and done.stderr.count("\n") == 1
