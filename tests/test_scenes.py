@@ -35,7 +35,8 @@ def row(printed: str, head: str) -> list[str]:
     return next(line for line in printed.splitlines() if line.startswith(head)).removeprefix(head).split()
 
 
-def test_the_example_scenes_pass_side_by_side(tmp_path, capsys):
+def test_the_example_scenes_pass_side_by_side(tmp_path, monkeypatch, capsys):
+    monkeypatch.setenv("COLUMNS", "200")
     assert scenes.run(str(HITCH), [str(EXAMPLES / "*.toml"), f"--out={tmp_path}"]) == 0
     printed = capsys.readouterr()
     assert row(printed.out, "verdict") == 4 * ["pass"]
@@ -61,7 +62,8 @@ def test_the_example_scenes_are_what_they_say(capsys):
     assert raised["PS6_S.imag"] == pytest.approx(document["PS6"](S).imag, abs=1e-4)
 
 
-def test_one_bad_scene_does_not_stop_the_others(tmp_path, capsys):
+def test_one_bad_scene_does_not_stop_the_others(tmp_path, monkeypatch, capsys):
+    monkeypatch.setenv("COLUMNS", "200")
     files = [
         scene(tmp_path, "typing", "[inputs\n"),
         scene(tmp_path, "good", 'want = ["GS6"]\n[limits]\nGS6 = {min = 25e3}\n'),
@@ -252,7 +254,7 @@ def test_script_of_the_whole_worksheet_keeps_the_limits_of_its_scene(tmp_path):
     failed = [line for line in done.stdout.splitlines() if line.startswith("FAIL")]
     assert [line.split(":")[0] for line in failed] == ["FAIL  loop of group (2, 3)", "FAIL  dRa >= 30 %"]
     listed = [line[0].value for line in load_workbook(tmp_path / "hitch.xlsx")["Checks"].iter_rows()]
-    assert listed[-1] == "dRa >= 30 %"
+    assert "dRa >= 30 %" in listed
 
 
 def test_a_wide_summary_is_broken_at_the_width_of_the_terminal(tmp_path, monkeypatch, capsys):

@@ -51,8 +51,10 @@ def verdict(
     checks_pole,
     checks_stability,
 ):
-    found = (checks_L4, checks_S_p, checks_L7, checks_closing, checks_loops)
-    summary(checks_design, *found, checks_analogues, checks_forces, checks_stability, checks_pole)
+    summary(
+        *(checks_design, checks_L4, checks_S_p, checks_L7, checks_closing, checks_loops),
+        *(checks_analogues, checks_forces, checks_stability, checks_pole),
+    )
     return
 
 

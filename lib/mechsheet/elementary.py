@@ -339,7 +339,7 @@ def circular_joint(phi: Quantity, r: Quantity, M: Quantity, N: Quantity) -> join
     k_c = step("kc", "-", "line load of the rim, part of a uniform ring's", shares)
     alone = bending(u, 1 + 0 * u, bend / 2, axial).sigma
     alone = np.where(rim[..., None], 0.0, alone)
-    P = np.where(mixed[..., None], k_t[..., None] * q, alone) / r
+    P = np.where(mixed[..., None], k_t[..., None] * q, alone) / (r[..., None] if np.ndim(r) else r)
     c = side * axial / bend
     return joint.Ring(
         P=P,

@@ -137,7 +137,7 @@ def comparison(
     sheet.set_column_pixels(3, 2 + len(names), _CHAR * 17 + _PAD)  # a number with all its digits
     book.verdicts(sheet, len(rows), 3, 2 + len(names))
     for table in tables:
-        book.table(table.title, table.title, table.note, table.columns, ())
+        book.table(book.name(table.title), table.title, table.note, book.contents(table), ())
     book.file.close()
     return buffer.getvalue()
 
@@ -397,7 +397,9 @@ class _Book:
             residual: _Content = c.residual
             limit: _Content = c.limit
             if live:
-                residual, limit = Live(live[0], c.residual), Live(live[1], c.limit)
+                residual = Live(live.residual, c.residual)
+                if math.isclose(live.bound, c.limit, rel_tol=1e-9):  # a scene may have set another
+                    limit = Live(live.limit, c.limit)
                 verdict = Live(f'=IF(IFERROR(B{n}<=C{n},FALSE),"PASS","FAIL")', known)
             listed.append((c.name, residual, limit, shown(c.unit), verdict, c.reason))
         if self.twin and (guard := self.twin.guard()):

@@ -7,7 +7,7 @@ the positions is a column, and its name means the cell of the same row, so that 
 import ast
 import math
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import cache, lru_cache
 from pathlib import Path
@@ -18,7 +18,7 @@ import numpy as np
 from mechsheet import formula, inputs, symbol, worksheet
 from mechsheet.checks import Check
 from mechsheet.find import Found
-from mechsheet.recorded import Node, NotRecorded, Recorded, Recorder, takes
+from mechsheet.recorded import Node, Recorded, Recorder, takes
 from mechsheet.table import Figure, Table, heading
 
 _ADDRESS = re.compile(r"[A-Za-z]{1,3}\d+|[rR]\d*([cC]\d*)?|[cC]\d*|[rR]\d+[cC]\d+")
@@ -135,7 +135,7 @@ def _record(namespace: Mapping[str, Any], thin: int) -> Recording:
             stage.compare(names)
         except Exception as error:
             recording.left_out[cell.name] = str(error) or type(error).__name__
-            stage.numbers(names)
+            stage.numbers(names, cell.gives)
         section = sections.get(cell.name, "")
         for name in dict.fromkeys([*(n for n in cell.code.co_names if n in known_lines), *cell.gives]):
             _define(recording, section, name, names.get(name), known_lines)
@@ -254,6 +254,7 @@ class _Stage:
     ) -> None:
         self.recorder, self.recording, self.namespace, self.cell = recorder, recording, namespace, cell
         self.solved: list[Solved] = []
+        self.stated_here: list[str] = []
         given = [namespace.get(name) for name in cell.gives]
         self.real = [v for group in given for v in (group if isinstance(group, tuple | list) else [group])]
 
@@ -337,25 +338,31 @@ class _Stage:
         self._check(name, [missing.re], 0.0, "-")
 
     def _check(self, name: str, parts: list[Node], limit: Any, unit: str, signed: bool = False) -> None:
+        self.stated_here.append(name)
         self.recording.checks[name] = Residual(parts, self.recorder.lift(limit).re, unit, signed)
 
-    def compare(self, names: Mapping[str, Any]) -> None:
-        """Raise where a recorded quantity differs from the worksheet's own: then its formula would be wrong."""
-        for name in self.cell.gives:
-            value, own = names.get(name), self.namespace.get(name)
-            if isinstance(value, Recorded) and isinstance(own, int | float | complex | np.ndarray | np.generic):
-                kept = np.asarray(own) + 0
-                if kept.shape[-1:] != value.shape[-1:] and kept.shape:
-                    kept = kept[..., :: self.recorder.thin]
-                a, b = np.broadcast_arrays(value.value + 0, kept)
-                size = np.max(np.abs(b), initial=0.0, where=np.isfinite(b))
-                same = (np.abs(a - b) <= 1e-7 * size + 1e-9) | (~np.isfinite(a) & ~np.isfinite(b))
-                if not same.all():
-                    raise NotRecorded(f"{name} would differ from the worksheet by {np.nanmax(np.abs(a - b)):.3g}")
+    def compare(self, names: dict[str, Any]) -> None:
+        """Keep the worksheet's numbers where a recorded quantity differs from them: its formula would be wrong."""
+        wrong = [name for name in self.cell.gives if not self._same(names.get(name), self.namespace.get(name))]
+        if wrong:
+            self.recording.left_out[self.cell.name] = f"{', '.join(wrong)} would differ from the worksheet"
+            self.numbers(names, wrong)
+            for check in self.stated_here:
+                del self.recording.checks[check]
 
-    def numbers(self, names: dict[str, Any]) -> None:
+    def _same(self, value: Any, own: Any) -> bool:
+        if not (isinstance(value, Recorded) and isinstance(own, int | float | complex | np.ndarray | np.generic)):
+            return True
+        kept = np.asarray(own) + 0
+        if kept.shape and kept.shape[-1:] != value.shape[-1:]:
+            kept = kept[..., :: self.recorder.thin]
+        a, b = np.broadcast_arrays(value.value + 0, kept)
+        size = np.max(np.abs(b), initial=0.0, where=np.isfinite(b))
+        return bool(np.all((np.abs(a - b) <= 1e-7 * size + 1e-9) | (~np.isfinite(a) & ~np.isfinite(b))))
+
+    def numbers(self, names: dict[str, Any], which: Iterable[str]) -> None:
         """The worksheet's own values instead of formulas."""
-        for name in self.cell.gives:
+        for name in which:
             own = self.namespace.get(name)
             if isinstance(own, np.ndarray | np.generic | float) and np.asarray(own).dtype.kind in "fiuc":
                 array = np.asarray(own)

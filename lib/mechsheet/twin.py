@@ -2,12 +2,15 @@
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from typing import NamedTuple
 
 from mechsheet import units
 from mechsheet.cells import Home, formula, place, reference, spread
 from mechsheet.live import Line, Names, Recording
 from mechsheet.recorded import Node
 from mechsheet.table import Table
+
+_STEM = 24  # letters of a section in the name of its sheets, which 31 are all that Excel takes
 
 
 @dataclass
@@ -19,6 +22,14 @@ class Section:
     sheet: str
     single: list[Line] = field(default_factory=list)
     fields: list[Line] = field(default_factory=list)
+
+
+class Compared(NamedTuple):
+    """Formulas of a check's residual and of its limit, and the limit's value."""
+
+    residual: str
+    limit: str
+    bound: float
 
 
 class Twin:
@@ -135,9 +146,9 @@ class Twin:
         section = Section(title, "", "")
         section.single = [line for line in lines if line.node.value.size == 1]
         section.fields = [line for line in lines if line.node.value.size > 1]
-        section.listing = name(f"{title} lines")
+        section.listing = name(f"{title[:_STEM].rstrip()} lines")
         if section.fields:
-            section.sheet = name(f"{title} fields")
+            section.sheet = name(f"{title[:_STEM].rstrip()} fields")
         for n, line in enumerate(section.single):
             self._settle(line.node, line.symbol, section.listing, 2 + n, 1)
         for n, line in enumerate(section.fields):
@@ -179,15 +190,16 @@ class Twin:
         low, high = (reference(end, 0, 0, factor) for end in solved.interval) if solved.interval else (None, None)
         return value, left, low, high
 
-    def check(self, name: str) -> tuple[str, str] | None:
-        """Formulas of a check's residual and limit."""
+    def check(self, name: str) -> "Compared | None":
+        """Formulas of a check; None where it holds plain numbers."""
         check = self.recording.checks.get(name)
         if check is None:
             return None
         parts = [p.home.range(0, p.value.size - 1) if p.value.size > 1 else reference(p)[1:] for p in check.parts]
         largest = parts[0] if check.signed else f"MAX({','.join(parts)})"
         factor = units.parse(check.unit).factor
-        return f"={largest}" + (f"/{factor!r}" if factor != 1 else ""), reference(check.limit, 0, 0, factor)
+        residual = f"={largest}" + (f"/{factor!r}" if factor != 1 else "")
+        return Compared(residual, reference(check.limit, 0, 0, factor), float(check.limit.value) / factor)
 
     def guard(self) -> str:
         """Formula of how many of the conditions that the worksheet's code looked at have changed; "" without any."""
