@@ -203,7 +203,7 @@ _NUMBER: _Look = {"align": "right"}
 _FIELD: _Look = {**_NUMBER, "bg_color": "#FFF8D6", "border": 4, "border_color": _RULE}
 _VALUE: _Look = {**_NUMBER, "num_format": "0.000000"}
 _SMALL: _Look = {**_NUMBER, "num_format": "0.0E+00;-0.0E+00;0"}
-_SI: _Look = {**_NUMBER, "num_format": "0.000000E+00", "font_color": "#595959"}
+_SI: _Look = {**_NUMBER, "num_format": "General", "font_color": "#595959"}
 _SI_DECIMALS = 6
 _VERDICT: _Look = {"align": "center", "bold": True}
 _PASS: _Look = {"font_color": "#2F6B2F"}
@@ -350,7 +350,7 @@ class _Book:
             numbers = (row.value, row.residual, row.lower, row.upper)
             formulas = self.twin.found(row.unknown, row.unit, row.residual_unit) if self.twin else (None,) * 4
             value, residual, lower, upper = (Live(f, x) if f else x for f, x in zip(formulas, numbers, strict=True))
-            kind = "its closed form" if formulas[0] else "found"
+            kind = "its closed form" if self.twin and self.twin.closed(row.unknown) else "found"
             line = (row.symbol, value, shown(row.unit), row.meaning, residual, shown(row.residual_unit), lower, upper)
             listed.append((*line, row.other_roots, kind))
         title = "Found values, the residuals that they leave and the intervals searched"

@@ -398,7 +398,7 @@ def _define(recording: Recording, section: str, name: str, value: Any, known: Ma
     stem = name.removesuffix("_S") if symbol.is_field(name) else name
     ends = ("real", "imag") if value.im is not None else ("",)
     for node, part in zip(value.parts, ends, strict=True):
-        if node.op in ("constant", "rows", "input") or node.name:
+        if node.op in ("constant", "input") or node.name:
             continue
         node.name = heading(stem, part)
         _steps_of(node, stem, lines, set())

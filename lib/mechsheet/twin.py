@@ -115,11 +115,9 @@ class Twin:
                 own = [line] if waiting.pop(id(line.node), None) else []
                 sections.setdefault("Residuals", []).extend([*steps, *own])
         for n, node in enumerate(list(waiting.values()), 1):
-            if node.op == "rows":
-                node.name = "k"
-                sections.setdefault("Rows", []).append(Line(node, "k", "", "number of the row, from 0"))
-                continue
-            sections.setdefault("Residuals", []).append(Line(node, f"step_{n}", "", "step of a formula"))
+            rows = node.op == "rows"
+            line = Line(node, "k" if rows else f"step_{n}", "", "number of the row" if rows else "step of a formula")
+            sections.setdefault("Residuals", []).append(line)
         known = self.recording.sections
         order = sorted(sections, key=lambda title: known.index(title) if title in known else len(known))
         return [self._section(title, sections[title], name) for title in order]
@@ -189,6 +187,11 @@ class Twin:
         left = reference(solved.residual, 0, 0, target) if solved.residual else None
         low, high = (reference(end, 0, 0, factor) for end in solved.interval) if solved.interval else (None, None)
         return value, left, low, high
+
+    def closed(self, unknown: str) -> bool:
+        """Whether a found value is computed by its closed form."""
+        solved = self.recording.found.get(unknown)
+        return solved is not None and solved.inverse is not None
 
     def check(self, name: str) -> "Compared | None":
         """Formulas of a check; None where it holds plain numbers."""
