@@ -142,6 +142,7 @@ _CHAR, _PAD, _ROW = 7, 18, 21
 _UPRIGHT, _SIDEWAYS = (680, 980), (1000, 650)
 _WIDEST, _WRAP = 48, 58  # digits that the widest column holds, letters that fill a line of it
 _FIRST = 4  # rows over the numbers of a table: title, note, symbols, units
+_EMPTY = 64  # a column of no width of its own, in the last of which a chart may end
 _LONG = 40  # rows; a longer table has its charts beside it, not below
 _ONE, _MANY, _GAP = (590, 330), (455, 300), 14  # a chart alone, a chart among others, between charts
 
@@ -303,7 +304,7 @@ class _Book:
             sheet = self.sheet(name, heading, widths, _FIRST, (wide, high))
             places = [(_FIRST + rows + 1, 1, n % 2 * (width + _GAP), n // 2 * (height + _GAP)) for n in range(count)]
         else:
-            wide = sum(widths) + min(count, 1) * (width + _GAP)
+            wide = sum(widths) + min(count, 1) * (width + _GAP + _EMPTY)
             sheet = self.sheet(name, heading, widths, _FIRST, (wide, rows * _ROW))
             held = _break(sheet, wide, rows)
             fitting = round(held * _ROW / height)
@@ -313,14 +314,17 @@ class _Book:
         sheet.set_row_pixels(1, _ROW if note else _ROW // 3)
         _put(sheet, 1, 0, note, self.style(_NOTE))
         for col, column in enumerate(columns):
-            _put(sheet, 2, col, column.symbol, self.style(_HEAD, _NUMBER, _TOP))
-            _put(sheet, 3, col, shown(column.unit), self.style(_HEAD, _NUMBER, _BOTTOM, {"bold": False}))
+            side = _side(_NUMBER if column.unit else _TEXT)
+            _put(sheet, 2, col, column.symbol, self.style(_HEAD, side, _TOP))
+            _put(sheet, 3, col, shown(column.unit), self.style(_HEAD, side, _BOTTOM, {"bold": False}))
             if column.meaning:
                 sheet.write_comment(2, col, _text(column.meaning), {"font_name": "Arial", "font_size": 9})
-            look = {**_NUMBER, **({} if col else _KEY), "num_format": f"{0:.{column.decimals}f}"}
+            power = "E+00" if column.power else ""
+            look = {**side, **({} if col else _KEY), "num_format": f"{0:.{column.decimals}f}{power}"}
             style, last = self.style(look, _CELL), self.style(look, _BOTTOM)
             for row, value in enumerate(column.values, _FIRST):
-                _put(sheet, row, col, float(value), style if row < _FIRST + rows - 1 else last)
+                shown_value = value if isinstance(value, str) else float(value)
+                _put(sheet, row, col, shown_value, style if row < _FIRST + rows - 1 else last)
         for figure, (row, col, right, down) in zip(figures, places, strict=True):
             chart = self.chart(figure, name, columns)
             chart.set_size({"width": width, "height": height})
@@ -329,31 +333,33 @@ class _Book:
 
     def chart(self, figure: Figure, name: str, columns: Sequence[Column]) -> Any:
         """A chart of the cells of sheet ``name``; positions to mark are noted for the sheet Marks."""
-        rows = len(figure.x.values)
         chart = self.file.add_chart({"type": "scatter", "subtype": "straight_with_markers"})
 
-        def cells(column: Column) -> list[str | int]:
+        def cells(column: Column, part: slice) -> list[str | int]:
             col = next(col for col, other in enumerate(columns) if _same(column, other))
-            return [name, _FIRST, col, _FIRST + rows - 1, col]
+            return [name, _FIRST + part.start, col, _FIRST + part.stop - 1, col]
 
-        for n, line in enumerate(figure.lines):
+        for n, (line, part, called) in enumerate(figure.series()):
             color = _COLORS[n % len(_COLORS)]
             marker = {"type": _MARKERS[n % len(_MARKERS)], "size": 5, "border": {"color": color}}
             chart.add_series(
                 {
-                    "name": [name, 2, cells(line)[2]],
-                    "categories": cells(figure.x),
-                    "values": cells(line),
+                    "name": called or [name, 2, cells(line, part)[2]],
+                    "categories": cells(figure.x, part),
+                    "values": cells(line, part),
                     # What a viewer draws that reads no cells; without it #N/A would be a zero there.
-                    "categories_data": _drawn(figure.x.values),
-                    "values_data": _drawn(line.values),
+                    "categories_data": _drawn(figure.x.values[part]),
+                    "values_data": _drawn(line.values[part]),
                     "line": {"color": color, "width": 1.75, "dash_type": _DASHES[n // 2 % len(_DASHES)]},
-                    "marker": {**marker, "fill": {"color": color}} if rows <= _LONG else {"type": "none"},
+                    "marker": {**marker, "fill": {"color": color}}
+                    if part.stop - part.start <= _LONG
+                    else {"type": "none"},
                     "smooth": False,
                 }
             )
-        x = _axis(np.append(figure.x.values, [at for _, at in figure.marks]))
-        y = _axis(np.concatenate([line.values for line in figure.lines]))
+        axis = _decades if figure.logarithmic else _axis
+        x = axis(np.append(figure.x.values, [at for _, at in figure.marks]))
+        y = axis(np.concatenate([line.values for line in figure.lines]))
         for label, at in figure.marks:
             row = len(self.marked) + 2
             self.marked.append((_heading("Figure", figure), label, at, at, y["min"], y["max"]))
@@ -383,8 +389,9 @@ class _Book:
         }
         chart.set_x_axis({**look, **x, "name": _label(_quantity([figure.x]))})
         chart.set_y_axis({**look, **y, "name": _label(_quantity(figure.lines))})
-        several = len(figure.lines) > 1
-        marks = list(range(len(figure.lines), len(figure.lines) + len(figure.marks)))
+        lines = len(figure.series())
+        several = lines > 1
+        marks = list(range(lines, lines + len(figure.marks)))
         chart.set_legend({"position": "bottom" if several else "none", "font": _CHART, "delete_series": marks})
         chart.set_chartarea({"border": {"color": "#BFBFBF"}})
         chart.show_na_as_empty_cell()
@@ -456,7 +463,7 @@ def _length(value: str | float) -> int:
 
 def _digits(column: Column) -> int:
     """Characters of the widest cell."""
-    return max(6, len(column.symbol), len(column.unit), *(len(f"{v:.{column.decimals}f}") for v in column.values))
+    return max(6, len(column.symbol), len(column.unit), *map(len, column.texts()))
 
 
 def _heading(kind: str, numbered: Table | Figure) -> str:
@@ -502,3 +509,9 @@ def _axis(values: NDArray[np.float64]) -> dict[str, Any]:
     decimals = max(0, more - power)
     plain = decimals < 6 and max(abs(low), abs(high)) < 1e7
     return {"min": low, "max": high, "major_unit": step, "num_format": f"{0:.{decimals}f}" if plain else "0.0E+00"}
+
+
+def _decades(values: NDArray[np.float64]) -> dict[str, Any]:
+    """Limits and number format of a logarithmic axis in whole decades, the other axis at its low end."""
+    low, high = (float(10.0 ** end(np.log10(v))) for end, v in ((np.floor, values.min()), (np.ceil, values.max())))
+    return {"log_base": 10, "min": low, "max": max(high, 10 * low), "crossing": low, "num_format": "0E+00"}
