@@ -70,11 +70,10 @@ def soffice() -> str:
 def marimo_server(mode: str, worksheet: Path, folder: Path) -> Iterator[str]:
     """Address of ``marimo run`` or ``marimo edit`` of a copy of the worksheet, under the project's settings.
 
-    The copy keeps what the editor saves out of the project.
+    The copy keeps what the editor saves out of the project; those beside it are there for one that reads them.
     """
-    (folder / "worksheets").mkdir()
+    shutil.copytree(ROOT / "worksheets", folder / "worksheets", ignore=shutil.ignore_patterns("__*__"))
     sheet = shutil.copy(worksheet, folder / "worksheets")
-    shutil.copy(ROOT / "worksheets" / "page.css", folder / "worksheets")
     shutil.copy(ROOT / "pyproject.toml", folder)
     with socket.socket() as free:
         free.bind(("127.0.0.1", 0))

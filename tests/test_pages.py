@@ -9,6 +9,7 @@ import pytest
 WORKSHEETS = Path(__file__).parents[1] / "worksheets"
 # an input of each sheet by its meaning, and a new value for it
 CHANGED = {
+    "accuracy": ("positions of the hitch", "12"),
     "hitch": ("weight of the implement", "30000"),
     "landing_gear": ("mass", "1000"),
     "slotted_link": ("angular velocity of the crank", "-12,5"),

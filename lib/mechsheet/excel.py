@@ -214,6 +214,7 @@ _CHAR, _PAD, _ROW = 7, 18, 21
 _UPRIGHT, _SIDEWAYS = (680, 980), (1000, 650)
 _WIDEST, _WRAP = 48, 58  # digits that the widest column holds, letters that fill a line of it
 _FIRST = 4  # rows over the numbers of a table: title, note, symbols, units
+_EMPTY = 64  # a column of no width of its own, in the last of which a chart may end
 _LONG = 40  # rows; a longer table has its charts beside it, not below
 _ONE, _MANY, _GAP = (590, 330), (455, 300), 14  # a chart alone, a chart among others, between charts
 
@@ -450,7 +451,7 @@ class _Book:
             sheet = self.sheet(name, heading, widths, _FIRST, (wide, high))
             places = [(_FIRST + rows + 1, 1, n % 2 * (width + _GAP), n // 2 * (height + _GAP)) for n in range(count)]
         else:
-            wide = sum(widths) + min(count, 1) * (width + _GAP)
+            wide = sum(widths) + min(count, 1) * (width + _GAP + _EMPTY)
             sheet = self.sheet(name, heading, widths, _FIRST, (wide, rows * _ROW))
             held = _break(sheet, wide, rows)
             fitting = round(held * _ROW / height)
@@ -460,11 +461,13 @@ class _Book:
         sheet.set_row_pixels(1, _ROW if note else _ROW // 3)
         _put(sheet, 1, 0, note, self.style(_NOTE))
         for col, (column, cells) in enumerate(contents):
-            _put(sheet, 2, col, column.symbol, self.style(_HEAD, _NUMBER, _TOP))
-            _put(sheet, 3, col, shown(column.unit), self.style(_HEAD, _NUMBER, _BOTTOM, {"bold": False}))
+            side = _side(_NUMBER if column.unit or numbers else _TEXT)
+            _put(sheet, 2, col, column.symbol, self.style(_HEAD, side, _TOP))
+            _put(sheet, 3, col, shown(column.unit), self.style(_HEAD, side, _BOTTOM, {"bold": False}))
             if column.meaning:
                 sheet.write_comment(2, col, _text(column.meaning), {"font_name": "Arial", "font_size": 9})
-            look = {**_NUMBER, **({} if col else _KEY), "num_format": f"{0:.{column.decimals}f}", **(numbers or {})}
+            power = "E+00" if column.power else ""
+            look = {**side, **({} if col else _KEY), "num_format": f"{0:.{column.decimals}f}{power}", **(numbers or {})}
             style, last = self.style(look, _CELL), self.style(look, _BOTTOM)
             for row, value in enumerate(cells, _FIRST):
                 _put(sheet, row, col, value, style if row < _FIRST + rows - 1 else last)
@@ -476,26 +479,27 @@ class _Book:
 
     def chart(self, figure: Figure, name: str, columns: Sequence[Column]) -> Any:
         """A chart of the cells of sheet ``name``; positions to mark are noted for the sheet Marks."""
-        rows = len(figure.x.values)
         chart = self.file.add_chart({"type": "scatter", "subtype": "straight_with_markers"})
 
-        def cells(column: Column) -> list[str | int]:
+        def cells(column: Column, part: slice) -> list[str | int]:
             col = next(col for col, other in enumerate(columns) if _same(column, other))
-            return [name, _FIRST, col, _FIRST + rows - 1, col]
+            return [name, _FIRST + part.start, col, _FIRST + part.stop - 1, col]
 
-        for n, line in enumerate(figure.lines):
+        for n, (line, part, called) in enumerate(figure.series()):
             color = _COLORS[n % len(_COLORS)]
             marker = {"type": _MARKERS[n % len(_MARKERS)], "size": 5, "border": {"color": color}}
             chart.add_series(
                 {
-                    "name": [name, 2, cells(line)[2]],
-                    "categories": cells(figure.x),
-                    "values": cells(line),
+                    "name": called or [name, 2, cells(line, part)[2]],
+                    "categories": cells(figure.x, part),
+                    "values": cells(line, part),
                     # What a viewer draws that reads no cells; without it #N/A would be a zero there.
-                    "categories_data": _drawn(figure.x.values),
-                    "values_data": _drawn(line.values),
+                    "categories_data": _drawn(figure.x.values[part]),
+                    "values_data": _drawn(line.values[part]),
                     "line": {"color": color, "width": 1.75, "dash_type": _DASHES[n // 2 % len(_DASHES)]},
-                    "marker": {**marker, "fill": {"color": color}} if rows <= _LONG else {"type": "none"},
+                    "marker": {**marker, "fill": {"color": color}}
+                    if part.stop - part.start <= _LONG
+                    else {"type": "none"},
                     "smooth": False,
                 }
             )
@@ -504,8 +508,9 @@ class _Book:
             sheet, top, col, bottom, _ = place
             return Home("", str(sheet), int(top), int(col)).range(0, int(bottom) - int(top))
 
-        x = _axis(np.append(figure.x.values, [at for _, at in figure.marks]))
-        y = _axis(np.concatenate([line.values for line in figure.lines]))
+        axis = _decades if figure.logarithmic else _axis
+        x = axis(np.append(figure.x.values, [at for _, at in figure.marks]))
+        y = axis(np.concatenate([line.values for line in figure.lines]))
         for label, at in figure.marks:
             row = len(self.marked) + 2
             place: _Content = at
@@ -513,7 +518,7 @@ class _Book:
             if formula := self.twin and self.twin.mark(figure.number, label, figure.x.unit):
                 place = Live(formula, at)
                 numbers = np.concatenate([line.values for line in figure.lines])
-                ranges = ",".join(range_of(cells(line)) for line in figure.lines)
+                ranges = ",".join(range_of(cells(line, part)) for line, part, _ in figure.series())
                 ends = [Live(f"={f}({ranges})", float(g(numbers))) for f, g in (("MIN", np.min), ("MAX", np.max))]
             self.marked.append((_heading("Figure", figure), label, place, place, *ends))
             chart.add_series(
@@ -540,12 +545,13 @@ class _Book:
             "line": {"color": _RULE},
             "major_gridlines": {"visible": True, "line": {"color": "#D9D9D9", "width": 0.5}},
         }
-        if self.twin:  # axes follow the numbers
+        if self.twin and not figure.logarithmic:  # axes follow the numbers
             x = y = {}
         chart.set_x_axis({**look, **x, "name": _label(_quantity([figure.x]))})
         chart.set_y_axis({**look, **y, "name": _label(_quantity(figure.lines))})
-        several = len(figure.lines) > 1
-        marks = list(range(len(figure.lines), len(figure.lines) + len(figure.marks)))
+        lines = len(figure.series())
+        several = lines > 1
+        marks = list(range(lines, lines + len(figure.marks)))
         chart.set_legend({"position": "bottom" if several else "none", "font": _CHART, "delete_series": marks})
         chart.set_chartarea({"border": {"color": "#BFBFBF"}})
         chart.show_na_as_empty_cell()
@@ -642,7 +648,7 @@ def _length(value: _Content) -> int:
 
 def _digits(column: Column) -> int:
     """Characters of the widest cell."""
-    return max(6, len(column.symbol), len(column.unit), *(len(f"{v:.{column.decimals}f}") for v in column.values))
+    return max(6, len(column.symbol), len(column.unit), *map(len, column.texts()))
 
 
 def _heading(kind: str, numbered: Table | Figure) -> str:
@@ -688,3 +694,9 @@ def _axis(values: NDArray[np.float64]) -> dict[str, Any]:
     decimals = max(0, more - power)
     plain = decimals < 6 and max(abs(low), abs(high)) < 1e7
     return {"min": low, "max": high, "major_unit": step, "num_format": f"{0:.{decimals}f}" if plain else "0.0E+00"}
+
+
+def _decades(values: NDArray[np.float64]) -> dict[str, Any]:
+    """Limits and number format of a logarithmic axis in whole decades, the other axis at its low end."""
+    low, high = (float(10.0 ** end(np.log10(v))) for end, v in ((np.floor, values.min()), (np.ceil, values.max())))
+    return {"log_base": 10, "min": low, "max": max(high, 10 * low), "crossing": low, "num_format": "0E+00"}

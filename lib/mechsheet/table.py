@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from itertools import takewhile
 from types import FrameType
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,13 +28,21 @@ _MARKED = 60  # points of a curve that are marked one by one; more of them hide 
 
 @dataclass(frozen=True)
 class Column:
-    """One quantity over the rows of a table: its symbol, display unit, meaning and values in that unit."""
+    """One quantity over the rows of a table: its symbol, display unit, meaning and values in that unit.
+
+    Values may be texts, of unit "". ``power`` shows numbers as 1.2e-15.
+    """
 
     symbol: str
     unit: str
     meaning: str
     decimals: int
-    values: NDArray[np.float64]
+    values: NDArray[Any]
+    power: bool = False
+
+    def texts(self) -> list[str]:
+        """The values as they are shown."""
+        return [v if isinstance(v, str) else _digits(v, self.decimals, "e" if self.power else "f") for v in self.values]
 
 
 @dataclass(frozen=True)
@@ -50,10 +58,10 @@ class Table:
         """The table as a pandas DataFrame, headings ``symbol [unit]``."""
         import pandas as pd
 
-        return pd.DataFrame({f"{c.symbol} [{c.unit}]": c.values for c in self.columns})
+        return pd.DataFrame({f"{c.symbol} [{c.unit}]" if c.unit else c.symbol: c.values for c in self.columns})
 
     def _mime_(self) -> tuple[str, str]:
-        whole = list(takewhile(lambda c: c.unit == "-" and c.decimals == 0, self.columns))
+        whole = list(takewhile(lambda c: c.unit in ("-", "") and c.decimals == 0, self.columns))
         keys = self.columns[: max(1, len(whole))] if len(whole) < len(self.columns) else self.columns[:1]
         rest = self.columns[len(keys) :]
         blocks = [rest[i : i + _BLOCK] for i in range(0, max(len(rest), 1), _BLOCK)]
@@ -64,10 +72,17 @@ class Table:
 
 def _block(columns: list[Column]) -> str:
     cell = 'style="text-align:right;padding:.1em .7em;font-variant-numeric:tabular-nums"'
-    heads = "".join(f'<th {cell} title="{html.escape(c.meaning)}">{symbol.html(c.symbol)}</th>' for c in columns)
-    unit_row = "".join(f"<th {cell}>[{html.escape(units.shown(c.unit))}]</th>" for c in columns)
-    texts = [[_digits(v, c.decimals) for v in c.values] for c in columns]
-    rows = "".join("<tr>" + "".join(f"<td {cell}>{t}</td>" for t in row) + "</tr>" for row in zip(*texts, strict=True))
+    left = cell.replace("right", "left", 1)
+    looks = [cell if c.unit else left for c in columns]
+    heads = "".join(
+        f'<th {look} title="{html.escape(c.meaning)}">{symbol.html(c.symbol)}</th>'
+        for c, look in zip(columns, looks, strict=True)
+    )
+    unit_row = "".join(f"<th {cell}>{f'[{html.escape(units.shown(c.unit))}]' if c.unit else ''}</th>" for c in columns)
+    rows = "".join(
+        "<tr>" + "".join(f"<td {look}>{html.escape(t)}</td>" for t, look in zip(row, looks, strict=True)) + "</tr>"
+        for row in zip(*(c.texts() for c in columns), strict=True)
+    )
     return (
         '<table style="border-collapse:collapse;margin:.4em 0 1em"><thead>'
         f'<tr>{heads}</tr><tr style="opacity:.6;border-bottom:1px solid currentColor">{unit_row}</tr></thead>'
@@ -75,8 +90,8 @@ def _block(columns: list[Column]) -> str:
     )
 
 
-def _digits(value: float, decimals: int) -> str:
-    return "–" if np.isnan(value) else f"{value:z.{decimals}f}".replace("inf", "∞")
+def _digits(value: float, decimals: int, kind: str) -> str:
+    return "–" if np.isnan(value) else f"{value:z.{decimals}{kind}}".replace("inf", "∞")
 
 
 @dataclass(frozen=True)
@@ -88,6 +103,12 @@ class Figure:
     x: Column
     lines: tuple[Column, ...]
     marks: tuple[tuple[str, float], ...] = ()
+
+    logarithmic: ClassVar[bool] = False  # both axes
+
+    def series(self) -> list[tuple[Column, slice, str]]:
+        """Curves: a column over which rows, and a name for what it is where that is not its symbol."""
+        return [(line, slice(0, len(line.values)), "") for line in self.lines]
 
     def _mime_(self) -> tuple[str, str]:
         import marimo as mo

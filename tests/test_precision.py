@@ -1,0 +1,196 @@
+"""Error against run time: errors, places and the front of known methods, and how they are timed and shown."""
+
+import re
+import sys
+from io import BytesIO
+from itertools import count
+from zipfile import ZipFile
+
+import mpmath as mp
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from mechsheet import excel, precision
+from mechsheet.precision import ROUNDING, Comparison, Measured, Method, Truth, compare, progress, timed
+
+OWN = Measured("own", "", 3e-16, 1.0)
+
+
+def job(*rows: Measured) -> Comparison:
+    return Comparison("1", "Job", (OWN, *rows))
+
+
+# Errors
+
+
+def test_error_counts_from_the_exact_number_and_not_from_its_float():
+    tenth = mp.mpf(1) / 10
+    off = float(abs(mp.mpf(0.1) - tenth))
+    with mp.workdps(50):
+        fine = Truth([mp.mpf(1) / 3 + mp.mpf("1e-12")])
+    assert Truth([tenth, mp.mpf(1)]).error([0.1, 1 + 3e-13]) == pytest.approx(3e-13, rel=1e-3)
+    assert off < ROUNDING and Truth([tenth]).error([0.1]) == ROUNDING
+    assert fine.error([1 / 3]) == pytest.approx(3e-12, rel=1e-4)
+
+
+def test_error_is_relative_to_the_largest_number_and_ends_at_one():
+    truth = Truth([mp.mpc(3, 4), mp.mpf(1)])
+    assert truth.error([3 + 4j, 1.05]) == pytest.approx(0.01)
+    assert truth.error([30 + 40j, 1]) == truth.error([3 + 4j, np.nan]) == truth.error([np.inf, 1]) == 1
+    assert truth.error(np.array([[3 + 4j], [1]])) == ROUNDING
+
+
+# Places
+
+
+@pytest.mark.parametrize(
+    ("error", "seconds", "place"),
+    [
+        (1e-10, 0.1, "faster, fewer digits"),
+        (1e-10, 9.0, "slower, fewer digits"),
+        (9e-16, 0.1, "faster, the same digits"),  # a few units in the last place are no more digits, nor fewer
+        (1.2e-16, 0.1, "faster, the same digits"),
+        (1.2e-16, 0.95, "slower, the same digits"),
+    ],
+)
+def test_place_beside_the_own_method(error, seconds, place):
+    assert job(row := Measured("other", "", error, seconds)).place(row) == place
+
+
+def test_a_method_that_is_faster_and_more_accurate_is_named_and_the_check_fails():
+    better = Measured("better", "1e-14", 1e-14, 0.5)
+    bad = Comparison("1", "Job", (Measured("own", "", 1e-12, 1.0), better, Measured("worse", "", 1e-3, 0.1)))
+    assert bad.better == (better,)
+    assert not bad.check().passed and bad.check().residual == pytest.approx(2)
+    assert job(better).check().passed and job(better).better == ()
+
+
+def test_time_does_not_count_in_the_check():
+    assert job(Measured("other", "", 3e-16, 1e-9)).check().passed
+    assert not Comparison("1", "", (Measured("own", "", 1e-9, 1e-9), Measured("slow", "", 1e-15, 1e9))).check().passed
+
+
+exponents = st.tuples(st.integers(-16, 0), st.integers(-6, 3))
+
+
+@given(st.lists(exponents, min_size=1, max_size=20))
+def test_front_holds_those_that_nothing_surpasses_and_no_others(places):
+    rows = [Measured(str(i), "", 10.0**e, 10.0**t) for i, (e, t) in enumerate(places)]
+    front = Comparison("1", "", tuple(rows)).front
+    for row in rows:
+        surpassed = any(
+            (o.seconds <= row.seconds and o.error < row.error) or (o.seconds < row.seconds and o.error <= row.error)
+            for o in rows
+        )
+        same = any((row.seconds, row.error) == (f.seconds, f.error) for f in front)
+        assert same == (not surpassed)
+
+
+def test_summary_takes_the_fastest_setting_of_the_most_digits_of_each_family():
+    newton = [Measured("Newton", f"{k}", 10.0**-k, 1 + k) for k in (3, 8, 15)] + [Measured("Newton", "16", 1e-16, 40)]
+    summary, table = job(*newton).summary(), job(*newton).table()
+    assert list(summary.columns[1].values) == ["", "15"]
+    assert list(table.columns[1].values) == ["", "3", "8", "15", "16"]
+    assert np.allclose(table.columns[5].values, [1, 4, 9, 16, 40])
+
+
+# Timing
+
+
+def test_methods_run_turn_about_and_medians_are_taken(monkeypatch):
+    """A clock of its own: 'long' takes 3 s, then 5 and 4; 'short' 1 s."""
+    now, calls, lengths = [0.0], [], iter([3.0, 5.0, 4.0])
+    monkeypatch.setattr(precision, "perf_counter", lambda: now[0])
+
+    def run(name, seconds):
+        def once():
+            calls.append(name)
+            now[0] += seconds if name == "short" else next(lengths)
+            return name
+
+        return once
+
+    done = count()
+    found = timed([run("long", None), run("short", 1.0)], 6.0, lambda: next(done))
+    assert found == [("long", 4.0), ("short", 1.0)]
+    assert calls == ["long", "short"] * 3 + ["short"] * 4, "the first run of the short one is not counted"
+    assert next(done) == 2
+
+
+def test_a_very_long_method_runs_once(monkeypatch):
+    now = [0.0]
+    monkeypatch.setattr(precision, "perf_counter", lambda: now[0])
+    runs = count()
+
+    def long():
+        next(runs)
+        now[0] += 100.0
+
+    assert timed([long], 6.0) == [(None, 100.0)] and next(runs) == 1
+
+
+def test_compare_returns_errors_and_times_in_order():
+    truth = Truth([mp.pi, mp.e])
+    ways = [Method("numpy", "", lambda: [np.pi, np.e]), Method("rough", "2", lambda: [3.14, 2.72])]
+    found = compare("7", "Constants", ways, truth.error, seconds=1e-4)
+    assert [(row.family, row.setting) for row in found.rows] == [("numpy", ""), ("rough", "2")]
+    assert found.rows[0].error == ROUNDING and found.rows[1].error == pytest.approx((2.72 - np.e) / np.pi)
+    assert all(row.seconds > 0 for row in found.rows)
+
+
+# What is shown
+
+
+def test_table_shows_texts_powers_and_the_workbook_keeps_them():
+    table = job(Measured("Newton <5>", "1e-03", 4.2e-12, 2.0)).table()
+    page = table._mime_()[1]
+    assert "4.2e-12" in page and "Newton &lt;5&gt;" in page and "slower, fewer digits" in page
+    assert "[]" not in page
+    assert list(table.frame().columns) == [
+        *("method", "setting", "error [-]", "digits [-]", "time [ms]", "ratio [-]", "place"),
+    ]
+
+
+def test_chart_of_the_workbook_is_logarithmic_with_a_series_for_each_family():
+    found = job(*(Measured("Newton", f"{k}", 10.0**-k, 1 + k) for k in (3, 8, 15)))
+    data = excel.workbook("T", inputs=[], found=[], tables=[found.table()], figures=[found.figure()], checks=[])
+    with ZipFile(BytesIO(data)) as file:
+        chart = file.read("xl/charts/chart1.xml").decode()
+    assert chart.count('<c:logBase val="10"/>') == 2
+    assert re.findall(r"<c:f>'1 Job'!(\S+)</c:f>", chart) == ["$F$5", "$C$5", "$F$6:$F$8", "$C$6:$C$8"]
+    assert re.findall(r"<c:tx><c:v>(.*?)</c:v>", chart) == ["own", "Newton"]
+
+
+def layers(found):
+    spec = found.figure().chart().to_dict()
+    return [
+        (layer["mark"]["type"], spec["datasets"][layer["data"]["name"]] if "data" in layer else None)
+        for layer in spec["layer"]
+    ]
+
+
+def test_figure_marks_the_own_method_and_joins_the_front():
+    found = layers(job(Measured("rough", "", 1e-3, 0.01), Measured("slow", "", 1e-10, 5.0)))
+    assert [mark for mark, _ in found] == ["rect", "text", "line", "line", "point", "point"]
+    assert [(p["x"], p["error"]) for p in found[2][1]][1:-1] == [(0.01, 1e-3), (1.0, 3e-16)]
+
+
+def test_red_field_holds_what_is_faster_and_more_accurate_beyond_rounding():
+    """It ends where errors are rounding: a method there is no better than one of the same digits."""
+    own = Measured("own", "", 1e-9, 2.0)
+    found = layers(Comparison("1", "Job", (own, Measured("better", "", 1e-15, 1.0))))
+    (grey,), (red,) = (data for mark, data in found if mark == "rect")
+    assert (red["right"], red["error"], red["high"]) == (1.0, 8 * ROUNDING, 1e-9)
+    assert (grey["error"], grey["high"]) == (1e-16, 8 * ROUNDING)
+
+
+def test_progress_is_drawn_on_a_terminal_only(monkeypatch, capsys):
+    with progress(2, "Job") as done:
+        done()
+    assert capsys.readouterr().err == ""
+    monkeypatch.setattr(sys.stderr, "isatty", lambda: True)
+    with progress(2, "Job") as done:
+        done()
+        assert f"[{'#' * 15}{'.' * 15}]" in capsys.readouterr().err
