@@ -105,7 +105,8 @@ def workbook(
     holders = [_holder(figure, tables) for figure in figures]
     for table, name in zip(tables, names, strict=True):
         held = [figure for figure, holder in zip(figures, holders, strict=True) if holder is table]
-        book.table(name, _heading("Table", table), table.note, book.contents(table), held)
+        contents = book.contents(table)
+        book.table(name, _heading("Table", table), f"{table.note} {_plain(contents)}".strip(), contents, held)
     for figure, holder in zip(figures, holders, strict=True):
         if holder is None:
             columns = [(c, c.values.tolist()) for c in (figure.x, *figure.lines)]
@@ -305,6 +306,7 @@ class _Book:
         sheet = self.sheet(name, heading, widths, 2, (sum(widths), _ROW * (len(rows) + 3)))
         for col, (head, look) in enumerate(fields):
             _put(sheet, 1, col, head, self.style(_HEAD, _TOP, _BOTTOM, _side(look)))
+        styles = [self.style(_CELL, look) for _, look in fields]
         for n, row in enumerate(rows, 2):
             if len(row) == 1:
                 sheet.set_row_pixels(n, _ROW + 10)
@@ -312,8 +314,8 @@ class _Book:
                 continue
             lines = math.ceil(max(map(_length, row)) / _WRAP)
             sheet.set_row_pixels(n, _ROW + (lines - 1) * (_ROW - 5))
-            for col, (value, (_, look)) in enumerate(zip(row, fields, strict=True)):
-                _put(sheet, n, col, value, self.style(_CELL, look))
+            for col, (value, style) in enumerate(zip(row, styles, strict=True)):
+                _put(sheet, n, col, value, style)
         return sheet
 
     def contents(self, table: Table) -> list[tuple[Column, Sequence[_Content]]]:
@@ -574,6 +576,13 @@ def _taken(cell: str, factor: float) -> str:
     return f"={number}" if factor == 1 else f"={number}*" + ("PI()/180" if factor == math.pi / 180 else repr(factor))
 
 
+def _plain(contents: Sequence[tuple[Column, Sequence[_Content]]]) -> str:
+    """Note of the columns without formulas in a table that has some with them."""
+    live = [any(isinstance(value, Live) for value in cells) for _, cells in contents]
+    plain = [column.symbol for (column, _), has in zip(contents, live, strict=True) if not has and column.unit]
+    return f"Numbers, not formulas: {', '.join(plain)}." if any(live) and plain else ""
+
+
 def _live(formulas: Sequence[str] | None, values: Sequence[float]) -> Sequence[_Content]:
     return [Live(*pair) for pair in zip(formulas, values, strict=True)] if formulas else values
 
@@ -624,6 +633,8 @@ def _text(text: str) -> str:
 
     XlsxWriter takes ``<r>..</r>`` for markup of its own, so a space is put before it.
     """
+    if text.isprintable() and not text.startswith("<r>"):
+        return text
     text = re.sub("[\x00-\x08\x0b-\x1f\x7f\ud800-\udfff\ufffe\uffff]", "�", text)
     return f" {text}" if text.startswith("<r>") else text
 
