@@ -9,7 +9,7 @@ from types import CodeType
 from typing import Any
 
 from mechsheet import inputs
-from mechsheet.errors import SheetError
+from mechsheet.errors import SheetError, raised
 
 
 @dataclass(frozen=True)
@@ -36,8 +36,9 @@ class Worksheet:
         Raises SheetError naming what no cell defines.
         """
         names = {**self.common, **given}
-        for cell in self.needed(want, given):
-            exec(cell.code, names)
+        with raised():
+            for cell in self.needed(want, given):
+                exec(cell.code, names)
         return names
 
     def needed(self, want: Iterable[str], given: Iterable[str] = ()) -> list[Cell]:
