@@ -21,7 +21,7 @@ with app.setup:
     from scipy.interpolate import CubicSpline
     from scipy.optimize import brentq, fsolve, newton, root
 
-    from mechsheet import exact
+    from mechsheet import exact, extreme
     from mechsheet.checks import Check, summary
     from mechsheet.dyads import rrr, rrr_acceleration, rrr_reach, rrr_velocity
     from mechsheet.errors import SheetError, refuse
@@ -56,8 +56,8 @@ def title():
 
 
 @app.cell(hide_code=True)
-def verdict(check_11, check_12, check_21, check_22, check_31, check_32, check_41, check_42, checks_5):
-    summary(check_11, check_12, check_21, check_22, check_31, check_32, check_41, check_42, checks_5)
+def verdict(check_11, check_12, check_21, check_22, check_31, check_32, check_41, check_42, checks_5, checks_7):
+    summary(check_11, check_12, check_21, check_22, check_31, check_32, check_41, check_42, checks_5, checks_7)
     return
 
 
@@ -1364,10 +1364,127 @@ def wants(seconds):
 
 @app.cell(hide_code=True)
 def section_7():
-    mo.md("""
+    mo.md(r"""
     ## 7 Stiff and extreme scenes
+
+    How many digits can a result keep? With inputs $x_i$, rounded to 16 digits, and the result $y$, no method keeps more
+    than $16 - \log_{10}\kappa$ of them for sure, where
+
+    $$\kappa = \sum_i \left| x_i \frac{\partial y}{\partial x_i} \right| / |y|$$
+
+    is its condition number, taken here from derivatives at 50 digits. A small $\kappa$ with digits lost is the fault of
+    a method; a large one is the nature of the scene. Each scene is a file in `tests/scenes`, run through the worksheet
+    that it names, or through the library where it names a group. Lengths that a Find has found, the stroke of a
+    position and the pin of a single group count as inputs of what follows, since they are rounded to 16 digits too.
+
+    The product must keep the digits expected, less at most one. Where nothing exists, or can be told from rounding, it
+    must say so in words. The printed formulas get every help: the lengths found, the right quadrants, the corrected
+    signs. In the scene `through_dead_centre` the velocity equations are integrated in their place, by Radau's implicit
+    method, for they are stiff.
     """)
     return
+
+
+@app.cell
+def scenes(g):
+    scenes_7 = [extreme.read(path) for path in sorted((folder.parent / "tests" / "scenes").glob("*.toml"))]
+    measured_7 = {}
+    with progress(len(scenes_7), "scenes") as done:
+        for scene in scenes_7:
+            measured_7[scene.name] = extreme.measure(scene, folder, short=not g.full)
+            done()
+    outcomes_7 = [outcome for outcomes in measured_7.values() for outcome in outcomes]
+    return measured_7, outcomes_7, scenes_7
+
+
+@app.cell
+def checks_of_scenes(outcomes_7):
+    def lost(outcomes):
+        return "; ".join(f"{o.scene} {o.case} {o.result}: {o.product:.1f} of {o.expected:.1f} digits" for o in outcomes)
+
+    short = [o for o in outcomes_7 if not o.wanted and not o.holds]
+    silent = [o for o in outcomes_7 if o.wanted and not o.holds]
+    unsaid = "; ".join(f"{o.scene} {o.case}: {o.wanted!r} is not said" for o in silent)
+    checks_7 = (
+        Check("results that lose more than a digit beyond their condition", len(short), 0, reason=lost(short[:3])),
+        Check("scenes that cannot exist, and nobody says so", len(silent), 0, reason=unsaid),
+    )
+    typeset(*checks_7)
+    return (checks_7,)
+
+
+@app.cell
+def table_71(measured_7, scenes_7):
+    def hardest(outcomes):
+        """The result whose printed formula loses most beyond its condition, or the product where none is printed."""
+        told = [o for o in outcomes if o.expected > extreme.SPARE and np.isfinite(o.condition)]
+        return max(told, key=lambda o: (o.expected - o.printed if np.isfinite(o.printed) else -99, -o.product))
+
+    shown = [(scene, measured_7[scene.name]) for scene in scenes_7 if not scene.says]
+    picked = [hardest(outcomes) for _, outcomes in shown]
+    margin = [min(o.product - o.expected for o in outcomes) for _, outcomes in shown]
+
+    def texts(values):
+        return np.array([*values], object)
+
+    def numbers(values):
+        return np.array([*values], float)
+
+    table_71 = Table(
+        "7.1",
+        "Digits in stiff and extreme scenes",
+        (
+            Column("scene", "", "file in tests/scenes", 0, texts(s.name.replace("_", " ") for s, _ in shown)),
+            Column("results", "-", "results measured", 0, numbers(len(outcomes) for _, outcomes in shown)),
+            Column("result", "", "where the printed formulas lose most", 0, texts(o.result for o in picked)),
+            Column("log κ", "-", "logarithm of its condition number", 1, np.log10([o.condition for o in picked])),
+            Column("expected", "-", "digits expected", 1, numbers(o.expected for o in picked)),
+            Column("printed", "-", "digits kept by the printed formulas", 1, numbers(o.printed for o in picked)),
+            Column("product", "-", "digits kept by the product", 1, numbers(o.product for o in picked)),
+            Column("margin", "-", "digits kept less digits expected, the least of all results", 1, numbers(margin)),
+        ),
+        note="A dash: the documents have no formula. The margin must not be less than -1.",
+    )
+    table_71
+    return numbers, table_71, texts
+
+
+@app.cell
+def table_72(scenes_7, texts):
+    table_72 = Table(
+        "7.2",
+        "What the scenes are",
+        (
+            Column("scene", "", "file in tests/scenes", 0, texts(s.name.replace("_", " ") for s in scenes_7)),
+            Column("through", "", "worksheet or group", 0, texts(s.job.replace("_", " ") for s in scenes_7)),
+            Column("what it is", "", "", 0, texts(s.about for s in scenes_7)),
+        ),
+    )
+    table_72
+    return (table_72,)
+
+
+@app.cell
+def figure_71(outcomes_7):
+    figure_71 = extreme.Kept(outcomes_7)
+    typeset(figure_71, mo.md("**Figure 7.1** – Digits kept over digits expected, every result of every scene"))
+    return (figure_71,)
+
+
+@app.cell
+def table_73(outcomes_7, texts):
+    said = [o for o in outcomes_7 if o.wanted]
+    table_73 = Table(
+        "7.3",
+        "What is said where nothing exists",
+        (
+            Column("scene", "", "file in tests/scenes", 0, texts(o.scene.replace("_", " ") for o in said)),
+            Column("input", "", "value of the input that varies", 0, texts(o.case for o in said)),
+            Column("words", "", "", 0, texts(o.words.split("; ")[0] for o in said)),
+        ),
+    )
+    table_73
+    return (table_73,)
 
 
 @app.cell

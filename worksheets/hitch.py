@@ -388,11 +388,11 @@ def closing(L4, L57, L7, O1, O3, O5, O7, P23_S, P34_S, P45_S, P56_S, P67_S, S, g
 
 @app.cell(hide_code=True)
 def section_25():
-    mo.md("""
+    mo.md(r"""
     ### 2.5 Centre of mass of the implement
 
-    $X_6, Y_6$ are given at work, in the axes of the tractor; turned back by the mast's angle there, they stay with
-    the mast.
+    $X_6, Y_6$ are given at work, in the axes of the tractor; turned back by the mast's angle there, $\varphi_6(S_p) =
+    \varphi_{P6}$, they stay with the mast.
     """)
     return
 
@@ -401,7 +401,7 @@ def section_25():
 def centre_of_mass(L4, L7, P56, P67, S_p, g, phi6):
     LS6 = sqrt(g.X6**2 + g.Y6**2)  # [m] suspension axis to the centre of mass
     r_s = abs(g.X6 + 1j * g.Y6 - P67(S_p, L7))  # [m] printed by the document, mixes two frames; nothing uses it
-    phiS6 = (atan2(g.Y6, g.X6) - phi6(S_p, L7)) % (2 * pi)  # [deg] from the mast to the centre of mass
+    phiS6 = (atan2(g.Y6, g.X6) - g.phi_P6) % (2 * pi)  # [deg] from the mast to the centre of mass
 
     def PS6(S):
         return P56(S, L4) + LS6 * exp(1j * (phiS6 + phi6(S, L7)))  # [m] centre of mass of the implement

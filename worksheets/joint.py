@@ -15,7 +15,7 @@ with app.setup:
     from mechsheet.drawing import Drawing
     from mechsheet.formula import typeset
     from mechsheet.inputs import Used, ask, inputs, read
-    from mechsheet.joint import bending, circular_joint, neutral_axis
+    from mechsheet.joint import bending, circular_joint, neutral_axis, sum_of_elements
     from mechsheet.report import export
     from mechsheet.table import table
     from mechsheet.units import parse
@@ -152,7 +152,7 @@ def stringers(x):
 @app.function
 def total(x):
     """Sum over the elements."""
-    return x.sum(-1, keepdims=True)
+    return sum_of_elements(x)[..., None]
 
 
 @app.function

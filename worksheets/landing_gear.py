@@ -147,7 +147,7 @@ def section_22():
 @app.cell
 def step_2(beta0, g, mu):
     if np.any(g.theta >= 2 * mu):
-        _swing, _limit = (np.round(x / deg, 4) for x in (g.theta, 2 * mu))
+        _swing, _limit = (np.round(x / deg, 12) for x in (g.theta, 2 * mu))
         refuse(
             SheetError(f"swing theta = {_swing} deg must be < 2 mu = {_limit} deg: the crank passes the dead centre")
         )
@@ -174,6 +174,8 @@ def step_3(g, gamma_0, gamma_n, l12, mu):
     l20 = abs(l12 - g.l3 * exp(1j * gamma_0))  # [m] (7) cylinder, extended leg
     l2n = abs(l12 - g.l3 * exp(1j * gamma_n))  # [m] (8) cylinder, retracted leg
     H = 4 * g.l3 * l12 * sin(mu) * sin(g.theta / 2) / (l2n + l20)  # [m] (6) stroke, l2n - l20
+    if np.any(l20 - (l12 - g.l3) <= 4 * ulp * l12):  # the length of the cylinder no longer tells the crank's angle
+        refuse(SheetError(f"swing theta = {np.round(g.theta / deg, 12)} deg begins at the dead centre of the crank"))
     typeset()
     return H, l20, l2n
 

@@ -151,4 +151,8 @@ def require(point: ArrayLike, over: ArrayLike, reaches: tuple[Any, Any], what: s
 def _unreached(lost: NDArray[np.bool_], over: ArrayLike, reaches: tuple[Any, Any], what: str, unit: str) -> str:
     factor = units.parse(unit).factor
     x, lo, hi = (float(np.broadcast_to(v, np.shape(lost))[lost].flat[0]) / factor for v in (np.asarray(over), *reaches))
-    return f"no position closes for {what} = {x:.7g} {unit}: it reaches {lo:.7g}..{hi:.7g} {unit}"
+    if np.isnan(x):
+        return f"no position closes: there is no {what}"
+    digits = next((n for n in range(7, 17) if len({f"{v:.{n}g}" for v in {x, lo, hi}}) == len({x, lo, hi})), 17)
+    x_, lo_, hi_ = (f"{v:.{digits}g}" for v in (x, lo, hi))  # as many digits as tell them apart
+    return f"no position closes for {what} = {x_} {unit}: it reaches {lo_}..{hi_} {unit}"

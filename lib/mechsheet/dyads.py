@@ -49,6 +49,8 @@ from mechsheet.arguments import (
 )
 from mechsheet.planar import angle_between, cross, dot, triangle_area
 
+_ROUNDING = 2.0**-53  # relative error of one rounding
+
 
 class RRRVelocity(NamedTuple):
     """First derivatives of an RRR group."""
@@ -109,7 +111,8 @@ def rrr(A: ArrayLike, B: ArrayLike, r_A: ArrayLike, r_B: ArrayLike, branch: Arra
 
     .. math:: C = A + (a + i\,h)\,(B - A)/L^2, \quad a = (L^2 + r_A^2 - r_B^2)/2, \quad h = 2 s S, \quad L = |B - A|
 
-    with S the area of the triangle of the sides L, r_A, r_B. The difference of squares is factored.
+    with S the area of the triangle of the sides L, r_A, r_B. The difference of squares is factored. The sum starts from
+    the pin of the shorter link, with the same formula, so that the length of each link keeps its digits.
 
     Parameters
     ----------
@@ -137,10 +140,18 @@ def rrr(A: ArrayLike, B: ArrayLike, r_A: ArrayLike, r_B: ArrayLike, branch: Arra
     """
     A, d, L = _outer_pins(A, B)
     r_A, r_B = not_negative(r_A, "length r_A", "m"), not_negative(r_B, "length r_B", "m")
-    longer = np.maximum(L, r_A)
-    a = (np.minimum(L, r_A) ** 2 + (longer - r_B) * (longer + r_B)) / 2
     h = 2 * sign(branch) * triangle_area(L, r_A, r_B)
-    return A + (a / L**2 + 1j * (h / L**2)) * d
+    from_A = r_A <= r_B
+    count = np.count_nonzero(from_A)
+    if 0 < count < from_A.size:
+        P, r, other = np.where(from_A, A, field(B, "B")), np.minimum(r_A, r_B), np.maximum(r_A, r_B)
+        way: ArrayLike = np.where(from_A, 1.0, -1.0)
+    else:  # the same without the cost of choosing element by element
+        P, r, other, way = (A, r_A, r_B, 1.0) if count else (field(B, "B"), r_B, r_A, -1.0)
+    longer = np.maximum(L, r)
+    a = (np.minimum(L, r) ** 2 + (longer - other) * (longer + other)) / 2
+    C: Complex = P + (way * a / L**2 + 1j * (h / L**2)) * d
+    return C
 
 
 @elementwise
@@ -223,7 +234,7 @@ def rrr_velocity(
     """
     a, b = _links(A, B, C)
     v_A, v_B = _moved(field(v_A, "v_A"), a, dr_A, "dr_A"), _moved(field(v_B, "v_B"), b, dr_B, "dr_B")
-    omega_A, omega_B = _turning(a, b, v_B - v_A)
+    omega_A, omega_B = _turning(a, b, v_B - v_A, rrr_determinant(A, B, C))
     return RRRVelocity(v_A + 1j * omega_A * a, omega_A, omega_B)
 
 
@@ -277,8 +288,27 @@ def rrr_acceleration(
     a, b = _links(A, B, C)
     a_A = field(a_A, "a_A") + _carried(a, omega_A, dr_A, ddr_A, "A")
     a_B = field(a_B, "a_B") + _carried(b, omega_B, dr_B, ddr_B, "B")
-    epsilon_A, epsilon_B = _turning(a, b, a_B - a_A)
+    epsilon_A, epsilon_B = _turning(a, b, a_B - a_A, rrr_determinant(A, B, C))
     return RRRAcceleration(a_A + 1j * epsilon_A * a, epsilon_A, epsilon_B)
+
+
+def rrr_determinant(A: ArrayLike, B: ArrayLike, C: ArrayLike) -> Float:
+    r"""Determinant of the dyad A-C-B; NaN at a dead centre, where it is no larger than rounding of the pins makes it.
+
+    .. math:: D = a \times b, \quad a = C - A, \; b = C - B
+
+    A difference of two rounded pins is off by their rounding: below that nothing is left of derivatives and
+    reactions, whose condition is at least that of D.
+
+    >>> rrr_determinant(0, 5, [4 + 3j, 2])
+    array([15., nan])
+    """
+    A, B, C = field(A, "A"), field(B, "B"), field(C, "C")
+    a, b = C - A, C - B
+    D = cross(a, b)
+    off_A, off_B = _rounded(A) + _rounded(C), _rounded(B) + _rounded(C)
+    rounding = _product(off_A, b) + _product(off_B, a)
+    return np.where(np.abs(D) <= rounding, np.nan, D)[()]
 
 
 @elementwise
@@ -654,9 +684,18 @@ def rpr_condition(A: ArrayLike, B: ArrayLike, u: ArrayLike) -> Float:
     return size / np.abs(dot(d, direction(u, "u")))
 
 
-def _turning(a: Complex, b: Complex, w: Complex) -> tuple[Float, Float]:
-    """p, q of i (p a - q b) = w."""
-    D = determinant(cross(a, b))
+def _rounded(P: Complex) -> Complex:
+    """How far the coordinates of a rounded point may be off."""
+    return 2 * _ROUNDING * (np.abs(P.real) + 1j * np.abs(P.imag))
+
+
+def _product(off: Complex, a: Complex) -> Float:
+    """How far a x b may be off where b is."""
+    return off.real * np.abs(a.imag) + off.imag * np.abs(a.real)
+
+
+def _turning(a: Complex, b: Complex, w: Complex, D: Float) -> tuple[Float, Float]:
+    """p, q of i (p a - q b) = w, for the determinant D = a x b."""
     return dot(w, b) / D, dot(w, a) / D
 
 

@@ -1,7 +1,12 @@
 """The one error that a worksheet raises to its reader."""
 
 import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
 from typing import Any, NoReturn
+
+_called = ContextVar("_called", default=False)
 
 
 class SheetError(ValueError):
@@ -9,14 +14,24 @@ class SheetError(ValueError):
 
 
 def refuse(error: SheetError, shown: Any = None) -> NoReturn:
-    """Stop the running cell and those that need it: in a page the reason stands in its place, elsewhere raise.
+    """Stop the running cell and those that need it: in its own page the reason stands in its place, elsewhere raise.
 
     A served page hides the text of exceptions, so the reason is shown as the cell's output: ``shown``, or
     the message of the error.
     """
-    if "marimo" in sys.modules:
+    if "marimo" in sys.modules and not _called.get():
         import marimo as mo
 
         if mo.running_in_notebook():
             mo.stop(True, shown if shown is not None else mo.callout(str(error), kind="danger"))
     raise error
+
+
+@contextmanager
+def raised() -> Iterator[None]:
+    """Let refusals raise, in a page too: a worksheet that is called as a function must not stop the cell that calls."""
+    token = _called.set(True)
+    try:
+        yield
+    finally:
+        _called.reset(token)

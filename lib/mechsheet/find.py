@@ -533,7 +533,7 @@ def _crossing(f: _Counted, x: Array, r: Array, equals: Array, cross: Mask, floor
     root, off = np.where(best, ends[1], ends[0]), np.where(best, r_ends[1], r_ends[0])
     ends, r_ends = np.where(off == 0, root, ends), np.where(off == 0, 0, r_ends)
 
-    way = np.array([[-1], [1]]) * 8.0 ** np.arange(8)
+    way = np.array([[-1], [1]]) * 8.0 ** np.arange(12)
     beside = np.clip(ends[:, None] + way[..., None, None] * _ulp(root, floor), x[0], x[-1])
     around = np.concatenate([r_ends[:, None], f(beside) - equals], axis=1)
     varies = (np.fmax.reduce(around, axis=1) - np.fmin.reduce(around, axis=1)).max(0)

@@ -109,12 +109,14 @@ def _validate(self: Any) -> None:
             raise SheetError(f"{field.says(value)} must be a finite number")
         if not np.all(size <= _MOST):
             raise SheetError(f"{field.says(value)} must be at most {_MOST:g} in size")
+    for name, field in fields.items():
+        value = shown[name]
         for sign, other in field.limits:
             limit = shown[other] if other in shown else float(other)
             if not np.all(_COMPARE[sign](value, limit)):
                 must = "positive" if (sign, other) == (">", "0") else f"{sign} {other}"
                 raise SheetError(f"{field.says(value)} must be {must}{f' = {limit}' if other in shown else ''}")
-            if (sign, other) == (">", "0") and not np.all(size >= 1 / _MOST):
+            if (sign, other) == (">", "0") and not np.all(np.abs(value) >= 1 / _MOST):
                 raise SheetError(f"{field.says(value)} must be at least {1 / _MOST:g}")
 
 

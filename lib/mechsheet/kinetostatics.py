@@ -35,6 +35,7 @@ from mechsheet.arguments import (
     not_negative,
     scalar_field,
 )
+from mechsheet.dyads import rrr_determinant
 from mechsheet.planar import cross, dot
 
 
@@ -164,11 +165,11 @@ def rrr_reactions(
 ) -> RRRReactions:
     r"""Reactions of the dyad A-C-B, kind 1 (program SR1).
 
-    .. math:: R_A = \left(\frac{b \times F - T_B + t \, a \cdot b}{a \times b} + i t\right) a, \quad t = -T_A/|a|^2,
-              \quad a = A - C, \; b = B - C
+    .. math:: R_C = -\frac{T_B \, a + T_A \, b}{a \times b}, \quad R_A = -(R_C + F_A), \quad R_B = R_C - F_B, \quad
+              a = C - A, \; b = C - B
 
-    with F the sum of all loads and T_A, T_B their moments on each link about C; the part i t a of R_A is square to
-    its link, as in (1.5), the determinant is that of (1.10). R_B and R_C follow from the sums of forces.
+    with T_A and T_B the moments of the loads on AC about A and of those on BC about B; the determinant is that of
+    (1.10). So loads near the outer pins leave small forces in C with all their digits.
 
     Parameters
     ----------
@@ -195,14 +196,12 @@ def rrr_reactions(
     >>> R.R_A.real, R.R_B
     (np.float64(13.333333333333334), np.complex128(-13.333333333333334+10j))
     """
-    C = field(C, "C")
-    a, b = field(A, "A") - C, field(B, "B") - C
-    F_A, T_A = _resultant(loads_A, C, "loads_A")
-    F_B, T_B = _resultant(loads_B, C, "loads_B")
-    F = F_A + F_B
-    t = -T_A / dot(a, a)
-    R_A = ((cross(b, F) - T_B + t * dot(a, b)) / determinant(cross(a, b)) + 1j * t) * a
-    return RRRReactions(R_A, -(R_A + F), -(R_A + F_A))
+    A, B, C = field(A, "A"), field(B, "B"), field(C, "C")
+    F_A, T_A = _resultant(loads_A, A, "loads_A")
+    F_B, T_B = _resultant(loads_B, B, "loads_B")
+    D = rrr_determinant(A, B, C)
+    R_C = -(T_B / D * (C - A) + T_A / D * (C - B))
+    return RRRReactions(-(R_C + F_A), R_C - F_B, R_C)
 
 
 @elementwise

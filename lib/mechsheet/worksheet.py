@@ -14,7 +14,7 @@ import numpy as np
 
 from mechsheet import inputs
 from mechsheet.checks import Check
-from mechsheet.errors import SheetError
+from mechsheet.errors import SheetError, raised
 
 _PART = re.compile(r"abs\((\w+)\)|(\w+)\.(real|imag)")
 
@@ -45,13 +45,14 @@ class Worksheet:
         Raises SheetError naming what no cell defines, or a cell that stopped.
         """
         names = {**self.common, **given}
-        for cell in self.needed(want, given):
-            try:
-                exec(cell.code, names)
-            except BaseException as error:
-                if type(error).__name__ != "MarimoStopError":  # of mo.stop; marimo itself may not be loaded
-                    raise
-                raise SheetError(f"cell {cell.name} stopped before its end") from None
+        with raised():
+            for cell in self.needed(want, given):
+                try:
+                    exec(cell.code, names)
+                except BaseException as error:
+                    if type(error).__name__ != "MarimoStopError":  # of mo.stop; marimo itself may not be loaded
+                        raise
+                    raise SheetError(f"cell {cell.name} stopped before its end") from None
         return names
 
     def needed(self, want: Iterable[str], given: Iterable[str] = ()) -> list[Cell]:

@@ -1,0 +1,260 @@
+"""Extreme scenes: the listed ones, worse ones that are searched for, and faults that must be noticed."""
+
+from pathlib import Path
+
+import mpmath as mp
+import numpy as np
+import pytest
+from exact import equations, pin, reactions, sign
+from hypothesis import Phase, assume, given, settings, target
+from hypothesis import strategies as st
+
+from mechsheet import exact, extreme, inputs, printed
+from mechsheet.errors import SheetError
+from mechsheet.kinetostatics import Load, RRRReactions, rrr_reactions
+from mechsheet.planar import cross
+from mechsheet.worksheet import load
+
+HERE = Path(__file__).parent
+WORKSHEETS = HERE.parent / "worksheets"
+SCENES = {path.stem: path for path in sorted((HERE / "scenes").glob("*.toml"))}
+
+
+def scene(name):
+    return extreme.read(SCENES[name])
+
+
+def lost(outcomes):
+    """The results that keep less than is expected of them, one line each."""
+    return [
+        f"{o.case} {o.result}: {o.product:.1f} of {o.expected:.1f} digits {o.words}" for o in outcomes if not o.holds
+    ]
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_scene_keeps_its_digits(name):
+    outcomes = extreme.measure(scene(name), WORKSHEETS, short=True)
+    assert outcomes
+    assert lost(outcomes) == []
+
+
+# The measure
+
+
+def test_condition_of_a_difference():
+    """Of x - y it is (|x| + |y|) / |x - y|; a whole number is no rounded one."""
+    found = exact.conditions(lambda x, y, n: {"d": n * (x - y), "zero": 0 * x}, {"x": 3.0, "y": 2.9999, "n": 7})
+    assert float(found["d"]) == pytest.approx(5.9999 / 1e-4, rel=1e-9)
+    assert found["zero"] == 0
+
+
+def test_condition_of_a_row_is_that_of_its_greatest():
+    found = exact.conditions(lambda x, y: {"row": [x + y, x - y]}, {"x": 3.0, "y": 2.0})
+    assert float(found["row"]) == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize(
+    ("value", "true", "kept"), [(1.0, 1, 16), (1.001, 1, 3), (np.nan, 1, 0), (0.0, 0, 16), (1, 0, 0)]
+)
+def test_digits(value, true, kept):
+    assert extreme.digits("x", value, mp.mpf(true)) == pytest.approx(kept, abs=1e-9)
+
+
+def test_angles_are_compared_in_any_turn():
+    assert extreme.digits("phi3", np.pi, -mp.pi) > 15
+    assert extreme.digits("x", np.pi, -mp.pi) == 0
+
+
+def test_a_position_that_rounding_decides_is_told_from_one_that_is_out_of_reach():
+    group = {"A": 0, "B": 5, "branch": 1, "P_A": 0, "P_B": 0, "F_A": 0, "F_B": 0}
+
+    def C(r_A, r_B):
+        return exact.dyad(r_A=r_A, r_B=r_B, **group)
+
+    assert "C" in exact.undecided(C, {"r_A": np.nextafter(2.0, 0), "r_B": 3.0})
+    assert not exact.undecided(C, {"r_A": 1.9999, "r_B": 3.0})
+
+
+def test_truth_of_the_dyad_is_in_equilibrium_and_moves_with_its_length():
+    """Reactions against the dense system of six equations, the pin against its loop, rates against the sine of mu."""
+    A, B, P_A, P_B, F_A, F_B = (mp.mpc(*z) for z in ((0, 1), (4, 0.5), (1, 2), (3, 1), (5, -7), (-2, 1)))
+    true = exact.dyad(A, B, 3, 2, -1, P_A, P_B, F_A, F_B)
+    C = true["C"]
+    assert abs(abs(C - A) - 3) + abs(abs(C - B) - 2) < mp.mpf(10) ** -50
+    assert sign(((mp.conj(B - A)) * (C - A)).imag) == -1
+    unknowns = [*pin(A, 0), *pin(B, 1), *pin(C, 0, 1)]
+    loads = [(0, F_A, P_A, 0), (1, F_B, P_B, 0)]
+    assert len(equations(unknowns, loads, [A, B])[0]) == 6
+    x = reactions(unknowns, loads, [A, B])
+    for k, name in enumerate(("R_A", "R_B", "R_C")):
+        assert abs(mp.mpc(x[2 * k], x[2 * k + 1]) - true[name]) < mp.mpf(10) ** -40
+    rod = (C - A) / 3
+    assert abs((rod * mp.conj(1j * true["omega_B"] * (C - B))).real - 1) < mp.mpf(10) ** -50, "A lengthens by 1"
+
+
+@pytest.mark.parametrize("worksheet", ["hitch", "landing_gear", "slotted_link", "kinetostatics", "joint"])
+@pytest.mark.parametrize("value", [float("nan"), float("inf"), -float("inf")])
+def test_no_input_takes_what_is_no_number(worksheet, value):
+    cls = load(WORKSHEETS / f"{worksheet}.py").inputs
+    for field in inputs.declared(cls):
+        with pytest.raises(SheetError, match=rf"{field.name} = .* (is no number|must be a finite number)"):
+            inputs.build(cls, {field.name: value})
+        if not field.whole:
+            with pytest.raises(SheetError, match=rf"{field.name} = .* must be a finite number"):
+                cls(**{field.name: value})
+
+
+# Worse scenes than the listed ones
+
+# without shrinking, which takes longer than the search
+searching = settings(
+    deadline=None, derandomize=True, database=None, phases=[Phase.generate, Phase.target], report_multiple_bugs=False
+)
+
+
+def holds(case):
+    """Every result of a case keeps its digits; the worst is what the search goes for."""
+    outcomes = extreme.outcomes(case)
+    target(max(o.expected - o.product for o in outcomes))
+    assert lost(outcomes) == []
+
+
+def powers(low, high):
+    """Numbers spread evenly over the decades."""
+    return st.floats(low, high).map(lambda k: 10.0**k)
+
+
+signs = st.sampled_from([-1.0, 1.0])
+angles = st.floats(-3.2, 3.2)
+# angles between the links: anything, and nearer and nearer to a dead centre
+closing = st.one_of(
+    angles.filter(lambda mu: abs(np.sin(mu)) > 0.01), powers(-9, -1), powers(-9, -1).map(lambda d: np.pi - d)
+)
+
+
+@st.composite
+def groups(draw):
+    """A dyad built around its inner pin: links over twelve decades, anywhere, loaded on both."""
+    far = draw(st.sampled_from([0.0, 0.0, 1.0, 1e3, 1e6, 1e9]))
+    C = far * np.exp(1j * draw(angles))
+    r_A, r_B, first = draw(powers(-6, 6)), draw(powers(-6, 6)), draw(angles)
+    A = C + r_A * np.exp(1j * first)
+    B = C + r_B * np.exp(1j * (first + draw(closing)))
+    # nearer to the rounding of the pins no condition number holds: it is of the first order
+    assume(min(r_A, r_B, abs(B - A)) > 1e5 * np.spacing(max(abs(A), abs(B))))
+    given = {"branch": draw(st.sampled_from([-1, 1])), "r_A": r_A, "r_B": r_B}
+    for end, pin_, r in (("A", A, r_A), ("B", B, r_B)):
+        P = pin_ + draw(powers(-3, 1)) * r * np.exp(1j * draw(angles))
+        F = draw(powers(-6, 12)) * np.exp(1j * draw(angles))
+        for name, z in ((end, pin_), (f"P{end}", P), (f"F{end}", F)):
+            given |= {f"X_{name}": z.real, f"Y_{name}": z.imag}
+    return given
+
+
+@settings(searching, max_examples=100)
+@given(groups())
+def test_search_for_worse_groups(group):
+    holds(extreme.dyad(WORKSHEETS, group))
+
+
+@st.composite
+def machines(draw):
+    """The document's hitch, with other lengths, anywhere, of any size, up to a dead centre."""
+    cls = load(WORKSHEETS / "hitch.py").inputs
+    g = cls()
+    size, far = draw(powers(-6, 6)), draw(st.sampled_from([0.0, 0.0, 10.0, 1e5, 1e8]))
+    given = {"N_pol": 2, "P6": draw(powers(-6, 12)), "phi_P6": draw(st.floats(80, 100))}
+    for field in inputs.declared(cls):
+        if field.unit == "m":
+            value = getattr(g, field.name)
+            hinge = field.name[0] in "XY" and field.name[1:2] == "0"
+            given[field.name] = size * (
+                value * draw(st.floats(0.98, 1.02)) + (far if hinge or field.name[0] == "Y" else 0)
+            )
+    given |= {"X6": size * g.X6, "Y6": size * g.Y6}
+    O1, O3 = (complex(given[f"X0{k}"], given[f"Y0{k}"]) for k in (1, 3))
+    reach = abs(O1 - O3) + given["L3"]
+    given["S_max"] = reach - (reach - given["S_min"]) * draw(powers(-7, -0.7))
+    return given
+
+
+@settings(searching, max_examples=12)
+@given(machines())
+def test_search_for_worse_machines(machine):
+    try:
+        case = extreme.hitch(WORKSHEETS, machine)
+    except SheetError as error:
+        with pytest.raises(ValueError, match="does not exist"):
+            exact.finds(inputs.build(load(WORKSHEETS / "hitch.py").inputs, machine))
+        assert "is outside" in str(error)
+        return
+    holds(case)
+
+
+@st.composite
+def joints(draw):
+    """A joint of any shape under any load, or nearly with its axis in an element or at infinity."""
+    given = {"h": draw(powers(0, 3)), "b": draw(powers(0, 3)), "F_b": draw(powers(-2, 2)), "F_s": draw(powers(-2, 2))}
+    given["N_2"] = draw(signs) * draw(powers(-6, 9))
+    lever = draw(st.one_of(powers(-12, 6), st.sampled_from([0.0, 0.25, 0.5, 1.0])))
+    return given | {"M_2": draw(signs) * given["N_2"] * given["h"] / 2 * lever}
+
+
+@settings(searching, max_examples=12)
+@given(joints(), st.sampled_from([1, 3]))
+def test_search_for_worse_joints(joint, at):
+    case = extreme.joint(WORKSHEETS, joint, at)
+    try:
+        case.true(**case.x)
+    except ValueError:
+        assert "no elements carry" in case.words
+        return
+    holds(case)
+
+
+# Faults: each must be noticed by a listed scene or by the search
+
+
+def needle(a, b, c):
+    """The printed law of cosines for the angle opposite to a."""
+    with np.errstate(invalid="ignore"):
+        return np.arccos((b**2 + c**2 - a**2) / (2 * b * c))
+
+
+def eliminated(A, B, C, loads_A=(), loads_B=()):
+    """The printed elimination, which divides by a difference of abscissas."""
+    loads = [loads[0] if loads else Load(0.0, 0.0) for loads in (loads_A, loads_B)]
+    side = np.sign(cross(B - A, C - A))
+    (F_A, P_A), (F_B, P_B) = ((load.F, load.P) for load in loads)
+    R = printed.dyad(A, B, np.abs(C - A), np.abs(C - B), side, P_A, P_B, F_A, F_B)
+    return RRRReactions(R["R_A"], R["R_B"], R["R_C"])
+
+
+def summed(A, B, C, loads_A=(), loads_B=()):
+    """The force in the inner pin as a difference of the others."""
+    R = rrr_reactions(A, B, C, loads_A, loads_B)
+    return RRRReactions(R.R_A, R.R_B, -((R.R_B - R.R_A) / 2 + sum(load.F for load in [*loads_A, *loads_B]) / 2))
+
+
+@pytest.mark.parametrize(
+    ("name", "worksheet", "function", "fault"),
+    [
+        ("tiny_crank", "landing_gear", "angle_opposite", needle),
+        ("mast_upright", "hitch", "rrr_reactions", eliminated),
+        ("axis_at_infinity_pressed", "joint", "total", lambda x: x.sum(-1, keepdims=True)),
+    ],
+)
+def test_fault_in_a_worksheet_is_noticed(monkeypatch, name, worksheet, function, fault):
+    monkeypatch.setitem(load(WORKSHEETS / f"{worksheet}.py").common, function, fault)
+    assert lost(extreme.measure(scene(name), WORKSHEETS, short=True))
+
+
+def test_fault_in_the_library_is_noticed_by_the_search(monkeypatch):
+    monkeypatch.setattr(extreme, "rrr_reactions", summed)
+    with pytest.raises(AssertionError):
+        test_search_for_worse_groups()
+
+
+def test_missing_word_is_noticed():
+    silent = extreme.Outcome("", "", "", np.nan, np.nan, np.nan, np.nan, words="", wanted="no position closes")
+    assert not silent.holds
