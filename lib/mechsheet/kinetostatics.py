@@ -35,7 +35,7 @@ from mechsheet.arguments import (
     not_negative,
     scalar_field,
 )
-from mechsheet.planar import cross, dot
+from mechsheet.planar import cross, dot, product
 
 
 @dataclass(frozen=True)
@@ -201,7 +201,7 @@ def rrr_reactions(
     F_B, T_B = _resultant(loads_B, C, "loads_B")
     F = F_A + F_B
     t = -T_A / dot(a, a)
-    R_A = ((cross(b, F) - T_B + t * dot(a, b)) / determinant(cross(a, b)) + 1j * t) * a
+    R_A = product((cross(b, F) - T_B + t * dot(a, b)) / determinant(cross(a, b)), t, a)
     return RRRReactions(R_A, -(R_A + F), -(R_A + F_A))
 
 
