@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from playwright.sync_api import Browser, Page
 
 ROOT = Path(__file__).resolve().parents[1]
+collect_ignore = ["benchmarks"]  # nothing there is a test, and it needs numba
 READY_WITHIN = 120.0  # seconds for a marimo server to answer
 
 CHROMIUM_FLAGS = [

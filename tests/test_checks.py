@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from mechsheet.checks import Check, assembled, check, check_slope, summary
+from mechsheet.checks import Check, assembled, check, check_slope, listen, require, summary
 
 
 @pytest.mark.parametrize(("residual", "passed"), [(1e-12, True), ([0, -2e-12], False), (np.nan, False), (1e-12j, True)])
@@ -39,6 +39,23 @@ def test_open_position_is_named_with_its_reach():
     assert not c.passed and c.essential
     assert c.reason == "no position closes for S = 0.9 m: it reaches 0.3733..0.7733 m"
     assert assembled("group closes", np.array([1j, 2]), S, (0.3733, 0.7733), "S", "m").passed
+
+
+def test_each_variant_tells_why_it_does_not_close_to_who_listens():
+    names = {"np": np, "assembled": assembled, "require": require}
+    cell = """
+point = np.array([[1j, 1j], [1j, np.nan], [np.nan, np.nan]])
+require(point, 0.9, (0.3, [[0.6], [0.7], [0.8]]), "S", "m")
+c = assembled("group closes", point, [0.5, 0.9], (300, 700), "S", "mm")
+"""
+    exec(cell, names)
+    told = listen(names)
+    assert not told and names["c"].residual == 3, "nobody listened"
+    exec(cell, names)
+    assert [list(texts.flat) for texts in told] == [
+        ["", *(f"no position closes for S = 0.9 m: it reaches 0.3..{high} m" for high in (0.7, 0.8))],
+        ["", *(f"no position closes for S = {x} mm: it reaches 300000..700000 mm" for x in (900, 500))],
+    ]
 
 
 def test_verdict_is_shown():

@@ -31,6 +31,7 @@ from mechsheet.dyads import (
     rrr_transmission_angle,
     rrr_velocity,
 )
+from mechsheet.kinetostatics import Load, rrr_reactions
 from mechsheet.planar import angle, cross, dot, link_acceleration, link_velocity
 
 families = pytest.mark.parametrize("family", FAMILIES)
@@ -289,6 +290,33 @@ def test_an_unreachable_position_is_nan_alone_and_passes_through_the_groups_behi
         assert np.array_equal(np.isnan(reached_position), [False, True, False])
     for derivative in (*v, *a, *w, *rpr_velocity(C, 5, s.u, v.v_C)):  # the third position is a dead centre
         assert np.array_equal(np.isnan(derivative), [False, True, True])
+
+
+def test_a_length_that_a_variant_does_not_have_leaves_nan_there_alone() -> None:
+    lengths = np.array([[5.0], [np.nan], [4.0]])
+    for found in (rrr(0, 6, lengths, 5, 1), rrr(0, 6, [5, 5], lengths, 1), rrp(0, 1j, 1, lengths, 1)):
+        assert np.array_equal(np.isnan(found).all(1), [False, True, False])
+        assert np.array_equal(np.isnan(found).any(1), [False, True, False])
+    assert np.isnan(rrr_reach(0, 6, lengths)[1]).tolist() == [[False], [True], [False]]
+
+
+@every(
+    "f",
+    [
+        lambda x: rrr(x, 3 + 1j, 2.1, 1.9, -1),
+        lambda x: rrp(x, 1j, 2 + 1j, 3.3, 1, 0.1),
+        lambda x: rrr_reactions(x, 3 + 1j, 1 - 2j, [Load(3 - 1j, 2j, 0.3)], [Load(1j, x)]).R_A,
+    ],
+)
+def test_one_number_alone_gives_the_same_as_among_others_to_the_last_bit(f) -> None:
+    rng = np.random.default_rng(1)
+    many = rng.uniform(-1, 1, 51) + 1j * rng.uniform(-1, 1, 51)
+    one_by_one = np.array([f(complex(x)) for x in many])
+
+    assert np.isfinite(one_by_one).sum() > 20
+    assert np.array_equal(f(many), one_by_one, equal_nan=True)
+    assert np.array_equal(f(many[:, None])[:, 0], one_by_one, equal_nan=True)
+    assert np.array_equal(f(np.repeat(many, 3)[::3]), one_by_one, equal_nan=True)
 
 
 @pytest.mark.parametrize(("B", "r_A", "abscissa"), [(1, 1e-6, 5e-13), (1e-6, 1, 5e-7), (1e-6, 1e6, 5e-7)])

@@ -77,6 +77,7 @@ ARGUMENTS: dict[Callable[..., Any], tuple[Any, ...]] = {
     kinetostatics.coupling_drive: (points(), loads()),
     kinetostatics.gear_drive: (points(), points(), numbers(0, 1), loads()),
     kinetostatics.cylinder_drive: (points(), points(), points(), loads()),
+    joint.sum_of_elements: (rng.uniform(-1, 1, (COUNT, 6)),),
     joint.bending: (rng.uniform(-1, 1, (COUNT, 6)), rng.uniform(0.1, 1, (COUNT, 6)), numbers(-1, 1), numbers(-1, 1)),
     joint.neutral_axis: (
         *(rng.uniform(-1, 1, (COUNT, 6)), rng.uniform(0.1, 1, (COUNT, 6)), rng.uniform(0.1, 1, (COUNT, 6))),

@@ -12,7 +12,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from mechsheet.errors import SheetError
-from mechsheet.find import find
+from mechsheet.find import find, values_only
 
 EPS = float(np.finfo(float).eps)
 some = settings(max_examples=60, deadline=None)
@@ -89,6 +89,15 @@ def test_the_value_is_the_root_nearest_the_guess_and_nearest_the_middle_without_
     assert [find(f, 0.0, 1.0, guess=g).value for g in (-3, 0.3, 0.4, 0.8, 2)] == [0.2, 0.2, 0.45, 0.9, 0.9]
     assert find(f, 0.0, 1.0).value == 0.45
     assert find(lambda x: (x - 0.25) * (x - 0.75), 0.0, 1.0, guess=0.5).value == 0.25  # as near: the smaller
+
+
+def test_the_nearest_root_is_found_where_a_farther_one_lies_in_a_nearer_piece():
+    first, apart, t = np.meshgrid(np.linspace(0.4, 0.42, 7), [0.018, 0.024, 0.03], np.linspace(0.1, 0.9, 9))
+    guess = first + t * apart
+    found = find(lambda x: (x - first) * (x - first - apart), 0.0, 1.0, guess=guess)
+
+    nearest = np.where(t < 0.5, first, first + apart)
+    assert np.abs(found.value - nearest)[np.abs(t - 0.5) > 0.01].max() < 1e-14
 
 
 # --- touching roots, ends, jumps, poles --------------------------------------------------------------------------
@@ -370,6 +379,52 @@ def test_a_problem_without_numbers_stays_nan_and_its_neighbours_go_on():
     assert found.reason[2] == "unknown x: f(x) reaches 0..4, 9 is outside"
 
 
+def test_where_no_problem_has_numbers_all_stay_nan_and_f_is_not_asked():
+    found = find(lambda x: 1 / 0, np.array([[np.nan], [np.nan]]), 2.0, unknown="rod L4")
+
+    assert found.value.shape == found.reason.shape == found.interval[0].shape == (2, 1)
+    assert np.isnan([found.value, found.residual, *found.bracket, *found.reached]).all()
+    assert set(found.reason.flat) == {"nothing to solve for rod L4: its interval, target or guess is NaN"}
+    assert not found.roots and not found.evaluations
+
+
+def test_values_alone_are_the_same_and_the_rest_is_computed_when_it_is_read():
+    every = rods()
+    with values_only():
+        lean = rods()
+    few = lean.evaluations
+
+    assert few < every.evaluations / 3
+    with values_only():
+        easy = find(np.exp, 0.0, 1.0, equals=np.linspace(1.1, 2.7, 50))
+    assert easy.evaluations / 50 <= 97 + 1 + 5 * 3 + 4, "the samples, a first value, five steps and the proof"
+    assert same(lean.value, every.value) and same(lean.residual, every.residual)
+    assert same(lean.interval[1], every.interval[1]) and same(lean.bracket[0], every.bracket[0])
+    assert list(lean.reason) == list(every.reason) and 0 < np.count_nonzero(lean.solved) < 40
+    assert len(lean.roots) == len(every.roots) and same(lean.roots[0].value, every.roots[0].value)
+    assert lean.evaluations == every.evaluations > few
+
+
+def rods():
+    """The lifting rod for many heights, some of them out of reach."""
+    heights = np.linspace(-0.9, 1.2, 40)
+    return find(lambda L4, s: P56(S_MIN, L4, s).imag, equals=heights, guess=0.48, branch=-1, branches=(1, -1))
+
+
+@some
+@given(dyads(), real(0, 1), real(0, 1), st.sampled_from([1, -1]))
+def test_the_value_is_one_of_all_roots_and_the_nearest_of_its_branch(mechanism, t, u, branch):
+    A, B, r_B = mechanism
+    low, high = abs(abs(B - A) - r_B), abs(B - A) + r_B
+    target = B.imag + r_B * (2 * t - 1)
+    guess = low + u * (high - low)
+    found = find(lambda x, s: dyad(A, B, x, r_B, s).imag, equals=target, guess=guess, branch=branch, branches=(1, -1))
+
+    mine = [root.value for root in found.roots if root.branch == branch]
+    assert found.solved == bool(mine)
+    assert not mine or found.value == min(mine, key=lambda x: abs(x - guess))
+
+
 def test_many_problems_cost_little_more_values_each_than_a_few():
     def values_each(n):
         a = np.linspace(0.2, 0.8, n)
@@ -569,7 +624,6 @@ def test_words_are_escaped_in_the_page():
         ({"lo": [0.0, 1.0], "hi": 1.0}, "lo = 1000 mm for rod must be less than hi = 1000 mm"),
         ({"lo": 0.0, "hi": np.inf}, "hi = inf for rod must be finite"),
         ({"lo": np.nan, "hi": 1.0}, "lo = nan for rod must be finite"),
-        ({"lo": [np.nan], "hi": 1.0}, "nothing to solve for rod: no problem has"),
         ({"lo": 0.0, "hi": 1.0, "equals": np.nan}, "equals = nan for rod must be finite"),
         ({"lo": 0.0, "hi": 1.0, "guess": -np.inf}, "guess = -inf for rod must be finite"),
         ({"lo": 0.0}, "rod needs a guess, or both ends"),

@@ -108,3 +108,29 @@ def test_number_takes_all_or_rejects(text):
 def test_input_without_a_unit_is_an_error_that_names_the_line():
     with pytest.raises(SheetError, match=r"line 4 of .*: input x needs a comment with its unit"):
         run("from mechsheet.inputs import inputs\n@inputs\nclass A:\n    x: float = 1.0  # metre\n")
+
+
+def test_variants_are_numbers_in_si_with_a_reason_for_each_that_cannot_be_used(Arm):
+    given = inputs.variants(Arm, {"L5": ["0,5", "-1", 0.25], "phi": [22, 90, 45], "N": 4})
+
+    assert (given.shape, given.units) == ((3,), {"L5": "m", "phi": "deg", "N": "-"})
+    assert list(given.reasons) == ["", "lower link L5 = -1.0 m must be positive", ""]
+    si = given.at(np.array([0, 2]))
+    assert si["N"] == 4 and si["L5"].tolist() == [[0.5], [0.25]]
+    assert si["phi"].tolist() == [[Arm.phi], [pi / 4]], "the default's own number gives the default, to the last bit"
+    g = inputs.instance(Arm, si)
+    assert isinstance(g, Arm) and isinstance(g.N, int) and g.S_max == 0.67
+
+
+def test_limits_between_inputs_hold_for_each_variant(Arm):
+    given = inputs.variants(Arm, {"S_min": [[0.3], [0.5]], "S_max": [0.4, 0.6]})
+    assert given.shape == (2, 2)
+    assert list(given.reasons) == ["", "", "least stroke S_min = 0.5 m must be < S_max = 0.4", ""]
+
+
+def test_an_array_is_checked_in_the_display_unit(Arm):
+    with pytest.raises(SheetError, match=r"lower link L5 = -0\.1 m must be positive"):
+        replace(Arm(), L5=np.array([0.1, -0.1]))
+    cell = CELL.replace("# [deg] angle", "# [deg] angle; < 90")
+    with pytest.raises(SheetError, match=r"angle phi = 100\.0\d* deg must be < 90"):
+        replace(run(cell)["Arm"](), phi=np.deg2rad([80.0, 100.0]))

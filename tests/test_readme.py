@@ -44,6 +44,14 @@ def test_six_bar_of_the_readme_balances():
     assert abs(M - (A.conjugate() * R_A).imag).max() < 1e-9, "moments on the crank"
 
 
+def test_sweep_of_the_readme_has_an_axis_for_each_input(monkeypatch):
+    monkeypatch.chdir(ROOT)
+    names: dict = {}
+    exec(next(b for b in blocks("python") if "grid(" in b), names)
+    assert names["swept"]["GS6"].shape == (3, 3, 10) and len(names["swept"].frame()) == 90
+    assert names["swept"].solved.any()
+
+
 def test_arguments_of_the_readme_are_inputs_of_the_hitch():
     from worksheets.hitch import Hitch
 

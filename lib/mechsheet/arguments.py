@@ -1,8 +1,9 @@
 """Arguments of the mechanics functions, checked once and turned into arrays.
 
-Two kinds are told apart. A parameter (length, offset, mass, branch) is given by the user: NaN and infinity are
-mistakes and raise ValueError. A field (point, direction, velocity, acceleration, force, moment) may come out of
-an earlier group, where NaN marks an element that does not exist: NaN passes through, infinity raises ValueError.
+Two kinds are told apart. A parameter (offset, mass, branch) is given by the user: NaN and infinity are mistakes and
+raise ValueError. A field (point, direction, velocity, acceleration, force, moment) may come out of an earlier group,
+where NaN marks an element that does not exist: NaN passes through, infinity raises ValueError. A length is a
+parameter as a single number, and a field in an array: a Find leaves NaN where it has no length for a variant.
 """
 
 import inspect
@@ -40,6 +41,16 @@ def not_negative(value: ArrayLike, name: str, unit: str) -> Float:
     negative = x < 0
     if np.count_nonzero(negative):
         raise ValueError(f"{name} = {x[negative].flat[0]:.6g} {unit} must not be negative")
+    return x
+
+
+def length(value: ArrayLike, name: str) -> Float:
+    """Lengths that are not negative, NaN in an array where an earlier step gave none; zero as in `not_negative`."""
+    x: Float = _numbers(value, name, "iuf").astype(np.float64, copy=False)
+    if x.ndim == 0:
+        return not_negative(x, name, "m")
+    if np.count_nonzero((x >= 0) & (x < np.inf)) < x.size:
+        not_negative(x[~np.isnan(x)], name, "m")
     return x
 
 

@@ -2,8 +2,10 @@
 
 import html
 import re
+import sys
 from collections.abc import Callable
 from dataclasses import dataclass
+from types import FrameType
 from typing import Any
 
 import numpy as np
@@ -12,6 +14,8 @@ from numpy.typing import ArrayLike, NDArray
 from mechsheet import units
 from mechsheet.errors import SheetError, refuse
 from mechsheet.find import Found
+
+_TOLD = "__told__"
 
 
 @dataclass(frozen=True)
@@ -138,14 +142,37 @@ def assembled(name: str, point: ArrayLike, over: ArrayLike, reaches: tuple[Any, 
     if not count:
         return Check(name, 0, 0, "open positions", essential=True)
     reason = _unreached(lost, over, reaches, what, unit)
+    _tell(sys._getframe(1), lost, over, reaches, what, unit)
     return Check(name, count, 0, "open positions", reason, essential=True)
 
 
 def require(point: ArrayLike, over: ArrayLike, reaches: tuple[Any, Any], what: str, unit: str) -> None:
-    """Refuse to go on where a group closes nowhere; the arguments are those of `assembled`."""
+    """Refuse to go on where a group closes nowhere; the arguments are those of `assembled`.
+
+    Of many variants those that do not close stay NaN, and the others go on.
+    """
     lost = np.isnan(point)
-    if lost.all():
+    if np.ndim(lost) < 2 and lost.all():
         refuse(SheetError(_unreached(lost, over, reaches, what, unit)))
+    _tell(sys._getframe(1), lost, over, reaches, what, unit)
+
+
+def listen(namespace: dict[str, Any]) -> list[NDArray[np.object_]]:
+    """List to which `assembled` and `require` add, for each variant, why it does not close; "" where it does."""
+    told: list[NDArray[np.object_]] = namespace.setdefault(_TOLD, [])
+    return told
+
+
+def _tell(frame: FrameType, lost: Any, over: ArrayLike, reaches: tuple[Any, Any], what: str, unit: str) -> None:
+    told = frame.f_globals.get(_TOLD)
+    if told is None:
+        return
+    lost = np.atleast_2d(lost)
+    reasons = np.full(len(lost), "", dtype=object)
+    over, low, high = (np.broadcast_to(x, lost.shape) for x in (over, *reaches))
+    for i in np.flatnonzero(lost.any(1)):
+        reasons[i] = _unreached(lost[i], over[i], (low[i], high[i]), what, unit)
+    told.append(reasons[:, None])
 
 
 def _unreached(lost: NDArray[np.bool_], over: ArrayLike, reaches: tuple[Any, Any], what: str, unit: str) -> str:

@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mechsheet.arguments import Complex, Float, direction, elementwise, field, not_negative, parameter
+from mechsheet.arguments import Complex, Float, direction, elementwise, field, length, parameter
 from mechsheet.planar import angle, cross
 
 
@@ -44,7 +44,7 @@ def crank(O1: ArrayLike, r: ArrayLike, phi: ArrayLike) -> Complex:
     Raises
     ------
     ValueError
-        A negative length, a NaN or infinite length or angle, an infinite hinge.
+        A negative or infinite length, a single NaN one, a NaN or infinite angle, an infinite hinge.
 
     Examples
     --------
@@ -52,7 +52,7 @@ def crank(O1: ArrayLike, r: ArrayLike, phi: ArrayLike) -> Complex:
     np.complex128(3+0j)
     """
     phi = parameter(phi, "angle phi", "rad")
-    return field(O1, "O1") + not_negative(r, "length r", "m") * (np.cos(phi) + 1j * np.sin(phi))
+    return field(O1, "O1") + length(r, "length r") * (np.cos(phi) + 1j * np.sin(phi))
 
 
 @elementwise
@@ -76,14 +76,14 @@ def rrr_crank_reach(O1: ArrayLike, r: ArrayLike, B: ArrayLike, r_A: ArrayLike, r
     Raises
     ------
     ValueError
-        A negative, NaN or infinite length, an infinite point.
+        A negative or infinite length, a single NaN one, an infinite point.
 
     Examples
     --------
     >>> rrr_crank_reach(0, 4, 5, 1, 2)
     CrankReach(axis=np.float64(0.0), low=np.float64(0.0), high=np.float64(0.6435011087932845))
     """
-    r_A, r_B = not_negative(r_A, "length r_A", "m"), not_negative(r_B, "length r_B", "m")
+    r_A, r_B = length(r_A, "length r_A"), length(r_B, "length r_B")
     return _between(O1, r, B, np.abs(r_A - r_B), r_A + r_B)
 
 
@@ -108,7 +108,7 @@ def rpr_crank_reach(O1: ArrayLike, r: ArrayLike, B: ArrayLike, offset: ArrayLike
     Raises
     ------
     ValueError
-        A negative length, a NaN or infinite length or offset, an infinite point.
+        A negative or infinite length, a single NaN one, a NaN or infinite offset, an infinite point.
 
     Examples
     --------
@@ -145,15 +145,15 @@ def rrp_crank_reach(
     Raises
     ------
     ValueError
-        A negative length, a NaN or infinite length or offset, an infinite point, a zero direction.
+        A negative or infinite length, a single NaN one, a NaN or infinite offset, an infinite point, a zero direction.
 
     Examples
     --------
     >>> rrp_crank_reach(0, 1, 0, 1, 3).high
     np.float64(3.141592653589793)
     """
-    u, r = direction(u, "u"), not_negative(r, "length r", "m")
-    r_A = not_negative(r_A, "length r_A", "m")
+    u, r = direction(u, "u"), length(r, "length r")
+    r_A = length(r_A, "length r_A")
     gap = cross(u, field(O1, "O1") - field(B, "B")) - parameter(offset, "offset", "m")  # of O1 above C's path
     low, high = _half_angle(r_A - gap, r), _half_angle(-r_A - gap, r)
     return _reach(angle(1j * u), low, high, (r_A - gap >= -r) & (-r_A - gap <= r))
@@ -161,7 +161,7 @@ def rrp_crank_reach(
 
 def _between(O1: ArrayLike, r: ArrayLike, B: ArrayLike, nearest: Float, farthest: Float | float) -> CrankReach:
     """Angles at which the crank's pin is between two distances from B."""
-    r = not_negative(r, "length r", "m")
+    r = length(r, "length r")
     frame = field(B, "B") - field(O1, "O1")
     d = np.abs(frame)
     longer, shorter = np.maximum(r, d), np.minimum(r, d)

@@ -21,8 +21,8 @@ the analogues d/dS and d^2/dS^2 from the same functions.
 
 All arguments broadcast. NaN marks an element that does not exist: a group that does not close, or derivatives and
 reactions at a dead centre, where the group's determinant is zero. NaN points and motions pass through, so that
-groups follow one another; NaN or infinite lengths, infinite points and branches other than +1 and -1 raise
-ValueError.
+groups follow one another, and so do NaN lengths in an array, which a Find gives where it has no solution. A single
+length that is NaN, infinite lengths, infinite points and branches other than +1 and -1 raise ValueError.
 
 A condition number is an upper bound of the relative change of a link's vector over the relative changes of
 coordinates, lengths and directions that cause it: no more than about log10(condition) digits of a position are lost,
@@ -42,12 +42,12 @@ from mechsheet.arguments import (
     direction,
     elementwise,
     field,
-    not_negative,
+    length,
     parameter,
     scalar_field,
     sign,
 )
-from mechsheet.planar import angle_between, cross, dot, triangle_area
+from mechsheet.planar import angle_between, cross, dot, product, sorted_area
 
 _ROUNDING = 2.0**-53  # relative error of one rounding
 
@@ -131,7 +131,7 @@ def rrr(A: ArrayLike, B: ArrayLike, r_A: ArrayLike, r_B: ArrayLike, branch: Arra
     Raises
     ------
     ValueError
-        A negative, NaN or infinite length, an infinite pin, a branch other than +1 and -1.
+        A negative or infinite length, a single NaN one, an infinite pin, a branch other than +1 and -1.
 
     Examples
     --------
@@ -139,8 +139,8 @@ def rrr(A: ArrayLike, B: ArrayLike, r_A: ArrayLike, r_B: ArrayLike, branch: Arra
     array([1.8+2.4j, nan+nanj])
     """
     A, d, L = _outer_pins(A, B)
-    r_A, r_B = not_negative(r_A, "length r_A", "m"), not_negative(r_B, "length r_B", "m")
-    h = 2 * sign(branch) * triangle_area(L, r_A, r_B)
+    r_A, r_B = length(r_A, "length r_A"), length(r_B, "length r_B")
+    h = 2 * sign(branch) * sorted_area(np.maximum(L, r_A), np.minimum(L, r_A), r_B)
     from_A = r_A <= r_B
     count = np.count_nonzero(from_A)
     if 0 < count < from_A.size:
@@ -150,7 +150,8 @@ def rrr(A: ArrayLike, B: ArrayLike, r_A: ArrayLike, r_B: ArrayLike, branch: Arra
         P, r, other, way = (A, r_A, r_B, 1.0) if count else (field(B, "B"), r_B, r_A, -1.0)
     longer = np.maximum(L, r)
     a = (np.minimum(L, r) ** 2 + (longer - other) * (longer + other)) / 2
-    C: Complex = P + (way * a / L**2 + 1j * (h / L**2)) * d
+    square = L**2
+    C: Complex = P + product(way * a / square, h / square, d)
     return C
 
 
@@ -177,7 +178,7 @@ def rrr_reach(A: ArrayLike, B: ArrayLike, r_A: ArrayLike) -> tuple[Float, Float]
     Raises
     ------
     ValueError
-        A negative, NaN or infinite length, an infinite pin.
+        A negative or infinite length, a single NaN one, an infinite pin.
 
     Examples
     --------
@@ -185,7 +186,7 @@ def rrr_reach(A: ArrayLike, B: ArrayLike, r_A: ArrayLike) -> tuple[Float, Float]
     (np.float64(2.0), np.float64(4.0))
     """
     _, _, L = _outer_pins(A, B)
-    r_A = not_negative(r_A, "length r_A", "m")
+    r_A = length(r_A, "length r_A")
     return np.abs(L - r_A), L + r_A
 
 
@@ -367,8 +368,8 @@ def rrp(
     Raises
     ------
     ValueError
-        A negative length, a NaN or infinite length or offset, an infinite point, a zero direction, a branch other
-        than +1 and -1.
+        A negative or infinite length, a single NaN one, a NaN or infinite offset, an infinite point, a zero
+        direction, a branch other than +1 and -1.
 
     Examples
     --------
@@ -377,9 +378,9 @@ def rrp(
     """
     A, u = field(A, "A"), direction(u, "u")
     h = cross(u, A - field(B, "B")) - parameter(offset, "offset", "m")
-    r_A = not_negative(r_A, "length r_A", "m")
+    r_A = length(r_A, "length r_A")
     ahead = np.sqrt((r_A - np.abs(h)) * (r_A + np.abs(h)))
-    return A + (sign(branch) * ahead - 1j * h) * u
+    return A + product(sign(branch) * ahead, -h, u)
 
 
 @elementwise

@@ -285,6 +285,10 @@ def cylinder_drive(A: Quantity, C: Quantity, R_C: Quantity, loads: Sequence[Load
     return kinetostatics.CylinderDrive(-dot(u, F), 1j * N * u, -T, -T / N)
 
 
+def sum_of_elements(x: Quantity) -> Quantity:
+    return x.sum(axis=-1)
+
+
 def bending(y: Quantity, A: Quantity, M: Quantity, N: Quantity) -> joint.Bending:
     F = step("F", "m**2", "area", A.sum(axis=-1))
     S = step("S", "m**3", "first moment of area", (A * y).sum(axis=-1))
@@ -367,7 +371,7 @@ STEPS: dict[Callable[..., Any], Callable[..., Any]] = {
             *("inertia", "rrr_reactions", "rrp_reactions", "rpr_reactions"),
             *("coupling_drive", "gear_drive", "cylinder_drive"),
         ),
-        joint: ("bending", "neutral_axis", "circular_joint"),
+        joint: ("sum_of_elements", "bending", "neutral_axis", "circular_joint"),
     }.items()
     for name in names
 }

@@ -19,7 +19,7 @@ _DIGITS = 200  # of the work: differences with the steps below keep DIGITS of th
 _STEP = mpf(10) ** -90  # of S, for first derivatives from one side; its root for second ones from both
 _CHANGE = mpf(10) ** -40  # of an input, relative
 _NOTHING = mpf(10) ** -95  # below the root of the rounding of the work: the sine at a dead centre
-_ROUNDING = mpf(2) ** -52  # an end of an interval may be a rounded number
+_ROUNDING = mpf(2) ** -50  # an end of an interval may be a number found and rounded
 
 Numbers = dict[str, Any]
 

@@ -3,13 +3,19 @@
 An interval is sampled, cut at the edges between finite and NaN and at the local extremes, and so into monotone
 pieces. A piece whose ends differ in sign is solved by bracketing; a cut that meets the target within rounding is
 a touching root. Everything runs for whole arrays of problems at once: problems on the last axis, and ``f`` always
-gets the same problems in the same places.
+gets the same problems in the same places; what a problem gets does not depend on the others.
+
+The value comes first: on the wanted branch, from the nearest piece that has a root. All roots, what is reached and
+why there is no value are another search, of all branches, which a sweep leaves out (`values_only`).
 """
 
 import html
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from contextvars import ContextVar
 from dataclasses import dataclass, field
 from decimal import Decimal
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -25,15 +31,31 @@ Function = Callable[[Array], Array]
 
 _EPS = float(np.finfo(float).eps)
 _SAMPLES = 97  # of an interval, dense at its ends: features narrower than 1/60 of it can be missed
+_PLACES = (1 - np.cos(np.linspace(0, np.pi, _SAMPLES)))[:, None] / 2
+_RISE = 64  # a local extreme is looked for within so many times its height above the samples beside it
 _OCTAVES = 8  # either way from the guess, the range searched for the reachable interval
 _STEPS = 8  # samples in each octave
 _CLUSTER = 12  # samples between an edge and the next one
-_BLOCK = 2**16  # values of f asked for at once: many more leave the processor's cache
+_BLOCK = 2**13  # values of f asked for at once: many more leave the processor's cache
 # Where the next points of a bracket go: fractions of its width, from its low end and from a predicted place.
 _COARSE = np.linspace(0, 1, 9)[1:-1, None, None]
 _FINE = np.concatenate([-(8.0 ** -np.arange(2, 6)), [0], 8.0 ** -np.arange(2, 6)])[:, None, None]
 _AROUND = np.array([-1, 0, 1])[:, None, None]
 _BACK = np.array([-3, -2, -1])[:, None, None]
+_BESIDE = np.array([-1, 1])[:, None, None, None] * 2.0 ** np.array([18, 21, 33])[:, None, None]  # floats off a root
+_EVEN = np.array([-1, 0, 1])[:, None, None]
+
+_values_only: ContextVar[bool] = ContextVar("values_only", default=False)
+
+
+@contextmanager
+def values_only() -> Iterator[None]:
+    """Within it `find` computes values alone; roots, what is reached and reasons are computed when they are read."""
+    token = _values_only.set(True)
+    try:
+        yield
+    finally:
+        _values_only.reset(token)
 
 
 @dataclass(frozen=True)
@@ -76,7 +98,7 @@ class Found:
     bracket : tuple of float
         Interval that encloses ``value``: see `Root`.
     evaluations : int
-        Values of f computed, over all problems and branches, sampling and verification included.
+        Values of f computed so far, over all problems and branches, sampling and verification included.
     roots : tuple of Root
         All roots of all branches in the interval, in ascending order.
     interval : tuple of float
@@ -91,24 +113,43 @@ class Found:
     branch: int | None
     residual: Any
     bracket: tuple[Any, Any]
-    evaluations: int
-    roots: tuple[Root, ...]
     interval: tuple[Any, Any]
-    reached: tuple[Any, Any]
-    reason: Any
     equals: Any
     words: _Words
+    _evaluations: Callable[[], int] = field(repr=False)
+    _compute: Callable[[], "_Everything"] = field(repr=False)
 
     @property
     def value(self) -> Any:
-        if isinstance(self.reason, str) and self.reason:
+        if np.ndim(self._value) == 0 and not self.solved:
             refuse(SheetError(self.reason), self)
         return self._value
 
     @property
     def solved(self) -> Any:
         """Where there is a value."""
-        return self.reason == ""
+        solved = ~np.isnan(self._value)
+        return solved if solved.ndim else bool(solved)
+
+    @property
+    def evaluations(self) -> int:
+        return self._evaluations()
+
+    @property
+    def roots(self) -> tuple[Root, ...]:
+        return self._everything.roots
+
+    @property
+    def reached(self) -> tuple[Any, Any]:
+        return self._everything.reached
+
+    @property
+    def reason(self) -> Any:
+        return self._everything.reason
+
+    @cached_property
+    def _everything(self) -> "_Everything":
+        return self._compute()
 
     def __str__(self) -> str:
         if isinstance(self.reason, str) and self.reason:
@@ -165,6 +206,15 @@ class Found:
             rows.append(("all roots", "; ".join(roots) or "none"))
         rows.append(("searched", _span(words.unknown_unit, self.interval)))
         return [*rows, ("evaluations", str(self.evaluations))]
+
+
+@dataclass(frozen=True, eq=False)
+class _Everything:
+    """What the search of all branches tells: see `Found`."""
+
+    roots: tuple[Root, ...]
+    reached: tuple[Any, Any]
+    reason: Any
 
 
 def find(
@@ -239,52 +289,56 @@ def find(
     given = dict(zip(given, np.broadcast_arrays(*given.values()), strict=True))
     void = np.isnan(list(given.values())).any(0)
     if void.all():
-        raise SheetError(f"nothing to solve for {unknown}: no problem has an interval, a target and a guess")
+        return _nothing(words, branch, void.shape)
     given = {name: np.where(void, v[~void][0], v) for name, v in given.items()}  # f sees no NaN
     start = given["guess"] if lo is None or hi is None else given["lo"] / 2 + given["hi"] / 2
     first = _values(functions[wanted], start)  # its shape shows what f closes over
     shape = np.broadcast_shapes(void.shape, first.shape)
     void = np.broadcast_to(void, shape).reshape(-1)
     flat = {name: np.broadcast_to(v, shape).reshape(-1) for name, v in given.items()}
-    size = void.size
-    every = {name: np.tile(v, len(labels)) for name, v in flat.items()}  # columns: branches x problems
-    counted = _Counted(functions, shape)
-    search = _search(counted, every["equals"], every.get("lo"), every.get("hi"), every.get("guess"))
-    for numbers in (search.roots, search.interval, search.reached):
-        numbers[..., np.tile(void, len(labels))] = np.nan
-
-    own = wanted * size + np.arange(size)
-    lo_, hi_ = search.interval[:, own]
-    near = flat.get("guess", lo_ / 2 + hi_ / 2)
-    nearest = np.fmin(np.abs(search.roots[0][:, own] - near), np.inf).argmin(0)
-    value, residual, *bracket = search.roots[:, nearest, own]
-    reasons = np.full(size, "", dtype=object)
-    for i in np.flatnonzero(np.isnan(value)):
-        reasons[i] = _reason(words, flat["equals"][i], search, own[i])
-        others = [(s, x) for k, s in enumerate(labels) for x in search.roots[0, :, k * size + i] if np.isfinite(x)]
-        if others:
-            places = ", ".join(f"at {_amount(unknown_unit, x)} on branch {s:+d}" for s, x in others)
-            reasons[i] += f"; it is reached {places}"
+    own, every = _Counted([functions[wanted]], shape), _Counted(functions, shape)
 
     def shaped(a: NDArray[Any]) -> Any:
         return a.reshape(shape) if shape else a.item()
 
-    return Found(
+    def everything() -> _Everything:
+        columns = {name: np.tile(v, len(labels)) for name, v in flat.items()}  # branches x problems
+        search = _search(every, columns, np.tile(void, len(labels)))
+        at = wanted * void.size + np.arange(void.size)
+        reasons = np.full(void.size, "", dtype=object)
+        for i in np.flatnonzero(np.isnan(value)):
+            reasons[i] = _reason(words, flat["equals"][i], search, at[i])
+            own_roots = [(s, x) for k, s in enumerate(labels) for x in search.roots[0, :, k * void.size + i]]
+            places = [f"at {_amount(unknown_unit, x)} on branch {s:+d}" for s, x in own_roots if np.isfinite(x)]
+            reasons[i] += f"; it is reached {', '.join(places)}" if places else ""
+        roots = tuple(
+            Root(shaped(x), shaped(s), shaped(r), (shaped(a), shaped(b)))
+            for x, r, a, b, s in _together(search.roots, labels)
+        )
+        return _Everything(roots, (shaped(search.reached[0, at]), shaped(search.reached[1, at])), shaped(reasons))
+
+    low, high, value, residual, *bracket = (np.where(void, np.nan, numbers) for numbers in _nearest(own, flat))
+    found = Found(
         _value=shaped(value),
         branch=branch,
         residual=shaped(residual),
         bracket=(shaped(bracket[0]), shaped(bracket[1])),
-        evaluations=first.size + counted.count,
-        roots=tuple(
-            Root(shaped(x), shaped(s), shaped(r), (shaped(a), shaped(b)))
-            for x, r, a, b, s in _together(search.roots, labels)
-        ),
-        interval=(shaped(lo_), shaped(hi_)),
-        reached=(shaped(search.reached[0, own]), shaped(search.reached[1, own])),
-        reason=shaped(reasons),
+        interval=(shaped(low), shaped(high)),
         equals=shaped(np.where(void, np.nan, flat["equals"])),
         words=words,
+        _evaluations=lambda: first.size + own.count + every.count,
+        _compute=everything,
     )
+    if not _values_only.get():
+        _ = found.reason  # at once, because what f closes over may change
+    return found
+
+
+def _nothing(words: _Words, branch: int | None, shape: tuple[int, ...]) -> Found:
+    """The verdict on problems none of which has an interval, a target and a guess."""
+    none = np.full(shape, np.nan)
+    everything = _Everything((), (none, none), np.full(shape, _without_numbers(words), dtype=object))
+    return Found(none, branch, none, (none, none), (none, none), none, words, lambda: 0, lambda: everything)
 
 
 def _checked(words: _Words, **numbers: ArrayLike | None) -> dict[str, Array]:
@@ -326,7 +380,8 @@ def _values(f: Function, x: Array) -> Array:
         y = np.asarray(f(x))
     if y.dtype.kind not in "fiu":
         raise TypeError(f"the function to solve must return real numbers, not {y.dtype}")
-    return np.where(np.isfinite(y), y, np.nan)
+    infinite = np.isinf(y)
+    return np.where(infinite, np.nan, y) if infinite.any() else y
 
 
 class _Counted:
@@ -362,36 +417,106 @@ class _Search:
     jump: Array
 
 
-@np.errstate(all="ignore")
-def _search(f: _Counted, equals: Array, lo: Array | None, hi: Array | None, guess: Array | None) -> _Search:
-    if lo is None or hi is None:
-        assert guess is not None
-        lo, hi = _reachable(f, guess, lo, hi)
-    floor = _EPS**2 * (hi - lo)
-    t = (1 - np.cos(np.linspace(0, np.pi, _SAMPLES)))[:, None] / 2
-    x = lo * (1 - t) + hi * t
-    x[0], x[-1] = lo, hi
-    x, y = _with_edges(f, x, f(x))
-    x, y, turn = _with_turns(f, x, y, floor)
+@dataclass(frozen=True)
+class _Pieces:
+    """Monotone pieces of f in all columns: rows of x with f and the residual, some of which touch the target.
 
+    ``cross`` marks the pieces, from each row to the next one, whose ends differ in sign.
+    """
+
+    x: Array
+    y: Array
+    r: Array
+    touch: Mask
+    cross: Mask
+    equals: Array
+    floor: Array
+
+
+@np.errstate(all="ignore")
+def _nearest(f: _Counted, given: dict[str, Array]) -> tuple[Array, ...]:
+    """The interval, and the root nearest the guess: x, residual and bracket ends, NaN where there is none."""
+    lo, hi = _interval(f, given)
+    near = given.get("guess", lo / 2 + hi / 2)
+    pieces = _pieces(f, lo, hi, given["equals"])
+    if pieces.touch.any():
+        roots = _roots(f, pieces)[0]
+        nearest = np.fmin(np.abs(roots[0] - near), np.inf).argmin(0)
+        return lo, hi, *roots[:, nearest, np.arange(near.size)]
+    i, valid = _slots(pieces.cross)
+    least = np.maximum(np.maximum(_at(pieces.x, i) - near, near - _at(pieces.x, i + 1)), 0)
+    least = np.where(valid, least, np.inf)  # distance at which the root of a piece can lie
+    root, distance = np.full((4, near.size), np.nan), np.full(near.size, np.inf)
+    for _ in i:
+        k = least.argmin(0)[None]
+        active = np.isfinite(_at(least, k)) & (_at(least, k) <= distance)
+        if not active.any():
+            break
+        new = _crossing(f, pieces, _at(i, k), active)[0][:, 0]
+        further = np.abs(new[0] - near)
+        better = (further < distance) | ((further == distance) & (new[0] < root[0]))
+        root, distance = np.where(better, new, root), np.where(better, further, distance)
+        least[k[0], np.arange(near.size)] = np.inf
+    return lo, hi, *root
+
+
+@np.errstate(all="ignore")
+def _search(f: _Counted, given: dict[str, Array], void: Mask) -> _Search:
+    """Everything about all columns, NaN for the void ones."""
+    lo, hi = _interval(f, given)
+    pieces = _pieces(f, lo, hi, given["equals"])
+    roots, jump = _roots(f, pieces)
+    i, valid = _slots(_turning(pieces.y))
+    around = np.maximum(i, 1) + _AROUND
+    top = _extreme(f, _at(pieces.x, around), _at(pieces.y, around), valid, pieces.floor)[1]
+    y = np.concatenate([pieces.y, np.where(valid, top, np.nan)])
+    search = _Search(roots, np.stack([lo, hi]), np.stack([np.fmin.reduce(y), np.fmax.reduce(y)]), jump)
+    for numbers in (search.roots, search.interval, search.reached):
+        numbers[..., void] = np.nan
+    return search
+
+
+def _interval(f: _Counted, given: dict[str, Array]) -> tuple[Array, Array]:
+    """Ends of the interval given, or of the reachable one."""
+    if "lo" in given and "hi" in given:
+        return given["lo"], given["hi"]
+    return _reachable(f, given["guess"], given.get("lo"), given.get("hi"))
+
+
+def _pieces(f: _Counted, lo: Array, hi: Array, equals: Array) -> _Pieces:
+    floor = _EPS**2 * (hi - lo)
+    x = lo * (1 - _PLACES) + hi * _PLACES
+    x[0], x[-1] = lo, hi
+    y = f(x)
+    if np.isnan(y).any():
+        x, y = _with_edges(f, x, y)
     r = y - equals
-    left, right = _neighbours(r)
-    end = np.isfinite(r) & (np.isnan(left) | np.isnan(right))
-    touch = _touching(f, x, y, equals, turn, end, floor)
-    touch[1:] &= (r[1:] != 0) | (r[:-1] != 0)  # a run of zeros counts once
-    cross = np.sign(r[:-1]) * np.sign(r[1:]) < 0
+    turn = _turning(y)
+    row, column = turn.nonzero()
+    own, beside = y[row, column], y[[row - 1, row + 1], column]
+    turn[row, column] = np.abs(r[row, column]) <= _RISE * np.abs(own - beside).max(0)
+    if turn.any():
+        x, y, turn = _with_turns(f, x, y, turn, floor)
+        r = y - equals
+    touch, end = _touching(f, x, y, r, equals, turn, floor)
+    below, above = r < 0, r > 0
+    cross = (below[:-1] & above[1:]) | (above[:-1] & below[1:])
     inner = touch & ~end
     cross &= ~(inner[:-1] | inner[1:])  # beside a touching root the sign is rounding
+    return _Pieces(x, y, r, touch, cross, equals, floor)
 
-    crossing, jump = _crossing(f, x, r, equals, cross, floor)
+
+def _roots(f: _Counted, pieces: _Pieces) -> tuple[Array, Array]:
+    """All roots as in `_Search`, and the first jump over the target."""
+    x, touch = pieces.x, pieces.touch
+    crossing, jump = _crossing(f, pieces, *_slots(pieces.cross))
     i, valid = _slots(touch)
     at = _at(x, i)
-    again = (np.abs(crossing[0] - at[:, None]) <= 2**12 * _ulp(at, floor)[:, None]).any(1)  # an end beside its root
-    touching = np.where(valid & ~again, np.stack([at, _at(r, i), at, at]), np.nan)
-    roots = np.concatenate([crossing, touching, np.full((4, 1, lo.size), np.nan)], axis=1)
+    again = (np.abs(crossing[0] - at[:, None]) <= 2**12 * _ulp(at, pieces.floor)[:, None]).any(1)  # beside an end
+    touching = np.where(valid & ~again, np.stack([at, _at(pieces.r, i), at, at]), np.nan)
+    roots = np.concatenate([crossing, touching, np.full((4, 1, x.shape[1]), np.nan)], axis=1)
     order = roots[0].argsort(axis=0, kind="stable")
-    reached = np.stack([np.fmin.reduce(y), np.fmax.reduce(y)])
-    return _Search(roots[:, order, np.arange(lo.size)], np.stack([lo, hi]), reached, jump)
+    return roots[:, order, np.arange(x.shape[1])], jump
 
 
 def _reachable(f: _Counted, guess: Array, lo: Array | None, hi: Array | None) -> tuple[Array, Array]:
@@ -465,10 +590,16 @@ def _closer(f: Function, x: Array, y: Array, low: Array, high: Array, near: Arra
     return _take(x, order), _take(y, order)
 
 
-def _with_turns(f: _Counted, x: Array, y: Array, floor: Array) -> tuple[Array, Array, Mask]:
-    """The samples with each local extreme of f in place of the sample beside it, and where these are."""
-    left, right = _neighbours(y)
-    turn = ((y <= left) & (y < right)) | ((y >= left) & (y > right))
+def _turning(y: Array) -> Mask:
+    """Samples that are local extremes: not beyond the one before, and not level with the next one."""
+    turn = np.zeros(y.shape, dtype=bool)
+    left, own, right = y[:-2], y[1:-1], y[2:]
+    turn[1:-1] = ((own <= left) & (own < right)) | ((own >= left) & (own > right))
+    return turn
+
+
+def _with_turns(f: _Counted, x: Array, y: Array, turn: Mask, floor: Array) -> tuple[Array, Array, Mask]:
+    """The samples with each of these local extremes of f in place of the sample beside it, and where they are."""
     i, valid = _slots(turn)
     around = np.maximum(i, 1) + _AROUND
     where = i[valid], np.broadcast_to(np.arange(x.shape[1]), i.shape)[valid]
@@ -502,12 +633,22 @@ def _extreme(f: _Counted, x: Array, y: Array, active: Mask, floor: Array) -> tup
     return x[1], sign * y[1]
 
 
-def _touching(f: _Counted, x: Array, y: Array, equals: Array, turn: Mask, end: Mask, floor: Array) -> Mask:
-    """Which turns, ends and exact hits meet the target within what f varies over the next few floats.
+def _touching(f: _Counted, x: Array, y: Array, r: Array, equals: Array, turn: Mask, floor: Array) -> tuple[Mask, Mask]:
+    """Which turns, ends and exact hits meet the target within what f varies over the next few floats; and the ends.
 
     On the calmer side of a turn, so that a jump beside it is no excuse.
     """
-    i, valid = _slots(turn | end | (y == equals))
+    out = np.pad(np.isnan(y), ((1, 1), (0, 0)), constant_values=True)
+    end = (out[:-2] | out[2:]) & ~out[1:-1]
+    row, column = end.nonzero()
+    next_ = np.where(out[row, column], row + 1, row - 1) % len(y)
+    own, target = y[row, column], equals[column]
+    unit = np.spacing(np.maximum(np.abs(own), np.abs(target)))
+    touch = turn | (r == 0)
+    touch[row, column] |= ~(np.abs(own - target) > np.abs(own - y[next_, column]) + unit)
+    if not touch.any():
+        return touch, end
+    i, valid = _slots(touch)
     at, own = _at(x, i), _at(y, i)
     near = at + np.array([[-1, -2, -4, -8], [1, 2, 4, 8]])[..., None, None] * _ulp(at, floor)
     beside = f(np.clip(near, x[0], x[-1]))
@@ -517,27 +658,33 @@ def _touching(f: _Counted, x: Array, y: Array, equals: Array, turn: Mask, end: M
     hit = valid & (np.abs(own - equals) <= play + unit)
     touch = np.zeros_like(turn)
     touch[i[hit], np.broadcast_to(np.arange(x.shape[1]), i.shape)[hit]] = True
-    return touch
+    touch[1:] &= (r[1:] != 0) | (r[:-1] != 0)  # a run of zeros counts once
+    return touch, end
 
 
-def _crossing(f: _Counted, x: Array, r: Array, equals: Array, cross: Mask, floor: Array) -> tuple[Array, Array]:
-    """Roots between neighbouring samples of opposite sign, shape (4, R, p) as in `_Search`, and the first jump.
+def _crossing(f: _Counted, pieces: _Pieces, i: Index, valid: Mask) -> tuple[Array, Array]:
+    """Roots in the pieces i, shape (4, R, p) as in `_Search`, and the first jump.
 
     At a root the residual is small against what it is, and against what it varies, a little way off; at a pole it
     is not the first, at a jump not the second.
     """
-    i, valid = _slots(cross)
-    pair = i + np.array([0, 1])[:, None, None]
-    ends, r_ends = _bracketed(lambda u: f(u) - equals, _at(x, pair), _at(r, pair), valid, floor)
+    x, r, equals, floor = pieces.x, pieces.r, pieces.equals, pieces.floor
+
+    def g(u: Array) -> Array:
+        return f(u) - equals
+
+    lower = np.abs(_at(r, i)) < np.abs(_at(r, np.minimum(i + 1, len(x) - 1)))
+    third = np.clip(np.where(lower, i - 1, i + 2), 0, len(x) - 1)
+    rows = np.stack([i, np.minimum(i + 1, len(x) - 1), third])
+    ends, r_ends = _bracketed(g, _at(x, rows), _at(r, rows), valid, floor)
     best = np.abs(r_ends[1]) < np.abs(r_ends[0])
     root, off = np.where(best, ends[1], ends[0]), np.where(best, r_ends[1], r_ends[0])
     ends, r_ends = np.where(off == 0, root, ends), np.where(off == 0, 0, r_ends)
 
-    way = np.array([[-1], [1]]) * 8.0 ** np.arange(12)
-    beside = np.clip(ends[:, None] + way[..., None, None] * _ulp(root, floor), x[0], x[-1])
-    around = np.concatenate([r_ends[:, None], f(beside) - equals], axis=1)
+    beside = np.clip(ends[:, None] + _BESIDE * _ulp(root, floor), x[0], x[-1])
+    around = np.concatenate([r_ends[:, None], g(beside)], axis=1)
     varies = (np.fmax.reduce(around, axis=1) - np.fmin.reduce(around, axis=1)).max(0)
-    away = np.fmax.reduce(np.abs(around[:, -2:]), axis=(0, 1))
+    away = np.fmax.reduce(np.abs(around[:, 1:]), axis=(0, 1))
     unit = np.spacing(np.maximum(np.abs(equals), np.abs(off)))
     sound = np.abs(off) <= 4 * np.minimum(varies, away) + 4 * unit
     roots = np.where(valid & sound, np.stack([root, off, *ends]), np.nan)
@@ -547,40 +694,51 @@ def _crossing(f: _Counted, x: Array, r: Array, equals: Array, cross: Mask, floor
 def _bracketed(g: Function, x: Array, r: Array, active: Mask, floor: Array) -> tuple[Array, Array]:
     """The final brackets of the roots between x[0] and x[1], whose residuals r have opposite signs.
 
-    The next one is near the zero of the parabola x(r) through the bracket and the point beside it, or of the line.
+    The next points are the zero of the parabola x(r) through the bracket and the point x[2] beside it, and one on
+    either side: as far off as half way to the zero of the line, and farther where that has not narrowed the bracket to
+    a quarter. Where it has not three times, and at the end, where f is rounding, the points are evenly spaced.
     """
-    x, r = x[[0, 1, 1]], r[[0, 1, 1]]
+    poor = np.zeros(active.shape)
     while True:
         (a, b, c), (r_a, r_b, r_c) = x, r
-        active = active & (b - a > 4 * _ulp(b, floor)) & (r_a != 0) & (r_b != 0)
+        width, unit = b - a, _ulp(b, floor)
+        active = active & (width > 4 * unit) & (r_a != 0) & (r_b != 0)
         if not active.any():
             return x[:2], r[:2]
-        line = a - (b - a) * r_a / (r_b - r_a)
-        to_b, to_c = (b - a) * r_c / ((r_b - r_a) * (r_b - r_c)), (c - a) * r_b / ((r_c - r_a) * (r_c - r_b))
+        line = a - width * r_a / (r_b - r_a)
+        to_b, to_c = width * r_c / ((r_b - r_a) * (r_b - r_c)), (c - a) * r_b / ((r_c - r_a) * (r_c - r_b))
         parabola = a + r_a * (to_b + to_c)
         zero = np.where((a < parabola) & (parabola < b), parabola, line)
-        x_all, r_all = _closer(g, x, r, a, np.where(active, b, a), zero)
-        side = np.sign(r_all)
-        k = (side[1:] != side[:-1]).argmax(0)
-        rows = np.stack([k, k + 1, np.where(k > 0, k - 1, k + 2)])
-        x, r = (np.where(active, _take(v, rows), v_old) for v, v_old in ((x_all, x), (r_all, r)))
+        off = np.abs(parabola - line) / 2
+        off = np.maximum(np.where(off < width, off, width / 4), 8 ** (1 + poor) * unit)
+        even = ~((a < zero) & (zero < b)) | (width <= 64 * unit) | (poor > 2)
+        new = np.where(even, a + width / 2, zero) + _EVEN * np.where(even, width / 4, off)
+        x, r = _narrowed(g, x, r, np.clip(new, a, b), active)
+        poor = np.where(x[1] - x[0] > width / 4, poor + 1, np.where(even & (poor > 2), poor, 0))
+
+
+def _narrowed(g: Function, x: Array, r: Array, new: Array, active: Mask) -> tuple[Array, Array]:
+    """The first change of sign between the ends x[0] and x[1] and the new points, and the point beside it."""
+    new = np.where(active, new, x[0])
+    x_all, r_all = np.concatenate([x[:1], new, x[1:2]]), np.concatenate([r[:1], g(new), r[1:2]])
+    side = np.sign(r_all)
+    k = (side[1:] != side[:-1]).argmax(0)
+    rows = np.stack([k, k + 1, np.where(k > 0, k - 1, k + 2)])
+    return np.where(active, _take(x_all, rows), x), np.where(active, _take(r_all, rows), r)
 
 
 def _ulp(x: Array, floor: Array) -> Array:
     return _EPS * np.abs(x) + floor
 
 
-def _neighbours(y: Array) -> tuple[Array, Array]:
-    padded = np.pad(y, ((1, 1), (0, 0)), constant_values=np.nan)
-    return padded[:-2], padded[2:]
-
-
 def _slots(mask: Mask) -> tuple[Index, Mask]:
     """Rows of the true elements of each column, shape (K, p), and which of these slots are filled."""
-    count = mask.sum(0)
-    rows = np.zeros((count.max(initial=0), mask.shape[1]), dtype=np.intp)
     row, column = mask.nonzero()
-    rows[mask.cumsum(0)[row, column] - 1, column] = row
+    count = np.bincount(column, minlength=mask.shape[1])
+    order = column.argsort(kind="stable")
+    place = np.arange(len(order)) - np.repeat(count.cumsum() - count, count)
+    rows = np.zeros((count.max(initial=0), mask.shape[1]), dtype=np.intp)
+    rows[place, column[order]] = row[order]
     return rows, np.arange(len(rows))[:, None] < count
 
 
@@ -610,7 +768,7 @@ def _reason(words: _Words, equals: float, search: _Search, c: int) -> str:
     at, unit = words.unknown_unit, words.unit
     least, greatest = search.reached[:, c]
     if np.isnan(search.interval[:, c]).any():
-        return f"nothing to solve for {words.unknown}: its interval, target or guess is NaN"
+        return _without_numbers(words)
     if np.isnan(least):
         return f"nothing closes for {words.unknown} in {_span(at, search.interval[:, c])}"
     low, high, target = _texts(unit, least, greatest, equals)
@@ -620,6 +778,10 @@ def _reason(words: _Words, equals: float, search: _Search, c: int) -> str:
     where = "" if np.isnan(search.jump[c]) else f" at {_amount(at, search.jump[c])}"
     verdict = f"reaches {reach}{_suffix(unit)} but jumps over {target}{_suffix(unit)}{where}"
     return f"{words.unknown}: {words.quantity} {verdict}"
+
+
+def _without_numbers(words: _Words) -> str:
+    return f"nothing to solve for {words.unknown}: its interval, target or guess is NaN"
 
 
 def _texts(unit: str, *values: float, digits: int = 4) -> list[str]:

@@ -6,11 +6,12 @@ import difflib
 import html
 import re
 import sys
-from collections.abc import Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, TypeVar, dataclass_transform
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from mechsheet import formula, scene, source, symbol, units
 from mechsheet.errors import SheetError, refuse
@@ -37,22 +38,27 @@ class Input:
 
     def display(self, value: Any) -> Any:
         """Value in the display unit, the rounding of the conversion taken back."""
-        if self.whole or np.ndim(value):
+        if self.whole:
             return value
-        return float(f"{value / units.parse(self.unit).factor:.15g}")
+        shown = value / units.parse(self.unit).factor
+        return shown if np.ndim(shown) else float(f"{shown:.15g}")
 
-    def si(self, value: float) -> float | int:
-        """SI value of a number in the display unit."""
-        return int(value) if self.whole else value * units.parse(self.unit).factor
+    def si(self, value: Any, default: Any) -> Any:
+        """SI value of a number or an array in the display unit; the default itself where it is shown as that number."""
+        if np.ndim(value):
+            return np.where(value == self.display(default), default, value * units.parse(self.unit).factor)
+        if value == self.display(default):
+            return default
+        return int(value) if self.whole else float(value * units.parse(self.unit).factor)
 
     def written(self, value: Any, default: Any) -> Any:
         """Value in the display unit that is read back as the very same value, where there is one."""
         shown = self.display(value)
-        if self.whole or np.ndim(value) or value == default or self.si(shown) == value:
+        if self.whole or np.ndim(value) or value == default or self.si(shown, default) == value:
             return shown
         x = value / units.parse(self.unit).factor
         near = (x, *(float(np.nextafter(x, end)) for end in (-np.inf, np.inf)))
-        return next((y for y in near if self.si(y) == value), x)
+        return next((y for y in near if self.si(y, default) == value), x)
 
     def says(self, value: object) -> str:
         """The input as an error names it: meaning, symbol, value and unit."""
@@ -100,24 +106,128 @@ def _declared(name: str, cell: source.Cell) -> tuple[Input, ...]:
 
 
 def _validate(self: Any) -> None:
-    fields = {field.name: field for field in declared(type(self))}
-    shown = {name: field.display(getattr(self, name)) for name, field in fields.items()}
-    for name, field in fields.items():
-        value = shown[name]
-        size = np.abs(np.asarray(value, dtype=float))
-        if not np.all(np.isfinite(size)):
-            raise SheetError(f"{field.says(value)} must be a finite number")
-        if not np.all(size <= _MOST):
-            raise SheetError(f"{field.says(value)} must be at most {_MOST:g} in size")
-    for name, field in fields.items():
-        value = shown[name]
+    fields = declared(type(self))
+    shown = {field.name: field.display(getattr(self, field.name)) for field in fields}
+    for holds, say in _rules(fields, shown):
+        if not np.all(holds):
+            raise SheetError(say(int(np.argmin(holds))))
+
+
+def _rules(fields: Iterable[Input], shown: Mapping[str, Any]) -> Iterator[tuple[Any, Callable[[int], str]]]:
+    """The rules for inputs in display units, one by one: where each holds, and what to say of a variant where not."""
+
+    def say(field: Input, must: str, other: str = "") -> Callable[[int], str]:
+        def text(i: int) -> str:
+            limit = f" = {_element(shown[other], i)}" if other else ""
+            return f"{field.says(_element(shown[field.name], i))} must be {must}{limit}"
+
+        return text
+
+    fields = tuple(fields)
+    for field in fields:  # what is no number is named before what it would be compared with
+        size = np.abs(np.asarray(shown[field.name], dtype=float))
+        yield np.isfinite(size), say(field, "a finite number")
+        yield size <= _MOST, say(field, f"at most {_MOST:g} in size")
+    for field in fields:
+        value = shown[field.name]
         for sign, other in field.limits:
-            limit = shown[other] if other in shown else float(other)
-            if not np.all(_COMPARE[sign](value, limit)):
-                must = "positive" if (sign, other) == (">", "0") else f"{sign} {other}"
-                raise SheetError(f"{field.says(value)} must be {must}{f' = {limit}' if other in shown else ''}")
-            if (sign, other) == (">", "0") and not np.all(np.abs(value) >= 1 / _MOST):
-                raise SheetError(f"{field.says(value)} must be at least {1 / _MOST:g}")
+            is_input, is_length = other in shown, (sign, other) == (">", "0")
+            limit = shown[other] if is_input else float(other)
+            must = "positive" if is_length else f"{sign} {other}"
+            yield _COMPARE[sign](value, limit), say(field, must, other * is_input)
+            if is_length:
+                yield np.abs(value) >= 1 / _MOST, say(field, f"at least {1 / _MOST:g}")
+
+
+def _element(values: Any, i: int) -> Any:
+    """One of the values, or the value of all."""
+    return np.ravel(values)[i] if np.ndim(values) else values
+
+
+@dataclass(frozen=True, eq=False)
+class Variants:
+    """Many variants of some inputs: their shape, the inputs as given, their units, and why some cannot be used.
+
+    ``reasons`` has one text for each variant, "" where all inputs are within their limits.
+    """
+
+    shape: tuple[int, ...]
+    shown: dict[str, NDArray[np.float64]]
+    units: dict[str, str]
+    reasons: NDArray[np.object_]
+    _si: dict[str, Any]
+
+    def at(self, rows: NDArray[np.intp]) -> dict[str, Any]:
+        """Inputs of some variants in SI: shape (variants, 1), or one number where it is the same for all variants."""
+        return {name: x[rows, None] if np.ndim(x) else x for name, x in self._si.items()}
+
+
+def variants(cls: type, given: Mapping[str, ArrayLike]) -> Variants:
+    """Variants from arrays of numbers or texts in display units, which broadcast.
+
+    Raises SheetError naming an unknown input, or shapes that do not broadcast.
+    """
+    fields = {field.name: field for field in declared(cls)}
+    columns = {name: _column(_known(fields, name), given[name]) for name in given}
+    shapes = {name: np.shape(column) for name, (column, _) in columns.items()}
+    try:
+        shape = np.broadcast_shapes(*shapes.values())
+    except ValueError:
+        named = ", ".join(f"{name} {shape}" for name, shape in shapes.items())
+        raise SheetError(f"inputs of the variants must have one shape or broadcast: {named}") from None
+    shown = {name: np.broadcast_to(column, shape) for name, (column, _) in columns.items()}
+    texts: NDArray[Any] = np.full(shape, "", dtype=object)
+    for _, more in columns.values():
+        texts = np.where(texts == "", more, texts)
+    reasons = texts.ravel()
+    flat = {name: column.ravel() for name, column in shown.items()}
+    every = {name: flat.get(name, field.display(getattr(cls, name))) for name, field in fields.items()}
+    for holds, say in _rules(fields.values(), every):
+        if not np.all(holds):
+            for i in np.flatnonzero(np.broadcast_to(~np.asarray(holds), reasons.shape) & (reasons == "")):
+                reasons[i] = say(int(i))
+    si = {name: fields[name].si(_shared(column), getattr(cls, name)) for name, column in flat.items()}
+    return Variants(shape, shown, {name: fields[name].unit for name in shown}, reasons, si)
+
+
+def instance(cls: type[T], si: Mapping[str, Any]) -> T:
+    """Inputs from values in SI that are known to be good, and the defaults."""
+    g = object.__new__(cls)
+    for field in declared(cls):
+        value: Any = si.get(field.name, getattr(cls, field.name))
+        object.__setattr__(g, field.name, int(value) if field.whole and not np.ndim(value) else value)
+    return g
+
+
+def _column(field: Input, given: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.object_]]:
+    """Numbers of an input in its display unit, and the reason for each that cannot be used."""
+    column = np.asarray(given)
+    texts = np.full(column.shape, "", dtype=object)
+    if column.dtype.kind in "iuf":
+        numbers = column.astype(np.float64)
+    else:
+        numbers = np.full(column.shape, np.nan)
+        for i, value in np.ndenumerate(column.astype(object)):
+            try:
+                numbers[i] = number(value)
+            except ValueError:
+                texts[i] = f"{field.says(repr(value))} is no number"
+    if field.whole:
+        parts = np.isfinite(numbers) & (numbers != np.rint(numbers))
+        texts[parts] = [f"{field.says(value)} must be a whole number" for value in numbers[parts]]
+    return numbers, texts
+
+
+def _shared(column: NDArray[np.float64]) -> Any:
+    """The number that all variants have, or the column."""
+    return column[0] if column.size and (column == column[0]).all() else column
+
+
+def _known(fields: Mapping[str, Input], name: str) -> Input:
+    if name not in fields:
+        near = difflib.get_close_matches(name, fields, n=3, cutoff=0.5)
+        raise SheetError(f"input {name} is unknown; nearest: {', '.join(near or fields)}")
+    return fields[name]
 
 
 def number(text: object) -> float:
@@ -139,18 +249,14 @@ def build(cls: type[T], values: Mapping[str, object]) -> T:
     """
     fields, given = {field.name: field for field in declared(cls)}, {}
     for name, value in values.items():
-        if name not in fields:
-            near = difflib.get_close_matches(name, fields, n=3, cutoff=0.5)
-            raise SheetError(f"input {name} is unknown; nearest: {', '.join(near or fields)}")
-        field = fields[name]
+        field = _known(fields, name)
         try:
             x = number(value)
         except ValueError:
             raise SheetError(f"{field.says(repr(value))} is no number") from None
         if field.whole and not x.is_integer():
             raise SheetError(f"{field.says(value)} must be a whole number")
-        default = getattr(cls, name)
-        given[name] = default if x == field.display(default) else field.si(x)
+        given[name] = field.si(x, getattr(cls, name))
     return cls(**given)
 
 

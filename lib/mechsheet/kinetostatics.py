@@ -36,7 +36,7 @@ from mechsheet.arguments import (
     scalar_field,
 )
 from mechsheet.dyads import rrr_determinant
-from mechsheet.planar import cross, dot
+from mechsheet.planar import cross, dot, product
 
 
 @dataclass(frozen=True)
@@ -200,7 +200,7 @@ def rrr_reactions(
     F_A, T_A = _resultant(loads_A, A, "loads_A")
     F_B, T_B = _resultant(loads_B, B, "loads_B")
     D = rrr_determinant(A, B, C)
-    R_C = -(T_B / D * (C - A) + T_A / D * (C - B))
+    R_C = -(product(T_B / D, 0.0, C - A) + product(T_A / D, 0.0, C - B))
     return RRRReactions(-(R_C + F_A), R_C - F_B, R_C)
 
 

@@ -19,7 +19,7 @@ from mechsheet import formula, inputs, symbol, worksheet
 from mechsheet.checks import Check
 from mechsheet.find import Found
 from mechsheet.recorded import Node, Recorded, Recorder, takes
-from mechsheet.table import Figure, Table, heading
+from mechsheet.table import Figure, Table
 
 _ADDRESS = re.compile(r"[A-Za-z]{1,3}\d+|[rR]\d*([cC]\d*)?|[cC]\d*|[rR]\d+[cC]\d+")
 _HEADING = re.compile(r"^def (\w+)\(|^\s*## +(.+)$", re.MULTILINE)
@@ -400,9 +400,14 @@ def _define(recording: Recording, section: str, name: str, value: Any, known: Ma
     for node, part in zip(value.parts, ends, strict=True):
         if node.op in ("constant", "input") or node.name:
             continue
-        node.name = heading(stem, part)
+        node.name = _coordinate(stem, part)
         _steps_of(node, stem, lines, set())
         lines.append(Line(node, node.name, unit, meaning, text))
+
+
+def _coordinate(name: str, part: str) -> str:
+    axis = {"real": "x", "imag": "y"}.get(part, "")
+    return axis.upper() + name[1:] if axis and name.startswith("P") else name + axis
 
 
 _source = lru_cache(maxsize=4096)(ast.unparse)

@@ -16,6 +16,7 @@ __all__ = [
     "link_acceleration",
     "link_point",
     "link_velocity",
+    "product",
     "triangle_area",
 ]
 
@@ -40,6 +41,22 @@ def dot(a: ArrayLike, b: ArrayLike) -> Float:
     """
     p, q = np.asarray(a, np.complex128), np.asarray(b, np.complex128)
     return p.real * q.real + p.imag * q.imag
+
+
+def product(p: ArrayLike, q: ArrayLike, z: ArrayLike) -> Complex:
+    """(p + iq) z for real p, q; shape (...).
+
+    Written in real products: numpy fuses the complex ones of arrays and not those of single numbers, and a variant
+    must give the same alone as among others.
+
+    >>> product(1, 2, 3 + 1j)
+    np.complex128(1+7j)
+    """
+    p, q, z = np.asarray(p, np.float64), np.asarray(q, np.float64), np.asarray(z, np.complex128)
+    found = np.empty(np.broadcast_shapes(p.shape, q.shape, z.shape), np.complex128)
+    found.real = p * z.real - q * z.imag
+    found.imag = p * z.imag + q * z.real
+    return found[()]
 
 
 def angle(z: ArrayLike) -> Float:
@@ -129,7 +146,11 @@ def triangle_area(a: ArrayLike, b: ArrayLike, c: ArrayLike) -> Float:
     array([ 6.,  0., nan])
     """
     x, y, z = np.asarray(a, np.float64), np.asarray(b, np.float64), np.asarray(c, np.float64)
-    x, y = np.maximum(x, y), np.minimum(x, y)
+    return sorted_area(np.maximum(x, y), np.minimum(x, y), z)
+
+
+def sorted_area(x: Float, y: Float, z: Float) -> Float:
+    """`triangle_area` of sides of which the first is no shorter than the second."""
     x, z = np.maximum(x, z), np.minimum(x, z)
     y, z = np.maximum(y, z), np.minimum(y, z)
     excess = z - (x - y)
@@ -162,8 +183,9 @@ def link_point(A: ArrayLike, B: ArrayLike, z: ArrayLike) -> Complex:
     np.complex128(3j)
     """
     A = field(A, "A")
-    d = field(B, "B") - A
-    return A + field(z, "z") * (d / np.abs(d))
+    d, z = field(B, "B") - A, field(z, "z")
+    size = np.abs(d)
+    return A + product(z.real / size, z.imag / size, d)
 
 
 def link_velocity(P: ArrayLike, A: ArrayLike, v_A: ArrayLike, omega: ArrayLike) -> Complex:

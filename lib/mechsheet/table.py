@@ -211,12 +211,12 @@ def _columns(
                 f"column {ast.unparse(node)}: no line declares {name} with its unit, such as # [m] meaning"
             )
         line = known[name]
-        head = heading(symbol.plain(name), part)
-        unit = show.get(head, line.unit)
+        label = heading(name, part)
+        unit = show.get(label, line.unit)
         shown = np.broadcast_to(np.asarray(value) / units.parse(unit).factor, shape)[..., ::every].ravel()
         whole = np.asarray(value).dtype.kind in "iu"
         usual = DECIMALS.get(unit, _OTHER_DECIMALS) if decimals is None else decimals
-        columns.append(Column(head, unit, line.meaning, 0 if whole else usual, shown))
+        columns.append(Column(label, unit, line.meaning, 0 if whole else usual, shown))
     return tuple(columns)
 
 
@@ -235,8 +235,13 @@ def _name(node: ast.expr) -> tuple[str, str]:
     raise LookupError(f"column {ast.unparse(node)}: a column is a name, name.real, name.imag or abs(name)")
 
 
-def heading(name: str, part: str) -> str:
-    """Heading of a quantity, or of the ``real`` or ``imag`` coordinate of a point P56 (X56) or a vector R56 (R56x)."""
+def heading(name: str, part: str = "") -> str:
+    """Heading of the column of a quantity, or of its part ``real`` or ``imag``.
+
+    >>> heading("P23_S", "real"), heading("R56", "imag"), heading("phi3_S")
+    ('X23', 'R56y', 'phi3')
+    """
+    name = symbol.plain(name)
     if not part:
         return name
     axis = {"real": "x", "imag": "y"}[part]
