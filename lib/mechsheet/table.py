@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mechsheet import formula, source, symbol, units
+from mechsheet import chart, formula, source, symbol, units
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -23,7 +23,6 @@ DECIMALS = {
 }  # fmt: skip
 _OTHER_DECIMALS = 3
 _BLOCK = 6
-_MARKED = 60  # points of a curve that are marked one by one; more of them hide the line
 
 
 @dataclass(frozen=True)
@@ -58,21 +57,16 @@ class Table:
         rest = self.columns[len(keys) :]
         blocks = [rest[i : i + _BLOCK] for i in range(0, max(len(rest), 1), _BLOCK)]
         caption = f'<div class="ms-caption"><b>Table {html.escape(self.number)}</b> – {html.escape(self.title)}</div>'
-        note = f'<div style="font-size:.9em;opacity:.75">{html.escape(self.note)}</div>' if self.note else ""
+        note = f'<div class="ms-note">{html.escape(self.note)}</div>' if self.note else ""
         return "text/html", f'<div class="ms-table">{caption}{"".join(_block([*keys, *b]) for b in blocks)}{note}</div>'
 
 
 def _block(columns: list[Column]) -> str:
-    cell = 'style="text-align:right;padding:.1em .7em;font-variant-numeric:tabular-nums"'
-    heads = "".join(f'<th {cell} title="{html.escape(c.meaning)}">{symbol.html(c.symbol)}</th>' for c in columns)
-    unit_row = "".join(f"<th {cell}>[{html.escape(units.shown(c.unit))}]</th>" for c in columns)
+    heads = "".join(f'<th title="{html.escape(c.meaning)}">{symbol.html(c.symbol)}</th>' for c in columns)
+    unit_row = "".join(f"<th>[{html.escape(units.shown(c.unit))}]</th>" for c in columns)
     texts = [[_digits(v, c.decimals) for v in c.values] for c in columns]
-    rows = "".join("<tr>" + "".join(f"<td {cell}>{t}</td>" for t in row) + "</tr>" for row in zip(*texts, strict=True))
-    return (
-        '<table style="border-collapse:collapse;margin:.4em 0 1em"><thead>'
-        f'<tr>{heads}</tr><tr style="opacity:.6;border-bottom:1px solid currentColor">{unit_row}</tr></thead>'
-        f"<tbody>{rows}</tbody></table>"
-    )
+    rows = "".join("<tr>" + "".join(f"<td>{t}</td>" for t in row) + "</tr>" for row in zip(*texts, strict=True))
+    return f'<table><thead><tr>{heads}</tr><tr class="ms-units">{unit_row}</tr></thead><tbody>{rows}</tbody></table>'
 
 
 def _digits(value: float, decimals: int) -> str:
@@ -90,49 +84,12 @@ class Figure:
     marks: tuple[tuple[str, float], ...] = ()
 
     def _mime_(self) -> tuple[str, str]:
-        import marimo as mo
+        caption = f'<div class="ms-caption"><b>Figure {html.escape(self.number)}</b> – {html.escape(self.title)}</div>'
+        return "text/html", f'<div class="ms-figure">{self.svg()}{caption}</div>'
 
-        return "text/html", mo.as_html(self.chart()).text
-
-    def chart(self) -> Any:
-        """The figure as an altair chart."""
-        import altair as alt
-
-        names = [symbol.text(c.symbol) for c in self.lines]
-        rows = [
-            {"x": float(x), "y": float(y) if np.isfinite(y) else None, "line": name}  # None is a gap
-            for column, name in zip(self.lines, names, strict=True)
-            for x, y in zip(self.x.values, column.values, strict=True)
-        ]
-        y_title = f"{', '.join(names)} [{units.shown(self.lines[0].unit)}]"
-        base = alt.Chart(alt.InlineData(rows)).encode(
-            x=alt.X(
-                "x:Q",
-                title=f"{symbol.text(self.x.symbol)} [{units.shown(self.x.unit)}]",
-                scale=alt.Scale(zero=False, nice=False),
-            ),
-            y=alt.Y("y:Q", title=y_title, scale=alt.Scale(zero=False)),
-            color=alt.Color(
-                "line:N", title=None, sort=names, legend=alt.Legend(orient="top") if len(names) > 1 else None
-            ),
-            tooltip=[
-                alt.Tooltip("line:N", title="quantity"),
-                alt.Tooltip("x:Q", title=symbol.text(self.x.symbol), format=f".{self.x.decimals}f"),
-                alt.Tooltip("y:Q", title="value", format=f",.{self.lines[0].decimals}f"),
-            ],
-        )
-        layers = [base.mark_line()]
-        if self.x.values.size <= _MARKED:
-            layers.append(base.mark_point(filled=True, size=36))
-        for name, x in self.marks:
-            at = alt.Chart(alt.InlineData([{"x": x, "name": name}])).encode(x="x:Q")
-            layers += [
-                at.mark_rule(strokeDash=[5, 4], opacity=0.6),
-                at.mark_text(align="left", dx=4, y=8, fontSize=12).encode(text="name:N"),
-            ]
-        title = f"Figure {self.number} – {self.title}"
-        sharp = {"embedOptions": {"renderer": "svg"}}  # on paper too
-        return alt.layer(*layers).properties(title=title, width=620, height=300, usermeta=sharp)
+    def svg(self) -> str:
+        """The chart as one SVG element."""
+        return chart.line_chart(self.x, self.lines, self.marks)
 
 
 def table(
