@@ -70,3 +70,14 @@ def test_summary_counts_and_leads_to_each_check():
     for each in checks:
         anchor = each._mime_()[1].split('id="')[1].split('"')[0]
         assert f'href="#{anchor}"' in text
+
+
+def test_what_has_no_number_is_not_evaluated_and_no_pass():
+    open_one = check("moments of R01", [1e-15, np.nan], 1e-12, "N*m")
+    assert not open_one.passed and not open_one.evaluated
+    assert str(open_one) == "FAIL  moments of R01: not evaluated; 1 of 2 values do not exist"
+    assert "not evaluated" in open_one._mime_()[1] and "nan" not in open_one._mime_()[1]
+    assert "<i>R</i><sub>01</sub>" in open_one._mime_()[1]
+    shown = summary(check("a", 0, 1), check("b", 2, 1), open_one)._mime_()[1]
+    assert "1 of 3 checks pass, 1 fail, 1 not evaluated" in shown
+    assert shown.index(">b<") < shown.index("moments of") < shown.index(">a<"), "what fails first"

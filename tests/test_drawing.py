@@ -3,6 +3,7 @@
 import re
 from cmath import rect
 from collections.abc import Callable
+from itertools import pairwise
 from math import inf, isfinite, nan, pi
 from typing import Any, cast
 from xml.etree import ElementTree
@@ -455,3 +456,20 @@ def test_any_finite_input_gives_well_formed_svg_inside_its_view(moves: list[tupl
 def test_what_cannot_be_drawn_is_named(build: Callable[[], Drawing], message: str) -> None:
     with pytest.raises(SheetError, match=message):
         build()
+
+
+@pytest.mark.parametrize(("M", "sense"), [(5.0, 1), (np.float64(-5.0), -1)])
+def test_moment_is_an_arc_in_its_sense(M, sense):
+    """Counter-clockwise where positive: with y downwards the area that the arc sweeps has the other sign."""
+    svg = Drawing(frame=[-1 - 1j, 1 + 1j]).moment(0j, M, "M").svg()
+    arc = re.search(r'data-shape="moment".*?d="M([^"]*)"', svg)[1]
+    points = [complex(*map(float, xy.split())) for xy in arc.split("L")]
+    swept = sum((a.conjugate() * b).imag for a, b in pairwise(points))
+    assert sense * swept < 0
+    assert ": 5 N*m" in svg or ": -5 N*m" in svg
+    assert "moment" not in Drawing(frame=[-1 - 1j, 1 + 1j]).moment(0j, 0.0).moment(0j, float("nan")).svg()
+
+
+def test_bar_of_a_scale_has_the_colour_of_its_arrows():
+    svg = Drawing().arrow(0j, 1 + 0j, "V", "m/s", "orange").svg()
+    assert svg.count('stroke="#cf7a17"') == 2

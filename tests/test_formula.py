@@ -15,8 +15,8 @@ IMPORT = "from mechsheet.formula import typeset\n"
 @pytest.mark.parametrize(
     ("source", "tex"),
     [
-        ("pi*g.D_gc**2/4", r"\frac{\pi\,D_{gc}^{2}}{4}"),
-        ("g.P6/(g.k_gc*A_gc*g.eta)", r"\frac{P_{6}}{k_{gc}\,A_{gc}\,\eta}"),
+        ("pi*g.D_gc**2/4", r"\frac{\pi\,D_{\mathrm{gc}}^{2}}{4}"),
+        ("g.P6/(g.k_gc*A_gc*g.eta)", r"\frac{P_{6}}{k_{\mathrm{gc}}\,A_{\mathrm{gc}}\,\eta}"),
         ("O3 + g.L34*exp(1j*phi34(S))", r"O_{3} + L_{34}\,e^{i\,\varphi_{34}(S)}"),
         ("sqrt(X6**2 + Y6**2)", r"\sqrt{X_{6}^{2} + Y_{6}^{2}}"),
         ("a - (b - c)", r"a - (b - c)"),
@@ -28,11 +28,11 @@ IMPORT = "from mechsheet.formula import typeset\n"
         ("(-a)**2", r"(-a)^{2}"),
         ("(a/b)**2", r"\left(\frac{a}{b}\right)^{2}"),
         ("a**(b + 1)", r"a^{b + 1}"),
-        ("(a**b)**c", r"(a^{b})^{c}"),
+        ("(a**b)**c", r"\left(a^{b}\right)^{c}"),
         ("a/(b*c)*d", r"\frac{a}{b\,c}\,d"),
         ("a*-b", r"a \cdot (-b)"),
-        ("-m2*a_S2", r"-m_{2}\,a_{S2}"),
-        ("-1j*m2*g_n", r"-i\,m_{2}\,g_{n}"),
+        ("-m2*a_S2", r"-m_{2}\,a_{\mathrm{S2}}"),
+        ("-1j*m2*g_n", r"-i\,m_{2}\,g_{\mathrm{n}}"),
         ("-(a + b)/c", r"-\frac{a + b}{c}"),
         ("a - -b/c", r"a - \left(-\frac{b}{c}\right)"),
         ("a + -b*c", r"a + (-b\,c)"),
@@ -44,10 +44,30 @@ IMPORT = "from mechsheet.formula import typeset\n"
         ("abs(O1 - O3)", r"\left|O_{1} - O_{3}\right|"),
         ("cross(A - B, F)", r"(A - B) \times F"),
         ("x % (2*pi)", r"x \bmod 2\,\pi"),
-        ("group_67.R_A", r"R_{A}(\text{group 67})"),
+        ("group_67.R_A", r"R_{\mathrm{A}}(\text{group 67})"),
         ("[0.5, -1]", r"\left[0.5,\ -1\right]"),
         ("phi3[k]", r"{\varphi_{3}}_{k}"),
-        ("L4_found.value", r"\operatorname{Find}\,L_{4}"),
+        ("sin(phi)*L", r"\sin(\varphi)\,L"),
+        ("L*sin(phi)", r"L\,\sin \varphi"),
+        ("sin(phi)", r"\sin \varphi"),
+        ("sin(phi_S)", r"\sin(\varphi(S))"),
+        ("2*sin(a)*cos(b)*c", r"2\,\sin(a)\,\cos(b)\,c"),
+        ("sin(a) + c", r"\sin a + c"),
+        ("arange(g.N)", r"0,\,1\,\ldots\,N - 1"),
+        ("arange(1, g.m + 1)", r"1\,\ldots\,m"),
+        ("linspace(0, 2*pi, 361)", r"0\,\ldots\,2\,\pi"),
+        ("motion_45(phi1).ds", r"\dot{s}\left[\operatorname{motion\ 45}(\varphi_{1})\right]"),
+        (
+            "where(F_b < 0, a, b)",
+            r"\begin{cases} a & \text{if } F_{\mathrm{b}} < 0 \\ b & \text{otherwise} \end{cases}",
+        ),
+        ("dot(F, v + w)*k", r"F \cdot (v + w)\,k"),
+        ("trapezoid(M, phi1)", r"\int M\,\mathrm{d}\varphi_{1}"),
+        ("np.nanmin(SAB_k)", r"\min(S_{\mathrm{AB,k}})"),
+        ("np.sum(S_g > 0, axis=1)", r"\textstyle\sum (S_{\mathrm{g}} > 0)"),
+        ("P45(S, L4, branch)", r"P_{45}(S,\ L_{4})"),
+        ("(2*a) % b - c", r"2\,a \bmod b - c"),
+        ("L4_found.value", r"\operatorname{Find}(L_{4})"),
     ],
 )
 def test_expression_as_a_textbook_prints_it(source, tex):
@@ -104,7 +124,7 @@ def test_one_position_of_the_fields():
     )
     assert names["shown"].values == (2.0, 2.0)
     assert [row.name for row in names["shown"].rows] == ["L", "x"]
-    assert r"\ldots" not in names["shown"]._mime_()[1]
+    assert r"= 2\ \mathrm{m}||" in names["shown"]._mime_()[1]
 
 
 def test_page_shows_symbol_formula_value_and_meaning():
@@ -114,3 +134,64 @@ def test_page_shows_symbol_formula_value_and_meaning():
     assert r"A = L_{3}^{2} = 400\ \mathrm{cm^{2}}" in text
     assert r"L_{3} = 0.2\ \mathrm{m}" in text
     assert "&lt;area&gt;" in text
+
+
+def test_solve_block_is_typeset_as_given_and_find():
+    names = run(
+        IMPORT
+        + "from mechsheet.find import find\n"
+        + "h = 0.25  # [m] height\n"
+        + "def y(x, branch):\n    return branch * x**2  # [m] curve\n"
+        + "x_found = find(lambda x, branch: y(x, branch), 0, 2, equals=h, branches=(1,), branch=1)\n"
+        + "x = x_found.value  # [m] found\n"
+        + "shown = typeset(x_found)"
+    )
+    text = names["shown"]._mime_()[1]
+    assert r"y(x) = x^{2}" in text or r"y(x) =" in text
+    assert r"\text{Given}\quad y(x) = h" in text
+    assert r"x = \operatorname{Find}(x) = 0.5\ \mathrm{m}" in text
+    assert "found" in text
+
+
+@pytest.mark.parametrize(
+    ("lines", "numbers"),
+    [
+        ("y = a * b / 4  # [m**2]", r"\frac{2\ \mathrm{m} \cdot (-30\ \mathrm{mm})}{4}"),
+        ("y = (a + b)**2  # [m**2]", r"(2\ \mathrm{m} + (-30\ \mathrm{mm}))^{2}"),
+        ("y = a**2 - b  # [m**2]", r"(2\ \mathrm{m})^{2} - (-30\ \mathrm{mm})"),
+        ("y = sin(w) * a  # [m]", r"\sin(30^\circ) \cdot 2\ \mathrm{m}"),
+        ("y = c[0] * n  # [m]", r"{c}_{0} \cdot 3"),
+        ("y = f[0] + unknown  # [m]", None),
+    ],
+)
+def test_numbers_stand_for_the_symbols(lines, numbers):
+    names = run(
+        IMPORT
+        + "from numpy import array, pi, sin\n"
+        + "a = 2.0  # [m]\nb = -0.03  # [mm]\nw = pi / 6  # [deg]\nn = 3  # [-]\nunknown = c = f = array([1.0, 2.0])\n"
+        + f"{lines}\nshown = typeset()"
+    )
+    text = names["shown"]._mime_()[1]
+    if numbers is None:
+        assert "= " + lines[4:10] not in text and "unknown</ms-numbers" not in text
+    else:
+        assert f'tex="= {numbers}"' in text
+
+
+def test_numbers_of_a_field_are_those_of_the_position_shown():
+    names = run(IMPORT + "from numpy import arange\nx = 2 * arange(3)  # [m]\ny = 3 * x  # [m]\nshown = typeset()")
+    assert r'tex="= 3 \cdot 0\ \mathrm{m}"' in names["shown"]._mime_()[1]
+    assert r'tex="= 3 \cdot 4\ \mathrm{m}"' in names["shown"].at(2)._mime_()[1]
+
+
+def test_edited_unit_alone_is_seen():
+    """Cells whose code is equal but for a comment are told apart."""
+    shown = [run(IMPORT + f"a = 0.5  # [{unit}] length\nshown = typeset()")["shown"] for unit in ("m", "mm")]
+    assert [s.rows[0].unit for s in shown] == ["m", "mm"]
+
+
+def test_branch_that_is_meant_stands_in_the_definition():
+    text = run(IMPORT + "def P(S, L7, branch=-1):\n    return rrr(S, L7, branch)  # [m] pin\nshown = typeset()")[
+        "shown"
+    ]
+    assert r"P(S,\,L_{7}) = \operatorname{rrr}(S,\ L_{7},\ -1)" in text._mime_()[1]

@@ -54,12 +54,12 @@ def refusal(*argv: str) -> str:
 def test_help_names_every_command(capsys: pytest.CaptureFixture[str]) -> None:
     assert launcher.main(["--help"]) == 0
     printed = capsys.readouterr().out
-    assert re.findall(r"^  (\w+)", printed, re.MULTILINE) == ["run", "edit", "test"]
+    assert re.findall(r"^  (\w+)", printed, re.MULTILINE) == ["run", "new", "edit", "test"]
 
 
 @pytest.mark.parametrize("argv", [[], ["rn", "hitch"], ["--version"]])
-def test_any_other_command_names_the_three(argv: list[str], calls: list[list[str]]) -> None:
-    assert "run, edit and test" in refusal(*argv)
+def test_any_other_command_names_them(argv: list[str], calls: list[list[str]]) -> None:
+    assert "run, edit, new and test" in refusal(*argv)
     assert not calls
 
 

@@ -14,7 +14,7 @@ def cell(page, table: str, row: int, column: int) -> str:
     return (
         page.locator(f".ms-table:has-text('Table {table} ') table")
         .first.locator(f"tbody tr:nth-child({row}) td:nth-child({column})")
-        .inner_text()
+        .text_content()
     )
 
 
@@ -38,7 +38,7 @@ def test_opens_computed_with_every_section(opened, console_errors):
     assert opened.get_by_text("FAIL").count() == 0
     for trouble in ("Traceback", "Something went wrong", "internal error"):
         assert opened.get_by_text(trouble).count() == 0, trouble
-    assert opened.get_by_text("18 of 18 checks pass").count() == 1
+    assert opened.get_by_text("20 of 20 checks pass").count() == 1
     assert console_errors == []
 
 
@@ -49,7 +49,7 @@ def test_changed_input_changes_the_tables(serve, page, console_errors):
     field.fill("30000,5")
     field.press("Enter")
     page.locator(".ms-screen", has_text="30000.5").wait_for(timeout=30_000)
-    page.wait_for_function("() => document.body.innerText.includes('141399')", timeout=30_000)
+    page.wait_for_function("() => document.body.textContent.includes('141399')", timeout=30_000)
     assert cell(page, "4.1", 1, 2) == "141399", "129614 * 30000.5 / 27500"
     assert console_errors == []
 
@@ -61,6 +61,8 @@ def test_bad_input_is_told_at_its_place_and_the_inputs_stay(serve, page):
     field.fill("heavy")
     field.press("Enter")
     page.get_by_text("P6 = 'heavy' N is no number").first.wait_for(timeout=30_000)
+    top = page.evaluate("() => getComputedStyle(document.querySelector('.ms-told'), '::after').content")
+    assert "P6 = 'heavy' N is no number" in top, "told where the verdicts of the checks were"
     field.fill("27500")
     field.press("Enter")
     ready(page)
@@ -72,6 +74,7 @@ def test_slider_moves_the_scheme(serve, page, console_errors):
     ready(page)
     scheme = page.locator("div:has-text('Figure 2.1') > svg, div:has(> svg)").locator("svg[viewBox]").first
     before = scheme.inner_html()
+    at = page.evaluate("() => getComputedStyle(document.querySelector('.ms-at')).transform")
     slider = page.get_by_role("slider").first
     slider.focus()
     for _ in range(5):
@@ -80,7 +83,88 @@ def test_slider_moves_the_scheme(serve, page, console_errors):
     while scheme.inner_html() == before:
         assert time.monotonic() < deadline, "the scheme rests"
         page.wait_for_timeout(100)
+    shift = 0.05 * 0.25 / 0.3 * 570  # of the mark in the charts: 0.05 of the stroke on an axis from 0.4 to 0.7 m
+    page.wait_for_function(
+        """([from, shift]) => {
+          const x = (transform) => Number(transform.split(", ")[4]);
+          return Math.abs(x(getComputedStyle(document.querySelector(".ms-at")).transform) - x(from) - shift) < 0.01;
+        }""",
+        arg=[at, shift],
+    )
     assert console_errors == []
+
+
+def test_play_moves_the_slider_until_it_is_stopped(serve, page, console_errors):
+    page.goto(serve("run", HITCH))
+    ready(page)
+    slider, button = page.get_by_role("slider").first, page.locator(".ms-play").first
+    first = float(slider.get_attribute("aria-valuenow"))
+    button.click()
+    page.wait_for_timeout(2000)
+    button.click()
+    page.wait_for_timeout(300)
+    stopped = float(slider.get_attribute("aria-valuenow"))
+    assert stopped > first + 0.04
+    page.wait_for_timeout(500)
+    assert float(slider.get_attribute("aria-valuenow")) == stopped
+    assert console_errors == []
+
+
+def test_switch_shows_the_numbers_in_the_formulas(serve, page, console_errors):
+    page.goto(serve("run", HITCH))
+    ready(page)
+    assert page.locator("ms-numbers marimo-tex").count() == 0, "nothing is typeset before it is asked for"
+    page.locator(".ms-switch").check()
+    area = page.locator("ms-numbers[tex*='80']", has=page.locator("marimo-tex")).first
+    area.wait_for(timeout=20_000)
+    capacity = page.locator(".ms-line", has_text="piston area").locator("ms-numbers marimo-tex")
+    page.wait_for_function("() => document.querySelector('ms-numbers marimo-tex').shadowRoot?.querySelector('.katex')")
+    assert r"\frac{\pi\,(0.08\ \mathrm{m})^{2}}{4}" in capacity.text_content()
+    field = page.locator(".ms-inputs tr:has-text('piston diameter') input")
+    field.fill("0.09")
+    field.press("Enter")
+    page.locator("ms-numbers[tex*='(0.09']").first.wait_for(timeout=30_000, state="attached")
+    assert r"(0.09\ \mathrm{m})^{2}" in capacity.text_content(), "the numbers follow"
+    page.locator(".ms-switch").uncheck()
+    assert page.locator("ms-numbers marimo-tex").count() == 0
+    assert console_errors == []
+
+
+def test_hovering_a_chart_shows_its_values(serve, page):
+    page.goto(serve("run", HITCH))
+    ready(page)
+    chart = page.locator(".ms-figure:has-text('Figure 4.1') svg.ms-chart").first
+    chart.hover(position={"x": 640, "y": 150})
+    tip = page.locator(".ms-tip")
+    tip.wait_for()
+    assert tip.inner_text().splitlines() == ["S = 0.670 m", "G56 = 56377 N", "GS6 = 29959 N"]
+    page.mouse.move(5, 5)
+    tip.wait_for(state="hidden")
+
+
+def test_every_session_has_its_own_inputs(serve, browser):
+    pages = []
+    for weight in ("20000", "30000"):
+        page = browser.new_context(viewport={"width": 1280, "height": 1600}, locale="en-US").new_page()
+        page.goto(serve("run", HITCH))
+        ready(page)
+        field = page.locator(".ms-inputs tr:has-text('weight of the implement') input")
+        field.fill(weight)
+        field.press("Enter")
+        pages.append(page)
+    for page, force in zip(pages, ("94265", "141397"), strict=True):
+        page.wait_for_function(f"() => document.body.textContent.includes('{force}')", timeout=30_000)
+        assert cell(page, "4.1", 1, 2) == force, "129614 * weight / 27500"
+        page.context.close()
+
+
+def test_outline_leads_to_the_sections(serve, page):
+    page.goto(serve("run", HITCH))
+    ready(page)
+    page.mouse.move(1240, 0.25 * 1600 + 30)  # the marks at the right edge open it
+    page.get_by_text("6 Steering stability").last.click()
+    page.wait_for_timeout(1500)
+    assert 0 <= page.get_by_role("heading", name="6 Steering stability").bounding_box()["y"] < 800
 
 
 def test_download_is_the_workbook(serve, page, tmp_path):
@@ -102,7 +186,7 @@ def test_printed_page_is_a_document(serve, page, tmp_path):
 
     page.goto(serve("run", HITCH))
     ready(page)
-    page.locator("svg.marks").nth(6).wait_for()
+    page.locator("svg.ms-chart").nth(6).wait_for()
     page.pdf(path=tmp_path / "hitch.pdf", prefer_css_page_size=True, print_background=True)
     pages = PdfReader(tmp_path / "hitch.pdf").pages
     texts = [p.extract_text() for p in pages]

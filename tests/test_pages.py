@@ -23,7 +23,7 @@ def test_every_worksheet_is_opened():
 
 
 def tables(page) -> str:
-    return "\n".join(page.locator(".ms-table").all_inner_texts())
+    return "\n".join(page.locator(".ms-table").all_text_contents())
 
 
 @pytest.mark.parametrize("name", sorted(CHANGED))

@@ -67,6 +67,6 @@ def test_figure_marks_are_in_the_unit_of_the_axis(names):
     run('f = figure("3.1", "F", S, R56.imag, marks={"S_p": 0.5})', names)
     f = names["f"]
     assert (f.x.symbol, [c.symbol for c in f.lines], f.marks) == ("S", ["R56y"], (("S_p", 0.5),))
-    spec = f.chart().to_dict()
-    assert spec["title"] == "Figure 3.1 – F"
-    assert spec["layer"][0]["encoding"]["y"]["title"] == "R56y [kN]"
+    text = f._mime_()[1]
+    assert "<b>Figure 3.1</b> – F" in text
+    assert 'R</tspan><tspan dy="4" font-size="11">56y</tspan><tspan dy="-4">\u200b</tspan> [kN]' in text

@@ -29,6 +29,7 @@ with app.setup:
     from mechsheet.formula import registry, typeset
     from mechsheet.inputs import Used, ask, inputs, read
     from mechsheet.kinetostatics import Load, rrr_reactions
+    from mechsheet.page import title_block
     from mechsheet.planar import angle, cross, dot
     from mechsheet.precision import Measured, Method, Truth, WorkPrecision, compare, progress, timed
     from mechsheet.report import export
@@ -41,9 +42,9 @@ with app.setup:
 
 @app.cell(hide_code=True)
 def title():
-    mo.md("""
-    # Error against run time
-
+    title_block(
+        "Error against run time",
+        """
     Every method with which the product computes stands here beside the others that could do the same job. Errors are
     measured against arithmetic of 50 digits; all methods of a job run turn about in one process, and times are medians,
     given as multiples of the product's own.
@@ -51,7 +52,8 @@ def title():
     In a figure the product's own method is the large diamond. Whatever is both faster and more accurate would lie in
     the red field beside it. Errors in the grey band are a few roundings: there one method is as good as another, and
     there is no red field. The dashed line joins the methods that none surpasses in both.
-    """)
+    """,
+    )
     return
 
 

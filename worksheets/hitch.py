@@ -13,11 +13,12 @@ with app.setup:
 
     from mechsheet.checks import Check, assembled, check, check_slope, closed_form, require, summary
     from mechsheet.drawing import Drawing
-    from mechsheet.dyads import rrr, rrr_reach
+    from mechsheet.dyads import rrr, rrr_reach, rrr_velocity
     from mechsheet.find import find
     from mechsheet.formula import typeset
     from mechsheet.inputs import Used, ask, inputs, read
     from mechsheet.kinetostatics import Load, rrr_reactions
+    from mechsheet.page import mark, player, title_block
     from mechsheet.planar import angle, cross
     from mechsheet.report import export
     from mechsheet.table import figure, table
@@ -28,13 +29,14 @@ with app.setup:
 
 @app.cell(hide_code=True)
 def title():
-    mo.md("""
-    # Tractor hitch
-
+    title_block(
+        "Tractor hitch",
+        """
     Geometry, kinematics, lifting capacity, forces and steering stability of a three-point hitch (MN) that a
     hydraulic cylinder (GC) lifts, with the implement (NM) that it carries on a tractor (MSHA).
     Change an input or a formula: everything below follows.
-    """)
+    """,
+    )
     return
 
 
@@ -46,6 +48,7 @@ def verdict(
     checks_analogues,
     checks_closing,
     checks_design,
+    checks_drawn,
     checks_forces,
     checks_loops,
     checks_pole,
@@ -53,7 +56,7 @@ def verdict(
 ):
     summary(
         *(checks_design, checks_L4, checks_S_p, checks_L7, checks_closing, checks_loops),
-        *(checks_analogues, checks_forces, checks_stability, checks_pole),
+        *(checks_analogues, checks_drawn, checks_forces, checks_stability, checks_pole),
     )
     return
 
@@ -423,15 +426,16 @@ def section_scheme():
     ### Scheme of the hitch
 
     Drawn to scale from the computed points; the slider moves it from the least stroke to the greatest, which are
-    shown faintly. The blue lines are the paths of the suspension axis and of the implement's centre of mass.
+    shown faintly. The blue lines are the paths of the suspension axis and of the implement's centre of mass, the green
+    arrows their velocities and that of the lifting rod's pin while the cylinder lengthens by one metre a second.
     """)
     return
 
 
 @app.cell
 def stroke():
-    part = mo.ui.slider(0, 1, step=0.005, value=0.2, label="part of the stroke", show_value=True)
-    part
+    part = mo.ui.slider(0, 1, step=0.01, value=0.2, label="part of the stroke", show_value=True)
+    player(part)
     return (part,)
 
 
@@ -463,11 +467,25 @@ def paths(L4, P56, PS6, g):
 
 
 @app.cell
-def drawing_21(g, part, paths, scheme):
+def velocities(L4, L7, O1, O3, O5, O7, P23, P34, P45, P56, P67, PS6):
+    def velocities(S, dS=1.0):
+        p34, p56 = P34(S), P56(S, L4)
+        v34 = 1j * rrr_velocity(O1, O3, P23(S), 0, 0, dr_A=dS).omega_B * (p34 - O3)
+        v56 = 1j * rrr_velocity(p34, O5, P45(S, L4), v34, 0).omega_B * (p56 - O5)
+        vS6 = v56 + 1j * rrr_velocity(p56, O7, P67(S, L7), v56, 0).omega_A * (PS6(S) - p56)
+        return v34, v56, vS6
+
+    return (velocities,)
+
+
+@app.cell
+def drawing_21(L4, P34, P56, PS6, g, part, paths, scheme, velocities):
     S_t = g.S_min * (1 - part.value) + g.S_max * part.value  # [m] stroke as drawn
-    drawing_21 = scheme(S_t) + scheme(g.S_min).faint() + scheme(g.S_max).faint() + paths
-    typeset(drawing_21, mo.md("**Figure 2.1** – Kinematic scheme of the hitch"))
-    return (drawing_21,)
+    V34, V56, VS6 = velocities(S_t)
+    moved = scheme(S_t).arrow(P34(S_t), V34, "V34", "m/s").arrow(P56(S_t, L4), V56, "V56", "m/s")
+    drawing_21 = moved.arrow(PS6(S_t), VS6, "VS6", "m/s") + scheme(g.S_min).faint() + scheme(g.S_max).faint() + paths
+    typeset(drawing_21, mark(S=S_t), mo.md("**Figure 2.1** – Kinematic scheme of the hitch"))
+    return V34, V56, VS6, drawing_21, moved
 
 
 @app.cell(hide_code=True)
@@ -568,14 +586,19 @@ def section_32():
 
 
 @app.cell
-def differences(I56, IS6, L4, P56, PS6, S, dphi3, g, phi3):
+def differences(I56, IS6, L4, P56, PS6, S, dphi3, g, phi3, velocities):
     checks_analogues = (
         check_slope("dphi3 is the slope of phi3", dphi3, phi3, S, g.S_min, g.S_max, "rad/m"),
         check_slope("I56 is the slope of Y56", I56, lambda s: P56(s, L4).imag, S, g.S_min, g.S_max),
         check_slope("IS6 is the slope of YS6", IS6, lambda s: PS6(s).imag, S, g.S_min, g.S_max),
     )
-    typeset(*checks_analogues)
-    return (checks_analogues,)
+    _v34, _v56, _vS6 = velocities(S)
+    checks_drawn = (
+        check("velocities as drawn: V56 rises by I56", _v56.imag - I56, 1e-11 * np.max(abs(I56))),
+        check("velocities as drawn: VS6 rises by IS6", _vS6.imag - IS6, 1e-11 * np.max(abs(IS6))),
+    )
+    typeset(*checks_analogues, *checks_drawn)
+    return checks_analogues, checks_drawn
 
 
 @app.cell
@@ -601,8 +624,12 @@ def figure_32(I56, IS6, S, S_p):
 
 @app.cell(hide_code=True)
 def section_4():
-    mo.md("""
+    mo.md(r"""
     ## 4 Lifting capacity
+
+    Where $I_{S6}$ is negative the implement sinks as the cylinder lengthens: the cylinder would have to pull. Force,
+    pressure and capacity are negative there; the hitch carries nothing. At $I_{S6} = 0$, a dead centre, the capacity
+    has no bound.
     """)
     return
 
@@ -724,15 +751,22 @@ def forces_1(O1, O3, P23_S, P34_S, R34):
 @app.cell(hide_code=True)
 def section_groups():
     mo.md("""
-    The groups cut free, at the position of the table nearest to the slider of figure 2.1. Arrows are the forces that
-    act on the group; all arrows of a drawing have one scale.
+    The groups cut free, at the position of the table nearest to this slider. Arrows are the forces that act on the
+    group; all arrows of a drawing have one scale.
     """)
     return
 
 
 @app.cell
-def position(S, part):
-    k_t = round(part.value * (len(S) - 1))
+def forces_drawn():
+    forces_at = mo.ui.slider(0, 1, step=0.01, value=0.2, label="part of the stroke", show_value=True)
+    player(forces_at)
+    return (forces_at,)
+
+
+@app.cell
+def position(S, forces_at):
+    k_t = round(forces_at.value * (len(S) - 1))
     S_k = S[k_t]  # [m] stroke of the position drawn
     typeset()
     return S_k, k_t
@@ -930,9 +964,10 @@ def section_62():
 
 @app.cell
 def design(GS6, P_gc, Ra, Ra_min, g):
+    _pulls = "the cylinder would have to pull: the capacity is negative" if np.any(GS6 < 0) else ""
     checks_design = (
         Check("pressure within its limit: P_gc - P_gc_max", float(np.max(P_gc - g.P_gc_max)) / 1e6, 0.0, "MPa"),
-        Check("weight within the capacity: P6 - GS6", float(np.max(g.P6 - GS6)), 0.0, "N"),
+        Check("weight within the capacity: P6 - GS6", float(np.max(g.P6 - GS6)), 0.0, "N", _pulls),
         Check("front axle keeps its least load: Ra_min - Ra", float(np.max(Ra_min - Ra)), 0.0, "N"),
     )
     typeset(*checks_design)

@@ -16,6 +16,7 @@ with app.setup:
     from mechsheet.formula import typeset
     from mechsheet.inputs import Used, ask, inputs, read
     from mechsheet.joint import bending, circular_joint, neutral_axis, sum_of_elements
+    from mechsheet.page import title_block
     from mechsheet.report import export
     from mechsheet.table import table
     from mechsheet.units import parse
@@ -26,14 +27,15 @@ with app.setup:
 
 @app.cell(hide_code=True)
 def title():
-    mo.md("""
-    # Joints of compartments
-
+    title_block(
+        "Joints of compartments",
+        """
     Forces and stresses in the joints of aircraft compartments under a bending moment and an axial force, after the
     industry standard OST 92-9236-79: a rectangular joint of beams and stringers, whose elements carry with one area
     in tension and with another in compression (appendices 1 and 3), and a circular joint, whose bolts carry the
     tension and whose rims the compression (appendix 2). Change an input or a formula: everything below follows.
-    """)
+    """,
+    )
     return
 
 

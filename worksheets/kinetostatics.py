@@ -41,6 +41,7 @@ with app.setup:
         rrp_reactions,
         rrr_reactions,
     )
+    from mechsheet.page import mark, player, title_block
     from mechsheet.planar import angle, cross, dot, link_acceleration, link_velocity
     from mechsheet.report import export
     from mechsheet.table import figure, table
@@ -52,9 +53,9 @@ with app.setup:
 
 @app.cell(hide_code=True)
 def title():
-    mo.md("""
-    # Kinetostatics
-
+    title_block(
+        "Kinetostatics",
+        """
     Reactions in the pairs of a lever mechanism of the second class, its links' inertia included, after I. G. Shebanov,
     *Force analysis*, Kharkiv Aviation Institute, 2003. The numbers in brackets are the document's formulas.
 
@@ -62,7 +63,8 @@ def title():
     plunger pump, whose dimensions, masses and loads are plausible and no more. Its crank drives a group of the first
     kind, whose rocker drives one of the second kind, the plunger, and one of the third kind, a gas cylinder. Change
     an input or a formula: everything below follows.
-    """)
+    """,
+    )
     return
 
 
@@ -355,8 +357,8 @@ def section_23():
 
 @app.cell
 def turn():
-    turn = mo.ui.slider(0, 360, step=1, value=40, label="crank, degrees", show_value=True)
-    turn
+    turn = mo.ui.slider(0, 360, step=2, value=40, label="crank, degrees", show_value=True)
+    player(turn, turning=True)
     return (turn,)
 
 
@@ -396,9 +398,11 @@ def scheme(A, B, C, D, E, H, K, O1, O5, g, s5, u5):
 
 
 @app.cell
-def drawing_21(scheme, turn):
+def drawing_21(phi1, scheme, turn):
     drawing_21 = scheme(turn.value)
-    typeset(drawing_21, mo.md(f"**Figure 2.1** – Scheme of the mechanism, φ₁ = {turn.value}°"))
+    typeset(
+        drawing_21, mark(phi1=phi1[turn.value]), mo.md(f"**Figure 2.1** – Scheme of the mechanism, φ₁ = {turn.value}°")
+    )
     return (drawing_21,)
 
 

@@ -19,6 +19,7 @@ with app.setup:
     from mechsheet.formula import typeset
     from mechsheet.inputs import Used, ask, inputs, read
     from mechsheet.kinetostatics import Load, cylinder_drive, inertia, rrr_reactions
+    from mechsheet.page import mark, player, title_block
     from mechsheet.planar import angle, angle_opposite, cross, dot, link_acceleration, link_velocity
     from mechsheet.report import export
     from mechsheet.table import figure, table
@@ -29,15 +30,16 @@ with app.setup:
 
 @app.cell(hide_code=True)
 def title():
-    mo.md("""
-    # Landing gear
-
+    title_block(
+        "Landing gear",
+        """
     Synthesis by the pressure angle and kinematics of the lever mechanism that retracts a main leg, after the method
     for the computer course project of the Kuibyshev Aviation Institute (1982); then the choice of the retraction time
     and the forces. The numbers in brackets are the document's formulas, the steps those of its algorithm.
 
     The document prints no numbers: the dimensions, masses and areas below are ours, plausible for an airliner.
-    """)
+    """,
+    )
     return
 
 
@@ -335,8 +337,8 @@ def section_scheme():
 
 @app.cell
 def stroke():
-    part = mo.ui.slider(0, 1, step=0.005, value=0.3, label="part of the stroke", show_value=True)
-    part
+    part = mo.ui.slider(0, 1, step=0.01, value=0.3, label="part of the stroke", show_value=True)
+    player(part)
     return (part,)
 
 
@@ -378,7 +380,7 @@ def scheme(A, H, O1, O2, W3, g, l20, part):
 def drawing_32(H, l20, l2_t, path_A, path_w, scheme):
     ends = scheme(l20).faint() + scheme(l20 + H).faint()
     drawing_32 = (scheme(l2_t) + ends).path(path_A).path(path_w)
-    typeset(drawing_32, mo.md("**Figure 3.2** – Scheme of the landing gear"))
+    typeset(drawing_32, mark(l2i=l2_t), mo.md("**Figure 3.2** – Scheme of the landing gear"))
     return (drawing_32,)
 
 
@@ -840,9 +842,9 @@ def section_drawn():
 def drawing_61(D3, G3, H, I3, Q3, Q_w, S3, W3, l20, l2_t, part, scheme):
     s3 = S3(l2_t)
     leg_t = scheme(l2_t).mass(s3, "S3") + scheme(l20).faint() + scheme(l20 + H).faint()
-    at_mass = leg_t.force(s3, G3, "G3").force(s3, I3(l2_t).F, "F_in")
+    at_mass = leg_t.force(s3, G3, "G3").force(s3, I3(l2_t).F, "F_in").moment(s3, I3(l2_t).M, "M_in")
     drawing_61 = at_mass.force(W3(l2_t), Q_w, "Q_w").force(D3(l2_t), Q3(l2_t), "Q3")
-    typeset(part, drawing_61, mo.md("**Figure 6.1** – Loads on the leg"))
+    typeset(player(part), drawing_61, mo.md("**Figure 6.1** – Loads on the leg"))
     return (drawing_61,)
 
 

@@ -14,6 +14,7 @@ with app.setup:
     from mechsheet.dyads import rpr, rpr_acceleration, rpr_velocity
     from mechsheet.formula import typeset
     from mechsheet.inputs import Used, ask, inputs, read
+    from mechsheet.page import mark, player, title_block
     from mechsheet.planar import angle, angle_between, dot
     from mechsheet.report import export
     from mechsheet.table import figure, table
@@ -24,14 +25,15 @@ with app.setup:
 
 @app.cell(hide_code=True)
 def title():
-    mo.md("""
-    # Slotted link
-
+    title_block(
+        "Slotted link",
+        """
     Positions, velocities and accelerations of a quick-return mechanism: the pin A of the crank 1 carries a slider 2,
     which drives the slotted link 3 about the hinge B; the point C is on the link. First the six equations are solved
     at once, as the document does, then the same numbers follow in closed form.
     Change an input or a formula: everything below follows.
-    """)
+    """,
+    )
     return
 
 
@@ -520,8 +522,8 @@ def section_7():
 
 @app.cell
 def turn():
-    part = mo.ui.slider(0, 360, step=1, value=30, label="turn of the crank, degrees", show_value=True)
-    part
+    part = mo.ui.slider(0, 360, step=2, value=30, label="turn of the crank, degrees", show_value=True)
+    player(part, turning=True)
     return (part,)
 
 
@@ -568,7 +570,11 @@ def drawing_1(A, C, P_C_t, VA, VC_1, WA, WC_1, arrows, ends, frame, phi1, phi1_t
     velocities = drawn.arrow(A(phi1), VA(phi1), "VA", "m/s").arrow(C(phi1), VC_1, "VC", "m/s")
     both = velocities.arrow(A(phi1), WA(phi1), "WA", "m/s²", "orange")
     drawing_1 = both.arrow(C(phi1), WC_1, "WC", "m/s²", "orange")
-    typeset(drawing_1, mo.md("**Figure 1** – Slotted link with the velocities and accelerations of A and C"))
+    typeset(
+        drawing_1,
+        mark(phi1_t=phi1),
+        mo.md("**Figure 1** – Slotted link with the velocities and accelerations of A and C"),
+    )
     return (drawing_1,)
 
 

@@ -12,6 +12,7 @@ if not __package__:  # run as a folder, which heads the path: its modules must n
 
 import hashlib
 import os
+import re
 import shutil
 import subprocess
 import venv
@@ -25,6 +26,7 @@ usage: mechsheet COMMAND              where the package is installed
 
   run WORKSHEET [--NAME=VALUE ...]    compute the worksheet and write its workbook
       WORKSHEET SCENE ...             compute scenes side by side, and write workbooks where --out=FOLDER says
+  new NAME                            begin a worksheet from a template
   edit WORKSHEET [OPTIONS]            open the worksheet in the browser (options of marimo edit)
   test [OPTIONS]                      run the project's tests (options of pytest)
 
@@ -50,12 +52,16 @@ def main(argv: "list[str] | None" = None) -> int:
             return call([interpreter(""), "-m", "marimo", "edit", *options, sheet])
         scenes = any(not option.startswith("-") for option in options)
         return call([interpreter(""), *(["-m", "mechsheet.scenes"] if scenes else []), sheet, *options])
+    if command == "new":
+        if len(options) != 1:
+            sys.exit("mechsheet: new needs the name of the worksheet, such as lever")
+        return new(options[0])
     if command == "test":
         if not (ROOT / "tests").is_dir():
             sys.exit(f"mechsheet: the tests are in a clone of the project, not beside {Path(__file__).parent}")
         return call([interpreter("dev"), "-m", "pytest", *options], cwd=ROOT)
     problem = f"command {command} is not known" if command else "no command given"
-    sys.exit(f"mechsheet: {problem}: there are run, edit and test, and --help tells more")
+    sys.exit(f"mechsheet: {problem}: there are run, edit, new and test, and --help tells more")
 
 
 def worksheet(name: str) -> str:
@@ -64,6 +70,23 @@ def worksheet(name: str) -> str:
         if path.is_file():
             return str(path)
     sys.exit(f"mechsheet: no worksheet {name}: {known_worksheets()}")
+
+
+def new(name: str) -> int:
+    """Write a worksheet from the template, with the style sheet of its page, into worksheets/ or else here."""
+    if not re.match(r"[A-Za-z]\w*$", name):
+        sys.exit(f"mechsheet: name of the worksheet = {name!r} must be a letter, then letters, digits or _")
+    folder = ROOT / "worksheets" if (ROOT / "worksheets").is_dir() else Path.cwd()
+    path, here = folder / f"{name}.py", Path(__file__).resolve().parent
+    if path.exists():
+        sys.exit(f"mechsheet: {path} is there already")
+    text = (here / "new_worksheet.txt").read_text(encoding="utf-8")
+    style = next(style for style in (folder / "page.css", here / "page.css") if style.exists())
+    if style.parent != folder:
+        shutil.copy(str(style), str(folder))
+    path.write_text(text.replace("TITLE", name.replace("_", " ").capitalize()), encoding="utf-8")
+    print(f"written {path}; python {Path(__file__).resolve().parent} edit {name} opens it")
+    return 0
 
 
 def known_worksheets() -> str:

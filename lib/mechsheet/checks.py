@@ -5,13 +5,14 @@ import re
 import sys
 from collections.abc import Callable
 from dataclasses import dataclass
+from math import isnan
 from types import FrameType
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mechsheet import units
+from mechsheet import symbol, units
 from mechsheet.errors import SheetError, refuse
 from mechsheet.find import Found
 
@@ -37,7 +38,14 @@ class Check:
     def passed(self) -> bool:
         return self.residual <= self.limit
 
+    @property
+    def evaluated(self) -> bool:
+        """Whether there is a residual at all; what was not evaluated has not passed."""
+        return not isnan(self.residual)
+
     def __str__(self) -> str:
+        if not self.evaluated:
+            return f"FAIL  {self.name}: not evaluated; {self.reason}".removesuffix("; ")
         verdict = "pass" if self.passed else "FAIL"
         text = f"{verdict}  {self.name}: {self.residual:.3g} <= {self.limit:.3g} {self.unit}".removesuffix(" -")
         return f"{text}; {self.reason}" if self.reason else text
@@ -45,16 +53,22 @@ class Check:
     def _mime_(self) -> tuple[str, str]:
         unit = "" if self.unit == "-" else f" {html.escape(units.shown(self.unit))}"
         sign = "≤" if self.passed else "≰"
+        compared = f": {self.residual:.2g} {sign} {self.limit:.2g}{unit}" if self.evaluated else ""
         return "text/html", (
-            f'<div id="{_anchor(self)}">{_badge(self)} {html.escape(self.name)}: {self.residual:.2g} {sign} '
-            f'{self.limit:.2g}{unit}<span style="opacity:.7"> {html.escape(self.reason)}</span></div>'
+            f'<div id="{_anchor(self)}">{_badge(self)} {_named(self.name)}{compared}'
+            f'<span style="opacity:.7"> {html.escape(self.reason)}</span></div>'
         )
 
 
 def _badge(check: Check) -> str:
-    colour, verdict = ("#2e7d32", "PASS") if check.passed else ("#c62828", "FAIL")
-    style = f"background:{colour};color:#fff;border-radius:.3em;padding:0 .5em;font-size:.8em"
-    return f'<span style="{style}">{verdict}</span>'
+    kind, verdict = ("PASS" if check.passed else "FAIL",) * 2 if check.evaluated else ("OPEN", "not evaluated")
+    return f'<span class="ms-badge ms-{kind}">{verdict}</span>'
+
+
+def _named(text: str) -> str:
+    """Text in HTML, the names of quantities in it as their symbols."""
+    words = re.split(r"\b([A-Za-z]+[_\d]\w*)\b", text)
+    return "".join(symbol.html(word) if i % 2 else html.escape(word) for i, word in enumerate(words))
 
 
 def _anchor(check: Check) -> str:
@@ -69,15 +83,16 @@ class Summary:
 
     def _mime_(self) -> tuple[str, str]:
         passed = sum(check.passed for check in self.checks)
+        skipped = sum(not check.evaluated for check in self.checks)
+        failed = len(self.checks) - passed - skipped
+        count = f"{passed} of {len(self.checks)} checks pass" + (f", {failed} fail" if failed else "")
+        count += f", {skipped} not evaluated" if skipped else ""
         items = "".join(
-            f'<span style="white-space:nowrap;font-size:.85em">{_badge(check)} '
-            f'<a href="#{_anchor(check)}">{html.escape(check.name)}</a> {html.escape(check.reason)}</span>'
-            for check in sorted(self.checks, key=lambda check: check.passed)
+            f"<span>{_badge(check)} "
+            f'<a href="#{_anchor(check)}">{_named(check.name)}</a> {html.escape(check.reason)}</span>'
+            for check in sorted(self.checks, key=lambda check: (check.passed, not check.evaluated))
         )
-        return "text/html", (
-            f"<div><b>{passed} of {len(self.checks)} checks pass</b>"
-            f'<div style="display:flex;flex-wrap:wrap;gap:.3em 1.2em;margin-top:.3em">{items}</div></div>'
-        )
+        return "text/html", (f'<div class="ms-summary"><b>{count}</b><div class="ms-row">{items}</div></div>')
 
 
 def summary(*checks: Check | tuple[Check, ...]) -> Summary:
@@ -88,10 +103,12 @@ def summary(*checks: Check | tuple[Check, ...]) -> Summary:
 def check(name: str, residual: ArrayLike, limit: float, unit: str = "-") -> Check:
     """Check that the largest magnitude of ``residual`` is at most ``limit``, both in SI; shown in ``unit``.
 
-    Elements that are NaN make it fail.
+    Where an element is NaN the check is not evaluated, which is no pass.
     """
-    worst, factor = float(np.max(np.abs(residual))), units.parse(unit).factor
-    return Check(name, worst / factor, limit / factor, unit)
+    sizes, factor = np.abs(residual), units.parse(unit).factor
+    lost = int(np.count_nonzero(np.isnan(sizes)))
+    reason = f"{lost} of {sizes.size} values do not exist" if lost else ""
+    return Check(name, float(np.max(sizes)) / factor, limit / factor, unit, reason)
 
 
 def check_slope(

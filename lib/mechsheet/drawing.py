@@ -22,6 +22,7 @@ COLOURS = {"": "currentColor", "blue": "#3b82d0", "red": "#e0483c", "green": "#2
 # Sizes on the page [px].
 _BODY, _EDGE, _THIN = 2.4, 1.5, 0.9  # lines of links; of symbols; of hatching and dimensions
 _PIN, _MASS, _BARREL = 4.5, 7.0, 7.0  # radii of a hinge, of a centre of mass, of a cylinder
+_MOMENT = 26.0  # radius of the arc of a moment
 _BLOCK = 14 + 8j  # half length and half height of a slider
 _FONT, _INDEX = 15, 11
 _MARGIN = 42.0  # round the outermost points, for symbols and labels
@@ -237,6 +238,7 @@ class _Shape:
     fixed: bool = False
     vector: complex | None = None
     unit: str = ""
+    colour: str = ""
 
     def ends(self, scales: Mapping[str, float]) -> tuple[complex, ...]:
         if self.vector is None:
@@ -400,7 +402,9 @@ class _Page:
                 out.append(f'<path {style} d="{d}"/>')
         return "".join(out) + "</g>"
 
-    def scale_bars(self, scales: Mapping[str, float], left: float, y: float, longest: float) -> float:
+    def scale_bars(
+        self, scales: Mapping[str, float], colours: Mapping[str, str], left: float, y: float, longest: float
+    ) -> float:
         """Bars of round length side by side at height y, one for each unit; returns where they end."""
         for unit, scale in scales.items():
             if not 0 < (most := longest / scale if scale else 0.0) < inf:
@@ -411,7 +415,7 @@ class _Page:
             if unit == "m":
                 self.line(complex(left, y - 4), complex(left, y), complex(end, y), complex(end, y - 4))
             else:
-                self.arrow(complex(left, y - 3), complex(end, y - 3), "")
+                self.arrow(complex(left, y - 3), complex(end, y - 3), colours[unit])
             self.groups.append(_Group("scale", "", False, self.marks))
             text = _quantity(value, unit)
             half = complex(_width(text, _FONT) / 2, 8)
@@ -419,7 +423,7 @@ class _Page:
             left = end + 2 * half.real + 32
         return left
 
-    def svg(self, scales: Mapping[str, float]) -> str:
+    def svg(self, scales: Mapping[str, float], colours: Mapping[str, str]) -> str:
         a, b, weight = self.segments()
         self.place_labels(a, b, weight)
         if self.view:
@@ -429,7 +433,7 @@ class _Page:
             low, high = _corners(np.concatenate([a, b, np.array(boxes, dtype=complex)]), 4)
         if self.groups:
             width = (high - low).real
-            end = self.scale_bars(scales, low.real + 8, high.imag + 20, _PART * width)
+            end = self.scale_bars(scales, colours, low.real + 8, high.imag + 20, _PART * width)
             high = complex(max(high.real, end), high.imag + 28)
         size = high - low
         faint = "".join([self.group(group) for group in self.groups if group.faint])
@@ -682,7 +686,23 @@ class Drawing:
         def measure(*_: complex) -> str:
             return f"{_quantity(_length(V), unit)} ({V.real:.4g}, {V.imag:.4g})"
 
-        return self._with("arrow", (P,), draw, name, measure, vector=-V if into else V, unit=unit)
+        return self._with("arrow", (P,), draw, name, measure, vector=-V if into else V, unit=unit, colour=colour)
+
+    def moment(self, P: complex, M: float, name: str = "", unit: str = "N*m", colour: str = "red") -> "Drawing":
+        """Moment M about P, counter-clockwise where positive: an arc that tells its sense, not its size."""
+        _known(colour)
+
+        def draw(page: _Page, p: complex, _: complex) -> None:
+            sense = int(M > 0) - int(M < 0)
+            if not sense:
+                return
+            arc = [p + _MOMENT * rect(1, -sense * (0.1 + 1.4 * i / 24) * pi) for i in range(25)]
+            u = -1j * sense * _unit(arc[-1] - p)
+            page.line(*arc, width=2.0, colour=colour)
+            page.area(arc[-1] + 9 * u, arc[-1] + 4j * u, arc[-1] - 4j * u, colour=colour)
+            page.label(name, page.around, p, _MOMENT)
+
+        return self._with("moment", (P, P + 0 * M), draw, name, lambda *_: _quantity(M, unit))
 
     def dimension(self, A: complex, B: complex, name: str, offset: float = 30.0) -> "Drawing":
         """Dimension of AB, its line ``offset`` px to the left of AB."""
@@ -720,7 +740,8 @@ class Drawing:
         page = _Page(k * half + (1 + 1j) * _MARGIN if given else None)
         for i, shape in enumerate(shapes):
             page.draw(shape, [k * (p - centre).conjugate() for p in shape.ends(scales)], i < len(self.behind))
-        return page.svg({self.unit: k} | {unit: k * scales[unit] for unit in longest})
+        colours = {s.unit: s.colour for s in reversed(shapes) if s.vector is not None}
+        return page.svg({self.unit: k} | {unit: k * scales[unit] for unit in longest}, {self.unit: "", **colours})
 
     def _mime_(self) -> tuple[str, str]:
         return "text/html", self.svg()
@@ -736,8 +757,9 @@ class Drawing:
         fixed: bool = False,
         vector: complex | None = None,
         unit: str = "",
+        colour: str = "",
     ) -> "Drawing":
         at = _points(kind, points, least)
         tip = ": ".join(filter(None, (name, measure(*at[:2]) if measure else "")))
-        shape = _Shape(kind, at, draw, tip, fixed, vector, unit)
+        shape = _Shape(kind, at, draw, tip, fixed, vector, unit, colour)
         return replace(self, shapes=(*self.shapes, shape))

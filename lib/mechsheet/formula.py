@@ -6,17 +6,16 @@ import re
 import sys
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
-from types import FrameType
+from functools import cached_property, lru_cache
 from typing import Any
 
 import numpy as np
 
 from mechsheet import source, symbol, units
-from mechsheet.errors import SheetError
+from mechsheet.errors import SheetError, refuse
 
 _DECLARED = re.compile(r"\[([^\]]*)\]\s*(.*)")
 _REGISTRY = "__formulas__"
-_ROW = "display:flex;align-items:center;gap:1.5em;flex-wrap:wrap;padding:.15em 0"
 
 
 @dataclass(frozen=True)
@@ -28,6 +27,37 @@ class Formula:
     unit: str
     meaning: str
     arguments: tuple[str, ...] = ()
+
+    @cached_property
+    def symbol(self) -> str:
+        """Left side in LaTeX: the symbol, of a function with its arguments."""
+        arguments = r",\,".join(symbol.latex(a) for a in self.arguments)
+        return symbol.latex(self.name) + (f"({arguments})" if arguments else "")
+
+    @cached_property
+    def tex(self) -> str:
+        """Right side in LaTeX; nothing where it is a number or says the same as the left."""
+        right = "" if isinstance(self.expression, ast.Constant) else latex(self.expression)
+        return "" if right == self.symbol else right
+
+    @cached_property
+    def names(self) -> tuple[str, ...]:
+        """What the right side reads, as it is written."""
+        nodes = [node for node in ast.walk(self.expression) if _is_quantity(node)]
+        return tuple(dict.fromkeys(ast.unparse(node) for node in nodes))
+
+
+@dataclass(frozen=True)
+class Given:
+    """The equation of a solve block: ``expression`` must become ``target``."""
+
+    expression: ast.expr
+    target: ast.expr
+
+    @cached_property
+    def tex(self) -> str:
+        """The equation in LaTeX."""
+        return rf"\text{{Given}}\quad {latex(self.expression)} = {latex(self.target)}"
 
 
 def declared(comment: str, place: str) -> tuple[str, str] | None:
@@ -45,20 +75,44 @@ def declared(comment: str, place: str) -> tuple[str, str] | None:
     return match[1], match[2]
 
 
-def formulas(cell: source.Cell) -> Iterator[Formula]:
-    """Lines of a cell that end in a unit, in their order."""
+@lru_cache(maxsize=1000)
+def formulas(cell: source.Cell) -> tuple[Formula | Given, ...]:
+    """Lines of a cell that end in a unit, and the equations of its solve blocks, in their order."""
+    return tuple(_formulas(cell))
+
+
+def _formulas(cell: source.Cell) -> Iterator[Formula | Given]:
     for node in cell.body:
         match node:
+            case ast.Assign([ast.Name()], ast.Call(ast.Name("find"), [f, *_], keywords)):
+                target = next((k.value for k in keywords if k.arg == "equals"), ast.Constant(0))
+                yield Given(_equation(f), target)
+                continue
             case ast.Assign([ast.Name(name)], expression):
                 arguments: tuple[str, ...] = ()
             case ast.FunctionDef(name, body=[*_, ast.Return(ast.expr() as expression)]):
-                arguments = tuple(a.arg for a in node.args.args)
+                expression = _on_its_branch(node, expression)
+                arguments = tuple(a.arg for a in node.args.args if a.arg != "branch")
             case _:
                 continue
         line = node.end_lineno or node.lineno
         found = declared(cell.comments.get(line, ""), cell.at(line))
         if found and not name.startswith("_"):
             yield Formula(name, expression, *found, arguments)
+
+
+def _on_its_branch(node: ast.FunctionDef, expression: ast.expr) -> ast.expr:
+    """The expression with the assembly branch that the function takes unless it is told another."""
+    if not (node.args.args and node.args.args[-1].arg == "branch" and node.args.defaults):
+        return expression
+    default = ast.unparse(node.args.defaults[-1])
+    text = re.sub(r"\bbranch\b", default, ast.unparse(expression))
+    return ast.copy_location(ast.parse(text, mode="eval").body, expression)
+
+
+def _equation(f: ast.expr) -> ast.expr:
+    """What a function given to find computes, where it is written in the call."""
+    return f.body if isinstance(f, ast.Lambda) else f
 
 
 def registry(namespace: Mapping[str, Any]) -> Mapping[str, Formula]:
@@ -77,56 +131,100 @@ def typeset(*shown: Any, display: Mapping[str, str] | None = None) -> "Typeset":
     Raises SheetError naming the line where a unit is not known.
     """
     frame = sys._getframe(1)
-    rows = declare(frame, display)
-    return Typeset(rows, tuple(frame.f_globals[row.name] for row in rows), shown)
+    known = frame.f_globals.setdefault(_REGISTRY, {})
+    rows: list[Formula | Given] = []
+    try:
+        lines = formulas(source.cell(frame))
+    except SheetError as error:
+        refuse(error)
+    for row in lines:
+        if isinstance(row, Given):
+            rows.append(row)
+            continue
+        if display and row.unit in display:
+            row = replace(row, unit=display[row.unit])
+        known[row.name] = row
+        rows.append(row)
+    values = tuple(frame.f_globals[row.name] if isinstance(row, Formula) else None for row in rows)
+    return Typeset(tuple(rows), values, shown, _Numbers(frame.f_globals))
 
 
-def declare(frame: FrameType, display: Mapping[str, str] | None = None) -> tuple[Formula, ...]:
-    """Formulas of the cell that runs in ``frame``, made known to the tables and figures below it."""
-    instead = display or {}
-    rows = tuple(replace(row, unit=instead.get(row.unit, row.unit)) for row in formulas(source.cell(frame)))
-    frame.f_globals.setdefault(_REGISTRY, {}).update({row.name: row for row in rows})
-    return rows
+class _Numbers:
+    """Values in their units by the names that formulas read, ``g.L3`` too, as they are when the page asks."""
+
+    def __init__(self, namespace: Mapping[str, Any]) -> None:
+        self.namespace = namespace
+        self.known = registry(namespace)
+
+    def text(self, name: str, position: int) -> str | None:
+        """Value of a name at one position of its field in LaTeX; None where its unit is not known."""
+        head, dot, part = name.partition(".")
+        value = self.namespace.get(head)
+        if dot:
+            unit = next((field.unit for field in getattr(type(value), "__inputs__", ()) if field.name == part), None)
+            value = getattr(value, part) if unit else None
+        else:
+            line = self.known.get(name)
+            unit = line.unit if line and not line.arguments else None
+        if unit is None or not isinstance(value, int | float | complex | np.ndarray | np.generic) or not np.size(value):
+            return None
+        field = np.asarray(value)
+        return value_latex(
+            field[..., position].flat[0] if field.shape and field.shape[-1] > position else field.flat[0], unit
+        )
 
 
 @dataclass(frozen=True)
 class Typeset:
     """Formulas and their values, shown as symbol = formula = value, unit, meaning."""
 
-    rows: tuple[Formula, ...]
+    rows: tuple[Formula | Given, ...]
     values: tuple[Any, ...]
     shown: tuple[Any, ...] = ()
+    numbers: _Numbers | None = None
+    position: int = 0
 
     def at(self, position: int) -> "Typeset":
         """The same formulas with the values at one position of their fields."""
         values = (np.asarray(v)[..., position] if np.ndim(v) else v for v in self.values)
-        return replace(self, values=tuple(values))
+        return replace(self, values=tuple(values), position=position)
 
     def _mime_(self) -> tuple[str, str]:
         import marimo as mo
 
-        lines = []
-        for row, value in zip(self.rows, self.values, strict=True):
-            left, right = _left(row), latex(row.expression)
-            tex = left if right == left else f"{left} = {right}"
-            if not row.arguments:
-                shown = value_latex(value, row.unit)
-                tex = f"{tex} = {shown}" if _computes(row.expression) else f"{symbol.latex(row.name)} = {shown}"
-            lines.append(
-                f'<div class="ms-line" style="{_ROW}">'
-                f'<marimo-tex class="arithmatex">||(\\displaystyle {html.escape(tex)}||)</marimo-tex>'
-                f'<span style="opacity:.7;font-size:.9em">{html.escape(row.meaning)}</span></div>'
-            )
+        lines = [
+            _line(row.tex) if isinstance(row, Given) else self._formula(row, value)
+            for row, value in zip(self.rows, self.values, strict=True)
+        ]
         return "text/html", "".join(lines + [mo.as_html(more).text for more in self.shown])
 
+    def _formula(self, row: Formula, value: Any) -> str:
+        parts = [row.symbol, row.tex, "" if row.arguments else value_latex(value, row.unit)]
+        numbers = "" if row.arguments or self.numbers is None else _substituted(row, self.numbers, self.position)
+        return _line(" = ".join(filter(None, parts)), row.meaning, numbers)
 
-def _left(row: Formula) -> str:
-    arguments = r",\,".join(symbol.latex(a) for a in row.arguments)
-    return symbol.latex(row.name) + (f"({arguments})" if arguments else "")
+
+def _line(tex: str, meaning: str = "", numbers: str = "") -> str:
+    """A typeset line; its numbers wait in an attribute until the reader asks for them."""
+    more = f'<ms-numbers tex="{html.escape("= " + numbers)}"></ms-numbers>' if numbers else ""
+    return (
+        '<div class="ms-line">'
+        f'<marimo-tex class="arithmatex">||(\\displaystyle {html.escape(tex)}||)</marimo-tex>'
+        f"<span>{html.escape(meaning)}</span>{more}</div>"
+    )
 
 
-def _computes(node: ast.expr) -> bool:
-    return not isinstance(node, ast.Constant)
+def _is_quantity(node: ast.AST) -> bool:
+    match node:
+        case ast.Attribute(ast.Name("g")) | ast.Name():
+            return True
+    return False
+
+
+def _substituted(row: Formula, numbers: _Numbers, position: int) -> str:
+    """The right side with numbers for its symbols; nothing where it has none."""
+    found = {name: text for name in row.names if (text := numbers.text(name, position)) is not None}
+    return latex(row.expression, found) if found and row.tex else ""
 
 
 def number_latex(x: float) -> str:
@@ -163,65 +261,156 @@ def unit_latex(unit: str) -> str:
     return r"\ \mathrm{" + text + "}"
 
 
-_PRECEDENCE = {ast.Add: 1, ast.Sub: 1, ast.Mult: 2, ast.Div: 2, ast.USub: 3, ast.UAdd: 3, ast.Pow: 4}
 _SYMBOL = re.compile(rf"([A-Z]+|{'|'.join(symbol.GREEK)})(_|$)")  # VC, eps_BC
-_FUNCTIONS = {"sin": r"\sin", "cos": r"\cos", "tan": r"\tan", "angle": r"\arg", "exp": r"\exp", "log": r"\ln"}
+_FUNCTIONS = {
+    "sin": r"\sin", "cos": r"\cos", "tan": r"\tan", "asin": r"\arcsin", "acos": r"\arccos", "atan": r"\arctan",
+    "angle": r"\arg", "exp": r"\exp", "log": r"\ln", "maximum": r"\max", "minimum": r"\min",
+    "max": r"\max", "nanmax": r"\max", "min": r"\min", "nanmin": r"\min", "sum": r"\textstyle\sum ",
+}  # fmt: skip
+_ANGULAR = ("sin", "cos", "tan")
+_COMPARISONS = {ast.Lt: "<", ast.LtE: r"\le", ast.Gt: ">", ast.GtE: r"\ge", ast.Eq: "=", ast.NotEq: r"\ne"}
+_RATES = {"ds": r"\dot{s}", "dds": r"\ddot{s}"}  # parts of a result that the rule for names does not know
 
 
-def latex(node: ast.expr) -> str:
-    """Expression in LaTeX: fractions, roots, powers, no brackets that the reader does not need."""
-    return _tex(node)[0]
+def latex(node: ast.expr, numbers: Mapping[str, str] | None = None) -> str:
+    """Expression in LaTeX: fractions, roots, powers, no brackets that the reader does not need.
+
+    ``numbers`` are texts to stand for some names, ``g.L3`` too.
+    """
+    return _Writer(numbers or {}).text(node)
 
 
-def _tex(node: ast.expr) -> tuple[str, int]:
-    """LaTeX and precedence of its outermost operation (5: needs no brackets)."""
-    if positive := _without_minus(node):
-        return f"-{latex(positive)}", 1
-    match node:
-        case ast.Constant(value):
-            return _constant(value)
-        case ast.Name(name):
-            return symbol.latex(name), 5
-        case ast.Attribute(ast.Name("g"), name):
-            return symbol.latex(name), 5
-        case ast.Attribute(inner, "real"):
-            return rf"\operatorname{{Re}} {_wrap(inner, 5)}", 2
-        case ast.Attribute(inner, "imag"):
-            return rf"\operatorname{{Im}} {_wrap(inner, 5)}", 2
-        case ast.Attribute(ast.Name(name), "value") if name.endswith("_found"):
-            return rf"\operatorname{{Find}}\,{symbol.latex(name.removesuffix('_found'))}", 2
-        case ast.Attribute(ast.Name(name), "value"):  # of a slider or field of the page
-            return symbol.latex(name), 5
-        case ast.Attribute(ast.Name(name), part):  # a result of several parts
-            return rf"{symbol.latex(part)}(\text{{{name.replace('_', ' ')}}})", 5
-        case ast.UnaryOp(ast.USub(), inner):
-            return f"-{_wrap(inner, 3)}", 1
-        case ast.UnaryOp(ast.UAdd(), inner):
-            return f"+{_wrap(inner, 3)}", 1
-        case ast.BinOp(left, ast.Div(), right):
-            return rf"\frac{{{latex(left)}}}{{{latex(right)}}}", 5
-        case ast.BinOp(left, ast.Pow(), right):
-            if isinstance(left, ast.Call) and isinstance(left.func, ast.Name) and left.func.id in ("sin", "cos"):
-                return rf"{_FUNCTIONS[left.func.id]}^{{{latex(right)}}} {_brackets(left.args)}", 4
-            base = _wrap(left, 5)
-            return (rf"\left({base}\right)" if base.startswith(r"\frac") else base) + f"^{{{latex(right)}}}", 4
-        case ast.BinOp(left, ast.Mult(), right):
-            return _product(left, right), 2
-        case ast.BinOp(left, ast.Mod(), right):
-            return rf"{_wrap(left, 2)} \bmod {_wrap(right, 2)}", 2
-        case ast.BinOp(left, (ast.Add() | ast.Sub()) as op, right):
-            sign = "+" if isinstance(op, ast.Add) else "-"
-            second = _wrap(right, 1 if sign == "+" else 2)
-            return f"{_wrap(left, 1)} {sign} {_brackets([right]) if second.startswith('-') else second}", 1
-        case ast.Call(ast.Name(name), args, keywords):
-            return _call(name, [*args, *(k.value for k in keywords)])
-        case ast.Subscript(inner, index):
-            return f"{{{_wrap(inner, 5)}}}_{{{latex(index)}}}", 5
-        case ast.List(items):
-            return r"\left[" + r",\ ".join(latex(i) for i in items) + r"\right]", 5
-        case ast.Tuple(items):
-            return r"\left(" + r",\ ".join(latex(i) for i in items) + r"\right)", 5
-    return r"\texttt{" + re.sub(r"([#$%&_{}])", r"\\\1", ast.unparse(node)) + "}", 5
+class _Writer:
+    """Writes expressions; a text comes with the precedence of its outermost operation (5: needs no brackets)."""
+
+    def __init__(self, numbers: Mapping[str, str]) -> None:
+        self.numbers = numbers
+
+    def text(self, node: ast.expr) -> str:
+        return self.write(node)[0]
+
+    def write(self, node: ast.expr) -> tuple[str, int]:
+        if self.numbers and _is_quantity(node) and (number := self.numbers.get(ast.unparse(node))):
+            return number, 5 if number.replace(".", "").isdigit() else 1 if number.startswith("-") else 2
+        if positive := _without_minus(node):
+            return f"-{self.text(positive)}", 1
+        match node:
+            case ast.Constant(value):
+                return _constant(value)
+            case ast.Name(name):
+                return symbol.latex(name), 5
+            case ast.Attribute(ast.Name("g"), name):
+                return symbol.latex(name), 5
+            case ast.Attribute(inner, ("real" | "imag") as part):
+                return rf"\operatorname{{{'Re' if part == 'real' else 'Im'}}} {self.wrap(inner, 5)}", 2
+            case ast.Attribute(ast.Name(name), "value") if name.endswith("_found"):
+                return rf"\operatorname{{Find}}({symbol.latex(name.removesuffix('_found'))})", 5
+            case ast.Attribute(ast.Name(name), "value"):  # of a slider or field of the page
+                return symbol.latex(name), 5
+            case ast.Attribute(ast.Name(name), part):  # a result of several parts
+                return rf"{_part(part)}(\text{{{name.replace('_', ' ')}}})", 5
+            case ast.Attribute(ast.Call() as inner, part):
+                return rf"{_part(part)}\left[{self.text(inner)}\right]", 5
+            case ast.UnaryOp((ast.USub() | ast.UAdd()) as sign, inner):
+                return ("-" if isinstance(sign, ast.USub) else "+") + self.wrap(inner, 3), 1
+            case ast.BinOp(left, ast.Div(), right):
+                return rf"\frac{{{self.text(left)}}}{{{self.text(right)}}}", 5
+            case ast.BinOp(ast.Call(ast.Name(name), args), ast.Pow(), right) if name in _ANGULAR:
+                return rf"{_FUNCTIONS[name]}^{{{self.text(right)}}} {self.brackets(args)}", 4
+            case ast.BinOp(left, ast.Pow(), right):
+                base = self.wrap(left, 5)
+                base = rf"\left({base}\right)" if base.startswith(r"\frac") else base
+                return f"{base}^{{{self.text(right)}}}", 4
+            case ast.BinOp(left, ast.Mult(), right):
+                return self.product(left, right), 2
+            case ast.BinOp(left, ast.Mod(), right):
+                return rf"{self.wrap(left, 2)} \bmod {self.wrap(right, 2)}", 1
+            case ast.BinOp(left, (ast.Add() | ast.Sub()) as op, right):
+                sign_text = "+" if isinstance(op, ast.Add) else "-"
+                second = self.wrap(right, 1 if sign_text == "+" else 2)
+                return f"{self.wrap(left, 1)} {sign_text} {self.brackets([right]) if second[0] == '-' else second}", 1
+            case ast.Compare(left, [op], [right]) if type(op) in _COMPARISONS:
+                return f"{self.wrap(left, 1)} {_COMPARISONS[type(op)]} {self.wrap(right, 1)}", 0
+            case ast.Call(ast.Name(name), args, keywords):
+                written = [*args, *(k.value for k in keywords)]
+                return self.call(name, [a for a in written if not (isinstance(a, ast.Name) and a.id == "branch")])
+            case ast.Call(ast.Attribute(ast.Name("np"), name), args):
+                return self.call(name, args)
+            case ast.Subscript(inner, index):
+                return f"{{{self.wrap(inner, 5)}}}_{{{self.text(index)}}}", 5
+            case ast.Starred(inner):
+                return self.write(inner)
+            case ast.List(items):
+                return r"\left[" + r",\ ".join(map(self.text, items)) + r"\right]", 5
+            case ast.Tuple(items):
+                return r"\left(" + r",\ ".join(map(self.text, items)) + r"\right)", 5
+        return r"\texttt{" + re.sub(r"([#$%&_{}])", r"\\\1", ast.unparse(node)) + "}", 5
+
+    def wrap(self, node: ast.expr, level: int) -> str:
+        text, precedence = self.write(node)
+        return text if precedence >= level else self.brackets([node])
+
+    def product(self, left: ast.expr, right: ast.expr) -> str:
+        match right:
+            case ast.UnaryOp():
+                b = self.brackets([right])
+            case ast.BinOp(op=ast.Div()):
+                b = self.wrap(right, 2)
+            case _:
+                b = self.wrap(right, 4 if isinstance(right, ast.BinOp) else 2)
+        a = self.wrap(left, 2)
+        if bare := re.search(r"\\(sin|cos|tan) (?!.*(sin|cos|tan) )(\S+)$", a):  # what follows is not its argument
+            a = f"{a[: bare.start()]}\\{bare[1]}({bare[3]})"
+        return a + (r" \cdot " if b[0].isdigit() or b.startswith("(-") else r"\,") + b
+
+    def brackets(self, args: list[ast.expr]) -> str:
+        inner = r",\ ".join(map(self.text, args))
+        return rf"\left({inner}\right)" if re.search(r"\\frac|\\left|\^\{", inner) else f"({inner})"
+
+    def call(self, name: str, args: list[ast.expr]) -> tuple[str, int]:
+        match name, args:
+            case "sqrt", [x]:
+                return rf"\sqrt{{{self.text(x)}}}", 5
+            case "hypot", _:
+                return rf"\sqrt{{{' + '.join(f'{self.wrap(a, 5)}^2' for a in args)}}}", 5
+            case "abs", [x]:
+                return rf"\left|{self.text(x)}\right|", 5
+            case "conj", [x]:
+                return rf"\overline{{{self.text(x)}}}", 5
+            case "exp", [x]:
+                return rf"e^{{{self.text(x)}}}", 4
+            case "cross", [a, b]:
+                return rf"{self.wrap(a, 2)} \times {self.wrap(b, 2)}", 1
+            case "dot", [a, b]:
+                return rf"{self.wrap(a, 2)} \cdot {self.wrap(b, 2)}", 2
+            case "arange", [stop]:
+                return rf"0,\,1\,\ldots\,{self.before(stop)}", 0
+            case "arange", [start, stop]:
+                return rf"{self.text(start)}\,\ldots\,{self.before(stop)}", 0
+            case "linspace", [start, stop, *_]:
+                return rf"{self.text(start)}\,\ldots\,{self.text(stop)}", 0
+            case "trapezoid", [y, x]:
+                return rf"\int {self.wrap(y, 2)}\,\mathrm{{d}}{self.wrap(x, 5)}", 2
+            case "where", [condition, a, b]:
+                rows = rf"{self.text(a)} & \text{{if }} {self.text(condition)} \\ {self.text(b)} & \text{{otherwise}}"
+                return rf"\begin{{cases}} {rows} \end{{cases}}", 5
+            case (("sin" | "cos" | "tan"), [ast.Name() | ast.Attribute(ast.Name("g")) as x]):
+                text, precedence = self.write(x)
+                if precedence == 5 and "(" not in text:
+                    return f"{_FUNCTIONS[name]} {text}", 5
+            case "atan2", [y, x]:
+                return rf"\operatorname{{atan2}}{self.brackets([y, x])}", 5
+        head = _FUNCTIONS.get(name) or (symbol.latex(name) if _is_symbol(name) else rf"\operatorname{{{_words(name)}}}")
+        return head + self.brackets(args), 5
+
+    def before(self, stop: ast.expr) -> str:
+        """The last whole number before ``stop``."""
+        match stop:
+            case ast.Constant(int(value)):
+                return str(value - 1)
+            case ast.BinOp(last, ast.Add(), ast.Constant(1)):
+                return self.text(last)
+        return self.text(ast.BinOp(stop, ast.Sub(), ast.Constant(1)))
 
 
 def _without_minus(node: ast.expr) -> ast.expr | None:
@@ -234,6 +423,10 @@ def _without_minus(node: ast.expr) -> ast.expr | None:
     return None
 
 
+def _part(name: str) -> str:
+    return _RATES.get(name) or symbol.latex(name)
+
+
 def _constant(value: object) -> tuple[str, int]:
     if isinstance(value, complex):
         return ("" if value.imag == 1 else number_latex(value.imag) + r"\,") + "i", 5 if value.imag == 1 else 2
@@ -243,48 +436,9 @@ def _constant(value: object) -> tuple[str, int]:
     return rf"\text{{{value}}}", 5
 
 
-def _wrap(node: ast.expr, level: int) -> str:
-    text, precedence = _tex(node)
-    return text if precedence >= level else _brackets([node])
-
-
-def _product(left: ast.expr, right: ast.expr) -> str:
-    match right:
-        case ast.UnaryOp():
-            b = _brackets([right])
-        case ast.BinOp(op=ast.Div()):
-            b = _wrap(right, 2)
-        case _:
-            b = _wrap(right, 4 if isinstance(right, ast.BinOp) else 2)
-    return _wrap(left, 2) + (r" \cdot " if b[0].isdigit() or isinstance(right, ast.UnaryOp) else r"\,") + b
-
-
-def _brackets(args: list[ast.expr]) -> str:
-    inner = r",\ ".join(latex(a) for a in args)
-    return rf"\left({inner}\right)" if r"\frac" in inner else f"({inner})"
-
-
-def _call(name: str, args: list[ast.expr]) -> tuple[str, int]:
-    match name, args:
-        case "sqrt", [x]:
-            return rf"\sqrt{{{latex(x)}}}", 5
-        case "abs" | "hypot", _:
-            inner = latex(args[0]) if name == "abs" else " + ".join(f"{_wrap(a, 5)}^2" for a in args)
-            return (rf"\left|{inner}\right|" if name == "abs" else rf"\sqrt{{{inner}}}"), 5
-        case "conj", [x]:
-            return rf"\overline{{{latex(x)}}}", 5
-        case "exp", [x]:
-            return rf"e^{{{latex(x)}}}", 4
-        case "cross", [a, b]:
-            return rf"{_wrap(a, 2)} \times {_wrap(b, 2)}", 1
-        case "atan2", [y, x]:
-            return rf"\operatorname{{atan2}}{_brackets([y, x])}", 5
-    head = _FUNCTIONS.get(name) or (symbol.latex(name) if _is_symbol(name) else rf"\operatorname{{{_words(name)}}}")
-    return head + _brackets(args), 5
-
-
 def _is_symbol(name: str) -> bool:
-    return len(name) == 1 or bool(re.search(r"\d", name) or _SYMBOL.match(name))
+    word = re.fullmatch(r"[a-z]{3,}(_\w*)?", name) and not re.match("|".join(symbol.GREEK), name)
+    return len(name) == 1 or (not word and bool(re.search(r"\d", name) or _SYMBOL.match(name)))
 
 
 def _words(name: str) -> str:

@@ -287,7 +287,12 @@ def ask(cls: type) -> "mo.ui.batch":
         for section, rows in sections.items()
     )
     style = "columns:28em;column-gap:2em;font-size:.93em"
-    return mo.Html(f'<div class="ms-inputs" style="{style}">{blocks}</div>').batch(**fields)
+    template = f'<div class="ms-inputs" style="{style}">{blocks}</div>'
+    form = mo.Html(template).batch(**fields)
+    # Shown without the element of the batch round them: a field tells of its change itself, and the batch told of it
+    # again, so that the whole sheet ran twice.
+    form._text = template.format(**{name: field.text for name, field in form.elements.items()})
+    return form
 
 
 def read(cls: type[T], form: "mo.ui.batch") -> T:

@@ -6,10 +6,10 @@ import linecache
 import tokenize
 from dataclasses import dataclass
 from functools import lru_cache
-from types import FrameType
+from types import CodeType, FrameType
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Cell:
     """Statements of the running cell, with the comment of each line and where the cell stands."""
 
@@ -19,13 +19,23 @@ class Cell:
 
     def at(self, line: int) -> str:
         """Place of a line as an error names it."""
-        return f"line {line} of {self.filename}"
+        return f"line {line} of " + ("the cell" if "__marimo__cell_" in self.filename else self.filename)
 
 
 def cell(frame: FrameType) -> Cell:
     """Cell that runs in ``frame``: a whole cell module in the editor, a function of the file in a script."""
-    tree, comments = _file(frame)
-    return Cell(_body(tree, frame.f_lineno), comments, frame.f_code.co_filename)
+    code = frame.f_code
+    if id(code) not in _read:
+        tree, comments = _file(frame)
+        if len(_read) == _KEPT:
+            _read.clear()
+        _read[id(code)] = code, Cell(_body(tree, frame.f_lineno), comments, code.co_filename)
+    return _read[id(code)][1]
+
+
+# Cells by the identity of their code, held so that it stays theirs: code with another unit in a comment is equal.
+_read: dict[int, tuple[CodeType, Cell]] = {}
+_KEPT = 1000
 
 
 def call(frame: FrameType) -> ast.Call:

@@ -49,7 +49,7 @@ def latex(name: str) -> str:
     r"""Name in LaTeX.
 
     >>> latex("phi34_S"), latex("dRa")
-    ('\\varphi_{34}(S)', '\\Delta R_{a}')
+    ('\\varphi_{34}(S)', '\\Delta R_{\\mathrm{a}}')
     """
     mark, base, index = parts(name[:-2] if is_field(name) else name)
     if base in GREEK:
@@ -59,7 +59,7 @@ def latex(name: str) -> str:
     if mark:
         text = rf"\mathrm{{d}}{text}" if base in GREEK else rf"\Delta {text}"
     if index:
-        text += "_{" + index + "}"
+        text += "_{" + (rf"\mathrm{{{index}}}" if re.search("[A-Za-z]", index) else index) + "}"
     return text + "(S)" * is_field(name)
 
 
@@ -74,6 +74,19 @@ def html(name: str) -> str:
     if mark:
         text = ("d" if base in GREEK else "Δ") + text
     return text + (f"<sub>{index}</sub>" if index else "")
+
+
+def svg(name: str) -> str:
+    """Name in SVG, its index lowered: the inside of a ``<text>`` element.
+
+    >>> svg("S_p")
+    '<tspan font-style="italic">S</tspan><tspan dy="4" font-size="11">p</tspan><tspan dy="-4">\u200b</tspan>'
+    """
+    mark, base, index = parts(name[:-2] if is_field(name) else name)
+    mark = mark and ("d" if base in GREEK else "Δ")
+    text = f'{mark}<tspan font-style="italic">{GREEK.get(base, base)}</tspan>'
+    # the last part, of no width, takes what follows back to the line
+    return text + (f'<tspan dy="4" font-size="11">{index}</tspan><tspan dy="-4">\u200b</tspan>' if index else "")
 
 
 def text(name: str) -> str:

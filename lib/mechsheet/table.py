@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from mechsheet import formula, source, symbol, units
+from mechsheet import chart, formula, source, symbol, units
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -23,7 +23,6 @@ DECIMALS = {
 }  # fmt: skip
 _OTHER_DECIMALS = 3
 _BLOCK = 6
-_MARKED = 60  # points of a curve that are marked one by one; more of them hide the line
 
 
 @dataclass(frozen=True)
@@ -66,28 +65,22 @@ class Table:
         rest = self.columns[len(keys) :]
         blocks = [rest[i : i + _BLOCK] for i in range(0, max(len(rest), 1), _BLOCK)]
         caption = f'<div class="ms-caption"><b>Table {html.escape(self.number)}</b> – {html.escape(self.title)}</div>'
-        note = f'<div style="font-size:.9em;opacity:.75">{html.escape(self.note)}</div>' if self.note else ""
+        note = f'<div class="ms-note">{html.escape(self.note)}</div>' if self.note else ""
         return "text/html", f'<div class="ms-table">{caption}{"".join(_block([*keys, *b]) for b in blocks)}{note}</div>'
 
 
 def _block(columns: list[Column]) -> str:
-    cell = 'style="text-align:right;padding:.1em .7em;font-variant-numeric:tabular-nums"'
-    left = cell.replace("right", "left", 1)
-    looks = [cell if c.unit else left for c in columns]
+    kinds = ["" if c.unit else ' class="ms-text"' for c in columns]
     heads = "".join(
-        f'<th {look} title="{html.escape(c.meaning)}">{symbol.html(c.symbol)}</th>'
-        for c, look in zip(columns, looks, strict=True)
+        f'<th{kind} title="{html.escape(c.meaning)}">{symbol.html(c.symbol)}</th>'
+        for c, kind in zip(columns, kinds, strict=True)
     )
-    unit_row = "".join(f"<th {cell}>{f'[{html.escape(units.shown(c.unit))}]' if c.unit else ''}</th>" for c in columns)
+    unit_row = "".join(f"<th>{f'[{html.escape(units.shown(c.unit))}]' if c.unit else ''}</th>" for c in columns)
     rows = "".join(
-        "<tr>" + "".join(f"<td {look}>{html.escape(t)}</td>" for t, look in zip(row, looks, strict=True)) + "</tr>"
+        "<tr>" + "".join(f"<td{kind}>{html.escape(t)}</td>" for t, kind in zip(row, kinds, strict=True)) + "</tr>"
         for row in zip(*(c.texts() for c in columns), strict=True)
     )
-    return (
-        '<table style="border-collapse:collapse;margin:.4em 0 1em"><thead>'
-        f'<tr>{heads}</tr><tr style="opacity:.6;border-bottom:1px solid currentColor">{unit_row}</tr></thead>'
-        f"<tbody>{rows}</tbody></table>"
-    )
+    return f'<table><thead><tr>{heads}</tr><tr class="ms-units">{unit_row}</tr></thead><tbody>{rows}</tbody></table>'
 
 
 def _digits(value: float, decimals: int, kind: str) -> str:
@@ -111,12 +104,15 @@ class Figure:
         return [(line, slice(0, len(line.values)), "") for line in self.lines]
 
     def _mime_(self) -> tuple[str, str]:
-        import marimo as mo
+        caption = f'<div class="ms-caption"><b>Figure {html.escape(self.number)}</b> – {html.escape(self.title)}</div>'
+        return "text/html", f'<div class="ms-figure">{self.svg()}{caption}</div>'
 
-        return "text/html", mo.as_html(self.chart()).text
+    def svg(self) -> str:
+        """The chart as one SVG element."""
+        return chart.line_chart(self.x, self.lines, self.marks)
 
     def chart(self) -> Any:
-        """The figure as an altair chart."""
+        """The figure as an altair chart, to be changed, combined or saved; the page draws its own, which is faster."""
         import altair as alt
 
         names = [symbol.text(c.symbol) for c in self.lines]
@@ -143,7 +139,7 @@ class Figure:
             ],
         )
         layers = [base.mark_line()]
-        if self.x.values.size <= _MARKED:
+        if self.x.values.size <= chart.MARKED:
             layers.append(base.mark_point(filled=True, size=36))
         for name, x in self.marks:
             at = alt.Chart(alt.InlineData([{"x": x, "name": name}])).encode(x="x:Q")

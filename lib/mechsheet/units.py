@@ -63,13 +63,22 @@ def parse(text: str) -> Unit:
 _POWERS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
+def raised(power: int) -> str:
+    """A power as a raised number.
+
+    >>> raised(-6)
+    '⁻⁶'
+    """
+    return str(power).translate(_POWERS)
+
+
 def shown(text: str) -> str:
     """Unit as a page or a workbook prints it.
 
     >>> shown("kgf/cm**2"), shown("N*m")
     ('kgf/cm²', 'N·m')
     """
-    return re.sub(r"\*\*(-?\d+)", lambda power: power[1].translate(_POWERS), text).replace("*", "·")
+    return re.sub(r"\*\*(-?\d+)", lambda power: raised(int(power[1])), text).replace("*", "·")
 
 
 def si(text: str) -> str:

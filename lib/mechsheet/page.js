@@ -1,0 +1,105 @@
+// What the page does by itself: numbers in formulas, play buttons, values under the pointer in charts.
+(() => {
+  if (customElements.get("ms-numbers")) return;
+
+  const withNumbers = () => document.documentElement.classList.contains("ms-with-numbers");
+
+  // The formula once more with numbers for its symbols; typeset only while the reader asks for them.
+  class Numbers extends HTMLElement {
+    static observedAttributes = ["tex"];
+
+    connectedCallback() {
+      this.show();
+    }
+
+    attributeChangedCallback() {
+      if (this.isConnected) this.show();
+    }
+
+    show() {
+      this.replaceChildren();
+      if (!withNumbers()) return;
+      const tex = document.createElement("marimo-tex");
+      tex.className = "arithmatex";
+      tex.textContent = `||(\\displaystyle ${this.getAttribute("tex")}||)`;
+      this.append(tex);
+    }
+  }
+  customElements.define("ms-numbers", Numbers);
+
+  document.addEventListener("change", (event) => {
+    if (!event.target.matches(".ms-switch")) return;
+    document.documentElement.classList.toggle("ms-with-numbers", event.target.checked);
+    document.querySelectorAll("ms-numbers").forEach((line) => line.show());
+  });
+
+  // Play: the slider is moved by its own keys, so that everything that hangs on it follows as under the hand.
+  const TICK = 50; // ms
+  const playing = new Map();
+
+  function play(button) {
+    const thumb = button.parentElement.querySelector("marimo-slider")?.shadowRoot?.querySelector("[role=slider]");
+    if (!thumb) return stop(button);
+    const at = Number(thumb.ariaValueNow ?? thumb.getAttribute("aria-valuenow"));
+    const [low, high] = ["aria-valuemin", "aria-valuemax"].map((name) => Number(thumb.getAttribute(name)));
+    const run = playing.get(button);
+    let key = run.back ? "ArrowLeft" : "ArrowRight";
+    if (at >= high && !run.back) {
+      run.back = !("turning" in button.dataset);
+      key = run.back ? "ArrowLeft" : "Home";
+    } else if (at <= low && run.back) {
+      run.back = false;
+      key = "ArrowRight";
+    }
+    thumb.dispatchEvent(new KeyboardEvent("keydown", { key, bubbles: true, composed: true }));
+  }
+
+  function stop(button) {
+    clearInterval(playing.get(button)?.timer);
+    playing.delete(button);
+    button.textContent = "▶";
+    button.ariaLabel = "play";
+  }
+
+  document.addEventListener("click", (event) => {
+    const button = event.target.closest(".ms-play");
+    if (!button) return;
+    if (playing.has(button)) return stop(button);
+    const timer = setInterval(() => (button.isConnected ? play(button) : stop(button)), TICK);
+    playing.set(button, { timer, back: false });
+    button.textContent = "❚❚";
+    button.ariaLabel = "pause";
+  });
+
+  // Values of a chart where the pointer is.
+  const tip = document.createElement("div");
+  tip.className = "ms-tip";
+  tip.hidden = true;
+  let shown; // the chart, its values and their text
+
+  document.addEventListener("pointermove", (event) => {
+    const chart = event.target.closest?.("svg.ms-chart");
+    if (!chart) {
+      tip.hidden = true;
+      return;
+    }
+    const text = chart.dataset.values;
+    if (shown?.text !== text) shown = { text, ...JSON.parse(text) };
+    const box = chart.getBoundingClientRect();
+    const scale = box.width / chart.viewBox.baseVal.width;
+    const x = (event.clientX - box.left) / scale;
+    let best = -1;
+    shown.at.forEach((at, i) => {
+      if (at !== null && (best < 0 || Math.abs(at - x) < Math.abs(shown.at[best] - x))) best = i;
+    });
+    if (best < 0) return;
+    tip.innerHTML = shown.names
+      .map((name, i) => `<div>${name} = ${shown.texts[i][best]} ${shown.units[i]}</div>`)
+      .join("");
+    if (!tip.isConnected) document.body.append(tip);
+    const left = box.left + shown.at[best] * scale;
+    tip.hidden = false;
+    tip.style.left = `${left + (left + 14 + tip.offsetWidth > innerWidth ? -14 - tip.offsetWidth : 14)}px`;
+    tip.style.top = `${event.clientY + 14}px`;
+  });
+})();

@@ -1,0 +1,76 @@
+"""The page itself: its title block, and sliders that play."""
+
+import base64
+import html
+import sys
+from dataclasses import dataclass
+from datetime import date
+from functools import cache
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from mechsheet import chart, symbol
+
+if TYPE_CHECKING:
+    import marimo as mo
+
+
+# Shown by the style sheet that stands where something was refused.
+_TOLD = '<div class="ms-told" style="display:none"><span class="ms-badge ms-FAIL">not computed to its end</span> </div>'
+
+
+@dataclass(frozen=True)
+class Title:
+    """Title block: what the worksheet is about, its file, the day, and the switch for numbers in formulas."""
+
+    name: str
+    text: str
+    file: str
+
+    def _mime_(self) -> tuple[str, str]:
+        import marimo as mo
+
+        text = mo.md(f"# {self.name}\n\n{self.text}").text
+        cells = [("Worksheet", html.escape(self.file)), ("Computed", f"{date.today():%Y-%m-%d}")]
+        fields = "".join(f"<span>{label} <b>{value}</b></span>" for label, value in cells)
+        switch = '<label class="ms-screen"><input type="checkbox" class="ms-switch"> numbers in the formulas</label>'
+        return (
+            "text/html",
+            f'{_script()}<div class="ms-title">{text}<div class="ms-row">{fields}{switch}</div>{_TOLD}</div>',
+        )
+
+
+def title_block(name: str, text: str = "") -> Title:
+    """Title block of the calling worksheet; ``text`` is Markdown."""
+    return Title(name, text, Path(sys._getframe(1).f_globals.get("__file__", "")).name)
+
+
+def player(slider: "mo.ui.slider", turning: bool = False) -> "mo.Html":
+    """A slider with a play button, which moves it to and fro; ``turning`` always on, from its end to its beginning."""
+    import marimo as mo
+
+    button = f'<button class="ms-play" aria-label="play"{" data-turning" if turning else ""}>▶</button>'
+    return mo.Html(f'<div class="ms-player">{slider.text}{button}</div>')
+
+
+@dataclass(frozen=True)
+class Mark:
+    """A moving position in SI: it is marked in every chart over the quantity of that name."""
+
+    positions: tuple[tuple[str, float], ...]
+
+    def _mime_(self) -> tuple[str, str]:
+        rules = "".join(f"{chart.variable(symbol.plain(name))}:{float(x)!r};" for name, x in self.positions)
+        return "text/html", f"<style>.ms-chart{{{rules}}}</style>"
+
+
+def mark(**positions: Any) -> Mark:
+    """The position of a slider, such as ``mark(S=S_t)``, to be shown beside what is drawn there."""
+    return Mark(tuple(positions.items()))
+
+
+@cache
+def _script() -> str:
+    """The page's script, as an address: the only form in which a page of marimo runs one from an output."""
+    text = (Path(__file__).parent / "page.js").read_bytes()
+    return f'<script src="data:text/javascript;base64,{base64.b64encode(text).decode()}"></script>'

@@ -1,0 +1,87 @@
+"""Charts, read back from their SVG: what stands where, in which unit, and where nothing is drawn."""
+
+import json
+import re
+from dataclasses import dataclass
+from html import unescape
+
+import numpy as np
+import pytest
+
+from mechsheet import chart
+
+
+@dataclass(frozen=True)
+class Q:
+    symbol: str
+    unit: str
+    values: np.ndarray
+    decimals: int = 3
+
+
+S = Q("S", "m", np.linspace(0.42, 0.67, 6))
+
+
+def drawn(*lines: Q, **more) -> str:
+    return chart.line_chart(S, lines, **more)
+
+
+def points(svg: str, colour: str = chart.COLOURS[0]) -> list[list[complex]]:
+    path = re.search(rf'<path stroke="{colour}"[^>]* d="([^"]*)"', svg)[1]
+    return [[complex(*map(float, p.split())) for p in piece.split("L")] for piece in path.split("M")[1:]]
+
+
+def ticks(svg: str, anchor: str) -> list[tuple[float, float]]:
+    """Place [px] and number of the ticks of the axis whose texts are anchored so."""
+    found = re.findall(rf'<text x="([\d.]+)" y="([\d.]+)" text-anchor="{anchor}"[^>]*>(−?[\d.]+)</text>', svg)
+    return [(float(x if anchor == "middle" else y), float(n.replace("−", "-"))) for x, y, n in found]
+
+
+@pytest.mark.parametrize("scale", [1, 1e-7, -3e9])
+def test_curve_stands_where_the_ticks_say(scale):
+    """The line through the ticks of each axis gives the values back, powers of ten in the title counted."""
+    y = Q("F_gc", "N", scale * np.array([1.0, 2.0, 4.0, 3.0, -1.0, 0.5]))
+    svg = drawn(y)
+    (curve,) = points(svg)
+    power = re.search(r"10([⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+) N\]", svg)
+    factor = 10.0 ** int(power[1].translate(str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789"))) if power else 1.0
+    (x1, a1), *_, (x2, a2) = ticks(svg, "middle")
+    (y1, b1), *_, (y2, b2) = ticks(svg, "end")
+    left, top = chart._LEFT, chart._TOP
+    x = [a1 + (p.real + left - x1) / (x2 - x1) * (a2 - a1) for p in curve]
+    f = [factor * (b1 + (p.imag + top + 4 - y1) / (y2 - y1) * (b2 - b1)) for p in curve]
+    assert x == pytest.approx(S.values, abs=2e-4)
+    assert f == pytest.approx(y.values, abs=3e-3 * np.ptp(y.values))
+
+
+def test_what_is_not_finite_is_a_gap():
+    pieces = points(drawn(Q("x", "-", np.array([1, 2, np.nan, 4, np.inf, 6]))))
+    assert [len(piece) for piece in pieces] == [2, 1, 1]
+    assert drawn(Q("x", "-", np.full(6, np.nan))).startswith("<svg"), "nothing to draw"
+    assert drawn(Q("x", "-", np.full(6, 7.0))).startswith("<svg"), "one value"
+
+
+def test_mark_stands_at_its_place_under_its_symbol():
+    svg = drawn(Q("x", "-", np.arange(6.0)), marks=[("S_p", 0.545)])
+    place = float(re.search(r'class="ms-mark"[^>]* d="M([\d.]+) 0', svg)[1])
+    (curve,) = points(svg)
+    assert place == pytest.approx((curve[0].real + curve[-1].real) / 2, abs=0.06)
+    assert ">S</tspan><tspan" in svg and ">p</tspan>" in svg and "S_p" not in svg
+
+
+def test_moving_mark_is_placed_in_si():
+    svg = chart.line_chart(Q("phi1", "deg", np.array([0.0, 90.0, 180.0])), [Q("x", "-", np.arange(3.0))])
+    name, low, scale = re.search(r"var\((--at-\w+),-1e30\) - (\S+)\) / (\S+) \*", svg).groups()
+    (curve,) = points(svg)
+    assert name == chart.variable("phi1")
+    assert (np.pi / 2 - float(low)) / float(scale) == pytest.approx(curve[1].real, abs=0.06)
+
+
+def test_lines_have_a_legend_and_hovering_shows_their_values():
+    svg = drawn(Q("G56", "N", np.arange(6.0), 0), Q("dRa", "%", np.array([1, 2, np.nan, 4, 5, 6.25]), 1))
+    assert svg.count('stroke-width="2.2"') == 2
+    values = json.loads(unescape(re.search(r'data-values="([^"]*)"', svg)[1]))
+    assert values["names"] == ["<i>S</i>", "<i>G</i><sub>56</sub>", "Δ<i>R</i><sub>a</sub>"]
+    assert values["units"] == ["m", "N", "%"]
+    assert [column[2] for column in values["texts"]] == ["0.520", "2", "–"]
+    assert "[N]; " in svg and "[%]" in svg

@@ -1,0 +1,242 @@
+"""Every number that a worksheet shows is read back with its unit and compared with the value computed.
+
+The reader of this test shares nothing with what writes: its units stand here.
+"""
+
+import html
+import importlib.util
+import json
+import re
+import sys
+from decimal import Decimal
+from math import inf, pi
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from mechsheet.checks import Check, Summary
+from mechsheet.find import Found
+from mechsheet.formula import Formula, Typeset
+from mechsheet.inputs import Used
+from mechsheet.symbol import plain
+from mechsheet.table import Column, Figure, Table
+
+WORKSHEETS = sorted((Path(__file__).parents[1] / "worksheets").glob("*.py"))
+SI = {
+    "m": 1, "cm": 1e-2, "mm": 1e-3, "N": 1, "kN": 1e3, "kgf": 9.80665, "Pa": 1, "MPa": 1e6, "J": 1, "W": 1, "kW": 1e3,
+    "s": 1, "kg": 1, "rad": 1, "deg": pi / 180, "°": pi / 180, "%": 0.01, "": 1, "-": 1, "ms": 1e-3, "µs": 1e-6,
+    "us": 1e-6, "rpm": 2 * pi / 60,
+}  # fmt: skip
+RAISED = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789")
+
+
+def factor(unit: str) -> float:
+    """SI value of a unit as it is printed: ``kgf/cm²``, ``N·m``, ``1/(m·s)``, or its LaTeX."""
+    unit = re.sub(r"\\mathrm\{((?:[^{}]|\{[^}]*\})*)\}", r"\1", unit).replace(r"\cdot", "·").replace(r"\%", "%")
+    unit = unit.replace(r"^\circ", "°").replace("\\", "").replace(" ", "").replace(",", "")
+    unit = re.sub(r"[⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+", lambda m: f"^{m[0].translate(RAISED)}", unit).replace("{", "").replace("}", "")
+    value, sign, inner = 1.0, 1, 0
+    for part in re.findall(r"[·/()]|[^·/()]+", unit):
+        if part == "/":
+            sign = -1
+        elif part == "(":
+            inner = sign
+        elif part == ")":
+            sign, inner = 1, 0
+        elif part == "·":
+            sign = inner or 1
+        else:
+            name, _, power = part.partition("^")
+            value *= (1.0 if name == "1" else SI[name]) ** (sign * float(power or 1))
+    return value
+
+
+def number(text: str) -> tuple[float, float]:
+    """Number of a text and half of its last digit."""
+    text = text.strip().replace("−", "-").replace("{", "").replace("}", "").replace(r"\cdot 10^", "e").replace(" ", "")
+    if text in (r"\textnone", "–", "nan"):
+        return float("nan"), 0.0
+    if "∞" in text or r"\infty" in text:
+        return -inf if "-" in text else inf, 0.0
+    return float(text), 0.5 * 10.0 ** Decimal(text).as_tuple().exponent
+
+
+def same(text: str, value: float, unit: str, digits: int = 0) -> bool:
+    """Whether a text with a unit says a value in SI, to half its last digit; or to ``digits``, of which zeros at the
+    end were left out."""
+    read, half = number(text)
+    if np.isnan(read) or np.isnan(value):
+        return bool(np.isnan(read) and np.isnan(value))
+    if np.isinf(read):
+        return bool(read == value)
+    if digits and value:
+        shown = abs(value / factor(unit))
+        half = (
+            min(half, 0.5 * 10.0 ** (np.floor(np.log10(shown)) - digits + 1)) if shown < 1e5 or shown >= 1e6 else half
+        )
+    return bool(abs(read * factor(unit) - value) <= (1 + 1e-6) * half * factor(unit) + 1e-12 * abs(value))
+
+
+VALUE = r"(?:-?[\d.]+(?: \\cdot 10\^\{-?\d+\})?|\\text\{none\}|-?\\infty)"
+
+
+def ends(text: str) -> tuple[list[str], str]:
+    """Numbers of the value that ends a formula, first and last of a field, and their unit."""
+    item = rf"(?:{VALUE}|\({VALUE},\\ {VALUE}\))"
+    match = re.search(rf"(?:^|= )({item}(?: \\,\\ldots\\, {item})?)((?:\\ \\mathrm\{{.*\}}|\^\\circ|\\,\\%)?)$", text)
+    assert match, text
+    return re.findall(VALUE, match[1]), match[2]
+
+
+def assert_formula(row: Formula, value: object, tex: str) -> int:
+    texts, unit = ends(tex)
+    field = np.asarray(value)
+    shown = [field.flat[0]] if field.ndim == 0 else [field.flat[0], field.flat[-1]]
+    values = [p for z in shown for p in ((z.real, z.imag) if np.iscomplexobj(field) else (float(z),))]
+    assert len(texts) == len(values), tex
+    for text, x in zip(texts, values, strict=True):
+        assert same(text, x, unit, digits=5), f"{row.name}: {text} {unit} is not {x}"
+    return len(texts)
+
+
+def assert_typeset(shown: Typeset) -> int:
+    tex = [html.unescape(t) for t in re.findall(r"\|\|\(\\displaystyle (.*?)\|\|\)", shown._mime_()[1])]
+    rows = [(row, value) for row, value in zip(shown.rows, shown.values, strict=True)]
+    lines = tex[: len(rows)]
+    count = 0
+    for (row, value), line in zip(rows, lines, strict=True):
+        if isinstance(row, Formula) and not row.arguments:
+            count += assert_formula(row, value, line)
+    return count
+
+
+def cells(text: str, tag: str) -> list[str]:
+    return [html.unescape(re.sub("<[^>]*>", "", t)) for t in re.findall(rf"<{tag}\b[^>]*>(.*?)</{tag}>", text)]
+
+
+def assert_table(table: Table, names: dict[str, object]) -> int:
+    """Cells against the columns' values, whose unit is the one in the heading; columns against the names' SI values."""
+    text, count = table._mime_()[1], 0
+    columns = {re.sub("[^A-Za-z0-9]", "", c.symbol): c for c in table.columns}
+    for block in re.findall(r"<table>(.*?)</table>", text):
+        head, units_row = re.findall(r"<tr.*?</tr>", block)[:2]
+        heads, units_shown = cells(head, "th"), [u.strip("[]") for u in cells(units_row, "th")]
+        rows = [cells(row, "td") for row in re.findall(r"<tr>((?:<td).*?)</tr>", block)]
+        for i, (name, unit) in enumerate(zip(heads, units_shown, strict=True)):
+            greek = {"φ": "phi", "ω": "omega", "ε": "eps", "Δ": "d", "β": "beta", "α": "alpha", "γ": "gamma", "μ": "mu",
+                     "σ": "sigma", "ψ": "psi", "δ": "delta", "θ": "theta", "η": "eta", "λ": "lambda"}  # fmt: skip
+            ascii_name = re.sub("[^A-Za-z0-9]", "", "".join(greek.get(c, c) for c in name))
+            column = columns.get(ascii_name) or columns[ascii_name.replace("eps", "epsilon", 1)]
+            assert_column(column, unit, names)
+            assert abs(factor(unit) / factor(column.unit.replace("**", "^").replace("*", "·")) - 1) < 1e-12
+            for row, value in zip(rows, column.values.tolist(), strict=True):
+                assert same(row[i], value * factor(unit), unit), (
+                    f"table {table.number}, {name}: {row[i]} is not {value}"
+                )
+                count += 1
+    return count
+
+
+def assert_column(column: Column, unit: str, names: dict[str, object]) -> None:
+    """The whole column against the name of that symbol in SI, where it is shown as it stands."""
+    for name, value in names.items():
+        if plain(name) == column.symbol and isinstance(value, np.ndarray) and value.size == column.values.size:
+            si = np.abs(value.ravel()) if np.iscomplexobj(value) else value.ravel()
+            assert np.allclose(column.values * factor(unit), si, rtol=1e-12, atol=0, equal_nan=True), name
+
+
+def assert_used(used: Used) -> int:
+    text = used._mime_()[1]
+    shown = re.findall(r"&nbsp;=&nbsp;(\S+?)&nbsp;([^<]*)</span>", text)
+    rows = used.rows()
+    assert len(shown) == len(rows)
+    for (value, unit), (field, _) in zip(shown, rows, strict=True):
+        assert same(value, float(getattr(used.g, field.name)), unit), field.name
+    return len(shown)
+
+
+def assert_check(check: Check) -> int:
+    text = html.unescape(re.sub("<[^>]*>", "", check._mime_()[1]))
+    match = re.search(r": (\S+) [≤≰] (\S+)", text)
+    if not check.evaluated:
+        assert "not evaluated" in text
+        return 0
+    assert match and ("PASS" if check.residual <= check.limit else "FAIL") in text
+    assert [float(t) for t in match.groups()] == pytest.approx([check.residual, check.limit], rel=0.051, abs=1e-300)
+    return 2
+
+
+def assert_found(found: Found) -> int:
+    text = html.unescape(re.sub("<[^>]*>", "", found._mime_()[1]))
+    match = re.search(rf"{re.escape(found.words.unknown)} = (\S+)(?: ([^\d\s]+?))?condition", text)
+    assert match, text
+    digits = match[1].rstrip("0").lstrip("-0.").replace(".", "")
+    value = float(match[1]) * factor(match[2] or "")
+    assert abs(value / found.value - 1) < 0.51 * 10.0 ** (1 - max(6, len(digits)))
+    return 1
+
+
+def outputs(path: Path) -> tuple[list[object], dict[str, object]]:
+    spec = importlib.util.spec_from_file_location(path.stem, path)
+    assert spec and spec.loader
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[path.stem] = module
+    try:
+        spec.loader.exec_module(module)
+        shown, names = module.app.run()
+    finally:
+        del sys.modules[path.stem]
+    return list(shown), dict(names)
+
+
+@pytest.mark.parametrize("worksheet", WORKSHEETS, ids=lambda path: path.stem)
+def test_every_number_shown_is_the_one_computed(worksheet):
+    shown, names = outputs(worksheet)
+    counted = dict.fromkeys(["formulas", "tables", "inputs", "checks", "found", "charts"], 0)
+    more = [x for o in shown if isinstance(o, Typeset) for x in o.shown]
+    for output in [*shown, *more]:
+        match output:
+            case Typeset():
+                counted["formulas"] += assert_typeset(output)
+            case Table():
+                counted["tables"] += assert_table(output, names)
+            case Used():
+                counted["inputs"] += assert_used(output)
+            case Check():
+                counted["checks"] += assert_check(output)
+            case Summary():
+                counted["checks"] += sum(assert_check(check) for check in output.checks)
+            case Found():
+                counted["found"] += assert_found(output)
+            case Figure():
+                counted["charts"] += assert_chart(output)
+    assert counted["formulas"] > 20 and counted["tables"] > 50 and counted["inputs"] > 5 and counted["checks"] > 5
+
+
+def assert_chart(figure: Figure) -> int:
+    """What hovering shows, against the columns."""
+    values = json.loads(html.unescape(re.search(r'data-values="(.*?)"', figure.svg())[1]))
+    columns = [figure.x, *figure.lines]
+    for column, texts, unit in zip(columns, values["texts"], values["units"], strict=True):
+        for text, value in zip(texts, column.values.tolist(), strict=True):
+            assert same(text, value * factor(unit), unit) or not np.isfinite(value)
+    return sum(map(len, values["texts"]))
+
+
+@pytest.mark.parametrize(
+    ("text", "si"),
+    [("kN", 1e3), ("N·m", 1), ("kgf/cm²", 98066.5), ("rad/s²", 1), ("1/(m·s)", 1), (r"\ \mathrm{cm^{2}}", 1e-4),
+     (r"^\circ", pi / 180), (r"\,\%", 0.01), (r"\ \mathrm{N\cdot m}", 1), ("mm⁴", 1e-12)],
+)  # fmt: skip
+def test_reader_of_units(text, si):
+    assert factor(text) == pytest.approx(si, rel=1e-14)
+
+
+@pytest.mark.parametrize(
+    ("unit", "power"),
+    [(r"\ \mathrm{mm}", 1), (r"\ \mathrm{m}", 10)],
+)
+def test_wrong_unit_or_power_is_found(unit, power):
+    assert same("0.25", 0.25, r"\ \mathrm{m}", digits=5)
+    assert not same("0.25", 0.25 * power, unit, digits=5)

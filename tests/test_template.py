@@ -1,0 +1,68 @@
+"""A new worksheet in one command: it passes the checks of a worksheet, runs as a script and writes its workbook."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from openpyxl import load_workbook
+
+from mechsheet import __main__ as launcher
+from mechsheet.dimensions import mismatches
+
+
+@pytest.fixture
+def lever(tmp_path, monkeypatch, capsys):
+    """A worksheet begun in an empty project."""
+    (tmp_path / "worksheets").mkdir()
+    css = Path(launcher.__file__).parents[2] / "worksheets" / "page.css"
+    (tmp_path / "worksheets" / "page.css").write_text(css.read_text(encoding="utf-8"), encoding="utf-8")
+    monkeypatch.setattr(launcher, "ROOT", tmp_path)
+    assert launcher.main(["new", "gear_lever"]) == 0
+    path = tmp_path / "worksheets" / "gear_lever.py"
+    assert str(path) in capsys.readouterr().out
+    return path
+
+
+def test_runs_and_writes_its_workbook(lever):
+    done = subprocess.run([sys.executable, str(lever)], capture_output=True, encoding="utf-8")
+    assert (done.returncode, done.stderr) == (0, "")
+    book = load_workbook(lever.parents[1] / "exports" / "gear_lever.xlsx")
+    assert book.sheetnames[:3] == ["Inputs", "Find", "1 Moment of the lever"]
+    assert len(book["1 Moment of the lever"]._charts) == 1
+    changed = subprocess.run([sys.executable, str(lever), "--F=-5"], capture_output=True, encoding="utf-8")
+    assert changed.returncode == 1 and "F = -5.0 N must be >= 0" in changed.stderr
+
+
+def test_passes_the_checks_of_a_worksheet(lever):
+    for tool in (["marimo", "check", "--strict"], ["ruff", "check", "--select", "F,F821"]):
+        done = subprocess.run([sys.executable, "-m", *tool, str(lever)], capture_output=True, encoding="utf-8")
+        assert done.returncode == 0, done.stdout + done.stderr
+    assert mismatches(lever) == []
+
+
+def test_shows_its_page(lever, serve, page, console_errors):
+    page.goto(serve("run", lever))
+    page.get_by_text("1 of 1 checks pass").wait_for(timeout=60_000)
+    assert page.get_by_role("heading", name="Gear lever").count() == 1
+    assert page.locator(".ms-table").count() == 1 and page.locator("svg.ms-chart").count() == 1
+    assert console_errors == []
+
+
+@pytest.mark.parametrize(
+    ("options", "says"),
+    [
+        ([], "needs the name"),
+        (["9th"], "must be a letter"),
+        (["../x"], "must be a letter"),
+        (["taken"], "there already"),
+    ],
+)
+def test_refuses_in_one_line(tmp_path, monkeypatch, options, says):
+    (tmp_path / "worksheets").mkdir()
+    (tmp_path / "worksheets" / "taken.py").write_text("mine", encoding="utf-8")
+    monkeypatch.setattr(launcher, "ROOT", tmp_path)
+    with pytest.raises(SystemExit, match=says):
+        launcher.main(["new", *options])
+    assert (tmp_path / "worksheets" / "taken.py").read_text(encoding="utf-8") == "mine"
+    assert len(list((tmp_path / "worksheets").iterdir())) == 1
