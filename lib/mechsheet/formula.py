@@ -199,19 +199,27 @@ class Typeset:
         return "text/html", "".join(lines + [mo.as_html(more).text for more in self.shown])
 
     def _formula(self, row: Formula, value: Any) -> str:
-        parts = [row.symbol, row.tex, "" if row.arguments else value_latex(value, row.unit)]
-        numbers = "" if row.arguments or self.numbers is None else _substituted(row, self.numbers, self.position)
-        return _line(" = ".join(filter(None, parts)), row.meaning, numbers)
+        formula = " = ".join(filter(None, (row.symbol, row.tex)))
+        if row.arguments:
+            return _line(formula, "", row.meaning)
+        numbers = "" if self.numbers is None else _substituted(row, self.numbers, self.position)
+        return _line(f"{formula} = {{}}", value_latex(value, row.unit), row.meaning, numbers)
 
 
-def _line(tex: str, meaning: str = "", numbers: str = "") -> str:
-    """A typeset line; its numbers wait in an attribute until the reader asks for them."""
+def _line(tex: str, value: str = "", meaning: str = "", numbers: str = "") -> str:
+    """A typeset line; its numbers wait in an attribute until the reader asks for them.
+
+    The value is an element of its own: where it alone changes, the browser keeps the formula as it has set it.
+    """
     more = f'<ms-numbers tex="{html.escape("= " + numbers)}"></ms-numbers>' if numbers else ""
     return (
-        '<div class="ms-line">'
-        f'<marimo-tex class="arithmatex">||(\\displaystyle {html.escape(tex)}||)</marimo-tex>'
+        f'<div class="ms-line"><span class="ms-formula">{_tex_element(tex)}{_tex_element(value) if value else ""}</span>'
         f"<span>{html.escape(meaning)}</span>{more}</div>"
     )
+
+
+def _tex_element(tex: str) -> str:
+    return f'<marimo-tex class="arithmatex">||(\\displaystyle {html.escape(tex)}||)</marimo-tex>'
 
 
 def _is_quantity(node: ast.AST) -> bool:
