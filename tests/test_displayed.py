@@ -101,7 +101,8 @@ def assert_formula(row: Formula, value: object, tex: str) -> int:
 
 
 def assert_typeset(shown: Typeset) -> int:
-    tex = [html.unescape(t) for t in re.findall(r"\|\|\(\\displaystyle (.*?)\|\|\)", shown._mime_()[1])]
+    parts = (re.findall(r"\|\|\(\\displaystyle (.*?)\|\|\)", line) for line in shown._mime_()[1].split("ms-line")[1:])
+    tex = [html.unescape("".join(part).replace("= {}", "= ")) for part in parts]
     rows = [(row, value) for row, value in zip(shown.rows, shown.values, strict=True)]
     lines = tex[: len(rows)]
     count = 0
@@ -131,9 +132,8 @@ def assert_table(table: Table, names: dict[str, object]) -> int:
             assert_column(column, unit, names)
             assert abs(factor(unit) / factor(column.unit.replace("**", "^").replace("*", "·")) - 1) < 1e-12
             for row, value in zip(rows, column.values.tolist(), strict=True):
-                assert same(row[i], value * factor(unit), unit), (
-                    f"table {table.number}, {name}: {row[i]} is not {value}"
-                )
+                said = row[i] == value if isinstance(value, str) else same(row[i], value * factor(unit), unit)
+                assert said, f"table {table.number}, {name}: {row[i]} is not {value}"
                 count += 1
     return count
 

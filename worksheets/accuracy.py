@@ -1197,8 +1197,8 @@ def truth_joint(g, names, rows):
 @app.function
 def sliders():
     """Stand-ins for the sliders of the worksheets, whose values a page does not give to the cell that makes them."""
-    values = {"part": 0.2, "turn": 40, "drawn": 1, "drawn_ring": 1}
-    return {name: SimpleNamespace(value=value) for name, value in values.items()}
+    values = {"part": 0.2, "forces_at": 0.2, "turn": 40, "drawn": 1, "drawn_ring": 1}
+    return {name: SimpleNamespace(value=value, text="") for name, value in values.items()}
 
 
 @app.function

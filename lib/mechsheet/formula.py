@@ -212,9 +212,9 @@ def _line(tex: str, value: str = "", meaning: str = "", numbers: str = "") -> st
     The value is an element of its own: where it alone changes, the browser keeps the formula as it has set it.
     """
     more = f'<ms-numbers tex="{html.escape("= " + numbers)}"></ms-numbers>' if numbers else ""
+    typeset = _tex_element(tex) + (_tex_element(value) if value else "")
     return (
-        f'<div class="ms-line"><span class="ms-formula">{_tex_element(tex)}{_tex_element(value) if value else ""}</span>'
-        f"<span>{html.escape(meaning)}</span>{more}</div>"
+        f'<div class="ms-line"><span class="ms-formula">{typeset}</span><span>{html.escape(meaning)}</span>{more}</div>'
     )
 
 
