@@ -20,6 +20,7 @@ IMPORT = "from mechsheet.formula import typeset\n"
         ("g.P6/(g.k_gc*A_gc*g.eta)", r"\frac{P_{6}}{k_{\mathrm{gc}}\,A_{\mathrm{gc}}\,\eta}"),
         ("O3 + g.L34*exp(1j*phi34(S))", r"O_{3} + L_{34}\,e^{i\,\varphi_{34}(S)}"),
         ("sqrt(X6**2 + Y6**2)", r"\sqrt{X_{6}^{2} + Y_{6}^{2}}"),
+        ('h["GS6_lim"]', r"{h}_{\text{GS6\_lim}}"),
         ("a - (b - c)", r"a - (b - c)"),
         ("a - (b + c)", r"a - (b + c)"),
         ("a + (b - c)", r"a + b - c"),

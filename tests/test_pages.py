@@ -11,6 +11,7 @@ WORKSHEETS = Path(__file__).parents[1] / "worksheets"
 CHANGED = {
     "accuracy": ("positions of the hitch", "12"),
     "hitch": ("weight of the implement", "30000"),
+    "hitch_design": ("weight of the implement", "26500"),
     "landing_gear": ("mass", "1000"),
     "slotted_link": ("angular velocity of the crank", "-12,5"),
     "kinetostatics": ("rod AB", "0.43"),

@@ -63,6 +63,14 @@ def test_evaluation_of_the_readme_gives_the_capacity(monkeypatch):
     assert names["GS6"].shape == (10,) and names["GS6"].min() > 28e3
 
 
+def test_sensitivities_of_the_readme(monkeypatch):
+    monkeypatch.chdir(ROOT)
+    names: dict = {}
+    exec(next(b for b in blocks("python") if "tolerance(" in b), names)
+    assert names["slopes"].names == ("GS6", "abs(R56)")
+    assert all(names["corners"].least < names["spread"].least), "corners bound what is drawn"
+
+
 def test_every_worksheet_and_every_file_named_is_there():
     assert {m for m in re.findall(r"^\| `(\w+)` \|", README, re.MULTILINE)} == {
         p.stem for p in (ROOT / "worksheets").glob("*.py")

@@ -39,11 +39,11 @@ def test_the_example_scenes_pass_side_by_side(tmp_path, monkeypatch, capsys):
     monkeypatch.setenv("COLUMNS", "200")
     assert scenes.run(str(HITCH), [str(EXAMPLES / "*.toml"), f"--out={tmp_path}"]) == 0
     printed = capsys.readouterr()
-    assert row(printed.out, "verdict") == 4 * ["pass"]
-    assert row(printed.out, "P6 [N]") == ["34000", "9000", "16000", "33000"]
-    assert printed.out.endswith(f"4 of 4 scenes pass, written to {tmp_path}\n")
+    assert row(printed.out, "verdict") == 5 * ["pass"]
+    assert row(printed.out, "P6 [N]") == ["27500", "34000", "9000", "16000", "33000"]
+    assert printed.out.endswith(f"5 of 5 scenes pass, written to {tmp_path}\n")
     assert printed.err == "", "no bar where stderr is no terminal"
-    whole = {"hitch_heavy.xlsx", "hitch_other_tractor.xlsx"}
+    whole = {"hitch_designed.xlsx", "hitch_heavy.xlsx", "hitch_other_tractor.xlsx"}
     assert {path.name for path in tmp_path.iterdir()} == {"hitch_scenes.xlsx", *whole}
 
 

@@ -441,7 +441,8 @@ def _constant(value: object) -> tuple[str, int]:
     if isinstance(value, int | float):
         text = number_latex(value)
         return text, 2 if r"\cdot" in text else 5
-    return rf"\text{{{value}}}", 5
+    escaped = re.sub(r"([_#%&$])", r"\\\1", str(value))
+    return rf"\text{{{escaped}}}", 5
 
 
 def _is_symbol(name: str) -> bool:

@@ -168,7 +168,7 @@ def variants(cls: type, given: Mapping[str, ArrayLike]) -> Variants:
     Raises SheetError naming an unknown input, or shapes that do not broadcast.
     """
     fields = {field.name: field for field in declared(cls)}
-    columns = {name: _column(_known(fields, name), given[name]) for name in given}
+    columns = {name: _column(known(fields, name), given[name]) for name in given}
     shapes = {name: np.shape(column) for name, (column, _) in columns.items()}
     try:
         shape = np.broadcast_shapes(*shapes.values())
@@ -223,7 +223,8 @@ def _shared(column: NDArray[np.float64]) -> Any:
     return column[0] if column.size and (column == column[0]).all() else column
 
 
-def _known(fields: Mapping[str, Input], name: str) -> Input:
+def known(fields: Mapping[str, Input], name: str) -> Input:
+    """The input of that name; SheetError with the nearest names where there is none."""
     if name not in fields:
         near = difflib.get_close_matches(name, fields, n=3, cutoff=0.5)
         raise SheetError(f"input {name} is unknown; nearest: {', '.join(near or fields)}")
@@ -249,7 +250,7 @@ def build(cls: type[T], values: Mapping[str, object]) -> T:
     """
     fields, given = {field.name: field for field in declared(cls)}, {}
     for name, value in values.items():
-        field = _known(fields, name)
+        field = known(fields, name)
         try:
             x = number(value)
         except ValueError:

@@ -1,0 +1,195 @@
+"""Derivatives and tolerance bands of a worksheet against 50-digit arithmetic and against each other."""
+
+from pathlib import Path
+
+import mpmath as mp
+import numpy as np
+import pytest
+
+from mechsheet import units
+from mechsheet.errors import SheetError
+from mechsheet.inputs import declared
+from mechsheet.sensitivity import sensitivity, tolerance
+from mechsheet.worksheet import evaluate, load
+
+ROOT = Path(__file__).parents[1]
+HITCH = ROOT / "worksheets" / "hitch.py"
+CLASS = load(HITCH).inputs
+FIELDS = {field.name: field for field in declared(CLASS)}
+POSITIONS = [0, 4, 9]
+WANT = ["GS6", "L4", "abs(R56)", "R56.real", "phi6_S"]
+
+
+def exact(g, k):
+    """Results in closed form: lengths as distances of points, the group (6, 7) cut free, one derivative by S."""
+
+    def pin(A, B, a, b, side):
+        d = B - A
+        return A + a * d / abs(d) * mp.expj(side * mp.acos((a**2 + abs(d) ** 2 - b**2) / (2 * a * abs(d))))
+
+    O1, O3, O5, O7 = (mp.mpc(g[f"X0{i}"], g[f"Y0{i}"]) for i in (1, 3, 5, 7))
+
+    def lower(height):
+        return mp.expj(mp.asin((height - g["Y05"]) / g["L56"]))
+
+    def p34(S):
+        return O3 + (pin(O1, O3, S, g["L3"], -1) - O3) / g["L3"] * g["L34"] * mp.expj(g["phi_BD"])
+
+    def p56(S):
+        return O5 + (pin(p34(S), O5, L4, g["L5"], +1) - O5) / g["L5"] * g["L56"]
+
+    def mast(S):
+        return (pin(p56(S), O7, g["L6"], L7, -1) - p56(S)) / g["L6"]
+
+    L4 = abs(O5 + g["L5"] * lower(g["Y56_min"]) - p34(g["S_min"]))
+    upright = mp.expj(g["phi_P6"])
+    L7 = abs(O5 + g["L56"] * lower(g["Y_P56"]) + g["L6"] * upright - O7)
+    arm = mp.mpc(g["X6"], g["Y6"]) / upright
+    t = mp.mpf(k) / (CLASS.N_pol - 1)
+    S = g["S_min"] * (1 - t) + g["S_max"] * t
+    IS6 = mp.diff(lambda s: (p56(s) + arm * mast(s)).imag, S)
+    P56, u6 = p56(S), mast(S)
+    u7 = (P56 + g["L6"] * u6 - O7) / L7
+    moment = arm.real * u6.real - arm.imag * u6.imag  # abscissa of the centre of mass from P56
+    F7 = g["P6"] * moment / (mp.conj(g["L6"] * u6) * u7).imag
+    R56 = 1j * g["P6"] - F7 * u7
+    area = mp.pi * g["D_gc"] ** 2 / 4
+    GS6 = CLASS.k_gc * g["P_gc_max"] * g["eta"] * area / IS6
+    return {"GS6": GS6, "L4": L4, "abs(R56)": abs(R56), "R56.real": R56.real, "phi6_S": mp.arg(u6)}
+
+
+def differentiated(name, k):
+    """Exact derivatives of all results by one input, in SI."""
+    with mp.workdps(80):
+        g = {x: mp.mpf(getattr(CLASS, x)) for x in FIELDS}
+        h = mp.mpf(10) ** -25
+        ahead, behind = exact({**g, name: g[name] + h}, k), exact({**g, name: g[name] - h}, k)
+        return {x: (ahead[x] - behind[x]) / (2 * h) for x in ahead}
+
+
+@pytest.fixture(scope="module")
+def found():
+    return sensitivity(HITCH, WANT)
+
+
+def test_derivatives_to_the_accuracy_claimed(found):
+    """By every input, at both ends and within the stroke, within the error that is estimated, which is small."""
+    assert list(found.inputs) == [x for x, field in FIELDS.items() if not field.whole]
+    for i, x in enumerate(found.inputs):
+        for k in POSITIONS:
+            true = differentiated(x, k)
+            for name in WANT:
+                ratio = units.parse(FIELDS[x].unit).factor / units.parse(found.units[name]).factor
+                slope, error = (
+                    v[i].ravel()[k if v[i].size > 1 else 0] for v in (found.slopes[name], found.errors[name])
+                )
+                size = np.max(np.abs(found.values[name])) / abs(found.inputs[x])
+                assert abs(slope - float(true[name]) * ratio) <= error, (name, x, k)
+                assert error <= 1e-9 * size, (name, x, k)
+
+
+def test_values_units_and_elasticities(found):
+    assert np.array_equal(found.values["GS6"], evaluate(HITCH, ["GS6"])["GS6"])
+    names = list(found.inputs)
+    assert np.allclose(found.relative("GS6")[names.index("D_gc")], 2, rtol=1e-9), "the piston's area is its square"
+    assert np.allclose(found.relative("abs(R56)")[names.index("P6")], 1, rtol=1e-9), "reactions are linear in the load"
+    assert (found.unit("GS6", "L3"), found.unit("phi6_S", "phi_BD"), found.unit("L4", "eta")) == ("N/m", "deg/deg", "m")
+    units.parse(found.unit("GS6", "P_gc_max"))
+
+
+def test_table_is_sorted_and_names_its_position(found):
+    table = found.table("1", "Sensitivity", "GS6", "least")
+    frame = table.frame()
+    assert frame["input"][0] == "Y03" and len(frame) == len(found.inputs)
+    size = frame["relative [-]"].abs().to_numpy()
+    assert np.all(np.diff(size) <= 0)
+    assert "position 9" in table.note and "29958.8 N" in table.note
+    assert "<td" in table._mime_()[1] and "N/deg" in table._mime_()[1]
+    over = found.over_positions("2", "All", "GS6").frame()
+    assert over.shape[0] == 10 and "P_msha [-]" not in over and "L3 [-]" in over
+
+
+def test_tornado_shows_the_largest_on_top(found):
+    tornado = found.tornado("1", "Tornado", "GS6")
+    assert [x for x, *_ in tornado.bars[:3]] == ["Y03", "D_gc", "Y01"]
+    spec = tornado.chart().to_dict()
+    assert spec["encoding"]["y"]["sort"][1] == "Dgc" or spec["encoding"]["y"]["sort"][1].startswith("D")
+    assert "P_msha" not in [x for x, *_ in tornado.bars]
+
+
+def test_inputs_at_a_limit_and_at_zero():
+    found = sensitivity(HITCH, ["GS6", "Ra"], ["eta", "X05", "P6"], eta=1, X05=0)
+    assert "must be <= 1" in found.reasons["eta"] and found.reasons["X05"] == ""
+    assert np.isnan(found.slopes["GS6"][0]).all() and np.isnan(found.errors["GS6"][0]).all()
+    assert np.all(np.isfinite(found.slopes["GS6"][1])) and np.all(found.relative("GS6")[1] == 0)
+
+
+def test_corners_bound_the_corners_and_hold_the_nominal():
+    given = {"L3": 0.001, "phi_BD": 0.5}
+    bands = tolerance(HITCH, ["GS6", "L4"], given)
+    corners = [
+        evaluate(HITCH, ["GS6", "L4"], L3=0.2 + a * 0.001, phi_BD=22 + b * 0.5) for a in (-1, 1) for b in (-1, 1)
+    ]
+    each = np.array([c["GS6"] for c in corners])
+    assert np.allclose(bands["GS6"].least, each.min(0), rtol=1e-12)
+    assert np.allclose(bands["GS6"].greatest, each.max(0), rtol=1e-12)
+    assert bands["L4"].least.shape == () and bands.count == 4 and bands.lost == 0
+    assert np.array_equal(bands["GS6"].nominal, evaluate(HITCH, ["GS6"])["GS6"])
+
+
+@pytest.mark.parametrize(("distribution", "part"), [("uniform", 3**-0.5), ("normal", 1 / 3)])
+def test_monte_carlo_spreads_as_the_derivatives_say(distribution, part):
+    """For small tolerances the deviation is the root of the squares of slope times the input's own deviation."""
+    given = {"L3": 1e-4, "L34": 2e-4, "phi_BD": 0.05}
+    bands = tolerance(HITCH, ["GS6"], given, "monte carlo", seed=3, count=2000, distribution=distribution)
+    slopes = sensitivity(HITCH, ["GS6"], given).slopes["GS6"]
+    spread = np.sqrt(sum((slope * t * part) ** 2 for slope, t in zip(slopes, given.values(), strict=True)))
+    band = bands["GS6"]
+    assert np.allclose(band.deviation, spread, rtol=0.06), "four times the error of 2000 draws"
+    assert np.all(np.abs(band.mean - band.nominal) < 5 * spread / 2000**0.5)
+    p5, p50, p95 = (band.percentiles[p] for p in (5, 50, 95))
+    assert np.all((band.least < p5) & (p5 < p50) & (p50 < p95) & (p95 < band.greatest))
+    same = tolerance(HITCH, ["GS6"], given, "monte carlo", seed=3, count=2000, distribution=distribution)["GS6"]
+    other = tolerance(HITCH, ["GS6"], given, "monte carlo", seed=4, count=2000, distribution=distribution)["GS6"]
+    assert np.array_equal(same.deviation, band.deviation) and not np.array_equal(other.deviation, band.deviation)
+    columns = [c.symbol for c in bands.table("1", "Bands").columns]
+    assert columns == ["k", "GS6", *(f"GS6_{part}" for part in ("min", "max", "mean", "sd", "p5", "p50", "p95"))]
+
+
+def test_variants_without_a_value_leave_no_band():
+    bands = tolerance(HITCH, ["GS6"], {"S_max": 0.2}, "corners")
+    assert bands.lost == 1 and "no position closes" in bands.reason
+    assert np.isnan(bands["GS6"].greatest).any()
+    assert "1 have no value" in bands.table("1", "Bands").note
+
+
+@pytest.mark.parametrize(
+    ("ask", "message"),
+    [
+        (lambda: sensitivity(HITCH, ["GS66"]), "GS66 is defined by no cell"),
+        (lambda: sensitivity(HITCH, ["GS6"], ["L33"]), "input L33 is unknown; nearest: L3"),
+        (lambda: sensitivity(HITCH, ["GS6"], ["N_pol"]), "number of positions N_pol, which is a whole number"),
+        (lambda: sensitivity(HITCH, ["R56"]), r"R56 is complex; take R56.real, R56.imag or abs\(R56\)"),
+        (lambda: sensitivity(HITCH, ["GS6"], L3=2), "no position closes"),
+        (lambda: sensitivity(HITCH, ["GS6"], ["L3"]).table("1", "", "GS6", 10), "position 10 of GS6 must be 0..9"),
+        (lambda: tolerance(HITCH, ["GS6"], {}), "no input has a tolerance"),
+        (lambda: tolerance(HITCH, ["GS6"], {"L33": 1}), "input L33 is unknown"),
+        (lambda: tolerance(HITCH, ["GS6"], {"k_gc": 1}), "number of cylinders k_gc, which is a whole number"),
+        (lambda: tolerance(HITCH, ["GS6"], {"L3": -0.001}), "L3 = -0.001 m must be a number >= 0"),
+        (lambda: tolerance(HITCH, ["GS6"], {"L3": float("nan")}), "L3 = nan m must be a number >= 0"),
+        (
+            lambda: tolerance(HITCH, ["GS6"], dict.fromkeys(list(FIELDS)[:13], 0)),
+            "13 tolerances have 2[*][*]13 corners",
+        ),
+        (lambda: tolerance(HITCH, ["GS6"], {"L3": 0}, "monte carlo"), "needs a seed"),
+        (lambda: tolerance(HITCH, ["GS6"], {"L3": 0}, "monte carlo", seed=1, count=1), "count = 1 variants"),
+        (lambda: tolerance(HITCH, ["GS6"], {"L3": 0}, "worst"), "method 'worst' must be"),
+        (
+            lambda: tolerance(HITCH, ["GS6"], {"L3": 0}, "monte carlo", seed=1, distribution="flat"),
+            "distribution 'flat' must be",
+        ),
+    ],
+)
+def test_what_cannot_be_asked_is_said(ask, message):
+    with pytest.raises(SheetError, match=message):
+        ask()
