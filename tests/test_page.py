@@ -38,7 +38,7 @@ def test_opens_computed_with_every_section(opened, console_errors):
     assert opened.get_by_text("FAIL").count() == 0
     for trouble in ("Traceback", "Something went wrong", "internal error"):
         assert opened.get_by_text(trouble).count() == 0, trouble
-    assert opened.get_by_text("20 of 20 checks pass").count() == 1
+    assert opened.get_by_text("23 of 23 checks pass").count() == 1
     assert console_errors == []
 
 

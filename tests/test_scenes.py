@@ -165,7 +165,7 @@ def test_limits_of_checks_stand_for_their_own(tmp_path, capsys):
         "strict: FAIL  instant centre: Imp = I56: 1.78e-15 <= 1e-30",
         f"least: limit of the check '{name}' must be {{max = NUMBER}}",
         "point: limit of P56_S: it is complex; limit P56_S.real, P56_S.imag or abs(P56_S)",
-        "function: P56 is a function of S, L4, branch; numbers with a unit, checks and tables can be asked for",
+        "function: P56 is a function of S, L4; numbers with a unit, checks and tables can be asked for",
         "drawing: figure_41 is declared by no line with its unit; numbers with a unit, checks and tables can be asked"
         " for",
     ]

@@ -16,6 +16,7 @@ with app.setup:
     from mechsheet.errors import SheetError, refuse
     from mechsheet.formula import typeset
     from mechsheet.inputs import Used, ask, declared, inputs, read
+    from mechsheet.page import title_block
     from mechsheet.report import export
     from mechsheet.scene import Limit
     from mechsheet.sensitivity import sensitivity, tolerance
@@ -28,14 +29,15 @@ with app.setup:
 
 @app.cell(hide_code=True)
 def title():
-    mo.md("""
-    # Design of a tractor hitch
-
+    title_block(
+        "Design of a tractor hitch",
+        """
     Chooses lengths and hinge positions of the hitch within bounds, so that every requirement holds at every position
     and the least reserve becomes greatest. All numbers come from the worksheet `hitch`: its cells are run for
     a generation of variants at once. Change a bound or a requirement: the search starts again, the same inputs give the
     same design.
-    """)
+    """,
+    )
     return
 
 

@@ -18,7 +18,7 @@ import numpy as np
 from mechsheet import formula, inputs, symbol, worksheet
 from mechsheet.checks import Check
 from mechsheet.find import Found
-from mechsheet.recorded import Node, Recorded, Recorder, takes
+from mechsheet.recorded import Node, NotRecorded, Recorded, Recorder, takes
 from mechsheet.table import Figure, Table
 
 _ADDRESS = re.compile(r"[A-Za-z]{1,3}\d+|[rR]\d*([cC]\d*)?|[cC]\d*|[rR]\d+[cC]\d+")
@@ -338,8 +338,11 @@ class _Stage:
         self._check(name, [missing.re], 0.0, "-")
 
     def _check(self, name: str, parts: list[Node], limit: Any, unit: str, signed: bool = False) -> None:
+        bound = self.recorder.lift(limit)
+        if bound.size != 1:
+            raise NotRecorded(f"check {name!r} has several limits")
         self.stated_here.append(name)
-        self.recording.checks[name] = Residual(parts, self.recorder.lift(limit).re, unit, signed)
+        self.recording.checks[name] = Residual(parts, bound.re, unit, signed)
 
     def compare(self, names: dict[str, Any]) -> None:
         """Keep the worksheet's numbers where a recorded quantity differs from them: its formula would be wrong."""

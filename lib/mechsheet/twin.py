@@ -202,7 +202,7 @@ class Twin:
         largest = parts[0] if check.signed else f"MAX({','.join(parts)})"
         factor = units.parse(check.unit).factor
         residual = f"={largest}" + (f"/{factor!r}" if factor != 1 else "")
-        return Compared(residual, reference(check.limit, 0, 0, factor), float(check.limit.value) / factor)
+        return Compared(residual, reference(check.limit, 0, 0, factor), check.limit.value.item() / factor)
 
     def guard(self) -> str:
         """Formula of how many of the conditions that the worksheet's code looked at have changed; "" without any."""
