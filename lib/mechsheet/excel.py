@@ -577,10 +577,12 @@ def _taken(cell: str, factor: float) -> str:
 
 
 def _plain(contents: Sequence[tuple[Column, Sequence[_Content]]]) -> str:
-    """Note of the columns without formulas in a table that has some with them."""
+    """Note of the columns without formulas, labels of the rows apart, in a table that has some with them."""
     live = [any(isinstance(value, Live) for value in cells) for _, cells in contents]
-    plain = [column.symbol for (column, _), has in zip(contents, live, strict=True) if not has and column.unit]
-    return f"Numbers, not formulas: {', '.join(plain)}." if any(live) and plain else ""
+    plain = [c.symbol for (c, _), has in zip(contents, live, strict=True) if not has and c.unit and c.decimals]
+    if not plain or not any(live):
+        return ""
+    return f"Numbers, not formulas: {', '.join(plain)}; the checks tell whether they still hold."
 
 
 def _live(formulas: Sequence[str] | None, values: Sequence[float]) -> Sequence[_Content]:
