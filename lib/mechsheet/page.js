@@ -27,6 +27,31 @@
   }
   customElements.define("ms-numbers", Numbers);
 
+  // Moving positions, shown in every chart by a variable of its own: a style sheet for all would be read again whole.
+  const marks = new Map();
+
+  function mark(chart) {
+    marks.forEach((at, name) => chart?.style.setProperty(name, at));
+  }
+
+  class Marks extends HTMLElement {
+    static observedAttributes = ["at"];
+
+    attributeChangedCallback() {
+      this.getAttribute("at").split(";").forEach((each) => marks.set(...each.split(":")));
+      document.querySelectorAll("svg.ms-chart").forEach(mark);
+    }
+  }
+  customElements.define("ms-marks", Marks);
+
+  class Figure extends HTMLElement {
+    connectedCallback() {
+      mark(this.querySelector("svg.ms-chart"));
+      new MutationObserver(() => mark(this.querySelector("svg.ms-chart"))).observe(this, { childList: true });
+    }
+  }
+  customElements.define("ms-figure", Figure);
+
   document.addEventListener("change", (event) => {
     if (!event.target.matches(".ms-switch")) return;
     document.documentElement.classList.toggle("ms-with-numbers", event.target.checked);

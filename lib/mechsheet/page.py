@@ -60,8 +60,8 @@ class Mark:
     positions: tuple[tuple[str, float], ...]
 
     def _mime_(self) -> tuple[str, str]:
-        rules = "".join(f"{chart.variable(symbol.plain(name))}:{float(x)!r};" for name, x in self.positions)
-        return "text/html", f"<style>.ms-chart{{{rules}}}</style>"
+        marks = ";".join(f"{chart.variable(symbol.plain(name))}:{float(x)!r}" for name, x in self.positions)
+        return "text/html", f'<ms-marks at="{marks}"></ms-marks>'
 
 
 def mark(**positions: Any) -> Mark:

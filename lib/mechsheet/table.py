@@ -105,7 +105,7 @@ class Figure:
 
     def _mime_(self) -> tuple[str, str]:
         caption = f'<div class="ms-caption"><b>Figure {html.escape(self.number)}</b> – {html.escape(self.title)}</div>'
-        return "text/html", f'<div class="ms-figure">{self.svg()}{caption}</div>'
+        return "text/html", f'<ms-figure class="ms-figure">{self.svg()}{caption}</ms-figure>'
 
     def svg(self) -> str:
         """The chart as one SVG element."""
