@@ -164,6 +164,7 @@ def test_every_session_has_its_own_inputs(serve, browser):
 def test_outline_leads_to_the_sections(serve, page):
     page.goto(serve("run", HITCH))
     ready(page)
+    page.wait_for_function("() => 'measured' in document.documentElement.dataset", timeout=30_000)
     page.mouse.move(1240, 0.25 * 1600 + 30)  # the marks at the right edge open it
     page.get_by_text("6 Steering stability").last.click()
     page.wait_for_timeout(1500)

@@ -58,6 +58,26 @@
     document.querySelectorAll("ms-numbers").forEach((line) => line.show());
   });
 
+  // Cells out of sight are laid out once, so that the browser knows their heights and the outline leads to its places.
+  const page = document.documentElement;
+
+  function measure() {
+    page.classList.add("ms-measure");
+    requestAnimationFrame(() =>
+      requestAnimationFrame(() => {
+        page.classList.remove("ms-measure");
+        page.dataset.measured = "";
+      }),
+    );
+  }
+
+  let quiet = setTimeout(measure, 1000);
+  const awaited = new MutationObserver(() => {
+    clearTimeout(quiet);
+    quiet = setTimeout(() => (awaited.disconnect(), measure()), 1000);
+  });
+  awaited.observe(document.body, { childList: true, subtree: true });
+
   // Play: the slider is moved by its own keys, so that everything that hangs on it follows as under the hand.
   const TICK = 50; // ms
   const playing = new Map();
