@@ -309,7 +309,9 @@ class _Stage:
         inside: Any = value
         if found.solved.interval:
             low, high = (Recorded(self.recorder, end) for end in found.solved.interval)
-            inside = np.where((value >= low) & (value <= high), value, np.nan)
+            slack = 1e-12  # an end of the interval may be a found value, rounded
+            within = (value >= low * (1 - slack)) & (value <= high * (1 + slack))
+            inside = np.where(within, value, np.nan)
         found.solved.inverse = inside.re
         real = next(v for v in self.namespace.values() if isinstance(v, Found) and v.words.unknown == found.unknown)
         name = f"{found.unknown}: Find and the closed form"
