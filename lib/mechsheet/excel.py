@@ -4,7 +4,7 @@ import math
 import os
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from datetime import datetime
 from functools import cache
 from io import BytesIO
@@ -102,6 +102,8 @@ def workbook(
     book.inputs(inputs)
     if found:
         book.found(found)
+    if recording and recording.every > 1:
+        figures = [_listed_points(figure, recording.every) for figure in figures]
     holders = [_holder(figure, tables) for figure in figures]
     for table, name in zip(tables, names, strict=True):
         held = [figure for figure, holder in zip(figures, holders, strict=True) if holder is table]
@@ -687,6 +689,15 @@ def _holder(figure: Figure, tables: Sequence[Table]) -> Table | None:
     wanted = (figure.x, *figure.lines)
     held = (t for t in tables if all(any(_same(column, other) for other in t.columns) for column in wanted))
     return next(held, None)
+
+
+def _listed_points(figure: Figure, every: int) -> Figure:
+    """The figure over the positions that the tables list, whose cells are live."""
+
+    def thinned(column: Column) -> Column:
+        return replace(column, values=column.values[::every])
+
+    return replace(figure, x=thinned(figure.x), lines=tuple(map(thinned, figure.lines)))
 
 
 def _drawn(values: NDArray[np.float64]) -> list[float | None]:
