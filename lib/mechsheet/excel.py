@@ -92,28 +92,29 @@ def workbook(
 
     buffer = BytesIO()
     book = _Book(xlsxwriter.Workbook(buffer, _options()), _text(title))
+    if recording and recording.every > 1:
+        figures = [_listed_points(figure, recording.every) for figure in figures]
+    holders = [_holder(figure, tables) for figure in figures]
+    alone = [figure for figure, holder in zip(figures, holders, strict=True) if holder is None]
+    data = [Table(f"Fig {f.number}", f"Data of {_heading('figure', f)}", (f.x, *f.lines)) for f in alone]
     names = [book.name(f"{table.number} {table.title}") for table in tables]
+    names_of_data = [book.name(f"{table.number} data") for table in data]
     if recording:
         rows = {row.symbol: n for n, row in _listed(inputs) if isinstance(row, Row)}
         solved = {row.symbol: n for n, row in enumerate(found, 2)}
-        book.twin = Twin(recording, tables, names, rows, solved, _FIRST, book.name)
+        sheets = [*names, *names_of_data]
+        book.twin = Twin(recording, [*tables, *data], sheets, rows, solved, _FIRST, book.name)
         for name, meaning in book.twin.defined:
             book.file.define_name(name, meaning)
     book.inputs(inputs)
     if found:
         book.found(found)
-    if recording and recording.every > 1:
-        figures = [_listed_points(figure, recording.every) for figure in figures]
-    holders = [_holder(figure, tables) for figure in figures]
     for table, name in zip(tables, names, strict=True):
         held = [figure for figure, holder in zip(figures, holders, strict=True) if holder is table]
         contents = book.contents(table)
         book.table(name, _heading("Table", table), f"{table.note} {_plain(contents)}".strip(), contents, held)
-    for figure, holder in zip(figures, holders, strict=True):
-        if holder is None:
-            columns = [(c, c.values.tolist()) for c in (figure.x, *figure.lines)]
-            name = book.name(f"Fig {figure.number} data")
-            book.table(name, f"Data of {_heading('figure', figure)}", "", columns, [figure])
+    for figure, table, name in zip(alone, data, names_of_data, strict=True):
+        book.table(name, table.title, "", book.contents(table), [figure])
     if book.twin:
         for section in book.twin.sections:
             book.section(section)

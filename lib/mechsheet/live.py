@@ -274,7 +274,10 @@ class _Stage:
 
     def table(self, number: str, title: str, *columns: Any, every: Any = 1, **_: Any) -> None:
         self.recording.every = int(np.asarray(getattr(every, "value", every)))
-        every = 1 if self.recorder.thin > 1 else self.recording.every
+        self._show(number, columns, 1 if self.recorder.thin > 1 else self.recording.every)
+
+    def _show(self, number: str, columns: tuple[Any, ...], every: int) -> None:
+        """Note the columns of a table or a figure, as long as each other."""
         shape = np.broadcast_shapes((1,), *(np.shape(getattr(c, "value", c)) for c in columns))
         kept = np.ascontiguousarray(np.arange(math.prod(shape)).reshape(shape)[..., ::every].ravel())
 
@@ -288,7 +291,8 @@ class _Stage:
 
         self.recording.tables[number] = tuple(rows(c) for c in columns)
 
-    def figure(self, number: str, title: str, *_: Any, marks: Mapping[str, Any] | None = None, **__: Any) -> None:
+    def figure(self, number: str, title: str, *columns: Any, marks: Mapping[str, Any] | None = None, **_: Any) -> None:
+        self._show(f"Fig {number}", columns, 1)
         self.recording.marks[number] = {k: self.recorder.lift(v).re for k, v in (marks or {}).items()}
 
     def find(
