@@ -105,21 +105,18 @@ def record(namespace: Mapping[str, Any]) -> Recording:
     A cell that does something for which a workbook has no formula keeps its numbers; `Recording.left_out` says why.
     Where all tables list every so many positions, only those are recorded.
     """
-    recording = _record(namespace, 1)
-    return recording if recording.every == 1 else _record(namespace, recording.every)
-
-
-def _record(namespace: Mapping[str, Any], thin: int) -> Recording:
     path = Path(namespace["__file__"]).resolve()
     sheet = _own(str(path), path.stat().st_mtime_ns)
-    recorder = Recorder(thin)
+    listed = {value.every for value in namespace.values() if isinstance(value, Table)}
+    every = listed.pop() if len(listed) == 1 else 1
+    recorder = Recorder(every)
     g: Any = object.__new__(sheet.inputs)
     known = {}
     for declared in inputs.declared(sheet.inputs):
         value = getattr(namespace["g"], declared.name)
         known[declared.name] = recorder.leaf("input", declared.name, float(value))
         object.__setattr__(g, declared.name, Recorded(recorder, known[declared.name]))
-    recording = Recording(recorder, known)
+    recording = Recording(recorder, known, every=every)
     names = _replaced(sheet.common, recorder)
     names["g"] = g
     givers = [(c, n) for c in sheet.cells for n in c.gives]
@@ -273,8 +270,8 @@ class _Stage:
         return {**shown, **dict.fromkeys(others, _Nothing())}
 
     def table(self, number: str, title: str, *columns: Any, every: Any = 1, **_: Any) -> None:
-        self.recording.every = int(np.asarray(getattr(every, "value", every)))
-        self._show(number, columns, 1 if self.recorder.thin > 1 else self.recording.every)
+        listed = int(np.asarray(getattr(every, "value", every)))
+        self._show(number, columns, 1 if self.recorder.thin > 1 else listed)
 
     def _show(self, number: str, columns: tuple[Any, ...], every: int) -> None:
         """Note the columns of a table or a figure, as long as each other."""

@@ -52,6 +52,7 @@ class Table:
     title: str
     columns: tuple[Column, ...]
     note: str = ""
+    every: int = 1  # only every so many positions are listed
 
     def frame(self) -> "pd.DataFrame":
         """The table as a pandas DataFrame, headings ``symbol [unit]``."""
@@ -171,7 +172,7 @@ def table(
     """
     frame = sys._getframe(1)
     nodes = source.call(frame).args[2:]
-    return Table(number, title, _columns(frame, nodes, columns, show or {}, decimals, every), note)
+    return Table(number, title, _columns(frame, nodes, columns, show or {}, decimals, every), note, every)
 
 
 def figure(

@@ -221,4 +221,13 @@ class Twin:
 
 def _depends(node: Node) -> bool:
     """Whether a quantity rests on an input or a found value."""
-    return node.op in ("input", "found") or any(_depends(operand) for operand in node.operands)
+    stack, seen = [node], {id(node)}
+    while stack:
+        here = stack.pop()
+        if here.op in ("input", "found"):
+            return True
+        for operand in here.operands:
+            if id(operand) not in seen:  # many quantities share their operands
+                seen.add(id(operand))
+                stack.append(operand)
+    return False
