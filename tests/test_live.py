@@ -176,9 +176,9 @@ def test_found_value_without_a_closed_form_shows_what_it_leaves(
     recalculated: Callable[[Path], Any], tmp_path: Path
 ) -> None:
     source = (ROOT / "worksheets" / "hitch.py").read_text(encoding="utf-8")
-    start = source.index("@app.cell\ndef closed_S_p(")
-    shorter = source[:start] + source[source.index("@app.cell\ndef group_3(") :]
-    shorter = shorter.replace("    checks_S_p,\n", "").replace("checks_S_p, ", "")
+    start, end = source.index("    phi5_p = "), source.index("    typeset(S_p_found, checks_S_p)")
+    shorter = source[:start] + source[end:]
+    shorter = shorter.replace("    checks_S_p,\n", "").replace(", checks_S_p", "")
     (tmp_path / "worksheets").mkdir()
     (tmp_path / "worksheets" / "hitch.py").write_text(shorter, encoding="utf-8")
     run = [sys.executable, "-X", "utf8", tmp_path / "worksheets" / "hitch.py", f"--out={tmp_path}"]

@@ -1,5 +1,6 @@
 """The hitch worksheet in a real browser."""
 
+import json
 import time
 from pathlib import Path
 
@@ -169,6 +170,23 @@ def test_outline_leads_to_the_sections(serve, page):
     page.get_by_text("6 Steering stability").last.click()
     page.wait_for_timeout(1500)
     assert 0 <= page.get_by_role("heading", name="6 Steering stability").bounding_box()["y"] < 800
+
+
+def test_a_mark_on_every_output_styles_the_outputs_and_not_what_stands_in_them(serve, browser, page):
+    """marimo marks an output while its cell runs; formulas and tables in it must not be styled again for that."""
+    page.goto(serve("run", HITCH))
+    ready(page)
+    page.wait_for_function("() => 'measured' in document.documentElement.dataset", timeout=30_000)
+    page.set_viewport_size({"width": 1280, "height": 14_000})  # cells out of sight are not styled at all
+    page.wait_for_timeout(1000)
+    mark = "() => { document.querySelectorAll('.output-area').forEach((e) => e.classList.add('x')); }"
+    elements = page.evaluate("() => document.querySelectorAll('.output-area *').length")
+    browser.start_tracing(page=page, categories=["devtools.timeline"])
+    page.evaluate(mark)
+    page.wait_for_timeout(300)
+    events = json.loads(browser.stop_tracing())["traceEvents"]
+    styled = sum(e["args"].get("elementCount", 0) for e in events if e["name"] == "UpdateLayoutTree")
+    assert 0 < styled < elements / 20
 
 
 def test_download_is_the_workbook(serve, page, tmp_path):

@@ -240,7 +240,7 @@ def test_script_of_a_scene_that_wants_some_results_answers_those(tmp_path):
     lines = done.stdout.splitlines()
     assert lines[:2] == ["GS6 = 29958.8..33441.2 N, capacity at the centre of mass", "Table 4.1 - Lifting capacity"]
     assert lines[2].split() == ["S", "Fgc", "Pgc", "G56", "GS6", "dGS65"] and lines[4].split()[0] == "0.420"
-    assert lines[-1].startswith("pass  GS6 >= 29000 N: ") and len(lines) == 4 + 10 + 1
+    assert lines[-1].startswith("pass  GS6 >= 29000 N: ") and len(lines) == 4 + 10 + 3 + 1
     assert (ROOT / "exports" / "hitch.xlsx").stat().st_mtime_ns == exported, "nothing is written without --out"
     done = script(f"--scene={file}", "--X6=1.2", f"--out={tmp_path / 'out'}")
     assert done.returncode == 1 and "FAIL  GS6 >= 29000 N: " in done.stdout and done.stderr == ""

@@ -19,7 +19,7 @@ def test_capacity_runs_only_what_it_depends_on():
     needed = [cell.name for cell in load(HITCH).needed(["GS6"], ["g"])]
     assert set(needed) == {
         *("hinges", "coordinate", "group_1", "group_2", "find_L4", "find_S_p", "group_3", "find_L7"),
-        *("fields", "centre_of_mass", "ratios", "analogues", "capacity"),
+        *("fields", "centre_of_mass", "transmission", "capacity"),
     }
     assert len(needed) < len(load(HITCH).cells) / 4
 
@@ -61,17 +61,17 @@ HEAVY = {"marimo", "altair", "pandas", "scipy", "openpyxl", "xlsxwriter", "matpl
     ],
     ids=["evaluate", "scene"],
 )
-def test_capacity_runs_its_thirteen_cells_and_loads_no_page_chart_or_workbook(run, tmp_path):
+def test_capacity_runs_its_twelve_cells_and_loads_no_page_chart_or_workbook(run, tmp_path):
     scene = tmp_path / "capacity.toml"
     scene.write_text('want = ["GS6"]\n[inputs]\nP6 = 30e3\n[limits]\nGS6 = {min = 20e3}\n')
     blocks, packages = ran(run.format(path=str(HITCH), scene=str(scene)))
-    assert blocks == 1 + 13
+    assert blocks == 1 + 12
     assert not HEAVY & packages
 
 
 def test_reactions_and_charts_are_counted_where_they_are_asked_for():
     blocks, packages = ran(f"from mechsheet.worksheet import evaluate; evaluate({str(HITCH)!r}, ['figure_54'])")
-    assert blocks == 1 + len(load(HITCH).needed(["figure_54"], ["g"])) > 1 + 13
+    assert blocks == 1 + len(load(HITCH).needed(["figure_54"], ["g"])) > 1 + 12
     assert "altair" not in packages, "a figure is drawn by the page"
 
 
@@ -99,7 +99,7 @@ def test_parts_of_results_and_checks_by_their_names():
     assert np.array_equal(some["abs(R56)"], np.abs(whole["R56"]))
     assert np.array_equal(some["P56_S.imag"], whole["P56_S"].imag)
     assert some["instant centre: Imp = I56"] is some["checks_pole"][0]
-    assert {cell.name for cell in load(HITCH).needed(wanted[2:3], ["g"])} >= {"pole", "pole_check"}
+    assert {cell.name for cell in load(HITCH).needed(wanted[2:3], ["g"])} >= {"transmission", "pole"}
 
 
 def test_a_check_whose_name_is_composed_is_found():

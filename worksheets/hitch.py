@@ -248,18 +248,12 @@ def find_L4(O1, O3, O5, P34, P56, g):
         unknown_unit="m",
     )
     L4 = L4_found.value  # [m] lifting rod, found
-    typeset(L4_found)
-    return L4, L4_found, L4_guess
-
-
-@app.cell
-def closed_L4(L4_found, O5, P34, g):
     phi5_0 = asin((g.Y56_min - g.Y05) / g.L56)  # [deg] lower link at the least stroke
     P45_0 = O5 + g.L5 * exp(1j * phi5_0)  # [m] its pin for the lifting rod
     L4_c = abs(P45_0 - P34(g.S_min))  # [m] lifting rod as the distance of two points, which are now known
     checks_L4 = closed_form(L4_found, L4_c)
-    typeset(checks_L4)
-    return (checks_L4,)
+    typeset(L4_found, checks_L4)
+    return L4, L4_found, L4_guess, checks_L4
 
 
 @app.cell(hide_code=True)
@@ -274,7 +268,7 @@ def section_23():
 
 
 @app.cell
-def find_S_p(L4, P56, g):
+def find_S_p(L4, O1, O3, O5, P56, g):
     S_p_found = find(
         lambda S: P56(S, L4).imag,
         g.S_min,
@@ -287,20 +281,14 @@ def find_S_p(L4, P56, g):
         unknown_unit="m",
     )
     S_p = S_p_found.value  # [m] working stroke, found
-    typeset(S_p_found)
-    return S_p, S_p_found
-
-
-@app.cell
-def closed_S_p(L4, O1, O3, O5, S_p_found, g):
     phi5_p = asin((g.Y_P56 - g.Y05) / g.L56)  # [deg] lower link at work
     P45_p = O5 + g.L5 * exp(1j * phi5_p)  # [m] its pin for the lifting rod
     P34_p = rrr(O3, P45_p, g.L34, L4, +1)  # [m] pin of the lifting rod on the lift arm
     P23_p = O3 + g.L3 * exp(1j * (angle(P34_p - O3) - g.phi_BD))  # [m] pin of the cylinder
     S_c = abs(P23_p - O1)  # [m] working stroke as the distance of two points
     checks_S_p = closed_form(S_p_found, S_c)
-    typeset(checks_S_p)
-    return (checks_S_p,)
+    typeset(S_p_found, checks_S_p)
+    return S_p, S_p_found, checks_S_p
 
 
 @app.cell
@@ -308,25 +296,29 @@ def group_3(L4, O5, O7, P56, g):
     L57 = abs(O7 - O5)  # [m] distance of the hinges O5, O7
     delta2 = pi - angle(O7 - O5)  # [rad] slope of the line O5 O7, as the document counts it
 
-    def P67(S, L7, branch=-1):
-        return rrr(P56(S, L4), O7, g.L6, L7, branch)  # [m] pin of the upper link on the mast
+    def P67(S, L7):
+        return rrr(P56(S, L4), O7, g.L6, L7, -1)  # [m] pin of the upper link on the mast
 
-    def phi6(S, L7, branch=-1):
-        return angle(P67(S, L7, branch) - P56(S, L4))  # [deg] mast
+    def phi6P(P, L7, branch=-1):
+        return angle(rrr(P, O7, g.L6, L7, branch) - P)  # [deg] mast where P is the suspension axis
+
+    def phi6(S, L7):
+        return phi6P(P56(S, L4), L7)  # [deg] mast
 
     def phi7(S, L7):
         return angle(P67(S, L7) - O7)  # [deg] upper link
 
     typeset()
-    return L57, P67, delta2, phi6, phi7
+    return L57, P67, delta2, phi6, phi6P, phi7
 
 
 @app.cell
-def find_L7(L4, O7, P56, S_p, g, phi6):
+def find_L7(L4, O7, P56, S_p, g, phi6P):
+    P56_p = P56(S_p, L4)  # [m] suspension axis at work
     L7_guess = (g.L7_0 * 0.1 + g.L7_0 * 1.5) * 0.5  # [m] start of the document's Find
     L7_found = find(
-        lambda L7, branch: phi6(S_p, L7, branch),
-        *rrr_reach(P56(S_p, L4), O7, g.L6),
+        lambda L7, branch: phi6P(P56_p, L7, branch),
+        *rrr_reach(P56_p, O7, g.L6),
         equals=g.phi_P6,
         guess=L7_guess,
         branches=(+1, -1),
@@ -337,16 +329,10 @@ def find_L7(L4, O7, P56, S_p, g, phi6):
         unknown_unit="m",
     )
     L7 = L7_found.value  # [m] upper link, found
-    typeset(L7_found)
-    return L7, L7_found, L7_guess
-
-
-@app.cell
-def closed_L7(L4, L7_found, O7, P56, S_p, g):
-    L7_c = abs(P56(S_p, L4) + g.L6 * exp(1j * g.phi_P6) - O7)  # [m] upper link as the distance of two points
+    L7_c = abs(P56_p + g.L6 * exp(1j * g.phi_P6) - O7)  # [m] upper link as the distance of two points
     checks_L7 = closed_form(L7_found, L7_c)
-    typeset(checks_L7)
-    return (checks_L7,)
+    typeset(L7_found, checks_L7)
+    return L7, L7_found, L7_guess, P56_p, checks_L7
 
 
 @app.cell(hide_code=True)
@@ -378,17 +364,6 @@ def fields(L4, L7, O5, P23, P34, P45, P56, P67, S, phi12, phi3, phi34, phi4, phi
     return (P23_S, P34_S, P45_S, P56_S, P67_S, phi12_S, phi34_S, phi3_S, phi4_S, phi5_S, phi6_S, phi7_S)
 
 
-@app.cell
-def closing(L4, L57, L7, O1, O3, O5, O7, P23_S, P34_S, P45_S, P56_S, P67_S, S, g):
-    checks_closing = (
-        assembled("group (2, 3) closes", P23_S, S, rrr_reach(O1, O3, g.L3), "cylinder S", "m"),
-        assembled("group (4, 5) closes", P45_S, abs(P34_S - O5), (abs(L4 - g.L5), L4 + g.L5), "distance O5 P34", "m"),
-        assembled("group (6, 7) closes", P67_S, abs(P56_S - O7), (abs(L7 - g.L6), L7 + g.L6), "distance O7 P56", "m"),
-    )
-    typeset(*checks_closing)
-    return (checks_closing,)
-
-
 @app.cell(hide_code=True)
 def section_25():
     mo.md(r"""
@@ -401,7 +376,7 @@ def section_25():
 
 
 @app.cell
-def centre_of_mass(L4, L7, P56, P67, S_p, g, phi6):
+def centre_of_mass(L4, L7, P56, P67, S, S_p, g, phi6):
     LS6 = sqrt(g.X6**2 + g.Y6**2)  # [m] suspension axis to the centre of mass
     r_s = abs(g.X6 + 1j * g.Y6 - P67(S_p, L7))  # [m] printed by the document, mixes two frames; nothing uses it
     phiS6 = (atan2(g.Y6, g.X6) - g.phi_P6) % (2 * pi)  # [deg] from the mast to the centre of mass
@@ -409,15 +384,9 @@ def centre_of_mass(L4, L7, P56, P67, S_p, g, phi6):
     def PS6(S):
         return P56(S, L4) + LS6 * exp(1j * (phiS6 + phi6(S, L7)))  # [m] centre of mass of the implement
 
-    typeset()
-    return LS6, PS6, phiS6, r_s
-
-
-@app.cell
-def mass_field(PS6, S):
     PS6_S = PS6(S)  # [m] centre of mass of the implement
     typeset()
-    return (PS6_S,)
+    return LS6, PS6, PS6_S, phiS6, r_s
 
 
 @app.cell(hide_code=True)
@@ -440,13 +409,9 @@ def stroke():
 
 
 @app.cell
-def frame(O1, O3, O5, O7, P23_S, P34_S, P45_S, P56_S, P67_S, PS6_S):
+def scheme(L4, L7, O1, O3, O5, O7, P23, P23_S, P34, P34_S, P45, P45_S, P56, P56_S, P67, P67_S, PS6, PS6_S, g):
     frame = np.concatenate([[O1, O3, O5, O7], P23_S, P34_S, P45_S, P56_S, P67_S, PS6_S])
-    return (frame,)
 
-
-@app.cell
-def scheme(L4, L7, O1, O3, O5, O7, P23, P34, P45, P56, P67, PS6, frame, g):
     def scheme(S):
         p23, p34, p45, p56, p67, s6 = P23(S), P34(S), P45(S, L4), P56(S, L4), P67(S, L7), PS6(S)
         links = (
@@ -456,14 +421,10 @@ def scheme(L4, L7, O1, O3, O5, O7, P23, P34, P45, P56, P67, PS6, frame, g):
         pins = links.support(O1, "O1").support(O3, "O3").support(O5, "O5").support(O7, "O7", pi).hinge(p23, "P23")
         return pins.hinge(p34, "P34").hinge(p45, "P45").hinge(p56, "P56").hinge(p67, "P67").mass(s6, "S6")
 
-    return (scheme,)
-
-
-@app.cell
-def paths(L4, P56, PS6, g):
     fine = np.linspace(g.S_min, g.S_max, 100)
     paths = Drawing().path(P56(fine, L4)).path(PS6(fine))
-    return (paths,)
+    still = scheme(g.S_min).faint() + scheme(g.S_max).faint() + paths  # what the slider does not move
+    return frame, scheme, still
 
 
 @app.cell
@@ -479,11 +440,11 @@ def velocities(L4, L7, O1, O3, O5, O7, P23, P34, P45, P56, P67, PS6):
 
 
 @app.cell
-def drawing_21(L4, P34, P56, PS6, g, part, paths, scheme, velocities):
+def drawing_21(L4, P34, P56, PS6, g, part, scheme, still, velocities):
     S_t = g.S_min * (1 - part.value) + g.S_max * part.value  # [m] stroke as drawn
     V34, V56, VS6 = velocities(S_t)
     moved = scheme(S_t).arrow(P34(S_t), V34, "V34", "m/s").arrow(P56(S_t, L4), V56, "V56", "m/s")
-    drawing_21 = moved.arrow(PS6(S_t), VS6, "VS6", "m/s") + scheme(g.S_min).faint() + scheme(g.S_max).faint() + paths
+    drawing_21 = moved.arrow(PS6(S_t), VS6, "VS6", "m/s") + still
     typeset(drawing_21, mark(S=S_t), mo.md("**Figure 2.1** – Kinematic scheme of the hitch"))
     return V34, V56, VS6, drawing_21, moved
 
@@ -493,14 +454,15 @@ def section_26():
     mo.md(r"""
     ### 2.6 Check
 
-    Each pin is computed again round the other way of its loop. The document's formula for $\varphi_{12}$
+    Every group closes at every position, and each pin is computed again round the other way of its loop. The
+    document's formula for $\varphi_{12}$
     misses the pin: it is shown as printed, beside the right one.
     """)
     return
 
 
 @app.cell
-def loops(L13, L4, L7, O1, P34_S, P45_S, P56_S, P23_S, P67_S, S, g, phi12_S, phi13, phi4_S, phi6_S):
+def loops(L13, L4, L57, L7, O1, O3, O5, O7, P23_S, P34_S, P45_S, P56_S, P67_S, S, g, phi12_S, phi13, phi4_S, phi6_S):
     phi12_printed = phi13 - acos((S**2 + L13**2 - g.L3**2) / (2 * S * L13))  # [deg] cylinder, as printed (erratum)
     P23s_S = O1 + S * exp(1j * phi12_printed)  # [m] as printed: misses P23 (erratum)
     P23c_S = O1 + S * exp(1j * phi12_S)  # [m] pin of the cylinder from O1
@@ -512,19 +474,37 @@ def loops(L13, L4, L7, O1, P34_S, P45_S, P56_S, P23_S, P67_S, S, g, phi12_S, phi
         check("loop of group (4, 5)", P34s_S - P34_S, 1e-12 * L4, "m"),
         check("loop of group (6, 7)", P67s_S - P67_S, 1e-12 * L7, "m"),
     )
-    typeset(*checks_loops)
-    return P23c_S, P23s_S, P34s_S, P45s_S, P67s_S, checks_loops, phi12_printed
+    checks_closing = (
+        assembled("group (2, 3) closes", P23_S, S, rrr_reach(O1, O3, g.L3), "cylinder S", "m"),
+        assembled("group (4, 5) closes", P45_S, abs(P34_S - O5), (abs(L4 - g.L5), L4 + g.L5), "distance O5 P34", "m"),
+        assembled("group (6, 7) closes", P67_S, abs(P56_S - O7), (abs(L7 - g.L6), L7 + g.L6), "distance O7 P56", "m"),
+    )
+    typeset(*checks_closing, *checks_loops)
+    return P23c_S, P23s_S, P34s_S, P45s_S, P67s_S, checks_closing, checks_loops, phi12_printed
 
 
 @app.cell
-def table_21(S, phi34_S, phi3_S, phi4_S, phi5_S, phi6_S, phi7_S):
+def tables_2(
+    P23_S,
+    P23c_S,
+    P23s_S,
+    P34_S,
+    P34s_S,
+    P45_S,
+    P45s_S,
+    P56_S,
+    P67_S,
+    P67s_S,
+    PS6_S,
+    S,
+    phi34_S,
+    phi3_S,
+    phi4_S,
+    phi5_S,
+    phi6_S,
+    phi7_S,
+):
     table_21 = table("2.1", "Link angles", S, phi34_S, phi3_S, phi4_S, phi5_S, phi6_S, phi7_S)
-    table_21
-    return (table_21,)
-
-
-@app.cell
-def table_22(P23_S, P23c_S, P23s_S, P34_S, P34s_S, P45_S, P45s_S, P56_S, P67_S, P67s_S, PS6_S, S):
     table_22 = table(
         "2.2",
         "Points",
@@ -535,8 +515,8 @@ def table_22(P23_S, P23c_S, P23s_S, P34_S, P34s_S, P45_S, P45s_S, P56_S, P67_S, 
         *(PS6_S.real, PS6_S.imag, P23c_S.real, P23c_S.imag),
         note="X23s, Y23s follow the document's formula for phi12 and miss P23; X23c, Y23c close the loop.",
     )
-    table_22
-    return (table_22,)
+    typeset(table_21, table_22)
+    return table_21, table_22
 
 
 @app.cell(hide_code=True)
@@ -553,17 +533,11 @@ def section_3():
 
 
 @app.cell
-def ratios(L4, L7, g, phi34_S, phi4_S, phi5_S, phi6_S, phi7_S):
+def transmission(L4, L7, LS6, g, phi12_S, phi34_S, phi3_S, phi4_S, phi5_S, phi6_S, phi7_S, phiS6):
     U43 = g.L34 * sin(phi5_S - phi34_S) / (L4 * sin(phi4_S - phi5_S))  # [-] lifting rod to lift arm
     U53 = g.L34 * sin(phi34_S - phi4_S) / (g.L5 * sin(phi5_S - phi4_S))  # [-] lower link to lift arm
     U65 = g.L56 * sin(phi7_S - phi5_S) / (g.L6 * sin(phi6_S - phi7_S))  # [-] mast to lower link
     U75 = g.L56 * sin(phi5_S - phi6_S) / (L7 * sin(phi7_S - phi6_S))  # [-] upper link to lower link
-    typeset()
-    return U43, U53, U65, U75
-
-
-@app.cell
-def analogues(LS6, U43, U53, U65, U75, g, phi12_S, phi3_S, phi5_S, phi6_S, phiS6):
     dphi3 = 1 / (g.L3 * sin(phi12_S - phi3_S))  # [rad/m] lift arm
     dphi4 = dphi3 * U43  # [rad/m] lifting rod
     dphi5 = dphi3 * U53  # [rad/m] lower link
@@ -572,7 +546,7 @@ def analogues(LS6, U43, U53, U65, U75, g, phi12_S, phi3_S, phi5_S, phi6_S, phiS6
     I56 = dphi5 * g.L56 * cos(phi5_S)  # [-] transmission number of the suspension axis
     IS6 = I56 + dphi6 * LS6 * cos(phi6_S + phiS6)  # [-] main transmission number, of the centre of mass
     typeset()
-    return I56, IS6, dphi3, dphi4, dphi5, dphi6, dphi7
+    return I56, IS6, U43, U53, U65, U75, dphi3, dphi4, dphi5, dphi6, dphi7
 
 
 @app.cell(hide_code=True)
@@ -602,24 +576,12 @@ def differences(I56, IS6, L4, P56, PS6, S, dphi3, g, phi3, velocities):
 
 
 @app.cell
-def table_31(I56, IS6, S, U43, U53, U65, U75, dphi3, dphi4, dphi5, dphi6, dphi7):
+def results_3(I56, IS6, S, S_p, U43, U53, U65, U75, dphi3, dphi4, dphi5, dphi6, dphi7):
     table_31 = table("3.1", "Kinematics", S, U43, U53, U65, U75, I56, IS6, dphi3, dphi4, dphi5, dphi6, dphi7)
-    table_31
-    return (table_31,)
-
-
-@app.cell
-def figure_31(S, S_p, dphi3):
     figure_31 = figure("3.1", "Velocity analogue of the lift arm", S, dphi3, marks={"S_p": S_p})
-    figure_31
-    return (figure_31,)
-
-
-@app.cell
-def figure_32(I56, IS6, S, S_p):
     figure_32 = figure("3.2", "Transmission numbers", S, I56, IS6, marks={"S_p": S_p})
-    figure_32
-    return (figure_32,)
+    typeset(table_31, figure_31, figure_32)
+    return figure_31, figure_32, table_31
 
 
 @app.cell(hide_code=True)
@@ -649,31 +611,13 @@ def capacity(I56, IS6, g):
 
 
 @app.cell
-def table_41(F_gc, G56, GS6, P_gc, S, dGS65):
+def results_4(F_gc, G56, GS6, P_gc, S, S_p, dGS65):
     table_41 = table("4.1", "Lifting capacity", S, F_gc, P_gc, G56, GS6, dGS65, show={"Pgc": "Pa"})
-    table_41
-    return (table_41,)
-
-
-@app.cell
-def figure_41(G56, GS6, S, S_p):
     figure_41 = figure("4.1", "Lifting capacity", S, G56, GS6, marks={"S_p": S_p})
-    figure_41
-    return (figure_41,)
-
-
-@app.cell
-def figure_42(F_gc, S, S_p):
     figure_42 = figure("4.2", "Force on the cylinders", S, F_gc, marks={"S_p": S_p})
-    figure_42
-    return (figure_42,)
-
-
-@app.cell
-def figure_43(P_gc, S, S_p):
     figure_43 = figure("4.3", "Pressure in the cylinders", S, P_gc, marks={"S_p": S_p}, show={"Pgc": "Pa"})
-    figure_43
-    return (figure_43,)
+    typeset(table_41, figure_41, figure_42, figure_43)
+    return figure_41, figure_42, figure_43, table_41
 
 
 @app.cell(hide_code=True)
@@ -773,46 +717,33 @@ def position(S, forces_at):
 
 
 @app.cell
-def group_drawing(R01, R05, R34, R56):
-    def group_drawing(*points):
+def drawings_5(G6, O1, O3, O5, O7, P23_S, P34_S, P45_S, P56_S, P67_S, PS6_S, R01, R03, R05, R07, R34, R56, R65, g, k_t):
+    def _group(*points):
         frame = np.concatenate([np.atleast_1d(p) for p in points])  # over the whole stroke, so that nothing jumps
         closed = frame[np.isfinite(frame)]
         size = max(np.ptp(closed.real), np.ptp(closed.imag))
         largest = np.nanmax(abs([R01, R05, R34, R56]), initial=0.0) or 1.0
         return Drawing(width=560, height=420, frame=frame, scales={"N": 0.3 * size / largest})
 
-    return (group_drawing,)
-
-
-@app.cell
-def drawing_51(G6, O7, P56_S, P67_S, PS6_S, R07, R56, group_drawing, k_t):
     p56, p67, s6 = P56_S[k_t], P67_S[k_t], PS6_S[k_t]
-    group = group_drawing(O7, P56_S, P67_S, PS6_S).plate([p56, p67, s6], "6").link(O7, p67, "7")
+    group = _group(O7, P56_S, P67_S, PS6_S).plate([p56, p67, s6], "6").link(O7, p67, "7")
     pins_67 = group.hinge(O7, "O7").hinge(p67, "P67").hinge(p56, "P56").mass(s6, "S6")
     drawing_51 = pins_67.force(p56, R56[k_t], "R56").force(O7, R07[k_t], "R07").force(s6, G6, "P6")
-    typeset(drawing_51, mo.md("**Figure 5.1** – Assur group (6, 7)"))
-    return (drawing_51,)
-
-
-@app.cell
-def drawing_52(O5, P34_S, P45_S, P56_S, R05, R34, R65, group_drawing, k_t):
-    links_45 = group_drawing(O5, P34_S, P45_S, P56_S).link(P34_S[k_t], P45_S[k_t], "4").link(O5, P56_S[k_t], "5")
+    links_45 = _group(O5, P34_S, P45_S, P56_S).link(P34_S[k_t], P45_S[k_t], "4").link(O5, P56_S[k_t], "5")
     pins_45 = links_45.hinge(O5, "O5").hinge(P34_S[k_t], "P34").hinge(P45_S[k_t], "P45").hinge(P56_S[k_t], "P56")
     forces_45 = pins_45.force(P56_S[k_t], R65[k_t], "R65").force(O5, -R05[k_t], "-R05")
     drawing_52 = forces_45.force(P34_S[k_t], -R34[k_t], "-R34")
-    typeset(drawing_52, mo.md("**Figure 5.2** – Assur group (4, 5)"))
-    return (drawing_52,)
-
-
-@app.cell
-def drawing_53(O1, O3, P23_S, P34_S, R01, R03, R34, g, group_drawing, k_t):
-    plate = group_drawing(O1, O3, P23_S, P34_S).plate([O3, P23_S[k_t], P34_S[k_t]], "3")
+    plate = _group(O1, O3, P23_S, P34_S).plate([O3, P23_S[k_t], P34_S[k_t]], "3")
     arm = plate.cylinder(O1, P23_S[k_t], "S", 0.9 * g.S_min)
     pins_23 = arm.hinge(O1, "O1").hinge(O3, "O3").hinge(P23_S[k_t], "P23").hinge(P34_S[k_t], "P34")
     forces_23 = pins_23.force(O1, R01[k_t], "R01").force(O3, R03[k_t], "R03")
     drawing_53 = forces_23.force(P34_S[k_t], R34[k_t], "R34")
-    typeset(drawing_53, mo.md("**Figure 5.3** – Assur group (2, 3)"))
-    return (drawing_53,)
+    typeset(
+        *(drawing_51, mo.md("**Figure 5.1** – Assur group (6, 7)")),
+        *(drawing_52, mo.md("**Figure 5.2** – Assur group (4, 5)")),
+        *(drawing_53, mo.md("**Figure 5.3** – Assur group (2, 3)")),
+    )
+    return drawing_51, drawing_52, drawing_53
 
 
 @app.cell(hide_code=True)
@@ -875,7 +806,7 @@ def equilibrium(
 
 
 @app.cell
-def table_51(F_gc, R01, R03, R05, R07, R23, R34, R45, R56, S):
+def results_5(F_gc, R01, R03, R05, R07, R23, R34, R45, R56, S, S_p):
     table_51 = table(
         "5.1",
         "Reactions",
@@ -885,17 +816,11 @@ def table_51(F_gc, R01, R03, R05, R07, R23, R34, R45, R56, S):
         *(abs(R56), abs(R07), abs(R03), abs(R05), abs(R34), abs(R23), abs(R45), abs(R01), F_gc),
         note="R05 acts on the frame and R34 on the lift arm; the others act on the body named last in their line.",
     )
-    table_51
-    return (table_51,)
-
-
-@app.cell
-def figure_54(R01, R03, R05, R07, R34, R56, S, S_p):
     figure_54 = figure(
         "5.4", "Reactions", S, abs(R01), abs(R03), abs(R05), abs(R07), abs(R34), abs(R56), marks={"S_p": S_p}
     )
-    figure_54
-    return (figure_54,)
+    typeset(table_51, figure_54)
+    return figure_54, table_51
 
 
 @app.cell(hide_code=True)
@@ -921,8 +846,12 @@ def stability(PS6_S, g):
     GS6_lim = (g.P_msha * g.b + g.P_gr * (g.a + g.L) - 0.2 * g.L * (g.P_msha + g.P_gr)) / (
         PS6_S.real + 0.2 * g.L
     )  # [N] greatest load
-    typeset()
-    return GS6_lim, GS6_max, Ra, Ra_min, Rb, dRa, dRb
+    Ra_lim = (
+        g.P_gr * (g.a + g.L) + g.P_msha * g.b - GS6_lim * PS6_S.real
+    ) / g.L  # [N] front axle under the greatest load
+    checks_stability = check("front axle keeps 20 % under GS6lim", Ra_lim / (GS6_lim + g.P_msha + g.P_gr) - 0.2, 1e-12)
+    typeset(checks_stability)
+    return GS6_lim, GS6_max, Ra, Ra_lim, Ra_min, Rb, checks_stability, dRa, dRb
 
 
 @app.cell
@@ -939,16 +868,6 @@ def drawing_61(PS6_S, Ra, Rb, frame, g, k_t, S, scheme):
     drawing_61 = lengths.dimension(-g.b + 1.25j, 1.25j, "b")
     typeset(drawing_61, mo.md("**Figure 6.1** – The machine with its loads; wheels for the picture only"))
     return (drawing_61,)
-
-
-@app.cell
-def stability_check(GS6_lim, PS6_S, g):
-    Ra_lim = (
-        g.P_gr * (g.a + g.L) + g.P_msha * g.b - GS6_lim * PS6_S.real
-    ) / g.L  # [N] front axle under the greatest load
-    checks_stability = check("front axle keeps 20 % under GS6lim", Ra_lim / (GS6_lim + g.P_msha + g.P_gr) - 0.2, 1e-12)
-    typeset(checks_stability)
-    return (checks_stability,)
 
 
 @app.cell(hide_code=True)
@@ -975,22 +894,16 @@ def design(GS6, P_gc, Ra, Ra_min, g):
 
 
 @app.cell
-def table_61(GS6_lim, GS6_max, Ra, Rb, S, dRa, dRb):
+def results_6(GS6_lim, GS6_max, Ra, Rb, S, S_p, dRa, dRb):
     table_61 = table(
         "6.1",
         "Stability",
         *(S, Ra, Rb, dRa, dRb, GS6_max, GS6_lim),
         note="GS6max follows the document's formula, which is wrong; GS6lim is the greatest stable load.",
     )
-    table_61
-    return (table_61,)
-
-
-@app.cell
-def figure_62(S, S_p, dRa):
     figure_62 = figure("6.2", "Share of the weight on the steered wheels", S, dRa, marks={"S_p": S_p})
-    figure_62
-    return (figure_62,)
+    typeset(table_61, figure_62)
+    return figure_62, table_61
 
 
 @app.cell(hide_code=True)
@@ -1006,24 +919,18 @@ def section_7():
 
 
 @app.cell
-def pole(L7, O5, O7, P56_S, P67_S, PS6_S, dphi5, g, phi6_S, phi7_S):
+def pole(I56, IS6, L7, O5, O7, P56_S, P67_S, PS6_S, dphi5, g, phi6_S, phi7_S):
     D_p = cross(P56_S - O5, P67_S - O7)  # [m**2] zero where the links are parallel
     N_p = cross(O7 - O5, P67_S - O7) * (P56_S - O5).real  # [m**3] abscissa of the pole from O5, times D_p
     k_p = dphi5 / (g.L6 * L7 * sin(phi6_S - phi7_S))  # [1/m**3] angular velocity analogue of the mast over D_p
     Imp = k_p * ((P56_S - O5).real * D_p - N_p)  # [-] transmission number of the suspension axis
     Isp = k_p * ((PS6_S - O5).real * D_p - N_p)  # [-] main transmission number
-    typeset()
-    return Imp, Isp
-
-
-@app.cell
-def pole_check(I56, IS6, Imp, Isp):
     checks_pole = (
         check("instant centre: Imp = I56", Imp - I56, 1e-11 * np.max(abs(I56))),
         check("instant centre: Isp = IS6", Isp - IS6, 1e-11 * np.max(abs(IS6))),
     )
     typeset(*checks_pole)
-    return (checks_pole,)
+    return Imp, Isp, checks_pole
 
 
 @app.cell

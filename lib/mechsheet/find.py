@@ -141,7 +141,7 @@ class Found:
 
     @property
     def reached(self) -> tuple[Any, Any]:
-        return self._everything.reached
+        return self._everything.reached()
 
     @property
     def reason(self) -> Any:
@@ -213,7 +213,7 @@ class _Everything:
     """What the search of all branches tells: see `Found`."""
 
     roots: tuple[Root, ...]
-    reached: tuple[Any, Any]
+    reached: Callable[[], tuple[Any, Any]]
     reason: Any
 
 
@@ -315,7 +315,9 @@ def find(
             Root(shaped(x), shaped(s), shaped(r), (shaped(a), shaped(b)))
             for x, r, a, b, s in _together(search.roots, labels)
         )
-        return _Everything(roots, (shaped(search.reached[0, at]), shaped(search.reached[1, at])), shaped(reasons))
+        return _Everything(
+            roots, lambda: (shaped(search.reached[0, at]), shaped(search.reached[1, at])), shaped(reasons)
+        )
 
     low, high, value, residual, *bracket = (np.where(void, np.nan, numbers) for numbers in _nearest(own, flat))
     found = Found(
@@ -337,7 +339,7 @@ def find(
 def _nothing(words: _Words, branch: int | None, shape: tuple[int, ...]) -> Found:
     """The verdict on problems none of which has an interval, a target and a guess."""
     none = np.full(shape, np.nan)
-    everything = _Everything((), (none, none), np.full(shape, _without_numbers(words), dtype=object))
+    everything = _Everything((), lambda: (none, none), np.full(shape, _without_numbers(words), dtype=object))
     return Found(none, branch, none, (none, none), (none, none), none, words, lambda: 0, lambda: everything)
 
 
@@ -413,8 +415,23 @@ class _Search:
 
     roots: Array
     interval: Array
-    reached: Array
     jump: Array
+    void: Mask
+    pieces: "_Pieces"
+    f: _Counted
+
+    @cached_property
+    def reached(self) -> Array:
+        """Least and greatest f; its extremes are looked for when this is read: where all is solved nobody asks."""
+        with np.errstate(all="ignore"):
+            x, y = self.pieces.x, self.pieces.y
+            i, valid = _slots(_turning(y))
+            around = np.maximum(i, 1) + _AROUND
+            top = _extreme(self.f, _at(x, around), _at(y, around), valid, self.pieces.floor)[1]
+            y = np.concatenate([y, np.where(valid, top, np.nan)])
+            reached = np.stack([np.fmin.reduce(y), np.fmax.reduce(y)])
+        reached[:, self.void] = np.nan
+        return reached
 
 
 @dataclass(frozen=True)
@@ -466,14 +483,10 @@ def _search(f: _Counted, given: dict[str, Array], void: Mask) -> _Search:
     lo, hi = _interval(f, given)
     pieces = _pieces(f, lo, hi, given["equals"])
     roots, jump = _roots(f, pieces)
-    i, valid = _slots(_turning(pieces.y))
-    around = np.maximum(i, 1) + _AROUND
-    top = _extreme(f, _at(pieces.x, around), _at(pieces.y, around), valid, pieces.floor)[1]
-    y = np.concatenate([pieces.y, np.where(valid, top, np.nan)])
-    search = _Search(roots, np.stack([lo, hi]), np.stack([np.fmin.reduce(y), np.fmax.reduce(y)]), jump)
-    for numbers in (search.roots, search.interval, search.reached):
+    interval = np.stack([lo, hi])
+    for numbers in (roots, interval):
         numbers[..., void] = np.nan
-    return search
+    return _Search(roots, interval, jump, void, pieces, f)
 
 
 def _interval(f: _Counted, given: dict[str, Array]) -> tuple[Array, Array]:

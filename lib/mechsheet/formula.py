@@ -6,7 +6,7 @@ import re
 import sys
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
-from functools import cached_property, lru_cache
+from functools import cache, cached_property, lru_cache
 from typing import Any
 
 import numpy as np
@@ -43,8 +43,7 @@ class Formula:
     @cached_property
     def names(self) -> tuple[str, ...]:
         """What the right side reads, as it is written."""
-        nodes = [node for node in ast.walk(self.expression) if _is_quantity(node)]
-        return tuple(dict.fromkeys(ast.unparse(node) for node in nodes))
+        return tuple(dict.fromkeys(filter(None, map(_read_as, ast.walk(self.expression)))))
 
 
 @dataclass(frozen=True)
@@ -159,9 +158,9 @@ class _Numbers:
     def text(self, name: str, position: int) -> str | None:
         """Value of a name at one position of its field in LaTeX; None where its unit is not known."""
         head, dot, part = name.partition(".")
-        value = self.namespace.get(head)
+        value: Any = self.namespace.get(head)
         if dot:
-            unit = next((field.unit for field in getattr(type(value), "__inputs__", ()) if field.name == part), None)
+            unit = _units_of(type(value)).get(part)  # type: ignore[arg-type]  # a class can be hashed
             value = getattr(value, part) if unit else None
         else:
             line = self.known.get(name)
@@ -172,6 +171,12 @@ class _Numbers:
         return value_latex(
             field[..., position].flat[0] if field.shape and field.shape[-1] > position else field.flat[0], unit
         )
+
+
+@lru_cache(maxsize=16)
+def _units_of(inputs: type) -> dict[str, str]:
+    """Units of the inputs of a class by their names."""
+    return {field.name: field.unit for field in getattr(inputs, "__inputs__", ())}
 
 
 @dataclass(frozen=True)
@@ -222,11 +227,14 @@ def _tex_element(tex: str) -> str:
     return f'<marimo-tex class="arithmatex">||(\\displaystyle {html.escape(tex)}||)</marimo-tex>'
 
 
-def _is_quantity(node: ast.AST) -> bool:
+def _read_as(node: ast.AST) -> str:
+    """Name under which a formula reads a quantity, ``g.L3`` too; "" for anything else."""
     match node:
-        case ast.Attribute(ast.Name("g")) | ast.Name():
-            return True
-    return False
+        case ast.Attribute(ast.Name("g"), name):
+            return f"g.{name}"
+        case ast.Name(name):
+            return name
+    return ""
 
 
 def _substituted(row: Formula, numbers: _Numbers, position: int) -> str:
@@ -249,15 +257,18 @@ def number_latex(x: float) -> str:
 
 def value_latex(value: Any, unit: str) -> str:
     """Value in its display unit; a field of positions as first .. last, a point or a vector as a pair."""
-    shown: Any = np.asarray(value) / units.parse(unit).factor
-    ends = [shown] if shown.ndim == 0 else [shown.flat[0], shown.flat[-1]]
-    texts = [
-        rf"({number_latex(z.real)},\ {number_latex(z.imag)})" if np.iscomplexobj(shown) else number_latex(float(z))
-        for z in ends
-    ]
-    return r" \,\ldots\, ".join(texts) + unit_latex(unit)
+    field = np.asarray(value)
+    ends = [field.item()] if field.ndim == 0 else [field.flat[0].item(), field.flat[-1].item()]
+    return r" \,\ldots\, ".join(_end_latex(end, unit) for end in ends) + unit_latex(unit)
 
 
+@lru_cache(maxsize=4096, typed=True)  # most numbers stay when an input changes; 0 and 0j are not shown alike
+def _end_latex(end: float | complex, unit: str) -> str:
+    z = end / units.parse(unit).factor
+    return rf"({number_latex(z.real)},\ {number_latex(z.imag)})" if isinstance(z, complex) else number_latex(z)
+
+
+@cache
 def unit_latex(unit: str) -> str:
     if unit == "-":
         return ""
@@ -298,7 +309,7 @@ class _Writer:
         return self.write(node)[0]
 
     def write(self, node: ast.expr) -> tuple[str, int]:
-        if self.numbers and _is_quantity(node) and (number := self.numbers.get(ast.unparse(node))):
+        if self.numbers and (number := self.numbers.get(_read_as(node))):
             return number, 5 if number.replace(".", "").isdigit() else 1 if number.startswith("-") else 2
         if positive := _without_minus(node):
             return f"-{self.text(positive)}", 1

@@ -58,10 +58,26 @@
     document.querySelectorAll("ms-numbers").forEach((line) => line.show());
   });
 
+  // marimo marks every output while its cell runs. As long as a style sheet asks for [class~="x"], each such mark makes the
+  // browser style all that stands below again; the same selector as .x does not.
+  function selectByClass() {
+    const roots = [document, ...[...document.querySelectorAll("*")].map((e) => e.shadowRoot).filter(Boolean)];
+    const within = (rules) =>
+      [...rules].forEach((rule) => {
+        if (rule.selectorText?.includes("[class~="))
+          rule.selectorText = rule.selectorText.replace(/\[class~="([\w-]+)"\]/g, ".$1");
+        if (rule.cssRules?.length) within(rule.cssRules);
+      });
+    new Set(roots.flatMap((root) => [...root.styleSheets, ...root.adoptedStyleSheets])).forEach((sheet) => {
+      if (!sheet.href || sheet.href.startsWith(location.origin)) within(sheet.cssRules); // others cannot be read
+    });
+  }
+
   // Cells out of sight are laid out once, so that the browser knows their heights and the outline leads to its places.
   const page = document.documentElement;
 
   function measure() {
+    selectByClass();
     page.classList.add("ms-measure");
     requestAnimationFrame(() =>
       requestAnimationFrame(() => {
