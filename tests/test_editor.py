@@ -1,11 +1,15 @@
-"""Editing in a real browser, in ``marimo edit``: what depends on an edited line follows, mistakes are told there."""
+"""Editing, in a real browser in ``marimo edit``: what depends on an edited line follows, mistakes are told there."""
 
+import ast
+import linecache
 from math import asin, degrees
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
 from mechsheet import __main__ as launcher
+from mechsheet import editor as told_by
 
 TEMPLATE = Path(launcher.__file__).with_name("new_worksheet.txt")
 
@@ -36,6 +40,10 @@ class Editor:
         self.page.wait_for_timeout(300)
         self.page.keyboard.press("Control+Enter")
         return cell
+
+    def told(self) -> list[str]:
+        """Mistakes named in the title block."""
+        return self.page.locator(".ms-title a").all_text_contents()
 
     def last_moment(self) -> str:
         return self.page.locator(".ms-table tbody tr").last.locator("td").last.inner_text()
@@ -104,7 +112,8 @@ def test_mistakes_are_told_at_their_place_and_the_rest_stays(editor):
     field.fill("500")
     field.press("Enter")
     editor.expect("angle phi: moment reaches 0..420 N*m, 500 N*m is outside")
-    assert page.locator(".ms-table").count() == 0 and page.get_by_text("moment over the positions").count() > 0
+    page.wait_for_function("() => !document.querySelector('.ms-table')")
+    assert page.get_by_text("moment over the positions").count() > 0
     field.fill("abc")
     field.press("Enter")
     editor.expect("M_max = 'abc' N*m is no number")
@@ -114,3 +123,146 @@ def test_mistakes_are_told_at_their_place_and_the_rest_stays(editor):
     editor.expect("1 of 1 checks pass")
     assert not page.locator(".ms-told").is_visible()
     assert editor.last_moment() == "420"
+
+
+def test_mistakes_are_told_in_words_at_the_top_and_at_their_line(editor):
+    page = editor.page
+
+    def tells(cell, text):
+        page.locator(".ms-title a", has_text=text).wait_for(timeout=30_000)
+        place = cell.locator("[data-cell-role=output]")
+        assert text in place.evaluate("place => getComputedStyle(place, '::after').content")
+        href = page.locator(".ms-title a", has_text=text).get_attribute("href")
+        assert href == f"#{cell.get_attribute('id')}"
+
+    page.locator(".ms-switch").check()
+    tells(
+        editor.edit("M_S = M(phi)  # [N*m]", "M_S = M(phi)  # [m]"),
+        "line 6, M_S: unit [m] does not fit; the value is in N·m",
+    )
+    assert editor.last_moment() == "420.000", "the sheet stays computed"
+    assert page.locator(".ms-switch").is_checked()
+    cell = editor.edit("M_S = M(phi)  # [m]", "M_S = M(phi)  # [N*m]")
+    page.wait_for_function("() => !document.querySelector('.ms-title a')")
+    tells(
+        editor.edit("g.L * sin(phi)", "g.L * sinn(phi)"),
+        "g.F * g.L * sinn(phi): the name sinn is not defined in any cell (did you mean sin?)",
+    )
+    page.mouse.move(0, 0)
+    trace = cell.locator(".codehilite")
+    assert trace.count() == 1 and not trace.is_visible()
+    cell.get_by_role("button", name="Collapse traceback").hover()
+    trace.wait_for()
+    tells(
+        editor.edit("sinn(phi)", "sin(phi, 1, 2, 3)"), "line 4, return g.F * g.L * sin(phi, 1, 2, 3): sin() takes from"
+    )
+    editor.edit("sin(phi, 1, 2, 3)", "sin(phi")
+    page.locator(".ms-title a", has_text="the cell that defines M_S has a mistake or was deleted").wait_for(
+        timeout=30_000
+    )
+    editor.edit("sin(phi", "sin(phi)")
+    editor.expect("1 of 1 checks pass")
+    page.wait_for_function("() => !document.querySelector('.ms-title a')")
+    assert editor.last_moment() == "420"
+    editor.edit("M_S = M(phi)  # [N*m] moment over", "M_S = M(phi)  # moment over")
+    editor.expect("column M_S: no line declares M_S with its unit")
+
+
+class Cells:
+    """Cells that have run one after the other, as the editor's kernel holds them."""
+
+    def __init__(self, *codes: str):
+        self.names = {}
+        self.cells = [self.cell(f"c{i}", code) for i, code in enumerate(codes)]
+
+    def cell(self, cell_id: str, code: str) -> SimpleNamespace:
+        linecache.cache[cell_id] = len(code), None, code.splitlines(keepends=True), cell_id
+        body, exception, nodes = compile(code, cell_id, "exec"), None, list(ast.walk(ast.parse(code)))
+        try:
+            exec(body, self.names)
+        except Exception as error:
+            exception = error
+        top = ast.parse(code).body
+        defs = {n.id for node in top if isinstance(node, ast.Assign) for n in node.targets}
+        defs |= {node.name for node in top if isinstance(node, ast.FunctionDef | ast.ClassDef)}
+        defs |= {alias.name for node in top if isinstance(node, ast.ImportFrom) for alias in node.names}
+        refs = {n.id for n in nodes if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Load)} - defs
+        status = "exception" if exception else "success"
+        return SimpleNamespace(
+            cell_id=cell_id, code=code, body=body, defs=defs, refs=refs, run_result_status=status, exception=exception
+        )
+
+    def texts(self, notes) -> list[str]:
+        return [f"{note.cell}: {note.text}" for note in notes]
+
+
+IMPORTS = """
+from mechsheet.formula import typeset
+from mechsheet.inputs import inputs
+from numpy import pi
+"""
+GIVEN = """
+@inputs
+class Bar:
+    F: float = 500.0  # [N] force
+    L: float = 2.0  # [m] length
+    D: float = 0.03  # [m] diameter
+    "end"
+"""
+
+
+def bar(*codes: str) -> Cells:
+    return Cells(IMPORTS, GIVEN, "g = Bar()", *codes)
+
+
+@pytest.mark.parametrize(
+    ("line", "says"),
+    [
+        ("A = pi * g.D**2 / 4  # [mm**2] area", []),
+        ("A = pi * g.D**2 / 4  # [m] area", ["c3: line 1, A: unit [m] does not fit; the value is in m²"]),
+        ("A = g.F / 3  # [-] force", ["c3: line 1, A: unit [-] does not fit; the value is in N"]),
+        ("A = g.L / g.D  # [m] slenderness", ["c3: line 1, A: unit [m] does not fit; the value is in - (a number)"]),
+        (
+            "A = g.L + g.F  # [m] nonsense",
+            ["c3: line 1, A: unit [m] does not fit; it, or a function that it uses, adds"],
+        ),
+        ("A = g.L + g.F  # [m] as printed (erratum)", []),
+    ],
+)
+def test_unit_that_does_not_fit_is_told_with_the_one_that_does(line, says):
+    found = bar(f"{line}\ntypeset()", "B = 2 * A  # [m**2] twice\nC = A * g.L  # [m**2] another\ntypeset()")
+    notes = found.texts(told_by.unfit(found.cells[:4], found.names))
+    assert len(notes) == len(says)
+    assert all(note.startswith(text) for note, text in zip(notes, says, strict=True))
+
+
+def test_lines_that_follow_from_a_wrong_one_are_not_told():
+    found = bar("A = g.D**2 + g.L  # [m**2] area\ntypeset()", "p = g.F / A  # [Pa] pressure\ntypeset()")
+    assert [note.cell for note in told_by.unfit(found.cells, found.names)] == ["c3"]
+
+
+def test_what_another_worksheet_computes_is_left_out():
+    through = "from mechsheet.worksheet import evaluate\n"
+    found = bar(through, "x = g.L if evaluate else 0\nA = 0.5 + x  # [m] from there\ntypeset()")
+    assert list(told_by.unfit(found.cells, found.names)) == []
+
+
+def test_mistakes_in_names_and_of_python_are_put_in_words():
+    found = bar("S_1 = 2 * g.LL", "S_2 = S3 * 2  # twice", "S_3 = 1 / 0", "S_3 = M", "len(S_3)")
+    assert found.texts(told_by.unknown(found.cells, found.names, {"M"})) == [
+        "c3: line 1, S_1 = 2 * g.LL: there is no input LL (did you mean L?)",
+        "c4: line 1, S_2 = S3 * 2: the name S3 is not defined in any cell (did you mean S_3?)",
+        "c5: S_3 is defined in two cells: rename it in one of them",
+        "c6: S_3 is defined in two cells: rename it in one of them",
+        "c6: line 1, S_3 = M: the cell that defines M has a mistake or was deleted",
+    ]
+    assert "c5: line 1, S_3 = 1 / 0: division by zero" in found.texts(told_by.failed(found.cells))
+    right = bar("S_1 = 2 * g.L")
+    assert [*told_by.unknown(right.cells, right.names), *told_by.failed(right.cells)] == []
+
+
+def test_line_that_has_lost_its_unit_does_not_keep_the_former_one():
+    found = bar("A = pi * g.D**2 / 4  # [mm**2] area\ntypeset()")
+    assert "A" in found.names["__formulas__"]
+    found.cell("c3 again", "A = pi * g.D**2 / 4  # area\ntypeset()")
+    assert "A" not in found.names["__formulas__"]

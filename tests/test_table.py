@@ -4,6 +4,8 @@ import numpy as np
 import pytest
 from cells import run
 
+from mechsheet.errors import SheetError
+
 CELL = """
 import numpy as np
 from mechsheet.formula import typeset
@@ -49,9 +51,9 @@ def test_every_so_many_positions_of_each_variant(names):
 
 
 def test_undeclared_column_says_what_is_missing(names):
-    with pytest.raises(LookupError, match=r"column Q: no line declares Q with its unit"):
+    with pytest.raises(SheetError, match=r"column Q: no line declares Q with its unit"):
         run('Q = S\ntable("1", "T", S, Q)', names)
-    with pytest.raises(LookupError, match="column S \\+ 1: a column is a name"):
+    with pytest.raises(SheetError, match="column S \\+ 1: a column is a name"):
         run('table("1", "T", S + 1)', names)
 
 

@@ -1,5 +1,7 @@
 """Dimensions checked by a change of units: every result must scale as its declared unit says."""
 
+import itertools
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -12,6 +14,7 @@ from mechsheet.worksheet import load
 # How much smaller the new metre, kilogram and second are; no small powers of one are powers of another.
 _SCALES = (1.7, 2.3, 1.3)
 _ROUNDING = 1e-9
+_ALIKE = 1e-6  # no two products of small powers of the scales are as near to each other
 
 
 @dataclass(frozen=True)
@@ -36,23 +39,37 @@ def mismatches(worksheet: str | Path) -> list[Mismatch]:
     sheet = load(worksheet)
     want = [name for cell in sheet.cells for name in cell.gives if name != "g"]
     g = sheet.inputs()
-    first, second = (sheet.run(want, {"g": machine}) for machine in (g, _rescaled(g)))
-    lines = formula.registry(first).values()
-    values = [(line.unit, first[line.name]) for line in lines if not line.arguments]
-    values += [(field.unit, getattr(g, field.name)) for field in inputs.declared(type(g))]
-    largest = _largest(values)
+    first, second = (sheet.run(want, {"g": machine}) for machine in (g, rescaled(g)))
+    lines = [line for line in formula.registry(first).values() if not line.arguments]
     return [
         Mismatch(line.name, line.unit, f"line {line.expression.lineno} of {sheet.path}")
-        for line in lines
-        if not line.arguments and not _scales(first[line.name], second[line.name], line.unit, largest)
+        for line in unfit(lines, g, first, second)
     ]
+
+
+def unfit(
+    lines: Iterable[formula.Formula], g: Any, first: Mapping[str, Any], second: Mapping[str, Any]
+) -> dict[formula.Formula, str]:
+    """Those of the lines whose unit does not fit, with the reason in words.
+
+    ``first`` are the values on the inputs ``g``, ``second`` those on the `rescaled` ones.
+    """
+    lines = list(lines)
+    values = [(line.unit, first[line.name]) for line in lines]
+    values += [(field.unit, getattr(g, field.name)) for field in inputs.declared(type(g))]
+    largest, known = _largest(values), [unit for unit, _ in values]
+    return {
+        line: f"unit [{line.unit}] does not fit; {_scaling(first[line.name], second[line.name], known)}"
+        for line in lines
+        if not _scales(first[line.name], second[line.name], line.unit, largest)
+    }
 
 
 def _factor(unit: str) -> float:
     return float(np.prod(np.power(_SCALES, units.parse(unit).dims)))
 
 
-def _rescaled(g: Any) -> Any:
+def rescaled(g: Any) -> Any:
     """The same inputs in the other units; limits in display units no longer apply, so they are not checked."""
     other = object.__new__(type(g))
     for field in inputs.declared(type(g)):
@@ -73,6 +90,29 @@ def _scales(first: Any, second: Any, unit: str, largest: tuple[float, float, flo
 def _largest(values: list[tuple[str, Any]]) -> tuple[float, float, float]:
     """The largest length, force and time of a worksheet, 1 where it has none."""
     kinds = [units.parse(unit).dims for unit in ("m", "N", "s")]
-    found = [[np.nanmax(np.abs(v)) for unit, v in values if units.parse(unit).dims == kind] for kind in kinds]
-    length, force, time = (float(max(sizes, default=0.0)) or 1.0 for sizes in found)
+    sizes = [(units.parse(unit).dims, np.abs(v)[np.isfinite(v)]) for unit, v in values]
+    found = [[np.max(size) for dims, size in sizes if dims == kind and np.size(size)] for kind in kinds]
+    length, force, time = (float(max(most, default=0.0)) or 1.0 for most in found)
     return length, force, time
+
+
+def _scaling(first: Any, second: Any, known: Iterable[str]) -> str:
+    """What a value scales as, in words: one of the known units, or powers of m, kg and s."""
+    first, second = np.asarray(first), np.asarray(second)
+    counted = np.isfinite(first) & np.isfinite(second) & (first != 0)
+    ratios = second[counted] / first[counted]
+    powers = np.array(list(itertools.product(range(-4, 5), repeat=3)))
+    factors = np.prod(np.power(_SCALES, powers), axis=1)
+    for dims, factor in zip(powers.tolist(), factors, strict=True):
+        if ratios.size and np.allclose(ratios, factor, rtol=_ALIKE, atol=0):
+            return f"the value is in {units.shown(_named(tuple(dims), known))}"
+    return "it, or a function that it uses, adds different units or hides one in a number"
+
+
+def _named(dims: tuple[int, ...], known: Iterable[str]) -> str:
+    """A unit of these exponents: one that the worksheet uses, without its factor, or a product."""
+    if not any(dims):
+        return "- (a number)"
+    used = [units.si(unit) for unit in known if units.parse(unit).dims == dims]
+    parts = zip(("m", "kg", "s"), dims, strict=True)
+    return min(used, key=len, default="*".join(name if n == 1 else f"{name}**{n}" for name, n in parts if n))

@@ -41,5 +41,9 @@ def raised() -> Iterator[None]:
 
 def told(reason: str) -> str:
     """Style sheet that makes the title block tell why the sheet is not computed to its end."""
-    text = re.sub(r"[^\w .,;:=()+-]", lambda c: f"\\{ord(c[0]):x} ", reason)
-    return f'<style>.ms-told{{display:block!important}}.ms-told::after{{content:"{text}"}}</style>'
+    return f'<style>.ms-told{{display:block!important}}.ms-told::after{{content:"{quoted(reason)}"}}</style>'
+
+
+def quoted(text: str) -> str:
+    """Text as it stands between the quotes of a style sheet in a page."""
+    return re.sub(r"[^\w .,;:=()+-]", lambda c: f"\\{ord(c[0]):x} ", text)

@@ -100,6 +100,14 @@ def _formulas(cell: source.Cell) -> Iterator[Formula | Given]:
             yield Formula(name, expression, *found, arguments)
 
 
+@lru_cache(maxsize=1000)
+def _assigned(cell: source.Cell) -> tuple[str, ...]:
+    """Names that the lines of a cell may declare."""
+    assigned = (target for node in cell.body if isinstance(node, ast.Assign) for target in node.targets)
+    functions = (node.name for node in cell.body if isinstance(node, ast.FunctionDef))
+    return (*(target.id for target in assigned if isinstance(target, ast.Name)), *functions)
+
+
 def _on_its_branch(node: ast.FunctionDef, expression: ast.expr) -> ast.expr:
     """The expression with the assembly branch that the function takes unless it is told another."""
     if not (node.args.args and node.args.args[-1].arg == "branch" and node.args.defaults):
@@ -132,10 +140,13 @@ def typeset(*shown: Any, display: Mapping[str, str] | None = None) -> "Typeset":
     frame = sys._getframe(1)
     known = frame.f_globals.setdefault(_REGISTRY, {})
     rows: list[Formula | Given] = []
+    cell = source.cell(frame)
     try:
-        lines = formulas(source.cell(frame))
+        lines = formulas(cell)
     except SheetError as error:
         refuse(error)
+    for name in _assigned(cell):  # an edited line that has lost its unit must not keep the former one
+        known.pop(name, None)
     for row in lines:
         if isinstance(row, Given):
             rows.append(row)

@@ -75,7 +75,10 @@ def inputs(cls: type[T]) -> type[T]:
     Building one with a value that is no finite number or breaks a limit raises SheetError naming it.
     """
     frame = sys._getframe(1)
-    cls.__inputs__ = _declared(cls.__name__, source.cell(frame))  # type: ignore[attr-defined]
+    try:
+        cls.__inputs__ = _declared(cls.__name__, source.cell(frame))  # type: ignore[attr-defined]
+    except SheetError as error:
+        refuse(error)
     cls.__worksheet__ = str(frame.f_globals.get("__file__", ""))  # type: ignore[attr-defined]
     cls.__post_init__ = _validate  # type: ignore[attr-defined]
     return dataclass(frozen=True)(cls)
@@ -270,7 +273,10 @@ def ask(cls: type) -> "mo.ui.batch":
     """Text fields for all inputs, section by section, with the defaults or what arguments and scenes give."""
     import marimo as mo
 
-    g: Any = build(cls, scene.arguments(cls.__worksheet__, declared(cls)).inputs)  # type: ignore[attr-defined]
+    try:
+        g: Any = build(cls, scene.arguments(cls.__worksheet__, declared(cls)).inputs)  # type: ignore[attr-defined]
+    except SheetError as error:
+        refuse(error)
     sections: dict[str, list[str]] = {}
     fields = {}
     for field in declared(cls):

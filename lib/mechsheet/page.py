@@ -3,16 +3,19 @@
 import base64
 import html
 import sys
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from datetime import date
 from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from mechsheet import chart, symbol
+from mechsheet.errors import quoted
 
 if TYPE_CHECKING:
     import marimo as mo
+
+    from mechsheet.editor import Note
 
 
 # Shown by the style sheet that stands where something was refused.
@@ -26,6 +29,7 @@ class Title:
     name: str
     text: str
     file: str
+    notes: "tuple[Note, ...]" = ()
 
     def _mime_(self) -> tuple[str, str]:
         import marimo as mo
@@ -36,13 +40,36 @@ class Title:
         switch = '<label class="ms-screen"><input type="checkbox" class="ms-switch"> numbers in the formulas</label>'
         return (
             "text/html",
-            f'{_script()}<div class="ms-title">{text}<div class="ms-row">{fields}{switch}</div>{_TOLD}</div>',
+            f'{_script()}<div class="ms-title">{text}<div class="ms-row">{fields}{switch}</div>'
+            f"{_TOLD}{_noted(self.notes)}</div>",
         )
 
 
 def title_block(name: str, text: str = "") -> Title:
     """Title block of the calling worksheet; ``text`` is Markdown."""
-    return Title(name, text, Path(sys._getframe(1).f_globals.get("__file__", "")).name)
+    title = Title(name, text, Path(sys._getframe(1).f_globals.get("__file__", "")).name)
+    if "marimo" in sys.modules:
+        import marimo as mo
+
+        if mo.running_in_notebook():
+            from mechsheet import editor
+
+            editor.watch(lambda notes: mo.output.replace(replace(title, notes=tuple(notes))))
+    return title
+
+
+def _noted(notes: "tuple[Note, ...]") -> str:
+    """Mistakes with links to their cells, and the style sheet that tells each under the output of its cell too."""
+    items = "".join(
+        f'<div><span class="ms-badge ms-FAIL">mistake</span> '
+        f'<a href="#cell-{note.cell}">{html.escape(note.text)}</a></div>'
+        for note in notes
+    )
+    texts = {note.cell: "\n".join(n.text for n in notes if n.cell == note.cell) for note in notes}
+    places = "".join(
+        f'#cell-{cell} [data-cell-role="output"]::after{{content:"{quoted(text)}"}}' for cell, text in texts.items()
+    )
+    return items + (f"<style>{places}</style>" if places else "")
 
 
 def player(slider: "mo.ui.slider", turning: bool = False) -> "mo.Html":

@@ -25,12 +25,13 @@ class Cell:
 def cell(frame: FrameType) -> Cell:
     """Cell that runs in ``frame``: a whole cell module in the editor, a function of the file in a script."""
     code = frame.f_code
-    if id(code) not in _read:
+    known = _read.get(id(code))
+    if known is None:
         tree, comments = _file(frame)
         if len(_read) == _KEPT:
             _read.clear()
-        _read[id(code)] = code, Cell(_body(tree, frame.f_lineno), comments, code.co_filename)
-    return _read[id(code)][1]
+        known = _read[id(code)] = code, Cell(_body(tree, frame.f_lineno), comments, code.co_filename)
+    return known[1]
 
 
 # Cells by the identity of their code, held so that it stays theirs: code with another unit in a comment is equal.

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mechsheet import chart, formula, source, symbol, units
+from mechsheet.errors import SheetError, refuse
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -204,8 +205,8 @@ def _columns(
     for node, value in zip(nodes, values, strict=True):
         name, part = _name(node)
         if name not in known:
-            raise LookupError(
-                f"column {ast.unparse(node)}: no line declares {name} with its unit, such as # [m] meaning"
+            refuse(
+                SheetError(f"column {ast.unparse(node)}: no line declares {name} with its unit, such as # [m] meaning")
             )
         line = known[name]
         label = heading(name, part)
@@ -224,12 +225,14 @@ def _is_group(node: ast.expr) -> bool:
 def _name(node: ast.expr) -> tuple[str, str]:
     match node:
         case ast.Name(name):
-            return name, ""
+            found = name, ""
         case ast.Attribute(ast.Name(name), ("real" | "imag") as part):
-            return name, part
+            found = name, part
         case ast.Call(ast.Name("abs"), [ast.Name(name)]):
-            return name, ""
-    raise LookupError(f"column {ast.unparse(node)}: a column is a name, name.real, name.imag or abs(name)")
+            found = name, ""
+        case _:
+            refuse(SheetError(f"column {ast.unparse(node)}: a column is a name, name.real, name.imag or abs(name)"))
+    return found
 
 
 def heading(name: str, part: str = "") -> str:

@@ -196,7 +196,8 @@ def read(path: Path) -> Worksheet:
                 common[name or "marimo"] = _Marimo()
             case _:
                 lines.append(node)
-    exec(compile(ast.Module(lines, []), path, "exec"), common)
+    with raised():
+        exec(compile(ast.Module(lines, []), path, "exec"), common)
     return Worksheet(str(path), tuple(_cells(tree, path)), common, _title(tree) or path.stem)
 
 
