@@ -85,3 +85,18 @@ def test_lines_have_a_legend_and_hovering_shows_their_values():
     assert values["units"] == ["m", "N", "%"]
     assert [column[2] for column in values["texts"]] == ["0.520", "2", "–"]
     assert "[N]; " in svg and "[%]" in svg
+
+
+def test_every_so_many_values_are_marked_by_points():
+    """The positions that a table lists, on a curve through more of them; all of them would hide the line."""
+    x = Q("S", "m", np.linspace(0.0, 1.0, 61))
+    y = Q("F", "N", x.values**2)
+    circles = re.findall(r'cx="(\S+)" cy="(\S+)"', chart.line_chart(x, [y], every=10))
+    assert [complex(float(u), float(v)) for u, v in circles] == points(chart.line_chart(x, [y]))[0][::10]
+    assert "<circle" not in chart.line_chart(x, [y])
+
+
+@pytest.mark.parametrize(("last", "step"), [(360, 60), (170, 30), (90, 15), (720, 200), (40, 10)])
+def test_an_axis_in_degrees_is_divided_as_a_circle_is(last, step):
+    svg = chart.line_chart(Q("phi1", "deg", np.array([0.0, last])), [Q("x", "-", np.arange(2.0))])
+    assert [n for _, n in ticks(svg, "middle")] == list(range(0, last + step, step))[: -(-last // step) + 1]

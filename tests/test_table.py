@@ -72,3 +72,16 @@ def test_figure_marks_are_in_the_unit_of_the_axis(names):
     text = f._mime_()[1]
     assert "<b>Figure 3.1</b> – F" in text
     assert 'R</tspan><tspan dy="4" font-size="11">56y</tspan><tspan dy="-4">\u200b</tspan> [kN]' in text
+
+
+def test_no_block_is_of_one_column(names):
+    """Wide tables are shown in blocks of six columns beside the first, but none of them for a single column."""
+    for columns, blocks in ((6, [6]), (7, [7]), (8, [6, 2]), (13, [6, 7])):
+        run(f't = table("1", "T", S, *({"dRa, " * columns}))', names)
+        shown = [block.count("<th") // 2 - 1 for block in names["t"]._mime_()[1].split("<thead>")[1:]]
+        assert shown == blocks
+
+
+def test_names_in_a_note_are_symbols(names):
+    run('t = table("1", "T", S, note="phi3 < V21")', names)
+    assert "<i>φ</i><sub>3</sub> &lt; <i>V</i><sub>21</sub></div>" in names["t"]._mime_()[1]

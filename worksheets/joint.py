@@ -19,7 +19,7 @@ with app.setup:
     from mechsheet.page import title_block
     from mechsheet.report import export
     from mechsheet.table import table
-    from mechsheet.units import parse
+    from mechsheet.units import parse, shown
 
     np.seterr(divide="ignore", invalid="ignore")  # an axis at infinity or a joint without load is shown so
     kgf, cm, deg = 9.80665, 0.01, pi / 180
@@ -299,28 +299,17 @@ def equilibrium(A_c, A_t, M, N, display, y):
 
 
 @app.cell
-def table_31(F, I_c, M, M_c, N, S, case, plane, y_c, y_0, y_0c):
+def table_31(F, I_c, M, M_c, N, S, case, joint, plane, y_c, y_0, y_0c):
     table_31 = table("3.1", "Section in equilibrium", plane, case, M, N, M_c, y_0, y_0c, y_c, F, S, I_c)
-    table_31
-    return (table_31,)
-
-
-@app.cell
-def states(joint):
     found = [f"- plane {p + 1}, case {k + 1}: {state}" for (p, k), state in np.ndenumerate(joint.state)]
-    mo.md("\n".join(found))
-    return
-
-
-@app.cell
-def printed_section(F, y_c):
-    mo.md(f"""
+    as_printed = mo.md(f"""
     For plane 1 and case 1 the scan reads *F* = 6.928 cm² and *y*<sub>c</sub> = 4.677 cm. Only {
         F[0, 0, 0] / cm**2:.3f} cm² and {
         y_c[0, 0, 0] / cm:.3f} cm agree with the other printed numbers of that line, *S* = 33.3 cm³,
     *I* = 4105 cm⁴, the axis at −13.02 cm, and with table 1: one digit of each is misread.
     """)
-    return
+    typeset(table_31, mo.md("\n".join(found)), as_printed)
+    return (table_31,)
 
 
 @app.cell(hide_code=True)
@@ -406,24 +395,11 @@ def section_4():
 
 
 @app.cell
-def of_beams(A, P, display, sigma):
+def of_elements(A, P, beta, display, sigma):
     beam = arange(1, 5)  # [-] beam
     P_b = beams(P)  # [kgf] force in the beam
     sigma_b = beams(sigma)  # [kgf/cm**2] stress in the beam
     A_b = beams(A)  # [cm**2] area of the beam that acts
-    typeset(display=display)
-    return A_b, P_b, beam, sigma_b
-
-
-@app.cell
-def table_1(A_b, P_b, beam, case, plane, sigma_b):
-    table_1 = table("1", "Forces and stresses in the beams", plane, case, beam, A_b, P_b, sigma_b)
-    table_1
-    return (table_1,)
-
-
-@app.cell
-def of_stringers(A, P, beta, display, sigma):
     acts = A > 0
     stringer = arange(1, 9)  # [-] stringer
     P_s = stringers(P)  # [kgf] force in the stringer
@@ -431,14 +407,15 @@ def of_stringers(A, P, beta, display, sigma):
     sigma_al = beta * sigma_s  # [kgf/cm**2] stress in the aluminium
     A_s = stringers(A)  # [cm**2] area of the stringer that acts
     typeset(display=display)
-    return A_s, P_s, sigma_al, sigma_s, stringer
+    return A_b, A_s, P_b, P_s, beam, sigma_al, sigma_b, sigma_s, stringer
 
 
 @app.cell
-def table_2(A_s, P_s, case, plane, sigma_al, sigma_s, stringer):
+def tables_1_2(A_b, A_s, P_b, P_s, beam, case, plane, sigma_al, sigma_b, sigma_s, stringer):
+    table_1 = table("1", "Forces and stresses in the beams", plane, case, beam, A_b, P_b, sigma_b)
     table_2 = table("2", "Forces and stresses in the stringers", plane, case, stringer, A_s, P_s, sigma_s, sigma_al)
-    table_2
-    return (table_2,)
+    typeset(table_1, table_2)
+    return table_1, table_2
 
 
 @app.cell(hide_code=True)
@@ -486,7 +463,7 @@ def scheme(A, b_p, display, h_p, sigma, y, y_0, z):
             outline += [base + scale * s_high + 1j * high, base + 1j * high]
             picture = picture.polygon(outline, colour="red" if s_low + s_high > 0 else "blue")
         for level, value in ((-half, stress[0]), (half, stress[-1])):
-            text = f"{value / parse(unit_sigma).factor:.4g} {unit_sigma.replace('**2', '²')}"
+            text = f"{value / parse(unit_sigma).factor:.4g} {shown(unit_sigma)}".replace("-", "−")
             picture = picture.text(base + 1j * (level + np.sign(level) * 0.03 * size), text)
         return picture
 
@@ -494,17 +471,14 @@ def scheme(A, b_p, display, h_p, sigma, y, y_0, z):
 
 
 @app.cell
-def drawing_41(drawn, scheme):
+def drawings_41_42(drawn, scheme):
     drawing_41 = scheme(0, drawn.value - 1, "h", "b")
-    typeset(drawing_41, mo.md("**Figure 4.1** – Load in the plane YOX"))
-    return (drawing_41,)
-
-
-@app.cell
-def drawing_42(drawn, scheme):
     drawing_42 = scheme(1, drawn.value - 1, "b", "h")
-    typeset(drawing_42, mo.md("**Figure 4.2** – Load in the plane ZOX"))
-    return (drawing_42,)
+    typeset(
+        *(drawing_41, mo.md(f"**Figure 4.1** – Load in the plane YOX, case {drawn.value}")),
+        *(drawing_42, mo.md(f"**Figure 4.2** – Load in the plane ZOX, case {drawn.value}")),
+    )
+    return drawing_41, drawing_42
 
 
 @app.cell(hide_code=True)
@@ -572,7 +546,7 @@ def section_52():
 
 
 @app.cell
-def ring_printed(M_r, N_r, c, display, g, phi, ring):
+def ring_printed(M_r, N_r, P_max, c, display, g, p_o, phi, ring):
     holds = (ring.state == "tension and compression")[..., None] & (M_r > 0)
     c_n = where(holds, c, nan)  # [-] force parameter, where the formulas hold
     phi_n = 0.5 * pi + asin(c_n)  # [deg] angle of the neutral axis
@@ -584,12 +558,6 @@ def ring_printed(M_r, N_r, c, display, g, phi, ring):
     P_1 = (M_r / g.r - k_1 * N_r) / (S_2 - k_1 * S_1)  # [kgf] force of a bolt for cos(phi) + c = 1
     P_n = P_1 * (greatest(cos(phi)) + c_n)  # [kgf] greatest force in a bolt
     p_n = k_2 * (S_1 * P_1 - N_r) / g.r  # [kgf/cm] greatest line load
-    typeset(display=display)
-    return P_n, holds, k_0, p_n
-
-
-@app.cell
-def equivalent_forces(M_r, N_r, P_max, display, g, p_o):
     N_e1 = N_r + 2 * abs(M_r) / g.r  # [kgf] equivalent force in tension
     P_e = N_e1 / g.m  # [kgf] force in a bolt from it
     N_e2 = N_r - 2 * abs(M_r) / g.r  # [kgf] equivalent force in compression
@@ -597,21 +565,15 @@ def equivalent_forces(M_r, N_r, P_max, display, g, p_o):
     i_P = P_max / P_e  # [-] greatest force in a bolt to the equivalent one
     i_p = p_o / p_e  # [-] greatest line load to the equivalent one
     typeset(display=display)
-    return N_e1, N_e2, P_e, i_P, i_p, p_e
+    return N_e1, N_e2, P_e, P_n, holds, i_P, i_p, k_0, p_e, p_n
 
 
 @app.cell
-def table_51(M_r, M_x, N_r, P_max, P_str, c, p_o, phi_no, load, plane, y_r0):
+def tables_51_52(M_r, M_x, N_e1, N_e2, N_r, P_e, P_max, P_str, c, i_P, i_p, load, p_e, p_o, phi_no, plane, y_r0):
     table_51 = table("5.1", "Circular joint", plane, load, M_r, N_r, c, y_r0, phi_no, P_max, p_o, P_str, M_x)
-    table_51
-    return (table_51,)
-
-
-@app.cell
-def table_52(N_e1, N_e2, P_e, i_P, i_p, p_e, load, plane):
     table_52 = table("5.2", "Equivalent forces", plane, load, N_e1, P_e, N_e2, p_e, i_P, i_p)
-    table_52
-    return (table_52,)
+    typeset(table_51, table_52)
+    return table_51, table_52
 
 
 @app.cell(hide_code=True)
@@ -651,7 +613,7 @@ def section_54():
     ### 5.4 Force in every bolt, and the ring with its load
 
     Red bars outside are the forces of the bolts, the blue area inside is the line load of the rims, both for the
-    load case chosen here; the load acts in the vertical plane.
+    load case chosen here, with the greatest of each; the load acts in the vertical plane.
     """)
     return
 
@@ -664,24 +626,31 @@ def drawn_ring_case(N_r):
 
 
 @app.cell
-def ring_scheme(M_r, N_r, P_k, g, p_o, phi, phi_no, y_r0):
+def ring_scheme(M_r, N_r, P_k, g, p_o, phi, phi_no, unit_F, unit_p, y_r0):
     def ring_scheme(p, k):
         def out(angle, radius):
             return radius * 1j * exp(-1j * angle)  # angles from the vertical, clockwise
 
         picture = Drawing(width=430, height=430, frame=1.4 * g.r * np.array([-1 - 1j, 1 + 1j]))
         picture = picture.path(out(np.linspace(0, 2 * pi, 181), g.r), colour="")
+
+        def value(x, unit):
+            return f"{x / parse(unit).factor:.4g} {unit}".replace("-", "−")
+
         if p_o[p, k, 0] < 0:
             middle, half = (pi if M_r[k, 0] >= 0 else 0), pi - phi_no[p, k, 0]
             arc = middle + half * np.linspace(-1, 1, 91)
             load = N_r[k, 0] * g.r / 2 + M_r[k, 0] * cos(arc)
             depth = 0.3 * load / load[45] * p_o[p, k, 0] / np.min(p_o)
             picture = picture.polygon([*out(arc, g.r), *out(arc, g.r * (1 - depth))[::-1]], colour="blue")
-        for angle, force in zip(phi[p, 0], P_k[p, k], strict=True):
+            picture = picture.text(out(middle, 0.5 * g.r), value(p_o[p, k, 0], unit_p))
+        greatest_at = np.argmax(P_k[p, k])
+        for i, (angle, force) in enumerate(zip(phi[p, 0], P_k[p, k], strict=True)):
             picture = picture.hinge(out(angle, g.r))
             if force > 0:
                 length = 0.35 * force / np.max(P_k)
-                picture = picture.path([out(angle, g.r), out(angle, g.r * (1 + length))], colour="red")
+                name = value(force, unit_F) if i == greatest_at else ""
+                picture = picture.path([out(angle, g.r), out(angle, g.r * (1 + length))], name, "red")
         axis = y_r0[k, 0]
         if abs(axis) < g.r:
             picture = picture.path([-1.1 * g.r + 1j * axis, 1.1 * g.r + 1j * axis], "n.a.", "green")
@@ -693,7 +662,8 @@ def ring_scheme(M_r, N_r, P_k, g, p_o, phi, phi_no, y_r0):
 @app.cell
 def drawing_51(drawn_ring, ring_scheme):
     drawing_51 = tuple(ring_scheme(p, drawn_ring.value - 1) for p in (0, 1))
-    typeset(mo.hstack(drawing_51, justify="start"), mo.md("**Figure 5.1** – Load in plane 1 and in plane 2"))
+    _caption = f"**Figure 5.1** – Load in plane 1 and in plane 2, case {drawn_ring.value}"
+    typeset(mo.hstack(drawing_51, justify="start"), mo.md(_caption))
     return (drawing_51,)
 
 
@@ -702,14 +672,6 @@ def table_53(P_k, bolt, phi, load, plane):
     table_53 = table("5.3", "Forces in the bolts", plane, load, bolt, phi, P_k)
     table_53
     return (table_53,)
-
-
-@app.cell(hide_code=True)
-def section_6():
-    mo.md("""
-    ## Workbook
-    """)
-    return
 
 
 @app.cell

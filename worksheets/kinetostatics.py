@@ -281,12 +281,6 @@ def kinematics_23(C, O1, g):
     def u3(phi1):
         return motion_23(phi1).omega_B  # [-] rocker 3 to crank
 
-    typeset()
-    return P_A, P_B, V_A, motion_23, u2, u3
-
-
-@app.cell
-def rocker(C, P_B, g, u3):
     def P_D(phi1):
         return C + g.l_CD / g.l3 * (P_B(phi1) - C) * exp(1j * g.delta_D)  # [m] pin of the rod 4 on the rocker
 
@@ -300,7 +294,7 @@ def rocker(C, P_B, g, u3):
         return 1j * u3(phi1) * (P_K(phi1) - C)  # [m] velocity analogue of K
 
     typeset()
-    return P_D, P_K, V_D, V_K
+    return P_A, P_B, P_D, P_K, V_A, V_D, V_K, motion_23, u2, u3
 
 
 @app.cell(hide_code=True)
@@ -312,7 +306,7 @@ def section_22():
 
 
 @app.cell
-def kinematics_45(O5, P_D, V_D, g, u5):
+def kinematics_45_67(H, O5, P_D, P_K, V_D, V_K, g, u5):
     def P_E(phi1):
         return rrp(P_D(phi1), O5, u5, g.l4, +1)  # [m] pin of the plunger
 
@@ -325,12 +319,6 @@ def kinematics_45(O5, P_D, V_D, g, u5):
     def u4(phi1):
         return motion_45(phi1).omega_A  # [-] rod 4 to crank
 
-    typeset()
-    return P_E, V_E, motion_45, u4
-
-
-@app.cell
-def kinematics_67(H, P_K, V_K):
     def e7(phi1):
         return rpr(P_K(phi1), H, +1).u  # [-] direction of the cylinder, from H to K
 
@@ -341,7 +329,7 @@ def kinematics_67(H, P_K, V_K):
         return motion_67(phi1).omega  # [-] rod 6 and cylinder 7 to crank
 
     typeset()
-    return e7, motion_67, u6
+    return P_E, V_E, e7, motion_45, motion_67, u4, u6
 
 
 @app.cell(hide_code=True)
@@ -398,18 +386,14 @@ def scheme(A, B, C, D, E, H, K, O1, O5, g, s5, u5):
 
 
 @app.cell
-def drawing_21(phi1, scheme, turn):
+def drawing_21(phi1, position_lines, scheme, turn):
     drawing_21 = scheme(turn.value)
     typeset(
-        drawing_21, mark(phi1=phi1[turn.value]), mo.md(f"**Figure 2.1** – Scheme of the mechanism, φ₁ = {turn.value}°")
+        *(drawing_21, mark(phi1=phi1[turn.value])),
+        mo.md(f"**Figure 2.1** – Scheme of the mechanism, φ₁ = {turn.value}°"),
+        position_lines.at(turn.value),
     )
     return (drawing_21,)
-
-
-@app.cell
-def positions_shown(position_lines, turn):
-    position_lines.at(turn.value)
-    return
 
 
 @app.cell(hide_code=True)
@@ -436,17 +420,11 @@ def closing(A, B, C, D, E, H, K, O5, g, s7, u5):
 
 
 @app.cell
-def table_21(g, phi1, phi2, phi3, phi4, phi6, s5, s7):
+def positions_shown(g, mu23, mu45, phi1, phi2, phi3, phi4, phi6, s5, s7):
     table_21 = table("2.1", "Positions", phi1, phi2, phi3, phi4, phi6, s5, s7, every=g.step)
-    table_21
-    return (table_21,)
-
-
-@app.cell
-def figure_22(mu23, mu45, phi1):
     figure_22 = figure("2.2", "Transmission angles", phi1, mu23, mu45)
-    figure_22
-    return (figure_22,)
+    typeset(table_21, figure_22)
+    return figure_22, table_21
 
 
 @app.cell(hide_code=True)
@@ -459,34 +437,6 @@ def section_3():
     The crank turns with $\omega_1$ and $\varepsilon_1$ in every position.
     """)
     return
-
-
-@app.cell
-def angular(motion_45, motion_67, omega1, phi1, u2, u3, u4, u6):
-    omega2 = omega1 * u2(phi1)  # [rad/s] rod 2
-    omega3 = omega1 * u3(phi1)  # [rad/s] rocker 3
-    omega4 = omega1 * u4(phi1)  # [rad/s] rod 4
-    omega6 = omega1 * u6(phi1)  # [rad/s] rod 6 and cylinder 7
-    v5 = omega1 * motion_45(phi1).ds  # [m/s] plunger along the guide
-    v6 = omega1 * motion_67(phi1).ds  # [m/s] rod 6 in the cylinder, outwards
-    motion_lines = typeset()
-    return motion_lines, omega2, omega3, omega4, omega6, v5, v6
-
-
-@app.cell
-def accelerations(A, B, C, D, E, H, K, O1, O5, g, omega1, omega2, omega3, omega4, omega6, u5, v5, v6):
-    a_A = (1j * g.eps1 - omega1**2) * (A - O1)  # [m/s**2] pin A
-    change_23 = rrr_acceleration(A, C, B, omega2, omega3, a_A, 0)
-    eps2 = change_23.epsilon_A  # [rad/s**2] rod 2
-    eps3 = change_23.epsilon_B  # [rad/s**2] rocker 3
-    a_D = (1j * eps3 - omega3**2) * (D - C)  # [m/s**2] pin D
-    a_K = (1j * eps3 - omega3**2) * (K - C)  # [m/s**2] pin K
-    change_45 = rrp_acceleration(D, O5, E, u5, omega4, v5, a_D)
-    eps4 = change_45.epsilon_A  # [rad/s**2] rod 4
-    a_E = change_45.a_C  # [m/s**2] plunger
-    eps6 = rpr_acceleration(K, H, K - H, omega6, v6, a_K).epsilon  # [rad/s**2] rod 6 and cylinder 7
-    change_lines = typeset()
-    return a_A, a_D, a_E, a_K, change_23, change_45, change_lines, eps2, eps3, eps4, eps6
 
 
 @app.cell
@@ -514,34 +464,49 @@ def centres(C, H, O1, P_A, P_B, P_D, P_E, P_K, e7, g):
 
 
 @app.cell
-def centre_fields(
+def motion(
     A,
+    B,
     C,
     D,
+    E,
     H,
     K,
     O1,
+    O5,
     P_S1,
     P_S2,
     P_S3,
     P_S4,
     P_S6,
     P_S7,
-    a_A,
-    a_D,
-    a_K,
-    eps2,
-    eps3,
-    eps4,
-    eps6,
     g,
+    motion_45,
+    motion_67,
     omega1,
-    omega2,
-    omega3,
-    omega4,
-    omega6,
     phi1,
+    u2,
+    u3,
+    u4,
+    u5,
+    u6,
 ):
+    omega2 = omega1 * u2(phi1)  # [rad/s] rod 2
+    omega3 = omega1 * u3(phi1)  # [rad/s] rocker 3
+    omega4 = omega1 * u4(phi1)  # [rad/s] rod 4
+    omega6 = omega1 * u6(phi1)  # [rad/s] rod 6 and cylinder 7
+    v5 = omega1 * motion_45(phi1).ds  # [m/s] plunger along the guide
+    v6 = omega1 * motion_67(phi1).ds  # [m/s] rod 6 in the cylinder, outwards
+    a_A = (1j * g.eps1 - omega1**2) * (A - O1)  # [m/s**2] pin A
+    change_23 = rrr_acceleration(A, C, B, omega2, omega3, a_A, 0)
+    eps2 = change_23.epsilon_A  # [rad/s**2] rod 2
+    eps3 = change_23.epsilon_B  # [rad/s**2] rocker 3
+    a_D = (1j * eps3 - omega3**2) * (D - C)  # [m/s**2] pin D
+    a_K = (1j * eps3 - omega3**2) * (K - C)  # [m/s**2] pin K
+    change_45 = rrp_acceleration(D, O5, E, u5, omega4, v5, a_D)
+    eps4 = change_45.epsilon_A  # [rad/s**2] rod 4
+    a_E = change_45.a_C  # [m/s**2] plunger
+    eps6 = rpr_acceleration(K, H, K - H, omega6, v6, a_K).epsilon  # [rad/s**2] rod 6 and cylinder 7
     S1 = P_S1(phi1)  # [m] crank
     S2 = P_S2(phi1)  # [m] rod 2
     S3 = P_S3(phi1)  # [m] rocker
@@ -554,13 +519,43 @@ def centre_fields(
     a_S4 = link_acceleration(S4, D, a_D, omega4, eps4)  # [m/s**2] rod 4
     a_S6 = link_acceleration(S6, K, a_K, omega6, eps6)  # [m/s**2] rod with piston
     a_S7 = link_acceleration(S7, H, 0, omega6, eps6)  # [m/s**2] cylinder
-    centre_lines = typeset()
-    return S1, S2, S3, S4, S6, S7, a_S1, a_S2, a_S3, a_S4, a_S6, a_S7, centre_lines
+    motion_lines = typeset()
+    return (
+        S1,
+        S2,
+        S3,
+        S4,
+        S6,
+        S7,
+        a_A,
+        a_D,
+        a_E,
+        a_K,
+        a_S1,
+        a_S2,
+        a_S3,
+        a_S4,
+        a_S6,
+        a_S7,
+        change_23,
+        change_45,
+        eps2,
+        eps3,
+        eps4,
+        eps6,
+        motion_lines,
+        omega2,
+        omega3,
+        omega4,
+        omega6,
+        v5,
+        v6,
+    )
 
 
 @app.cell
-def motion_shown(centre_lines, change_lines, motion_lines, turn):
-    typeset(motion_lines.at(turn.value), change_lines.at(turn.value), centre_lines.at(turn.value))
+def motion_shown(motion_lines, turn):
+    motion_lines.at(turn.value)
     return
 
 
@@ -635,29 +630,19 @@ def loads_shown(load_lines, turn):
 
 
 @app.cell
-def table_31(a_E, eps2, eps3, eps4, eps6, g, phi1):
+def loads_listed(
+    F_in2, F_in3, F_in4, F_in5, F_in6, F_in7, M_in2, M_in3, M_in4, M_in6, M_in7, a_E, eps2, eps3, eps4, eps6, g, phi1
+):
     table_31 = table("3.1", "Accelerations", phi1, eps2, eps3, eps4, eps6, abs(a_E), every=g.step, decimals=1)
-    table_31
-    return (table_31,)
-
-
-@app.cell
-def table_32(F_in2, F_in3, F_in4, F_in5, F_in6, F_in7, g, phi1):
     table_32 = table(
         "3.2",
         "Inertia forces",
         *(phi1, abs(F_in2), abs(F_in3), abs(F_in4), abs(F_in5), abs(F_in6), abs(F_in7)),
         every=g.step,
     )
-    table_32
-    return (table_32,)
-
-
-@app.cell
-def table_33(M_in2, M_in3, M_in4, M_in6, M_in7, g, phi1):
     table_33 = table("3.3", "Inertia moments", phi1, M_in2, M_in3, M_in4, M_in6, M_in7, every=g.step, decimals=1)
-    table_33
-    return (table_33,)
+    typeset(table_31, table_32, table_33)
+    return table_31, table_32, table_33
 
 
 @app.cell(hide_code=True)
@@ -678,7 +663,7 @@ def section_4():
 
 
 @app.cell
-def loads_45(F_Q, F_in4, F_in5, G4, G5, M_in4):
+def kind_2(F_Q, F_in4, F_in5, G4, G5, M_in4, g, phi4):
     F4_sum = G4 + F_in4  # [N] loads on the rod 4, at S4
     F4 = abs(F4_sum)  # [N] loads on the rod 4
     gamma4 = angle(F4_sum)  # [deg] their direction
@@ -686,12 +671,6 @@ def loads_45(F_Q, F_in4, F_in5, G4, G5, M_in4):
     F5_sum = G5 + F_in5 + F_Q  # [N] loads on the plunger 5, at E
     F5 = abs(F5_sum)  # [N] loads on the plunger 5
     gamma5 = angle(F5_sum)  # [deg] their direction
-    given_45 = typeset()
-    return F4, F4_sum, F5, F5_sum, M4, gamma4, gamma5, given_45
-
-
-@app.cell
-def kind_2(F4, F5, M4, g, gamma4, gamma5, phi4):
     R34_t = (F4 * g.l_ES4 * sin(phi4 - gamma4) + M4) / g.l4  # [N] (1.24) at D, across the rod
     gamma34_t = phi4 + 0.5 * pi  # [deg] its direction
     A_45 = R34_t * cos(gamma34_t) + F4 * cos(gamma4) + F5 * cos(gamma5)  # [N] (1.26) known forces, x
@@ -706,7 +685,29 @@ def kind_2(F4, F5, M4, g, gamma4, gamma5, phi4):
     R45 = hypot(R45_x, R45_y)  # [N] (1.31)
     gamma45 = atan2(R45_y, R45_x) % (2 * pi)  # [deg] (1.32)
     kind_2 = typeset()
-    return A_45, B_45, R05, R34, R34_n, R34_t, R45, R45_x, R45_y, gamma05, gamma34, gamma34_t, gamma45, kind_2
+    return (
+        A_45,
+        B_45,
+        F4,
+        F4_sum,
+        F5,
+        F5_sum,
+        M4,
+        R05,
+        R34,
+        R34_n,
+        R34_t,
+        R45,
+        R45_x,
+        R45_y,
+        gamma05,
+        gamma34,
+        gamma34_t,
+        gamma4,
+        gamma45,
+        gamma5,
+        kind_2,
+    )
 
 
 @app.cell
@@ -730,26 +731,14 @@ def library_45(D, E, F_Q, G4, G5, R05, R34, R45, S4, a_E, a_S4, eps4, g, gamma05
 
 
 @app.cell
-def bare_45(D, E, F4_sum, F5_sum, R_05, R_D, S4):
-    bare_45 = group_drawing([D, E], [(D, R_D), (S4, F4_sum), (E, F5_sum), (E, R_05)])
-    return (bare_45,)
-
-
-@app.cell
-def drawing_41(D, E, F4_sum, F5_sum, R_05, R_D, S4, bare_45, g, turn, u5):
+def drawing_41(D, E, F4_sum, F5_sum, R_05, R_D, S4, bare_45, g, kind_2, turn, u5):
     _k = turn.value
     _links = bare_45.guide(E[_k] - 0.06 * u5, E[_k] + 0.06 * u5).link(D[_k], E[_k], "4").slider(E[_k], g.phi05, "5")
     _pins = _links.hinge(D[_k], "D").hinge(E[_k], "E").mass(S4[_k], "S4")
     _loads = _pins.force(S4[_k], F4_sum[_k], "F4") + pin_force(E[_k], F5_sum[_k], "F5", D[_k])
     drawing_41 = _loads.force(E[_k], R_05[_k], "R05") + pin_force(D[_k], R_D[_k], "R34", E[_k])
-    typeset(turn, drawing_41, mo.md(f"**Figure 4.1** – Group (4, 5) with its forces, φ₁ = {_k}°"))
+    typeset(turn, drawing_41, mo.md(f"**Figure 4.1** – Group (4, 5) with its forces, φ₁ = {_k}°"), kind_2.at(_k))
     return (drawing_41,)
-
-
-@app.cell
-def kind_2_shown(given_45, kind_2, turn):
-    typeset(given_45.at(turn.value), kind_2.at(turn.value))
-    return
 
 
 @app.cell(hide_code=True)
@@ -805,7 +794,7 @@ def section_5():
 
 
 @app.cell
-def loads_67(F_gas, F_in6, F_in7, G6, G7, M_in6, M_in7):
+def kind_3(F_gas, F_in6, F_in7, G6, G7, M_in6, M_in7, g, phi6, s7):
     F6_sum = G6 + F_in6 + F_gas  # [N] loads on the rod with piston 6, at S6
     F6 = abs(F6_sum)  # [N] loads on the rod with piston 6
     gamma6 = angle(F6_sum)  # [deg] their direction
@@ -814,12 +803,6 @@ def loads_67(F_gas, F_in6, F_in7, G6, G7, M_in6, M_in7):
     F7 = abs(F7_sum)  # [N] loads on the cylinder 7
     gamma7 = angle(F7_sum)  # [deg] their direction
     M7 = M_in7  # [N*m] their moment
-    given_67 = typeset()
-    return F6, F6_sum, F7, F7_sum, M6, M7, gamma6, gamma7, given_67
-
-
-@app.cell
-def kind_3(F6, F7, M6, M7, g, gamma6, gamma7, phi6, s7):
     l_HK = (g.l6 - s7) + g.l7  # [m] (1.33) H to K
     l_HS6 = l_HK - g.l_KS6  # [m] (1.33) H to S6
     T6 = F6 * l_HS6 * sin(phi6 - gamma6) + M6  # [N*m] (1.34) moment of the loads on 6 about H
@@ -843,6 +826,12 @@ def kind_3(F6, F7, M6, M7, g, gamma6, gamma7, phi6, s7):
     return (
         A_67,
         B_67,
+        F6,
+        F6_sum,
+        F7,
+        F7_sum,
+        M6,
+        M7,
         R07,
         R07_x,
         R07_y,
@@ -855,7 +844,9 @@ def kind_3(F6, F7, M6, M7, g, gamma6, gamma7, phi6, s7):
         gamma07,
         gamma36,
         gamma36_t,
+        gamma6,
         gamma67,
+        gamma7,
         gamma76,
         h76,
         kind_3,
@@ -890,26 +881,14 @@ def library_67(
 
 
 @app.cell
-def bare_67(F6_sum, F7_sum, H, K, R_H, R_K, S6, S7):
-    bare_67 = group_drawing([K, H], [(K, R_K), (H, R_H), (S6, F6_sum), (S7, F7_sum)])
-    return (bare_67,)
-
-
-@app.cell
-def drawing_51(F6_sum, F7_sum, H, K, R_H, R_K, S6, S7, bare_67, g, turn):
+def drawing_51(F6_sum, F7_sum, H, K, R_H, R_K, S6, S7, bare_67, g, kind_3, turn):
     _k = turn.value
     _links = bare_67.cylinder(H, K[_k], "7", g.l7).hinge(H, "H").hinge(K[_k], "K")
     _masses = _links.mass(S6[_k], "S6").mass(S7[_k], "S7")
     _loads = _masses.force(S6[_k], F6_sum[_k], "F6").force(S7[_k], F7_sum[_k], "F7")
     drawing_51 = _loads + pin_force(K[_k], R_K[_k], "R36", H) + pin_force(H, R_H[_k], "R07", K[_k])
-    typeset(turn, drawing_51, mo.md(f"**Figure 5.1** – Group (6, 7) with its forces, φ₁ = {_k}°"))
+    typeset(turn, drawing_51, mo.md(f"**Figure 5.1** – Group (6, 7) with its forces, φ₁ = {_k}°"), kind_3.at(_k))
     return (drawing_51,)
-
-
-@app.cell
-def kind_3_shown(given_67, kind_3, turn):
-    typeset(given_67.at(turn.value), kind_3.at(turn.value))
-    return
 
 
 @app.cell(hide_code=True)
@@ -969,7 +948,7 @@ def section_6():
 
 
 @app.cell
-def loads_23(D, F_in2, F_in3, G2, G3, K, M_in2, M_in3, R34, R36, S3, gamma34, gamma36):
+def kind_1(D, F_in2, F_in3, G2, G3, K, M_in2, M_in3, R34, R36, S3, g, gamma34, gamma36, phi2, phi3):
     F2_sum = G2 + F_in2  # [N] loads on the rod 2, at S2
     F2 = abs(F2_sum)  # [N] loads on the rod 2
     gamma2 = angle(F2_sum)  # [deg] their direction
@@ -981,12 +960,6 @@ def loads_23(D, F_in2, F_in3, G2, G3, K, M_in2, M_in3, R34, R36, S3, gamma34, ga
     F3 = abs(F3_sum)  # [N] loads on the rocker 3
     gamma3 = angle(F3_sum)  # [deg] their direction
     M3 = M_in3 + cross(D - S3, R43) + cross(K - S3, R63)  # [N*m] their moment
-    given_23 = typeset()
-    return F2, F2_sum, F3, F3_own, F3_sum, M2, M3, R43, R63, gamma2, gamma3, given_23
-
-
-@app.cell
-def kind_1(F2, F3, M2, M3, g, gamma2, gamma3, phi2, phi3):
     R12_t = (F2 * g.l_BS2 * sin(phi2 - gamma2) + M2) / g.l2  # [N] (1.5) at A, across the rod
     gamma12_t = phi2 + 0.5 * pi  # [deg] its direction
     R03_t = (F3 * g.l_BS3 * sin(phi3 - gamma3) + M3) / g.l3  # [N] (1.8) at C, across the rocker
@@ -1015,6 +988,13 @@ def kind_1(F2, F3, M2, M3, g, gamma2, gamma3, phi2, phi3):
         B_2,
         B_23,
         B_3,
+        F2,
+        F2_sum,
+        F3,
+        F3_own,
+        F3_sum,
+        M2,
+        M3,
         R03,
         R03_n,
         R03_t,
@@ -1024,11 +1004,15 @@ def kind_1(F2, F3, M2, M3, g, gamma2, gamma3, phi2, phi3):
         R23,
         R23_x,
         R23_y,
+        R43,
+        R63,
         gamma03,
         gamma03_t,
         gamma12,
         gamma12_t,
+        gamma2,
         gamma23,
+        gamma3,
         kind_1,
     )
 
@@ -1081,27 +1065,15 @@ def library_23(
 
 
 @app.cell
-def bare_23(A, B, C, D, F2_sum, F3_own, K, R_A, R_C, R_D, R_K, S2, S3):
-    bare_23 = group_drawing([A, B, C, D, K], [(A, R_A), (C, R_C), (S2, F2_sum), (S3, F3_own), (D, -R_D), (K, -R_K)])
-    return (bare_23,)
-
-
-@app.cell
-def drawing_61(A, B, C, D, F2_sum, F3_own, K, R_A, R_C, R_D, R_K, S2, S3, bare_23, turn):
+def drawing_61(A, B, C, D, F2_sum, F3_own, K, R_A, R_C, R_D, R_K, S2, S3, bare_23, kind_1, turn):
     _k = turn.value
     _links = bare_23.link(A[_k], B[_k], "2").plate([C, B[_k], K[_k], D[_k]], "3").mass(S2[_k], "S2").mass(S3[_k], "S3")
     _pins = _links.hinge(A[_k], "A").hinge(B[_k], "B").hinge(C, "C").hinge(D[_k], "D").hinge(K[_k], "K")
     _back = _pins + pin_force(D[_k], -R_D[_k], "R43", C) + pin_force(K[_k], -R_K[_k], "R63", C)
     _loads = _back.force(S2[_k], F2_sum[_k], "F2").force(S3[_k], F3_own[_k], "F3_own")
     drawing_61 = _loads + pin_force(A[_k], R_A[_k], "R12", B[_k]) + pin_force(C, R_C[_k], "R03", B[_k])
-    typeset(turn, drawing_61, mo.md(f"**Figure 6.1** – Group (2, 3) with its forces, φ₁ = {_k}°"))
+    typeset(turn, drawing_61, mo.md(f"**Figure 6.1** – Group (2, 3) with its forces, φ₁ = {_k}°"), kind_1.at(_k))
     return (drawing_61,)
-
-
-@app.cell
-def kind_1_shown(given_23, kind_1, turn):
-    typeset(given_23.at(turn.value), kind_1.at(turn.value))
-    return
 
 
 @app.cell(hide_code=True)
@@ -1190,26 +1162,16 @@ def library_gear(A, F_b, G1, O1, R_A, R_O1g, S1, a_S1, g, gamma_O1g, gamma_b, lo
 
 
 @app.cell
-def bare_gear(A, F1_sum, F_w, O1, P_w, R_1g, R_A, S1, g):
-    _wheel = [O1 + g.l_O1P * _side for _side in (1, 1j, -1, -1j)]
-    bare_gear = group_drawing([A, *_wheel], [(P_w, F_w), (O1, R_1g), (A, -R_A), (S1, F1_sum)]).wheel(O1, g.l_O1P)
-    return (bare_gear,)
-
-
-@app.cell
-def drawing_71(A, F1_sum, F_w, O1, P_w, R_1g, R_A, S1, bare_gear, turn):
+def drawing_71(A, F1_sum, F_w, O1, P_w, R_1g, R_A, S1, bare_gear, checks_gear, gear_lines, gear_vectors, turn):
     _k = turn.value
     _links = bare_gear.link(O1, A[_k], "1").hinge(O1, "O1").hinge(A[_k], "A").hinge(P_w, "P")
     _loads = _links.force(S1[_k], F1_sum[_k], "F1") + pin_force(A[_k], -R_A[_k], "R21", O1)
     drawing_71 = _loads.force(P_w, F_w[_k], "F_b", into=True) + pin_force(O1, R_1g[_k], "R_O1", A[_k])
-    typeset(turn, drawing_71, mo.md(f"**Figure 7.1** – Crank driven by a gear, φ₁ = {_k}°"))
+    typeset(
+        *(turn, drawing_71, mo.md(f"**Figure 7.1** – Crank driven by a gear, φ₁ = {_k}°")),
+        *(gear_lines.at(_k), gear_vectors.at(_k), *checks_gear),
+    )
     return (drawing_71,)
-
-
-@app.cell
-def gear_shown(checks_gear, gear_lines, gear_vectors, turn):
-    typeset(gear_lines.at(turn.value), gear_vectors.at(turn.value), *checks_gear)
-    return
 
 
 @app.cell(hide_code=True)
@@ -1253,26 +1215,63 @@ def library_coupling(M_b, O1, R_A, R_O1c, g, gamma_O1c, loads_O1, lost):
 
 
 @app.cell
-def bare_coupling(A, F1_sum, O1, R_1c, R_A, S1):
+def bare_groups(
+    A,
+    B,
+    C,
+    D,
+    E,
+    F1_sum,
+    F2_sum,
+    F3_own,
+    F4_sum,
+    F5_sum,
+    F6_sum,
+    F7_sum,
+    F_w,
+    H,
+    K,
+    O1,
+    P_w,
+    R_05,
+    R_1c,
+    R_1g,
+    R_A,
+    R_C,
+    R_D,
+    R_H,
+    R_K,
+    S1,
+    S2,
+    S3,
+    S4,
+    S6,
+    S7,
+    g,
+):
+    bare_45 = group_drawing([D, E], [(D, R_D), (S4, F4_sum), (E, F5_sum), (E, R_05)])
+    bare_67 = group_drawing([K, H], [(K, R_K), (H, R_H), (S6, F6_sum), (S7, F7_sum)])
+    bare_23 = group_drawing([A, B, C, D, K], [(A, R_A), (C, R_C), (S2, F2_sum), (S3, F3_own), (D, -R_D), (K, -R_K)])
+    _wheel = [O1 + g.l_O1P * _side for _side in (1, 1j, -1, -1j)]
+    bare_gear = group_drawing([A, *_wheel], [(P_w, F_w), (O1, R_1g), (A, -R_A), (S1, F1_sum)]).wheel(O1, g.l_O1P)
     bare_coupling = group_drawing([A, O1], [(O1, R_1c), (A, -R_A), (S1, F1_sum)])
-    return (bare_coupling,)
+    return bare_23, bare_45, bare_67, bare_coupling, bare_gear
 
 
 @app.cell
-def drawing_72(A, F1_sum, M_c, O1, R_1c, R_A, S1, bare_coupling, turn):
+def drawing_72(
+    A, F1_sum, M_c, O1, R_1c, R_A, S1, bare_coupling, checks_coupling, coupling_lines, coupling_vectors, turn
+):
     _k = turn.value
     _links = bare_coupling.link(O1, A[_k], "1").hinge(O1, "O1").hinge(A[_k], "A")
     _loads = _links.force(S1[_k], F1_sum[_k], "F1") + pin_force(A[_k], -R_A[_k], "R21", O1)
     drawing_72 = _loads + pin_force(O1, R_1c[_k], "R_O1", A[_k])
     _says = f"balancing moment {M_c[_k]:.4g} N·m" if isfinite(M_c[_k]) else "no balancing moment"
-    typeset(turn, drawing_72, mo.md(f"**Figure 7.2** – Crank driven by a coupling, φ₁ = {_k}°: {_says}"))
+    typeset(
+        *(turn, drawing_72, mo.md(f"**Figure 7.2** – Crank driven by a coupling, φ₁ = {_k}°: {_says}")),
+        *(coupling_lines.at(_k), coupling_vectors.at(_k), *checks_coupling),
+    )
     return (drawing_72,)
-
-
-@app.cell
-def coupling_shown(checks_coupling, coupling_lines, coupling_vectors, turn):
-    typeset(coupling_lines.at(turn.value), coupling_vectors.at(turn.value), *checks_coupling)
-    return
 
 
 @app.cell(hide_code=True)
@@ -1284,14 +1283,36 @@ def section_8():
 
 
 @app.cell
-def table_81(R05, R34, R45, g, gamma34, gamma45, phi1):
+def turn_listed(
+    F_b,
+    M_b,
+    P_b,
+    R03,
+    R05,
+    R07,
+    R12,
+    R23,
+    R34,
+    R36,
+    R45,
+    R76,
+    R_O1c,
+    R_O1g,
+    g,
+    gamma03,
+    gamma07,
+    gamma12,
+    gamma23,
+    gamma34,
+    gamma36,
+    gamma45,
+    gamma_O1c,
+    gamma_O1g,
+    gamma_b,
+    h76,
+    phi1,
+):
     table_81 = table("8.1", "Reactions, second kind", phi1, R34, gamma34, R05, R45, gamma45, every=g.step)
-    table_81
-    return (table_81,)
-
-
-@app.cell
-def table_82(R07, R36, R76, g, gamma07, gamma36, h76, phi1):
     table_82 = table(
         "8.2",
         "Reactions, third kind",
@@ -1299,22 +1320,11 @@ def table_82(R07, R36, R76, g, gamma07, gamma36, h76, phi1):
         every=g.step,
         note="Where R76 passes through zero its arm h76 grows without bound: the pair then passes on a moment alone.",
     )
-    table_82
-    return (table_82,)
-
-
-@app.cell
-def table_83(R03, R12, R23, g, gamma03, gamma12, gamma23, phi1):
     table_83 = table("8.3", "Reactions, first kind", phi1, R12, gamma12, R23, gamma23, R03, gamma03, every=g.step)
-    table_83
-    return (table_83,)
-
-
-@app.cell
-def table_84(F_b, R_O1g, g, gamma_O1g, gamma_b, phi1):
     table_84 = table("8.4", "Drive by a gear", phi1, F_b, gamma_b, R_O1g, gamma_O1g, every=g.step)
-    table_84
-    return (table_84,)
+    table_85 = table("8.5", "Drive by a coupling", phi1, M_b, R_O1c, gamma_O1c, P_b, every=g.step)
+    typeset(table_81, table_82, table_83, table_84, table_85)
+    return table_81, table_82, table_83, table_84, table_85
 
 
 @app.cell
@@ -1328,58 +1338,21 @@ def power(M_b, g, omega1, phi1, s5):
 
 
 @app.cell
-def table_85(M_b, P_b, R_O1c, g, gamma_O1c, phi1):
-    table_85 = table("8.5", "Drive by a coupling", phi1, M_b, R_O1c, gamma_O1c, P_b, every=g.step)
-    table_85
-    return (table_85,)
-
-
-@app.cell
 def power_shown(power_lines, turn):
     power_lines.at(turn.value)
     return
 
 
 @app.cell
-def figure_81(R05, R34, R45, phi1):
+def turn_drawn(F_b, M_b, R03, R05, R07, R12, R23, R34, R36, R45, R76, R_O1c, R_O1g, phi1):
     figure_81 = figure("8.1", "Reactions of the second kind", phi1, R34, R45, R05)
-    figure_81
-    return (figure_81,)
-
-
-@app.cell
-def figure_82(R07, R36, R76, phi1):
     figure_82 = figure("8.2", "Reactions of the third kind", phi1, R36, R07, R76)
-    figure_82
-    return (figure_82,)
-
-
-@app.cell
-def figure_83(R03, R12, R23, phi1):
     figure_83 = figure("8.3", "Reactions of the first kind", phi1, R12, R23, R03)
-    figure_83
-    return (figure_83,)
-
-
-@app.cell
-def figure_84(F_b, phi1):
     figure_84 = figure("8.4", "Balancing force of the gear", phi1, F_b)
-    figure_84
-    return (figure_84,)
-
-
-@app.cell
-def figure_85(M_b, phi1):
     figure_85 = figure("8.5", "Balancing moment of the coupling", phi1, M_b)
-    figure_85
-    return (figure_85,)
-
-
-@app.cell
-def figure_86(R_O1c, R_O1g, phi1):
     figure_86 = figure("8.6", "Reactions of the frame on the crank", phi1, R_O1g, R_O1c)
-    figure_86
-    return (figure_86,)
+    typeset(figure_81, figure_82, figure_83, figure_84, figure_85, figure_86)
+    return figure_81, figure_82, figure_83, figure_84, figure_85, figure_86
 
 
 @app.cell(hide_code=True)
@@ -1417,7 +1390,7 @@ def figure_87(diagrams, polars, turn):
         mo.vstack([diagrams[_name].force(0j, _R[turn.value], _name), mo.md(_what)], align="center")
         for _name, (_R, _what) in polars.items()
     ]
-    _rows = [mo.hstack(_shown[_i : _i + 3], widths="equal") for _i in range(0, len(_shown), 3)]
+    _rows = [mo.hstack(_shown[_i : _i + 3], widths="equal", align="end") for _i in range(0, len(_shown), 3)]
     typeset(turn, *_rows, mo.md("**Figure 8.7** – Polar diagrams of the reactions"))
     return
 
@@ -1444,38 +1417,6 @@ def existence(R_A, R_D, R_K):
 
 
 @app.cell
-def bodies(
-    R03,
-    R05,
-    R07,
-    R12,
-    R23,
-    R45,
-    R76,
-    R_O1c,
-    gamma03,
-    gamma05,
-    gamma07,
-    gamma12,
-    gamma23,
-    gamma45,
-    gamma76,
-    gamma_O1c,
-    h76,
-):
-    R12_v = R12 * exp(1j * gamma12)  # [N] crank 1 on the rod 2
-    R23_v = R23 * exp(1j * gamma23)  # [N] rod 2 on the rocker 3
-    R03_v = R03 * exp(1j * gamma03)  # [N] frame on the rocker 3
-    R45_v = R45 * exp(1j * gamma45)  # [N] rod 4 on the plunger 5
-    R05_v = R05 * exp(1j * gamma05)  # [N] guide on the plunger 5
-    R76_v = R76 * exp(1j * gamma76)  # [N] cylinder 7 on the rod 6
-    R07_v = R07 * exp(1j * gamma07)  # [N] frame on the cylinder 7
-    R_O1_v = R_O1c * exp(1j * gamma_O1c)  # [N] frame on the crank
-    M_67 = where(R76 == 0, 0, -R76 * h76)  # [N*m] rod 6 on the cylinder 7, about K
-    return M_67, R03_v, R05_v, R07_v, R12_v, R23_v, R45_v, R76_v, R_O1_v
-
-
-@app.cell
 def equilibrium(
     A,
     B,
@@ -1497,28 +1438,45 @@ def equilibrium(
     M4,
     M6,
     M7,
-    M_67,
     M_b,
     O1,
-    R03_v,
-    R05_v,
-    R07_v,
-    R12_v,
-    R23_v,
+    R03,
+    R05,
+    R07,
+    R12,
+    R23,
     R43,
-    R45_v,
+    R45,
     R63,
-    R76_v,
-    R_O1_v,
+    R76,
+    R_O1c,
     S1,
     S2,
     S3,
     S4,
     S6,
     S7,
+    gamma03,
+    gamma05,
+    gamma07,
+    gamma12,
+    gamma23,
+    gamma45,
+    gamma76,
+    gamma_O1c,
+    h76,
     largest,
     lost,
 ):
+    R12_v = R12 * exp(1j * gamma12)  # [N] crank 1 on the rod 2
+    R23_v = R23 * exp(1j * gamma23)  # [N] rod 2 on the rocker 3
+    R03_v = R03 * exp(1j * gamma03)  # [N] frame on the rocker 3
+    R45_v = R45 * exp(1j * gamma45)  # [N] rod 4 on the plunger 5
+    R05_v = R05 * exp(1j * gamma05)  # [N] guide on the plunger 5
+    R76_v = R76 * exp(1j * gamma76)  # [N] cylinder 7 on the rod 6
+    R07_v = R07 * exp(1j * gamma07)  # [N] frame on the cylinder 7
+    R_O1_v = R_O1c * exp(1j * gamma_O1c)  # [N] frame on the crank
+    M_67 = where(R76 == 0, 0, -R76 * h76)  # [N*m] rod 6 on the cylinder 7, about K
     Z1 = R_O1_v + F1_sum - R12_v  # [N] forces on the crank 1
     Z2 = R12_v + F2_sum - R23_v  # [N] forces on the rod 2
     Z3 = R23_v + F3_sum + R03_v  # [N] forces on the rocker 3
@@ -1538,7 +1496,32 @@ def equilibrium(
         check("equilibrium of moments, bodies 1..7", [Y1, Y2, Y3, Y4, Y6, Y7], lost * largest * longest, "N*m"),
     )
     typeset(*checks_bodies)
-    return Y1, Y2, Y3, Y4, Y6, Y7, Z1, Z2, Z3, Z4, Z5, Z6, Z7, checks_bodies, longest
+    return (
+        M_67,
+        R03_v,
+        R05_v,
+        R07_v,
+        R12_v,
+        R23_v,
+        R45_v,
+        R76_v,
+        R_O1_v,
+        Y1,
+        Y2,
+        Y3,
+        Y4,
+        Y6,
+        Y7,
+        Z1,
+        Z2,
+        Z3,
+        Z4,
+        Z5,
+        Z6,
+        Z7,
+        checks_bodies,
+        longest,
+    )
 
 
 @app.cell(hide_code=True)

@@ -306,22 +306,16 @@ def pressure(alpha_0, alpha_n, g, l12, lost, phi32i):
 
 
 @app.cell
-def table_31(alpha, beta2i, l2i, phi2i, phi32i, phi3_printed, phi3i):
+def angles_shown(alpha, alpha_f, beta2i, every, l2f, l2i, l2k, phi2i, phi32i, phi3_printed, phi3i):
     table_31 = table(
         "3.1",
         "Angles",
         *(l2i, beta2i, phi2i, phi3i, phi32i, alpha, phi3_printed),
         note="phi3printed is formula (28) as printed: wrong wherever phi3 is outside -90..90 deg.",
     )
-    table_31
-    return (table_31,)
-
-
-@app.cell
-def figure_31(alpha, l2i, l2k):
-    figure_31 = figure("3.1", "Pressure angle", l2i, alpha, marks={"l2k": l2k})
-    figure_31
-    return (figure_31,)
+    figure_31 = figure("3.1", "Pressure angle", l2f, alpha_f, marks={"l2k": l2k}, every=every)
+    typeset(table_31, figure_31)
+    return figure_31, table_31
 
 
 @app.cell(hide_code=True)
@@ -333,13 +327,6 @@ def section_scheme():
     are shown faintly.
     """)
     return
-
-
-@app.cell
-def stroke():
-    part = mo.ui.slider(0, 1, step=0.01, value=0.3, label="part of the stroke", show_value=True)
-    player(part)
-    return (part,)
 
 
 @app.cell
@@ -361,8 +348,7 @@ def leg(O2, g, phi3, psi):
 
 
 @app.cell
-def scheme(A, H, O1, O2, W3, g, l20, part):
-    l2_t = l20 + part.value * H  # [m] cylinder as drawn
+def scheme(A, H, O1, O2, W3, g, l20):
     path_A, path_w = (_P(l20 + linspace(0, 1, 61) * H) for _P in (A, W3))
     # to the right of O2 room for arrows
     frame = [O1, O2, O2 + g.l_w / 2, *path_A, *(_P + g.r_w * _d for _P in path_w for _d in (1, 1j, -1, -1j))]
@@ -372,16 +358,24 @@ def scheme(A, H, O1, O2, W3, g, l20, part):
         links = Drawing(width=760, height=560, frame=frame).cylinder(O1, a, "l2").link(O2, a, "l3").link(O2, w, "3")
         return links.wheel(w, g.r_w).support(O1, "O1", pi / 2).support(O2, "O2", 0.0).hinge(a, "A")
 
-    typeset()
-    return l2_t, path_A, path_w, scheme
+    ends = scheme(l20).faint() + scheme(l20 + H).faint()
+    paths = Drawing().path(path_A).path(path_w)
+    return ends, paths, scheme
 
 
 @app.cell
-def drawing_32(H, l20, l2_t, path_A, path_w, scheme):
-    ends = scheme(l20).faint() + scheme(l20 + H).faint()
-    drawing_32 = (scheme(l2_t) + ends).path(path_A).path(path_w)
-    typeset(drawing_32, mark(l2i=l2_t), mo.md("**Figure 3.2** – Scheme of the landing gear"))
-    return (drawing_32,)
+def stroke():
+    part = mo.ui.slider(0, 1, step=0.01, value=0.3, label="part of the stroke", show_value=True)
+    player(part)
+    return (part,)
+
+
+@app.cell
+def drawing_32(H, ends, l20, part, paths, scheme):
+    l2_t = l20 + part.value * H  # [m] cylinder as drawn
+    drawing_32 = scheme(l2_t) + ends + paths
+    typeset(drawing_32, mark(l2f=l2_t), mo.md("**Figure 3.2** – Scheme of the landing gear"))
+    return drawing_32, l2_t
 
 
 @app.cell(hide_code=True)
@@ -443,33 +437,48 @@ def analogues(eps2_l2, eps3_l2, g, l2i, omega2_l2, omega3_l2, phi32i):
         g.l3 * sin(phi32i)
     )  # [rad/m**2] (24) as printed, without the minus (erratum)
     typeset()
-    return eps2_l2i, eps3_printed, eps3_l2i, omega2_l2i, omega3_l2i
+    return eps2_l2i, eps3_l2i, eps3_printed, omega2_l2i, omega3_l2i
 
 
 @app.cell
-def table_32(eps2_l2i, eps3_printed, eps3_l2i, l2i, omega2_l2i, omega3_l2i):
+def fine(H, eps2_l2, eps3_l2, g, l20, omega2_l2, omega3_l2, phi32):
+    every = -(-60 // int(g.R))  # small steps from row to row of the tables, 60 or more in all
+    l2f = l20 + arange(every * g.R + 1) / (every * g.R) * H  # [m] cylinder, in small steps for the charts
+    alpha_f = phi32(l2f) + pi / 2  # [deg] pressure angle, in small steps
+    omega3_l2f = omega3_l2(l2f)  # [rad/m] crank, in small steps
+    omega2_l2f = omega2_l2(l2f)  # [rad/m] cylinder, in small steps
+    eps3_l2f = eps3_l2(l2f)  # [rad/m**2] crank, in small steps
+    eps2_l2f = eps2_l2(l2f)  # [rad/m**2] cylinder, in small steps
+    typeset()
+    return alpha_f, eps2_l2f, eps3_l2f, every, l2f, omega2_l2f, omega3_l2f
+
+
+@app.cell
+def analogues_shown(
+    eps2_l2f,
+    eps2_l2i,
+    eps3_l2f,
+    eps3_l2i,
+    eps3_printed,
+    every,
+    l2f,
+    l2i,
+    l2k,
+    omega2_l2f,
+    omega2_l2i,
+    omega3_l2f,
+    omega3_l2i,
+):
     table_32 = table(
         "3.2",
         "Analogues",
         *(l2i, omega3_l2i, omega2_l2i, eps3_l2i, eps2_l2i, eps3_printed),
         note="eps3printed is formula (24) as printed: the sign is wrong.",
     )
-    table_32
-    return (table_32,)
-
-
-@app.cell
-def figure_33(l2i, l2k, omega2_l2i, omega3_l2i):
-    figure_33 = figure("3.3", "Velocity analogues", l2i, omega3_l2i, omega2_l2i, marks={"l2k": l2k})
-    figure_33
-    return (figure_33,)
-
-
-@app.cell
-def figure_34(eps2_l2i, eps3_l2i, l2i, l2k):
-    figure_34 = figure("3.4", "Acceleration analogues", l2i, eps3_l2i, eps2_l2i, marks={"l2k": l2k})
-    figure_34
-    return (figure_34,)
+    figure_33 = figure("3.3", "Velocity analogues", l2f, omega3_l2f, omega2_l2f, marks={"l2k": l2k}, every=every)
+    figure_34 = figure("3.4", "Acceleration analogues", l2f, eps3_l2f, eps2_l2f, marks={"l2k": l2k}, every=every)
+    typeset(table_32, figure_33, figure_34)
+    return figure_33, figure_34, table_32
 
 
 @app.cell(hide_code=True)
@@ -559,22 +568,16 @@ def section_4():
 
 
 @app.cell
-def table_41(eps2i, eps3i, l2i, omega2i, omega3i, phi3i, psi):
+def results(eps2_printed, eps2i, eps3i, l2i, omega2i, omega3i, phi3i, psi):
     table_41 = table("4.1", "Results of the calculation", psi, l2i, phi3i, omega3i, omega2i, eps3i, eps2i)
-    table_41
-    return (table_41,)
-
-
-@app.cell
-def table_42(eps2_printed, eps2i, l2i):
     table_42 = table(
         "4.2",
         "Formula (14) as printed and right",
         *(l2i, eps2i, eps2_printed),
         note="eps2printed is formula (14) as printed, with V21 not squared.",
     )
-    table_42
-    return (table_42,)
+    typeset(table_41, table_42)
+    return table_41, table_42
 
 
 @app.cell(hide_code=True)
@@ -662,27 +665,21 @@ def t_closed(H, eps3_l2i, eps3_m, eps3i, g, lost, t_lim, t_lim_found):
 
 
 @app.cell
-def table_51(eps3_p0, eps3_p100, eps3_p25, eps3_p75, eps_max, eps_min, t):
+def curves_shown(eps3_p0, eps3_p100, eps3_p25, eps3_p75, eps_max, eps_min, t, t_lim):
     table_51 = table(
         "5.1",
         "Angular acceleration of the leg and retraction time",
         *(t, eps3_p0, eps3_p25, eps3_p75, eps3_p100),
         *(eps_max, eps_min),
     )
-    table_51
-    return (table_51,)
-
-
-@app.cell
-def figure_51(eps3_p0, eps3_p100, eps3_p25, eps3_p75, eps_max, eps_min, t, t_lim):
     figure_51 = figure(
         "5.1",
         "Angular acceleration of the leg over the retraction time",
         *(t, eps3_p0, eps3_p25, eps3_p75, eps3_p100, eps_max, eps_min),
         marks={"t_lim": t_lim},
     )
-    figure_51
-    return (figure_51,)
+    typeset(table_51, figure_51)
+    return figure_51, table_51
 
 
 @app.cell(hide_code=True)
@@ -735,13 +732,16 @@ def reactions(A, Ai, O1, O2, acting, l2i):
     def reactions(l2):
         return rrr_reactions(O1, O2, A(l2), [], acting(l2))
 
+    def thrust(A, group):
+        return cylinder_drive(O1, A, group.R_C).F  # [N] fluid on the rod, positive where it pushes
+
     group_23 = reactions(l2i)
     R01 = group_23.R_A  # [N] frame on the cylinder, at O1
     R03 = group_23.R_B  # [N] frame on the leg 3, at O2
     R23 = -group_23.R_C  # [N] rod 2 on the leg 3, at A
-    F_c = cylinder_drive(O1, Ai, group_23.R_C).F  # [N] fluid on the rod, positive where it pushes
+    F_c = thrust(Ai, group_23)  # [N] fluid on the rod
     typeset()
-    return F_c, R01, R03, R23, group_23, reactions
+    return F_c, R01, R03, R23, group_23, reactions, thrust
 
 
 @app.cell(hide_code=True)
@@ -756,19 +756,43 @@ def section_62():
 
 
 @app.cell
-def shares(I3, G3, O2, D3, W3, Q3, Q_w, S3, V21, F_c, l2i, omega3_l2i):
-    v_S3 = link_velocity(S3(l2i), O2, 0, omega3_l2i)  # [-] velocity analogue of the centre of mass
-    v_W3 = link_velocity(W3(l2i), O2, 0, omega3_l2i)  # [-] of the axle
-    v_D3 = link_velocity(D3(l2i), O2, 0, omega3_l2i)  # [-] of the middle of the strut
-    I3i = I3(l2i)
-    F_in = I3i.F  # [N] inertia force of the leg, at S3
-    M_in = I3i.M  # [N*m] inertia moment of the leg
-    F_G = -dot(G3, v_S3)  # [N] share of the weight
-    F_Q = -dot(Q_w, v_W3) - dot(Q3(l2i), v_D3)  # [N] share of the drag
-    F_I = -dot(F_in, v_S3) - M_in * omega3_l2i  # [N] share of the inertia
+def shares(D3, F_c, G3, I3, O2, Q3, Q_w, S3, V21, W3, l2i, omega3_l2i):
+    def v_S3(l2, omega3):
+        return link_velocity(S3(l2), O2, 0, omega3)  # [-] velocity analogue of the centre of mass
+
+    def v_W3(l2, omega3):
+        return link_velocity(W3(l2), O2, 0, omega3)  # [-] of the axle
+
+    def v_D3(l2, omega3):
+        return link_velocity(D3(l2), O2, 0, omega3)  # [-] of the middle of the strut
+
+    def weight(l2, omega3):
+        return -dot(G3, v_S3(l2, omega3))  # [N] share of the weight
+
+    def drag(l2, omega3):
+        return -dot(Q_w, v_W3(l2, omega3)) - dot(Q3(l2), v_D3(l2, omega3))  # [N] share of the drag
+
+    def inertial(l2, omega3):
+        load = I3(l2)
+        return -dot(load.F, v_S3(l2, omega3)) - load.M * omega3  # [N] share of the inertia
+
+    F_G = weight(l2i, omega3_l2i)  # [N] share of the weight
+    F_Q = drag(l2i, omega3_l2i)  # [N] share of the drag
+    F_I = inertial(l2i, omega3_l2i)  # [N] share of the inertia
     P_c = F_c * V21  # [kW] power of the cylinder
     typeset()
-    return F_G, F_I, F_Q, F_in, I3i, M_in, P_c, v_D3, v_S3, v_W3
+    return F_G, F_I, F_Q, P_c, drag, inertial, v_D3, v_S3, v_W3, weight
+
+
+@app.cell
+def fine_shares(A, V21, drag, inertial, l2f, omega3_l2f, reactions, thrust, weight):
+    F_cf = thrust(A(l2f), reactions(l2f))  # [N] fluid on the rod, in small steps
+    F_Gf = weight(l2f, omega3_l2f)  # [N] share of the weight, in small steps
+    F_Qf = drag(l2f, omega3_l2f)  # [N] share of the drag, in small steps
+    F_If = inertial(l2f, omega3_l2f)  # [N] share of the inertia, in small steps
+    P_cf = F_cf * V21  # [kW] power of the cylinder, in small steps
+    typeset()
+    return F_Gf, F_If, F_Qf, F_cf, P_cf
 
 
 @app.cell(hide_code=True)
@@ -791,6 +815,7 @@ def equilibrium(
     F_c,
     G3,
     H,
+    I3,
     O1,
     D3,
     W3,
@@ -802,13 +827,14 @@ def equilibrium(
     S3,
     V21,
     g,
-    F_in,
-    M_in,
     l20,
     l2i,
     lost,
     omega3_l2,
 ):
+    I3i = I3(l2i)
+    F_in = I3i.F  # [N] inertia force of the leg, at S3
+    M_in = I3i.M  # [N*m] inertia moment of the leg
     F3 = R03 + R23 + G3 + F_in + Q_w + Q3(l2i)  # [N] forces on the leg 3
     M3 = (
         cross(Ai, R23) + cross(S3(l2i), G3 + F_in) + M_in + cross(W3(l2i), Q_w) + cross(D3(l2i), Q3(l2i))
@@ -827,7 +853,7 @@ def equilibrium(
         check_slope("power: what the drag leaves raises the leg", F_c - F_Q, E3, l2i, l20, l20 + H, "N"),
     )
     typeset(*checks_forces)
-    return E3, checks_forces
+    return E3, F_in, M_in, checks_forces
 
 
 @app.cell(hide_code=True)
@@ -839,55 +865,32 @@ def section_drawn():
 
 
 @app.cell
-def drawing_61(D3, G3, H, I3, Q3, Q_w, S3, W3, l20, l2_t, part, scheme):
-    s3 = S3(l2_t)
-    leg_t = scheme(l2_t).mass(s3, "S3") + scheme(l20).faint() + scheme(l20 + H).faint()
+def drawings_61_62(A, D3, G3, I3, O2, Q3, Q_w, S3, W3, ends, l2_t, part, reactions, scheme):
+    s3, at = S3(l2_t), reactions(l2_t)
+    leg_t = scheme(l2_t).mass(s3, "S3") + ends
     at_mass = leg_t.force(s3, G3, "G3").force(s3, I3(l2_t).F, "F_in").moment(s3, I3(l2_t).M, "M_in")
     drawing_61 = at_mass.force(W3(l2_t), Q_w, "Q_w").force(D3(l2_t), Q3(l2_t), "Q3")
-    typeset(player(part), drawing_61, mo.md("**Figure 6.1** – Loads on the leg"))
-    return (drawing_61,)
-
-
-@app.cell
-def drawing_62(A, O2, l2_t, reactions, scheme):
-    at = reactions(l2_t)
     drawing_62 = scheme(l2_t).force(A(l2_t), -at.R_C, "R23").force(O2, at.R_B, "R03")
-    typeset(drawing_62, mo.md("**Figure 6.2** – Reactions on the leg"))
-    return (drawing_62,)
+    typeset(
+        player(part),
+        *(drawing_61, mo.md("**Figure 6.1** – Loads on the leg")),
+        *(drawing_62, mo.md("**Figure 6.2** – Reactions on the leg")),
+    )
+    return drawing_61, drawing_62
 
 
 @app.cell
-def table_61(F_G, F_I, F_Q, F_c, P_c, R01, R03, R23, l2i):
+def forces_shown(F_G, F_Gf, F_I, F_If, F_Q, F_Qf, F_c, F_cf, P_c, P_cf, R01, R03, R23, every, l2f, l2i):
     table_61 = table(
         "6.1",
         "Forces and power",
         *(l2i, F_c, F_G, F_Q, F_I, P_c, abs(R03)),
         *(R03.real, R03.imag, R23.real, R23.imag, R01.real, R01.imag),
     )
-    table_61
-    return (table_61,)
-
-
-@app.cell
-def figure_63(F_G, F_I, F_Q, F_c, l2i):
-    figure_63 = figure("6.3", "Force of the cylinder and its shares", l2i, F_c, F_G, F_Q, F_I)
-    figure_63
-    return (figure_63,)
-
-
-@app.cell
-def figure_64(P_c, l2i):
-    figure_64 = figure("6.4", "Power of the cylinder", l2i, P_c)
-    figure_64
-    return (figure_64,)
-
-
-@app.cell(hide_code=True)
-def section_7():
-    mo.md("""
-    ## Workbook
-    """)
-    return
+    figure_63 = figure("6.3", "Force of the cylinder and its shares", l2f, F_cf, F_Gf, F_Qf, F_If, every=every)
+    figure_64 = figure("6.4", "Power of the cylinder", l2f, P_cf, every=every)
+    typeset(table_61, figure_63, figure_64)
+    return figure_63, figure_64, table_61
 
 
 @app.cell

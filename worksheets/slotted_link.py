@@ -285,12 +285,6 @@ def group(A, B, VA, WA, g):
         rates = omega_BC(phi1), VAB(phi1)
         return rpr_acceleration(slider(phi1), B, u(phi1), *rates, WA(phi1)).dds  # [m/s**2] sliding acceleration
 
-    typeset()
-    return SAB, VAB, WAB, eps_BC, omega_BC, phi3, u
-
-
-@app.cell
-def point_C(B, eps_BC, g, omega_BC, u):
     def C(phi1):
         return B + g.L3 * u(phi1)  # [m] point C
 
@@ -301,7 +295,7 @@ def point_C(B, eps_BC, g, omega_BC, u):
         return (1j * eps_BC(phi1) - omega_BC(phi1) ** 2) * g.L3 * u(phi1)  # [m/s**2] acceleration of C
 
     typeset()
-    return C, VC, WC
+    return C, SAB, VAB, VC, WAB, WC, eps_BC, omega_BC, phi3, u
 
 
 @app.cell
@@ -322,22 +316,16 @@ def fields(C, SAB, VAB, VC, WAB, WC, eps_BC, g, omega_BC, phi1_k, phi3):
 
 
 @app.cell
-def table_1(SAB_k, VC_k, WC_k, eps_BC_k, omega_BC_k, phi1_k, phi3_k):
+def tables_1_2(P_C_k, SAB_k, VAB_k, VC_k, WAB_k, WC_k, WCn_k, WCt_k, eps_BC_k, omega_BC_k, phi1_k, phi3_k):
     table_1 = table("1", "Results", phi1_k, phi3_k, SAB_k, omega_BC_k, eps_BC_k, abs(VC_k), abs(WC_k), decimals=3)
-    table_1
-    return (table_1,)
-
-
-@app.cell
-def table_2(P_C_k, VAB_k, VC_k, WAB_k, WC_k, WCn_k, WCt_k, phi1_k):
     table_2 = table(
         "2",
         "Point C and slider, by components",
         phi1_k,
         *(P_C_k.real, P_C_k.imag, VC_k.real, VC_k.imag, WC_k.real, WC_k.imag, WCn_k, WCt_k, VAB_k, WAB_k),
     )
-    table_2
-    return (table_2,)
+    typeset(table_1, table_2)
+    return table_1, table_2
 
 
 @app.cell(hide_code=True)
@@ -362,18 +350,22 @@ def table_3(N_F, SAB_F, VAB_F, WAB_F, eps3_F, omega3_F, phi1_k, phi3_F):
 
 
 @app.cell
-def solved(F, SAB_k, VAB_k, WAB_k, eps_BC_k, g, omega_BC_k, phi1_k, phi3_k, residuals, size):
+def solved(A, B, F, SAB_k, VAB_k, WAB_k, eps_BC_k, g, omega_BC_k, phi1_k, phi3_k, residuals, size):
     closed = np.array([phi3_k, SAB_k, omega_BC_k, VAB_k, eps_BC_k, WAB_k])
     largest = np.maximum(size, np.nanmax(abs(closed), axis=1, keepdims=True))[:, 0]
     exists = isfinite(SAB_k)
     found_k = exists & isfinite(F[0])
     kappa = (g.L0 + g.L1) / np.nanmin(SAB_k)  # [-] factor by which the divisions by the distance AB widen roundings
     r = where(found_k, residuals(F, phi1_k), 0)
+    side = np.sign(F[1])
 
     def every_position(name, lost, why):
         angles = ", ".join(f"{x / deg:.6g}" for x in phi1_k[lost])
         count = int(np.count_nonzero(lost))
         return Check(name, count, 0, "positions", f"{why} at phi1 = {angles} deg" if count else "")
+
+    def agrees(name, found, closed, i, unit):
+        return check(f"Find = closed form, {name}", where(found_k, found - closed, 0), 1e-12 * kappa * largest[i], unit)
 
     checks_found = (
         every_position("the link has a direction", ~exists, "the slider is at the hinge B"),
@@ -382,17 +374,6 @@ def solved(F, SAB_k, VAB_k, WAB_k, eps_BC_k, g, omega_BC_k, phi1_k, phi3_k, resi
         check("residual of Find, velocities", r[2:4], 1e-12 * kappa * largest[3], "m/s"),
         check("residual of Find, accelerations", r[4:], 1e-12 * kappa * largest[5], "m/s**2"),
     )
-    typeset(*checks_found)
-    return checks_found, closed, exists, found_k, kappa, largest
-
-
-@app.cell
-def agreement(A, B, F, VAB_k, WAB_k, eps_BC_k, found_k, kappa, largest, omega_BC_k, phi1_k):
-    side = np.sign(F[1])
-
-    def agrees(name, found, closed, i, unit):
-        return check(f"Find = closed form, {name}", where(found_k, found - closed, 0), 1e-12 * kappa * largest[i], unit)
-
     checks_agreement = (
         agrees("position of the slider", F[1] * exp(1j * F[0]), A(phi1_k) - B, 1, "m"),
         agrees("angular velocity", F[2], omega_BC_k, 2, "rad/s"),
@@ -400,8 +381,8 @@ def agreement(A, B, F, VAB_k, WAB_k, eps_BC_k, found_k, kappa, largest, omega_BC
         agrees("angular acceleration", F[4], eps_BC_k, 4, "rad/s**2"),
         agrees("sliding acceleration", side * F[5], WAB_k, 5, "m/s**2"),
     )
-    typeset(*checks_agreement)
-    return (checks_agreement,)
+    typeset(*checks_found, *checks_agreement)
+    return checks_agreement, checks_found, closed, exists, found_k, kappa, largest
 
 
 @app.cell(hide_code=True)
@@ -424,7 +405,8 @@ def others(Find, guess, phi1_k):
     N_same = np.sum(S_g > 0, axis=1)  # [-] positions found on the branch +1: the link points to the slider
     N_other = np.sum(S_g < 0, axis=1)  # [-] positions found on the branch -1: it points away
     N_none = np.sum(np.isnan(S_g), axis=1)  # [-] positions not found
-    N_g = np.sum(values_g.reshape(len(phi3_g), -1), axis=1)  # [-] evaluations of the six equations, in all
+    N_gk = values_g.reshape(len(phi3_g), -1)
+    N_g = np.sum(N_gk, axis=1)  # [-] evaluations of the six equations, in all
     typeset()
     return N_g, N_none, N_other, N_same, phi3_g
 
@@ -478,7 +460,7 @@ def section_6():
 
 
 @app.cell
-def strokes(A, B, g, phi1_k):
+def strokes(A, B, g, phi1_k, u):
     gap = where(g.L1 == g.L0, nan, g.L1 - g.L0)  # [m] depth of B inside the crank's circle; none on it
     s_e = sqrt(abs(gap * (g.L0 + g.L1)))  # [m] slider from B at the ends of the strokes
     phi_q = 2 * atan2(s_e, minimum(g.L0, g.L1))  # [deg] turn of the crank in the quick stroke
@@ -493,19 +475,13 @@ def strokes(A, B, g, phi1_k):
     start = np.min(phi1_k)
     turned = {"e1": start + (phi_e1 - start) % (2 * pi), "e2": start + (phi_e2 - start) % (2 * pi)}
     ends = {name: float(x) for name, x in turned.items() if isfinite(x)}
-    typeset()
-    return H, K, ends, gap, omega_far, omega_near, phi_e1, phi_e2, phi_q, phi_w, psi, s_e
-
-
-@app.cell
-def strokes_check(ends, g, u):
     what = "the link touches the crank's circle" if g.L1 < g.L0 else "the link lies along the x axis"
     checks_strokes = tuple(
         check(f"at the end {e}: {what}", dot(u(x), exp(1j * x)) if g.L1 < g.L0 else u(x).imag, 1e-12)
         for e, x in ends.items()
     )
     typeset(*checks_strokes)
-    return (checks_strokes,)
+    return H, K, checks_strokes, ends, gap, omega_far, omega_near, phi_e1, phi_e2, phi_q, phi_w, psi, s_e
 
 
 @app.cell(hide_code=True)
@@ -521,24 +497,14 @@ def section_7():
 
 
 @app.cell
-def turn():
-    part = mo.ui.slider(0, 360, step=2, value=30, label="turn of the crank, degrees", show_value=True)
-    player(part, turning=True)
-    return (part,)
+def scheme(A, B, C, O1, P_C_t, VA, VC_t, WA, WC_t, ends, g, phi1_t, u):
+    def scheme(phi1):
+        a, c = A(phi1), C(phi1)
+        near, far = B + abs(g.L0 - g.L1) * u(phi1), B + (g.L0 + g.L1) * u(phi1)
+        tip = B + np.maximum(g.L3, g.L0 + g.L1) * u(phi1)
+        links = Drawing().link(B, tip).slot(near, far, "3").slider(a, angle(u(phi1)), "2").link(O1, a, "1")
+        return links.support(O1, "O1").support(B, "B").hinge(a, "A").hinge(c, "C")
 
-
-@app.cell
-def position(VC, WC, g, part, phi3):
-    phi1 = g.phi_0 + copysign(part.value * deg, g.omega1)  # [deg] crank as drawn
-    phi3_1 = phi3(phi1)  # [deg] link 3 as drawn
-    VC_1 = VC(phi1)  # [m/s] velocity of C
-    WC_1 = WC(phi1)  # [m/s**2] acceleration of C
-    typeset()
-    return VC_1, WC_1, phi1, phi3_1
-
-
-@app.cell
-def scales(A, B, O1, P_C_t, VA, VC_t, WA, WC_t, g, phi1_t):
     def longest(*vectors):
         return np.nanmax(abs(np.concatenate(vectors)))
 
@@ -547,35 +513,34 @@ def scales(A, B, O1, P_C_t, VA, VC_t, WA, WC_t, g, phi1_t):
     arrows = {unit: reach / value for unit, value in most.items() if value > 1e-290}
     tips = [P_C_t + arrows.get("m/s", 0) * VC_t, P_C_t + arrows.get("m/s²", 0) * WC_t]
     frame = np.concatenate([[B, O1], A(phi1_t), P_C_t, *tips])
-    return arrows, frame
-
-
-@app.cell
-def scheme(A, B, C, O1, g, u):
-    def scheme(phi1):
-        a, c = A(phi1), C(phi1)
-        near, far = B + abs(g.L0 - g.L1) * u(phi1), B + (g.L0 + g.L1) * u(phi1)
-        tip = B + np.maximum(g.L3, g.L0 + g.L1) * u(phi1)
-        links = Drawing().link(B, tip).slot(near, far, "3").slider(a, angle(u(phi1)), "2").link(O1, a, "1")
-        return links.support(O1, "O1").support(B, "B").hinge(a, "A").hinge(c, "C")
-
-    return (scheme,)
-
-
-@app.cell
-def drawing_1(A, C, P_C_t, VA, VC_1, WA, WC_1, arrows, ends, frame, phi1, phi1_t, scheme):
-    drawn = Drawing(frame=frame, scales=arrows, height=560).path(A(phi1_t)).path(P_C_t) + scheme(phi1)
+    paths = Drawing(frame=frame, scales=arrows, height=560).path(A(phi1_t)).path(P_C_t)
     for _end in ends.values():
-        drawn = drawn + scheme(_end).faint()
-    velocities = drawn.arrow(A(phi1), VA(phi1), "VA", "m/s").arrow(C(phi1), VC_1, "VC", "m/s")
-    both = velocities.arrow(A(phi1), WA(phi1), "WA", "m/s²", "orange")
+        paths = paths + scheme(_end).faint()
+    return paths, scheme
+
+
+@app.cell
+def turn():
+    part = mo.ui.slider(0, 360, step=2, value=30, label="turn of the crank, degrees", show_value=True)
+    player(part, turning=True)
+    return (part,)
+
+
+@app.cell
+def drawing_1(A, C, VA, VC, WA, WC, g, part, paths, phi3, scheme):
+    phi1 = g.phi_0 + copysign(part.value * deg, g.omega1)  # [deg] crank as drawn
+    phi3_1 = phi3(phi1)  # [deg] link 3 as drawn
+    VC_1 = VC(phi1)  # [m/s] velocity of C
+    WC_1 = WC(phi1)  # [m/s**2] acceleration of C
+    moved = (paths + scheme(phi1)).arrow(A(phi1), VA(phi1), "VA", "m/s").arrow(C(phi1), VC_1, "VC", "m/s")
+    both = moved.arrow(A(phi1), WA(phi1), "WA", "m/s²", "orange")
     drawing_1 = both.arrow(C(phi1), WC_1, "WC", "m/s²", "orange")
     typeset(
         drawing_1,
         mark(phi1_t=phi1),
         mo.md("**Figure 1** – Slotted link with the velocities and accelerations of A and C"),
     )
-    return (drawing_1,)
+    return VC_1, WC_1, drawing_1, phi1, phi3_1
 
 
 @app.cell(hide_code=True)
@@ -604,56 +569,21 @@ def fine(C, SAB, VC, WC, eps_BC, g, omega_BC, phi3):
 
 
 @app.cell
-def table_5(P_C_t, SAB_t, VC_t, WC_t, eps_BC_t, omega_BC_t, phi1_t, phi3_t):
+def full_turn(P_C_t, SAB_t, VC_t, WC_t, ends, eps_BC_t, omega_BC_t, phi1_t, phi3_t):
     table_5 = table(
         "5",
         "Full turn",
         *(phi1_t, phi3_t, SAB_t, omega_BC_t, eps_BC_t, P_C_t.real, P_C_t.imag),
         *(VC_t.real, VC_t.imag, abs(VC_t), WC_t.real, WC_t.imag, abs(WC_t)),
     )
-    return (table_5,)
-
-
-@app.cell
-def figure_2(ends, phi1_t, phi3_t):
     figure_2 = figure("2", "Angle of the link", phi1_t, phi3_t, marks=ends)
-    figure_2
-    return (figure_2,)
-
-
-@app.cell
-def figure_3(SAB_t, ends, phi1_t):
     figure_3 = figure("3", "Slider from the hinge B", phi1_t, SAB_t, marks=ends)
-    figure_3
-    return (figure_3,)
-
-
-@app.cell
-def figure_4(ends, omega_BC_t, phi1_t):
     figure_4 = figure("4", "Angular velocity of the link", phi1_t, omega_BC_t, marks=ends)
-    figure_4
-    return (figure_4,)
-
-
-@app.cell
-def figure_5(ends, eps_BC_t, phi1_t):
     figure_5 = figure("5", "Angular acceleration of the link", phi1_t, eps_BC_t, marks=ends)
-    figure_5
-    return (figure_5,)
-
-
-@app.cell
-def figure_6(VC_t, ends, phi1_t):
     figure_6 = figure("6", "Velocity of C", phi1_t, VC_t.real, VC_t.imag, abs(VC_t), marks=ends)
-    figure_6
-    return (figure_6,)
-
-
-@app.cell
-def figure_7(WC_t, ends, phi1_t):
     figure_7 = figure("7", "Acceleration of C", phi1_t, WC_t.real, WC_t.imag, abs(WC_t), marks=ends)
-    figure_7
-    return (figure_7,)
+    typeset(figure_2, figure_3, figure_4, figure_5, figure_6, figure_7)
+    return figure_2, figure_3, figure_4, figure_5, figure_6, figure_7, table_5
 
 
 @app.cell(hide_code=True)

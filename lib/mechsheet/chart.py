@@ -34,12 +34,14 @@ class Quantity(Protocol):
     def values(self) -> NDArray[np.float64]: ...
 
 
-def line_chart(x: Quantity, lines: Sequence[Quantity], marks: Sequence[tuple[str, float]] = ()) -> str:
+def line_chart(x: Quantity, lines: Sequence[Quantity], marks: Sequence[tuple[str, float]] = (), every: int = 1) -> str:
     """Curves of ``lines`` over ``x`` as one SVG element; a value that is not finite is a gap.
 
-    ``marks`` are named positions on the x axis in its unit. A position that the page sets by `page.mark` is marked too.
+    Every so many of the values are marked by a point, unless they are many. ``marks`` are named positions on the x axis
+    in its unit. A position that the page sets by `page.mark` is marked too.
     """
-    across, up = _axis([x.values, *([m] for _, m in marks)]), _axis([line.values for line in lines])
+    across = _axis([x.values, *([m] for _, m in marks)], x.unit)
+    up = _axis([line.values for line in lines], lines[0].unit)
     width, height = WIDTH - _LEFT - _RIGHT, HEIGHT - _TOP - _BOTTOM
     k_x, k_y = width / (across.high - across.low), -height / (up.high - up.low)
     px = k_x * (np.asarray(x.values, dtype=float) - across.low)
@@ -48,10 +50,10 @@ def line_chart(x: Quantity, lines: Sequence[Quantity], marks: Sequence[tuple[str
         colour, dash = COLOURS[i % len(COLOURS)], _dash(i)
         py = height + k_y * (np.asarray(line.values, dtype=float) - up.low)
         inside.append(f'<path stroke="{colour}" stroke-width="1.8"{dash} d="{_path(px, py)}"/>')
-        if len(px) <= MARKED:
+        if len(px[::every]) <= MARKED:
             dots = "".join(
                 f'<circle cx="{u:.1f}" cy="{v:.1f}" r="2.6"/>'
-                for u, v in zip(px.tolist(), py.tolist(), strict=True)
+                for u, v in zip(px[::every].tolist(), py[::every].tolist(), strict=True)
                 if isfinite(u) and isfinite(v)
             )
             inside.append(f'<g fill="{colour}" stroke="none">{dots}</g>')
@@ -99,13 +101,14 @@ def variable(name: str) -> str:
 class _Axis:
     """Ends, ticks and number format of an axis; numbers are shown divided by ten to the ``power``."""
 
-    def __init__(self, low: float, high: float, count: int, whole: bool) -> None:
+    def __init__(self, low: float, high: float, unit: str, count: int, whole: bool) -> None:
         if not high - low > 1e-9 * max(abs(low), abs(high)):
             half = abs(low) / 2 or 0.5
             low, high = low - half, high + half
         rough = (high - low) / count
         tenth = 10.0 ** floor(log10(rough))
-        step = next(m * tenth for m in (1, 2, 2.5, 5, 10) if m * tenth >= 0.999 * rough)
+        steps = (1.5, 3, 4.5, 6, 9, 18) if unit == "deg" and tenth == 10 else (1, 2, 2.5, 5, 10)
+        step = next(m * tenth for m in steps if m * tenth >= 0.999 * rough)
         first, last = (floor(low / step + 1e-9), ceil(high / step - 1e-9)) if whole else (low / step, high / step)
         self.low, self.high = first * step, last * step
         self.ticks = [i * step for i in range(ceil(first - 1e-9), floor(last + 1e-9) + 1)]
@@ -117,11 +120,11 @@ class _Axis:
         return f"{tick / 10.0**self.power:z.{self.decimals}f}".replace("-", "−")
 
 
-def _axis(values: Sequence[Sequence[float] | NDArray[np.float64]], count: int = 6) -> _Axis:
+def _axis(values: Sequence[Sequence[float] | NDArray[np.float64]], unit: str, count: int = 6) -> _Axis:
     every = np.concatenate([np.ravel(np.asarray(v, dtype=float)) for v in values])
     every = every[np.isfinite(every)]
     low, high = (float(every.min()), float(every.max())) if every.size else (0.0, 1.0)
-    return _Axis(low, high, count, whole=True)
+    return _Axis(low, high, unit, count, whole=True)
 
 
 def _dash(i: int) -> str:

@@ -55,7 +55,7 @@ class Check:
         sign = "≤" if self.passed else "≰"
         compared = f": {self.residual:.2g} {sign} {self.limit:.2g}{unit}" if self.evaluated else ""
         return "text/html", (
-            f'<div id="{_anchor(self)}">{_badge(self)} {_named(self.name)}{compared}'
+            f'<div id="{_anchor(self)}">{_badge(self)} {symbol.in_words(self.name)}{compared}'
             f'<span style="opacity:.7"> {html.escape(self.reason)}</span></div>'
         )
 
@@ -63,12 +63,6 @@ class Check:
 def _badge(check: Check) -> str:
     kind, verdict = ("PASS" if check.passed else "FAIL",) * 2 if check.evaluated else ("OPEN", "not evaluated")
     return f'<span class="ms-badge ms-{kind}">{verdict}</span>'
-
-
-def _named(text: str) -> str:
-    """Text in HTML, the names of quantities in it as their symbols."""
-    words = re.split(r"\b([A-Za-z]+[_\d]\w*)\b", text)
-    return "".join(symbol.html(word) if i % 2 else html.escape(word) for i, word in enumerate(words))
 
 
 def _anchor(check: Check) -> str:
@@ -89,7 +83,7 @@ class Summary:
         count += f", {skipped} not evaluated" if skipped else ""
         items = "".join(
             f"<span>{_badge(check)} "
-            f'<a href="#{_anchor(check)}">{_named(check.name)}</a> {html.escape(check.reason)}</span>'
+            f'<a href="#{_anchor(check)}">{symbol.in_words(check.name)}</a> {html.escape(check.reason)}</span>'
             for check in sorted(self.checks, key=lambda check: (check.passed, not check.evaluated))
         )
         return "text/html", (f'<div class="ms-summary"><b>{count}</b><div class="ms-row">{items}</div></div>')

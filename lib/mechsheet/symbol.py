@@ -2,6 +2,7 @@
 
 import re
 from functools import cache
+from html import escape
 
 GREEK = {
     "alpha": "α", "beta": "β", "gamma": "γ", "delta": "δ", "eps": "ε", "epsilon": "ε", "zeta": "ζ", "eta": "η",
@@ -74,6 +75,16 @@ def html(name: str) -> str:
     if mark:
         text = ("d" if base in GREEK else "Δ") + text
     return text + (f"<sub>{index}</sub>" if index else "")
+
+
+def in_words(sentence: str) -> str:
+    """A sentence in HTML, the names of quantities in it as their symbols.
+
+    >>> in_words("omega3 < 1, theta/2")
+    '<i>ω</i><sub>3</sub> &lt; 1, <i>θ</i>/2'
+    """
+    words = re.split(rf"\b((?:{_WORDS})\b|[A-Za-z]+[_\d]\w*)", sentence)
+    return "".join(html(word) if i % 2 else escape(word) for i, word in enumerate(words))
 
 
 def svg(name: str) -> str:

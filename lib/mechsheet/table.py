@@ -66,8 +66,10 @@ class Table:
         keys = self.columns[: max(1, len(whole))] if len(whole) < len(self.columns) else self.columns[:1]
         rest = self.columns[len(keys) :]
         blocks = [rest[i : i + _BLOCK] for i in range(0, max(len(rest), 1), _BLOCK)]
+        if len(blocks) > 1 and len(blocks[-1]) == 1:
+            blocks[-2:] = [blocks[-2] + blocks[-1]]
         caption = f'<div class="ms-caption"><b>Table {html.escape(self.number)}</b> – {html.escape(self.title)}</div>'
-        note = f'<div class="ms-note">{html.escape(self.note)}</div>' if self.note else ""
+        note = f'<div class="ms-note">{symbol.in_words(self.note)}</div>' if self.note else ""
         return "text/html", f'<div class="ms-table">{caption}{"".join(_block([*keys, *b]) for b in blocks)}{note}</div>'
 
 
@@ -98,6 +100,7 @@ class Figure:
     x: Column
     lines: tuple[Column, ...]
     marks: tuple[tuple[str, float], ...] = ()
+    every: int = 1  # only every so many positions are marked by a point
 
     logarithmic: ClassVar[bool] = False  # both axes
 
@@ -111,20 +114,22 @@ class Figure:
 
     def svg(self) -> str:
         """The chart as one SVG element."""
-        return chart.line_chart(self.x, self.lines, self.marks)
+        return chart.line_chart(self.x, self.lines, self.marks, self.every)
 
     def chart(self) -> Any:
         """The figure as an altair chart, to be changed, combined or saved; the page draws its own, which is faster."""
         import altair as alt
 
         names = [symbol.text(c.symbol) for c in self.lines]
-        rows = [
-            {"x": float(x), "y": float(y) if np.isfinite(y) else None, "line": name}  # None is a gap
+        curves = [
+            [
+                {"x": float(x), "y": float(y) if np.isfinite(y) else None, "line": name}  # None is a gap
+                for x, y in zip(self.x.values, column.values, strict=True)
+            ]
             for column, name in zip(self.lines, names, strict=True)
-            for x, y in zip(self.x.values, column.values, strict=True)
         ]
         y_title = f"{', '.join(names)} [{units.shown(self.lines[0].unit)}]"
-        base = alt.Chart(alt.InlineData(rows)).encode(
+        base = alt.Chart(alt.InlineData([row for curve in curves for row in curve])).encode(
             x=alt.X(
                 "x:Q",
                 title=f"{symbol.text(self.x.symbol)} [{units.shown(self.x.unit)}]",
@@ -141,8 +146,9 @@ class Figure:
             ],
         )
         layers = [base.mark_line()]
-        if self.x.values.size <= chart.MARKED:
-            layers.append(base.mark_point(filled=True, size=36))
+        if self.x.values[:: self.every].size <= chart.MARKED:
+            listed = alt.InlineData([row for curve in curves for row in curve[:: self.every]])
+            layers.append(base.mark_point(filled=True, size=36).properties(data=listed))
         for name, x in self.marks:
             at = alt.Chart(alt.InlineData([{"x": x, "name": name}])).encode(x="x:Q")
             layers += [
@@ -183,12 +189,16 @@ def figure(
     *lines: Any,
     marks: Mapping[str, float] | None = None,
     show: Mapping[str, str] | None = None,
+    every: int = 1,
 ) -> Figure:
-    """Line chart of the given quantities over ``x``, read as in `table`; ``marks`` are positions in SI."""
+    """Line chart of the given quantities over ``x``, read as in `table`; ``marks`` are positions in SI.
+
+    ``every`` marks only every so many positions of a smooth curve by a point: those that a table lists.
+    """
     frame = sys._getframe(1)
     first, *rest = _columns(frame, source.call(frame).args[2:], (x, *lines), show or {})
     factor = units.parse(first.unit).factor
-    return Figure(number, title, first, tuple(rest), tuple((k, v / factor) for k, v in (marks or {}).items()))
+    return Figure(number, title, first, tuple(rest), tuple((k, v / factor) for k, v in (marks or {}).items()), every)
 
 
 def _columns(
