@@ -102,7 +102,7 @@ def assert_formula(row: Formula, value: object, tex: str) -> int:
 
 
 def assert_typeset(shown: Typeset) -> int:
-    parts = (re.findall(r"\|\|\(\\displaystyle (.*?)\|\|\)", line) for line in shown._mime_()[1].split("ms-line")[1:])
+    parts = (re.findall(r"\|\|\(\\displaystyle (.*?)\|\|\)", line) for line in shown.html.split("ms-line")[1:])
     tex = [html.unescape("".join(part).replace("= {}", "= ")) for part in parts]
     rows = [(row, value) for row, value in zip(shown.rows, shown.values, strict=True)]
     lines = tex[: len(rows)]

@@ -1,6 +1,7 @@
 """Formulas read from a cell's own source and typeset."""
 
 import ast
+import json
 import re
 
 import numpy as np
@@ -122,7 +123,7 @@ def test_unknown_unit_names_the_line():
 
 def joined(shown):
     """HTML with the elements of a line, formula and value, as one."""
-    return re.sub(r"= \{\}\|\|\)</marimo-tex><marimo-tex[^>]*>\|\|\(\\displaystyle ", "= ", shown._mime_()[1])
+    return re.sub(r"= \{\}\|\|\)</marimo-tex><marimo-tex[^>]*>\|\|\(\\displaystyle ", "= ", shown.html)
 
 
 def test_one_position_of_the_fields():
@@ -136,7 +137,7 @@ def test_one_position_of_the_fields():
 
 def test_page_shows_symbol_formula_value_and_meaning():
     names = run(IMPORT + "L3 = 0.2  # [m] arm\nA = L3**2  # [cm**2] <area>\nshown = typeset()")
-    assert names["shown"]._mime_()[0] == "text/html"
+    assert json.loads(names["shown"]._mime_()[1]) == {"text/html": names["shown"].html}
     text = joined(names["shown"])
     assert r"A = L_{3}^{2} = 400\ \mathrm{cm^{2}}" in text
     assert r"L_{3} = 0.2\ \mathrm{m}" in text
@@ -188,7 +189,7 @@ def test_numbers_stand_for_the_symbols(lines, numbers):
 def test_numbers_of_a_field_are_those_of_the_position_shown():
     names = run(IMPORT + "from numpy import arange\nx = 2 * arange(3)  # [m]\ny = 3 * x  # [m]\nshown = typeset()")
     assert r'tex="= 3 \cdot 0\ \mathrm{m}"' in joined(names["shown"])
-    assert r'tex="= 3 \cdot 4\ \mathrm{m}"' in names["shown"].at(2)._mime_()[1]
+    assert r'tex="= 3 \cdot 4\ \mathrm{m}"' in names["shown"].at(2).html
 
 
 def test_edited_unit_alone_is_seen():
@@ -201,4 +202,4 @@ def test_branch_that_is_meant_stands_in_the_definition():
     text = run(IMPORT + "def P(S, L7, branch=-1):\n    return rrr(S, L7, branch)  # [m] pin\nshown = typeset()")[
         "shown"
     ]
-    assert r"P(S,\,L_{7}) = \operatorname{rrr}(S,\ L_{7},\ -1)" in text._mime_()[1]
+    assert r"P(S,\,L_{7}) = \operatorname{rrr}(S,\ L_{7},\ -1)" in text.html

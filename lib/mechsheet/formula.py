@@ -2,6 +2,7 @@
 
 import ast
 import html
+import json
 import re
 import sys
 from collections.abc import Iterator, Mapping
@@ -206,13 +207,20 @@ class Typeset:
         return replace(self, values=tuple(values), position=position)
 
     def _mime_(self) -> tuple[str, str]:
+        # In a bundle: plain HTML is parsed four times a run, in search of headings for the outline.
+        return "application/vnd.marimo+mimebundle", json.dumps({"text/html": self.html})
+
+    @property
+    def html(self) -> str:
+        """The lines as they stand in the page."""
         import marimo as mo
 
         lines = [
             _line(row.tex) if isinstance(row, Given) else self._formula(row, value)
             for row, value in zip(self.rows, self.values, strict=True)
         ]
-        return "text/html", "".join(lines + [mo.as_html(more).text for more in self.shown])
+        more = (each.html if isinstance(each, Typeset) else mo.as_html(each).text for each in self.shown)
+        return "".join([*lines, *more])
 
     def _formula(self, row: Formula, value: Any) -> str:
         formula = " = ".join(filter(None, (row.symbol, row.tex)))
