@@ -7,6 +7,7 @@ import sys
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -114,25 +115,19 @@ def search(
     for name, (low, high) in bounds.items():
         if not low <= high:
             raise SheetError(f"bounds of {name} = {low:g}..{high:g} must be in order")
-    best, judged, tried = _evolved(judge, bounds, decimals, seed, generations, members, start, done)
+    evolved = partial(_evolved, bounds=bounds, decimals=decimals, seed=seed, generations=generations, members=members)
+    best, judged, tried = evolved(judge, start=start, done=done)
     if judged.reasons[0]:
         raise SheetError(f"no design within the bounds has a value: {judged.reasons[0]}")
     worst = max(judged.requirements, key=lambda r: float(r.missed[0]), default=None)
     if worst is not None and worst.missed[0] > 0:
-        raise SheetError(_infeasible(judge, worst.name, bounds, decimals, seed, generations, members, best))
+        raise SheetError(_infeasible(judge, worst.name, evolved, best))
     return Design(best, float(judged.goal[0]), judged.requirements, tried)
 
 
-def _infeasible(
-    judge: Judge,
-    name: str,
-    bounds: Mapping[str, tuple[float, float]],
-    decimals: Mapping[str, int],
-    seed: int,
-    generations: int,
-    members: int,
-    nearest: Mapping[str, float],
-) -> str:
+def _infeasible(judge: Judge, name: str, evolved: Callable[..., Any], nearest: Mapping[str, float]) -> str:
+    """Which requirement is missed most, and what it reaches alone; ``evolved`` is the search with its bounds."""
+
     def one(judged: Judged) -> Requirement:
         return next(r for r in judged.requirements if r.name == name)
 
@@ -141,7 +136,7 @@ def _infeasible(
         return Judged(one(judged).reserve, (), judged.reasons)
 
     there = one(judge({x: np.array([v]) for x, v in nearest.items()}))
-    best, _, _ = _evolved(alone, bounds, decimals, seed, generations, members, nearest, lambda: None)
+    best, _, _ = evolved(alone, start=nearest, done=lambda: None)
     reached = one(judge({x: np.array([v]) for x, v in best.items()}))
     best_text, near_text = (_text(r.values[0], r.unit) for r in (reached, there))
     if reached.missed[0] > 0:

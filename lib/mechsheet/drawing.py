@@ -175,8 +175,10 @@ def _inside(half: complex, *points: complex) -> Iterator[complex]:
 def _past(half: complex, a: complex, b: complex) -> Iterator[complex]:
     """At the end b of the arrow ab: beyond it or on its sides."""
     u = _unit(b - a)
-    crowded = _length(b - a) < 4 * _GAP  # a short arrow by what stands at its foot
-    for gap in (_GAP, 2 * _GAP, 4 * _GAP)[: 3 if crowded else 2]:
+    gaps = [_GAP, 2 * _GAP]
+    if _length(b - a) < 4 * _GAP:  # a short arrow is crowded by what stands at its foot
+        gaps.append(4 * _GAP)
+    for gap in gaps:
         for back, n in ((0, u), (5, 1j * u), (5, -1j * u), (20, 1j * u), (20, -1j * u)):
             yield b - back * u + n * (gap + _reach(half, n))
 

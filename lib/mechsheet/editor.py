@@ -30,15 +30,12 @@ class Note:
 
 
 def watch(show: Callable[[list[Note]], object]) -> None:
-    """In the editor, call ``show`` whenever the mistakes found in the cells of the running worksheet have changed.
+    """Call ``show`` whenever the mistakes found in the cells of the worksheet in the editor have changed.
 
     The cells are looked at from a thread of the calling cell, and read again once an edited one has run; a changed
     value costs nothing.
     """
     import marimo as mo
-
-    if mo.app_meta().mode != "edit":
-        return
     from marimo._runtime.context import get_context  # the cells as they stand in the page have no public name
 
     notebook: Any = get_context()

@@ -104,7 +104,8 @@ class Found:
     interval : tuple of float
         The interval searched on the wanted branch.
     reached : tuple of float
-        Least and greatest f in that interval on the wanted branch; NaN where nothing is finite.
+        Least and greatest f in that interval on the wanted branch, computed when it is read where all is solved; NaN
+        where nothing is finite.
     reason : str
         Why there is no value; "" where solved.
     """

@@ -51,7 +51,7 @@ def title_block(name: str, text: str = "") -> Title:
     if "marimo" in sys.modules:
         import marimo as mo
 
-        if mo.running_in_notebook():
+        if mo.app_meta().mode == "edit":
             from mechsheet import editor
 
             editor.watch(lambda notes: mo.output.replace(replace(title, notes=tuple(notes))))
