@@ -116,6 +116,16 @@ def test_a_double_root_is_one_root_and_gone_a_little_above(x0, bend, top):
     assert "is outside" in outside.reason
 
 
+@some
+@given(real(0.2, 0.8), real(0.5, 2), real(-10, -1.5), st.sampled_from([1, -1]))
+def test_a_little_below_a_peak_both_roots_are_found(x0, bend, power, sign):
+    height = 10**power
+    roots = find(lambda x: sign * (1 - bend * (x - x0) ** 2), 0.0, 1.0, equals=sign * (1 - height)).roots
+
+    half = np.sqrt(height / bend)
+    assert [root.value for root in roots] == pytest.approx([x0 - half, x0 + half], abs=8 * EPS / half)
+
+
 @pytest.mark.parametrize("floats", [2, 3, 10, 10**4])
 def test_a_target_outside_by_some_floats_is_refused_in_a_text_that_does_not_contradict_itself(floats):
     found = find(lambda x: 0.74 - (x - 0.5) ** 2, 0.0, 1.0, equals=up(0.74, floats), unit="mm")
@@ -172,6 +182,18 @@ def test_a_jump_over_the_target_is_named_with_its_place():
 
     assert not found.roots
     assert found.reason == "notch x: step reaches 0..9 but jumps over 4.5 at 5000 mm"
+
+
+def test_a_jump_that_passes_the_target_costs_few_calls():
+    calls = []
+
+    def turned(x):
+        calls.append(x)
+        return np.angle(np.exp(1j * x))  # from pi to -pi
+
+    found = find(turned, 0.0, 5.0, equals=1.5)
+    assert found.value == pytest.approx(1.5) and len(found.roots) == 1
+    assert len(calls) <= 20, "a quarter of the bracket in each would be 26 for the jump alone"
 
 
 def test_the_peak_of_a_sawtooth_does_not_reach_above_itself_through_its_jump():
@@ -394,7 +416,7 @@ def test_values_alone_are_the_same_and_the_rest_is_computed_when_it_is_read():
         lean = rods()
     few = lean.evaluations
 
-    assert few < every.evaluations / 3
+    assert few < every.evaluations / 2, "of two branches only one"
     with values_only():
         easy = find(np.exp, 0.0, 1.0, equals=np.linspace(1.1, 2.7, 50))
     assert easy.evaluations / 50 <= 97 + 1 + 5 * 3 + 4, "the samples, a first value, five steps and the proof"
@@ -402,7 +424,7 @@ def test_values_alone_are_the_same_and_the_rest_is_computed_when_it_is_read():
     assert same(lean.interval[1], every.interval[1]) and same(lean.bracket[0], every.bracket[0])
     assert list(lean.reason) == list(every.reason) and 0 < np.count_nonzero(lean.solved) < 40
     assert len(lean.roots) == len(every.roots) and same(lean.roots[0].value, every.roots[0].value)
-    assert lean.evaluations == every.evaluations > few
+    assert lean.evaluations == few + every.evaluations - 40, "the first value of each problem counts once"
 
 
 def rods():

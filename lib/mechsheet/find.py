@@ -5,8 +5,8 @@ pieces. A piece whose ends differ in sign is solved by bracketing; a cut that me
 a touching root. Everything runs for whole arrays of problems at once: problems on the last axis, and ``f`` always
 gets the same problems in the same places; what a problem gets does not depend on the others.
 
-The value comes first: on the wanted branch, from the nearest piece that has a root. All roots, what is reached and
-why there is no value are another search, of all branches, which a sweep leaves out (`values_only`).
+All branches are searched, which also tells all roots, what is reached and why there is no value. A sweep asks for none
+of that (`values_only`): on the wanted branch it takes the nearest piece that has a root, with the same value.
 """
 
 import html
@@ -15,7 +15,7 @@ from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass, field
 from decimal import Decimal
-from functools import cached_property
+from functools import cache, cached_property
 from typing import Any
 
 import numpy as np
@@ -33,6 +33,7 @@ _EPS = float(np.finfo(float).eps)
 _SAMPLES = 97  # of an interval, dense at its ends: features narrower than 1/60 of it can be missed
 _PLACES = (1 - np.cos(np.linspace(0, np.pi, _SAMPLES)))[:, None] / 2
 _RISE = 64  # a local extreme is looked for within so many times its height above the samples beside it
+_PASSED = 2.0**-10  # and not where its sample has passed the target by so many times: there the sign changes tell
 _OCTAVES = 8  # either way from the guess, the range searched for the reachable interval
 _STEPS = 8  # samples in each octave
 _CLUSTER = 12  # samples between an edge and the next one
@@ -44,6 +45,7 @@ _AROUND = np.array([-1, 0, 1])[:, None, None]
 _BACK = np.array([-3, -2, -1])[:, None, None]
 _BESIDE = np.array([-1, 1])[:, None, None, None] * 2.0 ** np.array([18, 21, 33])[:, None, None]  # floats off a root
 _EVEN = np.array([-1, 0, 1])[:, None, None]
+_MANY = np.arange(1, 16)[:, None, None] / 16
 
 _values_only: ContextVar[bool] = ContextVar("values_only", default=False)
 
@@ -302,10 +304,15 @@ def find(
     def shaped(a: NDArray[Any]) -> Any:
         return a.reshape(shape) if shape else a.item()
 
-    def everything() -> _Everything:
+    @cache
+    def search_all() -> _Search:
         columns = {name: np.tile(v, len(labels)) for name, v in flat.items()}  # branches x problems
-        search = _search(every, columns, np.tile(void, len(labels)))
-        at = wanted * void.size + np.arange(void.size)
+        return _search(every, columns, np.tile(void, len(labels)))
+
+    at = wanted * void.size + np.arange(void.size)
+
+    def everything() -> _Everything:
+        search = search_all()
         reasons = np.full(void.size, "", dtype=object)
         for i in np.flatnonzero(np.isnan(value)):
             reasons[i] = _reason(words, flat["equals"][i], search, at[i])
@@ -320,7 +327,8 @@ def find(
             roots, lambda: (shaped(search.reached[0, at]), shaped(search.reached[1, at])), shaped(reasons)
         )
 
-    low, high, value, residual, *bracket = (np.where(void, np.nan, numbers) for numbers in _nearest(own, flat))
+    answer = _nearest(own, flat) if _values_only.get() else search_all().nearest(at, flat.get("guess"))
+    low, high, value, residual, *bracket = (np.where(void, np.nan, numbers) for numbers in answer)
     found = Found(
         _value=shaped(value),
         branch=branch,
@@ -421,6 +429,11 @@ class _Search:
     pieces: "_Pieces"
     f: _Counted
 
+    def nearest(self, columns: Index, near: Array | None) -> tuple[Array, ...]:
+        """The same as `_nearest` for some columns: by default nearest to the middle of the interval."""
+        lo, hi = self.interval[:, columns]
+        return lo, hi, *_closest(self.roots[:, :, columns], lo / 2 + hi / 2 if near is None else near)
+
     @cached_property
     def reached(self) -> Array:
         """Least and greatest f; its extremes are looked for when this is read: where all is solved nobody asks."""
@@ -458,9 +471,7 @@ def _nearest(f: _Counted, given: dict[str, Array]) -> tuple[Array, ...]:
     near = given.get("guess", lo / 2 + hi / 2)
     pieces = _pieces(f, lo, hi, given["equals"])
     if pieces.touch.any():
-        roots = _roots(f, pieces)[0]
-        nearest = np.fmin(np.abs(roots[0] - near), np.inf).argmin(0)
-        return lo, hi, *roots[:, nearest, np.arange(near.size)]
+        return lo, hi, *_closest(_roots(f, pieces)[0], near)
     i, valid = _slots(pieces.cross)
     least = np.maximum(np.maximum(_at(pieces.x, i) - near, near - _at(pieces.x, i + 1)), 0)
     least = np.where(valid, least, np.inf)  # distance at which the root of a piece can lie
@@ -476,6 +487,13 @@ def _nearest(f: _Counted, given: dict[str, Array]) -> tuple[Array, ...]:
         root, distance = np.where(better, new, root), np.where(better, further, distance)
         least[k[0], np.arange(near.size)] = np.inf
     return lo, hi, *root
+
+
+def _closest(roots: Array, near: Array) -> Array:
+    """Of all roots of each column, rows as in `_Search`, the one nearest to a place."""
+    nearest = np.fmin(np.abs(roots[0] - near), np.inf).argmin(0)
+    closest: Array = roots[:, nearest, np.arange(near.size)]
+    return closest
 
 
 @np.errstate(all="ignore")
@@ -508,7 +526,9 @@ def _pieces(f: _Counted, lo: Array, hi: Array, equals: Array) -> _Pieces:
     turn = _turning(y)
     row, column = turn.nonzero()
     own, beside = y[row, column], y[[row - 1, row + 1], column]
-    turn[row, column] = np.abs(r[row, column]) <= _RISE * np.abs(own - beside).max(0)
+    rise = np.abs(own - beside).max(0)
+    passed = np.where(own > beside[1], 1, -1) * r[row, column]
+    turn[row, column] = (passed >= -_RISE * rise) & (passed <= _PASSED * rise)
     if turn.any():
         x, y, turn = _with_turns(f, x, y, turn, floor)
         r = y - equals
@@ -710,7 +730,8 @@ def _bracketed(g: Function, x: Array, r: Array, active: Mask, floor: Array) -> t
 
     The next points are the zero of the parabola x(r) through the bracket and the point x[2] beside it, and one on
     either side: as far off as half way to the zero of the line, and farther where that has not narrowed the bracket to
-    a quarter. Where it has not three times, and at the end, where f is rounding, the points are evenly spaced.
+    a quarter. Where it has not three times, and at the end, where f is rounding, the points are evenly spaced. Where it
+    has not there are more of them: a jump must be closed in to the last float to be told from a root.
     """
     poor = np.zeros(active.shape)
     while True:
@@ -727,6 +748,10 @@ def _bracketed(g: Function, x: Array, r: Array, active: Mask, floor: Array) -> t
         off = np.maximum(np.where(off < width, off, width / 4), 8 ** (1 + poor) * unit)
         even = ~((a < zero) & (zero < b)) | (width <= 64 * unit) | (poor > 2)
         new = np.where(even, a + width / 2, zero) + _EVEN * np.where(even, width / 4, off)
+        many = active & (poor > 2) & (width > 64 * unit)
+        if many.any():  # the others stay as they would be alone: what they do not need stands at their end b
+            rest = np.broadcast_to(b, (len(_MANY) - len(new), *b.shape))
+            new = np.where(many, a + _MANY * width, np.concatenate([new, rest]))
         x, r = _narrowed(g, x, r, np.clip(new, a, b), active)
         poor = np.where(x[1] - x[0] > width / 4, poor + 1, np.where(even & (poor > 2), poor, 0))
 
