@@ -47,10 +47,8 @@ def not_negative(value: ArrayLike, name: str, unit: str) -> Float:
 def length(value: ArrayLike, name: str) -> Float:
     """Lengths that are not negative, NaN in an array where an earlier step gave none; zero as in `not_negative`."""
     x: Float = _numbers(value, name, "iuf").astype(np.float64, copy=False)
-    if x.ndim == 0:
-        return not_negative(x, name, "m")
     if np.count_nonzero((x >= 0) & (x < np.inf)) < x.size:
-        not_negative(x[~np.isnan(x)], name, "m")
+        not_negative(x[~np.isnan(x)] if x.ndim else x, name, "m")
     return x
 
 
@@ -65,6 +63,8 @@ def parameter(value: ArrayLike, name: str, unit: str) -> Float:
 
 def sign(branch: ArrayLike) -> Float:
     """Assembly branches, +1 or -1."""
+    if type(branch) is int and branch in (1, -1):
+        return np.asarray(float(branch))
     s: Float = _numbers(branch, "branch", "iuf").astype(np.float64, copy=False)
     wrong = np.abs(s) != 1
     if np.count_nonzero(wrong):

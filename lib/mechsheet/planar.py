@@ -53,8 +53,9 @@ def product(p: ArrayLike, q: ArrayLike, z: ArrayLike) -> Complex:
     np.complex128(1+7j)
     """
     p, q, z = np.asarray(p, np.float64), np.asarray(q, np.float64), np.asarray(z, np.complex128)
-    found = np.empty(np.broadcast_shapes(p.shape, q.shape, z.shape), np.complex128)
-    found.real = p * z.real - q * z.imag
+    real = p * z.real - q * z.imag
+    found = np.empty(real.shape, np.complex128)
+    found.real = real
     found.imag = p * z.imag + q * z.real
     return found[()]
 
