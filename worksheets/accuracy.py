@@ -1,6 +1,6 @@
 import marimo
 
-__generated_with = "0.25.2"
+__generated_with = "0.25.1"
 app = marimo.App(width="medium", app_title="Accuracy", css_file="page.css")
 
 with app.setup:
@@ -29,7 +29,7 @@ with app.setup:
     from mechsheet.formula import registry, typeset
     from mechsheet.inputs import Used, ask, inputs, read
     from mechsheet.kinetostatics import Load, rrr_reactions
-    from mechsheet.page import title_block
+    from mechsheet.page import caption, title_block
     from mechsheet.planar import angle, cross, dot
     from mechsheet.precision import Measured, Method, Truth, WorkPrecision, compare, progress, timed
     from mechsheet.report import export
@@ -1469,7 +1469,7 @@ def table_72(scenes_7, texts):
 @app.cell
 def figure_71(outcomes_7):
     figure_71 = extreme.Kept(outcomes_7)
-    typeset(figure_71, mo.md("**Figure 7.1** – Digits kept over digits expected, every result of every scene"))
+    typeset(figure_71, caption("7.1", "Digits kept over digits expected, every result of every scene"))
     return (figure_71,)
 
 

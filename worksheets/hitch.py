@@ -1,6 +1,6 @@
 import marimo
 
-__generated_with = "0.25.2"
+__generated_with = "0.25.1"
 app = marimo.App(width="medium", app_title="Tractor hitch", css_file="page.css")
 
 with app.setup:
@@ -18,7 +18,7 @@ with app.setup:
     from mechsheet.formula import typeset
     from mechsheet.inputs import Used, ask, inputs, read
     from mechsheet.kinetostatics import Load, rrr_reactions
-    from mechsheet.page import mark, player, title_block
+    from mechsheet.page import caption, mark, player, side_by_side, title_block
     from mechsheet.planar import angle, cross
     from mechsheet.report import export
     from mechsheet.table import figure, table
@@ -412,8 +412,10 @@ def stroke():
 def scheme(L4, L7, O1, O3, O5, O7, P23, P23_S, P34, P34_S, P45, P45_S, P56, P56_S, P67, P67_S, PS6, PS6_S, g):
     frame = np.concatenate([[O1, O3, O5, O7], P23_S, P34_S, P45_S, P56_S, P67_S, PS6_S])
 
-    def scheme(S):
-        p23, p34, p45, p56, p67, s6 = P23(S), P34(S), P45(S, L4), P56(S, L4), P67(S, L7), PS6(S)
+    def pins(S):
+        return P23(S), P34(S), P45(S, L4), P56(S, L4), P67(S, L7), PS6(S)
+
+    def scheme(p23, p34, p45, p56, p67, s6):
         links = (
             Drawing(frame=frame).plate([O3, p23, p34], "3").cylinder(O1, p23, "S", 0.9 * g.S_min).link(p34, p45, "4")
         )
@@ -423,29 +425,30 @@ def scheme(L4, L7, O1, O3, O5, O7, P23, P23_S, P34, P34_S, P45, P45_S, P56, P56_
 
     fine = np.linspace(g.S_min, g.S_max, 100)
     paths = Drawing().path(P56(fine, L4)).path(PS6(fine))
-    still = scheme(g.S_min).faint() + scheme(g.S_max).faint() + paths  # what the slider does not move
-    return frame, scheme, still
+    still = scheme(*pins(g.S_min)).faint() + scheme(*pins(g.S_max)).faint() + paths  # what the slider does not move
+    return frame, pins, scheme, still
 
 
 @app.cell
-def velocities(L4, L7, O1, O3, O5, O7, P23, P34, P45, P56, P67, PS6):
-    def velocities(S, dS=1.0):
-        p34, p56 = P34(S), P56(S, L4)
-        v34 = 1j * rrr_velocity(O1, O3, P23(S), 0, 0, dr_A=dS).omega_B * (p34 - O3)
-        v56 = 1j * rrr_velocity(p34, O5, P45(S, L4), v34, 0).omega_B * (p56 - O5)
-        vS6 = v56 + 1j * rrr_velocity(p56, O7, P67(S, L7), v56, 0).omega_A * (PS6(S) - p56)
+def velocities(O1, O3, O5, O7):
+    def velocities(p23, p34, p45, p56, p67, s6, dS=1.0):
+        v34 = 1j * rrr_velocity(O1, O3, p23, 0, 0, dr_A=dS).omega_B * (p34 - O3)
+        v56 = 1j * rrr_velocity(p34, O5, p45, v34, 0).omega_B * (p56 - O5)
+        vS6 = v56 + 1j * rrr_velocity(p56, O7, p67, v56, 0).omega_A * (s6 - p56)
         return v34, v56, vS6
 
     return (velocities,)
 
 
 @app.cell
-def drawing_21(L4, P34, P56, PS6, g, part, scheme, still, velocities):
+def drawing_21(g, part, pins, scheme, still, velocities):
     S_t = g.S_min * (1 - part.value) + g.S_max * part.value  # [m] stroke as drawn
-    V34, V56, VS6 = velocities(S_t)
-    moved = scheme(S_t).arrow(P34(S_t), V34, "V34", "m/s").arrow(P56(S_t, L4), V56, "V56", "m/s")
-    drawing_21 = moved.arrow(PS6(S_t), VS6, "VS6", "m/s") + still
-    typeset(drawing_21, mark(S=S_t), mo.md("**Figure 2.1** – Kinematic scheme of the hitch"))
+    pins_t = pins(S_t)
+    _, P34_t, _, P56_t, _, PS6_t = pins_t
+    V34, V56, VS6 = velocities(*pins_t)
+    moved = scheme(*pins_t).arrow(P34_t, V34, "V34", "m/s").arrow(P56_t, V56, "V56", "m/s")
+    drawing_21 = moved.arrow(PS6_t, VS6, "VS6", "m/s") + still
+    typeset(drawing_21, mark(S=S_t), caption("2.1", "Kinematic scheme of the hitch"))
     return V34, V56, VS6, drawing_21, moved
 
 
@@ -560,13 +563,13 @@ def section_32():
 
 
 @app.cell
-def differences(I56, IS6, L4, P56, PS6, S, dphi3, g, phi3, velocities):
+def differences(I56, IS6, L4, P23_S, P34_S, P45_S, P56, P56_S, P67_S, PS6, PS6_S, S, dphi3, g, phi3, velocities):
     checks_analogues = (
         check_slope("dphi3 is the slope of phi3", dphi3, phi3, S, g.S_min, g.S_max, "rad/m"),
         check_slope("I56 is the slope of Y56", I56, lambda s: P56(s, L4).imag, S, g.S_min, g.S_max),
         check_slope("IS6 is the slope of YS6", IS6, lambda s: PS6(s).imag, S, g.S_min, g.S_max),
     )
-    _v34, _v56, _vS6 = velocities(S)
+    _v34, _v56, _vS6 = velocities(P23_S, P34_S, P45_S, P56_S, P67_S, PS6_S)
     checks_drawn = (
         check("velocities as drawn: V56 rises by I56", _v56.imag - I56, 1e-11 * np.max(abs(I56))),
         check("velocities as drawn: VS6 rises by IS6", _vS6.imag - IS6, 1e-11 * np.max(abs(IS6))),
@@ -741,15 +744,11 @@ def drawings_5(
     pins_23 = arm.hinge(O1, "O1").hinge(O3, "O3").hinge(P23_S[k_t], "P23").hinge(P34_S[k_t], "P34")
     forces_23 = pins_23.force(O1, R01[k_t], "R01").force(O3, R03[k_t], "R03")
     drawing_53 = forces_23.force(P34_S[k_t], R34[k_t], "R34")
-    _captions = (
-        "**Figure 5.1** – Assur group (6, 7)",
-        "**Figure 5.2** – group (4, 5)",
-        "**Figure 5.3** – group (2, 3)",
-    )
-    _figures = zip((drawing_51, drawing_52, drawing_53), _captions, strict=True)
     typeset(
-        mo.hstack(
-            [mo.vstack([drawn, mo.md(text)]) for drawn, text in _figures], justify="start", align="end", wrap=True
+        side_by_side(
+            (drawing_51, caption("5.1", "Assur group (6, 7)")),
+            (drawing_52, caption("5.2", "group (4, 5)")),
+            (drawing_53, caption("5.3", "group (2, 3)")),
         )
     )
     return drawing_51, drawing_52, drawing_53
@@ -864,18 +863,19 @@ def stability(PS6_S, g):
 
 
 @app.cell
-def drawing_61(PS6_S, Ra, Rb, frame, g, k_t, S, scheme):
+def drawing_61(P23_S, P34_S, P45_S, P56_S, P67_S, PS6_S, Ra, Rb, frame, g, k_t, scheme):
+    pins_k = P23_S[k_t], P34_S[k_t], P45_S[k_t], P56_S[k_t], P67_S[k_t], PS6_S[k_t]
     rear, front = 0.8, 0.55  # radii of the wheels, for the picture only
     nose = -g.L - g.a
     body = [nose + 0.6j, nose + 1.05j, -g.b + 1.25j, 0.2 + 1.25j, 0.2 + 0.6j]
     ground = Drawing(width=900, height=480).ground(nose - 0.3, np.max(frame.real) + 0.3)
-    machine = ground.wheel(1j * rear, rear).wheel(-g.L + 1j * front, front).polygon(body) + scheme(S[k_t]).faint()
+    machine = ground.wheel(1j * rear, rear).wheel(-g.L + 1j * front, front).polygon(body) + scheme(*pins_k).faint()
     weights = machine.mass(-g.b + 0.9j, "C").force(-g.b + 0.9j, -1j * g.P_msha, "P_msha")
     loads = weights.force(nose + 0.6j, -1j * g.P_gr, "P_gr").mass(PS6_S[k_t], "S6").force(PS6_S[k_t], -1j * g.P6, "P6")
     wheels = loads.force(-g.L + 0j, 1j * Ra[k_t], "Ra", into=True).force(0j, 1j * Rb[k_t], "Rb", into=True)
     lengths = wheels.dimension(nose + 1.05j, -g.L + 1.05j, "a").dimension(-g.L + 1.6j, 1.6j, "L")
     drawing_61 = lengths.dimension(-g.b + 1.25j, 1.25j, "b")
-    typeset(drawing_61, mo.md("**Figure 6.1** – The machine with its loads; wheels for the picture only"))
+    typeset(drawing_61, caption("6.1", "The machine with its loads; wheels for the picture only"))
     return (drawing_61,)
 
 

@@ -1,6 +1,6 @@
 import marimo
 
-__generated_with = "0.25.2"
+__generated_with = "0.25.1"
 app = marimo.App(width="medium", app_title="Design of a tractor hitch", css_file="page.css")
 
 with app.setup:

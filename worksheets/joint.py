@@ -1,6 +1,6 @@
 import marimo
 
-__generated_with = "0.25.2"
+__generated_with = "0.25.1"
 app = marimo.App(width="medium", app_title="Joints of compartments", css_file="page.css")
 
 with app.setup:
@@ -16,7 +16,7 @@ with app.setup:
     from mechsheet.formula import typeset
     from mechsheet.inputs import Used, ask, inputs, read
     from mechsheet.joint import bending, circular_joint, neutral_axis, sum_of_elements
-    from mechsheet.page import title_block
+    from mechsheet.page import caption, side_by_side, title_block
     from mechsheet.report import export
     from mechsheet.table import table
     from mechsheet.units import parse, shown
@@ -475,8 +475,8 @@ def drawings_41_42(drawn, scheme):
     drawing_41 = scheme(0, drawn.value - 1, "h", "b")
     drawing_42 = scheme(1, drawn.value - 1, "b", "h")
     typeset(
-        *(drawing_41, mo.md(f"**Figure 4.1** – Load in the plane YOX, case {drawn.value}")),
-        *(drawing_42, mo.md(f"**Figure 4.2** – Load in the plane ZOX, case {drawn.value}")),
+        *(drawing_41, caption("4.1", f"Load in the plane YOX, case {drawn.value}")),
+        *(drawing_42, caption("4.2", f"Load in the plane ZOX, case {drawn.value}")),
     )
     return drawing_41, drawing_42
 
@@ -662,8 +662,8 @@ def ring_scheme(M_r, N_r, P_k, g, p_o, phi, phi_no, unit_F, unit_p, y_r0):
 @app.cell
 def drawing_51(drawn_ring, ring_scheme):
     drawing_51 = tuple(ring_scheme(p, drawn_ring.value - 1) for p in (0, 1))
-    _caption = f"**Figure 5.1** – Load in plane 1 and in plane 2, case {drawn_ring.value}"
-    typeset(mo.hstack(drawing_51, justify="start"), mo.md(_caption))
+    _caption = caption("5.1", f"Load in plane 1 and in plane 2, case {drawn_ring.value}")
+    typeset(side_by_side(*drawing_51), _caption)
     return (drawing_51,)
 
 

@@ -1,6 +1,6 @@
 import marimo
 
-__generated_with = "0.25.2"
+__generated_with = "0.25.1"
 app = marimo.App(width="medium", app_title="Kinetostatics", css_file="page.css")
 
 with app.setup:
@@ -41,7 +41,7 @@ with app.setup:
         rrp_reactions,
         rrr_reactions,
     )
-    from mechsheet.page import mark, player, title_block
+    from mechsheet.page import caption, mark, player, title_block
     from mechsheet.planar import angle, cross, dot, link_acceleration, link_velocity
     from mechsheet.report import export
     from mechsheet.table import figure, table
@@ -390,7 +390,7 @@ def drawing_21(phi1, position_lines, scheme, turn):
     drawing_21 = scheme(turn.value)
     typeset(
         *(drawing_21, mark(phi1=phi1[turn.value])),
-        mo.md(f"**Figure 2.1** – Scheme of the mechanism, φ₁ = {turn.value}°"),
+        caption("2.1", f"Scheme of the mechanism, φ₁ = {turn.value}°"),
         position_lines.at(turn.value),
     )
     return (drawing_21,)
@@ -737,7 +737,7 @@ def drawing_41(D, E, F4_sum, F5_sum, R_05, R_D, S4, bare_45, g, kind_2, turn, u5
     _pins = _links.hinge(D[_k], "D").hinge(E[_k], "E").mass(S4[_k], "S4")
     _loads = _pins.force(S4[_k], F4_sum[_k], "F4") + pin_force(E[_k], F5_sum[_k], "F5", D[_k])
     drawing_41 = _loads.force(E[_k], R_05[_k], "R05") + pin_force(D[_k], R_D[_k], "R34", E[_k])
-    typeset(turn, drawing_41, mo.md(f"**Figure 4.1** – Group (4, 5) with its forces, φ₁ = {_k}°"), kind_2.at(_k))
+    typeset(turn, drawing_41, caption("4.1", f"Group (4, 5) with its forces, φ₁ = {_k}°"), kind_2.at(_k))
     return (drawing_41,)
 
 
@@ -887,7 +887,7 @@ def drawing_51(F6_sum, F7_sum, H, K, R_H, R_K, S6, S7, bare_67, g, kind_3, turn)
     _masses = _links.mass(S6[_k], "S6").mass(S7[_k], "S7")
     _loads = _masses.force(S6[_k], F6_sum[_k], "F6").force(S7[_k], F7_sum[_k], "F7")
     drawing_51 = _loads + pin_force(K[_k], R_K[_k], "R36", H) + pin_force(H, R_H[_k], "R07", K[_k])
-    typeset(turn, drawing_51, mo.md(f"**Figure 5.1** – Group (6, 7) with its forces, φ₁ = {_k}°"), kind_3.at(_k))
+    typeset(turn, drawing_51, caption("5.1", f"Group (6, 7) with its forces, φ₁ = {_k}°"), kind_3.at(_k))
     return (drawing_51,)
 
 
@@ -1072,7 +1072,7 @@ def drawing_61(A, B, C, D, F2_sum, F3_own, K, R_A, R_C, R_D, R_K, S2, S3, bare_2
     _back = _pins + pin_force(D[_k], -R_D[_k], "R43", C) + pin_force(K[_k], -R_K[_k], "R63", C)
     _loads = _back.force(S2[_k], F2_sum[_k], "F2").force(S3[_k], F3_own[_k], "F3_own")
     drawing_61 = _loads + pin_force(A[_k], R_A[_k], "R12", B[_k]) + pin_force(C, R_C[_k], "R03", B[_k])
-    typeset(turn, drawing_61, mo.md(f"**Figure 6.1** – Group (2, 3) with its forces, φ₁ = {_k}°"), kind_1.at(_k))
+    typeset(turn, drawing_61, caption("6.1", f"Group (2, 3) with its forces, φ₁ = {_k}°"), kind_1.at(_k))
     return (drawing_61,)
 
 
@@ -1168,7 +1168,7 @@ def drawing_71(A, F1_sum, F_w, O1, P_w, R_1g, R_A, S1, bare_gear, checks_gear, g
     _loads = _links.force(S1[_k], F1_sum[_k], "F1") + pin_force(A[_k], -R_A[_k], "R21", O1)
     drawing_71 = _loads.force(P_w, F_w[_k], "F_b", into=True) + pin_force(O1, R_1g[_k], "R_O1", A[_k])
     typeset(
-        *(turn, drawing_71, mo.md(f"**Figure 7.1** – Crank driven by a gear, φ₁ = {_k}°")),
+        *(turn, drawing_71, caption("7.1", f"Crank driven by a gear, φ₁ = {_k}°")),
         *(gear_lines.at(_k), gear_vectors.at(_k), *checks_gear),
     )
     return (drawing_71,)
@@ -1268,7 +1268,7 @@ def drawing_72(
     drawing_72 = _loads + pin_force(O1, R_1c[_k], "R_O1", A[_k])
     _says = f"balancing moment {M_c[_k]:.4g} N·m" if isfinite(M_c[_k]) else "no balancing moment"
     typeset(
-        *(turn, drawing_72, mo.md(f"**Figure 7.2** – Crank driven by a coupling, φ₁ = {_k}°: {_says}")),
+        *(turn, drawing_72, caption("7.2", f"Crank driven by a coupling, φ₁ = {_k}°: {_says}")),
         *(coupling_lines.at(_k), coupling_vectors.at(_k), *checks_coupling),
     )
     return (drawing_72,)
@@ -1391,7 +1391,7 @@ def figure_87(diagrams, polars, turn):
         for _name, (_R, _what) in polars.items()
     ]
     _rows = [mo.hstack(_shown[_i : _i + 3], widths="equal", align="end") for _i in range(0, len(_shown), 3)]
-    typeset(turn, *_rows, mo.md("**Figure 8.7** – Polar diagrams of the reactions"))
+    typeset(turn, *_rows, caption("8.7", "Polar diagrams of the reactions"))
     return
 
 

@@ -1,6 +1,6 @@
 import marimo
 
-__generated_with = "0.25.2"
+__generated_with = "0.25.1"
 app = marimo.App(width="medium", app_title="Landing gear", css_file="page.css")
 
 with app.setup:
@@ -19,7 +19,7 @@ with app.setup:
     from mechsheet.formula import typeset
     from mechsheet.inputs import Used, ask, inputs, read
     from mechsheet.kinetostatics import Load, cylinder_drive, inertia, rrr_reactions
-    from mechsheet.page import mark, player, title_block
+    from mechsheet.page import caption, mark, player, title_block
     from mechsheet.planar import angle, angle_opposite, cross, dot, link_acceleration, link_velocity
     from mechsheet.report import export
     from mechsheet.table import figure, table
@@ -374,7 +374,7 @@ def stroke():
 def drawing_32(H, ends, l20, part, paths, scheme):
     l2_t = l20 + part.value * H  # [m] cylinder as drawn
     drawing_32 = scheme(l2_t) + ends + paths
-    typeset(drawing_32, mark(l2f=l2_t), mo.md("**Figure 3.2** – Scheme of the landing gear"))
+    typeset(drawing_32, mark(l2f=l2_t), caption("3.2", "Scheme of the landing gear"))
     return drawing_32, l2_t
 
 
@@ -873,8 +873,8 @@ def drawings_61_62(A, D3, G3, I3, O2, Q3, Q_w, S3, W3, ends, l2_t, part, reactio
     drawing_62 = scheme(l2_t).force(A(l2_t), -at.R_C, "R23").force(O2, at.R_B, "R03")
     typeset(
         player(part),
-        *(drawing_61, mo.md("**Figure 6.1** – Loads on the leg")),
-        *(drawing_62, mo.md("**Figure 6.2** – Reactions on the leg")),
+        *(drawing_61, caption("6.1", "Loads on the leg")),
+        *(drawing_62, caption("6.2", "Reactions on the leg")),
     )
     return drawing_61, drawing_62
 

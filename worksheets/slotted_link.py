@@ -1,6 +1,6 @@
 import marimo
 
-__generated_with = "0.25.2"
+__generated_with = "0.25.1"
 app = marimo.App(width="medium", app_title="Slotted link", css_file="page.css")
 
 with app.setup:
@@ -14,7 +14,7 @@ with app.setup:
     from mechsheet.dyads import rpr, rpr_acceleration, rpr_velocity
     from mechsheet.formula import typeset
     from mechsheet.inputs import Used, ask, inputs, read
-    from mechsheet.page import mark, player, title_block
+    from mechsheet.page import caption, mark, player, title_block
     from mechsheet.planar import angle, angle_between, dot
     from mechsheet.report import export
     from mechsheet.table import figure, table
@@ -538,7 +538,7 @@ def drawing_1(A, C, VA, VC, WA, WC, g, part, paths, phi3, scheme):
     typeset(
         drawing_1,
         mark(phi1_t=phi1),
-        mo.md("**Figure 1** – Slotted link with the velocities and accelerations of A and C"),
+        caption("1", "Slotted link with the velocities and accelerations of A and C"),
     )
     return VC_1, WC_1, drawing_1, phi1, phi3_1
 

@@ -213,14 +213,11 @@ class Typeset:
     @property
     def html(self) -> str:
         """The lines as they stand in the page."""
-        import marimo as mo
-
         lines = [
             _line(row.tex) if isinstance(row, Given) else self._formula(row, value)
             for row, value in zip(self.rows, self.values, strict=True)
         ]
-        more = (each.html if isinstance(each, Typeset) else mo.as_html(each).text for each in self.shown)
-        return "".join([*lines, *more])
+        return "".join([*lines, *map(markup, self.shown)])
 
     def _formula(self, row: Formula, value: Any) -> str:
         formula = " = ".join(filter(None, (row.symbol, row.tex)))
@@ -228,6 +225,18 @@ class Typeset:
             return _line(formula, "", row.meaning)
         numbers = "" if self.numbers is None else _substituted(row, self.numbers, self.position)
         return _line(f"{formula} = {{}}", value_latex(value, row.unit), row.meaning, numbers)
+
+
+def markup(value: Any) -> str:
+    """What the page shows of a value, as HTML."""
+    if isinstance(value, Typeset):
+        return value.html
+    kind, text = value._mime_() if hasattr(value, "_mime_") else ("", "")
+    if kind == "text/html":
+        return str(text)
+    import marimo as mo
+
+    return mo.as_html(value).text
 
 
 def _line(tex: str, value: str = "", meaning: str = "", numbers: str = "") -> str:

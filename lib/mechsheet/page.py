@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from mechsheet import chart, symbol
 from mechsheet.errors import quoted
+from mechsheet.formula import markup
 
 if TYPE_CHECKING:
     import marimo as mo
@@ -94,6 +95,40 @@ class Mark:
 def mark(**positions: Any) -> Mark:
     """The position of a slider, such as ``mark(S=S_t)``, to be shown beside what is drawn there."""
     return Mark(tuple(positions.items()))
+
+
+@dataclass(frozen=True)
+class Caption:
+    """Number and title of a drawing, below it; those of a chart or a table stand with it."""
+
+    number: str
+    title: str
+
+    def _mime_(self) -> tuple[str, str]:
+        return "text/html", (
+            f'<div class="ms-caption"><b>Figure {html.escape(self.number)}</b> – {html.escape(self.title)}</div>'
+        )
+
+
+def caption(number: str, title: str) -> Caption:
+    """Caption of a drawing: ``typeset(drawing_21, caption("2.1", "Scheme of the mechanism"))``."""
+    return Caption(number, title)
+
+
+@dataclass(frozen=True)
+class SideBySide:
+    """Columns of what is shown, as many in a row as find room."""
+
+    columns: tuple[tuple[Any, ...], ...]
+
+    def _mime_(self) -> tuple[str, str]:
+        columns = ("".join(map(markup, column)) for column in self.columns)
+        return "text/html", f'<div class="ms-beside">{"".join(f"<div>{each}</div>" for each in columns)}</div>'
+
+
+def side_by_side(*shown: Any) -> SideBySide:
+    """Drawings beside each other; of a tuple, one below the other."""
+    return SideBySide(tuple(each if isinstance(each, tuple) else (each,) for each in shown))
 
 
 @cache

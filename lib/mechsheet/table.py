@@ -6,6 +6,7 @@ import sys
 from collections.abc import Mapping
 from dataclasses import dataclass
 from itertools import takewhile
+from math import isnan
 from types import FrameType
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -42,7 +43,8 @@ class Column:
 
     def texts(self) -> list[str]:
         """The values as they are shown."""
-        return [v if isinstance(v, str) else _digits(v, self.decimals, "e" if self.power else "f") for v in self.values]
+        kind = "e" if self.power else "f"
+        return [v if isinstance(v, str) else _digits(v, self.decimals, kind) for v in self.values.tolist()]
 
 
 @dataclass(frozen=True)
@@ -81,14 +83,14 @@ def _block(columns: list[Column]) -> str:
     )
     unit_row = "".join(f"<th>{f'[{html.escape(units.shown(c.unit))}]' if c.unit else ''}</th>" for c in columns)
     rows = "".join(
-        "<tr>" + "".join(f"<td{kind}>{html.escape(t)}</td>" for t, kind in zip(row, kinds, strict=True)) + "</tr>"
-        for row in zip(*(c.texts() for c in columns), strict=True)
+        "<tr>" + "".join(f"<td{kind}>{t}</td>" for t, kind in zip(row, kinds, strict=True)) + "</tr>"
+        for row in zip(*(c.texts() if c.unit else map(html.escape, c.texts()) for c in columns), strict=True)
     )
     return f'<table><thead><tr>{heads}</tr><tr class="ms-units">{unit_row}</tr></thead><tbody>{rows}</tbody></table>'
 
 
 def _digits(value: float, decimals: int, kind: str) -> str:
-    return "–" if np.isnan(value) else f"{value:z.{decimals}{kind}}".replace("inf", "∞")
+    return "–" if isnan(value) else f"{value:z.{decimals}{kind}}".replace("inf", "∞")
 
 
 @dataclass(frozen=True)
