@@ -8,7 +8,7 @@ import sys
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cache, cached_property, lru_cache
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -224,7 +224,7 @@ class Typeset:
         if row.arguments:
             return _line(formula, "", row.meaning)
         numbers = "" if self.numbers is None else _substituted(row, self.numbers, self.position)
-        return _line(f"{formula} = {{}}", value_latex(value, row.unit), row.meaning, numbers)
+        return _line(f"{formula} =", value_html(value, row.unit), row.meaning, numbers)
 
 
 def markup(value: Any) -> str:
@@ -242,10 +242,11 @@ def markup(value: Any) -> str:
 def _line(tex: str, value: str = "", meaning: str = "", numbers: str = "") -> str:
     """A typeset line; its numbers wait in an attribute until the reader asks for them.
 
-    The value is an element of its own: where it alone changes, the browser keeps the formula as it has set it.
+    The value is an element of its own: where it alone changes, the browser keeps the formula as it has set it, and the
+    value is there with the output that holds it.
     """
     more = f'<ms-numbers tex="{html.escape("= " + numbers)}"></ms-numbers>' if numbers else ""
-    typeset = _tex_element(tex) + (_tex_element(value) if value else "")
+    typeset = _tex_element(tex) + (f'<span class="ms-value">{value}</span>' if value else "")
     return (
         f'<div class="ms-line"><span class="ms-formula">{typeset}</span><span>{html.escape(meaning)}</span>{more}</div>'
     )
@@ -271,41 +272,75 @@ def _substituted(row: Formula, numbers: _Numbers, position: int) -> str:
     return latex(row.expression, found) if found and row.tex else ""
 
 
+class _Notation(NamedTuple):
+    """How the parts of a value are written."""
+
+    power: str  # of ten, behind a number
+    none: str
+    infinite: str
+    pair: str
+    span: str
+    degrees: str
+    percent: str
+    unit: str
+    raised: str
+    times: str  # between units
+
+
+_LATEX = _Notation(
+    r"{} \cdot 10^{{{}}}", r"\text{none}", r"\infty", r"({},\ {})", r" \,\ldots\, ", r"^\circ", r"\,\%",
+    r"\ \mathrm{{{}}}", r"^{{{}}}", r"\cdot ",
+)  # fmt: skip
+_HTML = _Notation(
+    "{}·10<sup>{}</sup>", "none", "∞", "({}, {})", " … ", "°", " %", " {}", "<sup>{}</sup>", "·"
+)  # fmt: skip
+
+
 def number_latex(x: float) -> str:
     """Number with five significant digits or all before the point; as a power of ten outside 1e-3..1e6."""
+    return _number(x, _LATEX)
+
+
+def value_latex(value: Any, unit: str) -> str:
+    """Value in its display unit; a field of positions as first .. last, a point or a vector as a pair."""
+    return _value(value, unit, _LATEX)
+
+
+def value_html(value: Any, unit: str) -> str:
+    """The same for the page, which shows text at once and LaTeX later."""
+    return _value(value, unit, _HTML).replace("-", "−")
+
+
+def _number(x: float, to: _Notation) -> str:
     if not np.isfinite(x):
-        return r"\text{none}" if np.isnan(x) else (r"\infty" if x > 0 else r"-\infty")
+        return to.none if np.isnan(x) else ("" if x > 0 else "-") + to.infinite
     if 1e5 <= abs(x) < 1e6:
         return f"{x:.0f}"
     if x == 0 or 1e-3 <= abs(x) < 1e5:
         return np.format_float_positional(float(f"{x:.5g}") + 0.0, trim="-")  # + 0.0: no sign of zero
     mantissa, exponent = f"{x:.4e}".split("e")
-    return rf"{mantissa.rstrip('0').rstrip('.')} \cdot 10^{{{int(exponent)}}}"
+    return to.power.format(mantissa.rstrip("0").rstrip("."), int(exponent))
 
 
-def value_latex(value: Any, unit: str) -> str:
-    """Value in its display unit; a field of positions as first .. last, a point or a vector as a pair."""
+def _value(value: Any, unit: str, to: _Notation) -> str:
     field = np.asarray(value)
     ends = [field.item()] if field.ndim == 0 else [field.flat[0].item(), field.flat[-1].item()]
-    return r" \,\ldots\, ".join(_end_latex(end, unit) for end in ends) + unit_latex(unit)
+    return to.span.join(_end(end, unit, to) for end in ends) + _unit(unit, to)
 
 
 @lru_cache(maxsize=4096, typed=True)  # most numbers stay when an input changes; 0 and 0j are not shown alike
-def _end_latex(end: float | complex, unit: str) -> str:
+def _end(end: float | complex, unit: str, to: _Notation) -> str:
     z = end / units.parse(unit).factor
-    return rf"({number_latex(z.real)},\ {number_latex(z.imag)})" if isinstance(z, complex) else number_latex(z)
+    return to.pair.format(_number(z.real, to), _number(z.imag, to)) if isinstance(z, complex) else _number(z, to)
 
 
 @cache
-def unit_latex(unit: str) -> str:
-    if unit == "-":
-        return ""
-    if unit == "deg":
-        return r"^\circ"
-    if unit == "%":
-        return r"\,\%"
-    text = re.sub(r"\*\*(-?\d+)", r"^{\1}", unit).replace("*", r"\cdot ")
-    return r"\ \mathrm{" + text + "}"
+def _unit(unit: str, to: _Notation) -> str:
+    special = {"-": "", "deg": to.degrees, "%": to.percent}
+    if unit in special:
+        return special[unit]
+    powers = re.sub(r"\*\*(-?\d+)", lambda power: to.raised.format(power[1]), unit)
+    return to.unit.format(powers.replace("*", to.times))
 
 
 _SYMBOL = re.compile(rf"([A-Z]+|{'|'.join(symbol.GREEK)})(_|$)")  # VC, eps_BC
