@@ -52,6 +52,10 @@ def title_block(name: str, text: str = "") -> Title:
     if "marimo" in sys.modules:
         import marimo as mo
 
+        if mo.running_in_notebook():
+            from mechsheet.hastened import hasten
+
+            hasten()
         if mo.app_meta().mode == "edit":
             from mechsheet import editor
 
