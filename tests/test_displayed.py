@@ -54,7 +54,7 @@ def factor(unit: str) -> float:
 
 def number(text: str) -> tuple[float, float]:
     """Number of a text and half of its last digit."""
-    text = re.sub(r"·10<sup>(.*)</sup>", r"e\1", text.strip().replace("−", "-"))
+    text = re.sub(r"\s·\s10<sup>(.*)</sup>", r"e\1", text.strip().replace("−", "-"))
     if text in ("none", "–", "nan"):
         return float("nan"), 0.0
     if "∞" in text:
@@ -78,7 +78,7 @@ def same(text: str, value: float, unit: str, digits: int = 0) -> bool:
     return bool(abs(read * factor(unit) - value) <= (1 + 1e-6) * half * factor(unit) + 1e-12 * abs(value))
 
 
-VALUE = r"(?:−?[\d.]+(?:·10<sup>−?\d+</sup>)?|none|−?∞)"
+VALUE = r"(?:−?[\d.]+(?:\s·\s10<sup>−?\d+</sup>)?|none|−?∞)"
 
 
 def ends(text: str) -> tuple[list[str], str]:

@@ -126,7 +126,7 @@ def test_unknown_unit_names_the_line():
         (-0.66132, "m", "−0.66132 m"),
         (np.pi / 6, "deg", "30°"),
         (0.14, "%", "14 %"),
-        (-1.5e-7, "m", "−1.5·10<sup>−7</sup> m"),
+        (-1.5e-7, "m", "−1.5\u2009·\u200910<sup>−7</sup> m"),
         (np.inf, "-", "∞"),
         (0.5 - 2j, "m/s**2", "(0.5, −2) m/s<sup>2</sup>"),
         (np.array([1.0, np.nan]), "N*m**-1", "1 … none N·m<sup>−1</sup>"),

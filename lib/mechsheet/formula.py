@@ -292,7 +292,7 @@ _LATEX = _Notation(
     r"\ \mathrm{{{}}}", r"^{{{}}}", r"\cdot ",
 )  # fmt: skip
 _HTML = _Notation(
-    "{}·10<sup>{}</sup>", "none", "∞", "({}, {})", " … ", "°", " %", " {}", "<sup>{}</sup>", "·"
+    "{}\u2009·\u200910<sup>{}</sup>", "none", "∞", "({}, {})", " … ", "°", " %", " {}", "<sup>{}</sup>", "·"
 )  # fmt: skip
 
 
