@@ -15,6 +15,7 @@ from hypothesis import strategies as st
 
 from mechsheet.drawing import COLOURS, Drawing
 from mechsheet.errors import SheetError
+from mechsheet.page import caption, side_by_side
 
 SVG = "{http://www.w3.org/2000/svg}"
 HALF_DIGIT = 0.05  # px, numbers are printed to 0.1 px
@@ -473,3 +474,11 @@ def test_moment_is_an_arc_in_its_sense(M, sense):
 def test_bar_of_a_scale_has_the_colour_of_its_arrows():
     svg = Drawing().arrow(0j, 1 + 0j, "V", "m/s", "orange").svg()
     assert svg.count('stroke="#cf7a17"') == 2
+
+
+def test_drawings_stand_side_by_side_each_above_its_caption():
+    text = side_by_side((Drawing().hinge(0j, "A"), caption("5.1", "a < b")), Drawing().hinge(0j, "B"))._mime_()[1]
+
+    first, second = re.fullmatch(r'<div class="ms-beside"><div>(.*)</div><div>(.*)</div></div>', text).groups()
+    assert re.fullmatch(r'<svg.*</svg><div class="ms-caption"><b>Figure 5\.1</b> – a &lt; b</div>', first)
+    assert re.fullmatch(r"<svg.*>B<.*</svg>", second)
