@@ -10,7 +10,7 @@ import test_kinetostatics_sheet
 import test_landing_gear
 import test_slotted_link
 
-from mechsheet.worksheet import load
+from mechsheet.worksheet.cells import load
 
 WORKSHEET = Path(__file__).parents[1] / "worksheets" / "accuracy.py"
 SHEET = load(WORKSHEET)

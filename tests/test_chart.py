@@ -8,7 +8,7 @@ from html import unescape
 import numpy as np
 import pytest
 
-from mechsheet import chart
+from mechsheet.document import chart
 
 
 @dataclass(frozen=True)

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from mechsheet.checks import Check, assembled, check, check_slope, listen, require, summary
+from mechsheet.worksheet.checks import Check, assembled, check, check_slope, listen, require, summary
 
 
 @pytest.mark.parametrize(("residual", "passed"), [(1e-12, True), ([0, -2e-12], False), (np.nan, False), (1e-12j, True)])

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from mechsheet.dimensions import mismatches
+from mechsheet.recording.dimensions import mismatches
 
 EVERY = sorted((Path(__file__).parents[1] / "worksheets").glob("*.py"))
 # accuracy compares methods and declares no formula; the design computes through hitch.py, whose inputs keep their metre

@@ -15,12 +15,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mechsheet.checks import Check, Summary
-from mechsheet.find import Found
-from mechsheet.formula import Formula, Typeset
-from mechsheet.inputs import Used
-from mechsheet.symbol import plain
-from mechsheet.table import Column, Figure, Table
+from mechsheet.worksheet.checks import Check, Summary
+from mechsheet.worksheet.find import Found
+from mechsheet.worksheet.formula import Formula, Typeset
+from mechsheet.worksheet.inputs import Used
+from mechsheet.worksheet.symbol import plain
+from mechsheet.worksheet.table import Column, Figure, Table
 
 WORKSHEETS = sorted((Path(__file__).parents[1] / "worksheets").glob("*.py"))
 SI = {

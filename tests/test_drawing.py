@@ -13,9 +13,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mechsheet.drawing import COLOURS, Drawing
-from mechsheet.errors import SheetError
-from mechsheet.page import caption, side_by_side
+from mechsheet.document.drawing import COLOURS, Drawing
+from mechsheet.page.title import caption, side_by_side
+from mechsheet.worksheet.errors import SheetError
 
 SVG = "{http://www.w3.org/2000/svg}"
 HALF_DIGIT = 0.05  # px, numbers are printed to 0.1 px

@@ -10,8 +10,8 @@ from exact import unhurried
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from mechsheet.drivers import CrankReach, crank, rpr_crank_reach, rrp_crank_reach, rrr_crank_reach
-from mechsheet.dyads import rpr, rrp, rrr
+from mechsheet.mechanics.drivers import CrankReach, crank, rpr_crank_reach, rrp_crank_reach, rrr_crank_reach
+from mechsheet.mechanics.dyads import rpr, rrp, rrr
 
 lengths = st.floats(0.01, 10)
 coordinates = st.floats(-10, 10).map(lambda x: round(x, 3))

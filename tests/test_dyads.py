@@ -12,7 +12,7 @@ from exact import EPS, FAMILIES, numbers, triangles, unhurried, vectors
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from mechsheet.dyads import (
+from mechsheet.mechanics.dyads import (
     rpr,
     rpr_acceleration,
     rpr_condition,
@@ -31,8 +31,8 @@ from mechsheet.dyads import (
     rrr_transmission_angle,
     rrr_velocity,
 )
-from mechsheet.kinetostatics import Load, rrr_reactions
-from mechsheet.planar import angle, cross, dot, link_acceleration, link_velocity
+from mechsheet.mechanics.kinetostatics import Load, rrr_reactions
+from mechsheet.mechanics.planar import angle, cross, dot, link_acceleration, link_velocity
 
 families = pytest.mark.parametrize("family", FAMILIES)
 every = pytest.mark.parametrize

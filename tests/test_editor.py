@@ -9,9 +9,9 @@ from types import SimpleNamespace
 import pytest
 
 from mechsheet import __main__ as launcher
-from mechsheet import editor as told_by
+from mechsheet.page import editor as told_by
 
-TEMPLATE = Path(launcher.__file__).with_name("new_worksheet.txt")
+TEMPLATE = Path(launcher.__file__).parent / "run" / "new_worksheet.txt"
 
 
 class Editor:
@@ -197,8 +197,8 @@ class Cells:
 
 
 IMPORTS = """
-from mechsheet.formula import typeset
-from mechsheet.inputs import inputs
+from mechsheet import typeset
+from mechsheet import inputs
 from numpy import pi
 """
 GIVEN = """
@@ -242,7 +242,7 @@ def test_lines_that_follow_from_a_wrong_one_are_not_told():
 
 
 def test_what_another_worksheet_computes_is_left_out():
-    through = "from mechsheet.worksheet import evaluate\n"
+    through = "from mechsheet import evaluate\n"
     found = bar(through, "x = g.L if evaluate else 0\nA = 0.5 + x  # [m] from there\ntypeset()")
     assert list(told_by.unfit(found.cells, found.names)) == []
 

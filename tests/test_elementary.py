@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from mechsheet import dyads, joint, kinetostatics, planar
-from mechsheet.elementary import STEPS
-from mechsheet.kinetostatics import Load
+from mechsheet.mechanics import dyads, joint, kinetostatics, planar
+from mechsheet.mechanics.kinetostatics import Load
+from mechsheet.recording.elementary import STEPS
 
 COUNT = 40  # random cases
 rng = np.random.default_rng(7)

@@ -20,11 +20,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from openpyxl import load_workbook
 
-from mechsheet import excel, units
-from mechsheet.checks import Check
-from mechsheet.errors import SheetError
-from mechsheet.excel import FoundRow, Row
-from mechsheet.table import Column, Figure, Table
+from mechsheet import units
+from mechsheet.workbook import excel
+from mechsheet.workbook.excel import FoundRow, Row
+from mechsheet.worksheet.checks import Check
+from mechsheet.worksheet.errors import SheetError
+from mechsheet.worksheet.table import Column, Figure, Table
 
 S = Column("S", "m", "cylinder length", 3, np.linspace(0.42, 0.67, 4))
 G56 = Column("G56", "N", "capacity at the axis", 0, np.array([33139.4, 37094.25, 1e5 / 3, -2.0]))

@@ -9,11 +9,12 @@ from exact import equations, pin, reactions, sign
 from hypothesis import Phase, assume, given, settings, target
 from hypothesis import strategies as st
 
-from mechsheet import exact, extreme, inputs, printed
-from mechsheet.errors import SheetError
-from mechsheet.kinetostatics import Load, RRRReactions, rrr_reactions
-from mechsheet.planar import cross
-from mechsheet.worksheet import load
+from mechsheet.accuracy import exact, extreme, printed
+from mechsheet.mechanics.kinetostatics import Load, RRRReactions, rrr_reactions
+from mechsheet.mechanics.planar import cross
+from mechsheet.worksheet import inputs
+from mechsheet.worksheet.cells import load
+from mechsheet.worksheet.errors import SheetError
 
 HERE = Path(__file__).parent
 WORKSHEETS = HERE.parent / "worksheets"

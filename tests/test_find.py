@@ -11,8 +11,8 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from mechsheet.errors import SheetError
-from mechsheet.find import find, values_only
+from mechsheet.worksheet.errors import SheetError
+from mechsheet.worksheet.find import find, values_only
 
 EPS = float(np.finfo(float).eps)
 some = settings(max_examples=60, deadline=None)
@@ -665,5 +665,5 @@ def test_a_branch_that_is_not_one_of_the_branches_is_named(branch, branches):
 
 
 def test_the_module_starts_without_scipy_and_marimo():
-    code = "import sys, mechsheet.find; sys.exit(bool({'scipy', 'marimo', 'pandas'} & sys.modules.keys()))"
+    code = "import sys, mechsheet.worksheet.find; sys.exit(bool({'scipy', 'marimo', 'pandas'} & sys.modules.keys()))"
     assert subprocess.run([sys.executable, "-c", code]).returncode == 0

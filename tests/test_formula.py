@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 from cells import run
 
-from mechsheet import formula
-from mechsheet.errors import SheetError
+from mechsheet.worksheet import formula
+from mechsheet.worksheet.errors import SheetError
 
-IMPORT = "from mechsheet.formula import typeset\n"
+IMPORT = "from mechsheet import typeset\n"
 
 
 @pytest.mark.parametrize(
@@ -162,7 +162,7 @@ def test_page_shows_symbol_formula_value_and_meaning():
 def test_solve_block_is_typeset_as_given_and_find():
     names = run(
         IMPORT
-        + "from mechsheet.find import find\n"
+        + "from mechsheet import find\n"
         + "h = 0.25  # [m] height\n"
         + "def y(x, branch):\n    return branch * x**2  # [m] curve\n"
         + "x_found = find(lambda x, branch: y(x, branch), 0, 2, equals=h, branches=(1,), branch=1)\n"

@@ -5,7 +5,7 @@ import sys
 
 import marimo
 
-from mechsheet.hastened import VERSION
+from mechsheet.page.hastened import VERSION
 
 KEPT = """
 from importlib.metadata import entry_points

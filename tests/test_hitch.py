@@ -12,9 +12,10 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 from printed import agrees, rows
 
-from mechsheet import exact, units
-from mechsheet.checks import Check
-from mechsheet.table import Table
+from mechsheet import units
+from mechsheet.accuracy import exact
+from mechsheet.worksheet.checks import Check
+from mechsheet.worksheet.table import Table
 from worksheets import hitch
 
 TABLES = sorted(p.name for p in (Path(__file__).parent / "reference" / "hitch").glob("table_*.csv"))

@@ -12,13 +12,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 from openpyxl import load_workbook
 
-from mechsheet.design import Judged, Requirement, pareto, save_scene, scene_text, search
-from mechsheet.errors import SheetError
-from mechsheet.inputs import declared
-from mechsheet.scene import Limit, load
-from mechsheet.scenes import compute
-from mechsheet.worksheet import evaluate
-from mechsheet.worksheet import load as load_sheet
+from mechsheet.run.batch import compute
+from mechsheet.studies.design import Judged, Requirement, pareto, save_scene, scene_text, search
+from mechsheet.worksheet.cells import evaluate
+from mechsheet.worksheet.cells import load as load_sheet
+from mechsheet.worksheet.errors import SheetError
+from mechsheet.worksheet.inputs import declared
+from mechsheet.worksheet.scene import Limit, load
 
 ROOT = Path(__file__).parents[1]
 HITCH = ROOT / "worksheets" / "hitch.py"

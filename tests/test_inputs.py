@@ -9,12 +9,12 @@ from cells import run
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mechsheet import inputs
-from mechsheet.errors import SheetError
+from mechsheet.worksheet import inputs
+from mechsheet.worksheet.errors import SheetError
 
 CELL = """
 from math import pi
-from mechsheet.inputs import inputs
+from mechsheet import inputs
 @inputs
 class Arm:
     # 1.1 Lengths
@@ -107,7 +107,7 @@ def test_number_takes_all_or_rejects(text):
 
 def test_input_without_a_unit_is_an_error_that_names_the_line():
     with pytest.raises(SheetError, match=r"line 4 of .*: input x needs a comment with its unit"):
-        run("from mechsheet.inputs import inputs\n@inputs\nclass A:\n    x: float = 1.0  # metre\n")
+        run("from mechsheet import inputs\n@inputs\nclass A:\n    x: float = 1.0  # metre\n")
 
 
 def test_variants_are_numbers_in_si_with_a_reason_for_each_that_cannot_be_used(Arm):

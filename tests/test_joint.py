@@ -16,9 +16,9 @@ from hypothesis import strategies as st
 from printed import agrees, half_last_digit, rows
 
 from mechsheet import units
-from mechsheet.checks import Check
-from mechsheet.joint import circular_joint, neutral_axis
-from mechsheet.table import Table
+from mechsheet.mechanics.joint import circular_joint, neutral_axis
+from mechsheet.worksheet.checks import Check
+from mechsheet.worksheet.table import Table
 from worksheets import joint
 
 SHEET = Path(__file__).parents[1] / "worksheets" / "joint.py"

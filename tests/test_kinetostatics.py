@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 from exact import EPS, FAMILIES, numbers, triangles, vectors
 
-from mechsheet.drivers import crank
-from mechsheet.dyads import (
+from mechsheet.mechanics.drivers import crank
+from mechsheet.mechanics.dyads import (
     rpr,
     rpr_acceleration,
     rpr_velocity,
@@ -23,7 +23,7 @@ from mechsheet.dyads import (
     rrr_acceleration,
     rrr_velocity,
 )
-from mechsheet.kinetostatics import (
+from mechsheet.mechanics.kinetostatics import (
     Load,
     coupling_drive,
     cylinder_drive,
@@ -35,8 +35,8 @@ from mechsheet.kinetostatics import (
     rrp_reactions,
     rrr_reactions,
 )
-from mechsheet.planar import angle, cross, dot, link_acceleration, link_point, link_velocity
-from mechsheet.sliders import prp, prp_acceleration, prp_velocity, rpp, rpp_acceleration, rpp_velocity
+from mechsheet.mechanics.planar import angle, cross, dot, link_acceleration, link_point, link_velocity
+from mechsheet.mechanics.sliders import prp, prp_acceleration, prp_velocity, rpp, rpp_acceleration, rpp_velocity
 
 ROUNDINGS = 8
 GROUPS = ["rrr", "rrp", "rpr", "prp", "rpp"]

@@ -15,9 +15,9 @@ from hypothesis import Phase, given, settings
 from hypothesis import strategies as st
 from openpyxl import load_workbook
 
-from mechsheet.checks import Check
-from mechsheet.dimensions import mismatches
-from mechsheet.worksheet import evaluate
+from mechsheet.recording.dimensions import mismatches
+from mechsheet.worksheet.cells import evaluate
+from mechsheet.worksheet.checks import Check
 from worksheets import kinetostatics
 
 SHEET = Path(kinetostatics.__file__)

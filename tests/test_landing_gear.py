@@ -12,9 +12,9 @@ from hypothesis import Phase, given, settings
 from hypothesis import strategies as st
 from openpyxl import load_workbook
 
-from mechsheet import exact
-from mechsheet.checks import Check
-from mechsheet.errors import SheetError
+from mechsheet.accuracy import exact
+from mechsheet.worksheet.checks import Check
+from mechsheet.worksheet.errors import SheetError
 from worksheets import landing_gear
 
 SHEET = Path(landing_gear.__file__)

@@ -83,7 +83,7 @@ def test_a_name_stands_for_the_worksheet_of_the_project(
 @pytest.mark.parametrize("options", [["a.toml"], ["--out=b", "a.toml", "c.xlsx"]])
 def test_run_with_scenes_computes_them_side_by_side(sheet: Path, calls: list[list[str]], options: list[str]) -> None:
     assert launcher.main(["run", str(sheet), *options]) == 7
-    assert calls == [[sys.executable, "-m", "mechsheet.scenes", str(sheet), *options]]
+    assert calls == [[sys.executable, "-m", "mechsheet.run.batch", str(sheet), *options]]
 
 
 def test_edit_opens_the_worksheet_in_marimo(sheet: Path, calls: list[list[str]]) -> None:

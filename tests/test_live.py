@@ -15,8 +15,9 @@ import pandas as pd
 import pytest
 from openpyxl import Workbook, load_workbook
 
-from mechsheet import edited, inputs, worksheet
-from mechsheet.live import Names
+from mechsheet.recording.live import Names
+from mechsheet.workbook import edited
+from mechsheet.worksheet import cells, inputs
 
 ROOT = Path(__file__).resolve().parents[1]
 CHANGED = {  # lengths, loads and angles of each worksheet; "0,47" is typed as a text
@@ -131,7 +132,7 @@ def test_edited_workbook_is_a_scene(tmp_path: Path) -> None:
     """The changed workbook, read back, is the worksheet's run on the same inputs."""
     changes = CHANGED["hitch"]
     path = edit(exported("hitch"), changes, tmp_path / "edited.xlsx")
-    sheet = worksheet.load(ROOT / "worksheets" / "hitch.py")
+    sheet = cells.load(ROOT / "worksheets" / "hitch.py")
     read = edited.inputs(path, inputs.declared(sheet.inputs))
     assert inputs.build(sheet.inputs, read) == inputs.build(sheet.inputs, changes)
 
@@ -161,7 +162,7 @@ def test_values_stand_beside_the_formulas() -> None:
     """pandas, which computes nothing, reads the worksheet's numbers."""
     path = exported("hitch")
     read = pd.read_excel(path, sheet_name="4.1 Lifting capacity", header=2, skiprows=[3])
-    own = worksheet.evaluate(ROOT / "worksheets" / "hitch.py", ["table_41"])["table_41"].frame()
+    own = cells.evaluate(ROOT / "worksheets" / "hitch.py", ["table_41"])["table_41"].frame()
     assert read["GS6"].head(10).tolist() == own["GS6 [N]"].tolist()
 
 

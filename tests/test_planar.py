@@ -12,7 +12,7 @@ from hypothesis import assume, example, given
 from hypothesis import strategies as st
 from mpmath import acos, mp, mpf, sqrt
 
-from mechsheet.planar import (
+from mechsheet.mechanics.planar import (
     angle,
     angle_between,
     angle_opposite,

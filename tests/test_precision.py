@@ -12,8 +12,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mechsheet import excel, precision
-from mechsheet.precision import ROUNDING, Comparison, Measured, Method, Truth, compare, progress, timed
+from mechsheet.accuracy import precision
+from mechsheet.accuracy.precision import ROUNDING, Comparison, Measured, Method, Truth, compare, progress, timed
+from mechsheet.workbook import excel
 
 OWN = Measured("own", "", 3e-16, 1.0)
 

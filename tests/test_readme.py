@@ -3,7 +3,7 @@
 import re
 from pathlib import Path
 
-from mechsheet import scenes
+from mechsheet.run import batch
 
 ROOT = Path(__file__).parents[1]
 README = (ROOT / "README.md").read_text(encoding="utf-8")
@@ -14,7 +14,7 @@ def blocks(language: str) -> list[str]:
 
 
 def test_lines_quoted_from_the_template_stand_there():
-    template = (ROOT / "lib" / "mechsheet" / "new_worksheet.txt").read_text(encoding="utf-8")
+    template = (ROOT / "lib" / "mechsheet" / "run" / "new_worksheet.txt").read_text(encoding="utf-8")
     quoted = next(b for b in blocks("python") if "table_1" in b)
     assert all(f"    {line}\n" in template for line in quoted.splitlines())
 
@@ -52,7 +52,7 @@ def test_arguments_of_the_readme_are_inputs_of_the_hitch():
 def test_scene_of_the_readme_passes(tmp_path, capsys):
     scene = tmp_path / "scene.toml"
     scene.write_text(blocks("toml")[0], encoding="utf-8")
-    assert scenes.run(str(ROOT / "worksheets" / "hitch.py"), [str(scene)]) == 0
+    assert batch.run(str(ROOT / "worksheets" / "hitch.py"), [str(scene)]) == 0
     assert "checks passed" in capsys.readouterr().out
 
 

@@ -10,10 +10,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from openpyxl import Workbook, load_workbook
 
-from mechsheet import edited, inputs, report, scene
-from mechsheet.errors import SheetError
-from mechsheet.scene import Limit, Scene
-from mechsheet.worksheet import load
+from mechsheet.run import arguments, report
+from mechsheet.workbook import edited
+from mechsheet.worksheet import inputs
+from mechsheet.worksheet.cells import load
+from mechsheet.worksheet.errors import SheetError
+from mechsheet.worksheet.scene import Limit, Scene
 from worksheets.hitch import Hitch
 
 HITCH = Path(__file__).parents[1] / "worksheets" / "hitch.py"
@@ -28,7 +30,7 @@ def written(folder: Path, text: str) -> Path:
 
 def test_arguments_replace_inputs_in_their_order(tmp_path):
     file = written(tmp_path, "[inputs]\nP6 = 40e3\nphi_P6 = 85\n")
-    found = scene.read([f"--scene={file}", "--P6=30e3", "--out=somewhere"], FIELDS)
+    found = arguments.read([f"--scene={file}", "--P6=30e3", "--out=somewhere"], FIELDS)
     assert found == Scene({"P6": "30e3", "phi_P6": 85}, Path("somewhere"))
 
 
@@ -36,14 +38,14 @@ def test_a_later_scene_adds_to_an_earlier_one(tmp_path):
     first = written(tmp_path, 'want = ["GS6"]\n[inputs]\nP6 = 1\n[limits]\nGS6 = {min = 1}\n')
     second = tmp_path / "second.toml"
     second.write_text("[inputs]\nP6 = 2\n[limits]\ndRa = {max = 1}\n")
-    found = scene.read([f"--scene={first}", f"--scene={second}"], FIELDS)
+    found = arguments.read([f"--scene={first}", f"--scene={second}"], FIELDS)
     assert found == Scene({"P6": 2}, None, ("GS6",), {"GS6": Limit(min=1), "dRa": Limit(max=1)})
 
 
 @pytest.mark.parametrize("argument", ["P6=3", "--P6", "--=3", "-P6=3", "--scene", ""])
 def test_other_forms_are_refused(argument):
     with pytest.raises(SheetError, match="must be --NAME=VALUE"):
-        scene.read([argument], FIELDS)
+        arguments.read([argument], FIELDS)
 
 
 def test_all_parts_of_a_scene_file(tmp_path):
@@ -56,7 +58,9 @@ def test_all_parts_of_a_scene_file(tmp_path):
         "loop of group (2, 3)" = {max = 1e-9}
     """
     limits = {"GS6": Limit(30.5, 4e4), "loop of group (2, 3)": Limit(max=1e-9)}
-    assert scene.load(written(tmp_path, text), FIELDS) == Scene({"P6": "27500,5"}, None, ("GS6", "abs(R56)"), limits)
+    assert arguments.load(written(tmp_path, text), FIELDS) == Scene(
+        {"P6": "27500,5"}, None, ("GS6", "abs(R56)"), limits
+    )
 
 
 @pytest.mark.parametrize(
@@ -84,14 +88,14 @@ def test_all_parts_of_a_scene_file(tmp_path):
 def test_bad_scene_file_is_named(tmp_path, text, message):
     file = written(tmp_path, text)
     with pytest.raises(SheetError, match=message) as error:
-        scene.read([f"--scene={file}"], FIELDS)
+        arguments.read([f"--scene={file}"], FIELDS)
     assert str(file) in str(error.value) and "\n" not in str(error.value)
 
 
 @pytest.mark.parametrize("name", ["none.toml", "none.xlsx"])
 def test_missing_scene_file_is_named(tmp_path, name):
     with pytest.raises(SheetError, match=rf"{name} cannot be read: No such file"):
-        scene.read([f"--scene={tmp_path / name}"], FIELDS)
+        arguments.read([f"--scene={tmp_path / name}"], FIELDS)
 
 
 @pytest.fixture(scope="module")

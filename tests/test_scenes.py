@@ -11,9 +11,10 @@ import pytest
 from openpyxl import load_workbook
 from test_exports import differences
 
-from mechsheet import excel, scenes
-from mechsheet.errors import SheetError
-from mechsheet.worksheet import evaluate, load
+from mechsheet.run import arguments, batch
+from mechsheet.workbook import excel
+from mechsheet.worksheet.cells import evaluate, load
+from mechsheet.worksheet.errors import SheetError
 
 ROOT = Path(__file__).resolve().parents[1]
 HITCH = ROOT / "worksheets" / "hitch.py"
@@ -37,7 +38,7 @@ def row(printed: str, head: str) -> list[str]:
 
 def test_the_example_scenes_pass_side_by_side(tmp_path, monkeypatch, capsys):
     monkeypatch.setenv("COLUMNS", "200")
-    assert scenes.run(str(HITCH), [str(EXAMPLES / "*.toml"), f"--out={tmp_path}"]) == 0
+    assert batch.run(str(HITCH), [str(EXAMPLES / "*.toml"), f"--out={tmp_path}"]) == 0
     printed = capsys.readouterr()
     assert row(printed.out, "verdict") == 5 * ["pass"]
     assert row(printed.out, "P6 [N]") == ["27500", "34000", "9000", "16000", "33000"]
@@ -48,11 +49,11 @@ def test_the_example_scenes_pass_side_by_side(tmp_path, monkeypatch, capsys):
 
 
 def test_the_example_scenes_are_what_they_say(capsys):
-    assert scenes.run(str(HITCH), [str(EXAMPLES / "heavy.toml"), "--D_gc=0.08"]) == 1, "it takes the larger cylinders"
-    assert scenes.run(str(HITCH), [str(EXAMPLES / "heavy.toml"), "--P_gr=8000"]) == 1, "and the counterweights"
+    assert batch.run(str(HITCH), [str(EXAMPLES / "heavy.toml"), "--D_gc=0.08"]) == 1, "it takes the larger cylinders"
+    assert batch.run(str(HITCH), [str(EXAMPLES / "heavy.toml"), "--P_gr=8000"]) == 1, "and the counterweights"
     assert "heavy: FAIL  front axle keeps its least load" in capsys.readouterr().out
     sheet = load(HITCH)
-    road, _ = scenes.compute(sheet, "", scenes.scene.load(EXAMPLES / "transport.toml", ()))
+    road, _ = batch.compute(sheet, "", arguments.load(EXAMPLES / "transport.toml", ()))
     raised = {q.name: q.values for q in road.quantities}
     document = evaluate(HITCH, ["L4", "L7", "P56", "PS6", "phi6"])
     assert raised["L4"] == pytest.approx(document["L4"], abs=1e-5)
@@ -74,7 +75,7 @@ def test_one_bad_scene_does_not_stop_the_others(tmp_path, monkeypatch, capsys):
         str(tmp_path / "missing.toml"),
     ]
     out = tmp_path / "out"
-    assert scenes.run(str(HITCH), [*files, f"--out={out}"]) == 1
+    assert batch.run(str(HITCH), [*files, f"--out={out}"]) == 1
     lines = capsys.readouterr().out.splitlines()
     assert row("\n".join(lines), "verdict") == ["error", "pass", "error", "error", "FAIL", "FAIL", "error"]
     reasons = [line for line in lines if ": " in line]
@@ -96,13 +97,13 @@ def test_one_bad_scene_does_not_stop_the_others(tmp_path, monkeypatch, capsys):
 def test_an_exception_of_one_scene_is_its_one_line(tmp_path, capsys):
     sheet = tmp_path / "sheet.py"
     sheet.write_text(
-        "import marimo\napp = marimo.App()\n\nwith app.setup:\n    from mechsheet.formula import typeset\n"
-        "    from mechsheet.inputs import inputs\n\n\n@app.class_definition\n@inputs\nclass A:\n"
+        "import marimo\napp = marimo.App()\n\nwith app.setup:\n    from mechsheet import typeset\n"
+        "    from mechsheet import inputs\n\n\n@app.class_definition\n@inputs\nclass A:\n"
         '    x: float = 2.0  # [m] length\n\n    """Text."""\n\n\n'
         "@app.cell\ndef one(g):\n    y = int(1 // g.x)  # [1/m] curvature\n    typeset()\n    return (y,)\n"
     )
     files = [scene(tmp_path, name, f'want = ["y"]\n[inputs]\nx = {x}\n') for name, x in (("a", 0), ("b", 0.5))]
-    assert scenes.run(str(sheet), files) == 1
+    assert batch.run(str(sheet), files) == 1
     printed = capsys.readouterr().out
     assert row(printed, "verdict") == ["error", "pass"] and row(printed, "y [1/m]") == ["2"]
     assert "a: sheet.py, line 19: ZeroDivisionError: float floor division by zero" in printed
@@ -110,7 +111,7 @@ def test_an_exception_of_one_scene_is_its_one_line(tmp_path, capsys):
 
 def test_workbook_of_a_scene_is_that_of_the_script(tmp_path):
     file = scene(tmp_path, "own", "[inputs]\nP6 = 20e3\n")
-    assert scenes.run(str(HITCH), [file, f"--out={tmp_path}"]) == 0
+    assert batch.run(str(HITCH), [file, f"--out={tmp_path}"]) == 0
     assert script(f"--scene={file}", f"--out={tmp_path}").returncode == 0
     different = list(differences(tmp_path / "hitch.xlsx", tmp_path / "hitch_own.xlsx"))
     assert set(different) == {"Inputs!A1: 'Tractor hitch - inputs' became 'Tractor hitch: own - inputs'"}
@@ -120,8 +121,8 @@ def test_workbook_of_a_scene_is_that_of_the_script(tmp_path):
 def test_every_worksheet_takes_scenes(sheet, tmp_path):
     file = scene(tmp_path, "own", '[limits]\n"no such check" = {max = 0}\n')
     with pytest.raises(SheetError, match="no check is named 'no such check'"):
-        scenes.compute(load(sheet), "own", scenes.scene.load(Path(file), ()))
-    outcome, _ = scenes.compute(load(sheet), "own", scenes.Scene())
+        batch.compute(load(sheet), "own", arguments.load(Path(file), ()))
+    outcome, _ = batch.compute(load(sheet), "own", batch.Scene())
     assert outcome.verdict == "pass" and outcome.checks
 
 
@@ -132,7 +133,7 @@ def test_summary_workbook(tmp_path):
         scene(tmp_path, "b", want + "[limits]\nGS6 = {min = 30e3}\n"),
         scene(tmp_path, "c", "[inputs]\nP6 = -1\n"),
     ]
-    assert scenes.run(str(HITCH), [*files, f"--out={tmp_path}"]) == 1
+    assert batch.run(str(HITCH), [*files, f"--out={tmp_path}"]) == 1
     book = load_workbook(tmp_path / "hitch_scenes.xlsx")
     assert book.sheetnames == ["Scenes", "GS6", "a 4.1 Lifting capacity", "b 4.1 Lifting capacity"]
     cells = {line[0]: line[1:] for line in book["Scenes"].iter_rows(min_row=2, values_only=True)}
@@ -160,7 +161,7 @@ def test_limits_of_checks_stand_for_their_own(tmp_path, capsys):
         scene(tmp_path, "function", 'want = ["P56"]\n'),
         scene(tmp_path, "drawing", 'want = ["figure_41"]\n'),
     ]
-    assert scenes.run(str(HITCH), files) == 1
+    assert batch.run(str(HITCH), files) == 1
     assert [line for line in capsys.readouterr().out.splitlines() if ": " in line] == [
         "strict: FAIL  instant centre: Imp = I56: 1.78e-15 <= 1e-30",
         f"least: limit of the check '{name}' must be {{max = NUMBER}}",
@@ -184,7 +185,7 @@ def test_ctrl_c_leaves_whole_files_only(files, tmp_path, monkeypatch, capsys):
         moved.append(Path(target))
 
     monkeypatch.setattr(excel.os, "replace", replace)
-    assert scenes.run(str(HITCH), [*given, f"--out={out}"]) == 130
+    assert batch.run(str(HITCH), [*given, f"--out={out}"]) == 130
     assert list(out.iterdir()) == moved == [out / "hitch_a.xlsx"]
     load_workbook(moved[0])
     printed = capsys.readouterr()
@@ -194,7 +195,7 @@ def test_ctrl_c_leaves_whole_files_only(files, tmp_path, monkeypatch, capsys):
 def test_bar_on_a_terminal(tmp_path, monkeypatch, capsys):
     files = [scene(tmp_path, name, 'want = ["L4"]\n') for name in ("a", "b")]
     monkeypatch.setattr(sys.stderr, "isatty", lambda: True, raising=False)
-    assert scenes.run(str(HITCH), files) == 0
+    assert batch.run(str(HITCH), files) == 0
     first, second, last, after = capsys.readouterr().err.split("\r")[1:]
     assert first.strip() == f"[{30 * '.'}] 0 of 2  a"
     assert second.strip() == f"[{15 * '#'}{15 * '.'}] 1 of 2  b"
@@ -205,13 +206,13 @@ def test_files_that_would_overwrite_one_another_are_refused(tmp_path):
     (tmp_path / "other").mkdir()
     a, b = scene(tmp_path, "a", 'want = ["L4"]\n'), scene(tmp_path / "other", "a", 'want = ["L4"]\n')
     with pytest.raises(SheetError, match=re.escape(f"scene {b} has the name of {a}")):
-        scenes.run(str(HITCH), [a, b])
+        batch.run(str(HITCH), [a, b])
     with pytest.raises(SheetError, match="has the name of the summary"):
-        scenes.run(str(HITCH), [scene(tmp_path, "scenes", 'want = ["L4"]\n')])
+        batch.run(str(HITCH), [scene(tmp_path, "scenes", 'want = ["L4"]\n')])
     book = tmp_path / "hitch_a.xlsx"
     book.write_bytes(b"edited by hand")
     with pytest.raises(SheetError, match="would be overwritten; give another folder"):
-        scenes.run(str(HITCH), [a, str(book), f"--out={tmp_path}"])
+        batch.run(str(HITCH), [a, str(book), f"--out={tmp_path}"])
     assert book.read_bytes() == b"edited by hand"
 
 
@@ -222,7 +223,7 @@ def test_an_edited_workbook_is_a_scene_like_another(tmp_path, capsys):
     cell.value = "20000,5"
     edited = tmp_path / "mine.xlsx"
     book.save(edited)
-    assert scenes.run(str(HITCH), [str(edited), str(tmp_path / "hitch.xlsx"), f"--out={tmp_path / 'out'}"]) == 0
+    assert batch.run(str(HITCH), [str(edited), str(tmp_path / "hitch.xlsx"), f"--out={tmp_path / 'out'}"]) == 0
     assert row(capsys.readouterr().out, "P6 [N]") == ["20000.5", "27500"]
     done = script(f"--scene={edited}", f"--out={tmp_path}")
     assert (done.returncode, done.stderr) == (0, "")
@@ -260,7 +261,7 @@ def test_script_of_the_whole_worksheet_keeps_the_limits_of_its_scene(tmp_path):
 def test_a_wide_summary_is_broken_at_the_width_of_the_terminal(tmp_path, monkeypatch, capsys):
     files = [scene(tmp_path, name, 'want = ["GS6"]\n') for name in ("one", "two", "three")]
     monkeypatch.setenv("COLUMNS", "60")
-    assert scenes.run(str(HITCH), files) == 0
+    assert batch.run(str(HITCH), files) == 0
     lines = capsys.readouterr().out.splitlines()
     assert max(map(len, lines)) <= 60
     assert lines[0].split() == ["one", "two"]

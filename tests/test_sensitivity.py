@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 from mechsheet import units
-from mechsheet.errors import SheetError
-from mechsheet.inputs import declared
-from mechsheet.sensitivity import sensitivity, tolerance
-from mechsheet.worksheet import evaluate, load
+from mechsheet.studies.sensitivity import sensitivity, tolerance
+from mechsheet.worksheet.cells import evaluate, load
+from mechsheet.worksheet.errors import SheetError
+from mechsheet.worksheet.inputs import declared
 
 ROOT = Path(__file__).parents[1]
 HITCH = ROOT / "worksheets" / "hitch.py"

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 from exact import EPS, FAMILIES, numbers, triangles, vectors
 
-from mechsheet.planar import cross
-from mechsheet.sliders import (
+from mechsheet.mechanics.planar import cross
+from mechsheet.mechanics.sliders import (
     prp,
     prp_acceleration,
     prp_condition,

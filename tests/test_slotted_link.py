@@ -16,10 +16,10 @@ from hypothesis import strategies as st
 from openpyxl import load_workbook
 from printed import agrees, rows
 
-from mechsheet import formula
-from mechsheet.checks import Check
-from mechsheet.errors import SheetError
-from mechsheet.inputs import build
+from mechsheet.worksheet import formula
+from mechsheet.worksheet.checks import Check
+from mechsheet.worksheet.errors import SheetError
+from mechsheet.worksheet.inputs import build
 from worksheets import slotted_link
 
 SHEET = Path(__file__).parents[1] / "worksheets" / "slotted_link.py"

@@ -11,11 +11,11 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from mechsheet import formula
-from mechsheet import sweep as sweeping
-from mechsheet.errors import SheetError
-from mechsheet.sweep import Sweep, grid, sweep
-from mechsheet.worksheet import evaluate, load
+from mechsheet.studies import sweep as sweeping
+from mechsheet.studies.sweep import Sweep, grid, sweep
+from mechsheet.worksheet import formula
+from mechsheet.worksheet.cells import evaluate, load
+from mechsheet.worksheet.errors import SheetError
 
 ROOT = Path(__file__).parents[1]
 HITCH = ROOT / "worksheets" / "hitch.py"
@@ -213,8 +213,8 @@ with app.setup:
 
     import numpy as np
 
-    from mechsheet.formula import typeset
-    from mechsheet.inputs import inputs
+    from mechsheet import typeset
+    from mechsheet import inputs
 
     RUNS = []
 
@@ -367,7 +367,7 @@ def test_memory_is_what_the_results_need(lever):
 
 def test_a_sweep_starts_without_pandas_altair_and_scipy():
     code = (
-        "import sys; from mechsheet.sweep import sweep; sweep('worksheets/hitch.py', ['GS6'], {'P6': [1, 2]});"
+        "import sys; from mechsheet import sweep; sweep('worksheets/hitch.py', ['GS6'], {'P6': [1, 2]});"
         "print(sorted({'pandas', 'altair', 'scipy', 'openpyxl', 'distributed'} & sys.modules.keys()))"
     )
     done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=True)

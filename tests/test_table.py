@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 from cells import run
 
-from mechsheet.errors import SheetError
+from mechsheet.worksheet.errors import SheetError
 
 CELL = """
 import numpy as np
-from mechsheet.formula import typeset
+from mechsheet import typeset
 S = np.array([0.42, 0.67])  # [m] stroke
 P23_S = S * (1 + 2j)  # [m] pin
 R56 = S * (3000 + 4000j)  # [kN] reaction
@@ -19,7 +19,7 @@ typeset()
 
 @pytest.fixture
 def names():
-    return run("from mechsheet.table import figure, table", run(CELL))
+    return run("from mechsheet import figure, table", run(CELL))
 
 
 def test_columns_of_points_and_forces(names):

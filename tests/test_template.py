@@ -8,7 +8,7 @@ import pytest
 from openpyxl import load_workbook
 
 from mechsheet import __main__ as launcher
-from mechsheet.dimensions import mismatches
+from mechsheet.recording.dimensions import mismatches
 
 
 @pytest.fixture

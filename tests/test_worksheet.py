@@ -8,8 +8,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mechsheet.errors import SheetError
-from mechsheet.worksheet import checks, evaluate, load
+from mechsheet.worksheet.cells import checks, evaluate, load
+from mechsheet.worksheet.errors import SheetError
 from worksheets import hitch
 
 HITCH = Path(__file__).resolve().parents[1] / "worksheets" / "hitch.py"
@@ -56,8 +56,8 @@ HEAVY = {"marimo", "altair", "pandas", "scipy", "openpyxl", "xlsxwriter", "matpl
 @pytest.mark.parametrize(
     "run",
     [
-        "from mechsheet.worksheet import evaluate; evaluate({path!r}, want=['GS6'], P6=30e3)",
-        "from mechsheet.scenes import run; run({path!r}, [{scene!r}])",
+        "from mechsheet import evaluate; evaluate({path!r}, want=['GS6'], P6=30e3)",
+        "from mechsheet.run.batch import run; run({path!r}, [{scene!r}])",
     ],
     ids=["evaluate", "scene"],
 )
@@ -70,7 +70,7 @@ def test_capacity_runs_its_twelve_cells_and_loads_no_page_chart_or_workbook(run,
 
 
 def test_reactions_and_charts_are_counted_where_they_are_asked_for():
-    blocks, packages = ran(f"from mechsheet.worksheet import evaluate; evaluate({str(HITCH)!r}, ['figure_54'])")
+    blocks, packages = ran(f"from mechsheet import evaluate; evaluate({str(HITCH)!r}, ['figure_54'])")
     assert blocks == 1 + len(load(HITCH).needed(["figure_54"], ["g"])) > 1 + 12
     assert "altair" not in packages, "a figure is drawn by the page"
 

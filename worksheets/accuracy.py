@@ -21,20 +21,43 @@ with app.setup:
     from scipy.interpolate import CubicSpline
     from scipy.optimize import brentq, fsolve, newton, root
 
-    from mechsheet import exact, extreme
-    from mechsheet.checks import Check, summary
-    from mechsheet.dyads import rrr, rrr_acceleration, rrr_reach, rrr_velocity
-    from mechsheet.errors import SheetError, refuse
-    from mechsheet.find import find
-    from mechsheet.formula import registry, typeset
-    from mechsheet.inputs import Used, ask, inputs, read
-    from mechsheet.kinetostatics import Load, rrr_reactions
-    from mechsheet.page import caption, title_block
-    from mechsheet.planar import angle, cross, dot
-    from mechsheet.precision import Measured, Method, Truth, WorkPrecision, compare, progress, timed
-    from mechsheet.report import export
-    from mechsheet.table import Column, Table
-    from mechsheet.worksheet import load, results
+    from mechsheet import (
+        Check,
+        Column,
+        Load,
+        Measured,
+        Method,
+        SheetError,
+        Table,
+        Truth,
+        Used,
+        WorkPrecision,
+        angle,
+        ask,
+        caption,
+        compare,
+        cross,
+        dot,
+        export,
+        find,
+        inputs,
+        load,
+        read,
+        refuse,
+        registry,
+        results,
+        rrr,
+        rrr_acceleration,
+        rrr_reach,
+        rrr_reactions,
+        rrr_velocity,
+        summary,
+        timed,
+        title_block,
+        typeset,
+    )
+    from mechsheet.accuracy import exact, extreme
+    from mechsheet.accuracy.precision import progress
 
     folder = Path(__file__).parent
     deg = pi / 180

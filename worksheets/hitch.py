@@ -11,17 +11,37 @@ with app.setup:
     from numpy import arcsin as asin
     from numpy import arctan2 as atan2
 
-    from mechsheet.checks import Check, assembled, check, check_slope, closed_form, require, summary
-    from mechsheet.drawing import Drawing
-    from mechsheet.dyads import rrr, rrr_reach, rrr_velocity
-    from mechsheet.find import find
-    from mechsheet.formula import typeset
-    from mechsheet.inputs import Used, ask, inputs, read
-    from mechsheet.kinetostatics import Load, rrr_reactions
-    from mechsheet.page import caption, mark, player, side_by_side, title_block
-    from mechsheet.planar import angle, cross
-    from mechsheet.report import export
-    from mechsheet.table import figure, table
+    from mechsheet import (
+        Check,
+        Drawing,
+        Load,
+        Used,
+        angle,
+        ask,
+        assembled,
+        caption,
+        check,
+        check_slope,
+        closed_form,
+        cross,
+        export,
+        figure,
+        find,
+        inputs,
+        mark,
+        player,
+        read,
+        require,
+        rrr,
+        rrr_reach,
+        rrr_reactions,
+        rrr_velocity,
+        side_by_side,
+        summary,
+        table,
+        title_block,
+        typeset,
+    )
 
     np.seterr(divide="ignore", invalid="ignore")  # no load: infinite reserve; no closure: NaN; both are shown so
     deg = pi / 180

@@ -11,18 +11,37 @@ with app.setup:
     import numpy as np
     from numpy import abs, arcsin, max, min, minimum, pi, sin
 
-    from mechsheet.checks import Check, summary
-    from mechsheet.design import Judged, Requirement, pareto, progress, save_scene, scene_text, search
-    from mechsheet.errors import SheetError, refuse
-    from mechsheet.formula import typeset
-    from mechsheet.inputs import Used, ask, declared, inputs, read
-    from mechsheet.page import title_block
-    from mechsheet.report import export
-    from mechsheet.scene import Limit
-    from mechsheet.sensitivity import sensitivity, tolerance
-    from mechsheet.sweep import sweep
-    from mechsheet.table import Column, Table, figure, table
-    from mechsheet.worksheet import evaluate, load
+    from mechsheet import (
+        Check,
+        Column,
+        Judged,
+        Limit,
+        Requirement,
+        SheetError,
+        Table,
+        Used,
+        ask,
+        declared,
+        evaluate,
+        export,
+        figure,
+        inputs,
+        load,
+        pareto,
+        read,
+        refuse,
+        save_scene,
+        scene_text,
+        search,
+        sensitivity,
+        summary,
+        sweep,
+        table,
+        title_block,
+        tolerance,
+        typeset,
+    )
+    from mechsheet.studies.design import progress
 
     deg = pi / 180
 

@@ -11,14 +11,26 @@ with app.setup:
     from numpy import abs, arange, cos, exp, heaviside, isfinite, isnan, nan, pi, sin, where
     from numpy import arcsin as asin
 
-    from mechsheet.checks import Check, check, summary
-    from mechsheet.drawing import Drawing
-    from mechsheet.formula import typeset
-    from mechsheet.inputs import Used, ask, inputs, read
-    from mechsheet.joint import bending, circular_joint, neutral_axis, sum_of_elements
-    from mechsheet.page import caption, side_by_side, title_block
-    from mechsheet.report import export
-    from mechsheet.table import table
+    from mechsheet import (
+        Check,
+        Drawing,
+        Used,
+        ask,
+        bending,
+        caption,
+        check,
+        circular_joint,
+        export,
+        inputs,
+        neutral_axis,
+        read,
+        side_by_side,
+        sum_of_elements,
+        summary,
+        table,
+        title_block,
+        typeset,
+    )
     from mechsheet.units import parse, shown
 
     np.seterr(divide="ignore", invalid="ignore")  # an axis at infinity or a joint without load is shown so

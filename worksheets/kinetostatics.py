@@ -11,40 +11,53 @@ with app.setup:
     from numpy import max as most
     from numpy import min as least
 
-    from mechsheet.checks import Check, assembled, check, check_slope, summary
-    from mechsheet.drawing import Drawing
-    from mechsheet.dyads import (
+    from mechsheet import (
+        Check,
+        Drawing,
+        Load,
+        Used,
+        angle,
+        ask,
+        assembled,
+        caption,
+        check,
+        check_slope,
+        coupling_drive,
+        cross,
+        dot,
+        export,
+        figure,
+        gear_drive,
+        inertia,
+        inputs,
+        link_acceleration,
+        link_velocity,
+        mark,
+        player,
+        read,
         rpr,
         rpr_acceleration,
         rpr_condition,
+        rpr_reactions,
         rpr_velocity,
         rrp,
         rrp_acceleration,
         rrp_condition,
         rrp_reach,
+        rrp_reactions,
         rrp_transmission_angle,
         rrp_velocity,
         rrr,
         rrr_acceleration,
         rrr_condition,
+        rrr_reactions,
         rrr_transmission_angle,
         rrr_velocity,
+        summary,
+        table,
+        title_block,
+        typeset,
     )
-    from mechsheet.formula import typeset
-    from mechsheet.inputs import Used, ask, inputs, read
-    from mechsheet.kinetostatics import (
-        Load,
-        coupling_drive,
-        gear_drive,
-        inertia,
-        rpr_reactions,
-        rrp_reactions,
-        rrr_reactions,
-    )
-    from mechsheet.page import caption, mark, player, title_block
-    from mechsheet.planar import angle, cross, dot, link_acceleration, link_velocity
-    from mechsheet.report import export
-    from mechsheet.table import figure, table
 
     np.seterr(divide="ignore", invalid="ignore")  # the arm of a force that is zero is shown as none
     deg = pi / 180

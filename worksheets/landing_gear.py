@@ -11,18 +11,42 @@ with app.setup:
     from numpy import arcsin as asin
     from numpy import arctan2 as atan2
 
-    from mechsheet.checks import check, check_slope, closed_form, summary
-    from mechsheet.drawing import Drawing
-    from mechsheet.dyads import rrr, rrr_acceleration, rrr_condition, rrr_velocity
-    from mechsheet.errors import SheetError, refuse
-    from mechsheet.find import find
-    from mechsheet.formula import typeset
-    from mechsheet.inputs import Used, ask, inputs, read
-    from mechsheet.kinetostatics import Load, cylinder_drive, inertia, rrr_reactions
-    from mechsheet.page import caption, mark, player, title_block
-    from mechsheet.planar import angle, angle_opposite, cross, dot, link_acceleration, link_velocity
-    from mechsheet.report import export
-    from mechsheet.table import figure, table
+    from mechsheet import (
+        Drawing,
+        Load,
+        SheetError,
+        Used,
+        angle,
+        angle_opposite,
+        ask,
+        caption,
+        check,
+        check_slope,
+        closed_form,
+        cross,
+        cylinder_drive,
+        dot,
+        export,
+        figure,
+        find,
+        inertia,
+        inputs,
+        link_acceleration,
+        link_velocity,
+        mark,
+        player,
+        read,
+        refuse,
+        rrr,
+        rrr_acceleration,
+        rrr_condition,
+        rrr_reactions,
+        rrr_velocity,
+        summary,
+        table,
+        title_block,
+        typeset,
+    )
 
     deg = pi / 180
     ulp = np.finfo(float).eps

@@ -9,15 +9,30 @@ with app.setup:
     from numpy import abs, arange, copysign, cos, exp, isfinite, linspace, minimum, nan, pi, sin, sqrt, where
     from numpy import arctan2 as atan2
 
-    from mechsheet.checks import Check, check, summary
-    from mechsheet.drawing import Drawing
-    from mechsheet.dyads import rpr, rpr_acceleration, rpr_velocity
-    from mechsheet.formula import typeset
-    from mechsheet.inputs import Used, ask, inputs, read
-    from mechsheet.page import caption, mark, player, title_block
-    from mechsheet.planar import angle, angle_between, dot
-    from mechsheet.report import export
-    from mechsheet.table import figure, table
+    from mechsheet import (
+        Check,
+        Drawing,
+        Used,
+        angle,
+        angle_between,
+        ask,
+        caption,
+        check,
+        dot,
+        export,
+        figure,
+        inputs,
+        mark,
+        player,
+        read,
+        rpr,
+        rpr_acceleration,
+        rpr_velocity,
+        summary,
+        table,
+        title_block,
+        typeset,
+    )
 
     deg = pi / 180
     ulp = np.finfo(float).eps

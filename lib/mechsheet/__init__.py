@@ -1,15 +1,15 @@
 """Reactive calculation documents for the design of mechanisms.
 
-The mechanics side (`planar`, `dyads`, `sliders`, `drivers`, `kinetostatics`) is a library of its own: any planar
+The mechanics are a library of their own: any planar
 mechanism of class II is written as a crank or cylinder and Assur groups, one line a group, over any number of
 positions at once. A six-bar mechanism: the crank O1-A drives the rocker B-O3 through the coupler A-B, the rocker
 drives the slider C through the rod B-C; all links have mass, the slider works against 400 N.
 
 >>> import numpy as np
->>> from mechsheet.drivers import crank
->>> from mechsheet.dyads import rrp, rrp_acceleration, rrp_velocity, rrr, rrr_acceleration, rrr_velocity
->>> from mechsheet.kinetostatics import Load, coupling_drive, inertia, rrp_reactions, rrr_reactions
->>> from mechsheet.planar import link_acceleration, link_velocity
+>>> from mechsheet import (
+...     Load, coupling_drive, crank, inertia, link_acceleration, link_velocity,
+...     rrp, rrp_acceleration, rrp_reactions, rrp_velocity, rrr, rrr_acceleration, rrr_reactions, rrr_velocity,
+... )
 
 Positions, velocities and accelerations from the crank on, for a turn at 20 rad/s:
 
@@ -43,3 +43,37 @@ The balancing moment does the work of all loads, the inertia forces' sum over a 
 >>> print(f"{work:.0f} J of {resisted:.0f} J, M from {M.min():.0f} to {M.max():.0f} N m")
 140 J of 140 J, M from -4 to 53 N m
 """
+
+import ast
+from importlib import import_module
+from pathlib import Path
+from typing import Any
+
+
+def _homes() -> dict[str, str]:
+    """Module of each public name: the stub beside this file tells it, which type checkers and editors read too."""
+    stub = ast.parse(Path(__file__).with_suffix(".pyi").read_text(encoding="utf-8"))
+    imports = (node for node in stub.body if isinstance(node, ast.ImportFrom))
+    return {name.name: str(node.module) for node in imports for name in node.names}
+
+
+_HOMES = _homes()
+__all__ = sorted([*_HOMES, "__version__"])
+
+
+def __getattr__(name: str) -> Any:
+    """A public name, loaded on its first use: mechanics alone bring numpy alone, and the package itself nothing."""
+    if name in _HOMES:
+        value = getattr(import_module(_HOMES[name]), name)
+    elif name == "__version__":
+        from importlib.metadata import version  # on use: takes longer than the rest of the package
+
+        value = version(__name__)
+    else:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return __all__

@@ -51,7 +51,7 @@ def main(argv: "list[str] | None" = None) -> int:
         if command == "edit":
             return call([interpreter(""), "-m", "marimo", "edit", *options, sheet])
         scenes = any(not option.startswith("-") for option in options)
-        return call([interpreter(""), *(["-m", "mechsheet.scenes"] if scenes else []), sheet, *options])
+        return call([interpreter(""), *(["-m", "mechsheet.run.batch"] if scenes else []), sheet, *options])
     if command == "new":
         if len(options) != 1:
             sys.exit("mechsheet: new needs the name of the worksheet, such as lever")
@@ -80,8 +80,8 @@ def new(name: str) -> int:
     path, here = folder / f"{name}.py", Path(__file__).resolve().parent
     if path.exists():
         sys.exit(f"mechsheet: {path} is there already")
-    text = (here / "new_worksheet.txt").read_text(encoding="utf-8")
-    style = next(style for style in (folder / "page.css", here / "page.css") if style.exists())
+    text = (here / "run" / "new_worksheet.txt").read_text(encoding="utf-8")
+    style = next(style for style in (folder / "page.css", here / "page" / "page.css") if style.exists())
     if style.parent != folder:
         shutil.copy(str(style), str(folder))
     path.write_text(text.replace("TITLE", name.replace("_", " ").capitalize()), encoding="utf-8")

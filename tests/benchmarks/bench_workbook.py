@@ -8,16 +8,19 @@ import time
 from pathlib import Path
 from types import SimpleNamespace
 
-from mechsheet import excel, live, report, worksheet
+from mechsheet.recording import live
+from mechsheet.run import report
+from mechsheet.workbook import excel
+from mechsheet.worksheet import cells
 
 ROOT = Path(__file__).resolve().parents[2]
 ROUNDS = 15
 
 
 def main() -> None:
-    sheet = worksheet.load(ROOT / "worksheets" / "hitch.py")
+    sheet = cells.load(ROOT / "worksheets" / "hitch.py")
     results = [name for name in sheet.results if name not in ("form", "part")]
-    from mechsheet import inputs
+    from mechsheet.worksheet import inputs
 
     given = {"g": inputs.build(sheet.inputs, {}), "part": SimpleNamespace(value=0.2)}
     namespace = sheet.run(results, given)

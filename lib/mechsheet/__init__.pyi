@@ -1,0 +1,325 @@
+"""The public names and where they are defined; `mechsheet` loads each on its first use."""
+
+from mechsheet.accuracy.precision import (
+    Measured as Measured,
+)
+from mechsheet.accuracy.precision import (
+    Method as Method,
+)
+from mechsheet.accuracy.precision import (
+    Truth as Truth,
+)
+from mechsheet.accuracy.precision import (
+    WorkPrecision as WorkPrecision,
+)
+from mechsheet.accuracy.precision import (
+    compare as compare,
+)
+from mechsheet.accuracy.precision import (
+    timed as timed,
+)
+from mechsheet.document.drawing import (
+    Drawing as Drawing,
+)
+from mechsheet.mechanics.drivers import (
+    crank as crank,
+)
+from mechsheet.mechanics.drivers import (
+    rpr_crank_reach as rpr_crank_reach,
+)
+from mechsheet.mechanics.drivers import (
+    rrp_crank_reach as rrp_crank_reach,
+)
+from mechsheet.mechanics.drivers import (
+    rrr_crank_reach as rrr_crank_reach,
+)
+from mechsheet.mechanics.dyads import (
+    rpr as rpr,
+)
+from mechsheet.mechanics.dyads import (
+    rpr_acceleration as rpr_acceleration,
+)
+from mechsheet.mechanics.dyads import (
+    rpr_condition as rpr_condition,
+)
+from mechsheet.mechanics.dyads import (
+    rpr_transmission_angle as rpr_transmission_angle,
+)
+from mechsheet.mechanics.dyads import (
+    rpr_velocity as rpr_velocity,
+)
+from mechsheet.mechanics.dyads import (
+    rrp as rrp,
+)
+from mechsheet.mechanics.dyads import (
+    rrp_acceleration as rrp_acceleration,
+)
+from mechsheet.mechanics.dyads import (
+    rrp_condition as rrp_condition,
+)
+from mechsheet.mechanics.dyads import (
+    rrp_reach as rrp_reach,
+)
+from mechsheet.mechanics.dyads import (
+    rrp_transmission_angle as rrp_transmission_angle,
+)
+from mechsheet.mechanics.dyads import (
+    rrp_velocity as rrp_velocity,
+)
+from mechsheet.mechanics.dyads import (
+    rrr as rrr,
+)
+from mechsheet.mechanics.dyads import (
+    rrr_acceleration as rrr_acceleration,
+)
+from mechsheet.mechanics.dyads import (
+    rrr_condition as rrr_condition,
+)
+from mechsheet.mechanics.dyads import (
+    rrr_determinant as rrr_determinant,
+)
+from mechsheet.mechanics.dyads import (
+    rrr_reach as rrr_reach,
+)
+from mechsheet.mechanics.dyads import (
+    rrr_transmission_angle as rrr_transmission_angle,
+)
+from mechsheet.mechanics.dyads import (
+    rrr_velocity as rrr_velocity,
+)
+from mechsheet.mechanics.joint import (
+    bending as bending,
+)
+from mechsheet.mechanics.joint import (
+    circular_joint as circular_joint,
+)
+from mechsheet.mechanics.joint import (
+    neutral_axis as neutral_axis,
+)
+from mechsheet.mechanics.joint import (
+    sum_of_elements as sum_of_elements,
+)
+from mechsheet.mechanics.kinetostatics import (
+    Load as Load,
+)
+from mechsheet.mechanics.kinetostatics import (
+    coupling_drive as coupling_drive,
+)
+from mechsheet.mechanics.kinetostatics import (
+    cylinder_drive as cylinder_drive,
+)
+from mechsheet.mechanics.kinetostatics import (
+    gear_drive as gear_drive,
+)
+from mechsheet.mechanics.kinetostatics import (
+    inertia as inertia,
+)
+from mechsheet.mechanics.kinetostatics import (
+    prp_reactions as prp_reactions,
+)
+from mechsheet.mechanics.kinetostatics import (
+    rpp_reactions as rpp_reactions,
+)
+from mechsheet.mechanics.kinetostatics import (
+    rpr_reactions as rpr_reactions,
+)
+from mechsheet.mechanics.kinetostatics import (
+    rrp_reactions as rrp_reactions,
+)
+from mechsheet.mechanics.kinetostatics import (
+    rrr_reactions as rrr_reactions,
+)
+from mechsheet.mechanics.planar import (
+    angle as angle,
+)
+from mechsheet.mechanics.planar import (
+    angle_between as angle_between,
+)
+from mechsheet.mechanics.planar import (
+    angle_opposite as angle_opposite,
+)
+from mechsheet.mechanics.planar import (
+    cross as cross,
+)
+from mechsheet.mechanics.planar import (
+    dot as dot,
+)
+from mechsheet.mechanics.planar import (
+    link_acceleration as link_acceleration,
+)
+from mechsheet.mechanics.planar import (
+    link_point as link_point,
+)
+from mechsheet.mechanics.planar import (
+    link_velocity as link_velocity,
+)
+from mechsheet.mechanics.planar import (
+    product as product,
+)
+from mechsheet.mechanics.planar import (
+    triangle_area as triangle_area,
+)
+from mechsheet.mechanics.sliders import (
+    prp as prp,
+)
+from mechsheet.mechanics.sliders import (
+    prp_acceleration as prp_acceleration,
+)
+from mechsheet.mechanics.sliders import (
+    prp_condition as prp_condition,
+)
+from mechsheet.mechanics.sliders import (
+    prp_transmission_angle as prp_transmission_angle,
+)
+from mechsheet.mechanics.sliders import (
+    prp_velocity as prp_velocity,
+)
+from mechsheet.mechanics.sliders import (
+    rpp as rpp,
+)
+from mechsheet.mechanics.sliders import (
+    rpp_acceleration as rpp_acceleration,
+)
+from mechsheet.mechanics.sliders import (
+    rpp_condition as rpp_condition,
+)
+from mechsheet.mechanics.sliders import (
+    rpp_transmission_angle as rpp_transmission_angle,
+)
+from mechsheet.mechanics.sliders import (
+    rpp_velocity as rpp_velocity,
+)
+from mechsheet.page.title import (
+    caption as caption,
+)
+from mechsheet.page.title import (
+    mark as mark,
+)
+from mechsheet.page.title import (
+    player as player,
+)
+from mechsheet.page.title import (
+    side_by_side as side_by_side,
+)
+from mechsheet.page.title import (
+    title_block as title_block,
+)
+from mechsheet.run.ask import (
+    ask as ask,
+)
+from mechsheet.run.report import (
+    export as export,
+)
+from mechsheet.studies.design import (
+    Judged as Judged,
+)
+from mechsheet.studies.design import (
+    Requirement as Requirement,
+)
+from mechsheet.studies.design import (
+    pareto as pareto,
+)
+from mechsheet.studies.design import (
+    save_scene as save_scene,
+)
+from mechsheet.studies.design import (
+    scene_text as scene_text,
+)
+from mechsheet.studies.design import (
+    search as search,
+)
+from mechsheet.studies.sensitivity import (
+    sensitivity as sensitivity,
+)
+from mechsheet.studies.sensitivity import (
+    tolerance as tolerance,
+)
+from mechsheet.studies.sweep import (
+    Sweep as Sweep,
+)
+from mechsheet.studies.sweep import (
+    grid as grid,
+)
+from mechsheet.studies.sweep import (
+    sweep as sweep,
+)
+from mechsheet.worksheet.cells import (
+    evaluate as evaluate,
+)
+from mechsheet.worksheet.cells import (
+    load as load,
+)
+from mechsheet.worksheet.cells import (
+    results as results,
+)
+from mechsheet.worksheet.checks import (
+    Check as Check,
+)
+from mechsheet.worksheet.checks import (
+    assembled as assembled,
+)
+from mechsheet.worksheet.checks import (
+    check as check,
+)
+from mechsheet.worksheet.checks import (
+    check_slope as check_slope,
+)
+from mechsheet.worksheet.checks import (
+    closed_form as closed_form,
+)
+from mechsheet.worksheet.checks import (
+    require as require,
+)
+from mechsheet.worksheet.checks import (
+    summary as summary,
+)
+from mechsheet.worksheet.errors import (
+    SheetError as SheetError,
+)
+from mechsheet.worksheet.errors import (
+    refuse as refuse,
+)
+from mechsheet.worksheet.find import (
+    Found as Found,
+)
+from mechsheet.worksheet.find import (
+    find as find,
+)
+from mechsheet.worksheet.formula import (
+    registry as registry,
+)
+from mechsheet.worksheet.formula import (
+    typeset as typeset,
+)
+from mechsheet.worksheet.inputs import (
+    Used as Used,
+)
+from mechsheet.worksheet.inputs import (
+    declared as declared,
+)
+from mechsheet.worksheet.inputs import (
+    inputs as inputs,
+)
+from mechsheet.worksheet.inputs import (
+    read as read,
+)
+from mechsheet.worksheet.scene import (
+    Limit as Limit,
+)
+from mechsheet.worksheet.table import (
+    Column as Column,
+)
+from mechsheet.worksheet.table import (
+    Figure as Figure,
+)
+from mechsheet.worksheet.table import (
+    Table as Table,
+)
+from mechsheet.worksheet.table import (
+    figure as figure,
+)
+from mechsheet.worksheet.table import (
+    table as table,
+)
+
+__version__: str

@@ -1,0 +1,338 @@
+r"""Stiff and extreme scenes: how many digits a result can keep, and how many it keeps.
+
+A result y of inputs x has the condition number
+
+.. math:: \kappa = \sum_i \left| x_i \frac{\partial y}{\partial x_i} \right| / |y|
+
+computed with 50 digits (`conditions`). Inputs are rounded to 16 digits, so 16 - log10(kappa) digits of
+y can be expected, whatever the method. A result holds where it keeps them, less at most one.
+
+A scene is a TOML file: ``[inputs]`` in display units, as for a script, and a table ``[extreme]``:
+
+===========  ======================================================================================================
+``about``    what the scene is, in words
+``job``      which job of `JOBS` it is run through: a worksheet's name, ``dyad`` or ``through_dead_centre``
+``over``     the inputs that take one ``values`` after the other, all the same; left out where there is one case
+``values``   these values, in display units
+``at``       the position of the table that is measured: 0 is the first, -1 the last
+``says``     words that must be said, of what cannot exist; then no digits are measured
+===========  ======================================================================================================
+"""
+
+import tomllib
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+
+from mechsheet.accuracy import exact, printed
+from mechsheet.mechanics.dyads import rrr, rrr_reach, rrr_velocity
+from mechsheet.mechanics.kinetostatics import Load, rrr_reactions
+from mechsheet.mechanics.planar import angle
+from mechsheet.worksheet import inputs
+from mechsheet.worksheet.cells import Worksheet, load
+from mechsheet.worksheet.checks import Check, assembled
+
+FULL = 16.0  # digits of a float
+SPARE = 1.0  # digits that a result may lose beyond its condition number
+
+
+@dataclass(frozen=True)
+class Scene:
+    """What a scene file says."""
+
+    name: str
+    about: str
+    job: str
+    inputs: Mapping[str, Any]
+    over: Sequence[str] = ()
+    values: Sequence[Any] = (None,)
+    at: int = -1
+    says: str = ""
+
+    def cases(self) -> list[dict[str, Any]]:
+        """Inputs in display units, case by case."""
+        return [{**self.inputs, **dict.fromkeys(self.over, value)} for value in self.values]
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """One result of one case: condition number, digits expected, digits kept by the printed formulas and the product.
+
+    ``printed`` is NaN where the documents have no formula. ``words`` is what the product said instead of a result.
+    """
+
+    scene: str
+    case: str
+    result: str
+    condition: float
+    expected: float
+    printed: float
+    product: float
+    words: str = ""
+    wanted: str = ""
+
+    @property
+    def holds(self) -> bool:
+        """Whether the product keeps the expected digits, less `SPARE`, or says the words that are wanted."""
+        if self.wanted:
+            return self.wanted in self.words
+        return self.product >= self.expected - SPARE
+
+
+@dataclass(frozen=True)
+class Case:
+    """One case: what the product said, and how its results, the true and the printed ones of inputs x are computed.
+
+    ``product`` and ``printed`` get the true results, whose names they need.
+    """
+
+    words: str
+    true: Callable[..., exact.Numbers]
+    x: Mapping[str, Any]
+    product: Callable[[exact.Numbers], Mapping[str, Any]]
+    printed: Callable[[exact.Numbers], Mapping[str, Any]]
+
+
+@dataclass(frozen=True)
+class Kept:
+    """Chart of the digits kept over the digits expected: every result of every scene."""
+
+    outcomes: Sequence[Outcome]
+
+    def _mime_(self) -> tuple[str, str]:
+        import marimo as mo
+
+        return "text/html", mo.as_html(self.chart()).text
+
+    def chart(self) -> Any:
+        """The altair chart; above the solid line lies more than can be expected, below the dashed one too little."""
+        import altair as alt
+
+        measured = [o for o in self.outcomes if not o.wanted]
+        ways = {"printed formulas": [o.printed for o in measured], "product": [o.product for o in measured]}
+        points = [
+            {"expected": o.expected, "kept": kept, "way": way, "scene": o.scene, "case": o.case, "result": o.result}
+            for way, digits in ways.items()
+            for o, kept in zip(measured, digits, strict=True)
+            if np.isfinite(kept)
+        ]
+        colour = alt.Color("way:N", title=None, sort=[*ways], legend=alt.Legend(orient="top"))
+        base = alt.Chart(alt.InlineData(points)).encode(
+            x=alt.X("expected:Q", title="digits expected, 16 - log κ", scale=alt.Scale(domain=[0, FULL])),
+            y=alt.Y("kept:Q", title="digits kept", scale=alt.Scale(domain=[0, FULL])),
+            color=colour.scale(domain=[*ways], range=["#d55e00", "#0072b2"]),
+            tooltip=["scene:N", "case:N", "result:N", alt.Tooltip("expected:Q", format=".1f"), "kept:Q"],
+        )
+        ends = [{"x": 0.0, "y": 0.0, "spared": -SPARE}, {"x": FULL, "y": FULL, "spared": FULL - SPARE}]
+        lines = alt.Chart(alt.InlineData(ends)).encode(x="x:Q")
+        return alt.layer(
+            base.mark_circle(size=14, opacity=0.5, clip=True),
+            lines.mark_line(color="gray").encode(y="y:Q"),
+            lines.mark_line(color="gray", strokeDash=[5, 4], clip=True).encode(y="spared:Q"),
+        ).properties(width=560, height=420, usermeta={"embedOptions": {"renderer": "svg"}})
+
+
+def read(path: Path) -> Scene:
+    """Scene from a file."""
+    facts = tomllib.loads(path.read_text(encoding="utf-8"))
+    extreme: dict[str, Any] = facts["extreme"]
+    return Scene(name=path.stem, inputs=facts.get("inputs", {}), **extreme)
+
+
+def measure(scene: Scene, worksheets: Path, short: bool = False) -> list[Outcome]:
+    """Every result of every case of a scene; ``worksheets`` is their folder.
+
+    In the short form the first case, the last and the one in the middle.
+    """
+    found: list[Outcome] = []
+    last, cases = len(scene.values) - 1, scene.cases()
+    for k in sorted({0, last // 2, last}) if short else range(last + 1):
+        given, value = cases[k], scene.values[k]
+        case = "" if value is None else f"{value:.17g}" if isinstance(value, float) else str(value)
+        run = partial(JOBS[scene.job], worksheets, given, scene.at)
+        if scene.says:
+            found.append(Outcome(scene.name, case, "", np.nan, np.nan, np.nan, np.nan, _words(run), scene.says))
+        else:
+            found += outcomes(run(), scene.name, case)
+    return found
+
+
+def outcomes(job: Case, scene: str = "", case: str = "") -> list[Outcome]:
+    """Digits of all results of a case.
+
+    One that does not exist must be NaN or infinite, unless the rounding of an input decides whether it exists.
+    """
+    found, true = list[Outcome](), job.true(**job.x)
+    conditions, product, formulas = exact.conditions(job.true, job.x), job.product(true), job.printed(true)
+    exist = {name: exact.exist(y) for name, y in true.items()}
+    told = {name: bool(np.all(np.isfinite(product[name]))) for name in true}
+    undecided = exact.undecided(job.true, job.x) if exist != told else set()
+    for name, y in true.items():
+        exists, given = exist[name], told[name]
+        condition, kept, by_formula = 1.0, 0.0 if given else FULL, np.nan
+        if exists:
+            condition, kept = max(1.0, float(conditions[name])), digits(name, product[name], y)
+            by_formula = digits(name, formulas[name], y) if name in formulas else np.nan
+        if exists != given and name in undecided:
+            condition = np.inf
+        expected = float(np.clip(FULL - np.log10(condition), 0.0, FULL))
+        found.append(Outcome(scene, case, name, condition, expected, by_formula, kept, job.words))
+    return found
+
+
+def digits(name: str, value: Any, true: Any) -> float:
+    """Digits that a value keeps of the true one, from 0 to 16; an angle may be counted in any turn."""
+    if not np.all(np.isfinite(value)):
+        return 0.0
+    error = exact.relative_error(value, true, 2 * np.pi if name.startswith(("phi", "psi")) else None)
+    return float(np.clip(-np.log10(error), 0.0, FULL)) if error else FULL
+
+
+def _words(run: Callable[[], Case]) -> str:
+    """What is said where something cannot be computed: an error, or the reasons of the checks that fail."""
+    try:
+        return run().words
+    except ValueError as error:
+        return str(error)
+
+
+def _reasons(checks: Iterable[Check]) -> str:
+    return "; ".join(check.reason for check in checks if not check.passed and check.reason)
+
+
+def _worksheet(path: Path, given: Mapping[str, Any]) -> tuple[Worksheet, Any]:
+    sheet = load(path)
+    return sheet, inputs.build(sheet.inputs, given)
+
+
+def _row(names: Mapping[str, Any], wanted: Iterable[str], at: int) -> dict[str, Any]:
+    """The results at one position of the table."""
+    return {name: names[name][at] if np.ndim(names[name]) else names[name] for name in wanted}
+
+
+def hitch(worksheets: Path, given: Mapping[str, Any], at: int = -1) -> Case:
+    """The hitch worksheet; the printed formulas get the true lengths, as the document's Find is another matter."""
+    sheet, g = _worksheet(worksheets / "hitch.py", given)
+    names = sheet.run(["S", "checks_closing"], {"g": g})
+    S = float(names["S"][at])
+
+    def true(S: Any, L4: Any, S_p: Any, L7: Any, **inputs: Any) -> exact.Numbers:
+        x, rounded = SimpleNamespace(**inputs), {"L4": L4, "S_p": S_p, "L7": L7}
+        lengths = {name: length * rounded[name] for name, length in exact.finds(x).items()}
+        results = exact.hitch(x, S, **lengths)
+        return {name: result for name, result in results.items() if name not in _SECOND_WAY}
+
+    def formulas(true: exact.Numbers) -> Mapping[str, Any]:
+        lengths = {name: float(true[name]) for name in ("L4", "S_p", "L7")}
+        return {name: value for name, value in printed.hitch(g, S, **lengths).items() if name not in lengths}
+
+    return Case(
+        words=_reasons(names["checks_closing"]),
+        true=true,
+        x={"S": S, "L4": 1.0, "S_p": 1.0, "L7": 1.0, **vars(g)},  # the lengths found are rounded before they are used
+        product=lambda true: _row(sheet.run(true, names), true, at),
+        printed=formulas,
+    )
+
+
+# Section 7 finds I56 and IS6 again, as products of numbers that are worse conditioned than they are.
+_SECOND_WAY = ("Imp", "Isp")
+
+
+def landing_gear(worksheets: Path, given: Mapping[str, Any], at: int = -1) -> Case:
+    """The landing gear worksheet."""
+    sheet, g = _worksheet(worksheets / "landing_gear.py", given)
+    names = sheet.run(["l2i"], {"g": g})
+    l2 = float(names["l2i"][at])
+    return Case(
+        words="",
+        true=lambda l2, **g: exact.landing_gear(SimpleNamespace(**g), l2),
+        x={"l2": l2, **vars(g)},
+        product=lambda true: _row(sheet.run(true, names), true, at),
+        printed=lambda _: printed.landing_gear(g, l2),
+    )
+
+
+def joint(worksheets: Path, given: Mapping[str, Any], at: int = -1) -> Case:
+    """The rectangular joint of the joint worksheet; ``at`` counts the planes and, faster, the load cases."""
+    sheet, g = _worksheet(worksheets / "joint.py", given)
+    names = sheet.run(["sigma", "P", "y_0", "axes", "steps", "checks_joint"], {"g": g})
+    p, k = divmod(range(4)[at], 2)
+    product = {f"sigma_{i}": value for i, value in enumerate(names["sigma"][p, k])} | {"P": names["P"][p, k]}
+    step = names["steps"][p, k, 0]
+    formulas = {"y_0": names["axes"][step - 1, p, k, 0] if step else np.nan}
+    return Case(
+        words=_reasons(names["checks_joint"]),
+        true=lambda **g: exact.joint(SimpleNamespace(**g), p + 1, k + 1),
+        x=vars(g),
+        product=lambda _: product | {"y_0": names["y_0"][p, k, 0]},
+        printed=lambda _: formulas,
+    )
+
+
+_DYAD = {"A": ("X_A", "Y_A"), "B": ("X_B", "Y_B"), "P_A": ("X_PA", "Y_PA"), "P_B": ("X_PB", "Y_PB")}
+_DYAD |= {"F_A": ("X_FA", "Y_FA"), "F_B": ("X_FB", "Y_FB")}
+
+
+def dyad(_worksheets: Path, given: Mapping[str, Any], _at: int = -1) -> Case:
+    """Position, analogues and reactions of a group of two links by the library.
+
+    Inputs: branch, lengths r_A, r_B, and components X, Y of the pins A, B, of the force FA on the link AC at the point
+    PA, and of FB on BC at PB. What is left out is 0.
+    """
+    x = {name: float(given.get(name, 0.0)) for name in ("r_A", "r_B", *(xy for pair in _DYAD.values() for xy in pair))}
+    branch = int(given["branch"])
+
+    def group(number: Callable[[Any, Any], Any], x: Mapping[str, Any]) -> dict[str, Any]:
+        points = {name: number(x[real], x[imaginary]) for name, (real, imaginary) in _DYAD.items()}
+        return points | {"r_A": x["r_A"], "r_B": x["r_B"], "branch": branch}
+
+    def product(A: Any, B: Any, r_A: Any, r_B: Any, branch: int, P_A: Any, P_B: Any, F_A: Any, F_B: Any) -> Any:
+        C = rrr(A, B, r_A, r_B, branch)
+        v, R = rrr_velocity(A, B, C, 0, 0, dr_A=1), rrr_reactions(A, B, C, [Load(F_A, P_A)], [Load(F_B, P_B)])
+        return {"C": C, "omega_A": v.omega_A, "omega_B": v.omega_B, "R_A": R.R_A, "R_B": R.R_B, "R_C": R.R_C}
+
+    floats = group(complex, x)
+    results = product(**floats)
+    reach = rrr_reach(floats["B"], floats["A"], floats["r_B"])
+    return Case(
+        words=_reasons([assembled("dyad closes", results["C"], floats["r_A"], reach, "length r_A", "m")]),
+        true=lambda X_C, Y_C, **x: exact.dyad(**group(exact.number, x), X_C=X_C, Y_C=Y_C),
+        x={"X_C": 1.0, "Y_C": 1.0, **x},  # the pin is rounded before it is used
+        product=lambda _: results,
+        printed=lambda _: printed.dyad(**floats),
+    )
+
+
+def through_dead_centre(_worksheets: Path, given: Mapping[str, Any], _at: int = -1) -> Case:
+    """Four-bar linkage whose crank passes a near-dead centre of coupler and rocker.
+
+    The product assembles it at the end; the ``printed`` way integrates the velocity equations from start to end by
+    Radau's implicit method, for they are stiff. Inputs: links a (crank), b, c, frame b + c - a - gap, angles of the
+    crank theta_0, theta_1.
+    """
+    a, b, c, gap, start, end = (float(given[name]) for name in ("a", "b", "c", "gap", "theta_0", "theta_1"))
+    d = b + c - a - gap
+    A = a * np.exp(1j * end)
+    C = rrr(A, d, b, c, +1)
+    return Case(
+        words="",
+        true=exact.four_bar,
+        x={"a": a, "b": b, "c": c, "d": d, "theta": end},
+        product=lambda _: {"C": C, "phi2": angle(C - A), "phi3": angle(C - d)},
+        printed=lambda _: printed.integrated_four_bar(a, b, c, d, start, end),
+    )
+
+
+JOBS: Mapping[str, Callable[[Path, Mapping[str, Any], int], Case]] = {
+    "hitch": hitch,
+    "landing_gear": landing_gear,
+    "joint": joint,
+    "dyad": dyad,
+    "through_dead_centre": through_dead_centre,
+}

@@ -1,0 +1,189 @@
+"""The formulas of the documents as they are printed, in floats: what a port from Mathcad or Fortran would compute.
+
+They are here to be compared with; no result of a worksheet rests on them. Angles by arccosines, reactions by
+elimination with divisions by differences of coordinates. Errata that only misprint a formula are corrected: signs,
+and quadrants that the documents take for granted. Names are those of the worksheets; SI and radians.
+"""
+
+from typing import Any
+
+import numpy as np
+from numpy import arccos as acos
+from numpy import arctan as atan
+from numpy import cos, exp, pi, sin, sqrt
+from numpy.typing import ArrayLike, NDArray
+
+from mechsheet.mechanics.dyads import rrr
+from mechsheet.mechanics.planar import angle
+
+Results = dict[str, Any]
+
+
+@np.errstate(all="ignore")
+def hitch(g: Any, S: ArrayLike, L4: float, S_p: float, L7: float) -> Results:
+    """Sections 2 to 7 of the hitch's document for the strokes S [m] and the lengths found."""
+    S = np.asarray(S, np.float64)
+    LS6 = sqrt(g.X6**2 + g.Y6**2)
+    phiS6 = 2 * pi + atan(g.Y6 / g.X6) - _hitch_angles(g, np.float64(S_p), L4, L7)["phi6_S"]
+    r = _hitch_angles(g, S, L4, L7)
+    r["P23_S"] = g.X03 + 1j * g.Y03 + g.L3 * exp(1j * r["phi3_S"])
+    r["P34_S"] = g.X03 + 1j * g.Y03 + g.L34 * exp(1j * r["phi34_S"])
+    r["P45_S"] = g.X05 + 1j * g.Y05 + g.L5 * exp(1j * r["phi5_S"])
+    r["P67_S"] = g.X07 + 1j * g.Y07 + L7 * exp(1j * r["phi7_S"])
+    r["PS6_S"] = r["P56_S"] + LS6 * exp(1j * (phiS6 + r["phi6_S"]))
+    r |= {"L4": np.float64(L4), "S_p": np.float64(S_p), "L7": np.float64(L7), "LS6": LS6, "phiS6": phiS6}
+    r |= _hitch_analogues(g, S, L4, L7, r)
+    A_gc = 0.25 * pi * g.D_gc**2
+    F_gc = g.P6 * r["IS6"]
+    r |= {"A_gc": A_gc, "F_gc": F_gc, "P_gc": F_gc / (g.k_gc * A_gc * g.eta)}
+    r["G56"] = g.k_gc * g.P_gc_max * g.eta * A_gc / r["I56"]
+    r["GS6"] = g.k_gc * g.P_gc_max * g.eta * A_gc / r["IS6"]
+    r["dGS65"] = (r["GS6"] - g.P6) / g.P6
+    r |= _hitch_forces(g, r)
+    Ra = (g.P_gr * (g.a + g.L) + g.P_msha * g.b - g.P6 * r["PS6_S"].real) / g.L
+    Rb, weight = g.P_gr + g.P_msha + g.P6 - Ra, g.P6 + g.P_msha + g.P_gr
+    r |= {"Ra": Ra, "Rb": Rb, "dRa": Ra / weight, "dRb": Rb / weight, "Ra_min": np.float64(0.2 * weight)}
+    r["GS6_max"] = (g.P_msha * g.b + g.P_gr * (g.a + g.L) - 0.2 * weight) / r["PS6_S"].real
+    return r
+
+
+def _hitch_angles(g: Any, S: Any, L4: float, L7: float) -> Results:
+    """2.1 to 2.3, with the corrected phi12 and the slopes of the frame in all quadrants."""
+    L13 = sqrt((g.X01 - g.X03) ** 2 + (g.Y01 - g.Y03) ** 2)
+    phi13 = np.arctan2(g.Y03 - g.Y01, g.X01 - g.X03)
+    phi3 = acos((g.L3**2 + L13**2 - S**2) / (2 * g.L3 * L13)) - phi13
+    phi12 = pi - phi13 - acos((S**2 + L13**2 - g.L3**2) / (2 * S * L13))
+    phi34 = phi3 + g.phi_BD
+    L35 = sqrt((g.X03 - g.X05) ** 2 + (g.Y03 - g.Y05) ** 2)
+    delta1 = pi - acos((g.X03 - g.X05) / L35)
+    S_1 = sqrt(L35**2 + g.L34**2 - 2 * L35 * g.L34 * cos(phi34 + delta1))
+    phiS1 = acos((L35**2 + S_1**2 - g.L34**2) / (2 * L35 * S_1))
+    phi4 = acos((L4**2 + S_1**2 - g.L5**2) / (2 * L4 * S_1)) - phiS1 - delta1
+    phi5 = pi - acos((g.L5**2 + S_1**2 - L4**2) / (2 * g.L5 * S_1)) - phiS1 - delta1
+    X56, Y56 = g.X05 + g.L56 * cos(phi5), g.Y05 + g.L56 * sin(phi5)
+    L57 = sqrt((g.X07 - g.X05) ** 2 + (g.Y07 - g.Y05) ** 2)
+    delta2 = pi - acos((g.X07 - g.X05) / L57)
+    L53 = sqrt((g.X07 - X56) ** 2 + (g.Y07 - Y56) ** 2)
+    phi53 = acos((L53**2 + L57**2 - g.L56**2) / (2 * L53 * L57))
+    phi6 = pi - acos((g.L6**2 + L53**2 - L7**2) / (2 * g.L6 * L53)) + phi53 - delta2
+    phi7 = acos((L7**2 + L53**2 - g.L6**2) / (2 * L7 * L53)) + phi53 - delta2
+    angles = {"phi12_S": phi12, "phi3_S": phi3, "phi34_S": phi34, "phi4_S": phi4, "phi5_S": phi5}
+    return angles | {"phi6_S": phi6, "phi7_S": phi7, "P56_S": X56 + 1j * Y56}
+
+
+def _hitch_analogues(g: Any, S: Any, L4: float, L7: float, r: Results) -> Results:
+    """Section 3, and the check by the instant centre."""
+    phi34, phi4, phi5, phi6, phi7 = (r[f"phi{k}_S"] for k in (34, 4, 5, 6, 7))
+    U43 = g.L34 * sin(phi5 - phi34) / (L4 * sin(phi4 - phi5))
+    U53 = g.L34 * sin(phi34 - phi4) / (g.L5 * sin(phi5 - phi4))
+    U65 = g.L56 * sin(phi7 - phi5) / (g.L6 * sin(phi6 - phi7))
+    U75 = g.L56 * sin(phi5 - phi6) / (L7 * sin(phi7 - phi6))
+    L13 = sqrt((g.X01 - g.X03) ** 2 + (g.Y01 - g.Y03) ** 2)
+    dphi3 = 2 * S / sqrt(4 * L13**2 * g.L3**2 - (S**2 - L13**2 - g.L3**2) ** 2)
+    dphi6 = dphi3 * U65 * U53
+    I56 = dphi3 * U53 * g.L56 * cos(phi5)
+    IS6 = I56 + dphi6 * r["LS6"] * cos(phi6 + r["phiS6"])
+    P56, P67 = r["P56_S"], r["P67_S"]
+    AA, BB = P56.imag * g.X05 - g.Y05 * P56.real, g.X07 - P67.real
+    CC, DD = g.Y07 - P67.imag, g.X05 - P56.real
+    EE, FF = P67.imag * g.X07 - g.Y07 * P67.real, g.Y05 - P56.imag
+    Xp = (AA * BB - DD * EE) / (CC * DD - BB * FF)
+    ratios = {"U43": U43, "U53": U53, "U65": U65, "U75": U75, "dphi3": dphi3, "dphi4": dphi3 * U43}
+    ratios |= {"dphi5": dphi3 * U53, "dphi6": dphi6, "dphi7": dphi3 * U75 * U53, "I56": I56, "IS6": IS6}
+    return ratios | {"Imp": dphi6 * (P56.real - Xp), "Isp": dphi6 * (r["PS6_S"].real - Xp)}
+
+
+def _hitch_forces(g: Any, r: Results) -> Results:
+    """Section 5, by elimination."""
+    P23, P34, P45, P56, P67 = (r[f"P{k}_S"] for k in (23, 34, 45, 56, 67))
+    a1, b1, c1 = g.Y07 - P67.imag, P67.real - g.X07, P67.imag - P56.imag
+    d1, e1 = P67.real - P56.real, r["PS6_S"].real - P67.real
+    R56x = g.P6 * b1 * (d1 + e1) / (a1 * d1 + b1 * c1)
+    R56 = R56x - 1j * ((g.P6 * e1 - R56x * c1) / d1)
+    R07 = -R56.real + 1j * (g.P6 - R56.imag)
+
+    R65 = -R56
+    a2, b2, c2, d2 = P34.imag - P45.imag, P34.real - P45.real, g.Y05 - P45.imag, P45.real - g.X05
+    e2 = R65.real * (P45.imag - P56.imag) + R65.imag * (P56.real - P45.real)
+    under = a2 * d2 + b2 * c2
+    R05x = -(b2 * e2 - R65.real * a2 * d2 + R65.imag * b2 * d2) / under
+    R05 = R05x - 1j * ((e2 + R05x * c2) / d2)
+    R34x = (b2 * e2 + R65.real * b2 * c2 + R65.imag * b2 * d2) / under
+    R34 = R34x + 1j * (R34x * a2 / b2)
+
+    R43 = -R34
+    a3, b3, c3, d3 = P23.imag - g.Y01, P23.real - g.X01, g.Y03 - P23.imag, g.X03 - P23.real
+    e3 = R43.real * (P23.imag - P34.imag) + R43.imag * (P34.real - P23.real)
+    under = a3 * d3 - b3 * c3
+    R03x = (b3 * e3 + R43.real * a3 * d3 - R43.imag * b3 * d3) / under
+    R03 = R03x + 1j * ((e3 + R03x * c3) / d3)
+    R01x = -(b3 * e3 + R43.real * b3 * c3 - R43.imag * b3 * d3) / under
+    R01 = R01x + 1j * (R01x * a3 / b3)
+    group_67 = {"R56": R56, "R65": R65, "R07": R07, "R67": -R07}
+    return group_67 | {"R05": R05, "R34": R34, "R45": R34, "R03": R03, "R01": R01, "R23": R01}
+
+
+@np.errstate(all="ignore")
+def landing_gear(g: Any, l2: ArrayLike) -> Results:
+    """Formulas (1) to (25) for the lengths l2 [m] of the cylinder, (24) with its minus and (14) with its square.
+
+    (28) gives one half of the circle; the right half is chosen here.
+    """
+    l12 = sqrt(g.a**2 + g.b**2)
+    beta0, mu = np.arctan2(g.b, g.a), acos(g.l3 / l12)
+    l20 = sqrt(l12**2 + g.l3**2 - 2 * l12 * g.l3 * cos(mu - g.theta / 2))
+    l2n = sqrt(l12**2 + g.l3**2 - 2 * l12 * g.l3 * cos(mu + g.theta / 2))
+    H = l2n - l20
+    l2 = np.asarray(l2, np.float64)
+    phi2 = pi / 2 + beta0 + acos((l2**2 + l12**2 - g.l3**2) / (2 * l2 * l12))
+    half = np.arcsin((g.a - l2 * sin(phi2)) / g.l3)
+    phi3 = np.where(-g.b - l2 * cos(phi2) > 0, half, pi - half)
+    cosine, sine = cos(phi3 - phi2), sin(phi3 - phi2)
+    omega3 = 1 / (g.l3 * sine)
+    omega2 = -g.l3 * omega3 * cosine / l2
+    eps3 = -(l2 * omega2**2 + g.l3 * omega3**2 * cosine) / (g.l3 * sine)
+    eps2 = (g.l3 * omega3**2 * sine - g.l3 * eps3 * cosine - 2 * omega2) / l2
+    V21 = H / g.t_r
+    r = {"psi": pi + mu - (beta0 + g.theta / 2), "l20": l20, "l2n": l2n, "H": H, "V21": V21}
+    r |= {"phi2i": phi2, "phi3i": phi3, "Ai": g.l3 * exp(1j * phi3)}
+    r |= {"omega3_l2i": omega3, "omega2_l2i": omega2, "eps3_l2i": eps3, "eps2_l2i": eps2}
+    return r | {"omega3i": V21 * omega3, "omega2i": V21 * omega2, "eps3i": V21**2 * eps3, "eps2i": V21**2 * eps2}
+
+
+@np.errstate(all="ignore")
+def dyad(
+    A: complex, B: complex, r_A: float, r_B: float, branch: int, P_A: complex, P_B: complex, F_A: complex, F_B: complex
+) -> Results:
+    """A group of two links as the hitch's document computes each of its own: acos, sines, elimination."""
+    d = B - A
+    L = sqrt(d.real**2 + d.imag**2)
+    phi_AB = np.arctan2(d.imag, d.real)
+    phi_A = phi_AB + branch * acos((r_A**2 + L**2 - r_B**2) / (2 * r_A * L))
+    phi_B = phi_AB + pi - branch * acos((r_B**2 + L**2 - r_A**2) / (2 * r_B * L))
+    C = A + r_A * exp(1j * phi_A)
+    omega_B = 1 / (r_B * sin(phi_A - phi_B))
+    omega_A = omega_B * r_B * cos(phi_A - phi_B) / r_A
+    p, q = P_A - C, P_B - C
+    H_A, H_B = p.real * F_A.imag - p.imag * F_A.real, q.real * F_B.imag - q.imag * F_B.real
+    # (A - C) x R_A = -H_A, (B - C) x R_B = -H_B, R_A + R_B = -F, by elimination
+    a, b, F = A - C, B - C, F_A + F_B
+    K = H_B - (b.real * F.imag - b.imag * F.real)
+    R_Ax = (K * a.real + H_A * b.real) / (a.real * b.imag - b.real * a.imag)
+    R_A = R_Ax + 1j * ((R_Ax * a.imag - H_A) / a.real)
+    return {"C": C, "omega_A": omega_A, "omega_B": omega_B, "R_A": R_A, "R_B": -F - R_A, "R_C": -F_A - R_A}
+
+
+@np.errstate(all="ignore")
+def integrated_four_bar(a: float, b: float, c: float, d: float, start: float, end: float) -> Results:
+    """Velocity equations of a four-bar linkage integrated over the angle of its crank, from an exact start."""
+    from scipy.integrate import solve_ivp
+
+    def rates(theta: float, phi: NDArray[np.float64]) -> list[float]:
+        sine = sin(phi[1] - phi[0])
+        return [a * sin(theta - phi[1]) / (b * sine), a * sin(theta - phi[0]) / (c * sine)]
+
+    C = rrr(a * exp(1j * start), d, b, c, +1)
+    first = angle([C - a * exp(1j * start), C - d])
+    run = solve_ivp(rates, (start, end), first, "Radau", rtol=1e-10, atol=1e-12)
+    phi2, phi3 = run.y[:, -1] if run.success else (np.nan, np.nan)
+    return {"C": d + c * exp(1j * phi3), "phi2": phi2, "phi3": phi3}

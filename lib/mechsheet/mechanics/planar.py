@@ -1,0 +1,256 @@
+"""Planar points as complex numbers: products, angles, triangles, points of a rigid link."""
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from mechsheet.mechanics.arguments import Complex, Float, elementwise, field, scalar_field
+
+__all__ = [
+    "Complex",
+    "Float",
+    "angle",
+    "angle_between",
+    "angle_opposite",
+    "cross",
+    "dot",
+    "link_acceleration",
+    "link_point",
+    "link_velocity",
+    "product",
+    "triangle_area",
+]
+
+
+def cross(a: ArrayLike, b: ArrayLike) -> Float:
+    """Out-of-plane component of a x b, positive where b lies to the left of a; shape (...).
+
+    Written in real products: the fused ones of a complex product do not vanish for parallel vectors.
+
+    >>> cross(1, 2j)
+    np.float64(2.0)
+    """
+    p, q = np.asarray(a, np.complex128), np.asarray(b, np.complex128)
+    return p.real * q.imag - p.imag * q.real
+
+
+def dot(a: ArrayLike, b: ArrayLike) -> Float:
+    """Scalar product a . b; shape (...).
+
+    >>> dot(3 + 1j, 2)
+    np.float64(6.0)
+    """
+    p, q = np.asarray(a, np.complex128), np.asarray(b, np.complex128)
+    return p.real * q.real + p.imag * q.imag
+
+
+def product(p: ArrayLike, q: ArrayLike, z: ArrayLike) -> Complex:
+    """(p + iq) z for real p, q; shape (...).
+
+    Written in real products: numpy fuses the complex ones of arrays and not those of single numbers, and a variant
+    must give the same alone as among others.
+
+    >>> product(1, 2, 3 + 1j)
+    np.complex128(1+7j)
+    """
+    p, q, z = np.asarray(p, np.float64), np.asarray(q, np.float64), np.asarray(z, np.complex128)
+    real = p * z.real - q * z.imag
+    found = np.empty(real.shape, np.complex128)
+    found.real = real
+    found.imag = p * z.imag + q * z.real
+    return found[()]
+
+
+def angle(z: ArrayLike) -> Float:
+    """Direction angle of z by the two-argument arctangent, in (-pi, pi] [rad]; shape (...).
+
+    >>> angle([1j, -1])
+    array([1.57079633, 3.14159265])
+    """
+    return np.angle(np.asarray(z, np.complex128) + 0.0)  # + 0.0: the angle of -1 - 0.0j would be -pi
+
+
+def angle_between(a: ArrayLike, b: ArrayLike) -> Float:
+    """Angle between two vectors, in [0, pi] [rad], with its digits near 0 and pi kept; shape (...).
+
+    >>> angle_between(1, [1j, -2])
+    array([1.57079633, 3.14159265])
+    """
+    return np.arctan2(np.abs(cross(a, b)), dot(a, b))
+
+
+@elementwise
+def angle_opposite(a: ArrayLike, b: ArrayLike, c: ArrayLike) -> Float:
+    r"""Angle of a triangle opposite its side a, between the sides b and c.
+
+    .. math:: \alpha = 2 \arctan \sqrt{\frac{(a - b + c)(a + b - c)}{(a + b + c)(b + c - a)}}
+
+    The factors are summed in the order that keeps their digits, so that a needle-shaped triangle loses none.
+
+    Parameters
+    ----------
+    a, b, c : float, shape (...)
+        Sides [m], not negative; NaN passes through.
+
+    Returns
+    -------
+    float, shape (...)
+        Angle [rad] in [0, pi]; NaN where the sides make no triangle, or b or c is zero.
+
+    Raises
+    ------
+    ValueError
+        A negative or infinite side.
+
+    References
+    ----------
+    W. Kahan, Miscalculating Area and Angles of a Needle-like Triangle, 2014.
+
+    Examples
+    --------
+    >>> angle_opposite([1, 5, 9], 4, [4, 3, 3])
+    array([0.25065566, 1.57079633,        nan])
+    """
+    a, b, c = _side(a, "a"), _side(b, "b"), _side(c, "c")
+    b, c = np.maximum(b, c), np.minimum(b, c)
+    closes = (c > 0) & _meet(a, b, c) & _meet(b, a, c)
+    over = ((b - c) + a) * np.where(c < a, c - (b - a), a - (b - c))
+    under = (b + (c + a)) * ((b - a) + c)
+    # where the sides close to one rounding, a factor below zero is that rounding
+    tangent = np.arctan2(np.sqrt(np.maximum(over, 0)), np.sqrt(np.maximum(under, 0)))
+    return np.where(closes, 2 * tangent, np.nan)[()]
+
+
+@elementwise
+def triangle_area(a: ArrayLike, b: ArrayLike, c: ArrayLike) -> Float:
+    r"""Area of a triangle with the sides a, b, c, with the digits of a needle-shaped one kept.
+
+    .. math:: 4 S = \sqrt{(a + b + c)(b + c - a)(a + c - b)(a + b - c)}
+
+    Parameters
+    ----------
+    a, b, c : float, shape (...)
+        Sides [m].
+
+    Returns
+    -------
+    float, shape (...)
+        Area [m^2]; zero where the longest side equals the sum of the others, rounded once; NaN where the sides
+        make no triangle.
+
+    References
+    ----------
+    W. Kahan, Miscalculating Area and Angles of a Needle-like Triangle, 2014.
+
+    Examples
+    --------
+    >>> triangle_area(3, 4, [5, 7, 8])
+    array([ 6.,  0., nan])
+    """
+    x, y, z = np.asarray(a, np.float64), np.asarray(b, np.float64), np.asarray(c, np.float64)
+    return sorted_area(np.maximum(x, y), np.minimum(x, y), z)
+
+
+def sorted_area(x: Float, y: Float, z: Float) -> Float:
+    """`triangle_area` of sides of which the first is no shorter than the second."""
+    x, z = np.maximum(x, z), np.minimum(x, z)
+    y, z = np.maximum(y, z), np.minimum(y, z)
+    excess = z - (x - y)
+    if np.count_nonzero(excess < 0):  # where the sides meet to one rounding, an excess below zero is that rounding
+        excess = np.where(_meet(x, y, z), np.maximum(excess, 0), np.nan)
+    square: Float = (x + (y + z)) * excess * (z + (x - y)) * (x + (y - z))
+    return np.sqrt(square) / 4
+
+
+def link_point(A: ArrayLike, B: ArrayLike, z: ArrayLike) -> Complex:
+    """Point of the link AB with the link's own coordinates z: origin in A, real axis towards B.
+
+    .. math:: P = A + z (B - A) / |B - A|
+
+    Parameters
+    ----------
+    A, B : complex, shape (...)
+        Points of the link [m].
+    z : complex, shape (...)
+        Coordinates in the link [m].
+
+    Returns
+    -------
+    complex, shape (...)
+        P [m].
+
+    Examples
+    --------
+    >>> link_point(1, 1 + 2j, 3 + 1j)
+    np.complex128(3j)
+    """
+    A = field(A, "A")
+    d, z = field(B, "B") - A, field(z, "z")
+    size = np.abs(d)
+    return A + product(z.real / size, z.imag / size, d)
+
+
+def link_velocity(P: ArrayLike, A: ArrayLike, v_A: ArrayLike, omega: ArrayLike) -> Complex:
+    r"""Velocity of the point P of a link that turns with omega, A being another point of it.
+
+    .. math:: v_P = v_A + i \omega (P - A)
+
+    Parameters
+    ----------
+    P, A : complex, shape (...)
+        Points of the link [m].
+    v_A : complex, shape (...)
+        Velocity of A [m/s], or its analogue.
+    omega : float, shape (...)
+        Angular velocity of the link [rad/s], or its analogue.
+
+    Returns
+    -------
+    complex, shape (...)
+        v_P [m/s].
+
+    Examples
+    --------
+    >>> link_velocity(2j, 0, 1, 3)
+    np.complex128(-5+0j)
+    """
+    return field(v_A, "v_A") + 1j * scalar_field(omega, "omega") * (field(P, "P") - field(A, "A"))
+
+
+def link_acceleration(P: ArrayLike, A: ArrayLike, a_A: ArrayLike, omega: ArrayLike, epsilon: ArrayLike) -> Complex:
+    r"""Acceleration of the point P of a link, A being another point of it.
+
+    .. math:: a_P = a_A + (i \varepsilon - \omega^2)(P - A)
+
+    Parameters
+    ----------
+    P, A : complex, shape (...)
+        Points of the link [m].
+    a_A : complex, shape (...)
+        Acceleration of A [m/s^2], or its analogue.
+    omega, epsilon : float, shape (...)
+        Angular velocity [rad/s] and acceleration [rad/s^2] of the link, or their analogues.
+
+    Returns
+    -------
+    complex, shape (...)
+        a_P [m/s^2].
+
+    Examples
+    --------
+    >>> link_acceleration(2, 0, 1, 3, 4)
+    np.complex128(-17+8j)
+    """
+    turning = 1j * scalar_field(epsilon, "epsilon") - scalar_field(omega, "omega") ** 2
+    return field(a_A, "a_A") + turning * (field(P, "P") - field(A, "A"))
+
+
+def _meet(x: Float, y: Float, z: Float) -> NDArray[np.bool_]:
+    # x is at most y + z, where any one of the three may be the rounded sum or difference of the others
+    return (x <= y + z) | (x - y <= z) | (x - z <= y)
+
+
+def _side(value: ArrayLike, name: str) -> Float:
+    x = scalar_field(value, name)
+    if (x < 0).any():
+        raise ValueError(f"side {name} = {x[x < 0].flat[0]:.6g} m must not be negative")
+    return x

@@ -1,0 +1,43 @@
+"""The inputs of a worksheet as fields of the page."""
+
+import html
+from typing import Any
+
+import marimo as mo
+
+from mechsheet import units
+from mechsheet.worksheet import symbol
+from mechsheet.worksheet.inputs import declared, text
+
+_SIGNS = {"<": "&lt;", ">": "&gt;", "<=": "≤", ">=": "≥"}
+
+
+def _limit(text: str) -> str:
+    return symbol.html(text) if text[0].isalpha() else text
+
+
+def fields(g: Any) -> "mo.ui.batch":
+    """Text fields with the values of the inputs ``g``, section by section."""
+    sections: dict[str, list[str]] = {}
+    texts = {}
+    for field in declared(type(g)):
+        limits = ", ".join(f"{_SIGNS.get(sign, sign)}&nbsp;{_limit(other)}" for sign, other in field.limits)
+        unit = "" if field.unit == "-" else units.shown(field.unit)
+        sections.setdefault(field.section, []).append(
+            f'<tr><td style="padding-right:.5em">{symbol.html(field.name)}</td><td>{{{field.name}}}</td>'
+            f'<td style="padding-left:.4em">{html.escape(unit)}</td>'
+            f'<td style="padding-left:.7em;line-height:1.2">{html.escape(field.meaning)}'
+            f'<span style="opacity:.5;padding-left:.6em">{limits}</span></td></tr>'
+        )
+        texts[field.name] = mo.ui.text(value=text(field, getattr(g, field.name)), debounce=True)
+    blocks = "".join(
+        f'<div style="break-inside:avoid"><b>{html.escape(section)}</b><table>{"".join(rows)}</table></div>'
+        for section, rows in sections.items()
+    )
+    style = "columns:28em;column-gap:2em;font-size:.93em"
+    template = f'<div class="ms-inputs" style="{style}">{blocks}</div>'
+    form = mo.Html(template).batch(**texts)
+    # Shown without the element of the batch round them: a field tells of its change itself, and the batch told of it
+    # again, so that the whole sheet ran twice.
+    form._text = template.format(**{name: field.text for name, field in form.elements.items()})
+    return form

@@ -1,0 +1,48 @@
+"""The arguments of a run: inputs by name, a scene, and the folder for what is written."""
+
+import sys
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+
+from mechsheet.worksheet import scene as scenes
+from mechsheet.worksheet.errors import SheetError
+from mechsheet.worksheet.inputs import Input
+from mechsheet.worksheet.scene import Scene
+
+
+def is_script(worksheet: str) -> bool:
+    """Whether the worksheet itself was started, as ``python worksheet.py``."""
+    import marimo as mo
+
+    started = bool(sys.argv and sys.argv[0]) and Path(sys.argv[0]).resolve() == Path(worksheet).resolve()
+    return started and not mo.running_in_notebook()  # an export to HTML runs in the name of the worksheet too
+
+
+def read(arguments: Sequence[str], declared: Sequence[Input]) -> Scene:
+    """Scene from texts ``--scene=FILE``, ``--out=FOLDER`` and ``--NAME=VALUE``; the later one holds."""
+    scene = Scene()
+    for argument in arguments:
+        name, equals, value = argument.removeprefix("--").partition("=")
+        if not (argument.startswith("--") and name and equals and value):
+            raise SheetError(f"argument {argument!r} must be --NAME=VALUE, --scene=FILE or --out=FOLDER")
+        if name == "scene":
+            new = load(Path(value), declared)
+            scene = Scene(scene.inputs | new.inputs, scene.out, new.want or scene.want, scene.limits | new.limits)
+        elif name == "out":
+            scene = replace(scene, out=Path(value))
+        else:
+            scene = replace(scene, inputs={**scene.inputs, name: value})
+    return scene
+
+
+def load(path: Path, declared: Sequence[Input]) -> Scene:
+    """Scene of a TOML file, or of an exported workbook whose sheet of inputs has been edited.
+
+    Raises SheetError naming the file and what in it cannot be used.
+    """
+    if path.suffix.lower() == ".xlsx":
+        from mechsheet.workbook import edited  # on use: openpyxl takes a third of a second
+
+        return Scene(edited.inputs(path, declared))
+    return scenes.load(path)

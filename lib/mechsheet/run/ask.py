@@ -1,0 +1,59 @@
+"""The beginning of a worksheet: its inputs asked for in the page, or taken from the arguments of a script."""
+
+import sys
+from collections.abc import Callable
+from types import TracebackType
+from typing import TYPE_CHECKING
+
+from mechsheet.run import arguments
+from mechsheet.worksheet.errors import SheetError, refuse
+from mechsheet.worksheet.inputs import build, declared
+from mechsheet.worksheet.scene import Scene
+
+if TYPE_CHECKING:
+    import marimo as mo
+
+_Hook = Callable[[type[BaseException], BaseException, TracebackType | None], object]
+
+
+def ask(cls: type) -> "mo.ui.batch":
+    """Text fields for all inputs, section by section, with the defaults or what arguments and scenes give."""
+    from mechsheet.page.fields import fields  # on use: imports marimo, which a worksheet called as a function needs not
+
+    try:
+        g: object = build(cls, _given(cls).inputs)
+    except SheetError as error:
+        refuse(error)
+    return fields(g)
+
+
+def _given(cls: type) -> Scene:
+    """Scene from the arguments of ``python worksheet.py --NAME=VALUE ..`` or behind ``marimo run worksheet.py --``.
+
+    In a script a scene that wants only some results is answered here and now, and the script ends.
+
+    Raises SheetError for an argument of another form or an unreadable scene file.
+    """
+    worksheet: str = cls.__worksheet__  # type: ignore[attr-defined]
+    if arguments.is_script(worksheet):
+        sys.excepthook = _one_line(sys.excepthook)
+        scene = arguments.read(sys.argv[1:], declared(cls))
+        if scene.want:
+            from mechsheet.run import batch  # on use: brings the writer of workbooks
+
+            sys.exit(batch.answer(worksheet, scene))
+        return scene
+    import marimo as mo
+
+    given = mo.cli_args().to_dict() if mo.running_in_notebook() else {}
+    return arguments.read([f"--{name}={value}" for name, value in given.items()], declared(cls))
+
+
+def _one_line(other: _Hook) -> _Hook:
+    def show(kind: type[BaseException], error: BaseException, trace: TracebackType | None) -> None:
+        if issubclass(kind, SheetError):
+            print(f"error: {error}", file=sys.stderr)
+        else:
+            other(kind, error, trace)
+
+    return show

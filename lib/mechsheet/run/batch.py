@@ -1,0 +1,322 @@
+"""Many scenes of one worksheet: each computed on its own, all side by side in a table and a workbook."""
+
+import ast
+import glob
+import shutil
+import sys
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from itertools import chain
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from mechsheet import units
+from mechsheet.run.arguments import read
+from mechsheet.workbook import excel
+from mechsheet.worksheet import formula, inputs, results
+from mechsheet.worksheet.cells import Worksheet, base, checks, load
+from mechsheet.worksheet.checks import Check
+from mechsheet.worksheet.errors import SheetError
+from mechsheet.worksheet.find import Found
+from mechsheet.worksheet.results import Quantity
+from mechsheet.worksheet.scene import Scene
+from mechsheet.worksheet.table import Column, Table
+
+_BAR, _GAP = 30, 2  # characters of the bar, between columns
+INTERRUPTED = 130  # the exit code of a program that Ctrl-C ended, as shells have it
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What became of a scene: its inputs and results with its checks, or the error that stopped it."""
+
+    name: str
+    g: Any = None
+    quantities: tuple[Quantity, ...] = ()
+    tables: tuple[Table, ...] = ()
+    checks: tuple[Check, ...] = ()
+    error: str = ""
+
+    @property
+    def problems(self) -> list[str]:
+        """Why the scene did not pass, a line each."""
+        failed = [str(check) for check in self.checks if not check.passed]
+        gaps = [f"FAIL  {quantity.gaps}" for quantity in self.quantities if quantity.gaps]
+        return [self.error] if self.error else failed + gaps
+
+    @property
+    def verdict(self) -> str:
+        return "error" if self.error else "FAIL" if self.problems else "pass"
+
+
+def compute(sheet: Worksheet, name: str, given: Scene) -> tuple[Outcome, dict[str, Any]]:
+    """Outcome of one scene and the namespace of its run; only the cells that it needs are run.
+
+    Without wanted results the whole worksheet is needed, and its found values are the results.
+
+    Raises SheetError where an input, a name or the mechanism cannot be used.
+    """
+    g: Any = inputs.build(sheet.inputs, given.inputs)
+    names = sheet.run([*(given.want or sheet.results), *given.limits], {"g": g})
+    judged = results.limited(checks(names), given.limits, names)
+    for check in judged:
+        if check.essential and not check.passed:
+            raise SheetError(f"{check.name}: {check.reason}" if check.reason else str(check))
+    quantities, tables = dict[str, Quantity](), list[Table]()
+    for want in dict.fromkeys([*(given.want or _found(names)), *given.limits]):
+        what = names.get(want)
+        if isinstance(what, Table):
+            tables.append(what)
+        elif base(want).isidentifier() and not _is_check(what):
+            quantities |= {quantity.name: quantity for quantity in results.quantities(want, names)}
+    return Outcome(name, g, tuple(quantities.values()), tuple(tables), tuple(judged)), names
+
+
+def answer(worksheet: str, given: Scene) -> int:
+    """Exit code of a script whose scene wants some results: prints them, writes a file only where ``out`` is given."""
+    sheet = load(worksheet)
+    outcome, _ = compute(sheet, "scene", given)
+    for quantity in outcome.quantities:
+        print(quantity)
+    for table in outcome.tables:
+        print(f"Table {table.number} - {table.title}", *_text(_printed(table)), sep="\n")
+    for check in outcome.checks:
+        if check.passed:
+            print(check)
+    for problem in outcome.problems:
+        print(problem)
+    if given.out:
+        _write(given.out, _summary(sheet), comparison(sheet, [outcome]))
+    return 1 if outcome.problems else 0
+
+
+def comparison(sheet: Worksheet, outcomes: Sequence[Outcome]) -> bytes:
+    """Workbook of all outcomes side by side: inputs that differ from the document's, results, checks and verdicts."""
+    rows: list[tuple[str | float, ...]] = [("Inputs that differ from the worksheet's",)]
+    for field in _changed(sheet, outcomes):
+        shown = ("" if o.g is None else field.display(getattr(o.g, field.name)) for o in outcomes)
+        rows.append((field.name, units.shown(field.unit), field.meaning, *shown))
+    rows.append(("Results",))
+    fields = list[Table]()
+    for name, quantity in _quantities(outcomes).items():
+        each = [{q.name: q.values for q in o.quantities}.get(name) for o in outcomes]
+        ends = {f"{name} least": np.min, f"{name} greatest": np.max}
+        if all(x is None or x.size == 1 for x in each):
+            ends = {name: np.min}
+        else:
+            fields.append(_field(quantity, {o.name: x for o, x in zip(outcomes, each, strict=True) if x is not None}))
+        for head, end in ends.items():
+            shown = ("" if x is None else float(end(x)) for x in each)
+            rows.append((head, units.shown(quantity.unit), quantity.meaning, *shown))
+    rows.append(("Checks",))
+    for name in dict.fromkeys(check.name for o in outcomes for check in o.checks):
+        verdicts = ({c.name: "PASS" if c.passed else "FAIL" for c in o.checks}.get(name, "") for o in outcomes)
+        rows.append((name, "", "", *verdicts))
+    rows.append(("Verdict",))
+    rows.append(("verdict", "", "", *("PASS" if o.verdict == "pass" else "FAIL" for o in outcomes)))
+    rows.append(("reason", "", "", *("; ".join(o.problems) for o in outcomes)))
+    tables = [
+        Table(table.number, f"{o.name} {table.number} {table.title}", table.columns, table.note)
+        for o in outcomes
+        for table in o.tables
+    ]
+    return excel.comparison(sheet.title, [o.name for o in outcomes], rows, fields + tables)
+
+
+def run(worksheet: str, arguments: Sequence[str]) -> int:
+    """Exit code of ``mechsheet run WORKSHEET SCENE.. [--out=FOLDER] [--NAME=VALUE ..]``: 1 if any scene failed.
+
+    Prints a table of the scenes. Into ``out`` go a workbook of all of them side by side, and one of each scene that
+    wants the whole worksheet; without it nothing is written. Arguments replace inputs of every scene.
+
+    Raises SheetError where the worksheet or the folder cannot be used, or two scenes have one name.
+    """
+    sheet = load(worksheet)
+    files = [Path(name) for argument in arguments if not argument.startswith("-") for name in _expanded(argument)]
+    options = [argument for argument in arguments if argument.startswith("-")]
+    declared = inputs.declared(sheet.inputs)
+    out = read(options, declared).out
+    _distinct(sheet, files, out)
+    outcomes = list[Outcome]()
+    try:
+        for file in files:
+            _progress(len(outcomes), len(files), file.stem)
+            outcomes.append(_attempt(sheet, file, options, out))
+        _progress(len(files), len(files), "")
+        if out:
+            _write(out, _summary(sheet), comparison(sheet, outcomes))
+    except KeyboardInterrupt:
+        print(f"\ninterrupted after {len(outcomes)} of {len(files)} scenes", file=sys.stderr)
+        return INTERRUPTED
+    for block in _blocks(_table(sheet, outcomes), shutil.get_terminal_size((120, 24)).columns):
+        print(*_text(block), "", sep="\n")
+    for outcome in outcomes:
+        for problem in outcome.problems:
+            print(f"{outcome.name}: {problem}")
+    failed = sum(o.verdict != "pass" for o in outcomes)
+    print(f"{len(outcomes) - failed} of {len(outcomes)} scenes pass" + (f", written to {out}" if out else ""))
+    return 1 if failed else 0
+
+
+def _attempt(sheet: Worksheet, file: Path, options: Sequence[str], out: Path | None) -> Outcome:
+    """Outcome of the scene of a file; whatever goes wrong stays its own."""
+    try:
+        given = read([f"--scene={file}", *options], inputs.declared(sheet.inputs))
+        outcome, names = compute(sheet, file.stem, given)
+        if out and not given.want:
+            from mechsheet.run import report
+
+            title = f"{sheet.title}: {file.stem}"
+            _write(out, _workbook(sheet, file), report.workbook(title, names, given.limits))
+        return outcome
+    except SheetError as error:
+        return Outcome(file.stem, error=str(error))
+    except Exception as error:  # of a line of the worksheet, which other scenes may well pass
+        return Outcome(file.stem, error=_place(error, sheet.path))
+
+
+def _place(error: Exception, path: str) -> str:
+    """One line for an exception, with the line of the worksheet that raised it."""
+    line, trace = 0, error.__traceback__
+    while trace:
+        line = trace.tb_lineno if trace.tb_frame.f_code.co_filename == path else line
+        trace = trace.tb_next
+    text = " ".join(str(error).split())
+    return f"{Path(path).name}, line {line}: {type(error).__name__}: {text}"
+
+
+def _expanded(argument: str) -> list[str]:
+    """Files of a pattern such as ``scenes/*.toml``, which Windows hands over as it is."""
+    return sorted(glob.glob(argument)) or [argument]
+
+
+def _summary(sheet: Worksheet) -> str:
+    return f"{Path(sheet.path).stem}_scenes.xlsx"
+
+
+def _workbook(sheet: Worksheet, file: Path) -> str:
+    return f"{Path(sheet.path).stem}_{file.stem}.xlsx"
+
+
+def _distinct(sheet: Worksheet, files: Sequence[Path], out: Path | None) -> None:
+    """Refuse scenes that would overwrite one another, or be overwritten themselves."""
+    seen = dict[str, Path]()
+    for file in files:
+        name = _workbook(sheet, file)
+        if name in {_summary(sheet), *seen}:
+            raise SheetError(f"scene {file} has the name of {seen.get(name, 'the summary')}")
+        seen[name] = file
+    if out:
+        written = {(out / name).resolve() for name in (*seen, _summary(sheet))}
+        for file in files:
+            if file.resolve() in written:
+                raise SheetError(f"scene {file} would be overwritten; give another folder than --out={out}")
+
+
+def _write(out: Path, name: str, data: bytes) -> None:
+    try:
+        out.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise SheetError(f"folder {out} cannot be made: {error.strerror}") from None
+    excel.save(data, out / name)
+
+
+def _found(names: dict[str, Any]) -> Iterator[str]:
+    """Names of the found values: ``L4`` of a line ``L4 = L4_found.value``."""
+    for line in formula.registry(names).values():
+        match line.expression:
+            case ast.Attribute(ast.Name(solved), "value") if isinstance(names.get(solved), Found):
+                yield line.name
+
+
+def _is_check(what: Any) -> bool:
+    return isinstance(what, Check) or (isinstance(what, tuple) and all(isinstance(part, Check) for part in what))
+
+
+def _changed(sheet: Worksheet, outcomes: Iterable[Outcome]) -> list[inputs.Input]:
+    used = [o.g for o in outcomes if o.g is not None]
+    default = sheet.inputs()
+    return [
+        field
+        for field in inputs.declared(sheet.inputs)
+        if any(getattr(g, field.name) != getattr(default, field.name) for g in used)
+    ]
+
+
+def _quantities(outcomes: Iterable[Outcome]) -> dict[str, Quantity]:
+    return {q.name: q for q in chain.from_iterable(o.quantities for o in outcomes)}
+
+
+def _field(quantity: Quantity, each: dict[str, Any]) -> Table:
+    """A quantity over its positions, one column a scene; a shorter one ends in gaps."""
+    size = max(x.size for x in each.values())
+    number = Column("k", "-", "number of the position", 0, np.arange(1.0, size + 1))
+    columns = [
+        Column(name, quantity.unit, quantity.meaning, 3, np.append(x.ravel(), np.full(size - x.size, np.nan)))
+        for name, x in each.items()
+    ]
+    return Table("", quantity.name, (number, *columns), quantity.meaning)
+
+
+def _table(sheet: Worksheet, outcomes: Sequence[Outcome]) -> list[list[str]]:
+    """The summary in words: a row a quantity, a column a scene."""
+    rows = [["", *(o.name for o in outcomes)]]
+    for field in _changed(sheet, outcomes):
+        given = ("" if o.g is None else inputs.text(field, getattr(o.g, field.name)) for o in outcomes)
+        rows.append([f"{field.name} [{field.unit}]", *given])
+    for name, quantity in _quantities(outcomes).items():
+        spans = ({q.name: q.span for q in o.quantities}.get(name, "") for o in outcomes)
+        rows.append([f"{name} [{quantity.unit}]", *spans])
+    passed = (f"{sum(check.passed for check in o.checks)} of {len(o.checks)}" if o.checks else "" for o in outcomes)
+    return [*rows, ["checks passed", *passed], ["verdict", *(o.verdict for o in outcomes)]]
+
+
+def _blocks(rows: Sequence[Sequence[str]], width: int) -> Iterator[list[Sequence[str]]]:
+    """The rows in parts that are as wide as the terminal, each under the first column."""
+    first, *columns = zip(*rows, strict=True)
+    block, size = [first], max(map(len, first))
+    for column in columns:
+        wide = _GAP + max(map(len, column))
+        if len(block) > 1 and size + wide > width:
+            yield list(zip(*block, strict=True))
+            block, size = [first], max(map(len, first))
+        block, size = [*block, column], size + wide
+    yield list(zip(*block, strict=True))
+
+
+def _printed(table: Table) -> list[list[str]]:
+    """A table as it is printed: symbols, units, numbers."""
+    heads = [[c.symbol for c in table.columns], [f"[{c.unit}]" for c in table.columns]]
+    columns = [[f"{x:z.{c.decimals}f}" for x in c.values] for c in table.columns]
+    return heads + [list(row) for row in zip(*columns, strict=True)]
+
+
+def _text(rows: Sequence[Sequence[str]]) -> Iterator[str]:
+    """Lines of rows in columns."""
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    for row in rows:
+        yield (" " * _GAP).join(text.ljust(width) for text, width in zip(row, widths, strict=True)).rstrip()
+
+
+def _progress(done: int, count: int, name: str) -> None:
+    """A bar on the terminal, which goes when all is done."""
+    if not sys.stderr.isatty():
+        return
+    full = _BAR * done // count
+    bar = f"[{'#' * full}{'.' * (_BAR - full)}] {done} of {count}  {name[:30]:30}"
+    print(f"\r{bar}" if done < count else f"\r{'':{len(bar)}}\r", end="", file=sys.stderr, flush=True)
+
+
+def main() -> int:
+    """``python -m mechsheet.run.batch WORKSHEET SCENE..``"""
+    try:
+        return run(sys.argv[1], sys.argv[2:])
+    except SheetError as error:
+        print(f"error: {error}", file=sys.stderr)
+        return 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())

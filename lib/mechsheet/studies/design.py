@@ -1,0 +1,269 @@
+"""Design by search: inputs within bounds that meet all requirements and make a goal greatest, and the scene they make.
+
+The search knows nothing of mechanisms: a worksheet says what a variant is worth, for many variants at once.
+"""
+
+import sys
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mechsheet import units
+from mechsheet.run import arguments
+from mechsheet.workbook import excel
+from mechsheet.worksheet.checks import Check
+from mechsheet.worksheet.errors import SheetError
+from mechsheet.worksheet.inputs import Input, declared
+from mechsheet.worksheet.scene import Limit
+
+Array = NDArray[np.float64]
+
+_FAR = 1e6  # energies of variants that miss a requirement lie above those of all that hold them
+_LOST = 1e30  # and of those that have no value above all others
+
+
+@dataclass(frozen=True, eq=False)
+class Requirement:
+    """A quantity of each variant, in SI, that must be at least ``limit``, or at most."""
+
+    name: str
+    values: Array
+    limit: float
+    unit: str
+    at_least: bool = True
+
+    @property
+    def reserve(self) -> Array:
+        """By how much it is kept, in SI; negative where it is missed."""
+        return self.values - self.limit if self.at_least else self.limit - self.values
+
+    @property
+    def missed(self) -> Array:
+        """By what part of its limit it is missed; 0 where it is kept."""
+        return np.maximum(0.0, -self.reserve) / (abs(self.limit) or 1.0)
+
+    def check(self) -> Check:
+        """The requirement of a single variant; the residual is the reserve with its sign turned."""
+        factor = units.parse(self.unit).factor
+        reserve = float(self.reserve[0])
+        return Check(self.name, -reserve / factor, 0.0, self.unit, f"it is {_text(self.values[0], self.unit)}, {self}")
+
+    def __str__(self) -> str:
+        return f"required at {'least' if self.at_least else 'most'} {_text(self.limit, self.unit)}"
+
+
+@dataclass(frozen=True, eq=False)
+class Judged:
+    """What variants are worth: their goal, which is to be greatest, their requirements, and why some have no value."""
+
+    goal: Array
+    requirements: tuple[Requirement, ...]
+    reasons: NDArray[np.object_]
+
+
+Judge = Callable[[dict[str, Array]], Judged]
+
+
+@dataclass(frozen=True, eq=False)
+class Design:
+    """The best variant of a search: its inputs in display units, its goal and requirements, and the variants tried."""
+
+    inputs: dict[str, float]
+    goal: float
+    requirements: tuple[Requirement, ...]
+    tried: int
+
+
+def search(
+    judge: Judge,
+    bounds: Mapping[str, tuple[float, float]],
+    decimals: Mapping[str, int],
+    *,
+    seed: int,
+    generations: int,
+    members: int,
+    start: Mapping[str, float] | None = None,
+    done: Callable[[], object] = lambda: None,
+) -> Design:
+    """Differential evolution: the inputs within their bounds that hold all requirements and have the greatest goal.
+
+    Parameters
+    ----------
+    judge : callable
+        Takes many variants, an array for each input in its display unit, and says what they are worth.
+    bounds : mapping of str to pair of float
+        Least and greatest value of each input, in its display unit.
+    decimals : mapping of str to int
+        To how many decimals inputs are rounded, so that the design can be made; what is promised holds for these.
+    seed, generations, members : int
+        The same seed gives the same design; a generation has about ``members`` variants for each input.
+    start : mapping, optional
+        A design from which the search sets out.
+    done : callable
+        Called after every generation.
+
+    Raises
+    ------
+    SheetError
+        Where no variant that was tried holds all requirements: the one that is missed most, what was reached, and what
+        could be reached if it were the only one; or why none of them has a value.
+    """
+    for name, (low, high) in bounds.items():
+        if not low <= high:
+            raise SheetError(f"bounds of {name} = {low:g}..{high:g} must be in order")
+    evolved = partial(_evolved, bounds=bounds, decimals=decimals, seed=seed, generations=generations, members=members)
+    best, judged, tried = evolved(judge, start=start, done=done)
+    if judged.reasons[0]:
+        raise SheetError(f"no design within the bounds has a value: {judged.reasons[0]}")
+    worst = max(judged.requirements, key=lambda r: float(r.missed[0]), default=None)
+    if worst is not None and worst.missed[0] > 0:
+        raise SheetError(_infeasible(judge, worst.name, evolved, best))
+    return Design(best, float(judged.goal[0]), judged.requirements, tried)
+
+
+def _infeasible(judge: Judge, name: str, evolved: Callable[..., Any], nearest: Mapping[str, float]) -> str:
+    """Which requirement is missed most, and what it reaches alone; ``evolved`` is the search with its bounds."""
+
+    def one(judged: Judged) -> Requirement:
+        return next(r for r in judged.requirements if r.name == name)
+
+    def alone(variants: dict[str, Array]) -> Judged:
+        judged = judge(variants)
+        return Judged(one(judged).reserve, (), judged.reasons)
+
+    there = one(judge({x: np.array([v]) for x, v in nearest.items()}))
+    best, _, _ = evolved(alone, start=nearest, done=lambda: None)
+    reached = one(judge({x: np.array([v]) for x, v in best.items()}))
+    best_text, near_text = (_text(r.values[0], r.unit) for r in (reached, there))
+    if reached.missed[0] > 0:
+        return f"no design within the bounds: {name}: best reachable {best_text}, {reached}"
+    return (
+        f"no design within the bounds holds all requirements together: {name}: {near_text} where they are missed "
+        f"least, {there}; alone it would reach {best_text}"
+    )
+
+
+def _evolved(
+    judge: Judge,
+    bounds: Mapping[str, tuple[float, float]],
+    decimals: Mapping[str, int],
+    seed: int,
+    generations: int,
+    members: int,
+    start: Mapping[str, float] | None,
+    done: Callable[[], object],
+) -> tuple[dict[str, float], Judged, int]:
+    from scipy.optimize import Bounds, differential_evolution
+
+    names, tried = list(bounds), 0
+
+    def variants(x: Array) -> dict[str, Array]:
+        rounded = (np.round(column, decimals[name]) for name, column in zip(names, np.atleast_2d(x.T).T, strict=True))
+        return {name: np.clip(column, *bounds[name]) for name, column in zip(names, rounded, strict=True)}
+
+    def energy(x: Array, /, *_: Any) -> Any:
+        nonlocal tried
+        judged = judge(variants(x))
+        tried += len(judged.goal)
+        missed = sum((r.missed for r in judged.requirements), np.zeros(len(judged.goal)))
+        value = np.where(missed > 0, _FAR + missed, -judged.goal)
+        return np.where((judged.reasons != "") | np.isnan(value), _LOST, value)
+
+    def progress(*_: Any) -> None:
+        done()
+
+    found = differential_evolution(
+        energy,
+        Bounds(*np.array(list(bounds.values())).T),
+        maxiter=generations,
+        popsize=members,
+        tol=0,
+        rng=seed,
+        callback=progress,
+        polish=False,
+        updating="deferred",
+        vectorized=True,
+        x0=None if start is None else [start[name] for name in names],
+    )
+    chosen = variants(found.x[:, None])
+    return {name: float(column[0]) for name, column in chosen.items()}, judge(chosen), tried
+
+
+def pareto(a: Array, b: Array) -> NDArray[np.intp]:
+    """Which designs no other one beats in both quantities, by falling ``a``; of equal ones the first.
+
+    >>> pareto(np.array([3.0, 1.0, 2.0, 2.0]), np.array([1.0, 3.0, 2.0, 1.0]))
+    array([0, 2, 1])
+    """
+    order = np.lexsort((-b, -a))
+    before = np.maximum.accumulate(np.concatenate([[-np.inf], b[order][:-1]]))
+    return order[b[order] > before]
+
+
+@contextmanager
+def progress(total: int, title: str) -> Iterator[Callable[[], None]]:
+    """What to call after each of ``total`` steps: a bar in the page, a line on a terminal, nothing elsewhere."""
+    import marimo as mo
+
+    if mo.running_in_notebook():
+        with mo.status.progress_bar(total=total, title=title, remove_on_exit=True) as bar:
+            yield bar.update
+        return
+    count = 0
+
+    def line() -> None:
+        nonlocal count
+        count += 1
+        if sys.stderr.isatty():
+            end = "\n" if count == total else ""
+            print(f"\r{title}: {count} of {total}", end=end, file=sys.stderr, flush=True)
+
+    yield line
+
+
+def scene_text(
+    fields: Mapping[str, Input], inputs: Mapping[str, float], limits: Mapping[str, Limit], remarks: Sequence[str]
+) -> str:
+    """Text of a scene file: remarks, inputs with their units, and limits of results."""
+    lines = [*(f"# {remark}" for remark in remarks), "[inputs]"]
+    lines += [f"{name} = {value!r}  # {units.shown(fields[name].unit)}" for name, value in inputs.items()]
+    lines += ["", "[limits]"]
+    for name, limit in limits.items():
+        ends = (f"{end} = {value!r}" for end, value in (("min", limit.min), ("max", limit.max)) if value is not None)
+        lines.append(f'"{name}" = {{{", ".join(ends)}}}')
+    return "\n".join(lines) + "\n"
+
+
+def save_scene(text: str, name: str, namespace: Mapping[str, Any]) -> Any:
+    """A scene beside the workbook, where a script was given ``--out``; in the page a button that hands it out.
+
+    Nothing is written for a run that doesn't name a folder, nor while somebody looks at the page.
+    """
+    worksheet = str(namespace["__file__"])
+    if arguments.is_script(worksheet):
+        out = arguments.read(sys.argv[1:], declared(type(namespace["g"]))).out
+        if out is not None:
+            _save(text, out / name)
+            print(f"written {out / name}")
+        return None
+    import marimo as mo
+
+    return mo.download(text.encode(), filename=name, label="Scene of the design")
+
+
+def _save(text: str, path: Path) -> None:
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise SheetError(f"folder {path.parent} cannot be made: {error.strerror}") from None
+    excel.save(text.encode(), path)
+
+
+def _text(value: float, unit: str) -> str:
+    return f"{value / units.parse(unit).factor:.4g} {units.shown(unit)}".removesuffix(" -")

@@ -1,0 +1,465 @@
+"""Sensitivity of results to inputs, and the bands that tolerances of inputs leave; both by one sweep of a worksheet."""
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import product
+from pathlib import Path
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mechsheet import units
+from mechsheet.studies.sweep import Sweep, sweep
+from mechsheet.worksheet import inputs as declarations
+from mechsheet.worksheet import symbol
+from mechsheet.worksheet.cells import base, load, value
+from mechsheet.worksheet.errors import SheetError
+from mechsheet.worksheet.inputs import Input
+from mechsheet.worksheet.table import DECIMALS, Column, Table
+
+Array = NDArray[np.float64]
+Position = int | Literal["least", "greatest"]
+
+_STEP = 2.0**-5  # of an input's size: the widest step
+_HALVINGS = 7  # steps down to 2**-12 of the size
+_ROUNDING = 32 * np.finfo(float).eps  # of a field's largest value: what the roundings of a worksheet make of it
+_CORNERS = 12  # toleranced inputs, 4096 corners
+_BARS = 12
+_PERCENTILES = (5.0, 50.0, 95.0)
+
+
+@dataclass(frozen=True, eq=False)
+class Sensitivity:
+    """Derivatives of results by inputs, in display units, each with an estimate of its error.
+
+    Attributes
+    ----------
+    names : tuple of str
+        The results.
+    inputs : dict of str to float
+        The inputs by which they are differentiated, and where, in display units.
+    values : dict of str to array, shape () or (positions,)
+        The results there.
+    slopes, errors : dict of str to array, shape (inputs,) or (inputs, positions)
+        Derivatives d result / d input and the estimates of their errors; NaN where there is none.
+    reasons : dict of str to str
+        For an input, why the results cannot be differentiated by it; "" where they can.
+    units : dict of str to str
+        Display units of the results and inputs.
+    """
+
+    names: tuple[str, ...]
+    inputs: dict[str, float]
+    values: dict[str, Array]
+    slopes: dict[str, Array]
+    errors: dict[str, Array]
+    reasons: dict[str, str]
+    units: dict[str, str]
+    meanings: dict[str, str]
+
+    def relative(self, name: str) -> Array:
+        """Elasticities d ln result / d ln input: by how many percent the result changes for one of the input."""
+        at = np.array(list(self.inputs.values()))
+        with np.errstate(all="ignore"):  # a result of zero has none
+            relative: Array = self.slopes[name] * at.reshape(-1, *[1] * self.values[name].ndim) / self.values[name]
+        return relative
+
+    def unit(self, name: str, by: str) -> str:
+        """Unit of a derivative, such as ``N/m``."""
+        over = self.units[by]
+        return self.units[name] if over == "-" else f"{_one(self.units[name])}/{_grouped(over)}"
+
+    def position(self, name: str, at: Position) -> int:
+        """Number of a position, or of the one where the result is least or greatest."""
+        values = np.atleast_1d(self.values[name])
+        if isinstance(at, int):
+            if not 0 <= at < values.size:
+                raise SheetError(f"position {at} of {name} must be 0..{values.size - 1}")
+            return at
+        return int(np.argmin(values) if at == "least" else np.argmax(values))
+
+    def table(self, number: str, title: str, name: str, at: Position = "least") -> Table:
+        """Derivatives of a result at one position, the largest elasticity first."""
+        k, order = self.position(name, at), self._order(name, at)
+        slopes, errors, relative = (
+            x.reshape(len(self.inputs), -1)[order, k]
+            for x in (self.slopes[name], self.errors[name], self.relative(name))
+        )
+        by = [list(self.inputs)[i] for i in order]
+        where = f"{np.atleast_1d(self.values[name])[k]:.6g} {units.shown(self.units[name])}".removesuffix(" -")
+        columns = (
+            _texts("input", by),
+            Column("value", "", "where the derivative is taken, in the input's unit", 4, _at(self.inputs, by)),
+            _texts("unit", [units.shown(self.units[x]) for x in by]),
+            Column("relative", "-", f"d ln {name} / d ln input", 4, relative),
+            Column("derivative", "", f"d {name} / d input", 4, slopes),
+            _texts("derivative's unit", [units.shown(self.unit(name, x)) for x in by]),
+            _texts("error", [f"{x:.1g}" for x in errors]),
+        )
+        return Table(number, title, columns, f"{name} = {where}, position {k}; derivatives in the units beside them.")
+
+    def over_positions(self, number: str, title: str, name: str) -> Table:
+        """Elasticities of a result at every position, a column for each input that has any influence."""
+        relative = self.relative(name).reshape(len(self.inputs), -1)
+        moving = [i for i, row in enumerate(relative) if np.any(row != 0)]
+        k = Column("k", "-", "number of the position", 0, np.arange(relative.shape[1], dtype=float))
+        names = list(self.inputs)
+        parts = [Column(names[i], "-", f"d ln {name} / d ln {names[i]}", 3, relative[i]) for i in moving]
+        return Table(number, title, (k, *parts), f"Relative: percent of {name} for one percent of the input.")
+
+    def tornado(self, number: str, title: str, name: str, at: Position = "least") -> "Tornado":
+        """Chart of the elasticities at one position, the largest on top; inputs without influence are left out."""
+        k, order = self.position(name, at), self._order(name, at)
+        relative = self.relative(name).reshape(len(self.inputs), -1)[:, k]
+        shown = [i for i in order if relative[i] != 0 and np.isfinite(relative[i])][:_BARS]
+        names = list(self.inputs)
+        bars = tuple((names[i], self.meanings[names[i]], float(relative[i])) for i in shown)
+        return Tornado(number, title, name, bars)
+
+    def _order(self, name: str, at: Position) -> list[int]:
+        """Inputs by their elasticity at a position, the largest first and those without one last."""
+        size = np.abs(self.relative(name).reshape(len(self.inputs), -1)[:, self.position(name, at)])
+        order: list[int] = np.argsort(-np.nan_to_num(size, nan=-1.0), kind="stable").tolist()
+        return order
+
+
+@dataclass(frozen=True)
+class Tornado:
+    """Elasticities of one result as horizontal bars, ``bars`` are (input, meaning, elasticity)."""
+
+    number: str
+    title: str
+    result: str
+    bars: tuple[tuple[str, str, float], ...]
+
+    def _mime_(self) -> tuple[str, str]:
+        import marimo as mo
+
+        return "text/html", mo.as_html(self.chart()).text
+
+    def chart(self) -> Any:
+        """The bars as an altair chart."""
+        import altair as alt
+
+        order = [symbol.text(x) for x, *_ in self.bars]
+        rows = [{"input": x, "meaning": m, "relative": r} for x, (_, m, r) in zip(order, self.bars, strict=True)]
+        title = f"percent of {symbol.text(self.result)} for one percent of the input"
+        return (
+            alt.Chart(alt.InlineData(rows))
+            .mark_bar()
+            .encode(
+                x=alt.X("relative:Q", title=title),
+                y=alt.Y("input:N", title=None, sort=order),
+                color=alt.condition(alt.datum.relative > 0, alt.value("#1f77b4"), alt.value("#d62728")),
+                tooltip=["input:N", "meaning:N", alt.Tooltip("relative:Q", format="+.4f")],
+            )
+            .properties(
+                title=f"Figure {self.number} – {self.title}",
+                width=560,
+                height=alt.Step(20),
+                usermeta={"embedOptions": {"renderer": "svg"}},
+            )
+        )
+
+
+def sensitivity(
+    worksheet: str | Path, want: Iterable[str], inputs: Iterable[str] | None = None, **given: Any
+) -> Sensitivity:
+    r"""Derivatives of results by inputs, through one sweep of the worksheet.
+
+    .. math:: D(h) = \frac{f(x + h) - f(x - h)}{2h} = f'(x) + c_2 h^2 + c_4 h^4 + \dots
+
+    Central differences at steps halved from 1/32 of the input's own size down, extrapolated to none; of all the
+    extrapolations that one is taken whose estimated error, by its two predecessors, is least.
+
+    Parameters
+    ----------
+    worksheet : str or Path
+        The worksheet.
+    want : iterable of str
+        Results, or parts of them as in a table: ``GS6``, ``PS6_S.real``, ``abs(R56)``.
+    inputs : iterable of str, optional
+        By which of the inputs; by all that are no whole numbers by default. An input that is zero has the size of
+        the largest one with its unit.
+    given
+        Inputs in their display units that replace the defaults.
+
+    Returns
+    -------
+    Sensitivity
+        An input that cannot be moved both ways, such as one at its limit, has NaN and a reason.
+
+    Raises
+    ------
+    SheetError
+        An unknown name, an input that is a whole number, a result that is complex, or inputs given that have no
+        solution.
+
+    References
+    ----------
+    C. J. F. Ridders, Accurate computation of F'(x) and F'(x) F''(x), Advances in Engineering Software 4 (1982).
+    """
+    names = tuple(dict.fromkeys(want))
+    fields, at = _point(worksheet, given)
+    chosen = [x for x, f in fields.items() if not f.whole] if inputs is None else list(dict.fromkeys(inputs))
+    for x in chosen:
+        _continuous(fields, x, "cannot be differentiated by")
+    sizes = np.array([_size(fields, at, x) for x in chosen])
+    steps = _STEP / 2.0 ** np.arange(_HALVINGS + 1)
+    moves = np.multiply.outer(sizes, np.concatenate([steps, -steps]))  # inputs, steps both ways
+    rows = moves.size + 1
+    variants = {x: np.full(rows, at[x]) for x in chosen}
+    for i, x in enumerate(chosen):
+        variants[x][1 + i * moves.shape[1] :][: moves.shape[1]] += moves[i]
+    swept = sweep(worksheet, dict.fromkeys(base(name) for name in names), {**given, **variants})
+    _solved(swept, 0)
+
+    values, slopes, errors = {}, {}, {}
+    lost = dict.fromkeys(chosen, "")
+    for name in names:
+        results = _real(swept, name)
+        values[name] = results[0]
+        moved = results[1:].reshape(len(chosen), 2, len(steps), *results.shape[1:])
+        taken = [variants[x][1:].reshape(len(chosen), 2, len(steps))[i] for i, x in enumerate(chosen)]
+        widths = np.reshape([t[0] - t[1] for t in taken], (len(chosen), len(steps), *[1] * values[name].ndim))
+        quotients = (moved[:, 0] - moved[:, 1]) / widths  # the steps as they are after rounding
+        slopes[name], errors[name] = _extrapolated(quotients, widths, float(np.max(np.abs(values[name]))))
+    reasons = swept.reasons[1:].reshape(len(chosen), -1)
+    for i, x in enumerate(chosen):
+        if any(np.isnan(slopes[name][i]).any() for name in names):
+            lost[x] = next((reason for reason in reasons[i][::-1] if reason), "the result itself has no value")
+    return Sensitivity(
+        names,
+        {x: at[x] for x in chosen},
+        values,
+        slopes,
+        errors,
+        lost,
+        {**{name: swept.units[base(name)] for name in names}, **{x: fields[x].unit for x in chosen}},
+        {x: fields[x].meaning for x in chosen},
+    )
+
+
+def _extrapolated(quotients: Array, widths: Array, size: float) -> tuple[Array, Array]:
+    """Limits of difference quotients for no step, and estimates of their errors; steps on axis 1, halved each."""
+    best = np.full_like(quotients[:, 0], np.nan)
+    error = np.full_like(best, np.inf)
+    before = [quotients[:, 0]]
+    for n in range(1, quotients.shape[1]):
+        row = [quotients[:, n]]
+        rounding = _ROUNDING * size / np.abs(widths[:, n])
+        for m in range(1, n + 1):
+            row.append(row[-1] + (row[-1] - before[m - 1]) / (4.0**m - 1))
+            off = np.maximum(np.abs(row[m] - row[m - 1]), np.abs(row[m] - before[m - 1]))
+            with np.errstate(invalid="ignore"):
+                new = np.where(np.isnan(row[m]), np.inf, off + rounding)
+            better = new < error
+            best, error = np.where(better, row[m], best), np.where(better, new, error)
+        before = row
+    flat = np.all(quotients == 0, axis=1)  # no influence at all: no error either
+    return best, np.where(flat, 0.0, np.where(np.isnan(best), np.nan, error))
+
+
+@dataclass(frozen=True, eq=False)
+class Band:
+    """Between what a result lies, in its display unit, at each position.
+
+    ``mean``, ``deviation`` and ``percentiles`` are those of Monte Carlo, and None for corners.
+    """
+
+    nominal: Array
+    least: Array
+    greatest: Array
+    mean: Array | None = None
+    deviation: Array | None = None
+    percentiles: dict[float, Array] | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class Tolerance:
+    """Bands of results for inputs within their tolerances.
+
+    ``lost`` of the ``count`` variants have no value, ``reason`` is that of the first of them; bands are then NaN.
+    """
+
+    names: tuple[str, ...]
+    tolerances: dict[str, float]
+    method: str
+    bands: dict[str, Band]
+    units: dict[str, str]
+    count: int
+    lost: int
+    reason: str
+
+    def __getitem__(self, name: str) -> Band:
+        return self.bands[name]
+
+    def table(self, number: str, title: str, *names: str) -> Table:
+        """Bands of results, all of one shape, a row for each position."""
+        columns: list[Column] = []
+        for name in names or self.names:
+            band, unit = self.bands[name], self.units[name]
+            parts = {"": band.nominal, "min": band.least, "max": band.greatest}
+            if band.mean is not None and band.deviation is not None and band.percentiles is not None:
+                parts |= {"mean": band.mean, "sd": band.deviation}
+                parts |= {f"p{p:g}": x for p, x in band.percentiles.items()}
+            decimals = DECIMALS.get(unit, 3) + 1
+            columns += [
+                Column(f"{name}_{part}".rstrip("_"), unit, f"{name} {part}".strip(), decimals, np.atleast_1d(x))
+                for part, x in parts.items()
+            ]
+        shapes = {column.values.shape for column in columns}
+        if len(shapes) > 1:
+            raise SheetError(f"bands of {', '.join(names or self.names)} have different positions and no common table")
+        k = Column("k", "-", "number of the position", 0, np.arange(shapes.pop()[0], dtype=float))
+        each = (f"{x} ± {t:g} {units.shown(self.units[x])}".removesuffix(" -") for x, t in self.tolerances.items())
+        lost = f" {self.lost} have no value: {self.reason}." if self.lost else ""
+        return Table(
+            number, title, (k, *columns), f"{self.count} variants by {self.method} of {', '.join(each)}.{lost}"
+        )
+
+
+def tolerance(
+    worksheet: str | Path,
+    want: Iterable[str],
+    tolerances: Mapping[str, float],
+    method: Literal["corners", "monte carlo"] = "corners",
+    *,
+    seed: int | None = None,
+    count: int = 1000,
+    distribution: Literal["uniform", "normal"] = "uniform",
+    percentiles: Sequence[float] = _PERCENTILES,
+    **given: Any,
+) -> Tolerance:
+    """Bands of results for inputs that lie within tolerances of their values, through one sweep of the worksheet.
+
+    Parameters
+    ----------
+    worksheet, want, given
+        As in `sensitivity`.
+    tolerances : mapping of str to float
+        Input name -> ± its tolerance, in its display unit.
+    method : {"corners", "monte carlo"}
+        All 2**n corners of the tolerances, which bound every result that is monotonic in each input; or ``count``
+        random variants.
+    seed : int
+        Of Monte Carlo, which must have one: the same seed gives the same bands.
+    distribution : {"uniform", "normal"}
+        Uniform over the tolerance, or normal with the tolerance as three standard deviations.
+    percentiles : sequence of float
+        Percentiles of Monte Carlo.
+
+    Raises
+    ------
+    SheetError
+        An unknown name, a negative tolerance or one of a whole number, more corners than 4096, Monte Carlo without a
+        seed, inputs given that have no solution.
+    """
+    names = tuple(dict.fromkeys(want))
+    fields, at = _point(worksheet, given)
+    if not tolerances:
+        raise SheetError("no input has a tolerance")
+    for x, t in tolerances.items():
+        _continuous(fields, x, "cannot have a tolerance:")
+        if not (np.isfinite(t) and t >= 0):
+            raise SheetError(f"tolerance of {fields[x].meaning} {x} = {t} {fields[x].unit} must be a number >= 0")
+    spread = np.array(list(tolerances.values()))
+    if method == "corners":
+        if len(spread) > _CORNERS:
+            raise SheetError(
+                f"{len(spread)} tolerances have 2**{len(spread)} corners; at most {_CORNERS}, or monte carlo"
+            )
+        parts = np.array(list(product((-1.0, 1.0), repeat=len(spread))))
+    elif method == "monte carlo":
+        parts = _drawn(seed, count, len(spread), distribution)
+    else:
+        raise SheetError(f"method {method!r} must be 'corners' or 'monte carlo'")
+    moved = np.vstack([np.zeros(len(spread)), parts]) * spread
+    variants = {x: at[x] + moved[:, i] for i, x in enumerate(tolerances)}
+    swept = sweep(worksheet, dict.fromkeys(base(name) for name in names), {**given, **variants})
+    _solved(swept, 0)
+    lost = swept.reasons[1:][swept.reasons[1:] != ""]
+    bands = {}
+    for name in names:
+        results = _real(swept, name)
+        all_of_them = results[1:]
+        random: dict[str, Any] = {}
+        if method == "monte carlo":
+            random["mean"], random["deviation"] = all_of_them.mean(0), all_of_them.std(0, ddof=1)
+            random["percentiles"] = dict(zip(percentiles, np.percentile(all_of_them, percentiles, axis=0), strict=True))
+        bands[name] = Band(results[0], results.min(0), results.max(0), **random)
+    return Tolerance(
+        names,
+        dict(tolerances),
+        f"{method}, {distribution}, seed {seed}" if method == "monte carlo" else method,
+        bands,
+        {**{name: swept.units[base(name)] for name in names}, **{x: fields[x].unit for x in tolerances}},
+        len(parts),
+        len(lost),
+        str(lost[0]) if len(lost) else "",
+    )
+
+
+def _drawn(seed: int | None, count: int, inputs: int, distribution: str) -> Array:
+    """Random parts of the tolerances, a row for each variant."""
+    if seed is None:
+        raise SheetError("monte carlo needs a seed, such as seed=1")
+    if count < 2:
+        raise SheetError(f"count = {count} variants must be at least 2")
+    rng = np.random.default_rng(seed)
+    match distribution:
+        case "uniform":
+            return rng.uniform(-1, 1, (count, inputs))
+        case "normal":
+            return rng.normal(0, 1 / 3, (count, inputs))
+    raise SheetError(f"distribution {distribution!r} must be 'uniform' or 'normal'")
+
+
+def _point(worksheet: str | Path, given: Mapping[str, Any]) -> tuple[dict[str, Input], dict[str, float]]:
+    """Declared inputs and their values in display units."""
+    cls = load(worksheet).inputs
+    g: Any = declarations.build(cls, given)
+    rows = declarations.Used(g).rows()
+    return {field.name: field for field, _ in rows}, {field.name: float(number) for field, number in rows}
+
+
+def _continuous(fields: Mapping[str, Input], name: str, cannot: str) -> None:
+    field = declarations.known(fields, name)
+    if field.whole:
+        raise SheetError(f"results {cannot} {field.meaning} {name}, which is a whole number")
+
+
+def _size(fields: Mapping[str, Input], at: Mapping[str, float], name: str) -> float:
+    """Size of an input: its own, of the largest with its unit where it is zero, or one."""
+    alike = (abs(at[x]) for x, field in fields.items() if field.unit == fields[name].unit and not field.whole)
+    return abs(at[name]) or max(alike) or 1.0
+
+
+def _solved(swept: Sweep, row: int) -> None:
+    if swept.reasons[row]:
+        raise SheetError(str(swept.reasons[row]))
+
+
+def _real(swept: Sweep, name: str) -> Array:
+    """A wanted result of all variants in its display unit."""
+    results = np.asarray(value(name, {base(name): swept.display(base(name))}))
+    if np.iscomplexobj(results):
+        raise SheetError(f"{name} is complex; take {name}.real, {name}.imag or abs({name})")
+    return results
+
+
+def _at(values: Mapping[str, float], names: Sequence[str]) -> Array:
+    return np.array([values[name] for name in names])
+
+
+def _texts(heading: str, texts: Sequence[str]) -> Column:
+    return Column(heading, "", "", 0, np.array(texts, dtype=object))
+
+
+def _one(unit: str) -> str:
+    return "1" if unit == "-" else unit
+
+
+def _grouped(unit: str) -> str:
+    return f"({unit})" if "*" in unit.replace("**", "") or "/" in unit else unit

@@ -1,0 +1,89 @@
+"""Results of a worksheet by name: their values in display units, and the limits that a scene sets on them."""
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mechsheet import units
+from mechsheet.worksheet import formula
+from mechsheet.worksheet.cells import base, value
+from mechsheet.worksheet.checks import Check
+from mechsheet.worksheet.errors import SheetError
+from mechsheet.worksheet.scene import Limit
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """A number or a field of numbers in its display unit."""
+
+    name: str
+    unit: str
+    meaning: str
+    values: NDArray[np.float64]
+
+    @property
+    def span(self) -> str:
+        """Least..greatest of the values, NaN where one is missing; one number where they are equal."""
+        ends = (f"{end:.6g}" for end in (np.min(self.values), np.max(self.values)))
+        return "..".join(dict.fromkeys(ends))
+
+    @property
+    def gaps(self) -> str:
+        """What is missing, in words; nothing where all is there."""
+        missing, size = int(np.count_nonzero(np.isnan(self.values))), self.values.size
+        return f"{self.name} does not exist at {missing} of {size} positions" if missing else ""
+
+    def __str__(self) -> str:
+        unit = "" if self.unit == "-" else f" {self.unit}"
+        return f"{self.name} = {self.span}{unit}, {self.meaning}"
+
+
+def quantities(name: str, namespace: Mapping[str, Any]) -> list[Quantity]:
+    """The named result of a run in its display unit; of complex numbers the real and the imaginary part.
+
+    Raises SheetError where the result is no number or no line declares its unit.
+    """
+    line = formula.registry(namespace).get(base(name))
+    if line is None or line.arguments:
+        what = f"is a function of {', '.join(line.arguments)}" if line else "is declared by no line with its unit"
+        raise SheetError(f"{name} {what}; numbers with a unit, checks and tables can be asked for")
+    numbers = np.asarray(value(name, namespace)) / units.parse(line.unit).factor
+    if np.iscomplexobj(numbers):
+        parts = {f"{name}.real": numbers.real, f"{name}.imag": numbers.imag}
+        return [Quantity(part, line.unit, line.meaning, x) for part, x in parts.items()]
+    return [Quantity(name, line.unit, line.meaning, numbers)]
+
+
+def limited(values: Iterable[Any], limits: Mapping[str, Limit], namespace: Mapping[str, Any]) -> list[Any]:
+    """Results of a run, its checks under the limits of a scene, and a check more for each limit of a result.
+
+    Raises SheetError for a check with a least value, and for what is no real number.
+    """
+    judged, more = list(values), list[Check]()
+    for name, limit in limits.items():
+        if base(name).isidentifier():
+            more += _checks(name, limit, namespace)
+            continue
+        check = value(name, namespace)
+        if limit.max is None or limit.min is not None:
+            raise SheetError(f"limit of the check {name!r} must be {{max = NUMBER}}")
+        judged = [replace(v, limit=limit.max) if v is check else v for v in judged]
+    return judged + more
+
+
+def _checks(name: str, limit: Limit, namespace: Mapping[str, Any]) -> Iterator[Check]:
+    quantity, *more = quantities(name, namespace)
+    if more:
+        raise SheetError(f"limit of {name}: it is complex; limit {name}.real, {name}.imag or abs({name})")
+    unit = "" if quantity.unit == "-" else f" {quantity.unit}"
+    reason = quantity.gaps or f"it is {quantity.span}{unit}"
+    # Residuals as worksheets write them, at most 0; NaN stays NaN and fails.
+    if limit.min is not None:
+        residual = float(limit.min - np.min(quantity.values))
+        yield Check(f"{name} >= {limit.min:.10g}{unit}", residual, 0.0, quantity.unit, reason)
+    if limit.max is not None:
+        residual = float(np.max(quantity.values) - limit.max)
+        yield Check(f"{name} <= {limit.max:.10g}{unit}", residual, 0.0, quantity.unit, reason)

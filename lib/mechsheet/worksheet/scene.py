@@ -1,0 +1,93 @@
+"""Scenes: what replaces the inputs of a worksheet, what is wanted of it, and within which limits.
+
+A scene file is TOML of up to three parts::
+
+    want = ["GS6", "PS6_S.imag"]     # results to compute, and nothing else; left out: the whole worksheet
+
+    [inputs]
+    P6 = 40e3                        # numbers, or texts such as "0,415", in display units
+
+    [limits]
+    GS6 = {min = 30e3}               # of a result: min, max or both, in its display unit
+    "loop of group (2, 3)" = {max = 1e-9}    # of a check: max stands for its own limit
+
+A wanted or limited name is that of a result, a part of one as in a table (``PS6_S.imag``, ``abs(R56)``), or of a check.
+"""
+
+import re
+import tomllib
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from mechsheet.worksheet.errors import SheetError
+from mechsheet.worksheet.inputs import number
+
+
+@dataclass(frozen=True)
+class Limit:
+    """Between what a result must lie, in its display unit."""
+
+    min: float | None = None
+    max: float | None = None
+
+
+@dataclass(frozen=True)
+class Scene:
+    """Inputs by name, in display units; the folder for files if one is given; the results wanted, none for all
+    of them; limits by the name of a result or check."""
+
+    inputs: dict[str, object] = field(default_factory=dict)
+    out: Path | None = None
+    want: tuple[str, ...] = ()
+    limits: dict[str, Limit] = field(default_factory=dict)
+
+
+def load(path: Path) -> Scene:
+    """Scene of a TOML file.
+
+    Raises SheetError naming the file and what in it cannot be used.
+    """
+    text = ""
+    try:
+        text = path.read_text(encoding="utf-8-sig")
+        content = tomllib.loads(text)
+    except OSError as error:
+        raise SheetError(f"scene {path} cannot be read: {error.strerror}") from None
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        comma = re.search(r"=\s*([+-]?\d+,\d+)", text)
+        hint = f'; a number with a comma stands in quotes: "{comma[1]}"' if comma else ""
+        raise SheetError(f"scene {path} is no valid TOML: {error}{hint}") from None
+    return _scene(path, content)
+
+
+def _scene(path: Path, content: dict[str, Any]) -> Scene:
+    unknown = sorted(set(content) - {"inputs", "want", "limits"})
+    if unknown or not content:
+        has = f"it has {', '.join(unknown)}" if unknown else "it is empty"
+        raise SheetError(f"scene {path} may hold [inputs], want and [limits] and nothing else; {has}")
+    inputs, want, limits = content.get("inputs", {}), content.get("want"), content.get("limits", {})
+    for name, table in (("inputs", inputs), ("limits", limits)):
+        if not isinstance(table, dict):
+            raise SheetError(f"scene {path}: {name} = {table!r} must be a table [{name}]")
+    for name, value in inputs.items():
+        if isinstance(value, dict | list):
+            raise SheetError(f"scene {path}: input {name} = {value!r} must be one number")
+    if want is not None and not (isinstance(want, list) and want and all(isinstance(name, str) for name in want)):
+        raise SheetError(f'scene {path}: want = {want!r} must be a list of names such as ["GS6"]')
+    return Scene(
+        inputs, None, tuple(dict.fromkeys(want or ())), {name: _limit(path, name, x) for name, x in limits.items()}
+    )
+
+
+def _limit(path: Path, name: str, given: object) -> Limit:
+    says = f"scene {path}: limit {name} = {given!r}"
+    if not isinstance(given, dict) or not given or set(given) - {"min", "max"}:
+        raise SheetError(f"{says} must be {{min = NUMBER}}, {{max = NUMBER}} or both")
+    try:
+        limit = Limit(**{end: number(value) for end, value in given.items()})
+    except ValueError as error:
+        raise SheetError(f"{says}: {error}") from None
+    if limit.min is not None and limit.max is not None and limit.min > limit.max:
+        raise SheetError(f"{says}: min is above max")
+    return limit

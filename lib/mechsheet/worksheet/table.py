@@ -1,0 +1,262 @@
+"""Tables and figures as values, one description for the page, the workbook and pandas."""
+
+import ast
+import html
+import sys
+from collections.abc import Mapping
+from dataclasses import dataclass
+from itertools import takewhile
+from math import isnan
+from types import FrameType
+from typing import TYPE_CHECKING, Any, ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mechsheet import units
+from mechsheet.document import chart
+from mechsheet.worksheet import formula, source, symbol
+from mechsheet.worksheet.errors import SheetError, refuse
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+DECIMALS = {
+    "m": 3, "cm": 2, "mm": 1, "deg": 1, "N": 0, "kgf": 0, "kN": 2, "Pa": 0, "MPa": 2, "kgf/cm**2": 0, "%": 1,
+    "kgf*cm": 0, "kgf/cm": 1, "N*m": 0, "N/mm": 1, "mm**2": 1, "cm**4": 1, "mm**4": 0, "mm**3": 0,
+}  # fmt: skip
+_OTHER_DECIMALS = 3
+_BLOCK = 6
+
+
+@dataclass(frozen=True)
+class Column:
+    """One quantity over the rows of a table: its symbol, display unit, meaning and values in that unit.
+
+    Values may be texts, of unit "". ``power`` shows numbers as 1.2e-15.
+    """
+
+    symbol: str
+    unit: str
+    meaning: str
+    decimals: int
+    values: NDArray[Any]
+    power: bool = False
+
+    def texts(self) -> list[str]:
+        """The values as they are shown."""
+        kind = "e" if self.power else "f"
+        return [v if isinstance(v, str) else _digits(v, self.decimals, kind) for v in self.values.tolist()]
+
+
+@dataclass(frozen=True)
+class Table:
+    """A numbered table; all columns have the same length, the first ones of whole numbers name the rows."""
+
+    number: str
+    title: str
+    columns: tuple[Column, ...]
+    note: str = ""
+    every: int = 1  # only every so many positions are listed
+
+    def frame(self) -> "pd.DataFrame":
+        """The table as a pandas DataFrame, headings ``symbol [unit]``."""
+        import pandas as pd
+
+        return pd.DataFrame({f"{c.symbol} [{c.unit}]" if c.unit else c.symbol: c.values for c in self.columns})
+
+    def _mime_(self) -> tuple[str, str]:
+        whole = list(takewhile(lambda c: c.unit in ("-", "") and c.decimals == 0, self.columns))
+        keys = self.columns[: max(1, len(whole))] if len(whole) < len(self.columns) else self.columns[:1]
+        rest = self.columns[len(keys) :]
+        blocks = [rest[i : i + _BLOCK] for i in range(0, max(len(rest), 1), _BLOCK)]
+        if len(blocks) > 1 and len(blocks[-1]) == 1:
+            blocks[-2:] = [blocks[-2] + blocks[-1]]
+        caption = f'<div class="ms-caption"><b>Table {html.escape(self.number)}</b> – {html.escape(self.title)}</div>'
+        note = f'<div class="ms-note">{symbol.in_words(self.note)}</div>' if self.note else ""
+        return "text/html", f'<div class="ms-table">{caption}{"".join(_block([*keys, *b]) for b in blocks)}{note}</div>'
+
+
+def _block(columns: list[Column]) -> str:
+    kinds = ["" if c.unit else ' class="ms-text"' for c in columns]
+    heads = "".join(
+        f'<th{kind} title="{html.escape(c.meaning)}">{symbol.html(c.symbol)}</th>'
+        for c, kind in zip(columns, kinds, strict=True)
+    )
+    unit_row = "".join(f"<th>{f'[{html.escape(units.shown(c.unit))}]' if c.unit else ''}</th>" for c in columns)
+    rows = "".join(
+        "<tr>" + "".join(f"<td{kind}>{t}</td>" for t, kind in zip(row, kinds, strict=True)) + "</tr>"
+        for row in zip(*(c.texts() if c.unit else map(html.escape, c.texts()) for c in columns), strict=True)
+    )
+    return f'<table><thead><tr>{heads}</tr><tr class="ms-units">{unit_row}</tr></thead><tbody>{rows}</tbody></table>'
+
+
+def _digits(value: float, decimals: int, kind: str) -> str:
+    return "–" if isnan(value) else f"{value:z.{decimals}{kind}}".replace("inf", "∞")
+
+
+@dataclass(frozen=True)
+class Figure:
+    """A numbered line chart of some columns over another; ``marks`` are labelled positions on the x axis."""
+
+    number: str
+    title: str
+    x: Column
+    lines: tuple[Column, ...]
+    marks: tuple[tuple[str, float], ...] = ()
+    every: int = 1  # only every so many positions are marked by a point
+
+    logarithmic: ClassVar[bool] = False  # both axes
+
+    def series(self) -> list[tuple[Column, slice, str]]:
+        """Curves: a column over which rows, and a name for what it is where that is not its symbol."""
+        return [(line, slice(0, len(line.values)), "") for line in self.lines]
+
+    def _mime_(self) -> tuple[str, str]:
+        caption = f'<div class="ms-caption"><b>Figure {html.escape(self.number)}</b> – {html.escape(self.title)}</div>'
+        return "text/html", f'<ms-figure class="ms-figure">{self.svg()}{caption}</ms-figure>'
+
+    def svg(self) -> str:
+        """The chart as one SVG element."""
+        return chart.line_chart(self.x, self.lines, self.marks, self.every)
+
+    def chart(self) -> Any:
+        """The figure as an altair chart, to be changed, combined or saved; the page draws its own, which is faster."""
+        import altair as alt
+
+        names = [symbol.text(c.symbol) for c in self.lines]
+        curves = [
+            [
+                {"x": float(x), "y": float(y) if np.isfinite(y) else None, "line": name}  # None is a gap
+                for x, y in zip(self.x.values, column.values, strict=True)
+            ]
+            for column, name in zip(self.lines, names, strict=True)
+        ]
+        y_title = f"{', '.join(names)} [{units.shown(self.lines[0].unit)}]"
+        base = alt.Chart(alt.InlineData([row for curve in curves for row in curve])).encode(
+            x=alt.X(
+                "x:Q",
+                title=f"{symbol.text(self.x.symbol)} [{units.shown(self.x.unit)}]",
+                scale=alt.Scale(zero=False, nice=False),
+            ),
+            y=alt.Y("y:Q", title=y_title, scale=alt.Scale(zero=False)),
+            color=alt.Color(
+                "line:N", title=None, sort=names, legend=alt.Legend(orient="top") if len(names) > 1 else None
+            ),
+            tooltip=[
+                alt.Tooltip("line:N", title="quantity"),
+                alt.Tooltip("x:Q", title=symbol.text(self.x.symbol), format=f".{self.x.decimals}f"),
+                alt.Tooltip("y:Q", title="value", format=f",.{self.lines[0].decimals}f"),
+            ],
+        )
+        layers = [base.mark_line()]
+        if self.x.values[:: self.every].size <= chart.MARKED:
+            listed = alt.InlineData([row for curve in curves for row in curve[:: self.every]])
+            layers.append(base.mark_point(filled=True, size=36).properties(data=listed))
+        for name, x in self.marks:
+            at = alt.Chart(alt.InlineData([{"x": x, "name": name}])).encode(x="x:Q")
+            layers += [
+                at.mark_rule(strokeDash=[5, 4], opacity=0.6),
+                at.mark_text(align="left", dx=4, y=8, fontSize=12).encode(text="name:N"),
+            ]
+        title = f"Figure {self.number} – {self.title}"
+        sharp = {"embedOptions": {"renderer": "svg"}}  # on paper too
+        return alt.layer(*layers).properties(title=title, width=620, height=300, usermeta=sharp)
+
+
+def table(
+    number: str,
+    title: str,
+    *columns: Any,
+    show: Mapping[str, str] | None = None,
+    note: str = "",
+    decimals: int | None = None,
+    every: int = 1,
+) -> Table:
+    """Table of the given quantities: symbols, units and meanings are read from the lines that define them.
+
+    An argument is a name, ``P23_S.real`` or ``.imag`` (columns X23, Y23 of a point, R56x, R56y of a
+    force) or ``abs(R56)`` (column R56). Quantities over several axes are listed with the last one running
+    fastest. ``show`` gives another display unit for some symbols.
+    ``note`` stands below the table. ``decimals`` are printed in all columns, by default as many as the unit
+    asks for; whole numbers have none. ``every`` lists only every so many positions, from the first.
+    """
+    frame = sys._getframe(1)
+    nodes = source.call(frame).args[2:]
+    return Table(number, title, _columns(frame, nodes, columns, show or {}, decimals, every), note, every)
+
+
+def figure(
+    number: str,
+    title: str,
+    x: Any,
+    *lines: Any,
+    marks: Mapping[str, float] | None = None,
+    show: Mapping[str, str] | None = None,
+    every: int = 1,
+) -> Figure:
+    """Line chart of the given quantities over ``x``, read as in `table`; ``marks`` are positions in SI.
+
+    ``every`` marks only every so many positions of a smooth curve by a point: those that a table lists.
+    """
+    frame = sys._getframe(1)
+    first, *rest = _columns(frame, source.call(frame).args[2:], (x, *lines), show or {})
+    factor = units.parse(first.unit).factor
+    return Figure(number, title, first, tuple(rest), tuple((k, v / factor) for k, v in (marks or {}).items()), every)
+
+
+def _columns(
+    frame: FrameType,
+    nodes: list[ast.expr],
+    values: tuple[Any, ...],
+    show: Mapping[str, str],
+    decimals: int | None = None,
+    every: int = 1,
+) -> tuple[Column, ...]:
+    known, columns = formula.registry(frame.f_globals), []
+    nodes = [n for node in nodes for n in (node.value.elts if _is_group(node) else [node])]  # type: ignore[attr-defined]
+    shape = np.broadcast_shapes((1,), *(np.shape(v) for v in values))
+    for node, value in zip(nodes, values, strict=True):
+        name, part = _name(node)
+        if name not in known:
+            refuse(
+                SheetError(f"column {ast.unparse(node)}: no line declares {name} with its unit, such as # [m] meaning")
+            )
+        line = known[name]
+        label = heading(name, part)
+        unit = show.get(label, line.unit)
+        shown = np.broadcast_to(np.asarray(value) / units.parse(unit).factor, shape)[..., ::every].ravel()
+        whole = np.asarray(value).dtype.kind in "iu"
+        usual = DECIMALS.get(unit, _OTHER_DECIMALS) if decimals is None else decimals
+        columns.append(Column(label, unit, line.meaning, 0 if whole else usual, shown))
+    return tuple(columns)
+
+
+def _is_group(node: ast.expr) -> bool:
+    return isinstance(node, ast.Starred) and isinstance(node.value, ast.Tuple)
+
+
+def _name(node: ast.expr) -> tuple[str, str]:
+    match node:
+        case ast.Name(name):
+            found = name, ""
+        case ast.Attribute(ast.Name(name), ("real" | "imag") as part):
+            found = name, part
+        case ast.Call(ast.Name("abs"), [ast.Name(name)]):
+            found = name, ""
+        case _:
+            refuse(SheetError(f"column {ast.unparse(node)}: a column is a name, name.real, name.imag or abs(name)"))
+    return found
+
+
+def heading(name: str, part: str = "") -> str:
+    """Heading of the column of a quantity, or of its part ``real`` or ``imag``.
+
+    >>> heading("P23_S", "real"), heading("R56", "imag"), heading("phi3_S")
+    ('X23', 'R56y', 'phi3')
+    """
+    name = symbol.plain(name)
+    if not part:
+        return name
+    axis = {"real": "x", "imag": "y"}[part]
+    return axis.upper() + name[1:] if name.startswith("P") else name + axis
