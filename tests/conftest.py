@@ -12,9 +12,10 @@ from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
 from functools import cache
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import pytest
+from hypothesis import settings
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser, Page
@@ -22,6 +23,12 @@ if TYPE_CHECKING:
 ROOT = Path(__file__).resolve().parents[1]
 collect_ignore = ["benchmarks"]  # nothing there is a test, and it needs numba
 READY_WITHIN = 120.0  # seconds for a marimo server to answer
+
+# Random tests take the same examples in every run, and no time is too long for one: a busy machine is no error.
+settings.register_profile("repeatable", derandomize=True, deadline=None)
+# --hypothesis-profile=search: other examples in every run, and ten times as many.
+settings.register_profile("search", max_examples=1000, deadline=None, database=None, print_blob=True)
+settings.load_profile("repeatable")
 
 CHROMIUM_FLAGS = [
     "--no-sandbox",
@@ -65,6 +72,11 @@ def chromium() -> str:
 def soffice() -> str:
     """Path of LibreOffice."""
     return program("LibreOffice", "soffice", "libreoffice")
+
+
+def examples(count: int, **others: Any) -> settings:
+    """Settings of a test that takes so many examples, not the usual 100, and as many times more in a search."""
+    return settings(max_examples=count * settings.default.max_examples // 100, **others)
 
 
 @contextmanager

@@ -8,14 +8,15 @@ from decimal import Decimal
 import mpmath
 import numpy as np
 import pytest
-from hypothesis import assume, given, settings
+from conftest import examples
+from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from mechsheet.errors import SheetError
 from mechsheet.find import find, values_only
 
 EPS = float(np.finfo(float).eps)
-some = settings(max_examples=60, deadline=None)
+some = examples(60)
 
 
 def real(low, high):

@@ -6,7 +6,8 @@ from datetime import datetime
 from pathlib import Path
 
 import pytest
-from hypothesis import given, settings
+from conftest import examples
+from hypothesis import given
 from hypothesis import strategies as st
 from openpyxl import Workbook, load_workbook
 
@@ -109,7 +110,7 @@ def test_exported_workbook_reads_back_to_the_very_same_inputs(exported):
 
 
 @given(st.floats(1, 179, exclude_min=True), st.floats(-2, 2))
-@settings(max_examples=200)
+@examples(200)
 def test_inputs_written_in_display_units_are_read_back_to_the_last_bit(angle, length):
     g = inputs.build(Hitch, {"phi_P6": angle, "X6": length})
     shown = {field.name: value for field, value in inputs.Used(g).rows()}
