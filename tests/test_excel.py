@@ -16,7 +16,7 @@ from zipfile import ZipFile
 import numpy as np
 import pandas as pd
 import pytest
-from conftest import examples
+from conftest import WITHIN, examples
 from hypothesis import given
 from hypothesis import strategies as st
 from openpyxl import load_workbook
@@ -442,7 +442,7 @@ def test_libreoffice_reads_every_cell_back(soffice: str, tmp_path: Path) -> None
     profile, out = (tmp_path / "profile").as_uri(), tmp_path / "out"
     options = [f"-env:UserInstallation={profile}", "--headless", "--convert-to", "xlsx:Calc MS Excel 2007 XML"]
     command = [soffice, *options, "--outdir", str(out), str(tmp_path / "hitch.xlsx")]
-    subprocess.run(command, check=True, capture_output=True, timeout=120)
+    subprocess.run(command, check=True, capture_output=True, timeout=WITHIN)
     ours, theirs = (load_workbook(p / "hitch.xlsx", data_only=True) for p in (tmp_path, out))
     assert theirs.sheetnames == ours.sheetnames
     for sheet in ours:

@@ -6,7 +6,7 @@ from datetime import datetime
 from pathlib import Path
 
 import pytest
-from conftest import examples
+from conftest import WITHIN, examples
 from hypothesis import given
 from hypothesis import strategies as st
 from openpyxl import Workbook, load_workbook
@@ -205,7 +205,7 @@ def test_libreoffice_saves_what_is_read_back(exported, soffice, tmp_path):
     out = tmp_path / "saved"
     convert = ["--headless", "--convert-to", "xlsx:Calc MS Excel 2007 XML", "--outdir", str(out), str(typed)]
     profile = f"-env:UserInstallation={(tmp_path / 'profile').as_uri()}"
-    subprocess.run([soffice, profile, *convert], check=True, capture_output=True, timeout=120)
+    subprocess.run([soffice, profile, *convert], check=True, capture_output=True, timeout=WITHIN)
     found, before = (edited.inputs(path, FIELDS) for path in (out / "typed.xlsx", exported))
     assert found.pop("P6") == 27500.5
     different = [name for name in found if found[name] != pytest.approx(before[name], rel=1e-14)]
