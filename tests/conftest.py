@@ -22,9 +22,7 @@ if TYPE_CHECKING:
 
 ROOT = Path(__file__).resolve().parents[1]
 collect_ignore = ["benchmarks"]  # nothing there is a test, and it needs numba
-WITHIN = (
-    300.0  # seconds for anything that is waited for: what never comes fails, what comes late on a busy machine does not
-)
+WITHIN = 300.0  # seconds for whatever is waited for: on a busy machine it comes late
 
 # Random tests take the same examples in every run, and no time is too long for one: a busy machine is no error.
 settings.register_profile("repeatable", derandomize=True, deadline=None)
@@ -97,6 +95,7 @@ def marimo_server(mode: str, worksheet: Path, folder: Path) -> Iterator[str]:
     if mode == "edit":
         options.append("--skip-update-check")
     # A configuration folder of its own: the settings of whoever runs the tests must not change the page.
+    environment = {**os.environ, "XDG_CONFIG_HOME": str(folder), "PYTHONUTF8": "1"}
     with (folder / "server.log").open("w+", encoding="utf-8") as log:
         server = subprocess.Popen(
             [sys.executable, "-m", "marimo", mode, *options, sheet],
@@ -182,8 +181,11 @@ def drawn(page: Page) -> None:
 
 @pytest.fixture
 def console_errors(page: Page) -> list[str]:
-    """What the page has reported as errors so far, but for marimo's own report, half a minute after an editor is opened,
-    that the language server of a completion which is switched off does not answer."""
+    """What the page has reported as errors so far.
+
+    Not among them: half a minute after it is opened, marimo's editor reports that the language server of a completion
+    which is switched off has not answered.
+    """
     errors: list[str] = []
 
     def reported(message: ConsoleMessage) -> None:
