@@ -6,13 +6,11 @@ from collections.abc import Callable, Iterable, Iterator
 from typing import Any
 
 import numpy as np
-from hypothesis import settings
 from mpmath import expj, lu_solve, matrix, mp, mpc, mpf, sqrt
 
 mp.dps = 110  # central second differences with this step keep 50 digits
 STEP = mpf(10) ** -30
 EPS = 2.0**-53  # relative error of one rounding
-unhurried = settings(deadline=None)  # a busy machine is no error
 
 
 def exact(*arrays: Any) -> Iterator[list[mpc]]:

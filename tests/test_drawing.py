@@ -10,7 +10,8 @@ from xml.etree import ElementTree
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from conftest import examples
+from hypothesis import given
 from hypothesis import strategies as st
 
 from mechsheet.document.drawing import COLOURS, Drawing
@@ -418,7 +419,7 @@ MOVES = st.one_of(
 )
 
 
-@settings(max_examples=150, deadline=None)
+@examples(150)
 @given(st.lists(MOVES, max_size=8), st.integers(0, 8))
 def test_any_finite_input_gives_well_formed_svg_inside_its_view(moves: list[tuple[Any, ...]], cut: int) -> None:
     def drawn(some: list[tuple[Any, ...]]) -> Drawing:

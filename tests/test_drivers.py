@@ -6,7 +6,6 @@ from typing import Any
 
 import numpy as np
 import pytest
-from exact import unhurried
 from hypothesis import example, given
 from hypothesis import strategies as st
 
@@ -30,7 +29,6 @@ def agrees(reach: CrankReach, closes: Any) -> None:
         assert not np.any(closed[outside])
 
 
-@unhurried
 @given(points, lengths, points.filter(bool), lengths, lengths)
 @example(0, 1, 3, 1.5, 1.5)
 @example(0, 1, 3, 0.5, 0.5)
@@ -43,7 +41,6 @@ def test_rrr_closes_inside_the_crank_reach_only(O1: complex, r: float, frame: co
     )
 
 
-@unhurried
 @given(points, lengths, points.filter(bool), coordinates)
 @example(0, 2, 1, 0.5)
 @example(0, 1, 4, 0.5)
@@ -53,7 +50,6 @@ def test_slotted_link_closes_inside_the_crank_reach_only(O1: complex, r: float, 
     agrees(rpr_crank_reach(O1, r, B, e), lambda phi: np.isfinite(rpr(crank(O1, r, phi), B, 1, e).s))
 
 
-@unhurried
 @given(points, lengths, points, points.filter(bool), lengths, coordinates)
 @example(0, 1, 0, 1, 3, 0.5)
 @example(0, 1, 0, 1, 0.5, 0.2)

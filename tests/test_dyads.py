@@ -8,7 +8,7 @@ from typing import Any
 import exact
 import numpy as np
 import pytest
-from exact import EPS, FAMILIES, numbers, triangles, unhurried, vectors
+from exact import EPS, FAMILIES, numbers, triangles, vectors
 from hypothesis import example, given
 from hypothesis import strategies as st
 
@@ -246,7 +246,6 @@ coordinates = st.floats(-1e6, 1e6).map(lambda x: round(x, 6))
 points = st.builds(complex, coordinates, coordinates)
 
 
-@unhurried
 @given(points, points, lengths, st.sampled_from([-1, 1]))
 @example(0, 3, 1, 1)
 @example(0, 0.3, 0.1, -1)
@@ -259,7 +258,6 @@ def test_rrr_closes_at_both_ends_of_its_reach_and_nowhere_outside(A: complex, B:
     assert low <= beyond or np.isnan(rrr(A, B, r, low - beyond, s))
 
 
-@unhurried
 @given(points, points, points.filter(bool), coordinates, st.sampled_from([-1, 1]))
 def test_rrp_closes_from_the_shortest_link_on(A: complex, B: complex, u: complex, e: float, s: int) -> None:
     low, _ = rrp_reach(A, B, u, e)
@@ -267,7 +265,6 @@ def test_rrp_closes_from_the_shortest_link_on(A: complex, B: complex, u: complex
     assert np.isnan(rrp(A, B, u, np.nextafter(low, 0), s, e)) or low == 0
 
 
-@unhurried
 @given(st.lists(st.tuples(points, points, lengths, lengths), min_size=1, max_size=8), st.sampled_from([-1, 1]))
 def test_rrr_links_keep_their_lengths_and_the_branch_its_side(rows: Any, branch: int) -> None:
     A, B, r_A, r_B = (np.array(column) for column in zip(*rows, strict=True))

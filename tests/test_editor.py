@@ -7,11 +7,18 @@ from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
+from conftest import drawn, until
+from playwright.sync_api import expect
 
 from mechsheet import __main__ as launcher
 from mechsheet.page import editor as told_by
 
 TEMPLATE = Path(launcher.__file__).parent / "run" / "new_worksheet.txt"
+
+
+def written(code) -> str:
+    """Text of an editor of code."""
+    return "\n".join(code.locator(".cm-line").all_text_contents())
 
 
 class Editor:
@@ -24,20 +31,20 @@ class Editor:
         self.expect("1 of 1 checks pass")
 
     def expect(self, text: str) -> None:
-        self.page.get_by_text(text).first.wait_for(timeout=20_000)
+        self.page.get_by_text(text).first.wait_for()
 
     def edit(self, old: str, new: str):
         """Put a text in the place of another one in the cell that holds it, and run the cell."""
         found = self.page.locator(".marimo-cell", has=self.page.locator(".cm-content", has_text=old)).first
         cell = self.page.locator(f"#{found.get_attribute('id')}")
         code = cell.locator(".cm-content").first
-        lines = code.locator(".cm-line").evaluate_all("lines => lines.map(line => line.textContent)")
-        text = "\n".join(lines)
+        text = written(code)
         assert old in text
         code.click()
         self.page.keyboard.press("Control+a")
         self.page.keyboard.insert_text(text.replace(old, new))
-        self.page.wait_for_timeout(300)
+        until(self.page, lambda: written(code) == text.replace(old, new), "the editor does not take the text")
+        drawn(self.page)
         self.page.keyboard.press("Control+Enter")
         return cell
 
@@ -45,8 +52,8 @@ class Editor:
         """Mistakes named in the title block."""
         return self.page.locator(".ms-title a").all_text_contents()
 
-    def last_moment(self) -> str:
-        return self.page.locator(".ms-table tbody tr").last.locator("td").last.inner_text()
+    def expect_last_moment(self, text: str) -> None:
+        expect(self.page.locator(".ms-table tbody tr").last.locator("td").last).to_have_text(text)
 
 
 @pytest.fixture
@@ -60,22 +67,22 @@ def test_edited_number_formula_and_unit_change_everything(editor, tmp_path):
     from openpyxl import load_workbook
 
     page = editor.page
-    assert editor.last_moment() == "420"
+    editor.expect_last_moment("420")
     curve = page.locator("svg.ms-chart path[stroke='#3b82d0']").first
     before = curve.get_attribute("d")
     editor.edit("M_max: float = 300.0", "M_max: float = 310.0")
-    page.locator(".ms-screen", has_text="310").first.wait_for(timeout=30_000)
+    page.locator(".ms-screen", has_text="310").first.wait_for()
     editor.edit("g.F * g.L * sin(phi)  # [N*m]", "g.F * g.L * sin(phi) ** 3  # [kN*m]")
-    page.locator("marimo-tex", has_text="sin^{3}").first.wait_for(timeout=30_000, state="attached")
+    page.locator("marimo-tex", has_text="sin^{3}").first.wait_for(state="attached")
     page.wait_for_function(
         f"() => document.querySelector('svg.ms-chart path[stroke]').getAttribute('d') !== {before!r}"
     )
-    assert editor.last_moment() == "420", "sine of a right angle"
+    editor.expect_last_moment("420")  # sine of a right angle
     editor.expect("1 of 1 checks pass")
     editor.expect(f"{degrees(asin((310 / 420) ** (1 / 3))):.4f} deg")
     editor.edit("M_S = M(phi)  # [N*m]", "M_S = M(phi)  # [kN*m]")
-    page.locator(".ms-table", has_text="kN·m").wait_for(timeout=30_000)
-    assert editor.last_moment() == "0.420"
+    page.locator(".ms-table", has_text="kN·m").wait_for()
+    editor.expect_last_moment("0.420")
     page.wait_for_function("() => document.querySelector('svg.ms-chart').textContent.includes('[kN·m]')")
     with page.expect_download() as download:
         page.get_by_text("Excel workbook").click()
@@ -90,16 +97,16 @@ def test_mistakes_are_told_at_their_place_and_the_rest_stays(editor):
 
     def told(cell, *texts):
         for text in texts:
-            cell.get_by_text(text).first.wait_for(timeout=30_000)
-        assert page.get_by_role("heading", name="3 Results").count() == 1
-        assert page.locator(".ms-inputs input").count() == 3
+            cell.get_by_text(text).first.wait_for()
+        expect(page.get_by_role("heading", name="3 Results")).to_have_count(1)
+        expect(page.locator(".ms-inputs input")).to_have_count(3)
 
     told(
         editor.edit("# [N*m] moment\n", "# [Nm] moment\n"), "line 4 of the cell: unit [Nm] is not known; write units as"
     )
-    assert page.get_by_text("TRACEBACK").count() == 0
-    assert "unit [Nm] is not known" in page.evaluate("""() =>
-        getComputedStyle(document.querySelector(".ms-told"), "::after").content""")
+    expect(page.get_by_text("TRACEBACK")).to_have_count(0)
+    page.wait_for_function("""() =>
+        getComputedStyle(document.querySelector(".ms-told"), "::after").content.includes("unit [Nm] is not known")""")
     told(editor.edit("# [Nm] moment\n", "# [N*m] moment\n"))
     editor.expect("1 of 1 checks pass")
     told(editor.edit("g.L * sin", "g.Ll * sin"), "'Given' object has no attribute 'Ll'")
@@ -113,35 +120,35 @@ def test_mistakes_are_told_at_their_place_and_the_rest_stays(editor):
     field.press("Enter")
     editor.expect("angle phi: moment reaches 0..420 N*m, 500 N*m is outside")
     page.wait_for_function("() => !document.querySelector('.ms-table')")
-    assert page.get_by_text("moment over the positions").count() > 0
+    page.get_by_text("moment over the positions").first.wait_for()
     field.fill("abc")
     field.press("Enter")
     editor.expect("M_max = 'abc' N*m is no number")
-    assert page.locator(".ms-told").is_visible()
+    expect(page.locator(".ms-told")).to_be_visible()
     field.fill("300")
     field.press("Enter")
     editor.expect("1 of 1 checks pass")
-    assert not page.locator(".ms-told").is_visible()
-    assert editor.last_moment() == "420"
+    expect(page.locator(".ms-told")).to_be_hidden()
+    editor.expect_last_moment("420")
 
 
 def test_mistakes_are_told_in_words_at_the_top_and_at_their_line(editor):
     page = editor.page
 
     def tells(cell, text):
-        page.locator(".ms-title a", has_text=text).wait_for(timeout=30_000)
+        page.locator(".ms-title a", has_text=text).wait_for()
         place = cell.locator("[data-cell-role=output]")
-        assert text in place.evaluate("place => getComputedStyle(place, '::after').content")
-        href = page.locator(".ms-title a", has_text=text).get_attribute("href")
-        assert href == f"#{cell.get_attribute('id')}"
+        shown = "place => getComputedStyle(place, '::after').content"
+        until(page, lambda: text in place.evaluate(shown), "it is not told at its line")
+        expect(page.locator(".ms-title a", has_text=text)).to_have_attribute("href", f"#{cell.get_attribute('id')}")
 
     page.locator(".ms-switch").check()
     tells(
         editor.edit("M_S = M(phi)  # [N*m]", "M_S = M(phi)  # [m]"),
         "line 6, M_S: unit [m] does not fit; the value is in N·m",
     )
-    assert editor.last_moment() == "420.000", "the sheet stays computed"
-    assert page.locator(".ms-switch").is_checked()
+    editor.expect_last_moment("420.000")  # the sheet stays computed
+    expect(page.locator(".ms-switch")).to_be_checked()
     cell = editor.edit("M_S = M(phi)  # [m]", "M_S = M(phi)  # [N*m]")
     page.wait_for_function("() => !document.querySelector('.ms-title a')")
     tells(
@@ -150,20 +157,19 @@ def test_mistakes_are_told_in_words_at_the_top_and_at_their_line(editor):
     )
     page.mouse.move(0, 0)
     trace = cell.locator(".codehilite")
-    assert trace.count() == 1 and not trace.is_visible()
+    expect(trace).to_have_count(1)
+    expect(trace).to_be_hidden()
     cell.get_by_role("button", name="Collapse traceback").hover()
     trace.wait_for()
     tells(
         editor.edit("sinn(phi)", "sin(phi, 1, 2, 3)"), "line 4, return g.F * g.L * sin(phi, 1, 2, 3): sin() takes from"
     )
     editor.edit("sin(phi, 1, 2, 3)", "sin(phi")
-    page.locator(".ms-title a", has_text="the cell that defines M_S has a mistake or was deleted").wait_for(
-        timeout=30_000
-    )
+    page.locator(".ms-title a", has_text="the cell that defines M_S has a mistake or was deleted").wait_for()
     editor.edit("sin(phi", "sin(phi)")
     editor.expect("1 of 1 checks pass")
     page.wait_for_function("() => !document.querySelector('.ms-title a')")
-    assert editor.last_moment() == "420"
+    editor.expect_last_moment("420")
     editor.edit("M_S = M(phi)  # [N*m] moment over", "M_S = M(phi)  # moment over")
     editor.expect("column M_S: no line declares M_S with its unit")
 

@@ -16,7 +16,8 @@ from zipfile import ZipFile
 import numpy as np
 import pandas as pd
 import pytest
-from hypothesis import given, settings
+from conftest import WITHIN, examples
+from hypothesis import given
 from hypothesis import strategies as st
 from openpyxl import load_workbook
 
@@ -90,7 +91,7 @@ def test_number_format_shows_the_decimals_of_the_column() -> None:
     assert [cell.number_format for cell in sheet[5]] == ["0.000", "0", "0"]
 
 
-@settings(max_examples=25, deadline=None)
+@examples(25)
 @given(st.lists(st.floats(-1e306, 1e306).filter(lambda v: v == 0 or abs(v) > 1e-300), min_size=1, max_size=60))
 def test_numbers_are_stored_to_the_last_bit(values: list[float]) -> None:
     column = replace(S, values=np.array(values))
@@ -282,7 +283,7 @@ def test_pages_of_a_long_table_end_between_charts() -> None:
         assert not any(anchor._from.row < row < anchor.to.row for row in breaks)
 
 
-@settings(max_examples=25, deadline=None)
+@examples(25)
 @given(st.lists(st.floats(), min_size=1, max_size=5))
 def test_axes_enclose_the_data_in_whole_steps(values: list[float]) -> None:
     line = replace(G56, values=np.array(values))
@@ -335,7 +336,7 @@ def escaped(text: str) -> str:
     return text.replace("_x005F_", "_")
 
 
-@settings(max_examples=25, deadline=None)
+@examples(25)
 @given(st.lists(st.tuples(st.text(max_size=6), st.text(max_size=50)), min_size=1, max_size=4))
 def test_sheet_names_are_what_excel_accepts(titles: list[tuple[str, str]]) -> None:
     tables = [Table(number, title, (S,)) for number, title in [*titles, *titles]]
@@ -442,7 +443,7 @@ def test_libreoffice_reads_every_cell_back(soffice: str, tmp_path: Path) -> None
     profile, out = (tmp_path / "profile").as_uri(), tmp_path / "out"
     options = [f"-env:UserInstallation={profile}", "--headless", "--convert-to", "xlsx:Calc MS Excel 2007 XML"]
     command = [soffice, *options, "--outdir", str(out), str(tmp_path / "hitch.xlsx")]
-    subprocess.run(command, check=True, capture_output=True, timeout=120)
+    subprocess.run(command, check=True, capture_output=True, timeout=WITHIN)
     ours, theirs = (load_workbook(p / "hitch.xlsx", data_only=True) for p in (tmp_path, out))
     assert theirs.sheetnames == ours.sheetnames
     for sheet in ours:

@@ -5,8 +5,9 @@ from pathlib import Path
 import mpmath as mp
 import numpy as np
 import pytest
+from conftest import examples
 from exact import equations, pin, reactions, sign
-from hypothesis import Phase, assume, given, settings, target
+from hypothesis import Phase, assume, given, target
 from hypothesis import strategies as st
 
 from mechsheet.accuracy import exact, extreme, printed
@@ -108,9 +109,7 @@ def test_no_input_takes_what_is_no_number(worksheet, value):
 # Worse scenes than the listed ones
 
 # without shrinking, which takes longer than the search
-searching = settings(
-    deadline=None, derandomize=True, database=None, phases=[Phase.generate, Phase.target], report_multiple_bugs=False
-)
+searching = {"phases": [Phase.explicit, Phase.generate, Phase.target], "report_multiple_bugs": False}
 
 
 def holds(case):
@@ -152,7 +151,7 @@ def groups(draw):
     return given
 
 
-@settings(searching, max_examples=100)
+@examples(100, **searching)
 @given(groups())
 def test_search_for_worse_groups(group):
     holds(extreme.dyad(WORKSHEETS, group))
@@ -179,7 +178,7 @@ def machines(draw):
     return given
 
 
-@settings(searching, max_examples=12)
+@examples(12, **searching)
 @given(machines())
 def test_search_for_worse_machines(machine):
     try:
@@ -201,7 +200,7 @@ def joints(draw):
     return given | {"M_2": draw(signs) * given["N_2"] * given["h"] / 2 * lever}
 
 
-@settings(searching, max_examples=12)
+@examples(12, **searching)
 @given(joints(), st.sampled_from([1, 3]))
 def test_search_for_worse_joints(joint, at):
     case = extreme.joint(WORKSHEETS, joint, at)

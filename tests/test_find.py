@@ -8,14 +8,15 @@ from decimal import Decimal
 import mpmath
 import numpy as np
 import pytest
-from hypothesis import assume, given, settings
+from conftest import examples
+from hypothesis import assume, example, given
 from hypothesis import strategies as st
 
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.find import find, values_only
 
 EPS = float(np.finfo(float).eps)
-some = settings(max_examples=60, deadline=None)
+some = examples(60)
 
 
 def real(low, high):
@@ -118,9 +119,10 @@ def test_a_double_root_is_one_root_and_gone_a_little_above(x0, bend, top):
 
 @some
 @given(real(0.2, 0.8), real(0.5, 2), real(-10, -1.5), st.sampled_from([1, -1]))
+@example(0.25, 0.5, -1.5, 1)  # the left root is below zero
 def test_a_little_below_a_peak_both_roots_are_found(x0, bend, power, sign):
     height = 10**power
-    roots = find(lambda x: sign * (1 - bend * (x - x0) ** 2), 0.0, 1.0, equals=sign * (1 - height)).roots
+    roots = find(lambda x: sign * (1 - bend * (x - x0) ** 2), -0.1, 1.1, equals=sign * (1 - height)).roots
 
     half = np.sqrt(height / bend)
     assert [root.value for root in roots] == pytest.approx([x0 - half, x0 + half], abs=8 * EPS / half)

@@ -11,7 +11,8 @@ from pathlib import Path
 import mpmath as mp
 import numpy as np
 import pytest
-from hypothesis import assume, given, settings
+from conftest import examples
+from hypothesis import assume, given
 from hypothesis import strategies as st
 from printed import agrees, half_last_digit, rows
 
@@ -170,7 +171,6 @@ small = st.integers(-4, 4).map(float)
 elements = st.lists(st.tuples(small, st.integers(0, 3), st.integers(0, 3)), min_size=1, max_size=7)
 
 
-@settings(deadline=None)
 @given(elements, small, small)
 def test_finds_the_one_equilibrium_or_says_there_is_none(section, M, N):
     """Whole numbers: elements on one level, the axis through elements and loads on the edge all happen."""
@@ -197,7 +197,7 @@ def test_real_numbers(spread, away):
         assert np.allclose(neutral_axis(y, A_t, A_c, M, N).force, true, rtol=0, atol=4e-15 * np.max(np.abs(true)))
 
 
-@settings(max_examples=50, deadline=None)
+@examples(50)
 @given(elements, st.integers(0, 6), st.sampled_from([-1.0, 1.0]), st.floats(1e-3, 1e3))
 def test_axis_through_an_element(section, at, side, scale):
     """A stress that vanishes at an element is found again from its load, whichever area that element has."""
@@ -280,7 +280,7 @@ def test_cases_planes_and_variants_broadcast(sheet):
         assert np.array_equal(one.force, found.force[i]) and one.y_0 == found.y_0[i] and one.state == found.state[i]
 
 
-@settings(max_examples=50, deadline=None)
+@examples(50)
 @given(elements, small, small, st.floats(1e-6, 1e6))
 def test_symmetries(section, M, N, scale):
     """Turned upside down, loaded the other way with areas exchanged, loaded more: the forces follow."""
@@ -351,7 +351,6 @@ def test_ring_to_50_digits(c, first):
 loads = st.floats(-1e6, 1e6)
 
 
-@settings(deadline=None)
 @given(st.integers(3, 40), st.floats(0, 6.3), st.floats(0.1, 10), loads, loads)
 def test_ring_is_in_equilibrium(m, first, r, M, N):
     phi = even(m, first)

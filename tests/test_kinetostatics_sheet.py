@@ -10,8 +10,9 @@ import exact
 import mpmath as mp
 import numpy as np
 import pytest
+from conftest import examples
 from exact import cross, mpc, mpf
-from hypothesis import Phase, given, settings
+from hypothesis import Phase, given
 from hypothesis import strategies as st
 from openpyxl import load_workbook
 
@@ -168,7 +169,7 @@ def test_turning_clockwise_and_speeding_up(sheet, row):
 numbers = st.floats(0.5, 2)
 
 
-@settings(max_examples=6, deadline=None, phases=[Phase.explicit, Phase.generate])
+@examples(6, phases=[Phase.explicit, Phase.generate])
 @given(
     st.lists(numbers, min_size=13, max_size=13),
     st.floats(-0.3, 0.3),

@@ -8,7 +8,8 @@ from pathlib import Path
 import mpmath as mp
 import numpy as np
 import pytest
-from hypothesis import Phase, given, settings
+from conftest import examples
+from hypothesis import Phase, given
 from hypothesis import strategies as st
 from openpyxl import load_workbook
 
@@ -133,7 +134,7 @@ def holds(g):
     return found
 
 
-@settings(max_examples=12, deadline=None, phases=[Phase.explicit, Phase.generate])  # shrinking runs it for minutes
+@examples(12, phases=[Phase.explicit, Phase.generate])  # shrinking runs it for minutes
 @given(st.floats(0.02, 0.95), st.floats(0.1, 0.95), st.floats(-np.pi, np.pi), st.sampled_from([-60.0, 0.0, 80.0]))
 def test_hinge_of_the_cylinder_on_any_side(l3, swing, slope, U):
     """Mirrored gears: O1 may lie left, right, above or below; the angles stay continuous over the stroke."""

@@ -13,6 +13,7 @@ from typing import Any
 
 import pandas as pd
 import pytest
+from conftest import WITHIN
 from openpyxl import Workbook, load_workbook
 
 from mechsheet.recording.live import Names
@@ -44,7 +45,7 @@ def recalculated(soffice: str, tmp_path_factory: pytest.TempPathFactory) -> Call
         out = tmp_path_factory.mktemp("recalculated")
         kind = "xlsx:Calc MS Excel 2007 XML"
         command = [soffice, f"-env:UserInstallation={profile.as_uri()}", "--headless", "--convert-to", kind]
-        subprocess.run([*command, "--outdir", str(out), str(path)], check=True, capture_output=True, timeout=120)
+        subprocess.run([*command, "--outdir", str(out), str(path)], check=True, capture_output=True, timeout=WITHIN)
         return load_workbook(out / path.name, data_only=True)
 
     return recalculate

@@ -1,26 +1,27 @@
 """The hitch worksheet in a real browser."""
 
 import json
-import time
+from math import inf
 from pathlib import Path
 
 import pytest
+from conftest import drawn, new_page, until
+from playwright.sync_api import expect
 
 HITCH = Path(__file__).parents[1] / "worksheets" / "hitch.py"
 SECTIONS = ["1 Input data", "2 Geometry", "3 Kinematics", "4 Lifting capacity", "5 Forces", "6 Steering stability"]
 
 
-def cell(page, table: str, row: int, column: int) -> str:
-    """Text of a body cell of a table's first block."""
-    return (
-        page.locator(f".ms-table:has-text('Table {table} ') table")
-        .first.locator(f"tbody tr:nth-child({row}) td:nth-child({column})")
-        .text_content()
+def cell(page, table: str, row: int, column: int):
+    """A body cell of a table's first block."""
+    return page.locator(f".ms-table:has-text('Table {table} ') table").first.locator(
+        f"tbody tr:nth-child({row}) td:nth-child({column})"
     )
 
 
 def ready(page) -> None:
-    page.get_by_text("Table 7 ").wait_for(timeout=120_000)
+    for last in ("Table 7 ", "23 of 23 checks pass"):
+        page.get_by_text(last).wait_for()
 
 
 @pytest.fixture(params=["run", "edit"])
@@ -32,10 +33,10 @@ def opened(request, serve, page, console_errors):
 
 def test_opens_computed_with_every_section(opened, console_errors):
     for section in SECTIONS:
-        assert opened.get_by_role("heading", name=section).count() == 1, section
+        expect(opened.get_by_role("heading", name=section)).to_have_count(1)
     for number in ("2.1", "2.2", "3.1", "4.1", "5.1", "6.1", "7"):
-        assert opened.locator(f".ms-table:has-text('Table {number} ')").count() == 1, number
-    assert cell(opened, "4.1", 1, 2) == "129614"
+        expect(opened.locator(f".ms-table:has-text('Table {number} ')")).to_have_count(1)
+    expect(cell(opened, "4.1", 1, 2)).to_have_text("129614")
     assert opened.get_by_text("FAIL").count() == 0
     for trouble in ("Traceback", "Something went wrong", "internal error"):
         assert opened.get_by_text(trouble).count() == 0, trouble
@@ -49,9 +50,8 @@ def test_changed_input_changes_the_tables(serve, page, console_errors):
     field = page.locator(".ms-inputs tr:has-text('weight of the implement') input")
     field.fill("30000,5")
     field.press("Enter")
-    page.locator(".ms-screen", has_text="30000.5").wait_for(timeout=30_000)
-    page.wait_for_function("() => document.body.textContent.includes('141399')", timeout=30_000)
-    assert cell(page, "4.1", 1, 2) == "141399", "129614 * 30000.5 / 27500"
+    page.locator(".ms-screen", has_text="30000.5").wait_for()
+    expect(cell(page, "4.1", 1, 2), "129614 * 30000.5 / 27500").to_have_text("141399")
     assert console_errors == []
 
 
@@ -61,13 +61,14 @@ def test_bad_input_is_told_at_its_place_and_the_inputs_stay(serve, page):
     field = page.locator(".ms-inputs tr:has-text('weight of the implement') input")
     field.fill("heavy")
     field.press("Enter")
-    page.get_by_text("P6 = 'heavy' N is no number").first.wait_for(timeout=30_000)
-    top = page.evaluate("() => getComputedStyle(document.querySelector('.ms-told'), '::after').content")
-    assert "P6 = 'heavy' N is no number" in top, "told where the verdicts of the checks were"
+    page.get_by_text("P6 = 'heavy' N is no number").first.wait_for()
+    page.wait_for_function("""() =>  // told where the verdicts of the checks were
+        getComputedStyle(document.querySelector(".ms-told"), "::after").content.includes("P6 = 'heavy' N is no number")
+    """)
     field.fill("27500")
     field.press("Enter")
     ready(page)
-    assert cell(page, "4.1", 1, 2) == "129614"
+    expect(cell(page, "4.1", 1, 2)).to_have_text("129614")
 
 
 def test_slider_moves_the_scheme(serve, page, console_errors):
@@ -80,10 +81,7 @@ def test_slider_moves_the_scheme(serve, page, console_errors):
     slider.focus()
     for _ in range(5):
         slider.press("ArrowRight")
-    deadline = time.monotonic() + 20
-    while scheme.inner_html() == before:
-        assert time.monotonic() < deadline, "the scheme rests"
-        page.wait_for_timeout(100)
+    until(page, lambda: scheme.inner_html() != before, "the scheme rests")
     shift = 0.05 * 0.25 / 0.3 * 570  # of the mark in the charts: 0.05 of the stroke on an axis from 0.4 to 0.7 m
     page.wait_for_function(
         """([from, shift]) => {
@@ -99,15 +97,18 @@ def test_play_moves_the_slider_until_it_is_stopped(serve, page, console_errors):
     page.goto(serve("run", HITCH))
     ready(page)
     slider, button = page.get_by_role("slider").first, page.locator(".ms-play").first
-    first = float(slider.get_attribute("aria-valuenow"))
+
+    def at() -> float:
+        return float(slider.get_attribute("aria-valuenow"))
+
+    first = at()
     button.click()
-    page.wait_for_timeout(2000)
+    until(page, lambda: at() > first + 0.04, "the slider rests")
     button.click()
-    page.wait_for_timeout(300)
-    stopped = float(slider.get_attribute("aria-valuenow"))
-    assert stopped > first + 0.04
-    page.wait_for_timeout(500)
-    assert float(slider.get_attribute("aria-valuenow")) == stopped
+    drawn(page)
+    stopped = at()
+    page.wait_for_timeout(500)  # ten of its steps
+    assert at() == stopped
     assert console_errors == []
 
 
@@ -117,17 +118,17 @@ def test_switch_shows_the_numbers_in_the_formulas(serve, page, console_errors):
     assert page.locator("ms-numbers marimo-tex").count() == 0, "nothing is typeset before it is asked for"
     page.locator(".ms-switch").check()
     area = page.locator("ms-numbers[tex*='80']", has=page.locator("marimo-tex")).first
-    area.wait_for(timeout=20_000)
+    area.wait_for()
     capacity = page.locator(".ms-line", has_text="piston area").locator("ms-numbers marimo-tex")
     page.wait_for_function("() => document.querySelector('ms-numbers marimo-tex').shadowRoot?.querySelector('.katex')")
-    assert r"\frac{\pi\,(0.08\ \mathrm{m})^{2}}{4}" in capacity.text_content()
+    expect(capacity).to_contain_text(r"\frac{\pi\,(0.08\ \mathrm{m})^{2}}{4}")
     field = page.locator(".ms-inputs tr:has-text('piston diameter') input")
     field.fill("0.09")
     field.press("Enter")
-    page.locator("ms-numbers[tex*='(0.09']").first.wait_for(timeout=30_000, state="attached")
-    assert r"(0.09\ \mathrm{m})^{2}" in capacity.text_content(), "the numbers follow"
+    page.locator("ms-numbers[tex*='(0.09']").first.wait_for(state="attached")
+    expect(capacity, "the numbers follow").to_contain_text(r"(0.09\ \mathrm{m})^{2}")
     page.locator(".ms-switch").uncheck()
-    assert page.locator("ms-numbers marimo-tex").count() == 0
+    expect(page.locator("ms-numbers marimo-tex")).to_have_count(0)
     assert console_errors == []
 
 
@@ -146,7 +147,7 @@ def test_hovering_a_chart_shows_its_values(serve, page):
 def test_every_session_has_its_own_inputs(serve, browser):
     pages = []
     for weight in ("20000", "30000"):
-        page = browser.new_context(viewport={"width": 1280, "height": 1600}, locale="en-US").new_page()
+        page = new_page(browser)
         page.goto(serve("run", HITCH))
         ready(page)
         field = page.locator(".ms-inputs tr:has-text('weight of the implement') input")
@@ -154,40 +155,39 @@ def test_every_session_has_its_own_inputs(serve, browser):
         field.press("Enter")
         pages.append(page)
     for page, force in zip(pages, ("94265", "141397"), strict=True):
-        page.wait_for_function(f"() => document.body.textContent.includes('{force}')", timeout=30_000)
-        until = time.monotonic() + 30  # the table may follow the formula's line
-        while cell(page, "4.1", 1, 2) != force and time.monotonic() < until:
-            page.wait_for_timeout(100)
-        assert cell(page, "4.1", 1, 2) == force, "129614 * weight / 27500"
+        expect(cell(page, "4.1", 1, 2), "129614 * weight / 27500").to_have_text(force)
         page.context.close()
 
 
 def test_outline_leads_to_the_sections(serve, page):
     page.goto(serve("run", HITCH))
     ready(page)
-    page.wait_for_function("() => 'measured' in document.documentElement.dataset", timeout=30_000)
+    page.wait_for_function("() => 'measured' in document.documentElement.dataset")
     page.mouse.move(1240, 0.25 * 1600 + 30)  # the marks at the right edge open it
     page.get_by_text("6 Steering stability").last.click()
     heading = page.get_by_role("heading", name="6 Steering stability")
-    before = None
-    while before != (now := heading.bounding_box()["y"]):  # it scrolls smoothly
-        before = now
-        page.wait_for_timeout(1000)
-    assert -1 < now < 800
+    places = [inf]
+
+    def rests_in_sight() -> bool:  # it scrolls smoothly
+        places.append(heading.bounding_box()["y"])
+        drawn(page)
+        return -1 < places[-1] < 800 and places[-1] == places[-2]
+
+    until(page, rests_in_sight, "the section is not in sight")
 
 
 def test_a_mark_on_every_output_styles_the_outputs_and_not_what_stands_in_them(serve, browser, page):
     """marimo marks an output while its cell runs; formulas and tables in it must not be styled again for that."""
     page.goto(serve("run", HITCH))
     ready(page)
-    page.wait_for_function("() => 'measured' in document.documentElement.dataset", timeout=30_000)
+    page.wait_for_function("() => 'measured' in document.documentElement.dataset")
     page.set_viewport_size({"width": 1280, "height": 14_000})  # cells out of sight are not styled at all
-    page.wait_for_timeout(1000)
+    drawn(page)
     mark = "() => { document.querySelectorAll('.output-area').forEach((e) => e.classList.add('x')); }"
     elements = page.evaluate("() => document.querySelectorAll('.output-area *').length")
     browser.start_tracing(page=page, categories=["devtools.timeline"])
     page.evaluate(mark)
-    page.wait_for_timeout(300)
+    drawn(page)
     events = json.loads(browser.stop_tracing())["traceEvents"]
     styled = sum(e["args"].get("elementCount", 0) for e in events if e["name"] == "UpdateLayoutTree")
     assert 0 < styled < elements / 20

@@ -7,7 +7,7 @@ from typing import Any
 import exact
 import numpy as np
 import pytest
-from exact import EPS, unhurried
+from exact import EPS
 from hypothesis import assume, example, given
 from hypothesis import strategies as st
 from mpmath import acos, mp, mpf, sqrt
@@ -29,7 +29,6 @@ numbers = st.floats(-1e6, 1e6).map(lambda x: round(x, 6))
 vectors = st.builds(complex, numbers, numbers)
 
 
-@unhurried
 @given(vectors, st.floats(-1e6, 1e6))
 def test_cross_of_a_vector_with_itself_or_its_opposite_is_exactly_zero(z: complex, real: float) -> None:
     field = np.full(64, z)  # long enough for vector instructions, whose fused products would leave a rest
@@ -38,7 +37,6 @@ def test_cross_of_a_vector_with_itself_or_its_opposite_is_exactly_zero(z: comple
     assert cross(1, real) == 0
 
 
-@unhurried
 @given(vectors, vectors)
 def test_cross_and_dot_are_the_two_parts_of_one_product(a: complex, b: complex) -> None:
     rounding = 4 * EPS * abs(a) * abs(b)
@@ -56,7 +54,6 @@ def test_angle_holds_in_all_quadrants() -> None:
     assert angle(3 * np.exp(1j * phi)) == pytest.approx(phi, rel=1e-15)
 
 
-@unhurried
 @given(st.floats(1e-300, 3.14), vectors.filter(lambda z: abs(z) > 1e-3))
 def test_angle_between_keeps_the_digits_of_small_angles(phi: float, z: complex) -> None:
     a = complex(1, 0)
@@ -70,7 +67,6 @@ def exact_angle(a: mpf, b: mpf, c: mpf) -> mpf:
     return acos((b**2 + c**2 - a**2) / (2 * b * c))
 
 
-@unhurried
 @given(st.lists(st.tuples(sides, sides, st.floats(0, 1), st.floats(-15, 0)), min_size=1, max_size=20))
 @example([(1.0, 1.0, 0.0, -15.0), (1.0, 1.0, 1.0, -15.0), (1e6, 1e-6, 0.5, 0.0)])
 def test_angles_and_areas_keep_all_digits_of_needle_shaped_triangles(rows: Any) -> None:
@@ -88,7 +84,6 @@ def test_angles_and_areas_keep_all_digits_of_needle_shaped_triangles(rows: Any) 
             assert abs(area[i] - float(sqrt(square))) <= 8 * EPS * float(sqrt(square))
 
 
-@unhurried
 @given(sides, sides)
 @example(0.1, 0.2)
 def test_a_side_equal_to_the_rounded_sum_or_difference_of_the_others_makes_a_flat_triangle(b: float, c: float) -> None:
@@ -126,7 +121,6 @@ def test_a_point_of_a_link_keeps_its_place_while_the_link_moves() -> None:
     assert np.array_equal(link_point(A, B, 0.5 + 1j), [0.5 + 1j, 1 + 1j + 0.5j - 1])
 
 
-@unhurried
 @given(vectors, vectors, numbers, numbers)
 def test_motion_of_a_link_point_is_the_difference_of_its_positions(
     v_A: complex, arm: complex, omega: float, epsilon: float

@@ -6,7 +6,8 @@ from datetime import datetime
 from pathlib import Path
 
 import pytest
-from hypothesis import given, settings
+from conftest import WITHIN, examples
+from hypothesis import given
 from hypothesis import strategies as st
 from openpyxl import Workbook, load_workbook
 
@@ -113,7 +114,7 @@ def test_exported_workbook_reads_back_to_the_very_same_inputs(exported):
 
 
 @given(st.floats(1, 179, exclude_min=True), st.floats(-2, 2))
-@settings(max_examples=200)
+@examples(200)
 def test_inputs_written_in_display_units_are_read_back_to_the_last_bit(angle, length):
     g = inputs.build(Hitch, {"phi_P6": angle, "X6": length})
     shown = {field.name: value for field, value in inputs.Used(g).rows()}
@@ -208,7 +209,7 @@ def test_libreoffice_saves_what_is_read_back(exported, soffice, tmp_path):
     out = tmp_path / "saved"
     convert = ["--headless", "--convert-to", "xlsx:Calc MS Excel 2007 XML", "--outdir", str(out), str(typed)]
     profile = f"-env:UserInstallation={(tmp_path / 'profile').as_uri()}"
-    subprocess.run([soffice, profile, *convert], check=True, capture_output=True, timeout=120)
+    subprocess.run([soffice, profile, *convert], check=True, capture_output=True, timeout=WITHIN)
     found, before = (edited.inputs(path, FIELDS) for path in (out / "typed.xlsx", exported))
     assert found.pop("P6") == 27500.5
     different = [name for name in found if found[name] != pytest.approx(before[name], rel=1e-14)]

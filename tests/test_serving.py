@@ -11,7 +11,7 @@ from http.cookiejar import CookieJar
 from pathlib import Path
 
 import pytest
-from conftest import READY_WITHIN, answers
+from conftest import WITHIN, answers
 
 ROOT = Path(__file__).parents[1]
 
@@ -28,18 +28,20 @@ def served(tmp_path):
     options = command[1].replace("0.0.0.0", "127.0.0.1").replace("8080", str(port)).split()
     quiet = {"stdin": subprocess.DEVNULL, "stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
     with subprocess.Popen([sys.executable, "-m", "marimo", *options], cwd=tmp_path, **quiet) as server:
-        deadline = time.monotonic() + READY_WITHIN
-        while not answers(port):
-            assert server.poll() is None and time.monotonic() < deadline
-            time.sleep(0.2)
-        yield port
-        server.terminate()
+        try:
+            deadline = time.monotonic() + WITHIN
+            while not answers(port):
+                assert server.poll() is None and time.monotonic() < deadline
+                time.sleep(0.2)
+            yield port
+        finally:
+            server.terminate()
 
 
 def test_only_the_password_opens_the_page(served):
     def ends_at(password: str) -> str:
         browser = urllib.request.build_opener(urllib.request.HTTPCookieProcessor(CookieJar()))
-        with browser.open(f"http://127.0.0.1:{served}/?access_token={password}", timeout=30) as answer:
+        with browser.open(f"http://127.0.0.1:{served}/?access_token={password}", timeout=WITHIN) as answer:
             return answer.url
 
     assert ends_at("sesame").endswith(f":{served}/")

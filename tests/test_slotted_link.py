@@ -11,7 +11,8 @@ from pathlib import Path
 import mpmath as mp
 import numpy as np
 import pytest
-from hypothesis import assume, given, settings
+from conftest import examples
+from hypothesis import assume, given
 from hypothesis import strategies as st
 from openpyxl import load_workbook
 from printed import agrees, rows
@@ -236,7 +237,7 @@ def test_circle_through_the_hinge_between_the_positions_of_the_tables_is_no_fail
     assert failed(run(L1=2.4)) == []
 
 
-@settings(max_examples=20, deadline=None)
+@examples(20)
 @given(st.floats(0.05, 20), st.floats(0, 20), st.floats(-1e3, 1e3), st.integers(2, 40), st.floats(-7, 7))
 def test_checks_hold_for_any_dimensions(L1, L0, omega1, n, phi_0):
     assume(abs(L1 - L0) > 1e-4 * L1)

@@ -6,6 +6,7 @@ import tracemalloc
 from concurrent.futures import Executor, Future, ProcessPoolExecutor, ThreadPoolExecutor
 from multiprocessing import get_context
 from pathlib import Path
+from threading import Event
 
 import numpy as np
 import pandas as pd
@@ -208,7 +209,6 @@ app = marimo.App()
 with app.setup:
     import os
     import signal
-    import time
     from pathlib import Path
 
     import numpy as np
@@ -433,10 +433,11 @@ def test_a_worksheet_that_changes_during_the_sweep_is_noticed(lever):
 
 
 class Interrupted(Executor):
-    """A thread, and Ctrl-C when thirty chunks have been handed out."""
+    """A thread that is busy until it is freed, and Ctrl-C when thirty chunks have been handed out."""
 
     def __init__(self) -> None:
-        self.thread, self.futures = ThreadPoolExecutor(1), list[Future]()
+        self.thread, self.freed, self.futures = ThreadPoolExecutor(1), Event(), list[Future]()
+        self.thread.submit(self.freed.wait)
 
     def submit(self, fn, /, *args, **kwargs):
         if len(self.futures) == 30:
@@ -454,9 +455,10 @@ def test_an_interrupt_here_ends_the_sweep(lever):
 def test_an_interrupt_takes_back_what_was_handed_out(lever):
     executor = Interrupted()
     with pytest.raises(KeyboardInterrupt):
-        sweep(lever("time.sleep(0.02)"), ["M_S"], {"F": FORCES}, chunk=1, executor=executor)
+        sweep(lever(), ["M_S"], {"F": FORCES}, chunk=1, executor=executor)
+    executor.freed.set()
     executor.thread.shutdown()
-    assert sum(future.cancelled() for future in executor.futures) > 20
+    assert [future.cancelled() for future in executor.futures] == [True] * 30
 
 
 def test_dask_gives_the_same_and_computes_the_chunk_of_a_killed_worker_again(serial, lever, tmp_path):

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 from openpyxl import load_workbook
+from playwright.sync_api import expect
 
 from mechsheet import __main__ as launcher
 from mechsheet.recording.dimensions import mismatches
@@ -43,9 +44,13 @@ def test_passes_the_checks_of_a_worksheet(lever):
 
 def test_shows_its_page(lever, serve, page, console_errors):
     page.goto(serve("run", lever))
-    page.get_by_text("1 of 1 checks pass").wait_for(timeout=60_000)
-    assert page.get_by_role("heading", name="Gear lever").count() == 1
-    assert page.locator(".ms-table").count() == 1 and page.locator("svg.ms-chart").count() == 1
+    page.get_by_text("1 of 1 checks pass").wait_for()
+    for part in (
+        page.get_by_role("heading", name="Gear lever"),
+        page.locator(".ms-table"),
+        page.locator("svg.ms-chart"),
+    ):
+        expect(part).to_have_count(1)
     assert console_errors == []
 
 
