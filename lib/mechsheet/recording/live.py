@@ -212,7 +212,8 @@ def _groups() -> frozenset[type]:
 
 def _group(kind: type, instead: Callable[[Any], Any]) -> type:
     """A group of the mechanics whose methods call what takes recorded quantities."""
-    names = {name: instead(value) for name, value in vars(sys.modules[kind.__module__]).items()}
+    module = vars(sys.modules[kind.__module__])
+    names = {name: value if isinstance(value, type) else instead(value) for name, value in module.items()}
 
     def own(method: Any) -> Any:
         if isinstance(method, property):
