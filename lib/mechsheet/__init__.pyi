@@ -207,6 +207,9 @@ from mechsheet.page.title import (
 from mechsheet.run.ask import (
     ask as ask,
 )
+from mechsheet.run.progress import (
+    progress as progress,
+)
 from mechsheet.run.report import (
     export as export,
 )
@@ -231,9 +234,6 @@ from mechsheet.studies.design import (
 from mechsheet.studies.sensitivity import (
     sensitivity as sensitivity,
 )
-from mechsheet.studies.sensitivity import (
-    tolerance as tolerance,
-)
 from mechsheet.studies.sweep import (
     Sweep as Sweep,
 )
@@ -242,6 +242,9 @@ from mechsheet.studies.sweep import (
 )
 from mechsheet.studies.sweep import (
     sweep as sweep,
+)
+from mechsheet.studies.tolerance import (
+    tolerance as tolerance,
 )
 from mechsheet.worksheet.cells import (
     evaluate as evaluate,

@@ -14,6 +14,7 @@ import numpy as np
 
 from mechsheet import units
 from mechsheet.run.arguments import read
+from mechsheet.run.progress import progress
 from mechsheet.workbook import excel
 from mechsheet.worksheet import formula, inputs, results
 from mechsheet.worksheet.cells import Worksheet, base, checks, load
@@ -24,7 +25,7 @@ from mechsheet.worksheet.results import Quantity
 from mechsheet.worksheet.scene import Scene
 from mechsheet.worksheet.table import Column, Table
 
-_BAR, _GAP = 30, 2  # characters of the bar, between columns
+_GAP = 2  # characters between columns
 INTERRUPTED = 130  # the exit code of a program that Ctrl-C ended, as shells have it
 
 
@@ -135,16 +136,19 @@ def run(worksheet: str, arguments: Sequence[str]) -> int:
     """
     sheet = load(worksheet)
     files = [Path(name) for argument in arguments if not argument.startswith("-") for name in _expanded(argument)]
+    if not files:
+        raise SheetError("no scene given")
     options = [argument for argument in arguments if argument.startswith("-")]
     declared = inputs.declared(sheet.inputs)
     out = read(options, declared).out
     _distinct(sheet, files, out)
     outcomes = list[Outcome]()
     try:
-        for file in files:
-            _progress(len(outcomes), len(files), file.stem)
-            outcomes.append(_attempt(sheet, file, options, out))
-        _progress(len(files), len(files), "")
+        names = [file.stem for file in files]
+        with progress(len(files), names[0]) as done:
+            for file, following in zip(files, [*names[1:], ""], strict=True):
+                outcomes.append(_attempt(sheet, file, options, out))
+                done(following)
         if out:
             _write(out, _summary(sheet), comparison(sheet, outcomes))
     except KeyboardInterrupt:
@@ -298,15 +302,6 @@ def _text(rows: Sequence[Sequence[str]]) -> Iterator[str]:
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
     for row in rows:
         yield (" " * _GAP).join(text.ljust(width) for text, width in zip(row, widths, strict=True)).rstrip()
-
-
-def _progress(done: int, count: int, name: str) -> None:
-    """A bar on the terminal, which goes when all is done."""
-    if not sys.stderr.isatty():
-        return
-    full = _BAR * done // count
-    bar = f"[{'#' * full}{'.' * (_BAR - full)}] {done} of {count}  {name[:30]:30}"
-    print(f"\r{bar}" if done < count else f"\r{'':{len(bar)}}\r", end="", file=sys.stderr, flush=True)
 
 
 def main() -> int:

@@ -4,8 +4,7 @@ The search knows nothing of mechanisms: a worksheet says what a variant is worth
 """
 
 import sys
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -204,27 +203,6 @@ def pareto(a: Array, b: Array) -> NDArray[np.intp]:
     order = np.lexsort((-b, -a))
     before = np.maximum.accumulate(np.concatenate([[-np.inf], b[order][:-1]]))
     return order[b[order] > before]
-
-
-@contextmanager
-def progress(total: int, title: str) -> Iterator[Callable[[], None]]:
-    """What to call after each of ``total`` steps: a bar in the page, a line on a terminal, nothing elsewhere."""
-    import marimo as mo
-
-    if mo.running_in_notebook():
-        with mo.status.progress_bar(total=total, title=title, remove_on_exit=True) as bar:
-            yield bar.update
-        return
-    count = 0
-
-    def line() -> None:
-        nonlocal count
-        count += 1
-        if sys.stderr.isatty():
-            end = "\n" if count == total else ""
-            print(f"\r{title}: {count} of {total}", end=end, file=sys.stderr, flush=True)
-
-    yield line
 
 
 def scene_text(
