@@ -7,15 +7,13 @@ import sys
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mechsheet import units
-from mechsheet.run import arguments
-from mechsheet.workbook import excel
+from mechsheet.run import arguments, report
 from mechsheet.worksheet.checks import Check
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.inputs import Input, declared
@@ -158,7 +156,7 @@ def _evolved(
     start: Mapping[str, float] | None,
     done: Callable[[], object],
 ) -> tuple[dict[str, float], Judged, int]:
-    from scipy.optimize import Bounds, differential_evolution
+    from scipy.optimize import Bounds, differential_evolution  # on use: takes longer than the rest of the package
 
     names, tried = list(bounds), 0
 
@@ -227,20 +225,12 @@ def save_scene(text: str, name: str, namespace: Mapping[str, Any]) -> Any:
     if arguments.is_script(worksheet):
         out = arguments.read(sys.argv[1:], declared(type(namespace["g"]))).out
         if out is not None:
-            _save(text, out / name)
+            report.write(text.encode(), out / name)
             print(f"written {out / name}")
         return None
-    import marimo as mo
+    import marimo as mo  # on use: a script needs it not
 
     return mo.download(text.encode(), filename=name, label="Scene of the design")
-
-
-def _save(text: str, path: Path) -> None:
-    try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise SheetError(f"folder {path.parent} cannot be made: {error.strerror}") from None
-    excel.save(text.encode(), path)
 
 
 def _text(value: float, unit: str) -> str:

@@ -131,13 +131,13 @@ class Tornado:
     bars: tuple[tuple[str, str, float], ...]
 
     def _mime_(self) -> tuple[str, str]:
-        import marimo as mo
+        import marimo as mo  # on use: only a page needs it
 
         return "text/html", mo.as_html(self.chart()).text
 
     def chart(self) -> Any:
         """The bars as an altair chart."""
-        import altair as alt
+        import altair as alt  # on use: only a page needs it
 
         order = [symbol.text(x) for x, *_ in self.bars]
         rows = [{"input": x, "meaning": m, "relative": r} for x, (_, m, r) in zip(order, self.bars, strict=True)]

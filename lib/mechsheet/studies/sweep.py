@@ -81,7 +81,7 @@ class Sweep:
         A row is a variant, or a position of a variant where any result is a field; points and forces have a column
         for each coordinate.
         """
-        import pandas as pd
+        import pandas as pd  # on use: takes longer than the rest of the package
 
         size = self.reasons.size
         shown = {name: self.display(name).reshape(size, -1) for name in self.names}
