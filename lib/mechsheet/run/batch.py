@@ -14,7 +14,8 @@ import numpy as np
 
 from mechsheet import units
 from mechsheet.run.arguments import read
-from mechsheet.workbook import excel
+from mechsheet.workbook import writing
+from mechsheet.workbook.save import save
 from mechsheet.worksheet import formula, inputs, results
 from mechsheet.worksheet.cells import Worksheet, base, checks, load
 from mechsheet.worksheet.checks import Check
@@ -122,7 +123,7 @@ def comparison(sheet: Worksheet, outcomes: Sequence[Outcome]) -> bytes:
         for o in outcomes
         for table in o.tables
     ]
-    return excel.comparison(sheet.title, [o.name for o in outcomes], rows, fields + tables)
+    return writing.comparison(sheet.title, [o.name for o in outcomes], rows, fields + tables)
 
 
 def run(worksheet: str, arguments: Sequence[str]) -> int:
@@ -220,7 +221,7 @@ def _write(out: Path, name: str, data: bytes) -> None:
         out.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise SheetError(f"folder {out} cannot be made: {error.strerror}") from None
-    excel.save(data, out / name)
+    save(data, out / name)
 
 
 def _found(names: dict[str, Any]) -> Iterator[str]:

@@ -7,9 +7,12 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from mechsheet import units
-from mechsheet.recording import live
+from mechsheet.recording.record import record
 from mechsheet.run import arguments
-from mechsheet.workbook import excel
+from mechsheet.workbook import writing
+from mechsheet.workbook.find_sheet import FoundRow
+from mechsheet.workbook.inputs_sheet import InputRow
+from mechsheet.workbook.save import save
 from mechsheet.worksheet import formula, inputs
 from mechsheet.worksheet.cells import results
 from mechsheet.worksheet.checks import Check
@@ -63,7 +66,7 @@ def _script(title: str, namespace: Mapping[str, Any], worksheet: Path) -> None:
     except OSError as error:
         raise SheetError(f"folder {out} cannot be made: {error.strerror}") from None
     path = out / f"{worksheet.stem}.xlsx"
-    excel.save(_workbook(title, namespace, values), path)
+    save(_workbook(title, namespace, values), path)
     print(f"written {path}")
     if not all(check.passed for check in checks):
         sys.exit(1)
@@ -76,16 +79,16 @@ def workbook(title: str, namespace: Mapping[str, Any], limits: Mapping[str, Limi
 
 
 def _workbook(title: str, namespace: Mapping[str, Any], values: list[Any]) -> bytes:
-    return excel.workbook(
+    return writing.workbook(
         title,
         inputs=[
-            excel.Row(f.name, value, f.unit, f.meaning, f.section) for f, value in inputs.Used(namespace["g"]).rows()
+            InputRow(f.name, value, f.unit, f.meaning, f.section) for f, value in inputs.Used(namespace["g"]).rows()
         ],
         found=list(_found(namespace)),
         tables=_of(Table, values),
         figures=_of(Figure, values),
         checks=_of(Check, values),
-        recording=live.record(namespace),
+        recording=record(namespace),
     )
 
 
@@ -100,14 +103,14 @@ def _of(kind: type[T], values: Iterable[Any]) -> list[T]:
     return [value for value in values if isinstance(value, kind)]
 
 
-def _found(namespace: Mapping[str, Any]) -> Iterator[excel.FoundRow]:
+def _found(namespace: Mapping[str, Any]) -> Iterator[FoundRow]:
     for line in formula.registry(namespace).values():
         match line.expression:
             case ast.Attribute(ast.Name(source), "value") if isinstance(namespace.get(source), Found):
                 found: Found = namespace[source]
                 unit, target = units.parse(line.unit).factor, units.parse(found.words.unit).factor
                 others = [r for r in found.roots if (r.value, r.branch) != (found.value, found.branch or 0)]
-                yield excel.FoundRow(
+                yield FoundRow(
                     line.name,
                     found.value / unit,
                     line.unit,

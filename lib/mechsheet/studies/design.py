@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from mechsheet import units
 from mechsheet.run import arguments
-from mechsheet.workbook import excel
+from mechsheet.workbook.save import save
 from mechsheet.worksheet.checks import Check
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.inputs import Input, declared
@@ -262,7 +262,7 @@ def _save(text: str, path: Path) -> None:
         path.parent.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise SheetError(f"folder {path.parent} cannot be made: {error.strerror}") from None
-    excel.save(text.encode(), path)
+    save(text.encode(), path)
 
 
 def _text(value: float, unit: str) -> str:
