@@ -10,9 +10,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from mechsheet.document import chart
+from mechsheet.page.lines import markup
 from mechsheet.worksheet import symbol
 from mechsheet.worksheet.errors import quoted
-from mechsheet.worksheet.formula import markup
 
 if TYPE_CHECKING:
     import marimo as mo
