@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mechsheet import units
-from mechsheet.document import chart
+from mechsheet.document import chart, chart_svg
 from mechsheet.worksheet import lines, source, symbol
 from mechsheet.worksheet.errors import SheetError, refuse
 
@@ -118,7 +118,7 @@ class Figure:
 
     def svg(self) -> str:
         """The chart as one SVG element."""
-        return chart.line_chart(self.x, self.lines, self.marks, self.every)
+        return chart_svg.svg(chart.line_chart(self.x, self.lines, self.marks, self.every))
 
     def chart(self) -> Any:
         """The figure as an altair chart, to be changed, combined or saved; the page draws its own, which is faster."""
