@@ -22,19 +22,18 @@ A worksheet as a function
 Mechanics: numpy arrays in, numpy arrays out
     vectors         dot, cross, product, angle, angle_between, angle_opposite, triangle_area
     links           link_point, link_velocity, link_acceleration
-    loads           Load, inertia
-    drivers         crank, rrr_crank_reach, rrp_crank_reach, rpr_crank_reach, coupling_drive, gear_drive,
-                    cylinder_drive
-    group RRR       RRRGroup; rrr, rrr_reach, rrr_velocity, rrr_acceleration, rrr_reactions,
-                    rrr_transmission_angle, rrr_condition, rrr_determinant
-    group RRP       RRPGroup; rrp, rrp_reach, rrp_velocity, rrp_acceleration, rrp_reactions,
-                    rrp_transmission_angle, rrp_condition, rrp_determinant
-    group RPR       RPRGroup; rpr, rpr_reach, rpr_velocity, rpr_acceleration, rpr_reactions,
-                    rpr_transmission_angle, rpr_condition, rpr_determinant
-    group PRP       PRPGroup; prp, prp_velocity, prp_acceleration, prp_reactions,
-                    prp_transmission_angle, prp_condition, prp_determinant
-    group RPP       RPPGroup; rpp, rpp_velocity, rpp_acceleration, rpp_reactions,
-                    rpp_transmission_angle, rpp_condition, rpp_determinant
+    drivers         crank, rrr_crank_reach, rrp_crank_reach, rpr_crank_reach
+    group RRR       rrr, rrr_reach, rrr_velocity, rrr_acceleration, rrr_transmission_angle, rrr_condition,
+                    rrr_determinant, rrr_reactions, RRRGroup
+    group RRP       rrp, rrp_reach, rrp_velocity, rrp_acceleration, rrp_transmission_angle, rrp_condition,
+                    rrp_determinant, rrp_reactions, RRPGroup
+    group RPR       rpr, rpr_reach, rpr_velocity, rpr_acceleration, rpr_transmission_angle, rpr_condition,
+                    rpr_determinant, rpr_reactions, RPRGroup
+    group PRP       prp, prp_velocity, prp_acceleration, prp_transmission_angle, prp_condition,
+                    prp_determinant, prp_reactions, PRPGroup
+    group RPP       rpp, rpp_velocity, rpp_acceleration, rpp_transmission_angle, rpp_condition,
+                    rpp_determinant, rpp_reactions, RPPGroup
+    loads, drives   Load, inertia, coupling_drive, gear_drive, cylinder_drive
     joints          neutral_axis, bending, circular_joint, sum_of_elements
 
 ``__version__`` is the version of the package.
