@@ -13,7 +13,7 @@ from typing import NamedTuple, TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mechsheet.worksheet import symbol
+from mechsheet.worksheet import numbers, symbol
 from mechsheet.worksheet.errors import SheetError
 
 # Legible on white and on black; "" is the page's text colour.
@@ -55,18 +55,22 @@ def _round_below(x: float) -> float:
     return next((m * power for m in (5, 2) if m * power <= x), power)
 
 
+def _text(value: float) -> str:
+    return numbers.significant(value, 4)
+
+
 def _quantity(value: float, unit: str) -> str:
     if unit == "N" and abs(value) >= 1000:
-        return f"{value / 1000:.4g} kN"
-    return f"{value:.4g} {unit}"
+        return f"{_text(value / 1000)} kN"
+    return f"{_text(value)} {unit}"
 
 
 def _place(P: complex, *_: complex) -> str:
-    return f"{P.real:.4g}, {P.imag:.4g} m"
+    return f"{_text(P.real)}, {_text(P.imag)} m"
 
 
 def _distance(A: complex, B: complex) -> str:
-    return f"{_length(B - A):.4g} m"
+    return f"{_text(_length(B - A))} m"
 
 
 def _box(points: Sequence[complex] | Points) -> tuple[complex, complex]:
@@ -686,7 +690,7 @@ class Drawing:
                 page.label(name, _past, p, q)
 
         def measure(*_: complex) -> str:
-            return f"{_quantity(_length(V), unit)} ({V.real:.4g}, {V.imag:.4g})"
+            return f"{_quantity(_length(V), unit)} ({_text(V.real)}, {_text(V.imag)})"
 
         return self._with("arrow", (P,), draw, name, measure, vector=-V if into else V, unit=unit, colour=colour)
 

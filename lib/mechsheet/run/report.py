@@ -10,7 +10,7 @@ from mechsheet import units
 from mechsheet.recording import live
 from mechsheet.run import arguments
 from mechsheet.workbook import excel
-from mechsheet.worksheet import inputs
+from mechsheet.worksheet import inputs, numbers
 from mechsheet.worksheet.cells import results
 from mechsheet.worksheet.checks import Check
 from mechsheet.worksheet.errors import SheetError
@@ -128,7 +128,9 @@ def _found(line: Formula, found: Found) -> excel.FoundRow:
         found.words.unit,
         found.interval[0] / unit,
         found.interval[1] / unit,
-        ", ".join(f"{r.value / unit:.6g}" + (f" (branch {r.branch:+d})" if r.branch else "") for r in others),
+        ", ".join(
+            numbers.significant(r.value / unit, 6) + (f" (branch {r.branch:+d})" if r.branch else "") for r in others
+        ),
         found.words.unknown,
         found.equals / target,
     )
