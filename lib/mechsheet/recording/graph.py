@@ -74,9 +74,7 @@ class Graph:
         key = (op, *args)
         known = self.nodes.get(key)
         if known is None:
-            with np.errstate(all="ignore"):
-                value = _COMPUTE[op](*[a.value for a in args])
-            known = self.nodes[key] = Node(op, args, _fixed(value))
+            known = self.nodes[key] = Node(op, args, _fixed(_COMPUTE[op](*[a.value for a in args])))
         return known
 
     def constant(self, value: Any) -> Node:
@@ -186,9 +184,9 @@ class Graph:
         return self.neg(self.div(a.args[0], b)) if a.op == "neg" else self.fold("/", a, b)
 
     def fold(self, op: str, *args: Node) -> Node:
+        """An operation; of constants the constant that it gives."""
         if all(a.op == "constant" for a in args):
-            with np.errstate(all="ignore"):
-                return self.constant(_COMPUTE[op](*[a.value for a in args]))
+            return self.constant(_COMPUTE[op](*[a.value for a in args]))
         return self.node(op, *args)
 
 
