@@ -1,7 +1,9 @@
 """The shared names of a worksheet while it is recorded: functions of numpy and of the library that take quantities."""
 
+import sys
 from collections.abc import Callable, Mapping
 from functools import cache
+from types import FunctionType
 from typing import Any
 
 import numpy as np
@@ -9,6 +11,8 @@ import numpy as np
 from mechsheet.recording.graph import Graph
 from mechsheet.recording.numpy_rules import takes
 from mechsheet.recording.quantity import Quantity
+
+_WRITTEN = {"__post_init__"}  # the only special method of a group that is not made by `dataclass`
 
 
 def substituted(common: Mapping[str, Any], graph: Graph) -> dict[str, Any]:
@@ -27,10 +31,12 @@ def substituted(common: Mapping[str, Any], graph: Graph) -> dict[str, Any]:
             function = _either(original, steps[original])
             function.__recorded__ = original  # type: ignore[attr-defined]
             return function
+        if isinstance(original, type) and original in _groups():
+            return _group(original, instead)
         return value
 
     for name, value in common.items():
-        if not isinstance(value, type) and not name.startswith("__"):
+        if not name.startswith("__"):
             common[name] = instead(value)  # type: ignore[index]
     return {**common, "float": lambda x: x if isinstance(x, Quantity) else float(x)}
 
@@ -44,6 +50,28 @@ def _steps() -> Mapping[Any, Callable[..., Any]]:
     from mechsheet.recording.elementary import STEPS  # imported on use: needs all of the mechanics
 
     return STEPS
+
+
+@cache
+def _groups() -> frozenset[type]:
+    from mechsheet.recording.elementary import GROUPS  # as above
+
+    return GROUPS
+
+
+def _group(kind: type, instead: Callable[[Any], Any]) -> type:
+    """A group of the mechanics whose methods call what takes recorded quantities."""
+    module = vars(sys.modules[kind.__module__])
+    names = {name: value if isinstance(value, type) else instead(value) for name, value in module.items()}
+
+    def own(method: Any) -> Any:
+        if isinstance(method, property):
+            return property(own(method.fget))
+        return FunctionType(method.__code__, names, method.__name__, method.__defaults__, method.__closure__)
+
+    written = {name: value for name, value in vars(kind).items() if not name.startswith("__") or name in _WRITTEN}
+    methods = {name: own(value) for name, value in written.items() if isinstance(value, FunctionType | property)}
+    return type(kind.__name__, (kind,), {**methods, "__recorded__": kind})
 
 
 def _either(original: Callable[..., Any], steps: Callable[..., Any]) -> Callable[..., Any]:
