@@ -17,7 +17,7 @@ class NotRecorded(Exception):
 LEAVES = ("constant", "rows", "input", "found", "static")
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Node:
     """One real quantity of any shape: an operation on other quantities, with its values.
 
@@ -70,7 +70,8 @@ class Graph:
         self.guards: list[tuple[Node, Any]] = []
         self.labels: dict[Node, Label] = {}
 
-    def node(self, op: str, *args: Any) -> Node:
+    def node(self, op: str, *args: Node) -> Node:
+        """An operation, element by element, on operands that are broadcast to each other."""
         key = (op, *args)
         known = self.nodes.get(key)
         if known is None:
@@ -78,6 +79,7 @@ class Graph:
         return known
 
     def constant(self, value: Any) -> Node:
+        """A number or an array of numbers."""
         array = np.asarray(value)
         key = ("constant", array.dtype.char, array.shape, array.tobytes())
         known = self.nodes.get(key)
