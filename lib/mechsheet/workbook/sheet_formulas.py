@@ -58,11 +58,10 @@ class SheetFormulas:
         place = self.layout.places.get(solved.node)
         source = solved.inverse if place and place.sheet == "Find" else solved.node
         shown = source and (source in self.layout.places or solved.inverse)
-        value = self._cells.reference(source, 0, 0, factor) if source and shown else None
-        left = self._cells.reference(solved.residual, 0, 0, target) if solved.residual else None
-        low, high = (
-            (self._cells.reference(e, 0, 0, factor) for e in solved.interval) if solved.interval else (None, None)
-        )
+        reference = self._cells.reference
+        value = reference(source, 0, 0, factor) if source and shown else None
+        left = reference(solved.residual, 0, 0, target) if solved.residual else None
+        low, high = (reference(end, 0, 0, factor) for end in solved.interval) if solved.interval else (None, None)
         return value, left, low, high
 
     def closed(self, unknown: str) -> bool:
