@@ -27,7 +27,6 @@ LONGER = {
     "document/drawing.py": 768,
     "mechanics/dyads.py": 743,
     "mechanics/kinetostatics.py": 529,
-    "worksheet/formula.py": 529,
 }
 UNSAID = {
     "accuracy/extreme.py": 2,
@@ -39,7 +38,6 @@ UNSAID = {
     "worksheet/cells.py": 1,
     "worksheet/checks.py": 1,
     "worksheet/errors.py": 1,
-    "worksheet/formula.py": 1,
     "worksheet/table.py": 2,
 }
 PUBLIC = sorted(set(mechsheet.__all__) - {"__version__"})

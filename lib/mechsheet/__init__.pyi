@@ -18,9 +18,6 @@ from mechsheet.accuracy.precision import (
 from mechsheet.accuracy.precision import (
     timed as timed,
 )
-from mechsheet.document.drawing import (
-    Drawing as Drawing,
-)
 from mechsheet.mechanics.crank import (
     crank as crank,
 )
@@ -306,6 +303,9 @@ from mechsheet.worksheet.checks import (
 from mechsheet.worksheet.checks import (
     summary as summary,
 )
+from mechsheet.worksheet.drawing import (
+    Drawing as Drawing,
+)
 from mechsheet.worksheet.errors import (
     SheetError as SheetError,
 )
@@ -318,12 +318,6 @@ from mechsheet.worksheet.find import (
 from mechsheet.worksheet.find import (
     find as find,
 )
-from mechsheet.worksheet.formula import (
-    registry as registry,
-)
-from mechsheet.worksheet.formula import (
-    typeset as typeset,
-)
 from mechsheet.worksheet.inputs import (
     Used as Used,
 )
@@ -335,6 +329,12 @@ from mechsheet.worksheet.inputs import (
 )
 from mechsheet.worksheet.inputs import (
     read as read,
+)
+from mechsheet.worksheet.lines import (
+    registry as registry,
+)
+from mechsheet.worksheet.lines import (
+    typeset as typeset,
 )
 from mechsheet.worksheet.scene import (
     Limit as Limit,

@@ -5,8 +5,8 @@ from typing import NamedTuple
 from mechsheet import units
 from mechsheet.recording.graph import Node
 from mechsheet.recording.lines import Line
+from mechsheet.workbook.arrangement import Arrangement
 from mechsheet.workbook.cell_formula import CellFormulas
-from mechsheet.workbook.layout import Layout
 from mechsheet.worksheet.table import Table
 
 
@@ -19,23 +19,23 @@ class Compared(NamedTuple):
 
 
 class SheetFormulas:
-    """Formulas of the quantities of a recording that stand as a `Layout` says."""
+    """Formulas of the quantities of a recording that stand as an `Arrangement` says."""
 
-    def __init__(self, layout: Layout) -> None:
-        self.layout, self.recording = layout, layout.recording
-        self._cells = CellFormulas(layout.places)
+    def __init__(self, arrangement: Arrangement) -> None:
+        self.arrangement, self.recording = arrangement, arrangement.recording
+        self._cells = CellFormulas(arrangement.places)
 
     def name(self, node: Node) -> str:
         """Defined name of a quantity that has a place."""
-        return self.layout.places[node].name
+        return self.arrangement.places[node].name
 
     def column(self, table: Table, n: int) -> list[str] | None:
         """Formulas of a table's column in its display unit; None where it holds plain numbers."""
-        columns = self.layout.columns(table)
+        columns = self.arrangement.columns(table)
         node = columns[n] if n < len(columns) else None
         if node is None or node.op == "static":
             return None
-        if (table.number, n) in self.layout.own:
+        if (table.number, n) in self.arrangement.own:
             return self._cells.formulas(node)
         factor = units.parse(table.columns[n].unit).factor
         if node.size == 1:
@@ -55,9 +55,9 @@ class SheetFormulas:
         if solved is None:
             return None, None, None, None
         factor, target = units.parse(unit).factor, units.parse(target_unit).factor
-        place = self.layout.places.get(solved.node)
+        place = self.arrangement.places.get(solved.node)
         source = solved.inverse if place and place.sheet == "Find" else solved.node
-        shown = source and (source in self.layout.places or solved.inverse)
+        shown = source and (source in self.arrangement.places or solved.inverse)
         reference = self._cells.reference
         value = reference(source, 0, 0, factor) if source and shown else None
         left = reference(solved.residual, 0, 0, target) if solved.residual else None
@@ -74,7 +74,7 @@ class SheetFormulas:
         check = self.recording.checks.get(name)
         if check is None:
             return None
-        places, reference = self.layout.places, self._cells.reference
+        places, reference = self.arrangement.places, self._cells.reference
         parts = [places[p].range(0, p.size - 1) if p.size > 1 else reference(p)[1:] for p in check.parts]
         largest = parts[0] if check.signed else f"MAX({','.join(parts)})"
         factor = units.parse(check.unit).factor
