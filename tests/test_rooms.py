@@ -31,7 +31,6 @@ UNSAID = {
     "page/hastened.py": 5,
     "page/lines.py": 1,
     "page/title.py": 5,
-    "workbook/reading.py": 1,
     "worksheet/cells.py": 1,
     "worksheet/checks.py": 1,
     "worksheet/errors.py": 1,
