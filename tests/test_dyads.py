@@ -5,13 +5,13 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-import exact
 import numpy as np
 import pytest
-from exact import EPS, FAMILIES, numbers, triangles, vectors
 from hypothesis import example, given
 from hypothesis import strategies as st
 
+from mechsheet.accuracy import groups as exact
+from mechsheet.accuracy.groups import EPS, FAMILIES, numbers, triangles, vectors
 from mechsheet.mechanics.dyads import (
     rpr,
     rpr_acceleration,

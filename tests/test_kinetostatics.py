@@ -6,11 +6,11 @@ from itertools import chain
 from types import SimpleNamespace
 from typing import Any
 
-import exact
 import numpy as np
 import pytest
-from exact import EPS, FAMILIES, numbers, triangles, vectors
 
+from mechsheet.accuracy import groups as exact
+from mechsheet.accuracy.groups import EPS, FAMILIES, numbers, triangles, vectors
 from mechsheet.mechanics.drivers import crank
 from mechsheet.mechanics.dyads import (
     rpr,

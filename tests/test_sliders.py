@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import Any
 
-import exact
 import numpy as np
 import pytest
-from exact import EPS, FAMILIES, numbers, triangles, vectors
 
+from mechsheet.accuracy import groups as exact
+from mechsheet.accuracy.groups import EPS, FAMILIES, numbers, triangles, vectors
 from mechsheet.mechanics.planar import cross
 from mechsheet.mechanics.sliders import (
     prp,
