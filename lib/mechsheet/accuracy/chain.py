@@ -7,9 +7,9 @@ from typing import Any
 import numpy as np
 from numpy import exp
 
-from mechsheet.mechanics.dyads import rrr, rrr_acceleration, rrr_velocity
-from mechsheet.mechanics.kinetostatics import Load, rrr_reactions
+from mechsheet.mechanics.load import Load
 from mechsheet.mechanics.planar import angle
+from mechsheet.mechanics.rrr import rrr, rrr_acceleration, rrr_reactions, rrr_velocity
 
 Pins = list[tuple[Any, Any]]  # A and C of every dyad
 REACTIONS = ("R56", "R07", "R34", "R05", "R01", "R03")  # of the hitch, in the order in which all methods list them
@@ -80,7 +80,7 @@ def link_angles(chain: Chain, q: Any) -> Any:
 def _velocities(chain: Chain, q: Any, pins: Pins) -> list[Any]:
     dA, found = chain.dA(q), []
     for (A, C), d in zip(pins, chain.dyads, strict=True):
-        v = rrr_velocity(A, d.B, C, dA, 0, dr_A=float(d.r_A is None))
+        v = rrr_velocity(A, d.B, C, dA, dr_A=float(d.r_A is None))
         found.append(v)
         dA = d.z * v.v_C
     return found
@@ -98,7 +98,7 @@ def second_analogues(chain: Chain, q: Any) -> Any:
     ddA: Any = 0
     found = list[Any]()
     for (A, C), d, v in zip(pins, chain.dyads, _velocities(chain, q, pins), strict=True):
-        a = rrr_acceleration(A, d.B, C, v.omega_A, v.omega_B, ddA, 0, dr_A=float(d.r_A is None))
+        a = rrr_acceleration(A, d.B, C, v.omega_A, v.omega_B, dr_A=float(d.r_A is None), a_A=ddA)
         found += [a.epsilon_A, a.epsilon_B]
         ddA = d.z * a.a_C
     return np.array(found)[1:]

@@ -10,7 +10,8 @@ from numpy import linspace
 from mechsheet.accuracy import exact, printed, rivals
 from mechsheet.accuracy.chain import REACTIONS, chain_pins, crank_chain, hitch_chain
 from mechsheet.accuracy.groups import Numbers, expj, mpc, mpf, rrr
-from mechsheet.accuracy.precision import Comparison, Method, Truth, compare, progress, timed
+from mechsheet.accuracy.precision import Comparison, Method, Truth, compare, timed
+from mechsheet.run.progress import progress
 from mechsheet.worksheet.table import Column, Table
 
 Ways = Mapping[str, Callable[[int], Callable[[], Any]]]  # named functions that make a run for n cases

@@ -28,8 +28,8 @@ from mechsheet.accuracy.chain import (
     second_analogues,
 )
 from mechsheet.accuracy.precision import Method
-from mechsheet.mechanics.dyads import rrr, rrr_reach, rrr_velocity
 from mechsheet.mechanics.planar import angle, cross, dot
+from mechsheet.mechanics.rrr import rrr, rrr_reach, rrr_velocity
 from mechsheet.worksheet.find import find
 
 Runs = Callable[[float], Callable[[], Any]]
@@ -188,12 +188,12 @@ def unknown(h: Any, factor: float, *known: float) -> Unknown:
 
     def slope_L4(L4: float) -> Any:
         A = P34(h.S_min)
-        return (lever * rrr_velocity(A, O5, rrr(A, O5, L4, h.L5, +1), 0, 0, dr_A=1).v_C).imag
+        return (lever * rrr_velocity(A, O5, rrr(A, O5, L4, h.L5, +1), dr_A=1).v_C).imag
 
     def slope_S(S: float) -> Any:
         C = rrr(O1, O3, S, h.L3, -1)
-        A, v = O3 + z * (C - O3), rrr_velocity(O1, O3, C, 0, 0, dr_A=1).v_C
-        return (lever * rrr_velocity(A, O5, rrr(A, O5, known[0], h.L5, +1), z * v, 0).v_C).imag
+        A, v = O3 + z * (C - O3), rrr_velocity(O1, O3, C, dr_A=1).v_C
+        return (lever * rrr_velocity(A, O5, rrr(A, O5, known[0], h.L5, +1), z * v).v_C).imag
 
     def mast(L7: Any, branch: int = -1) -> Any:
         P = P56(known[1], known[0])
@@ -201,7 +201,7 @@ def unknown(h: Any, factor: float, *known: float) -> Unknown:
 
     def slope_L7(L7: float) -> Any:
         P = P56(known[1], known[0])
-        return rrr_velocity(P, O7, rrr(P, O7, h.L6, L7, -1), 0, 0, dr_B=1).omega_A
+        return rrr_velocity(P, O7, rrr(P, O7, h.L6, L7, -1), dr_B=1).omega_A
 
     if not known:
         ends = rrr_reach(P34(h.S_min), O5, h.L5)

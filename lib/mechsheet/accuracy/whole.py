@@ -11,7 +11,8 @@ from numpy import linspace, pi
 
 from mechsheet.accuracy import exact
 from mechsheet.accuracy.groups import Numbers, mpf
-from mechsheet.accuracy.precision import Measured, Truth, progress, timed
+from mechsheet.accuracy.precision import Measured, Truth, timed
+from mechsheet.run.progress import progress
 from mechsheet.worksheet.cells import Worksheet, load, results
 from mechsheet.worksheet.formula import registry
 

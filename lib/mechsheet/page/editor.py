@@ -21,7 +21,8 @@ from mechsheet.worksheet.cells import Cell, Worksheet
 _PERIOD = 0.25  # s between two looks at the cells
 # Their functions compute through another worksheet, whose inputs keep their metre.
 _OTHERS = {
-    f"mechsheet.{name}" for name in ("studies.design", "studies.sensitivity", "studies.sweep", "worksheet.cells")
+    f"mechsheet.{name}"
+    for name in ("studies.design", "studies.sensitivity", "studies.sweep", "studies.tolerance", "worksheet.cells")
 }
 
 
