@@ -21,9 +21,6 @@ from mechsheet.accuracy.whole import (
 from mechsheet.accuracy.whole import (
     whole_worksheets as whole_worksheets,
 )
-from mechsheet.document.drawing import (
-    Drawing as Drawing,
-)
 from mechsheet.mechanics.crank import (
     crank as crank,
 )
@@ -308,6 +305,9 @@ from mechsheet.worksheet.checks import (
 )
 from mechsheet.worksheet.checks import (
     summary as summary,
+)
+from mechsheet.worksheet.drawing import (
+    Drawing as Drawing,
 )
 from mechsheet.worksheet.errors import (
     SheetError as SheetError,
