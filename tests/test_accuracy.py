@@ -9,7 +9,7 @@ import test_kinetostatics_sheet
 import test_slotted_link
 
 from mechsheet.accuracy import chain, exact, rivals, whole
-from mechsheet.accuracy.groups import mp
+from mechsheet.accuracy.arithmetic import mp
 from mechsheet.accuracy.precision import Truth
 from mechsheet.worksheet.cells import load
 

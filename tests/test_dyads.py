@@ -10,8 +10,8 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from mechsheet.accuracy import groups as exact
-from mechsheet.accuracy.groups import EPS, FAMILIES, numbers, triangles, vectors
+from mechsheet.accuracy import arithmetic as exact
+from mechsheet.accuracy.arithmetic import EPS, FAMILIES, numbers, triangles, vectors
 from mechsheet.mechanics.load import Load
 from mechsheet.mechanics.planar import angle, cross, dot, link_acceleration, link_velocity
 from mechsheet.mechanics.rpr import rpr, rpr_acceleration, rpr_condition, rpr_transmission_angle, rpr_velocity

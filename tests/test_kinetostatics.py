@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from mechsheet.accuracy import groups as exact
-from mechsheet.accuracy.groups import EPS, FAMILIES, numbers, triangles, vectors
+from mechsheet.accuracy import arithmetic as exact
+from mechsheet.accuracy.arithmetic import EPS, FAMILIES, numbers, triangles, vectors
 from mechsheet.mechanics.crank import crank
 from mechsheet.mechanics.drive import coupling_drive, cylinder_drive, gear_drive
 from mechsheet.mechanics.load import Load, inertia

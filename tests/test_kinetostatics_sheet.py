@@ -14,8 +14,8 @@ from hypothesis import Phase, given
 from hypothesis import strategies as st
 from openpyxl import load_workbook
 
-from mechsheet.accuracy import groups as exact
-from mechsheet.accuracy.groups import cross, mpc, mpf
+from mechsheet.accuracy import arithmetic as exact
+from mechsheet.accuracy.arithmetic import cross, mpc, mpf
 from mechsheet.recording.dimensions import mismatches
 from mechsheet.worksheet.cells import evaluate
 from mechsheet.worksheet.checks import Check

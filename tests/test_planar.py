@@ -10,8 +10,8 @@ from hypothesis import assume, example, given
 from hypothesis import strategies as st
 from mpmath import acos, mp, mpf, sqrt
 
-from mechsheet.accuracy import groups as exact
-from mechsheet.accuracy.groups import EPS
+from mechsheet.accuracy import arithmetic as exact
+from mechsheet.accuracy.arithmetic import EPS
 from mechsheet.mechanics.planar import (
     angle,
     angle_between,

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from mechsheet.accuracy.groups import Numbers, mp, mpc, mpf
+from mechsheet.accuracy.arithmetic import Numbers, mp, mpc, mpf
 
 _CHANGE = mpf(10) ** -40  # of an input, relative
 _ROUNDING = mpf(2) ** -50

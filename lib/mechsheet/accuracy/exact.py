@@ -12,20 +12,7 @@ from functools import cache, lru_cache
 from types import SimpleNamespace
 from typing import Any
 
-from mechsheet.accuracy.groups import (
-    DIGITS,
-    STEP,
-    Numbers,
-    cross,
-    derivatives,
-    expj,
-    mp,
-    mpc,
-    mpf,
-    rotation,
-    rrp,
-    rrr,
-)
+from mechsheet.accuracy.arithmetic import DIGITS, STEP, Numbers, cross, derivatives, mp, mpc, mpf, rotation, rrp, rrr
 
 _AHEAD = STEP**2  # of S, for first derivatives from one side
 _NOTHING = mpf(10) ** -95  # below the root of the rounding of the work: the sine at a dead centre
@@ -182,7 +169,7 @@ def slotted_link(g: Any, phi1: Any) -> Numbers:
     x, phi1 = _exact(g), mpf(phi1)
 
     def A(t: mpf) -> Any:
-        return mpc(0, x.L0) + x.L1 * expj(phi1 + x.omega1 * t)
+        return mpc(0, x.L0) + x.L1 * mp.expj(phi1 + x.omega1 * t)
 
     (omega, eps), (V, W) = rotation(A), derivatives(lambda t: x.L3 * A(t) / abs(A(t)))
     return {"SAB_k": abs(A(mpf(0))), "omega_BC_k": omega, "eps_BC_k": eps, "VC_k": V, "WC_k": W}
@@ -191,15 +178,15 @@ def slotted_link(g: Any, phi1: Any) -> Numbers:
 def kinetostatics(g: Any, phi1: Any) -> Numbers:
     """Pins E and K, and the balancing moment by the work of all loads and inertia forces, at the crank's angle phi1."""
     x, phi1, still = _exact(g), mpf(phi1), mpf(0)
-    C, H, O5, u5 = mpc(x.X_C, x.Y_C), mpc(x.X_H, x.Y_H), mpc(x.X05, x.Y05), expj(x.phi05)
+    C, H, O5, u5 = mpc(x.X_C, x.Y_C), mpc(x.X_H, x.Y_H), mpc(x.X05, x.Y05), mp.expj(x.phi05)
 
     @cache
     def bodies(t: mpf) -> list[tuple[mpc, mpc]]:
         """Centre of mass and direction of each body, pins D, E, after the crank has turned on by t."""
-        A = x.l1 * expj(phi1 + t)
+        A = x.l1 * mp.expj(phi1 + t)
         B = rrr(A, C, x.l2, x.l3, +1)
-        D = C + (B - C) * x.l_CD / x.l3 * expj(x.delta_D)
-        K = C + (B - C) * x.l_CK / x.l3 * expj(x.delta_K)
+        D = C + (B - C) * x.l_CD / x.l3 * mp.expj(x.delta_D)
+        K = C + (B - C) * x.l_CK / x.l3 * mp.expj(x.delta_K)
         E = rrp(D, O5, u5, x.l4, +1, still)
         e7 = (K - H) / abs(K - H)
         rods = [(A * x.l_O1S1 / x.l1, A), (B + (A - B) * x.l_BS2 / x.l2, A - B), (B + (C - B) * x.l_BS3 / x.l3, B - C)]
@@ -248,7 +235,7 @@ def dyad(
 
 def four_bar(a: Any, b: Any, c: Any, d: Any, theta: Any) -> Numbers:
     """Pin C and the angles of coupler and rocker; the crank a turns about 0, the rocker c about d, C to the left."""
-    A, B = mpf(a) * expj(mpf(theta)), mpc(d)
+    A, B = mpf(a) * mp.expj(mpf(theta)), mpc(d)
     C = rrr(A, B, mpf(b), mpf(c), +1)
     return {"C": C, "phi2": mp.arg(C - A), "phi3": mp.arg(C - B)}
 
@@ -331,7 +318,7 @@ def _nearest(name: str, roots: Iterator[tuple[mpf, mpc]], guess: mpf) -> tuple[m
 
 @lru_cache(maxsize=16)
 def _unit(angle: mpf) -> mpc:
-    return expj(angle)
+    return mp.expj(angle)
 
 
 def _mass(x: Any, at: Numbers, L4: mpf, S_p: mpf, L7: mpf) -> Numbers:
@@ -411,7 +398,7 @@ def _leg_ends(x: Any) -> tuple[mpc, mpc, mpc]:
     O1 = mpc(-x.b, x.a)
     l12 = abs(O1)
     tangent = x.l3 * O1 / l12**2 * mpc(x.l3, -mp.sqrt(l12**2 - x.l3**2))
-    return O1, tangent * expj(x.theta / 2), tangent / expj(x.theta / 2)
+    return O1, tangent * mp.expj(x.theta / 2), tangent / mp.expj(x.theta / 2)
 
 
 def _pressure(O1: mpc, A: mpc) -> mpf:

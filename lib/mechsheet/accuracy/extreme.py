@@ -30,7 +30,9 @@ from typing import Any
 import numpy as np
 
 from mechsheet.accuracy import condition, exact, printed
-from mechsheet.accuracy.groups import Numbers, mpc, mpf
+from mechsheet.accuracy.arithmetic import Numbers, mpc, mpf
+from mechsheet.accuracy.chain import crank_chain, link_angles
+from mechsheet.accuracy.rivals import integrated_angles
 from mechsheet.mechanics.load import Load
 from mechsheet.mechanics.planar import angle
 from mechsheet.mechanics.rrr import rrr, rrr_reach, rrr_reactions, rrr_velocity
@@ -107,13 +109,13 @@ class DigitsKept:
     outcomes: Sequence[Outcome]
 
     def _mime_(self) -> tuple[str, str]:
-        import marimo as mo
+        import marimo as mo  # on use: only a page needs it
 
         return "text/html", mo.as_html(self.chart()).text
 
     def chart(self) -> Any:
         """The altair chart; above the solid line lies more than can be expected, below the dashed one too little."""
-        import altair as alt
+        import altair as alt  # on use: only a page needs it
 
         measured = [o for o in self.outcomes if not o.wanted]
         ways = {"printed formulas": [o.printed for o in measured], "product": [o.product for o in measured]}
@@ -361,12 +363,15 @@ def through_dead_centre(_worksheets: Path, given: Mapping[str, Any], _at: int = 
     d = b + c - a - gap
     A = a * np.exp(1j * end)
     C = rrr(A, d, b, c, +1)
+    chain, turn = crank_chain(a, d, b, c), np.array([start, end])
+    with np.errstate(all="ignore"):
+        phi2, phi3 = integrated_angles(chain, turn, link_angles(chain, start), "Radau", 1e-10, 1e-12)[:, -1]
     return Case(
         words="",
         true=exact.four_bar,
         x={"a": a, "b": b, "c": c, "d": d, "theta": end},
         product=lambda _: {"C": C, "phi2": angle(C - A), "phi3": angle(C - d)},
-        printed=lambda _: printed.integrated_four_bar(a, b, c, d, start, end),
+        printed=lambda _: {"C": d + c * np.exp(1j * phi3), "phi2": phi2, "phi3": phi3},
     )
 
 

@@ -2,14 +2,15 @@
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
 from numpy import linspace
 
 from mechsheet.accuracy import exact, printed, rivals
+from mechsheet.accuracy.arithmetic import Numbers
 from mechsheet.accuracy.chain import REACTIONS, chain_pins, crank_chain, hitch_chain
-from mechsheet.accuracy.groups import Numbers, expj, mpc, mpf, rrr
 from mechsheet.accuracy.precision import Comparison, Method, Truth, compare, timed
 from mechsheet.run.progress import progress
 from mechsheet.worksheet.table import Column, Table
@@ -66,7 +67,7 @@ def accuracy_jobs(hitch: Any, crank: Any, N: int, factors: Sequence[float]) -> d
         return rivals.reaction_methods(hitch, strokes, L4, L7, np.array([complex(p["PS6_S"]) for p in positions]))
 
     second = [exact.second_analogues(hitch, s, L4, L7) for s in S]
-    pins = [rrr(crank.l_1 * expj(mpf(t)), mpc(B), mpf(crank.l_A), mpf(crank.l_B), +1) for t in q.tolist()]
+    pins = [exact.four_bar(crank.l_1, crank.l_A, crank.l_B, B, t)["C"] for t in q.tolist()]
     jobs = (
         Job(
             "1.1",
@@ -101,34 +102,20 @@ def accuracy_jobs(hitch: Any, crank: Any, N: int, factors: Sequence[float]) -> d
 
 
 def _position_ways(hitch: Any) -> Ways:
-    """Positions of the hitch, n at once."""
-    x = exact.finds(hitch)
-    L4, L7 = float(x["L4"]), float(x["L7"])
-    chain = hitch_chain(hitch, L4, L7)
-
-    def library(n: int) -> Callable[[], Any]:
-        S = linspace(hitch.S_min, hitch.S_max, n)
-        return lambda: chain_pins(chain, S)
-
-    def as_printed(n: int) -> Callable[[], Any]:
-        S = linspace(hitch.S_min, hitch.S_max, n)
-        return lambda: printed.hitch_pins(hitch, S, L4, L7)
-
-    return {"library": library, "printed": as_printed}
+    (L4, _, L7), strokes = map(float, exact.finds(hitch).values()), partial(linspace, hitch.S_min, hitch.S_max)
+    return {
+        "library": lambda n: partial(chain_pins, hitch_chain(hitch, L4, L7), strokes(n)),
+        "printed": lambda n: partial(printed.hitch_pins, hitch, strokes(n), L4, L7),
+    }
 
 
 def _reaction_ways(hitch: Any) -> Ways:
-    """Reactions of the hitch at n positions at once, by all methods."""
-    x = exact.finds(hitch)
+    (L4, _, L7), strokes = map(float, exact.finds(hitch).values()), partial(linspace, hitch.S_min, hitch.S_max)
 
     def way(k: int) -> Callable[[int], Callable[[], Any]]:
-        def make(n: int) -> Callable[[], Any]:
-            S = linspace(hitch.S_min, hitch.S_max, n)
-            return rivals.reaction_methods(hitch, S, float(x["L4"]), float(x["L7"]), 2 + 0.5j + 0 * S)[k].run
+        return lambda n: rivals.reaction_methods(hitch, strokes(n), L4, L7, np.full(n, 2 + 0.5j))[k].run
 
-        return make
-
-    return {"library": way(0), "printed": way(1), "dense": way(2), "least squares": way(3)}
+    return {name: way(k) for k, name in enumerate(("library", "printed", "dense", "least squares"))}
 
 
 _BATCHES: Mapping[str, tuple[str, Callable[[Any], Ways]]] = {

@@ -162,13 +162,13 @@ class WorkPrecision(Figure):
         return [(self.lines[0], rows, name) for name, rows in _slices(self.rows)]
 
     def _mime_(self) -> tuple[str, str]:
-        import marimo as mo
+        import marimo as mo  # on use: only a page needs it
 
         return "text/html", mo.as_html(self.chart()).text
 
     def chart(self) -> Any:
         """The diagram as an altair chart."""
-        import altair as alt
+        import altair as alt  # on use: only a page needs it
 
         names = [name for name, _ in _slices(self.rows)]
         points = [
@@ -214,7 +214,7 @@ class WorkPrecision(Figure):
 
     def _behind(self, own: Measured, x_ends: tuple[float, float], y_ends: tuple[float, float]) -> list[Any]:
         """What lies behind the points: the band of rounding, the field of better methods and the front."""
-        import altair as alt
+        import altair as alt  # on use: only a page needs it
 
         place = float(self.x.values[self.rows.index(own)])
         low = max(y_ends[0], _NOISE)
@@ -237,7 +237,7 @@ class WorkPrecision(Figure):
 
 def _field(color: str, right: float, low: float, high: float, left: float) -> Any:
     """A shaded rectangle."""
-    import altair as alt
+    import altair as alt  # on use: only a page needs it
 
     corners = alt.InlineData([{"x": left, "right": right, "error": low, "high": high}])
     return alt.Chart(corners).mark_rect(color=color, opacity=0.13).encode(x2="right:Q", y2="high:Q")

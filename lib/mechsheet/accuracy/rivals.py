@@ -6,6 +6,7 @@ Every function ``.._methods`` lists all ways to one job, the product's own first
 import cmath
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -102,12 +103,14 @@ def _rates(q: float, y: Any, chain: Chain) -> list[float]:
     return slopes
 
 
-def _by_integration(chain: Chain, q: Any, start: Any, method: Any, tolerance: float) -> Any:
-    """The velocity equations integrated from the first position on."""
-    run = solve_ivp(
-        _rates, (q[0], q[-1]), start, method=method, t_eval=q, rtol=tolerance, atol=tolerance, args=(chain,)
-    )
-    return _pins_at(chain, run.y) if run.success else np.full((len(chain.dyads), len(q)), nan)
+def integrated_angles(chain: Chain, q: Any, start: Any, method: Any, rtol: float, atol: float) -> Any:
+    """Angles of all links by integrating the velocity equations from those at the first position; NaN if it fails."""
+    run = solve_ivp(_rates, (q[0], q[-1]), start, method=method, t_eval=q, rtol=rtol, atol=atol, args=(chain,))
+    return run.y if run.success else np.full((len(start), len(q)), nan)
+
+
+def _by_integration(chain: Chain, q: Any, start: Any, method: str, tolerance: float) -> Any:
+    return _pins_at(chain, integrated_angles(chain, q, start, method, tolerance, tolerance))
 
 
 def position_methods(chain: Chain, q: Any, as_printed: Callable[[], Any]) -> list[Method]:
@@ -328,18 +331,19 @@ def rod_ways(h: Any) -> dict[str, Callable[[int], Callable[[], Any]]]:
     def heights(n: int) -> Any:
         return linspace(0.19, 0.21, n) if n > 1 else np.array([0.2])
 
-    def together(n: int) -> Callable[[], Any]:
-        Y = heights(n)
-        return lambda: find(u.f, *u.ends, equals=Y, branches=(+1, -1), branch=+1).value
+    def together(Y: Any) -> Any:
+        return find(u.f, *u.ends, equals=Y, branches=(+1, -1), branch=+1).value
 
-    def one_by_one(n: int) -> Callable[[], Any]:
-        return lambda: [brentq(lambda L4, Y=Y: u.f(L4) - Y, *u.ends, xtol=1e-14) for Y in heights(n)]
+    def one_by_one(Y: Any) -> Any:
+        return [brentq(lambda L4, Y=y: u.f(L4) - Y, *u.ends, xtol=1e-14) for y in Y]
 
-    def known_point(n: int) -> Callable[[], Any]:
-        Y = heights(n)
-        return lambda: abs(O5 + h.L5 * _lower_link(h, Y) - P34)
+    def known_point(Y: Any) -> Any:
+        return abs(O5 + h.L5 * _lower_link(h, Y) - P34)
 
-    return {"find": together, "brentq": one_by_one, "inverse": known_point}
+    def for_n(way: Callable[[Any], Any]) -> Callable[[int], Callable[[], Any]]:
+        return lambda n: partial(way, heights(n))
+
+    return {"find": for_n(together), "brentq": for_n(one_by_one), "inverse": for_n(known_point)}
 
 
 # Reactions

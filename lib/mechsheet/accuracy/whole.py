@@ -10,7 +10,7 @@ import numpy as np
 from numpy import linspace, pi
 
 from mechsheet.accuracy import exact
-from mechsheet.accuracy.groups import Numbers, mpf
+from mechsheet.accuracy.arithmetic import Numbers, mpf
 from mechsheet.accuracy.precision import Measured, Truth, timed
 from mechsheet.run.progress import progress
 from mechsheet.worksheet.cells import Worksheet, load, results
