@@ -1,7 +1,6 @@
 """The jobs in which the product's methods stand beside the others: titles, truths at 50 digits and methods."""
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
@@ -11,27 +10,10 @@ from numpy import linspace
 from mechsheet.accuracy import exact, printed, rivals
 from mechsheet.accuracy.arithmetic import Numbers
 from mechsheet.accuracy.chain import REACTIONS, chain_pins, crank_chain, hitch_chain
-from mechsheet.accuracy.precision import Comparison, Method, Truth, compare, timed
-from mechsheet.run.progress import progress
+from mechsheet.accuracy.precision import Job, Method, timed
 from mechsheet.worksheet.table import Column, Table
 
 Ways = Mapping[str, Callable[[int], Callable[[], Any]]]  # named functions that make a run for n cases
-
-
-@dataclass(frozen=True)
-class Job:
-    """What is to be computed: its numbers at 50 digits, and all methods, the product's own first."""
-
-    number: str
-    title: str
-    truth: Sequence[Any]
-    methods: Sequence[Method]
-
-    def compare(self, seconds: float) -> Comparison:
-        """Errors and run times of all methods; see `compare`."""
-        with progress(len(self.methods), f"{self.number} {self.title}") as done:
-            error = Truth(self.truth).error
-            return compare(self.number, self.title, self.methods, error, seconds=seconds, done=done)
 
 
 def accuracy_jobs(hitch: Any, crank: Any, N: int, factors: Sequence[float]) -> dict[str, Job]:
@@ -56,6 +38,9 @@ def accuracy_jobs(hitch: Any, crank: Any, N: int, factors: Sequence[float]) -> d
         r = printed.hitch_pins(hitch, S, L4, L7)
         return np.array([r["P23_S"], r["P45_S"], r["P67_S"]])
 
+    def printed_dyad() -> Any:
+        return printed.dyad_pin(dyad.A(q), B, crank.l_A, crank.l_B, +1)
+
     def printed_analogues() -> Any:
         r = printed.hitch_ratios(hitch, S, L4, L7, printed.hitch_pins(hitch, S, L4, L7))
         return np.array([r[f"dphi{k}"] for k in range(3, 8)])
@@ -68,33 +53,14 @@ def accuracy_jobs(hitch: Any, crank: Any, N: int, factors: Sequence[float]) -> d
 
     second = [exact.second_analogues(hitch, s, L4, L7) for s in S]
     pins = [exact.four_bar(crank.l_1, crank.l_A, crank.l_B, B, t)["C"] for t in q.tolist()]
+    positions, found = rivals.position_methods, list(lengths.values())
     jobs = (
-        Job(
-            "1.1",
-            "Position of the hitch",
-            of(("P23_S", "P45_S", "P67_S")),
-            rivals.position_methods(chain, S, printed_pins),
-        ),
-        Job(
-            "1.2",
-            "Position of a dyad",
-            pins,
-            rivals.position_methods(dyad, q, lambda: printed.dyad_pin(dyad.A(q), B, crank.l_A, crank.l_B, +1)),
-        ),
+        Job("1.1", "Position of the hitch", of(("P23_S", "P45_S", "P67_S")), positions(chain, S, printed_pins)),
+        Job("1.2", "Position of a dyad", pins, positions(dyad, q, printed_dyad)),
         Job("2.1", "Velocity analogues", of(f"dphi{k}" for k in range(3, 8)), derivatives(1, printed_analogues)),
         Job("2.2", "Acceleration analogues", np.array(second, object).T.ravel().tolist(), derivatives(2)),
-        Job(
-            "3.1",
-            "Find from the document's guesses",
-            list(lengths.values()),
-            rivals.find_methods(hitch, [1.0]),
-        ),
-        Job(
-            "3.2",
-            "Find from bad guesses",
-            list(lengths.values()) * len(factors),
-            rivals.find_methods(hitch, factors),
-        ),
+        Job("3.1", "Find from the document's guesses", found, rivals.find_methods(hitch, [1.0])),
+        Job("3.2", "Find from bad guesses", found * len(factors), rivals.find_methods(hitch, factors)),
         Job("4.1", "Reactions", of(REACTIONS), reactions(S, at)),
         Job("4.2", "Reactions, mast upright", of(REACTIONS, [upright]), reactions(np.array([S_p]), [upright])),
     )
