@@ -8,7 +8,8 @@ from typing import Any
 
 from mechsheet.recording.graph import Graph, Node
 from mechsheet.recording.quantity import Quantity
-from mechsheet.worksheet import formula, symbol
+from mechsheet.worksheet import symbol
+from mechsheet.worksheet.lines import Formula
 
 
 @dataclass
@@ -63,7 +64,7 @@ class Recording:
     sections: list[str] = field(default_factory=list)
     names: dict[Node, str] = field(default_factory=dict)
 
-    def define(self, section: str, name: str, value: Any, known: Mapping[str, formula.Formula]) -> None:
+    def define(self, section: str, name: str, value: Any, known: Mapping[str, Formula]) -> None:
         """Give the quantities of a line its name, and the steps behind it theirs."""
         if not isinstance(value, Quantity):
             return

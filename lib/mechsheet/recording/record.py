@@ -11,10 +11,11 @@ from mechsheet.recording.lines import Recording
 from mechsheet.recording.quantity import Quantity
 from mechsheet.recording.stage import Stage
 from mechsheet.recording.substitutes import substituted
-from mechsheet.worksheet import formula, inputs
+from mechsheet.worksheet import inputs
 from mechsheet.worksheet.cells import Worksheet, read
 from mechsheet.worksheet.checks import Check
 from mechsheet.worksheet.find import Found
+from mechsheet.worksheet.lines import registry
 from mechsheet.worksheet.table import Figure, Table
 
 _HEADING = re.compile(r"^def (\w+)\(|^\s*## +(.+)$", re.MULTILINE)
@@ -48,7 +49,7 @@ def record(namespace: Mapping[str, Any]) -> Recording:
     names["g"] = g
     givers = [(c, n) for c in sheet.cells for n in c.gives]
     want = [n for _, n in givers if _shown(namespace.get(n))]
-    known_lines = formula.registry(namespace)
+    known_lines = registry(namespace)
     sections = _sections(path.read_text(encoding="utf-8"))
     recording.sections = list(dict.fromkeys(sections.values()))
     for cell in sheet.needed(want, {"g": g}):

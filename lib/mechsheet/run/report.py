@@ -13,11 +13,12 @@ from mechsheet.workbook import writing
 from mechsheet.workbook.find_sheet import FoundRow
 from mechsheet.workbook.inputs_sheet import InputRow
 from mechsheet.workbook.save import save
-from mechsheet.worksheet import formula, inputs
+from mechsheet.worksheet import inputs
 from mechsheet.worksheet.cells import results
 from mechsheet.worksheet.checks import Check
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.find import Found
+from mechsheet.worksheet.lines import Formula, registry
 from mechsheet.worksheet.results import limited
 from mechsheet.worksheet.scene import Limit
 from mechsheet.worksheet.table import Figure, Table
@@ -110,15 +111,15 @@ def _of(kind: type[T], values: Iterable[Any]) -> list[T]:
     return [value for value in values if isinstance(value, kind)]
 
 
-def solved(namespace: Mapping[str, Any]) -> Iterator[tuple[formula.Formula, Found]]:
+def solved(namespace: Mapping[str, Any]) -> Iterator[tuple[Formula, Found]]:
     """Lines whose value is found, such as ``L4 = L4_found.value``, and what was found."""
-    for line in formula.registry(namespace).values():
+    for line in registry(namespace).values():
         match line.expression:
             case ast.Attribute(ast.Name(source), "value") if isinstance(namespace.get(source), Found):
                 yield line, namespace[source]
 
 
-def _found(line: formula.Formula, found: Found) -> FoundRow:
+def _found(line: Formula, found: Found) -> FoundRow:
     unit, target = units.parse(line.unit).factor, units.parse(found.words.unit).factor
     others = [r for r in found.roots if (r.value, r.branch) != (found.value, found.branch or 0)]
     return FoundRow(

@@ -15,10 +15,11 @@ from weakref import ref
 import numpy as np
 from numpy.typing import NDArray
 
-from mechsheet.worksheet import checks, formula, inputs
+from mechsheet.worksheet import checks, inputs
 from mechsheet.worksheet.cells import Cell, Worksheet, load
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.find import Found, values_only
+from mechsheet.worksheet.lines import registry
 
 _AHEAD = 256  # chunks handed to an executor and not yet taken back: bounds the memory of results that wait
 _BREAKS = 3  # times that an executor may break in a row without one chunk done
@@ -68,7 +69,7 @@ class Job:
         values = {name: _result(name, names[name], columns) for name in self.want}
         for value in values.values():
             lacking |= _lacking(value)
-        lines = formula.registry(names)
+        lines = registry(names)
         return Part(values, lacking, {name: lines[name].unit for name in self.want if name in lines})
 
     def _tried(self, columns: Mapping[str, Any]) -> Part:
