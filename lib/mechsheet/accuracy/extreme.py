@@ -21,7 +21,7 @@ A scene is a TOML file: ``[inputs]`` in display units, as for a script, and a ta
 
 import tomllib
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
 from types import SimpleNamespace
@@ -31,8 +31,6 @@ import numpy as np
 
 from mechsheet.accuracy import condition, exact, printed
 from mechsheet.accuracy.arithmetic import Numbers, mpc, mpf
-from mechsheet.accuracy.chain import crank_chain, link_angles
-from mechsheet.accuracy.rivals import integrated_angles
 from mechsheet.mechanics.load import Load
 from mechsheet.mechanics.planar import angle
 from mechsheet.mechanics.rrr import rrr, rrr_reach, rrr_reactions, rrr_velocity
@@ -92,7 +90,8 @@ class Outcome:
 class Case:
     """One case: what the product said, and how its results, the true and the printed ones of inputs x are computed.
 
-    ``product`` and ``printed`` get the true results, whose names they need.
+    ``product`` and ``printed`` get the true results, whose names they need. The true results are those of x with the
+    factors of ``rounding`` in it, of numbers found that are rounded before they are used.
     """
 
     words: str
@@ -100,6 +99,7 @@ class Case:
     x: Mapping[str, Any]
     product: Callable[[Numbers], Mapping[str, Any]]
     printed: Callable[[Numbers], Mapping[str, Any]]
+    rounding: Mapping[str, Any] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -209,7 +209,7 @@ def outcomes(job: Case, scene: str = "", case: str = "") -> list[Outcome]:
 
     One that does not exist must be NaN or infinite, unless the rounding of an input decides whether it exists.
     """
-    found, true = list[Outcome](), job.true(**job.x)
+    found, true = list[Outcome](), job.true(**{**job.x, **job.rounding})
     conditions, product, formulas = condition.conditions(job.true, job.x), job.product(true), job.printed(true)
     exist = {name: condition.exist(y) for name, y in true.items()}
     told = {name: bool(np.all(np.isfinite(product[name]))) for name in true}
@@ -277,7 +277,8 @@ def hitch(worksheets: Path, given: Mapping[str, Any], at: int = -1) -> Case:
     return Case(
         words=_reasons(names["checks_closing"]),
         true=true,
-        x={"S": S, **rounding, **vars(g)},  # the lengths found are rounded before they are used
+        x={"S": S, **dict.fromkeys(rounding, 1.0), **vars(g)},
+        rounding=rounding,
         product=lambda true: _row(sheet.run(true, names), true, at),
         printed=formulas,
     )
@@ -363,15 +364,12 @@ def through_dead_centre(_worksheets: Path, given: Mapping[str, Any], _at: int = 
     d = b + c - a - gap
     A = a * np.exp(1j * end)
     C = rrr(A, d, b, c, +1)
-    chain, turn = crank_chain(a, d, b, c), np.array([start, end])
-    with np.errstate(all="ignore"):
-        phi2, phi3 = integrated_angles(chain, turn, link_angles(chain, start), "Radau", 1e-10, 1e-12)[:, -1]
     return Case(
         words="",
         true=exact.four_bar,
         x={"a": a, "b": b, "c": c, "d": d, "theta": end},
         product=lambda _: {"C": C, "phi2": angle(C - A), "phi3": angle(C - d)},
-        printed=lambda _: {"C": d + c * np.exp(1j * phi3), "phi2": phi2, "phi3": phi3},
+        printed=lambda _: printed.integrated_four_bar(a, b, c, d, start, end),
     )
 
 

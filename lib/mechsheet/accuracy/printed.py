@@ -11,7 +11,11 @@ import numpy as np
 from numpy import arccos as acos
 from numpy import arctan as atan
 from numpy import cos, exp, pi, sin, sqrt
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
+from scipy.integrate import solve_ivp
+
+from mechsheet.mechanics.planar import angle
+from mechsheet.mechanics.rrr import rrr
 
 Results = dict[str, Any]
 
@@ -182,3 +186,18 @@ def dyad(
     R_Ax = (K * a.real + H_A * b.real) / (a.real * b.imag - b.real * a.imag)
     R_A = R_Ax + 1j * ((R_Ax * a.imag - H_A) / a.real)
     return {"C": C, "omega_A": omega_A, "omega_B": omega_B, "R_A": R_A, "R_B": -F - R_A, "R_C": -F_A - R_A}
+
+
+@np.errstate(all="ignore")
+def integrated_four_bar(a: float, b: float, c: float, d: float, start: float, end: float) -> Results:
+    """Velocity equations of a four-bar linkage integrated over the angle of its crank, from an exact start."""
+
+    def rates(theta: float, phi: NDArray[np.float64]) -> list[float]:
+        sine = sin(phi[1] - phi[0])
+        return [a * sin(theta - phi[1]) / (b * sine), a * sin(theta - phi[0]) / (c * sine)]
+
+    C = rrr(a * exp(1j * start), d, b, c, +1)
+    first = angle([C - a * exp(1j * start), C - d])
+    run = solve_ivp(rates, (start, end), first, "Radau", rtol=1e-10, atol=1e-12)
+    phi2, phi3 = run.y[:, -1] if run.success else (np.nan, np.nan)
+    return {"C": d + c * exp(1j * phi3), "phi2": phi2, "phi3": phi3}

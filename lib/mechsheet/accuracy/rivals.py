@@ -103,14 +103,12 @@ def _rates(q: float, y: Any, chain: Chain) -> list[float]:
     return slopes
 
 
-def integrated_angles(chain: Chain, q: Any, start: Any, method: Any, rtol: float, atol: float) -> Any:
-    """Angles of all links by integrating the velocity equations from those at the first position; NaN if it fails."""
-    run = solve_ivp(_rates, (q[0], q[-1]), start, method=method, t_eval=q, rtol=rtol, atol=atol, args=(chain,))
-    return run.y if run.success else np.full((len(start), len(q)), nan)
-
-
-def _by_integration(chain: Chain, q: Any, start: Any, method: str, tolerance: float) -> Any:
-    return _pins_at(chain, integrated_angles(chain, q, start, method, tolerance, tolerance))
+def _by_integration(chain: Chain, q: Any, start: Any, method: Any, tolerance: float) -> Any:
+    """The velocity equations integrated from the first position on."""
+    run = solve_ivp(
+        _rates, (q[0], q[-1]), start, method=method, t_eval=q, rtol=tolerance, atol=tolerance, args=(chain,)
+    )
+    return _pins_at(chain, run.y) if run.success else np.full((len(chain.dyads), len(q)), nan)
 
 
 def position_methods(chain: Chain, q: Any, as_printed: Callable[[], Any]) -> list[Method]:

@@ -14,7 +14,7 @@ from mechsheet.accuracy.arithmetic import Numbers, mpf
 from mechsheet.accuracy.precision import Measured, Truth, timed
 from mechsheet.run.progress import progress
 from mechsheet.worksheet.cells import Worksheet, load, results
-from mechsheet.worksheet.formula import registry
+from mechsheet.worksheet.lines import registry
 
 # Stand-ins for the sliders, whose values a page does not give to the cell that makes them.
 _VALUES = {"part": 0.2, "forces_at": 0.2, "turn": 40, "drawn": 1, "drawn_ring": 1}
