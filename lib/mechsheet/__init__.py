@@ -33,7 +33,7 @@ Mechanics: numpy arrays in, numpy arrays out
     group PRP       prp, prp_velocity, prp_acceleration, prp_transmission_angle, prp_condition,
                     prp_determinant, prp_reactions, PRPGroup
     group RPP       rpp, rpp_velocity, rpp_acceleration, rpp_transmission_angle, rpp_condition,
-                    rpp_reactions, RPPGroup
+                    rpp_determinant, rpp_reactions, RPPGroup
     loads, drives   Load, inertia, coupling_drive, gear_drive, cylinder_drive
     joints          neutral_axis, bending, circular_joint, sum_of_elements
 
