@@ -14,8 +14,8 @@ from conftest import examples
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mechsheet.document.drawing import COLOURS, Drawing
 from mechsheet.page.title import caption, side_by_side
+from mechsheet.worksheet.drawing import COLOURS, Drawing
 from mechsheet.worksheet.errors import SheetError
 
 SVG = "{http://www.w3.org/2000/svg}"

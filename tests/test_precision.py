@@ -13,8 +13,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mechsheet.accuracy import precision
-from mechsheet.accuracy.precision import ROUNDING, Comparison, Measured, Method, Truth, compare, progress, timed
-from mechsheet.workbook import excel
+from mechsheet.accuracy.precision import ROUNDING, Comparison, Job, Measured, Method, Truth, timed
+from mechsheet.run.progress import progress
+from mechsheet.workbook import writing
 
 OWN = Measured("own", "", 3e-16, 1.0)
 
@@ -133,9 +134,8 @@ def test_a_very_long_method_runs_once(monkeypatch):
 
 
 def test_compare_returns_errors_and_times_in_order():
-    truth = Truth([mp.pi, mp.e])
     ways = [Method("numpy", "", lambda: [np.pi, np.e]), Method("rough", "2", lambda: [3.14, 2.72])]
-    found = compare("7", "Constants", ways, truth.error, seconds=1e-4)
+    found = Job("7", "Constants", [mp.pi, mp.e], ways).compare(1e-4)
     assert [(row.family, row.setting) for row in found.rows] == [("numpy", ""), ("rough", "2")]
     assert found.rows[0].error == ROUNDING and found.rows[1].error == pytest.approx((2.72 - np.e) / np.pi)
     assert all(row.seconds > 0 for row in found.rows)
@@ -156,7 +156,7 @@ def test_table_shows_texts_powers_and_the_workbook_keeps_them():
 
 def test_chart_of_the_workbook_is_logarithmic_with_a_series_for_each_family():
     found = job(*(Measured("Newton", f"{k}", 10.0**-k, 1 + k) for k in (3, 8, 15)))
-    data = excel.workbook("T", inputs=[], found=[], tables=[found.table()], figures=[found.figure()], checks=[])
+    data = writing.workbook("T", inputs=[], found=[], tables=[found.table()], figures=[found.figure()], checks=[])
     with ZipFile(BytesIO(data)) as file:
         chart = file.read("xl/charts/chart1.xml").decode()
     assert chart.count('<c:logBase val="10"/>') == 2

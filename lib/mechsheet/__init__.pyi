@@ -1,25 +1,25 @@
 """The public names and where they are defined; `mechsheet` loads each on its first use."""
 
-from mechsheet.accuracy.precision import (
-    Measured as Measured,
+from mechsheet.accuracy.extreme import (
+    DigitsKept as DigitsKept,
 )
-from mechsheet.accuracy.precision import (
-    Method as Method,
+from mechsheet.accuracy.extreme import (
+    measured_scenes as measured_scenes,
 )
-from mechsheet.accuracy.precision import (
-    Truth as Truth,
+from mechsheet.accuracy.jobs import (
+    accuracy_jobs as accuracy_jobs,
+)
+from mechsheet.accuracy.jobs import (
+    batch_times as batch_times,
 )
 from mechsheet.accuracy.precision import (
     WorkPrecision as WorkPrecision,
 )
-from mechsheet.accuracy.precision import (
-    compare as compare,
+from mechsheet.accuracy.whole import (
+    asked_costs as asked_costs,
 )
-from mechsheet.accuracy.precision import (
-    timed as timed,
-)
-from mechsheet.document.drawing import (
-    Drawing as Drawing,
+from mechsheet.accuracy.whole import (
+    whole_worksheets as whole_worksheets,
 )
 from mechsheet.mechanics.crank import (
     crank as crank,
@@ -237,6 +237,9 @@ from mechsheet.page.title import (
 from mechsheet.run.ask import (
     ask as ask,
 )
+from mechsheet.run.progress import (
+    progress as progress,
+)
 from mechsheet.run.report import (
     export as export,
 )
@@ -261,9 +264,6 @@ from mechsheet.studies.design import (
 from mechsheet.studies.sensitivity import (
     sensitivity as sensitivity,
 )
-from mechsheet.studies.sensitivity import (
-    tolerance as tolerance,
-)
 from mechsheet.studies.sweep import (
     Sweep as Sweep,
 )
@@ -272,6 +272,9 @@ from mechsheet.studies.sweep import (
 )
 from mechsheet.studies.sweep import (
     sweep as sweep,
+)
+from mechsheet.studies.tolerance import (
+    tolerance as tolerance,
 )
 from mechsheet.worksheet.cells import (
     evaluate as evaluate,
@@ -303,6 +306,9 @@ from mechsheet.worksheet.checks import (
 from mechsheet.worksheet.checks import (
     summary as summary,
 )
+from mechsheet.worksheet.drawing import (
+    Drawing as Drawing,
+)
 from mechsheet.worksheet.errors import (
     SheetError as SheetError,
 )
@@ -315,12 +321,6 @@ from mechsheet.worksheet.find import (
 from mechsheet.worksheet.find import (
     find as find,
 )
-from mechsheet.worksheet.formula import (
-    registry as registry,
-)
-from mechsheet.worksheet.formula import (
-    typeset as typeset,
-)
 from mechsheet.worksheet.inputs import (
     Used as Used,
 )
@@ -332,6 +332,12 @@ from mechsheet.worksheet.inputs import (
 )
 from mechsheet.worksheet.inputs import (
     read as read,
+)
+from mechsheet.worksheet.lines import (
+    registry as registry,
+)
+from mechsheet.worksheet.lines import (
+    typeset as typeset,
 )
 from mechsheet.worksheet.scene import (
     Limit as Limit,

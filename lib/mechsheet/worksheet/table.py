@@ -6,7 +6,6 @@ import sys
 from collections.abc import Mapping
 from dataclasses import dataclass
 from itertools import takewhile
-from math import isnan
 from types import FrameType
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -14,8 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mechsheet import units
-from mechsheet.document import chart
-from mechsheet.worksheet import formula, source, symbol
+from mechsheet.document import chart, chart_svg
+from mechsheet.worksheet import lines, numbers, source, symbol
 from mechsheet.worksheet.errors import SheetError, refuse
 
 if TYPE_CHECKING:
@@ -45,8 +44,8 @@ class Column:
 
     def texts(self) -> list[str]:
         """The values as they are shown."""
-        kind = "e" if self.power else "f"
-        return [v if isinstance(v, str) else _digits(v, self.decimals, kind) for v in self.values.tolist()]
+        written = numbers.scientific if self.power else numbers.fixed
+        return [v if isinstance(v, str) else written(v, self.decimals, numbers.CELL) for v in self.values.tolist()]
 
 
 @dataclass(frozen=True)
@@ -91,10 +90,6 @@ def _block(columns: list[Column]) -> str:
     return f'<table><thead><tr>{heads}</tr><tr class="ms-units">{unit_row}</tr></thead><tbody>{rows}</tbody></table>'
 
 
-def _digits(value: float, decimals: int, kind: str) -> str:
-    return "–" if isnan(value) else f"{value:z.{decimals}{kind}}".replace("inf", "∞")
-
-
 @dataclass(frozen=True)
 class Figure:
     """A numbered line chart of some columns over another; ``marks`` are labelled positions on the x axis."""
@@ -118,7 +113,7 @@ class Figure:
 
     def svg(self) -> str:
         """The chart as one SVG element."""
-        return chart.line_chart(self.x, self.lines, self.marks, self.every)
+        return chart_svg.svg(chart.line_chart(self.x, self.lines, self.marks, self.every))
 
     def chart(self) -> Any:
         """The figure as an altair chart, to be changed, combined or saved; the page draws its own, which is faster."""
@@ -213,7 +208,7 @@ def _columns(
     decimals: int | None = None,
     every: int = 1,
 ) -> tuple[Column, ...]:
-    known, columns = formula.registry(frame.f_globals), []
+    known, columns = lines.registry(frame.f_globals), []
     nodes = [n for node in nodes for n in (node.value.elts if _is_group(node) else [node])]  # type: ignore[attr-defined]
     shape = np.broadcast_shapes((1,), *(np.shape(v) for v in values))
     for node, value in zip(nodes, values, strict=True):
