@@ -10,9 +10,10 @@ import pytest
 
 from mechsheet.mechanics import crank, drive, joint, load, planar, prp, rpp, rpr, rrp, rrr
 from mechsheet.mechanics.load import Load
-from mechsheet.recording import live
 from mechsheet.recording.elementary import GROUPS, STEPS
-from mechsheet.recording.recorded import Recorded, Recorder
+from mechsheet.recording.graph import Graph
+from mechsheet.recording.quantity import Quantity
+from mechsheet.recording.substitutes import substituted
 
 COUNT = 40  # random cases
 rng = np.random.default_rng(7)
@@ -162,19 +163,19 @@ def test_every_group_is_tried() -> None:
 @pytest.mark.parametrize("kind", FIELDS, ids=lambda kind: kind.__name__)
 @pytest.mark.parametrize("known", [True, False], ids=["positions recorded", "motion alone recorded"])
 def test_a_group_of_recorded_quantities_gives_what_the_group_gives(kind: Any, known: bool) -> None:
-    recorder = Recorder()
+    graph = Graph()
     count = 0
 
     def record(x: Any) -> Any:
         nonlocal count
         count += 1
         parts = [x.real, x.imag] if np.iscomplexobj(x) else [x]
-        return Recorded(recorder, *[recorder.leaf("input", f"x{count}{n}", part) for n, part in enumerate(parts)])
+        return Quantity(graph, *[graph.leaf("input", f"x{count}{n}", part) for n, part in enumerate(parts)])
 
     arguments, rates = FIELDS[kind]
     v, a, on_A, on_B = points(), points(), loads(), loads()
-    shown = live._replaced({kind.__name__: kind}, recorder)[kind.__name__]
-    assert shown is not kind and live._replaced({kind.__name__: shown}, Recorder())[kind.__name__].__recorded__ is kind
+    shown = substituted({kind.__name__: kind}, graph)[kind.__name__]
+    assert shown is not kind and substituted({kind.__name__: shown}, Graph())[kind.__name__].__recorded__ is kind
     own, group = kind(*arguments), shown(*[record(x) if known else x for x in arguments])
     recorded_loads = [[Load(record(x.F), record(x.P), x.M) for x in on] for on in (on_A, on_B)]
     v_own, v_group = own.velocity(v, **rates), group.velocity(record(v), **{n: record(x) for n, x in rates.items()})
@@ -191,7 +192,7 @@ def test_a_group_of_recorded_quantities_gives_what_the_group_gives(kind: Any, kn
     for plain, steps in pairs:
         for name, value in parts(plain).items():
             found = getattr(steps, name) if hasattr(plain, "_fields") else steps
-            assert isinstance(found, Recorded) or not known or found in (0, np.inf)  # not given, without end
+            assert isinstance(found, Quantity) or not known or found in (0, np.inf)  # not given, without end
             number = np.asarray(getattr(found, "value", found))
             size = np.nanmax(np.abs(value), initial=0.0, where=np.isfinite(value)) or 1.0
             np.testing.assert_allclose(number / size, value / size, rtol=0, atol=1e-9, err_msg=name)

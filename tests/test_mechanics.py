@@ -5,8 +5,6 @@ from __future__ import annotations
 import inspect
 import itertools
 import re
-import subprocess
-import sys
 from dataclasses import FrozenInstanceError
 from typing import Any, get_type_hints
 
@@ -256,7 +254,7 @@ def test_a_group_refuses_what_its_functions_refuse() -> None:
         RRRGroup(0, 3, 2, 2, 1).velocity(dr_A=np.inf)
 
 
-# --- dead centres and start-up -----------------------------------------------------------------------------------
+# --- dead centres -----------------------------------------------------------------------------------
 
 
 @every("turned", [0.3, 1.0, 2.5])
@@ -282,13 +280,3 @@ def test_a_dead_centre_in_a_field_is_the_same_alone_as_among_others(determinant:
     assert 1 < np.isnan(found).sum() < 10
     alone = [determinant(0, second, x) for x in third]
     assert np.array_equal(found, alone, equal_nan=True)
-
-
-def test_the_mechanics_load_numpy_and_nothing_else() -> None:
-    code = (
-        "import sys; from mechsheet import RRRGroup, coupling_drive, rrr, circular_joint;"
-        "others = {'marimo', 'scipy', 'pandas', 'altair', 'mpmath', 'numpy'};"
-        "print(*others & set(sys.modules))"
-    )
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    assert done.stdout.split() == ["numpy"]
