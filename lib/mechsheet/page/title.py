@@ -53,14 +53,11 @@ def title_block(name: str, text: str = "") -> Title:
     if "marimo" in sys.modules:
         import marimo as mo
 
-        if mo.running_in_notebook():
-            from mechsheet.page.hastened import hasten
-
-            hasten()
         if mo.app_meta().mode == "edit":
             from mechsheet.page import editor
 
-            editor.watch(lambda notes: mo.output.replace(replace(title, notes=tuple(notes))))
+            told = editor.watch(lambda notes: mo.output.replace(replace(title, notes=tuple(notes))))
+            return replace(title, notes=told)
     return title
 
 
