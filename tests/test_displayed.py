@@ -216,7 +216,7 @@ def test_every_number_shown_is_the_one_computed(worksheet):
 
 def assert_chart(figure: Figure) -> int:
     """What hovering shows, against the columns."""
-    values = json.loads(html.unescape(re.search(r'data-values="(.*?)"', figure.svg())[1]))
+    values = json.loads(html.unescape(re.search(r'data-values="(.*?)"', figure._mime_()[1])[1]))
     columns = [figure.x, *figure.lines]
     for column, texts, unit in zip(columns, values["texts"], values["units"], strict=True):
         for text, value in zip(texts, column.values.tolist(), strict=True):

@@ -49,6 +49,8 @@ from importlib import import_module
 from pathlib import Path
 from typing import Any
 
+from mechsheet.worksheet import shown
+
 
 def _homes() -> dict[str, str]:
     """Module of each public name: the stub beside this file tells it, which type checkers and editors read too."""
@@ -58,6 +60,7 @@ def _homes() -> dict[str, str]:
 
 
 _HOMES = _homes()
+shown.page = lambda: import_module("mechsheet.page.values")  # type: ignore[assignment,return-value]
 __all__ = sorted([*_HOMES, "__version__"])
 
 

@@ -36,6 +36,7 @@ from mechsheet.mechanics.planar import angle
 from mechsheet.worksheet import inputs
 from mechsheet.worksheet.cells import Worksheet, load
 from mechsheet.worksheet.checks import Check, assembled
+from mechsheet.worksheet.shown import Charted
 
 FULL = 16.0  # digits of a float
 SPARE = 1.0  # digits that a result may lose beyond its condition number
@@ -99,15 +100,10 @@ class Case:
 
 
 @dataclass(frozen=True)
-class Kept:
+class Kept(Charted):
     """Chart of the digits kept over the digits expected: every result of every scene."""
 
     outcomes: Sequence[Outcome]
-
-    def _mime_(self) -> tuple[str, str]:
-        import marimo as mo
-
-        return "text/html", mo.as_html(self.chart()).text
 
     def chart(self) -> Any:
         """The altair chart; above the solid line lies more than can be expected, below the dashed one too little."""

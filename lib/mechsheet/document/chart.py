@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from mechsheet import units
 from mechsheet.worksheet import symbol
+from mechsheet.worksheet.table import MARKED
 
 # Legible on white and on black; dashes tell lines apart on paper without colours.
 COLOURS = ("#3b82d0", "#e0483c", "#2c9c5c", "#cf7a17", "#8b6fd6", "#1aa3a8", "#c2528b", "#8a8a3a")
@@ -19,7 +20,6 @@ _DASHES = ("", "9 3", "3 3", "9 3 2 3")
 WIDTH, HEIGHT = 660, 330  # of the picture [px]
 _LEFT, _RIGHT, _TOP, _BOTTOM = 74, 16, 34, 46  # from its edges to the axes
 _FONT = 13
-MARKED = 60  # points of a curve that are marked one by one; more of them hide the line
 
 
 class Quantity(Protocol):
@@ -39,7 +39,7 @@ def line_chart(x: Quantity, lines: Sequence[Quantity], marks: Sequence[tuple[str
     """Curves of ``lines`` over ``x`` as one SVG element; a value that is not finite is a gap.
 
     Every so many of the values are marked by a point, unless they are many. ``marks`` are named positions on the x axis
-    in its unit. A position that the page sets by `page.mark` is marked too.
+    in its unit. A position that the page sets by `mark` is marked too.
     """
     across = _axis([x.values, *([m] for _, m in marks)], x.unit)
     up = _axis([line.values for line in lines], lines[0].unit)

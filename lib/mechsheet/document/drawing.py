@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mechsheet.worksheet.errors import SheetError
+from mechsheet.worksheet.shown import Shown
 from mechsheet.worksheet.symbol import GREEK, parts
 
 # Legible on white and on black; "" is the page's text colour.
@@ -453,7 +454,7 @@ class _Page:
 
 
 @dataclass(frozen=True, eq=False)
-class Drawing:
+class Drawing(Shown):
     """A drawing as a value: every method returns a new drawing with one more element; ``a + b`` draws b over a.
 
     Points and lengths are in metres, angles in radians; an element with a point that is not finite is left out.
@@ -745,9 +746,6 @@ class Drawing:
             page.draw(shape, [k * (p - centre).conjugate() for p in shape.ends(scales)], i < len(self.behind))
         colours = {s.unit: s.colour for s in reversed(shapes) if s.vector is not None}
         return page.svg({self.unit: k} | {unit: k * scales[unit] for unit in longest}, {self.unit: "", **colours})
-
-    def _mime_(self) -> tuple[str, str]:
-        return "text/html", self.svg()
 
     def _with(
         self,

@@ -6,7 +6,6 @@ import difflib
 import time
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import dataclass
 from functools import lru_cache
 from traceback import walk_tb
 from types import FrameType
@@ -18,20 +17,13 @@ from mechsheet.page import notebook
 from mechsheet.recording import dimensions
 from mechsheet.worksheet import formula
 from mechsheet.worksheet.cells import Cell, Worksheet
+from mechsheet.worksheet.title import Note
 
 _PERIOD = 0.25  # s between two looks at the cells
 # Their functions compute through another worksheet, whose inputs keep their metre.
 _OTHERS = {
     f"mechsheet.{name}" for name in ("studies.design", "studies.sensitivity", "studies.sweep", "worksheet.cells")
 }
-
-
-@dataclass(frozen=True)
-class Note:
-    """A mistake in the cell of that id."""
-
-    cell: str
-    text: str
 
 
 def watch(show: Callable[[list[Note]], object]) -> tuple[Note, ...]:

@@ -1,7 +1,5 @@
 """Checks as values: a residual against its limit, with a verdict."""
 
-import html
-import re
 import sys
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -13,15 +11,15 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mechsheet import units
-from mechsheet.worksheet import symbol
 from mechsheet.worksheet.errors import SheetError, refuse
 from mechsheet.worksheet.find import Found
+from mechsheet.worksheet.shown import Shown
 
 _TOLD = "__told__"
 
 
 @dataclass(frozen=True)
-class Check:
+class Check(Shown):
     """One statement that a worksheet proves about itself.
 
     ``residual`` and ``limit`` are in ``unit``; the check passes where ``residual <= limit``, so NaN fails.
@@ -51,43 +49,12 @@ class Check:
         text = f"{verdict}  {self.name}: {self.residual:.3g} <= {self.limit:.3g} {self.unit}".removesuffix(" -")
         return f"{text}; {self.reason}" if self.reason else text
 
-    def _mime_(self) -> tuple[str, str]:
-        unit = "" if self.unit == "-" else f" {html.escape(units.shown(self.unit))}"
-        sign = "≤" if self.passed else "≰"
-        compared = f": {self.residual:.2g} {sign} {self.limit:.2g}{unit}" if self.evaluated else ""
-        return "text/html", (
-            f'<div id="{_anchor(self)}">{_badge(self)} {symbol.in_words(self.name)}{compared}'
-            f'<span style="opacity:.7"> {html.escape(self.reason)}</span></div>'
-        )
-
-
-def _badge(check: Check) -> str:
-    kind, verdict = ("PASS" if check.passed else "FAIL",) * 2 if check.evaluated else ("OPEN", "not evaluated")
-    return f'<span class="ms-badge ms-{kind}">{verdict}</span>'
-
-
-def _anchor(check: Check) -> str:
-    return "check-" + re.sub(r"\W+", "-", check.name)
-
 
 @dataclass(frozen=True)
-class Summary:
+class Summary(Shown):
     """All checks of a worksheet in one place, each a link to where it stands."""
 
     checks: tuple[Check, ...]
-
-    def _mime_(self) -> tuple[str, str]:
-        passed = sum(check.passed for check in self.checks)
-        skipped = sum(not check.evaluated for check in self.checks)
-        failed = len(self.checks) - passed - skipped
-        count = f"{passed} of {len(self.checks)} checks pass" + (f", {failed} fail" if failed else "")
-        count += f", {skipped} not evaluated" if skipped else ""
-        items = "".join(
-            f"<span>{_badge(check)} "
-            f'<a href="#{_anchor(check)}">{symbol.in_words(check.name)}</a> {html.escape(check.reason)}</span>'
-            for check in sorted(self.checks, key=lambda check: (check.passed, not check.evaluated))
-        )
-        return "text/html", (f'<div class="ms-summary"><b>{count}</b><div class="ms-row">{items}</div></div>')
 
 
 def summary(*checks: Check | tuple[Check, ...]) -> Summary:

@@ -2,7 +2,6 @@
 
 import ast
 import html
-import json
 import re
 import sys
 from collections.abc import Iterator, Mapping
@@ -15,6 +14,7 @@ import numpy as np
 from mechsheet import units
 from mechsheet.worksheet import source, symbol
 from mechsheet.worksheet.errors import SheetError, refuse
+from mechsheet.worksheet.shown import Shown
 
 _DECLARED = re.compile(r"\[([^\]]*)\]\s*(.*)")
 _REGISTRY = "__formulas__"
@@ -193,7 +193,7 @@ def _units_of(inputs: type) -> dict[str, str]:
 
 
 @dataclass(frozen=True)
-class Typeset:
+class Typeset(Shown):
     """Formulas and their values, shown as symbol = formula = value, unit, meaning."""
 
     rows: tuple[Formula | Given, ...]
@@ -206,10 +206,6 @@ class Typeset:
         """The same formulas with the values at one position of their fields."""
         values = (np.asarray(v)[..., position] if np.ndim(v) else v for v in self.values)
         return replace(self, values=tuple(values), position=position)
-
-    def _mime_(self) -> tuple[str, str]:
-        # In a bundle: plain HTML is parsed four times a run, in search of headings for the outline.
-        return "application/vnd.marimo+mimebundle", json.dumps({"text/html": self.html})
 
     @property
     def html(self) -> str:
