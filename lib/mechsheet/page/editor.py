@@ -15,7 +15,7 @@ import numpy as np
 
 from mechsheet.page import notebook
 from mechsheet.recording import dimensions
-from mechsheet.worksheet import formula
+from mechsheet.worksheet import formula, source
 from mechsheet.worksheet.cells import Cell, Worksheet
 from mechsheet.worksheet.title import Note
 
@@ -112,7 +112,8 @@ def unfit(cells: Iterable[notebook.Cell], names: Mapping[str, Any]) -> Iterator[
     homes = {name: cell for cell in ran for name in cell.defs}
     others = {name for cell in ran for name in cell.refs if getattr(names.get(name), "__module__", "") in _OTHERS}
     known = names.keys() & homes.keys() - _depending(ran, others)
-    lines = [line for name, line in formula.registry(names).items() if name in known and not line.arguments]
+    declared = formula.registry(names, source.of_texts(tuple((cell.code, cell.filename) for cell in ran)))
+    lines = [line for name, line in declared.items() if name in known and not line.arguments]
     computed = _depending(ran, {"g"})
     common = {name: value for name, value in names.items() if name not in computed}
     sheet = Worksheet("", tuple(_compiled(cell, computed) for cell in ran if cell.defs & computed), common, "")
@@ -141,7 +142,7 @@ def _depending(cells: Iterable[notebook.Cell], names: set[str]) -> set[str]:
 
 
 def _compiled(cell: notebook.Cell, computed: set[str]) -> Cell:
-    code = compile(cell.code, cell.body.co_filename, "exec")
+    code = compile(cell.code, cell.filename, "exec")
     return Cell(cell.cell_id, frozenset(cell.refs & computed), tuple(cell.defs), (), code)
 
 
@@ -158,7 +159,7 @@ def _read(code: str) -> tuple[ast.Name | ast.Attribute, ...]:
 
 
 def _is_of(frame: FrameType, cell: notebook.Cell) -> bool:
-    return bool(frame.f_code.co_filename == cell.body.co_filename)
+    return bool(frame.f_code.co_filename == cell.filename)
 
 
 def _line(cell: notebook.Cell, number: int) -> str:

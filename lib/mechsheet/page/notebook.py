@@ -3,10 +3,11 @@
 A version of marimo that keeps them otherwise makes `running` raise `Unlike`, and nothing else rests on them.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from types import CodeType
 from typing import Any
+
+import marimo as mo
 
 
 class Unlike(Exception):
@@ -15,11 +16,11 @@ class Unlike(Exception):
 
 @dataclass(frozen=True)
 class Cell:
-    """A cell: its text and code, names it defines and reads, and what became of it; ``busy`` until that is known."""
+    """A cell: its text, names it defines and reads, and what became of it; ``busy`` until that is known."""
 
     cell_id: str
     code: str
-    body: CodeType
+    filename: str  # under which it is compiled
     defs: frozenset[str]
     refs: frozenset[str]
     status: str | None
@@ -47,7 +48,29 @@ def running() -> tuple[Callable[[], tuple[Cell, ...]], dict[str, Any]]:
     return cells, namespace
 
 
+def texts(namespace: Mapping[str, Any]) -> tuple[tuple[str, str], ...] | None:
+    """Texts of the cells of the page that runs in a namespace, each with the name under which it is compiled.
+
+    None where none does, or this version of marimo tells nothing of it: then the file of the worksheet holds.
+    """
+    if not mo.running_in_notebook():
+        return None
+    try:
+        from marimo._runtime.context import get_context
+
+        notebook: Any = get_context()
+        if notebook.globals is not namespace:
+            return None
+        return tuple([(cell.code, _filename(cell)) for cell in list(notebook.graph.cells.values())])
+    except (ImportError, AttributeError):
+        return None
+
+
+def _filename(cell: Any) -> str:
+    return str(cell.body.co_filename) if cell.body else ""
+
+
 def _cell(cell: Any) -> Cell:
     busy = cell.runtime_state in ("running", "queued")
     names = frozenset(cell.defs), frozenset(cell.refs)
-    return Cell(cell.cell_id, cell.code, cell.body, *names, cell.run_result_status, cell.exception, busy)
+    return Cell(cell.cell_id, cell.code, _filename(cell), *names, cell.run_result_status, cell.exception, busy)

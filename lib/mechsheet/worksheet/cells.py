@@ -15,6 +15,7 @@ import numpy as np
 from mechsheet.worksheet import inputs
 from mechsheet.worksheet.checks import Check
 from mechsheet.worksheet.errors import SheetError, raised
+from mechsheet.worksheet.source import functions, is_app
 
 _PART = re.compile(r"abs\((\w+)\)|(\w+)\.(real|imag)")
 
@@ -154,7 +155,7 @@ def _no_check(name: str, known: Iterable[str]) -> SheetError:
 def results(path: str | Path) -> list[str]:
     """Names that the cells of a worksheet file define, in the order of the file; nothing is run."""
     tree = ast.parse(Path(path).read_text(encoding="utf-8"))
-    return [name for node in _functions(tree) for name in _gives(node)]
+    return [name for node in functions(tree) for name in _gives(node)]
 
 
 def load(path: str | Path) -> Worksheet:
@@ -210,36 +211,23 @@ def _title(tree: ast.Module) -> str | None:
     return None
 
 
-def _is_app(node: ast.expr, kinds: tuple[str, ...]) -> bool:
-    """Whether a decorator or context is ``app.cell``, ``app.setup`` and the like, called or not."""
-    node = node.func if isinstance(node, ast.Call) else node
-    return isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name) and node.attr in kinds
-
-
 def _shared(tree: ast.Module) -> Iterator[ast.stmt]:
     """The setup block and the classes and functions that stand alone, without marimo's decorators."""
     for node in tree.body:
         match node:
-            case ast.With(items=[ast.withitem(context)]) if _is_app(context, ("setup",)):
+            case ast.With(items=[ast.withitem(context)]) if is_app(context, ("setup",)):
                 yield from node.body
             case ast.ClassDef() | ast.FunctionDef():
-                kept = [d for d in node.decorator_list if not _is_app(d, ("class_definition", "function"))]
+                kept = [d for d in node.decorator_list if not is_app(d, ("class_definition", "function"))]
                 if len(kept) < len(node.decorator_list):
                     node.decorator_list = kept
                     yield node
 
 
 def _cells(tree: ast.Module, path: Path) -> Iterator[Cell]:
-    for node in _functions(tree):
+    for node in functions(tree):
         code = compile(ast.Module(node.body[:-1], []), path, "exec")
         yield Cell(node.name, frozenset(a.arg for a in node.args.args), _gives(node), tuple(_checks(node)), code)
-
-
-def _functions(tree: ast.Module) -> Iterator[ast.FunctionDef]:
-    """The cells as they stand in the file: functions that end by returning what they define."""
-    for node in tree.body:
-        if isinstance(node, ast.FunctionDef) and any(_is_app(d, ("cell",)) for d in node.decorator_list):
-            yield node
 
 
 def _gives(node: ast.FunctionDef) -> tuple[str, ...]:

@@ -1,10 +1,10 @@
 """Checks as values: a residual against its limit, with a verdict."""
 
-import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
 from dataclasses import dataclass
 from math import isnan
-from types import FrameType
 from typing import Any
 
 import numpy as np
@@ -15,7 +15,7 @@ from mechsheet.worksheet.errors import SheetError, refuse
 from mechsheet.worksheet.find import Found
 from mechsheet.worksheet.shown import Shown
 
-_TOLD = "__told__"
+_told = ContextVar[list[NDArray[np.object_]] | None]("_told", default=None)
 
 
 @dataclass(frozen=True)
@@ -121,7 +121,7 @@ def assembled(name: str, point: ArrayLike, over: ArrayLike, reaches: tuple[Any, 
     if not count:
         return Check(name, 0, 0, "open positions", essential=True)
     reason = _unreached(lost, over, reaches, what, unit)
-    _tell(sys._getframe(1), lost, over, reaches, what, unit)
+    _tell(lost, over, reaches, what, unit)
     return Check(name, count, 0, "open positions", reason, essential=True)
 
 
@@ -133,17 +133,22 @@ def require(point: ArrayLike, over: ArrayLike, reaches: tuple[Any, Any], what: s
     lost = np.isnan(point)
     if np.ndim(lost) < 2 and lost.all():
         refuse(SheetError(_unreached(lost, over, reaches, what, unit)))
-    _tell(sys._getframe(1), lost, over, reaches, what, unit)
+    _tell(lost, over, reaches, what, unit)
 
 
-def listen(namespace: dict[str, Any]) -> list[NDArray[np.object_]]:
+@contextmanager
+def listen() -> Iterator[list[NDArray[np.object_]]]:
     """List to which `assembled` and `require` add, for each variant, why it does not close; "" where it does."""
-    told: list[NDArray[np.object_]] = namespace.setdefault(_TOLD, [])
-    return told
+    told = list[NDArray[np.object_]]()
+    token = _told.set(told)
+    try:
+        yield told
+    finally:
+        _told.reset(token)
 
 
-def _tell(frame: FrameType, lost: Any, over: ArrayLike, reaches: tuple[Any, Any], what: str, unit: str) -> None:
-    told = frame.f_globals.get(_TOLD)
+def _tell(lost: Any, over: ArrayLike, reaches: tuple[Any, Any], what: str, unit: str) -> None:
+    told = _told.get()
     if told is None:
         return
     lost = np.atleast_2d(lost)

@@ -183,11 +183,14 @@ def _columns(
     shape = np.broadcast_shapes((1,), *(np.shape(v) for v in values))
     for node, value in zip(nodes, values, strict=True):
         name, part = _name(node)
-        if name not in known:
+        try:
+            line = known[name]
+        except KeyError:
             refuse(
                 SheetError(f"column {ast.unparse(node)}: no line declares {name} with its unit, such as # [m] meaning")
             )
-        line = known[name]
+        except SheetError as error:
+            refuse(error)
         label = heading(name, part)
         unit = show.get(label, line.unit)
         shown = np.broadcast_to(np.asarray(value) / units.parse(unit).factor, shape)[..., ::every].ravel()
