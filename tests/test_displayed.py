@@ -15,10 +15,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from mechsheet.page.values import html as html_of
 from mechsheet.worksheet.checks import Check, Summary
 from mechsheet.worksheet.find import Found
-from mechsheet.worksheet.formula import Formula, Typeset
 from mechsheet.worksheet.inputs import Used
+from mechsheet.worksheet.lines import Formula, Typeset
 from mechsheet.worksheet.symbol import plain
 from mechsheet.worksheet.table import Column, Figure, Table
 
@@ -103,7 +104,7 @@ def assert_formula(row: Formula, value: object, line: str) -> int:
 
 def assert_typeset(shown: Typeset) -> int:
     rows = list(zip(shown.rows, shown.values, strict=True))
-    lines = shown.html.split("ms-line")[1 : len(rows) + 1]
+    lines = html_of(shown).split("ms-line")[1 : len(rows) + 1]
     count = 0
     for (row, value), line in zip(rows, lines, strict=True):
         if isinstance(row, Formula) and not row.arguments:

@@ -14,7 +14,7 @@ from playwright.sync_api import expect
 
 from mechsheet import __main__ as launcher
 from mechsheet.page import editor as told_by
-from mechsheet.worksheet.formula import registry
+from mechsheet.worksheet.lines import registry
 from mechsheet.worksheet.source import of_texts
 
 TEMPLATE = Path(launcher.__file__).parent / "run" / "new_worksheet.txt"

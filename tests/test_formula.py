@@ -7,7 +7,10 @@ import numpy as np
 import pytest
 from cells import run
 
-from mechsheet.worksheet import formula
+from mechsheet.document.expression import tree
+from mechsheet.document.latex import latex
+from mechsheet.page.values import html
+from mechsheet.worksheet import numbers
 from mechsheet.worksheet.errors import SheetError
 
 IMPORT = "from mechsheet import typeset\n"
@@ -73,7 +76,7 @@ IMPORT = "from mechsheet import typeset\n"
     ],
 )
 def test_expression_as_a_textbook_prints_it(source, tex):
-    assert formula.latex(ast.parse(source, mode="eval").body) == tex
+    assert latex(tree(ast.parse(source, mode="eval").body)) == tex
 
 
 def test_lines_with_a_unit_are_the_formulas():
@@ -112,7 +115,7 @@ def test_lines_with_a_unit_are_the_formulas():
     ],
 )
 def test_value_in_its_display_unit(value, unit, tex):
-    assert formula.value_latex(value, unit) == tex
+    assert numbers.value(value, unit, numbers.LATEX) == tex
 
 
 def test_unknown_unit_names_the_line():
@@ -133,12 +136,12 @@ def test_unknown_unit_names_the_line():
     ],
 )
 def test_value_in_the_page(value, unit, text):
-    assert formula.value_html(value, unit) == text
+    assert numbers.value(value, unit, numbers.HTML) == text
 
 
 def joined(shown):
     """HTML with the elements of a line, formula and value, as one."""
-    return shown.html.replace('=||)</marimo-tex><span class="ms-value">', "= ")
+    return html(shown).replace('=||)</marimo-tex><span class="ms-value">', "= ")
 
 
 def test_one_position_of_the_fields():
@@ -152,7 +155,7 @@ def test_one_position_of_the_fields():
 
 def test_page_shows_symbol_formula_value_and_meaning():
     names = run(IMPORT + "L3 = 0.2  # [m] arm\nA = L3**2  # [cm**2] <area>\nshown = typeset()")
-    assert json.loads(names["shown"]._mime_()[1]) == {"text/html": names["shown"].html}
+    assert json.loads(names["shown"]._mime_()[1]) == {"text/html": html(names["shown"])}
     text = joined(names["shown"])
     assert "A = L_{3}^{2} = 400 cm<sup>2</sup></span>" in text
     assert "L_{3} = 0.2 m</span>" in text
@@ -204,7 +207,7 @@ def test_numbers_stand_for_the_symbols(lines, numbers):
 def test_numbers_of_a_field_are_those_of_the_position_shown():
     names = run(IMPORT + "from numpy import arange\nx = 2 * arange(3)  # [m]\ny = 3 * x  # [m]\nshown = typeset()")
     assert r'tex="= 3 \cdot 0\ \mathrm{m}"' in joined(names["shown"])
-    assert r'tex="= 3 \cdot 4\ \mathrm{m}"' in names["shown"].at(2).html
+    assert r'tex="= 3 \cdot 4\ \mathrm{m}"' in html(names["shown"].at(2))
 
 
 def test_edited_unit_alone_is_seen():
@@ -217,4 +220,4 @@ def test_branch_that_is_meant_stands_in_the_definition():
     text = run(IMPORT + "def P(S, L7, branch=-1):\n    return rrr(S, L7, branch)  # [m] pin\nshown = typeset()")[
         "shown"
     ]
-    assert r"P(S,\,L_{7}) = \operatorname{rrr}(S,\ L_{7},\ -1)" in text.html
+    assert r"P(S,\,L_{7}) = \operatorname{rrr}(S,\ L_{7},\ -1)" in html(text)

@@ -14,9 +14,9 @@ import pytest
 
 from mechsheet.studies import sweep as sweeping
 from mechsheet.studies.sweep import Sweep, grid, sweep
-from mechsheet.worksheet import formula
 from mechsheet.worksheet.cells import evaluate, load
 from mechsheet.worksheet.errors import SheetError
+from mechsheet.worksheet.lines import registry
 
 ROOT = Path(__file__).parents[1]
 HITCH = ROOT / "worksheets" / "hitch.py"
@@ -31,7 +31,7 @@ def numbers() -> list[str]:
     cells = [cell for cell in sheet.cells if not cell.name.startswith(drawn)]
     names = sheet.run([name for cell in cells for name in cell.gives if name != "form"], {"g": sheet.inputs()})
     given = {name for cell in cells for name in cell.gives}
-    return [name for name in formula.registry(names) if name in given and not callable(names[name])]
+    return [name for name in registry(names) if name in given and not callable(names[name])]
 
 
 def table(count: int, width: float, seed: int = 1) -> dict[str, np.ndarray]:

@@ -273,12 +273,6 @@ from mechsheet.worksheet.find import (
 from mechsheet.worksheet.find import (
     find as find,
 )
-from mechsheet.worksheet.formula import (
-    registry as registry,
-)
-from mechsheet.worksheet.formula import (
-    typeset as typeset,
-)
 from mechsheet.worksheet.inputs import (
     Used as Used,
 )
@@ -290,6 +284,12 @@ from mechsheet.worksheet.inputs import (
 )
 from mechsheet.worksheet.inputs import (
     read as read,
+)
+from mechsheet.worksheet.lines import (
+    registry as registry,
+)
+from mechsheet.worksheet.lines import (
+    typeset as typeset,
 )
 from mechsheet.worksheet.scene import (
     Limit as Limit,

@@ -13,9 +13,9 @@ from typing import NamedTuple, TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from mechsheet.worksheet import symbol
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.shown import Shown
-from mechsheet.worksheet.symbol import GREEK, parts
 
 # Legible on white and on black; "" is the page's text colour.
 COLOURS = {"": "currentColor", "blue": "#3b82d0", "red": "#e0483c", "green": "#2c9c5c", "orange": "#cf7a17"}
@@ -136,9 +136,8 @@ def _symbol(name: str) -> tuple[str, float]:
     """SVG text of a name, its index lowered, and its width [px]; what follows a space stays as it is."""
     first, space, rest = name.partition(" ")
     sign, first = ("−", first[1:]) if first.startswith("-") else ("", first)
-    mark, base, index = parts(first)
-    mark = sign + (mark and ("d" if base in GREEK else "Δ"))
-    base, rest = GREEK.get(base, base), space + rest
+    read = symbol.read(first)
+    mark, base, index, rest = sign + read.mark, read.base, read.index, space + rest
     width = _width(mark + base + rest, _FONT) + _width(index, _INDEX)
     text = mark + (f'<tspan font-style="italic">{base}</tspan>' if len(base) == 1 and base.isalpha() else _escape(base))
     if index:

@@ -15,8 +15,9 @@ import numpy as np
 
 from mechsheet.page import notebook
 from mechsheet.recording import dimensions
-from mechsheet.worksheet import formula, source
+from mechsheet.worksheet import source
 from mechsheet.worksheet.cells import Cell, Worksheet
+from mechsheet.worksheet.lines import registry
 from mechsheet.worksheet.title import Note
 
 _PERIOD = 0.25  # s between two looks at the cells
@@ -112,7 +113,7 @@ def unfit(cells: Iterable[notebook.Cell], names: Mapping[str, Any]) -> Iterator[
     homes = {name: cell for cell in ran for name in cell.defs}
     others = {name for cell in ran for name in cell.refs if getattr(names.get(name), "__module__", "") in _OTHERS}
     known = names.keys() & homes.keys() - _depending(ran, others)
-    declared = formula.registry(names, source.of_texts(tuple((cell.code, cell.filename) for cell in ran)))
+    declared = registry(names, source.of_texts(tuple((cell.code, cell.filename) for cell in ran)))
     lines = [line for name, line in declared.items() if name in known and not line.arguments]
     computed = _depending(ran, {"g"})
     common = {name: value for name, value in names.items() if name not in computed}

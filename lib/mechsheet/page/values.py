@@ -15,11 +15,12 @@ import marimo as mo
 from mechsheet import units
 from mechsheet.document import chart
 from mechsheet.document.drawing import Drawing
+from mechsheet.page.lines import lines
 from mechsheet.worksheet import symbol
 from mechsheet.worksheet.checks import Check, Summary
 from mechsheet.worksheet.find import Found
-from mechsheet.worksheet.formula import Typeset
 from mechsheet.worksheet.inputs import Used
+from mechsheet.worksheet.lines import Typeset
 from mechsheet.worksheet.shown import Charted, Shown
 from mechsheet.worksheet.table import Column, Figure, Table
 from mechsheet.worksheet.title import Caption, Mark, Note, Player, SideBySide, Title
@@ -133,7 +134,7 @@ def _(value: SideBySide) -> str:
 
 @html.register
 def _(value: Typeset) -> str:
-    return value.html
+    return lines(value) + "".join(map(html, value.shown))
 
 
 @html.register

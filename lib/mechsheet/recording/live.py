@@ -16,10 +16,11 @@ from typing import Any
 import numpy as np
 
 from mechsheet.recording.recorded import Node, NotRecorded, Recorded, Recorder, takes
-from mechsheet.worksheet import formula, inputs, symbol
+from mechsheet.worksheet import inputs, symbol
 from mechsheet.worksheet.cells import Cell, Worksheet, read
 from mechsheet.worksheet.checks import Check
 from mechsheet.worksheet.find import Found
+from mechsheet.worksheet.lines import Formula, registry
 from mechsheet.worksheet.table import Figure, Table
 
 _ADDRESS = re.compile(r"[A-Za-z]{1,3}\d+|[rR]\d*([cC]\d*)?|[cC]\d*|[rR]\d+[cC]\d+")
@@ -122,7 +123,7 @@ def record(namespace: Mapping[str, Any]) -> Recording:
     names["g"] = g
     givers = [(c, n) for c in sheet.cells for n in c.gives]
     want = [n for _, n in givers if _shown(namespace.get(n))]
-    known_lines = formula.registry(namespace)
+    known_lines = registry(namespace)
     sections = _sections(path.read_text(encoding="utf-8"))
     recording.sections = list(dict.fromkeys(sections.values()))
     for cell in sheet.needed(want, {"g": g}):
@@ -392,7 +393,7 @@ class _Nothing:
         return self
 
 
-def _define(recording: Recording, section: str, name: str, value: Any, known: Mapping[str, formula.Formula]) -> None:
+def _define(recording: Recording, section: str, name: str, value: Any, known: Mapping[str, Formula]) -> None:
     """Give the quantities of a line its name, and the steps behind it theirs."""
     if not isinstance(value, Recorded):
         return

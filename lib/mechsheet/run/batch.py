@@ -15,11 +15,12 @@ import numpy as np
 from mechsheet import units
 from mechsheet.run.arguments import read
 from mechsheet.workbook import excel
-from mechsheet.worksheet import formula, inputs, results
+from mechsheet.worksheet import inputs, results
 from mechsheet.worksheet.cells import Worksheet, base, checks, load
 from mechsheet.worksheet.checks import Check
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.find import Found
+from mechsheet.worksheet.lines import registry
 from mechsheet.worksheet.results import Quantity
 from mechsheet.worksheet.scene import Scene
 from mechsheet.worksheet.table import Column, Table
@@ -225,7 +226,7 @@ def _write(out: Path, name: str, data: bytes) -> None:
 
 def _found(names: dict[str, Any]) -> Iterator[str]:
     """Names of the found values: ``L4`` of a line ``L4 = L4_found.value``."""
-    for line in formula.registry(names).values():
+    for line in registry(names).values():
         match line.expression:
             case ast.Attribute(ast.Name(solved), "value") if isinstance(names.get(solved), Found):
                 yield line.name

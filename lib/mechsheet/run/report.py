@@ -10,11 +10,12 @@ from mechsheet import units
 from mechsheet.recording import live
 from mechsheet.run import arguments
 from mechsheet.workbook import excel
-from mechsheet.worksheet import formula, inputs
+from mechsheet.worksheet import inputs
 from mechsheet.worksheet.cells import results
 from mechsheet.worksheet.checks import Check
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.find import Found
+from mechsheet.worksheet.lines import registry
 from mechsheet.worksheet.results import limited
 from mechsheet.worksheet.scene import Limit
 from mechsheet.worksheet.table import Figure, Table
@@ -101,7 +102,7 @@ def _of(kind: type[T], values: Iterable[Any]) -> list[T]:
 
 
 def _found(namespace: Mapping[str, Any]) -> Iterator[excel.FoundRow]:
-    for line in formula.registry(namespace).values():
+    for line in registry(namespace).values():
         match line.expression:
             case ast.Attribute(ast.Name(source), "value") if isinstance(namespace.get(source), Found):
                 found: Found = namespace[source]

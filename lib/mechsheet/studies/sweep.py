@@ -22,10 +22,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mechsheet import units
-from mechsheet.worksheet import checks, formula, inputs
+from mechsheet.worksheet import checks, inputs
 from mechsheet.worksheet.cells import Cell, Worksheet, load
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.find import Found, values_only
+from mechsheet.worksheet.lines import registry
 from mechsheet.worksheet.table import heading
 
 if TYPE_CHECKING:
@@ -250,7 +251,7 @@ class _Job:
         values = {name: _result(name, names[name], columns) for name in self.want}
         for value in values.values():
             lacking |= _lacking(value)
-        lines = formula.registry(names)
+        lines = registry(names)
         return _Part(values, lacking, {name: lines[name].unit for name in self.want if name in lines})
 
     def _tried(self, columns: Mapping[str, Any]) -> _Part:

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mechsheet import units
-from mechsheet.worksheet import formula, source, symbol
+from mechsheet.worksheet import lines, source, symbol
 from mechsheet.worksheet.errors import SheetError, refuse
 from mechsheet.worksheet.shown import Shown
 
@@ -178,7 +178,7 @@ def _columns(
     decimals: int | None = None,
     every: int = 1,
 ) -> tuple[Column, ...]:
-    known, columns = formula.registry(frame.f_globals), []
+    known, columns = lines.registry(frame.f_globals), []
     nodes = [n for node in nodes for n in (node.value.elts if _is_group(node) else [node])]  # type: ignore[attr-defined]
     shape = np.broadcast_shapes((1,), *(np.shape(v) for v in values))
     for node, value in zip(nodes, values, strict=True):
