@@ -355,6 +355,7 @@ def test_long_sheet_name_ends_with_a_whole_word() -> None:
 
 
 def test_same_input_gives_the_same_bytes() -> None:
+    """On one machine, with the same versions."""
     first = data()
     assert first == data()
     with ZipFile(BytesIO(first)) as file:

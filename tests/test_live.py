@@ -159,9 +159,9 @@ def test_every_table_of_the_hitch_is_live() -> None:
     assert "P6_*IS6_" in str(book["4.1 Lifting capacity"]["B5"].value)
 
 
-def test_values_stand_beside_the_formulas() -> None:
-    """pandas, which computes nothing, reads the worksheet's numbers."""
-    path = exported("hitch")
+def test_values_stand_beside_the_formulas(tmp_path: Path) -> None:
+    """pandas, which computes nothing, reads the worksheet's numbers to the last bit, which is the processor's."""
+    path = export("hitch", tmp_path, {})
     read = pd.read_excel(path, sheet_name="4.1 Lifting capacity", header=2, skiprows=[3])
     own = cells.evaluate(ROOT / "worksheets" / "hitch.py", ["table_41"])["table_41"].frame()
     assert read["GS6"].head(10).tolist() == own["GS6 [N]"].tolist()

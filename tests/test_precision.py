@@ -13,7 +13,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mechsheet.accuracy import precision
-from mechsheet.accuracy.precision import ROUNDING, Comparison, Measured, Method, Truth, compare, progress, timed
+from mechsheet.accuracy.precision import ROUNDING, Comparison, Measured, Method, Truth, compare, timed
+from mechsheet.run.progress import progress
 from mechsheet.workbook import excel
 
 OWN = Measured("own", "", 3e-16, 1.0)

@@ -23,7 +23,8 @@ from mechsheet.worksheet.title import Note
 _PERIOD = 0.25  # s between two looks at the cells
 # Their functions compute through another worksheet, whose inputs keep their metre.
 _OTHERS = {
-    f"mechsheet.{name}" for name in ("studies.design", "studies.sensitivity", "studies.sweep", "worksheet.cells")
+    f"mechsheet.{name}"
+    for name in ("studies.design", "studies.sensitivity", "studies.sweep", "studies.tolerance", "worksheet.cells")
 }
 
 
@@ -34,7 +35,7 @@ def watch(show: Callable[[list[Note]], object]) -> tuple[Note, ...]:
     value costs nothing. Returned is what there is to tell at once: nothing, or that this version of marimo tells
     nothing of its cells.
     """
-    import marimo as mo
+    import marimo as mo  # on use: reading the cells needs it not
 
     def look() -> None:
         this, told, gone = mo.current_thread(), list[Note](), set[str]()

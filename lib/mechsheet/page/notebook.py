@@ -31,7 +31,7 @@ class Cell:
 def running() -> tuple[Callable[[], tuple[Cell, ...]], dict[str, Any]]:
     """What gives the cells of the calling cell's page as they are now, and the namespace in which they run."""
     try:
-        from marimo._runtime.context import get_context
+        from marimo._runtime.context import get_context  # on use: a version may lack it
 
         notebook: Any = get_context()
         graph, namespace = notebook.graph, notebook.globals
@@ -56,7 +56,7 @@ def texts(namespace: Mapping[str, Any]) -> tuple[tuple[str, str], ...] | None:
     if not mo.running_in_notebook():
         return None
     try:
-        from marimo._runtime.context import get_context
+        from marimo._runtime.context import get_context  # on use: a version may lack it
 
         notebook: Any = get_context()
         if notebook.globals is not namespace:

@@ -76,7 +76,9 @@ def workbook(
     checks: Sequence[Check],
     recording: Recording | None = None,
 ) -> bytes:
-    """Bytes of an .xlsx file; the same input gives the same bytes.
+    """Bytes of an .xlsx file; on one machine, with the same versions, the same input gives the same bytes.
+
+    Elsewhere numbers may differ in their last bits, for numpy takes other code paths on other processors.
 
     Sheets: Inputs, Find where there are found values, one for each table named by its number and title, Checks.
     With a ``recording`` of the worksheet the cells hold formulas beside their values, and what stands behind the tables

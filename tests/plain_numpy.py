@@ -1,0 +1,23 @@
+"""Run tests as on a processor without vector extensions: ``python tests/plain_numpy.py [OPTIONS of pytest]``.
+
+numpy picks code by the processor, which rounds differently: a test that passes with all of it and with none depends on
+no processor.
+"""
+
+import os
+import subprocess
+import sys
+
+from numpy._core._multiarray_umath import __cpu_dispatch__, __cpu_features__  # what numpy.show_runtime prints
+
+
+def features() -> str:
+    """What numpy would choose here beyond the least that it is built for; it warns of others."""
+    return " ".join(name for name in __cpu_dispatch__ if __cpu_features__[name])
+
+
+if __name__ == "__main__":
+    disabled = features()
+    print(f"disabled: {disabled or 'nothing, this processor has no more than numpy is built for'}", flush=True)
+    environment = {**os.environ, "NPY_DISABLE_CPU_FEATURES": disabled}  # read as numpy starts, in subprocesses as well
+    sys.exit(subprocess.call([sys.executable, "-m", "pytest", *sys.argv[1:]], env=environment))
