@@ -90,7 +90,8 @@ class Job:
             new = _by_variant(texts, count)
             reasons[:] = np.where(reasons == "", new[np.arange(count), (new != "").argmax(1)], reasons)
 
-        cells, g = sheet.needed(self.want, ["g"]), inputs.instance(sheet.inputs, columns)
+        cells = sheet.needed(self.want, ["g"])
+        g: Any = inputs.instance(sheet.inputs, columns)
         try:
             with checks.listen() as told:
                 for cell in _run(sheet, [*cells, *_telling(sheet, cells)], g, names):
