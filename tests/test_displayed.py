@@ -15,7 +15,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mechsheet.document.chart import line_chart
+from mechsheet.document import chart, chart_svg
 from mechsheet.page.values import html as html_of
 from mechsheet.worksheet.checks import Check, Summary
 from mechsheet.worksheet.find import Found
@@ -218,7 +218,7 @@ def test_every_number_shown_is_the_one_computed(worksheet):
 
 def assert_chart(figure: Figure) -> int:
     """What hovering shows, against the columns."""
-    svg = line_chart(figure.x, figure.lines, figure.marks, figure.every)
+    svg = chart_svg.svg(chart.line_chart(figure.x, figure.lines, figure.marks, figure.every))
     values = json.loads(html.unescape(re.search(r'data-values="(.*?)"', svg)[1]))
     columns = [figure.x, *figure.lines]
     for column, texts, unit in zip(columns, values["texts"], values["units"], strict=True):

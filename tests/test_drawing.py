@@ -14,7 +14,7 @@ from conftest import examples
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mechsheet.document.drawing import COLOURS, Drawing
+from mechsheet.worksheet.drawing import COLOURS, Drawing
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.title import caption, side_by_side
 

@@ -13,7 +13,7 @@ from test_exports import differences
 from test_exports import read as workbook
 
 from mechsheet.run import arguments, batch
-from mechsheet.workbook import excel
+from mechsheet.workbook import save
 from mechsheet.worksheet.cells import evaluate, load
 from mechsheet.worksheet.errors import SheetError
 
@@ -186,7 +186,7 @@ def test_ctrl_c_leaves_whole_files_only(files, tmp_path, monkeypatch, capsys):
         move(source, target)
         moved.append(Path(target))
 
-    monkeypatch.setattr(excel.os, "replace", replace)
+    monkeypatch.setattr(save.os, "replace", replace)
     assert batch.run(str(HITCH), [*given, f"--out={out}"]) == 130
     assert list(out.iterdir()) == moved == [out / "hitch_a.xlsx"]
     load_workbook(moved[0])

@@ -18,9 +18,6 @@ from mechsheet.accuracy.precision import (
 from mechsheet.accuracy.precision import (
     timed as timed,
 )
-from mechsheet.document.drawing import (
-    Drawing as Drawing,
-)
 from mechsheet.mechanics.crank import (
     crank as crank,
 )
@@ -293,6 +290,9 @@ from mechsheet.worksheet.checks import (
 )
 from mechsheet.worksheet.checks import (
     summary as summary,
+)
+from mechsheet.worksheet.drawing import (
+    Drawing as Drawing,
 )
 from mechsheet.worksheet.errors import (
     SheetError as SheetError,

@@ -13,11 +13,12 @@ from typing import Any
 import marimo as mo
 
 from mechsheet import units
-from mechsheet.document import chart
-from mechsheet.document.drawing import Drawing
+from mechsheet.document import chart, chart_svg
+from mechsheet.page import drawing
 from mechsheet.page.lines import lines
 from mechsheet.worksheet import symbol
 from mechsheet.worksheet.checks import Check, Summary
+from mechsheet.worksheet.drawing import Drawing
 from mechsheet.worksheet.find import Found
 from mechsheet.worksheet.inputs import Used
 from mechsheet.worksheet.lines import Typeset
@@ -64,7 +65,7 @@ def _(value: Charted) -> str:
 
 @html.register
 def _(value: Drawing) -> str:
-    return value.svg()
+    return drawing.svg(value)
 
 
 @html.register
@@ -113,7 +114,7 @@ def _(value: Player) -> str:
 
 @html.register
 def _(value: Mark) -> str:
-    marks = ";".join(f"{chart.variable(symbol.plain(name))}:{float(x)!r}" for name, x in value.positions)
+    marks = ";".join(f"{chart_svg.variable(symbol.plain(name))}:{float(x)!r}" for name, x in value.positions)
     return f'<ms-marks at="{marks}"></ms-marks>'
 
 
@@ -219,7 +220,7 @@ def _(used: Used) -> str:
 
 @html.register
 def _(figure: Figure) -> str:
-    picture = chart.line_chart(figure.x, figure.lines, figure.marks, figure.every)
+    picture = chart_svg.svg(chart.line_chart(figure.x, figure.lines, figure.marks, figure.every))
     caption = _caption("Figure", figure.number, figure.title)
     return f'<ms-figure class="ms-figure">{picture}{caption}</ms-figure>'
 

@@ -42,7 +42,7 @@ def load(path: Path, declared: Sequence[Input]) -> Scene:
     Raises SheetError naming the file and what in it cannot be used.
     """
     if path.suffix.lower() == ".xlsx":
-        from mechsheet.workbook import edited  # on use: openpyxl takes a third of a second
+        from mechsheet.workbook import reading  # on use: openpyxl takes a third of a second
 
-        return Scene(edited.inputs(path, declared))
+        return Scene(reading.inputs(path, declared))
     return scenes.load(path)

@@ -15,7 +15,7 @@ from mechsheet import units
 from mechsheet.run import report
 from mechsheet.run.arguments import read
 from mechsheet.run.progress import progress
-from mechsheet.workbook import excel
+from mechsheet.workbook import writing
 from mechsheet.worksheet import inputs, results
 from mechsheet.worksheet.cells import Worksheet, base, checks, load
 from mechsheet.worksheet.checks import Check
@@ -123,7 +123,7 @@ def comparison(sheet: Worksheet, outcomes: Sequence[Outcome]) -> bytes:
         for o in outcomes
         for table in o.tables
     ]
-    return excel.comparison(sheet.title, [o.name for o in outcomes], rows, fields + tables)
+    return writing.comparison(sheet.title, [o.name for o in outcomes], rows, fields + tables)
 
 
 def run(worksheet: str, arguments: Sequence[str]) -> int:

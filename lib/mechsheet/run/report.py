@@ -7,9 +7,12 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from mechsheet import units
-from mechsheet.recording import live
+from mechsheet.recording.record import record
 from mechsheet.run import arguments
-from mechsheet.workbook import excel
+from mechsheet.workbook import writing
+from mechsheet.workbook.find_sheet import FoundRow
+from mechsheet.workbook.inputs_sheet import InputRow
+from mechsheet.workbook.save import save
 from mechsheet.worksheet import inputs
 from mechsheet.worksheet.cells import results
 from mechsheet.worksheet.checks import Check
@@ -74,7 +77,7 @@ def write(data: bytes, path: Path) -> None:
         path.parent.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise SheetError(f"folder {path.parent} cannot be made: {error.strerror}") from None
-    excel.save(data, path)
+    save(data, path)
 
 
 def workbook(title: str, namespace: Mapping[str, Any], limits: Mapping[str, Limit]) -> bytes:
@@ -84,16 +87,16 @@ def workbook(title: str, namespace: Mapping[str, Any], limits: Mapping[str, Limi
 
 
 def _workbook(title: str, namespace: Mapping[str, Any], values: list[Any]) -> bytes:
-    return excel.workbook(
+    return writing.workbook(
         title,
         inputs=[
-            excel.Row(f.name, value, f.unit, f.meaning, f.section) for f, value in inputs.Used(namespace["g"]).rows()
+            InputRow(f.name, value, f.unit, f.meaning, f.section) for f, value in inputs.Used(namespace["g"]).rows()
         ],
         found=[_found(line, found) for line, found in solved(namespace)],
         tables=_of(Table, values),
         figures=_of(Figure, values),
         checks=_of(Check, values),
-        recording=live.record(namespace),
+        recording=record(namespace),
     )
 
 
@@ -116,10 +119,10 @@ def solved(namespace: Mapping[str, Any]) -> Iterator[tuple[Formula, Found]]:
                 yield line, namespace[source]
 
 
-def _found(line: Formula, found: Found) -> excel.FoundRow:
+def _found(line: Formula, found: Found) -> FoundRow:
     unit, target = units.parse(line.unit).factor, units.parse(found.words.unit).factor
     others = [r for r in found.roots if (r.value, r.branch) != (found.value, found.branch or 0)]
-    return excel.FoundRow(
+    return FoundRow(
         line.name,
         found.value / unit,
         line.unit,

@@ -92,18 +92,6 @@ def in_words(sentence: str) -> str:
     return "".join(html(word) if i % 2 else escape(word) for i, word in enumerate(words))
 
 
-def svg(name: str) -> str:
-    """Name in SVG, its index lowered: the inside of a ``<text>`` element.
-
-    >>> svg("S_p")
-    '<tspan font-style="italic">S</tspan><tspan dy="4" font-size="11">p</tspan><tspan dy="-4">\u200b</tspan>'
-    """
-    symbol = read(stem(name))
-    text, index = f'{symbol.mark}<tspan font-style="italic">{symbol.base}</tspan>', symbol.index
-    # the last part, of no width, takes what follows back to the line
-    return text + (f'<tspan dy="4" font-size="11">{index}</tspan><tspan dy="-4">\u200b</tspan>' if index else "")
-
-
 def text(name: str) -> str:
     """Name in plain characters, for charts and the terminal.
 
