@@ -15,20 +15,22 @@ import numpy as np
 from mechsheet.worksheet import inputs
 from mechsheet.worksheet.checks import Check
 from mechsheet.worksheet.errors import SheetError, raised
-from mechsheet.worksheet.source import functions, is_app
+from mechsheet.worksheet.source import constant, functions, is_app, markdown
 
+_SECTION = re.compile(r"^\s*## +(.*\S)", re.MULTILINE)
 _PART = re.compile(r"abs\((\w+)\)|(\w+)\.(real|imag)")
 
 
 @dataclass(frozen=True)
 class Cell:
-    """One cell: the names it reads and defines, the names that its checks may have, and its compiled lines."""
+    """One cell: the names it reads and defines, the names that its checks may have, its compiled lines, its section."""
 
     name: str
     needs: frozenset[str]
     gives: tuple[str, ...]
     checks: tuple[re.Pattern[str], ...]
     code: CodeType
+    section: str = ""  # heading ## above the cell, or in it
 
 
 @dataclass(frozen=True)
@@ -225,9 +227,12 @@ def _shared(tree: ast.Module) -> Iterator[ast.stmt]:
 
 
 def _cells(tree: ast.Module, path: Path) -> Iterator[Cell]:
+    section = ""
     for node in functions(tree):
         code = compile(ast.Module(node.body[:-1], []), path, "exec")
-        yield Cell(node.name, frozenset(a.arg for a in node.args.args), _gives(node), tuple(_checks(node)), code)
+        section = [section, *_SECTION.findall(constant(markdown(node)))][-1]
+        needs = frozenset(a.arg for a in node.args.args)
+        yield Cell(node.name, needs, _gives(node), tuple(_checks(node)), code, section)
 
 
 def _gives(node: ast.FunctionDef) -> tuple[str, ...]:

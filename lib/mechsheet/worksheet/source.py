@@ -91,6 +91,22 @@ def functions(tree: ast.Module) -> Iterator[ast.FunctionDef]:
             yield node
 
 
+def markdown(node: ast.FunctionDef) -> ast.expr | None:
+    """Text of a cell that shows one by ``mo.md``."""
+    match node.body[-2:]:
+        case [ast.Expr(ast.Call(ast.Attribute(ast.Name("mo"), "md"), [text])), _]:
+            return text
+    return None
+
+
+def constant(node: ast.expr | None) -> str:
+    """A text as it stands in the source; of one with values in it the first part, of anything else nothing."""
+    match node:
+        case ast.Constant(str(text)) | ast.JoinedStr([ast.Constant(str(text)), *_]):
+            return text
+    return ""
+
+
 def is_app(node: ast.expr, kinds: tuple[str, ...]) -> bool:
     """Whether a decorator or context is ``app.cell``, ``app.setup`` and the like, called or not."""
     node = node.func if isinstance(node, ast.Call) else node
