@@ -59,24 +59,25 @@ def contents(worksheet: str | Path, g: Any = None) -> list[Any]:
     """What a worksheet shows, in the order of its file.
 
     These are `Section`, `Text`, `Line`, `Given`, `Control`, the inputs as `Used`, and the values that cells show as
-    they are: title, captions, drawings, columns of them, tables, figures, found values, checks and their summary. ``g`` are
-    the inputs, by default the worksheet's own. The worksheet is run once.
+    they are: title, captions, drawings, columns of them, tables, figures, found values, checks and their summary.
+    ``g`` are the inputs, by default the worksheet's own. The worksheet is run once.
 
     Raises SheetError where the file, an input or the mechanism cannot be used.
     """
     sheet = load(worksheet)
     g = sheet.inputs() if g is None else g
-    cells = {node.name: node for node in source.functions(ast.parse(Path(sheet.path).read_text(encoding="utf-8")))}
-    labels = {name: label for node in cells.values() for name, label in _labels(node)}
-    kept = [cell for cell in sheet.cells if "g" not in cell.gives and not _asks(cells[cell.name])]
+    nodes = source.functions(ast.parse(Path(sheet.path).read_text(encoding="utf-8")))
+    written = {id(cell): node for cell, node in zip(sheet.cells, nodes, strict=True)}  # cells may have one name
+    labels = {name: label for node in written.values() for name, label in _labels(node)}
+    kept = [cell for cell in sheet.cells if "g" not in cell.gives and not _asks(written[id(cell)])]
     names = {**sheet.common, "g": g}
-    parts: dict[str, list[Any]] = {cell.name: [Used(g)] if "g" in cell.gives else [] for cell in sheet.cells}
+    parts: dict[int, list[Any]] = {id(cell): [Used(g)] if "g" in cell.gives else [] for cell in sheet.cells}
     with raised():
         ordered = sheet.needed([name for cell in kept for name in cell.gives], names)
         for cell in [*ordered, *(cell for cell in kept if not cell.gives)]:
-            shown = _shown(cells[cell.name], sheet.path, names)
-            parts[cell.name] = [part for value in shown for part in _parts(value, names, labels)]
-    return [part for cell in sheet.cells for part in parts[cell.name]]
+            shown = _shown(written[id(cell)], sheet.path, names)
+            parts[id(cell)] = [part for value in shown for part in _parts(value, names, labels)]
+    return [part for cell in sheet.cells for part in parts[id(cell)]]
 
 
 def _asks(node: ast.FunctionDef) -> bool:
