@@ -5,10 +5,10 @@ import linecache
 from collections.abc import Mapping
 from typing import Any
 
-from mechsheet.worksheet import source
+from mechsheet.worksheet import shown
 
 _numbers = itertools.count()
-_elsewhere = source.in_page
+_elsewhere = shown.cells_in_page
 
 
 def run(code: str, namespace: dict[str, Any] | None = None) -> dict[str, Any]:
@@ -21,9 +21,9 @@ def run(code: str, namespace: dict[str, Any] | None = None) -> dict[str, Any]:
     return names
 
 
-def _in_page(namespace: Mapping[str, Any]) -> source.Texts | None:
+def _in_page(namespace: Mapping[str, Any]) -> shown.Texts | None:
     """As a page knows its cells, these are known by the namespace in which they have run."""
     return namespace["cells that ran"] if "cells that ran" in namespace else _elsewhere(namespace)
 
 
-source.in_page = _in_page
+shown.cells_in_page = _in_page

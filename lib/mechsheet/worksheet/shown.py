@@ -1,7 +1,12 @@
-"""Values of a worksheet are data; how a page shows them and what it shows of a refusal is told by the page's room."""
+"""What the page's room tells those below: how a page shows values, which are data, and which cells it runs.
 
-from collections.abc import Callable
+The package itself loads this file: nothing else is imported here.
+"""
+
+from collections.abc import Callable, Mapping
 from typing import Any, Protocol
+
+Texts = tuple[tuple[str, str], ...]  # of cells: each with the name under which it is compiled
 
 
 class Page(Protocol):
@@ -19,6 +24,14 @@ def _none() -> Page:
 
 
 page: Callable[[], Page] = _none  # set by the package itself, and called when a value is shown for the first time
+
+
+def _no_page(_namespace: Mapping[str, Any]) -> Texts | None:
+    return None
+
+
+# Cells of the page that runs in a namespace, as they have run last; set by the package itself.
+cells_in_page: Callable[[Mapping[str, Any]], Texts | None] = _no_page
 
 
 class Shown:

@@ -5,12 +5,14 @@ import io
 import linecache
 import os
 import tokenize
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
 from types import CodeType, FrameType
 from typing import Any
+
+from mechsheet.worksheet import shown
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,23 +45,12 @@ _read: dict[int, tuple[CodeType, Cell]] = {}
 _KEPT = 1000
 
 
-Texts = tuple[tuple[str, str], ...]  # of cells: each with the name under which it is compiled
-
-
-def _no_page(_namespace: Mapping[str, Any]) -> Texts | None:
-    return None
-
-
-# Texts of the cells of the page that runs in a namespace, as they have run last; set by the package itself.
-in_page: Callable[[Mapping[str, Any]], Texts | None] = _no_page
-
-
 def cells(namespace: Mapping[str, Any]) -> tuple[Cell, ...]:
     """Cells of the worksheet that runs in a namespace: those of its page, elsewhere those of its file, in their order.
 
     The same tuple as long as they stay the same.
     """
-    texts = in_page(namespace)
+    texts = shown.cells_in_page(namespace)
     if texts is not None:
         return of_texts(texts)
     path = namespace.get("__file__")
@@ -67,7 +58,7 @@ def cells(namespace: Mapping[str, Any]) -> tuple[Cell, ...]:
 
 
 @lru_cache(maxsize=32)
-def of_texts(texts: Texts) -> tuple[Cell, ...]:
+def of_texts(texts: shown.Texts) -> tuple[Cell, ...]:
     """Cells that are texts of their own."""
     return tuple(_alone(*text) for text in texts)
 
