@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mechsheet.workbook.cell import LARGEST
+from mechsheet.workbook.content import LARGEST
 
 
 def linear(values: NDArray[np.float64]) -> dict[str, Any]:

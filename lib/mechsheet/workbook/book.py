@@ -9,7 +9,7 @@ from io import BytesIO
 from typing import Any
 
 from mechsheet.workbook import looks
-from mechsheet.workbook.cell import Content, allowed, cut, put
+from mechsheet.workbook.content import Content, allowed, cut, put
 
 _PROPERTIES = {"author": "mechsheet", "created": datetime(2000, 1, 1)}
 _SHEETS = ("Inputs", "Find", "Checks", "Marks", "Scenes")

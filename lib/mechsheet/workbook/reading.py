@@ -67,7 +67,7 @@ def _rows(path: Path) -> list[list[Any]]:
 
 def _open(path: Path, values: bool) -> Any:
     """The sheet of inputs, its formulas as values or as formulas."""
-    from zipfile import BadZipFile
+    from zipfile import BadZipFile  # as openpyxl does: only where a workbook is read
 
     from openpyxl import load_workbook  # type: ignore[import-untyped]
 

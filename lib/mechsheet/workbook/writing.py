@@ -6,8 +6,8 @@ from dataclasses import replace
 from mechsheet.recording.lines import Recording
 from mechsheet.workbook import checks_sheet, find_sheet, inputs_sheet, looks, section_sheets, table_sheet
 from mechsheet.workbook.book import Book
-from mechsheet.workbook.cell import caption
 from mechsheet.workbook.chart import Charts, same_column
+from mechsheet.workbook.content import caption
 from mechsheet.workbook.find_sheet import FoundRow
 from mechsheet.workbook.inputs_sheet import InputRow
 from mechsheet.workbook.layout import Layout
