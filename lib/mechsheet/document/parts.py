@@ -1,4 +1,4 @@
-"""The contents of a worksheet in the order of its file, as data for whoever writes them: from the file and one run."""
+"""The parts of a worksheet in the order of its file, as data for whoever writes them: from the file and one run."""
 
 import ast
 import re

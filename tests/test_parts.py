@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mechsheet.document.contents import Control, Line, Section, Text, contents
+from mechsheet.document.parts import Control, Line, Section, Text, contents
 from mechsheet.worksheet.checks import Check, Summary
 from mechsheet.worksheet.drawing import Drawing
 from mechsheet.worksheet.find import Found
