@@ -16,7 +16,7 @@ from mechsheet import units
 from mechsheet.document import chart, chart_svg
 from mechsheet.page import drawing
 from mechsheet.page.lines import lines
-from mechsheet.worksheet import symbol
+from mechsheet.worksheet import numbers, symbol
 from mechsheet.worksheet.checks import Check, Summary
 from mechsheet.worksheet.drawing import Drawing
 from mechsheet.worksheet.find import Found
@@ -142,7 +142,8 @@ def _(value: Typeset) -> str:
 def _(check: Check) -> str:
     unit = "" if check.unit == "-" else f" {escape(units.shown(check.unit))}"
     sign = "≤" if check.passed else "≰"
-    compared = f": {check.residual:.2g} {sign} {check.limit:.2g}{unit}" if check.evaluated else ""
+    residual, limit = (numbers.significant(x, 2) for x in (check.residual, check.limit))
+    compared = f": {residual} {sign} {limit}{unit}" if check.evaluated else ""
     return (
         f'<div id="{_anchor(check)}">{_badge(check)} {symbol.in_words(check.name)}{compared}'
         f'<span style="opacity:.7"> {escape(check.reason)}</span></div>'
@@ -201,14 +202,15 @@ def _(used: Used) -> str:
         unit = "" if field.unit == "-" else escape(units.shown(field.unit))
         weight = "bold" if field.name in changed else "normal"
         name = symbol.html(field.name)
-        shown = f"{name}&nbsp;=&nbsp;{value:.10g}&nbsp;{unit}"
+        number = numbers.significant(value, 10)
+        shown = f"{name}&nbsp;=&nbsp;{number}&nbsp;{unit}"
         items.append(f'<span style="white-space:nowrap;font-weight:{weight}">{shown}</span>')
         if field.section != section:
             section = field.section
             rows.append(f'<tr><th colspan="4" style="text-align:left">{escape(section)}</th></tr>')
         rows.append(
             f'<tr style="font-weight:{weight}"><td>{name}</td>'
-            f'<td style="text-align:right;padding:0 .5em">{value:.10g}</td>'
+            f'<td style="text-align:right;padding:0 .5em">{number}</td>'
             f'<td style="padding-right:1em">{unit}</td><td>{escape(field.meaning)}</td></tr>'
         )
     style = "display:flex;flex-wrap:wrap;gap:.2em 1.6em;font-size:.9em"

@@ -178,7 +178,7 @@ class _Marimo:
     """marimo, imported at its first use: that takes half a second, and results need nothing of it."""
 
     def __getattr__(self, name: str) -> Any:
-        import marimo
+        import marimo  # on use: see above
 
         return getattr(marimo, name)
 

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mechsheet import units
+from mechsheet.worksheet import numbers
 from mechsheet.worksheet.errors import SheetError, refuse
 from mechsheet.worksheet.find import Found
 from mechsheet.worksheet.shown import Shown
@@ -46,7 +47,8 @@ class Check(Shown):
         if not self.evaluated:
             return f"FAIL  {self.name}: not evaluated; {self.reason}".removesuffix("; ")
         verdict = "pass" if self.passed else "FAIL"
-        text = f"{verdict}  {self.name}: {self.residual:.3g} <= {self.limit:.3g} {self.unit}".removesuffix(" -")
+        residual, limit = (numbers.significant(x, 3) for x in (self.residual, self.limit))
+        text = f"{verdict}  {self.name}: {residual} <= {limit}{numbers.suffix(self.unit)}"
         return f"{text}; {self.reason}" if self.reason else text
 
 
@@ -87,7 +89,7 @@ def check_slope(
     The limit is 1e-8 of the greatest slope, or ten times what the differences say of their own error, or what
     rounding of ``f`` makes of them.
     """
-    from scipy.differentiate import derivative
+    from scipy.differentiate import derivative  # on use: scipy takes a tenth of a second
 
     if not hi > lo:
         return Check(name, np.nan, 0.0, unit, "the range is empty")
@@ -164,6 +166,5 @@ def _unreached(lost: NDArray[np.bool_], over: ArrayLike, reaches: tuple[Any, Any
     x, lo, hi = (float(np.broadcast_to(v, np.shape(lost))[lost].flat[0]) / factor for v in (np.asarray(over), *reaches))
     if np.isnan(x):
         return f"no position closes: there is no {what}"
-    digits = next((n for n in range(7, 17) if len({f"{v:.{n}g}" for v in {x, lo, hi}}) == len({x, lo, hi})), 17)
-    x_, lo_, hi_ = (f"{v:.{digits}g}" for v in (x, lo, hi))  # as many digits as tell them apart
-    return f"no position closes for {what} = {x_} {unit}: it reaches {lo_}..{hi_} {unit}"
+    at, low, high = numbers.apart([x, lo, hi], digits=7)
+    return f"no position closes for {what} = {at} {unit}: it reaches {low}..{high} {unit}"

@@ -4,7 +4,6 @@ import ast
 import sys
 from collections.abc import Mapping
 from dataclasses import dataclass
-from math import isnan
 from types import FrameType
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -12,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mechsheet import units
-from mechsheet.worksheet import lines, source, symbol
+from mechsheet.worksheet import lines, numbers, source, symbol
 from mechsheet.worksheet.errors import SheetError, refuse
 from mechsheet.worksheet.shown import Shown
 
@@ -43,8 +42,8 @@ class Column:
 
     def texts(self) -> list[str]:
         """The values as they are shown."""
-        kind = "e" if self.power else "f"
-        return [v if isinstance(v, str) else _digits(v, self.decimals, kind) for v in self.values.tolist()]
+        written = numbers.scientific if self.power else numbers.fixed
+        return [v if isinstance(v, str) else written(v, self.decimals, numbers.CELL) for v in self.values.tolist()]
 
 
 @dataclass(frozen=True)
@@ -59,13 +58,9 @@ class Table(Shown):
 
     def frame(self) -> "pd.DataFrame":
         """The table as a pandas DataFrame, headings ``symbol [unit]``."""
-        import pandas as pd
+        import pandas as pd  # on use: a worksheet shows its tables without
 
         return pd.DataFrame({f"{c.symbol} [{c.unit}]" if c.unit else c.symbol: c.values for c in self.columns})
-
-
-def _digits(value: float, decimals: int, kind: str) -> str:
-    return "–" if isnan(value) else f"{value:z.{decimals}{kind}}".replace("inf", "∞")
 
 
 @dataclass(frozen=True)
@@ -87,7 +82,7 @@ class Figure(Shown):
 
     def chart(self) -> Any:
         """The figure as an altair chart, to be changed, combined or saved; the page draws its own, which is faster."""
-        import altair as alt
+        import altair as alt  # on use: the page draws its own
 
         names = [symbol.text(c.symbol) for c in self.lines]
         curves = [
