@@ -1,22 +1,25 @@
 """The public names and where they are defined; `mechsheet` loads each on its first use."""
 
-from mechsheet.accuracy.precision import (
-    Measured as Measured,
+from mechsheet.accuracy.extreme import (
+    DigitsKept as DigitsKept,
 )
-from mechsheet.accuracy.precision import (
-    Method as Method,
+from mechsheet.accuracy.extreme import (
+    measured_scenes as measured_scenes,
 )
-from mechsheet.accuracy.precision import (
-    Truth as Truth,
+from mechsheet.accuracy.jobs import (
+    accuracy_jobs as accuracy_jobs,
+)
+from mechsheet.accuracy.jobs import (
+    batch_times as batch_times,
 )
 from mechsheet.accuracy.precision import (
     WorkPrecision as WorkPrecision,
 )
-from mechsheet.accuracy.precision import (
-    compare as compare,
+from mechsheet.accuracy.whole import (
+    asked_costs as asked_costs,
 )
-from mechsheet.accuracy.precision import (
-    timed as timed,
+from mechsheet.accuracy.whole import (
+    whole_worksheets as whole_worksheets,
 )
 from mechsheet.mechanics.crank import (
     crank as crank,
