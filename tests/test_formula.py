@@ -270,6 +270,14 @@ def test_numbers_of_a_field_are_those_of_the_position_shown():
     assert r'tex="= 3 \cdot 4\ \mathrm{m}"' in html(names["shown"].at(2))
 
 
+def test_a_number_and_a_point_at_nothing_are_told_apart():
+    """0 and 0j are equal, and shown in two ways by the same line."""
+    names = run(IMPORT + "x = 0.0  # [m]\ny = 3 * x  # [m]\nshown = typeset()")
+    assert r'tex="= 3 \cdot 0\ \mathrm{m}"' in joined(names["shown"])
+    names["x"] = 0j
+    assert r'tex="= 3\,(0,\ 0)\ \mathrm{m}"' in joined(names["shown"])
+
+
 def test_edited_unit_alone_is_seen():
     """Cells whose code is equal but for a comment are told apart."""
     shown = [run(IMPORT + f"a = 0.5  # [{unit}] length\nshown = typeset()")["shown"] for unit in ("m", "mm")]

@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import groupby
-from math import nan
+from math import isfinite
 from typing import Protocol
 
 import numpy as np
@@ -192,7 +192,7 @@ def _legend(lines: Sequence[Quantity]) -> Iterator[Sample]:
 
 
 def _reading(quantity: Quantity) -> Reading:
-    known = np.where(np.isfinite(quantity.values), quantity.values, nan).tolist()
-    texts = [numbers.fixed(v, quantity.decimals, numbers.CELL) for v in known]
+    to = numbers.CELL
+    texts = [numbers.fixed(v, quantity.decimals, to) if isfinite(v) else to.none for v in quantity.values.tolist()]
     unit = "" if quantity.unit == "-" else units.shown(quantity.unit)
     return Reading(quantity.symbol, unit, tuple(texts))

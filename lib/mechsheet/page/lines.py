@@ -34,12 +34,12 @@ def _formula(line: Formula, value: object, shown: Typeset) -> str:
 def _substituted(line: Formula, known: Numbers, position: int) -> str:
     """The right side with numbers for its symbols; nothing where it has none."""
     found = ((name, known.at(name, position)) for name in reads(line))
-    return _with_numbers(line, tuple((name, *at) for name, at in found if at))
+    return _with_numbers(line, tuple((name, *at, type(at[0])) for name, at in found if at))  # 0 and 0j are not alike
 
 
-@lru_cache(maxsize=2048, typed=True)  # most numbers stay when an input changes
-def _with_numbers(line: Formula, found: tuple[tuple[str, float | complex, str], ...]) -> str:
-    numbers = {name: Quantity(value / units.parse(unit).factor, unit) for name, value, unit in found}
+@lru_cache(maxsize=2048)  # most numbers stay when an input changes
+def _with_numbers(line: Formula, found: tuple[tuple[str, float | complex, str, type], ...]) -> str:
+    numbers = {name: Quantity(value / units.parse(unit).factor, unit) for name, value, unit, _ in found}
     node = substituted(line, numbers)
     return latex(node) if node else ""
 
