@@ -47,7 +47,6 @@ Source of the reactions: I. G. Shebanov, Dynamic synthesis and analysis of aircr
 Ukrainian), Kharkiv, KhAI, 2003, sections 1.1 to 1.4; derived anew.
 """
 
-import math
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -56,6 +55,7 @@ from numpy.typing import ArrayLike
 from mechsheet.mechanics.arguments import Complex, Float, scalar_field
 from mechsheet.mechanics.planar import cross
 
+Points = tuple[Complex, ...]
 _ROUNDING = 2.0**-52  # how far a rounded coordinate may be off, relative: twice the error of one rounding
 
 
@@ -71,21 +71,21 @@ def solve(a: Complex, b: Complex, w: Complex, D: Float) -> tuple[Float, Float]:
     return cross(w, b) / D, cross(a, w) / D
 
 
-def determinant(a: Complex, b: Complex, points_a: tuple[Complex, ...], points_b: tuple[Complex, ...]) -> Float:
+def determinant(a: Complex, b: Complex, points_a: Points, points_b: Points) -> Float:
     """a x b for vectors between the given points; NaN at a dead centre, where it is no larger than their rounding.
 
     A difference of two rounded points is off by their rounding: below that nothing is left of derivatives and
-    reactions, whose condition is at least that of the determinant. A direction is rounded as a point is.
+    reactions, whose condition is at least that of the determinant. A vector without points is a unit vector, rounded.
     """
     if not (a.ndim or b.ndim):  # numpy's own numbers take ten times as long for it as Python's
         p, q = complex(a), complex(b)
         one = p.real * q.imag - p.imag * q.real
         off = _uncertain(p, q, tuple(map(complex, points_a)), tuple(map(complex, points_b)))
-        return np.float64(one if abs(one) > off else np.nan)
+        return np.asarray(one if abs(one) > off else np.nan)[()]
     D = cross(a, b)
     size = np.abs(D)
-    if size.min(initial=np.inf) > 4 * _ROUNDING * _greatest(points_a) * _greatest(points_b):
-        return D  # one number for all elements decides in a tenth of the time
+    if np.minimum.reduce(size, axis=None, initial=np.inf) > 4 * _ROUNDING * _greatest(points_a) * _greatest(points_b):
+        return D  # one number for all elements, in a third of the time
     return np.where(size <= _uncertain(a, b, points_a, points_b), np.nan, D)
 
 
@@ -107,11 +107,15 @@ def carried(a: Complex, omega: ArrayLike, dr: ArrayLike, ddr: ArrayLike, end: st
 
 def _uncertain(a: Any, b: Any, points_a: tuple[Any, ...], points_b: tuple[Any, ...]) -> Any:
     """How far a x b may be off."""
+    points_a, points_b = points_a or (a,), points_b or (b,)
     x_a, y_a = sum(abs(P.real) for P in points_a), sum(abs(P.imag) for P in points_a)
     x_b, y_b = sum(abs(P.real) for P in points_b), sum(abs(P.imag) for P in points_b)
     return _ROUNDING * ((x_a * abs(b.imag) + y_a * abs(b.real)) + (x_b * abs(a.imag) + y_b * abs(a.real)))
 
 
-def _greatest(points: tuple[Complex, ...]) -> float:
-    """Bound of the coordinates of sums of the points, whichever element; NaN where one of them is."""
-    return sum(math.sqrt(np.vdot(P, P).real) for P in points)
+def _greatest(points: Points) -> float:
+    """Bound of the coordinates of a vector between the points, whichever element; NaN where one of them is."""
+    if not points:
+        return 1.0
+    sizes = [np.abs(P) for P in points]
+    return sum(float(np.maximum.reduce(x, axis=None, initial=0.0) if x.ndim else x) for x in sizes)

@@ -141,9 +141,10 @@ def rpr_velocity(A: ArrayLike, B: ArrayLike, u: ArrayLike, v_A: ArrayLike = 0.0,
     >>> rpr_velocity(2j, 0, 1j, v_A=3 + 1j)
     RPRVelocity(omega_A=np.float64(-1.5), ds=np.float64(1.0))
     """
-    A, B, u = field(A, "A"), field(B, "B"), direction(u, "u")
+    A, B = field(A, "A"), field(B, "B")
+    d, n = A - B, 1j * direction(u, "u")
     w = 1j * (field(v_B, "v_B") - field(v_A, "v_A"))
-    omega_A, minus_ds = solve(A - B, 1j * u, w, _determinant(A, B, u))
+    omega_A, minus_ds = solve(d, n, w, determinant(d, n, (A, B), ()))
     return RPRVelocity(omega_A, -minus_ds)
 
 
@@ -186,11 +187,11 @@ def rpr_acceleration(
     RPRAcceleration(epsilon_A=np.float64(1.5), dds=np.float64(4.5))
     """
     A, B, u = field(A, "A"), field(B, "B"), direction(u, "u")
-    d = A - B
+    d, n = A - B, 1j * u
     omega_A = scalar_field(omega_A, "omega_A")
     known = 2j * omega_A * scalar_field(ds, "ds") * u - omega_A**2 * d
     w = 1j * (field(a_B, "a_B") - field(a_A, "a_A") + known)
-    epsilon_A, minus_dds = solve(d, 1j * u, w, _determinant(A, B, u))
+    epsilon_A, minus_dds = solve(d, n, w, determinant(d, n, (A, B), ()))
     return RPRAcceleration(epsilon_A, -minus_dds)
 
 
@@ -203,7 +204,8 @@ def rpr_determinant(A: ArrayLike, B: ArrayLike, u: ArrayLike) -> Float:
     >>> rpr_determinant(2j, 0, [1j, 1])
     array([ 2., nan])
     """
-    return _determinant(field(A, "A"), field(B, "B"), direction(u, "u"))
+    A, B = field(A, "A"), field(B, "B")
+    return determinant(A - B, 1j * direction(u, "u"), (A, B), ())
 
 
 @elementwise
@@ -267,11 +269,11 @@ def rpr_reactions(
     >>> rpr_reactions(2, 0, 1, loads_B=[Load(-3j, 4)]).R_A.imag
     np.float64(6.0)
     """
-    A, B, u = field(A, "A"), field(B, "B"), direction(u, "u")
+    A, B, n = field(A, "A"), field(B, "B"), 1j * direction(u, "u")
     F_A, T_A = resultant(loads_A, A, "loads_A")
     F_B, T_B = resultant(loads_B, B, "loads_B")
-    N = (T_A + T_B) / _determinant(A, B, u)
-    R_C = 1j * N * u
+    N = (T_A + T_B) / determinant(A - B, n, (A, B), ())
+    R_C = N * n
     return RPRReactions(-(R_C + F_A), R_C - F_B, R_C, -T_A, lever(-T_A, N))
 
 
@@ -338,8 +340,3 @@ class RPRGroup:
     def reactions(self, loads_A: Sequence[Load] = (), loads_B: Sequence[Load] = ()) -> RPRReactions:
         """Reactions of pins and slide (`rpr_reactions`)."""
         return rpr_reactions(self.A, self.B, self.u, loads_A, loads_B)
-
-
-def _determinant(A: Complex, B: Complex, u: Complex) -> Float:
-    normal = 1j * u
-    return determinant(A - B, normal, (A, B), (normal,))

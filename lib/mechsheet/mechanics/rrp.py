@@ -181,10 +181,10 @@ def rrp_velocity(
     np.float64(-0.75)
     """
     A, C, u = field(A, "A"), field(C, "C"), direction(u, "u")
-    a = C - A
+    a, n = C - A, 1j * u
     guide = field(v_B, "v_B") + 1j * scalar_field(omega_B, "omega_B") * (C - field(B, "B"))
     pin = moved(field(v_A, "v_A"), a, dr_A, "dr_A")
-    omega_A, ds = solve(a, 1j * u, 1j * (pin - guide), _determinant(A, C, u))
+    omega_A, ds = solve(a, n, 1j * (pin - guide), determinant(a, n, (A, C), ()))
     return RRPVelocity(guide + ds * u, omega_A, ds)
 
 
@@ -241,13 +241,13 @@ def rrp_acceleration(
     np.float64(-0.390625)
     """
     A, C, u = field(A, "A"), field(C, "C"), direction(u, "u")
-    a = C - A
+    a, n = C - A, 1j * u
     omega_B = scalar_field(omega_B, "omega_B")
     turning = 1j * scalar_field(epsilon_B, "epsilon_B") - omega_B**2
     coriolis = 2j * omega_B * scalar_field(ds, "ds") * u
     guide = field(a_B, "a_B") + turning * (C - field(B, "B")) + coriolis
     pin = field(a_A, "a_A") + carried(a, omega_A, dr_A, ddr_A, "A")
-    epsilon_A, dds = solve(a, 1j * u, 1j * (pin - guide), _determinant(A, C, u))
+    epsilon_A, dds = solve(a, n, 1j * (pin - guide), determinant(a, n, (A, C), ()))
     return RRPAcceleration(guide + dds * u, epsilon_A, dds)
 
 
@@ -260,7 +260,8 @@ def rrp_determinant(A: ArrayLike, C: ArrayLike, u: ArrayLike) -> Float:
     >>> rrp_determinant(3j, [4, 0], 1)
     array([ 4., nan])
     """
-    return _determinant(field(A, "A"), field(C, "C"), direction(u, "u"))
+    A, C = field(A, "A"), field(C, "C")
+    return determinant(C - A, 1j * direction(u, "u"), (A, C), ())
 
 
 @elementwise
@@ -327,8 +328,9 @@ def rrp_reactions(
     A, C, u = field(A, "A"), field(C, "C"), direction(u, "u")
     F_A, T_A = resultant(loads_A, A, "loads_A")
     F_B, T_B = resultant(loads_B, C, "loads_B")
-    N = -(T_A + cross(C - A, F_B)) / _determinant(A, C, u)
-    R_B = 1j * N * u
+    a, n = C - A, 1j * u
+    N = -(T_A + cross(a, F_B)) / determinant(a, n, (A, C), ())
+    R_B = N * n
     R_C = R_B + F_B
     return RRPReactions(-(R_C + F_A), R_B, R_C, -T_B, lever(-T_B, N))
 
@@ -410,8 +412,3 @@ class RRPGroup:
     def reactions(self, loads_A: Sequence[Load] = (), loads_B: Sequence[Load] = ()) -> RRPReactions:
         """Reactions of pins and guide (`rrp_reactions`)."""
         return rrp_reactions(self.A, self.C, self.u, loads_A, loads_B)
-
-
-def _determinant(A: Complex, C: Complex, u: Complex) -> Float:
-    normal = 1j * u
-    return determinant(C - A, normal, (A, C), (normal,))

@@ -179,7 +179,7 @@ def rrr_velocity(
     A, B, C = field(A, "A"), field(B, "B"), field(C, "C")
     a, b = C - A, C - B
     v_A, v_B = moved(field(v_A, "v_A"), a, dr_A, "dr_A"), moved(field(v_B, "v_B"), b, dr_B, "dr_B")
-    omega_A, minus_omega_B = solve(a, b, 1j * (v_A - v_B), _determinant(A, B, C))
+    omega_A, minus_omega_B = solve(a, b, 1j * (v_A - v_B), determinant(a, b, (A, C), (B, C)))
     return RRRVelocity(v_A + 1j * omega_A * a, omega_A, -minus_omega_B)
 
 
@@ -236,7 +236,7 @@ def rrr_acceleration(
     a, b = C - A, C - B
     a_A = field(a_A, "a_A") + carried(a, omega_A, dr_A, ddr_A, "A")
     a_B = field(a_B, "a_B") + carried(b, omega_B, dr_B, ddr_B, "B")
-    epsilon_A, minus_epsilon_B = solve(a, b, 1j * (a_A - a_B), _determinant(A, B, C))
+    epsilon_A, minus_epsilon_B = solve(a, b, 1j * (a_A - a_B), determinant(a, b, (A, C), (B, C)))
     return RRRAcceleration(a_A + 1j * epsilon_A * a, epsilon_A, -minus_epsilon_B)
 
 
@@ -249,7 +249,8 @@ def rrr_determinant(A: ArrayLike, B: ArrayLike, C: ArrayLike) -> Float:
     >>> rrr_determinant(0, 5, [4 + 3j, 2])
     array([15., nan])
     """
-    return _determinant(field(A, "A"), field(B, "B"), field(C, "C"))
+    A, B, C = field(A, "A"), field(B, "B"), field(C, "C")
+    return determinant(C - A, C - B, (A, C), (B, C))
 
 
 @elementwise
@@ -320,8 +321,9 @@ def rrr_reactions(
     A, B, C = field(A, "A"), field(B, "B"), field(C, "C")
     F_A, T_A = resultant(loads_A, A, "loads_A")
     F_B, T_B = resultant(loads_B, B, "loads_B")
-    D = _determinant(A, B, C)
-    R_C = -(product(T_B / D, 0.0, C - A) + product(T_A / D, 0.0, C - B))
+    a, b = C - A, C - B
+    D = determinant(a, b, (A, C), (B, C))
+    R_C = -(product(T_B / D, 0.0, a) + product(T_A / D, 0.0, b))
     return RRRReactions(-(R_C + F_A), R_C - F_B, R_C)
 
 
@@ -409,7 +411,3 @@ def _outer_pins(A: ArrayLike, B: ArrayLike) -> tuple[Complex, Complex, Float]:
     A = field(A, "A")
     d = field(B, "B") - A
     return A, d, np.abs(d)
-
-
-def _determinant(A: Complex, B: Complex, C: Complex) -> Float:
-    return determinant(C - A, C - B, (A, C), (B, C))
