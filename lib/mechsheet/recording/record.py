@@ -6,6 +6,8 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from mechsheet.recording.graph import Graph
 from mechsheet.recording.lines import Recording
 from mechsheet.recording.quantity import Quantity
@@ -56,7 +58,8 @@ def record(namespace: Mapping[str, Any]) -> Recording:
         stage = Stage(recording, namespace, cell)
         names |= stage.replacements()
         try:
-            exec(cell.code, names)
+            with np.errstate(all="ignore"):  # the worksheet's own run has warned
+                exec(cell.code, names)
             stage.compare(names)
         except Exception as error:
             recording.left_out[cell.name] = str(error) or type(error).__name__
