@@ -220,18 +220,6 @@ from mechsheet.mechanics.rrr import (
     rrr_velocity as rrr_velocity,
 )
 from mechsheet.page.title import (
-    caption as caption,
-)
-from mechsheet.page.title import (
-    mark as mark,
-)
-from mechsheet.page.title import (
-    player as player,
-)
-from mechsheet.page.title import (
-    side_by_side as side_by_side,
-)
-from mechsheet.page.title import (
     title_block as title_block,
 )
 from mechsheet.run.ask import (
@@ -356,6 +344,18 @@ from mechsheet.worksheet.table import (
 )
 from mechsheet.worksheet.table import (
     table as table,
+)
+from mechsheet.worksheet.title import (
+    caption as caption,
+)
+from mechsheet.worksheet.title import (
+    mark as mark,
+)
+from mechsheet.worksheet.title import (
+    player as player,
+)
+from mechsheet.worksheet.title import (
+    side_by_side as side_by_side,
 )
 
 __version__: str

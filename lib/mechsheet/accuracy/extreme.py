@@ -38,6 +38,7 @@ from mechsheet.run.progress import progress
 from mechsheet.worksheet import inputs
 from mechsheet.worksheet.cells import Worksheet, load
 from mechsheet.worksheet.checks import Check, assembled
+from mechsheet.worksheet.shown import Charted
 
 FULL = 16.0  # digits of a float
 SPARE = 1.0  # digits that a result may lose beyond its condition number
@@ -103,15 +104,10 @@ class Case:
 
 
 @dataclass(frozen=True)
-class DigitsKept:
+class DigitsKept(Charted):
     """Chart of the digits kept over the digits expected: every result of every scene."""
 
     outcomes: Sequence[Outcome]
-
-    def _mime_(self) -> tuple[str, str]:
-        import marimo as mo  # on use: only a page needs it
-
-        return "text/html", mo.as_html(self.chart()).text
 
     def chart(self) -> Any:
         """The altair chart; above the solid line lies more than can be expected, below the dashed one too little."""

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 
 from mechsheet.run.progress import progress
 from mechsheet.worksheet.checks import Check
+from mechsheet.worksheet.shown import Charted
 from mechsheet.worksheet.table import Column, Figure, Table
 
 ROUNDING = 2.0**-53  # relative error of one rounding: no smaller error is shown, for numbers here are floats
@@ -145,7 +146,7 @@ _RATIO = "run time, times that of the product's own method"
 
 
 @dataclass(frozen=True)
-class WorkPrecision(Figure):
+class WorkPrecision(Charted, Figure):
     """Error over run time, both logarithmic: one line a family.
 
     Where there is a method of the product's own, it is marked, and a field shaded red: whatever is both faster and
@@ -161,11 +162,6 @@ class WorkPrecision(Figure):
 
     def series(self) -> list[tuple[Column, slice, str]]:
         return [(self.lines[0], rows, name) for name, rows in _slices(self.rows)]
-
-    def _mime_(self) -> tuple[str, str]:
-        import marimo as mo  # on use: only a page needs it
-
-        return "text/html", mo.as_html(self.chart()).text
 
     def chart(self) -> Any:
         """The diagram as an altair chart."""
