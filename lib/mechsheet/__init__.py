@@ -24,13 +24,16 @@ Mechanics: numpy arrays in, numpy arrays out
     links           link_point, link_velocity, link_acceleration
     drivers         crank, rrr_crank_reach, rrp_crank_reach, rpr_crank_reach
     group RRR       rrr, rrr_reach, rrr_velocity, rrr_acceleration, rrr_transmission_angle, rrr_condition,
-                    rrr_determinant
-    group RRP       rrp, rrp_reach, rrp_velocity, rrp_acceleration, rrp_transmission_angle, rrp_condition
-    group RPR       rpr, rpr_velocity, rpr_acceleration, rpr_transmission_angle, rpr_condition
-    group PRP       prp, prp_velocity, prp_acceleration, prp_transmission_angle, prp_condition
-    group RPP       rpp, rpp_velocity, rpp_acceleration, rpp_transmission_angle, rpp_condition
-    reactions       Load, inertia, rrr_reactions, rrp_reactions, rpr_reactions, prp_reactions,
-                    rpp_reactions, coupling_drive, gear_drive, cylinder_drive
+                    rrr_determinant, rrr_reactions, RRRGroup
+    group RRP       rrp, rrp_reach, rrp_velocity, rrp_acceleration, rrp_transmission_angle, rrp_condition,
+                    rrp_determinant, rrp_reactions, RRPGroup
+    group RPR       rpr, rpr_reach, rpr_velocity, rpr_acceleration, rpr_transmission_angle, rpr_condition,
+                    rpr_determinant, rpr_reactions, RPRGroup
+    group PRP       prp, prp_velocity, prp_acceleration, prp_transmission_angle, prp_condition,
+                    prp_determinant, prp_reactions, PRPGroup
+    group RPP       rpp, rpp_velocity, rpp_acceleration, rpp_transmission_angle, rpp_condition,
+                    rpp_determinant, rpp_reactions, RPPGroup
+    loads, drives   Load, inertia, coupling_drive, gear_drive, cylinder_drive
     joints          neutral_axis, bending, circular_joint, sum_of_elements
 
 ``__version__`` is the version of the package.

@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import groupby
-from math import isfinite, nan
+from math import nan
 from typing import Protocol
 
 import numpy as np
@@ -192,8 +192,7 @@ def _legend(lines: Sequence[Quantity]) -> Iterator[Sample]:
 
 
 def _reading(quantity: Quantity) -> Reading:
-    texts = (
-        numbers.fixed(v if isfinite(v) else nan, quantity.decimals, numbers.CELL) for v in quantity.values.tolist()
-    )
+    known = np.where(np.isfinite(quantity.values), quantity.values, nan).tolist()
+    texts = [numbers.fixed(v, quantity.decimals, numbers.CELL) for v in known]
     unit = "" if quantity.unit == "-" else units.shown(quantity.unit)
     return Reading(quantity.symbol, unit, tuple(texts))

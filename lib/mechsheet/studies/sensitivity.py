@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from mechsheet import units
 from mechsheet.studies.sweep import Sweep, sweep
 from mechsheet.worksheet import inputs as declarations
-from mechsheet.worksheet import symbol
+from mechsheet.worksheet import numbers, symbol
 from mechsheet.worksheet.cells import base, load, value
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.inputs import Input
@@ -84,7 +84,9 @@ class Sensitivity:
             for x in (self.slopes[name], self.errors[name], self.relative(name))
         )
         by = [list(self.inputs)[i] for i in order]
-        where = f"{np.atleast_1d(self.values[name])[k]:.6g} {units.shown(self.units[name])}".removesuffix(" -")
+        where = numbers.significant(np.atleast_1d(self.values[name])[k], 6) + numbers.suffix(
+            units.shown(self.units[name])
+        )
         columns = (
             _texts("input", by),
             Column("value", "", "where the derivative is taken, in the input's unit", 4, _at(self.inputs, by)),
@@ -92,7 +94,7 @@ class Sensitivity:
             Column("relative", "-", f"d ln {name} / d ln input", 4, relative),
             Column("derivative", "", f"d {name} / d input", 4, slopes),
             _texts("derivative's unit", [units.shown(self.unit(name, x)) for x in by]),
-            _texts("error", [f"{x:.1g}" for x in errors]),
+            _texts("error", [numbers.significant(x, 1) for x in errors]),
         )
         return Table(number, title, columns, f"{name} = {where}, position {k}; derivatives in the units beside them.")
 

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mechsheet import units
-from mechsheet.worksheet import symbol
+from mechsheet.worksheet import numbers, symbol
 from mechsheet.worksheet.errors import SheetError, refuse
 from mechsheet.worksheet.find import Found
 
@@ -48,7 +48,8 @@ class Check:
         if not self.evaluated:
             return f"FAIL  {self.name}: not evaluated; {self.reason}".removesuffix("; ")
         verdict = "pass" if self.passed else "FAIL"
-        text = f"{verdict}  {self.name}: {self.residual:.3g} <= {self.limit:.3g} {self.unit}".removesuffix(" -")
+        residual, limit = (numbers.significant(x, 3) for x in (self.residual, self.limit))
+        text = f"{verdict}  {self.name}: {residual} <= {limit}{numbers.suffix(self.unit)}"
         return f"{text}; {self.reason}" if self.reason else text
 
     def _mime_(self) -> tuple[str, str]:
@@ -192,6 +193,5 @@ def _unreached(lost: NDArray[np.bool_], over: ArrayLike, reaches: tuple[Any, Any
     x, lo, hi = (float(np.broadcast_to(v, np.shape(lost))[lost].flat[0]) / factor for v in (np.asarray(over), *reaches))
     if np.isnan(x):
         return f"no position closes: there is no {what}"
-    digits = next((n for n in range(7, 17) if len({f"{v:.{n}g}" for v in {x, lo, hi}}) == len({x, lo, hi})), 17)
-    x_, lo_, hi_ = (f"{v:.{digits}g}" for v in (x, lo, hi))  # as many digits as tell them apart
-    return f"no position closes for {what} = {x_} {unit}: it reaches {lo_}..{hi_} {unit}"
+    at, low, high = numbers.apart([x, lo, hi], digits=7)
+    return f"no position closes for {what} = {at} {unit}: it reaches {low}..{high} {unit}"

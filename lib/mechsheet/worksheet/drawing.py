@@ -8,6 +8,7 @@ from math import hypot, inf, nan, pi
 import numpy as np
 from numpy.typing import ArrayLike
 
+from mechsheet.worksheet import numbers
 from mechsheet.worksheet.errors import SheetError
 
 # Legible on white and on black; "" is the colour of the text round the drawing.
@@ -182,7 +183,7 @@ class Drawing:
         P, V = _points("arrow", (P, V))
 
         def measure(*_: complex) -> str:
-            return f"{quantity(_length(V), unit)} ({V.real:.4g}, {V.imag:.4g})"
+            return f"{quantity(_length(V), unit)} ({_digits(V.real)}, {_digits(V.imag)})"
 
         vector = -V if into else V
         return self._with("arrow", (P,), name, measure, vector=vector, unit=unit, into=into, colour=colour)
@@ -234,8 +235,12 @@ class Drawing:
 def quantity(value: float, unit: str) -> str:
     """A value with its unit, as it is written in a drawing."""
     if unit == "N" and abs(value) >= 1000:
-        return f"{value / 1000:.4g} kN"
-    return f"{value:.4g} {unit}"
+        value, unit = value / 1000, "kN"
+    return f"{_digits(value)} {unit}"
+
+
+def _digits(x: float) -> str:
+    return numbers.significant(x, 4)
 
 
 def _length(z: complex) -> float:
@@ -243,11 +248,11 @@ def _length(z: complex) -> float:
 
 
 def _place(P: complex) -> str:
-    return f"{P.real:.4g}, {P.imag:.4g} m"
+    return f"{_digits(P.real)}, {_digits(P.imag)} m"
 
 
 def _distance(A: complex, B: complex) -> str:
-    return f"{_length(B - A):.4g} m"
+    return f"{_digits(_length(B - A))} m"
 
 
 def _points(kind: str, points: ArrayLike, least: int = 1) -> tuple[complex, ...]:

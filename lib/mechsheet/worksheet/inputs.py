@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mechsheet import units
-from mechsheet.worksheet import lines, source, symbol
+from mechsheet.worksheet import lines, numbers, source, symbol
 from mechsheet.worksheet.errors import SheetError, refuse
 
 if TYPE_CHECKING:
@@ -42,7 +42,7 @@ class Input:
         if self.whole:
             return value
         shown = value / units.parse(self.unit).factor
-        return shown if np.ndim(shown) else float(f"{shown:.15g}")
+        return shown if np.ndim(shown) else float(numbers.significant(shown, 15))
 
     def si(self, value: Any, default: Any) -> Any:
         """SI value of a number or an array in the display unit; the default itself where it is shown as that number."""
@@ -267,7 +267,7 @@ def build(cls: type[T], values: Mapping[str, object]) -> T:
 
 def text(field: Input, value: Any) -> str:
     """Value in the display unit as a text field shows it."""
-    return f"{field.display(value):.15g}"
+    return numbers.significant(field.display(value), 15)
 
 
 def read(cls: type[T], form: "mo.ui.batch") -> T:

@@ -6,7 +6,6 @@ import sys
 from collections.abc import Mapping
 from dataclasses import dataclass
 from itertools import takewhile
-from math import isnan
 from types import FrameType
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -15,7 +14,7 @@ from numpy.typing import NDArray
 
 from mechsheet import units
 from mechsheet.document import chart, chart_svg
-from mechsheet.worksheet import lines, source, symbol
+from mechsheet.worksheet import lines, numbers, source, symbol
 from mechsheet.worksheet.errors import SheetError, refuse
 
 if TYPE_CHECKING:
@@ -45,8 +44,8 @@ class Column:
 
     def texts(self) -> list[str]:
         """The values as they are shown."""
-        kind = "e" if self.power else "f"
-        return [v if isinstance(v, str) else _digits(v, self.decimals, kind) for v in self.values.tolist()]
+        written = numbers.scientific if self.power else numbers.fixed
+        return [v if isinstance(v, str) else written(v, self.decimals, numbers.CELL) for v in self.values.tolist()]
 
 
 @dataclass(frozen=True)
@@ -89,10 +88,6 @@ def _block(columns: list[Column]) -> str:
         for row in zip(*(c.texts() if c.unit else map(html.escape, c.texts()) for c in columns), strict=True)
     )
     return f'<table><thead><tr>{heads}</tr><tr class="ms-units">{unit_row}</tr></thead><tbody>{rows}</tbody></table>'
-
-
-def _digits(value: float, decimals: int, kind: str) -> str:
-    return "–" if isnan(value) else f"{value:z.{decimals}{kind}}".replace("inf", "∞")
 
 
 @dataclass(frozen=True)
