@@ -28,6 +28,7 @@ from mechsheet.document.formula import (
     is_high,
 )
 from mechsheet.document.latex import RULES, latex
+from mechsheet.page.values import html
 from mechsheet.worksheet import numbers
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.symbol import Symbol
@@ -200,7 +201,7 @@ def test_value_in_the_page(value, unit, text):
 
 def joined(shown):
     """HTML with the elements of a line, formula and value, as one."""
-    return shown.html.replace('=||)</marimo-tex><span class="ms-value">', "= ")
+    return html(shown).replace('=||)</marimo-tex><span class="ms-value">', "= ")
 
 
 def test_one_position_of_the_fields():
@@ -214,7 +215,7 @@ def test_one_position_of_the_fields():
 
 def test_page_shows_symbol_formula_value_and_meaning():
     names = run(IMPORT + "L3 = 0.2  # [m] arm\nA = L3**2  # [cm**2] <area>\nshown = typeset()")
-    assert json.loads(names["shown"]._mime_()[1]) == {"text/html": names["shown"].html}
+    assert json.loads(names["shown"]._mime_()[1]) == {"text/html": html(names["shown"])}
     text = joined(names["shown"])
     assert "A = L_{3}^{2} = 400 cm<sup>2</sup></span>" in text
     assert "L_{3} = 0.2 m</span>" in text
@@ -266,7 +267,15 @@ def test_numbers_stand_for_the_symbols(lines, numbers):
 def test_numbers_of_a_field_are_those_of_the_position_shown():
     names = run(IMPORT + "from numpy import arange\nx = 2 * arange(3)  # [m]\ny = 3 * x  # [m]\nshown = typeset()")
     assert r'tex="= 3 \cdot 0\ \mathrm{m}"' in joined(names["shown"])
-    assert r'tex="= 3 \cdot 4\ \mathrm{m}"' in names["shown"].at(2).html
+    assert r'tex="= 3 \cdot 4\ \mathrm{m}"' in html(names["shown"].at(2))
+
+
+def test_a_number_and_a_point_at_nothing_are_told_apart():
+    """0 and 0j are equal, and shown in two ways by the same line."""
+    names = run(IMPORT + "x = 0.0  # [m]\ny = 3 * x  # [m]\nshown = typeset()")
+    assert r'tex="= 3 \cdot 0\ \mathrm{m}"' in joined(names["shown"])
+    names["x"] = 0j
+    assert r'tex="= 3\,(0,\ 0)\ \mathrm{m}"' in joined(names["shown"])
 
 
 def test_edited_unit_alone_is_seen():
@@ -279,4 +288,4 @@ def test_branch_that_is_meant_stands_in_the_definition():
     text = run(IMPORT + "def P(S, L7, branch=-1):\n    return rrr(S, L7, branch)  # [m] pin\nshown = typeset()")[
         "shown"
     ]
-    assert r"P(S,\,L_{7}) = \operatorname{rrr}(S,\ L_{7},\ -1)" in text.html
+    assert r"P(S,\,L_{7}) = \operatorname{rrr}(S,\ L_{7},\ -1)" in html(text)

@@ -17,7 +17,8 @@ A worksheet as a function
     one run         evaluate, load, results
     many runs       sweep, grid, Sweep, sensitivity, tolerance
     design          search, Requirement, Judged, pareto, Limit, scene_text, save_scene
-    methods         compare, timed, Method, Measured, Truth, WorkPrecision
+    methods         accuracy_jobs, batch_times, whole_worksheets, asked_costs, WorkPrecision
+    extreme scenes  measured_scenes, DigitsKept
 
 Mechanics: numpy arrays in, numpy arrays out
     vectors         dot, cross, product, angle, angle_between, angle_opposite, triangle_area
@@ -81,9 +82,13 @@ The balancing moment does the work of all loads, the inertia forces' sum over a 
 """
 
 import ast
+import sys
+from collections.abc import Mapping
 from importlib import import_module
 from pathlib import Path
 from typing import Any
+
+from mechsheet.worksheet import shown
 
 
 def _homes() -> dict[str, str]:
@@ -94,6 +99,19 @@ def _homes() -> dict[str, str]:
 
 
 _HOMES = _homes()
+
+
+def _cells_in_page(namespace: Mapping[str, Any]) -> shown.Texts | None:
+    """Texts of the cells of the page that runs in a namespace; there is none where marimo is not loaded."""
+    texts: shown.Texts | None = None
+    if "marimo" in sys.modules:
+        texts = import_module("mechsheet.page.notebook").texts(namespace)
+    return texts
+
+
+# What the lower rooms need of the page's, which is loaded only where a page asks for it.
+shown.page = lambda: import_module("mechsheet.page.values")  # type: ignore[assignment,return-value]
+shown.cells_in_page = _cells_in_page
 __all__ = sorted([*_HOMES, "__version__"])
 
 

@@ -15,6 +15,7 @@ from mechsheet.worksheet import numbers, symbol
 from mechsheet.worksheet.cells import base, load, value
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.inputs import Input
+from mechsheet.worksheet.shown import Charted
 from mechsheet.worksheet.table import Column, Table
 
 Array = NDArray[np.float64]
@@ -124,18 +125,13 @@ class Sensitivity:
 
 
 @dataclass(frozen=True)
-class Tornado:
+class Tornado(Charted):
     """Elasticities of one result as horizontal bars, ``bars`` are (input, meaning, elasticity)."""
 
     number: str
     title: str
     result: str
     bars: tuple[tuple[str, str, float], ...]
-
-    def _mime_(self) -> tuple[str, str]:
-        import marimo as mo  # on use: only a page needs it
-
-        return "text/html", mo.as_html(self.chart()).text
 
     def chart(self) -> Any:
         """The bars as an altair chart."""

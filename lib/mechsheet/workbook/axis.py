@@ -5,17 +5,19 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mechsheet.document.axis import axis as rounded
+from mechsheet.document.axis import axis
 from mechsheet.workbook.content import LARGEST
+
+_STEPS = 5
 
 
 def linear(values: NDArray[np.float64]) -> dict[str, Any]:
     """Limits, step and number format of an axis in round numbers; Excel's own often start at zero."""
-    axis = rounded([values[np.abs(values) < LARGEST]], count=5)
-    decimals = max(0, axis.places)
-    plain = decimals < 6 and max(abs(axis.low), abs(axis.high)) < 1e7
+    ends = axis([values[np.abs(values) < LARGEST]], count=_STEPS)
+    decimals = max(0, ends.places)
+    plain = decimals < 6 and max(abs(ends.low), abs(ends.high)) < 1e7
     number = f"{0:.{decimals}f}" if plain else "0.0E+00"
-    return {"min": axis.low, "max": axis.high, "major_unit": axis.step, "num_format": number}
+    return {"min": ends.low, "max": ends.high, "major_unit": ends.step, "num_format": number}
 
 
 def decades(values: NDArray[np.float64]) -> dict[str, Any]:

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 
 from mechsheet.worksheet import numbers
 from mechsheet.worksheet.errors import SheetError
+from mechsheet.worksheet.shown import Shown
 
 # Legible on white and on black; "" is the colour of the text round the drawing.
 COLOURS = {"": "currentColor", "blue": "#3b82d0", "red": "#e0483c", "green": "#2c9c5c", "orange": "#cf7a17"}
@@ -39,7 +40,7 @@ class Element:
 
 
 @dataclass(frozen=True, eq=False)
-class Drawing:
+class Drawing(Shown):
     """A drawing as a value: every method returns a new drawing with one more element; ``a + b`` draws b over a.
 
     Points and lengths are in metres, angles in radians; an element with a point that is not finite is left out.
@@ -201,11 +202,6 @@ class Drawing:
     def svg(self) -> str:
         """The drawing as one SVG element, without identifiers, style sheets and scripts."""
         return self._mime_()[1]
-
-    def _mime_(self) -> tuple[str, str]:
-        from mechsheet.page.drawing import svg  # on use: the page draws
-
-        return "text/html", svg(self)
 
     def _with(
         self,

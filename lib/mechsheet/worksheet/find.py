@@ -4,7 +4,6 @@ All branches are searched, which also tells all roots, what is reached and why t
 of that (`values_only`): on the wanted branch it takes the nearest piece that has a root, with the same value.
 """
 
-import html
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
@@ -19,6 +18,7 @@ from mechsheet.mechanics.brackets import Array, Function
 from mechsheet.mechanics.roots import Counted, Roots, all_roots, nearest_root, real_values, together
 from mechsheet.worksheet import numbers
 from mechsheet.worksheet.errors import SheetError, refuse
+from mechsheet.worksheet.shown import Shown
 
 _values_only: ContextVar[bool] = ContextVar("values_only", default=False)
 
@@ -58,7 +58,7 @@ class Root:
 
 
 @dataclass(frozen=True, eq=False)
-class Found:
+class Found(Shown):
     """The verdict of a solve block; numbers in SI, arrays for arrays of problems.
 
     Attributes
@@ -130,28 +130,10 @@ class Found:
     def __str__(self) -> str:
         if isinstance(self.reason, str) and self.reason:
             return self.reason
-        return f"{self._headline()}: " + ", ".join(f"{k} {v}" for k, v in self._details())
+        return f"{self.headline()}: " + ", ".join(f"{k} {v}" for k, v in self.details())
 
-    def _mime_(self) -> tuple[str, str]:
-        failures = self._failures()
-        colour, verdict = ("#c62828", "not found") if failures else ("#2e7d32", "found")
-        badge = (
-            f'<span style="background:{colour};color:#fff;border-radius:.3em;padding:.1em .5em;margin-right:.6em">'
-            f"{verdict}</span>"
-        )
-        lines = "".join(f"<div>{html.escape(text)}</div>" for text in failures)
-        rows = "".join(
-            f'<tr><td style="opacity:.65;padding:0 1em 0 0">{html.escape(k)}</td>'
-            f'<td style="padding:0;font-variant-numeric:tabular-nums">{html.escape(v)}</td></tr>'
-            for k, v in self._details()
-        )
-        return "text/html", (
-            '<div style="border-left:3px solid currentColor;padding:.2em .8em;margin:.4em 0">'
-            f"<div>{badge}<b>{html.escape(self._headline())}</b></div>{lines}"
-            f'<table style="border-collapse:collapse;font-size:.9em;margin-top:.3em">{rows}</table></div>'
-        )
-
-    def _headline(self) -> str:
+    def headline(self) -> str:
+        """The unknown and its value, or how many problems are solved."""
         unknown, unit = self.words.unknown, self.words.unknown_unit
         if isinstance(self.reason, str):
             return unknown if self.reason else f"{unknown} = {numbers.amount(self._value, unit, 6)}"
@@ -162,14 +144,16 @@ class Found:
             else f"{unknown}, {count}"
         )
 
-    def _failures(self) -> list[str]:
+    def failures(self) -> list[str]:
+        """Why there is no value, of the first problems without one."""
         reasons = np.atleast_1d(self.reason)
         failed = np.argwhere(reasons != "").tolist()
         where = [f"problem {', '.join(map(str, i))}: " if np.ndim(self.reason) else "" for i in failed]
         texts = [w + reasons[tuple(i)] for w, i in zip(where[:3], failed[:3], strict=True)]
         return texts + [f"and {len(failed) - 3} more"] * (len(failed) > 3)
 
-    def _details(self) -> list[tuple[str, str]]:
+    def details(self) -> list[tuple[str, str]]:
+        """How the value was found: what is said of it, and in words and numbers what it is."""
         words, single = self.words, isinstance(self.reason, str)
         on = "" if self.branch is None else f" on branch {self.branch:+d}"
         rows = [("condition", f"{words.quantity} = {numbers.extent(self.equals, words.unit)}{on}")]
