@@ -1,7 +1,10 @@
 """Display units."""
 
+import math
+
 import pytest
 
+from mechsheet import units
 from mechsheet.units import parse
 
 
@@ -34,3 +37,10 @@ def test_unknown_unit_is_named(text):
 def test_newton_is_kilogram_metre_per_second_squared():
     assert parse("N") == parse("kg*m/s**2")
     assert parse("W") == parse("N*m/s")
+
+
+def test_a_unit_is_a_constant_of_its_factor() -> None:
+    assert (units.MPa, units.kgf, units.deg, units.min) == (1e6, 9.80665, math.pi / 180, 60.0)
+    assert all(isinstance(getattr(units, name), float) for name in dir(units) if name in units.UNITS)
+    with pytest.raises(AttributeError, match="unit Mpa is not known; nearest: MPa"):
+        units.Mpa

@@ -1,6 +1,15 @@
-"""Display units: written as in ``[kN*m]``, read into a factor to SI and the exponents of m, kg, s."""
+"""Units: constants to compute with, and display units written as in ``[kN*m]``.
+
+>>> from mechsheet.units import MPa, kN
+>>> 27.5 * kN / (25 * MPa)
+0.0011
+
+A constant is the number of SI units that its unit holds. A display unit is read into that factor and the exponents of
+m, kg, s. Knows nothing of the package.
+"""
 
 import ast
+import difflib
 import re
 from dataclasses import dataclass
 from functools import cache
@@ -41,6 +50,18 @@ UNITS = {
     "Hz": Unit(1, (0, 0, -1)),
     "rpm": Unit(2 * pi / 60, (0, 0, -1)),
 }
+
+
+def __getattr__(name: str) -> float:
+    """The constant of a unit, such as ``from mechsheet.units import kN``."""
+    if name in UNITS:
+        return float(UNITS[name].factor)
+    near = difflib.get_close_matches(name, UNITS, n=1)
+    raise AttributeError(f"unit {name} is not known" + (f"; nearest: {near[0]}" if near else ""))
+
+
+def __dir__() -> list[str]:
+    return sorted([*globals(), *filter(str.isidentifier, UNITS)])
 
 
 @cache
