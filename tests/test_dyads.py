@@ -12,27 +12,26 @@ from exact import EPS, FAMILIES, numbers, triangles, vectors
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from mechsheet.mechanics.dyads import (
-    rpr,
-    rpr_acceleration,
-    rpr_condition,
-    rpr_transmission_angle,
-    rpr_velocity,
+from mechsheet.mechanics.load import Load
+from mechsheet.mechanics.planar import angle, cross, dot, link_acceleration, link_velocity
+from mechsheet.mechanics.rpr import rpr, rpr_acceleration, rpr_condition, rpr_transmission_angle, rpr_velocity
+from mechsheet.mechanics.rrp import (
     rrp,
     rrp_acceleration,
     rrp_condition,
     rrp_reach,
     rrp_transmission_angle,
     rrp_velocity,
+)
+from mechsheet.mechanics.rrr import (
     rrr,
     rrr_acceleration,
     rrr_condition,
     rrr_reach,
+    rrr_reactions,
     rrr_transmission_angle,
     rrr_velocity,
 )
-from mechsheet.mechanics.kinetostatics import Load, rrr_reactions
-from mechsheet.mechanics.planar import angle, cross, dot, link_acceleration, link_velocity
 
 families = pytest.mark.parametrize("family", FAMILIES)
 every = pytest.mark.parametrize
@@ -115,7 +114,7 @@ def test_rrr_velocities_and_accelerations_are_the_differences_of_positions(famil
     v_A, v_B, a_A, a_B = vectors(rng, 4)
     dr_A, dr_B, ddr_A, ddr_B = numbers(rng, 4) * (0 if rigid else 1)
     v = rrr_velocity(A, B, C, v_A, v_B, dr_A, dr_B)
-    a = rrr_acceleration(A, B, C, v.omega_A, v.omega_B, a_A, a_B, dr_A, dr_B, ddr_A, ddr_B)
+    a = rrr_acceleration(A, B, C, v.omega_A, v.omega_B, dr_A, dr_B, a_A, a_B, ddr_A, ddr_B)
 
     def motion(A, B, C, v_A, v_B, a_A, a_B, dr_A, dr_B, ddr_A, ddr_B):
         pin_A, pin_B = exact.path(A, v_A, a_A), exact.path(B, v_B, a_B)
@@ -145,7 +144,7 @@ def test_rrp_velocities_and_accelerations_are_the_differences_of_positions_on_a_
     v_A, v_B, a_A, a_B = vectors(rng, 4)
     omega_B, epsilon_B, dr_A, ddr_A = numbers(rng, 4)
     v = rrp_velocity(A, B, C, u, v_A, v_B, omega_B, dr_A)
-    a = rrp_acceleration(A, B, C, u, v.omega_A, v.ds, a_A, a_B, omega_B, epsilon_B, dr_A, ddr_A)
+    a = rrp_acceleration(A, B, C, u, v.omega_A, v.ds, omega_B, dr_A, a_A, a_B, epsilon_B, ddr_A)
 
     def motion(A, B, C, u, v_A, v_B, a_A, a_B, omega_B, epsilon_B, dr_A, ddr_A):
         pin_A, pin_B = exact.path(A, v_A, a_A), exact.path(B, v_B, a_B)
@@ -173,7 +172,7 @@ def test_rpr_velocities_and_accelerations_are_the_differences_of_positions(famil
     u = 1j * (C - A) / np.abs(C - A)  # mu is the angle between BA and the slide's normal where CB is short
     v_A, v_B, a_A, a_B = vectors(rng, 4)
     v = rpr_velocity(A, B, u, v_A, v_B)
-    a = rpr_acceleration(A, B, u, v.omega, v.ds, a_A, a_B)
+    a = rpr_acceleration(A, B, u, v.omega_A, v.ds, a_A, a_B)
 
     def motion(A, B, u, v_A, v_B, a_A, a_B):
         pin_A, pin_B = exact.path(A, v_A, a_A), exact.path(B, v_B, a_B)
@@ -202,7 +201,7 @@ def test_a_chain_from_lengths_to_accelerations_loses_twice_the_digits_of_its_con
     A, B, C, r_A, r_B, branch = (x[ok] for x in (A, B, C, r_A, r_B, branch))
     v_A, v_B, a_A, a_B = vectors(rng, 4)[:, ok]
     v = rrr_velocity(A, B, C, v_A, v_B)
-    a = rrr_acceleration(A, B, C, v.omega_A, v.omega_B, a_A, a_B)
+    a = rrr_acceleration(A, B, C, v.omega_A, v.omega_B, a_A=a_A, a_B=a_B)
 
     def motion(A, B, r_A, r_B, branch, v_A, v_B, a_A, a_B):
         pin_A, pin_B = exact.path(A, v_A, a_A), exact.path(B, v_B, a_B)
@@ -279,7 +278,7 @@ def test_rrr_links_keep_their_lengths_and_the_branch_its_side(rows: Any, branch:
 def test_an_unreachable_position_is_nan_alone_and_passes_through_the_groups_behind_it() -> None:
     C = rrr(0, [3, 9, 4], 2, 2, 1)
     v = rrr_velocity(0, [3, 9, 4], C, 1j, [2, 2, 2])
-    a = rrr_acceleration(0, [3, 9, 4], C, v.omega_A, v.omega_B, 0, 0)
+    a = rrr_acceleration(0, [3, 9, 4], C, v.omega_A, v.omega_B)
     D = rrp(C, -1j, 1, 4, 1)
     w = rrp_velocity(C, -1j, D, 1, v.v_C)
     s = rpr(C, 5, 1)
@@ -389,8 +388,8 @@ def test_landing_gear_analogues_follow_20_21_25_and_24_with_a_minus() -> None:
     O1, O2, l3 = 0, -0.6 + 1.1j, 0.5
     l2 = np.linspace(*rrr_reach(O2, O1, l3), 9)[1:-1]
     A = rrr(O1, O2, l2, l3, 1)
-    v = rrr_velocity(O1, O2, A, 0, 0, dr_A=1)
-    a = rrr_acceleration(O1, O2, A, v.omega_A, v.omega_B, 0, 0, dr_A=1)
+    v = rrr_velocity(O1, O2, A, dr_A=1)
+    a = rrr_acceleration(O1, O2, A, v.omega_A, v.omega_B, dr_A=1)
     phi = np.angle((A - O2) / (A - O1))  # phi3 - phi2 with both vectors towards A
     # the source's l3 runs from A to O2: its phi3 is ours plus pi
     phi = phi + np.pi
@@ -409,15 +408,15 @@ def test_slotted_link_table_is_reproduced_to_half_the_last_printed_digit() -> No
     B = -2.4j
     u, s = rpr(A, B, 1)
     v = rpr_velocity(A, B, u, link_velocity(A, 0, 0, omega))
-    a = rpr_acceleration(A, B, u, v.omega, v.ds, link_acceleration(A, 0, 0, omega, 0))
+    a = rpr_acceleration(A, B, u, v.omega_A, v.ds, link_acceleration(A, 0, omega))
     C = B + 3.5 * u
     found = {
         "phi3_deg": np.degrees(angle(u)),
         "AB": s,
-        "omega_BC": v.omega,
-        "eps_BC": a.epsilon,
-        "VC": np.abs(link_velocity(C, B, 0, v.omega)),
-        "WC": np.abs(link_acceleration(C, B, 0, v.omega, a.epsilon)),
+        "omega_BC": v.omega_A,
+        "eps_BC": a.epsilon_A,
+        "VC": np.abs(link_velocity(C, B, 0, v.omega_A)),
+        "WC": np.abs(link_acceleration(C, B, v.omega_A, 0, a.epsilon_A)),
     }
     for name, column in found.items():
         assert np.all(np.abs(column - table[name]) <= 0.5e-3), name

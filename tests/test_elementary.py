@@ -8,8 +8,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from mechsheet.mechanics import dyads, joint, kinetostatics, planar
-from mechsheet.mechanics.kinetostatics import Load
+from mechsheet.mechanics import drive, joint, load, planar
+from mechsheet.mechanics import rpr as kind_3
+from mechsheet.mechanics import rrp as kind_2
+from mechsheet.mechanics import rrr as kind_1
+from mechsheet.mechanics.load import Load
 from mechsheet.recording.elementary import STEPS
 
 COUNT = 40  # random cases
@@ -46,37 +49,37 @@ ARGUMENTS: dict[Callable[..., Any], tuple[Any, ...]] = {
     planar.angle_between: (points(), points()),
     planar.angle_opposite: (numbers(1, 1.9), numbers(1, 1.9), numbers(1, 1.9)),
     planar.link_velocity: (points(), points(), points(), numbers()),
-    planar.link_acceleration: (points(), points(), points(), numbers(), numbers()),
-    dyads.rrr: (*pins(), signs()),
-    dyads.rrr_reach: (points(), points(), numbers()),
-    dyads.rrr_velocity: (points(), points(), C, points(), points(), numbers(), numbers()),
-    dyads.rrr_acceleration: (
-        *(points(), points(), C, numbers(), numbers(), points(), points()),
-        *(numbers(), numbers(), numbers(), numbers()),
+    planar.link_acceleration: (points(), points(), numbers(), points(), numbers()),
+    kind_1.rrr: (*pins(), signs()),
+    kind_1.rrr_reach: (points(), points(), numbers()),
+    kind_1.rrr_velocity: (points(), points(), C, points(), points(), numbers(), numbers()),
+    kind_1.rrr_acceleration: (
+        *(points(), points(), C, numbers(), numbers(), numbers(), numbers()),
+        *(points(), points(), numbers(), numbers()),
     ),
-    dyads.rrr_transmission_angle: (points(), points(), points()),
-    dyads.rrr_condition: (points(), points(), points()),
-    dyads.rrp: (points(), points(), points(), numbers(6, 9), signs(), numbers()),
-    dyads.rrp_reach: (points(), points(), points(), numbers()),
-    dyads.rrp_velocity: (points(), points(), C, points(), points(), points(), numbers(), numbers()),
-    dyads.rrp_acceleration: (
-        *(points(), points(), C, points(), numbers(), numbers(), points(), points()),
-        *(numbers(), numbers(), numbers(), numbers()),
+    kind_1.rrr_transmission_angle: (points(), points(), points()),
+    kind_1.rrr_condition: (points(), points(), points()),
+    kind_2.rrp: (points(), points(), points(), numbers(6, 9), signs(), numbers()),
+    kind_2.rrp_reach: (points(), points(), points(), numbers()),
+    kind_2.rrp_velocity: (points(), points(), C, points(), points(), points(), numbers(), numbers()),
+    kind_2.rrp_acceleration: (
+        *(points(), points(), C, points(), numbers(), numbers(), numbers(), numbers()),
+        *(points(), points(), numbers(), numbers()),
     ),
-    dyads.rrp_transmission_angle: (points(), points(), points()),
-    dyads.rrp_condition: (points(), points(), points(), points()),
-    dyads.rpr: (points() + 5, points(), signs(), numbers(0.1, 0.5)),
-    dyads.rpr_velocity: (points(), points(), points(), points(), points()),
-    dyads.rpr_acceleration: (points(), points(), points(), numbers(), numbers(), points(), points()),
-    dyads.rpr_transmission_angle: (points(), points(), points()),
-    dyads.rpr_condition: (points(), points(), points()),
-    kinetostatics.inertia: (numbers(), numbers(), points(), points(), numbers()),
-    kinetostatics.rrr_reactions: (points(), points(), points(), loads(), loads()),
-    kinetostatics.rrp_reactions: (points(), points(), points(), loads(), loads()),
-    kinetostatics.rpr_reactions: (points(), points(), points(), loads(), loads()),
-    kinetostatics.coupling_drive: (points(), loads()),
-    kinetostatics.gear_drive: (points(), points(), numbers(0, 1), loads()),
-    kinetostatics.cylinder_drive: (points(), points(), points(), loads()),
+    kind_2.rrp_transmission_angle: (points(), points(), points()),
+    kind_2.rrp_condition: (points(), points(), points(), points()),
+    kind_3.rpr: (points() + 5, points(), signs(), numbers(0.1, 0.5)),
+    kind_3.rpr_velocity: (points(), points(), points(), points(), points()),
+    kind_3.rpr_acceleration: (points(), points(), points(), numbers(), numbers(), points(), points()),
+    kind_3.rpr_transmission_angle: (points(), points(), points()),
+    kind_3.rpr_condition: (points(), points(), points()),
+    load.inertia: (points(), numbers(), numbers(), points(), numbers()),
+    kind_1.rrr_reactions: (points(), points(), points(), loads(), loads()),
+    kind_2.rrp_reactions: (points(), points(), points(), loads(), loads()),
+    kind_3.rpr_reactions: (points(), points(), points(), loads(), loads()),
+    drive.coupling_drive: (points(), loads()),
+    drive.gear_drive: (points(), points(), numbers(0, 1), loads()),
+    drive.cylinder_drive: (points(), points(), points(), loads()),
     joint.sum_of_elements: (rng.uniform(-1, 1, (COUNT, 6)),),
     joint.bending: (rng.uniform(-1, 1, (COUNT, 6)), rng.uniform(0.1, 1, (COUNT, 6)), numbers(-1, 1), numbers(-1, 1)),
     joint.neutral_axis: (
@@ -106,12 +109,12 @@ def test_the_steps_give_what_the_function_gives(function: Callable[..., Any]) ->
         np.testing.assert_allclose(steps[name] / size, value / size, rtol=0, atol=1e-9, err_msg=name)
 
 
-@pytest.mark.parametrize("function", [dyads.rrr, dyads.rrp, dyads.rpr], ids=lambda f: f.__name__)
+@pytest.mark.parametrize("function", [kind_1.rrr, kind_2.rrp, kind_3.rpr], ids=lambda f: f.__name__)
 def test_what_does_not_close_is_no_number(function: Callable[..., Any]) -> None:
     arguments: dict[Any, tuple[Any, ...]] = {
-        dyads.rrr: (0j, 5 + 0j, 1.0, 2.0, 1),
-        dyads.rrp: (0 + 3j, 0j, 1 + 0j, 2.0, 1),
-        dyads.rpr: (1 + 0j, 0j, 1, 2.0),
+        kind_1.rrr: (0j, 5 + 0j, 1.0, 2.0, 1),
+        kind_2.rrp: (0 + 3j, 0j, 1 + 0j, 2.0, 1),
+        kind_3.rpr: (1 + 0j, 0j, 1, 2.0),
     }
     with np.errstate(invalid="ignore"):
         assert all(np.isnan(value).all() for value in parts(STEPS[function](*arguments[function])).values())

@@ -11,8 +11,9 @@ from hypothesis import Phase, assume, given, target
 from hypothesis import strategies as st
 
 from mechsheet.accuracy import exact, extreme, printed
-from mechsheet.mechanics.kinetostatics import Load, RRRReactions, rrr_reactions
+from mechsheet.mechanics.load import Load
 from mechsheet.mechanics.planar import cross
+from mechsheet.mechanics.rrr import RRRReactions, rrr_reactions
 from mechsheet.worksheet import inputs
 from mechsheet.worksheet.cells import load
 from mechsheet.worksheet.errors import SheetError

@@ -11,32 +11,15 @@ import numpy as np
 import pytest
 from exact import EPS, FAMILIES, numbers, triangles, vectors
 
-from mechsheet.mechanics.drivers import crank
-from mechsheet.mechanics.dyads import (
-    rpr,
-    rpr_acceleration,
-    rpr_velocity,
-    rrp,
-    rrp_acceleration,
-    rrp_velocity,
-    rrr,
-    rrr_acceleration,
-    rrr_velocity,
-)
-from mechsheet.mechanics.kinetostatics import (
-    Load,
-    coupling_drive,
-    cylinder_drive,
-    gear_drive,
-    inertia,
-    prp_reactions,
-    rpp_reactions,
-    rpr_reactions,
-    rrp_reactions,
-    rrr_reactions,
-)
+from mechsheet.mechanics.crank import crank
+from mechsheet.mechanics.drive import coupling_drive, cylinder_drive, gear_drive
+from mechsheet.mechanics.load import Load, inertia
 from mechsheet.mechanics.planar import angle, cross, dot, link_acceleration, link_point, link_velocity
-from mechsheet.mechanics.sliders import prp, prp_acceleration, prp_velocity, rpp, rpp_acceleration, rpp_velocity
+from mechsheet.mechanics.prp import prp, prp_acceleration, prp_reactions, prp_velocity
+from mechsheet.mechanics.rpp import rpp, rpp_acceleration, rpp_reactions, rpp_velocity
+from mechsheet.mechanics.rpr import rpr, rpr_acceleration, rpr_reactions, rpr_velocity
+from mechsheet.mechanics.rrp import rrp, rrp_acceleration, rrp_reactions, rrp_velocity
+from mechsheet.mechanics.rrr import rrr, rrr_acceleration, rrr_reactions, rrr_velocity
 
 ROUNDINGS = 8
 GROUPS = ["rrr", "rrp", "rpr", "prp", "rpp"]
@@ -219,36 +202,36 @@ def machine() -> SimpleNamespace:
     phi, omega, epsilon = np.linspace(0, 2 * np.pi, 73), 12.0, -30.0
     O1, D, E = 0j, 0.42 + 0.05j, 0.1 - 0.35j
     A = crank(O1, 0.1, phi)
-    v_A, a_A = link_velocity(A, O1, 0, omega), link_acceleration(A, O1, 0, omega, epsilon)
+    v_A, a_A = link_velocity(A, O1, 0, omega), link_acceleration(A, O1, omega, 0, epsilon)
 
     B = rrr(A, D, 0.4, 0.25, 1)
-    v1 = rrr_velocity(A, D, B, v_A, 0)
-    a1 = rrr_acceleration(A, D, B, v1.omega_A, v1.omega_B, a_A, 0)
+    v1 = rrr_velocity(A, D, B, v_A)
+    a1 = rrr_acceleration(A, D, B, v1.omega_A, v1.omega_B, a_A=a_A)
 
     K = link_point(B, D, 0.05 - 0.1j)  # the third pin of body 2
-    v_K, a_K = link_velocity(K, D, 0, v1.omega_B), link_acceleration(K, D, 0, v1.omega_B, a1.epsilon_B)
+    v_K, a_K = link_velocity(K, D, 0, v1.omega_B), link_acceleration(K, D, v1.omega_B, 0, a1.epsilon_B)
     G, u3 = 0.6 + 0.2j, np.exp(0.1j)
     C = rrp(K, G, u3, 0.5, 1, 0.02)
     v3 = rrp_velocity(K, G, C, u3, v_K)
-    a3 = rrp_acceleration(K, G, C, u3, v3.omega_A, v3.ds, a_K)
+    a3 = rrp_acceleration(K, G, C, u3, v3.omega_A, v3.ds, a_A=a_K)
 
     Q = link_point(A, B, 0.2 + 0.05j)  # the third pin of body 1
-    v_Q, a_Q = link_velocity(Q, A, v_A, v1.omega_A), link_acceleration(Q, A, a_A, v1.omega_A, a1.epsilon_A)
+    v_Q, a_Q = link_velocity(Q, A, v_A, v1.omega_A), link_acceleration(Q, A, v1.omega_A, a_A, a1.epsilon_A)
     u5 = rpr(Q, E, 1, 0.03).u
     v5 = rpr_velocity(Q, E, u5, v_Q)
-    a5 = rpr_acceleration(Q, E, u5, v5.omega, v5.ds, a_Q)
+    a5 = rpr_acceleration(Q, E, u5, v5.omega_A, v5.ds, a_Q)
 
     N = E + 0.7 * u5  # the third pin of body 6
-    v_N, a_N = link_velocity(N, E, 0, v5.omega), link_acceleration(N, E, 0, v5.omega, a5.epsilon)
+    v_N, a_N = link_velocity(N, E, 0, v5.omega_A), link_acceleration(N, E, v5.omega_A, 0, a5.epsilon_A)
     H, w7, u8 = 0.7j, np.exp(1.4j), np.exp(-0.2j)
     X = rpp(N, H, w7, u8)
     v7 = rpp_velocity(N, H, X, w7, u8, v_N)
-    a7 = rpp_acceleration(N, H, X, w7, u8, v7.ds_A, v7.ds_B, a_N)
+    a7 = rpp_acceleration(N, H, X, w7, u8, v7.ds_A, v7.ds_B, a_A=a_N)
 
     J1, u9, u10 = 0.7 - 0.1j, 1j * (B - D) / np.abs(B - D), np.exp(1.1j)
     Y = prp(B, J1, u9, u10)
     v9 = prp_velocity(B, J1, Y, u9, u10, v1.v_C, 0, v1.omega_B)
-    a9 = prp_acceleration(B, J1, Y, u9, u10, v9.ds_A, v9.ds_B, a1.a_C, 0, v1.omega_B, 0, a1.epsilon_B)
+    a9 = prp_acceleration(B, J1, Y, u9, u10, v9.ds_A, v9.ds_B, v1.omega_B, 0, a1.a_C, 0, a1.epsilon_B)
 
     still = 0 * phi
     bodies = [  # a point, its velocity and acceleration, angular velocity and acceleration
@@ -257,8 +240,8 @@ def machine() -> SimpleNamespace:
         (B, v1.v_C, a1.a_C, v1.omega_B, a1.epsilon_B),
         (K, v_K, a_K, v3.omega_A, a3.epsilon_A),
         (C, v3.v_C, a3.a_C, still, still),
-        (Q, v_Q, a_Q, v5.omega, a5.epsilon),
-        (E + 0 * Q, still, still, v5.omega, a5.epsilon),
+        (Q, v_Q, a_Q, v5.omega_A, a5.epsilon_A),
+        (E + 0 * Q, still, still, v5.omega_A, a5.epsilon_A),
         (N, v_N, a_N, still, still),
         (X, v7.v_C, a7.a_C, still, still),
         (Y, v9.v_C, a9.a_C, v1.omega_B, a1.epsilon_B),
@@ -270,7 +253,7 @@ def machine() -> SimpleNamespace:
     for P, v_P, a_P, w, e in bodies:
         S, T = (P + 0.1 * complex(*rng.normal(size=2)) for _ in range(2))
         m, J, F, M = rng.uniform(0.5, 3), rng.uniform(0.01, 0.1), complex(*rng.normal(0, 50, 2)), rng.normal(0, 5)
-        on = [inertia(m, J, S, link_acceleration(S, P, a_P, w, e), e), Load(-9.81j * m, S), Load(F, T, M)]
+        on = [inertia(S, m, J, link_acceleration(S, P, w, a_P, e), e), Load(-9.81j * m, S), Load(F, T, M)]
         power = power + sum(dot(link_velocity(x.P, P, v_P, w), x.F) + x.M * w for x in on)
         loads.append(on)
 
@@ -369,13 +352,13 @@ def test_cylinder_force_does_the_work_of_the_loads_and_holds_barrel_and_rod() ->
     O1, O2, l3, V = 0, -0.6 + 1.1j, 0.5, 0.05
     l2 = np.linspace(0.8, 1.6, 9)
     A = rrr(O1, O2, l2, l3, 1)
-    v = rrr_velocity(O1, O2, A, 0, 0, dr_A=V)
-    a = rrr_acceleration(O1, O2, A, v.omega_A, v.omega_B, 0, 0, dr_A=V)
+    v = rrr_velocity(O1, O2, A, dr_A=V)
+    a = rrr_acceleration(O1, O2, A, v.omega_A, v.omega_B, dr_A=V)
     u = A / l2
     S1, S2, S3 = 0.3 * u, A - 0.25 * u, O2 + 2j * (A - O2)
-    barrel = [inertia(4, 0.1, S1, link_acceleration(S1, O1, 0, v.omega_A, a.epsilon_A), a.epsilon_A), Load(-40j, S1)]
-    rod = [inertia(3, 0.2, S2, link_acceleration(S2, A, a.a_C, v.omega_A, a.epsilon_A), a.epsilon_A), Load(-30j, S2)]
-    leg = [inertia(50, 9, S3, link_acceleration(S3, O2, 0, v.omega_B, a.epsilon_B), a.epsilon_B), Load(300 - 500j, S3)]
+    barrel = [inertia(S1, 4, 0.1, link_acceleration(S1, O1, v.omega_A, 0, a.epsilon_A), a.epsilon_A), Load(-40j, S1)]
+    rod = [inertia(S2, 3, 0.2, link_acceleration(S2, A, v.omega_A, a.a_C, a.epsilon_A), a.epsilon_A), Load(-30j, S2)]
+    leg = [inertia(S3, 50, 9, link_acceleration(S3, O2, v.omega_B, 0, a.epsilon_B), a.epsilon_B), Load(300 - 500j, S3)]
     R = rrr_reactions(O1, O2, A, barrel + rod, leg)
     drive = cylinder_drive(O1, A, R.R_C, rod)
 
@@ -504,8 +487,8 @@ def test_an_unloaded_group_has_no_reactions_and_no_position_of_a_resultant() -> 
             lambda: rrr_reactions(0, 1, [1j, 2j], [Load(1, [1, 2, 3])]),
             r"not broadcast: C \(2,\), loads_A\[0\].P \(3,\)",
         ),
-        (lambda: inertia(-1, 1, 0, 0, 0), "mass m = -1 kg must not be negative"),
-        (lambda: inertia(1, np.nan, 0, 0, 0), "moment of inertia J = nan kg m\\^2 must be a finite number"),
+        (lambda: inertia(0, -1, 1), "mass m = -1 kg must not be negative"),
+        (lambda: inertia(0, 1, np.nan), "moment of inertia J = nan kg m\\^2 must be a finite number"),
         (lambda: gear_drive(0, 1, np.pi / 2, []), "pressure angle alpha_w = 1.5708 rad must be less than pi/2"),
         (lambda: gear_drive(0, 1, -0.1, []), "pressure angle alpha_w = -0.1 rad must not be negative"),
         (lambda: coupling_drive(0, [Load(1, 0, 1j)]), r"loads\[0\].M = 1j must be real numbers"),

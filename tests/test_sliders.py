@@ -10,18 +10,8 @@ import pytest
 from exact import EPS, FAMILIES, numbers, triangles, vectors
 
 from mechsheet.mechanics.planar import cross
-from mechsheet.mechanics.sliders import (
-    prp,
-    prp_acceleration,
-    prp_condition,
-    prp_transmission_angle,
-    prp_velocity,
-    rpp,
-    rpp_acceleration,
-    rpp_condition,
-    rpp_transmission_angle,
-    rpp_velocity,
-)
+from mechsheet.mechanics.prp import prp, prp_acceleration, prp_condition, prp_transmission_angle, prp_velocity
+from mechsheet.mechanics.rpp import rpp, rpp_acceleration, rpp_condition, rpp_transmission_angle, rpp_velocity
 
 families = pytest.mark.parametrize("family", FAMILIES)
 ROUNDINGS = 8  # as in test_dyads
@@ -50,7 +40,7 @@ def test_prp_velocities_and_accelerations_are_the_differences_of_positions_on_mo
     v_A, v_B, a_A, a_B = vectors(rng, 4)
     omega_A, omega_B, epsilon_A, epsilon_B = numbers(rng, 4)
     v = prp_velocity(A, B, C, u_A, u_B, v_A, v_B, omega_A, omega_B)
-    a = prp_acceleration(A, B, C, u_A, u_B, v.ds_A, v.ds_B, a_A, a_B, omega_A, omega_B, epsilon_A, epsilon_B)
+    a = prp_acceleration(A, B, C, u_A, u_B, v.ds_A, v.ds_B, omega_A, omega_B, a_A, a_B, epsilon_A, epsilon_B)
 
     def motion(A, B, u_A, u_B, v_A, v_B, a_A, a_B, omega_A, omega_B, epsilon_A, epsilon_B):
         pin_A, pin_B = exact.path(A, v_A, a_A), exact.path(B, v_B, a_B)
@@ -81,7 +71,7 @@ def test_rpp_velocities_and_accelerations_are_the_differences_of_positions_on_a_
     v_A, v_B, a_A, a_B = vectors(rng, 4)
     omega, epsilon = numbers(rng, 2)
     v = rpp_velocity(A, B, C, u_A, u_B, v_A, v_B, omega)
-    a = rpp_acceleration(A, B, C, u_A, u_B, v.ds_A, v.ds_B, a_A, a_B, omega, epsilon)
+    a = rpp_acceleration(A, B, C, u_A, u_B, v.ds_A, v.ds_B, omega, a_A, a_B, epsilon)
 
     def motion(A, B, u_A, u_B, v_A, v_B, a_A, a_B, omega, epsilon):
         pin_A, pin_B = exact.path(A, v_A, a_A), exact.path(B, v_B, a_B)
@@ -107,7 +97,7 @@ def test_scotch_yoke_moves_as_the_cosine_of_the_crank_angle() -> None:
     A = 0.3 * np.exp(1j * phi)
     C = rpp(A, 0, 1j, 1)
     v = rpp_velocity(A, 0, C, 1j, 1, 1j * A)
-    a = rpp_acceleration(A, 0, C, 1j, 1, v.ds_A, v.ds_B, -A)
+    a = rpp_acceleration(A, 0, C, 1j, 1, v.ds_A, v.ds_B, a_A=-A)
     for found, true in ((C, np.cos(phi)), (v.ds_B, -np.sin(phi)), (a.dds_B, -np.cos(phi))):
         assert found == pytest.approx(0.3 * true, abs=1e-16)
 

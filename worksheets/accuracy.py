@@ -480,7 +480,7 @@ def velocities(chain, q, pins):
     """Velocity analogues of all dyads of a driven chain, by the library."""
     dA, found = chain.dA(q), []
     for (A, C), d in zip(pins, chain.dyads, strict=True):
-        v = rrr_velocity(A, d.B, C, dA, 0, dr_A=float(d.r_A is None))
+        v = rrr_velocity(A, d.B, C, dA, dr_A=float(d.r_A is None))
         found.append(v)
         dA = d.z * v.v_C
     return found
@@ -491,7 +491,7 @@ def accelerations(chain, pins, rates_of):
     """Acceleration analogues of all dyads of a chain whose first pin A rests, by the library."""
     ddA, found = 0, []
     for (A, C), d, v in zip(pins, chain.dyads, rates_of, strict=True):
-        a = rrr_acceleration(A, d.B, C, v.omega_A, v.omega_B, ddA, 0, dr_A=float(d.r_A is None))
+        a = rrr_acceleration(A, d.B, C, v.omega_A, v.omega_B, dr_A=float(d.r_A is None), a_A=ddA)
         found.append(a)
         ddA = d.z * a.a_C
     return found
@@ -635,17 +635,17 @@ def hitch_functions(h):
 
     def slope_L4(S, L4):
         C = P45(S, L4)
-        return (h.L56 / h.L5 * rrr_velocity(P34(S), O5, C, 0, 0, dr_A=1).v_C).imag
+        return (h.L56 / h.L5 * rrr_velocity(P34(S), O5, C, dr_A=1).v_C).imag
 
     def slope_S(S, L4):
         C = rrr(O1, O3, S, h.L3, -1)
         A = O3 + z * (C - O3)
-        v = rrr_velocity(O1, O3, C, 0, 0, dr_A=1).v_C
-        return (h.L56 / h.L5 * rrr_velocity(A, O5, rrr(A, O5, L4, h.L5, +1), z * v, 0).v_C).imag
+        v = rrr_velocity(O1, O3, C, dr_A=1).v_C
+        return (h.L56 / h.L5 * rrr_velocity(A, O5, rrr(A, O5, L4, h.L5, +1), z * v).v_C).imag
 
     def slope_L7(S, L4, L7):
         P = P56(S, L4)
-        return rrr_velocity(P, O7, rrr(P, O7, h.L6, L7, -1), 0, 0, dr_B=1).omega_A
+        return rrr_velocity(P, O7, rrr(P, O7, h.L6, L7, -1), dr_B=1).omega_A
 
     return P34, P56, phi6, slope_L4, slope_S, slope_L7
 

@@ -452,9 +452,9 @@ def scheme(L4, L7, O1, O3, O5, O7, P23, P23_S, P34, P34_S, P45, P45_S, P56, P56_
 @app.cell
 def velocities(O1, O3, O5, O7):
     def velocities(p23, p34, p45, p56, p67, s6, dS=1.0):
-        v34 = 1j * rrr_velocity(O1, O3, p23, 0, 0, dr_A=dS).omega_B * (p34 - O3)
-        v56 = 1j * rrr_velocity(p34, O5, p45, v34, 0).omega_B * (p56 - O5)
-        vS6 = v56 + 1j * rrr_velocity(p56, O7, p67, v56, 0).omega_A * (s6 - p56)
+        v34 = 1j * rrr_velocity(O1, O3, p23, dr_A=dS).omega_B * (p34 - O3)
+        v56 = 1j * rrr_velocity(p34, O5, p45, v34).omega_B * (p56 - O5)
+        vS6 = v56 + 1j * rrr_velocity(p56, O7, p67, v56).omega_A * (s6 - p56)
         return v34, v56, vS6
 
     return (velocities,)

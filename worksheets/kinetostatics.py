@@ -286,7 +286,7 @@ def kinematics_23(C, O1, g):
         return rrr(P_A(phi1), C, g.l2, g.l3, +1)  # [m] pin of the rod 2 on the rocker
 
     def motion_23(phi1):
-        return rrr_velocity(P_A(phi1), C, P_B(phi1), V_A(phi1), 0)
+        return rrr_velocity(P_A(phi1), C, P_B(phi1), V_A(phi1))
 
     def u2(phi1):
         return motion_23(phi1).omega_A  # [-] rod 2 to crank
@@ -339,7 +339,7 @@ def kinematics_45_67(H, O5, P_D, P_K, V_D, V_K, g, u5):
         return rpr_velocity(P_K(phi1), H, e7(phi1), V_K(phi1))
 
     def u6(phi1):
-        return motion_67(phi1).omega  # [-] rod 6 and cylinder 7 to crank
+        return motion_67(phi1).omega_A  # [-] rod 6 and cylinder 7 to crank
 
     typeset()
     return P_E, V_E, e7, motion_45, motion_67, u4, u6
@@ -511,27 +511,27 @@ def motion(
     v5 = omega1 * motion_45(phi1).ds  # [m/s] plunger along the guide
     v6 = omega1 * motion_67(phi1).ds  # [m/s] rod 6 in the cylinder, outwards
     a_A = (1j * g.eps1 - omega1**2) * (A - O1)  # [m/s**2] pin A
-    change_23 = rrr_acceleration(A, C, B, omega2, omega3, a_A, 0)
+    change_23 = rrr_acceleration(A, C, B, omega2, omega3, a_A=a_A)
     eps2 = change_23.epsilon_A  # [rad/s**2] rod 2
     eps3 = change_23.epsilon_B  # [rad/s**2] rocker 3
     a_D = (1j * eps3 - omega3**2) * (D - C)  # [m/s**2] pin D
     a_K = (1j * eps3 - omega3**2) * (K - C)  # [m/s**2] pin K
-    change_45 = rrp_acceleration(D, O5, E, u5, omega4, v5, a_D)
+    change_45 = rrp_acceleration(D, O5, E, u5, omega4, v5, a_A=a_D)
     eps4 = change_45.epsilon_A  # [rad/s**2] rod 4
     a_E = change_45.a_C  # [m/s**2] plunger
-    eps6 = rpr_acceleration(K, H, K - H, omega6, v6, a_K).epsilon  # [rad/s**2] rod 6 and cylinder 7
+    eps6 = rpr_acceleration(K, H, K - H, omega6, v6, a_K).epsilon_A  # [rad/s**2] rod 6 and cylinder 7
     S1 = P_S1(phi1)  # [m] crank
     S2 = P_S2(phi1)  # [m] rod 2
     S3 = P_S3(phi1)  # [m] rocker
     S4 = P_S4(phi1)  # [m] rod 4
     S6 = P_S6(phi1)  # [m] rod with piston
     S7 = P_S7(phi1)  # [m] cylinder
-    a_S1 = link_acceleration(S1, O1, 0, omega1, g.eps1)  # [m/s**2] crank
-    a_S2 = link_acceleration(S2, A, a_A, omega2, eps2)  # [m/s**2] rod 2
-    a_S3 = link_acceleration(S3, C, 0, omega3, eps3)  # [m/s**2] rocker
-    a_S4 = link_acceleration(S4, D, a_D, omega4, eps4)  # [m/s**2] rod 4
-    a_S6 = link_acceleration(S6, K, a_K, omega6, eps6)  # [m/s**2] rod with piston
-    a_S7 = link_acceleration(S7, H, 0, omega6, eps6)  # [m/s**2] cylinder
+    a_S1 = link_acceleration(S1, O1, omega1, 0, g.eps1)  # [m/s**2] crank
+    a_S2 = link_acceleration(S2, A, omega2, a_A, eps2)  # [m/s**2] rod 2
+    a_S3 = link_acceleration(S3, C, omega3, 0, eps3)  # [m/s**2] rocker
+    a_S4 = link_acceleration(S4, D, omega4, a_D, eps4)  # [m/s**2] rod 4
+    a_S6 = link_acceleration(S6, K, omega6, a_K, eps6)  # [m/s**2] rod with piston
+    a_S7 = link_acceleration(S7, H, omega6, 0, eps6)  # [m/s**2] cylinder
     motion_lines = typeset()
     return (
         S1,
@@ -727,8 +727,8 @@ def kind_2(F_Q, F_in4, F_in5, G4, G5, M_in4, g, phi4):
 def library_45(D, E, F_Q, G4, G5, R05, R34, R45, S4, a_E, a_S4, eps4, g, gamma05, gamma34, gamma45, lost, u5):
     group_45 = rrp_reactions(
         *(D, E, u5),
-        [Load(G4, S4), inertia(g.m4, g.J4, S4, a_S4, eps4)],
-        [Load(G5 + F_Q, E), inertia(g.m5, 0, E, a_E, 0)],
+        [Load(G4, S4), inertia(S4, g.m4, g.J4, a_S4, eps4)],
+        [Load(G5 + F_Q, E), inertia(E, g.m5, 0, a_E)],
     )
     R_D = group_45.R_A  # [N] rocker 3 on the rod 4, at D
     R_05 = group_45.R_B  # [N] guide on the plunger 5, at E
@@ -874,8 +874,8 @@ def library_67(
 ):
     group_67 = rpr_reactions(
         *(K, H, K - H),
-        [Load(G6 + F_gas, S6), inertia(g.m6, g.J6, S6, a_S6, eps6)],
-        [Load(G7 - F_gas, S7), inertia(g.m7, g.J7, S7, a_S7, eps6)],
+        [Load(G6 + F_gas, S6), inertia(S6, g.m6, g.J6, a_S6, eps6)],
+        [Load(G7 - F_gas, S7), inertia(S7, g.m7, g.J7, a_S7, eps6)],
     )
     R_K = group_67.R_A  # [N] rocker 3 on the rod 6, at K
     R_H = group_67.R_B  # [N] frame on the cylinder 7, at H
@@ -1061,8 +1061,8 @@ def library_23(
 ):
     group_23 = rrr_reactions(
         *(A, C, B),
-        [Load(G2, S2), inertia(g.m2, g.J2, S2, a_S2, eps2)],
-        [Load(G3, S3), inertia(g.m3, g.J3, S3, a_S3, eps3), Load(-R_D, D), Load(-R_K, K)],
+        [Load(G2, S2), inertia(S2, g.m2, g.J2, a_S2, eps2)],
+        [Load(G3, S3), inertia(S3, g.m3, g.J3, a_S3, eps3), Load(-R_D, D), Load(-R_K, K)],
     )
     R_A = group_23.R_A  # [N] crank 1 on the rod 2, at A
     R_C = group_23.R_B  # [N] frame on the rocker 3, at C
@@ -1160,7 +1160,7 @@ def gear(F1, M1, R21, g, gamma1, gamma21, phi1):
 
 @app.cell
 def library_gear(A, F_b, G1, O1, R_A, R_O1g, S1, a_S1, g, gamma_O1g, gamma_b, lost):
-    loads_O1 = [Load(G1, S1), inertia(g.m1, g.J1, S1, a_S1, g.eps1), Load(-R_A, A)]
+    loads_O1 = [Load(G1, S1), inertia(S1, g.m1, g.J1, a_S1, g.eps1), Load(-R_A, A)]
     P_w = O1 - g.l_O1P  # [m] pitch point
     drive_g = gear_drive(O1, P_w, g.alpha_w, loads_O1)
     F_w = drive_g.F  # [N] balancing force on the crank's wheel, at P

@@ -564,8 +564,8 @@ def step_12(
     phi3,
 ):
     A_group = rrr(O1, O2, l2i, g.l3, +1)  # [m] pin A of the group
-    v_group = rrr_velocity(O1, O2, A_group, 0, 0, dr_A=1)
-    a_group = rrr_acceleration(O1, O2, A_group, v_group.omega_A, v_group.omega_B, 0, 0, dr_A=1)
+    v_group = rrr_velocity(O1, O2, A_group, dr_A=1)
+    a_group = rrr_acceleration(O1, O2, A_group, v_group.omega_A, v_group.omega_B, dr_A=1)
     scale = np.max(abs([eps3_l2i, eps2_l2i, omega3_l2i**2]))
     checks_analogues = (
         check("stroke: l2n - l20 = H", l2n - l20 - H, 1e-12 * l12, "m"),
@@ -730,11 +730,11 @@ def loads(O2, D3, W3, S3, V21, e3, eps3_l2, g, omega3_l2):
 
     def a_S3(l2):
         return link_acceleration(
-            S3(l2), O2, 0, V21 * omega3_l2(l2), V21**2 * eps3_l2(l2)
+            S3(l2), O2, V21 * omega3_l2(l2), 0, V21**2 * eps3_l2(l2)
         )  # [m/s**2] acceleration of the centre of mass
 
     def I3(l2):
-        return inertia(g.m3, g.J3, S3(l2), a_S3(l2), V21**2 * eps3_l2(l2))
+        return inertia(S3(l2), g.m3, g.J3, a_S3(l2), V21**2 * eps3_l2(l2))
 
     def acting(l2):
         return [Load(G3, S3(l2)), I3(l2), Load(Q_w, W3(l2)), Load(Q3(l2), D3(l2))]

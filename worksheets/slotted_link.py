@@ -287,14 +287,14 @@ def group(A, B, VA, WA, g):
         return rpr(slider(phi1), B, +1).s  # [m] slider from B along the link
 
     def omega_BC(phi1):
-        return rpr_velocity(slider(phi1), B, u(phi1), VA(phi1)).omega  # [rad/s] angular velocity of the link 3
+        return rpr_velocity(slider(phi1), B, u(phi1), VA(phi1)).omega_A  # [rad/s] angular velocity of the link 3
 
     def VAB(phi1):
         return rpr_velocity(slider(phi1), B, u(phi1), VA(phi1)).ds  # [m/s] velocity of the slider along the link
 
     def eps_BC(phi1):
         rates = omega_BC(phi1), VAB(phi1)
-        return rpr_acceleration(slider(phi1), B, u(phi1), *rates, WA(phi1)).epsilon  # [rad/s**2] angular acceleration
+        return rpr_acceleration(slider(phi1), B, u(phi1), *rates, WA(phi1)).epsilon_A  # [rad/s**2] angular acceleration
 
     def WAB(phi1):
         rates = omega_BC(phi1), VAB(phi1)

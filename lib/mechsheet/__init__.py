@@ -7,8 +7,7 @@ drives the slider C through the rod B-C; all links have mass, the slider works a
 
 >>> import numpy as np
 >>> from mechsheet import (
-...     Load, coupling_drive, crank, inertia, link_acceleration, link_velocity,
-...     rrp, rrp_acceleration, rrp_reactions, rrp_velocity, rrr, rrr_acceleration, rrr_reactions, rrr_velocity,
+...     Load, RRPGroup, RRRGroup, coupling_drive, crank, inertia, link_acceleration, link_velocity,
 ... )
 
 Positions, velocities and accelerations from the crank on, for a turn at 20 rad/s:
@@ -16,30 +15,30 @@ Positions, velocities and accelerations from the crank on, for a turn at 20 rad/
 >>> O1, O3, omega1 = 0, 0.4 + 0.1j, 20.0
 >>> phi1 = np.linspace(0, 2 * np.pi, 361)
 >>> A = crank(O1, 0.1, phi1)
->>> v_A, a_A = link_velocity(A, O1, 0, omega1), link_acceleration(A, O1, 0, omega1, 0)
->>> B = rrr(A, O3, 0.4, 0.3, +1)
->>> v_B, omega2, omega3 = rrr_velocity(A, O3, B, v_A, 0)
->>> a_B, epsilon2, epsilon3 = rrr_acceleration(A, O3, B, omega2, omega3, a_A, 0)
->>> G, u = 0.35j, 1  # a point of the slider's guide and its direction
->>> C = rrp(B, G, u, 0.5, +1)
->>> v_C, omega4, ds = rrp_velocity(B, G, C, u, v_B)
->>> a_C, epsilon4, dds = rrp_acceleration(B, G, C, u, omega4, ds, a_B)
+>>> v_A, a_A = link_velocity(A, O1, omega=omega1), link_acceleration(A, O1, omega1)
+>>> coupler_rocker = RRRGroup(A, O3, 0.4, 0.3, +1)
+>>> B = coupler_rocker.C
+>>> v23 = coupler_rocker.velocity(v_A)
+>>> a23 = coupler_rocker.acceleration(v23, a_A)
+>>> rod_slider = RRPGroup(B, 0.35j, 1, 0.5, +1)  # on a guide through 0.35j in the direction 1
+>>> C = rod_slider.C
+>>> v45 = rod_slider.velocity(v23.v_C)
+>>> a45 = rod_slider.acceleration(v45, a23.a_C)
 
 Inertia forces, then reactions from the last group to the crank:
 
->>> S2, S4 = (A + B) / 2, (B + C) / 2
->>> inertia2 = inertia(2.0, 0.03, S2, (a_A + a_B) / 2, epsilon2)
->>> inertia3 = inertia(0.0, 0.05, O3, 0, epsilon3)  # balanced about O3
->>> inertia4 = inertia(2.5, 0.05, S4, (a_B + a_C) / 2, epsilon4)
->>> on_slider = [inertia(4.0, 0.0, C, a_C, 0), Load(-400 * np.sign(v_C.real), C)]
->>> group45 = rrp_reactions(B, C, u, [inertia4], on_slider)
->>> group23 = rrr_reactions(A, O3, B, [inertia2], [inertia3, Load(-group45.R_A, B)])
+>>> inertia2 = inertia((A + B) / 2, 2.0, 0.03, (a_A + a23.a_C) / 2, a23.epsilon_A)
+>>> inertia3 = inertia(O3, 0.0, 0.05, epsilon=a23.epsilon_B)  # balanced about O3
+>>> inertia4 = inertia((B + C) / 2, 2.5, 0.05, (a23.a_C + a45.a_C) / 2, a45.epsilon_A)
+>>> on_slider = [inertia(C, 4.0, 0.0, a45.a_C), Load(-400 * np.sign(v45.v_C.real), C)]
+>>> group45 = rod_slider.reactions([inertia4], on_slider)
+>>> group23 = coupler_rocker.reactions([inertia2], [inertia3, Load(-group45.R_A, B)])
 >>> M, R_O1 = coupling_drive(O1, [Load(-group23.R_A, A)])
 
 The balancing moment does the work of all loads, the inertia forces' sum over a turn to nothing:
 
 >>> work = np.trapezoid(M, phi1)
->>> resisted = np.trapezoid(400 * np.abs(v_C) / omega1, phi1)
+>>> resisted = np.trapezoid(400 * np.abs(v45.v_C) / omega1, phi1)
 >>> print(f"{work:.0f} J of {resisted:.0f} J, M from {M.min():.0f} to {M.max():.0f} N m")
 140 J of 140 J, M from -4 to 53 N m
 """

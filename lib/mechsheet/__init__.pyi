@@ -18,71 +18,26 @@ from mechsheet.accuracy.precision import (
 from mechsheet.accuracy.precision import (
     timed as timed,
 )
-from mechsheet.mechanics.drivers import (
+from mechsheet.mechanics.crank import (
     crank as crank,
 )
-from mechsheet.mechanics.drivers import (
+from mechsheet.mechanics.crank import (
     rpr_crank_reach as rpr_crank_reach,
 )
-from mechsheet.mechanics.drivers import (
+from mechsheet.mechanics.crank import (
     rrp_crank_reach as rrp_crank_reach,
 )
-from mechsheet.mechanics.drivers import (
+from mechsheet.mechanics.crank import (
     rrr_crank_reach as rrr_crank_reach,
 )
-from mechsheet.mechanics.dyads import (
-    rpr as rpr,
+from mechsheet.mechanics.drive import (
+    coupling_drive as coupling_drive,
 )
-from mechsheet.mechanics.dyads import (
-    rpr_acceleration as rpr_acceleration,
+from mechsheet.mechanics.drive import (
+    cylinder_drive as cylinder_drive,
 )
-from mechsheet.mechanics.dyads import (
-    rpr_condition as rpr_condition,
-)
-from mechsheet.mechanics.dyads import (
-    rpr_transmission_angle as rpr_transmission_angle,
-)
-from mechsheet.mechanics.dyads import (
-    rpr_velocity as rpr_velocity,
-)
-from mechsheet.mechanics.dyads import (
-    rrp as rrp,
-)
-from mechsheet.mechanics.dyads import (
-    rrp_acceleration as rrp_acceleration,
-)
-from mechsheet.mechanics.dyads import (
-    rrp_condition as rrp_condition,
-)
-from mechsheet.mechanics.dyads import (
-    rrp_reach as rrp_reach,
-)
-from mechsheet.mechanics.dyads import (
-    rrp_transmission_angle as rrp_transmission_angle,
-)
-from mechsheet.mechanics.dyads import (
-    rrp_velocity as rrp_velocity,
-)
-from mechsheet.mechanics.dyads import (
-    rrr as rrr,
-)
-from mechsheet.mechanics.dyads import (
-    rrr_acceleration as rrr_acceleration,
-)
-from mechsheet.mechanics.dyads import (
-    rrr_condition as rrr_condition,
-)
-from mechsheet.mechanics.dyads import (
-    rrr_determinant as rrr_determinant,
-)
-from mechsheet.mechanics.dyads import (
-    rrr_reach as rrr_reach,
-)
-from mechsheet.mechanics.dyads import (
-    rrr_transmission_angle as rrr_transmission_angle,
-)
-from mechsheet.mechanics.dyads import (
-    rrr_velocity as rrr_velocity,
+from mechsheet.mechanics.drive import (
+    gear_drive as gear_drive,
 )
 from mechsheet.mechanics.joint import (
     bending as bending,
@@ -96,35 +51,11 @@ from mechsheet.mechanics.joint import (
 from mechsheet.mechanics.joint import (
     sum_of_elements as sum_of_elements,
 )
-from mechsheet.mechanics.kinetostatics import (
+from mechsheet.mechanics.load import (
     Load as Load,
 )
-from mechsheet.mechanics.kinetostatics import (
-    coupling_drive as coupling_drive,
-)
-from mechsheet.mechanics.kinetostatics import (
-    cylinder_drive as cylinder_drive,
-)
-from mechsheet.mechanics.kinetostatics import (
-    gear_drive as gear_drive,
-)
-from mechsheet.mechanics.kinetostatics import (
+from mechsheet.mechanics.load import (
     inertia as inertia,
-)
-from mechsheet.mechanics.kinetostatics import (
-    prp_reactions as prp_reactions,
-)
-from mechsheet.mechanics.kinetostatics import (
-    rpp_reactions as rpp_reactions,
-)
-from mechsheet.mechanics.kinetostatics import (
-    rpr_reactions as rpr_reactions,
-)
-from mechsheet.mechanics.kinetostatics import (
-    rrp_reactions as rrp_reactions,
-)
-from mechsheet.mechanics.kinetostatics import (
-    rrr_reactions as rrr_reactions,
 )
 from mechsheet.mechanics.planar import (
     angle as angle,
@@ -156,35 +87,134 @@ from mechsheet.mechanics.planar import (
 from mechsheet.mechanics.planar import (
     triangle_area as triangle_area,
 )
-from mechsheet.mechanics.sliders import (
+from mechsheet.mechanics.prp import (
+    PRPGroup as PRPGroup,
+)
+from mechsheet.mechanics.prp import (
     prp as prp,
 )
-from mechsheet.mechanics.sliders import (
+from mechsheet.mechanics.prp import (
     prp_acceleration as prp_acceleration,
 )
-from mechsheet.mechanics.sliders import (
+from mechsheet.mechanics.prp import (
     prp_condition as prp_condition,
 )
-from mechsheet.mechanics.sliders import (
+from mechsheet.mechanics.prp import (
+    prp_determinant as prp_determinant,
+)
+from mechsheet.mechanics.prp import (
+    prp_reactions as prp_reactions,
+)
+from mechsheet.mechanics.prp import (
     prp_transmission_angle as prp_transmission_angle,
 )
-from mechsheet.mechanics.sliders import (
+from mechsheet.mechanics.prp import (
     prp_velocity as prp_velocity,
 )
-from mechsheet.mechanics.sliders import (
+from mechsheet.mechanics.rpp import (
+    RPPGroup as RPPGroup,
+)
+from mechsheet.mechanics.rpp import (
     rpp as rpp,
 )
-from mechsheet.mechanics.sliders import (
+from mechsheet.mechanics.rpp import (
     rpp_acceleration as rpp_acceleration,
 )
-from mechsheet.mechanics.sliders import (
+from mechsheet.mechanics.rpp import (
     rpp_condition as rpp_condition,
 )
-from mechsheet.mechanics.sliders import (
+from mechsheet.mechanics.rpp import (
+    rpp_determinant as rpp_determinant,
+)
+from mechsheet.mechanics.rpp import (
+    rpp_reactions as rpp_reactions,
+)
+from mechsheet.mechanics.rpp import (
     rpp_transmission_angle as rpp_transmission_angle,
 )
-from mechsheet.mechanics.sliders import (
+from mechsheet.mechanics.rpp import (
     rpp_velocity as rpp_velocity,
+)
+from mechsheet.mechanics.rpr import (
+    RPRGroup as RPRGroup,
+)
+from mechsheet.mechanics.rpr import (
+    rpr as rpr,
+)
+from mechsheet.mechanics.rpr import (
+    rpr_acceleration as rpr_acceleration,
+)
+from mechsheet.mechanics.rpr import (
+    rpr_condition as rpr_condition,
+)
+from mechsheet.mechanics.rpr import (
+    rpr_determinant as rpr_determinant,
+)
+from mechsheet.mechanics.rpr import (
+    rpr_reach as rpr_reach,
+)
+from mechsheet.mechanics.rpr import (
+    rpr_reactions as rpr_reactions,
+)
+from mechsheet.mechanics.rpr import (
+    rpr_transmission_angle as rpr_transmission_angle,
+)
+from mechsheet.mechanics.rpr import (
+    rpr_velocity as rpr_velocity,
+)
+from mechsheet.mechanics.rrp import (
+    RRPGroup as RRPGroup,
+)
+from mechsheet.mechanics.rrp import (
+    rrp as rrp,
+)
+from mechsheet.mechanics.rrp import (
+    rrp_acceleration as rrp_acceleration,
+)
+from mechsheet.mechanics.rrp import (
+    rrp_condition as rrp_condition,
+)
+from mechsheet.mechanics.rrp import (
+    rrp_determinant as rrp_determinant,
+)
+from mechsheet.mechanics.rrp import (
+    rrp_reach as rrp_reach,
+)
+from mechsheet.mechanics.rrp import (
+    rrp_reactions as rrp_reactions,
+)
+from mechsheet.mechanics.rrp import (
+    rrp_transmission_angle as rrp_transmission_angle,
+)
+from mechsheet.mechanics.rrp import (
+    rrp_velocity as rrp_velocity,
+)
+from mechsheet.mechanics.rrr import (
+    RRRGroup as RRRGroup,
+)
+from mechsheet.mechanics.rrr import (
+    rrr as rrr,
+)
+from mechsheet.mechanics.rrr import (
+    rrr_acceleration as rrr_acceleration,
+)
+from mechsheet.mechanics.rrr import (
+    rrr_condition as rrr_condition,
+)
+from mechsheet.mechanics.rrr import (
+    rrr_determinant as rrr_determinant,
+)
+from mechsheet.mechanics.rrr import (
+    rrr_reach as rrr_reach,
+)
+from mechsheet.mechanics.rrr import (
+    rrr_reactions as rrr_reactions,
+)
+from mechsheet.mechanics.rrr import (
+    rrr_transmission_angle as rrr_transmission_angle,
+)
+from mechsheet.mechanics.rrr import (
+    rrr_velocity as rrr_velocity,
 )
 from mechsheet.page.title import (
     caption as caption,

@@ -23,9 +23,9 @@ from pylinkage.population import Ensemble
 from pylinkage.simulation import Linkage
 from scipy.optimize import fsolve
 
-from mechsheet.mechanics.drivers import crank
-from mechsheet.mechanics.dyads import rrr
+from mechsheet.mechanics.crank import crank
 from mechsheet.mechanics.planar import link_point
+from mechsheet.mechanics.rrr import rrr
 from mechsheet.studies.sweep import sweep
 from mechsheet.worksheet import inputs
 from mechsheet.worksheet.cells import load

@@ -30,9 +30,9 @@ from typing import Any
 import numpy as np
 
 from mechsheet.accuracy import exact, printed
-from mechsheet.mechanics.dyads import rrr, rrr_reach, rrr_velocity
-from mechsheet.mechanics.kinetostatics import Load, rrr_reactions
+from mechsheet.mechanics.load import Load
 from mechsheet.mechanics.planar import angle
+from mechsheet.mechanics.rrr import rrr, rrr_reach, rrr_reactions, rrr_velocity
 from mechsheet.worksheet import inputs
 from mechsheet.worksheet.cells import Worksheet, load
 from mechsheet.worksheet.checks import Check, assembled
@@ -294,7 +294,7 @@ def dyad(_worksheets: Path, given: Mapping[str, Any], _at: int = -1) -> Case:
 
     def product(A: Any, B: Any, r_A: Any, r_B: Any, branch: int, P_A: Any, P_B: Any, F_A: Any, F_B: Any) -> Any:
         C = rrr(A, B, r_A, r_B, branch)
-        v, R = rrr_velocity(A, B, C, 0, 0, dr_A=1), rrr_reactions(A, B, C, [Load(F_A, P_A)], [Load(F_B, P_B)])
+        v, R = rrr_velocity(A, B, C, dr_A=1), rrr_reactions(A, B, C, [Load(F_A, P_A)], [Load(F_B, P_B)])
         return {"C": C, "omega_A": v.omega_A, "omega_B": v.omega_B, "R_A": R.R_A, "R_B": R.R_B, "R_C": R.R_C}
 
     floats = group(complex, x)

@@ -13,8 +13,8 @@ from numpy import arctan as atan
 from numpy import cos, exp, pi, sin, sqrt
 from numpy.typing import ArrayLike, NDArray
 
-from mechsheet.mechanics.dyads import rrr
 from mechsheet.mechanics.planar import angle
+from mechsheet.mechanics.rrr import rrr
 
 Results = dict[str, Any]
 

@@ -23,12 +23,16 @@ R = TypeVar("R")
 
 def elementwise(f: Callable[P, R]) -> Callable[P, R]:
     """Function of broadcasting arrays: NaN arises without a warning, and wrong shapes are named."""
+    return broadcasting(np.errstate(invalid="ignore", divide="ignore")(f))
+
+
+def broadcasting(f: Callable[P, R]) -> Callable[P, R]:
+    """Function that names the shapes which do not broadcast."""
 
     @wraps(f)
     def checked(*args: P.args, **kwargs: P.kwargs) -> R:
         try:
-            with np.errstate(invalid="ignore", divide="ignore"):
-                return f(*args, **kwargs)
+            return f(*args, **kwargs)
         except ValueError as error:
             raise _shape_error(inspect.signature(f).bind(*args, **kwargs).arguments) or error from None
 
@@ -91,11 +95,6 @@ def direction(value: ArrayLike, name: str) -> Complex:
     if np.count_nonzero(size) < size.size:
         raise ValueError(f"direction {name} = 0 must not be zero")
     return z / size
-
-
-def determinant(D: Float) -> Float:
-    """Determinant of a group with NaN for zero, so that a dead centre gives NaN and not infinity."""
-    return np.where(D == 0, np.nan, D)[()]
 
 
 Numbers = TypeVar("Numbers", Complex, Float)

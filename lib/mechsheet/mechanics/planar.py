@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mechsheet.mechanics.arguments import Complex, Float, elementwise, field, scalar_field
+from mechsheet.mechanics.arguments import Complex, Float, broadcasting, elementwise, field, scalar_field
 
 __all__ = [
     "Complex",
@@ -21,6 +21,7 @@ __all__ = [
 ]
 
 
+@broadcasting
 def cross(a: ArrayLike, b: ArrayLike) -> Float:
     """Out-of-plane component of a x b, positive where b lies to the left of a; shape (...).
 
@@ -33,6 +34,7 @@ def cross(a: ArrayLike, b: ArrayLike) -> Float:
     return p.real * q.imag - p.imag * q.real
 
 
+@broadcasting
 def dot(a: ArrayLike, b: ArrayLike) -> Float:
     """Scalar product a . b; shape (...).
 
@@ -43,6 +45,7 @@ def dot(a: ArrayLike, b: ArrayLike) -> Float:
     return p.real * q.real + p.imag * q.imag
 
 
+@broadcasting
 def product(p: ArrayLike, q: ArrayLike, z: ArrayLike) -> Complex:
     """(p + iq) z for real p, q; shape (...).
 
@@ -69,13 +72,15 @@ def angle(z: ArrayLike) -> Float:
     return np.angle(np.asarray(z, np.complex128) + 0.0)  # + 0.0: the angle of -1 - 0.0j would be -pi
 
 
+@broadcasting
 def angle_between(a: ArrayLike, b: ArrayLike) -> Float:
     """Angle between two vectors, in [0, pi] [rad], with its digits near 0 and pi kept; shape (...).
 
     >>> angle_between(1, [1j, -2])
     array([1.57079633, 3.14159265])
     """
-    return np.arctan2(np.abs(cross(a, b)), dot(a, b))
+    found: Float = np.arctan2(np.abs(cross(a, b)), dot(a, b))
+    return found
 
 
 @elementwise
@@ -121,6 +126,7 @@ def angle_opposite(a: ArrayLike, b: ArrayLike, c: ArrayLike) -> Float:
 
 
 @elementwise
+@broadcasting
 def triangle_area(a: ArrayLike, b: ArrayLike, c: ArrayLike) -> Float:
     r"""Area of a triangle with the sides a, b, c, with the digits of a needle-shaped one kept.
 
@@ -161,6 +167,7 @@ def sorted_area(x: Float, y: Float, z: Float) -> Float:
     return np.sqrt(square) / 4
 
 
+@broadcasting
 def link_point(A: ArrayLike, B: ArrayLike, z: ArrayLike) -> Complex:
     """Point of the link AB with the link's own coordinates z: origin in A, real axis towards B.
 
@@ -189,7 +196,8 @@ def link_point(A: ArrayLike, B: ArrayLike, z: ArrayLike) -> Complex:
     return A + product(z.real / size, z.imag / size, d)
 
 
-def link_velocity(P: ArrayLike, A: ArrayLike, v_A: ArrayLike, omega: ArrayLike) -> Complex:
+@broadcasting
+def link_velocity(P: ArrayLike, A: ArrayLike, v_A: ArrayLike = 0.0, omega: ArrayLike = 0.0) -> Complex:
     r"""Velocity of the point P of a link that turns with omega, A being another point of it.
 
     .. math:: v_P = v_A + i \omega (P - A)
@@ -216,7 +224,10 @@ def link_velocity(P: ArrayLike, A: ArrayLike, v_A: ArrayLike, omega: ArrayLike) 
     return field(v_A, "v_A") + 1j * scalar_field(omega, "omega") * (field(P, "P") - field(A, "A"))
 
 
-def link_acceleration(P: ArrayLike, A: ArrayLike, a_A: ArrayLike, omega: ArrayLike, epsilon: ArrayLike) -> Complex:
+@broadcasting
+def link_acceleration(
+    P: ArrayLike, A: ArrayLike, omega: ArrayLike, a_A: ArrayLike = 0.0, epsilon: ArrayLike = 0.0
+) -> Complex:
     r"""Acceleration of the point P of a link, A being another point of it.
 
     .. math:: a_P = a_A + (i \varepsilon - \omega^2)(P - A)
@@ -225,10 +236,12 @@ def link_acceleration(P: ArrayLike, A: ArrayLike, a_A: ArrayLike, omega: ArrayLi
     ----------
     P, A : complex, shape (...)
         Points of the link [m].
+    omega : float, shape (...)
+        Angular velocity of the link [rad/s], or its analogue.
     a_A : complex, shape (...)
         Acceleration of A [m/s^2], or its analogue.
-    omega, epsilon : float, shape (...)
-        Angular velocity [rad/s] and acceleration [rad/s^2] of the link, or their analogues.
+    epsilon : float, shape (...)
+        Angular acceleration of the link [rad/s^2], or its analogue.
 
     Returns
     -------
@@ -237,7 +250,7 @@ def link_acceleration(P: ArrayLike, A: ArrayLike, a_A: ArrayLike, omega: ArrayLi
 
     Examples
     --------
-    >>> link_acceleration(2, 0, 1, 3, 4)
+    >>> link_acceleration(2, 0, omega=3, a_A=1, epsilon=4)
     np.complex128(-17+8j)
     """
     turning = 1j * scalar_field(epsilon, "epsilon") - scalar_field(omega, "omega") ** 2

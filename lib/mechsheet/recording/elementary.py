@@ -1,9 +1,9 @@
 """The library's functions in elementary steps, as the cells of a workbook compute them.
 
-Each function here does what the function of the same name in `planar`, `dyads`, `kinetostatics` and `joint` does, with
-arithmetic, square roots and the functions of angles alone; `STEPS` tells which is whose. The library's own keep more
-digits near dead centres, check their arguments and serve the worksheets; these serve as the formulas that a workbook
-shows. Intermediate quantities carry the name, unit and meaning under which the workbook lists them.
+Each function here does what the function of the same name in the mechanics does, with arithmetic, square roots and the
+functions of angles alone; `STEPS` tells which is whose. The library's own keep more digits near dead centres, check
+their arguments and serve the worksheets; these serve as the formulas that a workbook shows. Intermediate quantities
+carry the name, unit and meaning under which the workbook lists them.
 """
 
 from collections.abc import Callable, Sequence
@@ -12,8 +12,12 @@ from typing import Any
 
 import numpy as np
 
-from mechsheet.mechanics import dyads, joint, kinetostatics, planar
-from mechsheet.mechanics.kinetostatics import Load
+from mechsheet.mechanics import drive, joint, load, planar
+from mechsheet.mechanics import rpr as kind_3
+from mechsheet.mechanics import rrp as kind_2
+from mechsheet.mechanics import rrr as kind_1
+from mechsheet.mechanics.group import Reach
+from mechsheet.mechanics.load import Load
 
 Quantity = Any  # a number, an array, or a quantity that records what is done with it
 
@@ -44,11 +48,11 @@ def angle_opposite(a: Quantity, b: Quantity, c: Quantity) -> Quantity:
     return 2 * np.arctan2(np.sqrt(over), np.sqrt(under))
 
 
-def link_velocity(P: Quantity, A: Quantity, v_A: Quantity, omega: Quantity) -> Quantity:
+def link_velocity(P: Quantity, A: Quantity, v_A: Quantity = 0, omega: Quantity = 0) -> Quantity:
     return v_A + 1j * omega * (P - A)
 
 
-def link_acceleration(P: Quantity, A: Quantity, a_A: Quantity, omega: Quantity, epsilon: Quantity) -> Quantity:
+def link_acceleration(P: Quantity, A: Quantity, omega: Quantity, a_A: Quantity = 0, epsilon: Quantity = 0) -> Quantity:
     return a_A + (1j * epsilon - omega**2) * (P - A)
 
 
@@ -60,9 +64,9 @@ def rrr(A: Quantity, B: Quantity, r_A: Quantity, r_B: Quantity, branch: Quantity
     return A + (q + 1j * h) * d
 
 
-def rrr_reach(A: Quantity, B: Quantity, r_A: Quantity) -> tuple[Quantity, Quantity]:
+def rrr_reach(A: Quantity, B: Quantity, r_A: Quantity) -> Reach:
     L = np.abs(B - A)
-    return np.abs(L - r_A), L + r_A
+    return Reach(np.abs(L - r_A), L + r_A)
 
 
 def _turning(a: Quantity, b: Quantity, w: Quantity) -> tuple[Quantity, Quantity]:
@@ -98,12 +102,18 @@ def _unit(u: Quantity) -> Quantity:
 
 
 def rrr_velocity(
-    A: Quantity, B: Quantity, C: Quantity, v_A: Quantity, v_B: Quantity, dr_A: Quantity = 0, dr_B: Quantity = 0
-) -> dyads.RRRVelocity:
+    A: Quantity,
+    B: Quantity,
+    C: Quantity,
+    v_A: Quantity = 0,
+    v_B: Quantity = 0,
+    dr_A: Quantity = 0,
+    dr_B: Quantity = 0,
+) -> kind_1.RRRVelocity:
     a, b = C - A, C - B
     v_A, v_B = _moved(v_A, a, dr_A), _moved(v_B, b, dr_B)
     omega_A, omega_B = _turning(a, b, v_B - v_A)
-    return dyads.RRRVelocity(v_A + 1j * omega_A * a, omega_A, omega_B)
+    return kind_1.RRRVelocity(v_A + 1j * omega_A * a, omega_A, omega_B)
 
 
 def rrr_acceleration(
@@ -112,18 +122,18 @@ def rrr_acceleration(
     C: Quantity,
     omega_A: Quantity,
     omega_B: Quantity,
-    a_A: Quantity,
-    a_B: Quantity,
     dr_A: Quantity = 0,
     dr_B: Quantity = 0,
+    a_A: Quantity = 0,
+    a_B: Quantity = 0,
     ddr_A: Quantity = 0,
     ddr_B: Quantity = 0,
-) -> dyads.RRRAcceleration:
+) -> kind_1.RRRAcceleration:
     a, b = C - A, C - B
     a_A, a_B = a_A + _carried(a, omega_A, dr_A, ddr_A), a_B + _carried(b, omega_B, dr_B, ddr_B)
     w = step("w", "m/s**2", "acceleration that the turning of the links must make up", a_B - a_A)
     epsilon_A, epsilon_B = _turning(a, b, w)
-    return dyads.RRRAcceleration(a_A + 1j * epsilon_A * a, epsilon_A, epsilon_B)
+    return kind_1.RRRAcceleration(a_A + 1j * epsilon_A * a, epsilon_A, epsilon_B)
 
 
 def rrr_transmission_angle(A: Quantity, B: Quantity, C: Quantity) -> Quantity:
@@ -142,8 +152,8 @@ def rrp(A: Quantity, B: Quantity, u: Quantity, r_A: Quantity, branch: Quantity, 
     return A + (ahead - 1j * h) * u
 
 
-def rrp_reach(A: Quantity, B: Quantity, u: Quantity, offset: Quantity = 0) -> tuple[Quantity, float]:
-    return np.abs(cross(_unit(u), A - B) - offset), np.inf
+def rrp_reach(A: Quantity, B: Quantity, u: Quantity, offset: Quantity = 0) -> Reach:
+    return Reach(np.abs(cross(_unit(u), A - B) - offset), np.asarray(np.inf))
 
 
 def rrp_velocity(
@@ -151,15 +161,15 @@ def rrp_velocity(
     B: Quantity,
     C: Quantity,
     u: Quantity,
-    v_A: Quantity,
+    v_A: Quantity = 0,
     v_B: Quantity = 0,
     omega_B: Quantity = 0,
     dr_A: Quantity = 0,
-) -> dyads.RRPVelocity:
+) -> kind_2.RRPVelocity:
     a, u = C - A, _unit(u)
     guide = v_B + 1j * omega_B * (C - B)
     omega_A, ds = _sliding(a, u, guide - _moved(v_A, a, dr_A))
-    return dyads.RRPVelocity(guide + ds * u, omega_A, ds)
+    return kind_2.RRPVelocity(guide + ds * u, omega_A, ds)
 
 
 def rrp_acceleration(
@@ -169,17 +179,17 @@ def rrp_acceleration(
     u: Quantity,
     omega_A: Quantity,
     ds: Quantity,
-    a_A: Quantity,
-    a_B: Quantity = 0,
     omega_B: Quantity = 0,
-    epsilon_B: Quantity = 0,
     dr_A: Quantity = 0,
+    a_A: Quantity = 0,
+    a_B: Quantity = 0,
+    epsilon_B: Quantity = 0,
     ddr_A: Quantity = 0,
-) -> dyads.RRPAcceleration:
+) -> kind_2.RRPAcceleration:
     a, u = C - A, _unit(u)
     guide = a_B + (1j * epsilon_B - omega_B**2) * (C - B) + 2j * omega_B * ds * u
     epsilon_A, dds = _sliding(a, u, guide - a_A - _carried(a, omega_A, dr_A, ddr_A))
-    return dyads.RRPAcceleration(guide + dds * u, epsilon_A, dds)
+    return kind_2.RRPAcceleration(guide + dds * u, epsilon_A, dds)
 
 
 def rrp_transmission_angle(A: Quantity, C: Quantity, u: Quantity) -> Quantity:
@@ -191,22 +201,22 @@ def rrp_condition(A: Quantity, B: Quantity, C: Quantity, u: Quantity) -> Quantit
     return (np.abs(A) + np.abs(B) + np.abs(C - B) + np.abs(a)) / np.abs(dot(a, _unit(u)))
 
 
-def rpr(A: Quantity, B: Quantity, branch: Quantity, offset: Quantity = 0) -> dyads.RPR:
+def rpr(A: Quantity, B: Quantity, branch: Quantity, offset: Quantity = 0) -> kind_3.RPRPosition:
     d = A - B
     s = step("s", "m", "distance along the slide", branch * np.sqrt(dot(d, d) - offset**2))
-    return dyads.RPR(d / (s + 1j * offset), s)
+    return kind_3.RPRPosition(d / (s + 1j * offset), s)
 
 
-def rpr_velocity(A: Quantity, B: Quantity, u: Quantity, v_A: Quantity, v_B: Quantity = 0) -> dyads.RPRVelocity:
-    return dyads.RPRVelocity(*_swinging(A - B, _unit(u), v_A - v_B))
+def rpr_velocity(A: Quantity, B: Quantity, u: Quantity, v_A: Quantity = 0, v_B: Quantity = 0) -> kind_3.RPRVelocity:
+    return kind_3.RPRVelocity(*_swinging(A - B, _unit(u), v_A - v_B))
 
 
 def rpr_acceleration(
-    A: Quantity, B: Quantity, u: Quantity, omega: Quantity, ds: Quantity, a_A: Quantity, a_B: Quantity = 0
-) -> dyads.RPRAcceleration:
+    A: Quantity, B: Quantity, u: Quantity, omega_A: Quantity, ds: Quantity, a_A: Quantity = 0, a_B: Quantity = 0
+) -> kind_3.RPRAcceleration:
     d, u = A - B, _unit(u)
-    known = 2j * omega * ds * u - omega**2 * d
-    return dyads.RPRAcceleration(*_swinging(d, u, a_A - a_B - known))
+    known = 2j * omega_A * ds * u - omega_A**2 * d
+    return kind_3.RPRAcceleration(*_swinging(d, u, a_A - a_B - known))
 
 
 def rpr_transmission_angle(A: Quantity, B: Quantity, u: Quantity) -> Quantity:
@@ -218,7 +228,7 @@ def rpr_condition(A: Quantity, B: Quantity, u: Quantity) -> Quantity:
     return (np.abs(A) + np.abs(B) + np.abs(d)) / np.abs(dot(d, _unit(u)))
 
 
-def inertia(m: Quantity, J: Quantity, S: Quantity, a_S: Quantity, epsilon: Quantity) -> Load:
+def inertia(S: Quantity, m: Quantity, J: Quantity, a_S: Quantity = 0, epsilon: Quantity = 0) -> Load:
     return Load(-m * a_S, S, -J * epsilon)
 
 
@@ -233,7 +243,7 @@ def _resultant(loads: Sequence[Any], pole: Quantity, end: str) -> tuple[Quantity
 
 def rrr_reactions(
     A: Quantity, B: Quantity, C: Quantity, loads_A: Sequence[Load] = (), loads_B: Sequence[Load] = ()
-) -> kinetostatics.RRRReactions:
+) -> kind_1.RRRReactions:
     a, b = A - C, B - C
     (F_A, T_A), (F_B, T_B) = _resultant(loads_A, C, "A"), _resultant(loads_B, C, "B")
     F = F_A + F_B
@@ -241,48 +251,48 @@ def rrr_reactions(
     D = step("D", "m**2", "determinant of the group", cross(a, b))
     n = step("n", "N/m", "force along the link next to A, part of its length", (cross(b, F) - T_B + t * dot(a, b)) / D)
     R_A = (n + 1j * t) * a
-    return kinetostatics.RRRReactions(R_A, -(R_A + F), -(R_A + F_A))
+    return kind_1.RRRReactions(R_A, -(R_A + F), -(R_A + F_A))
 
 
 def rrp_reactions(
     A: Quantity, C: Quantity, u: Quantity, loads_A: Sequence[Load] = (), loads_B: Sequence[Load] = ()
-) -> kinetostatics.RRPReactions:
+) -> kind_2.RRPReactions:
     u, a = _unit(u), C - A
     (F_A, T_A), (F_B, T_B) = _resultant(loads_A, A, "A"), _resultant(loads_B, C, "B")
     N = step("N", "N", "force of the guide, to the left of it", -(T_A + cross(a, F_B)) / dot(a, u))
     R_B = 1j * N * u
     R_C = R_B + F_B
-    return kinetostatics.RRPReactions(-(R_C + F_A), R_B, R_C, -T_B, -T_B / N)
+    return kind_2.RRPReactions(-(R_C + F_A), R_B, R_C, -T_B, -T_B / N)
 
 
 def rpr_reactions(
     A: Quantity, B: Quantity, u: Quantity, loads_A: Sequence[Load] = (), loads_B: Sequence[Load] = ()
-) -> kinetostatics.RPRReactions:
+) -> kind_3.RPRReactions:
     u = _unit(u)
     (F_A, T_A), (F_B, T_B) = _resultant(loads_A, A, "A"), _resultant(loads_B, B, "B")
     N = step("N", "N", "force of the slide, to the left of it", (T_A + T_B) / dot(A - B, u))
     R_C = 1j * N * u
-    return kinetostatics.RPRReactions(-(R_C + F_A), R_C - F_B, R_C, -T_A, -T_A / N)
+    return kind_3.RPRReactions(-(R_C + F_A), R_C - F_B, R_C, -T_A, -T_A / N)
 
 
-def coupling_drive(O1: Quantity, loads: Sequence[Load]) -> kinetostatics.CouplingDrive:
+def coupling_drive(O1: Quantity, loads: Sequence[Load]) -> drive.CouplingDrive:
     F, T = _resultant(loads, O1, "")
-    return kinetostatics.CouplingDrive(-T, -F)
+    return drive.CouplingDrive(-T, -F)
 
 
-def gear_drive(O1: Quantity, P: Quantity, alpha_w: Quantity, loads: Sequence[Load]) -> kinetostatics.GearDrive:
+def gear_drive(O1: Quantity, P: Quantity, alpha_w: Quantity, loads: Sequence[Load]) -> drive.GearDrive:
     F, T = _resultant(loads, O1, "")
     q = P - O1
     F_t = step("Ft", "N", "force along the pitch circle", -T / np.abs(q))
     F_w = (F_t + 1j * np.abs(F_t) * np.tan(alpha_w)) * 1j * (q / np.abs(q))
-    return kinetostatics.GearDrive(F_w, -(F + F_w))
+    return drive.GearDrive(F_w, -(F + F_w))
 
 
-def cylinder_drive(A: Quantity, C: Quantity, R_C: Quantity, loads: Sequence[Load] = ()) -> kinetostatics.CylinderDrive:
+def cylinder_drive(A: Quantity, C: Quantity, R_C: Quantity, loads: Sequence[Load] = ()) -> drive.CylinderDrive:
     F, T = _resultant(loads, C, "")
     F, u = F + R_C, _unit(C - A)
     N = -cross(u, F)
-    return kinetostatics.CylinderDrive(-dot(u, F), 1j * N * u, -T, -T / N)
+    return drive.CylinderDrive(-dot(u, F), 1j * N * u, -T, -T / N)
 
 
 def sum_of_elements(x: Quantity) -> Quantity:
@@ -362,16 +372,24 @@ STEPS: dict[Callable[..., Any], Callable[..., Any]] = {
     getattr(module, name): globals()[name]
     for module, names in {
         planar: ("cross", "dot", "angle", "angle_between", "angle_opposite", "link_velocity", "link_acceleration"),
-        dyads: (
+        load: ("inertia",),
+        drive: ("coupling_drive", "gear_drive", "cylinder_drive"),
+        kind_1: (
             *("rrr", "rrr_reach", "rrr_velocity", "rrr_acceleration", "rrr_transmission_angle", "rrr_condition"),
-            *("rrp", "rrp_reach", "rrp_velocity", "rrp_acceleration", "rrp_transmission_angle", "rrp_condition"),
-            *("rpr", "rpr_velocity", "rpr_acceleration", "rpr_transmission_angle", "rpr_condition"),
+            "rrr_reactions",
         ),
-        kinetostatics: (
-            *("inertia", "rrr_reactions", "rrp_reactions", "rpr_reactions"),
-            *("coupling_drive", "gear_drive", "cylinder_drive"),
+        kind_2: (
+            *("rrp", "rrp_reach", "rrp_velocity", "rrp_acceleration", "rrp_transmission_angle", "rrp_condition"),
+            "rrp_reactions",
+        ),
+        kind_3: (
+            *("rpr", "rpr_velocity", "rpr_acceleration", "rpr_transmission_angle", "rpr_condition"),
+            "rpr_reactions",
         ),
         joint: ("sum_of_elements", "bending", "neutral_axis", "circular_joint"),
     }.items()
     for name in names
 }
+
+# Classes whose methods call the functions above: a worksheet that is recorded gets them with those of `STEPS`.
+GROUPS = frozenset({kind_1.RRRGroup, kind_2.RRPGroup, kind_3.RPRGroup})

@@ -7,10 +7,12 @@ the positions is a column, and its name means the cell of the same row, so that 
 import ast
 import math
 import re
+import sys
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import cache, lru_cache
 from pathlib import Path
+from types import FunctionType
 from typing import Any
 
 import numpy as np
@@ -25,6 +27,7 @@ from mechsheet.worksheet.table import Figure, Table
 _ADDRESS = re.compile(r"[A-Za-z]{1,3}\d+|[rR]\d*([cC]\d*)?|[cC]\d*|[rR]\d+[cC]\d+")
 _HEADING = re.compile(r"^def (\w+)\(|^\s*## +(.+)$", re.MULTILINE)
 _RISKY = {"SQRT", "ASIN", "ACOS", "ATAN2", "LN", "/", "^", "MOD"}  # may be an error value
+_WRITTEN = {"__post_init__"}  # the only special method of a group that is not made by `dataclass`
 _INLINE = 6  # operations that a formula repeats rather than give them a cell
 
 
@@ -179,10 +182,12 @@ def _replaced(common: Mapping[str, Any], recorder: Recorder) -> dict[str, Any]:
             function = _either(original, steps[original])
             function.__recorded__ = original  # type: ignore[attr-defined]
             return function
+        if isinstance(original, type) and original in _groups():
+            return _group(original, instead)
         return value
 
     for name, value in common.items():
-        if not isinstance(value, type) and not name.startswith("__"):
+        if not name.startswith("__"):
             common[name] = instead(value)  # type: ignore[index]
     return {**common, "float": lambda x: x if isinstance(x, Recorded) else float(x)}
 
@@ -196,6 +201,28 @@ def _steps() -> Mapping[Any, Callable[..., Any]]:
     from mechsheet.recording.elementary import STEPS  # imported on use: needs all of the mechanics
 
     return STEPS
+
+
+@cache
+def _groups() -> frozenset[type]:
+    from mechsheet.recording.elementary import GROUPS  # as above
+
+    return GROUPS
+
+
+def _group(kind: type, instead: Callable[[Any], Any]) -> type:
+    """A group of the mechanics whose methods call what takes recorded quantities."""
+    module = vars(sys.modules[kind.__module__])
+    names = {name: value if isinstance(value, type) else instead(value) for name, value in module.items()}
+
+    def own(method: Any) -> Any:
+        if isinstance(method, property):
+            return property(own(method.fget))
+        return FunctionType(method.__code__, names, method.__name__, method.__defaults__, method.__closure__)
+
+    written = {name: value for name, value in vars(kind).items() if not name.startswith("__") or name in _WRITTEN}
+    methods = {name: own(value) for name, value in written.items() if isinstance(value, FunctionType | property)}
+    return type(kind.__name__, (kind,), {**methods, "__recorded__": kind})
 
 
 def _either(original: Callable[..., Any], steps: Callable[..., Any]) -> Callable[..., Any]:

@@ -1,4 +1,4 @@
-"""Driving links: the crank, and the interval of its angle in which the group behind it closes.
+"""The crank, and the interval of its angle in which the group behind it closes.
 
 A driving cylinder is a link of given length in an RRR group: `rrr_reach` is the interval of that
 length, ``dr_A`` of `rrr_velocity` its rate.
@@ -14,11 +14,11 @@ from mechsheet.mechanics.planar import angle, cross
 
 
 class CrankReach(NamedTuple):
-    """Crank angles axis - theta and axis + theta, theta from low to high; 0 and pi together are a full turn."""
+    """Crank angles axis - theta and axis + theta, theta from least to greatest; 0 and pi together are a full turn."""
 
     axis: Float  # [rad] direction about which the reach is symmetric
-    low: Float  # [rad] least theta; NaN where the group closes nowhere
-    high: Float  # [rad] greatest theta; NaN where the group closes nowhere
+    least: Float  # [rad] theta; NaN where the group closes nowhere
+    greatest: Float  # [rad] theta; NaN where the group closes nowhere
 
 
 @elementwise
@@ -56,7 +56,7 @@ def crank(O1: ArrayLike, r: ArrayLike, phi: ArrayLike) -> Complex:
 
 
 @elementwise
-def rrr_crank_reach(O1: ArrayLike, r: ArrayLike, B: ArrayLike, r_A: ArrayLike, r_B: ArrayLike) -> CrankReach:
+def rrr_crank_reach(O1: ArrayLike, B: ArrayLike, r: ArrayLike, r_A: ArrayLike, r_B: ArrayLike) -> CrankReach:
     r"""Angles of a crank whose pin A carries the dyad A-C-B with B fixed.
 
     .. math:: |r_A - r_B| \le |A - B| \le r_A + r_B, \quad A = O_1 + r e^{i \varphi}
@@ -71,7 +71,7 @@ def rrr_crank_reach(O1: ArrayLike, r: ArrayLike, B: ArrayLike, r_A: ArrayLike, r
     Returns
     -------
     CrankReach
-        axis from O1 to B, low, high [rad].
+        axis from O1 to B, least, greatest [rad].
 
     Raises
     ------
@@ -80,15 +80,15 @@ def rrr_crank_reach(O1: ArrayLike, r: ArrayLike, B: ArrayLike, r_A: ArrayLike, r
 
     Examples
     --------
-    >>> rrr_crank_reach(0, 4, 5, 1, 2)
-    CrankReach(axis=np.float64(0.0), low=np.float64(0.0), high=np.float64(0.6435011087932845))
+    >>> rrr_crank_reach(0, 5, 4, 1, 2)
+    CrankReach(axis=np.float64(0.0), least=np.float64(0.0), greatest=np.float64(0.6435011087932845))
     """
     r_A, r_B = length(r_A, "length r_A"), length(r_B, "length r_B")
-    return _between(O1, r, B, np.abs(r_A - r_B), r_A + r_B)
+    return _between(O1, B, r, np.abs(r_A - r_B), r_A + r_B)
 
 
 @elementwise
-def rpr_crank_reach(O1: ArrayLike, r: ArrayLike, B: ArrayLike, offset: ArrayLike = 0.0) -> CrankReach:
+def rpr_crank_reach(O1: ArrayLike, B: ArrayLike, r: ArrayLike, offset: ArrayLike = 0.0) -> CrankReach:
     r"""Angles of a crank whose pin A is the block of a slotted link pinned at B.
 
     .. math:: |A - B| \ge |e|, \quad A = O_1 + r e^{i \varphi}
@@ -103,7 +103,7 @@ def rpr_crank_reach(O1: ArrayLike, r: ArrayLike, B: ArrayLike, offset: ArrayLike
     Returns
     -------
     CrankReach
-        axis from O1 to B, low, high [rad].
+        axis from O1 to B, least, greatest [rad].
 
     Raises
     ------
@@ -112,15 +112,15 @@ def rpr_crank_reach(O1: ArrayLike, r: ArrayLike, B: ArrayLike, offset: ArrayLike
 
     Examples
     --------
-    >>> rpr_crank_reach(0, 4, 5, offset=3)
-    CrankReach(axis=np.float64(0.0), low=np.float64(0.6435011087932845), high=np.float64(3.141592653589793))
+    >>> rpr_crank_reach(0, 5, 4, offset=3)
+    CrankReach(axis=np.float64(0.0), least=np.float64(0.6435011087932845), greatest=np.float64(3.141592653589793))
     """
-    return _between(O1, r, B, np.abs(parameter(offset, "offset", "m")), np.inf)
+    return _between(O1, B, r, np.abs(parameter(offset, "offset", "m")), np.inf)
 
 
 @elementwise
 def rrp_crank_reach(
-    O1: ArrayLike, r: ArrayLike, B: ArrayLike, u: ArrayLike, r_A: ArrayLike, offset: ArrayLike = 0.0
+    O1: ArrayLike, B: ArrayLike, u: ArrayLike, r: ArrayLike, r_A: ArrayLike, offset: ArrayLike = 0.0
 ) -> CrankReach:
     r"""Angles of a crank whose pin A carries a link AC with a slider on a fixed guide.
 
@@ -140,7 +140,7 @@ def rrp_crank_reach(
     Returns
     -------
     CrankReach
-        axis square to the guide (to its left), low, high [rad].
+        axis square to the guide (to its left), least, greatest [rad].
 
     Raises
     ------
@@ -149,7 +149,7 @@ def rrp_crank_reach(
 
     Examples
     --------
-    >>> rrp_crank_reach(0, 1, 0, 1, 3).high
+    >>> rrp_crank_reach(0, 0, 1, 1, 3).greatest
     np.float64(3.141592653589793)
     """
     u, r = direction(u, "u"), length(r, "length r")
@@ -159,7 +159,7 @@ def rrp_crank_reach(
     return _reach(angle(1j * u), low, high, (r_A - gap >= -r) & (-r_A - gap <= r))
 
 
-def _between(O1: ArrayLike, r: ArrayLike, B: ArrayLike, nearest: Float, farthest: Float | float) -> CrankReach:
+def _between(O1: ArrayLike, B: ArrayLike, r: ArrayLike, nearest: Float, farthest: Float | float) -> CrankReach:
     """Angles at which the crank's pin is between two distances from B."""
     r = length(r, "length r")
     frame = field(B, "B") - field(O1, "O1")
