@@ -9,6 +9,8 @@ import numpy as np
 import pytest
 
 from mechsheet.document import chart
+from mechsheet.document.chart_svg import svg as written
+from mechsheet.document.chart_svg import variable
 
 
 @dataclass(frozen=True)
@@ -23,7 +25,7 @@ S = Q("S", "m", np.linspace(0.42, 0.67, 6))
 
 
 def drawn(*lines: Q, **more) -> str:
-    return chart.line_chart(S, lines, **more)
+    return written(chart.line_chart(S, lines, **more))
 
 
 def points(svg: str, colour: str = chart.COLOURS[0]) -> list[list[complex]]:
@@ -47,7 +49,8 @@ def test_curve_stands_where_the_ticks_say(scale):
     factor = 10.0 ** int(power[1].translate(str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789"))) if power else 1.0
     (x1, a1), *_, (x2, a2) = ticks(svg, "middle")
     (y1, b1), *_, (y2, b2) = ticks(svg, "end")
-    left, top = chart._LEFT, chart._TOP
+    plot = chart.line_chart(S, [y]).plot
+    left, top = plot.left, plot.top
     x = [a1 + (p.real + left - x1) / (x2 - x1) * (a2 - a1) for p in curve]
     f = [factor * (b1 + (p.imag + top + 4 - y1) / (y2 - y1) * (b2 - b1)) for p in curve]
     assert x == pytest.approx(S.values, abs=2e-4)
@@ -70,10 +73,10 @@ def test_mark_stands_at_its_place_under_its_symbol():
 
 
 def test_moving_mark_is_placed_in_si():
-    svg = chart.line_chart(Q("phi1", "deg", np.array([0.0, 90.0, 180.0])), [Q("x", "-", np.arange(3.0))])
+    svg = written(chart.line_chart(Q("phi1", "deg", np.array([0.0, 90.0, 180.0])), [Q("x", "-", np.arange(3.0))]))
     name, low, scale = re.search(r"var\((--at-\w+),-1e30\) - (\S+)\) / (\S+) \*", svg).groups()
     (curve,) = points(svg)
-    assert name == chart.variable("phi1")
+    assert name == variable("phi1")
     assert (np.pi / 2 - float(low)) / float(scale) == pytest.approx(curve[1].real, abs=0.06)
 
 
@@ -91,12 +94,12 @@ def test_every_so_many_values_are_marked_by_points():
     """The positions that a table lists, on a curve through more of them; all of them would hide the line."""
     x = Q("S", "m", np.linspace(0.0, 1.0, 61))
     y = Q("F", "N", x.values**2)
-    circles = re.findall(r'cx="(\S+)" cy="(\S+)"', chart.line_chart(x, [y], every=10))
-    assert [complex(float(u), float(v)) for u, v in circles] == points(chart.line_chart(x, [y]))[0][::10]
-    assert "<circle" not in chart.line_chart(x, [y])
+    circles = re.findall(r'cx="(\S+)" cy="(\S+)"', written(chart.line_chart(x, [y], every=10)))
+    assert [complex(float(u), float(v)) for u, v in circles] == points(written(chart.line_chart(x, [y])))[0][::10]
+    assert "<circle" not in written(chart.line_chart(x, [y]))
 
 
 @pytest.mark.parametrize(("last", "step"), [(360, 60), (170, 30), (90, 15), (720, 200), (40, 10)])
 def test_an_axis_in_degrees_is_divided_as_a_circle_is(last, step):
-    svg = chart.line_chart(Q("phi1", "deg", np.array([0.0, last])), [Q("x", "-", np.arange(2.0))])
+    svg = written(chart.line_chart(Q("phi1", "deg", np.array([0.0, last])), [Q("x", "-", np.arange(2.0))]))
     assert [n for _, n in ticks(svg, "middle")] == list(range(0, last + step, step))[: -(-last // step) + 1]

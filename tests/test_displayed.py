@@ -17,8 +17,8 @@ import pytest
 
 from mechsheet.worksheet.checks import Check, Summary
 from mechsheet.worksheet.find import Found
-from mechsheet.worksheet.formula import Formula, Typeset
 from mechsheet.worksheet.inputs import Used
+from mechsheet.worksheet.lines import Formula, Typeset
 from mechsheet.worksheet.symbol import plain
 from mechsheet.worksheet.table import Column, Figure, Table
 

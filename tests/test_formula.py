@@ -7,7 +7,9 @@ import numpy as np
 import pytest
 from cells import run
 
-from mechsheet.worksheet import formula
+from mechsheet.document.expression import tree
+from mechsheet.document.latex import latex
+from mechsheet.worksheet import numbers
 from mechsheet.worksheet.errors import SheetError
 
 IMPORT = "from mechsheet import typeset\n"
@@ -73,7 +75,7 @@ IMPORT = "from mechsheet import typeset\n"
     ],
 )
 def test_expression_as_a_textbook_prints_it(source, tex):
-    assert formula.latex(ast.parse(source, mode="eval").body) == tex
+    assert latex(tree(ast.parse(source, mode="eval").body)) == tex
 
 
 def test_lines_with_a_unit_are_the_formulas():
@@ -112,7 +114,7 @@ def test_lines_with_a_unit_are_the_formulas():
     ],
 )
 def test_value_in_its_display_unit(value, unit, tex):
-    assert formula.value_latex(value, unit) == tex
+    assert numbers.value(value, unit, numbers.LATEX) == tex
 
 
 def test_unknown_unit_names_the_line():
@@ -133,7 +135,7 @@ def test_unknown_unit_names_the_line():
     ],
 )
 def test_value_in_the_page(value, unit, text):
-    assert formula.value_html(value, unit) == text
+    assert numbers.value(value, unit, numbers.HTML) == text
 
 
 def joined(shown):

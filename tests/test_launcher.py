@@ -57,10 +57,79 @@ def test_help_names_every_command(capsys: pytest.CaptureFixture[str]) -> None:
     assert re.findall(r"^  (\w+)", printed, re.MULTILINE) == ["run", "new", "edit", "test"]
 
 
-@pytest.mark.parametrize("argv", [[], ["rn", "hitch"], ["--version"]])
+def test_help_shows_each_command_by_an_example_that_it_takes(
+    calls: list[list[str]], capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    assert launcher.main(["--help"]) == 0
+    monkeypatch.setattr(launcher, "new", lambda name: calls.append(["new", name]) or 7)
+    examples = re.findall(r"^ +such as +(.*)$", capsys.readouterr().out, re.MULTILINE)
+    assert [example.split()[0] for example in examples] == ["run", "new", "edit", "test"]
+    for example in examples:
+        assert launcher.main(example.split()) == 7, example
+    assert len(calls) == 4
+
+
+def test_every_worksheet_stands_in_the_help_with_its_title(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    assert launcher.main(["--help"]) == 0
+    helped = capsys.readouterr().out
+    assert launcher.main([]) != 0, "no command is given"
+    assert capsys.readouterr().out == helped
+    listed = dict(re.findall(r"^    (\w+) +(.+)$", helped.partition("usage")[0], re.MULTILINE))
+    assert list(listed) == sorted(path.stem for path in (ROOT / "worksheets").rglob("*.py"))
+    assert listed["hitch"] == "Tractor hitch"
+
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "lever.py").write_text("import marimo\napp = marimo.App(app_title='A lever')\n")
+    (tmp_path / "program.py").write_text("raise SystemExit('run')\n")
+    assert launcher.main(["--help"]) == 0
+    (added,) = set(capsys.readouterr().out.splitlines()) - set(helped.splitlines())
+    assert added.split(maxsplit=1) == ["lever", "A lever"], "a worksheet of the current folder, and no other file"
+
+
+@pytest.mark.parametrize("argv", [["rn", "hitch"], ["--version"]])
 def test_any_other_command_names_them(argv: list[str], calls: list[list[str]]) -> None:
     assert "run, edit, new and test" in refusal(*argv)
     assert not calls
+
+
+@pytest.mark.parametrize("given", ["hitch", "worksheets/hitch.py"])
+def test_a_worksheet_in_the_place_of_a_command_is_told_so(
+    given: str, calls: list[list[str]], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(ROOT)
+    assert refusal(given) == f"mechsheet: {given} is a worksheet: run {given} computes it, edit {given} opens it"
+    assert not calls
+
+
+@pytest.mark.parametrize(
+    ("argv", "meant"),
+    [
+        (["edti", "hitch"], "did you mean edit?"),
+        (["hitsch"], "did you mean run hitch?"),
+        (["run", "landing_gaer"], "did you mean landing_gear?"),
+        (["edit", "joints"], "did you mean joint?"),
+    ],
+)
+def test_the_nearest_is_told(argv: list[str], meant: str, calls: list[list[str]]) -> None:
+    assert meant in refusal(*argv)
+    assert "did you mean" not in refusal("quite-another")
+    assert not calls
+
+
+def test_a_name_is_looked_for_here_then_among_the_worksheets_and_examples(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    folders = [Path(), Path("worksheets"), Path("worksheets", "examples")]
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(launcher, "ROOT", tmp_path)
+    Path("worksheets", "examples").mkdir(parents=True)
+    for folder in reversed(folders):
+        path = folder / "lever.py"
+        path.write_text("")
+        assert Path(launcher.worksheet("lever")).resolve() == path.resolve()
+    assert launcher.worksheet("worksheets/lever.py") == str(folders[1] / "lever.py"), "a file is that file"
 
 
 def test_run_passes_the_rest_on_and_the_exit_code_back(sheet: Path, capfd: pytest.CaptureFixture[str]) -> None:
@@ -76,7 +145,7 @@ def test_a_name_stands_for_the_worksheet_of_the_project(
     known = shutil.copy(sheet, sheet.parent / "worksheets" / "hitch.py")
     assert launcher.main(["run", "hitch", "--N_pol=21"]) == 7
     assert calls == [[sys.executable, str(known), "--N_pol=21"]]
-    assert refusal("run", "hitsch") == "mechsheet: no worksheet hitsch: give a file or one of hitch"
+    assert refusal("run", "hitsch") == "mechsheet: no worksheet hitsch: did you mean hitch? give a file or one of hitch"
     assert refusal("run") == "mechsheet: run needs a worksheet: give a file or one of hitch"
 
 

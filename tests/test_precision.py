@@ -13,8 +13,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mechsheet.accuracy import precision
-from mechsheet.accuracy.precision import ROUNDING, Comparison, Measured, Method, Truth, compare, progress, timed
-from mechsheet.workbook import excel
+from mechsheet.accuracy.precision import ROUNDING, Comparison, Measured, Method, Truth, compare, timed
+from mechsheet.run.progress import progress
+from mechsheet.workbook import writing
 
 OWN = Measured("own", "", 3e-16, 1.0)
 
@@ -156,7 +157,7 @@ def test_table_shows_texts_powers_and_the_workbook_keeps_them():
 
 def test_chart_of_the_workbook_is_logarithmic_with_a_series_for_each_family():
     found = job(*(Measured("Newton", f"{k}", 10.0**-k, 1 + k) for k in (3, 8, 15)))
-    data = excel.workbook("T", inputs=[], found=[], tables=[found.table()], figures=[found.figure()], checks=[])
+    data = writing.workbook("T", inputs=[], found=[], tables=[found.table()], figures=[found.figure()], checks=[])
     with ZipFile(BytesIO(data)) as file:
         chart = file.read("xl/charts/chart1.xml").decode()
     assert chart.count('<c:logBase val="10"/>') == 2

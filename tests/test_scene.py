@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from openpyxl import Workbook, load_workbook
 
 from mechsheet.run import arguments, report
-from mechsheet.workbook import edited
+from mechsheet.workbook import reading
 from mechsheet.worksheet import inputs
 from mechsheet.worksheet.cells import load
 from mechsheet.worksheet.errors import SheetError
@@ -109,7 +109,7 @@ def exported(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def test_exported_workbook_reads_back_to_the_very_same_inputs(exported):
-    found = inputs.build(Hitch, edited.inputs(exported, FIELDS))
+    found = inputs.build(Hitch, reading.inputs(exported, FIELDS))
     assert found == inputs.build(Hitch, {"P6": 20000.5, "phi_P6": 85, "N_pol": 4, "X6": "0,1234567890123456789"})
 
 
@@ -137,7 +137,7 @@ class Edited:
 
     def read(self) -> dict[str, object]:
         self.book.save(self.path)
-        return edited.inputs(self.path, FIELDS)
+        return reading.inputs(self.path, FIELDS)
 
 
 @pytest.fixture
@@ -194,10 +194,10 @@ def test_a_workbook_without_the_sheet_or_its_headings_is_named(edit, tmp_path):
     other = tmp_path / "other.xlsx"
     Workbook().save(other)
     with pytest.raises(SheetError, match=r"other\.xlsx has no sheet Inputs; it has Sheet"):
-        edited.inputs(other, FIELDS)
+        reading.inputs(other, FIELDS)
     other.write_text("P6;3")
     with pytest.raises(SheetError, match=r"other\.xlsx is no Excel workbook"):
-        edited.inputs(other, FIELDS)
+        reading.inputs(other, FIELDS)
 
 
 def test_libreoffice_saves_what_is_read_back(exported, soffice, tmp_path):
@@ -210,7 +210,7 @@ def test_libreoffice_saves_what_is_read_back(exported, soffice, tmp_path):
     convert = ["--headless", "--convert-to", "xlsx:Calc MS Excel 2007 XML", "--outdir", str(out), str(typed)]
     profile = f"-env:UserInstallation={(tmp_path / 'profile').as_uri()}"
     subprocess.run([soffice, profile, *convert], check=True, capture_output=True, timeout=WITHIN)
-    found, before = (edited.inputs(path, FIELDS) for path in (out / "typed.xlsx", exported))
+    found, before = (reading.inputs(path, FIELDS) for path in (out / "typed.xlsx", exported))
     assert found.pop("P6") == 27500.5
     different = [name for name in found if found[name] != pytest.approx(before[name], rel=1e-14)]
     assert not different and set(found) == set(itertools.chain(before)) - {"P6"}

@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from mechsheet import units
-from mechsheet.studies.sensitivity import sensitivity, tolerance
+from mechsheet.studies.sensitivity import sensitivity
+from mechsheet.studies.tolerance import tolerance
 from mechsheet.worksheet.cells import evaluate, load
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.inputs import declared

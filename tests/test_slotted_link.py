@@ -17,7 +17,8 @@ from hypothesis import strategies as st
 from openpyxl import load_workbook
 from printed import agrees, rows
 
-from mechsheet.worksheet import formula
+from mechsheet.document.expression import tree
+from mechsheet.document.latex import latex
 from mechsheet.worksheet.checks import Check
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.inputs import build
@@ -80,7 +81,7 @@ def test_only_a_clockwise_crank_gives_the_printed_signs(sheet):
 
 def test_functions_are_typeset_by_their_symbols():
     call = ast.parse("VC(phi1) - eps_BC(phi1) * rpr(A, B)", mode="eval").body
-    tex = formula.latex(call)
+    tex = latex(tree(call))
     assert tex == r"V_{\mathrm{C}}(\varphi_{1}) - \varepsilon_{\mathrm{BC}}(\varphi_{1})\,\operatorname{rpr}(A,\ B)"
 
 

@@ -12,11 +12,11 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from mechsheet.studies import sweep as sweeping
+from mechsheet.studies import chunks
 from mechsheet.studies.sweep import Sweep, grid, sweep
-from mechsheet.worksheet import formula
 from mechsheet.worksheet.cells import evaluate, load
 from mechsheet.worksheet.errors import SheetError
+from mechsheet.worksheet.lines import registry
 
 ROOT = Path(__file__).parents[1]
 HITCH = ROOT / "worksheets" / "hitch.py"
@@ -31,7 +31,7 @@ def numbers() -> list[str]:
     cells = [cell for cell in sheet.cells if not cell.name.startswith(drawn)]
     names = sheet.run([name for cell in cells for name in cell.gives if name != "form"], {"g": sheet.inputs()})
     given = {name for cell in cells for name in cell.gives}
-    return [name for name in formula.registry(names) if name in given and not callable(names[name])]
+    return [name for name in registry(names) if name in given and not callable(names[name])]
 
 
 def table(count: int, width: float, seed: int = 1) -> dict[str, np.ndarray]:
@@ -163,7 +163,7 @@ def test_reasons_are_those_with_which_the_worksheet_alone_refuses():
 
 def test_all_variants_may_fail_for_a_reason_they_share_in_a_few_runs(monkeypatch):
     runs = []
-    monkeypatch.setattr(sweeping, "_run", lambda *args, run=sweeping._run: runs.append(0) or run(*args))
+    monkeypatch.setattr(chunks, "_run", lambda *args, run=chunks._run: runs.append(0) or run(*args))
     swept = sweep(HITCH, ["GS6"], {"P6": np.linspace(1e3, 2e3, 500), "Y_P56": 3})
 
     assert set(swept.reasons) == {
@@ -340,12 +340,12 @@ def test_a_nan_that_nothing_explains_is_named(lever):
 
 def test_a_function_that_changes_what_another_gave_is_stopped(lever):
     with pytest.raises(ValueError, match="read-only"):
-        sweeping._remembered(lambda x: x + 1)(np.zeros(3))[0] = 1
+        chunks._remembered(lambda x: x + 1)(np.zeros(3))[0] = 1
 
 
 def test_functions_are_remembered_by_the_very_argument_and_forgotten_with_it():
     calls = []
-    f = sweeping._remembered(lambda x, k=1: calls.append(k) or np.divide(1, x))
+    f = chunks._remembered(lambda x, k=1: calls.append(k) or np.divide(1, x))
     x = np.array([2.0])
     with np.errstate(divide="ignore"):
         assert f(x) is f(x) and f(0.0) == np.inf and f(-0.0) == -np.inf

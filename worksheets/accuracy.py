@@ -42,6 +42,7 @@ with app.setup:
         find,
         inputs,
         load,
+        progress,
         read,
         refuse,
         registry,
@@ -57,7 +58,6 @@ with app.setup:
         typeset,
     )
     from mechsheet.accuracy import exact, extreme
-    from mechsheet.accuracy.precision import progress
 
     folder = Path(__file__).parent
     deg = pi / 180

@@ -28,6 +28,7 @@ with app.setup:
         inputs,
         load,
         pareto,
+        progress,
         read,
         refuse,
         save_scene,
@@ -41,7 +42,6 @@ with app.setup:
         tolerance,
         typeset,
     )
-    from mechsheet.studies.design import progress
 
     deg = pi / 180
 

@@ -31,7 +31,6 @@ with app.setup:
         title_block,
         typeset,
     )
-    from mechsheet.units import parse, shown
 
     np.seterr(divide="ignore", invalid="ignore")  # an axis at infinity or a joint without load is shown so
     kgf, cm, deg = 9.80665, 0.01, pi / 180
@@ -449,9 +448,7 @@ def drawn_case(N):
 
 
 @app.cell
-def scheme(A, b_p, display, h_p, sigma, y, y_0, z):
-    unit_sigma = display.get("kgf/cm**2", "kgf/cm**2")
-
+def scheme(A, b_p, g, h_p, sigma, y, y_0, z):
     def scheme(p, k, side, across):
         """Section in plane p under load case k; side and across name its dimensions."""
         half, reach, size = h_p[p, 0, 0] / 2, b_p[p, 0, 0] / 2, np.max(h_p)
@@ -475,8 +472,8 @@ def scheme(A, b_p, display, h_p, sigma, y, y_0, z):
             outline += [base + scale * s_high + 1j * high, base + 1j * high]
             picture = picture.polygon(outline, colour="red" if s_low + s_high > 0 else "blue")
         for level, value in ((-half, stress[0]), (half, stress[-1])):
-            text = f"{value / parse(unit_sigma).factor:.4g} {shown(unit_sigma)}".replace("-", "−")
-            picture = picture.text(base + 1j * (level + np.sign(level) * 0.03 * size), text)
+            text = f"{value / 1e6:.4g} MPa" if g.SI else f"{value / (kgf / cm**2):.4g} kgf/cm²"
+            picture = picture.text(base + 1j * (level + np.sign(level) * 0.03 * size), text.replace("-", "−"))
         return picture
 
     return (scheme,)
@@ -638,7 +635,7 @@ def drawn_ring_case(N_r):
 
 
 @app.cell
-def ring_scheme(M_r, N_r, P_k, g, p_o, phi, phi_no, unit_F, unit_p, y_r0):
+def ring_scheme(M_r, N_r, P_k, g, p_o, phi, phi_no, y_r0):
     def ring_scheme(p, k):
         def out(angle, radius):
             return radius * 1j * exp(-1j * angle)  # angles from the vertical, clockwise
@@ -646,23 +643,23 @@ def ring_scheme(M_r, N_r, P_k, g, p_o, phi, phi_no, unit_F, unit_p, y_r0):
         picture = Drawing(width=430, height=430, frame=1.4 * g.r * np.array([-1 - 1j, 1 + 1j]))
         picture = picture.path(out(np.linspace(0, 2 * pi, 181), g.r), colour="")
 
-        def value(x, unit):
-            return f"{x / parse(unit).factor:.4g} {unit}".replace("-", "−")
-
         if p_o[p, k, 0] < 0:
             middle, half = (pi if M_r[k, 0] >= 0 else 0), pi - phi_no[p, k, 0]
             arc = middle + half * np.linspace(-1, 1, 91)
             load = N_r[k, 0] * g.r / 2 + M_r[k, 0] * cos(arc)
             depth = 0.3 * load / load[45] * p_o[p, k, 0] / np.min(p_o)
             picture = picture.polygon([*out(arc, g.r), *out(arc, g.r * (1 - depth))[::-1]], colour="blue")
-            picture = picture.text(out(middle, 0.5 * g.r), value(p_o[p, k, 0], unit_p))
+            value = p_o[p, k, 0]
+            text = f"{value / 1e3:.4g} N/mm" if g.SI else f"{value / (kgf / cm):.4g} kgf/cm"
+            picture = picture.text(out(middle, 0.5 * g.r), text.replace("-", "−"))
         greatest_at = np.argmax(P_k[p, k])
         for i, (angle, force) in enumerate(zip(phi[p, 0], P_k[p, k], strict=True)):
             picture = picture.hinge(out(angle, g.r))
             if force > 0:
                 length = 0.35 * force / np.max(P_k)
-                name = value(force, unit_F) if i == greatest_at else ""
-                picture = picture.path([out(angle, g.r), out(angle, g.r * (1 + length))], name, "red")
+                text = f"{force:.4g} N" if g.SI else f"{force / kgf:.4g} kgf"
+                bar = [out(angle, g.r), out(angle, g.r * (1 + length))]
+                picture = picture.path(bar, text if i == greatest_at else "", "red")
         axis = y_r0[k, 0]
         if abs(axis) < g.r:
             picture = picture.path([-1.1 * g.r + 1j * axis, 1.1 * g.r + 1j * axis], "n.a.", "green")

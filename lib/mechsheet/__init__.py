@@ -1,8 +1,42 @@
 """Reactive calculation documents for the design of mechanisms.
 
-The mechanics are a library of their own: any planar
-mechanism of class II is written as a crank or cylinder and Assur groups, one line a group, over any number of
-positions at once. A six-bar mechanism: the crank O1-A drives the rocker B-O3 through the coupler A-B, the rocker
+Everything public is a name of this package, loaded on its first use: ``from mechsheet import find, table, rrr``. Units
+stand apart, in `mechsheet.units`.
+
+A worksheet
+    inputs          inputs, ask, read, Used, declared
+    formulas        typeset, registry
+    Find            find, Found
+    checks          check, require, check_slope, closed_form, assembled, Check, summary
+    tables, charts  table, figure, Table, Figure, Column
+    drawings        Drawing, caption, side_by_side, mark, player
+    the document    title_block, progress, export
+    errors          SheetError, refuse
+
+A worksheet as a function
+    one run         evaluate, load, results
+    many runs       sweep, grid, Sweep, sensitivity, tolerance
+    design          search, Requirement, Judged, pareto, Limit, scene_text, save_scene
+    methods         compare, timed, Method, Measured, Truth, WorkPrecision
+
+Mechanics: numpy arrays in, numpy arrays out
+    vectors         dot, cross, product, angle, angle_between, angle_opposite, triangle_area
+    links           link_point, link_velocity, link_acceleration
+    drivers         crank, rrr_crank_reach, rrp_crank_reach, rpr_crank_reach
+    group RRR       rrr, rrr_reach, rrr_velocity, rrr_acceleration, rrr_transmission_angle, rrr_condition,
+                    rrr_determinant
+    group RRP       rrp, rrp_reach, rrp_velocity, rrp_acceleration, rrp_transmission_angle, rrp_condition
+    group RPR       rpr, rpr_velocity, rpr_acceleration, rpr_transmission_angle, rpr_condition
+    group PRP       prp, prp_velocity, prp_acceleration, prp_transmission_angle, prp_condition
+    group RPP       rpp, rpp_velocity, rpp_acceleration, rpp_transmission_angle, rpp_condition
+    reactions       Load, inertia, rrr_reactions, rrp_reactions, rpr_reactions, prp_reactions,
+                    rpp_reactions, coupling_drive, gear_drive, cylinder_drive
+    joints          neutral_axis, bending, circular_joint, sum_of_elements
+
+``__version__`` is the version of the package.
+
+Any planar mechanism of class II is written as a crank or cylinder and Assur groups, one line a group, over any number
+of positions at once. A six-bar mechanism: the crank O1-A drives the rocker B-O3 through the coupler A-B, the rocker
 drives the slider C through the rod B-C; all links have mass, the slider works against 400 N.
 
 >>> import numpy as np

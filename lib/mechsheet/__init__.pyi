@@ -234,6 +234,9 @@ from mechsheet.page.title import (
 from mechsheet.run.ask import (
     ask as ask,
 )
+from mechsheet.run.progress import (
+    progress as progress,
+)
 from mechsheet.run.report import (
     export as export,
 )
@@ -258,9 +261,6 @@ from mechsheet.studies.design import (
 from mechsheet.studies.sensitivity import (
     sensitivity as sensitivity,
 )
-from mechsheet.studies.sensitivity import (
-    tolerance as tolerance,
-)
 from mechsheet.studies.sweep import (
     Sweep as Sweep,
 )
@@ -269,6 +269,9 @@ from mechsheet.studies.sweep import (
 )
 from mechsheet.studies.sweep import (
     sweep as sweep,
+)
+from mechsheet.studies.tolerance import (
+    tolerance as tolerance,
 )
 from mechsheet.worksheet.cells import (
     evaluate as evaluate,
@@ -315,12 +318,6 @@ from mechsheet.worksheet.find import (
 from mechsheet.worksheet.find import (
     find as find,
 )
-from mechsheet.worksheet.formula import (
-    registry as registry,
-)
-from mechsheet.worksheet.formula import (
-    typeset as typeset,
-)
 from mechsheet.worksheet.inputs import (
     Used as Used,
 )
@@ -332,6 +329,12 @@ from mechsheet.worksheet.inputs import (
 )
 from mechsheet.worksheet.inputs import (
     read as read,
+)
+from mechsheet.worksheet.lines import (
+    registry as registry,
+)
+from mechsheet.worksheet.lines import (
+    typeset as typeset,
 )
 from mechsheet.worksheet.scene import (
     Limit as Limit,

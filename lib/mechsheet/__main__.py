@@ -10,6 +10,7 @@ import sys
 if not __package__:  # run as a folder, which heads the path: its modules must not shadow the standard library's
     del sys.path[0]
 
+import difflib
 import hashlib
 import os
 import re
@@ -20,17 +21,22 @@ from pathlib import Path
 
 MINIMUM = (3, 11)
 ROOT = Path(__file__).resolve().parents[2]
+COMMANDS = ("run", "new", "edit", "test")
 HELP = """\
 usage: mechsheet COMMAND              where the package is installed
        python lib/mechsheet COMMAND   in a clone of the project
 
-  run WORKSHEET [--NAME=VALUE ...]    compute the worksheet and write its workbook
-      WORKSHEET SCENE ...             compute scenes side by side, and write workbooks where --out=FOLDER says
+  run NAME [--INPUT=VALUE ...]        compute the worksheet and write its workbook
+      NAME SCENE ...                  compute scenes side by side, and write workbooks where --out=FOLDER says
+      such as                         run hitch --P6=25e3 --out=exports/light
   new NAME                            begin a worksheet from a template
-  edit WORKSHEET [OPTIONS]            open the worksheet in the browser (options of marimo edit)
+      such as                         new lever
+  edit NAME [OPTIONS]                 open the worksheet in the browser (options of marimo edit)
+      such as                         edit hitch
   test [OPTIONS]                      run the project's tests (options of pytest)
+      such as                         test -k hitch
 
-WORKSHEET is a file, or the name of one in worksheets/ such as hitch.
+NAME is a file, or the name of a worksheet in the current folder, in worksheets/ or in worksheets/examples/.
 """
 
 
@@ -40,14 +46,16 @@ def main(argv: "list[str] | None" = None) -> int:
         needed, found = (".".join(map(str, version[:2])) for version in (MINIMUM, sys.version_info))
         sys.exit(f"mechsheet: Python {needed} or newer is needed, this is Python {found} ({sys.executable})")
     command, *options = (sys.argv[1:] if argv is None else argv) or [""]
-    if command in ("-h", "--help"):
-        print(HELP, end="")
-        return 0
+    if command in ("", "-h", "--help"):
+        print(contents(), HELP, sep="", end="")
+        return 0 if command else 1
     if command in ("run", "edit"):
         if not options:
             sys.exit(f"mechsheet: {command} needs a worksheet: {known_worksheets()}")
         name, *options = options
         sheet = worksheet(name)
+        if not sheet:
+            sys.exit(f"mechsheet: no worksheet {name}: {nearest(name, list(worksheets()))}{known_worksheets()}")
         if command == "edit":
             return call([interpreter(""), "-m", "marimo", "edit", *options, sheet])
         scenes = any(not option.startswith("-") for option in options)
@@ -60,16 +68,48 @@ def main(argv: "list[str] | None" = None) -> int:
         if not (ROOT / "tests").is_dir():
             sys.exit(f"mechsheet: the tests are in a clone of the project, not beside {Path(__file__).parent}")
         return call([interpreter("dev"), "-m", "pytest", *options], cwd=ROOT)
-    problem = f"command {command} is not known" if command else "no command given"
-    sys.exit(f"mechsheet: {problem}: there are run, edit, new and test, and --help tells more")
+    if worksheet(command).endswith(".py"):
+        sys.exit(f"mechsheet: {command} is a worksheet: run {command} computes it, edit {command} opens it")
+    meant = nearest(command, [*COMMANDS, *("run " + name for name in worksheets())])
+    sys.exit(
+        f"mechsheet: command {command} is not known: {meant}there are run, edit, new and test, and --help tells more"
+    )
+
+
+def nearest(given: str, known: "list[str]") -> str:
+    """What may have been meant, by the last word of what is known."""
+    near = difflib.get_close_matches(given, [text.split()[-1] for text in known], n=1)
+    return next((f"did you mean {text}? " for text in known if near and text.split()[-1] == near[0]), "")
 
 
 def worksheet(name: str) -> str:
-    """Path of the worksheet given as a file or by its name alone."""
-    for path in (Path(name), ROOT / "worksheets" / f"{name}.py"):
-        if path.is_file():
-            return str(path)
-    sys.exit(f"mechsheet: no worksheet {name}: {known_worksheets()}")
+    """Path of the worksheet given as a file or by its name alone; nothing where there is none."""
+    paths = (Path(name), Path(f"{name}.py"), *(folder / f"{name}.py" for folder in folders()))
+    return next((str(path) for path in paths if path.is_file()), "")
+
+
+def folders() -> "list[Path]":
+    return [ROOT / "worksheets", ROOT / "worksheets" / "examples"]
+
+
+def worksheets() -> "dict[str, str]":
+    """Titles of the worksheets that a name alone finds, read from their text; one found earlier hides a later one."""
+    found = {}  # type: dict[str, str]
+    for folder in (Path(), *folders()):
+        for path in sorted(folder.glob("*.py")):
+            text = path.read_text(encoding="utf-8", errors="replace") if path.is_file() else ""
+            title = re.search(r"""app_title=(["'])(.*?)\1""", text)
+            if "marimo.App(" in text or folder.name:  # in the current folder there may be any program
+                found.setdefault(path.stem, title.group(2) if title else "")
+    return found
+
+
+def contents() -> str:
+    """The worksheets with their titles."""
+    titles = worksheets()
+    wide = max(map(len, titles), default=0)
+    lines = [f"    {name:{wide}}  {title}".rstrip() for name, title in titles.items()]
+    return "\n".join(["worksheets:", "", *lines, "", ""]) if lines else ""
 
 
 def new(name: str) -> int:
@@ -90,7 +130,7 @@ def new(name: str) -> int:
 
 
 def known_worksheets() -> str:
-    names = sorted(path.stem for path in (ROOT / "worksheets").glob("*.py"))
+    names = sorted(worksheets())
     return f"give a file or one of {', '.join(names)}" if names else "give a file"
 
 

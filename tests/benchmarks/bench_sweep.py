@@ -25,11 +25,11 @@ from scipy.optimize import fsolve
 
 from mechsheet.mechanics.crank import crank
 from mechsheet.mechanics.planar import link_point
+from mechsheet.mechanics.roots import _PLACES
 from mechsheet.mechanics.rrr import rrr
 from mechsheet.studies.sweep import sweep
 from mechsheet.worksheet import inputs
 from mechsheet.worksheet.cells import load
-from mechsheet.worksheet.find import _PLACES
 
 HITCH = Path(__file__).parents[2] / "worksheets" / "hitch.py"
 WANT = [*PER_VARIANT, *PER_POSITION]

@@ -1,8 +1,6 @@
 """Error against run time: the methods of one job, timed turn about in one run, against the truth at 50 digits."""
 
-import sys
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 from statistics import median
 from time import perf_counter
@@ -304,29 +302,6 @@ def timed(
         for i in waiting:
             once(i)
     return [(result, median(taken)) for result, taken in zip(results, times, strict=True)]
-
-
-@contextmanager
-def progress(total: int, title: str) -> Iterator[Callable[[], object]]:
-    """A bar in the page or on the terminal, which the call that is given moves on; nothing in a pipe."""
-    import marimo as mo
-
-    if mo.running_in_notebook():
-        with mo.status.progress_bar(total=total, title=title, remove_on_exit=True) as bar:
-            yield bar.update
-        return
-    count, width, shown = 0, 30, sys.stderr.isatty()
-
-    def update() -> None:
-        nonlocal count
-        count += 1
-        if shown:
-            full = width * count // total
-            print(f"\r{title:<45} [{'#' * full}{'.' * (width - full)}]", end="", file=sys.stderr, flush=True)
-
-    yield update
-    if shown:
-        print(f"\r{'':<{width + 50}}\r", end="", file=sys.stderr, flush=True)
 
 
 def _better(a: float, b: float) -> bool:

@@ -12,7 +12,7 @@ from typing import NamedTuple, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from mechsheet.worksheet.symbol import GREEK, parts
+from mechsheet.worksheet import symbol
 
 FONT, INDEX = 15, 11  # sizes of names and of their indices
 GAP = 6.0  # from a line to its name
@@ -72,9 +72,8 @@ def plain(text: str) -> tuple[Name, complex]:
 def _printed(name: str) -> tuple[Name, float]:
     first, space, rest = name.partition(" ")
     sign, first = ("−", first[1:]) if first.startswith("-") else ("", first)
-    mark, base, index = parts(first)
-    mark = sign + (mark and ("d" if base in GREEK else "Δ"))
-    base, rest = GREEK.get(base, base), space + rest
+    read = symbol.read(first)
+    mark, base, index, rest = sign + read.mark, read.base, read.index, space + rest
     return Name(mark, base, index, rest), _width(mark + base + rest, FONT) + _width(index, INDEX)
 
 

@@ -1,1 +1,4 @@
-"""Planar mechanisms and joints: numpy arrays in, numpy arrays out. Knows numpy and nothing else of the package."""
+"""Planar mechanisms, joints, roots of functions: numpy arrays in, numpy arrays out.
+
+Knows numpy and nothing else of the package.
+"""

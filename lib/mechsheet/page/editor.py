@@ -15,13 +15,14 @@ from typing import Any
 import numpy as np
 
 from mechsheet.recording import dimensions
-from mechsheet.worksheet import formula
 from mechsheet.worksheet.cells import Cell, Worksheet
+from mechsheet.worksheet.lines import registry
 
 _PERIOD = 0.25  # s between two looks at the cells
 # Their functions compute through another worksheet, whose inputs keep their metre.
 _OTHERS = {
-    f"mechsheet.{name}" for name in ("studies.design", "studies.sensitivity", "studies.sweep", "worksheet.cells")
+    f"mechsheet.{name}"
+    for name in ("studies.design", "studies.sensitivity", "studies.sweep", "studies.tolerance", "worksheet.cells")
 }
 
 
@@ -116,7 +117,7 @@ def unfit(cells: Iterable[Any], names: Mapping[str, Any]) -> Iterator[Note]:
     homes = {name: cell for cell in ran for name in cell.defs}
     others = {name for cell in ran for name in cell.refs if getattr(names.get(name), "__module__", "") in _OTHERS}
     known = names.keys() & homes.keys() - _depending(ran, others)
-    lines = [line for name, line in formula.registry(names).items() if name in known and not line.arguments]
+    lines = [line for name, line in registry(names).items() if name in known and not line.arguments]
     computed = _depending(ran, {"g"})
     common = {name: value for name, value in names.items() if name not in computed}
     sheet = Worksheet("", tuple(_compiled(cell, computed) for cell in ran if cell.defs & computed), common, "")

@@ -9,10 +9,10 @@ from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from mechsheet.document import chart
+from mechsheet.document import chart_svg
+from mechsheet.page.lines import markup
 from mechsheet.worksheet import symbol
 from mechsheet.worksheet.errors import quoted
-from mechsheet.worksheet.formula import markup
 
 if TYPE_CHECKING:
     import marimo as mo
@@ -93,7 +93,7 @@ class Mark:
     positions: tuple[tuple[str, float], ...]
 
     def _mime_(self) -> tuple[str, str]:
-        marks = ";".join(f"{chart.variable(symbol.plain(name))}:{float(x)!r}" for name, x in self.positions)
+        marks = ";".join(f"{chart_svg.variable(symbol.plain(name))}:{float(x)!r}" for name, x in self.positions)
         return "text/html", f'<ms-marks at="{marks}"></ms-marks>'
 
 

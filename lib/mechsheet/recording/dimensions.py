@@ -9,8 +9,9 @@ from typing import Any
 import numpy as np
 
 from mechsheet import units
-from mechsheet.worksheet import formula, inputs
+from mechsheet.worksheet import inputs
 from mechsheet.worksheet.cells import load
+from mechsheet.worksheet.lines import Formula, registry
 
 # How much smaller the new metre, kilogram and second are; no small powers of one are powers of another.
 _SCALES = (1.7, 2.3, 1.3)
@@ -41,16 +42,14 @@ def mismatches(worksheet: str | Path) -> list[Mismatch]:
     want = [name for cell in sheet.cells for name in cell.gives if name != "g"]
     g = sheet.inputs()
     first, second = (sheet.run(want, {"g": machine}) for machine in (g, rescaled(g)))
-    lines = [line for line in formula.registry(first).values() if not line.arguments]
+    lines = [line for line in registry(first).values() if not line.arguments]
     return [
         Mismatch(line.name, line.unit, f"line {line.expression.lineno} of {sheet.path}")
         for line in unfit(lines, g, first, second)
     ]
 
 
-def unfit(
-    lines: Iterable[formula.Formula], g: Any, first: Mapping[str, Any], second: Mapping[str, Any]
-) -> dict[formula.Formula, str]:
+def unfit(lines: Iterable[Formula], g: Any, first: Mapping[str, Any], second: Mapping[str, Any]) -> dict[Formula, str]:
     """Those of the lines whose unit does not fit, with the reason in words.
 
     ``first`` are the values on the inputs ``g``, ``second`` those on the `rescaled` ones.

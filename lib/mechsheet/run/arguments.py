@@ -13,7 +13,7 @@ from mechsheet.worksheet.scene import Scene
 
 def is_script(worksheet: str) -> bool:
     """Whether the worksheet itself was started, as ``python worksheet.py``."""
-    import marimo as mo
+    import marimo as mo  # on use: a worksheet called as a function needs it not
 
     started = bool(sys.argv and sys.argv[0]) and Path(sys.argv[0]).resolve() == Path(worksheet).resolve()
     return started and not mo.running_in_notebook()  # an export to HTML runs in the name of the worksheet too
@@ -42,7 +42,7 @@ def load(path: Path, declared: Sequence[Input]) -> Scene:
     Raises SheetError naming the file and what in it cannot be used.
     """
     if path.suffix.lower() == ".xlsx":
-        from mechsheet.workbook import edited  # on use: openpyxl takes a third of a second
+        from mechsheet.workbook import reading  # on use: openpyxl takes a third of a second
 
-        return Scene(edited.inputs(path, declared))
+        return Scene(reading.inputs(path, declared))
     return scenes.load(path)

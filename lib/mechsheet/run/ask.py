@@ -43,7 +43,7 @@ def _given(cls: type) -> Scene:
 
             sys.exit(batch.answer(worksheet, scene))
         return scene
-    import marimo as mo
+    import marimo as mo  # on use: as above
 
     given = mo.cli_args().to_dict() if mo.running_in_notebook() else {}
     return arguments.read([f"--{name}={value}" for name, value in given.items()], declared(cls))

@@ -1,6 +1,5 @@
 """Many scenes of one worksheet: each computed on its own, all side by side in a table and a workbook."""
 
-import ast
 import glob
 import shutil
 import sys
@@ -13,18 +12,19 @@ from typing import Any
 import numpy as np
 
 from mechsheet import units
+from mechsheet.run import report
 from mechsheet.run.arguments import read
-from mechsheet.workbook import excel
-from mechsheet.worksheet import formula, inputs, results
+from mechsheet.run.progress import progress
+from mechsheet.workbook import writing
+from mechsheet.worksheet import inputs, results
 from mechsheet.worksheet.cells import Worksheet, base, checks, load
 from mechsheet.worksheet.checks import Check
 from mechsheet.worksheet.errors import SheetError
-from mechsheet.worksheet.find import Found
 from mechsheet.worksheet.results import Quantity
 from mechsheet.worksheet.scene import Scene
 from mechsheet.worksheet.table import Column, Table
 
-_BAR, _GAP = 30, 2  # characters of the bar, between columns
+_GAP = 2  # characters between columns
 INTERRUPTED = 130  # the exit code of a program that Ctrl-C ended, as shells have it
 
 
@@ -65,7 +65,8 @@ def compute(sheet: Worksheet, name: str, given: Scene) -> tuple[Outcome, dict[st
         if check.essential and not check.passed:
             raise SheetError(f"{check.name}: {check.reason}" if check.reason else str(check))
     quantities, tables = dict[str, Quantity](), list[Table]()
-    for want in dict.fromkeys([*(given.want or _found(names)), *given.limits]):
+    found = (line.name for line, _ in report.solved(names))
+    for want in dict.fromkeys([*(given.want or found), *given.limits]):
         what = names.get(want)
         if isinstance(what, Table):
             tables.append(what)
@@ -88,7 +89,7 @@ def answer(worksheet: str, given: Scene) -> int:
     for problem in outcome.problems:
         print(problem)
     if given.out:
-        _write(given.out, _summary(sheet), comparison(sheet, [outcome]))
+        report.write(comparison(sheet, [outcome]), given.out / _summary(sheet))
     return 1 if outcome.problems else 0
 
 
@@ -122,7 +123,7 @@ def comparison(sheet: Worksheet, outcomes: Sequence[Outcome]) -> bytes:
         for o in outcomes
         for table in o.tables
     ]
-    return excel.comparison(sheet.title, [o.name for o in outcomes], rows, fields + tables)
+    return writing.comparison(sheet.title, [o.name for o in outcomes], rows, fields + tables)
 
 
 def run(worksheet: str, arguments: Sequence[str]) -> int:
@@ -135,18 +136,21 @@ def run(worksheet: str, arguments: Sequence[str]) -> int:
     """
     sheet = load(worksheet)
     files = [Path(name) for argument in arguments if not argument.startswith("-") for name in _expanded(argument)]
+    if not files:
+        raise SheetError("no scene given")
     options = [argument for argument in arguments if argument.startswith("-")]
     declared = inputs.declared(sheet.inputs)
     out = read(options, declared).out
     _distinct(sheet, files, out)
     outcomes = list[Outcome]()
     try:
-        for file in files:
-            _progress(len(outcomes), len(files), file.stem)
-            outcomes.append(_attempt(sheet, file, options, out))
-        _progress(len(files), len(files), "")
+        names = [file.stem for file in files]
+        with progress(len(files), names[0]) as done:
+            for file, following in zip(files, [*names[1:], ""], strict=True):
+                outcomes.append(_attempt(sheet, file, options, out))
+                done(following)
         if out:
-            _write(out, _summary(sheet), comparison(sheet, outcomes))
+            report.write(comparison(sheet, outcomes), out / _summary(sheet))
     except KeyboardInterrupt:
         print(f"\ninterrupted after {len(outcomes)} of {len(files)} scenes", file=sys.stderr)
         return INTERRUPTED
@@ -166,10 +170,8 @@ def _attempt(sheet: Worksheet, file: Path, options: Sequence[str], out: Path | N
         given = read([f"--scene={file}", *options], inputs.declared(sheet.inputs))
         outcome, names = compute(sheet, file.stem, given)
         if out and not given.want:
-            from mechsheet.run import report
-
             title = f"{sheet.title}: {file.stem}"
-            _write(out, _workbook(sheet, file), report.workbook(title, names, given.limits))
+            report.write(report.workbook(title, names, given.limits), out / _workbook(sheet, file))
         return outcome
     except SheetError as error:
         return Outcome(file.stem, error=str(error))
@@ -213,22 +215,6 @@ def _distinct(sheet: Worksheet, files: Sequence[Path], out: Path | None) -> None
         for file in files:
             if file.resolve() in written:
                 raise SheetError(f"scene {file} would be overwritten; give another folder than --out={out}")
-
-
-def _write(out: Path, name: str, data: bytes) -> None:
-    try:
-        out.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise SheetError(f"folder {out} cannot be made: {error.strerror}") from None
-    excel.save(data, out / name)
-
-
-def _found(names: dict[str, Any]) -> Iterator[str]:
-    """Names of the found values: ``L4`` of a line ``L4 = L4_found.value``."""
-    for line in formula.registry(names).values():
-        match line.expression:
-            case ast.Attribute(ast.Name(solved), "value") if isinstance(names.get(solved), Found):
-                yield line.name
 
 
 def _is_check(what: Any) -> bool:
@@ -298,15 +284,6 @@ def _text(rows: Sequence[Sequence[str]]) -> Iterator[str]:
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
     for row in rows:
         yield (" " * _GAP).join(text.ljust(width) for text, width in zip(row, widths, strict=True)).rstrip()
-
-
-def _progress(done: int, count: int, name: str) -> None:
-    """A bar on the terminal, which goes when all is done."""
-    if not sys.stderr.isatty():
-        return
-    full = _BAR * done // count
-    bar = f"[{'#' * full}{'.' * (_BAR - full)}] {done} of {count}  {name[:30]:30}"
-    print(f"\r{bar}" if done < count else f"\r{'':{len(bar)}}\r", end="", file=sys.stderr, flush=True)
 
 
 def main() -> int:

@@ -7,14 +7,18 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from mechsheet import units
-from mechsheet.recording import live
+from mechsheet.recording.record import record
 from mechsheet.run import arguments
-from mechsheet.workbook import excel
-from mechsheet.worksheet import formula, inputs
+from mechsheet.workbook import writing
+from mechsheet.workbook.find_sheet import FoundRow
+from mechsheet.workbook.inputs_sheet import InputRow
+from mechsheet.workbook.save import save
+from mechsheet.worksheet import inputs
 from mechsheet.worksheet.cells import results
 from mechsheet.worksheet.checks import Check
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.find import Found
+from mechsheet.worksheet.lines import Formula, registry
 from mechsheet.worksheet.results import limited
 from mechsheet.worksheet.scene import Limit
 from mechsheet.worksheet.table import Figure, Table
@@ -33,7 +37,7 @@ def export(title: str, namespace: Mapping[str, Any]) -> Any:
     if arguments.is_script(str(worksheet)):
         _script(title, namespace, worksheet)
         return None
-    import marimo as mo
+    import marimo as mo  # on use: a worksheet called as a function needs it not
 
     return mo.download(
         lambda: _workbook(title, namespace, _values(namespace, results(worksheet))),
@@ -57,16 +61,23 @@ def _script(title: str, namespace: Mapping[str, Any], worksheet: Path) -> None:
         print(found)
     for check in checks:
         print(check)
-    out = given.out or worksheet.resolve().parent.parent / "exports"
-    try:
-        out.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise SheetError(f"folder {out} cannot be made: {error.strerror}") from None
-    path = out / f"{worksheet.stem}.xlsx"
-    excel.save(_workbook(title, namespace, values), path)
+    path = (given.out or worksheet.resolve().parent.parent / "exports") / f"{worksheet.stem}.xlsx"
+    write(_workbook(title, namespace, values), path)
     print(f"written {path}")
     if not all(check.passed for check in checks):
         sys.exit(1)
+
+
+def write(data: bytes, path: Path) -> None:
+    """Save a file, whole or not at all, in a folder that is made where there is none.
+
+    Raises SheetError where either cannot be done.
+    """
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise SheetError(f"folder {path.parent} cannot be made: {error.strerror}") from None
+    save(data, path)
 
 
 def workbook(title: str, namespace: Mapping[str, Any], limits: Mapping[str, Limit]) -> bytes:
@@ -76,16 +87,16 @@ def workbook(title: str, namespace: Mapping[str, Any], limits: Mapping[str, Limi
 
 
 def _workbook(title: str, namespace: Mapping[str, Any], values: list[Any]) -> bytes:
-    return excel.workbook(
+    return writing.workbook(
         title,
         inputs=[
-            excel.Row(f.name, value, f.unit, f.meaning, f.section) for f, value in inputs.Used(namespace["g"]).rows()
+            InputRow(f.name, value, f.unit, f.meaning, f.section) for f, value in inputs.Used(namespace["g"]).rows()
         ],
-        found=list(_found(namespace)),
+        found=[_found(line, found) for line, found in solved(namespace)],
         tables=_of(Table, values),
         figures=_of(Figure, values),
         checks=_of(Check, values),
-        recording=live.record(namespace),
+        recording=record(namespace),
     )
 
 
@@ -100,25 +111,27 @@ def _of(kind: type[T], values: Iterable[Any]) -> list[T]:
     return [value for value in values if isinstance(value, kind)]
 
 
-def _found(namespace: Mapping[str, Any]) -> Iterator[excel.FoundRow]:
-    for line in formula.registry(namespace).values():
+def solved(namespace: Mapping[str, Any]) -> Iterator[tuple[Formula, Found]]:
+    """Lines whose value is found, such as ``L4 = L4_found.value``, and what was found."""
+    for line in registry(namespace).values():
         match line.expression:
             case ast.Attribute(ast.Name(source), "value") if isinstance(namespace.get(source), Found):
-                found: Found = namespace[source]
-                unit, target = units.parse(line.unit).factor, units.parse(found.words.unit).factor
-                others = [r for r in found.roots if (r.value, r.branch) != (found.value, found.branch or 0)]
-                yield excel.FoundRow(
-                    line.name,
-                    found.value / unit,
-                    line.unit,
-                    line.meaning,
-                    found.residual / target,
-                    found.words.unit,
-                    found.interval[0] / unit,
-                    found.interval[1] / unit,
-                    ", ".join(
-                        f"{r.value / unit:.6g}" + (f" (branch {r.branch:+d})" if r.branch else "") for r in others
-                    ),
-                    found.words.unknown,
-                    found.equals / target,
-                )
+                yield line, namespace[source]
+
+
+def _found(line: Formula, found: Found) -> FoundRow:
+    unit, target = units.parse(line.unit).factor, units.parse(found.words.unit).factor
+    others = [r for r in found.roots if (r.value, r.branch) != (found.value, found.branch or 0)]
+    return FoundRow(
+        line.name,
+        found.value / unit,
+        line.unit,
+        line.meaning,
+        found.residual / target,
+        found.words.unit,
+        found.interval[0] / unit,
+        found.interval[1] / unit,
+        ", ".join(f"{r.value / unit:.6g}" + (f" (branch {r.branch:+d})" if r.branch else "") for r in others),
+        found.words.unknown,
+        found.equals / target,
+    )

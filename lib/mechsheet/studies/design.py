@@ -4,19 +4,16 @@ The search knows nothing of mechanisms: a worksheet says what a variant is worth
 """
 
 import sys
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mechsheet import units
-from mechsheet.run import arguments
-from mechsheet.workbook import excel
+from mechsheet.run import arguments, report
 from mechsheet.worksheet.checks import Check
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.inputs import Input, declared
@@ -159,7 +156,7 @@ def _evolved(
     start: Mapping[str, float] | None,
     done: Callable[[], object],
 ) -> tuple[dict[str, float], Judged, int]:
-    from scipy.optimize import Bounds, differential_evolution
+    from scipy.optimize import Bounds, differential_evolution  # on use: takes longer than the rest of the package
 
     names, tried = list(bounds), 0
 
@@ -206,27 +203,6 @@ def pareto(a: Array, b: Array) -> NDArray[np.intp]:
     return order[b[order] > before]
 
 
-@contextmanager
-def progress(total: int, title: str) -> Iterator[Callable[[], None]]:
-    """What to call after each of ``total`` steps: a bar in the page, a line on a terminal, nothing elsewhere."""
-    import marimo as mo
-
-    if mo.running_in_notebook():
-        with mo.status.progress_bar(total=total, title=title, remove_on_exit=True) as bar:
-            yield bar.update
-        return
-    count = 0
-
-    def line() -> None:
-        nonlocal count
-        count += 1
-        if sys.stderr.isatty():
-            end = "\n" if count == total else ""
-            print(f"\r{title}: {count} of {total}", end=end, file=sys.stderr, flush=True)
-
-    yield line
-
-
 def scene_text(
     fields: Mapping[str, Input], inputs: Mapping[str, float], limits: Mapping[str, Limit], remarks: Sequence[str]
 ) -> str:
@@ -249,20 +225,12 @@ def save_scene(text: str, name: str, namespace: Mapping[str, Any]) -> Any:
     if arguments.is_script(worksheet):
         out = arguments.read(sys.argv[1:], declared(type(namespace["g"]))).out
         if out is not None:
-            _save(text, out / name)
+            report.write(text.encode(), out / name)
             print(f"written {out / name}")
         return None
-    import marimo as mo
+    import marimo as mo  # on use: a script needs it not
 
     return mo.download(text.encode(), filename=name, label="Scene of the design")
-
-
-def _save(text: str, path: Path) -> None:
-    try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise SheetError(f"folder {path.parent} cannot be made: {error.strerror}") from None
-    excel.save(text.encode(), path)
 
 
 def _text(value: float, unit: str) -> str:

@@ -1,8 +1,7 @@
-"""Sensitivity of results to inputs, and the bands that tolerances of inputs leave; both by one sweep of a worksheet."""
+"""Sensitivity of results to inputs, by one sweep of a worksheet."""
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from itertools import product
 from pathlib import Path
 from typing import Any, Literal
 
@@ -16,7 +15,7 @@ from mechsheet.worksheet import symbol
 from mechsheet.worksheet.cells import base, load, value
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.inputs import Input
-from mechsheet.worksheet.table import DECIMALS, Column, Table
+from mechsheet.worksheet.table import Column, Table
 
 Array = NDArray[np.float64]
 Position = int | Literal["least", "greatest"]
@@ -24,9 +23,7 @@ Position = int | Literal["least", "greatest"]
 _STEP = 2.0**-5  # of an input's size: the widest step
 _HALVINGS = 7  # steps down to 2**-12 of the size
 _ROUNDING = 32 * np.finfo(float).eps  # of a field's largest value: what the roundings of a worksheet make of it
-_CORNERS = 12  # toleranced inputs, 4096 corners
 _BARS = 12
-_PERCENTILES = (5.0, 50.0, 95.0)
 
 
 @dataclass(frozen=True, eq=False)
@@ -134,13 +131,13 @@ class Tornado:
     bars: tuple[tuple[str, str, float], ...]
 
     def _mime_(self) -> tuple[str, str]:
-        import marimo as mo
+        import marimo as mo  # on use: only a page needs it
 
         return "text/html", mo.as_html(self.chart()).text
 
     def chart(self) -> Any:
         """The bars as an altair chart."""
-        import altair as alt
+        import altair as alt  # on use: only a page needs it
 
         order = [symbol.text(x) for x, *_ in self.bars]
         rows = [{"input": x, "meaning": m, "relative": r} for x, (_, m, r) in zip(order, self.bars, strict=True)]
@@ -201,10 +198,10 @@ def sensitivity(
     C. J. F. Ridders, Accurate computation of F'(x) and F'(x) F''(x), Advances in Engineering Software 4 (1982).
     """
     names = tuple(dict.fromkeys(want))
-    fields, at = _point(worksheet, given)
+    fields, at = point(worksheet, given)
     chosen = [x for x, f in fields.items() if not f.whole] if inputs is None else list(dict.fromkeys(inputs))
     for x in chosen:
-        _continuous(fields, x, "cannot be differentiated by")
+        continuous(fields, x, "cannot be differentiated by")
     sizes = np.array([_size(fields, at, x) for x in chosen])
     steps = _STEP / 2.0 ** np.arange(_HALVINGS + 1)
     moves = np.multiply.outer(sizes, np.concatenate([steps, -steps]))  # inputs, steps both ways
@@ -213,12 +210,12 @@ def sensitivity(
     for i, x in enumerate(chosen):
         variants[x][1 + i * moves.shape[1] :][: moves.shape[1]] += moves[i]
     swept = sweep(worksheet, dict.fromkeys(base(name) for name in names), {**given, **variants})
-    _solved(swept, 0)
+    solved(swept, 0)
 
     values, slopes, errors = {}, {}, {}
     lost = dict.fromkeys(chosen, "")
     for name in names:
-        results = _real(swept, name)
+        results = real(swept, name)
         values[name] = results[0]
         moved = results[1:].reshape(len(chosen), 2, len(steps), *results.shape[1:])
         taken = [variants[x][1:].reshape(len(chosen), 2, len(steps))[i] for i, x in enumerate(chosen)]
@@ -261,162 +258,7 @@ def _extrapolated(quotients: Array, widths: Array, size: float) -> tuple[Array, 
     return best, np.where(flat, 0.0, np.where(np.isnan(best), np.nan, error))
 
 
-@dataclass(frozen=True, eq=False)
-class Band:
-    """Between what a result lies, in its display unit, at each position.
-
-    ``mean``, ``deviation`` and ``percentiles`` are those of Monte Carlo, and None for corners.
-    """
-
-    nominal: Array
-    least: Array
-    greatest: Array
-    mean: Array | None = None
-    deviation: Array | None = None
-    percentiles: dict[float, Array] | None = None
-
-
-@dataclass(frozen=True, eq=False)
-class Tolerance:
-    """Bands of results for inputs within their tolerances.
-
-    ``lost`` of the ``count`` variants have no value, ``reason`` is that of the first of them; bands are then NaN.
-    """
-
-    names: tuple[str, ...]
-    tolerances: dict[str, float]
-    method: str
-    bands: dict[str, Band]
-    units: dict[str, str]
-    count: int
-    lost: int
-    reason: str
-
-    def __getitem__(self, name: str) -> Band:
-        return self.bands[name]
-
-    def table(self, number: str, title: str, *names: str) -> Table:
-        """Bands of results, all of one shape, a row for each position."""
-        columns: list[Column] = []
-        for name in names or self.names:
-            band, unit = self.bands[name], self.units[name]
-            parts = {"": band.nominal, "min": band.least, "max": band.greatest}
-            if band.mean is not None and band.deviation is not None and band.percentiles is not None:
-                parts |= {"mean": band.mean, "sd": band.deviation}
-                parts |= {f"p{p:g}": x for p, x in band.percentiles.items()}
-            decimals = DECIMALS.get(unit, 3) + 1
-            columns += [
-                Column(f"{name}_{part}".rstrip("_"), unit, f"{name} {part}".strip(), decimals, np.atleast_1d(x))
-                for part, x in parts.items()
-            ]
-        shapes = {column.values.shape for column in columns}
-        if len(shapes) > 1:
-            raise SheetError(f"bands of {', '.join(names or self.names)} have different positions and no common table")
-        k = Column("k", "-", "number of the position", 0, np.arange(shapes.pop()[0], dtype=float))
-        each = (f"{x} ± {t:g} {units.shown(self.units[x])}".removesuffix(" -") for x, t in self.tolerances.items())
-        lost = f" {self.lost} have no value: {self.reason}." if self.lost else ""
-        return Table(
-            number, title, (k, *columns), f"{self.count} variants by {self.method} of {', '.join(each)}.{lost}"
-        )
-
-
-def tolerance(
-    worksheet: str | Path,
-    want: Iterable[str],
-    tolerances: Mapping[str, float],
-    method: Literal["corners", "monte carlo"] = "corners",
-    *,
-    seed: int | None = None,
-    count: int = 1000,
-    distribution: Literal["uniform", "normal"] = "uniform",
-    percentiles: Sequence[float] = _PERCENTILES,
-    **given: Any,
-) -> Tolerance:
-    """Bands of results for inputs that lie within tolerances of their values, through one sweep of the worksheet.
-
-    Parameters
-    ----------
-    worksheet, want, given
-        As in `sensitivity`.
-    tolerances : mapping of str to float
-        Input name -> ± its tolerance, in its display unit.
-    method : {"corners", "monte carlo"}
-        All 2**n corners of the tolerances, which bound every result that is monotonic in each input; or ``count``
-        random variants.
-    seed : int
-        Of Monte Carlo, which must have one: the same seed gives the same bands.
-    distribution : {"uniform", "normal"}
-        Uniform over the tolerance, or normal with the tolerance as three standard deviations.
-    percentiles : sequence of float
-        Percentiles of Monte Carlo.
-
-    Raises
-    ------
-    SheetError
-        An unknown name, a negative tolerance or one of a whole number, more corners than 4096, Monte Carlo without a
-        seed, inputs given that have no solution.
-    """
-    names = tuple(dict.fromkeys(want))
-    fields, at = _point(worksheet, given)
-    if not tolerances:
-        raise SheetError("no input has a tolerance")
-    for x, t in tolerances.items():
-        _continuous(fields, x, "cannot have a tolerance:")
-        if not (np.isfinite(t) and t >= 0):
-            raise SheetError(f"tolerance of {fields[x].meaning} {x} = {t} {fields[x].unit} must be a number >= 0")
-    spread = np.array(list(tolerances.values()))
-    if method == "corners":
-        if len(spread) > _CORNERS:
-            raise SheetError(
-                f"{len(spread)} tolerances have 2**{len(spread)} corners; at most {_CORNERS}, or monte carlo"
-            )
-        parts = np.array(list(product((-1.0, 1.0), repeat=len(spread))))
-    elif method == "monte carlo":
-        parts = _drawn(seed, count, len(spread), distribution)
-    else:
-        raise SheetError(f"method {method!r} must be 'corners' or 'monte carlo'")
-    moved = np.vstack([np.zeros(len(spread)), parts]) * spread
-    variants = {x: at[x] + moved[:, i] for i, x in enumerate(tolerances)}
-    swept = sweep(worksheet, dict.fromkeys(base(name) for name in names), {**given, **variants})
-    _solved(swept, 0)
-    lost = swept.reasons[1:][swept.reasons[1:] != ""]
-    bands = {}
-    for name in names:
-        results = _real(swept, name)
-        all_of_them = results[1:]
-        random: dict[str, Any] = {}
-        if method == "monte carlo":
-            random["mean"], random["deviation"] = all_of_them.mean(0), all_of_them.std(0, ddof=1)
-            random["percentiles"] = dict(zip(percentiles, np.percentile(all_of_them, percentiles, axis=0), strict=True))
-        bands[name] = Band(results[0], results.min(0), results.max(0), **random)
-    return Tolerance(
-        names,
-        dict(tolerances),
-        f"{method}, {distribution}, seed {seed}" if method == "monte carlo" else method,
-        bands,
-        {**{name: swept.units[base(name)] for name in names}, **{x: fields[x].unit for x in tolerances}},
-        len(parts),
-        len(lost),
-        str(lost[0]) if len(lost) else "",
-    )
-
-
-def _drawn(seed: int | None, count: int, inputs: int, distribution: str) -> Array:
-    """Random parts of the tolerances, a row for each variant."""
-    if seed is None:
-        raise SheetError("monte carlo needs a seed, such as seed=1")
-    if count < 2:
-        raise SheetError(f"count = {count} variants must be at least 2")
-    rng = np.random.default_rng(seed)
-    match distribution:
-        case "uniform":
-            return rng.uniform(-1, 1, (count, inputs))
-        case "normal":
-            return rng.normal(0, 1 / 3, (count, inputs))
-    raise SheetError(f"distribution {distribution!r} must be 'uniform' or 'normal'")
-
-
-def _point(worksheet: str | Path, given: Mapping[str, Any]) -> tuple[dict[str, Input], dict[str, float]]:
+def point(worksheet: str | Path, given: Mapping[str, Any]) -> tuple[dict[str, Input], dict[str, float]]:
     """Declared inputs and their values in display units."""
     cls = load(worksheet).inputs
     g: Any = declarations.build(cls, given)
@@ -424,7 +266,7 @@ def _point(worksheet: str | Path, given: Mapping[str, Any]) -> tuple[dict[str, I
     return {field.name: field for field, _ in rows}, {field.name: float(number) for field, number in rows}
 
 
-def _continuous(fields: Mapping[str, Input], name: str, cannot: str) -> None:
+def continuous(fields: Mapping[str, Input], name: str, cannot: str) -> None:
     field = declarations.known(fields, name)
     if field.whole:
         raise SheetError(f"results {cannot} {field.meaning} {name}, which is a whole number")
@@ -436,12 +278,12 @@ def _size(fields: Mapping[str, Input], at: Mapping[str, float], name: str) -> fl
     return abs(at[name]) or max(alike) or 1.0
 
 
-def _solved(swept: Sweep, row: int) -> None:
+def solved(swept: Sweep, row: int) -> None:
     if swept.reasons[row]:
         raise SheetError(str(swept.reasons[row]))
 
 
-def _real(swept: Sweep, name: str) -> Array:
+def real(swept: Sweep, name: str) -> Array:
     """A wanted result of all variants in its display unit."""
     results = np.asarray(value(name, {base(name): swept.display(base(name))}))
     if np.iscomplexobj(results):

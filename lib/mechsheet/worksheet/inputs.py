@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mechsheet import units
-from mechsheet.worksheet import formula, source, symbol
+from mechsheet.worksheet import lines, source, symbol
 from mechsheet.worksheet.errors import SheetError, refuse
 
 if TYPE_CHECKING:
@@ -100,7 +100,7 @@ def _declared(name: str, cell: source.Cell) -> tuple[Input, ...]:
         if not isinstance(node, ast.AnnAssign):
             continue
         field = ast.unparse(node.target)
-        text = formula.declared(cell.comments.get(line, ""), cell.at(line))
+        text = lines.declared(cell.comments.get(line, ""), cell.at(line))
         if text is None:
             raise SheetError(f"{cell.at(line)}: input {field} needs a comment with its unit, such as # [m] meaning")
         unit, (meaning, _, limits) = text[0], text[1].partition(";")

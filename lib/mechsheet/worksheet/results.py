@@ -8,10 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mechsheet import units
-from mechsheet.worksheet import formula
 from mechsheet.worksheet.cells import base, value
 from mechsheet.worksheet.checks import Check
 from mechsheet.worksheet.errors import SheetError
+from mechsheet.worksheet.lines import registry
 from mechsheet.worksheet.scene import Limit
 
 
@@ -46,7 +46,7 @@ def quantities(name: str, namespace: Mapping[str, Any]) -> list[Quantity]:
 
     Raises SheetError where the result is no number or no line declares its unit.
     """
-    line = formula.registry(namespace).get(base(name))
+    line = registry(namespace).get(base(name))
     if line is None or line.arguments:
         what = f"is a function of {', '.join(line.arguments)}" if line else "is declared by no line with its unit"
         raise SheetError(f"{name} {what}; numbers with a unit, checks and tables can be asked for")

@@ -1,6 +1,7 @@
 """Names of variables as symbols of the field: ``phi34`` is φ with index 34."""
 
 import re
+from dataclasses import dataclass
 from functools import cache
 from html import escape
 
@@ -10,31 +11,56 @@ GREEK = {
     "phi": "φ", "chi": "χ", "psi": "ψ", "omega": "ω", "Gamma": "Γ", "Delta": "Δ", "Theta": "Θ", "Sigma": "Σ",
     "Phi": "Φ", "Psi": "Ψ", "Omega": "Ω",
 }  # fmt: skip
-_TEX = {"eps": r"\varepsilon", "epsilon": r"\varepsilon", "phi": r"\varphi"}
 _WORDS = "|".join(sorted(GREEK, key=len, reverse=True))
 _NAME = re.compile(rf"(d(?=[A-Z]|{_WORDS}))?({_WORDS}|[A-Za-z])_?(\w*)")
 
 
+@dataclass(frozen=True, slots=True)
+class Symbol:
+    """A name as the field writes it: ``base`` is one letter or one word, ``mark`` stands before it or over it.
+
+    Marks are ``Δ``, ``d``, and dots: ``.`` and ``..``.
+    """
+
+    base: str
+    index: str = ""
+    mark: str = ""
+
+
 @cache
-def parts(name: str) -> tuple[str, str, str]:
-    """Differential mark, base and index of a name; one word of small letters stays whole.
+def read(name: str) -> Symbol:
+    """Symbol of a name; one word of small letters stays whole.
 
     The rule: a leading ``d`` before a Greek word or a capital letter is a difference or derivative; the base
     is one Greek word or one letter; the rest is the index, its underscores commas.
 
-    >>> parts("phi34"), parts("GS6_max"), parts("dphi3"), parts("dRa"), parts("delta1"), parts("gap")
-    (('', 'phi', '34'), ('', 'G', 'S6,max'), ('d', 'phi', '3'), ('d', 'R', 'a'), ('', 'delta', '1'), ('', 'gap', ''))
+    >>> read("phi34"), read("GS6_max")
+    (Symbol(base='φ', index='34', mark=''), Symbol(base='G', index='S6,max', mark=''))
+    >>> read("dphi3"), read("dRa"), read("gap").base
+    (Symbol(base='φ', index='3', mark='d'), Symbol(base='R', index='a', mark='Δ'), 'gap')
     """
     greek = re.match(_WORDS, name)
     if not greek and re.fullmatch(r"[a-z]{3,}", name) and not re.match(f"d({_WORDS})", name):
-        return "", name, ""
+        return Symbol(name)
     match = (re.fullmatch(rf"()({_WORDS})_?(\w*)", name) if greek else None) or _NAME.fullmatch(name)
-    return (match[1] or "", match[2], match[3].strip("_").replace("_", ",")) if match else ("", name, "")
+    if not match:
+        return Symbol(name)
+    base = GREEK.get(match[2], match[2])
+    mark = match[1] and ("d" if base in _LETTERS else "Δ")
+    return Symbol(base, match[3].strip("_").replace("_", ","), mark or "")
+
+
+_LETTERS = frozenset(GREEK.values())
 
 
 def is_field(name: str) -> bool:
     """Whether the name says "over S": ``phi34_S`` is printed φ34(S)."""
     return name.endswith("_S") and len(name) > 2
+
+
+def stem(name: str) -> str:
+    """Name without the ``_S`` of a field."""
+    return name[:-2] if is_field(name) else name
 
 
 def plain(name: str) -> str:
@@ -43,25 +69,7 @@ def plain(name: str) -> str:
     >>> plain("phi34_S"), plain("GS6_max"), plain("S_p")
     ('phi34', 'GS6max', 'Sp')
     """
-    return (name[:-2] if is_field(name) else name).replace("_", "")
-
-
-def latex(name: str) -> str:
-    r"""Name in LaTeX.
-
-    >>> latex("phi34_S"), latex("dRa")
-    ('\\varphi_{34}(S)', '\\Delta R_{\\mathrm{a}}')
-    """
-    mark, base, index = parts(name[:-2] if is_field(name) else name)
-    if base in GREEK:
-        text = _TEX.get(base, rf"\{base}")
-    else:
-        text = base if len(base) == 1 else rf"\mathrm{{{base}}}".replace("_", r"\_")
-    if mark:
-        text = rf"\mathrm{{d}}{text}" if base in GREEK else rf"\Delta {text}"
-    if index:
-        text += "_{" + (rf"\mathrm{{{index}}}" if re.search("[A-Za-z]", index) else index) + "}"
-    return text + "(S)" * is_field(name)
+    return stem(name).replace("_", "")
 
 
 def html(name: str) -> str:
@@ -70,11 +78,8 @@ def html(name: str) -> str:
     >>> html("phi34"), html("R56x")
     ('<i>φ</i><sub>34</sub>', '<i>R</i><sub>56x</sub>')
     """
-    mark, base, index = parts(name[:-2] if is_field(name) else name)
-    text = f"<i>{GREEK.get(base, base)}</i>"
-    if mark:
-        text = ("d" if base in GREEK else "Δ") + text
-    return text + (f"<sub>{index}</sub>" if index else "")
+    symbol = read(stem(name))
+    return f"{symbol.mark}<i>{symbol.base}</i>" + (f"<sub>{symbol.index}</sub>" if symbol.index else "")
 
 
 def in_words(sentence: str) -> str:
@@ -87,23 +92,11 @@ def in_words(sentence: str) -> str:
     return "".join(html(word) if i % 2 else escape(word) for i, word in enumerate(words))
 
 
-def svg(name: str) -> str:
-    """Name in SVG, its index lowered: the inside of a ``<text>`` element.
-
-    >>> svg("S_p")
-    '<tspan font-style="italic">S</tspan><tspan dy="4" font-size="11">p</tspan><tspan dy="-4">\u200b</tspan>'
-    """
-    mark, base, index = parts(name[:-2] if is_field(name) else name)
-    mark = mark and ("d" if base in GREEK else "Δ")
-    text = f'{mark}<tspan font-style="italic">{GREEK.get(base, base)}</tspan>'
-    # the last part, of no width, takes what follows back to the line
-    return text + (f'<tspan dy="4" font-size="11">{index}</tspan><tspan dy="-4">\u200b</tspan>' if index else "")
-
-
 def text(name: str) -> str:
     """Name in plain characters, for charts and the terminal.
 
     >>> text("phi34"), text("dRa")
     ('φ34', 'ΔRa')
     """
-    return re.sub("<[^>]*>", "", html(name))
+    symbol = read(stem(name))
+    return symbol.mark + symbol.base + symbol.index

@@ -14,8 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mechsheet import units
-from mechsheet.document import chart
-from mechsheet.worksheet import formula, source, symbol
+from mechsheet.document import chart, chart_svg
+from mechsheet.worksheet import lines, source, symbol
 from mechsheet.worksheet.errors import SheetError, refuse
 
 if TYPE_CHECKING:
@@ -118,7 +118,7 @@ class Figure:
 
     def svg(self) -> str:
         """The chart as one SVG element."""
-        return chart.line_chart(self.x, self.lines, self.marks, self.every)
+        return chart_svg.svg(chart.line_chart(self.x, self.lines, self.marks, self.every))
 
     def chart(self) -> Any:
         """The figure as an altair chart, to be changed, combined or saved; the page draws its own, which is faster."""
@@ -213,7 +213,7 @@ def _columns(
     decimals: int | None = None,
     every: int = 1,
 ) -> tuple[Column, ...]:
-    known, columns = formula.registry(frame.f_globals), []
+    known, columns = lines.registry(frame.f_globals), []
     nodes = [n for node in nodes for n in (node.value.elts if _is_group(node) else [node])]  # type: ignore[attr-defined]
     shape = np.broadcast_shapes((1,), *(np.shape(v) for v in values))
     for node, value in zip(nodes, values, strict=True):

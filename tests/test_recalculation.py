@@ -16,8 +16,8 @@ import pytest
 from conftest import WITHIN
 from openpyxl import Workbook, load_workbook
 
-from mechsheet.recording.live import Names
-from mechsheet.workbook import edited
+from mechsheet.workbook import reading
+from mechsheet.workbook.place import DefinedNames
 from mechsheet.worksheet import cells, inputs
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -134,7 +134,7 @@ def test_edited_workbook_is_a_scene(tmp_path: Path) -> None:
     changes = CHANGED["hitch"]
     path = edit(exported("hitch"), changes, tmp_path / "edited.xlsx")
     sheet = cells.load(ROOT / "worksheets" / "hitch.py")
-    read = edited.inputs(path, inputs.declared(sheet.inputs))
+    read = reading.inputs(path, inputs.declared(sheet.inputs))
     assert inputs.build(sheet.inputs, read) == inputs.build(sheet.inputs, changes)
 
 
@@ -195,7 +195,7 @@ def test_found_value_without_a_closed_form_shows_what_it_leaves(
 
 
 def test_names_are_no_addresses_and_differ_in_more_than_case() -> None:
-    names = Names()
+    names = DefinedNames()
     given = ["L3", "X01", "P56", "phi12", "R", "c", "r1c1", "a", "A", "S_p", "s_p", "IS6", "XFD1", "dphi3", "L_3"]
     new = [names.new(name) for name in given]
     assert new == [

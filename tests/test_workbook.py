@@ -1,11 +1,9 @@
-"""The workbook read back: what stands in its cells, how it looks, and that it is written whole or not at all."""
+"""The workbook read back: what stands in its cells, and how it looks."""
 
-import errno
 import html
-import os
 import re
 import subprocess
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from datetime import datetime
 from io import BytesIO
 from math import inf, isclose, nan
@@ -22,10 +20,11 @@ from hypothesis import strategies as st
 from openpyxl import load_workbook
 
 from mechsheet import units
-from mechsheet.workbook import excel
-from mechsheet.workbook.excel import FoundRow, Row
+from mechsheet.workbook import writing
+from mechsheet.workbook.find_sheet import FoundRow
+from mechsheet.workbook.inputs_sheet import InputRow
+from mechsheet.workbook.save import save
 from mechsheet.worksheet.checks import Check
-from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.table import Column, Figure, Table
 
 S = Column("S", "m", "cylinder length", 3, np.linspace(0.42, 0.67, 4))
@@ -36,9 +35,9 @@ TABLE = Table("4.1", "Lifting capacity", (S, G56, GS6), "GS6 is the least.")
 FIGURE = Figure("4.1", "Capacity", S, (G56, GS6), (("S_p", 0.4694),))
 FOUND = FoundRow("S_p", 0.1 + 0.2, "m", "working length", -5.5e-17, "m", 0.42, 0.67, "0.51 (branch -1)")
 INPUTS = [
-    Row("L3", 0.2, "m", "rocker", "1.2 Lengths"),
-    Row("N_pol", 10, "-", "number of positions", "1.3 Positions"),
-    Row("side", "left", "-", "branch", "1.3 Positions"),
+    InputRow("L3", 0.2, "m", "rocker", "1.2 Lengths"),
+    InputRow("N_pol", 10, "-", "number of positions", "1.3 Positions"),
+    InputRow("side", "left", "-", "branch", "1.3 Positions"),
 ]
 CHECKS = [
     Check("loop closes", 1.2e-16, 1e-12, "m", "by both chains"),
@@ -54,7 +53,7 @@ HOSTILE = [
 
 def data(**changes: Any) -> bytes:
     parts: dict[str, Any] = dict(inputs=INPUTS, found=[FOUND], tables=[TABLE], figures=[FIGURE], checks=CHECKS)
-    return excel.workbook("Tractor hitch", **{**parts, **changes})
+    return writing.workbook("Tractor hitch", **{**parts, **changes})
 
 
 def book(values: bool = True, **changes: Any) -> Any:
@@ -170,7 +169,7 @@ def test_pages_are_a4_with_title_and_number() -> None:
 @pytest.mark.parametrize(("title", "printed"), [("R&D", "R&&D"), ("R&G", "R&& G"), ("7 bar", "7 bar")])
 def test_title_in_the_header_is_no_code(title: str, printed: str) -> None:
     """&D would print the date, &G ask for a picture, and a digit after the font size enlarge it."""
-    content = excel.workbook(title, inputs=[], found=[], tables=[], figures=[], checks=[])
+    content = writing.workbook(title, inputs=[], found=[], tables=[], figures=[], checks=[])
     with ZipFile(BytesIO(content)) as file:
         header = html.unescape(
             re.findall("<oddHeader>(.*)</oddHeader>", file.read("xl/worksheets/sheet1.xml").decode())[0]
@@ -308,9 +307,9 @@ def test_text_stays_text_everywhere(text: str) -> None:
     """No text becomes a formula, a link, a number or broken XML, and none is lost."""
     column = replace(S, symbol=text, unit=text, meaning=text)
     figure = Figure(text, text, column, (column, G56), ((text, 0.5),))
-    content = excel.workbook(
+    content = writing.workbook(
         text,
-        inputs=[Row(text, text, text, text, text), Row(text, 1, text, text)],
+        inputs=[InputRow(text, text, text, text, text), InputRow(text, 1, text, text)],
         found=[replace(FOUND, symbol=text, unit=text, meaning=text, residual_unit=text, other_roots=text)],
         tables=[Table(text, text, (column, G56), text), Table(text, text, (S,), text)],
         figures=[figure, replace(figure, lines=(P_GC,))],
@@ -366,81 +365,14 @@ def test_same_input_gives_the_same_bytes() -> None:
 
 
 def test_workbook_of_nothing_opens() -> None:
-    empty = excel.workbook("t", inputs=[], found=[], tables=[], figures=[], checks=[])
+    empty = writing.workbook("t", inputs=[], found=[], tables=[], figures=[], checks=[])
     assert load_workbook(BytesIO(empty)).sheetnames == ["Inputs", "Checks"]
-
-
-def test_save_writes_and_replaces(tmp_path: Path) -> None:
-    path = tmp_path / "hitch.xlsx"
-    for content in (b"old", b"new"):
-        excel.save(content, path)
-        assert path.read_bytes() == content
-    assert list(tmp_path.iterdir()) == [path]
-
-
-@pytest.mark.skipif(os.name == "nt", reason="Windows has no file modes")
-def test_saved_file_is_as_readable_as_any_other(tmp_path: Path) -> None:
-    """A temporary file is private by default; the workbook must not be."""
-    plain = tmp_path / "plain"
-    plain.write_bytes(b"")
-    excel.save(b"new", tmp_path / "hitch.xlsx")
-    assert (tmp_path / "hitch.xlsx").stat().st_mode == plain.stat().st_mode
-
-
-def test_folder_that_cannot_be_written_to_is_named(tmp_path: Path) -> None:
-    (tmp_path / "file").write_bytes(b"")
-    (tmp_path / "taken.xlsx").mkdir()
-    before = sorted(tmp_path.iterdir())
-    for path in (tmp_path / "missing" / "hitch.xlsx", tmp_path / "file" / "hitch.xlsx", tmp_path / "taken.xlsx"):
-        with pytest.raises(SheetError, match=f"^workbook {re.escape(str(path))} cannot be written: [^\n]+$"):
-            excel.save(b"new", path)
-    assert sorted(tmp_path.iterdir()) == before
-
-
-@dataclass
-class Refusing:
-    """A system call that fails."""
-
-    code: int
-
-    def __call__(self, *args: object) -> None:
-        raise OSError(self.code, os.strerror(self.code))
-
-
-@pytest.mark.parametrize(("call", "code"), [("fsync", errno.ENOSPC), ("replace", errno.EACCES)])
-def test_failed_save_leaves_the_old_file_and_nothing_else(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, call: str, code: int
-) -> None:
-    """A full disk is noticed when the data are flushed; a file that Excel holds open when it is replaced."""
-    path = tmp_path / "hitch.xlsx"
-    path.write_bytes(b"old")
-    monkeypatch.setattr(os, call, Refusing(code))
-    with pytest.raises(SheetError, match=os.strerror(code)):
-        excel.save(b"new", path)
-    assert path.read_bytes() == b"old"
-    assert list(tmp_path.iterdir()) == [path]
-
-
-def test_write_cut_short_by_the_system_leaves_the_old_file(tmp_path: Path) -> None:
-    """A limit on the size of files refuses the data half way, as a full disk does."""
-    resource = pytest.importorskip("resource")
-    path = tmp_path / "hitch.xlsx"
-    path.write_bytes(b"old")
-    limits = resource.getrlimit(resource.RLIMIT_FSIZE)
-    resource.setrlimit(resource.RLIMIT_FSIZE, (100, limits[1]))
-    try:
-        with pytest.raises(SheetError, match=os.strerror(errno.EFBIG)):
-            excel.save(bytes(1000), path)
-    finally:
-        resource.setrlimit(resource.RLIMIT_FSIZE, limits)
-    assert path.read_bytes() == b"old"
-    assert list(tmp_path.iterdir()) == [path]
 
 
 def test_libreoffice_reads_every_cell_back(soffice: str, tmp_path: Path) -> None:
     """Recalculated and saved by LibreOffice, the workbook has the same values, errors, texts and charts."""
     hostile = Table("9", "Hostile", tuple(replace(S, symbol=text) for text in HOSTILE if text.isprintable() and text))
-    excel.save(data(tables=[TABLE, hostile]), tmp_path / "hitch.xlsx")
+    save(data(tables=[TABLE, hostile]), tmp_path / "hitch.xlsx")
     profile, out = (tmp_path / "profile").as_uri(), tmp_path / "out"
     options = [f"-env:UserInstallation={profile}", "--headless", "--convert-to", "xlsx:Calc MS Excel 2007 XML"]
     command = [soffice, *options, "--outdir", str(out), str(tmp_path / "hitch.xlsx")]

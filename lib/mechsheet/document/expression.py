@@ -1,0 +1,324 @@
+"""Expressions of Python read as formulas: what a line computes, in the notation of the field."""
+
+import ast
+import re
+from collections.abc import Callable, Mapping
+from functools import lru_cache
+from typing import Any
+
+from mechsheet.document.formula import (
+    POWER,
+    PRODUCT,
+    SIGN,
+    SUM,
+    WHOLE,
+    Apply,
+    Binary,
+    Brackets,
+    Cases,
+    Code,
+    Element,
+    Fraction,
+    Function,
+    Integral,
+    Node,
+    Number,
+    Overline,
+    Power,
+    Prefix,
+    Product,
+    Quantity,
+    Range,
+    Root,
+    Row,
+    Signed,
+    Text,
+    begins_as_number,
+    begins_negative,
+    strength,
+)
+from mechsheet.worksheet.lines import Formula, Given
+from mechsheet.worksheet.symbol import GREEK, Symbol, is_field, read, stem
+
+
+@lru_cache(maxsize=4096)
+def left(line: Formula) -> Node:
+    """Left side of a line: its symbol, of a function with its arguments."""
+    if not line.arguments:
+        return _name(line.name)
+    return Apply(_name(line.name), Brackets(tuple(map(_name, line.arguments)), close=True))
+
+
+@lru_cache(maxsize=4096)
+def right(line: Formula) -> Node | None:
+    """Right side of a line; None where it is a number or says the same as the left."""
+    node = None if isinstance(line.expression, ast.Constant) else tree(line.expression)
+    return None if node == left(line) else node
+
+
+def equation(line: Formula | Given) -> Node:
+    """A line as an equation, or its symbol alone; of a solve block what must be equal."""
+    if isinstance(line, Given):
+        return Row((Text("Given"), Binary(tree(line.expression), "=", tree(line.target))))
+    node = right(line)
+    return left(line) if node is None else Binary(left(line), "=", node)
+
+
+def substituted(line: Formula, numbers: Mapping[str, Quantity]) -> Node | None:
+    """Right side of a line with numbers for its symbols; None where it has none."""
+    return tree(line.expression, numbers) if numbers and right(line) else None
+
+
+@lru_cache(maxsize=4096)
+def reads(line: Formula) -> tuple[str, ...]:
+    """Names that the right side of a line reads, as they are written: ``g.L3`` too."""
+    return tuple(dict.fromkeys(filter(None, map(_read_as, ast.walk(line.expression)))))
+
+
+def tree(node: ast.expr, numbers: Mapping[str, Quantity] | None = None) -> Node:
+    """Expression as a tree: fractions, roots, powers, no brackets that the reader does not need.
+
+    ``numbers`` stand for some names, ``g.L3`` too.
+    """
+    return _Reader(numbers or {}).read(node)
+
+
+_FUNCTIONS = {
+    "asin": "arcsin", "acos": "arccos", "atan": "arctan", "angle": "arg", "log": "ln", "maximum": "max",
+    "nanmax": "max", "minimum": "min", "nanmin": "min",
+}  # fmt: skip
+_KNOWN = {"sin", "cos", "tan", "exp", "max", "min", "sum", *_FUNCTIONS}
+_ANGULAR = ("sin", "cos", "tan")
+_COMPARISONS = {ast.Lt: "<", ast.LtE: "≤", ast.Gt: ">", ast.GtE: "≥", ast.Eq: "=", ast.NotEq: "≠"}
+_RATES = {"ds": Symbol("s", mark="."), "dds": Symbol("s", mark="..")}  # which the rule for names does not know
+_SYMBOL = re.compile(rf"([A-Z]+|{'|'.join(GREEK)})(_|$)")  # VC, eps_BC
+
+
+class _Reader:
+    """Reads expressions of Python."""
+
+    def __init__(self, numbers: Mapping[str, Quantity]) -> None:
+        self.numbers = numbers
+
+    def read(self, node: ast.expr) -> Node:
+        kind = type(node)
+        if self.numbers and kind in (ast.Name, ast.Attribute) and (number := self.numbers.get(_read_as(node))):
+            return number
+        rule = _RULES.get(kind)
+        return (rule(self, node) if rule else None) or Code(ast.unparse(node))
+
+    def least(self, node: ast.expr, least: int) -> Node:
+        """The expression, in brackets where it holds together less than its place asks for."""
+        part = self.read(node)
+        return part if strength(part) >= least else Brackets((part,))
+
+    def name(self, node: ast.Name) -> Node:
+        return _name(node.id)
+
+    def constant(self, node: ast.Constant) -> Node:
+        match node.value:
+            case complex(imag=1):
+                return Symbol("i")
+            case complex(imag=size):
+                return Product(Number(size), Symbol("i"))
+            case int() | float():
+                return Number(node.value)
+        return Text(str(node.value))
+
+    def attribute(self, node: ast.Attribute) -> Node | None:
+        match node:
+            case ast.Attribute(ast.Name("g"), name):
+                return _name(name)
+            case ast.Attribute(inner, ("real" | "imag") as part):
+                return Prefix(Function("Re" if part == "real" else "Im"), self.least(inner, WHOLE), PRODUCT)
+            case ast.Attribute(ast.Name(name), "value") if name.endswith("_found"):
+                return Apply(Function("Find"), Brackets((_name(name.removesuffix("_found")),)))
+            case ast.Attribute(ast.Name(name), "value"):  # of a slider or field of the page
+                return _name(name)
+            case ast.Attribute(ast.Name(name), part):  # a result of several parts
+                return Apply(_part(part), Brackets((Text(name.replace("_", " ")),)))
+            case ast.Attribute(ast.Call() as inner, part):
+                return Apply(_part(part), Brackets((self.read(inner),), "[]", high=True))
+        return None
+
+    def unary(self, node: ast.UnaryOp) -> Node | None:
+        match node.op:
+            case ast.USub():
+                return Signed("-", self.least(node.operand, SIGN))
+            case ast.UAdd():
+                return Signed("+", self.least(node.operand, SIGN))
+        return None
+
+    def binary(self, node: ast.BinOp) -> Node | None:
+        left, right = node.left, node.right
+        match node.op:
+            case ast.Mult() | ast.Div() if positive := _without_minus(node):
+                return Signed("-", self.read(positive))
+            case ast.Div():
+                return Fraction(self.read(left), self.read(right))
+            case ast.Pow():
+                return self.power(left, right)
+            case ast.Mult():
+                return self.product(left, right)
+            case ast.Mod():
+                return Binary(self.least(left, PRODUCT), "mod", self.least(right, PRODUCT))
+            case ast.Add():
+                second = self.least(right, SUM)
+                return Binary(self.least(left, SUM), "+", Brackets((second,)) if begins_negative(second) else second)
+            case ast.Sub():
+                return Binary(self.least(left, SUM), "-", self.least(right, PRODUCT))
+        return None
+
+    def power(self, base: ast.expr, exponent: ast.expr) -> Node:
+        match base:
+            case ast.Call(ast.Name(name), args) if name in _ANGULAR:
+                return Prefix(Power(Function(name), self.read(exponent)), self.brackets(args), POWER)
+        part = self.least(base, WHOLE)
+        return Power(Brackets((part,)) if isinstance(part, Fraction) else part, self.read(exponent))
+
+    def product(self, left: ast.expr, right: ast.expr) -> Node:
+        match right:
+            case ast.UnaryOp():
+                second: Node = self.brackets([right])
+            case ast.BinOp(op=ast.Div()):
+                second = self.least(right, PRODUCT)
+            case _:
+                second = self.least(right, POWER if isinstance(right, ast.BinOp) else PRODUCT)
+        return Product(_closed(self.least(left, PRODUCT)), second, begins_as_number(second))
+
+    def compare(self, node: ast.Compare) -> Node | None:
+        match node:
+            case ast.Compare(left, [op], [right]) if type(op) in _COMPARISONS:
+                return Binary(self.least(left, SUM), _COMPARISONS[type(op)], self.least(right, SUM))
+        return None
+
+    def subscript(self, node: ast.Subscript) -> Node:
+        return Element(self.least(node.value, WHOLE), self.read(node.slice))
+
+    def starred(self, node: ast.Starred) -> Node:
+        return self.read(node.value)
+
+    def listed(self, node: ast.List | ast.Tuple) -> Node:
+        return Brackets(tuple(map(self.read, node.elts)), "[]" if isinstance(node, ast.List) else "()", high=True)
+
+    def brackets(self, args: list[ast.expr]) -> Brackets:
+        return Brackets(tuple(map(self.read, args)))
+
+    def call(self, node: ast.Call) -> Node | None:
+        match node:
+            case ast.Call(ast.Name(name), args, keywords):
+                given = [*args, *(k.value for k in keywords)]
+                return self.function(name, [a for a in given if not (isinstance(a, ast.Name) and a.id == "branch")])
+            case ast.Call(ast.Attribute(ast.Name("np"), name), args):
+                return self.function(name, args)
+        return None
+
+    def function(self, name: str, args: list[ast.expr]) -> Node:
+        match name, args:
+            case "sqrt", [x]:
+                return Root(self.read(x))
+            case "hypot", [_, *_]:
+                first, *more = (self.power(a, ast.Constant(2)) for a in args)
+                for square in more:
+                    first = Binary(first, "+", square)
+                return Root(first)
+            case "abs", [x]:
+                return Brackets((self.read(x),), "||", high=True)
+            case "conj", [x]:
+                return Overline(self.read(x))
+            case "exp", [x]:
+                return Power(Symbol("e"), self.read(x))
+            case "cross", [a, b]:
+                return Binary(self.least(a, PRODUCT), "×", self.least(b, PRODUCT))
+            case "dot", [a, b]:
+                return Product(self.least(a, PRODUCT), self.least(b, PRODUCT), dot=True)
+            case "arange", [stop]:
+                return Range((Number(0), Number(1)), self.before(stop))
+            case "arange", [start, stop]:
+                return Range((self.read(start),), self.before(stop))
+            case "linspace", [start, stop, *_]:
+                return Range((self.read(start),), self.read(stop))
+            case "trapezoid", [y, x]:
+                return Integral(self.least(y, PRODUCT), self.least(x, WHOLE))
+            case "where", [condition, a, b]:
+                return Cases(self.read(a), self.read(condition), self.read(b))
+            case "atan2", [y, x]:
+                return Apply(Function(name), self.brackets([y, x]))
+        return _applied(_function(name), self.brackets(args))
+
+    def before(self, stop: ast.expr) -> Node:
+        """The last whole number before ``stop``."""
+        match stop:
+            case ast.Constant(int(value)):
+                return Number(value - 1)
+            case ast.BinOp(last, ast.Add(), ast.Constant(1)):
+                return self.read(last)
+        return self.read(ast.BinOp(stop, ast.Sub(), ast.Constant(1)))
+
+
+_RULES: dict[type[ast.expr], Callable[[_Reader, Any], Node | None]] = {
+    ast.Name: _Reader.name, ast.Constant: _Reader.constant, ast.Attribute: _Reader.attribute,
+    ast.UnaryOp: _Reader.unary, ast.BinOp: _Reader.binary, ast.Compare: _Reader.compare, ast.Call: _Reader.call,
+    ast.Subscript: _Reader.subscript, ast.Starred: _Reader.starred, ast.List: _Reader.listed,
+    ast.Tuple: _Reader.listed,
+}  # fmt: skip
+
+
+@lru_cache(maxsize=4096)
+def _name(name: str) -> Node:
+    """Symbol of a name; a field is a function of S."""
+    symbol = read(stem(name))
+    return Apply(symbol, Brackets((Symbol("S"),))) if is_field(name) else symbol
+
+
+@lru_cache(maxsize=1024)
+def _function(name: str) -> Node:
+    """A function of the field, one with a symbol of its own, or one in words."""
+    if name in _KNOWN:
+        return Function(_FUNCTIONS.get(name, name))
+    word = re.fullmatch(r"[a-z]{3,}(_\w*)?", name) and not re.match("|".join(GREEK), name)
+    is_symbol = len(name) == 1 or (not word and (re.search(r"\d", name) or _SYMBOL.match(name)))
+    return _name(name) if is_symbol else Function(name.replace("_", " "))
+
+
+def _applied(function: Node, arguments: Brackets) -> Node:
+    """A function of its arguments; an angle that is one symbol or number follows without brackets."""
+    if isinstance(function, Function) and function.name in _ANGULAR and len(arguments.items) == 1:
+        angle = arguments.items[0]
+        if isinstance(angle, Symbol) or (isinstance(angle, Quantity) and strength(angle) == WHOLE):
+            return Prefix(function, angle)
+    return Apply(function, arguments)
+
+
+def _closed(factor: Node) -> Node:
+    """A factor with brackets round the angle at its end, for what follows is not part of the angle."""
+    match factor:
+        case Prefix(Function() as function, of) if factor.strength == WHOLE:
+            return Apply(function, Brackets((of,)))
+        case Product(left, right, dot):
+            return Product(left, _closed(right), dot)
+    return factor
+
+
+def _without_minus(node: ast.expr) -> ast.expr | None:
+    """A product or quotient without the minus of its first factor; None where it has none."""
+    match node:
+        case ast.BinOp(ast.UnaryOp(ast.USub(), first), (ast.Mult() | ast.Div()) as op, right):
+            return ast.BinOp(first, op, right)
+        case ast.BinOp(left, (ast.Mult() | ast.Div()) as op, right) if positive := _without_minus(left):
+            return ast.BinOp(positive, op, right)
+    return None
+
+
+def _part(name: str) -> Node:
+    return _RATES.get(name) or _name(name)
+
+
+def _read_as(node: ast.AST) -> str:
+    """Name under which a formula reads a quantity, ``g.L3`` too; "" for anything else."""
+    match node:
+        case ast.Attribute(ast.Name("g"), name):
+            return f"g.{name}"
+        case ast.Name(name):
+            return name
+    return ""

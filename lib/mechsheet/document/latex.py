@@ -1,0 +1,120 @@
+"""Formulas in LaTeX: a rule for each kind of node of the tree."""
+
+import re
+from collections.abc import Callable
+from functools import lru_cache
+from typing import Any
+
+from mechsheet.document.formula import (
+    Apply,
+    Binary,
+    Brackets,
+    Cases,
+    Code,
+    Element,
+    Fraction,
+    Function,
+    Integral,
+    Node,
+    Number,
+    Overline,
+    Power,
+    Prefix,
+    Product,
+    Quantity,
+    Range,
+    Root,
+    Row,
+    Signed,
+    Text,
+    is_high,
+)
+from mechsheet.worksheet import numbers
+from mechsheet.worksheet.symbol import GREEK, Symbol
+
+_LETTERS = {letter: rf"\{word}" for word, letter in GREEK.items()} | {"ε": r"\varepsilon", "φ": r"\varphi"}
+_MARKS = {"": "{}", "Δ": r"\Delta {}", "d": r"\mathrm{{d}}{}", ".": r"\dot{{{}}}", "..": r"\ddot{{{}}}"}
+_NAMED = {
+    **{name: rf"\{name}" for name in ("sin", "cos", "tan", "arcsin", "arccos", "arctan", "arg", "exp", "ln", "max")},
+    "min": r"\min",
+    "sum": r"\textstyle\sum ",
+}
+_SIGNS = {"×": r"\times", "mod": r"\bmod", "≤": r"\le", "≥": r"\ge", "≠": r"\ne"}
+_SPECIAL = re.compile(r"([_#%&$])")
+_SPECIAL_IN_CODE = re.compile(r"([#$%&_{}])")
+
+
+def latex(node: Node) -> str:
+    """A formula in LaTeX."""
+    return RULES[type(node)](node)
+
+
+@lru_cache(maxsize=4096)
+def symbol(s: Symbol) -> str:
+    r"""A symbol in LaTeX.
+
+    >>> from mechsheet.worksheet.symbol import read
+    >>> symbol(read("phi34")), symbol(read("dRa"))
+    ('\\varphi_{34}', '\\Delta R_{\\mathrm{a}}')
+    """
+    base = _LETTERS.get(s.base) or (s.base if len(s.base) == 1 else rf"\mathrm{{{_escaped(s.base)}}}")
+    index = rf"\mathrm{{{s.index}}}" if re.search("[A-Za-z]", s.index) else s.index
+    return _MARKS[s.mark].format(base) + (f"_{{{index}}}" if index else "")
+
+
+def _quantity(node: Quantity) -> str:
+    return numbers.quantity(node.value, node.unit, numbers.LATEX)
+
+
+def _function(node: Function) -> str:
+    return _NAMED.get(node.name) or rf"\operatorname{{{node.name}}}".replace(" ", r"\ ")
+
+
+def _code(node: Code) -> str:
+    return r"\texttt{" + _SPECIAL_IN_CODE.sub(r"\\\1", node.text) + "}"
+
+
+def _product(node: Product) -> str:
+    return latex(node.left) + (r" \cdot " if node.dot else r"\,") + latex(node.right)
+
+
+def _brackets(node: Brackets) -> str:
+    inner = (r",\," if node.close else r",\ ").join(map(latex, node.items))
+    left, right = node.kind[0], node.kind[1]
+    return rf"\left{left}{inner}\right{right}" if is_high(node) else f"{left}{inner}{right}"
+
+
+def _cases(node: Cases) -> str:
+    rows = (
+        rf"{latex(node.value)} & \text{{if }} {latex(node.condition)} \\ {latex(node.otherwise)} & \text{{otherwise}}"
+    )
+    return rf"\begin{{cases}} {rows} \end{{cases}}"
+
+
+def _escaped(text: str) -> str:
+    return _SPECIAL.sub(r"\\\1", text)
+
+
+RULES: dict[type[Any], Callable[[Any], str]] = {
+    Symbol: symbol,
+    Number: lambda node: numbers.usual(node.value, numbers.LATEX),
+    Quantity: _quantity,
+    Text: lambda node: rf"\text{{{_escaped(node.text)}}}",
+    Code: _code,
+    Function: _function,
+    Signed: lambda node: node.sign + latex(node.of),
+    Binary: lambda node: f"{latex(node.left)} {_SIGNS.get(node.sign, node.sign)} {latex(node.right)}",
+    Product: _product,
+    Fraction: lambda node: rf"\frac{{{latex(node.over)}}}{{{latex(node.under)}}}",
+    Root: lambda node: rf"\sqrt{{{latex(node.of)}}}",
+    Power: lambda node: f"{latex(node.base)}^{{{latex(node.exponent)}}}",
+    Element: lambda node: f"{{{latex(node.of)}}}_{{{latex(node.index)}}}",
+    Overline: lambda node: rf"\overline{{{latex(node.of)}}}",
+    Brackets: _brackets,
+    Apply: lambda node: latex(node.function) + latex(node.arguments),
+    Prefix: lambda node: f"{latex(node.operator)} {latex(node.of)}",
+    Range: lambda node: r",\,".join(map(latex, node.first)) + r"\,\ldots\," + latex(node.last),
+    Integral: lambda node: rf"\int {latex(node.of)}\,\mathrm{{d}}{latex(node.over)}",
+    Cases: _cases,
+    Row: lambda node: r"\quad ".join(map(latex, node.items)),
+}

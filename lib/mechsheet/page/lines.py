@@ -1,0 +1,72 @@
+"""Lines of a cell in the page: formula, value, unit, meaning, and the formula with numbers for its symbols."""
+
+from functools import lru_cache
+from html import escape
+from typing import Any
+
+from mechsheet import units
+from mechsheet.document.expression import equation, reads, substituted
+from mechsheet.document.formula import Quantity
+from mechsheet.document.latex import latex
+from mechsheet.worksheet import numbers
+from mechsheet.worksheet.lines import Formula, Given, Numbers, Typeset
+
+
+def markup(value: Any) -> str:  # TODO-MERGE
+    """What the page shows of a value, as HTML."""
+    if isinstance(value, Typeset):
+        return lines(value) + "".join(map(markup, value.shown))
+    kind, text = value._mime_() if hasattr(value, "_mime_") else ("", "")
+    if kind == "text/html":
+        return str(text)
+    import marimo as mo
+
+    return mo.as_html(value).text
+
+
+def lines(shown: Typeset) -> str:
+    """The lines as they stand in the page."""
+    return "".join(
+        _line(_equation(row), "", "", "") if isinstance(row, Given) else _formula(row, value, shown)
+        for row, value in zip(shown.rows, shown.values, strict=True)
+    )
+
+
+@lru_cache(maxsize=4096)
+def _equation(line: Formula | Given) -> str:
+    return latex(equation(line))
+
+
+def _formula(line: Formula, value: object, shown: Typeset) -> str:
+    if line.arguments:
+        return _line(_equation(line), "", line.meaning, "")
+    text = "" if shown.numbers is None else _substituted(line, shown.numbers, shown.position)
+    return _line(f"{_equation(line)} =", numbers.value(value, line.unit, numbers.HTML), line.meaning, text)
+
+
+def _substituted(line: Formula, known: Numbers, position: int) -> str:
+    """The right side with numbers for its symbols; nothing where it has none."""
+    found = ((name, known.at(name, position)) for name in reads(line))
+    return _with_numbers(line, tuple((name, *at) for name, at in found if at))
+
+
+@lru_cache(maxsize=2048, typed=True)  # most numbers stay when an input changes
+def _with_numbers(line: Formula, found: tuple[tuple[str, float | complex, str], ...]) -> str:
+    numbers = {name: Quantity(value / units.parse(unit).factor, unit) for name, value, unit in found}
+    node = substituted(line, numbers)
+    return latex(node) if node else ""
+
+
+def _line(tex: str, value: str, meaning: str, substituted: str) -> str:
+    """A typeset line; its numbers wait in an attribute until the reader asks for them.
+
+    The value is an element of its own: where it alone changes, the browser keeps the formula as it has set it, and the
+    value is there with the output that holds it.
+    """
+    more = f'<ms-numbers tex="{escape("= " + substituted)}"></ms-numbers>' if substituted else ""
+    formula = _tex_element(tex) + (f'<span class="ms-value">{value}</span>' if value else "")
+    return f'<div class="ms-line"><span class="ms-formula">{formula}</span><span>{escape(meaning)}</span>{more}</div>'
+
+
+def _tex_element(tex: str) -> str:
+    return f'<marimo-tex class="arithmatex">||(\\displaystyle {escape(tex)}||)</marimo-tex>'

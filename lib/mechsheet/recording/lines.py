@@ -1,0 +1,106 @@
+"""What a recording holds: lines and steps by their names, columns of tables, checks, found values and marks."""
+
+import ast
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import lru_cache
+from typing import Any
+
+from mechsheet.recording.graph import Graph, Node
+from mechsheet.recording.quantity import Quantity
+from mechsheet.worksheet import symbol
+from mechsheet.worksheet.lines import Formula
+
+
+@dataclass
+class Line:
+    """One quantity behind the tables: where it is defined, and where its numbers stand."""
+
+    node: Node
+    symbol: str
+    unit: str
+    meaning: str
+    text: str = ""
+
+
+@dataclass
+class Residual:
+    """What a check compares, in SI: the largest of some magnitudes, or one signed number, with its limit."""
+
+    parts: list[Node]
+    limit: Node
+    unit: str
+    signed: bool = False
+
+
+@dataclass
+class Solved:
+    """A found value: its closed form where there is one, what it leaves of its equation, and its interval."""
+
+    node: Node
+    residual: Node | None
+    interval: tuple[Node, Node] | None
+    inverse: Node | None = None
+
+
+@dataclass
+class Recording:
+    """The quantities of a worksheet, cell by cell, and what it shows of them.
+
+    ``tables`` are the columns by the number of a table, of a figure under ``Fig 1``; ``marks`` the marks of a figure by
+    its number and their labels; ``lines`` those of a section; ``names`` the name that each node has in the worksheet.
+    A cell in ``left_out``, with its reason, keeps its numbers. Only every ``every``-th position is recorded.
+    """
+
+    graph: Graph
+    inputs: dict[str, Node]
+    tables: dict[str, tuple[Quantity | None, ...]] = field(default_factory=dict)
+    checks: dict[str, Residual] = field(default_factory=dict)
+    found: dict[str, Solved] = field(default_factory=dict)
+    lines: dict[str, list[Line]] = field(default_factory=dict)
+    marks: dict[str, dict[str, Node]] = field(default_factory=dict)
+    left_out: dict[str, str] = field(default_factory=dict)
+    every: int = 1
+    sections: list[str] = field(default_factory=list)
+    names: dict[Node, str] = field(default_factory=dict)
+
+    def define(self, section: str, name: str, value: Any, known: Mapping[str, Formula]) -> None:
+        """Give the quantities of a line its name, and the steps behind it theirs."""
+        if not isinstance(value, Quantity):
+            return
+        lines = self.lines.setdefault(section, [])
+        line = known.get(name)
+        unit, meaning = (line.unit, line.meaning) if line else ("", "")
+        text = _source(line.expression) if line else ""
+        stem = name.removesuffix("_S") if symbol.is_field(name) else name
+        ends = ("real", "imag") if value.im is not None else ("",)
+        for node, part in zip(value.parts, ends, strict=True):
+            if node.op in ("constant", "input") or node in self.names:
+                continue
+            self.names[node] = _coordinate(stem, part)
+            self._steps_of(node, stem, lines, set())
+            lines.append(Line(node, self.names[node], unit, meaning, text))
+
+    def define_steps(self, section: str, solved: Solved) -> None:
+        """Give the steps of a found value's closed form and residual their names."""
+        lines = self.lines.setdefault(section, [])
+        for node in (solved.inverse, solved.residual):
+            if node and node not in self.names:
+                self._steps_of(node, self.names.get(solved.node, ""), lines, set())
+
+    def _steps_of(self, node: Node, stem: str, lines: list[Line], seen: set[Node]) -> None:
+        for operand in node.operands:
+            if operand not in self.names and operand.op != "constant" and operand not in seen:
+                seen.add(operand)
+                self._steps_of(operand, stem, lines, seen)
+                if label := self.graph.labels.get(operand):
+                    self.names[operand] = f"{stem}_{label.symbol}"
+                    lines.append(Line(operand, self.names[operand], label.unit, label.meaning))
+
+
+def _coordinate(name: str, part: str) -> str:
+    axis = {"real": "x", "imag": "y"}.get(part, "")
+    return axis.upper() + name[1:] if axis and name.startswith("P") else name + axis
+
+
+_source = lru_cache(maxsize=4096)(ast.unparse)

@@ -1,0 +1,177 @@
+"""The bands of results that tolerances of inputs leave, by one sweep of a worksheet."""
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import product
+from pathlib import Path
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mechsheet import units
+from mechsheet.studies.sensitivity import continuous, point, real, solved
+from mechsheet.studies.sweep import sweep
+from mechsheet.worksheet.cells import base
+from mechsheet.worksheet.errors import SheetError
+from mechsheet.worksheet.table import DECIMALS, Column, Table
+
+Array = NDArray[np.float64]
+
+_CORNERS = 12  # toleranced inputs, 4096 corners
+_PERCENTILES = (5.0, 50.0, 95.0)
+
+
+@dataclass(frozen=True, eq=False)
+class Band:
+    """Between what a result lies, in its display unit, at each position.
+
+    ``mean``, ``deviation`` and ``percentiles`` are those of Monte Carlo, and None for corners.
+    """
+
+    nominal: Array
+    least: Array
+    greatest: Array
+    mean: Array | None = None
+    deviation: Array | None = None
+    percentiles: dict[float, Array] | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class Tolerance:
+    """Bands of results for inputs within their tolerances.
+
+    ``lost`` of the ``count`` variants have no value, ``reason`` is that of the first of them; bands are then NaN.
+    """
+
+    names: tuple[str, ...]
+    tolerances: dict[str, float]
+    method: str
+    bands: dict[str, Band]
+    units: dict[str, str]
+    count: int
+    lost: int
+    reason: str
+
+    def __getitem__(self, name: str) -> Band:
+        return self.bands[name]
+
+    def table(self, number: str, title: str, *names: str) -> Table:
+        """Bands of results, all of one shape, a row for each position."""
+        columns: list[Column] = []
+        for name in names or self.names:
+            band, unit = self.bands[name], self.units[name]
+            parts = {"": band.nominal, "min": band.least, "max": band.greatest}
+            if band.mean is not None and band.deviation is not None and band.percentiles is not None:
+                parts |= {"mean": band.mean, "sd": band.deviation}
+                parts |= {f"p{p:g}": x for p, x in band.percentiles.items()}
+            decimals = DECIMALS.get(unit, 3) + 1
+            columns += [
+                Column(f"{name}_{part}".rstrip("_"), unit, f"{name} {part}".strip(), decimals, np.atleast_1d(x))
+                for part, x in parts.items()
+            ]
+        shapes = {column.values.shape for column in columns}
+        if len(shapes) > 1:
+            raise SheetError(f"bands of {', '.join(names or self.names)} have different positions and no common table")
+        k = Column("k", "-", "number of the position", 0, np.arange(shapes.pop()[0], dtype=float))
+        each = (f"{x} ± {t:g} {units.shown(self.units[x])}".removesuffix(" -") for x, t in self.tolerances.items())
+        lost = f" {self.lost} have no value: {self.reason}." if self.lost else ""
+        return Table(
+            number, title, (k, *columns), f"{self.count} variants by {self.method} of {', '.join(each)}.{lost}"
+        )
+
+
+def tolerance(
+    worksheet: str | Path,
+    want: Iterable[str],
+    tolerances: Mapping[str, float],
+    method: Literal["corners", "monte carlo"] = "corners",
+    *,
+    seed: int | None = None,
+    count: int = 1000,
+    distribution: Literal["uniform", "normal"] = "uniform",
+    percentiles: Sequence[float] = _PERCENTILES,
+    **given: Any,
+) -> Tolerance:
+    """Bands of results for inputs that lie within tolerances of their values, through one sweep of the worksheet.
+
+    Parameters
+    ----------
+    worksheet, want, given
+        As in `sensitivity`.
+    tolerances : mapping of str to float
+        Input name -> ± its tolerance, in its display unit.
+    method : {"corners", "monte carlo"}
+        All 2**n corners of the tolerances, which bound every result that is monotonic in each input; or ``count``
+        random variants.
+    seed : int
+        Of Monte Carlo, which must have one: the same seed gives the same bands.
+    distribution : {"uniform", "normal"}
+        Uniform over the tolerance, or normal with the tolerance as three standard deviations.
+    percentiles : sequence of float
+        Percentiles of Monte Carlo.
+
+    Raises
+    ------
+    SheetError
+        An unknown name, a negative tolerance or one of a whole number, more corners than 4096, Monte Carlo without a
+        seed, inputs given that have no solution.
+    """
+    names = tuple(dict.fromkeys(want))
+    fields, at = point(worksheet, given)
+    if not tolerances:
+        raise SheetError("no input has a tolerance")
+    for x, t in tolerances.items():
+        continuous(fields, x, "cannot have a tolerance:")
+        if not (np.isfinite(t) and t >= 0):
+            raise SheetError(f"tolerance of {fields[x].meaning} {x} = {t} {fields[x].unit} must be a number >= 0")
+    spread = np.array(list(tolerances.values()))
+    if method == "corners":
+        if len(spread) > _CORNERS:
+            raise SheetError(
+                f"{len(spread)} tolerances have 2**{len(spread)} corners; at most {_CORNERS}, or monte carlo"
+            )
+        parts = np.array(list(product((-1.0, 1.0), repeat=len(spread))))
+    elif method == "monte carlo":
+        parts = _drawn(seed, count, len(spread), distribution)
+    else:
+        raise SheetError(f"method {method!r} must be 'corners' or 'monte carlo'")
+    moved = np.vstack([np.zeros(len(spread)), parts]) * spread
+    variants = {x: at[x] + moved[:, i] for i, x in enumerate(tolerances)}
+    swept = sweep(worksheet, dict.fromkeys(base(name) for name in names), {**given, **variants})
+    solved(swept, 0)
+    lost = swept.reasons[1:][swept.reasons[1:] != ""]
+    bands = {}
+    for name in names:
+        results = real(swept, name)
+        all_of_them = results[1:]
+        random: dict[str, Any] = {}
+        if method == "monte carlo":
+            random["mean"], random["deviation"] = all_of_them.mean(0), all_of_them.std(0, ddof=1)
+            random["percentiles"] = dict(zip(percentiles, np.percentile(all_of_them, percentiles, axis=0), strict=True))
+        bands[name] = Band(results[0], results.min(0), results.max(0), **random)
+    return Tolerance(
+        names,
+        dict(tolerances),
+        f"{method}, {distribution}, seed {seed}" if method == "monte carlo" else method,
+        bands,
+        {**{name: swept.units[base(name)] for name in names}, **{x: fields[x].unit for x in tolerances}},
+        len(parts),
+        len(lost),
+        str(lost[0]) if len(lost) else "",
+    )
+
+
+def _drawn(seed: int | None, count: int, inputs: int, distribution: str) -> Array:
+    """Random parts of the tolerances, a row for each variant."""
+    if seed is None:
+        raise SheetError("monte carlo needs a seed, such as seed=1")
+    if count < 2:
+        raise SheetError(f"count = {count} variants must be at least 2")
+    rng = np.random.default_rng(seed)
+    match distribution:
+        case "uniform":
+            return rng.uniform(-1, 1, (count, inputs))
+        case "normal":
+            return rng.normal(0, 1 / 3, (count, inputs))
+    raise SheetError(f"distribution {distribution!r} must be 'uniform' or 'normal'")

@@ -1,0 +1,140 @@
+"""The file of a workbook while it is written: its formats, sheets and listings."""
+
+import math
+import re
+from collections.abc import Sequence
+from datetime import datetime
+from functools import cache
+from io import BytesIO
+from typing import Any
+
+from mechsheet.workbook import looks
+from mechsheet.workbook.cell import Content, allowed, cut, put
+
+_PROPERTIES = {"author": "mechsheet", "created": datetime(2000, 1, 1)}
+_SHEETS = ("Inputs", "Find", "Checks", "Marks", "Scenes")
+_OPTIONS: dict[str, object] = {
+    "in_memory": True,  # stamps the parts of the file with a fixed date
+    "default_format_properties": {"font_name": "Arial", "font_size": 10, "font_scheme": False},
+    "strings_to_formulas": False,
+    "strings_to_urls": False,
+    "strings_to_numbers": False,
+}
+
+
+class Book:
+    """The workbook while it is written; XlsxWriter has no types, so its objects are Any."""
+
+    def __init__(self, title: str) -> None:
+        import xlsxwriter  # type: ignore[import-untyped]  # on use: a run that writes nothing starts without it
+
+        self.title = allowed(title)
+        self._buffer = BytesIO()
+        self.file = xlsxwriter.Workbook(self._buffer, _OPTIONS)
+        self.file.set_properties({**_PROPERTIES, "title": self.title})
+        self._names = {name.lower() for name in _SHEETS}
+        self._styles: dict[str, Any] = {}
+
+    def close(self) -> bytes:
+        """The bytes of the file, to which nothing can be added then."""
+        self.file.close()
+        return self._buffer.getvalue()
+
+    def style(self, *layers: looks.Look) -> Any:
+        """The cell format of these looks, later ones prevailing."""
+        look: dict[str, object] = {"valign": "vcenter"}
+        for part in layers:
+            look |= part
+        key = repr(look)
+        if key not in self._styles:
+            self._styles[key] = self.file.add_format(look)
+        return self._styles[key]
+
+    def name(self, text: str) -> str:
+        """A sheet name that Excel accepts: up to 31 UTF-16 units, none of ``[]:*?/\\``, not yet taken."""
+        # _x0041_ in a sheet's name is an A to Excel.
+        plain = re.sub(r"[\[\]:*?/\\\s]+|_(?=x[0-9a-fA-F]{4}_)", " ", allowed(text)).strip("' ") or "Table"
+        name, number = cut(plain, 31), 1
+        if name != plain and len(whole := name.rpartition(" ")[0]) > 15:
+            name = whole
+        while name.lower() in self._names:
+            number += 1
+            name = f"{cut(plain, 31 - len(f' ({number})'))} ({number})"
+        self._names.add(name.lower())
+        return name
+
+    def sheet(self, name: str, heading: str, widths: Sequence[int], top: int, size: tuple[int, int]) -> Any:
+        """An empty sheet with its title line, ``top`` frozen rows and print setup for ``size`` in pixels."""
+        sheet = self.file.add_worksheet(name, _sheet_class())
+        sheet.hide_gridlines(2)
+        sheet.set_default_row(looks.ROW * 0.75)
+        sheet.set_row(0, 24)
+        for col, width in enumerate(widths):
+            sheet.set_column_pixels(col, col, width)
+        sheet.freeze_panes(top, 1)
+        put(sheet, 0, 0, heading, self.style({"bold": True, "font_size": 13, "font_color": looks.INK}))
+        sheet.set_paper(9)
+        page = page_of(size[0])
+        if page is looks.SIDEWAYS:
+            sheet.set_landscape()
+        # Up to a half too large is scaled down to one page; what is larger goes on over several.
+        wide = 1 if size[0] < 1.5 * page[0] else math.ceil(size[0] / page[0])
+        sheet.fit_to_pages(wide, 1 if size[1] < 1.5 * page[1] else 0)
+        sheet.set_margins(left=0.6, right=0.6, top=0.8, bottom=0.7)
+        sheet.repeat_rows(0, top - 1)
+        sheet.repeat_columns(0)
+        # && is an ampersand, &G and &[ ask for a picture even behind another one.
+        title = re.sub(r"&(?=[G\[])", "& ", cut(self.title, 100)).replace("&", "&&")
+        sheet.set_header(f"&L&8 {title}&R&8 &A")
+        sheet.set_footer("&C&8 &P / &N")
+        return sheet
+
+    def listing(
+        self,
+        name: str,
+        heading: str,
+        fields: Sequence[tuple[str, looks.Look]],
+        rows: Sequence[Sequence[Content]],
+    ) -> Any:
+        """A sheet of rows under (heading, look) fields; a row of one text heads a section."""
+        texts = [[head for head, _ in fields], *(row for row in rows if len(row) > 1)]
+        longest = [max(map(_length, column)) for column in zip(*texts, strict=True)]
+        widths = [looks.CHAR * min(looks.WIDEST, length) + 2 * looks.PAD for length in longest]
+        sheet = self.sheet(name, heading, widths, 2, (sum(widths), looks.ROW * (len(rows) + 3)))
+        for col, (head, look) in enumerate(fields):
+            put(sheet, 1, col, head, self.style(looks.HEAD, looks.TOP, looks.BOTTOM, looks.side(look)))
+        styles = [self.style(looks.CELL, look) for _, look in fields]
+        for n, row in enumerate(rows, 2):
+            if len(row) == 1:
+                sheet.set_row_pixels(n, looks.ROW + 10)
+                put(sheet, n, 0, row[0], self.style(looks.SECTION))
+                continue
+            lines = math.ceil(max(map(_length, row)) / looks.WRAP)
+            sheet.set_row_pixels(n, looks.ROW + (lines - 1) * (looks.ROW - 5))
+            for col, (value, style) in enumerate(zip(row, styles, strict=True)):
+                put(sheet, n, col, value, style)
+        return sheet
+
+
+@cache
+def _sheet_class() -> Any:
+    """XlsxWriter's worksheet, which otherwise looks for thirty new functions of Excel in every formula."""
+    from xlsxwriter.worksheet import Worksheet  # type: ignore[import-untyped]
+
+    class Sheet(Worksheet):  # type: ignore[misc]
+        def write_live(self, row: int, col: int, formula: str, style: Any, value: float | str) -> None:
+            self._write_formula(row, col, formula, style, value)
+
+        def _prepare_formula(self, formula: str, expand_future_functions: bool = False) -> str:
+            return formula.removeprefix("=")
+
+    return Sheet
+
+
+def page_of(wide: int) -> tuple[int, int]:
+    """The printable part of the page, upright or on its side, for what is so many pixels wide."""
+    return looks.UPRIGHT if wide <= looks.UPRIGHT[0] else looks.SIDEWAYS
+
+
+def _length(value: Content) -> int:
+    return len(value) if isinstance(value, str) else 12

@@ -1,0 +1,175 @@
+"""The text of a spreadsheet's formula for a recorded quantity."""
+
+import math
+from collections.abc import Mapping
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mechsheet.recording.graph import Node, is_number
+from mechsheet.workbook.place import Place
+
+# Operation: its text, how tightly it binds, and how tightly its operands must.
+_TEXT: dict[str, tuple[str, int, tuple[int, ...]]] = {
+    "<": ("{}<{}", 1, (2, 2)), "<=": ("{}<={}", 1, (2, 2)), ">": ("{}>{}", 1, (2, 2)), ">=": ("{}>={}", 1, (2, 2)),
+    "=": ("{}={}", 1, (2, 2)), "<>": ("{}<>{}", 1, (2, 2)), "+": ("{}+{}", 2, (2, 3)), "-": ("{}-{}", 2, (2, 3)),
+    "*": ("{}*{}", 3, (3, 3)), "/": ("{}/{}", 3, (3, 4)), "neg": ("-{}", 2, (3,)), "^": ("{}^{}", 4, (5, 5)),
+    "ATAN2": ("ATAN2({1},{0})", 5, (0, 0)), "IF": ("IF({},{},{})", 5, (0, 0, 0)), "MOD": ("MOD({},{})", 5, (0, 0)),
+    "MAX": ("MAX({},{})", 5, (0, 0)), "MIN": ("MIN({},{})", 5, (0, 0)), "AND": ("AND({},{})", 5, (0, 0)),
+    "OR": ("OR({},{})", 5, (0, 0)), "ROUND": ("ROUND({},0)", 5, (0,)),
+}  # fmt: skip
+_FAILS = {"SQRT", "ASIN", "ACOS", "ATAN2", "LN", "/", "^", "MOD", "TAN"}  # may give an error value
+
+
+class CellFormulas:
+    """Formulas of quantities, some of which stand at a place of the workbook: there a formula refers to them."""
+
+    def __init__(self, places: Mapping[Node, Place]) -> None:
+        self.places = places
+
+    def formula(self, node: Node, k: int = 0, row: int | None = None, factor: float = 1.0) -> str:
+        """Formula of a quantity's k-th element over ``factor``, without its own name, for a column's ``row``-th cell.
+
+        What is no number is #N/A.
+        """
+        text, binding = self._operation(node, k, _row(node, k, row))
+        if factor != 1.0:
+            text = _scaled(text if binding > 2 else f"({text})", factor)
+        return f"=IFERROR({text},NA())" if self._fails(node) else f"={text}"
+
+    def reference(self, node: Node, k: int = 0, row: int | None = None, factor: float = 1.0) -> str:
+        """Formula that shows the k-th element of a quantity which has a place, over ``factor``."""
+        if node not in self.places:
+            return self.formula(node, k, row, factor)
+        text = self._element(node, k, _row(node, k, row))[0]
+        return f"={_scaled(text, factor) if factor != 1.0 else text}"
+
+    def formulas(self, node: Node) -> list[str]:
+        """Formulas of all elements, written once where they are the same text in all rows."""
+        same = node.size == 1 or (_plain(node) and all(self._same_rows(o, node) for o in node.operands))
+        return [self.formula(node)] * node.size if same else [self.formula(node, k) for k in range(node.size)]
+
+    def references(self, node: Node, factor: float) -> list[str]:
+        """Formulas that show all elements of a quantity, over ``factor``."""
+        if self._same_rows(node, node):
+            return [self.reference(node, 0, 0, factor)] * node.size
+        return [self.reference(node, k, k, factor) for k in range(node.size)]
+
+    def _same_rows(self, node: Node, root: Node) -> bool:
+        """Whether a quantity reads the same in all rows of another."""
+        if node.size == 1:
+            return True
+        if node.shape != root.shape:
+            return False
+        return node in self.places or (
+            _plain(node) and all(self._same_rows(operand, root) for operand in node.operands)
+        )
+
+    def _fails(self, node: Node) -> bool:
+        """Whether a formula may give an error value where its operands give none."""
+        stack = [node]
+        while stack:
+            here = stack.pop()
+            if here.op in _FAILS and not _safe(here):
+                return True
+            stack.extend(operand for operand in here.operands if operand not in self.places)
+        return False
+
+    def _element(self, node: Node, k: int, row: int) -> tuple[str, int]:
+        """The k-th element as an operand: by its name or address where it has a place."""
+        place = self.places.get(node)
+        if place is None:
+            return self._operation(node, k, row)
+        return place.name if node.size == 1 or k == row else place.at(k), 5
+
+    def _operation(self, node: Node, k: int, row: int) -> tuple[str, int]:
+        match node.op:
+            case "constant":
+                text = _number(node.value.reshape(-1)[k if node.size > 1 else 0])
+                return text, 2 if text.startswith("-") else 3 if "*" in text or "/" in text else 5
+            case "rows":
+                place = self.places.get(node)
+                return f"ROW()-{place.row + 1 if place else 1}", 2
+            case "pick":
+                source, index = node.args
+                return self._element(source, int(index.reshape(-1)[k]), row)
+            case "join":
+                sources, which, index = node.args
+                source = sources[which.reshape(-1)[k]]
+                return self._element(source, int(index.reshape(-1)[k]), row)
+            case "reduce":
+                source, groups, kind = node.args
+                group, place = groups[k], self.places[source]
+                if len(group) > 1 and np.array_equal(np.diff(group), np.ones(len(group) - 1, int)):
+                    return f"{kind}({place.range(int(group[0]), int(group[-1]))})", 5
+                return f"{kind}({','.join(place.at(int(i)) for i in group)})", 5
+        form, binding, needs = _TEXT.get(node.op) or _function(node.op, len(node.args))
+        shape, texts = node.shape, []
+        for operand, need in zip(node.args, needs, strict=True):
+            text, tight = self._element(operand, _position(operand.shape, shape, k), row)
+            texts.append(f"({text})" if tight < need else text)
+        if node.op == "neg" and "^" in texts[0] and tight < 5:  # -x^2 is (-x)^2 to a spreadsheet
+            return f"-({texts[0]})", binding
+        return form.format(*texts), binding
+
+
+def _row(node: Node, k: int, row: int | None) -> int:
+    """Row of a cell among its column's; a single number stands in no row of any column."""
+    return -1 if node.size == 1 else k if row is None else row
+
+
+def _plain(node: Node) -> bool:
+    return node.op not in ("pick", "join", "reduce", "constant", "static")
+
+
+def _safe(node: Node) -> bool:
+    """Whether this operation has a value for all operands: a length, a square, a part by a number."""
+    match node.op:
+        case "/":
+            return bool(node.args[1].op == "constant")
+        case "^":
+            return node.args[1].op == "constant" and bool(np.all(node.args[1].value > 0))
+        case "SQRT":
+            inner = node.args[0]
+            return inner.op == "+" and all(a.op == "^" and is_number(a.args[1], 2) for a in inner.args)
+    return False
+
+
+def _scaled(text: str, factor: float) -> str:
+    if factor == math.pi / 180:
+        return f"DEGREES({text})"
+    return f"{text}/{_number(factor)}" if factor >= 1 else f"{text}*{_number(1 / factor)}"
+
+
+@lru_cache(maxsize=64)
+def _function(name: str, count: int) -> tuple[str, int, tuple[int, ...]]:
+    return f"{name}({','.join(['{}'] * count)})", 5, (0,) * count
+
+
+def _position(shape: tuple[int, ...], whole: tuple[int, ...], k: int) -> int:
+    """Flat position in an operand of the k-th element of what it is broadcast to."""
+    if shape == whole:
+        return k
+    return int(_positions(shape, whole)[k]) if math.prod(shape) > 1 else 0
+
+
+@lru_cache(maxsize=256)
+def _positions(shape: tuple[int, ...], whole: tuple[int, ...]) -> NDArray[Any]:
+    return np.broadcast_to(np.arange(math.prod(shape)).reshape(shape), whole).reshape(-1)
+
+
+def _number(value: Any) -> str:
+    if isinstance(value, bool | np.bool_):
+        return "TRUE" if value else "FALSE"
+    x = float(value)
+    if not math.isfinite(x):
+        return "NA()" if math.isnan(x) else f"{'-' if x < 0 else ''}1E+307"
+    for text, known in _KNOWN.items():
+        if x == known:
+            return text
+    return str(int(x)) if x.is_integer() and abs(x) < 1e15 else repr(x).upper()
+
+
+_KNOWN = {"PI()": math.pi, "2*PI()": 2 * math.pi, "PI()/2": math.pi / 2, "PI()/180": math.pi / 180}

@@ -1,0 +1,141 @@
+"""Charts of a workbook, and the sheet Marks that their vertical lines are drawn from."""
+
+from collections.abc import Callable, Sequence
+from itertools import groupby
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mechsheet.units import shown
+from mechsheet.workbook import axis, looks
+from mechsheet.workbook.book import Book
+from mechsheet.workbook.cell import Content, Live, allowed, caption, fits
+from mechsheet.workbook.place import Place
+from mechsheet.workbook.sheet_formulas import SheetFormulas
+from mechsheet.workbook.table_sheet import Spot
+from mechsheet.worksheet.table import Column, Figure
+
+
+class Charts:
+    """The charts of a workbook; what their figures mark is noted for the sheet Marks."""
+
+    def __init__(self, book: Book, formulas: SheetFormulas | None) -> None:
+        self._book, self._formulas = book, formulas
+        self._marked: list[tuple[Content, ...]] = []
+
+    def insert(self, sheet: Any, spot: Spot, figure: Figure, name: str, columns: Sequence[Column]) -> None:
+        """Draw a figure on a sheet, from the cells of ``columns``, which stand on the sheet ``name``."""
+        chart = self._chart(figure, name, columns)
+        chart.set_size({"width": spot.width, "height": spot.height})
+        place = {"x_offset": spot.right, "y_offset": spot.down, "object_position": 2}
+        sheet.insert_chart(spot.row, spot.column, chart, {**place, "description": caption("Figure", figure)})
+
+    def marks(self) -> None:
+        """The sheet Marks, where a figure marks anything."""
+        fields = (
+            *(("Figure", looks.TEXT), ("Mark", looks.TEXT), ("x", looks.VALUE), ("x", looks.VALUE)),
+            *(("y from", looks.NUMBER), ("y to", looks.NUMBER)),
+        )
+        if self._marked:
+            self._book.listing("Marks", "Ends of the vertical lines in the figures", fields, self._marked)
+
+    def _chart(self, figure: Figure, name: str, columns: Sequence[Column]) -> Any:
+        chart = self._book.file.add_chart({"type": "scatter", "subtype": "straight_with_markers"})
+
+        def place(column: Column) -> Place:
+            return Place("", name, looks.FIRST, next(n for n, c in enumerate(columns) if same_column(column, c)))
+
+        for n, (line, part, called) in enumerate(figure.series()):
+            chart.add_series(_curve(n, figure.x, line, part, called, place))
+        scale = axis.decades if figure.logarithmic else axis.linear
+        x = scale(np.append(figure.x.values, [at for _, at in figure.marks]))
+        y = scale(np.concatenate([line.values for line in figure.lines]))
+        for label, at in figure.marks:
+            chart.add_series(self._mark(figure, label, at, (y["min"], y["max"]), place))
+        title = {"name": _label(caption("Figure", figure)), "name_font": {**looks.CHART, "size": 11, "bold": True}}
+        chart.set_title(title)
+        if self._formulas and not figure.logarithmic:  # axes follow the numbers
+            x = y = {}
+        chart.set_x_axis({**looks.AXIS, **x, "name": _label(_quantity([figure.x]))})
+        chart.set_y_axis({**looks.AXIS, **y, "name": _label(_quantity(figure.lines))})
+        lines = len(figure.series())
+        marks = list(range(lines, lines + len(figure.marks)))
+        chart.set_legend({"position": "bottom" if lines > 1 else "none", "font": looks.CHART, "delete_series": marks})
+        chart.set_chartarea({"border": {"color": "#BFBFBF"}})
+        chart.show_na_as_empty_cell()
+        return chart
+
+    def _mark(
+        self, figure: Figure, label: str, at: float, ends: tuple[float, float], place: Callable[[Column], Place]
+    ) -> dict[str, Any]:
+        """A vertical line, whose ends are noted for the sheet Marks."""
+        row = len(self._marked) + 2
+        x: Content = at
+        y: Sequence[Content] = ends
+        if formula := self._formulas and self._formulas.mark(figure.number, label, figure.x.unit):
+            x = Live(formula, at)
+            numbers = np.concatenate([line.values for line in figure.lines])
+            ranges = ",".join(place(line).range(part.start, part.stop - 1) for line, part, _ in figure.series())
+            y = [Live(f"={f}({ranges})", float(g(numbers))) for f, g in (("MIN", np.min), ("MAX", np.max))]
+        self._marked.append((caption("Figure", figure), label, x, x, *y))
+        return {
+            "name": ["Marks", row, 1],
+            "categories": ["Marks", row, 2, row, 3],
+            "values": ["Marks", row, 4, row, 5],
+            "line": {"color": "#404040", "width": 1, "dash_type": "dash"},
+            "marker": {"type": "none"},
+            "data_labels": {
+                "series_name": True,
+                "position": "right",
+                "font": looks.CHART,
+                "custom": [{"delete": True}],
+            },
+            "smooth": False,
+        }
+
+
+def same_column(a: Column, b: Column) -> bool:
+    """Whether two columns hold the same quantity."""
+    return a is b or ((a.symbol, a.unit) == (b.symbol, b.unit) and np.array_equal(a.values, b.values, equal_nan=True))
+
+
+def _curve(n: int, x: Column, y: Column, part: slice, called: str, place: Callable[[Column], Place]) -> dict[str, Any]:
+    """The n-th curve of a chart, over some rows of its columns."""
+    color = looks.COLORS[n % len(looks.COLORS)]
+    marker = {"type": looks.MARKERS[n % len(looks.MARKERS)], "size": 5, "border": {"color": color}}
+
+    def cells(column: Column) -> list[str | int]:
+        at = place(column)
+        return [at.sheet, at.row + part.start, at.column, at.row + part.stop - 1, at.column]
+
+    return {
+        "name": called or [place(y).sheet, 2, place(y).column],
+        "categories": cells(x),
+        "values": cells(y),
+        # What a viewer draws that reads no cells; without it #N/A would be a zero there.
+        "categories_data": _drawn(x.values[part]),
+        "values_data": _drawn(y.values[part]),
+        "line": {"color": color, "width": 1.75, "dash_type": looks.DASHES[n // 2 % len(looks.DASHES)]},
+        "marker": {**marker, "fill": {"color": color}} if part.stop - part.start <= looks.LONG else {"type": "none"},
+        "smooth": False,
+    }
+
+
+def _drawn(values: NDArray[np.float64]) -> list[float | None]:
+    return [float(value) if fits(value) else None for value in values]
+
+
+def _label(text: str) -> str:
+    """Text of a chart, which XlsxWriter would take for a reference where it holds one such as ``!A1``."""
+    return allowed(text).replace("!", "! ")
+
+
+def _quantity(columns: Sequence[Column]) -> str:
+    """Symbols and units of what an axis shows: ``S [m]``, ``G56, GS6 [N]``, ``R56 .. R01 [N]``."""
+    parts = []
+    for unit, members in groupby(columns, key=lambda column: column.unit):
+        symbols = [column.symbol for column in members]
+        names = ", ".join(symbols) if len(symbols) <= 4 else f"{symbols[0]} .. {symbols[-1]}"
+        parts.append(f"{names} [{shown(unit)}]")
+    return ", ".join(parts)

@@ -1,0 +1,183 @@
+"""Where the recorded quantities stand in a workbook: which of them need a cell or a column, and on which sheet."""
+
+from collections import Counter
+from collections.abc import Callable, Container, Iterable, Iterator, Mapping, Sequence, Set
+from dataclasses import dataclass, field
+
+from mechsheet import units
+from mechsheet.recording.graph import LEAVES, Node
+from mechsheet.recording.lines import Line, Recording
+from mechsheet.workbook.place import DefinedNames, Place
+from mechsheet.worksheet.table import Table
+
+_STEM = 24  # letters of a section in the name of its sheets, which 31 are all that Excel takes
+_LIGHT = 6  # operations that a formula repeats rather than give them a cell
+_HEAVY = 60  # operations that one formula holds at most
+
+
+@dataclass
+class Section:
+    """Quantities behind the tables of one section: a list of all, those with many values in columns of their own."""
+
+    title: str
+    listing: str
+    sheet: str
+    single: list[Line] = field(default_factory=list)
+    fields: list[Line] = field(default_factory=list)
+
+
+class Layout:
+    """The places of the quantities of a recording, and the names that mean them.
+
+    ``inputs`` and ``found`` give the rows of their sheets by symbol, ``sheets`` the names of the tables' sheets,
+    ``first`` the row of the first number on each, ``name`` makes the name of a new sheet.
+    """
+
+    def __init__(
+        self,
+        recording: Recording,
+        tables: Sequence[Table],
+        sheets: Sequence[str],
+        inputs: Mapping[str, int],
+        found: Mapping[str, int],
+        first: int,
+        name: Callable[[str], str],
+    ) -> None:
+        self.recording, self.tables, self.first = recording, tables, first
+        self.defined: list[tuple[str, str]] = []
+        self.own: set[tuple[str, int]] = set()  # columns of tables that are the place of their quantity
+        self.places: dict[Node, Place] = {}
+        self.lines = {line.node: line for lines in recording.lines.values() for line in lines}
+        self._names = DefinedNames()
+        for symbol, node in recording.inputs.items():
+            self._settle(node, symbol, "Inputs", inputs[symbol], 4)
+        for solved in recording.found.values():
+            line = self.lines.get(solved.node)
+            if line and line.symbol in found and units.parse(line.unit).factor == 1:
+                self._settle(solved.node, line.symbol, "Find", found[line.symbol], 1)
+        for table, sheet in zip(tables, sheets, strict=True):
+            for n, column in enumerate(self.columns(table)):
+                line = self.lines.get(column) if column else None
+                if column is None or line is None or column in self.places or column.size == 1:
+                    continue
+                if units.parse(table.columns[n].unit).factor == 1 and column.op not in ("pick", "join"):
+                    self._settle(column, line.symbol, sheet, first, n)
+                    self.own.add((table.number, n))
+        self.sections = self._place_others(name)
+
+    def columns(self, table: Table) -> tuple[Node | None, ...]:
+        """Quantities of a table's columns; None where one holds plain numbers."""
+        columns = self.recording.tables.get(table.number, ())
+        # abs(R56) is recorded as one real quantity; the parts of a complex one stand in columns of their own
+        return tuple(None if c is None or c.im is not None else c.re for c in columns)
+
+    def _settle(self, node: Node, symbol: str, sheet: str, row: int, column: int) -> None:
+        place = self.places[node] = Place(self._names.new(symbol), sheet, row, column)
+        self.defined.append((place.name, place.meaning(node.size)))
+
+    def _roots(self) -> Iterator[Node]:
+        for table in self.tables:
+            yield from (node for node in self.columns(table) if node)
+        for solved in self.recording.found.values():
+            yield from (n for n in (solved.node, solved.inverse, solved.residual, *(solved.interval or ())) if n)
+        for check in self.recording.checks.values():
+            yield from check.parts
+            yield check.limit
+        for marks in self.recording.marks.values():
+            yield from marks.values()
+        yield from (node for node, _ in self.recording.graph.guards)
+
+    def _place_others(self, name: Callable[[str], str]) -> list[Section]:
+        """Sheets for all that stands neither on a table's sheet nor among inputs and found values."""
+        names = dict(self.recording.names)
+        for n, check in enumerate(self.recording.checks.values(), 1):
+            for m, part in enumerate(check.parts, 1):
+                if part not in names and part.operands:
+                    names[part] = f"check{n}" + (f"_{m}" if len(check.parts) > 1 else "")
+        named = names.keys() | self.recording.graph.labels.keys()
+        placed = [node for node in needing_place(self._roots(), named, self.places) if node not in self.places]
+        waiting = {node: node for node in placed}
+        sections: dict[str, list[Line]] = {}
+        for title, lines in self.recording.lines.items():
+            for line in lines:
+                if waiting.pop(line.node, None):
+                    sections.setdefault(title, []).extend(self._parts_of(line, waiting))
+                    sections[title].append(line)
+        for n, (stated, residual) in enumerate(self.recording.checks.items(), 1):
+            bound = Line(residual.limit, f"check{n}_limit", residual.unit, f"limit: {stated}")
+            parts = [Line(part, names.get(part, ""), residual.unit, f"residual: {stated}") for part in residual.parts]
+            for line in [*parts, bound]:
+                steps = self._parts_of(line, waiting)
+                own = [line] if waiting.pop(line.node, None) else []
+                sections.setdefault("Residuals", []).extend([*steps, *own])
+        for n, node in enumerate(list(waiting.values()), 1):
+            rows = node.op == "rows"
+            line = Line(node, "k" if rows else f"step_{n}", "", "number of the row" if rows else "step of a formula")
+            sections.setdefault("Residuals", []).append(line)
+        known = self.recording.sections
+        order = sorted(sections, key=lambda title: known.index(title) if title in known else len(known))
+        return [self._section(title, sections[title], name) for title in order]
+
+    def _parts_of(self, line: Line, waiting: dict[Node, Node]) -> list[Line]:
+        """Steps of a line's formula that get a place, in the order of their calculation."""
+        found: list[Line] = []
+        seen: set[Node] = set()
+
+        def walk(node: Node) -> None:
+            for operand in node.operands:
+                if operand in seen or operand in self.lines or operand in self.places:
+                    continue
+                seen.add(operand)
+                walk(operand)
+                if waiting.pop(operand, None):
+                    text = f"step of {line.symbol}"
+                    found.append(Line(operand, f"{line.symbol}_{len(found) + 1}", "", text))
+
+        walk(line.node)
+        return found
+
+    def _section(self, title: str, lines: Sequence[Line], name: Callable[[str], str]) -> Section:
+        section = Section(title, "", "")
+        section.single = [line for line in lines if line.node.size == 1]
+        section.fields = [line for line in lines if line.node.size > 1]
+        section.listing = name(f"{title[:_STEM].rstrip()} lines")
+        if section.fields:
+            section.sheet = name(f"{title[:_STEM].rstrip()} fields")
+        for n, line in enumerate(section.single):
+            self._settle(line.node, line.symbol, section.listing, 2 + n, 1)
+        for n, line in enumerate(section.fields):
+            self._settle(line.node, line.symbol, section.sheet, self.first, n)
+        return section
+
+
+def needing_place(roots: Iterable[Node], named: Set[Node], places: Container[Node]) -> list[Node]:
+    """Quantities behind ``roots`` that need a place of their own, the ones they rest on first.
+
+    These are the ``named`` ones, those that have one of the ``places`` already, what a sum or a greatest value is taken
+    of, and what would make a formula too long or stand in several of them.
+    """
+    order: list[Node] = []
+    visited: set[Node] = set()
+    stack = [(root, False) for root in roots]
+    while stack:
+        node, done = stack.pop()
+        if done:
+            order.append(node)
+        elif node not in visited:
+            visited.add(node)
+            stack.append((node, True))
+            stack.extend((operand, False) for operand in node.operands)
+    uses = Counter(operand for node in order for operand in node.operands)
+    placed, weight = dict[Node, None](), dict[Node, int]()
+    for node in order:
+        own = 1 + sum(weight[operand] for operand in node.operands) if node.operands else 0
+        known = node in named or node.op in LEAVES or node in places
+        if node.op in ("constant", "input") or (node.op == "rows" and node.size == 1):
+            own = 0
+        elif known or (uses[node] > 1 and own > _LIGHT and node.op not in ("pick", "join")) or own > _HEAVY:
+            placed[node] = None
+            own = 0
+        if node.op == "reduce" and node.args[0].op != "input":
+            placed.setdefault(node.args[0])
+        weight[node] = own
+    return list(placed)

@@ -1,0 +1,61 @@
+"""A place in a workbook: the cell or column where a quantity stands, and the defined name that means it."""
+
+import re
+from dataclasses import dataclass
+from functools import lru_cache
+
+_ADDRESS = re.compile(r"[A-Za-z]{1,3}\d+|[rR]\d*([cC]\d*)?|[cC]\d*|[rR]\d+[cC]\d+")
+
+
+class DefinedNames:
+    """Defined names of a workbook.
+
+    The rule: a quantity keeps the name that it has in the worksheet, without the ``_S`` of a field; a point or a
+    vector has one for each coordinate, ``P56`` X56 and Y56, ``R56`` R56x and R56y. A name that is the address of
+    a cell (``L3``), or that another quantity has already, small and capital letters taken as the same, gets a
+    line behind it: ``L3_``.
+    """
+
+    def __init__(self) -> None:
+        self.taken: set[str] = set()
+
+    def new(self, name: str) -> str:
+        while _ADDRESS.fullmatch(name) or name.lower() in self.taken:
+            name += "_"
+        self.taken.add(name.lower())
+        return name
+
+
+@dataclass(frozen=True)
+class Place:
+    """Where a quantity stands: a cell or a column, and the name that means it (in a column: the cell of its row)."""
+
+    name: str
+    sheet: str
+    row: int
+    column: int
+
+    def at(self, k: int = 0) -> str:
+        """Address of the k-th cell."""
+        return f"{_quoted(self.sheet)}!${letters(self.column)}${self.row + k + 1}"
+
+    def range(self, first: int, last: int) -> str:
+        """Address of the cells from the first one to the last."""
+        column = letters(self.column)
+        return f"{_quoted(self.sheet)}!${column}${self.row + first + 1}:${column}${self.row + last + 1}"
+
+    def meaning(self, size: int) -> str:
+        """What the name is defined as; a row without $ is that of the cell which uses it."""
+        return f"={self.at() if size == 1 else f'{_quoted(self.sheet)}!${letters(self.column)}1'}"
+
+
+@lru_cache(maxsize=1024)
+def letters(column: int) -> str:
+    """Letters of a column counted from 0."""
+    head, tail = divmod(column, 26)
+    return (letters(head - 1) if head else "") + chr(65 + tail)
+
+
+@lru_cache(maxsize=256)
+def _quoted(sheet: str) -> str:
+    return "'" + sheet.replace("'", "''") + "'"

@@ -1,0 +1,125 @@
+"""Workbooks as the bytes of a file: that of a worksheet, and that of scenes side by side."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from mechsheet.recording.lines import Recording
+from mechsheet.workbook import checks_sheet, find_sheet, inputs_sheet, looks, section_sheets, table_sheet
+from mechsheet.workbook.book import Book
+from mechsheet.workbook.cell import caption
+from mechsheet.workbook.chart import Charts, same_column
+from mechsheet.workbook.find_sheet import FoundRow
+from mechsheet.workbook.inputs_sheet import InputRow
+from mechsheet.workbook.layout import Layout
+from mechsheet.workbook.sheet_formulas import SheetFormulas
+from mechsheet.worksheet.checks import Check
+from mechsheet.worksheet.table import Column, Figure, Table
+
+
+def workbook(
+    title: str,
+    *,
+    inputs: Sequence[InputRow],
+    found: Sequence[FoundRow],
+    tables: Sequence[Table],
+    figures: Sequence[Figure],
+    checks: Sequence[Check],
+    recording: Recording | None = None,
+) -> bytes:
+    """Bytes of an .xlsx file; on one machine, with the same versions, the same input gives the same bytes.
+
+    Elsewhere numbers may differ in their last bits, for numpy takes other code paths on other processors.
+
+    Sheets: Inputs, Find where there are found values, one for each table named by its number and title, Checks.
+    With a ``recording`` of the worksheet the cells hold formulas beside their values, and what stands behind the tables
+    is listed by sections on sheets of its own, in SI units.
+    A table's sheet has its title in row 1, its note in row 2, symbols in row 3, units in row 4, then the numbers
+    to their last bit; pandas reads it by ``read_excel(file, sheet_name=name, header=2, skiprows=[3])``. NaN is
+    the error value #N/A and an infinite number #NUM!: pandas reads both as NaN, charts leave a gap.
+
+    A figure is a chart on the first table's sheet that holds all its columns, else on a sheet of its own
+    data; the lines of its marks are drawn from the sheet Marks.
+    """
+    book = Book(title)
+    if recording and recording.every > 1:
+        figures = [_listed_points(figure, recording.every) for figure in figures]
+    holders = [_holder(figure, tables) for figure in figures]
+    alone = [figure for figure, holder in zip(figures, holders, strict=True) if holder is None]
+    data = [Table(f"Fig {f.number}", f"Data of {caption('figure', f)}", (f.x, *f.lines)) for f in alone]
+    names = [book.name(f"{table.number} {table.title}") for table in tables]
+    names_of_data = [book.name(f"{table.number} data") for table in data]
+    formulas = None
+    if recording:
+        formulas = _formulas(book, recording, [*tables, *data], [*names, *names_of_data], inputs, found)
+    charts = Charts(book, formulas)
+    inputs_sheet.write(book, inputs, formulas)
+    if found:
+        find_sheet.write(book, found, formulas)
+    for table, name in zip(tables, names, strict=True):
+        held = [figure for figure, holder in zip(figures, holders, strict=True) if holder is table]
+        columns = table_sheet.contents(table, formulas)
+        note = f"{table.note} {table_sheet.plain_columns(columns)}".strip()
+        sheet, spots = table_sheet.write(book, name, caption("Table", table), note, columns, len(held))
+        for figure, spot in zip(held, spots, strict=True):
+            charts.insert(sheet, spot, figure, name, table.columns)
+    for figure, table, name in zip(alone, data, names_of_data, strict=True):
+        sheet, (spot,) = table_sheet.write(book, name, table.title, "", table_sheet.contents(table, formulas), 1)
+        charts.insert(sheet, spot, figure, name, table.columns)
+    if formulas:
+        for section in formulas.layout.sections:
+            section_sheets.write(book, section, formulas)
+    checks_sheet.write(book, checks, formulas)
+    charts.marks()
+    return book.close()
+
+
+def comparison(
+    title: str, names: Sequence[str], rows: Sequence[Sequence[str | float]], tables: Sequence[Table]
+) -> bytes:
+    """Bytes of an .xlsx file with scenes side by side on the sheet Scenes, then a sheet for each table.
+
+    A row is a symbol, its unit, its meaning and a number, verdict or text for each of the ``names``; a row of
+    one text heads a section. A table's sheet is named by its title.
+    """
+    book = Book(title)
+    texts = [(head, looks.TEXT) for head in ("Symbol", "Unit", "Meaning")]
+    fields = [*texts, *((name, looks.NUMBER) for name in names)]
+    sheet = book.listing("Scenes", f"{book.title} - scenes side by side", fields, rows)
+    sheet.set_column_pixels(3, 2 + len(names), looks.CHAR * 17 + looks.PAD)  # a number with all its digits
+    checks_sheet.verdicts(book, sheet, len(rows), 3, 2 + len(names))
+    for table in tables:
+        table_sheet.write(book, book.name(table.title), table.title, table.note, table_sheet.contents(table, None))
+    return book.close()
+
+
+def _formulas(
+    book: Book,
+    recording: Recording,
+    tables: Sequence[Table],
+    sheets: Sequence[str],
+    inputs: Sequence[InputRow],
+    found: Sequence[FoundRow],
+) -> SheetFormulas:
+    """Formulas of a recording, the names in them defined."""
+    rows = {row.symbol: n for n, row in inputs_sheet.listed_rows(inputs) if isinstance(row, InputRow)}
+    solved = {row.symbol: n for n, row in enumerate(found, 2)}
+    layout = Layout(recording, tables, sheets, rows, solved, looks.FIRST, book.name)
+    for name, meaning in layout.defined:
+        book.file.define_name(name, meaning)
+    return SheetFormulas(layout)
+
+
+def _holder(figure: Figure, tables: Sequence[Table]) -> Table | None:
+    """The first table that has every column of the figure."""
+    wanted = (figure.x, *figure.lines)
+    held = (t for t in tables if all(any(same_column(column, other) for other in t.columns) for column in wanted))
+    return next(held, None)
+
+
+def _listed_points(figure: Figure, every: int) -> Figure:
+    """The figure over the positions that the tables list, whose cells are live."""
+
+    def thinned(column: Column) -> Column:
+        return replace(column, values=column.values[::every])
+
+    return replace(figure, x=thinned(figure.x), lines=tuple(map(thinned, figure.lines)))

@@ -1,0 +1,167 @@
+"""Numbers as texts: how many digits are shown, and how a notation writes them, with their unit."""
+
+import re
+from collections.abc import Iterable, Sequence
+from decimal import Decimal
+from functools import cache, lru_cache
+from math import inf, isfinite, isnan
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from mechsheet import units
+
+
+class Notation(NamedTuple):
+    """How the parts of a number and of its unit are written."""
+
+    minus: str
+    none: str  # NaN
+    infinite: str
+    power: str  # of ten, behind a number
+    pair: str
+    span: str
+    degrees: str
+    percent: str
+    unit: str
+    raised: str
+    times: str  # between units
+
+
+PLAIN = Notation("-", "nan", "inf", "{}e{:+03d}", "({}, {})", "..", " deg", " %", " {}", "**{}", "*")
+CELL = PLAIN._replace(none="–", infinite="∞")  # of a table
+AXIS = CELL._replace(minus="−")
+HTML = Notation(
+    "−", "none", "∞", "{}\u2009·\u200910<sup>{}</sup>", "({}, {})", " … ", "°", " %", " {}", "<sup>{}</sup>", "·"
+)
+LATEX = Notation(
+    "-", r"\text{none}", r"\infty", r"{} \cdot 10^{{{}}}", r"({},\ {})", r" \,\ldots\, ", r"^\circ", r"\,\%",
+    r"\ \mathrm{{{}}}", r"^{{{}}}", r"\cdot ",
+)  # fmt: skip
+
+
+def significant(x: float, digits: int) -> str:
+    """A number rounded to so many digits, as a power of ten where it has more before its point.
+
+    >>> significant(0.000123456, 4), significant(15348729, 6)
+    ('0.0001235', '1.53487e+07')
+    """
+    return f"{x:.{digits}g}"
+
+
+def fixed(x: float, decimals: int, to: Notation = PLAIN) -> str:
+    """A number with so many decimals; what rounds to zero has no sign.
+
+    >>> fixed(-0.0004, 3), fixed(-2.5, 3, AXIS), fixed(float("nan"), 3, CELL)
+    ('0.000', '−2.500', '–')
+    """
+    return f"{x:z.{decimals}f}".replace("-", to.minus) if isfinite(x) else _unlimited(x, to)
+
+
+def scientific(x: float, decimals: int, to: Notation = PLAIN) -> str:
+    """A number as a power of ten.
+
+    >>> scientific(0.00123, 1)
+    '1.2e-03'
+    """
+    return f"{x:z.{decimals}e}".replace("-", to.minus) if isfinite(x) else _unlimited(x, to)
+
+
+def usual(x: float, to: Notation) -> str:
+    """Five significant digits or all before the point; a power of ten outside 1e-3..1e6.
+
+    >>> usual(0.4150004, HTML), usual(129613.7, HTML), usual(-1.5e-7, LATEX)
+    ('0.415', '129614', '-1.5 \\\\cdot 10^{-7}')
+    """
+    if not isfinite(x):
+        return _unlimited(x, to)
+    if 1e5 <= abs(x) < 1e6:
+        return f"{x:.0f}".replace("-", to.minus)
+    if is_plain(x):
+        return np.format_float_positional(float(f"{x:.5g}") + 0.0, trim="-").replace("-", to.minus)  # no sign of zero
+    mantissa, exponent = f"{x:.4e}".split("e")
+    return to.power.format(mantissa.rstrip("0").rstrip("."), int(exponent)).replace("-", to.minus)
+
+
+def is_plain(x: float) -> bool:
+    """Whether the usual text of a finite number needs no power of ten."""
+    return x == 0 or 1e-3 <= abs(x) < 1e6
+
+
+def value(values: Any, unit: str, to: Notation) -> str:
+    """SI value in its display unit; a field of positions as first .. last, a point or a vector as a pair."""
+    field = np.asarray(values)
+    ends = [field.item()] if field.ndim == 0 else [field.flat[0].item(), field.flat[-1].item()]
+    return to.span.join(_end(end, unit, to) for end in ends) + _unit(unit, to)
+
+
+def quantity(z: float | complex, unit: str, to: Notation) -> str:
+    """Number or pair in its display unit."""
+    return _number(z, to) + _unit(unit, to)
+
+
+@lru_cache(maxsize=4096, typed=True)  # most numbers stay when an input changes; 0 and 0j are not shown alike
+def _end(end: float | complex, unit: str, to: Notation) -> str:
+    return _number(end / units.parse(unit).factor, to)
+
+
+@lru_cache(maxsize=4096, typed=True)
+def _number(z: float | complex, to: Notation) -> str:
+    return to.pair.format(usual(z.real, to), usual(z.imag, to)) if isinstance(z, complex) else usual(z, to)
+
+
+@cache
+def _unit(unit: str, to: Notation) -> str:
+    special = {"-": "", "deg": to.degrees, "%": to.percent}
+    if unit in special:
+        return special[unit]
+    powers = re.sub(r"\*\*(-?\d+)", lambda power: to.raised.format(power[1].replace("-", to.minus)), unit)
+    return to.unit.format(powers.replace("*", to.times))
+
+
+def _unlimited(x: float, to: Notation) -> str:
+    return to.none if isnan(x) else ("" if x == inf else to.minus) + to.infinite
+
+
+def span(texts: Iterable[str]) -> str:
+    """Least..greatest, one text where they are equal.
+
+    >>> span(["1", "2"]), span(["1", "1"])
+    ('1..2', '1')
+    """
+    return PLAIN.span.join(dict.fromkeys(texts))
+
+
+def apart(values: Sequence[float], unit: str = "-", digits: int = 4) -> list[str]:
+    """The SI numbers in a display unit, with as many digits as tell unequal ones apart (17 always do).
+
+    >>> apart([0.5, 0.50001], "mm")
+    ['500', '500.01']
+    """
+    factor = Decimal(repr(float(units.parse(unit).factor)))
+    shown = [Decimal(float(v)) / factor for v in values]
+    while True:
+        rounded = [Decimal(f"{v:.{digits - 1}e}").normalize() for v in shown]
+        if len(set(rounded)) == len(set(shown)) or digits == 17:
+            return [f"{v:f}" if -6 < v.adjusted() < 15 else f"{v:e}" for v in rounded]
+        digits += 1
+
+
+def amount(x: float, unit: str, digits: int = 4) -> str:
+    """An SI number in its display unit, which is written behind it.
+
+    >>> amount(0.5, "mm"), amount(2.0, "-")
+    ('500 mm', '2')
+    """
+    return apart([x], unit, digits)[0] + suffix(unit)
+
+
+def extent(values: ArrayLike, unit: str) -> str:
+    """Least..greatest of SI numbers in a display unit, one number where they are equal."""
+    return span(apart([np.nanmin(values), np.nanmax(values)], unit)) + suffix(unit)
+
+
+def suffix(unit: str) -> str:
+    """A unit behind a number; a pure number has none."""
+    return "" if unit == "-" else f" {unit}"

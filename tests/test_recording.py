@@ -1,0 +1,93 @@
+"""The recording of a worksheet: nodes that never change, and readers that keep what they find out to themselves."""
+
+from __future__ import annotations
+
+from dataclasses import FrozenInstanceError
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from mechsheet.recording.graph import Graph, Node
+from mechsheet.recording.lines import Recording
+from mechsheet.recording.quantity import Quantity, lift
+from mechsheet.recording.record import record
+from mechsheet.workbook import writing
+from mechsheet.workbook.inputs_sheet import InputRow
+from mechsheet.worksheet import cells
+from mechsheet.worksheet.table import Table
+
+HITCH = Path(__file__).parents[1] / "worksheets" / "hitch.py"
+
+
+@pytest.fixture(scope="module")
+def names() -> dict[str, Any]:
+    sheet = cells.load(HITCH)
+    return sheet.run(sheet.results, {"g": sheet.inputs()})
+
+
+@pytest.fixture(scope="module")
+def recording(names: dict[str, Any]) -> Recording:
+    return record(names)
+
+
+def written(names: dict[str, Any], recording: Recording) -> bytes:
+    inputs = [InputRow(symbol, getattr(names["g"], symbol), "-", "") for symbol in recording.inputs]
+    tables = [value for value in names.values() if isinstance(value, Table)]
+    return writing.workbook("t", inputs=inputs, found=[], tables=tables, figures=[], checks=[], recording=recording)
+
+
+def every_node(recording: Recording) -> list[Node]:
+    """All nodes, also those that only others rest on."""
+    found = dict.fromkeys(recording.graph.nodes.values())
+    waiting = [c.re for columns in recording.tables.values() for c in columns if c is not None] + list(found)
+    while waiting:
+        node = waiting.pop()
+        found[node] = None
+        waiting.extend(operand for operand in node.operands if operand not in found)
+    return list(found)
+
+
+def test_no_field_of_a_node_can_be_set(recording: Recording) -> None:
+    node = recording.inputs["L3"]
+    for field in ("op", "args", "value"):
+        with pytest.raises(FrozenInstanceError):
+            setattr(node, field, None)
+    with pytest.raises((AttributeError, TypeError)):
+        node.home = None  # type: ignore[attr-defined]
+
+
+def test_no_array_of_any_node_can_be_written_to(recording: Recording) -> None:
+    nodes = every_node(recording)
+    assert {node.op for node in nodes} >= {"constant", "rows", "input", "found", "pick", "reduce", "+", "SQRT"}
+    arrays = [a for node in nodes for a in (node.value, *node.args) if isinstance(a, np.ndarray)]
+    assert len(arrays) > len(nodes)
+    assert not [array for array in arrays if array.flags.writeable]
+
+
+@pytest.mark.parametrize("value", [np.array([1.0, 2.0]), np.array([1 + 2j, 3 - 1j])])
+def test_an_array_changed_later_does_not_change_the_recording(value: Any) -> None:
+    graph = Graph()
+    quantity, leaf = lift(graph, value), graph.leaf("static", "x", value.real)
+    before = quantity.value.copy()
+    value[:] = 7
+    assert np.array_equal(quantity.value, before) and np.array_equal(leaf.value, before.real)
+    assert value.flags.writeable
+
+
+def test_equal_operations_are_one_node() -> None:
+    graph = Graph()
+    x = Quantity(graph, graph.leaf("input", "x", 2.0))
+    y = Quantity(graph, graph.leaf("input", "y", 2.0))
+    assert (x * y + 1).re is (x * y + 1).re
+    assert (x * 3).re is not (y * 3).re  # equal numbers, other quantities
+
+
+def test_a_writer_leaves_the_recording_as_it_was(names: dict[str, Any], recording: Recording) -> None:
+    """Two workbooks of one recording are the same, and nothing of the first one is left on it."""
+    before = (dict(recording.names), dict(recording.graph.labels), len(recording.graph.nodes))
+    first = written(names, recording)
+    assert (dict(recording.names), dict(recording.graph.labels), len(recording.graph.nodes)) == before
+    assert written(names, recording) == first
+    assert written(names, record(names)) == first

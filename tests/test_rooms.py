@@ -1,0 +1,162 @@
+"""The package as a whole: its rooms and files, what each loads, and the one namespace of public names."""
+
+from __future__ import annotations
+
+import ast
+import builtins
+import inspect
+import re
+import subprocess
+import sys
+from collections.abc import Iterator
+from importlib import import_module
+from pathlib import Path
+
+import pytest
+
+import mechsheet
+
+ROOT = Path(__file__).resolve().parents[1]
+PACKAGE = ROOT / "lib" / "mechsheet"
+ROOMS = sorted(path.parent.name for path in PACKAGE.glob("*/__init__.py"))
+FILES = sorted(PACKAGE.rglob("*.py"))
+LONGEST = 450
+# What is not yet so, and may only become less: lines of files that are longer, and imports on use that don't say why.
+LONGER = {
+    "accuracy/exact.py": 451,
+    "document/drawing.py": 768,
+    "mechanics/dyads.py": 743,
+    "mechanics/kinetostatics.py": 529,
+    "recording/recorded.py": 647,
+    "workbook/excel.py": 727,
+}
+UNSAID = {
+    "accuracy/extreme.py": 2,
+    "accuracy/precision.py": 4,
+    "accuracy/printed.py": 1,
+    "page/editor.py": 1,
+    "page/hastened.py": 5,
+    "page/title.py": 5,
+    "workbook/edited.py": 1,
+    "workbook/excel.py": 1,
+    "worksheet/cells.py": 1,
+    "worksheet/checks.py": 1,
+    "worksheet/errors.py": 1,
+    "worksheet/table.py": 2,
+}
+PUBLIC = sorted(set(mechsheet.__all__) - {"__version__"})
+
+
+def place(path: Path) -> str:
+    return path.relative_to(PACKAGE).as_posix()
+
+
+def imports(tree: ast.AST) -> Iterator[ast.Import | ast.ImportFrom]:
+    return (node for node in ast.walk(tree) if isinstance(node, ast.Import | ast.ImportFrom))
+
+
+# --- rooms and files ---------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("room", ROOMS)
+def test_a_room_says_what_lives_there(room: str) -> None:
+    assert ast.get_docstring(ast.parse((PACKAGE / room / "__init__.py").read_text(encoding="utf-8")))
+
+
+@pytest.mark.parametrize("path", FILES, ids=place)
+def test_a_file_can_be_read_in_one_go(path: Path) -> None:
+    assert len(path.read_text(encoding="utf-8").splitlines()) <= LONGER.get(place(path), LONGEST)
+
+
+def test_no_two_names_differ_by_an_s() -> None:
+    names = {path.stem for path in FILES} | set(ROOMS)
+    assert {name for name in names if f"{name}s" in names} == set()
+
+
+@pytest.mark.parametrize("path", FILES, ids=place)
+def test_an_import_on_use_says_why(path: Path) -> None:
+    """Inside a function, where start-up needs it, and with a comment on its line or above it."""
+    text = path.read_text(encoding="utf-8")
+    lines = text.splitlines()
+    functions = (node for node in ast.walk(ast.parse(text)) if isinstance(node, ast.FunctionDef))
+    deferred = {node.lineno for function in functions for node in imports(function)}
+    unsaid = [lines[n - 1] for n in sorted(deferred) if "#" not in lines[n - 1] + lines[n - 2]]
+    assert len(unsaid) <= UNSAID.get(place(path), 0), unsaid
+
+
+@pytest.mark.parametrize("path", FILES, ids=place)
+def test_the_library_imports_from_where_a_name_is_defined(path: Path) -> None:
+    """A name taken from the package itself would hide from the order of the rooms."""
+    found = list(imports(ast.parse(path.read_text(encoding="utf-8"))))
+    taken = [node for node in found if isinstance(node, ast.ImportFrom) and node.module == "mechsheet"]
+    assert {name.name for node in taken for name in node.names} <= {"units"}
+    assert not any(isinstance(node, ast.Import) and name.name == "mechsheet" for node in found for name in node.names)
+
+
+# --- what is loaded ----------------------------------------------------------------------------------------------
+
+
+def loaded(statement: str) -> set[str]:
+    """Packages that a fresh process has loaded after a statement."""
+    code = f"import sys\n{statement}\nprint(*{{name.partition('.')[0] for name in sys.modules}})"
+    return set(subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout.split())
+
+
+def test_the_package_itself_loads_nothing() -> None:
+    assert not loaded("import mechsheet; dir(mechsheet)") & {"numpy", "marimo", "pandas", "scipy", "altair"}
+
+
+def test_mechanics_load_numpy_alone() -> None:
+    files = (PACKAGE / "mechanics").glob("[a-z]*.py")
+    mechanics = "; ".join(f"import mechsheet.mechanics.{path.stem}" for path in files)
+    for statement in ("from mechsheet import rrr, rrr_reactions", mechanics):
+        assert loaded(statement) - loaded("import mechsheet") - sys.stdlib_module_names == {"numpy"}
+
+
+# --- public names ------------------------------------------------------------------------------------------------
+
+
+def test_the_stub_lists_the_public_names_where_they_are_defined() -> None:
+    stub = ast.parse((PACKAGE / "__init__.pyi").read_text(encoding="utf-8"))
+    modules = [node for node in stub.body if isinstance(node, ast.ImportFrom)]
+    listed = [(node.module, name.name, name.asname) for node in modules for name in node.names]
+    assert sorted(name for _, name, _ in listed) == PUBLIC, "each once"
+    for module, name, shown in listed:
+        assert shown == name, "type checkers take it as public"
+        value = getattr(import_module(str(module)), name)
+        assert getattr(mechsheet, name) is value and value.__module__ == module, name
+    assert [node.target.id for node in stub.body if isinstance(node, ast.AnnAssign)] == ["__version__"]
+    assert re.match(r"\d+\.\d+", mechsheet.__version__)
+
+
+@pytest.mark.parametrize("name", PUBLIC)
+def test_a_public_name_says_what_it_is(name: str) -> None:
+    value = getattr(mechsheet, name)
+    assert inspect.isclass(value) or callable(value)
+    assert value.__doc__ and not value.__doc__.startswith(f"{name}("), "not the signature that a dataclass makes"
+
+
+def test_names_are_completed_and_told_apart() -> None:
+    assert dir(mechsheet) == mechsheet.__all__ == sorted({*PUBLIC, "__version__"})
+    taken = {*ROOMS, *vars(builtins), *(path.stem for path in (ROOT / "worksheets").rglob("*.py"))}
+    assert set(PUBLIC) & taken == set()
+    with pytest.raises(AttributeError, match="has no attribute 'fnd'"):
+        mechsheet.fnd
+
+
+def test_help_is_a_table_of_contents() -> None:
+    contents, _, example = str(mechsheet.__doc__).partition("\n``__version__`` ")
+    assert ">>> " in example
+    listed = re.findall(r"^    .{16}(.*)$", contents, re.MULTILINE)
+    assert sorted(re.findall(r"\w+", " ".join(listed))) == PUBLIC, "each once, behind its subject"
+
+
+def test_worksheets_and_readme_take_everything_from_the_package_itself() -> None:
+    texts = {path.name: path.read_text(encoding="utf-8") for path in (ROOT / "worksheets").rglob("*.py")}
+    texts["new_worksheet.txt"] = (PACKAGE / "run" / "new_worksheet.txt").read_text(encoding="utf-8")
+    readme = (ROOT / "README.md").read_text(encoding="utf-8")
+    texts |= {f"README {i}": block for i, block in enumerate(re.findall(r"```python\n(.*?)```", readme, re.DOTALL))}
+    for name, text in texts.items():
+        modules = {str(node.module) for node in imports(ast.parse(text)) if isinstance(node, ast.ImportFrom)}
+        inner = {module for module in modules if module.startswith("mechsheet.")}
+        assert inner <= {"mechsheet.units"} or name == "accuracy.py", name  # which is about the room behind it
