@@ -39,6 +39,24 @@ from mechsheet.mechanics.drive import (
 from mechsheet.mechanics.drive import (
     gear_drive as gear_drive,
 )
+from mechsheet.mechanics.equilibrium import (
+    DriveMoment as DriveMoment,
+)
+from mechsheet.mechanics.equilibrium import (
+    PinReaction as PinReaction,
+)
+from mechsheet.mechanics.equilibrium import (
+    SlideReaction as SlideReaction,
+)
+from mechsheet.mechanics.equilibrium import (
+    left_over as left_over,
+)
+from mechsheet.mechanics.equilibrium import (
+    magnitudes as magnitudes,
+)
+from mechsheet.mechanics.equilibrium import (
+    solve_reactions as solve_reactions,
+)
 from mechsheet.mechanics.joint import (
     bending as bending,
 )
@@ -289,6 +307,9 @@ from mechsheet.worksheet.checks import (
     assembled as assembled,
 )
 from mechsheet.worksheet.checks import (
+    balance as balance,
+)
+from mechsheet.worksheet.checks import (
     check as check,
 )
 from mechsheet.worksheet.checks import (
@@ -317,6 +338,15 @@ from mechsheet.worksheet.find import (
 )
 from mechsheet.worksheet.find import (
     find as find,
+)
+from mechsheet.worksheet.force_diagram import (
+    cut_group as cut_group,
+)
+from mechsheet.worksheet.force_diagram import (
+    largest_of as largest_of,
+)
+from mechsheet.worksheet.force_diagram import (
+    polar as polar,
 )
 from mechsheet.worksheet.inputs import (
     Used as Used,

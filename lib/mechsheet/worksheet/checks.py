@@ -3,7 +3,7 @@
 import html
 import re
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from math import isnan
 from types import FrameType
@@ -13,6 +13,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mechsheet import units
+from mechsheet.mechanics.equilibrium import Reaction, left_over
+from mechsheet.mechanics.load import Load
 from mechsheet.worksheet import symbol
 from mechsheet.worksheet.errors import SheetError, refuse
 from mechsheet.worksheet.find import Found
@@ -104,6 +106,25 @@ def check(name: str, residual: ArrayLike, limit: float, unit: str = "-") -> Chec
     lost = int(np.count_nonzero(np.isnan(sizes)))
     reason = f"{lost} of {sizes.size} values do not exist" if lost else ""
     return Check(name, float(np.max(sizes)) / factor, limit / factor, unit, reason)
+
+
+def balance(
+    what: str,
+    loads: Sequence[Sequence[Load]],
+    reactions: Sequence[Reaction],
+    forces: float,
+    moments: float,
+) -> tuple[Check, Check]:
+    """Check that loads and reactions hold each body in equilibrium: what is left of forces [N] and of moments [N m].
+
+    ``loads`` and ``reactions`` are those of `left_over`; ``forces`` and ``moments`` are the limits, ``what`` names the
+    bodies.
+    """
+    left = left_over(loads, reactions)
+    return (
+        check(f"equilibrium of forces, {what}", left.F, forces, "N"),
+        check(f"equilibrium of moments, {what}", left.M, moments, "N*m"),
+    )
 
 
 def check_slope(
