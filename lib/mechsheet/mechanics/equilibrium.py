@@ -117,7 +117,7 @@ def left_over(loads: Sequence[Sequence[Load]], reactions: Sequence[Reaction]) ->
         acting += [(-1, r.P, r.F, r.M) for r in reactions if r.by == body]
         pole = np.asarray(of_body[0].P)
         forces.append(sum(sign * np.asarray(F) for sign, _, F, _ in acting))
-        moments.append(sum(sign * (cross(np.asarray(P) - pole, F) + M) for sign, P, F, M in acting))
+        moments.append(sum(sign * (cross(np.asarray(P) - pole, F) + np.asarray(M)) for sign, P, F, M in acting))
     return Left(np.array(np.broadcast_arrays(*forces)), np.array(np.broadcast_arrays(*moments)))
 
 

@@ -7,7 +7,6 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mechsheet.worksheet.drawing import Drawing
-from mechsheet.worksheet.errors import SheetError
 
 
 def largest_of(*fields: ArrayLike) -> Any:
@@ -39,15 +38,15 @@ def cut_group(
     part : float
         Length of the longest arrow of all positions, as a part of the group's size.
 
-    Raises
-    ------
-    SheetError
-        No point of the group is finite.
+    Returns
+    -------
+    Drawing
+        What was ``drawn`` with the forces; as it was where the group closes in no position.
     """
     ends = np.concatenate([np.ravel(point) for point in points])
     seen = ends[np.isfinite(ends)]
     if not seen.size:
-        raise SheetError("the group cut free has no finite point")
+        return drawn
     size = max(np.ptp(seen.real), np.ptp(seen.imag))
     scale = part * size / largest_of(*(F for _, F, *_ in forces.values()))
     room = [seen]
