@@ -14,6 +14,7 @@ from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import mpmath
 import pytest
 from hypothesis import settings
 
@@ -22,6 +23,7 @@ if TYPE_CHECKING:
 
 ROOT = Path(__file__).resolve().parents[1]
 collect_ignore = ["benchmarks"]  # nothing there is a test, and it needs numba
+mpmath.mp.dps = 200  # of what the tests compute exactly themselves, no less than of what they compare it with
 WITHIN = 300.0  # seconds for whatever is waited for: on a busy machine it comes late
 
 # Random tests take the same examples in every run, and no time is too long for one: a busy machine is no error.

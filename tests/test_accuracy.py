@@ -2,14 +2,15 @@
 
 from pathlib import Path
 
-import mpmath as mp
 import numpy as np
 import pytest
 import test_joint
 import test_kinetostatics_sheet
-import test_landing_gear
 import test_slotted_link
 
+from mechsheet.accuracy import chain, exact, rivals, whole
+from mechsheet.accuracy.arithmetic import mp
+from mechsheet.accuracy.precision import Truth
 from mechsheet.worksheet.cells import load
 
 WORKSHEET = Path(__file__).parents[1] / "worksheets" / "accuracy.py"
@@ -27,15 +28,19 @@ def settings(methods, family: str) -> list[float]:
 # Every method
 
 
-@pytest.fixture(scope="module")
-def first():
-    return run("chain_h", "S", "L4", "L7", "hitch")
+HITCH = load(WORKSHEET.with_name("hitch.py")).inputs()
+FOUND = {name: float(x) for name, x in exact.finds(HITCH).items()}
+S = np.linspace(HITCH.S_min, HITCH.S_max, 10)
 
 
 @pytest.fixture(scope="module")
-def positions(first):
-    made = SHEET.common["position_methods"]
-    return made(first["chain_h"], first["S"], lambda: None, lambda: None)
+def hitch():
+    return chain.hitch_chain(HITCH, FOUND["L4"], FOUND["L7"])
+
+
+@pytest.fixture(scope="module")
+def positions(hitch):
+    return rivals.position_methods(hitch, S, lambda: None)
 
 
 def decades(first: int, last: int) -> list[float]:
@@ -50,25 +55,24 @@ def test_positions_are_compared_by_every_method_and_tolerance(positions):
     assert rest == {"library: rrr", "printed: law of cosines", "fsolve, each position"}
 
 
-def test_derivatives_finds_and_reactions_are_compared_by_every_method(first):
-    common = SHEET.common
-    derivatives = common["derivative_methods"](first["chain_h"], first["S"], 0.25, 1)
+def test_derivatives_finds_and_reactions_are_compared_by_every_method(hitch):
+    derivatives = rivals.derivative_methods(hitch, S, 0.25, 1)
     assert settings(derivatives, "central differences") == pytest.approx(decades(1, 10))
     assert settings(derivatives, "spline of the table") == [10 * 2**k for k in range(8)]
-    finds = {m.family for m in common["find_methods"](first["hitch"], [1.0])}
+    finds = {m.family for m in rivals.find_methods(HITCH, [1.0])}
     assert finds == {
         *("find", "inverse mechanism", "brentq on the reach", "Newton", "secant", "hybr", "hybr, printed formulas"),
     }
-    ways = common["reaction_methods"](first["hitch"], first["S"], first["L4"], first["L7"], 2 + 0 * first["S"])
+    ways = rivals.reaction_methods(HITCH, S, FOUND["L4"], FOUND["L7"], 2 + 0 * S)
     assert [m.family for m in ways] == [
         *("library: rrr_reactions", "printed: elimination", "dense system", "least squares"),
     ]
 
 
 @pytest.mark.parametrize("family", ["Newton", "fsolve, each position", "solve_ivp RK45", "solve_ivp Radau"])
-def test_an_iteration_reaches_its_tolerance_and_no_more_without_need(positions, first, family):
+def test_an_iteration_reaches_its_tolerance_and_no_more_without_need(positions, hitch, family):
     """A method that returned the library's own numbers would be exact at any tolerance."""
-    pins = SHEET.common["inner_pins"](SHEET.common["by_library"](first["chain_h"], first["S"]))
+    pins = chain.inner_pins(hitch, S)
     loose = next(m for m in positions if m.family == family)
     tight = next(m for m in positions if m.family == family and float(m.setting) < 1e-8)
     errors = [np.max(abs(m.run() - pins)) for m in (loose, tight)]
@@ -80,41 +84,59 @@ def test_an_iteration_reaches_its_tolerance_and_no_more_without_need(positions, 
 
 
 def agree(found, exactly):
-    with mp.workdps(50):
-        assert all(abs(a - b) <= 1e-25 * max(1, abs(b)) for a, b in zip(found, exactly, strict=True)), (found, exactly)
+    assert all(abs(a - b) <= 1e-25 * max(1, abs(b)) for a, b in zip(found, exactly, strict=True)), (found, exactly)
 
 
-def test_landing_gear_at_50_digits_is_that_of_the_construction():
+@pytest.mark.parametrize("p", [0.25, 0.75])
+def test_landing_gear_at_50_digits_gives_the_power_that_its_motion_takes(p):
+    """The rod's power is what kinetic and potential energy gain in time, less the power of the wind."""
     g = load(WORKSHEET.with_name("landing_gear.py")).inputs()
-    with mp.workdps(50):
-        other = test_landing_gear.Reference(g, mp.mpf(1) / 3)
-        l2 = float(other.l2)
-        here = test_landing_gear.Reference(g, (mp.mpf(l2) - other.l20) / other.H)
-    found = SHEET.common["truth_landing_gear"](g, {"l2i": [l2]}, [0])
-    agree([found[k][0] for k in ("Ai", "omega3_l2i", "eps3_l2i")], [here.A, here.omega3_l2, here.eps3_l2])
-    agree(found["F_c"], [here.F_c])
+    x = {name: mp.mpf(value) for name, value in vars(g).items()}
+    stroke = exact.stroke(g)
+    l2, v = stroke["l20"] + p * stroke["H"], stroke["V21"]
+    hanging = mp.mpc(0, -1) / exact.landing_gear(g, stroke["l20"])["Ai"]  # the leg hangs where the cylinder is shortest
+
+    def leg(t):
+        return hanging * exact.landing_gear(g, l2 + v * t)["Ai"]  # its unit vector after the time t
+
+    def slope(f):
+        step = mp.mpf(10) ** -20
+        return (8 * (f(step) - f(-step)) - f(2 * step) + f(-2 * step)) / (12 * step)
+
+    def energy(t):
+        omega = exact.landing_gear(g, l2 + v * t)["omega3i"]
+        return (x["J3"] + x["m3"] * x["r3"] ** 2) * omega**2 / 2 + x["m3"] * x["g_n"] * x["r3"] * leg(t).imag
+
+    here, q = exact.landing_gear(g, l2), x["rho"] * x["U"] * abs(x["U"]) / 2
+    u = leg(mp.mpf(0))
+    turning = slope(lambda t: mp.arg(leg(t) / u))
+    normal = mp.mpc(0, 1) * u
+    wind = q * x["C_w"] * (x["l_w"] * turning * normal).real
+    wind += q * x["C_s"] * normal.real * abs(normal.real) * x["l_w"] / 2 * turning
+    agree([here["omega3i"], here["P_c"]], [turning, slope(energy) - wind])
+    agree([abs(here["Ai"]), abs(here["Ai"] - mp.mpc(-x["b"], x["a"]))], [x["l3"], l2])
 
 
 def test_slotted_link_at_50_digits_is_that_of_its_own_test():
     g = load(WORKSHEET.with_name("slotted_link.py")).inputs()
-    found = SHEET.common["truth_slotted_link"](g, {"phi1_k": [0.7]}, [0])
+    found = exact.slotted_link(g, 0.7)
     other = test_slotted_link.derivatives(g, 0.7)
     names = {"SAB_k": "SAB", "omega_BC_k": "omega_BC", "eps_BC_k": "eps_BC", "VC_k": "VC", "WC_k": "WC"}
-    agree([found[k][0] for k in names], [other[k] for k in names.values()])
+    agree([found[k] for k in names], [other[k] for k in names.values()])
 
 
 @pytest.mark.parametrize("phi1", [0.7, 4.0])
 def test_balancing_moment_by_work_is_that_of_the_dense_system(phi1):
     g = load(WORKSHEET.with_name("kinetostatics.py")).inputs()
-    found = SHEET.common["truth_kinetostatics"](g, {"phi1": [phi1]}, [0])
+    found = exact.kinetostatics(g, phi1)
     other = test_kinetostatics_sheet.Reference(g, phi1)
-    agree([found["M_b"][0], found["K"][0]], [other.M_c, other.K])
+    agree([found["M_b"], found["K"]], [other.M_c, other.K])
 
 
 def test_forces_of_the_joint_are_those_of_its_equilibria():
     sheet = load(WORKSHEET.with_name("joint.py"))
     names = sheet.run(["P", "A_t", "A_c"], {"g": sheet.inputs()})
-    found = iter(SHEET.common["truth_joint"](names["g"], names, [])["P"])
+    found = iter(whole.exact_results("joint", names, [])["P"])
     for plane in (0, 1):
         for case in (0, 1):
             y = names["y"][plane, 0]
@@ -128,9 +150,8 @@ def test_forces_of_the_joint_are_those_of_its_equilibria():
 
 
 def test_find_alone_of_the_iterations_survives_bad_guesses():
-    common, made = SHEET.common, run("hitch", "unknowns")
-    ways = {m.family: m for m in common["find_methods"](made["hitch"], [0.25, 4.0])}
-    errors = {name: max(map(made["unknowns"].error, m.run())) for name, m in ways.items()}
+    ways = {m.family: m for m in rivals.find_methods(HITCH, [0.25, 4.0])}
+    errors = {name: max(map(Truth(exact.finds(HITCH).values()).error, m.run())) for name, m in ways.items()}
     assert errors["find"] < 1e-14
     assert errors["Newton"] == errors["secant"] == errors["hybr, printed formulas"] == 1
 
@@ -143,21 +164,16 @@ def test_printed_reactions_lose_all_digits_with_the_mast_upright_and_the_own_non
 
 
 @pytest.mark.parametrize(
-    ("right", "wrong", "job"),
+    ("module", "function", "worse", "job"),
     [
-        ("return np.array([C for _, C in pins])", "return np.array([C * (1 + 1e-13) for _, C in pins])", "check_11"),
-        ("np.array([group_67.R_A,", "np.array([group_67.R_A.astype('complex64'),", "check_41"),
+        (chain, "rrr", lambda C: C * (1 + 1e-13), "check_11"),
+        (rivals, "hitch_reactions", lambda R: R.astype("complex64"), "check_41"),
     ],
 )
-def test_a_default_that_loses_digits_fails(tmp_path, right, wrong, job):
-    text = WORKSHEET.read_text(encoding="utf-8")
-    assert right in text
-    sheet = tmp_path / "accuracy.py"
-    sheet.write_text(text.replace(right, wrong), encoding="utf-8")
-    (tmp_path / "hitch.py").write_text(WORKSHEET.with_name("hitch.py").read_text(encoding="utf-8"), encoding="utf-8")
-    worse = load(sheet)
-    made = worse.run([job], {"g": worse.inputs(), "seconds": 1e-6, "sizes": (3,)})
-    assert not made[job].passed
+def test_a_default_that_loses_digits_fails(monkeypatch, module, function, worse, job):
+    right = getattr(module, function)
+    monkeypatch.setattr(module, function, lambda *given: worse(right(*given)))
+    assert not run(job)[job].passed
 
 
 def test_less_is_run_for_less():

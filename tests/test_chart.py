@@ -9,8 +9,10 @@ import numpy as np
 import pytest
 
 from mechsheet.document import chart
+from mechsheet.document.axis import axis
 from mechsheet.document.chart_svg import svg as written
 from mechsheet.document.chart_svg import variable
+from mechsheet.worksheet.symbol import Symbol, read
 
 
 @dataclass(frozen=True)
@@ -103,3 +105,31 @@ def test_every_so_many_values_are_marked_by_points():
 def test_an_axis_in_degrees_is_divided_as_a_circle_is(last, step):
     svg = written(chart.line_chart(Q("phi1", "deg", np.array([0.0, last])), [Q("x", "-", np.arange(2.0))]))
     assert [n for _, n in ticks(svg, "middle")] == list(range(0, last + step, step))[: -(-last // step) + 1]
+
+
+def test_a_layout_is_data_that_another_writer_can_draw():
+    """Curves inside the plot, ticks under it, every text in the picture."""
+    layout = chart.line_chart(S, [Q("F", "N", np.arange(6.0)), Q("G", "N", np.array([0, 1, np.nan, 3, 4, 5.0]))])
+    for curve in layout.curves:
+        inside = np.isfinite(curve.y)
+        assert np.all((curve.x >= 0) & (curve.x <= layout.plot.width))
+        assert np.all((curve.y[inside] >= 0) & (curve.y[inside] <= layout.plot.height))
+    assert [np.isnan(curve.y).tolist().count(True) for curve in layout.curves] == [0, 1]
+    bottom = layout.plot.top + layout.plot.height
+    across = [label for label in layout.texts if label.anchor == "middle" and bottom < label.y < layout.height - 10]
+    assert [label.x for label in across] == pytest.approx([layout.plot.left + u for u in layout.columns])
+    assert all(0 < label.x < layout.width and 0 < label.y < layout.height for label in layout.texts)
+    assert [sample.label.parts for sample in layout.legend] == [(read("F"),), (read("G"),)]
+    assert {type(part) for label in layout.texts for part in label.parts} == {str, Symbol}
+
+
+@pytest.mark.parametrize("values", [[0.3, 0.9], [-1e-10, 1e-10], [1.75e-10, 2e-10], [-3e9, 7e9], [5.0], [], [np.nan]])
+def test_an_axis_ends_on_the_ticks_next_to_its_values(values):
+    made = axis([values], count=5)
+    known = [v for v in values if np.isfinite(v)] or [made.low]
+    slack = 1e-9 * made.step
+    assert made.low - slack <= min(known) and max(known) <= made.high + slack
+    assert len(set(known)) < 2 or (min(known) < made.low + made.step and made.high - made.step < max(known))
+    assert made.ticks == pytest.approx(np.arange(len(made.ticks)) * made.step + made.low, abs=1e-9 * made.step)
+    assert made.ticks[-1] == pytest.approx(made.high, abs=1e-9 * made.step)
+    assert len({made.text(tick) for tick in made.ticks}) == len(made.ticks), "texts tell the ticks apart"

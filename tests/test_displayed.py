@@ -15,6 +15,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from mechsheet.document import chart, chart_svg
+from mechsheet.page.values import html as html_of
 from mechsheet.worksheet.checks import Check, Summary
 from mechsheet.worksheet.find import Found
 from mechsheet.worksheet.inputs import Used
@@ -103,7 +105,7 @@ def assert_formula(row: Formula, value: object, line: str) -> int:
 
 def assert_typeset(shown: Typeset) -> int:
     rows = list(zip(shown.rows, shown.values, strict=True))
-    lines = shown.html.split("ms-line")[1 : len(rows) + 1]
+    lines = html_of(shown).split("ms-line")[1 : len(rows) + 1]
     count = 0
     for (row, value), line in zip(rows, lines, strict=True):
         if isinstance(row, Formula) and not row.arguments:
@@ -216,7 +218,8 @@ def test_every_number_shown_is_the_one_computed(worksheet):
 
 def assert_chart(figure: Figure) -> int:
     """What hovering shows, against the columns."""
-    values = json.loads(html.unescape(re.search(r'data-values="(.*?)"', figure.svg())[1]))
+    svg = chart_svg.svg(chart.line_chart(figure.x, figure.lines, figure.marks, figure.every))
+    values = json.loads(html.unescape(re.search(r'data-values="(.*?)"', svg)[1]))
     columns = [figure.x, *figure.lines]
     for column, texts, unit in zip(columns, values["texts"], values["units"], strict=True):
         for text, value in zip(texts, column.values.tolist(), strict=True):

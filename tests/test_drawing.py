@@ -14,9 +14,9 @@ from conftest import examples
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mechsheet.page.title import caption, side_by_side
 from mechsheet.worksheet.drawing import COLOURS, Drawing
 from mechsheet.worksheet.errors import SheetError
+from mechsheet.worksheet.title import caption, side_by_side
 
 SVG = "{http://www.w3.org/2000/svg}"
 HALF_DIGIT = 0.05  # px, numbers are printed to 0.1 px

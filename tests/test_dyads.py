@@ -5,13 +5,13 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-import exact
 import numpy as np
 import pytest
-from exact import EPS, FAMILIES, numbers, triangles, vectors
 from hypothesis import example, given
 from hypothesis import strategies as st
 
+from mechsheet.accuracy import arithmetic as exact
+from mechsheet.accuracy.arithmetic import EPS, FAMILIES, numbers, triangles, vectors
 from mechsheet.mechanics.load import Load
 from mechsheet.mechanics.planar import angle, cross, dot, link_acceleration, link_velocity
 from mechsheet.mechanics.rpr import rpr, rpr_acceleration, rpr_condition, rpr_transmission_angle, rpr_velocity

@@ -2,16 +2,20 @@
 
 import ast
 import linecache
+from contextlib import nullcontext
 from math import asin, degrees
 from pathlib import Path
 from types import SimpleNamespace
 
+import marimo
 import pytest
 from conftest import drawn, until
 from playwright.sync_api import expect
 
 from mechsheet import __main__ as launcher
 from mechsheet.page import editor as told_by
+from mechsheet.worksheet.lines import registry
+from mechsheet.worksheet.source import of_texts
 
 TEMPLATE = Path(launcher.__file__).parent / "run" / "new_worksheet.txt"
 
@@ -195,7 +199,14 @@ class Cells:
         refs = {n.id for n in nodes if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Load)} - defs
         status = "exception" if exception else "success"
         return SimpleNamespace(
-            cell_id=cell_id, code=code, body=body, defs=defs, refs=refs, run_result_status=status, exception=exception
+            cell_id=cell_id,
+            code=code,
+            filename=cell_id,
+            defs=defs,
+            refs=refs,
+            status=status,
+            exception=exception,
+            busy=False,
         )
 
     def texts(self, notes) -> list[str]:
@@ -269,6 +280,19 @@ def test_mistakes_in_names_and_of_python_are_put_in_words():
 
 def test_line_that_has_lost_its_unit_does_not_keep_the_former_one():
     found = bar("A = pi * g.D**2 / 4  # [mm**2] area\ntypeset()")
-    assert "A" in found.names["__formulas__"]
-    found.cell("c3 again", "A = pi * g.D**2 / 4  # area\ntypeset()")
-    assert "A" not in found.names["__formulas__"]
+    right = [(cell.code, cell.filename) for cell in found.cells]
+    assert "A" in registry(found.names, of_texts(tuple(right)))
+    assert "A" not in registry(found.names, of_texts((*right[:3], ("A = pi * g.D**2 / 4  # area\ntypeset()", "c3"))))
+
+
+def test_a_marimo_that_keeps_its_cells_otherwise_is_told_of_in_one_line(monkeypatch):
+    from marimo._runtime import context
+
+    known = SimpleNamespace(graph=SimpleNamespace(cells={"c": SimpleNamespace(cell_id="c")}, lock=nullcontext()))
+    for lacking, what in ((known, "globals"), (SimpleNamespace(**vars(known), globals={}), "runtime_state")):
+        monkeypatch.setattr(context, "get_context", lambda lacking=lacking: lacking)
+        (note,) = told_by.watch(lambda notes: None)
+        assert note.text.startswith(f"mistakes are not named here: marimo {marimo.__version__} tells nothing of its")
+        assert what in note.text
+    monkeypatch.delattr(context, "get_context")
+    assert "cannot import name 'get_context'" in told_by.watch(lambda notes: None)[0].text

@@ -8,12 +8,12 @@ from typing import Any
 import numpy as np
 import pytest
 
-from mechsheet.mechanics import drive, joint, load, planar
-from mechsheet.mechanics import rpr as kind_3
-from mechsheet.mechanics import rrp as kind_2
-from mechsheet.mechanics import rrr as kind_1
+from mechsheet.mechanics import crank, drive, joint, load, planar, prp, rpp, rpr, rrp, rrr
 from mechsheet.mechanics.load import Load
-from mechsheet.recording.elementary import STEPS
+from mechsheet.recording.elementary import GROUPS, STEPS
+from mechsheet.recording.graph import Graph
+from mechsheet.recording.quantity import Quantity
+from mechsheet.recording.substitutes import substituted
 
 COUNT = 40  # random cases
 rng = np.random.default_rng(7)
@@ -50,33 +50,60 @@ ARGUMENTS: dict[Callable[..., Any], tuple[Any, ...]] = {
     planar.angle_opposite: (numbers(1, 1.9), numbers(1, 1.9), numbers(1, 1.9)),
     planar.link_velocity: (points(), points(), points(), numbers()),
     planar.link_acceleration: (points(), points(), numbers(), points(), numbers()),
-    kind_1.rrr: (*pins(), signs()),
-    kind_1.rrr_reach: (points(), points(), numbers()),
-    kind_1.rrr_velocity: (points(), points(), C, points(), points(), numbers(), numbers()),
-    kind_1.rrr_acceleration: (
+    rrr.rrr: (*pins(), signs()),
+    rrr.rrr_reach: (points(), points(), numbers()),
+    rrr.rrr_velocity: (points(), points(), C, points(), points(), numbers(), numbers()),
+    rrr.rrr_acceleration: (
         *(points(), points(), C, numbers(), numbers(), numbers(), numbers()),
         *(points(), points(), numbers(), numbers()),
     ),
-    kind_1.rrr_transmission_angle: (points(), points(), points()),
-    kind_1.rrr_condition: (points(), points(), points()),
-    kind_2.rrp: (points(), points(), points(), numbers(6, 9), signs(), numbers()),
-    kind_2.rrp_reach: (points(), points(), points(), numbers()),
-    kind_2.rrp_velocity: (points(), points(), C, points(), points(), points(), numbers(), numbers()),
-    kind_2.rrp_acceleration: (
+    rrr.rrr_transmission_angle: (points(), points(), points()),
+    rrr.rrr_condition: (points(), points(), points()),
+    rrp.rrp: (points(), points(), points(), numbers(6, 9), signs(), numbers()),
+    rrp.rrp_reach: (points(), points(), points(), numbers()),
+    rrp.rrp_velocity: (points(), points(), C, points(), points(), points(), numbers(), numbers()),
+    rrp.rrp_acceleration: (
         *(points(), points(), C, points(), numbers(), numbers(), numbers(), numbers()),
         *(points(), points(), numbers(), numbers()),
     ),
-    kind_2.rrp_transmission_angle: (points(), points(), points()),
-    kind_2.rrp_condition: (points(), points(), points(), points()),
-    kind_3.rpr: (points() + 5, points(), signs(), numbers(0.1, 0.5)),
-    kind_3.rpr_velocity: (points(), points(), points(), points(), points()),
-    kind_3.rpr_acceleration: (points(), points(), points(), numbers(), numbers(), points(), points()),
-    kind_3.rpr_transmission_angle: (points(), points(), points()),
-    kind_3.rpr_condition: (points(), points(), points()),
+    rrp.rrp_transmission_angle: (points(), points(), points()),
+    rrp.rrp_condition: (points(), points(), points(), points()),
+    rpr.rpr: (points() + 5, points(), signs(), numbers(0.1, 0.5)),
+    rpr.rpr_velocity: (points(), points(), points(), points(), points()),
+    rpr.rpr_acceleration: (points(), points(), points(), numbers(), numbers(), points(), points()),
+    rpr.rpr_transmission_angle: (points(), points(), points()),
+    rpr.rpr_condition: (points(), points(), points()),
+    planar.link_point: (points(), points(), points()),
+    planar.product: (numbers(), numbers(), points()),
+    crank.crank: (points(), numbers(), numbers()),
+    rrr.rrr_determinant: (points(), points(), points()),
+    rrp.rrp_determinant: (points(), points(), points()),
+    rpr.rpr_determinant: (points(), points(), points()),
+    rpr.rpr_reach: (points(), points()),
+    prp.prp: (points(), points(), points(), points()),
+    prp.prp_velocity: (points(), points(), C, points(), points(), points(), points(), numbers(), numbers()),
+    prp.prp_acceleration: (
+        *(points(), points(), C, points(), points(), numbers(), numbers(), numbers(), numbers()),
+        *(points(), points(), numbers(), numbers()),
+    ),
+    prp.prp_determinant: (points(), points()),
+    prp.prp_transmission_angle: (points(), points()),
+    prp.prp_condition: (points(), points()),
+    prp.prp_reactions: (points(), points(), points(), loads(), loads()),
+    rpp.rpp: (points(), points(), points(), points()),
+    rpp.rpp_velocity: (points(), points(), C, points(), points(), points(), points(), numbers()),
+    rpp.rpp_acceleration: (
+        *(points(), points(), C, points(), points(), numbers(), numbers(), numbers()),
+        *(points(), points(), numbers()),
+    ),
+    rpp.rpp_determinant: (points(), points()),
+    rpp.rpp_transmission_angle: (points(), points()),
+    rpp.rpp_condition: (points(), points()),
+    rpp.rpp_reactions: (points(), points(), points(), points(), loads(), loads()),
     load.inertia: (points(), numbers(), numbers(), points(), numbers()),
-    kind_1.rrr_reactions: (points(), points(), points(), loads(), loads()),
-    kind_2.rrp_reactions: (points(), points(), points(), loads(), loads()),
-    kind_3.rpr_reactions: (points(), points(), points(), loads(), loads()),
+    rrr.rrr_reactions: (points(), points(), points(), loads(), loads()),
+    rrp.rrp_reactions: (points(), points(), points(), loads(), loads()),
+    rpr.rpr_reactions: (points(), points(), points(), loads(), loads()),
     drive.coupling_drive: (points(), loads()),
     drive.gear_drive: (points(), points(), numbers(0, 1), loads()),
     drive.cylinder_drive: (points(), points(), points(), loads()),
@@ -109,15 +136,66 @@ def test_the_steps_give_what_the_function_gives(function: Callable[..., Any]) ->
         np.testing.assert_allclose(steps[name] / size, value / size, rtol=0, atol=1e-9, err_msg=name)
 
 
-@pytest.mark.parametrize("function", [kind_1.rrr, kind_2.rrp, kind_3.rpr], ids=lambda f: f.__name__)
+@pytest.mark.parametrize("function", [rrr.rrr, rrp.rrp, rpr.rpr], ids=lambda f: f.__name__)
 def test_what_does_not_close_is_no_number(function: Callable[..., Any]) -> None:
     arguments: dict[Any, tuple[Any, ...]] = {
-        kind_1.rrr: (0j, 5 + 0j, 1.0, 2.0, 1),
-        kind_2.rrp: (0 + 3j, 0j, 1 + 0j, 2.0, 1),
-        kind_3.rpr: (1 + 0j, 0j, 1, 2.0),
+        rrr.rrr: (0j, 5 + 0j, 1.0, 2.0, 1),
+        rrp.rrp: (0 + 3j, 0j, 1 + 0j, 2.0, 1),
+        rpr.rpr: (1 + 0j, 0j, 1, 2.0),
     }
     with np.errstate(invalid="ignore"):
         assert all(np.isnan(value).all() for value in parts(STEPS[function](*arguments[function])).values())
+
+
+FIELDS = {  # arguments of a group, and rates that it may be given beside the velocities of its outer pairs
+    rrr.RRRGroup: ((*pins(), signs()), {"dr_A": numbers()}),
+    rrp.RRPGroup: ((points(), points(), points(), numbers(6, 9), signs(), numbers()), {"omega_B": numbers()}),
+    rpr.RPRGroup: ((points() + 5, points(), signs(), numbers(0.1, 0.5)), {}),
+    prp.PRPGroup: ((points(), points(), points(), points()), {"omega_A": numbers()}),
+    rpp.RPPGroup: ((points(), points(), points(), points()), {"omega_B": numbers()}),
+}
+
+
+def test_every_group_is_tried() -> None:
+    assert set(FIELDS) == set(GROUPS)
+
+
+@pytest.mark.parametrize("kind", FIELDS, ids=lambda kind: kind.__name__)
+@pytest.mark.parametrize("known", [True, False], ids=["positions recorded", "motion alone recorded"])
+def test_a_group_of_recorded_quantities_gives_what_the_group_gives(kind: Any, known: bool) -> None:
+    graph = Graph()
+    count = 0
+
+    def record(x: Any) -> Any:
+        nonlocal count
+        count += 1
+        parts = [x.real, x.imag] if np.iscomplexobj(x) else [x]
+        return Quantity(graph, *[graph.leaf("input", f"x{count}{n}", part) for n, part in enumerate(parts)])
+
+    arguments, rates = FIELDS[kind]
+    v, a, on_A, on_B = points(), points(), loads(), loads()
+    shown = substituted({kind.__name__: kind}, graph)[kind.__name__]
+    assert shown is not kind and substituted({kind.__name__: shown}, Graph())[kind.__name__].__recorded__ is kind
+    own, group = kind(*arguments), shown(*[record(x) if known else x for x in arguments])
+    recorded_loads = [[Load(record(x.F), record(x.P), x.M) for x in on] for on in (on_A, on_B)]
+    v_own, v_group = own.velocity(v, **rates), group.velocity(record(v), **{n: record(x) for n, x in rates.items()})
+    pairs = [
+        (v_own, v_group),
+        (own.acceleration(v_own, a), group.acceleration(v_group, record(a))),
+        (own.reactions(on_A, on_B), group.reactions(*recorded_loads)),
+        *((getattr(own, n), getattr(group, n)) for n in ("C", "AC", "BC", "u", "s", "BA") if hasattr(own, n)),
+        (own.condition, group.condition),
+        (own.determinant, group.determinant),
+        (own.transmission_angle, group.transmission_angle),
+        *([(own.reach, group.reach)] if hasattr(kind, "reach") else []),
+    ]
+    for plain, steps in pairs:
+        for name, value in parts(plain).items():
+            found = getattr(steps, name) if hasattr(plain, "_fields") else steps
+            assert isinstance(found, Quantity) or not known or found in (0, np.inf)  # not given, without end
+            number = np.asarray(getattr(found, "value", found))
+            size = np.nanmax(np.abs(value), initial=0.0, where=np.isfinite(value)) or 1.0
+            np.testing.assert_allclose(number / size, value / size, rtol=0, atol=1e-9, err_msg=name)
 
 
 def parts(result: Any) -> dict[str, Any]:

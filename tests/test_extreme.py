@@ -6,11 +6,12 @@ import mpmath as mp
 import numpy as np
 import pytest
 from conftest import examples
-from exact import equations, pin, reactions, sign
 from hypothesis import Phase, assume, given, target
 from hypothesis import strategies as st
 
 from mechsheet.accuracy import exact, extreme, printed
+from mechsheet.accuracy.arithmetic import equations, pin, reactions, sign
+from mechsheet.accuracy.condition import conditions, undecided
 from mechsheet.mechanics.load import Load
 from mechsheet.mechanics.planar import cross
 from mechsheet.mechanics.rrr import RRRReactions, rrr_reactions
@@ -18,13 +19,8 @@ from mechsheet.worksheet import inputs
 from mechsheet.worksheet.cells import load
 from mechsheet.worksheet.errors import SheetError
 
-HERE = Path(__file__).parent
-WORKSHEETS = HERE.parent / "worksheets"
-SCENES = {path.stem: path for path in sorted((HERE / "scenes").glob("*.toml"))}
-
-
-def scene(name):
-    return extreme.read(SCENES[name])
+WORKSHEETS = Path(__file__).parents[1] / "worksheets"
+SCENES = {scene.name: scene for scene in extreme.scenes(WORKSHEETS)}
 
 
 def lost(outcomes):
@@ -36,7 +32,7 @@ def lost(outcomes):
 
 @pytest.mark.parametrize("name", SCENES)
 def test_scene_keeps_its_digits(name):
-    outcomes = extreme.measure(scene(name), WORKSHEETS, short=True)
+    outcomes = extreme.measure(SCENES[name], WORKSHEETS, short=True)
     assert outcomes
     assert lost(outcomes) == []
 
@@ -46,13 +42,13 @@ def test_scene_keeps_its_digits(name):
 
 def test_condition_of_a_difference():
     """Of x - y it is (|x| + |y|) / |x - y|; a whole number is no rounded one."""
-    found = exact.conditions(lambda x, y, n: {"d": n * (x - y), "zero": 0 * x}, {"x": 3.0, "y": 2.9999, "n": 7})
+    found = conditions(lambda x, y, n: {"d": n * (x - y), "zero": 0 * x}, {"x": 3.0, "y": 2.9999, "n": 7})
     assert float(found["d"]) == pytest.approx(5.9999 / 1e-4, rel=1e-9)
     assert found["zero"] == 0
 
 
 def test_condition_of_a_row_is_that_of_its_greatest():
-    found = exact.conditions(lambda x, y: {"row": [x + y, x - y]}, {"x": 3.0, "y": 2.0})
+    found = conditions(lambda x, y: {"row": [x + y, x - y]}, {"x": 3.0, "y": 2.0})
     assert float(found["row"]) == pytest.approx(1.0)
 
 
@@ -74,8 +70,8 @@ def test_a_position_that_rounding_decides_is_told_from_one_that_is_out_of_reach(
     def C(r_A, r_B):
         return exact.dyad(r_A=r_A, r_B=r_B, **group)
 
-    assert "C" in exact.undecided(C, {"r_A": np.nextafter(2.0, 0), "r_B": 3.0})
-    assert not exact.undecided(C, {"r_A": 1.9999, "r_B": 3.0})
+    assert "C" in undecided(C, {"r_A": np.nextafter(2.0, 0), "r_B": 3.0})
+    assert not undecided(C, {"r_A": 1.9999, "r_B": 3.0})
 
 
 def test_truth_of_the_dyad_is_in_equilibrium_and_moves_with_its_length():
@@ -247,7 +243,7 @@ def summed(A, B, C, loads_A=(), loads_B=()):
 )
 def test_fault_in_a_worksheet_is_noticed(monkeypatch, name, worksheet, function, fault):
     monkeypatch.setitem(load(WORKSHEETS / f"{worksheet}.py").common, function, fault)
-    assert lost(extreme.measure(scene(name), WORKSHEETS, short=True))
+    assert lost(extreme.measure(SCENES[name], WORKSHEETS, short=True))
 
 
 def test_fault_in_the_library_is_noticed_by_the_search(monkeypatch):

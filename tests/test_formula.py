@@ -2,15 +2,36 @@
 
 import ast
 import json
+import re
+from pathlib import Path
+from typing import get_args
 
 import numpy as np
 import pytest
 from cells import run
 
 from mechsheet.document.expression import tree
-from mechsheet.document.latex import latex
+from mechsheet.document.formula import (
+    Apply,
+    Binary,
+    Brackets,
+    Code,
+    Fraction,
+    Node,
+    Number,
+    Power,
+    Product,
+    Quantity,
+    Signed,
+    Text,
+    children,
+    is_high,
+)
+from mechsheet.document.latex import RULES, latex
+from mechsheet.page.values import html
 from mechsheet.worksheet import numbers
 from mechsheet.worksheet.errors import SheetError
+from mechsheet.worksheet.symbol import Symbol
 
 IMPORT = "from mechsheet import typeset\n"
 
@@ -72,10 +93,50 @@ IMPORT = "from mechsheet import typeset\n"
         ("P45(S, L4, branch)", r"P_{45}(S,\ L_{4})"),
         ("(2*a) % b - c", r"2\,a \bmod b - c"),
         ("L4_found.value", r"\operatorname{Find}(L_{4})"),
+        ("hypot(a, b/c)", r"\sqrt{a^{2} + \left(\frac{b}{c}\right)^{2}}"),
+        ("hypot(sin(a), b)", r"\sqrt{\sin^{2} (a) + b^{2}}"),
+        ("a/sin(b)*c", r"\frac{a}{\sin b}\,c"),
+        ("(a + sin(b))*c", r"(a + \sin b)\,c"),
+        ("x**sin(y)*z", r"x^{\sin y}\,z"),
+        ("sin(dRa)*L", r"\sin(\Delta R_{\mathrm{a}})\,L"),
+        ("arcsin(x)", r"\arcsin(x)"),
     ],
 )
 def test_expression_as_a_textbook_prints_it(source, tex):
     assert latex(tree(ast.parse(source, mode="eval").body)) == tex
+
+
+def test_brackets_and_dots_stand_in_the_tree():
+    """Writers of other notations read the same ones."""
+    a, b = Symbol("a"), Symbol("b")
+    assert read("(a + b)*a") == Product(Brackets((Binary(a, "+", b),)), a)
+    assert read("a*-b") == Product(a, Brackets((Signed("-", b),)), dot=True)
+    assert read("(a/b)**2") == Power(Brackets((Fraction(a, b),)), Number(2))
+    assert read("a/(b + 2)") == Fraction(a, Binary(b, "+", Number(2)))
+    assert read("phi34_S") == read("phi34(S)") == Apply(Symbol("φ", "34"), Brackets((Symbol("S"),)))
+    assert read("2*x", {"x": Quantity(3.0, "m")}) == Product(Number(2), Quantity(3.0, "m"), dot=True)
+    assert [is_high(read(text)) for text in ("a + b", "a/b", "f(a**2)", "1e-9")] == [False, True, True, True]
+
+
+def test_the_tree_knows_no_notation_of_a_writer():
+    for path in sorted((Path(__file__).parents[1] / "worksheets").glob("*.py")):
+        assigned = (n.value for n in ast.walk(ast.parse(path.read_text("utf-8"))) if isinstance(n, ast.Assign))
+        for node in (part for expression in assigned for part in parts(tree(expression))):
+            if not isinstance(node, Text | Code):  # which hold what stands in the worksheet
+                words = [word for name in node.__match_args__ if isinstance(word := getattr(node, name), str)]
+                assert not re.search(r"[\\{}&]", "".join(words)), node
+
+
+def test_the_writer_has_a_rule_for_every_node():
+    assert set(RULES) == set(get_args(Node))
+
+
+def read(text, numbers=None):
+    return tree(ast.parse(text, mode="eval").body, numbers)
+
+
+def parts(node):
+    return [node, *(p for child in children(node) for p in parts(child))]
 
 
 def test_lines_with_a_unit_are_the_formulas():
@@ -140,7 +201,7 @@ def test_value_in_the_page(value, unit, text):
 
 def joined(shown):
     """HTML with the elements of a line, formula and value, as one."""
-    return shown.html.replace('=||)</marimo-tex><span class="ms-value">', "= ")
+    return html(shown).replace('=||)</marimo-tex><span class="ms-value">', "= ")
 
 
 def test_one_position_of_the_fields():
@@ -154,7 +215,7 @@ def test_one_position_of_the_fields():
 
 def test_page_shows_symbol_formula_value_and_meaning():
     names = run(IMPORT + "L3 = 0.2  # [m] arm\nA = L3**2  # [cm**2] <area>\nshown = typeset()")
-    assert json.loads(names["shown"]._mime_()[1]) == {"text/html": names["shown"].html}
+    assert json.loads(names["shown"]._mime_()[1]) == {"text/html": html(names["shown"])}
     text = joined(names["shown"])
     assert "A = L_{3}^{2} = 400 cm<sup>2</sup></span>" in text
     assert "L_{3} = 0.2 m</span>" in text
@@ -206,7 +267,15 @@ def test_numbers_stand_for_the_symbols(lines, numbers):
 def test_numbers_of_a_field_are_those_of_the_position_shown():
     names = run(IMPORT + "from numpy import arange\nx = 2 * arange(3)  # [m]\ny = 3 * x  # [m]\nshown = typeset()")
     assert r'tex="= 3 \cdot 0\ \mathrm{m}"' in joined(names["shown"])
-    assert r'tex="= 3 \cdot 4\ \mathrm{m}"' in names["shown"].at(2).html
+    assert r'tex="= 3 \cdot 4\ \mathrm{m}"' in html(names["shown"].at(2))
+
+
+def test_a_number_and_a_point_at_nothing_are_told_apart():
+    """0 and 0j are equal, and shown in two ways by the same line."""
+    names = run(IMPORT + "x = 0.0  # [m]\ny = 3 * x  # [m]\nshown = typeset()")
+    assert r'tex="= 3 \cdot 0\ \mathrm{m}"' in joined(names["shown"])
+    names["x"] = 0j
+    assert r'tex="= 3\,(0,\ 0)\ \mathrm{m}"' in joined(names["shown"])
 
 
 def test_edited_unit_alone_is_seen():
@@ -219,4 +288,4 @@ def test_branch_that_is_meant_stands_in_the_definition():
     text = run(IMPORT + "def P(S, L7, branch=-1):\n    return rrr(S, L7, branch)  # [m] pin\nshown = typeset()")[
         "shown"
     ]
-    assert r"P(S,\,L_{7}) = \operatorname{rrr}(S,\ L_{7},\ -1)" in text.html
+    assert r"P(S,\,L_{7}) = \operatorname{rrr}(S,\ L_{7},\ -1)" in html(text)

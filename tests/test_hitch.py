@@ -7,13 +7,13 @@ from pathlib import Path
 import mpmath as mp
 import numpy as np
 import pytest
-from exact import reactions
 from hypothesis import assume, given
 from hypothesis import strategies as st
 from printed import agrees, rows
 
 from mechsheet import units
 from mechsheet.accuracy import exact
+from mechsheet.accuracy.arithmetic import reactions
 from mechsheet.worksheet.checks import Check
 from mechsheet.worksheet.table import Table
 from worksheets import hitch

@@ -147,7 +147,7 @@ def test_scene_in_the_repository_is_that_of_the_worksheet(run):
 
 def test_hitch_opens_the_scene_with_the_promised_reserves(run):
     """The whole hitch worksheet runs on the scene: its checks, the scene's limits, and the numbers promised."""
-    outcome, names = compute(load_sheet(HITCH), "designed", load(SCENE, declared(load_sheet(HITCH).inputs)))
+    outcome, names = compute(load_sheet(HITCH), "designed", load(SCENE))
     assert outcome.verdict == "pass"
     sheet = load_workbook(run[0] / "hitch_design.xlsx", data_only=True)["3.2 The design over the stroke"]
     rows = list(sheet.iter_rows(min_row=5, values_only=True))

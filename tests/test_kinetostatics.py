@@ -6,11 +6,11 @@ from itertools import chain
 from types import SimpleNamespace
 from typing import Any
 
-import exact
 import numpy as np
 import pytest
-from exact import EPS, FAMILIES, numbers, triangles, vectors
 
+from mechsheet.accuracy import arithmetic as exact
+from mechsheet.accuracy.arithmetic import EPS, FAMILIES, numbers, triangles, vectors
 from mechsheet.mechanics.crank import crank
 from mechsheet.mechanics.drive import coupling_drive, cylinder_drive, gear_drive
 from mechsheet.mechanics.load import Load, inertia

@@ -6,16 +6,16 @@ from dataclasses import replace
 from itertools import chain
 from pathlib import Path
 
-import exact
 import mpmath as mp
 import numpy as np
 import pytest
 from conftest import examples
-from exact import cross, mpc, mpf
 from hypothesis import Phase, given
 from hypothesis import strategies as st
 from openpyxl import load_workbook
 
+from mechsheet.accuracy import arithmetic as exact
+from mechsheet.accuracy.arithmetic import cross, mpc, mpf
 from mechsheet.recording.dimensions import mismatches
 from mechsheet.worksheet.cells import evaluate
 from mechsheet.worksheet.checks import Check

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from typing import Any
 
-import exact
 import numpy as np
 import pytest
-from exact import EPS
 from hypothesis import assume, example, given
 from hypothesis import strategies as st
 from mpmath import acos, mp, mpf, sqrt
 
+from mechsheet.accuracy import arithmetic as exact
+from mechsheet.accuracy.arithmetic import EPS
 from mechsheet.mechanics.planar import (
     angle,
     angle_between,

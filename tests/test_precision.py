@@ -13,7 +13,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mechsheet.accuracy import precision
-from mechsheet.accuracy.precision import ROUNDING, Comparison, Measured, Method, Truth, compare, timed
+from mechsheet.accuracy.precision import ROUNDING, Comparison, Job, Measured, Method, Truth, timed
 from mechsheet.run.progress import progress
 from mechsheet.workbook import writing
 
@@ -134,9 +134,8 @@ def test_a_very_long_method_runs_once(monkeypatch):
 
 
 def test_compare_returns_errors_and_times_in_order():
-    truth = Truth([mp.pi, mp.e])
     ways = [Method("numpy", "", lambda: [np.pi, np.e]), Method("rough", "2", lambda: [3.14, 2.72])]
-    found = compare("7", "Constants", ways, truth.error, seconds=1e-4)
+    found = Job("7", "Constants", [mp.pi, mp.e], ways).compare(1e-4)
     assert [(row.family, row.setting) for row in found.rows] == [("numpy", ""), ("rough", "2")]
     assert found.rows[0].error == ROUNDING and found.rows[1].error == pytest.approx((2.72 - np.e) / np.pi)
     assert all(row.seconds > 0 for row in found.rows)

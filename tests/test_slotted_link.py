@@ -233,7 +233,7 @@ def test_circle_through_the_hinge_has_no_numbers_there_and_only_there():
     assert np.all(abs(made["eps_BC_k"][~lost]) < 1e-11)
     assert [c.reason for c in failed(made)] == ["the slider is at the hinge B at phi1 = 270 deg"]
     assert np.isnan(made["K"]) and made["ends"] == {}
-    svg = made["figure_4"].svg()
+    svg = made["figure_4"]._mime_()[1]
     curve = svg[svg.index('stroke="#3b82d0"') :].split('d="', 1)[1].split('"', 1)[0]
     assert [piece.count("L") + 1 for piece in curve.split("M")[1:]] == [90, 270], "a gap in the curve at one degree"
     assert made["scheme"](-pi / 2).svg().startswith("<svg"), "the position itself can be drawn"

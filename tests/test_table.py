@@ -50,6 +50,29 @@ def test_every_so_many_positions_of_each_variant(names):
     assert [c.values.tolist() for c in names["u"].columns] == [[0.42], [23.81]]
 
 
+def test_a_line_is_declared_wherever_it_stands(names):
+    """Before typeset in its cell, or in a cell that typesets nothing."""
+    run('x = 2 * S  # [mm] length\nt = table("1", "T", x)\ntypeset()', names)
+    assert (names["t"].columns[0].unit, names["t"].columns[0].meaning) == ("mm", "length")
+    run("y = 3 * S  # [cm] another length", names)
+    run('t = table("1", "T", x, y)', names)
+    assert [c.unit for c in names["t"].columns] == ["mm", "cm"]
+
+
+def test_unit_that_is_not_known_is_told_where_its_line_is_asked_for(names):
+    run("y = 3 * S  # [cmm] length", names)
+    run('t = table("1", "T", S)', names)
+    with pytest.raises(SheetError, match=r"unit \[cmm\] is not known"):
+        run('t = table("1", "T", y)', names)
+
+
+def test_units_that_typeset_shows_are_those_of_the_columns(names):
+    run('F = S  # [kgf] force\nsi = {"kgf": "N"}\ntypeset(display=si)', names)
+    run('x = S  # [m] length\ntypeset(display={"m": "mm"})', names)
+    run('t = table("1", "T", F, x)', names)
+    assert [c.unit for c in names["t"].columns] == ["N", "mm"]
+
+
 def test_undeclared_column_says_what_is_missing(names):
     with pytest.raises(SheetError, match=r"column Q: no line declares Q with its unit"):
         run('Q = S\ntable("1", "T", S, Q)', names)

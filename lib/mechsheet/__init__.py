@@ -17,20 +17,24 @@ A worksheet as a function
     one run         evaluate, load, results
     many runs       sweep, grid, Sweep, sensitivity, tolerance
     design          search, Requirement, Judged, pareto, Limit, scene_text, save_scene
-    methods         compare, timed, Method, Measured, Truth, WorkPrecision
+    methods         accuracy_jobs, batch_times, whole_worksheets, asked_costs, WorkPrecision
+    extreme scenes  measured_scenes, DigitsKept
 
 Mechanics: numpy arrays in, numpy arrays out
     vectors         dot, cross, product, angle, angle_between, angle_opposite, triangle_area
     links           link_point, link_velocity, link_acceleration
     drivers         crank, rrr_crank_reach, rrp_crank_reach, rpr_crank_reach
     group RRR       rrr, rrr_reach, rrr_velocity, rrr_acceleration, rrr_transmission_angle, rrr_condition,
-                    rrr_determinant
-    group RRP       rrp, rrp_reach, rrp_velocity, rrp_acceleration, rrp_transmission_angle, rrp_condition
-    group RPR       rpr, rpr_velocity, rpr_acceleration, rpr_transmission_angle, rpr_condition
-    group PRP       prp, prp_velocity, prp_acceleration, prp_transmission_angle, prp_condition
-    group RPP       rpp, rpp_velocity, rpp_acceleration, rpp_transmission_angle, rpp_condition
-    reactions       Load, inertia, rrr_reactions, rrp_reactions, rpr_reactions, prp_reactions,
-                    rpp_reactions, coupling_drive, gear_drive, cylinder_drive
+                    rrr_determinant, rrr_reactions, RRRGroup
+    group RRP       rrp, rrp_reach, rrp_velocity, rrp_acceleration, rrp_transmission_angle, rrp_condition,
+                    rrp_determinant, rrp_reactions, RRPGroup
+    group RPR       rpr, rpr_reach, rpr_velocity, rpr_acceleration, rpr_transmission_angle, rpr_condition,
+                    rpr_determinant, rpr_reactions, RPRGroup
+    group PRP       prp, prp_velocity, prp_acceleration, prp_transmission_angle, prp_condition,
+                    prp_determinant, prp_reactions, PRPGroup
+    group RPP       rpp, rpp_velocity, rpp_acceleration, rpp_transmission_angle, rpp_condition,
+                    rpp_determinant, rpp_reactions, RPPGroup
+    loads, drives   Load, inertia, coupling_drive, gear_drive, cylinder_drive
     equilibrium     PinReaction, SlideReaction, DriveMoment, left_over, solve_reactions, magnitudes
     joints          neutral_axis, bending, circular_joint, sum_of_elements
 
@@ -79,9 +83,13 @@ The balancing moment does the work of all loads, the inertia forces' sum over a 
 """
 
 import ast
+import sys
+from collections.abc import Mapping
 from importlib import import_module
 from pathlib import Path
 from typing import Any
+
+from mechsheet.worksheet import shown
 
 
 def _homes() -> dict[str, str]:
@@ -92,6 +100,19 @@ def _homes() -> dict[str, str]:
 
 
 _HOMES = _homes()
+
+
+def _cells_in_page(namespace: Mapping[str, Any]) -> shown.Texts | None:
+    """Texts of the cells of the page that runs in a namespace; there is none where marimo is not loaded."""
+    texts: shown.Texts | None = None
+    if "marimo" in sys.modules:
+        texts = import_module("mechsheet.page.notebook").texts(namespace)
+    return texts
+
+
+# What the lower rooms need of the page's, which is loaded only where a page asks for it.
+shown.page = lambda: import_module("mechsheet.page.values")  # type: ignore[assignment,return-value]
+shown.cells_in_page = _cells_in_page
 __all__ = sorted([*_HOMES, "__version__"])
 
 

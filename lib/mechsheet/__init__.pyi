@@ -1,22 +1,25 @@
 """The public names and where they are defined; `mechsheet` loads each on its first use."""
 
-from mechsheet.accuracy.precision import (
-    Measured as Measured,
+from mechsheet.accuracy.extreme import (
+    DigitsKept as DigitsKept,
 )
-from mechsheet.accuracy.precision import (
-    Method as Method,
+from mechsheet.accuracy.extreme import (
+    measured_scenes as measured_scenes,
 )
-from mechsheet.accuracy.precision import (
-    Truth as Truth,
+from mechsheet.accuracy.jobs import (
+    accuracy_jobs as accuracy_jobs,
+)
+from mechsheet.accuracy.jobs import (
+    batch_times as batch_times,
 )
 from mechsheet.accuracy.precision import (
     WorkPrecision as WorkPrecision,
 )
-from mechsheet.accuracy.precision import (
-    compare as compare,
+from mechsheet.accuracy.whole import (
+    asked_costs as asked_costs,
 )
-from mechsheet.accuracy.precision import (
-    timed as timed,
+from mechsheet.accuracy.whole import (
+    whole_worksheets as whole_worksheets,
 )
 from mechsheet.mechanics.crank import (
     crank as crank,
@@ -235,18 +238,6 @@ from mechsheet.mechanics.rrr import (
     rrr_velocity as rrr_velocity,
 )
 from mechsheet.page.title import (
-    caption as caption,
-)
-from mechsheet.page.title import (
-    mark as mark,
-)
-from mechsheet.page.title import (
-    player as player,
-)
-from mechsheet.page.title import (
-    side_by_side as side_by_side,
-)
-from mechsheet.page.title import (
     title_block as title_block,
 )
 from mechsheet.run.ask import (
@@ -383,6 +374,18 @@ from mechsheet.worksheet.table import (
 )
 from mechsheet.worksheet.table import (
     table as table,
+)
+from mechsheet.worksheet.title import (
+    caption as caption,
+)
+from mechsheet.worksheet.title import (
+    mark as mark,
+)
+from mechsheet.worksheet.title import (
+    player as player,
+)
+from mechsheet.worksheet.title import (
+    side_by_side as side_by_side,
 )
 
 __version__: str

@@ -1,4 +1,4 @@
-"""Error against run time: arithmetic of 50 digits, extreme scenes, the printed formulas, timing.
+"""Error against run time: jobs and all methods for them, 50 digits, printed formulas, extreme scenes, timing.
 
-Stands on the worksheet and the mechanics; nothing of the product needs it.
+Stands on the mechanics, the worksheet and the bar of a long run; nothing of the product needs it.
 """

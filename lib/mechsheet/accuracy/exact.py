@@ -7,21 +7,16 @@ positions, reactions by the equilibrium of the bodies that are no two-force memb
 the names of the worksheet. Where something does not close or is infinite there, its result is NaN.
 """
 
-from collections.abc import Callable, Iterator, Mapping
-from functools import lru_cache
+from collections.abc import Callable, Iterator, Sequence
+from functools import cache, lru_cache
 from types import SimpleNamespace
 from typing import Any
 
-from mpmath import arg, expj, mp, mpc, mpf, nan, pi, sqrt, workdps
+from mechsheet.accuracy.arithmetic import DIGITS, STEP, Numbers, cross, derivatives, mp, mpc, mpf, rotation, rrp, rrr
 
-DIGITS = 50
-_DIGITS = 200  # of the work: differences with the steps below keep DIGITS of them 1e-16 from a dead centre too
-_STEP = mpf(10) ** -90  # of S, for first derivatives from one side; its root for second ones from both
-_CHANGE = mpf(10) ** -40  # of an input, relative
+_AHEAD = STEP**2  # of S, for first derivatives from one side
 _NOTHING = mpf(10) ** -95  # below the root of the rounding of the work: the sine at a dead centre
 _ROUNDING = mpf(2) ** -50  # an end of an interval may be a number found and rounded
-
-Numbers = dict[str, Any]
 
 
 def finds(g: Any) -> Numbers:
@@ -29,9 +24,8 @@ def finds(g: Any) -> Numbers:
 
     Raises ValueError where one of them has no solution.
     """
-    with workdps(_DIGITS):
-        x = _exact(g)
-        return _found(tuple(getattr(x, name) for name in _MOVING))
+    x = _exact(g)
+    return _found(tuple(getattr(x, name) for name in _MOVING))
 
 
 def hitch(g: Any, S: Any = None, *, L4: Any = None, S_p: Any = None, L7: Any = None) -> Numbers:
@@ -39,12 +33,11 @@ def hitch(g: Any, S: Any = None, *, L4: Any = None, S_p: Any = None, L7: Any = N
 
     The lengths that are not given are found, as in `finds`.
     """
-    with workdps(_DIGITS):
-        x = _exact(g)
-        moving = tuple(getattr(x, name) for name in _MOVING)
-        given = tuple(None if value is None else mpf(value) for value in (S, L4, S_p, L7))
-        results = _motion(moving, *given)
-        return results | _capacity(x, results) | _forces(x, results) | _stability(x, results)
+    x = _exact(g)
+    moving = tuple(getattr(x, name) for name in _MOVING)
+    given = tuple(None if value is None else mpf(value) for value in (S, L4, S_p, L7))
+    results = _motion(moving, *given)
+    return results | _capacity(x, results) | _forces(x, results) | _stability(x, results)
 
 
 _MOVING = (
@@ -77,24 +70,29 @@ def _motion(moving: tuple[mpf, ...], S: mpf | None, L4: mpf | None, S_p: mpf | N
 
 def geometry(g: Any, S: Any, L4: Any, L7: Any) -> Numbers:
     """Hinges and pins [m], and the angles of the links [rad]."""
-    with workdps(_DIGITS):
-        x = _exact(g)
-        p = _pins(x, mpf(S), mpf(L4), mpf(L7))
-        phi3 = arg(p["P23_S"] - p["O3"])
-        angles = {"phi12_S": arg(p["P23_S"] - p["O1"]), "phi3_S": phi3, "phi34_S": phi3 + x.phi_BD}
-        angles |= {"phi4_S": arg(p["P45_S"] - p["P34_S"]), "phi5_S": arg(p["P45_S"] - p["O5"])}
-        return p | angles | {"phi6_S": arg(p["P67_S"] - p["P56_S"]), "phi7_S": arg(p["P67_S"] - p["O7"])}
+    x = _exact(g)
+    p = _pins(x, mpf(S), mpf(L4), mpf(L7))
+    phi3 = mp.arg(p["P23_S"] - p["O3"])
+    angles = {"phi12_S": mp.arg(p["P23_S"] - p["O1"]), "phi3_S": phi3, "phi34_S": phi3 + x.phi_BD}
+    angles |= {"phi4_S": mp.arg(p["P45_S"] - p["P34_S"]), "phi5_S": mp.arg(p["P45_S"] - p["O5"])}
+    return p | angles | {"phi6_S": mp.arg(p["P67_S"] - p["P56_S"]), "phi7_S": mp.arg(p["P67_S"] - p["O7"])}
+
+
+def second_analogues(g: Any, S: Any, L4: Any, L7: Any) -> list[mpf]:
+    """Second derivatives of the angles of the links 3 to 7 with respect to S."""
+    behind, here, ahead = (geometry(g, mpf(S) + k * STEP, L4, L7) for k in (-1, 0, 1))
+    names = [f"phi{k}_S" for k in range(3, 8)]
+    return [(ahead[name] - 2 * here[name] + behind[name]) / STEP**2 for name in names]
 
 
 def stroke(g: Any) -> Numbers:
     """Synthesis of the landing gear worksheet, from the tangent drawn from O1 to the circle of A."""
-    with workdps(_DIGITS):
-        x = _exact(g)
-        O1, A_0, A_n = _leg_ends(x)
-        l20, l2n = abs(A_0 - O1), abs(A_n - O1)
-        lengths = {"l20": l20, "l2n": l2n, "H": l2n - l20, "V21": (l2n - l20) / x.t_r}
-        angles = {"psi": arg(-1j / A_0), "alpha_0": _pressure(O1, A_0), "alpha_n": _pressure(O1, A_n)}
-        return lengths | angles
+    x = _exact(g)
+    O1, A_0, A_n = _leg_ends(x)
+    l20, l2n = abs(A_0 - O1), abs(A_n - O1)
+    lengths = {"l20": l20, "l2n": l2n, "H": l2n - l20, "V21": (l2n - l20) / x.t_r}
+    angles = {"psi": mp.arg(-1j / A_0), "alpha_0": _pressure(O1, A_0), "alpha_n": _pressure(O1, A_n)}
+    return lengths | angles
 
 
 def landing_gear(g: Any, l2: Any) -> Numbers:
@@ -102,33 +100,29 @@ def landing_gear(g: Any, l2: Any) -> Numbers:
 
     A lies on two circles; everything else is differentiated.
     """
-    with workdps(_DIGITS):
-        x = _exact(g)
-        synthesis = stroke(x)
-        O1, A_0, _ = _leg_ends(x)
-        l2, l3, V21 = mpf(l2), x.l3, synthesis["V21"]
-        step = sqrt(_STEP)
-        A, behind, ahead = (_pin(O1, mpc(0), l2 + change, l3, +1) for change in (0, -step, step))
-        rod = (A - O1) / l2
+    x = _exact(g)
+    synthesis = stroke(x)
+    O1, A_0, _ = _leg_ends(x)
+    l2, l3, V21 = mpf(l2), x.l3, synthesis["V21"]
 
-        def rates(P: mpc, P_behind: mpc, P_ahead: mpc) -> tuple[mpf, mpf]:
-            first, second = (P_ahead - P_behind) / (2 * step), (P_ahead - 2 * P + P_behind) / step**2
-            return (first / P).imag, (second / P - (first / P) ** 2).imag
+    def A_at(extension: mpf) -> mpc:
+        return rrr(O1, mpc(0), l2 + extension, l3, +1)
 
-        omega3, eps3 = rates(A, behind, ahead)
-        omega2, eps2 = rates(O1 - A, O1 - behind, O1 - ahead)
-        leg = -1j * l3 / A_0 * A / l3  # unit vector down the leg
-        S3, W3, D3 = x.r3 * leg, x.l_w * leg, x.l_w / 2 * leg
-        a_S = V21**2 * (1j * eps3 - omega3**2) * S3
-        G, q, n = mpc(0, -x.m3 * x.g_n), x.rho * x.U * abs(x.U) / 2, 1j * leg
-        wind = [(mpc(q * x.C_w), W3), (q * x.C_s * n.real * abs(n.real) * n, D3)]
-        moment = sum(_cross(P, F) for F, P in [*wind, (G, S3)])
-        F_c = ((x.J3 + x.m3 * x.r3**2) * V21**2 * eps3 - moment) / _cross(A, rod)
-        motion = {"Ai": A, "phi2i": arg(O1 - A), "phi3i": arg(A), "alpha": _pressure(O1, A)}
-        motion |= {"omega3_l2i": omega3, "omega2_l2i": omega2, "eps3_l2i": eps3, "eps2_l2i": eps2}
-        motion |= {"omega3i": V21 * omega3, "omega2i": V21 * omega2, "eps3i": V21**2 * eps3, "eps2i": V21**2 * eps2}
-        R03 = x.m3 * a_S - G - F_c * rod - sum(F for F, _ in wind)
-        return synthesis | motion | {"F_c": F_c, "P_c": F_c * V21, "R23": F_c * rod, "R03": R03}
+    A = A_at(mpf(0))
+    rod = (A - O1) / l2
+    (omega3, eps3), (omega2, eps2) = rotation(A_at), rotation(lambda t: O1 - A_at(t))
+    leg = -1j * l3 / A_0 * A / l3  # unit vector down the leg
+    S3, W3, D3 = x.r3 * leg, x.l_w * leg, x.l_w / 2 * leg
+    a_S = V21**2 * (1j * eps3 - omega3**2) * S3
+    G, q, n = mpc(0, -x.m3 * x.g_n), x.rho * x.U * abs(x.U) / 2, 1j * leg
+    wind = [(mpc(q * x.C_w), W3), (q * x.C_s * n.real * abs(n.real) * n, D3)]
+    moment = sum(cross(P, F) for F, P in [*wind, (G, S3)])
+    F_c = ((x.J3 + x.m3 * x.r3**2) * V21**2 * eps3 - moment) / cross(A, rod)
+    motion = {"Ai": A, "phi2i": mp.arg(O1 - A), "phi3i": mp.arg(A), "alpha": _pressure(O1, A)}
+    motion |= {"omega3_l2i": omega3, "omega2_l2i": omega2, "eps3_l2i": eps3, "eps2_l2i": eps2}
+    motion |= {"omega3i": V21 * omega3, "omega2i": V21 * omega2, "eps3i": V21**2 * eps3, "eps2i": V21**2 * eps2}
+    R03 = x.m3 * a_S - G - F_c * rod - sum(F for F, _ in wind)
+    return synthesis | motion | {"F_c": F_c, "P_c": F_c * V21, "R23": F_c * rod, "R03": R03}
 
 
 def joint(g: Any, plane: int, case: int) -> Numbers:
@@ -137,34 +131,84 @@ def joint(g: Any, plane: int, case: int) -> Numbers:
     ``sigma_k`` belongs to the element k, from 0; P is the row of all forces. Raises ValueError where nothing is in
     equilibrium.
     """
-    with workdps(_DIGITS):
-        x = _exact(g)
-        beta = _rounded(x.E_al / x.E_st, x.d_E)
-        l_b, l_h = x.psi * x.b / 2, x.psi * x.h / 2
-        beside = x.F_s * ((l_b >= x.b / 4) + (l_h >= x.h / 4))
-        F_bt = x.F_b + _rounded(beta * ((l_b + x.h / 4) * x.delta + beside), x.d_F)
-        F_bc, F_sc = x.F_b + beta * x.k_a * x.delta**2, beta * (x.F_s + x.k_a * x.delta**2)
-        half = (x.h, x.b)[plane - 1] / 2
-        y = [half * k for k in (1, -1, -1, 1)] + [half * k for k in (1, 0.5, -0.5, -1, -1, -0.5, 0.5, 1)]
-        A_t, A_c = [F_bt] * 4 + [mpf(0)] * 8, [F_bc] * 4 + [F_sc] * 8
-        M, N = ((x.M_1, x.N_1), (x.M_2, x.N_2))[case - 1]
-        places = [-2 * half, *(half * k / 4 for k in (-3, -1, 1, 3))]
-        fits = []
-        for place in places:
-            for way in (1, -1):
-                A = [t if way * (level - place) > 0 else c for level, t, c in zip(y, A_t, A_c, strict=True)]
-                F, S, I_0 = (sum(a * level**n for a, level in zip(A, y, strict=True)) for n in (0, 1, 2))
-                if F * I_0 - S**2 > 0:
-                    mean, slope = (N * I_0 - M * S) / (F * I_0 - S**2), (M * F - N * S) / (F * I_0 - S**2)
-                    sigma = [mean + slope * level for level in y]
-                    wrong = max(-way * (level - place) * s for level, s in zip(y, sigma, strict=True))
-                    fits.append((wrong, mean, slope, sigma, A))
-        wrong, mean, slope, sigma, A = min(fits, key=lambda fit: fit[0])
-        if wrong > mpf(10) ** -DIGITS * half * max(map(abs, sigma)):
-            raise ValueError("no place of the neutral axis is in equilibrium")
-        stresses = {f"sigma_{k}": s for k, s in enumerate(sigma)}
-        forces = [s * a for s, a in zip(sigma, A, strict=True)]
-        return stresses | {"P": forces, "y_0": -mean / slope if slope else mpf("inf")}
+    x = _exact(g)
+    beta = _rounded(x.E_al / x.E_st, x.d_E)
+    l_b, l_h = x.psi * x.b / 2, x.psi * x.h / 2
+    beside = x.F_s * ((l_b >= x.b / 4) + (l_h >= x.h / 4))
+    F_bt = x.F_b + _rounded(beta * ((l_b + x.h / 4) * x.delta + beside), x.d_F)
+    F_bc, F_sc = x.F_b + beta * x.k_a * x.delta**2, beta * (x.F_s + x.k_a * x.delta**2)
+    half = (x.h, x.b)[plane - 1] / 2
+    y = [half * k for k in (1, -1, -1, 1)] + [half * k for k in (1, 0.5, -0.5, -1, -1, -0.5, 0.5, 1)]
+    A_t, A_c = [F_bt] * 4 + [mpf(0)] * 8, [F_bc] * 4 + [F_sc] * 8
+    M, N = ((x.M_1, x.N_1), (x.M_2, x.N_2))[case - 1]
+    places = [-2 * half, *(half * k / 4 for k in (-3, -1, 1, 3))]
+    fits = []
+    for place in places:
+        for way in (1, -1):
+            A = [t if way * (level - place) > 0 else c for level, t, c in zip(y, A_t, A_c, strict=True)]
+            if sigma := stresses(y, A, M, N):
+                wrong = max(-way * (level - place) * s for level, s in zip(y, sigma, strict=True))
+                fits.append((wrong, sigma, A))
+    wrong, sigma, A = min(fits, key=lambda fit: fit[0])
+    if wrong > mpf(10) ** -DIGITS * half * max(map(abs, sigma)):
+        raise ValueError("no place of the neutral axis is in equilibrium")
+    named = {f"sigma_{k}": s for k, s in enumerate(sigma)}
+    forces, slope = [s * a for s, a in zip(sigma, A, strict=True)], sigma[0] - sigma[1]  # of y over its whole width
+    return named | {"P": forces, "y_0": -half * (sigma[0] + sigma[1]) / slope if slope else mpf("inf")}
+
+
+def stresses(y: Sequence[Any], A: Sequence[Any], M: Any, N: Any) -> list[mpf]:
+    """Stresses of elements of the areas A on the levels y under a moment and a force; none if they are on one level."""
+    F, S, J = (sum(mpf(a) * mpf(level) ** k for a, level in zip(A, y, strict=True)) for k in (0, 1, 2))
+    D = F * J - S**2
+    return [(N * J - M * S + (M * F - N * S) * level) / D for level in y] if D > 0 else []
+
+
+def slotted_link(g: Any, phi1: Any) -> Numbers:
+    """Slider, turning of the link and motion of its end C at the angle phi1 [rad] of the crank, all differentiated."""
+    x, phi1 = _exact(g), mpf(phi1)
+
+    def A(t: mpf) -> Any:
+        return mpc(0, x.L0) + x.L1 * mp.expj(phi1 + x.omega1 * t)
+
+    (omega, eps), (V, W) = rotation(A), derivatives(lambda t: x.L3 * A(t) / abs(A(t)))
+    return {"SAB_k": abs(A(mpf(0))), "omega_BC_k": omega, "eps_BC_k": eps, "VC_k": V, "WC_k": W}
+
+
+def kinetostatics(g: Any, phi1: Any) -> Numbers:
+    """Pins E and K, and the balancing moment by the work of all loads and inertia forces, at the crank's angle phi1."""
+    x, phi1, still = _exact(g), mpf(phi1), mpf(0)
+    C, H, O5, u5 = mpc(x.X_C, x.Y_C), mpc(x.X_H, x.Y_H), mpc(x.X05, x.Y05), mp.expj(x.phi05)
+
+    @cache
+    def bodies(t: mpf) -> list[tuple[mpc, mpc]]:
+        """Centre of mass and direction of each body, pins D, E, after the crank has turned on by t."""
+        A = x.l1 * mp.expj(phi1 + t)
+        B = rrr(A, C, x.l2, x.l3, +1)
+        D = C + (B - C) * x.l_CD / x.l3 * mp.expj(x.delta_D)
+        K = C + (B - C) * x.l_CK / x.l3 * mp.expj(x.delta_K)
+        E = rrp(D, O5, u5, x.l4, +1, still)
+        e7 = (K - H) / abs(K - H)
+        rods = [(A * x.l_O1S1 / x.l1, A), (B + (A - B) * x.l_BS2 / x.l2, A - B), (B + (C - B) * x.l_BS3 / x.l3, B - C)]
+        rods += [(E + (D - E) * x.l_ES4 / x.l4, D - E), (E, u5)]
+        return [*rods, (K - e7 * x.l_KS6, e7), (H + e7 * x.l_HS7, e7), (K, e7)]
+
+    def of(k: int, part: int) -> Callable[[mpf], mpc]:
+        return lambda t: bodies(t)[k][part]
+
+    work = mpf(0)
+    for k in range(7):
+        (S1, S2), (turn1, turn2) = derivatives(of(k, 0)), rotation(of(k, 1))
+        F = -getattr(x, f"m{k + 1}") * (S2 * x.n1**2 + S1 * x.eps1 + mpc(0, x.g_n))
+        M = -getattr(x, f"J{k + 1}", 0) * (turn2 * x.n1**2 + turn1 * x.eps1)
+        work += (mp.conj(F) * S1).real + M * turn1
+    (E, _), (K, e7) = bodies(still)[4], bodies(still)[7]
+    (E1, _), (K1, _) = derivatives(of(4, 0)), derivatives(of(7, 0))
+    work += x.p_g * mp.pi * x.D_g**2 / 4 * (mp.conj(e7) * K1).real
+    forwards = (E1 / u5).real
+    if forwards * x.n1 > 0:
+        work -= x.Q5 * forwards
+    return {"K": K, "E": E, "M_b": -work}
 
 
 def dyad(
@@ -175,98 +219,25 @@ def dyad(
     The force F_A [N] acts on the link AC at P_A, F_B on BC at P_B. X_C and Y_C are factors of the coordinates of C,
     which is rounded before anything is computed from it.
     """
-    with workdps(_DIGITS):
-        A, B, P_A, P_B, F_A, F_B = (mpc(z) for z in (A, B, P_A, P_B, F_A, F_B))
-        C = _pin(A, B, mpf(r_A), mpf(r_B), branch)
-        C = mpc(C.real * X_C, C.imag * Y_C)
-        a, b = C - A, C - B
-        T_A, T_B = _cross(P_A - C, F_A), _cross(P_B - C, F_B)
-        # about C: a x R_A = T_A, b x R_B = T_B, with R_A + R_B = -(F_A + F_B); and i (omega_A a - omega_B b) = -a/|a|
-        T, D = T_B + _cross(b, F_A + F_B), _cross(a, b)
-        moves = abs(D) > _NOTHING * abs(a) * abs(b)
-        R_A = (a * T + b * T_A) / D if moves else mpc(nan, nan)
-        omega_A, omega_B = (-(a * c.conjugate()).real / abs(a) / D for c in (b, a)) if moves else (nan, nan)
-        R_B = -(R_A + F_A + F_B)
-        return {"C": C, "omega_A": omega_A, "omega_B": omega_B, "R_A": R_A, "R_B": R_B, "R_C": -(R_A + F_A)}
+    A, B, P_A, P_B, F_A, F_B = (mpc(z) for z in (A, B, P_A, P_B, F_A, F_B))
+    C = rrr(A, B, mpf(r_A), mpf(r_B), branch)
+    C = mpc(C.real * X_C, C.imag * Y_C)
+    a, b = C - A, C - B
+    T_A, T_B = cross(P_A - C, F_A), cross(P_B - C, F_B)
+    # about C: a x R_A = T_A, b x R_B = T_B, with R_A + R_B = -(F_A + F_B); and i (omega_A a - omega_B b) = -a/|a|
+    T, D = T_B + cross(b, F_A + F_B), cross(a, b)
+    moves = abs(D) > _NOTHING * abs(a) * abs(b)
+    R_A = (a * T + b * T_A) / D if moves else mpc(mp.nan, mp.nan)
+    omega_A, omega_B = (-(a * c.conjugate()).real / abs(a) / D for c in (b, a)) if moves else (mp.nan, mp.nan)
+    R_B = -(R_A + F_A + F_B)
+    return {"C": C, "omega_A": omega_A, "omega_B": omega_B, "R_A": R_A, "R_B": R_B, "R_C": -(R_A + F_A)}
 
 
 def four_bar(a: Any, b: Any, c: Any, d: Any, theta: Any) -> Numbers:
     """Pin C and the angles of coupler and rocker; the crank a turns about 0, the rocker c about d, C to the left."""
-    with workdps(_DIGITS):
-        A, B = mpf(a) * expj(mpf(theta)), mpc(d)
-        C = _pin(A, B, mpf(b), mpf(c), +1)
-        return {"C": C, "phi2": arg(C - A), "phi3": arg(C - B)}
-
-
-def number(x: Any, y: Any) -> Any:
-    """x + iy, exactly."""
-    return mpc(x, y)
-
-
-def conditions(f: Callable[..., Numbers], inputs: Mapping[str, Any]) -> Numbers:
-    r"""Condition number of each result of ``f(**inputs)`` with respect to relative changes of the inputs.
-
-    .. math:: \kappa = \sum_i \left| x_i \frac{\partial y}{\partial x_i} \right| / |y|
-
-    To first order, inputs changed by at most eps each change the result by kappa eps at most: rounded once, they cost
-    log10(kappa) of the 16 digits, whatever the method. Of a row of results, the greatest change over the greatest one.
-    0/0 is 0: a result that is zero and stays so. Whole numbers count something and stay.
-    """
-    with workdps(_DIGITS):
-        x = {name: mpf(value) for name, value in inputs.items()}
-        y = f(**x)
-        sums = dict.fromkeys(y, mpf(0))
-        for name, value in x.items():
-            if value and not isinstance(inputs[name], int):
-                changed = f(**{**x, name: value * (1 + _CHANGE)})
-                for result in y:
-                    sums[result] += _size(_difference(changed[result], y[result])) / _CHANGE
-        sizes = {name: _size(value) for name, value in y.items()}
-        return {name: sums[name] / size if size else mpf("inf" if sums[name] else 0) for name, size in sizes.items()}
-
-
-def undecided(f: Callable[..., Numbers], inputs: Mapping[str, Any]) -> set[str]:
-    """Results of ``f(**inputs)`` that exist or not according to one more rounding of an input."""
-
-    def existing(values: Mapping[str, Any]) -> set[str]:
-        try:
-            return {name for name, y in f(**values).items() if exist(y)}
-        except ValueError:
-            return set()
-
-    with workdps(_DIGITS):
-        x = {name: mpf(value) for name, value in inputs.items()}
-        here = existing(x)
-        changed = ({**x, name: value * (1 + way * _ROUNDING)} for name, value in x.items() for way in (1, -1))
-        return set[str]().union(*(here ^ existing(values) for values in changed))
-
-
-def exist(y: Any) -> bool:
-    """Whether a result, or every one of a row, is a finite number."""
-    return all(map(mp.isfinite, y)) if isinstance(y, list) else bool(mp.isfinite(y))
-
-
-def relative_error(value: Any, true: Any, turn: Any = None) -> float:
-    """|value - true| / |true|, for a float, a complex number or a row of them; ``turn`` is the period of an angle.
-
-    Infinite where a value that is not zero should be.
-    """
-    with workdps(_DIGITS):
-        row = isinstance(true, list)
-        error = _difference([mpc(complex(v)) for v in value] if row else mpc(complex(value)), true)
-        if turn:
-            error = mpc((error.real + turn / 2) % turn - turn / 2)
-        size = _size(true)
-        return float(_size(error) / size) if size else float("inf" if _size(error) else 0)
-
-
-def _difference(a: Any, b: Any) -> Any:
-    return [p - q for p, q in zip(a, b, strict=True)] if isinstance(b, list) else a - b
-
-
-def _size(y: Any) -> mpf:
-    """Magnitude of a number, or the greatest one of a row."""
-    return max(map(abs, y)) if isinstance(y, list) else abs(y)
+    A, B = mpf(a) * mp.expj(mpf(theta)), mpc(d)
+    C = rrr(A, B, mpf(b), mpf(c), +1)
+    return {"C": C, "phi2": mp.arg(C - A), "phi3": mp.arg(C - B)}
 
 
 def _exact(g: Any) -> SimpleNamespace:
@@ -277,30 +248,18 @@ def _hinges(x: Any) -> tuple[mpc, ...]:
     return tuple(mpc(getattr(x, f"X0{k}"), getattr(x, f"Y0{k}")) for k in (1, 3, 5, 7))
 
 
-def _cross(a: mpc, b: mpc) -> mpf:
-    return a.real * b.imag - a.imag * b.real
-
-
 def _left(A: mpc, B: mpc, P: mpc) -> int:
     """On which side of the line from A to B the point P is: +1 on its left, 0 on it."""
-    return int(mp.sign(_cross(B - A, P - A)))
-
-
-def _pin(A: mpc, B: mpc, a: mpf, b: mpf, side: int) -> mpc:
-    """Point at the distances a from A and b from B, left (+1) or right (-1) of the line from A to B."""
-    c2 = (B - A).real ** 2 + (B - A).imag ** 2
-    along = (c2 + a**2 - b**2) / 2
-    square = a**2 * c2 - along**2
-    return A + mpc(along, side * sqrt(square)) * (B - A) / c2 if square >= 0 and c2 else mpc(nan, nan)
+    return int(mp.sign(cross(B - A, P - A)))
 
 
 def _pins(x: Any, S: mpf, L4: mpf, L7: mpf) -> Numbers:
     O1, O3, O5, O7 = _hinges(x)
-    P23 = _pin(O1, O3, S, x.L3, -1)
+    P23 = rrr(O1, O3, S, x.L3, -1)
     P34 = _arm(x, P23)
-    P45 = _pin(P34, O5, L4, x.L5, +1)
+    P45 = rrr(P34, O5, L4, x.L5, +1)
     P56 = O5 + (P45 - O5) * (x.L56 / x.L5)
-    P67 = _pin(P56, O7, x.L6, L7, -1)
+    P67 = rrr(P56, O7, x.L6, L7, -1)
     hinges = {"O1": O1, "O3": O3, "O5": O5, "O7": O7}
     return hinges | {"P23_S": P23, "P34_S": P34, "P45_S": P45, "P56_S": P56, "P67_S": P67}
 
@@ -314,14 +273,14 @@ def _low_links(x: Any, height: mpf) -> Iterator[mpc]:
     """Directions of the lower link that put its end at the height."""
     rise = (height - x.Y05) / x.L56
     if abs(rise) <= 1:
-        run = sqrt(1 - rise**2)
+        run = mp.sqrt(1 - rise**2)
         yield from (mpc(run, rise), mpc(-run, rise))
 
 
 def _rods(x: Any) -> Iterator[tuple[mpf, mpc]]:
     """Lengths L4 that put the suspension axis at its least height, and where it is then."""
     O1, O3, O5, _ = _hinges(x)
-    P34 = _arm(x, _pin(O1, O3, x.S_min, x.L3, -1))
+    P34 = _arm(x, rrr(O1, O3, x.S_min, x.L3, -1))
     for u in _low_links(x, x.Y56_min):
         P45 = O5 + x.L5 * u
         if _left(P34, O5, P45) >= 0:
@@ -334,7 +293,7 @@ def _strokes(x: Any, L4: mpf) -> Iterator[tuple[mpf, mpc]]:
     for u in _low_links(x, x.Y_P56):
         P45 = O5 + x.L5 * u
         for side in (+1, -1):
-            P34 = _pin(O3, P45, x.L34, L4, side)
+            P34 = rrr(O3, P45, x.L34, L4, side)
             P23 = O3 + (P34 - O3) * (x.L3 / x.L34) / _unit(x.phi_BD)
             S = abs(P23 - O1)
             inside = x.S_min * (1 - _ROUNDING) <= S <= x.S_max * (1 + _ROUNDING)
@@ -359,7 +318,7 @@ def _nearest(name: str, roots: Iterator[tuple[mpf, mpc]], guess: mpf) -> tuple[m
 
 @lru_cache(maxsize=16)
 def _unit(angle: mpf) -> mpc:
-    return expj(angle)
+    return mp.expj(angle)
 
 
 def _mass(x: Any, at: Numbers, L4: mpf, S_p: mpf, L7: mpf) -> Numbers:
@@ -369,17 +328,17 @@ def _mass(x: Any, at: Numbers, L4: mpf, S_p: mpf, L7: mpf) -> Numbers:
     mast = work["P67_S"] - work["P56_S"]
     return {
         "LS6": abs(Z),
-        "phiS6": (arg(Z) - arg(mast)) % (2 * pi),
+        "phiS6": (mp.arg(Z) - mp.arg(mast)) % (2 * mp.pi),
         "PS6_S": at["P56_S"] + Z / mast * (at["P67_S"] - at["P56_S"]),
     }
 
 
 def _kinematics(x: Any, at: Numbers, S: mpf, L4: mpf, L7: mpf) -> Numbers:
     """Derivatives with respect to S."""
-    ahead = _pins(x, S + _STEP, L4, L7)
+    ahead = _pins(x, S + _AHEAD, L4, L7)
 
     def slope(f: Callable[[Numbers], Any]) -> Any:
-        return (f(ahead) - f(at)) / _STEP
+        return (f(ahead) - f(at)) / _AHEAD
 
     def turning(end: str, start: str) -> mpf:
         return slope(lambda p: (p[end] - p[start]) / (at[end] - at[start])).imag
@@ -395,11 +354,11 @@ def _kinematics(x: Any, at: Numbers, S: mpf, L4: mpf, L7: mpf) -> Numbers:
 
 
 def _over(a: mpf, b: mpf) -> mpf:
-    return a / b if b else nan
+    return a / b if b else mp.nan
 
 
 def _capacity(x: Any, at: Numbers) -> Numbers:
-    F_gc, A_gc = x.P6 * at["IS6"], pi * x.D_gc**2 / 4
+    F_gc, A_gc = x.P6 * at["IS6"], mp.pi * x.D_gc**2 / 4
     greatest = x.k_gc * x.P_gc_max * x.eta * A_gc
     G56, GS6 = _over(greatest, at["I56"]), _over(greatest, at["IS6"])
     P_gc, dGS65 = F_gc / (x.k_gc * A_gc * x.eta), _over(GS6 - x.P6, x.P6)
@@ -411,15 +370,15 @@ def _forces(x: Any, at: Numbers) -> Numbers:
     G6 = mpc(0, -x.P6)
 
     def along(link: mpc, arm: mpc, moment: mpf) -> mpc:
-        return -link * _over(moment, _cross(arm, link))
+        return -link * _over(moment, cross(arm, link))
 
     P23, P34, P45, P56, P67 = (at[f"P{k}_S"] for k in (23, 34, 45, 56, 67))
-    R07 = along(P67 - at["O7"], P67 - P56, _cross(at["PS6_S"] - P56, G6))
+    R07 = along(P67 - at["O7"], P67 - P56, cross(at["PS6_S"] - P56, G6))
     R56 = -(R07 + G6)
-    R34_on_5 = along(P34 - P45, P45 - at["O5"], _cross(P56 - at["O5"], -R56))
+    R34_on_5 = along(P34 - P45, P45 - at["O5"], cross(P56 - at["O5"], -R56))
     R05 = R34_on_5 - R56
     R34 = -R34_on_5
-    R01 = along(P23 - at["O1"], P23 - at["O3"], _cross(P34 - at["O3"], R34))
+    R01 = along(P23 - at["O1"], P23 - at["O3"], cross(P34 - at["O3"], R34))
     group_67 = {"R56": R56, "R65": -R56, "R07": R07, "R67": -R07}
     return group_67 | {"R34": R34, "R45": R34, "R05": R05, "R01": R01, "R23": R01, "R03": -(R01 + R34)}
 
@@ -438,13 +397,13 @@ def _leg_ends(x: Any) -> tuple[mpc, mpc, mpc]:
     """Hinge O1, and the pin A where the leg is extended and where it is retracted."""
     O1 = mpc(-x.b, x.a)
     l12 = abs(O1)
-    tangent = x.l3 * O1 / l12**2 * mpc(x.l3, -sqrt(l12**2 - x.l3**2))
-    return O1, tangent * expj(x.theta / 2), tangent / expj(x.theta / 2)
+    tangent = x.l3 * O1 / l12**2 * mpc(x.l3, -mp.sqrt(l12**2 - x.l3**2))
+    return O1, tangent * mp.expj(x.theta / 2), tangent / mp.expj(x.theta / 2)
 
 
 def _pressure(O1: mpc, A: mpc) -> mpf:
     """Angle from the force along the rod to the velocity of A, which turns clockwise about the origin."""
-    return arg(-1j * A / (A - O1))
+    return mp.arg(-1j * A / (A - O1))
 
 
 def _rounded(value: mpf, step: mpf) -> mpf:

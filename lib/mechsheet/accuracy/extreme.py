@@ -21,7 +21,7 @@ A scene is a TOML file: ``[inputs]`` in display units, as for a script, and a ta
 
 import tomllib
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
 from types import SimpleNamespace
@@ -29,13 +29,16 @@ from typing import Any
 
 import numpy as np
 
-from mechsheet.accuracy import exact, printed
+from mechsheet.accuracy import condition, exact, printed
+from mechsheet.accuracy.arithmetic import Numbers, mpc, mpf
 from mechsheet.mechanics.load import Load
 from mechsheet.mechanics.planar import angle
 from mechsheet.mechanics.rrr import rrr, rrr_reach, rrr_reactions, rrr_velocity
+from mechsheet.run.progress import progress
 from mechsheet.worksheet import inputs
 from mechsheet.worksheet.cells import Worksheet, load
 from mechsheet.worksheet.checks import Check, assembled
+from mechsheet.worksheet.shown import Charted
 
 FULL = 16.0  # digits of a float
 SPARE = 1.0  # digits that a result may lose beyond its condition number
@@ -88,30 +91,27 @@ class Outcome:
 class Case:
     """One case: what the product said, and how its results, the true and the printed ones of inputs x are computed.
 
-    ``product`` and ``printed`` get the true results, whose names they need.
+    ``product`` and ``printed`` get the true results, whose names they need. The true results are those of x with the
+    factors of ``rounding`` in it, of numbers found that are rounded before they are used.
     """
 
     words: str
-    true: Callable[..., exact.Numbers]
+    true: Callable[..., Numbers]
     x: Mapping[str, Any]
-    product: Callable[[exact.Numbers], Mapping[str, Any]]
-    printed: Callable[[exact.Numbers], Mapping[str, Any]]
+    product: Callable[[Numbers], Mapping[str, Any]]
+    printed: Callable[[Numbers], Mapping[str, Any]]
+    rounding: Mapping[str, Any] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
-class Kept:
+class DigitsKept(Charted):
     """Chart of the digits kept over the digits expected: every result of every scene."""
 
     outcomes: Sequence[Outcome]
 
-    def _mime_(self) -> tuple[str, str]:
-        import marimo as mo
-
-        return "text/html", mo.as_html(self.chart()).text
-
     def chart(self) -> Any:
         """The altair chart; above the solid line lies more than can be expected, below the dashed one too little."""
-        import altair as alt
+        import altair as alt  # on use: only a page needs it
 
         measured = [o for o in self.outcomes if not o.wanted]
         ways = {"printed formulas": [o.printed for o in measured], "product": [o.product for o in measured]}
@@ -137,11 +137,49 @@ class Kept:
         ).properties(width=560, height=420, usermeta={"embedOptions": {"renderer": "svg"}})
 
 
+@dataclass(frozen=True, kw_only=True)
+class MeasuredScene(Scene):
+    """A scene with all its outcomes."""
+
+    outcomes: Sequence[Outcome]
+
+    @property
+    def words(self) -> str:
+        """Its name."""
+        return self.name.replace("_", " ")
+
+    @property
+    def margin(self) -> float:
+        """Digits kept less digits expected, the least of all results."""
+        return min(o.product - o.expected for o in self.outcomes)
+
+    @property
+    def hardest(self) -> Outcome:
+        """The result whose printed formula loses most beyond its condition, or the product where none is printed."""
+        told = [o for o in self.outcomes if o.expected > SPARE and np.isfinite(o.condition)]
+        return max(told, key=lambda o: (o.expected - o.printed if np.isfinite(o.printed) else -99, -o.product))
+
+
+def scenes(worksheets: Path) -> list[Scene]:
+    """The listed scenes: files of the tests, beside the folder of the worksheets."""
+    return [read(path) for path in sorted((worksheets.parent / "tests" / "scenes").glob("*.toml"))]
+
+
 def read(path: Path) -> Scene:
     """Scene from a file."""
     facts = tomllib.loads(path.read_text(encoding="utf-8"))
     extreme: dict[str, Any] = facts["extreme"]
     return Scene(name=path.stem, inputs=facts.get("inputs", {}), **extreme)
+
+
+def measured_scenes(worksheets: Path, short: bool) -> list[MeasuredScene]:
+    """Every listed scene with all results of its cases; see `measure`."""
+    listed, found = scenes(worksheets), []
+    with progress(len(listed), "scenes") as done:
+        for scene in listed:
+            found.append(MeasuredScene(**vars(scene), outcomes=measure(scene, worksheets, short)))
+            done()
+    return found
 
 
 def measure(scene: Scene, worksheets: Path, short: bool = False) -> list[Outcome]:
@@ -167,21 +205,21 @@ def outcomes(job: Case, scene: str = "", case: str = "") -> list[Outcome]:
 
     One that does not exist must be NaN or infinite, unless the rounding of an input decides whether it exists.
     """
-    found, true = list[Outcome](), job.true(**job.x)
-    conditions, product, formulas = exact.conditions(job.true, job.x), job.product(true), job.printed(true)
-    exist = {name: exact.exist(y) for name, y in true.items()}
+    found, true = list[Outcome](), job.true(**{**job.x, **job.rounding})
+    conditions, product, formulas = condition.conditions(job.true, job.x), job.product(true), job.printed(true)
+    exist = {name: condition.exist(y) for name, y in true.items()}
     told = {name: bool(np.all(np.isfinite(product[name]))) for name in true}
-    undecided = exact.undecided(job.true, job.x) if exist != told else set()
+    undecided = condition.undecided(job.true, job.x) if exist != told else set()
     for name, y in true.items():
         exists, given = exist[name], told[name]
-        condition, kept, by_formula = 1.0, 0.0 if given else FULL, np.nan
+        kappa, kept, by_formula = 1.0, 0.0 if given else FULL, np.nan
         if exists:
-            condition, kept = max(1.0, float(conditions[name])), digits(name, product[name], y)
+            kappa, kept = max(1.0, float(conditions[name])), digits(name, product[name], y)
             by_formula = digits(name, formulas[name], y) if name in formulas else np.nan
         if exists != given and name in undecided:
-            condition = np.inf
-        expected = float(np.clip(FULL - np.log10(condition), 0.0, FULL))
-        found.append(Outcome(scene, case, name, condition, expected, by_formula, kept, job.words))
+            kappa = np.inf
+        expected = float(np.clip(FULL - np.log10(kappa), 0.0, FULL))
+        found.append(Outcome(scene, case, name, kappa, expected, by_formula, kept, job.words))
     return found
 
 
@@ -189,7 +227,7 @@ def digits(name: str, value: Any, true: Any) -> float:
     """Digits that a value keeps of the true one, from 0 to 16; an angle may be counted in any turn."""
     if not np.all(np.isfinite(value)):
         return 0.0
-    error = exact.relative_error(value, true, 2 * np.pi if name.startswith(("phi", "psi")) else None)
+    error = condition.relative_error(value, true, 2 * np.pi if name.startswith(("phi", "psi")) else None)
     return float(np.clip(-np.log10(error), 0.0, FULL)) if error else FULL
 
 
@@ -220,21 +258,23 @@ def hitch(worksheets: Path, given: Mapping[str, Any], at: int = -1) -> Case:
     sheet, g = _worksheet(worksheets / "hitch.py", given)
     names = sheet.run(["S", "checks_closing"], {"g": g})
     S = float(names["S"][at])
+    rounding = {name: mpf(float(x)) / x for name, x in exact.finds(g).items()}
 
-    def true(S: Any, L4: Any, S_p: Any, L7: Any, **inputs: Any) -> exact.Numbers:
+    def true(S: Any, L4: Any, S_p: Any, L7: Any, **inputs: Any) -> Numbers:
         x, rounded = SimpleNamespace(**inputs), {"L4": L4, "S_p": S_p, "L7": L7}
         lengths = {name: length * rounded[name] for name, length in exact.finds(x).items()}
         results = exact.hitch(x, S, **lengths)
         return {name: result for name, result in results.items() if name not in _SECOND_WAY}
 
-    def formulas(true: exact.Numbers) -> Mapping[str, Any]:
+    def formulas(true: Numbers) -> Mapping[str, Any]:
         lengths = {name: float(true[name]) for name in ("L4", "S_p", "L7")}
         return {name: value for name, value in printed.hitch(g, S, **lengths).items() if name not in lengths}
 
     return Case(
         words=_reasons(names["checks_closing"]),
         true=true,
-        x={"S": S, "L4": 1.0, "S_p": 1.0, "L7": 1.0, **vars(g)},  # the lengths found are rounded before they are used
+        x={"S": S, **dict.fromkeys(rounding, 1.0), **vars(g)},
+        rounding=rounding,
         product=lambda true: _row(sheet.run(true, names), true, at),
         printed=formulas,
     )
@@ -302,7 +342,7 @@ def dyad(_worksheets: Path, given: Mapping[str, Any], _at: int = -1) -> Case:
     reach = rrr_reach(floats["B"], floats["A"], floats["r_B"])
     return Case(
         words=_reasons([assembled("dyad closes", results["C"], floats["r_A"], reach, "length r_A", "m")]),
-        true=lambda X_C, Y_C, **x: exact.dyad(**group(exact.number, x), X_C=X_C, Y_C=Y_C),
+        true=lambda X_C, Y_C, **x: exact.dyad(**group(mpc, x), X_C=X_C, Y_C=Y_C),
         x={"X_C": 1.0, "Y_C": 1.0, **x},  # the pin is rounded before it is used
         product=lambda _: results,
         printed=lambda _: printed.dyad(**floats),

@@ -9,7 +9,9 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import ArrayLike
 
+from mechsheet.run.progress import progress
 from mechsheet.worksheet.checks import Check
+from mechsheet.worksheet.shown import Charted
 from mechsheet.worksheet.table import Column, Figure, Table
 
 ROUNDING = 2.0**-53  # relative error of one rounding: no smaller error is shown, for numbers here are floats
@@ -144,7 +146,7 @@ _RATIO = "run time, times that of the product's own method"
 
 
 @dataclass(frozen=True)
-class WorkPrecision(Figure):
+class WorkPrecision(Charted, Figure):
     """Error over run time, both logarithmic: one line a family.
 
     Where there is a method of the product's own, it is marked, and a field shaded red: whatever is both faster and
@@ -161,14 +163,9 @@ class WorkPrecision(Figure):
     def series(self) -> list[tuple[Column, slice, str]]:
         return [(self.lines[0], rows, name) for name, rows in _slices(self.rows)]
 
-    def _mime_(self) -> tuple[str, str]:
-        import marimo as mo
-
-        return "text/html", mo.as_html(self.chart()).text
-
     def chart(self) -> Any:
         """The diagram as an altair chart."""
-        import altair as alt
+        import altair as alt  # on use: only a page needs it
 
         names = [name for name, _ in _slices(self.rows)]
         points = [
@@ -214,7 +211,7 @@ class WorkPrecision(Figure):
 
     def _behind(self, own: Measured, x_ends: tuple[float, float], y_ends: tuple[float, float]) -> list[Any]:
         """What lies behind the points: the band of rounding, the field of better methods and the front."""
-        import altair as alt
+        import altair as alt  # on use: only a page needs it
 
         place = float(self.x.values[self.rows.index(own)])
         low = max(y_ends[0], _NOISE)
@@ -237,7 +234,7 @@ class WorkPrecision(Figure):
 
 def _field(color: str, right: float, low: float, high: float, left: float) -> Any:
     """A shaded rectangle."""
-    import altair as alt
+    import altair as alt  # on use: only a page needs it
 
     corners = alt.InlineData([{"x": left, "right": right, "error": low, "high": high}])
     return alt.Chart(corners).mark_rect(color=color, opacity=0.13).encode(x2="right:Q", y2="high:Q")
@@ -251,39 +248,38 @@ _OTHERS = (
 )
 
 
-def compare(
-    number: str,
-    title: str,
-    methods: Sequence[Method],
-    error: Callable[[Any], float],
-    *,
-    seconds: float,
-    done: Callable[[], object] = lambda: None,
-) -> Comparison:
-    """Run the methods of a job turn about, and compare the medians of their run times and their errors.
+@dataclass(frozen=True)
+class Job:
+    """What is to be computed: its numbers at 50 digits, and all methods.
 
-    Parameters
-    ----------
-    methods : sequence of Method
-        The product's own one first; those of a family next to each other.
-    error : callable
-        Error of what a method returns, as by `Truth`.
-    seconds : float
-        A method that has run three times and this long in all, or ten times as long, is left out of further turns.
-    done : callable
-        Called when a method has its turn the first time.
+    The product's own method is the first; those of a family are next to each other.
     """
-    found = timed([method.run for method in methods], seconds, done)
-    rows = (
-        Measured(m.family, m.setting, error(result), time) for m, (result, time) in zip(methods, found, strict=True)
-    )
-    return Comparison(number, title, tuple(rows))
+
+    number: str
+    title: str
+    truth: Sequence[Any]
+    methods: Sequence[Method]
+
+    def compare(self, seconds: float) -> Comparison:
+        """Run the methods turn about, and compare the medians of their run times and their errors; see `timed`."""
+        error = Truth(self.truth).error
+        with progress(len(self.methods), f"{self.number} {self.title}") as done:
+            found = timed([method.run for method in self.methods], seconds, done)
+        rows = (
+            Measured(m.family, m.setting, error(result), time)
+            for m, (result, time) in zip(self.methods, found, strict=True)
+        )
+        return Comparison(self.number, self.title, tuple(rows))
 
 
 def timed(
     runs: Sequence[Callable[[], Any]], seconds: float, done: Callable[[], object] = lambda: None
 ) -> list[tuple[Any, float]]:
-    """What each run returns, and the median of its times [s], all taken turn about; see `compare`."""
+    """What each run returns, and the median of its times [s], all taken turn about.
+
+    A run that was made three times and takes ``seconds`` in all, or ten times as long, is left out of further turns.
+    ``done`` is called when a run has its turn the first time.
+    """
     results, times = [], [list[float]() for _ in runs]
 
     def once(i: int) -> Any:

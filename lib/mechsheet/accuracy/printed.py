@@ -12,6 +12,7 @@ from numpy import arccos as acos
 from numpy import arctan as atan
 from numpy import cos, exp, pi, sin, sqrt
 from numpy.typing import ArrayLike, NDArray
+from scipy.integrate import solve_ivp
 
 from mechsheet.mechanics.planar import angle
 from mechsheet.mechanics.rrr import rrr
@@ -24,22 +25,19 @@ def hitch(g: Any, S: ArrayLike, L4: float, S_p: float, L7: float) -> Results:
     """Sections 2 to 7 of the hitch's document for the strokes S [m] and the lengths found."""
     S = np.asarray(S, np.float64)
     LS6 = sqrt(g.X6**2 + g.Y6**2)
-    phiS6 = 2 * pi + atan(g.Y6 / g.X6) - _hitch_angles(g, np.float64(S_p), L4, L7)["phi6_S"]
-    r = _hitch_angles(g, S, L4, L7)
-    r["P23_S"] = g.X03 + 1j * g.Y03 + g.L3 * exp(1j * r["phi3_S"])
-    r["P34_S"] = g.X03 + 1j * g.Y03 + g.L34 * exp(1j * r["phi34_S"])
-    r["P45_S"] = g.X05 + 1j * g.Y05 + g.L5 * exp(1j * r["phi5_S"])
-    r["P67_S"] = g.X07 + 1j * g.Y07 + L7 * exp(1j * r["phi7_S"])
+    phiS6 = 2 * pi + atan(g.Y6 / g.X6) - hitch_pins(g, np.float64(S_p), L4, L7)["phi6_S"]
+    r = hitch_pins(g, S, L4, L7)
     r["PS6_S"] = r["P56_S"] + LS6 * exp(1j * (phiS6 + r["phi6_S"]))
     r |= {"L4": np.float64(L4), "S_p": np.float64(S_p), "L7": np.float64(L7), "LS6": LS6, "phiS6": phiS6}
-    r |= _hitch_analogues(g, S, L4, L7, r)
+    r |= hitch_ratios(g, S, L4, L7, r)
+    r |= _hitch_heights(g, r)
     A_gc = 0.25 * pi * g.D_gc**2
     F_gc = g.P6 * r["IS6"]
     r |= {"A_gc": A_gc, "F_gc": F_gc, "P_gc": F_gc / (g.k_gc * A_gc * g.eta)}
     r["G56"] = g.k_gc * g.P_gc_max * g.eta * A_gc / r["I56"]
     r["GS6"] = g.k_gc * g.P_gc_max * g.eta * A_gc / r["IS6"]
     r["dGS65"] = (r["GS6"] - g.P6) / g.P6
-    r |= _hitch_forces(g, r)
+    r |= hitch_forces(g, r)
     Ra = (g.P_gr * (g.a + g.L) + g.P_msha * g.b - g.P6 * r["PS6_S"].real) / g.L
     Rb, weight = g.P_gr + g.P_msha + g.P6 - Ra, g.P6 + g.P_msha + g.P_gr
     r |= {"Ra": Ra, "Rb": Rb, "dRa": Ra / weight, "dRb": Rb / weight, "Ra_min": np.float64(0.2 * weight)}
@@ -47,8 +45,8 @@ def hitch(g: Any, S: ArrayLike, L4: float, S_p: float, L7: float) -> Results:
     return r
 
 
-def _hitch_angles(g: Any, S: Any, L4: float, L7: float) -> Results:
-    """2.1 to 2.3, with the corrected phi12 and the slopes of the frame in all quadrants."""
+def hitch_pins(g: Any, S: Any, L4: float, L7: float) -> Results:
+    """2.1 to 2.3, with the corrected phi12 and the slopes of the frame in all quadrants: angles of the links, pins."""
     L13 = sqrt((g.X01 - g.X03) ** 2 + (g.Y01 - g.Y03) ** 2)
     phi13 = np.arctan2(g.Y03 - g.Y01, g.X01 - g.X03)
     phi3 = acos((g.L3**2 + L13**2 - S**2) / (2 * g.L3 * L13)) - phi13
@@ -68,11 +66,14 @@ def _hitch_angles(g: Any, S: Any, L4: float, L7: float) -> Results:
     phi6 = pi - acos((g.L6**2 + L53**2 - L7**2) / (2 * g.L6 * L53)) + phi53 - delta2
     phi7 = acos((L7**2 + L53**2 - g.L6**2) / (2 * L7 * L53)) + phi53 - delta2
     angles = {"phi12_S": phi12, "phi3_S": phi3, "phi34_S": phi34, "phi4_S": phi4, "phi5_S": phi5}
-    return angles | {"phi6_S": phi6, "phi7_S": phi7, "P56_S": X56 + 1j * Y56}
+    angles |= {"phi6_S": phi6, "phi7_S": phi7}
+    pins = {"P23_S": g.X03 + 1j * g.Y03 + g.L3 * exp(1j * phi3), "P34_S": g.X03 + 1j * g.Y03 + g.L34 * exp(1j * phi34)}
+    pins |= {"P45_S": g.X05 + 1j * g.Y05 + g.L5 * exp(1j * phi5), "P56_S": X56 + 1j * Y56}
+    return angles | pins | {"P67_S": g.X07 + 1j * g.Y07 + L7 * exp(1j * phi7)}
 
 
-def _hitch_analogues(g: Any, S: Any, L4: float, L7: float, r: Results) -> Results:
-    """Section 3, and the check by the instant centre."""
+def hitch_ratios(g: Any, S: Any, L4: float, L7: float, r: Results) -> Results:
+    """Section 3 from the angles ``r``: ratios of the angular velocities, and their analogues."""
     phi34, phi4, phi5, phi6, phi7 = (r[f"phi{k}_S"] for k in (34, 4, 5, 6, 7))
     U43 = g.L34 * sin(phi5 - phi34) / (L4 * sin(phi4 - phi5))
     U53 = g.L34 * sin(phi34 - phi4) / (g.L5 * sin(phi5 - phi4))
@@ -80,21 +81,26 @@ def _hitch_analogues(g: Any, S: Any, L4: float, L7: float, r: Results) -> Result
     U75 = g.L56 * sin(phi5 - phi6) / (L7 * sin(phi7 - phi6))
     L13 = sqrt((g.X01 - g.X03) ** 2 + (g.Y01 - g.Y03) ** 2)
     dphi3 = 2 * S / sqrt(4 * L13**2 * g.L3**2 - (S**2 - L13**2 - g.L3**2) ** 2)
-    dphi6 = dphi3 * U65 * U53
-    I56 = dphi3 * U53 * g.L56 * cos(phi5)
-    IS6 = I56 + dphi6 * r["LS6"] * cos(phi6 + r["phiS6"])
+    ratios = {"U43": U43, "U53": U53, "U65": U65, "U75": U75, "dphi3": dphi3, "dphi4": dphi3 * U43}
+    return ratios | {"dphi5": dphi3 * U53, "dphi6": dphi3 * U65 * U53, "dphi7": dphi3 * U75 * U53}
+
+
+def _hitch_heights(g: Any, r: Results) -> Results:
+    """Velocity analogues of the heights of suspension axis and centre of mass, and the check by the instant centre."""
+    dphi6 = r["dphi6"]
+    I56 = r["dphi5"] * g.L56 * cos(r["phi5_S"])
+    IS6 = I56 + dphi6 * r["LS6"] * cos(r["phi6_S"] + r["phiS6"])
     P56, P67 = r["P56_S"], r["P67_S"]
     AA, BB = P56.imag * g.X05 - g.Y05 * P56.real, g.X07 - P67.real
     CC, DD = g.Y07 - P67.imag, g.X05 - P56.real
     EE, FF = P67.imag * g.X07 - g.Y07 * P67.real, g.Y05 - P56.imag
     Xp = (AA * BB - DD * EE) / (CC * DD - BB * FF)
-    ratios = {"U43": U43, "U53": U53, "U65": U65, "U75": U75, "dphi3": dphi3, "dphi4": dphi3 * U43}
-    ratios |= {"dphi5": dphi3 * U53, "dphi6": dphi6, "dphi7": dphi3 * U75 * U53, "I56": I56, "IS6": IS6}
-    return ratios | {"Imp": dphi6 * (P56.real - Xp), "Isp": dphi6 * (r["PS6_S"].real - Xp)}
+    return {"I56": I56, "IS6": IS6, "Imp": dphi6 * (P56.real - Xp), "Isp": dphi6 * (r["PS6_S"].real - Xp)}
 
 
-def _hitch_forces(g: Any, r: Results) -> Results:
-    """Section 5, by elimination."""
+@np.errstate(all="ignore")
+def hitch_forces(g: Any, r: Results) -> Results:
+    """Section 5 from the pins ``r``, by elimination."""
     P23, P34, P45, P56, P67 = (r[f"P{k}_S"] for k in (23, 34, 45, 56, 67))
     a1, b1, c1 = g.Y07 - P67.imag, P67.real - g.X07, P67.imag - P56.imag
     d1, e1 = P67.real - P56.real, r["PS6_S"].real - P67.real
@@ -150,17 +156,26 @@ def landing_gear(g: Any, l2: ArrayLike) -> Results:
     return r | {"omega3i": V21 * omega3, "omega2i": V21 * omega2, "eps3i": V21**2 * eps3, "eps2i": V21**2 * eps2}
 
 
+def dyad_pin(A: Any, B: Any, r_A: Any, r_B: Any, branch: int) -> Any:
+    """The inner pin C of a group of two links by the law of cosines."""
+    return _pin(A, B, r_A, r_B, branch)[0]
+
+
+def _pin(A: Any, B: Any, r_A: Any, r_B: Any, branch: int) -> tuple[Any, Any, Any, Any]:
+    """Pin C, angle of the link AC, and length and angle of AB."""
+    d = B - A
+    L, phi_AB = sqrt(d.real**2 + d.imag**2), np.arctan2(d.imag, d.real)
+    phi_A = phi_AB + branch * acos((r_A**2 + L**2 - r_B**2) / (2 * r_A * L))
+    return A + r_A * exp(1j * phi_A), phi_A, L, phi_AB
+
+
 @np.errstate(all="ignore")
 def dyad(
     A: complex, B: complex, r_A: float, r_B: float, branch: int, P_A: complex, P_B: complex, F_A: complex, F_B: complex
 ) -> Results:
     """A group of two links as the hitch's document computes each of its own: acos, sines, elimination."""
-    d = B - A
-    L = sqrt(d.real**2 + d.imag**2)
-    phi_AB = np.arctan2(d.imag, d.real)
-    phi_A = phi_AB + branch * acos((r_A**2 + L**2 - r_B**2) / (2 * r_A * L))
+    C, phi_A, L, phi_AB = _pin(A, B, r_A, r_B, branch)
     phi_B = phi_AB + pi - branch * acos((r_B**2 + L**2 - r_A**2) / (2 * r_B * L))
-    C = A + r_A * exp(1j * phi_A)
     omega_B = 1 / (r_B * sin(phi_A - phi_B))
     omega_A = omega_B * r_B * cos(phi_A - phi_B) / r_A
     p, q = P_A - C, P_B - C
@@ -176,7 +191,6 @@ def dyad(
 @np.errstate(all="ignore")
 def integrated_four_bar(a: float, b: float, c: float, d: float, start: float, end: float) -> Results:
     """Velocity equations of a four-bar linkage integrated over the angle of its crank, from an exact start."""
-    from scipy.integrate import solve_ivp
 
     def rates(theta: float, phi: NDArray[np.float64]) -> list[float]:
         sine = sin(phi[1] - phi[0])

@@ -1,4 +1,5 @@
-"""How a document is written, whoever writes it: formulas, numbers, layout of charts and drawings.
+"""What a document holds and how it is written, whoever writes it: its parts in order, formulas as trees, rounded axes,
+layout of charts and drawings.
 
-Stands on the recording and the worksheet rooms.
+Stands on the recording and the worksheet rooms; a notation, LaTeX or SVG, is a file of its own that reads these data.
 """

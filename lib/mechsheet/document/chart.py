@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import groupby
-from math import isfinite, nan
+from math import isfinite
 from typing import Protocol
 
 import numpy as np
@@ -13,13 +13,13 @@ from mechsheet import units
 from mechsheet.document.axis import axis
 from mechsheet.worksheet import numbers
 from mechsheet.worksheet.symbol import Symbol, read, stem
+from mechsheet.worksheet.table import MARKED
 
 # Legible on white and on black; dashes tell lines apart on paper without colours.
 COLOURS = ("#3b82d0", "#e0483c", "#2c9c5c", "#cf7a17", "#8b6fd6", "#1aa3a8", "#c2528b", "#8a8a3a")
 _DASHES = ((), (9, 3), (3, 3), (9, 3, 2, 3))
 WIDTH, HEIGHT = 660, 330  # of the picture [px]
 _LEFT, _RIGHT, _TOP, _BOTTOM = 74, 16, 34, 46  # from its edges to the axes
-MARKED = 60  # points of a curve that are marked one by one; more of them hide the line
 _SAMPLE, _LETTER = 26, 9  # of the legend: a piece of the line, about a letter
 
 
@@ -192,8 +192,7 @@ def _legend(lines: Sequence[Quantity]) -> Iterator[Sample]:
 
 
 def _reading(quantity: Quantity) -> Reading:
-    texts = (
-        numbers.fixed(v if isfinite(v) else nan, quantity.decimals, numbers.CELL) for v in quantity.values.tolist()
-    )
+    to = numbers.CELL
+    texts = [numbers.fixed(v, quantity.decimals, to) if isfinite(v) else to.none for v in quantity.values.tolist()]
     unit = "" if quantity.unit == "-" else units.shown(quantity.unit)
     return Reading(quantity.symbol, unit, tuple(texts))

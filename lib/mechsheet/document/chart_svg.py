@@ -2,9 +2,11 @@
 
 import json
 from collections.abc import Iterable
+from functools import lru_cache
 from html import escape
 from itertools import groupby
 from math import isfinite
+from operator import itemgetter
 
 import numpy as np
 from numpy.typing import NDArray
@@ -80,11 +82,9 @@ def _sample(sample: Sample) -> str:
 
 
 def _path(px: NDArray[np.float64], py: NDArray[np.float64]) -> str:
-    pieces = []
-    for drawn, run in groupby(zip(px.tolist(), py.tolist(), strict=True), key=lambda p: isfinite(p[0] + p[1])):
-        if drawn:
-            pieces.append("M" + "L".join([f"{u:.1f} {v:.1f}" for u, v in run]))
-    return "".join(pieces)
+    points = zip(np.isfinite(px + py).tolist(), px.tolist(), py.tolist(), strict=True)
+    runs = (run for drawn, run in groupby(points, key=itemgetter(0)) if drawn)
+    return "".join("M" + "L".join([f"{u:.1f} {v:.1f}" for _, u, v in run]) for run in runs)
 
 
 def _text(label: Label) -> str:
@@ -100,6 +100,7 @@ def _inline(parts: Iterable[Symbol | str]) -> str:
     return "".join(escape(part) if isinstance(part, str) else _symbol(part) for part in parts)
 
 
+@lru_cache(maxsize=1024)
 def _symbol(name: Symbol) -> str:
     """Inside of a ``<text>`` element: a symbol, its index lowered."""
     text = f'{name.mark}<tspan font-style="italic">{name.base}</tspan>'

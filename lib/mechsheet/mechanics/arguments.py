@@ -17,6 +17,10 @@ from numpy.typing import ArrayLike, NDArray
 
 Complex = NDArray[np.complex128]
 Float = NDArray[np.float64]
+_REAL: frozenset[type] = frozenset({int, float, np.float64})
+_COMPLEX = _REAL | {complex, np.complex128}
+_LARGE = 1e300
+
 P = ParamSpec("P")
 R = TypeVar("R")
 
@@ -50,6 +54,8 @@ def not_negative(value: ArrayLike, name: str, unit: str) -> Float:
 
 def length(value: ArrayLike, name: str) -> Float:
     """Lengths that are not negative, NaN in an array where an earlier step gave none; zero as in `not_negative`."""
+    if _plain(value, _REAL) and value >= 0:  # type: ignore[operator]
+        return np.asarray(float(value))  # type: ignore[arg-type]
     x: Float = _numbers(value, name, "iuf").astype(np.float64, copy=False)
     if np.count_nonzero((x >= 0) & (x < np.inf)) < x.size:
         not_negative(x[~np.isnan(x)] if x.ndim else x, name, "m")
@@ -58,6 +64,8 @@ def length(value: ArrayLike, name: str) -> Float:
 
 def parameter(value: ArrayLike, name: str, unit: str) -> Float:
     """Finite real numbers."""
+    if _plain(value, _REAL):
+        return np.asarray(float(value))  # type: ignore[arg-type]
     x: Float = _numbers(value, name, "iuf").astype(np.float64, copy=False)
     finite = np.isfinite(x)
     if np.count_nonzero(finite) < x.size:
@@ -78,12 +86,16 @@ def sign(branch: ArrayLike) -> Float:
 
 def field(value: ArrayLike, name: str) -> Complex:
     """Points or vectors, NaN where an earlier group gave none."""
+    if _plain(value, _COMPLEX):
+        return np.asarray(complex(value))  # type: ignore[arg-type]
     z: Complex = _numbers(value, name, "iufc").astype(np.complex128, copy=False)
     return _not_infinite(z, name)
 
 
 def scalar_field(value: ArrayLike, name: str) -> Float:
     """Real quantities over the positions, NaN where an earlier group gave none."""
+    if _plain(value, _REAL):
+        return np.asarray(float(value))  # type: ignore[arg-type]
     x: Float = _numbers(value, name, "iuf").astype(np.float64, copy=False)
     return _not_infinite(x, name)
 
@@ -98,6 +110,11 @@ def direction(value: ArrayLike, name: str) -> Complex:
 
 
 Numbers = TypeVar("Numbers", Complex, Float)
+
+
+def _plain(value: ArrayLike, kinds: frozenset[type]) -> bool:
+    """Whether the value is one number in which there is nothing wrong: the short way, as most arguments are."""
+    return type(value) in kinds and -_LARGE < value.real < _LARGE and -_LARGE < value.imag < _LARGE  # type: ignore[union-attr]
 
 
 def _not_infinite(x: Numbers, name: str) -> Numbers:

@@ -7,7 +7,7 @@ from functools import reduce
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mechsheet.mechanics.arguments import Complex, Float, elementwise, field, not_negative, scalar_field
+from mechsheet.mechanics.arguments import Complex, Float, broadcasting, field, not_negative, scalar_field
 from mechsheet.mechanics.planar import cross
 
 
@@ -23,7 +23,7 @@ class Load:
     M: ArrayLike = 0.0  # [N m] couple, counter-clockwise
 
 
-@elementwise
+@broadcasting
 def inertia(S: ArrayLike, m: ArrayLike, J: ArrayLike, a_S: ArrayLike = 0.0, epsilon: ArrayLike = 0.0) -> Load:
     r"""Inertia force and moment of a link (1.1), (1.2).
 
@@ -58,7 +58,9 @@ def inertia(S: ArrayLike, m: ArrayLike, J: ArrayLike, a_S: ArrayLike = 0.0, epsi
     """
     S, m, J = field(S, "S"), not_negative(m, "mass m", "kg"), not_negative(J, "moment of inertia J", "kg m^2")
     F, M = -m * field(a_S, "a_S"), -J * scalar_field(epsilon, "epsilon")
-    np.broadcast_shapes(S.shape, F.shape, M.shape)
+    shapes = {x.shape for x in (S, F, M) if x.ndim}
+    if len(shapes) > 1:
+        np.broadcast_shapes(*shapes)
     return Load(F, S[()], M)
 
 

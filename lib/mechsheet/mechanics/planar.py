@@ -226,7 +226,7 @@ def link_velocity(P: ArrayLike, A: ArrayLike, v_A: ArrayLike = 0.0, omega: Array
 
 @broadcasting
 def link_acceleration(
-    P: ArrayLike, A: ArrayLike, omega: ArrayLike, a_A: ArrayLike = 0.0, epsilon: ArrayLike = 0.0
+    P: ArrayLike, A: ArrayLike, omega: ArrayLike = 0.0, a_A: ArrayLike = 0.0, epsilon: ArrayLike = 0.0
 ) -> Complex:
     r"""Acceleration of the point P of a link, A being another point of it.
 

@@ -355,4 +355,4 @@ class PRPGroup:
 def _guides(u_A: ArrayLike, u_B: ArrayLike) -> tuple[Complex, Complex, Float]:
     """Unit vectors of the guides, and their determinant."""
     u_A, u_B = direction(u_A, "u_A"), direction(u_B, "u_B")
-    return u_A, u_B, determinant(u_A, u_B, (u_A,), (u_B,))
+    return u_A, u_B, determinant(u_A, u_B, (), ())

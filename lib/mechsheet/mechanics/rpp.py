@@ -356,4 +356,4 @@ class RPPGroup:
 def _directions(u_A: ArrayLike, u_B: ArrayLike) -> tuple[Complex, Complex, Float]:
     """Unit vectors of slot and guide, and their determinant."""
     u_A, u_B = direction(u_A, "u_A"), direction(u_B, "u_B")
-    return u_A, u_B, determinant(u_A, u_B, (u_A,), (u_B,))
+    return u_A, u_B, determinant(u_A, u_B, (), ())

@@ -141,8 +141,10 @@ def rpr_velocity(A: ArrayLike, B: ArrayLike, u: ArrayLike, v_A: ArrayLike = 0.0,
     >>> rpr_velocity(2j, 0, 1j, v_A=3 + 1j)
     RPRVelocity(omega_A=np.float64(-1.5), ds=np.float64(1.0))
     """
-    d, u, D = _slide(A, B, u)
-    omega_A, minus_ds = solve(d, 1j * u, 1j * (field(v_B, "v_B") - field(v_A, "v_A")), D)
+    A, B = field(A, "A"), field(B, "B")
+    d, n = A - B, 1j * direction(u, "u")
+    w = 1j * (field(v_B, "v_B") - field(v_A, "v_A"))
+    omega_A, minus_ds = solve(d, n, w, determinant(d, n, (A, B), ()))
     return RPRVelocity(omega_A, -minus_ds)
 
 
@@ -184,10 +186,12 @@ def rpr_acceleration(
     >>> rpr_acceleration(2j, 0, 1j, -1.5, 1)
     RPRAcceleration(epsilon_A=np.float64(1.5), dds=np.float64(4.5))
     """
-    d, u, D = _slide(A, B, u)
+    A, B, u = field(A, "A"), field(B, "B"), direction(u, "u")
+    d, n = A - B, 1j * u
     omega_A = scalar_field(omega_A, "omega_A")
     known = 2j * omega_A * scalar_field(ds, "ds") * u - omega_A**2 * d
-    epsilon_A, minus_dds = solve(d, 1j * u, 1j * (field(a_B, "a_B") - field(a_A, "a_A") + known), D)
+    w = 1j * (field(a_B, "a_B") - field(a_A, "a_A") + known)
+    epsilon_A, minus_dds = solve(d, n, w, determinant(d, n, (A, B), ()))
     return RPRAcceleration(epsilon_A, -minus_dds)
 
 
@@ -200,8 +204,8 @@ def rpr_determinant(A: ArrayLike, B: ArrayLike, u: ArrayLike) -> Float:
     >>> rpr_determinant(2j, 0, [1j, 1])
     array([ 2., nan])
     """
-    *_, D = _slide(A, B, u)
-    return D
+    A, B = field(A, "A"), field(B, "B")
+    return determinant(A - B, 1j * direction(u, "u"), (A, B), ())
 
 
 @elementwise
@@ -265,11 +269,11 @@ def rpr_reactions(
     >>> rpr_reactions(2, 0, 1, loads_B=[Load(-3j, 4)]).R_A.imag
     np.float64(6.0)
     """
-    _, u, D = _slide(A, B, u)
-    F_A, T_A = resultant(loads_A, field(A, "A"), "loads_A")
-    F_B, T_B = resultant(loads_B, field(B, "B"), "loads_B")
-    N = (T_A + T_B) / D
-    R_C = 1j * N * u
+    A, B, n = field(A, "A"), field(B, "B"), 1j * direction(u, "u")
+    F_A, T_A = resultant(loads_A, A, "loads_A")
+    F_B, T_B = resultant(loads_B, B, "loads_B")
+    N = (T_A + T_B) / determinant(A - B, n, (A, B), ())
+    R_C = N * n
     return RPRReactions(-(R_C + F_A), R_C - F_B, R_C, -T_A, lever(-T_A, N))
 
 
@@ -336,10 +340,3 @@ class RPRGroup:
     def reactions(self, loads_A: Sequence[Load] = (), loads_B: Sequence[Load] = ()) -> RPRReactions:
         """Reactions of pins and slide (`rpr_reactions`)."""
         return rpr_reactions(self.A, self.B, self.u, loads_A, loads_B)
-
-
-def _slide(A: ArrayLike, B: ArrayLike, u: ArrayLike) -> tuple[Complex, Complex, Float]:
-    """Vector BA, unit vector of the slide, and their determinant."""
-    A, B, u = field(A, "A"), field(B, "B"), direction(u, "u")
-    d, normal = A - B, 1j * u
-    return d, u, determinant(d, normal, (A, B), (normal,))

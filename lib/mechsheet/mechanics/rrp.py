@@ -180,9 +180,11 @@ def rrp_velocity(
     >>> rrp_velocity(3j, 0, 4, 1, v_A=1j).ds
     np.float64(-0.75)
     """
-    a, u, D = _link(A, C, u)
-    guide = field(v_B, "v_B") + 1j * scalar_field(omega_B, "omega_B") * (field(C, "C") - field(B, "B"))
-    omega_A, ds = solve(a, 1j * u, 1j * (moved(field(v_A, "v_A"), a, dr_A, "dr_A") - guide), D)
+    A, C, u = field(A, "A"), field(C, "C"), direction(u, "u")
+    a, n = C - A, 1j * u
+    guide = field(v_B, "v_B") + 1j * scalar_field(omega_B, "omega_B") * (C - field(B, "B"))
+    pin = moved(field(v_A, "v_A"), a, dr_A, "dr_A")
+    omega_A, ds = solve(a, n, 1j * (pin - guide), determinant(a, n, (A, C), ()))
     return RRPVelocity(guide + ds * u, omega_A, ds)
 
 
@@ -238,13 +240,14 @@ def rrp_acceleration(
     >>> rrp_acceleration(3j, 0, 4, 1, -0.25, -0.75).dds
     np.float64(-0.390625)
     """
-    a, u, D = _link(A, C, u)
+    A, C, u = field(A, "A"), field(C, "C"), direction(u, "u")
+    a, n = C - A, 1j * u
     omega_B = scalar_field(omega_B, "omega_B")
     turning = 1j * scalar_field(epsilon_B, "epsilon_B") - omega_B**2
     coriolis = 2j * omega_B * scalar_field(ds, "ds") * u
-    guide = field(a_B, "a_B") + turning * (field(C, "C") - field(B, "B")) + coriolis
+    guide = field(a_B, "a_B") + turning * (C - field(B, "B")) + coriolis
     pin = field(a_A, "a_A") + carried(a, omega_A, dr_A, ddr_A, "A")
-    epsilon_A, dds = solve(a, 1j * u, 1j * (pin - guide), D)
+    epsilon_A, dds = solve(a, n, 1j * (pin - guide), determinant(a, n, (A, C), ()))
     return RRPAcceleration(guide + dds * u, epsilon_A, dds)
 
 
@@ -257,8 +260,8 @@ def rrp_determinant(A: ArrayLike, C: ArrayLike, u: ArrayLike) -> Float:
     >>> rrp_determinant(3j, [4, 0], 1)
     array([ 4., nan])
     """
-    *_, D = _link(A, C, u)
-    return D
+    A, C = field(A, "A"), field(C, "C")
+    return determinant(C - A, 1j * direction(u, "u"), (A, C), ())
 
 
 @elementwise
@@ -322,11 +325,12 @@ def rrp_reactions(
     >>> rrp_reactions(3j, 4, 1, loads_B=[Load(8, 4)]).R_B.imag
     np.float64(-6.0)
     """
-    a, u, D = _link(A, C, u)
-    F_A, T_A = resultant(loads_A, field(A, "A"), "loads_A")
-    F_B, T_B = resultant(loads_B, field(C, "C"), "loads_B")
-    N = -(T_A + cross(a, F_B)) / D
-    R_B = 1j * N * u
+    A, C, u = field(A, "A"), field(C, "C"), direction(u, "u")
+    F_A, T_A = resultant(loads_A, A, "loads_A")
+    F_B, T_B = resultant(loads_B, C, "loads_B")
+    a, n = C - A, 1j * u
+    N = -(T_A + cross(a, F_B)) / determinant(a, n, (A, C), ())
+    R_B = N * n
     R_C = R_B + F_B
     return RRPReactions(-(R_C + F_A), R_B, R_C, -T_B, lever(-T_B, N))
 
@@ -408,10 +412,3 @@ class RRPGroup:
     def reactions(self, loads_A: Sequence[Load] = (), loads_B: Sequence[Load] = ()) -> RRPReactions:
         """Reactions of pins and guide (`rrp_reactions`)."""
         return rrp_reactions(self.A, self.C, self.u, loads_A, loads_B)
-
-
-def _link(A: ArrayLike, C: ArrayLike, u: ArrayLike) -> tuple[Complex, Complex, Float]:
-    """Vector AC, unit vector of the guide, and their determinant."""
-    A, C, u = field(A, "A"), field(C, "C"), direction(u, "u")
-    a, normal = C - A, 1j * u
-    return a, u, determinant(a, normal, (A, C), (normal,))

@@ -176,9 +176,10 @@ def rrr_velocity(
     >>> rrr_velocity(0, 4 + 3j, 4, dr_A=1).omega_B
     np.float64(0.3333333333333333)
     """
-    a, b, D = _links(A, B, C)
+    A, B, C = field(A, "A"), field(B, "B"), field(C, "C")
+    a, b = C - A, C - B
     v_A, v_B = moved(field(v_A, "v_A"), a, dr_A, "dr_A"), moved(field(v_B, "v_B"), b, dr_B, "dr_B")
-    omega_A, minus_omega_B = solve(a, b, 1j * (v_A - v_B), D)
+    omega_A, minus_omega_B = solve(a, b, 1j * (v_A - v_B), determinant(a, b, (A, C), (B, C)))
     return RRRVelocity(v_A + 1j * omega_A * a, omega_A, -minus_omega_B)
 
 
@@ -231,10 +232,11 @@ def rrr_acceleration(
     >>> rrr_acceleration(0, 4 + 3j, 4, 0, 1 / 3, dr_A=1).epsilon_A
     np.float64(0.08333333333333333)
     """
-    a, b, D = _links(A, B, C)
+    A, B, C = field(A, "A"), field(B, "B"), field(C, "C")
+    a, b = C - A, C - B
     a_A = field(a_A, "a_A") + carried(a, omega_A, dr_A, ddr_A, "A")
     a_B = field(a_B, "a_B") + carried(b, omega_B, dr_B, ddr_B, "B")
-    epsilon_A, minus_epsilon_B = solve(a, b, 1j * (a_A - a_B), D)
+    epsilon_A, minus_epsilon_B = solve(a, b, 1j * (a_A - a_B), determinant(a, b, (A, C), (B, C)))
     return RRRAcceleration(a_A + 1j * epsilon_A * a, epsilon_A, -minus_epsilon_B)
 
 
@@ -247,8 +249,8 @@ def rrr_determinant(A: ArrayLike, B: ArrayLike, C: ArrayLike) -> Float:
     >>> rrr_determinant(0, 5, [4 + 3j, 2])
     array([15., nan])
     """
-    *_, D = _links(A, B, C)
-    return D
+    A, B, C = field(A, "A"), field(B, "B"), field(C, "C")
+    return determinant(C - A, C - B, (A, C), (B, C))
 
 
 @elementwise
@@ -316,9 +318,11 @@ def rrr_reactions(
     >>> R.R_A.real, R.R_B
     (np.float64(13.333333333333334), np.complex128(-13.333333333333334+10j))
     """
-    a, b, D = _links(A, B, C)
-    F_A, T_A = resultant(loads_A, field(A, "A"), "loads_A")
-    F_B, T_B = resultant(loads_B, field(B, "B"), "loads_B")
+    A, B, C = field(A, "A"), field(B, "B"), field(C, "C")
+    F_A, T_A = resultant(loads_A, A, "loads_A")
+    F_B, T_B = resultant(loads_B, B, "loads_B")
+    a, b = C - A, C - B
+    D = determinant(a, b, (A, C), (B, C))
     R_C = -(product(T_B / D, 0.0, a) + product(T_A / D, 0.0, b))
     return RRRReactions(-(R_C + F_A), R_C - F_B, R_C)
 
@@ -407,10 +411,3 @@ def _outer_pins(A: ArrayLike, B: ArrayLike) -> tuple[Complex, Complex, Float]:
     A = field(A, "A")
     d = field(B, "B") - A
     return A, d, np.abs(d)
-
-
-def _links(A: ArrayLike, B: ArrayLike, C: ArrayLike) -> tuple[Complex, Complex, Float]:
-    """Vectors AC and BC, and their determinant."""
-    A, B, C = field(A, "A"), field(B, "B"), field(C, "C")
-    a, b = C - A, C - B
-    return a, b, determinant(a, b, (A, C), (B, C))

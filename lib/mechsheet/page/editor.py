@@ -6,7 +6,6 @@ import difflib
 import time
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import dataclass
 from functools import lru_cache
 from traceback import walk_tb
 from types import FrameType
@@ -14,9 +13,12 @@ from typing import Any
 
 import numpy as np
 
+from mechsheet.page import notebook
 from mechsheet.recording import dimensions
+from mechsheet.worksheet import source
 from mechsheet.worksheet.cells import Cell, Worksheet
 from mechsheet.worksheet.lines import registry
+from mechsheet.worksheet.title import Note
 
 _PERIOD = 0.25  # s between two looks at the cells
 # Their functions compute through another worksheet, whose inputs keep their metre.
@@ -26,24 +28,14 @@ _OTHERS = {
 }
 
 
-@dataclass(frozen=True)
-class Note:
-    """A mistake in the cell of that id."""
-
-    cell: str
-    text: str
-
-
-def watch(show: Callable[[list[Note]], object]) -> None:
+def watch(show: Callable[[list[Note]], object]) -> tuple[Note, ...]:
     """Call ``show`` whenever the mistakes found in the cells of the worksheet in the editor have changed.
 
     The cells are looked at from a thread of the calling cell, and read again once an edited one has run; a changed
-    value costs nothing.
+    value costs nothing. Returned is what there is to tell at once: nothing, or that this version of marimo tells
+    nothing of its cells.
     """
-    import marimo as mo
-    from marimo._runtime.context import get_context  # the cells as they stand in the page have no public name
-
-    notebook: Any = get_context()
+    import marimo as mo  # on use: reading the cells needs it not
 
     def look() -> None:
         this, told, gone = mo.current_thread(), list[Note](), set[str]()
@@ -51,11 +43,10 @@ def watch(show: Callable[[list[Note]], object]) -> None:
         last: list[Any] = []
         while not this.should_exit:
             time.sleep(_PERIOD)
-            names = dict(notebook.globals)  # taken before the cells are seen at rest: so they were then
-            with notebook.graph.lock:
-                cells = list(notebook.graph.cells.values())
-            before, last = last, [(cell.cell_id, cell.code, cell.run_result_status) for cell in cells]
-            if last == seen or last != before or any(cell.runtime_state in ("running", "queued") for cell in cells):
+            names = dict(namespace)  # taken before the cells are seen at rest: so they were then
+            cells = cells_now()
+            before, last = last, [(cell.cell_id, cell.code, cell.status) for cell in cells]
+            if last == seen or last != before or any(cell.busy for cell in cells):
                 continue
             seen = last
             gone |= {name for cell in cells for name in cell.defs}
@@ -66,10 +57,16 @@ def watch(show: Callable[[list[Note]], object]) -> None:
                 told = notes
                 show(notes)
 
+    try:
+        cells_now, namespace = notebook.running()
+        cells_now()
+    except notebook.Unlike as error:
+        return (Note("", f"mistakes are not named here: marimo {mo.__version__} tells nothing of its cells ({error})"),)
     mo.Thread(target=look, daemon=True).start()
+    return ()
 
 
-def unknown(cells: Iterable[Any], names: Mapping[str, Any], gone: Iterable[str] = ()) -> Iterator[Note]:
+def unknown(cells: Iterable[notebook.Cell], names: Mapping[str, Any], gone: Iterable[str] = ()) -> Iterator[Note]:
     """Names that a cell reads and none defines or two do, and inputs that there are not.
 
     What was defined before, by a cell that has a mistake now or is deleted, is in ``gone``.
@@ -96,15 +93,15 @@ def unknown(cells: Iterable[Any], names: Mapping[str, Any], gone: Iterable[str] 
                 yield Note(cell.cell_id, f"{_line(cell, node.lineno)}: {why}")
 
 
-def failed(cells: Iterable[Any]) -> Iterator[Note]:
+def failed(cells: Iterable[notebook.Cell]) -> Iterator[Note]:
     """What else Python could not compute, with the line of the cell."""
     for cell in cells:
-        if cell.run_result_status == "exception" and isinstance(cell.exception, Exception):
+        if cell.status == "exception" and isinstance(cell.exception, Exception):
             lines = [line for frame, line in walk_tb(cell.exception.__traceback__) if _is_of(frame, cell)]
             yield Note(cell.cell_id, f"{_line(cell, lines[-1])}: {cell.exception}" if lines else str(cell.exception))
 
 
-def unfit(cells: Iterable[Any], names: Mapping[str, Any]) -> Iterator[Note]:
+def unfit(cells: Iterable[notebook.Cell], names: Mapping[str, Any]) -> Iterator[Note]:
     """Lines of the worksheet that has run whose unit does not fit; of those that follow from another the first alone.
 
     What depends on the inputs runs once more, on the same machine in other units. A line whose meaning calls it an
@@ -113,11 +110,12 @@ def unfit(cells: Iterable[Any], names: Mapping[str, Any]) -> Iterator[Note]:
     g = names.get("g")
     if not hasattr(type(g), "__inputs__"):
         return
-    ran = [cell for cell in cells if cell.run_result_status == "success"]
+    ran = [cell for cell in cells if cell.status == "success"]
     homes = {name: cell for cell in ran for name in cell.defs}
     others = {name for cell in ran for name in cell.refs if getattr(names.get(name), "__module__", "") in _OTHERS}
     known = names.keys() & homes.keys() - _depending(ran, others)
-    lines = [line for name, line in registry(names).items() if name in known and not line.arguments]
+    declared = registry(names, source.of_texts(tuple((cell.code, cell.filename) for cell in ran)))
+    lines = [line for name, line in declared.items() if name in known and not line.arguments]
     computed = _depending(ran, {"g"})
     common = {name: value for name, value in names.items() if name not in computed}
     sheet = Worksheet("", tuple(_compiled(cell, computed) for cell in ran if cell.defs & computed), common, "")
@@ -137,7 +135,7 @@ def unfit(cells: Iterable[Any], names: Mapping[str, Any]) -> Iterator[Note]:
             yield Note(cell.cell_id, f"line {line.expression.lineno}, {line.name}: {why}")
 
 
-def _depending(cells: Iterable[Any], names: set[str]) -> set[str]:
+def _depending(cells: Iterable[notebook.Cell], names: set[str]) -> set[str]:
     """Names that depend on some names, and these."""
     found, cells = set(names), list(cells)
     while more := {name for cell in cells if cell.refs & found for name in cell.defs} - found:
@@ -145,8 +143,8 @@ def _depending(cells: Iterable[Any], names: set[str]) -> set[str]:
     return found
 
 
-def _compiled(cell: Any, computed: set[str]) -> Cell:
-    code = compile(cell.code, cell.body.co_filename, "exec")
+def _compiled(cell: notebook.Cell, computed: set[str]) -> Cell:
+    code = compile(cell.code, cell.filename, "exec")
     return Cell(cell.cell_id, frozenset(cell.refs & computed), tuple(cell.defs), (), code)
 
 
@@ -162,11 +160,11 @@ def _read(code: str) -> tuple[ast.Name | ast.Attribute, ...]:
     )
 
 
-def _is_of(frame: FrameType, cell: Any) -> bool:
-    return bool(frame.f_code.co_filename == cell.body.co_filename)
+def _is_of(frame: FrameType, cell: notebook.Cell) -> bool:
+    return bool(frame.f_code.co_filename == cell.filename)
 
 
-def _line(cell: Any, number: int) -> str:
+def _line(cell: notebook.Cell, number: int) -> str:
     """A line as a note names it: its number, and its text without its comment."""
     return f"line {number}, {cell.code.splitlines()[number - 1].partition('  #')[0].strip()}"
 

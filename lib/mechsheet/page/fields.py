@@ -16,6 +16,21 @@ def _limit(text: str) -> str:
     return symbol.html(text) if text[0].isalpha() else text
 
 
+class _Fields(mo.ui.batch):
+    """Fields in a template, shown without the element of the batch round them.
+
+    A field tells of its change itself; the batch told of it again, so that the whole sheet ran twice.
+    """
+
+    def __init__(self, template: str, fields: "dict[str, mo.ui.text]") -> None:
+        self.template = template
+        super().__init__(mo.Html(template), fields)
+
+    @property
+    def text(self) -> str:
+        return self.template.format(**{name: field.text for name, field in self.elements.items()})
+
+
 def fields(g: Any) -> "mo.ui.batch":
     """Text fields with the values of the inputs ``g``, section by section."""
     sections: dict[str, list[str]] = {}
@@ -35,9 +50,4 @@ def fields(g: Any) -> "mo.ui.batch":
         for section, rows in sections.items()
     )
     style = "columns:28em;column-gap:2em;font-size:.93em"
-    template = f'<div class="ms-inputs" style="{style}">{blocks}</div>'
-    form = mo.Html(template).batch(**texts)
-    # Shown without the element of the batch round them: a field tells of its change itself, and the batch told of it
-    # again, so that the whole sheet ran twice.
-    form._text = template.format(**{name: field.text for name, field in form.elements.items()})
-    return form
+    return _Fields(f'<div class="ms-inputs" style="{style}">{blocks}</div>', texts)

@@ -2,7 +2,6 @@
 
 from functools import lru_cache
 from html import escape
-from typing import Any
 
 from mechsheet import units
 from mechsheet.document.expression import equation, reads, substituted
@@ -10,18 +9,6 @@ from mechsheet.document.formula import Quantity
 from mechsheet.document.latex import latex
 from mechsheet.worksheet import numbers
 from mechsheet.worksheet.lines import Formula, Given, Numbers, Typeset
-
-
-def markup(value: Any) -> str:  # TODO-MERGE
-    """What the page shows of a value, as HTML."""
-    if isinstance(value, Typeset):
-        return lines(value) + "".join(map(markup, value.shown))
-    kind, text = value._mime_() if hasattr(value, "_mime_") else ("", "")
-    if kind == "text/html":
-        return str(text)
-    import marimo as mo
-
-    return mo.as_html(value).text
 
 
 def lines(shown: Typeset) -> str:
@@ -47,12 +34,12 @@ def _formula(line: Formula, value: object, shown: Typeset) -> str:
 def _substituted(line: Formula, known: Numbers, position: int) -> str:
     """The right side with numbers for its symbols; nothing where it has none."""
     found = ((name, known.at(name, position)) for name in reads(line))
-    return _with_numbers(line, tuple((name, *at) for name, at in found if at))
+    return _with_numbers(line, tuple((name, *at, type(at[0])) for name, at in found if at))  # 0 and 0j are not alike
 
 
-@lru_cache(maxsize=2048, typed=True)  # most numbers stay when an input changes
-def _with_numbers(line: Formula, found: tuple[tuple[str, float | complex, str], ...]) -> str:
-    numbers = {name: Quantity(value / units.parse(unit).factor, unit) for name, value, unit in found}
+@lru_cache(maxsize=2048)  # most numbers stay when an input changes
+def _with_numbers(line: Formula, found: tuple[tuple[str, float | complex, str, type], ...]) -> str:
+    numbers = {name: Quantity(value / units.parse(unit).factor, unit) for name, value, unit, _ in found}
     node = substituted(line, numbers)
     return latex(node) if node else ""
 

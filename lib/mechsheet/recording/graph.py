@@ -17,7 +17,7 @@ class NotRecorded(Exception):
 LEAVES = ("constant", "rows", "input", "found", "static")
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Node:
     """One real quantity of any shape: an operation on other quantities, with its values.
 
@@ -70,16 +70,16 @@ class Graph:
         self.guards: list[tuple[Node, Any]] = []
         self.labels: dict[Node, Label] = {}
 
-    def node(self, op: str, *args: Any) -> Node:
+    def node(self, op: str, *args: Node) -> Node:
+        """An operation, element by element, on operands that are broadcast to each other."""
         key = (op, *args)
         known = self.nodes.get(key)
         if known is None:
-            with np.errstate(all="ignore"):
-                value = _COMPUTE[op](*[a.value for a in args])
-            known = self.nodes[key] = Node(op, args, _fixed(value))
+            known = self.nodes[key] = Node(op, args, _fixed(_COMPUTE[op](*[a.value for a in args])))
         return known
 
     def constant(self, value: Any) -> Node:
+        """A number or an array of numbers."""
         array = np.asarray(value)
         key = ("constant", array.dtype.char, array.shape, array.tobytes())
         known = self.nodes.get(key)
@@ -186,9 +186,9 @@ class Graph:
         return self.neg(self.div(a.args[0], b)) if a.op == "neg" else self.fold("/", a, b)
 
     def fold(self, op: str, *args: Node) -> Node:
+        """An operation; of constants the constant that it gives."""
         if all(a.op == "constant" for a in args):
-            with np.errstate(all="ignore"):
-                return self.constant(_COMPUTE[op](*[a.value for a in args]))
+            return self.constant(_COMPUTE[op](*[a.value for a in args]))
         return self.node(op, *args)
 
 

@@ -1,10 +1,11 @@
 """A worksheet recorded: its cells run again with quantities that remember what is done with them."""
 
-import re
 from collections.abc import Mapping
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
+
+import numpy as np
 
 from mechsheet.recording.graph import Graph
 from mechsheet.recording.lines import Recording
@@ -17,8 +18,6 @@ from mechsheet.worksheet.checks import Check
 from mechsheet.worksheet.find import Found
 from mechsheet.worksheet.lines import registry
 from mechsheet.worksheet.table import Figure, Table
-
-_HEADING = re.compile(r"^def (\w+)\(|^\s*## +(.+)$", re.MULTILINE)
 
 
 @lru_cache(maxsize=8)
@@ -50,38 +49,24 @@ def record(namespace: Mapping[str, Any]) -> Recording:
     givers = [(c, n) for c in sheet.cells for n in c.gives]
     want = [n for _, n in givers if _shown(namespace.get(n))]
     known_lines = registry(namespace)
-    sections = _sections(path.read_text(encoding="utf-8"))
-    recording.sections = list(dict.fromkeys(sections.values()))
+    recording.sections = list(dict.fromkeys(cell.section for cell in sheet.cells))
     for cell in sheet.needed(want, {"g": g}):
         stage = Stage(recording, namespace, cell)
         names |= stage.replacements()
         try:
-            exec(cell.code, names)
+            with np.errstate(all="ignore"):  # the worksheet's own run has warned
+                exec(cell.code, names)
             stage.compare(names)
         except Exception as error:
             recording.left_out[cell.name] = str(error) or type(error).__name__
             stage.numbers(names, cell.gives)
-        section = sections.get(cell.name, "")
         for name in dict.fromkeys([*(n for n in cell.code.co_names if n in known_lines), *cell.gives]):
-            recording.define(section, name, names.get(name), known_lines)
+            recording.define(cell.section, name, names.get(name), known_lines)
         for solved in stage.solved:
-            recording.define_steps(section, solved)
+            recording.define_steps(cell.section, solved)
     return recording
 
 
 def _shown(value: Any) -> bool:
     group = value if isinstance(value, tuple | list) else [value]
     return any(isinstance(v, Table | Figure | Check | Found) for v in group)
-
-
-def _sections(text: str) -> dict[str, str]:
-    """Heading of the section, by the name of the cell."""
-    found, cell, section = {}, "", ""
-    for match in _HEADING.finditer(text):
-        if match[1]:
-            cell = match[1]
-            found[cell] = section
-        else:
-            section = match[2].strip()
-            found[cell] = section
-    return found

@@ -16,7 +16,7 @@ from mechsheet.run import report
 from mechsheet.run.arguments import read
 from mechsheet.run.progress import progress
 from mechsheet.workbook import writing
-from mechsheet.worksheet import inputs, results
+from mechsheet.worksheet import inputs, numbers, results
 from mechsheet.worksheet.cells import Worksheet, base, checks, load
 from mechsheet.worksheet.checks import Check
 from mechsheet.worksheet.errors import SheetError
@@ -275,7 +275,7 @@ def _blocks(rows: Sequence[Sequence[str]], width: int) -> Iterator[list[Sequence
 def _printed(table: Table) -> list[list[str]]:
     """A table as it is printed: symbols, units, numbers."""
     heads = [[c.symbol for c in table.columns], [f"[{c.unit}]" for c in table.columns]]
-    columns = [[f"{x:z.{c.decimals}f}" for x in c.values] for c in table.columns]
+    columns = [[numbers.fixed(x, c.decimals) for x in c.values] for c in table.columns]
     return heads + [list(row) for row in zip(*columns, strict=True)]
 
 

@@ -13,7 +13,7 @@ from mechsheet.workbook import writing
 from mechsheet.workbook.find_sheet import FoundRow
 from mechsheet.workbook.inputs_sheet import InputRow
 from mechsheet.workbook.save import save
-from mechsheet.worksheet import inputs
+from mechsheet.worksheet import inputs, numbers
 from mechsheet.worksheet.cells import results
 from mechsheet.worksheet.checks import Check
 from mechsheet.worksheet.errors import SheetError
@@ -131,7 +131,9 @@ def _found(line: Formula, found: Found) -> FoundRow:
         found.words.unit,
         found.interval[0] / unit,
         found.interval[1] / unit,
-        ", ".join(f"{r.value / unit:.6g}" + (f" (branch {r.branch:+d})" if r.branch else "") for r in others),
+        ", ".join(
+            numbers.significant(r.value / unit, 6) + (f" (branch {r.branch:+d})" if r.branch else "") for r in others
+        ),
         found.words.unknown,
         found.equals / target,
     )

@@ -90,13 +90,15 @@ class Job:
             new = _by_variant(texts, count)
             reasons[:] = np.where(reasons == "", new[np.arange(count), (new != "").argmax(1)], reasons)
 
-        cells, told = sheet.needed(self.want, ["g"]), checks.listen(names)
+        cells = sheet.needed(self.want, ["g"])
+        g: Any = inputs.instance(sheet.inputs, columns)
         try:
-            for cell in _run(sheet, [*cells, *_telling(sheet, cells)], inputs.instance(sheet.inputs, columns), names):
-                while told:
-                    add(told.pop(0))
-                for found in _founds(cell, names):
-                    add(found.reason)
+            with checks.listen() as told:
+                for cell in _run(sheet, [*cells, *_telling(sheet, cells)], g, names):
+                    while told:
+                        add(told.pop(0))
+                    for found in _founds(cell, names):
+                        add(found.reason)
         except ValueError as error:
             if count > 1 and not self._in_common(columns):
                 return np.concatenate([self._reasons(half) for half in _halves(columns)])

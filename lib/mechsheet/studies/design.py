@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from mechsheet import units
 from mechsheet.run import arguments, report
+from mechsheet.worksheet import numbers
 from mechsheet.worksheet.checks import Check
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.inputs import Input, declared
@@ -234,4 +235,4 @@ def save_scene(text: str, name: str, namespace: Mapping[str, Any]) -> Any:
 
 
 def _text(value: float, unit: str) -> str:
-    return f"{value / units.parse(unit).factor:.4g} {units.shown(unit)}".removesuffix(" -")
+    return numbers.significant(value / units.parse(unit).factor, 4) + numbers.suffix(units.shown(unit))

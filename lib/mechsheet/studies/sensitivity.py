@@ -11,10 +11,11 @@ from numpy.typing import NDArray
 from mechsheet import units
 from mechsheet.studies.sweep import Sweep, sweep
 from mechsheet.worksheet import inputs as declarations
-from mechsheet.worksheet import symbol
+from mechsheet.worksheet import numbers, symbol
 from mechsheet.worksheet.cells import base, load, value
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.inputs import Input
+from mechsheet.worksheet.shown import Charted
 from mechsheet.worksheet.table import Column, Table
 
 Array = NDArray[np.float64]
@@ -84,7 +85,9 @@ class Sensitivity:
             for x in (self.slopes[name], self.errors[name], self.relative(name))
         )
         by = [list(self.inputs)[i] for i in order]
-        where = f"{np.atleast_1d(self.values[name])[k]:.6g} {units.shown(self.units[name])}".removesuffix(" -")
+        where = numbers.significant(np.atleast_1d(self.values[name])[k], 6) + numbers.suffix(
+            units.shown(self.units[name])
+        )
         columns = (
             _texts("input", by),
             Column("value", "", "where the derivative is taken, in the input's unit", 4, _at(self.inputs, by)),
@@ -92,7 +95,7 @@ class Sensitivity:
             Column("relative", "-", f"d ln {name} / d ln input", 4, relative),
             Column("derivative", "", f"d {name} / d input", 4, slopes),
             _texts("derivative's unit", [units.shown(self.unit(name, x)) for x in by]),
-            _texts("error", [f"{x:.1g}" for x in errors]),
+            _texts("error", [numbers.significant(x, 1) for x in errors]),
         )
         return Table(number, title, columns, f"{name} = {where}, position {k}; derivatives in the units beside them.")
 
@@ -122,18 +125,13 @@ class Sensitivity:
 
 
 @dataclass(frozen=True)
-class Tornado:
+class Tornado(Charted):
     """Elasticities of one result as horizontal bars, ``bars`` are (input, meaning, elasticity)."""
 
     number: str
     title: str
     result: str
     bars: tuple[tuple[str, str, float], ...]
-
-    def _mime_(self) -> tuple[str, str]:
-        import marimo as mo  # on use: only a page needs it
-
-        return "text/html", mo.as_html(self.chart()).text
 
     def chart(self) -> Any:
         """The bars as an altair chart."""

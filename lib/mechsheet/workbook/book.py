@@ -9,7 +9,7 @@ from io import BytesIO
 from typing import Any
 
 from mechsheet.workbook import looks
-from mechsheet.workbook.cell import Content, allowed, cut, put
+from mechsheet.workbook.content import Content, allowed, cut, put
 
 _PROPERTIES = {"author": "mechsheet", "created": datetime(2000, 1, 1)}
 _SHEETS = ("Inputs", "Find", "Checks", "Marks", "Scenes")
@@ -119,7 +119,7 @@ class Book:
 @cache
 def _sheet_class() -> Any:
     """XlsxWriter's worksheet, which otherwise looks for thirty new functions of Excel in every formula."""
-    from xlsxwriter.worksheet import Worksheet  # type: ignore[import-untyped]
+    from xlsxwriter.worksheet import Worksheet  # type: ignore[import-untyped]  # on use: as above
 
     class Sheet(Worksheet):  # type: ignore[misc]
         def write_live(self, row: int, col: int, formula: str, style: Any, value: float | str) -> None:

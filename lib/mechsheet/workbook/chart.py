@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from mechsheet.units import shown
 from mechsheet.workbook import axis, looks
 from mechsheet.workbook.book import Book
-from mechsheet.workbook.cell import Content, Live, allowed, caption, fits
+from mechsheet.workbook.content import Content, Live, allowed, caption, fits
 from mechsheet.workbook.place import Place
 from mechsheet.workbook.sheet_formulas import SheetFormulas
 from mechsheet.workbook.table_sheet import Spot

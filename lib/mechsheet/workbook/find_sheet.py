@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from mechsheet.units import shown
 from mechsheet.workbook import looks
 from mechsheet.workbook.book import Book
-from mechsheet.workbook.cell import Content, Live
+from mechsheet.workbook.content import Content, Live
 from mechsheet.workbook.sheet_formulas import SheetFormulas
 
 

@@ -8,7 +8,7 @@ from itertools import groupby
 from mechsheet.units import parse, shown, si
 from mechsheet.workbook import looks
 from mechsheet.workbook.book import Book
-from mechsheet.workbook.cell import Content, Live
+from mechsheet.workbook.content import Content, Live
 from mechsheet.workbook.sheet_formulas import SheetFormulas
 
 

@@ -5,6 +5,9 @@ import warnings
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
+from zipfile import BadZipFile
+
+from openpyxl import load_workbook  # type: ignore[import-untyped]
 
 from mechsheet.units import shown
 from mechsheet.worksheet.errors import SheetError
@@ -67,10 +70,6 @@ def _rows(path: Path) -> list[list[Any]]:
 
 def _open(path: Path, values: bool) -> Any:
     """The sheet of inputs, its formulas as values or as formulas."""
-    from zipfile import BadZipFile
-
-    from openpyxl import load_workbook  # type: ignore[import-untyped]
-
     try:
         with path.open("rb") as file, warnings.catch_warnings():
             warnings.simplefilter("ignore")  # of parts of the file that openpyxl does not keep; nothing is written back

@@ -7,9 +7,9 @@ import numpy as np
 from mechsheet.recording.lines import Line
 from mechsheet.units import shown, si
 from mechsheet.workbook import looks, table_sheet
+from mechsheet.workbook.arrangement import Section
 from mechsheet.workbook.book import Book
-from mechsheet.workbook.cell import Content, computed
-from mechsheet.workbook.layout import Section
+from mechsheet.workbook.content import Content, computed
 from mechsheet.workbook.place import letters
 from mechsheet.workbook.sheet_formulas import SheetFormulas
 from mechsheet.worksheet.table import Column

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 from mechsheet.units import shown
 from mechsheet.workbook import looks
 from mechsheet.workbook.book import Book, page_of
-from mechsheet.workbook.cell import Content, Live, allowed, computed, put
+from mechsheet.workbook.content import Content, Live, allowed, computed, put
 from mechsheet.workbook.looks import CHAR, EMPTY, FIRST, GAP, LONG, PAD, ROW
 from mechsheet.workbook.sheet_formulas import SheetFormulas
 from mechsheet.worksheet.table import Column, Table

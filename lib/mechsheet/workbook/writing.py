@@ -5,12 +5,12 @@ from dataclasses import replace
 
 from mechsheet.recording.lines import Recording
 from mechsheet.workbook import checks_sheet, find_sheet, inputs_sheet, looks, section_sheets, table_sheet
+from mechsheet.workbook.arrangement import Arrangement
 from mechsheet.workbook.book import Book
-from mechsheet.workbook.cell import caption
 from mechsheet.workbook.chart import Charts, same_column
+from mechsheet.workbook.content import caption
 from mechsheet.workbook.find_sheet import FoundRow
 from mechsheet.workbook.inputs_sheet import InputRow
-from mechsheet.workbook.layout import Layout
 from mechsheet.workbook.sheet_formulas import SheetFormulas
 from mechsheet.worksheet.checks import Check
 from mechsheet.worksheet.table import Column, Figure, Table
@@ -66,7 +66,7 @@ def workbook(
         sheet, (spot,) = table_sheet.write(book, name, table.title, "", table_sheet.contents(table, formulas), 1)
         charts.insert(sheet, spot, figure, name, table.columns)
     if formulas:
-        for section in formulas.layout.sections:
+        for section in formulas.arrangement.sections:
             section_sheets.write(book, section, formulas)
     checks_sheet.write(book, checks, formulas)
     charts.marks()
@@ -103,10 +103,10 @@ def _formulas(
     """Formulas of a recording, the names in them defined."""
     rows = {row.symbol: n for n, row in inputs_sheet.listed_rows(inputs) if isinstance(row, InputRow)}
     solved = {row.symbol: n for n, row in enumerate(found, 2)}
-    layout = Layout(recording, tables, sheets, rows, solved, looks.FIRST, book.name)
-    for name, meaning in layout.defined:
+    arrangement = Arrangement(recording, tables, sheets, rows, solved, looks.FIRST, book.name)
+    for name, meaning in arrangement.defined:
         book.file.define_name(name, meaning)
-    return SheetFormulas(layout)
+    return SheetFormulas(arrangement)
 
 
 def _holder(figure: Figure, tables: Sequence[Table]) -> Table | None:

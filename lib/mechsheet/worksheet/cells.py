@@ -15,19 +15,22 @@ import numpy as np
 from mechsheet.worksheet import inputs
 from mechsheet.worksheet.checks import Check
 from mechsheet.worksheet.errors import SheetError, raised
+from mechsheet.worksheet.source import constant, functions, is_app, markdown
 
+_SECTION = re.compile(r"^\s*## +(.*\S)", re.MULTILINE)
 _PART = re.compile(r"abs\((\w+)\)|(\w+)\.(real|imag)")
 
 
 @dataclass(frozen=True)
 class Cell:
-    """One cell: the names it reads and defines, the names that its checks may have, and its compiled lines."""
+    """One cell: the names it reads and defines, the names that its checks may have, its compiled lines, its section."""
 
     name: str
     needs: frozenset[str]
     gives: tuple[str, ...]
     checks: tuple[re.Pattern[str], ...]
     code: CodeType
+    section: str = ""  # heading ## above the cell, or in it
 
 
 @dataclass(frozen=True)
@@ -154,7 +157,7 @@ def _no_check(name: str, known: Iterable[str]) -> SheetError:
 def results(path: str | Path) -> list[str]:
     """Names that the cells of a worksheet file define, in the order of the file; nothing is run."""
     tree = ast.parse(Path(path).read_text(encoding="utf-8"))
-    return [name for node in _functions(tree) for name in _gives(node)]
+    return [name for node in functions(tree) for name in _gives(node)]
 
 
 def load(path: str | Path) -> Worksheet:
@@ -175,7 +178,7 @@ class _Marimo:
     """marimo, imported at its first use: that takes half a second, and results need nothing of it."""
 
     def __getattr__(self, name: str) -> Any:
-        import marimo
+        import marimo  # on use: see above
 
         return getattr(marimo, name)
 
@@ -210,36 +213,26 @@ def _title(tree: ast.Module) -> str | None:
     return None
 
 
-def _is_app(node: ast.expr, kinds: tuple[str, ...]) -> bool:
-    """Whether a decorator or context is ``app.cell``, ``app.setup`` and the like, called or not."""
-    node = node.func if isinstance(node, ast.Call) else node
-    return isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name) and node.attr in kinds
-
-
 def _shared(tree: ast.Module) -> Iterator[ast.stmt]:
     """The setup block and the classes and functions that stand alone, without marimo's decorators."""
     for node in tree.body:
         match node:
-            case ast.With(items=[ast.withitem(context)]) if _is_app(context, ("setup",)):
+            case ast.With(items=[ast.withitem(context)]) if is_app(context, ("setup",)):
                 yield from node.body
             case ast.ClassDef() | ast.FunctionDef():
-                kept = [d for d in node.decorator_list if not _is_app(d, ("class_definition", "function"))]
+                kept = [d for d in node.decorator_list if not is_app(d, ("class_definition", "function"))]
                 if len(kept) < len(node.decorator_list):
                     node.decorator_list = kept
                     yield node
 
 
 def _cells(tree: ast.Module, path: Path) -> Iterator[Cell]:
-    for node in _functions(tree):
+    section = ""
+    for node in functions(tree):
         code = compile(ast.Module(node.body[:-1], []), path, "exec")
-        yield Cell(node.name, frozenset(a.arg for a in node.args.args), _gives(node), tuple(_checks(node)), code)
-
-
-def _functions(tree: ast.Module) -> Iterator[ast.FunctionDef]:
-    """The cells as they stand in the file: functions that end by returning what they define."""
-    for node in tree.body:
-        if isinstance(node, ast.FunctionDef) and any(_is_app(d, ("cell",)) for d in node.decorator_list):
-            yield node
+        section = [section, *_SECTION.findall(constant(markdown(node)))][-1]
+        needs = frozenset(a.arg for a in node.args.args)
+        yield Cell(node.name, needs, _gives(node), tuple(_checks(node)), code, section)
 
 
 def _gives(node: ast.FunctionDef) -> tuple[str, ...]:

@@ -1,12 +1,10 @@
 """Checks as values: a residual against its limit, with a verdict."""
 
-import html
-import re
-import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from contextvars import ContextVar
 from dataclasses import dataclass
 from math import isnan
-from types import FrameType
 from typing import Any
 
 import numpy as np
@@ -15,15 +13,16 @@ from numpy.typing import ArrayLike, NDArray
 from mechsheet import units
 from mechsheet.mechanics.equilibrium import Reaction, left_over
 from mechsheet.mechanics.load import Load
-from mechsheet.worksheet import symbol
+from mechsheet.worksheet import numbers
 from mechsheet.worksheet.errors import SheetError, refuse
 from mechsheet.worksheet.find import Found
+from mechsheet.worksheet.shown import Shown
 
-_TOLD = "__told__"
+_told = ContextVar[list[NDArray[np.object_]] | None]("_told", default=None)
 
 
 @dataclass(frozen=True)
-class Check:
+class Check(Shown):
     """One statement that a worksheet proves about itself.
 
     ``residual`` and ``limit`` are in ``unit``; the check passes where ``residual <= limit``, so NaN fails.
@@ -50,46 +49,16 @@ class Check:
         if not self.evaluated:
             return f"FAIL  {self.name}: not evaluated; {self.reason}".removesuffix("; ")
         verdict = "pass" if self.passed else "FAIL"
-        text = f"{verdict}  {self.name}: {self.residual:.3g} <= {self.limit:.3g} {self.unit}".removesuffix(" -")
+        residual, limit = (numbers.significant(x, 3) for x in (self.residual, self.limit))
+        text = f"{verdict}  {self.name}: {residual} <= {limit}{numbers.suffix(self.unit)}"
         return f"{text}; {self.reason}" if self.reason else text
-
-    def _mime_(self) -> tuple[str, str]:
-        unit = "" if self.unit == "-" else f" {html.escape(units.shown(self.unit))}"
-        sign = "≤" if self.passed else "≰"
-        compared = f": {self.residual:.2g} {sign} {self.limit:.2g}{unit}" if self.evaluated else ""
-        return "text/html", (
-            f'<div id="{_anchor(self)}">{_badge(self)} {symbol.in_words(self.name)}{compared}'
-            f'<span style="opacity:.7"> {html.escape(self.reason)}</span></div>'
-        )
-
-
-def _badge(check: Check) -> str:
-    kind, verdict = ("PASS" if check.passed else "FAIL",) * 2 if check.evaluated else ("OPEN", "not evaluated")
-    return f'<span class="ms-badge ms-{kind}">{verdict}</span>'
-
-
-def _anchor(check: Check) -> str:
-    return "check-" + re.sub(r"\W+", "-", check.name)
 
 
 @dataclass(frozen=True)
-class Summary:
+class Summary(Shown):
     """All checks of a worksheet in one place, each a link to where it stands."""
 
     checks: tuple[Check, ...]
-
-    def _mime_(self) -> tuple[str, str]:
-        passed = sum(check.passed for check in self.checks)
-        skipped = sum(not check.evaluated for check in self.checks)
-        failed = len(self.checks) - passed - skipped
-        count = f"{passed} of {len(self.checks)} checks pass" + (f", {failed} fail" if failed else "")
-        count += f", {skipped} not evaluated" if skipped else ""
-        items = "".join(
-            f"<span>{_badge(check)} "
-            f'<a href="#{_anchor(check)}">{symbol.in_words(check.name)}</a> {html.escape(check.reason)}</span>'
-            for check in sorted(self.checks, key=lambda check: (check.passed, not check.evaluated))
-        )
-        return "text/html", (f'<div class="ms-summary"><b>{count}</b><div class="ms-row">{items}</div></div>')
 
 
 def summary(*checks: Check | tuple[Check, ...]) -> Summary:
@@ -141,7 +110,7 @@ def check_slope(
     The limit is 1e-8 of the greatest slope, or ten times what the differences say of their own error, or what
     rounding of ``f`` makes of them.
     """
-    from scipy.differentiate import derivative
+    from scipy.differentiate import derivative  # on use: scipy takes a tenth of a second
 
     if not hi > lo:
         return Check(name, np.nan, 0.0, unit, "the range is empty")
@@ -175,7 +144,7 @@ def assembled(name: str, point: ArrayLike, over: ArrayLike, reaches: tuple[Any, 
     if not count:
         return Check(name, 0, 0, "open positions", essential=True)
     reason = _unreached(lost, over, reaches, what, unit)
-    _tell(sys._getframe(1), lost, over, reaches, what, unit)
+    _tell(lost, over, reaches, what, unit)
     return Check(name, count, 0, "open positions", reason, essential=True)
 
 
@@ -187,17 +156,22 @@ def require(point: ArrayLike, over: ArrayLike, reaches: tuple[Any, Any], what: s
     lost = np.isnan(point)
     if np.ndim(lost) < 2 and lost.all():
         refuse(SheetError(_unreached(lost, over, reaches, what, unit)))
-    _tell(sys._getframe(1), lost, over, reaches, what, unit)
+    _tell(lost, over, reaches, what, unit)
 
 
-def listen(namespace: dict[str, Any]) -> list[NDArray[np.object_]]:
+@contextmanager
+def listen() -> Iterator[list[NDArray[np.object_]]]:
     """List to which `assembled` and `require` add, for each variant, why it does not close; "" where it does."""
-    told: list[NDArray[np.object_]] = namespace.setdefault(_TOLD, [])
-    return told
+    told = list[NDArray[np.object_]]()
+    token = _told.set(told)
+    try:
+        yield told
+    finally:
+        _told.reset(token)
 
 
-def _tell(frame: FrameType, lost: Any, over: ArrayLike, reaches: tuple[Any, Any], what: str, unit: str) -> None:
-    told = frame.f_globals.get(_TOLD)
+def _tell(lost: Any, over: ArrayLike, reaches: tuple[Any, Any], what: str, unit: str) -> None:
+    told = _told.get()
     if told is None:
         return
     lost = np.atleast_2d(lost)
@@ -213,6 +187,5 @@ def _unreached(lost: NDArray[np.bool_], over: ArrayLike, reaches: tuple[Any, Any
     x, lo, hi = (float(np.broadcast_to(v, np.shape(lost))[lost].flat[0]) / factor for v in (np.asarray(over), *reaches))
     if np.isnan(x):
         return f"no position closes: there is no {what}"
-    digits = next((n for n in range(7, 17) if len({f"{v:.{n}g}" for v in {x, lo, hi}}) == len({x, lo, hi})), 17)
-    x_, lo_, hi_ = (f"{v:.{digits}g}" for v in (x, lo, hi))  # as many digits as tell them apart
-    return f"no position closes for {what} = {x_} {unit}: it reaches {lo_}..{hi_} {unit}"
+    at, low, high = numbers.apart([x, lo, hi], digits=7)
+    return f"no position closes for {what} = {at} {unit}: it reaches {low}..{high} {unit}"

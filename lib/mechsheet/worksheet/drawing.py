@@ -8,7 +8,9 @@ from math import hypot, inf, nan, pi
 import numpy as np
 from numpy.typing import ArrayLike
 
+from mechsheet.worksheet import numbers
 from mechsheet.worksheet.errors import SheetError
+from mechsheet.worksheet.shown import Shown
 
 # Legible on white and on black; "" is the colour of the text round the drawing.
 COLOURS = {"": "currentColor", "blue": "#3b82d0", "red": "#e0483c", "green": "#2c9c5c", "orange": "#cf7a17"}
@@ -38,7 +40,7 @@ class Element:
 
 
 @dataclass(frozen=True, eq=False)
-class Drawing:
+class Drawing(Shown):
     """A drawing as a value: every method returns a new drawing with one more element; ``a + b`` draws b over a.
 
     Points and lengths are in metres, angles in radians; an element with a point that is not finite is left out.
@@ -182,7 +184,7 @@ class Drawing:
         P, V = _points("arrow", (P, V))
 
         def measure(*_: complex) -> str:
-            return f"{quantity(_length(V), unit)} ({V.real:.4g}, {V.imag:.4g})"
+            return f"{quantity(_length(V), unit)} ({_digits(V.real)}, {_digits(V.imag)})"
 
         vector = -V if into else V
         return self._with("arrow", (P,), name, measure, vector=vector, unit=unit, into=into, colour=colour)
@@ -200,11 +202,6 @@ class Drawing:
     def svg(self) -> str:
         """The drawing as one SVG element, without identifiers, style sheets and scripts."""
         return self._mime_()[1]
-
-    def _mime_(self) -> tuple[str, str]:
-        from mechsheet.page.drawing import svg  # on use: the page draws
-
-        return "text/html", svg(self)
 
     def _with(
         self,
@@ -234,8 +231,12 @@ class Drawing:
 def quantity(value: float, unit: str) -> str:
     """A value with its unit, as it is written in a drawing."""
     if unit == "N" and abs(value) >= 1000:
-        return f"{value / 1000:.4g} kN"
-    return f"{value:.4g} {unit}"
+        value, unit = value / 1000, "kN"
+    return f"{_digits(value)} {unit}"
+
+
+def _digits(x: float) -> str:
+    return numbers.significant(x, 4)
 
 
 def _length(z: complex) -> float:
@@ -243,11 +244,11 @@ def _length(z: complex) -> float:
 
 
 def _place(P: complex) -> str:
-    return f"{P.real:.4g}, {P.imag:.4g} m"
+    return f"{_digits(P.real)}, {_digits(P.imag)} m"
 
 
 def _distance(A: complex, B: complex) -> str:
-    return f"{_length(B - A):.4g} m"
+    return f"{_digits(_length(B - A))} m"
 
 
 def _points(kind: str, points: ArrayLike, least: int = 1) -> tuple[complex, ...]:

@@ -1,11 +1,12 @@
 """The one error that a worksheet raises to its reader."""
 
-import re
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
 from typing import Any, NoReturn
+
+from mechsheet.worksheet import shown as values
 
 _called = ContextVar("_called", default=False)
 
@@ -18,14 +19,10 @@ def refuse(error: SheetError, shown: Any = None) -> NoReturn:
     """Stop the running cell and those that need it: in its own page the reason stands in its place, elsewhere raise.
 
     A served page hides the text of exceptions, so the reason is shown as the cell's output: ``shown``, or
-    the message of the error. The title block tells it too: the verdicts of the checks have gone with their cells.
+    the message of the error.
     """
     if "marimo" in sys.modules and not _called.get():
-        import marimo as mo
-
-        if mo.running_in_notebook():
-            place = mo.as_html(shown if shown is not None else mo.callout(str(error), kind="danger")).text
-            mo.stop(True, mo.Html(place + told(str(error))))
+        values.page().refused(error, shown)
     raise error
 
 
@@ -37,13 +34,3 @@ def raised() -> Iterator[None]:
         yield
     finally:
         _called.reset(token)
-
-
-def told(reason: str) -> str:
-    """Style sheet that makes the title block tell why the sheet is not computed to its end."""
-    return f'<style>.ms-told{{display:block!important}}.ms-told::after{{content:"{quoted(reason)}"}}</style>'
-
-
-def quoted(text: str) -> str:
-    """Text as it stands between the quotes of a style sheet in a page."""
-    return re.sub(r"[^\w .,;:=()+-]", lambda c: f"\\{ord(c[0]):x} ", text)

@@ -4,22 +4,21 @@ All branches are searched, which also tells all roots, what is reached and why t
 of that (`values_only`): on the wanted branch it takes the nearest piece that has a root, with the same value.
 """
 
-import html
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass, field
-from decimal import Decimal
 from functools import cache, cached_property
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mechsheet import units
 from mechsheet.mechanics.brackets import Array, Function
 from mechsheet.mechanics.roots import Counted, Roots, all_roots, nearest_root, real_values, together
+from mechsheet.worksheet import numbers
 from mechsheet.worksheet.errors import SheetError, refuse
+from mechsheet.worksheet.shown import Shown
 
 _values_only: ContextVar[bool] = ContextVar("values_only", default=False)
 
@@ -59,7 +58,7 @@ class Root:
 
 
 @dataclass(frozen=True, eq=False)
-class Found:
+class Found(Shown):
     """The verdict of a solve block; numbers in SI, arrays for arrays of problems.
 
     Attributes
@@ -131,57 +130,45 @@ class Found:
     def __str__(self) -> str:
         if isinstance(self.reason, str) and self.reason:
             return self.reason
-        return f"{self._headline()}: " + ", ".join(f"{k} {v}" for k, v in self._details())
+        return f"{self.headline()}: " + ", ".join(f"{k} {v}" for k, v in self.details())
 
-    def _mime_(self) -> tuple[str, str]:
-        failures = self._failures()
-        colour, verdict = ("#c62828", "not found") if failures else ("#2e7d32", "found")
-        badge = (
-            f'<span style="background:{colour};color:#fff;border-radius:.3em;padding:.1em .5em;margin-right:.6em">'
-            f"{verdict}</span>"
-        )
-        lines = "".join(f"<div>{html.escape(text)}</div>" for text in failures)
-        rows = "".join(
-            f'<tr><td style="opacity:.65;padding:0 1em 0 0">{html.escape(k)}</td>'
-            f'<td style="padding:0;font-variant-numeric:tabular-nums">{html.escape(v)}</td></tr>'
-            for k, v in self._details()
-        )
-        return "text/html", (
-            '<div style="border-left:3px solid currentColor;padding:.2em .8em;margin:.4em 0">'
-            f"<div>{badge}<b>{html.escape(self._headline())}</b></div>{lines}"
-            f'<table style="border-collapse:collapse;font-size:.9em;margin-top:.3em">{rows}</table></div>'
-        )
-
-    def _headline(self) -> str:
+    def headline(self) -> str:
+        """The unknown and its value, or how many problems are solved."""
         unknown, unit = self.words.unknown, self.words.unknown_unit
         if isinstance(self.reason, str):
-            return unknown if self.reason else f"{unknown} = {_amount(unit, self._value, 6)}"
+            return unknown if self.reason else f"{unknown} = {numbers.amount(self._value, unit, 6)}"
         count = f"{np.count_nonzero(self.solved)} of {self.reason.size} problems solved"
-        return f"{unknown} = {_span(unit, self._value)}, {count}" if np.any(self.solved) else f"{unknown}, {count}"
+        return (
+            f"{unknown} = {numbers.extent(self._value, unit)}, {count}"
+            if np.any(self.solved)
+            else f"{unknown}, {count}"
+        )
 
-    def _failures(self) -> list[str]:
+    def failures(self) -> list[str]:
+        """Why there is no value, of the first problems without one."""
         reasons = np.atleast_1d(self.reason)
         failed = np.argwhere(reasons != "").tolist()
         where = [f"problem {', '.join(map(str, i))}: " if np.ndim(self.reason) else "" for i in failed]
         texts = [w + reasons[tuple(i)] for w, i in zip(where[:3], failed[:3], strict=True)]
         return texts + [f"and {len(failed) - 3} more"] * (len(failed) > 3)
 
-    def _details(self) -> list[tuple[str, str]]:
+    def details(self) -> list[tuple[str, str]]:
+        """How the value was found: what is said of it, and in words and numbers what it is."""
         words, single = self.words, isinstance(self.reason, str)
         on = "" if self.branch is None else f" on branch {self.branch:+d}"
-        rows = [("condition", f"{words.quantity} = {_span(words.unit, self.equals)}{on}")]
+        rows = [("condition", f"{words.quantity} = {numbers.extent(self.equals, words.unit)}{on}")]
         if np.any(self.solved):
             label = "residual" if single else "largest residual"
-            rows.append((label, _amount(words.unit, np.nanmax(np.abs(self.residual)), 2)))
+            rows.append((label, numbers.amount(np.nanmax(np.abs(self.residual)), words.unit, 2)))
         if single and not self.reason:
-            rows.append(("bracket", _span(words.unknown_unit, self.bracket)))
+            rows.append(("bracket", numbers.extent(self.bracket, words.unknown_unit)))
         if single:
             roots = [
-                _amount(words.unknown_unit, root.value, 6) + (on and f" (branch {root.branch:+d})")
+                numbers.amount(root.value, words.unknown_unit, 6) + (on and f" (branch {root.branch:+d})")
                 for root in self.roots
             ]
             rows.append(("all roots", "; ".join(roots) or "none"))
-        rows.append(("searched", _span(words.unknown_unit, self.interval)))
+        rows.append(("searched", numbers.extent(self.interval, words.unknown_unit)))
         return [*rows, ("evaluations", str(self.evaluations))]
 
 
@@ -291,7 +278,7 @@ def find(
         for i in np.flatnonzero(np.isnan(value)):
             reasons[i] = _reason(words, flat["equals"][i], search, at[i])
             own_roots = [(s, x) for k, s in enumerate(labels) for x in search.roots[0, :, k * void.size + i]]
-            places = [f"at {_amount(unknown_unit, x)} on branch {s:+d}" for s, x in own_roots if np.isfinite(x)]
+            places = [f"at {numbers.amount(x, unknown_unit)} on branch {s:+d}" for s, x in own_roots if np.isfinite(x)]
             reasons[i] += f"; it is reached {', '.join(places)}" if places else ""
         roots = tuple(
             Root(shaped(x), shaped(s), shaped(r), (shaped(a), shaped(b)))
@@ -326,9 +313,9 @@ def _nothing(words: _Words, branch: int | None, shape: tuple[int, ...]) -> Found
     return Found(none, branch, none, (none, none), (none, none), none, words, lambda: 0, lambda: everything)
 
 
-def _checked(words: _Words, **numbers: ArrayLike | None) -> dict[str, Array]:
+def _checked(words: _Words, **values: ArrayLike | None) -> dict[str, Array]:
     """The numbers that are given, as arrays; SheetError for the first that cannot be used."""
-    given = {name: np.asarray(v, dtype=float) for name, v in numbers.items() if v is not None}
+    given = {name: np.asarray(v, dtype=float) for name, v in values.items() if v is not None}
     for name, v in given.items():
         bad = ~np.isfinite(v) if v.ndim == 0 else np.isinf(v)
         if bad.any():
@@ -343,7 +330,7 @@ def _checked(words: _Words, **numbers: ArrayLike | None) -> dict[str, Array]:
         if pair[0] in given and pair[1] in given:
             _in_order(words, pair, given[pair[0]], given[pair[1]])
     if (given["guess"] <= 0).any():
-        least = _amount(words.unknown_unit, np.nanmin(given["guess"]))
+        least = numbers.amount(np.nanmin(given["guess"]), words.unknown_unit)
         raise SheetError(f"guess = {least} for {words.unknown} must be positive, or give both ends of its interval")
     return given
 
@@ -351,7 +338,7 @@ def _checked(words: _Words, **numbers: ArrayLike | None) -> dict[str, Array]:
 def _in_order(words: _Words, names: tuple[str, str], low: Array, high: Array) -> None:
     low, high = np.broadcast_arrays(low, high)
     for a, b in zip(low[low >= high], high[low >= high], strict=True):
-        small, large = (_amount(words.unknown_unit, v) for v in (a, b))
+        small, large = (numbers.amount(v, words.unknown_unit) for v in (a, b))
         raise SheetError(f"{names[0]} = {small} for {words.unknown} must be less than {names[1]} = {large}")
 
 
@@ -366,40 +353,15 @@ def _reason(words: _Words, equals: float, search: Roots, c: int) -> str:
     if np.isnan(search.interval[:, c]).any():
         return _without_numbers(words)
     if np.isnan(least):
-        return f"nothing closes for {words.unknown} in {_span(at, search.interval[:, c])}"
-    low, high, target = _texts(unit, least, greatest, equals)
-    reach = low if low == high else f"{low}..{high}"
+        return f"nothing closes for {words.unknown} in {numbers.extent(search.interval[:, c], at)}"
+    *ends, target = numbers.apart([least, greatest, equals], unit)
+    reach, after = numbers.span(ends), numbers.suffix(unit)
     if not least <= equals <= greatest:
-        return f"{words.unknown}: {words.quantity} reaches {reach}{_suffix(unit)}, {target}{_suffix(unit)} is outside"
-    where = "" if np.isnan(search.jump[c]) else f" at {_amount(at, search.jump[c])}"
-    verdict = f"reaches {reach}{_suffix(unit)} but jumps over {target}{_suffix(unit)}{where}"
+        return f"{words.unknown}: {words.quantity} reaches {reach}{after}, {target}{after} is outside"
+    where = "" if np.isnan(search.jump[c]) else f" at {numbers.amount(search.jump[c], at)}"
+    verdict = f"reaches {reach}{after} but jumps over {target}{after}{where}"
     return f"{words.unknown}: {words.quantity} {verdict}"
 
 
 def _without_numbers(words: _Words) -> str:
     return f"nothing to solve for {words.unknown}: its interval, target or guess is NaN"
-
-
-def _texts(unit: str, *values: float, digits: int = 4) -> list[str]:
-    """The SI numbers in a display unit, with as many digits as tell unequal ones apart (17 always do)."""
-    factor = Decimal(repr(float(units.parse(unit).factor)))
-    shown = [Decimal(float(v)) / factor for v in values]
-    while True:
-        rounded = [Decimal(f"{v:.{digits - 1}e}").normalize() for v in shown]
-        if len(set(rounded)) == len(set(shown)) or digits == 17:
-            return [f"{v:f}" if -6 < v.adjusted() < 15 else f"{v:e}" for v in rounded]
-        digits += 1
-
-
-def _suffix(unit: str) -> str:
-    return "" if unit == "-" else f" {unit}"
-
-
-def _amount(unit: str, value: float, digits: int = 4) -> str:
-    return _texts(unit, value, digits=digits)[0] + _suffix(unit)
-
-
-def _span(unit: str, values: ArrayLike) -> str:
-    """Least..greatest of the values, one number where they are equal."""
-    texts = _texts(unit, np.nanmin(values), np.nanmax(values))
-    return "..".join(dict.fromkeys(texts)) + _suffix(unit)

@@ -3,7 +3,6 @@
 import ast
 import dataclasses
 import difflib
-import html
 import re
 import sys
 from collections.abc import Callable, Iterable, Iterator, Mapping
@@ -14,8 +13,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mechsheet import units
-from mechsheet.worksheet import lines, source, symbol
+from mechsheet.worksheet import lines, numbers, source
 from mechsheet.worksheet.errors import SheetError, refuse
+from mechsheet.worksheet.shown import Shown
 
 if TYPE_CHECKING:
     import marimo as mo
@@ -42,7 +42,7 @@ class Input:
         if self.whole:
             return value
         shown = value / units.parse(self.unit).factor
-        return shown if np.ndim(shown) else float(f"{shown:.15g}")
+        return shown if np.ndim(shown) else float(numbers.significant(shown, 15))
 
     def si(self, value: Any, default: Any) -> Any:
         """SI value of a number or an array in the display unit; the default itself where it is shown as that number."""
@@ -267,7 +267,7 @@ def build(cls: type[T], values: Mapping[str, object]) -> T:
 
 def text(field: Input, value: Any) -> str:
     """Value in the display unit as a text field shows it."""
-    return f"{field.display(value):.15g}"
+    return numbers.significant(field.display(value), 15)
 
 
 def read(cls: type[T], form: "mo.ui.batch") -> T:
@@ -280,7 +280,7 @@ def read(cls: type[T], form: "mo.ui.batch") -> T:
 
 
 @dataclass(frozen=True)
-class Used:
+class Used(Shown):
     """The values that a worksheet really uses, shown in their display units."""
 
     g: Any
@@ -292,25 +292,7 @@ class Used:
             (field, field.written(getattr(self.g, field.name), getattr(cls, field.name))) for field in declared(cls)
         ]
 
-    def _mime_(self) -> tuple[str, str]:
-        changed = {f.name for f in dataclasses.fields(self.g) if getattr(self.g, f.name) != f.default}
-        items, rows, section = [], [], ""
-        for field, value in self.rows():
-            unit = "" if field.unit == "-" else html.escape(units.shown(field.unit))
-            weight = "bold" if field.name in changed else "normal"
-            name = symbol.html(field.name)
-            shown = f"{name}&nbsp;=&nbsp;{value:.10g}&nbsp;{unit}"
-            items.append(f'<span style="white-space:nowrap;font-weight:{weight}">{shown}</span>')
-            if field.section != section:
-                section = field.section
-                rows.append(f'<tr><th colspan="4" style="text-align:left">{html.escape(section)}</th></tr>')
-            rows.append(
-                f'<tr style="font-weight:{weight}"><td>{name}</td>'
-                f'<td style="text-align:right;padding:0 .5em">{value:.10g}</td>'
-                f'<td style="padding-right:1em">{unit}</td><td>{html.escape(field.meaning)}</td></tr>'
-            )
-        style = "display:flex;flex-wrap:wrap;gap:.2em 1.6em;font-size:.9em"
-        return "text/html", (
-            f'<div class="ms-screen" style="{style}">{"".join(items)}</div>'
-            f'<table class="ms-print" style="display:none">{"".join(rows)}</table>'
-        )
+    @property
+    def changed(self) -> set[str]:
+        """Names of the inputs that differ from the worksheet's own."""
+        return {f.name for f in dataclasses.fields(self.g) if getattr(self.g, f.name) != f.default}

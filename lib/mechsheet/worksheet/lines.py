@@ -1,7 +1,6 @@
 """Lines of a cell that declare a quantity: its name, expression, unit, meaning and value; equations to be solved."""
 
 import ast
-import json
 import re
 import sys
 from collections.abc import Iterator, Mapping
@@ -14,9 +13,9 @@ import numpy as np
 from mechsheet import units
 from mechsheet.worksheet import source
 from mechsheet.worksheet.errors import SheetError, refuse
+from mechsheet.worksheet.shown import Shown
 
 _DECLARED = re.compile(r"\[([^\]]*)\]\s*(.*)")
-_REGISTRY = "__formulas__"
 
 
 @dataclass(frozen=True)
@@ -79,14 +78,6 @@ def _formulas(cell: source.Cell) -> Iterator[Formula | Given]:
             yield Formula(name, expression, *found, arguments)
 
 
-@lru_cache(maxsize=1000)
-def _assigned(cell: source.Cell) -> tuple[str, ...]:
-    """Names that the lines of a cell may declare."""
-    assigned = (target for node in cell.body if isinstance(node, ast.Assign) for target in node.targets)
-    functions = (node.name for node in cell.body if isinstance(node, ast.FunctionDef))
-    return (*(target.id for target in assigned if isinstance(target, ast.Name)), *functions)
-
-
 def _on_its_branch(node: ast.FunctionDef, expression: ast.expr) -> ast.expr:
     """The expression with the assembly branch that the function takes unless it is told another."""
     if not (node.args.args and node.args.args[-1].arg == "branch" and node.args.defaults):
@@ -101,39 +92,102 @@ def _equation(f: ast.expr) -> ast.expr:
     return f.body if isinstance(f, ast.Lambda) else f
 
 
-def registry(namespace: Mapping[str, Any]) -> Mapping[str, Formula]:
-    """Formulas that the cells of a running worksheet have declared so far, by name."""
-    known: Mapping[str, Formula] = namespace.get(_REGISTRY, {})
-    return known
+def registry(namespace: Mapping[str, Any], cells: tuple[source.Cell, ...] | None = None) -> Mapping[str, Formula]:
+    """Lines of the running worksheet that declare what is in the namespace, by name, in the order of its source.
+
+    ``cells`` are those of the worksheet where the namespace is a copy and does not tell.
+
+    Raises SheetError where a line is asked for in whose cell a unit is not known.
+    """
+    return _Registry(_lines(source.cells(namespace) if cells is None else cells), namespace)
+
+
+class _Registry(Mapping[str, Formula]):
+    """Lines that declare what there is; each in the unit in which its cell displays it."""
+
+    def __init__(self, lines: Mapping[str, "_Line | SheetError"], namespace: Mapping[str, Any]) -> None:
+        self.lines, self.namespace = lines, namespace
+
+    def __getitem__(self, name: str) -> Formula:
+        line = self.lines[name]
+        if isinstance(line, SheetError):
+            raise line
+        if name not in self.namespace:
+            raise KeyError(name)
+        return line.shown(self.namespace)
+
+    def __iter__(self) -> Iterator[str]:
+        return (name for name, line in self.lines.items() if isinstance(line, _Line) and name in self.namespace)
+
+    def __len__(self) -> int:
+        return sum(1 for _ in self)
+
+
+@dataclass(frozen=True)
+class _Line:
+    """A line as it stands in the source, and the other display units that its cell's typeset gives."""
+
+    formula: Formula
+    display: ast.expr | None
+
+    def shown(self, namespace: Mapping[str, Any]) -> Formula:
+        """The line in the unit in which it is displayed."""
+        match self.display:
+            case None:
+                return self.formula
+            case ast.Name(name):
+                display = namespace.get(name) or {}
+            case ast.Dict():
+                display = ast.literal_eval(self.display)
+            case other:
+                raise SheetError(
+                    f"typeset(display={ast.unparse(other)}) must be a dictionary as it is written, or a name"
+                )
+        return _displayed(self.formula, display)
+
+
+def _displayed(line: Formula, display: Mapping[str, str]) -> Formula:
+    return replace(line, unit=display[line.unit]) if line.unit in display else line
+
+
+@lru_cache(maxsize=32)
+def _lines(cells: tuple[source.Cell, ...]) -> dict[str, _Line | SheetError]:
+    """Lines of the cells by name; of a cell that cannot be read the reason, by every name that it may declare."""
+    found = dict[str, _Line | SheetError]()
+    for cell in cells:
+        display = next(filter(None, map(_display, cell.body)), None)
+        try:
+            found |= {row.name: _Line(row, display) for row in formulas(cell) if isinstance(row, Formula)}
+        except SheetError as error:
+            assigned = (target for node in cell.body if isinstance(node, ast.Assign) for target in node.targets)
+            found |= {target.id: error for target in assigned if isinstance(target, ast.Name)}
+    return found
+
+
+def _display(node: ast.stmt) -> ast.expr | None:
+    """Display units that a statement of a cell gives to typeset."""
+    for call in ast.walk(node):
+        match call:
+            case ast.Call(ast.Name("typeset"), _, keywords):
+                return next((k.value for k in keywords if k.arg == "display"), None)
+    return None
 
 
 def typeset(*shown: Any, display: Mapping[str, str] | None = None) -> "Typeset":
     """Formulas of the calling cell with their values, then whatever else is ``shown``: the last line of a cell.
 
-    Reads the cell's own source, so nothing is typed twice; declares each name's unit and meaning to the
-    tables and figures below. Nothing is rendered until the page asks. ``display`` gives another display unit
-    for some of the declared ones, such as ``{"kgf": "N"}``.
+    Reads the cell's own source, so nothing is typed twice. Nothing is rendered until the page asks. ``display``
+    gives another display unit for some of the declared ones, such as ``{"kgf": "N"}``, to tables and figures too: a
+    dictionary as it is written, or a name of the worksheet.
 
     Raises SheetError naming the line where a unit is not known.
     """
     frame = sys._getframe(1)
-    known = frame.f_globals.setdefault(_REGISTRY, {})
-    rows: list[Formula | Given] = []
-    cell = source.cell(frame)
     try:
-        lines = formulas(cell)
+        lines = formulas(source.cell(frame))
     except SheetError as error:
         refuse(error)
-    for name in _assigned(cell):  # an edited line that has lost its unit must not keep the former one
-        known.pop(name, None)
-    for row in lines:
-        if isinstance(row, Given):
-            rows.append(row)
-            continue
-        if display and row.unit in display:
-            row = replace(row, unit=display[row.unit])
-        known[row.name] = row
-        rows.append(row)
+    rows = [_displayed(row, display or {}) if isinstance(row, Formula) else row for row in lines]
     values = tuple(frame.f_globals[row.name] if isinstance(row, Formula) else None for row in rows)
     return Typeset(tuple(rows), values, shown, Numbers(frame.f_globals))
 
@@ -169,7 +223,7 @@ def _units_of(inputs: type) -> dict[str, str]:
 
 
 @dataclass(frozen=True)
-class Typeset:
+class Typeset(Shown):
     """Lines of a cell and their values, shown as symbol = formula = value, unit, meaning."""
 
     rows: tuple[Formula | Given, ...]
@@ -182,14 +236,3 @@ class Typeset:
         """The same formulas with the values at one position of their fields."""
         values = (np.asarray(v)[..., position] if np.ndim(v) else v for v in self.values)
         return replace(self, values=tuple(values), position=position)
-
-    def _mime_(self) -> tuple[str, str]:
-        # In a bundle: plain HTML is parsed four times a run, in search of headings for the outline.
-        return "application/vnd.marimo+mimebundle", json.dumps({"text/html": self.html})
-
-    @property
-    def html(self) -> str:
-        """The lines as they stand in the page."""
-        from mechsheet.page.lines import markup  # TODO-MERGE
-
-        return markup(self)

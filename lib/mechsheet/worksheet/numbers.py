@@ -56,7 +56,10 @@ def fixed(x: float, decimals: int, to: Notation = PLAIN) -> str:
     >>> fixed(-0.0004, 3), fixed(-2.5, 3, AXIS), fixed(float("nan"), 3, CELL)
     ('0.000', '−2.500', '–')
     """
-    return f"{x:z.{decimals}f}".replace("-", to.minus) if isfinite(x) else _unlimited(x, to)
+    if not isfinite(x):
+        return _unlimited(x, to)
+    text = f"{x:z.{decimals}f}"
+    return text if to.minus == "-" else text.replace("-", to.minus)
 
 
 def scientific(x: float, decimals: int, to: Notation = PLAIN) -> str:

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mechsheet import units
+from mechsheet.worksheet import numbers
 from mechsheet.worksheet.cells import base, value
 from mechsheet.worksheet.checks import Check
 from mechsheet.worksheet.errors import SheetError
@@ -27,8 +28,7 @@ class Quantity:
     @property
     def span(self) -> str:
         """Least..greatest of the values, NaN where one is missing; one number where they are equal."""
-        ends = (f"{end:.6g}" for end in (np.min(self.values), np.max(self.values)))
-        return "..".join(dict.fromkeys(ends))
+        return numbers.span(numbers.significant(end, 6) for end in (np.min(self.values), np.max(self.values)))
 
     @property
     def gaps(self) -> str:
@@ -37,8 +37,7 @@ class Quantity:
         return f"{self.name} does not exist at {missing} of {size} positions" if missing else ""
 
     def __str__(self) -> str:
-        unit = "" if self.unit == "-" else f" {self.unit}"
-        return f"{self.name} = {self.span}{unit}, {self.meaning}"
+        return f"{self.name} = {self.span}{numbers.suffix(self.unit)}, {self.meaning}"
 
 
 def quantities(name: str, namespace: Mapping[str, Any]) -> list[Quantity]:
@@ -78,12 +77,12 @@ def _checks(name: str, limit: Limit, namespace: Mapping[str, Any]) -> Iterator[C
     quantity, *more = quantities(name, namespace)
     if more:
         raise SheetError(f"limit of {name}: it is complex; limit {name}.real, {name}.imag or abs({name})")
-    unit = "" if quantity.unit == "-" else f" {quantity.unit}"
+    unit = numbers.suffix(quantity.unit)
     reason = quantity.gaps or f"it is {quantity.span}{unit}"
     # Residuals as worksheets write them, at most 0; NaN stays NaN and fails.
     if limit.min is not None:
         residual = float(limit.min - np.min(quantity.values))
-        yield Check(f"{name} >= {limit.min:.10g}{unit}", residual, 0.0, quantity.unit, reason)
+        yield Check(f"{name} >= {numbers.significant(limit.min, 10)}{unit}", residual, 0.0, quantity.unit, reason)
     if limit.max is not None:
         residual = float(np.max(quantity.values) - limit.max)
-        yield Check(f"{name} <= {limit.max:.10g}{unit}", residual, 0.0, quantity.unit, reason)
+        yield Check(f"{name} <= {numbers.significant(limit.max, 10)}{unit}", residual, 0.0, quantity.unit, reason)

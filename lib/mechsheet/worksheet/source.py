@@ -1,17 +1,23 @@
-"""A cell reads its own source: its statements, their comments and the call that is being made."""
+"""The source of a worksheet: the statements of its cells and their comments, and the call that is being made."""
 
 import ast
 import io
 import linecache
+import os
 import tokenize
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import lru_cache
+from pathlib import Path
 from types import CodeType, FrameType
+from typing import Any
+
+from mechsheet.worksheet import shown
 
 
 @dataclass(frozen=True, eq=False)
 class Cell:
-    """Statements of the running cell, with the comment of each line and where the cell stands."""
+    """Statements of a cell, with the comment of each line and where the cell stands."""
 
     body: tuple[ast.stmt, ...]
     comments: dict[int, str]
@@ -37,6 +43,65 @@ def cell(frame: FrameType) -> Cell:
 # Cells by the identity of their code, held so that it stays theirs: code with another unit in a comment is equal.
 _read: dict[int, tuple[CodeType, Cell]] = {}
 _KEPT = 1000
+
+
+def cells(namespace: Mapping[str, Any]) -> tuple[Cell, ...]:
+    """Cells of the worksheet that runs in a namespace: those of its page, elsewhere those of its file, in their order.
+
+    The same tuple as long as they stay the same.
+    """
+    texts = shown.cells_in_page(namespace)
+    if texts is not None:
+        return of_texts(texts)
+    path = namespace.get("__file__")
+    return _in_file(path, os.stat(path).st_mtime_ns) if path else ()
+
+
+@lru_cache(maxsize=32)
+def of_texts(texts: shown.Texts) -> tuple[Cell, ...]:
+    """Cells that are texts of their own."""
+    return tuple(_alone(*text) for text in texts)
+
+
+@lru_cache(maxsize=1000)
+def _alone(text: str, filename: str) -> Cell:
+    tree, comments = _parse(text)
+    return Cell(tuple(tree.body), comments, filename)
+
+
+@lru_cache(maxsize=32)
+def _in_file(path: str, _changed: int) -> tuple[Cell, ...]:
+    tree, comments = _parse(Path(path).read_text(encoding="utf-8"))
+    return tuple(Cell(tuple(node.body), comments, path) for node in functions(tree))
+
+
+def functions(tree: ast.Module) -> Iterator[ast.FunctionDef]:
+    """The cells as they stand in the file: functions that end by returning what they define."""
+    for node in tree.body:
+        if isinstance(node, ast.FunctionDef) and any(is_app(d, ("cell",)) for d in node.decorator_list):
+            yield node
+
+
+def markdown(node: ast.FunctionDef) -> ast.expr | None:
+    """Text of a cell that shows one by ``mo.md``."""
+    match node.body[-2:]:
+        case [ast.Expr(ast.Call(ast.Attribute(ast.Name("mo"), "md"), [text])), _]:
+            return text
+    return None
+
+
+def constant(node: ast.expr | None) -> str:
+    """A text as it stands in the source; of one with values in it the first part, of anything else nothing."""
+    match node:
+        case ast.Constant(str(text)) | ast.JoinedStr([ast.Constant(str(text)), *_]):
+            return text
+    return ""
+
+
+def is_app(node: ast.expr, kinds: tuple[str, ...]) -> bool:
+    """Whether a decorator or context is ``app.cell``, ``app.setup`` and the like, called or not."""
+    node = node.func if isinstance(node, ast.Call) else node
+    return isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name) and node.attr in kinds
 
 
 def call(frame: FrameType) -> ast.Call:

@@ -1,12 +1,9 @@
 """Tables and figures as values, one description for the page, the workbook and pandas."""
 
 import ast
-import html
 import sys
 from collections.abc import Mapping
 from dataclasses import dataclass
-from itertools import takewhile
-from math import isnan
 from types import FrameType
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -14,9 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mechsheet import units
-from mechsheet.document import chart, chart_svg
-from mechsheet.worksheet import lines, source, symbol
+from mechsheet.worksheet import lines, numbers, source, symbol
 from mechsheet.worksheet.errors import SheetError, refuse
+from mechsheet.worksheet.shown import Shown
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -26,7 +23,7 @@ DECIMALS = {
     "kgf*cm": 0, "kgf/cm": 1, "N*m": 0, "N/mm": 1, "mm**2": 1, "cm**4": 1, "mm**4": 0, "mm**3": 0,
 }  # fmt: skip
 _OTHER_DECIMALS = 3
-_BLOCK = 6
+MARKED = 60  # points of a curve that are marked one by one; more of them hide the line
 
 
 @dataclass(frozen=True)
@@ -45,12 +42,12 @@ class Column:
 
     def texts(self) -> list[str]:
         """The values as they are shown."""
-        kind = "e" if self.power else "f"
-        return [v if isinstance(v, str) else _digits(v, self.decimals, kind) for v in self.values.tolist()]
+        written = numbers.scientific if self.power else numbers.fixed
+        return [v if isinstance(v, str) else written(v, self.decimals, numbers.CELL) for v in self.values.tolist()]
 
 
 @dataclass(frozen=True)
-class Table:
+class Table(Shown):
     """A numbered table; all columns have the same length, the first ones of whole numbers name the rows."""
 
     number: str
@@ -61,42 +58,13 @@ class Table:
 
     def frame(self) -> "pd.DataFrame":
         """The table as a pandas DataFrame, headings ``symbol [unit]``."""
-        import pandas as pd
+        import pandas as pd  # on use: a worksheet shows its tables without
 
         return pd.DataFrame({f"{c.symbol} [{c.unit}]" if c.unit else c.symbol: c.values for c in self.columns})
 
-    def _mime_(self) -> tuple[str, str]:
-        whole = list(takewhile(lambda c: c.unit in ("-", "") and c.decimals == 0, self.columns))
-        keys = self.columns[: max(1, len(whole))] if len(whole) < len(self.columns) else self.columns[:1]
-        rest = self.columns[len(keys) :]
-        blocks = [rest[i : i + _BLOCK] for i in range(0, max(len(rest), 1), _BLOCK)]
-        if len(blocks) > 1 and len(blocks[-1]) == 1:
-            blocks[-2:] = [blocks[-2] + blocks[-1]]
-        caption = f'<div class="ms-caption"><b>Table {html.escape(self.number)}</b> – {html.escape(self.title)}</div>'
-        note = f'<div class="ms-note">{symbol.in_words(self.note)}</div>' if self.note else ""
-        return "text/html", f'<div class="ms-table">{caption}{"".join(_block([*keys, *b]) for b in blocks)}{note}</div>'
-
-
-def _block(columns: list[Column]) -> str:
-    kinds = ["" if c.unit else ' class="ms-text"' for c in columns]
-    heads = "".join(
-        f'<th{kind} title="{html.escape(c.meaning)}">{symbol.html(c.symbol)}</th>'
-        for c, kind in zip(columns, kinds, strict=True)
-    )
-    unit_row = "".join(f"<th>{f'[{html.escape(units.shown(c.unit))}]' if c.unit else ''}</th>" for c in columns)
-    rows = "".join(
-        "<tr>" + "".join(f"<td{kind}>{t}</td>" for t, kind in zip(row, kinds, strict=True)) + "</tr>"
-        for row in zip(*(c.texts() if c.unit else map(html.escape, c.texts()) for c in columns), strict=True)
-    )
-    return f'<table><thead><tr>{heads}</tr><tr class="ms-units">{unit_row}</tr></thead><tbody>{rows}</tbody></table>'
-
-
-def _digits(value: float, decimals: int, kind: str) -> str:
-    return "–" if isnan(value) else f"{value:z.{decimals}{kind}}".replace("inf", "∞")
-
 
 @dataclass(frozen=True)
-class Figure:
+class Figure(Shown):
     """A numbered line chart of some columns over another; ``marks`` are labelled positions on the x axis."""
 
     number: str
@@ -112,17 +80,9 @@ class Figure:
         """Curves: a column over which rows, and a name for what it is where that is not its symbol."""
         return [(line, slice(0, len(line.values)), "") for line in self.lines]
 
-    def _mime_(self) -> tuple[str, str]:
-        caption = f'<div class="ms-caption"><b>Figure {html.escape(self.number)}</b> – {html.escape(self.title)}</div>'
-        return "text/html", f'<ms-figure class="ms-figure">{self.svg()}{caption}</ms-figure>'
-
-    def svg(self) -> str:
-        """The chart as one SVG element."""
-        return chart_svg.svg(chart.line_chart(self.x, self.lines, self.marks, self.every))
-
     def chart(self) -> Any:
         """The figure as an altair chart, to be changed, combined or saved; the page draws its own, which is faster."""
-        import altair as alt
+        import altair as alt  # on use: the page draws its own
 
         names = [symbol.text(c.symbol) for c in self.lines]
         curves = [
@@ -150,7 +110,7 @@ class Figure:
             ],
         )
         layers = [base.mark_line()]
-        if self.x.values[:: self.every].size <= chart.MARKED:
+        if self.x.values[:: self.every].size <= MARKED:
             listed = alt.InlineData([row for curve in curves for row in curve[:: self.every]])
             layers.append(base.mark_point(filled=True, size=36).properties(data=listed))
         for name, x in self.marks:
@@ -218,11 +178,14 @@ def _columns(
     shape = np.broadcast_shapes((1,), *(np.shape(v) for v in values))
     for node, value in zip(nodes, values, strict=True):
         name, part = _name(node)
-        if name not in known:
+        try:
+            line = known[name]
+        except KeyError:
             refuse(
                 SheetError(f"column {ast.unparse(node)}: no line declares {name} with its unit, such as # [m] meaning")
             )
-        line = known[name]
+        except SheetError as error:
+            refuse(error)
         label = heading(name, part)
         unit = show.get(label, line.unit)
         shown = np.broadcast_to(np.asarray(value) / units.parse(unit).factor, shape)[..., ::every].ravel()

@@ -26,7 +26,7 @@ class Section:
     fields: list[Line] = field(default_factory=list)
 
 
-class Layout:
+class Arrangement:
     """The places of the quantities of a recording, and the names that mean them.
 
     ``inputs`` and ``found`` give the rows of their sheets by symbol, ``sheets`` the names of the tables' sheets,

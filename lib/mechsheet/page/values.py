@@ -1,0 +1,254 @@
+"""What the page shows of each value: its writer by its kind, from the data to HTML."""
+
+import base64
+import json
+import re
+from datetime import date
+from functools import cache, singledispatch
+from html import escape
+from itertools import takewhile
+from pathlib import Path
+from typing import Any
+
+import marimo as mo
+
+from mechsheet import units
+from mechsheet.document import chart, chart_svg
+from mechsheet.page import drawing
+from mechsheet.page.lines import lines
+from mechsheet.worksheet import numbers, symbol
+from mechsheet.worksheet.checks import Check, Summary
+from mechsheet.worksheet.drawing import Drawing
+from mechsheet.worksheet.find import Found
+from mechsheet.worksheet.inputs import Used
+from mechsheet.worksheet.lines import Typeset
+from mechsheet.worksheet.shown import Charted, Shown
+from mechsheet.worksheet.table import Column, Figure, Table
+from mechsheet.worksheet.title import Caption, Mark, Note, Player, SideBySide, Title
+
+_BLOCK = 6  # columns of a table beside each other, those that name its rows apart
+# Shown by the style sheet that stands where something was refused.
+_TOLD = '<div class="ms-told" style="display:none"><span class="ms-badge ms-FAIL">not computed to its end</span> </div>'
+
+
+def written(value: object) -> tuple[str, str]:
+    """MIME type and text of a value of the package."""
+    if isinstance(value, Typeset):  # in a bundle: plain HTML is parsed four times a run, in search of headings
+        return "application/vnd.marimo+mimebundle", json.dumps({"text/html": html(value)})
+    return "text/html", html(value)
+
+
+def refused(error: Exception, shown: Any) -> None:
+    """Stop the running cell with an error in its place, or ``shown``; return where no page is running.
+
+    The title block tells it too: the verdicts of the checks have gone with their cells.
+    """
+    if mo.running_in_notebook():
+        place = mo.as_html(shown if shown is not None else mo.callout(str(error), kind="danger")).text
+        reason = f'.ms-told{{display:block!important}}.ms-told::after{{content:"{_quoted(str(error))}"}}'
+        mo.stop(True, mo.Html(f"{place}<style>{reason}</style>"))
+
+
+@singledispatch
+def html(value: Any) -> str:
+    """What the page shows of a value, as HTML; what is not the package's is left to marimo."""
+    if isinstance(value, Shown):
+        return f"<div>{escape(type(value).__name__)}: the page has no writer for values of this kind</div>"
+    kind, text = value._mime_() if hasattr(value, "_mime_") else ("", "")
+    return str(text) if kind == "text/html" else mo.as_html(value).text
+
+
+@html.register
+def _(value: Charted) -> str:
+    return mo.as_html(value.chart()).text
+
+
+@html.register
+def _(value: Drawing) -> str:
+    return drawing.svg(value)
+
+
+@html.register
+def _(title: Title) -> str:
+    text = mo.md(f"# {title.name}\n\n{title.text}").text
+    cells = [("Worksheet", escape(title.file)), ("Computed", f"{date.today():%Y-%m-%d}")]
+    fields = "".join(f"<span>{label} <b>{value}</b></span>" for label, value in cells)
+    switch = '<label class="ms-screen"><input type="checkbox" class="ms-switch"> numbers in the formulas</label>'
+    return (
+        f'{_script()}<div class="ms-title">{text}<div class="ms-row">{fields}{switch}</div>'
+        f"{_TOLD}{_noted(title.notes)}</div>"
+    )
+
+
+@cache
+def _script() -> str:
+    """The page's script, as an address: the only form in which a page of marimo runs one from an output."""
+    text = (Path(__file__).parent / "page.js").read_bytes()
+    return f'<script src="data:text/javascript;base64,{base64.b64encode(text).decode()}"></script>'
+
+
+def _noted(notes: tuple[Note, ...]) -> str:
+    """Mistakes with links to their cells, and the style sheet that tells each under the output of its cell too."""
+    items = "".join(
+        f'<div><span class="ms-badge ms-FAIL">mistake</span> <a href="#cell-{note.cell}">{escape(note.text)}</a></div>'
+        for note in notes
+    )
+    texts = {note.cell: "\n".join(n.text for n in notes if n.cell == note.cell) for note in notes}
+    places = "".join(
+        f'#cell-{cell} [data-cell-role="output"]::after{{content:"{_quoted(text)}"}}' for cell, text in texts.items()
+    )
+    return items + (f"<style>{places}</style>" if places else "")
+
+
+def _quoted(text: str) -> str:
+    """Text as it stands between the quotes of a style sheet in a page."""
+    return re.sub(r"[^\w .,;:=()+-]", lambda c: f"\\{ord(c[0]):x} ", text)
+
+
+@html.register
+def _(value: Player) -> str:
+    turning = " data-turning" if value.turning else ""
+    button = f'<button class="ms-play" aria-label="play"{turning}>▶</button>'
+    return f'<div class="ms-player">{value.slider.text}{button}</div>'
+
+
+@html.register
+def _(value: Mark) -> str:
+    marks = ";".join(f"{chart_svg.variable(symbol.plain(name))}:{float(x)!r}" for name, x in value.positions)
+    return f'<ms-marks at="{marks}"></ms-marks>'
+
+
+@html.register
+def _(value: Caption) -> str:
+    return _caption("Figure", value.number, value.title)
+
+
+def _caption(what: str, number: str, title: str) -> str:
+    return f'<div class="ms-caption"><b>{what} {escape(number)}</b> – {escape(title)}</div>'
+
+
+@html.register
+def _(value: SideBySide) -> str:
+    columns = ("".join(map(html, column)) for column in value.columns)
+    return f'<div class="ms-beside">{"".join(f"<div>{each}</div>" for each in columns)}</div>'
+
+
+@html.register
+def _(value: Typeset) -> str:
+    return lines(value) + "".join(map(html, value.shown))
+
+
+@html.register
+def _(check: Check) -> str:
+    unit = "" if check.unit == "-" else f" {escape(units.shown(check.unit))}"
+    sign = "≤" if check.passed else "≰"
+    residual, limit = (numbers.significant(x, 2) for x in (check.residual, check.limit))
+    compared = f": {residual} {sign} {limit}{unit}" if check.evaluated else ""
+    return (
+        f'<div id="{_anchor(check)}">{_badge(check)} {symbol.in_words(check.name)}{compared}'
+        f'<span style="opacity:.7"> {escape(check.reason)}</span></div>'
+    )
+
+
+def _badge(check: Check) -> str:
+    kind, verdict = ("PASS" if check.passed else "FAIL",) * 2 if check.evaluated else ("OPEN", "not evaluated")
+    return f'<span class="ms-badge ms-{kind}">{verdict}</span>'
+
+
+def _anchor(check: Check) -> str:
+    return "check-" + re.sub(r"\W+", "-", check.name)
+
+
+@html.register
+def _(summary: Summary) -> str:
+    passed = sum(check.passed for check in summary.checks)
+    skipped = sum(not check.evaluated for check in summary.checks)
+    failed = len(summary.checks) - passed - skipped
+    count = f"{passed} of {len(summary.checks)} checks pass" + (f", {failed} fail" if failed else "")
+    count += f", {skipped} not evaluated" if skipped else ""
+    items = "".join(
+        f'<span>{_badge(check)} <a href="#{_anchor(check)}">{symbol.in_words(check.name)}</a> '
+        f"{escape(check.reason)}</span>"
+        for check in sorted(summary.checks, key=lambda check: (check.passed, not check.evaluated))
+    )
+    return f'<div class="ms-summary"><b>{count}</b><div class="ms-row">{items}</div></div>'
+
+
+@html.register
+def _(found: Found) -> str:
+    failures = found.failures()
+    colour, verdict = ("#c62828", "not found") if failures else ("#2e7d32", "found")
+    badge = (
+        f'<span style="background:{colour};color:#fff;border-radius:.3em;padding:.1em .5em;margin-right:.6em">'
+        f"{verdict}</span>"
+    )
+    lines = "".join(f"<div>{escape(text)}</div>" for text in failures)
+    rows = "".join(
+        f'<tr><td style="opacity:.65;padding:0 1em 0 0">{escape(k)}</td>'
+        f'<td style="padding:0;font-variant-numeric:tabular-nums">{escape(v)}</td></tr>'
+        for k, v in found.details()
+    )
+    return (
+        '<div style="border-left:3px solid currentColor;padding:.2em .8em;margin:.4em 0">'
+        f"<div>{badge}<b>{escape(found.headline())}</b></div>{lines}"
+        f'<table style="border-collapse:collapse;font-size:.9em;margin-top:.3em">{rows}</table></div>'
+    )
+
+
+@html.register
+def _(used: Used) -> str:
+    changed, items, rows, section = used.changed, [], [], ""
+    for field, value in used.rows():
+        unit = "" if field.unit == "-" else escape(units.shown(field.unit))
+        weight = "bold" if field.name in changed else "normal"
+        name = symbol.html(field.name)
+        number = numbers.significant(value, 10)
+        shown = f"{name}&nbsp;=&nbsp;{number}&nbsp;{unit}"
+        items.append(f'<span style="white-space:nowrap;font-weight:{weight}">{shown}</span>')
+        if field.section != section:
+            section = field.section
+            rows.append(f'<tr><th colspan="4" style="text-align:left">{escape(section)}</th></tr>')
+        rows.append(
+            f'<tr style="font-weight:{weight}"><td>{name}</td>'
+            f'<td style="text-align:right;padding:0 .5em">{number}</td>'
+            f'<td style="padding-right:1em">{unit}</td><td>{escape(field.meaning)}</td></tr>'
+        )
+    style = "display:flex;flex-wrap:wrap;gap:.2em 1.6em;font-size:.9em"
+    return (
+        f'<div class="ms-screen" style="{style}">{"".join(items)}</div>'
+        f'<table class="ms-print" style="display:none">{"".join(rows)}</table>'
+    )
+
+
+@html.register
+def _(figure: Figure) -> str:
+    picture = chart_svg.svg(chart.line_chart(figure.x, figure.lines, figure.marks, figure.every))
+    caption = _caption("Figure", figure.number, figure.title)
+    return f'<ms-figure class="ms-figure">{picture}{caption}</ms-figure>'
+
+
+@html.register
+def _(table: Table) -> str:
+    whole = list(takewhile(lambda c: c.unit in ("-", "") and c.decimals == 0, table.columns))
+    keys = table.columns[: max(1, len(whole))] if len(whole) < len(table.columns) else table.columns[:1]
+    rest = table.columns[len(keys) :]
+    blocks = [rest[i : i + _BLOCK] for i in range(0, max(len(rest), 1), _BLOCK)]
+    if len(blocks) > 1 and len(blocks[-1]) == 1:
+        blocks[-2:] = [blocks[-2] + blocks[-1]]
+    caption = _caption("Table", table.number, table.title)
+    note = f'<div class="ms-note">{symbol.in_words(table.note)}</div>' if table.note else ""
+    return f'<div class="ms-table">{caption}{"".join(_block([*keys, *b]) for b in blocks)}{note}</div>'
+
+
+def _block(columns: list[Column]) -> str:
+    kinds = ["" if c.unit else ' class="ms-text"' for c in columns]
+    heads = "".join(
+        f'<th{kind} title="{escape(c.meaning)}">{symbol.html(c.symbol)}</th>'
+        for c, kind in zip(columns, kinds, strict=True)
+    )
+    unit_row = "".join(f"<th>{f'[{escape(units.shown(c.unit))}]' if c.unit else ''}</th>" for c in columns)
+    rows = "".join(
+        "<tr>" + "".join(f"<td{kind}>{t}</td>" for t, kind in zip(row, kinds, strict=True)) + "</tr>"
+        for row in zip(*(c.texts() if c.unit else map(escape, c.texts()) for c in columns), strict=True)
+    )
+    return f'<table><thead><tr>{heads}</tr><tr class="ms-units">{unit_row}</tr></thead><tbody>{rows}</tbody></table>'

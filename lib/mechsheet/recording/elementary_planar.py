@@ -1,0 +1,54 @@
+"""Products, angles and points of links in elementary steps."""
+
+from typing import Any
+
+import numpy as np
+
+Quantity = Any  # a number, an array, or a quantity that records what is done with it
+
+
+def step(symbol: str, unit: str, meaning: str, value: Quantity) -> Quantity:
+    """A named intermediate quantity."""
+    return value.called(symbol, unit, meaning) if hasattr(value, "called") else value
+
+
+def cross(a: Quantity, b: Quantity) -> Quantity:
+    return a.real * b.imag - a.imag * b.real
+
+
+def dot(a: Quantity, b: Quantity) -> Quantity:
+    return a.real * b.real + a.imag * b.imag
+
+
+def angle(z: Quantity) -> Quantity:
+    return np.arctan2(z.imag, z.real)
+
+
+def angle_between(a: Quantity, b: Quantity) -> Quantity:
+    return np.arctan2(np.abs(cross(a, b)), dot(a, b))
+
+
+def angle_opposite(a: Quantity, b: Quantity, c: Quantity) -> Quantity:
+    over, under = (a - b + c) * (a + b - c), (a + b + c) * (b + c - a)
+    return 2 * np.arctan2(np.sqrt(over), np.sqrt(under))
+
+
+def link_velocity(P: Quantity, A: Quantity, v_A: Quantity = 0, omega: Quantity = 0) -> Quantity:
+    return v_A + 1j * omega * (P - A)
+
+
+def link_acceleration(P: Quantity, A: Quantity, omega: Quantity, a_A: Quantity = 0, epsilon: Quantity = 0) -> Quantity:
+    return a_A + (1j * epsilon - omega**2) * (P - A)
+
+
+def link_point(A: Quantity, B: Quantity, z: Quantity) -> Quantity:
+    d = B - A
+    return A + z * d / np.abs(d)
+
+
+def product(p: Quantity, q: Quantity, z: Quantity) -> Quantity:
+    return (p + 1j * q) * z
+
+
+def unit(u: Quantity) -> Quantity:
+    return u / np.abs(u)

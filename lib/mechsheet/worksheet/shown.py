@@ -1,0 +1,48 @@
+"""What the page's room tells those below: how a page shows values, which are data, and which cells it runs.
+
+The package itself loads this file: nothing else is imported here.
+"""
+
+from collections.abc import Callable, Mapping
+from typing import Any, Protocol
+
+Texts = tuple[tuple[str, str], ...]  # of cells: each with the name under which it is compiled
+
+
+class Page(Protocol):
+    """What the page's room tells."""
+
+    def written(self, value: object) -> tuple[str, str]:
+        """MIME type and text of a value."""
+
+    def refused(self, error: Exception, shown: Any) -> None:
+        """Stop the running cell with an error in its place, or ``shown``; return where no page is running."""
+
+
+def _none() -> Page:
+    raise RuntimeError("no writer of pages is registered: import mechsheet, not a part of it by its file")
+
+
+page: Callable[[], Page] = _none  # set by the package itself, and called when a value is shown for the first time
+
+
+def _no_page(_namespace: Mapping[str, Any]) -> Texts | None:
+    return None
+
+
+# Cells of the page that runs in a namespace, as they have run last; set by the package itself.
+cells_in_page: Callable[[Mapping[str, Any]], Texts | None] = _no_page
+
+
+class Shown:
+    """A value that a cell can show: marimo asks it for its text, and the writer for its kind answers."""
+
+    def _mime_(self) -> tuple[str, str]:
+        return page().written(self)
+
+
+class Charted(Shown):
+    """What the page shows as the altair chart that it gives."""
+
+    def chart(self) -> Any:
+        raise NotImplementedError
