@@ -643,6 +643,41 @@ def library_45(E, F_Q, G4, G5, R05, R34, R45, S4, a_E, a_S4, eps4, g, gamma05, g
 
 
 @app.cell
+def drawing_41(D, E, F4_sum, F5_sum, R_05, R_D, S4, SR2, g, turn, u5):
+    _d, _e, _s4 = D[turn.value], E[turn.value], S4[turn.value]
+    _links = group_picture.guide(_e - 0.06 * u5, _e + 0.06 * u5).link(_d, _e, "4").slider(_e, g.phi05, "5")
+    _forces = {"F4": (S4, F4_sum), "F5": (E, F5_sum, D), "R05": (E, R_05), "R34": (D, R_D, E)}
+    drawing_41 = cut_group(_links.hinge(_d, "D").hinge(_e, "E").mass(_s4, "S4"), turn.value, _forces, [D, E])
+    _caption = caption("4.1", f"Group (4, 5) with its forces, φ₁ = {turn.value}°")
+    typeset(turn, drawing_41, _caption, SR2.at(turn.value))
+    return (drawing_41,)
+
+
+@app.cell(hide_code=True)
+def section_41():
+    mo.md(r"""
+    The same vectors by the mechanics library, which solves the group's equations in another form:
+    """)
+    return
+
+
+@app.cell
+def library_45_shown(checks_45, turn, vectors_45):
+    typeset(vectors_45.at(turn.value), *checks_45)
+    return
+
+
+@app.cell(hide_code=True)
+def section_42():
+    mo.md(r"""
+    **Erratum.** The second line of the system after (1.26) is printed with a minus, $R_{12}^n \sin\varphi_2 - R_{43}
+    \cos\varphi_4 = -B$; in (1.26) it has the plus. What each line leaves, and the reactions that solve the system as
+    printed:
+    """)
+    return
+
+
+@app.cell
 def errata_45(A_45, B_45, R05, R34_n, g, phi4):
     r_45 = R34_n * sin(phi4) + R05 * cos(g.phi05) + B_45  # [N] left by the line with the plus
     r_45_printed = R34_n * sin(phi4) - R05 * cos(g.phi05) + B_45  # [N] left by the line as printed (erratum)
@@ -653,26 +688,9 @@ def errata_45(A_45, B_45, R05, R34_n, g, phi4):
 
 
 @app.cell
-def drawing_41(D, E, F4_sum, F5_sum, R_05, R_D, S4, SR2, checks_45, g, lines_42, turn, u5, vectors_45):
-    _d, _e, _s4 = D[turn.value], E[turn.value], S4[turn.value]
-    _links = group_picture.guide(_e - 0.06 * u5, _e + 0.06 * u5).link(_d, _e, "4").slider(_e, g.phi05, "5")
-    _forces = {"F4": (S4, F4_sum), "F5": (E, F5_sum, D), "R05": (E, R_05), "R34": (D, R_D, E)}
-    drawing_41 = cut_group(_links.hinge(_d, "D").hinge(_e, "E").mass(_s4, "S4"), turn.value, _forces, [D, E])
-    _caption = caption("4.1", f"Group (4, 5) with its forces, φ₁ = {turn.value}°")
-    typeset(
-        *(turn, drawing_41, _caption, SR2.at(turn.value)),
-        mo.md(r"""
-    The same vectors by the mechanics library, which solves the group's equations in another form:
-        """),
-        *(vectors_45.at(turn.value), *checks_45),
-        mo.md(r"""
-    **Erratum.** The second line of the system after (1.26) is printed with a minus, $R_{12}^n \sin\varphi_2 - R_{43}
-    \cos\varphi_4 = -B$; in (1.26) it has the plus. What each line leaves, and the reactions that solve the system as
-    printed:
-        """),
-        lines_42.at(turn.value),
-    )
-    return (drawing_41,)
+def errata_45_shown(lines_42, turn):
+    lines_42.at(turn.value)
+    return
 
 
 @app.cell(hide_code=True)
@@ -751,6 +769,43 @@ def agreed_67(M_76, R07, R36, R76, R_76, R_H, R_K, gamma07, gamma36, gamma76, h7
 
 
 @app.cell
+def drawing_51(F6_sum, F7_sum, H, K, R_H, R_K, S6, S7, SR3, g, turn):
+    _k, _s6, _s7 = K[turn.value], S6[turn.value], S7[turn.value]
+    _links = group_picture.cylinder(H, _k, "7", g.l7).hinge(H, "H").hinge(_k, "K").mass(_s6, "S6").mass(_s7, "S7")
+    _forces = {"F6": (S6, F6_sum), "F7": (S7, F7_sum), "R36": (K, R_K, H), "R07": (H, R_H, K)}
+    drawing_51 = cut_group(_links, turn.value, _forces, [K, H])
+    _caption = caption("5.1", f"Group (6, 7) with its forces, φ₁ = {turn.value}°")
+    typeset(turn, drawing_51, _caption, SR3.at(turn.value))
+    return (drawing_51,)
+
+
+@app.cell(hide_code=True)
+def section_51():
+    mo.md(r"""
+    The same vectors by the library; $R_{76}$ at the arm $h_{76}$ does the same as the library's $R_{76}$ at K with its
+    moment.
+    """)
+    return
+
+
+@app.cell
+def library_67_shown(checks_67, turn, vectors_67):
+    typeset(vectors_67.at(turn.value), *checks_67)
+    return
+
+
+@app.cell(hide_code=True)
+def section_52():
+    mo.md(r"""
+    **Errata.** The second term of (1.35) is printed with $\sin(\varphi_2 - \gamma_2)$, the direction of the other
+    link's load. (1.34) is printed with $\sin(\varphi_2 + 0.5)$ for $\sin(\varphi_2 + 0.5\,\pi)$: the determinant over
+    $l_{EA} R_{12}^\tau$ is -1 with the $\pi$. The first line of the system after (1.37) is printed with $R_{43}$ for
+    $R_{32}$. The printed and the right numbers:
+    """)
+    return
+
+
+@app.cell
 def errata_67(A_67, F7, M7, R07, R36_n, R76, T6, g, gamma6, l_HK, phi6):
     T7_printed = F7 * g.l_HS7 * sin(phi6 - gamma6) + M7  # [N*m] (1.35) as printed (erratum)
     R36_t_printed = (T6 + T7_printed) / l_HK  # [N] (1.35) as printed (erratum)
@@ -763,28 +818,9 @@ def errata_67(A_67, F7, M7, R07, R36_n, R76, T6, g, gamma6, l_HK, phi6):
 
 
 @app.cell
-def drawing_51(F6_sum, F7_sum, H, K, R_H, R_K, S6, S7, SR3, checks_67, g, lines_52, turn, vectors_67):
-    _k, _s6, _s7 = K[turn.value], S6[turn.value], S7[turn.value]
-    _links = group_picture.cylinder(H, _k, "7", g.l7).hinge(H, "H").hinge(_k, "K").mass(_s6, "S6").mass(_s7, "S7")
-    _forces = {"F6": (S6, F6_sum), "F7": (S7, F7_sum), "R36": (K, R_K, H), "R07": (H, R_H, K)}
-    drawing_51 = cut_group(_links, turn.value, _forces, [K, H])
-    _caption = caption("5.1", f"Group (6, 7) with its forces, φ₁ = {turn.value}°")
-    typeset(
-        *(turn, drawing_51, _caption, SR3.at(turn.value)),
-        mo.md(r"""
-    The same vectors by the library; $R_{76}$ at the arm $h_{76}$ does the same as the library's $R_{76}$ at K with its
-    moment.
-        """),
-        *(vectors_67.at(turn.value), *checks_67),
-        mo.md(r"""
-    **Errata.** The second term of (1.35) is printed with $\sin(\varphi_2 - \gamma_2)$, the direction of the other
-    link's load. (1.34) is printed with $\sin(\varphi_2 + 0.5)$ for $\sin(\varphi_2 + 0.5\,\pi)$: the determinant over
-    $l_{EA} R_{12}^\tau$ is -1 with the $\pi$. The first line of the system after (1.37) is printed with $R_{43}$ for
-    $R_{32}$. The printed and the right numbers:
-        """),
-        lines_52.at(turn.value),
-    )
-    return (drawing_51,)
+def errata_67_shown(lines_52, turn):
+    lines_52.at(turn.value)
+    return
 
 
 @app.cell(hide_code=True)
@@ -864,7 +900,7 @@ def agreed_23(R03, R12, R23, R_05, R_A, R_B, R_C, R_D, R_E, R_H, R_K, gamma03, g
 
 
 @app.cell
-def drawing_61(A, B, C, D, F2_sum, F3_own, K, R_A, R_C, R_D, R_K, S2, S3, SR1, checks_23, turn, vectors_23):
+def drawing_61(A, B, C, D, F2_sum, F3_own, K, R_A, R_C, R_D, R_K, S2, S3, SR1, turn):
     _a, _b, _d, _k, _s2, _s3 = (_P[turn.value] for _P in (A, B, D, K, S2, S3))
     _links = group_picture.link(_a, _b, "2").plate([C, _b, _k, _d], "3").mass(_s2, "S2").mass(_s3, "S3")
     _pins = _links.hinge(_a, "A").hinge(_b, "B").hinge(C, "C").hinge(_d, "D").hinge(_k, "K")
@@ -872,14 +908,22 @@ def drawing_61(A, B, C, D, F2_sum, F3_own, K, R_A, R_C, R_D, R_K, S2, S3, SR1, c
     _own = {"F2": (S2, F2_sum), "F3_own": (S3, F3_own), "R12": (A, R_A, B), "R03": (C, R_C, B)}
     drawing_61 = cut_group(_pins, turn.value, _back | _own, [A, B, C, D, K])
     _caption = caption("6.1", f"Group (2, 3) with its forces, φ₁ = {turn.value}°")
-    typeset(
-        *(turn, drawing_61, _caption, SR1.at(turn.value)),
-        mo.md(r"""
-    The same vectors by the library:
-        """),
-        *(vectors_23.at(turn.value), *checks_23),
-    )
+    typeset(turn, drawing_61, _caption, SR1.at(turn.value))
     return (drawing_61,)
+
+
+@app.cell(hide_code=True)
+def section_61():
+    mo.md(r"""
+    The same vectors by the library:
+    """)
+    return
+
+
+@app.cell
+def library_23_shown(checks_23, turn, vectors_23):
+    typeset(vectors_23.at(turn.value), *checks_23)
+    return
 
 
 @app.cell(hide_code=True)
