@@ -24,6 +24,7 @@ with app.setup:
         check_slope,
         closed_form,
         cross,
+        cut_group,
         export,
         figure,
         find,
@@ -42,9 +43,9 @@ with app.setup:
         title_block,
         typeset,
     )
+    from mechsheet.units import deg
 
     np.seterr(divide="ignore", invalid="ignore")  # no load: infinite reserve; no closure: NaN; both are shown so
-    deg = pi / 180
 
 
 @app.cell(hide_code=True)
@@ -740,30 +741,21 @@ def position(S, forces_at):
 
 
 @app.cell
-def drawings_5(
-    G6, O1, O3, O5, O7, P23_S, P34_S, P45_S, P56_S, P67_S, PS6_S, R01, R03, R05, R07, R34, R56, R65, S, g, k_t
-):
-    def _group(*pins):  # each with the force on it, over the whole stroke, so that nothing jumps
-        points, forces = (np.array(x) for x in zip(*(np.broadcast_arrays(*pin, S)[:2] for pin in pins), strict=True))
-        closed = points[np.isfinite(points)]
-        size = max(np.ptp(closed.real), np.ptp(closed.imag))
-        scale = 0.4 * size / (np.nanmax(abs(forces), initial=0.0) or 1.0)
-        return Drawing(width=345, height=345, frame=np.ravel([points, points + scale * forces]), scales={"N": scale})
-
-    p56, p67, s6 = P56_S[k_t], P67_S[k_t], PS6_S[k_t]
-    group = _group((O7, R07), (P56_S, R56), (P67_S, 0), (PS6_S, G6)).plate([p56, p67, s6], "6").link(O7, p67, "7")
-    pins_67 = group.hinge(O7, "O7").hinge(p67, "P67").hinge(p56, "P56").mass(s6, "S6")
-    drawing_51 = pins_67.force(p56, R56[k_t], "R56").force(O7, R07[k_t], "R07").force(s6, G6, "P6")
-    cut_45 = _group((O5, -R05), (P34_S, -R34), (P45_S, 0), (P56_S, R65))
-    links_45 = cut_45.link(P34_S[k_t], P45_S[k_t], "4").link(O5, P56_S[k_t], "5")
-    pins_45 = links_45.hinge(O5, "O5").hinge(P34_S[k_t], "P34").hinge(P45_S[k_t], "P45").hinge(P56_S[k_t], "P56")
-    forces_45 = pins_45.force(P56_S[k_t], R65[k_t], "R65").force(O5, -R05[k_t], "-R05")
-    drawing_52 = forces_45.force(P34_S[k_t], -R34[k_t], "-R34")
-    plate = _group((O1, R01), (O3, R03), (P23_S, 0), (P34_S, R34)).plate([O3, P23_S[k_t], P34_S[k_t]], "3")
-    arm = plate.cylinder(O1, P23_S[k_t], "S", 0.9 * g.S_min)
-    pins_23 = arm.hinge(O1, "O1").hinge(O3, "O3").hinge(P23_S[k_t], "P23").hinge(P34_S[k_t], "P34")
-    forces_23 = pins_23.force(O1, R01[k_t], "R01").force(O3, R03[k_t], "R03")
-    drawing_53 = forces_23.force(P34_S[k_t], R34[k_t], "R34")
+def drawings_5(G6, O1, O3, O5, O7, P23_S, P34_S, P45_S, P56_S, P67_S, PS6_S, R01, R03, R05, R07, R34, R56, R65, g, k_t):
+    p23, p34, p45, p56, p67, s6 = (P[k_t] for P in (P23_S, P34_S, P45_S, P56_S, P67_S, PS6_S))
+    small = Drawing(width=345, height=345)
+    links_67 = small.plate([p56, p67, s6], "6").link(O7, p67, "7")
+    pins_67 = links_67.hinge(O7, "O7").hinge(p67, "P67").hinge(p56, "P56").mass(s6, "S6")
+    forces_67 = {"R56": (P56_S, R56), "R07": (O7, R07), "P6": (PS6_S, G6)}
+    drawing_51 = cut_group(pins_67, k_t, forces_67, [O7, P56_S, P67_S, PS6_S], part=0.4)
+    links_45 = small.link(p34, p45, "4").link(O5, p56, "5")
+    pins_45 = links_45.hinge(O5, "O5").hinge(p34, "P34").hinge(p45, "P45").hinge(p56, "P56")
+    forces_45 = {"R65": (P56_S, R65), "-R05": (O5, -R05), "-R34": (P34_S, -R34)}
+    drawing_52 = cut_group(pins_45, k_t, forces_45, [O5, P34_S, P45_S, P56_S], part=0.4)
+    links_23 = small.plate([O3, p23, p34], "3").cylinder(O1, p23, "S", 0.9 * g.S_min)
+    pins_23 = links_23.hinge(O1, "O1").hinge(O3, "O3").hinge(p23, "P23").hinge(p34, "P34")
+    forces_23 = {"R01": (O1, R01), "R03": (O3, R03), "R34": (P34_S, R34)}
+    drawing_53 = cut_group(pins_23, k_t, forces_23, [O1, O3, P23_S, P34_S], part=0.4)
     typeset(
         side_by_side(
             (drawing_51, caption("5.1", "Assur group (6, 7)")),

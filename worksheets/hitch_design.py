@@ -42,8 +42,7 @@ with app.setup:
         tolerance,
         typeset,
     )
-
-    deg = pi / 180
+    from mechsheet.units import deg
 
 
 @app.cell(hide_code=True)

@@ -31,9 +31,9 @@ with app.setup:
         title_block,
         typeset,
     )
+    from mechsheet.units import cm, deg, kgf
 
     np.seterr(divide="ignore", invalid="ignore")  # an axis at infinity or a joint without load is shown so
-    kgf, cm, deg = 9.80665, 0.01, pi / 180
 
 
 @app.cell(hide_code=True)

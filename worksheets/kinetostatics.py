@@ -14,54 +14,60 @@ with app.setup:
     from mechsheet import (
         Check,
         Drawing,
+        DriveMoment,
         Load,
+        PinReaction,
+        RPRGroup,
+        RRPGroup,
+        RRRGroup,
+        SlideReaction,
         Used,
         angle,
         ask,
         assembled,
+        balance,
         caption,
         check,
         check_slope,
         coupling_drive,
         cross,
+        cut_group,
         dot,
         export,
         figure,
         gear_drive,
         inertia,
         inputs,
+        largest_of,
         link_acceleration,
         link_velocity,
+        magnitudes,
         mark,
         player,
+        polar,
         read,
         rpr,
         rpr_acceleration,
-        rpr_condition,
-        rpr_reactions,
         rpr_velocity,
         rrp,
         rrp_acceleration,
-        rrp_condition,
-        rrp_reach,
-        rrp_reactions,
         rrp_transmission_angle,
         rrp_velocity,
         rrr,
         rrr_acceleration,
-        rrr_condition,
-        rrr_reactions,
         rrr_transmission_angle,
         rrr_velocity,
+        solve_reactions,
         summary,
         table,
         title_block,
         typeset,
     )
+    from mechsheet.units import deg
 
     np.seterr(divide="ignore", invalid="ignore")  # the arm of a force that is zero is shown as none
-    deg = pi / 180
     ulp = np.finfo(float).eps
+    group_picture = Drawing(width=760, height=460)  # of each group cut free
 
 
 @app.cell(hide_code=True)
@@ -83,30 +89,11 @@ def title():
 
 @app.cell(hide_code=True)
 def verdict(
-    checks_23,
-    checks_45,
-    checks_67,
-    checks_bodies,
-    checks_closing,
-    checks_coupling,
-    checks_dense,
-    checks_existence,
-    checks_gear,
-    checks_piston,
-    checks_work,
+    checks_23, checks_45, checks_67, checks_bodies, checks_closing, checks_dense, checks_drive, checks_gear, checks_work
 ):
     summary(
-        checks_closing,
-        checks_piston,
-        checks_45,
-        checks_67,
-        checks_23,
-        checks_gear,
-        checks_coupling,
-        checks_existence,
-        checks_bodies,
-        checks_work,
-        checks_dense,
+        *(checks_closing, checks_45, checks_67, checks_23, checks_gear, checks_drive),
+        *(checks_bodies, checks_work, checks_dense),
     )
     return
 
@@ -201,42 +188,6 @@ def given(form):
     g = read(Mechanism, form)
     Used(g)
     return (g,)
-
-
-@app.function
-def largest_of(*fields):
-    """Largest magnitude of the finite elements, 1 where there is none but zero."""
-    sizes = np.concatenate([np.ravel(abs(np.asarray(field))) for field in fields])
-    return np.max(sizes, initial=0, where=isfinite(sizes)) or 1.0
-
-
-@app.function
-def group_drawing(points, forces):
-    """Empty drawing that has room for the points and the arrows of the forces over the whole turn."""
-    ends = np.concatenate([np.ravel(point) for point in points])
-    seen = ends[isfinite(ends)]
-    scale = 0.25 * max(np.ptp(seen.real), np.ptp(seen.imag)) / largest_of(*(F for _, F in forces))
-    tips = [np.ravel(P + sign * scale * F) for P, F in forces for sign in (1, -1)]
-    return Drawing(width=760, height=460, frame=np.concatenate([ends, *tips]), scales={"N": scale})
-
-
-@app.function
-def pin_force(P, F, name, other):
-    """Force at a pin, drawn on the side of it on which the link to its other pin does not lie."""
-    return Drawing().force(P, F, name, into=bool(dot(F, other - P) > 0))
-
-
-@app.function
-def polar(R):
-    """Path of the end of a force over the turn, with axes and the quarters of the turn."""
-    seen = np.append(R[isfinite(R)], 0)
-    x, y, reach = seen.real, seen.imag, 0.1 * largest_of(seen)
-    ends = [np.min(x) - reach, np.max(x) + reach, 1j * (np.min(y) - reach), 1j * (np.max(y) + reach)]
-    axes = Drawing(width=320, height=300, unit="N", frame=[ends[0] + ends[2], ends[1] + ends[3]])
-    curve = axes.path(ends[:2], "x", "").path(ends[2:], "y", "").path(R)
-    for k in (0, 90, 180, 270):
-        curve = curve.hinge(R[k], f"{k}°")
-    return curve
 
 
 @app.cell(hide_code=True)
@@ -378,8 +329,11 @@ def fields(C, H, O5, P_A, P_B, P_D, P_E, P_K, g, phi1, u5):
     s7 = g.l6 + g.l7 - abs(H - K)  # [m] stroke of the piston
     mu23 = rrr_transmission_angle(A, C, B)  # [deg] between rod 2 and rocker
     mu45 = rrp_transmission_angle(D, E, u5)  # [deg] between rod 4 and the normal of the guide
+    group_23 = RRRGroup(A, C, g.l2, g.l3, +1)
+    group_45 = RRPGroup(D, O5, u5, g.l4, +1)
+    group_67 = RPRGroup(K, H, +1)
     position_lines = typeset()
-    return A, B, D, E, K, mu23, mu45, phi2, phi3, phi4, phi6, position_lines, s5, s7
+    return A, B, D, E, K, group_23, group_45, group_67, mu23, mu45, phi2, phi3, phi4, phi6, position_lines, s5, s7
 
 
 @app.cell
@@ -419,17 +373,17 @@ def section_24():
 
 
 @app.cell
-def closing(A, B, C, D, E, H, K, O5, g, s7, u5):
+def closing(A, B, C, D, E, g, group_23, group_45, group_67, s7):
     checks_closing = (
         assembled("group (2, 3) closes", B, abs(A - C), (abs(g.l2 - g.l3), g.l2 + g.l3), "distance A C", "m"),
-        assembled("group (4, 5) closes", where(isfinite(D), E, 0), g.l4, rrp_reach(D, O5, u5), "rod l4", "m"),
+        assembled("group (4, 5) closes", where(isfinite(D), E, 0), g.l4, group_45.reach, "rod l4", "m"),
+        check("the piston stays in its cylinder", maximum(0, maximum(-s7, s7 - g.l7)), 0, "m"),
     )
-    checks_piston = (check("the piston stays in its cylinder", maximum(0, maximum(-s7, s7 - g.l7)), 0, "m"),)
     # limit of the checks: from positions to forces the digits lost are twice those of the groups' condition numbers
-    kappa = [np.max(rrr_condition(A, C, B)), np.max(rrp_condition(D, O5, E, u5)), np.max(rpr_condition(K, H, H - K))]
+    kappa = [np.max(group.condition) for group in (group_23, group_45, group_67)]
     lost = 32 * ulp * max(kappa) ** 2
-    typeset(*checks_closing, *checks_piston)
-    return checks_closing, checks_piston, kappa, lost
+    typeset(*checks_closing)
+    return checks_closing, kappa, lost
 
 
 @app.cell
@@ -477,33 +431,7 @@ def centres(C, H, O1, P_A, P_B, P_D, P_E, P_K, e7, g):
 
 
 @app.cell
-def motion(
-    A,
-    B,
-    C,
-    D,
-    E,
-    H,
-    K,
-    O1,
-    O5,
-    P_S1,
-    P_S2,
-    P_S3,
-    P_S4,
-    P_S6,
-    P_S7,
-    g,
-    motion_45,
-    motion_67,
-    omega1,
-    phi1,
-    u2,
-    u3,
-    u4,
-    u5,
-    u6,
-):
+def motion(A, B, C, D, E, H, K, O1, O5, g, motion_45, motion_67, omega1, phi1, u2, u3, u4, u5, u6):
     omega2 = omega1 * u2(phi1)  # [rad/s] rod 2
     omega3 = omega1 * u3(phi1)  # [rad/s] rocker 3
     omega4 = omega1 * u4(phi1)  # [rad/s] rod 4
@@ -519,56 +447,47 @@ def motion(
     change_45 = rrp_acceleration(D, O5, E, u5, omega4, v5, a_A=a_D)
     eps4 = change_45.epsilon_A  # [rad/s**2] rod 4
     a_E = change_45.a_C  # [m/s**2] plunger
-    eps6 = rpr_acceleration(K, H, K - H, omega6, v6, a_K).epsilon_A  # [rad/s**2] rod 6 and cylinder 7
+    eps6 = rpr_acceleration(K, H, K - H, omega6, v6, a_A=a_K).epsilon_A  # [rad/s**2] rod 6 and cylinder 7
+    motion_lines = typeset()
+    return (
+        a_A, a_D, a_E, a_K, change_23, change_45, eps2, eps3, eps4, eps6, motion_lines, omega2, omega3, omega4, omega6,
+        v5, v6,
+    )  # fmt: skip
+
+
+@app.cell
+def centres_placed(P_S1, P_S2, P_S3, P_S4, P_S6, P_S7, phi1):
     S1 = P_S1(phi1)  # [m] crank
     S2 = P_S2(phi1)  # [m] rod 2
     S3 = P_S3(phi1)  # [m] rocker
     S4 = P_S4(phi1)  # [m] rod 4
     S6 = P_S6(phi1)  # [m] rod with piston
     S7 = P_S7(phi1)  # [m] cylinder
-    a_S1 = link_acceleration(S1, O1, omega1, 0, g.eps1)  # [m/s**2] crank
-    a_S2 = link_acceleration(S2, A, omega2, a_A, eps2)  # [m/s**2] rod 2
-    a_S3 = link_acceleration(S3, C, omega3, 0, eps3)  # [m/s**2] rocker
-    a_S4 = link_acceleration(S4, D, omega4, a_D, eps4)  # [m/s**2] rod 4
-    a_S6 = link_acceleration(S6, K, omega6, a_K, eps6)  # [m/s**2] rod with piston
-    a_S7 = link_acceleration(S7, H, omega6, 0, eps6)  # [m/s**2] cylinder
-    motion_lines = typeset()
-    return (
-        S1,
-        S2,
-        S3,
-        S4,
-        S6,
-        S7,
-        a_A,
-        a_D,
-        a_E,
-        a_K,
-        a_S1,
-        a_S2,
-        a_S3,
-        a_S4,
-        a_S6,
-        a_S7,
-        change_23,
-        change_45,
-        eps2,
-        eps3,
-        eps4,
-        eps6,
-        motion_lines,
-        omega2,
-        omega3,
-        omega4,
-        omega6,
-        v5,
-        v6,
-    )
+    centre_lines = typeset()
+    return S1, S2, S3, S4, S6, S7, centre_lines
 
 
 @app.cell
-def motion_shown(motion_lines, turn):
-    motion_lines.at(turn.value)
+def centres_moved(A, C, O1, S1, S2, S3, a_A, eps2, eps3, g, omega1, omega2, omega3):
+    a_S1 = link_acceleration(S1, O1, omega1, 0, g.eps1)  # [m/s**2] crank
+    a_S2 = link_acceleration(S2, A, omega2, a_A, eps2)  # [m/s**2] rod 2
+    a_S3 = link_acceleration(S3, C, omega3, 0, eps3)  # [m/s**2] rocker
+    moved_lines = typeset()
+    return a_S1, a_S2, a_S3, moved_lines
+
+
+@app.cell
+def centres_moved_later(D, H, K, S4, S6, S7, a_D, a_K, eps4, eps6, omega4, omega6):
+    a_S4 = link_acceleration(S4, D, omega4, a_D, eps4)  # [m/s**2] rod 4
+    a_S6 = link_acceleration(S6, K, omega6, a_K, eps6)  # [m/s**2] rod with piston
+    a_S7 = link_acceleration(S7, H, omega6, 0, eps6)  # [m/s**2] cylinder
+    moved_later_lines = typeset()
+    return a_S4, a_S6, a_S7, moved_later_lines
+
+
+@app.cell
+def motion_shown(centre_lines, motion_lines, moved_later_lines, moved_lines, turn):
+    typeset(*(lines.at(turn.value) for lines in (motion_lines, centre_lines, moved_lines, moved_later_lines)))
     return
 
 
@@ -697,42 +616,22 @@ def kind_2(F_Q, F_in4, F_in5, G4, G5, M_in4, g, phi4):
     R45_y = -(R05 * sin(gamma05) + F5 * sin(gamma5))  # [N] (1.30)
     R45 = hypot(R45_x, R45_y)  # [N] (1.31)
     gamma45 = atan2(R45_y, R45_x) % (2 * pi)  # [deg] (1.32)
-    kind_2 = typeset()
+    SR2 = typeset()
     return (
-        A_45,
-        B_45,
-        F4,
-        F4_sum,
-        F5,
-        F5_sum,
-        M4,
-        R05,
-        R34,
-        R34_n,
-        R34_t,
-        R45,
-        R45_x,
-        R45_y,
-        gamma05,
-        gamma34,
-        gamma34_t,
-        gamma4,
-        gamma45,
-        gamma5,
-        kind_2,
-    )
+        A_45, B_45, F4, F4_sum, F5, F5_sum, M4, R05, R34, R34_n, R34_t, R45, R45_x, R45_y, SR2, gamma05, gamma34,
+        gamma34_t, gamma4, gamma45, gamma5,
+    )  # fmt: skip
 
 
 @app.cell
-def library_45(D, E, F_Q, G4, G5, R05, R34, R45, S4, a_E, a_S4, eps4, g, gamma05, gamma34, gamma45, lost, u5):
-    group_45 = rrp_reactions(
-        *(D, E, u5),
+def library_45(E, F_Q, G4, G5, R05, R34, R45, S4, a_E, a_S4, eps4, g, gamma05, gamma34, gamma45, group_45, lost):
+    found_45 = group_45.reactions(
         [Load(G4, S4), inertia(S4, g.m4, g.J4, a_S4, eps4)],
         [Load(G5 + F_Q, E), inertia(E, g.m5, 0, a_E)],
     )
-    R_D = group_45.R_A  # [N] rocker 3 on the rod 4, at D
-    R_05 = group_45.R_B  # [N] guide on the plunger 5, at E
-    R_E = -group_45.R_C  # [N] rod 4 on the plunger 5, at E
+    R_D = found_45.R_A  # [N] rocker 3 on the rod 4, at D
+    R_05 = found_45.R_B  # [N] guide on the plunger 5, at E
+    R_E = -found_45.R_C  # [N] rod 4 on the plunger 5, at E
     _limit = lost * largest_of(R_D, R_05, R_E)
     checks_45 = (
         check("second kind: R34 is that of the library", R34 * exp(1j * gamma34) - R_D, _limit, "N"),
@@ -740,17 +639,17 @@ def library_45(D, E, F_Q, G4, G5, R05, R34, R45, S4, a_E, a_S4, eps4, g, gamma05
         check("second kind: R45 is that of the library", R45 * exp(1j * gamma45) - R_E, _limit, "N"),
     )
     vectors_45 = typeset()
-    return R_05, R_D, R_E, checks_45, group_45, vectors_45
+    return R_05, R_D, R_E, checks_45, found_45, vectors_45
 
 
 @app.cell
-def drawing_41(D, E, F4_sum, F5_sum, R_05, R_D, S4, bare_45, g, kind_2, turn, u5):
-    _k = turn.value
-    _links = bare_45.guide(E[_k] - 0.06 * u5, E[_k] + 0.06 * u5).link(D[_k], E[_k], "4").slider(E[_k], g.phi05, "5")
-    _pins = _links.hinge(D[_k], "D").hinge(E[_k], "E").mass(S4[_k], "S4")
-    _loads = _pins.force(S4[_k], F4_sum[_k], "F4") + pin_force(E[_k], F5_sum[_k], "F5", D[_k])
-    drawing_41 = _loads.force(E[_k], R_05[_k], "R05") + pin_force(D[_k], R_D[_k], "R34", E[_k])
-    typeset(turn, drawing_41, caption("4.1", f"Group (4, 5) with its forces, φ₁ = {_k}°"), kind_2.at(_k))
+def drawing_41(D, E, F4_sum, F5_sum, R_05, R_D, S4, SR2, g, turn, u5):
+    _d, _e, _s4 = D[turn.value], E[turn.value], S4[turn.value]
+    _links = group_picture.guide(_e - 0.06 * u5, _e + 0.06 * u5).link(_d, _e, "4").slider(_e, g.phi05, "5")
+    _forces = {"F4": (S4, F4_sum), "F5": (E, F5_sum, D), "R05": (E, R_05), "R34": (D, R_D, E)}
+    drawing_41 = cut_group(_links.hinge(_d, "D").hinge(_e, "E").mass(_s4, "S4"), turn.value, _forces, [D, E])
+    _caption = caption("4.1", f"Group (4, 5) with its forces, φ₁ = {turn.value}°")
+    typeset(turn, drawing_41, _caption, SR2.at(turn.value))
     return (drawing_41,)
 
 
@@ -835,52 +734,29 @@ def kind_3(F_gas, F_in6, F_in7, G6, G7, M_in6, M_in7, g, phi6, s7):
     R07 = hypot(R07_x, R07_y)  # [N] (1.42)
     gamma07 = atan2(R07_y, R07_x) % (2 * pi)  # [deg] (1.43)
     h76 = -(F6 * g.l_KS6 * sin(gamma6 - phi6) + M6) / (R76 * sin(gamma76 - phi6))  # [m] (1.46) its arm from K
-    kind_3 = typeset()
+    SR3 = typeset()
     return (
-        A_67,
-        B_67,
-        F6,
-        F6_sum,
-        F7,
-        F7_sum,
-        M6,
-        M7,
-        R07,
-        R07_x,
-        R07_y,
-        R36,
-        R36_n,
-        R36_t,
-        R76,
-        T6,
-        T7,
-        gamma07,
-        gamma36,
-        gamma36_t,
-        gamma6,
-        gamma67,
-        gamma7,
-        gamma76,
-        h76,
-        kind_3,
-        l_HK,
-        l_HS6,
-    )
+        A_67, B_67, F6, F6_sum, F7, F7_sum, M6, M7, R07, R07_x, R07_y, R36, R36_n, R36_t, R76, SR3, T6, T7, gamma07,
+        gamma36, gamma36_t, gamma6, gamma67, gamma7, gamma76, h76, l_HK, l_HS6,
+    )  # fmt: skip
 
 
 @app.cell
-def library_67(
-    F_gas, G6, G7, H, K, R07, R36, R76, S6, S7, a_S6, a_S7, eps6, g, gamma07, gamma36, gamma76, h76, l_HK, lost
-):
-    group_67 = rpr_reactions(
-        *(K, H, K - H),
+def library_67(F_gas, G6, G7, S6, S7, a_S6, a_S7, eps6, g, group_67):
+    found_67 = group_67.reactions(
         [Load(G6 + F_gas, S6), inertia(S6, g.m6, g.J6, a_S6, eps6)],
         [Load(G7 - F_gas, S7), inertia(S7, g.m7, g.J7, a_S7, eps6)],
     )
-    R_K = group_67.R_A  # [N] rocker 3 on the rod 6, at K
-    R_H = group_67.R_B  # [N] frame on the cylinder 7, at H
-    R_76 = group_67.R_C  # [N] cylinder 7 on the rod 6
-    M_76 = group_67.M_C  # [N*m] its moment about K
+    R_K = found_67.R_A  # [N] rocker 3 on the rod 6, at K
+    R_H = found_67.R_B  # [N] frame on the cylinder 7, at H
+    R_76 = found_67.R_C  # [N] cylinder 7 on the rod 6
+    M_76 = found_67.M_C  # [N*m] its moment about K
+    vectors_67 = typeset()
+    return M_76, R_76, R_H, R_K, found_67, vectors_67
+
+
+@app.cell
+def agreed_67(M_76, R07, R36, R76, R_76, R_H, R_K, gamma07, gamma36, gamma76, h76, l_HK, lost):
     _limit = lost * largest_of(R_K, R_H, R_76)
     _moments = where(R76 == 0, 0, R76 * h76) - M_76
     checks_67 = (
@@ -889,18 +765,17 @@ def library_67(
         check("third kind: R07 is that of the library", R07 * exp(1j * gamma07) - R_H, _limit, "N"),
         check("third kind: R76 h76 is the library's moment", _moments, _limit * largest_of(l_HK), "N*m"),
     )
-    vectors_67 = typeset()
-    return M_76, R_76, R_H, R_K, checks_67, group_67, vectors_67
+    return (checks_67,)
 
 
 @app.cell
-def drawing_51(F6_sum, F7_sum, H, K, R_H, R_K, S6, S7, bare_67, g, kind_3, turn):
-    _k = turn.value
-    _links = bare_67.cylinder(H, K[_k], "7", g.l7).hinge(H, "H").hinge(K[_k], "K")
-    _masses = _links.mass(S6[_k], "S6").mass(S7[_k], "S7")
-    _loads = _masses.force(S6[_k], F6_sum[_k], "F6").force(S7[_k], F7_sum[_k], "F7")
-    drawing_51 = _loads + pin_force(K[_k], R_K[_k], "R36", H) + pin_force(H, R_H[_k], "R07", K[_k])
-    typeset(turn, drawing_51, caption("5.1", f"Group (6, 7) with its forces, φ₁ = {_k}°"), kind_3.at(_k))
+def drawing_51(F6_sum, F7_sum, H, K, R_H, R_K, S6, S7, SR3, g, turn):
+    _k, _s6, _s7 = K[turn.value], S6[turn.value], S7[turn.value]
+    _links = group_picture.cylinder(H, _k, "7", g.l7).hinge(H, "H").hinge(_k, "K").mass(_s6, "S6").mass(_s7, "S7")
+    _forces = {"F6": (S6, F6_sum), "F7": (S7, F7_sum), "R36": (K, R_K, H), "R07": (H, R_H, K)}
+    drawing_51 = cut_group(_links, turn.value, _forces, [K, H])
+    _caption = caption("5.1", f"Group (6, 7) with its forces, φ₁ = {turn.value}°")
+    typeset(turn, drawing_51, _caption, SR3.at(turn.value))
     return (drawing_51,)
 
 
@@ -944,7 +819,7 @@ def errata_67(A_67, F7, M7, R07, R36_n, R76, T6, g, gamma6, l_HK, phi6):
 
 @app.cell
 def errata_67_shown(lines_52, turn):
-    typeset(lines_52.at(turn.value))
+    lines_52.at(turn.value)
     return
 
 
@@ -993,99 +868,47 @@ def kind_1(D, F_in2, F_in3, G2, G3, K, M_in2, M_in3, R34, R36, S3, g, gamma34, g
     R23_y = -(R03 * sin(gamma03) + F3 * sin(gamma3))  # [N] (1.19)
     R23 = hypot(R23_x, R23_y)  # [N] (1.20)
     gamma23 = atan2(R23_y, R23_x) % (2 * pi)  # [deg] (1.21)
-    kind_1 = typeset()
+    SR1 = typeset()
     return (
-        A_2,
-        A_23,
-        A_3,
-        B_2,
-        B_23,
-        B_3,
-        F2,
-        F2_sum,
-        F3,
-        F3_own,
-        F3_sum,
-        M2,
-        M3,
-        R03,
-        R03_n,
-        R03_t,
-        R12,
-        R12_n,
-        R12_t,
-        R23,
-        R23_x,
-        R23_y,
-        R43,
-        R63,
-        gamma03,
-        gamma03_t,
-        gamma12,
-        gamma12_t,
-        gamma2,
-        gamma23,
-        gamma3,
-        kind_1,
-    )
+        A_2, A_23, A_3, B_2, B_23, B_3, F2, F2_sum, F3, F3_own, F3_sum, M2, M3, R03, R03_n, R03_t, R12, R12_n, R12_t,
+        R23, R23_x, R23_y, R43, R63, SR1, gamma03, gamma03_t, gamma12, gamma12_t, gamma2, gamma23, gamma3,
+    )  # fmt: skip
 
 
 @app.cell
-def library_23(
-    A,
-    B,
-    C,
-    D,
-    G2,
-    G3,
-    K,
-    R03,
-    R12,
-    R23,
-    R_05,
-    R_D,
-    R_E,
-    R_H,
-    R_K,
-    S2,
-    S3,
-    a_S2,
-    a_S3,
-    eps2,
-    eps3,
-    g,
-    gamma03,
-    gamma12,
-    gamma23,
-    lost,
-):
-    group_23 = rrr_reactions(
-        *(A, C, B),
+def library_23(D, G2, G3, K, R_D, R_K, S2, S3, a_S2, a_S3, eps2, eps3, g, group_23):
+    found_23 = group_23.reactions(
         [Load(G2, S2), inertia(S2, g.m2, g.J2, a_S2, eps2)],
         [Load(G3, S3), inertia(S3, g.m3, g.J3, a_S3, eps3), Load(-R_D, D), Load(-R_K, K)],
     )
-    R_A = group_23.R_A  # [N] crank 1 on the rod 2, at A
-    R_C = group_23.R_B  # [N] frame on the rocker 3, at C
-    R_B = -group_23.R_C  # [N] rod 2 on the rocker 3, at B
+    R_A = found_23.R_A  # [N] crank 1 on the rod 2, at A
+    R_C = found_23.R_B  # [N] frame on the rocker 3, at C
+    R_B = -found_23.R_C  # [N] rod 2 on the rocker 3, at B
+    vectors_23 = typeset()
+    return R_A, R_B, R_C, found_23, vectors_23
+
+
+@app.cell
+def agreed_23(R03, R12, R23, R_05, R_A, R_B, R_C, R_D, R_E, R_H, R_K, gamma03, gamma12, gamma23, lost):
     largest = largest_of(R_A, R_B, R_C, R_D, R_E, R_05, R_K, R_H)
     checks_23 = (
         check("first kind: R12 is that of the library", R12 * exp(1j * gamma12) - R_A, lost * largest, "N"),
         check("first kind: R03 is that of the library", R03 * exp(1j * gamma03) - R_C, lost * largest, "N"),
         check("first kind: R23 is that of the library", R23 * exp(1j * gamma23) - R_B, lost * largest, "N"),
     )
-    vectors_23 = typeset()
-    return R_A, R_B, R_C, checks_23, group_23, largest, vectors_23
+    return checks_23, largest
 
 
 @app.cell
-def drawing_61(A, B, C, D, F2_sum, F3_own, K, R_A, R_C, R_D, R_K, S2, S3, bare_23, kind_1, turn):
-    _k = turn.value
-    _links = bare_23.link(A[_k], B[_k], "2").plate([C, B[_k], K[_k], D[_k]], "3").mass(S2[_k], "S2").mass(S3[_k], "S3")
-    _pins = _links.hinge(A[_k], "A").hinge(B[_k], "B").hinge(C, "C").hinge(D[_k], "D").hinge(K[_k], "K")
-    _back = _pins + pin_force(D[_k], -R_D[_k], "R43", C) + pin_force(K[_k], -R_K[_k], "R63", C)
-    _loads = _back.force(S2[_k], F2_sum[_k], "F2").force(S3[_k], F3_own[_k], "F3_own")
-    drawing_61 = _loads + pin_force(A[_k], R_A[_k], "R12", B[_k]) + pin_force(C, R_C[_k], "R03", B[_k])
-    typeset(turn, drawing_61, caption("6.1", f"Group (2, 3) with its forces, φ₁ = {_k}°"), kind_1.at(_k))
+def drawing_61(A, B, C, D, F2_sum, F3_own, K, R_A, R_C, R_D, R_K, S2, S3, SR1, turn):
+    _a, _b, _d, _k, _s2, _s3 = (_P[turn.value] for _P in (A, B, D, K, S2, S3))
+    _links = group_picture.link(_a, _b, "2").plate([C, _b, _k, _d], "3").mass(_s2, "S2").mass(_s3, "S3")
+    _pins = _links.hinge(_a, "A").hinge(_b, "B").hinge(C, "C").hinge(_d, "D").hinge(_k, "K")
+    _back = {"R43": (D, -R_D, C), "R63": (K, -R_K, C)}
+    _own = {"F2": (S2, F2_sum), "F3_own": (S3, F3_own), "R12": (A, R_A, B), "R03": (C, R_C, B)}
+    drawing_61 = cut_group(_pins, turn.value, _back | _own, [A, B, C, D, K])
+    _caption = caption("6.1", f"Group (2, 3) with its forces, φ₁ = {turn.value}°")
+    typeset(turn, drawing_61, _caption, SR1.at(turn.value))
     return (drawing_61,)
 
 
@@ -1144,7 +967,7 @@ def section_71():
 
 
 @app.cell
-def gear(F1, M1, R21, g, gamma1, gamma21, phi1):
+def gear(A, F1, G1, M1, O1, R21, R_A, S1, a_S1, g, gamma1, gamma21, lost, phi1):
     gamma_b0 = 0.5 * pi - g.alpha_w  # [deg] direction assumed first
     T1 = F1 * g.l_O1S1 * sin(gamma1 - phi1) + M1  # [N*m] (1.49) moment of the loads about O1
     T2 = R21 * g.l1 * sin(gamma21 - phi1)  # [N*m] (1.49) moment of R21 about O1
@@ -1154,12 +977,6 @@ def gear(F1, M1, R21, g, gamma1, gamma21, phi1):
     R_O1g_y = -(F1 * sin(gamma1) + abs(F_b) * sin(gamma_b) + R21 * sin(gamma21))  # [N] (1.51)
     R_O1g = hypot(R_O1g_x, R_O1g_y)  # [N] (1.52) frame on the crank, gear
     gamma_O1g = atan2(R_O1g_y, R_O1g_x) % (2 * pi)  # [deg] (1.53)
-    gear_lines = typeset()
-    return F_b, R_O1g, R_O1g_x, R_O1g_y, T1, T2, gamma_O1g, gamma_b, gamma_b0, gear_lines
-
-
-@app.cell
-def library_gear(A, F_b, G1, O1, R_A, R_O1g, S1, a_S1, g, gamma_O1g, gamma_b, lost):
     loads_O1 = [Load(G1, S1), inertia(S1, g.m1, g.J1, a_S1, g.eps1), Load(-R_A, A)]
     P_w = O1 - g.l_O1P  # [m] pitch point
     drive_g = gear_drive(O1, P_w, g.alpha_w, loads_O1)
@@ -1170,19 +987,22 @@ def library_gear(A, F_b, G1, O1, R_A, R_O1g, S1, a_S1, g, gamma_O1g, gamma_b, lo
         check("gear: the force is that of the library", abs(F_b) * exp(1j * gamma_b) - F_w, _limit, "N"),
         check("gear: RO1 is that of the library", R_O1g * exp(1j * gamma_O1g) - R_1g, _limit, "N"),
     )
-    gear_vectors = typeset()
-    return F_w, P_w, R_1g, checks_gear, drive_g, gear_vectors, loads_O1
+    gear_lines = typeset()
+    return (
+        F_b, F_w, P_w, R_1g, R_O1g, R_O1g_x, R_O1g_y, T1, T2, checks_gear, drive_g, gamma_O1g, gamma_b, gamma_b0,
+        gear_lines, loads_O1,
+    )  # fmt: skip
 
 
 @app.cell
-def drawing_71(A, F1_sum, F_w, O1, P_w, R_1g, R_A, S1, bare_gear, checks_gear, gear_lines, gear_vectors, turn):
-    _k = turn.value
-    _links = bare_gear.link(O1, A[_k], "1").hinge(O1, "O1").hinge(A[_k], "A").hinge(P_w, "P")
-    _loads = _links.force(S1[_k], F1_sum[_k], "F1") + pin_force(A[_k], -R_A[_k], "R21", O1)
-    drawing_71 = _loads.force(P_w, F_w[_k], "F_b", into=True) + pin_force(O1, R_1g[_k], "R_O1", A[_k])
+def drawing_71(A, F1_sum, F_w, O1, P_w, R_1g, R_A, S1, checks_gear, g, gear_lines, turn):
+    _a, _wheel = A[turn.value], [O1 + g.l_O1P * _side for _side in (1, 1j, -1, -1j)]
+    _links = group_picture.wheel(O1, g.l_O1P).link(O1, _a, "1").hinge(O1, "O1").hinge(_a, "A").hinge(P_w, "P")
+    _forces = {"F1": (S1, F1_sum), "R21": (A, -R_A, O1), "F_b": (P_w, F_w, O1), "R_O1": (O1, R_1g, A)}
+    drawing_71 = cut_group(_links, turn.value, _forces, [A, *_wheel])
     typeset(
-        *(turn, drawing_71, caption("7.1", f"Crank driven by a gear, φ₁ = {_k}°")),
-        *(gear_lines.at(_k), gear_vectors.at(_k), *checks_gear),
+        *(turn, drawing_71, caption("7.1", f"Crank driven by a gear, φ₁ = {turn.value}°")),
+        *(gear_lines.at(turn.value), *checks_gear),
     )
     return (drawing_71,)
 
@@ -1202,87 +1022,35 @@ def section_72():
 
 
 @app.cell
-def coupling(F1, R21, T1, T2, gamma1, gamma21):
+def coupling(F1, O1, R21, R_A, T1, T2, g, gamma1, gamma21, loads_O1, lost):
     M_b_printed = T2 + T1  # [N*m] (1.56) as printed (erratum)
     M_b = -(T2 + T1)  # [N*m] (1.56) balancing moment
     R_O1c_x = -(R21 * cos(gamma21) + F1 * cos(gamma1))  # [N] (1.58) frame on the crank, at O1
     R_O1c_y = -(R21 * sin(gamma21) + F1 * sin(gamma1))  # [N] (1.58)
     R_O1c = hypot(R_O1c_x, R_O1c_y)  # [N] (1.58) frame on the crank, coupling
     gamma_O1c = atan2(R_O1c_y, R_O1c_x) % (2 * pi)  # [deg] (1.59)
-    coupling_lines = typeset()
-    return M_b, M_b_printed, R_O1c, R_O1c_x, R_O1c_y, coupling_lines, gamma_O1c
-
-
-@app.cell
-def library_coupling(M_b, O1, R_A, R_O1c, g, gamma_O1c, loads_O1, lost):
     drive_c = coupling_drive(O1, loads_O1)
     M_c = drive_c.M  # [N*m] balancing moment
     R_1c = drive_c.R_O1  # [N] frame on the crank, at O1
     _limit = lost * largest_of(R_1c, R_A)
-    checks_coupling = (
+    checks_drive = (
         check("coupling: the moment is that of the library", M_b - M_c, _limit * g.l1, "N*m"),
         check("coupling: RO1 is that of the library", R_O1c * exp(1j * gamma_O1c) - R_1c, _limit, "N"),
     )
-    coupling_vectors = typeset()
-    return M_c, R_1c, checks_coupling, coupling_vectors, drive_c
+    coupling_lines = typeset()
+    return M_b, M_b_printed, M_c, R_1c, R_O1c, R_O1c_x, R_O1c_y, checks_drive, coupling_lines, drive_c, gamma_O1c
 
 
 @app.cell
-def bare_groups(
-    A,
-    B,
-    C,
-    D,
-    E,
-    F1_sum,
-    F2_sum,
-    F3_own,
-    F4_sum,
-    F5_sum,
-    F6_sum,
-    F7_sum,
-    F_w,
-    H,
-    K,
-    O1,
-    P_w,
-    R_05,
-    R_1c,
-    R_1g,
-    R_A,
-    R_C,
-    R_D,
-    R_H,
-    R_K,
-    S1,
-    S2,
-    S3,
-    S4,
-    S6,
-    S7,
-    g,
-):
-    bare_45 = group_drawing([D, E], [(D, R_D), (S4, F4_sum), (E, F5_sum), (E, R_05)])
-    bare_67 = group_drawing([K, H], [(K, R_K), (H, R_H), (S6, F6_sum), (S7, F7_sum)])
-    bare_23 = group_drawing([A, B, C, D, K], [(A, R_A), (C, R_C), (S2, F2_sum), (S3, F3_own), (D, -R_D), (K, -R_K)])
-    _wheel = [O1 + g.l_O1P * _side for _side in (1, 1j, -1, -1j)]
-    bare_gear = group_drawing([A, *_wheel], [(P_w, F_w), (O1, R_1g), (A, -R_A), (S1, F1_sum)]).wheel(O1, g.l_O1P)
-    bare_coupling = group_drawing([A, O1], [(O1, R_1c), (A, -R_A), (S1, F1_sum)])
-    return bare_23, bare_45, bare_67, bare_coupling, bare_gear
-
-
-@app.cell
-def drawing_72(
-    A, F1_sum, M_c, O1, R_1c, R_A, S1, bare_coupling, checks_coupling, coupling_lines, coupling_vectors, turn
-):
-    _k = turn.value
-    _links = bare_coupling.link(O1, A[_k], "1").hinge(O1, "O1").hinge(A[_k], "A")
-    _loads = _links.force(S1[_k], F1_sum[_k], "F1") + pin_force(A[_k], -R_A[_k], "R21", O1)
-    drawing_72 = _loads + pin_force(O1, R_1c[_k], "R_O1", A[_k])
-    _says = f"balancing moment {M_c[_k]:.4g} N·m" if isfinite(M_c[_k]) else "no balancing moment"
+def drawing_72(A, F1_sum, M_c, O1, R_1c, R_A, S1, checks_drive, coupling_lines, turn):
+    _a, _M = A[turn.value], M_c[turn.value]
+    _forces = {"F1": (S1, F1_sum), "R21": (A, -R_A, O1), "R_O1": (O1, R_1c, A)}
+    _links = group_picture.link(O1, _a, "1").hinge(O1, "O1").hinge(_a, "A")
+    drawing_72 = cut_group(_links, turn.value, _forces, [A, O1])
+    _says = f"balancing moment {_M:.4g} N·m" if isfinite(_M) else "no balancing moment"
     typeset(
-        *(turn, drawing_72, caption("7.2", f"Crank driven by a coupling, φ₁ = {_k}°: {_says}")),
-        *(coupling_lines.at(_k), coupling_vectors.at(_k), *checks_coupling),
+        *(turn, drawing_72, caption("7.2", f"Crank driven by a coupling, φ₁ = {turn.value}°: {_says}")),
+        *(coupling_lines.at(turn.value), *checks_drive),
     )
     return (drawing_72,)
 
@@ -1296,35 +1064,7 @@ def section_8():
 
 
 @app.cell
-def turn_listed(
-    F_b,
-    M_b,
-    P_b,
-    R03,
-    R05,
-    R07,
-    R12,
-    R23,
-    R34,
-    R36,
-    R45,
-    R76,
-    R_O1c,
-    R_O1g,
-    g,
-    gamma03,
-    gamma07,
-    gamma12,
-    gamma23,
-    gamma34,
-    gamma36,
-    gamma45,
-    gamma_O1c,
-    gamma_O1g,
-    gamma_b,
-    h76,
-    phi1,
-):
+def groups_listed(R05, R07, R34, R36, R45, R76, g, gamma07, gamma34, gamma36, gamma45, h76, phi1):
     table_81 = table("8.1", "Reactions, second kind", phi1, R34, gamma34, R05, R45, gamma45, every=g.step)
     table_82 = table(
         "8.2",
@@ -1333,11 +1073,19 @@ def turn_listed(
         every=g.step,
         note="Where R76 passes through zero its arm h76 grows without bound: the pair then passes on a moment alone.",
     )
+    typeset(table_81, table_82)
+    return table_81, table_82
+
+
+@app.cell
+def drive_listed(
+    F_b, M_b, P_b, R03, R12, R23, R_O1c, R_O1g, g, gamma03, gamma12, gamma23, gamma_O1c, gamma_O1g, gamma_b, phi1
+):
     table_83 = table("8.3", "Reactions, first kind", phi1, R12, gamma12, R23, gamma23, R03, gamma03, every=g.step)
     table_84 = table("8.4", "Drive by a gear", phi1, F_b, gamma_b, R_O1g, gamma_O1g, every=g.step)
     table_85 = table("8.5", "Drive by a coupling", phi1, M_b, R_O1c, gamma_O1c, P_b, every=g.step)
-    typeset(table_81, table_82, table_83, table_84, table_85)
-    return table_81, table_82, table_83, table_84, table_85
+    typeset(table_83, table_84, table_85)
+    return table_83, table_84, table_85
 
 
 @app.cell
@@ -1381,8 +1129,8 @@ def section_81():
 
 
 @app.cell
-def polar_sheets(R_1c, R_1g, R_A, R_B, R_C, R_D, R_E, R_H, R_K):
-    polars = {
+def figure_87(R_1c, R_1g, R_A, R_B, R_C, R_D, R_E, R_H, R_K, turn):
+    _polars = {
         "R12": (R_A, "crank on the rod 2, at A"),
         "R23": (R_B, "rod 2 on the rocker 3, at B"),
         "R03": (R_C, "frame on the rocker 3, at C"),
@@ -1393,15 +1141,9 @@ def polar_sheets(R_1c, R_1g, R_A, R_B, R_C, R_D, R_E, R_H, R_K):
         "R_O1g": (R_1g, "frame on the crank, at O1, gear"),
         "R_O1c": (R_1c, "frame on the crank, at O1, coupling"),
     }
-    diagrams = {name: polar(R) for name, (R, _) in polars.items()}
-    return diagrams, polars
-
-
-@app.cell
-def figure_87(diagrams, polars, turn):
     _shown = [
-        mo.vstack([diagrams[_name].force(0j, _R[turn.value], _name), mo.md(_what)], align="center")
-        for _name, (_R, _what) in polars.items()
+        mo.vstack([polar(_R, turn.value, _name), mo.md(_what)], align="center")
+        for _name, (_R, _what) in _polars.items()
     ]
     _rows = [mo.hstack(_shown[_i : _i + 3], widths="equal", align="end") for _i in range(0, len(_shown), 3)]
     typeset(turn, *_rows, caption("8.7", "Polar diagrams of the reactions"))
@@ -1421,66 +1163,7 @@ def section_9():
 
 
 @app.cell
-def existence(R_A, R_D, R_K):
-    _where = np.nonzero(~isfinite(R_A + R_D + R_K))[-1]
-    _first = f"first at phi1 = {_where[0]} deg" if _where.size else ""
-    checks_existence = (Check("no position is a dead centre", _where.size, 0, "positions", _first, essential=True),)
-    typeset(*checks_existence)
-    return (checks_existence,)
-
-
-@app.cell
-def equilibrium(
-    A,
-    B,
-    C,
-    D,
-    E,
-    F1_sum,
-    F2_sum,
-    F3_sum,
-    F4_sum,
-    F5_sum,
-    F6_sum,
-    F7_sum,
-    H,
-    K,
-    M1,
-    M2,
-    M3,
-    M4,
-    M6,
-    M7,
-    M_b,
-    O1,
-    R03,
-    R05,
-    R07,
-    R12,
-    R23,
-    R43,
-    R45,
-    R63,
-    R76,
-    R_O1c,
-    S1,
-    S2,
-    S3,
-    S4,
-    S6,
-    S7,
-    gamma03,
-    gamma05,
-    gamma07,
-    gamma12,
-    gamma23,
-    gamma45,
-    gamma76,
-    gamma_O1c,
-    h76,
-    largest,
-    lost,
-):
+def reaction_vectors(R03, R05, R07, R12, R23, R45, R76, gamma03, gamma05, gamma07, gamma12, gamma23, gamma45, gamma76):
     R12_v = R12 * exp(1j * gamma12)  # [N] crank 1 on the rod 2
     R23_v = R23 * exp(1j * gamma23)  # [N] rod 2 on the rocker 3
     R03_v = R03 * exp(1j * gamma03)  # [N] frame on the rocker 3
@@ -1488,53 +1171,65 @@ def equilibrium(
     R05_v = R05 * exp(1j * gamma05)  # [N] guide on the plunger 5
     R76_v = R76 * exp(1j * gamma76)  # [N] cylinder 7 on the rod 6
     R07_v = R07 * exp(1j * gamma07)  # [N] frame on the cylinder 7
+    typeset()
+    return R03_v, R05_v, R07_v, R12_v, R23_v, R45_v, R76_v
+
+
+@app.cell
+def loads(E, F1_sum, F2_sum, F3_own, F4_sum, F5_sum, F6_sum, F7_sum, M1, M2, M4, M6, M7, M_in3, S1, S2, S3, S4, S6, S7):
+    loads = (
+        [Load(F1_sum, S1, M1)],
+        [Load(F2_sum, S2, M2)],
+        [Load(F3_own, S3, M_in3)],
+        [Load(F4_sum, S4, M4)],
+        [Load(F5_sum, E)],
+        [Load(F6_sum, S6, M6)],
+        [Load(F7_sum, S7, M7)],
+    )
+    return (loads,)
+
+
+@app.cell
+def reactions_1to3(A, B, C, M_b, O1, R03_v, R12_v, R23_v, R_O1c, gamma_O1c):
     R_O1_v = R_O1c * exp(1j * gamma_O1c)  # [N] frame on the crank
+    reactions_1to3 = (
+        DriveMoment(1, M_b),
+        PinReaction(1, 0, O1, R_O1_v),
+        PinReaction(2, 1, A, R12_v),
+        PinReaction(3, 2, B, R23_v),
+        PinReaction(3, 0, C, R03_v),
+    )
+    typeset()
+    return R_O1_v, reactions_1to3
+
+
+@app.cell
+def reactions(D, E, H, K, R05_v, R07_v, R43, R45_v, R63, R76, R76_v, group_67, h76, reactions_1to3, u5):
     M_67 = where(R76 == 0, 0, -R76 * h76)  # [N*m] rod 6 on the cylinder 7, about K
-    Z1 = R_O1_v + F1_sum - R12_v  # [N] forces on the crank 1
-    Z2 = R12_v + F2_sum - R23_v  # [N] forces on the rod 2
-    Z3 = R23_v + F3_sum + R03_v  # [N] forces on the rocker 3
-    Z4 = -R43 + F4_sum - R45_v  # [N] forces on the rod 4
-    Z5 = R45_v + F5_sum + R05_v  # [N] forces on the plunger 5
-    Z6 = -R63 + F6_sum + R76_v  # [N] forces on the rod with piston 6
-    Z7 = R07_v + F7_sum - R76_v  # [N] forces on the cylinder 7
-    Y1 = M_b + M1 + cross(S1 - O1, F1_sum) - cross(A - O1, R12_v)  # [N*m] moments on the crank 1 about O1
-    Y2 = M2 + cross(A - S2, R12_v) - cross(B - S2, R23_v)  # [N*m] moments on the rod 2 about S2
-    Y3 = M3 + cross(B - S3, R23_v) + cross(C - S3, R03_v)  # [N*m] moments on the rocker 3 about S3
-    Y4 = M4 - cross(D - S4, R43) - cross(E - S4, R45_v)  # [N*m] moments on the rod 4 about S4
-    Y6 = M6 - M_67 + cross(S6 - K, F6_sum)  # [N*m] moments on the rod with piston 6 about K
-    Y7 = M7 + M_67 + cross(S7 - K, F7_sum) + cross(H - K, R07_v)  # [N*m] moments on the cylinder 7 about K
+    reactions = (
+        *reactions_1to3,
+        PinReaction(3, 4, D, R43),
+        PinReaction(5, 4, E, R45_v),
+        PinReaction(3, 6, K, R63),
+        PinReaction(7, 0, H, R07_v),
+        SlideReaction(5, 0, E, R05_v, 0, u5),
+        SlideReaction(6, 7, K, R76_v, -M_67, group_67.u),
+    )
+    typeset()
+    return M_67, reactions
+
+
+@app.cell
+def equilibrium(A, B, C, D, E, H, K, O1, R_A, R_D, R_K, largest, loads, lost, reactions):
+    _lost = np.nonzero(~isfinite(R_A + R_D + R_K))[-1]
+    _first = f"first at phi1 = {_lost[0]} deg" if _lost.size else ""
     longest = largest_of(A - O1, B - C, A - B, D - E, H - K)
     checks_bodies = (
-        check("equilibrium of forces, bodies 1..7", [Z1, Z2, Z3, Z4, Z5, Z6, Z7], lost * largest, "N"),
-        check("equilibrium of moments, bodies 1..7", [Y1, Y2, Y3, Y4, Y6, Y7], lost * largest * longest, "N*m"),
+        Check("no position is a dead centre", _lost.size, 0, "positions", _first, essential=True),
+        *balance("bodies 1..7", loads, reactions, lost * largest, lost * largest * longest),
     )
     typeset(*checks_bodies)
-    return (
-        M_67,
-        R03_v,
-        R05_v,
-        R07_v,
-        R12_v,
-        R23_v,
-        R45_v,
-        R76_v,
-        R_O1_v,
-        Y1,
-        Y2,
-        Y3,
-        Y4,
-        Y6,
-        Y7,
-        Z1,
-        Z2,
-        Z3,
-        Z4,
-        Z5,
-        Z6,
-        Z7,
-        checks_bodies,
-        longest,
-    )
+    return checks_bodies, longest
 
 
 @app.cell(hide_code=True)
@@ -1610,49 +1305,28 @@ def energy(C, F_g, H, P_A, P_D, P_E, P_K, P_S1, P_S2, P_S3, P_S4, P_S6, P_S7, V_
 
 
 @app.cell
-def work(
-    F1_sum,
-    F2_sum,
-    F3_own,
-    F4_sum,
-    F5_sum,
-    F6_sum,
-    F7_sum,
-    M1,
-    M2,
-    M4,
-    M6,
-    M7,
-    M_in3,
-    O1,
-    S1,
-    V_E,
-    V_S2,
-    V_S3,
-    V_S4,
-    V_S6,
-    V_S7,
-    phi1,
-    u2,
-    u3,
-    u4,
-    u6,
-):
+def work(F1_sum, F2_sum, F3_own, M1, M2, M_in3, O1, S1, V_S2, V_S3, phi1, u2, u3):
     V_S1 = 1j * (S1 - O1)  # [m] velocity analogue of S1
     W_1 = dot(F1_sum, V_S1) + M1  # [N*m] work of the loads on the crank, for a radian of the crank
     W_2 = dot(F2_sum, V_S2(phi1)) + M2 * u2(phi1)  # [N*m] on the rod 2
     W_3 = dot(F3_own, V_S3(phi1)) + M_in3 * u3(phi1)  # [N*m] on the rocker 3
+    work_lines = typeset()
+    return V_S1, W_1, W_2, W_3, work_lines
+
+
+@app.cell
+def work_later(F4_sum, F5_sum, F6_sum, F7_sum, M4, M6, M7, V_E, V_S4, V_S6, V_S7, phi1, u4, u6):
     W_4 = dot(F4_sum, V_S4(phi1)) + M4 * u4(phi1)  # [N*m] on the rod 4
     W_5 = dot(F5_sum, V_E(phi1))  # [N*m] on the plunger 5
     W_6 = dot(F6_sum, V_S6(phi1)) + M6 * u6(phi1)  # [N*m] on the rod with piston 6
     W_7 = dot(F7_sum, V_S7(phi1)) + M7 * u6(phi1)  # [N*m] on the cylinder 7
-    work_lines = typeset()
-    return V_S1, W_1, W_2, W_3, W_4, W_5, W_6, W_7, work_lines
+    later_work_lines = typeset()
+    return W_4, W_5, W_6, W_7, later_work_lines
 
 
 @app.cell
-def work_shown(turn, work_lines):
-    work_lines.at(turn.value)
+def work_shown(later_work_lines, turn, work_lines):
+    typeset(work_lines.at(turn.value), later_work_lines.at(turn.value))
     return
 
 
@@ -1690,92 +1364,21 @@ def section_93():
     return
 
 
-@app.function
-def balance(units, loads, shape):
-    """Magnitudes of the unknown loads that hold the bodies 1, 2, .. in equilibrium under one known load on each.
-
-    An unknown is (force, moment, point, from the body, on the body) for the magnitude 1, a known load is
-    (force, moment, point). NaN where the system has no solution.
-    """
-
-    def rows(F, M, P):
-        return np.stack(np.broadcast_arrays(np.real(F), np.imag(F), M + cross(P, F)), axis=-1)
-
-    size = 3 * len(loads) + 3
-    system, right = np.zeros((*shape, size, len(units))), np.zeros((*shape, size, 1))
-    for j, (F, M, P, giver, taker) in enumerate(units):
-        system[..., 3 * giver : 3 * giver + 3, j] -= rows(F, M, P)
-        system[..., 3 * taker : 3 * taker + 3, j] += rows(F, M, P)
-    for i, load in enumerate(loads, start=1):
-        right[..., 3 * i : 3 * i + 3, 0] = -rows(*load)
-    system, right = system[..., 3:, :], right[..., 3:, :]  # the frame, body 0, needs no equilibrium
-    system[np.linalg.det(system) == 0] = np.nan
-    return np.linalg.solve(system, right)[..., 0]
-
-
 @app.cell
-def dense(
-    A,
-    B,
-    C,
-    D,
-    E,
-    F1_sum,
-    F2_sum,
-    F3_own,
-    F4_sum,
-    F5_sum,
-    F6_sum,
-    F7_sum,
-    H,
-    K,
-    M1,
-    M2,
-    M4,
-    M6,
-    M7,
-    M_b,
-    M_in3,
-    O1,
-    S1,
-    S2,
-    S3,
-    S4,
-    S6,
-    S7,
-    e7,
-    phi1,
-    u5,
-):
-    u7 = e7(phi1)
-    hinges = [(O1, 0, 1), (A, 1, 2), (B, 2, 3), (C, 0, 3), (D, 3, 4), (E, 4, 5), (K, 3, 6), (H, 0, 7)]
-    loads_2to4 = [(F2_sum, M2, S2), (F3_own, M_in3, S3), (F4_sum, M4, S4)]
-    loads_5to7 = [(F5_sum, 0, E), (F6_sum, M6, S6), (F7_sum, M7, S7)]
-    units = [
-        (0, 1, O1, 0, 1),
-        *((_F, 0, _P, _giver, _taker) for _P, _giver, _taker in hinges for _F in (1, 1j)),
-        *((_F, _M, E, 0, 5) for _F, _M in ((1j * u5, 0), (0, 1))),
-        *((_F, _M, K, 7, 6) for _F, _M in ((1j * u7, 0), (0, 1))),
-    ]
-    dense = balance(units, [(F1_sum, M1, S1), *loads_2to4, *loads_5to7], np.shape(M_b))
-    return dense, hinges, loads_2to4, loads_5to7, u7, units
-
-
-@app.cell
-def dense_checks(M_76, M_c, R_05, R_1c, R_76, R_A, R_B, R_C, R_D, R_E, R_H, R_K, dense, largest, longest, lost, u5, u7):
-    _hinges = [dense[..., _j] + 1j * dense[..., _j + 1] for _j in range(1, 17, 2)]
-    _chain = [R_1c, R_A, R_B, R_C, R_D, R_E, R_K, R_H]
-    _normals = [dense[..., 17] - dot(R_05, 1j * u5), dense[..., 19] - dot(R_76, 1j * u7)]
-    _limit = lost * largest
+def dense(largest, loads, longest, lost, reactions):
+    dense = solve_reactions(loads, reactions)
+    _off = dense - magnitudes(reactions)
+    _hinges = _off[..., 1:17:2] + 1j * _off[..., 2:17:2]
+    _force, _moment = lost * largest, lost * largest * longest
     checks_dense = (
-        check("one system: balancing moment", dense[..., 0] - M_c, _limit * longest, "N*m"),
-        check("one system: forces in the hinges", [x - y for x, y in zip(_hinges, _chain, strict=True)], _limit, "N"),
-        check("one system: forces in the prismatic pairs", _normals, _limit, "N"),
-        check("one system: moment of the guide", dense[..., 18], _limit * longest, "N*m"),
-        check("one system: moment of the cylinder on the rod", dense[..., 20] - M_76, _limit * longest, "N*m"),
+        check("one system: balancing moment", _off[..., 0], _moment, "N*m"),
+        check("one system: forces in the hinges", _hinges, _force, "N"),
+        check("one system: forces in the prismatic pairs", _off[..., [17, 19]], _force, "N"),
+        check("one system: moment of the guide", _off[..., 18], _moment, "N*m"),
+        check("one system: moment of the cylinder on the rod", _off[..., 20], _moment, "N*m"),
     )
     typeset(*checks_dense)
-    return (checks_dense,)
+    return checks_dense, dense
 
 
 @app.cell

@@ -47,8 +47,8 @@ with app.setup:
         title_block,
         typeset,
     )
+    from mechsheet.units import deg
 
-    deg = pi / 180
     ulp = np.finfo(float).eps
 
 

@@ -33,8 +33,8 @@ with app.setup:
         title_block,
         typeset,
     )
+    from mechsheet.units import deg
 
-    deg = pi / 180
     ulp = np.finfo(float).eps
 
 

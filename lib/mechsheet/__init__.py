@@ -7,9 +7,9 @@ A worksheet
     inputs          inputs, ask, read, Used, declared
     formulas        typeset, registry
     Find            find, Found
-    checks          check, require, check_slope, closed_form, assembled, Check, summary
+    checks          check, require, check_slope, closed_form, assembled, balance, largest_of, Check, summary
     tables, charts  table, figure, Table, Figure, Column
-    drawings        Drawing, caption, side_by_side, mark, player
+    drawings        Drawing, cut_group, polar, caption, side_by_side, mark, player
     the document    title_block, progress, export
     errors          SheetError, refuse
 
@@ -35,6 +35,7 @@ Mechanics: numpy arrays in, numpy arrays out
     group RPP       rpp, rpp_velocity, rpp_acceleration, rpp_transmission_angle, rpp_condition,
                     rpp_determinant, rpp_reactions, RPPGroup
     loads, drives   Load, inertia, coupling_drive, gear_drive, cylinder_drive
+    equilibrium     PinReaction, SlideReaction, DriveMoment, left_over, solve_reactions, magnitudes
     joints          neutral_axis, bending, circular_joint, sum_of_elements
 
 ``__version__`` is the version of the package.

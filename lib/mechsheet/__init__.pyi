@@ -27,6 +27,14 @@ from mechsheet.mechanics.drive import (
     cylinder_drive as cylinder_drive,
     gear_drive as gear_drive,
 )
+from mechsheet.mechanics.equilibrium import (
+    DriveMoment as DriveMoment,
+    PinReaction as PinReaction,
+    SlideReaction as SlideReaction,
+    left_over as left_over,
+    magnitudes as magnitudes,
+    solve_reactions as solve_reactions,
+)
 from mechsheet.mechanics.joint import (
     bending as bending,
     circular_joint as circular_joint,
@@ -141,6 +149,7 @@ from mechsheet.worksheet.cells import (
 from mechsheet.worksheet.checks import (
     Check as Check,
     assembled as assembled,
+    balance as balance,
     check as check,
     check_slope as check_slope,
     closed_form as closed_form,
@@ -157,6 +166,11 @@ from mechsheet.worksheet.errors import (
 from mechsheet.worksheet.find import (
     Found as Found,
     find as find,
+)
+from mechsheet.worksheet.force_diagram import (
+    cut_group as cut_group,
+    largest_of as largest_of,
+    polar as polar,
 )
 from mechsheet.worksheet.inputs import (
     Used as Used,

@@ -1,6 +1,6 @@
 """Checks as values: a residual against its limit, with a verdict."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass
@@ -11,6 +11,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mechsheet import units
+from mechsheet.mechanics.equilibrium import Reaction, left_over
+from mechsheet.mechanics.load import Load
 from mechsheet.worksheet import numbers
 from mechsheet.worksheet.errors import SheetError, refuse
 from mechsheet.worksheet.find import Found
@@ -73,6 +75,25 @@ def check(name: str, residual: ArrayLike, limit: float, unit: str = "-") -> Chec
     lost = int(np.count_nonzero(np.isnan(sizes)))
     reason = f"{lost} of {sizes.size} values do not exist" if lost else ""
     return Check(name, float(np.max(sizes)) / factor, limit / factor, unit, reason)
+
+
+def balance(
+    what: str,
+    loads: Sequence[Sequence[Load]],
+    reactions: Sequence[Reaction],
+    forces: float,
+    moments: float,
+) -> tuple[Check, Check]:
+    """Check that loads and reactions hold each body in equilibrium: what is left of forces [N] and of moments [N m].
+
+    ``loads`` and ``reactions`` are those of `left_over`; ``forces`` and ``moments`` are the limits, ``what`` names the
+    bodies.
+    """
+    left = left_over(loads, reactions)
+    return (
+        check(f"equilibrium of forces, {what}", left.F, forces, "N"),
+        check(f"equilibrium of moments, {what}", left.M, moments, "N*m"),
+    )
 
 
 def check_slope(

@@ -1,0 +1,94 @@
+"""Drawings of forces over all positions of a mechanism: groups cut free at one of them, polar diagrams of reactions."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from mechsheet.worksheet.drawing import Drawing
+
+
+def largest_of(*fields: ArrayLike) -> Any:
+    """Largest magnitude of the finite elements, 1 where there is none but zero: what a rounding error is a part of."""
+    sizes = np.concatenate([np.ravel(np.abs(field)) for field in fields])
+    return np.max(sizes, initial=0, where=np.isfinite(sizes)) or 1.0
+
+
+def cut_group(
+    drawn: Drawing,
+    at: int,
+    forces: Mapping[str, Sequence[ArrayLike]],
+    points: Sequence[ArrayLike],
+    part: float = 0.25,
+) -> Drawing:
+    """A group cut free: its links and pins, and the forces on it, which keep their scale in all positions.
+
+    Parameters
+    ----------
+    drawn : Drawing
+        Links, pins and masses at the position that is shown; its width and height are the picture's.
+    at : int
+        Which position that is.
+    forces : mapping of name to (P, F) or (P, F, Q)
+        Force F [N] at the point P [m], each over the positions or at rest. Q is the other pin of the link that F
+        pulls or pushes at the pin P: the arrow then stands on the side of P on which the link does not lie.
+    points : sequence of complex
+        Pins of the group [m], over the positions or at rest: the picture has room for them all.
+    part : float
+        Length of the longest arrow of all positions, as a part of the group's size.
+
+    Returns
+    -------
+    Drawing
+        What was ``drawn`` with the forces; as it was where the group closes in no position.
+    """
+    ends = np.concatenate([np.ravel(point) for point in points])
+    seen = ends[np.isfinite(ends)]
+    if not seen.size:
+        return drawn
+    size = max(np.ptp(seen.real), np.ptp(seen.imag))
+    scale = part * size / largest_of(*(F for _, F, *_ in forces.values()))
+    room = [seen]
+    for P, F, *other in forces.values():
+        room += [np.ravel(P + sign * scale * np.asarray(F)) for sign in ((1, -1) if other else (1,))]
+    picture = Drawing(drawn.width, drawn.height, _corners(np.concatenate(room)), {"N": scale}) + drawn
+    for name, (P, F, *other) in forces.items():
+        p, f, *q = (_at(field, at) for field in (P, F, *other))
+        picture = picture.force(p, f, name, into=bool(q and (np.conj(f) * (q[0] - p)).real > 0))
+    return picture
+
+
+def polar(R: NDArray[np.complex128], at: int, name: str, turn: int = 360) -> Drawing:
+    """Polar diagram of a force: the path of its end over a turn, its quarters, and the force at one position.
+
+    Parameters
+    ----------
+    R : complex, shape (..)
+        Force [N], from the turn's beginning on.
+    at : int
+        Position at which it is drawn as an arrow.
+    name : str
+        Its symbol.
+    turn : int
+        Positions in a turn.
+    """
+    seen = np.append(R[np.isfinite(R)], 0)
+    x, y, beyond = seen.real, seen.imag, 0.1 * largest_of(seen)
+    x0, x1, y0, y1 = np.min(x) - beyond, np.max(x) + beyond, np.min(y) - beyond, np.max(y) + beyond
+    axes = Drawing(width=320, height=300, unit="N", frame=[x0 + 1j * y0, x1 + 1j * y1])
+    picture = axes.path([x0, x1], "x", "").path([1j * y0, 1j * y1], "y", "").path(R)
+    for k in range(4):
+        picture = picture.hinge(R[k * turn // 4], f"{90 * k}°")
+    return picture.force(0j, R[at], name)
+
+
+def _at(field: ArrayLike, at: int) -> complex:
+    z = np.asarray(field, dtype=complex)
+    return complex(z[at] if z.ndim else z)
+
+
+def _corners(z: NDArray[np.complex128]) -> NDArray[np.complex128]:
+    """Corners of the box around the finite points."""
+    z = z[np.isfinite(z)]
+    return np.array([np.min(z.real) + 1j * np.min(z.imag), np.max(z.real) + 1j * np.max(z.imag)])
