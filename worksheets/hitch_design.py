@@ -9,7 +9,7 @@ with app.setup:
 
     import marimo as mo
     import numpy as np
-    from numpy import abs, arcsin, max, min, minimum, pi, sin
+    from numpy import abs, arcsin, max, min, minimum, sin
 
     from mechsheet import (
         Check,
