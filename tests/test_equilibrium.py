@@ -96,3 +96,14 @@ def test_mechanism_that_cannot_be_held_is_nan_there_alone() -> None:
 def test_what_is_no_mechanism_is_named(loads, reactions, message) -> None:
     with pytest.raises(ValueError, match=message):
         solve_reactions(loads, reactions)
+
+
+@pytest.mark.parametrize("function", [left_over, solve_reactions])
+def test_shapes_that_do_not_broadcast_are_refused_by_name(function) -> None:
+    loads = [[Load(np.ones(2), 0)], [Load(1, np.ones(3))]]
+    with pytest.raises(
+        ValueError, match=r"shapes do not broadcast: loads\[0\]\[0\].F \(2,\), loads\[1\]\[0\].P \(3,\)"
+    ):
+        function(loads, [PinReaction(1, 2, 0, 0), PinReaction(2, 0, 0, 0), PinReaction(1, 0, 0, 0)])
+    with pytest.raises(ValueError, match=r"reactions\[0\].F \(2,\), reactions\[1\].P \(3,\)"):
+        magnitudes([PinReaction(1, 0, 0, np.ones(2)), SlideReaction(1, 0, np.ones(3), 0, np.ones(3), 1)])

@@ -7,7 +7,7 @@ parameter as a single number, and a field in an array: a Find leaves NaN where i
 """
 
 import inspect
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import is_dataclass
 from functools import wraps
 from typing import Any, ParamSpec, TypeVar
@@ -38,7 +38,7 @@ def broadcasting(f: Callable[P, R]) -> Callable[P, R]:
         try:
             return f(*args, **kwargs)
         except ValueError as error:
-            raise _shape_error(inspect.signature(f).bind(*args, **kwargs).arguments) or error from None
+            raise shape_error(inspect.signature(f).bind(*args, **kwargs).arguments) or error from None
 
     return checked
 
@@ -135,13 +135,24 @@ def _numbers(value: ArrayLike, name: str, kinds: str) -> NDArray[Any]:
     return x
 
 
-def _shape_error(arguments: dict[str, Any]) -> ValueError | None:
-    values = {}
-    for name, value in arguments.items():
-        if isinstance(value, list | tuple) and any(is_dataclass(load) for load in value):
-            values.update({f"{name}[{i}].{key}": x for i, load in enumerate(value) for key, x in vars(load).items()})
-        else:
-            values[name] = value
+def _parts(name: str, value: Any) -> Iterator[tuple[str, Any]]:
+    """The arrays of an argument by their names: of loads and reactions, also of several bodies, each on its own."""
+    if is_dataclass(value):
+        yield from ((f"{name}.{key}", x) for key, x in vars(value).items())
+    elif _holds_loads(value):
+        for i, x in enumerate(value):
+            yield from _parts(f"{name}[{i}]", x)
+    else:
+        yield name, value
+
+
+def _holds_loads(value: Any) -> bool:
+    return isinstance(value, list | tuple) and any(is_dataclass(x) or _holds_loads(x) for x in value)
+
+
+def shape_error(arguments: Mapping[str, Any]) -> ValueError | None:
+    """The error that names the arguments whose shapes do not broadcast; None where all do."""
+    values = dict(part for name, value in arguments.items() for part in _parts(name, value))
     try:
         shapes = {name: np.shape(value) for name, value in values.items()}
     except ValueError:  # rows of different length have an error of their own

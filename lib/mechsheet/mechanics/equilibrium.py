@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mechsheet.mechanics.arguments import Complex, Float
+from mechsheet.mechanics.arguments import Complex, Float, shape_error
 from mechsheet.mechanics.load import Load
 from mechsheet.mechanics.planar import cross, dot
 
@@ -107,7 +107,7 @@ def left_over(loads: Sequence[Sequence[Load]], reactions: Sequence[Reaction]) ->
     Raises
     ------
     ValueError
-        A body without a load, or a reaction on or by a body that has none.
+        A body without a load, a reaction on or by a body that has none, shapes that do not broadcast.
     """
     _numbered(loads, reactions)
     forces, moments = [], []
@@ -139,7 +139,8 @@ def solve_reactions(loads: Sequence[Sequence[Load]], reactions: Sequence[Reactio
     Raises
     ------
     ValueError
-        More or fewer unknowns than equations, a body without a load, a reaction on or by a body that has none.
+        More or fewer unknowns than equations, a body without a load, a reaction on or by a body that has none, shapes
+        that do not broadcast.
     """
     _numbered(loads, reactions)
     size = 3 * len(loads)
@@ -163,6 +164,8 @@ def solve_reactions(loads: Sequence[Sequence[Load]], reactions: Sequence[Reactio
 
 def magnitudes(reactions: Sequence[Reaction]) -> Float:
     """Magnitudes of given reactions in the order in which `solve_reactions` finds them, shape (..., unknowns)."""
+    if error := shape_error({"reactions": reactions}):
+        raise error
     return np.stack(np.broadcast_arrays(*(m for r in reactions for m in r.magnitudes)), axis=-1)
 
 
@@ -178,3 +181,5 @@ def _numbered(loads: Sequence[Sequence[Load]], reactions: Sequence[Reaction]) ->
     for r in reactions:
         if not (0 <= r.on <= len(loads) and 0 <= r.by <= len(loads)):
             raise ValueError(f"reaction on the body {r.on} by the body {r.by}: there are bodies 0..{len(loads)}")
+    if error := shape_error({"loads": loads, "reactions": reactions}):
+        raise error
