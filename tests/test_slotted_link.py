@@ -12,7 +12,7 @@ import mpmath as mp
 import numpy as np
 import pytest
 from conftest import examples
-from hypothesis import assume, given
+from hypothesis import assume, example, given
 from hypothesis import strategies as st
 from openpyxl import load_workbook
 from printed import agrees, rows
@@ -245,9 +245,13 @@ def test_circle_through_the_hinge_between_the_positions_of_the_tables_is_no_fail
 
 @examples(20)
 @given(st.floats(0.05, 20), st.floats(0, 20), st.floats(-1e3, 1e3), st.integers(2, 40), st.floats(-7, 7))
+@example(0.25, 0.0, 0.0, 4, 1.5)
 def test_checks_hold_for_any_dimensions(L1, L0, omega1, n, phi_0):
+    """The document's Newton may end in no root: then, and only then, what it found may fail its checks."""
     assume(abs(L1 - L0) > 1e-4 * L1)
-    lost = [c for c in failed(run(L1=L1, L0=L0, omega1=omega1, n=n, phi_0=phi_0)) if c.name != "Find ends in a root"]
+    lost = failed(run(L1=L1, L0=L0, omega1=omega1, n=n, phi_0=phi_0))
+    if any(c.name == "Find ends in a root" for c in lost):
+        lost = [c for c in lost if not c.name.startswith(("Find ", "residual of Find"))]
     assert [str(c) for c in lost] == []
 
 
