@@ -116,9 +116,11 @@ def check_slope(
         return Check(name, np.nan, 0.0, unit, "the range is empty")
     ends = np.where(x == lo, 1, np.where(x == hi, -1, 0))
     step = 0.04 * (hi - lo)
-    found = derivative(f, x, initial_step=step, step_direction=ends)
+    least = 1e-8 * float(np.max(np.abs(slope)))
+    # Finer differences than the check needs would be rounding, which their own error does not tell.
+    found = derivative(f, x, initial_step=step, step_direction=ends, tolerances={"atol": least / 10, "rtol": 0.0})
     rounding = 100 * float(np.finfo(float).eps * np.max(np.abs(f(x)))) / step
-    limit = max(1e-8 * float(np.max(np.abs(slope))), 10 * float(np.max(found.error)), rounding)
+    limit = max(least, 10 * float(np.max(found.error)), rounding)
     return check(name, np.asarray(slope) - found.df, limit, unit)
 
 
