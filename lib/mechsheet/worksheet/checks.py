@@ -118,7 +118,8 @@ def check_slope(
     step = 0.04 * (hi - lo)
     least = 1e-8 * float(np.max(np.abs(slope)))
     # Finer differences than the check needs would be rounding, which their own error does not tell.
-    found = derivative(f, x, initial_step=step, step_direction=ends, tolerances={"atol": least / 10, "rtol": 0.0})
+    enough = least / 10 if least > 0 else 0.0  # a slope may be NaN, a tolerance may not
+    found = derivative(f, x, initial_step=step, step_direction=ends, tolerances={"atol": enough, "rtol": 0.0})
     rounding = 100 * float(np.finfo(float).eps * np.max(np.abs(f(x)))) / step
     limit = max(least, 10 * float(np.max(found.error)), rounding)
     return check(name, np.asarray(slope) - found.df, limit, unit)
