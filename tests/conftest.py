@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Any
 import mpmath
 import pytest
 from hypothesis import settings
+from openpyxl import load_workbook
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser, ConsoleMessage, Page
@@ -32,6 +33,10 @@ settings.register_profile("repeatable", derandomize=True, deadline=None)
 settings.register_profile("search", max_examples=1000, derandomize=False, deadline=None, database=None, print_blob=True)
 settings.load_profile("repeatable")
 
+ALWAYS = """<?xml version="1.0" encoding="UTF-8"?>
+<oor:items xmlns:oor="http://openoffice.org/2001/registry">
+<item oor:path="/org.openoffice.Office.Calc/Formula/Load"><prop oor:name="OOXMLRecalcMode" oor:op="fuse">
+<value>0</value></prop></item></oor:items>"""
 CHROMIUM_FLAGS = [
     "--no-sandbox",
     "--disable-gpu",
@@ -74,6 +79,23 @@ def chromium() -> str:
 def soffice() -> str:
     """Path of LibreOffice."""
     return program("LibreOffice", "soffice", "libreoffice")
+
+
+@pytest.fixture(scope="module")
+def recalculated(soffice: str, tmp_path_factory: pytest.TempPathFactory) -> Callable[[Path], Any]:
+    """Workbook as LibreOffice computes it, whatever values are stored in it."""
+    profile = tmp_path_factory.mktemp("profile")
+    (profile / "user").mkdir()
+    (profile / "user" / "registrymodifications.xcu").write_text(ALWAYS, encoding="utf-8")
+
+    def recalculate(path: Path) -> Any:
+        out = tmp_path_factory.mktemp("recalculated")
+        kind = "xlsx:Calc MS Excel 2007 XML"
+        command = [soffice, f"-env:UserInstallation={profile.as_uri()}", "--headless", "--convert-to", kind]
+        subprocess.run([*command, "--outdir", str(out), str(path)], check=True, capture_output=True, timeout=WITHIN)
+        return load_workbook(out / path.name, data_only=True)
+
+    return recalculate
 
 
 def examples(count: int, **others: Any) -> settings:

@@ -1,5 +1,6 @@
 """The accuracy worksheet: every method that it must compare, its truths against other derivations, its verdicts."""
 
+import shutil
 from pathlib import Path
 
 import numpy as np
@@ -8,7 +9,7 @@ import test_joint
 import test_kinetostatics_sheet
 import test_slotted_link
 
-from mechsheet.accuracy import chain, exact, rivals, whole
+from mechsheet.accuracy import chain, exact, extreme, rivals, whole
 from mechsheet.accuracy.arithmetic import mp
 from mechsheet.accuracy.precision import Truth
 from mechsheet.worksheet.cells import load
@@ -161,6 +162,7 @@ def test_printed_reactions_lose_all_digits_with_the_mast_upright_and_the_own_non
     errors = {row.family: row.error for row in made.rows}
     assert errors["printed: elimination"] > 1e-2 and errors["library: rrr_reactions"] < 1e-14
     assert made.check().passed
+    assert "fastest setting" in made.summary().note and not made.table().note, "each table says what its rows are"
 
 
 @pytest.mark.parametrize(
@@ -191,3 +193,12 @@ def test_every_worksheet_is_measured_at_every_size():
     }  # which computes through hitch
     assert {row.family for row in rows} == sheets
     assert all(row.digits > 12 for row in rows)
+
+
+def test_worksheets_in_any_folder_are_measured_by_the_scenes_of_the_package(tmp_path):
+    for path in WORKSHEET.parent.glob("*.py"):
+        shutil.copy(path, tmp_path)
+    copied = load(tmp_path / WORKSHEET.name)
+    assert "scenes" in {cell.name for cell in copied.needed(["checks_7"], ["g"])} and len(extreme.scenes()) > 30
+    checks = copied.run(["checks_7"], {"g": copied.inputs(), "outcomes_7": []})["checks_7"]
+    assert [c.verdict for c in checks] == ["not evaluated"] * 2, "no check passes over no scene"

@@ -1,42 +1,277 @@
-"""Dimensions by a change of units: the known offender and no other, and planted mistakes by their lines."""
+"""Dimensions by the recording: mistakes by their lines and parts, and nothing told of what is right."""
 
+from __future__ import annotations
+
+import textwrap
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
-from mechsheet.recording.dimensions import mismatches
+from mechsheet.recording.dimension_rules import RULES
+from mechsheet.recording.dimensions import Dimensions, mismatches, of_every_line
+from mechsheet.recording.graph import ELEMENTWISE, LEAVES
+from mechsheet.worksheet.cells import load
+from mechsheet.worksheet.lines import registry
 
-EVERY = sorted((Path(__file__).parents[1] / "worksheets").glob("*.py"))
-# accuracy compares methods and declares no formula; the design computes through hitch.py, whose inputs keep their metre
-WORKSHEETS = [path for path in EVERY if path.stem not in ("accuracy", "hitch_design")]
-HITCH = next(path for path in WORKSHEETS if path.stem == "hitch")
+WORKSHEETS = Path(__file__).parents[1] / "worksheets"
+DOCUMENTS = ("hitch", "joint", "kinetostatics", "landing_gear", "slotted_link")
 
-# the printed formula of the greatest load subtracts newtons from newton metres
-KNOWN = {"hitch": ["GS6_max"]}
+HEAD = """\
+import marimo
+app = marimo.App()
+with app.setup:
+    import numpy as np
+    from math import hypot
+    from numpy import abs, arange, atan2, cos, exp, interp, linspace, log, pi, sin, sqrt, where
+    from mechsheet import angle, check, cross, find, inputs, table
+    from mechsheet.units import MPa, N, cm, deg, m, mm
+@app.class_definition
+@inputs
+class Bar:
+    F: float = 500.0  # [N] force
+    M: float = 30.0  # [kN*m] moment
+    L: float = 2.0  # [m] length
+    D: float = 0.03  # [mm] diameter
+    S: float = 200e6  # [MPa] stress
+    V: float = 0.5  # [m**3] volume
+    t: float = 3.0  # [s] time
+    phi: float = 0.4  # [deg] angle
+    n: int = 3  # [-] number
+    "end"
+@app.cell
+def cell(g):
+"""
+FIRST = HEAD.count("\n") + 1
 
 
-@pytest.mark.parametrize("worksheet", WORKSHEETS, ids=lambda path: path.stem)
-def test_every_line_scales_by_its_unit_but_the_printed_errata(worksheet):
-    assert [m.name for m in mismatches(worksheet)] == KNOWN.get(worksheet.stem, [])
+@pytest.fixture
+def told(tmp_path: Path) -> Callable[..., Dimensions]:
+    """What is told of a worksheet with these lines in a cell."""
+
+    def of(*lines: str) -> Dimensions:
+        path = tmp_path / "bar.py"
+        path.write_text(HEAD + textwrap.indent("\n".join([*lines, "return"]), "    "), encoding="utf-8")
+        sheet = load(path)
+        names = sheet.run(sheet.results, {"g": sheet.inputs()})
+        return of_every_line(sheet, names, registry(names))
+
+    return of
 
 
-@pytest.mark.parametrize(
-    ("right", "wrong", "name"),
-    [
-        ("F_gc / (g.k_gc * A_gc * g.eta)", "F_gc / (g.k_gc * g.eta)", "P_gc"),
-        ("dRb = Rb / (g.P6 + g.P_msha", "dRb = Rb / (g.P6 + g.L", "dRb"),
-        ("dphi4 = dphi3 * U43  # [rad/m]", "dphi4 = dphi3 * U43  # [rad]", "dphi4"),
-        ("cross(O1 - P23_S, R01)  # [N*m]", "R01.real  # [N*m]", "M2"),
-        ("LS6 = sqrt(g.X6**2 + g.Y6**2)", "LS6 = sqrt(g.X6**2 + g.Y6)", "LS6"),
-        ("IS6 = I56 + dphi6", "IS6 = I56 + 0.3 * dphi6 + dphi6", "IS6"),
+RIGHT = {
+    "root of a square": ["x = sqrt(g.L**2)  # [m] x"],
+    "powers of a half": ["x = g.V**0.5 * g.L**1.5  # [m**3] x"],
+    "third of a volume": ["x = g.V ** (1 / 3)  # [mm] x", "y = np.cbrt(g.V)  # [mm] y"],
+    "0 where nothing is": ["x = where(g.F > 0, g.F, 0)  # [N] x", "y = max(g.F, 0) - max(0, -g.F)  # [N] y"],
+    "no number where nothing is": ["x = where(g.F > 0, g.F, np.nan) + np.inf  # [N] x"],
+    "vector of unlike elements": [
+        "A = np.array([[1, 0, 0], [0, 1, 0], [g.L, g.D, 1]])",
+        "b = np.array([g.F, 2 * g.F, g.M])",
+        "x = np.linalg.solve(A, b)",
+        "R = x[0]  # [N] force",
+        "T = x[2]  # [N*m] moment",
     ],
-)
-def test_planted_mistake_is_the_first_line_named(tmp_path, right, wrong, name):
-    text = HITCH.read_text(encoding="utf-8")
-    assert right in text
-    sheet = tmp_path / "hitch.py"
+    "rows out of order": [
+        "A = np.array([[0, 0.5, 0], [g.L, g.D, 1], [1, 0, 0]])",
+        "x = np.linalg.solve(A, np.array([2 * g.F, g.M, g.F]))",
+        "R = x[1]  # [N] force",
+        "T = x[2]  # [N*m] moment",
+    ],
+    "elements of a vector": [
+        "v = np.array([g.F, g.M, g.L])",
+        "w = v / [g.F, g.M, g.L]",
+        "x = w.sum() + (v * [g.L, 1, g.F])[1:].sum() / g.M  # [-] sum",
+        "y = v[::2].prod()  # [N*m] product",
+        "z = np.max(v.reshape(3, 1) * np.ones(4), axis=1)[1]  # [N*m] greatest",
+    ],
+    "sums so far": ["x = linspace(0, g.L, 5)", "y = np.cumsum(g.F * x)  # [N*m] sum"],
+    "mean and deviation": ["x = linspace(0, g.L, 5)", "y = np.mean(x) + np.std(x) + np.median(x)  # [m] y"],
+    "integral": ["x = linspace(0, g.L, 5)", "W = np.trapezoid(g.F * x, x)  # [N*m**2] W"],
+    "slope": ["x = linspace(0, g.L, 5)", "v = np.gradient(x**2, x)  # [m] v", "d = np.diff(x)  # [m] d"],
+    "table of literals": ["s = interp(g.L, [0, 1, 3], [200e6, 180e6, 150e6])  # [MPa] strength"],
+    "table of inputs": ["s = interp(g.L, np.array([0, 1, 2]) * g.L, np.array([1, 0.9, 0.8]) * g.S)  # [MPa] s"],
+    "polynomial": ["x = np.polyval([1, 2, 3], g.L / g.D)  # [-] x", "y = np.polyval([g.F, g.F * g.L], g.L)  # [N*m] y"],
+    "complex": [
+        "P = g.L * exp(1j * g.phi)  # [m] point",
+        "R = 1j * g.F  # [N] force",
+        "T = cross(P, R)  # [N*m] moment",
+        "a = angle(P) + abs(P) / g.L  # [deg] angle",
+    ],
+    "angles": ["a = atan2(g.L, g.D) % (2 * pi) + g.phi  # [deg] a", "b = sin(g.phi) + log(g.L / g.D)  # [-] b"],
+    "hypot": ["x = hypot(g.L, g.D) + np.hypot(g.L, g.D)  # [m] x"],
+    "signs": ["x = np.copysign(g.L, g.F) + np.sign(g.F) * g.L + np.heaviside(g.F, 0.5) * g.L  # [m] x"],
+    "rounded": ["x = np.round(g.L, 3) + np.floor(g.L / g.D) * g.D + g.L // g.D * g.D  # [m] x"],
+    "clipped": ["x = np.clip(g.F, 0, g.M / g.L)  # [N] x"],
+    "a number of positions": ["k = arange(g.n)  # [-] k", "x = k * g.L / (g.n - 1)  # [m] x"],
+    "exponent of a number": ["x = (g.L / g.D) ** g.n * g.F  # [N] x"],
+    "powers by an input": ["x = g.L**g.n / g.L**2  # [m] x"],
+    "check": ["c = check('c', g.F - g.M / g.L, 1e-9, 'N')", "d = check('d', g.M, 5 * g.F * g.L, 'N*m')"],
+    "check without a unit": ["c = check('c', g.F - g.M / g.L, 1e9)"],
+    "find between literals": [
+        "x_found = find(lambda x: g.F * x, 0.01, 0.9, equals=g.M, unknown='x', quantity='moment')",
+        "x = x_found.value  # [m] x",
+        "y = x + g.L  # [m] y",
+    ],
+    "find with units": [
+        "x_found = find(lambda x: g.F * x, 0.01, 0.9, equals=g.M, unknown='x', unit='N*m', unknown_unit='mm')",
+        "y = x_found.value + g.L  # [m] y",
+    ],
+    "what a line declares of a number": ["a = 0.25  # [m] arm", "T = g.F * a  # [N*m] moment"],
+    "numbers with units": ["T = g.F * 30 * cm  # [N*m] moment", "k = 640 * MPa / g.S  # [-] reserve"],
+    "a number that has a unit": ["k = 640e6 / g.S  # [-] reserve", "q = k + 1  # [-] q"],
+    "gravity": ["G = 7850 * g.V * 9.81  # [N] weight"],
+    "positions of literals": ["x = linspace(0, 2, 5)", "T = g.F * x  # [N*m] moment", "y = x + g.L  # [m] y"],
+    "not followed": ["f = float(str(g.L))", "x = f * g.F  # [N*m] x", "y = x + g.M  # [N*m] y"],
+}
+
+
+@pytest.mark.parametrize("lines", RIGHT.values(), ids=RIGHT)
+def test_what_is_right_is_not_told(told: Callable[..., Dimensions], lines: list[str]) -> None:
+    found = told(*lines)
+    assert found.mistakes == ()
+
+
+WRONG = {
+    "sum": (["x = g.F + g.M"], 1, "g.F + g.M: adds N and N·m"),
+    "difference": (["x = 2 * (g.L - g.D * g.F)"], 1, "g.L - g.D * g.F: subtracts N·m from m"),
+    "sine": (["a = sin(g.L)"], 1, "sin(g.L): sin of a quantity in m, not of a number"),
+    "angle of unlike": (["a = atan2(g.L, g.F)"], 1, "atan2(g.L, g.F): atan2 of m and N"),
+    "hypot": (["a = hypot(g.L, g.F)"], 1, "hypot(g.L, g.F): adds m² and "),
+    "logarithm": (["a = log(g.L)"], 1, "log(g.L): log of a quantity in m"),
+    "exponent": (["a = 2**g.L"], 1, "2 ** g.L: an exponent in m"),
+    "comparison": (["a = where(g.L < g.F, 1, 2)"], 1, "g.L < g.F: compares m with N"),
+    "choice": (["a = where(g.n > 2, g.L, g.F)"], 1, "where(g.n > 2, g.L, g.F): chooses between m and N"),
+    "greatest": (["a = max(g.L, g.F)"], 1, "max(g.L, g.F): compares m with N"),
+    "sum of a list": (["a = np.sum([g.L, g.F])"], 1, "np.sum([g.L, g.F]): puts m and N together"),
+    "unit": (["A = pi * g.D**2 / 4  # [m] area"], 1, "A: unit [m] does not fit; the value is in m²"),
+    "unit of a half": (["A = sqrt(g.D)  # [m] A"], 1, "A: unit [m] does not fit; the value is in m^(1/2)"),
+    "factor": (["A = g.D**2  # [m**2] A", "p = A * g.F  # [MPa] p"], 2, "p: unit [MPa] does not fit"),
+    "same under two names": (["A = g.D**2  # [m**2] A", "B = A  # [m] B"], 2, "B: unit [m] does not fit"),
+    "input": (["x = g.L  # [N] x"], 1, "x: unit [N] does not fit; the value is in m"),
+    "element": (
+        ["v = np.array([g.F, g.M])", "w = np.array([g.M, g.F])", "x = v[::-1] - w", "y = v + w"],
+        4,
+        "v + w: adds N and N·m",
+    ),
+    "in a function": (
+        ["def T(x):", "    y = x * g.F", "    return y + g.F", "", "a = T(g.L)", "b = T(2 * g.L)"],
+        3,
+        "y + g.F: adds N·m and N",
+    ),
+    "function with a unit": (
+        ["def T(x):", "    return g.F + 0 * x  # [N*m] moment", "", "a = T(g.L)  # [N*m] a"],
+        2,
+        "T: unit [N*m] does not fit; the value is in N",
+    ),
+    "function that is solved": (
+        [
+            "def T(x):",
+            "    return g.F * x**2  # [N*m] moment",
+            "",
+            "a_found = find(T, 0, 2, equals=g.M, unknown='a', unknown_unit='m')",
+        ],
+        2,
+        "T: unit [N*m] does not fit",
+    ),
+    "argument of the library": (["P = angle(g.L + 1j * g.F)"], 1, "atan2 of N and m"),
+    "limit": (["c = check('c', g.F, 1e-12 * g.M, 'N')"], 1, "check 'c': the limit is in N·m, its unit in N"),
+    "residual": (["c = check('c', g.F, g.M)"], 1, "check 'c': the residual is in N, its limit in N·m"),
+    "interval": (
+        ["x_found = find(lambda x: g.F * x, 0, g.F, equals=g.M, unknown='x', unknown_unit='m')"],
+        1,
+        "find: the interval is in N, x in m",
+    ),
+    "equation": (
+        ["x_found = find(lambda x: g.F * x, 0, 99, equals=g.F, unknown='x', unknown_unit='m')"],
+        1,
+        "find: the function and what it equals: subtracts N from N·m",
+    ),
+}
+
+
+@pytest.mark.parametrize(("lines", "number", "says"), WRONG.values(), ids=WRONG)
+def test_a_mistake_is_told_once_with_its_line_and_part(
+    told: Callable[..., Dimensions], lines: list[str], number: int, says: str
+) -> None:
+    found = told(*lines)
+    assert len(found.mistakes) == 1
+    text = str(found.mistakes[0])
+    assert text.startswith(f"line {FIRST + number - 1}, "), text
+    assert says in text
+
+
+def test_an_erratum_is_left_alone(told: Callable[..., Dimensions]) -> None:
+    found = told("x = g.F + g.M  # [N] as printed (erratum)", "y = 2 * x  # [N] y", "z = g.F  # [m] erratum")
+    assert found.mistakes == ()
+
+
+def test_what_rests_on_a_mistake_is_not_told(told: Callable[..., Dimensions]) -> None:
+    found = told("x = g.F + g.M  # [N] x", "y = x + g.F", "p = y / g.L**2  # [MPa] p", "q = g.F + g.L  # [N] q")
+    assert [mistake.part for mistake in found.mistakes] == ["g.F + g.M", "g.F + g.L"]
+
+
+def test_a_literal_says_once_what_it_is_taken_for(told: Callable[..., Dimensions]) -> None:
+    found = told("x = g.L + 0.3 + g.D - 0.3")
+    assert [str(note) for note in found.notes] == [f"line {FIRST}, 0.3: taken in m"]
+    found = told("k = 640e6 / g.S  # [-] reserve")
+    text = "k: unit [-] does not fit; the value is in m²/N, unless 6.4e+08 has a unit"
+    assert [note.part for note in found.notes] == ["k"] and "unless 6.4e+08 has a unit" in str(found.notes[0]), text
+
+
+def test_what_is_not_followed_is_said_and_passes(told: Callable[..., Dimensions]) -> None:
+    check = told("f = float(np.linalg.eigvals(np.array([[g.L, 1], [1, g.L]]))[0])", "x = f + g.F  # [N] x").check()
+    assert check.passed and check.reason == f"not followed at line {FIRST}"
+    check = told("x = g.F + g.M").check()
+    assert (check.name, check.passed, check.reason) == ("units", False, f"line {FIRST}, g.F + g.M: adds N and N·m")
+
+
+def test_every_operation_has_a_rule() -> None:
+    assert set(RULES) == {*ELEMENTWISE, *LEAVES, "exported", "take", "at", "join", "reduce"}
+
+
+@pytest.mark.parametrize("document", DOCUMENTS)
+def test_the_documents_are_right_but_for_their_errata(document: str) -> None:
+    assert mismatches(WORKSHEETS / f"{document}.py") == []
+
+
+PLANTED = [
+    ("hitch", "greatest load, as printed (erratum)", "greatest load", "GS6_max", "subtracts N from N·m"),
+    ("hitch", "F_gc / (g.k_gc * A_gc * g.eta)", "F_gc / (g.k_gc * g.eta)", "P_gc", "the value is in N"),
+    ("hitch", "dRb = Rb / (g.P6 + g.P_msha", "dRb = Rb / (g.P6 + g.L", "dRb", "g.P6 + g.L: adds N and m"),
+    ("hitch", "dphi4 = dphi3 * U43  # [rad/m]", "dphi4 = dphi3 * U43  # [rad]", "dphi4", "unit [rad] does not fit"),
+    ("hitch", "cross(O1 - P23_S, R01)  # [N*m]", "R01.real  # [N*m]", "M2", "the value is in N"),
+    ("hitch", "LS6 = sqrt(g.X6**2 + g.Y6**2)", "LS6 = sqrt(g.X6**2 + g.Y6)", "LS6", "g.X6 ** 2 + g.Y6: adds m² and m"),
+    ("hitch", "IS6 = I56 + dphi6", "IS6 = I56 + 0.3 * dphi6 + dphi6", "IS6", ""),
+    ("hitch", "phi3(S) + g.phi_BD", "phi3(S) + g.L34", "", "phi3(S) + g.L34: adds"),
+    ("hitch", "g.P6 * PS6_S.real) / g.L  # [N] load", "PS6_S.real / g.P6) / g.L  # [N] load", "Ra", "subtracts"),
+    ("hitch", "of=largest * g.L56", "of=largest", "", "the limit is in N, its unit in N·m"),
+    ("joint", "F = total(A)  # [cm**2]", "F = total(A * y)  # [cm**2]", "F", "unit [cm**2] does not fit"),
+    ("joint", "M_c = M - N * y_c", "M_c = M - N", "M_c", "M - N: subtracts N from N·m"),
+    ("kinetostatics", "s7 = g.l6 + g.l7", "s7 = g.l6 + g.m7", "s7", "g.l6 + g.m7: adds m and kg"),
+    ("kinetostatics", "F_in2 = -g.m2 * a_S2", "F_in2 = -g.J2 * a_S2", "F_in2", "unit [N] does not fit"),
+    (
+        "kinetostatics",
+        "F_g = g.p_g * pi * g.D_g**2 / 4",
+        "F_g = g.p_g * pi * g.D_g / 4",
+        "F_g",
+        "unit [N] does not fit",
+    ),
+    ("landing_gear", "V21 = H / g.t_r", "V21 = g.t_r / H", "V21", "unit [m/s] does not fit"),
+    ("slotted_link", "WCn_k = omega_BC_k**2 * g.L3", "WCn_k = omega_BC_k * g.L3", "WCn_k", "the value is in m/s"),
+    ("slotted_link", "dphi1 = copysign(2 * pi / g.n", "dphi1 = copysign(2 * pi / g.L1", "dphi1", "unit [deg]"),
+]
+
+
+@pytest.mark.parametrize(("document", "right", "wrong", "name", "says"), PLANTED)
+def test_a_mistake_planted_in_a_document_is_found_at_its_line(
+    tmp_path: Path, document: str, right: str, wrong: str, name: str, says: str
+) -> None:
+    text = (WORKSHEETS / f"{document}.py").read_text(encoding="utf-8")
+    assert text.count(right) == 1
+    sheet = tmp_path / f"{document}.py"
     sheet.write_text(text.replace(right, wrong), encoding="utf-8")
     first = mismatches(sheet)[0]
-    line = int(str(first).split()[1])
-    assert first.name == name
-    assert sheet.read_text(encoding="utf-8").splitlines()[line - 1].lstrip().startswith(f"{name} = ")
+    assert says in str(first)
+    written = text.replace(right, wrong).splitlines()[first.line - 1]
+    assert written.strip().startswith(f"{name} =") if name else wrong in written

@@ -17,7 +17,7 @@ import pytest
 
 from mechsheet.document import chart, chart_svg
 from mechsheet.page.values import html as html_of
-from mechsheet.worksheet.checks import Check, Summary
+from mechsheet.worksheet.check import Check, Summary
 from mechsheet.worksheet.find import Found
 from mechsheet.worksheet.inputs import Used
 from mechsheet.worksheet.lines import Formula, Typeset

@@ -48,7 +48,7 @@ def test_chain_of_groups_leaves_nothing() -> None:
     left = left_over(LOADS, REACTIONS)
     assert left.F.shape == left.M.shape == (3, 37)
     assert np.max(np.abs(left.F)) < 1e-11 and np.max(np.abs(left.M)) < 1e-12
-    assert all(c.passed for c in balance("bodies 1..3", LOADS, REACTIONS, 1e-11, 1e-12))
+    assert all(c.passed for c in balance("bodies 1..3", LOADS, REACTIONS, 1e-14, 1000, 0.1))
 
 
 def test_one_system_finds_what_the_chain_finds() -> None:
@@ -68,7 +68,7 @@ def test_a_wrong_reaction_is_left_on_both_bodies(i: int) -> None:
     assert left.F[r.on - 1] == pytest.approx(np.full(37, 1j))
     if r.by:
         assert left.F[r.by - 1] == pytest.approx(np.full(37, -1j))
-    forces, _ = balance("bodies 1..3", LOADS, wrong, 1e-11, 1e-12)
+    forces, _ = balance("bodies 1..3", LOADS, wrong, 1e-14, 1000, 0.1)
     assert not forces.passed and forces.residual == pytest.approx(1) and forces.name.endswith(", bodies 1..3")
 
 

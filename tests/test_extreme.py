@@ -20,7 +20,7 @@ from mechsheet.worksheet.cells import load
 from mechsheet.worksheet.errors import SheetError
 
 WORKSHEETS = Path(__file__).parents[1] / "worksheets"
-SCENES = {scene.name: scene for scene in extreme.scenes(WORKSHEETS)}
+SCENES = {scene.name: scene for scene in extreme.scenes()}
 
 
 def lost(outcomes):

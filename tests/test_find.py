@@ -132,7 +132,9 @@ def test_a_little_below_a_peak_both_roots_are_found(x0, bend, power, sign):
 def test_a_target_outside_by_some_floats_is_refused_in_a_text_that_does_not_contradict_itself(floats):
     found = find(lambda x: 0.74 - (x - 0.5) ** 2, 0.0, 1.0, equals=up(0.74, floats), unit="mm")
 
-    low, high, target = map(Decimal, re.search(r"reaches (.*)\.\.(.*) mm, (.*) mm is outside", found.reason).groups())
+    low, high, target = map(
+        Decimal, re.search(r"reaches (.*)\.\.(.*) mm by 97 samples, (.*) mm is outside", found.reason).groups()
+    )
     assert low < high < target
     with pytest.raises(SheetError, match="is outside"):
         _ = found.value
@@ -183,7 +185,7 @@ def test_a_jump_over_the_target_is_named_with_its_place():
     found = find(np.floor, 0.2, 9.7, equals=4.5, unknown="notch x", quantity="step", unknown_unit="mm")
 
     assert not found.roots
-    assert found.reason == "notch x: step reaches 0..9 but jumps over 4.5 at 5000 mm"
+    assert found.reason == "notch x: step reaches 0..9 by 97 samples but jumps over 4.5 at 5000 mm"
 
 
 def test_a_jump_that_passes_the_target_costs_few_calls():
@@ -205,7 +207,10 @@ def test_the_peak_of_a_sawtooth_does_not_reach_above_itself_through_its_jump():
 
 def test_a_constant_is_one_root_or_none():
     assert len(find(lambda x: 3.0 + 0 * x, 0.0, 1.0, equals=3.0).roots) == 1
-    assert find(lambda x: 3.0 + 0 * x, 0.0, 1.0, equals=2.0).reason == "unknown x: f(x) reaches 3, 2 is outside"
+    assert (
+        find(lambda x: 3.0 + 0 * x, 0.0, 1.0, equals=2.0).reason
+        == "unknown x: f(x) reaches 3 by 97 samples, 2 is outside"
+    )
 
 
 # --- edges between finite and NaN --------------------------------------------------------------------------------
@@ -400,7 +405,7 @@ def test_a_problem_without_numbers_stays_nan_and_its_neighbours_go_on():
     assert np.isnan([found.value[1:], found.residual[1:]]).all()
     assert list(found.solved) == [True, False, False]
     assert found.reason[1] == "nothing to solve for unknown x: its interval, target or guess is NaN"
-    assert found.reason[2] == "unknown x: f(x) reaches 0..4, 9 is outside"
+    assert found.reason[2] == "unknown x: f(x) reaches 0..4 by 97 samples, 9 is outside"
 
 
 def test_where_no_problem_has_numbers_all_stay_nan_and_f_is_not_asked():
@@ -593,10 +598,10 @@ def rod_at(equals, *interval):
 
 
 def test_reasons_name_the_unknown_its_reach_and_the_limit_in_display_units():
-    assert rod_at(2.0).reason == "lifting rod L4: height Y56 reaches -55.5..128.9 cm, 200 cm is outside"
-    assert rod_at(0.2, 0.1, 0.15).reason == "nothing closes for lifting rod L4 in 100..150 mm"
+    assert rod_at(2.0).reason == "lifting rod L4: height Y56 reaches -55.5..128.9 cm by 226 samples, 200 cm is outside"
+    assert rod_at(0.2, 0.1, 0.15).reason == "nothing closes for lifting rod L4 in 100..150 mm by 97 samples"
     assert find(lambda x: x, 0.0, 27500.0, equals=1e9, unit="kN").reason.endswith(
-        "reaches 0..27.5 kN, 1000000 kN is outside"
+        "reaches 0..27.5 kN by 97 samples, 1000000 kN is outside"
     )
 
 
@@ -609,6 +614,7 @@ def test_a_solved_block_says_its_value_residual_bracket_roots_and_evaluations(ro
         "lifting rod L4 = 0.661283 m",
         "0.2 m on branch -1",
         "0.661283 m (branch -1); 1.10473 m (branch +1)",
+        f"roots by {rod.samples} samples",
         f"{rod.evaluations}",
     ):
         assert words in text
@@ -630,7 +636,7 @@ def test_a_block_of_many_problems_tells_how_many_are_solved_and_why_not_the_othe
 
     page = found._mime_()[1]
     assert "unknown x = 1, 1 of 6 problems solved" in str(found)
-    assert "problem 1: unknown x: f(x) reaches 0..4, 5 is outside" in page
+    assert "problem 1: unknown x: f(x) reaches 0..4 by 97 samples, 5 is outside" in page
     assert "and 2 more" in page
 
 

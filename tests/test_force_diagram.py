@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from cells import run
 
 from mechsheet.worksheet.drawing import Drawing, Element
 from mechsheet.worksheet.force_diagram import cut_group, largest_of, polar
@@ -81,3 +82,14 @@ def test_polar_diagram_marks_the_quarters_of_the_turn() -> None:
 def test_largest_magnitude_is_that_of_the_finite_elements() -> None:
     assert largest_of(np.array([3 + 4j, np.nan]), -2.0) == 5
     assert largest_of(np.array([np.nan]), 0.0) == 1
+
+
+def test_polar_diagrams_stand_over_what_their_lines_say() -> None:
+    lines = "R_A = 2.0 * exp(1j * phi)  # [N] crank on the rod, at A\nR_B = 3 * R_A\n"
+    names = run(
+        "from numpy import exp, linspace, pi\nfrom mechsheet import polar_diagrams\nphi = linspace(0, 2 * pi, 361)\n"
+        f"{lines}shown = polar_diagrams(40, R12=R_A, R23=R_B)"
+    )
+    (first, said), (second, unsaid) = names["shown"].columns
+    assert arrows(first)["R12"].vector == names["R_A"][40] and said == "crank on the rod, at A"
+    assert arrows(second)["R23"].vector == names["R_B"][40] and unsaid == "", "no line declares it"

@@ -17,20 +17,22 @@ from mechsheet.document.formula import (
     Brackets,
     Code,
     Fraction,
+    Measure,
     Node,
     Number,
     Power,
     Product,
-    Quantity,
     Signed,
     Text,
     children,
     is_high,
 )
-from mechsheet.document.latex import RULES, latex
+from mechsheet.document.latex import LATEX, RULES, latex
+from mechsheet.document.markup import HTML
 from mechsheet.page.values import html
 from mechsheet.worksheet import numbers
 from mechsheet.worksheet.errors import SheetError
+from mechsheet.worksheet.lines import registry
 from mechsheet.worksheet.symbol import Symbol
 
 IMPORT = "from mechsheet import typeset\n"
@@ -114,7 +116,7 @@ def test_brackets_and_dots_stand_in_the_tree():
     assert read("(a/b)**2") == Power(Brackets((Fraction(a, b),)), Number(2))
     assert read("a/(b + 2)") == Fraction(a, Binary(b, "+", Number(2)))
     assert read("phi34_S") == read("phi34(S)") == Apply(Symbol("φ", "34"), Brackets((Symbol("S"),)))
-    assert read("2*x", {"x": Quantity(3.0, "m")}) == Product(Number(2), Quantity(3.0, "m"), dot=True)
+    assert read("2*x", {"x": Measure(3.0, "m")}) == Product(Number(2), Measure(3.0, "m"), dot=True)
     assert [is_high(read(text)) for text in ("a + b", "a/b", "f(a**2)", "1e-9")] == [False, True, True, True]
 
 
@@ -175,7 +177,7 @@ def test_lines_with_a_unit_are_the_formulas():
     ],
 )
 def test_value_in_its_display_unit(value, unit, tex):
-    assert numbers.value(value, unit, numbers.LATEX) == tex
+    assert numbers.value(value, unit, LATEX) == tex
 
 
 def test_unknown_unit_names_the_line():
@@ -196,7 +198,7 @@ def test_unknown_unit_names_the_line():
     ],
 )
 def test_value_in_the_page(value, unit, text):
-    assert numbers.value(value, unit, numbers.HTML) == text
+    assert numbers.value(value, unit, HTML) == text
 
 
 def joined(shown):
@@ -289,3 +291,19 @@ def test_branch_that_is_meant_stands_in_the_definition():
         "shown"
     ]
     assert r"P(S,\,L_{7}) = \operatorname{rrr}(S,\ L_{7},\ -1)" in html(text)
+
+
+@pytest.mark.parametrize("args", ["S", "S, L7, branch=-1"])
+def test_function_is_the_same_line_by_lambda_and_by_def(args):
+    written = f"def P({args}):\n    return a * S  # [mm] pin\n", f"P = lambda {args}: a * S  # [mm] pin\n"
+    over = f"P = lambda {args}: (\n    a\n    * S\n)  # [mm] pin\n"
+    texts = [html(run(IMPORT + f"a = 2.0\n{line}shown = typeset()")["shown"]) for line in (*written, over)]
+    assert texts[0] == texts[1] == texts[2] and "pin" in texts[0]
+
+
+@pytest.mark.parametrize("called", ["second = typeset()", "second = typeset(\n    first,\n)"])
+def test_each_call_of_typeset_has_the_lines_above_it_that_no_other_has(called):
+    lines = f"a = 1.0  # [m] one\nb = 2 * a  # [m] two\nfirst = typeset()\nc = a + b  # [m] three\n{called}"
+    names = run(IMPORT + lines)
+    assert [[row.name for row in names[shown].rows] for shown in ("first", "second")] == [["a", "b"], ["c"]]
+    assert list(registry(names)) == ["a", "b", "c"]

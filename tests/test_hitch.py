@@ -14,7 +14,7 @@ from printed import agrees, rows
 from mechsheet import units
 from mechsheet.accuracy import exact
 from mechsheet.accuracy.arithmetic import reactions
-from mechsheet.worksheet.checks import Check
+from mechsheet.worksheet.check import Check
 from mechsheet.worksheet.table import Table
 from worksheets import hitch
 

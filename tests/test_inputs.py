@@ -1,5 +1,6 @@
 """Declared inputs: read from their own lines, checked, replaced in display units."""
 
+import re
 from dataclasses import replace
 from math import pi
 
@@ -108,6 +109,38 @@ def test_number_takes_all_or_rejects(text):
 def test_input_without_a_unit_is_an_error_that_names_the_line():
     with pytest.raises(SheetError, match=r"line 4 of .*: input x needs a comment with its unit"):
         run("from mechsheet import inputs\n@inputs\nclass A:\n    x: float = 1.0  # metre\n")
+
+
+@pytest.mark.parametrize(
+    ("limits", "message"),
+    [
+        ("between 0 and 3", "limit 'between 0 and 3' of L5 cannot be read; limits are such as > 0, <= 3 or < S_max"),
+        ("> 0 and < 3", "limit 'and < 3' of L5 cannot be read"),
+        ("> 0 positive", "limit 'positive' of L5 cannot be read"),
+        ("=> 0", "limit '=> 0' of L5 cannot be read"),
+        ("> = 0", "limit '> = 0' of L5 cannot be read"),
+        ("< > 0", "limit '< > 0' of L5 cannot be read"),
+        (">", "limit '>' of L5 cannot be read"),
+        ("≥ 0", "limit '≥ 0' of L5 cannot be read"),
+        ("0..3", "limit '0..3' of L5 cannot be read"),
+        ("> 0; < 3", "limit > 0; of L5: 0; is neither a number nor an input"),
+        ("< S_maximum", "limit < S_maximum of L5: S_maximum is neither a number nor an input"),
+        ("> 1_000", "limit > 1_000 of L5: 1_000 is neither a number nor an input"),
+        ("< inf", "limit < inf of L5: inf is neither a number nor an input"),
+        ("< phi", "limit < phi of L5: phi is in deg, L5 in m"),
+    ],
+)
+def test_limit_that_cannot_be_read_is_an_error_at_its_line(limits, message):
+    with pytest.raises(SheetError, match=f"^line 7 of .*: {re.escape(message)}") as error:
+        run(CELL.replace("lower link; > 0", f"lower link; {limits}"))
+    assert "\n" not in str(error.value)
+
+
+@pytest.mark.parametrize("limits", ["> 0 < S_max", "> 0, < S_max", ">0<S_max", " >=0,1   <= 3e0 ", "> -.5"])
+def test_limits_stand_in_a_row(limits):
+    arm = run(CELL.replace("lower link; > 0", f"lower link; {limits}"))["Arm"]
+    with pytest.raises(SheetError, match=r"lower link L5 = -0\.6 m must be"):
+        replace(arm(), L5=-0.6)
 
 
 def test_variants_are_numbers_in_si_with_a_reason_for_each_that_cannot_be_used(Arm):

@@ -18,7 +18,7 @@ from printed import agrees, half_last_digit, rows
 
 from mechsheet import units
 from mechsheet.mechanics.joint import circular_joint, neutral_axis
-from mechsheet.worksheet.checks import Check
+from mechsheet.worksheet.check import Check
 from mechsheet.worksheet.table import Table
 from worksheets import joint
 
@@ -455,7 +455,7 @@ EXTREME = {
 @pytest.mark.parametrize("change", [{}, *EXTREME.values()], ids=["as printed", *EXTREME])
 def test_every_check_passes(sheet, change):
     names = joint.app.run(defs={"g": replace(sheet["g"], **change)})[1]
-    assert len(checks(names)) == 9
+    assert len(checks(names)) == (9 if names["holds"].any() else 7), "what holds nowhere is not checked"
     assert [str(c) for c in checks(names) if not c.passed] == []
     for k in (0, 1):
         for p in (0, 1):

@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from openpyxl import load_workbook
 
 from mechsheet.accuracy import exact
-from mechsheet.worksheet.checks import Check
+from mechsheet.worksheet.check import Check
 from mechsheet.worksheet.errors import SheetError
 from worksheets import landing_gear
 
@@ -124,10 +124,14 @@ def gear(l3, swing, slope, **inputs):
     return replace(g, eps_lim=float(max(abs(end.eps3_l2) * (end.H / g.t_r) ** 2 for end in ends)) * (1 + 1e-6))
 
 
-def holds(g):
-    """The sheet of a gear, whose checks pass and whose ends and middle agree with the reference."""
+def holds(g, unknown=()):
+    """The sheet of a gear, whose checks pass and whose ends and middle agree with the reference.
+
+    Those with an unknown word in their names may be not evaluated.
+    """
     found = run(g)
-    assert [str(c) for c in checks(found) if not c.passed] == []
+    failed = [c for c in checks(found) if not c.passed]
+    assert [str(c) for c in failed if c.evaluated or not any(word in c.name for word in unknown)] == []
     for row in (0, g.R // 2, g.R):
         errors = disagreement(found, row)
         assert max(errors.values()) < 4, (row, errors)
@@ -155,7 +159,7 @@ def test_hinge_of_the_cylinder_on_any_side(l3, swing, slope, U):
     ids=["tiny crank", "crank as long as O1O2", "tiny swing", "nearly the dead centre", "folded cylinder"],
 )
 def test_extreme_gears_lose_no_more_digits_than_their_condition(l3, swing):
-    holds(gear(l3, swing, 1.2))
+    holds(gear(l3, swing, 1.2), unknown=("is the slope of", "power"))  # there differences know no thousandth of it
 
 
 @pytest.mark.parametrize("R", [1, 2, 60])

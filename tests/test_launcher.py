@@ -144,7 +144,7 @@ def test_a_name_stands_for_the_worksheet_of_the_project(
     (sheet.parent / "worksheets").mkdir()
     known = shutil.copy(sheet, sheet.parent / "worksheets" / "hitch.py")
     assert launcher.main(["run", "hitch", "--N_pol=21"]) == 7
-    assert calls == [[sys.executable, str(known), "--N_pol=21"]]
+    assert calls == [[sys.executable, "-m", "mechsheet.run.script", str(known), "--N_pol=21"]]
     assert refusal("run", "hitsch") == "mechsheet: no worksheet hitsch: did you mean hitch? give a file or one of hitch"
     assert refusal("run") == "mechsheet: run needs a worksheet: give a file or one of hitch"
 

@@ -203,7 +203,7 @@ def test_download_is_the_workbook(serve, page, tmp_path):
     path = tmp_path / download.value.suggested_filename
     download.value.save_as(path)
     assert path.name == "hitch.xlsx"
-    assert load_workbook(path).sheetnames[:2] == ["Inputs", "Find"]
+    assert load_workbook(path).sheetnames[:3] == ["Front", "Inputs", "Find"]
 
 
 def test_printed_page_is_a_document(serve, page, tmp_path):

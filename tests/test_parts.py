@@ -1,22 +1,32 @@
 """The contents of a worksheet as data, against what its page shows."""
 
+import subprocess
+import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
+from openpyxl import load_workbook
 
-from mechsheet.document.parts import Control, Line, Section, Text, contents
-from mechsheet.worksheet.checks import Check, Summary
+from mechsheet.document.parts import Control, Line, Section, Text, contents, values
+from mechsheet.worksheet.cells import load
+from mechsheet.worksheet.check import Check, Summary
 from mechsheet.worksheet.drawing import Drawing
 from mechsheet.worksheet.find import Found
 from mechsheet.worksheet.inputs import Used
 from mechsheet.worksheet.lines import Given, Typeset
 from mechsheet.worksheet.shown import Shown
 from mechsheet.worksheet.table import Figure, Table
-from mechsheet.worksheet.title import Caption, Player, Title
-from worksheets import hitch, landing_gear, slotted_link
+from mechsheet.worksheet.title import Caption, Player, Slider, Title
+from worksheets import hitch, joint, kinetostatics, landing_gear, slotted_link
 
-SHEETS = {Path(module.__file__).stem: module for module in (hitch, landing_gear, slotted_link)}
+SHEETS = {Path(sheet.__file__).stem: sheet for sheet in (hitch, joint, kinetostatics, landing_gear, slotted_link)}
+
+
+def run(worksheet, g=None):
+    """Namespace of a run of the whole worksheet."""
+    sheet = load(worksheet)
+    return sheet.run(sheet.results, {"g": sheet.inputs() if g is None else g})
 
 
 def parts(value):
@@ -25,22 +35,22 @@ def parts(value):
         return [type(row) for row in value.rows] + [kind for shown in value.shown for kind in parts(shown)]
     if isinstance(value, tuple | list):
         return [kind for each in value for kind in parts(each)]
-    return [type(value)] if isinstance(value, Shown) else []
+    return [Control if isinstance(value, Player | Slider) else type(value)] if isinstance(value, Shown) else []
 
 
 @pytest.mark.parametrize("name", SHEETS)
 def test_contents_are_what_the_page_shows_in_its_order(name):
     outputs, _ = SHEETS[name].app.run()
     page = [kind for output in outputs for kind in parts(output)]
-    found = contents(SHEETS[name].__file__)
-    kinds = {Line: "Formula", Given: "Given", Control: Player.__name__}
+    found = contents(run(SHEETS[name].__file__))
+    kinds = {Line: "Formula", Given: "Given"}
     shown = [kinds.get(type(part), type(part).__name__) for part in found if not isinstance(part, Section | Text)]
     assert shown == [kind.__name__ for kind in page]
 
 
 @pytest.fixture(scope="module")
 def document():
-    return contents(hitch.__file__)
+    return contents(run(hitch.__file__))
 
 
 def of(document, kind):
@@ -83,8 +93,133 @@ def test_lines_hold_values_and_controls_what_they_set(document):
     assert of(document, Control)[0] == Control("part", "part of the stroke", 0, 1, 0.01, 0.2, False)
 
 
+def test_texts_stand_between_what_a_cell_shows():
+    document = contents(run(kinetostatics.__file__))
+    at = document.index(Text("The same vectors by the library:"))
+    assert isinstance(document[at - 1], Line) and document[at - 1].formula.name == "gamma23"
+    assert isinstance(document[at + 1], Line) and document[at + 1].formula.name == "R_A"
+
+
+def test_every_part_is_data():
+    """What a cell shows by marimo's own names, a text or a column, a writer could only skip."""
+    known = Section | Text | Line | Given | Control | Shown
+    assert {
+        name: [part for part in contents(run(sheet.__file__)) if not isinstance(part, known)]
+        for name, sheet in SHEETS.items()
+    } == {name: [] for name in SHEETS}
+
+
 def test_other_inputs_give_other_contents():
-    heavy = {part.formula.name: part.value for part in of(contents(hitch.__file__, hitch.Hitch(P6=30e3)), Line)}
-    light = {part.formula.name: part.value for part in of(contents(hitch.__file__), Line)}
+    heavy = {part.formula.name: part.value for part in of(contents(run(hitch.__file__, hitch.Hitch(P6=30e3))), Line)}
+    light = {part.formula.name: part.value for part in of(contents(run(hitch.__file__)), Line)}
     assert heavy["L4"] == light["L4"] and heavy.keys() == light.keys()
     assert np.all(abs(heavy["R56"]) > abs(light["R56"]))
+
+
+# --- what the workbook and the report take ---------------------------------------------------------------------------
+
+SHEET = """
+import marimo
+
+app = marimo.App()
+
+with app.setup:
+    import marimo as mo
+    from mechsheet import check, export, figure, inputs, side_by_side, summary, table, typeset
+    import numpy as np
+
+
+@app.class_definition
+@inputs
+class Bar:
+    b: float = 2.0  # [m] length; > 0
+
+
+@app.cell
+def top(ok):
+    summary(ok, check("told in the summary alone", 0.0, 1.0))
+    return
+
+
+@app.cell
+def given():
+    g = Bar()
+    return (g,)
+
+
+@app.cell
+def lengths(g):
+    a = g.b * np.array([1.0, 2.0, 3.0])  # [m] a
+    c = 2 * a  # [m] c
+    _slack = 5.0
+    ok = check("named", a[0] - g.b, 1e-9)
+    typeset(check("under no name", _slack, 1.0), side_by_side(ok, table("1", "Beside", a, c)))
+    return a, c, ok
+
+
+@app.cell
+def kept(a, c):
+    _half = a / 2
+    _slack = 7.0
+    table_2 = table("2", "For the workbook alone", a, c)
+    _worst = check("of a private name", np.max(_half), _slack)
+    check_last = check("shown by no cell", 0.0, 1.0)
+    if a[0] < 0:
+        never = a
+    typeset(_worst, table("2", "In short, for the page", a))
+    return (check_last, table_2)
+
+
+@app.cell
+def alone(c):
+    figure("1", "Shown and given by no name", c, c)
+    return
+
+
+@app.cell
+def workbook():
+    export("Bar", globals())
+    return
+
+
+if __name__ == "__main__":
+    app.run()
+"""
+NAMES = [*("named", "under no name", "shown by no cell", "of a private name", "told in the summary alone")]
+
+
+@pytest.fixture(scope="module")
+def bar(tmp_path_factory):
+    path = tmp_path_factory.mktemp("worksheets") / "bar.py"
+    path.write_text(SHEET, encoding="utf-8")
+    return path
+
+
+def test_values_are_what_cells_give_or_show_each_once(bar):
+    names = run(bar)
+    assert [check.name for check in of(values(names), Check)] == NAMES
+    assert {check.name: check.residual for check in of(values(names), Check)}["under no name"] == 5.0, "of its own cell"
+    assert [shown.title for shown in of(values(names), Table | Figure)] == [
+        *("Beside", "For the workbook alone", "Shown and given by no name")
+    ]
+    assert [shown.title for shown in of(contents(names), Table)] == ["In short, for the page"]
+
+
+def test_a_check_that_a_page_shows_failing_makes_the_script_fail(bar, tmp_path):
+    script = subprocess.run(
+        [sys.executable, "-X", "utf8", bar, f"--out={tmp_path}"], capture_output=True, encoding="utf-8"
+    )
+    told = [line for line in script.stdout.splitlines() if line.startswith(("pass", "FAIL"))]
+    assert [line[6:].partition(":")[0] for line in told] == [*NAMES, "units"]
+    assert [line[6:].partition(":")[0] for line in told if line.startswith("FAIL")] == ["under no name"]
+    assert script.returncode == 1
+    rows = load_workbook(tmp_path / "bar.xlsx", read_only=True)["Checks"].iter_rows(min_row=3, max_col=1)
+    assert [row[0].value for row in rows][1 : 1 + len(NAMES)] == NAMES  # behind that of the inputs' limits
+
+
+def test_of_a_run_for_some_results_it_is_what_its_cells_show(bar):
+    sheet = load(bar)
+    asked = sheet.run(["table_2"], {"g": sheet.inputs()})
+    del asked["table_2"]  # as if the cell had not come to its end
+    assert [check.name for check in of(values(asked), Check)][:2] == ["named", "under no name"]
+    assert all(check.name != "of a private name" for check in of(values(asked), Check))

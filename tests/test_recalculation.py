@@ -7,18 +7,22 @@ import re
 import subprocess
 import sys
 from collections import defaultdict
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
+from functools import cache
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any
 
+import numpy as np
 import pandas as pd
 import pytest
-from conftest import WITHIN
 from openpyxl import Workbook, load_workbook
+from test_recorded_worksheet import FOLLOWED, own
 
 from mechsheet.workbook import reading
 from mechsheet.workbook.place import DefinedNames
 from mechsheet.worksheet import cells, inputs
+from mechsheet.worksheet.errors import SheetError
 
 ROOT = Path(__file__).resolve().parents[1]
 CHANGED = {  # lengths, loads and angles of each worksheet; "0,47" is typed as a text
@@ -28,27 +32,6 @@ CHANGED = {  # lengths, loads and angles of each worksheet; "0,47" is typed as a
     "kinetostatics": {"m4": 3, "n1": "290,5", "l4": 0.46, "phi05": -9},
     "joint": {"N_1": 12500, "b": "26", "phi_1": 3, "M_r1": 2.1e6},
 }
-ALWAYS = """<?xml version="1.0" encoding="UTF-8"?>
-<oor:items xmlns:oor="http://openoffice.org/2001/registry">
-<item oor:path="/org.openoffice.Office.Calc/Formula/Load"><prop oor:name="OOXMLRecalcMode" oor:op="fuse">
-<value>0</value></prop></item></oor:items>"""
-
-
-@pytest.fixture(scope="module")
-def recalculated(soffice: str, tmp_path_factory: pytest.TempPathFactory) -> Callable[[Path], Any]:
-    """Workbook as LibreOffice computes it, whatever values are stored in it."""
-    profile = tmp_path_factory.mktemp("profile")
-    (profile / "user").mkdir()
-    (profile / "user" / "registrymodifications.xcu").write_text(ALWAYS, encoding="utf-8")
-
-    def recalculate(path: Path) -> Any:
-        out = tmp_path_factory.mktemp("recalculated")
-        kind = "xlsx:Calc MS Excel 2007 XML"
-        command = [soffice, f"-env:UserInstallation={profile.as_uri()}", "--headless", "--convert-to", kind]
-        subprocess.run([*command, "--outdir", str(out), str(path)], check=True, capture_output=True, timeout=WITHIN)
-        return load_workbook(out / path.name, data_only=True)
-
-    return recalculate
 
 
 def exported(name: str) -> Path:
@@ -66,11 +49,18 @@ def export(name: str, out: Path, changes: dict[str, Any]) -> Path:
     return out / f"{name}.xlsx"
 
 
-def edit(path: Path, changes: dict[str, Any], to: Path) -> Path:
-    """The workbook with other values on the sheet Inputs, as somebody types them."""
+@pytest.fixture(scope="module")
+def made(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], Path]:
+    """The workbook of a worksheet, made once."""
+    return cache(lambda name: export(name, tmp_path_factory.mktemp("made"), {}))
+
+
+def edit(path: Path, changes: dict[str, Any], to: Path, units: Mapping[str, str] = MappingProxyType({})) -> Path:
+    """The workbook with other values and units on the sheet Inputs, as somebody types them."""
     book = load_workbook(path)
     left = dict(changes)
     for row in book["Inputs"].iter_rows(min_row=3):
+        row[2].value = units.get(row[0].value, row[2].value)
         if row[0].value in left:
             row[1].value = left.pop(row[0].value)
     assert not left
@@ -174,7 +164,7 @@ def test_number_of_positions_is_that_of_the_workbook(recalculated: Callable[[Pat
     assert rows["made for these inputs: where this fails, export the worksheet again"] == "FAIL"
 
 
-def test_found_value_without_a_closed_form_shows_what_it_leaves(
+def test_found_value_without_a_closed_form_is_that_of_its_own_inputs(
     recalculated: Callable[[Path], Any], tmp_path: Path
 ) -> None:
     source = (ROOT / "worksheets" / "hitch.py").read_text(encoding="utf-8")
@@ -186,12 +176,155 @@ def test_found_value_without_a_closed_form_shows_what_it_leaves(
     run = [sys.executable, "-X", "utf8", tmp_path / "worksheets" / "hitch.py", f"--out={tmp_path}"]
     subprocess.run(run, check=True, capture_output=True)
     before = recalculated(tmp_path / "hitch.xlsx")["Find"]
-    after = recalculated(edit(tmp_path / "hitch.xlsx", {"Y_P56": 0.41}, tmp_path / "edited.xlsx"))["Find"]
+    book = recalculated(edit(tmp_path / "hitch.xlsx", {"Y_P56": 0.41}, tmp_path / "edited.xlsx"))
+    after = book["Find"]
     assert [row[9].value for row in after.iter_rows(min_row=3)] == ["its closed form", "found", "its closed form"]
-    assert math.isclose(after["B4"].value, before["B4"].value, rel_tol=1e-14) and abs(before["E4"].value) < 1e-12
-    assert math.isclose(after["E4"].value, -0.01, rel_tol=1e-9)
-    rules = load_workbook(tmp_path / "hitch.xlsx")["Find"].conditional_formatting
-    assert any("E4" in str(rule.sqref) for rule in rules)
+    assert isinstance(before["B4"].value, float) and abs(before["E4"].value) < 1e-12
+    assert after["B4"].value == after["E4"].value == "#N/A" and isinstance(after["B3"].value, float)
+    assert after["B5"].value == "#N/A", "L7 is computed at the stroke that is not known"
+    verdicts = {row[0].value: row[4].value for row in book["Checks"].iter_rows(min_row=3)}
+    assert verdicts["upper link L7: Find and the closed form"] == "not evaluated"
+    other = recalculated(edit(tmp_path / "hitch.xlsx", {"eta": 0.8}, tmp_path / "edited.xlsx"))["Find"]
+    assert math.isclose(other["B4"].value, before["B4"].value, rel_tol=1e-14), "it does not rest on eta"
+
+
+@pytest.mark.parametrize(
+    ("name", "symbol", "typed", "unit", "legal"),
+    [
+        ("hitch", "eta", 1.4, "", 0.7),
+        ("hitch", "k_gc", 2.5, "", 3),
+        ("hitch", "P6", -9000, "", 2e4),
+        ("hitch", "P6", 27.5, "kN", 2e4),
+        ("landing_gear", "theta", -70, "", 80),
+    ],
+)
+def test_outside_its_limits_an_input_leaves_no_number_that_rests_on_it(
+    name: str,
+    symbol: str,
+    typed: float,
+    unit: str,
+    legal: float,
+    made: Callable[[str], Path],
+    recalculated: Callable[[Path], Any],
+    tmp_path: Path,
+) -> None:
+    """What rests on it is what changes with it; all else stays as it is."""
+    path = edit(made(name), {symbol: typed}, tmp_path / "edited.xlsx", {symbol: unit} if unit else {})
+    live, before = recalculated(path), load_workbook(made(name), data_only=True)
+    other = load_workbook(export(name, tmp_path, {symbol: legal}), data_only=True)
+    lost = {f"{sheet}!{cell}" for sheet, cell, value in numbers(live) if value == "#N/A"}
+    followed, differing = ({text.partition(":")[0] for text in disagreements(b, before)} for b in (other, live))
+    assert followed and followed <= lost and differing <= lost
+    title, _, first, *_ = live["Checks"].iter_rows(values_only=True)
+    assert first[:2] == ("inputs within their limits", 1) and first[4] == "FAIL"
+    verdicts = [row[4].value for row in live["Checks"].iter_rows(min_row=3)]
+    passed = verdicts.count("PASS")
+    assert title[0] == f"Checks: {passed} of {len(verdicts)} passed" and passed < len(verdicts)
+
+
+def test_cells_of_inputs_are_read_as_the_worksheet_reads_them(
+    made: Callable[[str], Path], recalculated: Callable[[Path], Any], tmp_path: Path
+) -> None:
+    """A text or number of every kind, each typed for another input: the same number in SI units, or none in both."""
+    typed = {
+        "X01": "0,415",
+        "X03": " .5 ",
+        "X05": "5.",
+        "X07": "−1",
+        "Y01": "1e-3",
+        "Y03": "1,000.5",
+        "Y05": "1 000",
+        "Y07": "50%",
+        "L3": "0",
+        "L5": "-0,48",
+        "L6": "$5",
+        "L34": "(5)",
+        "L56": "1:30",
+        "phi_BD": "heavy",
+        "L7_0": "1,035",
+        "L4_0": "0x10",
+        "Y56_min": "1_000",
+        "S_min": 0.68,
+        "N_pol": "10,5",
+        "X6": True,
+        "Y6": 1e61,
+        "Y_P56": "nan",
+        "phi_P6": 180,
+        "D_gc": 1e-61,
+        "P_gc_max": "2E7",
+        "a": 0,
+        "L": "1-2",
+    }
+    live = recalculated(edit(made("hitch"), typed, tmp_path / "edited.xlsx"))
+    sheet = cells.load(ROOT / "worksheets" / "hitch.py")
+
+    def accepted(symbol: str, value: object) -> object:
+        try:
+            return getattr(inputs.build(sheet.inputs, {symbol: value}), symbol)
+        except SheetError:
+            return "#N/A"
+
+    read = {row[0].value: row[5].value for row in live["Inputs"].iter_rows(min_row=3) if row[0].value in typed}
+    expected = {symbol: accepted(symbol, value) for symbol, value in typed.items()}
+    assert read == {symbol: x if x == "#N/A" else pytest.approx(x, rel=1e-14) for symbol, x in expected.items()}
+    assert live["Checks"]["B3"].value == list(read.values()).count("#N/A") > 10
+
+
+def test_no_input_of_a_cell_is_read_as_none(
+    made: Callable[[str], Path], recalculated: Callable[[Path], Any], tmp_path: Path
+) -> None:
+    """An emptied cell of a value is told, an emptied unit too; where there is no unit, nothing is no other unit."""
+    path = edit(made("hitch"), {"P6": None}, tmp_path / "edited.xlsx", {"S_max": "", "eta": "", "X01": "M", "L": " m "})
+    read = {row[0].value: row[5].value for row in recalculated(path)["Inputs"].iter_rows(min_row=3)}
+    assert {symbol for symbol, value in read.items() if value == "#N/A"} == {"P6", "S_max", "X01"}
+
+
+def test_cells_of_inputs_refuse_what_the_limits_do_not_allow(made: Callable[[str], Path]) -> None:
+    sheet = load_workbook(made("hitch"))["Inputs"]
+    rules = {str(rule.sqref): rule for rule in sheet.data_validations.dataValidation}
+    values = {row[0].value: row[1] for row in sheet.iter_rows(min_row=3) if row[1].value is not None}
+    assert set(rules) == {cell.coordinate for cell in values.values()}
+    assert {rule.errorStyle or "stop" for rule in rules.values()} == {"stop"}
+    assert all(len(rule.formula1) < 255 and not rule.allow_blank for rule in rules.values())
+    low, high = values["S_min"].coordinate, values["S_max"].row
+    rule = rules[low]
+    assert rule.formula1 == f"IF(ISTEXT({low}),TRUE,AND(ISNUMBER({low}),{low}>=1E-60,{low}<$I${high}))"
+    assert rule.prompt.startswith("least length of the cylinder [m]. Limits: > 0, < S_max.")
+    grounds = {symbol: cell.fill.fgColor.rgb for symbol, cell in values.items()}
+    assert {s for s, ground in grounds.items() if ground != grounds["P6"]} == {"L7_0", "L4_0"}, "no formula has them"
+    last = [row[0].value for row in sheet.iter_rows()][-1]
+    assert last.startswith("No formula of this workbook follows a value without a yellow ground")
+
+
+def test_joint_without_load_is_followed(
+    made: Callable[[str], Path], recalculated: Callable[[Path], Any], tmp_path: Path
+) -> None:
+    """Any areas would be in equilibrium then: the cells take those of the worksheet."""
+    none = {"M_1": 0, "N_1": 0}
+    live = recalculated(edit(made("joint"), none, tmp_path / "edited.xlsx"))
+    assert not list(disagreements(live, load_workbook(export("joint", tmp_path, none), data_only=True)))
+    assert {row[4].value for row in live["Checks"].iter_rows(min_row=3)} == {"PASS"}
+
+
+def test_a_check_without_formulas_is_that_of_the_exported_inputs(
+    recalculated: Callable[[Path], Any], tmp_path: Path
+) -> None:
+    """No verdict for others; units do not depend on inputs."""
+    sheet = own(
+        tmp_path,
+        """from types import SimpleNamespace
+from mechsheet import check
+held = SimpleNamespace(noise=np.lexsort((g.F * np.array([2.0, 3.0, 1.0]),)) + 0.5)
+check_2 = check("noise", float(held.noise.max()), 9)""",
+    )
+    text = Path(sheet.path).read_text().replace("    typeset()\n", '    export("Own", globals())\n', 1)
+    Path(sheet.path).write_text(text, encoding="utf-8")
+    subprocess.run([sys.executable, "-X", "utf8", sheet.path, f"--out={tmp_path}"], check=True, capture_output=True)
+    path = tmp_path / "own.xlsx"
+    as_is, other = recalculated(path), recalculated(edit(path, {"F": 3}, tmp_path / "edited.xlsx"))
+    for book, verdict in ((as_is, "PASS"), (other, "not evaluated")):
+        verdicts = {row[0].value: row[4].value for row in book["Checks"].iter_rows(min_row=3)}
+        assert (verdicts["noise"], verdicts["units"]) == (verdict, "PASS")
 
 
 def test_names_are_no_addresses_and_differ_in_more_than_case() -> None:
@@ -227,3 +360,28 @@ def test_a_change_is_seen(tmp_path: Path) -> None:
     assert not list(disagreements(book(1.0, 2.0), book(1.0, 2.0)))
     assert list(disagreements(book(1.0, 2.0 + 1e-9), book(1.0, 2.0)))
     assert list(disagreements(book(1.0, 2.0), book(1.0, "#N/A")))
+
+
+def test_what_a_worksheet_of_ones_own_does_is_followed_by_its_cells(
+    recalculated: Callable[[Path], Any], tmp_path: Path
+) -> None:
+    """Every construct that the recording knows, as formulas: LibreOffice against the worksheet on other inputs."""
+    lines = [f"y{n}_ = {expression}  # [-] line {n}" for n, expression in enumerate(FOLLOWED)]
+    names = [f"y{n}_" for n in range(len(lines))]
+    alike = defaultdict(list)
+    for name, value in cells.evaluate(own(tmp_path, "\n".join(lines)).path, names).items():
+        alike[np.shape(value)] += [f"{name}.real", f"{name}.imag"] if np.iscomplexobj(value) else [name]
+    shown = [f'table_{n} = table("{n}", "table {n}", {", ".join(these)})' for n, these in enumerate(alike.values())]
+    sheet = own(tmp_path, "\n".join([*lines, *shown]))
+    Path(sheet.path).write_text(
+        Path(sheet.path).read_text().replace("    typeset()\n", '    export("Own", globals())\n', 1), encoding="utf-8"
+    )
+    changes = {"F": 3.25, "a": 0.2, "k": 3}
+    books = []
+    for folder, given in (("as_it_is", {}), ("changed", changes)):
+        command = [sys.executable, "-X", "utf8", sheet.path, f"--out={tmp_path / folder}"]
+        subprocess.run([*command, *(f"--{k}={v}" for k, v in given.items())], check=True, capture_output=True)
+        books.append(tmp_path / folder / "own.xlsx")
+    live = recalculated(edit(books[0], changes, tmp_path / "edited.xlsx"))
+    assert not list(disagreements(live, load_workbook(books[1], data_only=True)))
+    assert {row[4].value for row in live["Checks"].iter_rows(min_row=3)} == {"PASS"}

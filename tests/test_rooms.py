@@ -46,7 +46,9 @@ def test_a_file_can_be_read_in_one_go(path: Path) -> None:
 
 
 def test_no_two_names_differ_by_an_s() -> None:
-    names = {path.stem for path in FILES} | set(ROOMS)
+    """Of rooms, files, worksheets, tests and what the package gives."""
+    others = {path.stem for folder in ("tests", "worksheets") for path in (ROOT / folder).rglob("*.py")}
+    names = {path.stem for path in FILES} | set(ROOMS) | set(PUBLIC) | others
     assert {name for name in names if f"{name}s" in names} == set()
 
 
@@ -68,6 +70,33 @@ def test_the_library_imports_from_where_a_name_is_defined(path: Path) -> None:
     taken = [node for node in found if isinstance(node, ast.ImportFrom) and node.module == "mechsheet"]
     assert {name.name for node in taken for name in node.names} <= {"units"}
     assert not any(isinstance(node, ast.Import) and name.name == "mechsheet" for node in found for name in node.names)
+
+
+# Coordinates of pictures are no numbers for a reader; the mechanics know numpy alone.
+_FORMATTING = {"worksheet/numbers.py", "document/chart_svg.py", "page/drawing.py"}
+
+
+@pytest.mark.parametrize(
+    "path", [p for p in FILES if place(p) not in _FORMATTING and p.parent.name != "mechanics"], ids=place
+)
+def test_numbers_are_formatted_in_one_place(path: Path) -> None:
+    nodes = list(ast.walk(ast.parse(path.read_text(encoding="utf-8"))))
+    specs = (node.format_spec for node in nodes if isinstance(node, ast.FormattedValue) and node.format_spec)
+    assert [text for text in map(ast.unparse, specs) if re.search(r"[efgEFG%]'$", text)] == []
+    called = [node.func for node in nodes if isinstance(node, ast.Call)]
+    assert not any(isinstance(node, ast.Name) and node.id == "format" for node in called)
+
+
+_MARKUP = re.compile(r"</\w|<(a|b|i|div|span|su[bp]|svg|t[dhr])\b|\\(cdot|frac|left|math|text|varphi)")
+
+
+@pytest.mark.parametrize("path", [p for p in FILES if p.parent.name not in ("document", "page")], ids=place)
+def test_below_the_writers_nothing_is_marked_up(path: Path) -> None:
+    """Values are data: HTML, LaTeX and SVG are made by the rooms of document and page."""
+    nodes = list(ast.walk(ast.parse(path.read_text(encoding="utf-8"))))
+    told = {id(node.value) for node in nodes if isinstance(node, ast.Expr)}  # docstrings
+    texts = [node.value for node in nodes if isinstance(node, ast.Constant) and id(node) not in told]
+    assert [text for text in texts if isinstance(text, str) and _MARKUP.search(text)] == []
 
 
 # --- what is loaded ----------------------------------------------------------------------------------------------

@@ -1,17 +1,27 @@
-"""Serving with a password, as the README writes it."""
+"""Serving with a password, as the README writes it, and to many who come at once."""
 
+import ast
+import json
+import os
 import re
 import shutil
 import socket
 import subprocess
 import sys
 import time
+import tomllib
 import urllib.request
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager
 from http.cookiejar import CookieJar
 from pathlib import Path
 
 import pytest
 from conftest import WITHIN, answers
+from websockets.sync.client import connect
+
+from mechsheet import __main__ as launcher
+from mechsheet.page import parsing
 
 ROOT = Path(__file__).parents[1]
 
@@ -46,3 +56,108 @@ def test_only_the_password_opens_the_page(served):
 
     assert ends_at("sesame").endswith(f":{served}/")
     assert all("/auth/login" in ends_at(wrong) for wrong in ("", "Sesame", "sesame1"))
+
+
+@contextmanager
+def serving(sheet: Path):
+    """Port of a server that no page was asked of; the package is installed for it with the entry points it declares."""
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]
+    installed = sheet.parent / "mechsheet-0.dist-info"
+    installed.mkdir(exist_ok=True)
+    (installed / "METADATA").write_text("Metadata-Version: 2.1\nName: mechsheet\nVersion: 0\n")
+    groups = project["entry-points"].items()
+    texts = (f"[{group}]\n" + "".join(f"{name} = {at}\n" for name, at in points.items()) for group, points in groups)
+    (installed / "entry_points.txt").write_text("".join(texts))
+    path = os.pathsep.join([str(sheet.parent), *filter(None, sys.path)])
+    with socket.socket() as free:
+        free.bind(("127.0.0.1", 0))
+        port = free.getsockname()[1]
+    options = ["--headless", "--no-token", "--host=127.0.0.1", f"--port={port}", str(sheet)]
+    with subprocess.Popen(
+        [sys.executable, "-m", "marimo", "run", *options],
+        env={**os.environ, "PYTHONPATH": path, "PYTHONUTF8": "1"},
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
+    ) as server:
+        try:
+            deadline = time.monotonic() + WITHIN
+            while not answers(port):
+                assert server.poll() is None and time.monotonic() < deadline
+                time.sleep(0.1)
+            yield port
+        finally:
+            server.terminate()
+
+
+def opened(port: int, session: int) -> list[str]:
+    """Errors of a page until its cells have run."""
+    errors = list[str]()
+    with connect(
+        f"ws://127.0.0.1:{port}/ws?session_id=s_{session:06d}", max_size=None, open_timeout=WITHIN, ping_interval=None
+    ) as page:
+        while True:
+            message = page.recv(WITHIN)
+            if json.loads(message).get("op") == "completed-run":
+                return errors
+            if "marimo-error" in message:
+                errors.append(str(message))
+
+
+@pytest.mark.parametrize("time_over", range(2))
+def test_twenty_first_pages_at_once_are_computed(time_over, tmp_path):
+    sheet = tmp_path / "lever.py"
+    template = Path(launcher.__file__).parent / "run" / "new_worksheet.txt"
+    sheet.write_text(template.read_text("utf-8").replace("TITLE", "Lever"), "utf-8")
+    with serving(sheet) as port, ThreadPoolExecutor(20) as visitors:
+        found = list(visitors.map(opened, [port] * 20, range(20)))
+    assert found == [[]] * 20
+
+
+PARSING = """
+import ast, gc, sys, threading
+from mechsheet.page import parsing
+parsing.again()
+text = open(sys.argv[1], encoding="utf-8").read()
+sys.setswitchinterval(1e-6)
+gc.set_threshold(20)
+gc.callbacks.append(lambda *_: sum(range(50)))  # during which Python goes on with another thread
+def work():
+    for _ in range(3):
+        ast.parse(text)
+threads = [threading.Thread(target=work) for _ in range(4)]
+for thread in threads:
+    thread.start()
+for thread in threads:
+    thread.join()
+"""
+
+
+def test_threads_parse_at_once():
+    """Without the second try about one of six fails before Python 3.11.8."""
+    sheet = ROOT / "worksheets" / "hitch.py"
+    done = subprocess.run([sys.executable, "-c", PARSING, sheet], capture_output=True, encoding="utf-8")
+    assert (done.returncode, done.stderr) == (0, "")
+
+
+def test_a_text_is_parsed_again_and_nothing_else(monkeypatch):
+    fails = iter([True, True, False, True])
+
+    def compile_(*arguments):
+        if next(fails):
+            raise SystemError("AST constructor recursion depth mismatch")
+        return arguments
+
+    monkeypatch.setattr(parsing, "_compile", compile_)
+    assert parsing._again("x", "", "exec", ast.PyCF_ONLY_AST)[0] == "x"
+    with pytest.raises(SystemError):
+        parsing._again("x", "", "exec")
+
+
+def test_what_a_caller_has_from_the_future_holds(monkeypatch):
+    monkeypatch.setattr("builtins.compile", parsing._again)
+    body = "def f(x: never): pass\n"
+    exec(f"from __future__ import annotations\nexec(compile({body!r}, 'text', 'exec'))", names := {})
+    assert names["f"].__annotations__ == {"x": "never"}
+    with pytest.raises(NameError):
+        exec(compile(body, "text", "exec"), {})

@@ -17,9 +17,11 @@ from hypothesis import strategies as st
 from openpyxl import load_workbook
 from printed import agrees, rows
 
+from mechsheet.accuracy import exact
+from mechsheet.accuracy.condition import relative_error
 from mechsheet.document.expression import tree
 from mechsheet.document.latex import latex
-from mechsheet.worksheet.checks import Check
+from mechsheet.worksheet.check import Check
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.inputs import build
 from worksheets import slotted_link
@@ -301,3 +303,16 @@ def test_position_without_numbers_fails_the_script_and_is_written(tmp_path):
     book = load_workbook(tmp_path / "slotted_link.xlsx", data_only=True)
     values = [c.value for c in book["1 Results"][8]]
     assert values[0] == pytest.approx(270) and values[1:7] == ["#N/A"] * 6
+
+
+# Digits
+
+
+@pytest.mark.parametrize("L1", [0.8, 1e-3, 1e-6, 1e-12])
+def test_a_short_crank_far_from_the_hinge_keeps_the_digits_of_its_velocity(L1):
+    """The velocity of its pin comes from the crank, not from two points far from the origin."""
+    sheet = run(L1=L1)
+    for i, phi1 in enumerate(sheet["phi1_k"]):
+        true = exact.slotted_link(replace(GIVEN, L1=L1), phi1)
+        for name in ("SAB_k", "omega_BC_k", "eps_BC_k", "VC_k", "WC_k"):
+            assert relative_error(sheet[name][i], true[name]) <= 64 * 2.0**-53, (name, i)

@@ -5,6 +5,7 @@ import pytest
 from cells import run
 
 from mechsheet.worksheet.errors import SheetError
+from mechsheet.worksheet.results import quantities
 
 CELL = """
 import numpy as np
@@ -20,6 +21,18 @@ typeset()
 @pytest.fixture
 def names():
     return run("from mechsheet import figure, table", run(CELL))
+
+
+@pytest.mark.parametrize("shown", ['table("1", "T", S, R56.real)', 'figure("1", "T", S, abs(R56))'])
+def test_no_rows_are_refused(names, shown):
+    names.update(S=names["S"][:0], R56=names["R56"][:0])
+    with pytest.raises(SheetError, match=f"^{shown.split('(')[0]} 1 has no rows$"):
+        run(f"t = {shown}", names)
+
+
+def test_a_result_without_values_is_refused(names):
+    with pytest.raises(SheetError, match=r"^S has no values$"):
+        quantities("S", names | {"S": names["S"][:0]})
 
 
 def test_columns_of_points_and_forces(names):

@@ -27,6 +27,24 @@ def test_factor_to_si_and_dimension(text, factor, dims):
     assert parse(text).dims == dims
 
 
+SECONDS, TURN = {"s": 1, "ms": 1 / 1000, "min": 60, "h": 60 * 60}, 2 * math.acos(-1)
+METRES = {"m": 1, "dm": 1 / 10, "cm": 1 / 100, "mm": 1 / 1000, "km": 1000}
+KILOGRAMS = {"kg": 1, "g": 1 / 1000, "t": 1000}
+IN_SI = {
+    **SECONDS, **METRES, **KILOGRAMS,
+    "N": 1, "kN": 1000, "MN": 1000**2, "kgf": 9.80665,
+    "Pa": 1, "kPa": 1000, "MPa": 1000**2, "GPa": 1000**3, "bar": 10 / (METRES["cm"] ** 2),
+    "W": 1, "kW": 1000, "J": 1, "kJ": 1000, "Hz": 1,
+    "rad": 1, "deg": TURN / 360, "rev": TURN, "rpm": TURN / SECONDS["min"], "%": 1 / 100, "-": 1,
+}  # fmt: skip
+
+
+def test_every_unit_is_that_of_its_definition():
+    """A unit that is in one worksheet alone, or in none, would be wrong unseen: bar is 10 N on a square centimetre."""
+    assert IN_SI.keys() == units.UNITS.keys()
+    assert {name: parse(name).factor for name in IN_SI} == pytest.approx(IN_SI, rel=1e-15)
+
+
 @pytest.mark.parametrize("text", ["", "m^2", "foo", "2*m", "m*", "m**x", "f(m)", "Mpa", "m**'2'"])
 def test_unknown_unit_is_named(text):
     with pytest.raises(ValueError, match="is not known") as error:

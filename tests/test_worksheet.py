@@ -1,5 +1,7 @@
 """A worksheet as a function: the right cells, the right values, the right machine."""
 
+import runpy
+import shutil
 import subprocess
 import sys
 from dataclasses import replace
@@ -8,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mechsheet.worksheet.cells import checks, evaluate, load
+from mechsheet.worksheet.cells import checks, evaluate, load, results
 from mechsheet.worksheet.errors import SheetError
 from worksheets import hitch
 
@@ -22,6 +24,47 @@ def test_capacity_runs_only_what_it_depends_on():
         *("fields", "centre_of_mass", "transmission", "capacity"),
     }
     assert len(needed) < len(load(HITCH).cells) / 4
+
+
+def test_what_marimos_editor_saves_is_the_same_worksheet(tmp_path):
+    """The editor writes behind ``return`` only what other cells read: tables and found values are not there."""
+    documents = [path for path in HITCH.parent.glob("*.py") if path.stem not in ("accuracy", "hitch_design")]
+    saved = [Path(shutil.copy(path, tmp_path)) for path in documents]
+    subprocess.run([sys.executable, "-m", "marimo", "check", "--fix", *saved], check=True, capture_output=True)
+    for old, new in zip(documents, saved, strict=True):
+        assert new.read_text() != old.read_text()
+        assert load(new).results == load(old).results
+        assert [cell.gives for cell in load(new).cells] == [cell.gives for cell in load(old).cells]
+    tables = [name for name in load(HITCH).results if name.startswith("table")]
+    assert tables and all(table.columns for table in evaluate(tmp_path / "hitch.py", tables).values())
+
+
+def test_what_a_cell_defines_is_what_its_lines_bind(tmp_path):
+    path = tmp_path / "lever.py"
+    path.write_text("""import marimo
+app = marimo.App()
+
+with app.setup:
+    from math import pi
+
+@app.cell
+def lever():
+    import json as text
+    (a, *b), c = (1, 2), 3
+    squares = [x * x for x in range(3) if (last := x) >= 0]
+    for k in range(2):
+        _own = k
+    def f(y):
+        inside = y
+        return inside
+    d: float = 4
+    d += pi
+    c_squared = (lambda z: z * z)(c)
+    return
+""")
+    names = ["text", "a", "b", "c", "squares", "last", "k", "f", "d", "c_squared"]
+    assert load(path).results == results(path) == names
+    assert results(path, certain=True) == [name for name in names if name != "k"]
 
 
 COUNT = """
@@ -108,6 +151,74 @@ def test_a_check_whose_name_is_composed_is_found():
     needed = load(slotted).needed([name])
     assert len(needed) < len(load(slotted).cells) / 2
     assert evaluate(slotted, [name])[name].passed
+
+
+APART = """
+import marimo
+
+app = marimo.App()
+
+with app.setup:
+    from mechsheet import export, inputs, typeset
+
+
+@app.class_definition
+@inputs
+class Bar:
+    b: float = 2.0  # [m] length; > 0
+
+
+@app.cell
+def _(g):
+    import math as _m
+    from os import sep as _k
+
+    _k = 2.0
+
+    def _times(x, _k=_k):
+        return _k * x
+
+    class _Twice:
+        of = staticmethod(lambda x: _times(x, _k=_k))
+
+    match g.b:
+        case _b:
+            f = lambda x: _Twice.of(x) + 0 * (_b + _m.pi)
+    return (f,)
+
+
+@app.cell
+def _(g):
+    _k = 3.0
+    _times = 5.0
+    _m, _b, _Twice = 7.0, 11.0, 13.0
+    z = _k * g.b * _times
+    return (z,)
+
+
+@app.cell
+def _(f, z):
+    d = f(z)
+    return (d,)
+
+
+@app.cell
+def _():
+    g = Bar()
+    return (g,)
+
+
+if __name__ == "__main__":
+    app.run()
+"""
+
+
+def test_names_with_an_underscore_are_their_cells_own(tmp_path):
+    """As in the page: what a function of one cell reads, a later cell must not change."""
+    path = tmp_path / "apart.py"
+    path.write_text(APART, encoding="utf-8")
+    _, page = runpy.run_path(str(path), run_name="apart")["app"].run()
+    assert evaluate(path, ["d"]) == {"d": 2 * 3 * 2 * 5.0} == {"d": page["d"]}
 
 
 def test_a_stopped_cell_is_an_error_that_names_it(tmp_path):

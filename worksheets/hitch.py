@@ -12,37 +12,10 @@ with app.setup:
     from numpy import arctan2 as atan2
 
     from mechsheet import (
-        Check,
-        Drawing,
-        Load,
-        Used,
-        angle,
-        ask,
-        assembled,
-        caption,
-        check,
-        check_slope,
-        closed_form,
-        cross,
-        cut_group,
-        export,
-        figure,
-        find,
-        inputs,
-        mark,
-        player,
-        read,
-        require,
-        rrr,
-        rrr_reach,
-        rrr_reactions,
-        rrr_velocity,
-        side_by_side,
-        summary,
-        table,
-        title_block,
-        typeset,
-    )
+        Check, Drawing, Load, Used, angle, ask, assembled, caption, check, check_slope, closed_form, cross,
+        cut_group, export, figure, find, inputs, mark, player, read, require, rrr, rrr_reach, rrr_reactions,
+        rrr_velocity, side_by_side, slider, summary, table, title_block, typeset,
+    )  # fmt: skip
     from mechsheet.units import deg
 
     np.seterr(divide="ignore", invalid="ignore")  # no load: infinite reserve; no closure: NaN; both are shown so
@@ -63,18 +36,9 @@ def title():
 
 @app.cell(hide_code=True)
 def verdict(
-    checks_L4,
-    checks_L7,
-    checks_S_p,
-    checks_analogues,
-    checks_closing,
-    checks_design,
-    checks_drawn,
-    checks_forces,
-    checks_loops,
-    checks_pole,
-    checks_stability,
-):
+    checks_L4, checks_L7, checks_S_p, checks_analogues, checks_closing, checks_design, checks_drawn, checks_forces,
+    checks_loops, checks_pole, checks_stability,
+):  # fmt: skip
     summary(
         *(checks_design, checks_L4, checks_S_p, checks_L7, checks_closing, checks_loops),
         *(checks_analogues, checks_drawn, checks_forces, checks_stability, checks_pole),
@@ -163,7 +127,7 @@ def coordinate(g):
     t = k / (g.N_pol - 1)  # [-] part of the stroke
     S = g.S_min * (1 - t) + g.S_max * t  # [m] generalised coordinate, the length of the cylinder
     typeset()
-    return S, dS
+    return (S,)
 
 
 @app.cell(hide_code=True)
@@ -200,22 +164,11 @@ def section_21():
 def group_1(O1, O3, g):
     L13 = abs(O1 - O3)  # [m] distance of the hinges O1, O3
     phi13 = atan2(g.Y03 - g.Y01, g.X01 - g.X03)  # [deg] slope of the line O1 O3
-
-    def P23(S):
-        return rrr(O1, O3, S, g.L3, -1)  # [m] pin of the cylinder on the lift arm
-
-    def phi3(S):
-        return angle(P23(S) - O3)  # [deg] lift arm, side of the cylinder
-
-    def phi12(S):
-        return angle(P23(S) - O1)  # [deg] cylinder
-
-    def phi34(S):
-        return phi3(S) + g.phi_BD  # [deg] lift arm, side of the lifting rod
-
-    def P34(S):
-        return O3 + g.L34 * exp(1j * phi34(S))  # [m] pin of the lifting rod on the lift arm
-
+    P23 = lambda S: rrr(O1, O3, S, g.L3, -1)  # [m] pin of the cylinder on the lift arm
+    phi3 = lambda S: angle(P23(S) - O3)  # [deg] lift arm, side of the cylinder
+    phi12 = lambda S: angle(P23(S) - O1)  # [deg] cylinder
+    phi34 = lambda S: phi3(S) + g.phi_BD  # [deg] lift arm, side of the lifting rod
+    P34 = lambda S: O3 + g.L34 * exp(1j * phi34(S))  # [m] pin of the lifting rod on the lift arm
     typeset()
     return L13, P23, P34, phi12, phi13, phi3, phi34
 
@@ -235,21 +188,12 @@ def section_22():
 def group_2(O3, O5, P34, g):
     L35 = abs(O3 - O5)  # [m] distance of the hinges O3, O5
     delta1 = pi - angle(O3 - O5)  # [deg] slope of the line O5 O3, as the document counts it
-
-    def P45(S, L4, branch=+1):
-        return rrr(P34(S), O5, L4, g.L5, branch)  # [m] pin of the lifting rod on the lower link
-
-    def phi4(S, L4):
-        return angle(P45(S, L4) - P34(S))  # [deg] lifting rod
-
-    def phi5(S, L4, branch=+1):
-        return angle(P45(S, L4, branch) - O5)  # [deg] lower link
-
-    def P56(S, L4, branch=+1):
-        return O5 + g.L56 * exp(1j * phi5(S, L4, branch))  # [m] suspension axis
-
+    P45 = lambda S, L4, branch=+1: rrr(P34(S), O5, L4, g.L5, branch)  # [m] pin of the lifting rod on the lower link
+    phi4 = lambda S, L4: angle(P45(S, L4) - P34(S))  # [deg] lifting rod
+    phi5 = lambda S, L4, branch=+1: angle(P45(S, L4, branch) - O5)  # [deg] lower link
+    P56 = lambda S, L4, branch=+1: O5 + g.L56 * exp(1j * phi5(S, L4, branch))  # [m] suspension axis
     typeset()
-    return L35, P45, P56, delta1, phi4, phi5
+    return P45, P56, phi4, phi5
 
 
 @app.cell
@@ -274,7 +218,7 @@ def find_L4(O1, O3, O5, P34, P56, g):
     L4_c = abs(P45_0 - P34(g.S_min))  # [m] lifting rod as the distance of two points, which are now known
     checks_L4 = closed_form(L4_found, L4_c)
     typeset(L4_found, checks_L4)
-    return L4, L4_found, L4_guess, checks_L4
+    return L4, checks_L4
 
 
 @app.cell(hide_code=True)
@@ -309,28 +253,22 @@ def find_S_p(L4, O1, O3, O5, P56, g):
     S_c = abs(P23_p - O1)  # [m] working stroke as the distance of two points
     checks_S_p = closed_form(S_p_found, S_c)
     typeset(S_p_found, checks_S_p)
-    return S_p, S_p_found, checks_S_p
+    return S_p, checks_S_p
 
 
 @app.cell
 def group_3(L4, O5, O7, P56, g):
     L57 = abs(O7 - O5)  # [m] distance of the hinges O5, O7
     delta2 = pi - angle(O7 - O5)  # [rad] slope of the line O5 O7, as the document counts it
-
-    def P67(S, L7):
-        return rrr(P56(S, L4), O7, g.L6, L7, -1)  # [m] pin of the upper link on the mast
+    P67 = lambda S, L7: rrr(P56(S, L4), O7, g.L6, L7, -1)  # [m] pin of the upper link on the mast
 
     def phi6P(P, L7, branch=-1):
         return angle(rrr(P, O7, g.L6, L7, branch) - P)  # [deg] mast where P is the suspension axis
 
-    def phi6(S, L7):
-        return phi6P(P56(S, L4), L7)  # [deg] mast
-
-    def phi7(S, L7):
-        return angle(P67(S, L7) - O7)  # [deg] upper link
-
+    phi6 = lambda S, L7: phi6P(P56(S, L4), L7)  # [deg] mast
+    phi7 = lambda S, L7: angle(P67(S, L7) - O7)  # [deg] upper link
     typeset()
-    return L57, P67, delta2, phi6, phi6P, phi7
+    return P67, phi6, phi6P, phi7
 
 
 @app.cell
@@ -353,7 +291,7 @@ def find_L7(L4, O7, P56, S_p, g, phi6P):
     L7_c = abs(P56_p + g.L6 * exp(1j * g.phi_P6) - O7)  # [m] upper link as the distance of two points
     checks_L7 = closed_form(L7_found, L7_c)
     typeset(L7_found, checks_L7)
-    return L7, L7_found, L7_guess, P56_p, checks_L7
+    return L7, checks_L7
 
 
 @app.cell(hide_code=True)
@@ -368,7 +306,7 @@ def section_24():
 
 
 @app.cell
-def fields(L4, L7, O5, P23, P34, P45, P56, P67, S, phi12, phi3, phi34, phi4, phi5, phi6, phi7):
+def fields(L4, L7, P23, P34, P45, P56, P67, S, phi12, phi3, phi34, phi4, phi5, phi6, phi7):
     P23_S = P23(S)  # [m] pin of the cylinder on the lift arm
     P34_S = P34(S)  # [m] pin of the lifting rod on the lift arm
     P45_S = P45(S, L4)  # [m] pin of the lifting rod on the lower link
@@ -382,7 +320,7 @@ def fields(L4, L7, O5, P23, P34, P45, P56, P67, S, phi12, phi3, phi34, phi4, phi
     phi6_S = phi6(S, L7)  # [deg] mast
     phi7_S = phi7(S, L7)  # [deg] upper link
     typeset()
-    return (P23_S, P34_S, P45_S, P56_S, P67_S, phi12_S, phi34_S, phi3_S, phi4_S, phi5_S, phi6_S, phi7_S)
+    return P23_S, P34_S, P45_S, P56_S, P67_S, phi12_S, phi34_S, phi3_S, phi4_S, phi5_S, phi6_S, phi7_S
 
 
 @app.cell(hide_code=True)
@@ -401,13 +339,10 @@ def centre_of_mass(L4, L7, P56, P67, S, S_p, g, phi6):
     LS6 = sqrt(g.X6**2 + g.Y6**2)  # [m] suspension axis to the centre of mass
     r_s = abs(g.X6 + 1j * g.Y6 - P67(S_p, L7))  # [m] printed by the document, mixes two frames; nothing uses it
     phiS6 = (atan2(g.Y6, g.X6) - g.phi_P6) % (2 * pi)  # [deg] from the mast to the centre of mass
-
-    def PS6(S):
-        return P56(S, L4) + LS6 * exp(1j * (phiS6 + phi6(S, L7)))  # [m] centre of mass of the implement
-
+    PS6 = lambda S: P56(S, L4) + LS6 * exp(1j * (phiS6 + phi6(S, L7)))  # [m] centre of mass of the implement
     PS6_S = PS6(S)  # [m] centre of mass of the implement
     typeset()
-    return LS6, PS6, PS6_S, phiS6, r_s
+    return LS6, PS6, PS6_S, phiS6
 
 
 @app.cell(hide_code=True)
@@ -424,17 +359,15 @@ def section_scheme():
 
 @app.cell
 def stroke():
-    part = mo.ui.slider(0, 1, step=0.01, value=0.2, label="part of the stroke", show_value=True)
+    part = slider(0, 1, step=0.01, value=0.2, label="part of the stroke")
     player(part)
     return (part,)
 
 
 @app.cell
-def scheme(L4, L7, O1, O3, O5, O7, P23, P23_S, P34, P34_S, P45, P45_S, P56, P56_S, P67, P67_S, PS6, PS6_S, g):
+def scheme(L4, L7, O1, O3, O5, O7, P23, P23_S, P34, P34_S, P45, P45_S, P56, P56_S, P67, P67_S, PS6, PS6_S, S, g):
     frame = np.concatenate([[O1, O3, O5, O7], P23_S, P34_S, P45_S, P56_S, P67_S, PS6_S])
-
-    def pins(S):
-        return P23(S), P34(S), P45(S, L4), P56(S, L4), P67(S, L7), PS6(S)
+    pins = lambda S: (P23(S), P34(S), P45(S, L4), P56(S, L4), P67(S, L7), PS6(S))
 
     def scheme(p23, p34, p45, p56, p67, s6):
         links = (
@@ -470,7 +403,7 @@ def drawing_21(g, part, pins, scheme, still, velocities):
     moved = scheme(*pins_t).arrow(P34_t, V34, "V34", "m/s").arrow(P56_t, V56, "V56", "m/s")
     drawing_21 = moved.arrow(PS6_t, VS6, "VS6", "m/s") + still
     typeset(drawing_21, mark(S=S_t), caption("2.1", "Kinematic scheme of the hitch"))
-    return V34, V56, VS6, drawing_21, moved
+    return
 
 
 @app.cell(hide_code=True)
@@ -486,7 +419,7 @@ def section_26():
 
 
 @app.cell
-def loops(L13, L4, L57, L7, O1, O3, O5, O7, P23_S, P34_S, P45_S, P56_S, P67_S, S, g, phi12_S, phi13, phi4_S, phi6_S):
+def loops(L13, L4, L7, O1, O3, O5, O7, P23_S, P34_S, P45_S, P56_S, P67_S, S, g, phi12_S, phi13, phi4_S, phi6_S):
     phi12_printed = phi13 - acos((S**2 + L13**2 - g.L3**2) / (2 * S * L13))  # [deg] cylinder, as printed (erratum)
     P23s_S = O1 + S * exp(1j * phi12_printed)  # [m] as printed: misses P23 (erratum)
     P23c_S = O1 + S * exp(1j * phi12_S)  # [m] pin of the cylinder from O1
@@ -494,9 +427,9 @@ def loops(L13, L4, L57, L7, O1, O3, O5, O7, P23_S, P34_S, P45_S, P56_S, P67_S, S
     P45s_S = P34_S + L4 * exp(1j * phi4_S)  # [m] pin of the lifting rod on the lower link, from P34
     P67s_S = P56_S + g.L6 * exp(1j * phi6_S)  # [m] pin of the upper link, from P56
     checks_loops = (
-        check("loop of group (2, 3)", P23c_S - P23_S, 1e-12 * L13, "m"),
-        check("loop of group (4, 5)", P34s_S - P34_S, 1e-12 * L4, "m"),
-        check("loop of group (6, 7)", P67s_S - P67_S, 1e-12 * L7, "m"),
+        check("loop of group (2, 3)", P23c_S - P23_S, 1e-12, "m", of=L13),
+        check("loop of group (4, 5)", P34s_S - P34_S, 1e-12, "m", of=L4),
+        check("loop of group (6, 7)", P67s_S - P67_S, 1e-12, "m", of=L7),
     )
     checks_closing = (
         assembled("group (2, 3) closes", P23_S, S, rrr_reach(O1, O3, g.L3), "cylinder S", "m"),
@@ -504,30 +437,14 @@ def loops(L13, L4, L57, L7, O1, O3, O5, O7, P23_S, P34_S, P45_S, P56_S, P67_S, S
         assembled("group (6, 7) closes", P67_S, abs(P56_S - O7), (abs(L7 - g.L6), L7 + g.L6), "distance O7 P56", "m"),
     )
     typeset(*checks_closing, *checks_loops)
-    return P23c_S, P23s_S, P34s_S, P45s_S, P67s_S, checks_closing, checks_loops, phi12_printed
+    return P23c_S, P23s_S, P34s_S, P45s_S, P67s_S, checks_closing, checks_loops
 
 
 @app.cell
 def tables_2(
-    P23_S,
-    P23c_S,
-    P23s_S,
-    P34_S,
-    P34s_S,
-    P45_S,
-    P45s_S,
-    P56_S,
-    P67_S,
-    P67s_S,
-    PS6_S,
-    S,
-    phi34_S,
-    phi3_S,
-    phi4_S,
-    phi5_S,
-    phi6_S,
-    phi7_S,
-):
+    P23_S, P23c_S, P23s_S, P34_S, P34s_S, P45_S, P45s_S, P56_S, P67_S, P67s_S, PS6_S, S, phi34_S, phi3_S, phi4_S,
+    phi5_S, phi6_S, phi7_S,
+):  # fmt: skip
     table_21 = table("2.1", "Link angles", S, phi34_S, phi3_S, phi4_S, phi5_S, phi6_S, phi7_S)
     table_22 = table(
         "2.2",
@@ -540,7 +457,7 @@ def tables_2(
         note="X23s, Y23s follow the document's formula for phi12 and miss P23; X23c, Y23c close the loop.",
     )
     typeset(table_21, table_22)
-    return table_21, table_22
+    return
 
 
 @app.cell(hide_code=True)
@@ -592,8 +509,8 @@ def differences(I56, IS6, L4, P23_S, P34_S, P45_S, P56, P56_S, P67_S, PS6, PS6_S
     )
     _v34, _v56, _vS6 = velocities(P23_S, P34_S, P45_S, P56_S, P67_S, PS6_S)
     checks_drawn = (
-        check("velocities as drawn: V56 rises by I56", _v56.imag - I56, 1e-11 * np.max(abs(I56))),
-        check("velocities as drawn: VS6 rises by IS6", _vS6.imag - IS6, 1e-11 * np.max(abs(IS6))),
+        check("velocities as drawn: V56 rises by I56", _v56.imag - I56, 1e-11, of=I56),
+        check("velocities as drawn: VS6 rises by IS6", _vS6.imag - IS6, 1e-11, of=IS6),
     )
     typeset(*checks_analogues, *checks_drawn)
     return checks_analogues, checks_drawn
@@ -605,7 +522,7 @@ def results_3(I56, IS6, S, S_p, U43, U53, U65, U75, dphi3, dphi4, dphi5, dphi6, 
     figure_31 = figure("3.1", "Velocity analogue of the lift arm", S, dphi3, marks={"S_p": S_p})
     figure_32 = figure("3.2", "Transmission numbers", S, I56, IS6, marks={"S_p": S_p})
     typeset(table_31, figure_31, figure_32)
-    return figure_31, figure_32, table_31
+    return
 
 
 @app.cell(hide_code=True)
@@ -631,7 +548,7 @@ def capacity(I56, IS6, g):
     GS6 = g.k_gc * g.P_gc_max * g.eta * A_gc / IS6  # [N] capacity at the centre of mass
     dGS65 = (GS6 - g.P6) / g.P6  # [%] reserve of capacity
     typeset()
-    return A_gc, F_gc, G56, GS6, P_gc, dGS65
+    return F_gc, G56, GS6, P_gc, dGS65
 
 
 @app.cell
@@ -641,7 +558,7 @@ def results_4(F_gc, G56, GS6, P_gc, S, S_p, dGS65):
     figure_42 = figure("4.2", "Force on the cylinders", S, F_gc, marks={"S_p": S_p})
     figure_43 = figure("4.3", "Pressure in the cylinders", S, P_gc, marks={"S_p": S_p}, show={"Pgc": "Pa"})
     typeset(table_41, figure_41, figure_42, figure_43)
-    return figure_41, figure_42, figure_43, table_41
+    return
 
 
 @app.cell(hide_code=True)
@@ -727,7 +644,7 @@ def section_groups():
 
 @app.cell
 def forces_drawn():
-    forces_at = mo.ui.slider(0, 1, step=0.01, value=0.2, label="part of the stroke", show_value=True)
+    forces_at = slider(0, 1, step=0.01, value=0.2, label="part of the stroke")
     player(forces_at)
     return (forces_at,)
 
@@ -737,7 +654,7 @@ def position(S, forces_at):
     k_t = round(forces_at.value * (len(S) - 1))
     S_k = S[k_t]  # [m] stroke of the position drawn
     typeset()
-    return S_k, k_t
+    return (k_t,)
 
 
 @app.cell
@@ -763,7 +680,7 @@ def drawings_5(G6, O1, O3, O5, O7, P23_S, P34_S, P45_S, P56_S, P67_S, PS6_S, R01
             (drawing_53, caption("5.3", "group (2, 3)")),
         )
     )
-    return drawing_51, drawing_52, drawing_53
+    return
 
 
 @app.cell(hide_code=True)
@@ -776,33 +693,9 @@ def section_54():
 
 @app.cell
 def equilibrium(
-    F_gc,
-    G6,
-    L13,
-    O1,
-    O3,
-    O5,
-    O7,
-    P23_S,
-    P34_S,
-    P45_S,
-    P56_S,
-    P67_S,
-    PS6_S,
-    R01,
-    R03,
-    R05,
-    R07,
-    R23,
-    R34,
-    R45,
-    R56,
-    R65,
-    R67,
-    S,
-    g,
-    phi12_S,
-):
+    F_gc, G6, O1, O3, O5, O7, P23_S, P34_S, P45_S, P56_S, P67_S, PS6_S, R01, R03, R05, R07, R23, R34, R45, R56, R65,
+    R67, g, phi12_S,
+):  # fmt: skip
     F2 = R01 - R23  # [N] forces on the cylinder 2
     F3 = R03 + R23 + R34  # [N] forces on the lift arm 3
     F4 = R45 - R34  # [N] forces on the lifting rod 4
@@ -817,9 +710,9 @@ def equilibrium(
     M7 = cross(O7 - P67_S, R07)  # [N*m] moments on the upper link 7 about P67
     largest = np.max(abs([R01, R03, R05, R07, R34, R56]))
     checks_forces = (
-        check("equilibrium of forces, bodies 2..7", [F2, F3, F4, F5, F6, F7], 1e-12 * largest, "N"),
-        check("equilibrium of moments, bodies 2..7", [M2, M3, M4, M5, M6, M7], 1e-12 * largest * g.L56, "N*m"),
-        check("virtual work: R01 = P6 IS6 along the cylinder", R01 - F_gc * exp(1j * phi12_S), 1e-10 * largest, "N"),
+        check("equilibrium of forces, bodies 2..7", [F2, F3, F4, F5, F6, F7], 1e-12, "N", of=largest),
+        check("equilibrium of moments, bodies 2..7", [M2, M3, M4, M5, M6, M7], 1e-12, "N*m", of=largest * g.L56),
+        check("virtual work: R01 = P6 IS6 along the cylinder", R01 - F_gc * exp(1j * phi12_S), 1e-10, "N", of=largest),
     )
     typeset(*checks_forces)
     return (checks_forces,)
@@ -840,7 +733,7 @@ def results_5(F_gc, R01, R03, R05, R07, R23, R34, R45, R56, S, S_p):
         "5.4", "Reactions", S, abs(R01), abs(R03), abs(R05), abs(R07), abs(R34), abs(R56), marks={"S_p": S_p}
     )
     typeset(table_51, figure_54)
-    return figure_54, table_51
+    return
 
 
 @app.cell(hide_code=True)
@@ -869,9 +762,11 @@ def stability(PS6_S, g):
     Ra_lim = (
         g.P_gr * (g.a + g.L) + g.P_msha * g.b - GS6_lim * PS6_S.real
     ) / g.L  # [N] front axle under the greatest load
-    checks_stability = check("front axle keeps 20 % under GS6lim", Ra_lim / (GS6_lim + g.P_msha + g.P_gr) - 0.2, 1e-12)
+    checks_stability = check(
+        "front axle keeps 20 % under GS6lim", Ra_lim / (GS6_lim + g.P_msha + g.P_gr) - 0.2, 1e-12, of=1
+    )
     typeset(checks_stability)
-    return GS6_lim, GS6_max, Ra, Ra_lim, Ra_min, Rb, checks_stability, dRa, dRb
+    return GS6_lim, GS6_max, Ra, Ra_min, Rb, checks_stability, dRa, dRb
 
 
 @app.cell
@@ -888,7 +783,7 @@ def drawing_61(P23_S, P34_S, P45_S, P56_S, P67_S, PS6_S, Ra, Rb, frame, g, k_t, 
     lengths = wheels.dimension(nose + 1.05j, -g.L + 1.05j, "a").dimension(-g.L + 1.6j, 1.6j, "L")
     drawing_61 = lengths.dimension(-g.b + 1.25j, 1.25j, "b")
     typeset(drawing_61, caption("6.1", "The machine with its loads; wheels for the picture only"))
-    return (drawing_61,)
+    return
 
 
 @app.cell(hide_code=True)
@@ -924,7 +819,7 @@ def results_6(GS6_lim, GS6_max, Ra, Rb, S, S_p, dRa, dRb):
     )
     figure_62 = figure("6.2", "Share of the weight on the steered wheels", S, dRa, marks={"S_p": S_p})
     typeset(table_61, figure_62)
-    return figure_62, table_61
+    return
 
 
 @app.cell(hide_code=True)
@@ -947,8 +842,8 @@ def pole(I56, IS6, L7, O5, O7, P56_S, P67_S, PS6_S, dphi5, g, phi6_S, phi7_S):
     Imp = k_p * ((P56_S - O5).real * D_p - N_p)  # [-] transmission number of the suspension axis
     Isp = k_p * ((PS6_S - O5).real * D_p - N_p)  # [-] main transmission number
     checks_pole = (
-        check("instant centre: Imp = I56", Imp - I56, 1e-11 * np.max(abs(I56))),
-        check("instant centre: Isp = IS6", Isp - IS6, 1e-11 * np.max(abs(IS6))),
+        check("instant centre: Imp = I56", Imp - I56, 1e-11, of=I56),
+        check("instant centre: Isp = IS6", Isp - IS6, 1e-11, of=IS6),
     )
     typeset(*checks_pole)
     return Imp, Isp, checks_pole
@@ -958,7 +853,7 @@ def pole(I56, IS6, L7, O5, O7, P56_S, P67_S, PS6_S, dphi5, g, phi6_S, phi7_S):
 def table_7(I56, IS6, Imp, Isp, S):
     table_7 = table("7", "Instant centre", S, I56, IS6, Imp, Isp)
     table_7
-    return (table_7,)
+    return
 
 
 @app.cell

@@ -12,57 +12,13 @@ with app.setup:
     from numpy import min as least
 
     from mechsheet import (
-        Check,
-        Drawing,
-        DriveMoment,
-        Load,
-        PinReaction,
-        RPRGroup,
-        RRPGroup,
-        RRRGroup,
-        SlideReaction,
-        Used,
-        angle,
-        ask,
-        assembled,
-        balance,
-        caption,
-        check,
-        check_slope,
-        coupling_drive,
-        cross,
-        cut_group,
-        dot,
-        export,
-        figure,
-        gear_drive,
-        inertia,
-        inputs,
-        largest_of,
-        link_acceleration,
-        link_velocity,
-        magnitudes,
-        mark,
-        player,
-        polar,
-        read,
-        rpr,
-        rpr_acceleration,
-        rpr_velocity,
-        rrp,
-        rrp_acceleration,
-        rrp_transmission_angle,
-        rrp_velocity,
-        rrr,
-        rrr_acceleration,
-        rrr_transmission_angle,
-        rrr_velocity,
-        solve_reactions,
-        summary,
-        table,
-        title_block,
-        typeset,
-    )
+        Check, Drawing, DriveMoment, Load, PinReaction, RPRGroup, RRPGroup, RRRGroup, SlideReaction, Used,
+        angle, ask, assembled, balance, caption, check, check_slope, coupling_drive, cross, cut_group, dot,
+        export, figure, gear_drive, inertia, inputs, largest_of, link_acceleration, link_velocity, magnitudes,
+        mark, player, polar_diagrams, read, rpr, rpr_acceleration, rpr_velocity, rrp, rrp_acceleration,
+        rrp_transmission_angle, rrp_velocity, rrr, rrr_acceleration, rrr_transmission_angle, rrr_velocity,
+        slider, solve_reactions, summary, table, title_block, typeset,
+    )  # fmt: skip
     from mechsheet.units import deg
 
     np.seterr(divide="ignore", invalid="ignore")  # the arm of a force that is zero is shown as none
@@ -227,38 +183,18 @@ def section_21():
 
 @app.cell
 def kinematics_23(C, O1, g):
-    def P_A(phi1):
-        return O1 + g.l1 * exp(1j * phi1)  # [m] pin of the crank
-
-    def V_A(phi1):
-        return 1j * (P_A(phi1) - O1)  # [m] velocity analogue of A
-
-    def P_B(phi1):
-        return rrr(P_A(phi1), C, g.l2, g.l3, +1)  # [m] pin of the rod 2 on the rocker
-
-    def motion_23(phi1):
-        return rrr_velocity(P_A(phi1), C, P_B(phi1), V_A(phi1))
-
-    def u2(phi1):
-        return motion_23(phi1).omega_A  # [-] rod 2 to crank
-
-    def u3(phi1):
-        return motion_23(phi1).omega_B  # [-] rocker 3 to crank
-
-    def P_D(phi1):
-        return C + g.l_CD / g.l3 * (P_B(phi1) - C) * exp(1j * g.delta_D)  # [m] pin of the rod 4 on the rocker
-
-    def V_D(phi1):
-        return 1j * u3(phi1) * (P_D(phi1) - C)  # [m] velocity analogue of D
-
-    def P_K(phi1):
-        return C + g.l_CK / g.l3 * (P_B(phi1) - C) * exp(1j * g.delta_K)  # [m] pin of the rod 6 on the rocker
-
-    def V_K(phi1):
-        return 1j * u3(phi1) * (P_K(phi1) - C)  # [m] velocity analogue of K
-
+    P_A = lambda phi1: O1 + g.l1 * exp(1j * phi1)  # [m] pin of the crank
+    V_A = lambda phi1: 1j * (P_A(phi1) - O1)  # [m] velocity analogue of A
+    P_B = lambda phi1: rrr(P_A(phi1), C, g.l2, g.l3, +1)  # [m] pin of the rod 2 on the rocker
+    motion_23 = lambda phi1: rrr_velocity(P_A(phi1), C, P_B(phi1), V_A(phi1))
+    u2 = lambda phi1: motion_23(phi1).omega_A  # [-] rod 2 to crank
+    u3 = lambda phi1: motion_23(phi1).omega_B  # [-] rocker 3 to crank
+    P_D = lambda phi1: C + g.l_CD / g.l3 * (P_B(phi1) - C) * exp(1j * g.delta_D)  # [m] pin of the rod 4 on the rocker
+    V_D = lambda phi1: 1j * u3(phi1) * (P_D(phi1) - C)  # [m] velocity analogue of D
+    P_K = lambda phi1: C + g.l_CK / g.l3 * (P_B(phi1) - C) * exp(1j * g.delta_K)  # [m] pin of the rod 6 on the rocker
+    V_K = lambda phi1: 1j * u3(phi1) * (P_K(phi1) - C)  # [m] velocity analogue of K
     typeset()
-    return P_A, P_B, P_D, P_K, V_A, V_D, V_K, motion_23, u2, u3
+    return P_A, P_B, P_D, P_K, V_A, V_D, V_K, u2, u3
 
 
 @app.cell(hide_code=True)
@@ -271,27 +207,13 @@ def section_22():
 
 @app.cell
 def kinematics_45_67(H, O5, P_D, P_K, V_D, V_K, g, u5):
-    def P_E(phi1):
-        return rrp(P_D(phi1), O5, u5, g.l4, +1)  # [m] pin of the plunger
-
-    def motion_45(phi1):
-        return rrp_velocity(P_D(phi1), O5, P_E(phi1), u5, V_D(phi1))
-
-    def V_E(phi1):
-        return motion_45(phi1).v_C  # [m] velocity analogue of E
-
-    def u4(phi1):
-        return motion_45(phi1).omega_A  # [-] rod 4 to crank
-
-    def e7(phi1):
-        return rpr(P_K(phi1), H, +1).u  # [-] direction of the cylinder, from H to K
-
-    def motion_67(phi1):
-        return rpr_velocity(P_K(phi1), H, e7(phi1), V_K(phi1))
-
-    def u6(phi1):
-        return motion_67(phi1).omega_A  # [-] rod 6 and cylinder 7 to crank
-
+    P_E = lambda phi1: rrp(P_D(phi1), O5, u5, g.l4, +1)  # [m] pin of the plunger
+    motion_45 = lambda phi1: rrp_velocity(P_D(phi1), O5, P_E(phi1), u5, V_D(phi1))
+    V_E = lambda phi1: motion_45(phi1).v_C  # [m] velocity analogue of E
+    u4 = lambda phi1: motion_45(phi1).omega_A  # [-] rod 4 to crank
+    e7 = lambda phi1: rpr(P_K(phi1), H, +1).u  # [-] direction of the cylinder, from H to K
+    motion_67 = lambda phi1: rpr_velocity(P_K(phi1), H, e7(phi1), V_K(phi1))
+    u6 = lambda phi1: motion_67(phi1).omega_A  # [-] rod 6 and cylinder 7 to crank
     typeset()
     return P_E, V_E, e7, motion_45, motion_67, u4, u6
 
@@ -309,7 +231,7 @@ def section_23():
 
 @app.cell
 def turn():
-    turn = mo.ui.slider(0, 360, step=2, value=40, label="crank, degrees", show_value=True)
+    turn = slider(0, 360, step=2, value=40, label="crank", unit="deg")
     player(turn, turning=True)
     return (turn,)
 
@@ -349,7 +271,7 @@ def scheme(A, B, C, D, E, H, K, O1, O5, g, s5, u5):
         fixed = bodies.support(O1, "O1").support(C, "C", 0.0).support(H, "H", 0.0)
         return fixed.hinge(A[k], "A").hinge(B[k], "B").hinge(D[k], "D").hinge(E[k], "E").hinge(K[k], "K")
 
-    return along, frame, guided, paths, scheme
+    return (scheme,)
 
 
 @app.cell
@@ -360,15 +282,6 @@ def drawing_21(phi1, position_lines, scheme, turn):
         caption("2.1", f"Scheme of the mechanism, φ₁ = {turn.value}°"),
         position_lines.at(turn.value),
     )
-    return (drawing_21,)
-
-
-@app.cell(hide_code=True)
-def section_24():
-    mo.md("""
-    The groups must close, and the piston must stay in its cylinder: its stroke is the document's $l_{BC}$, from the
-    open end of the cylinder to the piston.
-    """)
     return
 
 
@@ -382,8 +295,14 @@ def closing(A, B, C, D, E, g, group_23, group_45, group_67, s7):
     # limit of the checks: from positions to forces the digits lost are twice those of the groups' condition numbers
     kappa = [np.max(group.condition) for group in (group_23, group_45, group_67)]
     lost = 32 * ulp * max(kappa) ** 2
-    typeset(*checks_closing)
-    return checks_closing, kappa, lost
+    typeset(
+        """
+        The groups must close, and the piston must stay in its cylinder: its stroke is the document's $l_{BC}$, from
+        the open end of the cylinder to the piston.
+        """,
+        *checks_closing,
+    )
+    return checks_closing, lost
 
 
 @app.cell
@@ -391,7 +310,7 @@ def positions_shown(g, mu23, mu45, phi1, phi2, phi3, phi4, phi6, s5, s7):
     table_21 = table("2.1", "Positions", phi1, phi2, phi3, phi4, phi6, s5, s7, every=g.step)
     figure_22 = figure("2.2", "Transmission angles", phi1, mu23, mu45)
     typeset(table_21, figure_22)
-    return figure_22, table_21
+    return
 
 
 @app.cell(hide_code=True)
@@ -408,30 +327,21 @@ def section_3():
 
 @app.cell
 def centres(C, H, O1, P_A, P_B, P_D, P_E, P_K, e7, g):
-    def P_S1(phi1):
-        return O1 + g.l_O1S1 * exp(1j * phi1)  # [m] crank
-
-    def P_S2(phi1):
-        return P_B(phi1) + g.l_BS2 / g.l2 * (P_A(phi1) - P_B(phi1))  # [m] rod 2
-
-    def P_S3(phi1):
-        return P_B(phi1) + g.l_BS3 / g.l3 * (C - P_B(phi1))  # [m] rocker
-
-    def P_S4(phi1):
-        return P_E(phi1) + g.l_ES4 / g.l4 * (P_D(phi1) - P_E(phi1))  # [m] rod 4
-
-    def P_S6(phi1):
-        return P_K(phi1) - g.l_KS6 * e7(phi1)  # [m] rod with piston
-
-    def P_S7(phi1):
-        return H + g.l_HS7 * e7(phi1)  # [m] cylinder
-
+    P_S1 = lambda phi1: O1 + g.l_O1S1 * exp(1j * phi1)  # [m] crank
+    P_S2 = lambda phi1: P_B(phi1) + g.l_BS2 / g.l2 * (P_A(phi1) - P_B(phi1))  # [m] rod 2
+    P_S3 = lambda phi1: P_B(phi1) + g.l_BS3 / g.l3 * (C - P_B(phi1))  # [m] rocker
+    P_S4 = lambda phi1: P_E(phi1) + g.l_ES4 / g.l4 * (P_D(phi1) - P_E(phi1))  # [m] rod 4
+    P_S6 = lambda phi1: P_K(phi1) - g.l_KS6 * e7(phi1)  # [m] rod with piston
+    P_S7 = lambda phi1: H + g.l_HS7 * e7(phi1)  # [m] cylinder
     typeset()
     return P_S1, P_S2, P_S3, P_S4, P_S6, P_S7
 
 
 @app.cell
-def motion(A, B, C, D, E, H, K, O1, O5, g, motion_45, motion_67, omega1, phi1, u2, u3, u4, u5, u6):
+def motion(
+    A, B, C, D, E, H, K, O1, O5, P_S1, P_S2, P_S3, P_S4, P_S6, P_S7, g, motion_45, motion_67, omega1, phi1, u2, u3, u4,
+    u5, u6,
+):  # fmt: skip
     omega2 = omega1 * u2(phi1)  # [rad/s] rod 2
     omega3 = omega1 * u3(phi1)  # [rad/s] rocker 3
     omega4 = omega1 * u4(phi1)  # [rad/s] rod 4
@@ -448,46 +358,25 @@ def motion(A, B, C, D, E, H, K, O1, O5, g, motion_45, motion_67, omega1, phi1, u
     eps4 = change_45.epsilon_A  # [rad/s**2] rod 4
     a_E = change_45.a_C  # [m/s**2] plunger
     eps6 = rpr_acceleration(K, H, K - H, omega6, v6, a_A=a_K).epsilon_A  # [rad/s**2] rod 6 and cylinder 7
-    motion_lines = typeset()
-    return (
-        a_A, a_D, a_E, a_K, change_23, change_45, eps2, eps3, eps4, eps6, motion_lines, omega2, omega3, omega4, omega6,
-        v5, v6,
-    )  # fmt: skip
-
-
-@app.cell
-def centres_placed(P_S1, P_S2, P_S3, P_S4, P_S6, P_S7, phi1):
     S1 = P_S1(phi1)  # [m] crank
     S2 = P_S2(phi1)  # [m] rod 2
     S3 = P_S3(phi1)  # [m] rocker
     S4 = P_S4(phi1)  # [m] rod 4
     S6 = P_S6(phi1)  # [m] rod with piston
     S7 = P_S7(phi1)  # [m] cylinder
-    centre_lines = typeset()
-    return S1, S2, S3, S4, S6, S7, centre_lines
-
-
-@app.cell
-def centres_moved(A, C, O1, S1, S2, S3, a_A, eps2, eps3, g, omega1, omega2, omega3):
     a_S1 = link_acceleration(S1, O1, omega1, 0, g.eps1)  # [m/s**2] crank
     a_S2 = link_acceleration(S2, A, omega2, a_A, eps2)  # [m/s**2] rod 2
     a_S3 = link_acceleration(S3, C, omega3, 0, eps3)  # [m/s**2] rocker
-    moved_lines = typeset()
-    return a_S1, a_S2, a_S3, moved_lines
-
-
-@app.cell
-def centres_moved_later(D, H, K, S4, S6, S7, a_D, a_K, eps4, eps6, omega4, omega6):
     a_S4 = link_acceleration(S4, D, omega4, a_D, eps4)  # [m/s**2] rod 4
     a_S6 = link_acceleration(S6, K, omega6, a_K, eps6)  # [m/s**2] rod with piston
     a_S7 = link_acceleration(S7, H, omega6, 0, eps6)  # [m/s**2] cylinder
-    moved_later_lines = typeset()
-    return a_S4, a_S6, a_S7, moved_later_lines
+    motion_lines = typeset()
+    return S1, S2, S3, S4, S6, S7, a_E, a_S1, a_S2, a_S3, a_S4, a_S6, a_S7, eps2, eps3, eps4, eps6, motion_lines
 
 
 @app.cell
-def motion_shown(centre_lines, motion_lines, moved_later_lines, moved_lines, turn):
-    typeset(*(lines.at(turn.value) for lines in (motion_lines, centre_lines, moved_lines, moved_later_lines)))
+def motion_shown(motion_lines, turn):
+    motion_lines.at(turn.value)
     return
 
 
@@ -552,7 +441,7 @@ def weights(e7, g, motion_45, omega1, phi1, u5):
     F_g = g.p_g * pi * g.D_g**2 / 4  # [N] force of the gas on the piston
     F_gas = F_g * e7(phi1)  # [N] gas on the piston, along the cylinder
     load_lines = typeset()
-    return F_Q, F_g, F_gas, G1, G2, G3, G4, G5, G6, G7, load_lines, working
+    return F_Q, F_g, F_gas, G1, G2, G3, G4, G5, G6, G7, load_lines
 
 
 @app.cell
@@ -574,7 +463,7 @@ def loads_listed(
     )
     table_33 = table("3.3", "Inertia moments", phi1, M_in2, M_in3, M_in4, M_in6, M_in7, every=g.step, decimals=1)
     typeset(table_31, table_32, table_33)
-    return table_31, table_32, table_33
+    return
 
 
 @app.cell(hide_code=True)
@@ -617,14 +506,14 @@ def kind_2(F_Q, F_in4, F_in5, G4, G5, M_in4, g, phi4):
     R45 = hypot(R45_x, R45_y)  # [N] (1.31)
     gamma45 = atan2(R45_y, R45_x) % (2 * pi)  # [deg] (1.32)
     SR2 = typeset()
-    return (
-        A_45, B_45, F4, F4_sum, F5, F5_sum, M4, R05, R34, R34_n, R34_t, R45, R45_x, R45_y, SR2, gamma05, gamma34,
-        gamma34_t, gamma4, gamma45, gamma5,
-    )  # fmt: skip
+    return A_45, B_45, F4_sum, F5_sum, M4, R05, R34, R34_n, R45, SR2, gamma05, gamma34, gamma45
 
 
 @app.cell
-def library_45(E, F_Q, G4, G5, R05, R34, R45, S4, a_E, a_S4, eps4, g, gamma05, gamma34, gamma45, group_45, lost):
+def compared_45(
+    A_45, B_45, E, F_Q, G4, G5, R05, R34, R34_n, R45, S4, a_E, a_S4, eps4, g, gamma05, gamma34, gamma45, group_45, lost,
+    phi4,
+):  # fmt: skip
     found_45 = group_45.reactions(
         [Load(G4, S4), inertia(S4, g.m4, g.J4, a_S4, eps4)],
         [Load(G5 + F_Q, E), inertia(E, g.m5, 0, a_E)],
@@ -632,64 +521,38 @@ def library_45(E, F_Q, G4, G5, R05, R34, R45, S4, a_E, a_S4, eps4, g, gamma05, g
     R_D = found_45.R_A  # [N] rocker 3 on the rod 4, at D
     R_05 = found_45.R_B  # [N] guide on the plunger 5, at E
     R_E = -found_45.R_C  # [N] rod 4 on the plunger 5, at E
-    _limit = lost * largest_of(R_D, R_05, R_E)
+    _size = largest_of(R_D, R_05, R_E)
     checks_45 = (
-        check("second kind: R34 is that of the library", R34 * exp(1j * gamma34) - R_D, _limit, "N"),
-        check("second kind: R05 is that of the library", R05 * exp(1j * gamma05) - R_05, _limit, "N"),
-        check("second kind: R45 is that of the library", R45 * exp(1j * gamma45) - R_E, _limit, "N"),
+        check("second kind: R34 is that of the library", R34 * exp(1j * gamma34) - R_D, lost, "N", of=_size),
+        check("second kind: R05 is that of the library", R05 * exp(1j * gamma05) - R_05, lost, "N", of=_size),
+        check("second kind: R45 is that of the library", R45 * exp(1j * gamma45) - R_E, lost, "N", of=_size),
     )
     vectors_45 = typeset()
-    return R_05, R_D, R_E, checks_45, found_45, vectors_45
-
-
-@app.cell
-def drawing_41(D, E, F4_sum, F5_sum, R_05, R_D, S4, SR2, g, turn, u5):
-    _d, _e, _s4 = D[turn.value], E[turn.value], S4[turn.value]
-    _links = group_picture.guide(_e - 0.06 * u5, _e + 0.06 * u5).link(_d, _e, "4").slider(_e, g.phi05, "5")
-    _forces = {"F4": (S4, F4_sum), "F5": (E, F5_sum, D), "R05": (E, R_05), "R34": (D, R_D, E)}
-    drawing_41 = cut_group(_links.hinge(_d, "D").hinge(_e, "E").mass(_s4, "S4"), turn.value, _forces, [D, E])
-    _caption = caption("4.1", f"Group (4, 5) with its forces, φ₁ = {turn.value}°")
-    typeset(turn, drawing_41, _caption, SR2.at(turn.value))
-    return (drawing_41,)
-
-
-@app.cell(hide_code=True)
-def section_41():
-    mo.md(r"""
-    The same vectors by the mechanics library, which solves the group's equations in another form:
-    """)
-    return
-
-
-@app.cell
-def library_45_shown(checks_45, turn, vectors_45):
-    typeset(vectors_45.at(turn.value), *checks_45)
-    return
-
-
-@app.cell(hide_code=True)
-def section_42():
-    mo.md(r"""
-    **Erratum.** The second line of the system after (1.26) is printed with a minus, $R_{12}^n \sin\varphi_2 - R_{43}
-    \cos\varphi_4 = -B$; in (1.26) it has the plus. What each line leaves, and the reactions that solve the system as
-    printed:
-    """)
-    return
-
-
-@app.cell
-def errata_45(A_45, B_45, R05, R34_n, g, phi4):
     r_45 = R34_n * sin(phi4) + R05 * cos(g.phi05) + B_45  # [N] left by the line with the plus
     r_45_printed = R34_n * sin(phi4) - R05 * cos(g.phi05) + B_45  # [N] left by the line as printed (erratum)
     R34_n_printed = -(A_45 * cos(g.phi05) - B_45 * sin(g.phi05)) / cos(phi4 + g.phi05)  # [N] as printed (erratum)
     R05_printed = -(A_45 * sin(phi4) - B_45 * cos(phi4)) / cos(phi4 + g.phi05)  # [N] as printed (erratum)
     lines_42 = typeset()
-    return R05_printed, R34_n_printed, lines_42, r_45, r_45_printed
+    return R_05, R_D, R_E, checks_45, lines_42, vectors_45
 
 
 @app.cell
-def errata_45_shown(lines_42, turn):
-    lines_42.at(turn.value)
+def drawing_41(D, E, F4_sum, F5_sum, R_05, R_D, S4, SR2, checks_45, g, lines_42, turn, u5, vectors_45):
+    _d, _e, _s4 = D[turn.value], E[turn.value], S4[turn.value]
+    _links = group_picture.guide(_e - 0.06 * u5, _e + 0.06 * u5).link(_d, _e, "4").slider(_e, g.phi05, "5")
+    _forces = {"F4": (S4, F4_sum), "F5": (E, F5_sum, D), "R05": (E, R_05), "R34": (D, R_D, E)}
+    drawing_41 = cut_group(_links.hinge(_d, "D").hinge(_e, "E").mass(_s4, "S4"), turn.value, _forces, [D, E])
+    typeset(
+        *(turn, drawing_41, caption("4.1", f"Group (4, 5) with its forces, φ₁ = {turn.value}°"), SR2.at(turn.value)),
+        "The same vectors by the mechanics library, which solves the group's equations in another form:",
+        *(vectors_45.at(turn.value), *checks_45),
+        r"""
+        **Erratum.** The second line of the system after (1.26) is printed with a minus, $R_{12}^n \sin\varphi_2 -
+        R_{43} \cos\varphi_4 = -B$; in (1.26) it has the plus. What each line leaves, and the reactions that solve
+        the system as printed:
+        """,
+        lines_42.at(turn.value),
+    )
     return
 
 
@@ -706,7 +569,7 @@ def section_5():
 
 
 @app.cell
-def kind_3(F_gas, F_in6, F_in7, G6, G7, M_in6, M_in7, g, phi6, s7):
+def kind_3(F_gas, F_in6, F_in7, G6, G7, H, K, M_in6, M_in7, g, phi6):
     F6_sum = G6 + F_in6 + F_gas  # [N] loads on the rod with piston 6, at S6
     F6 = abs(F6_sum)  # [N] loads on the rod with piston 6
     gamma6 = angle(F6_sum)  # [deg] their direction
@@ -715,7 +578,7 @@ def kind_3(F_gas, F_in6, F_in7, G6, G7, M_in6, M_in7, g, phi6, s7):
     F7 = abs(F7_sum)  # [N] loads on the cylinder 7
     gamma7 = angle(F7_sum)  # [deg] their direction
     M7 = M_in7  # [N*m] their moment
-    l_HK = (g.l6 - s7) + g.l7  # [m] (1.33) H to K
+    l_HK = abs(H - K)  # [m] (1.33) H to K; l6 - s7 + l7 loses its digits where l7 is long
     l_HS6 = l_HK - g.l_KS6  # [m] (1.33) H to S6
     T6 = F6 * l_HS6 * sin(phi6 - gamma6) + M6  # [N*m] (1.34) moment of the loads on 6 about H
     T7 = F7 * g.l_HS7 * sin(phi6 - gamma7) + M7  # [N*m] (1.34) moment of the loads on 7 about H
@@ -735,14 +598,14 @@ def kind_3(F_gas, F_in6, F_in7, G6, G7, M_in6, M_in7, g, phi6, s7):
     gamma07 = atan2(R07_y, R07_x) % (2 * pi)  # [deg] (1.43)
     h76 = -(F6 * g.l_KS6 * sin(gamma6 - phi6) + M6) / (R76 * sin(gamma76 - phi6))  # [m] (1.46) its arm from K
     SR3 = typeset()
-    return (
-        A_67, B_67, F6, F6_sum, F7, F7_sum, M6, M7, R07, R07_x, R07_y, R36, R36_n, R36_t, R76, SR3, T6, T7, gamma07,
-        gamma36, gamma36_t, gamma6, gamma67, gamma7, gamma76, h76, l_HK, l_HS6,
-    )  # fmt: skip
+    return A_67, F6_sum, F7, F7_sum, M6, M7, R07, R36, R36_n, R76, SR3, T6, gamma07, gamma36, gamma6, gamma76, h76, l_HK
 
 
 @app.cell
-def library_67(F_gas, G6, G7, S6, S7, a_S6, a_S7, eps6, g, group_67):
+def compared_67(
+    A_67, F7, F_gas, G6, G7, M7, R07, R36, R36_n, R76, S6, S7, T6, a_S6, a_S7, eps6, g, gamma07, gamma36, gamma6,
+    gamma76, group_67, h76, l_HK, lost, phi6,
+):  # fmt: skip
     found_67 = group_67.reactions(
         [Load(G6 + F_gas, S6), inertia(S6, g.m6, g.J6, a_S6, eps6)],
         [Load(G7 - F_gas, S7), inertia(S7, g.m7, g.J7, a_S7, eps6)],
@@ -751,62 +614,15 @@ def library_67(F_gas, G6, G7, S6, S7, a_S6, a_S7, eps6, g, group_67):
     R_H = found_67.R_B  # [N] frame on the cylinder 7, at H
     R_76 = found_67.R_C  # [N] cylinder 7 on the rod 6
     M_76 = found_67.M_C  # [N*m] its moment about K
-    vectors_67 = typeset()
-    return M_76, R_76, R_H, R_K, found_67, vectors_67
-
-
-@app.cell
-def agreed_67(M_76, R07, R36, R76, R_76, R_H, R_K, gamma07, gamma36, gamma76, h76, l_HK, lost):
-    _limit = lost * largest_of(R_K, R_H, R_76)
+    _size = largest_of(R_K, R_H, R_76)
     _moments = where(R76 == 0, 0, R76 * h76) - M_76
     checks_67 = (
-        check("third kind: R36 is that of the library", R36 * exp(1j * gamma36) - R_K, _limit, "N"),
-        check("third kind: R76 is that of the library", R76 * exp(1j * gamma76) - R_76, _limit, "N"),
-        check("third kind: R07 is that of the library", R07 * exp(1j * gamma07) - R_H, _limit, "N"),
-        check("third kind: R76 h76 is the library's moment", _moments, _limit * largest_of(l_HK), "N*m"),
+        check("third kind: R36 is that of the library", R36 * exp(1j * gamma36) - R_K, lost, "N", of=_size),
+        check("third kind: R76 is that of the library", R76 * exp(1j * gamma76) - R_76, lost, "N", of=_size),
+        check("third kind: R07 is that of the library", R07 * exp(1j * gamma07) - R_H, lost, "N", of=_size),
+        check("third kind: R76 h76 is the library's moment", _moments, lost, "N*m", of=_size * largest_of(l_HK)),
     )
-    return (checks_67,)
-
-
-@app.cell
-def drawing_51(F6_sum, F7_sum, H, K, R_H, R_K, S6, S7, SR3, g, turn):
-    _k, _s6, _s7 = K[turn.value], S6[turn.value], S7[turn.value]
-    _links = group_picture.cylinder(H, _k, "7", g.l7).hinge(H, "H").hinge(_k, "K").mass(_s6, "S6").mass(_s7, "S7")
-    _forces = {"F6": (S6, F6_sum), "F7": (S7, F7_sum), "R36": (K, R_K, H), "R07": (H, R_H, K)}
-    drawing_51 = cut_group(_links, turn.value, _forces, [K, H])
-    _caption = caption("5.1", f"Group (6, 7) with its forces, φ₁ = {turn.value}°")
-    typeset(turn, drawing_51, _caption, SR3.at(turn.value))
-    return (drawing_51,)
-
-
-@app.cell(hide_code=True)
-def section_51():
-    mo.md(r"""
-    The same vectors by the library; $R_{76}$ at the arm $h_{76}$ does the same as the library's $R_{76}$ at K with its
-    moment.
-    """)
-    return
-
-
-@app.cell
-def library_67_shown(checks_67, turn, vectors_67):
-    typeset(vectors_67.at(turn.value), *checks_67)
-    return
-
-
-@app.cell(hide_code=True)
-def section_52():
-    mo.md(r"""
-    **Errata.** The second term of (1.35) is printed with $\sin(\varphi_2 - \gamma_2)$, the direction of the other
-    link's load. (1.34) is printed with $\sin(\varphi_2 + 0.5)$ for $\sin(\varphi_2 + 0.5\,\pi)$: the determinant over
-    $l_{EA} R_{12}^\tau$ is -1 with the $\pi$. The first line of the system after (1.37) is printed with $R_{43}$ for
-    $R_{32}$. The printed and the right numbers:
-    """)
-    return
-
-
-@app.cell
-def errata_67(A_67, F7, M7, R07, R36_n, R76, T6, g, gamma6, l_HK, phi6):
+    vectors_67 = typeset()
     T7_printed = F7 * g.l_HS7 * sin(phi6 - gamma6) + M7  # [N*m] (1.35) as printed (erratum)
     R36_t_printed = (T6 + T7_printed) / l_HK  # [N] (1.35) as printed (erratum)
     d_134 = cos(phi6 + pi) * sin(phi6 + 0.5 * pi) - sin(phi6 + pi) * cos(phi6 + 0.5 * pi)  # [-] (1.34)
@@ -814,12 +630,30 @@ def errata_67(A_67, F7, M7, R07, R36_n, R76, T6, g, gamma6, l_HK, phi6):
     r_67 = R36_n * cos(phi6) - R76 * sin(phi6) + A_67  # [N] (1.37) left by the first line
     r_67_printed = R36_n * cos(phi6) - R07 * sin(phi6) + A_67  # [N] left by the line as printed (erratum)
     lines_52 = typeset()
-    return R36_t_printed, T7_printed, d_134, d_134_printed, lines_52, r_67, r_67_printed
+    return R_H, R_K, checks_67, lines_52, vectors_67
 
 
 @app.cell
-def errata_67_shown(lines_52, turn):
-    lines_52.at(turn.value)
+def drawing_51(F6_sum, F7_sum, H, K, R_H, R_K, S6, S7, SR3, checks_67, g, lines_52, turn, vectors_67):
+    _k, _s6, _s7 = K[turn.value], S6[turn.value], S7[turn.value]
+    _links = group_picture.cylinder(H, _k, "7", g.l7).hinge(H, "H").hinge(_k, "K").mass(_s6, "S6").mass(_s7, "S7")
+    _forces = {"F6": (S6, F6_sum), "F7": (S7, F7_sum), "R36": (K, R_K, H), "R07": (H, R_H, K)}
+    drawing_51 = cut_group(_links, turn.value, _forces, [K, H])
+    typeset(
+        *(turn, drawing_51, caption("5.1", f"Group (6, 7) with its forces, φ₁ = {turn.value}°"), SR3.at(turn.value)),
+        """
+        The same vectors by the library; $R_{76}$ at the arm $h_{76}$ does the same as the library's $R_{76}$ at
+        K with its moment.
+        """,
+        *(vectors_67.at(turn.value), *checks_67),
+        r"""
+        **Errata.** The second term of (1.35) is printed with $\sin(\varphi_2 - \gamma_2)$, the direction of the
+        other link's load. (1.34) is printed with $\sin(\varphi_2 + 0.5)$ for $\sin(\varphi_2 + 0.5\,\pi)$: the
+        determinant over $l_{EA} R_{12}^\tau$ is -1 with the $\pi$. The first line of the system after (1.37) is
+        printed with $R_{43}$ for $R_{32}$. The printed and the right numbers:
+        """,
+        lines_52.at(turn.value),
+    )
     return
 
 
@@ -869,14 +703,14 @@ def kind_1(D, F_in2, F_in3, G2, G3, K, M_in2, M_in3, R34, R36, S3, g, gamma34, g
     R23 = hypot(R23_x, R23_y)  # [N] (1.20)
     gamma23 = atan2(R23_y, R23_x) % (2 * pi)  # [deg] (1.21)
     SR1 = typeset()
-    return (
-        A_2, A_23, A_3, B_2, B_23, B_3, F2, F2_sum, F3, F3_own, F3_sum, M2, M3, R03, R03_n, R03_t, R12, R12_n, R12_t,
-        R23, R23_x, R23_y, R43, R63, SR1, gamma03, gamma03_t, gamma12, gamma12_t, gamma2, gamma23, gamma3,
-    )  # fmt: skip
+    return F2_sum, F3_own, M2, R03, R12, R23, R43, R63, SR1, gamma03, gamma12, gamma23
 
 
 @app.cell
-def library_23(D, G2, G3, K, R_D, R_K, S2, S3, a_S2, a_S3, eps2, eps3, g, group_23):
+def compared_23(
+    D, G2, G3, K, R03, R12, R23, R_05, R_D, R_E, R_H, R_K, S2, S3, a_S2, a_S3, eps2, eps3, g, gamma03, gamma12, gamma23,
+    group_23, lost,
+):  # fmt: skip
     found_23 = group_23.reactions(
         [Load(G2, S2), inertia(S2, g.m2, g.J2, a_S2, eps2)],
         [Load(G3, S3), inertia(S3, g.m3, g.J3, a_S3, eps3), Load(-R_D, D), Load(-R_K, K)],
@@ -884,45 +718,29 @@ def library_23(D, G2, G3, K, R_D, R_K, S2, S3, a_S2, a_S3, eps2, eps3, g, group_
     R_A = found_23.R_A  # [N] crank 1 on the rod 2, at A
     R_C = found_23.R_B  # [N] frame on the rocker 3, at C
     R_B = -found_23.R_C  # [N] rod 2 on the rocker 3, at B
-    vectors_23 = typeset()
-    return R_A, R_B, R_C, found_23, vectors_23
-
-
-@app.cell
-def agreed_23(R03, R12, R23, R_05, R_A, R_B, R_C, R_D, R_E, R_H, R_K, gamma03, gamma12, gamma23, lost):
     largest = largest_of(R_A, R_B, R_C, R_D, R_E, R_05, R_K, R_H)
     checks_23 = (
-        check("first kind: R12 is that of the library", R12 * exp(1j * gamma12) - R_A, lost * largest, "N"),
-        check("first kind: R03 is that of the library", R03 * exp(1j * gamma03) - R_C, lost * largest, "N"),
-        check("first kind: R23 is that of the library", R23 * exp(1j * gamma23) - R_B, lost * largest, "N"),
+        check("first kind: R12 is that of the library", R12 * exp(1j * gamma12) - R_A, lost, "N", of=largest),
+        check("first kind: R03 is that of the library", R03 * exp(1j * gamma03) - R_C, lost, "N", of=largest),
+        check("first kind: R23 is that of the library", R23 * exp(1j * gamma23) - R_B, lost, "N", of=largest),
     )
-    return checks_23, largest
+    vectors_23 = typeset()
+    return R_A, R_B, R_C, checks_23, largest, vectors_23
 
 
 @app.cell
-def drawing_61(A, B, C, D, F2_sum, F3_own, K, R_A, R_C, R_D, R_K, S2, S3, SR1, turn):
+def drawing_61(A, B, C, D, F2_sum, F3_own, K, R_A, R_C, R_D, R_K, S2, S3, SR1, checks_23, turn, vectors_23):
     _a, _b, _d, _k, _s2, _s3 = (_P[turn.value] for _P in (A, B, D, K, S2, S3))
     _links = group_picture.link(_a, _b, "2").plate([C, _b, _k, _d], "3").mass(_s2, "S2").mass(_s3, "S3")
     _pins = _links.hinge(_a, "A").hinge(_b, "B").hinge(C, "C").hinge(_d, "D").hinge(_k, "K")
     _back = {"R43": (D, -R_D, C), "R63": (K, -R_K, C)}
     _own = {"F2": (S2, F2_sum), "F3_own": (S3, F3_own), "R12": (A, R_A, B), "R03": (C, R_C, B)}
     drawing_61 = cut_group(_pins, turn.value, _back | _own, [A, B, C, D, K])
-    _caption = caption("6.1", f"Group (2, 3) with its forces, φ₁ = {turn.value}°")
-    typeset(turn, drawing_61, _caption, SR1.at(turn.value))
-    return (drawing_61,)
-
-
-@app.cell(hide_code=True)
-def section_61():
-    mo.md(r"""
-    The same vectors by the library:
-    """)
-    return
-
-
-@app.cell
-def library_23_shown(checks_23, turn, vectors_23):
-    typeset(vectors_23.at(turn.value), *checks_23)
+    typeset(
+        *(turn, drawing_61, caption("6.1", f"Group (2, 3) with its forces, φ₁ = {turn.value}°"), SR1.at(turn.value)),
+        "The same vectors by the library:",
+        *(vectors_23.at(turn.value), *checks_23),
+    )
     return
 
 
@@ -981,17 +799,14 @@ def gear(A, F1, G1, M1, O1, R21, R_A, S1, a_S1, g, gamma1, gamma21, lost, phi1):
     P_w = O1 - g.l_O1P  # [m] pitch point
     drive_g = gear_drive(O1, P_w, g.alpha_w, loads_O1)
     F_w = drive_g.F  # [N] balancing force on the crank's wheel, at P
-    R_1g = drive_g.R_O1  # [N] frame on the crank, at O1
-    _limit = lost * largest_of(F_w, R_1g, R_A)
+    R_1g = drive_g.R_O1  # [N] frame on the crank, at O1, gear
+    _size = largest_of(F_w, R_1g, R_A)
     checks_gear = (
-        check("gear: the force is that of the library", abs(F_b) * exp(1j * gamma_b) - F_w, _limit, "N"),
-        check("gear: RO1 is that of the library", R_O1g * exp(1j * gamma_O1g) - R_1g, _limit, "N"),
+        check("gear: the force is that of the library", abs(F_b) * exp(1j * gamma_b) - F_w, lost, "N", of=_size),
+        check("gear: RO1 is that of the library", R_O1g * exp(1j * gamma_O1g) - R_1g, lost, "N", of=_size),
     )
     gear_lines = typeset()
-    return (
-        F_b, F_w, P_w, R_1g, R_O1g, R_O1g_x, R_O1g_y, T1, T2, checks_gear, drive_g, gamma_O1g, gamma_b, gamma_b0,
-        gear_lines, loads_O1,
-    )  # fmt: skip
+    return F_b, F_w, P_w, R_1g, R_O1g, T1, T2, checks_gear, gamma_O1g, gamma_b, gear_lines, loads_O1
 
 
 @app.cell
@@ -1004,7 +819,7 @@ def drawing_71(A, F1_sum, F_w, O1, P_w, R_1g, R_A, S1, checks_gear, g, gear_line
         *(turn, drawing_71, caption("7.1", f"Crank driven by a gear, φ₁ = {turn.value}°")),
         *(gear_lines.at(turn.value), *checks_gear),
     )
-    return (drawing_71,)
+    return
 
 
 @app.cell(hide_code=True)
@@ -1031,14 +846,14 @@ def coupling(F1, O1, R21, R_A, T1, T2, g, gamma1, gamma21, loads_O1, lost):
     gamma_O1c = atan2(R_O1c_y, R_O1c_x) % (2 * pi)  # [deg] (1.59)
     drive_c = coupling_drive(O1, loads_O1)
     M_c = drive_c.M  # [N*m] balancing moment
-    R_1c = drive_c.R_O1  # [N] frame on the crank, at O1
-    _limit = lost * largest_of(R_1c, R_A)
+    R_1c = drive_c.R_O1  # [N] frame on the crank, at O1, coupling
+    _size = largest_of(R_1c, R_A)
     checks_drive = (
-        check("coupling: the moment is that of the library", M_b - M_c, _limit * g.l1, "N*m"),
-        check("coupling: RO1 is that of the library", R_O1c * exp(1j * gamma_O1c) - R_1c, _limit, "N"),
+        check("coupling: the moment is that of the library", M_b - M_c, lost, "N*m", of=_size * g.l1),
+        check("coupling: RO1 is that of the library", R_O1c * exp(1j * gamma_O1c) - R_1c, lost, "N", of=_size),
     )
     coupling_lines = typeset()
-    return M_b, M_b_printed, M_c, R_1c, R_O1c, R_O1c_x, R_O1c_y, checks_drive, coupling_lines, drive_c, gamma_O1c
+    return M_b, M_c, R_1c, R_O1c, checks_drive, coupling_lines, gamma_O1c
 
 
 @app.cell
@@ -1052,7 +867,7 @@ def drawing_72(A, F1_sum, M_c, O1, R_1c, R_A, S1, checks_drive, coupling_lines, 
         *(turn, drawing_72, caption("7.2", f"Crank driven by a coupling, φ₁ = {turn.value}°: {_says}")),
         *(coupling_lines.at(turn.value), *checks_drive),
     )
-    return (drawing_72,)
+    return
 
 
 @app.cell(hide_code=True)
@@ -1064,7 +879,10 @@ def section_8():
 
 
 @app.cell
-def groups_listed(R05, R07, R34, R36, R45, R76, g, gamma07, gamma34, gamma36, gamma45, h76, phi1):
+def turn_listed(
+    F_b, M_b, P_b, R03, R05, R07, R12, R23, R34, R36, R45, R76, R_O1c, R_O1g, g, gamma03, gamma07, gamma12, gamma23,
+    gamma34, gamma36, gamma45, gamma_O1c, gamma_O1g, gamma_b, h76, phi1,
+):  # fmt: skip
     table_81 = table("8.1", "Reactions, second kind", phi1, R34, gamma34, R05, R45, gamma45, every=g.step)
     table_82 = table(
         "8.2",
@@ -1073,19 +891,11 @@ def groups_listed(R05, R07, R34, R36, R45, R76, g, gamma07, gamma34, gamma36, ga
         every=g.step,
         note="Where R76 passes through zero its arm h76 grows without bound: the pair then passes on a moment alone.",
     )
-    typeset(table_81, table_82)
-    return table_81, table_82
-
-
-@app.cell
-def drive_listed(
-    F_b, M_b, P_b, R03, R12, R23, R_O1c, R_O1g, g, gamma03, gamma12, gamma23, gamma_O1c, gamma_O1g, gamma_b, phi1
-):
     table_83 = table("8.3", "Reactions, first kind", phi1, R12, gamma12, R23, gamma23, R03, gamma03, every=g.step)
     table_84 = table("8.4", "Drive by a gear", phi1, F_b, gamma_b, R_O1g, gamma_O1g, every=g.step)
     table_85 = table("8.5", "Drive by a coupling", phi1, M_b, R_O1c, gamma_O1c, P_b, every=g.step)
-    typeset(table_83, table_84, table_85)
-    return table_83, table_84, table_85
+    typeset(table_81, table_82, table_83, table_84, table_85)
+    return
 
 
 @app.cell
@@ -1095,7 +905,7 @@ def power(M_b, g, omega1, phi1, s5):
     M_mean = W_b / (2 * pi)  # [N*m] mean moment
     W_Q = g.Q5 * (most(s5) - least(s5))  # [J] work against the resistance in a turn
     power_lines = typeset()
-    return M_mean, P_b, W_Q, W_b, power_lines
+    return P_b, power_lines
 
 
 @app.cell
@@ -1113,7 +923,7 @@ def turn_drawn(F_b, M_b, R03, R05, R07, R12, R23, R34, R36, R45, R76, R_O1c, R_O
     figure_85 = figure("8.5", "Balancing moment of the coupling", phi1, M_b)
     figure_86 = figure("8.6", "Reactions of the frame on the crank", phi1, R_O1g, R_O1c)
     typeset(figure_81, figure_82, figure_83, figure_84, figure_85, figure_86)
-    return figure_81, figure_82, figure_83, figure_84, figure_85, figure_86
+    return
 
 
 @app.cell(hide_code=True)
@@ -1130,23 +940,10 @@ def section_81():
 
 @app.cell
 def figure_87(R_1c, R_1g, R_A, R_B, R_C, R_D, R_E, R_H, R_K, turn):
-    _polars = {
-        "R12": (R_A, "crank on the rod 2, at A"),
-        "R23": (R_B, "rod 2 on the rocker 3, at B"),
-        "R03": (R_C, "frame on the rocker 3, at C"),
-        "R34": (R_D, "rocker 3 on the rod 4, at D"),
-        "R45": (R_E, "rod 4 on the plunger 5, at E"),
-        "R36": (R_K, "rocker 3 on the rod 6, at K"),
-        "R07": (R_H, "frame on the cylinder 7, at H"),
-        "R_O1g": (R_1g, "frame on the crank, at O1, gear"),
-        "R_O1c": (R_1c, "frame on the crank, at O1, coupling"),
-    }
-    _shown = [
-        mo.vstack([polar(_R, turn.value, _name), mo.md(_what)], align="center")
-        for _name, (_R, _what) in _polars.items()
-    ]
-    _rows = [mo.hstack(_shown[_i : _i + 3], widths="equal", align="end") for _i in range(0, len(_shown), 3)]
-    typeset(turn, *_rows, caption("8.7", "Polar diagrams of the reactions"))
+    _polars = polar_diagrams(
+        turn.value, R12=R_A, R23=R_B, R03=R_C, R34=R_D, R45=R_E, R36=R_K, R07=R_H, R_O1g=R_1g, R_O1c=R_1c
+    )
+    typeset(turn, _polars, caption("8.7", "Polar diagrams of the reactions"))
     return
 
 
@@ -1163,7 +960,11 @@ def section_9():
 
 
 @app.cell
-def reaction_vectors(R03, R05, R07, R12, R23, R45, R76, gamma03, gamma05, gamma07, gamma12, gamma23, gamma45, gamma76):
+def reactions(
+    A, B, C, D, E, F1_sum, F2_sum, F3_own, F4_sum, F5_sum, F6_sum, F7_sum, H, K, M1, M2, M4, M6, M7, M_b, M_in3, O1,
+    R03, R05, R07, R12, R23, R43, R45, R63, R76, R_O1c, S1, S2, S3, S4, S6, S7, gamma03, gamma05, gamma07, gamma12,
+    gamma23, gamma45, gamma76, gamma_O1c, group_67, h76, u5,
+):  # fmt: skip
     R12_v = R12 * exp(1j * gamma12)  # [N] crank 1 on the rod 2
     R23_v = R23 * exp(1j * gamma23)  # [N] rod 2 on the rocker 3
     R03_v = R03 * exp(1j * gamma03)  # [N] frame on the rocker 3
@@ -1171,43 +972,14 @@ def reaction_vectors(R03, R05, R07, R12, R23, R45, R76, gamma03, gamma05, gamma0
     R05_v = R05 * exp(1j * gamma05)  # [N] guide on the plunger 5
     R76_v = R76 * exp(1j * gamma76)  # [N] cylinder 7 on the rod 6
     R07_v = R07 * exp(1j * gamma07)  # [N] frame on the cylinder 7
-    typeset()
-    return R03_v, R05_v, R07_v, R12_v, R23_v, R45_v, R76_v
-
-
-@app.cell
-def loads(E, F1_sum, F2_sum, F3_own, F4_sum, F5_sum, F6_sum, F7_sum, M1, M2, M4, M6, M7, M_in3, S1, S2, S3, S4, S6, S7):
-    loads = (
-        [Load(F1_sum, S1, M1)],
-        [Load(F2_sum, S2, M2)],
-        [Load(F3_own, S3, M_in3)],
-        [Load(F4_sum, S4, M4)],
-        [Load(F5_sum, E)],
-        [Load(F6_sum, S6, M6)],
-        [Load(F7_sum, S7, M7)],
-    )
-    return (loads,)
-
-
-@app.cell
-def reactions_1to3(A, B, C, M_b, O1, R03_v, R12_v, R23_v, R_O1c, gamma_O1c):
     R_O1_v = R_O1c * exp(1j * gamma_O1c)  # [N] frame on the crank
-    reactions_1to3 = (
+    M_67 = where(R76 == 0, 0, -R76 * h76)  # [N*m] rod 6 on the cylinder 7, about K
+    reactions = (
         DriveMoment(1, M_b),
         PinReaction(1, 0, O1, R_O1_v),
         PinReaction(2, 1, A, R12_v),
         PinReaction(3, 2, B, R23_v),
         PinReaction(3, 0, C, R03_v),
-    )
-    typeset()
-    return R_O1_v, reactions_1to3
-
-
-@app.cell
-def reactions(D, E, H, K, R05_v, R07_v, R43, R45_v, R63, R76, R76_v, group_67, h76, reactions_1to3, u5):
-    M_67 = where(R76 == 0, 0, -R76 * h76)  # [N*m] rod 6 on the cylinder 7, about K
-    reactions = (
-        *reactions_1to3,
         PinReaction(3, 4, D, R43),
         PinReaction(5, 4, E, R45_v),
         PinReaction(3, 6, K, R63),
@@ -1215,18 +987,21 @@ def reactions(D, E, H, K, R05_v, R07_v, R43, R45_v, R63, R76, R76_v, group_67, h
         SlideReaction(5, 0, E, R05_v, 0, u5),
         SlideReaction(6, 7, K, R76_v, -M_67, group_67.u),
     )
+    _forces = F1_sum, F2_sum, F3_own, F4_sum, F5_sum, F6_sum, F7_sum
+    _loads = zip(_forces, (S1, S2, S3, S4, E, S6, S7), (M1, M2, M_in3, M4, 0, M6, M7), strict=True)
+    loads = [[Load(*load)] for load in _loads]  # on the bodies 1..7: force, its point, moment
     typeset()
-    return M_67, reactions
+    return loads, reactions
 
 
 @app.cell
 def equilibrium(A, B, C, D, E, H, K, O1, R_A, R_D, R_K, largest, loads, lost, reactions):
-    _lost = np.nonzero(~isfinite(R_A + R_D + R_K))[-1]
-    _first = f"first at phi1 = {_lost[0]} deg" if _lost.size else ""
+    _lost = ~isfinite(R_A + R_D + R_K)
+    _first = f"first at phi1 = {np.argmax(_lost)} deg" if np.any(_lost) else ""
     longest = largest_of(A - O1, B - C, A - B, D - E, H - K)
     checks_bodies = (
-        Check("no position is a dead centre", _lost.size, 0, "positions", _first, essential=True),
-        *balance("bodies 1..7", loads, reactions, lost * largest, lost * largest * longest),
+        Check("no position is a dead centre", np.count_nonzero(_lost), 0, "positions", _first, essential=True),
+        *balance("bodies 1..7", loads, reactions, lost, largest, longest),
     )
     typeset(*checks_bodies)
     return checks_bodies, longest
@@ -1250,83 +1025,66 @@ def section_92():
 
 @app.cell
 def energy(C, F_g, H, P_A, P_D, P_E, P_K, P_S1, P_S2, P_S3, P_S4, P_S6, P_S7, V_A, V_D, V_E, V_K, g, u2, u3, u4, u6):
-    def V_S2(phi1):
-        return link_velocity(P_S2(phi1), P_A(phi1), V_A(phi1), u2(phi1))  # [m] velocity analogue of S2
+    V_S2 = lambda phi1: link_velocity(P_S2(phi1), P_A(phi1), V_A(phi1), u2(phi1))  # [m] velocity analogue of S2
+    V_S3 = lambda phi1: link_velocity(P_S3(phi1), C, 0, u3(phi1))  # [m] velocity analogue of S3
+    V_S4 = lambda phi1: link_velocity(P_S4(phi1), P_D(phi1), V_D(phi1), u4(phi1))  # [m] velocity analogue of S4
+    V_S6 = lambda phi1: link_velocity(P_S6(phi1), P_K(phi1), V_K(phi1), u6(phi1))  # [m] velocity analogue of S6
+    V_S7 = lambda phi1: link_velocity(P_S7(phi1), H, 0, u6(phi1))  # [m] velocity analogue of S7
 
-    def V_S3(phi1):
-        return link_velocity(P_S3(phi1), C, 0, u3(phi1))  # [m] velocity analogue of S3
+    J_m = lambda phi1: (
+        g.m1 * g.l_O1S1**2
+        + g.m2 * abs(V_S2(phi1)) ** 2
+        + g.m3 * abs(V_S3(phi1)) ** 2
+        + g.m4 * abs(V_S4(phi1)) ** 2
+        + g.m5 * abs(V_E(phi1)) ** 2
+        + g.m6 * abs(V_S6(phi1)) ** 2
+        + g.m7 * abs(V_S7(phi1)) ** 2
+    )  # [kg*m**2] reduced masses
 
-    def V_S4(phi1):
-        return link_velocity(P_S4(phi1), P_D(phi1), V_D(phi1), u4(phi1))  # [m] velocity analogue of S4
+    J_r = lambda phi1: (
+        J_m(phi1)
+        + g.J1
+        + g.J2 * u2(phi1) ** 2
+        + g.J3 * u3(phi1) ** 2
+        + g.J4 * u4(phi1) ** 2
+        + (g.J6 + g.J7) * u6(phi1) ** 2
+    )  # [kg*m**2] reduced moment of inertia
 
-    def V_S6(phi1):
-        return link_velocity(P_S6(phi1), P_K(phi1), V_K(phi1), u6(phi1))  # [m] velocity analogue of S6
+    Y_m = lambda phi1: (
+        g.m1 * P_S1(phi1).imag
+        + g.m2 * P_S2(phi1).imag
+        + g.m3 * P_S3(phi1).imag
+        + g.m4 * P_S4(phi1).imag
+        + g.m5 * P_E(phi1).imag
+        + g.m6 * P_S6(phi1).imag
+        + g.m7 * P_S7(phi1).imag
+    )  # [kg*m] masses times their heights
 
-    def V_S7(phi1):
-        return link_velocity(P_S7(phi1), H, 0, u6(phi1))  # [m] velocity analogue of S7
-
-    def J_m(phi1):
-        return (
-            g.m1 * g.l_O1S1**2
-            + g.m2 * abs(V_S2(phi1)) ** 2
-            + g.m3 * abs(V_S3(phi1)) ** 2
-            + g.m4 * abs(V_S4(phi1)) ** 2
-            + g.m5 * abs(V_E(phi1)) ** 2
-            + g.m6 * abs(V_S6(phi1)) ** 2
-            + g.m7 * abs(V_S7(phi1)) ** 2
-        )  # [kg*m**2] reduced masses
-
-    def J_r(phi1):
-        return (
-            J_m(phi1)
-            + g.J1
-            + g.J2 * u2(phi1) ** 2
-            + g.J3 * u3(phi1) ** 2
-            + g.J4 * u4(phi1) ** 2
-            + (g.J6 + g.J7) * u6(phi1) ** 2
-        )  # [kg*m**2] reduced moment of inertia
-
-    def Y_m(phi1):
-        return (
-            g.m1 * P_S1(phi1).imag
-            + g.m2 * P_S2(phi1).imag
-            + g.m3 * P_S3(phi1).imag
-            + g.m4 * P_S4(phi1).imag
-            + g.m5 * P_E(phi1).imag
-            + g.m6 * P_S6(phi1).imag
-            + g.m7 * P_S7(phi1).imag
-        )  # [kg*m] masses times their heights
-
-    def U(phi1):
-        return g.g_n * Y_m(phi1) - F_g * abs(P_K(phi1) - H)  # [J] potential of weights and gas
-
+    U = lambda phi1: g.g_n * Y_m(phi1) - F_g * abs(P_K(phi1) - H)  # [J] potential of weights and gas
     typeset()
-    return J_m, J_r, U, V_S2, V_S3, V_S4, V_S6, V_S7, Y_m
+    return J_r, U, V_S2, V_S3, V_S4, V_S6, V_S7
 
 
 @app.cell
-def work(F1_sum, F2_sum, F3_own, M1, M2, M_in3, O1, S1, V_S2, V_S3, phi1, u2, u3):
+def work(
+    F1_sum, F2_sum, F3_own, F4_sum, F5_sum, F6_sum, F7_sum, M1, M2, M4, M6, M7, M_in3, O1, S1, V_E, V_S2, V_S3, V_S4,
+    V_S6, V_S7, phi1, u2, u3, u4, u6,
+):  # fmt: skip
     V_S1 = 1j * (S1 - O1)  # [m] velocity analogue of S1
     W_1 = dot(F1_sum, V_S1) + M1  # [N*m] work of the loads on the crank, for a radian of the crank
     W_2 = dot(F2_sum, V_S2(phi1)) + M2 * u2(phi1)  # [N*m] on the rod 2
     W_3 = dot(F3_own, V_S3(phi1)) + M_in3 * u3(phi1)  # [N*m] on the rocker 3
-    work_lines = typeset()
-    return V_S1, W_1, W_2, W_3, work_lines
-
-
-@app.cell
-def work_later(F4_sum, F5_sum, F6_sum, F7_sum, M4, M6, M7, V_E, V_S4, V_S6, V_S7, phi1, u4, u6):
     W_4 = dot(F4_sum, V_S4(phi1)) + M4 * u4(phi1)  # [N*m] on the rod 4
     W_5 = dot(F5_sum, V_E(phi1))  # [N*m] on the plunger 5
     W_6 = dot(F6_sum, V_S6(phi1)) + M6 * u6(phi1)  # [N*m] on the rod with piston 6
     W_7 = dot(F7_sum, V_S7(phi1)) + M7 * u6(phi1)  # [N*m] on the cylinder 7
-    later_work_lines = typeset()
-    return W_4, W_5, W_6, W_7, later_work_lines
+    work_lines = typeset()
+    return W_1, W_2, W_3, W_4, W_5, W_6, W_7, work_lines
 
 
 @app.cell
-def work_shown(later_work_lines, turn, work_lines):
-    typeset(work_lines.at(turn.value), later_work_lines.at(turn.value))
+def work_shown(turn, work_lines):
+    work_lines.at(turn.value)
     return
 
 
@@ -1334,22 +1092,18 @@ def work_shown(later_work_lines, turn, work_lines):
 def work_checks(
     F_Q, F_w, J_r, M_b, O1, P_w, U, V_E, W_1, W_2, W_3, W_4, W_5, W_6, W_7, g, largest, longest, lost, omega1, phi1
 ):
-    def energy(phi1):
-        return omega1**2 * J_r(phi1) / 2 + U(phi1)  # [J] energy at the speed of the crank
-
+    energy = lambda phi1: omega1**2 * J_r(phi1) / 2 + U(phi1)  # [J] energy at the speed of the crank
     driven = M_b - g.eps1 * J_r(phi1) + dot(F_Q, V_E(phi1))  # [N*m] left of the moment for the change of energy
-    _every = slice(None, None, 15)
-    _limit = lost * largest * longest
+    _some = slice(None, None, 15)
+    _size = largest * longest
     _gear = dot(F_w, 1j * (P_w - O1))
     checks_work = (
-        check("virtual work of moment and loads", M_b + W_1 + W_2 + W_3 + W_4 + W_5 + W_6 + W_7, _limit, "N*m"),
-        check("the gear gives the power of the coupling", _gear - M_b, _limit, "N*m"),
-        check_slope(
-            "energy: the moment is its slope", driven[_every], energy, phi1[_every], -pi / 2, 5 * pi / 2, "N*m"
-        ),
+        check("virtual work of moment and loads", M_b + W_1 + W_2 + W_3 + W_4 + W_5 + W_6 + W_7, lost, "N*m", of=_size),
+        check("the gear gives the power of the coupling", _gear - M_b, lost, "N*m", of=_size),
+        check_slope("energy: the moment is its slope", driven[_some], energy, phi1[_some], -pi / 2, 5 * pi / 2, "N*m"),
     )
     typeset(*checks_work)
-    return checks_work, driven, energy
+    return (checks_work,)
 
 
 @app.cell(hide_code=True)
@@ -1369,16 +1123,16 @@ def dense(largest, loads, longest, lost, reactions):
     dense = solve_reactions(loads, reactions)
     _off = dense - magnitudes(reactions)
     _hinges = _off[..., 1:17:2] + 1j * _off[..., 2:17:2]
-    _force, _moment = lost * largest, lost * largest * longest
+    _moment = largest * longest
     checks_dense = (
-        check("one system: balancing moment", _off[..., 0], _moment, "N*m"),
-        check("one system: forces in the hinges", _hinges, _force, "N"),
-        check("one system: forces in the prismatic pairs", _off[..., [17, 19]], _force, "N"),
-        check("one system: moment of the guide", _off[..., 18], _moment, "N*m"),
-        check("one system: moment of the cylinder on the rod", _off[..., 20], _moment, "N*m"),
+        check("one system: balancing moment", _off[..., 0], lost, "N*m", of=_moment),
+        check("one system: forces in the hinges", _hinges, lost, "N", of=largest),
+        check("one system: forces in the prismatic pairs", _off[..., [17, 19]], lost, "N", of=largest),
+        check("one system: moment of the guide", _off[..., 18], lost, "N*m", of=_moment),
+        check("one system: moment of the cylinder on the rod", _off[..., 20], lost, "N*m", of=_moment),
     )
     typeset(*checks_dense)
-    return checks_dense, dense
+    return (checks_dense,)
 
 
 @app.cell

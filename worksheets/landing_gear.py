@@ -12,41 +12,11 @@ with app.setup:
     from numpy import arctan2 as atan2
 
     from mechsheet import (
-        Drawing,
-        Load,
-        SheetError,
-        Used,
-        angle,
-        angle_opposite,
-        ask,
-        caption,
-        check,
-        check_slope,
-        closed_form,
-        cross,
-        cylinder_drive,
-        dot,
-        export,
-        figure,
-        find,
-        inertia,
-        inputs,
-        link_acceleration,
-        link_velocity,
-        mark,
-        player,
-        read,
-        refuse,
-        rrr,
-        rrr_acceleration,
-        rrr_condition,
-        rrr_reactions,
-        rrr_velocity,
-        summary,
-        table,
-        title_block,
-        typeset,
-    )
+        Drawing, Load, SheetError, Used, angle, angle_opposite, ask, caption, check, check_slope, closed_form,
+        cross, cylinder_drive, dot, export, figure, find, inertia, inputs, link_acceleration, link_velocity,
+        mark, player, read, refuse, rrr, rrr_acceleration, rrr_condition, rrr_reactions, rrr_velocity, slider,
+        summary, table, title_block, typeset,
+    )  # fmt: skip
     from mechsheet.units import deg
 
     ulp = np.finfo(float).eps
@@ -225,9 +195,9 @@ def pressure_ends(g, gamma_0, gamma_n, l12, mu, psi):
     mu_eq = acos(g.l3 / l12 * cos(g.theta / 2))  # [deg] middle of the swing for equal pressure angles
     psi_eq = psi + mu_eq - mu  # [deg] mounting angle for equal pressure angles
     alpha_eq = atan2(cos(mu_eq - g.theta / 2) - g.l3 / l12, sin(mu_eq - g.theta / 2))  # [deg] both of them
-    checks_pressure = (check("equal pressure angles are theta/2", alpha_eq - g.theta / 2, 1e-9, "deg"),)
+    checks_pressure = (check("equal pressure angles are theta/2", alpha_eq - g.theta / 2, 1e-9, "deg", of=1),)
     typeset(*checks_pressure)
-    return alpha_0, alpha_eq, alpha_n, checks_pressure, mu_eq, psi_eq
+    return alpha_0, alpha_n, checks_pressure
 
 
 @app.cell(hide_code=True)
@@ -245,7 +215,7 @@ def step_4(H, g, l20):
     i = arange(g.R + 1)  # [-] number of the position
     l2i = l20 + i / g.R * H  # [m] (9) cylinder, length O1 A
     typeset()
-    return i, l2i
+    return (l2i,)
 
 
 @app.cell(hide_code=True)
@@ -268,28 +238,18 @@ def section_35():
 @app.cell
 def steps_5_to_7(O1, beta0, g, l12, mu):
     phi3k = pi / 2 + beta0 - mu  # [deg] crank in the tangent position
-
-    def beta2(l2):
-        return angle_opposite(g.l3, l2, l12)  # [deg] (27) between O1 O2 and the cylinder
-
-    def phi2(l2):
-        return pi / 2 + beta0 + beta2(l2)  # [deg] (26) cylinder
-
-    def phi3(l2):
-        return phi3k + angle((O1 - l2 * exp(1j * phi2(l2))) / exp(1j * phi3k))  # [deg] (17) crank
-
-    def phi32(l2):
-        return phi3(l2) - phi2(l2)  # [deg] crank from the cylinder
-
-    def A(l2):
-        return g.l3 * exp(1j * phi3(l2))  # [m] pin of the rod on the crank
+    beta2 = lambda l2: angle_opposite(g.l3, l2, l12)  # [deg] (27) between O1 O2 and the cylinder
+    phi2 = lambda l2: pi / 2 + beta0 + beta2(l2)  # [deg] (26) cylinder
+    phi3 = lambda l2: phi3k + angle((O1 - l2 * exp(1j * phi2(l2))) / exp(1j * phi3k))  # [deg] (17) crank
+    phi32 = lambda l2: phi3(l2) - phi2(l2)  # [deg] crank from the cylinder
+    A = lambda l2: g.l3 * exp(1j * phi3(l2))  # [m] pin of the rod on the crank
 
     @np.errstate(invalid="ignore")  # rounding may take the sine beyond 1: no angle then
     def phi3_half(l2):
         return asin((g.a - l2 * sin(phi2(l2))) / g.l3)  # [deg] (28) as printed, half of the circle (erratum)
 
     typeset()
-    return A, beta2, phi2, phi3, phi32, phi3_half, phi3k
+    return A, beta2, phi2, phi3, phi32, phi3_half
 
 
 @app.cell
@@ -322,8 +282,8 @@ def pressure(alpha_0, alpha_n, g, l12, lost, phi32i):
     alpha = phi32i + pi / 2  # [deg] pressure angle, positive before the tangent position
     l2k = sqrt((l12 - g.l3) * (l12 + g.l3))  # [m] cylinder in the tangent position
     checks_ends = (
-        check("pressure angle, extended", alpha[..., :1] - alpha_0, lost, "deg"),
-        check("pressure angle, retracted", alpha[..., -1:] - alpha_n, lost, "deg"),
+        check("pressure angle, extended", alpha[..., :1] - alpha_0, lost, "deg", of=1),
+        check("pressure angle, retracted", alpha[..., -1:] - alpha_n, lost, "deg", of=1),
     )
     typeset(*checks_ends)
     return alpha, checks_ends, l2k
@@ -339,7 +299,7 @@ def angles_shown(alpha, alpha_f, beta2i, every, l2f, l2i, l2k, phi2i, phi32i, ph
     )
     figure_31 = figure("3.1", "Pressure angle", l2f, alpha_f, marks={"l2k": l2k}, every=every)
     typeset(table_31, figure_31)
-    return figure_31, table_31
+    return
 
 
 @app.cell(hide_code=True)
@@ -355,20 +315,12 @@ def section_scheme():
 
 @app.cell
 def leg(O2, g, phi3, psi):
-    def e3(l2):
-        return exp(1j * (phi3(l2) + psi))  # [-] direction of the leg
-
-    def W3(l2):
-        return O2 + g.l_w * e3(l2)  # [m] axle
-
-    def D3(l2):
-        return O2 + g.l_w / 2 * e3(l2)  # [m] middle of the strut
-
-    def S3(l2):
-        return O2 + g.r3 * e3(l2)  # [m] centre of mass of the leg
-
+    e3 = lambda l2: exp(1j * (phi3(l2) + psi))  # [-] direction of the leg
+    W3 = lambda l2: O2 + g.l_w * e3(l2)  # [m] axle
+    D3 = lambda l2: O2 + g.l_w / 2 * e3(l2)  # [m] middle of the strut
+    S3 = lambda l2: O2 + g.r3 * e3(l2)  # [m] centre of mass of the leg
     typeset()
-    return D3, W3, S3, e3
+    return D3, S3, W3, e3
 
 
 @app.cell
@@ -389,7 +341,7 @@ def scheme(A, H, O1, O2, W3, g, l20):
 
 @app.cell
 def stroke():
-    part = mo.ui.slider(0, 1, step=0.01, value=0.3, label="part of the stroke", show_value=True)
+    part = slider(0, 1, step=0.01, value=0.3, label="part of the stroke")
     player(part)
     return (part,)
 
@@ -399,7 +351,7 @@ def drawing_32(H, ends, l20, part, paths, scheme):
     l2_t = l20 + part.value * H  # [m] cylinder as drawn
     drawing_32 = scheme(l2_t) + ends + paths
     typeset(drawing_32, mark(l2f=l2_t), caption("3.2", "Scheme of the landing gear"))
-    return drawing_32, l2_t
+    return (l2_t,)
 
 
 @app.cell(hide_code=True)
@@ -414,12 +366,8 @@ def section_38():
 
 @app.cell
 def step_8(g, phi32):
-    def omega3_l2(l2):
-        return 1 / (g.l3 * sin(phi32(l2)))  # [rad/m] (20) crank
-
-    def omega2_l2(l2):
-        return -(g.l3 * omega3_l2(l2) * cos(phi32(l2)) / l2)  # [rad/m] (21) cylinder
-
+    omega3_l2 = lambda l2: 1 / (g.l3 * sin(phi32(l2)))  # [rad/m] (20) crank
+    omega2_l2 = lambda l2: -(g.l3 * omega3_l2(l2) * cos(phi32(l2)) / l2)  # [rad/m] (21) cylinder
     typeset()
     return omega2_l2, omega3_l2
 
@@ -479,20 +427,9 @@ def fine(H, eps2_l2, eps3_l2, g, l20, omega2_l2, omega3_l2, phi32):
 
 @app.cell
 def analogues_shown(
-    eps2_l2f,
-    eps2_l2i,
-    eps3_l2f,
-    eps3_l2i,
-    eps3_printed,
-    every,
-    l2f,
-    l2i,
-    l2k,
-    omega2_l2f,
-    omega2_l2i,
-    omega3_l2f,
+    eps2_l2f, eps2_l2i, eps3_l2f, eps3_l2i, eps3_printed, every, l2f, l2i, l2k, omega2_l2f, omega2_l2i, omega3_l2f,
     omega3_l2i,
-):
+):  # fmt: skip
     table_32 = table(
         "3.2",
         "Analogues",
@@ -502,7 +439,7 @@ def analogues_shown(
     figure_33 = figure("3.3", "Velocity analogues", l2f, omega3_l2f, omega2_l2f, marks={"l2k": l2k}, every=every)
     figure_34 = figure("3.4", "Acceleration analogues", l2f, eps3_l2f, eps2_l2f, marks={"l2k": l2k}, every=every)
     typeset(table_32, figure_33, figure_34)
-    return figure_33, figure_34, table_32
+    return
 
 
 @app.cell(hide_code=True)
@@ -542,45 +479,27 @@ def section_312():
 
 @app.cell
 def step_12(
-    Ai,
-    H,
-    O1,
-    O2,
-    eps2_l2,
-    eps2_l2i,
-    eps3_l2,
-    eps3_l2i,
-    g,
-    l12,
-    l20,
-    l2i,
-    l2n,
-    lost,
-    omega2_l2,
-    omega2_l2i,
-    omega3_l2,
-    omega3_l2i,
-    phi2,
+    Ai, H, O1, O2, eps2_l2i, eps3_l2i, g, l12, l20, l2i, l2n, lost, omega2_l2, omega2_l2i, omega3_l2, omega3_l2i, phi2,
     phi3,
-):
+):  # fmt: skip
     A_group = rrr(O1, O2, l2i, g.l3, +1)  # [m] pin A of the group
     v_group = rrr_velocity(O1, O2, A_group, dr_A=1)
     a_group = rrr_acceleration(O1, O2, A_group, v_group.omega_A, v_group.omega_B, dr_A=1)
     scale = np.max(abs([eps3_l2i, eps2_l2i, omega3_l2i**2]))
     checks_analogues = (
-        check("stroke: l2n - l20 = H", l2n - l20 - H, 1e-12 * l12, "m"),
-        check("pin A is that of the group", Ai - A_group, lost * g.l3, "m"),
-        check("omega3 is that of the group", v_group.omega_B / omega3_l2i - 1, lost),
-        check("omega2 is that of the group", v_group.omega_A - omega2_l2i, lost * np.max(abs(omega3_l2i)), "rad/m"),
-        check("eps3 is that of the group", a_group.epsilon_B - eps3_l2i, lost * scale, "rad/m**2"),
-        check("eps2 is that of the group", a_group.epsilon_A - eps2_l2i, lost * scale, "rad/m**2"),
+        check("stroke: l2n - l20 = H", l2n - l20 - H, 1e-12, "m", of=l12),
+        check("pin A is that of the group", Ai - A_group, lost, "m", of=g.l3),
+        check("omega3 is that of the group", v_group.omega_B / omega3_l2i - 1, lost, of=1),
+        check("omega2 is that of the group", v_group.omega_A - omega2_l2i, lost, "rad/m", of=omega3_l2i),
+        check("eps3 is that of the group", a_group.epsilon_B - eps3_l2i, lost, "rad/m**2", of=scale),
+        check("eps2 is that of the group", a_group.epsilon_A - eps2_l2i, lost, "rad/m**2", of=scale),
         check_slope("omega3 is the slope of phi3", omega3_l2i, phi3, l2i, l20, l20 + H, "rad/m"),
         check_slope("omega2 is the slope of phi2", omega2_l2i, phi2, l2i, l20, l20 + H, "rad/m"),
         check_slope("eps3 is the slope of omega3", eps3_l2i, omega3_l2, l2i, l20, l20 + H, "rad/m**2"),
         check_slope("eps2 is the slope of omega2", eps2_l2i, omega2_l2, l2i, l20, l20 + H, "rad/m**2"),
     )
     typeset(*checks_analogues)
-    return A_group, a_group, checks_analogues, scale, v_group
+    return checks_analogues, scale
 
 
 @app.cell(hide_code=True)
@@ -601,7 +520,7 @@ def results(eps2_printed, eps2i, eps3i, l2i, omega2i, omega3i, phi3i, psi):
         note="eps2printed is formula (14) as printed, with V21 not squared.",
     )
     typeset(table_41, table_42)
-    return table_41, table_42
+    return
 
 
 @app.cell(hide_code=True)
@@ -624,20 +543,17 @@ def least(H, eps3_l2, eps3_l2i, l20, l2k, lost, scale):
     eps3_k = eps3_l2(l2k)  # [rad/m**2] least analogue, zero but for rounding
     eps3_m = maximum(abs(eps3_l2(l20)), abs(eps3_l2(l20 + H)))  # [rad/m**2] greatest analogue
     checks_least = (
-        check("the analogue vanishes in the tangent position", eps3_k, lost * scale, "rad/m**2"),
-        check("the greatest is at an end", np.max(abs(eps3_l2i), axis=-1, keepdims=True) / eps3_m - 1, lost),
+        check("the analogue vanishes in the tangent position", eps3_k, lost, "rad/m**2", of=scale),
+        check("the greatest is at an end", np.max(abs(eps3_l2i), axis=-1, keepdims=True) / eps3_m - 1, lost, of=1),
     )
     typeset(*checks_least)
-    return checks_least, eps3_k, eps3_m, p_k
+    return checks_least, eps3_m
 
 
 @app.cell
 def curves(H, eps3_l2, g, l20):
     t = linspace(g.t_a, g.t_b, 11)  # [s] retraction time
-
-    def eps3_t(t, p):
-        return (H / t) ** 2 * eps3_l2(l20 + p * H)  # [rad/s**2] (12) crank at part p of the stroke
-
+    eps3_t = lambda t, p: (H / t) ** 2 * eps3_l2(l20 + p * H)  # [rad/s**2] (12) crank at part p of the stroke
     eps3_p0 = eps3_t(t, 0)  # [rad/s**2] extended
     eps3_p25 = eps3_t(t, 0.25)  # [rad/s**2] after 25 % of the stroke
     eps3_p75 = eps3_t(t, 0.75)  # [rad/s**2] after 75 %
@@ -650,9 +566,7 @@ def curves(H, eps3_l2, g, l20):
 
 @app.cell
 def find_t_lim(H, eps3_m, g):
-    def eps3_g(t):
-        return (H / t) ** 2 * eps3_m  # [rad/s**2] greatest angular acceleration of the leg in magnitude
-
+    eps3_g = lambda t: (H / t) ** 2 * eps3_m  # [rad/s**2] greatest angular acceleration of the leg in magnitude
     t_lim_found = find(
         eps3_g,
         equals=g.eps_lim,
@@ -664,7 +578,7 @@ def find_t_lim(H, eps3_m, g):
     )
     t_lim = t_lim_found.value  # [s] shortest retraction time that keeps the limit
     typeset(t_lim_found)
-    return eps3_g, t_lim, t_lim_found
+    return t_lim, t_lim_found
 
 
 @app.cell(hide_code=True)
@@ -681,11 +595,11 @@ def t_closed(H, eps3_l2i, eps3_m, eps3i, g, lost, t_lim, t_lim_found):
     eps3_lim = (H / t_lim) ** 2 * eps3_l2i  # [rad/s**2] (12) crank at that time
     checks_time = (
         closed_form(t_lim_found, t_c),
-        check("t_lim just keeps the limit", np.max(abs(eps3_lim), axis=-1, keepdims=True) / g.eps_lim - 1, lost),
+        check("t_lim just keeps the limit", np.max(abs(eps3_lim), axis=-1, keepdims=True) / g.eps_lim - 1, lost, of=1),
         check("t_r keeps the limit", eps3i, g.eps_lim, "rad/s**2"),
     )
     typeset(*checks_time)
-    return checks_time, eps3_lim, t_c
+    return (checks_time,)
 
 
 @app.cell
@@ -703,7 +617,7 @@ def curves_shown(eps3_p0, eps3_p100, eps3_p25, eps3_p75, eps_max, eps_min, t, t_
         marks={"t_lim": t_lim},
     )
     typeset(table_51, figure_51)
-    return figure_51, table_51
+    return
 
 
 @app.cell(hide_code=True)
@@ -720,27 +634,21 @@ def section_6():
 
 
 @app.cell
-def loads(O2, D3, W3, S3, V21, e3, eps3_l2, g, omega3_l2):
+def loads(D3, O2, S3, V21, W3, e3, eps3_l2, g, omega3_l2):
     q = g.rho * g.U * abs(g.U) / 2  # [Pa] dynamic pressure, with the sign of the flow
     G3 = -1j * g.m3 * g.g_n  # [N] weight of the leg, at S3
     Q_w = q * g.C_w  # [N] drag of the wheels, at the axle
-
-    def Q3(l2):
-        return -1j * q * g.C_s * e3(l2).imag * abs(e3(l2).imag) * e3(l2)  # [N] drag across the strut
+    Q3 = lambda l2: -1j * q * g.C_s * e3(l2).imag * abs(e3(l2).imag) * e3(l2)  # [N] drag across the strut
 
     def a_S3(l2):
         return link_acceleration(
             S3(l2), O2, V21 * omega3_l2(l2), 0, V21**2 * eps3_l2(l2)
         )  # [m/s**2] acceleration of the centre of mass
 
-    def I3(l2):
-        return inertia(S3(l2), g.m3, g.J3, a_S3(l2), V21**2 * eps3_l2(l2))
-
-    def acting(l2):
-        return [Load(G3, S3(l2)), I3(l2), Load(Q_w, W3(l2)), Load(Q3(l2), D3(l2))]
-
+    I3 = lambda l2: inertia(S3(l2), g.m3, g.J3, a_S3(l2), V21**2 * eps3_l2(l2))
+    acting = lambda l2: [Load(G3, S3(l2)), I3(l2), Load(Q_w, W3(l2)), Load(Q3(l2), D3(l2))]
     typeset()
-    return I3, G3, Q3, Q_w, acting, q
+    return G3, I3, Q3, Q_w, acting
 
 
 @app.cell(hide_code=True)
@@ -753,19 +661,15 @@ def section_61():
 
 @app.cell
 def reactions(A, Ai, O1, O2, acting, l2i):
-    def reactions(l2):
-        return rrr_reactions(O1, O2, A(l2), [], acting(l2))
-
-    def thrust(A, group):
-        return cylinder_drive(O1, A, group.R_C).F  # [N] fluid on the rod, positive where it pushes
-
+    reactions = lambda l2: rrr_reactions(O1, O2, A(l2), [], acting(l2))
+    thrust = lambda A, group: cylinder_drive(O1, A, group.R_C).F  # [N] fluid on the rod, positive where it pushes
     group_23 = reactions(l2i)
     R01 = group_23.R_A  # [N] frame on the cylinder, at O1
     R03 = group_23.R_B  # [N] frame on the leg 3, at O2
     R23 = -group_23.R_C  # [N] rod 2 on the leg 3, at A
     F_c = thrust(Ai, group_23)  # [N] fluid on the rod
     typeset()
-    return F_c, R01, R03, R23, group_23, reactions, thrust
+    return F_c, R01, R03, R23, reactions, thrust
 
 
 @app.cell(hide_code=True)
@@ -781,20 +685,11 @@ def section_62():
 
 @app.cell
 def shares(D3, F_c, G3, I3, O2, Q3, Q_w, S3, V21, W3, l2i, omega3_l2i):
-    def v_S3(l2, omega3):
-        return link_velocity(S3(l2), O2, 0, omega3)  # [-] velocity analogue of the centre of mass
-
-    def v_W3(l2, omega3):
-        return link_velocity(W3(l2), O2, 0, omega3)  # [-] of the axle
-
-    def v_D3(l2, omega3):
-        return link_velocity(D3(l2), O2, 0, omega3)  # [-] of the middle of the strut
-
-    def weight(l2, omega3):
-        return -dot(G3, v_S3(l2, omega3))  # [N] share of the weight
-
-    def drag(l2, omega3):
-        return -dot(Q_w, v_W3(l2, omega3)) - dot(Q3(l2), v_D3(l2, omega3))  # [N] share of the drag
+    v_S3 = lambda l2, omega3: link_velocity(S3(l2), O2, 0, omega3)  # [-] velocity analogue of the centre of mass
+    v_W3 = lambda l2, omega3: link_velocity(W3(l2), O2, 0, omega3)  # [-] of the axle
+    v_D3 = lambda l2, omega3: link_velocity(D3(l2), O2, 0, omega3)  # [-] of the middle of the strut
+    weight = lambda l2, omega3: -dot(G3, v_S3(l2, omega3))  # [N] share of the weight
+    drag = lambda l2, omega3: -dot(Q_w, v_W3(l2, omega3)) - dot(Q3(l2), v_D3(l2, omega3))  # [N] share of the drag
 
     def inertial(l2, omega3):
         load = I3(l2)
@@ -805,7 +700,7 @@ def shares(D3, F_c, G3, I3, O2, Q3, Q_w, S3, V21, W3, l2i, omega3_l2i):
     F_I = inertial(l2i, omega3_l2i)  # [N] share of the inertia
     P_c = F_c * V21  # [kW] power of the cylinder
     typeset()
-    return F_G, F_I, F_Q, P_c, drag, inertial, v_D3, v_S3, v_W3, weight
+    return F_G, F_I, F_Q, P_c, drag, inertial, weight
 
 
 @app.cell
@@ -832,29 +727,7 @@ def section_63():
 
 @app.cell
 def equilibrium(
-    Ai,
-    F_G,
-    F_I,
-    F_Q,
-    F_c,
-    G3,
-    H,
-    I3,
-    O1,
-    D3,
-    W3,
-    Q3,
-    Q_w,
-    R01,
-    R03,
-    R23,
-    S3,
-    V21,
-    g,
-    l20,
-    l2i,
-    lost,
-    omega3_l2,
+    Ai, D3, F_G, F_I, F_Q, F_c, G3, H, I3, O1, Q3, Q_w, R01, R03, R23, S3, V21, W3, g, l20, l2i, lost, omega3_l2
 ):
     I3i = I3(l2i)
     F_in = I3i.F  # [N] inertia force of the leg, at S3
@@ -864,20 +737,17 @@ def equilibrium(
         cross(Ai, R23) + cross(S3(l2i), G3 + F_in) + M_in + cross(W3(l2i), Q_w) + cross(D3(l2i), Q3(l2i))
     )  # [N*m] moments on the leg 3 about O2
     M2 = cross(Ai - O1, R01)  # [N*m] moments on the cylinder about A
-
-    def E3(l2):
-        return (g.J3 + g.m3 * g.r3**2) * (V21 * omega3_l2(l2)) ** 2 / 2 + g.m3 * g.g_n * S3(l2).imag  # [J] energy
-
+    E3 = lambda l2: (g.J3 + g.m3 * g.r3**2) * (V21 * omega3_l2(l2)) ** 2 / 2 + g.m3 * g.g_n * S3(l2).imag  # [J] energy
     largest = np.max(abs([R01, R03, R23]))
     checks_forces = (
-        check("equilibrium of forces on the leg", F3, lost * largest, "N"),
-        check("equilibrium of moments on the leg", M3, lost * largest * g.l_w, "N*m"),
-        check("equilibrium of moments on the cylinder", M2, lost * largest * g.l3, "N*m"),
-        check("virtual work: the shares make the force", F_G + F_Q + F_I - F_c, lost * largest, "N"),
+        check("equilibrium of forces on the leg", F3, lost, "N", of=largest),
+        check("equilibrium of moments on the leg", M3, lost, "N*m", of=largest * g.l_w),
+        check("equilibrium of moments on the cylinder", M2, lost, "N*m", of=largest * g.l3),
+        check("virtual work: the shares make the force", F_G + F_Q + F_I - F_c, lost, "N", of=largest),
         check_slope("power: what the drag leaves raises the leg", F_c - F_Q, E3, l2i, l20, l20 + H, "N"),
     )
     typeset(*checks_forces)
-    return E3, F_in, M_in, checks_forces
+    return (checks_forces,)
 
 
 @app.cell(hide_code=True)
@@ -900,7 +770,7 @@ def drawings_61_62(A, D3, G3, I3, O2, Q3, Q_w, S3, W3, ends, l2_t, part, reactio
         *(drawing_61, caption("6.1", "Loads on the leg")),
         *(drawing_62, caption("6.2", "Reactions on the leg")),
     )
-    return drawing_61, drawing_62
+    return
 
 
 @app.cell
@@ -914,7 +784,7 @@ def forces_shown(F_G, F_Gf, F_I, F_If, F_Q, F_Qf, F_c, F_cf, P_c, P_cf, R01, R03
     figure_63 = figure("6.3", "Force of the cylinder and its shares", l2f, F_cf, F_Gf, F_Qf, F_If, every=every)
     figure_64 = figure("6.4", "Power of the cylinder", l2f, P_cf, every=every)
     typeset(table_61, figure_63, figure_64)
-    return figure_63, figure_64, table_61
+    return
 
 
 @app.cell

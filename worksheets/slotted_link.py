@@ -10,29 +10,9 @@ with app.setup:
     from numpy import arctan2 as atan2
 
     from mechsheet import (
-        Check,
-        Drawing,
-        Used,
-        angle,
-        angle_between,
-        ask,
-        caption,
-        check,
-        dot,
-        export,
-        figure,
-        inputs,
-        mark,
-        player,
-        read,
-        rpr,
-        rpr_acceleration,
-        rpr_velocity,
-        summary,
-        table,
-        title_block,
-        typeset,
-    )
+        Check, Drawing, Used, angle, angle_between, ask, caption, check, dot, export, figure, inputs, mark,
+        player, read, rpr, rpr_acceleration, rpr_velocity, slider, summary, table, title_block, typeset,
+    )  # fmt: skip
     from mechsheet.units import deg
 
     ulp = np.finfo(float).eps
@@ -114,7 +94,7 @@ def coordinate(g):
     k = arange(g.n + 1)  # [-] number of the position
     phi1_k = g.phi_0 + k * dphi1  # [deg] crank
     typeset()
-    return dphi1, k, phi1_k
+    return (phi1_k,)
 
 
 @app.cell(hide_code=True)
@@ -130,11 +110,8 @@ def section_2():
 
 @app.cell
 def equations(g):
-    def f1(phi1, phi3, SAB):
-        return SAB * cos(phi3) - g.L1 * cos(phi1)  # [m] position, x
-
-    def f2(phi1, phi3, SAB):
-        return SAB * sin(phi3) - g.L0 - g.L1 * sin(phi1)  # [m] position, y
+    f1 = lambda phi1, phi3, SAB: SAB * cos(phi3) - g.L1 * cos(phi1)  # [m] position, x
+    f2 = lambda phi1, phi3, SAB: SAB * sin(phi3) - g.L0 - g.L1 * sin(phi1)  # [m] position, y
 
     def f3(phi1, phi3, SAB, omega3, VAB):
         return VAB * cos(phi3) - SAB * sin(phi3) * omega3 + g.L1 * sin(phi1) * g.omega1  # [m/s] velocity, x
@@ -213,10 +190,7 @@ def system(f1, f2, f3, f4, f5, f6, g):
     guess = np.array([[g.phi3_0, g.SAB_0, g.omega3_0, g.VAB_0, g.eps3_0, g.WAB_0]]).T
     L, w = g.L0 + g.L1, abs(g.omega1)
     size = np.maximum(abs(guess), np.array([[1, L, w, L * w, w**2, L * w**2]]).T)
-
-    def Find(phi1, first=guess):
-        return newton(lambda x: residuals(x, phi1), first + 0 * phi1, size)
-
+    Find = lambda phi1, first=guess: newton(lambda x: residuals(x, phi1), first + 0 * phi1, size)
     return Find, guess, residuals, size
 
 
@@ -231,7 +205,7 @@ def found(Find, phi1_k):
     WAB_F = F[5]  # [m/s**2] acceleration of the slider along the link, found
     N_F = evaluations  # [-] evaluations of the six equations
     typeset()
-    return F, N_F, SAB_F, VAB_F, WAB_F, eps3_F, evaluations, omega3_F, phi3_F
+    return F, N_F, SAB_F, VAB_F, WAB_F, eps3_F, omega3_F, phi3_F
 
 
 @app.cell(hide_code=True)
@@ -256,59 +230,40 @@ def section_4():
 def crank(g):
     B = 0j  # [m] hinge of the link 3
     O1 = 1j * g.L0  # [m] hinge of the crank
-
-    def A(phi1):
-        return O1 + g.L1 * exp(1j * phi1)  # [m] pin of the crank, with the slider
-
-    def VA(phi1):
-        return 1j * g.omega1 * (A(phi1) - O1)  # [m/s] velocity of A
-
-    def WA(phi1):
-        return g.omega1**2 * (O1 - A(phi1))  # [m/s**2] acceleration of A
-
+    A = lambda phi1: O1 + g.L1 * exp(1j * phi1)  # [m] pin of the crank, with the slider
+    VA = lambda phi1: 1j * g.omega1 * g.L1 * exp(1j * phi1)  # [m/s] velocity of A
+    WA = lambda phi1: -(g.omega1**2) * g.L1 * exp(1j * phi1)  # [m/s**2] acceleration of A
     typeset()
     return A, B, O1, VA, WA
 
 
 @app.cell
 def group(A, B, VA, WA, g):
-    def slider(phi1):
-        # nearer to the hinge than the roundings of its own coordinates the slider gives the link no direction
-        return where(abs(A(phi1) - B) > 16 * ulp * (g.L0 + g.L1), A(phi1), nan)
-
-    def u(phi1):
-        return rpr(slider(phi1), B, +1).u  # [-] direction of the link 3
+    block = lambda phi1: where(abs(A(phi1) - B) > 16 * ulp * (g.L0 + g.L1), A(phi1), nan)
+    u = lambda phi1: rpr(block(phi1), B, +1).u  # [-] direction of the link 3
 
     def phi3(phi1):
         phi_s = where(g.L1 > g.L0, phi1, pi / 2)
         return phi_s + angle(u(phi1) * exp(-1j * phi_s))  # [deg] link 3
 
-    def SAB(phi1):
-        return rpr(slider(phi1), B, +1).s  # [m] slider from B along the link
+    SAB = lambda phi1: rpr(block(phi1), B, +1).s  # [m] slider from B along the link
 
     def omega_BC(phi1):
-        return rpr_velocity(slider(phi1), B, u(phi1), VA(phi1)).omega_A  # [rad/s] angular velocity of the link 3
+        return rpr_velocity(block(phi1), B, u(phi1), VA(phi1)).omega_A  # [rad/s] angular velocity of the link 3
 
-    def VAB(phi1):
-        return rpr_velocity(slider(phi1), B, u(phi1), VA(phi1)).ds  # [m/s] velocity of the slider along the link
+    VAB = lambda phi1: rpr_velocity(block(phi1), B, u(phi1), VA(phi1)).ds  # [m/s] velocity of the slider along the link
 
     def eps_BC(phi1):
         rates = omega_BC(phi1), VAB(phi1)
-        return rpr_acceleration(slider(phi1), B, u(phi1), *rates, WA(phi1)).epsilon_A  # [rad/s**2] angular acceleration
+        return rpr_acceleration(block(phi1), B, u(phi1), *rates, WA(phi1)).epsilon_A  # [rad/s**2] angular acceleration
 
     def WAB(phi1):
         rates = omega_BC(phi1), VAB(phi1)
-        return rpr_acceleration(slider(phi1), B, u(phi1), *rates, WA(phi1)).dds  # [m/s**2] sliding acceleration
+        return rpr_acceleration(block(phi1), B, u(phi1), *rates, WA(phi1)).dds  # [m/s**2] sliding acceleration
 
-    def C(phi1):
-        return B + g.L3 * u(phi1)  # [m] point C
-
-    def VC(phi1):
-        return 1j * omega_BC(phi1) * g.L3 * u(phi1)  # [m/s] velocity of C
-
-    def WC(phi1):
-        return (1j * eps_BC(phi1) - omega_BC(phi1) ** 2) * g.L3 * u(phi1)  # [m/s**2] acceleration of C
-
+    C = lambda phi1: B + g.L3 * u(phi1)  # [m] point C
+    VC = lambda phi1: 1j * omega_BC(phi1) * g.L3 * u(phi1)  # [m/s] velocity of C
+    WC = lambda phi1: (1j * eps_BC(phi1) - omega_BC(phi1) ** 2) * g.L3 * u(phi1)  # [m/s**2] acceleration of C
     typeset()
     return C, SAB, VAB, VC, WAB, WC, eps_BC, omega_BC, phi3, u
 
@@ -340,7 +295,7 @@ def tables_1_2(P_C_k, SAB_k, VAB_k, VC_k, WAB_k, WC_k, WCn_k, WCt_k, eps_BC_k, o
         *(P_C_k.real, P_C_k.imag, VC_k.real, VC_k.imag, WC_k.real, WC_k.imag, WCn_k, WCt_k, VAB_k, WAB_k),
     )
     typeset(table_1, table_2)
-    return table_1, table_2
+    return
 
 
 @app.cell(hide_code=True)
@@ -361,7 +316,7 @@ def section_5():
 def table_3(N_F, SAB_F, VAB_F, WAB_F, eps3_F, omega3_F, phi1_k, phi3_F):
     table_3 = table("3", "Find", phi1_k, phi3_F, SAB_F, omega3_F, eps3_F, VAB_F, WAB_F, N_F, decimals=3)
     table_3
-    return (table_3,)
+    return
 
 
 @app.cell
@@ -371,23 +326,25 @@ def solved(A, B, F, SAB_k, VAB_k, WAB_k, eps_BC_k, g, omega_BC_k, phi1_k, phi3_k
     exists = isfinite(SAB_k)
     found_k = exists & isfinite(F[0])
     kappa = (g.L0 + g.L1) / np.nanmin(SAB_k)  # [-] factor by which the divisions by the distance AB widen roundings
-    r = where(found_k, residuals(F, phi1_k), 0)
+    none = where(found_k.any(), 0, nan)  # in place of a position that is not found; where all are, nothing is compared
+    r = where(found_k, residuals(F, phi1_k), none)
     side = np.sign(F[1])
 
     def every_position(name, lost, why):
         angles = ", ".join(f"{x / deg:.6g}" for x in phi1_k[lost])
-        count = int(np.count_nonzero(lost))
-        return Check(name, count, 0, "positions", f"{why} at phi1 = {angles} deg" if count else "")
+        return Check(name, np.count_nonzero(lost), 0, "positions", f"{why} at phi1 = {angles} deg" if angles else "")
 
     def agrees(name, found, closed, i, unit):
-        return check(f"Find = closed form, {name}", where(found_k, found - closed, 0), 1e-12 * kappa * largest[i], unit)
+        return check(
+            f"Find = closed form, {name}", where(found_k, found - closed, none), 1e-12 * kappa, unit, of=largest[i]
+        )
 
     checks_found = (
         every_position("the link has a direction", ~exists, "the slider is at the hinge B"),
         every_position("Find ends in a root", exists & ~found_k, "none from these first approximations"),
-        check("residual of Find, positions", r[:2], 1e-12 * kappa * largest[1], "m"),
-        check("residual of Find, velocities", r[2:4], 1e-12 * kappa * largest[3], "m/s"),
-        check("residual of Find, accelerations", r[4:], 1e-12 * kappa * largest[5], "m/s**2"),
+        check("residual of Find, positions", r[:2], 1e-12 * kappa, "m", of=largest[1]),
+        check("residual of Find, velocities", r[2:4], 1e-12 * kappa, "m/s", of=largest[3]),
+        check("residual of Find, accelerations", r[4:], 1e-12 * kappa, "m/s**2", of=largest[5]),
     )
     checks_agreement = (
         agrees("position of the slider", F[1] * exp(1j * F[0]), A(phi1_k) - B, 1, "m"),
@@ -397,7 +354,7 @@ def solved(A, B, F, SAB_k, VAB_k, WAB_k, eps_BC_k, g, omega_BC_k, phi1_k, phi3_k
         agrees("sliding acceleration", side * F[5], WAB_k, 5, "m/s**2"),
     )
     typeset(*checks_found, *checks_agreement)
-    return checks_agreement, checks_found, closed, exists, found_k, kappa, largest
+    return checks_agreement, checks_found, closed, exists, largest
 
 
 @app.cell(hide_code=True)
@@ -430,7 +387,7 @@ def others(Find, guess, phi1_k):
 def table_4(N_g, N_none, N_other, N_same, phi3_g):
     table_4 = table("4", "Find from other angles of the link", phi3_g, N_same, N_other, N_none, N_g)
     table_4
-    return (table_4,)
+    return
 
 
 @app.cell(hide_code=True)
@@ -452,11 +409,11 @@ def derivatives(closed, exists, g, largest, phi1_k, residuals):
     own = where(exists, residuals(closed, phi1_k), 0)
     wrong = where(exists, slopes - residuals(closed, phi1_k)[2:], 0)
     checks_equations = (
-        check("closed form in the position equations", own[:2], 1e-12 * largest[1], "m"),
-        check("closed form in the velocity equations", own[2:4], 1e-12 * largest[3], "m/s"),
-        check("closed form in the acceleration equations", own[4:], 1e-12 * largest[5], "m/s**2"),
-        check("velocity equations are the slopes of the position equations", wrong[:2], 1e-12 * largest[3], "m/s"),
-        check("acceleration equations are the slopes of these", wrong[2:], 1e-12 * largest[5], "m/s**2"),
+        check("closed form in the position equations", own[:2], 1e-12, "m", of=largest[1]),
+        check("closed form in the velocity equations", own[2:4], 1e-12, "m/s", of=largest[3]),
+        check("closed form in the acceleration equations", own[4:], 1e-12, "m/s**2", of=largest[5]),
+        check("velocity equations are the slopes of the position equations", wrong[:2], 1e-12, "m/s", of=largest[3]),
+        check("acceleration equations are the slopes of these", wrong[2:], 1e-12, "m/s**2", of=largest[5]),
     )
     typeset(*checks_equations)
     return (checks_equations,)
@@ -492,11 +449,11 @@ def strokes(A, B, g, phi1_k, u):
     ends = {name: float(x) for name, x in turned.items() if isfinite(x)}
     what = "the link touches the crank's circle" if g.L1 < g.L0 else "the link lies along the x axis"
     checks_strokes = tuple(
-        check(f"at the end {e}: {what}", dot(u(x), exp(1j * x)) if g.L1 < g.L0 else u(x).imag, 1e-12)
+        check(f"at the end {e}: {what}", dot(u(x), exp(1j * x)) if g.L1 < g.L0 else u(x).imag, 1e-12, of=1)
         for e, x in ends.items()
     )
     typeset(*checks_strokes)
-    return H, K, checks_strokes, ends, gap, omega_far, omega_near, phi_e1, phi_e2, phi_q, phi_w, psi, s_e
+    return K, checks_strokes, ends, omega_far, omega_near, psi
 
 
 @app.cell(hide_code=True)
@@ -520,9 +477,7 @@ def scheme(A, B, C, O1, P_C_t, VA, VC_t, WA, WC_t, ends, g, phi1_t, u):
         links = Drawing().link(B, tip).slot(near, far, "3").slider(a, angle(u(phi1)), "2").link(O1, a, "1")
         return links.support(O1, "O1").support(B, "B").hinge(a, "A").hinge(c, "C")
 
-    def longest(*vectors):
-        return np.nanmax(abs(np.concatenate(vectors)))
-
+    longest = lambda *vectors: np.nanmax(abs(np.concatenate(vectors)))
     reach = 0.3 * (g.L0 + g.L1 + g.L3)  # of the longest arrow in the turn
     most = {"m/s": longest(VA(phi1_t), VC_t), "m/s²": longest(WA(phi1_t), WC_t)}
     arrows = {unit: reach / value for unit, value in most.items() if value > 1e-290}
@@ -536,7 +491,7 @@ def scheme(A, B, C, O1, P_C_t, VA, VC_t, WA, WC_t, ends, g, phi1_t, u):
 
 @app.cell
 def turn():
-    part = mo.ui.slider(0, 360, step=2, value=30, label="turn of the crank, degrees", show_value=True)
+    part = slider(0, 360, step=2, value=30, label="turn of the crank", unit="deg")
     player(part, turning=True)
     return (part,)
 
@@ -555,7 +510,7 @@ def drawing_1(A, C, VA, VC, WA, WC, g, part, paths, phi3, scheme):
         mark(phi1_t=phi1),
         caption("1", "Slotted link with the velocities and accelerations of A and C"),
     )
-    return VC_1, WC_1, drawing_1, phi1, phi3_1
+    return
 
 
 @app.cell(hide_code=True)
@@ -598,7 +553,7 @@ def full_turn(P_C_t, SAB_t, VC_t, WC_t, ends, eps_BC_t, omega_BC_t, phi1_t, phi3
     figure_6 = figure("6", "Velocity of C", phi1_t, VC_t.real, VC_t.imag, abs(VC_t), marks=ends)
     figure_7 = figure("7", "Acceleration of C", phi1_t, WC_t.real, WC_t.imag, abs(WC_t), marks=ends)
     typeset(figure_2, figure_3, figure_4, figure_5, figure_6, figure_7)
-    return figure_2, figure_3, figure_4, figure_5, figure_6, figure_7, table_5
+    return
 
 
 @app.cell(hide_code=True)

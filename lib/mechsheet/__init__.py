@@ -9,7 +9,7 @@ A worksheet
     Find            find, Found
     checks          check, require, check_slope, closed_form, assembled, balance, largest_of, Check, summary
     tables, charts  table, figure, Table, Figure, Column
-    drawings        Drawing, cut_group, polar, caption, side_by_side, mark, player
+    drawings        Drawing, cut_group, polar, polar_diagrams, caption, side_by_side, slider, player, mark
     the document    title_block, progress, export
     errors          SheetError, refuse
 
@@ -113,6 +113,11 @@ def _cells_in_page(namespace: Mapping[str, Any]) -> shown.Texts | None:
 # What the lower rooms need of the page's, which is loaded only where a page asks for it.
 shown.page = lambda: import_module("mechsheet.page.values")  # type: ignore[assignment,return-value]
 shown.cells_in_page = _cells_in_page
+
+# A worksheet that is run as a script tells its mistakes in a line.
+_main = sys.modules.get("__main__")
+if type(getattr(_main, "app", None)).__module__.startswith("marimo."):
+    import_module("mechsheet.run.ending").watch(_main.__file__)
 __all__ = sorted([*_HOMES, "__version__"])
 
 

@@ -146,7 +146,7 @@ from mechsheet.worksheet.cells import (
     load as load,
     results as results,
 )
-from mechsheet.worksheet.checks import (
+from mechsheet.worksheet.check import (
     Check as Check,
     assembled as assembled,
     balance as balance,
@@ -171,6 +171,7 @@ from mechsheet.worksheet.force_diagram import (
     cut_group as cut_group,
     largest_of as largest_of,
     polar as polar,
+    polar_diagrams as polar_diagrams,
 )
 from mechsheet.worksheet.inputs import (
     Used as Used,
@@ -197,6 +198,7 @@ from mechsheet.worksheet.title import (
     mark as mark,
     player as player,
     side_by_side as side_by_side,
+    slider as slider,
 )
 
 __version__: str

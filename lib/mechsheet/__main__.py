@@ -47,7 +47,7 @@ def main(argv: "list[str] | None" = None) -> int:
         sys.exit(f"mechsheet: Python {needed} or newer is needed, this is Python {found} ({sys.executable})")
     command, *options = (sys.argv[1:] if argv is None else argv) or [""]
     if command in ("", "-h", "--help"):
-        print(contents(), HELP, sep="", end="")
+        say(contents() + HELP)
         return 0 if command else 1
     if command in ("run", "edit"):
         if not options:
@@ -59,7 +59,7 @@ def main(argv: "list[str] | None" = None) -> int:
         if command == "edit":
             return call([interpreter(""), "-m", "marimo", "edit", *options, sheet])
         scenes = any(not option.startswith("-") for option in options)
-        return call([interpreter(""), *(["-m", "mechsheet.run.batch"] if scenes else []), sheet, *options])
+        return call([interpreter(""), "-m", f"mechsheet.run.{'batch' if scenes else 'script'}", sheet, *options])
     if command == "new":
         if len(options) != 1:
             sys.exit("mechsheet: new needs the name of the worksheet, such as lever")
@@ -125,7 +125,8 @@ def new(name: str) -> int:
     if style.parent != folder:
         shutil.copy(str(style), str(folder))
     path.write_text(text.replace("TITLE", name.replace("_", " ").capitalize()), encoding="utf-8")
-    print(f"written {path}; python {Path(__file__).resolve().parent} edit {name} opens it")
+    command = "mechsheet" if __package__ else f"python {here}"
+    say(f"written {path}; {command} edit {name} opens it\n")
     return 0
 
 
@@ -136,13 +137,22 @@ def known_worksheets() -> str:
 
 def call(command: "list[str]", cwd: "Path | None" = None) -> int:
     """Exit code of a program in this terminal, with UTF-8 output also where Windows would encode it otherwise."""
-    sys.stdout.flush()
     with subprocess.Popen(command, cwd=cwd, env={**os.environ, "PYTHONUTF8": "1"}) as process:
         while True:
             try:
-                return process.wait()
+                code = process.wait()
+                return code if code >= 0 else 128 - code  # of a program that a signal ended, as shells have it
             except KeyboardInterrupt:  # Ctrl-C reaches the program too, and how to end is for it to say
                 pass
+
+
+def say(text: str) -> None:
+    """Print at once; where nobody reads any more, or standard output takes nothing, end in silence or in a line."""
+    try:
+        print(text, end="", flush=True)
+    except OSError as error:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), 1)  # for what Python itself would still write
+        sys.exit(141 if isinstance(error, BrokenPipeError) else f"mechsheet: standard output: {error.strerror}")
 
 
 def interpreter(extra: str) -> str:

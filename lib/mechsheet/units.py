@@ -11,6 +11,7 @@ m, kg, s. Knows nothing of the package.
 import ast
 import difflib
 import re
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
 from math import pi
@@ -93,13 +94,13 @@ def raised(power: int) -> str:
     return str(power).translate(_POWERS)
 
 
-def shown(text: str) -> str:
-    """Unit as a page or a workbook prints it.
+def shown(text: str, power: Callable[[int], str] = raised, times: str = "·") -> str:
+    """Unit as a page or a workbook prints it, or a notation with its own powers and sign between units.
 
-    >>> shown("kgf/cm**2"), shown("N*m")
-    ('kgf/cm²', 'N·m')
+    >>> shown("kgf/cm**2"), shown("N*m"), shown("m/s**2", "^{}".format)
+    ('kgf/cm²', 'N·m', 'm/s^2')
     """
-    return re.sub(r"\*\*(-?\d+)", lambda power: raised(int(power[1])), text).replace("*", "·")
+    return re.sub(r"\*\*(-?\d+)", lambda raising: power(int(raising[1])), text).replace("*", times)
 
 
 def si(text: str) -> str:

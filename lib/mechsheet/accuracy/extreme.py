@@ -7,7 +7,8 @@ A result y of inputs x has the condition number
 computed with 50 digits (`conditions`). Inputs are rounded to 16 digits, so 16 - log10(kappa) digits of
 y can be expected, whatever the method. A result holds where it keeps them, less at most one.
 
-A scene is a TOML file: ``[inputs]`` in display units, as for a script, and a table ``[extreme]``:
+A scene is a TOML file in the folder ``scenes`` beside this one: ``[inputs]`` in display units, as for a script, and a
+table ``[extreme]``:
 
 ===========  ======================================================================================================
 ``about``    what the scene is, in words
@@ -35,9 +36,9 @@ from mechsheet.mechanics.load import Load
 from mechsheet.mechanics.planar import angle
 from mechsheet.mechanics.rrr import rrr, rrr_reach, rrr_reactions, rrr_velocity
 from mechsheet.run.progress import progress
-from mechsheet.worksheet import inputs
+from mechsheet.worksheet import inputs, numbers
 from mechsheet.worksheet.cells import Worksheet, load
-from mechsheet.worksheet.checks import Check, assembled
+from mechsheet.worksheet.check import Check, assembled
 from mechsheet.worksheet.shown import Charted
 
 FULL = 16.0  # digits of a float
@@ -160,9 +161,9 @@ class MeasuredScene(Scene):
         return max(told, key=lambda o: (o.expected - o.printed if np.isfinite(o.printed) else -99, -o.product))
 
 
-def scenes(worksheets: Path) -> list[Scene]:
-    """The listed scenes: files of the tests, beside the folder of the worksheets."""
-    return [read(path) for path in sorted((worksheets.parent / "tests" / "scenes").glob("*.toml"))]
+def scenes() -> list[Scene]:
+    """The listed scenes: files that come with the package."""
+    return [read(path) for path in sorted((Path(__file__).parent / "scenes").glob("*.toml"))]
 
 
 def read(path: Path) -> Scene:
@@ -174,7 +175,7 @@ def read(path: Path) -> Scene:
 
 def measured_scenes(worksheets: Path, short: bool) -> list[MeasuredScene]:
     """Every listed scene with all results of its cases; see `measure`."""
-    listed, found = scenes(worksheets), []
+    listed, found = scenes(), []
     with progress(len(listed), "scenes") as done:
         for scene in listed:
             found.append(MeasuredScene(**vars(scene), outcomes=measure(scene, worksheets, short)))
@@ -191,7 +192,7 @@ def measure(scene: Scene, worksheets: Path, short: bool = False) -> list[Outcome
     last, cases = len(scene.values) - 1, scene.cases()
     for k in sorted({0, last // 2, last}) if short else range(last + 1):
         given, value = cases[k], scene.values[k]
-        case = "" if value is None else f"{value:.17g}" if isinstance(value, float) else str(value)
+        case = "" if value is None else numbers.significant(value, 17) if isinstance(value, float) else str(value)
         run = partial(JOBS[scene.job], worksheets, given, scene.at)
         if scene.says:
             found.append(Outcome(scene.name, case, "", np.nan, np.nan, np.nan, np.nan, _words(run), scene.says))

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mechsheet.run.progress import progress
-from mechsheet.worksheet.checks import Check
+from mechsheet.worksheet.check import Check
 from mechsheet.worksheet.shown import Charted
 from mechsheet.worksheet.table import Column, Figure, Table
 
@@ -131,6 +131,7 @@ class Comparison:
                     "place", "", "beside the product's own method", 0, np.array(list(map(self.place, rows)), object)
                 ),
             ),
+            note,
         )
 
     def figure(self) -> "WorkPrecision":

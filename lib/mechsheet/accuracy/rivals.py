@@ -31,14 +31,16 @@ from mechsheet.accuracy.chain import (
 from mechsheet.accuracy.precision import Method
 from mechsheet.mechanics.planar import angle, cross, dot
 from mechsheet.mechanics.rrr import rrr, rrr_reach, rrr_velocity
+from mechsheet.worksheet import numbers
 from mechsheet.worksheet.find import find
 
 Runs = Callable[[float], Callable[[], Any]]
 
 
-def _family(name: str, settings: Sequence[float], run: Runs, form: str = ".0e") -> list[Method]:
+def _family(name: str, settings: Sequence[float], run: Runs) -> list[Method]:
     """A method at several tolerances, steps or sizes."""
-    return [Method(name, format(setting, form), run(setting)) for setting in settings]
+    texts = (str(setting) if isinstance(setting, int) else numbers.scientific(setting, 0) for setting in settings)
+    return [Method(name, text, run(setting)) for text, setting in zip(texts, settings, strict=True)]
 
 
 def _powers(first: int, last: int, step: int = 1) -> list[float]:
@@ -154,7 +156,7 @@ def derivative_methods(
         Method(f"library: {own[0]}", "", lambda: own[1](chain, q)),
         *([Method("printed: sines of the angles", "", as_printed)] if as_printed else []),
         *_family("central differences", _powers(1, 10), lambda h: lambda: differences(h * stroke)),
-        *_family("spline of the table", [10 * 2**k for k in range(8)], lambda n: lambda: spline(n), "d"),
+        *_family("spline of the table", [10 * 2**k for k in range(8)], lambda n: lambda: spline(n)),
     ]
 
 

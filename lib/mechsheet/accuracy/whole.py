@@ -3,7 +3,6 @@
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -15,10 +14,8 @@ from mechsheet.accuracy.precision import Measured, Truth, timed
 from mechsheet.run.progress import progress
 from mechsheet.worksheet.cells import Worksheet, load, results
 from mechsheet.worksheet.lines import registry
+from mechsheet.worksheet.title import Slider
 
-# Stand-ins for the sliders, whose values a page does not give to the cell that makes them.
-_VALUES = {"part": 0.2, "forces_at": 0.2, "turn": 40, "drawn": 1, "drawn_ring": 1}
-_SLIDERS = {name: SimpleNamespace(value=value, text="") for name, value in _VALUES.items()}
 _STUDY = ("phi3_g", "N_same", "N_other", "N_none", "N_g")  # first approximations of the slotted link
 
 
@@ -34,10 +31,11 @@ class Whole(Measured):
 def _numbers_of(sheet: Worksheet) -> list[str]:
     """Names of a worksheet's numbers and checks: lines with a unit, without tables and what follows a slider."""
     names = [name for name in results(sheet.path) if name not in ("form", "g")]
-    declared = registry(sheet.run(names, {"g": sheet.inputs(), **_SLIDERS}))
+    found = sheet.run(names, {"g": sheet.inputs()})
+    declared, sliders = registry(found), {name for name in names if isinstance(found[name], Slider)}
 
     def moves(name: str) -> bool:
-        return any(set(cell.gives) & set(_SLIDERS) for cell in sheet.needed([name], ["g"]))
+        return any(sliders & set(cell.gives) for cell in sheet.needed([name], ["g"]))
 
     numbers = [name for name in names if name in declared and name not in _STUDY]
     return [name for name in (*numbers, *(name for name in names if name.startswith("check"))) if not moves(name)]
@@ -48,7 +46,8 @@ def _field(stem: str, sheet: Worksheet, n: int) -> dict[str, Any]:
     g = sheet.inputs()
     t = linspace(0, 1, n) if n > 1 else np.array([0.5])
     if stem == "hitch":
-        return {"g": g, "S": g.S_min * (1 - t) + g.S_max * t, "dS": (g.S_max - g.S_min) / max(n - 1, 1)}
+        S = g.S_min * (1 - t) + g.S_max * t
+        return {"g": g, "k": np.arange(n), "t": t, "S": S, "dS": (g.S_max - g.S_min) / max(n - 1, 1)}
     if stem == "landing_gear":
         made = sheet.run(["l20", "H"], {"g": g})
         return {"g": g, "i": np.arange(n), "l2i": made["l20"] + t * made["H"]}
@@ -88,7 +87,7 @@ def exact_results(stem: str, names: Mapping[str, Any], rows: Iterable[int]) -> N
         return _joint(names)
     field, truth, compared = _TRUTHS[stem]
     at = [truth(names["g"], float(names[field][i])) for i in rows]
-    return {name: [p[name] for p in at] for name in compared or at[0] if name in names}
+    return {name: [p[name] for p in at] for name in compared or at[0].keys() & names.keys()}
 
 
 def _error(stem: str, names: Mapping[str, Any], n: int) -> float:
@@ -123,7 +122,7 @@ def whole_worksheets(folder: Path, sizes: Sequence[int], seconds: float) -> list
 def asked_costs(path: Path, asked: Iterable[Sequence[str]], seconds: float) -> list[tuple[int, float]]:
     """Cells run and run time [s] for the results asked for of a worksheet; of the whole document for no names."""
     sheet = load(path)
-    given = {"g": sheet.inputs(), **_SLIDERS}
+    given = {"g": sheet.inputs()}
     whole = [name for name in results(sheet.path) if name not in ("form", "g")]
     wants = [list(names) or whole for names in asked]
     times = timed([lambda want=want: sheet.run(want, given) for want in wants], seconds)  # type: ignore[misc]

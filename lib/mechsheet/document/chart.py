@@ -23,7 +23,7 @@ _LEFT, _RIGHT, _TOP, _BOTTOM = 74, 16, 34, 46  # from its edges to the axes
 _SAMPLE, _LETTER = 26, 9  # of the legend: a piece of the line, about a letter
 
 
-class Quantity(Protocol):
+class Plotted(Protocol):
     """What a chart shows of a column: values are in ``unit``."""
 
     @property
@@ -122,9 +122,7 @@ class Chart:
     readings: tuple[Reading, ...]
 
 
-def line_chart(
-    x: Quantity, lines: Sequence[Quantity], marks: Sequence[tuple[str, float]] = (), every: int = 1
-) -> Chart:
+def line_chart(x: Plotted, lines: Sequence[Plotted], marks: Sequence[tuple[str, float]] = (), every: int = 1) -> Chart:
     """Curves of ``lines`` over ``x``; a value that is not finite is a gap.
 
     Every so many of the values are marked by a point, unless they are many. ``marks`` are named positions on the x axis
@@ -171,7 +169,7 @@ def _stroke(i: int) -> Stroke:
     return Stroke(COLOURS[i % len(COLOURS)], _DASHES[i % len(_DASHES)])
 
 
-def _title(quantities: Sequence[Quantity], power: int) -> tuple[Symbol | str, ...]:
+def _title(quantities: Sequence[Plotted], power: int) -> tuple[Symbol | str, ...]:
     """Symbols and units of an axis: ``S [m]``, ``G56, GS6 [N]``; a power of ten goes before the unit."""
     parts = list[Symbol | str]()
     for unit, members in groupby(quantities, key=lambda q: q.unit):
@@ -183,7 +181,7 @@ def _title(quantities: Sequence[Quantity], power: int) -> tuple[Symbol | str, ..
     return tuple(part for part in parts if part)
 
 
-def _legend(lines: Sequence[Quantity]) -> Iterator[Sample]:
+def _legend(lines: Sequence[Plotted]) -> Iterator[Sample]:
     left = float(_LEFT)
     for i, line in enumerate(lines):
         name = read(stem(line.symbol))
@@ -191,7 +189,7 @@ def _legend(lines: Sequence[Quantity]) -> Iterator[Sample]:
         left += _SAMPLE + 5 + _LETTER * len(name.mark + name.base + name.index) + 16
 
 
-def _reading(quantity: Quantity) -> Reading:
+def _reading(quantity: Plotted) -> Reading:
     to = numbers.CELL
     texts = [numbers.fixed(v, quantity.decimals, to) if isfinite(v) else to.none for v in quantity.values.tolist()]
     unit = "" if quantity.unit == "-" else units.shown(quantity.unit)

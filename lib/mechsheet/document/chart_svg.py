@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mechsheet.document.chart import Chart, Curve, Label, Mark, Sample, Stroke
-from mechsheet.worksheet import symbol
+from mechsheet.document.markup import named
 from mechsheet.worksheet.symbol import Symbol
 
 _FONT = 13
@@ -114,7 +114,7 @@ def _values(chart: Chart) -> str:
     left = chart.plot.left
     values = {
         "at": [round(left + u, 1) if isfinite(u) else None for u in chart.curves[0].x.tolist()],
-        "names": [symbol.html(reading.name) for reading in chart.readings],
+        "names": [named(reading.name) for reading in chart.readings],
         "units": [reading.unit for reading in chart.readings],
         "texts": [reading.texts for reading in chart.readings],
     }

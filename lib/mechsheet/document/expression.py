@@ -21,13 +21,13 @@ from mechsheet.document.formula import (
     Fraction,
     Function,
     Integral,
+    Measure,
     Node,
     Number,
     Overline,
     Power,
     Prefix,
     Product,
-    Quantity,
     Range,
     Root,
     Row,
@@ -64,7 +64,7 @@ def equation(line: Formula | Given) -> Node:
     return left(line) if node is None else Binary(left(line), "=", node)
 
 
-def substituted(line: Formula, numbers: Mapping[str, Quantity]) -> Node | None:
+def substituted(line: Formula, numbers: Mapping[str, Measure]) -> Node | None:
     """Right side of a line with numbers for its symbols; None where it has none."""
     return tree(line.expression, numbers) if numbers and right(line) else None
 
@@ -75,7 +75,7 @@ def reads(line: Formula) -> tuple[str, ...]:
     return tuple(dict.fromkeys(filter(None, map(_read_as, ast.walk(line.expression)))))
 
 
-def tree(node: ast.expr, numbers: Mapping[str, Quantity] | None = None) -> Node:
+def tree(node: ast.expr, numbers: Mapping[str, Measure] | None = None) -> Node:
     """Expression as a tree: fractions, roots, powers, no brackets that the reader does not need.
 
     ``numbers`` stand for some names, ``g.L3`` too.
@@ -97,7 +97,7 @@ _SYMBOL = re.compile(rf"([A-Z]+|{'|'.join(GREEK)})(_|$)")  # VC, eps_BC
 class _Reader:
     """Reads expressions of Python."""
 
-    def __init__(self, numbers: Mapping[str, Quantity]) -> None:
+    def __init__(self, numbers: Mapping[str, Measure]) -> None:
         self.numbers = numbers
 
     def read(self, node: ast.expr) -> Node:
@@ -285,7 +285,7 @@ def _applied(function: Node, arguments: Brackets) -> Node:
     """A function of its arguments; an angle that is one symbol or number follows without brackets."""
     if isinstance(function, Function) and function.name in _ANGULAR and len(arguments.items) == 1:
         angle = arguments.items[0]
-        if isinstance(angle, Symbol) or (isinstance(angle, Quantity) and strength(angle) == WHOLE):
+        if isinstance(angle, Symbol) or (isinstance(angle, Measure) and strength(angle) == WHOLE):
             return Prefix(function, angle)
     return Apply(function, arguments)
 

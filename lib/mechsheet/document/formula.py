@@ -23,7 +23,7 @@ class Number:
 
 
 @dataclass(frozen=True, slots=True)
-class Quantity:
+class Measure:
     """A number in its unit, which stands for a symbol; complex for a point or a vector."""
 
     value: float | complex
@@ -175,7 +175,7 @@ class Row:
 
 
 Node: TypeAlias = (
-    Symbol | Number | Quantity | Text | Code | Function | Signed | Binary | Product | Fraction | Root | Power | Element
+    Symbol | Number | Measure | Text | Code | Function | Signed | Binary | Product | Fraction | Root | Power | Element
     | Overline | Brackets | Apply | Prefix | Range | Integral | Cases | Row
 )  # fmt: skip
 
@@ -201,7 +201,7 @@ def is_high(node: Node) -> bool:
             return high or any(map(is_high, items))
         case Number(value):
             return not is_plain(value)
-        case Quantity(value, unit):
+        case Measure(value, unit):
             numbers = (value.real, value.imag) if isinstance(value, complex) else (value,)
             return "**" in unit or any(isfinite(x) and not is_plain(x) for x in numbers)
     return any(map(is_high, children(node)))
@@ -226,7 +226,7 @@ def strength(node: Node) -> int:
             return own
         case Number(value):
             return WHOLE if is_plain(value) else PRODUCT
-        case Quantity(value, unit):
+        case Measure(value, unit):
             if _is_negative(value):
                 return SUM
             return WHOLE if unit == "-" and not isinstance(value, complex) and is_plain(value) else PRODUCT
@@ -252,7 +252,7 @@ def begins_negative(node: Node) -> bool:
     match _first(node):
         case Signed("-"):
             return True
-        case Quantity(value):
+        case Measure(value):
             return _is_negative(value)
     return False
 
@@ -262,7 +262,7 @@ def begins_as_number(node: Node) -> bool:
     match _first(node):
         case Number(value):
             return isfinite(value)
-        case Quantity(value):
+        case Measure(value):
             return value.real < 0 if isinstance(value, complex) else isfinite(value)
         case Brackets([item, *_], kind="()") as brackets:
             return begins_negative(item) and not is_high(brackets)

@@ -15,13 +15,13 @@ from mechsheet.document.formula import (
     Fraction,
     Function,
     Integral,
+    Measure,
     Node,
     Number,
     Overline,
     Power,
     Prefix,
     Product,
-    Quantity,
     Range,
     Root,
     Row,
@@ -30,8 +30,13 @@ from mechsheet.document.formula import (
     is_high,
 )
 from mechsheet.worksheet import numbers
+from mechsheet.worksheet.numbers import Notation
 from mechsheet.worksheet.symbol import GREEK, Symbol
 
+LATEX = Notation(
+    "-", r"\text{none}", r"\infty", r"{} \cdot 10^{{{}}}", r"({},\ {})", r" \,\ldots\, ", r"^\circ", r"\,\%",
+    r"\ \mathrm{{{}}}", r"^{{{}}}", r"\cdot ",
+)  # fmt: skip
 _LETTERS = {letter: rf"\{word}" for word, letter in GREEK.items()} | {"ε": r"\varepsilon", "φ": r"\varphi"}
 _MARKS = {"": "{}", "Δ": r"\Delta {}", "d": r"\mathrm{{d}}{}", ".": r"\dot{{{}}}", "..": r"\ddot{{{}}}"}
 _NAMED = {
@@ -62,8 +67,8 @@ def symbol(s: Symbol) -> str:
     return _MARKS[s.mark].format(base) + (f"_{{{index}}}" if index else "")
 
 
-def _quantity(node: Quantity) -> str:
-    return numbers.quantity(node.value, node.unit, numbers.LATEX)
+def _measure(node: Measure) -> str:
+    return numbers.quantity(node.value, node.unit, LATEX)
 
 
 def _function(node: Function) -> str:
@@ -97,8 +102,8 @@ def _escaped(text: str) -> str:
 
 RULES: dict[type[Any], Callable[[Any], str]] = {
     Symbol: symbol,
-    Number: lambda node: numbers.usual(node.value, numbers.LATEX),
-    Quantity: _quantity,
+    Number: lambda node: numbers.usual(node.value, LATEX),
+    Measure: _measure,
     Text: lambda node: rf"\text{{{_escaped(node.text)}}}",
     Code: _code,
     Function: _function,

@@ -2,18 +2,22 @@
 
 import ast
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
+from functools import lru_cache
 from inspect import cleandoc
 from pathlib import Path
+from types import CodeType
 from typing import Any
 
 from mechsheet.worksheet import source
-from mechsheet.worksheet.cells import load
+from mechsheet.worksheet.cells import load, results
+from mechsheet.worksheet.check import Summary
 from mechsheet.worksheet.errors import raised
-from mechsheet.worksheet.inputs import Used
 from mechsheet.worksheet.lines import Formula, Given, Typeset
-from mechsheet.worksheet.title import Player
+from mechsheet.worksheet.shown import Shown
+from mechsheet.worksheet.table import Figure, Table
+from mechsheet.worksheet.title import Player, SideBySide, Slider, Title
 
 _HEADING = re.compile(r"^(#+) +(.*\S)\s*$", re.MULTILINE)
 _OF_PAGE = {"ask", "export", "save_scene"}  # what they show is there to be pressed or filled in
@@ -44,7 +48,7 @@ class Line:
 
 @dataclass(frozen=True)
 class Control:
-    """A slider by the name that the formulas read, its range, its position, and whether it turns on at its end."""
+    """A slider by the name that the formulas read: what it moves, in ``unit``, and whether it turns on at its end."""
 
     name: str
     label: str
@@ -53,63 +57,137 @@ class Control:
     step: float | None
     value: float
     turning: bool
+    unit: str = "-"
 
 
-def contents(worksheet: str | Path, g: Any = None) -> list[Any]:
-    """What a worksheet shows, in the order of its file.
+@dataclass(frozen=True)
+class _Written:
+    """A cell as it stands in the file: what it gives, in any case or in a branch, and the code of what it shows.
+
+    ``before`` are the lines behind the names with ``_`` that it shows, which marimo keeps from other cells; both need
+    the names ``reads``.
+    """
+
+    gives: tuple[str, ...]
+    certain: frozenset[str]
+    reads: frozenset[str]
+    before: CodeType | None
+    shown: CodeType | None
+    is_text: bool
+
+
+def contents(namespace: Mapping[str, Any]) -> list[Any]:
+    """What a worksheet shows, in the order of its file, from the namespace of a run.
+
+    Only the expressions in which cells end are evaluated again, not what they are computed from.
 
     These are `Section`, `Text`, `Line`, `Given`, `Control`, the inputs as `Used`, and the values that cells show as
     they are: title, captions, drawings, columns of them, tables, figures, found values, checks and their summary.
-    ``g`` are the inputs, by default the worksheet's own. The worksheet is run once.
-
-    Raises SheetError where the file, an input or the mechanism cannot be used.
+    Of a run that was asked for some results only, it is what the cells that have run show.
     """
-    sheet = load(worksheet)
-    g = sheet.inputs() if g is None else g
-    nodes = source.functions(ast.parse(Path(sheet.path).read_text(encoding="utf-8")))
-    written = {id(cell): node for cell, node in zip(sheet.cells, nodes, strict=True)}  # cells may have one name
-    labels = {name: label for node in written.values() for name, label in _labels(node)}
-    kept = [cell for cell in sheet.cells if "g" not in cell.gives and not _asks(written[id(cell)])]
-    names = {**sheet.common, "g": g}
-    parts: dict[int, list[Any]] = {id(cell): [Used(g)] if "g" in cell.gives else [] for cell in sheet.cells}
+    return [part for parts, _ in _cells(namespace) for part in parts]
+
+
+def values(namespace: Mapping[str, Any]) -> list[Any]:
+    """What the cells of a run can show, in the order of the file, each value of a group on its own.
+
+    Of a cell first what it gives, by its lines, be it for the workbook alone; then what it shows under no name, but for
+    a shorter table of a number that is given. Last comes what stands in the namespace and not yet in the file.
+    """
+    cells = [(list(_singly(given)), list(_singly(parts))) for parts, given in _cells(namespace)]
+    numbers = {_number(value) for given, _ in cells for value in given} - {None}
+    held = [v for given, parts in cells for v in (*given, *(part for part in parts if _number(part) not in numbers))]
+    found, sums = dict[int, Any](), list[Summary]()
+    for value in (*held, *_singly(value for name, value in namespace.items() if not name.startswith("_"))):
+        if isinstance(value, Summary):
+            sums.append(value)
+        elif isinstance(value, Shown):
+            found.setdefault(id(value), value)
+    for check in (check for each in sums for check in each.checks):  # the one at the top must not decide the order
+        found.setdefault(id(check), check)
+    return list(found.values())
+
+
+def _number(value: Any) -> tuple[type, str] | None:
+    return (type(value), value.number) if isinstance(value, Table | Figure) else None
+
+
+def _singly(group: Iterable[Any]) -> Iterator[Any]:
+    for value in group:
+        match value:
+            case tuple() | list():
+                yield from _singly(value)
+            case SideBySide(columns):
+                yield from _singly(columns)
+            case Typeset():
+                yield from _singly(value.shown)
+            case _:
+                yield value
+
+
+def _cells(namespace: Mapping[str, Any]) -> Iterator[tuple[list[Any], list[Any]]]:
+    """What each cell that has run shows, and what it gives."""
+    path = Path(namespace["__file__"]).resolve()
+    cells = _read(path, path.stat().st_mtime_ns)
+    names = dict(namespace)
+    names["title_block"] = lambda name, text="": Title(name, text, path.name)  # that of a page watches its cells too
     with raised():
-        ordered = sheet.needed([name for cell in kept for name in cell.gives], names)
-        for cell in [*ordered, *(cell for cell in kept if not cell.gives)]:
-            shown = _shown(written[id(cell)], sheet.path, names)
-            parts[id(cell)] = [part for value in shown for part in _parts(value, names, labels)]
-    return [part for cell in sheet.cells for part in parts[id(cell)]]
+        for cell in cells:
+            if not cell.certain <= names.keys():
+                continue
+            parts = list[Any]()
+            if cell.shown and cell.reads <= names.keys():
+                if cell.before:
+                    exec(cell.before, names)
+                value = eval(cell.shown, names)
+                parts += _texts(str(value)) if cell.is_text else _parts(value, names)
+            yield parts, [names[name] for name in cell.gives if name in names]
+
+
+@lru_cache(maxsize=32)
+def _read(path: Path, _changed: int) -> tuple[_Written, ...]:
+    """The cells of a file in their order."""
+    nodes = list(source.functions(ast.parse(path.read_text(encoding="utf-8"))))
+    given = [cell.gives for cell in load(path).cells]
+    certain, every = frozenset(results(path, certain=True)), frozenset(results(path))
+    return tuple(
+        _Written(gives, certain & {*gives}, *_ending(node, every, str(path)))
+        for node, gives in zip(nodes, given, strict=True)
+    )
+
+
+def _ending(
+    node: ast.FunctionDef, every: frozenset[str], path: str
+) -> tuple[frozenset[str], CodeType | None, CodeType | None, bool]:
+    """What a cell shows: the names that this reads of all cells, its code, and whether it is a text."""
+    text, body = source.markdown(node), node.body[:-1] if isinstance(node.body[-1], ast.Return) else node.body
+    match body[-1:]:
+        case [ast.Expr(shown)] if not _asks(node):
+            before = _before(body[:-1], shown)
+            reads = every.intersection(name for part in (*before, shown) for name in _names(part))
+            code = compile(ast.Module(before, []), path, "exec") if before else None
+            return reads, code, compile(ast.Expression(text or shown), path, "eval"), text is not None
+    return frozenset(), None, None, False
+
+
+def _before(lines: list[ast.stmt], shown: ast.expr) -> list[ast.stmt]:
+    """Lines of a cell that have to do with the names with ``_`` in what it shows, and with those in these lines."""
+    private, size = {name for name in _names(shown) if name.startswith("_")}, -1
+    while len(private) > size:
+        size = len(private)
+        kept = [line for line in lines if not private.isdisjoint(_names(line))]
+        private |= {name for line in kept for name in _names(line) if name.startswith("_")}
+    return kept
+
+
+def _names(node: ast.AST) -> Iterator[str]:
+    return (part.id for part in ast.walk(node) if isinstance(part, ast.Name))
 
 
 def _asks(node: ast.FunctionDef) -> bool:
     """Whether a cell shows what is there to be filled in or pressed."""
     calls = (call.func for call in ast.walk(node) if isinstance(call, ast.Call))
     return any(isinstance(called, ast.Name) and called.id in _OF_PAGE for called in calls)
-
-
-def _labels(node: ast.FunctionDef) -> Iterator[tuple[str, str]]:
-    """Names of the sliders of a cell and their labels."""
-    for statement in node.body:
-        match statement:
-            case ast.Assign([ast.Name(name)], ast.Call(ast.Attribute(_, "slider"), _, keywords)):
-                yield name, next((source.constant(k.value) for k in keywords if k.arg == "label"), "")
-
-
-def _last(node: ast.FunctionDef) -> ast.expr | None:
-    """The expression in which a cell ends, whose value it shows."""
-    match node.body[-2:]:
-        case [ast.Expr(last), _]:
-            return last
-    return None
-
-
-def _shown(node: ast.FunctionDef, path: str, names: dict[str, Any]) -> Iterator[Any]:
-    """Run a cell; what it shows."""
-    last, text = _last(node), source.markdown(node)
-    exec(compile(ast.Module(node.body[: -1 if last is None else -2], []), path, "exec"), names)
-    if text is not None:
-        yield from _texts(str(eval(compile(ast.Expression(text), path, "eval"), names)))
-    elif last is not None:
-        yield eval(compile(ast.Expression(last), path, "eval"), names)
 
 
 def _texts(markdown: str) -> Iterator[Section | Text]:
@@ -123,7 +201,7 @@ def _texts(markdown: str) -> Iterator[Section | Text]:
             yield Text(text.strip())
 
 
-def _parts(value: Any, names: Mapping[str, Any], labels: Mapping[str, str]) -> Iterator[Any]:
+def _parts(value: Any, names: Mapping[str, Any]) -> Iterator[Any]:
     """A value by itself, or the parts that it shows one after the other."""
     match value:
         case None:
@@ -132,18 +210,20 @@ def _parts(value: Any, names: Mapping[str, Any], labels: Mapping[str, str]) -> I
             for row, x in zip(value.rows, value.values, strict=True):
                 yield row if isinstance(row, Given) else Line(row, None if row.arguments else x)
             for shown in value.shown:
-                yield from _parts(shown, names, labels)
-        case Player(slider, turning):
-            yield _control(slider, turning, names, labels)
-        case _ if all(hasattr(value, part) for part in ("start", "stop", "step", "value")):
-            yield _control(value, False, names, labels)
+                yield from _parts(shown, names)
+        case Player(Slider() as slider, turning):  # in a page it is marimo's element
+            yield _control(slider, turning, names)
+        case Slider():
+            yield _control(value, False, names)
+        case str():
+            yield from _texts(value)
         case tuple() | list():
             for each in value:
-                yield from _parts(each, names, labels)
+                yield from _parts(each, names)
         case _:
             yield value
 
 
-def _control(slider: Any, turning: bool, names: Mapping[str, Any], labels: Mapping[str, str]) -> Control:
-    name = next(name for name in labels if names.get(name) is slider)
-    return Control(name, labels[name], slider.start, slider.stop, slider.step, slider.value, turning)
+def _control(slider: Slider, turning: bool, names: Mapping[str, Any]) -> Control:
+    name = next(name for name, value in names.items() if value is slider)
+    return Control(name, slider.label, slider.start, slider.stop, slider.step, slider.value, turning, slider.unit)

@@ -100,12 +100,18 @@ def scalar_field(value: ArrayLike, name: str) -> Float:
     return _not_infinite(x, name)
 
 
-def direction(value: ArrayLike, name: str) -> Complex:
-    """Unit vectors along the given ones, which may have any length but zero."""
+def direction(value: ArrayLike, name: str) -> tuple[Complex, Float]:
+    """Directions as given, and their lengths, which may be any but zero."""
     z = field(value, name)
     size = np.abs(z)
     if np.count_nonzero(size) < size.size:
         raise ValueError(f"direction {name} = 0 must not be zero")
+    return z, size
+
+
+def unit(value: ArrayLike, name: str) -> Complex:
+    """Unit vectors along the given directions."""
+    z, size = direction(value, name)
     return z / size
 
 

@@ -76,9 +76,9 @@ def extreme(f: Function, x: Array, y: Array, active: Mask, floor: Array) -> tupl
 def _closer(f: Function, x: Array, y: Array, low: Array, high: Array, near: Array) -> tuple[Array, Array]:
     """The points x, y and more between low and high: a coarse comb, and a fine one around a predicted place."""
     width = high - low
-    near = np.where((low < near) & (near < high), near, (low + high) / 2)
+    near = np.where((low < near) & (near < high), near, low / 2 + high / 2)
     two = 2 * EPS * np.abs(near)
-    new = np.concatenate([low + _COARSE * width, near + _FINE * width, [near - two, near + two]])
+    new = np.concatenate([low * (1 - _COARSE) + high * _COARSE, near + _FINE * width, [near - two, near + two]])
     new = np.clip(new, low, high)
     x, y = np.concatenate([x, new]), np.concatenate([y, f(new)])
     order = x.argsort(axis=0, kind="stable")
@@ -96,22 +96,22 @@ def bracketed(g: Function, x: Array, r: Array, active: Mask, floor: Array) -> tu
     poor = np.zeros(active.shape)
     while True:
         (a, b, c), (r_a, r_b, r_c) = x, r
-        width, unit = b - a, ulp(b, floor)
+        width, half, unit = b - a, b / 2 - a / 2, ulp(b, floor)  # the width itself may overflow
         active = active & (width > 4 * unit) & (r_a != 0) & (r_b != 0)
         if not active.any():
             return x[:2], r[:2]
-        line = a - width * r_a / (r_b - r_a)
-        to_b, to_c = width * r_c / ((r_b - r_a) * (r_b - r_c)), (c - a) * r_b / ((r_c - r_a) * (r_c - r_b))
-        parabola = a + r_a * (to_b + to_c)
+        along = r_a / (r_b - r_a)
+        line = a - width * along
+        parabola = a + width * along * (r_c / (r_b - r_c)) + (c - a) * (r_a / (r_c - r_a)) * (r_b / (r_c - r_b))
         zero = np.where((a < parabola) & (parabola < b), parabola, line)
         off = np.abs(parabola - line) / 2
         off = np.maximum(np.where(off < width, off, width / 4), 8 ** (1 + poor) * unit)
         even = ~((a < zero) & (zero < b)) | (width <= 64 * unit) | (poor > 2)
-        new = np.where(even, a + width / 2, zero) + _EVEN * np.where(even, width / 4, off)
+        new = np.where(even, a + half, zero) + _EVEN * np.where(even, half / 2, off)
         many = active & (poor > 2) & (width > 64 * unit)
         if many.any():  # the others stay as they would be alone: what they do not need stands at their end b
             rest = np.broadcast_to(b, (len(_MANY) - len(new), *b.shape))
-            new = np.where(many, a + _MANY * width, np.concatenate([new, rest]))
+            new = np.where(many, a * (1 - _MANY) + b * _MANY, np.concatenate([new, rest]))
         x, r = _narrowed(g, x, r, np.clip(new, a, b), active)
         poor = np.where(x[1] - x[0] > width / 4, poor + 1, np.where(even & (poor > 2), poor, 0))
 

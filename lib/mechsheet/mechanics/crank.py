@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mechsheet.mechanics.arguments import Complex, Float, direction, elementwise, field, length, parameter
+from mechsheet.mechanics.arguments import Complex, Float, elementwise, field, length, parameter, unit
 from mechsheet.mechanics.planar import angle, cross
 
 
@@ -152,7 +152,7 @@ def rrp_crank_reach(
     >>> rrp_crank_reach(0, 0, 1, 1, 3).greatest
     np.float64(3.141592653589793)
     """
-    u, r = direction(u, "u"), length(r, "length r")
+    u, r = unit(u, "u"), length(r, "length r")
     r_A = length(r_A, "length r_A")
     gap = cross(u, field(O1, "O1") - field(B, "B")) - parameter(offset, "offset", "m")  # of O1 above C's path
     low, high = _half_angle(r_A - gap, r), _half_angle(-r_A - gap, r)

@@ -86,7 +86,7 @@ def gear_drive(O1: ArrayLike, P: ArrayLike, alpha_w: ArrayLike, loads: Sequence[
     Returns
     -------
     GearDrive
-        F, R_O1 [N].
+        F, R_O1 [N]; NaN where P = O1.
 
     Raises
     ------
@@ -130,7 +130,7 @@ def cylinder_drive(A: ArrayLike, C: ArrayLike, R_C: ArrayLike, loads: Sequence[L
     Returns
     -------
     CylinderDrive
-        F, R [N], M [N m], h [m].
+        F, R [N], M [N m], h [m]; NaN where A = C, but for M.
 
     Raises
     ------

@@ -5,12 +5,14 @@ Independent of the groups and of the order in which they are taken: it proves th
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import reduce
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from mechsheet.mechanics.arguments import Complex, Float, shape_error
+from mechsheet.mechanics.group import ROUNDINGS
 from mechsheet.mechanics.load import Load
 from mechsheet.mechanics.planar import cross, dot
 
@@ -127,14 +129,14 @@ def solve_reactions(loads: Sequence[Sequence[Load]], reactions: Sequence[Reactio
     Parameters
     ----------
     loads : sequence of sequences of Load
-        Loads on the bodies 1, 2, ...
+        Loads on the bodies 1, 2, ..; each has one at least.
     reactions : sequence of PinReaction, SlideReaction, DriveMoment
         Where reactions act; what they are is not looked at.
 
     Returns
     -------
     float, shape (..., unknowns)
-        As `magnitudes` lists them; NaN where the system has no solution.
+        As `magnitudes` lists them; NaN where the bodies can move, to rounding of the points, or a number is NaN.
 
     Raises
     ------
@@ -147,19 +149,27 @@ def solve_reactions(loads: Sequence[Sequence[Load]], reactions: Sequence[Reactio
     units = [(r, F, M) for r in reactions for F, M in r.units]
     if len(units) != size:
         raise ValueError(f"{len(units)} unknown reactions for {size} equations of equilibrium")
-    columns = [(r, _wrench(F, M, r.P)) for r, F, M in units]
-    known = [sum(_wrench(load.F, load.M, load.P) for load in of_body) for of_body in loads]
-    shape = np.broadcast_shapes(*(np.shape(c)[:-1] for _, c in columns), *(np.shape(k)[:-1] for k in known))
-    system, right = np.zeros((*shape, size + 3, size)), np.zeros((*shape, size + 3, 1))
-    for j, (r, column) in enumerate(columns):
-        system[..., 3 * r.by : 3 * r.by + 3, j] -= column
-        system[..., 3 * r.on : 3 * r.on + 3, j] += column
-    for body, of_body in enumerate(known, start=1):
+    # moments about a pair of each body and over its longest arm: neither origin nor size of the bodies count
+    frames = [_frame(body, of_body, reactions) for body, of_body in enumerate(loads, start=1)]
+    scales = [frames[max(r.on, r.by) - 1].arm if not np.any(F) else np.ones(()) for r, F, _ in units]
+    columns = [
+        (j, body - 1, way * _wrench(F, np.multiply(M, scale), r.P, frames[body - 1]))
+        for j, ((r, F, M), scale) in enumerate(zip(units, scales, strict=True))
+        for body, way in ((r.on, 1), (r.by, -1))
+        if body  # the frame of the mechanism, body 0, needs no equilibrium
+    ]
+    known = [sum(_wrench(load.F, load.M, load.P, f) for load in on) for on, f in zip(loads, frames, strict=True)]
+    shape = np.broadcast_shapes(*(np.shape(c)[:-1] for *_, c in columns), *(np.shape(k)[:-1] for k in known))
+    system, right = np.zeros((*shape, size, size)), np.zeros((*shape, size, 1))
+    for j, body, column in columns:
+        system[..., 3 * body : 3 * body + 3, j] += column
+    for body, of_body in enumerate(known):
         right[..., 3 * body : 3 * body + 3, 0] = -of_body
-    system, right = system[..., 3:, :], right[..., 3:, :]  # the frame, body 0, needs no equilibrium
-    system[np.linalg.det(system) == 0] = np.nan
-    found: Float = np.linalg.solve(system, right)[..., 0]
-    return found
+    system[_singular(system, reduce(np.maximum, (f.away for f in frames)))] = np.nan
+    found = np.linalg.solve(system, right)
+    found += np.linalg.solve(system, right - system @ found)  # small reactions keep their digits beside large ones
+    result: Float = found[..., 0] * np.stack(np.broadcast_arrays(*scales), axis=-1)
+    return result
 
 
 def magnitudes(reactions: Sequence[Reaction]) -> Float:
@@ -169,9 +179,33 @@ def magnitudes(reactions: Sequence[Reaction]) -> Float:
     return np.stack(np.broadcast_arrays(*(m for r in reactions for m in r.magnitudes)), axis=-1)
 
 
-def _wrench(F: ArrayLike, M: ArrayLike, P: ArrayLike) -> Float:
-    """Force and its moment about the origin, as three components along the last axis."""
-    return np.stack(np.broadcast_arrays(np.real(F), np.imag(F), np.asarray(M) + cross(P, F)), axis=-1)
+class _Frame(NamedTuple):
+    """From where the moments on a body count."""
+
+    pole: Complex  # [m]
+    arm: Float  # [m] longest distance of a pair from the pole
+    away: Float  # [-] distance from the origin, in arms
+
+
+def _frame(body: int, of_body: Sequence[Load], reactions: Sequence[Reaction]) -> _Frame:
+    pairs = [r.P for r in reactions if body in (r.on, r.by) and not isinstance(r, DriveMoment)]
+    pole, *points = (np.asarray(P) for P in (pairs or [of_body[0].P]))
+    arm = reduce(np.maximum, (np.abs(P - pole) for P in points), np.zeros(()))
+    away = np.abs(pole) / np.where(arm == 0, np.inf, arm)  # one pair alone may be anywhere
+    return _Frame(pole, np.where(arm == 0, 1.0, arm), away)
+
+
+def _wrench(F: ArrayLike, M: ArrayLike, P: ArrayLike, frame: _Frame) -> Float:
+    """Force and its moment about the pole, over the arm, as three components along the last axis."""
+    moment = (np.asarray(M) + cross(np.asarray(P) - frame.pole, F)) / frame.arm
+    return np.stack(np.broadcast_arrays(np.real(F), np.imag(F), moment), axis=-1)
+
+
+def _singular(system: Float, away: Float) -> NDArray[np.bool_]:
+    """Whether rounding of the points, which lie so many arms from the origin, can leave bodies that move."""
+    finite = np.asarray(np.isfinite(system).all((-2, -1)))
+    s = np.linalg.svdvals(np.where(finite[..., None, None], system, 0.0))
+    return np.asarray(~finite | (s[..., -1] <= ROUNDINGS * (s[..., 0] + away)))
 
 
 def _numbered(loads: Sequence[Sequence[Load]], reactions: Sequence[Reaction]) -> None:

@@ -23,9 +23,11 @@ Arguments stand in one order: points, directions, lengths and branch, first deri
 Derivatives that are not given are zero.
 
 All arguments broadcast. NaN marks an element that does not exist: a group that does not close, or derivatives and
-reactions at a dead centre, where the group's determinant is zero. NaN points and motions pass through, so that
-groups follow one another, and so do NaN lengths in an array, which a Find gives where it has no solution. A single
-length that is NaN, infinite lengths, infinite points and branches other than +1 and -1 raise ValueError.
+reactions at a dead centre, where the group's determinant is zero or so small that eight roundings of the points and
+directions can make it zero. NaN points and motions pass through, so that groups follow one another, and so do NaN
+lengths in an array, which a Find gives where it has no solution. A single length that is NaN, infinite lengths,
+infinite points and branches other than +1 and -1 raise ValueError. Lengths and directions may be of any size from
+1e-150 to 1e150.
 
 A condition number is an upper bound of the relative change of a link's vector over the relative changes of
 coordinates, lengths and directions that cause it: no more than about log10(condition) digits of a position are lost,
@@ -47,16 +49,15 @@ Source of the reactions: I. G. Shebanov, Dynamic synthesis and analysis of aircr
 Ukrainian), Kharkiv, KhAI, 2003, sections 1.1 to 1.4; derived anew.
 """
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from mechsheet.mechanics.arguments import Complex, Float, scalar_field
-from mechsheet.mechanics.planar import cross
+from mechsheet.mechanics.planar import cross, dot
 
-Points = tuple[Complex, ...]
-_ROUNDING = 2.0**-52  # how far a rounded coordinate may be off, relative: twice the error of one rounding
+ROUNDINGS = 8 * 2.0**-53  # a determinant that eight roundings make zero has no digit that can be trusted
 
 
 class Reach(NamedTuple):
@@ -67,26 +68,31 @@ class Reach(NamedTuple):
 
 
 def solve(a: Complex, b: Complex, w: Complex, D: Float) -> tuple[Float, Float]:
-    """x, y of x a + y b = w, for the `determinant` D = a x b."""
+    """x, y of x a + y b = w, for the determinant D = a x b."""
     return cross(w, b) / D, cross(a, w) / D
 
 
-def determinant(a: Complex, b: Complex, points_a: Points, points_b: Points) -> Float:
-    """a x b for vectors between the given points; NaN at a dead centre, where it is no larger than their rounding.
+def turned(a: Complex, b: Complex, w: Complex, D: Float) -> tuple[Float, Float]:
+    """x, y of i (x a - y b) = w, for the determinant D = a x b."""
+    return dot(w, b) / D, dot(w, a) / D
 
-    A difference of two rounded points is off by their rounding: below that nothing is left of derivatives and
-    reactions, whose condition is at least that of the determinant. A vector without points is a unit vector, rounded.
-    """
-    if not (a.ndim or b.ndim):  # numpy's own numbers take ten times as long for it as Python's
-        p, q = complex(a), complex(b)
-        one = p.real * q.imag - p.imag * q.real
-        off = _uncertain(p, q, tuple(map(complex, points_a)), tuple(map(complex, points_b)))
-        return np.asarray(one if abs(one) > off else np.nan)[()]
-    D = cross(a, b)
-    size = np.abs(D)
-    if np.minimum.reduce(size, axis=None, initial=np.inf) > 4 * _ROUNDING * _greatest(points_a) * _greatest(points_b):
-        return D  # one number for all elements, in a third of the time
-    return np.where(size <= _uncertain(a, b, points_a, points_b), np.nan, D)
+
+def slid(a: Complex, u: Complex, w: Complex, D: Float) -> tuple[Float, Float]:
+    """x, y of i x a + y u = w, for the determinant D = a . u."""
+    return cross(u, w) / D, dot(w, a) / D
+
+
+def determinant(D: Float, size: Float) -> Float:
+    """D; NaN at a dead centre. One rounding of what D is made of changes it by 2**-53 ``size`` at most."""
+    lost = np.abs(D) <= ROUNDINGS * size
+    return np.where(lost, np.nan, D)[()] if np.count_nonzero(lost) else D
+
+
+def condition(size: Float, D: Float) -> Float:
+    """size / |D|; infinite at a dead centre, where the `determinant` D is NaN."""
+    kappa: Float = size / np.abs(D)
+    lost = np.isnan(D)
+    return np.where(lost & ~np.isnan(size), np.inf, kappa)[()] if np.count_nonzero(lost) else kappa
 
 
 def moved(v: Complex, a: Complex, dr: ArrayLike, name: str) -> Complex:
@@ -95,27 +101,17 @@ def moved(v: Complex, a: Complex, dr: ArrayLike, name: str) -> Complex:
     return v + a * (dr / np.abs(a)) if dr.ndim or dr else v
 
 
-def carried(a: Complex, omega: ArrayLike, dr: ArrayLike, ddr: ArrayLike, end: str) -> Complex:
-    """Second derivative of the vector a of a link, without its angular acceleration's part."""
+def carried(a: Complex, omega: ArrayLike, dr: ArrayLike, ddr: ArrayLike, end: str) -> tuple[Complex, Float]:
+    """Second derivative of the vector a of a link along a, and the angular acceleration that its Coriolis part is like.
+
+    That part is square to a as the angular acceleration's is, so that it counts in that alone.
+    """
     omega = scalar_field(omega, f"omega_{end}")
     dr, ddr = scalar_field(dr, f"dr_{end}"), scalar_field(ddr, f"ddr_{end}")
-    rigid = -(omega**2) * a
     if dr.ndim or ddr.ndim or dr or ddr:
-        return rigid + a * ((ddr + 2j * omega * dr) / np.abs(a))
-    return rigid
+        r = np.abs(a)
+        return ((ddr + 0 * dr) / r - omega**2) * a, 2 * omega * dr / r  # 0 dr: its shape and its NaN count everywhere
+    return -(omega**2) * a, _NONE
 
 
-def _uncertain(a: Any, b: Any, points_a: tuple[Any, ...], points_b: tuple[Any, ...]) -> Any:
-    """How far a x b may be off."""
-    points_a, points_b = points_a or (a,), points_b or (b,)
-    x_a, y_a = sum(abs(P.real) for P in points_a), sum(abs(P.imag) for P in points_a)
-    x_b, y_b = sum(abs(P.real) for P in points_b), sum(abs(P.imag) for P in points_b)
-    return _ROUNDING * ((x_a * abs(b.imag) + y_a * abs(b.real)) + (x_b * abs(a.imag) + y_b * abs(a.real)))
-
-
-def _greatest(points: Points) -> float:
-    """Bound of the coordinates of a vector between the points, whichever element; NaN where one of them is."""
-    if not points:
-        return 1.0
-    sizes = [np.abs(P) for P in points]
-    return sum(float(np.maximum.reduce(x, axis=None, initial=0.0) if x.ndim else x) for x in sizes)
+_NONE = np.zeros(())

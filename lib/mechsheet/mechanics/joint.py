@@ -79,6 +79,8 @@ def bending(y: ArrayLike, A: ArrayLike, M: ArrayLike, N: ArrayLike) -> Bending:
     """
     y, A = np.broadcast_arrays(_row(y, "level y", "m"), not_negative(A, "area A", "m^2"))
     M, N = parameter(M, "moment M", "N m"), parameter(N, "normal force N", "N")
+    unit_y, unit_A = _power_of_two(y), _power_of_two(A)  # no square of a length leaves the range of floats
+    y, A, M = y / unit_y[..., None], A / unit_A[..., None], M / unit_y
     largest = np.take_along_axis(y, A.argmax(-1)[..., None], -1)  # levels from here: one level gives I_c = 0 exactly
     F = A.sum(-1)
     above = (A * (y - largest)).sum(-1, keepdims=True) / F[..., None]
@@ -90,7 +92,9 @@ def bending(y: ArrayLike, A: ArrayLike, M: ArrayLike, N: ArrayLike) -> Bending:
     M_c = M - N * y_c
     sigma = (N / F)[..., None] + (M_c / I_c)[..., None] * lever
     y_0 = y_c - N * I_c / (F * M_c)
-    return Bending(sigma, *np.broadcast_arrays(F, S, y_c, I_c, M_c, y_0))
+    F, S, I_c = F * unit_A, S * unit_A * unit_y, I_c * unit_A * unit_y * unit_y
+    section = np.broadcast_arrays(F, S, y_c * unit_y, I_c, M_c * unit_y, y_0 * unit_y)
+    return Bending(sigma / unit_A[..., None], *section)
 
 
 def sum_of_elements(x: Float) -> Float:
@@ -150,6 +154,8 @@ def neutral_axis(y: ArrayLike, A_t: ArrayLike, A_c: ArrayLike, M: ArrayLike, N: 
         not_negative(A_c, "area in compression A_c", "m^2"),
     )
     M, N = np.broadcast_arrays(parameter(M, "moment M", "N m"), parameter(N, "normal force N", "N"))
+    unit_y, unit_A = _power_of_two(y), _power_of_two(np.maximum(A_t, A_c))
+    y, A_t, A_c, M = y / unit_y[..., None], A_t / unit_A[..., None], A_c / unit_A[..., None], M / unit_y
     elements, level = y[..., None, :], np.sort(y)[..., None]
     apart = np.diff(level[..., 0], append=np.inf) > 0
     above = elements > level
@@ -171,7 +177,8 @@ def neutral_axis(y: ArrayLike, A_t: ArrayLike, A_c: ArrayLike, M: ArrayLike, N: 
         ["no equilibrium", "tension and compression", "all in tension", "all in compression"],
         "no load",
     )
-    return Section(sigma, sigma * area, area + 0 * sigma, result.y_0, state)
+    in_m2 = unit_A[..., None]
+    return Section(sigma / in_m2, sigma * area, (area + 0 * sigma) * in_m2, result.y_0 * unit_y, state)
 
 
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(16)  # exact to rounding for an arc up to the whole circle
@@ -265,6 +272,12 @@ def circular_joint(phi: ArrayLike, r: ArrayLike, M: ArrayLike, N: ArrayLike) -> 
         phi_0=np.pi - alpha + lost,
         state=np.select([*states.values()], [*states], "all in tension"),
     )
+
+
+def _power_of_two(x: Float) -> Float:
+    """A power of two beside the greatest of each row: to divide by it rounds nothing."""
+    found: Float = np.ldexp(1.0, np.frexp(np.abs(x).max(-1))[1] - 1)
+    return found
 
 
 def _row(value: ArrayLike, name: str, unit: str) -> Float:

@@ -117,7 +117,7 @@ def angle_opposite(a: ArrayLike, b: ArrayLike, c: ArrayLike) -> Float:
     """
     a, b, c = _side(a, "a"), _side(b, "b"), _side(c, "c")
     b, c = np.maximum(b, c), np.minimum(b, c)
-    closes = (c > 0) & _meet(a, b, c) & _meet(b, a, c)
+    closes = (c > 0) & meet(a, b, c) & meet(b, a, c)
     over = ((b - c) + a) * np.where(c < a, c - (b - a), a - (b - c))
     under = (b + (c + a)) * ((b - a) + c)
     # where the sides close to one rounding, a factor below zero is that rounding
@@ -152,19 +152,16 @@ def triangle_area(a: ArrayLike, b: ArrayLike, c: ArrayLike) -> Float:
     >>> triangle_area(3, 4, [5, 7, 8])
     array([ 6.,  0., nan])
     """
-    x, y, z = np.asarray(a, np.float64), np.asarray(b, np.float64), np.asarray(c, np.float64)
-    return sorted_area(np.maximum(x, y), np.minimum(x, y), z)
-
-
-def sorted_area(x: Float, y: Float, z: Float) -> Float:
-    """`triangle_area` of sides of which the first is no shorter than the second."""
-    x, z = np.maximum(x, z), np.minimum(x, z)
+    p, q, r = np.asarray(a, np.float64), np.asarray(b, np.float64), np.asarray(c, np.float64)
+    x, y = np.maximum(p, q), np.minimum(p, q)
+    x, z = np.maximum(x, r), np.minimum(x, r)
     y, z = np.maximum(y, z), np.minimum(y, z)
     excess = z - (x - y)
-    if np.count_nonzero(excess < 0):  # where the sides meet to one rounding, an excess below zero is that rounding
-        excess = np.where(_meet(x, y, z), np.maximum(excess, 0), np.nan)
-    square: Float = (x + (y + z)) * excess * (z + (x - y)) * (x + (y - z))
-    return np.sqrt(square) / 4
+    # where the sides meet to one rounding, an excess below zero is that rounding
+    excess = np.where(meet(x, y, z), np.maximum(excess, 0), np.nan)
+    # two roots: the product of four lengths would leave the range of floats
+    area: Float = np.sqrt((x + (y + z)) * excess) * np.sqrt((z + (x - y)) * (x + (y - z))) / 4
+    return area
 
 
 @broadcasting
@@ -183,7 +180,7 @@ def link_point(A: ArrayLike, B: ArrayLike, z: ArrayLike) -> Complex:
     Returns
     -------
     complex, shape (...)
-        P [m].
+        P [m]; NaN where A = B.
 
     Examples
     --------
@@ -257,9 +254,15 @@ def link_acceleration(
     return field(a_A, "a_A") + turning * (field(P, "P") - field(A, "A"))
 
 
-def _meet(x: Float, y: Float, z: Float) -> NDArray[np.bool_]:
-    # x is at most y + z, where any one of the three may be the rounded sum or difference of the others
+def meet(x: Float, y: Float, z: Float) -> NDArray[np.bool_]:
+    """x is at most y + z, where any one of the three may be the rounded sum or difference of the others."""
     return (x <= y + z) | (x - y <= z) | (x - z <= y)
+
+
+def flat(x: Float, y: Float, z: Float) -> NDArray[np.bool_]:
+    """x is y + z, where any one of the three is the rounded sum or difference of the others."""
+    found: NDArray[np.bool_] = (x == y + z) | (x - y == z) | (x - z == y)
+    return found
 
 
 def _side(value: ArrayLike, name: str) -> Float:

@@ -8,8 +8,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mechsheet.mechanics.arguments import Complex, Float, direction, elementwise, field, scalar_field
-from mechsheet.mechanics.group import determinant, solve
+from mechsheet.mechanics.arguments import Complex, Float, elementwise, field, scalar_field, unit
+from mechsheet.mechanics.group import condition, determinant, solve
 from mechsheet.mechanics.load import Load, lever, resultant
 from mechsheet.mechanics.planar import angle_between, cross
 
@@ -228,8 +228,8 @@ def prp_condition(u_A: ArrayLike, u_B: ArrayLike) -> Float:
     >>> prp_condition(1, 2j)
     np.float64(1.0)
     """
-    kappa: Float = 1 / np.abs(cross(direction(u_A, "u_A"), direction(u_B, "u_B")))
-    return kappa
+    *_, D = _guides(u_A, u_B)
+    return condition(np.ones(()), D)
 
 
 @elementwise
@@ -256,7 +256,7 @@ def prp_reactions(
     Returns
     -------
     PRPReactions
-        R_A, R_B, R_C [N], M_A, M_B [N m], h_A, h_B [m].
+        R_A, R_B, R_C [N], M_A, M_B [N m], h_A, h_B [m]; NaN where the guides are parallel, but for M_A, M_B.
 
     Raises
     ------
@@ -354,5 +354,5 @@ class PRPGroup:
 
 def _guides(u_A: ArrayLike, u_B: ArrayLike) -> tuple[Complex, Complex, Float]:
     """Unit vectors of the guides, and their determinant."""
-    u_A, u_B = direction(u_A, "u_A"), direction(u_B, "u_B")
-    return u_A, u_B, determinant(u_A, u_B, (), ())
+    u_A, u_B = unit(u_A, "u_A"), unit(u_B, "u_B")
+    return u_A, u_B, determinant(cross(u_A, u_B), np.asarray(2.0))

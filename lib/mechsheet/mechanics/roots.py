@@ -34,10 +34,17 @@ _RISE = 64  # a local extreme is looked for within so many times its height abov
 _PASSED = 2.0**-10  # and not where its sample has passed the target by so many times: there the sign changes tell
 _OCTAVES = 8  # either way from the guess, the range searched for the reachable interval
 _STEPS = 8  # samples in each octave
+_RANGE = np.arange(-_OCTAVES * _STEPS, _OCTAVES * _STEPS + 1)[:, None] / _STEPS
 _CLUSTER = 12  # samples between an edge and the next one
 _BLOCK = 2**13  # values of f asked for at once: many more leave the processor's cache
 _AROUND = np.array([-1, 0, 1])[:, None, None]
-_BESIDE = np.array([-1, 1])[:, None, None, None] * 2.0 ** np.array([18, 21, 33])[:, None, None]  # floats off a root
+_SIDES = np.array([-1, 1])[:, None, None, None]
+_BESIDE = 2.0 ** np.array([3, 4, 33])[:, None, None]  # floats off a root
+_SCALES = np.linspace(0, 1, 16)[:, None, None]  # from the width of a bracket to the farthest place beside it
+_FARTHEST = 2.0**33, 2.0**-20  # floats, or part of the interval
+_AFTER = 1.25 ** np.arange(-2, 18)[:, None, None]  # times the place where the slope has made up for a rise
+_EXPLAINED = 8  # times what slope and rounding tell: a cubic root is as steep as that
+_ROUNDING = 2.0**-16  # of the range of f: what steps by more is not rounded
 
 
 def real_values(f: Function, x: Array) -> Array:
@@ -74,13 +81,15 @@ class Roots:
     """Result for all columns c, branches x problems.
 
     ``roots`` has rows x, residual and bracket ends, shape (4, R, c), in ascending order, NaN where there is none;
-    ``interval`` and ``reached`` have shape (2, c), ``jump`` (c).
+    ``interval`` and ``reached`` have shape (2, c), ``jump`` (c), ``samples`` (c), the places at which f was looked at
+    for all that; what it does between them is not known.
     """
 
     roots: Array
     interval: Array
     jump: Array
     void: Mask
+    samples: Index
     pieces: "_Pieces"
     f: Counted
 
@@ -117,6 +126,7 @@ class _Pieces:
     cross: Mask
     equals: Array
     floor: Array
+    samples: Index
 
 
 @np.errstate(all="ignore")
@@ -164,7 +174,8 @@ def all_roots(f: Counted, given: dict[str, Array], void: Mask) -> Roots:
     interval = np.stack([lo, hi])
     for numbers in (roots, interval):
         numbers[..., void] = np.nan
-    return Roots(roots, interval, jump, void, pieces, f)
+    ends = 0 if "lo" in given and "hi" in given else len(_RANGE)
+    return Roots(roots, interval, jump, void, ends + pieces.samples, pieces, f)
 
 
 def _interval(f: Counted, given: dict[str, Array]) -> tuple[Array, Array]:
@@ -175,12 +186,13 @@ def _interval(f: Counted, given: dict[str, Array]) -> tuple[Array, Array]:
 
 
 def _pieces(f: Counted, lo: Array, hi: Array, equals: Array) -> _Pieces:
-    floor = EPS**2 * (hi - lo)
+    floor = EPS**2 * hi - EPS**2 * lo
     x = lo * (1 - _PLACES) + hi * _PLACES
     x[0], x[-1] = lo, hi
     y = f(x)
     if np.isnan(y).any():
         x, y = _with_edges(f, x, y)
+    samples = 1 + np.count_nonzero(np.diff(x, axis=0), axis=0)
     r = y - equals
     turn = _turning(y)
     row, column = turn.nonzero()
@@ -196,7 +208,7 @@ def _pieces(f: Counted, lo: Array, hi: Array, equals: Array) -> _Pieces:
     cross = (below[:-1] & above[1:]) | (above[:-1] & below[1:])
     inner = touch & ~end
     cross &= ~(inner[:-1] | inner[1:])  # beside a touching root the sign is rounding
-    return _Pieces(x, y, r, touch, cross, equals, floor)
+    return _Pieces(x, y, r, touch, cross, equals, floor, samples)
 
 
 def _roots(f: Counted, pieces: _Pieces) -> tuple[Array, Array]:
@@ -214,7 +226,7 @@ def _roots(f: Counted, pieces: _Pieces) -> tuple[Array, Array]:
 
 def _reachable(f: Counted, guess: Array, lo: Array | None, hi: Array | None) -> tuple[Array, Array]:
     """The run of finite f around the finite sample nearest the guess, between the ends that are given."""
-    k = np.arange(-_OCTAVES * _STEPS, _OCTAVES * _STEPS + 1)[:, None] / _STEPS
+    k = _RANGE
     x = np.clip(guess * 2.0**k, lo, hi)
     y = f(x)
     finite = np.isfinite(y)
@@ -297,8 +309,8 @@ def _touching(f: Counted, x: Array, y: Array, r: Array, equals: Array, turn: Mas
 def _crossing(f: Counted, pieces: _Pieces, i: Index, valid: Mask) -> tuple[Array, Array]:
     """Roots in the pieces i, shape (4, R, p) as in `Roots`, and the first jump.
 
-    At a root the residual is small against what it is, and against what it varies, a little way off; at a pole it
-    is not the first, at a jump not the second.
+    At a root the residual is small against what it is a little way off, at a pole it is not; and between the ends of
+    the bracket it rises by no more than the slope beside them and rounding explain, at a jump by more.
     """
     x, r, equals, floor = pieces.x, pieces.r, pieces.equals, pieces.floor
 
@@ -313,14 +325,43 @@ def _crossing(f: Counted, pieces: _Pieces, i: Index, valid: Mask) -> tuple[Array
     root, off = np.where(best, ends[1], ends[0]), np.where(best, r_ends[1], r_ends[0])
     ends, r_ends = np.where(off == 0, root, ends), np.where(off == 0, 0, r_ends)
 
-    beside = np.clip(ends[:, None] + _BESIDE * ulp(root, floor), x[0], x[-1])
-    around = np.concatenate([r_ends[:, None], g(beside)], axis=1)
-    varies = (np.fmax.reduce(around, axis=1) - np.fmin.reduce(around, axis=1)).max(0)
-    away = np.fmax.reduce(np.abs(around[:, 1:]), axis=(0, 1))
+    room = np.stack([ends[0] - x[0], x[-1] - ends[1]])[:, None]
+    beside = np.minimum(_BESIDE * ulp(root, floor), room)
+    r_beside = g(ends[:, None] + _SIDES * beside)
+    away = np.fmax.reduce(np.abs(r_beside[:, 2]), axis=0)
     unit = np.spacing(np.maximum(np.abs(equals), np.abs(off)))
-    sound = np.abs(off) <= 4 * np.minimum(varies, away) + 4 * unit
+    rise, width = np.abs(r_ends[1] - r_ends[0]), ends[1] - ends[0]
+    slope = np.fmax.reduce(np.abs(r_beside[:, :2] - r_ends[:, None]) / beside[:, :2], axis=(0, 1))
+    explained = rise <= _EXPLAINED * (width * slope + _bent(beside[:, :2], r_ends, r_beside[:, :2])) + 4 * unit
+    if (valid & ~explained).any():
+        far = np.maximum(_FARTHEST[0] * ulp(root, floor), _FARTHEST[1] * x[-1] - _FARTHEST[1] * x[0])
+        rounding = _rounding(g, ends, r_ends, np.minimum(far, room[:, 0]))
+        extent = np.fmax.reduce(pieces.y) - np.fmin.reduce(pieces.y)
+        explained |= (rise <= _EXPLAINED * (width * slope + rounding)) & (rise <= _ROUNDING * extent)
+    sound = explained & (np.abs(off) <= 4 * away + 4 * unit)
     roots = np.where(valid & sound, np.stack([root, off, *ends]), np.nan)
     return roots, np.fmin.reduce(np.where(valid & ~sound, root, np.nan), axis=0, initial=np.nan)
+
+
+def _rounding(g: Function, ends: Array, r_ends: Array, far: Array) -> Array:
+    """What f is rounded by beside a bracket, no farther off than that: how much its values there are off a line.
+
+    That is looked at where the slope has made up for the rise in the bracket, and a little farther: nearer f may be
+    level between one rounded value and the next, much farther it may bend.
+    """
+    places = np.minimum(ends[1] - ends[0], far)[:, None] ** (1 - _SCALES) * far[:, None] ** _SCALES
+    made_up = np.abs(g(ends[:, None] + _SIDES * places) - r_ends[:, None]) >= np.abs(r_ends[1] - r_ends[0]) / 2
+    first = np.where(made_up.any(1), made_up.argmax(1), len(_SCALES) - 1)
+    after = np.minimum(_AFTER * np.take_along_axis(places, first[:, None], 1), far[:, None])
+    return _bent(after, r_ends, g(ends[:, None] + _SIDES * after))
+
+
+def _bent(t: Array, r_0: Array, r: Array) -> Array:
+    """How far a value is off the line through its neighbours at most, on either side; r_0 is that at t = 0."""
+    t, r = np.concatenate([0 * t[:, :1], t], axis=1), np.concatenate([r_0[:, None], r], axis=1)
+    line = r[:, :-2] + (r[:, 2:] - r[:, :-2]) * ((t[:, 1:-1] - t[:, :-2]) / (t[:, 2:] - t[:, :-2]))
+    bent: Array = 2 * np.fmax.reduce(np.abs(r[:, 1:-1] - line), axis=(0, 1))
+    return bent
 
 
 def together(roots: Array, labels: list[int]) -> Iterator[tuple[NDArray[Any], ...]]:

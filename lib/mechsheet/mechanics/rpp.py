@@ -8,8 +8,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mechsheet.mechanics.arguments import Complex, Float, direction, elementwise, field, scalar_field
-from mechsheet.mechanics.group import determinant, solve
+from mechsheet.mechanics.arguments import Complex, Float, elementwise, field, scalar_field, unit
+from mechsheet.mechanics.group import condition, determinant, solve
 from mechsheet.mechanics.load import Load, lever, resultant
 from mechsheet.mechanics.planar import angle_between, cross
 
@@ -228,8 +228,8 @@ def rpp_condition(u_A: ArrayLike, u_B: ArrayLike) -> Float:
     >>> rpp_condition(1j, 1)
     np.float64(1.0)
     """
-    kappa: Float = 1 / np.abs(cross(direction(u_A, "u_A"), direction(u_B, "u_B")))
-    return kappa
+    *_, D = _directions(u_A, u_B)
+    return condition(np.ones(()), D)
 
 
 @elementwise
@@ -257,7 +257,7 @@ def rpp_reactions(
     Returns
     -------
     RPPReactions
-        R_A, R_B, R_C [N], M_B, M_C [N m], h_B, h_C [m].
+        R_A, R_B, R_C [N], M_B, M_C [N m], h_B, h_C [m]; NaN where slot and guide are parallel, but for M_C.
 
     Raises
     ------
@@ -355,5 +355,5 @@ class RPPGroup:
 
 def _directions(u_A: ArrayLike, u_B: ArrayLike) -> tuple[Complex, Complex, Float]:
     """Unit vectors of slot and guide, and their determinant."""
-    u_A, u_B = direction(u_A, "u_A"), direction(u_B, "u_B")
-    return u_A, u_B, determinant(u_A, u_B, (), ())
+    u_A, u_B = unit(u_A, "u_A"), unit(u_B, "u_B")
+    return u_A, u_B, determinant(cross(u_A, u_B), np.asarray(2.0))

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mechsheet.mechanics.arguments import Complex, Float, direction, elementwise, field, parameter, scalar_field, sign
-from mechsheet.mechanics.group import Reach, determinant, solve
+from mechsheet.mechanics.group import Reach, condition, determinant, slid
 from mechsheet.mechanics.load import Load, lever, resultant
 from mechsheet.mechanics.planar import angle_between, dot
 
@@ -141,11 +141,9 @@ def rpr_velocity(A: ArrayLike, B: ArrayLike, u: ArrayLike, v_A: ArrayLike = 0.0,
     >>> rpr_velocity(2j, 0, 1j, v_A=3 + 1j)
     RPRVelocity(omega_A=np.float64(-1.5), ds=np.float64(1.0))
     """
-    A, B = field(A, "A"), field(B, "B")
-    d, n = A - B, 1j * direction(u, "u")
-    w = 1j * (field(v_B, "v_B") - field(v_A, "v_A"))
-    omega_A, minus_ds = solve(d, n, w, determinant(d, n, (A, B), ()))
-    return RPRVelocity(omega_A, -minus_ds)
+    d, u, size, D = _slide(A, B, u)
+    omega_A, along = slid(d, u, field(v_A, "v_A") - field(v_B, "v_B"), D)
+    return RPRVelocity(omega_A, along * size)
 
 
 @elementwise
@@ -186,13 +184,11 @@ def rpr_acceleration(
     >>> rpr_acceleration(2j, 0, 1j, -1.5, 1)
     RPRAcceleration(epsilon_A=np.float64(1.5), dds=np.float64(4.5))
     """
-    A, B, u = field(A, "A"), field(B, "B"), direction(u, "u")
-    d, n = A - B, 1j * u
+    d, u, size, D = _slide(A, B, u)
     omega_A = scalar_field(omega_A, "omega_A")
-    known = 2j * omega_A * scalar_field(ds, "ds") * u - omega_A**2 * d
-    w = 1j * (field(a_B, "a_B") - field(a_A, "a_A") + known)
-    epsilon_A, minus_dds = solve(d, n, w, determinant(d, n, (A, B), ()))
-    return RPRAcceleration(epsilon_A, -minus_dds)
+    known = (2j * omega_A * scalar_field(ds, "ds") / size) * u - omega_A**2 * d
+    epsilon_A, along = slid(d, u, field(a_A, "a_A") - field(a_B, "a_B") - known, D)
+    return RPRAcceleration(epsilon_A, along * size)
 
 
 @elementwise
@@ -204,8 +200,8 @@ def rpr_determinant(A: ArrayLike, B: ArrayLike, u: ArrayLike) -> Float:
     >>> rpr_determinant(2j, 0, [1j, 1])
     array([ 2., nan])
     """
-    A, B = field(A, "A"), field(B, "B")
-    return determinant(A - B, 1j * direction(u, "u"), (A, B), ())
+    *_, size, D = _slide(A, B, u)
+    return D / size
 
 
 @elementwise
@@ -215,7 +211,7 @@ def rpr_transmission_angle(A: ArrayLike, B: ArrayLike, u: ArrayLike) -> Float:
     >>> rpr_transmission_angle(2j, 0, 1j)
     np.float64(1.5707963267948966)
     """
-    return angle_between(field(A, "A") - field(B, "B"), 1j * direction(u, "u"))
+    return angle_between(field(A, "A") - field(B, "B"), 1j * field(u, "u"))
 
 
 @elementwise
@@ -227,10 +223,8 @@ def rpr_condition(A: ArrayLike, B: ArrayLike, u: ArrayLike) -> Float:
     >>> rpr_condition(2j, 0, 1j)
     np.float64(2.0)
     """
-    d = field(A, "A") - field(B, "B")
-    size = np.abs(A) + np.abs(B) + np.abs(d)
-    kappa: Float = size / np.abs(dot(d, direction(u, "u")))
-    return kappa
+    d, _, size, D = _slide(A, B, u)
+    return condition((np.abs(A) + np.abs(B) + np.abs(d)) * size, D)
 
 
 @elementwise
@@ -257,7 +251,7 @@ def rpr_reactions(
     Returns
     -------
     RPRReactions
-        R_A, R_B, R_C [N], M_C [N m], h_C [m].
+        R_A, R_B, R_C [N], M_C [N m], h_C [m]; NaN where A - B is square to the slide, but for M_C.
 
     Raises
     ------
@@ -269,12 +263,12 @@ def rpr_reactions(
     >>> rpr_reactions(2, 0, 1, loads_B=[Load(-3j, 4)]).R_A.imag
     np.float64(6.0)
     """
-    A, B, n = field(A, "A"), field(B, "B"), 1j * direction(u, "u")
-    F_A, T_A = resultant(loads_A, A, "loads_A")
-    F_B, T_B = resultant(loads_B, B, "loads_B")
-    N = (T_A + T_B) / determinant(A - B, n, (A, B), ())
-    R_C = N * n
-    return RPRReactions(-(R_C + F_A), R_C - F_B, R_C, -T_A, lever(-T_A, N))
+    _, u, size, D = _slide(A, B, u)
+    F_A, T_A = resultant(loads_A, field(A, "A"), "loads_A")
+    F_B, T_B = resultant(loads_B, field(B, "B"), "loads_B")
+    N = (T_A + T_B) / D
+    R_C = 1j * N * u
+    return RPRReactions(-(R_C + F_A), R_C - F_B, R_C, -T_A, lever(-T_A, N * size))
 
 
 @dataclass(frozen=True, eq=False)
@@ -340,3 +334,10 @@ class RPRGroup:
     def reactions(self, loads_A: Sequence[Load] = (), loads_B: Sequence[Load] = ()) -> RPRReactions:
         """Reactions of pins and slide (`rpr_reactions`)."""
         return rpr_reactions(self.A, self.B, self.u, loads_A, loads_B)
+
+
+def _slide(A: ArrayLike, B: ArrayLike, u: ArrayLike) -> tuple[Complex, Complex, Float, Float]:
+    """Vector BA, the slide as given and its length, and the group's determinant times that length."""
+    A, B, (u, size) = field(A, "A"), field(B, "B"), direction(u, "u")
+    d = A - B
+    return d, u, size, determinant(dot(d, u), (np.abs(A) + np.abs(B)) * size)

@@ -18,8 +18,9 @@ from mechsheet.mechanics.arguments import (
     parameter,
     scalar_field,
     sign,
+    unit,
 )
-from mechsheet.mechanics.group import Reach, carried, determinant, moved, solve
+from mechsheet.mechanics.group import Reach, carried, condition, determinant, moved, slid
 from mechsheet.mechanics.load import Load, lever, resultant
 from mechsheet.mechanics.planar import angle_between, cross, dot, product
 
@@ -99,7 +100,7 @@ def rrp(
     >>> rrp(3j, 0, 1, [5, 2], -1)
     array([-4. +0.j, nan+nanj])
     """
-    A, u = field(A, "A"), direction(u, "u")
+    A, u = field(A, "A"), unit(u, "u")
     h = cross(u, A - field(B, "B")) - parameter(offset, "offset", "m")
     r_A = length(r_A, "length r_A")
     ahead = np.sqrt((r_A - np.abs(h)) * (r_A + np.abs(h)))
@@ -130,7 +131,7 @@ def rrp_reach(A: ArrayLike, B: ArrayLike, u: ArrayLike, offset: ArrayLike = 0.0)
     >>> rrp_reach(3j, 0, 1, offset=1)
     Reach(least=np.float64(2.0), greatest=np.float64(inf))
     """
-    h = cross(direction(u, "u"), field(A, "A") - field(B, "B")) - parameter(offset, "offset", "m")
+    h = cross(unit(u, "u"), field(A, "A") - field(B, "B")) - parameter(offset, "offset", "m")
     return Reach(np.abs(h), np.where(np.isnan(h), np.nan, np.inf)[()])
 
 
@@ -180,12 +181,10 @@ def rrp_velocity(
     >>> rrp_velocity(3j, 0, 4, 1, v_A=1j).ds
     np.float64(-0.75)
     """
-    A, C, u = field(A, "A"), field(C, "C"), direction(u, "u")
-    a, n = C - A, 1j * u
-    guide = field(v_B, "v_B") + 1j * scalar_field(omega_B, "omega_B") * (C - field(B, "B"))
-    pin = moved(field(v_A, "v_A"), a, dr_A, "dr_A")
-    omega_A, ds = solve(a, n, 1j * (pin - guide), determinant(a, n, (A, C), ()))
-    return RRPVelocity(guide + ds * u, omega_A, ds)
+    a, u, size, D = _link(A, C, u)
+    guide, known, shared = _guided(A, B, C, field(v_B, "v_B"), scalar_field(omega_B, "omega_B"))
+    minus_omega, along = slid(a, u, moved(field(v_A, "v_A"), a, dr_A, "dr_A") - known, D)
+    return RRPVelocity(guide + along * u, shared - minus_omega, along * size)
 
 
 @elementwise
@@ -205,8 +204,8 @@ def rrp_acceleration(
 ) -> RRPAcceleration:
     r"""Accelerations of a link AC and its slider C on a guide that may move.
 
-    .. math:: i \varepsilon_A a - \ddot s u = a_B + (i \varepsilon_B - \omega_B^2)(C - B)
-              + 2 i \omega_B \dot s u - a_A - k_A a
+    .. math:: i x a - \ddot s u = a_B + (i \varepsilon_B - \omega_B^2)(C - B)
+              + 2 i \omega_B \dot s u - a_A - k_A a, \quad \varepsilon_A = x - 2 \omega_A \dot r_A/r_A
 
     with k as in `rrr_acceleration`, solved as the velocities are.
 
@@ -240,15 +239,15 @@ def rrp_acceleration(
     >>> rrp_acceleration(3j, 0, 4, 1, -0.25, -0.75).dds
     np.float64(-0.390625)
     """
-    A, C, u = field(A, "A"), field(C, "C"), direction(u, "u")
-    a, n = C - A, 1j * u
-    omega_B = scalar_field(omega_B, "omega_B")
-    turning = 1j * scalar_field(epsilon_B, "epsilon_B") - omega_B**2
-    coriolis = 2j * omega_B * scalar_field(ds, "ds") * u
-    guide = field(a_B, "a_B") + turning * (C - field(B, "B")) + coriolis
-    pin = field(a_A, "a_A") + carried(a, omega_A, dr_A, ddr_A, "A")
-    epsilon_A, dds = solve(a, n, 1j * (pin - guide), determinant(a, n, (A, C), ()))
-    return RRPAcceleration(guide + dds * u, epsilon_A, dds)
+    a, u, size, D = _link(A, C, u)
+    a_B, omega_B = field(a_B, "a_B"), scalar_field(omega_B, "omega_B")
+    ds = scalar_field(ds, "ds")
+    if omega_B.ndim or omega_B:
+        a_B = a_B - omega_B**2 * (field(C, "C") - field(B, "B")) + (2j * omega_B * ds / size) * u
+    guide, known, shared = _guided(A, B, C, a_B, scalar_field(epsilon_B, "epsilon_B"))
+    along_A, coriolis_A = carried(a, omega_A, dr_A, ddr_A, "A")
+    minus_x, along = slid(a, u, field(a_A, "a_A") + along_A - known, D)
+    return RRPAcceleration(guide + along * u, shared - minus_x - coriolis_A, along * size)
 
 
 @elementwise
@@ -260,8 +259,8 @@ def rrp_determinant(A: ArrayLike, C: ArrayLike, u: ArrayLike) -> Float:
     >>> rrp_determinant(3j, [4, 0], 1)
     array([ 4., nan])
     """
-    A, C = field(A, "A"), field(C, "C")
-    return determinant(C - A, 1j * direction(u, "u"), (A, C), ())
+    *_, size, D = _link(A, C, u)
+    return D / size
 
 
 @elementwise
@@ -271,7 +270,7 @@ def rrp_transmission_angle(A: ArrayLike, C: ArrayLike, u: ArrayLike) -> Float:
     >>> rrp_transmission_angle(1j, 1, 1)
     np.float64(2.356194490192345)
     """
-    return angle_between(field(C, "C") - field(A, "A"), 1j * direction(u, "u"))
+    return angle_between(field(C, "C") - field(A, "A"), 1j * field(u, "u"))
 
 
 @elementwise
@@ -283,11 +282,9 @@ def rrp_condition(A: ArrayLike, B: ArrayLike, C: ArrayLike, u: ArrayLike) -> Flo
     >>> rrp_condition(3j, 0, 4, 1)
     np.float64(3.0)
     """
-    C = field(C, "C")
-    a, guide = C - field(A, "A"), C - field(B, "B")
-    size = np.abs(A) + np.abs(B) + np.abs(a) + np.abs(guide)
-    kappa: Float = size / np.abs(dot(a, direction(u, "u")))
-    return kappa
+    a, _, size, D = _link(A, C, u)
+    guide = field(C, "C") - field(B, "B")
+    return condition((np.abs(A) + np.abs(B) + np.abs(a) + np.abs(guide)) * size, D)
 
 
 @elementwise
@@ -313,7 +310,7 @@ def rrp_reactions(
     Returns
     -------
     RRPReactions
-        R_A, R_B, R_C [N], M_B [N m], h_B [m].
+        R_A, R_B, R_C [N], M_B [N m], h_B [m]; NaN at a dead centre, but for M_B.
 
     Raises
     ------
@@ -325,14 +322,13 @@ def rrp_reactions(
     >>> rrp_reactions(3j, 4, 1, loads_B=[Load(8, 4)]).R_B.imag
     np.float64(-6.0)
     """
-    A, C, u = field(A, "A"), field(C, "C"), direction(u, "u")
-    F_A, T_A = resultant(loads_A, A, "loads_A")
-    F_B, T_B = resultant(loads_B, C, "loads_B")
-    a, n = C - A, 1j * u
-    N = -(T_A + cross(a, F_B)) / determinant(a, n, (A, C), ())
-    R_B = N * n
+    a, u, size, D = _link(A, C, u)
+    F_A, T_A = resultant(loads_A, field(A, "A"), "loads_A")
+    F_B, T_B = resultant(loads_B, field(C, "C"), "loads_B")
+    N = -(T_A + cross(a, F_B)) / D
+    R_B = 1j * N * u
     R_C = R_B + F_B
-    return RRPReactions(-(R_C + F_A), R_B, R_C, -T_B, lever(-T_B, N))
+    return RRPReactions(-(R_C + F_A), R_B, R_C, -T_B, lever(-T_B, N * size))
 
 
 @dataclass(frozen=True, eq=False)
@@ -412,3 +408,27 @@ class RRPGroup:
     def reactions(self, loads_A: Sequence[Load] = (), loads_B: Sequence[Load] = ()) -> RRPReactions:
         """Reactions of pins and guide (`rrp_reactions`)."""
         return rrp_reactions(self.A, self.C, self.u, loads_A, loads_B)
+
+
+def _link(A: ArrayLike, C: ArrayLike, u: ArrayLike) -> tuple[Complex, Complex, Float, Float]:
+    """Vector AC, the guide's direction as given and its length, and the group's determinant times that length."""
+    A, C, (u, size) = field(A, "A"), field(C, "C"), direction(u, "u")
+    a = C - A
+    return a, u, size, determinant(dot(a, u), (np.abs(A) + np.abs(C)) * size)
+
+
+def _guided(A: ArrayLike, B: ArrayLike, C: ArrayLike, v: Complex, omega: Float) -> tuple[Complex, Complex, Float]:
+    """Motion of the guide at C; its motion at A or at C, and what the link's turning is counted from then.
+
+    A guide that turns moves what is far from B by much more than the link makes of it. Where A is much nearer to B than
+    C is, the equations hold the guide's motion at A, and the link's turning counts from the guide's.
+    """
+    B = field(B, "B")
+    if not (omega.ndim or omega or B.ndim) and B == B:
+        return v, v, np.zeros(())
+    from_A, from_C = field(A, "A") - B, field(C, "C") - B
+    guide = v + 1j * omega * from_C
+    at_A = 16 * np.abs(from_A) < np.abs(from_C)
+    if not np.count_nonzero(at_A):
+        return guide, guide, np.zeros(())
+    return guide, np.where(at_A, v + 1j * omega * from_A, guide), np.where(at_A, omega, 0.0)

@@ -9,9 +9,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mechsheet.mechanics.arguments import Complex, Float, elementwise, field, length, sign
-from mechsheet.mechanics.group import Reach, carried, determinant, moved, solve
+from mechsheet.mechanics.group import ROUNDINGS, Reach, carried, condition, determinant, moved, turned
 from mechsheet.mechanics.load import Load, resultant
-from mechsheet.mechanics.planar import angle_between, cross, product, sorted_area
+from mechsheet.mechanics.planar import cross, dot, flat, meet, product
+
+_EPS = 2.0**-52
 
 
 class RRRVelocity(NamedTuple):
@@ -54,7 +56,8 @@ def rrr(A: ArrayLike, B: ArrayLike, r_A: ArrayLike, r_B: ArrayLike, branch: Arra
 
     .. math:: C = A + (a + i\,h)\,(B - A)/L^2, \quad a = (L^2 + r_A^2 - r_B^2)/2, \quad h = 2 s S, \quad L = |B - A|
 
-    with S the area of the triangle of the sides L, r_A, r_B. The difference of squares is factored. The sum starts from
+    with S the area of the triangle of the sides L, r_A, r_B; zero where one of them is the rounded sum or difference of
+    the others, the end of reach. The difference of squares is factored. The sum starts from
     the pin of the shorter link, with the same formula, so that the length of each link keeps its digits.
 
     Parameters
@@ -83,18 +86,23 @@ def rrr(A: ArrayLike, B: ArrayLike, r_A: ArrayLike, r_B: ArrayLike, branch: Arra
     """
     A, d, L = _outer_pins(A, B)
     r_A, r_B = length(r_A, "length r_A"), length(r_B, "length r_B")
-    h = 2 * sign(branch) * sorted_area(np.maximum(L, r_A), np.minimum(L, r_A), r_B)
     from_A = r_A <= r_B
     count = np.count_nonzero(from_A)
     if 0 < count < from_A.size:
         P, r, other = np.where(from_A, A, field(B, "B")), np.minimum(r_A, r_B), np.maximum(r_A, r_B)
-        way: ArrayLike = np.where(from_A, 1.0, -1.0)
+        half: Float | float = np.where(from_A, 0.5, -0.5)
     else:  # the same without the cost of choosing element by element
-        P, r, other, way = (A, r_A, r_B, 1.0) if count else (field(B, "B"), r_B, r_A, -1.0)
-    longer = np.maximum(L, r)
-    a = (np.minimum(L, r) ** 2 + (longer - other) * (longer + other)) / 2
-    square = L**2
-    C: Complex = P + product(way * a / square, h / square, d)
+        P, r, other, half = (A, r_A, r_B, 0.5) if count else (field(B, "B"), r_B, r_A, -0.5)
+    longer, shorter, middle = np.maximum(L, r), np.minimum(L, r), np.minimum(L, other)
+    x, y, z = np.maximum(L, other), np.maximum(middle, r), np.minimum(middle, r)
+    excess = z - (x - y)
+    near = excess <= 2 * _EPS * x
+    if np.count_nonzero(near):  # rounding alone parts the links from the line of A and B
+        excess = np.where(flat(x, y, z), 0.0, np.where(meet(x, y, z), np.maximum(excess, 0), np.nan))
+    # over L: no square of a length leaves the range of floats
+    square = ((x + (y + z)) / L) * (excess / L) * ((z + (x - y)) / L) * ((x + (y - z)) / L)
+    a = (shorter / L) ** 2 + ((longer - other) / L) * ((longer + other) / L)
+    C: Complex = P + product(half * a, sign(branch) / 2 * np.sqrt(square), d)
     return C
 
 
@@ -176,11 +184,10 @@ def rrr_velocity(
     >>> rrr_velocity(0, 4 + 3j, 4, dr_A=1).omega_B
     np.float64(0.3333333333333333)
     """
-    A, B, C = field(A, "A"), field(B, "B"), field(C, "C")
-    a, b = C - A, C - B
+    a, b, D = _links(A, B, C)
     v_A, v_B = moved(field(v_A, "v_A"), a, dr_A, "dr_A"), moved(field(v_B, "v_B"), b, dr_B, "dr_B")
-    omega_A, minus_omega_B = solve(a, b, 1j * (v_A - v_B), determinant(a, b, (A, C), (B, C)))
-    return RRRVelocity(v_A + 1j * omega_A * a, omega_A, -minus_omega_B)
+    omega_A, omega_B = turned(a, b, v_B - v_A, D)
+    return RRRVelocity(v_A + 1j * omega_A * a, omega_A, omega_B)
 
 
 @elementwise
@@ -199,8 +206,9 @@ def rrr_acceleration(
 ) -> RRRAcceleration:
     r"""Accelerations of the dyad A-C-B.
 
-    .. math:: i(\varepsilon_A a - \varepsilon_B b) = a_B + k_B b - a_A - k_A a, \quad
-              k = (\ddot r + 2 i \omega \dot r)/r - \omega^2
+    .. math:: i(x a - y b) = a_B + k_B b - a_A - k_A a, \quad k = \ddot r/r - \omega^2
+
+    .. math:: \varepsilon_A = x - 2 \omega_A \dot r_A/r_A, \quad \varepsilon_B = y - 2 \omega_B \dot r_B/r_B
 
     solved as the velocities are.
 
@@ -232,12 +240,12 @@ def rrr_acceleration(
     >>> rrr_acceleration(0, 4 + 3j, 4, 0, 1 / 3, dr_A=1).epsilon_A
     np.float64(0.08333333333333333)
     """
-    A, B, C = field(A, "A"), field(B, "B"), field(C, "C")
-    a, b = C - A, C - B
-    a_A = field(a_A, "a_A") + carried(a, omega_A, dr_A, ddr_A, "A")
-    a_B = field(a_B, "a_B") + carried(b, omega_B, dr_B, ddr_B, "B")
-    epsilon_A, minus_epsilon_B = solve(a, b, 1j * (a_A - a_B), determinant(a, b, (A, C), (B, C)))
-    return RRRAcceleration(a_A + 1j * epsilon_A * a, epsilon_A, -minus_epsilon_B)
+    a, b, D = _links(A, B, C)
+    along_A, coriolis_A = carried(a, omega_A, dr_A, ddr_A, "A")
+    along_B, coriolis_B = carried(b, omega_B, dr_B, ddr_B, "B")
+    a_A, a_B = field(a_A, "a_A") + along_A, field(a_B, "a_B") + along_B
+    x, y = turned(a, b, a_B - a_A, D)
+    return RRRAcceleration(a_A + 1j * x * a, x - coriolis_A, y - coriolis_B)
 
 
 @elementwise
@@ -249,8 +257,8 @@ def rrr_determinant(A: ArrayLike, B: ArrayLike, C: ArrayLike) -> Float:
     >>> rrr_determinant(0, 5, [4 + 3j, 2])
     array([15., nan])
     """
-    A, B, C = field(A, "A"), field(B, "B"), field(C, "C")
-    return determinant(C - A, C - B, (A, C), (B, C))
+    *_, D = _links(A, B, C)
+    return D
 
 
 @elementwise
@@ -260,8 +268,10 @@ def rrr_transmission_angle(A: ArrayLike, B: ArrayLike, C: ArrayLike) -> Float:
     >>> rrr_transmission_angle(0, 4 + 3j, 4)
     np.float64(1.5707963267948966)
     """
-    C = field(C, "C")
-    return angle_between(C - field(A, "A"), C - field(B, "B"))
+    A, B, C = field(A, "A"), field(B, "B"), field(C, "C")
+    a, b = C - A, C - B
+    found: Float = np.arctan2(np.abs(_area(a, b, B - A, cross(a, b), np.abs(a), np.abs(b))), dot(a, b))
+    return found
 
 
 @elementwise
@@ -273,12 +283,9 @@ def rrr_condition(A: ArrayLike, B: ArrayLike, C: ArrayLike) -> Float:
     >>> rrr_condition(0, 4 + 3j, 4)
     np.float64(4.0)
     """
-    C = field(C, "C")
-    a, b = C - field(A, "A"), C - field(B, "B")
+    a, b, D = _links(A, B, C)
     r_A, r_B = np.abs(a), np.abs(b)
-    size = np.abs(A) + np.abs(B) + r_A + r_B
-    kappa: Float = size * np.maximum(r_A, r_B) / np.abs(cross(a, b))
-    return kappa
+    return condition((np.abs(A) + np.abs(B) + r_A + r_B) * np.maximum(r_A, r_B), D)
 
 
 @elementwise
@@ -303,7 +310,7 @@ def rrr_reactions(
     Returns
     -------
     RRRReactions
-        R_A, R_B, R_C [N].
+        R_A, R_B, R_C [N]; NaN at a dead centre.
 
     Raises
     ------
@@ -318,11 +325,9 @@ def rrr_reactions(
     >>> R.R_A.real, R.R_B
     (np.float64(13.333333333333334), np.complex128(-13.333333333333334+10j))
     """
-    A, B, C = field(A, "A"), field(B, "B"), field(C, "C")
-    F_A, T_A = resultant(loads_A, A, "loads_A")
-    F_B, T_B = resultant(loads_B, B, "loads_B")
-    a, b = C - A, C - B
-    D = determinant(a, b, (A, C), (B, C))
+    a, b, D = _links(A, B, C)
+    F_A, T_A = resultant(loads_A, field(A, "A"), "loads_A")
+    F_B, T_B = resultant(loads_B, field(B, "B"), "loads_B")
     R_C = -(product(T_B / D, 0.0, a) + product(T_A / D, 0.0, b))
     return RRRReactions(-(R_C + F_A), R_C - F_B, R_C)
 
@@ -411,3 +416,29 @@ def _outer_pins(A: ArrayLike, B: ArrayLike) -> tuple[Complex, Complex, Float]:
     A = field(A, "A")
     d = field(B, "B") - A
     return A, d, np.abs(d)
+
+
+def _links(A: ArrayLike, B: ArrayLike, C: ArrayLike) -> tuple[Complex, Complex, Float]:
+    """Vectors AC and BC, and the group's determinant."""
+    A, B, C = field(A, "A"), field(B, "B"), field(C, "C")
+    a, b = C - A, C - B
+    D, r_A, r_B = cross(a, b), np.abs(a), np.abs(b)
+    if D.ndim:  # one number for all elements, in two thirds of the time
+        p, q, far = (np.maximum.reduce(x, axis=None, initial=0.0) for x in (r_A, r_B, np.abs(C)))
+        least = np.minimum.reduce(np.abs(D), axis=None, initial=np.inf)
+        if least > _THIN * p * q + 2 * ROUNDINGS * (far * (p + q) + p * q):
+            return a, b, D
+    d = B - A
+    size = np.abs(A) * r_B + np.abs(B) * r_A + np.abs(C) * np.abs(d)
+    return a, b, determinant(_area(a, b, d, D, r_A, r_B), size)
+
+
+_THIN = 2.0**-6  # of the greatest: a determinant below is worth a sharper formula
+
+
+def _area(a: Complex, b: Complex, d: Complex, D: Float, r_A: Float, r_B: Float) -> Float:
+    """a x b by the shorter of a and b and their difference d: the rounding of two long links is more than all of it."""
+    thin = np.abs(D) <= _THIN * r_A * r_B
+    if not np.count_nonzero(thin):
+        return D
+    return np.where(thin, np.where(r_A <= r_B, cross(d, a), cross(d, b)), D)[()]

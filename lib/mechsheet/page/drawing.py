@@ -7,7 +7,9 @@ from itertools import groupby
 from mechsheet.document.labels import FONT, INDEX, Name, Text
 from mechsheet.document.layout import lay_out
 from mechsheet.document.picture import Group, Mark
-from mechsheet.worksheet.drawing import COLOURS, Drawing
+from mechsheet.worksheet.drawing import Drawing
+
+COLOURS = {"": "currentColor", "blue": "#3b82d0", "red": "#e0483c", "green": "#2c9c5c", "orange": "#cf7a17"}
 
 
 def svg(drawing: Drawing) -> str:

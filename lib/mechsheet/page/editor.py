@@ -2,7 +2,6 @@
 
 import ast
 import builtins
-import difflib
 import time
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping
@@ -11,17 +10,16 @@ from traceback import walk_tb
 from types import FrameType
 from typing import Any
 
-import numpy as np
-
 from mechsheet.page import notebook
 from mechsheet.recording import dimensions
-from mechsheet.worksheet import source
-from mechsheet.worksheet.cells import Cell, Worksheet
+from mechsheet.worksheet import mistakes, source
+from mechsheet.worksheet.cells import Cell, Worksheet, compiled
 from mechsheet.worksheet.lines import registry
 from mechsheet.worksheet.title import Note
 
 _PERIOD = 0.25  # s between two looks at the cells
-# Their functions compute through another worksheet, whose inputs keep their metre.
+_MOST = 100_000  # lines of a cell
+# Their functions compute through another worksheet, for long: nothing is known of the units of what they give.
 _OTHERS = {
     f"mechsheet.{name}"
     for name in ("studies.design", "studies.sensitivity", "studies.sweep", "studies.tolerance", "worksheet.cells")
@@ -83,10 +81,10 @@ def unknown(cells: Iterable[notebook.Cell], names: Mapping[str, Any], gone: Iter
             why = ""
             if isinstance(node, ast.Attribute):
                 if fields and not hasattr(names["g"], node.attr):
-                    why = f"there is no input {node.attr}{_near(node.attr, fields)}"
+                    why = mistakes.no_input(node.attr, fields)
             elif node.id in missing:
                 missing = missing - {node.id}  # told once a cell
-                why = f"the name {node.id} is not defined in any cell{_near(node.id, defined)}"
+                why = mistakes.undefined(node.id, defined)
                 if node.id in gone:
                     why = f"the cell that defines {node.id} has a mistake or was deleted"
             if why:
@@ -102,37 +100,32 @@ def failed(cells: Iterable[notebook.Cell]) -> Iterator[Note]:
 
 
 def unfit(cells: Iterable[notebook.Cell], names: Mapping[str, Any]) -> Iterator[Note]:
-    """Lines of the worksheet that has run whose unit does not fit; of those that follow from another the first alone.
+    """Lines of the worksheet that has run whose units do not fit, each mistake where it arises.
 
-    What depends on the inputs runs once more, on the same machine in other units. A line whose meaning calls it an
-    erratum is left as it is.
+    What depends on the inputs is recorded. A line whose meaning calls it an erratum is left as it is.
     """
-    g = names.get("g")
-    if not hasattr(type(g), "__inputs__"):
+    if not hasattr(type(names.get("g")), "__inputs__"):
         return
     ran = [cell for cell in cells if cell.status == "success"]
-    homes = {name: cell for cell in ran for name in cell.defs}
     others = {name for cell in ran for name in cell.refs if getattr(names.get(name), "__module__", "") in _OTHERS}
-    known = names.keys() & homes.keys() - _depending(ran, others)
-    declared = registry(names, source.of_texts(tuple((cell.code, cell.filename) for cell in ran)))
-    lines = [line for name, line in declared.items() if name in known and not line.arguments]
-    computed = _depending(ran, {"g"})
+    computed = _depending(ran, {"g", *_functions(ran)}) - _depending(ran, others)
+    known = registry(names, source.of_texts(tuple((cell.code, cell.filename) for cell in ran)))
     common = {name: value for name, value in names.items() if name not in computed}
-    sheet = Worksheet("", tuple(_compiled(cell, computed) for cell in ran if cell.defs & computed), common, "")
+    recorded = tuple(_recorded(n, cell, computed) for n, cell in enumerate(ran) if cell.defs & (computed - {"g"}))
     try:
-        with np.errstate(all="ignore"):  # the page has told of these already
-            second = sheet.run([line.name for line in lines], {"g": dimensions.rescaled(g)})
+        found = dimensions.of_every_line(Worksheet("", recorded, common, ""), names, known)
     except Exception as error:
-        yield Note("", f"units are not checked, as the worksheet does not run in other ones: {error}")
+        yield Note("", f"units are not checked, as the worksheet cannot be recorded: {error}")
         return
-    wrong = [(x, why) for x, why in dimensions.unfit(lines, g, names, second).items() if "erratum" not in x.meaning]
-    told = set[str]()
-    for line, why in wrong:
-        cell = homes[line.name]
-        before = {name for other, _ in wrong if homes[other.name] is not cell for name in homes[other.name].defs}
-        if cell.cell_id not in told and not cell.defs & _depending(ran, before):
-            told.add(cell.cell_id)
-            yield Note(cell.cell_id, f"line {line.expression.lineno}, {line.name}: {why}")
+    for mistake in found.mistakes:
+        cell, line = divmod(mistake.line, _MOST)
+        yield Note(ran[cell].cell_id, str(mistake._replace(line=line)))
+
+
+def _functions(cells: Iterable[notebook.Cell]) -> set[str]:
+    """Names of cells that define functions alone: in a recording they take quantities."""
+    bodies = ((cell, ast.parse(cell.code).body) for cell in cells)
+    return {name for cell, body in bodies if all(isinstance(s, ast.FunctionDef) for s in body) for name in cell.defs}
 
 
 def _depending(cells: Iterable[notebook.Cell], names: set[str]) -> set[str]:
@@ -143,9 +136,11 @@ def _depending(cells: Iterable[notebook.Cell], names: set[str]) -> set[str]:
     return found
 
 
-def _compiled(cell: notebook.Cell, computed: set[str]) -> Cell:
-    code = compile(cell.code, cell.filename, "exec")
-    return Cell(cell.cell_id, frozenset(cell.refs & computed), tuple(cell.defs), (), code)
+def _recorded(n: int, cell: notebook.Cell, computed: set[str]) -> Cell:
+    """A cell as a recording takes it, its lines counted behind those of the cells before it."""
+    lines = ast.increment_lineno(ast.parse(cell.code), n * _MOST).body
+    code = compiled(lines, cell.filename, f"_{cell.cell_id}")
+    return Cell(cell.cell_id, frozenset(cell.refs & computed), tuple(cell.defs), (), tuple(lines), code)
 
 
 @lru_cache(maxsize=1000)
@@ -165,10 +160,4 @@ def _is_of(frame: FrameType, cell: notebook.Cell) -> bool:
 
 
 def _line(cell: notebook.Cell, number: int) -> str:
-    """A line as a note names it: its number, and its text without its comment."""
-    return f"line {number}, {cell.code.splitlines()[number - 1].partition('  #')[0].strip()}"
-
-
-def _near(name: str, known: Iterable[str]) -> str:
-    near = difflib.get_close_matches(name, known, n=1)
-    return f" (did you mean {near[0]}?)" if near else ""
+    return mistakes.at(number, cell.code.splitlines()[number - 1])

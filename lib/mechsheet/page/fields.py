@@ -1,4 +1,4 @@
-"""The inputs of a worksheet as fields of the page."""
+"""The inputs of a worksheet as fields of the page, and its sliders."""
 
 import html
 from typing import Any
@@ -6,14 +6,15 @@ from typing import Any
 import marimo as mo
 
 from mechsheet import units
-from mechsheet.worksheet import symbol
+from mechsheet.document.markup import named
 from mechsheet.worksheet.inputs import declared, text
+from mechsheet.worksheet.title import Slider
 
 _SIGNS = {"<": "&lt;", ">": "&gt;", "<=": "≤", ">=": "≥"}
 
 
 def _limit(text: str) -> str:
-    return symbol.html(text) if text[0].isalpha() else text
+    return named(text) if text[0].isalpha() else text
 
 
 class _Fields(mo.ui.batch):
@@ -39,7 +40,7 @@ def fields(g: Any) -> "mo.ui.batch":
         limits = ", ".join(f"{_SIGNS.get(sign, sign)}&nbsp;{_limit(other)}" for sign, other in field.limits)
         unit = "" if field.unit == "-" else units.shown(field.unit)
         sections.setdefault(field.section, []).append(
-            f'<tr><td style="padding-right:.5em">{symbol.html(field.name)}</td><td>{{{field.name}}}</td>'
+            f'<tr><td style="padding-right:.5em">{named(field.name)}</td><td>{{{field.name}}}</td>'
             f'<td style="padding-left:.4em">{html.escape(unit)}</td>'
             f'<td style="padding-left:.7em;line-height:1.2">{html.escape(field.meaning)}'
             f'<span style="opacity:.5;padding-left:.6em">{limits}</span></td></tr>'
@@ -51,3 +52,15 @@ def fields(g: Any) -> "mo.ui.batch":
     )
     style = "columns:28em;column-gap:2em;font-size:.93em"
     return _Fields(f'<div class="ms-inputs" style="{style}">{blocks}</div>', texts)
+
+
+def slider(value: Slider) -> "mo.ui.slider":
+    """The slider as an element of the page, with its position beside it."""
+    return mo.ui.slider(
+        value.start, value.stop, value.step, value=value.value, label=html.escape(label(value)), show_value=True
+    )
+
+
+def label(value: Slider) -> str:
+    """What a slider moves, with its unit."""
+    return value.label if value.unit == "-" else f"{value.label} [{units.shown(value.unit)}]"

@@ -5,8 +5,9 @@ from html import escape
 
 from mechsheet import units
 from mechsheet.document.expression import equation, reads, substituted
-from mechsheet.document.formula import Quantity
+from mechsheet.document.formula import Measure
 from mechsheet.document.latex import latex
+from mechsheet.document.markup import HTML
 from mechsheet.worksheet import numbers
 from mechsheet.worksheet.lines import Formula, Given, Numbers, Typeset
 
@@ -28,7 +29,7 @@ def _formula(line: Formula, value: object, shown: Typeset) -> str:
     if line.arguments:
         return _line(_equation(line), "", line.meaning, "")
     text = "" if shown.numbers is None else _substituted(line, shown.numbers, shown.position)
-    return _line(f"{_equation(line)} =", numbers.value(value, line.unit, numbers.HTML), line.meaning, text)
+    return _line(f"{_equation(line)} =", numbers.value(value, line.unit, HTML), line.meaning, text)
 
 
 def _substituted(line: Formula, known: Numbers, position: int) -> str:
@@ -39,7 +40,7 @@ def _substituted(line: Formula, known: Numbers, position: int) -> str:
 
 @lru_cache(maxsize=2048)  # most numbers stay when an input changes
 def _with_numbers(line: Formula, found: tuple[tuple[str, float | complex, str, type], ...]) -> str:
-    numbers = {name: Quantity(value / units.parse(unit).factor, unit) for name, value, unit, _ in found}
+    numbers = {name: Measure(value / units.parse(unit).factor, unit) for name, value, unit, _ in found}
     node = substituted(line, numbers)
     return latex(node) if node else ""
 

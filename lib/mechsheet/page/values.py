@@ -4,7 +4,7 @@ import base64
 import json
 import re
 from datetime import date
-from functools import cache, singledispatch
+from functools import cache, lru_cache, singledispatch
 from html import escape
 from itertools import takewhile
 from pathlib import Path
@@ -14,17 +14,18 @@ import marimo as mo
 
 from mechsheet import units
 from mechsheet.document import chart, chart_svg
-from mechsheet.page import drawing
+from mechsheet.document.markup import in_words, named
+from mechsheet.page import drawing, fields
 from mechsheet.page.lines import lines
 from mechsheet.worksheet import numbers, symbol
-from mechsheet.worksheet.checks import Check, Summary
+from mechsheet.worksheet.check import Check, Summary
 from mechsheet.worksheet.drawing import Drawing
 from mechsheet.worksheet.find import Found
 from mechsheet.worksheet.inputs import Used
 from mechsheet.worksheet.lines import Typeset
 from mechsheet.worksheet.shown import Charted, Shown
 from mechsheet.worksheet.table import Column, Figure, Table
-from mechsheet.worksheet.title import Caption, Mark, Note, Player, SideBySide, Title
+from mechsheet.worksheet.title import Caption, Mark, Note, Player, SideBySide, Slider, Title
 
 _BLOCK = 6  # columns of a table beside each other, those that name its rows apart
 # Shown by the style sheet that stands where something was refused.
@@ -36,6 +37,11 @@ def written(value: object) -> tuple[str, str]:
     if isinstance(value, Typeset):  # in a bundle: plain HTML is parsed four times a run, in search of headings
         return "application/vnd.marimo+mimebundle", json.dumps({"text/html": html(value)})
     return "text/html", html(value)
+
+
+def slider(value: Slider) -> Any:
+    """The element of marimo that a slider is in a running page; the slider itself where none is running."""
+    return fields.slider(value) if mo.running_in_notebook() else value
 
 
 def refused(error: Exception, shown: Any) -> None:
@@ -56,6 +62,16 @@ def html(value: Any) -> str:
         return f"<div>{escape(type(value).__name__)}: the page has no writer for values of this kind</div>"
     kind, text = value._mime_() if hasattr(value, "_mime_") else ("", "")
     return str(text) if kind == "text/html" else mo.as_html(value).text
+
+
+@html.register
+def _(markdown: str) -> str:
+    return _set(markdown)
+
+
+@lru_cache(maxsize=256)  # a text stays while the numbers beside it move
+def _set(markdown: str) -> str:
+    return f'<div class="ms-between">{mo.md(markdown).text}</div>'
 
 
 @html.register
@@ -109,7 +125,12 @@ def _quoted(text: str) -> str:
 def _(value: Player) -> str:
     turning = " data-turning" if value.turning else ""
     button = f'<button class="ms-play" aria-label="play"{turning}>▶</button>'
-    return f'<div class="ms-player">{value.slider.text}{button}</div>'
+    return f'<div class="ms-player">{html(value.slider)}{button}</div>'
+
+
+@html.register
+def _(slider: Slider) -> str:
+    return f"<div>{escape(fields.label(slider))} {numbers.significant(slider.value, 4)}</div>"
 
 
 @html.register
@@ -130,7 +151,8 @@ def _caption(what: str, number: str, title: str) -> str:
 @html.register
 def _(value: SideBySide) -> str:
     columns = ("".join(map(html, column)) for column in value.columns)
-    return f'<div class="ms-beside">{"".join(f"<div>{each}</div>" for each in columns)}</div>'
+    rows = f' style="display:grid;grid-template-columns:repeat({value.row},1fr)"' if value.row else ""
+    return f'<div class="ms-beside"{rows}>{"".join(f"<div>{each}</div>" for each in columns)}</div>'
 
 
 @html.register
@@ -145,7 +167,7 @@ def _(check: Check) -> str:
     residual, limit = (numbers.significant(x, 2) for x in (check.residual, check.limit))
     compared = f": {residual} {sign} {limit}{unit}" if check.evaluated else ""
     return (
-        f'<div id="{_anchor(check)}">{_badge(check)} {symbol.in_words(check.name)}{compared}'
+        f'<div id="{_anchor(check)}">{_badge(check)} {in_words(check.name)}{compared}'
         f'<span style="opacity:.7"> {escape(check.reason)}</span></div>'
     )
 
@@ -167,8 +189,7 @@ def _(summary: Summary) -> str:
     count = f"{passed} of {len(summary.checks)} checks pass" + (f", {failed} fail" if failed else "")
     count += f", {skipped} not evaluated" if skipped else ""
     items = "".join(
-        f'<span>{_badge(check)} <a href="#{_anchor(check)}">{symbol.in_words(check.name)}</a> '
-        f"{escape(check.reason)}</span>"
+        f'<span>{_badge(check)} <a href="#{_anchor(check)}">{in_words(check.name)}</a> {escape(check.reason)}</span>'
         for check in sorted(summary.checks, key=lambda check: (check.passed, not check.evaluated))
     )
     return f'<div class="ms-summary"><b>{count}</b><div class="ms-row">{items}</div></div>'
@@ -201,7 +222,7 @@ def _(used: Used) -> str:
     for field, value in used.rows():
         unit = "" if field.unit == "-" else escape(units.shown(field.unit))
         weight = "bold" if field.name in changed else "normal"
-        name = symbol.html(field.name)
+        name = named(field.name)
         number = numbers.significant(value, 10)
         shown = f"{name}&nbsp;=&nbsp;{number}&nbsp;{unit}"
         items.append(f'<span style="white-space:nowrap;font-weight:{weight}">{shown}</span>')
@@ -236,15 +257,14 @@ def _(table: Table) -> str:
     if len(blocks) > 1 and len(blocks[-1]) == 1:
         blocks[-2:] = [blocks[-2] + blocks[-1]]
     caption = _caption("Table", table.number, table.title)
-    note = f'<div class="ms-note">{symbol.in_words(table.note)}</div>' if table.note else ""
+    note = f'<div class="ms-note">{in_words(table.note)}</div>' if table.note else ""
     return f'<div class="ms-table">{caption}{"".join(_block([*keys, *b]) for b in blocks)}{note}</div>'
 
 
 def _block(columns: list[Column]) -> str:
     kinds = ["" if c.unit else ' class="ms-text"' for c in columns]
     heads = "".join(
-        f'<th{kind} title="{escape(c.meaning)}">{symbol.html(c.symbol)}</th>'
-        for c, kind in zip(columns, kinds, strict=True)
+        f'<th{kind} title="{escape(c.meaning)}">{named(c.symbol)}</th>' for c, kind in zip(columns, kinds, strict=True)
     )
     unit_row = "".join(f"<th>{f'[{escape(units.shown(c.unit))}]' if c.unit else ''}</th>" for c in columns)
     rows = "".join(

@@ -33,13 +33,17 @@ ITERATIONS = 5  # of the neutral axis, from the areas that acted when the workbo
 
 
 def neutral_axis(y: Quantity, A_t: Quantity, A_c: Quantity, M: Quantity, N: Quantity) -> Section:
-    """The document's iteration; its last areas count only where they are those of the stresses that they give."""
+    """The document's iteration; its last areas count only where they are those of the stresses that they give.
+
+    Without load the axis is that of the first ray, on the lowest level.
+    """
     known = joint.neutral_axis(*_numbers(y, A_t, A_c, M, N))
+    loaded, upper = ((M != 0) | (N != 0))[..., None], y > y.min(axis=-1, keepdims=True)
     stretched: Quantity = known.sigma > 0
     for _ in range(ITERATIONS):
         area = step("A", "m**2", "area that acts", np.where(stretched, A_t, A_c))
         result = bending(y, area, M, N)
-        before, stretched = stretched, step("t", "-", "stretched", result.sigma > 0)
+        before, stretched = stretched, step("t", "-", "stretched", np.where(loaded, result.sigma > 0, upper))
     settled = ((stretched & before) | ~(stretched | before)).all(axis=-1, keepdims=True)
     area = np.where(settled, area, np.nan)
     result = bending(y, area, M, N)

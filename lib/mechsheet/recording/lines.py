@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from functools import lru_cache
 from typing import Any
 
-from mechsheet.recording.graph import Graph, Node
+from mechsheet.recording.graph import Gap, Graph, Guard, Node
 from mechsheet.recording.quantity import Quantity
 from mechsheet.worksheet import symbol
 from mechsheet.worksheet.lines import Formula
@@ -49,7 +49,9 @@ class Recording:
 
     ``tables`` are the columns by the number of a table, of a figure under ``Fig 1``; ``marks`` the marks of a figure by
     its number and their labels; ``lines`` those of a section; ``names`` the name that each node has in the worksheet.
-    A cell in ``left_out``, with its reason, keeps its numbers. Only every ``every``-th position is recorded.
+    ``gaps`` are what keeps the numbers of the worksheet's own run, with the reasons; ``guards`` the conditions under
+    which all is recorded as the worksheet has it; ``values`` what the names are in the recording.
+    Only every ``every``-th position is recorded.
     """
 
     graph: Graph
@@ -59,7 +61,10 @@ class Recording:
     found: dict[str, Solved] = field(default_factory=dict)
     lines: dict[str, list[Line]] = field(default_factory=dict)
     marks: dict[str, dict[str, Node]] = field(default_factory=dict)
-    left_out: dict[str, str] = field(default_factory=dict)
+    gaps: list[Gap] = field(default_factory=list)
+    guards: dict[Node, Guard] = field(default_factory=dict)  # by their conditions
+    made_of: dict[Node, float] = field(default_factory=dict)  # the largest terms of sums, as far as looked at
+    values: dict[str, Any] = field(default_factory=dict)
     every: int = 1
     sections: list[str] = field(default_factory=list)
     names: dict[Node, str] = field(default_factory=dict)

@@ -1,167 +1,364 @@
 """What numpy's functions make of recorded quantities: a rule for each of those that a recording knows."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 
-from mechsheet.recording.graph import Graph, NotRecorded, is_number
+from mechsheet.recording.graph import REDUCE_SO_FAR, Graph, NotRecorded
+from mechsheet.recording.linear_rules import determinant, outer, product, solution
 from mechsheet.recording.quantity import (
     FUNCTIONS,
-    UFUNCS,
+    REDUCTIONS,
     Quantity,
     absolute,
-    add,
+    angle,
     choice,
     conjugate,
-    divide,
-    elementwise,
-    has_quantity,
-    imaginary,
+    joined,
     lift,
-    multiply,
-    power,
+    moved,
+    plain,
+    rounded,
     square,
-    stack,
-    subtract,
+    trunc,
 )
+from mechsheet.recording.ufunc_rules import finite
+
+_SORTED = 64  # so many numbers are sorted by comparisons; the order of more is that of the present ones
 
 
-def _exp(x: Quantity) -> Quantity:
-    graph = x.graph
-    size = None if x.im is not None and is_number(x.re, 0) else Quantity(graph, graph.fold("EXP", x.re))
-    if x.im is None:
-        return Quantity(graph, graph.fold("EXP", x.re))
-    turned = Quantity(graph, graph.fold("COS", x.im), graph.fold("SIN", x.im))
-    return turned if size is None else multiply(size, turned)
-
-
-def _angle(x: Quantity) -> Quantity:
-    return Quantity(x.graph, x.graph.fold("ATAN2", imaginary(x), x.re))
-
-
-def _hypot(x: Quantity, y: Quantity) -> Quantity:
-    return absolute(Quantity(x.graph, x.re, y.re))
-
-
-def _finite(x: Quantity) -> Quantity:
-    both = [Quantity(x.graph, x.graph.fold("ISNUMBER", part)) for part in x.parts]
-    return both[0] if len(both) == 1 else both[0] & both[1]
-
-
-def _copysign(x: Quantity, y: Quantity) -> Quantity:
-    return choice(x.graph, y >= 0, absolute(x), -absolute(x))
-
-
-def _heaviside(x: Quantity, y: Quantity) -> Quantity:
-    return choice(x.graph, x > 0, 1.0, choice(x.graph, x < 0, 0.0, y))
-
-
-_ELEMENTWISE: dict[np.ufunc, str] = {
-    np.arctan2: "ATAN2", np.remainder: "MOD", np.sqrt: "SQRT", np.sin: "SIN", np.cos: "COS", np.tan: "TAN",
-    np.arcsin: "ASIN", np.arccos: "ACOS", np.log: "LN", np.sign: "SIGN", np.maximum: "MAX", np.minimum: "MIN",
-    np.less: "<", np.less_equal: "<=", np.greater: ">", np.greater_equal: ">=", np.equal: "=", np.not_equal: "<>",
-    np.logical_and: "AND", np.logical_or: "OR", np.logical_not: "NOT", np.bitwise_and: "AND", np.bitwise_or: "OR",
-    np.invert: "NOT", np.rint: "ROUND",
+_OF_REDUCTIONS: dict[Any, str] = {
+    np.add: "sum", np.multiply: "prod", np.maximum: "max", np.minimum: "min", np.logical_and: "all",
+    np.logical_or: "any", np.fmax: "nanmax", np.fmin: "nanmin",
 }  # fmt: skip
-UFUNCS.update({
-    np.add: add, np.subtract: subtract, np.multiply: multiply, np.true_divide: divide, np.power: power,
-    np.negative: lambda x: -x, np.positive: lambda x: x, np.absolute: absolute, np.conjugate: conjugate,
-    np.exp: _exp, np.hypot: _hypot, np.square: square, np.copysign: _copysign, np.heaviside: _heaviside,
-    np.isnan: lambda x: ~_finite(x), np.isfinite: _finite,
-    **{ufunc: elementwise(op) for ufunc, op in _ELEMENTWISE.items()},
-})  # fmt: skip
+REDUCTIONS.update(_OF_REDUCTIONS)
 
 
-def _reduction(name: str) -> Callable[..., Quantity]:
+def _reduction(kind: str) -> Callable[..., Any]:
+    neutral: dict[str, float] = {"sum": 0.0, "prod": 1.0, "any": False, "all": True, "nansum": 0.0}
+    combine = {"max": np.maximum, "min": np.minimum, "sum": np.add, "prod": np.multiply}
+
     def operation(
-        graph: Graph, x: Any, axis: int | None = None, keepdims: bool = False, initial: Any = None, where: Any = None
-    ) -> Quantity:
-        x = lift(graph, x) if where is None else choice(graph, where, x, initial)
-        result: Quantity = getattr(x, name)(axis=axis, keepdims=keepdims)
-        if initial is None:
-            return result
-        combine: Any = {"max": np.maximum, "min": np.minimum, "sum": np.add}[name]
-        return lift(graph, combine(result, initial))
+        graph: Graph, x: Any, axis: Any = None, keepdims: bool = False, initial: Any = None, where: Any = None,
+        dtype: Any = None,
+    ) -> Any:  # fmt: skip
+        x = lift(graph, x)
+        if where is not None and where is not True:
+            x = choice(graph, where, x, neutral.get(kind) if initial is None else initial)
+        result = x.reduced(kind, axis, keepdims)
+        return result if initial is None else lift(graph, combine[kind.removeprefix("nan")](result, initial))
 
     return operation
 
 
-def _joined(graph: Graph, parts: Sequence[Any], axis: int = 0) -> Quantity:
-    return stack(graph, [lift(graph, p) for p in parts], axis)
+for _ufunc, _kind in REDUCTIONS.items():
+    FUNCTIONS[_ufunc, "reduce"] = (  # of a ufunc: along the first axis, where none is given
+        lambda graph, x, axis=0, _kind=_kind, **rest: _reduction(_kind)(graph, x, axis, **rest)
+    )
+    FUNCTIONS[_ufunc, "accumulate"] = lambda graph, x, axis=0, _kind=_kind: _so_far(_kind)(graph, x, axis)
 
 
-def _stacked(graph: Graph, parts: Sequence[Any], axis: int = 0) -> Quantity:
-    if axis not in (0, -1):
-        raise NotRecorded(f"stack along axis {axis}")
-    lifted = [lift(graph, p) for p in parts]
-    return stack(graph, [p[..., None] for p in lifted], axis=-1) if axis else stack(graph, lifted)
+def _so_far(kind: str) -> Callable[..., Any]:
+    def operation(graph: Graph, x: Any, axis: int | None = None, dtype: Any = None) -> Any:
+        x = lift(graph, x)
+        if kind not in REDUCE_SO_FAR:
+            raise NotRecorded(f"{kind} of the elements up to each one")
+        if axis is None:
+            x, axis = x.reshape(-1), 0
+        return x.each(lambda node: graph.scan(kind, node, axis % x.ndim))
+
+    return operation
 
 
-def _rounded(graph: Graph, x: Any, decimals: int = 0) -> Quantity:
-    if decimals:
-        raise NotRecorded(f"round to {decimals} decimals")
-    return lift(graph, elementwise("ROUND")(lift(graph, x)))
+def _rearranged(f: Callable[..., Any]) -> Callable[..., Any]:
+    """Function that only moves elements: what it does with their positions, it does with them."""
+
+    def operation(graph: Graph, x: Any, *args: Any, **kwargs: Any) -> Any:
+        x = lift(graph, x)
+        given = [plain(a) for a in args], {name: plain(a) for name, a in kwargs.items()}
+        moved = f(np.arange(x.size).reshape(x.shape), *given[0], **given[1])
+        if isinstance(moved, list | tuple):
+            return [x.take(np.asarray(part)) for part in moved]
+        return x.take(np.ascontiguousarray(moved))
+
+    return operation
+
+
+def _joined(f: Callable[..., Any]) -> Callable[..., Any]:
+    """Function that puts several quantities together as one."""
+
+    def operation(graph: Graph, parts: Any, *args: Any, **kwargs: Any) -> Any:
+        lifted = [lift(graph, p) for p in parts]
+        starts = np.cumsum([0, *(p.size for p in lifted)])
+        positions = [s + np.arange(p.size).reshape(p.shape) for s, p in zip(starts, lifted, strict=False)]
+        where = np.ascontiguousarray(f(positions, *args, **kwargs))
+        return joined(lifted, where)
+
+    return operation
 
 
 def _seen(f: Callable[..., Any]) -> Callable[..., Any]:
     """Function that finds positions: they are those of the present numbers, and a guard tells when they change."""
 
-    def operation(graph: Graph, x: Any) -> Any:
-        x = lift(graph, x)
-        if x.re.op != "constant":
-            graph.guards.append(((x != x.value).sum().re, 0))
-        return f(x.value)
+    def operation(graph: Graph, x: Any, *args: Any, **kwargs: Any) -> Any:
+        return f(lift(graph, x).seen(), *args, **kwargs)
 
     return operation
 
 
-def _trapezoid(graph: Graph, y: Any, x: Any = None, axis: int = -1) -> Quantity:
-    if axis != -1:
-        raise NotRecorded(f"trapezoid along axis {axis}")
-    heights, places = lift(graph, y), lift(graph, x)
-    return ((places[..., 1:] - places[..., :-1]) * (heights[..., 1:] + heights[..., :-1]) / 2).sum(axis=-1)
+def _ends(x: Quantity, axis: int) -> tuple[Any, Any]:
+    """All but the last and all but the first element along an axis."""
+    before = (slice(None),) * (axis % x.ndim)
+    return x[(*before, slice(None, -1))], x[(*before, slice(1, None))]
 
 
-def _broadcast(graph: Graph, x: Any, shape: tuple[int, ...]) -> Quantity:
-    return lift(graph, x).broadcast(shape)
+def _difference(graph: Graph, x: Any, n: int = 1, axis: int = -1, prepend: Any = None, append: Any = None) -> Any:
+    x = lift(graph, x)
+    size = [1 if k == axis % x.ndim else count for k, count in enumerate(x.shape)]
+    ends = [None if end is None else lift(graph, end) for end in (prepend, append)]
+    before, after = ([] if end is None else [end if end.ndim else end.broadcast(tuple(size))] for end in ends)
+    if before or after:
+        x = _joined(np.concatenate)(graph, [*before, x, *after], axis=axis)
+    for _ in range(n):
+        lower, upper = _ends(x, axis)
+        x = upper - lower
+    return x
 
 
-FUNCTIONS.update({
-    np.where: choice, np.angle: lambda graph, x: _angle(lift(graph, x)), np.real: lambda graph, x: lift(graph, x).real,
+def _strips(graph: Graph, y: Any, x: Any, dx: Any, axis: int) -> Any:
+    lower, upper = _ends(lift(graph, y), axis)
+    if x is None:
+        return (lower + upper) * dx / 2
+    x = lift(graph, x)
+    start, end = _ends(x, axis if x.ndim > 1 else -1)
+    width = end - start
+    if x.ndim == 1 and lower.ndim > 1:
+        width = width[(slice(None), *(None,) * (lower.ndim - 1 - axis % lower.ndim))]
+    return width * (lower + upper) / 2
+
+
+def _trapezoid(graph: Graph, y: Any, x: Any = None, dx: Any = 1.0, axis: int = -1) -> Any:
+    return _strips(graph, y, x, dx, axis).reduced("sum", axis)
+
+
+def trapezoid_so_far(graph: Graph, y: Any, x: Any = None, dx: Any = 1.0, axis: int = -1, initial: Any = None) -> Any:
+    """scipy's cumulative_trapezoid."""
+    parts = _so_far("sum")(graph, _strips(graph, y, x, dx, axis), axis)
+    if initial is None:
+        return parts
+    start = np.full([1 if n == axis % parts.ndim else size for n, size in enumerate(parts.shape)], float(initial))
+    return _joined(np.concatenate)(graph, [start, parts], axis=axis)
+
+
+def _gradient(graph: Graph, y: Any, x: Any = 1.0, axis: Any = None, edge_order: int = 1) -> Any:
+    y = lift(graph, y)
+    if y.ndim != 1 or edge_order != 1:
+        raise NotRecorded("numpy's gradient of a table, or of second order at its ends")
+    h = _difference(graph, x) if np.ndim(x) else lift(graph, x).broadcast((len(y) - 1,))
+    slope = _difference(graph, y) / h
+    inner = (slope[:-1] * h[1:] + slope[1:] * h[:-1]) / (h[1:] + h[:-1])
+    return _joined(np.concatenate)(graph, [slope[:1], inner, slope[-1:]])
+
+
+def _interpolated(graph: Graph, x: Any, xp: Any, fp: Any, left: Any = None, right: Any = None) -> Any:
+    x, xp, fp = (lift(graph, v) for v in (x, xp, fp))
+    if len(xp) == 1:
+        return fp[0] + 0 * x
+    piece = np.clip((xp <= x[..., None]).reduced("sum", -1) - 1, 0, len(xp) - 2)
+    start, end, low, high = xp[piece], xp[piece + 1], fp[piece], fp[piece + 1]
+    inside = low + (x - start) / (end - start) * (high - low)
+    below = choice(graph, x < xp[0], fp[0] if left is None else left, inside)
+    return choice(graph, x > xp[-1], fp[-1] if right is None else right, below)
+
+
+def _searched(graph: Graph, a: Any, v: Any, side: str = "left") -> Any:
+    a, v = lift(graph, a), lift(graph, v)
+    below = a < v[..., None] if side == "left" else a <= v[..., None]
+    return below.reduced("sum", -1)
+
+
+def _ordered(graph: Graph, x: Any, axis: Any = -1) -> Any:
+    """Sorted by an even-odd network of comparisons; many numbers by the order that they have now."""
+    x = lift(graph, x)
+    if axis is None:
+        x, axis = x.reshape(-1), 0
+    x = moved(x, axis, -1)
+    if x.shape[-1] > _SORTED:
+        order = np.argsort(x.value, axis=-1, kind="stable")
+        x = np.take_along_axis(x, order, axis=-1)
+        graph.see((x[..., :-1] <= x[..., 1:]).reduced("all").re)
+        return moved(x, -1, axis)
+    parts = [x[..., k] for k in range(x.shape[-1])]
+    for start in range(len(parts)):
+        for k in range(start % 2, len(parts) - 1, 2):
+            low, high = parts[k], parts[k + 1]
+            parts[k], parts[k + 1] = np.minimum(low, high), np.maximum(low, high)
+    return moved(lift(graph, parts), 0, axis)
+
+
+def _middle(graph: Graph, x: Any) -> Any:
+    x = _ordered(graph, x, None)
+    half = len(x) // 2
+    return x[half] if len(x) % 2 else (x[half - 1] + x[half]) / 2
+
+
+def _quantile(graph: Graph, x: Any, q: Any) -> Any:
+    x = _ordered(graph, x, None)
+    return _interpolated(graph, lift(graph, q) * (len(x) - 1), np.arange(len(x)), x)
+
+
+def _mean(graph: Graph, x: Any, axis: Any = None, keepdims: bool = False) -> Any:
+    x = lift(graph, x)
+    total = x.reduced("sum", axis, keepdims)
+    return total / (x.size / max(total.size, 1))
+
+
+def _average(graph: Graph, x: Any, axis: Any = None, weights: Any = None) -> Any:
+    if weights is None:
+        return _mean(graph, x, axis)
+    return (lift(graph, x) * weights).reduced("sum", axis) / (lift(graph, weights) + 0 * x).reduced("sum", axis)
+
+
+def _known_mean(graph: Graph, x: Any, axis: Any = None) -> Any:
+    x = lift(graph, x)
+    return x.reduced("nansum", axis) / choice(graph, finite(x), 1.0, 0.0).reduced("sum", axis)
+
+
+def _variance(graph: Graph, x: Any, axis: Any = None, ddof: Any = 0) -> Any:
+    x = lift(graph, x)
+    off = square(absolute(x - _mean(graph, x, axis, True)))
+    total = off.reduced("sum", axis)
+    return total / (x.size / max(total.size, 1) - ddof)
+
+
+def _norm(graph: Graph, x: Any, axis: Any = None) -> Any:
+    return np.sqrt(square(absolute(lift(graph, x))).reduced("sum", axis))
+
+
+def _polynomial(graph: Graph, p: Any, x: Any) -> Any:
+    value: Any = 0.0
+    for c in p:
+        value = value * x + c
+    return value
+
+
+def _selected(graph: Graph, conditions: Any, choices: Any, default: Any = 0) -> Any:
+    value = default
+    for condition, one in reversed(list(zip(conditions, choices, strict=True))):
+        value = choice(graph, condition, one, value)
+    return value
+
+
+def _piecewise(graph: Graph, x: Any, conditions: Any, functions: Any) -> Any:
+    values = [f(x) if callable(f) else f for f in functions]
+    rest = values.pop() if len(values) > len(conditions) else 0
+    return _selected(graph, list(conditions)[::-1], values[::-1], rest)  # of several the last one counts
+
+
+def _chosen(graph: Graph, condition: Any, *both: Any) -> Any:
+    return choice(graph, condition, *both) if both else np.nonzero(condition)
+
+
+def _clipped(graph: Graph, x: Any, low: Any = None, high: Any = None, min: Any = None, max: Any = None) -> Any:
+    low, high = min if low is None else low, max if high is None else high
+    x = x if low is None else np.maximum(x, low)
+    return lift(graph, x if high is None else np.minimum(x, high))
+
+
+def _close(graph: Graph, x: Any, y: Any, rtol: float = 1e-5, atol: float = 1e-8) -> Any:
+    x, y = lift(graph, x), lift(graph, y)
+    return absolute(x - y) <= atol + rtol * absolute(y)
+
+
+def _like(value: Any) -> Callable[..., Any]:
+    return lambda graph, x, *given, dtype=None: np.full(np.shape(x), *(given or (value,)))
+
+
+def _first(kind: str) -> Callable[..., Any]:
+    def operation(graph: Graph, x: Any, axis: Any = None, keepdims: bool = False) -> Any:
+        x = lift(graph, x)
+        x = choice(graph, x, 1.0, 0.0) if x.re.value.dtype == bool else x
+        return x.reduced(kind, axis, keepdims)
+
+    return operation
+
+
+def _broadcast(graph: Graph, x: Any, shape: Any) -> Any:
+    return lift(graph, x).broadcast(shape if isinstance(shape, tuple) else (shape,))
+
+
+def _real(graph: Graph, x: Any) -> Any:
+    return lift(graph, x).real
+
+
+_OF_FUNCTIONS: dict[Any, Callable[..., Any]] = {
+    np.where: _chosen, np.angle: lambda graph, x: angle(lift(graph, x)), np.real: _real,
     np.imag: lambda graph, x: lift(graph, x).imag, np.shape: lambda graph, x: lift(graph, x).shape,
     np.ndim: lambda graph, x: lift(graph, x).ndim, np.size: lambda graph, x: lift(graph, x).size,
-    np.concatenate: _joined, np.stack: _stacked, np.broadcast_to: _broadcast,
-    np.max: _reduction("max"), np.amax: _reduction("max"), np.nanmax: _reduction("max"), np.min: _reduction("min"),
-    np.amin: _reduction("min"), np.nanmin: _reduction("min"), np.sum: _reduction("sum"), np.any: _reduction("any"),
-    np.all: _reduction("all"), np.round: _rounded,
-    np.ravel: lambda graph, x: lift(graph, x).reshape(-1), np.trapezoid: _trapezoid,
+    np.iscomplexobj: lambda graph, x: lift(graph, x).im is not None, np.copy: lambda graph, x: lift(graph, x),
+    np.round: lambda graph, x, decimals=0: rounded(lift(graph, x), decimals), np.fix: lambda graph, x: trunc(x),
+    np.max: _reduction("max"), np.amax: _reduction("max"), np.nanmax: _reduction("nanmax"),
+    np.min: _reduction("min"), np.amin: _reduction("min"), np.nanmin: _reduction("nanmin"),
+    np.sum: _reduction("sum"), np.nansum: _reduction("nansum"), np.prod: _reduction("prod"),
+    np.any: _reduction("any"), np.all: _reduction("all"), np.argmax: _first("argmax"), np.argmin: _first("argmin"),
+    np.ptp: lambda graph, x, axis=None: lift(graph, x).reduced("max", axis) - lift(graph, x).reduced("min", axis),
+    np.mean: _mean, np.average: _average, np.nanmean: _known_mean, np.var: _variance, np.median: _middle,
+    np.std: lambda graph, x, axis=None, ddof=0: np.sqrt(_variance(graph, x, axis, ddof)), np.quantile: _quantile,
+    np.percentile: lambda graph, x, q: _quantile(graph, x, lift(graph, q) / 100),
+    np.count_nonzero: lambda graph, x, axis=None: choice(graph, x, 1.0, 0.0).reduced("sum", axis),
+    np.cumsum: _so_far("sum"), np.cumprod: _so_far("prod"), np.diff: _difference, np.ediff1d: _difference,
+    np.trapezoid: _trapezoid, np.gradient: _gradient, np.interp: _interpolated, np.searchsorted: _searched,
+    np.digitize: lambda graph, x, bins: _searched(graph, bins, x, "right"), np.sort: _ordered,
+    np.dot: product, np.inner: product, np.vdot: lambda graph, x, y: (conjugate(lift(graph, x)) * y).reduced("sum"),
+    np.outer: outer, np.linalg.solve: solution, np.linalg.det: determinant, np.linalg.norm: _norm,
+    np.linalg.inv: lambda graph, A: solution(graph, A, np.eye(np.shape(A)[-1])),
+    np.trace: lambda graph, A: lift(graph, A)[np.arange(len(A)), np.arange(len(A))].reduced("sum"),
+    np.polyval: _polynomial, np.select: _selected, np.piecewise: _piecewise, np.clip: _clipped, np.isclose: _close,
+    np.allclose: lambda graph, *args, **rest: _close(graph, *args, **rest).reduced("all"),
+    np.nan_to_num: lambda graph, x, nan=0.0: choice(graph, finite(lift(graph, x)), x, nan),
+    np.zeros_like: _like(0.0), np.ones_like: _like(1.0), np.full_like: _like(np.nan), np.empty_like: _like(0.0),
+    np.broadcast_to: _broadcast,
     np.broadcast_arrays: lambda graph, *x: [_broadcast(graph, a, np.broadcast_shapes(*map(np.shape, x))) for a in x],
-    np.argwhere: _seen(np.argwhere), np.nonzero: _seen(np.nonzero), np.flatnonzero: _seen(np.flatnonzero),
-    np.count_nonzero: lambda graph, x: choice(graph, x, 1.0, 0.0).sum(),
-    np.append: lambda graph, x, y: _joined(graph, [lift(graph, x).reshape(-1), lift(graph, y).reshape(-1)]),
-})  # fmt: skip
+    np.meshgrid: lambda graph, *x, **rest: [
+        lift(graph, a)[where] for a, where in zip(x, np.meshgrid(*(np.arange(len(a)) for a in x), **rest), strict=True)
+    ],
+    np.append: lambda graph, x, y, axis=None: _joined(np.concatenate)(
+        graph, [lift(graph, p).reshape(-1) if axis is None else p for p in (x, y)], axis=axis or 0
+    ),
+    **{f: _joined(f) for f in (np.concatenate, np.stack, np.vstack, np.hstack, np.dstack, np.column_stack, np.block)},
+    **{f: _seen(f) for f in (np.argwhere, np.nonzero, np.flatnonzero, np.argsort, np.unique, np.isin)},
+    **{f: _rearranged(f) for f in (
+        np.ravel, np.reshape, np.transpose, np.squeeze, np.expand_dims, np.moveaxis, np.swapaxes, np.roll, np.flip,
+        np.fliplr, np.flipud, np.rot90, np.repeat, np.tile, np.resize, np.delete, np.split, np.array_split,
+        np.atleast_1d, np.atleast_2d, np.diagonal, np.take_along_axis, np.take, np.compress, np.extract,
+    )},
+}  # fmt: skip
+FUNCTIONS.update(_OF_FUNCTIONS)
+FUNCTIONS[np.take] = lambda graph, x, k, axis=0: moved(moved(lift(graph, x), axis, 0)[k], 0, axis)
 
 
-def takes(f: Callable[..., Any], graph: Graph) -> Callable[..., Any]:
-    """Function of numpy that also takes lists of recorded quantities."""
+def counted(graph: Graph, count: Any) -> int:
+    """A number of rows."""
+    if not isinstance(count, Quantity):
+        return int(count)
+    return int(count.seen(rows=True).reshape(()))
 
-    def function(*args: Any, **kwargs: Any) -> Any:
-        if f is np.array or f is np.asarray:
-            return lift(graph, args[0]) if has_quantity(args[0]) else f(*args, **kwargs)
-        if f is np.arange and not kwargs:
-            ends = [int(a) for a in args]
-            rows = Quantity(graph, graph.rows(len(range(*ends))))
-            return rows * (ends[2] if ends[2:] else 1) + (ends[0] if ends[1:] else 0)
-        if f is np.linspace and not kwargs:
-            start, stop, count = args
-            thin = graph.thin if (int(count) - 1) % graph.thin == 0 else 1
-            rows = Quantity(graph, graph.rows((int(count) - 1) // thin + 1))
-            return start + (stop - start) * (rows * thin / (count - 1))
-        if f in (np.concatenate, np.stack):
-            return f(*args, **kwargs) if not has_quantity(args[0]) else FUNCTIONS[f](graph, *args, **kwargs)
-        if isinstance(f, np.ufunc) and len(args) == 1 and isinstance(args[0], list) and has_quantity(args[0]):
-            return stack(graph, [f(lift(graph, a)) for a in args[0]])
-        return f(*[lift(graph, a) if isinstance(a, list) and has_quantity(a) else a for a in args], **kwargs)
 
-    return function
+def arange(graph: Graph, *ends: Any) -> Any:
+    """numpy's arange of whole numbers of rows."""
+    start, stop, step = (0, *ends, 1) if len(ends) == 1 else (*ends, 1)[:3]
+    if not all(isinstance(e, Quantity) or float(e).is_integer() for e in ends):
+        return np.arange(*plain(ends))
+    whole = [counted(graph, e) for e in (start, stop, step)]
+    return Quantity(graph, graph.rows(len(range(*whole)))) * whole[2] + whole[0]
+
+
+def linspace(graph: Graph, start: Any, stop: Any, count: Any = 50, endpoint: bool = True) -> Any:
+    """numpy's linspace, of the positions alone that tables list."""
+    pieces = counted(graph, count) - bool(endpoint)
+    thin = graph.thin if endpoint and pieces % graph.thin == 0 else 1
+    if thin > 1:
+        graph.positions = pieces + 1
+    rows = Quantity(graph, graph.rows(pieces // thin + 1 if endpoint else pieces))
+    return start + (stop - start) * (rows * thin / ((count - 1) if endpoint else count))

@@ -9,14 +9,21 @@ from functools import cache
 from typing import Any
 
 import numpy as np
+from numpy.lib.mixins import NDArrayOperatorsMixin
 
 from mechsheet.recording.graph import Graph, Label, Node, NotRecorded, Values, is_number
 
 UFUNCS: dict[Any, Callable[..., "Quantity"]] = {}  # of quantities
 FUNCTIONS: dict[Any, Callable[..., Any]] = {}  # of the graph and whatever numpy's function takes
+REDUCTIONS: dict[Any, str] = {}  # kinds that the reduce and accumulate of a ufunc stand for
+METHODS = frozenset({
+    "all", "any", "argmax", "argmin", "argsort", "clip", "conj", "conjugate", "copy", "cumprod", "cumsum", "diagonal",
+    "dot", "max", "mean", "min", "nonzero", "prod", "ptp", "ravel", "repeat", "round", "sort", "squeeze", "std", "sum",
+    "swapaxes", "trace", "transpose", "var",
+})  # fmt: skip
 
 
-class Quantity:
+class Quantity(NDArrayOperatorsMixin):
     """A quantity of a worksheet, real or complex, that takes part in arithmetic and in numpy's functions."""
 
     __slots__ = ("graph", "im", "re")
@@ -71,65 +78,119 @@ class Quantity:
     def __iter__(self) -> Iterator["Quantity"]:
         return (self[i] for i in range(len(self)))
 
+    # Every exit to Python notes what is seen, or says that it is not recorded.
+
+    def seen(self, rows: bool = False) -> Values:
+        """Numbers for Python to look at; a guard tells while they are the same."""
+        for node in self.parts:
+            self.graph.see(self.graph.same(node), rows)
+        return self.value
+
     def __bool__(self) -> bool:
-        seen = bool(self.value)
-        if self.re.op != "constant":
-            self.graph.guards.append((self.re, seen))
-        return seen
+        if self.im is not None or self.size != 1:
+            raise NotRecorded("the truth of a complex number" if self.size == 1 else "the truth of several numbers")
+        true = self.re if self.re.value.dtype == bool else self.graph.fold("ne", self.re, self.graph.constant(0))
+        now = bool(true.value.reshape(()))
+        self.graph.see(true if now else self.graph.fold("not", true))
+        return now
 
     def __index__(self) -> int:
-        if self.re.op != "constant":
-            self.graph.guards.append((self.re, int(self.value)))
-        return int(self.value)
+        if self.im is not None or self.size != 1 or not float(self.re.value.reshape(())).is_integer():
+            raise TypeError(f"{self.value} is not a whole number")
+        return int(self.seen().reshape(()))
 
-    __int__ = __index__
+    def __int__(self) -> int:
+        whole: Quantity = trunc(self)
+        return whole.__index__()
+
+    def __round__(self, digits: int | None = None) -> Any:
+        return rounded(self, digits or 0)
+
+    def __format__(self, spec: str) -> str:
+        value = self.seen()
+        return (value.item() if value.size == 1 else value).__format__(spec)
+
+    def __str__(self) -> str:
+        return self.__format__("")
+
+    def __repr__(self) -> str:
+        return "a recorded quantity"
+
+    def __hash__(self) -> int:
+        value = self.seen()
+        return hash(value.item() if value.size == 1 else value.tobytes())
 
     def __float__(self) -> float:
         raise NotRecorded("a number taken out of a quantity")
 
+    def __complex__(self) -> complex:
+        raise NotRecorded("a number taken out of a quantity")
+
+    def __array__(self, *_: Any, **__: Any) -> Any:
+        raise NotRecorded("an array made of a quantity")
+
+    def tolist(self) -> Any:
+        return list(self) if self.ndim else self
+
+    def item(self, *index: Any) -> "Quantity":
+        return self[index] if index else self.reshape(())
+
     def take(self, index: Values) -> "Quantity":
         """Elements by their flat positions, in the shape of ``index``."""
         shape = self.shape
-        return self.each(lambda node: self.graph.pick(self._whole(node, shape), index))
+        return self.each(lambda node: self.graph.take(self._whole(node, shape), index))
 
     def broadcast(self, shape: tuple[int, ...]) -> "Quantity":
         return self.each(lambda node: self._whole(node, shape))
 
     def __getitem__(self, key: Any) -> "Quantity":
-        index = np.arange(self.size).reshape(self.shape)[key.value if isinstance(key, Quantity) else key]
+        first, *rest = key if isinstance(key, tuple) and key else (key,)
+        if isinstance(first, Quantity) and first.re.value.dtype != bool and first.im is None and self.ndim:
+            return self._at(first)[(slice(None),) * first.ndim + tuple(rest)] if rest else self._at(first)
+        index = np.arange(self.size).reshape(self.shape)[plain(key)]
         return self.take(np.asarray(index))
+
+    def _at(self, position: "Quantity") -> "Quantity":
+        """Elements along the first axis by positions that are quantities; NaN where there are none."""
+        count, inner = self.shape[0], self.shape[1:]
+        start = choice(self.graph, position < 0, position + count, position)
+        if not inner:
+            return self.each(lambda node: self.graph.at(self._whole(node, self.shape), start.re))
+        rest = np.arange(int(np.prod(inner))).reshape(inner)
+        inside = (start >= 0) & (start < count)
+        flat = choice(self.graph, inside, start, np.nan)[(..., *(None,) * len(inner))] * rest.size + rest
+        return self.each(lambda node: self.graph.at(self._whole(node, self.shape), flat.re))
 
     @property
     def T(self) -> "Quantity":
         """Transposed."""
         return self.take(np.ascontiguousarray(np.arange(self.size).reshape(self.shape).T))
 
-    def argmax(self, axis: int = 0) -> "Quantity":
-        """Position of the first true element along the first axis; 0 where none is."""
-        if axis != 0 or self.re.value.dtype != bool:
-            raise NotRecorded("the position of a greatest number")
-        first: Any = 0.0
-        for n in reversed(range(len(self))):
-            first = choice(self.graph, self[n], float(n), first)
-        return lift(self.graph, first)
+    def astype(self, kind: Any, **_: Any) -> "Quantity":
+        kind = np.dtype(kind).kind
+        return trunc(self) if kind in "iu" else self != 0 if kind == "b" else self
 
     def reshape(self, *shape: Any) -> "Quantity":
         return self.take(np.arange(self.size).reshape(*shape))
 
-    def sum(self, axis: int | None = None, keepdims: bool = False) -> "Quantity":
-        return self.each(lambda node: self.graph.reduce("SUM", node, axis, keepdims))
+    def reduced(self, kind: str, axis: Any = None, keepdims: bool = False) -> "Quantity":
+        """What a kind of reduction says of a real quantity, along one or several axes or of all elements."""
+        if self.im is not None and kind not in ("sum", "nansum"):
+            raise NotRecorded(f"{kind} of complex numbers")
+        if isinstance(axis, tuple):
+            result = self
+            for one in sorted((int(a) % self.ndim for a in axis), reverse=True):
+                result = result.reduced(kind, one, keepdims)
+            return result
+        axis = None if axis is None else int(plain(axis)) % max(self.ndim, 1)
+        return self.each(lambda node: self.graph.reduce(kind, node, axis, keepdims))
 
-    def max(self, axis: int | None = None, keepdims: bool = False) -> "Quantity":
-        return Quantity(self.graph, self.graph.reduce("MAX", self.re, axis, keepdims))
-
-    def min(self, axis: int | None = None, keepdims: bool = False) -> "Quantity":
-        return Quantity(self.graph, self.graph.reduce("MIN", self.re, axis, keepdims))
-
-    def any(self, axis: int | None = None, keepdims: bool = False) -> "Quantity":
-        return Quantity(self.graph, self.graph.reduce("OR", self.re, axis, keepdims))
-
-    def all(self, axis: int | None = None, keepdims: bool = False) -> "Quantity":
-        return Quantity(self.graph, self.graph.reduce("AND", self.re, axis, keepdims))
+    def __getattr__(self, name: str) -> Any:
+        """Methods of arrays, as numpy's functions of the same name."""
+        function = FUNCTIONS.get(getattr(np, name, None)) if name in METHODS else None
+        if function is None:
+            raise AttributeError(f"{name} of a recorded quantity")
+        return lambda *args, **kwargs: function(self.graph, self, *args, **kwargs)
 
     def each(self, f: Callable[[Node], Node]) -> "Quantity":
         """The same for the real and the imaginary part."""
@@ -139,89 +200,40 @@ class Quantity:
         if node.shape == shape:
             return node
         index = np.broadcast_to(np.arange(node.size).reshape(node.shape), shape)
-        return self.graph.pick(node, np.ascontiguousarray(index))
+        return self.graph.take(node, np.ascontiguousarray(index))
 
-    def __array_ufunc__(self, ufunc: Any, method: str, *inputs: Any, **kwargs: Any) -> "Quantity":
+    def __array_ufunc__(self, ufunc: Any, method: str, *inputs: Any, **kwargs: Any) -> Any:
+        if method in ("reduce", "accumulate") and ufunc in REDUCTIONS:
+            return FUNCTIONS[ufunc, method](self.graph, *inputs, **kwargs)
+        if len(kwargs.get("out", ())) == 1 and kwargs["out"][0] is inputs[0]:  # of x += y, which binds x anew
+            kwargs.pop("out")
         operation = UFUNCS.get(ufunc)
         if operation is None or method != "__call__" or kwargs:
-            raise NotRecorded(f"{ufunc.__name__}.{method}" if method != "__call__" else ufunc.__name__)
+            given = f" with {', '.join(kwargs)}" if kwargs else ""
+            raise NotRecorded((f"{ufunc.__name__}.{method}" if method != "__call__" else ufunc.__name__) + given)
         return operation(*[lift(self.graph, x) for x in inputs])
 
     def __array_function__(self, func: Any, types: Any, args: Any, kwargs: Any) -> Any:
         operation = FUNCTIONS.get(func)
         if operation is None:
-            raise NotRecorded(func.__name__)
+            raise NotRecorded(f"numpy's {func.__name__}")
         return operation(self.graph, *args, **kwargs)
 
-    def __add__(self, other: Any) -> "Quantity":
-        return add(self, lift(self.graph, other))
 
-    def __radd__(self, other: Any) -> "Quantity":
-        return add(lift(self.graph, other), self)
+def plain(value: Any) -> Any:
+    """A value without quantities, for Python to look at; guards tell while it is the same."""
+    if isinstance(value, Quantity):
+        return value.seen() if value.ndim or value.re.value.dtype == bool else value.__index__()
+    if isinstance(value, list | tuple):
+        return type(value)(plain(v) for v in value)
+    if isinstance(value, slice):
+        return slice(*(plain(v) for v in (value.start, value.stop, value.step)))
+    return value
 
-    def __sub__(self, other: Any) -> "Quantity":
-        return subtract(self, lift(self.graph, other))
 
-    def __rsub__(self, other: Any) -> "Quantity":
-        return subtract(lift(self.graph, other), self)
-
-    def __mul__(self, other: Any) -> "Quantity":
-        return multiply(self, lift(self.graph, other))
-
-    def __rmul__(self, other: Any) -> "Quantity":
-        return multiply(lift(self.graph, other), self)
-
-    def __truediv__(self, other: Any) -> "Quantity":
-        return divide(self, lift(self.graph, other))
-
-    def __rtruediv__(self, other: Any) -> "Quantity":
-        return divide(lift(self.graph, other), self)
-
-    def __pow__(self, other: Any) -> "Quantity":
-        return power(self, lift(self.graph, other))
-
-    def __mod__(self, other: Any) -> "Quantity":
-        return elementwise("MOD")(self, lift(self.graph, other))
-
-    def __neg__(self) -> "Quantity":
-        return self.each(self.graph.neg)
-
-    def __pos__(self) -> "Quantity":
-        return self
-
-    def __abs__(self) -> "Quantity":
-        return absolute(self)
-
-    def __invert__(self) -> "Quantity":
-        return elementwise("NOT")(self)
-
-    def __and__(self, other: Any) -> "Quantity":
-        return elementwise("AND")(self, lift(self.graph, other))
-
-    def __or__(self, other: Any) -> "Quantity":
-        return elementwise("OR")(self, lift(self.graph, other))
-
-    __rand__, __ror__ = __and__, __or__
-
-    def __lt__(self, other: Any) -> "Quantity":
-        return elementwise("<")(self, lift(self.graph, other))
-
-    def __le__(self, other: Any) -> "Quantity":
-        return elementwise("<=")(self, lift(self.graph, other))
-
-    def __gt__(self, other: Any) -> "Quantity":
-        return elementwise(">")(self, lift(self.graph, other))
-
-    def __ge__(self, other: Any) -> "Quantity":
-        return elementwise(">=")(self, lift(self.graph, other))
-
-    def __eq__(self, other: object) -> "Quantity":  # type: ignore[override]
-        return elementwise("=")(self, lift(self.graph, other))
-
-    def __ne__(self, other: object) -> "Quantity":  # type: ignore[override]
-        return elementwise("<>")(self, lift(self.graph, other))
-
-    __hash__ = None  # type: ignore[assignment]
+def moved(x: "Quantity", source: Any, destination: Any) -> "Quantity":
+    """numpy's moveaxis."""
+    return x.take(np.ascontiguousarray(np.moveaxis(np.arange(x.size).reshape(x.shape), source, destination)))
 
 
 def has_quantity(value: Any) -> bool:
@@ -236,7 +248,7 @@ def lift(graph: Graph, value: Any) -> Quantity:
     if isinstance(value, Quantity):
         return value
     if isinstance(value, list | tuple) and has_quantity(value):
-        return stack(graph, [lift(graph, v) for v in value])
+        return stack([lift(graph, v) for v in value])
     array = np.asarray(value)
     if array.dtype.kind == "c":
         return Quantity(graph, graph.constant(array.real), graph.constant(array.imag))
@@ -245,13 +257,22 @@ def lift(graph: Graph, value: Any) -> Quantity:
     return Quantity(graph, graph.constant(array))
 
 
-def stack(graph: Graph, parts: Sequence[Quantity], axis: int | None = None) -> Quantity:
-    """Quantities along an axis; along a new first one where ``axis`` is None."""
-    re = graph.join([p.re for p in parts], axis)
-    if all(p.im is None for p in parts):
+def stack(parts: Sequence[Quantity]) -> Quantity:
+    """Quantities along a new first axis."""
+    shape = np.broadcast_shapes(*(p.shape for p in parts))
+    whole = [p.broadcast(shape) for p in parts]
+    return joined(whole, np.arange(len(whole) * whole[0].size).reshape(len(whole), *shape))
+
+
+def joined(parts: Sequence[Quantity], where: Values) -> Quantity:
+    """Elements of several quantities, which ``where`` numbers one after the other."""
+    graph = parts[0].graph
+    whole = [p.broadcast(p.shape) for p in parts]
+    re = graph.join([p.re for p in whole], where)
+    if all(p.im is None for p in whole):
         return Quantity(graph, re)
-    zeros = [p.im or graph.constant(np.zeros(p.shape)) for p in parts]
-    return Quantity(graph, re, graph.join(zeros, axis))
+    im = [graph.constant(np.zeros(p.shape)) if p.im is None else p.im for p in whole]
+    return Quantity(graph, re, graph.join(im, where))
 
 
 def imaginary(x: Quantity) -> Node:
@@ -259,6 +280,17 @@ def imaginary(x: Quantity) -> Node:
     return x.im if x.im is not None else x.graph.constant(0.0)
 
 
+def _whole_shape(f: Callable[[Quantity, Quantity], Quantity]) -> Callable[[Quantity, Quantity], Quantity]:
+    """Arithmetic whose result has all elements also where a zero or one of the other operand leaves nothing to do."""
+
+    def operation(x: Quantity, y: Quantity) -> Quantity:
+        result, shape = f(x, y), np.broadcast_shapes(x.shape, y.shape)
+        return result if result.shape == shape else result.broadcast(shape)
+
+    return operation
+
+
+@_whole_shape
 def add(x: Quantity, y: Quantity) -> Quantity:
     graph = x.graph
     if x.im is None and y.im is None:
@@ -266,6 +298,7 @@ def add(x: Quantity, y: Quantity) -> Quantity:
     return Quantity(graph, graph.add(x.re, y.re), graph.add(imaginary(x), imaginary(y)))
 
 
+@_whole_shape
 def subtract(x: Quantity, y: Quantity) -> Quantity:
     graph = x.graph
     if x.im is None and y.im is None:
@@ -273,6 +306,7 @@ def subtract(x: Quantity, y: Quantity) -> Quantity:
     return Quantity(graph, graph.sub(x.re, y.re), graph.sub(imaginary(x), imaginary(y)))
 
 
+@_whole_shape
 def multiply(x: Quantity, y: Quantity) -> Quantity:
     graph = x.graph
     if x.im is None and y.im is None:
@@ -281,6 +315,7 @@ def multiply(x: Quantity, y: Quantity) -> Quantity:
     return Quantity(graph, graph.sub(graph.mul(a, c), graph.mul(b, d)), graph.add(graph.mul(a, d), graph.mul(b, c)))
 
 
+@_whole_shape
 def divide(x: Quantity, y: Quantity) -> Quantity:
     graph = x.graph
     if y.im is None:
@@ -291,16 +326,45 @@ def divide(x: Quantity, y: Quantity) -> Quantity:
 def square(x: Quantity) -> Quantity:
     graph = x.graph
     two = graph.constant(2)
-    re = graph.fold("^", x.re, two)
-    return Quantity(graph, re if x.im is None or is_number(x.im, 0) else graph.add(re, graph.fold("^", x.im, two)))
+    re = graph.fold("pow", x.re, two)
+    return Quantity(graph, re if x.im is None or is_number(x.im, 0) else graph.add(re, graph.fold("pow", x.im, two)))
 
 
 def power(x: Quantity, y: Quantity) -> Quantity:
-    if y.im is not None or (x.im is not None and not is_number(y.re, 2)):
-        raise NotRecorded("a power of a complex number")
-    if x.im is not None:
+    graph = x.graph
+    if y.im is not None:
+        raise NotRecorded("a complex power")
+    if x.im is None:
+        return x if is_number(y.re, 1) else Quantity(graph, graph.fold("pow", x.re, y.re))
+    if is_number(y.re, 2):
         return multiply(x, x)
-    return x if is_number(y.re, 1) else Quantity(x.graph, x.graph.fold("^", x.re, y.re))
+    turned = multiply(angle(x), y)
+    return multiply(power(absolute(x), y), polar(turned))
+
+
+def angle(x: Quantity) -> Quantity:
+    return Quantity(x.graph, x.graph.fold("atan2", imaginary(x), x.re))
+
+
+def polar(phi: Quantity) -> Quantity:
+    """The unit vector at an angle."""
+    return Quantity(phi.graph, phi.graph.fold("cos", phi.re), phi.graph.fold("sin", phi.re))
+
+
+def floor_divide(x: Quantity, y: Quantity) -> Any:
+    """Whole quotients as numpy has them: what `mod` leaves is taken away first."""
+    return elementwise("round")((x - x % y) / y)
+
+
+def trunc(x: Quantity) -> Any:
+    down = elementwise("floor")
+    return choice(x.graph, x < 0, -down(-x), down(x))
+
+
+def rounded(x: Quantity, decimals: int) -> Any:
+    """Rounded to decimals, halves to the even neighbour."""
+    scale = 10.0**decimals
+    return elementwise("round")(x * scale) / scale if decimals else elementwise("round")(x)
 
 
 def conjugate(x: Quantity) -> Quantity:
@@ -309,10 +373,10 @@ def conjugate(x: Quantity) -> Quantity:
 
 def absolute(x: Quantity) -> Quantity:
     if x.im is None or is_number(x.im, 0):
-        return Quantity(x.graph, x.graph.fold("ABS", x.re))
+        return Quantity(x.graph, x.graph.fold("abs", x.re))
     if is_number(x.re, 0):
-        return Quantity(x.graph, x.graph.fold("ABS", x.im))
-    return Quantity(x.graph, x.graph.fold("SQRT", square(x).re))
+        return Quantity(x.graph, x.graph.fold("abs", x.im))
+    return Quantity(x.graph, x.graph.fold("sqrt", square(x).re))
 
 
 @cache
@@ -327,9 +391,12 @@ def elementwise(op: str) -> Callable[..., Quantity]:
     return operation
 
 
-def choice(graph: Graph, condition: Any, x: Any, y: Any) -> Quantity:
-    """Elements of ``x`` where the condition holds, else of ``y``."""
+def choice(graph: Graph, condition: Any, x: Any, y: Any) -> Any:
+    """Elements of ``x`` where the condition holds, else of ``y``; of texts those that hold now."""
+    if any(np.asarray(v).dtype.kind == "U" for v in (x, y) if not isinstance(v, Quantity | list | tuple)):
+        texts: Any = np.where(plain(condition), x, y)
+        return texts
     c, a, b = lift(graph, condition), lift(graph, x), lift(graph, y)
     if a.im is None and b.im is None:
-        return Quantity(graph, graph.fold("IF", c.re, a.re, b.re))
-    return Quantity(graph, graph.fold("IF", c.re, a.re, b.re), graph.fold("IF", c.re, imaginary(a), imaginary(b)))
+        return Quantity(graph, graph.fold("where", c.re, a.re, b.re))
+    return Quantity(graph, graph.fold("where", c.re, a.re, b.re), graph.fold("where", c.re, imaginary(a), imaginary(b)))

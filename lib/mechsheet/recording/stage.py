@@ -1,17 +1,25 @@
 """One cell of a worksheet while it is recorded: what `table`, `find`, `check` and their like do there."""
 
 import math
-from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, fields, is_dataclass, replace
+from types import FunctionType
 from typing import Any
 
 import numpy as np
 
-from mechsheet.recording.graph import Node, NotRecorded
+from mechsheet import units
+from mechsheet.recording.graph import Node, NotRecorded, bottom_up
 from mechsheet.recording.lines import Recording, Residual, Solved
 from mechsheet.recording.quantity import Quantity, lift
+from mechsheet.recording.rewritten import rebuilt
+from mechsheet.recording.substitutes import instead
+from mechsheet.worksheet import check as checks
 from mechsheet.worksheet.cells import Cell
+from mechsheet.worksheet.check import Check
 from mechsheet.worksheet.find import Found
+from mechsheet.worksheet.shown import Shown
+from mechsheet.worksheet.table import Figure, Table
 
 
 @dataclass
@@ -29,7 +37,7 @@ class Stage:
     def __init__(self, recording: Recording, namespace: Mapping[str, Any], cell: Cell) -> None:
         self.graph, self.recording, self.namespace, self.cell = recording.graph, recording, namespace, cell
         self.solved: list[Solved] = []
-        self.stated_here: list[str] = []
+        self.shown_now: list[tuple[dict[str, Any], str]] = []  # by the statement that is run
         given = [namespace.get(name) for name in cell.gives]
         self.real = [v for group in given for v in (group if isinstance(group, tuple | list) else [group])]
 
@@ -44,8 +52,14 @@ class Stage:
             "Check": self.stated,
             "assembled": self.assembled,
         }
+        names = {name: instead(value) for name, value in vars(checks).items()} | shown
+        written = {
+            name: rebuilt(f, names)
+            for name, f in vars(checks).items()
+            if isinstance(f, FunctionType) and f.__module__ == checks.__name__ and name not in shown
+        }
         others = ("require", "refuse", "summary", "mo", "export", "typeset")
-        return {**shown, **dict.fromkeys(others, _Nothing())}
+        return {**written, **shown, **dict.fromkeys(others, _Nothing())}
 
     def table(self, number: str, title: str, *columns: Any, every: Any = 1, **_: Any) -> None:
         listed = int(np.asarray(getattr(every, "value", every)))
@@ -56,29 +70,36 @@ class Stage:
         shape = np.broadcast_shapes((1,), *(np.shape(getattr(c, "value", c)) for c in columns))
         kept = np.ascontiguousarray(np.arange(math.prod(shape)).reshape(shape)[..., ::every].ravel())
 
-        def rows(column: Any) -> Quantity | None:
+        def rows(column: Any) -> Any:
             if not isinstance(column, Quantity):
-                return None
+                if np.asarray(column).dtype.kind not in "biuf":
+                    return None
+                column = lift(self.graph, column)
             if column.shape == shape and every == 1 and len(shape) == 1:
                 return column
             return column.take(np.broadcast_to(np.arange(column.size).reshape(column.shape), shape).reshape(-1)[kept])
 
+        self.shown_now.append((self.recording.tables, number))
         self.recording.tables[number] = tuple(rows(c) for c in columns)
 
     def figure(self, number: str, title: str, *columns: Any, marks: Mapping[str, Any] | None = None, **_: Any) -> None:
         self._show(f"Fig {number}", columns, 1)
+        self.shown_now.append((self.recording.marks, number))
         self.recording.marks[number] = {k: lift(self.graph, v).re for k, v in (marks or {}).items()}
 
     def find(
-        self, f: Callable[..., Any], lo: Any = None, hi: Any = None, *, unknown: str, equals: Any, **rest: Any
-    ) -> Any:
+        self, f: Callable[..., Any], lo: Any = None, hi: Any = None, *, unknown: str = "unknown x", equals: Any = 0,
+        **rest: Any,
+    ) -> Any:  # fmt: skip
         found = next(v for v in self.real if isinstance(v, Found) and v.words.unknown == unknown)
-        node = self.graph.leaf("found", unknown, found.value)
+        self.real.remove(found)  # the next one of that name is another
+        node = self.graph.leaf("found", f"{unknown}, line {self.graph.line}", found.value)
         x, branch = Quantity(self.graph, node), rest.get("branch")
         left = lift(self.graph, (f(x, branch) if branch is not None else f(x)) - equals)
         ends = None if lo is None or hi is None else (lift(self.graph, lo).re, lift(self.graph, hi).re)
         solved = Solved(node, left.re if left.size == 1 else None, ends)
         self.solved.append(solved)
+        self.shown_now.append((self.recording.found, unknown))
         self.recording.found[unknown] = solved
         return _Solving(x, solved, unknown)
 
@@ -93,9 +114,13 @@ class Stage:
         found.solved.inverse = inside.re
         real = next(v for v in self.namespace.values() if isinstance(v, Found) and v.words.unknown == found.unknown)
         name = f"{found.unknown}: Find and the closed form"
-        self.check(name, value - found.value, tolerance * abs(found.value), real.words.unknown_unit)
+        self.check(name, value - found.value, tolerance, real.words.unknown_unit, of=found.value)
 
-    def check(self, name: str, residual: Any, limit: Any, unit: str = "-") -> None:
+    def check(self, name: str, residual: Any, limit: Any, unit: str = "-", of: Any = None) -> None:
+        if of is not None:
+            told: Any = limit <= 1e-3 if isinstance(limit, float) else lift(self.graph, limit) <= 1e-3
+            bound: Any = limit * abs(lift(self.graph, of)).max()
+            limit = bound if told is True else np.where(told, bound, np.nan)
         parts = [lift(self.graph, r) for r in (residual if isinstance(residual, list) else [residual])]
         self._check(name, [abs(p).re for p in parts], limit, unit)
 
@@ -121,41 +146,125 @@ class Stage:
         bound = lift(self.graph, limit)
         if bound.size != 1:
             raise NotRecorded(f"check {name!r} has several limits")
-        self.stated_here.append(name)
+        self.shown_now.append((self.recording.checks, name))
         self.recording.checks[name] = Residual(parts, bound.re, unit, signed)
 
-    def compare(self, names: dict[str, Any]) -> None:
-        """Keep the worksheet's numbers where a recorded quantity differs from them: its formula would be wrong."""
-        wrong = [name for name in self.cell.gives if not self._same(names.get(name), self.namespace.get(name))]
-        if wrong:
-            self.recording.left_out[self.cell.name] = f"{', '.join(wrong)} would differ from the worksheet"
-            self.numbers(names, wrong)
-            for check in self.stated_here:
-                del self.recording.checks[check]
+    def forget(self) -> None:
+        """Take back what the present statement has shown."""
+        for place, key in self.shown_now:
+            place.pop(key, None)
+        self.shown_now.clear()
 
-    def _same(self, value: Any, own: Any) -> bool:
+    def finish(self, f: Callable[[Quantity], Quantity]) -> None:
+        """End the present statement, with a function of every quantity that it has shown."""
+
+        def of(node: Node) -> Node:
+            return f(Quantity(self.graph, node)).re
+
+        recording = self.recording
+        for place, key in self.shown_now:
+            if place is recording.tables:
+                columns = [None if c is None else f(c) for c in recording.tables[key]]
+                recording.tables[key] = tuple(None if c is None or c.re.op == "constant" else c for c in columns)
+            elif place is recording.checks:
+                check = recording.checks[key]
+                limit = check.limit if check.limit.op == "constant" else of(check.limit)
+                recording.checks[key] = replace(check, parts=[of(p) for p in check.parts], limit=limit)
+            elif place is recording.marks:
+                recording.marks[key] = {name: of(node) for name, node in recording.marks[key].items()}
+        self.shown_now.clear()
+
+    def same(self, value: Any, own: Any) -> bool:
+        """Whether a recorded quantity has the worksheet's own numbers, but for the rounding of what it is made of."""
         if not (isinstance(value, Quantity) and isinstance(own, int | float | complex | np.ndarray | np.generic)):
             return True
         kept = np.asarray(own) + 0
+        if kept.dtype.kind not in "iufc":
+            return True
         if kept.shape and kept.shape[-1:] != value.shape[-1:]:
             kept = kept[..., :: self.graph.thin]
-        a, b = np.broadcast_arrays(value.value + 0, kept)
+        try:
+            a, b = np.broadcast_arrays(value.value + 0, kept)
+        except ValueError:
+            return False
         size = np.max(np.abs(b), initial=0.0, where=np.isfinite(b))
-        return bool(np.all((np.abs(a - b) <= 1e-7 * size + 1e-9) | (~np.isfinite(a) & ~np.isfinite(b))))
+        terms = max(_made_of(part, self.recording.made_of) for part in value.parts)
+        off = 1e-7 * max(size, 1e-6 * terms)
+        return bool(np.all((np.abs(a - b) <= off) | (~np.isfinite(a) & ~np.isfinite(b))))
 
-    def numbers(self, names: dict[str, Any], which: Iterable[str]) -> None:
-        """The worksheet's own values instead of formulas."""
-        for name in which:
-            own = self.namespace.get(name)
-            if isinstance(own, np.ndarray | np.generic | float) and np.asarray(own).dtype.kind in "fiuc":
-                array = np.asarray(own)
-                if array.ndim and array.shape[-1] > 1:
-                    array = array[..., :: self.graph.thin]
-                parts = [array.real, array.imag] if array.dtype.kind == "c" else [array]
-                nodes = [self.graph.leaf("static", f"{name}.{n}", part) for n, part in enumerate(parts)]
-                names[name] = Quantity(self.graph, *nodes)
-            else:
-                names[name] = own
+    def kept(self, own: Any, rests_on: Sequence[Node]) -> Any:
+        """The worksheet's own value instead of a recorded one; what it shows of it too."""
+        graph, recording = self.graph, self.recording
+
+        def exported(values: Any) -> Quantity:
+            array = np.asarray(values)
+            for axis, size in enumerate(array.shape):
+                if graph.thin > 1 and size == graph.positions:
+                    array = array.take(range(0, size, graph.thin), axis)
+            parts = [array.real, array.imag] if array.dtype.kind == "c" else [array]
+            return Quantity(graph, *(graph.exported(rests_on, part) for part in parts))
+
+        match own:
+            case bool() | int() | float() | complex() | np.generic() | np.ndarray():
+                return exported(own) if np.asarray(own).dtype.kind in "biufc" else own
+            case Table(number=number, columns=columns):
+                recording.tables[number] = tuple(
+                    Quantity(graph, graph.exported(rests_on, c.values * units.parse(c.unit).factor)) if c.unit else None
+                    for c in columns
+                )
+            case Check():
+                numbers = [graph.exported(rests_on, x) for x in (own.residual, own.limit)]
+                recording.checks[own.name] = Residual(numbers[:1], numbers[1], "-", signed=True)
+            case Found():
+                value = exported(own._value)
+                solved = Solved(value.re, None, None)
+                recording.found[own.words.unknown] = solved
+                return _Solving(value, solved, own.words.unknown)
+            case tuple() if hasattr(own, "_fields"):
+                return type(own)(*(self.kept(v, rests_on) for v in own))
+            case tuple() | list():
+                return type(own)(self.kept(v, rests_on) for v in own)
+            case dict():
+                return {key: self.kept(v, rests_on) for key, v in own.items()}
+        if is_dataclass(own) and not isinstance(own, type | Shown):
+            return replace(own, **{f.name: self.kept(getattr(own, f.name), rests_on) for f in fields(own) if f.init})
+        return own
+
+
+def held(own: Any) -> bool:
+    """Whether a value of a worksheet is one that a recording holds."""
+    if isinstance(own, tuple | list):
+        return any(held(v) for v in own)
+    if isinstance(own, dict):
+        return any(held(v) for v in own.values())
+    if isinstance(own, Table | Figure | Check | Found):
+        return True
+    return isinstance(own, int | float | complex | np.ndarray | np.generic) or (
+        is_dataclass(own) and not isinstance(own, type | Shown)
+    )
+
+
+def _made_of(node: Node, known: dict[Node, float]) -> float:
+    """The largest number of which a quantity is a sum or difference, over all that it rests on."""
+    for part in bottom_up([node], known):
+        size, parts = _size(part), part.operands
+        match part.op:
+            case "mul":
+                size = max(size, known[parts[0]] * _size(parts[1]), known[parts[1]] * _size(parts[0]))
+            case "div":
+                least = np.min(np.abs(parts[1].value + 0.0), initial=np.inf)
+                size = max(size, known[parts[0]] / least) if least else size
+            case "pow" | "sqrt":
+                size = max(size, _size(parts[0]))
+            case "add" | "sub" | "neg" | "abs" | "max" | "min" | "take" | "join" | "reduce" | "where":
+                size = max([size, *(known[p] for p in parts)])
+        known[part] = size
+    return known[node]
+
+
+def _size(node: Node) -> float:
+    sizes = np.abs(node.value + 0.0)
+    return float(np.max(sizes, initial=0.0, where=np.isfinite(sizes)))
 
 
 class _Nothing:

@@ -1,5 +1,6 @@
 """The arguments of a run: inputs by name, a scene, and the folder for what is written."""
 
+import os
 import sys
 from collections.abc import Sequence
 from dataclasses import replace
@@ -27,13 +28,18 @@ def read(arguments: Sequence[str], declared: Sequence[Input]) -> Scene:
         if not (argument.startswith("--") and name and equals and value):
             raise SheetError(f"argument {argument!r} must be --NAME=VALUE, --scene=FILE or --out=FOLDER")
         if name == "scene":
-            new = load(Path(value), declared)
+            new = load(_path(value), declared)
             scene = Scene(scene.inputs | new.inputs, scene.out, new.want or scene.want, scene.limits | new.limits)
         elif name == "out":
-            scene = replace(scene, out=Path(value))
+            scene = replace(scene, out=_path(value))
         else:
             scene = replace(scene, inputs={**scene.inputs, name: value})
     return scene
+
+
+def _path(text: str) -> Path:
+    """A path whose ~ the shell has left as it is: behind = it means nothing to most of them."""
+    return Path(os.path.expanduser(text))
 
 
 def load(path: Path, declared: Sequence[Input]) -> Scene:

@@ -1,8 +1,6 @@
 """The beginning of a worksheet: its inputs asked for in the page, or taken from the arguments of a script."""
 
 import sys
-from collections.abc import Callable
-from types import TracebackType
 from typing import TYPE_CHECKING
 
 from mechsheet.run import arguments
@@ -12,8 +10,6 @@ from mechsheet.worksheet.scene import Scene
 
 if TYPE_CHECKING:
     import marimo as mo
-
-_Hook = Callable[[type[BaseException], BaseException, TracebackType | None], object]
 
 
 def ask(cls: type) -> "mo.ui.batch":
@@ -36,7 +32,6 @@ def _given(cls: type) -> Scene:
     """
     worksheet: str = cls.__worksheet__  # type: ignore[attr-defined]
     if arguments.is_script(worksheet):
-        sys.excepthook = _one_line(sys.excepthook)
         scene = arguments.read(sys.argv[1:], declared(cls))
         if scene.want:
             from mechsheet.run import batch  # on use: brings the writer of workbooks
@@ -47,13 +42,3 @@ def _given(cls: type) -> Scene:
 
     given = mo.cli_args().to_dict() if mo.running_in_notebook() else {}
     return arguments.read([f"--{name}={value}" for name, value in given.items()], declared(cls))
-
-
-def _one_line(other: _Hook) -> _Hook:
-    def show(kind: type[BaseException], error: BaseException, trace: TracebackType | None) -> None:
-        if issubclass(kind, SheetError):
-            print(f"error: {error}", file=sys.stderr)
-        else:
-            other(kind, error, trace)
-
-    return show

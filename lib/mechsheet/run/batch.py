@@ -12,31 +12,34 @@ from typing import Any
 import numpy as np
 
 from mechsheet import units
+from mechsheet.document import parts
 from mechsheet.run import report
 from mechsheet.run.arguments import read
+from mechsheet.run.ending import INTERRUPTED, say, watch
 from mechsheet.run.progress import progress
 from mechsheet.workbook import writing
-from mechsheet.worksheet import inputs, numbers, results
-from mechsheet.worksheet.cells import Worksheet, base, checks, load
-from mechsheet.worksheet.checks import Check
+from mechsheet.workbook.checks_sheet import verdict
+from mechsheet.worksheet import inputs, mistakes, numbers, results
+from mechsheet.worksheet.cells import Worksheet, base, checks, load, refuse_open
+from mechsheet.worksheet.check import Check
 from mechsheet.worksheet.errors import SheetError
-from mechsheet.worksheet.results import Quantity
+from mechsheet.worksheet.results import Displayed
 from mechsheet.worksheet.scene import Scene
 from mechsheet.worksheet.table import Column, Table
 
 _GAP = 2  # characters between columns
-INTERRUPTED = 130  # the exit code of a program that Ctrl-C ended, as shells have it
 
 
 @dataclass(frozen=True)
 class Outcome:
-    """What became of a scene: its inputs and results with its checks, or the error that stopped it."""
+    """What became of a scene: its inputs, how their texts were read, results and checks, or the error."""
 
     name: str
     g: Any = None
-    quantities: tuple[Quantity, ...] = ()
+    quantities: tuple[Displayed, ...] = ()
     tables: tuple[Table, ...] = ()
     checks: tuple[Check, ...] = ()
+    readings: tuple[str, ...] = ()
     error: str = ""
 
     @property
@@ -60,11 +63,10 @@ def compute(sheet: Worksheet, name: str, given: Scene) -> tuple[Outcome, dict[st
     """
     g: Any = inputs.build(sheet.inputs, given.inputs)
     names = sheet.run([*(given.want or sheet.results), *given.limits], {"g": g})
-    judged = results.limited(checks(names), given.limits, names)
-    for check in judged:
-        if check.essential and not check.passed:
-            raise SheetError(f"{check.name}: {check.reason}" if check.reason else str(check))
-    quantities, tables = dict[str, Quantity](), list[Table]()
+    held = checks(names) if given.want else [value for value in parts.values(names) if isinstance(value, Check)]
+    judged = results.limited(held, given.limits, names)
+    refuse_open(judged)
+    quantities, tables = dict[str, Displayed](), list[Table]()
     found = (line.name for line, _ in report.solved(names))
     for want in dict.fromkeys([*(given.want or found), *given.limits]):
         what = names.get(want)
@@ -72,22 +74,18 @@ def compute(sheet: Worksheet, name: str, given: Scene) -> tuple[Outcome, dict[st
             tables.append(what)
         elif base(want).isidentifier() and not _is_check(what):
             quantities |= {quantity.name: quantity for quantity in results.quantities(want, names)}
-    return Outcome(name, g, tuple(quantities.values()), tuple(tables), tuple(judged)), names
+    told = inputs.readings(inputs.declared(sheet.inputs), given.inputs)
+    return Outcome(name, g, tuple(quantities.values()), tuple(tables), tuple(judged), tuple(told)), names
 
 
 def answer(worksheet: str, given: Scene) -> int:
     """Exit code of a script whose scene wants some results: prints them, writes a file only where ``out`` is given."""
     sheet = load(worksheet)
     outcome, _ = compute(sheet, "scene", given)
-    for quantity in outcome.quantities:
-        print(quantity)
+    say(*outcome.readings, *outcome.quantities)
     for table in outcome.tables:
-        print(f"Table {table.number} - {table.title}", *_text(_printed(table)), sep="\n")
-    for check in outcome.checks:
-        if check.passed:
-            print(check)
-    for problem in outcome.problems:
-        print(problem)
+        say(f"Table {table.number} - {table.title}", *_text(_printed(table)))
+    say(*(check for check in outcome.checks if check.passed), *outcome.problems)
     if given.out:
         report.write(comparison(sheet, [outcome]), given.out / _summary(sheet))
     return 1 if outcome.problems else 0
@@ -113,7 +111,7 @@ def comparison(sheet: Worksheet, outcomes: Sequence[Outcome]) -> bytes:
             rows.append((head, units.shown(quantity.unit), quantity.meaning, *shown))
     rows.append(("Checks",))
     for name in dict.fromkeys(check.name for o in outcomes for check in o.checks):
-        verdicts = ({c.name: "PASS" if c.passed else "FAIL" for c in o.checks}.get(name, "") for o in outcomes)
+        verdicts = ({c.name: verdict(c) for c in o.checks}.get(name, "") for o in outcomes)
         rows.append((name, "", "", *verdicts))
     rows.append(("Verdict",))
     rows.append(("verdict", "", "", *("PASS" if o.verdict == "pass" else "FAIL" for o in outcomes)))
@@ -155,12 +153,11 @@ def run(worksheet: str, arguments: Sequence[str]) -> int:
         print(f"\ninterrupted after {len(outcomes)} of {len(files)} scenes", file=sys.stderr)
         return INTERRUPTED
     for block in _blocks(_table(sheet, outcomes), shutil.get_terminal_size((120, 24)).columns):
-        print(*_text(block), "", sep="\n")
+        say(*_text(block), "")
     for outcome in outcomes:
-        for problem in outcome.problems:
-            print(f"{outcome.name}: {problem}")
+        say(*(f"{outcome.name}: {text}" for text in (*outcome.readings, *outcome.problems)))
     failed = sum(o.verdict != "pass" for o in outcomes)
-    print(f"{len(outcomes) - failed} of {len(outcomes)} scenes pass" + (f", written to {out}" if out else ""))
+    say(f"{len(outcomes) - failed} of {len(outcomes)} scenes pass" + (f", written to {out}" if out else ""))
     return 1 if failed else 0
 
 
@@ -176,17 +173,7 @@ def _attempt(sheet: Worksheet, file: Path, options: Sequence[str], out: Path | N
     except SheetError as error:
         return Outcome(file.stem, error=str(error))
     except Exception as error:  # of a line of the worksheet, which other scenes may well pass
-        return Outcome(file.stem, error=_place(error, sheet.path))
-
-
-def _place(error: Exception, path: str) -> str:
-    """One line for an exception, with the line of the worksheet that raised it."""
-    line, trace = 0, error.__traceback__
-    while trace:
-        line = trace.tb_lineno if trace.tb_frame.f_code.co_filename == path else line
-        trace = trace.tb_next
-    text = " ".join(str(error).split())
-    return f"{Path(path).name}, line {line}: {type(error).__name__}: {text}"
+        return Outcome(file.stem, error=mistakes.told(error, sheet.path))
 
 
 def _expanded(argument: str) -> list[str]:
@@ -231,11 +218,11 @@ def _changed(sheet: Worksheet, outcomes: Iterable[Outcome]) -> list[inputs.Input
     ]
 
 
-def _quantities(outcomes: Iterable[Outcome]) -> dict[str, Quantity]:
+def _quantities(outcomes: Iterable[Outcome]) -> dict[str, Displayed]:
     return {q.name: q for q in chain.from_iterable(o.quantities for o in outcomes)}
 
 
-def _field(quantity: Quantity, each: dict[str, Any]) -> Table:
+def _field(quantity: Displayed, each: dict[str, Any]) -> Table:
     """A quantity over its positions, one column a scene; a shorter one ends in gaps."""
     size = max(x.size for x in each.values())
     number = Column("k", "-", "number of the position", 0, np.arange(1.0, size + 1))
@@ -288,11 +275,9 @@ def _text(rows: Sequence[Sequence[str]]) -> Iterator[str]:
 
 def main() -> int:
     """``python -m mechsheet.run.batch WORKSHEET SCENE..``"""
-    try:
-        return run(sys.argv[1], sys.argv[2:])
-    except SheetError as error:
-        print(f"error: {error}", file=sys.stderr)
-        return 1
+    worksheet, *given = sys.argv[1:]
+    watch(worksheet)
+    return run(worksheet, given)
 
 
 if __name__ == "__main__":

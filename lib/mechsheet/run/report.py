@@ -7,15 +7,19 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from mechsheet import units
+from mechsheet.document import parts
+from mechsheet.recording.dimensions import dimensions
+from mechsheet.recording.lines import Recording, Residual
 from mechsheet.recording.record import record
 from mechsheet.run import arguments
+from mechsheet.run.ending import say
 from mechsheet.workbook import writing
 from mechsheet.workbook.find_sheet import FoundRow
 from mechsheet.workbook.inputs_sheet import InputRow
 from mechsheet.workbook.save import save
 from mechsheet.worksheet import inputs, numbers
-from mechsheet.worksheet.cells import results
-from mechsheet.worksheet.checks import Check
+from mechsheet.worksheet.cells import load, refuse_open, results
+from mechsheet.worksheet.check import Check
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.find import Found
 from mechsheet.worksheet.lines import Formula, registry
@@ -27,10 +31,13 @@ T = TypeVar("T")
 
 
 def export(title: str, namespace: Mapping[str, Any]) -> Any:
-    """Workbook of every table, figure, check, found value and input in ``namespace``; the last cell's ``globals()``.
+    """Workbook of every table, figure, check, found value and input that the cells show or give.
+
+    ``namespace`` is the last cell's ``globals()``.
 
     In the page: a button that builds it when pressed. In ``python worksheet.py``: prints the found values
-    and the checks, writes ``exports/NAME.xlsx`` (or into ``--out``), and exits with 1 where a name that
+    and the checks, writes ``NAME.xlsx`` into ``exports/`` of the project whose worksheet it is, elsewhere beside the
+    worksheet (or into ``--out``), and exits with 1 where a name that
     some cell returns does not exist or a check fails. Where a group does not close, nothing is written.
     """
     worksheet = Path(namespace["__file__"])
@@ -40,32 +47,36 @@ def export(title: str, namespace: Mapping[str, Any]) -> Any:
     import marimo as mo  # on use: a worksheet called as a function needs it not
 
     return mo.download(
-        lambda: _workbook(title, namespace, _values(namespace, results(worksheet))),
+        lambda: workbook(title, namespace, {}),
         filename=f"{worksheet.stem}.xlsx",
         label="Excel workbook",
     )
 
 
 def _script(title: str, namespace: Mapping[str, Any], worksheet: Path) -> None:
-    names = results(worksheet)
-    missing = [name for name in names if name not in namespace]
+    missing = [name for name in results(worksheet, certain=True) if name not in namespace]
     if missing:
         raise SheetError(f"some cells did not run: {', '.join(missing)} missing")
-    given = arguments.read(sys.argv[1:], inputs.declared(type(namespace["g"])))
-    values = limited(_values(namespace, names), given.limits, namespace)
-    checks = _of(Check, values)
-    for check in checks:
-        if check.essential and not check.passed:
-            raise SheetError(f"{check.name}: {check.reason}" if check.reason else str(check))
-    for found in _of(Found, values):
-        print(found)
-    for check in checks:
-        print(check)
-    path = (given.out or worksheet.resolve().parent.parent / "exports") / f"{worksheet.stem}.xlsx"
-    write(_workbook(title, namespace, values), path)
-    print(f"written {path}")
+    declared = inputs.declared(type(namespace["g"]))
+    given = arguments.read(sys.argv[1:], declared)
+    values = limited(parts.values(namespace), given.limits, namespace)
+    refuse_open(_of(Check, values))
+    recording, fit = _recorded(namespace)
+    checks = [*_of(Check, values), fit]
+    say(*inputs.readings(declared, given.inputs), *_of(Found, values), *checks)
+    path = (given.out or _folder(worksheet.resolve())) / f"{worksheet.stem}.xlsx"
+    write(_workbook(title, namespace, [*values, fit], recording), path)
+    say(f"written {path}", *(f"not followed there: {gap}" for gap in recording.gaps))
     if not all(check.passed for check in checks):
         sys.exit(1)
+
+
+def _folder(worksheet: Path) -> Path:
+    """Where the workbook goes: into ``exports/`` of a clone of the project, elsewhere beside the worksheet."""
+    for root in worksheet.parents:
+        if worksheet.is_relative_to(root / "worksheets") and (root / "lib" / "mechsheet").is_dir():
+            return root / "exports"
+    return worksheet.parent
 
 
 def write(data: bytes, path: Path) -> None:
@@ -82,29 +93,36 @@ def write(data: bytes, path: Path) -> None:
 
 def workbook(title: str, namespace: Mapping[str, Any], limits: Mapping[str, Limit]) -> bytes:
     """Workbook of a whole run of a worksheet, its checks under the limits of a scene."""
-    values = _values(namespace, results(namespace["__file__"]))
-    return _workbook(title, namespace, limited(values, limits, namespace))
+    values = limited(parts.values(namespace), limits, namespace)
+    recording, fit = _recorded(namespace)
+    return _workbook(title, namespace, [*values, fit], recording)
 
 
-def _workbook(title: str, namespace: Mapping[str, Any], values: list[Any]) -> bytes:
+def _recorded(namespace: Mapping[str, Any]) -> tuple[Recording, Check]:
+    """The recording of a run, and the check of its units."""
+    sheet = load(namespace["__file__"])
+    recording = record(namespace, sheet)
+    fit = dimensions(recording, sheet, namespace, registry(namespace)).check()
+    mistakes, none = recording.graph.constant(fit.residual), recording.graph.constant(fit.limit)
+    recording.checks[fit.name] = Residual([mistakes], none, "-", signed=True)  # the same for all inputs
+    return recording, fit
+
+
+def _workbook(title: str, namespace: Mapping[str, Any], values: list[Any], recording: Recording) -> bytes:
+    own = {check.name: check.limit for check in _of(Check, parts.values(namespace))}
     return writing.workbook(
         title,
         inputs=[
-            InputRow(f.name, value, f.unit, f.meaning, f.section) for f, value in inputs.Used(namespace["g"]).rows()
+            InputRow(f.name, value, f.unit, f.meaning, f.section, f.limits, f.whole)
+            for f, value in inputs.Used(namespace["g"]).rows()
         ],
         found=[_found(line, found) for line, found in solved(namespace)],
         tables=_of(Table, values),
         figures=_of(Figure, values),
         checks=_of(Check, values),
-        recording=record(namespace),
+        recording=recording,
+        fixed={check.name for check in _of(Check, values) if own.get(check.name, check.limit) != check.limit},
     )
-
-
-def _values(namespace: Mapping[str, Any], names: Iterable[str]) -> list[Any]:
-    """Values by their place in the worksheet, each of a group on its own."""
-    order = {name: i for i, name in enumerate(names)}
-    ordered = (namespace[name] for name in sorted(namespace, key=lambda name: order.get(name, len(order))))
-    return [v for value in ordered for v in (value if isinstance(value, tuple | list) else [value])]
 
 
 def _of(kind: type[T], values: Iterable[Any]) -> list[T]:

@@ -15,8 +15,9 @@ from weakref import ref
 import numpy as np
 from numpy.typing import NDArray
 
-from mechsheet.worksheet import checks, inputs
-from mechsheet.worksheet.cells import Cell, Worksheet, load
+from mechsheet.worksheet import check, inputs
+from mechsheet.worksheet.cells import Cell, Worksheet, base, load
+from mechsheet.worksheet.cells import value as wanted
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.find import Found, values_only
 from mechsheet.worksheet.lines import registry
@@ -66,11 +67,11 @@ class Job:
         for cell in _run(sheet, sheet.needed(self.want, ["g"]), inputs.instance(sheet.inputs, columns), names):
             for found in _founds(cell, names):
                 lacking |= ~_by_variant(found.solved, count).all(1)
-        values = {name: _result(name, names[name], columns) for name in self.want}
+        values = {name: _result(name, _wanted(name, names), columns) for name in self.want}
         for value in values.values():
             lacking |= _lacking(value)
         lines = registry(names)
-        return Part(values, lacking, {name: lines[name].unit for name in self.want if name in lines})
+        return Part(values, lacking, {name: lines[base(name)].unit for name in self.want if base(name) in lines})
 
     def _tried(self, columns: Mapping[str, Any]) -> Part:
         try:
@@ -93,7 +94,7 @@ class Job:
         cells = sheet.needed(self.want, ["g"])
         g: Any = inputs.instance(sheet.inputs, columns)
         try:
-            with checks.listen() as told:
+            with check.listen() as told:
                 for cell in _run(sheet, [*cells, *_telling(sheet, cells)], g, names):
                     while told:
                         add(told.pop(0))
@@ -143,8 +144,8 @@ def _run(sheet: Worksheet, cells: Iterable[Cell], g: Any, names: dict[str, Any])
     for cell in cells:
         exec(cell.code, names)
         for name in cell.gives:
-            if isinstance(names[name], FunctionType):
-                names[name] = _remembered(names[name])
+            if isinstance(function := names.get(name), FunctionType):  # a branch that was not taken binds nothing
+                names[name] = _remembered(function)
         yield cell
 
 
@@ -179,14 +180,14 @@ def _identity(argument: Any) -> Any:
 
 
 def _founds(cell: Cell, names: Mapping[str, Any]) -> Iterator[Found]:
-    return (names[name] for name in cell.gives if isinstance(names[name], Found))
+    return (found for name in cell.gives if isinstance(found := names.get(name), Found))
 
 
 def _telling(sheet: Worksheet, cells: Sequence[Cell]) -> Iterator[Cell]:
     """Further cells that check whether what ``cells`` compute closes, and need nothing else."""
     known = {"g", *sheet.common, *(name for cell in cells for name in cell.gives)}
     for cell in sheet.cells:
-        if cell not in cells and cell.needs <= known and checks.assembled.__name__ in cell.code.co_names:
+        if cell not in cells and cell.needs <= known and check.assembled.__name__ in cell.code.co_names:
             yield cell
 
 
@@ -225,11 +226,16 @@ def _by_variant(value: Any, count: int) -> NDArray[Any]:
     return np.broadcast_to(value, (count, value.shape[1]))
 
 
+def _wanted(name: str, names: Mapping[str, Any]) -> Any:
+    """A wanted number or field, or a part of it; TypeError, which no variant takes for its reason, for all else."""
+    if np.asarray(names.get(base(name))).dtype.kind not in "iufc":
+        raise TypeError(f"{name} is no number and cannot be swept")
+    return wanted(name, names)
+
+
 def _result(name: str, value: Any, columns: Mapping[str, Any]) -> NDArray[Any]:
     """A result of each variant; among many variants it is a number or a field."""
     found: NDArray[Any] = np.asarray(value)
-    if found.dtype.kind not in "iufc":
-        raise TypeError(f"{name} is no number and cannot be swept")
     found = found.astype(complex if found.dtype.kind == "c" else float, copy=False)
     if not varied(columns):
         return found.reshape(1) if found.shape == (1,) else found[None]

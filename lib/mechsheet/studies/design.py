@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from mechsheet import units
 from mechsheet.run import arguments, report
 from mechsheet.worksheet import numbers
-from mechsheet.worksheet.checks import Check
+from mechsheet.worksheet.check import Check
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.inputs import Input, declared
 from mechsheet.worksheet.scene import Limit
@@ -114,7 +114,8 @@ def search(
     """
     for name, (low, high) in bounds.items():
         if not low <= high:
-            raise SheetError(f"bounds of {name} = {low:g}..{high:g} must be in order")
+            ends = "..".join(numbers.significant(end, 6) for end in (low, high))
+            raise SheetError(f"bounds of {name} = {ends} must be in order")
     evolved = partial(_evolved, bounds=bounds, decimals=decimals, seed=seed, generations=generations, members=members)
     best, judged, tried = evolved(judge, start=start, done=done)
     if judged.reasons[0]:

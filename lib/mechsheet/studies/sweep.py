@@ -18,8 +18,8 @@ from numpy.typing import ArrayLike, NDArray
 from mechsheet import units
 from mechsheet.studies.chunks import Job, Part, computed, digest, one_by_one, same_shape, varied
 from mechsheet.worksheet import inputs
-from mechsheet.worksheet.cells import load
-from mechsheet.worksheet.errors import SheetError
+from mechsheet.worksheet.cells import asked, load, split
+from mechsheet.worksheet.errors import SheetError, as_given
 from mechsheet.worksheet.table import heading
 
 if TYPE_CHECKING:
@@ -98,9 +98,11 @@ class Sweep:
         if any(self[name].ndim > len(self.shape) for name in self.names):
             columns["position"] = np.tile(np.arange(positions), size)
         for name, values in {**self.inputs, **shown}.items():
-            parts = {"real": values.real, "imag": values.imag} if np.iscomplexobj(values) else {"": values}
+            root, own = split(name)
+            parts = {"real": values.real, "imag": values.imag} if np.iscomplexobj(values) else {own: values}
             for part, numbers in parts.items():
-                columns[f"{heading(name, part)} [{self.units[name]}]"] = column(numbers)
+                label = heading(root, "" if part == "abs" else part)
+                columns[f"{label} [{self.units[name]}]"] = column(numbers)
         columns["reason"] = column(self.reasons)
         return pd.DataFrame(columns)
 
@@ -131,7 +133,7 @@ def sweep(
     path : str or Path
         The worksheet.
     want : iterable of str
-        Names of results: a number or a field over the positions.
+        Names of results, a number or a field over the positions, or of parts of them (``PS6_S.imag``, ``abs(R56)``).
     variants : mapping of str to array, or DataFrame
         Values of inputs in their display units. They broadcast: columns of one length are a table of variants, `grid`
         gives all combinations. Inputs that are not named keep their defaults.
@@ -150,16 +152,20 @@ def sweep(
     Raises
     ------
     SheetError
-        What is wrong for all variants: an unknown name, shapes that do not broadcast, a result whose shape differs. A
-        variant that is outside a limit or has no solution is NaN with its reason.
+        What is wrong for all variants: an argument of another kind, an unknown name, shapes that do not broadcast, a
+        result whose shape differs. A variant that is outside a limit or has no solution is NaN with its reason.
     TypeError
         A result that is no number.
     RuntimeError
         Executors that broke three times in a row without one chunk done.
     """
-    sheet, want = load(path), tuple(dict.fromkeys(want))
-    if chunk < 1:
-        raise SheetError(f"chunk = {chunk} variants must be at least 1")
+    sheet, want = load(path), asked(want)
+    if not hasattr(variants, "items"):
+        raise SheetError(f"variants = {as_given(variants)} must be a mapping of inputs to their values, or a DataFrame")
+    if not isinstance(chunk, int) or chunk < 1:
+        raise SheetError(f"chunk = {as_given(chunk)} variants must be at least 1 and whole")
+    if not (executor is None or callable(executor) or hasattr(executor, "submit")):
+        raise SheetError(f"executor = {as_given(executor)} must be an executor, or a function that makes one")
     sheet.needed(want, ["g"])
     given = inputs.variants(sheet.inputs, {str(name): values for name, values in variants.items()})
     rows = np.flatnonzero(given.reasons == "")

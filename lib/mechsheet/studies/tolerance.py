@@ -12,9 +12,10 @@ from numpy.typing import NDArray
 from mechsheet import units
 from mechsheet.studies.sensitivity import continuous, point, real, solved
 from mechsheet.studies.sweep import sweep
+from mechsheet.worksheet import numbers
 from mechsheet.worksheet.cells import base
 from mechsheet.worksheet.errors import SheetError
-from mechsheet.worksheet.table import DECIMALS, Column, Table
+from mechsheet.worksheet.table import Column, Table, usual_decimals
 
 Array = NDArray[np.float64]
 
@@ -64,8 +65,8 @@ class Tolerance:
             parts = {"": band.nominal, "min": band.least, "max": band.greatest}
             if band.mean is not None and band.deviation is not None and band.percentiles is not None:
                 parts |= {"mean": band.mean, "sd": band.deviation}
-                parts |= {f"p{p:g}": x for p, x in band.percentiles.items()}
-            decimals = DECIMALS.get(unit, 3) + 1
+                parts |= {f"p{numbers.significant(p, 6)}": x for p, x in band.percentiles.items()}
+            decimals = usual_decimals(unit) + 1
             columns += [
                 Column(f"{name}_{part}".rstrip("_"), unit, f"{name} {part}".strip(), decimals, np.atleast_1d(x))
                 for part, x in parts.items()
@@ -74,7 +75,8 @@ class Tolerance:
         if len(shapes) > 1:
             raise SheetError(f"bands of {', '.join(names or self.names)} have different positions and no common table")
         k = Column("k", "-", "number of the position", 0, np.arange(shapes.pop()[0], dtype=float))
-        each = (f"{x} ± {t:g} {units.shown(self.units[x])}".removesuffix(" -") for x, t in self.tolerances.items())
+        units_of = {x: numbers.suffix(units.shown(self.units[x])) for x in self.tolerances}
+        each = (f"{x} ± {numbers.significant(t, 6)}{units_of[x]}" for x, t in self.tolerances.items())
         lost = f" {self.lost} have no value: {self.reason}." if self.lost else ""
         return Table(
             number, title, (k, *columns), f"{self.count} variants by {self.method} of {', '.join(each)}.{lost}"

@@ -5,14 +5,16 @@ from collections.abc import Callable, Container, Iterable, Iterator, Mapping, Se
 from dataclasses import dataclass, field
 
 from mechsheet import units
-from mechsheet.recording.graph import LEAVES, Node
+from mechsheet.recording.graph import LEAVES, Node, bottom_up
 from mechsheet.recording.lines import Line, Recording
-from mechsheet.workbook.place import DefinedNames, Place
+from mechsheet.workbook.cell_formula import nesting
+from mechsheet.workbook.place import DefinedNames, Place, called
 from mechsheet.worksheet.table import Table
 
-_STEM = 24  # letters of a section in the name of its sheets, which 31 are all that Excel takes
+_SI = 5  # column of the inputs in SI units, on their sheet
 _LIGHT = 6  # operations that a formula repeats rather than give them a cell
 _HEAVY = 60  # operations that one formula holds at most
+_DEEP = 6  # parentheses inside each other in one formula, to which what a sheet puts around it adds two
 
 
 @dataclass
@@ -29,8 +31,10 @@ class Section:
 class Arrangement:
     """The places of the quantities of a recording, and the names that mean them.
 
-    ``inputs`` and ``found`` give the rows of their sheets by symbol, ``sheets`` the names of the tables' sheets,
-    ``first`` the row of the first number on each, ``name`` makes the name of a new sheet.
+    ``changed`` is the place of how many inputs differ from the exported ones, ``followed`` are those on which formulas
+    rest, ``last`` the results where nothing is found. ``inputs`` and ``found`` give the rows of their sheets by symbol,
+    ``sheets`` the names of the tables' sheets, ``first`` the row of the first number on each, ``name`` makes that of
+    a new sheet of a title and an ending.
     """
 
     def __init__(
@@ -41,16 +45,22 @@ class Arrangement:
         inputs: Mapping[str, int],
         found: Mapping[str, int],
         first: int,
-        name: Callable[[str], str],
+        name: Callable[[str, str], str],
     ) -> None:
         self.recording, self.tables, self.first = recording, tables, first
         self.defined: list[tuple[str, str]] = []
         self.own: set[tuple[str, int]] = set()  # columns of tables that are the place of their quantity
         self.places: dict[Node, Place] = {}
         self.lines = {line.node: line for lines in recording.lines.values() for line in lines}
+        self.last = [] if found else last_lines(recording)
         self._names = DefinedNames()
+        last = max(inputs.values(), default=1)
+        self.changed = Place(self._names.new("inputs_changed"), "Inputs", last + 1, _SI)  # how many differ
+        self.defined.append((self.changed.name, self.changed.meaning(1)))
         for symbol, node in recording.inputs.items():
-            self._settle(node, symbol, "Inputs", inputs[symbol], 4)
+            self._settle(node, symbol, "Inputs", inputs[symbol], _SI)
+        under = set(bottom_up(self._roots(), ()))
+        self.followed = {symbol for symbol, node in recording.inputs.items() if node in under}
         for solved in recording.found.values():
             line = self.lines.get(solved.node)
             if line and line.symbol in found and units.parse(line.unit).factor == 1:
@@ -60,7 +70,7 @@ class Arrangement:
                 line = self.lines.get(column) if column else None
                 if column is None or line is None or column in self.places or column.size == 1:
                     continue
-                if units.parse(table.columns[n].unit).factor == 1 and column.op not in ("pick", "join"):
+                if units.parse(table.columns[n].unit).factor == 1 and column.op not in ("take", "join"):
                     self._settle(column, line.symbol, sheet, first, n)
                     self.own.add((table.number, n))
         self.sections = self._place_others(name)
@@ -69,7 +79,8 @@ class Arrangement:
         """Quantities of a table's columns; None where one holds plain numbers."""
         columns = self.recording.tables.get(table.number, ())
         # abs(R56) is recorded as one real quantity; the parts of a complex one stand in columns of their own
-        return tuple(None if c is None or c.im is not None else c.re for c in columns)
+        nodes = [None if c is None or c.im is not None else c.re for c in columns]
+        return (*nodes, *[None] * (len(table.columns) - len(nodes)))
 
     def _settle(self, node: Node, symbol: str, sheet: str, row: int, column: int) -> None:
         place = self.places[node] = Place(self._names.new(symbol), sheet, row, column)
@@ -85,15 +96,16 @@ class Arrangement:
             yield check.limit
         for marks in self.recording.marks.values():
             yield from marks.values()
-        yield from (node for node, _ in self.recording.graph.guards)
+        yield from self.recording.guards
+        yield from (line.node for line in self.last)
 
-    def _place_others(self, name: Callable[[str], str]) -> list[Section]:
+    def _place_others(self, name: Callable[[str, str], str]) -> list[Section]:
         """Sheets for all that stands neither on a table's sheet nor among inputs and found values."""
         names = dict(self.recording.names)
-        for n, check in enumerate(self.recording.checks.values(), 1):
+        for stated, check in self.recording.checks.items():
             for m, part in enumerate(check.parts, 1):
                 if part not in names and part.operands:
-                    names[part] = f"check{n}" + (f"_{m}" if len(check.parts) > 1 else "")
+                    names[part] = called(stated) + (f"_{m}" if len(check.parts) > 1 else "")
         named = names.keys() | self.recording.graph.labels.keys()
         placed = [node for node in needing_place(self._roots(), named, self.places) if node not in self.places]
         waiting = {node: node for node in placed}
@@ -103,8 +115,8 @@ class Arrangement:
                 if waiting.pop(line.node, None):
                     sections.setdefault(title, []).extend(self._parts_of(line, waiting))
                     sections[title].append(line)
-        for n, (stated, residual) in enumerate(self.recording.checks.items(), 1):
-            bound = Line(residual.limit, f"check{n}_limit", residual.unit, f"limit: {stated}")
+        for stated, residual in self.recording.checks.items():
+            bound = Line(residual.limit, f"{called(stated)}_limit", residual.unit, f"limit: {stated}")
             parts = [Line(part, names.get(part, ""), residual.unit, f"residual: {stated}") for part in residual.parts]
             for line in [*parts, bound]:
                 steps = self._parts_of(line, waiting)
@@ -130,19 +142,19 @@ class Arrangement:
                 seen.add(operand)
                 walk(operand)
                 if waiting.pop(operand, None):
-                    text = f"step of {line.symbol}"
-                    found.append(Line(operand, f"{line.symbol}_{len(found) + 1}", "", text))
+                    step = f"step of {line.symbol if line.text else line.meaning}"
+                    found.append(Line(operand, f"{line.symbol}_{len(found) + 1}", "", step))
 
         walk(line.node)
         return found
 
-    def _section(self, title: str, lines: Sequence[Line], name: Callable[[str], str]) -> Section:
+    def _section(self, title: str, lines: Sequence[Line], name: Callable[[str, str], str]) -> Section:
         section = Section(title, "", "")
         section.single = [line for line in lines if line.node.size == 1]
         section.fields = [line for line in lines if line.node.size > 1]
-        section.listing = name(f"{title[:_STEM].rstrip()} lines")
+        section.listing = name(title, " lines")
         if section.fields:
-            section.sheet = name(f"{title[:_STEM].rstrip()} fields")
+            section.sheet = name(title, " fields")
         for n, line in enumerate(section.single):
             self._settle(line.node, line.symbol, section.listing, 2 + n, 1)
         for n, line in enumerate(section.fields):
@@ -150,11 +162,18 @@ class Arrangement:
         return section
 
 
+def last_lines(recording: Recording) -> list[Line]:
+    """Lines of single numbers on which no other line rests."""
+    lines = [line for lines in recording.lines.values() for line in lines]
+    under = set(bottom_up((operand for line in lines for operand in line.node.operands), ()))
+    return [line for line in lines if line.text and line.unit and line.node.size == 1 and line.node not in under]
+
+
 def needing_place(roots: Iterable[Node], named: Set[Node], places: Container[Node]) -> list[Node]:
     """Quantities behind ``roots`` that need a place of their own, the ones they rest on first.
 
     These are the ``named`` ones, those that have one of the ``places`` already, what a sum or a greatest value is taken
-    of, and what would make a formula too long or stand in several of them.
+    of, and what would make a formula too long or too deep, or stand in several of them.
     """
     order: list[Node] = []
     visited: set[Node] = set()
@@ -168,16 +187,18 @@ def needing_place(roots: Iterable[Node], named: Set[Node], places: Container[Nod
             stack.append((node, True))
             stack.extend((operand, False) for operand in node.operands)
     uses = Counter(operand for node in order for operand in node.operands)
-    placed, weight = dict[Node, None](), dict[Node, int]()
+    placed, weight, depth = dict[Node, None](), dict[Node, int](), dict[Node, int]()
     for node in order:
         own = 1 + sum(weight[operand] for operand in node.operands) if node.operands else 0
+        deep = nesting(node, depth)
         known = node in named or node.op in LEAVES or node in places
+        repeated = uses[node] > 1 and own > _LIGHT and node.op not in ("take", "join")
         if node.op in ("constant", "input") or (node.op == "rows" and node.size == 1):
             own = 0
-        elif known or (uses[node] > 1 and own > _LIGHT and node.op not in ("pick", "join")) or own > _HEAVY:
+        elif known or repeated or own > _HEAVY or deep >= _DEEP:
             placed[node] = None
-            own = 0
-        if node.op == "reduce" and node.args[0].op != "input":
+            own = deep = 0
+        if node.op in ("reduce", "at") and node.args[0].op != "input":
             placed.setdefault(node.args[0])
-        weight[node] = own
+        weight[node], depth[node] = own, deep
     return list(placed)

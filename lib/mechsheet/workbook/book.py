@@ -2,17 +2,17 @@
 
 import math
 import re
-from collections.abc import Sequence
+from collections.abc import Container, Sequence
 from datetime import datetime
 from functools import cache
 from io import BytesIO
 from typing import Any
 
 from mechsheet.workbook import looks
-from mechsheet.workbook.content import Content, allowed, cut, put
+from mechsheet.workbook.content import Content, Live, allowed, cut, put
 
 _PROPERTIES = {"author": "mechsheet", "created": datetime(2000, 1, 1)}
-_SHEETS = ("Inputs", "Find", "Checks", "Marks", "Scenes")
+_SHEETS = ("Front", "Inputs", "Find", "Checks", "Marks", "Scenes")
 _OPTIONS: dict[str, object] = {
     "in_memory": True,  # stamps the parts of the file with a fixed date
     "default_format_properties": {"font_name": "Arial", "font_size": 10, "font_scheme": False},
@@ -34,6 +34,7 @@ class Book:
         self.file.set_properties({**_PROPERTIES, "title": self.title})
         self._names = {name.lower() for name in _SHEETS}
         self._styles: dict[str, Any] = {}
+        self.contents: list[tuple[str, str]] = []  # sheets and their titles
 
     def close(self) -> bytes:
         """The bytes of the file, to which nothing can be added then."""
@@ -50,22 +51,30 @@ class Book:
             self._styles[key] = self.file.add_format(look)
         return self._styles[key]
 
-    def name(self, text: str) -> str:
-        """A sheet name that Excel accepts: up to 31 UTF-16 units, none of ``[]:*?/\\``, not yet taken."""
+    def name(self, text: str, ending: str = "") -> str:
+        """A sheet name that Excel accepts: up to 31 UTF-16 units, none of ``[]:*?/\\``, not yet taken.
+
+        It is cut behind a word, without an open bracket and short words at its end; only a single word loses its end.
+        """
         # _x0041_ in a sheet's name is an A to Excel.
         plain = re.sub(r"[\[\]:*?/\\\s]+|_(?=x[0-9a-fA-F]{4}_)", " ", allowed(text)).strip("' ") or "Table"
-        name, number = cut(plain, 31), 1
-        if name != plain and len(whole := name.rpartition(" ")[0]) > 15:
-            name = whole
+        name, number = _whole_words(plain, 31 - len(ending)) + ending, 1
         while name.lower() in self._names:
             number += 1
-            name = f"{cut(plain, 31 - len(f' ({number})'))} ({number})"
+            last = f"{ending} ({number})"
+            name = _whole_words(plain, 31 - len(last)) + last
         self._names.add(name.lower())
         return name
 
-    def sheet(self, name: str, heading: str, widths: Sequence[int], top: int, size: tuple[int, int]) -> Any:
-        """An empty sheet with its title line, ``top`` frozen rows and print setup for ``size`` in pixels."""
+    def sheet(
+        self, name: str, heading: Content, widths: Sequence[int], top: int, size: tuple[int, int], behind: bool = False
+    ) -> Any:
+        """An empty sheet with its title line, ``top`` frozen rows and print setup for ``size`` in pixels.
+
+        One that stands ``behind`` the tables has a grey tab, and nothing of it is printed.
+        """
         sheet = self.file.add_worksheet(name, _sheet_class())
+        self.contents.append((name, str(heading.value if isinstance(heading, Live) else heading)))
         sheet.hide_gridlines(2)
         sheet.set_default_row(looks.ROW * 0.75)
         sheet.set_row(0, 24)
@@ -74,6 +83,10 @@ class Book:
         sheet.freeze_panes(top, 1)
         put(sheet, 0, 0, heading, self.style({"bold": True, "font_size": 13, "font_color": looks.INK}))
         sheet.set_paper(9)
+        if behind:
+            sheet.set_tab_color(looks.BEHIND)
+            sheet.print_area(1, len(widths), 1, len(widths))  # one cell, which is empty
+            return sheet
         page = page_of(size[0])
         if page is looks.SIDEWAYS:
             sheet.set_landscape()
@@ -92,18 +105,22 @@ class Book:
     def listing(
         self,
         name: str,
-        heading: str,
+        heading: Content,
         fields: Sequence[tuple[str, looks.Look]],
         rows: Sequence[Sequence[Content]],
+        *,
+        behind: bool = False,
+        grey: Container[int] = (),
     ) -> Any:
-        """A sheet of rows under (heading, look) fields; a row of one text heads a section."""
+        """A sheet of rows under (heading, look) fields, ``grey`` ones apart; a row of one text heads a section."""
         texts = [[head for head, _ in fields], *(row for row in rows if len(row) > 1)]
         longest = [max(map(_length, column)) for column in zip(*texts, strict=True)]
         widths = [looks.CHAR * min(looks.WIDEST, length) + 2 * looks.PAD for length in longest]
-        sheet = self.sheet(name, heading, widths, 2, (sum(widths), looks.ROW * (len(rows) + 3)))
+        sheet = self.sheet(name, heading, widths, 2, (sum(widths), looks.ROW * (len(rows) + 3)), behind)
         for col, (head, look) in enumerate(fields):
             put(sheet, 1, col, head, self.style(looks.HEAD, looks.TOP, looks.BOTTOM, looks.side(look)))
         styles = [self.style(looks.CELL, look) for _, look in fields]
+        apart = [self.style(looks.CELL, look, looks.EXPORTED) for _, look in fields]
         for n, row in enumerate(rows, 2):
             if len(row) == 1:
                 sheet.set_row_pixels(n, looks.ROW + 10)
@@ -111,7 +128,7 @@ class Book:
                 continue
             lines = math.ceil(max(map(_length, row)) / looks.WRAP)
             sheet.set_row_pixels(n, looks.ROW + (lines - 1) * (looks.ROW - 5))
-            for col, (value, style) in enumerate(zip(row, styles, strict=True)):
+            for col, (value, style) in enumerate(zip(row, apart if n - 2 in grey else styles, strict=True)):
                 put(sheet, n, col, value, style)
         return sheet
 
@@ -136,5 +153,18 @@ def page_of(wide: int) -> tuple[int, int]:
     return looks.UPRIGHT if wide <= looks.UPRIGHT[0] else looks.SIDEWAYS
 
 
+def _whole_words(text: str, most: int) -> str:
+    """The first words of a text, up to so many UTF-16 units."""
+    begun = cut(text, most)
+    if begun == text:
+        return text
+    words = begun if text[len(begun)] == " " else begun.rpartition(" ")[0]
+    while words.count("(") > words.count(")"):
+        words = words.rpartition("(")[0]
+    words = re.sub(r"([\s,;-]+[a-z]{0,3})+$", "", words)
+    return words.rstrip("' ") or begun
+
+
 def _length(value: Content) -> int:
-    return len(value) if isinstance(value, str) else 12
+    text = value.value if isinstance(value, Live) else value
+    return max(len(text), 13 * isinstance(value, Live)) if isinstance(text, str) else 12

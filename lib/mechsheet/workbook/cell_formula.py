@@ -11,16 +11,27 @@ from numpy.typing import NDArray
 from mechsheet.recording.graph import Node, is_number
 from mechsheet.workbook.place import Place
 
+_SAME = ("abs", "sqrt", "exp", "sin", "cos", "tan", "asin", "acos", "sign")
+
 # Operation: its text, how tightly it binds, and how tightly its operands must.
 _TEXT: dict[str, tuple[str, int, tuple[int, ...]]] = {
-    "<": ("{}<{}", 1, (2, 2)), "<=": ("{}<={}", 1, (2, 2)), ">": ("{}>{}", 1, (2, 2)), ">=": ("{}>={}", 1, (2, 2)),
-    "=": ("{}={}", 1, (2, 2)), "<>": ("{}<>{}", 1, (2, 2)), "+": ("{}+{}", 2, (2, 3)), "-": ("{}-{}", 2, (2, 3)),
-    "*": ("{}*{}", 3, (3, 3)), "/": ("{}/{}", 3, (3, 4)), "neg": ("-{}", 2, (3,)), "^": ("{}^{}", 4, (5, 5)),
-    "ATAN2": ("ATAN2({1},{0})", 5, (0, 0)), "IF": ("IF({},{},{})", 5, (0, 0, 0)), "MOD": ("MOD({},{})", 5, (0, 0)),
-    "MAX": ("MAX({},{})", 5, (0, 0)), "MIN": ("MIN({},{})", 5, (0, 0)), "AND": ("AND({},{})", 5, (0, 0)),
-    "OR": ("OR({},{})", 5, (0, 0)), "ROUND": ("ROUND({},0)", 5, (0,)),
+    "lt": ("{}<{}", 1, (2, 2)), "le": ("{}<={}", 1, (2, 2)), "gt": ("{}>{}", 1, (2, 2)), "ge": ("{}>={}", 1, (2, 2)),
+    "eq": ("{}={}", 1, (2, 2)), "ne": ("{}<>{}", 1, (2, 2)), "add": ("{}+{}", 2, (2, 3)), "sub": ("{}-{}", 2, (2, 3)),
+    "mul": ("{}*{}", 3, (3, 3)), "div": ("{}/{}", 3, (3, 4)), "neg": ("-{}", 2, (3,)), "pow": ("{}^{}", 4, (5, 5)),
+    "atan2": ("ATAN2({1},{0})", 5, (0, 0)),
+    "round": ("IF(MOD(ABS({0}),2)=0.5,{0}-SIGN({0})/2,ROUND({0},0))", 5, (3,)), "floor": ("FLOOR({},1)", 5, (0,)),
+    "where": ("IF({},{},{})", 5, (0, 0, 0)), "finite": ("ISNUMBER({})", 5, (0,)), "not": ("NOT({})", 5, (0,)),
+    **{op: (f"{op.upper()}({{}},{{}})", 5, (0, 0)) for op in ("max", "min", "and", "or", "mod")},
+    **{op: (f"{op.upper()}({{}})", 5, (0,)) for op in _SAME},
+    "log": ("LN({})", 5, (0,)),
 }  # fmt: skip
-_FAILS = {"SQRT", "ASIN", "ACOS", "ATAN2", "LN", "/", "^", "MOD", "TAN"}  # may give an error value
+AGGREGATE = "_xlfn.AGGREGATE"  # the name of newer functions in the file; with 6 it passes over error values
+_OF_RANGE = {
+    "max": "MAX({})", "min": "MIN({})", "sum": "SUM({})", "prod": "PRODUCT({})", "any": "OR({})", "all": "AND({})",
+    "argmax": "MATCH(MAX({0}),{1},0)-1", "argmin": "MATCH(MIN({0}),{1},0)-1", "nanmax": f"{AGGREGATE}(4,6,{{}})",
+    "nanmin": f"{AGGREGATE}(5,6,{{}})", "nansum": f"{AGGREGATE}(9,6,{{}})",
+}  # fmt: skip
+_FAILS = {"sqrt", "asin", "acos", "atan2", "log", "div", "pow", "mod", "tan", "at"}  # may give an error value
 
 
 class CellFormulas:
@@ -87,12 +98,12 @@ class CellFormulas:
     def _operation(self, node: Node, k: int, row: int) -> tuple[str, int]:
         match node.op:
             case "constant":
-                text = _number(node.value.reshape(-1)[k if node.size > 1 else 0])
+                text = written(node.value.reshape(-1)[k if node.size > 1 else 0])
                 return text, 2 if text.startswith("-") else 3 if "*" in text or "/" in text else 5
             case "rows":
                 place = self.places.get(node)
                 return f"ROW()-{place.row + 1 if place else 1}", 2
-            case "pick":
+            case "take":
                 source, index = node.args
                 return self._element(source, int(index.reshape(-1)[k]), row)
             case "join":
@@ -103,9 +114,20 @@ class CellFormulas:
                 source, groups, kind = node.args
                 group, place = groups[k], self.places[source]
                 if len(group) > 1 and np.array_equal(np.diff(group), np.ones(len(group) - 1, int)):
-                    return f"{kind}({place.range(int(group[0]), int(group[-1]))})", 5
-                return f"{kind}({','.join(place.at(int(i)) for i in group)})", 5
-        form, binding, needs = _TEXT.get(node.op) or _function(node.op, len(node.args))
+                    cells = one = place.range(int(group[0]), int(group[-1]))
+                else:
+                    cells = ",".join(place.at(int(i)) for i in group)
+                    one = f"CHOOSE({{{','.join(str(n + 1) for n in range(len(group)))}}},{cells})"
+                return _OF_RANGE[kind].format(cells, one), 2 if kind.startswith("arg") else 5
+            case "at":
+                source, position = node.args
+                where = self._element(position, _position(position.shape, node.shape, k), row)[0]
+                return f"INDEX({self.places[source].range(0, source.size - 1)},{where}+1)", 5
+            case "exported":
+                known = written(node.value.reshape(-1)[k if node.size > 1 else 0])
+                same = [f"{self._element(x, 0, row)[0]}={written(x.value)}" for x in node.args]
+                return f"IF(AND({','.join(same)}),{known},NA())" if same else known, 5
+        form, binding, needs = _TEXT[node.op]
         shape, texts = node.shape, []
         for operand, need in zip(node.args, needs, strict=True):
             text, tight = self._element(operand, _position(operand.shape, shape, k), row)
@@ -115,37 +137,46 @@ class CellFormulas:
         return form.format(*texts), binding
 
 
+def nesting(node: Node, inside: Mapping[Node, int]) -> int:
+    """Parentheses inside each other in the formula of an operation whose operands have ``inside``."""
+    deepest = max((inside[operand] for operand in node.operands), default=0)
+    if node.op == "reduce":
+        return deepest + (2 if node.args[2].startswith("arg") else 1)
+    if node.op not in _TEXT:
+        return deepest + {"at": 1, "exported": 2}.get(node.op, 0)
+    _, binding, needs = _TEXT[node.op]
+    if binding == 5:
+        return deepest + 1
+    tight = [_TEXT[operand.op][1] if operand.op in _TEXT else 5 for operand in node.operands]
+    return max(inside[o] + (t < need) for o, t, need in zip(node.operands, tight, needs, strict=True))
+
+
 def _row(node: Node, k: int, row: int | None) -> int:
     """Row of a cell among its column's; a single number stands in no row of any column."""
     return -1 if node.size == 1 else k if row is None else row
 
 
 def _plain(node: Node) -> bool:
-    return node.op not in ("pick", "join", "reduce", "constant", "static")
+    return node.op not in ("take", "at", "join", "reduce", "constant", "exported")
 
 
 def _safe(node: Node) -> bool:
     """Whether this operation has a value for all operands: a length, a square, a part by a number."""
     match node.op:
-        case "/":
+        case "div":
             return bool(node.args[1].op == "constant")
-        case "^":
+        case "pow":
             return node.args[1].op == "constant" and bool(np.all(node.args[1].value > 0))
-        case "SQRT":
+        case "sqrt":
             inner = node.args[0]
-            return inner.op == "+" and all(a.op == "^" and is_number(a.args[1], 2) for a in inner.args)
+            return inner.op == "add" and all(a.op == "pow" and is_number(a.args[1], 2) for a in inner.args)
     return False
 
 
 def _scaled(text: str, factor: float) -> str:
     if factor == math.pi / 180:
         return f"DEGREES({text})"
-    return f"{text}/{_number(factor)}" if factor >= 1 else f"{text}*{_number(1 / factor)}"
-
-
-@lru_cache(maxsize=64)
-def _function(name: str, count: int) -> tuple[str, int, tuple[int, ...]]:
-    return f"{name}({','.join(['{}'] * count)})", 5, (0,) * count
+    return f"{text}/{written(factor)}" if factor >= 1 else f"{text}*{written(1 / factor)}"
 
 
 def _position(shape: tuple[int, ...], whole: tuple[int, ...], k: int) -> int:
@@ -160,7 +191,8 @@ def _positions(shape: tuple[int, ...], whole: tuple[int, ...]) -> NDArray[Any]:
     return np.broadcast_to(np.arange(math.prod(shape)).reshape(shape), whole).reshape(-1)
 
 
-def _number(value: Any) -> str:
+def written(value: Any) -> str:
+    """A constant as it stands in a formula."""
     if isinstance(value, bool | np.bool_):
         return "TRUE" if value else "FALSE"
     x = float(value)

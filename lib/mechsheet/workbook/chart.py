@@ -1,8 +1,8 @@
 """Charts of a workbook, and the sheet Marks that their vertical lines are drawn from."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Container, Sequence
 from itertools import groupby
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,19 +17,35 @@ from mechsheet.workbook.table_sheet import Spot
 from mechsheet.worksheet.table import Column, Figure
 
 
+class Drawn(NamedTuple):
+    """A figure, where the columns stand that it shows, and which of them hold for the exported inputs only."""
+
+    figure: Figure
+    place: Callable[[Column], Place]
+    grey: Container[int]
+
+
 class Charts:
-    """The charts of a workbook; what their figures mark is noted for the sheet Marks."""
+    """The charts of a workbook; what their figures show and mark is noted for the sheets Front and Marks."""
 
     def __init__(self, book: Book, formulas: SheetFormulas | None) -> None:
         self._book, self._formulas = book, formulas
+        self.drawn: list[Drawn] = []
         self._marked: list[tuple[Content, ...]] = []
 
-    def insert(self, sheet: Any, spot: Spot, figure: Figure, name: str, columns: Sequence[Column]) -> None:
-        """Draw a figure on a sheet, from the cells of ``columns``, which stand on the sheet ``name``."""
-        chart = self._chart(figure, name, columns)
+    def insert(
+        self, sheet: Any, spot: Spot, figure: Figure, name: str, columns: Sequence[Column], grey: Container[int]
+    ) -> None:
+        """Draw a figure on a sheet, from the cells of ``columns``, some ``grey``, which stand on the sheet ``name``."""
+
+        def place(column: Column) -> Place:
+            return Place("", name, looks.FIRST, next(n for n, c in enumerate(columns) if same_column(column, c)))
+
+        self.drawn.append(Drawn(figure, place, grey))
+        chart = self._chart(figure, place)
         chart.set_size({"width": spot.width, "height": spot.height})
-        place = {"x_offset": spot.right, "y_offset": spot.down, "object_position": 2}
-        sheet.insert_chart(spot.row, spot.column, chart, {**place, "description": caption("Figure", figure)})
+        inside = {"x_offset": spot.right, "y_offset": spot.down, "object_position": 2}
+        sheet.insert_chart(spot.row, spot.column, chart, {**inside, "description": caption("Figure", figure)})
 
     def marks(self) -> None:
         """The sheet Marks, where a figure marks anything."""
@@ -38,25 +54,22 @@ class Charts:
             *(("y from", looks.NUMBER), ("y to", looks.NUMBER)),
         )
         if self._marked:
-            self._book.listing("Marks", "Ends of the vertical lines in the figures", fields, self._marked)
+            title = "Ends of the vertical lines in the figures"
+            self._book.listing("Marks", title, fields, self._marked, behind=True)
 
-    def _chart(self, figure: Figure, name: str, columns: Sequence[Column]) -> Any:
+    def _chart(self, figure: Figure, place: Callable[[Column], Place]) -> Any:
         chart = self._book.file.add_chart({"type": "scatter", "subtype": "straight_with_markers"})
-
-        def place(column: Column) -> Place:
-            return Place("", name, looks.FIRST, next(n for n, c in enumerate(columns) if same_column(column, c)))
-
         for n, (line, part, called) in enumerate(figure.series()):
             chart.add_series(_curve(n, figure.x, line, part, called, place))
         scale = axis.decades if figure.logarithmic else axis.linear
-        x = scale(np.append(figure.x.values, [at for _, at in figure.marks]))
+        x = scale(np.append(figure.x.values, [at for _, at in figure.marks]), figure.x.unit)
         y = scale(np.concatenate([line.values for line in figure.lines]))
         for label, at in figure.marks:
             chart.add_series(self._mark(figure, label, at, (y["min"], y["max"]), place))
         title = {"name": _label(caption("Figure", figure)), "name_font": {**looks.CHART, "size": 11, "bold": True}}
         chart.set_title(title)
-        if self._formulas and not figure.logarithmic:  # axes follow the numbers
-            x = y = {}
+        if self._formulas and not figure.logarithmic:  # the axis follows the numbers
+            y = {}
         chart.set_x_axis({**looks.AXIS, **x, "name": _label(_quantity([figure.x]))})
         chart.set_y_axis({**looks.AXIS, **y, "name": _label(_quantity(figure.lines))})
         lines = len(figure.series())

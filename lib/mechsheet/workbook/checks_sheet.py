@@ -1,7 +1,6 @@
 """The sheet of the checks, and the colours of their verdicts."""
 
-import math
-from collections.abc import Sequence
+from collections.abc import Container, Sequence
 from typing import Any
 
 from mechsheet.units import shown
@@ -9,40 +8,66 @@ from mechsheet.workbook import looks
 from mechsheet.workbook.book import Book
 from mechsheet.workbook.content import Content, Live
 from mechsheet.workbook.sheet_formulas import SheetFormulas
-from mechsheet.worksheet.checks import Check
+from mechsheet.worksheet.check import Check
+
+_WITHIN = "inputs within their limits"
+_MADE = "made for these inputs: where this fails, export the worksheet again"
+_VERDICT = '=IF(ISNUMBER(B{0}-C{0}),IF(B{0}<=C{0},"PASS","FAIL"),"not evaluated")'
 
 
-def write(book: Book, checks: Sequence[Check], formulas: SheetFormulas | None) -> None:
-    """The sheet Checks; with ``formulas`` also a row that tells whether they still hold for the inputs."""
+def write(book: Book, checks: Sequence[Check], formulas: SheetFormulas | None, fixed: Container[str] = ()) -> None:
+    """The sheet Checks; with ``formulas`` also rows that tell whether inputs are within their limits and all holds.
+
+    Of the ``fixed`` checks a scene has set the limit.
+    """
     fields = (
         *(("Check", looks.TEXT), ("Residual", looks.SMALL), ("Limit", looks.SMALL), ("Unit", looks.TEXT)),
         *(("Verdict", looks.VERDICT), ("Reason", looks.TEXT)),
     )
     listed: list[tuple[Content, ...]] = []
-    for n, c in enumerate(checks, 3):
-        live = formulas and formulas.check(c.name)
-        known = "PASS" if c.passed else "FAIL"
-        verdict: Content = known
-        residual: Content = c.residual
-        limit: Content = c.limit
-        if live:
-            residual = Live(live.residual, c.residual)
-            if math.isclose(live.bound, c.limit, rel_tol=1e-9):  # a scene may have set another
-                limit = Live(live.limit, c.limit)
-            verdict = Live(f'=IF(IFERROR(B{n}<=C{n},FALSE),"PASS","FAIL")', known)
-        listed.append((c.name, residual, limit, shown(c.unit), verdict, c.reason))
-    if formulas and (guard := formulas.guard()):
-        n = len(checks) + 3
-        what = "made for these inputs: where this fails, export the worksheet again"
-        verdict = Live(f'=IF(IFERROR(B{n}<=C{n},FALSE),"PASS","FAIL")', "PASS")
-        listed.append((what, Live(guard, 0.0), 0.0, "-", verdict, ""))
-    passed = sum(check.passed for check in checks)
-    sheet = book.listing("Checks", f"Checks: {passed} of {len(checks)} passed", fields, listed)
+    if not formulas:
+        listed += [(c.name, c.residual, c.limit, shown(c.unit), verdict(c), c.reason) for c in checks]
+        title: Content = _title(sum(check.passed for check in checks), len(checks))
+    else:
+        within = Check(_WITHIN, 0.0, 0.0, "inputs")
+        rows: list[tuple[Check, Content, Content]] = [(within, Live(formulas.outside(), 0.0), 0.0)]
+        rows += [(c, *_compared(c, formulas, c.name in fixed)) for c in checks]
+        if guard := formulas.guard():
+            rows.append((Check(_MADE, 0.0, 0.0), Live(guard, 0.0), 0.0))
+        listed += [
+            (c.name, residual, limit, shown(c.unit), Live(_VERDICT.format(n), verdict(c)), _reason(c, formulas))
+            for n, (c, residual, limit) in enumerate(rows, 3)
+        ]
+        cells = f"E3:E{len(rows) + 2}"
+        known = _title(sum(c.passed for c, *_ in rows), len(rows))
+        title = Live(f'="Checks: "&COUNTIF({cells},"PASS")&" of "&ROWS({cells})&" passed"', known)
+    sheet = book.listing("Checks", title, fields, listed)
     verdicts(book, sheet, len(listed), 4, 4)
+
+
+def verdict(check: Check) -> str:
+    """The verdict of a check as it stands in a workbook."""
+    return "PASS" if check.passed else check.verdict
+
+
+def _title(passed: int, count: int) -> str:
+    return f"Checks: {passed} of {count} passed"
+
+
+def _compared(check: Check, formulas: SheetFormulas, fixed: bool) -> tuple[Content, Content]:
+    """Residual and limit of a check, live or for the exported inputs alone."""
+    live = formulas.check(check.name)
+    if not live:
+        return formulas.as_exported(check.residual), check.limit
+    return Live(live.residual, check.residual), check.limit if fixed else Live(live.limit, live.bound)
+
+
+def _reason(check: Check, formulas: SheetFormulas) -> Content:
+    return formulas.as_exported(check.reason) if check.reason else ""
 
 
 def verdicts(book: Book, sheet: Any, rows: int, first: int, last: int) -> None:
     """Colour the verdicts in some columns of a listing."""
-    for verdict, look in (("PASS", looks.PASS), ("FAIL", looks.FAIL)):
-        rule = {"type": "cell", "criteria": "==", "value": f'"{verdict}"', "format": book.file.add_format(look)}
+    for text, look in (("PASS", looks.PASS), ("FAIL", looks.FAIL), ("not evaluated", looks.OPEN)):
+        rule = {"type": "cell", "criteria": "==", "value": f'"{text}"', "format": book.file.add_format(look)}
         sheet.conditional_format(2, first, rows + 2, last, rule)

@@ -17,6 +17,7 @@ class Live(NamedTuple):
 
 Content = str | float | Live
 LARGEST = 1e307  # Excel's numbers end at 9.99e307
+_PART = 100  # letters of a text in a formula, whose 255 units a quotation mark takes two of
 
 
 def computed(formulas: Sequence[str] | None, values: Sequence[float]) -> Sequence[Content]:
@@ -48,6 +49,12 @@ def put(sheet: Any, row: int, col: int, value: Content, style: Any) -> None:
         # XlsxWriter has no cell of an error alone; the formula that is this error keeps it as its value.
         error = "#N/A" if math.isnan(value) else "#NUM!"
         sheet.write_formula(row, col, f"={error}", style, error)
+
+
+def quoted(text: str) -> str:
+    """A text in a formula, in parts of a length that Excel takes."""
+    parts = [allowed(text[at : at + _PART]).replace('"', '""') for at in range(0, len(text), _PART)]
+    return "&".join(f'"{part}"' for part in parts) or '""'
 
 
 def fits(value: float) -> bool:

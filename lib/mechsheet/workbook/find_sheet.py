@@ -41,13 +41,18 @@ def write(book: Book, rows: Sequence[FoundRow], formulas: SheetFormulas | None) 
     for row in rows:
         numbers = (row.value, row.residual, row.lower, row.upper)
         texts = formulas.found(row.unknown, row.unit, row.residual_unit) if formulas else (None,) * 4
-        value, residual, lower, upper = (Live(f, x) if f else x for f, x in zip(texts, numbers, strict=True))
+        value, residual, lower, upper = (_known(f, x, formulas) for f, x in zip(texts, numbers, strict=True))
+        others: Content = formulas.as_exported(row.other_roots) if formulas and row.other_roots else row.other_roots
         kind = "its closed form" if formulas and formulas.closed(row.unknown) else "found"
         line = (row.symbol, value, shown(row.unit), row.meaning, residual, shown(row.residual_unit), lower, upper)
-        listed.append((*line, row.other_roots, kind))
+        listed.append((*line, others, kind))
     title = "Found values, the residuals that they leave and the intervals searched"
     sheet = book.listing("Find", title, fields, listed)
     for n, row in enumerate(rows, 2):
         rule = {"type": "formula", "format": book.file.add_format(looks.FAIL)}
         limit = 1e-9 * max(1.0, abs(row.target))
-        sheet.conditional_format(n, 4, n, 4, {**rule, "criteria": f"=NOT(ABS($E${n + 1})<={limit!r})"})
+        sheet.conditional_format(n, 4, n, 4, {**rule, "criteria": f"=NOT(IFERROR(ABS($E${n + 1})<={limit!r},FALSE))"})
+
+
+def _known(formula: str | None, value: float, formulas: SheetFormulas | None) -> Content:
+    return Live(formula, value) if formula else formulas.as_exported(value) if formulas else value

@@ -8,37 +8,70 @@ from itertools import groupby
 from mechsheet.units import parse, shown, si
 from mechsheet.workbook import looks
 from mechsheet.workbook.book import Book
-from mechsheet.workbook.content import Content, Live
+from mechsheet.workbook.cell_formula import written
+from mechsheet.workbook.content import Content, Live, allowed, cut, put, quoted
 from mechsheet.workbook.sheet_formulas import SheetFormulas
+from mechsheet.worksheet.inputs import LEAST, MOST, number
+
+_FOLLOWED = "No formula of this workbook follows a value without a yellow ground: run the worksheet again for it."
+_LETTERS = '"0123456789.,+-−eE"'  # of a number as text
 
 
 @dataclass(frozen=True)
 class InputRow:
-    """One input: ``value`` is in ``unit``; neighbours of one ``section`` stand under its heading."""
+    """One input: ``value`` is in ``unit``; neighbours of one ``section`` stand under its heading.
+
+    ``limits`` and ``whole`` are those of the declared input.
+    """
 
     symbol: str
     value: float | int | str
     unit: str
     meaning: str
     section: str = ""
+    limits: tuple[tuple[str, str], ...] = ()
+    whole: bool = False
+
+    @property
+    def allowed(self) -> str:
+        """The limits in words."""
+        return ", ".join([*(["whole number"] if self.whole else []), *(" ".join(limit) for limit in self.limits)])
 
 
 def write(book: Book, rows: Sequence[InputRow], formulas: SheetFormulas | None) -> None:
-    """The sheet Inputs; with ``formulas`` each input also in SI units, under the name that formulas use."""
-    fields = (("Symbol", looks.TEXT), ("Value", looks.FIELD), ("Unit", looks.TEXT), ("Meaning", looks.TEXT))
-    live = (("in SI units", looks.SI), ("Unit", looks.TEXT), ("Name", looks.TEXT)) if formulas else ()
+    """The sheet Inputs; with ``formulas`` each input also in SI units, under the name that formulas use.
+
+    There is none where the value is outside its limits or no number, or stands in another unit.
+    """
+    fields = [("Symbol", looks.TEXT), ("Value", looks.FIELD), ("Unit", looks.TEXT), ("Meaning", looks.TEXT)]
+    fields.append(("Limits", looks.TEXT))
+    if formulas:
+        fields += [("in SI units", looks.SI), ("Unit", looks.TEXT), ("Name", looks.TEXT)]
+        fields += [("As read", looks.SI), ("As exported", looks.SI), ("Differs", looks.SI)]
     listed: list[tuple[Content, ...]] = []
-    for n, row in listed_rows(rows):
-        if not isinstance(row, InputRow):
+    placed = {row.symbol: n + 1 for n, row in listed_rows(rows) if isinstance(row, InputRow)}
+    for _, row in listed_rows(rows):
+        if isinstance(row, InputRow):
+            line: tuple[Content, ...] = (row.symbol, row.value, shown(row.unit), row.meaning, row.allowed)
+            listed.append((*line, *(_computed(row, placed, formulas) if formulas else ())))
+        else:
             listed.append((row,))
-            continue
-        line: tuple[Content, ...] = (row.symbol, row.value, shown(row.unit), row.meaning)
-        if formulas:
-            node = formulas.recording.inputs[row.symbol]
-            value = Live(_taken(f"B{n + 1}", parse(row.unit).factor), float(node.value))
-            line += (value, shown(si(row.unit)), formulas.name(node))
-        listed.append(line)
-    book.listing("Inputs", f"{book.title} - inputs", (*fields, *live), listed)
+    sheet = book.listing("Inputs", f"{book.title} - inputs", fields, listed)
+    if not formulas:
+        return
+    for n, row in listed_rows(rows):
+        if isinstance(row, InputRow):
+            sheet.data_validation(n, 1, n, 1, _validation(row, placed))
+            if row.symbol not in formulas.arrangement.followed:
+                put(sheet, n, 1, row.value, book.style(looks.CELL, looks.NUMBER))
+    end = len(listed) + 2
+    changed = formulas.arrangement.changed
+    text, small = book.style(looks.TEXT), book.style(looks.SI)
+    put(sheet, changed.row, changed.column - 2, "inputs that differ from the exported ones", text)
+    put(sheet, changed.row, changed.column, Live(f"=SUM(K3:K{end})", 0.0), small)
+    put(sheet, changed.row, changed.column + 2, changed.name, text)
+    if not placed.keys() <= formulas.arrangement.followed:
+        put(sheet, changed.row + 1, 0, _FOLLOWED, book.style(looks.NOTE))
 
 
 def listed_rows(rows: Sequence[InputRow]) -> Iterator[tuple[int, InputRow | str]]:
@@ -50,8 +83,53 @@ def listed_rows(rows: Sequence[InputRow]) -> Iterator[tuple[int, InputRow | str]
             n += 1
 
 
-def _taken(cell: str, factor: float) -> str:
-    """Formula of an input in SI units: of a number, or of a text with a decimal comma or point."""
-    text = f'_xlfn.NUMBERVALUE(SUBSTITUTE({cell},",","."),".")'
-    number = f"IF(ISNUMBER({cell}),{cell},IF(LEN({cell})=0,NA(),IFERROR({text},NA())))"
-    return f"={number}" if factor == 1 else f"={number}*" + ("PI()/180" if factor == math.pi / 180 else repr(factor))
+def _computed(row: InputRow, placed: dict[str, int], formulas: SheetFormulas) -> tuple[Content, ...]:
+    """Value in SI, its unit and name, the number read and the exported one, and whether they differ."""
+    n, node, factor = placed[row.symbol], formulas.recording.inputs[row.symbol], parse(row.unit).factor
+    read = f"I{n}"
+    units = [row.unit, shown(row.unit), *([""] if row.unit == "-" else [])]
+    same = ",".join(f"EXACT(TRIM(C{n}),{quoted(unit)})" for unit in dict.fromkeys(units))
+    rules = [f"OR({same})", f"ABS({read})<={written(MOST)}", *_rules(row, read, placed)]
+    scaled = "" if factor == 1 else "*PI()/180" if factor == math.pi / 180 else f"*{factor!r}"
+    value = Live(f"=IF(AND({','.join(rules)}),{read}{scaled},NA())", float(node.value))
+    as_read = Live(_read(f"B{n}"), row.value)
+    differs = Live(f"=IF(ISERROR(F{n}),1,IF({read}=J{n},0,1))", 0.0)
+    return value, shown(si(row.unit)), formulas.name(node), as_read, row.value, differs
+
+
+def _rules(row: InputRow, value: str, placed: dict[str, int]) -> Iterator[str]:
+    """Formulas of the limits of an input whose ``value`` stands in that cell; other inputs are taken as read."""
+    for sign, other in row.limits:
+        if (sign, other) == (">", "0"):
+            yield f"{value}>={written(LEAST)}"
+        else:
+            yield f"{value}{sign}" + (f"$I${placed[other]}" if other in placed else written(number(other)))
+    if row.whole:
+        yield f"{value}=INT({value})"
+
+
+def _read(cell: str) -> str:
+    """Formula of the number that a cell holds: a number, or a text with a decimal comma or point."""
+    text = f"TRIM({cell})"
+    strange = f"SUMPRODUCT(--ISERROR(FIND(MID({text}&REPT(0,40),ROW($1:$40),1),{_LETTERS})))"
+    plain = f'SUBSTITUTE(SUBSTITUTE({text},"−","-"),",",".")'
+    held = f'IF(AND(LEN({text})>0,LEN({text})<=40,{strange}=0),IFERROR(_xlfn.NUMBERVALUE({plain},"."," "),NA()),NA())'
+    return f"=IF(ISLOGICAL({cell}),NA(),IF(ISNUMBER({cell}),{cell},{held}))"
+
+
+def _validation(row: InputRow, placed: dict[str, int]) -> dict[str, object]:
+    """What a spreadsheet program takes into the cell of an input; a text is judged by its value in SI units."""
+    cell = f"B{placed[row.symbol]}"
+    rules = ",".join([f"ISNUMBER({cell})", *_rules(row, cell, placed)])
+    limits = f"Limits: {row.allowed}. " if row.allowed else ""
+    message = allowed(f"{row.meaning} [{shown(row.unit)}]. {limits}Decimal point, or comma as text.")
+    return {
+        "validate": "custom",
+        "value": f"=IF(ISTEXT({cell}),TRUE,AND({rules}))",
+        "ignore_blank": False,
+        "input_title": cut(allowed(row.symbol), 32),
+        "input_message": cut(message, 255),
+        "error_title": "Outside the limits",
+        "error_message": cut(allowed(f"{row.symbol}: {row.allowed or 'a number'}"), 255),
+        "error_type": "stop",
+    }

@@ -18,9 +18,13 @@ VALUE: Look = {**NUMBER, "num_format": "0.000000"}
 SMALL: Look = {**NUMBER, "num_format": "0.0E+00;-0.0E+00;0"}
 SI: Look = {**NUMBER, "num_format": "General", "font_color": "#595959"}
 SI_DECIMALS = 6
+EXPORTED: Look = {"bg_color": "#E4E4E4", "font_color": "#595959"}  # does not follow other inputs
+BEHIND = "#A6A6A6"  # tabs of sheets behind the tables
+LINK: Look = {"align": "left", "indent": 1, "font_color": "#0563C1", "underline": 1}
 VERDICT: Look = {"align": "center", "bold": True}
 PASS: Look = {"font_color": "#2F6B2F"}
 FAIL: Look = {"font_color": "#FFFFFF", "bg_color": "#A61C1C"}  # stands out on black-and-white paper too
+OPEN: Look = {"font_color": "#7A4B00", "bg_color": "#FCE4B8"}  # not evaluated
 
 # Pixels at 96 dpi: a character, a cell's padding, a row; the printable part of A4 upright and on its side.
 CHAR, PAD, ROW = 7, 18, 21

@@ -37,16 +37,30 @@ class Place:
 
     def at(self, k: int = 0) -> str:
         """Address of the k-th cell."""
-        return f"{_quoted(self.sheet)}!${letters(self.column)}${self.row + k + 1}"
+        return f"{quoted(self.sheet)}!${letters(self.column)}${self.row + k + 1}"
 
     def range(self, first: int, last: int) -> str:
         """Address of the cells from the first one to the last."""
         column = letters(self.column)
-        return f"{_quoted(self.sheet)}!${column}${self.row + first + 1}:${column}${self.row + last + 1}"
+        return f"{quoted(self.sheet)}!${column}${self.row + first + 1}:${column}${self.row + last + 1}"
 
     def meaning(self, size: int) -> str:
         """What the name is defined as; a row without $ is that of the cell which uses it."""
-        return f"={self.at() if size == 1 else f'{_quoted(self.sheet)}!${letters(self.column)}1'}"
+        return f"={self.at() if size == 1 else f'{quoted(self.sheet)}!${letters(self.column)}1'}"
+
+
+def called(text: str) -> str:
+    """Name of what is stated in words: whole words of them, up to 40 letters.
+
+    >>> called("equilibrium of forces, bodies 2..7"), called("20 % of G")
+    ('equilibrium_of_forces_bodies_2_7', 'check_20_of_G')
+    """
+    words = re.findall(r"\w+", text.replace("'", ""), re.ASCII)
+    whole = [n for n in range(1, len(words) + 1) if len("_".join(words[:n])) <= 40]
+    name = "_".join(words[: max(whole, default=1)])[:40]
+    if len(whole) < len(words):
+        name = re.sub(r"(_[a-z]{1,3})+$", "", name)
+    return name if re.match("[A-Za-z]", name) else f"check_{name}".rstrip("_")
 
 
 @lru_cache(maxsize=1024)
@@ -57,5 +71,6 @@ def letters(column: int) -> str:
 
 
 @lru_cache(maxsize=256)
-def _quoted(sheet: str) -> str:
+def quoted(sheet: str) -> str:
+    """Name of a sheet as an address has it."""
     return "'" + sheet.replace("'", "''") + "'"

@@ -22,22 +22,31 @@ def write(book: Book, section: Section, formulas: SheetFormulas) -> None:
         *(("Meaning", looks.TEXT), ("Line", looks.TEXT)),
     )
     listed: list[tuple[Content, ...]] = [
-        (formulas.name(line.node), _contents(line, formulas)[0], shown(si(line.unit)), line.meaning, line.text)
+        (formulas.name(line.node), _contents(line, formulas)[0], shown(si(line.unit)), line.meaning, _source(line))
         for line in section.single
     ]
     listed += [
-        (formulas.name(line.node), f"column {letters(n)}", shown(si(line.unit)), line.meaning, line.text)
+        (formulas.name(line.node), f"column {letters(n)}", shown(si(line.unit)), line.meaning, _source(line))
         for n, line in enumerate(section.fields)
     ]
     title = f"{section.title} - lines behind the tables, in SI units"
-    book.listing(section.listing, title, fields, listed)
+    grey = {n for n, line in enumerate([*section.single, *section.fields]) if formulas.kept(line.node)}
+    book.listing(section.listing, title, fields, listed, behind=True, grey=grey)
     if section.fields:
         columns: list[tuple[Column, Sequence[Content]]] = []
         for line in section.fields:
             values = np.asarray(line.node.value, float).reshape(-1)
             column = Column(formulas.name(line.node), si(line.unit), "", looks.SI_DECIMALS, values)
             columns.append((column, _contents(line, formulas)))
-        table_sheet.write(book, section.sheet, f"{section.title} - fields, in SI units", "", columns, numbers=looks.SI)
+        apart = [n for n, line in enumerate(section.fields) if formulas.kept(line.node)]
+        note = table_sheet.not_followed([column for column, _ in columns], apart)
+        heading = f"{section.title} - fields, in SI units"
+        table_sheet.write(book, section.sheet, heading, note, columns, numbers=looks.SI, grey=apart, behind=True)
+
+
+def _source(line: Line) -> str:
+    """The line of the worksheet behind a quantity: its text, else its number."""
+    return line.text or (f"line {line.node.line}" if line.node.line else "")
 
 
 def _contents(line: Line, formulas: SheetFormulas) -> Sequence[Content]:

@@ -3,10 +3,12 @@
 from typing import NamedTuple
 
 from mechsheet import units
-from mechsheet.recording.graph import Node
-from mechsheet.recording.lines import Line
+from mechsheet.recording.graph import Node, bottom_up
+from mechsheet.recording.lines import Line, Solved
+from mechsheet.recording.record import leaves_of
 from mechsheet.workbook.arrangement import Arrangement
-from mechsheet.workbook.cell_formula import CellFormulas
+from mechsheet.workbook.cell_formula import CellFormulas, written
+from mechsheet.workbook.content import Live, quoted
 from mechsheet.worksheet.table import Table
 
 
@@ -24,17 +26,19 @@ class SheetFormulas:
     def __init__(self, arrangement: Arrangement) -> None:
         self.arrangement, self.recording = arrangement, arrangement.recording
         self._cells = CellFormulas(arrangement.places)
+        self._known: dict[Node, bool] = {}  # which rest on numbers that are not followed
+        self._open = {solved.node for solved in self.recording.found.values() if not solved.inverse}
 
     def name(self, node: Node) -> str:
         """Defined name of a quantity that has a place."""
         return self.arrangement.places[node].name
 
     def column(self, table: Table, n: int) -> list[str] | None:
-        """Formulas of a table's column in its display unit; None where it holds plain numbers."""
-        columns = self.arrangement.columns(table)
-        node = columns[n] if n < len(columns) else None
-        if node is None or node.op == "static":
-            return None
+        """Formulas of a table's column in its display unit; None where it holds the same numbers for all inputs."""
+        node = self.arrangement.columns(table)[n]
+        if node is None:
+            values = table.columns[n].values.tolist()
+            return [self.as_exported(x).formula for x in values] if self.recording.gaps else None
         if (table.number, n) in self.arrangement.own:
             return self._cells.formulas(node)
         factor = units.parse(table.columns[n].unit).factor
@@ -42,12 +46,28 @@ class SheetFormulas:
             return [self._cells.reference(node, 0, 0, factor)] * len(table.columns[n].values)
         return self._cells.references(node, factor)
 
+    def exported(self, table: Table) -> tuple[int, ...]:
+        """Columns of a table that rest on numbers of the worksheet's own run, and so do not follow other inputs."""
+        columns = enumerate(self.arrangement.columns(table))
+        return tuple(n for n, node in columns if (self.kept(node) if node else self.recording.gaps))
+
+    def kept(self, node: Node) -> bool:
+        """Whether a quantity rests on numbers of the worksheet's own run."""
+        for part in bottom_up([node], self._known):
+            own = part.op == "exported" or part in self._open
+            self._known[part] = own or any(self._known[operand] for operand in part.operands)
+        return self._known[node]
+
     def line(self, line: Line) -> list[str] | None:
         """Formulas of a quantity of a section; None where it holds plain numbers."""
         for solved in self.recording.found.values():
             if solved.node is line.node:
-                return [self._cells.reference(solved.inverse)] if solved.inverse else None
-        return None if line.node.op == "static" else self._cells.formulas(line.node)
+                return [self._solution(solved)]
+        return self._cells.formulas(line.node)
+
+    def shown(self, line: Line) -> str:
+        """Formula that shows a single number of a line in its display unit."""
+        return self._cells.reference(line.node, 0, 0, units.parse(line.unit).factor)
 
     def found(self, unknown: str, unit: str, target_unit: str) -> tuple[str | None, ...]:
         """Formulas of a found value, of what it leaves of its equation, and of its interval; None where none is."""
@@ -56,13 +76,29 @@ class SheetFormulas:
             return None, None, None, None
         factor, target = units.parse(unit).factor, units.parse(target_unit).factor
         place = self.arrangement.places.get(solved.node)
-        source = solved.inverse if place and place.sheet == "Find" else solved.node
-        shown = source and (source in self.arrangement.places or solved.inverse)
         reference = self._cells.reference
-        value = reference(source, 0, 0, factor) if source and shown else None
+        value = self._solution(solved) if not place or place.sheet == "Find" else reference(solved.node, 0, 0, factor)
         left = reference(solved.residual, 0, 0, target) if solved.residual else None
         low, high = (reference(end, 0, 0, factor) for end in solved.interval) if solved.interval else (None, None)
         return value, left, low, high
+
+    def _solution(self, solved: Solved) -> str:
+        """Formula of a found value in SI: its closed form, or the number found while its equation is the same."""
+        if solved.inverse:
+            return self._cells.reference(solved.inverse)
+        under = leaves_of([solved.node], self.recording) if solved.residual else self.recording.inputs.values()
+        return self._cells.formula(Node("exported", tuple(under), solved.node.value))
+
+    def as_exported(self, value: float | str) -> Live:
+        """What is known for the exported inputs alone: for others no number, no text."""
+        known, else_ = (quoted(value), '""') if isinstance(value, str) else (written(value), "NA()")
+        return Live(f"=IF({self.arrangement.changed.name}=0,{known},{else_})", value)
+
+    def outside(self) -> str:
+        """Formula of how many inputs have no value in SI units."""
+        places = [self.arrangement.places[node] for node in self.recording.inputs.values()]
+        cells = places[0].range(0, max(place.row for place in places) - places[0].row) if places else ""
+        return f"=SUMPRODUCT(--ISERROR({cells}))" if cells else "=0"
 
     def closed(self, unknown: str) -> bool:
         """Whether a found value is computed by its closed form."""
@@ -83,29 +119,10 @@ class SheetFormulas:
 
     def guard(self) -> str:
         """Formula of how many of the conditions that the worksheet's code looked at have changed; "" without any."""
-        texts = set()
-        for node, seen in self.recording.graph.guards:
-            if not _depends(node):
-                continue
-            text = self._cells.reference(node)[1:]
-            texts.add(f"IF({text},{'0,1' if seen else '1,0'})" if isinstance(seen, bool) else f"IF({text}={seen},0,1)")
+        texts = {f"IF({self._cells.reference(holds)[1:]},0,1)" for holds in self.recording.guards}
         return "=" + "+".join(sorted(texts)) if texts else ""
 
     def mark(self, figure: str, label: str, unit: str) -> str | None:
         """Formula of the position that a figure marks; None where it is a plain number."""
         node = self.recording.marks.get(figure, {}).get(label)
         return self._cells.reference(node, 0, 0, units.parse(unit).factor) if node else None
-
-
-def _depends(node: Node) -> bool:
-    """Whether a quantity rests on an input or a found value."""
-    stack, seen = [node], {node}
-    while stack:
-        here = stack.pop()
-        if here.op in ("input", "found"):
-            return True
-        for operand in here.operands:
-            if operand not in seen:  # many quantities share their operands
-                seen.add(operand)
-                stack.append(operand)
-    return False

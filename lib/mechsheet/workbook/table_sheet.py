@@ -7,9 +7,10 @@ from typing import Any, NamedTuple
 from mechsheet.units import shown
 from mechsheet.workbook import looks
 from mechsheet.workbook.book import Book, page_of
-from mechsheet.workbook.content import Content, Live, allowed, computed, put
+from mechsheet.workbook.content import Content, allowed, computed, put
 from mechsheet.workbook.looks import CHAR, EMPTY, FIRST, GAP, LONG, PAD, ROW
 from mechsheet.workbook.sheet_formulas import SheetFormulas
+from mechsheet.worksheet.numbers import fixed
 from mechsheet.worksheet.table import Column, Table
 
 Contents = Sequence[tuple[Column, Sequence[Content]]]
@@ -32,13 +33,10 @@ def contents(table: Table, formulas: SheetFormulas | None) -> Contents:
     return [(column, computed(t, column.values.tolist())) for column, t in zip(table.columns, texts, strict=True)]
 
 
-def plain_columns(columns: Contents) -> str:
-    """Note of the columns without formulas, labels of the rows apart, in a table that has some with them."""
-    live = [any(isinstance(value, Live) for value in cells) for _, cells in columns]
-    plain = [c.symbol for (c, _), has in zip(columns, live, strict=True) if not has and c.unit and c.decimals]
-    if not plain or not any(live):
-        return ""
-    return f"Numbers, not formulas: {', '.join(plain)}; the checks tell whether they still hold."
+def not_followed(columns: Sequence[Column], grey: Sequence[int]) -> str:
+    """Note of the columns that hold for the exported inputs alone."""
+    symbols = ", ".join(columns[n].symbol for n in grey)
+    return f"As exported, #N/A for other inputs: {symbols}." if grey else ""
 
 
 def write(
@@ -49,11 +47,13 @@ def write(
     columns: Contents,
     charts: int = 0,
     numbers: looks.Look | None = None,
+    grey: Sequence[int] = (),
+    behind: bool = False,
 ) -> tuple[Any, list[Spot]]:
-    """A sheet of numbers under their symbols and units, and the places of so many charts on it."""
+    """A sheet of numbers under their symbols and units, ``grey`` columns apart, and the places of charts on it."""
     rows = max(len(column.values) for column, _ in columns)
     widths = [CHAR * (13 if numbers else min(looks.WIDEST, _digits(column))) + PAD for column, _ in columns]
-    sheet, spots = (_short if rows <= LONG else _long)(book, name, heading, widths, rows, charts)
+    sheet, spots = (_short if rows <= LONG else _long)(book, name, heading, widths, rows, charts, behind)
     sheet.set_row_pixels(1, ROW if note else ROW // 3)
     put(sheet, 1, 0, note, book.style(looks.NOTE))
     for col, (column, cells) in enumerate(columns):
@@ -62,8 +62,9 @@ def write(
         put(sheet, 3, col, shown(column.unit), book.style(looks.HEAD, side, looks.BOTTOM, {"bold": False}))
         if column.meaning:
             sheet.write_comment(2, col, allowed(column.meaning), {"font_name": "Arial", "font_size": 9})
-        digits = f"{0:.{column.decimals}f}{'E+00' if column.power else ''}"
+        digits = fixed(0, column.decimals) + ("E+00" if column.power else "")
         look = {**side, **({} if col else looks.KEY), "num_format": digits, **(numbers or {})}
+        look |= looks.EXPORTED if col in grey else {}
         style, last = book.style(look, looks.CELL), book.style(look, looks.BOTTOM)
         for row, value in enumerate(cells, FIRST):
             put(sheet, row, col, value, style if row < FIRST + rows - 1 else last)
@@ -74,22 +75,24 @@ def write(
 
 
 def _short(
-    book: Book, name: str, heading: str, widths: Sequence[int], rows: int, charts: int
+    book: Book, name: str, heading: str, widths: Sequence[int], rows: int, charts: int, behind: bool
 ) -> tuple[Any, list[Spot]]:
     """An empty sheet with its charts below the numbers, two side by side."""
     width, height = looks.ONE if charts == 1 else looks.MANY
     high = (FIRST + rows + 2) * ROW + math.ceil(charts / 2) * (height + GAP)
     wide = max(sum(widths), widths[0] + min(charts, 2) * (width + GAP))
-    sheet = book.sheet(name, heading, widths, FIRST, (wide, high))
+    sheet = book.sheet(name, heading, widths, FIRST, (wide, high), behind)
     corners = [(n % 2 * (width + GAP), n // 2 * (height + GAP)) for n in range(charts)]
     return sheet, [Spot(FIRST + rows + 1, 1, right, down, width, height) for right, down in corners]
 
 
-def _long(book: Book, name: str, heading: str, widths: Sequence[int], rows: int, charts: int) -> tuple[Any, list[Spot]]:
+def _long(
+    book: Book, name: str, heading: str, widths: Sequence[int], rows: int, charts: int, behind: bool
+) -> tuple[Any, list[Spot]]:
     """An empty sheet with its charts beside the numbers, as many to a page as go into its height."""
     width, height = looks.ONE if charts == 1 else looks.MANY
     wide = sum(widths) + min(charts, 1) * (width + GAP + EMPTY)
-    sheet = book.sheet(name, heading, widths, FIRST, (wide, rows * ROW))
+    sheet = book.sheet(name, heading, widths, FIRST, (wide, rows * ROW), behind)
     held = _break(sheet, wide, rows)
     fitting = round(held * ROW / height)
     pitch = held // fitting

@@ -1,10 +1,10 @@
 """Workbooks as the bytes of a file: that of a worksheet, and that of scenes side by side."""
 
-from collections.abc import Sequence
+from collections.abc import Container, Sequence
 from dataclasses import replace
 
 from mechsheet.recording.lines import Recording
-from mechsheet.workbook import checks_sheet, find_sheet, inputs_sheet, looks, section_sheets, table_sheet
+from mechsheet.workbook import checks_sheet, find_sheet, front_sheet, inputs_sheet, looks, section_sheets, table_sheet
 from mechsheet.workbook.arrangement import Arrangement
 from mechsheet.workbook.book import Book
 from mechsheet.workbook.chart import Charts, same_column
@@ -12,7 +12,7 @@ from mechsheet.workbook.content import caption
 from mechsheet.workbook.find_sheet import FoundRow
 from mechsheet.workbook.inputs_sheet import InputRow
 from mechsheet.workbook.sheet_formulas import SheetFormulas
-from mechsheet.worksheet.checks import Check
+from mechsheet.worksheet.check import Check
 from mechsheet.worksheet.table import Column, Figure, Table
 
 
@@ -25,14 +25,16 @@ def workbook(
     figures: Sequence[Figure],
     checks: Sequence[Check],
     recording: Recording | None = None,
+    fixed: Container[str] = (),
 ) -> bytes:
     """Bytes of an .xlsx file; on one machine, with the same versions, the same input gives the same bytes.
 
     Elsewhere numbers may differ in their last bits, for numpy takes other code paths on other processors.
 
-    Sheets: Inputs, Find where there are found values, one for each table named by its number and title, Checks.
+    Sheets: Front, Inputs, Find where there are found values, one for each table named by its number and title, Checks.
     With a ``recording`` of the worksheet the cells hold formulas beside their values, and what stands behind the tables
-    is listed by sections on sheets of its own, in SI units.
+    is listed by sections on sheets of its own at the end, in SI units, which are not printed; of the ``fixed`` checks a
+    scene has set the limit.
     A table's sheet has its title in row 1, its note in row 2, symbols in row 3, units in row 4, then the numbers
     to their last bit; pandas reads it by ``read_excel(file, sheet_name=name, header=2, skiprows=[3])``. NaN is
     the error value #N/A and an infinite number #NUM!: pandas reads both as NaN, charts leave a gap.
@@ -52,24 +54,31 @@ def workbook(
     if recording:
         formulas = _formulas(book, recording, [*tables, *data], [*names, *names_of_data], inputs, found)
     charts = Charts(book, formulas)
+    front = front_sheet.add(book)
     inputs_sheet.write(book, inputs, formulas)
     if found:
         find_sheet.write(book, found, formulas)
     for table, name in zip(tables, names, strict=True):
         held = [figure for figure, holder in zip(figures, holders, strict=True) if holder is table]
         columns = table_sheet.contents(table, formulas)
-        note = f"{table.note} {table_sheet.plain_columns(columns)}".strip()
-        sheet, spots = table_sheet.write(book, name, caption("Table", table), note, columns, len(held))
+        grey = formulas.exported(table) if formulas else ()
+        note = f"{table.note} {table_sheet.not_followed(table.columns, grey)}".strip()
+        sheet, spots = table_sheet.write(book, name, caption("Table", table), note, columns, len(held), grey=grey)
         for figure, spot in zip(held, spots, strict=True):
-            charts.insert(sheet, spot, figure, name, table.columns)
+            charts.insert(sheet, spot, figure, name, table.columns, grey)
     for figure, table, name in zip(alone, data, names_of_data, strict=True):
-        sheet, (spot,) = table_sheet.write(book, name, table.title, "", table_sheet.contents(table, formulas), 1)
-        charts.insert(sheet, spot, figure, name, table.columns)
+        columns = table_sheet.contents(table, formulas)
+        grey = formulas.exported(table) if formulas else ()
+        note = table_sheet.not_followed(table.columns, grey)
+        sheet, (spot,) = table_sheet.write(book, name, table.title, note, columns, 1, grey=grey)
+        charts.insert(sheet, spot, figure, name, table.columns, grey)
+    checks_sheet.write(book, checks, formulas, fixed)
     if formulas:
         for section in formulas.arrangement.sections:
             section_sheets.write(book, section, formulas)
-    checks_sheet.write(book, checks, formulas)
     charts.marks()
+    results = front_sheet.results(found, charts.drawn, formulas)
+    front_sheet.write(book, front, checks, results, recording.gaps if recording else ())
     return book.close()
 
 

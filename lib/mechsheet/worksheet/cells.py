@@ -13,8 +13,8 @@ from typing import Any
 import numpy as np
 
 from mechsheet.worksheet import inputs
-from mechsheet.worksheet.checks import Check
-from mechsheet.worksheet.errors import SheetError, raised
+from mechsheet.worksheet.check import Check
+from mechsheet.worksheet.errors import SheetError, as_given, raised
 from mechsheet.worksheet.source import constant, functions, is_app, markdown
 
 _SECTION = re.compile(r"^\s*## +(.*\S)", re.MULTILINE)
@@ -23,14 +23,16 @@ _PART = re.compile(r"abs\((\w+)\)|(\w+)\.(real|imag)")
 
 @dataclass(frozen=True)
 class Cell:
-    """One cell: the names it reads and defines, the names that its checks may have, its compiled lines, its section."""
+    """One cell: the names it reads and defines, the names that its checks may have, its lines as a tree and as code."""
 
     name: str
     needs: frozenset[str]
     gives: tuple[str, ...]
     checks: tuple[re.Pattern[str], ...]
+    lines: tuple[ast.stmt, ...]
     code: CodeType
     section: str = ""  # heading ## above the cell, or in it
+    closing: bool = False  # whether it has an essential check, such as that a group closes
 
 
 @dataclass(frozen=True)
@@ -45,7 +47,8 @@ class Worksheet:
     def run(self, want: Iterable[str], given: Mapping[str, Any]) -> dict[str, Any]:
         """Namespace after running the cells that ``want`` depends on, where the names ``given`` are known already.
 
-        Raises SheetError naming what no cell defines, or a cell that stopped.
+        Raises SheetError naming what no cell defines, a cell that stopped, or the essential check that fails where a
+        cell raises: whatever is drawn or reduced behind a mechanism that does not close is explained by that.
         """
         names = {**self.common, **given}
         with raised():
@@ -53,10 +56,31 @@ class Worksheet:
                 try:
                     exec(cell.code, names)
                 except BaseException as error:
-                    if type(error).__name__ != "MarimoStopError":  # of mo.stop; marimo itself may not be loaded
+                    if isinstance(error, Exception):
+                        self.close(given)
+                    if not _is_stop(error):
                         raise
                     raise SheetError(f"cell {cell.name} stopped before its end") from None
         return names
+
+    def close(self, given: Mapping[str, Any]) -> None:
+        """Evaluate the essential checks that can be evaluated.
+
+        Raises SheetError for the first of them that fails.
+        """
+        names, lost = {**self.common, **given}, set[str]()
+        closing = [name for cell in self.cells if cell.closing for name in cell.gives]
+        with raised(), np.errstate(all="ignore"):
+            for cell in self.needed(closing, given):
+                try:
+                    if lost.isdisjoint(cell.needs):
+                        exec(cell.code, names)
+                        continue
+                except BaseException as error:
+                    if not (isinstance(error, Exception) or _is_stop(error)):
+                        raise
+                lost.update(cell.gives)
+        refuse_open(checks(names))
 
     def needed(self, want: Iterable[str], given: Iterable[str] = ()) -> list[Cell]:
         """Cells that ``want`` depends on, in an order in which they can run.
@@ -116,26 +140,33 @@ def evaluate(worksheet: str | Path, want: Iterable[str], **given: Any) -> dict[s
 
     Raises SheetError for an unknown name, an input outside its limits, or where no solution exists.
     """
-    sheet, want = load(worksheet), list(want)
+    sheet, want = load(worksheet), asked(want)
     g = given.pop("g") if "g" in given else inputs.build(sheet.inputs, given)
     names = sheet.run(want, {"g": g})
     return {name: value(name, names) for name in want}
 
 
+def asked(want: Iterable[str]) -> tuple[str, ...]:
+    """Wanted names, each once; SheetError where they are something else, such as one name alone."""
+    names: list[object] = [want] if isinstance(want, str) or not isinstance(want, Iterable) else list(want)
+    if names == [want] or not all(isinstance(name, str) for name in names):
+        raise SheetError(f"want = {as_given(want)} must be a list of names, such as ['GS6']")
+    return tuple(dict.fromkeys(map(str, names)))
+
+
 def value(want: str, names: Mapping[str, Any]) -> Any:
     """A wanted result in the namespace of a run: a name, a part of one, or the check of that name."""
-    root = base(want)
+    root, part = split(want)
     if not root.isidentifier():
         found = {check.name: check for check in checks(names)}
         if want not in found:
             raise _no_check(want, found)
         return found[want]
-    match = _PART.fullmatch(want)
-    if not match:
+    if not part:
         return names[root]
     if np.asarray(names[root]).dtype.kind not in "iufc":
         raise SheetError(f"{want}: {root} is no number")
-    return np.abs(names[root]) if match[1] else getattr(np.asarray(names[root]), match[3])
+    return np.abs(names[root]) if part == "abs" else getattr(np.asarray(names[root]), part)
 
 
 def checks(names: Mapping[str, Any]) -> list[Check]:
@@ -144,9 +175,32 @@ def checks(names: Mapping[str, Any]) -> list[Check]:
     return [check for group in groups for check in group if isinstance(check, Check)]
 
 
+def refuse_open(judged: Iterable[Check]) -> None:
+    """Raise SheetError for the first essential check that fails."""
+    for check in judged:
+        if check.essential and not check.passed:
+            raise SheetError(f"{check.name}: {check.reason}" if check.reason else str(check))
+
+
 def base(want: str) -> str:
+    """Name of a wanted result without its part."""
+    return split(want)[0]
+
+
+def split(want: str) -> tuple[str, str]:
+    """Name of a wanted result, and its part: ``real``, ``imag``, ``abs`` or none.
+
+    >>> split("PS6_S.imag"), split("abs(R56)"), split("GS6")
+    (('PS6_S', 'imag'), ('R56', 'abs'), ('GS6', ''))
+    """
     match = _PART.fullmatch(want)
-    return (match[1] or match[2]) if match else want
+    if not match:
+        return want, ""
+    return (match[1], "abs") if match[1] else (match[2], match[3])
+
+
+def _is_stop(error: BaseException) -> bool:
+    return type(error).__name__ == "MarimoStopError"  # of mo.stop; marimo itself may not be loaded
 
 
 def _no_check(name: str, known: Iterable[str]) -> SheetError:
@@ -154,10 +208,13 @@ def _no_check(name: str, known: Iterable[str]) -> SheetError:
     return SheetError(f"no check is named {name!r}" + (f"; nearest: {near[0]!r}" if near else ""))
 
 
-def results(path: str | Path) -> list[str]:
-    """Names that the cells of a worksheet file define, in the order of the file; nothing is run."""
+def results(path: str | Path, certain: bool = False) -> list[str]:
+    """Names that the cells of a worksheet file define, in the order of the file; nothing is run.
+
+    With ``certain`` not those that only a branch or a loop binds, which may have been left out.
+    """
     tree = ast.parse(Path(path).read_text(encoding="utf-8"))
-    return [name for node in functions(tree) for name in _gives(node)]
+    return [name for node in functions(tree) for name in _gives(node, _OPEN if certain else ())]
 
 
 def load(path: str | Path) -> Worksheet:
@@ -165,11 +222,15 @@ def load(path: str | Path) -> Worksheet:
 
     Raises SheetError where the file cannot be read or is no Python.
     """
+    if not isinstance(path, str | Path):
+        raise SheetError(f"worksheet = {as_given(path)} must be a path")
     path = Path(path).resolve()
     try:
         return _load(path, path.stat().st_mtime_ns)
     except OSError as error:
         raise SheetError(f"worksheet {path} cannot be read: {error.strerror}") from None
+    except UnicodeDecodeError as error:
+        raise SheetError(f"worksheet {path} is no text in UTF-8: {error}") from None
     except SyntaxError as error:
         raise SheetError(f"worksheet {path}, line {error.lineno}: {error.msg}") from None
 
@@ -228,15 +289,68 @@ def _shared(tree: ast.Module) -> Iterator[ast.stmt]:
 
 def _cells(tree: ast.Module, path: Path) -> Iterator[Cell]:
     section = ""
-    for node in functions(tree):
-        code = compile(ast.Module(node.body[:-1], []), path, "exec")
+    for n, node in enumerate(functions(tree)):
+        lines = node.body[:-1] if isinstance(node.body[-1], ast.Return) else node.body
         section = [section, *_SECTION.findall(constant(markdown(node)))][-1]
-        needs = frozenset(a.arg for a in node.args.args)
-        yield Cell(node.name, needs, _gives(node), tuple(_checks(node)), code, section)
+        needs, gives, checks = frozenset(a.arg for a in node.args.args), _gives(node), tuple(_checks(node))
+        code = compiled(lines, str(path), f"_cell{n}")
+        yield Cell(node.name, needs, gives, checks, tuple(lines), code, section, _is_closing(node))
 
 
-def _gives(node: ast.FunctionDef) -> tuple[str, ...]:
-    return tuple(n.id for n in ast.walk(node.body[-1]) if isinstance(n, ast.Name))
+def compiled(lines: list[ast.stmt], path: str, own: str) -> CodeType:
+    """Code of a cell, whose names with ``_`` are changed to begin with ``own``: they are none of another cell's."""
+    code = compile(ast.Module(lines, []), path, "exec")
+    if not any(name.startswith("_") for name in code.co_names):  # as of most cells
+        return code
+    private = {name for line in lines for name in bound(line) if name.startswith("_")}
+    for node in (node for line in lines for node in ast.walk(line)):
+        if isinstance(node, ast.alias):
+            if (name := node.asname or node.name) in private:
+                node.asname = own + name
+            continue
+        for part in ("id", "arg", "name"):  # of names, parameters and arguments, definitions and patterns
+            if getattr(node, part, None) in private:
+                setattr(node, part, own + getattr(node, part))
+    return compile(ast.Module(lines, []), path, "exec")
+
+
+_OPEN = (ast.If, ast.For, ast.While, ast.Try, ast.TryStar, ast.Match)
+
+
+def _gives(node: ast.FunctionDef, without: tuple[type[ast.stmt], ...] = ()) -> tuple[str, ...]:
+    """Names that a cell defines for others, as marimo sees them: all that its lines bind, but for those with ``_``.
+
+    Not those that it returns: marimo's editor writes only what other cells read behind ``return``.
+    """
+    names = dict.fromkeys(name for line in node.body if not isinstance(line, without) for name in bound(line))
+    return tuple(name for name in names if not name.startswith("_"))
+
+
+def bound(node: ast.AST) -> Iterator[str]:
+    """Names that a statement binds where it stands, in the order of its text; what has a scope of its own keeps its."""
+    match node:
+        case ast.FunctionDef(name=name) | ast.AsyncFunctionDef(name=name) | ast.ClassDef(name=name):
+            yield name
+            return
+        case ast.Lambda() | ast.ListComp() | ast.SetComp() | ast.DictComp() | ast.GeneratorExp():
+            yield from (n.target.id for n in ast.walk(node) if isinstance(n, ast.NamedExpr))
+            return
+        case ast.Name(name, ast.Store()):
+            yield name
+        case ast.alias(name, alias):
+            yield alias or name.partition(".")[0]
+        case ast.MatchAs(name=str(name)) | ast.MatchStar(name=str(name)):
+            yield name
+    for part in ast.iter_child_nodes(node):
+        yield from bound(part)
+
+
+def _is_closing(node: ast.FunctionDef) -> bool:
+    for part in ast.walk(node):
+        match part:
+            case ast.Call(ast.Name("assembled")) | ast.keyword("essential"):
+                return True
+    return False
 
 
 def _checks(node: ast.FunctionDef) -> Iterator[re.Pattern[str]]:

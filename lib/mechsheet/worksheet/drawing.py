@@ -3,7 +3,7 @@
 from cmath import isfinite
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from math import hypot, inf, nan, pi
+from math import hypot, inf, isnan, nan, pi
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -13,7 +13,7 @@ from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.shown import Shown
 
 # Legible on white and on black; "" is the colour of the text round the drawing.
-COLOURS = {"": "currentColor", "blue": "#3b82d0", "red": "#e0483c", "green": "#2c9c5c", "orange": "#cf7a17"}
+COLOURS = ("blue", "red", "green", "orange")
 
 MARGIN = 42.0  # round the outermost points, for symbols and labels [px]
 FAR = 1e5  # an element with a point beyond this is not drawn [px]
@@ -52,10 +52,10 @@ class Drawing(Shown):
         Greatest size in the page [px].
     frame : array of complex, optional
         The picture shows the box around these points [m] whatever is drawn, so that it rests while a mechanism
-        moves: two corners, or the points of all positions. By default it fits what is drawn.
+        moves: two corners, or the points of all positions. By default, and where none is finite, it fits what is drawn.
     scales : mapping of unit to float, optional
-        Length of an arrow of one unit [m], such as ``{"N": 2e-6}``. By default the longest arrow of each unit
-        is a fifth of the picture.
+        Length of an arrow of one unit [m], such as ``{"N": 2e-6}``; arrows whose scale is NaN are left out. By default
+        the longest arrow of each unit is a fifth of the picture.
     unit : str, optional
         Unit of the points if they are no places: ``"N"`` for a diagram of forces, whose arrows then have its scale.
 
@@ -78,11 +78,10 @@ class Drawing(Shown):
 
     def __post_init__(self) -> None:
         if not (4 * MARGIN <= self.width < FAR and 4 * MARGIN <= self.height < FAR):
-            raise SheetError(f"drawing of {self.width:g} x {self.height:g} px: both must be {4 * MARGIN:g} px or more")
-        if self.frame is not None and not np.isfinite(np.asarray(self.frame, dtype=complex)).any():
-            raise SheetError("frame of the drawing has no finite point")
+            width, height, least = (numbers.significant(x, 6) for x in (self.width, self.height, 4 * MARGIN))
+            raise SheetError(f"drawing of {width} x {height} px: both must be {least} px or more")
         for unit, scale in self.scales.items():
-            if not 0 < scale < inf:
+            if not (0 < scale < inf or isnan(scale)):
                 raise SheetError(f"scale of the arrows = {scale} m/{unit} must be positive")
 
     def __add__(self, other: "Drawing") -> "Drawing":
@@ -105,7 +104,7 @@ class Drawing(Shown):
 
     def cylinder(self, A: complex, B: complex, name: str = "", barrel: float | None = None) -> "Drawing":
         """Hydraulic cylinder: a barrel of length ``barrel`` [m] on A (by default 0.6 AB), a rod as long on B."""
-        if barrel is not None and not 0 < barrel < inf:
+        if barrel is not None and not (0 < barrel < inf or isnan(barrel)):
             raise SheetError(f"barrel of the cylinder = {barrel} m must be positive")
         A, B = _points("cylinder", (A, B))
         length = _length(B - A)
@@ -264,5 +263,5 @@ def _points(kind: str, points: ArrayLike, least: int = 1) -> tuple[complex, ...]
 
 
 def _known(colour: str) -> None:
-    if colour not in COLOURS:
-        raise SheetError(f"colour {colour!r} is not known; there are {', '.join(c for c in COLOURS if c)}")
+    if colour and colour not in COLOURS:
+        raise SheetError(f"colour {colour!r} is not known; there are {', '.join(COLOURS)}")

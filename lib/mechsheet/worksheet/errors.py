@@ -15,6 +15,26 @@ class SheetError(ValueError):
     """Input or a result that cannot be used; the message is one line for the person at the worksheet."""
 
 
+_LONG = 60  # characters of what was given that an error shows
+
+
+def cut(text: str) -> str:
+    """A text as an error shows it: of a long one the beginning.
+
+    >>> cut("P6"), cut("9" * 5000)[50:]
+    ('P6', '9999999999.. (5000 characters)')
+    """
+    return text if len(text) <= _LONG else f"{text[:_LONG]}.. ({len(text)} characters)"
+
+
+def as_given(value: object) -> str:
+    """What was given, as an error shows it: a text between quotes."""
+    try:
+        return cut(repr(value) if isinstance(value, str) else str(value))
+    except ValueError:
+        return "a whole number of thousands of digits"
+
+
 def refuse(error: SheetError, shown: Any = None) -> NoReturn:
     """Stop the running cell and those that need it: in its own page the reason stands in its place, elsewhere raise.
 

@@ -75,7 +75,10 @@ class Found(Shown):
     evaluations : int
         Values of f computed so far, over all problems and branches, sampling and verification included.
     roots : tuple of Root
-        All roots of all branches in the interval, in ascending order.
+        The roots of all branches in the interval, in ascending order: all that the samples show.
+    samples : int
+        Distinct places on all branches at which f was looked at for roots, reach and reason, whose words name them:
+        what f does between two of them is not known.
     interval : tuple of float
         The interval searched on the wanted branch.
     reached : tuple of float
@@ -114,6 +117,10 @@ class Found(Shown):
     @property
     def roots(self) -> tuple[Root, ...]:
         return self._everything.roots
+
+    @property
+    def samples(self) -> Any:
+        return self._everything.samples
 
     @property
     def reached(self) -> tuple[Any, Any]:
@@ -167,7 +174,7 @@ class Found(Shown):
                 numbers.amount(root.value, words.unknown_unit, 6) + (on and f" (branch {root.branch:+d})")
                 for root in self.roots
             ]
-            rows.append(("all roots", "; ".join(roots) or "none"))
+            rows.append((f"roots by {self.samples} samples", "; ".join(roots) or "none"))
         rows.append(("searched", numbers.extent(self.interval, words.unknown_unit)))
         return [*rows, ("evaluations", str(self.evaluations))]
 
@@ -177,6 +184,7 @@ class _Everything:
     """What the search of all branches tells: see `Found`."""
 
     roots: tuple[Root, ...]
+    samples: Any
     reached: Callable[[], tuple[Any, Any]]
     reason: Any
 
@@ -284,8 +292,9 @@ def find(
             Root(shaped(x), shaped(s), shaped(r), (shaped(a), shaped(b)))
             for x, r, a, b, s in together(search.roots, labels)
         )
+        samples = shaped(search.samples.reshape(len(labels), -1).sum(0))
         return _Everything(
-            roots, lambda: (shaped(search.reached[0, at]), shaped(search.reached[1, at])), shaped(reasons)
+            roots, samples, lambda: (shaped(search.reached[0, at]), shaped(search.reached[1, at])), shaped(reasons)
         )
 
     answer = nearest_root(own, flat) if _values_only.get() else search_all().nearest(at, flat.get("guess"))
@@ -309,7 +318,9 @@ def find(
 def _nothing(words: _Words, branch: int | None, shape: tuple[int, ...]) -> Found:
     """The verdict on problems none of which has an interval, a target and a guess."""
     none = np.full(shape, np.nan)
-    everything = _Everything((), lambda: (none, none), np.full(shape, _without_numbers(words), dtype=object))
+    everything = _Everything(
+        (), np.zeros(shape, dtype=int), lambda: (none, none), np.full(shape, _without_numbers(words), dtype=object)
+    )
     return Found(none, branch, none, (none, none), (none, none), none, words, lambda: 0, lambda: everything)
 
 
@@ -347,19 +358,19 @@ def _on_branch(f: Callable[..., Any], s: int) -> Function:
 
 
 def _reason(words: _Words, equals: float, search: Roots, c: int) -> str:
-    """Why there is no root in column c."""
-    at, unit = words.unknown_unit, words.unit
+    """Why the samples show no root in column c."""
+    at, unit, by = words.unknown_unit, words.unit, f" by {search.samples[c]} samples"
     least, greatest = search.reached[:, c]
     if np.isnan(search.interval[:, c]).any():
         return _without_numbers(words)
     if np.isnan(least):
-        return f"nothing closes for {words.unknown} in {numbers.extent(search.interval[:, c], at)}"
+        return f"nothing closes for {words.unknown} in {numbers.extent(search.interval[:, c], at)}{by}"
     *ends, target = numbers.apart([least, greatest, equals], unit)
     reach, after = numbers.span(ends), numbers.suffix(unit)
     if not least <= equals <= greatest:
-        return f"{words.unknown}: {words.quantity} reaches {reach}{after}, {target}{after} is outside"
+        return f"{words.unknown}: {words.quantity} reaches {reach}{after}{by}, {target}{after} is outside"
     where = "" if np.isnan(search.jump[c]) else f" at {numbers.amount(search.jump[c], at)}"
-    verdict = f"reaches {reach}{after} but jumps over {target}{after}{where}"
+    verdict = f"reaches {reach}{after}{by} but jumps over {target}{after}{where}"
     return f"{words.unknown}: {words.quantity} {verdict}"
 
 

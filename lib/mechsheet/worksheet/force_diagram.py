@@ -1,12 +1,17 @@
 """Drawings of forces over all positions of a mechanism: groups cut free at one of them, polar diagrams of reactions."""
 
+import ast
+import sys
 from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from mechsheet.worksheet import source
 from mechsheet.worksheet.drawing import Drawing
+from mechsheet.worksheet.lines import registry
+from mechsheet.worksheet.title import SideBySide, side_by_side
 
 
 def largest_of(*fields: ArrayLike) -> Any:
@@ -41,13 +46,13 @@ def cut_group(
     Returns
     -------
     Drawing
-        What was ``drawn`` with the forces; as it was where the group closes in no position.
+        What was ``drawn`` with the forces; as it was where the group closes in no position or has no size.
     """
     ends = np.concatenate([np.ravel(point) for point in points])
     seen = ends[np.isfinite(ends)]
-    if not seen.size:
+    size = max(np.ptp(seen.real), np.ptp(seen.imag)) if seen.size else 0.0
+    if not size:
         return drawn
-    size = max(np.ptp(seen.real), np.ptp(seen.imag))
     scale = part * size / largest_of(*(F for _, F, *_ in forces.values()))
     room = [seen]
     for P, F, *other in forces.values():
@@ -81,6 +86,19 @@ def polar(R: NDArray[np.complex128], at: int, name: str, turn: int = 360) -> Dra
     for k in range(4):
         picture = picture.hinge(R[k * turn // 4], f"{90 * k}°")
     return picture.force(0j, R[at], name)
+
+
+def polar_diagrams(at: int, turn: int = 360, **forces: NDArray[np.complex128]) -> SideBySide:
+    """Polar diagrams of forces, three in a row, each over what the line says that declares its force.
+
+    ``at`` and ``turn`` are those of `polar`, the forces fields of the worksheet by their symbols: ``R12=R_A``.
+    """
+    frame = sys._getframe(1)
+    known = registry(frame.f_globals)
+    fields = {k.arg: k.value.id for k in source.call(frame).keywords if isinstance(k.value, ast.Name)}
+    said = {name: known[field].meaning if field in known else "" for name, field in fields.items()}
+    drawn = ((polar(R, at, name, turn), said.get(name, "")) for name, R in forces.items())
+    return side_by_side(*drawn, row=3)
 
 
 def _at(field: ArrayLike, at: int) -> complex:

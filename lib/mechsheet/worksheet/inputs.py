@@ -7,13 +7,14 @@ import re
 import sys
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
+from math import inf
 from typing import TYPE_CHECKING, Any, TypeVar, dataclass_transform
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mechsheet import units
-from mechsheet.worksheet import lines, numbers, source
+from mechsheet.worksheet import errors, lines, numbers, source
 from mechsheet.worksheet.errors import SheetError, refuse
 from mechsheet.worksheet.shown import Shown
 
@@ -21,14 +22,17 @@ if TYPE_CHECKING:
     import marimo as mo
 
 T = TypeVar("T")
-_LIMIT = re.compile(r"(<=|>=|<|>)\s*(\S+)")
-_MOST = 1e60  # products of a few inputs of this size are still numbers
+_LIMIT = re.compile(r"\s*(<=|>=|<|>)\s*([^\s<>=]+)(?=[\s<>]|$)")
+_NUMBER = re.compile(r"([+−-]?(?:\d+(?:[.,]\d*)?|[.,]\d+)(?:[eE][+−-]?\d+)?)(.*)", re.DOTALL)
+_THOUSANDS = re.compile(r"\W?[1-9]\d{0,2},\d{3}(?!\d)")  # elsewhere read as such, here as a number with a decimal comma
+_UNIT = 40  # characters of a unit at most
+MOST, LEAST = 1e60, 1e-60  # products of a few inputs of this size are still numbers
 _COMPARE = {"<": np.less, "<=": np.less_equal, ">": np.greater, ">=": np.greater_equal}
 
 
 @dataclass(frozen=True)
 class Input:
-    """One declared input; ``limits`` are pairs such as (">", "0") or ("<", "S_max"), in the display unit."""
+    """One declared input; ``limits`` are pairs such as (">", "0"), in the display unit, or ("<", "S_max")."""
 
     name: str
     unit: str
@@ -43,6 +47,28 @@ class Input:
             return value
         shown = value / units.parse(self.unit).factor
         return shown if np.ndim(shown) else float(numbers.significant(shown, 15))
+
+    def read(self, value: object) -> float:
+        """Number in the display unit, from a number or a text, behind which another unit may stand.
+
+        Raises SheetError naming the input and what cannot be used of it.
+        """
+        try:
+            x, other = _split(value)
+            if other:
+                theirs, own = units.parse(other), units.parse(self.unit)
+                if theirs.dims != own.dims:
+                    raise SheetError(
+                        f"{self.meaning} {self.name} = {errors.as_given(value)}: {other} does not measure {self.unit}"
+                    )
+                x = float(numbers.significant(x * (theirs.factor / own.factor), 15))
+        except SheetError:
+            raise
+        except ValueError:
+            raise SheetError(f"{self.says(errors.as_given(value))} is no number") from None
+        if self.whole and not x.is_integer():
+            raise SheetError(f"{self.says(x)} must be a whole number")
+        return x
 
     def si(self, value: Any, default: Any) -> Any:
         """SI value of a number or an array in the display unit; the default itself where it is shown as that number."""
@@ -63,7 +89,7 @@ class Input:
 
     def says(self, value: object) -> str:
         """The input as an error names it: meaning, symbol, value and unit."""
-        return f"{self.meaning} {self.name} = {value}" + (f" {self.unit}" if self.unit != "-" else "")
+        return f"{self.meaning} {self.name} = {value}{numbers.suffix(self.unit)}"
 
 
 @dataclass_transform(frozen_default=True)
@@ -93,7 +119,7 @@ def declared(cls: type) -> tuple[Input, ...]:
 
 def _declared(name: str, cell: source.Cell) -> tuple[Input, ...]:
     body = next(node for node in cell.body if isinstance(node, ast.ClassDef) and node.name == name)
-    found, section, line = [], "", body.lineno
+    found, places, section, line = list[Input](), dict[str, str](), "", body.lineno
     for node in body.body:
         between = [cell.comments[n] for n in range(line + 1, node.lineno) if n in cell.comments]
         section, line = between[-1] if between else section, node.end_lineno or node.lineno
@@ -105,8 +131,40 @@ def _declared(name: str, cell: source.Cell) -> tuple[Input, ...]:
             raise SheetError(f"{cell.at(line)}: input {field} needs a comment with its unit, such as # [m] meaning")
         unit, (meaning, _, limits) = text[0], text[1].partition(";")
         whole = ast.unparse(node.annotation) == "int"
-        found.append(Input(field, unit, meaning.strip(), section, whole, tuple(_LIMIT.findall(limits))))
+        found.append(Input(field, unit, meaning.strip(), section, whole, tuple(_limits(limits, field, cell.at(line)))))
+        places[field] = cell.at(line)
+    _comparable(found, places)
     return tuple(found)
+
+
+def _limits(text: str, field: str, place: str) -> Iterator[tuple[str, str]]:
+    """The limits of a line, all of its text; SheetError naming the place and what cannot be read."""
+    at = 0
+    while text[at:].strip():
+        match = _LIMIT.match(text, at)
+        if not match:
+            like = "> 0, <= 3 or < S_max"
+            raise SheetError(
+                f"{place}: limit {text[at:].strip()!r} of {field} cannot be read; limits are such as {like}"
+            )
+        yield match[1], match[2]
+        at = match.end()
+
+
+def _comparable(fields: Iterable[Input], places: Mapping[str, str]) -> None:
+    """SheetError where a limit is neither a number nor an input in the same unit."""
+    units_of = {field.name: field.unit for field in fields}
+    for field in fields:
+        for sign, other in field.limits:
+            said = f"{places[field.name]}: limit {sign} {other} of {field.name}"
+            if other in units_of:
+                if units_of[other] != field.unit:
+                    raise SheetError(f"{said}: {other} is in {units_of[other]}, {field.name} in {field.unit}")
+                continue
+            try:
+                number(other)
+            except ValueError:
+                raise SheetError(f"{said}: {other} is neither a number nor an input") from None
 
 
 def _validate(self: Any) -> None:
@@ -131,16 +189,16 @@ def _rules(fields: Iterable[Input], shown: Mapping[str, Any]) -> Iterator[tuple[
     for field in fields:  # what is no number is named before what it would be compared with
         size = np.abs(np.asarray(shown[field.name], dtype=float))
         yield np.isfinite(size), say(field, "a finite number")
-        yield size <= _MOST, say(field, f"at most {_MOST:g} in size")
+        yield size <= MOST, say(field, f"at most {numbers.significant(MOST, 6)} in size")
     for field in fields:
         value = shown[field.name]
         for sign, other in field.limits:
             is_input, is_length = other in shown, (sign, other) == (">", "0")
-            limit = shown[other] if is_input else float(other)
+            limit = shown[other] if is_input else number(other)
             must = "positive" if is_length else f"{sign} {other}"
             yield _COMPARE[sign](value, limit), say(field, must, other * is_input)
             if is_length:
-                yield np.abs(value) >= 1 / _MOST, say(field, f"at least {1 / _MOST:g}")
+                yield np.abs(value) >= LEAST, say(field, f"at least {numbers.significant(LEAST, 6)}")
 
 
 def _element(values: Any, i: int) -> Any:
@@ -205,7 +263,10 @@ def instance(cls: type[T], si: Mapping[str, Any]) -> T:
 
 def _column(field: Input, given: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.object_]]:
     """Numbers of an input in its display unit, and the reason for each that cannot be used."""
-    column = np.asarray(given)
+    try:
+        column = np.asarray(given)
+    except ValueError:  # of rows that differ in length
+        raise SheetError(f"{field.says(errors.as_given(given))} is no array of numbers") from None
     texts = np.full(column.shape, "", dtype=object)
     if column.dtype.kind in "iuf":
         numbers = column.astype(np.float64)
@@ -213,9 +274,9 @@ def _column(field: Input, given: ArrayLike) -> tuple[NDArray[np.float64], NDArra
         numbers = np.full(column.shape, np.nan)
         for i, value in np.ndenumerate(column.astype(object)):
             try:
-                numbers[i] = number(value)
-            except ValueError:
-                texts[i] = f"{field.says(repr(value))} is no number"
+                numbers[i] = field.read(value)
+            except SheetError as error:
+                texts[i] = str(error)
     if field.whole:
         parts = np.isfinite(numbers) & (numbers != np.rint(numbers))
         texts[parts] = [f"{field.says(value)} must be a whole number" for value in numbers[parts]]
@@ -231,19 +292,39 @@ def known(fields: Mapping[str, Input], name: str) -> Input:
     """The input of that name; SheetError with the nearest names where there is none."""
     if name not in fields:
         near = difflib.get_close_matches(name, fields, n=3, cutoff=0.5)
-        raise SheetError(f"input {name} is unknown; nearest: {', '.join(near or fields)}")
+        raise SheetError(f"input {errors.cut(name)} is unknown; nearest: {', '.join(near or fields)}")
     return fields[name]
 
 
 def number(text: object) -> float:
     """Number written with a decimal point or comma; ValueError for anything else.
 
-    >>> number("0,415"), number("1.75e7")
-    (0.415, 17500000.0)
+    >>> number("0,415"), number("1.75e7"), number("27,500")
+    (0.415, 17500000.0, 27.5)
     """
-    if isinstance(text, bool) or not re.fullmatch(r"\s*[+-]?(\d+([.,]\d*)?|[.,]\d+)([eE][+-]?\d+)?\s*", str(text)):
-        raise ValueError(f"{text!r} is no number")
-    return float(str(text).replace(",", "."))
+    x, unit = _split(text)
+    if unit:
+        raise ValueError(f"{errors.as_given(text)} is no number")
+    return x
+
+
+def _split(value: object) -> tuple[float, str]:
+    """A number and the unit behind it; ValueError where there is no number."""
+    if isinstance(value, int) and not isinstance(value, bool):
+        return _float(value), ""
+    match = None if isinstance(value, bool) else _NUMBER.fullmatch(str(value).strip())
+    unit = match[2].strip() if match else ""
+    if not match or (unit and not (len(unit) < _UNIT and re.match(r"[^\W\d_]|%|1/", unit))):
+        raise ValueError(f"{errors.as_given(value)} is no number")
+    return float(match[1].replace(",", ".").replace("−", "-")), unit
+
+
+def _float(x: int) -> float:
+    """A whole number of any length, which Python would refuse to write."""
+    try:
+        return float(x)
+    except OverflowError:
+        return inf if x > 0 else -inf
 
 
 def build(cls: type[T], values: Mapping[str, object]) -> T:
@@ -252,17 +333,24 @@ def build(cls: type[T], values: Mapping[str, object]) -> T:
     Raises SheetError naming an unknown input with the nearest known ones, a text that is no number, or
     a value outside its limits.
     """
-    fields, given = {field.name: field for field in declared(cls)}, {}
-    for name, value in values.items():
-        field = known(fields, name)
-        try:
-            x = number(value)
-        except ValueError:
-            raise SheetError(f"{field.says(repr(value))} is no number") from None
-        if field.whole and not x.is_integer():
-            raise SheetError(f"{field.says(value)} must be a whole number")
-        given[name] = field.si(x, getattr(cls, name))
-    return cls(**given)
+    fields = {field.name: field for field in declared(cls)}
+    read = {name: known(fields, name).read(value) for name, value in values.items()}
+    return cls(**{name: fields[name].si(x, getattr(cls, name)) for name, x in read.items()})
+
+
+def readings(fields: Iterable[Input], values: Mapping[str, object]) -> list[str]:
+    """How texts among the values are read that could mean thousands elsewhere: a line each, to be told once.
+
+    >>> length = Input("L", "mm", "length", "", False, ())
+    >>> readings([length], {"L": "1,035"}), readings([length], {"L": "0,415"})
+    (['L = 1.035 mm, read with a decimal comma'], [])
+    """
+    return [
+        f"{field.name} = {numbers.significant(field.read(value), 15)}{numbers.suffix(field.unit)}"
+        ", read with a decimal comma"
+        for field in fields
+        if isinstance(value := values.get(field.name), str) and _THOUSANDS.match(value.strip())
+    ]
 
 
 def text(field: Input, value: Any) -> str:

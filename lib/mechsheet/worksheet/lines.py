@@ -20,7 +20,7 @@ _DECLARED = re.compile(r"\[([^\]]*)\]\s*(.*)")
 
 @dataclass(frozen=True)
 class Formula:
-    """One line ``name = expression  # [unit] meaning``; ``arguments`` are those of a function line."""
+    """One line ``name = expression  # [unit] meaning``; ``arguments`` are those of a function, by lambda or def."""
 
     name: str
     expression: ast.expr
@@ -65,11 +65,13 @@ def _formulas(cell: source.Cell) -> Iterator[Formula | Given]:
                 target = next((k.value for k in keywords if k.arg == "equals"), ast.Constant(0))
                 yield Given(_equation(f), target)
                 continue
+            case ast.FunctionDef(name, args, [*_, ast.Return(ast.expr() as body)]) | ast.Assign(
+                [ast.Name(name)], ast.Lambda(args, body)
+            ):
+                expression = _on_its_branch(args, body)
+                arguments = tuple(a.arg for a in args.args if a.arg != "branch")
             case ast.Assign([ast.Name(name)], expression):
-                arguments: tuple[str, ...] = ()
-            case ast.FunctionDef(name, body=[*_, ast.Return(ast.expr() as expression)]):
-                expression = _on_its_branch(node, expression)
-                arguments = tuple(a.arg for a in node.args.args if a.arg != "branch")
+                arguments = ()
             case _:
                 continue
         line = node.end_lineno or node.lineno
@@ -78,11 +80,11 @@ def _formulas(cell: source.Cell) -> Iterator[Formula | Given]:
             yield Formula(name, expression, *found, arguments)
 
 
-def _on_its_branch(node: ast.FunctionDef, expression: ast.expr) -> ast.expr:
+def _on_its_branch(args: ast.arguments, expression: ast.expr) -> ast.expr:
     """The expression with the assembly branch that the function takes unless it is told another."""
-    if not (node.args.args and node.args.args[-1].arg == "branch" and node.args.defaults):
+    if not (args.args and args.args[-1].arg == "branch" and args.defaults):
         return expression
-    default = ast.unparse(node.args.defaults[-1])
+    default = ast.unparse(args.defaults[-1])
     text = re.sub(r"\bbranch\b", default, ast.unparse(expression))
     return ast.copy_location(ast.parse(text, mode="eval").body, expression)
 
@@ -176,20 +178,31 @@ def _display(node: ast.stmt) -> ast.expr | None:
 def typeset(*shown: Any, display: Mapping[str, str] | None = None) -> "Typeset":
     """Formulas of the calling cell with their values, then whatever else is ``shown``: the last line of a cell.
 
-    Reads the cell's own source, so nothing is typed twice. Nothing is rendered until the page asks. ``display``
+    Where a cell calls it again, each call has the lines above it that no call above it has. Reads the cell's own
+    source, so nothing is typed twice. Nothing is rendered until the page asks. A text is Markdown. ``display``
     gives another display unit for some of the declared ones, such as ``{"kgf": "N"}``, to tables and figures too: a
     dictionary as it is written, or a name of the worksheet.
 
     Raises SheetError naming the line where a unit is not known.
     """
     frame = sys._getframe(1)
+    cell, here = source.cell(frame), frame.f_lineno
+    above = max((end for end in _typeset_lines(cell) if end < here), default=0)
     try:
-        lines = formulas(source.cell(frame))
+        lines = [row for row in formulas(cell) if above < row.expression.lineno < here]
     except SheetError as error:
         refuse(error)
     rows = [_displayed(row, display or {}) if isinstance(row, Formula) else row for row in lines]
     values = tuple(frame.f_globals[row.name] if isinstance(row, Formula) else None for row in rows)
     return Typeset(tuple(rows), values, shown, Numbers(frame.f_globals))
+
+
+@lru_cache(maxsize=1000)
+def _typeset_lines(cell: source.Cell) -> tuple[int, ...]:
+    """Lines in which the statements of a cell end that call typeset."""
+    calls = ((node, call) for node in cell.body for call in ast.walk(node) if isinstance(call, ast.Call))
+    named = (node for node, call in calls if isinstance(call.func, ast.Name) and call.func.id == "typeset")
+    return tuple(node.end_lineno or node.lineno for node in named)
 
 
 class Numbers:

@@ -1,6 +1,5 @@
 """Numbers as texts: how many digits are shown, and how a notation writes them, with their unit."""
 
-import re
 from collections.abc import Iterable, Sequence
 from decimal import Decimal
 from functools import cache, lru_cache
@@ -32,13 +31,6 @@ class Notation(NamedTuple):
 PLAIN = Notation("-", "nan", "inf", "{}e{:+03d}", "({}, {})", "..", " deg", " %", " {}", "**{}", "*")
 CELL = PLAIN._replace(none="–", infinite="∞")  # of a table
 AXIS = CELL._replace(minus="−")
-HTML = Notation(
-    "−", "none", "∞", "{}\u2009·\u200910<sup>{}</sup>", "({}, {})", " … ", "°", " %", " {}", "<sup>{}</sup>", "·"
-)
-LATEX = Notation(
-    "-", r"\text{none}", r"\infty", r"{} \cdot 10^{{{}}}", r"({},\ {})", r" \,\ldots\, ", r"^\circ", r"\,\%",
-    r"\ \mathrm{{{}}}", r"^{{{}}}", r"\cdot ",
-)  # fmt: skip
 
 
 def significant(x: float, digits: int) -> str:
@@ -74,8 +66,8 @@ def scientific(x: float, decimals: int, to: Notation = PLAIN) -> str:
 def usual(x: float, to: Notation) -> str:
     """Five significant digits or all before the point; a power of ten outside 1e-3..1e6.
 
-    >>> usual(0.4150004, HTML), usual(129613.7, HTML), usual(-1.5e-7, LATEX)
-    ('0.415', '129614', '-1.5 \\\\cdot 10^{-7}')
+    >>> usual(0.4150004, AXIS), usual(129613.7, AXIS), usual(-1.5e-7, AXIS)
+    ('0.415', '129614', '−1.5e−07')
     """
     if not isfinite(x):
         return _unlimited(x, to)
@@ -119,8 +111,7 @@ def _unit(unit: str, to: Notation) -> str:
     special = {"-": "", "deg": to.degrees, "%": to.percent}
     if unit in special:
         return special[unit]
-    powers = re.sub(r"\*\*(-?\d+)", lambda power: to.raised.format(power[1].replace("-", to.minus)), unit)
-    return to.unit.format(powers.replace("*", to.times))
+    return to.unit.format(units.shown(unit, lambda n: to.raised.format(str(n).replace("-", to.minus)), to.times))
 
 
 def _unlimited(x: float, to: Notation) -> str:

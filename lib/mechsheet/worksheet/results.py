@@ -10,14 +10,14 @@ from numpy.typing import NDArray
 from mechsheet import units
 from mechsheet.worksheet import numbers
 from mechsheet.worksheet.cells import base, value
-from mechsheet.worksheet.checks import Check
+from mechsheet.worksheet.check import Check
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.lines import registry
 from mechsheet.worksheet.scene import Limit
 
 
 @dataclass(frozen=True)
-class Quantity:
+class Displayed:
     """A number or a field of numbers in its display unit."""
 
     name: str
@@ -40,20 +40,22 @@ class Quantity:
         return f"{self.name} = {self.span}{numbers.suffix(self.unit)}, {self.meaning}"
 
 
-def quantities(name: str, namespace: Mapping[str, Any]) -> list[Quantity]:
+def quantities(name: str, namespace: Mapping[str, Any]) -> list[Displayed]:
     """The named result of a run in its display unit; of complex numbers the real and the imaginary part.
 
-    Raises SheetError where the result is no number or no line declares its unit.
+    Raises SheetError where the result is no number, an empty field, or no line declares its unit.
     """
     line = registry(namespace).get(base(name))
     if line is None or line.arguments:
         what = f"is a function of {', '.join(line.arguments)}" if line else "is declared by no line with its unit"
         raise SheetError(f"{name} {what}; numbers with a unit, checks and tables can be asked for")
     numbers = np.asarray(value(name, namespace)) / units.parse(line.unit).factor
+    if not numbers.size:
+        raise SheetError(f"{name} has no values")
     if np.iscomplexobj(numbers):
         parts = {f"{name}.real": numbers.real, f"{name}.imag": numbers.imag}
-        return [Quantity(part, line.unit, line.meaning, x) for part, x in parts.items()]
-    return [Quantity(name, line.unit, line.meaning, numbers)]
+        return [Displayed(part, line.unit, line.meaning, x) for part, x in parts.items()]
+    return [Displayed(name, line.unit, line.meaning, numbers)]
 
 
 def limited(values: Iterable[Any], limits: Mapping[str, Limit], namespace: Mapping[str, Any]) -> list[Any]:
@@ -62,11 +64,12 @@ def limited(values: Iterable[Any], limits: Mapping[str, Limit], namespace: Mappi
     Raises SheetError for a check with a least value, and for what is no real number.
     """
     judged, more = list(values), list[Check]()
+    held = {check.name: check for check in judged if isinstance(check, Check)}
     for name, limit in limits.items():
         if base(name).isidentifier():
             more += _checks(name, limit, namespace)
             continue
-        check = value(name, namespace)
+        check = held[name] if name in held else value(name, namespace)
         if limit.max is None or limit.min is not None:
             raise SheetError(f"limit of the check {name!r} must be {{max = NUMBER}}")
         judged = [replace(v, limit=limit.max) if v is check else v for v in judged]

@@ -20,7 +20,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from mechsheet.worksheet.errors import SheetError
+from mechsheet.worksheet.errors import SheetError, as_given, cut
 from mechsheet.worksheet.inputs import number
 
 
@@ -54,38 +54,42 @@ def load(path: Path) -> Scene:
         content = tomllib.loads(text)
     except OSError as error:
         raise SheetError(f"scene {path} cannot be read: {error.strerror}") from None
+    except RecursionError:
+        raise SheetError(f"scene {path} is no valid TOML: its brackets are nested too deep") from None
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
         comma = re.search(r"=\s*([+-]?\d+,\d+)", text)
         hint = f'; a number with a comma stands in quotes: "{comma[1]}"' if comma else ""
         raise SheetError(f"scene {path} is no valid TOML: {error}{hint}") from None
+    except ValueError:
+        raise SheetError(f"scene {path}: a whole number of thousands of digits cannot be used") from None
     return _scene(path, content)
 
 
 def _scene(path: Path, content: dict[str, Any]) -> Scene:
     unknown = sorted(set(content) - {"inputs", "want", "limits"})
     if unknown or not content:
-        has = f"it has {', '.join(unknown)}" if unknown else "it is empty"
+        has = f"it has {cut(', '.join(unknown))}" if unknown else "it is empty"
         raise SheetError(f"scene {path} may hold [inputs], want and [limits] and nothing else; {has}")
     inputs, want, limits = content.get("inputs", {}), content.get("want"), content.get("limits", {})
     for name, table in (("inputs", inputs), ("limits", limits)):
         if not isinstance(table, dict):
-            raise SheetError(f"scene {path}: {name} = {table!r} must be a table [{name}]")
+            raise SheetError(f"scene {path}: {name} = {as_given(table)} must be a table [{name}]")
     for name, value in inputs.items():
         if isinstance(value, dict | list):
-            raise SheetError(f"scene {path}: input {name} = {value!r} must be one number")
+            raise SheetError(f"scene {path}: input {name} = {as_given(value)} must be one number")
     if want is not None and not (isinstance(want, list) and want and all(isinstance(name, str) for name in want)):
-        raise SheetError(f'scene {path}: want = {want!r} must be a list of names such as ["GS6"]')
+        raise SheetError(f'scene {path}: want = {as_given(want)} must be a list of names such as ["GS6"]')
     return Scene(
         inputs, None, tuple(dict.fromkeys(want or ())), {name: _limit(path, name, x) for name, x in limits.items()}
     )
 
 
-def _limit(path: Path, name: str, given: object) -> Limit:
-    says = f"scene {path}: limit {name} = {given!r}"
-    if not isinstance(given, dict) or not given or set(given) - {"min", "max"}:
+def _limit(path: Path, name: str, ends: object) -> Limit:
+    says = f"scene {path}: limit {name} = {as_given(ends)}"
+    if not isinstance(ends, dict) or not ends or set(ends) - {"min", "max"}:
         raise SheetError(f"{says} must be {{min = NUMBER}}, {{max = NUMBER}} or both")
     try:
-        limit = Limit(**{end: number(value) for end, value in given.items()})
+        limit = Limit(**{end: number(value) for end, value in ends.items()})
     except ValueError as error:
         raise SheetError(f"{says}: {error}") from None
     if limit.min is not None and limit.max is not None and limit.min > limit.max:

@@ -15,6 +15,9 @@ class Page(Protocol):
     def written(self, value: object) -> tuple[str, str]:
         """MIME type and text of a value."""
 
+    def slider(self, slider: Any) -> Any:
+        """What a page moves for a slider; the slider itself where no page is running."""
+
     def refused(self, error: Exception, shown: Any) -> None:
         """Stop the running cell with an error in its place, or ``shown``; return where no page is running."""
 

@@ -84,9 +84,11 @@ def functions(tree: ast.Module) -> Iterator[ast.FunctionDef]:
 
 def markdown(node: ast.FunctionDef) -> ast.expr | None:
     """Text of a cell that shows one by ``mo.md``."""
-    match node.body[-2:]:
-        case [ast.Expr(ast.Call(ast.Attribute(ast.Name("mo"), "md"), [text])), _]:
-            return text
+    match node.body:
+        case [*_, ast.Expr(shown), ast.Return()] | [*_, ast.Expr(shown)]:
+            match shown:
+                case ast.Call(ast.Attribute(ast.Name("mo"), "md"), [text]):
+                    return text
     return None
 
 

@@ -3,7 +3,6 @@
 import re
 from dataclasses import dataclass
 from functools import cache
-from html import escape
 
 GREEK = {
     "alpha": "α", "beta": "β", "gamma": "γ", "delta": "δ", "eps": "ε", "epsilon": "ε", "zeta": "ζ", "eta": "η",
@@ -72,24 +71,13 @@ def plain(name: str) -> str:
     return stem(name).replace("_", "")
 
 
-def html(name: str) -> str:
-    """Name in HTML, for headings of tables and legends.
+def pieces(sentence: str) -> list[str]:
+    """A sentence in pieces: every second one is the name of a quantity.
 
-    >>> html("phi34"), html("R56x")
-    ('<i>φ</i><sub>34</sub>', '<i>R</i><sub>56x</sub>')
+    >>> pieces("omega3 < 1, theta/2")
+    ['', 'omega3', ' < 1, ', 'theta', '/2']
     """
-    symbol = read(stem(name))
-    return f"{symbol.mark}<i>{symbol.base}</i>" + (f"<sub>{symbol.index}</sub>" if symbol.index else "")
-
-
-def in_words(sentence: str) -> str:
-    """A sentence in HTML, the names of quantities in it as their symbols.
-
-    >>> in_words("omega3 < 1, theta/2")
-    '<i>ω</i><sub>3</sub> &lt; 1, <i>θ</i>/2'
-    """
-    words = re.split(rf"\b((?:{_WORDS})\b|[A-Za-z]+[_\d]\w*)", sentence)
-    return "".join(html(word) if i % 2 else escape(word) for i, word in enumerate(words))
+    return re.split(rf"\b((?:{_WORDS})\b|[A-Za-z]+[_\d]\w*)", sentence)
 
 
 def text(name: str) -> str:

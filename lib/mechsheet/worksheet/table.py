@@ -18,11 +18,10 @@ from mechsheet.worksheet.shown import Shown
 if TYPE_CHECKING:
     import pandas as pd
 
-DECIMALS = {
+_DECIMALS = {
     "m": 3, "cm": 2, "mm": 1, "deg": 1, "N": 0, "kgf": 0, "kN": 2, "Pa": 0, "MPa": 2, "kgf/cm**2": 0, "%": 1,
     "kgf*cm": 0, "kgf/cm": 1, "N*m": 0, "N/mm": 1, "mm**2": 1, "cm**4": 1, "mm**4": 0, "mm**3": 0,
 }  # fmt: skip
-_OTHER_DECIMALS = 3
 MARKED = 60  # points of a curve that are marked one by one; more of them hide the line
 
 
@@ -56,6 +55,9 @@ class Table(Shown):
     note: str = ""
     every: int = 1  # only every so many positions are listed
 
+    def __post_init__(self) -> None:
+        _some_rows(f"table {self.number}", self.columns)
+
     def frame(self) -> "pd.DataFrame":
         """The table as a pandas DataFrame, headings ``symbol [unit]``."""
         import pandas as pd  # on use: a worksheet shows its tables without
@@ -73,6 +75,9 @@ class Figure(Shown):
     lines: tuple[Column, ...]
     marks: tuple[tuple[str, float], ...] = ()
     every: int = 1  # only every so many positions are marked by a point
+
+    def __post_init__(self) -> None:
+        _some_rows(f"figure {self.number}", (self.x, *self.lines))
 
     logarithmic: ClassVar[bool] = False  # both axes
 
@@ -190,9 +195,20 @@ def _columns(
         unit = show.get(label, line.unit)
         shown = np.broadcast_to(np.asarray(value) / units.parse(unit).factor, shape)[..., ::every].ravel()
         whole = np.asarray(value).dtype.kind in "iu"
-        usual = DECIMALS.get(unit, _OTHER_DECIMALS) if decimals is None else decimals
-        columns.append(Column(label, unit, line.meaning, 0 if whole else usual, shown))
+        places = usual_decimals(unit) if decimals is None else decimals
+        columns.append(Column(label, unit, line.meaning, 0 if whole else places, shown))
     return tuple(columns)
+
+
+def usual_decimals(unit: str) -> int:
+    """Decimals of a number in a display unit."""
+    return _DECIMALS.get(unit, 3)
+
+
+def _some_rows(what: str, columns: tuple[Column, ...]) -> None:
+    """Refuse what would be shown without a row: it would look like a result."""
+    if not all(len(column.values) for column in columns):
+        refuse(SheetError(f"{what} has no rows"))
 
 
 def _is_group(node: ast.expr) -> bool:

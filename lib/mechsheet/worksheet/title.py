@@ -1,9 +1,11 @@
-"""What arranges a worksheet beside its formulas and tables: title, captions, columns, moving positions, players."""
+"""What arranges a worksheet beside its formulas and tables: title, captions, columns, sliders, moving positions."""
 
+import sys
 from dataclasses import dataclass
 from typing import Any
 
-from mechsheet.worksheet.shown import Shown
+from mechsheet.worksheet.errors import SheetError, refuse
+from mechsheet.worksheet.shown import Shown, page
 
 
 @dataclass(frozen=True)
@@ -39,14 +41,15 @@ def caption(number: str, title: str) -> Caption:
 
 @dataclass(frozen=True)
 class SideBySide(Shown):
-    """Columns of what is shown, as many in a row as find room."""
+    """Columns of what is shown: ``row`` of them share each row, of 0 as many as find room."""
 
     columns: tuple[tuple[Any, ...], ...]
+    row: int = 0
 
 
-def side_by_side(*shown: Any) -> SideBySide:
-    """Drawings beside each other; of a tuple, one below the other."""
-    return SideBySide(tuple(each if isinstance(each, tuple) else (each,) for each in shown))
+def side_by_side(*shown: Any, row: int = 0) -> SideBySide:
+    """Drawings beside each other, ``row`` of them or as many as find room; of a tuple, one below the other."""
+    return SideBySide(tuple(each if isinstance(each, tuple) else (each,) for each in shown), row)
 
 
 @dataclass(frozen=True)
@@ -59,6 +62,40 @@ class Mark(Shown):
 def mark(**positions: Any) -> Mark:
     """The position of a slider, such as ``mark(S=S_t)``, to be shown beside what is drawn there."""
     return Mark(tuple(positions.items()))
+
+
+@dataclass(frozen=True)
+class Slider(Shown):
+    """A control by its range, step and position, all in ``unit``; without a step it rests at any position."""
+
+    start: float
+    stop: float
+    step: float | None
+    value: float
+    label: str
+    unit: str = "-"
+
+
+def slider(
+    start: float,
+    stop: float,
+    step: float | None = None,
+    value: float | None = None,
+    label: str = "",
+    unit: str = "-",
+) -> Any:
+    """A slider, by default at its start: ``turn = slider(0, 360, step=2, label="crank", unit="deg")``.
+
+    Other cells read its position as ``turn.value``, in ``unit``; they run again when it is moved. In a page it is an
+    element of marimo, which alone does that; elsewhere a `Slider` that rests at its value.
+
+    Raises SheetError where the value is not within the range.
+    """
+    made = Slider(start, stop, step, start if value is None else value, label, unit)
+    if not start <= made.value <= stop:
+        refuse(SheetError(f"slider {label or 'without a label'}: value = {made.value} must be {start}..{stop}"))
+    # Of another worksheet, evaluated in a page, nothing can be moved there.
+    return page().slider(made) if sys._getframe(1).f_globals.get("__name__") == "__main__" else made
 
 
 @dataclass(frozen=True)

@@ -3,12 +3,48 @@
 import numpy as np
 import pytest
 
-from mechsheet.worksheet.checks import Check, assembled, check, check_slope, listen, require, summary
+from mechsheet.worksheet.check import Check, assembled, check, check_slope, listen, require, summary
 
 
 @pytest.mark.parametrize(("residual", "passed"), [(1e-12, True), ([0, -2e-12], False), (np.nan, False), (1e-12j, True)])
 def test_worst_element_decides_and_nan_fails(residual, passed):
     assert check("c", residual, 1e-12).passed is passed
+
+
+@pytest.mark.parametrize(
+    ("over_nothing", "passed"),
+    [
+        (check("c", [], 1.0), False),
+        (check("c", [], 1.0, of=1), False),
+        (check("c", [], 1.0, of=[]), False),
+        (check_slope("c", [], np.sin, np.array([]), 0, 1), False),
+        (assembled("c", np.array([]), [], (0.3, 0.7), "S", "m"), False),
+        (check("c", [0.0], 0.0, of=0.0), True),
+    ],
+)
+def test_over_nothing_is_not_evaluated_and_zero_is_something(over_nothing, passed):
+    c = over_nothing
+    assert (c.passed, c.evaluated, c.verdict) == (passed, passed, "pass" if passed else "not evaluated")
+    assert passed or "there is nothing to check" in c.reason
+
+
+@pytest.mark.parametrize("part", [1e-12, 0.9e-3, 1.1e-3, 1.0, 1e10, np.inf, np.nan])
+@pytest.mark.parametrize("size", [1e-300, 1.0, 3.6e16])
+@pytest.mark.parametrize("off", [0.0, 0.5, 2.0])
+def test_agreement_within_more_than_a_thousandth_is_none(part, size, off):
+    """Whatever the two computations differ by, a limit that allows anything has compared nothing."""
+    within = part * size if part < 1 else size
+    c = check("R12 is that of the library", [0.0, off * within], part, "N", of=[size, -size / 2])
+    assert c.evaluated is (part <= 1e-3)
+    assert c.passed is (part <= 1e-3 and off < 1)
+    if not c.evaluated:
+        assert "more than a thousandth of what is compared" in str(c) and str(c).startswith("not evaluated  R12")
+
+
+def test_slope_whose_differences_know_nothing_is_not_evaluated():
+    x = np.linspace(0.0, 1.0, 5)
+    c = check_slope("wild", np.ones(5), lambda x: np.sin(1e6 * x), x, 0.0, 1.0)
+    assert not c.evaluated and "more than a thousandth" in c.reason
 
 
 def test_shown_in_its_unit():
@@ -36,7 +72,7 @@ def test_slope_that_does_not_exist_or_is_zero_everywhere(slope):
 
 def test_slope_over_an_empty_range_fails_in_words():
     c = check_slope("point", np.ones(2), lambda x: x, np.ones(2), 1.0, 1.0)
-    assert not c.passed and c.reason == "the range is empty"
+    assert not c.passed and not c.evaluated and c.reason == "there is nothing to check: the range is empty"
 
 
 def test_open_position_is_named_with_its_reach():
@@ -82,7 +118,7 @@ def test_summary_counts_and_leads_to_each_check():
 def test_what_has_no_number_is_not_evaluated_and_no_pass():
     open_one = check("moments of R01", [1e-15, np.nan], 1e-12, "N*m")
     assert not open_one.passed and not open_one.evaluated
-    assert str(open_one) == "FAIL  moments of R01: not evaluated; 1 of 2 values do not exist"
+    assert str(open_one) == "not evaluated  moments of R01; 1 of 2 values do not exist"
     assert "not evaluated" in open_one._mime_()[1] and "nan" not in open_one._mime_()[1]
     assert "<i>R</i><sub>01</sub>" in open_one._mime_()[1]
     shown = summary(check("a", 0, 1), check("b", 2, 1), open_one)._mime_()[1]

@@ -1,4 +1,4 @@
-"""Checks as values: a residual against its limit, with a verdict."""
+"""Checks as values: a residual against its limit, with a verdict: pass, FAIL or not evaluated."""
 
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
@@ -18,6 +18,7 @@ from mechsheet.worksheet.errors import SheetError, refuse
 from mechsheet.worksheet.find import Found
 from mechsheet.worksheet.shown import Shown
 
+_AGREED = 1e-3  # of a quantity: what may differ by more has not been compared
 _told = ContextVar[list[NDArray[np.object_]] | None]("_told", default=None)
 
 
@@ -25,8 +26,8 @@ _told = ContextVar[list[NDArray[np.object_]] | None]("_told", default=None)
 class Check(Shown):
     """One statement that a worksheet proves about itself.
 
-    ``residual`` and ``limit`` are in ``unit``; the check passes where ``residual <= limit``, so NaN fails.
-    A check that is ``essential`` stops a script run before anything is written.
+    ``residual`` and ``limit`` are in ``unit``; the check passes where ``residual <= limit``. Where one of them is NaN
+    it is not evaluated, which is no pass. A check that is ``essential`` stops a script run before anything is written.
     """
 
     name: str
@@ -42,16 +43,18 @@ class Check(Shown):
 
     @property
     def evaluated(self) -> bool:
-        """Whether there is a residual at all; what was not evaluated has not passed."""
-        return not isnan(self.residual)
+        """Whether there are a residual and a limit at all; what was not evaluated has not passed."""
+        return not (isnan(self.residual) or isnan(self.limit))
+
+    @property
+    def verdict(self) -> str:
+        """One of pass, FAIL, not evaluated."""
+        return "not evaluated" if not self.evaluated else "pass" if self.passed else "FAIL"
 
     def __str__(self) -> str:
-        if not self.evaluated:
-            return f"FAIL  {self.name}: not evaluated; {self.reason}".removesuffix("; ")
-        verdict = "pass" if self.passed else "FAIL"
         residual, limit = (numbers.significant(x, 3) for x in (self.residual, self.limit))
-        text = f"{verdict}  {self.name}: {residual} <= {limit}{numbers.suffix(self.unit)}"
-        return f"{text}; {self.reason}" if self.reason else text
+        compared = f": {residual} <= {limit}{numbers.suffix(self.unit)}" if self.evaluated else ""
+        return f"{self.verdict}  {self.name}{compared}" + (f"; {self.reason}" if self.reason else "")
 
 
 @dataclass(frozen=True)
@@ -66,33 +69,51 @@ def summary(*checks: Check | tuple[Check, ...]) -> Summary:
     return Summary(tuple(c for group in checks for c in (group if isinstance(group, tuple) else (group,))))
 
 
-def check(name: str, residual: ArrayLike, limit: float, unit: str = "-") -> Check:
+def check(name: str, residual: ArrayLike, limit: float, unit: str = "-", of: ArrayLike | None = None) -> Check:
     """Check that the largest magnitude of ``residual`` is at most ``limit``, both in SI; shown in ``unit``.
 
-    Where an element is NaN the check is not evaluated, which is no pass.
+    Where the residual is the difference of two computations, ``of`` is the quantity that both compute, and ``limit``
+    the part of its largest magnitude by which they may differ: over a thousandth it would tell nothing.
+
+    The check is not evaluated, and says why, over no values, where a value is NaN, and where the limit tells nothing.
     """
+    if of is None:
+        return _held(name, residual, limit, unit)
+    size = float(np.max(np.abs(of), initial=0.0))
+    return _held(name, residual, limit * size, unit, size)
+
+
+def _held(name: str, residual: ArrayLike, limit: float, unit: str, size: float = np.inf) -> Check:
+    """Check of a residual, of two computations of a quantity of that size; all in SI."""
     sizes, factor = np.abs(residual), units.parse(unit).factor
-    lost = int(np.count_nonzero(np.isnan(sizes)))
-    reason = f"{lost} of {sizes.size} values do not exist" if lost else ""
-    return Check(name, float(np.max(sizes)) / factor, limit / factor, unit, reason)
+    reason, lost = "", int(np.count_nonzero(np.isnan(sizes)))
+    if not sizes.size:
+        reason = "there is nothing to check"
+    elif lost:
+        reason = f"{lost} of {sizes.size} values do not exist"
+    elif not limit <= _AGREED * size:
+        of, least = (numbers.significant(x / factor, 2) for x in (size, limit))
+        reason = f"the limit, {least}, is more than a thousandth of what is compared, {of}{numbers.suffix(unit)}"
+    return Check(name, np.nan if reason else float(np.max(sizes)) / factor, limit / factor, unit, reason)
 
 
 def balance(
     what: str,
     loads: Sequence[Sequence[Load]],
     reactions: Sequence[Reaction],
-    forces: float,
-    moments: float,
+    limit: float,
+    force: ArrayLike,
+    length: ArrayLike,
 ) -> tuple[Check, Check]:
     """Check that loads and reactions hold each body in equilibrium: what is left of forces [N] and of moments [N m].
 
-    ``loads`` and ``reactions`` are those of `left_over`; ``forces`` and ``moments`` are the limits, ``what`` names the
-    bodies.
+    ``loads`` and ``reactions`` are those of `left_over`; ``limit`` is the part of the ``force`` [N], and of it with an
+    arm of the ``length`` [m], that may be left; ``what`` names the bodies.
     """
     left = left_over(loads, reactions)
     return (
-        check(f"equilibrium of forces, {what}", left.F, forces, "N"),
-        check(f"equilibrium of moments, {what}", left.M, moments, "N*m"),
+        check(f"equilibrium of forces, {what}", left.F, limit, "N", of=force),
+        check(f"equilibrium of moments, {what}", left.M, limit, "N*m", of=np.multiply(force, length)),
     )
 
 
@@ -108,21 +129,22 @@ def check_slope(
     """Check a derivative against adaptive differences of ``f`` at ``x``, taken inside ``lo``..``hi``.
 
     The limit is 1e-8 of the greatest slope, or ten times what the differences say of their own error, or what
-    rounding of ``f`` makes of them.
+    rounding of ``f`` makes of them; over a thousandth of the slope it would tell nothing.
     """
     from scipy.differentiate import derivative  # on use: scipy takes a tenth of a second
 
-    if not hi > lo:
-        return Check(name, np.nan, 0.0, unit, "the range is empty")
+    if not hi > lo or not np.size(x):
+        return Check(name, np.nan, 0.0, unit, "there is nothing to check: the range is empty")
     ends = np.where(x == lo, 1, np.where(x == hi, -1, 0))
     step = 0.04 * (hi - lo)
-    least = 1e-8 * float(np.max(np.abs(slope)))
+    size = float(np.max(np.abs(slope)))
+    least = 1e-8 * size
     # Finer differences than the check needs would be rounding, which their own error does not tell.
     enough = least / 10 if least > 0 else 0.0  # a slope may be NaN, a tolerance may not
     found = derivative(f, x, initial_step=step, step_direction=ends, tolerances={"atol": enough, "rtol": 0.0})
     rounding = 100 * float(np.finfo(float).eps * np.max(np.abs(f(x)))) / step
     limit = max(least, 10 * float(np.max(found.error)), rounding)
-    return check(name, np.asarray(slope) - found.df, limit, unit)
+    return _held(name, np.asarray(slope) - found.df, limit, unit, size)
 
 
 def closed_form(found: Found, value: ArrayLike, tolerance: float = 1e-10) -> Check:
@@ -131,9 +153,7 @@ def closed_form(found: Found, value: ArrayLike, tolerance: float = 1e-10) -> Che
     A workbook then computes the unknown by its closed form, so that it follows changed inputs.
     """
     name, unit = found.words.unknown, found.words.unknown_unit
-    return check(
-        f"{name}: Find and the closed form", np.asarray(value) - found.value, tolerance * abs(found.value), unit
-    )
+    return check(f"{name}: Find and the closed form", np.asarray(value) - found.value, tolerance, unit, of=found.value)
 
 
 def assembled(name: str, point: ArrayLike, over: ArrayLike, reaches: tuple[Any, Any], what: str, unit: str) -> Check:
@@ -144,6 +164,8 @@ def assembled(name: str, point: ArrayLike, over: ArrayLike, reaches: tuple[Any, 
     """
     lost = np.isnan(point)
     count = int(np.count_nonzero(lost))
+    if not lost.size:
+        return Check(name, np.nan, 0, "open positions", "there is nothing to check", essential=True)
     if not count:
         return Check(name, 0, 0, "open positions", essential=True)
     reason = _unreached(lost, over, reaches, what, unit)

@@ -1,0 +1,29 @@
+"""Symbols and numbers in HTML."""
+
+from html import escape
+
+from mechsheet.worksheet import symbol
+from mechsheet.worksheet.numbers import Notation
+
+HTML = Notation(
+    "−", "none", "∞", "{}\u2009·\u200910<sup>{}</sup>", "({}, {})", " … ", "°", " %", " {}", "<sup>{}</sup>", "·"
+)
+
+
+def named(name: str) -> str:
+    """Name of a quantity as its symbol, for headings of tables and legends.
+
+    >>> named("phi34"), named("R56x")
+    ('<i>φ</i><sub>34</sub>', '<i>R</i><sub>56x</sub>')
+    """
+    read = symbol.read(symbol.stem(name))
+    return f"{read.mark}<i>{read.base}</i>" + (f"<sub>{read.index}</sub>" if read.index else "")
+
+
+def in_words(sentence: str) -> str:
+    """A sentence, the names of quantities in it as their symbols.
+
+    >>> in_words("omega3 < 1, theta/2")
+    '<i>ω</i><sub>3</sub> &lt; 1, <i>θ</i>/2'
+    """
+    return "".join(named(piece) if i % 2 else escape(piece) for i, piece in enumerate(symbol.pieces(sentence)))

@@ -1,0 +1,142 @@
+"""What Python decides by itself, for recorded quantities: which of two numbers, which element, the greater of some."""
+
+import builtins
+from collections.abc import Callable, Iterable
+from functools import partial
+from typing import Any
+
+import numpy as np
+
+from mechsheet.recording.quantity import (
+    Quantity,
+    elementwise,
+    has_quantity,
+    joined,
+    lift,
+    plain,
+    trunc,
+)
+from mechsheet.recording.quantity import choice as where
+
+_NUMBERS = int | float | complex | np.number | Quantity
+
+
+def _condition(value: Any) -> bool:
+    """Whether a single recorded condition or number."""
+    return isinstance(value, Quantity) and value.size == 1 and value.im is None and value.re.op != "constant"
+
+
+def choice(condition: Any, x: Callable[[], Any], y: Callable[[], Any]) -> Any:
+    """``x if condition else y``: of two numbers the one that the condition says, else the way that is taken now."""
+    if not _condition(condition):
+        return x() if condition else y()
+    now, later = (x, y) if condition.value else (y, x)
+    value = now()
+    looked = dict(condition.graph.looked)
+    try:
+        other = later()
+    except Exception:  # the way that is not taken need not exist
+        other = None
+    if isinstance(value, _NUMBERS) and isinstance(other, _NUMBERS):
+        return where(condition.graph, condition, *((value, other) if condition.value else (other, value)))
+    condition.graph.looked = looked
+    bool(condition)
+    return value
+
+
+def both(*parts: Callable[[], Any]) -> Any:
+    """``x and y``: of conditions whether all hold."""
+    return _all(parts, True)
+
+
+def any_of(*parts: Callable[[], Any]) -> Any:
+    """``x or y``."""
+    return _all(parts, False)
+
+
+def _all(parts: tuple[Callable[[], Any], ...], wanted: bool) -> Any:
+    value = parts[0]()
+    for part in parts[1:]:
+        known = value
+        if _condition(value):
+            value = (
+                choice(value, part, partial(_itself, known)) if wanted else choice(value, partial(_itself, known), part)
+            )
+        elif bool(value) is wanted:
+            value = part()
+        else:
+            return value
+    return value
+
+
+def _itself(value: Any) -> Any:
+    return value
+
+
+def negated(value: Any) -> Any:
+    return elementwise("not")(value != 0 if value.re.value.dtype != bool else value) if _condition(value) else not value
+
+
+def element(container: Any, key: Any) -> Any:
+    """``container[key]``: where the key is a quantity, the one of several numbers that it points at."""
+    if not isinstance(key, Quantity) or isinstance(container, Quantity):
+        return container[key]
+    if isinstance(container, np.ndarray) and container.dtype.kind in "biufc":
+        return lift(key.graph, container)[key]
+    values = container if isinstance(container, dict) else dict(enumerate(container))
+    if key.size != 1 or not all(isinstance(v, _NUMBERS) for v in (*values, *values.values())):
+        seen = key.seen()
+        return container[seen.item() if seen.size == 1 else seen]
+    if not any(key.value == known for known in values):
+        raise KeyError(key.value.item()) if isinstance(container, dict) else IndexError(f"no element {key.value}")
+    result: Any = np.nan
+    for known, value in values.items():
+        result = where(key.graph, key == known, value, result)
+    return result
+
+
+def put(array: Any, key: Any, value: Any) -> Any:
+    """The array after ``array[key] = value``."""
+    if not isinstance(array, np.ndarray | Quantity) or not has_quantity([array, key, value]):
+        array[key] = value
+        return array
+    graph = next(part.graph for part in (array, key, value) if has_quantity(part) and isinstance(part, Quantity))
+    old, key = lift(graph, array), plain(key)
+    order = np.arange(old.size).reshape(old.shape)
+    new = lift(graph, value).broadcast(np.shape(order[key])).reshape(-1)
+    order[key] = old.size + np.arange(new.size).reshape(np.shape(order[key]))
+    return joined([old.reshape(-1), new], order)
+
+
+def part(number: Any, name: str, value: Any) -> Any:
+    """The number after ``number.real = value`` or ``number.imag = value``."""
+    if not has_quantity([number, value]):
+        setattr(number, name, value)
+        return number
+    return value + 1j * number.imag if name == "real" else number.real + 1j * value
+
+
+def _extreme(name: str) -> Callable[..., Any]:
+    fold = {"max": np.maximum, "min": np.minimum}[name]
+
+    def function(*args: Any, **kwargs: Any) -> Any:
+        values = list(args[0]) if len(args) == 1 and isinstance(args[0], Iterable) else list(args)
+        if kwargs or not has_quantity(values):
+            return getattr(builtins, name)(*args if len(args) > 1 else [values], **kwargs)
+        result = values[0]
+        for value in values[1:]:
+            result = fold(result, value)
+        return result
+
+    return function
+
+
+CALLS: dict[str, Callable[..., Any]] = {
+    "choice": choice, "and": both, "or": any_of, "not": negated, "element": element, "put": put,
+    "part": part,
+    "max": _extreme("max"), "min": _extreme("min"), "round": round,
+    "float": lambda *x: x[0] if has_quantity(x) else float(*x),
+    "int": lambda *x: trunc(x[0]) if has_quantity(x) else int(*x),
+    "complex": lambda *x: sum(a * b for a, b in zip(x, (1, 1j), strict=False)) if has_quantity(x) else complex(*x),
+    "pow": lambda *x: x[0] ** x[1] if has_quantity(x) else pow(*x),
+}  # fmt: skip

@@ -1,0 +1,450 @@
+"""Dimensions by the recording: each node has the exponents of m, kg and s that its operation makes of its operands'.
+
+A table from operation to rule. Where the elements of a quantity are unlike, each has its own. Three kinds of numbers
+stand beside the exponents: 0, infinite ones and NaN fit any dimension; a literal is a pure number where it is
+multiplied and takes the other's dimension where it is added or compared; of what is unknown nothing is told.
+"""
+
+from collections.abc import Callable, Iterable, Mapping
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mechsheet import units
+from mechsheet.recording.graph import Node
+from mechsheet.recording.lines import Recording, Residual, Solved
+from mechsheet.recording.literals import TOLERANCE, VANISHING, surely_pure
+from mechsheet.recording.pinpoint import Mistake, Places
+from mechsheet.recording.quantity import Quantity
+from mechsheet.worksheet import inputs
+from mechsheet.worksheet import numbers as shown_numbers
+from mechsheet.worksheet.find import Found
+from mechsheet.worksheet.lines import Formula
+
+Dims = tuple[float, float, float]
+Codes = int | NDArray[np.intp]  # of all elements, or of each
+
+NUMBER, UNKNOWN, ANY, LITERAL = range(4)  # codes; those of other exponents follow
+_PURE: Dims = (0, 0, 0)
+
+
+class Reader:
+    """The dimensions of all nodes of a recording, in the order in which they were made."""
+
+    def __init__(
+        self,
+        recording: Recording,
+        values: Mapping[str, Any],
+        namespace: Mapping[str, Any],
+        lines: Iterable[Formula],
+        places: Places,
+    ) -> None:
+        self.exponents: list[Dims | None] = [_PURE, None, None, None]
+        self.known: dict[Dims, int] = {_PURE: NUMBER}
+        self.products: dict[tuple[int, int, float], int] = {}
+        self.places, self.values = places, values
+        self.mistakes: dict[int, Mistake] = {}
+        self.notes: dict[int, Mistake] = {}
+        self.codes: dict[Node, Codes] = {}
+        self.of_pivots: set[Node] = set()
+        self.wrong: set[Node] = set()
+        self.told: set[tuple[int, str]] = set()
+        self.unit_of = {field.name: field.unit for field in inputs.declared(type(namespace["g"]))}
+        self.names = {node: name for name, node in recording.inputs.items()}
+        self.declared: dict[Node, list[Formula]] = {}
+        for line in lines:
+            value = values.get(line.name)
+            for node in value.parts if isinstance(value, Quantity) else ():
+                self.declared.setdefault(node, []).append(line)
+                self.names.setdefault(node, line.name)
+        self.used = dict.fromkeys([*(line.unit for line in lines), *self.unit_of.values()])
+        words = {value.words.unknown: value.words for value in namespace.values() if isinstance(value, Found)}
+        self.found = {solved.node: (solved, words[name]) for name, solved in recording.found.items() if name in words}
+        self.equations = {solved.residual for solved in recording.found.values()}
+        for node in recording.graph.nodes.values():
+            self.codes[node] = RULES[node.op](self, node)
+            if node in self.declared:
+                self.settle(node)
+        for name, check in recording.checks.items():
+            self.check(name, check)
+        for solved, told in self.found.values():
+            self.solved(solved, told)
+
+    def code(self, dims: Dims) -> int:
+        m, kg, s = (round(x, 9) for x in dims)
+        known = self.known.setdefault((m, kg, s), len(self.exponents))
+        if known == len(self.exponents):
+            self.exponents.append((m, kg, s))
+        return known
+
+    def of_unit(self, unit: str) -> int:
+        return self.code(units.parse(unit).dims)
+
+    def product(self, a: int, b: int, power: float = 1.0) -> int:
+        """Code of a quantity times a power of another one."""
+        known = self.products.get((a, b, power))
+        if known is not None:
+            return known
+        first, second = self.exponents[a], self.exponents[b]
+        if ANY in (a, b):
+            result = ANY
+        elif UNKNOWN in (a, b):
+            result = UNKNOWN
+        elif first is None and second is None:
+            result = LITERAL
+        else:
+            m, kg, s = (p + power * q for p, q in zip(first or _PURE, second or _PURE, strict=True))
+            result = self.code((m, kg, s))
+        self.products[a, b, power] = result
+        return result
+
+    def power(self, a: int, power: float) -> int:
+        return a if a in (ANY, LITERAL, UNKNOWN) else self.product(NUMBER, a, power)
+
+    def alike(self, node: Node, a: int, b: int) -> int:
+        """Code of two quantities that must be alike; a mistake or a note where they are not."""
+        for free in (ANY, UNKNOWN):
+            if free in (a, b):
+                return b if a == free else a
+        if a == b:
+            return a
+        if LITERAL in (a, b):
+            taken = b if a == LITERAL else a
+            if taken != NUMBER:
+                self.taken(node, taken)
+            return taken
+        self.tell(node, _SAID[node.op].format(self.word(a), self.word(b)), node.operands)
+        return UNKNOWN
+
+    def number(self, node: Node, a: int) -> int:
+        if self.exponents[a] is not None and a != NUMBER:
+            self.tell(node, f"{node.op} of a quantity in {self.word(a)}, not of a number", node.operands)
+        return NUMBER
+
+    def unfit(self, line: Formula, node: Node) -> bool:
+        """Whether a value does not fit the unit that a line declares, of a function too."""
+        unit = self.of_unit(line.unit)
+        wrong = [code for code in _kinds(self.codes[node]) if not self.fits(code, unit)]
+        if wrong:
+            self.wrong.add(node)
+        if wrong and "erratum" not in line.meaning:
+            why = f"unit [{line.unit}] does not fit; the value is in {self.word(wrong[0])}"
+            self.add(Mistake(self.places.line_of(line), line.name, why), (node,))
+        return bool(wrong)
+
+    def settle(self, node: Node) -> None:
+        """Compare a value with its declared units; in that of the line which made it, it is taken from here on."""
+        for line in self.declared[node]:
+            unit = self.of_unit(line.unit)
+            function = self.places.function_called(line.expression)
+            if not (function and self.unfit(function, node)):
+                self.unfit(line, node)
+            if node.op not in ("constant", "rows", "input") and (
+                self.places.lines[line.name] == node.line or _is(self.codes[node], UNKNOWN, LITERAL)
+            ):
+                self.codes[node] = unit
+
+    def check(self, name: str, check: Residual) -> None:
+        """Compare the residual and the limit of a check with its unit, or with each other where none is given."""
+        limit = self.one(check.limit)
+        given = limit if check.unit == "-" else self.of_unit(check.unit)
+        if not self.wrong.isdisjoint(self.own((*check.parts, check.limit))):
+            return
+        for what, part in (*(("residual", part) for part in check.parts), ("limit", check.limit)):
+            code = self.one(part)
+            if not self.fits(code, given):
+                against = "limit" if check.unit == "-" else "unit"
+                why = f"the {what} is in {self.word(code)}, its {against} in {self.word(given)}"
+                line = self.places.of_check(name, (part.line, check.limit.line))
+                self.add(Mistake(line, f"check {name!r}", why), (part, check.limit))
+                return
+
+    def solved(self, solved: Solved, words: Any) -> None:
+        """Compare a found value with its interval, and what it solves with the unit that is told of it."""
+        own = self.one(solved.node)
+        for end in solved.interval or ():
+            if not self.fits(code := self.one(end), own):
+                why = f"the interval is in {self.word(code)}, {words.unknown} in {self.word(own)}"
+                self.add(Mistake(solved.node.line, "find", why), (end,))
+                return
+        if solved.residual is not None and words.unit != "-":
+            code = self.one(solved.residual)
+            if not self.fits(code, self.of_unit(words.unit)):
+                why = f"unit [{words.unit}] does not fit; {words.quantity} is in {self.word(code)}"
+                self.add(Mistake(solved.node.line, "find", why), (solved.residual,))
+
+    @staticmethod
+    def fits(code: int, other: int) -> bool:
+        return code == other or bool({code, other} & {UNKNOWN, ANY, LITERAL})
+
+    def one(self, node: Node) -> int:
+        """The code of all elements; unknown where they are unlike."""
+        codes = self.codes[node]
+        return codes if isinstance(codes, int) else UNKNOWN
+
+    def tell(self, node: Node, why: str, operands: tuple[Node, ...]) -> None:
+        if (node.line, why) in self.told:
+            return
+        self.told.add((node.line, why))
+        if node in self.equations:
+            function = self.places.function_solved(node.line)
+            if not (function and self.unfit(function, operands[0])):
+                self.add(Mistake(node.line, "find", "the function and what it equals: " + why), operands)
+            return
+        line, part = self.places.find(node.line, node.op, [self.leaf_names(operand) for operand in operands])
+        if not self.places.is_erratum(line):
+            self.add(Mistake(line, part, why), operands)
+
+    def add(self, mistake: Mistake, roots: tuple[Node, ...]) -> None:
+        """Note a mistake, of a line the first; where a literal may have a unit, what it rests on."""
+        doubt = self.doubt(roots, mistake.line)
+        if doubt:
+            told = Mistake(mistake.line, mistake.part, f"{mistake.why}, unless {doubt} has a unit")
+            self.notes.setdefault(mistake.line, told)
+        else:
+            self.mistakes.setdefault(mistake.line, mistake)
+
+    def taken(self, node: Node, code: int) -> None:
+        """Note a literal that takes the dimension of what it is added to or compared with."""
+        literal = next((n for n in node.operands if n.op == "constant" and _is(self.codes[n], LITERAL)), None)
+        if literal is not None and node.op != "eq" and np.max(np.abs(literal.value)) >= TOLERANCE:
+            part = shown_numbers.significant(literal.value.item(), 6) if literal.size == 1 else "numbers"
+            self.notes.setdefault(node.line, Mistake(node.line, part, f"taken in {self.word(code)}"))
+
+    def own(self, roots: Iterable[Node]) -> Iterable[Node]:
+        """What quantities are made of, down to inputs and declared lines."""
+        waiting, seen, first = list(roots), set[Node](), set(roots)
+        while waiting:
+            node = waiting.pop()
+            if node in seen:
+                continue
+            seen.add(node)
+            yield node
+            if node not in self.names or (node in first and self.places.lines.get(self.names[node]) == node.line):
+                waiting.extend(node.operands)
+
+    def leaf_names(self, node: Node) -> set[str]:
+        if node in self.names:
+            return {self.names[node]}
+        return {self.names[n] for n in self.own([node]) if n in self.names}
+
+    def doubt(self, roots: tuple[Node, ...], line: int) -> str:
+        """A literal that may have a unit, on which quantities rest; in a line that reads a unit's name any may."""
+        for node in self.own(roots):
+            if node.op == "mul" and _is(self.codes[node], LITERAL):  # of the numbers of rows
+                return "one of the numbers in it"
+            for n in node.operands:
+                if n.op == "constant" and not surely_pure(n):
+                    if n.size > 1:
+                        return "one of the numbers in it"
+                    if self.places.reads_numbers(node.line, self.values):
+                        return shown_numbers.significant(n.value.item(), 6)
+            if name := self.places.unit_read(node.line, self.values):
+                return name
+        return self.places.unit_read(line, self.values)
+
+    def word(self, code: int) -> str:
+        """A unit of these exponents: one that the worksheet uses, without its factor, or a product."""
+        dims = self.exponents[code]
+        if dims is None or dims == _PURE:
+            return "- (a number)"
+        used = [units.si(unit) for unit in self.used if units.parse(unit).dims == dims]
+        parts = zip(("m", "kg", "s"), dims, strict=True)
+        product = "*".join(_raised(name, Fraction(n).limit_denominator(99)) for name, n in parts if n)
+        return units.shown(min(used, key=len, default=product))
+
+
+def _raised(name: str, power: Fraction) -> str:
+    whole = f"**{power}" if power.denominator == 1 else f"^({power})"
+    return name if power == 1 else name + whole
+
+
+# --- rules -------------------------------------------------------------------------------------------------------
+
+
+def _each(f: Callable[..., int], *codes: Codes) -> Codes:
+    """A rule for each combination of the operands' dimensions."""
+    if all(isinstance(c, int) for c in codes):
+        return f(*codes)
+    base = 1 + max(int(np.max(c)) for c in codes)
+    key: Any = 0
+    for c in codes:
+        key = key * base + c
+    table = np.zeros(base ** len(codes), np.intp)
+    for k in np.flatnonzero(np.bincount(key.reshape(-1))).tolist():
+        table[k] = f(*(k // base**n % base for n in reversed(range(len(codes)))))
+    return _simple(table[key])
+
+
+def _is(codes: Codes, *several: int) -> bool:
+    return isinstance(codes, int) and codes in several
+
+
+def _kinds(codes: Codes) -> list[int]:
+    return [codes] if isinstance(codes, int) else np.flatnonzero(np.bincount(codes.reshape(-1))).tolist()
+
+
+def _simple(codes: NDArray[np.intp]) -> Codes:
+    return int(codes.flat[0]) if codes.size and (codes == codes.flat[0]).all() else codes
+
+
+def _constant(reader: Reader, node: Node) -> Codes:
+    return LITERAL if np.any(np.isfinite(node.value) & (np.abs(node.value + 0.0) > VANISHING)) else ANY
+
+
+def _input(reader: Reader, node: Node) -> Codes:
+    return reader.of_unit(reader.unit_of[reader.names[node]])
+
+
+def _found(reader: Reader, node: Node) -> Codes:
+    """Of the unknown's unit; where none is given that of the line which takes its value, or of its interval."""
+    if node not in reader.found:
+        return UNKNOWN
+    solved, words = reader.found[node]
+    if words.unknown_unit != "-":
+        return reader.of_unit(words.unknown_unit)
+    if node in reader.declared:
+        return reader.of_unit(reader.declared[node][0].unit)
+    ends = [reader.codes.get(end) for end in solved.interval or ()]
+    return next((code for code in ends if isinstance(code, int) and code not in (ANY, LITERAL)), UNKNOWN)
+
+
+def _mul(reader: Reader, node: Node) -> Codes:
+    a, b = node.args
+    return _each(reader.product, reader.codes[a], reader.codes[b])
+
+
+def _div(reader: Reader, node: Node) -> Codes:
+    a, b = node.args
+    return _each(lambda p, q: reader.product(p, q, -1.0), reader.codes[a], reader.codes[b])
+
+
+def _alike(reader: Reader, node: Node) -> Codes:
+    a, b = node.args
+    return _each(lambda p, q: reader.alike(node, p, q), reader.codes[a], reader.codes[b])
+
+
+def _compared(reader: Reader, node: Node) -> Codes:
+    if _pivots(reader, node):
+        reader.of_pivots.add(node)
+    else:
+        _alike(reader, node)
+    return NUMBER
+
+
+def _pivots(reader: Reader, node: Node) -> bool:
+    """Whether the rows of linear equations are put in order here, which may be unlike."""
+    a, b = (reader.codes[operand] for operand in node.args)
+    if node.op != "gt" or np.array_equal(a, b):
+        return False
+    return not reader.places.reads(node.line).isdisjoint(("solve", "det", "inv"))
+
+
+def _where(reader: Reader, node: Node) -> Codes:
+    condition, a, b = node.args
+    if condition.op == "constant" or condition in reader.of_pivots:  # one order of the rows is as good as another
+        return _simple(np.where(condition.value, reader.codes[a], reader.codes[b]))
+    return _each(lambda p, q: reader.alike(node, p, q), reader.codes[a], reader.codes[b])
+
+
+def _pow(reader: Reader, node: Node) -> Codes:
+    base, exponent = node.args
+    powers = exponent.value
+    if exponent.op != "constant":
+        _each(lambda code: _exponent(reader, node, code), reader.codes[exponent])
+    if powers.size == 1:
+        return _each(lambda code: reader.power(code, float(powers.item())), reader.codes[base])
+    if _is(reader.codes[base], NUMBER, LITERAL, ANY, UNKNOWN):
+        return reader.codes[base]
+    several, where = np.unique(powers, return_inverse=True)
+    return _each(lambda code, k: reader.power(code, float(several[k])), reader.codes[base], where.reshape(powers.shape))
+
+
+def _exponent(reader: Reader, node: Node, code: int) -> int:
+    if reader.exponents[code] is not None and code != NUMBER:
+        reader.tell(node, f"an exponent in {reader.word(code)}", node.args)
+    return NUMBER
+
+
+def _number(reader: Reader, node: Node) -> Codes:
+    _each(lambda code: reader.number(node, code), reader.codes[node.args[0]])
+    return NUMBER
+
+
+def _truth(reader: Reader, node: Node) -> Codes:
+    return NUMBER
+
+
+def _atan2(reader: Reader, node: Node) -> Codes:
+    _alike(reader, node)
+    return NUMBER
+
+
+def _same(reader: Reader, node: Node) -> Codes:
+    return reader.codes[node.args[0]]
+
+
+def _take(reader: Reader, node: Node) -> Codes:
+    source, index = node.args
+    codes = reader.codes[source]
+    return codes if isinstance(codes, int) else _simple(np.broadcast_to(codes, source.shape).reshape(-1)[index])
+
+
+def _at(reader: Reader, node: Node) -> Codes:
+    codes = reader.codes[node.args[0]]
+    return codes if isinstance(codes, int) else UNKNOWN  # which of the unlike elements is not known
+
+
+def _join(reader: Reader, node: Node) -> Codes:
+    sources, which, inside = node.args
+    codes = [reader.codes[source] for source in sources]
+    if all(isinstance(c, int) for c in codes):
+        return _simple(np.array(codes)[which])
+    starts = np.cumsum([0, *(source.size for source in sources)])
+    flat = np.concatenate(
+        [np.broadcast_to(c, source.shape).reshape(-1) for c, source in zip(codes, sources, strict=True)]
+    )
+    return _simple(flat[starts[which] + inside])
+
+
+def _reduce(reader: Reader, node: Node) -> Codes:
+    source, groups, kind = node.args
+    codes = reader.codes[source]
+    if kind in ("any", "all", "argmax", "argmin"):
+        return NUMBER
+    if kind != "prod" and isinstance(codes, int):
+        return codes
+    flat = np.broadcast_to(codes, source.shape).reshape(-1)
+    result = [_folded(reader, node, kind, flat[group].tolist()) for group in groups]
+    return _simple(np.array(result).reshape(node.shape)) if result else UNKNOWN
+
+
+def _folded(reader: Reader, node: Node, kind: str, codes: list[int]) -> int:
+    total = codes[0]
+    for code in codes[1:]:
+        if kind == "prod":
+            total = reader.product(total, code)
+        elif code != total:
+            total = reader.alike(node, total, code)
+    return total
+
+
+_SAID = {
+    "add": "adds {} and {}", "sub": "subtracts {1} from {0}", "mod": "takes the remainder of {} by {}",
+    "atan2": "atan2 of {} and {}", "where": "chooses between {} and {}", "reduce": "puts {} and {} together",
+    **dict.fromkeys(("max", "min", "lt", "le", "gt", "ge", "eq", "ne"), "compares {} with {}"),
+}  # fmt: skip
+
+RULES: dict[str, Callable[[Reader, Node], Codes]] = {
+    "constant": _constant, "rows": lambda reader, node: LITERAL, "input": _input, "found": _found,
+    "exported": lambda reader, node: UNKNOWN, "take": _take, "at": _at, "join": _join, "reduce": _reduce,
+    "mul": _mul, "div": _div, "pow": _pow, "where": _where, "atan2": _atan2,
+    "sqrt": lambda reader, node: _each(lambda code: reader.power(code, 0.5), reader.codes[node.args[0]]),
+    **dict.fromkeys(("add", "sub", "max", "min", "mod"), _alike),
+    **dict.fromkeys(("lt", "le", "gt", "ge", "eq", "ne"), _compared),
+    **dict.fromkeys(("neg", "abs", "floor", "round"), _same),
+    **dict.fromkeys(("exp", "log", "sin", "cos", "tan", "asin", "acos"), _number),
+    **dict.fromkeys(("sign", "and", "or", "not", "finite"), _truth),
+}  # fmt: skip

@@ -1,0 +1,200 @@
+"""Where in a worksheet an operation of its recording is written: the line, the part of it, and what it reads."""
+
+import ast
+from collections.abc import Iterable, Iterator, Mapping
+from functools import cached_property
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from mechsheet import units
+from mechsheet.recording.literals import is_pure
+from mechsheet.worksheet.cells import Worksheet, bound
+from mechsheet.worksheet.lines import Formula
+
+_SIGNS: dict[str, tuple[type[ast.AST], ...]] = {
+    "add": (ast.Add, ast.Sub), "sub": (ast.Add, ast.Sub), "pow": (ast.Pow,), "mod": (ast.Mod,),
+    **dict.fromkeys(("lt", "le", "gt", "ge", "eq", "ne"), (ast.cmpop,)),
+}  # fmt: skip
+# The functions that do one operation each, but for those that may do any.
+_OWN = {"sin": ("sin",), "cos": ("cos",), "tan": ("tan",), "exp": ("exp", "sin", "cos"), "log": ("log",), "sqrt": ()}
+_LIKE = 0.5  # more than this part of the names are the same
+_LONGEST = 60  # characters of a part that is told
+
+
+class Mistake(NamedTuple):
+    """A part of a line whose dimensions do not fit, and why, in words."""
+
+    line: int  # of the worksheet
+    part: str
+    why: str
+
+    def __str__(self) -> str:
+        return f"line {self.line}, {self.part}: {self.why}"
+
+
+class Places:
+    """The statements of a worksheet by their lines, with the functions that they call."""
+
+    def __init__(self, sheet: Worksheet, known: Mapping[str, Formula]) -> None:
+        self.sheet, self.known = sheet, known
+        self.statements = {line.lineno: line for cell in sheet.cells for line in cell.lines}
+        self._read = dict[int, frozenset[str]]()
+
+    @cached_property
+    def functions(self) -> dict[str, ast.stmt]:
+        """The worksheet's functions by their names, written with ``def`` or as a lambda."""
+        found = dict[str, ast.stmt]()
+        for line in self.statements.values():
+            match line:
+                case ast.FunctionDef(name) | ast.Assign([ast.Name(name)], ast.Lambda()):
+                    found[name] = line
+        return found
+
+    @cached_property
+    def lines(self) -> dict[str, int]:
+        """Lines of the statements that bind names."""
+        return {name: number for number, line in self.statements.items() for name in bound(line)}
+
+    def line_of(self, formula: Formula) -> int:
+        """The line of a formula; of a function that of what it returns."""
+        match self.functions.get(formula.name):
+            case ast.FunctionDef(body=[*_, last]) if formula.arguments:
+                return last.lineno
+        return self.lines[formula.name]
+
+    def function_called(self, expression: ast.expr) -> Formula | None:
+        """The function with a unit that an expression calls and is no more than that."""
+        match expression:
+            case ast.Call(ast.Name(name)) if name in self.known and name in self.functions:
+                return self.known[name] if self.known[name].arguments else None
+        return None
+
+    def function_solved(self, line: int) -> Formula | None:
+        """The function with a unit that a Find of a line solves."""
+        for node in ast.walk(self.statements[line]) if line in self.statements else ():
+            match node:
+                case ast.Call(ast.Name("find"), [ast.Name() as f, *_]):
+                    return self.function_called(ast.Call(f, [], []))
+                case ast.Call(ast.Name("find"), [ast.Lambda(body=body), *_]):
+                    return self.function_called(body)
+        return None
+
+    def is_erratum(self, line: int) -> bool:
+        """Whether the statement of a line is marked as one that the document prints and that is wrong."""
+        around = (s for s in self.statements.values() if s.lineno <= line <= (s.end_lineno or s.lineno))
+        names = (name for statement in around for name in bound(statement))
+        return any("erratum" in self.known[name].meaning for name in names if name in self.known)
+
+    def of_check(self, name: str, lines: Iterable[int]) -> int:
+        """The line where a check of this name is made, by a statement of one of some lines."""
+        lines = [line for line in lines if line in self.statements]
+        for line in lines:
+            for node in ast.walk(self.statements[line]):
+                if isinstance(node, ast.Constant) and node.value == name:
+                    return node.lineno
+        return max(lines, default=0)
+
+    def reads(self, line: int) -> frozenset[str]:
+        """Names, attributes too, that the statement of a line reads, and the worksheet's functions that it calls."""
+        if line not in self._read:
+            self._read[line] = frozenset(name for part in self.parts(line) for name in _names(part))
+        return self._read[line]
+
+    def parts(self, line: int) -> list[ast.stmt]:
+        """The statement of a line, then the functions of the worksheet that it calls, those that these call too."""
+        found = [self.statements[line]] if line in self.statements else []
+        for part in found:
+            called = (self.functions[name] for name in _names(part) if name in self.functions)
+            found += [function for function in dict.fromkeys(called) if function not in found]
+        return found
+
+    def unit_read(self, line: int, values: Mapping[str, Any]) -> str:
+        """A name that a line reads and that is a number which may have a unit, though none is recorded with it.
+
+        That is a unit, what a line declares of a literal, or what Python made of a text or of its like.
+        """
+        for name in sorted(self.reads(line)):
+            value = values.get(name)
+            if type(value) not in (int, float):
+                continue
+            if name in self.known:
+                if any(units.parse(self.known[name].unit).dims):
+                    return name
+            elif name in self.lines:
+                if isinstance(value, float) and not self.reads(self.lines[name]).isdisjoint(("g", *self.lines)):
+                    return name
+            elif name in units.UNITS and units.UNITS[name].factor == value and any(units.UNITS[name].dims):
+                return name
+        return ""
+
+    def reads_numbers(self, line: int, values: Mapping[str, Any]) -> bool:
+        """Whether a line has numbers of its own that may have a unit, or reads some: not the library's own ones."""
+        for node in (node for part in self.parts(line) for node in ast.walk(part)):
+            match node:
+                case ast.Constant(int() | float() as number) if not is_pure(number):
+                    return True
+                case ast.List() | ast.Tuple() if sum(isinstance(n, ast.Constant) for n in node.elts) > 1:
+                    return True
+        plain = (name for name in self.reads(line) if name in self.lines)
+        return any(isinstance(values.get(name), float | list | tuple | dict | np.ndarray) for name in plain)
+
+    def find(self, line: int, op: str, operands: list[set[str]]) -> tuple[int, str]:
+        """Line and text of the part that does an operation on what is made of the names of its operands."""
+        best, likest = _LIKE, None
+        for part in self.parts(line):
+            own = _locals(part)
+            for node in ast.walk(part):
+                if isinstance(node, ast.expr) and (likeness := _likeness(node, op, operands, own)) > best:
+                    best, likest = likeness, node
+        if likest:
+            return likest.lineno, _short(ast.unparse(likest))
+        match self.statements.get(line):
+            case ast.Assign(value=value) | ast.AugAssign(value=value) | ast.Expr(value):
+                return line, _short(ast.unparse(value))
+        return line, "it"
+
+
+def _short(text: str) -> str:
+    return text if len(text) <= _LONGEST else text[: _LONGEST - 2] + " …"
+
+
+def _likeness(node: ast.expr, op: str, operands: list[set[str]], own: set[str]) -> float:
+    """How well the names in the operands of an expression are those of an operation, from 0 to 1."""
+    match node:
+        case ast.BinOp(left, sign, right) if isinstance(sign, _SIGNS.get(op, ())):
+            return _alike([left], operands[0], own) / 2 + _alike([right], operands[1], own) / 2
+        case ast.Compare(left, [sign], [right]) if isinstance(sign, _SIGNS.get(op, ())):
+            return _alike([left], operands[0], own) / 2 + _alike([right], operands[1], own) / 2
+        case ast.Call(f, args, keywords):
+            if (name := next(_names(f), "")) in _OWN and op not in _OWN[name]:
+                return 0.0
+            given = [*args, *(keyword.value for keyword in keywords)]
+            return 0.9 * _alike(given, set().union(*operands), own)  # an operator is told rather than a function
+    return 0.0
+
+
+def _alike(parts: list[ast.expr], names: set[str], own: set[str]) -> float:
+    """Names that both have, of those that either has; what a function calls its own may be any."""
+    read = {name for part in parts for name in _names(part)} - _CALLED
+    if read & own:
+        return (0.6 + len(read & names)) / (1 + len(read - own))
+    return len(read & names) / len(read | names) if read or names else 1.0
+
+
+def _locals(part: ast.stmt) -> set[str]:
+    """Names that functions in a statement call their own."""
+    functions = [f for f in ast.walk(part) if isinstance(f, ast.FunctionDef | ast.Lambda)]
+    arguments = {a.arg for f in functions for a in ast.walk(f.args) if isinstance(a, ast.arg)}
+    return arguments.union(*(bound(s) for f in functions if isinstance(f, ast.FunctionDef) for s in f.body))
+
+
+_CALLED = frozenset(["g", "np", "pi", "abs", "sqrt", "sin", "cos", "tan", "exp", "real", "imag"])
+
+
+def _names(node: ast.AST) -> Iterator[str]:
+    for part in ast.walk(node):
+        if isinstance(part, ast.Name):
+            yield part.id
+        elif isinstance(part, ast.Attribute):
+            yield part.attr

@@ -1,0 +1,64 @@
+"""A statement of a worksheet before it is recorded: its code, what it binds, changes and reads."""
+
+import ast
+from collections.abc import Iterable, Iterator
+from functools import lru_cache
+from types import CodeType
+from typing import NamedTuple
+
+from mechsheet.recording.rewritten import compiled
+from mechsheet.worksheet.cells import bound
+
+_TEXTS = {"typeset", "print"}  # calls whose result stands on the page alone
+
+
+class Statement(NamedTuple):
+    """What there is to know of a statement before it is run."""
+
+    code: CodeType
+    touched: tuple[str, ...]  # names that it binds, or whose value it changes
+    loaded: frozenset[str]
+    parts: frozenset[str]  # attributes that it reads, of whatever
+    whole: bool  # whether it hands on the inputs as a whole
+
+
+@lru_cache(maxsize=4096)
+def facts(statement: ast.stmt, path: str) -> Statement:
+    nodes = list(ast.walk(statement))
+    attributes = [n for n in nodes if isinstance(n, ast.Attribute)]
+    names = [n for n in nodes if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Load)]
+    of_parts = {id(n.value) for n in attributes}
+    return Statement(
+        compiled(statement, path),
+        tuple(dict.fromkeys([*bound(statement), *_changed(nodes)])),
+        frozenset(n.id for n in names),
+        frozenset(n.attr for n in attributes),
+        any(n.id == "g" and id(n) not in of_parts for n in names),
+    )
+
+
+def on_the_page(statement: ast.stmt) -> bool:
+    """Whether a statement shows a text, which is of no other use."""
+    match statement:
+        case ast.Expr(ast.Call(ast.Attribute(ast.Name("mo"))) | ast.Constant()):
+            return True
+        case ast.Expr(ast.Call(ast.Name(name))):
+            return name in _TEXTS
+    return False
+
+
+def _changed(nodes: Iterable[ast.AST]) -> Iterator[str]:
+    """Names of what a statement may change in place: a list that something is appended to, an array's element."""
+    for node in nodes:
+        match node:
+            case ast.Call(ast.Attribute(ast.Name(name), "append" | "extend" | "insert" | "update" | "add" | "sort")):
+                yield name
+            case ast.Subscript(ast.Name(name), ctx=ast.Store()):
+                yield name
+
+
+def names_of(code: CodeType) -> Iterator[str]:
+    yield from code.co_names
+    for constant in code.co_consts:
+        if isinstance(constant, CodeType):
+            yield from names_of(constant)

@@ -1,0 +1,66 @@
+"""How a run ends that cannot go on: one line for its reader, and the exit code that a shell expects."""
+
+import os
+import sys
+from functools import partial
+from types import TracebackType
+from typing import NoReturn
+
+from mechsheet.worksheet import mistakes
+from mechsheet.worksheet.errors import SheetError
+
+INTERRUPTED = 130  # the exit code of a program that Ctrl-C ended, as shells have it
+_UNREAD = 141  # of one whose reader has gone, as head does after its last line
+
+
+def watch(worksheet: str) -> None:
+    """Let whatever a run of the worksheet raises end in one line on stderr and the exit code."""
+    sys.excepthook = partial(_end, worksheet)
+
+
+def say(*lines: object) -> None:
+    """Print at once, so that what refuses it does so here.
+
+    Raises SheetError naming why standard output cannot be written; BrokenPipeError where its reader has gone.
+    """
+    try:
+        print(*(f"{line}\n" for line in lines), sep="", end="", flush=True)
+    except BrokenPipeError:
+        raise
+    except OSError as error:
+        raise SheetError(f"standard output cannot be written: {error.strerror}") from None
+
+
+def _end(worksheet: str, _: type[BaseException], error: BaseException, _trace: TracebackType | None) -> NoReturn:
+    text, code = "", 1
+    if isinstance(error, KeyboardInterrupt):
+        text, code = "interrupted", INTERRUPTED
+    elif isinstance(error, BrokenPipeError):
+        code = _UNREAD
+    else:
+        text = f"error: {_reason(error, worksheet)}"
+    for stream, last in ((sys.stdout, ""), (sys.stderr, text and text + "\n")):
+        try:
+            if stream:  # none where it was closed from the beginning
+                stream.write(last)
+                stream.flush()
+        except OSError:  # what is left of it goes nowhere, or Python would complain of it at its end
+            os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
+    sys.exit(code)
+
+
+def _reason(error: BaseException, worksheet: str) -> str:
+    """The line that tells why: that the mechanism does not close, whatever that has led to, or the error's own."""
+    from mechsheet.run import arguments  # on use: what watches a run from its beginning loads nothing that takes long
+    from mechsheet.worksheet import cells, inputs
+
+    try:
+        if arguments.is_script(worksheet):
+            sheet = cells.load(worksheet)
+            given = arguments.read(sys.argv[1:], inputs.declared(sheet.inputs))
+            sheet.close({"g": inputs.build(sheet.inputs, given.inputs)})
+    except SheetError as cause:
+        return str(cause)
+    except Exception:  # the mistake that there is has its own line
+        pass
+    return str(error) if isinstance(error, SheetError) else mistakes.told(error, worksheet)

@@ -1,0 +1,135 @@
+"""The first sheet: what all checks say, the key results, the contents, and what does not follow other inputs."""
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from mechsheet import units
+from mechsheet.recording.graph import Gap
+from mechsheet.workbook import looks
+from mechsheet.workbook.book import Book
+from mechsheet.workbook.cell_formula import AGGREGATE
+from mechsheet.workbook.chart import Drawn
+from mechsheet.workbook.content import LARGEST, Content, Live, put
+from mechsheet.workbook.find_sheet import FoundRow
+from mechsheet.workbook.place import Place, quoted
+from mechsheet.workbook.sheet_formulas import SheetFormulas
+from mechsheet.worksheet.check import Check
+from mechsheet.worksheet.numbers import fixed
+
+_NAME = "Front"
+_WIDTHS = (200, 95, 95, 60, 230)
+_MOST = 15  # results, the first ones
+_GREY = "Grey cells hold for the exported inputs only, and show #N/A otherwise."
+_ALL = "all checks PASS"
+_VERDICT = "Checks!$E:$E"
+
+
+@dataclass(frozen=True)
+class Result:
+    """A key result: its value, or the least and the greatest one of a column."""
+
+    symbol: str
+    values: tuple[Content, ...]
+    unit: str
+    meaning: str
+    look: looks.Look
+    grey: bool = False  # holds for the exported inputs only
+
+
+def add(book: Book) -> Any:
+    """The empty sheet."""
+    return book.sheet(_NAME, book.title, _WIDTHS, 2, looks.UPRIGHT)
+
+
+def write(book: Book, sheet: Any, checks: Sequence[Check], results: Sequence[Result], gaps: Sequence[Gap]) -> None:
+    """Fill the sheet, when all others are there."""
+    put(sheet, 1, 0, _verdict(checks), book.style({"bold": True, "align": "left"}))
+    for criterion, look in (("==", looks.PASS), ("!=", looks.FAIL)):
+        rule = {"type": "cell", "criteria": criterion, "value": f'"{_ALL}"', "format": book.file.add_format(look)}
+        sheet.conditional_format(1, 0, 1, 0, rule)
+    row = 3
+    if results:
+        row = _block(book, sheet, row, ("Key results", "Value, least", "greatest", "Unit", "Meaning"))
+    for result in results:
+        cells = (result.symbol, *result.values, *[""] * (2 - len(result.values)), units.shown(result.unit))
+        number = {**result.look, **(looks.EXPORTED if result.grey else {})}
+        side = (looks.TEXT, number, number if len(result.values) > 1 else looks.NUMBER, looks.TEXT)
+        for col, (value, look) in enumerate(zip(cells, side, strict=True)):
+            put(sheet, row, col, value, book.style(looks.CELL, look))
+        row = _text(book, sheet, row, 4, result.meaning)
+    row = _block(book, sheet, row + bool(results), ("Contents", "", "", "", ""))
+    for name, title in book.contents[1:]:
+        sheet.write_url(row, 0, f"internal:{quoted(name)}!A1", book.style(looks.CELL, looks.LINK), name)
+        row = _text(book, sheet, row, 1, Live(f"={quoted(name)}!$A$1", title))
+    if gaps:
+        row = _block(book, sheet, row + 1, ("Not followed", "Reason", "", "", ""))
+        for gap in gaps:
+            names = f"line {gap.line}" + (f": {', '.join(gap.names)}" if gap.names else "")
+            put(sheet, row, 0, names, book.style(looks.CELL, looks.TEXT))
+            row = _text(book, sheet, row, 1, gap.reason)
+        put(sheet, row, 0, _GREY, book.style(looks.NOTE))
+
+
+def results(found: Sequence[FoundRow], drawn: Sequence[Drawn], formulas: SheetFormulas | None) -> list[Result]:
+    """The found values, else the numbers on which no other line rests; then what the figures show."""
+    first = [
+        Result(row.symbol, (Live(f"=Find!$B${n}", row.value),), row.unit, row.meaning, looks.VALUE)
+        for n, row in enumerate(found, 3)
+    ]
+    return [*(first or (_last(formulas) if formulas else ())), *_shown(drawn)][:_MOST]
+
+
+def _verdict(checks: Sequence[Check]) -> Live:
+    """What the sheet Checks says, for it may say another thing when inputs are changed."""
+    failed, open_ = (f'COUNTIF({_VERDICT},"{verdict}")' for verdict in ("FAIL", "not evaluated"))
+    formula = f'=IF({failed}+{open_}=0,"{_ALL}",{failed}&" FAIL, "&{open_}&" not evaluated")'
+    said = [check.verdict for check in checks]
+    counts = f"{said.count('FAIL')} FAIL, {said.count('not evaluated')} not evaluated"
+    return Live(formula, _ALL if all(check.passed for check in checks) else counts)
+
+
+def _last(formulas: SheetFormulas) -> Iterator[Result]:
+    for line in formulas.arrangement.last:
+        value = Live(formulas.shown(line), float(line.node.value.item()) / units.parse(line.unit).factor)
+        yield Result(line.symbol, (value,), line.unit, line.meaning, looks.VALUE, formulas.kept(line.node))
+
+
+def _shown(drawn: Sequence[Drawn]) -> Iterator[Result]:
+    seen = set[Place]()
+    for figure, place, grey in drawn:
+        for column in figure.lines:
+            at = place(column)
+            if at in seen:
+                continue
+            seen.add(at)
+            numbers = column.values[abs(column.values) < LARGEST]
+            cells = at.range(0, len(column.values) - 1)
+            ends = [
+                Live(f"=IFERROR({AGGREGATE}({code},6,{cells}),NA())", float(end(numbers)) if numbers.size else math.nan)
+                for code, end in ((5, min), (4, max))
+            ]
+            look = {**looks.NUMBER, "num_format": fixed(0, column.decimals) + ("E+00" if column.power else "")}
+            meaning = f"{column.meaning}, figure {figure.number}" if column.meaning else f"figure {figure.number}"
+            yield Result(column.symbol, tuple(ends), column.unit, meaning, look, at.column in grey)
+
+
+def _block(book: Book, sheet: Any, row: int, heads: Sequence[str]) -> int:
+    """The heading of a block; the row below it."""
+    for col, head in enumerate(heads):
+        side = looks.side(looks.NUMBER if heads[2] and col in (1, 2) else looks.TEXT)
+        put(sheet, row, col, head, book.style(looks.HEAD, looks.TOP, looks.BOTTOM, side))
+    return row + 1
+
+
+def _text(book: Book, sheet: Any, row: int, col: int, text: Content) -> int:
+    """A text in the columns from ``col`` on, in as many lines as it needs; the row below it."""
+    style = book.style(looks.CELL, looks.TEXT)
+    if col < len(_WIDTHS) - 1:
+        sheet.merge_range(row, col, row, len(_WIDTHS) - 1, "", style)
+    put(sheet, row, col, text, style)
+    held = (sum(_WIDTHS[col:]) - looks.PAD) // (looks.CHAR - 1)  # words are narrower than digits
+    length = len(str(text.value if isinstance(text, Live) else text))
+    sheet.set_row_pixels(row, looks.ROW + (math.ceil(max(length, 1) / held) - 1) * (looks.ROW - 5))
+    return row + 1

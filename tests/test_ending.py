@@ -1,0 +1,197 @@
+"""How a run ends that cannot go on: one line, no traceback, and the exit code that a shell expects."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from mechsheet import __main__ as launcher
+from mechsheet.worksheet.cells import evaluate
+from mechsheet.worksheet.errors import SheetError
+
+TEMPLATE = (Path(launcher.__file__).parent / "run" / "new_worksheet.txt").read_text(encoding="utf-8")
+LAUNCHED = [sys.executable, "-m", "mechsheet", "run"]
+# Two links that do not meet; the cells in front of the check draw and reduce what is not there.
+OPEN = TEMPLATE.replace("inputs, read,", "assembled, inputs, read,").replace(
+    """@app.cell
+def workbook():""",
+    """@app.cell
+def drawn(g):
+    reached = max([x for x in linspace(g.L, g.L, 3) if x < 0])
+    return (reached,)
+
+
+@app.cell
+def closing(g, phi):
+    closes = assembled("links meet", 0 * phi * float("nan"), phi, (g.L, g.L), "angle phi", "deg")
+    return (closes,)
+
+
+@app.cell
+def workbook():""",
+)
+
+
+@pytest.fixture
+def lever(tmp_path: Path) -> Callable[..., Path]:
+    """A worksheet from the template with some of its text replaced."""
+
+    def written(old: str = "", new: str = "", text: str = TEMPLATE) -> Path:
+        path = tmp_path / "lever.py"
+        assert old in text
+        path.write_text(text.replace(old, new, 1).replace("TITLE", "Lever"), encoding="utf-8")
+        return path
+
+    return written
+
+
+def ends(command: list[str | Path], says: str, code: int = 1) -> None:
+    done = subprocess.run(command, capture_output=True, encoding="utf-8")
+    assert done.stderr.rstrip("\n") == says and done.returncode == code, done.stderr
+
+
+@pytest.mark.parametrize("start", [[sys.executable], LAUNCHED], ids=["python", "launcher"])
+@pytest.mark.parametrize(
+    ("old", "new", "says"),
+    [
+        (
+            "M_S = M(phi)",
+            "M_S = M(phii)",
+            "line 75, M_S = M(phii): the name phii is not defined in any cell (did you mean phi?)",
+        ),
+        ("g.F * g.L", "g.F * g.LL", "line 73, return g.F * g.LL * sin(phi): there is no input LL (did you mean L?)"),
+        ("M_S = M(phi)", "M_S = 1 / 0", "line 75, M_S = 1 / 0: ZeroDivisionError: division by zero"),
+        ("0.35", "0.35 * xm", "line 38, L: float = 0.35 * xm: the name xm is not defined in any cell"),
+    ],
+    ids=["name", "input", "number", "name in the inputs"],
+)
+def test_a_mistake_is_told_with_its_line_in_the_words_of_the_editor(
+    start: list[str], old: str, new: str, says: str, lever: Callable[..., Path]
+) -> None:
+    ends([*start, lever(old, new)], f"error: lever.py, {says}")
+
+
+def test_a_declaration_is_told_with_its_line(lever: Callable[..., Path]) -> None:
+    path = lever("[m] length", "[mn] length")
+    unit = "unit [mn] is not known; write units as m, kN*m, rad/s**2 or 1/m"
+    ends([sys.executable, path], f"error: line 38 of {path}: {unit}")
+
+
+def test_what_python_cannot_read_is_told_with_its_line(lever: Callable[..., Path]) -> None:
+    path = lever("summary(within)", "summary(within")
+    ends([*LAUNCHED, path], f"error: worksheet {path}, line 21: '(' was never closed")
+
+
+@pytest.mark.parametrize("start", [[sys.executable], LAUNCHED], ids=["python", "launcher"])
+def test_where_it_does_not_close_nothing_behind_it_speaks(start: list[str], lever: Callable[..., Path]) -> None:
+    path = lever(text=OPEN)
+    says = "links meet: no position closes for angle phi = 0 deg: it reaches 20.05352..20.05352 deg"
+    ends([*start, path], f"error: {says}")
+    with pytest.raises(SheetError, match=says):
+        evaluate(path, ["reached"])
+    assert not path.with_suffix(".xlsx").exists()
+
+
+def test_an_exception_that_no_check_explains_stays_what_it_is(lever: Callable[..., Path]) -> None:
+    with pytest.raises(ValueError, match=r"max\(\)"):
+        evaluate(lever(', phi, (g.L, g.L), "', ', phi, (g.L, g.L), "', OPEN.replace('* float("nan")', "")), ["reached"])
+
+
+@pytest.mark.skipif(os.name == "nt", reason="a shell of Unix")
+@pytest.mark.parametrize("start", [sys.executable, " ".join(LAUNCHED)], ids=["python", "launcher"])
+@pytest.mark.parametrize(
+    ("shell", "says", "code"),
+    [
+        ("{} | true; exit ${{PIPESTATUS[0]}}", "", 141),
+        ("{} > /dev/full", "error: standard output cannot be written: No space left on device\n", 1),
+        ("{} --F=-5 > /dev/full 2> /dev/full", "", 1),
+    ],
+    ids=["no reader", "full", "all full"],
+)
+def test_standard_output_that_takes_nothing(
+    start: str, shell: str, says: str, code: int, lever: Callable[..., Path]
+) -> None:
+    command = shell.format(f"{start} {lever()}")
+    done = subprocess.run(["bash", "-c", command], capture_output=True, encoding="utf-8")
+    assert (done.returncode, done.stderr) == (code, says)
+
+
+@pytest.mark.skipif(os.name == "nt", reason="a shell of Unix")
+@pytest.mark.parametrize(
+    ("shell", "says", "code"),
+    [
+        ("{} | true; exit ${{PIPESTATUS[0]}}", "", 141),
+        ("{} > /dev/full", "No space left on device", 1),
+        ("{} >&-", "", 0),
+    ],
+)
+def test_the_help_needs_no_reader_either(shell: str, says: str, code: int) -> None:
+    command = shell.format(f"{sys.executable} -m mechsheet --help")
+    done = subprocess.run(["bash", "-c", command], capture_output=True, encoding="utf-8")
+    assert (done.returncode, done.stderr) == (code, f"mechsheet: standard output: {says}\n" if says else "")
+
+
+@pytest.mark.skipif(os.name == "nt", reason="a shell of Unix")
+def test_closed_standard_output_is_no_error(lever: Callable[..., Path]) -> None:
+    path = lever()
+    done = subprocess.run(["bash", "-c", f"{' '.join(LAUNCHED)} {path} >&-"], capture_output=True, encoding="utf-8")
+    assert (done.returncode, done.stderr) == (0, "") and path.with_suffix(".xlsx").exists()
+
+
+@pytest.mark.skipif(os.name == "nt", reason="Windows has no signals")
+@pytest.mark.parametrize("start", [[sys.executable], LAUNCHED], ids=["python", "launcher"])
+def test_ctrl_c_ends_a_run_in_a_line(start: list[str], lever: Callable[..., Path]) -> None:
+    path = lever(
+        "    M_S = M(phi)", "    print('waits', flush=True)\n    __import__('time').sleep(600)\n    M_S = M(phi)"
+    )
+    with subprocess.Popen(
+        [*start, path], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True
+    ) as run:
+        assert run.stdout and run.stderr and run.stdout.readline() == "waits\n"
+        os.killpg(run.pid, signal.SIGINT)  # as a terminal does
+        assert (run.wait(), run.stderr.read()) == (130, "interrupted\n")
+
+
+@pytest.mark.skipif(os.name == "nt", reason="Windows has no signals")
+def test_a_program_that_a_signal_ended_has_the_code_of_shells() -> None:
+    dies = "import os, signal; os.kill(os.getpid(), signal.SIGTERM)"
+    assert launcher.call([sys.executable, "-c", dies]) == 128 + signal.SIGTERM
+
+
+def test_a_worksheet_of_ones_own_writes_beside_itself_and_at_home_where_asked(
+    lever: Callable[..., Path], tmp_path: Path
+) -> None:
+    path, home = lever(), tmp_path / "home"
+    for option, out in (([], tmp_path), (["--out=~/books"], home / "books")):
+        done = subprocess.run(
+            [*LAUNCHED, path.stem, *option],
+            cwd=tmp_path,
+            env={**os.environ, "HOME": str(home), "USERPROFILE": str(home)},
+            capture_output=True,
+            encoding="utf-8",
+        )
+        assert done.returncode == 0 and f"written {out / 'lever.xlsx'}" in done.stdout, done.stderr
+        assert (out / "lever.xlsx").exists()
+
+
+@pytest.mark.parametrize("folder", ["worksheets", "worksheets/examples"])
+def test_a_worksheet_of_a_clone_writes_into_its_exports(
+    folder: str, lever: Callable[..., Path], tmp_path: Path
+) -> None:
+    home = tmp_path / folder / "lever.py"
+    home.parent.mkdir(parents=True)
+    (tmp_path / "lib" / "mechsheet").mkdir(parents=True)
+    lever().rename(home)
+    assert subprocess.run([sys.executable, home], capture_output=True).returncode == 0
+    assert [path.name for path in (tmp_path / "exports").iterdir()] == ["lever.xlsx"]
+
+
+def test_a_comma_is_told_once_where_it_could_mean_thousands(lever: Callable[..., Path]) -> None:
+    done = subprocess.run([sys.executable, lever(), "--F=999,500"], capture_output=True, encoding="utf-8")
+    assert done.stdout.count("read with a decimal comma") == done.stdout.count("F = 999.5 N, read with") == 1

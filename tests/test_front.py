@@ -1,0 +1,192 @@
+"""The front sheet of a workbook, the sheets behind its tables, and what of them does not follow other inputs."""
+
+from __future__ import annotations
+
+import re
+import subprocess
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+from conftest import WITHIN
+from openpyxl import load_workbook
+from test_recalculation import edit, export
+from test_recorded_worksheet import own
+
+from mechsheet.run import report
+
+GREY = "FFE4E4E4"
+LINES = """y = np.fft.fft(x).real  # [-] spectrum
+z = 2 * np.max(y)  # [%] rests on it
+w = 3 * g.F  # [-] does not
+v = 2 * g.F  # [-] is read by another line
+u = v + g.a  # [-] reads it
+table_2 = table("2", "Spectrum", x, y)"""
+
+
+@pytest.fixture(scope="module")
+def hitch(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return export("hitch", tmp_path_factory.mktemp("hitch"), {})
+
+
+@pytest.fixture(scope="module")
+def kept(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Workbook of a worksheet one of whose lines is not recorded."""
+    folder = tmp_path_factory.mktemp("kept")
+    sheet = own(folder, LINES)
+    names = {**sheet.run(sheet.results, {"g": sheet.inputs()}), "__file__": str(sheet.path)}
+    (folder / "own.xlsx").write_bytes(report.workbook("Own", names, {}))
+    return folder / "own.xlsx"
+
+
+def blocks(path: Path | Any, values: bool = True) -> dict[str, list[Any]]:
+    """Rows of cells of the front sheet under the heading of their block."""
+    book = load_workbook(path, data_only=values) if isinstance(path, Path) else path
+    heads, found = ("Key results", "Contents", "Not followed"), dict[str, list[Any]]()
+    for row in book["Front"].iter_rows(min_row=3):
+        if row[0].value in heads:
+            rows = found[row[0].value] = []
+        elif row[0].value:
+            rows.append(row)
+    return found
+
+
+def front(path: Path | Any) -> dict[str, list[list[Any]]]:
+    return {head: [[cell.value for cell in row] for row in rows] for head, rows in blocks(path).items()}
+
+
+def column(sheet: Any, symbol: str) -> list[Any]:
+    """Values of the cells under a symbol."""
+    at = [cell.value for cell in sheet[3]].index(symbol)
+    return [row[at].value for row in sheet.iter_rows(min_row=5, max_row=14)]
+
+
+def test_front_sheet_is_the_first_and_tells_the_verdict(hitch: Path) -> None:
+    book = load_workbook(hitch, data_only=True)
+    assert book.sheetnames[:2] == ["Front", "Inputs"]
+    assert [book["Front"][cell].value for cell in ("A1", "A2")] == ["Tractor hitch", "all checks PASS"]
+
+
+def test_key_results_are_found_values_then_what_figures_show(hitch: Path) -> None:
+    book = load_workbook(hitch, data_only=True)
+    results = {row[0]: row[1:] for row in front(hitch)["Key results"]}
+    assert list(results)[:3] == ["L4", "S_p", "L7"] and len(results) == 15
+    assert [results[row[0].value][0] for row in book["Find"].iter_rows(min_row=3)] == [
+        row[1].value for row in book["Find"].iter_rows(min_row=3)
+    ]
+    capacity = column(book["4.1 Lifting capacity"], "GS6")
+    assert results["GS6"][:3] == [min(capacity), max(capacity), "N"]
+
+
+def test_contents_link_to_every_sheet_under_its_title(hitch: Path) -> None:
+    book = load_workbook(hitch, data_only=True)
+    rows = blocks(hitch)["Contents"]
+    assert [row[0].value for row in rows] == book.sheetnames[1:]
+    for row in rows:
+        sheet = re.fullmatch(r"'(.*)'!A1", row[0].hyperlink.location)
+        assert sheet and sheet[1] == row[0].value
+        assert row[1].value == book[sheet[1]]["A1"].value
+
+
+def test_front_sheet_follows_the_inputs(hitch: Path, recalculated: Callable[[Path], Any], tmp_path: Path) -> None:
+    book = recalculated(edit(hitch, {"P6": 26e3, "S_max": 0.9}, tmp_path / "edited.xlsx"))
+    said = book["Front"]["A2"].value
+    verdicts = [row[4].value for row in book["Checks"].iter_rows(min_row=3)]
+    assert said == f"{verdicts.count('FAIL')} FAIL, {verdicts.count('not evaluated')} not evaluated"
+    assert not said.startswith("0 FAIL, 0")
+    results = {row[0]: row[1:] for row in front(book)["Key results"]}
+    capacity = column(book["4.1 Lifting capacity"], "GS6")
+    numbers = [x for x in capacity if isinstance(x, float)]
+    assert "#N/A" in capacity and results["GS6"][:2] == [min(numbers), max(numbers)]
+    assert results["S_p"][0] == next(row[1].value for row in book["Find"].iter_rows() if row[0].value == "S_p")
+
+
+def test_unchanged_the_front_sheet_is_recalculated_to_the_same(
+    hitch: Path, recalculated: Callable[[Path], Any]
+) -> None:
+    live, own_values = front(recalculated(hitch)), front(hitch)
+    assert live["Contents"] == own_values["Contents"] and len(live["Key results"]) == 15
+    for row, known in zip(live["Key results"], own_values["Key results"], strict=True):
+        assert [row[0], *row[3:]] == [known[0], *known[3:]]
+        assert [x for x in row[1:3] if x] == pytest.approx([x for x in known[1:3] if x], rel=1e-12)
+
+
+def test_sheets_behind_the_tables_are_the_last_and_have_grey_tabs(hitch: Path) -> None:
+    book = load_workbook(hitch)
+    grey = [sheet.title for sheet in book if sheet.sheet_properties.tabColor]
+    assert grey == book.sheetnames[-len(grey) :] and book.sheetnames[-len(grey) - 1] == "Checks"
+    assert all(name == "Marks" or name.endswith((" lines", " fields")) for name in grey)
+    for name in grey:  # what is printed of them holds nothing
+        cell = book[name].print_area.split("!")[-1].replace("$", "")
+        assert book[name][cell.partition(":")[0]].value is None and not book[name].print_title_rows
+
+
+def test_only_sheets_of_the_document_are_printed(hitch: Path, soffice: str, tmp_path: Path) -> None:
+    """Every page is one of Front, Inputs, Find, the tables and Checks."""
+    profile = (tmp_path / "profile").as_uri()
+    command = [soffice, f"-env:UserInstallation={profile}", "--headless", "--convert-to", "pdf"]
+    subprocess.run([*command, "--outdir", tmp_path, hitch], check=True, capture_output=True, timeout=WITHIN)
+    pages = len(re.findall(rb"/Type\s*/Page\b", (tmp_path / "hitch.pdf").read_bytes()))
+    behind = sum(sheet.sheet_properties.tabColor is not None for sheet in load_workbook(hitch))
+    assert len(load_workbook(hitch).sheetnames) - behind <= pages <= 14
+
+
+def test_steps_tell_the_line_of_the_worksheet(hitch: Path) -> None:
+    source = (Path(__file__).parents[1] / "worksheets" / "hitch.py").read_text(encoding="utf-8").splitlines()
+    book = load_workbook(hitch, data_only=True)
+    seen = 0
+    for name in book.sheetnames:
+        if name.endswith(" lines"):
+            for row in book[name].iter_rows(min_row=3, values_only=True):
+                assert row[4] or row[3] in ("number of the row",) or row[3].startswith("limit: "), row
+                if found := re.fullmatch(r"line (\d+)", row[4] or ""):
+                    assert source[int(found[1]) - 1].strip(), row
+                    seen += 1
+    assert seen > 20
+
+
+def test_x_axes_keep_the_range_of_their_data(hitch: Path) -> None:
+    (chart, *_) = load_workbook(hitch)["4.1 Lifting capacity"]._charts
+    assert (chart.x_axis.scaling.min, chart.x_axis.scaling.max, chart.y_axis.scaling.min) == (0.4, 0.7, None)
+
+
+def test_what_is_not_followed_is_named_on_the_front_sheet(kept: Path, hitch: Path) -> None:
+    book = load_workbook(kept, data_only=True)
+    row, note = front(kept)["Not followed"]
+    line = (kept.parent / "own.py").read_text().splitlines().index("    y = np.fft.fft(x).real  # [-] spectrum") + 1
+    assert row[0] == f"line {line}: y" and "fft" in row[1]
+    assert note[0] == "Grey cells hold for the exported inputs only, and show #N/A otherwise."
+    assert "Not followed" not in front(hitch)
+    assert book["Front"]["A2"].value == "all checks PASS"
+
+
+def test_without_found_values_the_last_lines_are_the_key_results(kept: Path) -> None:
+    results = {row[0].value: row for row in blocks(kept)["Key results"]}
+    assert list(results) == ["z", "w", "u"]
+    grey = {name: row[1].fill.fgColor.rgb == GREY for name, row in results.items()}
+    assert grey == {"z": True, "w": False, "u": False}
+    book = load_workbook(kept, data_only=True)
+    assert results["w"][1].value == 7.5 and results["z"][1].value / 100 == 2 * max(
+        row[1].value for row in book["2 Spectrum"].iter_rows(min_row=5)
+    )
+
+
+def test_grey_is_what_rests_on_the_line_and_it_is_not_available_for_other_inputs(
+    kept: Path, recalculated: Callable[[Path], Any], tmp_path: Path
+) -> None:
+    """On every sheet: what is grey has no number after a change under it, and what is white has one."""
+    book, changed = load_workbook(kept), recalculated(edit(kept, {"F": 4.0}, tmp_path / "edited.xlsx"))
+    grey = white = 0
+    for sheet in book:
+        for row in sheet.iter_rows():
+            for cell in row:
+                if cell.data_type != "f" or sheet.title in ("Inputs", "Checks"):
+                    continue  # they say it in words: not evaluated
+                if cell.fill.fgColor.rgb == GREY:
+                    assert changed[sheet.title][cell.coordinate].value == "#N/A", (sheet.title, cell.coordinate)
+                    grey += 1
+                else:
+                    assert changed[sheet.title][cell.coordinate].value != "#N/A", (sheet.title, cell.coordinate)
+                    white += 1
+    assert grey >= 7 and white >= 10  # five numbers of the spectrum, and z on two sheets
