@@ -175,6 +175,8 @@ class _Reader:
                 return Signed("-", self.read(positive))
             case ast.Div():
                 return Fraction(self.read(left), self.read(right))
+            case ast.FloorDiv():
+                return Brackets((Fraction(self.read(left), self.read(right)),), "⌊⌋")
             case ast.Pow():
                 return self.power(left, right)
             case ast.Mult():
@@ -328,7 +330,7 @@ class _Reader:
     def before(self, stop: ast.expr) -> Node:
         """The last whole number before ``stop``."""
         match stop:
-            case ast.Constant(int(value)):
+            case ast.Constant(int(value) | float(value)):
                 return Number(value - 1)
             case ast.BinOp(last, ast.Add(), ast.Constant(1)):
                 return self.read(last)

@@ -56,6 +56,7 @@ _SIGNS = {
     "and": r"\text{ and }",
     "or": r"\text{ or }",
 }
+_BRACKETS = {"⌊": r"\lfloor ", "⌋": r"\rfloor "}
 _SPECIAL = re.compile(r"([_#%&$])")
 _SPECIAL_IN_CODE = re.compile(r"([#$%&_{}])")
 
@@ -100,7 +101,7 @@ def _product(node: Product) -> str:
 
 def _brackets(node: Brackets) -> str:
     inner = (r",\," if node.close else r",\ ").join(map(latex, node.items))
-    left, right = node.kind[0], node.kind[1]
+    left, right = (_BRACKETS.get(sign, sign) for sign in node.kind)
     return rf"\left{left}{inner}\right{right}" if is_high(node) else f"{left}{inner}{right}"
 
 
