@@ -117,7 +117,7 @@ class Overline:
 
 @dataclass(frozen=True, slots=True)
 class Brackets:
-    """Parts in brackets ``()``, ``[]``, ``||`` or ``⌊⌋``, which are as high as what they hold, or ``high`` in any case."""
+    """Parts in brackets ``()``, ``[]``, ``||`` or ``⌊⌋``, as high as what they hold, or ``high`` in any case."""
 
     items: "tuple[Node, ...]"
     kind: str = "()"
