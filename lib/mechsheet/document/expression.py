@@ -358,7 +358,9 @@ def _function(name: str) -> Node:
     if name in _KNOWN:
         return Function(_FUNCTIONS.get(name, name))
     word = re.fullmatch(r"[a-z]{3,}(_\w*)?", name) and not re.match("|".join(GREEK), name)
-    is_symbol = len(name) == 1 or (not word and (re.search(r"\d", name) or _SYMBOL.match(name)))
+    is_symbol = (
+        len(name) == 1 or re.fullmatch("d[a-z]", name) or (not word and (re.search(r"\d", name) or _SYMBOL.match(name)))
+    )
     return _name(name) if is_symbol else Function(name.replace("_", " "))
 
 

@@ -164,7 +164,7 @@ def _(value: Typeset) -> str:
 def _(check: Check) -> str:
     unit = "" if check.unit == "-" else f" {escape(units.shown(check.unit))}"
     sign = "≤" if check.passed else "≰"
-    residual, limit = (numbers.significant(x, 2) for x in (check.residual, check.limit))
+    residual, limit = check.compared
     compared = f": {residual} {sign} {limit}{unit}" if check.evaluated else ""
     return (
         f'<div id="{_anchor(check)}">{_badge(check)} {in_words(check.name)}{compared}'
