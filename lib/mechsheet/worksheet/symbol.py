@@ -30,8 +30,8 @@ class Symbol:
 def read(name: str) -> Symbol:
     """Symbol of a name; one word of small letters stays whole.
 
-    The rule: a leading ``d`` before a Greek word, a capital letter or one letter is a difference or derivative; the base
-    is one Greek word or one letter, or a word of small letters before an underscore; the rest is the index.
+    The rule: a leading ``d`` before a Greek word, a capital letter or the only letter is a difference or derivative;
+    the base is one Greek word or one letter, or a word of small letters before an underscore; the rest is the index.
 
     >>> read("phi34"), read("GS6_max")
     (Symbol(base='φ', index='34', mark=''), Symbol(base='G', index='S6,max', mark=''))
