@@ -16,7 +16,7 @@ from mechsheet.recording.lines import Recording
 from mechsheet.recording.quantity import Quantity
 from mechsheet.recording.quantity import choice as where
 from mechsheet.recording.stage import Stage, held
-from mechsheet.recording.substitutes import current, shared
+from mechsheet.recording.substitutes import current, shared, staged
 from mechsheet.worksheet import inputs
 from mechsheet.worksheet.cells import Worksheet, load
 from mechsheet.worksheet.check import Check
@@ -56,7 +56,7 @@ class _Run:
             object.__setattr__(g, declared.name, Quantity(graph, known[declared.name]))
         self.recording = Recording(graph, known, every=graph.thin)
         self.recording.sections = list(dict.fromkeys(cell.section for cell in sheet.cells))
-        self.names: dict[str, Any] = {**shared(sheet.common), "__builtins__": builtins, "g": g}
+        self.names: dict[str, Any] = shared(sheet.common) | {"__builtins__": builtins, "g": g}
         self.looked: dict[str, tuple[Guard, ...]] = {}  # by name: the guards that its value rests on
         self.chosen: dict[Node, frozenset[Node]] = {}
         self.lost: dict[str, str] = {}  # names that have no value here, and why
@@ -64,7 +64,7 @@ class _Run:
         self.lines = lines = registry(namespace)
         for cell in sheet.needed(want, {"g": g}):
             stage = Stage(self.recording, namespace, cell)
-            self.names |= stage.replacements()
+            staged.set(stage.shows)
             facts = [statement.facts(line, sheet.path) for line in cell.lines]
             last = {name: n for n, fact in enumerate(facts) for name in fact.touched}
             for n, (line, fact) in enumerate(zip(cell.lines, facts, strict=True)):

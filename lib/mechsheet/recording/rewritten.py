@@ -12,12 +12,24 @@ from types import CodeType, FunctionType
 from typing import Any
 
 from mechsheet.recording.choices import CALLS
+from mechsheet.worksheet.cells import bound
 
 _NAMES = {"float", "int", "complex", "max", "min", "pow", "round"}
 _SCOPED = ast.NamedExpr, ast.Yield, ast.YieldFrom, ast.Await  # are not what they are inside a lambda
 
 
 class _Rewriting(ast.NodeTransformer):
+    def visit_Import(self, node: ast.Import | ast.ImportFrom) -> list[ast.stmt]:
+        """What an import statement binds is exchanged at once."""
+        names = [name for name in bound(node) if name != "*"]
+        exchanged = [
+            ast.Assign([ast.Name(name, ast.Store())], _call("imported", node, ast.Name(name, ast.Load())))
+            for name in names
+        ]
+        return [node, *(ast.copy_location(line, node) for line in exchanged)]
+
+    visit_ImportFrom = visit_Import
+
     def visit_Call(self, node: ast.Call) -> ast.AST:
         self.generic_visit(node)
         if isinstance(node.func, ast.Name) and node.func.id in _NAMES:

@@ -3,7 +3,6 @@
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, fields, is_dataclass, replace
-from types import FunctionType
 from typing import Any
 
 import numpy as np
@@ -12,9 +11,6 @@ from mechsheet import units
 from mechsheet.recording.graph import Node, NotRecorded, bottom_up
 from mechsheet.recording.lines import Recording, Residual, Solved
 from mechsheet.recording.quantity import Quantity, lift
-from mechsheet.recording.rewritten import rebuilt
-from mechsheet.recording.substitutes import instead
-from mechsheet.worksheet import check as checks
 from mechsheet.worksheet.cells import Cell
 from mechsheet.worksheet.check import Check
 from mechsheet.worksheet.find import Found
@@ -35,14 +31,16 @@ class Stage:
     """One cell while it is recorded: what it shows is noted, and compared with what the worksheet has."""
 
     def __init__(self, recording: Recording, namespace: Mapping[str, Any], cell: Cell) -> None:
-        self.graph, self.recording, self.namespace, self.cell = recording.graph, recording, namespace, cell
+        self.graph, self.recording, self.namespace = recording.graph, recording, namespace
         self.solved: list[Solved] = []
         self.shown_now: list[tuple[dict[str, Any], str]] = []  # by the statement that is run
         given = [namespace.get(name) for name in cell.gives]
         self.real = [v for group in given for v in (group if isinstance(group, tuple | list) else [group])]
 
-    def replacements(self) -> dict[str, Any]:
-        shown = {
+    @property
+    def shows(self) -> dict[str, Callable[..., Any]]:
+        """What the functions that show do in this cell, by their names."""
+        return {
             "table": self.table,
             "figure": self.figure,
             "find": self.find,
@@ -52,14 +50,6 @@ class Stage:
             "Check": self.stated,
             "assembled": self.assembled,
         }
-        names = {name: instead(value) for name, value in vars(checks).items()} | shown
-        written = {
-            name: rebuilt(f, names)
-            for name, f in vars(checks).items()
-            if isinstance(f, FunctionType) and f.__module__ == checks.__name__ and name not in shown
-        }
-        others = ("require", "refuse", "summary", "mo", "export", "typeset")
-        return {**written, **shown, **dict.fromkeys(others, _Nothing())}
 
     def table(self, number: str, title: str, *columns: Any, every: Any = 1, **_: Any) -> None:
         listed = int(np.asarray(getattr(every, "value", every)))
@@ -265,15 +255,3 @@ def _made_of(node: Node, known: dict[Node, float]) -> float:
 def _size(node: Node) -> float:
     sizes = np.abs(node.value + 0.0)
     return float(np.max(sizes, initial=0.0, where=np.isfinite(sizes)))
-
-
-class _Nothing:
-    """Stands for what a workbook does not show; every use of it gives it again."""
-
-    def __call__(self, *args: Any, **kwargs: Any) -> "_Nothing":
-        return self
-
-    def __getattr__(self, name: str) -> "_Nothing":
-        if name.startswith("__"):
-            raise AttributeError(name)
-        return self
