@@ -7,83 +7,11 @@ from typing import Any
 
 import numpy as np
 import pytest
+from own_worksheet import OTHER, own, recorded, value_of
 
-from mechsheet.recording.lines import Recording
 from mechsheet.recording.numbers import numbers
 from mechsheet.recording.quantity import Quantity
-from mechsheet.recording.record import record
 from mechsheet.worksheet import cells
-
-IMPORTS = """import math
-from math import sqrt, sin, hypot
-import numpy as np
-from numpy import cos, exp, interp, linspace
-from mechsheet import rrr, table, typeset""".replace("\n", "\n    ")
-SHEET = '''
-import marimo
-app = marimo.App()
-
-with app.setup:
-    IMPORTS
-    from mechsheet import ask, find, read, inputs
-
-@app.class_definition
-@inputs
-class Own:
-    F: float = 2.5  # [-] number
-    a: float = 0.75  # [-] part
-    n: int = 5  # [-] positions; > 1
-    k: int = 2  # [-] choice; >= 0 < 4
-
-    """Inputs."""
-
-@app.cell
-def given():
-    form = ask(Own)
-    return (form,)
-
-@app.cell
-def machine(form):
-    g = read(Own, form)
-    return (g,)
-
-@app.cell
-def lines(g):
-    IMPORTS
-    x = linspace(0.1, 2, g.n) * g.F  # [-] field
-    LINES
-    table_1 = table("1", "All", x)
-    typeset()
-    return
-
-if __name__ == "__main__":
-    app.run()
-'''
-
-
-def own(tmp_path: Path, lines: str, inside: bool = False) -> cells.Worksheet:
-    """A worksheet with some lines in a cell, which imports what they need itself where it is ``inside``."""
-    path = tmp_path / "own.py"
-    setup, cell = ("", IMPORTS) if inside else (IMPORTS, "")
-    text = SHEET.replace("IMPORTS", setup, 1).replace("IMPORTS", cell, 1)
-    path.write_text(text.replace("LINES", lines.replace("\n", "\n    ")))
-    return cells.load(path)
-
-
-def recorded(sheet: cells.Worksheet, **given: Any) -> tuple[dict[str, Any], Recording]:
-    names = sheet.run(sheet.results, {"g": sheet.inputs(**given)})
-    return names, record({**names, "__file__": sheet.path})
-
-
-def value_of(recording: Recording, name: str, given: dict[str, Any]) -> Any:
-    """A recorded line for other inputs: its parts by their names in the recording."""
-    nodes = {known: node for node, known in recording.names.items()}
-    found = [nodes[n] for n in (name, f"{name}x", f"{name}y") if n in nodes]
-    assert found, f"{name} is not in the recording"
-    known = numbers(found, {recording.inputs[key]: float(x) for key, x in given.items()})
-    values = [known[node] for node in found]
-    return values[0] if len(values) == 1 else values[0] + 1j * values[1]
-
 
 FOLLOWED = [
     "interp(x, [0.0, 1.0, 4.0], [g.F, 3.0, 5.0])",
@@ -118,7 +46,6 @@ FOLLOWED = [
     "rrr(0.0, g.F, x + 2, 2.0, +1)",
     "np.full(3, g.F)", "np.ones_like(x) * g.F", "np.radians(g.F) + np.degrees(g.a)", "x.T + x.real + x.imag",
 ]  # fmt: skip
-OTHER = [{"F": 3.25}, {"F": 1.75, "a": 1.5}, {"a": 0.2, "k": 3}]
 
 
 @pytest.mark.parametrize("inside", [False, True], ids=["", "imports inside"])

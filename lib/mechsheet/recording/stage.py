@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Callable, Mapping, Sequence
+from copy import copy
 from dataclasses import dataclass, fields, is_dataclass, replace
 from typing import Any
 
@@ -66,7 +67,7 @@ class Stage:
                     return None
                 column = lift(self.graph, column)
             if column.shape == shape and every == 1 and len(shape) == 1:
-                return column
+                return copy(column)  # which later lines may set elements of
             return column.take(np.broadcast_to(np.arange(column.size).reshape(column.shape), shape).reshape(-1)[kept])
 
         self.shown_now.append((self.recording.tables, number))
@@ -165,12 +166,14 @@ class Stage:
         self.shown_now.clear()
 
     def same(self, value: Any, own: Any) -> bool:
-        """Whether a recorded quantity has the worksheet's own numbers, but for the rounding of what it is made of."""
-        if not (isinstance(value, Quantity) and isinstance(own, int | float | complex | np.ndarray | np.generic)):
+        """Whether a recorded value has the worksheet's own numbers, but for the rounding of what it is made of."""
+        numbers = int | float | complex | np.ndarray | np.generic
+        if not (isinstance(value, Quantity | numbers) and isinstance(own, numbers)):
             return True
-        kept = np.asarray(own) + 0
+        kept = np.asarray(own) + 0 if np.asarray(own).dtype.kind in "biufc" else np.asarray(own)
         if kept.dtype.kind not in "iufc":
             return True
+        value = lift(self.graph, value)
         if kept.shape and kept.shape[-1:] != value.shape[-1:]:
             kept = kept[..., :: self.graph.thin]
         try:
@@ -217,7 +220,10 @@ class Stage:
             case dict():
                 return {key: self.kept(v, rests_on) for key, v in own.items()}
         if is_dataclass(own) and not isinstance(own, type | Shown):
-            return replace(own, **{f.name: self.kept(getattr(own, f.name), rests_on) for f in fields(own) if f.init})
+            new = copy(own)  # without its checks, which look at numbers
+            for f in fields(own):
+                object.__setattr__(new, f.name, self.kept(getattr(own, f.name), rests_on))
+            return new
         return own
 
 

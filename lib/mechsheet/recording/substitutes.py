@@ -10,6 +10,7 @@ import math
 import sys
 from collections.abc import Callable, Mapping
 from contextvars import ContextVar
+from copy import copy
 from functools import cache
 from inspect import unwrap
 from types import BuiltinFunctionType, FunctionType, GenericAlias, ModuleType
@@ -48,11 +49,12 @@ def shared(common: Mapping[str, Any]) -> dict[str, Any]:
 _SAME = (
     "sqrt", "exp", "log", "log10", "log2", "log1p", "expm1", "sin", "cos", "tan", "sinh", "cosh", "tanh", "hypot",
     "degrees", "radians", "floor", "ceil", "trunc", "copysign", "isnan", "isfinite", "isinf", "fmod", "cbrt",
-    "isclose", "prod",
+    "prod",
 )  # fmt: skip
 _OTHER = {"asin": "arcsin", "acos": "arccos", "atan": "arctan", "atan2": "arctan2", "asinh": "arcsinh"}
 _OTHER |= {"acosh": "arccosh", "atanh": "arctanh", "fabs": "abs", "pow": "power", "fsum": "sum"}
-_MATH = {getattr(math, name): getattr(np, _OTHER.get(name, name)) for name in [*_SAME, *_OTHER]}
+_MATH: dict[Any, Any] = {getattr(math, name): getattr(np, _OTHER.get(name, name)) for name in [*_SAME, *_OTHER]}
+_MATH[math.isclose] = math.isclose  # whose tolerances are not those of numpy's
 
 
 def instead(value: Any) -> Any:
@@ -131,7 +133,7 @@ def _takes(f: Callable[..., Any]) -> Callable[..., Any]:
         if not has_quantity([*args, *kwargs.values()]):
             return f(*args, **kwargs)
         if f in _ARRAYS:
-            return lift(current.get(), args[0])
+            return _array(*args, **kwargs) if f is not np.array else copy(_array(*args, **kwargs))
         if f in (np.zeros, np.ones, np.empty, np.full):
             shape, *rest = args
             shape = plain(shape)
@@ -148,6 +150,12 @@ def _takes(f: Callable[..., Any]) -> Callable[..., Any]:
         if isinstance(f, np.ufunc):
             setattr(function, name, getattr(f, name))
     return function
+
+
+def _array(values: Any, dtype: Any = None, *, copy: Any = None, ndmin: int = 0) -> Quantity:
+    array = lift(current.get(), values)
+    array = array if dtype is None else array.astype(dtype)
+    return array[(None,) * (ndmin - array.ndim)] if ndmin > array.ndim else array
 
 
 # --- functions of the mechanics ----------------------------------------------------------------------------------
@@ -173,7 +181,7 @@ def _itself(f: Any) -> Callable[..., Any]:
     always = f.__module__ == checks.__name__
 
     def function(*args: Any, **kwargs: Any) -> Any:
-        if not (always or any_quantity((args, kwargs))):
+        if not (always or has_quantity((args, kwargs))):
             return f(*args, **kwargs)
         return (_short().get(f) or body(f))(*args, **kwargs)
 
@@ -219,14 +227,3 @@ class _Nothing:
 
 _NOTHING = _Nothing()
 _NAMES = {**NAMES, "recorded imported": instead}
-
-
-def any_quantity(value: Any) -> bool:
-    """Whether there is a quantity somewhere in a value."""
-    if isinstance(value, Quantity):
-        return True
-    if isinstance(value, dict):
-        return any(any_quantity(v) for v in value.values())
-    if isinstance(value, list | tuple):
-        return any(any_quantity(v) for v in value)
-    return hasattr(value, "__dataclass_fields__") and any(any_quantity(v) for v in vars(value).values())
