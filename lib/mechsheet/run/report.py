@@ -3,6 +3,7 @@
 import ast
 import sys
 from collections.abc import Iterable, Iterator, Mapping
+from html import escape
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -35,7 +36,7 @@ def export(title: str, namespace: Mapping[str, Any]) -> Any:
 
     ``namespace`` is the last cell's ``globals()``.
 
-    In the page: a button that builds it when pressed. In ``python worksheet.py``: prints the found values
+    In the page: a button that builds it when pressed, and then tells what it does not follow. In ``python worksheet.py``: prints the found values
     and the checks, writes ``NAME.xlsx`` into ``exports/`` of the project whose worksheet it is, elsewhere beside the
     worksheet (or into ``--out``), and exits with 1 where a name that
     some cell returns does not exist or a check fails. Where a group does not close, nothing is written.
@@ -44,13 +45,25 @@ def export(title: str, namespace: Mapping[str, Any]) -> Any:
     if arguments.is_script(str(worksheet)):
         _script(title, namespace, worksheet)
         return None
+    return _button(title, namespace, f"{worksheet.stem}.xlsx")
+
+
+def _button(title: str, namespace: Mapping[str, Any], name: str) -> Any:
+    """The button of the workbook; once pressed, with a line below it for whatever the workbook does not follow."""
     import marimo as mo  # on use: a worksheet called as a function needs it not
 
-    return mo.download(
-        lambda: workbook(title, namespace, {}),
-        filename=f"{worksheet.stem}.xlsx",
-        label="Excel workbook",
-    )
+    def shown(lines: Iterable[str]) -> Any:
+        told = "<br>".join(map(escape, lines))
+        return mo.Html(f'<div>{button.text}<div class="ms-note">{told}</div></div>')
+
+    def pressed() -> bytes:
+        recording, fit = _recorded(namespace)
+        data = _workbook(title, namespace, [*parts.values(namespace), fit], recording)
+        mo.output.replace(shown(_not_followed(recording)))
+        return data
+
+    button = mo.download(pressed, filename=name, label="Excel workbook")
+    return shown(())
 
 
 def _script(title: str, namespace: Mapping[str, Any], worksheet: Path) -> None:
@@ -66,9 +79,14 @@ def _script(title: str, namespace: Mapping[str, Any], worksheet: Path) -> None:
     say(*inputs.readings(declared, given.inputs), *_of(Found, values), *checks)
     path = (given.out or _folder(worksheet.resolve())) / f"{worksheet.stem}.xlsx"
     write(_workbook(title, namespace, [*values, fit], recording), path)
-    say(f"written {path}", *(f"not followed there: {gap}" for gap in recording.gaps))
+    say(f"written {path}", *_not_followed(recording))
     if not all(check.passed for check in checks):
         sys.exit(1)
+
+
+def _not_followed(recording: Recording) -> list[str]:
+    """What the workbook does not follow, a line for each."""
+    return [f"not followed there: {gap}" for gap in recording.gaps]
 
 
 def _folder(worksheet: Path) -> Path:
