@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from mechsheet import units
-from mechsheet.recording.graph import Node, NotRecorded, bottom_up
+from mechsheet.recording.graph import Node, NotRecorded, Values, bottom_up
 from mechsheet.recording.lines import Recording, Residual, Solved
 from mechsheet.recording.quantity import Quantity, lift
 from mechsheet.recording.rewritten import rebuilt
@@ -181,8 +181,8 @@ class Stage:
         kept = np.asarray(own) + 0
         if kept.dtype.kind not in "iufc":
             return True
-        if kept.shape and kept.shape[-1:] != value.shape[-1:]:
-            kept = kept[..., :: self.graph.thin]
+        if kept.shape != value.shape:
+            kept = self._listed(kept)
         try:
             a, b = np.broadcast_arrays(value.value + 0, kept)
         except ValueError:
@@ -192,15 +192,19 @@ class Stage:
         off = 1e-7 * max(size, 1e-6 * terms)
         return bool(np.all((np.abs(a - b) <= off) | (~np.isfinite(a) & ~np.isfinite(b))))
 
+    def _listed(self, own: Values) -> Values:
+        """The positions of the worksheet's own numbers that are recorded."""
+        for axis, size in enumerate(own.shape):
+            if self.graph.thin > 1 and size == self.graph.positions:
+                own = own.take(range(0, size, self.graph.thin), axis)
+        return own
+
     def kept(self, own: Any, rests_on: Sequence[Node]) -> Any:
         """The worksheet's own value instead of a recorded one; what it shows of it too."""
         graph, recording = self.graph, self.recording
 
         def exported(values: Any) -> Quantity:
-            array = np.asarray(values)
-            for axis, size in enumerate(array.shape):
-                if graph.thin > 1 and size == graph.positions:
-                    array = array.take(range(0, size, graph.thin), axis)
+            array = self._listed(np.asarray(values))
             parts = [array.real, array.imag] if array.dtype.kind == "c" else [array]
             return Quantity(graph, *(graph.exported(rests_on, part) for part in parts))
 
