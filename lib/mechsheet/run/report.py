@@ -3,7 +3,6 @@
 import ast
 import sys
 from collections.abc import Iterable, Iterator, Mapping
-from html import escape
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -36,34 +35,22 @@ def export(title: str, namespace: Mapping[str, Any]) -> Any:
 
     ``namespace`` is the last cell's ``globals()``.
 
-    In the page: a button that builds it when pressed, and then tells what it does not follow. In ``python worksheet.py``: prints the found values
-    and the checks, writes ``NAME.xlsx`` into ``exports/`` of the project whose worksheet it is, elsewhere beside the
-    worksheet (or into ``--out``), and exits with 1 where a name that
-    some cell returns does not exist or a check fails. Where a group does not close, nothing is written.
+    In the page: a button that builds it when pressed, and then tells what it does not follow. In
+    ``python worksheet.py``: prints the found values and the checks, writes ``NAME.xlsx`` into ``exports/`` of the
+    project whose worksheet it is, elsewhere beside the worksheet (or into ``--out``), and exits with 1 where a name
+    that some cell returns does not exist or a check fails. Where a group does not close, nothing is written.
     """
     worksheet = Path(namespace["__file__"])
     if arguments.is_script(str(worksheet)):
         _script(title, namespace, worksheet)
         return None
-    return _button(title, namespace, f"{worksheet.stem}.xlsx")
+    from mechsheet.page.download import download  # on use: a worksheet called as a function needs no page
 
-
-def _button(title: str, namespace: Mapping[str, Any], name: str) -> Any:
-    """The button of the workbook; once pressed, with a line below it for whatever the workbook does not follow."""
-    import marimo as mo  # on use: a worksheet called as a function needs it not
-
-    def shown(lines: Iterable[str]) -> Any:
-        told = "<br>".join(map(escape, lines))
-        return mo.Html(f'<div>{button.text}<div class="ms-note">{told}</div></div>')
-
-    def pressed() -> bytes:
+    def made() -> tuple[bytes, list[str]]:
         recording, fit = _recorded(namespace)
-        data = _workbook(title, namespace, [*parts.values(namespace), fit], recording)
-        mo.output.replace(shown(_not_followed(recording)))
-        return data
+        return _workbook(title, namespace, [*parts.values(namespace), fit], recording), _not_followed(recording)
 
-    button = mo.download(pressed, filename=name, label="Excel workbook")
-    return shown(())
+    return download(made, f"{worksheet.stem}.xlsx", "Excel workbook")
 
 
 def _script(title: str, namespace: Mapping[str, Any], worksheet: Path) -> None:
