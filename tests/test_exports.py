@@ -401,6 +401,12 @@ def test_a_lost_row_and_a_lost_sheet_are_seen() -> None:
     assert list(differences(old, {title: cells for title, cells in old.items() if title != "Marks"}))
 
 
+def test_no_formula_rests_on_a_run_time() -> None:
+    book = exported("accuracy")
+    formulas = [str(cell.written) for cells in book.values() for cell in cells.values()]
+    assert len(formulas) > 1000 and not [text for text in formulas if re.search(r"seconds.*[<>=]", text)]
+
+
 DESIGN = ROOT / "worksheets" / "hitch_design.py"
 
 
