@@ -162,8 +162,10 @@ def test_edit_opens_the_worksheet_in_marimo(sheet: Path, calls: list[list[str]])
 
 
 def test_test_hands_its_arguments_to_pytest(calls: list[list[str]]) -> None:
-    assert launcher.main(["test", "-k", "planar"]) == 7
-    assert calls == [[sys.executable, "-m", "pytest", "-k", "planar"]]
+    """Behind its own, so that ``-n 0`` is one process."""
+    assert launcher.main(["test", "-k", "planar", "-n", "0"]) == 7
+    own = ["-n=logical", "--dist=worksteal"]
+    assert calls == [[sys.executable, "-m", "pytest", *own, "-k", "planar", "-n", "0"]]
 
 
 def test_test_needs_a_clone(tmp_path: Path, calls: list[list[str]], monkeypatch: pytest.MonkeyPatch) -> None:
