@@ -11,13 +11,13 @@ from typing import Any
 import numpy as np
 
 from mechsheet.recording import statement
+from mechsheet.recording.given import given
 from mechsheet.recording.graph import Gap, Graph, Guard, Node, NotRecorded, bottom_up
 from mechsheet.recording.lines import Recording
 from mechsheet.recording.quantity import Quantity
 from mechsheet.recording.quantity import choice as where
 from mechsheet.recording.stage import Stage, held
 from mechsheet.recording.substitutes import current, shared
-from mechsheet.worksheet import inputs
 from mechsheet.worksheet.cells import Worksheet, load
 from mechsheet.worksheet.check import Check
 from mechsheet.worksheet.find import Found
@@ -48,12 +48,7 @@ class _Run:
 
     def __init__(self, sheet: Worksheet, graph: Graph, namespace: Mapping[str, Any], whole: bool) -> None:
         self.graph, self.namespace = graph, namespace
-        g: Any = object.__new__(sheet.inputs)
-        known = {}
-        for declared in inputs.declared(sheet.inputs):
-            value = getattr(namespace["g"], declared.name)
-            known[declared.name] = graph.leaf("input", declared.name, value)
-            object.__setattr__(g, declared.name, Quantity(graph, known[declared.name]))
+        g, known = given(graph, namespace["g"])
         self.recording = Recording(graph, known, every=graph.thin)
         self.recording.sections = list(dict.fromkeys(cell.section for cell in sheet.cells))
         self.names: dict[str, Any] = {**shared(sheet.common), "__builtins__": builtins, "g": g}
@@ -204,7 +199,7 @@ class _Run:
         codes = [f.__code__ for f in map(self.names.get, reads) if isinstance(f, FunctionType)]
         if "g" in reads:
             parts = facts.parts | {name for code in codes for name in statement.names_of(code)}
-            used = [name for name in self.recording.inputs if name in parts]
+            used = [name for name in self.recording.inputs if name.partition(".")[0] in parts]
             roots += [self.recording.inputs[name] for name in (self.recording.inputs if facts.whole else used)]
         return leaves_of(roots, self.recording)
 
