@@ -219,11 +219,11 @@ def _(found: Found) -> str:
 @html.register
 def _(used: Used) -> str:
     changed, items, rows, section = used.changed, [], [], ""
-    for field, value in used.rows():
+    for field, _ in used.rows():
         unit = "" if field.unit == "-" else escape(units.shown(field.unit))
         weight = "bold" if field.name in changed else "normal"
         name = named(field.name)
-        number = numbers.significant(value, 10)
+        number = escape(field.brief(getattr(used.g, field.name)))
         shown = f"{name}&nbsp;=&nbsp;{number}&nbsp;{unit}"
         items.append(f'<span style="white-space:nowrap;font-weight:{weight}">{shown}</span>')
         if field.section != section:

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from mechsheet.recording import statement
+from mechsheet.recording.given import given
 from mechsheet.recording.graph import Gap, Graph, Guard, Node, NotRecorded, bottom_up
 from mechsheet.recording.lines import Recording
 from mechsheet.recording.memory import Memory, names_of
@@ -17,7 +18,6 @@ from mechsheet.recording.quantity import Quantity
 from mechsheet.recording.quantity import choice as where
 from mechsheet.recording.stage import Stage, held
 from mechsheet.recording.substitutes import current, shared, staged
-from mechsheet.worksheet import inputs
 from mechsheet.worksheet.cells import Worksheet, load
 from mechsheet.worksheet.check import Check
 from mechsheet.worksheet.find import Found
@@ -50,12 +50,7 @@ class _Run:
 
     def __init__(self, sheet: Worksheet, graph: Graph, namespace: Mapping[str, Any], want: Sequence[str]) -> None:
         self.sheet, self.graph, self.namespace = sheet, graph, namespace
-        g: Any = object.__new__(sheet.inputs)
-        known = {}
-        for declared in inputs.declared(sheet.inputs):
-            value = getattr(namespace["g"], declared.name)
-            known[declared.name] = graph.leaf("input", declared.name, value)
-            object.__setattr__(g, declared.name, Quantity(graph, known[declared.name]))
+        g, known = given(graph, namespace["g"])
         self.recording = Recording(graph, known, every=graph.thin)
         self.recording.sections = list(dict.fromkeys(cell.section for cell in sheet.cells))
         self.names: dict[str, Any] = shared(sheet.common) | {"__builtins__": builtins, "g": g}
@@ -260,7 +255,7 @@ class _Run:
         roots += before.nodes
         if "g" in reads:
             parts = facts.parts.union(*map(names_of, codes))
-            used = [name for name in self.recording.inputs if name in parts]
+            used = [name for name in self.recording.inputs if name.partition(".")[0] in parts]
             roots += [self.recording.inputs[name] for name in (self.recording.inputs if facts.whole else used)]
         return leaves_of(roots, self.recording)
 

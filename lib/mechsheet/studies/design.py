@@ -18,7 +18,8 @@ from mechsheet.run import arguments, report
 from mechsheet.worksheet import numbers
 from mechsheet.worksheet.check import Check
 from mechsheet.worksheet.errors import SheetError
-from mechsheet.worksheet.inputs import Input, declared
+from mechsheet.worksheet.inputs import declared
+from mechsheet.worksheet.kinds import Input
 from mechsheet.worksheet.scene import Limit
 
 Array = NDArray[np.float64]
