@@ -17,12 +17,15 @@ from mechsheet.worksheet.errors import SheetError, refuse
 from mechsheet.worksheet.shown import Shown
 
 _DECLARED = re.compile(r"\[([^\]]*)\]\s*(.*)")
+_ONE_NUMBER = r"\(\d{1,3}(?:\.\d+)*[a-z]?\)"
+_NUMBER = re.compile(rf"{_ONE_NUMBER}(?:\s*[-–,]\s*{_ONE_NUMBER})*(?=\s|$)")
 
 
 @dataclass(frozen=True)
 class Formula:
-    """One line ``name = expression  # [unit] meaning``.
+    """One line ``name = expression  # [unit] (1.26) meaning``.
 
+    ``number`` is that of the printed formula, in its brackets: ``(1.26)``, ``(1.13), (1.14)``, or nothing.
     ``arguments`` are those of a function, by lambda or def; ``where`` its own names with what they stand for. The
     expression of a function with more than branches and such names in it is ``...``.
     """
@@ -33,6 +36,7 @@ class Formula:
     meaning: str
     arguments: tuple[str, ...] = ()
     where: tuple[tuple[str, ast.expr], ...] = ()
+    number: str = ""
 
 
 @dataclass(frozen=True)
@@ -73,9 +77,10 @@ def _formulas(cell: source.Cell) -> Iterator[Formula | Given]:
                 continue
         lines, number = _bound(node), node.end_lineno or node.lineno
         found = _declared_each(cell.comments.get(number, ""), cell.at(number), len(lines)) if lines else ()
-        for line, (unit, meaning) in zip(lines, found, strict=False):
+        for line, (unit, text) in zip(lines, found, strict=False):
             if not line.name.startswith("_"):
-                yield replace(line, unit=unit, meaning=meaning)
+                printed = match[0] if (match := _NUMBER.match(text)) else ""
+                yield replace(line, unit=unit, number=printed, meaning=text.removeprefix(printed).lstrip())
 
 
 def _bound(node: ast.stmt) -> list[Formula]:
