@@ -59,7 +59,7 @@ def _with_numbers(line: Formula, found: tuple[tuple[str, float | complex, str, t
 
 
 def _line(tex: str, value: str = "", meaning: str = "", number: str = "", substituted: str = "") -> str:
-    """A typeset line, the printed formula's number at its end; its numbers wait in an attribute until they are asked for.
+    """A typeset line, the printed formula's number at its end; its numbers wait in an attribute until asked for.
 
     The value is an element of its own: where it alone changes, the browser keeps the formula as it has set it, and the
     value is there with the output that holds it.
