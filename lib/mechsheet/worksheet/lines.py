@@ -74,6 +74,12 @@ def _formulas(cell: source.Cell) -> Iterator[Formula | Given]:
         lines, number = _bound(node), node.end_lineno or node.lineno
         found = _declared_each(cell.comments.get(number, ""), cell.at(number), len(lines)) if lines else ()
         for line, (unit, meaning) in zip(lines, found, strict=False):
+            match line.expression:  # without brackets of its own it begins where its first part does
+                case ast.Tuple([first, *_]) as several if first.col_offset == several.col_offset:
+                    raise SheetError(
+                        f"{cell.at(number)}: {line.name} = {ast.unparse(several)[1:-1]} is several values: "
+                        "a decimal number has a point, not a comma"
+                    )
             if not line.name.startswith("_"):
                 yield replace(line, unit=unit, meaning=meaning)
 
