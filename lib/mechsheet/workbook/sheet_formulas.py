@@ -9,7 +9,7 @@ from mechsheet.recording.record import leaves_of
 from mechsheet.workbook.arrangement import Arrangement
 from mechsheet.workbook.cell_formula import CellFormulas, written
 from mechsheet.workbook.content import Live, quoted
-from mechsheet.worksheet.table import Table
+from mechsheet.worksheet.table import Figure, Table
 
 
 class Compared(NamedTuple):
@@ -45,6 +45,12 @@ class SheetFormulas:
         if node.size == 1:
             return [self._cells.reference(node, factor)] * len(table.columns[n].values)
         return self._cells.references(node, factor)
+
+    def moves_along(self, figure: Figure) -> bool:
+        """Whether the positions over which a figure is drawn, or what it marks there, rest on inputs."""
+        columns = self.recording.tables.get(f"Fig {figure.number}", (None,))[:1]
+        nodes = [part for column in columns if column is not None for part in column.parts]
+        return bool(leaves_of([*nodes, *self.recording.marks.get(figure.number, {}).values()], self.recording))
 
     def exported(self, table: Table) -> tuple[int, ...]:
         """Columns of a table that rest on numbers of the worksheet's own run, and so do not follow other inputs."""
