@@ -15,7 +15,6 @@ from test_recalculation import edit, export
 from test_recorded_worksheet import own
 
 from mechsheet.run import report
-from mechsheet.worksheet import cells
 
 GREY = "FFE4E4E4"
 LINES = """y = np.fft.fft(x).real  # [-] spectrum
@@ -163,11 +162,7 @@ def test_axes_keep_the_range_that_no_input_moves(tmp_path: Path) -> None:
 y = g.F * t  # [-] follows an input
 figure_1 = figure("1", "Along what no input moves", t, y)
 figure_2 = figure("2", "Along what one moves", x, y)"""
-    path = Path(own(tmp_path, lines).path)
-    path.write_text(
-        path.read_text(encoding="utf-8").replace("inputs, table", "inputs, figure, table"), encoding="utf-8"
-    )
-    sheet = cells.load(path)
+    sheet = own(tmp_path, lines)
     names = {**sheet.run(sheet.results, {"g": sheet.inputs()}), "__file__": str(sheet.path)}
     (tmp_path / "own.xlsx").write_bytes(report.workbook("Own", names, {}))
     book = load_workbook(tmp_path / "own.xlsx")
