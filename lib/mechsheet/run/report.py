@@ -13,9 +13,8 @@ from mechsheet.recording.lines import Recording, Residual
 from mechsheet.recording.record import record
 from mechsheet.run import arguments
 from mechsheet.run.ending import say
-from mechsheet.workbook import writing
+from mechsheet.workbook import inputs_sheet, writing
 from mechsheet.workbook.find_sheet import FoundRow
-from mechsheet.workbook.inputs_sheet import InputRow
 from mechsheet.workbook.save import save
 from mechsheet.worksheet import inputs, numbers
 from mechsheet.worksheet.cells import load, refuse_open, results
@@ -117,10 +116,7 @@ def _workbook(title: str, namespace: Mapping[str, Any], values: list[Any], recor
     own = {check.name: check.limit for check in _of(Check, parts.values(namespace))}
     return writing.workbook(
         title,
-        inputs=[
-            InputRow(f.name, value, f.unit, f.meaning, f.section, f.limits, f.whole)
-            for f, value in inputs.Used(namespace["g"]).rows()
-        ],
+        inputs=inputs_sheet.rows(namespace["g"]),
         found=[_found(line, found) for line, found in solved(namespace)],
         tables=_of(Table, values),
         figures=_of(Figure, values),

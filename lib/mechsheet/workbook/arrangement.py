@@ -56,7 +56,7 @@ class Arrangement:
         self.lines = {line.node: line for lines in recording.lines.values() for line in lines}
         self.last = [] if found else last_lines(recording)
         self._names = DefinedNames()
-        last = max(inputs.values(), default=1)
+        last = max((inputs[symbol] + node.size - 1 for symbol, node in recording.inputs.items()), default=1)
         self.changed = Place(self._names.new("inputs_changed"), "Inputs", last + 1, _SI)  # how many differ
         self.defined.append((self.changed.name, self.changed.meaning(1)))
         for symbol, node in recording.inputs.items():
@@ -85,7 +85,7 @@ class Arrangement:
         return (*nodes, *[None] * (len(table.columns) - len(nodes)))
 
     def _settle(self, node: Node, symbol: str, sheet: str, row: int, column: int) -> None:
-        place = self.places[node] = Place(self._names.new(symbol), sheet, row, column)
+        place = self.places[node] = Place(self._names.new(symbol.replace(".", "_")), sheet, row, column)
         self.defined.append((place.name, place.meaning(node.size)))
 
     def _roots(self) -> Iterator[Node]:

@@ -103,8 +103,9 @@ class SheetFormulas:
 
     def outside(self) -> str:
         """Formula of how many inputs have no value in SI units."""
-        places = [self.arrangement.places[node] for node in self.recording.inputs.values()]
-        cells = places[0].range(0, max(place.row for place in places) - places[0].row) if places else ""
+        places = [(self.arrangement.places[node], node.size) for node in self.recording.inputs.values()]
+        first = min((place for place, _ in places), key=lambda place: place.row, default=None)
+        cells = first.range(0, max(place.row + size for place, size in places) - first.row - 1) if first else ""
         return f"=SUMPRODUCT(--ISERROR({cells}))" if cells else "=0"
 
     def closed(self, unknown: str) -> bool:
