@@ -11,8 +11,10 @@ from own_worksheet import OTHER, own, recorded, value_of
 
 from mechsheet.recording.numbers import numbers
 from mechsheet.recording.quantity import Quantity
+from mechsheet.recording.record import record
 from mechsheet.worksheet import cells
 
+ROOT = Path(__file__).resolve().parents[1]
 FOLLOWED = [
     "interp(x, [0.0, 1.0, 4.0], [g.F, 3.0, 5.0])",
     "interp(g.a, [0.0, 1.0, 4.0], [g.F, 3.0, 5.0], left=7.0)",
@@ -257,3 +259,22 @@ def test_what_is_not_followed_rests_on_the_way_that_was_taken_too(tmp_path: Path
     assert len(recording.gaps) == 1
     assert np.isnan(value_of(recording, "y", {"a": 0.2})).all()
     assert np.isfinite(value_of(recording, "y", {"k": 3})).all()
+
+
+@pytest.mark.parametrize("name", ["hitch", "landing_gear", "kinetostatics", "joint"])
+def test_a_document_is_held_whole(name: str) -> None:
+    sheet = cells.load(ROOT / "worksheets" / f"{name}.py")
+    names = sheet.run(sheet.results, {"g": sheet.inputs()})
+    assert not record({**names, "__file__": sheet.path}).gaps
+
+
+def test_a_number_over_all_positions_is_followed_where_tables_list_some() -> None:
+    """Works in a turn over 361 positions, of which 25 are listed; the columns of the tables stay those of 25."""
+    sheet = cells.load(ROOT / "worksheets" / "kinetostatics.py")
+    names, recording = recorded(sheet)
+    changed = {"m4": 3.0, "l4": 0.46, "Q5": 4000.0, "eps1": 2.0}
+    own = sheet.run(["W_b", "W_Q", "M_mean"], {"g": sheet.inputs(**changed)})
+    for name in ("W_b", "W_Q", "M_mean"):
+        assert names[name] != pytest.approx(own[name], rel=1e-4)
+        assert value_of(recording, name, changed) == pytest.approx(own[name], rel=1e-12)
+    assert {c.size for c in recording.tables["8.5"] if c is not None} == {25}

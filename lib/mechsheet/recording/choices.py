@@ -23,6 +23,7 @@ from mechsheet.recording.quantity import (
     trunc,
 )
 from mechsheet.recording.quantity import choice as where
+from mechsheet.worksheet.kinds import Chosen, cases
 
 _NUMBERS = int | float | complex | np.number | Quantity
 _ARRAYS = _NUMBERS | np.bool_ | np.ndarray
@@ -137,6 +138,8 @@ def negated(value: Any) -> Any:
 
 def element(container: Any, key: Any) -> Any:
     """``container[key]``: where the key is a quantity, the one of several numbers that it points at."""
+    if isinstance(key, Chosen) and isinstance(container, dict):
+        return _of_option(container, key, cases(key))
     if not isinstance(key, Quantity) or isinstance(container, Quantity):
         return container[key]
     if isinstance(container, np.ndarray) and container.dtype.kind in "biufc":
@@ -151,6 +154,22 @@ def element(container: Any, key: Any) -> Any:
     for known, value in values.items():
         result = where(key.graph, key == known, value, result)
     return result
+
+
+def _of_option(container: dict[Any, Any], key: Chosen, is_it: dict[str, Any]) -> Any:
+    """``container[key]`` of a chosen option: numbers or tuples of them of all options, else of the one chosen now."""
+    rows = {option: container[option] for option in is_it if option in container}
+    if any(condition.value and option not in rows for option, condition in is_it.items()):
+        return container[key]
+    if all(isinstance(row, _NUMBERS) for row in rows.values()):
+        result: Any = np.nan
+        for option, value in rows.items():
+            result = where(is_it[option].graph, is_it[option], value, result)
+        return result
+    if all(isinstance(row, tuple) for row in rows.values()) and len(set(map(len, rows.values()))) == 1:
+        count = range(len(next(iter(rows.values()))))
+        return tuple(_of_option({option: row[n] for option, row in rows.items()}, key, is_it) for n in count)
+    return container[key]
 
 
 def put(array: Any, key: Any, value: Any) -> Any:

@@ -1,7 +1,7 @@
 """A worksheet recorded: its statements run one by one with quantities that remember what is done with them."""
 
 import builtins
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from itertools import chain
 from pathlib import Path
 from types import CodeType, FunctionType
@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from mechsheet.recording import statement
+from mechsheet.recording.given import given
 from mechsheet.recording.graph import Gap, Graph, Guard, Node, NotRecorded, bottom_up
 from mechsheet.recording.lines import Recording
 from mechsheet.recording.memory import Memory, changes, names_of
@@ -17,7 +18,6 @@ from mechsheet.recording.quantity import Quantity
 from mechsheet.recording.quantity import choice as where
 from mechsheet.recording.stage import Stage, held
 from mechsheet.recording.substitutes import current, shared, staged
-from mechsheet.worksheet import inputs
 from mechsheet.worksheet.cells import Worksheet, load
 from mechsheet.worksheet.check import Check
 from mechsheet.worksheet.find import Found
@@ -31,14 +31,16 @@ def record(namespace: Mapping[str, Any], sheet: Worksheet | None = None, whole: 
 
     ``sheet`` has the cells where they are not those of the file; with ``whole`` all of them are run. What a recording
     does not hold keeps the numbers of the worksheet's own run, as nodes ``exported`` that know what they rest on;
-    `Recording.gaps` says where and why. Where all tables list every so many positions, only those are recorded.
+    `Recording.gaps` says where and why. Where all tables list every so many positions, only those are recorded, and
+    all of them only for single numbers that rest on all, such as an integral.
     """
     sheet = load(Path(namespace["__file__"])) if sheet is None else sheet
     listed = {value.every for value in namespace.values() if isinstance(value, Table)}
+    want = sheet.results if whole else [name for name in sheet.results if _shown(namespace.get(name))]
     graph = Graph(listed.pop() if len(listed) == 1 else 1)
     token = current.set(graph)
     try:
-        return _Run(sheet, graph, namespace, whole).recording
+        return _Run(sheet, graph, namespace, want).recording
     finally:
         current.reset(token)
 
@@ -46,21 +48,16 @@ def record(namespace: Mapping[str, Any], sheet: Worksheet | None = None, whole: 
 class _Run:
     """One run of a worksheet's cells, statement by statement."""
 
-    def __init__(self, sheet: Worksheet, graph: Graph, namespace: Mapping[str, Any], whole: bool) -> None:
-        self.graph, self.namespace = graph, namespace
-        g: Any = object.__new__(sheet.inputs)
-        known = {}
-        for declared in inputs.declared(sheet.inputs):
-            value = getattr(namespace["g"], declared.name)
-            known[declared.name] = graph.leaf("input", declared.name, value)
-            object.__setattr__(g, declared.name, Quantity(graph, known[declared.name]))
+    def __init__(self, sheet: Worksheet, graph: Graph, namespace: Mapping[str, Any], want: Sequence[str]) -> None:
+        self.sheet, self.graph, self.namespace = sheet, graph, namespace
+        g, known = given(graph, namespace["g"])
         self.recording = Recording(graph, known, every=graph.thin)
         self.recording.sections = list(dict.fromkeys(cell.section for cell in sheet.cells))
         self.names: dict[str, Any] = shared(sheet.common) | {"__builtins__": builtins, "g": g}
         self.looked: dict[str, tuple[Guard, ...]] = {}  # by name: the guards that its value rests on
         self.chosen: dict[Node, frozenset[Node]] = {}
         self.lost: dict[str, str] = {}  # names that have no value here, and why
-        want = sheet.results if whole else [name for name in sheet.results if _shown(namespace.get(name))]
+        self.everywhere: dict[str, _Run] = {}  # over all positions, by the cell that needs it
         self.lines = lines = registry(namespace)
         for cell in sheet.needed(want, {"g": g}):
             stage = Stage(self.recording, namespace, cell)
@@ -100,8 +97,11 @@ class _Run:
         try:
             with np.errstate(all="ignore"):  # the worksheet's own run has warned
                 exec(facts.code, self.names)
-            differs = [name for name in final if not stage.same(self.names.get(name), self.namespace.get(name))]
-            if not all(name not in self.lines and self.of_listed(self.names[name]) for name in differs):
+            differs = self.differing(stage, final)
+            if graph.thin > 1 and all(np.size(self.namespace[name]) == 1 for name in differs):
+                self.over_all(stage, [name for name in differs if not self.of_listed(name)])
+                differs = self.differing(stage, final)
+            if not all(map(self.of_listed, differs)):
                 of_all = " is of all positions, and only those that tables list are recorded"
                 differ = of_all if graph.thin > 1 else " would differ from the worksheet"
                 raise NotRecorded(", ".join(differs) + differ)
@@ -170,12 +170,34 @@ class _Run:
             return str(error)
         return f"it does not run with recorded quantities ({str(error).splitlines()[0] if str(error) else error!r})"
 
-    def of_listed(self, value: Any) -> bool:
+    def differing(self, stage: Stage, names: Iterable[str]) -> list[str]:
+        """Names whose recorded numbers are not the worksheet's own."""
+        return [name for name in names if not stage.same(self.names.get(name), self.namespace.get(name))]
+
+    def over_all(self, stage: Stage, names: Sequence[str]) -> None:
+        """Take single numbers from a run of the same graph over all positions, of the cells behind them alone."""
+        if not names:
+            return
+        graph, cell = self.graph, stage.cell
+        if cell.name not in self.everywhere:
+            kept = graph.thin, graph.line, graph.looked, graph.work
+            labels, graph.labels, graph.thin = graph.labels, {}, 1  # what only this run needs is no named step
+            try:
+                self.everywhere[cell.name] = run = _Run(self.sheet, graph, self.namespace, cell.gives)
+            finally:
+                graph.thin, graph.line, graph.looked, graph.work = kept
+                graph.labels = labels
+            self.recording.guards |= run.recording.guards
+        run = self.everywhere[cell.name]
+        self.names |= {name: run.names[name] for name in names if name in run.names}
+
+    def of_listed(self, name: str) -> bool:
         """Whether a number is a greatest or least one over the positions that tables list, and differs only by that.
 
         Such a number without a unit of its own is the scale of a check over the same positions.
         """
-        if self.graph.thin == 1 or not isinstance(value, Quantity) or value.size > 1:
+        value = self.names[name]
+        if self.graph.thin == 1 or name in self.lines or not isinstance(value, Quantity) or value.size > 1:
             return False
         under = list(bottom_up([value.re], ()))
         kinds = {n.args[2] for n in under if n.op == "reduce" and n.args[0].size > 1}
@@ -232,7 +254,7 @@ class _Run:
         roots += before.nodes
         if "g" in reads:
             parts = facts.parts.union(*map(names_of, codes))
-            used = [name for name in self.recording.inputs if name in parts]
+            used = [name for name in self.recording.inputs if name.partition(".")[0] in parts]
             roots += [self.recording.inputs[name] for name in (self.recording.inputs if facts.whole else used)]
         return leaves_of(roots, self.recording)
 

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from mechsheet import units
-from mechsheet.recording.graph import Node, NotRecorded, bottom_up
+from mechsheet.recording.graph import Node, NotRecorded, Values, bottom_up
 from mechsheet.recording.lines import Recording, Residual, Solved
 from mechsheet.recording.quantity import Quantity, lift
 from mechsheet.worksheet.cells import Cell
@@ -32,7 +32,7 @@ class Stage:
     """One cell while it is recorded: what it shows is noted, and compared with what the worksheet has."""
 
     def __init__(self, recording: Recording, namespace: Mapping[str, Any], cell: Cell) -> None:
-        self.graph, self.recording, self.namespace = recording.graph, recording, namespace
+        self.graph, self.recording, self.namespace, self.cell = recording.graph, recording, namespace, cell
         self.solved: list[Solved] = []
         self.shown_now: list[tuple[dict[str, Any], str]] = []  # by the statement that is run
         given = [namespace.get(name) for name in cell.gives]
@@ -174,8 +174,8 @@ class Stage:
         if kept.dtype.kind not in "iufc":
             return True
         value = lift(self.graph, value)
-        if kept.shape and kept.shape[-1:] != value.shape[-1:]:
-            kept = kept[..., :: self.graph.thin]
+        if kept.shape != value.shape:
+            kept = self._listed(kept)
         try:
             a, b = np.broadcast_arrays(value.value + 0, kept)
         except ValueError:
@@ -185,15 +185,19 @@ class Stage:
         off = 1e-7 * max(size, 1e-6 * terms)
         return bool(np.all((np.abs(a - b) <= off) | (~np.isfinite(a) & ~np.isfinite(b))))
 
+    def _listed(self, own: Values) -> Values:
+        """The positions of the worksheet's own numbers that are recorded."""
+        for axis, size in enumerate(own.shape):
+            if self.graph.thin > 1 and size == self.graph.positions:
+                own = own.take(range(0, size, self.graph.thin), axis)
+        return own
+
     def kept(self, own: Any, rests_on: Sequence[Node]) -> Any:
         """The worksheet's own value instead of a recorded one; what it shows of it too."""
         graph, recording = self.graph, self.recording
 
         def exported(values: Any) -> Quantity:
-            array = np.asarray(values)
-            for axis, size in enumerate(array.shape):
-                if graph.thin > 1 and size == graph.positions:
-                    array = array.take(range(0, size, graph.thin), axis)
+            array = self._listed(np.asarray(values))
             parts = [array.real, array.imag] if array.dtype.kind == "c" else [array]
             return Quantity(graph, *(graph.exported(rests_on, part) for part in parts))
 
