@@ -158,6 +158,17 @@ def test_ways_that_change_something_or_cannot_be_gone_are_guards(lines: str, tmp
     assert np.isnan(changed[node]).all() or not all(changed[guard].all() for guard in recording.guards)
 
 
+def test_what_stands_behind_an_integral_over_all_positions_is_recorded_too(tmp_path: Path) -> None:
+    """The cell is run once more for the integral, which leaves alone what the cell shows."""
+    sheet = own(tmp_path, 'from mechsheet import check\nW = np.trapezoid(x**2, x)  # [-] work\nok = check("ok", W, 99.0)')
+    Path(sheet.path).write_text(Path(sheet.path).read_text().replace('"All", x)', '"All", x, every=2)'))
+    sheet = cells.read(Path(sheet.path))
+    _, recording = recorded(sheet)
+    assert not recording.gaps and recording.checks.keys() == {"ok"} and recording.tables.keys() == {"1"}
+    expected = cells.evaluate(sheet.path, ["W"], F=4.0)["W"]
+    np.testing.assert_allclose(value_of(recording, "W", {"F": 4.0}), expected, rtol=1e-12)
+
+
 GUARDED = [  # what the numbers are decides about lengths and ways: other numbers of the same kind are followed
     ("x[x > 2]", {"F": 2.55}, {"F": 4.0}),
     ("np.sort(x * np.cos(3 * x))[np.flatnonzero(x > 2)]", {"F": 2.55}, {"F": 4.0}),

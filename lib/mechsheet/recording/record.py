@@ -61,7 +61,6 @@ class _Run:
         self.lines = lines = registry(namespace)
         for cell in sheet.needed(want, {"g": g}):
             stage = Stage(self.recording, namespace, cell)
-            staged.set(stage.shows)
             facts = [statement.facts(line, sheet.path) for line in cell.lines]
             last = {name: n for n, fact in enumerate(facts) for name in fact.touched}
             for n, (line, fact) in enumerate(zip(cell.lines, facts, strict=True)):
@@ -81,6 +80,7 @@ class _Run:
         graph = self.graph
         graph.line, graph.looked, graph.work = line, {}, 0
         graph.gone.clear()
+        staged.set(stage.shows)
         reads = self.read(facts.loaded)
         functions = (f for f in map(self.names.get, reads) if isinstance(f, FunctionType))
         codes = [facts.code, *(f.__code__ for f in functions if f.__globals__ is self.names)]
