@@ -120,6 +120,7 @@ class Graph:
         self.nodes: dict[Any, Node] = {}
         self.looked: dict[Node, Guard] = {}  # by their conditions; since somebody emptied it
         self.gone: list[weakref.ref[Any]] = []  # arrays in whose place another one was put
+        self.supposed = 0  # ways that Python does not take and that are recorded beside it, one in another
         self.labels: dict[Node, Label] = {}
 
     def node(self, op: str, *args: Node) -> Node:

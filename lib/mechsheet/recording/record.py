@@ -13,7 +13,7 @@ from mechsheet.recording import statement
 from mechsheet.recording.given import given
 from mechsheet.recording.graph import Gap, Graph, Guard, Node, NotRecorded, bottom_up
 from mechsheet.recording.lines import Recording
-from mechsheet.recording.memory import Memory, names_of
+from mechsheet.recording.memory import Memory, changes, names_of
 from mechsheet.recording.quantity import Quantity
 from mechsheet.recording.quantity import choice as where
 from mechsheet.recording.stage import Stage, held
@@ -61,7 +61,6 @@ class _Run:
         self.lines = lines = registry(namespace)
         for cell in sheet.needed(want, {"g": g}):
             stage = Stage(self.recording, namespace, cell)
-            staged.set(stage.shows)
             facts = [statement.facts(line, sheet.path) for line in cell.lines]
             last = {name: n for n, fact in enumerate(facts) for name in fact.touched}
             for n, (line, fact) in enumerate(zip(cell.lines, facts, strict=True)):
@@ -81,8 +80,10 @@ class _Run:
         graph = self.graph
         graph.line, graph.looked, graph.work = line, {}, 0
         graph.gone.clear()
+        staged.set(stage.shows)
         reads = self.read(facts.loaded)
-        codes = [facts.code, *(f.__code__ for f in map(self.names.get, reads) if isinstance(f, FunctionType))]
+        functions = (f for f in map(self.names.get, reads) if isinstance(f, FunctionType))
+        codes = [facts.code, *(f.__code__ for f in functions if f.__globals__ is self.names)]
         touched = dict.fromkeys([*facts.touched, *chain.from_iterable(map(statement.shared_names, codes))])
         final = {name for name in touched if name not in later and not name.startswith("_")}
         texts = {name for name in reads if isinstance(self.names.get(name), str)}
@@ -91,7 +92,7 @@ class _Run:
             for names in (reads, reads - texts)
         )
         before = Memory((self.names.get(name) for name in reads - {"g"}), self.names)
-        may_change = any(map(statement.changes, codes))
+        may_change = any(map(changes, codes))
         differs: list[str] = []
         try:
             with np.errstate(all="ignore"):  # the worksheet's own run has warned
@@ -110,9 +111,7 @@ class _Run:
             beside = before.named(self.names, before.changed() | (before.mutable() if may_change else set()))
             self.lose(stage, beside.difference(touched), later, self.why(error, reads))
             return
-        ways = may_change and any(
-            not guard.rows for guard in graph.looked.values()
-        )  # the way not taken may change more
+        ways = may_change and any(not guard.rows for guard in graph.looked.values())  # of which others change more
         beside = before.named(self.names, before.changed() | (before.mutable() if ways else set())).difference(touched)
         everywhere = not touched and not beside
         self.recording.guards |= {holds: guard for holds, guard in graph.looked.items() if guard.rows or everywhere}

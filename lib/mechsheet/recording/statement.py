@@ -10,7 +10,6 @@ from typing import NamedTuple
 from mechsheet.recording.rewritten import compiled
 from mechsheet.worksheet.cells import bound
 
-_SETS = {"STORE_SUBSCR", "STORE_ATTR", "STORE_SLICE", "STORE_DEREF", "DELETE_SUBSCR", "DELETE_ATTR"}
 _TEXTS = {"typeset", "print"}  # calls whose result stands on the page alone
 
 
@@ -57,17 +56,6 @@ def _changed(nodes: Iterable[ast.AST]) -> Iterator[str]:
                 yield name
             case ast.Subscript(ast.Name(name), ctx=ast.Store()):
                 yield name
-
-
-@lru_cache(maxsize=4096)
-def changes(code: CodeType) -> bool:
-    """Whether code, or a function in it, may change something in place: it sets a part, or calls for no value."""
-    last = ""
-    for instruction in dis.get_instructions(code):
-        if instruction.opname in _SETS or (instruction.opname == "POP_TOP" and last.startswith("CALL")):
-            return True
-        last = instruction.opname
-    return any(changes(constant) for constant in code.co_consts if isinstance(constant, CodeType))
 
 
 @lru_cache(maxsize=4096)

@@ -91,6 +91,8 @@ def _of_package(value: Any, room: str) -> Any:
 @cache
 def _on_stage(name: str) -> Callable[..., Any]:
     def function(*args: Any, **kwargs: Any) -> Any:
+        if current.get().supposed:
+            raise NotRecorded("it is shown on a way that is not taken")
         return staged.get()[name](*args, **kwargs)
 
     return function
