@@ -1,6 +1,7 @@
 """The graph of a recording: quantities as operations on other quantities, and how they are made."""
 
 from collections.abc import Callable, Container, Iterable, Iterator, Sequence
+from contextvars import ContextVar
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
@@ -271,6 +272,9 @@ class Graph:
         if all(a.op == "constant" for a in args):
             return self.constant(ELEMENTWISE[op](*[a.value for a in args]))
         return self.node(op, *args)
+
+
+current: ContextVar[Graph] = ContextVar("current")  # the graph of the recording that is made here
 
 
 def is_number(node: Node, number: float) -> bool:

@@ -1,6 +1,5 @@
 """A worksheet recorded: its statements run one by one with quantities that remember what is done with them."""
 
-import builtins
 from collections.abc import Iterable, Mapping
 from dataclasses import fields, is_dataclass, replace
 from itertools import chain
@@ -11,12 +10,13 @@ from typing import Any
 import numpy as np
 
 from mechsheet.recording import statement
-from mechsheet.recording.graph import Gap, Graph, Guard, Node, NotRecorded, bottom_up
+from mechsheet.recording.graph import Gap, Graph, Guard, Node, NotRecorded, bottom_up, current
 from mechsheet.recording.lines import Recording
 from mechsheet.recording.quantity import Quantity
 from mechsheet.recording.quantity import choice as where
 from mechsheet.recording.stage import Stage, held
-from mechsheet.recording.substitutes import current, shared
+from mechsheet.recording.substitutes import BUILTINS, shared
+from mechsheet.recording.unrepeatable import Unrepeatable
 from mechsheet.worksheet import inputs
 from mechsheet.worksheet.cells import Worksheet, load
 from mechsheet.worksheet.check import Check
@@ -56,10 +56,11 @@ class _Run:
             object.__setattr__(g, declared.name, Quantity(graph, known[declared.name]))
         self.recording = Recording(graph, known, every=graph.thin)
         self.recording.sections = list(dict.fromkeys(cell.section for cell in sheet.cells))
-        self.names: dict[str, Any] = {**shared(sheet.common), "__builtins__": builtins, "g": g}
+        self.names: dict[str, Any] = {**shared(sheet.common), "__builtins__": BUILTINS, "g": g}
         self.looked: dict[str, tuple[Guard, ...]] = {}  # by name: the guards that its value rests on
         self.chosen: dict[Node, frozenset[Node]] = {}
-        self.lost: dict[str, str] = {}  # names that have no value here, and why
+        self.lost: dict[str, NotRecorded] = {}  # names that have no value here, and why
+        self.passing: dict[str, Any] = {}  # of these, numbers that nothing may rest on: others at the next run
         want = sheet.results if whole else [name for name in sheet.results if _shown(namespace.get(name))]
         self.lines = lines = registry(namespace)
         for cell in sheet.needed(want, {"g": g}):
@@ -72,7 +73,7 @@ class _Run:
                     final = {name for name in fact.touched if last[name] == n and not name.startswith("_")}
                     self.step(stage, line.lineno, fact, final)
             for name in dict.fromkeys([*(n for n in cell.code.co_names if n in lines), *cell.gives]):
-                self.recording.define(cell.section, name, self.names.get(name), lines)
+                self.recording.define(cell.section, name, self.names.get(name, self.passing.get(name)), lines)
             for solved in stage.solved:
                 self.recording.define_steps(cell.section, solved)
         self.recording.values = self.names
@@ -117,7 +118,7 @@ class _Run:
         stage.finish(lambda x: self.while_same(x, shown.values()))
 
     def keep(
-        self, stage: Stage, facts: statement.Statement, final: set[str], reason: str, reads: frozenset[str]
+        self, stage: Stage, facts: statement.Statement, final: set[str], reason: NotRecorded, reads: frozenset[str]
     ) -> None:
         """The numbers of the worksheet's own run in place of a recording."""
         touched, graph = facts.touched, self.graph
@@ -126,27 +127,31 @@ class _Run:
         stage.forget()
         guards = tuple(Guard(graph.same(leaf), graph.line) for leaf in rests_on)
         if not touched or any(held(self.namespace.get(name)) for name in final) or not final.issuperset(touched):
-            public = tuple(name for name in touched if not name.startswith("_"))
-            self.recording.gaps.append(Gap(public, graph.line, reason))
+            if not (isinstance(reason, Unrepeatable) and reason in self.lost.values()):  # what rests on that is known
+                public = tuple(name for name in touched if not name.startswith("_"))
+                self.recording.gaps.append(Gap(public, graph.line, str(reason)))
             self.recording.guards |= {guard.holds: guard for guard in guards}
+        kept = {n: stage.kept(self.namespace[n], rests_on) for n in touched if n in final and n in self.namespace}
+        if isinstance(reason, Unrepeatable):
+            self.passing |= {name: value for name, value in kept.items() if name in self.lines}
+            kept = {}
         for name in touched:
-            self.looked[name] = guards
-            if name in final and name in self.namespace:
-                self.names[name] = stage.kept(self.namespace[name], rests_on)
-                if isinstance(self.names[name], Quantity):
-                    self.looked[name] = ()
+            self.looked[name] = () if isinstance(kept.get(name), Quantity) else guards
+            if name in kept:
+                self.names[name] = kept[name]
             else:
                 self.names.pop(name, None)
                 self.lost[name] = reason
 
-    def why(self, error: Exception, reads: frozenset[str]) -> str:
+    def why(self, error: Exception, reads: frozenset[str]) -> NotRecorded:
         """Why a statement cannot be recorded."""
-        known = [self.lost[name] for name in reads if name in self.lost]
+        known = [self.lost[name] for name in sorted(reads) if name in self.lost]
         if known and isinstance(error, NameError):
-            return known[0]
+            return next((reason for reason in known if isinstance(reason, Unrepeatable)), known[0])
         if isinstance(error, NotRecorded):
-            return str(error)
-        return f"it does not run with recorded quantities ({str(error).splitlines()[0] if str(error) else error!r})"
+            return error.with_traceback(None)
+        said = str(error).splitlines()[0] if str(error) else repr(error)
+        return NotRecorded(f"it does not run with recorded quantities ({said})")
 
     def of_listed(self, value: Any) -> bool:
         """Whether a number is a greatest or least one over the positions that tables list, and differs only by that.

@@ -176,8 +176,10 @@ class Stage:
 
     def same(self, value: Any, own: Any) -> bool:
         """Whether a recorded quantity has the worksheet's own numbers, but for the rounding of what it is made of."""
-        if not (isinstance(value, Quantity) and isinstance(own, int | float | complex | np.ndarray | np.generic)):
+        if not isinstance(own, int | float | complex | np.ndarray | np.generic):
             return True
+        if not isinstance(value, Quantity):  # a number that rests on no input
+            return type(value) is not type(own) or np.asarray(own).dtype.kind not in "iufc" or _equal(value, own)
         kept = np.asarray(own) + 0
         if kept.dtype.kind not in "iufc":
             return True
@@ -229,6 +231,10 @@ class Stage:
         if is_dataclass(own) and not isinstance(own, type | Shown):
             return replace(own, **{f.name: self.kept(getattr(own, f.name), rests_on) for f in fields(own) if f.init})
         return own
+
+
+def _equal(value: Any, own: Any) -> bool:
+    return np.array_equal(value, own, equal_nan=True)
 
 
 def held(own: Any) -> bool:

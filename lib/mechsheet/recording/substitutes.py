@@ -9,23 +9,22 @@ import builtins
 import math
 import sys
 from collections.abc import Callable, Mapping
-from contextvars import ContextVar
 from functools import cache
 from inspect import unwrap
-from types import BuiltinFunctionType, FunctionType, GenericAlias
+from types import BuiltinFunctionType, FunctionType, GenericAlias, ModuleType
 from typing import Any
 
 import numpy as np
 
-from mechsheet.recording.graph import Graph, NotRecorded
+from mechsheet.recording.graph import NotRecorded, current
 from mechsheet.recording.numpy_rules import arange, linspace, trapezoid_so_far
 from mechsheet.recording.quantity import FUNCTIONS, Quantity, has_quantity, lift, plain
 from mechsheet.recording.rewritten import NAMES, rebuilt
-
-current: ContextVar[Graph] = ContextVar("current")  # the graph of the recording that is made here
+from mechsheet.recording.unrepeatable import MODULES, instead_of_chance
 
 _ROOMS = ("mechsheet.mechanics.", "mechsheet.worksheet.force_diagram")
 _WRITTEN = {"__post_init__"}  # the only special method of a group that is not made by `dataclass`
+_REPLACED = (np, np.linalg, math, *MODULES)
 _ARRAYS = (np.array, np.asarray, np.asanyarray, np.ascontiguousarray)
 
 
@@ -50,8 +49,10 @@ _MATH = {getattr(math, name): getattr(np, _OTHER.get(name, name)) for name in [*
 
 def instead(value: Any) -> Any:
     """What takes quantities in place of a function, class or module; anything else is itself."""
-    if value is np or value is math:
-        return _module(value)
+    if isinstance(value, ModuleType):
+        return _module(value) if value in _REPLACED else value
+    if (refusing := instead_of_chance(value)) is not None:
+        return refusing
     if isinstance(value, BuiltinFunctionType) and value in _MATH:
         return _takes(_MATH[value])
     if isinstance(value, np.ufunc) or (callable(value) and _of_numpy(value)):
@@ -80,19 +81,23 @@ def _of_numpy(value: Any) -> bool:
 
 
 class _Module:
-    """numpy or math, whose functions take recorded quantities."""
+    """A module whose functions are those that `instead` gives."""
 
     def __init__(self, module: Any) -> None:
         self._module = module
 
     def __getattr__(self, name: str) -> Any:
-        value = getattr(self._module, name)
-        if getattr(value, "__name__", "") == "numpy.linalg":
-            return _module(value)
-        return instead(value)
+        return instead(getattr(self._module, name))
 
 
 _module = cache(_Module)
+
+
+def _imported(name: str, *args: Any, **kwargs: Any) -> Any:
+    return instead(__import__(name, *args, **kwargs))
+
+
+BUILTINS = {**vars(builtins), "__import__": _imported}  # an import inside a cell is one of what takes quantities too
 
 
 @cache
@@ -156,7 +161,7 @@ def _of_mechanics(f: Any) -> Callable[..., Any]:
 @cache
 def _space(module: str) -> dict[str, Any]:
     """The names of a module of the mechanics, with what takes quantities."""
-    names: dict[str, Any] = {"__builtins__": builtins, **NAMES}
+    names: dict[str, Any] = {"__builtins__": BUILTINS, **NAMES}
     for name, value in vars(sys.modules[module]).items():
         if not name.startswith("__"):
             late = isinstance(value, FunctionType) and value.__module__.startswith(_ROOMS)
