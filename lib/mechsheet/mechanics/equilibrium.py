@@ -6,7 +6,7 @@ Independent of the groups and of the order in which they are taken: it proves th
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import reduce
-from typing import NamedTuple
+from typing import ClassVar, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -23,8 +23,8 @@ class PinReaction:
 
     on: int
     by: int
-    P: ArrayLike  # [m] the pin
     F: ArrayLike  # [N] on the body ``on``
+    P: ArrayLike  # [m] the pin
     M: ArrayLike = 0.0  # [N m] a pin passes none on
 
     @property
@@ -44,10 +44,10 @@ class SlideReaction:
 
     on: int
     by: int
-    P: ArrayLike  # [m] point to which they belong
     F: ArrayLike  # [N] on the body ``on``, square to the slide
-    M: ArrayLike  # [N m] on the body ``on``, about P
+    P: ArrayLike  # [m] point to which they belong
     u: ArrayLike  # [-] direction of the slide, of length 1
+    M: ArrayLike = 0.0  # [N m] on the body ``on``, about P
 
     @property
     def units(self) -> tuple[tuple[ArrayLike, ArrayLike], ...]:
@@ -66,9 +66,9 @@ class DriveMoment:
 
     on: int
     M: ArrayLike  # [N m]
-    by: int = 0
-    P: ArrayLike = 0.0
-    F: ArrayLike = 0.0
+    by: ClassVar[int] = 0
+    F: ClassVar[ArrayLike] = 0.0
+    P: ClassVar[ArrayLike] = 0.0
 
     @property
     def units(self) -> tuple[tuple[ArrayLike, ArrayLike], ...]:
