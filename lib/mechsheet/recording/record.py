@@ -60,7 +60,7 @@ class _Run:
         self.looked: dict[str, tuple[Guard, ...]] = {}  # by name: the guards that its value rests on
         self.chosen: dict[Node, frozenset[Node]] = {}
         self.lost: dict[str, NotRecorded] = {}  # names that have no value here, and why
-        self.passing: dict[str, Any] = {}  # of these, numbers that nothing may rest on: others at the next run
+        self.passing: dict[str, Any] = {}  # of these, lines whose numbers are others at the next run
         want = sheet.results if whole else [name for name in sheet.results if _shown(namespace.get(name))]
         self.lines = lines = registry(namespace)
         for cell in sheet.needed(want, {"g": g}):
@@ -131,10 +131,11 @@ class _Run:
                 public = tuple(name for name in touched if not name.startswith("_"))
                 self.recording.gaps.append(Gap(public, graph.line, str(reason)))
             self.recording.guards |= {guard.holds: guard for guard in guards}
-        kept = {n: stage.kept(self.namespace[n], rests_on) for n in touched if n in final and n in self.namespace}
+        known = [name for name in touched if name in final and name in self.namespace]
         if isinstance(reason, Unrepeatable):
-            self.passing |= {name: value for name, value in kept.items() if name in self.lines}
-            kept = {}
+            self.passing |= {n: stage.kept(self.namespace[n], rests_on) for n in known if n in self.lines}
+            known = []
+        kept = {name: stage.kept(self.namespace[name], rests_on) for name in known}
         for name in touched:
             self.looked[name] = () if isinstance(kept.get(name), Quantity) else guards
             if name in kept:
