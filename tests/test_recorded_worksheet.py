@@ -192,7 +192,9 @@ ONCE = [  # other numbers at each run, however they are come by
     ("", "np.random.rand()"),
     ("from numpy.random import normal", "float(normal(size=2).sum())"),
     ("import random", "random.uniform(0, 1)"),
-    ("from random import Random", "Random().random()"),
+    ("from random import Random, SystemRandom", "Random().random() + SystemRandom().random()"),
+    ("from random import SystemRandom", "SystemRandom().random()"),
+    ("", "np.random.Generator(np.random.PCG64()).normal()"),
     ("def elapsed():\n    import time\n    return time.monotonic()", "elapsed()"),
 ]
 
@@ -223,7 +225,7 @@ table_2 = table("2", "Of this run", v, z)
     np.testing.assert_allclose(value_of(recording, "w", {"F": 5.0}), 2 * names["w"], rtol=1e-12)
 
 
-@pytest.mark.parametrize("seeded", ["np.random.default_rng(7).normal(size=5)", "np.random.RandomState(7).rand(5)"])
+@pytest.mark.parametrize("seeded", ["np.random.default_rng([7, 8]).normal(size=5)", "np.random.RandomState(7).rand(5)"])
 def test_numbers_drawn_with_a_seed_are_recorded(seeded: str, tmp_path: Path) -> None:
     names, recording = recorded(own(tmp_path, f"y = {seeded} * g.F  # [-] line"))
     assert not recording.gaps

@@ -28,6 +28,7 @@ _NAMES = ("time", "monotonic", "perf_counter", "process_time", "thread_time")
 _CLOCKS = {getattr(time, f"{name}{unit}") for name in _NAMES for unit in ("", "_ns")}
 _CLOCKS |= {time.localtime, time.gmtime, time.ctime, time.asctime, time.strftime}
 _SEEDED = {random.Random, np.random.default_rng, np.random.RandomState, np.random.SeedSequence}
+_SEEDED |= set(np.random.BitGenerator.__subclasses__())
 _DRAWING: tuple[Any, ...] = (random.random, np.random.rand)
 _SHARED = tuple(draw.__self__ for draw in _DRAWING)  # generators that all of a program draw from
 
@@ -41,10 +42,10 @@ def instead_of_chance(value: Any) -> Any:
             return _with_seed(value)
     except TypeError:  # not hashable: neither a function nor a class
         return None
-    if value in (datetime.date, datetime.datetime):
+    if isinstance(value, type) and value in (datetime.date, datetime.datetime):
         return _calendar(value)
     shared = any(getattr(value, "__self__", None) is generator for generator in _SHARED)
-    return _draw if shared and value is not random.seed else None
+    return _draw if (shared and value is not random.seed) or value is random.SystemRandom else None
 
 
 def _draw(*_: Any, **__: Any) -> Any:
@@ -54,7 +55,7 @@ def _draw(*_: Any, **__: Any) -> Any:
 @cache
 def _with_seed(f: Callable[..., Any]) -> Callable[..., Any]:
     def function(*seed: Any, **named: Any) -> Any:
-        return _draw() if {*seed, *named.values()} <= {None} else f(*seed, **named)
+        return _draw() if all(x is None for x in (*seed, *named.values())) else f(*seed, **named)
 
     return function
 
