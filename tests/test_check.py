@@ -50,7 +50,7 @@ def test_slope_whose_differences_know_nothing_is_not_evaluated():
 def test_shown_in_its_unit():
     c = check("c", 0.5, 2.0, "mm")
     assert (c.residual, c.limit) == (500, 2000)
-    assert str(c) == "pass  c: 500 <= 2e+03 mm"
+    assert str(c) == "pass  c: 500 <= 2000 mm"
 
 
 def test_slope_against_differences():

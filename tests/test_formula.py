@@ -354,6 +354,9 @@ def test_a_field_has_positions():
     """What only ends in _S is printed as it is written."""
     code = "from numpy import arange\nS = arange(3.0)  # [m]\nl_S = 2.0  # [m]\nP_S = l_S * S  # [m]\nshown = typeset()"
     text = joined(run(IMPORT + code)["shown"])
+    assert r"s_{\mathrm{S}} = \left[0,\ 1\right] = 0, 1 m" in joined(
+        run(IMPORT + "s_S = [0, 1]  # [m]\nshown = typeset()")["shown"]
+    )
     assert r"l_{\mathrm{S}} = 2 m" in text and r"P(S) = l_{\mathrm{S}}\,S = 0, 2, 4 m" in text
 
 

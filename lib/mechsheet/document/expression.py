@@ -146,6 +146,8 @@ class _Reader:
         match node:
             case ast.Attribute(ast.Name("g"), name):
                 return read(name)
+            case ast.Attribute(ast.Attribute(ast.Name("g"), name), part):  # a property or a column of an input
+                return _name(f"{part}_{name}")
             case ast.Attribute(inner, ("real" | "imag") as part):
                 return Prefix(Function("Re" if part == "real" else "Im"), self.least(inner, WHOLE), PRODUCT)
             case ast.Attribute(ast.Name(name), "value") if name.endswith("_found"):
@@ -358,7 +360,9 @@ def _function(name: str) -> Node:
     if name in _KNOWN:
         return Function(_FUNCTIONS.get(name, name))
     word = re.fullmatch(r"[a-z]{3,}(_\w*)?", name) and not re.match("|".join(GREEK), name)
-    is_symbol = len(name) == 1 or (not word and (re.search(r"\d", name) or _SYMBOL.match(name)))
+    is_symbol = (
+        len(name) == 1 or re.fullmatch("d[a-z]", name) or (not word and (re.search(r"\d", name) or _SYMBOL.match(name)))
+    )
     return _name(name) if is_symbol else Function(name.replace("_", " "))
 
 
@@ -398,10 +402,12 @@ def _part(name: str) -> Node:
 
 
 def _read_as(node: ast.AST) -> str:
-    """Name under which a formula reads a quantity, ``g.L3`` too; "" for anything else."""
+    """Name under which a formula reads a quantity, ``g.L3`` and ``g.bolt.R_m`` too; "" for anything else."""
     match node:
         case ast.Attribute(ast.Name("g"), name):
             return f"g.{name}"
+        case ast.Attribute(ast.Attribute(ast.Name("g"), name), part):
+            return f"g.{name}.{part}"
         case ast.Name(name):
             return name
     return ""

@@ -34,7 +34,8 @@ def _single(line: Formula | Given, shown: Typeset) -> frozenset[str]:
     if shown.numbers is None:
         return frozenset()
     known = shown.numbers.namespace
-    return frozenset(name for name in fields_by_name(line) if name in known and np.ndim(known[name]) == 0)
+    over = np.ndim(known.get("S", 0)) > 0
+    return frozenset(n for n in fields_by_name(line) if not over or (n in known and np.ndim(known[n]) == 0))
 
 
 def _formula(line: Formula, value: object, shown: Typeset) -> str:

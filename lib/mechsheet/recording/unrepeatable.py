@@ -11,8 +11,6 @@ import numpy as np
 
 from mechsheet.recording.graph import NotRecorded, current
 
-MODULES = (time, datetime, random, np.random)
-
 
 class Unrepeatable(NotRecorded):
     """Something that differs from run to run, in words; what rests on it differs too."""

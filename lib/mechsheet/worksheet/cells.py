@@ -235,7 +235,7 @@ def load(path: str | Path) -> Worksheet:
         raise SheetError(f"worksheet {path}, line {error.lineno}: {error.msg}") from None
 
 
-class _Marimo:
+class Marimo:
     """marimo, imported at its first use: that takes half a second, and results need nothing of it."""
 
     def __getattr__(self, name: str) -> Any:
@@ -257,7 +257,7 @@ def read(path: Path) -> Worksheet:
     for node in _shared(tree):
         match node:
             case ast.Import([ast.alias("marimo", name)]):
-                common[name or "marimo"] = _Marimo()
+                common[name or "marimo"] = Marimo()
             case _:
                 lines.append(node)
     with raised():

@@ -6,6 +6,7 @@ import sys
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
+from operator import attrgetter
 from typing import Any
 
 import numpy as np
@@ -270,8 +271,8 @@ class Numbers:
         head, dot, part = name.partition(".")
         value: Any = self.namespace.get(head)
         if dot:
-            unit = _units_of(type(value)).get(part)  # type: ignore[arg-type]  # a class can be hashed
-            value = getattr(value, part) if unit else None
+            unit = getattr(type(value), "__units__", {}).get(part)
+            value = attrgetter(part)(value) if unit else None
         else:
             line = self.known.get(name)
             unit = line.unit if line and not line.arguments else None
@@ -280,12 +281,6 @@ class Numbers:
         field = np.asarray(value)
         inside = field.shape and field.shape[-1] > position
         return (field[..., position].flat[0] if inside else field.flat[0]).item(), unit
-
-
-@lru_cache(maxsize=16)
-def _units_of(inputs: type) -> dict[str, str]:
-    """Units of the inputs of a class by their names."""
-    return {field.name: field.unit for field in getattr(inputs, "__inputs__", ())}
 
 
 @dataclass(frozen=True)

@@ -30,8 +30,8 @@ class Symbol:
 def read(name: str) -> Symbol:
     """Symbol of a name; one word of small letters stays whole.
 
-    The rule: a leading ``d`` before a Greek word or a capital letter is a difference or derivative; the base
-    is one Greek word or one letter, or a word of small letters before an underscore; the rest is the index.
+    The rule: a leading ``d`` before a Greek word, a capital letter or the only letter is a difference or derivative;
+    the base is one Greek word or one letter, or a word of small letters before an underscore; the rest is the index.
 
     >>> read("phi34"), read("GS6_max")
     (Symbol(base='φ', index='34', mark=''), Symbol(base='G', index='S6,max', mark=''))
@@ -39,8 +39,12 @@ def read(name: str) -> Symbol:
     (Symbol(base='group', index='23', mark=''), Symbol(base='h', index='φ6', mark=''))
     >>> read("dphi3"), read("dRa"), read("gap").base
     (Symbol(base='φ', index='3', mark='d'), Symbol(base='R', index='a', mark='Δ'), 'gap')
+    >>> read("ds")
+    Symbol(base='s', index='', mark='d')
     """
     greek = re.match(_WORDS, name)
+    if re.fullmatch("d[a-z]", name):
+        return Symbol(name[1], mark="d")
     word = re.fullmatch(r"([a-z]{3,})(?:_(\w*))?", name)
     if word and not greek and not re.match(f"d({_WORDS})", name):
         return Symbol(word[1], _index(word[2] or ""))
