@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 from typing import Any
 
@@ -219,6 +220,68 @@ def test_what_is_not_followed_is_named_and_never_stale(expression: str, reason: 
     np.testing.assert_allclose(value_of(recording, "z", {"a": 2.0}), names["z"] - 0.75 + 2, rtol=1e-12)
     assert np.isnan(value_of(recording, "z", {"F": 2.6})).all()
     np.testing.assert_allclose(value_of(recording, "w", {"F": 5.0}), 2 * names["w"], rtol=1e-12)
+
+
+ONCE = [  # other numbers at each run, however they are come by
+    ("from time import perf_counter", "perf_counter()"),
+    ("import time as clock", "clock.time_ns() / 1e9"),
+    ("import datetime", "datetime.datetime.now().timestamp()"),
+    ("from datetime import date, datetime", "datetime.today().microsecond + date.today().day"),
+    ("", "np.random.default_rng().normal()"),
+    ("", "np.random.default_rng(seed=None).normal(size=3).sum()"),
+    ("", "np.random.rand()"),
+    ("from numpy.random import normal", "float(normal(size=2).sum())"),
+    ("import random", "random.uniform(0, 1)"),
+    ("from random import Random, SystemRandom", "Random().random() + SystemRandom().random()"),
+    ("from random import SystemRandom", "SystemRandom().random()"),
+    ("", "np.random.Generator(np.random.PCG64()).normal()"),
+    ("def elapsed():\n    import time\n    return time.monotonic()", "elapsed()"),
+]
+
+
+@pytest.mark.parametrize(("before", "expression"), ONCE)
+def test_the_clock_and_chance_are_never_recorded(before: str, expression: str, tmp_path: Path) -> None:
+    """Nothing rests on such a number, or a formula would hold it: the ways taken for it are no guards."""
+    lines = f"""
+{before}
+y = {expression}  # [-] of this run
+z = 2 * x if y + 1 > g.a * g.F else 3 * x  # [-] rests on it
+w = 2 * x  # [-] does not
+v = y * x  # [μs] too
+table_2 = table("2", "Of this run", v, z)
+"""
+    sheet = own(tmp_path, re.sub(r"\n+", "\n", lines.strip()))
+    names, recording = recorded(sheet)
+    (gap,) = recording.gaps
+    assert gap.names == ("y",) and "at each run" in gap.reason
+    of_two = (recording, record({**names, "__file__": sheet.path}))
+    first, second = ([(n.op, n.value.tolist()) for n in made.graph.nodes.values()] for made in of_two)
+    assert repr(first) == repr(second)
+    for name in ("y", "v", "z"):
+        np.testing.assert_allclose(value_of(recording, name, {}), names[name], rtol=1e-15)
+    for name in ("v", "z"):
+        assert np.isnan(value_of(recording, name, {"F": 2.0})).all()
+    assert "2" not in recording.tables, "its numbers stand in the workbook for these inputs alone"
+    np.testing.assert_allclose(value_of(recording, "w", {"F": 5.0}), 2 * names["w"], rtol=1e-12)
+
+
+@pytest.mark.parametrize("seeded", ["np.random.default_rng([7, 8]).normal(size=5)", "np.random.RandomState(7).rand(5)"])
+def test_numbers_drawn_with_a_seed_are_recorded(seeded: str, tmp_path: Path) -> None:
+    names, recording = recorded(own(tmp_path, f"y = {seeded} * g.F  # [-] line"))
+    assert not recording.gaps
+    np.testing.assert_allclose(value_of(recording, "y", {"F": 5.0}), 2 * names["y"], rtol=1e-12)
+
+
+def test_numbers_that_the_cells_do_not_give_again_are_the_worksheet_s_own(tmp_path: Path) -> None:
+    """A generator of all cells goes on where the worksheet's own run has left it."""
+    sheet = own(tmp_path, "y = drawn.normal(size=5)  # [-] line\nz = 2 * y  # [-] rests on it")
+    path = Path(sheet.path)
+    path.write_text(
+        path.read_text().replace("    from numpy import", "    drawn = np.random.default_rng(7)\n    from numpy import")
+    )
+    names, recording = recorded(cells.load(path))
+    assert [gap.names for gap in recording.gaps] == [("y",)]
+    np.testing.assert_array_equal(value_of(recording, "z", {}), names["z"])
 
 
 def test_a_list_that_is_filled_and_an_array_whose_elements_are_set(tmp_path: Path) -> None:

@@ -2,6 +2,7 @@
 
 import weakref
 from collections.abc import Callable, Container, Iterable, Iterator, Sequence
+from contextvars import ContextVar
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
@@ -274,6 +275,9 @@ class Graph:
         if all(a.op == "constant" for a in args):
             return self.constant(ELEMENTWISE[op](*[a.value for a in args]))
         return self.node(op, *args)
+
+
+current: ContextVar[Graph] = ContextVar("current")  # the graph of the recording that is made here
 
 
 def is_number(node: Node, number: float) -> bool:

@@ -39,9 +39,9 @@ def facts(statement: ast.stmt, path: str) -> Statement:
 
 
 def on_the_page(statement: ast.stmt) -> bool:
-    """Whether a statement shows a text, which is of no other use."""
+    """Whether a statement shows a text or a value, which is of no other use."""
     match statement:
-        case ast.Expr(ast.Call(ast.Attribute(ast.Name("mo"))) | ast.Constant()):
+        case ast.Expr(ast.Call(ast.Attribute(ast.Name("mo"))) | ast.Constant() | ast.Name()):
             return True
         case ast.Expr(ast.Call(ast.Name(name))):
             return name in _TEXTS
