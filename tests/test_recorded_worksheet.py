@@ -161,7 +161,9 @@ def test_ways_that_change_something_or_cannot_be_gone_are_guards(lines: str, tmp
 
 def test_what_stands_behind_an_integral_over_all_positions_is_recorded_too(tmp_path: Path) -> None:
     """The cell is run once more for the integral, which leaves alone what the cell shows."""
-    sheet = own(tmp_path, 'from mechsheet import check\nW = np.trapezoid(x**2, x)  # [-] work\nok = check("ok", W, 99.0)')
+    sheet = own(
+        tmp_path, 'from mechsheet import check\nW = np.trapezoid(x**2, x)  # [-] work\nok = check("ok", W, 99.0)'
+    )
     Path(sheet.path).write_text(Path(sheet.path).read_text().replace('"All", x)', '"All", x, every=2)'))
     sheet = cells.read(Path(sheet.path))
     _, recording = recorded(sheet)
