@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Mapping
+from dataclasses import replace
 from functools import lru_cache
 from typing import Any
 
@@ -31,6 +32,7 @@ _OF_RANGE = {
     "argmax": "MATCH(MAX({0}),{1},0)-1", "argmin": "MATCH(MIN({0}),{1},0)-1", "nanmax": f"{AGGREGATE}(4,6,{{}})",
     "nanmin": f"{AGGREGATE}(5,6,{{}})", "nansum": f"{AGGREGATE}(9,6,{{}})",
 }  # fmt: skip
+_DIFFERS = 5  # columns between an input in SI units and whether it differs from the exported one
 _FAILS = {"sqrt", "asin", "acos", "atan2", "log", "div", "pow", "mod", "tan", "at"}  # may give an error value
 
 
@@ -74,9 +76,9 @@ class CellFormulas:
             return True
         if node.shape != root.shape:
             return False
-        return node in self.places or (
-            _plain(node) and all(self._same_rows(operand, root) for operand in node.operands)
-        )
+        if node in self.places:
+            return self.places[node].aligned
+        return _plain(node) and all(self._same_rows(operand, root) for operand in node.operands)
 
     def _fails(self, node: Node) -> bool:
         """Whether a formula may give an error value where its operands give none."""
@@ -93,7 +95,7 @@ class CellFormulas:
         place = self.places.get(node)
         if place is None:
             return self._operation(node, k, row)
-        return place.name if node.size == 1 or k == row else place.at(k), 5
+        return place.name if node.size == 1 or (k == row and place.aligned) else place.at(k), 5
 
     def _operation(self, node: Node, k: int, row: int) -> tuple[str, int]:
         match node.op:
@@ -125,7 +127,7 @@ class CellFormulas:
                 return f"INDEX({self.places[source].range(0, source.size - 1)},{where}+1)", 5
             case "exported":
                 known = written(node.value.reshape(-1)[k if node.size > 1 else 0])
-                same = [f"{self._element(x, 0, row)[0]}={written(x.value)}" for x in node.args]
+                same = [self._unchanged(x) for x in node.args]
                 return f"IF(AND({','.join(same)}),{known},NA())" if same else known, 5
         form, binding, needs = _TEXT[node.op]
         shape, texts = node.shape, []
@@ -135,6 +137,13 @@ class CellFormulas:
         if node.op == "neg" and "^" in texts[0] and tight < 5:  # -x^2 is (-x)^2 to a spreadsheet
             return f"-({texts[0]})", binding
         return form.format(*texts), binding
+
+    def _unchanged(self, node: Node) -> str:
+        """Condition under which an input or another quantity is what it was; of a list its rows tell what differs."""
+        if node.size == 1:
+            return f"{self._element(node, 0, -1)[0]}={written(node.value.item())}"
+        place = self.places[node]
+        return f"SUM({replace(place, column=place.column + _DIFFERS).range(0, node.size - 1)})=0"
 
 
 def nesting(node: Node, inside: Mapping[Node, int]) -> int:
