@@ -8,6 +8,7 @@ import sys
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import partial
+from pathlib import Path
 from types import NoneType
 from typing import TYPE_CHECKING, Any, Literal, TypeVar, dataclass_transform, get_args, get_origin
 
@@ -15,6 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mechsheet.worksheet import errors, lines, numbers, source
+from mechsheet.worksheet.data_file import DataFile
 from mechsheet.worksheet.errors import SheetError, refuse
 from mechsheet.worksheet.kinds import Choice, Input, Offer, Switch, TextLine, number
 from mechsheet.worksheet.lists import Rows
@@ -94,6 +96,7 @@ def units_of(cls: type) -> dict[str, str]:
 def _declared(cls: type, cell: source.Cell, names: Mapping[str, Any]) -> tuple[Input, ...]:
     nodes = (node for statement in cell.body for node in ast.walk(statement))  # of a setup too, which is a block
     body = next(node for node in nodes if isinstance(node, ast.ClassDef) and node.name == cls.__name__)
+    folder = str(Path(names.get("__file__") or "x").resolve().parent)
     found, places, section, line = list[Input](), dict[str, str](), "", body.lineno
     for node in body.body:
         between = [cell.comments[n] for n in range(line + 1, node.lineno) if n in cell.comments]
@@ -105,16 +108,17 @@ def _declared(cls: type, cell: source.Cell, names: Mapping[str, Any]) -> tuple[I
         kind = eval(kind, dict(names)) if isinstance(kind, str) else kind
         comment = cell.comments.get(line, "")
         text = lines.declared(comment, place)
-        if text is None and kind in (int, float) and not isinstance(default, Offer):
+        if text is None and kind in (int, float, list[float]) and not isinstance(default, Offer):
             raise SheetError(f"{place}: input {name} needs a comment with its unit, such as # [m] meaning")
         unit, (meaning, _, limits) = text[0] if text else "-", (text[1] if text else comment).partition(";")
         plain = Input(name, unit, meaning.strip(), section, kind is int, tuple(_limits(limits, name, place)))
-        own = _of_kind(plain, kind, default, place)
+        own = _of_kind(plain, kind, default, place, folder)
         if isinstance(own, Rows):
             if own.row and limits:
                 raise SheetError(f"{place}: limits of the table {name} stand in the class of its rows")
             if name in vars(cls):
-                setattr(cls, name, own.taken(default))
+                read = own.of_file(Path(folder) / default.name) if isinstance(default, DataFile) else None
+                setattr(cls, name, own.si(read, own.taken([])) if read else own.taken(default))
         elif own is not plain and (unit != "-" or limits):
             raise SheetError(f"{place}: {name} is no number and has neither unit nor limits")
         elif name in vars(cls) and own is not plain:
@@ -132,7 +136,7 @@ def _declared(cls: type, cell: source.Cell, names: Mapping[str, Any]) -> tuple[I
     return tuple(found)
 
 
-def _of_kind(plain: Input, kind: Any, default: Any, place: str) -> Input:
+def _of_kind(plain: Input, kind: Any, default: Any, place: str, folder: str) -> Input:
     """The declaration of an input for the kind that its type says."""
     known = {field.name: getattr(plain, field.name) for field in dataclasses.fields(plain)}
     if isinstance(default, Offer):
@@ -147,11 +151,10 @@ def _of_kind(plain: Input, kind: Any, default: Any, place: str) -> Input:
     if get_origin(kind) is list:
         (of,) = get_args(kind)
         if of is float:
-            return Rows(**known, columns=(dataclasses.replace(plain, many=True),))
+            return Rows(**known, columns=(dataclasses.replace(plain, many=True),), folder=folder)
         if hasattr(of, "__properties__"):
-            return Rows(
-                **known, columns=tuple(_column_of(plain.name, each, declared(of)) for each in declared(of)), row=of
-            )
+            own = tuple(_column_of(plain.name, each, declared(of)) for each in declared(of))
+            return Rows(**known, columns=own, row=of, folder=folder)
     if kind is bool:
         return Switch(**known)
     if kind is str:

@@ -4,12 +4,13 @@ import re
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cache
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mechsheet.worksheet import errors
+from mechsheet.worksheet import data_file, errors
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.kinds import Input
 
@@ -26,6 +27,7 @@ class Rows(Input):
 
     columns: tuple[Input, ...] = ()
     row: type | None = None
+    folder: str = ""  # of the worksheet
 
     def display(self, value: Any) -> Any:
         return {name: np.array([c.display(float(x)) for x in xs]) for name, (c, xs) in self.leaves(value).items()}
@@ -33,8 +35,11 @@ class Rows(Input):
     def read(self, value: object) -> Any:
         """Columns from a text of rows, a list of rows, or a mapping of columns.
 
-        A row of a text ends with its line or with ``|``, its numbers are apart by ``;`` or a tab.
+        A row of a text ends with its line or with ``|``, its numbers are apart by ``;`` or a tab; a text that ends
+        as the name of a file does is one, in the current folder or beside the worksheet.
         """
+        if isinstance(value, str) and value.strip().lower().endswith(data_file.ENDINGS):
+            return self.of_file(Path(value.strip()))
         given = self._columns(value)
         count = {len(xs) for xs in given.values()}
         if len(count) > 1:
@@ -43,6 +48,21 @@ class Rows(Input):
         if not 0 < max(count) <= _MOST:
             raise SheetError(f"{self.meaning} {self.name} must have 1 to {_MOST} rows, not {max(count)}")
         return {c.name: np.array([_of_row(c, k).read(x) for k, x in enumerate(given[c.name])]) for c in self.columns}
+
+    def of_file(self, path: Path) -> Any:
+        """Columns of a file, by their names in it."""
+        beside = Path(self.folder) / path
+        short = {c.name.rpartition(".")[2]: c for c in self.columns}
+        file = data_file.columns(path if path.is_file() else beside, short)
+        found = dict[str, NDArray[np.float64]]()
+        for name, column in short.items():
+            for k, cell in enumerate(file.cells[name]):
+                try:
+                    _of_row(column, k).read(cell)
+                except SheetError as error:
+                    raise SheetError(f"file {file.path}, row {file.rows[k]}, column {name}: {error}") from None
+            found[column.name] = np.array([column.read(cell) for cell in file.cells[name]])
+        return self.read(found)
 
     def si(self, value: Any, default: Any) -> Any:
         return self.held(self._si(value, default))
@@ -73,6 +93,8 @@ class Rows(Input):
         return ("; " if self.row is None else " | ").join(map("; ".join, zip(*columns, strict=True)))
 
     def readings(self, value: object) -> Iterator[str]:
+        if isinstance(value, str) and value.strip().lower().endswith(data_file.ENDINGS):
+            return
         for name, xs in self._columns(value).items():
             column = next(c for c in self.columns if c.name == name)
             for k, x in enumerate(xs):
