@@ -176,6 +176,9 @@ from mechsheet.worksheet.force_diagram import (
 from mechsheet.worksheet.kinds import (
     one_of as one_of,
 )
+from mechsheet.worksheet.data_file import (
+    from_file as from_file,
+)
 from mechsheet.worksheet.inputs import (
     Used as Used,
     declared as declared,

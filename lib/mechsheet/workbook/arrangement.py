@@ -60,7 +60,7 @@ class Arrangement:
         self.changed = Place(self._names.new("inputs_changed"), "Inputs", last + 1, _SI)  # how many differ
         self.defined.append((self.changed.name, self.changed.meaning(1)))
         for symbol, node in recording.inputs.items():
-            self._settle(node, symbol, "Inputs", inputs[symbol], _SI)
+            self._settle(node, symbol, "Inputs", inputs[symbol], _SI, aligned=node.size == 1)
         under = set(bottom_up(self._roots(), ()))
         self.followed = {symbol for symbol, node in recording.inputs.items() if node in under}
         for solved in recording.found.values():
@@ -84,8 +84,8 @@ class Arrangement:
         nodes = [None if c is None or c.im is not None else c.re for c in columns]
         return (*nodes, *[None] * (len(table.columns) - len(nodes)))
 
-    def _settle(self, node: Node, symbol: str, sheet: str, row: int, column: int) -> None:
-        place = self.places[node] = Place(self._names.new(symbol.replace(".", "_")), sheet, row, column)
+    def _settle(self, node: Node, symbol: str, sheet: str, row: int, column: int, aligned: bool = True) -> None:
+        place = self.places[node] = Place(self._names.new(symbol.replace(".", "_")), sheet, row, column, aligned)
         self.defined.append((place.name, place.meaning(node.size)))
 
     def _roots(self) -> Iterator[Node]:

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Mapping
+from dataclasses import replace
 from functools import lru_cache
 from typing import Any
 
@@ -31,6 +32,7 @@ _OF_RANGE = {
     "argmax": "MATCH(MAX({0}),{1},0)-1", "argmin": "MATCH(MIN({0}),{1},0)-1", "nanmax": f"{AGGREGATE}(4,6,{{}})",
     "nanmin": f"{AGGREGATE}(5,6,{{}})", "nansum": f"{AGGREGATE}(9,6,{{}})",
 }  # fmt: skip
+_DIFFERS = 5  # columns between an input in SI units and whether it differs from the exported one
 _FIRST = np.zeros(1, np.intp)
 _ALONE = Rows(_FIRST, (), 0, alone=True)
 _FAILS = {"sqrt", "asin", "acos", "atan2", "log", "div", "pow", "mod", "tan", "at"}  # may give an error value
@@ -124,7 +126,7 @@ class CellFormulas:
                 return f"INDEX({self.places[source].range(0, source.size - 1)},{where}+1)", 5
             case "exported":
                 known = written(_only(node.value.reshape(-1)[at if node.size > 1 else 0]))
-                same = [f"{self._element(x, _FIRST, rows)[0]}={written(x.value)}" for x in node.args]
+                same = [self._unchanged(x, rows) for x in node.args]
                 return f"IF(AND({','.join(same)}),{known},NA())" if same else known, 5
         form, binding, needs = _TEXT[node.op]
         shape, texts = node.shape, []
@@ -147,6 +149,13 @@ class CellFormulas:
             cells = ",".join(members)
             one = f"CHOOSE({{{','.join(str(n + 1) for n in range(length))}}},{cells})"
         return _OF_RANGE[kind].format(cells, one), 2 if kind.startswith("arg") else 5
+
+    def _unchanged(self, node: Node, rows: Rows) -> str:
+        """Condition under which an input or another quantity is what it was; of a list its rows tell what differs."""
+        if node.size == 1:
+            return f"{self._element(node, _FIRST, rows)[0]}={written(node.value.item())}"
+        place = self.places[node]
+        return f"SUM({replace(place, column=place.column + _DIFFERS).range(0, node.size - 1)})=0"
 
 
 def _of_one_source(node: Node) -> list[Index]:
