@@ -56,10 +56,13 @@ def right(line: Formula) -> Node | None:
     return None if node == left(line) else node
 
 
+_SOLVED = {"_found": "Find", "_least": "Minerr"}  # endings of the names of verdicts
+
+
 def equation(line: Formula | Given) -> Node:
     """A line as an equation, or its symbol alone; of a solve block what must be equal."""
     if isinstance(line, Given):
-        return Row((Text("Given"), Binary(tree(line.expression), "=", tree(line.target))))
+        return Row((Text("Given" if line.first else "and"), Binary(tree(line.expression), "=", tree(line.target))))
     node = right(line)
     return left(line) if node is None else Binary(left(line), "=", node)
 
@@ -133,6 +136,9 @@ class _Reader:
                 return Prefix(Function("Re" if part == "real" else "Im"), self.least(inner, WHOLE), PRODUCT)
             case ast.Attribute(ast.Name(name), "value") if name.endswith("_found"):
                 return Apply(Function("Find"), Brackets((_name(name.removesuffix("_found")),)))
+            case ast.Attribute(ast.Attribute(ast.Name(name), "value"), unknown):  # one of several
+                ending = next((end for end in _SOLVED if name.endswith(end)), None)
+                return Apply(Function(_SOLVED[ending]), Brackets((_name(unknown),))) if ending else None
             case ast.Attribute(ast.Name(name), "value"):  # of a slider or field of the page
                 return _name(name)
             case ast.Attribute(ast.Name(name), part):  # a result of several parts

@@ -26,6 +26,7 @@ from mechsheet.worksheet.lines import Formula, registry
 from mechsheet.worksheet.results import limited
 from mechsheet.worksheet.scene import Limit
 from mechsheet.worksheet.table import Figure, Table
+from mechsheet.worksheet.verdict import Verdict
 
 T = TypeVar("T")
 
@@ -63,7 +64,7 @@ def _script(title: str, namespace: Mapping[str, Any], worksheet: Path) -> None:
     refuse_open(_of(Check, values))
     recording, fit = _recorded(namespace)
     checks = [*_of(Check, values), fit]
-    say(*inputs.readings(declared, given.inputs), *_of(Found, values), *checks)
+    say(*inputs.readings(declared, given.inputs), *_of(Verdict, values), *checks)
     path = (given.out or _folder(worksheet.resolve())) / f"{worksheet.stem}.xlsx"
     write(_workbook(title, namespace, [*values, fit], recording), path)
     say(f"written {path}", *(f"not followed there: {gap}" for gap in recording.gaps))
