@@ -21,6 +21,7 @@ _LEAST = 2.0**-6  # of its size: an unknown nearer to 0 counts as so large
 _SMALL = 1e-6  # a step from which on only rounding can keep the residuals from falling
 _LINEAR = 0.75  # and where it is shorter than so much of the one before, they still fall, if out of sight
 _STUCK = 1e-12
+_MOST = 100  # steps
 _LEVEL = 1e-9  # cosine between the residuals and what any step changes, from which on none makes them less
 _VARIED = 8  # floats by which an unknown is varied to see what rounding does
 _ROUNDED = 8  # times that variation: what a residual may be
@@ -58,6 +59,14 @@ class Ended:
         return Ended(x, r, slopes, scale, self.evaluations[chosen, p])
 
 
+def first_or_second(first: Ended, second: Ended, chosen: Mask) -> Ended:
+    """The first one of two where that is chosen, shape (s, p), else the second, with the evaluations of both."""
+    x, r, slopes, scale = (
+        np.where(chosen, getattr(first, name), getattr(second, name)) for name in ("x", "r", "slopes", "scale")
+    )
+    return Ended(x, r, slopes, scale, first.evaluations + np.where(chosen, 0, second.evaluations))
+
+
 def joined(several: list[Ended]) -> Ended:
     """All starts of several lots."""
     x, r, slopes, scale = (
@@ -68,35 +77,37 @@ def joined(several: list[Ended]) -> Ended:
 
 @np.errstate(all="ignore")
 def newton(
-    f: Equations, x: Array, size: Array, lo: Array, hi: Array, reach: float, unit: Array | None = None, most: int = 100
+    f: Equations, x: Array, size: Array, lo: Array, hi: Array, reach: float, unit: Array | None = None, free: int = 0
 ) -> Ended:
-    """Where f leads from the starts x, shape (n, s, p), in at most so many steps; without a number it stays.
+    """Where f leads from the starts x, shape (n, s, p); without a number it stays.
 
-    ``size`` (n, 1, p) of the unknowns, ``lo`` and ``hi`` (n, 1, p) their ends, where steps end too; ``reach`` is how
+    ``size`` (n, s, p) of the unknowns, ``lo`` and ``hi`` (n, 1, p) their ends, where steps end too; ``reach`` is how
     many sizes the first step goes at most. ``unit`` (m, 1, 1) weighs the residuals where their squares shall be least.
+    With ``free`` all of so many steps are Newton's own, whatever they lead to.
     """
-    n, x, r = len(x), x.copy(), f(x)
+    n, x, r, sizes = len(x), x.copy(), f(x), np.broadcast_to(size, x.shape)
     moving: Mask = np.logical_and.reduce(np.isfinite(r))
     evaluations = np.ones(moving.shape, dtype=np.intp)
     slopes = np.full((len(r), *x.shape), np.nan)
     largest = np.zeros(r.shape)
     radius, before = np.full(moving.shape, reach), np.full(moving.shape, np.inf)
     fresh, sank = moving.copy(), moving.copy()
-    for _ in range(most):
+    for _ in range(free or _MOST):
         k = np.flatnonzero(fresh.any(1))
         if k.size:
-            new = differences(f, x[:, k], r[:, k], size, lo, hi)
+            new = differences(f, x[:, k], r[:, k], sizes[:, k], lo, hi)
             slopes[:, :, k] = np.where(fresh[k], new, slopes[:, :, k])
             evaluations += 2 * n * fresh
             moving &= ~fresh | np.isfinite(slopes).all((0, 1))
         k = np.flatnonzero(moving.any(1))
         if not k.size:
             break
+        size = sizes[:, k]
         scale = _scale(slopes[:, :, k], size) if unit is None else np.broadcast_to(unit, r[:, k].shape)
         largest[:, k] = np.fmax(largest[:, k], scale)
         jacobian = _turned(slopes[:, :, k] * size[None] / scale[:, None])
         own = np.moveaxis(r[:, k] / scale, 0, -1)
-        step, length, whole = _step(jacobian, own, x[:, k], size, lo, hi, radius[k])
+        step, length, whole, slopes_there = _step(jacobian, own, x[:, k], size, lo, hi, radius[k])
         stop = (whole <= _SMALL) & ~sank[k] & (whole > _LINEAR * before[k])
         target = np.clip(x[:, k] + np.moveaxis(step, -1, 0) * size, lo, hi)
         stop |= (target == x[:, k]).all(0) | (own == 0).all(-1) | (radius[k] < _STUCK)
@@ -111,12 +122,18 @@ def newton(
         evaluations[k] += active
         gone = np.moveaxis((target - x[:, k]) / size, 0, -1)
         expected = _square(own) - _square(own + _applied(jacobian, gone))
-        fallen = _square(own) - _square(np.moveaxis(there / scale, 0, -1))
+        left = np.moveaxis(there / scale, 0, -1)
+        fallen = _square(own) - _square(left)
         gain = np.where(fallen > 0, fallen / np.maximum(expected, np.finfo(float).tiny), -1)
+        if unit is None:  # what is left to go by the same slopes may have become less where the residuals have not
+            onward = _within(slopes_there, left, np.full(whole.shape, np.inf))[1]
+            nearer = np.isfinite(left).all(-1) & (onward < whole - length / 4)
+            gain = np.where(nearer, np.maximum(gain, 0.5), gain)
         sinks = active & (gain > 1e-4)
-        taken = sinks | (active & (whole <= _SMALL) & np.isfinite(there).all(0))
+        taken = active & (sinks | (whole <= _SMALL) | (free > 0)) & np.isfinite(there).all(0)
         shrunk = np.where(gain < 0.25, length / 4, np.where(gain > 0.75, np.maximum(radius[k], 3 * length), radius[k]))
-        radius[k] = np.where(active, shrunk, radius[k])
+        radius[k] = np.where(active & (free == 0), shrunk, radius[k])
+        moving[k] &= taken | (free == 0)
         before[k], sank[k] = np.where(taken, whole, before[k]), np.where(active, sinks, sank[k])
         x[:, k], r[:, k] = np.where(taken, target, x[:, k]), np.where(taken, there, r[:, k])
         fresh[k] = taken
@@ -161,24 +178,27 @@ def _beside(f: Equations, x: Array, step: Array, lo: Array, hi: Array) -> tuple[
 
 def _step(
     jacobian: Array, r: Array, x: Array, size: Array, lo: Array, hi: Array, radius: Array
-) -> tuple[Array, Array, Array]:
-    """The step within the radius, shape (s, p, n), its length, and that of Newton's own step.
+) -> tuple[Array, Array, Array, tuple[Array, Array, Array]]:
+    """The step within the radius, shape (s, p, n), its length, that of Newton's own step, and the slopes decomposed.
 
     Unknowns at an end do not leave it.
     """
-    step, whole = _within(jacobian, r, radius)
+    decomposed = np.linalg.svd(_known(jacobian), full_matrices=False)
+    step, whole = _within(decomposed, r, radius)
     low, high = (np.moveaxis(side, 0, -1) for side in (x <= lo, x >= hi))
     held = (low & (step < 0)) | (high & (step > 0))
     if held.any():
-        step, whole = _within(np.where(held[..., None, :], 0.0, jacobian), r, radius)
+        decomposed = np.linalg.svd(_known(np.where(held[..., None, :], 0.0, jacobian)), full_matrices=False)
+        step, whole = _within(decomposed, r, radius)
         step = np.where(held, 0.0, step)
-    return step, np.sqrt(_square(step)), whole
+    return step, np.sqrt(_square(step)), whole, decomposed
 
 
-def _within(jacobian: Array, r: Array, radius: Array) -> tuple[Array, Array]:
-    u, values, v = np.linalg.svd(_known(jacobian), full_matrices=False)
+def _within(decomposed: tuple[Array, Array, Array], r: Array, radius: Array) -> tuple[Array, Array]:
+    """The step within the radius by decomposed slopes, and the length of Newton's own step."""
+    u, values, v = decomposed
     along = -np.einsum("...mk,...m->...k", u, _known(r))
-    least = max(jacobian.shape[-2:]) * EPS * values[..., :1]
+    least = max(u.shape[-2], v.shape[-1]) * EPS * values[..., :1]
     whole = np.where(values > least, along / np.where(values > least, values, 1.0), 0.0)
     damping = np.zeros(radius.shape)
     length = np.sqrt(_square(whole))

@@ -5,16 +5,19 @@ solution there are more of them; what lies where no start leads is not found, an
 """
 
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 
 from mechsheet.mechanics.brackets import EPS, Array, Index, Mask
-from mechsheet.mechanics.newton import Ended, Equations, joined, newton, vanishing
+from mechsheet.mechanics.newton import Ended, Equations, first_or_second, joined, newton, vanishing
 
 _STARTS = 32  # for each unknown, before it is asked whether more are needed
 _MOST = 16  # times as many
 _APART = 64  # roundings, times the condition, high at a double solution: ends nearer to each other are one solution
 _FARTHEST = 2.0**-10  # and never farther apart than so many sizes of the unknowns
+_FREE = 20  # steps of Newton's own from a guess
+_FINE = 2.0**-10  # of its size: an unknown that small is looked for anew
 _REACH = 100.0  # sizes that the first step from a guess goes at most
 
 
@@ -38,48 +41,76 @@ class Seen:
     lowest: tuple[Array, Array, Array]
 
 
-def from_guess(f: Equations, guess: Array, size: Array, lo: Array, hi: Array, unit: Array | None) -> Seen:
-    """Where the guess itself leads; all of shape (n, p). With a ``unit`` the residuals' squares shall be least."""
-    ended = newton(f, guess[:, None], size[:, None], lo[:, None], hi[:, None], _REACH, unit)
-    return _distinct([ended], [_held(f, ended, size, lo, hi, unit)], size)
+class Place(NamedTuple):
+    """Where unknowns are looked for, all of shape (n, p): first and last start, size, the least one, and ends.
+
+    An unknown is taken to be as large as its size until it is found, then as itself, but no smaller than the least.
+    """
+
+    first: Array
+    last: Array
+    size: Array
+    least: Array
+    lo: Array
+    hi: Array
 
 
-def around(f: Equations, guess: Array, size: Array, lo: Array, hi: Array) -> Seen:
-    """What starts within a size of the guess lead to."""
-    ended = _batch(f, guess - size, guess + size, size, lo, hi, 0, None)
-    return _distinct([ended], [_held(f, ended, size, lo, hi, None)], size)
+def from_guess(f: Equations, at: Place, unit: Array | None) -> Seen:
+    """Where the first start itself leads; with a ``unit`` to where the residuals' squares are least.
+
+    These are Newton's own steps where a few of them lead to a solution, else those in a trust region.
+    """
+    guess = at.first[:, None]
+    if unit is not None:
+        ended, held = _led(f, guess, at, _REACH, unit)
+        return _distinct([ended], [held], at.size)
+    ended, held = _led(f, guess, at, np.inf, None, _FREE)
+    if not held.all():
+        more, held_then = _led(f, guess, at, _REACH, None)
+        ended, held = first_or_second(ended, more, held), held | held_then
+    return _distinct([ended], [held], at.size)
 
 
-def between(f: Equations, low: Array, high: Array, size: Array, lo: Array, hi: Array, unit: Array | None) -> Seen:
-    """What starts all over the places from ``low`` to ``high`` lead to."""
+def around(f: Equations, at: Place) -> Seen:
+    """What starts within a size of the first one lead to."""
+    ended, held = _batch(f, at._replace(first=at.first - at.size, last=at.first + at.size), 0, None)
+    return _distinct([ended], [held], at.size)
+
+
+def between(f: Equations, at: Place, unit: Array | None) -> Seen:
+    """What starts all over the places lead to."""
     batches, holding = list[Ended](), list[Mask]()
-    searching = np.ones(low.shape[1], dtype=bool)
-    seen = starts = np.zeros(low.shape[1], dtype=np.intp)
+    searching = np.ones(at.first.shape[1], dtype=bool)
+    seen = starts = np.zeros(at.first.shape[1], dtype=np.intp)
     while searching.any() and len(batches) < _MOST:
-        batches.append(_batch(f, low, high, size, lo, hi, len(batches), unit))
-        holding.append(_held(f, batches[-1], size, lo, hi, unit) & searching)
-        starts = starts + len(holding[-1]) * searching
-        known = _distinct(batches, holding, size)
+        ended, held = _batch(f, at, len(batches), unit)
+        batches.append(ended)
+        holding.append(held & searching)
+        starts = starts + len(held) * searching
+        known = _distinct(batches, holding, at.size)
         found = (~np.isnan(known.x[0])).sum(0)
         searching = searching & (found > seen)
         seen = found
     return replace(known, starts=starts)
 
 
-def _batch(
-    f: Equations, low: Array, high: Array, size: Array, lo: Array, hi: Array, number: int, unit: Array | None
-) -> Ended:
-    """Where one more lot of starts between low and high ends."""
-    count = _STARTS * len(low)
-    places = _spread(len(low), number * count, count)[:, :, None]
-    x = low[:, None] * (1 - places) + high[:, None] * places
-    return newton(f, x, size[:, None], lo[:, None], hi[:, None], 1.0, unit)
+def _batch(f: Equations, at: Place, number: int, unit: Array | None) -> tuple[Ended, Mask]:
+    """Where one more lot of starts ends, and which of them in a solution."""
+    count = _STARTS * len(at.first)
+    share = _spread(len(at.first), number * count, count)[:, :, None]
+    return _led(f, at.first[:, None] * (1 - share) + at.last[:, None] * share, at, 1.0, unit)
 
 
-def _held(f: Equations, ended: Ended, size: Array, lo: Array, hi: Array, unit: Array | None) -> Mask:
-    """Which starts end in a solution."""
-    held: Mask = np.logical_and.reduce(vanishing(f, ended, size[:, None], lo[:, None], hi[:, None]))
-    return held & (unit is None)
+def _led(f: Equations, x: Array, at: Place, reach: float, unit: Array | None, free: int = 0) -> tuple[Ended, Mask]:
+    """Where starts end, and which of them in a solution, shape (s, p)."""
+    size, least, lo, hi = (a[:, None] for a in at[2:])
+    ended = newton(f, x, size, lo, hi, reach, unit, free)
+    small: Mask = np.logical_or.reduce(np.maximum(np.abs(ended.x), least) < _FINE * size)
+    if small.any() and unit is None:  # steps were too coarse for it
+        finer = np.maximum(np.abs(ended.x), least)
+        ended = first_or_second(ended, newton(f, ended.x, finer, lo, hi, np.inf, free=_FREE), ~small)
+    held: Mask = np.logical_and.reduce(vanishing(f, ended, np.maximum(np.abs(ended.x), least), lo, hi))
+    return ended, held & (unit is None)
 
 
 def _spread(n: int, first: int, count: int) -> Array:

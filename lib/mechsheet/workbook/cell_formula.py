@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mechsheet.recording.graph import Node, is_number
+from mechsheet.recording.graph import Node, bottom_up, is_number
 from mechsheet.workbook.place import Place
 
 _SAME = ("abs", "sqrt", "exp", "sin", "cos", "tan", "asin", "acos", "sign")
@@ -39,6 +39,7 @@ class CellFormulas:
 
     def __init__(self, places: Mapping[Node, Place]) -> None:
         self.places = places
+        self._inputs: dict[Node, tuple[Node, ...]] = {}
 
     def formula(self, node: Node, k: int = 0, row: int | None = None, factor: float = 1.0) -> str:
         """Formula of a quantity's k-th element over ``factor``, without its own name, for a column's ``row``-th cell.
@@ -88,6 +89,12 @@ class CellFormulas:
             stack.extend(operand for operand in here.operands if operand not in self.places)
         return False
 
+    def _inputs_under(self, node: Node) -> tuple[Node, ...]:
+        """Inputs on which a found value rests."""
+        if node not in self._inputs:
+            self._inputs[node] = tuple(n for n in bottom_up([node], ()) if n.op == "input")
+        return self._inputs[node]
+
     def _element(self, node: Node, k: int, row: int) -> tuple[str, int]:
         """The k-th element as an operand: by its name or address where it has a place."""
         place = self.places.get(node)
@@ -123,9 +130,10 @@ class CellFormulas:
                 source, position = node.args
                 where = self._element(position, _position(position.shape, node.shape, k), row)[0]
                 return f"INDEX({self.places[source].range(0, source.size - 1)},{where}+1)", 5
-            case "exported":
+            case "exported" | "found":
                 known = written(node.value.reshape(-1)[k if node.size > 1 else 0])
-                same = [f"{self._element(x, 0, row)[0]}={written(x.value)}" for x in node.args]
+                under = node.args if node.op == "exported" else self._inputs_under(node)
+                same = [f"{self._element(x, 0, row)[0]}={written(x.value)}" for x in under]
                 return f"IF(AND({','.join(same)}),{known},NA())" if same else known, 5
         form, binding, needs = _TEXT[node.op]
         shape, texts = node.shape, []
@@ -143,7 +151,7 @@ def nesting(node: Node, inside: Mapping[Node, int]) -> int:
     if node.op == "reduce":
         return deepest + (2 if node.args[2].startswith("arg") else 1)
     if node.op not in _TEXT:
-        return deepest + {"at": 1, "exported": 2}.get(node.op, 0)
+        return deepest + {"at": 1, "exported": 2, "found": 2}.get(node.op, 0)
     _, binding, needs = _TEXT[node.op]
     if binding == 5:
         return deepest + 1
@@ -157,7 +165,7 @@ def _row(node: Node, k: int, row: int | None) -> int:
 
 
 def _plain(node: Node) -> bool:
-    return node.op not in ("take", "at", "join", "reduce", "constant", "exported")
+    return node.op not in ("take", "at", "join", "reduce", "constant", "exported", "found")
 
 
 def _safe(node: Node) -> bool:

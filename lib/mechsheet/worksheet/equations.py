@@ -3,13 +3,14 @@
 import inspect
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mechsheet import units
 from mechsheet.mechanics.brackets import Array, Mask
+from mechsheet.mechanics.starts import Place
 from mechsheet.worksheet import numbers
 from mechsheet.worksheet.errors import SheetError
 
@@ -37,26 +38,17 @@ class Words:
         return ", ".join(f"{name} = {text}" for name, text in zip(self.names, shown, strict=True))
 
 
-class Place(NamedTuple):
-    """Where an unknown is looked for, all of shape (p): the first and last start, its size, and its ends."""
-
-    first: Array
-    last: Array
-    size: Array
-    lo: Array
-    hi: Array
-
-
 @dataclass(frozen=True)
 class Asked:
     """A solve block of several unknowns: problems of a ``shape``, p in all, the ``void`` ones without numbers.
 
-    ``places`` are those of each unknown as given, ``place`` of all unknowns and problems, its parts of shape (n, p).
+    ``interval`` has the two ends, or twice the guess, of each unknown as given; ``place`` is of all unknowns and
+    problems, its parts of shape (n, p).
     ``equations`` are None where all problems are void.
     """
 
     words: Words
-    places: Mapping[str, Place]
+    interval: Mapping[str, tuple[Any, Any]]
     shape: tuple[int, ...]
     void: Mask
     place: Place
@@ -82,11 +74,12 @@ def asked(
     _match(f, names)
     places = {n: _place(n, value, u) for (n, value), u in zip(unknowns.items(), words.units, strict=True)}
     shape = np.broadcast_shapes(*(p.first.shape for p in places.values()))
+    interval = {name: (p.first[()], p.last[()]) for name, p in places.items()}
     parts = zip(*places.values(), strict=True)
     place = Place(*(np.stack([np.broadcast_to(a, shape) for a in part]) for part in parts))
     void = np.isnan(np.stack(place)).any((0, 1))
     if void.all():
-        return Asked(words, places, void.shape, void.reshape(-1), place, None)
+        return Asked(words, interval, void.shape, void.reshape(-1), place, None)
     place = Place(*(np.where(void, part[:, ~void][:, :1].reshape(-1, *[1] * void.ndim), part) for part in place))
     with np.errstate(all="ignore"):
         first = _parts(f(**dict(zip(names, place.first / 2 + place.last / 2, strict=True))))
@@ -103,7 +96,7 @@ def asked(
     equations = Equations(f, names, shape, targets, complex_)
     more = [1] * (len(shape) - void.ndim)  # axes of what f closes over
     flat = (np.broadcast_to(part.reshape(n, *more, *void.shape), (n, *shape)).reshape(n, -1) for part in place)
-    return Asked(words, places, shape, np.broadcast_to(void, shape).reshape(-1), Place(*flat), equations)
+    return Asked(words, interval, shape, np.broadcast_to(void, shape).reshape(-1), Place(*flat), equations)
 
 
 class Equations:
@@ -152,14 +145,17 @@ def _targets(equals: Any, count: int) -> list[NDArray[Any]]:
 
 def _match(f: Callable[..., Any], names: tuple[str, ...]) -> None:
     """Refuse unknowns that are not those which f takes."""
-    taken = [p.name for p in inspect.signature(f).parameters.values() if p.default is p.empty]
+    parameters = inspect.signature(f).parameters.values()
+    if any(p.kind is p.VAR_KEYWORD for p in parameters):
+        return
+    taken = [p.name for p in parameters if p.default is p.empty]
     if sorted(taken) != sorted(names):
         raise SheetError(f"the equations are of {', '.join(taken)}, the unknowns given are {', '.join(names)}")
 
 
 def _place(name: str, value: Start, unit: str) -> Place:
     """Where an unknown is looked for: around a guess, or in an interval."""
-    interval = isinstance(value, tuple)
+    interval, factor = isinstance(value, tuple), units.parse(unit).factor
     ends = [np.asarray(v, dtype=float) for v in (value if isinstance(value, tuple) else (value,))]
     if interval and len(ends) != 2:
         raise SheetError(f"{name} needs a guess, or the two ends of its interval, not {len(ends)} numbers")
@@ -168,14 +164,14 @@ def _place(name: str, value: Start, unit: str) -> Place:
         if bad.any():
             raise SheetError(f"{'an end of ' * interval}{name} = {end[bad][0]} must be finite")
     if not interval:
-        size = np.where(ends[0] == 0, units.parse(unit).factor, np.abs(ends[0]))
+        size = np.where(ends[0] == 0, factor, np.abs(ends[0]))
         endless = np.full(ends[0].shape, np.inf)
-        return Place(ends[0], ends[0], size, -endless, endless)
+        return Place(ends[0], ends[0], size, np.minimum(size, factor), -endless, endless)
     low, high = np.broadcast_arrays(*ends)
     for a, b in zip(low[low >= high], high[low >= high], strict=True):
         small, large = (numbers.amount(v, unit) for v in (a, b))
         raise SheetError(f"{name} from {small} must end above that, not at {large}")
-    return Place(low, high, high - low, low, high)
+    return Place(low, high, high - low, np.minimum(high - low, factor), low, high)
 
 
 def _each(unit: str | Sequence[str], count: int, what: str, of: str) -> tuple[str, ...]:

@@ -1,7 +1,8 @@
 """The solve block of several unknowns: solutions of as many equations, or the least squares of more, with the verdict.
 
-From guesses Newton's steps lead to one solution, and starts around them show others; in intervals starts all over them
-are tried, and more as long as that shows new solutions. What no start leads to is not seen, and the words say no more.
+From guesses Newton's steps lead to one solution, and of a single problem starts around them show others; in intervals
+starts all over them are tried, and more as long as that shows new solutions. What no start leads to is not seen, and
+the words say no more.
 """
 
 from collections import namedtuple
@@ -14,9 +15,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mechsheet.mechanics.brackets import Array
-from mechsheet.mechanics.starts import Seen, around, between, from_guess
+from mechsheet.mechanics.starts import Place, Seen, around, between, from_guess
 from mechsheet.worksheet import numbers
-from mechsheet.worksheet.equations import Asked, Place, Start, Words, asked
+from mechsheet.worksheet.equations import Asked, Start, Words, asked
 from mechsheet.worksheet.errors import SheetError, refuse
 from mechsheet.worksheet.verdict import Verdict, asks_values_only
 
@@ -41,6 +42,8 @@ class Solution(Verdict):
     solutions : tuple of named tuples
         All solutions that were seen, in ascending order of the first unknown; in an array NaN where a problem has
         fewer. None of least squares.
+    interval : dict of two floats
+        Where each unknown was looked for: the ends of its interval, or its guess twice.
     starts : int
         Places from which solutions were looked for.
     evaluations : int
@@ -57,7 +60,7 @@ class Solution(Verdict):
     evaluations: Any
     least: bool
     words: Words
-    _places: Mapping[str, Place]
+    interval: Mapping[str, tuple[Any, Any]]
     _compute: Callable[[], "_Others"]
 
     @property
@@ -125,13 +128,8 @@ class Solution(Verdict):
         return [*rows, ("evaluations", str(np.sum(self.evaluations)))]
 
     def _searched(self, name: str, unit: str) -> str:
-        place = self._places[name]
-        guessed = np.array_equal(place.first, place.last)
-        return (
-            f"{name} from {numbers.extent([place.first, place.last], unit)}"
-            if guessed
-            else (f"{name} in {numbers.extent([place.first, place.last], unit)}")
-        )
+        ends = self.interval[name]
+        return f"{name} {'from' if np.array_equal(*ends) else 'in'} {numbers.extent(ends, unit)}"
 
 
 @dataclass(frozen=True)
@@ -176,11 +174,7 @@ def solve(
     if equations is None:
         return _nothing(problem, least)
     weights = problem.weights if least else None
-    looked = (place.size, place.lo, place.hi)
-    if words.guessed:
-        seen = from_guess(equations, place.first, *looked, weights)
-    else:
-        seen = between(equations, place.first, place.last, *looked, weights)
+    seen = (from_guess if words.guessed else between)(equations, place, weights)
     chosen = seen.lowest if least else _nearest(seen, place)
     x, residual, condition = (np.where(problem.void | np.isnan(chosen[0][0]), np.nan, a) for a in chosen)
 
@@ -188,7 +182,7 @@ def solve(
         return a.reshape(shape) if shape else a.item()
 
     def others() -> _Others:
-        every = around(equations, place.first, *looked) if words.guessed and not least else seen
+        every = around(equations, place) if words.guessed and not (least or shape) else seen
         reasons = np.full(problem.void.size, "", dtype=object)
         for i in np.flatnonzero(np.isnan(x[0])).tolist():
             reasons[i] = _VOID.format(words.unknowns) if problem.void[i] else _reason(words, seen, every, i)
@@ -203,7 +197,7 @@ def solve(
         evaluations=shaped(seen.evaluations),
         least=least,
         words=words,
-        _places=problem.places,
+        interval=problem.interval,
         _compute=others,
     )
     if not asks_values_only():
@@ -236,7 +230,7 @@ def _nothing(problem: Asked, least: bool) -> Solution:
     words, shape = problem.words, problem.shape
     none, count = np.full(shape, np.nan), np.zeros(shape, dtype=int)
     others = _Others((), count, np.full(shape, _VOID.format(words.unknowns), dtype=object))
-    return Solution((none,) * len(words.names), (), none, count, least, words, problem.places, lambda: others)
+    return Solution((none,) * len(words.names), (), none, count, least, words, problem.interval, lambda: others)
 
 
 @lru_cache(maxsize=128)
