@@ -1,5 +1,6 @@
 """Find of several unknowns: what share of known solutions is seen, how well each holds, and the reason for none."""
 
+import math
 from math import e, pi
 
 import mpmath
@@ -284,8 +285,13 @@ def test_bad_input_is_one_line(asked, message):
     assert str(error.value) == message
 
 
+def test_equations_that_take_no_arrays_say_so():
+    with pytest.raises(SheetError, match=r"^the equations of x, y must take arrays of values: "):
+        find(lambda x, y: (math.sin(x) - y, x - 1), x=0.5, y=1.0)
+
+
 def test_fewer_or_more_equations_than_unknowns_are_refused():
-    with pytest.raises(SheetError, match="1 equation for 2 unknowns x, y: they do not determine them"):
+    with pytest.raises(SheetError, match=r"1 equation for 2 unknowns x, y: they do not determine them"):
         find(lambda x, y: x + y, x=1.0, y=1.0)
     with pytest.raises(SheetError, match="2 equations for 1 unknown x: minerr finds where their squares are least"):
         find(lambda x: (x, x - 1), x=1.0)

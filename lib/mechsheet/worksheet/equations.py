@@ -118,9 +118,12 @@ class Equations:
 
     def _values(self, x: Array) -> Array:
         whole = (x.shape[1], *self.shape)
-        with np.errstate(all="ignore"):
-            values = _parts(self.f(**dict(zip(self.names, x.reshape(len(x), *whole), strict=True))))
-            left = [np.broadcast_to(v - t, whole) for v, t in zip(values, self.targets, strict=True)]
+        try:
+            with np.errstate(all="ignore"):
+                values = _parts(self.f(**dict(zip(self.names, x.reshape(len(x), *whole), strict=True))))
+                left = [np.broadcast_to(v - t, whole) for v, t in zip(values, self.targets, strict=True)]
+        except (TypeError, ValueError) as error:
+            raise SheetError(f"the equations of {', '.join(self.names)} must take arrays of values: {error}") from error
         parts = [p for v, two in zip(left, self.complex, strict=True) for p in ((v.real, v.imag) if two else (v,))]
         y = np.stack(parts).reshape(len(parts), *x.shape[1:]).astype(float)
         return np.where(np.isfinite(y), y, np.nan)
