@@ -11,6 +11,7 @@ from openpyxl import load_workbook
 from test_recalculation import edit
 from test_recorded_worksheet import own, recorded, value_of
 
+from mechsheet import sweep
 from mechsheet.recording.dimensions import mismatches
 from mechsheet.worksheet import cells
 
@@ -140,3 +141,21 @@ def test_an_array_of_problems_is_exported(recalculated: Any, tmp_path: Path) -> 
     assert values == pytest.approx([row[0].value for row in stored["2 Each"].iter_rows(min_row=5)], rel=1e-12)
     after = recalculated(edit(path, {"a": 0.5}, tmp_path / "edited.xlsx"))
     assert {row[0].value for row in after["2 Each"].iter_rows(min_row=5)} == {"#N/A"}
+
+
+def test_a_sweep_has_nan_with_the_reason(tmp_path: Path) -> None:
+    lines = (
+        "u_found = find(lambda u, v: (u**2 + v**2 - g.F, u + v - 1), u=(0, 9), v=(-9, 9))\ny = u_found.value.u  # [-] u"
+    )
+    swept = sweep(own(tmp_path, lines).path, ["y"], {"F": [2.5, 0.6, 0.4, 1.0]})
+
+    assert swept.at_once
+    assert np.isnan(swept["y"]).tolist() == [False, False, True, False]
+    assert swept["y"][[0, 1, 3]] == pytest.approx([0.5 + np.sqrt(F / 2 - 0.25) for F in (2.5, 0.6, 1.0)], rel=1e-12)
+    assert swept.reasons[2].startswith("no solution for u, v by 64 starts: equation ")
+
+
+def test_a_sweep_of_least_squares_has_all_its_values(tmp_path: Path) -> None:
+    swept = sweep(sheet_with(tmp_path, LEAST).path, ["y"], {"F": [2.5, 3.0]})
+
+    assert np.isfinite(swept["y"]).all() and swept.reasons.tolist() == ["", ""]

@@ -146,8 +146,9 @@ def section_3():
     mo.md(r"""
     ## 3 Find
 
-    One Find solves all six equations for every position, from the same first approximations, by Newton's method in a
-    trust region. An evaluation is one value of all six equations; the slopes take twelve of them.
+    One Find solves all six equations for every position, from the same first approximations: by Newton's own steps, and
+    in a trust region where twenty of them end in no root. An evaluation is one value of all six equations; their slopes
+    take twelve of them a step.
     """)
     return
 
