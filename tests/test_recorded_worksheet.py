@@ -7,81 +7,14 @@ from typing import Any
 
 import numpy as np
 import pytest
+from own_worksheet import OTHER, own, recorded, value_of
 
-from mechsheet.recording.lines import Recording
 from mechsheet.recording.numbers import numbers
 from mechsheet.recording.quantity import Quantity
 from mechsheet.recording.record import record
 from mechsheet.worksheet import cells
 
-SHEET = '''
-import marimo
-app = marimo.App()
-
-with app.setup:
-    import math
-    from math import sqrt, sin, hypot
-
-    import numpy as np
-    from numpy import cos, exp, interp, linspace
-
-    from mechsheet import ask, export, find, read, inputs, table, typeset
-    from mechsheet import *
-
-@app.class_definition
-@inputs
-class Own:
-    F: float = 2.5  # [-] number
-    a: float = 0.75  # [-] part
-    n: int = 5  # [-] positions; > 1
-    k: int = 2  # [-] choice; >= 0 < 4
-
-    """Inputs."""
-
-@app.cell
-def given():
-    form = ask(Own)
-    return (form,)
-
-@app.cell
-def machine(form):
-    g = read(Own, form)
-    return (g,)
-
-@app.cell
-def lines(g):
-    x = linspace(0.1, 2, g.n) * g.F  # [-] field
-    LINES
-    table_1 = table("1", "All", x)
-    typeset()
-    return
-
-if __name__ == "__main__":
-    app.run()
-'''
-
-
-def own(tmp_path: Path, lines: str) -> cells.Worksheet:
-    path = tmp_path / "own.py"
-    path.write_text(SHEET.replace("from mechsheet import *", "").replace("LINES", lines.replace("\n", "\n    ")))
-    return cells.load(path)
-
-
-def recorded(sheet: cells.Worksheet, **given: Any) -> tuple[dict[str, Any], Recording]:
-    names = sheet.run(sheet.results, {"g": sheet.inputs(**given)})
-    return names, record({**names, "__file__": sheet.path})
-
-
-def value_of(recording: Recording, name: str, given: dict[str, Any]) -> Any:
-    """A recorded line for other inputs: its parts by their names in the recording."""
-    nodes = {known: node for node, known in recording.names.items()}
-    found = [nodes[n] for n in (name, f"{name}x", f"{name}y") if n in nodes]
-    assert found, f"{name} is not in the recording"
-    known = numbers(found, {recording.inputs[key]: float(x) for key, x in given.items()})
-    values = [known[node] for node in found]
-    return values[0] if len(values) == 1 else values[0] + 1j * values[1]
-
-
+ROOT = Path(__file__).resolve().parents[1]
 FOLLOWED = [
     "interp(x, [0.0, 1.0, 4.0], [g.F, 3.0, 5.0])",
     "interp(g.a, [0.0, 1.0, 4.0], [g.F, 3.0, 5.0], left=7.0)",
@@ -112,14 +45,15 @@ FOLLOWED = [
     "np.searchsorted([1.0, 2.0, 3.0], x)", "np.maximum.accumulate(np.sin(x))", "np.add.reduce(x)", "x.max() + x.mean()",
     "np.flip(x).reshape(-1, 1)[:, 0]", "np.isclose(x, g.F) * 1.0", "1 * (1 < g.F < 2.6)",
     "1 * (g.F > 2 and not g.a > 1)", "1.0 if g.F > 3 or g.a > 1 else g.F",
+    "rrr(0.0, g.F, x + 2, 2.0, +1)",
     "np.full(3, g.F)", "np.ones_like(x) * g.F", "np.radians(g.F) + np.degrees(g.a)", "x.T + x.real + x.imag",
 ]  # fmt: skip
-OTHER = [{"F": 3.25}, {"F": 1.75, "a": 1.5}, {"a": 0.2, "k": 3}]
 
 
+@pytest.mark.parametrize("inside", [False, True], ids=["", "imports inside"])
 @pytest.mark.parametrize("expression", FOLLOWED)
-def test_a_line_is_followed(expression: str, tmp_path: Path) -> None:
-    sheet = own(tmp_path, f"y = {expression}  # [-] line")
+def test_a_line_is_followed(expression: str, inside: bool, tmp_path: Path) -> None:
+    sheet = own(tmp_path, f"y = {expression}  # [-] line", inside)
     _, recording = recorded(sheet)
     assert not recording.gaps and not [guard for guard in recording.guards.values() if not guard.rows]
     for given in ({}, *OTHER):
@@ -127,6 +61,42 @@ def test_a_line_is_followed(expression: str, tmp_path: Path) -> None:
         value = value_of(recording, "y", given)
         assert value.shape == own_value.shape
         np.testing.assert_allclose(value, own_value + 0, rtol=1e-12, atol=1e-13)
+
+
+@pytest.mark.parametrize(
+    "lines",
+    [
+        "import numpy.linalg as la\ny = la.norm(x)",
+        "from numpy import linalg\ny = linalg.norm(x)",
+        "import math as m, numpy\ny = numpy.cos(x) * m.hypot(g.F, 1)",
+        "import mechsheet\ny = mechsheet.rrr(0.0, g.F, x + 2, 2.0, +1)",
+        "from mechsheet.mechanics import rrr as dyads\ny = dyads.rrr(0.0, g.F, x + 2, 2.0, +1)",
+        "def f(v):\n    from math import hypot, sqrt as root\n    return root(hypot(v, g.a))\ny = f(g.F)",
+        "if True:\n    from math import exp as grow\ny = grow(g.F)",
+        "def balance(x):\n    return 2 * x\ny = balance(x)",
+    ],
+)
+def test_what_is_imported_or_defined_under_any_name_is_followed(lines: str, tmp_path: Path) -> None:
+    sheet = own(tmp_path, lines)
+    _, recording = recorded(sheet)
+    assert not recording.gaps and not [guard for guard in recording.guards.values() if not guard.rows]
+    for given in OTHER:
+        own_value = cells.evaluate(sheet.path, ["y"], **given)["y"]
+        np.testing.assert_allclose(value_of(recording, "y", given), own_value, rtol=1e-12, atol=1e-13)
+
+
+@pytest.mark.parametrize(
+    "lines",
+    [
+        'from mechsheet import check as proved, table as listed\nok = proved("ok", g.F, 9.0), listed("2", "Two", x)',
+        'import mechsheet as ms\nok = ms.check("ok", g.F, 9.0), ms.table("2", "Two", x)',
+        'from mechsheet.worksheet.check import check as own_check\nlisted = table\nok = own_check("ok", g.F, 9.0)\n'
+        'two = listed("2", "Two", x)',
+    ],
+)
+def test_what_shows_is_known_under_any_name(lines: str, tmp_path: Path) -> None:
+    _, recording = recorded(own(tmp_path, lines))
+    assert not recording.gaps and recording.checks.keys() == {"ok"} and recording.tables.keys() == {"1", "2"}
 
 
 GUARDED = [  # what the numbers are decides about lengths and ways: other numbers of the same kind are followed
@@ -230,3 +200,22 @@ def test_what_is_not_followed_rests_on_the_way_that_was_taken_too(tmp_path: Path
     assert len(recording.gaps) == 1
     assert np.isnan(value_of(recording, "y", {"a": 0.2})).all()
     assert np.isfinite(value_of(recording, "y", {"k": 3})).all()
+
+
+@pytest.mark.parametrize("name", ["hitch", "landing_gear", "kinetostatics", "joint"])
+def test_a_document_is_held_whole(name: str) -> None:
+    sheet = cells.load(ROOT / "worksheets" / f"{name}.py")
+    names = sheet.run(sheet.results, {"g": sheet.inputs()})
+    assert not record({**names, "__file__": sheet.path}).gaps
+
+
+def test_a_number_over_all_positions_is_followed_where_tables_list_some() -> None:
+    """Works in a turn over 361 positions, of which 25 are listed; the columns of the tables stay those of 25."""
+    sheet = cells.load(ROOT / "worksheets" / "kinetostatics.py")
+    names, recording = recorded(sheet)
+    changed = {"m4": 3.0, "l4": 0.46, "Q5": 4000.0, "eps1": 2.0}
+    own = sheet.run(["W_b", "W_Q", "M_mean"], {"g": sheet.inputs(**changed)})
+    for name in ("W_b", "W_Q", "M_mean"):
+        assert names[name] != pytest.approx(own[name], rel=1e-4)
+        assert value_of(recording, name, changed) == pytest.approx(own[name], rel=1e-12)
+    assert {c.size for c in recording.tables["8.5"] if c is not None} == {25}

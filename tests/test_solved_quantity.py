@@ -62,7 +62,7 @@ table_2 = table("2", "Branch", ys)"""
 
 def sheet_with(tmp_path: Path, lines: str) -> cells.Worksheet:
     path = Path(own(tmp_path, lines).path)
-    path.write_text(path.read_text().replace("export, find, read", "export, find, minerr, read"))
+    path.write_text(path.read_text().replace("from mechsheet import ", "from mechsheet import export, minerr, ", 1))
     return cells.load(path)
 
 

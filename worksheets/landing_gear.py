@@ -414,7 +414,7 @@ def analogues(eps2_l2, eps3_l2, g, l2i, omega2_l2, omega3_l2, phi32i):
 
 @app.cell
 def fine(H, eps2_l2, eps3_l2, g, l20, omega2_l2, omega3_l2, phi32):
-    every = -(-60 // int(g.R))  # small steps from row to row of the tables, 60 or more in all
+    every = -(-60 // int(g.R))  # [-] small steps from row to row of the tables, 60 or more in all
     l2f = l20 + arange(every * g.R + 1) / (every * g.R) * H  # [m] cylinder, in small steps for the charts
     alpha_f = phi32(l2f) + pi / 2  # [deg] pressure angle, in small steps
     omega3_l2f = omega3_l2(l2f)  # [rad/m] crank, in small steps

@@ -4,7 +4,7 @@ Everything public is a name of this package, loaded on its first use: ``from mec
 stand apart, in `mechsheet.units`.
 
 A worksheet
-    inputs          inputs, ask, read, Used, declared
+    inputs          inputs, one_of, ask, read, Used, declared
     formulas        typeset, registry
     Find            find, Found, minerr, Solution
     checks          check, require, check_slope, closed_form, assembled, balance, largest_of, Check, summary

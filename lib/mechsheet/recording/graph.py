@@ -1,5 +1,6 @@
 """The graph of a recording: quantities as operations on other quantities, and how they are made."""
 
+import weakref
 from collections.abc import Callable, Container, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple
@@ -25,8 +26,8 @@ def bottom_up(roots: Iterable["Node"], known: Container["Node"]) -> Iterator["No
             stack.extend((operand, False) for operand in node.operands if operand not in done)
 
 
-class NotRecorded(Exception):
-    """Something that a recording does not hold, in words."""
+class NotRecorded(BaseException):
+    """Something that a recording does not hold, in words; no code of a worksheet handles it."""
 
 
 MOST = 50_000  # numbers that one statement of a worksheet may compute
@@ -155,6 +156,7 @@ class Graph:
         self.work = 0  # numbers computed since somebody set it to 0
         self.nodes: dict[Any, Node] = {}
         self.looked: dict[Node, Guard] = {}  # by their conditions; since somebody emptied it
+        self.gone: list[weakref.ref[Any]] = []  # arrays in whose place another one was put
         self.labels: dict[Node, Label] = {}
 
     def node(self, op: str, *args: Node) -> Node:

@@ -12,12 +12,24 @@ from types import CodeType, FunctionType
 from typing import Any
 
 from mechsheet.recording.choices import CALLS
+from mechsheet.worksheet.cells import bound
 
 _NAMES = {"float", "int", "complex", "max", "min", "pow", "round"}
 _SCOPED = ast.NamedExpr, ast.Yield, ast.YieldFrom, ast.Await  # are not what they are inside a lambda
 
 
 class _Rewriting(ast.NodeTransformer):
+    def visit_Import(self, node: ast.Import | ast.ImportFrom) -> list[ast.stmt]:
+        """What an import statement binds is exchanged at once."""
+        names = [name for name in bound(node) if name != "*"]
+        exchanged = [
+            ast.Assign([ast.Name(name, ast.Store())], _call("imported", node, ast.Name(name, ast.Load())))
+            for name in names
+        ]
+        return [node, *(ast.copy_location(line, node) for line in exchanged)]
+
+    visit_ImportFrom = visit_Import
+
     def visit_Call(self, node: ast.Call) -> ast.AST:
         self.generic_visit(node)
         if isinstance(node.func, ast.Name) and node.func.id in _NAMES:
@@ -55,27 +67,48 @@ class _Rewriting(ast.NodeTransformer):
         self.generic_visit(node)
         return _call("not", node, node.operand) if isinstance(node.op, ast.Not) else node
 
-    def visit_Assign(self, node: ast.Assign) -> ast.AST:
+    def visit_Assign(self, node: ast.Assign) -> Any:
         self.generic_visit(node)
         match node.targets:
             case [ast.Subscript(ast.Name(name), key)]:
-                return self._put(node, name, key, node.value)
+                return _put(node, name, key, node.value)
             case [ast.Attribute(ast.Name(name), ("real" | "imag") as part)]:
-                whole = _call("part", node, ast.Name(name, ast.Load()), ast.Constant(part), node.value)
-                return ast.copy_location(ast.Assign([ast.Name(name, ast.Store())], whole), node)
+                return _bound_anew(node, name, "part", ast.Constant(part), node.value)
         return node
 
-    def visit_AugAssign(self, node: ast.AugAssign) -> ast.AST:
+    def visit_AugAssign(self, node: ast.AugAssign) -> Any:
         self.generic_visit(node)
         match node.target:
             case ast.Subscript(ast.Name(name), key):
                 old = _call("element", node, ast.Name(name, ast.Load()), key)
-                return self._put(node, name, key, ast.BinOp(old, node.op, node.value))
+                return _put(node, name, key, ast.BinOp(old, node.op, node.value))
+            case ast.Name(name):
+                return _bound_anew(node, name, "changed", ast.Constant(_OPERATIONS[type(node.op)]), node.value)
         return node
 
-    def _put(self, node: ast.stmt, name: str, key: ast.expr, value: ast.expr) -> ast.AST:
-        whole = _call("put", node, ast.Name(name, ast.Load()), _index(key), value)
-        return ast.copy_location(ast.Assign([ast.Name(name, ast.Store())], whole), node)
+    def visit_ExceptHandler(self, node: ast.ExceptHandler) -> ast.AST:
+        self.generic_visit(node)
+        node.name = node.name or "_error"
+        node.body.insert(0, ast.Expr(_call("handled", node, ast.Name(node.name, ast.Load()))))
+        return node
+
+
+_OPERATIONS = {
+    ast.Add: "add", ast.Sub: "sub", ast.Mult: "mul", ast.Div: "truediv", ast.FloorDiv: "floordiv", ast.Mod: "mod",
+    ast.Pow: "pow", ast.MatMult: "matmul", ast.LShift: "lshift", ast.RShift: "rshift", ast.BitAnd: "and_",
+    ast.BitOr: "or_", ast.BitXor: "xor",
+}  # fmt: skip
+
+
+def _put(node: ast.stmt, name: str, key: ast.expr, value: ast.expr) -> list[ast.stmt]:
+    return _bound_anew(node, name, "put", _index(key), value)
+
+
+def _bound_anew(node: ast.stmt, name: str, change: str, *args: ast.expr) -> list[ast.stmt]:
+    """A change in place as a new value of the name, of which nobody knows the old one."""
+    known = ast.Name(name, ast.Load())
+    bind = ast.Assign([ast.Name(name, ast.Store())], _call(change, node, known, *args))
+    return [ast.copy_location(bind, node), ast.copy_location(ast.Expr(_call("settled", node, known)), node)]
 
 
 def _index(key: ast.expr) -> ast.expr:

@@ -1,6 +1,7 @@
 """A statement of a worksheet before it is recorded: its code, what it binds, changes and reads."""
 
 import ast
+import dis
 from collections.abc import Iterable, Iterator
 from functools import lru_cache
 from types import CodeType
@@ -9,6 +10,7 @@ from typing import NamedTuple
 from mechsheet.recording.rewritten import compiled
 from mechsheet.worksheet.cells import bound
 
+_SETS = {"STORE_SUBSCR", "STORE_ATTR", "STORE_SLICE", "STORE_DEREF", "DELETE_SUBSCR", "DELETE_ATTR"}
 _TEXTS = {"typeset", "print"}  # calls whose result stands on the page alone
 
 
@@ -57,8 +59,20 @@ def _changed(nodes: Iterable[ast.AST]) -> Iterator[str]:
                 yield name
 
 
-def names_of(code: CodeType) -> Iterator[str]:
-    yield from code.co_names
-    for constant in code.co_consts:
-        if isinstance(constant, CodeType):
-            yield from names_of(constant)
+@lru_cache(maxsize=4096)
+def changes(code: CodeType) -> bool:
+    """Whether code, or a function in it, may change something in place: it sets a part, or calls for no value."""
+    last = ""
+    for instruction in dis.get_instructions(code):
+        if instruction.opname in _SETS or (instruction.opname == "POP_TOP" and last.startswith("CALL")):
+            return True
+        last = instruction.opname
+    return any(changes(constant) for constant in code.co_consts if isinstance(constant, CodeType))
+
+
+@lru_cache(maxsize=4096)
+def shared_names(code: CodeType) -> frozenset[str]:
+    """Names of the worksheet that functions in a piece of code bind."""
+    inside = [constant for constant in code.co_consts if isinstance(constant, CodeType)]
+    own = {i.argval for i in dis.get_instructions(code) if i.opname in ("STORE_GLOBAL", "DELETE_GLOBAL")}
+    return frozenset(own.union(*map(shared_names, inside)))

@@ -3,9 +3,10 @@
 import ast
 import re
 import sys
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
+from operator import attrgetter
 from typing import Any
 
 import numpy as np
@@ -20,13 +21,18 @@ _DECLARED = re.compile(r"\[([^\]]*)\]\s*(.*)")
 
 @dataclass(frozen=True)
 class Formula:
-    """One line ``name = expression  # [unit] meaning``; ``arguments`` are those of a function, by lambda or def."""
+    """One line ``name = expression  # [unit] meaning``.
+
+    ``arguments`` are those of a function, by lambda or def; ``where`` its own names with what they stand for. The
+    expression of a function with more than branches and such names in it is ``...``.
+    """
 
     name: str
     expression: ast.expr
     unit: str
     meaning: str
     arguments: tuple[str, ...] = ()
+    where: tuple[tuple[str, ast.expr], ...] = ()
 
 
 @dataclass(frozen=True)
@@ -65,19 +71,73 @@ def _formulas(cell: source.Cell) -> Iterator[Formula | Given]:
             case ast.Assign([ast.Name()], ast.Call(ast.Name("find" | "minerr"), [f, *_], keywords)):
                 yield from _given(f, next((k.value for k in keywords if k.arg == "equals"), ast.Constant(0)))
                 continue
-            case ast.FunctionDef(name, args, [*_, ast.Return(ast.expr() as body)]) | ast.Assign(
-                [ast.Name(name)], ast.Lambda(args, body)
-            ):
-                expression = _on_its_branch(args, body)
-                arguments = tuple(a.arg for a in args.args if a.arg != "branch")
-            case ast.Assign([ast.Name(name)], expression):
-                arguments = ()
-            case _:
-                continue
-        line = node.end_lineno or node.lineno
-        found = declared(cell.comments.get(line, ""), cell.at(line))
-        if found and not name.startswith("_"):
-            yield Formula(name, expression, *found, arguments)
+        lines, number = _bound(node), node.end_lineno or node.lineno
+        found = _declared_each(cell.comments.get(number, ""), cell.at(number), len(lines)) if lines else ()
+        for line, (unit, meaning) in zip(lines, found, strict=False):
+            match line.expression:  # without brackets of its own it begins where its first part does
+                case ast.Tuple([first, *_]) as several if first.col_offset == several.col_offset:
+                    raise SheetError(
+                        f"{cell.at(number)}: {line.name} = {ast.unparse(several)[1:-1]} is several values: "
+                        "a decimal number has a point, not a comma"
+                    )
+            if not line.name.startswith("_"):
+                yield replace(line, unit=unit, meaning=meaning)
+
+
+def _bound(node: ast.stmt) -> list[Formula]:
+    """What a statement binds names to, without a unit as yet."""
+    match node:
+        case ast.FunctionDef(name, args, body):
+            where, given = _body(body)
+            expression = _on_its_branch(args, given) if given else ast.copy_location(ast.Constant(...), node)
+            return [Formula(name, expression, "", "", _named(args), where)]
+        case ast.Assign([ast.Name(name)], ast.Lambda(args, value)):
+            return [Formula(name, _on_its_branch(args, value), "", "", _named(args))]
+        case ast.Assign([ast.Name(name)], expression) | ast.AnnAssign(ast.Name(name), _, ast.expr() as expression):
+            return [Formula(name, expression, "", "")]
+        case ast.Assign([ast.Tuple(targets)], expression):
+            names = [target.id for target in targets if isinstance(target, ast.Name)]
+            if len(names) == len(targets):
+                return [Formula(name, _element(expression, n), "", "") for n, name in enumerate(names)]
+    return []
+
+
+def _declared_each(comment: str, place: str, count: int) -> Iterator[tuple[str, str]]:
+    """Unit and meaning of each name of a line; several are told as ``[m] one, [s] other``."""
+    parts = re.split(r",\s*(?=\[)", comment) if count > 1 else [comment]
+    found = [pair for part in parts if (pair := declared(part, place))]
+    if found and len(found) != count:
+        raise SheetError(f"{place}: {count} names need {count} units, such as # [m] one, [s] other; got {len(found)}")
+    yield from found
+
+
+def _named(args: ast.arguments) -> tuple[str, ...]:
+    return tuple(a.arg for a in args.args if a.arg != "branch")
+
+
+def _element(expression: ast.expr, n: int) -> ast.expr:
+    """What the n-th name of several is bound to."""
+    if isinstance(expression, ast.Tuple | ast.List) and not any(isinstance(e, ast.Starred) for e in expression.elts):
+        return expression.elts[n]
+    index = ast.copy_location(ast.Constant(n), expression)
+    return ast.copy_location(ast.Subscript(expression, index, ast.Load()), expression)
+
+
+def _body(body: Sequence[ast.stmt]) -> tuple[tuple[tuple[str, ast.expr], ...], ast.expr | None]:
+    """Own names of a function and what it gives, its branches as a choice; None where it does anything else."""
+    match body:
+        case [ast.Return(ast.expr() as value)]:
+            return (), value
+        case [ast.Expr(ast.Constant(str())), *rest]:
+            return _body(rest)
+        case [ast.Assign([ast.Name(name)], value), *rest]:
+            where, result = _body(rest)
+            return ((name, value), *where), result
+        case [ast.If(test, yes, no), *rest]:
+            (own, chosen), (others, other) = _body(yes), _body([*no, *rest])
+            if chosen and other and not own and not others:
+                return (), ast.copy_location(ast.IfExp(test, chosen, other), test)
+    return (), None
 
 
 def _on_its_branch(args: ast.arguments, expression: ast.expr) -> ast.expr:
@@ -221,8 +281,8 @@ class Numbers:
         head, dot, part = name.partition(".")
         value: Any = self.namespace.get(head)
         if dot:
-            unit = _units_of(type(value)).get(part)  # type: ignore[arg-type]  # a class can be hashed
-            value = getattr(value, part) if unit else None
+            unit = getattr(type(value), "__units__", {}).get(part)
+            value = attrgetter(part)(value) if unit else None
         else:
             line = self.known.get(name)
             unit = line.unit if line and not line.arguments else None
@@ -231,12 +291,6 @@ class Numbers:
         field = np.asarray(value)
         inside = field.shape and field.shape[-1] > position
         return (field[..., position].flat[0] if inside else field.flat[0]).item(), unit
-
-
-@lru_cache(maxsize=16)
-def _units_of(inputs: type) -> dict[str, str]:
-    """Units of the inputs of a class by their names."""
-    return {field.name: field.unit for field in getattr(inputs, "__inputs__", ())}
 
 
 @dataclass(frozen=True)
