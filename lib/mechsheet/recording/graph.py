@@ -2,6 +2,7 @@
 
 import weakref
 from collections.abc import Callable, Container, Iterable, Iterator, Mapping, Sequence
+from contextvars import ContextVar
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
@@ -157,6 +158,7 @@ class Graph:
         self.nodes: dict[Any, Node] = {}
         self.looked: dict[Node, Guard] = {}  # by their conditions; since somebody emptied it
         self.gone: list[weakref.ref[Any]] = []  # arrays in whose place another one was put
+        self.supposed = 0  # ways that Python does not take and that are recorded beside it, one in another
         self.labels: dict[Node, Label] = {}
 
     def node(self, op: str, *args: Node) -> Node:
@@ -314,6 +316,9 @@ class Graph:
         if all(a.op == "constant" for a in args):
             return self.constant(ELEMENTWISE[op](*[a.value for a in args]))
         return self.node(op, *args)
+
+
+current: ContextVar[Graph] = ContextVar("current")  # the graph of the recording that is made here
 
 
 def is_number(node: Node, number: float) -> bool:
