@@ -167,6 +167,10 @@ from mechsheet.worksheet.find import (
     Found as Found,
     find as find,
 )
+from mechsheet.worksheet.system import (
+    Solution as Solution,
+    minerr as minerr,
+)
 from mechsheet.worksheet.force_diagram import (
     cut_group as cut_group,
     largest_of as largest_of,

@@ -68,7 +68,7 @@ def compute(sheet: Worksheet, name: str, given: Scene) -> tuple[Outcome, dict[st
     judged = results.limited(held, given.limits, names)
     refuse_open(judged)
     quantities, tables = dict[str, Displayed](), list[Table]()
-    found = (line.name for line, _ in report.solved(names))
+    found = (row.symbol for row in report.solved(names))
     for want in dict.fromkeys([*(given.want or found), *given.limits]):
         what = names.get(want)
         if isinstance(what, Table):

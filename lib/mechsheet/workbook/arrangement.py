@@ -194,7 +194,7 @@ def needing_place(roots: Iterable[Node], named: Set[Node], places: Container[Nod
     for node in order:
         own = 1 + sum(weight[operand] for operand in node.operands) if node.operands else 0
         deep = nesting(node, depth)
-        known = node in named or node.op in LEAVES or node in places
+        known = node in named or node.op in (*LEAVES, "found") or node in places
         repeated = uses[node] > 1 and own > _LIGHT and node.op not in ("take", "join")
         if node.op in ("constant", "input") or (node.op == "rows" and node.size == 1):
             own = 0
