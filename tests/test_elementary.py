@@ -51,8 +51,8 @@ ARGUMENTS: dict[Callable[..., Any], tuple[Any, ...]] = {
     planar.angle: (points(),),
     planar.angle_between: (points(), points()),
     planar.angle_opposite: (numbers(1, 1.9), numbers(1, 1.9), numbers(1, 1.9)),
-    planar.link_velocity: (points(), points(), points(), numbers()),
-    planar.link_acceleration: (points(), points(), numbers(), points(), numbers()),
+    planar.link_velocity: (points(), points(), numbers(), points()),
+    planar.link_acceleration: (points(), points(), numbers(), numbers(), points()),
     rrr.rrr: (*pins(), signs()),
     rrr.rrr_reach: (points(), points(), numbers()),
     rrr.rrr_velocity: (points(), points(), C, points(), points(), numbers(), numbers()),
@@ -117,8 +117,8 @@ ARGUMENTS: dict[Callable[..., Any], tuple[Any, ...]] = {
         *(numbers(-1, 1), numbers(-1, 1)),
     ),
     joint.circular_joint: (
-        np.arange(12) * np.pi / 6 + rng.uniform(0, 1, (COUNT, 1)),
-        *(numbers(), numbers(-1, 1), numbers(-1, 1)),
+        *(numbers(), np.arange(12) * np.pi / 6 + rng.uniform(0, 1, (COUNT, 1))),
+        *(numbers(-1, 1), numbers(-1, 1)),
     ),
 }
 

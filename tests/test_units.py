@@ -27,7 +27,7 @@ def test_factor_to_si_and_dimension(text, factor, dims):
     assert parse(text).dims == dims
 
 
-SECONDS, TURN = {"s": 1, "ms": 1 / 1000, "min": 60, "h": 60 * 60}, 2 * math.acos(-1)
+SECONDS, TURN = {"s": 1, "ms": 1 / 1000, "μs": 1 / 1000**2, "min": 60, "h": 60 * 60}, 2 * math.acos(-1)
 METRES = {"m": 1, "dm": 1 / 10, "cm": 1 / 100, "mm": 1 / 1000, "km": 1000}
 KILOGRAMS = {"kg": 1, "g": 1 / 1000, "t": 1000}
 IN_SI = {
@@ -50,6 +50,11 @@ def test_unknown_unit_is_named(text):
     with pytest.raises(ValueError, match="is not known") as error:
         parse(text)
     assert f"[{text}]" in str(error.value)
+
+
+def test_a_micro_has_two_signs() -> None:
+    assert parse("\u00b5s") == parse("\u03bcs") == parse("ms/m*mm")
+    assert units.si("\u00b5s/m") == units.si("\u03bcs/m") == "s/m"
 
 
 def test_newton_is_kilogram_metre_per_second_squared():

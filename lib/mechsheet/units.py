@@ -15,6 +15,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
 from math import pi
+from unicodedata import normalize
 
 
 @dataclass(frozen=True)
@@ -39,13 +40,13 @@ class Unit:
 _LENGTH, _FORCE, _PRESSURE, _POWER, _ENERGY = (1, 0, 0), (1, 1, -2), (-1, 1, -2), (2, 1, -3), (2, 1, -2)
 _KGF = 9.80665
 
-UNITS = {
+UNITS = {  # names as Python reads them: the Greek letter for either sign of a micro
     **{name: Unit(f, _LENGTH) for name, f in {"m": 1, "km": 1e3, "dm": 0.1, "cm": 0.01, "mm": 1e-3}.items()},
     **{name: Unit(f, _FORCE) for name, f in {"N": 1, "kN": 1e3, "MN": 1e6, "kgf": _KGF}.items()},
     **{name: Unit(f, _PRESSURE) for name, f in {"Pa": 1, "kPa": 1e3, "MPa": 1e6, "GPa": 1e9, "bar": 1e5}.items()},
     **{name: Unit(f, _POWER) for name, f in {"W": 1, "kW": 1e3}.items()},
     **{name: Unit(f, _ENERGY) for name, f in {"J": 1, "kJ": 1e3}.items()},
-    **{name: Unit(f, (0, 0, 1)) for name, f in {"s": 1, "ms": 1e-3, "min": 60, "h": 3600}.items()},
+    **{name: Unit(f, (0, 0, 1)) for name, f in {"s": 1, "ms": 1e-3, "μs": 1e-6, "min": 60, "h": 3600}.items()},
     **{name: Unit(f, (0, 1, 0)) for name, f in {"kg": 1, "g": 1e-3, "t": 1e3}.items()},
     **{name: Unit(f) for name, f in {"rad": 1, "deg": pi / 180, "%": 0.01, "-": 1, "rev": 2 * pi}.items()},
     "Hz": Unit(1, (0, 0, -1)),
@@ -106,12 +107,12 @@ def shown(text: str, power: Callable[[int], str] = raised, times: str = "·") ->
 def si(text: str) -> str:
     """The unit without a factor that measures the same.
 
-    >>> si("kgf*cm"), si("MPa"), si("deg"), si("%")
-    ('N*m', 'Pa', 'rad', '-')
+    >>> si("kgf*cm"), si("MPa"), si("deg"), si("%"), si("µs")
+    ('N*m', 'Pa', 'rad', '-', 's')
     """
 
     def plain(match: re.Match[str]) -> str:
-        name = match[0]
+        name = normalize("NFKC", match[0])
         unit = UNITS[name]
         if unit.factor == 1:
             return name
@@ -121,7 +122,7 @@ def si(text: str) -> str:
             return "rad/s"
         return next(n for n, u in UNITS.items() if u.dims == unit.dims and u.factor == 1)
 
-    return re.sub(r"[A-Za-z%]+", plain, text)
+    return re.sub(r"[^\W\d_]+|%", plain, text)
 
 
 def _unit(node: ast.expr) -> Unit:

@@ -99,7 +99,8 @@ def failed(cells: Iterable[notebook.Cell]) -> Iterator[Note]:
     for cell in cells:
         if cell.status == "exception" and isinstance(cell.exception, Exception):
             lines = [line for frame, line in walk_tb(cell.exception.__traceback__) if _is_of(frame, cell)]
-            yield Note(cell.cell_id, f"{_line(cell, lines[-1])}: {cell.exception}" if lines else str(cell.exception))
+            why = mistakes.why(cell.exception, (), cell.code)
+            yield Note(cell.cell_id, f"{_line(cell, lines[-1])}: {why}" if lines else why)
 
 
 def unsaid(cells: Iterable[notebook.Cell], names: Mapping[str, Any]) -> Iterator[Note]:

@@ -3,14 +3,14 @@
 import builtins
 import operator
 import weakref
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from types import FunctionType
 from typing import Any
 
 import numpy as np
 
 from mechsheet.recording.graph import NotRecorded
-from mechsheet.recording.memory import Memory, names_of
+from mechsheet.recording.memory import Memory, may_change, names_of
 from mechsheet.recording.quantity import (
     Quantity,
     elementwise,
@@ -26,6 +26,15 @@ from mechsheet.recording.quantity import choice as where
 from mechsheet.worksheet.kinds import Chosen, cases
 
 _NUMBERS = int | float | complex | np.number | Quantity
+_ARRAYS = _NUMBERS | np.bool_ | np.ndarray
+_DEEPEST = 8  # ways in one another that are recorded though Python does not take them
+
+
+class _Unbound:
+    """Stands for what a name has before it is bound."""
+
+
+UNBOUND = _Unbound()
 
 
 def _condition(value: Any) -> bool:
@@ -33,31 +42,68 @@ def _condition(value: Any) -> bool:
     return isinstance(value, Quantity) and value.size == 1 and value.im is None and value.re.op != "constant"
 
 
-def choice(condition: Any, x: FunctionType, y: FunctionType) -> Any:
-    """``x if condition else y``: of two numbers the one that the condition says, else the way that is taken now."""
+def choice(condition: Any, x: FunctionType, y: FunctionType, *given: Any) -> Any:
+    """What ``x`` or else ``y`` gives: of numbers those that the condition says, else those of the way that is taken.
+
+    The way that is not taken is run too, where it changes nothing; it need not exist with these numbers.
+    """
     if not _condition(condition):
-        return x() if condition else y()
-    now, later = (x, y) if condition.value else (y, x)
-    before = Memory([*_reached(now), *_reached(later)], now.__globals__)
-    value = now()
-    looked = dict(condition.graph.looked)
-    if isinstance(value, _NUMBERS) and not before.changed():
+        return (x if condition else y)(*given)
+    graph, (now, later) = condition.graph, (x, y) if condition.value else (y, x)
+    before = Memory([*_reached(now), *_reached(later), *given], now.__globals__)
+    value, both = now(*given), None
+    looked = dict(graph.looked)
+    if graph.supposed < _DEEPEST and not before.changed() and not _may_change(later):
+        graph.supposed += 1
         try:
-            other = later()
-        except (Exception, NotRecorded):  # the way that is not taken need not exist
-            other = None
+            other = later(*given)
+            both = _merged(condition, *((value, other) if condition.value else (other, value)))
+        except (Exception, NotRecorded):
+            both = None
+        finally:
+            graph.supposed -= 1
         if before.changed():
             raise NotRecorded("the way that is not taken changes something")
-        if isinstance(other, _NUMBERS):
-            return where(condition.graph, condition, *((value, other) if condition.value else (other, value)))
-    condition.graph.looked = looked
-    bool(condition)
-    return value
+    if both is None:
+        graph.looked = looked
+        bool(condition)
+        return value
+    return both
+
+
+def _merged(condition: Quantity, x: Any, y: Any) -> Any:
+    """``x`` where the condition holds, else ``y``; None where these are not of one kind."""
+    if x is y:
+        return x
+    if (x if condition.value else y) is UNBOUND:
+        return UNBOUND
+    x, y = _missing(y) if x is UNBOUND else x, _missing(x) if y is UNBOUND else y
+    if isinstance(x, tuple) and type(x) is type(y) is tuple and len(x) == len(y):
+        parts = [_merged(condition, a, b) for a, b in zip(x, y, strict=True)]
+        return None if any(part is None for part in parts) else tuple(parts)
+    if isinstance(x, _ARRAYS) and isinstance(y, _ARRAYS) and np.shape(x) == np.shape(y):
+        return where(condition.graph, condition.reshape(()), x, y)
+    return None
+
+
+def _missing(value: Any) -> Any:
+    """What stands for a number on a way where the worksheet has none."""
+    return np.full(np.shape(value), np.nan) if isinstance(value, _ARRAYS) else UNBOUND
 
 
 def _reached(f: FunctionType) -> list[Any]:
-    """What a function without arguments reads."""
+    """What a function reads, but for its arguments."""
     return [f.__closure__, *(f.__globals__.get(name) for name in names_of(f.__code__))]
+
+
+def _may_change(f: FunctionType) -> bool:
+    inner = [c.cell_contents for c in f.__closure__ or () if isinstance(c.cell_contents, FunctionType)]
+    return may_change([f.__code__, *(g.__code__ for g in inner)], f.__globals__)
+
+
+def known(names: Mapping[str, Any], *wanted: str) -> list[Any]:
+    """What some names are bound to."""
+    return [names.get(name, UNBOUND) for name in wanted]
 
 
 def both(*parts: FunctionType) -> Any:
@@ -188,9 +234,10 @@ def _extreme(name: str) -> Callable[..., Any]:
     return function
 
 
-CALLS: dict[str, Callable[..., Any]] = {
+CALLS: dict[str, Any] = {
     "choice": choice, "and": both, "or": any_of, "not": negated, "element": element, "put": put,
     "part": part, "changed": changed, "settled": settled, "handled": handled,
+    "known": known, "unbound": UNBOUND,
     "max": _extreme("max"), "min": _extreme("min"), "round": round,
     "float": lambda *x: x[0] if has_quantity(x) else float(*x),
     "int": lambda *x: trunc(x[0]) if has_quantity(x) else int(*x),

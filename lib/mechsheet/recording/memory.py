@@ -1,9 +1,11 @@
 """What Python code can reach and change in place: lists, arrays, objects, what functions keep."""
 
+import dis
 import sys
 import weakref
 from collections import deque
 from collections.abc import Iterable, Iterator, Mapping
+from functools import lru_cache
 from types import (
     BuiltinFunctionType,
     CellType,
@@ -20,6 +22,7 @@ import numpy as np
 from mechsheet.recording.graph import Node
 from mechsheet.recording.quantity import Quantity, owner
 
+_SETS = {"STORE_SUBSCR", "STORE_ATTR", "STORE_SLICE", "DELETE_SUBSCR", "DELETE_ATTR"}
 _LEAVES = (
     int, float, complex, str, bytes, np.generic, np.ufunc, ModuleType, BuiltinFunctionType, range, slice, type(None),
     GetSetDescriptorType, MemberDescriptorType, property, staticmethod, classmethod,
@@ -119,3 +122,31 @@ def names_of(code: CodeType) -> Iterator[str]:
     for constant in code.co_consts:
         if isinstance(constant, CodeType):
             yield from names_of(constant)
+
+
+@lru_cache(maxsize=4096)
+def changes(code: CodeType) -> bool:
+    """Whether code, or a function in it, may change something in place: it sets a part, or calls for no value."""
+    last = ""
+    for instruction in dis.get_instructions(code):
+        if instruction.opname in _SETS or (instruction.opname == "POP_TOP" and last.startswith("CALL")):
+            return True
+        if instruction.opname == "STORE_DEREF" and instruction.argval in code.co_freevars:
+            return True
+        last = instruction.opname
+    return any(changes(constant) for constant in code.co_consts if isinstance(constant, CodeType))
+
+
+def may_change(codes: Iterable[CodeType], own: Mapping[str, Any]) -> bool:
+    """Whether some code, or a function of the worksheet that it names, may change something in place."""
+    waiting, seen = list(codes), set[CodeType]()
+    while waiting:
+        code = waiting.pop()
+        if code in seen:
+            continue
+        seen.add(code)
+        if changes(code):
+            return True
+        named = (own.get(name) for name in names_of(code))
+        waiting += [f.__code__ for f in named if isinstance(f, FunctionType) and f.__globals__ is own]
+    return False

@@ -1,6 +1,5 @@
 """A worksheet recorded: its statements run one by one with quantities that remember what is done with them."""
 
-import builtins
 from collections.abc import Iterable, Mapping, Sequence
 from itertools import chain
 from pathlib import Path
@@ -11,19 +10,20 @@ import numpy as np
 
 from mechsheet.recording import statement
 from mechsheet.recording.given import given
-from mechsheet.recording.graph import Gap, Graph, Guard, Node, NotRecorded, bottom_up
+from mechsheet.recording.graph import Gap, Graph, Guard, Node, NotRecorded, bottom_up, current
 from mechsheet.recording.lines import Recording
-from mechsheet.recording.memory import Memory, names_of
+from mechsheet.recording.memory import Memory, changes, names_of
 from mechsheet.recording.quantity import Quantity
 from mechsheet.recording.quantity import choice as where
 from mechsheet.recording.stage import Stage, held
-from mechsheet.recording.substitutes import current, shared, staged
+from mechsheet.recording.substitutes import BUILTINS, shared, staged
+from mechsheet.recording.unrepeatable import Unrepeatable
 from mechsheet.worksheet.cells import Worksheet, load
 from mechsheet.worksheet.check import Check
-from mechsheet.worksheet.find import Found
 from mechsheet.worksheet.lines import registry
 from mechsheet.worksheet.table import Figure, Table
 from mechsheet.worksheet.title import Slider
+from mechsheet.worksheet.verdict import Verdict
 
 
 def record(namespace: Mapping[str, Any], sheet: Worksheet | None = None, whole: bool = False) -> Recording:
@@ -53,22 +53,22 @@ class _Run:
         g, known = given(graph, namespace["g"])
         self.recording = Recording(graph, known, every=graph.thin)
         self.recording.sections = list(dict.fromkeys(cell.section for cell in sheet.cells))
-        self.names: dict[str, Any] = shared(sheet.common) | {"__builtins__": builtins, "g": g}
+        self.names: dict[str, Any] = shared(sheet.common) | {"__builtins__": BUILTINS, "g": g}
         self.looked: dict[str, tuple[Guard, ...]] = {}  # by name: the guards that its value rests on
         self.chosen: dict[Node, frozenset[Node]] = {}
-        self.lost: dict[str, str] = {}  # names that have no value here, and why
+        self.lost: dict[str, NotRecorded] = {}  # names that have no value here, and why
+        self.passing: dict[str, Any] = {}  # of these, lines whose numbers are others at the next run
         self.everywhere: dict[str, _Run] = {}  # over all positions, by the cell that needs it
         self.lines = lines = registry(namespace)
         for cell in sheet.needed(want, {"g": g}):
             stage = Stage(self.recording, namespace, cell)
-            staged.set(stage.shows)
             facts = [statement.facts(line, sheet.path) for line in cell.lines]
             last = {name: n for n, fact in enumerate(facts) for name in fact.touched}
             for n, (line, fact) in enumerate(zip(cell.lines, facts, strict=True)):
                 if not statement.on_the_page(line):
                     self.step(stage, line.lineno, fact, {name for name, end in last.items() if end > n})
             for name in dict.fromkeys([*(n for n in cell.code.co_names if n in lines), *cell.gives]):
-                self.recording.define(cell.section, name, self.names.get(name), lines)
+                self.recording.define(cell.section, name, self.names.get(name, self.passing.get(name)), lines)
             for solved in stage.solved:
                 self.recording.define_steps(cell.section, solved)
         self.recording.values = self.names
@@ -81,8 +81,10 @@ class _Run:
         graph = self.graph
         graph.line, graph.looked, graph.work = line, {}, 0
         graph.gone.clear()
+        staged.set(stage.shows)
         reads = self.read(facts.loaded)
-        codes = [facts.code, *(f.__code__ for f in map(self.names.get, reads) if isinstance(f, FunctionType))]
+        functions = (f for f in map(self.names.get, reads) if isinstance(f, FunctionType))
+        codes = [facts.code, *(f.__code__ for f in functions if f.__globals__ is self.names)]
         touched = dict.fromkeys([*facts.touched, *chain.from_iterable(map(statement.shared_names, codes))])
         final = {name for name in touched if name not in later and not name.startswith("_")}
         texts = {name for name in reads if isinstance(self.names.get(name), str)}
@@ -91,7 +93,7 @@ class _Run:
             for names in (reads, reads - texts)
         )
         before = Memory((self.names.get(name) for name in reads - {"g"}), self.names)
-        may_change = any(map(statement.changes, codes))
+        may_change = any(map(changes, codes))
         differs: list[str] = []
         try:
             with np.errstate(all="ignore"):  # the worksheet's own run has warned
@@ -110,9 +112,7 @@ class _Run:
             beside = before.named(self.names, before.changed() | (before.mutable() if may_change else set()))
             self.lose(stage, beside.difference(touched), later, self.why(error, reads))
             return
-        ways = may_change and any(
-            not guard.rows for guard in graph.looked.values()
-        )  # the way not taken may change more
+        ways = may_change and any(not guard.rows for guard in graph.looked.values())  # of which others change more
         beside = before.named(self.names, before.changed() | (before.mutable() if ways else set())).difference(touched)
         everywhere = not touched and not beside
         self.recording.guards |= {holds: guard for holds, guard in graph.looked.items() if guard.rows or everywhere}
@@ -131,27 +131,33 @@ class _Run:
                 self.names[name] = self.while_same(value, rests.values())
         stage.finish(lambda x: self.while_same(x, shown.values()))
 
-    def keep(self, stage: Stage, touched: Iterable[str], final: set[str], reason: str, rests_on: list[Node]) -> None:
+    def keep(
+        self, stage: Stage, touched: Iterable[str], final: set[str], reason: NotRecorded, rests_on: list[Node]
+    ) -> None:
         """The numbers of the worksheet's own run in place of a recording."""
         graph = self.graph
         graph.work = 0
         stage.forget()
         guards = tuple(Guard(graph.same(leaf), graph.line) for leaf in rests_on)
         if not touched or any(held(self.namespace.get(name)) for name in final) or not final.issuperset(touched):
-            public = tuple(name for name in touched if not name.startswith("_"))
-            self.recording.gaps.append(Gap(public, graph.line, reason))
+            if not (isinstance(reason, Unrepeatable) and reason in self.lost.values()):  # what rests on that is known
+                public = tuple(name for name in touched if not name.startswith("_"))
+                self.recording.gaps.append(Gap(public, graph.line, str(reason)))
             self.recording.guards |= {guard.holds: guard for guard in guards}
+        known = [name for name in touched if name in final and name in self.namespace]
+        if isinstance(reason, Unrepeatable):
+            self.passing |= {n: stage.kept(self.namespace[n], rests_on) for n in known if n in self.lines}
+            known = []
+        kept = {name: stage.kept(self.namespace[name], rests_on) for name in known}
         for name in touched:
-            self.looked[name] = guards
-            if name in final and name in self.namespace:
-                self.names[name] = stage.kept(self.namespace[name], rests_on)
-                if isinstance(self.names[name], Quantity):
-                    self.looked[name] = ()
+            self.looked[name] = () if isinstance(kept.get(name), Quantity) else guards
+            if name in kept:
+                self.names[name] = kept[name]
             else:
                 self.names.pop(name, None)
                 self.lost[name] = reason
 
-    def lose(self, stage: Stage, names: Iterable[str], later: set[str], reason: str) -> None:
+    def lose(self, stage: Stage, names: Iterable[str], later: set[str], reason: NotRecorded) -> None:
         """Names whose values a statement has changed, or may have changed, nobody knows how."""
         every = [*self.recording.inputs.values()]
         for name in names:
@@ -162,14 +168,15 @@ class _Run:
                 self.names.pop(name)
                 self.lost[name] = reason
 
-    def why(self, error: BaseException, reads: frozenset[str]) -> str:
+    def why(self, error: BaseException, reads: frozenset[str]) -> NotRecorded:
         """Why a statement cannot be recorded."""
-        known = [self.lost[name] for name in reads if name in self.lost]
+        known = [self.lost[name] for name in sorted(reads) if name in self.lost]
         if known and isinstance(error, NameError):
-            return known[0]
+            return next((reason for reason in known if isinstance(reason, Unrepeatable)), known[0])
         if isinstance(error, NotRecorded):
-            return str(error)
-        return f"it does not run with recorded quantities ({str(error).splitlines()[0] if str(error) else error!r})"
+            return error.with_traceback(None)
+        said = str(error).splitlines()[0] if str(error) else repr(error)
+        return NotRecorded(f"it does not run with recorded quantities ({said})")
 
     def differing(self, stage: Stage, names: Iterable[str]) -> list[str]:
         """Names whose recorded numbers are not the worksheet's own."""
@@ -262,7 +269,6 @@ class _Run:
 
 def leaves_of(roots: Iterable[Node], recording: Recording) -> list[Node]:
     """Inputs that quantities rest on; of found values those of their equations."""
-    solved = {s.node: s for s in recording.found.values()}
     found: dict[Node, None] = {}
     waiting, visited = list(roots), set[Node]()
     while waiting:
@@ -272,8 +278,6 @@ def leaves_of(roots: Iterable[Node], recording: Recording) -> list[Node]:
         visited.add(node)
         if node.op == "input":
             found[node] = None
-        if node in solved:
-            waiting.extend(n for n in (solved[node].residual, *(solved[node].interval or ())) if n)
         waiting.extend(node.operands)
     order = {node: n for n, node in enumerate(recording.inputs.values())}
     return sorted(found, key=order.__getitem__)
@@ -281,4 +285,4 @@ def leaves_of(roots: Iterable[Node], recording: Recording) -> list[Node]:
 
 def _shown(value: Any) -> bool:
     group = value if isinstance(value, tuple | list) else [value]
-    return any(isinstance(v, Table | Figure | Check | Found) for v in group)
+    return any(isinstance(v, Table | Figure | Check | Verdict) for v in group)

@@ -10,7 +10,6 @@ from typing import NamedTuple
 from mechsheet.recording.rewritten import compiled
 from mechsheet.worksheet.cells import bound
 
-_SETS = {"STORE_SUBSCR", "STORE_ATTR", "STORE_SLICE", "STORE_DEREF", "DELETE_SUBSCR", "DELETE_ATTR"}
 _TEXTS = {"typeset", "print"}  # calls whose result stands on the page alone
 
 
@@ -40,9 +39,9 @@ def facts(statement: ast.stmt, path: str) -> Statement:
 
 
 def on_the_page(statement: ast.stmt) -> bool:
-    """Whether a statement shows a text, which is of no other use."""
+    """Whether a statement shows a text or a value, which is of no other use."""
     match statement:
-        case ast.Expr(ast.Call(ast.Attribute(ast.Name("mo"))) | ast.Constant()):
+        case ast.Expr(ast.Call(ast.Attribute(ast.Name("mo"))) | ast.Constant() | ast.Name()):
             return True
         case ast.Expr(ast.Call(ast.Name(name))):
             return name in _TEXTS
@@ -57,17 +56,6 @@ def _changed(nodes: Iterable[ast.AST]) -> Iterator[str]:
                 yield name
             case ast.Subscript(ast.Name(name), ctx=ast.Store()):
                 yield name
-
-
-@lru_cache(maxsize=4096)
-def changes(code: CodeType) -> bool:
-    """Whether code, or a function in it, may change something in place: it sets a part, or calls for no value."""
-    last = ""
-    for instruction in dis.get_instructions(code):
-        if instruction.opname in _SETS or (instruction.opname == "POP_TOP" and last.startswith("CALL")):
-            return True
-        last = instruction.opname
-    return any(changes(constant) for constant in code.co_consts if isinstance(constant, CodeType))
 
 
 @lru_cache(maxsize=4096)

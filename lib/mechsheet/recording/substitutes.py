@@ -18,14 +18,13 @@ from typing import Any
 
 import numpy as np
 
-from mechsheet.recording.graph import Graph, NotRecorded
+from mechsheet.recording.graph import NotRecorded, current
 from mechsheet.recording.numpy_rules import arange, linspace, trapezoid_so_far
 from mechsheet.recording.quantity import FUNCTIONS, Quantity, has_quantity, lift, plain
 from mechsheet.recording.rewritten import NAMES, rebuilt
+from mechsheet.recording.unrepeatable import instead_of_chance
 from mechsheet.worksheet import check as checks
 from mechsheet.worksheet.cells import Marimo
-
-current: ContextVar[Graph] = ContextVar("current")  # the graph of the recording that is made here
 
 _ROOMS = ("mechsheet.mechanics.", "mechsheet.worksheet.force_diagram")
 _WRITTEN = {"__post_init__"}  # the only special method of a group that is not made by `dataclass`
@@ -33,7 +32,7 @@ _ARRAYS = (np.array, np.asarray, np.asanyarray, np.ascontiguousarray)
 
 
 staged: ContextVar[Mapping[str, Any]] = ContextVar("staged")  # what those of `SHOWING` do in the cell that is run
-SHOWING = frozenset({"table", "figure", "find", "closed_form", "check", "check_slope", "Check", "assembled"})
+SHOWING = frozenset({"table", "figure", "find", "minerr", "closed_form", "check", "check_slope", "Check", "assembled"})
 _NOWHERE = frozenset({"require", "refuse", "summary", "export", "typeset"})  # of no use in a workbook
 
 
@@ -63,6 +62,8 @@ def instead(value: Any) -> Any:
         return _NOTHING
     if isinstance(value, ModuleType):
         return _module(value)
+    if (refusing := instead_of_chance(value)) is not None:
+        return refusing
     if isinstance(value, BuiltinFunctionType) and value in _MATH:
         return _takes(_MATH[value])
     if isinstance(value, np.ufunc) or (callable(value) and _of_numpy(value)):
@@ -91,6 +92,8 @@ def _of_package(value: Any, room: str) -> Any:
 @cache
 def _on_stage(name: str) -> Callable[..., Any]:
     def function(*args: Any, **kwargs: Any) -> Any:
+        if current.get().supposed:
+            raise NotRecorded("it is shown on a way that is not taken")
         return staged.get()[name](*args, **kwargs)
 
     return function
@@ -119,6 +122,13 @@ class _Module:
 
 
 _module = cache(_Module)
+
+
+def _imported(name: str, *args: Any, **kwargs: Any) -> Any:
+    return instead(__import__(name, *args, **kwargs))
+
+
+BUILTINS = {**vars(builtins), "__import__": _imported}  # an import inside a cell is one of what takes quantities too
 
 
 @cache

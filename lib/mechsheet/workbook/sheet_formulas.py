@@ -9,7 +9,7 @@ from mechsheet.recording.record import leaves_of
 from mechsheet.workbook.arrangement import Arrangement
 from mechsheet.workbook.cell_formula import CellFormulas, written
 from mechsheet.workbook.content import Live, quoted
-from mechsheet.worksheet.table import Table
+from mechsheet.worksheet.table import Figure, Table
 
 
 class Compared(NamedTuple):
@@ -46,6 +46,12 @@ class SheetFormulas:
             return [self._cells.reference(node, factor)] * len(table.columns[n].values)
         return self._cells.references(node, factor)
 
+    def moves_along(self, figure: Figure) -> bool:
+        """Whether the positions over which a figure is drawn, or what it marks there, rest on inputs."""
+        columns = self.recording.tables.get(f"Fig {figure.number}", (None,))[:1]
+        nodes = [part for column in columns if column is not None for part in column.parts]
+        return bool(leaves_of([*nodes, *self.recording.marks.get(figure.number, {}).values()], self.recording))
+
     def exported(self, table: Table) -> tuple[int, ...]:
         """Columns of a table that rest on numbers of the worksheet's own run, and so do not follow other inputs."""
         columns = enumerate(self.arrangement.columns(table))
@@ -61,7 +67,7 @@ class SheetFormulas:
     def line(self, line: Line) -> list[str] | None:
         """Formulas of a quantity of a section; None where it holds plain numbers."""
         for solved in self.recording.found.values():
-            if solved.node is line.node:
+            if solved.node is line.node and solved.node.size == 1:
                 return [self._solution(solved)]
         plain = line.node.op == "constant" and line.node.value.dtype != bool  # 1 is not TRUE to a spreadsheet
         return None if plain else self._cells.formulas(line.node)
@@ -85,10 +91,7 @@ class SheetFormulas:
 
     def _solution(self, solved: Solved) -> str:
         """Formula of a found value in SI: its closed form, or the number found while its equation is the same."""
-        if solved.inverse:
-            return self._cells.reference(solved.inverse)
-        under = leaves_of([solved.node], self.recording) if solved.residual else self.recording.inputs.values()
-        return self._cells.formula(Node("exported", tuple(under), solved.node.value))
+        return self._cells.reference(solved.inverse) if solved.inverse else self._cells.formula(solved.node)
 
     def as_exported(self, value: float | str) -> Live:
         """What is known for the exported inputs alone: for others no number, no text."""

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from mechsheet.worksheet import inputs
+from mechsheet.worksheet import inputs, mistakes
 from mechsheet.worksheet.check import Check
 from mechsheet.worksheet.errors import SheetError, as_given, raised
 from mechsheet.worksheet.source import constant, functions, is_app, markdown
@@ -232,7 +232,7 @@ def load(path: str | Path) -> Worksheet:
     except UnicodeDecodeError as error:
         raise SheetError(f"worksheet {path} is no text in UTF-8: {error}") from None
     except SyntaxError as error:
-        raise SheetError(f"worksheet {path}, line {error.lineno}: {error.msg}") from None
+        raise SheetError(f"worksheet {path}, line {error.lineno}: {mistakes.unread(error)}") from None
 
 
 class Marimo:

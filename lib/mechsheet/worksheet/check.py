@@ -171,6 +171,8 @@ def assembled(name: str, point: ArrayLike, over: ArrayLike, reaches: tuple[Any, 
     ``what`` names the quantity ``over`` which the positions run; ``reaches`` are the limits between which
     the group closes. The reason names the first position that does not.
     """
+    if len(reaches) != 2:
+        refuse(SheetError(f"assembled {name!r}: reaches must be the two limits of {what}, got {len(reaches)}"))
     lost = np.isnan(point)
     count = int(np.count_nonzero(lost))
     if not lost.size:

@@ -41,10 +41,11 @@ class Formula:
 
 @dataclass(frozen=True)
 class Given:
-    """The equation of a solve block: ``expression`` must become ``target``."""
+    """An equation of a solve block: ``expression`` must become ``target``; ``first`` of the block or a further one."""
 
     expression: ast.expr
     target: ast.expr
+    first: bool = True
 
 
 def declared(comment: str, place: str) -> tuple[str, str] | None:
@@ -71,13 +72,18 @@ def formulas(cell: source.Cell) -> tuple[Formula | Given, ...]:
 def _formulas(cell: source.Cell) -> Iterator[Formula | Given]:
     for node in cell.body:
         match node:
-            case ast.Assign([ast.Name()], ast.Call(ast.Name("find"), [f, *_], keywords)):
-                target = next((k.value for k in keywords if k.arg == "equals"), ast.Constant(0))
-                yield Given(_equation(f), target)
+            case ast.Assign([ast.Name()], ast.Call(ast.Name("find" | "minerr"), [f, *_], keywords)):
+                yield from _given(f, next((k.value for k in keywords if k.arg == "equals"), ast.Constant(0)))
                 continue
         lines, number = _bound(node), node.end_lineno or node.lineno
         found = _declared_each(cell.comments.get(number, ""), cell.at(number), len(lines)) if lines else ()
         for line, (unit, text) in zip(lines, found, strict=False):
+            match line.expression:  # without brackets of its own it begins where its first part does
+                case ast.Tuple([first, *_]) as several if first.col_offset == several.col_offset:
+                    raise SheetError(
+                        f"{cell.at(number)}: {line.name} = {ast.unparse(several)[1:-1]} is several values: "
+                        "a decimal number has a point, not a comma"
+                    )
             if not line.name.startswith("_"):
                 printed = match[0] if (match := _NUMBER.match(text)) else ""
                 yield replace(line, unit=unit, number=printed, meaning=text.removeprefix(printed).lstrip())
@@ -148,9 +154,13 @@ def _on_its_branch(args: ast.arguments, expression: ast.expr) -> ast.expr:
     return ast.copy_location(ast.parse(text, mode="eval").body, expression)
 
 
-def _equation(f: ast.expr) -> ast.expr:
-    """What a function given to find computes, where it is written in the call."""
-    return f.body if isinstance(f, ast.Lambda) else f
+def _given(f: ast.expr, target: ast.expr) -> Iterator[Given]:
+    """The equations of a solve block: what its function computes where it is written in the call, else the function."""
+    left = f.body if isinstance(f, ast.Lambda) else f
+    several = left.elts if isinstance(left, ast.Tuple) else [left]
+    targets = target.elts if isinstance(target, ast.Tuple) else [target] * len(several)
+    for n, (expression, wanted) in enumerate(zip(several, targets, strict=False)):
+        yield Given(expression, wanted, n == 0)
 
 
 def registry(namespace: Mapping[str, Any], cells: tuple[source.Cell, ...] | None = None) -> Mapping[str, Formula]:
