@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping
 from functools import lru_cache
 from typing import Any
 
+from mechsheet.document.constant import measured
 from mechsheet.document.formula import (
     POWER,
     PRODUCT,
@@ -52,21 +53,24 @@ def left(line: Formula) -> Node:
 @lru_cache(maxsize=4096)
 def right(line: Formula) -> Node | None:
     """Right side of a line; None where it is a number or says the same as the left."""
-    node = None if isinstance(line.expression, ast.Constant) else tree(line.expression)
+    node = None if isinstance(line.expression, ast.Constant) else tree(measured(line.expression, line.constants))
+    if isinstance(node, Measure) and node.unit == line.unit:
+        return None
     return None if node == left(line) else node
 
 
 def equation(line: Formula | Given) -> Node:
     """A line as an equation, or its symbol alone; of a solve block what must be equal."""
     if isinstance(line, Given):
-        return Row((Text("Given"), Binary(tree(line.expression), "=", tree(line.target))))
+        sides = (tree(measured(side, line.constants)) for side in (line.expression, line.target))
+        return Row((Text("Given"), Binary(next(sides), "=", next(sides))))
     node = right(line)
     return left(line) if node is None else Binary(left(line), "=", node)
 
 
 def substituted(line: Formula, numbers: Mapping[str, Measure]) -> Node | None:
     """Right side of a line with numbers for its symbols; None where it has none."""
-    return tree(line.expression, numbers) if numbers and right(line) else None
+    return tree(measured(line.expression, line.constants), numbers) if numbers and right(line) else None
 
 
 @lru_cache(maxsize=4096)
@@ -123,6 +127,8 @@ class _Reader:
                 return Product(Number(size), Symbol("i"))
             case int() | float():
                 return Number(node.value)
+            case Measure() | Text():
+                return node.value
         return Text(str(node.value))
 
     def attribute(self, node: ast.Attribute) -> Node | None:
@@ -242,6 +248,8 @@ class _Reader:
                 return Integral(self.least(y, PRODUCT), self.least(x, WHOLE))
             case "where", [condition, a, b]:
                 return Cases(self.read(a), self.read(condition), self.read(b))
+            case "celsius", [ast.Constant(int() | float() as degrees)]:
+                return Measure(degrees, "degC")
             case "atan2", [y, x]:
                 return Apply(Function(name), self.brackets([y, x]))
         return _applied(_function(name), self.brackets(args))

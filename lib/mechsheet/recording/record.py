@@ -1,5 +1,6 @@
 """A worksheet recorded: its statements run one by one with quantities that remember what is done with them."""
 
+import ast
 import builtins
 from collections.abc import Iterable, Mapping
 from dataclasses import fields, is_dataclass, replace
@@ -10,13 +11,15 @@ from typing import Any
 
 import numpy as np
 
+from mechsheet import units
 from mechsheet.recording import statement
 from mechsheet.recording.graph import Gap, Graph, Guard, Node, NotRecorded, bottom_up
 from mechsheet.recording.lines import Recording
-from mechsheet.recording.quantity import Quantity
+from mechsheet.recording.quantity import Quantity, is_literal
 from mechsheet.recording.quantity import choice as where
 from mechsheet.recording.stage import Stage, held
-from mechsheet.recording.substitutes import current, shared
+from mechsheet.recording.substitutes import any_quantity, current, instead, shared
+from mechsheet.units import Constant
 from mechsheet.worksheet import inputs
 from mechsheet.worksheet.cells import Worksheet, load
 from mechsheet.worksheet.check import Check
@@ -62,6 +65,8 @@ class _Run:
         self.lost: dict[str, str] = {}  # names that have no value here, and why
         want = sheet.results if whole else [name for name in sheet.results if _shown(namespace.get(name))]
         self.lines = lines = registry(namespace)
+        for line in sheet.setup:
+            self.set_up(line, sheet.path)
         for cell in sheet.needed(want, {"g": g}):
             stage = Stage(self.recording, namespace, cell)
             self.names |= stage.replacements()
@@ -93,6 +98,7 @@ class _Run:
         try:
             with np.errstate(all="ignore"):  # the worksheet's own run has warned
                 exec(facts.code, self.names)
+            self.measure(touched, reads)
             differs = [name for name in final if not stage.same(self.names.get(name), self.namespace.get(name))]
             if not all(name not in self.lines and self.of_listed(self.names[name]) for name in differs):
                 of_all = " is of all positions, and only those that tables list are recorded"
@@ -116,6 +122,34 @@ class _Run:
                 self.names[name] = _mapped(self.names[name], under_these)
         stage.finish(lambda x: self.while_same(x, shown.values()))
 
+    def measure(self, touched: Iterable[str], reads: frozenset[str]) -> None:
+        """Let unit constants that a statement binds be quantities, and numbers that a line declares in a unit.
+
+        The unit of what Python made a number of, out of what it reads, is not known.
+        """
+        made = any(any_quantity(self.names.get(name)) for name in reads)
+        for name in touched:
+            value, line = self.names.get(name), self.lines.get(name)
+            if isinstance(value, Constant) or value is units:
+                self.names[name] = instead(value)
+                continue
+            unit = line.unit if line and not line.arguments else "-"
+            number = value.re.value if isinstance(value, Quantity) and is_literal(value) else value
+            if any(units.parse(unit).dims) and (type(number) in (int, float) or _is_array(number)):
+                self.names[name] = Quantity(self.graph, self.graph.constant(number, unit))
+            elif made and (type(value) is float or _is_array(value)):
+                self.names[name] = Quantity(self.graph, self.graph.constant(value, units.UNKNOWN))
+
+    def set_up(self, line: ast.stmt, path: str) -> None:
+        """Run a statement of the setup again where it computes with units; else its numbers stay."""
+        facts = statement.facts(line, path)
+        if any(any_quantity(self.names.get(name)) for name in self.read(facts.loaded)) or "units" in facts.loaded:
+            try:
+                exec(facts.code, self.names)
+            except Exception:  # what does not take quantities keeps the numbers that it has, of no known dimension
+                return
+            self.measure(facts.touched, frozenset())
+
     def keep(
         self, stage: Stage, facts: statement.Statement, final: set[str], reason: str, reads: frozenset[str]
     ) -> None:
@@ -124,6 +158,11 @@ class _Run:
         graph.work = 0
         rests_on = self.leaves(facts, reads)
         stage.forget()
+        own = [self.namespace.get(name) for name in touched]
+        if not rests_on and graph.thin == 1 and final.issuperset(touched) and all(map(_is_number, own)):
+            for name, number in zip(touched, own, strict=True):  # the same for all inputs
+                self.names[name] = Quantity(graph, graph.constant(number, units.UNKNOWN))
+            return
         guards = tuple(Guard(graph.same(leaf), graph.line) for leaf in rests_on)
         if not touched or any(held(self.namespace.get(name)) for name in final) or not final.issuperset(touched):
             public = tuple(name for name in touched if not name.startswith("_"))
@@ -243,6 +282,14 @@ def _mapped(value: Any, f: Any) -> Any:
         if any(new[name] is not getattr(value, name) for name in new):
             return replace(value, **new)
     return value
+
+
+def _is_array(value: Any) -> bool:
+    return isinstance(value, np.ndarray) and value.dtype.kind in "iuf"
+
+
+def _is_number(value: Any) -> bool:
+    return isinstance(value, float | np.floating) or _is_array(value)
 
 
 def _shown(value: Any) -> bool:

@@ -17,6 +17,7 @@ from typing import Any
 
 import numpy as np
 
+from mechsheet import units
 from mechsheet.recording.graph import Graph, NotRecorded
 from mechsheet.recording.numpy_rules import arange, linspace, trapezoid_so_far
 from mechsheet.recording.quantity import FUNCTIONS, Quantity, has_quantity, lift, plain
@@ -50,8 +51,12 @@ _MATH = {getattr(math, name): getattr(np, _OTHER.get(name, name)) for name in [*
 
 def instead(value: Any) -> Any:
     """What takes quantities in place of a function, class or module; anything else is itself."""
-    if value is np or value is math:
+    if value is np or value is math or value is units:
         return _module(value)
+    if isinstance(value, units.Constant):
+        return lift(current.get(), value)
+    if value is units.celsius:
+        return lambda degrees: (degrees + units.celsius(0)) * lift(current.get(), units.constant("K"))
     if isinstance(value, BuiltinFunctionType) and value in _MATH:
         return _takes(_MATH[value])
     if isinstance(value, np.ufunc) or (callable(value) and _of_numpy(value)):
@@ -80,7 +85,7 @@ def _of_numpy(value: Any) -> bool:
 
 
 class _Module:
-    """numpy or math, whose functions take recorded quantities."""
+    """numpy or math, whose functions take recorded quantities, or the units, which are such."""
 
     def __init__(self, module: Any) -> None:
         self._module = module

@@ -20,13 +20,17 @@ _DECLARED = re.compile(r"\[([^\]]*)\]\s*(.*)")
 
 @dataclass(frozen=True)
 class Formula:
-    """One line ``name = expression  # [unit] meaning``; ``arguments`` are those of a function, by lambda or def."""
+    """One line ``name = expression  # [unit] meaning``; ``arguments`` are those of a function, by lambda or def.
+
+    ``constants`` are the names of units in it, as they are written, with the units.
+    """
 
     name: str
     expression: ast.expr
     unit: str
     meaning: str
     arguments: tuple[str, ...] = ()
+    constants: tuple[tuple[str, str], ...] = ()
 
 
 @dataclass(frozen=True)
@@ -35,6 +39,7 @@ class Given:
 
     expression: ast.expr
     target: ast.expr
+    constants: tuple[tuple[str, str], ...] = ()
 
 
 def declared(comment: str, place: str) -> tuple[str, str] | None:
@@ -193,8 +198,32 @@ def typeset(*shown: Any, display: Mapping[str, str] | None = None) -> "Typeset":
     except SheetError as error:
         refuse(error)
     rows = [_displayed(row, display or {}) if isinstance(row, Formula) else row for row in lines]
+    rows = [_with_constants(row, frame.f_globals) for row in rows]
     values = tuple(frame.f_globals[row.name] if isinstance(row, Formula) else None for row in rows)
     return Typeset(tuple(rows), values, shown, Numbers(frame.f_globals))
+
+
+def _with_constants(row: Formula | Given, namespace: Mapping[str, Any]) -> Formula | Given:
+    """A line with the units among the names that it reads."""
+    found = ((name, _of_unit(name, namespace)) for name in _names(row))
+    constants = tuple((name, value.unit) for name, value in found if isinstance(value, units.Constant))
+    return replace(row, constants=constants) if constants else row
+
+
+def _of_unit(name: str, namespace: Mapping[str, Any]) -> Any:
+    head, dot, part = name.partition(".")
+    value = namespace.get(head)
+    return value if not dot else getattr(units, part, None) if value is units else None
+
+
+@lru_cache(maxsize=4096)
+def _names(row: Formula | Given) -> tuple[str, ...]:
+    """Names that a line reads, parts of modules too, without its arguments."""
+    parts = [row.expression] if isinstance(row, Formula) else [row.expression, row.target]
+    nodes = (node for part in parts for node in ast.walk(part))
+    read = (ast.unparse(node) for node in nodes if isinstance(node, ast.Name | ast.Attribute))
+    own = row.arguments if isinstance(row, Formula) else ()
+    return tuple(name for name in dict.fromkeys(read) if name not in own)
 
 
 @lru_cache(maxsize=1000)
