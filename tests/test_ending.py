@@ -79,7 +79,7 @@ def test_a_mistake_is_told_with_its_line_in_the_words_of_the_editor(
 
 def test_a_declaration_is_told_with_its_line(lever: Callable[..., Path]) -> None:
     path = lever("[m] length", "[mn] length")
-    unit = "unit [mn] is not known; write units as m, kN*m, rad/s**2 or 1/m"
+    unit = "unit [mn] is not known; nearest: mN, MN"
     ends([sys.executable, path], f"error: line 38 of {path}: {unit}")
 
 

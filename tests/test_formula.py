@@ -31,7 +31,6 @@ from mechsheet.document.latex import LATEX, RULES, latex
 from mechsheet.document.markup import HTML
 from mechsheet.page.values import html
 from mechsheet.worksheet import numbers
-from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.lines import registry
 from mechsheet.worksheet.symbol import Symbol
 
@@ -180,9 +179,11 @@ def test_value_in_its_display_unit(value, unit, tex):
     assert numbers.value(value, unit, LATEX) == tex
 
 
-def test_unknown_unit_names_the_line():
-    with pytest.raises(SheetError, match=r"line 3 of <cell \d+>: unit \[MPaa\] is not known"):
-        run(IMPORT + "a = 1.0  # [m] fine\np = 2.0  # [MPaa] wrong\ntypeset()")
+def test_an_unknown_unit_is_told_on_its_line_alone():
+    names = run(IMPORT + "a = 1.0  # [mm] fine\np = 2.0  # [MPaa] wrong\nb = 2 * a  # [mm] fine\nshown = typeset()")
+    first, second, third = joined(names["shown"]).split('<div class="ms-line">')[1:]
+    assert "1000 mm" in first and "2000 mm" in third and "mistake" not in first + third
+    assert "2 ?" in second and "unit [MPaa] is not known; nearest: MPa" in second
 
 
 @pytest.mark.parametrize(

@@ -144,7 +144,15 @@ def test_nobody_knows_what_is_divided():
 
 @pytest.mark.parametrize(
     ("text", "near"),
-    [("kn", ": kN"), ("Mpa", ": mPa, MPa"), ("kn*m", "kn; nearest: kN"), ("inches", ": inch"), ("LBF", ": lbf")],
+    [
+        ("kn", ": kN"),
+        ("Mpa", ": mPa, MPa"),
+        ("kn*m", "kn; nearest: kN"),
+        ("inches", ": inch"),
+        ("Nm", ": N*m"),
+        ("kNm/s", "kNm; nearest: kN*m"),
+        ("LBF", ": lbf"),
+    ],
 )
 def test_an_unknown_unit_is_told_with_the_nearest(text, near):
     with pytest.raises(ValueError, match=re.escape(f"unit [{text}] is not known")) as error:

@@ -141,6 +141,8 @@ class Reader:
     def settle(self, node: Node) -> None:
         """Compare a value with its declared units; in that of the line which made it, it is taken from here on."""
         for line in self.declared[node]:
+            if line.mistake:
+                continue
             unit = self.of_unit(line.unit)
             function = self.places.function_called(line.expression)
             if not (function and self.unfit(function, node)):

@@ -44,7 +44,11 @@ def dimensions(
     """
     values = recording.values
     lines = [line for line in known.values() if not line.arguments]
-    reader = Reader(recording, values, namespace, lines, Places(sheet, known))
+    places = Places(sheet, known)
+    reader = Reader(recording, values, namespace, lines, places)
+    for line in known.values():
+        if line.mistake:
+            reader.add(Mistake(places.line_of(line), line.name, line.mistake))
     return Dimensions(
         tuple(sorted(reader.mistakes.values())),
         tuple(sorted(reader.notes.values())),

@@ -140,8 +140,11 @@ def single(name: str) -> tuple[Fraction | float, Dims]:
 
 
 def nearest(name: str) -> list[str]:
-    """Names of units that are written much like another name, best first."""
+    """Units that are written much like another name, best first; of two that run together their product."""
     known = names()
+    halves = ((name[:n], name[n:]) for n in range(1, len(name)))
+    if together := [f"{a}*{b}" for a, b in halves if a in known and b in (*BASE, *DEFINED)]:
+        return together
     alike = [n for n in known if n.lower() == name.lower()]
     common = [n for n in known if n in DEFINED or n in BASE or n[:1] in "umckMG"]
     return alike[:3] or difflib.get_close_matches(name, common, n=2, cutoff=0.6)

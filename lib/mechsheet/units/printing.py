@@ -6,7 +6,7 @@ from fractions import Fraction
 from functools import lru_cache
 
 from mechsheet.units.definitions import BASE, DEFINED, OF_ANGLE, PREFIXED, Dims, parse, single
-from mechsheet.units.text import UNKNOWN, factors
+from mechsheet.units.text import UNKNOWN, factors, plain
 
 _POWERS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 _PRINTED = {"degC": "°C", "inch": "in"}
@@ -35,7 +35,7 @@ def shown(text: str, power: Callable[[int], str] = raised, times: str = "·") ->
     >>> shown("kgf/cm**2"), shown("N*m"), shown("m/s**2", "^{}".format), shown("um"), shown("inch")
     ('kgf/cm²', 'N·m', 'm/s^2', 'µm', 'in')
     """
-    names = re.sub(r"[^\W\d_]+", lambda name: _printed(name[0]), text.replace("**(", "^("))
+    names = re.sub(r"[^\W\d_]+", lambda name: _printed(name[0]), (text and plain(text)).replace("**(", "^("))
     return re.sub(r"\*\*(-?\d+)", lambda raising: power(int(raising[1])), names).replace("*", times)
 
 
@@ -69,7 +69,7 @@ def si(text: str) -> str:
     >>> si("kgf*cm"), si("MPa"), si("deg"), si("%"), si("L/min")
     ('N*m', 'Pa', 'rad', '-', 'm**3/s')
     """
-    if text == UNKNOWN:
+    if text in ("", UNKNOWN):
         return text
     found = dict[str, Fraction]()
     for name, power in factors(text):

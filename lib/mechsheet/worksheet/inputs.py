@@ -56,11 +56,15 @@ class Input:
         try:
             x, other = _split(value)
             if other:
-                theirs, own = units.parse(other), units.parse(self.unit)
+                given = f"{self.meaning} {self.name} = {errors.as_given(value)}"
+                try:
+                    theirs, own = units.parse(other), units.parse(self.unit)
+                except ValueError as error:
+                    raise SheetError(f"{given}: {error}") from None
                 if theirs.dims != own.dims:
-                    raise SheetError(
-                        f"{self.meaning} {self.name} = {errors.as_given(value)}: {other} does not measure {self.unit}"
-                    )
+                    raise SheetError(f"{given}: {other} does not measure {self.unit}")
+                if units.plain(other) != self.unit and "degC" in (units.plain(other), self.unit):
+                    raise SheetError(f"{given}: write it in {self.unit}, for a temperature is not a difference")
                 x = float(numbers.significant(x * (theirs.factor / own.factor), 15))
         except SheetError:
             raise
@@ -126,10 +130,12 @@ def _declared(name: str, cell: source.Cell) -> tuple[Input, ...]:
         if not isinstance(node, ast.AnnAssign):
             continue
         field = ast.unparse(node.target)
-        text = lines.declared(cell.comments.get(line, ""), cell.at(line))
+        text = lines.declared(cell.comments.get(line, ""))
         if text is None:
             raise SheetError(f"{cell.at(line)}: input {field} needs a comment with its unit, such as # [m] meaning")
-        unit, (meaning, _, limits) = text[0], text[1].partition(";")
+        if text.mistake:
+            raise SheetError(f"{cell.at(line)}: {text.mistake}")
+        unit, (meaning, _, limits) = text.unit, text.meaning.partition(";")
         whole = ast.unparse(node.annotation) == "int"
         found.append(Input(field, unit, meaning.strip(), section, whole, tuple(_limits(limits, field, cell.at(line)))))
         places[field] = cell.at(line)
@@ -314,7 +320,7 @@ def _split(value: object) -> tuple[float, str]:
         return _float(value), ""
     match = None if isinstance(value, bool) else _NUMBER.fullmatch(str(value).strip())
     unit = match[2].strip() if match else ""
-    if not match or (unit and not (len(unit) < _UNIT and re.match(r"[^\W\d_]|%|1/", unit))):
+    if not match or (unit and not (len(unit) < _UNIT and re.match(r"[^\W\d_]|[%°]|1/", unit))):
         raise ValueError(f"{errors.as_given(value)} is no number")
     return float(match[1].replace(",", ".").replace("−", "-")), unit
 

@@ -6,13 +6,13 @@ import sys
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from mechsheet import units
 from mechsheet.worksheet import source
-from mechsheet.worksheet.errors import SheetError, refuse
+from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.shown import Shown
 
 _DECLARED = re.compile(r"\[([^\]]*)\]\s*(.*)")
@@ -22,7 +22,8 @@ _DECLARED = re.compile(r"\[([^\]]*)\]\s*(.*)")
 class Formula:
     """One line ``name = expression  # [unit] meaning``; ``arguments`` are those of a function, by lambda or def.
 
-    ``constants`` are the names of units in it, as they are written, with the units.
+    ``constants`` are the names of units in it, as they are written, with the units. ``mistake`` tells why the unit is
+    not known, and the value shown in SI.
     """
 
     name: str
@@ -31,6 +32,7 @@ class Formula:
     meaning: str
     arguments: tuple[str, ...] = ()
     constants: tuple[tuple[str, str], ...] = ()
+    mistake: str = ""
 
 
 @dataclass(frozen=True)
@@ -42,19 +44,30 @@ class Given:
     constants: tuple[tuple[str, str], ...] = ()
 
 
-def declared(comment: str, place: str) -> tuple[str, str] | None:
-    """Unit and meaning of a comment ``[unit] meaning``; None where a comment declares nothing.
+class Declared(NamedTuple):
+    """What a comment ``[unit] meaning`` declares, and why its unit is not known."""
 
-    Raises SheetError naming the place where the unit is not known.
-    """
+    unit: str
+    meaning: str
+    mistake: str
+
+
+def declared(comment: str) -> Declared | None:
+    """Unit, in signs that Python reads, and meaning of a comment; None where it declares nothing."""
     match = _DECLARED.match(comment)
     if not match:
         return None
+    unit, mistake = _read(match[1])
+    return Declared(unit, match[2], mistake)
+
+
+def _read(unit: str) -> tuple[str, str]:
+    """A unit as it is typed, and why it is not known."""
     try:
-        units.parse(match[1])
+        units.parse(unit)
     except ValueError as error:
-        raise SheetError(f"{place}: {error}") from None
-    return match[1], match[2]
+        return units.UNKNOWN, str(error)
+    return units.plain(unit), ""
 
 
 @lru_cache(maxsize=1000)
@@ -80,9 +93,9 @@ def _formulas(cell: source.Cell) -> Iterator[Formula | Given]:
             case _:
                 continue
         line = node.end_lineno or node.lineno
-        found = declared(cell.comments.get(line, ""), cell.at(line))
+        found = declared(cell.comments.get(line, ""))
         if found and not name.startswith("_"):
-            yield Formula(name, expression, *found, arguments)
+            yield Formula(name, expression, found.unit, found.meaning, arguments, mistake=found.mistake)
 
 
 def _on_its_branch(args: ast.arguments, expression: ast.expr) -> ast.expr:
@@ -103,8 +116,6 @@ def registry(namespace: Mapping[str, Any], cells: tuple[source.Cell, ...] | None
     """Lines of the running worksheet that declare what is in the namespace, by name, in the order of its source.
 
     ``cells`` are those of the worksheet where the namespace is a copy and does not tell.
-
-    Raises SheetError where a line is asked for in whose cell a unit is not known.
     """
     return _Registry(_lines(source.cells(namespace) if cells is None else cells), namespace)
 
@@ -112,19 +123,16 @@ def registry(namespace: Mapping[str, Any], cells: tuple[source.Cell, ...] | None
 class _Registry(Mapping[str, Formula]):
     """Lines that declare what there is; each in the unit in which its cell displays it."""
 
-    def __init__(self, lines: Mapping[str, "_Line | SheetError"], namespace: Mapping[str, Any]) -> None:
+    def __init__(self, lines: Mapping[str, "_Line"], namespace: Mapping[str, Any]) -> None:
         self.lines, self.namespace = lines, namespace
 
     def __getitem__(self, name: str) -> Formula:
-        line = self.lines[name]
-        if isinstance(line, SheetError):
-            raise line
         if name not in self.namespace:
             raise KeyError(name)
-        return line.shown(self.namespace)
+        return self.lines[name].shown(self.namespace)
 
     def __iter__(self) -> Iterator[str]:
-        return (name for name, line in self.lines.items() if isinstance(line, _Line) and name in self.namespace)
+        return (name for name in self.lines if name in self.namespace)
 
     def __len__(self) -> int:
         return sum(1 for _ in self)
@@ -154,20 +162,19 @@ class _Line:
 
 
 def _displayed(line: Formula, display: Mapping[str, str]) -> Formula:
-    return replace(line, unit=display[line.unit]) if line.unit in display else line
+    if line.unit not in display:
+        return line
+    unit, mistake = _read(display[line.unit])
+    return replace(line, unit=unit, mistake=mistake)
 
 
 @lru_cache(maxsize=32)
-def _lines(cells: tuple[source.Cell, ...]) -> dict[str, _Line | SheetError]:
-    """Lines of the cells by name; of a cell that cannot be read the reason, by every name that it may declare."""
-    found = dict[str, _Line | SheetError]()
+def _lines(cells: tuple[source.Cell, ...]) -> dict[str, _Line]:
+    """Lines of the cells by name."""
+    found = dict[str, _Line]()
     for cell in cells:
         display = next(filter(None, map(_display, cell.body)), None)
-        try:
-            found |= {row.name: _Line(row, display) for row in formulas(cell) if isinstance(row, Formula)}
-        except SheetError as error:
-            assigned = (target for node in cell.body if isinstance(node, ast.Assign) for target in node.targets)
-            found |= {target.id: error for target in assigned if isinstance(target, ast.Name)}
+        found |= {row.name: _Line(row, display) for row in formulas(cell) if isinstance(row, Formula)}
     return found
 
 
@@ -186,17 +193,12 @@ def typeset(*shown: Any, display: Mapping[str, str] | None = None) -> "Typeset":
     Where a cell calls it again, each call has the lines above it that no call above it has. Reads the cell's own
     source, so nothing is typed twice. Nothing is rendered until the page asks. A text is Markdown. ``display``
     gives another display unit for some of the declared ones, such as ``{"kgf": "N"}``, to tables and figures too: a
-    dictionary as it is written, or a name of the worksheet.
-
-    Raises SheetError naming the line where a unit is not known.
+    dictionary as it is written, or a name of the worksheet. A line whose unit is not known is shown in SI, and why.
     """
     frame = sys._getframe(1)
     cell, here = source.cell(frame), frame.f_lineno
     above = max((end for end in _typeset_lines(cell) if end < here), default=0)
-    try:
-        lines = [row for row in formulas(cell) if above < row.expression.lineno < here]
-    except SheetError as error:
-        refuse(error)
+    lines = [row for row in formulas(cell) if above < row.expression.lineno < here]
     rows = [_displayed(row, display or {}) if isinstance(row, Formula) else row for row in lines]
     rows = [_with_constants(row, frame.f_globals) for row in rows]
     values = tuple(frame.f_globals[row.name] if isinstance(row, Formula) else None for row in rows)
