@@ -12,9 +12,11 @@ from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
 from functools import cache
 from pathlib import Path
+from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 import mpmath
+import numpy as np
 import pytest
 from hypothesis import settings
 from openpyxl import load_workbook
@@ -33,6 +35,7 @@ settings.register_profile("repeatable", derandomize=True, deadline=None)
 settings.register_profile("search", max_examples=1000, derandomize=False, deadline=None, database=None, print_blob=True)
 settings.load_profile("repeatable")
 
+COMPUTING = ("numpy.", "mpmath.", "mechsheet.mechanics.", "mechsheet.studies.", "mechsheet.accuracy.")
 ALWAYS = """<?xml version="1.0" encoding="UTF-8"?>
 <oor:items xmlns:oor="http://openoffice.org/2001/registry">
 <item oor:path="/org.openoffice.Office.Calc/Formula/Load"><prop oor:name="OOXMLRecalcMode" oor:op="fuse">
@@ -50,12 +53,29 @@ CHROMIUM_FLAGS = [
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Mark the tests that need a browser or LibreOffice by their fixtures, so that no mark can be forgotten."""
+    """Mark tests by their fixtures and by what their file takes from where, so that no mark can be forgotten."""
     for item in items:
         fixtures = getattr(item, "fixturenames", ())
         for program, mark in {"chromium": "browser", "soffice": "office"}.items():
             if program in fixtures:
                 item.add_marker(mark)
+        module = getattr(item, "module", None)
+        if module is None or computes(module):  # a doctest has none
+            item.add_marker("numeric")
+
+
+@cache
+def computes(module: ModuleType) -> bool:
+    """Whether something in the file's namespace is of what computes."""
+    names = (getattr(value, "__module__", None) or getattr(value, "__name__", "") for value in vars(module).values())
+    return any(f"{name}.".startswith(COMPUTING) for name in names if isinstance(name, str))
+
+
+def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
+    """Print the rows that tests have recorded: a process of pytest-xdist has no terminal."""
+    reports = [*terminalreporter.getreports("passed"), *terminalreporter.getreports("failed")]
+    for row in sorted(str(text) for report in reports for kind, text in report.user_properties if kind == "table"):
+        terminalreporter.write_line(row)
 
 
 def program(what: str, *names: str) -> str:
@@ -96,6 +116,13 @@ def recalculated(soffice: str, tmp_path_factory: pytest.TempPathFactory) -> Call
         return load_workbook(out / path.name, data_only=True)
 
     return recalculate
+
+
+@pytest.fixture(autouse=True)
+def errors_of_numpy() -> Iterator[None]:
+    """What a worksheet sets numpy to do about errors holds for no other test."""
+    with np.errstate():
+        yield
 
 
 def examples(count: int, **others: Any) -> settings:

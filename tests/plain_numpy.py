@@ -1,4 +1,4 @@
-"""Run tests as on a processor without vector extensions: ``python tests/plain_numpy.py [OPTIONS of pytest]``.
+"""Run what computes as on a processor without vector extensions: ``python tests/plain_numpy.py [OPTIONS of pytest]``.
 
 numpy picks code by the processor, which rounds differently: a test that passes with all of it and with none depends on
 no processor.
@@ -20,4 +20,5 @@ if __name__ == "__main__":
     disabled = features()
     print(f"disabled: {disabled or 'nothing, this processor has no more than numpy is built for'}", flush=True)
     environment = {**os.environ, "NPY_DISABLE_CPU_FEATURES": disabled}  # read as numpy starts, in subprocesses as well
-    sys.exit(subprocess.call([sys.executable, "-m", "pytest", *sys.argv[1:]], env=environment))
+    computing = [sys.executable, "-m", "mechsheet", "test", "-m", "numeric and not browser and not office"]
+    sys.exit(subprocess.call([*computing, *sys.argv[1:]], env=environment))

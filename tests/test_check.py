@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from mechsheet.worksheet.check import Check, assembled, check, check_slope, listen, require, summary
+from mechsheet.worksheet.errors import SheetError
 
 
 @pytest.mark.parametrize(("residual", "passed"), [(1e-12, True), ([0, -2e-12], False), (np.nan, False), (1e-12j, True)])
@@ -50,7 +51,7 @@ def test_slope_whose_differences_know_nothing_is_not_evaluated():
 def test_shown_in_its_unit():
     c = check("c", 0.5, 2.0, "mm")
     assert (c.residual, c.limit) == (500, 2000)
-    assert str(c) == "pass  c: 500 <= 2e+03 mm"
+    assert str(c) == "pass  c: 500 <= 2000 mm"
 
 
 def test_slope_against_differences():
@@ -124,3 +125,8 @@ def test_what_has_no_number_is_not_evaluated_and_no_pass():
     shown = summary(check("a", 0, 1), check("b", 2, 1), open_one)._mime_()[1]
     assert "1 of 3 checks pass, 1 fail, 1 not evaluated" in shown
     assert shown.index(">b<") < shown.index("moments of") < shown.index(">a<"), "what fails first"
+
+
+def test_limits_of_an_assembly_are_two():
+    with pytest.raises(SheetError, match="assembled 'loop': reaches must be the two limits of angle, got 0"):
+        assembled("loop", np.array([1.0]), np.array([1.0]), (), "angle", "deg")

@@ -49,7 +49,7 @@ EXEMPT = {
 
 def solve_reactions(A: Any, C: Any, u: Any, loads_A: Any, loads_B: Any) -> dict[str, Any]:
     """Of a link with a slider, whose loads may be none."""
-    pairs = [PinReaction(1, 0, A, 0), PinReaction(1, 2, C, 0), SlideReaction(2, 0, C, 0, 0, u / np.abs(u))]
+    pairs = [PinReaction(1, 0, 0, A), PinReaction(1, 2, 0, C), SlideReaction(2, 0, 0, C, u / np.abs(u))]
     found = mechsheet.solve_reactions([loads_A, loads_B], pairs).T
     return {"R_A": found[0] + 1j * found[1], "R_C": found[2] + 1j * found[3], "N": found[4], "M_B": found[5]}
 
@@ -72,12 +72,12 @@ def chain(
     """Crank, dyad A-C-B, and a link D-E with a slider on a guide through G, D on the link CB."""
     rod = crank(0, r, phi)
     first = RRRGroup(O1 + rod, B, r_A, r_B, branch)
-    v = first.velocity(link_velocity(rod, 0, 0, omega))
+    v = first.velocity(link_velocity(rod, 0, omega))
     a = first.acceleration(v, link_acceleration(rod, 0, omega))
     D = link_point(B, first.C, z)
     second = RRPGroup(D, G, u, r_D, branch_D)
-    w = second.velocity(link_velocity(D, B, 0, v.omega_B))
-    b = second.acceleration(w, link_acceleration(D, B, v.omega_B, 0, a.epsilon_B))
+    w = second.velocity(link_velocity(D, B, v.omega_B))
+    b = second.acceleration(w, link_acceleration(D, B, v.omega_B, a.epsilon_B))
     known = dict(C=first.C, omega_B=v.omega_B, epsilon_B=a.epsilon_B)
     return known | dict(E=second.C, ds=w.ds, dds=b.dds)
 

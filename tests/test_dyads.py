@@ -407,7 +407,7 @@ def test_slotted_link_table_is_reproduced_to_half_the_last_printed_digit() -> No
     A, omega = 0.8 * np.exp(1j * np.radians(table["phi1_deg"])), -10
     B = -2.4j
     u, s = rpr(A, B, 1)
-    v = rpr_velocity(A, B, u, link_velocity(A, 0, 0, omega))
+    v = rpr_velocity(A, B, u, link_velocity(A, 0, omega))
     a = rpr_acceleration(A, B, u, v.omega_A, v.ds, link_acceleration(A, 0, omega))
     C = B + 3.5 * u
     found = {
@@ -415,8 +415,8 @@ def test_slotted_link_table_is_reproduced_to_half_the_last_printed_digit() -> No
         "AB": s,
         "omega_BC": v.omega_A,
         "eps_BC": a.epsilon_A,
-        "VC": np.abs(link_velocity(C, B, 0, v.omega_A)),
-        "WC": np.abs(link_acceleration(C, B, v.omega_A, 0, a.epsilon_A)),
+        "VC": np.abs(link_velocity(C, B, v.omega_A)),
+        "WC": np.abs(link_acceleration(C, B, v.omega_A, a.epsilon_A)),
     }
     for name, column in found.items():
         assert np.all(np.abs(column - table[name]) <= 0.5e-3), name

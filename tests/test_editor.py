@@ -275,6 +275,15 @@ def test_mistakes_in_names_and_of_python_are_put_in_words():
     assert [*told_by.unknown(right.cells, right.names), *told_by.failed(right.cells)] == []
 
 
+def test_what_would_be_left_out_without_a_word_is_told():
+    code = "A = 2 * g.D\nn = 3\nshown = [n]\nB = A * g.L  # [m**2] area\ntypeset()"
+    found = bar(code, "C = 2 * B  # [m**2] twice", "k = 3  # [-]\nD = k * B  # [m**2] thrice\ntypeset()")
+    assert found.texts(told_by.unsaid(found.cells, found.names)) == [
+        "c3: line 1, A = 2 * g.D: A stands in formulas and is not shown: end its line in # [unit] meaning",
+        "c4: the formulas of C are not shown: end the cell in typeset()",
+    ]
+
+
 def test_line_that_has_lost_its_unit_does_not_keep_the_former_one():
     found = bar("A = pi * g.D**2 / 4  # [mm**2] area\ntypeset()")
     right = [(cell.code, cell.filename) for cell in found.cells]

@@ -29,10 +29,10 @@ DRIVE = coupling_drive(0, [Load(-FOUND.R_A, A)])
 LOADS = [[Load(0, 0)], [ROD], [WORK]]
 REACTIONS = (
     DriveMoment(1, DRIVE.M),
-    PinReaction(1, 0, 0, DRIVE.R_O1),
-    PinReaction(2, 1, A, FOUND.R_A),
-    PinReaction(2, 3, GROUP.C, FOUND.R_C),
-    SlideReaction(3, 0, GROUP.C, FOUND.R_B, 0, 1),
+    PinReaction(1, 0, DRIVE.R_O1, 0),
+    PinReaction(2, 1, FOUND.R_A, A),
+    PinReaction(2, 3, FOUND.R_C, GROUP.C),
+    SlideReaction(3, 0, FOUND.R_B, GROUP.C, 1),
 )
 
 
@@ -40,7 +40,7 @@ def test_lever_by_hand() -> None:
     """A bar of 2 m, pinned at 0, on a slide at 2 along x: 30 N down in the middle, 7 N along it."""
     unknown = (PinReaction(1, 0, 0, 0), DriveMoment(1, 0))
     assert solve_reactions([[Load(7 - 30j, 1)]], unknown) == pytest.approx([-7, 30, 30])
-    left = left_over([[Load(7 - 30j, 1)]], [PinReaction(1, 0, 0, -7 + 30j), DriveMoment(1, 30)])
+    left = left_over([[Load(7 - 30j, 1)]], [PinReaction(1, 0, -7 + 30j, 0), DriveMoment(1, 30)])
     assert left.F.tolist() == [0] and left.M.tolist() == [0]
 
 
@@ -81,7 +81,7 @@ def test_mechanism_that_cannot_be_held_is_nan_there_alone() -> None:
     """A slider's rod across its guide holds nothing: the one position of the three is NaN."""
     point = np.array([1 + 1j, 1j, -1 + 1j])  # of the rod from the slider at 0, pinned to the frame
     bodies = [[Load(-1j, point / 2)], [Load(5, 0)]]
-    unknown = [PinReaction(1, 0, point, 0), PinReaction(1, 2, 0, 0), SlideReaction(2, 0, 0, 0, 0, 1)]
+    unknown = [PinReaction(1, 0, 0, point), PinReaction(1, 2, 0, 0), SlideReaction(2, 0, 0, 0, 1)]
     assert np.isnan(solve_reactions(bodies, unknown)).all(-1).tolist() == [False, True, False]
 
 
@@ -106,4 +106,4 @@ def test_shapes_that_do_not_broadcast_are_refused_by_name(function) -> None:
     ):
         function(loads, [PinReaction(1, 2, 0, 0), PinReaction(2, 0, 0, 0), PinReaction(1, 0, 0, 0)])
     with pytest.raises(ValueError, match=r"reactions\[0\].F \(2,\), reactions\[1\].P \(3,\)"):
-        magnitudes([PinReaction(1, 0, 0, np.ones(2)), SlideReaction(1, 0, np.ones(3), 0, np.ones(3), 1)])
+        magnitudes([PinReaction(1, 0, np.ones(2), 0), SlideReaction(1, 0, 0, np.ones(3), 1, np.ones(3))])

@@ -7,11 +7,11 @@ from __future__ import annotations
 
 import warnings
 from collections import Counter
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import pytest
 
 from mechsheet.page import values
@@ -24,6 +24,10 @@ from mechsheet.worksheet.shown import Shown
 ROOT = Path(__file__).parents[1]
 SEARCHES = ("accuracy", "hitch_design")  # run for half a minute: what they are given is read, and no more
 WORKSHEETS = sorted(path.stem for path in (ROOT / "worksheets").glob("*.py"))
+ANSWERS = (
+    *("no number", "outside its limits", "does not close", "refused by a cell"),
+    *("not evaluated", "FAIL", "pass"),
+)
 # What is typed, and the number that it is; None for what is none.
 TYPED = {
     "0": 0.0,
@@ -105,54 +109,46 @@ def what_is_wrong(run: Run) -> str:
 def tried(path: Path, run_too: bool) -> tuple[Counter[str], list[str]]:
     """How the worksheet answers each text in each of its inputs, counted, and the answers that are none."""
     counts, wrong = Counter[str](), list[str]()
-    with np.errstate():  # of a worksheet that sets it for itself
-        sheet = cells.read(path)
-        written = set[str]()
-        for each in inputs.declared(sheet.inputs):
-            runs = dict[float, str]()
-            for text, number in TYPED.items():
-                what = f"{path.stem} --{each.name}={text}"
-                g, refusal = built(sheet, each.name, text)
-                plain, why = (None, "no number") if number is None else built(sheet, each.name, number)
-                if g != plain or bool(refusal) != bool(why):
-                    wrong.append(f"{what}: {refusal or g} in place of {why or plain}")
-                elif refusal:
-                    counts["no number" if number is None else "outside its limits"] += 1
-                    if "\n" in refusal or f"{each.name} = " not in refusal:
-                        wrong.append(f"{what}: {refusal!r} does not name it in a line")
-                elif run_too:
-                    if number not in runs:
-                        try:
-                            run = ran(sheet, g)
-                            for value in shown(run.names):
-                                values.html(value)
-                            if not run.refusals and not run.open and run.verdict not in written:
-                                written.add(run.verdict)  # one workbook of each kind: a third of a second
-                                report.workbook("", run.names, {})
-                        except Exception as error:
-                            run = Run({}, [f"{type(error).__name__}: {error}"])
-                            wrong.append(f"{what}: {run.refusals[0]}")
-                        if reason := what_is_wrong(run):
-                            wrong.append(f"{what}: {reason}")
-                        runs[number] = run.verdict
-                    counts[runs[number]] += 1
+    sheet = cells.read(path)
+    written = set[str]()
+    for each in inputs.declared(sheet.inputs):
+        runs = dict[float, str]()
+        for text, number in TYPED.items():
+            what = f"{path.stem} --{each.name}={text}"
+            g, refusal = built(sheet, each.name, text)
+            plain, why = (None, "no number") if number is None else built(sheet, each.name, number)
+            if g != plain or bool(refusal) != bool(why):
+                wrong.append(f"{what}: {refusal or g} in place of {why or plain}")
+            elif refusal:
+                counts["no number" if number is None else "outside its limits"] += 1
+                if "\n" in refusal or f"{each.name} = " not in refusal:
+                    wrong.append(f"{what}: {refusal!r} does not name it in a line")
+            elif run_too:
+                if number not in runs:
+                    try:
+                        run = ran(sheet, g)
+                        for value in shown(run.names):
+                            values.html(value)
+                        if not run.refusals and not run.open and run.verdict not in written:
+                            written.add(run.verdict)  # one workbook of each kind: a third of a second
+                            report.workbook("", run.names, {})
+                    except Exception as error:
+                        run = Run({}, [f"{type(error).__name__}: {error}"])
+                        wrong.append(f"{what}: {run.refusals[0]}")
+                    if reason := what_is_wrong(run):
+                        wrong.append(f"{what}: {reason}")
+                    runs[number] = run.verdict
+                counts[runs[number]] += 1
     return counts, wrong
 
 
-def table(rows: dict[str, Counter[str]]) -> str:
-    heads = sorted(set().union(*rows.values()))
-    lines = [["", *heads], *([name, *(str(row[head]) for head in heads)] for name, row in rows.items())]
-    widths = [max(map(len, column)) for column in zip(*lines, strict=True)]
-    return "\n".join("  ".join(text.rjust(width) for text, width in zip(line, widths, strict=True)) for line in lines)
-
-
-def test_whatever_is_typed_gives_the_result_of_that_number_or_one_line(capsys: pytest.CaptureFixture[str]) -> None:
-    rows, wrong = dict[str, Counter[str]](), list[str]()
+@pytest.mark.parametrize("name", WORKSHEETS)
+def test_whatever_is_typed_gives_the_result_of_that_number_or_one_line(
+    name: str, record_property: Callable[[str, object], None]
+) -> None:
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        for name in WORKSHEETS:
-            rows[name], more = tried(ROOT / "worksheets" / f"{name}.py", name not in SEARCHES)
-            wrong += more
-    with capsys.disabled():
-        print("\n" + table(rows))
+        counts, wrong = tried(ROOT / "worksheets" / f"{name}.py", name not in SEARCHES)
+    record_property("table", f"{name:14}" + "".join(f"  {counts[answer]:4} {answer}" for answer in ANSWERS))
+    assert set(counts) <= set(ANSWERS)
     assert not wrong, "\n".join(wrong)

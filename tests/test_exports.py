@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import io
 import math
 import re
 import subprocess
 import sys
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from functools import cache
 from pathlib import Path
 from typing import NamedTuple
@@ -14,6 +16,10 @@ from typing import NamedTuple
 import pytest
 from openpyxl import load_workbook
 from openpyxl.utils.cell import coordinate_to_tuple
+
+from mechsheet.run import report
+from mechsheet.studies.design import Design, search
+from mechsheet.worksheet.cells import load
 
 ROOT = Path(__file__).resolve().parents[1]
 WORKSHEETS = sorted((ROOT / "worksheets").glob("*.py"))
@@ -32,8 +38,8 @@ def test_export_is_current(worksheet: Path, tmp_path: Path) -> None:
     assert run.returncode == 0, run.stdout + run.stderr
     book = f"{worksheet.stem}.xlsx"
     assert [path.name for path in tmp_path.iterdir() if path.suffix != ".toml"] == [book]  # a design writes its scene
-    stale = list(differences(read(EXPORTS / book), read(tmp_path / book)))
-    assert not stale, f"exports/{book} is not current:\n" + "\n".join(stale[:20])
+    found = list(stale(worksheet, read(EXPORTS / book), read(tmp_path / book)))
+    assert not found, f"exports/{book} is not current:\n" + "\n".join(found[:20])
 
 
 def test_every_export_has_its_worksheet() -> None:
@@ -105,8 +111,8 @@ def exported(worksheet: str) -> Book:
     return read(EXPORTS / f"{worksheet}.xlsx")
 
 
-def read(path: Path) -> Book:
-    written, values = load_workbook(path), load_workbook(path, data_only=True)
+def read(file: Path | io.BytesIO) -> Book:
+    written, values = load_workbook(file), load_workbook(file, data_only=True)
     return {
         sheet.title: {
             (cell.row, cell.column): _cell(cell.value, values[sheet.title].cell(cell.row, cell.column).value)
@@ -221,6 +227,76 @@ def _same_value(x: Content, y: Content, alike: Alike, scale: Scale) -> bool:
     return x == y
 
 
+class Searched(NamedTuple):
+    """What a search chose, its reserves of capacity and stability, the lead it was asked for and its uncertainty."""
+
+    inputs: dict[str, float]
+    reserves: tuple[float, float]
+    lead: float
+    uncertainty: float
+
+    def goal(self, lead: float) -> float:
+        capacity, stability = self.reserves
+        return min(capacity - lead / 2, stability + lead / 2)
+
+
+def searches(book: Book) -> list[Searched]:
+    """Results of the searches of a workbook, numbers in percent: the chosen design, then those of the trade-off."""
+    if "3.1 Chosen inputs" not in book:
+        return []
+    chosen, stroke, trade_off = (
+        {at: cell.value for at, cell in book[title].items()}
+        for title in ("3.1 Chosen inputs", "3.2 The design over the stroke", "4.1 Designs of the trade-off")
+    )
+    inputs = {chosen[row, 1]: chosen[row, 3] for row, column in chosen if row > 4 and column == 3}
+    capacity, stability = (min(x for (row, k), x in stroke.items() if row > 4 and k == column) for column in (4, 5))
+    uncertain = re.search(r"uncertain by ([\d.]+) %", chosen[2, 1])
+    assert uncertain, "a design whose uncertainty is not known is not for comparison"
+    found = [Searched(inputs, (capacity, stability), 0.0, float(uncertain[1]))]
+    for row in sorted({row for row, _ in trade_off if row > 4}):
+        c_G, c_R, lead, uncertainty, *values = (trade_off[row, column] for column in range(1, 5 + len(inputs)))
+        found.append(Searched(dict(zip(inputs, values, strict=True)), (c_G, c_R), lead, uncertainty))
+    return found
+
+
+def stale(worksheet: Path, old: Book, new: Book) -> Iterator[str]:
+    """What differs: of searches the goals, by more than their uncertainty; all else as it is for the old designs."""
+    before, after = searches(old), searches(new)
+    if [found.inputs for found in before] != [found.inputs for found in after]:
+        yield from apart(before, after)
+        new = designed(worksheet, before, old)
+    yield from differences(old, new)
+
+
+def apart(before: list[Searched], after: list[Searched]) -> Iterator[str]:
+    """Which goals the best design of the other searches does not reach, or leaves behind, within their uncertainty."""
+    for found, others in [*((found, after) for found in before), *((found, before) for found in after)]:
+        best = max(other.goal(found.lead) for other in others)
+        if not abs(found.goal(found.lead) - best) <= found.uncertainty:
+            yield f"{found}: its goal {found.goal(found.lead)} % became {best} %"
+
+
+def designed(worksheet: Path, before: list[Searched], old: Book) -> Book:
+    """The workbook that the worksheet writes where its searches find these."""
+    sheet = load(worksheet)
+    g = sheet.inputs()
+    names = sheet.run(["judge", "decimals"], {"g": g})
+    tried = re.search(r"Best of (\d+) variants", str(old["3.1 Chosen inputs"][2, 1].value))
+    assert tried
+
+    def result(found: Searched) -> Design:
+        fixed = {x: (value, value) for x, value in found.inputs.items()}
+        once = {"seed": 1, "generations": 1, "members": 1}
+        at = search(names["judge"](found.lead / 100), fixed, names["decimals"], **once)
+        return replace(at, tried=int(tried[1]), uncertainty=found.uncertainty / 100)
+
+    chosen, *others = map(result, before)
+    led = [(found.lead / 100, other) for found, other in zip(before[1:], others, strict=True)]
+    names = sheet.run(sheet.results, {"g": g, "design": chosen, "led": led, "unbeaten": led})
+    book = report.workbook("Design of a tractor hitch", {**names, "__file__": str(worksheet)}, {})
+    return read(io.BytesIO(book))
+
+
 def changed(book: Book, sheet: str, place: str, change: dict) -> Book:
     """A copy of a workbook with a cell changed: what is written or its value, to another or by a function of it."""
     at = coordinate_to_tuple(place)
@@ -323,3 +399,36 @@ def test_a_lost_row_and_a_lost_sheet_are_seen() -> None:
     short = {at: cell for at, cell in old["Checks"].items() if at[0] < last}
     assert list(differences(old, {**old, "Checks": short})) and list(differences({**old, "Checks": short}, old))
     assert list(differences(old, {title: cells for title, cells in old.items() if title != "Marks"}))
+
+
+def test_no_formula_rests_on_a_run_time() -> None:
+    book = exported("accuracy")
+    formulas = [str(cell.written) for cells in book.values() for cell in cells.values()]
+    assert len(formulas) > 1000 and not [text for text in formulas if re.search(r"seconds.*[<>=]", text)]
+
+
+DESIGN = ROOT / "worksheets" / "hitch_design.py"
+
+
+def with_length(design: Searched, L3: float) -> Searched:
+    return design._replace(inputs={**design.inputs, "L3": L3})
+
+
+def test_another_design_is_as_good_within_the_uncertainty_and_all_else_as_it_was() -> None:
+    old = exported("hitch_design")
+    chosen, *led = searches(old)
+    near = designed(DESIGN, [with_length(chosen, chosen.inputs["L3"] + 1e-4), *led], old)
+    assert len(list(differences(old, near))) > 100 and not list(stale(DESIGN, old, near))
+    wrong = changed(old, "5.1 Sensitivity of the capacity", "D10", {"value": times(1 + 1e-9)})
+    assert list(stale(DESIGN, wrong, near)), "a number of the old design that is not its own"
+
+
+def test_a_worse_design_is_seen() -> None:
+    old = exported("hitch_design")
+    chosen, *led = searches(old)
+    near = with_length(chosen, chosen.inputs["L3"] + 1e-4)
+    for by in (chosen.uncertainty * 1.01, -chosen.uncertainty * 1.01):
+        capacity, stability = near.reserves
+        far = [near._replace(reserves=(capacity + by, stability + by)), *led]
+        assert list(apart(searches(old), far)) and list(apart(far, searches(old)))
+    assert not list(apart(searches(old), [near, *led]))

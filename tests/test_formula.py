@@ -31,6 +31,7 @@ from mechsheet.document.latex import LATEX, RULES, latex
 from mechsheet.document.markup import HTML
 from mechsheet.page.values import html
 from mechsheet.worksheet import numbers
+from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.lines import registry
 from mechsheet.worksheet.symbol import Symbol
 
@@ -90,7 +91,28 @@ IMPORT = "from mechsheet import typeset\n"
         ("dot(F, v + w)*k", r"F \cdot (v + w)\,k"),
         ("trapezoid(M, phi1)", r"\int M\,\mathrm{d}\varphi_{1}"),
         ("np.nanmin(SAB_k)", r"\min(S_{\mathrm{AB,k}})"),
-        ("np.sum(S_g > 0, axis=1)", r"\textstyle\sum (S_{\mathrm{g}} > 0)"),
+        ("np.sum(S_g > 0, axis=1)", r"{\textstyle\sum }_{\text{axis 1}}(S_{\mathrm{g}} > 0)"),
+        ("x.max(axis=0)", r"{\max}_{\text{axis 0}}(x)"),
+        ("sum(F[i]*x[i] for i in range(g.n))", r"\sum_{i = 0}^{n - 1} {F}_{i}\,{x}_{i}"),
+        ("sum(F*2 for F in loads)", r"\sum_{F \in \mathrm{loads}} F \cdot 2"),
+        ("a if 0 < x <= 1 else b", r"\begin{cases} a & \text{if } 0 < x \le 1 \\ b & \text{otherwise} \end{cases}"),
+        (
+            "np.select([x < 0, x < 1], [a, b], c)",
+            r"\begin{cases} a & \text{if } x < 0 \\ b & \text{if } x < 1 \\ c & \text{otherwise} \end{cases}",
+        ),
+        (
+            "where(a > 0, 1, where(b > 0, 2, 3))",
+            r"\begin{cases} 1 & \text{if } a > 0 \\ 2 & \text{if } b > 0 \\ 3 & \text{otherwise} \end{cases}",
+        ),
+        ("a > 0 and (b or c) and not d", r"a > 0 \text{ and } (b \text{ or } c) \text{ and } \text{not } d"),
+        ("(a > 0) | (b < 1)", r"a > 0 \text{ or } b < 1"),
+        ("np.array([[a, b], [c, 1]])", r"\begin{bmatrix} a & b \\ c & 1 \end{bmatrix}"),
+        ("np.array([1, a])", r"\left[1,\ a\right]"),
+        ("np.linalg.solve(A, b)", r"A^{-1}\,b"),
+        ("group_1.transmission_angle", r"\operatorname{transmission\ angle}(\text{group 1})"),
+        ("h_phi6_S", r"h_{\varphi6}(S)"),
+        ("group_23", r"\mathrm{group}_{23}"),
+        ("g.J_S*eps", r"J_{\mathrm{S}}\,\varepsilon"),
         ("P45(S, L4, branch)", r"P_{45}(S,\ L_{4})"),
         ("(2*a) % b - c", r"2\,a \bmod b - c"),
         ("L4_found.value", r"\operatorname{Find}(L_{4})"),
@@ -169,8 +191,15 @@ def test_lines_with_a_unit_are_the_formulas():
         (129613.7, "N", r"129614\,\mathrm{N}"),
         (999999.9, "N", r"1000000\,\mathrm{N}"),
         (0.5 - 2j, "m", r"(0.5,\ -2)\,\mathrm{m}"),
-        (np.array([1.0, 2.0, 3.0]), "N*m", r"1 \,\ldots\, 3\,\mathrm{N\cdot m}"),
-        (np.array([1.0, np.nan]), "m**2", r"1 \,\ldots\, \text{none}\,\mathrm{m^{2}}"),
+        (np.array([1.0, 2.0, 3.0]), "N*m", r"1, 2, 3\,\mathrm{N\cdot m}"),
+        (np.array([1.0, np.nan]), "m**2", r"1, \text{none}\,\mathrm{m^{2}}"),
+        (np.arange(10.0), "-", "0, 1, 2, 3, 4, 5, 6, 7, 8, 9"),
+        (np.sin(np.arange(24) * np.pi / 12), "m", r"-1 \,\ldots\, 1\,\mathrm{m}"),
+        (np.array([[1.0, 2.0], [3.0, 4.5]]), "N", r"[1, 2; 3, 4.5]\,\mathrm{N}"),
+        (np.array([np.nan, *np.arange(11.0)]), "m", r"0 \,\ldots\, 10\,\mathrm{m} (1 of 12 \text{none})"),
+        (np.full(11, np.nan), "m", r"\text{none}\,\mathrm{m}"),
+        (np.full(11, 2.0), "m", r"2\,\mathrm{m}"),
+        (np.arange(5) * 1j, "m", r"(0,\ 0) \,\ldots\, (0,\ 4)\,\mathrm{m}"),
         (7, "-", "7"),
         (-0.0, "m", r"0\,\mathrm{m}"),
     ],
@@ -195,7 +224,7 @@ def test_an_unknown_unit_is_told_on_its_line_alone():
         (-1.5e-7, "m", "−1.5\u2009·\u200910<sup>−7</sup> m"),
         (np.inf, "-", "∞"),
         (0.5 - 2j, "m/s**2", "(0.5, −2) m/s<sup>2</sup>"),
-        (np.array([1.0, np.nan]), "N*m**-1", "1 … none N·m<sup>−1</sup>"),
+        (np.array([1.0, np.nan]), "N*m**-1", "1, none N·m<sup>−1</sup>"),
     ],
 )
 def test_value_in_the_page(value, unit, text):
@@ -321,6 +350,45 @@ def test_branch_that_is_meant_stands_in_the_definition():
         "shown"
     ]
     assert r"P(S,\,L_{7}) = \operatorname{rrr}(S,\ L_{7},\ -1)" in html(text)
+
+
+def test_a_line_of_several_names_declares_each():
+    names = run(IMPORT + "a, b = pair = (2.0, 3.0)\nu, v = pair  # [m] one, [s]\nx, y = 2 * u, v  # [m], [s] last\n"
+                "shown = typeset()")  # fmt: skip
+    rows = names["shown"].rows
+    assert [(r.name, r.unit, r.meaning) for r in rows] == [
+        ("u", "m", "one"), ("v", "s", ""), ("x", "m", ""), ("y", "s", "last"),
+    ]  # fmt: skip
+    text = joined(names["shown"])
+    assert r"u = {\mathrm{pair}}_{0} = 2 m" in text and r"x = 2\,u = 4 m" in text
+    with pytest.raises(SheetError, match=r"line 2 of <cell \d+>: 2 names need 2 units"):
+        run(IMPORT + "u, v = 1.0, 2.0  # [m] one\ntypeset()")
+
+
+def test_a_function_with_branches_and_names_of_its_own():
+    def shown(body):
+        return html(run(IMPORT + f"def f(x):\n{body}  # [m] it\nshown = typeset()")["shown"])
+
+    chosen = (
+        r"f(x) = \begin{cases} 1 &amp; \text{if } x &lt; 0 \\ 2 &amp; \text{if } x &lt; 3 \\ x &amp; \text{otherwise}"
+    )
+    assert chosen in shown("    if x < 0:\n        return 1\n    elif x < 3:\n        return 2\n    return x")
+    assert chosen in shown(
+        "    if x < 0:\n        return 1\n    if x < 3:\n        return 2\n    else:\n        return x"
+    )
+    assert r"f(x) = y + 1\quad \text{where}\quad y = 2\,x" in shown("    y = 2 * x\n    return y + 1")
+    loop = shown("    for _ in range(3):\n        x = x / 2\n    return x")
+    assert r"f(x)||)" in loop and "it" in loop, "what is no formula is not shown as one"
+
+
+def test_a_field_has_positions():
+    """What only ends in _S is printed as it is written."""
+    code = "from numpy import arange\nS = arange(3.0)  # [m]\nl_S = 2.0  # [m]\nP_S = l_S * S  # [m]\nshown = typeset()"
+    text = joined(run(IMPORT + code)["shown"])
+    assert r"s_{\mathrm{S}} = \left[0,\ 1\right] = 0, 1 m" in joined(
+        run(IMPORT + "s_S = [0, 1]  # [m]\nshown = typeset()")["shown"]
+    )
+    assert r"l_{\mathrm{S}} = 2 m" in text and r"P(S) = l_{\mathrm{S}}\,S = 0, 2, 4 m" in text
 
 
 @pytest.mark.parametrize("args", ["S", "S, L7, branch=-1"])

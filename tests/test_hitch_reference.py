@@ -84,7 +84,7 @@ def frame(g, hinge, S, found, Z, pins):
     corner = np.arccos((S**2 + abs(hinge[1] - hinge[3]) ** 2 - g.L3**2) / (2 * S * abs(hinge[1] - hinge[3])))
     known |= {"phi12_printed": known["phi13"] - corner, "P23s_S": hinge[1] + S * np.exp(1j * (known["phi13"] - corner))}
     at = round(SLIDERS["forces_at"].value * (g.N_pol - 1))
-    return known | {"S_t": g.S_min + SLIDERS["part"].value * (g.S_max - g.S_min), "S_k": S[at]}
+    return known | {"S_t": g.S_min + SLIDERS["part"].value * (g.S_max - g.S_min), "S_k": S[at], "k_t": at}
 
 
 def capacity(g, I56, IS6):

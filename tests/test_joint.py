@@ -337,7 +337,7 @@ def ring_at_50_digits(phi, r, M, N):
 def test_ring_to_50_digits(c, first):
     r, M = 0.6, 2e5
     phi, N = even(24, first if abs(c) < 0.9 else 0.0), 2 * M / r * c
-    ring = circular_joint(phi, r, M, N)
+    ring = circular_joint(r, phi, M, N)
     P, R, p_0 = ring_at_50_digits(phi, r, M, N)
     assert ring.state == "tension and compression"
     load = abs(N) + M / r
@@ -354,7 +354,7 @@ loads = st.floats(-1e6, 1e6)
 @given(st.integers(3, 40), st.floats(0, 6.3), st.floats(0.1, 10), loads, loads)
 def test_ring_is_in_equilibrium(m, first, r, M, N):
     phi = even(m, first)
-    ring = circular_joint(phi, r, M, N)
+    ring = circular_joint(r, phi, M, N)
     assume(ring.state != "no bolt in tension")
     play = 1e-13 * m * (abs(N) + abs(M) / r) + 1e-320  # the least float has no parts
     assert abs(ring.P.sum() + ring.R - N) <= play
@@ -376,7 +376,7 @@ def test_ring_is_in_equilibrium(m, first, r, M, N):
 )
 def test_ring_of_one_kind_is_the_uniform_ring(M, N, state):
     r, phi = 0.8, even(20)
-    ring = circular_joint(phi, r, M, N)
+    ring = circular_joint(r, phi, M, N)
     assert ring.state == state
     pulled = state == "all in tension"
     assert np.allclose(ring.P, pulled * (N / 20 + 2 * M / (20 * r) * np.cos(phi)), rtol=1e-13)
@@ -389,7 +389,7 @@ def test_ring_of_one_kind_is_the_uniform_ring(M, N, state):
 @pytest.mark.parametrize("c", [-1, 1])
 def test_ring_passes_smoothly_into_one_kind(c):
     r, M, phi = 0.6, 2e5, even(24)
-    near, far = (circular_joint(phi, r, M, 2 * M / r * c * (1 + d)) for d in (-1e-9, 1e-9))
+    near, far = (circular_joint(r, phi, M, 2 * M / r * c * (1 + d)) for d in (-1e-9, 1e-9))
     assert near.state == "tension and compression" and str(far.state).startswith("all in ")
     assert np.allclose(near.P, far.P, rtol=0, atol=1e-8 * M / r) and np.isclose(
         near.R, far.R, rtol=0, atol=1e-8 * M / r
@@ -397,7 +397,7 @@ def test_ring_passes_smoothly_into_one_kind(c):
 
 
 def test_ring_loaded_the_other_way_is_turned_by_half():
-    one, other = circular_joint(even(24), 0.6, 2e5, -2e5), circular_joint(even(24), 0.6, -2e5, -2e5)
+    one, other = circular_joint(0.6, even(24), 2e5, -2e5), circular_joint(0.6, even(24), -2e5, -2e5)
     assert np.allclose(one.P, np.roll(other.P, 12), rtol=1e-12)
     assert np.allclose([one.p_0, one.R, one.M_R], [other.p_0, other.R, -other.M_R], rtol=1e-12)
     assert one.phi_0 == other.phi_0 and one.c == -other.c and one.y_0 == -other.y_0
@@ -407,32 +407,32 @@ def test_uneven_bolts():
     """Solved approximately, with the moment left over across the plane, or refused in words."""
     r, M = 0.6, 2e5
     phi = even(24) + 0.05 * np.cos(even(24))
-    ring = circular_joint(phi, r, M, 0)
+    ring = circular_joint(r, phi, M, 0)
     assert np.isclose(ring.M_x, (ring.P * r * np.sin(phi)).sum(), rtol=1e-12) and abs(ring.M_x) > 1e-3 * M
     assert np.isclose(ring.P.sum() + ring.R, 0, atol=1e-9 * M)
-    refused = circular_joint([np.pi - 0.2, np.pi + 0.2, 3], r, M, [0, 2 * M / r * 0.999])
+    refused = circular_joint(r, [np.pi - 0.2, np.pi + 0.2, 3], M, [0, 2 * M / r * 0.999])
     assert refused.state.tolist() == ["no bolt in tension", "tension and compression"]
     crowded = [0, *np.linspace(0.7, 1.3, 20)]
-    assert circular_joint(crowded, r, M, 0.99 * 2 * M / r).state == "ring in tension"
+    assert circular_joint(r, crowded, M, 0.99 * 2 * M / r).state == "ring in tension"
     far = [0, *np.linspace(2.2, 3.1, 19)]
-    assert circular_joint(far, r, M, 1.01 * 2 * M / r).state == "bolt in compression"
+    assert circular_joint(r, far, M, 1.01 * 2 * M / r).state == "bolt in compression"
     assert np.isnan(refused.R[0]) and np.isnan(refused.P[0]).all()
 
 
 def test_rings_broadcast():
     phi, M, N = np.stack([even(24), even(24, 0.1)])[:, None], np.array([2e5, 1e5, 0]), np.array([-1e5, 0, 5e4])
-    rings = circular_joint(phi, 0.6, M, N)
+    rings = circular_joint(0.6, phi, M, N)
     assert rings.P.shape == (2, 3, 24)
     assert all(np.shape(v) == (2, 3) for v in rings[1:])
     for p, k in np.ndindex(2, 3):
-        one = circular_joint(phi[p, 0], 0.6, M[k], N[k])
+        one = circular_joint(0.6, phi[p, 0], M[k], N[k])
         assert np.array_equal(one.P, rings.P[p, k]) and one.state == rings.state[p, k]
 
 
 @pytest.mark.parametrize("r", [0, -1])
 def test_radius_must_be_positive(r):
     with pytest.raises(ValueError, match=f"radius r = {r} m must"):
-        circular_joint(even(3), r, 1, 1)
+        circular_joint(r, even(3), 1, 1)
 
 
 # The worksheet

@@ -50,7 +50,7 @@ def reference(g):
     known |= {
         f"{name}f": f[name] for name in ("omega3_l2", "omega2_l2", "eps3_l2", "eps2_l2", "F_c", "F_G", "F_Q", "F_I")
     }
-    known |= {"alpha_f": f["alpha"], "P_cf": f["F_c"] * V, "P_c": i["F_c"] * V, "l2i": l2i, "l2f": l2f}
+    known |= {"alpha_f": f["alpha"], "P_cf": f["F_c"] * V, "P_c": i["F_c"] * V, "l2i": l2i, "l2f": l2f, "every": n}
     known |= {name: i[name] for name in ("R01", "R03", "R23", "F_c", "F_G", "F_Q", "F_I", "F_in", "M_in")}
     known |= {"thrust(Ai, group_23)": i["F_c"], "weight(l2i, omega3_l2i)": i["F_G"], "drag(l2i, omega3_l2i)": i["F_Q"]}
     known |= {"inertial(l2i, omega3_l2i)": i["F_I"], "E3(l2i) - E3(l2i[0])": i["E"] - i["E"][0]}

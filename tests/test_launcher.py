@@ -61,7 +61,7 @@ def test_help_shows_each_command_by_an_example_that_it_takes(
     calls: list[list[str]], capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     assert launcher.main(["--help"]) == 0
-    monkeypatch.setattr(launcher, "new", lambda name: calls.append(["new", name]) or 7)
+    monkeypatch.setattr(launcher, "new", lambda *given: calls.append(["new", *given]) or 7)
     examples = re.findall(r"^ +such as +(.*)$", capsys.readouterr().out, re.MULTILINE)
     assert [example.split()[0] for example in examples] == ["run", "new", "edit", "test"]
     for example in examples:
@@ -77,7 +77,8 @@ def test_every_worksheet_stands_in_the_help_with_its_title(
     assert launcher.main([]) != 0, "no command is given"
     assert capsys.readouterr().out == helped
     listed = dict(re.findall(r"^    (\w+) +(.+)$", helped.partition("usage")[0], re.MULTILINE))
-    assert list(listed) == sorted(path.stem for path in (ROOT / "worksheets").rglob("*.py"))
+    folders = ROOT / "worksheets", ROOT / "worksheets" / "examples"
+    assert list(listed) == [path.stem for folder in folders for path in sorted(folder.glob("*.py"))]
     assert listed["hitch"] == "Tractor hitch"
 
     monkeypatch.chdir(tmp_path)
@@ -161,8 +162,10 @@ def test_edit_opens_the_worksheet_in_marimo(sheet: Path, calls: list[list[str]])
 
 
 def test_test_hands_its_arguments_to_pytest(calls: list[list[str]]) -> None:
-    assert launcher.main(["test", "-k", "planar"]) == 7
-    assert calls == [[sys.executable, "-m", "pytest", "-k", "planar"]]
+    """Behind its own, so that ``-n 0`` is one process."""
+    assert launcher.main(["test", "-k", "planar", "-n", "0"]) == 7
+    own = ["-n=logical", "--dist=worksteal"]
+    assert calls == [[sys.executable, "-m", "pytest", *own, "-k", "planar", "-n", "0"]]
 
 
 def test_test_needs_a_clone(tmp_path: Path, calls: list[list[str]], monkeypatch: pytest.MonkeyPatch) -> None:

@@ -9,6 +9,8 @@ from conftest import drawn, new_page, until
 from playwright.sync_api import expect
 
 HITCH = Path(__file__).parents[1] / "worksheets" / "hitch.py"
+TEMPLATE = Path(__file__).parents[1] / "lib" / "mechsheet" / "run" / "new_worksheet.txt"
+UNDER_THE_BUTTON = ".marimo-cell:has(marimo-download) .ms-note"
 SECTIONS = ["1 Input data", "2 Geometry", "3 Kinematics", "4 Lifting capacity", "5 Forces", "6 Steering stability"]
 
 
@@ -121,12 +123,12 @@ def test_switch_shows_the_numbers_in_the_formulas(serve, page, console_errors):
     area.wait_for()
     capacity = page.locator(".ms-line", has_text="piston area").locator("ms-numbers marimo-tex")
     page.wait_for_function("() => document.querySelector('ms-numbers marimo-tex').shadowRoot?.querySelector('.katex')")
-    expect(capacity).to_contain_text(r"\frac{\pi\,(0.08\ \mathrm{m})^{2}}{4}")
+    expect(capacity).to_contain_text(r"\frac{\pi\,(0.08\,\mathrm{m})^{2}}{4}")
     field = page.locator(".ms-inputs tr:has-text('piston diameter') input")
     field.fill("0.09")
     field.press("Enter")
     page.locator("ms-numbers[tex*='(0.09']").first.wait_for(state="attached")
-    expect(capacity, "the numbers follow").to_contain_text(r"(0.09\ \mathrm{m})^{2}")
+    expect(capacity, "the numbers follow").to_contain_text(r"(0.09\,\mathrm{m})^{2}")
     page.locator(".ms-switch").uncheck()
     expect(page.locator("ms-numbers marimo-tex")).to_have_count(0)
     assert console_errors == []
@@ -204,6 +206,25 @@ def test_download_is_the_workbook(serve, page, tmp_path):
     download.value.save_as(path)
     assert path.name == "hitch.xlsx"
     assert load_workbook(path).sheetnames[:3] == ["Front", "Inputs", "Find"]
+    expect(page.locator(UNDER_THE_BUTTON)).to_have_text("")
+
+
+def test_the_button_of_the_workbook_tells_what_the_workbook_does_not_follow(serve, page, tmp_path):
+    """Once pressed, in the words of the script; the button works again then."""
+    text, line = TEMPLATE.read_text(encoding="utf-8"), "M_S = M(phi)  # "
+    assert line in text
+    text = text.replace("import marimo as mo\n", "import marimo as mo\n    import numpy as np\n")
+    sheet = tmp_path / "tangled.py"
+    sheet.write_text(text.replace(line, "M_S = np.fft.ifft(np.fft.fft(M(phi))).real  # "), encoding="utf-8")
+    page.goto(serve("run", sheet))
+    page.get_by_text("1 of 1 checks pass").wait_for()
+    told = page.locator(UNDER_THE_BUTTON)
+    expect(told).to_have_text("")
+    number = next(n for n, line in enumerate(sheet.read_text(encoding="utf-8").splitlines(), 1) if "np.fft" in line)
+    for _ in range(2):
+        with page.expect_download():
+            page.get_by_text("Excel workbook").click()
+        expect(told).to_have_text(f"not followed there: line {number}, M_S: numpy's fft")
 
 
 def test_printed_page_is_a_document(serve, page, tmp_path):

@@ -131,5 +131,5 @@ def test_motion_of_a_link_point_is_the_difference_of_its_positions(
     velocity, acceleration = exact.derivatives(point)
     noise = 1e-40  # of the differences, where the motion itself is zero
     speed, size = abs(v_A) + abs(omega * arm), abs(arm) * (abs(epsilon) + omega**2)
-    assert abs(link_velocity(arm, 0, v_A, omega) - complex(velocity)) <= 8 * EPS * speed + noise
-    assert abs(link_acceleration(arm, 0, omega, 0, epsilon) - complex(acceleration)) <= 8 * EPS * size + noise
+    assert abs(link_velocity(arm, 0, omega, v_A) - complex(velocity)) <= 8 * EPS * speed + noise
+    assert abs(link_acceleration(arm, 0, omega, epsilon) - complex(acceleration)) <= 8 * EPS * size + noise

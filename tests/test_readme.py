@@ -9,29 +9,18 @@ ROOT = Path(__file__).parents[1]
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 
 
+def test_what_is_read_before_the_first_worksheet_opens_is_short():
+    assert README.count("\n") <= 150
+
+
 def blocks(language: str) -> list[str]:
     return re.findall(rf"```{language}\n(.*?)```", README, re.DOTALL)
-
-
-def test_lines_quoted_from_the_template_stand_there():
-    template = (ROOT / "lib" / "mechsheet" / "run" / "new_worksheet.txt").read_text(encoding="utf-8")
-    quoted = next(b for b in blocks("python") if "table_1" in b)
-    assert all(f"    {line}\n" in template for line in quoted.splitlines())
 
 
 def test_lines_quoted_from_the_hitch_stand_there():
     hitch = (ROOT / "worksheets" / "hitch.py").read_text(encoding="utf-8")
     quoted = next(b for b in blocks("python") if "F_gc" in b)
     assert all(line in hitch for line in quoted.splitlines())
-
-
-def test_six_bar_of_the_readme_balances():
-    names: dict = {}
-    exec(next(b for b in blocks("python") if "coupling_drive" in b), names)
-    R_A, A, M = names["group23"].R_A, names["A"], names["M"]
-    assert abs(R_A).max() > 100
-    assert abs(names["R_O1"] - R_A).max() < 1e-9, "forces on the crank"
-    assert abs(M - (A.conjugate() * R_A).imag).max() < 1e-9, "moments on the crank"
 
 
 def test_sweep_of_the_readme_has_an_axis_for_each_input(monkeypatch):
@@ -61,14 +50,6 @@ def test_evaluation_of_the_readme_gives_the_capacity(monkeypatch):
     names: dict = {}
     exec(next(b for b in blocks("python") if "evaluate(" in b), names)
     assert names["GS6"].shape == (10,) and names["GS6"].min() > 28e3
-
-
-def test_sensitivities_of_the_readme(monkeypatch):
-    monkeypatch.chdir(ROOT)
-    names: dict = {}
-    exec(next(b for b in blocks("python") if "tolerance(" in b), names)
-    assert names["slopes"].names == ("GS6", "abs(R56)")
-    assert all(names["corners"].least < names["spread"].least), "corners bound what is drawn"
 
 
 def test_every_worksheet_and_every_file_named_is_there():

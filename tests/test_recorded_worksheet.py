@@ -2,86 +2,20 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+from own_worksheet import OTHER, own, recorded, value_of
 
-from mechsheet.recording.lines import Recording
 from mechsheet.recording.numbers import numbers
 from mechsheet.recording.quantity import Quantity
 from mechsheet.recording.record import record
 from mechsheet.worksheet import cells
 
-SHEET = '''
-import marimo
-app = marimo.App()
-
-with app.setup:
-    import math
-    from math import sqrt, sin, hypot
-
-    import numpy as np
-    from numpy import cos, exp, interp, linspace
-
-    from mechsheet import ask, export, find, read, inputs, table, typeset
-    from mechsheet import *
-
-@app.class_definition
-@inputs
-class Own:
-    F: float = 2.5  # [-] number
-    a: float = 0.75  # [-] part
-    n: int = 5  # [-] positions; > 1
-    k: int = 2  # [-] choice; >= 0 < 4
-
-    """Inputs."""
-
-@app.cell
-def given():
-    form = ask(Own)
-    return (form,)
-
-@app.cell
-def machine(form):
-    g = read(Own, form)
-    return (g,)
-
-@app.cell
-def lines(g):
-    x = linspace(0.1, 2, g.n) * g.F  # [-] field
-    LINES
-    table_1 = table("1", "All", x)
-    typeset()
-    return
-
-if __name__ == "__main__":
-    app.run()
-'''
-
-
-def own(tmp_path: Path, lines: str) -> cells.Worksheet:
-    path = tmp_path / "own.py"
-    path.write_text(SHEET.replace("from mechsheet import *", "").replace("LINES", lines.replace("\n", "\n    ")))
-    return cells.load(path)
-
-
-def recorded(sheet: cells.Worksheet, **given: Any) -> tuple[dict[str, Any], Recording]:
-    names = sheet.run(sheet.results, {"g": sheet.inputs(**given)})
-    return names, record({**names, "__file__": sheet.path})
-
-
-def value_of(recording: Recording, name: str, given: dict[str, Any]) -> Any:
-    """A recorded line for other inputs: its parts by their names in the recording."""
-    nodes = {known: node for node, known in recording.names.items()}
-    found = [nodes[n] for n in (name, f"{name}x", f"{name}y") if n in nodes]
-    assert found, f"{name} is not in the recording"
-    known = numbers(found, {recording.inputs[key]: float(x) for key, x in given.items()})
-    values = [known[node] for node in found]
-    return values[0] if len(values) == 1 else values[0] + 1j * values[1]
-
-
+ROOT = Path(__file__).resolve().parents[1]
 FOLLOWED = [
     "interp(x, [0.0, 1.0, 4.0], [g.F, 3.0, 5.0])",
     "interp(g.a, [0.0, 1.0, 4.0], [g.F, 3.0, 5.0], left=7.0)",
@@ -112,14 +46,15 @@ FOLLOWED = [
     "np.searchsorted([1.0, 2.0, 3.0], x)", "np.maximum.accumulate(np.sin(x))", "np.add.reduce(x)", "x.max() + x.mean()",
     "np.flip(x).reshape(-1, 1)[:, 0]", "np.isclose(x, g.F) * 1.0", "1 * (1 < g.F < 2.6)",
     "1 * (g.F > 2 and not g.a > 1)", "1.0 if g.F > 3 or g.a > 1 else g.F",
+    "rrr(0.0, g.F, x + 2, 2.0, +1)",
     "np.full(3, g.F)", "np.ones_like(x) * g.F", "np.radians(g.F) + np.degrees(g.a)", "x.T + x.real + x.imag",
 ]  # fmt: skip
-OTHER = [{"F": 3.25}, {"F": 1.75, "a": 1.5}, {"a": 0.2, "k": 3}]
 
 
+@pytest.mark.parametrize("inside", [False, True], ids=["", "imports inside"])
 @pytest.mark.parametrize("expression", FOLLOWED)
-def test_a_line_is_followed(expression: str, tmp_path: Path) -> None:
-    sheet = own(tmp_path, f"y = {expression}  # [-] line")
+def test_a_line_is_followed(expression: str, inside: bool, tmp_path: Path) -> None:
+    sheet = own(tmp_path, f"y = {expression}  # [-] line", inside)
     _, recording = recorded(sheet)
     assert not recording.gaps and not [guard for guard in recording.guards.values() if not guard.rows]
     for given in ({}, *OTHER):
@@ -127,6 +62,114 @@ def test_a_line_is_followed(expression: str, tmp_path: Path) -> None:
         value = value_of(recording, "y", given)
         assert value.shape == own_value.shape
         np.testing.assert_allclose(value, own_value + 0, rtol=1e-12, atol=1e-13)
+
+
+@pytest.mark.parametrize(
+    "lines",
+    [
+        "import numpy.linalg as la\ny = la.norm(x)",
+        "from numpy import linalg\ny = linalg.norm(x)",
+        "import math as m, numpy\ny = numpy.cos(x) * m.hypot(g.F, 1)",
+        "import mechsheet\ny = mechsheet.rrr(0.0, g.F, x + 2, 2.0, +1)",
+        "from mechsheet.mechanics import rrr as dyads\ny = dyads.rrr(0.0, g.F, x + 2, 2.0, +1)",
+        "def f(v):\n    from math import hypot, sqrt as root\n    return root(hypot(v, g.a))\ny = f(g.F)",
+        "if True:\n    from math import exp as grow\ny = grow(g.F)",
+        "def balance(x):\n    return 2 * x\ny = balance(x)",
+    ],
+)
+def test_what_is_imported_or_defined_under_any_name_is_followed(lines: str, tmp_path: Path) -> None:
+    sheet = own(tmp_path, lines)
+    _, recording = recorded(sheet)
+    assert not recording.gaps and not [guard for guard in recording.guards.values() if not guard.rows]
+    for given in OTHER:
+        own_value = cells.evaluate(sheet.path, ["y"], **given)["y"]
+        np.testing.assert_allclose(value_of(recording, "y", given), own_value, rtol=1e-12, atol=1e-13)
+
+
+@pytest.mark.parametrize(
+    "lines",
+    [
+        'from mechsheet import check as proved, table as listed\nok = proved("ok", g.F, 9.0), listed("2", "Two", x)',
+        'import mechsheet as ms\nok = ms.check("ok", g.F, 9.0), ms.table("2", "Two", x)',
+        'from mechsheet.worksheet.check import check as own_check\nlisted = table\nok = own_check("ok", g.F, 9.0)\n'
+        'two = listed("2", "Two", x)',
+    ],
+)
+def test_what_shows_is_known_under_any_name(lines: str, tmp_path: Path) -> None:
+    _, recording = recorded(own(tmp_path, lines))
+    assert not recording.gaps and recording.checks.keys() == {"ok"} and recording.tables.keys() == {"1", "2"}
+
+
+WAYS = [
+    "if g.F > 3:\n    y = x\nelse:\n    y = x**2",
+    "y = x\nif not g.F > 3:\n    y = y * g.a",
+    "y = 0.0\nif g.F > 2 and g.a < 1:\n    y += g.F",
+    "y = g.a\nif g.k == 2:\n    y, z = 2 * y, 1\nelif g.k == 3:\n    y = 5.0\nelse:\n    z: float = 7.0",
+    "if g.F > 3:\n    y = np.sqrt(g.F - 3)\nelse:\n    y = g.a",
+    "y = 0.0\nfor v in x:\n    if v > 2:\n        y = y + v * g.a",
+    "y = 0.0\nfor v in x:\n    if v > 2:\n        w = v\n        if w > 3:\n            w = 2.0\n        y = y + w",
+    "if np.any(x > 6):\n    y = g.F + 1j * g.a\nelse:\n    y = g.a",
+    "def f(v):\n    if v > 3:\n        return 2 * v\n    return v**2\ny = f(g.F) * 1.0",
+    "def f(v):\n    w = 2.0\n    if v > 3:\n        w += v\n    else:\n        w -= v\n    return w\ny = f(g.F) * 1.0",
+    (
+        "def f(v, w):\n    if v < 2:\n        return v, w\n    elif v < 3:\n        v = v + 1\n        return w, v\n"
+        "    w = w * v\n    if w > 1:\n        return w, w\n    return 0.0, w\nA, B = f(g.F, g.a)\ny = A + 2 * B"
+    ),
+    "def f(n):\n    return 1 if n <= 1 else n * f(n - 1)\ny = (f(3) if g.F > 3 else f(2)) * g.a",
+]
+
+
+@pytest.mark.parametrize("lines", WAYS)
+def test_ways_that_only_bind_names_or_end_a_function_are_a_choice(lines: str, tmp_path: Path) -> None:
+    sheet = own(tmp_path, f"{lines}\nresult = y * 1  # [-] line")
+    _, recording = recorded(sheet)
+    assert not recording.gaps and not [guard for guard in recording.guards.values() if not guard.rows]
+    for given in ({}, *OTHER, {"F": 4.0, "a": 1.5}):
+        expected = cells.evaluate(sheet.path, ["result"], **given)["result"]
+        value = value_of(recording, "result", given)
+        assert np.shape(value) == np.shape(expected)
+        np.testing.assert_allclose(value, expected, rtol=1e-12, atol=1e-13)
+
+
+@pytest.mark.parametrize(
+    "lines",
+    [
+        "rows = []\nif g.F > 3:\n    rows.append(1.0)\ny = g.a + len(rows)",
+        "def f(v):\n    if v > 3:\n        raise ValueError('too much')\n    return v\ny = f(g.F)",
+        "if g.F > 3:\n    y = [g.a, g.F, 1.0]\nelse:\n    y = [g.a, g.F]\ny = sum(y)",
+        "if g.F > 3:\n    y = x[:2]\nelse:\n    y = x\ny = y.sum()",
+        "kind = 'low'\nif g.F > 3:\n    kind = 'high'\ny = {'low': g.a, 'high': 1.0}[kind]",
+        "if g.F > 3:\n    ok = check('one', g.F, 9.0)\nelse:\n    ok = check('other', g.F, 9.0)\n"
+        "y = g.a if g.F < 3 else [][0]",
+        "def f(v):\n    return 0.0 if v < 0.5 else f(v - 1)\ny = g.a + f(g.F * 8)",
+    ],
+)
+def test_ways_that_change_something_or_cannot_be_gone_are_guards(lines: str, tmp_path: Path) -> None:
+    sheet = own(tmp_path, f"from mechsheet import check\n{lines}\nresult = y * 1  # [-] line")
+    _, recording = recorded(sheet)
+    assert not recording.gaps and [guard for guard in recording.guards.values() if not guard.rows]
+    assert "one" not in recording.checks
+    same, other = {"F": 2.51, "a": 1.25}, {"F": 4.0}
+    expected = cells.evaluate(sheet.path, ["result"], **same)["result"]
+    (node,) = [node for node, name in recording.names.items() if name == "result"]
+    known = numbers([node, *recording.guards], {recording.inputs[name]: x for name, x in same.items()})
+    np.testing.assert_allclose(known[node], expected, rtol=1e-12)
+    assert all(known[guard].all() for guard in recording.guards)
+    changed = numbers([node, *recording.guards], {recording.inputs[name]: x for name, x in other.items()})
+    assert np.isnan(changed[node]).all() or not all(changed[guard].all() for guard in recording.guards)
+
+
+def test_what_stands_behind_an_integral_over_all_positions_is_recorded_too(tmp_path: Path) -> None:
+    """The cell is run once more for the integral, which leaves alone what the cell shows."""
+    sheet = own(
+        tmp_path, 'from mechsheet import check\nW = np.trapezoid(x**2, x)  # [-] work\nok = check("ok", W, 99.0)'
+    )
+    Path(sheet.path).write_text(Path(sheet.path).read_text().replace('"All", x)', '"All", x, every=2)'))
+    sheet = cells.read(Path(sheet.path))
+    _, recording = recorded(sheet)
+    assert not recording.gaps and recording.checks.keys() == {"ok"} and recording.tables.keys() == {"1"}
+    expected = cells.evaluate(sheet.path, ["W"], F=4.0)["W"]
+    np.testing.assert_allclose(value_of(recording, "W", {"F": 4.0}), expected, rtol=1e-12)
 
 
 GUARDED = [  # what the numbers are decides about lengths and ways: other numbers of the same kind are followed
@@ -181,6 +224,68 @@ def test_what_is_not_followed_is_named_and_never_stale(expression: str, reason: 
     np.testing.assert_allclose(value_of(recording, "w", {"F": 5.0}), 2 * names["w"], rtol=1e-12)
 
 
+ONCE = [  # other numbers at each run, however they are come by
+    ("from time import perf_counter", "perf_counter()"),
+    ("import time as clock", "clock.time_ns() / 1e9"),
+    ("import datetime", "datetime.datetime.now().timestamp()"),
+    ("from datetime import date, datetime", "datetime.today().microsecond + date.today().day"),
+    ("", "np.random.default_rng().normal()"),
+    ("", "np.random.default_rng(seed=None).normal(size=3).sum()"),
+    ("", "np.random.rand()"),
+    ("from numpy.random import normal", "float(normal(size=2).sum())"),
+    ("import random", "random.uniform(0, 1)"),
+    ("from random import Random, SystemRandom", "Random().random() + SystemRandom().random()"),
+    ("from random import SystemRandom", "SystemRandom().random()"),
+    ("", "np.random.Generator(np.random.PCG64()).normal()"),
+    ("def elapsed():\n    import time\n    return time.monotonic()", "elapsed()"),
+]
+
+
+@pytest.mark.parametrize(("before", "expression"), ONCE)
+def test_the_clock_and_chance_are_never_recorded(before: str, expression: str, tmp_path: Path) -> None:
+    """Nothing rests on such a number, or a formula would hold it: the ways taken for it are no guards."""
+    lines = f"""
+{before}
+y = {expression}  # [-] of this run
+z = 2 * x if y + 1 > g.a * g.F else 3 * x  # [-] rests on it
+w = 2 * x  # [-] does not
+v = y * x  # [μs] too
+table_2 = table("2", "Of this run", v, z)
+"""
+    sheet = own(tmp_path, re.sub(r"\n+", "\n", lines.strip()))
+    names, recording = recorded(sheet)
+    (gap,) = recording.gaps
+    assert gap.names == ("y",) and "at each run" in gap.reason
+    of_two = (recording, record({**names, "__file__": sheet.path}))
+    first, second = ([(n.op, n.value.tolist()) for n in made.graph.nodes.values()] for made in of_two)
+    assert repr(first) == repr(second)
+    for name in ("y", "v", "z"):
+        np.testing.assert_allclose(value_of(recording, name, {}), names[name], rtol=1e-15)
+    for name in ("v", "z"):
+        assert np.isnan(value_of(recording, name, {"F": 2.0})).all()
+    assert "2" not in recording.tables, "its numbers stand in the workbook for these inputs alone"
+    np.testing.assert_allclose(value_of(recording, "w", {"F": 5.0}), 2 * names["w"], rtol=1e-12)
+
+
+@pytest.mark.parametrize("seeded", ["np.random.default_rng([7, 8]).normal(size=5)", "np.random.RandomState(7).rand(5)"])
+def test_numbers_drawn_with_a_seed_are_recorded(seeded: str, tmp_path: Path) -> None:
+    names, recording = recorded(own(tmp_path, f"y = {seeded} * g.F  # [-] line"))
+    assert not recording.gaps
+    np.testing.assert_allclose(value_of(recording, "y", {"F": 5.0}), 2 * names["y"], rtol=1e-12)
+
+
+def test_numbers_that_the_cells_do_not_give_again_are_the_worksheet_s_own(tmp_path: Path) -> None:
+    """A generator of all cells goes on where the worksheet's own run has left it."""
+    sheet = own(tmp_path, "y = drawn.normal(size=5)  # [-] line\nz = 2 * y  # [-] rests on it")
+    path = Path(sheet.path)
+    path.write_text(
+        path.read_text().replace("    from numpy import", "    drawn = np.random.default_rng(7)\n    from numpy import")
+    )
+    names, recording = recorded(cells.load(path))
+    assert [gap.names for gap in recording.gaps] == [("y",)]
+    np.testing.assert_array_equal(value_of(recording, "z", {}), names["z"])
+
+
 def test_a_list_that_is_filled_and_an_array_whose_elements_are_set(tmp_path: Path) -> None:
     lines = """
 rows = []
@@ -211,7 +316,7 @@ def test_recording_leaves_the_worksheet_alone(tmp_path: Path) -> None:
     "lines",
     [
         "y = np.random.default_rng(g.k).normal(size=3)  # [-] plain numbers that rest on an input",
-        "k = 3.0\nif g.F > 2:\n    k = 5.0\ny = np.arange(3.0) + k  # [-] plain numbers that rest on a way taken",
+        'k = 3.0\nif g.F > 2:\n    k, kind = 5.0, "b"\ny = np.arange(3.0) + k  # [-] that rest on a way taken',
     ],
 )
 def test_plain_numbers_that_rest_on_what_python_saw_are_never_stale(lines: str, tmp_path: Path) -> None:
@@ -230,3 +335,22 @@ def test_what_is_not_followed_rests_on_the_way_that_was_taken_too(tmp_path: Path
     assert len(recording.gaps) == 1
     assert np.isnan(value_of(recording, "y", {"a": 0.2})).all()
     assert np.isfinite(value_of(recording, "y", {"k": 3})).all()
+
+
+@pytest.mark.parametrize("name", ["hitch", "landing_gear", "kinetostatics", "joint"])
+def test_a_document_is_held_whole(name: str) -> None:
+    sheet = cells.load(ROOT / "worksheets" / f"{name}.py")
+    names = sheet.run(sheet.results, {"g": sheet.inputs()})
+    assert not record({**names, "__file__": sheet.path}).gaps
+
+
+def test_a_number_over_all_positions_is_followed_where_tables_list_some() -> None:
+    """Works in a turn over 361 positions, of which 25 are listed; the columns of the tables stay those of 25."""
+    sheet = cells.load(ROOT / "worksheets" / "kinetostatics.py")
+    names, recording = recorded(sheet)
+    changed = {"m4": 3.0, "l4": 0.46, "Q5": 4000.0, "eps1": 2.0}
+    own = sheet.run(["W_b", "W_Q", "M_mean"], {"g": sheet.inputs(**changed)})
+    for name in ("W_b", "W_Q", "M_mean"):
+        assert names[name] != pytest.approx(own[name], rel=1e-4)
+        assert value_of(recording, name, changed) == pytest.approx(own[name], rel=1e-12)
+    assert {c.size for c in recording.tables["8.5"] if c is not None} == {25}

@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import builtins
 import inspect
+import pydoc
 import re
 import subprocess
 import sys
@@ -72,13 +73,11 @@ def test_the_library_imports_from_where_a_name_is_defined(path: Path) -> None:
     assert not any(isinstance(node, ast.Import) and name.name == "mechsheet" for node in found for name in node.names)
 
 
-# Coordinates of pictures are no numbers for a reader; the mechanics know numpy alone.
+# Coordinates of pictures are no numbers for a reader.
 _FORMATTING = {"worksheet/numbers.py", "document/chart_svg.py", "page/drawing.py"}
 
 
-@pytest.mark.parametrize(
-    "path", [p for p in FILES if place(p) not in _FORMATTING and p.parent.name != "mechanics"], ids=place
-)
+@pytest.mark.parametrize("path", [p for p in FILES if place(p) not in _FORMATTING], ids=place)
 def test_numbers_are_formatted_in_one_place(path: Path) -> None:
     nodes = list(ast.walk(ast.parse(path.read_text(encoding="utf-8"))))
     specs = (node.format_spec for node in nodes if isinstance(node, ast.FormattedValue) and node.format_spec)
@@ -109,7 +108,13 @@ def loaded(statement: str) -> set[str]:
 
 
 def test_the_package_itself_loads_nothing() -> None:
-    assert not loaded("import mechsheet; dir(mechsheet)") & {"numpy", "marimo", "pandas", "scipy", "altair"}
+    assert not loaded("import mechsheet, pydoc; dir(mechsheet), pydoc.render_doc(mechsheet)") & {
+        "numpy",
+        "marimo",
+        "pandas",
+        "scipy",
+        "altair",
+    }
 
 
 def test_mechanics_load_numpy_alone() -> None:
@@ -155,6 +160,15 @@ def test_help_is_a_table_of_contents() -> None:
     assert ">>> " in example
     listed = re.findall(r"^    .{16}(.*)$", contents, re.MULTILINE)
     assert sorted(re.findall(r"\w+", " ".join(listed))) == PUBLIC, "each once, behind its subject"
+    shown = pydoc.plain(pydoc.render_doc(mechsheet))
+    assert re.findall(r"^[A-Z][A-Z ]+$", shown, re.MULTILINE) == [
+        "NAME",
+        "DESCRIPTION",
+        "PACKAGE CONTENTS",
+        "VERSION",
+        "FILE",
+    ]
+    assert len(shown.splitlines()) < len(str(mechsheet.__doc__).splitlines()) + 30, "no docstring of a name behind it"
 
 
 def test_worksheets_and_readme_take_everything_from_the_package_itself() -> None:

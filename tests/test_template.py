@@ -11,6 +11,8 @@ from playwright.sync_api import expect
 from mechsheet import __main__ as launcher
 from mechsheet.recording.dimensions import mismatches
 
+EXAMPLES = Path(launcher.__file__).parents[2] / "worksheets" / "examples"
+
 
 @pytest.fixture
 def lever(tmp_path, monkeypatch, capsys):
@@ -42,6 +44,19 @@ def test_passes_the_checks_of_a_worksheet(lever):
     assert mismatches(lever) == []
 
 
+@pytest.mark.parametrize("example", sorted(EXAMPLES.glob("*.py")), ids=lambda path: path.stem)
+def test_begins_like_an_example(example, lever, monkeypatch):
+    """With all that it reads, under its own title."""
+    monkeypatch.setattr(launcher, "folders", lambda: [EXAMPLES])
+    assert launcher.main(["new", "my_own", f"--like={example.stem}"]) == 0
+    path = lever.parent / "my_own.py"
+    done = subprocess.run([sys.executable, str(path)], capture_output=True, encoding="utf-8")
+    assert (done.returncode, done.stderr) == (0, "")
+    assert "units: 0 <= 0" in done.stdout and "not followed" not in done.stdout
+    assert load_workbook(path.with_suffix(".xlsx"))["Front"]["A1"].value == "My own"
+    assert "../page.css" not in path.read_text(encoding="utf-8")
+
+
 def test_shows_its_page(lever, serve, page, console_errors):
     page.goto(serve("run", lever))
     page.get_by_text("1 of 1 checks pass").wait_for()
@@ -61,11 +76,15 @@ def test_shows_its_page(lever, serve, page, console_errors):
         (["9th"], "must be a letter"),
         (["../x"], "must be a letter"),
         (["taken"], "there already"),
+        (["a", "b"], "needs the name"),
+        (["a", "--like"], "needs the name"),
+        (["a", "--like=buckt"], "no worksheet buckt: did you mean bucket"),
     ],
 )
 def test_refuses_in_one_line(tmp_path, monkeypatch, options, says):
     (tmp_path / "worksheets").mkdir()
     (tmp_path / "worksheets" / "taken.py").write_text("mine", encoding="utf-8")
+    monkeypatch.setattr(launcher, "folders", lambda: [EXAMPLES])
     monkeypatch.setattr(launcher, "ROOT", tmp_path)
     with pytest.raises(SystemExit, match=says):
         launcher.main(["new", *options])

@@ -160,6 +160,11 @@ def test_an_unknown_unit_is_told_with_the_nearest(text, near):
     assert near in str(error.value)
 
 
+def test_a_micro_has_two_signs() -> None:
+    assert parse("\u00b5s") == parse("\u03bcs") == parse("ms/m*mm")
+    assert units.si("\u00b5s/m") == units.si("\u03bcs/m") == "s/m"
+
+
 def test_newton_is_kilogram_metre_per_second_squared():
     assert parse("N") == parse("kg*m/s**2")
     assert parse("W") == parse("N*m/s")

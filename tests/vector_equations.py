@@ -413,11 +413,11 @@ def link_point(A, B, z):
     return {"": A + z * unit(B - A)}
 
 
-def link_velocity(P, A, v_A, omega):
+def link_velocity(P, A, omega, v_A):
     return {"": v_A + mpc(0, 1) * omega * (P - A)}
 
 
-def link_acceleration(P, A, omega, a_A, epsilon):
+def link_acceleration(P, A, omega, epsilon, a_A):
     return {"": a_A + mpc(-(omega**2), epsilon) * (P - A)}
 
 

@@ -651,7 +651,7 @@ def forces_drawn():
 
 @app.cell
 def position(S, forces_at):
-    k_t = round(forces_at.value * (len(S) - 1))
+    k_t = round(forces_at.value * (len(S) - 1))  # [-] number of the position drawn
     S_k = S[k_t]  # [m] stroke of the position drawn
     typeset()
     return (k_t,)

@@ -506,7 +506,7 @@ def ring_loads(display, g):
 
 @app.cell
 def ring_equilibrium(M_r, N_r, display, g, phi):
-    ring = circular_joint(phi, g.r, M_r[:, 0], N_r[:, 0])
+    ring = circular_joint(g.r, phi, M_r[:, 0], N_r[:, 0])
     c = N_r * g.r / (2 * M_r)  # [-] force parameter of the joint
     y_r0 = -(N_r * g.r**2 / (2 * M_r))  # [cm] neutral axis
     phi_no = of_cases(ring.phi_0)  # [deg] angle of the neutral axis, half of the pulled arc

@@ -364,12 +364,12 @@ def motion(
     S4 = P_S4(phi1)  # [m] rod 4
     S6 = P_S6(phi1)  # [m] rod with piston
     S7 = P_S7(phi1)  # [m] cylinder
-    a_S1 = link_acceleration(S1, O1, omega1, 0, g.eps1)  # [m/s**2] crank
-    a_S2 = link_acceleration(S2, A, omega2, a_A, eps2)  # [m/s**2] rod 2
-    a_S3 = link_acceleration(S3, C, omega3, 0, eps3)  # [m/s**2] rocker
-    a_S4 = link_acceleration(S4, D, omega4, a_D, eps4)  # [m/s**2] rod 4
-    a_S6 = link_acceleration(S6, K, omega6, a_K, eps6)  # [m/s**2] rod with piston
-    a_S7 = link_acceleration(S7, H, omega6, 0, eps6)  # [m/s**2] cylinder
+    a_S1 = link_acceleration(S1, O1, omega1, g.eps1)  # [m/s**2] crank
+    a_S2 = link_acceleration(S2, A, omega2, eps2, a_A)  # [m/s**2] rod 2
+    a_S3 = link_acceleration(S3, C, omega3, eps3)  # [m/s**2] rocker
+    a_S4 = link_acceleration(S4, D, omega4, eps4, a_D)  # [m/s**2] rod 4
+    a_S6 = link_acceleration(S6, K, omega6, eps6, a_K)  # [m/s**2] rod with piston
+    a_S7 = link_acceleration(S7, H, omega6, eps6)  # [m/s**2] cylinder
     motion_lines = typeset()
     return S1, S2, S3, S4, S6, S7, a_E, a_S1, a_S2, a_S3, a_S4, a_S6, a_S7, eps2, eps3, eps4, eps6, motion_lines
 
@@ -976,16 +976,16 @@ def reactions(
     M_67 = where(R76 == 0, 0, -R76 * h76)  # [N*m] rod 6 on the cylinder 7, about K
     reactions = (
         DriveMoment(1, M_b),
-        PinReaction(1, 0, O1, R_O1_v),
-        PinReaction(2, 1, A, R12_v),
-        PinReaction(3, 2, B, R23_v),
-        PinReaction(3, 0, C, R03_v),
-        PinReaction(3, 4, D, R43),
-        PinReaction(5, 4, E, R45_v),
-        PinReaction(3, 6, K, R63),
-        PinReaction(7, 0, H, R07_v),
-        SlideReaction(5, 0, E, R05_v, 0, u5),
-        SlideReaction(6, 7, K, R76_v, -M_67, group_67.u),
+        PinReaction(1, 0, R_O1_v, O1),
+        PinReaction(2, 1, R12_v, A),
+        PinReaction(3, 2, R23_v, B),
+        PinReaction(3, 0, R03_v, C),
+        PinReaction(3, 4, R43, D),
+        PinReaction(5, 4, R45_v, E),
+        PinReaction(3, 6, R63, K),
+        PinReaction(7, 0, R07_v, H),
+        SlideReaction(5, 0, R05_v, E, u5),
+        SlideReaction(6, 7, R76_v, K, group_67.u, -M_67),
     )
     _forces = F1_sum, F2_sum, F3_own, F4_sum, F5_sum, F6_sum, F7_sum
     _loads = zip(_forces, (S1, S2, S3, S4, E, S6, S7), (M1, M2, M_in3, M4, 0, M6, M7), strict=True)
@@ -1025,11 +1025,11 @@ def section_92():
 
 @app.cell
 def energy(C, F_g, H, P_A, P_D, P_E, P_K, P_S1, P_S2, P_S3, P_S4, P_S6, P_S7, V_A, V_D, V_E, V_K, g, u2, u3, u4, u6):
-    V_S2 = lambda phi1: link_velocity(P_S2(phi1), P_A(phi1), V_A(phi1), u2(phi1))  # [m] velocity analogue of S2
-    V_S3 = lambda phi1: link_velocity(P_S3(phi1), C, 0, u3(phi1))  # [m] velocity analogue of S3
-    V_S4 = lambda phi1: link_velocity(P_S4(phi1), P_D(phi1), V_D(phi1), u4(phi1))  # [m] velocity analogue of S4
-    V_S6 = lambda phi1: link_velocity(P_S6(phi1), P_K(phi1), V_K(phi1), u6(phi1))  # [m] velocity analogue of S6
-    V_S7 = lambda phi1: link_velocity(P_S7(phi1), H, 0, u6(phi1))  # [m] velocity analogue of S7
+    V_S2 = lambda phi1: link_velocity(P_S2(phi1), P_A(phi1), u2(phi1), V_A(phi1))  # [m] velocity analogue of S2
+    V_S3 = lambda phi1: link_velocity(P_S3(phi1), C, u3(phi1))  # [m] velocity analogue of S3
+    V_S4 = lambda phi1: link_velocity(P_S4(phi1), P_D(phi1), u4(phi1), V_D(phi1))  # [m] velocity analogue of S4
+    V_S6 = lambda phi1: link_velocity(P_S6(phi1), P_K(phi1), u6(phi1), V_K(phi1))  # [m] velocity analogue of S6
+    V_S7 = lambda phi1: link_velocity(P_S7(phi1), H, u6(phi1))  # [m] velocity analogue of S7
 
     J_m = lambda phi1: (
         g.m1 * g.l_O1S1**2

@@ -414,7 +414,7 @@ def analogues(eps2_l2, eps3_l2, g, l2i, omega2_l2, omega3_l2, phi32i):
 
 @app.cell
 def fine(H, eps2_l2, eps3_l2, g, l20, omega2_l2, omega3_l2, phi32):
-    every = -(-60 // int(g.R))  # small steps from row to row of the tables, 60 or more in all
+    every = -(-60 // int(g.R))  # [-] small steps from row to row of the tables, 60 or more in all
     l2f = l20 + arange(every * g.R + 1) / (every * g.R) * H  # [m] cylinder, in small steps for the charts
     alpha_f = phi32(l2f) + pi / 2  # [deg] pressure angle, in small steps
     omega3_l2f = omega3_l2(l2f)  # [rad/m] crank, in small steps
@@ -642,7 +642,7 @@ def loads(D3, O2, S3, V21, W3, e3, eps3_l2, g, omega3_l2):
 
     def a_S3(l2):
         return link_acceleration(
-            S3(l2), O2, V21 * omega3_l2(l2), 0, V21**2 * eps3_l2(l2)
+            S3(l2), O2, V21 * omega3_l2(l2), V21**2 * eps3_l2(l2)
         )  # [m/s**2] acceleration of the centre of mass
 
     I3 = lambda l2: inertia(S3(l2), g.m3, g.J3, a_S3(l2), V21**2 * eps3_l2(l2))
@@ -685,9 +685,9 @@ def section_62():
 
 @app.cell
 def shares(D3, F_c, G3, I3, O2, Q3, Q_w, S3, V21, W3, l2i, omega3_l2i):
-    v_S3 = lambda l2, omega3: link_velocity(S3(l2), O2, 0, omega3)  # [-] velocity analogue of the centre of mass
-    v_W3 = lambda l2, omega3: link_velocity(W3(l2), O2, 0, omega3)  # [-] of the axle
-    v_D3 = lambda l2, omega3: link_velocity(D3(l2), O2, 0, omega3)  # [-] of the middle of the strut
+    v_S3 = lambda l2, omega3: link_velocity(S3(l2), O2, omega3)  # [-] velocity analogue of the centre of mass
+    v_W3 = lambda l2, omega3: link_velocity(W3(l2), O2, omega3)  # [-] of the axle
+    v_D3 = lambda l2, omega3: link_velocity(D3(l2), O2, omega3)  # [-] of the middle of the strut
     weight = lambda l2, omega3: -dot(G3, v_S3(l2, omega3))  # [N] share of the weight
     drag = lambda l2, omega3: -dot(Q_w, v_W3(l2, omega3)) - dot(Q3(l2), v_D3(l2, omega3))  # [N] share of the drag
 

@@ -4,7 +4,7 @@ Everything public is a name of this package, loaded on its first use: ``from mec
 stand apart, in `mechsheet.units`.
 
 A worksheet
-    inputs          inputs, ask, read, Used, declared
+    inputs          inputs, one_of, ask, read, Used, declared
     formulas        typeset, registry
     Find            find, Found
     checks          check, require, check_slope, closed_form, assembled, balance, largest_of, Check, summary
@@ -54,7 +54,7 @@ Positions, velocities and accelerations from the crank on, for a turn at 20 rad/
 >>> O1, O3, omega1 = 0, 0.4 + 0.1j, 20.0
 >>> phi1 = np.linspace(0, 2 * np.pi, 361)
 >>> A = crank(O1, 0.1, phi1)
->>> v_A, a_A = link_velocity(A, O1, omega=omega1), link_acceleration(A, O1, omega1)
+>>> v_A, a_A = link_velocity(A, O1, omega1), link_acceleration(A, O1, omega1)
 >>> coupler_rocker = RRRGroup(A, O3, 0.4, 0.3, +1)
 >>> B = coupler_rocker.C
 >>> v23 = coupler_rocker.velocity(v_A)
@@ -83,6 +83,7 @@ The balancing moment does the work of all loads, the inertia forces' sum over a 
 """
 
 import ast
+import inspect
 import sys
 from collections.abc import Mapping
 from importlib import import_module
@@ -136,4 +137,7 @@ def __getattr__(name: str) -> Any:
 
 
 def __dir__() -> list[str]:
-    return __all__
+    # who asks for the members and their values too, as help() does, would load all and print it behind the contents
+    asking = inspect.currentframe()
+    asked_by = asking.f_back.f_globals.get("__name__") if asking and asking.f_back else None
+    return [] if asked_by == inspect.__name__ else __all__

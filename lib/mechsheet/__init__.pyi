@@ -173,6 +173,9 @@ from mechsheet.worksheet.force_diagram import (
     polar as polar,
     polar_diagrams as polar_diagrams,
 )
+from mechsheet.worksheet.kinds import (
+    one_of as one_of,
+)
 from mechsheet.worksheet.inputs import (
     Used as Used,
     declared as declared,

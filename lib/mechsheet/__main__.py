@@ -29,8 +29,8 @@ usage: mechsheet COMMAND              where the package is installed
   run NAME [--INPUT=VALUE ...]        compute the worksheet and write its workbook
       NAME SCENE ...                  compute scenes side by side, and write workbooks where --out=FOLDER says
       such as                         run hitch --P6=25e3 --out=exports/light
-  new NAME                            begin a worksheet from a template
-      such as                         new lever
+  new NAME [--like=EXAMPLE]           begin a worksheet from a template, or from another worksheet
+      such as                         new loader --like=bucket
   edit NAME [OPTIONS]                 open the worksheet in the browser (options of marimo edit)
       such as                         edit hitch
   test [OPTIONS]                      run the project's tests (options of pytest)
@@ -61,13 +61,16 @@ def main(argv: "list[str] | None" = None) -> int:
         scenes = any(not option.startswith("-") for option in options)
         return call([interpreter(""), "-m", f"mechsheet.run.{'batch' if scenes else 'script'}", sheet, *options])
     if command == "new":
-        if len(options) != 1:
-            sys.exit("mechsheet: new needs the name of the worksheet, such as lever")
-        return new(options[0])
+        like = [option.partition("=")[2] for option in options if option.startswith("--like=")]
+        names = [option for option in options if not option.startswith("-")]
+        if len(names) != 1 or len(like) > 1 or len(options) > len(names) + len(like):
+            sys.exit("mechsheet: new needs the name of the worksheet, such as lever, and takes --like=EXAMPLE")
+        return new(names[0], *like)
     if command == "test":
         if not (ROOT / "tests").is_dir():
             sys.exit(f"mechsheet: the tests are in a clone of the project, not beside {Path(__file__).parent}")
-        return call([interpreter("dev"), "-m", "pytest", *options], cwd=ROOT)
+        # On every processor; an option that is given again is the last word.
+        return call([interpreter("dev"), "-m", "pytest", "-n=logical", "--dist=worksteal", *options], cwd=ROOT)
     if worksheet(command).endswith(".py"):
         sys.exit(f"mechsheet: {command} is a worksheet: run {command} computes it, edit {command} opens it")
     meant = nearest(command, [*COMMANDS, *("run " + name for name in worksheets())])
@@ -89,7 +92,7 @@ def worksheet(name: str) -> str:
 
 
 def folders() -> "list[Path]":
-    return [ROOT / "worksheets", ROOT / "worksheets" / "examples"]
+    return [ROOT / "worksheets", ROOT / "worksheets" / "examples", Path(__file__).resolve().parent / "examples"]
 
 
 def worksheets() -> "dict[str, str]":
@@ -112,19 +115,32 @@ def contents() -> str:
     return "\n".join(["worksheets:", "", *lines, "", ""]) if lines else ""
 
 
-def new(name: str) -> int:
-    """Write a worksheet from the template, with the style sheet of its page, into worksheets/ or else here."""
+def new(name: str, like: str = "") -> int:
+    """Write a worksheet from the template or like another one, with what it needs, into worksheets/ or else here."""
     if not re.match(r"[A-Za-z]\w*$", name):
         sys.exit(f"mechsheet: name of the worksheet = {name!r} must be a letter, then letters, digits or _")
     folder = ROOT / "worksheets" if (ROOT / "worksheets").is_dir() else Path.cwd()
     path, here = folder / f"{name}.py", Path(__file__).resolve().parent
     if path.exists():
         sys.exit(f"mechsheet: {path} is there already")
-    text = (here / "run" / "new_worksheet.txt").read_text(encoding="utf-8")
+    title = name.replace("_", " ").capitalize()
+    if like:
+        source = Path(worksheet(like))
+        if not source.name:
+            sys.exit(f"mechsheet: no worksheet {like}: {nearest(like, list(worksheets()))}{known_worksheets()}")
+        text = source.read_text(encoding="utf-8").replace("../page.css", "page.css")
+        named = re.search(r"""app_title=(["'].*?["'])""", text)
+        text = text.replace(named.group(1), f'"{title}"') if named else text
+        beside = (file for file in source.parent.iterdir() if file.suffix in (".csv", ".xlsx") and file.name in text)
+        for file in beside:
+            if not (folder / file.name).exists():
+                shutil.copy(str(file), str(folder))
+    else:
+        text = (here / "run" / "new_worksheet.txt").read_text(encoding="utf-8").replace("TITLE", title)
     style = next(style for style in (folder / "page.css", here / "page" / "page.css") if style.exists())
     if style.parent != folder:
         shutil.copy(str(style), str(folder))
-    path.write_text(text.replace("TITLE", name.replace("_", " ").capitalize()), encoding="utf-8")
+    path.write_text(text, encoding="utf-8")
     command = "mechsheet" if __package__ else f"python {here}"
     say(f"written {path}; {command} edit {name} opens it\n")
     return 0

@@ -51,6 +51,12 @@ def hitch_chain(h: Any, L4: float, L7: float) -> Chain:
     return Chain(lambda q: O1 + 0 * q, lambda q: 0 * q, dyads)
 
 
+def arm_pin(h: Any, S: Any) -> Any:
+    """P34 of the hitch, the end of its lift arm."""
+    O1, O3, *_ = hinges(h)
+    return O3 + h.L34 / h.L3 * exp(1j * h.phi_BD) * (rrr(O1, O3, S, h.L3, -1) - O3)
+
+
 def crank_chain(l_1: float, B: complex, l_A: float, l_B: float) -> Chain:
     """A dyad on a crank about 0, over the angle of the crank."""
     return Chain(lambda q: l_1 * exp(1j * q), lambda q: 1j * l_1 * exp(1j * q), (Dyad(B, l_A, l_B, +1),))

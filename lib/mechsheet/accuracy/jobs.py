@@ -13,6 +13,7 @@ from mechsheet.accuracy.chain import REACTIONS, chain_pins, crank_chain, hitch_c
 from mechsheet.accuracy.precision import Job, Method, timed
 from mechsheet.worksheet.table import Column, Table
 
+Strokes = Callable[[int], Any]  # so many over the range of the cylinder
 Ways = Mapping[str, Callable[[int], Callable[[], Any]]]  # named functions that make a run for n cases
 
 
@@ -67,26 +68,23 @@ def accuracy_jobs(hitch: Any, crank: Any, N: int, factors: Sequence[float]) -> d
     return {job.number: job for job in jobs}
 
 
-def _position_ways(hitch: Any) -> Ways:
-    (L4, _, L7), strokes = map(float, exact.finds(hitch).values()), partial(linspace, hitch.S_min, hitch.S_max)
+def _position_ways(hitch: Any, S: Strokes, L4: float, L7: float) -> Ways:
     return {
-        "library": lambda n: partial(chain_pins, hitch_chain(hitch, L4, L7), strokes(n)),
-        "printed": lambda n: partial(printed.hitch_pins, hitch, strokes(n), L4, L7),
+        "library": lambda n: partial(chain_pins, hitch_chain(hitch, L4, L7), S(n)),
+        "printed": lambda n: partial(printed.hitch_pins, hitch, S(n), L4, L7),
     }
 
 
-def _reaction_ways(hitch: Any) -> Ways:
-    (L4, _, L7), strokes = map(float, exact.finds(hitch).values()), partial(linspace, hitch.S_min, hitch.S_max)
-
+def _reaction_ways(hitch: Any, S: Strokes, L4: float, L7: float) -> Ways:
     def way(k: int) -> Callable[[int], Callable[[], Any]]:
-        return lambda n: rivals.reaction_methods(hitch, strokes(n), L4, L7, np.full(n, 2 + 0.5j))[k].run
+        return lambda n: rivals.reaction_methods(hitch, S(n), L4, L7, np.full(n, 2 + 0.5j))[k].run
 
     return {name: way(k) for k, name in enumerate(("library", "printed", "dense", "least squares"))}
 
 
-_BATCHES: Mapping[str, tuple[str, Callable[[Any], Ways]]] = {
+_BATCHES: Mapping[str, tuple[str, Callable[[Any, Strokes, float, float], Ways]]] = {
     "1.3": ("Time of a position", _position_ways),
-    "3.3": ("Time of a Find", rivals.rod_ways),
+    "3.3": ("Time of a Find", lambda hitch, *_: rivals.rod_ways(hitch)),
     "4.3": ("Time of the reactions", _reaction_ways),
 }
 
@@ -94,7 +92,8 @@ _BATCHES: Mapping[str, tuple[str, Callable[[Any], Ways]]] = {
 def batch_times(number: str, hitch: Any, sizes: Sequence[int], seconds: float) -> Table:
     """Table of the time for one of n positions or Finds computed at once: 1.3, 3.3 or 4.3."""
     title, make_ways = _BATCHES[number]
-    ways = make_ways(hitch)
+    L4, _, L7 = map(float, exact.finds(hitch).values())
+    ways = make_ways(hitch, partial(linspace, hitch.S_min, hitch.S_max), L4, L7)
     times = np.array([time for _, time in timed([make(n) for n in sizes for make in ways.values()], seconds)])
     each = 1e6 * times.reshape(len(sizes), len(ways)) / np.array(sizes)[:, None]
     columns = [Column(name, "µs", "time of one of them", 2, each[:, k]) for k, name in enumerate(ways)]

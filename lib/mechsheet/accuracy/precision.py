@@ -9,6 +9,7 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import ArrayLike
 
+from mechsheet.recording.unrepeatable import clock_read
 from mechsheet.run.progress import progress
 from mechsheet.worksheet.check import Check
 from mechsheet.worksheet.shown import Charted
@@ -281,6 +282,7 @@ def timed(
     A run that was made three times and takes ``seconds`` in all, or ten times as long, is left out of further turns.
     ``done`` is called when a run has its turn the first time.
     """
+    clock_read()
     results, times = [], [list[float]() for _ in runs]
 
     def once(i: int) -> Any:

@@ -20,6 +20,7 @@ from mechsheet.accuracy import printed
 from mechsheet.accuracy.chain import (
     REACTIONS,
     Chain,
+    arm_pin,
     first_analogues,
     hinges,
     hitch_points,
@@ -183,37 +184,33 @@ def unknown(h: Any, factor: float, *known: float) -> Unknown:
     O1, O3, O5, O7 = hinges(h)
     z, lever = h.L34 / h.L3 * exp(1j * h.phi_BD), h.L56 / h.L5
 
-    def P34(S: Any) -> Any:
-        return O3 + z * (rrr(O1, O3, S, h.L3, -1) - O3)
-
     def P56(S: Any, L4: Any, branch: int = +1) -> Any:
-        return O5 + lever * (rrr(P34(S), O5, L4, h.L5, branch) - O5)
+        return O5 + lever * (rrr(arm_pin(h, S), O5, L4, h.L5, branch) - O5)
 
-    def slope_L4(L4: float) -> Any:
-        A = P34(h.S_min)
-        return (lever * rrr_velocity(A, O5, rrr(A, O5, L4, h.L5, +1), dr_A=1).v_C).imag
-
-    def slope_S(S: float) -> Any:
-        C = rrr(O1, O3, S, h.L3, -1)
-        A, v = O3 + z * (C - O3), rrr_velocity(O1, O3, C, dr_A=1).v_C
-        return (lever * rrr_velocity(A, O5, rrr(A, O5, known[0], h.L5, +1), z * v).v_C).imag
-
-    def mast(L7: Any, branch: int = -1) -> Any:
-        P = P56(known[1], known[0])
-        return angle(rrr(P, O7, h.L6, L7, branch) - P)
-
-    def slope_L7(L7: float) -> Any:
-        P = P56(known[1], known[0])
-        return rrr_velocity(P, O7, rrr(P, O7, h.L6, L7, -1), dr_B=1).omega_A
+    def height_rate(A: Any, L4: float, **rates: Any) -> Any:
+        return (lever * rrr_velocity(A, O5, rrr(A, O5, L4, h.L5, +1), **rates).v_C).imag
 
     if not known:
-        ends = rrr_reach(P34(h.S_min), O5, h.L5)
-        return Unknown(lambda L4, s=+1: P56(h.S_min, L4, s).imag, slope_L4, ends, 0.8 * h.L4_0 * factor, h.Y56_min, +1)
+        A = arm_pin(h, h.S_min)
+        return Unknown(
+            lambda L4, s=+1: P56(h.S_min, L4, s).imag,
+            lambda L4: height_rate(A, L4, dr_A=1),
+            *(rrr_reach(A, O5, h.L5), 0.8 * h.L4_0 * factor, h.Y56_min, +1),
+        )
     if len(known) == 1:
+
+        def slope(S: float) -> Any:
+            v = rrr_velocity(O1, O3, rrr(O1, O3, S, h.L3, -1), dr_A=1).v_C
+            return height_rate(arm_pin(h, S), known[0], v_A=z * v)
+
         guess = h.S_min + (0.5 if factor == 1 else float(factor > 1)) * (h.S_max - h.S_min)
-        return Unknown(lambda S: P56(S, known[0]).imag, slope_S, (h.S_min, h.S_max), guess, h.Y_P56)
-    ends = rrr_reach(P56(known[1], known[0]), O7, h.L6)
-    return Unknown(mast, slope_L7, ends, 0.8 * h.L7_0 * factor, h.phi_P6, -1)
+        return Unknown(lambda S: P56(S, known[0]).imag, slope, (h.S_min, h.S_max), guess, h.Y_P56)
+    P = P56(known[1], known[0])
+    return Unknown(
+        lambda L7, s=-1: angle(rrr(P, O7, h.L6, L7, s) - P),
+        lambda L7: rrr_velocity(P, O7, rrr(P, O7, h.L6, L7, -1), dr_B=1).omega_A,
+        *(rrr_reach(P, O7, h.L6), 0.8 * h.L7_0 * factor, h.phi_P6, -1),
+    )
 
 
 def _in_turn(ask: Callable[..., Unknown], solve: Callable[[Unknown], float]) -> Any:
@@ -282,8 +279,7 @@ def by_inverse(h: Any) -> Any:
     """The unknown lengths as distances between known points: the mechanism taken from the other end."""
     O1, O3, O5, O7 = hinges(h)
     z = h.L34 / h.L3 * exp(1j * h.phi_BD)
-    P34 = O3 + z * (rrr(O1, O3, h.S_min, h.L3, -1) - O3)
-    L4 = abs(O5 + h.L5 * _lower_link(h, h.Y56_min) - P34)
+    L4 = abs(O5 + h.L5 * _lower_link(h, h.Y56_min) - arm_pin(h, h.S_min))
     P45, P56 = (O5 + length * _lower_link(h, h.Y_P56) for length in (h.L5, h.L56))
     P23 = O3 + (rrr(P45, O3, L4, h.L34, -1) - O3) / z
     return np.array([L4, abs(P23 - O1), abs(P56 + h.L6 * exp(1j * h.phi_P6) - O7)])
@@ -292,41 +288,39 @@ def by_inverse(h: Any) -> Any:
 def find_methods(h: Any, factors: Sequence[float]) -> list[Method]:
     """All ways to the three unknowns L4, S_p, L7, each from all guesses."""
 
-    def each(way: Callable[[float], Any]) -> Callable[[], Any]:
+    Asked = Callable[..., Unknown]  # of a factor and the lengths known
+
+    def each(solve: Callable[[Unknown], float], asked: Asked) -> Callable[[], Any]:
         @np.errstate(all="ignore")
         def all_of() -> Any:
-            return np.array([way(factor) for factor in factors])
+            return np.array([_in_turn(partial(asked, factor), solve) for factor in factors])
 
         return all_of
 
-    def iteration(solve: Callable[[Unknown, float], float]) -> Runs:
-        return lambda t: each(
-            lambda factor: _in_turn(lambda *known: _positive(unknown(h, factor, *known)), lambda u: solve(u, t))
-        )
+    def positive(*factor_and_known: float) -> Unknown:
+        return _positive(unknown(h, *factor_and_known))
 
-    def port(t: float) -> Callable[[], Any]:
-        return each(
-            lambda factor: _in_turn(
-                lambda *known: _as_printed(h, unknown(h, factor, *known), *known), lambda u: _hybr(u, t)
-            )
-        )
+    def port(*factor_and_known: float) -> Unknown:
+        return _as_printed(h, unknown(h, *factor_and_known), *factor_and_known[1:])
+
+    def iteration(solve: Callable[[Unknown, float], float], asked: Asked = positive) -> Runs:
+        return lambda t: each(lambda u: solve(u, t), asked)
 
     tolerances = _powers(4, 14, 2)
     return [
-        Method("find", "", each(lambda factor: _in_turn(lambda *known: unknown(h, factor, *known), _by_find))),
-        Method("inverse mechanism", "", each(lambda factor: by_inverse(h))),
+        Method("find", "", each(_by_find, partial(unknown, h))),
+        Method("inverse mechanism", "", lambda: np.array([by_inverse(h) for _ in factors])),
         *_family("brentq on the reach", tolerances, iteration(_bracketing)),
         *_family("Newton", tolerances, iteration(_newton)),
         *_family("secant", tolerances, iteration(lambda u, t: _newton(u, t, slope=False))),
         *_family("hybr", tolerances, iteration(_hybr)),
-        *_family("hybr, printed formulas", tolerances, port),
+        *_family("hybr, printed formulas", tolerances, iteration(_hybr, port)),
     ]
 
 
 def rod_ways(h: Any) -> dict[str, Callable[[int], Callable[[], Any]]]:
     """The lifting rod for n heights of the suspension axis at once."""
-    u, (O1, O3, O5, _) = unknown(h, 1.0), hinges(h)
-    P34 = O3 + h.L34 / h.L3 * exp(1j * h.phi_BD) * (rrr(O1, O3, h.S_min, h.L3, -1) - O3)
+    u, P34, O5 = unknown(h, 1.0), arm_pin(h, h.S_min), hinges(h)[2]
 
     def heights(n: int) -> Any:
         return linspace(0.19, 0.21, n) if n > 1 else np.array([0.2])

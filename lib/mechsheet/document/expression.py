@@ -10,6 +10,7 @@ from mechsheet.document.constant import measured
 from mechsheet.document.formula import (
     POWER,
     PRODUCT,
+    RELATION,
     SIGN,
     SUM,
     WHOLE,
@@ -22,6 +23,7 @@ from mechsheet.document.formula import (
     Fraction,
     Function,
     Integral,
+    Matrix,
     Measure,
     Node,
     Number,
@@ -33,6 +35,7 @@ from mechsheet.document.formula import (
     Root,
     Row,
     Signed,
+    Sum,
     Text,
     begins_as_number,
     begins_negative,
@@ -43,29 +46,35 @@ from mechsheet.worksheet.symbol import GREEK, Symbol, is_field, read, stem
 
 
 @lru_cache(maxsize=4096)
-def left(line: Formula) -> Node:
-    """Left side of a line: its symbol, of a function with its arguments."""
-    if not line.arguments:
-        return _name(line.name)
-    return Apply(_name(line.name), Brackets(tuple(map(_name, line.arguments)), close=True))
+def left(line: Formula, single: frozenset[str] = frozenset()) -> Node:
+    """Left side of a line: its symbol, of a function with its arguments; ``single`` are no fields."""
+    symbol = read(line.name) if line.name in single else _name(line.name)
+    return Apply(symbol, Brackets(tuple(map(_name, line.arguments)), close=True)) if line.arguments else symbol
 
 
 @lru_cache(maxsize=4096)
-def right(line: Formula) -> Node | None:
+def right(line: Formula, single: frozenset[str] = frozenset()) -> Node | None:
     """Right side of a line; None where it is a number or says the same as the left."""
-    node = None if isinstance(line.expression, ast.Constant) else tree(measured(line.expression, line.constants))
+    node = None
+    if not isinstance(line.expression, ast.Constant):
+        node = tree(measured(line.expression, line.constants), single=single)
     if isinstance(node, Measure) and node.unit == line.unit:
         return None
-    return None if node == left(line) else node
+    return None if node == left(line, single) else node
 
 
-def equation(line: Formula | Given) -> Node:
+def equation(line: Formula | Given, single: frozenset[str] = frozenset()) -> Node:
     """A line as an equation, or its symbol alone; of a solve block what must be equal."""
     if isinstance(line, Given):
-        sides = (tree(measured(side, line.constants)) for side in (line.expression, line.target))
-        return Row((Text("Given"), Binary(next(sides), "=", next(sides))))
-    node = right(line)
-    return left(line) if node is None else Binary(left(line), "=", node)
+        parts = (tree(measured(part, line.constants), single=single) for part in (line.expression, line.target))
+        return Row((Text("Given"), Binary(next(parts), "=", next(parts))))
+    node = right(line, single)
+    if node is None:
+        return left(line, single)
+    own = (tree(measured(value, line.constants), single=single) for _, value in line.where)
+    where = tuple(Binary(_name(name), "=", value) for (name, _), value in zip(line.where, own, strict=True))
+    whole = Binary(left(line, single), "=", node)
+    return Row((whole, Text("where"), *where)) if where else whole
 
 
 def substituted(line: Formula, numbers: Mapping[str, Measure]) -> Node | None:
@@ -79,12 +88,21 @@ def reads(line: Formula) -> tuple[str, ...]:
     return tuple(dict.fromkeys(filter(None, map(_read_as, ast.walk(line.expression)))))
 
 
-def tree(node: ast.expr, numbers: Mapping[str, Measure] | None = None) -> Node:
+@lru_cache(maxsize=4096)
+def fields_by_name(line: Formula | Given) -> tuple[str, ...]:
+    """Names of a line that say "over S" (`is_field`)."""
+    parts = [line.expression, *((line.target,) if isinstance(line, Given) else (v for _, v in line.where))]
+    read = {node.id for part in parts for node in ast.walk(part) if isinstance(node, ast.Name)}
+    own = set() if isinstance(line, Given) else {line.name}
+    return tuple(name for name in sorted(read | own) if is_field(name))
+
+
+def tree(node: ast.expr, numbers: Mapping[str, Measure] | None = None, single: frozenset[str] = frozenset()) -> Node:
     """Expression as a tree: fractions, roots, powers, no brackets that the reader does not need.
 
-    ``numbers`` stand for some names, ``g.L3`` too.
+    ``numbers`` stand for some names, ``g.L3`` too; those in ``single`` are no fields over S, though they end so.
     """
-    return _Reader(numbers or {}).read(node)
+    return _Reader(numbers or {}, single).read(node)
 
 
 _FUNCTIONS = {
@@ -94,6 +112,7 @@ _FUNCTIONS = {
 _KNOWN = {"sin", "cos", "tan", "exp", "max", "min", "sum", *_FUNCTIONS}
 _ANGULAR = ("sin", "cos", "tan")
 _COMPARISONS = {ast.Lt: "<", ast.LtE: "≤", ast.Gt: ">", ast.GtE: "≥", ast.Eq: "=", ast.NotEq: "≠"}
+_OVER = ("max", "min", "sum", "amax", "amin", "nanmax", "nanmin")  # with an axis
 _RATES = {"ds": Symbol("s", mark="."), "dds": Symbol("s", mark="..")}  # which the rule for names does not know
 _SYMBOL = re.compile(rf"([A-Z]+|{'|'.join(GREEK)})(_|$)")  # VC, eps_BC
 
@@ -101,8 +120,8 @@ _SYMBOL = re.compile(rf"([A-Z]+|{'|'.join(GREEK)})(_|$)")  # VC, eps_BC
 class _Reader:
     """Reads expressions of Python."""
 
-    def __init__(self, numbers: Mapping[str, Measure]) -> None:
-        self.numbers = numbers
+    def __init__(self, numbers: Mapping[str, Measure], single: frozenset[str]) -> None:
+        self.numbers, self.single = numbers, single
 
     def read(self, node: ast.expr) -> Node:
         kind = type(node)
@@ -117,7 +136,7 @@ class _Reader:
         return part if strength(part) >= least else Brackets((part,))
 
     def name(self, node: ast.Name) -> Node:
-        return _name(node.id)
+        return read(node.id) if node.id in self.single else _name(node.id)
 
     def constant(self, node: ast.Constant) -> Node:
         match node.value:
@@ -134,7 +153,9 @@ class _Reader:
     def attribute(self, node: ast.Attribute) -> Node | None:
         match node:
             case ast.Attribute(ast.Name("g"), name):
-                return _name(name)
+                return read(name)
+            case ast.Attribute(ast.Attribute(ast.Name("g"), name), part):  # a property or a column of an input
+                return _name(f"{part}_{name}")
             case ast.Attribute(inner, ("real" | "imag") as part):
                 return Prefix(Function("Re" if part == "real" else "Im"), self.least(inner, WHOLE), PRODUCT)
             case ast.Attribute(ast.Name(name), "value") if name.endswith("_found"):
@@ -153,6 +174,8 @@ class _Reader:
                 return Signed("-", self.least(node.operand, SIGN))
             case ast.UAdd():
                 return Signed("+", self.least(node.operand, SIGN))
+            case ast.Not() | ast.Invert():
+                return Prefix(Text("not "), self.least(node.operand, PRODUCT), RELATION)
         return None
 
     def binary(self, node: ast.BinOp) -> Node | None:
@@ -162,6 +185,8 @@ class _Reader:
                 return Signed("-", self.read(positive))
             case ast.Div():
                 return Fraction(self.read(left), self.read(right))
+            case ast.FloorDiv():
+                return Brackets((Fraction(self.read(left), self.read(right)),), "⌊⌋")
             case ast.Pow():
                 return self.power(left, right)
             case ast.Mult():
@@ -173,7 +198,29 @@ class _Reader:
                 return Binary(self.least(left, SUM), "+", Brackets((second,)) if begins_negative(second) else second)
             case ast.Sub():
                 return Binary(self.least(left, SUM), "-", self.least(right, PRODUCT))
+            case ast.MatMult():
+                return self.product(left, right)
+            case ast.BitAnd() | ast.BitOr():
+                return self.joined("and" if isinstance(node.op, ast.BitAnd) else "or", [left, right])
         return None
+
+    def joined(self, word: str, conditions: list[ast.expr]) -> Node:
+        """Conditions with a word between them."""
+        first, *more = (self.condition(part, word) for part in conditions)
+        for part in more:
+            first = Binary(first, word, part)
+        return first
+
+    def condition(self, node: ast.expr, word: str) -> Node:
+        part = self.read(node)
+        mixed = isinstance(part, Binary) and part.sign in ("and", "or") and part.sign != word
+        return Brackets((part,)) if mixed else part
+
+    def boolean(self, node: ast.BoolOp) -> Node:
+        return self.joined("and" if isinstance(node.op, ast.And) else "or", node.values)
+
+    def choice(self, node: ast.IfExp) -> Node:
+        return Cases(self.read(node.body), self.read(node.test), self.read(node.orelse))
 
     def power(self, base: ast.expr, exponent: ast.expr) -> Node:
         match base:
@@ -193,10 +240,12 @@ class _Reader:
         return Product(_closed(self.least(left, PRODUCT)), second, begins_as_number(second))
 
     def compare(self, node: ast.Compare) -> Node | None:
-        match node:
-            case ast.Compare(left, [op], [right]) if type(op) in _COMPARISONS:
-                return Binary(self.least(left, SUM), _COMPARISONS[type(op)], self.least(right, SUM))
-        return None
+        if not all(type(op) in _COMPARISONS for op in node.ops):
+            return None
+        part = self.least(node.left, SUM)
+        for op, right in zip(node.ops, node.comparators, strict=True):
+            part = Binary(part, _COMPARISONS[type(op)], self.least(right, SUM))
+        return part
 
     def subscript(self, node: ast.Subscript) -> Node:
         return Element(self.least(node.value, WHOLE), self.read(node.slice))
@@ -205,6 +254,9 @@ class _Reader:
         return self.read(node.value)
 
     def listed(self, node: ast.List | ast.Tuple) -> Node:
+        rows = [row.elts for row in node.elts if isinstance(row, ast.List | ast.Tuple)]
+        if rows and len(rows) == len(node.elts) and len({len(row) for row in rows}) == 1:
+            return Matrix(tuple(Row(tuple(map(self.read, row))) for row in rows))
         return Brackets(tuple(map(self.read, node.elts)), "[]" if isinstance(node, ast.List) else "()", high=True)
 
     def brackets(self, args: list[ast.expr]) -> Brackets:
@@ -212,11 +264,37 @@ class _Reader:
 
     def call(self, node: ast.Call) -> Node | None:
         match node:
+            case ast.Call(ast.Name("sum") | ast.Attribute(_, "sum"), [ast.GeneratorExp() | ast.ListComp() as terms]):
+                return self.sum(terms)
+            case ast.Call(ast.Name(name) | ast.Attribute(ast.Name("np"), name), [x], [ast.keyword("axis", axis)]):
+                if name in _OVER:
+                    over = Element(Function(_FUNCTIONS.get(name, name)), Text(f"axis {ast.unparse(axis)}"))
+                    return Apply(over, self.brackets([x]))
+                return self.function(name, [x])
             case ast.Call(ast.Name(name), args, keywords):
                 given = [*args, *(k.value for k in keywords)]
                 return self.function(name, [a for a in given if not (isinstance(a, ast.Name) and a.id == "branch")])
             case ast.Call(ast.Attribute(ast.Name("np"), name), args):
                 return self.function(name, args)
+            case ast.Call(ast.Attribute(ast.Attribute(ast.Name("np"), "linalg"), "solve"), [A, b]):
+                return Product(Power(self.least(A, WHOLE), Number(-1)), self.least(b, PRODUCT))
+            case ast.Call(ast.Attribute(ast.Attribute(ast.Name("np"), "linalg"), "inv"), [A]):
+                return Power(self.least(A, WHOLE), Number(-1))
+            case ast.Call(ast.Attribute(ast.Attribute(ast.Name("np"), "linalg"), ("det" | "norm") as name), [x]):
+                return self.function("abs" if name == "norm" else name, [x])
+            case ast.Call(ast.Attribute(x, ("max" | "min" | "sum" | "mean") as name), args, keywords):
+                if not args:
+                    return self.call(ast.Call(ast.Name(name), [x], keywords))
+        return None
+
+    def sum(self, terms: ast.GeneratorExp | ast.ListComp) -> Node | None:
+        """Sum over the elements of something, or over whole numbers."""
+        match terms.generators:
+            case [ast.comprehension(ast.Name() as index, ast.Call(ast.Name("range"), [*start, stop]), [])]:
+                first = self.read(start[0]) if start else Number(0)
+                return Sum(self.least(terms.elt, PRODUCT), self.read(index), first, self.before(stop))
+            case [ast.comprehension(ast.Name() as index, source, [])]:
+                return Sum(self.least(terms.elt, PRODUCT), self.read(index), self.read(source))
         return None
 
     def function(self, name: str, args: list[ast.expr]) -> Node:
@@ -250,6 +328,13 @@ class _Reader:
                 return Cases(self.read(a), self.read(condition), self.read(b))
             case "celsius", [ast.Constant(int() | float() as degrees)]:
                 return Measure(degrees, "degC")
+            case "select", [ast.List(conditions), ast.List(values), *default] if len(conditions) == len(values):
+                chosen = self.read(default[0]) if default else Number(0)
+                for condition, x in zip(reversed(conditions), reversed(values), strict=True):
+                    chosen = Cases(self.read(x), self.read(condition), chosen)
+                return chosen
+            case "array" | "asarray", [ast.List() | ast.Tuple() as rows]:
+                return self.listed(rows)
             case "atan2", [y, x]:
                 return Apply(Function(name), self.brackets([y, x]))
         return _applied(_function(name), self.brackets(args))
@@ -257,7 +342,7 @@ class _Reader:
     def before(self, stop: ast.expr) -> Node:
         """The last whole number before ``stop``."""
         match stop:
-            case ast.Constant(int(value)):
+            case ast.Constant(int(value) | float(value)):
                 return Number(value - 1)
             case ast.BinOp(last, ast.Add(), ast.Constant(1)):
                 return self.read(last)
@@ -268,7 +353,7 @@ _RULES: dict[type[ast.expr], Callable[[_Reader, Any], Node | None]] = {
     ast.Name: _Reader.name, ast.Constant: _Reader.constant, ast.Attribute: _Reader.attribute,
     ast.UnaryOp: _Reader.unary, ast.BinOp: _Reader.binary, ast.Compare: _Reader.compare, ast.Call: _Reader.call,
     ast.Subscript: _Reader.subscript, ast.Starred: _Reader.starred, ast.List: _Reader.listed,
-    ast.Tuple: _Reader.listed,
+    ast.Tuple: _Reader.listed, ast.IfExp: _Reader.choice, ast.BoolOp: _Reader.boolean,
 }  # fmt: skip
 
 
@@ -285,7 +370,9 @@ def _function(name: str) -> Node:
     if name in _KNOWN:
         return Function(_FUNCTIONS.get(name, name))
     word = re.fullmatch(r"[a-z]{3,}(_\w*)?", name) and not re.match("|".join(GREEK), name)
-    is_symbol = len(name) == 1 or (not word and (re.search(r"\d", name) or _SYMBOL.match(name)))
+    is_symbol = (
+        len(name) == 1 or re.fullmatch("d[a-z]", name) or (not word and (re.search(r"\d", name) or _SYMBOL.match(name)))
+    )
     return _name(name) if is_symbol else Function(name.replace("_", " "))
 
 
@@ -319,14 +406,18 @@ def _without_minus(node: ast.expr) -> ast.expr | None:
 
 
 def _part(name: str) -> Node:
-    return _RATES.get(name) or _name(name)
+    """Part of a result: its symbol, or its name in words."""
+    words = re.fullmatch(r"[a-z]{3,}(_[a-z]{3,})*", name) and not re.match("|".join(GREEK), name)
+    return _RATES.get(name) or (Function(name.replace("_", " ")) if words else _name(name))
 
 
 def _read_as(node: ast.AST) -> str:
-    """Name under which a formula reads a quantity, ``g.L3`` too; "" for anything else."""
+    """Name under which a formula reads a quantity, ``g.L3`` and ``g.bolt.R_m`` too; "" for anything else."""
     match node:
         case ast.Attribute(ast.Name("g"), name):
             return f"g.{name}"
+        case ast.Attribute(ast.Attribute(ast.Name("g"), name), part):
+            return f"g.{name}.{part}"
         case ast.Name(name):
             return name
     return ""

@@ -61,7 +61,7 @@ class Signed:
 
 @dataclass(frozen=True, slots=True)
 class Binary:
-    """Two parts round a sign: ``+ - × mod < ≤ > ≥ = ≠``."""
+    """Two parts round a sign: ``+ - × mod < ≤ > ≥ = ≠ and or``."""
 
     left: "Node"
     sign: str
@@ -117,7 +117,7 @@ class Overline:
 
 @dataclass(frozen=True, slots=True)
 class Brackets:
-    """Parts in brackets ``()``, ``[]`` or ``||``, which are as high as what they hold, or ``high`` in any case."""
+    """Parts in brackets ``()``, ``[]``, ``||`` or ``⌊⌋``, as high as what they hold, or ``high`` in any case."""
 
     items: "tuple[Node, ...]"
     kind: str = "()"
@@ -168,6 +168,23 @@ class Cases:
 
 
 @dataclass(frozen=True, slots=True)
+class Sum:
+    """Sum of one part for all values of an index: ``start`` to ``end``, or each one of ``start``."""
+
+    of: "Node"
+    index: "Node"
+    start: "Node"
+    end: "Node | None" = None
+
+
+@dataclass(frozen=True, slots=True)
+class Matrix:
+    """Rows of equal length in one pair of brackets."""
+
+    rows: "tuple[Row, ...]"
+
+
+@dataclass(frozen=True, slots=True)
 class Row:
     """Parts side by side with space between them."""
 
@@ -176,7 +193,7 @@ class Row:
 
 Node: TypeAlias = (
     Symbol | Number | Measure | Text | Code | Function | Signed | Binary | Product | Fraction | Root | Power | Element
-    | Overline | Brackets | Apply | Prefix | Range | Integral | Cases | Row
+    | Overline | Brackets | Apply | Prefix | Range | Integral | Sum | Cases | Matrix | Row
 )  # fmt: skip
 
 
@@ -186,7 +203,7 @@ def children(node: Node) -> Iterator[Node]:
         part: Any = getattr(node, name)
         if isinstance(part, tuple):
             yield from part
-        elif not isinstance(part, str | int | float | complex):
+        elif part is not None and not isinstance(part, str | int | float | complex):
             yield part
 
 
@@ -195,7 +212,7 @@ def is_high(node: Node) -> bool:
     match node:
         case Symbol() | Text() | Code() | Function():
             return False
-        case Fraction() | Power():
+        case Fraction() | Power() | Sum() | Matrix():
             return True
         case Brackets(items, high=high):
             return high or any(map(is_high, items))
@@ -209,7 +226,7 @@ def is_high(node: Node) -> bool:
 
 _STRENGTHS = {
     Symbol: WHOLE, Fraction: WHOLE, Brackets: WHOLE, Apply: WHOLE, Power: POWER, Product: PRODUCT, Integral: PRODUCT,
-    Signed: SUM, Range: RELATION, Row: RELATION,
+    Sum: PRODUCT, Signed: SUM, Range: RELATION, Row: RELATION,
 }  # fmt: skip
 _SUMS = ("+", "-", "×", "mod")
 

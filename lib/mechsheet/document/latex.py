@@ -15,6 +15,7 @@ from mechsheet.document.formula import (
     Fraction,
     Function,
     Integral,
+    Matrix,
     Measure,
     Node,
     Number,
@@ -26,6 +27,7 @@ from mechsheet.document.formula import (
     Root,
     Row,
     Signed,
+    Sum,
     Text,
     is_high,
 )
@@ -38,13 +40,23 @@ LATEX = Notation(
     r"\,\mathrm{{{}}}", r"^{{{}}}", r"\cdot ",
 )  # fmt: skip
 _LETTERS = {letter: rf"\{word}" for word, letter in GREEK.items()} | {"ε": r"\varepsilon", "φ": r"\varphi"}
+_GREEK = re.compile(f"([{''.join(GREEK.values())}])")
 _MARKS = {"": "{}", "Δ": r"\Delta {}", "d": r"\mathrm{{d}}{}", ".": r"\dot{{{}}}", "..": r"\ddot{{{}}}"}
 _NAMED = {
     **{name: rf"\{name}" for name in ("sin", "cos", "tan", "arcsin", "arccos", "arctan", "arg", "exp", "ln", "max")},
     "min": r"\min",
     "sum": r"\textstyle\sum ",
 }
-_SIGNS = {"×": r"\times", "mod": r"\bmod", "≤": r"\le", "≥": r"\ge", "≠": r"\ne"}
+_SIGNS = {
+    "×": r"\times",
+    "mod": r"\bmod",
+    "≤": r"\le",
+    "≥": r"\ge",
+    "≠": r"\ne",
+    "and": r"\text{ and }",
+    "or": r"\text{ or }",
+}
+_BRACKETS = {"⌊": r"\lfloor ", "⌋": r"\rfloor "}
 _SPECIAL = re.compile(r"([_#%&$])")
 _SPECIAL_IN_CODE = re.compile(r"([#$%&_{}])")
 
@@ -63,7 +75,11 @@ def symbol(s: Symbol) -> str:
     ('\\varphi_{34}', '\\Delta R_{\\mathrm{a}}')
     """
     base = _LETTERS.get(s.base) or (s.base if len(s.base) == 1 else rf"\mathrm{{{_escaped(s.base)}}}")
-    index = rf"\mathrm{{{s.index}}}" if re.search("[A-Za-z]", s.index) else s.index
+    index = "".join(
+        _LETTERS.get(part) or (rf"\mathrm{{{part}}}" if re.search("[A-Za-z]", part) else part)
+        for part in _GREEK.split(s.index)
+        if part
+    )
     return _MARKS[s.mark].format(base) + (f"_{{{index}}}" if index else "")
 
 
@@ -85,15 +101,31 @@ def _product(node: Product) -> str:
 
 def _brackets(node: Brackets) -> str:
     inner = (r",\," if node.close else r",\ ").join(map(latex, node.items))
-    left, right = node.kind[0], node.kind[1]
+    left, right = (_BRACKETS.get(sign, sign) for sign in node.kind)
     return rf"\left{left}{inner}\right{right}" if is_high(node) else f"{left}{inner}{right}"
 
 
 def _cases(node: Cases) -> str:
-    rows = (
-        rf"{latex(node.value)} & \text{{if }} {latex(node.condition)} \\ {latex(node.otherwise)} & \text{{otherwise}}"
-    )
-    return rf"\begin{{cases}} {rows} \end{{cases}}"
+    rows, rest = list[str](), node
+    while True:
+        rows.append(rf"{latex(rest.value)} & \text{{if }} {latex(rest.condition)}")
+        if not isinstance(rest.otherwise, Cases):
+            break
+        rest = rest.otherwise
+    rows.append(rf"{latex(rest.otherwise)} & \text{{otherwise}}")
+    inner = r" \\ ".join(rows)
+    return rf"\begin{{cases}} {inner} \end{{cases}}"
+
+
+def _sum(node: Sum) -> str:
+    if node.end is None:
+        return rf"\sum_{{{latex(node.index)} \in {latex(node.start)}}} {latex(node.of)}"
+    return rf"\sum_{{{latex(node.index)} = {latex(node.start)}}}^{{{latex(node.end)}}} {latex(node.of)}"
+
+
+def _matrix(node: Matrix) -> str:
+    rows = r" \\ ".join(" & ".join(map(latex, row.items)) for row in node.rows)
+    return rf"\begin{{bmatrix}} {rows} \end{{bmatrix}}"
 
 
 def _escaped(text: str) -> str:
@@ -120,6 +152,8 @@ RULES: dict[type[Any], Callable[[Any], str]] = {
     Prefix: lambda node: f"{latex(node.operator)} {latex(node.of)}",
     Range: lambda node: r",\,".join(map(latex, node.first)) + r"\,\ldots\," + latex(node.last),
     Integral: lambda node: rf"\int {latex(node.of)}\,\mathrm{{d}}{latex(node.over)}",
+    Sum: _sum,
     Cases: _cases,
+    Matrix: _matrix,
     Row: lambda node: r"\quad ".join(map(latex, node.items)),
 }

@@ -48,7 +48,7 @@ def not_negative(value: ArrayLike, name: str, unit: str) -> Float:
     x = parameter(value, name, unit)
     negative = x < 0
     if np.count_nonzero(negative):
-        raise ValueError(f"{name} = {x[negative].flat[0]:.6g} {unit} must not be negative")
+        raise refusal(x[negative], name, unit, "must not be negative")
     return x
 
 
@@ -69,7 +69,7 @@ def parameter(value: ArrayLike, name: str, unit: str) -> Float:
     x: Float = _numbers(value, name, "iuf").astype(np.float64, copy=False)
     finite = np.isfinite(x)
     if np.count_nonzero(finite) < x.size:
-        raise ValueError(f"{name} = {x[~finite].flat[0]} {unit} must be a finite number")
+        raise refusal(x[~finite], name, unit, "must be a finite number")
     return x
 
 
@@ -80,7 +80,7 @@ def sign(branch: ArrayLike) -> Float:
     s: Float = _numbers(branch, "branch", "iuf").astype(np.float64, copy=False)
     wrong = np.abs(s) != 1
     if np.count_nonzero(wrong):
-        raise ValueError(f"branch = {s[wrong].flat[0]:g} must be +1 or -1")
+        raise refusal(s[wrong], "branch", "", "must be +1 or -1")
     return s
 
 
@@ -123,10 +123,16 @@ def _plain(value: ArrayLike, kinds: frozenset[type]) -> bool:
     return type(value) in kinds and -_LARGE < value.real < _LARGE and -_LARGE < value.imag < _LARGE  # type: ignore[union-attr]
 
 
+def refusal(wrong: Numbers, name: str, unit: str, limit: str) -> ValueError:
+    """Error that names the first of the wrong numbers with the digits that it was given with."""
+    given = str(wrong.flat[0]).removesuffix(".0")
+    return ValueError(" ".join(filter(None, (name, "=", given, unit, limit))))
+
+
 def _not_infinite(x: Numbers, name: str) -> Numbers:
     infinite = np.isinf(x)
     if np.count_nonzero(infinite):  # costs a fifth of infinite.any() for a single number
-        raise ValueError(f"{name} = {x[infinite].flat[0]} must be finite")
+        raise refusal(x[infinite], name, "", "must be finite")
     return x
 
 

@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mechsheet.mechanics.arguments import Complex, Float, elementwise, field, not_negative
+from mechsheet.mechanics.arguments import Complex, Float, elementwise, field, not_negative, refusal
 from mechsheet.mechanics.load import Load, lever, resultant
 from mechsheet.mechanics.planar import cross, dot
 
@@ -100,8 +100,8 @@ def gear_drive(O1: ArrayLike, P: ArrayLike, alpha_w: ArrayLike, loads: Sequence[
     """
     O1 = field(O1, "O1")
     alpha_w = not_negative(alpha_w, "pressure angle alpha_w", "rad")
-    if not alpha_w.max(initial=0) < np.pi / 2:
-        raise ValueError(f"pressure angle alpha_w = {alpha_w.max():.6g} rad must be less than pi/2")
+    if np.count_nonzero(upright := alpha_w >= np.pi / 2):
+        raise refusal(alpha_w[upright], "pressure angle alpha_w", "rad", "must be less than pi/2")
     F, T = resultant(loads, O1, "loads")
     q = field(P, "P") - O1
     F_t = -T / np.abs(q)

@@ -4,9 +4,11 @@ Independent of the groups and of the order in which they are taken: it proves th
 """
 
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import reduce
-from typing import NamedTuple
+from itertools import chain
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -23,8 +25,8 @@ class PinReaction:
 
     on: int
     by: int
-    P: ArrayLike  # [m] the pin
     F: ArrayLike  # [N] on the body ``on``
+    P: ArrayLike  # [m] the pin
     M: ArrayLike = 0.0  # [N m] a pin passes none on
 
     @property
@@ -44,10 +46,10 @@ class SlideReaction:
 
     on: int
     by: int
-    P: ArrayLike  # [m] point to which they belong
     F: ArrayLike  # [N] on the body ``on``, square to the slide
-    M: ArrayLike  # [N m] on the body ``on``, about P
+    P: ArrayLike  # [m] point to which they belong
     u: ArrayLike  # [-] direction of the slide, of length 1
+    M: ArrayLike = 0.0  # [N m] on the body ``on``, about P
 
     @property
     def units(self) -> tuple[tuple[ArrayLike, ArrayLike], ...]:
@@ -66,9 +68,9 @@ class DriveMoment:
 
     on: int
     M: ArrayLike  # [N m]
-    by: int = 0
-    P: ArrayLike = 0.0
-    F: ArrayLike = 0.0
+    by: ClassVar[int] = 0
+    F: ClassVar[ArrayLike] = 0.0
+    P: ClassVar[ArrayLike] = 0.0
 
     @property
     def units(self) -> tuple[tuple[ArrayLike, ArrayLike], ...]:
@@ -152,22 +154,23 @@ def solve_reactions(loads: Sequence[Sequence[Load]], reactions: Sequence[Reactio
     # moments about a pair of each body and over its longest arm: neither origin nor size of the bodies count
     frames = [_frame(body, of_body, reactions) for body, of_body in enumerate(loads, start=1)]
     scales = [frames[max(r.on, r.by) - 1].arm if not np.any(F) else np.ones(()) for r, F, _ in units]
-    columns = [
-        (j, body - 1, way * _wrench(F, np.multiply(M, scale), r.P, frames[body - 1]))
-        for j, ((r, F, M), scale) in enumerate(zip(units, scales, strict=True))
-        for body, way in ((r.on, 1), (r.by, -1))
-        if body  # the frame of the mechanism, body 0, needs no equilibrium
-    ]
-    known = [sum(_wrench(load.F, load.M, load.P, f) for load in on) for on, f in zip(loads, frames, strict=True)]
-    shape = np.broadcast_shapes(*(np.shape(c)[:-1] for *_, c in columns), *(np.shape(k)[:-1] for k in known))
+    directions = [(np.multiply(F, 1), np.multiply(M, scale)) for (_, F, M), scale in zip(units, scales, strict=True)]
+    points = (x for load in chain.from_iterable(loads) for x in (load.F, load.P, load.M))
+    shape = np.broadcast_shapes(
+        *map(np.shape, points), *(F.shape for F, _ in directions), *(f.arm.shape for f in frames)
+    )
     system, right = np.zeros((*shape, size, size)), np.zeros((*shape, size, 1))
-    for j, body, column in columns:
-        system[..., 3 * body : 3 * body + 3, j] += column
-    for body, of_body in enumerate(known):
-        right[..., 3 * body : 3 * body + 3, 0] = -of_body
-    system[_singular(system, reduce(np.maximum, (f.away for f in frames)))] = np.nan
-    found = np.linalg.solve(system, right)
-    found += np.linalg.solve(system, right - system @ found)  # small reactions keep their digits beside large ones
+    for j, ((r, *_), (F, M)) in enumerate(zip(units, directions, strict=True)):
+        for body, way in ((r.on, 1), (r.by, -1)):
+            if body:  # the frame of the mechanism, body 0, needs no equilibrium
+                _add(system[..., 3 * body - 3 : 3 * body, j], way * F, way * M, r.P, frames[body - 1])
+    for body, of_body in enumerate(loads):
+        for load in of_body:
+            F, M = np.negative(load.F), np.negative(load.M)
+            _add(right[..., 3 * body : 3 * body + 3, 0], F, M, load.P, frames[body])
+    inverse = _inverse(system, reduce(np.maximum, (f.away for f in frames)))
+    found = inverse @ right
+    found += inverse @ (right - system @ found)  # small reactions keep their digits beside large ones
     result: Float = found[..., 0] * np.stack(np.broadcast_arrays(*scales), axis=-1)
     return result
 
@@ -195,17 +198,34 @@ def _frame(body: int, of_body: Sequence[Load], reactions: Sequence[Reaction]) ->
     return _Frame(pole, np.where(arm == 0, 1.0, arm), away)
 
 
-def _wrench(F: ArrayLike, M: ArrayLike, P: ArrayLike, frame: _Frame) -> Float:
-    """Force and its moment about the pole, over the arm, as three components along the last axis."""
-    moment = (np.asarray(M) + cross(np.asarray(P) - frame.pole, F)) / frame.arm
-    return np.stack(np.broadcast_arrays(np.real(F), np.imag(F), moment), axis=-1)
+def _add(of_body: Float, F: ArrayLike, M: ArrayLike, P: ArrayLike, frame: _Frame) -> None:
+    """Add a force and its moment about the pole, over the arm, to the three components along the last axis."""
+    of_body[..., 0] += np.real(F)
+    of_body[..., 1] += np.imag(F)
+    of_body[..., 2] += (np.asarray(M) + cross(np.asarray(P) - frame.pole, F)) / frame.arm
 
 
-def _singular(system: Float, away: Float) -> NDArray[np.bool_]:
-    """Whether rounding of the points, which lie so many arms from the origin, can leave bodies that move."""
-    finite = np.asarray(np.isfinite(system).all((-2, -1)))
-    s = np.linalg.svdvals(np.where(finite[..., None, None], system, 0.0))
-    return np.asarray(~finite | (s[..., -1] <= ROUNDINGS * (s[..., 0] + away)))
+def _inverse(system: Float, away: Float) -> Float:
+    """Inverse; NaN where rounding of the points, which lie so many arms from the origin, can leave bodies that move."""
+    one = np.eye(system.shape[-1])
+    lost = np.asarray(~np.isfinite(system).all((-2, -1)))
+    system = np.where(lost[..., None, None], one, system)
+    doubtful = np.ones_like(lost)
+    with suppress(np.linalg.LinAlgError):  # one is singular to its last digit
+        inverse = np.linalg.inv(system)
+        # the least singular value is more than one over the size of the inverse, and takes longer to find
+        doubtful = ~(ROUNDINGS * (_size(system) + away) * _size(inverse) < 1)
+    if np.any(doubtful):
+        s = np.linalg.svdvals(system[doubtful])
+        lost[doubtful] |= s[..., -1] <= ROUNDINGS * (s[..., 0] + np.broadcast_to(away, lost.shape)[doubtful])
+        inverse = np.linalg.inv(np.where(lost[..., None, None], one, system))
+    return np.where(lost[..., None, None], np.nan, inverse)
+
+
+def _size(matrix: NDArray[Any]) -> Float:
+    """Frobenius norm: no less than the greatest singular value."""
+    size: Float = np.linalg.norm(matrix, axis=(-2, -1))
+    return size
 
 
 def _numbered(loads: Sequence[Sequence[Load]], reactions: Sequence[Reaction]) -> None:

@@ -186,7 +186,7 @@ _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(16)  # exact to rounding for 
 
 @elementwise
 @np.errstate(over="ignore")  # a neutral axis beyond all floats is infinite
-def circular_joint(phi: ArrayLike, r: ArrayLike, M: ArrayLike, N: ArrayLike) -> Ring:
+def circular_joint(r: ArrayLike, phi: ArrayLike, M: ArrayLike, N: ArrayLike) -> Ring:
     r"""Circular joint: bolts carry the tension, contact of the rims the compression.
 
     A uniform ring would carry the line load :math:`q = (M \cos\varphi + N r / 2) / \pi r^2`, proportional to
@@ -205,10 +205,10 @@ def circular_joint(phi: ArrayLike, r: ArrayLike, M: ArrayLike, N: ArrayLike) -> 
 
     Parameters
     ----------
-    phi : float, shape (..., m)
-        Angles of the bolts from the plane of the load [rad].
     r : float, shape (...)
         Radius of the joint [m], positive.
+    phi : float, shape (..., m)
+        Angles of the bolts from the plane of the load [rad].
     M, N : float, shape (...)
         Moment [N m] and normal force [N].
 

@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mechsheet.mechanics.arguments import Complex, Float, broadcasting, elementwise, field, scalar_field
+from mechsheet.mechanics.arguments import Complex, Float, broadcasting, elementwise, field, refusal, scalar_field
 
 __all__ = [
     "Complex",
@@ -194,7 +194,7 @@ def link_point(A: ArrayLike, B: ArrayLike, z: ArrayLike) -> Complex:
 
 
 @broadcasting
-def link_velocity(P: ArrayLike, A: ArrayLike, v_A: ArrayLike = 0.0, omega: ArrayLike = 0.0) -> Complex:
+def link_velocity(P: ArrayLike, A: ArrayLike, omega: ArrayLike, v_A: ArrayLike = 0.0) -> Complex:
     r"""Velocity of the point P of a link that turns with omega, A being another point of it.
 
     .. math:: v_P = v_A + i \omega (P - A)
@@ -203,10 +203,10 @@ def link_velocity(P: ArrayLike, A: ArrayLike, v_A: ArrayLike = 0.0, omega: Array
     ----------
     P, A : complex, shape (...)
         Points of the link [m].
-    v_A : complex, shape (...)
-        Velocity of A [m/s], or its analogue.
     omega : float, shape (...)
         Angular velocity of the link [rad/s], or its analogue.
+    v_A : complex, shape (...)
+        Velocity of A [m/s], or its analogue; A rests where it is left out.
 
     Returns
     -------
@@ -215,7 +215,7 @@ def link_velocity(P: ArrayLike, A: ArrayLike, v_A: ArrayLike = 0.0, omega: Array
 
     Examples
     --------
-    >>> link_velocity(2j, 0, 1, 3)
+    >>> link_velocity(2j, 0, 3, 1)
     np.complex128(-5+0j)
     """
     return field(v_A, "v_A") + 1j * scalar_field(omega, "omega") * (field(P, "P") - field(A, "A"))
@@ -223,7 +223,7 @@ def link_velocity(P: ArrayLike, A: ArrayLike, v_A: ArrayLike = 0.0, omega: Array
 
 @broadcasting
 def link_acceleration(
-    P: ArrayLike, A: ArrayLike, omega: ArrayLike = 0.0, a_A: ArrayLike = 0.0, epsilon: ArrayLike = 0.0
+    P: ArrayLike, A: ArrayLike, omega: ArrayLike, epsilon: ArrayLike = 0.0, a_A: ArrayLike = 0.0
 ) -> Complex:
     r"""Acceleration of the point P of a link, A being another point of it.
 
@@ -235,10 +235,10 @@ def link_acceleration(
         Points of the link [m].
     omega : float, shape (...)
         Angular velocity of the link [rad/s], or its analogue.
-    a_A : complex, shape (...)
-        Acceleration of A [m/s^2], or its analogue.
     epsilon : float, shape (...)
         Angular acceleration of the link [rad/s^2], or its analogue.
+    a_A : complex, shape (...)
+        Acceleration of A [m/s^2], or its analogue; A rests where it is left out.
 
     Returns
     -------
@@ -247,7 +247,7 @@ def link_acceleration(
 
     Examples
     --------
-    >>> link_acceleration(2, 0, omega=3, a_A=1, epsilon=4)
+    >>> link_acceleration(2, 0, 3, 4, a_A=1)
     np.complex128(-17+8j)
     """
     turning = 1j * scalar_field(epsilon, "epsilon") - scalar_field(omega, "omega") ** 2
@@ -268,5 +268,5 @@ def flat(x: Float, y: Float, z: Float) -> NDArray[np.bool_]:
 def _side(value: ArrayLike, name: str) -> Float:
     x = scalar_field(value, name)
     if (x < 0).any():
-        raise ValueError(f"side {name} = {x[x < 0].flat[0]:.6g} m must not be negative")
+        raise refusal(x[x < 0], f"side {name}", "m", "must not be negative")
     return x

@@ -181,7 +181,7 @@ def rrp_velocity(
     >>> rrp_velocity(3j, 0, 4, 1, v_A=1j).ds
     np.float64(-0.75)
     """
-    a, u, size, D = _link(A, C, u)
+    A, C, a, u, size, D = _link(A, C, u)
     guide, known, shared = _guided(A, B, C, field(v_B, "v_B"), scalar_field(omega_B, "omega_B"))
     minus_omega, along = slid(a, u, moved(field(v_A, "v_A"), a, dr_A, "dr_A") - known, D)
     return RRPVelocity(guide + along * u, shared - minus_omega, along * size)
@@ -239,11 +239,11 @@ def rrp_acceleration(
     >>> rrp_acceleration(3j, 0, 4, 1, -0.25, -0.75).dds
     np.float64(-0.390625)
     """
-    a, u, size, D = _link(A, C, u)
+    A, C, a, u, size, D = _link(A, C, u)
     a_B, omega_B = field(a_B, "a_B"), scalar_field(omega_B, "omega_B")
     ds = scalar_field(ds, "ds")
     if omega_B.ndim or omega_B:
-        a_B = a_B - omega_B**2 * (field(C, "C") - field(B, "B")) + (2j * omega_B * ds / size) * u
+        a_B = a_B - omega_B**2 * (C - field(B, "B")) + (2j * omega_B * ds / size) * u
     guide, known, shared = _guided(A, B, C, a_B, scalar_field(epsilon_B, "epsilon_B"))
     along_A, coriolis_A = carried(a, omega_A, dr_A, ddr_A, "A")
     minus_x, along = slid(a, u, field(a_A, "a_A") + along_A - known, D)
@@ -282,8 +282,8 @@ def rrp_condition(A: ArrayLike, B: ArrayLike, C: ArrayLike, u: ArrayLike) -> Flo
     >>> rrp_condition(3j, 0, 4, 1)
     np.float64(3.0)
     """
-    a, _, size, D = _link(A, C, u)
-    guide = field(C, "C") - field(B, "B")
+    A, C, a, _, size, D = _link(A, C, u)
+    guide = C - field(B, "B")
     return condition((np.abs(A) + np.abs(B) + np.abs(a) + np.abs(guide)) * size, D)
 
 
@@ -322,9 +322,9 @@ def rrp_reactions(
     >>> rrp_reactions(3j, 4, 1, loads_B=[Load(8, 4)]).R_B.imag
     np.float64(-6.0)
     """
-    a, u, size, D = _link(A, C, u)
-    F_A, T_A = resultant(loads_A, field(A, "A"), "loads_A")
-    F_B, T_B = resultant(loads_B, field(C, "C"), "loads_B")
+    A, C, a, u, size, D = _link(A, C, u)
+    F_A, T_A = resultant(loads_A, A, "loads_A")
+    F_B, T_B = resultant(loads_B, C, "loads_B")
     N = -(T_A + cross(a, F_B)) / D
     R_B = 1j * N * u
     R_C = R_B + F_B
@@ -410,14 +410,14 @@ class RRPGroup:
         return rrp_reactions(self.A, self.C, self.u, loads_A, loads_B)
 
 
-def _link(A: ArrayLike, C: ArrayLike, u: ArrayLike) -> tuple[Complex, Complex, Float, Float]:
-    """Vector AC, the guide's direction as given and its length, and the group's determinant times that length."""
+def _link(A: ArrayLike, C: ArrayLike, u: ArrayLike) -> tuple[Complex, Complex, Complex, Complex, Float, Float]:
+    """Pins A and C, vector AC, the guide's direction and its length, and the determinant times that length."""
     A, C, (u, size) = field(A, "A"), field(C, "C"), direction(u, "u")
     a = C - A
-    return a, u, size, determinant(dot(a, u), (np.abs(A) + np.abs(C)) * size)
+    return A, C, a, u, size, determinant(dot(a, u), (np.abs(A) + np.abs(C)) * size)
 
 
-def _guided(A: ArrayLike, B: ArrayLike, C: ArrayLike, v: Complex, omega: Float) -> tuple[Complex, Complex, Float]:
+def _guided(A: Complex, B: ArrayLike, C: Complex, v: Complex, omega: Float) -> tuple[Complex, Complex, Float]:
     """Motion of the guide at C; its motion at A or at C, and what the link's turning is counted from then.
 
     A guide that turns moves what is far from B by much more than the link makes of it. Where A is much nearer to B than
@@ -426,7 +426,7 @@ def _guided(A: ArrayLike, B: ArrayLike, C: ArrayLike, v: Complex, omega: Float) 
     B = field(B, "B")
     if not (omega.ndim or omega or B.ndim) and B == B:
         return v, v, np.zeros(())
-    from_A, from_C = field(A, "A") - B, field(C, "C") - B
+    from_A, from_C = A - B, C - B
     guide = v + 1j * omega * from_C
     at_A = 16 * np.abs(from_A) < np.abs(from_C)
     if not np.count_nonzero(at_A):

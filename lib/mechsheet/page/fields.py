@@ -7,7 +7,8 @@ import marimo as mo
 
 from mechsheet import units
 from mechsheet.document.markup import named
-from mechsheet.worksheet.inputs import declared, text
+from mechsheet.worksheet.inputs import declared
+from mechsheet.worksheet.kinds import Choice, Input, Switch
 from mechsheet.worksheet.title import Slider
 
 _SIGNS = {"<": "&lt;", ">": "&gt;", "<=": "≤", ">=": "≥"}
@@ -23,7 +24,7 @@ class _Fields(mo.ui.batch):
     A field tells of its change itself; the batch told of it again, so that the whole sheet ran twice.
     """
 
-    def __init__(self, template: str, fields: "dict[str, mo.ui.text]") -> None:
+    def __init__(self, template: str, fields: "dict[str, Any]") -> None:
         self.template = template
         super().__init__(mo.Html(template), fields)
 
@@ -32,8 +33,18 @@ class _Fields(mo.ui.batch):
         return self.template.format(**{name: field.text for name, field in self.elements.items()})
 
 
+def _element(field: Input, value: Any) -> Any:
+    """What an input is edited with: a drop-down, a check box, or a field of text."""
+    match field:
+        case Choice(options=options):
+            return mo.ui.dropdown(options, value=field.text(value))
+        case Switch():
+            return mo.ui.checkbox(value=value)
+    return mo.ui.text(value=field.text(value), debounce=True)
+
+
 def fields(g: Any) -> "mo.ui.batch":
-    """Text fields with the values of the inputs ``g``, section by section."""
+    """Fields with the values of the inputs ``g``, section by section."""
     sections: dict[str, list[str]] = {}
     texts = {}
     for field in declared(type(g)):
@@ -45,7 +56,7 @@ def fields(g: Any) -> "mo.ui.batch":
             f'<td style="padding-left:.7em;line-height:1.2">{html.escape(field.meaning)}'
             f'<span style="opacity:.5;padding-left:.6em">{limits}</span></td></tr>'
         )
-        texts[field.name] = mo.ui.text(value=text(field, getattr(g, field.name)), debounce=True)
+        texts[field.name] = _element(field, getattr(g, field.name))
     blocks = "".join(
         f'<div style="break-inside:avoid"><b>{html.escape(section)}</b><table>{"".join(rows)}</table></div>'
         for section, rows in sections.items()

@@ -3,8 +3,10 @@
 from functools import lru_cache
 from html import escape
 
+import numpy as np
+
 from mechsheet import units
-from mechsheet.document.expression import equation, reads, substituted
+from mechsheet.document.expression import equation, fields_by_name, reads, substituted
 from mechsheet.document.formula import Measure
 from mechsheet.document.latex import latex
 from mechsheet.document.markup import HTML
@@ -15,21 +17,34 @@ from mechsheet.worksheet.lines import Formula, Given, Numbers, Typeset
 def lines(shown: Typeset) -> str:
     """The lines as they stand in the page."""
     return "".join(
-        _line(_equation(row), "", "", "") if isinstance(row, Given) else _formula(row, value, shown)
+        _line(_equation(row, _single(row, shown)), "", "", "")
+        if isinstance(row, Given)
+        else _formula(row, value, shown)
         for row, value in zip(shown.rows, shown.values, strict=True)
     )
 
 
 @lru_cache(maxsize=4096)
-def _equation(line: Formula | Given) -> str:
-    return latex(equation(line))
+def _equation(line: Formula | Given, single: frozenset[str]) -> str:
+    return latex(equation(line, single))
+
+
+def _single(line: Formula | Given, shown: Typeset) -> frozenset[str]:
+    """Names of a line that end as a field does and have no positions."""
+    if shown.numbers is None:
+        return frozenset()
+    known = shown.numbers.namespace
+    over = np.ndim(known.get("S", 0)) > 0
+    return frozenset(n for n in fields_by_name(line) if not over or (n in known and np.ndim(known[n]) == 0))
 
 
 def _formula(line: Formula, value: object, shown: Typeset) -> str:
+    single = _single(line, shown)
     if line.arguments:
-        return _line(_equation(line), "", line.meaning, "", line.mistake)
+        return _line(_equation(line, single), "", line.meaning, "", line.mistake)
     text = "" if shown.numbers is None else _substituted(line, shown.numbers, shown.position)
-    return _line(f"{_equation(line)} =", numbers.value(value, line.unit, HTML), line.meaning, text, line.mistake)
+    value_text = numbers.value(value, line.unit, HTML)
+    return _line(f"{_equation(line, single)} =", value_text, line.meaning, text, line.mistake)
 
 
 def _substituted(line: Formula, known: Numbers, position: int) -> str:

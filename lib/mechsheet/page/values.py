@@ -164,7 +164,7 @@ def _(value: Typeset) -> str:
 def _(check: Check) -> str:
     unit = "" if check.unit == "-" else f" {escape(units.shown(check.unit))}"
     sign = "≤" if check.passed else "≰"
-    residual, limit = (numbers.significant(x, 2) for x in (check.residual, check.limit))
+    residual, limit = check.compared
     compared = f": {residual} {sign} {limit}{unit}" if check.evaluated else ""
     return (
         f'<div id="{_anchor(check)}">{_badge(check)} {in_words(check.name)}{compared}'
@@ -219,11 +219,11 @@ def _(found: Found) -> str:
 @html.register
 def _(used: Used) -> str:
     changed, items, rows, section = used.changed, [], [], ""
-    for field, value in used.rows():
+    for field, _ in used.rows():
         unit = "" if field.unit == "-" else escape(units.shown(field.unit))
         weight = "bold" if field.name in changed else "normal"
         name = named(field.name)
-        number = numbers.significant(value, 10)
+        number = escape(field.brief(getattr(used.g, field.name)))
         shown = f"{name}&nbsp;=&nbsp;{number}&nbsp;{unit}"
         items.append(f'<span style="white-space:nowrap;font-weight:{weight}">{shown}</span>')
         if field.section != section:

@@ -1,24 +1,40 @@
 """What Python decides by itself, for recorded quantities: which of two numbers, which element, the greater of some."""
 
 import builtins
-from collections.abc import Callable, Iterable
-from functools import partial
+import operator
+import weakref
+from collections.abc import Callable, Iterable, Mapping
+from types import FunctionType
 from typing import Any
 
 import numpy as np
 
+from mechsheet.recording.graph import NotRecorded
+from mechsheet.recording.memory import Memory, may_change, names_of
 from mechsheet.recording.quantity import (
     Quantity,
     elementwise,
     has_quantity,
     joined,
     lift,
+    owner,
     plain,
+    quantities,
     trunc,
 )
 from mechsheet.recording.quantity import choice as where
+from mechsheet.worksheet.kinds import Chosen, cases
 
 _NUMBERS = int | float | complex | np.number | Quantity
+_ARRAYS = _NUMBERS | np.bool_ | np.ndarray
+_DEEPEST = 8  # ways in one another that are recorded though Python does not take them
+
+
+class _Unbound:
+    """Stands for what a name has before it is bound."""
+
+
+UNBOUND = _Unbound()
 
 
 def _condition(value: Any) -> bool:
@@ -26,42 +42,85 @@ def _condition(value: Any) -> bool:
     return isinstance(value, Quantity) and value.size == 1 and value.im is None and value.re.op != "constant"
 
 
-def choice(condition: Any, x: Callable[[], Any], y: Callable[[], Any]) -> Any:
-    """``x if condition else y``: of two numbers the one that the condition says, else the way that is taken now."""
+def choice(condition: Any, x: FunctionType, y: FunctionType, *given: Any) -> Any:
+    """What ``x`` or else ``y`` gives: of numbers those that the condition says, else those of the way that is taken.
+
+    The way that is not taken is run too, where it changes nothing; it need not exist with these numbers.
+    """
     if not _condition(condition):
-        return x() if condition else y()
-    now, later = (x, y) if condition.value else (y, x)
-    value = now()
-    looked = dict(condition.graph.looked)
-    try:
-        other = later()
-    except Exception:  # the way that is not taken need not exist
-        other = None
-    if isinstance(value, _NUMBERS) and isinstance(other, _NUMBERS):
-        return where(condition.graph, condition, *((value, other) if condition.value else (other, value)))
-    condition.graph.looked = looked
-    bool(condition)
-    return value
+        return (x if condition else y)(*given)
+    graph, (now, later) = condition.graph, (x, y) if condition.value else (y, x)
+    before = Memory([*_reached(now), *_reached(later), *given], now.__globals__)
+    value, both = now(*given), None
+    looked = dict(graph.looked)
+    if graph.supposed < _DEEPEST and not before.changed() and not _may_change(later):
+        graph.supposed += 1
+        try:
+            other = later(*given)
+            both = _merged(condition, *((value, other) if condition.value else (other, value)))
+        except (Exception, NotRecorded):
+            both = None
+        finally:
+            graph.supposed -= 1
+        if before.changed():
+            raise NotRecorded("the way that is not taken changes something")
+    if both is None:
+        graph.looked = looked
+        bool(condition)
+        return value
+    return both
 
 
-def both(*parts: Callable[[], Any]) -> Any:
+def _merged(condition: Quantity, x: Any, y: Any) -> Any:
+    """``x`` where the condition holds, else ``y``; None where these are not of one kind."""
+    if x is y:
+        return x
+    if (x if condition.value else y) is UNBOUND:
+        return UNBOUND
+    x, y = _missing(y) if x is UNBOUND else x, _missing(x) if y is UNBOUND else y
+    if isinstance(x, tuple) and type(x) is type(y) is tuple and len(x) == len(y):
+        parts = [_merged(condition, a, b) for a, b in zip(x, y, strict=True)]
+        return None if any(part is None for part in parts) else tuple(parts)
+    if isinstance(x, _ARRAYS) and isinstance(y, _ARRAYS) and np.shape(x) == np.shape(y):
+        return where(condition.graph, condition.reshape(()), x, y)
+    return None
+
+
+def _missing(value: Any) -> Any:
+    """What stands for a number on a way where the worksheet has none."""
+    return np.full(np.shape(value), np.nan) if isinstance(value, _ARRAYS) else UNBOUND
+
+
+def _reached(f: FunctionType) -> list[Any]:
+    """What a function reads, but for its arguments."""
+    return [f.__closure__, *(f.__globals__.get(name) for name in names_of(f.__code__))]
+
+
+def _may_change(f: FunctionType) -> bool:
+    inner = [c.cell_contents for c in f.__closure__ or () if isinstance(c.cell_contents, FunctionType)]
+    return may_change([f.__code__, *(g.__code__ for g in inner)], f.__globals__)
+
+
+def known(names: Mapping[str, Any], *wanted: str) -> list[Any]:
+    """What some names are bound to."""
+    return [names.get(name, UNBOUND) for name in wanted]
+
+
+def both(*parts: FunctionType) -> Any:
     """``x and y``: of conditions whether all hold."""
     return _all(parts, True)
 
 
-def any_of(*parts: Callable[[], Any]) -> Any:
+def any_of(*parts: FunctionType) -> Any:
     """``x or y``."""
     return _all(parts, False)
 
 
-def _all(parts: tuple[Callable[[], Any], ...], wanted: bool) -> Any:
+def _all(parts: tuple[FunctionType, ...], wanted: bool) -> Any:
     value = parts[0]()
     for part in parts[1:]:
-        known = value
         if _condition(value):
-            value = (
-                choice(value, part, partial(_itself, known)) if wanted else choice(value, partial(_itself, known), part)
-            )
+            value = choice(value, part, _given(value)) if wanted else choice(value, _given(value), part)
         elif bool(value) is wanted:
             value = part()
         else:
@@ -69,8 +128,8 @@ def _all(parts: tuple[Callable[[], Any], ...], wanted: bool) -> Any:
     return value
 
 
-def _itself(value: Any) -> Any:
-    return value
+def _given(value: Any) -> Any:
+    return lambda: value
 
 
 def negated(value: Any) -> Any:
@@ -79,6 +138,8 @@ def negated(value: Any) -> Any:
 
 def element(container: Any, key: Any) -> Any:
     """``container[key]``: where the key is a quantity, the one of several numbers that it points at."""
+    if isinstance(key, Chosen) and isinstance(container, dict):
+        return _of_option(container, key, cases(key))
     if not isinstance(key, Quantity) or isinstance(container, Quantity):
         return container[key]
     if isinstance(container, np.ndarray) and container.dtype.kind in "biufc":
@@ -95,17 +156,59 @@ def element(container: Any, key: Any) -> Any:
     return result
 
 
+def _of_option(container: dict[Any, Any], key: Chosen, is_it: dict[str, Any]) -> Any:
+    """``container[key]`` of a chosen option: numbers or tuples of them of all options, else of the one chosen now."""
+    rows = {option: container[option] for option in is_it if option in container}
+    if any(condition.value and option not in rows for option, condition in is_it.items()):
+        return container[key]
+    if all(isinstance(row, _NUMBERS) for row in rows.values()):
+        result: Any = np.nan
+        for option, value in rows.items():
+            result = where(is_it[option].graph, is_it[option], value, result)
+        return result
+    if all(isinstance(row, tuple) for row in rows.values()) and len(set(map(len, rows.values()))) == 1:
+        count = range(len(next(iter(rows.values()))))
+        return tuple(_of_option({option: row[n] for option, row in rows.items()}, key, is_it) for n in count)
+    return container[key]
+
+
 def put(array: Any, key: Any, value: Any) -> Any:
     """The array after ``array[key] = value``."""
     if not isinstance(array, np.ndarray | Quantity) or not has_quantity([array, key, value]):
         array[key] = value
         return array
-    graph = next(part.graph for part in (array, key, value) if has_quantity(part) and isinstance(part, Quantity))
+    graph = next(quantities([array, key, value])).graph
+    graph.gone.append(weakref.ref(owner(array)))
     old, key = lift(graph, array), plain(key)
     order = np.arange(old.size).reshape(old.shape)
     new = lift(graph, value).broadcast(np.shape(order[key])).reshape(-1)
     order[key] = old.size + np.arange(new.size).reshape(np.shape(order[key]))
     return joined([old.reshape(-1), new], order)
+
+
+def changed(old: Any, operation: str, value: Any) -> Any:
+    """``old`` after ``old += value`` or another such operation."""
+    if not (isinstance(old, np.ndarray | Quantity) and old.ndim and has_quantity([old, value])):
+        return getattr(operator, f"i{operation.rstrip('_')}")(old, value)
+    graph = next(quantities([old, value])).graph
+    graph.gone.append(weakref.ref(owner(old)))
+    new = lift(graph, getattr(operator, operation)(old, value))
+    if new.shape != np.shape(old):
+        raise ValueError(f"an array of shape {np.shape(old)} cannot hold one of shape {new.shape}")
+    return new
+
+
+def settled(new: Any) -> None:
+    """End the change of an array for which another one has been put: nobody else may know the old one."""
+    if isinstance(new, Quantity):
+        gone, new.graph.gone = new.graph.gone, []
+        if any(array() is not None for array in gone):
+            raise NotRecorded("an array is changed that has another name too")
+
+
+def handled(error: BaseException) -> None:
+    """An exception that the worksheet handles may be one of recorded quantities alone."""
+    raise NotRecorded(f"it handles an error ({error!r})")
 
 
 def part(number: Any, name: str, value: Any) -> Any:
@@ -131,9 +234,10 @@ def _extreme(name: str) -> Callable[..., Any]:
     return function
 
 
-CALLS: dict[str, Callable[..., Any]] = {
+CALLS: dict[str, Any] = {
     "choice": choice, "and": both, "or": any_of, "not": negated, "element": element, "put": put,
-    "part": part,
+    "part": part, "changed": changed, "settled": settled, "handled": handled,
+    "known": known, "unbound": UNBOUND,
     "max": _extreme("max"), "min": _extreme("min"), "round": round,
     "float": lambda *x: x[0] if has_quantity(x) else float(*x),
     "int": lambda *x: trunc(x[0]) if has_quantity(x) else int(*x),

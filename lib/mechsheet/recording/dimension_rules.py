@@ -50,7 +50,7 @@ class Reader:
         self.pivots = recording.graph.pivots
         self.wrong: set[Node] = set()
         self.told: set[tuple[int, str]] = set()
-        self.unit_of = {field.name: field.unit for field in inputs.declared(type(namespace["g"]))}
+        self.unit_of = inputs.units_of(type(namespace["g"]))
         self.names = {node: name for name, node in recording.inputs.items()}
         self.declared: dict[Node, list[Formula]] = {}
         for line in lines:

@@ -10,15 +10,16 @@ from collections.abc import Callable
 from inspect import isfunction
 from typing import Any
 
-from mechsheet.mechanics import crank, drive, joint, load, planar, prp, rpp, rpr, rrp, rrr
-from mechsheet.recording import elementary_groups, elementary_joint, elementary_planar
+from mechsheet.mechanics import crank, drive, equilibrium, joint, load, planar, prp, rpp, rpr, rrp, rrr
+from mechsheet.recording import elementary_equilibrium, elementary_groups, elementary_joint, elementary_planar
 
 
 def _steps() -> dict[Callable[..., Any], Callable[..., Any]]:
-    own = {**vars(elementary_planar), **vars(elementary_groups), **vars(elementary_joint)}
+    files = elementary_planar, elementary_groups, elementary_joint, elementary_equilibrium
+    own = {name: f for file in files for name, f in vars(file).items()}
     return {
         f: own[name]
-        for home in (planar, load, crank, rrr, rrp, rpr, prp, rpp, drive, joint)
+        for home in (planar, load, crank, rrr, rrp, rpr, prp, rpp, drive, joint, equilibrium)
         for name, f in vars(home).items()
         if isfunction(f) and f.__module__ == home.__name__ and name in own and not name.startswith("_")
     }

@@ -50,9 +50,9 @@ def neutral_axis(y: Quantity, A_t: Quantity, A_c: Quantity, M: Quantity, N: Quan
     return Section(result.sigma, result.sigma * area, area, result.y_0, known.state)
 
 
-def circular_joint(phi: Quantity, r: Quantity, M: Quantity, N: Quantity) -> Ring:
+def circular_joint(r: Quantity, phi: Quantity, M: Quantity, N: Quantity) -> Ring:
     """The two equations of equilibrium with the integrals over the compressed arc written out."""
-    known = joint.circular_joint(*_numbers(phi, r, M, N))
+    known = joint.circular_joint(*_numbers(r, phi, M, N))
     bend, axial, side = 2 * np.abs(M), N * r, np.where(M < 0, -1.0, 1.0)
     u = step("u", "-", "1 where the joint is stretched most", side[..., None] * np.cos(phi))
     q = step("q", "N*m", "line load of a uniform ring at the bolt, pulled part", axial[..., None] + bend[..., None] * u)

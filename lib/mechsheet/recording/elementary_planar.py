@@ -33,11 +33,11 @@ def angle_opposite(a: Quantity, b: Quantity, c: Quantity) -> Quantity:
     return 2 * np.arctan2(np.sqrt(over), np.sqrt(under))
 
 
-def link_velocity(P: Quantity, A: Quantity, v_A: Quantity = 0, omega: Quantity = 0) -> Quantity:
+def link_velocity(P: Quantity, A: Quantity, omega: Quantity, v_A: Quantity = 0) -> Quantity:
     return v_A + 1j * omega * (P - A)
 
 
-def link_acceleration(P: Quantity, A: Quantity, omega: Quantity, a_A: Quantity = 0, epsilon: Quantity = 0) -> Quantity:
+def link_acceleration(P: Quantity, A: Quantity, omega: Quantity, epsilon: Quantity = 0, a_A: Quantity = 0) -> Quantity:
     return a_A + (1j * epsilon - omega**2) * (P - A)
 
 

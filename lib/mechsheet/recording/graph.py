@@ -1,6 +1,8 @@
 """The graph of a recording: quantities as operations on other quantities, and how they are made."""
 
+import weakref
 from collections.abc import Callable, Container, Iterable, Iterator, Sequence
+from contextvars import ContextVar
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
@@ -25,8 +27,8 @@ def bottom_up(roots: Iterable["Node"], known: Container["Node"]) -> Iterator["No
             stack.extend((operand, False) for operand in node.operands if operand not in done)
 
 
-class NotRecorded(Exception):
-    """Something that a recording does not hold, in words."""
+class NotRecorded(BaseException):
+    """Something that a recording does not hold, in words; no code of a worksheet handles it."""
 
 
 MOST = 50_000  # numbers that one statement of a worksheet may compute
@@ -120,6 +122,8 @@ class Graph:
         self.pivots = set[Node]()  # conditions that put the rows of linear equations in order, which may be unlike
         self.nodes: dict[Any, Node] = {}
         self.looked: dict[Node, Guard] = {}  # by their conditions; since somebody emptied it
+        self.gone: list[weakref.ref[Any]] = []  # arrays in whose place another one was put
+        self.supposed = 0  # ways that Python does not take and that are recorded beside it, one in another
         self.labels: dict[Node, Label] = {}
 
     def node(self, op: str, *args: Node) -> Node:
@@ -275,6 +279,9 @@ class Graph:
         if all(a.op == "constant" and not a.args for a in args):
             return self.constant(ELEMENTWISE[op](*[a.value for a in args]))
         return self.node(op, *args)
+
+
+current: ContextVar[Graph] = ContextVar("current")  # the graph of the recording that is made here
 
 
 def is_number(node: Node, number: float) -> bool:

@@ -1,6 +1,8 @@
 """What numpy's functions make of recorded quantities: a rule for each of those that a recording knows."""
 
+import math
 from collections.abc import Callable
+from copy import copy
 from typing import Any
 
 import numpy as np
@@ -75,12 +77,12 @@ def _rearranged(f: Callable[..., Any]) -> Callable[..., Any]:
     """Function that only moves elements: what it does with their positions, it does with them."""
 
     def operation(graph: Graph, x: Any, *args: Any, **kwargs: Any) -> Any:
-        x = lift(graph, x)
         given = [plain(a) for a in args], {name: plain(a) for name, a in kwargs.items()}
-        moved = f(np.arange(x.size).reshape(x.shape), *given[0], **given[1])
-        if isinstance(moved, list | tuple):
-            return [x.take(np.asarray(part)) for part in moved]
-        return x.take(np.ascontiguousarray(moved))
+        x = lift(graph, x)
+        if f in (np.split, np.array_split):
+            count = len(f(np.empty(x.shape), *given[0], **given[1]))
+            return [x.rearranged(lambda order, n=n: f(order, *given[0], **given[1])[n]) for n in range(count)]
+        return x.rearranged(lambda order: f(order, *given[0], **given[1]))
 
     return operation
 
@@ -271,6 +273,12 @@ def _close(graph: Graph, x: Any, y: Any, rtol: float = 1e-5, atol: float = 1e-8)
     return absolute(x - y) <= atol + rtol * absolute(y)
 
 
+def _near(graph: Graph, x: Any, y: Any, *, rel_tol: float = 1e-9, abs_tol: float = 0.0) -> Any:
+    """Python's isclose."""
+    x, y = lift(graph, x), lift(graph, y)
+    return absolute(x - y) <= np.maximum(rel_tol * np.maximum(absolute(x), absolute(y)), abs_tol)
+
+
 def _like(value: Any) -> Callable[..., Any]:
     return lambda graph, x, *given, dtype=None: np.full(np.shape(x), *(given or (value,)))
 
@@ -296,7 +304,7 @@ _OF_FUNCTIONS: dict[Any, Callable[..., Any]] = {
     np.where: _chosen, np.angle: lambda graph, x: angle(lift(graph, x)), np.real: _real,
     np.imag: lambda graph, x: lift(graph, x).imag, np.shape: lambda graph, x: lift(graph, x).shape,
     np.ndim: lambda graph, x: lift(graph, x).ndim, np.size: lambda graph, x: lift(graph, x).size,
-    np.iscomplexobj: lambda graph, x: lift(graph, x).im is not None, np.copy: lambda graph, x: lift(graph, x),
+    np.iscomplexobj: lambda graph, x: lift(graph, x).im is not None, np.copy: lambda graph, x: copy(lift(graph, x)),
     np.round: lambda graph, x, decimals=0: rounded(lift(graph, x), decimals), np.fix: lambda graph, x: trunc(x),
     np.max: _reduction("max"), np.amax: _reduction("max"), np.nanmax: _reduction("nanmax"),
     np.min: _reduction("min"), np.amin: _reduction("min"), np.nanmin: _reduction("nanmin"),
@@ -315,6 +323,7 @@ _OF_FUNCTIONS: dict[Any, Callable[..., Any]] = {
     np.linalg.inv: lambda graph, A: solution(graph, A, np.eye(np.shape(A)[-1])),
     np.trace: lambda graph, A: lift(graph, A)[np.arange(len(A)), np.arange(len(A))].reduced("sum"),
     np.polyval: _polynomial, np.select: _selected, np.piecewise: _piecewise, np.clip: _clipped, np.isclose: _close,
+    math.isclose: _near,
     np.allclose: lambda graph, *args, **rest: _close(graph, *args, **rest).reduced("all"),
     np.nan_to_num: lambda graph, x, nan=0.0: choice(graph, finite(lift(graph, x)), x, nan),
     np.zeros_like: _like(0.0), np.ones_like: _like(1.0), np.full_like: _like(np.nan), np.empty_like: _like(0.0),

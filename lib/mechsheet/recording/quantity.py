@@ -27,10 +27,11 @@ METHODS = frozenset({
 class Quantity(NDArrayOperatorsMixin):
     """A quantity of a worksheet, real or complex, that takes part in arithmetic and in numpy's functions."""
 
-    __slots__ = ("graph", "im", "re")
+    __slots__ = ("__weakref__", "base", "graph", "im", "re")
 
     def __init__(self, graph: Graph, re: Node, im: Node | None = None) -> None:
         self.graph, self.re, self.im = graph, re, im
+        self.base: Quantity | None = None  # of which it is a view, were these numpy's arrays
 
     @property
     def value(self) -> Values:
@@ -139,7 +140,25 @@ class Quantity(NDArrayOperatorsMixin):
     def take(self, index: Values) -> "Quantity":
         """Elements by their flat positions, in the shape of ``index``."""
         shape = self.shape
-        return self.each(lambda node: self.graph.take(self._whole(node, shape), index))
+        return self.each(lambda node: self.graph.take(self._whole(node, shape), np.asarray(index, order="C")))
+
+    def rearranged(self, f: Callable[[Values], Values]) -> "Quantity":
+        """What a function that only moves elements makes of it: what it does with their positions."""
+        order = np.arange(self.size).reshape(self.shape)
+        moved = f(order)
+        result = self.take(moved)
+        if np.ndim(moved) and owner(moved) is owner(order):
+            result.base = self
+        return result
+
+    def __copy__(self) -> "Quantity":
+        return Quantity(self.graph, self.re, self.im)
+
+    def __deepcopy__(self, _: Any) -> "Quantity":
+        return self.__copy__()
+
+    def __reduce_ex__(self, _: Any) -> Any:
+        raise NotRecorded("a quantity written as bytes")
 
     def broadcast(self, shape: tuple[int, ...]) -> "Quantity":
         return self.each(lambda node: self._whole(node, shape))
@@ -148,8 +167,7 @@ class Quantity(NDArrayOperatorsMixin):
         first, *rest = key if isinstance(key, tuple) and key else (key,)
         if isinstance(first, Quantity) and first.re.value.dtype != bool and first.im is None and self.ndim:
             return self._at(first)[(slice(None),) * first.ndim + tuple(rest)] if rest else self._at(first)
-        index = np.arange(self.size).reshape(self.shape)[plain(key)]
-        return self.take(np.asarray(index))
+        return self.rearranged(lambda order: order[plain(key)])
 
     def _at(self, position: "Quantity") -> "Quantity":
         """Elements along the first axis by positions that are quantities; NaN where there are none."""
@@ -165,17 +183,22 @@ class Quantity(NDArrayOperatorsMixin):
     @property
     def T(self) -> "Quantity":
         """Transposed."""
-        return self.take(np.ascontiguousarray(np.arange(self.size).reshape(self.shape).T))
+        return self.rearranged(np.transpose)
 
     def astype(self, kind: Any, **_: Any) -> "Quantity":
-        kind = np.dtype(kind).kind
-        return trunc(self) if kind in "iu" else self != 0 if kind == "b" else self
+        if (dtype := np.dtype(kind)).kind in "fc" and np.finfo(dtype).precision < 15:
+            raise NotRecorded(f"numbers of the kind {dtype}")
+        kind = dtype.kind
+        return trunc(self) if kind in "iu" else self != 0 if kind == "b" else self.__copy__()
 
     def reshape(self, *shape: Any) -> "Quantity":
-        return self.take(np.arange(self.size).reshape(*shape))
+        return self.rearranged(lambda order: order.reshape(*shape))
 
     def reduced(self, kind: str, axis: Any = None, keepdims: bool = False) -> "Quantity":
         """What a kind of reduction says of a real quantity, along one or several axes or of all elements."""
+        if self.im is not None and kind in ("any", "all"):
+            nonzero: Quantity = self != 0
+            return nonzero.reduced(kind, axis, keepdims)
         if self.im is not None and kind not in ("sum", "nansum"):
             raise NotRecorded(f"{kind} of complex numbers")
         if isinstance(axis, tuple):
@@ -206,8 +229,8 @@ class Quantity(NDArrayOperatorsMixin):
     def __array_ufunc__(self, ufunc: Any, method: str, *inputs: Any, **kwargs: Any) -> Any:
         if method in ("reduce", "accumulate") and ufunc in REDUCTIONS:
             return FUNCTIONS[ufunc, method](self.graph, *inputs, **kwargs)
-        if len(kwargs.get("out", ())) == 1 and kwargs["out"][0] is inputs[0]:  # of x += y, which binds x anew
-            kwargs.pop("out")
+        if not np.ndim(inputs[0]) and len(kwargs.get("out", ())) == 1 and kwargs["out"][0] is inputs[0]:
+            kwargs.pop("out")  # of x += y, which binds a number anew
         operation = UFUNCS.get(ufunc)
         if operation is None or method != "__call__" or kwargs:
             given = f" with {', '.join(kwargs)}" if kwargs else ""
@@ -226,6 +249,13 @@ def is_literal(value: Quantity) -> bool:
     return value.im is None and value.re.op == "constant" and not value.re.args
 
 
+def owner(array: Any) -> Any:
+    """The array whose elements an array shows."""
+    while isinstance(base := getattr(array, "base", None), np.ndarray | Quantity):
+        array = base
+    return array
+
+
 def plain(value: Any) -> Any:
     """A value without quantities, for Python to look at; guards tell while it is the same."""
     if isinstance(value, Quantity):
@@ -239,14 +269,24 @@ def plain(value: Any) -> Any:
 
 def moved(x: "Quantity", source: Any, destination: Any) -> "Quantity":
     """numpy's moveaxis."""
-    return x.take(np.ascontiguousarray(np.moveaxis(np.arange(x.size).reshape(x.shape), source, destination)))
+    return x.rearranged(lambda order: np.moveaxis(order, source, destination))
+
+
+def quantities(value: Any) -> Iterator[Quantity]:
+    """Quantities in a value, in lists, dictionaries and the fields of dataclasses."""
+    if isinstance(value, Quantity):
+        yield value
+    elif isinstance(value, list | tuple):
+        for part in value:
+            yield from quantities(part)
+    elif isinstance(value, dict):
+        yield from quantities(list(value.values()))
+    elif hasattr(value, "__dataclass_fields__"):
+        yield from quantities(list(vars(value).values()))
 
 
 def has_quantity(value: Any) -> bool:
-    """Whether a quantity, or a list with one somewhere in it."""
-    if isinstance(value, list | tuple):
-        return any(has_quantity(v) for v in value)
-    return isinstance(value, Quantity)
+    return next(quantities(value), None) is not None
 
 
 def lift(graph: Graph, value: Any) -> Quantity:

@@ -1,26 +1,26 @@
 """A worksheet recorded: its statements run one by one with quantities that remember what is done with them."""
 
 import ast
-import builtins
-from collections.abc import Iterable, Mapping
-from dataclasses import fields, is_dataclass, replace
+from collections.abc import Iterable, Mapping, Sequence
 from itertools import chain
 from pathlib import Path
-from types import FunctionType
+from types import CodeType, FunctionType
 from typing import Any
 
 import numpy as np
 
 from mechsheet import units
 from mechsheet.recording import statement
-from mechsheet.recording.graph import Gap, Graph, Guard, Node, NotRecorded, bottom_up
+from mechsheet.recording.given import given
+from mechsheet.recording.graph import Gap, Graph, Guard, Node, NotRecorded, bottom_up, current
 from mechsheet.recording.lines import Recording
-from mechsheet.recording.quantity import Quantity, is_literal
+from mechsheet.recording.memory import Memory, changes, names_of
+from mechsheet.recording.quantity import Quantity, has_quantity, is_literal
 from mechsheet.recording.quantity import choice as where
 from mechsheet.recording.stage import Stage, held
-from mechsheet.recording.substitutes import any_quantity, current, instead, shared
+from mechsheet.recording.substitutes import BUILTINS, instead, shared, staged
+from mechsheet.recording.unrepeatable import Unrepeatable
 from mechsheet.units import Constant
-from mechsheet.worksheet import inputs
 from mechsheet.worksheet.cells import Worksheet, load
 from mechsheet.worksheet.check import Check
 from mechsheet.worksheet.find import Found
@@ -34,14 +34,16 @@ def record(namespace: Mapping[str, Any], sheet: Worksheet | None = None, whole: 
 
     ``sheet`` has the cells where they are not those of the file; with ``whole`` all of them are run. What a recording
     does not hold keeps the numbers of the worksheet's own run, as nodes ``exported`` that know what they rest on;
-    `Recording.gaps` says where and why. Where all tables list every so many positions, only those are recorded.
+    `Recording.gaps` says where and why. Where all tables list every so many positions, only those are recorded, and
+    all of them only for single numbers that rest on all, such as an integral.
     """
     sheet = load(Path(namespace["__file__"])) if sheet is None else sheet
     listed = {value.every for value in namespace.values() if isinstance(value, Table)}
+    want = sheet.results if whole else [name for name in sheet.results if _shown(namespace.get(name))]
     graph = Graph(listed.pop() if len(listed) == 1 else 1)
     token = current.set(graph)
     try:
-        return _Run(sheet, graph, namespace, whole).recording
+        return _Run(sheet, graph, namespace, want).recording
     finally:
         current.reset(token)
 
@@ -49,77 +51,90 @@ def record(namespace: Mapping[str, Any], sheet: Worksheet | None = None, whole: 
 class _Run:
     """One run of a worksheet's cells, statement by statement."""
 
-    def __init__(self, sheet: Worksheet, graph: Graph, namespace: Mapping[str, Any], whole: bool) -> None:
-        self.graph, self.namespace = graph, namespace
-        g: Any = object.__new__(sheet.inputs)
-        known = {}
-        for declared in inputs.declared(sheet.inputs):
-            value = getattr(namespace["g"], declared.name)
-            known[declared.name] = graph.leaf("input", declared.name, value)
-            object.__setattr__(g, declared.name, Quantity(graph, known[declared.name]))
+    def __init__(self, sheet: Worksheet, graph: Graph, namespace: Mapping[str, Any], want: Sequence[str]) -> None:
+        self.sheet, self.graph, self.namespace = sheet, graph, namespace
+        g, known = given(graph, namespace["g"])
         self.recording = Recording(graph, known, every=graph.thin)
         self.recording.sections = list(dict.fromkeys(cell.section for cell in sheet.cells))
-        self.names: dict[str, Any] = {**shared(sheet.common), "__builtins__": builtins, "g": g}
+        self.names: dict[str, Any] = shared(sheet.common) | {"__builtins__": BUILTINS, "g": g}
         self.looked: dict[str, tuple[Guard, ...]] = {}  # by name: the guards that its value rests on
         self.chosen: dict[Node, frozenset[Node]] = {}
-        self.lost: dict[str, str] = {}  # names that have no value here, and why
-        want = sheet.results if whole else [name for name in sheet.results if _shown(namespace.get(name))]
+        self.lost: dict[str, NotRecorded] = {}  # names that have no value here, and why
+        self.passing: dict[str, Any] = {}  # of these, lines whose numbers are others at the next run
+        self.everywhere: dict[str, _Run] = {}  # over all positions, by the cell that needs it
         self.lines = lines = registry(namespace)
         for line in sheet.setup:
             self.set_up(line, sheet.path)
         for cell in sheet.needed(want, {"g": g}):
             stage = Stage(self.recording, namespace, cell)
-            self.names |= stage.replacements()
             facts = [statement.facts(line, sheet.path) for line in cell.lines]
             last = {name: n for n, fact in enumerate(facts) for name in fact.touched}
             for n, (line, fact) in enumerate(zip(cell.lines, facts, strict=True)):
                 if not statement.on_the_page(line):
-                    final = {name for name in fact.touched if last[name] == n and not name.startswith("_")}
-                    self.step(stage, line.lineno, fact, final)
+                    self.step(stage, line.lineno, fact, {name for name, end in last.items() if end > n})
             for name in dict.fromkeys([*(n for n in cell.code.co_names if n in lines), *cell.gives]):
-                self.recording.define(cell.section, name, self.names.get(name), lines)
+                self.recording.define(cell.section, name, self.names.get(name, self.passing.get(name)), lines)
             for solved in stage.solved:
                 self.recording.define_steps(cell.section, solved)
         self.recording.values = self.names
 
-    def step(self, stage: Stage, line: int, facts: statement.Statement, final: set[str]) -> None:
+    def step(self, stage: Stage, line: int, facts: statement.Statement, later: set[str]) -> None:
         """Run one statement; where it cannot be recorded, its names keep the numbers of the worksheet's own run.
 
-        Those are known of the ``final`` names, which no later statement binds again.
+        Those are not known of names that ``later`` statements of the cell bind or change again.
         """
         graph = self.graph
         graph.line, graph.looked, graph.work = line, {}, 0
-        touched, reads = facts.touched, self.read(facts.loaded)
+        graph.gone.clear()
+        staged.set(stage.shows)
+        reads = self.read(facts.loaded)
+        functions = (f for f in map(self.names.get, reads) if isinstance(f, FunctionType))
+        codes = [facts.code, *(f.__code__ for f in functions if f.__globals__ is self.names)]
+        touched = dict.fromkeys([*facts.touched, *chain.from_iterable(map(statement.shared_names, codes))])
+        final = {name for name in touched if name not in later and not name.startswith("_")}
         texts = {name for name in reads if isinstance(self.names.get(name), str)}
         rests, shown = (
             {guard.holds: guard for name in names for guard in self.looked.get(name, ())}
             for names in (reads, reads - texts)
         )
+        before = Memory((self.names.get(name) for name in reads - {"g"}), self.names)
+        may_change = any(map(changes, codes))
+        differs: list[str] = []
         try:
             with np.errstate(all="ignore"):  # the worksheet's own run has warned
                 exec(facts.code, self.names)
             self.measure(touched, reads)
-            differs = [name for name in final if not stage.same(self.names.get(name), self.namespace.get(name))]
-            if not all(name not in self.lines and self.of_listed(self.names[name]) for name in differs):
+            differs = self.differing(stage, final)
+            if graph.thin > 1 and all(np.size(self.namespace[name]) == 1 for name in differs):
+                self.over_all(stage, [name for name in differs if not self.of_listed(name)])
+                differs = self.differing(stage, final)
+            if not all(map(self.of_listed, differs)):
                 of_all = " is of all positions, and only those that tables list are recorded"
                 differ = of_all if graph.thin > 1 else " would differ from the worksheet"
                 raise NotRecorded(", ".join(differs) + differ)
-        except Exception as error:
-            self.keep(stage, facts, final, self.why(error, reads), reads)
+        except (Exception, NotRecorded) as error:
+            rests_on = [*self.recording.inputs.values()] if differs else self.leaves(facts, reads, codes, before)
+            self.keep(stage, touched, final, self.why(error, reads), rests_on)
+            beside = before.named(self.names, before.changed() | (before.mutable() if may_change else set()))
+            self.lose(stage, beside.difference(touched), later, self.why(error, reads))
             return
-        self.recording.guards |= {holds: guard for holds, guard in graph.looked.items() if guard.rows or not touched}
+        ways = may_change and any(not guard.rows for guard in graph.looked.values())  # of which others change more
+        beside = before.named(self.names, before.changed() | (before.mutable() if ways else set())).difference(touched)
+        everywhere = not touched and not beside
+        self.recording.guards |= {holds: guard for holds, guard in graph.looked.items() if guard.rows or everywhere}
         met = {holds: guard for holds, guard in graph.looked.items() if not guard.rows}
         rests, shown = rests | met, shown | met
-
-        def under_these(x: Quantity) -> Quantity:
-            return x if x.re.op == "constant" else self.while_same(x, rests.values())
-
+        for name in beside:
+            self.looked[name] = tuple(
+                {guard.holds: guard for guard in (*self.looked.get(name, ()), *rests.values())}.values()
+            )
         for name in touched:
             if isinstance(self.names.get(name), Slider):  # it rests where the worksheet has it
                 self.names[name] = self.namespace.get(name, self.names[name])
             self.looked[name] = tuple(rests.values())
-            if rests and name in self.names and not isinstance(self.names[name], FunctionType):
-                self.names[name] = _mapped(self.names[name], under_these)
+            value = self.names.get(name)
+            if isinstance(value, Quantity) and value.dtype != bool and any(p.op != "constant" for p in value.parts):
+                self.names[name] = self.while_same(value, rests.values())
         stage.finish(lambda x: self.while_same(x, shown.values()))
 
     def measure(self, touched: Iterable[str], reads: frozenset[str]) -> None:
@@ -127,7 +142,7 @@ class _Run:
 
         The unit of what Python made a number of, out of what it reads, is not known.
         """
-        made = any(any_quantity(self.names.get(name)) for name in reads)
+        made = any(has_quantity(self.names.get(name)) for name in reads)
         for name in touched:
             value, line = self.names.get(name), self.lines.get(name)
             if isinstance(value, Constant) or value is units:
@@ -143,76 +158,125 @@ class _Run:
     def set_up(self, line: ast.stmt, path: str) -> None:
         """Run a statement of the setup again where it computes with units; else its numbers stay."""
         facts = statement.facts(line, path)
-        if any(any_quantity(self.names.get(name)) for name in self.read(facts.loaded)) or "units" in facts.loaded:
+        if "units" in facts.loaded or any(has_quantity(self.names.get(name)) for name in self.read(facts.loaded)):
             try:
                 exec(facts.code, self.names)
-            except Exception:  # what does not take quantities keeps the numbers that it has, of no known dimension
+            except (Exception, NotRecorded):  # its numbers stay, of no known dimension
                 return
             self.measure(facts.touched, frozenset())
 
     def keep(
-        self, stage: Stage, facts: statement.Statement, final: set[str], reason: str, reads: frozenset[str]
+        self, stage: Stage, touched: Iterable[str], final: set[str], reason: NotRecorded, rests_on: list[Node]
     ) -> None:
         """The numbers of the worksheet's own run in place of a recording."""
-        touched, graph = facts.touched, self.graph
+        graph = self.graph
         graph.work = 0
-        rests_on = self.leaves(facts, reads)
         stage.forget()
         own = [self.namespace.get(name) for name in touched]
-        if not rests_on and graph.thin == 1 and final.issuperset(touched) and all(map(_is_number, own)):
+        lasting = graph.thin == 1 and final.issuperset(touched) and not isinstance(reason, Unrepeatable)
+        if lasting and not rests_on and all(map(_is_number, own)):
             for name, number in zip(touched, own, strict=True):  # the same for all inputs
-                self.names[name] = Quantity(graph, graph.constant(number, units.UNKNOWN))
+                self.names[name], self.looked[name] = Quantity(graph, graph.constant(number, units.UNKNOWN)), ()
             return
         guards = tuple(Guard(graph.same(leaf), graph.line) for leaf in rests_on)
         if not touched or any(held(self.namespace.get(name)) for name in final) or not final.issuperset(touched):
-            public = tuple(name for name in touched if not name.startswith("_"))
-            self.recording.gaps.append(Gap(public, graph.line, reason))
+            if not (isinstance(reason, Unrepeatable) and reason in self.lost.values()):  # what rests on that is known
+                public = tuple(name for name in touched if not name.startswith("_"))
+                self.recording.gaps.append(Gap(public, graph.line, str(reason)))
             self.recording.guards |= {guard.holds: guard for guard in guards}
+        known = [name for name in touched if name in final and name in self.namespace]
+        if isinstance(reason, Unrepeatable):
+            self.passing |= {n: stage.kept(self.namespace[n], rests_on) for n in known if n in self.lines}
+            known = []
+        kept = {name: stage.kept(self.namespace[name], rests_on) for name in known}
         for name in touched:
-            self.looked[name] = guards
-            if name in final and name in self.namespace:
-                self.names[name] = stage.kept(self.namespace[name], rests_on)
-                if isinstance(self.names[name], Quantity):
-                    self.looked[name] = ()
+            self.looked[name] = () if isinstance(kept.get(name), Quantity) else guards
+            if name in kept:
+                self.names[name] = kept[name]
             else:
                 self.names.pop(name, None)
                 self.lost[name] = reason
 
-    def why(self, error: Exception, reads: frozenset[str]) -> str:
-        """Why a statement cannot be recorded."""
-        known = [self.lost[name] for name in reads if name in self.lost]
-        if known and isinstance(error, NameError):
-            return known[0]
-        if isinstance(error, NotRecorded):
-            return str(error)
-        return f"it does not run with recorded quantities ({str(error).splitlines()[0] if str(error) else error!r})"
+    def lose(self, stage: Stage, names: Iterable[str], later: set[str], reason: NotRecorded) -> None:
+        """Names whose values a statement has changed, or may have changed, nobody knows how."""
+        every = [*self.recording.inputs.values()]
+        for name in names:
+            self.looked[name] = tuple(Guard(self.graph.same(leaf), self.graph.line) for leaf in every)
+            if name in self.namespace and name not in later:
+                self.names[name] = stage.kept(self.namespace[name], every)
+            else:
+                self.names.pop(name)
+                self.lost[name] = reason
 
-    def of_listed(self, value: Any) -> bool:
+    def why(self, error: BaseException, reads: frozenset[str]) -> NotRecorded:
+        """Why a statement cannot be recorded."""
+        known = [self.lost[name] for name in sorted(reads) if name in self.lost]
+        if known and isinstance(error, NameError):
+            return next((reason for reason in known if isinstance(reason, Unrepeatable)), known[0])
+        if isinstance(error, NotRecorded):
+            return error.with_traceback(None)
+        said = str(error).splitlines()[0] if str(error) else repr(error)
+        return NotRecorded(f"it does not run with recorded quantities ({said})")
+
+    def differing(self, stage: Stage, names: Iterable[str]) -> list[str]:
+        """Names whose recorded numbers are not the worksheet's own."""
+        return [name for name in names if not stage.same(self.names.get(name), self.namespace.get(name))]
+
+    def over_all(self, stage: Stage, names: Sequence[str]) -> None:
+        """Take single numbers from a run of the same graph over all positions, of the cells behind them alone."""
+        if not names:
+            return
+        graph, cell = self.graph, stage.cell
+        if cell.name not in self.everywhere:
+            kept = graph.thin, graph.line, graph.looked, graph.work
+            labels, graph.labels, graph.thin = graph.labels, {}, 1  # what only this run needs is no named step
+            try:
+                self.everywhere[cell.name] = run = _Run(self.sheet, graph, self.namespace, cell.gives)
+            finally:
+                graph.thin, graph.line, graph.looked, graph.work = kept
+                graph.labels = labels
+            self.recording.guards |= run.recording.guards
+        run = self.everywhere[cell.name]
+        self.names |= {name: run.names[name] for name in names if name in run.names}
+
+    def of_listed(self, name: str) -> bool:
         """Whether a number is a greatest or least one over the positions that tables list, and differs only by that.
 
         Such a number without a unit of its own is the scale of a check over the same positions.
         """
-        if self.graph.thin == 1 or not isinstance(value, Quantity) or value.size > 1:
+        value = self.names[name]
+        if self.graph.thin == 1 or name in self.lines or not isinstance(value, Quantity) or value.size > 1:
             return False
         under = list(bottom_up([value.re], ()))
         kinds = {n.args[2] for n in under if n.op == "reduce" and n.args[0].size > 1}
         return kinds <= {"max", "min"} and any(n.op == "rows" for n in under)
 
     def conditions(self, node: Node) -> frozenset[Node]:
-        """Conditions under which a quantity has a value, as it is chosen already."""
-        known = self.chosen
+        """Conditions where a quantity is no number in all its elements unless they hold, as it is chosen already."""
+        known, none = self.chosen, frozenset[Node]()
         for part in bottom_up([node], known):
-            found = frozenset(chain.from_iterable(known[operand] for operand in part.operands))
-            if part.op == "where" and part.args[2].op == "constant" and np.isnan(part.args[2].value).all():
-                found |= {part.args[0]}
-            ends = part.op == "finite" or (part.op == "reduce" and part.args[2].startswith("nan"))
-            known[part] = frozenset() if ends else found
+            under = [known[operand] for operand in part.operands]
+            match part.op:
+                case "where" if part.args[2].op == "constant" and np.isnan(part.args[2].value).all():
+                    known[part] = under[1] | {part.args[0]}
+                case "where":
+                    known[part] = under[1] & under[2]
+                case "join":
+                    known[part] = frozenset.intersection(*under)
+                case "pow" if part.args[1].op != "constant" or not part.args[1].value.all():
+                    known[part] = none
+                case "lt" | "le" | "gt" | "ge" | "eq" | "ne" | "and" | "or" | "not" | "finite":
+                    known[part] = none
+                case "reduce" if part.args[2] not in ("sum", "prod", "max", "min"):
+                    known[part] = none
+                case _:
+                    known[part] = none.union(*under)
         return known[node]
 
     def while_same(self, x: Quantity, rests: Iterable[Guard]) -> Quantity:
         """A quantity while Python sees the same, else no number."""
         for guard in rests:
-            if guard.holds not in self.conditions(x.re):
+            if any(guard.holds not in self.conditions(part) for part in x.parts):
                 self.recording.guards[guard.holds] = guard
                 x = where(self.graph, Quantity(self.graph, guard.holds), x, np.nan)
         return x
@@ -227,23 +291,18 @@ class _Run:
             found.add(name)
             value = self.names.get(name)
             if isinstance(value, FunctionType) and value.__globals__ is self.names:
-                waiting |= set(statement.names_of(value.__code__))
+                waiting |= set(names_of(value.__code__))
         return frozenset(found)
 
-    def leaves(self, facts: statement.Statement, reads: frozenset[str]) -> list[Node]:
+    def leaves(
+        self, facts: statement.Statement, reads: frozenset[str], codes: Iterable[CodeType], before: Memory
+    ) -> list[Node]:
         """Inputs under what a statement reads, and under what Python saw for it."""
         roots = [guard.holds for name in sorted(reads) for guard in self.looked.get(name, ())]
-
-        def noted(x: Quantity) -> Quantity:
-            roots.extend(x.parts)
-            return x
-
-        for name in sorted(reads - {"g"}):
-            _mapped(self.names.get(name), noted)
-        codes = [f.__code__ for f in map(self.names.get, reads) if isinstance(f, FunctionType)]
+        roots += before.nodes
         if "g" in reads:
-            parts = facts.parts | {name for code in codes for name in statement.names_of(code)}
-            used = [name for name in self.recording.inputs if name in parts]
+            parts = facts.parts.union(*map(names_of, codes))
+            used = [name for name in self.recording.inputs if name.partition(".")[0] in parts]
             roots += [self.recording.inputs[name] for name in (self.recording.inputs if facts.whole else used)]
         return leaves_of(roots, self.recording)
 
@@ -265,23 +324,6 @@ def leaves_of(roots: Iterable[Node], recording: Recording) -> list[Node]:
         waiting.extend(node.operands)
     order = {node: n for n, node in enumerate(recording.inputs.values())}
     return sorted(found, key=order.__getitem__)
-
-
-def _mapped(value: Any, f: Any) -> Any:
-    """A value with a function of every quantity in it in the place of that."""
-    if isinstance(value, Quantity):
-        return f(value)
-    if isinstance(value, tuple) and hasattr(value, "_fields"):
-        return type(value)(*(_mapped(v, f) for v in value))
-    if isinstance(value, list | tuple):
-        return type(value)(_mapped(v, f) for v in value)
-    if isinstance(value, dict):
-        return {name: _mapped(v, f) for name, v in value.items()}
-    if is_dataclass(value) and not isinstance(value, type):
-        new = {x.name: _mapped(getattr(value, x.name), f) for x in fields(value) if x.init}
-        if any(new[name] is not getattr(value, name) for name in new):
-            return replace(value, **new)
-    return value
 
 
 def _is_array(value: Any) -> bool:

@@ -1,7 +1,8 @@
 """Code of a worksheet or of the mechanics, rewritten so that what Python decides by itself can be recorded.
 
 A choice between two numbers, an element that a quantity points at, an element that is set and Python's own functions of
-numbers are calls then, which `choices` answers. Statements such as ``if`` stay: which way they went is a guard.
+numbers are calls then, which `choices` answers. So are ``if`` statements whose ways only bind names or end a function.
+Others stay, as loops do: which way they went is a guard.
 """
 
 import ast
@@ -12,12 +13,24 @@ from types import CodeType, FunctionType
 from typing import Any
 
 from mechsheet.recording.choices import CALLS
+from mechsheet.worksheet.cells import bound
 
 _NAMES = {"float", "int", "complex", "max", "min", "pow", "round"}
 _SCOPED = ast.NamedExpr, ast.Yield, ast.YieldFrom, ast.Await  # are not what they are inside a lambda
 
 
 class _Rewriting(ast.NodeTransformer):
+    def visit_Import(self, node: ast.Import | ast.ImportFrom) -> list[ast.stmt]:
+        """What an import statement binds is exchanged at once."""
+        names = [name for name in bound(node) if name != "*"]
+        exchanged = [
+            ast.Assign([ast.Name(name, ast.Store())], _call("imported", node, ast.Name(name, ast.Load())))
+            for name in names
+        ]
+        return [node, *(ast.copy_location(line, node) for line in exchanged)]
+
+    visit_ImportFrom = visit_Import
+
     def visit_Call(self, node: ast.Call) -> ast.AST:
         self.generic_visit(node)
         if isinstance(node.func, ast.Name) and node.func.id in _NAMES:
@@ -55,27 +68,133 @@ class _Rewriting(ast.NodeTransformer):
         self.generic_visit(node)
         return _call("not", node, node.operand) if isinstance(node.op, ast.Not) else node
 
-    def visit_Assign(self, node: ast.Assign) -> ast.AST:
+    def visit_Assign(self, node: ast.Assign) -> Any:
         self.generic_visit(node)
         match node.targets:
             case [ast.Subscript(ast.Name(name), key)]:
-                return self._put(node, name, key, node.value)
+                return _put(node, name, key, node.value)
             case [ast.Attribute(ast.Name(name), ("real" | "imag") as part)]:
-                whole = _call("part", node, ast.Name(name, ast.Load()), ast.Constant(part), node.value)
-                return ast.copy_location(ast.Assign([ast.Name(name, ast.Store())], whole), node)
+                return _bound_anew(node, name, "part", ast.Constant(part), node.value)
         return node
 
-    def visit_AugAssign(self, node: ast.AugAssign) -> ast.AST:
+    def visit_AugAssign(self, node: ast.AugAssign) -> Any:
         self.generic_visit(node)
         match node.target:
             case ast.Subscript(ast.Name(name), key):
                 old = _call("element", node, ast.Name(name, ast.Load()), key)
-                return self._put(node, name, key, ast.BinOp(old, node.op, node.value))
+                return _put(node, name, key, ast.BinOp(old, node.op, node.value))
+            case ast.Name(name):
+                bind, end = _bound_anew(node, name, "changed", ast.Constant(_OPERATIONS[type(node.op)]), node.value)
+                settled = ast.Assign([ast.Name("recorded nothing", ast.Store())], end.value)  # no sign of a change
+                return [bind, ast.copy_location(settled, node)]
         return node
 
-    def _put(self, node: ast.stmt, name: str, key: ast.expr, value: ast.expr) -> ast.AST:
-        whole = _call("put", node, ast.Name(name, ast.Load()), _index(key), value)
-        return ast.copy_location(ast.Assign([ast.Name(name, ast.Store())], whole), node)
+    def visit_If(self, node: ast.If) -> Any:
+        """A statement whose ways only bind names gives the names the values of both ways."""
+        ways = node.body, node.orelse
+        if not all(_only_binds(line) for way in ways for line in way):
+            self.generic_visit(node)
+            return node
+        each = [{name for line in way for name in bound(line)} for way in ways]
+        names = sorted(each[0] | each[1])
+        targets: list[ast.expr] = [ast.Name(name, ast.Store()) for name in names]
+        result = ast.Return(ast.Tuple([ast.Name(name, ast.Load()) for name in names], ast.Load()))
+        defined, chosen = _both_ways(node, [*node.body, result], [*node.orelse, result], names)
+        lines = [*defined, ast.copy_location(ast.Assign([ast.Tuple(targets, ast.Store())], chosen), node)]
+        lines = [self.visit(line) for line in lines]
+        for name in sorted(each[0] ^ each[1]):
+            unbound = ast.Compare(ast.Name(name, ast.Load()), [ast.Is()], [ast.Name("recorded unbound", ast.Load())])
+            lines.append(ast.copy_location(ast.If(unbound, [ast.Delete([ast.Name(name, ast.Del())])], []), node))
+        return lines
+
+    def visit_FunctionDef(self, node: ast.FunctionDef) -> ast.AST:
+        """Where a way of a function ends early, the rest of the function is the other way."""
+        if not any(_is_of_the_whole(part) for part in ast.walk(node)):
+            for n, line in enumerate(node.body):
+                if isinstance(line, ast.If) and any(isinstance(part, ast.Return) for part in ast.walk(line)):
+                    rest = node.body[n + 1 :]
+                    if _ends(line.body) or _ends(line.orelse):
+                        ways = [way if _ends(way) else [*way, *rest] for way in (line.body, line.orelse)]
+                        names = sorted({name for way in ways for part in way for name in bound(part)})
+                        defined, chosen = _both_ways(line, ways[0], ways[1], names)
+                        node.body = [*node.body[:n], *defined, ast.copy_location(ast.Return(chosen), line)]
+                    break
+        self.generic_visit(node)
+        return node
+
+    def visit_ExceptHandler(self, node: ast.ExceptHandler) -> ast.AST:
+        self.generic_visit(node)
+        node.name = node.name or "_error"
+        node.body.insert(0, ast.Expr(_call("handled", node, ast.Name(node.name, ast.Load()))))
+        return node
+
+
+def _only_binds(line: ast.stmt) -> bool:
+    """Whether a statement does nothing but give names values."""
+    match line:
+        case ast.If(test, body, orelse):
+            return not _is_of_the_whole(test) and all(map(_only_binds, [*body, *orelse]))
+        case ast.Assign(targets, value):
+            targets = [t for target in targets for t in (target.elts if isinstance(target, ast.Tuple) else [target])]
+        case ast.AugAssign(target, _, value) | ast.AnnAssign(target, _, ast.expr() as value):
+            targets = [target]
+        case ast.Pass():
+            return True
+        case _:
+            return False
+    return all(isinstance(t, ast.Name) for t in targets) and not any(map(_is_of_the_whole, ast.walk(value)))
+
+
+def _is_of_the_whole(part: ast.AST) -> bool:
+    """Whether a part of a function is not what it is in a function of its own."""
+    return isinstance(part, (*_SCOPED, ast.Global, ast.Nonlocal)) or (
+        isinstance(part, ast.Name) and part.id in ("super", "locals", "__class__")
+    )
+
+
+def _ends(way: list[ast.stmt]) -> bool:
+    """Whether a way leaves the function, whatever is decided in it."""
+    match way:
+        case [*_, ast.Return() | ast.Raise()]:
+            return True
+        case [*_, ast.If(_, body, orelse)]:
+            return _ends(body) and _ends(orelse)
+    return False
+
+
+def _both_ways(
+    node: ast.If, then: list[ast.stmt], otherwise: list[ast.stmt], names: list[str]
+) -> tuple[list[ast.stmt], ast.Call]:
+    """The ways of a statement as functions of what some names are bound to, and the choice between what these give."""
+    ways, defined = ("recorded then", "recorded otherwise"), list[ast.stmt]()
+    for way, body in zip(ways, (then, otherwise), strict=True):
+        given = ast.arguments([], [ast.arg(name) for name in names], None, [], [], None, [])
+        defined.append(ast.copy_location(ast.FunctionDef(way, given, body, []), node))
+    now = _call("known", node, _call_of("locals"), *map(ast.Constant, names))
+    functions = [ast.Name(way, ast.Load()) for way in ways]
+    return defined, _call("choice", node, node.test, *functions, ast.Starred(now, ast.Load()))
+
+
+def _call_of(name: str) -> ast.Call:
+    return ast.Call(ast.Name(name, ast.Load()), [], [])
+
+
+_OPERATIONS = {
+    ast.Add: "add", ast.Sub: "sub", ast.Mult: "mul", ast.Div: "truediv", ast.FloorDiv: "floordiv", ast.Mod: "mod",
+    ast.Pow: "pow", ast.MatMult: "matmul", ast.LShift: "lshift", ast.RShift: "rshift", ast.BitAnd: "and_",
+    ast.BitOr: "or_", ast.BitXor: "xor",
+}  # fmt: skip
+
+
+def _put(node: ast.stmt, name: str, key: ast.expr, value: ast.expr) -> tuple[ast.stmt, ast.Expr]:
+    return _bound_anew(node, name, "put", _index(key), value)
+
+
+def _bound_anew(node: ast.stmt, name: str, change: str, *args: ast.expr) -> tuple[ast.stmt, ast.Expr]:
+    """A change in place as a new value of the name, of which nobody knows the old one."""
+    known = ast.Name(name, ast.Load())
+    bind = ast.Assign([ast.Name(name, ast.Store())], _call(change, node, known, *args))
+    return ast.copy_location(bind, node), ast.copy_location(ast.Expr(_call("settled", node, known)), node)
 
 
 def _index(key: ast.expr) -> ast.expr:

@@ -2,19 +2,16 @@
 
 import math
 from collections.abc import Callable, Mapping, Sequence
+from copy import copy
 from dataclasses import dataclass, fields, is_dataclass, replace
-from types import FunctionType
 from typing import Any
 
 import numpy as np
 
 from mechsheet import units
-from mechsheet.recording.graph import Node, NotRecorded, bottom_up
+from mechsheet.recording.graph import Node, NotRecorded, Values, bottom_up
 from mechsheet.recording.lines import Recording, Residual, Solved
 from mechsheet.recording.quantity import Quantity, lift
-from mechsheet.recording.rewritten import rebuilt
-from mechsheet.recording.substitutes import instead
-from mechsheet.worksheet import check as checks
 from mechsheet.worksheet.cells import Cell
 from mechsheet.worksheet.check import Check
 from mechsheet.worksheet.find import Found
@@ -41,8 +38,10 @@ class Stage:
         given = [namespace.get(name) for name in cell.gives]
         self.real = [v for group in given for v in (group if isinstance(group, tuple | list) else [group])]
 
-    def replacements(self) -> dict[str, Any]:
-        shown = {
+    @property
+    def shows(self) -> dict[str, Callable[..., Any]]:
+        """What the functions that show do in this cell, by their names."""
+        return {
             "table": self.table,
             "figure": self.figure,
             "find": self.find,
@@ -52,14 +51,6 @@ class Stage:
             "Check": self.stated,
             "assembled": self.assembled,
         }
-        names = {name: instead(value) for name, value in vars(checks).items()} | shown
-        written = {
-            name: rebuilt(f, names)
-            for name, f in vars(checks).items()
-            if isinstance(f, FunctionType) and f.__module__ == checks.__name__ and name not in shown
-        }
-        others = ("require", "refuse", "summary", "mo", "export", "typeset")
-        return {**written, **shown, **dict.fromkeys(others, _Nothing())}
 
     def table(self, number: str, title: str, *columns: Any, every: Any = 1, **_: Any) -> None:
         listed = int(np.asarray(getattr(every, "value", every)))
@@ -76,7 +67,7 @@ class Stage:
                     return None
                 column = lift(self.graph, column)
             if column.shape == shape and every == 1 and len(shape) == 1:
-                return column
+                return copy(column)  # which later lines may set elements of
             return column.take(np.broadcast_to(np.arange(column.size).reshape(column.shape), shape).reshape(-1)[kept])
 
         self.shown_now.append((self.recording.tables, number))
@@ -175,14 +166,16 @@ class Stage:
         self.shown_now.clear()
 
     def same(self, value: Any, own: Any) -> bool:
-        """Whether a recorded quantity has the worksheet's own numbers, but for the rounding of what it is made of."""
-        if not (isinstance(value, Quantity) and isinstance(own, int | float | complex | np.ndarray | np.generic)):
+        """Whether a recorded value has the worksheet's own numbers, but for the rounding of what it is made of."""
+        numbers = int | float | complex | np.ndarray | np.generic
+        if not (isinstance(value, Quantity | numbers) and isinstance(own, numbers)):
             return True
-        kept = np.asarray(own) + 0
+        kept = np.asarray(own) + 0 if np.asarray(own).dtype.kind in "biufc" else np.asarray(own)
         if kept.dtype.kind not in "iufc":
             return True
-        if kept.shape and kept.shape[-1:] != value.shape[-1:]:
-            kept = kept[..., :: self.graph.thin]
+        value = lift(self.graph, value)
+        if kept.shape != value.shape:
+            kept = self._listed(kept)
         try:
             a, b = np.broadcast_arrays(value.value + 0, kept)
         except ValueError:
@@ -192,15 +185,19 @@ class Stage:
         off = 1e-7 * max(size, 1e-6 * terms)
         return bool(np.all((np.abs(a - b) <= off) | (~np.isfinite(a) & ~np.isfinite(b))))
 
+    def _listed(self, own: Values) -> Values:
+        """The positions of the worksheet's own numbers that are recorded."""
+        for axis, size in enumerate(own.shape):
+            if self.graph.thin > 1 and size == self.graph.positions:
+                own = own.take(range(0, size, self.graph.thin), axis)
+        return own
+
     def kept(self, own: Any, rests_on: Sequence[Node]) -> Any:
         """The worksheet's own value instead of a recorded one; what it shows of it too."""
         graph, recording = self.graph, self.recording
 
         def exported(values: Any) -> Quantity:
-            array = np.asarray(values)
-            for axis, size in enumerate(array.shape):
-                if graph.thin > 1 and size == graph.positions:
-                    array = array.take(range(0, size, graph.thin), axis)
+            array = self._listed(np.asarray(values))
             parts = [array.real, array.imag] if array.dtype.kind == "c" else [array]
             return Quantity(graph, *(graph.exported(rests_on, part) for part in parts))
 
@@ -227,7 +224,10 @@ class Stage:
             case dict():
                 return {key: self.kept(v, rests_on) for key, v in own.items()}
         if is_dataclass(own) and not isinstance(own, type | Shown):
-            return replace(own, **{f.name: self.kept(getattr(own, f.name), rests_on) for f in fields(own) if f.init})
+            new = copy(own)  # without its checks, which look at numbers
+            for f in fields(own):
+                object.__setattr__(new, f.name, self.kept(getattr(own, f.name), rests_on))
+            return new
         return own
 
 
@@ -265,15 +265,3 @@ def _made_of(node: Node, known: dict[Node, float]) -> float:
 def _size(node: Node) -> float:
     sizes = np.abs(node.value + 0.0)
     return float(np.max(sizes, initial=0.0, where=np.isfinite(sizes)))
-
-
-class _Nothing:
-    """Stands for what a workbook does not show; every use of it gives it again."""
-
-    def __call__(self, *args: Any, **kwargs: Any) -> "_Nothing":
-        return self
-
-    def __getattr__(self, name: str) -> "_Nothing":
-        if name.startswith("__"):
-            raise AttributeError(name)
-        return self

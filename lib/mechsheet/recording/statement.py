@@ -1,6 +1,7 @@
 """A statement of a worksheet before it is recorded: its code, what it binds, changes and reads."""
 
 import ast
+import dis
 from collections.abc import Iterable, Iterator
 from functools import lru_cache
 from types import CodeType
@@ -38,9 +39,9 @@ def facts(statement: ast.stmt, path: str) -> Statement:
 
 
 def on_the_page(statement: ast.stmt) -> bool:
-    """Whether a statement shows a text, which is of no other use."""
+    """Whether a statement shows a text or a value, which is of no other use."""
     match statement:
-        case ast.Expr(ast.Call(ast.Attribute(ast.Name("mo"))) | ast.Constant()):
+        case ast.Expr(ast.Call(ast.Attribute(ast.Name("mo"))) | ast.Constant() | ast.Name()):
             return True
         case ast.Expr(ast.Call(ast.Name(name))):
             return name in _TEXTS
@@ -57,8 +58,9 @@ def _changed(nodes: Iterable[ast.AST]) -> Iterator[str]:
                 yield name
 
 
-def names_of(code: CodeType) -> Iterator[str]:
-    yield from code.co_names
-    for constant in code.co_consts:
-        if isinstance(constant, CodeType):
-            yield from names_of(constant)
+@lru_cache(maxsize=4096)
+def shared_names(code: CodeType) -> frozenset[str]:
+    """Names of the worksheet that functions in a piece of code bind."""
+    inside = [constant for constant in code.co_consts if isinstance(constant, CodeType)]
+    own = {i.argval for i in dis.get_instructions(code) if i.opname in ("STORE_GLOBAL", "DELETE_GLOBAL")}
+    return frozenset(own.union(*map(shared_names, inside)))

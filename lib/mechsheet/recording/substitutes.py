@@ -10,29 +10,36 @@ import math
 import sys
 from collections.abc import Callable, Mapping
 from contextvars import ContextVar
+from copy import copy
 from functools import cache
 from inspect import unwrap
-from types import BuiltinFunctionType, FunctionType, GenericAlias
+from types import BuiltinFunctionType, FunctionType, GenericAlias, ModuleType
 from typing import Any
 
 import numpy as np
 
 from mechsheet import units
-from mechsheet.recording.graph import Graph, NotRecorded
+from mechsheet.recording.graph import NotRecorded, current
 from mechsheet.recording.numpy_rules import arange, linspace, trapezoid_so_far
 from mechsheet.recording.quantity import FUNCTIONS, Quantity, has_quantity, lift, plain
 from mechsheet.recording.rewritten import NAMES, rebuilt
-
-current: ContextVar[Graph] = ContextVar("current")  # the graph of the recording that is made here
+from mechsheet.recording.unrepeatable import instead_of_chance
+from mechsheet.worksheet import check as checks
+from mechsheet.worksheet.cells import Marimo
 
 _ROOMS = ("mechsheet.mechanics.", "mechsheet.worksheet.force_diagram")
 _WRITTEN = {"__post_init__"}  # the only special method of a group that is not made by `dataclass`
 _ARRAYS = (np.array, np.asarray, np.asanyarray, np.ascontiguousarray)
 
 
+staged: ContextVar[Mapping[str, Any]] = ContextVar("staged")  # what those of `SHOWING` do in the cell that is run
+SHOWING = frozenset({"table", "figure", "find", "closed_form", "check", "check_slope", "Check", "assembled"})
+_NOWHERE = frozenset({"require", "refuse", "summary", "export", "typeset"})  # of no use in a workbook
+
+
 def shared(common: Mapping[str, Any]) -> dict[str, Any]:
     """The shared names of a worksheet, with what takes recorded quantities in place of what does not."""
-    own: dict[str, Any] = {**NAMES}
+    own: dict[str, Any] = {**_NAMES}
     for name, value in common.items():
         of_sheet = isinstance(value, FunctionType) and value.__globals__ is common
         own[name] = rebuilt(value, own) if of_sheet else instead(value)
@@ -42,34 +49,59 @@ def shared(common: Mapping[str, Any]) -> dict[str, Any]:
 _SAME = (
     "sqrt", "exp", "log", "log10", "log2", "log1p", "expm1", "sin", "cos", "tan", "sinh", "cosh", "tanh", "hypot",
     "degrees", "radians", "floor", "ceil", "trunc", "copysign", "isnan", "isfinite", "isinf", "fmod", "cbrt",
-    "isclose", "prod",
+    "prod",
 )  # fmt: skip
 _OTHER = {"asin": "arcsin", "acos": "arccos", "atan": "arctan", "atan2": "arctan2", "asinh": "arcsinh"}
 _OTHER |= {"acosh": "arccosh", "atanh": "arctanh", "fabs": "abs", "pow": "power", "fsum": "sum"}
-_MATH = {getattr(math, name): getattr(np, _OTHER.get(name, name)) for name in [*_SAME, *_OTHER]}
+_MATH: dict[Any, Any] = {getattr(math, name): getattr(np, _OTHER.get(name, name)) for name in [*_SAME, *_OTHER]}
+_MATH[math.isclose] = math.isclose  # whose tolerances are not those of numpy's
 
 
 def instead(value: Any) -> Any:
     """What takes quantities in place of a function, class or module; anything else is itself."""
-    if value is np or value is math or value is units:
+    if isinstance(value, Marimo) or value is sys.modules.get("marimo"):
+        return _NOTHING
+    if isinstance(value, ModuleType):
         return _module(value)
     if isinstance(value, units.Constant):
         return lift(current.get(), value)
     if value is units.celsius:
         return lambda degrees: (degrees + units.celsius(0)) * lift(current.get(), units.constant("K"))
+    if (refusing := instead_of_chance(value)) is not None:
+        return refusing
     if isinstance(value, BuiltinFunctionType) and value in _MATH:
         return _takes(_MATH[value])
     if isinstance(value, np.ufunc) or (callable(value) and _of_numpy(value)):
         return _takes(value)
-    if isinstance(value, FunctionType) and value.__module__.startswith(_ROOMS):
-        return _of_mechanics(value)
-    if isinstance(value, type) and value.__module__.startswith(_ROOMS) and hasattr(value, "__dataclass_fields__"):
-        return _group(value)
-    if callable(value) and str(getattr(value, "__module__", "")).startswith("mechsheet.studies."):
-        return _refused(value.__name__)
+    room = str(getattr(value, "__module__", ""))
+    if isinstance(value, FunctionType | type) and room.startswith("mechsheet."):
+        return _of_package(value, room)
     if callable(value) and getattr(value, "__name__", "") == "cumulative_trapezoid":
         return lambda y, *args, **rest: trapezoid_so_far(current.get(), y, *args, **rest)
     return value
+
+
+def _of_package(value: Any, room: str) -> Any:
+    """A function or class of this package."""
+    if value.__name__ in SHOWING:
+        return _on_stage(value.__name__)
+    if value.__name__ in _NOWHERE:
+        return _NOTHING
+    if isinstance(value, type):
+        return _group(value) if room.startswith(_ROOMS) and hasattr(value, "__dataclass_fields__") else value
+    if room.startswith((*_ROOMS, checks.__name__)):
+        return _itself(value)
+    return _refused(value.__name__) if room.startswith("mechsheet.studies.") else value
+
+
+@cache
+def _on_stage(name: str) -> Callable[..., Any]:
+    def function(*args: Any, **kwargs: Any) -> Any:
+        if current.get().supposed:
+            raise NotRecorded("it is shown on a way that is not taken")
+        return staged.get()[name](*args, **kwargs)
+
+    return function
 
 
 def _refused(name: str) -> Callable[..., Any]:
@@ -85,19 +117,23 @@ def _of_numpy(value: Any) -> bool:
 
 
 class _Module:
-    """numpy or math, whose functions take recorded quantities, or the units, which are such."""
+    """A module whose functions take recorded quantities; the units are such."""
 
     def __init__(self, module: Any) -> None:
         self._module = module
 
     def __getattr__(self, name: str) -> Any:
-        value = getattr(self._module, name)
-        if getattr(value, "__name__", "") == "numpy.linalg":
-            return _module(value)
-        return instead(value)
+        return instead(getattr(self._module, name))
 
 
 _module = cache(_Module)
+
+
+def _imported(name: str, *args: Any, **kwargs: Any) -> Any:
+    return instead(__import__(name, *args, **kwargs))
+
+
+BUILTINS = {**vars(builtins), "__import__": _imported}  # an import inside a cell is one of what takes quantities too
 
 
 @cache
@@ -112,7 +148,7 @@ def _takes(f: Callable[..., Any]) -> Callable[..., Any]:
         if not has_quantity([*args, *kwargs.values()]):
             return f(*args, **kwargs)
         if f in _ARRAYS:
-            return lift(current.get(), args[0])
+            return _array(*args, **kwargs) if f is not np.array else copy(_array(*args, **kwargs))
         if f in (np.zeros, np.ones, np.empty, np.full):
             shape, *rest = args
             shape = plain(shape)
@@ -129,6 +165,12 @@ def _takes(f: Callable[..., Any]) -> Callable[..., Any]:
         if isinstance(f, np.ufunc):
             setattr(function, name, getattr(f, name))
     return function
+
+
+def _array(values: Any, dtype: Any = None, *, copy: Any = None, ndmin: int = 0) -> Quantity:
+    array = lift(current.get(), values)
+    array = array if dtype is None else array.astype(dtype)
+    return array[(None,) * (ndmin - array.ndim)] if ndmin > array.ndim else array
 
 
 # --- functions of the mechanics ----------------------------------------------------------------------------------
@@ -149,34 +191,26 @@ def body(f: Any) -> Callable[..., Any]:
 
 
 @cache
-def _of_mechanics(f: Any) -> Callable[..., Any]:
-    own = _short().get(f) or body(f)
+def _itself(f: Any) -> Callable[..., Any]:
+    """A function that is recorded by running itself, or its short form."""
+    always = f.__module__ == checks.__name__
 
     def function(*args: Any, **kwargs: Any) -> Any:
-        return own(*args, **kwargs) if any_quantity((args, kwargs)) else f(*args, **kwargs)
+        if not (always or has_quantity((args, kwargs))):
+            return f(*args, **kwargs)
+        return (_short().get(f) or body(f))(*args, **kwargs)
 
     return function
 
 
 @cache
 def _space(module: str) -> dict[str, Any]:
-    """The names of a module of the mechanics, with what takes quantities."""
-    names: dict[str, Any] = {"__builtins__": builtins, **NAMES}
+    """The names of a module of this package, with what takes quantities."""
+    names: dict[str, Any] = {"__builtins__": builtins, **_NAMES}
     for name, value in vars(sys.modules[module]).items():
         if not name.startswith("__"):
-            late = isinstance(value, FunctionType) and value.__module__.startswith(_ROOMS)
-            names[name] = _Late(value) if late else value if isinstance(value, type) else instead(value)
+            names[name] = value if isinstance(value, type) and value.__name__ not in SHOWING else instead(value)
     return names
-
-
-class _Late:
-    """A function of the mechanics, exchanged when it is called: the functions of a module need each other."""
-
-    def __init__(self, value: Any) -> None:
-        self.value = value
-
-    def __call__(self, *args: Any, **kwargs: Any) -> Any:
-        return instead(self.value)(*args, **kwargs)
 
 
 @cache
@@ -194,12 +228,17 @@ def _group(kind: type) -> type:
     return type(kind.__name__, (kind,), methods)
 
 
-def any_quantity(value: Any) -> bool:
-    """Whether there is a quantity somewhere in a value."""
-    if isinstance(value, Quantity):
-        return True
-    if isinstance(value, dict):
-        return any(any_quantity(v) for v in value.values())
-    if isinstance(value, list | tuple):
-        return any(any_quantity(v) for v in value)
-    return hasattr(value, "__dataclass_fields__") and any(any_quantity(v) for v in vars(value).values())
+class _Nothing:
+    """Stands for what a workbook does not show; every use of it gives it again."""
+
+    def __call__(self, *args: Any, **kwargs: Any) -> "_Nothing":
+        return self
+
+    def __getattr__(self, name: str) -> "_Nothing":
+        if name.startswith("__"):
+            raise AttributeError(name)
+        return self
+
+
+_NOTHING = _Nothing()
+_NAMES = {**NAMES, "recorded imported": instead}

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from mechsheet.worksheet import scene as scenes
 from mechsheet.worksheet.errors import SheetError
-from mechsheet.worksheet.inputs import Input
+from mechsheet.worksheet.kinds import Input
 from mechsheet.worksheet.scene import Scene
 
 

@@ -23,6 +23,7 @@ from mechsheet.worksheet import inputs, mistakes, numbers, results
 from mechsheet.worksheet.cells import Worksheet, base, checks, load, refuse_open
 from mechsheet.worksheet.check import Check
 from mechsheet.worksheet.errors import SheetError
+from mechsheet.worksheet.kinds import Input
 from mechsheet.worksheet.results import Displayed
 from mechsheet.worksheet.scene import Scene
 from mechsheet.worksheet.table import Column, Table
@@ -208,7 +209,7 @@ def _is_check(what: Any) -> bool:
     return isinstance(what, Check) or (isinstance(what, tuple) and all(isinstance(part, Check) for part in what))
 
 
-def _changed(sheet: Worksheet, outcomes: Iterable[Outcome]) -> list[inputs.Input]:
+def _changed(sheet: Worksheet, outcomes: Iterable[Outcome]) -> list[Input]:
     used = [o.g for o in outcomes if o.g is not None]
     default = sheet.inputs()
     return [
@@ -237,7 +238,7 @@ def _table(sheet: Worksheet, outcomes: Sequence[Outcome]) -> list[list[str]]:
     """The summary in words: a row a quantity, a column a scene."""
     rows = [["", *(o.name for o in outcomes)]]
     for field in _changed(sheet, outcomes):
-        given = ("" if o.g is None else inputs.text(field, getattr(o.g, field.name)) for o in outcomes)
+        given = ("" if o.g is None else field.text(getattr(o.g, field.name)) for o in outcomes)
         rows.append([f"{field.name} [{field.unit}]", *given])
     for name, quantity in _quantities(outcomes).items():
         spans = ({q.name: q.span for q in o.quantities}.get(name, "") for o in outcomes)

@@ -13,9 +13,8 @@ from mechsheet.recording.lines import Recording, Residual
 from mechsheet.recording.record import record
 from mechsheet.run import arguments
 from mechsheet.run.ending import say
-from mechsheet.workbook import writing
+from mechsheet.workbook import inputs_sheet, writing
 from mechsheet.workbook.find_sheet import FoundRow
-from mechsheet.workbook.inputs_sheet import InputRow
 from mechsheet.workbook.save import save
 from mechsheet.worksheet import inputs, numbers
 from mechsheet.worksheet.cells import load, refuse_open, results
@@ -35,22 +34,22 @@ def export(title: str, namespace: Mapping[str, Any]) -> Any:
 
     ``namespace`` is the last cell's ``globals()``.
 
-    In the page: a button that builds it when pressed. In ``python worksheet.py``: prints the found values
-    and the checks, writes ``NAME.xlsx`` into ``exports/`` of the project whose worksheet it is, elsewhere beside the
-    worksheet (or into ``--out``), and exits with 1 where a name that
-    some cell returns does not exist or a check fails. Where a group does not close, nothing is written.
+    In the page: a button that builds it when pressed, and then tells what it does not follow. In
+    ``python worksheet.py``: prints the found values and the checks, writes ``NAME.xlsx`` into ``exports/`` of the
+    project whose worksheet it is, elsewhere beside the worksheet (or into ``--out``), and exits with 1 where a name
+    that some cell returns does not exist or a check fails. Where a group does not close, nothing is written.
     """
     worksheet = Path(namespace["__file__"])
     if arguments.is_script(str(worksheet)):
         _script(title, namespace, worksheet)
         return None
-    import marimo as mo  # on use: a worksheet called as a function needs it not
+    from mechsheet.page.download import download  # on use: a worksheet called as a function needs no page
 
-    return mo.download(
-        lambda: workbook(title, namespace, {}),
-        filename=f"{worksheet.stem}.xlsx",
-        label="Excel workbook",
-    )
+    def made() -> tuple[bytes, list[str]]:
+        recording, fit = _recorded(namespace)
+        return _workbook(title, namespace, [*parts.values(namespace), fit], recording), _not_followed(recording)
+
+    return download(made, f"{worksheet.stem}.xlsx", "Excel workbook")
 
 
 def _script(title: str, namespace: Mapping[str, Any], worksheet: Path) -> None:
@@ -66,9 +65,14 @@ def _script(title: str, namespace: Mapping[str, Any], worksheet: Path) -> None:
     say(*inputs.readings(declared, given.inputs), *_of(Found, values), *checks)
     path = (given.out or _folder(worksheet.resolve())) / f"{worksheet.stem}.xlsx"
     write(_workbook(title, namespace, [*values, fit], recording), path)
-    say(f"written {path}", *(f"not followed there: {gap}" for gap in recording.gaps))
+    say(f"written {path}", *_not_followed(recording))
     if not all(check.passed for check in checks):
         sys.exit(1)
+
+
+def _not_followed(recording: Recording) -> list[str]:
+    """What the workbook does not follow, a line for each."""
+    return [f"not followed there: {gap}" for gap in recording.gaps]
 
 
 def _folder(worksheet: Path) -> Path:
@@ -112,10 +116,7 @@ def _workbook(title: str, namespace: Mapping[str, Any], values: list[Any], recor
     own = {check.name: check.limit for check in _of(Check, parts.values(namespace))}
     return writing.workbook(
         title,
-        inputs=[
-            InputRow(f.name, value, f.unit, f.meaning, f.section, f.limits, f.whole)
-            for f, value in inputs.Used(namespace["g"]).rows()
-        ],
+        inputs=inputs_sheet.rows(namespace["g"]),
         found=[_found(line, found) for line, found in solved(namespace)],
         tables=_of(Table, values),
         figures=_of(Figure, values),

@@ -204,7 +204,11 @@ def _halves(columns: Mapping[str, Any]) -> Iterator[dict[str, Any]]:
 def one_by_one(columns: Mapping[str, Any]) -> Iterator[dict[str, Any]]:
     """The variants one by one, as single numbers."""
     for i in range(_count(columns)):
-        yield {name: v[i, 0].item() if np.ndim(v) else v for name, v in columns.items()}
+        yield {name: _one(v[i, 0]) if np.ndim(v) else v for name, v in columns.items()}
+
+
+def _one(value: Any) -> Any:
+    return value.item() if isinstance(value, np.generic) else value
 
 
 def _joined(parts: Sequence[Part]) -> Part:

@@ -6,6 +6,7 @@ The search knows nothing of mechanisms: a worksheet says what a variant is worth
 import sys
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from decimal import ROUND_CEILING, Context
 from functools import partial
 from typing import Any
 
@@ -17,7 +18,8 @@ from mechsheet.run import arguments, report
 from mechsheet.worksheet import numbers
 from mechsheet.worksheet.check import Check
 from mechsheet.worksheet.errors import SheetError
-from mechsheet.worksheet.inputs import Input, declared
+from mechsheet.worksheet.inputs import declared
+from mechsheet.worksheet.kinds import Input
 from mechsheet.worksheet.scene import Limit
 
 Array = NDArray[np.float64]
@@ -70,12 +72,19 @@ Judge = Callable[[dict[str, Array]], Judged]
 
 @dataclass(frozen=True, eq=False)
 class Design:
-    """The best variant of a search: its inputs in display units, its goal and requirements, and the variants tried."""
+    """The best variant of a search: its inputs in display units, its goal and requirements, and the variants tried.
+
+    ``uncertainty`` is how far below its goal those reach that hold all requirements in the last generation, and what a
+    step of the last decimal of each input changes: as little as that the search has told designs apart, and another
+    search may find as much more; two digits, rounded up. It is infinite where half of the last generation misses a
+    requirement. An estimate, no bound: of a better place that no variant came near it knows nothing.
+    """
 
     inputs: dict[str, float]
     goal: float
     requirements: tuple[Requirement, ...]
     tried: int
+    uncertainty: float
 
 
 def search(
@@ -117,13 +126,42 @@ def search(
             ends = "..".join(numbers.significant(end, 6) for end in (low, high))
             raise SheetError(f"bounds of {name} = {ends} must be in order")
     evolved = partial(_evolved, bounds=bounds, decimals=decimals, seed=seed, generations=generations, members=members)
-    best, judged, tried = evolved(judge, start=start, done=done)
+    best, judged, tried, last = evolved(judge, start=start, done=done)
     if judged.reasons[0]:
         raise SheetError(f"no design within the bounds has a value: {judged.reasons[0]}")
     worst = max(judged.requirements, key=lambda r: float(r.missed[0]), default=None)
     if worst is not None and worst.missed[0] > 0:
         raise SheetError(_infeasible(judge, worst.name, evolved, best))
-    return Design(best, float(judged.goal[0]), judged.requirements, tried)
+    goal = float(judged.goal[0])
+    uncertainty = _reach(last, goal) + _steps(judge, best, goal, bounds, decimals)
+    two_digits = Context(prec=2, rounding=ROUND_CEILING).create_decimal_from_float(uncertainty)
+    return Design(best, goal, judged.requirements, tried, float(two_digits))
+
+
+def _reach(energies: Array, goal: float) -> float:
+    """How far below the best goal those of a generation reach that hold all requirements."""
+    goals = -energies[energies < _FAR / 2]
+    return goal - float(goals.min()) if 2 * len(goals) > len(energies) else np.inf
+
+
+def _steps(
+    judge: Judge,
+    best: Mapping[str, float],
+    goal: float,
+    bounds: Mapping[str, tuple[float, float]],
+    decimals: Mapping[str, int],
+) -> float:
+    """What a step of the last decimal of each input changes the goal by, in all, where requirements hold."""
+    steps = np.diag([10.0 ** -decimals[x] for x in best])
+    moved = np.array([*best.values()])[:, None] + np.hstack([steps, -steps])
+    near = judge({x: np.clip(values, *bounds[x]) for x, values in zip(best, moved, strict=True)})
+    there = (near.reasons == "") & (_missed(near) == 0)
+    return float(np.where(there, abs(near.goal - goal), 0.0).reshape(2, -1).max(axis=0).sum())
+
+
+def _missed(judged: Judged) -> Array:
+    """By what parts of their limits the requirements are missed, in all."""
+    return sum((r.missed for r in judged.requirements), np.zeros(len(judged.goal)))
 
 
 def _infeasible(judge: Judge, name: str, evolved: Callable[..., Any], nearest: Mapping[str, float]) -> str:
@@ -137,7 +175,7 @@ def _infeasible(judge: Judge, name: str, evolved: Callable[..., Any], nearest: M
         return Judged(one(judged).reserve, (), judged.reasons)
 
     there = one(judge({x: np.array([v]) for x, v in nearest.items()}))
-    best, _, _ = evolved(alone, start=nearest, done=lambda: None)
+    best, *_ = evolved(alone, start=nearest, done=lambda: None)
     reached = one(judge({x: np.array([v]) for x, v in best.items()}))
     best_text, near_text = (_text(r.values[0], r.unit) for r in (reached, there))
     if reached.missed[0] > 0:
@@ -157,7 +195,8 @@ def _evolved(
     members: int,
     start: Mapping[str, float] | None,
     done: Callable[[], object],
-) -> tuple[dict[str, float], Judged, int]:
+) -> tuple[dict[str, float], Judged, int, Array]:
+    """The best variant, what it is worth, the variants tried and the energies of the last generation."""
     from scipy.optimize import Bounds, differential_evolution  # on use: takes longer than the rest of the package
 
     names, tried = list(bounds), 0
@@ -170,7 +209,7 @@ def _evolved(
         nonlocal tried
         judged = judge(variants(x))
         tried += len(judged.goal)
-        missed = sum((r.missed for r in judged.requirements), np.zeros(len(judged.goal)))
+        missed = _missed(judged)
         value = np.where(missed > 0, _FAR + missed, -judged.goal)
         return np.where((judged.reasons != "") | np.isnan(value), _LOST, value)
 
@@ -191,7 +230,7 @@ def _evolved(
         x0=None if start is None else [start[name] for name in names],
     )
     chosen = variants(found.x[:, None])
-    return {name: float(column[0]) for name, column in chosen.items()}, judge(chosen), tried
+    return {name: float(column[0]) for name, column in chosen.items()}, judge(chosen), tried, found.population_energies
 
 
 def pareto(a: Array, b: Array) -> NDArray[np.intp]:

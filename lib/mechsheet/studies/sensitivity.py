@@ -14,7 +14,7 @@ from mechsheet.worksheet import inputs as declarations
 from mechsheet.worksheet import numbers, symbol
 from mechsheet.worksheet.cells import base, load, value
 from mechsheet.worksheet.errors import SheetError
-from mechsheet.worksheet.inputs import Input
+from mechsheet.worksheet.kinds import Input
 from mechsheet.worksheet.shown import Charted
 from mechsheet.worksheet.table import Column, Table
 
@@ -197,7 +197,7 @@ def sensitivity(
     """
     names = tuple(dict.fromkeys(want))
     fields, at = point(worksheet, given)
-    chosen = [x for x, f in fields.items() if not f.whole] if inputs is None else list(dict.fromkeys(inputs))
+    chosen = [x for x, f in fields.items() if f.continuous] if inputs is None else list(dict.fromkeys(inputs))
     for x in chosen:
         continuous(fields, x, "cannot be differentiated by")
     sizes = np.array([_size(fields, at, x) for x in chosen])
@@ -261,18 +261,20 @@ def point(worksheet: str | Path, given: Mapping[str, Any]) -> tuple[dict[str, In
     cls = load(worksheet).inputs
     g: Any = declarations.build(cls, given)
     rows = declarations.Used(g).rows()
-    return {field.name: field for field, _ in rows}, {field.name: float(number) for field, number in rows}
+    numbers = {field.name: float(shown) for field, shown in rows if field.continuous}
+    return {field.name: field for field, _ in rows}, numbers
 
 
 def continuous(fields: Mapping[str, Input], name: str, cannot: str) -> None:
     field = declarations.known(fields, name)
-    if field.whole:
-        raise SheetError(f"results {cannot} {field.meaning} {name}, which is a whole number")
+    if not field.continuous:
+        kind = "a whole number" if field.whole else "no number"
+        raise SheetError(f"results {cannot} {field.meaning} {name}, which is {kind}")
 
 
 def _size(fields: Mapping[str, Input], at: Mapping[str, float], name: str) -> float:
     """Size of an input: its own, of the largest with its unit where it is zero, or one."""
-    alike = (abs(at[x]) for x, field in fields.items() if field.unit == fields[name].unit and not field.whole)
+    alike = (abs(at[x]) for x, field in fields.items() if field.unit == fields[name].unit and field.continuous)
     return abs(at[name]) or max(alike) or 1.0
 
 

@@ -4,6 +4,8 @@ from collections import Counter
 from collections.abc import Callable, Container, Iterable, Iterator, Mapping, Sequence, Set
 from dataclasses import dataclass, field
 
+import numpy as np
+
 from mechsheet import units
 from mechsheet.recording.graph import LEAVES, Node, bottom_up
 from mechsheet.recording.lines import Line, Recording
@@ -54,7 +56,7 @@ class Arrangement:
         self.lines = {line.node: line for lines in recording.lines.values() for line in lines}
         self.last = [] if found else last_lines(recording)
         self._names = DefinedNames()
-        last = max(inputs.values(), default=1)
+        last = max((inputs[symbol] + node.size - 1 for symbol, node in recording.inputs.items()), default=1)
         self.changed = Place(self._names.new("inputs_changed"), "Inputs", last + 1, _SI)  # how many differ
         self.defined.append((self.changed.name, self.changed.meaning(1)))
         for symbol, node in recording.inputs.items():
@@ -83,7 +85,7 @@ class Arrangement:
         return (*nodes, *[None] * (len(table.columns) - len(nodes)))
 
     def _settle(self, node: Node, symbol: str, sheet: str, row: int, column: int) -> None:
-        place = self.places[node] = Place(self._names.new(symbol), sheet, row, column)
+        place = self.places[node] = Place(self._names.new(symbol.replace(".", "_")), sheet, row, column)
         self.defined.append((place.name, place.meaning(node.size)))
 
     def _roots(self) -> Iterator[Node]:
@@ -173,7 +175,8 @@ def needing_place(roots: Iterable[Node], named: Set[Node], places: Container[Nod
     """Quantities behind ``roots`` that need a place of their own, the ones they rest on first.
 
     These are the ``named`` ones, those that have one of the ``places`` already, what a sum or a greatest value is taken
-    of, and what would make a formula too long or too deep, or stand in several of them.
+    of, what would make a formula too long or too deep, or stand in several of them, and what differs from row to row:
+    numbers, and elements of several quantities.
     """
     order: list[Node] = []
     visited: set[Node] = set()
@@ -195,10 +198,23 @@ def needing_place(roots: Iterable[Node], named: Set[Node], places: Container[Nod
         repeated = uses[node] > 1 and own > _LIGHT and node.op not in ("take", "join")
         if node.op in ("constant", "input") or (node.op == "rows" and node.size == 1):
             own = 0
-        elif known or repeated or own > _HEAVY or deep >= _DEEP:
+            if node.size > 1 and not np.array_equal(node.value, np.full_like(node.value, node.value.flat[0]), True):
+                placed[node] = None  # one formula a column: it refers to what differs from row to row
+        elif (
+            (node.op == "join" and len(set(node.args[1].flat)) > 1)
+            or known
+            or repeated
+            or own > _HEAVY
+            or deep >= _DEEP
+        ):
             placed[node] = None
             own = deep = 0
         if node.op in ("reduce", "at") and node.args[0].op != "input":
             placed.setdefault(node.args[0])
         weight[node], depth[node] = own, deep
     return list(placed)
+
+
+def _of_several(node: Node) -> bool:
+    """Whether elements of several quantities are joined in one."""
+    return node.op == "join" and len(np.unique(node.args[1])) > 1

@@ -7,9 +7,9 @@ from functools import lru_cache
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mechsheet.recording.graph import Node, is_number
+from mechsheet.workbook.column_rows import COUNTED, Index, Rows, Unlike
 from mechsheet.workbook.place import Place
 
 _SAME = ("abs", "sqrt", "exp", "sin", "cos", "tan", "asin", "acos", "sign")
@@ -32,52 +32,59 @@ _OF_RANGE = {
     "argmax": "MATCH(MAX({0}),{1},0)-1", "argmin": "MATCH(MIN({0}),{1},0)-1", "nanmax": f"{AGGREGATE}(4,6,{{}})",
     "nanmin": f"{AGGREGATE}(5,6,{{}})", "nansum": f"{AGGREGATE}(9,6,{{}})",
 }  # fmt: skip
+_FIRST = np.zeros(1, np.intp)
+_ALONE = Rows(_FIRST, (), 0, alone=True)
 _FAILS = {"sqrt", "asin", "acos", "atan2", "log", "div", "pow", "mod", "tan", "at"}  # may give an error value
 
 
 class CellFormulas:
-    """Formulas of quantities, some of which stand at a place of the workbook: there a formula refers to them."""
+    """Formulas of quantities, some of which stand at a place of the workbook: there a formula refers to them.
 
-    def __init__(self, places: Mapping[Node, Place]) -> None:
-        self.places = places
+    ``first`` is the row of the first number of every column; what is no number is #N/A.
+    """
 
-    def formula(self, node: Node, k: int = 0, row: int | None = None, factor: float = 1.0) -> str:
-        """Formula of a quantity's k-th element over ``factor``, without its own name, for a column's ``row``-th cell.
+    def __init__(self, places: Mapping[Node, Place], first: int = 0) -> None:
+        self.places, self.first = places, first
 
-        What is no number is #N/A.
-        """
-        text, binding = self._operation(node, k, _row(node, k, row))
+    def formula(self, node: Node, factor: float = 1.0) -> str:
+        """Formula of a single number over ``factor``, without its own name."""
+        return self._written(node, _ALONE, factor)
+
+    def reference(self, node: Node, factor: float = 1.0) -> str:
+        """Formula that shows a single number over ``factor``."""
+        if node not in self.places:
+            return self.formula(node, factor)
+        name = self.places[node].name
+        return f"={_scaled(name, factor) if factor != 1.0 else name}"
+
+    def formulas(self, node: Node, factor: float = 1.0) -> list[str]:
+        """Formulas of all elements over ``factor``, one a column where there is one for all of them."""
+        if node.size == 1:
+            return [self.formula(node, factor)]
+        texts: list[str] = [""] * node.size
+        for rows in _of_one_source(node):
+            try:
+                self._fill(texts, node, rows, factor)
+            except Unlike:
+                for row in rows:
+                    self._fill(texts, node, np.array([row]), factor)
+        return texts
+
+    def references(self, node: Node, factor: float) -> list[str]:
+        """Formulas that show all elements of a quantity over ``factor``."""
+        return [self.reference(node, factor)] * node.size if node in self.places else self.formulas(node, factor)
+
+    def _fill(self, texts: list[str], node: Node, rows: Index, factor: float) -> None:
+        rows_alike = Rows(rows, node.shape, self.first)
+        text = self._written(node, rows_alike, factor)
+        for row in rows.tolist():
+            texts[row] = rows_alike.in_row(text, row)
+
+    def _written(self, node: Node, rows: Rows, factor: float) -> str:
+        text, binding = self._operation(node, rows.numbers, rows)
         if factor != 1.0:
             text = _scaled(text if binding > 2 else f"({text})", factor)
         return f"=IFERROR({text},NA())" if self._fails(node) else f"={text}"
-
-    def reference(self, node: Node, k: int = 0, row: int | None = None, factor: float = 1.0) -> str:
-        """Formula that shows the k-th element of a quantity which has a place, over ``factor``."""
-        if node not in self.places:
-            return self.formula(node, k, row, factor)
-        text = self._element(node, k, _row(node, k, row))[0]
-        return f"={_scaled(text, factor) if factor != 1.0 else text}"
-
-    def formulas(self, node: Node) -> list[str]:
-        """Formulas of all elements, written once where they are the same text in all rows."""
-        same = node.size == 1 or (_plain(node) and all(self._same_rows(o, node) for o in node.operands))
-        return [self.formula(node)] * node.size if same else [self.formula(node, k) for k in range(node.size)]
-
-    def references(self, node: Node, factor: float) -> list[str]:
-        """Formulas that show all elements of a quantity, over ``factor``."""
-        if self._same_rows(node, node):
-            return [self.reference(node, 0, 0, factor)] * node.size
-        return [self.reference(node, k, k, factor) for k in range(node.size)]
-
-    def _same_rows(self, node: Node, root: Node) -> bool:
-        """Whether a quantity reads the same in all rows of another."""
-        if node.size == 1:
-            return True
-        if node.shape != root.shape:
-            return False
-        return node in self.places or (
-            _plain(node) and all(self._same_rows(operand, root) for operand in node.operands)
-        )
 
     def _fails(self, node: Node) -> bool:
         """Whether a formula may give an error value where its operands give none."""
@@ -89,64 +96,87 @@ class CellFormulas:
             stack.extend(operand for operand in here.operands if operand not in self.places)
         return False
 
-    def _element(self, node: Node, k: int, row: int) -> tuple[str, int]:
-        """The k-th element as an operand: by its name or address where it has a place."""
+    def _element(self, node: Node, at: Index, rows: Rows) -> tuple[str, int]:
+        """Elements as an operand: by their name or address where they have a place."""
         place = self.places.get(node)
         if place is None:
-            return self._operation(node, k, row)
-        return place.name if node.size == 1 or k == row else place.at(k), 5
+            return self._operation(node, at, rows)
+        return place.name if node.size == 1 else rows.cells(place, at), 5
 
-    def _operation(self, node: Node, k: int, row: int) -> tuple[str, int]:
+    def _operation(self, node: Node, at: Index, rows: Rows) -> tuple[str, int]:
         match node.op:
             case "constant":
-                text = written(node.value.reshape(-1)[k if node.size > 1 else 0])
+                text = written(_only(node.value.reshape(-1)[at if node.size > 1 else 0]))
                 if node.args and re.fullmatch("10{6,}", text):  # as of MPa
                     text = f"1E{len(text) - 1}"
                 return text, 2 if text.startswith("-") else 3 if "*" in text or "/" in text else 5
             case "mul" | "div" if _is_one(node.args[1]):
-                return self._element(node.args[0], _position(node.args[0].shape, node.shape, k), row)
+                return self._element(node.args[0], _position(node.args[0].shape, node.shape, at), rows)
             case "mul" if _is_one(node.args[0]):
-                return self._element(node.args[1], _position(node.args[1].shape, node.shape, k), row)
+                return self._element(node.args[1], _position(node.args[1].shape, node.shape, at), rows)
             case "rows":
                 place = self.places.get(node)
                 return f"ROW()-{place.row + 1 if place else 1}", 2
             case "take":
                 source, index = node.args
-                return self._element(source, int(index.reshape(-1)[k]), row)
+                return self._element(source, index.reshape(-1)[at], rows)
             case "join":
                 sources, which, index = node.args
-                source = sources[which.reshape(-1)[k]]
-                return self._element(source, int(index.reshape(-1)[k]), row)
+                return self._element(sources[_only(which.reshape(-1)[at])], index.reshape(-1)[at], rows)
             case "reduce":
-                source, groups, kind = node.args
-                group, place = groups[k], self.places[source]
-                if len(group) > 1 and np.array_equal(np.diff(group), np.ones(len(group) - 1, int)):
-                    cells = one = place.range(int(group[0]), int(group[-1]))
-                else:
-                    cells = ",".join(place.at(int(i)) for i in group)
-                    one = f"CHOOSE({{{','.join(str(n + 1) for n in range(len(group)))}}},{cells})"
-                return _OF_RANGE[kind].format(cells, one), 2 if kind.startswith("arg") else 5
+                return self._reduced(node, at, rows)
             case "at":
                 source, position = node.args
-                where = self._element(position, _position(position.shape, node.shape, k), row)[0]
+                where = self._element(position, _position(position.shape, node.shape, at), rows)[0]
                 return f"INDEX({self.places[source].range(0, source.size - 1)},{where}+1)", 5
             case "exported":
-                known = written(node.value.reshape(-1)[k if node.size > 1 else 0])
-                same = [f"{self._element(x, 0, row)[0]}={written(x.value)}" for x in node.args]
+                known = written(_only(node.value.reshape(-1)[at if node.size > 1 else 0]))
+                same = [f"{self._element(x, _FIRST, rows)[0]}={written(x.value)}" for x in node.args]
                 return f"IF(AND({','.join(same)}),{known},NA())" if same else known, 5
         form, binding, needs = _TEXT[node.op]
         shape, texts = node.shape, []
         for operand, need in zip(node.args, needs, strict=True):
-            text, tight = self._element(operand, _position(operand.shape, shape, k), row)
+            text, tight = self._element(operand, _position(operand.shape, shape, at), rows)
             texts.append(f"({text})" if tight < need else text)
         if node.op == "neg" and "^" in texts[0] and tight < 5:  # -x^2 is (-x)^2 to a spreadsheet
             return f"-({texts[0]})", binding
         return form.format(*texts), binding
 
+    def _reduced(self, node: Node, at: Index, rows: Rows) -> tuple[str, int]:
+        source, groups, kind = node.args
+        place, chosen = self.places[source], [groups[k] for k in at.tolist()]
+        if max(map(len, chosen)) > 1 and all((np.diff(group) == 1).all() for group in chosen):
+            ends = [np.array([group[n] for group in chosen]) for n in (0, -1)]
+            cells = one = rows.range(place, *ends)
+        else:
+            length = _only(np.array([len(group) for group in chosen]))
+            members = [rows.cells(place, np.array([group[n] for group in chosen])) for n in range(length)]
+            cells = ",".join(members)
+            one = f"CHOOSE({{{','.join(str(n + 1) for n in range(length))}}},{cells})"
+        return _OF_RANGE[kind].format(cells, one), 2 if kind.startswith("arg") else 5
+
+
+def _of_one_source(node: Node) -> list[Index]:
+    """Rows of a quantity's column by the source from which their elements are taken."""
+    rows = np.arange(node.size)
+    if node.op != "join":
+        return [rows]
+    which = node.args[1].reshape(-1)
+    return [rows[which == source] for source in np.unique(which)]
+
+
+def _only(values: Any) -> Any:
+    """The value that is the same in all rows of a column."""
+    first = values.reshape(-1)[0]
+    if values.size > 1 and not ((values == first) | ((values != values) & (first != first))).all():
+        raise Unlike
+    return first
+
 
 def nesting(node: Node, inside: Mapping[Node, int]) -> int:
     """Parentheses inside each other in the formula of an operation whose operands have ``inside``."""
-    deepest = max((inside[operand] for operand in node.operands), default=0)
+    deep = {operand: max(inside[operand], COUNTED * _elsewhere(operand, node)) for operand in node.operands}
+    deepest = max(deep.values(), default=0)
     if node.op == "reduce":
         return deepest + (2 if node.args[2].startswith("arg") else 1)
     if node.op not in _TEXT:
@@ -155,16 +185,12 @@ def nesting(node: Node, inside: Mapping[Node, int]) -> int:
     if binding == 5:
         return deepest + 1
     tight = [_TEXT[operand.op][1] if operand.op in _TEXT else 5 for operand in node.operands]
-    return max(inside[o] + (t < need) for o, t, need in zip(node.operands, tight, needs, strict=True))
+    return max(deep[o] + (t < need) for o, t, need in zip(node.operands, tight, needs, strict=True))
 
 
-def _row(node: Node, k: int, row: int | None) -> int:
-    """Row of a cell among its column's; a single number stands in no row of any column."""
-    return -1 if node.size == 1 else k if row is None else row
-
-
-def _plain(node: Node) -> bool:
-    return node.op not in ("take", "at", "join", "reduce", "constant", "exported")
+def _elsewhere(operand: Node, node: Node) -> bool:
+    """Whether the operand of a row may stand in another row."""
+    return operand.size > 1 and (operand.shape != node.shape or node.op in ("take", "join", "reduce", "at"))
 
 
 def _safe(node: Node) -> bool:
@@ -198,15 +224,15 @@ def _scaled(text: str, factor: float) -> str:
     return f"{text}/{written(factor)}" if factor >= 1 else f"{text}*{written(1 / factor)}"
 
 
-def _position(shape: tuple[int, ...], whole: tuple[int, ...], k: int) -> int:
-    """Flat position in an operand of the k-th element of what it is broadcast to."""
+def _position(shape: tuple[int, ...], whole: tuple[int, ...], at: Index) -> Index:
+    """Flat positions in an operand of elements of what it is broadcast to."""
     if shape == whole:
-        return k
-    return int(_positions(shape, whole)[k]) if math.prod(shape) > 1 else 0
+        return at
+    return _positions(shape, whole)[at] if math.prod(shape) > 1 else np.zeros_like(at)
 
 
 @lru_cache(maxsize=256)
-def _positions(shape: tuple[int, ...], whole: tuple[int, ...]) -> NDArray[Any]:
+def _positions(shape: tuple[int, ...], whole: tuple[int, ...]) -> Index:
     return np.broadcast_to(np.arange(math.prod(shape)).reshape(shape), whole).reshape(-1)
 
 

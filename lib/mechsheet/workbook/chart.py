@@ -68,8 +68,8 @@ class Charts:
             chart.add_series(self._mark(figure, label, at, (y["min"], y["max"]), place))
         title = {"name": _label(caption("Figure", figure)), "name_font": {**looks.CHART, "size": 11, "bold": True}}
         chart.set_title(title)
-        if self._formulas and not figure.logarithmic:  # the axis follows the numbers
-            y = {}
+        if self._formulas:  # written ends would cut what other inputs give
+            x, y = _following(x) if self._formulas.moves_along(figure) else x, _following(y)
         chart.set_x_axis({**looks.AXIS, **x, "name": _label(_quantity([figure.x]))})
         chart.set_y_axis({**looks.AXIS, **y, "name": _label(_quantity(figure.lines))})
         lines = len(figure.series())
@@ -106,6 +106,11 @@ class Charts:
             },
             "smooth": False,
         }
+
+
+def _following(scale: dict[str, Any]) -> dict[str, Any]:
+    """An axis whose ends the spreadsheet program takes from the numbers that it shows."""
+    return {"log_base": scale["log_base"], "crossing": "min"} if "log_base" in scale else {}
 
 
 def same_column(a: Column, b: Column) -> bool:

@@ -20,7 +20,6 @@ from mechsheet.worksheet.numbers import fixed
 
 _NAME = "Front"
 _WIDTHS = (200, 95, 95, 60, 230)
-_MOST = 15  # results, the first ones
 _GREY = "Grey cells hold for the exported inputs only, and show #N/A otherwise."
 _ALL = "all checks PASS"
 _VERDICT = "Checks!$E:$E"
@@ -78,7 +77,7 @@ def results(found: Sequence[FoundRow], drawn: Sequence[Drawn], formulas: SheetFo
         Result(row.symbol, (Live(f"=Find!$B${n}", row.value),), row.unit, row.meaning, looks.VALUE)
         for n, row in enumerate(found, 3)
     ]
-    return [*(first or (_last(formulas) if formulas else ())), *_shown(drawn)][:_MOST]
+    return [*(first or (_last(formulas) if formulas else ())), *_shown(drawn)]
 
 
 def _verdict(checks: Sequence[Check]) -> Live:

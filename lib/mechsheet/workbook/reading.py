@@ -13,7 +13,7 @@ from openpyxl.utils import get_column_letter  # type: ignore[import-untyped]
 
 from mechsheet.units import shown
 from mechsheet.worksheet.errors import SheetError, cut
-from mechsheet.worksheet.inputs import Input
+from mechsheet.worksheet.kinds import Choice, Input
 
 _SHEET = "Inputs"
 _HEADS = ("Symbol", "Value", "Unit")
@@ -35,6 +35,7 @@ def inputs(path: Path, declared: Sequence[Input]) -> dict[str, object]:
     """
     fields, found = {field.name: field for field in declared}, dict[str, object]()
     places = dict[str, str]()
+    properties = {f"{f.name}.{p.name}" for f in declared if isinstance(f, Choice) for p in f.properties}
     with _rows(path, values=True) as rows:
         columns = _columns(path, rows)
         for number, row in rows:
@@ -45,6 +46,8 @@ def inputs(path: Path, declared: Sequence[Input]) -> dict[str, object]:
                 if len(found) == len(fields) and not name:
                     break
                 continue  # an empty row, or the heading of a section
+            if name.rpartition(" (")[0] in properties:
+                continue
             if name not in fields:
                 near = difflib.get_close_matches(name[:_NAME], fields, n=3, cutoff=0.5)
                 hint = f"; nearest: {', '.join(near)}" if near else ""

@@ -9,7 +9,7 @@ from mechsheet.recording.record import leaves_of
 from mechsheet.workbook.arrangement import Arrangement
 from mechsheet.workbook.cell_formula import CellFormulas, written
 from mechsheet.workbook.content import Live, quoted
-from mechsheet.worksheet.table import Table
+from mechsheet.worksheet.table import Figure, Table
 
 
 class Compared(NamedTuple):
@@ -25,7 +25,7 @@ class SheetFormulas:
 
     def __init__(self, arrangement: Arrangement) -> None:
         self.arrangement, self.recording = arrangement, arrangement.recording
-        self._cells = CellFormulas(arrangement.places)
+        self._cells = CellFormulas(arrangement.places, arrangement.first)
         self._known: dict[Node, bool] = {}  # which rest on numbers that are not followed
         self._open = {solved.node for solved in self.recording.found.values() if not solved.inverse}
 
@@ -43,8 +43,14 @@ class SheetFormulas:
             return self._cells.formulas(node)
         factor = units.parse(table.columns[n].unit).factor
         if node.size == 1:
-            return [self._cells.reference(node, 0, 0, factor)] * len(table.columns[n].values)
+            return [self._cells.reference(node, factor)] * len(table.columns[n].values)
         return self._cells.references(node, factor)
+
+    def moves_along(self, figure: Figure) -> bool:
+        """Whether the positions over which a figure is drawn, or what it marks there, rest on inputs."""
+        columns = self.recording.tables.get(f"Fig {figure.number}", (None,))[:1]
+        nodes = [part for column in columns if column is not None for part in column.parts]
+        return bool(leaves_of([*nodes, *self.recording.marks.get(figure.number, {}).values()], self.recording))
 
     def exported(self, table: Table) -> tuple[int, ...]:
         """Columns of a table that rest on numbers of the worksheet's own run, and so do not follow other inputs."""
@@ -63,11 +69,12 @@ class SheetFormulas:
         for solved in self.recording.found.values():
             if solved.node is line.node:
                 return [self._solution(solved)]
-        return self._cells.formulas(line.node)
+        plain = line.node.op == "constant" and line.node.value.dtype != bool  # 1 is not TRUE to a spreadsheet
+        return None if plain else self._cells.formulas(line.node)
 
     def shown(self, line: Line) -> str:
         """Formula that shows a single number of a line in its display unit."""
-        return self._cells.reference(line.node, 0, 0, units.parse(line.unit).factor)
+        return self._cells.reference(line.node, units.parse(line.unit).factor)
 
     def found(self, unknown: str, unit: str, target_unit: str) -> tuple[str | None, ...]:
         """Formulas of a found value, of what it leaves of its equation, and of its interval; None where none is."""
@@ -77,9 +84,9 @@ class SheetFormulas:
         factor, target = units.parse(unit).factor, units.parse(target_unit).factor
         place = self.arrangement.places.get(solved.node)
         reference = self._cells.reference
-        value = self._solution(solved) if not place or place.sheet == "Find" else reference(solved.node, 0, 0, factor)
-        left = reference(solved.residual, 0, 0, target) if solved.residual else None
-        low, high = (reference(end, 0, 0, factor) for end in solved.interval) if solved.interval else (None, None)
+        value = self._solution(solved) if not place or place.sheet == "Find" else reference(solved.node, factor)
+        left = reference(solved.residual, target) if solved.residual else None
+        low, high = (reference(end, factor) for end in solved.interval) if solved.interval else (None, None)
         return value, left, low, high
 
     def _solution(self, solved: Solved) -> str:
@@ -96,8 +103,9 @@ class SheetFormulas:
 
     def outside(self) -> str:
         """Formula of how many inputs have no value in SI units."""
-        places = [self.arrangement.places[node] for node in self.recording.inputs.values()]
-        cells = places[0].range(0, max(place.row for place in places) - places[0].row) if places else ""
+        places = [(self.arrangement.places[node], node.size) for node in self.recording.inputs.values()]
+        first = min((place for place, _ in places), key=lambda place: place.row, default=None)
+        cells = first.range(0, max(place.row + size for place, size in places) - first.row - 1) if first else ""
         return f"=SUMPRODUCT(--ISERROR({cells}))" if cells else "=0"
 
     def closed(self, unknown: str) -> bool:
@@ -115,7 +123,7 @@ class SheetFormulas:
         largest = parts[0] if check.signed else f"MAX({','.join(parts)})"
         factor = units.parse(check.unit).factor
         residual = f"={largest}" + (f"/{factor!r}" if factor != 1 else "")
-        return Compared(residual, reference(check.limit, 0, 0, factor), check.limit.value.item() / factor)
+        return Compared(residual, reference(check.limit, factor), check.limit.value.item() / factor)
 
     def guard(self) -> str:
         """Formula of how many of the conditions that the worksheet's code looked at have changed; "" without any."""
@@ -125,4 +133,4 @@ class SheetFormulas:
     def mark(self, figure: str, label: str, unit: str) -> str | None:
         """Formula of the position that a figure marks; None where it is a plain number."""
         node = self.recording.marks.get(figure, {}).get(label)
-        return self._cells.reference(node, 0, 0, units.parse(unit).factor) if node else None
+        return self._cells.reference(node, units.parse(unit).factor) if node else None

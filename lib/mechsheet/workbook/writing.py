@@ -110,7 +110,8 @@ def _formulas(
     found: Sequence[FoundRow],
 ) -> SheetFormulas:
     """Formulas of a recording, the names in them defined."""
-    rows = {row.symbol: n for n, row in inputs_sheet.listed_rows(inputs) if isinstance(row, InputRow)}
+    listed = inputs_sheet.listed_rows(inputs)
+    rows = {row.leaf or row.symbol: n for n, row in listed if isinstance(row, InputRow) and row.k == 0}
     solved = {row.symbol: n for n, row in enumerate(found, 2)}
     arrangement = Arrangement(recording, tables, sheets, rows, solved, looks.FIRST, book.name)
     for name, meaning in arrangement.defined:

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from mechsheet.worksheet import inputs
+from mechsheet.worksheet import inputs, mistakes
 from mechsheet.worksheet.check import Check
 from mechsheet.worksheet.errors import SheetError, as_given, raised
 from mechsheet.worksheet.source import constant, functions, is_app, markdown
@@ -233,10 +233,10 @@ def load(path: str | Path) -> Worksheet:
     except UnicodeDecodeError as error:
         raise SheetError(f"worksheet {path} is no text in UTF-8: {error}") from None
     except SyntaxError as error:
-        raise SheetError(f"worksheet {path}, line {error.lineno}: {error.msg}") from None
+        raise SheetError(f"worksheet {path}, line {error.lineno}: {mistakes.unread(error)}") from None
 
 
-class _Marimo:
+class Marimo:
     """marimo, imported at its first use: that takes half a second, and results need nothing of it."""
 
     def __getattr__(self, name: str) -> Any:
@@ -258,7 +258,7 @@ def read(path: Path) -> Worksheet:
     for node in _shared(tree):
         match node:
             case ast.Import([ast.alias("marimo", name)]):
-                common[name or "marimo"] = _Marimo()
+                common[name or "marimo"] = Marimo()
             case _:
                 lines.append(node)
     with raised():

@@ -51,8 +51,17 @@ class Check(Shown):
         """One of pass, FAIL, not evaluated."""
         return "not evaluated" if not self.evaluated else "pass" if self.passed else "FAIL"
 
+    @property
+    def compared(self) -> tuple[str, str]:
+        """Residual and limit as texts: told apart, and the residual with two digits where it is only rounding."""
+        both = self.residual, self.limit
+        if not np.isfinite(both).all():
+            return numbers.significant(both[0], 4), numbers.significant(both[1], 4)
+        residual, limit = numbers.apart(both, digits=2 if abs(both[0]) < 1e-3 * both[1] else 4)
+        return residual, limit
+
     def __str__(self) -> str:
-        residual, limit = (numbers.significant(x, 3) for x in (self.residual, self.limit))
+        residual, limit = self.compared
         compared = f": {residual} <= {limit}{numbers.suffix(self.unit)}" if self.evaluated else ""
         return f"{self.verdict}  {self.name}{compared}" + (f"; {self.reason}" if self.reason else "")
 
@@ -162,6 +171,8 @@ def assembled(name: str, point: ArrayLike, over: ArrayLike, reaches: tuple[Any, 
     ``what`` names the quantity ``over`` which the positions run; ``reaches`` are the limits between which
     the group closes. The reason names the first position that does not.
     """
+    if len(reaches) != 2:
+        refuse(SheetError(f"assembled {name!r}: reaches must be the two limits of {what}, got {len(reaches)}"))
     lost = np.isnan(point)
     count = int(np.count_nonzero(lost))
     if not lost.size:

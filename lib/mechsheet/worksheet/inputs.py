@@ -7,15 +7,14 @@ import re
 import sys
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
-from math import inf
-from typing import TYPE_CHECKING, Any, TypeVar, dataclass_transform
+from typing import TYPE_CHECKING, Any, Literal, TypeVar, dataclass_transform, get_args, get_origin
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mechsheet import units
 from mechsheet.worksheet import errors, lines, numbers, source
 from mechsheet.worksheet.errors import SheetError, refuse
+from mechsheet.worksheet.kinds import Choice, Input, Offer, Switch, TextLine, number
 from mechsheet.worksheet.shown import Shown
 
 if TYPE_CHECKING:
@@ -23,77 +22,8 @@ if TYPE_CHECKING:
 
 T = TypeVar("T")
 _LIMIT = re.compile(r"\s*(<=|>=|<|>)\s*([^\s<>=]+)(?=[\s<>]|$)")
-_NUMBER = re.compile(r"([+−-]?(?:\d+(?:[.,]\d*)?|[.,]\d+)(?:[eE][+−-]?\d+)?)(.*)", re.DOTALL)
-_THOUSANDS = re.compile(r"\W?[1-9]\d{0,2},\d{3}(?!\d)")  # elsewhere read as such, here as a number with a decimal comma
-_UNIT = 40  # characters of a unit at most
 MOST, LEAST = 1e60, 1e-60  # products of a few inputs of this size are still numbers
 _COMPARE = {"<": np.less, "<=": np.less_equal, ">": np.greater, ">=": np.greater_equal}
-
-
-@dataclass(frozen=True)
-class Input:
-    """One declared input; ``limits`` are pairs such as (">", "0"), in the display unit, or ("<", "S_max")."""
-
-    name: str
-    unit: str
-    meaning: str
-    section: str
-    whole: bool
-    limits: tuple[tuple[str, str], ...]
-
-    def display(self, value: Any) -> Any:
-        """Value in the display unit, the rounding of the conversion taken back."""
-        if self.whole:
-            return value
-        shown = value / units.parse(self.unit).factor
-        return shown if np.ndim(shown) else float(numbers.significant(shown, 15))
-
-    def read(self, value: object) -> float:
-        """Number in the display unit, from a number or a text, behind which another unit may stand.
-
-        Raises SheetError naming the input and what cannot be used of it.
-        """
-        try:
-            x, other = _split(value)
-            if other:
-                given = f"{self.meaning} {self.name} = {errors.as_given(value)}"
-                try:
-                    theirs, own = units.parse(other), units.parse(self.unit)
-                except ValueError as error:
-                    raise SheetError(f"{given}: {error}") from None
-                if theirs.dims != own.dims:
-                    raise SheetError(f"{given}: {other} does not measure {self.unit}")
-                if units.plain(other) != self.unit and "degC" in (units.plain(other), self.unit):
-                    raise SheetError(f"{given}: write it in {self.unit}, for a temperature is not a difference")
-                x = float(numbers.significant(x * (theirs.factor / own.factor), 15))
-        except SheetError:
-            raise
-        except ValueError:
-            raise SheetError(f"{self.says(errors.as_given(value))} is no number") from None
-        if self.whole and not x.is_integer():
-            raise SheetError(f"{self.says(x)} must be a whole number")
-        return x
-
-    def si(self, value: Any, default: Any) -> Any:
-        """SI value of a number or an array in the display unit; the default itself where it is shown as that number."""
-        if np.ndim(value):
-            return np.where(value == self.display(default), default, value * units.parse(self.unit).factor)
-        if value == self.display(default):
-            return default
-        return int(value) if self.whole else float(value * units.parse(self.unit).factor)
-
-    def written(self, value: Any, default: Any) -> Any:
-        """Value in the display unit that is read back as the very same value, where there is one."""
-        shown = self.display(value)
-        if self.whole or np.ndim(value) or value == default or self.si(shown, default) == value:
-            return shown
-        x = value / units.parse(self.unit).factor
-        near = (x, *(float(np.nextafter(x, end)) for end in (-np.inf, np.inf)))
-        return next((y for y in near if self.si(y, default) == value), x)
-
-    def says(self, value: object) -> str:
-        """The input as an error names it: meaning, symbol, value and unit."""
-        return f"{self.meaning} {self.name} = {value}{numbers.suffix(self.unit)}"
 
 
 @dataclass_transform(frozen_default=True)
@@ -103,44 +33,99 @@ def inputs(cls: type[T]) -> type[T]:
     Comments alone on a line are section headings; after ``;`` stand limits, against numbers in the
     display unit or other inputs. Values are SI and radians. Arrays serve as variants.
 
+    The kind of an input is its type: ``float``, ``int``, ``bool`` (a switch), ``str`` (a text),
+    ``Literal["single", "double"]`` (a choice of names), or what `one_of` gives (options with properties). A class of
+    lines without values is not asked for: it declares the properties of such options.
+
     Building one with a value that is no finite number or breaks a limit raises SheetError naming it.
     """
     frame = sys._getframe(1)
     try:
-        cls.__inputs__ = _declared(cls.__name__, source.cell(frame))  # type: ignore[attr-defined]
+        found = _declared(cls, source.cell(frame), frame.f_globals)
     except SheetError as error:
         refuse(error)
+    given = [name for name in (f.name for f in found) if name in vars(cls)]
+    setattr(cls, "__inputs__" if given else "__properties__", found)
+    leaves = (field.leaves(vars(cls)[field.name]) for field in found if given)
+    cls.__units__ = {name: leaf.unit for each in leaves for name, (leaf, _) in each.items()}  # type: ignore[attr-defined]
     cls.__worksheet__ = str(frame.f_globals.get("__file__", ""))  # type: ignore[attr-defined]
     cls.__post_init__ = _validate  # type: ignore[attr-defined]
     return dataclass(frozen=True)(cls)
 
 
 def declared(cls: type) -> tuple[Input, ...]:
-    """Inputs of a class made by `inputs`, in their order."""
-    fields: tuple[Input, ...] = cls.__inputs__  # type: ignore[attr-defined]
+    """Inputs of a class made by `inputs`, or the properties of one without values, in their order."""
+    fields: tuple[Input, ...] = getattr(cls, "__inputs__", None) or cls.__properties__  # type: ignore[attr-defined]
     return fields
 
 
-def _declared(name: str, cell: source.Cell) -> tuple[Input, ...]:
-    body = next(node for node in cell.body if isinstance(node, ast.ClassDef) and node.name == name)
+def units_of(cls: type) -> dict[str, str]:
+    """Units of the numbers of all inputs by name; of a property or a column ``bolt.R_m``."""
+    units: dict[str, str] = cls.__units__  # type: ignore[attr-defined]
+    return units
+
+
+def _declared(cls: type, cell: source.Cell, names: Mapping[str, Any]) -> tuple[Input, ...]:
+    nodes = (node for statement in cell.body for node in ast.walk(statement))  # of a setup too, which is a block
+    body = next(node for node in nodes if isinstance(node, ast.ClassDef) and node.name == cls.__name__)
     found, places, section, line = list[Input](), dict[str, str](), "", body.lineno
     for node in body.body:
         between = [cell.comments[n] for n in range(line + 1, node.lineno) if n in cell.comments]
         section, line = between[-1] if between else section, node.end_lineno or node.lineno
         if not isinstance(node, ast.AnnAssign):
             continue
-        field = ast.unparse(node.target)
-        text = lines.declared(cell.comments.get(line, ""))
-        if text is None:
-            raise SheetError(f"{cell.at(line)}: input {field} needs a comment with its unit, such as # [m] meaning")
-        if text.mistake:
-            raise SheetError(f"{cell.at(line)}: {text.mistake}")
-        unit, (meaning, _, limits) = text.unit, text.meaning.partition(";")
-        whole = ast.unparse(node.annotation) == "int"
-        found.append(Input(field, unit, meaning.strip(), section, whole, tuple(_limits(limits, field, cell.at(line)))))
-        places[field] = cell.at(line)
+        name, place = ast.unparse(node.target), cell.at(line)
+        kind, default = cls.__annotations__[name], vars(cls).get(name)
+        kind = eval(kind, dict(names)) if isinstance(kind, str) else kind
+        comment = cell.comments.get(line, "")
+        text = lines.declared(comment)
+        if text is None and kind in (int, float) and not isinstance(default, Offer):
+            raise SheetError(f"{place}: input {name} needs a comment with its unit, such as # [m] meaning")
+        if text and text.mistake:
+            raise SheetError(f"{place}: {text.mistake}")
+        unit, (meaning, _, limits) = text.unit if text else "-", (text.meaning if text else comment).partition(";")
+        plain = Input(name, unit, meaning.strip(), section, kind is int, tuple(_limits(limits, name, place)))
+        own = _of_kind(plain, kind, default, place)
+        if own is not plain and (unit != "-" or limits):
+            raise SheetError(f"{place}: {name} is no number and has neither unit nor limits")
+        if name in vars(cls) and own is not plain:
+            setattr(cls, name, own.si(own.read(default.name if isinstance(default, Offer) else default), None))
+        found.append(own)
+        places[name] = place
+    if without := [f.name for f in found if f.name not in vars(cls)]:
+        if len(without) < len(found):
+            raise SheetError(
+                f"{places[without[0]]}: input {without[0]} needs a value, such as {without[0]}: float = 1.0"
+            )
+        if other := [f.name for f in found if not f.continuous]:
+            raise SheetError(f"{places[other[0]]}: property {other[0]} of an option must be a float")
     _comparable(found, places)
     return tuple(found)
+
+
+def _of_kind(plain: Input, kind: Any, default: Any, place: str) -> Input:
+    """The declaration of an input for the kind that its type says."""
+    known = {field.name: getattr(plain, field.name) for field in dataclasses.fields(plain)}
+    if isinstance(default, Offer):
+        rows = list(default.options.values())
+        if not rows or len({type(row) for row in rows}) > 1 or not hasattr(rows[0], "__properties__"):
+            raise SheetError(f"{place}: options of {plain.name} must be objects of one class of inputs without values")
+        properties = declared(type(rows[0]))
+        table = tuple(tuple(getattr(row, p.name) for p in properties) for row in rows)
+        return Choice(**known, options=tuple(default.options), properties=properties, table=table)
+    if get_origin(kind) is Literal and all(isinstance(option, str) for option in get_args(kind)):
+        return Choice(**known, options=get_args(kind))
+    if kind is bool:
+        return Switch(**known)
+    if kind is str:
+        return TextLine(**known)
+    if kind not in (int, float):
+        name = getattr(kind, "__name__", str(kind))
+        raise SheetError(f"{place}: {plain.name} is of type {name}, which is none of {_KINDS}")
+    return plain
+
+
+_KINDS = "float, int, bool, str, Literal of texts, or the class of the options of one_of(..)"
 
 
 def _limits(text: str, field: str, place: str) -> Iterator[tuple[str, str]]:
@@ -175,8 +160,11 @@ def _comparable(fields: Iterable[Input], places: Mapping[str, str]) -> None:
 
 def _validate(self: Any) -> None:
     fields = declared(type(self))
-    shown = {field.name: field.display(getattr(self, field.name)) for field in fields}
-    for holds, say in _rules(fields, shown):
+    for field in fields:
+        object.__setattr__(self, field.name, field.taken(getattr(self, field.name)))
+    numbers = [field for field in fields if type(field) is Input]
+    shown = {field.name: field.display(getattr(self, field.name)) for field in numbers}
+    for holds, say in _rules(numbers, shown):
         if not np.all(holds):
             raise SheetError(say(int(np.argmin(holds))))
 
@@ -220,7 +208,7 @@ class Variants:
     """
 
     shape: tuple[int, ...]
-    shown: dict[str, NDArray[np.float64]]
+    shown: dict[str, NDArray[Any]]
     units: dict[str, str]
     reasons: NDArray[np.object_]
     _si: dict[str, Any]
@@ -243,18 +231,19 @@ def variants(cls: type, given: Mapping[str, ArrayLike]) -> Variants:
     except ValueError:
         named = ", ".join(f"{name} {shape}" for name, shape in shapes.items())
         raise SheetError(f"inputs of the variants must have one shape or broadcast: {named}") from None
-    shown = {name: np.broadcast_to(column, shape) for name, (column, _) in columns.items()}
+    shown: dict[str, NDArray[Any]] = {name: np.broadcast_to(column, shape) for name, (column, _) in columns.items()}
     texts: NDArray[Any] = np.full(shape, "", dtype=object)
     for _, more in columns.values():
         texts = np.where(texts == "", more, texts)
     reasons = texts.ravel()
     flat = {name: column.ravel() for name, column in shown.items()}
-    every = {name: flat.get(name, field.display(getattr(cls, name))) for name, field in fields.items()}
-    for holds, say in _rules(fields.values(), every):
+    plain = {name: field for name, field in fields.items() if type(field) is Input}
+    every = {name: flat.get(name, field.display(getattr(cls, name))) for name, field in plain.items()}
+    for holds, say in _rules(plain.values(), every):
         if not np.all(holds):
             for i in np.flatnonzero(np.broadcast_to(~np.asarray(holds), reasons.shape) & (reasons == "")):
                 reasons[i] = say(int(i))
-    si = {name: fields[name].si(_shared(column), getattr(cls, name)) for name, column in flat.items()}
+    si = {name: _shared(fields[name].leaf(column, getattr(cls, name))) for name, column in flat.items()}
     return Variants(shape, shown, {name: fields[name].unit for name in shown}, reasons, si)
 
 
@@ -262,36 +251,37 @@ def instance(cls: type[T], si: Mapping[str, Any]) -> T:
     """Inputs from values in SI that are known to be good, and the defaults."""
     g = object.__new__(cls)
     for field in declared(cls):
-        value: Any = si.get(field.name, getattr(cls, field.name))
-        object.__setattr__(g, field.name, int(value) if field.whole and not np.ndim(value) else value)
+        object.__setattr__(g, field.name, field.held(si) if field.name in si else getattr(cls, field.name))
     return g
 
 
-def _column(field: Input, given: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.object_]]:
-    """Numbers of an input in its display unit, and the reason for each that cannot be used."""
+def _column(field: Input, given: ArrayLike) -> tuple[NDArray[Any], NDArray[np.object_]]:
+    """What is given of an input, in its display unit, and the reason for each that cannot be used."""
     try:
         column = np.asarray(given)
     except ValueError:  # of rows that differ in length
         raise SheetError(f"{field.says(errors.as_given(given))} is no array of numbers") from None
     texts = np.full(column.shape, "", dtype=object)
-    if column.dtype.kind in "iuf":
-        numbers = column.astype(np.float64)
+    if column.dtype.kind in "iuf" and type(field) is Input:
+        shown: NDArray[Any] = column.astype(np.float64)
     else:
-        numbers = np.full(column.shape, np.nan)
+        shown = np.full(column.shape, np.nan, dtype=float if type(field) is Input else object)
         for i, value in np.ndenumerate(column.astype(object)):
             try:
-                numbers[i] = field.read(value)
+                shown[i] = field.read(value)
             except SheetError as error:
                 texts[i] = str(error)
     if field.whole:
-        parts = np.isfinite(numbers) & (numbers != np.rint(numbers))
-        texts[parts] = [f"{field.says(value)} must be a whole number" for value in numbers[parts]]
-    return numbers, texts
+        parts = np.isfinite(shown) & (shown != np.rint(shown))
+        texts[parts] = [f"{field.says(value)} must be a whole number" for value in shown[parts]]
+    return shown, texts
 
 
-def _shared(column: NDArray[np.float64]) -> Any:
-    """The number that all variants have, or the column."""
-    return column[0] if column.size and (column == column[0]).all() else column
+def _shared(column: NDArray[Any]) -> Any:
+    """What all variants have, or the column."""
+    if not column.size or (column != column[0]).any():
+        return column
+    return column[0].item() if isinstance(column[0], np.generic) else column[0]
 
 
 def known(fields: Mapping[str, Input], name: str) -> Input:
@@ -300,37 +290,6 @@ def known(fields: Mapping[str, Input], name: str) -> Input:
         near = difflib.get_close_matches(name, fields, n=3, cutoff=0.5)
         raise SheetError(f"input {errors.cut(name)} is unknown; nearest: {', '.join(near or fields)}")
     return fields[name]
-
-
-def number(text: object) -> float:
-    """Number written with a decimal point or comma; ValueError for anything else.
-
-    >>> number("0,415"), number("1.75e7"), number("27,500")
-    (0.415, 17500000.0, 27.5)
-    """
-    x, unit = _split(text)
-    if unit:
-        raise ValueError(f"{errors.as_given(text)} is no number")
-    return x
-
-
-def _split(value: object) -> tuple[float, str]:
-    """A number and the unit behind it; ValueError where there is no number."""
-    if isinstance(value, int) and not isinstance(value, bool):
-        return _float(value), ""
-    match = None if isinstance(value, bool) else _NUMBER.fullmatch(str(value).strip())
-    unit = match[2].strip() if match else ""
-    if not match or (unit and not (len(unit) < _UNIT and re.match(r"[^\W\d_]|[%°]|1/", unit))):
-        raise ValueError(f"{errors.as_given(value)} is no number")
-    return float(match[1].replace(",", ".").replace("−", "-")), unit
-
-
-def _float(x: int) -> float:
-    """A whole number of any length, which Python would refuse to write."""
-    try:
-        return float(x)
-    except OverflowError:
-        return inf if x > 0 else -inf
 
 
 def build(cls: type[T], values: Mapping[str, object]) -> T:
@@ -351,17 +310,7 @@ def readings(fields: Iterable[Input], values: Mapping[str, object]) -> list[str]
     >>> readings([length], {"L": "1,035"}), readings([length], {"L": "0,415"})
     (['L = 1.035 mm, read with a decimal comma'], [])
     """
-    return [
-        f"{field.name} = {numbers.significant(field.read(value), 15)}{numbers.suffix(field.unit)}"
-        ", read with a decimal comma"
-        for field in fields
-        if isinstance(value := values.get(field.name), str) and _THOUSANDS.match(value.strip())
-    ]
-
-
-def text(field: Input, value: Any) -> str:
-    """Value in the display unit as a text field shows it."""
-    return numbers.significant(field.display(value), 15)
+    return [text for field in fields if field.name in values for text in field.readings(values[field.name])]
 
 
 def read(cls: type[T], form: "mo.ui.batch") -> T:
@@ -389,4 +338,5 @@ class Used(Shown):
     @property
     def changed(self) -> set[str]:
         """Names of the inputs that differ from the worksheet's own."""
-        return {f.name for f in dataclasses.fields(self.g) if getattr(self.g, f.name) != f.default}
+        cls = type(self.g)
+        return {f.name for f in declared(cls) if getattr(self.g, f.name) != getattr(cls, f.name)}

@@ -3,16 +3,17 @@
 import ast
 import re
 import sys
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
+from operator import attrgetter
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from mechsheet import units
 from mechsheet.worksheet import source
-from mechsheet.worksheet.errors import SheetError
+from mechsheet.worksheet.errors import SheetError, refuse
 from mechsheet.worksheet.shown import Shown
 
 _DECLARED = re.compile(r"\[([^\]]*)\]\s*(.*)")
@@ -20,10 +21,12 @@ _DECLARED = re.compile(r"\[([^\]]*)\]\s*(.*)")
 
 @dataclass(frozen=True)
 class Formula:
-    """One line ``name = expression  # [unit] meaning``; ``arguments`` are those of a function, by lambda or def.
+    """One line ``name = expression  # [unit] meaning``.
 
-    ``constants`` are the names of units in it, as they are written, with the units. ``mistake`` tells why the unit is
-    not known, and the value shown in SI.
+    ``arguments`` are those of a function, by lambda or def; ``where`` its own names with what they stand for. The
+    expression of a function with more than branches and such names in it is ``...``. ``constants`` are the names of
+    units in it, as they are written, with the units. ``mistake`` tells why the unit is not known, and the value shown
+    in SI.
     """
 
     name: str
@@ -31,6 +34,7 @@ class Formula:
     unit: str
     meaning: str
     arguments: tuple[str, ...] = ()
+    where: tuple[tuple[str, ast.expr], ...] = ()
     constants: tuple[tuple[str, str], ...] = ()
     mistake: str = ""
 
@@ -83,19 +87,73 @@ def _formulas(cell: source.Cell) -> Iterator[Formula | Given]:
                 target = next((k.value for k in keywords if k.arg == "equals"), ast.Constant(0))
                 yield Given(_equation(f), target)
                 continue
-            case ast.FunctionDef(name, args, [*_, ast.Return(ast.expr() as body)]) | ast.Assign(
-                [ast.Name(name)], ast.Lambda(args, body)
-            ):
-                expression = _on_its_branch(args, body)
-                arguments = tuple(a.arg for a in args.args if a.arg != "branch")
-            case ast.Assign([ast.Name(name)], expression):
-                arguments = ()
-            case _:
-                continue
-        line = node.end_lineno or node.lineno
-        found = declared(cell.comments.get(line, ""))
-        if found and not name.startswith("_"):
-            yield Formula(name, expression, found.unit, found.meaning, arguments, mistake=found.mistake)
+        lines, number = _bound(node), node.end_lineno or node.lineno
+        found = _declared_each(cell.comments.get(number, ""), cell.at(number), len(lines)) if lines else ()
+        for line, told in zip(lines, found, strict=False):
+            match line.expression:  # without brackets of its own it begins where its first part does
+                case ast.Tuple([first, *_]) as several if first.col_offset == several.col_offset:
+                    raise SheetError(
+                        f"{cell.at(number)}: {line.name} = {ast.unparse(several)[1:-1]} is several values: "
+                        "a decimal number has a point, not a comma"
+                    )
+            if not line.name.startswith("_"):
+                yield replace(line, unit=told.unit, meaning=told.meaning, mistake=told.mistake)
+
+
+def _bound(node: ast.stmt) -> list[Formula]:
+    """What a statement binds names to, without a unit as yet."""
+    match node:
+        case ast.FunctionDef(name, args, body):
+            where, given = _body(body)
+            expression = _on_its_branch(args, given) if given else ast.copy_location(ast.Constant(...), node)
+            return [Formula(name, expression, "", "", _named(args), where)]
+        case ast.Assign([ast.Name(name)], ast.Lambda(args, value)):
+            return [Formula(name, _on_its_branch(args, value), "", "", _named(args))]
+        case ast.Assign([ast.Name(name)], expression) | ast.AnnAssign(ast.Name(name), _, ast.expr() as expression):
+            return [Formula(name, expression, "", "")]
+        case ast.Assign([ast.Tuple(targets)], expression):
+            names = [target.id for target in targets if isinstance(target, ast.Name)]
+            if len(names) == len(targets):
+                return [Formula(name, _element(expression, n), "", "") for n, name in enumerate(names)]
+    return []
+
+
+def _declared_each(comment: str, place: str, count: int) -> Iterator[Declared]:
+    """Unit and meaning of each name of a line; several are told as ``[m] one, [s] other``."""
+    parts = re.split(r",\s*(?=\[)", comment) if count > 1 else [comment]
+    found = [told for part in parts if (told := declared(part))]
+    if found and len(found) != count:
+        raise SheetError(f"{place}: {count} names need {count} units, such as # [m] one, [s] other; got {len(found)}")
+    yield from found
+
+
+def _named(args: ast.arguments) -> tuple[str, ...]:
+    return tuple(a.arg for a in args.args if a.arg != "branch")
+
+
+def _element(expression: ast.expr, n: int) -> ast.expr:
+    """What the n-th name of several is bound to."""
+    if isinstance(expression, ast.Tuple | ast.List) and not any(isinstance(e, ast.Starred) for e in expression.elts):
+        return expression.elts[n]
+    index = ast.copy_location(ast.Constant(n), expression)
+    return ast.copy_location(ast.Subscript(expression, index, ast.Load()), expression)
+
+
+def _body(body: Sequence[ast.stmt]) -> tuple[tuple[tuple[str, ast.expr], ...], ast.expr | None]:
+    """Own names of a function and what it gives, its branches as a choice; None where it does anything else."""
+    match body:
+        case [ast.Return(ast.expr() as value)]:
+            return (), value
+        case [ast.Expr(ast.Constant(str())), *rest]:
+            return _body(rest)
+        case [ast.Assign([ast.Name(name)], value), *rest]:
+            where, result = _body(rest)
+            return ((name, value), *where), result
+        case [ast.If(test, yes, no), *rest]:
+            (own, chosen), (others, other) = _body(yes), _body([*no, *rest])
+            if chosen and other and not own and not others:
+                return (), ast.copy_location(ast.IfExp(test, chosen, other), test)
+    return (), None
 
 
 def _on_its_branch(args: ast.arguments, expression: ast.expr) -> ast.expr:
@@ -116,6 +174,8 @@ def registry(namespace: Mapping[str, Any], cells: tuple[source.Cell, ...] | None
     """Lines of the running worksheet that declare what is in the namespace, by name, in the order of its source.
 
     ``cells`` are those of the worksheet where the namespace is a copy and does not tell.
+
+    Raises SheetError where a line is asked for in whose cell names and units do not match.
     """
     return _Registry(_lines(source.cells(namespace) if cells is None else cells), namespace)
 
@@ -123,16 +183,19 @@ def registry(namespace: Mapping[str, Any], cells: tuple[source.Cell, ...] | None
 class _Registry(Mapping[str, Formula]):
     """Lines that declare what there is; each in the unit in which its cell displays it."""
 
-    def __init__(self, lines: Mapping[str, "_Line"], namespace: Mapping[str, Any]) -> None:
+    def __init__(self, lines: Mapping[str, "_Line | SheetError"], namespace: Mapping[str, Any]) -> None:
         self.lines, self.namespace = lines, namespace
 
     def __getitem__(self, name: str) -> Formula:
+        line = self.lines[name]
+        if isinstance(line, SheetError):
+            raise line
         if name not in self.namespace:
             raise KeyError(name)
-        return self.lines[name].shown(self.namespace)
+        return line.shown(self.namespace)
 
     def __iter__(self) -> Iterator[str]:
-        return (name for name in self.lines if name in self.namespace)
+        return (name for name, line in self.lines.items() if isinstance(line, _Line) and name in self.namespace)
 
     def __len__(self) -> int:
         return sum(1 for _ in self)
@@ -169,12 +232,15 @@ def _displayed(line: Formula, display: Mapping[str, str]) -> Formula:
 
 
 @lru_cache(maxsize=32)
-def _lines(cells: tuple[source.Cell, ...]) -> dict[str, _Line]:
-    """Lines of the cells by name."""
-    found = dict[str, _Line]()
+def _lines(cells: tuple[source.Cell, ...]) -> dict[str, _Line | SheetError]:
+    """Lines of the cells by name; of a cell that cannot be read the reason, by every name that it may declare."""
+    found = dict[str, _Line | SheetError]()
     for cell in cells:
         display = next(filter(None, map(_display, cell.body)), None)
-        found |= {row.name: _Line(row, display) for row in formulas(cell) if isinstance(row, Formula)}
+        try:
+            found |= {row.name: _Line(row, display) for row in formulas(cell) if isinstance(row, Formula)}
+        except SheetError as error:
+            found |= {line.name: error for node in cell.body for line in _bound(node)}
     return found
 
 
@@ -194,11 +260,16 @@ def typeset(*shown: Any, display: Mapping[str, str] | None = None) -> "Typeset":
     source, so nothing is typed twice. Nothing is rendered until the page asks. A text is Markdown. ``display``
     gives another display unit for some of the declared ones, such as ``{"kgf": "N"}``, to tables and figures too: a
     dictionary as it is written, or a name of the worksheet. A line whose unit is not known is shown in SI, and why.
+
+    Raises SheetError naming the line whose names and units do not match.
     """
     frame = sys._getframe(1)
     cell, here = source.cell(frame), frame.f_lineno
     above = max((end for end in _typeset_lines(cell) if end < here), default=0)
-    lines = [row for row in formulas(cell) if above < row.expression.lineno < here]
+    try:
+        lines = [row for row in formulas(cell) if above < row.expression.lineno < here]
+    except SheetError as error:
+        refuse(error)
     rows = [_displayed(row, display or {}) if isinstance(row, Formula) else row for row in lines]
     rows = [_with_constants(row, frame.f_globals) for row in rows]
     values = tuple(frame.f_globals[row.name] if isinstance(row, Formula) else None for row in rows)
@@ -221,10 +292,10 @@ def _of_unit(name: str, namespace: Mapping[str, Any]) -> Any:
 @lru_cache(maxsize=4096)
 def _names(row: Formula | Given) -> tuple[str, ...]:
     """Names that a line reads, parts of modules too, without its arguments."""
-    parts = [row.expression] if isinstance(row, Formula) else [row.expression, row.target]
+    parts = [row.expression, *((row.target,) if isinstance(row, Given) else (value for _, value in row.where))]
     nodes = (node for part in parts for node in ast.walk(part))
     read = (ast.unparse(node) for node in nodes if isinstance(node, ast.Name | ast.Attribute))
-    own = row.arguments if isinstance(row, Formula) else ()
+    own = () if isinstance(row, Given) else (*row.arguments, *(name for name, _ in row.where))
     return tuple(name for name in dict.fromkeys(read) if name not in own)
 
 
@@ -248,8 +319,8 @@ class Numbers:
         head, dot, part = name.partition(".")
         value: Any = self.namespace.get(head)
         if dot:
-            unit = _units_of(type(value)).get(part)  # type: ignore[arg-type]  # a class can be hashed
-            value = getattr(value, part) if unit else None
+            unit = getattr(type(value), "__units__", {}).get(part)
+            value = attrgetter(part)(value) if unit else None
         else:
             line = self.known.get(name)
             unit = line.unit if line and not line.arguments else None
@@ -258,12 +329,6 @@ class Numbers:
         field = np.asarray(value)
         inside = field.shape and field.shape[-1] > position
         return (field[..., position].flat[0] if inside else field.flat[0]).item(), unit
-
-
-@lru_cache(maxsize=16)
-def _units_of(inputs: type) -> dict[str, str]:
-    """Units of the inputs of a class by their names."""
-    return {field.name: field.unit for field in getattr(inputs, "__inputs__", ())}
 
 
 @dataclass(frozen=True)

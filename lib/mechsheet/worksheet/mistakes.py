@@ -2,6 +2,7 @@
 
 import builtins
 import difflib
+import re
 from collections.abc import Iterable
 from pathlib import Path
 from traceback import walk_tb
@@ -24,23 +25,49 @@ def told(error: BaseException, path: str) -> str:
     """One line for an exception, with the line of the worksheet file that raised it where one did."""
     file = Path(path).resolve()
     if isinstance(error, SyntaxError) and error.filename and Path(error.filename).resolve() == file:
-        return f"{file.name}, {at(error.lineno or 0, error.text or '')}: {error.msg}"
+        return f"{file.name}, {at(error.lineno or 0, error.text or '')}: {unread(error)}"
     places = [(f, line) for f, line in walk_tb(error.__traceback__) if Path(f.f_code.co_filename).resolve() == file]
     known = {*places[-1][0].f_globals, *places[-1][0].f_locals} - {*dir(builtins)} if places else set[str]()
-    why = _why(error, known)
     if not places:
-        return why
-    line = places[-1][1]
-    return f"{file.name}, {at(line, file.read_text(encoding='utf-8').splitlines()[line - 1])}: {why}"
+        return why(error, known)
+    line, text = places[-1][1], file.read_text(encoding="utf-8")
+    return f"{file.name}, {at(line, text.splitlines()[line - 1])}: {why(error, known, text)}"
 
 
-def _why(error: BaseException, known: Iterable[str]) -> str:
-    if type(error) is NameError and error.name:
+def why(error: BaseException, known: Iterable[str], text: str = "") -> str:
+    """An exception in words, with the ``known`` names; ``text`` is that of the worksheet or cell."""
+    if isinstance(error, NameError) and error.name:
+        if re.search(rf"^\s*(def )?{error.name}\b\s*[=(,]", text, re.MULTILINE):
+            return f"{error.name} is defined below its use: move its line up"
         return undefined(error.name, (name for name in known if not name.startswith("_")))
     fields = getattr(type(error.obj), "__inputs__", ()) if isinstance(error, AttributeError) else ()
     if fields:
         return no_input(str(getattr(error, "name", "")), (field.name for field in fields))
-    return " ".join(f"{type(error).__name__}: {error}".removesuffix(": ").split())
+    said = " ".join(str(error).split())
+    if " " not in said:  # the bare name of a key, or nothing
+        said = f"{type(error).__name__}: {said}".removesuffix(": ")
+    return said + next((f" ({hint})" for pattern, hint in _HINTS.items() if re.search(pattern, said)), "")
+
+
+def unread(error: SyntaxError) -> str:
+    """Why Python cannot read a line, with what may have been meant by who writes formulas."""
+    text = (error.text or "").partition("#")[0]
+    return error.msg + next((f" ({hint})" for pattern, hint in _MEANT.items() if re.search(pattern, text)), "")
+
+
+_HINTS = {
+    r"for \^|'bitwise_xor'": "a power is written **, not ^",
+    r"'(int|float|complex|numpy\.\w+|Quantity)' object is not callable": "is a * missing before the bracket?",
+    r"can't multiply sequence|'tuple' and|and 'tuple'|'list' and|and 'list'": (
+        "several values stand there: a decimal number has a point, not a comma"
+    ),
+    r"unhashable type": "an array, a list or a table can be no key, and no member of a set",
+}
+_MEANT = {  # by the line that cannot be read
+    r":=": "a definition is written =, not :=",
+    r"\d,\d": "a decimal number has a point, not a comma",
+    r"\d\s*[A-Za-z_(]|[\w)\]]\s+[\w(]": "is a * missing?",
+}
 
 
 def _near(name: str, known: Iterable[str]) -> str:

@@ -7,7 +7,7 @@ from math import inf, isfinite, isnan
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from mechsheet import units
 
@@ -85,10 +85,32 @@ def is_plain(x: float) -> bool:
 
 
 def value(values: Any, unit: str, to: Notation) -> str:
-    """SI value in its display unit; a field of positions as first .. last, a point or a vector as a pair."""
+    """SI value in its display unit; a point or a vector as a pair.
+
+    A few numbers stand in full, a small matrix in rows; of more numbers the least .. the greatest, with how many there
+    are not, of more points the first .. the last.
+    """
     field = np.asarray(values)
-    ends = [field.item()] if field.ndim == 0 else [field.flat[0].item(), field.flat[-1].item()]
-    return to.span.join(_end(end, unit, to) for end in ends) + _unit(unit, to)
+    several = _MOST_POINTS if field.dtype.kind == "c" else _MOST_NUMBERS
+    if field.ndim == 2 and max(field.shape) <= _MOST_ROWS:
+        text = "[" + "; ".join(", ".join(_end(x, unit, to) for x in row) for row in field.tolist()) + "]"
+    elif field.size <= several:
+        text = ", ".join(_end(x, unit, to) for x in field.ravel().tolist())
+    elif field.dtype.kind == "c":
+        text = to.span.join(_end(end.item(), unit, to) for end in (field.flat[0], field.flat[-1]))
+    else:
+        return _extent(field, unit, to)
+    return text + _unit(unit, to)
+
+
+_MOST_NUMBERS, _MOST_POINTS, _MOST_ROWS = 10, 4, 4  # that stand in full
+
+
+def _extent(field: NDArray[Any], unit: str, to: Notation) -> str:
+    known = field[~np.isnan(field)]
+    ends = dict.fromkeys(_end(end.item(), unit, to) for end in (known.min(), known.max())) if known.size else [to.none]
+    none = f" ({field.size - known.size} of {field.size} {to.none})" if 0 < known.size < field.size else ""
+    return to.span.join(ends) + _unit(unit, to) + none
 
 
 def quantity(z: float | complex, unit: str, to: Notation) -> str:

@@ -21,7 +21,7 @@ from pathlib import Path
 from typing import Any
 
 from mechsheet.worksheet.errors import SheetError, as_given, cut
-from mechsheet.worksheet.inputs import number
+from mechsheet.worksheet.kinds import number
 
 
 @dataclass(frozen=True)

@@ -30,23 +30,36 @@ class Symbol:
 def read(name: str) -> Symbol:
     """Symbol of a name; one word of small letters stays whole.
 
-    The rule: a leading ``d`` before a Greek word or a capital letter is a difference or derivative; the base
-    is one Greek word or one letter; the rest is the index, its underscores commas.
+    The rule: a leading ``d`` before a Greek word, a capital letter or the only letter is a difference or derivative;
+    the base is one Greek word or one letter, or a word of small letters before an underscore; the rest is the index.
 
     >>> read("phi34"), read("GS6_max")
     (Symbol(base='φ', index='34', mark=''), Symbol(base='G', index='S6,max', mark=''))
+    >>> read("group_23"), read("h_phi6")
+    (Symbol(base='group', index='23', mark=''), Symbol(base='h', index='φ6', mark=''))
     >>> read("dphi3"), read("dRa"), read("gap").base
     (Symbol(base='φ', index='3', mark='d'), Symbol(base='R', index='a', mark='Δ'), 'gap')
+    >>> read("ds")
+    Symbol(base='s', index='', mark='d')
     """
     greek = re.match(_WORDS, name)
-    if not greek and re.fullmatch(r"[a-z]{3,}", name) and not re.match(f"d({_WORDS})", name):
-        return Symbol(name)
+    if re.fullmatch("d[a-z]", name):
+        return Symbol(name[1], mark="d")
+    word = re.fullmatch(r"([a-z]{3,})(?:_(\w*))?", name)
+    if word and not greek and not re.match(f"d({_WORDS})", name):
+        return Symbol(word[1], _index(word[2] or ""))
     match = (re.fullmatch(rf"()({_WORDS})_?(\w*)", name) if greek else None) or _NAME.fullmatch(name)
     if not match:
         return Symbol(name)
     base = GREEK.get(match[2], match[2])
     mark = match[1] and ("d" if base in _LETTERS else "Δ")
-    return Symbol(base, match[3].strip("_").replace("_", ","), mark or "")
+    return Symbol(base, _index(match[3]), mark or "")
+
+
+def _index(text: str) -> str:
+    """Underscores of an index as commas, and its Greek words that stand by themselves as letters."""
+    letters = re.sub(rf"(?<![A-Za-z])({_WORDS})(?![a-z])", lambda m: GREEK[m[0]], text.strip("_"))
+    return letters.replace("_", ",")
 
 
 _LETTERS = frozenset(GREEK.values())

@@ -1,0 +1,370 @@
+"""The kinds of inputs: a number, a choice of named options, a switch, a text.
+
+Each kind reads what is typed, converts it from the display unit and back, and says what it is made of: its leaves are
+the numbers by which a recording, a sweep and a workbook know it.
+"""
+
+import difflib
+import re
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from math import inf
+from operator import index
+from typing import Any, TypeVar
+
+import numpy as np
+
+from mechsheet import units
+from mechsheet.worksheet import errors, numbers
+from mechsheet.worksheet.errors import SheetError
+
+T = TypeVar("T")
+_NUMBER = re.compile(r"([+−-]?(?:\d+(?:[.,]\d*)?|[.,]\d+)(?:[eE][+−-]?\d+)?)(.*)", re.DOTALL)
+_THOUSANDS = re.compile(r"\W?[1-9]\d{0,2},\d{3}(?!\d)")  # elsewhere read as such, here as a number with a decimal comma
+_UNIT = 40  # characters of a unit at most
+_LONGEST = 200  # characters of a text, so that a formula of a workbook can hold it
+
+
+@dataclass(frozen=True)
+class Input:
+    """One declared input, here a number; a value is held in SI, and shown in the display unit.
+
+    ``limits`` are pairs such as (">", "0"), in the display unit, or ("<", "S_max").
+    """
+
+    name: str
+    unit: str
+    meaning: str
+    section: str
+    whole: bool
+    limits: tuple[tuple[str, str], ...]
+
+    @property
+    def continuous(self) -> bool:
+        """Whether it is a number that may be varied a little."""
+        return type(self) is Input and not self.whole
+
+    def display(self, value: Any) -> Any:
+        """Value in the display unit, the rounding of the conversion taken back."""
+        if self.whole:
+            return value
+        shown = value / units.parse(self.unit).factor
+        return shown if np.ndim(shown) else float(numbers.significant(shown, 15))
+
+    def read(self, value: object) -> Any:
+        """Number in the display unit, from a number or a text, behind which another unit may stand.
+
+        Raises SheetError naming the input and what cannot be used of it.
+        """
+        try:
+            x, other = _split(value)
+            if other:
+                given = f"{self.meaning} {self.name} = {errors.as_given(value)}"
+                try:
+                    theirs, own = units.parse(other), units.parse(self.unit)
+                except ValueError as error:
+                    raise SheetError(f"{given}: {error}") from None
+                if theirs.dims != own.dims:
+                    raise SheetError(f"{given}: {other} does not measure {self.unit}")
+                if units.plain(other) != self.unit and "degC" in (units.plain(other), self.unit):
+                    raise SheetError(f"{given}: write it in {self.unit}, for a temperature is not a difference")
+                x = float(numbers.significant(x * (theirs.factor / own.factor), 15))
+        except SheetError:
+            raise
+        except ValueError:
+            raise SheetError(f"{self.says(errors.as_given(value))} is no number") from None
+        if self.whole and not x.is_integer():
+            raise SheetError(f"{self.says(x)} must be a whole number")
+        return x
+
+    def si(self, value: Any, default: Any) -> Any:
+        """SI value of a number or an array in the display unit; the default itself where it is shown as that number."""
+        if np.ndim(value):
+            return np.where(value == self.display(default), default, value * units.parse(self.unit).factor)
+        if value == self.display(default):
+            return default
+        return int(value) if self.whole else float(value * units.parse(self.unit).factor)
+
+    def written(self, value: Any, default: Any) -> Any:
+        """Value in the display unit that is read back as the very same value, where there is one."""
+        shown = self.display(value)
+        if self.whole or np.ndim(value) or value == default or self.si(shown, default) == value:
+            return shown
+        x = value / units.parse(self.unit).factor
+        near = (x, *(float(np.nextafter(x, end)) for end in (-np.inf, np.inf)))
+        return next((y for y in near if self.si(y, default) == value), x)
+
+    def text(self, value: Any) -> str:
+        """Value as a field of the page shows it, which is read back."""
+        return numbers.significant(self.display(value), 15)
+
+    def brief(self, value: Any) -> str:
+        """Value as a list of the inputs shows it."""
+        return numbers.significant(self.display(value), 10)
+
+    def says(self, value: object) -> str:
+        """The input as an error names it: meaning, symbol, value and unit."""
+        return f"{self.meaning} {self.name} = {value}{numbers.suffix(self.unit)}"
+
+    def readings(self, value: object) -> Iterator[str]:
+        """How a text is read that could mean thousands elsewhere."""
+        if isinstance(value, str) and _THOUSANDS.match(value.strip()):
+            read = numbers.significant(self.read(value), 15)
+            yield f"{self.name} = {read}{numbers.suffix(self.unit)}, read with a decimal comma"
+
+    def taken(self, value: Any) -> Any:
+        """The value that is held where code gives this one, in SI."""
+        return value
+
+    def leaves(self, value: Any) -> "dict[str, tuple[Input, Any]]":
+        """Numbers of which a value is made, by name, each with its declaration."""
+        return {self.name: (self, value)}
+
+    def leaf(self, column: Any, default: Any) -> Any:
+        """What is held of many variants, from an array as it is shown."""
+        return self.si(column, default)
+
+    def held(self, leaves: Mapping[str, Any]) -> Any:
+        """The value made of its leaves, which may be arrays of variants or quantities of a recording."""
+        value = leaves[self.name]
+        return int(value) if self.whole and isinstance(value, int | float | np.number) else value
+
+
+class Chosen:
+    """One of several named options: equal to its name, with its properties as attributes.
+
+    >>> shear = Chosen(("single", "double"), 1, {"planes": 2})
+    >>> shear == "double", f"{shear} shear", shear.planes
+    (True, 'double shear', 2)
+    """
+
+    def __init__(self, options: tuple[str, ...], at: Any, properties: Mapping[str, Any]) -> None:
+        self._options, self._at, self._properties = options, at, properties
+
+    def _of(self, name: str) -> int:
+        if name not in self._options:
+            raise SheetError(f"{errors.as_given(name)} is none of the options {', '.join(self._options)}")
+        return self._options.index(name)
+
+    def __eq__(self, other: object) -> Any:
+        if isinstance(other, str | Chosen):
+            return self._at == self._of(str(other))
+        return NotImplemented
+
+    def __ne__(self, other: object) -> Any:
+        if isinstance(other, str | Chosen):
+            return self._at != self._of(str(other))
+        return NotImplemented
+
+    def __hash__(self) -> int:
+        return hash(str(self))
+
+    def __str__(self) -> str:
+        return self._options[index(self._at)]
+
+    def __format__(self, form: str) -> str:
+        return str(self).__format__(form)
+
+    def __repr__(self) -> str:
+        return repr(str(self))
+
+    def __getattr__(self, name: str) -> Any:
+        if name.startswith("_"):
+            raise AttributeError(name)
+        if name not in self._properties:
+            has = ", ".join(self._properties)
+            raise AttributeError(f"an option has no property {name}" + (f"; it has {has}" if has else ""))
+        return self._properties[name]
+
+
+def cases(chosen: Chosen) -> dict[str, Any]:
+    """Whether each of the options is the chosen one, by name."""
+    return {option: chosen == option for option in chosen._options}
+
+
+@dataclass(frozen=True)
+class Offer:
+    """Options with their properties, and which of them is chosen at first."""
+
+    options: Mapping[str, Any]
+    name: str
+
+
+def one_of(options: Mapping[str, T], name: str) -> T:
+    """A choice of named options in a class of inputs: the one of that name at first.
+
+    The options are objects of a class of `inputs` without values, which declares their properties::
+
+        @inputs
+        class Grade:
+            R_m: float  # [MPa] tensile strength; > 0
+
+        GRADES = {"8.8": Grade(800 * MPa), "10.9": Grade(1040 * MPa)}
+
+        @inputs
+        class Given:
+            bolt: Grade = one_of(GRADES, "8.8")  # grade of the bolts
+
+    ``g.bolt.R_m`` is the property of the chosen one, ``g.bolt == "8.8"`` tells which it is.
+    """
+    offer: Any = Offer(options, name)
+    return offer  # type: ignore[no-any-return]
+
+
+@dataclass(frozen=True)
+class Choice(Input):
+    """A choice of named options; ``table`` has a row of properties for each, in SI."""
+
+    options: tuple[str, ...] = ()
+    properties: tuple[Input, ...] = ()
+    table: tuple[tuple[float, ...], ...] = ()
+
+    def display(self, value: Any) -> Any:
+        return str(value)
+
+    def read(self, value: object) -> Any:
+        """Name of the option; a number is the option that is called so."""
+        plain = isinstance(value, int | float) and not isinstance(value, bool)
+        name = " ".join((numbers.significant(float(value), 15) if plain else str(value)).split())  # type: ignore[arg-type]
+        if name not in self.options and name.replace(",", ".") in self.options:
+            name = name.replace(",", ".")
+        if name not in self.options:
+            near = difflib.get_close_matches(name[:_LONGEST], self.options, n=1, cutoff=0.6)
+            hint = f"; nearest: {near[0]}" if near and len(self.options) > 5 else ""
+            raise SheetError(f"{self.says(errors.as_given(value))} must be one of {', '.join(self.options)}{hint}")
+        return name
+
+    def si(self, value: Any, default: Any) -> Any:
+        return self.held({self.name: self.options.index(value)})
+
+    def leaf(self, column: Any, default: Any) -> Any:
+        return np.array([self.options.index(name) if name in self.options else -1 for name in column])
+
+    def written(self, value: Any, default: Any) -> Any:
+        return str(value)
+
+    def text(self, value: Any) -> str:
+        return str(value)
+
+    brief = text
+
+    def readings(self, value: object) -> Iterator[str]:
+        yield from ()
+
+    def taken(self, value: Any) -> Any:
+        return self.si(self.read(value), None) if isinstance(value, str) else value
+
+    def leaves(self, value: Any) -> dict[str, tuple[Input, Any]]:
+        columns = zip(self.properties, zip(*self.table, strict=True), strict=True) if self.table else ()
+        at: tuple[Input, Any] = (self, self.options.index(str(value)))
+        return {self.name: at, **{f"{self.name}.{p.name}": (p, np.array(column)) for p, column in columns}}
+
+    def held(self, leaves: Mapping[str, Any]) -> Any:
+        at, properties = leaves[self.name], dict[str, Any]()
+        for k, each in enumerate(self.properties):
+            column = [row[k] for row in self.table]
+            own = np.take(column, at) if isinstance(at, np.ndarray) else column[at] if isinstance(at, int) else None
+            properties[each.name] = leaves.get(f"{self.name}.{each.name}", own)
+        return Chosen(self.options, at, properties)
+
+
+@dataclass(frozen=True)
+class Switch(Input):
+    """What is so or not."""
+
+    def display(self, value: Any) -> Any:
+        return bool(value)
+
+    def read(self, value: object) -> Any:
+        """Whether it is so, from a truth value or a text."""
+        if isinstance(value, bool | np.bool_):
+            return bool(value)
+        word = str(value).strip().lower()
+        if word not in _SAID:
+            raise SheetError(f"{self.says(errors.as_given(value))} must be yes or no")
+        return _SAID[word]
+
+    def si(self, value: Any, default: Any) -> Any:
+        return bool(value)
+
+    def leaf(self, column: Any, default: Any) -> Any:
+        return column.astype(bool)
+
+    def written(self, value: Any, default: Any) -> Any:
+        return bool(value)
+
+    def text(self, value: Any) -> str:
+        return "yes" if value else "no"
+
+    brief = text
+
+    def readings(self, value: object) -> Iterator[str]:
+        yield from ()
+
+    def taken(self, value: Any) -> Any:
+        return self.read(value) if isinstance(value, str) else value
+
+
+_SAID = dict.fromkeys(("yes", "true", "on", "1"), True) | dict.fromkeys(("no", "false", "off", "0"), False)
+
+
+@dataclass(frozen=True)
+class TextLine(Input):
+    """A text, which no number rests on: in a recording its use is a guard."""
+
+    def display(self, value: Any) -> Any:
+        return value
+
+    def read(self, value: object) -> Any:
+        text = " ".join(str(value).split())
+        if isinstance(value, bool | list | dict) or len(text) > _LONGEST or not text.isprintable():
+            raise SheetError(f"{self.says(errors.as_given(value))} must be a line of at most {_LONGEST} characters")
+        return text
+
+    def si(self, value: Any, default: Any) -> Any:
+        return value
+
+    def written(self, value: Any, default: Any) -> Any:
+        return value
+
+    def text(self, value: Any) -> str:
+        return str(value)
+
+    brief = text
+
+    def readings(self, value: object) -> Iterator[str]:
+        yield from ()
+
+    def leaves(self, value: Any) -> dict[str, tuple[Input, Any]]:
+        return {self.name: (self, 0)}
+
+
+def number(text: object) -> float:
+    """Number written with a decimal point or comma; ValueError for anything else.
+
+    >>> number("0,415"), number("1.75e7"), number("27,500")
+    (0.415, 17500000.0, 27.5)
+    """
+    x, unit = _split(text)
+    if unit:
+        raise ValueError(f"{errors.as_given(text)} is no number")
+    return x
+
+
+def _split(value: object) -> tuple[float, str]:
+    """A number and the unit behind it; ValueError where there is no number."""
+    if isinstance(value, int) and not isinstance(value, bool):
+        return _float(value), ""
+    match = None if isinstance(value, bool) else _NUMBER.fullmatch(str(value).strip())
+    unit = match[2].strip() if match else ""
+    if not match or (unit and not (len(unit) < _UNIT and re.match(r"[^\W\d_]|[%°]|1/", unit))):
+        raise ValueError(f"{errors.as_given(value)} is no number")
+    return float(match[1].replace(",", ".").replace("−", "-")), unit
+
+
+def _float(x: int) -> float:
+    """A whole number of any length, which Python would refuse to write."""
+    try:
+        return float(x)
+    except OverflowError:
+        return inf if x > 0 else -inf

@@ -1,0 +1,80 @@
+"""Worksheets with some lines of one's own, recorded, and what is read from the recording for other inputs."""
+
+from pathlib import Path
+from typing import Any
+
+from mechsheet.recording.lines import Recording
+from mechsheet.recording.numbers import numbers
+from mechsheet.recording.record import record
+from mechsheet.worksheet import cells
+
+IMPORTS = """import math
+from math import sqrt, sin, hypot
+import numpy as np
+from numpy import cos, exp, interp, linspace
+from mechsheet import figure, rrr, table, typeset""".replace("\n", "\n    ")
+SHEET = '''
+import marimo
+app = marimo.App()
+
+with app.setup:
+    IMPORTS
+    from mechsheet import ask, find, read, inputs
+
+@app.class_definition
+@inputs
+class Own:
+    F: float = 2.5  # [-] number
+    a: float = 0.75  # [-] part
+    n: int = 5  # [-] positions; > 1
+    k: int = 2  # [-] choice; >= 0 < 4
+
+    """Inputs."""
+
+@app.cell
+def given():
+    form = ask(Own)
+    return (form,)
+
+@app.cell
+def machine(form):
+    g = read(Own, form)
+    return (g,)
+
+@app.cell
+def lines(g):
+    IMPORTS
+    x = linspace(0.1, 2, g.n) * g.F  # [-] field
+    LINES
+    table_1 = table("1", "All", x)
+    typeset()
+    return
+
+if __name__ == "__main__":
+    app.run()
+'''
+OTHER: list[dict[str, Any]] = [{"F": 3.25}, {"F": 1.75, "a": 1.5}, {"a": 0.2, "k": 3}]
+
+
+def own(tmp_path: Path, lines: str, inside: bool = False) -> cells.Worksheet:
+    """A worksheet with some lines in a cell, which imports what they need itself where it is ``inside``."""
+    path = tmp_path / "own.py"
+    setup, cell = ("", IMPORTS) if inside else (IMPORTS, "")
+    text = SHEET.replace("IMPORTS", setup, 1).replace("IMPORTS", cell, 1)
+    path.write_text(text.replace("LINES", lines.replace("\n", "\n    ")))
+    return cells.load(path)
+
+
+def recorded(sheet: cells.Worksheet, **given: Any) -> tuple[dict[str, Any], Recording]:
+    names = sheet.run(sheet.results, {"g": sheet.inputs(**given)})
+    return names, record({**names, "__file__": sheet.path})
+
+
+def value_of(recording: Recording, name: str, given: dict[str, Any]) -> Any:
+    """A recorded line for other inputs: its parts by their names in the recording."""
+    nodes = {known: node for node, known in recording.names.items()}
+    found = [nodes[n] for n in (name, f"{name}x", f"{name}y") if n in nodes]
+    assert found, f"{name} is not in the recording"
+    known = numbers(found, {recording.inputs[key]: float(x) for key, x in given.items()})
+    values = [known[node] for node in found]
+    return values[0] if len(values) == 1 else values[0] + 1j * values[1]
