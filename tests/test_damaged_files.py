@@ -68,7 +68,7 @@ def answer(data: bytes, path: Path) -> str:
     [
         (f"[inputs]\nL1 = {'9' * 5000}\n", "a whole number of thousands of digits"),
         (f"[inputs]\nL1 = {'[' * 2000}{']' * 2000}\n", "brackets are nested too deep"),
-        (f"[inputs]\nL1 = [0x{'f' * 5000}]\n", "must be one number"),
+        (f"[inputs]\nL1 = [0x{'f' * 5000}]\n", "must be one value"),
         (f"[limits]\nL1 = 0x{'f' * 5000}\n", "must be {min = NUMBER}"),
         (f"want = 0x{'f' * 5000}\n", "must be a list of names"),
         (f"inputs = 0x{'f' * 5000}\n", "must be a table"),

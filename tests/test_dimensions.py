@@ -256,7 +256,7 @@ def test_what_is_not_followed_is_said_and_passes(told: Callable[..., Dimensions]
 
 
 def test_every_operation_has_a_rule() -> None:
-    assert set(RULES) == {*ELEMENTWISE, *LEAVES, "exported", "take", "at", "join", "reduce"}
+    assert set(RULES) == {*ELEMENTWISE, *LEAVES, "found", "exported", "take", "at", "join", "reduce"}
 
 
 @pytest.mark.parametrize("document", DOCUMENTS)

@@ -13,7 +13,8 @@ from hypothesis import assume, example, given
 from hypothesis import strategies as st
 
 from mechsheet.worksheet.errors import SheetError
-from mechsheet.worksheet.find import find, values_only
+from mechsheet.worksheet.find import find
+from mechsheet.worksheet.verdict import values_only
 
 EPS = float(np.finfo(float).eps)
 some = examples(60)

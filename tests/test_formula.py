@@ -300,6 +300,26 @@ def test_solve_block_is_typeset_as_given_and_find():
     assert "found" in text
 
 
+def test_solve_block_of_several_unknowns_is_typeset_equation_by_equation():
+    names = run(
+        IMPORT
+        + "from mechsheet import find, minerr\n"
+        + "h = 4.0  # [m**2] square\n"
+        + "xy_found = find(lambda x, y: (x**2 + y**2, x - y), equals=(h, 0), x=(0, 3), y=(0, 3), unit=('m**2', 'm'))\n"
+        + "x = xy_found.value.x  # [m] found\n"
+        + "k_least = minerr(lambda k: (k - h, 2 * k - h), k=1.0)\n"
+        + "k = k_least.value.k  # [m**2] fitted\n"
+        + "shown = typeset(xy_found, k_least)"
+    )
+    text = joined(names["shown"])
+    assert r"\text{Given}\quad x^{2} + y^{2} = h" in text
+    assert r"\text{and}\quad x - y = 0" in text
+    assert r"x = \operatorname{Find}(x) = 1.4142 m</span>" in text
+    assert r"k = \operatorname{Minerr}(k) = 2.4 m" in text
+    assert ">found</span>" in text and ">least squares</span>" in text
+    assert "solutions by 128 starts" in text and "x in 0..3; y in 0..3" in text
+
+
 @pytest.mark.parametrize(
     ("lines", "numbers"),
     [

@@ -276,6 +276,9 @@ ELSEWHERE = [{}, *OTHER, {"F": 4.0, "a": 1.0}, {"F": 2.5000001}]
 def test_no_number_is_stale(lines: str, tmp_path: Path) -> None:
     sheet = own(tmp_path, f'{lines}\nresult = np.atleast_1d(y) * 1  # [-] line\ntable_2 = table("2", "Two", result)')
     names, recording = recorded(sheet)
+    if "2" not in recording.tables:  # it has other numbers at each run, so it holds for the exported inputs alone
+        assert any("random" in lines and gap.line for gap in recording.gaps)
+        return
     (column,) = recording.tables["2"]
     told = recording.gaps or [guard for guard in recording.guards.values() if not guard.rows]
     followed = 0

@@ -152,13 +152,6 @@ def test_every_quantity_to_50_digits(changed):
 # Find and its roots
 
 
-def test_newton_solves_each_position_for_itself_and_gives_nan_where_there_is_no_root():
-    target = np.array([4.0, 9.0, -1.0])
-    x, evaluations = slotted_link.newton(lambda x: x**2 - target, np.array([[1.0, 1.0, 1.0]]), np.array([[1.0]]))
-    assert np.allclose(x[0, :2], [2, 3], rtol=0, atol=1e-15) and np.isnan(x[0, 2])
-    assert 4 <= evaluations[0] <= 8 and evaluations[2] == 60, "quadratic convergence; the lost one uses all its steps"
-
-
 def test_find_from_another_angle_ends_on_the_other_branch_and_the_results_stay(sheet):
     other = run(phi3_0=-1.5)
     assert np.all(other["F"][1] < 0), "the link points away from the slider at every position"
@@ -169,20 +162,26 @@ def test_find_from_another_angle_ends_on_the_other_branch_and_the_results_stay(s
     assert (sheet["N_same"][row], sheet["N_other"][row], sheet["N_none"][row]) == (0, 7, 0)
 
 
-# The crank's hinge in that of the link, and the slider thought far away: where the link is thought to stand across the
-# crank, the first step of Newton puts the slider on the hinge, where the equations have no slope.
-ACROSS = {"L1": 5.0, "L0": 0.0, "n": 12, "SAB_0": 1e12}
+# The crank's hinge in that of the link, and the slider thought to be there: the equations have no slope.
+AT_THE_HINGE = {"L1": 5.0, "L0": 0.0, "n": 12, "SAB_0": 1e-60}
 
 
 def test_table_of_first_approximations_counts_every_position(sheet):
     assert np.all(sheet["N_same"] + sheet["N_other"] + sheet["N_none"] == 7)
-    made = run(**ACROSS)
+    made = run(**AT_THE_HINGE)
     assert np.any(made["N_none"] > 0) and np.all(made["N_same"] + made["N_other"] + made["N_none"] == 13)
 
 
 def test_position_that_find_does_not_solve_is_named():
-    lost = [c for c in failed(run(**ACROSS, phi3_0=0.0)) if c.name == "Find ends in a root"]
-    assert [c.residual for c in lost] == [2] and "at phi1 = 270, 90 deg" in lost[0].reason
+    made = run(**AT_THE_HINGE)
+    lost = [c for c in failed(made) if c.name == "Find ends in a root"]
+    assert [c.residual for c in lost] == [13] and "at phi1 = 360, 330, 300" in lost[0].reason
+    assert "equation 1 leaves" in made["F_found"].failures()[0]
+
+
+def test_position_thought_far_away_is_found():
+    """The first step of Newton's own puts the slider on the hinge."""
+    assert failed(run(**{**AT_THE_HINGE, "SAB_0": 1e12}, phi3_0=0.0)) == []
 
 
 # Strokes

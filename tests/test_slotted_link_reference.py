@@ -67,16 +67,13 @@ def found(k):
     names = {f"exp(1j * phi3_F) * {side}": np.exp(1j * k["phi3_k"]), f"SAB_F * {side}": k["SAB_k"]}
     names |= {"omega3_F": k["omega_BC_k"], f"VAB_F * {side}": k["VAB_k"]}
     names |= {"eps3_F": k["eps_BC_k"], f"WAB_F * {side}": k["WAB_k"]}
-    start = "np.vstack([np.repeat(phi3_g, len(phi1_k)), np.repeat(guess[1:], 13 * len(phi1_k), axis=1)])"
-    each = f"Find(np.tile(phi1_k, 13), {start})"
-    shaped = f"{each}[0][1].reshape(13, -1)"
     return names | {
         "phi3_g": np.linspace(-np.pi, np.pi, 13),
-        "N_F - Find(phi1_k)[1]": 0,
-        f"N_same - ({shaped} > 0).sum(1)": 0,
-        f"N_other - ({shaped} < 0).sum(1)": 0,
-        f"N_none - np.isnan({shaped}).sum(1)": 0,
-        f"N_g - {each}[1].reshape(13, -1).sum(1)": 0,
+        "N_F - F_found.evaluations": 0,
+        "N_same - (G_found.value.SAB > 0).sum(1)": 0,
+        "N_other - (G_found.value.SAB < 0).sum(1)": 0,
+        "N_none - np.isnan(G_found.value.SAB).sum(1)": 0,
+        "N_g - G_found.evaluations.sum(1)": 0,
     }
 
 

@@ -10,7 +10,7 @@ with app.setup:
     from numpy import arctan2 as atan2
 
     from mechsheet import (
-        Check, Drawing, Used, angle, angle_between, ask, caption, check, dot, export, figure, inputs, mark,
+        Check, Drawing, Used, angle, angle_between, ask, caption, check, dot, export, figure, find, inputs, mark,
         player, read, rpr, rpr_acceleration, rpr_velocity, slider, summary, table, title_block, typeset,
     )  # fmt: skip
     from mechsheet.units import deg
@@ -146,36 +146,11 @@ def section_3():
     mo.md(r"""
     ## 3 Find
 
-    One Find solves all six equations for every position, from the same first approximations. It is Newton's method,
-    undamped; the slopes of the equations are taken from the equations themselves by a complex step, which is exact.
-    An evaluation is one value of all six equations.
+    One Find solves all six equations for every position, from the same first approximations: by Newton's own steps, and
+    in a trust region where twenty of them end in no root. An evaluation is one value of all six equations; their slopes
+    take twelve of them a step.
     """)
     return
-
-
-@app.function
-def newton(f, guess, size, most=60):
-    """Roots of f(x) = 0 for many positions at once, and the evaluations of f that each one took.
-
-    ``f`` takes and returns arrays of shape (unknowns, ..., positions), complex too; ``guess`` has shape (unknowns,
-    positions), ``size`` (unknowns, 1) holds magnitudes against which a step counts as small. A root that is not
-    found in ``most`` steps is NaN.
-    """
-    tilt = 1e-100  # of the complex step: its square vanishes beside 1
-    x, unknowns = guess, len(guess)
-    evaluations, moving = np.zeros(guess.shape[1], int), np.ones(guess.shape[1], bool)
-    with np.errstate(all="ignore"):
-        for _ in range(most):
-            y = f(x[:, None] + 1j * tilt * np.eye(unknowns)[:, :, None])
-            slopes = np.moveaxis(y.imag / tilt, 2, 0)
-            slopes[np.linalg.det(slopes) == 0] = nan
-            step = np.linalg.solve(slopes, y.real[:, 0].T[..., None])[..., 0].T
-            x = where(moving, x - step, x)
-            evaluations += unknowns * moving
-            moving &= ~np.all(abs(step) <= 1e-9 * np.maximum(size, abs(x)), axis=0)
-            if not moving.any():
-                break
-    return where(moving, nan, x), evaluations
 
 
 @app.cell
@@ -190,22 +165,41 @@ def system(f1, f2, f3, f4, f5, f6, g):
     guess = np.array([[g.phi3_0, g.SAB_0, g.omega3_0, g.VAB_0, g.eps3_0, g.WAB_0]]).T
     L, w = g.L0 + g.L1, abs(g.omega1)
     size = np.maximum(abs(guess), np.array([[1, L, w, L * w, w**2, L * w**2]]).T)
-    Find = lambda phi1, first=guess: newton(lambda x: residuals(x, phi1), first + 0 * phi1, size)
-    return Find, guess, residuals, size
+    units_x = ("deg", "m", "rad/s", "m/s", "rad/s**2", "m/s**2")
+    units_f = ("m", "m", "m/s", "m/s", "m/s**2", "m/s**2")
+    return residuals, size, units_f, units_x
 
 
 @app.cell
-def found(Find, phi1_k):
-    F, evaluations = Find(phi1_k)
-    phi3_F = F[0]  # [deg] link 3, found
-    SAB_F = F[1]  # [m] slider from B along the link, found
-    omega3_F = F[2]  # [rad/s] angular velocity of the link 3, found
-    VAB_F = F[3]  # [m/s] velocity of the slider along the link, found
-    eps3_F = F[4]  # [rad/s**2] angular acceleration of the link 3, found
-    WAB_F = F[5]  # [m/s**2] acceleration of the slider along the link, found
-    N_F = evaluations  # [-] evaluations of the six equations
-    typeset()
-    return F, N_F, SAB_F, VAB_F, WAB_F, eps3_F, omega3_F, phi3_F
+def found(f1, f2, f3, f4, f5, f6, g, phi1_k, units_f, units_x):
+    F_found = find(
+        lambda phi3, SAB, omega3, VAB, eps3, WAB: (
+            f1(phi1_k, phi3, SAB),
+            f2(phi1_k, phi3, SAB),
+            f3(phi1_k, phi3, SAB, omega3, VAB),
+            f4(phi1_k, phi3, SAB, omega3, VAB),
+            f5(phi1_k, phi3, SAB, omega3, VAB, eps3, WAB),
+            f6(phi1_k, phi3, SAB, omega3, VAB, eps3, WAB),
+        ),
+        phi3=g.phi3_0,
+        SAB=g.SAB_0,
+        omega3=g.omega3_0,
+        VAB=g.VAB_0,
+        eps3=g.eps3_0,
+        WAB=g.WAB_0,
+        unit=units_f,
+        unknown_unit=units_x,
+    )
+    phi3_F = F_found.value.phi3  # [deg] link 3, found
+    SAB_F = F_found.value.SAB  # [m] slider from B along the link, found
+    omega3_F = F_found.value.omega3  # [rad/s] angular velocity of the link 3, found
+    VAB_F = F_found.value.VAB  # [m/s] velocity of the slider along the link, found
+    eps3_F = F_found.value.eps3  # [rad/s**2] angular acceleration of the link 3, found
+    WAB_F = F_found.value.WAB  # [m/s**2] acceleration of the slider along the link, found
+    N_F = F_found.evaluations  # [-] evaluations of the six equations
+    F = np.array([phi3_F, SAB_F, omega3_F, VAB_F, eps3_F, WAB_F])
+    typeset(F_found)
+    return F, F_found, N_F, SAB_F, VAB_F, WAB_F, eps3_F, omega3_F, phi3_F
 
 
 @app.cell(hide_code=True)
@@ -368,19 +362,26 @@ def section_51():
 
 
 @app.cell
-def others(Find, guess, phi1_k):
+def others(g, phi1_k, residuals, units_f, units_x):
     phi3_g = linspace(-pi, pi, 13)  # [deg] first approximation of the link's angle
-    first = np.repeat(guess, len(phi3_g) * len(phi1_k), axis=1)
-    first[0] = np.repeat(phi3_g, len(phi1_k))
-    ends_g, values_g = Find(np.tile(phi1_k, len(phi3_g)), first)
-    S_g = ends_g[1].reshape(len(phi3_g), -1)
+    G_found = find(
+        lambda phi3, SAB, omega3, VAB, eps3, WAB: tuple(residuals((phi3, SAB, omega3, VAB, eps3, WAB), phi1_k)),
+        phi3=phi3_g[:, None],
+        SAB=g.SAB_0,
+        omega3=g.omega3_0,
+        VAB=g.VAB_0,
+        eps3=g.eps3_0,
+        WAB=g.WAB_0,
+        unit=units_f,
+        unknown_unit=units_x,
+    )
+    S_g = G_found.value.SAB
     N_same = np.sum(S_g > 0, axis=1)  # [-] positions found on the branch +1: the link points to the slider
     N_other = np.sum(S_g < 0, axis=1)  # [-] positions found on the branch -1: it points away
     N_none = np.sum(np.isnan(S_g), axis=1)  # [-] positions not found
-    N_gk = values_g.reshape(len(phi3_g), -1)
-    N_g = np.sum(N_gk, axis=1)  # [-] evaluations of the six equations, in all
+    N_g = np.sum(G_found.evaluations, axis=1)  # [-] evaluations of the six equations, in all
     typeset()
-    return N_g, N_none, N_other, N_same, phi3_g
+    return G_found, N_g, N_none, N_other, N_same, phi3_g
 
 
 @app.cell

@@ -4,9 +4,9 @@ Everything public is a name of this package, loaded on its first use: ``from mec
 stand apart, in `mechsheet.units`.
 
 A worksheet
-    inputs          inputs, one_of, ask, read, Used, declared
+    inputs          inputs, one_of, from_file, ask, read, Used, declared
     formulas        typeset, registry
-    Find            find, Found
+    Find            find, Found, minerr, Solution
     checks          check, require, check_slope, closed_form, assembled, balance, largest_of, Check, summary
     tables, charts  table, figure, Table, Figure, Column
     drawings        Drawing, cut_group, polar, polar_diagrams, caption, side_by_side, slider, player, mark

@@ -167,6 +167,10 @@ from mechsheet.worksheet.find import (
     Found as Found,
     find as find,
 )
+from mechsheet.worksheet.system import (
+    Solution as Solution,
+    minerr as minerr,
+)
 from mechsheet.worksheet.force_diagram import (
     cut_group as cut_group,
     largest_of as largest_of,
@@ -175,6 +179,9 @@ from mechsheet.worksheet.force_diagram import (
 )
 from mechsheet.worksheet.kinds import (
     one_of as one_of,
+)
+from mechsheet.worksheet.data_file import (
+    from_file as from_file,
 )
 from mechsheet.worksheet.inputs import (
     Used as Used,

@@ -63,11 +63,14 @@ def right(line: Formula, single: frozenset[str] = frozenset()) -> Node | None:
     return None if node == left(line, single) else node
 
 
+_SOLVED = {"_found": "Find", "_least": "Minerr"}  # endings of the names of verdicts
+
+
 def equation(line: Formula | Given, single: frozenset[str] = frozenset()) -> Node:
     """A line as an equation, or its symbol alone; of a solve block what must be equal."""
     if isinstance(line, Given):
         parts = (tree(measured(part, line.constants), single=single) for part in (line.expression, line.target))
-        return Row((Text("Given"), Binary(next(parts), "=", next(parts))))
+        return Row((Text("Given" if line.first else "and"), Binary(next(parts), "=", next(parts))))
     node = right(line, single)
     if node is None:
         return left(line, single)
@@ -160,6 +163,9 @@ class _Reader:
                 return Prefix(Function("Re" if part == "real" else "Im"), self.least(inner, WHOLE), PRODUCT)
             case ast.Attribute(ast.Name(name), "value") if name.endswith("_found"):
                 return Apply(Function("Find"), Brackets((_name(name.removesuffix("_found")),)))
+            case ast.Attribute(ast.Attribute(ast.Name(name), "value"), unknown):  # one of several
+                ending = next((end for end in _SOLVED if name.endswith(end)), None)
+                return Apply(Function(_SOLVED[ending]), Brackets((_name(unknown),))) if ending else None
             case ast.Attribute(ast.Name(name), "value"):  # of a slider or field of the page
                 return _name(name)
             case ast.Attribute(ast.Name(name), part):  # a result of several parts

@@ -9,13 +9,29 @@ from mechsheet import units
 from mechsheet.document.markup import named
 from mechsheet.worksheet.inputs import declared
 from mechsheet.worksheet.kinds import Choice, Input, Switch
+from mechsheet.worksheet.lists import Rows
 from mechsheet.worksheet.title import Slider
 
+_TALLEST = 15  # lines of a table's field
 _SIGNS = {"<": "&lt;", ">": "&gt;", "<=": "≤", ">=": "≥"}
 
 
 def _limit(text: str) -> str:
+    text = text.rpartition(".")[2]
     return named(text) if text[0].isalpha() else text
+
+
+def _limits(field: Input) -> str:
+    return ", ".join(f"{_SIGNS.get(sign, sign)}&nbsp;{_limit(other)}" for sign, other in field.limits)
+
+
+def _short(column: Input) -> str:
+    return column.name.rpartition(".")[2]
+
+
+def _headed(column: Input) -> str:
+    """A column of a table, with its unit."""
+    return named(_short(column)) + ("" if column.unit == "-" else f" [{html.escape(units.shown(column.unit))}]")
 
 
 class _Fields(mo.ui.batch):
@@ -40,6 +56,10 @@ def _element(field: Input, value: Any) -> Any:
             return mo.ui.dropdown(options, value=field.text(value))
         case Switch():
             return mo.ui.checkbox(value=value)
+        case Rows(row=kind) if kind is not None:
+            texts = field.text(value)
+            lines = min(texts.count("\n") + 2, _TALLEST)  # one more than there are, to be filled in
+            return mo.ui.text_area(value=texts, rows=lines, debounce=True)
     return mo.ui.text(value=field.text(value), debounce=True)
 
 
@@ -48,10 +68,13 @@ def fields(g: Any) -> "mo.ui.batch":
     sections: dict[str, list[str]] = {}
     texts = {}
     for field in declared(type(g)):
-        limits = ", ".join(f"{_SIGNS.get(sign, sign)}&nbsp;{_limit(other)}" for sign, other in field.limits)
-        unit = "" if field.unit == "-" else units.shown(field.unit)
+        limits = _limits(field)
+        unit, heads = "" if field.unit == "-" else units.shown(field.unit), ""
+        if isinstance(field, Rows) and field.row:
+            heads = f"<div>{'; '.join(map(_headed, field.columns))}</div>"
+            limits = ", ".join(f"{named(_short(c))}&nbsp;{_limits(c)}" for c in field.columns if c.limits)
         sections.setdefault(field.section, []).append(
-            f'<tr><td style="padding-right:.5em">{named(field.name)}</td><td>{{{field.name}}}</td>'
+            f'<tr><td style="padding-right:.5em">{named(field.name)}</td><td>{heads}{{{field.name}}}</td>'
             f'<td style="padding-left:.4em">{html.escape(unit)}</td>'
             f'<td style="padding-left:.7em;line-height:1.2">{html.escape(field.meaning)}'
             f'<span style="opacity:.5;padding-left:.6em">{limits}</span></td></tr>'

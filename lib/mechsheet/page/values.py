@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 import marimo as mo
+import numpy as np
 
 from mechsheet import units
 from mechsheet.document import chart, chart_svg
@@ -20,12 +21,12 @@ from mechsheet.page.lines import lines
 from mechsheet.worksheet import numbers, symbol
 from mechsheet.worksheet.check import Check, Summary
 from mechsheet.worksheet.drawing import Drawing
-from mechsheet.worksheet.find import Found
 from mechsheet.worksheet.inputs import Used
 from mechsheet.worksheet.lines import Typeset
 from mechsheet.worksheet.shown import Charted, Shown
 from mechsheet.worksheet.table import Column, Figure, Table
 from mechsheet.worksheet.title import Caption, Mark, Note, Player, SideBySide, Slider, Title
+from mechsheet.worksheet.verdict import Verdict
 
 _BLOCK = 6  # columns of a table beside each other, those that name its rows apart
 # Shown by the style sheet that stands where something was refused.
@@ -196,12 +197,12 @@ def _(summary: Summary) -> str:
 
 
 @html.register
-def _(found: Found) -> str:
+def _(found: Verdict) -> str:
     failures = found.failures()
-    colour, verdict = ("#c62828", "not found") if failures else ("#2e7d32", "found")
+    colour = "#c62828" if failures else "#2e7d32" if np.any(found.solved) else "#8a6d00"
     badge = (
         f'<span style="background:{colour};color:#fff;border-radius:.3em;padding:.1em .5em;margin-right:.6em">'
-        f"{verdict}</span>"
+        f"{found.word()}</span>"
     )
     lines = "".join(f"<div>{escape(text)}</div>" for text in failures)
     rows = "".join(

@@ -19,7 +19,6 @@ from mechsheet.recording.quantity import Quantity
 from mechsheet.units import PURE, Dims
 from mechsheet.worksheet import inputs
 from mechsheet.worksheet import numbers as shown_numbers
-from mechsheet.worksheet.find import Found
 from mechsheet.worksheet.lines import Formula
 
 Codes = int | NDArray[np.intp]  # of all elements, or of each
@@ -59,8 +58,7 @@ class Reader:
                 self.declared.setdefault(node, []).append(line)
                 self.names.setdefault(node, line.name)
         self.used = dict.fromkeys([*(line.unit for line in lines), *self.unit_of.values()])
-        words = {value.words.unknown: value.words for value in namespace.values() if isinstance(value, Found)}
-        self.found = {solved.node: (solved, words[name]) for name, solved in recording.found.items() if name in words}
+        self.found = {solved.node: solved for solved in recording.found.values()}
         self.equations = {solved.residual for solved in recording.found.values()}
         for node in recording.graph.nodes.values():
             self.codes[node] = RULES[node.op](self, node)
@@ -68,8 +66,8 @@ class Reader:
                 self.settle(node)
         for name, check in recording.checks.items():
             self.check(name, check)
-        for solved, told in self.found.values():
-            self.solved(solved, told)
+        for solved in self.found.values():
+            self.solved(solved)
 
     def code(self, dims: Dims) -> int:
         dims = tuple(round(x, 9) for x in dims)
@@ -167,9 +165,9 @@ class Reader:
                 self.add(Mistake(line, f"check {name!r}", why))
                 return
 
-    def solved(self, solved: Solved, words: Any) -> None:
+    def solved(self, solved: Solved) -> None:
         """Compare a found value with its interval, and what it solves with the unit that is told of it."""
-        own = self.one(solved.node)
+        own, words = self.one(solved.node), solved.words
         for end in solved.interval or ():
             if not self.fits(code := self.one(end), own):
                 why = f"the interval is in {self.word(code)}, {words.unknown} in {self.word(own)}"
@@ -284,10 +282,11 @@ def _input(reader: Reader, node: Node) -> Codes:
 def _found(reader: Reader, node: Node) -> Codes:
     """Of the unknown's unit; where none is given that of the line which takes its value, or of its interval."""
     if node not in reader.found:
-        return UNKNOWN
-    solved, words = reader.found[node]
-    if words.unknown_unit != "-":
-        return reader.of_unit(words.unknown_unit)
+        block, number = node.args
+        return NUMBER if number == len(block.nodes) else UNKNOWN  # its evaluations are counted
+    solved = reader.found[node]
+    if solved.words.unknown_unit != "-":
+        return reader.of_unit(solved.words.unknown_unit)
     if node in reader.declared:
         return reader.of_unit(reader.declared[node][0].unit)
     ends = [reader.codes.get(end) for end in solved.interval or ()]

@@ -19,12 +19,12 @@ def given(graph: Graph, g: Any) -> tuple[Any, dict[str, Node]]:
         value = getattr(g, field.name)
         leaves = {name: graph.leaf("input", name, number) for name, (_, number) in field.leaves(value).items()}
         known |= leaves
-        own = leaves[field.name]
         match field:
             case TextLine():
-                texts[field.name] = _read(graph, own, value)
+                texts[field.name] = _read(graph, leaves[field.name], value)
                 continue
             case Choice():
+                own = leaves[field.name]
                 leaves = {name: node if node is own else graph.at(node, own) for name, node in leaves.items()}
         values[field.name] = field.held({name: Quantity(graph, node) for name, node in leaves.items()})
     recorded: Any = object.__new__(type(cls.__name__, (cls,), texts) if texts else cls)

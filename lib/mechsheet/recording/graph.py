@@ -1,7 +1,7 @@
 """The graph of a recording: quantities as operations on other quantities, and how they are made."""
 
 import weakref
-from collections.abc import Callable, Container, Iterable, Iterator, Sequence
+from collections.abc import Callable, Container, Iterable, Iterator, Mapping, Sequence
 from contextvars import ContextVar
 from dataclasses import dataclass
 from typing import Any, NamedTuple
@@ -32,7 +32,40 @@ class NotRecorded(BaseException):
 
 
 MOST = 50_000  # numbers that one statement of a worksheet may compute
-LEAVES = ("constant", "rows", "input", "found")
+LEAVES = ("constant", "rows", "input")
+
+
+@dataclass(eq=False)
+class Block:
+    """A solve block: its unknowns are the ``nodes`` at which the ``residuals`` vanish, which themselves rest on these.
+
+    ``starts`` are the quantities that it was given, by their names: ``lo``, ``hi`` and ``guess`` of a ``single``
+    unknown, else the guess or the two ends of each. ``under`` are all that it rests on but its own unknowns. Where all
+    is ``elementwise``, the residuals of many values of the unknowns are those of each.
+    """
+
+    starts: Mapping[str, tuple["Node", ...]]
+    single: bool
+    least: bool = False
+    unit: tuple[str, ...] = ()
+    unknown_unit: tuple[str, ...] = ()
+    nodes: tuple["Node", ...] = ()
+    residuals: tuple["Node", ...] = ()
+    under: tuple["Node", ...] = ()
+    elementwise: bool = True
+
+    def rest(self) -> None:
+        """Find out what the block rests on, once its residuals are known."""
+        own, under = set(self.nodes), dict[Node, None]()
+        for node in bottom_up(self.residuals, own):
+            if not own.isdisjoint(node.operands):
+                own.add(node)
+                self.elementwise &= node.op in ELEMENTWISE
+                under |= dict.fromkeys(operand for operand in node.operands if operand not in own)
+        outside = (r for r in self.residuals if r not in own)
+        given = (node for nodes in self.starts.values() for node in nodes)
+        known = [*(node for node in under if node not in own), *outside, *given]
+        self.under = tuple(dict.fromkeys(node for node in known if node.op != "constant"))
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
@@ -46,7 +79,8 @@ class Node:
 
     ==========================  ====================================================================================
     ``constant``, ``rows``      numbers, with a unit where they have one; the numbers 0, 1, 2 .. of the rows
-    ``input``, ``found``        an input; what a Find gives
+    ``input``                   an input
+    ``found`` (block, number)   one of the unknowns that a `Block` finds; after them its evaluations of the equations
     ``exported``                numbers of the worksheet's own run, which rest on its operands nobody knows how
     ``take`` (source, index)    elements by their flat positions, in the shape of ``index``
     ``at`` (source, position)   elements by positions that are a quantity themselves
@@ -72,6 +106,9 @@ class Node:
     def operands(self) -> tuple["Node", ...]:
         if self.op in LEAVES:
             return ()
+        if self.op == "found":
+            under: tuple[Node, ...] = self.args[0].under
+            return under
         return self.args[0] if self.op == "join" else self.args[:1] if self.op in ("take", "reduce") else self.args
 
 
@@ -167,8 +204,12 @@ class Graph:
         return self._kept(key, "constant", unit, array.copy)
 
     def leaf(self, op: str, name: str, value: Any) -> Node:
-        """An input or a found value."""
+        """An input."""
         return self._kept((op, name), op, (), lambda: np.array(value))
+
+    def found(self, block: Block, number: int, name: str, value: Any) -> Node:
+        """One of the values that a solve block finds."""
+        return self._kept(("found", name, number), "found", (block, number), lambda: np.array(value))
 
     def rows(self, count: int) -> Node:
         """The numbers 0, 1, 2 .. of the rows."""

@@ -4,7 +4,7 @@ import ast
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import lru_cache
-from typing import Any
+from typing import Any, NamedTuple
 
 from mechsheet.recording.graph import Gap, Graph, Guard, Node
 from mechsheet.recording.quantity import Quantity
@@ -33,13 +33,23 @@ class Residual:
     signed: bool = False
 
 
+class Told(NamedTuple):
+    """What a solve block says of an unknown and of the equation that stands beside it: words and display units."""
+
+    unknown: str
+    quantity: str
+    unit: str
+    unknown_unit: str
+
+
 @dataclass
 class Solved:
-    """A found value: its closed form where there is one, what it leaves of its equation, and its interval."""
+    """A found value: what it leaves of its equation, its interval or guess, and its closed form where there is one."""
 
     node: Node
     residual: Node | None
     interval: tuple[Node, Node] | None
+    words: Told
     inverse: Node | None = None
 
 

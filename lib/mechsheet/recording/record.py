@@ -23,10 +23,10 @@ from mechsheet.recording.unrepeatable import Unrepeatable
 from mechsheet.units import Constant
 from mechsheet.worksheet.cells import Worksheet, load
 from mechsheet.worksheet.check import Check
-from mechsheet.worksheet.find import Found
 from mechsheet.worksheet.lines import registry
 from mechsheet.worksheet.table import Figure, Table
 from mechsheet.worksheet.title import Slider
+from mechsheet.worksheet.verdict import Verdict
 
 
 def record(namespace: Mapping[str, Any], sheet: Worksheet | None = None, whole: bool = False) -> Recording:
@@ -309,7 +309,6 @@ class _Run:
 
 def leaves_of(roots: Iterable[Node], recording: Recording) -> list[Node]:
     """Inputs that quantities rest on; of found values those of their equations."""
-    solved = {s.node: s for s in recording.found.values()}
     found: dict[Node, None] = {}
     waiting, visited = list(roots), set[Node]()
     while waiting:
@@ -319,8 +318,6 @@ def leaves_of(roots: Iterable[Node], recording: Recording) -> list[Node]:
         visited.add(node)
         if node.op == "input":
             found[node] = None
-        if node in solved:
-            waiting.extend(n for n in (solved[node].residual, *(solved[node].interval or ())) if n)
         waiting.extend(node.operands)
     order = {node: n for n, node in enumerate(recording.inputs.values())}
     return sorted(found, key=order.__getitem__)
@@ -336,4 +333,4 @@ def _is_number(value: Any) -> bool:
 
 def _shown(value: Any) -> bool:
     group = value if isinstance(value, tuple | list) else [value]
-    return any(isinstance(v, Table | Figure | Check | Found) for v in group)
+    return any(isinstance(v, Table | Figure | Check | Verdict) for v in group)

@@ -3,29 +3,23 @@
 import math
 from collections.abc import Callable, Mapping, Sequence
 from copy import copy
-from dataclasses import dataclass, fields, is_dataclass, replace
+from dataclasses import fields, is_dataclass, replace
 from typing import Any
 
 import numpy as np
 
 from mechsheet import units
-from mechsheet.recording.graph import Node, NotRecorded, Values, bottom_up
+from mechsheet.recording import solving
+from mechsheet.recording.graph import Node, NotRecorded, bottom_up
 from mechsheet.recording.lines import Recording, Residual, Solved
 from mechsheet.recording.quantity import Quantity, lift
 from mechsheet.worksheet.cells import Cell
 from mechsheet.worksheet.check import Check
 from mechsheet.worksheet.find import Found
 from mechsheet.worksheet.shown import Shown
+from mechsheet.worksheet.system import Solution
 from mechsheet.worksheet.table import Figure, Table
-
-
-@dataclass
-class _Solving:
-    """What `find` gives while recording."""
-
-    value: Quantity
-    solved: Solved
-    unknown: str
+from mechsheet.worksheet.verdict import Verdict
 
 
 class Stage:
@@ -45,6 +39,7 @@ class Stage:
             "table": self.table,
             "figure": self.figure,
             "find": self.find,
+            "minerr": self.find,
             "closed_form": self.closed_form,
             "check": self.check,
             "check_slope": self.check_slope,
@@ -78,34 +73,52 @@ class Stage:
         self.shown_now.append((self.recording.marks, number))
         self.recording.marks[number] = {k: lift(self.graph, v).re for k, v in (marks or {}).items()}
 
-    def find(
-        self, f: Callable[..., Any], lo: Any = None, hi: Any = None, *, unknown: str = "unknown x", equals: Any = 0,
-        **rest: Any,
-    ) -> Any:  # fmt: skip
-        found = next(v for v in self.real if isinstance(v, Found) and v.words.unknown == unknown)
-        self.real.remove(found)  # the next one of that name is another
-        node = self.graph.leaf("found", f"{unknown}, line {self.graph.line}", found.value)
-        x, branch = Quantity(self.graph, node), rest.get("branch")
-        left = lift(self.graph, (f(x, branch) if branch is not None else f(x)) - equals)
-        ends = None if lo is None or hi is None else (lift(self.graph, lo).re, lift(self.graph, hi).re)
-        solved = Solved(node, left.re if left.size == 1 else None, ends)
-        self.solved.append(solved)
-        self.shown_now.append((self.recording.found, unknown))
-        self.recording.found[unknown] = solved
-        return _Solving(x, solved, unknown)
+    def find(self, f: Callable[..., Any], lo: Any = None, hi: Any = None, **asked: Any) -> Any:
+        unknowns = solving.unknowns_of(asked)
+        unknown = asked.get("unknown", "unknown x")
 
-    def closed_form(self, found: _Solving, value: Any, tolerance: float = 1e-10) -> None:
-        value = lift(self.graph, value)
+        def meant(v: Any) -> bool:
+            if unknowns:
+                return isinstance(v, Solution) and list(v.words.names) == unknowns
+            return isinstance(v, Found) and v.words.unknown == unknown
+
+        found = next(filter(meant, self.real), None)
+        if found is None:
+            raise NotRecorded("its verdict is not given by the cell under a name of its own")
+        self.real = [v for v in self.real if v is not found]  # the next one of that name is another
+        if unknowns:
+            new = solving.several(self.graph, found, f, asked)
+        else:
+            new = solving.one(self.graph, found, f, {**asked, "lo": lo, "hi": hi})
+        self.solved += new.solved
+        self._note(new, found)
+        return new
+
+    def _note(self, new: solving.Solving, own: Verdict) -> None:
+        """Note found values by what the worksheet calls them."""
+        name = next((f"{name}." for name, value in self.namespace.items() if value is own), "")
+        for solved in new.solved:
+            key = (name if isinstance(own, Solution) else "") + solved.words.unknown
+            self.shown_now.append((self.recording.found, key))
+            self.recording.found[key] = solved
+
+    def closed_form(self, found: solving.Solving, value: Any, tolerance: float = 1e-10) -> None:
+        value, (solved,) = lift(self.graph, value), found.solved
         inside: Any = value
-        if found.solved.interval:
-            low, high = (Quantity(self.graph, end) for end in found.solved.interval)
+        if solved.interval:
+            low, high = (Quantity(self.graph, end) for end in solved.interval)
             slack = 1e-12  # an end of the interval may be a found value, rounded
             within = (value >= low * (1 - slack)) & (value <= high * (1 + slack))
             inside = np.where(within, value, np.nan)
-        found.solved.inverse = inside.re
-        real = next(v for v in self.namespace.values() if isinstance(v, Found) and v.words.unknown == found.unknown)
-        name = f"{found.unknown}: Find and the closed form"
-        self.check(name, value - found.value, tolerance, real.words.unknown_unit, of=found.value)
+        solved.inverse = inside.re
+        words = solved.words
+        self.check(
+            f"{words.unknown}: Find and the closed form",
+            value - found.value,
+            tolerance,
+            words.unknown_unit,
+            of=found.value,
+        )
 
     def check(self, name: str, residual: Any, limit: Any, unit: str = "-", of: Any = None) -> None:
         if of is not None:
@@ -175,7 +188,7 @@ class Stage:
             return True
         value = lift(self.graph, value)
         if kept.shape != value.shape:
-            kept = self._listed(kept)
+            kept = solving.listed(self.graph, kept)
         try:
             a, b = np.broadcast_arrays(value.value + 0, kept)
         except ValueError:
@@ -185,19 +198,12 @@ class Stage:
         off = 1e-7 * max(size, 1e-6 * terms)
         return bool(np.all((np.abs(a - b) <= off) | (~np.isfinite(a) & ~np.isfinite(b))))
 
-    def _listed(self, own: Values) -> Values:
-        """The positions of the worksheet's own numbers that are recorded."""
-        for axis, size in enumerate(own.shape):
-            if self.graph.thin > 1 and size == self.graph.positions:
-                own = own.take(range(0, size, self.graph.thin), axis)
-        return own
-
     def kept(self, own: Any, rests_on: Sequence[Node]) -> Any:
         """The worksheet's own value instead of a recorded one; what it shows of it too."""
         graph, recording = self.graph, self.recording
 
         def exported(values: Any) -> Quantity:
-            array = self._listed(np.asarray(values))
+            array = solving.listed(graph, values)
             parts = [array.real, array.imag] if array.dtype.kind == "c" else [array]
             return Quantity(graph, *(graph.exported(rests_on, part) for part in parts))
 
@@ -212,11 +218,10 @@ class Stage:
             case Check():
                 numbers = [graph.exported(rests_on, x) for x in (own.residual, own.limit)]
                 recording.checks[own.name] = Residual(numbers[:1], numbers[1], "-", signed=True)
-            case Found():
-                value = exported(own._value)
-                solved = Solved(value.re, None, None)
-                recording.found[own.words.unknown] = solved
-                return _Solving(value, solved, own.words.unknown)
+            case Verdict():
+                found = solving.kept(graph, own, exported)
+                self._note(found, own)
+                return found
             case tuple() if hasattr(own, "_fields"):
                 return type(own)(*(self.kept(v, rests_on) for v in own))
             case tuple() | list():
@@ -237,7 +242,7 @@ def held(own: Any) -> bool:
         return any(held(v) for v in own)
     if isinstance(own, dict):
         return any(held(v) for v in own.values())
-    if isinstance(own, Table | Figure | Check | Found):
+    if isinstance(own, Table | Figure | Check | Verdict):
         return True
     return isinstance(own, int | float | complex | np.ndarray | np.generic) or (
         is_dataclass(own) and not isinstance(own, type | Shown)

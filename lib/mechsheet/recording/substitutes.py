@@ -33,7 +33,7 @@ _ARRAYS = (np.array, np.asarray, np.asanyarray, np.ascontiguousarray)
 
 
 staged: ContextVar[Mapping[str, Any]] = ContextVar("staged")  # what those of `SHOWING` do in the cell that is run
-SHOWING = frozenset({"table", "figure", "find", "closed_form", "check", "check_slope", "Check", "assembled"})
+SHOWING = frozenset({"table", "figure", "find", "minerr", "closed_form", "check", "check_slope", "Check", "assembled"})
 _NOWHERE = frozenset({"require", "refuse", "summary", "export", "typeset"})  # of no use in a workbook
 
 

@@ -7,8 +7,10 @@ from dataclasses import replace
 from pathlib import Path
 
 from mechsheet.worksheet import scene as scenes
-from mechsheet.worksheet.errors import SheetError
+from mechsheet.worksheet.data_file import ENDINGS
+from mechsheet.worksheet.errors import SheetError, as_given
 from mechsheet.worksheet.kinds import Input
+from mechsheet.worksheet.lists import Rows
 from mechsheet.worksheet.scene import Scene
 
 
@@ -51,4 +53,15 @@ def load(path: Path, declared: Sequence[Input]) -> Scene:
         from mechsheet.workbook import reading  # on use: openpyxl takes a third of a second
 
         return Scene(reading.inputs(path, declared))
-    return scenes.load(path)
+    scene, lists = scenes.load(path), _lists(declared)
+    for name, value in scene.inputs.items():
+        if isinstance(value, dict | list) and name not in lists:
+            raise SheetError(f"scene {path}: input {name} = {as_given(value)} must be one value")
+    named = {name: path.parent / text for name, text in scene.inputs.items() if isinstance(text, str) and name in lists}
+    beside = {name: str(file) for name, file in named.items() if file.suffix.lower() in ENDINGS and file.is_file()}
+    return replace(scene, inputs=scene.inputs | beside)
+
+
+def _lists(declared: Sequence[Input]) -> set[str]:
+    """Inputs that may be given by the name of a file."""
+    return {field.name for field in declared if isinstance(field, Rows)}

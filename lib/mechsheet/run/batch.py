@@ -68,7 +68,7 @@ def compute(sheet: Worksheet, name: str, given: Scene) -> tuple[Outcome, dict[st
     judged = results.limited(held, given.limits, names)
     refuse_open(judged)
     quantities, tables = dict[str, Displayed](), list[Table]()
-    found = (line.name for line, _ in report.solved(names))
+    found = (row.symbol for row in report.solved(names))
     for want in dict.fromkeys([*(given.want or found), *given.limits]):
         what = names.get(want)
         if isinstance(what, Table):
@@ -96,7 +96,7 @@ def comparison(sheet: Worksheet, outcomes: Sequence[Outcome]) -> bytes:
     """Workbook of all outcomes side by side: inputs that differ from the document's, results, checks and verdicts."""
     rows: list[tuple[str | float, ...]] = [("Inputs that differ from the worksheet's",)]
     for field in _changed(sheet, outcomes):
-        shown = ("" if o.g is None else field.display(getattr(o.g, field.name)) for o in outcomes)
+        shown = ("" if o.g is None else _written(field, getattr(o.g, field.name)) for o in outcomes)
         rows.append((field.name, units.shown(field.unit), field.meaning, *shown))
     rows.append(("Results",))
     fields = list[Table]()
@@ -215,8 +215,13 @@ def _changed(sheet: Worksheet, outcomes: Iterable[Outcome]) -> list[Input]:
     return [
         field
         for field in inputs.declared(sheet.inputs)
-        if any(getattr(g, field.name) != getattr(default, field.name) for g in used)
+        if not all(field.same(getattr(g, field.name), getattr(default, field.name)) for g in used)
     ]
+
+
+def _written(field: Input, value: Any) -> str | float:
+    """A value as a cell has it: a number, or the text of another kind."""
+    return field.display(value) if type(field) is Input else field.brief(value)
 
 
 def _quantities(outcomes: Iterable[Outcome]) -> dict[str, Displayed]:
@@ -238,7 +243,7 @@ def _table(sheet: Worksheet, outcomes: Sequence[Outcome]) -> list[list[str]]:
     """The summary in words: a row a quantity, a column a scene."""
     rows = [["", *(o.name for o in outcomes)]]
     for field in _changed(sheet, outcomes):
-        given = ("" if o.g is None else field.text(getattr(o.g, field.name)) for o in outcomes)
+        given = ("" if o.g is None else field.brief(getattr(o.g, field.name)) for o in outcomes)
         rows.append([f"{field.name} [{field.unit}]", *given])
     for name, quantity in _quantities(outcomes).items():
         spans = ({q.name: q.span for q in o.quantities}.get(name, "") for o in outcomes)

@@ -6,6 +6,8 @@ from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any, TypeVar
 
+import numpy as np
+
 from mechsheet import units
 from mechsheet.document import parts
 from mechsheet.recording.dimensions import dimensions
@@ -24,7 +26,9 @@ from mechsheet.worksheet.find import Found
 from mechsheet.worksheet.lines import Formula, registry
 from mechsheet.worksheet.results import limited
 from mechsheet.worksheet.scene import Limit
+from mechsheet.worksheet.system import Solution
 from mechsheet.worksheet.table import Figure, Table
+from mechsheet.worksheet.verdict import Verdict
 
 T = TypeVar("T")
 
@@ -62,7 +66,7 @@ def _script(title: str, namespace: Mapping[str, Any], worksheet: Path) -> None:
     refuse_open(_of(Check, values))
     recording, fit = _recorded(namespace)
     checks = [*_of(Check, values), fit]
-    say(*inputs.readings(declared, given.inputs), *_of(Found, values), *checks)
+    say(*inputs.readings(declared, given.inputs), *_of(Verdict, values), *checks)
     path = (given.out or _folder(worksheet.resolve())) / f"{worksheet.stem}.xlsx"
     write(_workbook(title, namespace, [*values, fit], recording), path)
     say(f"written {path}", *_not_followed(recording))
@@ -117,7 +121,7 @@ def _workbook(title: str, namespace: Mapping[str, Any], values: list[Any], recor
     return writing.workbook(
         title,
         inputs=inputs_sheet.rows(namespace["g"]),
-        found=[_found(line, found) for line, found in solved(namespace)],
+        found=list(solved(namespace)),
         tables=_of(Table, values),
         figures=_of(Figure, values),
         checks=_of(Check, values),
@@ -130,12 +134,39 @@ def _of(kind: type[T], values: Iterable[Any]) -> list[T]:
     return [value for value in values if isinstance(value, kind)]
 
 
-def solved(namespace: Mapping[str, Any]) -> Iterator[tuple[Formula, Found]]:
-    """Lines whose value is found, such as ``L4 = L4_found.value``, and what was found."""
+def solved(namespace: Mapping[str, Any]) -> Iterator[FoundRow]:
+    """Single numbers that are found, by the lines that take them: ``L4 = L4_found.value``, ``x = xy_found.value.x``."""
     for line in registry(namespace).values():
         match line.expression:
-            case ast.Attribute(ast.Name(source), "value") if isinstance(namespace.get(source), Found):
-                yield line, namespace[source]
+            case ast.Attribute(ast.Name(source), "value"):
+                found = namespace.get(source)
+                if isinstance(found, Found) and np.ndim(found.value) == 0:
+                    yield _found(line, found)
+            case ast.Attribute(ast.Attribute(ast.Name(source), "value"), unknown):
+                solution = namespace.get(source)
+                if isinstance(solution, Solution) and np.ndim(solution.condition) == 0:
+                    yield _one_of_several(line, source, solution, unknown)
+
+
+def _one_of_several(line: Formula, source: str, solution: Solution, unknown: str) -> FoundRow:
+    """One of several unknowns, beside it the equation of the same number."""
+    k = solution.words.names.index(unknown)
+    unit, target = units.parse(line.unit).factor, solution.words.equation_units[k]
+    lower, upper = solution.interval[unknown]
+    others = [s[k] for s in solution.solutions if s != solution.value]
+    return FoundRow(
+        line.name,
+        solution.value[k] / unit,
+        line.unit,
+        line.meaning,
+        solution.residual[k] / units.parse(target).factor,
+        target,
+        lower / unit,
+        upper / unit,
+        ", ".join(numbers.significant(x / unit, 6) for x in others),
+        f"{source}.{unknown}",
+        kind="least squares" if solution.least else "found",
+    )
 
 
 def _found(line: Formula, found: Found) -> FoundRow:

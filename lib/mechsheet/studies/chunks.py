@@ -19,8 +19,8 @@ from mechsheet.worksheet import check, inputs
 from mechsheet.worksheet.cells import Cell, Worksheet, base, load
 from mechsheet.worksheet.cells import value as wanted
 from mechsheet.worksheet.errors import SheetError
-from mechsheet.worksheet.find import Found, values_only
 from mechsheet.worksheet.lines import registry
+from mechsheet.worksheet.verdict import Verdict, values_only
 
 _AHEAD = 256  # chunks handed to an executor and not yet taken back: bounds the memory of results that wait
 _BREAKS = 3  # times that an executor may break in a row without one chunk done
@@ -66,7 +66,7 @@ class Job:
         lacking = np.zeros(count, dtype=bool)
         for cell in _run(sheet, sheet.needed(self.want, ["g"]), inputs.instance(sheet.inputs, columns), names):
             for found in _founds(cell, names):
-                lacking |= ~_by_variant(found.solved, count).all(1)
+                lacking |= ~_by_variant(found.valued, count).all(1)
         values = {name: _result(name, _wanted(name, names), columns) for name in self.want}
         for value in values.values():
             lacking |= _lacking(value)
@@ -179,8 +179,8 @@ def _identity(argument: Any) -> Any:
     return (type(argument), argument) if isinstance(argument, int | str) else None
 
 
-def _founds(cell: Cell, names: Mapping[str, Any]) -> Iterator[Found]:
-    return (found for name in cell.gives if isinstance(found := names.get(name), Found))
+def _founds(cell: Cell, names: Mapping[str, Any]) -> Iterator[Verdict]:
+    return (found for name in cell.gives if isinstance(found := names.get(name), Verdict))
 
 
 def _telling(sheet: Worksheet, cells: Sequence[Cell]) -> Iterator[Cell]:

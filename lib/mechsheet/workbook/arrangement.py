@@ -60,7 +60,7 @@ class Arrangement:
         self.changed = Place(self._names.new("inputs_changed"), "Inputs", last + 1, _SI)  # how many differ
         self.defined.append((self.changed.name, self.changed.meaning(1)))
         for symbol, node in recording.inputs.items():
-            self._settle(node, symbol, "Inputs", inputs[symbol], _SI)
+            self._settle(node, symbol, "Inputs", inputs[symbol], _SI, aligned=node.size == 1)
         under = set(bottom_up(self._roots(), ()))
         self.followed = {symbol for symbol, node in recording.inputs.items() if node in under}
         for solved in recording.found.values():
@@ -84,8 +84,8 @@ class Arrangement:
         nodes = [None if c is None or c.im is not None else c.re for c in columns]
         return (*nodes, *[None] * (len(table.columns) - len(nodes)))
 
-    def _settle(self, node: Node, symbol: str, sheet: str, row: int, column: int) -> None:
-        place = self.places[node] = Place(self._names.new(symbol.replace(".", "_")), sheet, row, column)
+    def _settle(self, node: Node, symbol: str, sheet: str, row: int, column: int, aligned: bool = True) -> None:
+        place = self.places[node] = Place(self._names.new(symbol.replace(".", "_")), sheet, row, column, aligned)
         self.defined.append((place.name, place.meaning(node.size)))
 
     def _roots(self) -> Iterator[Node]:
@@ -194,7 +194,7 @@ def needing_place(roots: Iterable[Node], named: Set[Node], places: Container[Nod
     for node in order:
         own = 1 + sum(weight[operand] for operand in node.operands) if node.operands else 0
         deep = nesting(node, depth)
-        known = node in named or node.op in LEAVES or node in places
+        known = node in named or node.op in (*LEAVES, "found") or node in places
         repeated = uses[node] > 1 and own > _LIGHT and node.op not in ("take", "join")
         if node.op in ("constant", "input") or (node.op == "rows" and node.size == 1):
             own = 0

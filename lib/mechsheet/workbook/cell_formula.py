@@ -3,12 +3,13 @@
 import math
 import re
 from collections.abc import Mapping
+from dataclasses import replace
 from functools import lru_cache
 from typing import Any
 
 import numpy as np
 
-from mechsheet.recording.graph import Node, is_number
+from mechsheet.recording.graph import Node, bottom_up, is_number
 from mechsheet.workbook.column_rows import COUNTED, Index, Rows, Unlike
 from mechsheet.workbook.place import Place
 
@@ -32,6 +33,7 @@ _OF_RANGE = {
     "argmax": "MATCH(MAX({0}),{1},0)-1", "argmin": "MATCH(MIN({0}),{1},0)-1", "nanmax": f"{AGGREGATE}(4,6,{{}})",
     "nanmin": f"{AGGREGATE}(5,6,{{}})", "nansum": f"{AGGREGATE}(9,6,{{}})",
 }  # fmt: skip
+_DIFFERS = 5  # columns between an input in SI units and whether it differs from the exported one
 _FIRST = np.zeros(1, np.intp)
 _ALONE = Rows(_FIRST, (), 0, alone=True)
 _FAILS = {"sqrt", "asin", "acos", "atan2", "log", "div", "pow", "mod", "tan", "at"}  # may give an error value
@@ -45,6 +47,7 @@ class CellFormulas:
 
     def __init__(self, places: Mapping[Node, Place], first: int = 0) -> None:
         self.places, self.first = places, first
+        self._inputs: dict[Node, tuple[Node, ...]] = {}
 
     def formula(self, node: Node, factor: float = 1.0) -> str:
         """Formula of a single number over ``factor``, without its own name."""
@@ -72,6 +75,9 @@ class CellFormulas:
 
     def references(self, node: Node, factor: float) -> list[str]:
         """Formulas that show all elements of a quantity over ``factor``."""
+        place = self.places.get(node)
+        if place and not place.aligned:
+            return [f"={_scaled(place.at(k), factor) if factor != 1.0 else place.at(k)}" for k in range(node.size)]
         return [self.reference(node, factor)] * node.size if node in self.places else self.formulas(node, factor)
 
     def _fill(self, texts: list[str], node: Node, rows: Index, factor: float) -> None:
@@ -95,6 +101,12 @@ class CellFormulas:
                 return True
             stack.extend(operand for operand in here.operands if operand not in self.places)
         return False
+
+    def _inputs_under(self, node: Node) -> tuple[Node, ...]:
+        """Inputs on which a found value rests."""
+        if node not in self._inputs:
+            self._inputs[node] = tuple(n for n in bottom_up([node], ()) if n.op == "input")
+        return self._inputs[node]
 
     def _element(self, node: Node, at: Index, rows: Rows) -> tuple[str, int]:
         """Elements as an operand: by their name or address where they have a place."""
@@ -129,9 +141,10 @@ class CellFormulas:
                 source, position = node.args
                 where = self._element(position, _position(position.shape, node.shape, at), rows)[0]
                 return f"INDEX({self.places[source].range(0, source.size - 1)},{where}+1)", 5
-            case "exported":
+            case "exported" | "found":
                 known = written(_only(node.value.reshape(-1)[at if node.size > 1 else 0]))
-                same = [f"{self._element(x, _FIRST, rows)[0]}={written(x.value)}" for x in node.args]
+                under = node.args if node.op == "exported" else self._inputs_under(node)
+                same = [self._unchanged(x, rows) for x in under]
                 return f"IF(AND({','.join(same)}),{known},NA())" if same else known, 5
         form, binding, needs = _TEXT[node.op]
         shape, texts = node.shape, []
@@ -154,6 +167,13 @@ class CellFormulas:
             cells = ",".join(members)
             one = f"CHOOSE({{{','.join(str(n + 1) for n in range(length))}}},{cells})"
         return _OF_RANGE[kind].format(cells, one), 2 if kind.startswith("arg") else 5
+
+    def _unchanged(self, node: Node, rows: Rows) -> str:
+        """Condition under which an input or another quantity is what it was; of a list its rows tell what differs."""
+        if node.size == 1:
+            return f"{self._element(node, _FIRST, rows)[0]}={written(node.value.item())}"
+        place = self.places[node]
+        return f"SUM({replace(place, column=place.column + _DIFFERS).range(0, node.size - 1)})=0"
 
 
 def _of_one_source(node: Node) -> list[Index]:
@@ -180,7 +200,7 @@ def nesting(node: Node, inside: Mapping[Node, int]) -> int:
     if node.op == "reduce":
         return deepest + (2 if node.args[2].startswith("arg") else 1)
     if node.op not in _TEXT:
-        return deepest + {"at": 1, "exported": 2}.get(node.op, 0)
+        return deepest + {"at": 1, "exported": 2, "found": 2}.get(node.op, 0)
     _, binding, needs = _TEXT[node.op]
     if binding == 5:
         return deepest + 1
@@ -208,7 +228,7 @@ def _safe(node: Node) -> bool:
 
 def _is_constant(node: Node) -> bool:
     """Whether a quantity is made of constants alone, such as ``2*kN``."""
-    return node.op == "constant" or (bool(node.operands) and all(map(_is_constant, node.operands)))
+    return all(part.op == "constant" or part.operands for part in bottom_up([node], ()))
 
 
 def _is_one(node: Node) -> bool:

@@ -45,7 +45,7 @@ class Rows:
         if self.alone or (len(at) > 1 and (at == at[0]).all()):
             return place.at(int(at[0]))
         further = at - self.numbers
-        if not further.any():
+        if place.aligned and not further.any():
             return place.name
         if (further == further[0]).all():
             return f"{quoted(place.sheet)}!{self._relative(place, int(further[0]))}"

@@ -1,7 +1,7 @@
 """The sheet of the inputs, which the user of a workbook edits."""
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import groupby
 from typing import Any
@@ -14,6 +14,7 @@ from mechsheet.workbook.content import Content, Live, allowed, cut, put, quoted
 from mechsheet.workbook.sheet_formulas import SheetFormulas
 from mechsheet.worksheet.inputs import LEAST, MOST, declared
 from mechsheet.worksheet.kinds import Choice, Switch, number
+from mechsheet.worksheet.lists import Rows
 
 _FOLLOWED = "No formula of this workbook follows a value without a yellow ground: run the worksheet again for it."
 _AS_TEXT = {"num_format": "@"}  # what is typed stays a text
@@ -59,6 +60,9 @@ def rows(g: Any) -> list[InputRow]:
             case Choice():
                 options = field.options
                 shown += _properties(field)
+            case Rows():
+                asked += _of_rows(field, written)
+                continue
             case Switch():
                 written, options = field.text(value), (field.text(False), field.text(True))
         row = InputRow(
@@ -66,6 +70,19 @@ def rows(g: Any) -> list[InputRow]:
         )
         asked.append(row)
     return asked + shown
+
+
+def _of_rows(field: Rows, written: Mapping[str, Any]) -> Iterator[InputRow]:
+    """The numbers of a list or a table, column by column, each with the number of its row behind its name."""
+    for column in field.columns:
+        meaning = column.meaning if column.meaning == field.meaning else f"{field.meaning}: {column.meaning}"
+        for k, value in enumerate(written[column.name].tolist()):
+            limits = tuple(
+                (sign, f"{other} ({k + 1})" if "." in other and other in written else other)
+                for sign, other in column.limits
+            )
+            words = (column.unit, meaning, field.section, limits)
+            yield InputRow(f"{column.name} ({k + 1})", value, *words, leaf=column.name, k=k)
 
 
 def _properties(field: Choice) -> Iterator[InputRow]:
@@ -133,6 +150,8 @@ def _computed(row: InputRow, placed: dict[str, int], formulas: SheetFormulas) ->
     units = [row.unit, shown(row.unit), *([""] if row.unit == "-" else [])]
     same = ",".join(f"EXACT(TRIM(C{n}),{quoted(unit)})" for unit in dict.fromkeys(units))
     rules = [f"OR({same})", f"ABS({read})<={written(MOST)}", *_rules(row, read, placed)]
+    if row.leaf and row.asked:  # rows that are added are not followed
+        rules.append(f'COUNTIF($A:$A,"{row.leaf} (*")={node.size}')
     exported: Any = node.value.reshape(-1)[row.k].item()
     scaled = "" if factor == 1 else "*PI()/180" if factor == math.pi / 180 else f"*{factor!r}"
     if exported is True or exported is False:

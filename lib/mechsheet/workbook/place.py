@@ -28,12 +28,16 @@ class DefinedNames:
 
 @dataclass(frozen=True)
 class Place:
-    """Where a quantity stands: a cell or a column, and the name that means it (in a column: the cell of its row)."""
+    """Where a quantity stands: a cell or a column, and the name that means it (in a column: the cell of its row).
+
+    The name of a column whose rows are not those of the tables means all of it: it is not ``aligned``.
+    """
 
     name: str
     sheet: str
     row: int
     column: int
+    aligned: bool = True
 
     def at(self, k: int = 0) -> str:
         """Address of the k-th cell."""
@@ -46,6 +50,8 @@ class Place:
 
     def meaning(self, size: int) -> str:
         """What the name is defined as; a row without $ is that of the cell which uses it."""
+        if not self.aligned:
+            return f"={self.range(0, size - 1)}"
         return f"={self.at() if size == 1 else f'{quoted(self.sheet)}!${letters(self.column)}1'}"
 
 

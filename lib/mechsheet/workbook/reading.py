@@ -14,6 +14,7 @@ from openpyxl.utils import get_column_letter  # type: ignore[import-untyped]
 from mechsheet.units import shown
 from mechsheet.worksheet.errors import SheetError, cut
 from mechsheet.worksheet.kinds import Choice, Input
+from mechsheet.worksheet.lists import Rows
 
 _SHEET = "Inputs"
 _HEADS = ("Symbol", "Value", "Unit")
@@ -33,7 +34,9 @@ def inputs(path: Path, declared: Sequence[Input]) -> dict[str, object]:
 
     Raises SheetError naming the file, the cell and what it holds where that cannot be used.
     """
-    fields, found = {field.name: field for field in declared}, dict[str, object]()
+    fields, found = {field.name: field for field in declared if not isinstance(field, Rows)}, dict[str, object]()
+    columns_of = {column.name: column for f in declared if isinstance(f, Rows) for column in f.columns}
+    named, several = set(fields), dict[str, dict[str, object]]()
     places = dict[str, str]()
     properties = {f"{f.name}.{p.name}" for f in declared if isinstance(f, Choice) for p in f.properties}
     with _rows(path, values=True) as rows:
@@ -43,11 +46,13 @@ def inputs(path: Path, declared: Sequence[Input]) -> dict[str, object]:
             at = [f"{get_column_letter(column + 1)}{number}" for column in columns]
             name = _text(symbol)
             if value is None and (not name or (name not in fields and not _text(unit))):
-                if len(found) == len(fields) and not name:
+                if len(found) == len(fields) and not name and not columns_of:  # rows may be added to a list
                     break
                 continue  # an empty row, or the heading of a section
             if name.rpartition(" (")[0] in properties:
                 continue
+            if field := columns_of.get(name.rpartition(" (")[0]):
+                fields.setdefault(name, field)
             if name not in fields:
                 near = difflib.get_close_matches(name[:_NAME], fields, n=3, cutoff=0.5)
                 hint = f"; nearest: {', '.join(near)}" if near else ""
@@ -55,9 +60,18 @@ def inputs(path: Path, declared: Sequence[Input]) -> dict[str, object]:
             if name in places:
                 raise SheetError(f"{_at(path, at[0])}: {name} stands in {places[name]} already")
             places[name] = at[0]
-            found[name] = _checked(path, fields[name], value, number, columns[1])
+            number_of = found if name in named else several.setdefault(fields[name].name, dict[str, object]())
+            number_of[name] = _checked(path, fields[name], value, number, columns[1])
             if (_text(unit) or "-") not in (fields[name].unit, shown(fields[name].unit)):
-                found[name] = _converted(fields[name], value, _text(unit), _at(path, at[2]))
+                number_of[name] = _converted(fields[name], value, _text(unit), _at(path, at[2]))
+    for field in (f for f in declared if isinstance(f, Rows)):
+        lists = {column.name: list(several[column.name].values()) for column in field.columns if column.name in several}
+        if lists:
+            found[field.name] = lists
+            try:
+                field.read(lists)
+            except SheetError as error:
+                raise SheetError(f"workbook {path}, sheet {_SHEET}: {error}") from None
     return found
 
 

@@ -67,7 +67,7 @@ class SheetFormulas:
     def line(self, line: Line) -> list[str] | None:
         """Formulas of a quantity of a section; None where it holds plain numbers."""
         for solved in self.recording.found.values():
-            if solved.node is line.node:
+            if solved.node is line.node and solved.node.size == 1:
                 return [self._solution(solved)]
         plain = line.node.op == "constant" and line.node.value.dtype != bool  # 1 is not TRUE to a spreadsheet
         return None if plain else self._cells.formulas(line.node)
@@ -91,10 +91,7 @@ class SheetFormulas:
 
     def _solution(self, solved: Solved) -> str:
         """Formula of a found value in SI: its closed form, or the number found while its equation is the same."""
-        if solved.inverse:
-            return self._cells.reference(solved.inverse)
-        under = leaves_of([solved.node], self.recording) if solved.residual else self.recording.inputs.values()
-        return self._cells.formula(Node("exported", tuple(under), solved.node.value))
+        return self._cells.reference(solved.inverse) if solved.inverse else self._cells.formula(solved.node)
 
     def as_exported(self, value: float | str) -> Live:
         """What is known for the exported inputs alone: for others no number, no text."""

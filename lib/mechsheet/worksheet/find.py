@@ -1,15 +1,14 @@
 """The solve block: every root of one equation in one unknown, with the verdict that proves it.
 
-All branches are searched, which also tells all roots, what is reached and why there is no value. A sweep asks for none
-of that (`values_only`): on the wanted branch it takes the nearest piece that has a root, with the same value.
+Of several unknowns it is a `system`. All branches are searched, which also tells all roots, what is reached and why
+there is no value. A sweep asks for none of that (`values_only`): on the wanted branch it takes the nearest piece that
+has a root, with the same value.
 """
 
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
-from contextvars import ContextVar
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from functools import cache, cached_property
-from typing import Any
+from typing import Any, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -17,20 +16,10 @@ from numpy.typing import ArrayLike, NDArray
 from mechsheet.mechanics.brackets import Array, Function
 from mechsheet.mechanics.roots import Counted, Roots, all_roots, nearest_root, real_values, together
 from mechsheet.worksheet import numbers
+from mechsheet.worksheet.equations import Start
 from mechsheet.worksheet.errors import SheetError, refuse
-from mechsheet.worksheet.shown import Shown
-
-_values_only: ContextVar[bool] = ContextVar("values_only", default=False)
-
-
-@contextmanager
-def values_only() -> Iterator[None]:
-    """Within it `find` computes values alone; roots, what is reached and reasons are computed when they are read."""
-    token = _values_only.set(True)
-    try:
-        yield
-    finally:
-        _values_only.reset(token)
+from mechsheet.worksheet.system import Solution, solve
+from mechsheet.worksheet.verdict import Verdict, asks_values_only
 
 
 @dataclass(frozen=True)
@@ -58,7 +47,7 @@ class Root:
 
 
 @dataclass(frozen=True, eq=False)
-class Found(Shown):
+class Found(Verdict):
     """The verdict of a solve block; numbers in SI, arrays for arrays of problems.
 
     Attributes
@@ -106,7 +95,6 @@ class Found(Shown):
 
     @property
     def solved(self) -> Any:
-        """Where there is a value."""
         solved = ~np.isnan(self._value)
         return solved if solved.ndim else bool(solved)
 
@@ -134,13 +122,7 @@ class Found(Shown):
     def _everything(self) -> "_Everything":
         return self._compute()
 
-    def __str__(self) -> str:
-        if isinstance(self.reason, str) and self.reason:
-            return self.reason
-        return f"{self.headline()}: " + ", ".join(f"{k} {v}" for k, v in self.details())
-
     def headline(self) -> str:
-        """The unknown and its value, or how many problems are solved."""
         unknown, unit = self.words.unknown, self.words.unknown_unit
         if isinstance(self.reason, str):
             return unknown if self.reason else f"{unknown} = {numbers.amount(self._value, unit, 6)}"
@@ -151,16 +133,7 @@ class Found(Shown):
             else f"{unknown}, {count}"
         )
 
-    def failures(self) -> list[str]:
-        """Why there is no value, of the first problems without one."""
-        reasons = np.atleast_1d(self.reason)
-        failed = np.argwhere(reasons != "").tolist()
-        where = [f"problem {', '.join(map(str, i))}: " if np.ndim(self.reason) else "" for i in failed]
-        texts = [w + reasons[tuple(i)] for w, i in zip(where[:3], failed[:3], strict=True)]
-        return texts + [f"and {len(failed) - 3} more"] * (len(failed) > 3)
-
     def details(self) -> list[tuple[str, str]]:
-        """How the value was found: what is said of it, and in words and numbers what it is."""
         words, single = self.words, isinstance(self.reason, str)
         on = "" if self.branch is None else f" on branch {self.branch:+d}"
         rows = [("condition", f"{words.quantity} = {numbers.extent(self.equals, words.unit)}{on}")]
@@ -189,7 +162,8 @@ class _Everything:
     reason: Any
 
 
-def find(
+@overload
+def find(  # type: ignore[overload-overlap]  # a name that is not one of these is an unknown
     f: Callable[..., Any],
     lo: ArrayLike | None = None,
     hi: ArrayLike | None = None,
@@ -202,8 +176,35 @@ def find(
     quantity: str = "f(x)",
     unit: str = "-",
     unknown_unit: str = "-",
-) -> Found:
-    """Solve ``f(x) = equals`` for x in ``lo..hi`` and say how well, where else, or why not.
+) -> Found: ...
+@overload
+def find(
+    f: Callable[..., Any],
+    *,
+    equals: Any = 0.0,
+    unit: str | Sequence[str] = "-",
+    unknown_unit: str | Sequence[str] = "-",
+    **unknowns: Start,
+) -> Solution: ...
+def find(  # type: ignore[misc]
+    f: Callable[..., Any],
+    lo: ArrayLike | None = None,
+    hi: ArrayLike | None = None,
+    *,
+    equals: Any = 0.0,
+    guess: ArrayLike | None = None,
+    branch: int | None = None,
+    branches: Sequence[int] | None = None,
+    unknown: str = "unknown x",
+    quantity: str = "f(x)",
+    unit: Any = "-",
+    unknown_unit: Any = "-",
+    **unknowns: Start,
+) -> Found | Solution:
+    """Solve ``f(x) = equals`` for x in ``lo..hi``, or several equations for several unknowns; and say how well.
+
+    Say also where else, or why not. Several unknowns are given by their names, which are those that ``f`` takes: each
+    with its guess, or in round brackets with its interval. ``f`` then gives as many equations.
 
     Parameters
     ----------
@@ -226,17 +227,22 @@ def find(
         Words and symbol, as in ``lifting rod L4``.
     unit, unknown_unit : str
         Display units of ``quantity`` and ``unknown``; all numbers here are SI.
+    **unknowns : float or tuple of two floats, shape (...)
+        The guess or the interval of each of several unknowns. Then ``f`` takes them by name and gives the equations,
+        a number or a tuple: each left side less right side, or with ``equals`` (a tuple) what must equal that. A
+        complex equation is two. ``unit`` and ``unknown_unit`` are of all, or a tuple for each; what is left out
+        above does not go with several unknowns.
 
     Returns
     -------
-    Found
+    Found, or Solution of several unknowns
         Shape (...) is that of lo, hi, equals, guess and what f closes over, broadcast; floats for shape ().
 
     Raises
     ------
     SheetError
         An interval that is empty, an infinite number, NaN (in an array NaN leaves its problem unsolved), a guess
-        that is missing or cannot be used. It is a ValueError.
+        that is missing or cannot be used; fewer or more equations than unknowns. It is a ValueError.
     ValueError
         A branch that is not one of ``branches``.
 
@@ -247,9 +253,21 @@ def find(
     f varies over the next eight floats, counts as a root that touches: so dead centres and double roots are kept.
     A sign change at a jump or a pole is no root. What f does within 1/60 of the interval can be missed.
 
+    Several unknowns are found by Newton's method in a trust region: from guesses the solution is that to which they
+    lead, in intervals that nearest the middle of all that were seen by starts all over them, 32 for each unknown and
+    as many again as long as that shows new ones. Each equation then leaves no more than it varies by over the next
+    eight floats of the unknowns, or of an eighth of the guess or interval. What no start leads to is not seen.
+
     >>> find(lambda x: x**2, 0.0, 2.0, equals=2.0).value
     1.4142135623730951
+    >>> circle_and_parabola = find(lambda x, y: (x**2 + y**2, y - x**2), equals=(4, -1), x=(-2, 2), y=(-2, 2))
+    >>> len(circle_and_parabola.solutions)
+    2
     """
+    if unknowns:
+        if any(given is not None for given in (lo, hi, guess, branch, branches)):
+            raise SheetError(f"find takes either an interval and a guess, or the unknowns {', '.join(unknowns)}")
+        return solve(f, equals, unit, unknown_unit, unknowns)
     if branch not in (branches or (None,)):
         raise ValueError(f"branch = {branch} of {unknown} must be one of {branches}")
     words = _Words(unknown, quantity, unit, unknown_unit)
@@ -297,7 +315,7 @@ def find(
             roots, samples, lambda: (shaped(search.reached[0, at]), shaped(search.reached[1, at])), shaped(reasons)
         )
 
-    answer = nearest_root(own, flat) if _values_only.get() else search_all().nearest(at, flat.get("guess"))
+    answer = nearest_root(own, flat) if asks_values_only() else search_all().nearest(at, flat.get("guess"))
     low, high, value, residual, *bracket = (np.where(void, np.nan, numbers) for numbers in answer)
     found = Found(
         _value=shaped(value),
@@ -310,7 +328,7 @@ def find(
         _evaluations=lambda: first.size + own.count + every.count,
         _compute=everything,
     )
-    if not _values_only.get():
+    if not asks_values_only():
         _ = found.reason  # at once, because what f closes over may change
     return found
 

@@ -7,14 +7,19 @@ import re
 import sys
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+from types import NoneType
 from typing import TYPE_CHECKING, Any, Literal, TypeVar, dataclass_transform, get_args, get_origin
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mechsheet.worksheet import errors, lines, numbers, source
+from mechsheet.worksheet.data_file import DataFile
 from mechsheet.worksheet.errors import SheetError, refuse
 from mechsheet.worksheet.kinds import Choice, Input, Offer, Switch, TextLine, number
+from mechsheet.worksheet.lists import Rows
 from mechsheet.worksheet.shown import Shown
 
 if TYPE_CHECKING:
@@ -34,8 +39,9 @@ def inputs(cls: type[T]) -> type[T]:
     display unit or other inputs. Values are SI and radians. Arrays serve as variants.
 
     The kind of an input is its type: ``float``, ``int``, ``bool`` (a switch), ``str`` (a text),
-    ``Literal["single", "double"]`` (a choice of names), or what `one_of` gives (options with properties). A class of
-    lines without values is not asked for: it declares the properties of such options.
+    ``Literal["single", "double"]`` (a choice of names), what `one_of` gives (options with properties), ``list[float]``
+    (an array of any length), or a list of objects of a class (a table, whose columns are arrays). A class of lines
+    without values is not asked for: it declares the properties of such options, or the columns of such a table.
 
     Building one with a value that is no finite number or breaks a limit raises SheetError naming it.
     """
@@ -50,7 +56,29 @@ def inputs(cls: type[T]) -> type[T]:
     cls.__units__ = {name: leaf.unit for each in leaves for name, (leaf, _) in each.items()}  # type: ignore[attr-defined]
     cls.__worksheet__ = str(frame.f_globals.get("__file__", ""))  # type: ignore[attr-defined]
     cls.__post_init__ = _validate  # type: ignore[attr-defined]
-    return dataclass(frozen=True)(cls)
+    cls.__eq__, cls.__hash__ = _equal, _hash  # type: ignore[method-assign]
+    own = {field.name: vars(cls)[field.name] for field in found if given}
+    for name, value in own.items():  # arrays, which no dataclass takes as they are
+        setattr(cls, name, dataclasses.field(default_factory=partial(_itself, value)))
+    made = dataclass(frozen=True, eq=False)(cls)
+    for name, value in own.items():
+        setattr(made, name, value)
+    return made
+
+
+def _itself(value: Any) -> Any:
+    return value
+
+
+def _equal(self: Any, other: object) -> Any:
+    if type(other) is not type(self):
+        return NotImplemented
+    return all(f.same(getattr(self, f.name), getattr(other, f.name)) for f in declared(type(self)))
+
+
+def _hash(self: Any) -> int:
+    values = (leaf for f in declared(type(self)) for _, leaf in f.leaves(getattr(self, f.name)).values())
+    return hash(tuple(np.asarray(value).tobytes() for value in values))
 
 
 def declared(cls: type) -> tuple[Input, ...]:
@@ -68,6 +96,7 @@ def units_of(cls: type) -> dict[str, str]:
 def _declared(cls: type, cell: source.Cell, names: Mapping[str, Any]) -> tuple[Input, ...]:
     nodes = (node for statement in cell.body for node in ast.walk(statement))  # of a setup too, which is a block
     body = next(node for node in nodes if isinstance(node, ast.ClassDef) and node.name == cls.__name__)
+    folder = str(Path(names.get("__file__") or "x").resolve().parent)
     found, places, section, line = list[Input](), dict[str, str](), "", body.lineno
     for node in body.body:
         between = [cell.comments[n] for n in range(line + 1, node.lineno) if n in cell.comments]
@@ -79,16 +108,22 @@ def _declared(cls: type, cell: source.Cell, names: Mapping[str, Any]) -> tuple[I
         kind = eval(kind, dict(names)) if isinstance(kind, str) else kind
         comment = cell.comments.get(line, "")
         text = lines.declared(comment)
-        if text is None and kind in (int, float) and not isinstance(default, Offer):
+        if text is None and kind in (int, float, list[float]) and not isinstance(default, Offer):
             raise SheetError(f"{place}: input {name} needs a comment with its unit, such as # [m] meaning")
         if text and text.mistake:
             raise SheetError(f"{place}: {text.mistake}")
         unit, (meaning, _, limits) = text.unit if text else "-", (text.meaning if text else comment).partition(";")
         plain = Input(name, unit, meaning.strip(), section, kind is int, tuple(_limits(limits, name, place)))
-        own = _of_kind(plain, kind, default, place)
-        if own is not plain and (unit != "-" or limits):
+        own = _of_kind(plain, kind, default, place, folder)
+        if isinstance(own, Rows):
+            if own.row and limits:
+                raise SheetError(f"{place}: limits of the table {name} stand in the class of its rows")
+            if name in vars(cls):
+                read = own.of_file(Path(folder) / default.name) if isinstance(default, DataFile) else None
+                setattr(cls, name, own.si(read, own.taken([])) if read else own.taken(default))
+        elif own is not plain and (unit != "-" or limits):
             raise SheetError(f"{place}: {name} is no number and has neither unit nor limits")
-        if name in vars(cls) and own is not plain:
+        elif name in vars(cls) and own is not plain:
             setattr(cls, name, own.si(own.read(default.name if isinstance(default, Offer) else default), None))
         found.append(own)
         places[name] = place
@@ -103,7 +138,7 @@ def _declared(cls: type, cell: source.Cell, names: Mapping[str, Any]) -> tuple[I
     return tuple(found)
 
 
-def _of_kind(plain: Input, kind: Any, default: Any, place: str) -> Input:
+def _of_kind(plain: Input, kind: Any, default: Any, place: str, folder: str) -> Input:
     """The declaration of an input for the kind that its type says."""
     known = {field.name: getattr(plain, field.name) for field in dataclasses.fields(plain)}
     if isinstance(default, Offer):
@@ -115,6 +150,13 @@ def _of_kind(plain: Input, kind: Any, default: Any, place: str) -> Input:
         return Choice(**known, options=tuple(default.options), properties=properties, table=table)
     if get_origin(kind) is Literal and all(isinstance(option, str) for option in get_args(kind)):
         return Choice(**known, options=get_args(kind))
+    if get_origin(kind) is list:
+        (of,) = get_args(kind)
+        if of is float:
+            return Rows(**known, columns=(dataclasses.replace(plain, many=True),), folder=folder)
+        if hasattr(of, "__properties__"):
+            own = tuple(_column_of(plain.name, each, declared(of)) for each in declared(of))
+            return Rows(**known, columns=own, row=of, folder=folder)
     if kind is bool:
         return Switch(**known)
     if kind is str:
@@ -125,7 +167,14 @@ def _of_kind(plain: Input, kind: Any, default: Any, place: str) -> Input:
     return plain
 
 
-_KINDS = "float, int, bool, str, Literal of texts, or the class of the options of one_of(..)"
+def _column_of(table: str, column: Input, others: Iterable[Input]) -> Input:
+    """A column of a table under its full name, which its limits have too."""
+    names = {other.name: f"{table}.{other.name}" for other in others}
+    limits = tuple((sign, names.get(other, other)) for sign, other in column.limits)
+    return dataclasses.replace(column, name=names[column.name], limits=limits, many=True)
+
+
+_KINDS = "float, int, bool, str, Literal of texts, list[float], list of a class of rows, or what one_of(..) gives"
 
 
 def _limits(text: str, field: str, place: str) -> Iterator[tuple[str, str]]:
@@ -162,8 +211,11 @@ def _validate(self: Any) -> None:
     fields = declared(type(self))
     for field in fields:
         object.__setattr__(self, field.name, field.taken(getattr(self, field.name)))
-    numbers = [field for field in fields if type(field) is Input]
-    shown = {field.name: field.display(getattr(self, field.name)) for field in numbers}
+    pairs = [(field, getattr(self, field.name)) for field in fields if type(field) is Input]
+    for table in (field for field in fields if isinstance(field, Rows)):
+        pairs += table.leaves(getattr(self, table.name)).values()
+    numbers = [field for field, _ in pairs]
+    shown = {field.name: field.display(value) for field, value in pairs}
     for holds, say in _rules(numbers, shown):
         if not np.all(holds):
             raise SheetError(say(int(np.argmin(holds))))
@@ -175,7 +227,8 @@ def _rules(fields: Iterable[Input], shown: Mapping[str, Any]) -> Iterator[tuple[
     def say(field: Input, must: str, other: str = "") -> Callable[[int], str]:
         def text(i: int) -> str:
             limit = f" = {_element(shown[other], i)}" if other else ""
-            return f"{field.says(_element(shown[field.name], i))} must be {must}{limit}"
+            named = dataclasses.replace(field, name=f"{field.name} ({i + 1})") if field.many else field
+            return f"{named.says(_element(shown[field.name], i))} must be {must}{limit}"
 
         return text
 
@@ -244,6 +297,14 @@ def variants(cls: type, given: Mapping[str, ArrayLike]) -> Variants:
             for i in np.flatnonzero(np.broadcast_to(~np.asarray(holds), reasons.shape) & (reasons == "")):
                 reasons[i] = say(int(i))
     si = {name: _shared(fields[name].leaf(column, getattr(cls, name))) for name, column in flat.items()}
+    lists = [field for field in fields.values() if isinstance(field, Rows)]
+    limits = {other for field in lists for column in field.columns for _, other in column.limits}
+    if limits & columns.keys() or any(field.name in columns for field in lists):
+        for i in np.flatnonzero(reasons == ""):
+            try:
+                build(cls, {name: column[i] for name, column in flat.items()})
+            except SheetError as error:
+                reasons[i] = str(error)
     return Variants(shape, shown, {name: fields[name].unit for name in shown}, reasons, si)
 
 
@@ -258,7 +319,7 @@ def instance(cls: type[T], si: Mapping[str, Any]) -> T:
 def _column(field: Input, given: ArrayLike) -> tuple[NDArray[Any], NDArray[np.object_]]:
     """What is given of an input, in its display unit, and the reason for each that cannot be used."""
     try:
-        column = np.asarray(given)
+        column = _each(given) if isinstance(field, Rows) else np.asarray(given)
     except ValueError:  # of rows that differ in length
         raise SheetError(f"{field.says(errors.as_given(given))} is no array of numbers") from None
     texts = np.full(column.shape, "", dtype=object)
@@ -277,9 +338,19 @@ def _column(field: Input, given: ArrayLike) -> tuple[NDArray[Any], NDArray[np.ob
     return shown, texts
 
 
+def _each(given: Any) -> NDArray[np.object_]:
+    """Lists or tables, one a variant; a text is that of all."""
+    several = [given] if isinstance(given, str) else list(given)
+    column = np.empty(len(several), dtype=object)
+    column[:] = several if len(several) != 1 else [None]
+    if len(several) == 1:
+        column[0] = several[0]
+    return column
+
+
 def _shared(column: NDArray[Any]) -> Any:
     """What all variants have, or the column."""
-    if not column.size or (column != column[0]).any():
+    if not column.size or isinstance(column[0], dict | NoneType) or (column != column[0]).any():
         return column
     return column[0].item() if isinstance(column[0], np.generic) else column[0]
 
@@ -339,4 +410,4 @@ class Used(Shown):
     def changed(self) -> set[str]:
         """Names of the inputs that differ from the worksheet's own."""
         cls = type(self.g)
-        return {f.name for f in declared(cls) if getattr(self.g, f.name) != getattr(cls, f.name)}
+        return {f.name for f in declared(cls) if not f.same(getattr(self.g, f.name), getattr(cls, f.name))}

@@ -38,6 +38,7 @@ class Input:
     section: str
     whole: bool
     limits: tuple[tuple[str, str], ...]
+    many: bool = False  # whether it stands for a column of numbers
 
     @property
     def continuous(self) -> bool:
@@ -111,6 +112,10 @@ class Input:
         if isinstance(value, str) and _THOUSANDS.match(value.strip()):
             read = numbers.significant(self.read(value), 15)
             yield f"{self.name} = {read}{numbers.suffix(self.unit)}, read with a decimal comma"
+
+    def same(self, a: Any, b: Any) -> bool:
+        """Whether two values are the same."""
+        return bool(np.all(a == b))
 
     def taken(self, value: Any) -> Any:
         """The value that is held where code gives this one, in SI."""

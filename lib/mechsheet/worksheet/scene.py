@@ -74,9 +74,6 @@ def _scene(path: Path, content: dict[str, Any]) -> Scene:
     for name, table in (("inputs", inputs), ("limits", limits)):
         if not isinstance(table, dict):
             raise SheetError(f"scene {path}: {name} = {as_given(table)} must be a table [{name}]")
-    for name, value in inputs.items():
-        if isinstance(value, dict | list):
-            raise SheetError(f"scene {path}: input {name} = {as_given(value)} must be one number")
     if want is not None and not (isinstance(want, list) and want and all(isinstance(name, str) for name in want)):
         raise SheetError(f'scene {path}: want = {as_given(want)} must be a list of names such as ["GS6"]')
     return Scene(

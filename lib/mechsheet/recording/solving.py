@@ -1,0 +1,113 @@
+"""Find while a worksheet is recorded: values that its equations determine, as quantities that can be solved again."""
+
+from collections import namedtuple
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from mechsheet.recording.graph import Block, Graph, Node, NotRecorded
+from mechsheet.recording.lines import Solved, Told
+from mechsheet.recording.quantity import Quantity, lift
+from mechsheet.worksheet.find import Found
+from mechsheet.worksheet.system import Solution
+from mechsheet.worksheet.verdict import Verdict
+
+_OWN = {"equals", "guess", "branch", "branches", "unknown", "quantity", "unit", "unknown_unit"}  # arguments of find
+
+
+@dataclass
+class Solving:
+    """What `find` gives while recording; the ``value`` of several unknowns is a named tuple of quantities."""
+
+    value: Any
+    residual: Any
+    solved: tuple[Solved, ...]
+    evaluations: Any = None
+
+
+def unknowns_of(asked: dict[str, Any]) -> list[str]:
+    """Names of the unknowns that find is given beside its own arguments."""
+    return [name for name in asked if name not in _OWN]
+
+
+def listed(graph: Graph, values: Any) -> Any:
+    """Values of the worksheet's own run at the positions that are recorded."""
+    array = np.asarray(values)
+    for axis, size in enumerate(array.shape):
+        if graph.thin > 1 and size == graph.positions:
+            array = array.take(range(0, size, graph.thin), axis)
+    return array
+
+
+def one(graph: Graph, found: Found, f: Callable[..., Any], asked: dict[str, Any]) -> Solving:
+    """A value of one equation, as it was found."""
+    starts = {k: (lift(graph, asked[k]).re,) for k in ("lo", "hi", "guess") if asked.get(k) is not None}
+    block = Block(starts, single=True)
+    name = f"{found.words.unknown}, line {graph.line}"
+    block.nodes = (graph.found(block, 0, name, listed(graph, found._value)),)
+    x, branch = Quantity(graph, block.nodes[0]), asked.get("branch")
+    left = lift(graph, (f(x, branch) if branch is not None else f(x)) - asked.get("equals", 0))
+    block.residuals = (left.re,)
+    block.rest()
+    words = found.words
+    told = Told(words.unknown, words.quantity, words.unit, words.unknown_unit)
+    ends = (starts["lo"][0], starts["hi"][0]) if starts.keys() >= {"lo", "hi"} else None
+    return Solving(x, left, (Solved(block.nodes[0], left.re if left.size == 1 else None, ends, told),))
+
+
+def several(graph: Graph, found: Solution, f: Callable[..., Any], asked: dict[str, Any]) -> Solving:
+    """Values of several equations, as they were found."""
+    words = found.words
+    given = {n: asked[n] if isinstance(asked[n], tuple) else (asked[n],) for n in words.names}
+    starts = {name: tuple(lift(graph, v).re for v in values) for name, values in given.items()}
+    block = Block(starts, False, found.least, words.equation_units, words.units)
+    name = f"{words.unknowns}, line {graph.line}"
+    values = [listed(graph, v) for v in (*found._values, found.evaluations)]
+    *block_nodes, evaluations = (graph.found(block, k, name, value) for k, value in enumerate(values))
+    block.nodes = tuple(block_nodes)
+    x = [Quantity(graph, node) for node in block.nodes]
+    equations = f(**dict(zip(words.names, x, strict=True)))
+    equals = asked.get("equals", 0)
+    parts = equations if isinstance(equations, tuple | list) else [equations]
+    wanted = equals if isinstance(equals, tuple | list) else [equals] * len(parts)
+    left = [part for e, w in zip(parts, wanted, strict=True) for part in _parts(lift(graph, e - w), block.nodes[0])]
+    if len(left) != len(words.equations):
+        raise NotRecorded(f"{len(left)} equations where the worksheet has {len(words.equations)}")
+    block.residuals = tuple(part.re for part in left)
+    block.rest()
+    solved = []
+    for k, (node, unknown, unit) in enumerate(zip(block.nodes, words.names, words.units, strict=True)):
+        told = Told(unknown, words.equations[k], words.equation_units[k], unit)
+        residual = left[k].re if left[k].size == 1 else None
+        ends = starts[unknown]
+        solved.append(Solved(node, residual, (ends[0], ends[-1]), told))
+    value = namedtuple("Values", words.names)(*x)
+    return Solving(value, tuple(left), tuple(solved), Quantity(graph, evaluations))
+
+
+def kept(graph: Graph, own: Verdict, exported: Callable[[Any], Quantity]) -> Solving:
+    """The values of the worksheet's own run, where the equations are not recorded."""
+    if isinstance(own, Solution):
+        words, values = own.words, [exported(v) for v in own._values]
+        told = [
+            Told(name, equation, unit, own_unit)
+            for name, equation, unit, own_unit in zip(
+                words.names, words.equations, words.equation_units, words.units, strict=False
+            )
+        ]
+        solved = tuple(Solved(v.re, None, None, t) for v, t in zip(values, told, strict=False))
+        named = namedtuple("Values", words.names)(*values)
+        return Solving(named, tuple(map(exported, own.residual)), solved, exported(own.evaluations))
+    if isinstance(own, Found):
+        value, w = exported(own._value), own.words
+        told_one = Told(w.unknown, w.quantity, w.unit, w.unknown_unit)
+        return Solving(value, exported(own.residual), (Solved(value.re, None, None, told_one),))
+    raise NotRecorded(f"a verdict of the kind {type(own).__name__}")
+
+
+def _parts(equation: Quantity, like: Node) -> list[Quantity]:
+    """The real equations of one, in the shape of the problems."""
+    whole = equation.broadcast(np.broadcast_shapes(equation.shape, like.shape))
+    return [whole.real, whole.imag] if equation.im is not None else [whole]

@@ -1,0 +1,195 @@
+"""What is asked of a solve block of several unknowns: its equations, and where each unknown is looked for."""
+
+import inspect
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from mechsheet import units
+from mechsheet.mechanics.brackets import Array, Mask
+from mechsheet.mechanics.starts import Place
+from mechsheet.worksheet import numbers
+from mechsheet.worksheet.errors import SheetError
+
+Start = ArrayLike | tuple[ArrayLike, ArrayLike]  # a guess, or the ends of an interval
+
+_BLOCK = 2**13  # values of the equations asked for at once: many more leave the processor's cache
+
+
+@dataclass(frozen=True)
+class Words:
+    """What is asked, in words and display units; of a complex equation both parts."""
+
+    names: tuple[str, ...]
+    units: tuple[str, ...]
+    equations: tuple[str, ...] = ()
+    equation_units: tuple[str, ...] = ()
+    guessed: bool = True
+
+    @property
+    def unknowns(self) -> str:
+        return ", ".join(self.names)
+
+    def point(self, x: Sequence[float], digits: int = 6) -> str:
+        shown = (numbers.amount(v, unit, digits) for v, unit in zip(x, self.units, strict=True))
+        return ", ".join(f"{name} = {text}" for name, text in zip(self.names, shown, strict=True))
+
+
+@dataclass(frozen=True)
+class Asked:
+    """A solve block of several unknowns: problems of a ``shape``, p in all, the ``void`` ones without numbers.
+
+    ``interval`` has the two ends, or twice the guess, of each unknown as given; ``place`` is of all unknowns and
+    problems, its parts of shape (n, p).
+    ``equations`` are None where all problems are void.
+    """
+
+    words: Words
+    interval: Mapping[str, tuple[Any, Any]]
+    shape: tuple[int, ...]
+    void: Mask
+    place: Place
+    equations: "Equations | None"
+
+    @property
+    def weights(self) -> Array:
+        """Units of the equations, shape (m, 1, 1)."""
+        return np.array([units.parse(unit).factor for unit in self.words.equation_units])[:, None, None]
+
+
+def asked(
+    f: Callable[..., Any],
+    equals: Any,
+    unit: str | Sequence[str],
+    unknown_unit: str | Sequence[str],
+    unknowns: Mapping[str, Start],
+    least: bool,
+) -> Asked:
+    """What is asked; SheetError for what cannot be."""
+    names = tuple(unknowns)
+    words = Words(names, _each(unknown_unit, len(names), "unknown_unit", "unknowns"))
+    _match(f, names)
+    places = {n: _place(n, value, u) for (n, value), u in zip(unknowns.items(), words.units, strict=True)}
+    shape = np.broadcast_shapes(*(p.first.shape for p in places.values()))
+    interval = {name: (p.first[()], p.last[()]) for name, p in places.items()}
+    parts = zip(*places.values(), strict=True)
+    place = Place(*(np.stack([np.broadcast_to(a, shape) for a in part]) for part in parts))
+    void = np.isnan(np.stack(place)).any((0, 1))
+    if void.all():
+        return Asked(words, interval, void.shape, void.reshape(-1), place, None)
+    place = Place(*(np.where(void, part[:, ~void][:, :1].reshape(-1, *[1] * void.ndim), part) for part in place))
+    with np.errstate(all="ignore"):
+        first = _parts(f(**dict(zip(names, place.first / 2 + place.last / 2, strict=True))))
+    targets = _targets(equals, len(first))
+    shape = np.broadcast_shapes(void.shape, *(a.shape for a in (*first, *targets)))
+    complex_ = [np.iscomplexobj(v) or np.iscomplexobj(t) for v, t in zip(first, targets, strict=True)]
+    words = _with_equations(words, complex_, unit, bool(np.array_equal(place.first, place.last)))
+    m, n = len(words.equations), len(names)
+    counted = f"{m} equation{'s' * (m > 1)} for {n} unknown{'s' * (n > 1)} {words.unknowns}"
+    if m < n:
+        raise SheetError(f"{counted}: they do not determine them")
+    if m > n and not least:
+        raise SheetError(f"{counted}: minerr finds where their squares are least")
+    equations = Equations(f, names, shape, targets, complex_)
+    more = [1] * (len(shape) - void.ndim)  # axes of what f closes over
+    flat = (np.broadcast_to(part.reshape(n, *more, *void.shape), (n, *shape)).reshape(n, -1) for part in place)
+    return Asked(words, interval, shape, np.broadcast_to(void, shape).reshape(-1), Place(*flat), equations)
+
+
+class Equations:
+    """Equations less what they equal, in real parts: of unknowns (n, k, p) the residuals (m, k, p)."""
+
+    def __init__(
+        self,
+        f: Callable[..., Any],
+        names: tuple[str, ...],
+        shape: tuple[int, ...],
+        targets: Sequence[Any],
+        complex_: Sequence[bool],
+    ) -> None:
+        self.f, self.names, self.shape, self.targets, self.complex = f, names, shape, targets, complex_
+
+    def __call__(self, x: Array) -> Array:
+        rows = max(1, _BLOCK // x.shape[2])
+        return np.concatenate([self._values(x[:, i : i + rows]) for i in range(0, x.shape[1], rows)], axis=1)
+
+    def _values(self, x: Array) -> Array:
+        whole = (x.shape[1], *self.shape)
+        try:
+            with np.errstate(all="ignore"):
+                values = _parts(self.f(**dict(zip(self.names, x.reshape(len(x), *whole), strict=True))))
+                left = [np.broadcast_to(v - t, whole) for v, t in zip(values, self.targets, strict=True)]
+        except (TypeError, ValueError) as error:
+            raise SheetError(f"the equations of {', '.join(self.names)} must take arrays of values: {error}") from error
+        parts = [p for v, two in zip(left, self.complex, strict=True) for p in ((v.real, v.imag) if two else (v,))]
+        y = np.stack(parts).reshape(len(parts), *x.shape[1:]).astype(float)
+        return np.where(np.isfinite(y), y, np.nan)
+
+
+def _parts(values: Any) -> list[NDArray[Any]]:
+    """The equations as f gives them: several, or one."""
+    several = list(values) if isinstance(values, tuple | list) else [values]
+    parts = [np.asarray(v) for v in several]
+    for part in parts:
+        if part.dtype.kind not in "fciu":
+            raise TypeError(f"each equation must be a number, left side less right side, not {part.dtype}")
+    return parts
+
+
+def _targets(equals: Any, count: int) -> list[NDArray[Any]]:
+    several = list(equals) if isinstance(equals, tuple | list) else [equals] * count
+    if len(several) != count:
+        raise SheetError(f"equals has {len(several)} values for {count} equations")
+    return [np.asarray(v) for v in several]
+
+
+def _match(f: Callable[..., Any], names: tuple[str, ...]) -> None:
+    """Refuse unknowns that are not those which f takes."""
+    parameters = inspect.signature(f).parameters.values()
+    if any(p.kind is p.VAR_KEYWORD for p in parameters):
+        return
+    taken = [p.name for p in parameters if p.default is p.empty]
+    if sorted(taken) != sorted(names):
+        raise SheetError(f"the equations are of {', '.join(taken)}, the unknowns given are {', '.join(names)}")
+
+
+def _place(name: str, value: Start, unit: str) -> Place:
+    """Where an unknown is looked for: around a guess, or in an interval."""
+    interval, factor = isinstance(value, tuple), units.parse(unit).factor
+    ends = [np.asarray(v, dtype=float) for v in (value if isinstance(value, tuple) else (value,))]
+    if interval and len(ends) != 2:
+        raise SheetError(f"{name} needs a guess, or the two ends of its interval, not {len(ends)} numbers")
+    for end in ends:
+        bad = ~np.isfinite(end) if end.ndim == 0 else np.isinf(end)
+        if bad.any():
+            raise SheetError(f"{'an end of ' * interval}{name} = {end[bad][0]} must be finite")
+    if not interval:
+        size = np.where(ends[0] == 0, factor, np.abs(ends[0]))
+        endless = np.full(ends[0].shape, np.inf)
+        return Place(ends[0], ends[0], size, np.minimum(size, factor), -endless, endless)
+    low, high = np.broadcast_arrays(*ends)
+    for a, b in zip(low[low >= high], high[low >= high], strict=True):
+        small, large = (numbers.amount(v, unit) for v in (a, b))
+        raise SheetError(f"{name} from {small} must end above that, not at {large}")
+    return Place(low, high, high - low, np.minimum(high - low, factor), low, high)
+
+
+def _each(unit: str | Sequence[str], count: int, what: str, of: str) -> tuple[str, ...]:
+    several = (unit,) * count if isinstance(unit, str) else tuple(unit)
+    if len(several) != count:
+        raise SheetError(f"{what} has {len(several)} units for {count} {of}")
+    return several
+
+
+def _with_equations(words: Words, complex_: Sequence[bool], unit: str | Sequence[str], guessed: bool) -> Words:
+    each = _each(unit, len(complex_), "unit", "equations")
+    labels = [
+        (f"equation {i}{part}", u)
+        for i, (two, u) in enumerate(zip(complex_, each, strict=True), 1)
+        for part in ((", real part", ", imaginary part") if two else ("",))
+    ]
+    texts, of = zip(*labels, strict=True)
+    return Words(words.names, words.units, texts, of, guessed)

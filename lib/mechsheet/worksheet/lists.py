@@ -1,0 +1,196 @@
+"""Lists and tables of numbers as inputs: each column a declared number, each element read and converted as one."""
+
+import re
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mechsheet.worksheet import data_file, errors
+from mechsheet.worksheet.errors import SheetError
+from mechsheet.worksheet.kinds import Input
+
+_MOST = 10_000  # rows
+
+
+@dataclass(frozen=True)
+class Rows(Input):
+    """A list, whose one column has its name, or a table of columns such as ``bolts.x``, which ``row`` declares.
+
+    It is held as an array, or as an object of the class ``row`` whose attributes are arrays; shown it is a dictionary
+    of arrays by column.
+    """
+
+    columns: tuple[Input, ...] = ()
+    row: type | None = None
+    folder: str = ""  # of the worksheet
+
+    def display(self, value: Any) -> Any:
+        return {name: np.array([c.display(float(x)) for x in xs]) for name, (c, xs) in self.leaves(value).items()}
+
+    def read(self, value: object) -> Any:
+        """Columns from a text of rows, a list of rows, or a mapping of columns.
+
+        A row of a text ends with its line or with ``|``, its numbers are apart by ``;`` or a tab; a text that ends
+        as the name of a file does is one, in the current folder or beside the worksheet.
+        """
+        if isinstance(value, str) and value.strip().lower().endswith(data_file.ENDINGS):
+            return self.of_file(Path(value.strip()))
+        given = self._columns(value)
+        count = {len(xs) for xs in given.values()}
+        if len(count) > 1:
+            lengths = ", ".join(f"{len(xs)} of {name}" for name, xs in given.items())
+            raise SheetError(f"{self.meaning} {self.name}: columns must be as long as each other, not {lengths}")
+        if not 0 < max(count) <= _MOST:
+            raise SheetError(f"{self.meaning} {self.name} must have 1 to {_MOST} rows, not {max(count)}")
+        return {c.name: np.array([_of_row(c, k).read(x) for k, x in enumerate(given[c.name])]) for c in self.columns}
+
+    def of_file(self, path: Path) -> Any:
+        """Columns of a file, by their names in it."""
+        beside = Path(self.folder) / path
+        short = {c.name.rpartition(".")[2]: c for c in self.columns}
+        file = data_file.columns(path if path.is_file() else beside, short)
+        found = dict[str, NDArray[np.float64]]()
+        for name, column in short.items():
+            for k, cell in enumerate(file.cells[name]):
+                try:
+                    _of_row(column, k).read(cell)
+                except SheetError as error:
+                    raise SheetError(f"file {file.path}, row {file.rows[k]}, column {name}: {error}") from None
+            found[column.name] = np.array([column.read(cell) for cell in file.cells[name]])
+        return self.read(found)
+
+    def si(self, value: Any, default: Any) -> Any:
+        return self.held(self._si(value, default))
+
+    def _si(self, value: Any, default: Any) -> dict[str, NDArray[np.float64]]:
+        found = dict[str, NDArray[np.float64]]()
+        for name, (column, own) in self.leaves(default).items():
+            known = {column.display(float(x)): float(x) for x in own}
+            found[name] = np.array([known[x] if x in known else column.si(x, np.nan) for x in value[name].tolist()])
+        return found
+
+    def written(self, value: Any, default: Any) -> Any:
+        shown = self.display(value)
+        read = self._si(shown, default)
+        return {
+            name: np.array(
+                [s if r == x else c.written(x, np.nan) for s, r, x in zip(shown[name], read[name], xs, strict=True)]
+            )
+            for name, (c, xs) in self.leaves(value).items()
+        }
+
+    def text(self, value: Any) -> str:
+        columns = [[c.text(float(x)) for x in xs] for c, xs in self.leaves(value).values()]
+        return ("; " if self.row is None else "\n").join(map("; ".join, zip(*columns, strict=True)))
+
+    def brief(self, value: Any) -> str:
+        columns = [[c.brief(float(x)) for x in xs] for c, xs in self.leaves(value).values()]
+        return ("; " if self.row is None else " | ").join(map("; ".join, zip(*columns, strict=True)))
+
+    def readings(self, value: object) -> Iterator[str]:
+        if isinstance(value, str) and value.strip().lower().endswith(data_file.ENDINGS):
+            return
+        for name, xs in self._columns(value).items():
+            column = next(c for c in self.columns if c.name == name)
+            for k, x in enumerate(xs):
+                yield from _of_row(column, k).readings(x)
+
+    def taken(self, value: Any) -> Any:
+        """Arrays of what code gives in SI: numbers, or objects of the class of the rows."""
+        if self.row is None:
+            return _fixed(np.array(value, dtype=float))
+        if not isinstance(value, list | tuple):
+            return value
+        columns = {c.name: [getattr(row, c.name.rpartition(".")[2]) for row in value] for c in self.columns}
+        return self.held({name: _fixed(np.array(xs, dtype=float)) for name, xs in columns.items()})
+
+    def leaves(self, value: Any) -> dict[str, tuple[Input, Any]]:
+        if self.row is None:
+            return {self.name: (self.columns[0], value)}
+        return {c.name: (c, getattr(value, c.name.rpartition(".")[2])) for c in self.columns}
+
+    def leaf(self, column: Any, default: Any) -> Any:
+        found = np.empty(len(column), dtype=object)
+        for i, shown in enumerate(column):
+            found[i] = self._si(shown, default) if isinstance(shown, dict) else None
+        return found
+
+    def held(self, leaves: Mapping[str, Any]) -> Any:
+        own = leaves.get(self.name)
+        leaves = own if isinstance(own, dict) else leaves  # of one of several variants
+        if self.row is None:
+            return leaves[self.name]
+        table: Any = object.__new__(_unchecked(self.row))
+        for column in self.columns:
+            object.__setattr__(table, column.name.rpartition(".")[2], leaves[column.name])
+        return table
+
+    def same(self, a: Any, b: Any) -> bool:
+        pairs = zip(self.leaves(a).values(), self.leaves(b).values(), strict=True)
+        return all(np.array_equal(x, y) for (_, x), (_, y) in pairs)
+
+    def _columns(self, value: Any) -> dict[str, list[Any]]:
+        """What is given of each column, not read yet."""
+        short = {c.name.rpartition(".")[2]: c.name for c in self.columns}
+        if isinstance(value, str):
+            value = _cells(value) if self.row else [cell for row in _cells(value) for cell in row]
+        if hasattr(value, "items"):
+            given = {str(name): np.ravel(np.asarray(xs, dtype=object)).tolist() for name, xs in value.items()}
+            given = {short.get(name, name): xs for name, xs in given.items()}
+            self._named(given, "")
+            return given
+        if not isinstance(value, list | tuple | np.ndarray):
+            raise SheetError(f"{self.says(errors.as_given(value))} must be {self._form()}")
+        if self.row is None:
+            return {self.name: list(value)}
+        rows = list[dict[str, Any]]()
+        for k, row in enumerate(value, 1):
+            if isinstance(row, Mapping):
+                named = {short.get(str(name), str(name)): x for name, x in row.items()}
+                self._named(named, f" ({k})")
+                rows.append(named)
+            elif isinstance(row, list | tuple | np.ndarray) and len(row) == len(short):
+                rows.append(dict(zip(short.values(), row, strict=True)))
+            else:
+                told = errors.as_given("; ".join(map(str, row)) if isinstance(row, list) else row)
+                raise SheetError(f"{self.meaning} {self.name} ({k}) = {told} must have the columns {', '.join(short)}")
+        return {name: [row[name] for row in rows] for name in short.values()}
+
+    def _named(self, given: Iterable[str], where: str) -> None:
+        """Refuse columns that there are not, and that are missing."""
+        own = [column.name for column in self.columns]
+        if set(given) != set(own):
+            names = ", ".join(name.rpartition(".")[2] for name in own)
+            has = ", ".join(given) or "none"
+            raise SheetError(
+                f"{self.meaning} {self.name}{where} must have the columns {names}; it has {errors.cut(has)}"
+            )
+
+    def _form(self) -> str:
+        return 'a list such as "1; 2,5; 3"' if self.row is None else "rows of numbers, or columns by name"
+
+
+def _cells(text: str) -> list[list[str]]:
+    rows = [re.split(r"[;\t]", row) for row in re.split(r"[\n|]", text.strip()) if row.strip()]
+    return [[cell.strip() for cell in (row[:-1] if len(row) > 1 and not row[-1].strip() else row)] for row in rows]
+
+
+def _of_row(column: Input, k: int) -> Input:
+    """A column as an error names the element of one of its rows, which are counted from 1."""
+    return replace(column, name=f"{column.name} ({k + 1})")
+
+
+def _fixed(array: NDArray[np.float64]) -> NDArray[np.float64]:
+    array.flags.writeable = False
+    return array
+
+
+@cache
+def _unchecked(row: type) -> type:
+    """The class of the rows for whole columns, whose numbers are checked with those of the other inputs."""
+    return type(row.__name__, (row,), {"__post_init__": lambda _: None})

@@ -1,0 +1,70 @@
+"""What a solve block tells, of one unknown or of several: a value, or why there is none."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
+from typing import Any
+
+import numpy as np
+
+from mechsheet.worksheet.shown import Shown
+
+_values_only: ContextVar[bool] = ContextVar("values_only", default=False)
+
+
+@contextmanager
+def values_only() -> Iterator[None]:
+    """Within it `find` computes values alone; what else a verdict tells is computed when it is read."""
+    token = _values_only.set(True)
+    try:
+        yield
+    finally:
+        _values_only.reset(token)
+
+
+def asks_values_only() -> bool:
+    return _values_only.get()
+
+
+class Verdict(Shown):
+    """The verdict of a solve block: what it found, how well, and where it found nothing, why."""
+
+    @property
+    def solved(self) -> Any:
+        """Where the equations hold."""
+        raise NotImplementedError
+
+    @property
+    def valued(self) -> Any:
+        """Where there is a value: where the equations hold, or their squares are least if that is what was asked."""
+        return self.solved
+
+    @property
+    def reason(self) -> Any:
+        """Why there is no value; "" where there is one."""
+        raise NotImplementedError
+
+    def headline(self) -> str:
+        """The unknowns and their values, or how many problems are solved."""
+        raise NotImplementedError
+
+    def details(self) -> list[tuple[str, str]]:
+        """How the value was found: what is said of it, and in words and numbers what it is."""
+        raise NotImplementedError
+
+    def word(self) -> str:
+        """The verdict in a word or two."""
+        return "not found" if self.failures() else "found"
+
+    def failures(self) -> list[str]:
+        """Why there is no value, of the first problems without one."""
+        reasons = np.atleast_1d(np.asarray(self.reason, dtype=object))
+        failed = np.argwhere(reasons != "").tolist()
+        where = [f"problem {', '.join(map(str, i))}: " if np.ndim(self.reason) else "" for i in failed]
+        texts = [w + reasons[tuple(i)] for w, i in zip(where[:3], failed[:3], strict=True)]
+        return texts + [f"and {len(failed) - 3} more"] * (len(failed) > 3)
+
+    def __str__(self) -> str:
+        if isinstance(self.reason, str) and self.reason:
+            return self.reason
+        return f"{self.headline()}: " + ", ".join(f"{k} {v}" for k, v in self.details())

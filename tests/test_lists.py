@@ -1,0 +1,243 @@
+"""Lists and tables of numbers as inputs, wherever an input is given or shown."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+import pytest
+from openpyxl import load_workbook
+from test_kinds import script
+from test_recalculation import disagreements, edit
+
+from mechsheet import evaluate, load, sweep
+from mechsheet.recording.dimensions import mismatches
+from mechsheet.recording.record import record
+from mechsheet.run import arguments
+from mechsheet.workbook import reading
+from mechsheet.worksheet import inputs
+from mechsheet.worksheet.errors import SheetError
+
+SHEET = '''import marimo
+
+app = marimo.App()
+
+with app.setup:
+    from numpy import abs, sum
+
+    from mechsheet import ask, export, inputs, read, table, typeset
+    from mechsheet.units import cm, kN, mm
+
+    @inputs
+    class Stringer:
+        A: float  # [cm**2] area; > 0
+        y: float  # [cm] level; < y_top
+        y_top: float  # [cm] greatest level
+
+
+@app.class_definition
+@inputs
+class Section:
+    # 1.1 Loads
+    F: list[float] = [10 * kN, -4 * kN, 2.5 * kN]  # [kN] forces; < F_max
+    F_max: float = 50 * kN  # [kN] greatest force; > 0
+    # 1.2 Section
+    stringers: list[Stringer] = [  # rows from the top
+        Stringer(1 * cm**2, 25 * cm, 30 * cm),
+        Stringer(0.5 * cm**2, -25 * cm, 30 * cm),
+    ]  # stringers of the section
+
+    """Inputs."""
+
+
+@app.cell
+def form():
+    form = ask(Section)
+    return (form,)
+
+
+@app.cell
+def given(form):
+    g = read(Section, form)
+    return (g,)
+
+
+@app.cell
+def section(g):
+    s = g.stringers
+    A = sum(s.A)  # [cm**2] area
+    y_c = sum(s.A * s.y) / A  # [cm] centroid
+    I_c = sum(s.A * (s.y - y_c) ** 2)  # [cm**4] second moment of area
+    sigma = g.F / A  # [MPa] stress
+    share = g.stringers.A / A  # [-] share of the area
+    most = abs(sigma).max()  # [MPa] greatest stress
+    typeset()
+    return A, I_c, most, share, sigma, y_c
+
+
+@app.cell
+def results(A, I_c, g, most, share, sigma, y_c):
+    F = g.F  # [kN] force
+    table_1 = table("1", "Stresses", F, sigma, A, y_c, I_c, most)
+    table_2 = table("2", "Stringers", share)
+    return table_1, table_2
+
+
+@app.cell
+def workbook():
+    export("Section", globals())
+    return
+
+
+if __name__ == "__main__":
+    app.run()
+'''
+
+
+@pytest.fixture(scope="module")
+def section(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    path = tmp_path_factory.mktemp("sheet") / "section.py"
+    path.write_text(SHEET, encoding="utf-8")
+    return path
+
+
+ROWS = [(2.0, 20.0, 30.0), (1.0, 5.0, 30.0), (1.0, -10.0, 30.0)]
+WAYS: list[Any] = [
+    "2; 20; 30 | 1; 5; 30 | 1; -10; 30",
+    "2\t20\t30\n1\t5\t30\n1\t-10\t30\n",
+    "2,0; 0,2 m; 300 mm\n1; 5; 30\n1 cm**2; −10; 30;",
+    ROWS,
+    [{"A": 2, "y": "20", "y_top": 30}, {"y": 5, "A": "1,0", "y_top": 30}, [1, -10, 30]],
+    {"A": [2, 1, 1], "y": [20, 5, -10], "y_top": [30, 30, 30]},
+    pd.DataFrame(ROWS, columns=["A", "y", "y_top"]),
+    np.array(ROWS),
+]
+
+
+@pytest.mark.parametrize("way", WAYS, ids=range(len(WAYS)))
+def test_a_table_is_given_in_many_ways(section: Path, way: Any) -> None:
+    found = evaluate(section, ["A", "y_c", "I_c"], stringers=way)
+    areas, levels = np.array([2, 1, 1]) * 1e-4, np.array([0.2, 0.05, -0.1])
+    y_c = (areas * levels).sum() / areas.sum()
+    assert found["A"] == pytest.approx(4e-4, rel=1e-14)
+    assert found["y_c"] == pytest.approx(y_c, rel=1e-14)
+    assert found["I_c"] == pytest.approx((areas * (levels - y_c) ** 2).sum(), rel=1e-14)
+
+
+@pytest.mark.parametrize(
+    "way", ["12; -5 kN; 0,5", "12\n-5\n500 N", [12, "-5", 0.5], np.array([12, -5, 0.5]), "12, ; -5; 0.5;"]
+)
+def test_a_list_is_given_in_many_ways(section: Path, way: Any) -> None:
+    assert evaluate(section, ["sigma"], F=way)["sigma"] == pytest.approx(
+        np.array([12, -5, 0.5]) * 1e3 / 1.5e-4, rel=1e-14
+    )
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        ({"F": "1; heavy; 3"}, "forces F (2) = 'heavy' kN is no number"),
+        ({"F": "1 2 3"}, "forces F (1) = '1 2 3' kN is no number"),
+        ({"F": "1;; 3"}, "forces F (2) = '' kN is no number"),
+        ({"F": ""}, "forces F must have 1 to 10000 rows, not 0"),
+        ({"F": []}, "forces F must have 1 to 10000 rows, not 0"),
+        ({"F": [1] * 10_001}, "forces F must have 1 to 10000 rows, not 10001"),
+        ({"F": [1, "2 MPa"]}, "forces F (2) = '2 MPa': MPa does not measure kN"),
+        ({"F": [1, float("nan")]}, "forces F (2) = nan kN is no number"),
+        ({"F": [1, 60]}, "forces F (2) = 60.0 kN must be < F_max = 50.0"),
+        ({"F": [1, 1e300]}, "forces F (2) = 1e+300 kN must be at most 1e+60 in size"),
+        ({"F": 3}, 'forces F = 3 kN must be a list such as "1; 2,5; 3"'),
+        ({"F": None}, 'forces F = None kN must be a list such as "1; 2,5; 3"'),
+        ({"F": [[1, 2]]}, "forces F (1) = [1, 2] kN is no number"),
+        ({"F_max": 5}, "forces F (1) = 10.0 kN must be < F_max = 5.0"),
+        ({"stringers": "1; 2"}, "stringers of the section stringers (1) = '1; 2' must have the columns A, y, y_top"),
+        ({"stringers": "0; 2; 30"}, "area stringers.A (1) = 0.0 cm**2 must be positive"),
+        ({"stringers": "1; 2; 30 | 1; 31; 30"}, "level stringers.y (2) = 31.0 cm must be < stringers.y_top = 30.0"),
+        ({"stringers": "1; 2; 30 | 1; x; 30"}, "level stringers.y (2) = 'x' cm is no number"),
+        ({"stringers": [{"A": 1, "y": 2}]}, "stringers of the section stringers (1) must have the columns"),
+        ({"stringers": {"A": [1], "y": [2, 3], "y_top": [3]}}, "stringers of the section stringers: columns must be"),
+        ({"stringers": "other.csv; 1"}, "stringers of the section stringers (1) = 'other.csv; 1' must have"),
+        ({"stringers": 5}, "stringers of the section stringers = 5 must be rows of numbers, or columns by name"),
+        ({"stringers": [5]}, "stringers of the section stringers (1) = 5 must have the columns A, y, y_top"),
+    ],
+)  # fmt: skip
+def test_bad_input_is_one_line(section: Path, given: dict[str, Any], message: str) -> None:
+    with pytest.raises(SheetError) as error:
+        evaluate(section, ["A", "sigma"], **given)
+    assert str(error.value).startswith(message)
+    assert "\n" not in str(error.value)
+
+
+def test_the_default_is_held_to_the_last_bit_and_all_is_read_back(section: Path) -> None:
+    sheet = load(section)
+    default: Any = sheet.inputs()
+    fields = inputs.declared(sheet.inputs)
+    assert inputs.build(sheet.inputs, {f.name: f.text(getattr(default, f.name)) for f in fields}) == default
+    g = inputs.build(sheet.inputs, {"F": [1 / 3, 0.1, 7e-5], "stringers": [(1 / 7, 1 / 3, 30)]})
+    assert inputs.build(sheet.inputs, dict((f.name, v) for f, v in inputs.Used(g).rows())) == g
+    assert inputs.Used(g).changed == {"F", "stringers"} and g != default and hash(default) == hash(sheet.inputs())
+    with pytest.raises(ValueError, match="read-only"):
+        default.F[0] = 1.0
+
+
+def test_scenes_and_arguments_give_lists_and_tables(section: Path, tmp_path: Path) -> None:
+    scene = tmp_path / "other.toml"
+    scene.write_text('want = ["A", "sigma"]\n[inputs]\nF = [1, "2,5"]\n[[inputs.stringers]]\nA = 2\ny = 3\ny_top = 9\n')
+    answer = script(section, f"--scene={scene}")
+    assert answer.returncode == 0, answer.stderr
+    assert "A = 2 cm**2" in answer.stdout and "5..12.5 MPa" in answer.stdout
+    fields = inputs.declared(load(section).inputs)
+    assert inputs.build(load(section).inputs, arguments.load(scene, fields).inputs).F.tolist() == [1000.0, 2500.0]
+    told = script(section, "--F=27,500; 3", "--stringers=1; 2; 30 | 1; 3; 30", f"--out={tmp_path}")
+    assert told.returncode == 0, told.stderr
+    assert "F (1) = 27.5 kN, read with a decimal comma" in told.stdout
+
+
+def test_sweeps_vary_lists_and_tables(section: Path) -> None:
+    swept = sweep(section, ["most", "A"], {"F": ["1; 2; 3", [4, 5], "x"], "F_max": [50, 50, 50]})
+    assert swept["most"][:2].tolist() == pytest.approx([3e3 / 1.5e-4, 5e3 / 1.5e-4], rel=1e-14)
+    assert swept.reasons.tolist() == ["", "", "forces F (1) = 'x' kN is no number"]
+    limited = sweep(section, ["most"], {"F_max": [50, 5]})
+    assert limited.reasons.tolist() == ["", "forces F (1) = 10.0 kN must be < F_max = 5.0"]
+    tables = sweep(section, ["A"], {"stringers": ["1; 2; 30", [[1, 2, 30], [3, 4, 30]]]})
+    assert tables["A"].tolist() == pytest.approx([1e-4, 4e-4], rel=1e-14)
+
+
+def test_units_are_followed_and_nothing_is_left_out(section: Path) -> None:
+    assert mismatches(section) == []
+    sheet = load(section)
+    names = sheet.run(sheet.results, {"g": sheet.inputs()})
+    assert record({**names, "__file__": sheet.path}).gaps == []
+
+
+CHANGES = {"F (2)": 6.5, "F_max": "60,5", "stringers.A (1)": 2, "stringers.y (2)": "-12,5"}
+
+
+def test_the_workbook_follows_each_element(section: Path, tmp_path: Path, recalculated: Callable[[Path], Any]) -> None:
+    assert script(section, f"--out={tmp_path}").returncode == 0
+    path = edit(tmp_path / "section.xlsx", CHANGES, tmp_path / "edited.xlsx")
+    sheet = load(section)
+    read = reading.inputs(path, inputs.declared(sheet.inputs))
+    changed = {"F": [10, 6.5, 2.5], "F_max": 60.5, "stringers": [(2, 25, 30), (0.5, -12.5, 30)]}
+    assert inputs.build(sheet.inputs, read) == inputs.build(sheet.inputs, changed)
+    given = ("--F=10; 6.5; 2.5", "--F_max=60.5", "--stringers=2; 25; 30 | 0.5; -12.5; 30")
+    assert script(section, f"--out={tmp_path / 'own'}", *given).returncode == 0
+    own = load_workbook(tmp_path / "own" / "section.xlsx", data_only=True)
+    assert not list(disagreements(recalculated(path), own))
+
+
+def test_a_row_added_in_the_workbook_is_not_passed_over(
+    section: Path, tmp_path: Path, recalculated: Callable[[Path], Any]
+) -> None:
+    assert script(section, f"--out={tmp_path}").returncode == 0
+    book = load_workbook(tmp_path / "section.xlsx")
+    sheet = book["Inputs"]
+    sheet.append(["F (4)", 20, "kN"])
+    book.save(tmp_path / "added.xlsx")
+    read = reading.inputs(tmp_path / "added.xlsx", inputs.declared(load(section).inputs))
+    assert inputs.build(load(section).inputs, read).F.tolist() == [1e4, -4e3, 2.5e3, 2e4]
+    live = recalculated(tmp_path / "added.xlsx")
+    assert {row[0].value for row in live["1 Stresses"].iter_rows(min_row=5, max_row=7)} == {"#N/A"}
