@@ -250,6 +250,27 @@ def test_unit_that_does_not_fit_is_told_with_the_one_that_does(line, says):
     assert all(note.startswith(text) for note, text in zip(notes, says, strict=True))
 
 
+OF_UNITS = "from mechsheet.units import MPa, mm\n"
+
+
+@pytest.mark.parametrize(
+    ("cells", "told"),
+    [
+        ((OF_UNITS + "S = 640 * MPa",), []),
+        ((OF_UNITS, "S = 640 * MPa"), []),
+        ((OF_UNITS, "S = 640 * MPa  # [MPa] strength\ntypeset()"), []),
+        (("S = 640e6  # [MPa] strength\ntypeset()",), []),
+        (("import math\nS = 640e6  # [MPa] strength\ntypeset()",), []),
+        ((OF_UNITS + "S = 640 * mm",), ["N: unit [N] does not fit; the value is in m³"]),
+        ((OF_UNITS, "S = 640 * mm  # [MPa] strength\ntypeset()"), ["S: unit [MPa] does not fit; the value is in m"]),
+    ],
+)
+def test_units_of_a_cell_without_inputs_are_followed(cells, told):
+    found = bar(*cells, "N = S * g.D**2  # [N] force\ntypeset()")
+    notes = found.texts(told_by.unfit(found.cells, found.names))
+    assert [note.partition(", ")[2].partition("; 640")[0] for note in notes] == told
+
+
 def test_lines_that_follow_from_a_wrong_one_are_not_told():
     found = bar("A = g.D**2 + g.L  # [m**2] area\ntypeset()", "p = g.F / A  # [Pa] pressure\ntypeset()")
     assert [note.cell for note in told_by.unfit(found.cells, found.names)] == ["c3"]

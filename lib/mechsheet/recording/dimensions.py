@@ -59,7 +59,7 @@ def dimensions(
 
 def of_every_line(sheet: Worksheet, namespace: Mapping[str, Any], known: Mapping[str, Formula]) -> Dimensions:
     """What the dimensions of all cells tell, also of those that no table or check needs."""
-    return dimensions(record(namespace, sheet, whole=True), sheet, namespace, known)
+    return dimensions(record(namespace, sheet, True, known), sheet, namespace, known)
 
 
 def mismatches(worksheet: str | Path) -> list[Mistake]:

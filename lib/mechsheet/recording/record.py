@@ -23,16 +23,22 @@ from mechsheet.recording.unrepeatable import Unrepeatable
 from mechsheet.units import Constant
 from mechsheet.worksheet.cells import Worksheet, load
 from mechsheet.worksheet.check import Check
-from mechsheet.worksheet.lines import registry
+from mechsheet.worksheet.lines import Formula, registry
 from mechsheet.worksheet.table import Figure, Table
 from mechsheet.worksheet.title import Slider
 from mechsheet.worksheet.verdict import Verdict
 
 
-def record(namespace: Mapping[str, Any], sheet: Worksheet | None = None, whole: bool = False) -> Recording:
+def record(
+    namespace: Mapping[str, Any],
+    sheet: Worksheet | None = None,
+    whole: bool = False,
+    known: Mapping[str, Formula] | None = None,
+) -> Recording:
     """Run the cells behind the tables, found values and checks of ``namespace`` with recorded quantities.
 
-    ``sheet`` has the cells where they are not those of the file; with ``whole`` all of them are run. What a recording
+    ``sheet`` has the cells where they are not those of the file, and ``known`` the lines that declare a unit where the
+    namespace does not tell; with ``whole`` all cells are run. What a recording
     does not hold keeps the numbers of the worksheet's own run, as nodes ``exported`` that know what they rest on;
     `Recording.gaps` says where and why. Where all tables list every so many positions, only those are recorded, and
     all of them only for single numbers that rest on all, such as an integral.
@@ -43,7 +49,7 @@ def record(namespace: Mapping[str, Any], sheet: Worksheet | None = None, whole: 
     graph = Graph(listed.pop() if len(listed) == 1 else 1)
     token = current.set(graph)
     try:
-        return _Run(sheet, graph, namespace, want).recording
+        return _Run(sheet, graph, namespace, want, registry(namespace) if known is None else known).recording
     finally:
         current.reset(token)
 
@@ -51,7 +57,14 @@ def record(namespace: Mapping[str, Any], sheet: Worksheet | None = None, whole: 
 class _Run:
     """One run of a worksheet's cells, statement by statement."""
 
-    def __init__(self, sheet: Worksheet, graph: Graph, namespace: Mapping[str, Any], want: Sequence[str]) -> None:
+    def __init__(
+        self,
+        sheet: Worksheet,
+        graph: Graph,
+        namespace: Mapping[str, Any],
+        want: Sequence[str],
+        lines: Mapping[str, Formula],
+    ) -> None:
         self.sheet, self.graph, self.namespace = sheet, graph, namespace
         g, known = given(graph, namespace["g"])
         self.recording = Recording(graph, known, every=graph.thin)
@@ -62,7 +75,7 @@ class _Run:
         self.lost: dict[str, NotRecorded] = {}  # names that have no value here, and why
         self.passing: dict[str, Any] = {}  # of these, lines whose numbers are others at the next run
         self.everywhere: dict[str, _Run] = {}  # over all positions, by the cell that needs it
-        self.lines = lines = registry(namespace)
+        self.lines = lines
         for line in sheet.setup:
             self.set_up(line, sheet.path)
         for cell in sheet.needed(want, {"g": g}):
@@ -156,9 +169,10 @@ class _Run:
                 self.names[name] = Quantity(self.graph, self.graph.constant(value, units.UNKNOWN))
 
     def set_up(self, line: ast.stmt, path: str) -> None:
-        """Run a statement of the setup again where it computes with units; else its numbers stay."""
+        """Run a statement of the setup again where it computes with units or declares one; else its numbers stay."""
         facts = statement.facts(line, path)
-        if "units" in facts.loaded or any(has_quantity(self.names.get(name)) for name in self.read(facts.loaded)):
+        measured = "units" in facts.loaded or not self.lines.keys().isdisjoint(facts.touched)
+        if measured or any(has_quantity(self.names.get(name)) for name in self.read(facts.loaded)):
             try:
                 exec(facts.code, self.names)
             except (Exception, NotRecorded):  # its numbers stay, of no known dimension
@@ -231,7 +245,7 @@ class _Run:
             kept = graph.thin, graph.line, graph.looked, graph.work
             labels, graph.labels, graph.thin = graph.labels, {}, 1  # what only this run needs is no named step
             try:
-                self.everywhere[cell.name] = run = _Run(self.sheet, graph, self.namespace, cell.gives)
+                self.everywhere[cell.name] = run = _Run(self.sheet, graph, self.namespace, cell.gives, self.lines)
             finally:
                 graph.thin, graph.line, graph.looked, graph.work = kept
                 graph.labels = labels
