@@ -41,9 +41,10 @@ def _single(line: Formula | Given, shown: Typeset) -> frozenset[str]:
 def _formula(line: Formula, value: object, shown: Typeset) -> str:
     single = _single(line, shown)
     if line.arguments:
-        return _line(_equation(line, single), "", line.meaning, "")
+        return _line(_equation(line, single), "", line.meaning, "", line.mistake)
     text = "" if shown.numbers is None else _substituted(line, shown.numbers, shown.position)
-    return _line(f"{_equation(line, single)} =", numbers.value(value, line.unit, HTML), line.meaning, text)
+    value_text = numbers.value(value, line.unit, HTML)
+    return _line(f"{_equation(line, single)} =", value_text, line.meaning, text, line.mistake)
 
 
 def _substituted(line: Formula, known: Numbers, position: int) -> str:
@@ -59,7 +60,7 @@ def _with_numbers(line: Formula, found: tuple[tuple[str, float | complex, str, t
     return latex(node) if node else ""
 
 
-def _line(tex: str, value: str, meaning: str, substituted: str) -> str:
+def _line(tex: str, value: str, meaning: str, substituted: str, mistake: str = "") -> str:
     """A typeset line; its numbers wait in an attribute until the reader asks for them.
 
     The value is an element of its own: where it alone changes, the browser keeps the formula as it has set it, and the
@@ -67,7 +68,9 @@ def _line(tex: str, value: str, meaning: str, substituted: str) -> str:
     """
     more = f'<ms-numbers tex="{escape("= " + substituted)}"></ms-numbers>' if substituted else ""
     formula = _tex_element(tex) + (f'<span class="ms-value">{value}</span>' if value else "")
-    return f'<div class="ms-line"><span class="ms-formula">{formula}</span><span>{escape(meaning)}</span>{more}</div>'
+    told = f' <span class="ms-badge ms-FAIL">mistake</span> {escape(mistake)}' if mistake else ""
+    words = f"<span>{escape(meaning)}{told}</span>"
+    return f'<div class="ms-line"><span class="ms-formula">{formula}</span>{words}{more}</div>'
 
 
 def _tex_element(tex: str) -> str:
