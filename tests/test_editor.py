@@ -105,12 +105,9 @@ def test_mistakes_are_told_at_their_place_and_the_rest_stays(editor):
         expect(page.get_by_role("heading", name="3 Results")).to_have_count(1)
         expect(page.locator(".ms-inputs input")).to_have_count(3)
 
-    told(
-        editor.edit("# [N*m] moment\n", "# [Nm] moment\n"), "line 4 of the cell: unit [Nm] is not known; write units as"
-    )
+    told(editor.edit("# [N*m] moment\n", "# [Nm] moment\n"), "unit [Nm] is not known; nearest: N*m")
     expect(page.get_by_text("TRACEBACK")).to_have_count(0)
-    page.wait_for_function("""() =>
-        getComputedStyle(document.querySelector(".ms-told"), "::after").content.includes("unit [Nm] is not known")""")
+    editor.expect("1 of 1 checks pass")
     told(editor.edit("# [Nm] moment\n", "# [N*m] moment\n"))
     editor.expect("1 of 1 checks pass")
     told(editor.edit("g.L * sin", "g.Ll * sin"), "'Given' object has no attribute 'Ll'")
@@ -251,6 +248,27 @@ def test_unit_that_does_not_fit_is_told_with_the_one_that_does(line, says):
     notes = found.texts(told_by.unfit(found.cells[:4], found.names))
     assert len(notes) == len(says)
     assert all(note.startswith(text) for note, text in zip(notes, says, strict=True))
+
+
+OF_UNITS = "from mechsheet.units import MPa, mm\n"
+
+
+@pytest.mark.parametrize(
+    ("cells", "told"),
+    [
+        ((OF_UNITS + "S = 640 * MPa",), []),
+        ((OF_UNITS, "S = 640 * MPa"), []),
+        ((OF_UNITS, "S = 640 * MPa  # [MPa] strength\ntypeset()"), []),
+        (("S = 640e6  # [MPa] strength\ntypeset()",), []),
+        (("import math\nS = 640e6  # [MPa] strength\ntypeset()",), []),
+        ((OF_UNITS + "S = 640 * mm",), ["N: unit [N] does not fit; the value is in m³"]),
+        ((OF_UNITS, "S = 640 * mm  # [MPa] strength\ntypeset()"), ["S: unit [MPa] does not fit; the value is in m"]),
+    ],
+)
+def test_units_of_a_cell_without_inputs_are_followed(cells, told):
+    found = bar(*cells, "N = S * g.D**2  # [N] force\ntypeset()")
+    notes = found.texts(told_by.unfit(found.cells, found.names))
+    assert [note.partition(", ")[2].partition("; 640")[0] for note in notes] == told
 
 
 def test_lines_that_follow_from_a_wrong_one_are_not_told():

@@ -100,7 +100,7 @@ def test_what_mathcad_took_is_told_in_words(old: str, new: str, says: str, lever
 
 def test_a_declaration_is_told_with_its_line(lever: Callable[..., Path]) -> None:
     path = lever("[m] length", "[mn] length")
-    unit = "unit [mn] is not known; write units as m, kN*m, rad/s**2 or 1/m"
+    unit = "unit [mn] is not known; nearest: mN, MN"
     ends([sys.executable, path], f"error: line 38 of {path}: {unit}")
 
 

@@ -175,7 +175,7 @@ def test_rows_and_columns_may_be_inserted_and_rows_taken_out(edit):
         ("P6", "Symbol", "P66", "P66 is no input; nearest: P6"),
         ("P6", "Symbol", None, "an empty cell is no input"),
         ("L6", "Symbol", "L5", "L5 stands in A"),
-        ("P6", "Unit", "kN", "kN is not the unit of P6, which is N"),
+        ("P6", "Unit", "mm", "mm is not the unit of P6, which is N: weight of the implement P6 = "),
         ("P6", "Unit", None, "an empty cell is not the unit of P6, which is N"),
     ],
 )
@@ -186,6 +186,25 @@ def test_what_cannot_be_used_is_named_with_its_cell(edit, name, heading, typed, 
         edit.read()
     start = f"workbook {edit.path}, cell {cell.coordinate}: "
     assert str(error.value).startswith(start + message), str(error.value)
+
+
+@pytest.mark.parametrize(("value", "unit"), [(27.5, "kN"), ("27,5 kN", "N"), ("27.5 kN", None), (2.75, "MN*cm/m")])
+def test_a_unit_typed_beside_a_value_or_behind_it_is_converted(edit, value, unit):
+    edit.cell("P6", "Value").value = value
+    if unit:
+        edit.cell("P6", "Unit").value = unit
+    (p6,) = [field for field in FIELDS if field.name == "P6"]
+    assert p6.read(edit.read()["P6"]) == 27500
+
+
+@pytest.mark.parametrize(
+    ("unit", "why"), [("mm", "mm does not measure N"), ("kn", "unit [kn] is not known; nearest: kN")]
+)
+def test_a_unit_that_does_not_fit_is_told_with_both(edit, unit, why):
+    edit.cell("P6", "Unit").value = unit
+    with pytest.raises(SheetError) as error:
+        edit.read()
+    assert f"{unit} is not the unit of P6, which is N" in str(error.value) and why in str(error.value)
 
 
 def test_a_workbook_without_the_sheet_or_its_headings_is_named(edit, tmp_path):

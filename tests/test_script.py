@@ -103,12 +103,14 @@ def test_raising_cell_is_no_success(tmp_path):
     assert not (tmp_path / "hitch.xlsx").exists()
 
 
-def test_unknown_unit_is_one_line_that_names_its_place(tmp_path):
+def test_an_unknown_unit_fails_the_check_of_units_and_nothing_else(tmp_path):
     sheet = changed(tmp_path, "# [MPa] pressure", "# [MPaa] pressure")
     done = run(f"--out={tmp_path}", sheet=sheet)
-    assert done.returncode == 1
-    assert "unit [MPaa] is not known" in done.stderr and done.stderr.count("\n") == 1
-    assert f"of {sheet}" in done.stderr
+    assert done.returncode == 1 and (tmp_path / "hitch.xlsx").exists()
+    failed = [line for line in done.stdout.splitlines() if line.startswith("FAIL")]
+    line = next(n for n, text in enumerate(sheet.read_text(encoding="utf-8").splitlines(), 1) if "[MPaa]" in text)
+    assert len(failed) == 1 and failed[0].startswith(f"FAIL  units: 1 <= 0 mistakes; line {line}, ")
+    assert "unit [MPaa] is not known; nearest: MPa" in failed[0]
 
 
 def test_script_leaves_out_what_it_does_not_show(tmp_path):

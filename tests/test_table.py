@@ -72,11 +72,11 @@ def test_a_line_is_declared_wherever_it_stands(names):
     assert [c.unit for c in names["t"].columns] == ["mm", "cm"]
 
 
-def test_unit_that_is_not_known_is_told_where_its_line_is_asked_for(names):
+def test_a_column_whose_unit_is_not_known_is_in_si(names):
     run("y = 3 * S  # [cmm] length", names)
-    run('t = table("1", "T", S)', names)
-    with pytest.raises(SheetError, match=r"unit \[cmm\] is not known"):
-        run('t = table("1", "T", y)', names)
+    run('t = table("1", "T", S, y)', names)
+    _, y = names["t"].columns
+    assert y.unit == "?" and y.values == pytest.approx(names["y"])
 
 
 def test_units_that_typeset_shows_are_those_of_the_columns(names):

@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping
 from functools import lru_cache
 from typing import Any
 
+from mechsheet.document.constant import measured
 from mechsheet.document.formula import (
     POWER,
     PRODUCT,
@@ -54,7 +55,11 @@ def left(line: Formula, single: frozenset[str] = frozenset()) -> Node:
 @lru_cache(maxsize=4096)
 def right(line: Formula, single: frozenset[str] = frozenset()) -> Node | None:
     """Right side of a line; None where it is a number or says the same as the left."""
-    node = None if isinstance(line.expression, ast.Constant) else tree(line.expression, single=single)
+    node = None
+    if not isinstance(line.expression, ast.Constant):
+        node = tree(measured(line.expression, line.constants), single=single)
+    if isinstance(node, Measure) and node.unit == line.unit:
+        return None
     return None if node == left(line, single) else node
 
 
@@ -64,19 +69,20 @@ _SOLVED = {"_found": "Find", "_least": "Minerr"}  # endings of the names of verd
 def equation(line: Formula | Given, single: frozenset[str] = frozenset()) -> Node:
     """A line as an equation, or its symbol alone; of a solve block what must be equal."""
     if isinstance(line, Given):
-        parts = (tree(part, single=single) for part in (line.expression, line.target))
+        parts = (tree(measured(part, line.constants), single=single) for part in (line.expression, line.target))
         return Row((Text("Given" if line.first else "and"), Binary(next(parts), "=", next(parts))))
     node = right(line, single)
     if node is None:
         return left(line, single)
-    own = tuple(Binary(_name(name), "=", tree(value, single=single)) for name, value in line.where)
+    own = (tree(measured(value, line.constants), single=single) for _, value in line.where)
+    where = tuple(Binary(_name(name), "=", value) for (name, _), value in zip(line.where, own, strict=True))
     whole = Binary(left(line, single), "=", node)
-    return Row((whole, Text("where"), *own)) if own else whole
+    return Row((whole, Text("where"), *where)) if where else whole
 
 
 def substituted(line: Formula, numbers: Mapping[str, Measure]) -> Node | None:
     """Right side of a line with numbers for its symbols; None where it has none."""
-    return tree(line.expression, numbers) if numbers and right(line) else None
+    return tree(measured(line.expression, line.constants), numbers) if numbers and right(line) else None
 
 
 @lru_cache(maxsize=4096)
@@ -143,6 +149,8 @@ class _Reader:
                 return Product(Number(size), Symbol("i"))
             case int() | float():
                 return Number(node.value)
+            case Measure() | Text():
+                return node.value
         return Text(str(node.value))
 
     def attribute(self, node: ast.Attribute) -> Node | None:
@@ -324,6 +332,8 @@ class _Reader:
                 return Integral(self.least(y, PRODUCT), self.least(x, WHOLE))
             case "where", [condition, a, b]:
                 return Cases(self.read(a), self.read(condition), self.read(b))
+            case "celsius", [ast.Constant(int() | float() as degrees)]:
+                return Measure(degrees, "degC")
             case "select", [ast.List(conditions), ast.List(values), *default] if len(conditions) == len(values):
                 chosen = self.read(default[0]) if default else Number(0)
                 for condition, x in zip(reversed(conditions), reversed(values), strict=True):

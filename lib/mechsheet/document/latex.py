@@ -37,7 +37,7 @@ from mechsheet.worksheet.symbol import GREEK, Symbol
 
 LATEX = Notation(
     "-", r"\text{none}", r"\infty", r"{} \cdot 10^{{{}}}", r"({},\ {})", r" \,\ldots\, ", r"^\circ", r"\,\%",
-    r"\ \mathrm{{{}}}", r"^{{{}}}", r"\cdot ",
+    r"\,\mathrm{{{}}}", r"^{{{}}}", r"\cdot ",
 )  # fmt: skip
 _LETTERS = {letter: rf"\{word}" for word, letter in GREEK.items()} | {"ε": r"\varepsilon", "φ": r"\varphi"}
 _GREEK = re.compile(f"([{''.join(GREEK.values())}])")

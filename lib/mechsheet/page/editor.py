@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 
+from mechsheet import units
 from mechsheet.document.expression import reads
 from mechsheet.page import notebook
 from mechsheet.recording import dimensions
@@ -128,18 +129,23 @@ def is_numeric(value: Any) -> bool:
 def unfit(cells: Iterable[notebook.Cell], names: Mapping[str, Any]) -> Iterator[Note]:
     """Lines of the worksheet that has run whose units do not fit, each mistake where it arises.
 
-    What depends on the inputs is recorded. A line whose meaning calls it an erratum is left as it is.
+    What depends on the inputs is recorded, and what declares a unit or is computed with one; of cells that import or
+    define classes beside it the assignments, as of a setup. A line whose meaning calls it an erratum is left as it is.
     """
     if not hasattr(type(names.get("g")), "__inputs__"):
         return
     ran = [cell for cell in cells if cell.status == "success"]
     others = {name for cell in ran for name in cell.refs if getattr(names.get(name), "__module__", "") in _OTHERS}
-    computed = _depending(ran, {"g", *_functions(ran)}) - _depending(ran, others)
     known = registry(names, source.of_texts(tuple((cell.code, cell.filename) for cell in ran)))
+    measured = {name for name, value in names.items() if isinstance(value, units.Constant) or value is units}
+    setup = _setup(ran, _depending(ran, {"g", *_functions(ran)}))
+    of_setup = {name for n in setup for name in ran[n].defs}
+    computed = _depending(ran, {"g", *_functions(ran), *measured, *known}) - of_setup - _depending(ran, others)
     common = {name: value for name, value in names.items() if name not in computed}
     recorded = tuple(_recorded(n, cell, computed) for n, cell in enumerate(ran) if cell.defs & (computed - {"g"}))
+    assigned = tuple(line for n in setup for line in _lines(n, ran[n]) if isinstance(line, ast.Assign | ast.AnnAssign))
     try:
-        found = dimensions.of_every_line(Worksheet("", recorded, common, ""), names, known)
+        found = dimensions.of_every_line(Worksheet("", recorded, common, "", assigned), names, known)
     except Exception as error:
         yield Note("", f"units are not checked, as the worksheet cannot be recorded: {error}")
         return
@@ -162,9 +168,24 @@ def _depending(cells: Iterable[notebook.Cell], names: set[str]) -> set[str]:
     return found
 
 
+def _setup(cells: Iterable[notebook.Cell], by_inputs: set[str]) -> list[int]:
+    """Positions of cells that import or define classes and do not depend on the inputs."""
+    kinds = ast.Import | ast.ImportFrom | ast.ClassDef
+    return [
+        n
+        for n, cell in enumerate(cells)
+        if not cell.defs & by_inputs and any(isinstance(line, kinds) for line in ast.parse(cell.code).body)
+    ]
+
+
+def _lines(n: int, cell: notebook.Cell) -> list[ast.stmt]:
+    """Statements of a cell, their lines counted behind those of the cells before it."""
+    return ast.increment_lineno(ast.parse(cell.code), n * _MOST).body
+
+
 def _recorded(n: int, cell: notebook.Cell, computed: set[str]) -> Cell:
     """A cell as a recording takes it, its lines counted behind those of the cells before it."""
-    lines = ast.increment_lineno(ast.parse(cell.code), n * _MOST).body
+    lines = _lines(n, cell)
     code = compiled(lines, cell.filename, f"_{cell.cell_id}")
     return Cell(cell.cell_id, frozenset(cell.refs & computed), tuple(cell.defs), (), tuple(lines), code)
 

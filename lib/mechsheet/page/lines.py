@@ -39,10 +39,10 @@ def _single(line: Formula | Given, shown: Typeset) -> frozenset[str]:
 def _formula(line: Formula, value: object, shown: Typeset) -> str:
     single = _single(line, shown)
     if line.arguments:
-        return _line(_equation(line, single), "", line.meaning, line.number)
+        return _line(_equation(line, single), "", line.meaning, line.number, mistake=line.mistake)
     text = "" if shown.numbers is None else _substituted(line, shown.numbers, shown.position)
-    shown_value = numbers.value(value, line.unit, HTML)
-    return _line(f"{_equation(line, single)} =", shown_value, line.meaning, line.number, text)
+    value_text = numbers.value(value, line.unit, HTML)
+    return _line(f"{_equation(line, single)} =", value_text, line.meaning, line.number, text, line.mistake)
 
 
 def _substituted(line: Formula, known: Numbers, position: int) -> str:
@@ -58,7 +58,9 @@ def _with_numbers(line: Formula, found: tuple[tuple[str, float | complex, str, t
     return latex(node) if node else ""
 
 
-def _line(tex: str, value: str = "", meaning: str = "", number: str = "", substituted: str = "") -> str:
+def _line(
+    tex: str, value: str = "", meaning: str = "", number: str = "", substituted: str = "", mistake: str = ""
+) -> str:
     """A typeset line, the printed formula's number at its end; its numbers wait in an attribute until asked for.
 
     The value is an element of its own: where it alone changes, the browser keeps the formula as it has set it, and the
@@ -66,7 +68,8 @@ def _line(tex: str, value: str = "", meaning: str = "", number: str = "", substi
     """
     more = f'<ms-numbers tex="{escape("= " + substituted)}"></ms-numbers>' if substituted else ""
     formula = _tex_element(tex) + (f'<span class="ms-value">{value}</span>' if value else "")
-    said = f"<span>{escape(meaning)}</span>" if meaning else ""
+    told = f' <span class="ms-badge ms-FAIL">mistake</span> {escape(mistake)}' if mistake else ""
+    said = f"<span>{escape(meaning)}{told}</span>" if meaning or told else ""
     said += f'<span class="ms-number">{escape(number)}</span>' if number else ""
     return f'<div class="ms-line"><span class="ms-formula">{formula}</span>{said}{more}</div>'
 

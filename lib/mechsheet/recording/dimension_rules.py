@@ -1,12 +1,11 @@
-"""Dimensions by the recording: each node has the exponents of m, kg and s that its operation makes of its operands'.
+"""Dimensions by the recording: each node has the exponents of base units that its operation makes of its operands'.
 
 A table from operation to rule. Where the elements of a quantity are unlike, each has its own. Three kinds of numbers
-stand beside the exponents: 0, infinite ones and NaN fit any dimension; a literal is a pure number where it is
-multiplied and takes the other's dimension where it is added or compared; of what is unknown nothing is told.
+stand beside the exponents: 0, infinite ones and NaN fit any dimension; a literal without a unit is a pure number where
+it is multiplied and takes the other's dimension where it is added or compared; of what is unknown nothing is told.
 """
 
 from collections.abc import Callable, Iterable, Mapping
-from fractions import Fraction
 from typing import Any
 
 import numpy as np
@@ -15,18 +14,18 @@ from numpy.typing import NDArray
 from mechsheet import units
 from mechsheet.recording.graph import Node
 from mechsheet.recording.lines import Recording, Residual, Solved
-from mechsheet.recording.literals import TOLERANCE, VANISHING, surely_pure
 from mechsheet.recording.pinpoint import Mistake, Places
 from mechsheet.recording.quantity import Quantity
+from mechsheet.units import PURE, Dims
 from mechsheet.worksheet import inputs
 from mechsheet.worksheet import numbers as shown_numbers
 from mechsheet.worksheet.lines import Formula
 
-Dims = tuple[float, float, float]
 Codes = int | NDArray[np.intp]  # of all elements, or of each
 
 NUMBER, UNKNOWN, ANY, LITERAL = range(4)  # codes; those of other exponents follow
-_PURE: Dims = (0, 0, 0)
+TOLERANCE = 1e-6  # a literal below it is a tolerance, which has the unit of what it is compared with
+VANISHING = 1e-50  # a literal below it, such as a complex step, is as good as 0
 
 
 class Reader:
@@ -40,14 +39,14 @@ class Reader:
         lines: Iterable[Formula],
         places: Places,
     ) -> None:
-        self.exponents: list[Dims | None] = [_PURE, None, None, None]
-        self.known: dict[Dims, int] = {_PURE: NUMBER}
+        self.exponents: list[Dims | None] = [PURE, None, None, None]
+        self.known: dict[Dims, int] = {PURE: NUMBER}
         self.products: dict[tuple[int, int, float], int] = {}
         self.places, self.values = places, values
         self.mistakes: dict[int, Mistake] = {}
         self.notes: dict[int, Mistake] = {}
         self.codes: dict[Node, Codes] = {}
-        self.of_pivots: set[Node] = set()
+        self.pivots = recording.graph.pivots
         self.wrong: set[Node] = set()
         self.told: set[tuple[int, str]] = set()
         self.unit_of = inputs.units_of(type(namespace["g"]))
@@ -71,14 +70,14 @@ class Reader:
             self.solved(solved)
 
     def code(self, dims: Dims) -> int:
-        m, kg, s = (round(x, 9) for x in dims)
-        known = self.known.setdefault((m, kg, s), len(self.exponents))
+        dims = tuple(round(x, 9) for x in dims)
+        known = self.known.setdefault(dims, len(self.exponents))
         if known == len(self.exponents):
-            self.exponents.append((m, kg, s))
+            self.exponents.append(dims)
         return known
 
     def of_unit(self, unit: str) -> int:
-        return self.code(units.parse(unit).dims)
+        return UNKNOWN if unit == units.UNKNOWN else self.code(units.parse(unit).dims)
 
     def product(self, a: int, b: int, power: float = 1.0) -> int:
         """Code of a quantity times a power of another one."""
@@ -93,8 +92,7 @@ class Reader:
         elif first is None and second is None:
             result = LITERAL
         else:
-            m, kg, s = (p + power * q for p, q in zip(first or _PURE, second or _PURE, strict=True))
-            result = self.code((m, kg, s))
+            result = self.code(tuple(p + power * q for p, q in zip(first or PURE, second or PURE, strict=True)))
         self.products[a, b, power] = result
         return result
 
@@ -129,12 +127,20 @@ class Reader:
             self.wrong.add(node)
         if wrong and "erratum" not in line.meaning:
             why = f"unit [{line.unit}] does not fit; the value is in {self.word(wrong[0])}"
-            self.add(Mistake(self.places.line_of(line), line.name, why), (node,))
+            match self.places.literals(line.expression):
+                case [literal]:
+                    missing = self.word(self.product(unit, wrong[0], -1.0))
+                    why += f"; {literal} has no unit, and would fit with {missing}"
+                case [_, *_] as several:
+                    why += f"; {', '.join(several)} have no unit"
+            self.add(Mistake(self.places.line_of(line), line.name, why))
         return bool(wrong)
 
     def settle(self, node: Node) -> None:
         """Compare a value with its declared units; in that of the line which made it, it is taken from here on."""
         for line in self.declared[node]:
+            if line.mistake:
+                continue
             unit = self.of_unit(line.unit)
             function = self.places.function_called(line.expression)
             if not (function and self.unfit(function, node)):
@@ -156,7 +162,7 @@ class Reader:
                 against = "limit" if check.unit == "-" else "unit"
                 why = f"the {what} is in {self.word(code)}, its {against} in {self.word(given)}"
                 line = self.places.of_check(name, (part.line, check.limit.line))
-                self.add(Mistake(line, f"check {name!r}", why), (part, check.limit))
+                self.add(Mistake(line, f"check {name!r}", why))
                 return
 
     def solved(self, solved: Solved) -> None:
@@ -165,13 +171,13 @@ class Reader:
         for end in solved.interval or ():
             if not self.fits(code := self.one(end), own):
                 why = f"the interval is in {self.word(code)}, {words.unknown} in {self.word(own)}"
-                self.add(Mistake(solved.node.line, "find", why), (end,))
+                self.add(Mistake(solved.node.line, "find", why))
                 return
         if solved.residual is not None and words.unit != "-":
             code = self.one(solved.residual)
             if not self.fits(code, self.of_unit(words.unit)):
                 why = f"unit [{words.unit}] does not fit; {words.quantity} is in {self.word(code)}"
-                self.add(Mistake(solved.node.line, "find", why), (solved.residual,))
+                self.add(Mistake(solved.node.line, "find", why))
 
     @staticmethod
     def fits(code: int, other: int) -> bool:
@@ -189,20 +195,15 @@ class Reader:
         if node in self.equations:
             function = self.places.function_solved(node.line)
             if not (function and self.unfit(function, operands[0])):
-                self.add(Mistake(node.line, "find", "the function and what it equals: " + why), operands)
+                self.add(Mistake(node.line, "find", "the function and what it equals: " + why))
             return
         line, part = self.places.find(node.line, node.op, [self.leaf_names(operand) for operand in operands])
         if not self.places.is_erratum(line):
-            self.add(Mistake(line, part, why), operands)
+            self.add(Mistake(line, part, why))
 
-    def add(self, mistake: Mistake, roots: tuple[Node, ...]) -> None:
-        """Note a mistake, of a line the first; where a literal may have a unit, what it rests on."""
-        doubt = self.doubt(roots, mistake.line)
-        if doubt:
-            told = Mistake(mistake.line, mistake.part, f"{mistake.why}, unless {doubt} has a unit")
-            self.notes.setdefault(mistake.line, told)
-        else:
-            self.mistakes.setdefault(mistake.line, mistake)
+    def add(self, mistake: Mistake) -> None:
+        """Note a mistake, of a line the first."""
+        self.mistakes.setdefault(mistake.line, mistake)
 
     def taken(self, node: Node, code: int) -> None:
         """Note a literal that takes the dimension of what it is added to or compared with."""
@@ -228,35 +229,13 @@ class Reader:
             return {self.names[node]}
         return {self.names[n] for n in self.own([node]) if n in self.names}
 
-    def doubt(self, roots: tuple[Node, ...], line: int) -> str:
-        """A literal that may have a unit, on which quantities rest; in a line that reads a unit's name any may."""
-        for node in self.own(roots):
-            if node.op == "mul" and _is(self.codes[node], LITERAL):  # of the numbers of rows
-                return "one of the numbers in it"
-            for n in node.operands:
-                if n.op == "constant" and not surely_pure(n):
-                    if n.size > 1:
-                        return "one of the numbers in it"
-                    if self.places.reads_numbers(node.line, self.values):
-                        return shown_numbers.significant(n.value.item(), 6)
-            if name := self.places.unit_read(node.line, self.values):
-                return name
-        return self.places.unit_read(line, self.values)
-
     def word(self, code: int) -> str:
         """A unit of these exponents: one that the worksheet uses, without its factor, or a product."""
         dims = self.exponents[code]
-        if dims is None or dims == _PURE:
+        if dims is None or dims == PURE:
             return "- (a number)"
         used = [units.si(unit) for unit in self.used if units.parse(unit).dims == dims]
-        parts = zip(("m", "kg", "s"), dims, strict=True)
-        product = "*".join(_raised(name, Fraction(n).limit_denominator(99)) for name, n in parts if n)
-        return units.shown(min(used, key=len, default=product))
-
-
-def _raised(name: str, power: Fraction) -> str:
-    whole = f"**{power}" if power.denominator == 1 else f"^({power})"
-    return name if power == 1 else name + whole
+        return units.shown(min(used, key=len, default=units.word(dims)))
 
 
 # --- rules -------------------------------------------------------------------------------------------------------
@@ -289,6 +268,10 @@ def _simple(codes: NDArray[np.intp]) -> Codes:
 
 
 def _constant(reader: Reader, node: Node) -> Codes:
+    if node.args:
+        return reader.of_unit(*node.args)
+    if node.size > 1 and not np.isin(np.abs(node.value), (0, 1)).all():
+        return UNKNOWN  # a table may have a unit that nobody wrote
     return LITERAL if np.any(np.isfinite(node.value) & (np.abs(node.value + 0.0) > VANISHING)) else ANY
 
 
@@ -326,24 +309,14 @@ def _alike(reader: Reader, node: Node) -> Codes:
 
 
 def _compared(reader: Reader, node: Node) -> Codes:
-    if _pivots(reader, node):
-        reader.of_pivots.add(node)
-    else:
+    if node not in reader.pivots:
         _alike(reader, node)
     return NUMBER
 
 
-def _pivots(reader: Reader, node: Node) -> bool:
-    """Whether the rows of linear equations are put in order here, which may be unlike."""
-    a, b = (reader.codes[operand] for operand in node.args)
-    if node.op != "gt" or np.array_equal(a, b):
-        return False
-    return not reader.places.reads(node.line).isdisjoint(("solve", "det", "inv"))
-
-
 def _where(reader: Reader, node: Node) -> Codes:
     condition, a, b = node.args
-    if condition.op == "constant" or condition in reader.of_pivots:  # one order of the rows is as good as another
+    if condition.op == "constant" or condition in reader.pivots:  # one order of the rows is as good as another
         return _simple(np.where(condition.value, reader.codes[a], reader.codes[b]))
     return _each(lambda p, q: reader.alike(node, p, q), reader.codes[a], reader.codes[b])
 

@@ -44,7 +44,11 @@ def dimensions(
     """
     values = recording.values
     lines = [line for line in known.values() if not line.arguments]
-    reader = Reader(recording, values, namespace, lines, Places(sheet, known))
+    places = Places(sheet, known)
+    reader = Reader(recording, values, namespace, lines, places)
+    for line in known.values():
+        if line.mistake:
+            reader.add(Mistake(places.line_of(line), line.name, line.mistake))
     return Dimensions(
         tuple(sorted(reader.mistakes.values())),
         tuple(sorted(reader.notes.values())),
@@ -55,7 +59,7 @@ def dimensions(
 
 def of_every_line(sheet: Worksheet, namespace: Mapping[str, Any], known: Mapping[str, Formula]) -> Dimensions:
     """What the dimensions of all cells tell, also of those that no table or check needs."""
-    return dimensions(record(namespace, sheet, whole=True), sheet, namespace, known)
+    return dimensions(record(namespace, sheet, True, known), sheet, namespace, known)
 
 
 def mismatches(worksheet: str | Path) -> list[Mistake]:

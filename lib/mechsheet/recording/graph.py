@@ -78,7 +78,7 @@ class Node:
     Operations are those of `ELEMENTWISE`, on operands that are broadcast to each other, and
 
     ==========================  ====================================================================================
-    ``constant``, ``rows``      numbers; the numbers 0, 1, 2 .. of the rows
+    ``constant``, ``rows``      numbers, with a unit where they have one; the numbers 0, 1, 2 .. of the rows
     ``input``                   an input
     ``found`` (block, number)   one of the unknowns that a `Block` finds; after them its evaluations of the equations
     ``exported``                numbers of the worksheet's own run, which rest on its operands nobody knows how
@@ -155,6 +155,8 @@ class Graph:
         self.positions = 0  # numbers of linspace before any were left out
         self.line = 0
         self.work = 0  # numbers computed since somebody set it to 0
+        self.fixed = set[Node]()  # which rest on constants alone
+        self.pivots = set[Node]()  # conditions that put the rows of linear equations in order, which may be unlike
         self.nodes: dict[Any, Node] = {}
         self.looked: dict[Node, Guard] = {}  # by their conditions; since somebody emptied it
         self.gone: list[weakref.ref[Any]] = []  # arrays in whose place another one was put
@@ -170,13 +172,15 @@ class Graph:
         if known is None:
             known = self.nodes[key] = Node(op, args, _fixed(value()), self.line)
             self.work += known.size
+            if op == "constant" or (known.operands and self.fixed.issuperset(known.operands)):
+                self.fixed.add(known)
             if self.work > MOST:
                 raise NotRecorded(f"it takes more than {MOST:,} operations on single numbers")
         return known
 
     def see(self, seen: Node, rows: bool = False) -> None:
         """Note that Python looks at a condition, which holds now."""
-        if seen.op != "constant":
+        if seen not in self.fixed:
             self.looked.setdefault(seen, Guard(seen, self.line, rows))
 
     def same(self, node: Node) -> Node:
@@ -193,11 +197,11 @@ class Graph:
         key = ("exported", tuple(rests_on), array.dtype.char, array.shape, array.tobytes())
         return self._kept(key, "exported", tuple(rests_on), lambda: array)
 
-    def constant(self, value: Any) -> Node:
-        """A number or an array of numbers."""
+    def constant(self, value: Any, *unit: str) -> Node:
+        """A number or an array of numbers; in SI where a unit says what it measures."""
         array = np.asarray(value)
-        key = ("constant", array.dtype.char, array.shape, array.tobytes())
-        return self._kept(key, "constant", (), array.copy)
+        key = ("constant", array.dtype.char, array.shape, array.tobytes(), *unit)
+        return self._kept(key, "constant", unit, array.copy)
 
     def leaf(self, op: str, name: str, value: Any) -> Node:
         """An input."""
@@ -214,7 +218,7 @@ class Graph:
     def take(self, source: Node, index: Values) -> Node:
         """Elements of a quantity by their flat positions."""
         if source.op in ("constant", "rows"):
-            return self.constant(source.value.reshape(-1)[index])
+            return self.constant(source.value.reshape(-1)[index], *source.args)
         if source.shape == index.shape and np.array_equal(index.reshape(-1), np.arange(source.size)):
             return source
         if source.op == "take":
@@ -312,8 +316,8 @@ class Graph:
         return self.neg(self.div(a.args[0], b)) if a.op == "neg" else self.fold("div", a, b)
 
     def fold(self, op: str, *args: Node) -> Node:
-        """An operation; of constants the constant that it gives."""
-        if all(a.op == "constant" for a in args):
+        """An operation; of constants without a unit the constant that it gives."""
+        if all(a.op == "constant" and not a.args for a in args):
             return self.constant(ELEMENTWISE[op](*[a.value for a in args]))
         return self.node(op, *args)
 
@@ -322,8 +326,8 @@ current: ContextVar[Graph] = ContextVar("current")  # the graph of the recording
 
 
 def is_number(node: Node, number: float) -> bool:
-    """Whether a node is this constant."""
-    return node.op == "constant" and node.shape == () and bool(node.value == number)
+    """Whether a node is this constant, without a unit."""
+    return node.op == "constant" and not node.args and node.shape == () and bool(node.value == number)
 
 
 def _fixed(value: Any) -> Values:

@@ -40,6 +40,7 @@ def _eliminated(graph: Graph, A: Any, right: list[list[Any]]) -> tuple[list[list
     for j in range(size):
         for i in range(j + 1, size):
             greater = absolute(rows[i][j]) > absolute(rows[j][j])
+            graph.pivots.update(greater.parts)
             sign = choice(graph, greater, -sign, sign)
             pairs = list(zip(rows[j], rows[i], strict=True))
             rows[j], rows[i] = (

@@ -3,14 +3,11 @@
 import ast
 from collections.abc import Iterable, Iterator, Mapping
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
-import numpy as np
-
-from mechsheet import units
-from mechsheet.recording.literals import is_pure
 from mechsheet.worksheet.cells import Worksheet, bound
 from mechsheet.worksheet.lines import Formula
+from mechsheet.worksheet.numbers import scientific
 
 _SIGNS: dict[str, tuple[type[ast.AST], ...]] = {
     "add": (ast.Add, ast.Sub), "sub": (ast.Add, ast.Sub), "pow": (ast.Pow,), "mod": (ast.Mod,),
@@ -39,7 +36,6 @@ class Places:
     def __init__(self, sheet: Worksheet, known: Mapping[str, Formula]) -> None:
         self.sheet, self.known = sheet, known
         self.statements = {line.lineno: line for cell in sheet.cells for line in cell.lines}
-        self._read = dict[int, frozenset[str]]()
 
     @cached_property
     def functions(self) -> dict[str, ast.stmt]:
@@ -95,12 +91,6 @@ class Places:
                     return node.lineno
         return max(lines, default=0)
 
-    def reads(self, line: int) -> frozenset[str]:
-        """Names, attributes too, that the statement of a line reads, and the worksheet's functions that it calls."""
-        if line not in self._read:
-            self._read[line] = frozenset(name for part in self.parts(line) for name in _names(part))
-        return self._read[line]
-
     def parts(self, line: int) -> list[ast.stmt]:
         """The statement of a line, then the functions of the worksheet that it calls, those that these call too."""
         found = [self.statements[line]] if line in self.statements else []
@@ -109,35 +99,11 @@ class Places:
             found += [function for function in dict.fromkeys(called) if function not in found]
         return found
 
-    def unit_read(self, line: int, values: Mapping[str, Any]) -> str:
-        """A name that a line reads and that is a number which may have a unit, though none is recorded with it.
-
-        That is a unit, what a line declares of a literal, or what Python made of a text or of its like.
-        """
-        for name in sorted(self.reads(line)):
-            value = values.get(name)
-            if type(value) not in (int, float):
-                continue
-            if name in self.known:
-                if any(units.parse(self.known[name].unit).dims):
-                    return name
-            elif name in self.lines:
-                if isinstance(value, float) and not self.reads(self.lines[name]).isdisjoint(("g", *self.lines)):
-                    return name
-            elif name in units.UNITS and units.UNITS[name].factor == value and any(units.UNITS[name].dims):
-                return name
-        return ""
-
-    def reads_numbers(self, line: int, values: Mapping[str, Any]) -> bool:
-        """Whether a line has numbers of its own that may have a unit, or reads some: not the library's own ones."""
-        for node in (node for part in self.parts(line) for node in ast.walk(part)):
-            match node:
-                case ast.Constant(int() | float() as number) if not is_pure(number):
-                    return True
-                case ast.List() | ast.Tuple() if sum(isinstance(n, ast.Constant) for n in node.elts) > 1:
-                    return True
-        plain = (name for name in self.reads(line) if name in self.lines)
-        return any(isinstance(values.get(name), float | list | tuple | dict | np.ndarray) for name in plain)
+    def literals(self, expression: ast.expr) -> list[str]:
+        """The numbers of several digits that a formula has, as they are written."""
+        numbers = [n for n in ast.walk(expression) if isinstance(n, ast.Constant)]
+        ordered = (n.value for n in sorted(numbers, key=lambda n: (n.lineno, n.col_offset)))
+        return [repr(x) for x in ordered if isinstance(x, int | float) and scientific(x, 1)[2] != "0"]
 
     def find(self, line: int, op: str, operands: list[set[str]]) -> tuple[int, str]:
         """Line and text of the part that does an operation on what is made of the names of its operands."""
@@ -178,7 +144,7 @@ def _alike(parts: list[ast.expr], names: set[str], own: set[str]) -> float:
     """Names that both have, of those that either has; what a function calls its own may be any."""
     read = {name for part in parts for name in _names(part)} - _CALLED
     if read & own:
-        return (0.6 + len(read & names)) / (1 + len(read - own))
+        return (0.6 + len((read - own) & names)) / (1 + len(read - own))
     return len(read & names) / len(read | names) if read or names else 1.0
 
 

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.lib.mixins import NDArrayOperatorsMixin
 
 from mechsheet.recording.graph import Graph, Label, Node, NotRecorded, Values, is_number
+from mechsheet.units import Constant
 
 UFUNCS: dict[Any, Callable[..., "Quantity"]] = {}  # of quantities
 FUNCTIONS: dict[Any, Callable[..., Any]] = {}  # of the graph and whatever numpy's function takes
@@ -243,6 +244,11 @@ class Quantity(NDArrayOperatorsMixin):
         return operation(self.graph, *args, **kwargs)
 
 
+def is_literal(value: Quantity) -> bool:
+    """Whether a real number, or an array of them, without a unit."""
+    return value.im is None and value.re.op == "constant" and not value.re.args
+
+
 def owner(array: Any) -> Any:
     """The array whose elements an array shows."""
     while isinstance(base := getattr(array, "base", None), np.ndarray | Quantity):
@@ -289,6 +295,8 @@ def lift(graph: Graph, value: Any) -> Quantity:
         return value
     if isinstance(value, list | tuple) and has_quantity(value):
         return stack([lift(graph, v) for v in value])
+    if isinstance(value, Constant):
+        return Quantity(graph, graph.constant(float(value), value.unit))
     array = np.asarray(value)
     if array.dtype.kind == "c":
         return Quantity(graph, graph.constant(array.real), graph.constant(array.imag))

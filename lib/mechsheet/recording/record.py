@@ -1,5 +1,6 @@
 """A worksheet recorded: its statements run one by one with quantities that remember what is done with them."""
 
+import ast
 from collections.abc import Iterable, Mapping, Sequence
 from itertools import chain
 from pathlib import Path
@@ -8,28 +9,36 @@ from typing import Any
 
 import numpy as np
 
+from mechsheet import units
 from mechsheet.recording import statement
 from mechsheet.recording.given import given
 from mechsheet.recording.graph import Gap, Graph, Guard, Node, NotRecorded, bottom_up, current
 from mechsheet.recording.lines import Recording
 from mechsheet.recording.memory import Memory, changes, names_of
-from mechsheet.recording.quantity import Quantity
+from mechsheet.recording.quantity import Quantity, has_quantity, is_literal
 from mechsheet.recording.quantity import choice as where
 from mechsheet.recording.stage import Stage, held
-from mechsheet.recording.substitutes import BUILTINS, shared, staged
+from mechsheet.recording.substitutes import BUILTINS, instead, shared, staged
 from mechsheet.recording.unrepeatable import Unrepeatable
+from mechsheet.units import Constant
 from mechsheet.worksheet.cells import Worksheet, load
 from mechsheet.worksheet.check import Check
-from mechsheet.worksheet.lines import registry
+from mechsheet.worksheet.lines import Formula, registry
 from mechsheet.worksheet.table import Figure, Table
 from mechsheet.worksheet.title import Slider
 from mechsheet.worksheet.verdict import Verdict
 
 
-def record(namespace: Mapping[str, Any], sheet: Worksheet | None = None, whole: bool = False) -> Recording:
+def record(
+    namespace: Mapping[str, Any],
+    sheet: Worksheet | None = None,
+    whole: bool = False,
+    known: Mapping[str, Formula] | None = None,
+) -> Recording:
     """Run the cells behind the tables, found values and checks of ``namespace`` with recorded quantities.
 
-    ``sheet`` has the cells where they are not those of the file; with ``whole`` all of them are run. What a recording
+    ``sheet`` has the cells where they are not those of the file, and ``known`` the lines that declare a unit where the
+    namespace does not tell; with ``whole`` all cells are run. What a recording
     does not hold keeps the numbers of the worksheet's own run, as nodes ``exported`` that know what they rest on;
     `Recording.gaps` says where and why. Where all tables list every so many positions, only those are recorded, and
     all of them only for single numbers that rest on all, such as an integral.
@@ -40,7 +49,7 @@ def record(namespace: Mapping[str, Any], sheet: Worksheet | None = None, whole: 
     graph = Graph(listed.pop() if len(listed) == 1 else 1)
     token = current.set(graph)
     try:
-        return _Run(sheet, graph, namespace, want).recording
+        return _Run(sheet, graph, namespace, want, registry(namespace) if known is None else known).recording
     finally:
         current.reset(token)
 
@@ -48,7 +57,14 @@ def record(namespace: Mapping[str, Any], sheet: Worksheet | None = None, whole: 
 class _Run:
     """One run of a worksheet's cells, statement by statement."""
 
-    def __init__(self, sheet: Worksheet, graph: Graph, namespace: Mapping[str, Any], want: Sequence[str]) -> None:
+    def __init__(
+        self,
+        sheet: Worksheet,
+        graph: Graph,
+        namespace: Mapping[str, Any],
+        want: Sequence[str],
+        lines: Mapping[str, Formula],
+    ) -> None:
         self.sheet, self.graph, self.namespace = sheet, graph, namespace
         g, known = given(graph, namespace["g"])
         self.recording = Recording(graph, known, every=graph.thin)
@@ -59,7 +75,9 @@ class _Run:
         self.lost: dict[str, NotRecorded] = {}  # names that have no value here, and why
         self.passing: dict[str, Any] = {}  # of these, lines whose numbers are others at the next run
         self.everywhere: dict[str, _Run] = {}  # over all positions, by the cell that needs it
-        self.lines = lines = registry(namespace)
+        self.lines = lines
+        for line in sheet.setup:
+            self.set_up(line, sheet.path)
         for cell in sheet.needed(want, {"g": g}):
             stage = Stage(self.recording, namespace, cell)
             facts = [statement.facts(line, sheet.path) for line in cell.lines]
@@ -98,6 +116,7 @@ class _Run:
         try:
             with np.errstate(all="ignore"):  # the worksheet's own run has warned
                 exec(facts.code, self.names)
+            self.measure(touched, reads)
             differs = self.differing(stage, final)
             if graph.thin > 1 and all(np.size(self.namespace[name]) == 1 for name in differs):
                 self.over_all(stage, [name for name in differs if not self.of_listed(name)])
@@ -131,6 +150,35 @@ class _Run:
                 self.names[name] = self.while_same(value, rests.values())
         stage.finish(lambda x: self.while_same(x, shown.values()))
 
+    def measure(self, touched: Iterable[str], reads: frozenset[str]) -> None:
+        """Let unit constants that a statement binds be quantities, and numbers that a line declares in a unit.
+
+        The unit of what Python made a number of, out of what it reads, is not known.
+        """
+        made = any(has_quantity(self.names.get(name)) for name in reads)
+        for name in touched:
+            value, line = self.names.get(name), self.lines.get(name)
+            if isinstance(value, Constant) or value is units:
+                self.names[name] = instead(value)
+                continue
+            unit = line.unit if line and not line.arguments else "-"
+            number = value.re.value if isinstance(value, Quantity) and is_literal(value) else value
+            if any(units.parse(unit).dims) and (type(number) in (int, float) or _is_array(number)):
+                self.names[name] = Quantity(self.graph, self.graph.constant(number, unit))
+            elif made and (type(value) is float or _is_array(value)):
+                self.names[name] = Quantity(self.graph, self.graph.constant(value, units.UNKNOWN))
+
+    def set_up(self, line: ast.stmt, path: str) -> None:
+        """Run a statement of the setup again where it computes with units or declares one; else its numbers stay."""
+        facts = statement.facts(line, path)
+        measured = "units" in facts.loaded or not self.lines.keys().isdisjoint(facts.touched)
+        if measured or any(has_quantity(self.names.get(name)) for name in self.read(facts.loaded)):
+            try:
+                exec(facts.code, self.names)
+            except (Exception, NotRecorded):  # its numbers stay, of no known dimension
+                return
+            self.measure(facts.touched, frozenset())
+
     def keep(
         self, stage: Stage, touched: Iterable[str], final: set[str], reason: NotRecorded, rests_on: list[Node]
     ) -> None:
@@ -138,6 +186,12 @@ class _Run:
         graph = self.graph
         graph.work = 0
         stage.forget()
+        own = [self.namespace.get(name) for name in touched]
+        lasting = graph.thin == 1 and final.issuperset(touched) and not isinstance(reason, Unrepeatable)
+        if lasting and not rests_on and all(map(_is_number, own)):
+            for name, number in zip(touched, own, strict=True):  # the same for all inputs
+                self.names[name], self.looked[name] = Quantity(graph, graph.constant(number, units.UNKNOWN)), ()
+            return
         guards = tuple(Guard(graph.same(leaf), graph.line) for leaf in rests_on)
         if not touched or any(held(self.namespace.get(name)) for name in final) or not final.issuperset(touched):
             if not (isinstance(reason, Unrepeatable) and reason in self.lost.values()):  # what rests on that is known
@@ -191,7 +245,7 @@ class _Run:
             kept = graph.thin, graph.line, graph.looked, graph.work
             labels, graph.labels, graph.thin = graph.labels, {}, 1  # what only this run needs is no named step
             try:
-                self.everywhere[cell.name] = run = _Run(self.sheet, graph, self.namespace, cell.gives)
+                self.everywhere[cell.name] = run = _Run(self.sheet, graph, self.namespace, cell.gives, self.lines)
             finally:
                 graph.thin, graph.line, graph.looked, graph.work = kept
                 graph.labels = labels
@@ -281,6 +335,14 @@ def leaves_of(roots: Iterable[Node], recording: Recording) -> list[Node]:
         waiting.extend(node.operands)
     order = {node: n for n, node in enumerate(recording.inputs.values())}
     return sorted(found, key=order.__getitem__)
+
+
+def _is_array(value: Any) -> bool:
+    return isinstance(value, np.ndarray) and value.dtype.kind in "iuf"
+
+
+def _is_number(value: Any) -> bool:
+    return isinstance(value, float | np.floating) or _is_array(value)
 
 
 def _shown(value: Any) -> bool:

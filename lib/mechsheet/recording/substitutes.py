@@ -18,6 +18,7 @@ from typing import Any
 
 import numpy as np
 
+from mechsheet import units
 from mechsheet.recording.graph import NotRecorded, current
 from mechsheet.recording.numpy_rules import arange, linspace, trapezoid_so_far
 from mechsheet.recording.quantity import FUNCTIONS, Quantity, has_quantity, lift, plain
@@ -62,6 +63,10 @@ def instead(value: Any) -> Any:
         return _NOTHING
     if isinstance(value, ModuleType):
         return _module(value)
+    if isinstance(value, units.Constant):
+        return lift(current.get(), value)
+    if value is units.celsius:
+        return lambda degrees: (degrees + units.celsius(0)) * lift(current.get(), units.constant("K"))
     if (refusing := instead_of_chance(value)) is not None:
         return refusing
     if isinstance(value, BuiltinFunctionType) and value in _MATH:
@@ -112,7 +117,7 @@ def _of_numpy(value: Any) -> bool:
 
 
 class _Module:
-    """A module whose functions take recorded quantities."""
+    """A module whose functions take recorded quantities; the units are such."""
 
     def __init__(self, module: Any) -> None:
         self._module = module

@@ -1,6 +1,7 @@
 """The text of a spreadsheet's formula for a recorded quantity."""
 
 import math
+import re
 from collections.abc import Mapping
 from dataclasses import replace
 from functools import lru_cache
@@ -118,7 +119,13 @@ class CellFormulas:
         match node.op:
             case "constant":
                 text = written(_only(node.value.reshape(-1)[at if node.size > 1 else 0]))
+                if node.args and re.fullmatch("10{6,}", text):  # as of MPa
+                    text = f"1E{len(text) - 1}"
                 return text, 2 if text.startswith("-") else 3 if "*" in text or "/" in text else 5
+            case "mul" | "div" if _is_one(node.args[1]):
+                return self._element(node.args[0], _position(node.args[0].shape, node.shape, at), rows)
+            case "mul" if _is_one(node.args[0]):
+                return self._element(node.args[1], _position(node.args[1].shape, node.shape, at), rows)
             case "rows":
                 place = self.places.get(node)
                 return f"ROW()-{place.row + 1 if place else 1}", 2
@@ -210,13 +217,25 @@ def _safe(node: Node) -> bool:
     """Whether this operation has a value for all operands: a length, a square, a part by a number."""
     match node.op:
         case "div":
-            return bool(node.args[1].op == "constant")
+            return _is_constant(node.args[1])
         case "pow":
             return node.args[1].op == "constant" and bool(np.all(node.args[1].value > 0))
         case "sqrt":
             inner = node.args[0]
             return inner.op == "add" and all(a.op == "pow" and is_number(a.args[1], 2) for a in inner.args)
     return False
+
+
+def _is_constant(node: Node) -> bool:
+    """Whether a quantity is made of constants alone, such as ``2*kN``."""
+    return all(part.op == "constant" or part.operands for part in bottom_up([node], ()))
+
+
+def _is_one(node: Node) -> bool:
+    """Whether the constant of a unit without a factor, such as N, or a power of it."""
+    if node.op == "pow":
+        return _is_one(node.args[0])
+    return node.op == "constant" and bool(node.args) and node.size == 1 and bool(node.value == 1)
 
 
 def _scaled(text: str, factor: float) -> str:

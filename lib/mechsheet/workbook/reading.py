@@ -63,8 +63,7 @@ def inputs(path: Path, declared: Sequence[Input]) -> dict[str, object]:
             number_of = found if name in named else several.setdefault(fields[name].name, dict[str, object]())
             number_of[name] = _checked(path, fields[name], value, number, columns[1])
             if (_text(unit) or "-") not in (fields[name].unit, shown(fields[name].unit)):
-                wrong = cut(_text(unit)) or "an empty cell"
-                raise SheetError(f"{_at(path, at[2])}: {wrong} is not the unit of {name}, which is {fields[name].unit}")
+                number_of[name] = _converted(fields[name], value, _text(unit), _at(path, at[2]))
     for field in (f for f in declared if isinstance(f, Rows)):
         lists = {column.name: list(several[column.name].values()) for column in field.columns if column.name in several}
         if lists:
@@ -88,6 +87,19 @@ def _checked(path: Path, field: Input, value: object, row: int, column: int) -> 
     except SheetError as error:
         raise SheetError(f"{place}: {error}") from None
     return value
+
+
+def _converted(field: Input, value: object, unit: str, place: str) -> str:
+    """The value of an input with the other unit that somebody has typed beside it."""
+    wrong = f"{place}: {cut(unit) or 'an empty cell'} is not the unit of {field.name}, which is {field.unit}"
+    if not unit:
+        raise SheetError(wrong)
+    text = f"{value} {unit}"
+    try:
+        field.read(text)
+    except SheetError as error:
+        raise SheetError(f"{wrong}: {error}") from None
+    return text
 
 
 def _columns(path: Path, rows: Iterator[_Row]) -> list[int]:

@@ -43,6 +43,7 @@ class Worksheet:
     cells: tuple[Cell, ...]
     common: Mapping[str, Any]
     title: str
+    setup: tuple[ast.stmt, ...] = ()  # statements that bind shared names to values
 
     def run(self, want: Iterable[str], given: Mapping[str, Any]) -> dict[str, Any]:
         """Namespace after running the cells that ``want`` depends on, where the names ``given`` are known already.
@@ -262,7 +263,8 @@ def read(path: Path) -> Worksheet:
                 lines.append(node)
     with raised():
         exec(compile(ast.Module(lines, []), path, "exec"), common)
-    return Worksheet(str(path), tuple(_cells(tree, path)), common, _title(tree) or path.stem)
+    setup = tuple(node for node in lines if isinstance(node, ast.Assign | ast.AnnAssign))
+    return Worksheet(str(path), tuple(_cells(tree, path)), common, _title(tree) or path.stem, setup)
 
 
 def _title(tree: ast.Module) -> str | None:

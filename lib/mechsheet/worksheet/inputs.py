@@ -107,10 +107,12 @@ def _declared(cls: type, cell: source.Cell, names: Mapping[str, Any]) -> tuple[I
         kind, default = cls.__annotations__[name], vars(cls).get(name)
         kind = eval(kind, dict(names)) if isinstance(kind, str) else kind
         comment = cell.comments.get(line, "")
-        text = lines.declared(comment, place)
+        text = lines.declared(comment)
         if text is None and kind in (int, float, list[float]) and not isinstance(default, Offer):
             raise SheetError(f"{place}: input {name} needs a comment with its unit, such as # [m] meaning")
-        unit, (meaning, _, limits) = text[0] if text else "-", (text[1] if text else comment).partition(";")
+        if text and text.mistake:
+            raise SheetError(f"{place}: {text.mistake}")
+        unit, (meaning, _, limits) = text.unit if text else "-", (text.meaning if text else comment).partition(";")
         plain = Input(name, unit, meaning.strip(), section, kind is int, tuple(_limits(limits, name, place)))
         own = _of_kind(plain, kind, default, place, folder)
         if isinstance(own, Rows):

@@ -60,11 +60,15 @@ class Input:
         try:
             x, other = _split(value)
             if other:
-                theirs, own = units.parse(other), units.parse(self.unit)
+                given = f"{self.meaning} {self.name} = {errors.as_given(value)}"
+                try:
+                    theirs, own = units.parse(other), units.parse(self.unit)
+                except ValueError as error:
+                    raise SheetError(f"{given}: {error}") from None
                 if theirs.dims != own.dims:
-                    raise SheetError(
-                        f"{self.meaning} {self.name} = {errors.as_given(value)}: {other} does not measure {self.unit}"
-                    )
+                    raise SheetError(f"{given}: {other} does not measure {self.unit}")
+                if units.plain(other) != self.unit and "degC" in (units.plain(other), self.unit):
+                    raise SheetError(f"{given}: write it in {self.unit}, for a temperature is not a difference")
                 x = float(numbers.significant(x * (theirs.factor / own.factor), 15))
         except SheetError:
             raise
@@ -358,7 +362,7 @@ def _split(value: object) -> tuple[float, str]:
         return _float(value), ""
     match = None if isinstance(value, bool) else _NUMBER.fullmatch(str(value).strip())
     unit = match[2].strip() if match else ""
-    if not match or (unit and not (len(unit) < _UNIT and re.match(r"[^\W\d_]|%|1/", unit))):
+    if not match or (unit and not (len(unit) < _UNIT and re.match(r"[^\W\d_]|[%°]|1/", unit))):
         raise ValueError(f"{errors.as_given(value)} is no number")
     return float(match[1].replace(",", ".").replace("−", "-")), unit
 

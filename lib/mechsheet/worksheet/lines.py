@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from operator import attrgetter
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -27,7 +27,9 @@ class Formula:
 
     ``number`` is that of the printed formula, in its brackets: ``(1.26)``, ``(1.13), (1.14)``, or nothing.
     ``arguments`` are those of a function, by lambda or def; ``where`` its own names with what they stand for. The
-    expression of a function with more than branches and such names in it is ``...``.
+    expression of a function with more than branches and such names in it is ``...``. ``constants`` are the names of
+    units in it, as they are written, with the units. ``mistake`` tells why the unit is not known, and the value shown
+    in SI.
     """
 
     name: str
@@ -37,6 +39,8 @@ class Formula:
     arguments: tuple[str, ...] = ()
     where: tuple[tuple[str, ast.expr], ...] = ()
     number: str = ""
+    constants: tuple[tuple[str, str], ...] = ()
+    mistake: str = ""
 
 
 @dataclass(frozen=True)
@@ -46,21 +50,33 @@ class Given:
     expression: ast.expr
     target: ast.expr
     first: bool = True
+    constants: tuple[tuple[str, str], ...] = ()
 
 
-def declared(comment: str, place: str) -> tuple[str, str] | None:
-    """Unit and meaning of a comment ``[unit] meaning``; None where a comment declares nothing.
+class Declared(NamedTuple):
+    """What a comment ``[unit] meaning`` declares, and why its unit is not known."""
 
-    Raises SheetError naming the place where the unit is not known.
-    """
+    unit: str
+    meaning: str
+    mistake: str
+
+
+def declared(comment: str) -> Declared | None:
+    """Unit, in signs that Python reads, and meaning of a comment; None where it declares nothing."""
     match = _DECLARED.match(comment)
     if not match:
         return None
+    unit, mistake = _read(match[1])
+    return Declared(unit, match[2], mistake)
+
+
+def _read(unit: str) -> tuple[str, str]:
+    """A unit as it is typed, and why it is not known."""
     try:
-        units.parse(match[1])
+        units.parse(unit)
     except ValueError as error:
-        raise SheetError(f"{place}: {error}") from None
-    return match[1], match[2]
+        return units.UNKNOWN, str(error)
+    return units.plain(unit), ""
 
 
 @lru_cache(maxsize=1000)
@@ -77,7 +93,7 @@ def _formulas(cell: source.Cell) -> Iterator[Formula | Given]:
                 continue
         lines, number = _bound(node), node.end_lineno or node.lineno
         found = _declared_each(cell.comments.get(number, ""), cell.at(number), len(lines)) if lines else ()
-        for line, (unit, text) in zip(lines, found, strict=False):
+        for line, told in zip(lines, found, strict=False):
             match line.expression:  # without brackets of its own it begins where its first part does
                 case ast.Tuple([first, *_]) as several if first.col_offset == several.col_offset:
                     raise SheetError(
@@ -85,8 +101,9 @@ def _formulas(cell: source.Cell) -> Iterator[Formula | Given]:
                         "a decimal number has a point, not a comma"
                     )
             if not line.name.startswith("_"):
-                printed = match[0] if (match := _NUMBER.match(text)) else ""
-                yield replace(line, unit=unit, number=printed, meaning=text.removeprefix(printed).lstrip())
+                printed = match[0] if (match := _NUMBER.match(told.meaning)) else ""
+                meaning = told.meaning.removeprefix(printed).lstrip()
+                yield replace(line, unit=told.unit, number=printed, meaning=meaning, mistake=told.mistake)
 
 
 def _bound(node: ast.stmt) -> list[Formula]:
@@ -107,10 +124,10 @@ def _bound(node: ast.stmt) -> list[Formula]:
     return []
 
 
-def _declared_each(comment: str, place: str, count: int) -> Iterator[tuple[str, str]]:
+def _declared_each(comment: str, place: str, count: int) -> Iterator[Declared]:
     """Unit and meaning of each name of a line; several are told as ``[m] one, [s] other``."""
     parts = re.split(r",\s*(?=\[)", comment) if count > 1 else [comment]
-    found = [pair for part in parts if (pair := declared(part, place))]
+    found = [told for part in parts if (told := declared(part))]
     if found and len(found) != count:
         raise SheetError(f"{place}: {count} names need {count} units, such as # [m] one, [s] other; got {len(found)}")
     yield from found
@@ -168,7 +185,7 @@ def registry(namespace: Mapping[str, Any], cells: tuple[source.Cell, ...] | None
 
     ``cells`` are those of the worksheet where the namespace is a copy and does not tell.
 
-    Raises SheetError where a line is asked for in whose cell a unit is not known.
+    Raises SheetError where a line is asked for in whose cell names and units do not match.
     """
     return _Registry(_lines(source.cells(namespace) if cells is None else cells), namespace)
 
@@ -218,7 +235,10 @@ class _Line:
 
 
 def _displayed(line: Formula, display: Mapping[str, str]) -> Formula:
-    return replace(line, unit=display[line.unit]) if line.unit in display else line
+    if line.unit not in display:
+        return line
+    unit, mistake = _read(display[line.unit])
+    return replace(line, unit=unit, mistake=mistake)
 
 
 @lru_cache(maxsize=32)
@@ -230,8 +250,7 @@ def _lines(cells: tuple[source.Cell, ...]) -> dict[str, _Line | SheetError]:
         try:
             found |= {row.name: _Line(row, display) for row in formulas(cell) if isinstance(row, Formula)}
         except SheetError as error:
-            assigned = (target for node in cell.body if isinstance(node, ast.Assign) for target in node.targets)
-            found |= {target.id: error for target in assigned if isinstance(target, ast.Name)}
+            found |= {line.name: error for node in cell.body for line in _bound(node)}
     return found
 
 
@@ -250,9 +269,9 @@ def typeset(*shown: Any, display: Mapping[str, str] | None = None) -> "Typeset":
     Where a cell calls it again, each call has the lines above it that no call above it has. Reads the cell's own
     source, so nothing is typed twice. Nothing is rendered until the page asks. A text is Markdown. ``display``
     gives another display unit for some of the declared ones, such as ``{"kgf": "N"}``, to tables and figures too: a
-    dictionary as it is written, or a name of the worksheet.
+    dictionary as it is written, or a name of the worksheet. A line whose unit is not known is shown in SI, and why.
 
-    Raises SheetError naming the line where a unit is not known.
+    Raises SheetError naming the line whose names and units do not match.
     """
     frame = sys._getframe(1)
     cell, here = source.cell(frame), frame.f_lineno
@@ -262,8 +281,32 @@ def typeset(*shown: Any, display: Mapping[str, str] | None = None) -> "Typeset":
     except SheetError as error:
         refuse(error)
     rows = [_displayed(row, display or {}) if isinstance(row, Formula) else row for row in lines]
+    rows = [_with_constants(row, frame.f_globals) for row in rows]
     values = tuple(frame.f_globals[row.name] if isinstance(row, Formula) else None for row in rows)
     return Typeset(tuple(rows), values, shown, Numbers(frame.f_globals))
+
+
+def _with_constants(row: Formula | Given, namespace: Mapping[str, Any]) -> Formula | Given:
+    """A line with the units among the names that it reads."""
+    found = ((name, _of_unit(name, namespace)) for name in _names(row))
+    constants = tuple((name, value.unit) for name, value in found if isinstance(value, units.Constant))
+    return replace(row, constants=constants) if constants else row
+
+
+def _of_unit(name: str, namespace: Mapping[str, Any]) -> Any:
+    head, dot, part = name.partition(".")
+    value = namespace.get(head)
+    return value if not dot else getattr(units, part, None) if value is units else None
+
+
+@lru_cache(maxsize=4096)
+def _names(row: Formula | Given) -> tuple[str, ...]:
+    """Names that a line reads, parts of modules too, without its arguments."""
+    parts = [row.expression, *((row.target,) if isinstance(row, Given) else (value for _, value in row.where))]
+    nodes = (node for part in parts for node in ast.walk(part))
+    read = (ast.unparse(node) for node in nodes if isinstance(node, ast.Name | ast.Attribute))
+    own = () if isinstance(row, Given) else (*row.arguments, *(name for name, _ in row.where))
+    return tuple(name for name in dict.fromkeys(read) if name not in own)
 
 
 @lru_cache(maxsize=1000)

@@ -1,0 +1,48 @@
+"""Units: constants to compute with, and display units written as in ``[kN*m]``.
+
+>>> from mechsheet.units import MPa, kN
+>>> 27.5 * kN / (25 * MPa)
+0.0011
+
+A constant is the number of SI units that its unit holds, for every SI unit with its prefixes and those that engineers
+type; `define` adds one's own. A display unit is read into that factor and the exponents of the base units. Knows
+nothing of the package; the stub beside this file tells the names, which type checkers and editors read.
+"""
+
+from mechsheet.units.definitions import PURE, Constant, Dims, Unit, celsius, constant, define, names, nearest, parse
+from mechsheet.units.printing import alike, raised, shown, si, word
+from mechsheet.units.text import UNKNOWN, plain
+
+__all__ = [
+    "PURE",
+    "UNKNOWN",
+    "Constant",
+    "Dims",
+    "Unit",
+    "alike",
+    "celsius",
+    "constant",
+    "define",
+    "names",
+    "nearest",
+    "parse",
+    "plain",
+    "raised",
+    "shown",
+    "si",
+    "word",
+]
+
+
+def __getattr__(name: str) -> float:
+    """The constant of a unit, such as ``from mechsheet.units import kN``."""
+    try:
+        value = globals()[name] = constant(name)
+    except KeyError:
+        near = nearest(name)
+        raise AttributeError(f"unit {name} is not known" + (f"; nearest: {', '.join(near)}" if near else "")) from None
+    return value
+
+
+def __dir__() -> list[str]:
+    return sorted([*globals(), *filter(str.isidentifier, names())])
