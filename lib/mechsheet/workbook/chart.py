@@ -17,10 +17,11 @@ from mechsheet.workbook.table_sheet import Spot
 from mechsheet.worksheet.table import Column, Figure
 
 
-class Drawn(NamedTuple):
-    """A figure, where the columns stand that it shows, and which of them hold for the exported inputs only."""
+class Listed(NamedTuple):
+    """Columns of a figure or table, where they stand, and which places hold for the exported inputs only."""
 
-    figure: Figure
+    columns: Sequence[Column]
+    source: str
     place: Callable[[Column], Place]
     grey: Container[int]
 
@@ -30,7 +31,7 @@ class Charts:
 
     def __init__(self, book: Book, formulas: SheetFormulas | None) -> None:
         self._book, self._formulas = book, formulas
-        self.drawn: list[Drawn] = []
+        self.drawn: list[Listed] = []
         self._marked: list[tuple[Content, ...]] = []
 
     def insert(
@@ -41,7 +42,7 @@ class Charts:
         def place(column: Column) -> Place:
             return Place("", name, looks.FIRST, next(n for n, c in enumerate(columns) if same_column(column, c)))
 
-        self.drawn.append(Drawn(figure, place, grey))
+        self.drawn.append(Listed(figure.lines, f"figure {figure.number}", place, grey))
         chart = self._chart(figure, place)
         chart.set_size({"width": spot.width, "height": spot.height})
         inside = {"x_offset": spot.right, "y_offset": spot.down, "object_position": 2}

@@ -10,7 +10,7 @@ from mechsheet.recording.graph import Gap
 from mechsheet.workbook import looks
 from mechsheet.workbook.book import Book
 from mechsheet.workbook.cell_formula import AGGREGATE
-from mechsheet.workbook.chart import Drawn
+from mechsheet.workbook.chart import Listed
 from mechsheet.workbook.content import LARGEST, Content, Live, put
 from mechsheet.workbook.find_sheet import FoundRow
 from mechsheet.workbook.place import Place, quoted
@@ -71,8 +71,8 @@ def write(book: Book, sheet: Any, checks: Sequence[Check], results: Sequence[Res
         put(sheet, row, 0, _GREY, book.style(looks.NOTE))
 
 
-def results(found: Sequence[FoundRow], drawn: Sequence[Drawn], formulas: SheetFormulas | None) -> list[Result]:
-    """The found values, else the numbers on which no other line rests; then what the figures show."""
+def results(found: Sequence[FoundRow], drawn: Sequence[Listed], formulas: SheetFormulas | None) -> list[Result]:
+    """The found values, else the numbers on which no other line rests; then what figures show, else tables."""
     first = [
         Result(row.symbol, (Live(f"=Find!$B${n}", row.value),), row.unit, row.meaning, looks.VALUE)
         for n, row in enumerate(found, 3)
@@ -95,10 +95,10 @@ def _last(formulas: SheetFormulas) -> Iterator[Result]:
         yield Result(line.symbol, (value,), line.unit, line.meaning, looks.VALUE, formulas.kept(line.node))
 
 
-def _shown(drawn: Sequence[Drawn]) -> Iterator[Result]:
+def _shown(drawn: Sequence[Listed]) -> Iterator[Result]:
     seen = set[Place]()
-    for figure, place, grey in drawn:
-        for column in figure.lines:
+    for columns, source, place, grey in drawn:
+        for column in columns:
             at = place(column)
             if at in seen:
                 continue
@@ -110,7 +110,7 @@ def _shown(drawn: Sequence[Drawn]) -> Iterator[Result]:
                 for code, end in ((5, min), (4, max))
             ]
             look = {**looks.NUMBER, "num_format": fixed(0, column.decimals) + ("E+00" if column.power else "")}
-            meaning = f"{column.meaning}, figure {figure.number}" if column.meaning else f"figure {figure.number}"
+            meaning = f"{column.meaning}, {source}" if column.meaning else source
             yield Result(column.symbol, tuple(ends), column.unit, meaning, look, at.column in grey)
 
 

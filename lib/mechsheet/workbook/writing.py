@@ -7,10 +7,11 @@ from mechsheet.recording.lines import Recording
 from mechsheet.workbook import checks_sheet, find_sheet, front_sheet, inputs_sheet, looks, section_sheets, table_sheet
 from mechsheet.workbook.arrangement import Arrangement
 from mechsheet.workbook.book import Book
-from mechsheet.workbook.chart import Charts, same_column
+from mechsheet.workbook.chart import Charts, Listed, same_column
 from mechsheet.workbook.content import caption
 from mechsheet.workbook.find_sheet import FoundRow
 from mechsheet.workbook.inputs_sheet import InputRow
+from mechsheet.workbook.place import Place
 from mechsheet.workbook.sheet_formulas import SheetFormulas
 from mechsheet.worksheet.check import Check
 from mechsheet.worksheet.table import Column, Figure, Table
@@ -58,10 +59,10 @@ def workbook(
     inputs_sheet.write(book, inputs, formulas)
     if found:
         find_sheet.write(book, found, formulas)
-    for table, name in zip(tables, names, strict=True):
+    greys = [formulas.exported(table) if formulas else () for table in tables]
+    for table, name, grey in zip(tables, names, greys, strict=True):
         held = [figure for figure, holder in zip(figures, holders, strict=True) if holder is table]
         columns = table_sheet.contents(table, formulas)
-        grey = formulas.exported(table) if formulas else ()
         note = f"{table.note} {table_sheet.not_followed(table.columns, grey)}".strip()
         sheet, spots = table_sheet.write(book, name, caption("Table", table), note, columns, len(held), grey=grey)
         for figure, spot in zip(held, spots, strict=True):
@@ -77,9 +78,17 @@ def workbook(
         for section in formulas.arrangement.sections:
             section_sheets.write(book, section, formulas)
     charts.marks()
-    results = front_sheet.results(found, charts.drawn, formulas)
+    listed = charts.drawn or [_listed(*each) for each in zip(tables, names, greys, strict=True)]
+    results = front_sheet.results(found, listed, formulas)
     front_sheet.write(book, front, checks, results, recording.gaps if recording else ())
     return book.close()
+
+
+def _listed(table: Table, sheet: str, grey: Sequence[int]) -> Listed:
+    """The columns of a table that measure something."""
+    at = {id(column): Place("", sheet, looks.FIRST, n) for n, column in enumerate(table.columns)}
+    measuring = [column for column in table.columns if column.unit not in ("", "-")]
+    return Listed(measuring, f"table {table.number}", lambda column: at[id(column)], grey)
 
 
 def comparison(
