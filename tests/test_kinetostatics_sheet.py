@@ -332,4 +332,4 @@ def test_bad_input_is_one_line_and_writes_nothing(tmp_path, arguments, message):
 def test_piston_out_of_its_cylinder_is_no_success(tmp_path):
     done = script("--l6=0.2", f"--out={tmp_path}")
     assert done.returncode == 1
-    assert "FAIL  the piston stays in its cylinder: 0.0213" in done.stdout
+    assert "FAIL  the piston stays in its cylinder: 0.02129" in done.stdout

@@ -99,7 +99,7 @@ def test_raising_cell_is_no_success(tmp_path):
     sheet = changed(tmp_path, "    Ra = (", "    1 / 0\n    Ra = (")
     done = run(f"--out={tmp_path}", sheet=sheet)
     assert done.returncode == 1
-    assert "ZeroDivisionError" in done.stderr
+    assert "division by zero" in done.stderr
     assert not (tmp_path / "hitch.xlsx").exists()
 
 

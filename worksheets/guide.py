@@ -46,6 +46,11 @@ def section_1():
     a decimal comma is a decimal point, and a unit of your own is converted.
 
     **Try** in the code: below `l` add `m: float = 12.0  # [kg] ram; > 0`. A new field is there.
+
+    The kind of an input is its type: `float`, `int`, `bool` (a switch), `str` (a text), `Literal["single", "double"]`
+    (names to choose from), `one_of(GRADES, "8.8")` (options with properties, `g.bolt.R_m`), `list[float]` (load
+    cases), a list of rows of another class (a table), or either from a file beside the worksheet,
+    `from_file("gas.csv")`. Unit names are constants: `640 * MPa`, `3 * inch`.
     """)
     return
 
@@ -160,6 +165,13 @@ def section_5():
     `closed_form` compares both, and the workbook computes it.
 
     **Try** a height `h` of 150 mm: no position has it, and you are told what can be reached.
+
+    Several unknowns are found together, from guesses or in intervals, also for arrays of problems:
+
+        xy_found = find(lambda x, y: (x**2 + y**2, y - x), equals=(g.r**2, 0), x=(0, 2), y=1.0)
+        x = xy_found.value.x  # [mm] one of them
+
+    `minerr` takes more equations than unknowns. `help("mechsheet.find")` says what the verdict tells.
     """)
     return
 
