@@ -393,6 +393,36 @@ def test_branch_that_is_meant_stands_in_the_definition():
     assert r"P(S,\,L_{7}) = \operatorname{rrr}(S,\ L_{7},\ -1)" in html(text)
 
 
+@pytest.mark.parametrize(
+    ("comment", "number", "meaning"),
+    [
+        ("(1.26) known forces, x", "(1.26)", "known forces, x"),
+        ("(24)", "(24)", ""),
+        ("(1.13), (1.14)", "(1.13), (1.14)", ""),
+        ("(1.3)-(1.5) at A (erratum)", "(1.3)-(1.5)", "at A (erratum)"),
+        ("(2.33) – (2.38) slopes", "(2.33) – (2.38)", "slopes"),
+        ("(5.1b) of the first", "(5.1b)", "of the first"),
+        ("(erratum) as printed", "", "(erratum) as printed"),
+        ("(1.26)known", "", "(1.26)known"),
+        ("(8 bolts) force", "", "(8 bolts) force"),
+        ("(-1.5) of x", "", "(-1.5) of x"),
+        ("(1982) of the edition", "", "(1982) of the edition"),
+        ("force of (1.26)", "", "force of (1.26)"),
+    ],
+)
+def test_the_number_of_the_printed_formula(comment, number, meaning):
+    shown = run(IMPORT + f"a = 2.0  # [m] {comment}\nshown = typeset()")["shown"]
+    (line,) = shown.rows
+    assert (line.number, line.meaning, line.unit) == (number, meaning, "m")
+    assert re.findall('<span class="ms-number">(.*?)</span>', html(shown)) == [number][: bool(number)]
+
+
+def test_numbers_of_printed_formulas_in_a_line_of_several_names():
+    lines = "x, y = 1.0, 2.0  # [m] (1.18) along, [s] (1.19)\nf = lambda x: x  # [m] (7) itself\n"
+    rows = run(IMPORT + lines + "shown = typeset()")["shown"].rows
+    assert [(r.number, r.meaning) for r in rows] == [("(1.18)", "along"), ("(1.19)", ""), ("(7)", "itself")]
+
+
 def test_a_line_of_several_names_declares_each():
     names = run(IMPORT + "a, b = pair = (2.0, 3.0)\nu, v = pair  # [m] one, [s]\nx, y = 2 * u, v  # [m], [s] last\n"
                 "shown = typeset()")  # fmt: skip

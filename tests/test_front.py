@@ -19,7 +19,7 @@ from mechsheet.run import report
 GREY = "FFE4E4E4"
 LINES = """y = np.fft.fft(x).real  # [-] spectrum
 z = 2 * np.max(y)  # [%] rests on it
-w = 3 * g.F  # [-] does not
+w = 3 * g.F  # [-] (2.4) does not
 v = 2 * g.F  # [-] is read by another line
 u = v + g.a  # [-] reads it
 table_2 = table("2", "Spectrum", x, y)"""
@@ -209,3 +209,9 @@ def test_grey_is_what_rests_on_the_line_and_it_is_not_available_for_other_inputs
                     assert changed[sheet.title][cell.coordinate].value != "#N/A", (sheet.title, cell.coordinate)
                     white += 1
     assert grey >= 7 and white >= 10  # five numbers of the spectrum, and z on two sheets
+
+
+def test_the_number_of_a_printed_formula_stands_before_the_meaning_where_lines_are_listed(kept: Path) -> None:
+    texts = [cell.value for sheet in load_workbook(kept) for row in sheet for cell in row]
+    assert texts.count("(2.4) does not") == 1, "in the list of lines"
+    assert texts.count("does not") <= 1, "and not in the results"

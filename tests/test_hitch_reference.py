@@ -72,6 +72,9 @@ def reference(g):
     link_5, link_7 = P56 - hinge[5], P67 - hinge[7]
     D_p = moment(link_5, link_7)
     pole = hinge[5] + link_5 * moment(hinge[7] - hinge[5], link_7) / D_p  # where the links 5 and 7 meet
+    known |= {"S1_S": abs(P34 - hinge[5]), "L53_S": abs(P56 - hinge[7]), "X_p": pole.real}
+    sides = abs(hinge[5] - hinge[7]), abs(P56 - hinge[7]), g.L56  # the law of cosines, as the document has it
+    known["phi53_S"] = np.arccos((sides[0] ** 2 + sides[1] ** 2 - sides[2] ** 2) / (2 * sides[0] * sides[1]))
     return known | {"D_p": D_p, "N_p / D_p": (pole - hinge[5]).real, "k_p * D_p": turn[6]}
 
 
@@ -113,7 +116,9 @@ def reactions(g, hinge, pins, PS6):
     known |= {"R05": on_frame, "R01": R01, "R23": R01, "R03": on_5 - R01}
     # what is left of forces and moments is only rounding
     left = {f"{name}{k} / np.max(abs(R34))": 0 for name in "FM" for k in range(2, 8)}
-    return known | left
+    left |= {f"F{k} / np.max(abs(R34))": 0 for k in (23, 45, 67)}
+    printed = 2 * (P67 - P56).real * R56.imag  # twice the term whose sign is wrong
+    return known | left | {"R43": on_5, "M6_printed": printed}
 
 
 def stability(g, PS6):

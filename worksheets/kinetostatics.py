@@ -7,6 +7,7 @@ with app.setup:
     import marimo as mo
     import numpy as np
     from numpy import abs, cos, exp, hypot, isfinite, linspace, maximum, pi, sin, trapezoid, where
+    from numpy import arctan as atan
     from numpy import arctan2 as atan2
     from numpy import max as most
     from numpy import min as least
@@ -45,10 +46,11 @@ def title():
 
 @app.cell(hide_code=True)
 def verdict(
-    checks_23, checks_45, checks_67, checks_bodies, checks_closing, checks_dense, checks_drive, checks_gear, checks_work
-):
+    checks_23, checks_45, checks_67, checks_bodies, checks_closing, checks_dense, checks_directions, checks_drive,
+    checks_gear, checks_work,
+):  # fmt: skip
     summary(
-        *(checks_closing, checks_45, checks_67, checks_23, checks_gear, checks_drive),
+        *(checks_closing, checks_45, checks_67, checks_23, checks_directions, checks_gear, checks_drive),
         *(checks_bodies, checks_work, checks_dense),
     )
     return
@@ -478,7 +480,21 @@ def section_4():
     Loads and inertia of a link make one force $F$, of the direction $\gamma$, at its centre of mass, and one moment
     $M$. A component keeps its sign with its number, so the document's cases "if minus, then $\gamma = \varphi -
     0.5\,\pi$" are not needed; the two-argument arctangent gives the angles of all quadrants, for which the document
-    has the cases (1.28), (1.32) and the programs UGL2 to UGL4.
+    has the cases (1.28), (1.32) and the programs UGL2 to UGL4 (6.1).
+
+    Moments on the rod about E, as vectors and as determinants over the unit vector of the axis z, then the forces on
+    the group and on the plunger:
+
+    $$\bar l_{ED} \times \bar R_{34}^\tau + \bar l_{ES_4} \times \bar F_4 + \bar M_4 = 0 \tag{1.22}$$
+
+    $$\begin{vmatrix} l_{ED} \cos(\varphi_4 + \pi) & l_{ED} \sin(\varphi_4 + \pi) \\
+    R_{34}^\tau \cos(\varphi_4 + 0.5\,\pi) & R_{34}^\tau \sin(\varphi_4 + 0.5\,\pi) \end{vmatrix} +
+    \begin{vmatrix} l_{ES_4} \cos(\varphi_4 + \pi) & l_{ES_4} \sin(\varphi_4 + \pi) \\
+    F_4 \cos\gamma_4 & F_4 \sin\gamma_4 \end{vmatrix} + M_4 = 0 \tag{1.23}$$
+
+    $$\bar R_{34}^n + \bar R_{34}^\tau + \bar F_4 + \bar F_5 + \bar R_{05} = 0 \tag{1.25}$$
+
+    $$\bar R_{05} + \bar F_5 + \bar R_{45} = 0 \tag{1.29}$$
     """)
     return
 
@@ -492,17 +508,17 @@ def kind_2(F_Q, F_in4, F_in5, G4, G5, M_in4, g, phi4):
     F5_sum = G5 + F_in5 + F_Q  # [N] loads on the plunger 5, at E
     F5 = abs(F5_sum)  # [N] loads on the plunger 5
     gamma5 = angle(F5_sum)  # [deg] their direction
-    R34_t = (F4 * g.l_ES4 * sin(phi4 - gamma4) + M4) / g.l4  # [N] (1.24) at D, across the rod
+    R34_t = (F4 * g.l_ES4 * sin(phi4 - gamma4) + M4) / g.l4  # [N] (1.22)-(1.24) at D, across the rod
     gamma34_t = phi4 + 0.5 * pi  # [deg] its direction
-    A_45 = R34_t * cos(gamma34_t) + F4 * cos(gamma4) + F5 * cos(gamma5)  # [N] (1.26) known forces, x
-    B_45 = R34_t * sin(gamma34_t) + F4 * sin(gamma4) + F5 * sin(gamma5)  # [N] (1.26) known forces, y
-    R34_n = -(A_45 * cos(g.phi05) + B_45 * sin(g.phi05)) / cos(phi4 - g.phi05)  # [N] at D, along the rod
-    R05 = (A_45 * sin(phi4) - B_45 * cos(phi4)) / cos(phi4 - g.phi05)  # [N] of the guide, across it
+    A_45 = R34_t * cos(gamma34_t) + F4 * cos(gamma4) + F5 * cos(gamma5)  # [N] (1.25), (1.26) known forces, x
+    B_45 = R34_t * sin(gamma34_t) + F4 * sin(gamma4) + F5 * sin(gamma5)  # [N] (1.25), (1.26) known forces, y
+    R34_n = -(A_45 * cos(g.phi05) + B_45 * sin(g.phi05)) / cos(phi4 - g.phi05)  # [N] (1.26) at D, along the rod
+    R05 = (A_45 * sin(phi4) - B_45 * cos(phi4)) / cos(phi4 - g.phi05)  # [N] (1.26) of the guide, across it
     gamma05 = g.phi05 + 0.5 * pi  # [deg] its direction
     R34 = hypot(R34_n, R34_t)  # [N] (1.27) rocker 3 on the rod 4, at D
     gamma34 = (phi4 + atan2(R34_t, R34_n)) % (2 * pi)  # [deg] (1.28)
-    R45_x = -(R05 * cos(gamma05) + F5 * cos(gamma5))  # [N] (1.30) rod 4 on the plunger 5, at E
-    R45_y = -(R05 * sin(gamma05) + F5 * sin(gamma5))  # [N] (1.30)
+    R45_x = -(R05 * cos(gamma05) + F5 * cos(gamma5))  # [N] (1.29), (1.30) rod 4 on the plunger 5, at E
+    R45_y = -(R05 * sin(gamma05) + F5 * sin(gamma5))  # [N] (1.29), (1.30)
     R45 = hypot(R45_x, R45_y)  # [N] (1.31)
     gamma45 = atan2(R45_y, R45_x) % (2 * pi)  # [deg] (1.32)
     SR2 = typeset()
@@ -528,10 +544,10 @@ def compared_45(
         check("second kind: R45 is that of the library", R45 * exp(1j * gamma45) - R_E, lost, "N", of=_size),
     )
     vectors_45 = typeset()
-    r_45 = R34_n * sin(phi4) + R05 * cos(g.phi05) + B_45  # [N] left by the line with the plus
-    r_45_printed = R34_n * sin(phi4) - R05 * cos(g.phi05) + B_45  # [N] left by the line as printed (erratum)
-    R34_n_printed = -(A_45 * cos(g.phi05) - B_45 * sin(g.phi05)) / cos(phi4 + g.phi05)  # [N] as printed (erratum)
-    R05_printed = -(A_45 * sin(phi4) - B_45 * cos(phi4)) / cos(phi4 + g.phi05)  # [N] as printed (erratum)
+    r_45 = R34_n * sin(phi4) + R05 * cos(g.phi05) + B_45  # [N] (1.26) left by the line with the plus
+    r_45_printed = R34_n * sin(phi4) - R05 * cos(g.phi05) + B_45  # [N] (1.26) left by the line as printed (erratum)
+    R34_n_printed = -(A_45 * cos(g.phi05) - B_45 * sin(g.phi05)) / cos(phi4 + g.phi05)  # [N] (1.26) printed (erratum)
+    R05_printed = -(A_45 * sin(phi4) - B_45 * cos(phi4)) / cos(phi4 + g.phi05)  # [N] (1.26) as printed (erratum)
     lines_42 = typeset()
     return R_05, R_D, R_E, checks_45, lines_42, vectors_45
 
@@ -564,6 +580,30 @@ def section_5():
     The document's links 1, 2, 3, 4 and points A, E are here the links 3, 6, 7, 0 and the points K, H; its $\varphi_2$
     is $\varphi_6$, from K to H. So its $R_{12}$ is here $R_{36}$, its $R_{32}$, the force of the cylinder on the rod
     square to their common line, is $R_{76}$, and its $R_{43}$ is $R_{07}$.
+
+    Moments on the group about H, forces on the rod and on the cylinder, and moments on the rod about K, where
+    $R_{76}$ has the arm $h_{76} = l_{KN}$:
+
+    $$\bar l_{HK} \times \bar R_{36}^\tau + \bar l_{HS_6} \times \bar F_6 + \bar l_{HS_7} \times \bar F_7 + \bar M_6 +
+    \bar M_7 = 0, \qquad l_{HK} = l_6 - s_7 + l_7, \quad l_{HS_6} = l_{HK} - l_{KS_6} \tag{1.33}$$
+
+    $$\begin{gathered} \begin{vmatrix} l_{HK} \cos(\varphi_6 + \pi) & l_{HK} \sin(\varphi_6 + \pi) \\
+    R_{36}^\tau \cos(\varphi_6 + 0.5\,\pi) & R_{36}^\tau \sin(\varphi_6 + 0.5\,\pi) \end{vmatrix} +
+    \begin{vmatrix} l_{HS_6} \cos(\varphi_6 + \pi) & l_{HS_6} \sin(\varphi_6 + \pi) \\
+    F_6 \cos\gamma_6 & F_6 \sin\gamma_6 \end{vmatrix} + {} \\ {} +
+    \begin{vmatrix} l_{HS_7} \cos(\varphi_6 + \pi) & l_{HS_7} \sin(\varphi_6 + \pi) \\
+    F_7 \cos\gamma_7 & F_7 \sin\gamma_7 \end{vmatrix} + M_6 + M_7 = 0 \end{gathered} \tag{1.34}$$
+
+    $$\bar R_{36}^n + \bar R_{36}^\tau + \bar F_6 + \bar R_{76} = 0 \tag{1.36}$$
+
+    $$\bar R_{67} + \bar F_7 + \bar R_{07} = 0 \tag{1.40}$$
+
+    $$\bar l_{KN} \times \bar R_{76} + \bar l_{KS_6} \times \bar F_6 + \bar M_6 = 0 \tag{1.44}$$
+
+    $$\begin{vmatrix} l_{KN} \cos\varphi_6 & l_{KN} \sin\varphi_6 \\
+    R_{76} \cos\gamma_{76} & R_{76} \sin\gamma_{76} \end{vmatrix} +
+    \begin{vmatrix} l_{KS_6} \cos\varphi_6 & l_{KS_6} \sin\varphi_6 \\
+    F_6 \cos\gamma_6 & F_6 \sin\gamma_6 \end{vmatrix} + M_6 = 0 \tag{1.45}$$
     """)
     return
 
@@ -582,21 +622,21 @@ def kind_3(F_gas, F_in6, F_in7, G6, G7, H, K, M_in6, M_in7, g, phi6):
     l_HS6 = l_HK - g.l_KS6  # [m] (1.33) H to S6
     T6 = F6 * l_HS6 * sin(phi6 - gamma6) + M6  # [N*m] (1.34) moment of the loads on 6 about H
     T7 = F7 * g.l_HS7 * sin(phi6 - gamma7) + M7  # [N*m] (1.34) moment of the loads on 7 about H
-    R36_t = (T6 + T7) / l_HK  # [N] (1.35) at K, across the rod
+    R36_t = (T6 + T7) / l_HK  # [N] (1.33)-(1.35) at K, across the rod
     gamma36_t = phi6 + 0.5 * pi  # [deg] its direction
-    A_67 = R36_t * cos(gamma36_t) + F6 * cos(gamma6)  # [N] (1.37) known forces, x
-    B_67 = R36_t * sin(gamma36_t) + F6 * sin(gamma6)  # [N] (1.37) known forces, y
-    R36_n = -(A_67 * cos(phi6) + B_67 * sin(phi6))  # [N] at K, along the rod
-    R76 = A_67 * sin(phi6) - B_67 * cos(phi6)  # [N] cylinder 7 on the rod 6, across it
+    A_67 = R36_t * cos(gamma36_t) + F6 * cos(gamma6)  # [N] (1.36), (1.37) known forces, x
+    B_67 = R36_t * sin(gamma36_t) + F6 * sin(gamma6)  # [N] (1.36), (1.37) known forces, y
+    R36_n = -(A_67 * cos(phi6) + B_67 * sin(phi6))  # [N] (1.37) at K, along the rod
+    R76 = A_67 * sin(phi6) - B_67 * cos(phi6)  # [N] (1.37) cylinder 7 on the rod 6, across it
     gamma76 = phi6 + 0.5 * pi  # [deg] its direction
     R36 = hypot(R36_n, R36_t)  # [N] (1.38) rocker 3 on the rod 6, at K
     gamma36 = (phi6 + atan2(R36_t, R36_n)) % (2 * pi)  # [deg] (1.39)
     gamma67 = gamma76 + pi  # [deg] rod 6 on the cylinder 7
-    R07_x = -(R76 * cos(gamma67) + F7 * cos(gamma7))  # [N] (1.41) frame on the cylinder 7, at H
-    R07_y = -(R76 * sin(gamma67) + F7 * sin(gamma7))  # [N] (1.41)
+    R07_x = -(R76 * cos(gamma67) + F7 * cos(gamma7))  # [N] (1.40), (1.41) frame on the cylinder 7, at H
+    R07_y = -(R76 * sin(gamma67) + F7 * sin(gamma7))  # [N] (1.40), (1.41)
     R07 = hypot(R07_x, R07_y)  # [N] (1.42)
     gamma07 = atan2(R07_y, R07_x) % (2 * pi)  # [deg] (1.43)
-    h76 = -(F6 * g.l_KS6 * sin(gamma6 - phi6) + M6) / (R76 * sin(gamma76 - phi6))  # [m] (1.46) its arm from K
+    h76 = -(F6 * g.l_KS6 * sin(gamma6 - phi6) + M6) / (R76 * sin(gamma76 - phi6))  # [m] (1.44)-(1.46) its arm from K
     SR3 = typeset()
     return A_67, F6_sum, F7, F7_sum, M6, M7, R07, R36, R36_n, R76, SR3, T6, gamma07, gamma36, gamma6, gamma76, h76, l_HK
 
@@ -626,9 +666,9 @@ def compared_67(
     T7_printed = F7 * g.l_HS7 * sin(phi6 - gamma6) + M7  # [N*m] (1.35) as printed (erratum)
     R36_t_printed = (T6 + T7_printed) / l_HK  # [N] (1.35) as printed (erratum)
     d_134 = cos(phi6 + pi) * sin(phi6 + 0.5 * pi) - sin(phi6 + pi) * cos(phi6 + 0.5 * pi)  # [-] (1.34)
-    d_134_printed = cos(phi6 + pi) * sin(phi6 + 0.5) - sin(phi6 + pi) * cos(phi6 + 0.5 * pi)  # [-] as printed (erratum)
+    d_134_printed = cos(phi6 + pi) * sin(phi6 + 0.5) - sin(phi6 + pi) * cos(phi6 + 0.5 * pi)  # [-] (1.34) (erratum)
     r_67 = R36_n * cos(phi6) - R76 * sin(phi6) + A_67  # [N] (1.37) left by the first line
-    r_67_printed = R36_n * cos(phi6) - R07 * sin(phi6) + A_67  # [N] left by the line as printed (erratum)
+    r_67_printed = R36_n * cos(phi6) - R07 * sin(phi6) + A_67  # [N] (1.37) left as printed (erratum)
     lines_52 = typeset()
     return R_H, R_K, checks_67, lines_52, vectors_67
 
@@ -665,6 +705,26 @@ def section_6():
     Points and links have the document's names, but for its link 4, which is here the frame 0: its $R_{43}$ is
     $R_{03}$. The reactions found above act back on the rocker at D and K; with its own loads they make the force
     $F_3$ at $S_3$ and the moment $M_3$.
+
+    Moments on each link about B, then the forces on the group and on the rocker:
+
+    $$\bar l_{BA} \times \bar R_{12}^\tau + \bar l_{BS_2} \times \bar F_2 + \bar M_2 = 0 \tag{1.3}$$
+
+    $$\begin{vmatrix} l_{BA} \cos(\varphi_2 + \pi) & l_{BA} \sin(\varphi_2 + \pi) \\
+    R_{12}^\tau \cos(\varphi_2 + 0.5\,\pi) & R_{12}^\tau \sin(\varphi_2 + 0.5\,\pi) \end{vmatrix} +
+    \begin{vmatrix} l_{BS_2} \cos(\varphi_2 + \pi) & l_{BS_2} \sin(\varphi_2 + \pi) \\
+    F_2 \cos\gamma_2 & F_2 \sin\gamma_2 \end{vmatrix} + M_2 = 0 \tag{1.4}$$
+
+    $$\bar l_{BC} \times \bar R_{03}^\tau + \bar l_{BS_3} \times \bar F_3 + \bar M_3 = 0 \tag{1.6}$$
+
+    $$\begin{vmatrix} l_{BC} \cos(\varphi_3 + \pi) & l_{BC} \sin(\varphi_3 + \pi) \\
+    R_{03}^\tau \cos(\varphi_3 + 0.5\,\pi) & R_{03}^\tau \sin(\varphi_3 + 0.5\,\pi) \end{vmatrix} +
+    \begin{vmatrix} l_{BS_3} \cos(\varphi_3 + \pi) & l_{BS_3} \sin(\varphi_3 + \pi) \\
+    F_3 \cos\gamma_3 & F_3 \sin\gamma_3 \end{vmatrix} + M_3 = 0 \tag{1.7}$$
+
+    $$\bar R_{12}^n + \bar R_{12}^\tau + \bar F_2 + \bar F_3 + \bar R_{03}^\tau + \bar R_{03}^n = 0 \tag{1.9}$$
+
+    $$\bar R_{03} + \bar F_3 + \bar R_{23} = 0 \tag{1.17}$$
     """)
     return
 
@@ -682,28 +742,31 @@ def kind_1(D, F_in2, F_in3, G2, G3, K, M_in2, M_in3, R34, R36, S3, g, gamma34, g
     F3 = abs(F3_sum)  # [N] loads on the rocker 3
     gamma3 = angle(F3_sum)  # [deg] their direction
     M3 = M_in3 + cross(D - S3, R43) + cross(K - S3, R63)  # [N*m] their moment
-    R12_t = (F2 * g.l_BS2 * sin(phi2 - gamma2) + M2) / g.l2  # [N] (1.5) at A, across the rod
+    R12_t = (F2 * g.l_BS2 * sin(phi2 - gamma2) + M2) / g.l2  # [N] (1.3)-(1.5) at A, across the rod
     gamma12_t = phi2 + 0.5 * pi  # [deg] its direction
-    R03_t = (F3 * g.l_BS3 * sin(phi3 - gamma3) + M3) / g.l3  # [N] (1.8) at C, across the rocker
+    R03_t = (F3 * g.l_BS3 * sin(phi3 - gamma3) + M3) / g.l3  # [N] (1.6)-(1.8) at C, across the rocker
     gamma03_t = phi3 + 0.5 * pi  # [deg] its direction
-    A_2 = R12_t * cos(gamma12_t) + F2 * cos(gamma2)  # [N] (1.10) known forces on 2, x
-    A_3 = R03_t * cos(gamma03_t) + F3 * cos(gamma3)  # [N] (1.10) known forces on 3, x
-    A_23 = A_2 + A_3  # [N] (1.10) known forces, x
-    B_2 = R12_t * sin(gamma12_t) + F2 * sin(gamma2)  # [N] (1.10) known forces on 2, y
-    B_3 = R03_t * sin(gamma03_t) + F3 * sin(gamma3)  # [N] (1.10) known forces on 3, y
-    B_23 = B_2 + B_3  # [N] (1.10) known forces, y
-    R12_n = -(A_23 * sin(phi3) - B_23 * cos(phi3)) / sin(phi3 - phi2)  # [N] at A, along the rod
-    R03_n = -(A_23 * sin(phi2) - B_23 * cos(phi2)) / sin(phi2 - phi3)  # [N] at C, along the rocker
+    A_2 = R12_t * cos(gamma12_t) + F2 * cos(gamma2)  # [N] (1.9), (1.10) known forces on 2, x
+    A_3 = R03_t * cos(gamma03_t) + F3 * cos(gamma3)  # [N] (1.9), (1.10) known forces on 3, x
+    A_23 = A_2 + A_3  # [N] (1.9), (1.10) known forces, x
+    B_2 = R12_t * sin(gamma12_t) + F2 * sin(gamma2)  # [N] (1.9), (1.10) known forces on 2, y
+    B_3 = R03_t * sin(gamma03_t) + F3 * sin(gamma3)  # [N] (1.9), (1.10) known forces on 3, y
+    B_23 = B_2 + B_3  # [N] (1.9), (1.10) known forces, y
+    R12_n = -(A_23 * sin(phi3) - B_23 * cos(phi3)) / sin(phi3 - phi2)  # [N] (1.10) at A, along the rod
+    R03_n = -(A_23 * sin(phi2) - B_23 * cos(phi2)) / sin(phi2 - phi3)  # [N] (1.10) at C, along the rocker
     R12 = hypot(R12_n, R12_t)  # [N] (1.11) crank 1 on the rod 2, at A
     R03 = hypot(R03_n, R03_t)  # [N] (1.12) frame on the rocker 3, at C
     gamma12 = (phi2 + atan2(R12_t, R12_n)) % (2 * pi)  # [deg] (1.13), (1.14)
     gamma03 = (phi3 + atan2(R03_t, R03_n)) % (2 * pi)  # [deg] (1.15), (1.16)
-    R23_x = -(R03 * cos(gamma03) + F3 * cos(gamma3))  # [N] (1.18) rod 2 on the rocker 3, at B
-    R23_y = -(R03 * sin(gamma03) + F3 * sin(gamma3))  # [N] (1.19)
+    R23_x = -(R03 * cos(gamma03) + F3 * cos(gamma3))  # [N] (1.17), (1.18) rod 2 on the rocker 3, at B
+    R23_y = -(R03 * sin(gamma03) + F3 * sin(gamma3))  # [N] (1.17), (1.19)
     R23 = hypot(R23_x, R23_y)  # [N] (1.20)
     gamma23 = atan2(R23_y, R23_x) % (2 * pi)  # [deg] (1.21)
     SR1 = typeset()
-    return F2_sum, F3_own, M2, R03, R12, R23, R43, R63, SR1, gamma03, gamma12, gamma23
+    return (
+        F2_sum, F3_own, M2, R03, R03_n, R03_t, R12, R12_n, R12_t, R23, R23_x, R23_y, R43, R63, SR1, gamma03, gamma12,
+        gamma23,
+    )  # fmt: skip
 
 
 @app.cell
@@ -745,6 +808,54 @@ def drawing_61(A, B, C, D, F2_sum, F3_own, K, R_A, R_C, R_D, R_K, S2, S3, SR1, c
 
 
 @app.cell(hide_code=True)
+def section_61():
+    mo.md(r"""
+    ### 6.1 Directions by cases (UGL2 to UGL4)
+
+    The document's subprograms take the arctangent of a quotient and choose the quadrant by signs. Their schemes are
+    lost in the scan; by their notation, UGL2 turns the assumed direction of a component that comes out with minus,
+    UGL3 is (1.21) and UGL4 is (1.13), (1.14). They agree with the two-argument arctangent in every case, but for whole
+    turns: UGL3 gives $-90°$ to $270°$, so it is $360°$ less where the force points to the right and down; UGL4 counts
+    on from the link. Where both components are zero there is no direction.
+    """)
+    return
+
+
+@app.cell
+def directions(R03, R03_n, R03_t, R12, R12_n, R12_t, R23, R23_x, R23_y, gamma03, gamma12, gamma23, phi2, phi3):
+    gamma12_UGL2 = where(R12_t < 0, phi2 - 0.5 * pi, phi2 + 0.5 * pi)  # [deg] (1.5) of |R12t|
+    gamma12_UGL4 = phi2 + where(R12_n < 0, pi, 0) + atan(R12_t / R12_n)  # [deg] (1.13), (1.14)
+    gamma03_UGL4 = phi3 + where(R03_n < 0, pi, 0) + atan(R03_t / R03_n)  # [deg] (1.15), (1.16)
+    gamma23_UGL3 = where(R23_x < 0, pi, 0) + atan(R23_y / R23_x)  # [deg] (1.21)
+    _apart = lambda R, *pair: where(R == 0, 0, exp(1j * pair[0]) - exp(1j * pair[1]))
+    _t = abs(R12_t) * exp(1j * gamma12_UGL2) - R12_t * exp(1j * (phi2 + 0.5 * pi))
+    checks_directions = (
+        check("UGL2: |R12t| in its direction is R12t", _t, 32 * ulp, "N", of=R12_t),
+        check("UGL3: gamma23 but for whole turns", _apart(R23, gamma23, gamma23_UGL3), 64 * ulp, of=1),
+        check("UGL4: gamma12 but for whole turns", _apart(R12, gamma12, gamma12_UGL4), 64 * ulp, of=1),
+        check("UGL4: gamma03 but for whole turns", _apart(R03, gamma03, gamma03_UGL4), 64 * ulp, of=1),
+    )
+    direction_lines = typeset()
+    return checks_directions, direction_lines, gamma03_UGL4, gamma12_UGL2, gamma12_UGL4, gamma23_UGL3
+
+
+@app.cell
+def directions_shown(
+    checks_directions, direction_lines, g, gamma03, gamma03_UGL4, gamma12, gamma12_UGL2, gamma12_UGL4, gamma23,
+    gamma23_UGL3, phi1, turn,
+):  # fmt: skip
+    table_61 = table(
+        "6.1",
+        "Directions by cases",
+        *(phi1, gamma12_UGL2, gamma12, gamma12_UGL4, gamma03, gamma03_UGL4, gamma23, gamma23_UGL3),
+        every=g.step,
+        note="Directions that differ by 360 degrees are the same.",
+    )
+    typeset(direction_lines.at(turn.value), *checks_directions, table_61)
+    return
+
+
+@app.cell(hide_code=True)
 def section_7():
     mo.md(r"""
     ## 7 Driving link
@@ -780,6 +891,17 @@ def section_71():
     The wheel on the crank is driven at its pitch point P, to the left of $O_1$. Whichever flank of its teeth works, the
     force on it points inwards, $\alpha_w$ off the tangent: where (1.49) comes out with minus, the direction is
     $1.5\,\pi + \alpha_w$.
+
+    $$\bar l_{O_1P} \times \bar F_b + \bar l_{O_1S_1} \times \bar F_1 + \bar l_{O_1A} \times \bar R_{21} + \bar M_1 = 0
+    \tag{1.47}$$
+
+    $$\begin{gathered}
+    \begin{vmatrix} l_{O_1P} \cos\pi & l_{O_1P} \sin\pi \\ F_b \cos\gamma_b & F_b \sin\gamma_b \end{vmatrix} +
+    \begin{vmatrix} l_{O_1S_1} \cos\varphi_1 & l_{O_1S_1} \sin\varphi_1 \\ F_1 \cos\gamma_1 & F_1 \sin\gamma_1
+    \end{vmatrix} + {} \\ {} + \begin{vmatrix} l_{O_1A} \cos\varphi_1 & l_{O_1A} \sin\varphi_1 \\
+    R_{21} \cos\gamma_{21} & R_{21} \sin\gamma_{21} \end{vmatrix} + M_1 = 0 \end{gathered} \tag{1.48}$$
+
+    $$\bar R_{O_1} + \bar F_1 + \bar F_b + \bar R_{21} = 0 \tag{1.50}$$
     """)
     return
 
@@ -789,10 +911,10 @@ def gear(A, F1, G1, M1, O1, R21, R_A, S1, a_S1, g, gamma1, gamma21, lost, phi1):
     gamma_b0 = 0.5 * pi - g.alpha_w  # [deg] direction assumed first
     T1 = F1 * g.l_O1S1 * sin(gamma1 - phi1) + M1  # [N*m] (1.49) moment of the loads about O1
     T2 = R21 * g.l1 * sin(gamma21 - phi1)  # [N*m] (1.49) moment of R21 about O1
-    F_b = (T1 + T2) / (g.l_O1P * sin(gamma_b0))  # [N] (1.49) balancing force
+    F_b = (T1 + T2) / (g.l_O1P * sin(gamma_b0))  # [N] (1.47)-(1.49) balancing force
     gamma_b = where(F_b < 0, 1.5 * pi + g.alpha_w, gamma_b0)  # [deg] its direction
-    R_O1g_x = -(F1 * cos(gamma1) + abs(F_b) * cos(gamma_b) + R21 * cos(gamma21))  # [N] (1.51) frame on the crank, at O1
-    R_O1g_y = -(F1 * sin(gamma1) + abs(F_b) * sin(gamma_b) + R21 * sin(gamma21))  # [N] (1.51)
+    R_O1g_x = -(F1 * cos(gamma1) + abs(F_b) * cos(gamma_b) + R21 * cos(gamma21))  # [N] (1.50), (1.51) at O1
+    R_O1g_y = -(F1 * sin(gamma1) + abs(F_b) * sin(gamma_b) + R21 * sin(gamma21))  # [N] (1.50), (1.51)
     R_O1g = hypot(R_O1g_x, R_O1g_y)  # [N] (1.52) frame on the crank, gear
     gamma_O1g = atan2(R_O1g_y, R_O1g_x) % (2 * pi)  # [deg] (1.53)
     loads_O1 = [Load(G1, S1), inertia(S1, g.m1, g.J1, a_S1, g.eps1), Load(-R_A, A)]
@@ -827,11 +949,18 @@ def section_72():
     mo.md(r"""
     ### 7.2 Drive by a coupling (SRWL2)
 
-    The coupling gives the crank a moment and no force.
+    The coupling gives the crank a moment and no force:
 
-    **Errata.** In (1.54) the products are garbled: a moment is multiplied by a length there. It must read
-    $M_b + M_1 + l_{O_1A} \times R_{21} + l_{O_1S_1} \times F_1 = 0$, which (1.55) has right. (1.56) is printed without
-    the minus that (1.55) gives.
+    $$\bar M_b + \bar M_1 + \bar l_{O_1A} \times \bar R_{21} + \bar l_{O_1S_1} \times \bar F_1 = 0 \tag{1.54}$$
+
+    $$M_b + M_1 + \begin{vmatrix} l_{O_1A} \cos\varphi_1 & l_{O_1A} \sin\varphi_1 \\
+    R_{21} \cos\gamma_{21} & R_{21} \sin\gamma_{21} \end{vmatrix} + \begin{vmatrix} l_{O_1S_1} \cos\varphi_1 &
+    l_{O_1S_1} \sin\varphi_1 \\ F_1 \cos\gamma_1 & F_1 \sin\gamma_1 \end{vmatrix} = 0 \tag{1.55}$$
+
+    $$\bar R_{21} + \bar F_1 + \bar R_{O_1} = 0 \tag{1.57}$$
+
+    **Errata.** In (1.54) the products are garbled: a moment is multiplied by a length there; above it is as (1.55) has
+    it. (1.56) is printed without the minus that (1.55) gives.
     """)
     return
 
@@ -839,9 +968,9 @@ def section_72():
 @app.cell
 def coupling(F1, O1, R21, R_A, T1, T2, g, gamma1, gamma21, loads_O1, lost):
     M_b_printed = T2 + T1  # [N*m] (1.56) as printed (erratum)
-    M_b = -(T2 + T1)  # [N*m] (1.56) balancing moment
-    R_O1c_x = -(R21 * cos(gamma21) + F1 * cos(gamma1))  # [N] (1.58) frame on the crank, at O1
-    R_O1c_y = -(R21 * sin(gamma21) + F1 * sin(gamma1))  # [N] (1.58)
+    M_b = -(T2 + T1)  # [N*m] (1.54)-(1.56) balancing moment
+    R_O1c_x = -(R21 * cos(gamma21) + F1 * cos(gamma1))  # [N] (1.57), (1.58) frame on the crank, at O1
+    R_O1c_y = -(R21 * sin(gamma21) + F1 * sin(gamma1))  # [N] (1.57), (1.58)
     R_O1c = hypot(R_O1c_x, R_O1c_y)  # [N] (1.58) frame on the crank, coupling
     gamma_O1c = atan2(R_O1c_y, R_O1c_x) % (2 * pi)  # [deg] (1.59)
     drive_c = coupling_drive(O1, loads_O1)

@@ -443,6 +443,55 @@ def analogues_shown(
 
 
 @app.cell(hide_code=True)
+def section_listings():
+    mo.md(r"""
+    ### The programs as printed
+
+    The Fortran listing has 3.14 for $\pi$, the arcsine (28), and `1/L3*SIN(DF)`, which multiplies by the sine that
+    (20) divides by. The other program takes $\varphi_3$ from the projection on x by the arccosine, where its B is the
+    abscissa of $O_1$: right on the upper half of the circle. Their numbers beside the right ones:
+    """)
+    return
+
+
+@app.cell
+def listings(O1, beta0, beta2i, g, l2i, mu, phi2i):
+    psi_listing = 3.14 + mu - (beta0 + g.theta / 2)  # [deg] (5) as listed, 3.14 for pi (erratum)
+    phi2_listing = 3.14 / 2 + beta0 + beta2i  # [deg] (26) as listed, 3.14 for pi (erratum)
+
+    @np.errstate(invalid="ignore")  # rounding may take the sine beyond 1: no angle then
+    def phi3_sine(l2, phi2):
+        return asin((g.a - l2 * sin(phi2)) / g.l3)  # [deg] (28) (erratum)
+
+    @np.errstate(invalid="ignore")
+    def phi3_cosine(l2, phi2):
+        return acos((O1.real - l2 * cos(phi2)) / g.l3)  # [deg] (17) by the arccosine (erratum)
+
+    phi3_listing = phi3_sine(l2i, phi2_listing)  # [deg] (28) as listed (erratum)
+    phi3_arccos = phi3_cosine(l2i, phi2i)  # [deg] (17) of the other program, half of the circle (erratum)
+    phi32_listing = phi3_listing - phi2_listing  # [deg] as listed (erratum)
+    omega3_listing = 1 / g.l3 * sin(phi32_listing)  # [rad/m] (20) as listed (erratum)
+    omega2_listing = -(g.l3 * omega3_listing * cos(phi32_listing) / l2i)  # [rad/m] (21) as listed (erratum)
+    typeset()
+    return omega2_listing, omega3_listing, phi2_listing, phi3_arccos, phi3_listing, psi_listing
+
+
+@app.cell
+def listings_shown(
+    l2i, omega2_l2i, omega2_listing, omega3_l2i, omega3_listing, phi2_listing, phi2i, phi3_arccos, phi3_listing, phi3i
+):
+    table_34 = table(
+        "3.4",
+        "The programs' numbers",
+        *(l2i, phi2i, phi2_listing, phi3i, phi3_listing, phi3_arccos),
+        *(omega3_l2i, omega3_listing, omega2_l2i, omega2_listing),
+        note="The columns of the listing and of the arccosine are as printed: wrong where they differ.",
+    )
+    table_34
+    return
+
+
+@app.cell(hide_code=True)
 def section_310():
     mo.md(r"""
     ### Steps 10 and 11: speed of the rod and true values

@@ -110,14 +110,14 @@ def section_2():
 
 @app.cell
 def equations(g):
-    f1 = lambda phi1, phi3, SAB: SAB * cos(phi3) - g.L1 * cos(phi1)  # [m] position, x
-    f2 = lambda phi1, phi3, SAB: SAB * sin(phi3) - g.L0 - g.L1 * sin(phi1)  # [m] position, y
+    f1 = lambda phi1, phi3, SAB: SAB * cos(phi3) - g.L1 * cos(phi1)  # [m] (2.33) position, x
+    f2 = lambda phi1, phi3, SAB: SAB * sin(phi3) - g.L0 - g.L1 * sin(phi1)  # [m] (2.33) position, y
 
     def f3(phi1, phi3, SAB, omega3, VAB):
-        return VAB * cos(phi3) - SAB * sin(phi3) * omega3 + g.L1 * sin(phi1) * g.omega1  # [m/s] velocity, x
+        return VAB * cos(phi3) - SAB * sin(phi3) * omega3 + g.L1 * sin(phi1) * g.omega1  # [m/s] (2.37) velocity, x
 
     def f4(phi1, phi3, SAB, omega3, VAB):
-        return VAB * sin(phi3) + SAB * cos(phi3) * omega3 - g.L1 * cos(phi1) * g.omega1  # [m/s] velocity, y
+        return VAB * sin(phi3) + SAB * cos(phi3) * omega3 - g.L1 * cos(phi1) * g.omega1  # [m/s] (2.37) velocity, y
 
     def f5(phi1, phi3, SAB, omega3, VAB, eps3, WAB):
         return (
@@ -126,7 +126,7 @@ def equations(g):
             - SAB * cos(phi3) * omega3**2
             - SAB * sin(phi3) * eps3
             + g.L1 * cos(phi1) * g.omega1**2
-        )  # [m/s**2] acceleration, x
+        )  # [m/s**2] (2.38) acceleration, x
 
     def f6(phi1, phi3, SAB, omega3, VAB, eps3, WAB):
         return (
@@ -135,7 +135,7 @@ def equations(g):
             - SAB * sin(phi3) * omega3**2
             + SAB * cos(phi3) * eps3
             + g.L1 * sin(phi1) * g.omega1**2
-        )  # [m/s**2] acceleration, y
+        )  # [m/s**2] (2.38) acceleration, y
 
     typeset()
     return f1, f2, f3, f4, f5, f6

@@ -1,4 +1,4 @@
-"""Lines of a cell in the page: formula, value, unit, meaning, and the formula with numbers for its symbols."""
+"""Lines of a cell in the page: formula, value, unit, meaning, printed number; the formula with numbers for symbols."""
 
 from functools import lru_cache
 from html import escape
@@ -17,9 +17,7 @@ from mechsheet.worksheet.lines import Formula, Given, Numbers, Typeset
 def lines(shown: Typeset) -> str:
     """The lines as they stand in the page."""
     return "".join(
-        _line(_equation(row, _single(row, shown)), "", "", "")
-        if isinstance(row, Given)
-        else _formula(row, value, shown)
+        _line(_equation(row, _single(row, shown))) if isinstance(row, Given) else _formula(row, value, shown)
         for row, value in zip(shown.rows, shown.values, strict=True)
     )
 
@@ -41,10 +39,10 @@ def _single(line: Formula | Given, shown: Typeset) -> frozenset[str]:
 def _formula(line: Formula, value: object, shown: Typeset) -> str:
     single = _single(line, shown)
     if line.arguments:
-        return _line(_equation(line, single), "", line.meaning, "", line.mistake)
+        return _line(_equation(line, single), "", line.meaning, line.number, mistake=line.mistake)
     text = "" if shown.numbers is None else _substituted(line, shown.numbers, shown.position)
     value_text = numbers.value(value, line.unit, HTML)
-    return _line(f"{_equation(line, single)} =", value_text, line.meaning, text, line.mistake)
+    return _line(f"{_equation(line, single)} =", value_text, line.meaning, line.number, text, line.mistake)
 
 
 def _substituted(line: Formula, known: Numbers, position: int) -> str:
@@ -60,8 +58,10 @@ def _with_numbers(line: Formula, found: tuple[tuple[str, float | complex, str, t
     return latex(node) if node else ""
 
 
-def _line(tex: str, value: str, meaning: str, substituted: str, mistake: str = "") -> str:
-    """A typeset line; its numbers wait in an attribute until the reader asks for them.
+def _line(
+    tex: str, value: str = "", meaning: str = "", number: str = "", substituted: str = "", mistake: str = ""
+) -> str:
+    """A typeset line, the printed formula's number at its end; its numbers wait in an attribute until asked for.
 
     The value is an element of its own: where it alone changes, the browser keeps the formula as it has set it, and the
     value is there with the output that holds it.
@@ -69,8 +69,9 @@ def _line(tex: str, value: str, meaning: str, substituted: str, mistake: str = "
     more = f'<ms-numbers tex="{escape("= " + substituted)}"></ms-numbers>' if substituted else ""
     formula = _tex_element(tex) + (f'<span class="ms-value">{value}</span>' if value else "")
     told = f' <span class="ms-badge ms-FAIL">mistake</span> {escape(mistake)}' if mistake else ""
-    words = f"<span>{escape(meaning)}{told}</span>"
-    return f'<div class="ms-line"><span class="ms-formula">{formula}</span>{words}{more}</div>'
+    said = f"<span>{escape(meaning)}{told}</span>" if meaning or told else ""
+    said += f'<span class="ms-number">{escape(number)}</span>' if number else ""
+    return f'<div class="ms-line"><span class="ms-formula">{formula}</span>{said}{more}</div>'
 
 
 def _tex_element(tex: str) -> str:

@@ -14,13 +14,14 @@ from mechsheet.worksheet.lines import Formula
 
 @dataclass
 class Line:
-    """One quantity behind the tables: where it is defined, and where its numbers stand."""
+    """One quantity behind the tables: where it is defined, the number of its printed formula, where it stands."""
 
     node: Node
     symbol: str
     unit: str
     meaning: str
     text: str = ""
+    number: str = ""
 
 
 @dataclass
@@ -85,7 +86,7 @@ class Recording:
             return
         lines = self.lines.setdefault(section, [])
         line = known.get(name)
-        unit, meaning = (line.unit, line.meaning) if line else ("", "")
+        unit, meaning, number = (line.unit, line.meaning, line.number) if line else ("", "", "")
         text = _source(line.expression) if line else ""
         stem = name.removesuffix("_S") if symbol.is_field(name) else name
         ends = ("real", "imag") if value.im is not None else ("",)
@@ -94,7 +95,7 @@ class Recording:
                 continue
             self.names[node] = _coordinate(stem, part)
             self._steps_of(node, stem, lines, set())
-            lines.append(Line(node, self.names[node], unit, meaning, text))
+            lines.append(Line(node, self.names[node], unit, meaning, text, number))
 
     def define_steps(self, section: str, solved: Solved) -> None:
         """Give the steps of a found value's closed form and residual their names."""

@@ -22,11 +22,11 @@ def write(book: Book, section: Section, formulas: SheetFormulas) -> None:
         *(("Meaning", looks.TEXT), ("Line", looks.TEXT)),
     )
     listed: list[tuple[Content, ...]] = [
-        (formulas.name(line.node), _contents(line, formulas)[0], shown(si(line.unit)), line.meaning, _source(line))
+        (formulas.name(line.node), _contents(line, formulas)[0], shown(si(line.unit)), _meaning(line), _source(line))
         for line in section.single
     ]
     listed += [
-        (formulas.name(line.node), f"column {letters(n)}", shown(si(line.unit)), line.meaning, _source(line))
+        (formulas.name(line.node), f"column {letters(n)}", shown(si(line.unit)), _meaning(line), _source(line))
         for n, line in enumerate(section.fields)
     ]
     title = f"{section.title} - lines behind the tables, in SI units"
@@ -42,6 +42,11 @@ def write(book: Book, section: Section, formulas: SheetFormulas) -> None:
         note = table_sheet.not_followed([column for column, _ in columns], apart)
         heading = f"{section.title} - fields, in SI units"
         table_sheet.write(book, section.sheet, heading, note, columns, numbers=looks.SI, grey=apart, behind=True)
+
+
+def _meaning(line: Line) -> str:
+    """The meaning behind the number of the printed formula, as in the worksheet."""
+    return f"{line.number} {line.meaning}".strip()
 
 
 def _source(line: Line) -> str:

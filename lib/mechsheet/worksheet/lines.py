@@ -17,12 +17,15 @@ from mechsheet.worksheet.errors import SheetError, refuse
 from mechsheet.worksheet.shown import Shown
 
 _DECLARED = re.compile(r"\[([^\]]*)\]\s*(.*)")
+_ONE_NUMBER = r"\(\d{1,3}(?:\.\d+)*[a-z]?\)"
+_NUMBER = re.compile(rf"{_ONE_NUMBER}(?:\s*[-–,]\s*{_ONE_NUMBER})*(?=\s|$)")
 
 
 @dataclass(frozen=True)
 class Formula:
-    """One line ``name = expression  # [unit] meaning``.
+    """One line ``name = expression  # [unit] (1.26) meaning``.
 
+    ``number`` is that of the printed formula, in its brackets: ``(1.26)``, ``(1.13), (1.14)``, or nothing.
     ``arguments`` are those of a function, by lambda or def; ``where`` its own names with what they stand for. The
     expression of a function with more than branches and such names in it is ``...``. ``constants`` are the names of
     units in it, as they are written, with the units. ``mistake`` tells why the unit is not known, and the value shown
@@ -35,6 +38,7 @@ class Formula:
     meaning: str
     arguments: tuple[str, ...] = ()
     where: tuple[tuple[str, ast.expr], ...] = ()
+    number: str = ""
     constants: tuple[tuple[str, str], ...] = ()
     mistake: str = ""
 
@@ -97,7 +101,9 @@ def _formulas(cell: source.Cell) -> Iterator[Formula | Given]:
                         "a decimal number has a point, not a comma"
                     )
             if not line.name.startswith("_"):
-                yield replace(line, unit=told.unit, meaning=told.meaning, mistake=told.mistake)
+                printed = match[0] if (match := _NUMBER.match(told.meaning)) else ""
+                meaning = told.meaning.removeprefix(printed).lstrip()
+                yield replace(line, unit=told.unit, number=printed, meaning=meaning, mistake=told.mistake)
 
 
 def _bound(node: ast.stmt) -> list[Formula]:
