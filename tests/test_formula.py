@@ -345,6 +345,27 @@ def test_numbers_stand_for_the_symbols(lines, numbers):
         assert f'tex="= {numbers}"' in text
 
 
+@pytest.mark.parametrize(
+    ("lines", "told"),
+    [
+        ("u, v = 2 * mm, x * 3 * kN  # [m] gap, [kNn] force", [r"u = 2\,\mathrm{mm} = 0.002 m", "nearest: kN"]),
+        ("M = array([[1 * kN], [2 * kN]])  # [N]", [r"\begin{bmatrix} 1\,\mathrm{kN} \\ 2\,\mathrm{kN} \end{bmatrix}"]),
+        ("c = 5 * mm if x > 1 else 6 * mm  # [m]", [r"6\,\mathrm{mm} &amp; \text{otherwise}"]),
+        (
+            "def f(x):\n    k = x * 2 * mm\n    return k * 3 * kN  # [J]",
+            [r"f(x) = k \cdot 3\,\mathrm{kN}\quad \text{where}\quad k = x \cdot 2\,\mathrm{mm}"],
+        ),
+    ],
+)
+def test_units_stand_wherever_a_formula_has_them(lines: str, told: list[str]) -> None:
+    """In one of several names, a matrix, a choice, and what a function calls its own."""
+    names = run(
+        IMPORT + "from numpy import array\nfrom mechsheet.units import kN, mm\n"
+        f"x = 2.0\n{lines}\nshown = typeset()"
+    )  # fmt: skip
+    assert all(text in joined(names["shown"]) for text in told)
+
+
 def test_numbers_of_a_field_are_those_of_the_position_shown():
     names = run(IMPORT + "from numpy import arange\nx = 2 * arange(3)  # [m]\ny = 3 * x  # [m]\nshown = typeset()")
     assert r'tex="= 3 \cdot 0\,\mathrm{m}"' in joined(names["shown"])

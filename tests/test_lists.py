@@ -229,6 +229,18 @@ def test_the_workbook_follows_each_element(section: Path, tmp_path: Path, recalc
     assert not list(disagreements(recalculated(path), own))
 
 
+@pytest.mark.parametrize(("value", "unit"), [(20_000, "N"), ("20000 N", "kN"), (20, "kN")])
+def test_an_element_of_the_workbook_may_have_another_unit(
+    section: Path, tmp_path: Path, value: object, unit: str
+) -> None:
+    assert script(section, f"--out={tmp_path}").returncode == 0
+    book = load_workbook(tmp_path / "section.xlsx")
+    book["Inputs"].append(["F (4)", value, unit])
+    book.save(tmp_path / "added.xlsx")
+    cls = load(section).inputs
+    assert inputs.build(cls, reading.inputs(tmp_path / "added.xlsx", inputs.declared(cls))).F[-1] == 2e4
+
+
 def test_a_row_added_in_the_workbook_is_not_passed_over(
     section: Path, tmp_path: Path, recalculated: Callable[[Path], Any]
 ) -> None:
