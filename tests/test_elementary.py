@@ -211,16 +211,16 @@ def crank_mechanism(kind: str) -> tuple[list[list[Load]], list[equilibrium.React
     reactions: list[equilibrium.Reaction] = [
         equilibrium.DriveMoment(1, 0.0),
         equilibrium.PinReaction(1, 0, 0j, 0j),
-        equilibrium.PinReaction(2, 1, A, 0j),
-        equilibrium.PinReaction(3, 2, B, 0j),
+        equilibrium.PinReaction(2, 1, 0j, A),
+        equilibrium.PinReaction(3, 2, 0j, B),
     ]
     if kind == "rocker":
-        return bodies, [*reactions, equilibrium.PinReaction(3, 0, points(), 0j)]
+        return bodies, [*reactions, equilibrium.PinReaction(3, 0, 0j, points())]
     if kind == "slider":
-        return bodies, [*reactions, equilibrium.SlideReaction(3, 0, B, 0j, 0, u)]
+        return bodies, [*reactions, equilibrium.SlideReaction(3, 0, 0j, B, u)]
     guide: list[equilibrium.Reaction] = [
-        equilibrium.SlideReaction(3, 4, points(), 0j, 0, u),
-        equilibrium.PinReaction(4, 0, points(), 0j),
+        equilibrium.SlideReaction(3, 4, 0j, points(), u),
+        equilibrium.PinReaction(4, 0, 0j, points()),
     ]
     return [*bodies, loads()], [*reactions, *guide]
 
