@@ -10,6 +10,7 @@ WORKSHEETS = Path(__file__).parents[1] / "worksheets"
 # an input of each sheet by its meaning, and a new value for it
 CHANGED = {
     "accuracy": ("positions of the hitch", "12"),
+    "guide": ("force on the ram", "40"),
     "hitch": ("weight of the implement", "30000"),
     "hitch_design": ("weight of the implement", "26500"),
     "landing_gear": ("mass", "1000"),
