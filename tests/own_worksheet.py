@@ -12,7 +12,7 @@ IMPORTS = """import math
 from math import sqrt, sin, hypot
 import numpy as np
 from numpy import cos, exp, interp, linspace
-from mechsheet import figure, rrr, table, typeset""".replace("\n", "\n    ")
+from mechsheet import export, figure, rrr, table, typeset""".replace("\n", "\n    ")
 SHEET = '''
 import marimo
 app = marimo.App()

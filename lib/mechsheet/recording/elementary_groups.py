@@ -14,7 +14,7 @@ from mechsheet.mechanics.rpp import RPPAcceleration, RPPReactions, RPPVelocity
 from mechsheet.mechanics.rpr import RPRAcceleration, RPRPosition, RPRReactions, RPRVelocity
 from mechsheet.mechanics.rrp import RRPAcceleration, RRPReactions, RRPVelocity
 from mechsheet.mechanics.rrr import RRRAcceleration, RRRReactions, RRRVelocity
-from mechsheet.recording.elementary_planar import Quantity, angle_between, cross, dot, step, unit
+from mechsheet.recording.elementary_planar import Quantity, angle_between, cross, dot, step, unit, whole
 
 
 def rrr(A: Quantity, B: Quantity, r_A: Quantity, r_B: Quantity, branch: Quantity) -> Quantity:
@@ -22,7 +22,7 @@ def rrr(A: Quantity, B: Quantity, r_A: Quantity, r_B: Quantity, branch: Quantity
     LL = step("LL", "m**2", "squared distance of the outer pins", dot(d, d))
     q = step("q", "-", "inner pin along the line of the outer pins, part of it", (LL + r_A**2 - r_B**2) / (2 * LL))
     h = step("h", "-", "inner pin across that line, part of it", branch * np.sqrt(r_A**2 / LL - q**2))
-    return A + (q + 1j * h) * d
+    return whole(A + (q + 1j * h) * d, d, h)
 
 
 def rrr_reach(A: Quantity, B: Quantity, r_A: Quantity) -> Reach:
@@ -110,7 +110,7 @@ def rrp(A: Quantity, B: Quantity, u: Quantity, r_A: Quantity, branch: Quantity, 
     u = unit(u)
     h = step("h", "m", "outer pin to the left of the pin's path", cross(u, A - B) - offset)
     ahead = step("x", "m", "pin ahead of the outer pin", branch * np.sqrt((r_A - np.abs(h)) * (r_A + np.abs(h))))
-    return A + (ahead - 1j * h) * u
+    return whole(A + (ahead - 1j * h) * u, u, ahead)
 
 
 def rrp_reach(A: Quantity, B: Quantity, u: Quantity, offset: Quantity = 0) -> Reach:
@@ -205,7 +205,7 @@ def rpr_condition(A: Quantity, B: Quantity, u: Quantity) -> Quantity:
 def prp(A: Quantity, B: Quantity, u_A: Quantity, u_B: Quantity) -> Quantity:
     u_A, u_B = unit(u_A), unit(u_B)
     along_A, _ = _along(u_A, u_B, B - A)
-    return A + along_A * u_A
+    return whole(A + along_A * u_A, u_A, along_A)
 
 
 def prp_velocity(

@@ -12,6 +12,18 @@ def step(symbol: str, unit: str, meaning: str, value: Quantity) -> Quantity:
     return value.called(symbol, unit, meaning) if hasattr(value, "called") else value
 
 
+def whole(C: Quantity, u: Quantity, by: Quantity) -> Quantity:
+    """A point found along ``u``: no coordinate of it is a number where ``by`` is none, along an axis neither."""
+    if any(map(_is_nothing, (u.real, u.imag))):
+        return np.where(np.isfinite(by), C, complex(np.nan, np.nan))
+    return C
+
+
+def _is_nothing(x: Quantity) -> bool:
+    node = getattr(x, "re", None)
+    return not np.any(x) if node is None else node.op == "constant" and not node.value.any()
+
+
 def cross(a: Quantity, b: Quantity) -> Quantity:
     return a.real * b.imag - a.imag * b.real
 

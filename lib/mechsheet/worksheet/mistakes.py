@@ -37,7 +37,7 @@ def told(error: BaseException, path: str) -> str:
 def why(error: BaseException, known: Iterable[str], text: str = "") -> str:
     """An exception in words, with the ``known`` names; ``text`` is that of the worksheet or cell."""
     if isinstance(error, NameError) and error.name:
-        if re.search(rf"^\s*(def )?{error.name}\b\s*[=(,]", text, re.MULTILINE):
+        if re.search(rf"^\s*(def {error.name}\(|{error.name}\s*(=[^=]|,[^(]*=))", text, re.MULTILINE):
             return f"{error.name} is defined below its use: move its line up"
         return undefined(error.name, (name for name in known if not name.startswith("_")))
     fields = getattr(type(error.obj), "__inputs__", ()) if isinstance(error, AttributeError) else ()
