@@ -351,7 +351,7 @@ def test_a_change_of_any_result_is_seen() -> None:
         ("hitch", "4.1 Lifting capacity", "C7", {"value": "#N/A"}),
         ("hitch", "Checks", "E3", {"value": "FAIL"}),
         ("hitch", "Checks", "B7", {"value": times(1e6)}),  # a residual that is no longer small
-        ("hitch", "Checks", "B22", {"value": times(1 + 1e-11)}),  # a margin, which is a result
+        ("hitch", "Checks", "B23", {"value": times(1 + 1e-11)}),  # a margin, which is a result
         ("hitch", "Checks", "C7", {"value": times(1 + 1e-11)}),
         ("hitch", "Checks", "C13", {"written": times(20), "value": times(20)}),
         ("hitch", "Find", "B3", {"value": times(1 + 1e-11)}),
