@@ -100,7 +100,7 @@ def value(values: Any, unit: str, to: Notation) -> str:
         text = to.span.join(_end(end.item(), unit, to) for end in (field.flat[0], field.flat[-1]))
     else:
         return _extent(field, unit, to)
-    return text + _unit(unit, to)
+    return text + behind(unit, to)
 
 
 _MOST_NUMBERS, _MOST_POINTS, _MOST_ROWS = 10, 4, 4  # that stand in full
@@ -110,12 +110,12 @@ def _extent(field: NDArray[Any], unit: str, to: Notation) -> str:
     known = field[~np.isnan(field)]
     ends = dict.fromkeys(_end(end.item(), unit, to) for end in (known.min(), known.max())) if known.size else [to.none]
     none = f" ({field.size - known.size} of {field.size} {to.none})" if 0 < known.size < field.size else ""
-    return to.span.join(ends) + _unit(unit, to) + none
+    return to.span.join(ends) + behind(unit, to) + none
 
 
 def quantity(z: float | complex, unit: str, to: Notation) -> str:
     """Number or pair in its display unit."""
-    return _number(z, to) + _unit(unit, to)
+    return _number(z, to) + behind(unit, to)
 
 
 @lru_cache(maxsize=4096, typed=True)  # most numbers stay when an input changes; 0 and 0j are not shown alike
@@ -129,7 +129,8 @@ def _number(z: float | complex, to: Notation) -> str:
 
 
 @cache
-def _unit(unit: str, to: Notation) -> str:
+def behind(unit: str, to: Notation) -> str:
+    """A unit as it stands behind a number; a pure number has none."""
     special = {"-": "", "deg": to.degrees, "%": to.percent}
     if unit in special:
         return special[unit]

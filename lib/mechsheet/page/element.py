@@ -1,0 +1,22 @@
+"""Elements that the page's own scripts show, and these scripts: one for each thing that the page does by itself."""
+
+import base64
+import json
+from functools import cache
+from html import escape
+from pathlib import Path
+from typing import Any
+
+
+def element(kind: str, content: str = "", **told: Any) -> str:
+    """HTML of an element with what it is told in its attributes: a text, or else JSON."""
+    texts = {name: x if isinstance(x, str) else json.dumps(x, ensure_ascii=False) for name, x in told.items()}
+    attributes = "".join(f' {name}="{escape(text)}"' for name, text in texts.items())
+    return f"<{kind}{attributes}>{content}</{kind}>"
+
+
+@cache
+def script(name: str) -> str:
+    """A script beside this file, as an address: the only form in which a page of marimo runs one from an output."""
+    text = (Path(__file__).parent / name).read_bytes()
+    return f'<script src="data:text/javascript;base64,{base64.b64encode(text).decode()}"></script>'
