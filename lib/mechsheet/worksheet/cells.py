@@ -6,7 +6,9 @@ import re
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import lru_cache
+from itertools import chain
 from pathlib import Path
+from symtable import SymbolTable, symtable
 from types import CodeType
 from typing import Any
 
@@ -28,6 +30,7 @@ class Cell:
     name: str
     needs: frozenset[str]
     gives: tuple[str, ...]
+    certain: tuple[str, ...]  # of these, not those that only a branch or a loop binds
     checks: tuple[re.Pattern[str], ...]
     lines: tuple[ast.stmt, ...]
     code: CodeType
@@ -51,9 +54,20 @@ class Worksheet:
         Raises SheetError naming what no cell defines, a cell that stopped, or the essential check that fails where a
         cell raises: whatever is drawn or reduced behind a mechanism that does not close is explained by that.
         """
+        return self._run(self.needed(want, given), given)
+
+    def run_whole(self) -> dict[str, Any]:
+        """Namespace after running every cell, inputs and export among them: those that others need first.
+
+        Raises SheetError as `run` does.
+        """
+        order = self.needed(name for cell in self.cells for name in cell.gives)
+        return self._run([*order, *(cell for cell in self.cells if cell not in order)], {})
+
+    def _run(self, cells: Iterable[Cell], given: Mapping[str, Any]) -> dict[str, Any]:
         names = {**self.common, **given}
         with raised():
-            for cell in self.needed(want, given):
+            for cell in cells:
                 try:
                     exec(cell.code, names)
                 except BaseException as error:
@@ -214,8 +228,7 @@ def results(path: str | Path, certain: bool = False) -> list[str]:
 
     With ``certain`` not those that only a branch or a loop binds, which may have been left out.
     """
-    tree = ast.parse(Path(path).read_text(encoding="utf-8"))
-    return [name for node in functions(tree) for name in _gives(node, _OPEN if certain else ())]
+    return [name for cell in load(path).cells for name in (cell.certain if certain else cell.gives)]
 
 
 def load(path: str | Path) -> Worksheet:
@@ -237,12 +250,24 @@ def load(path: str | Path) -> Worksheet:
 
 
 class Marimo:
-    """marimo, imported at its first use: that takes half a second, and results need nothing of it."""
+    """marimo, imported at its first use: that takes half a second, and results need nothing of it, nor texts alone."""
+
+    def md(self, text: str) -> "Markdown":
+        return Markdown(text)
 
     def __getattr__(self, name: str) -> Any:
         import marimo  # on use: see above
 
         return getattr(marimo, name)
+
+
+class Markdown(str):
+    """A text that marimo lays out where something of it is asked for but the text itself."""
+
+    def __getattr__(self, name: str) -> Any:
+        import marimo  # on use: see above
+
+        return getattr(marimo.md(self), name)
 
 
 @lru_cache(maxsize=32)
@@ -252,7 +277,8 @@ def _load(path: Path, _changed: int) -> Worksheet:
 
 def read(path: Path) -> Worksheet:
     """Cells of a worksheet file, with shared names of their own."""
-    tree = ast.parse(path.read_text(encoding="utf-8"))
+    text = path.read_text(encoding="utf-8")
+    tree = ast.parse(text)
     common: dict[str, Any] = {"__file__": str(path), "__name__": path.stem}
     lines = list[ast.stmt]()
     for node in _shared(tree):
@@ -264,7 +290,7 @@ def read(path: Path) -> Worksheet:
     with raised():
         exec(compile(ast.Module(lines, []), path, "exec"), common)
     setup = tuple(node for node in lines if isinstance(node, ast.Assign | ast.AnnAssign))
-    return Worksheet(str(path), tuple(_cells(tree, path)), common, _title(tree) or path.stem, setup)
+    return Worksheet(str(path), tuple(_cells(tree, text, path)), common, _title(tree) or path.stem, setup)
 
 
 def _title(tree: ast.Module) -> str | None:
@@ -289,14 +315,39 @@ def _shared(tree: ast.Module) -> Iterator[ast.stmt]:
                     yield node
 
 
-def _cells(tree: ast.Module, path: Path) -> Iterator[Cell]:
-    section = ""
-    for n, node in enumerate(functions(tree)):
+def _cells(tree: ast.Module, text: str, path: Path) -> Iterator[Cell]:
+    nodes, scopes = list(functions(tree)), {t.get_lineno(): t for t in symtable(text, str(path), "exec").get_children()}
+    gives, section = [_gives(node.body) for node in nodes], ""
+    _refuse_twice(nodes, gives, path)
+    given = frozenset(chain.from_iterable(gives))
+    for n, node in enumerate(nodes):
         lines = node.body[:-1] if isinstance(node.body[-1], ast.Return) else node.body
         section = [section, *_SECTION.findall(constant(markdown(node)))][-1]
-        needs, gives, checks = frozenset(a.arg for a in node.args.args), _gives(node), tuple(_checks(node))
+        # What a program other than marimo has written may read more than it names as arguments.
+        needs = frozenset(a.arg for a in node.args.args) | given.intersection(_read_outside(scopes[node.lineno]))
+        branching = any(isinstance(line, _OPEN) for line in lines)
+        certain = _gives(line for line in lines if not isinstance(line, _OPEN)) if branching else gives[n]
         code = compiled(lines, str(path), f"_cell{n}")
-        yield Cell(node.name, needs, gives, checks, tuple(lines), code, section, _is_closing(node))
+        yield Cell(
+            node.name, needs, gives[n], certain, tuple(_checks(node)), tuple(lines), code, section, _is_closing(node)
+        )
+
+
+def _refuse_twice(nodes: Iterable[ast.FunctionDef], gives: Iterable[Iterable[str]], path: Path) -> None:
+    """Raise SheetError for the first name that two cells define."""
+    first = dict[str, int]()
+    for node, names in zip(nodes, gives, strict=True):
+        for name in names:
+            if first.setdefault(name, node.lineno) != node.lineno:
+                places = f"lines {first[name]} and {node.lineno}"
+                raise SheetError(f"{name} is defined in two cells of {path}, {places}: one of them needs another name")
+
+
+def _read_outside(scope: SymbolTable) -> Iterator[str]:
+    """Names that a function, or what is defined in it, has neither as arguments nor of its own."""
+    yield from (symbol.get_name() for symbol in scope.get_symbols() if symbol.is_global())
+    for inner in scope.get_children():
+        yield from _read_outside(inner)
 
 
 def compiled(lines: list[ast.stmt], path: str, own: str) -> CodeType:
@@ -319,12 +370,12 @@ def compiled(lines: list[ast.stmt], path: str, own: str) -> CodeType:
 _OPEN = (ast.If, ast.For, ast.While, ast.Try, ast.TryStar, ast.Match)
 
 
-def _gives(node: ast.FunctionDef, without: tuple[type[ast.stmt], ...] = ()) -> tuple[str, ...]:
-    """Names that a cell defines for others, as marimo sees them: all that its lines bind, but for those with ``_``.
+def _gives(lines: Iterable[ast.stmt]) -> tuple[str, ...]:
+    """Names that lines of a cell define for others, as marimo sees them: all that they bind, but for those with ``_``.
 
-    Not those that it returns: marimo's editor writes only what other cells read behind ``return``.
+    Not those that a cell returns: marimo's editor writes only what other cells read behind ``return``.
     """
-    names = dict.fromkeys(name for line in node.body if not isinstance(line, without) for name in bound(line))
+    names = dict.fromkeys(name for line in lines for name in bound(line))
     return tuple(name for name in names if not name.startswith("_"))
 
 
