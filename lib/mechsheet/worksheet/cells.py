@@ -9,6 +9,7 @@ from functools import lru_cache
 from itertools import chain
 from pathlib import Path
 from symtable import SymbolTable, symtable
+from textwrap import dedent
 from types import CodeType
 from typing import Any
 
@@ -30,10 +31,10 @@ class Cell:
     name: str
     needs: frozenset[str]
     gives: tuple[str, ...]
-    certain: tuple[str, ...]  # of these, not those that only a branch or a loop binds
     checks: tuple[re.Pattern[str], ...]
     lines: tuple[ast.stmt, ...]
     code: CodeType
+    certain: tuple[str, ...] = ()  # of what it gives, not what only a branch or a loop binds
     section: str = ""  # heading ## above the cell, or in it
     closing: bool = False  # whether it has an essential check, such as that a group closes
 
@@ -59,8 +60,10 @@ class Worksheet:
     def run_whole(self) -> dict[str, Any]:
         """Namespace after running every cell, inputs and export among them: those that others need first.
 
-        Raises SheetError as `run` does.
+        Raises SheetError as `run` does, and where there is no cell.
         """
+        if not self.cells:
+            raise SheetError(f"{self.path} is no worksheet: it has no cells")
         order = self.needed(name for cell in self.cells for name in cell.gives)
         return self._run([*order, *(cell for cell in self.cells if cell not in order)], {})
 
@@ -103,7 +106,7 @@ class Worksheet:
         ``want`` are names, parts of them as tables take them (``P56_S.imag``, ``abs(R56)``), and names of checks.
         """
         givers = {name: cell for cell in self.cells for name in cell.gives}
-        known, order = set(self.common) | set(given), list[Cell]()
+        known, order, begun = set(self.common) | set(given), list[Cell](), dict[Cell, str]()
 
         def ask(name: str) -> None:
             if name in known:
@@ -112,12 +115,17 @@ class Worksheet:
                 near = difflib.get_close_matches(name, givers, n=3)
                 hint = f"; nearest: {', '.join(near)}" if near else ""
                 raise SheetError(f"{name} is defined by no cell of {self.path}{hint}")
-            run(givers[name])
+            if givers[name] in begun:
+                other = [*begun.values()][-1]
+                raise SheetError(f"{name} and {other} need each other: {self.path} has no order for them")
+            run(givers[name], name)
 
-        def run(cell: Cell) -> None:
-            known.update(cell.gives)
+        def run(cell: Cell, name: str) -> None:
+            begun[cell] = name
             for need in sorted(cell.needs):
                 ask(need)
+            del begun[cell]
+            known.update(cell.gives)
             order.append(cell)
 
         for name in want:
@@ -129,7 +137,7 @@ class Worksheet:
                 raise _no_check(name, (check.pattern.replace("\\", "") for c in self.cells for check in c.checks))
             for cell in checking:
                 if cell not in order:
-                    run(cell)
+                    run(cell, name)
         return order
 
     @property
@@ -316,6 +324,7 @@ def _shared(tree: ast.Module) -> Iterator[ast.stmt]:
 
 
 def _cells(tree: ast.Module, text: str, path: Path) -> Iterator[Cell]:
+    _refuse_unread(tree, path)
     nodes, scopes = list(functions(tree)), {t.get_lineno(): t for t in symtable(text, str(path), "exec").get_children()}
     gives, section = [_gives(node.body) for node in nodes], ""
     _refuse_twice(nodes, gives, path)
@@ -328,9 +337,21 @@ def _cells(tree: ast.Module, text: str, path: Path) -> Iterator[Cell]:
         branching = any(isinstance(line, _OPEN) for line in lines)
         certain = _gives(line for line in lines if not isinstance(line, _OPEN)) if branching else gives[n]
         code = compiled(lines, str(path), f"_cell{n}")
-        yield Cell(
-            node.name, needs, gives[n], certain, tuple(_checks(node)), tuple(lines), code, section, _is_closing(node)
-        )
+        checks, closing = tuple(_checks(node)), _is_closing(node)
+        yield Cell(node.name, needs, gives[n], checks, tuple(lines), code, certain, section, closing)
+
+
+def _refuse_unread(tree: ast.Module, path: Path) -> None:
+    """Raise SheetError for a cell that the editor keeps as a text, because it is no Python."""
+    for node in tree.body:
+        match node:
+            case ast.Expr(ast.Call(ast.Attribute(attr="_unparsable_cell"), [ast.Constant(str(text)), *_])):
+                try:
+                    ast.parse(dedent(text))
+                    why = "it is written as none"
+                except SyntaxError as error:
+                    why = f"{(error.text or '').strip()}: {mistakes.unread(error)}"
+                raise SheetError(f"worksheet {path}, line {node.lineno}: a cell there cannot be read: {why}")
 
 
 def _refuse_twice(nodes: Iterable[ast.FunctionDef], gives: Iterable[Iterable[str]], path: Path) -> None:
