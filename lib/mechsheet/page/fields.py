@@ -6,7 +6,7 @@ from typing import Any
 import marimo as mo
 
 from mechsheet import units
-from mechsheet.document.markup import named
+from mechsheet.document.markup import as_written
 from mechsheet.worksheet.inputs import declared
 from mechsheet.worksheet.kinds import Choice, Input, Switch
 from mechsheet.worksheet.lists import Rows
@@ -18,7 +18,7 @@ _SIGNS = {"<": "&lt;", ">": "&gt;", "<=": "≤", ">=": "≥"}
 
 def _limit(text: str) -> str:
     text = text.rpartition(".")[2]
-    return named(text) if text[0].isalpha() else text
+    return as_written(text) if text[0].isalpha() else text
 
 
 def _limits(field: Input) -> str:
@@ -31,7 +31,7 @@ def _short(column: Input) -> str:
 
 def _headed(column: Input) -> str:
     """A column of a table, with its unit."""
-    return named(_short(column)) + ("" if column.unit == "-" else f" [{html.escape(units.shown(column.unit))}]")
+    return as_written(_short(column)) + ("" if column.unit == "-" else f" [{html.escape(units.shown(column.unit))}]")
 
 
 class _Fields(mo.ui.batch):
@@ -72,9 +72,9 @@ def fields(g: Any) -> "mo.ui.batch":
         unit, heads = "" if field.unit == "-" else units.shown(field.unit), ""
         if isinstance(field, Rows) and field.row:
             heads = f"<div>{'; '.join(map(_headed, field.columns))}</div>"
-            limits = ", ".join(f"{named(_short(c))}&nbsp;{_limits(c)}" for c in field.columns if c.limits)
+            limits = ", ".join(f"{as_written(_short(c))}&nbsp;{_limits(c)}" for c in field.columns if c.limits)
         sections.setdefault(field.section, []).append(
-            f'<tr><td style="padding-right:.5em">{named(field.name)}</td><td>{heads}{{{field.name}}}</td>'
+            f'<tr><td style="padding-right:.5em">{as_written(field.name)}</td><td>{heads}{{{field.name}}}</td>'
             f'<td style="padding-left:.4em">{html.escape(unit)}</td>'
             f'<td style="padding-left:.7em;line-height:1.2">{html.escape(field.meaning)}'
             f'<span style="opacity:.5;padding-left:.6em">{limits}</span></td></tr>'
