@@ -13,7 +13,7 @@ import numpy as np
 
 from mechsheet import units
 from mechsheet.document import chart, chart_svg
-from mechsheet.document.markup import in_words, named
+from mechsheet.document.markup import as_written, in_words, named
 from mechsheet.page import drawing, fields
 from mechsheet.page.lines import lines
 from mechsheet.page.script import script
@@ -221,7 +221,7 @@ def _(used: Used) -> str:
     for field, _ in used.rows():
         unit = "" if field.unit == "-" else escape(units.shown(field.unit))
         weight = "bold" if field.name in changed else "normal"
-        name = named(field.name)
+        name = as_written(field.name)
         number = escape(field.brief(getattr(used.g, field.name)))
         shown = f"{name}&nbsp;=&nbsp;{number}&nbsp;{unit}"
         items.append(f'<span style="white-space:nowrap;font-weight:{weight}">{shown}</span>')
