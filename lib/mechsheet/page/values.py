@@ -14,13 +14,14 @@ import numpy as np
 from mechsheet import units
 from mechsheet.document import chart, chart_svg
 from mechsheet.document.markup import as_written, in_words, named
-from mechsheet.page import drawing, fields
+from mechsheet.page import drawing, fields, index
 from mechsheet.page.lines import lines
 from mechsheet.page.script import script
 from mechsheet.worksheet import numbers, symbol
 from mechsheet.worksheet.check import Check, Summary
 from mechsheet.worksheet.drawing import Drawing
 from mechsheet.worksheet.errors import SheetError
+from mechsheet.worksheet.index import Index
 from mechsheet.worksheet.inputs import Used
 from mechsheet.worksheet.lines import Typeset
 from mechsheet.worksheet.shown import Charted, Shown
@@ -144,7 +145,8 @@ def _(value: Caption) -> str:
 
 
 def _caption(what: str, number: str, title: str) -> str:
-    return f'<div class="ms-caption"><b>{what} {escape(number)}</b> – {escape(title)}</div>'
+    place = escape(f"{what.lower()}-{number}")
+    return f'<div class="ms-caption" id="{place}"><b>{what} {escape(number)}</b> – {escape(title)}</div>'
 
 
 @html.register
@@ -192,6 +194,11 @@ def _(summary: Summary) -> str:
         for check in sorted(summary.checks, key=lambda check: (check.passed, not check.evaluated))
     )
     return f'<div class="ms-summary"><b>{count}</b><div class="ms-row">{items}</div></div>'
+
+
+@html.register
+def _(made: Index) -> str:
+    return index.written(made)
 
 
 @html.register
