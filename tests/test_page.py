@@ -48,7 +48,8 @@ def test_opens_computed_with_every_section(opened, console_errors):
 
 def test_outputs_are_whole_and_indices_are_small(opened):
     """In the editor too; the size of an index in an exponent follows that of the exponent."""
-    cut = """() => [...document.querySelectorAll(".output-area")].filter((e) => e.scrollHeight > e.clientHeight + 2).length"""
+    cut = """() => [...document.querySelectorAll(".output-area")]
+        .filter((e) => e.scrollHeight > e.clientHeight + 2).length"""
     assert opened.evaluate(cut) == 0
     opened.wait_for_function("() => document.querySelector('marimo-tex').shadowRoot?.querySelector('.katex-sizing')")
     sizes = opened.evaluate("""() =>

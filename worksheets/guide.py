@@ -317,7 +317,8 @@ def section_10():
     drives, drawings, sweeps and design. Each name tells its arguments and units by `help("mechsheet.rrr")`.
 
     A mechanism is written as its crank or cylinder, then one group a line, from which all else follows; the example
-    `bucket` shows it with forces, `hitch` with everything that a document has.
+    `bucket` shows it with forces, `hitch` with everything that a document has. `engine` reads a file and drives a
+    flywheel, `bolted_joint` has materials to choose from, load cases, inches and pounds, two unknowns.
     """)
     return
 

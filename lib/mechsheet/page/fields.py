@@ -7,7 +7,7 @@ from uuid import uuid4
 import marimo as mo
 
 from mechsheet import units
-from mechsheet.document.markup import named
+from mechsheet.document.markup import as_written
 from mechsheet.page.element import element, script
 from mechsheet.worksheet.inputs import declared
 from mechsheet.worksheet.kinds import Choice, Input, Switch
@@ -19,7 +19,7 @@ _SIGNS = {"<": "&lt;", ">": "&gt;", "<=": "≤", ">=": "≥"}
 
 def _limit(text: str) -> str:
     text = text.rpartition(".")[2]
-    return named(text) if text[0].isalpha() else text
+    return as_written(text) if text[0].isalpha() else text
 
 
 def _limits(field: Input) -> str:
@@ -33,7 +33,7 @@ def _short(column: Input) -> str:
 def _head(column: Input) -> dict[str, str]:
     """A column of a grid: its full name, its heading with the unit, and the same without markup."""
     unit = "" if column.unit == "-" else f" [{units.shown(column.unit)}]"
-    head = named(_short(column)) + html.escape(unit)
+    head = as_written(_short(column)) + html.escape(unit)
     return {"name": column.name, "head": head, "label": _short(column) + unit}
 
 
@@ -81,9 +81,9 @@ def fields(g: Any) -> "mo.ui.batch":
         if isinstance(field, Rows):
             unit, grid = "", _grid(field, value)
             if field.row:
-                limits = ", ".join(f"{named(_short(c))}&nbsp;{_limits(c)}" for c in field.columns if c.limits)
+                limits = ", ".join(f"{as_written(_short(c))}&nbsp;{_limits(c)}" for c in field.columns if c.limits)
         sections.setdefault(field.section, []).append(
-            f'<tr><td style="padding-right:.5em">{named(field.name)}</td>'
+            f'<tr><td style="padding-right:.5em">{as_written(field.name)}</td>'
             f'<td data-input="{field.name}">{grid}{{{field.name}}}</td>'
             f'<td style="padding-left:.4em">{html.escape(unit)}</td>'
             f'<td style="padding-left:.7em;line-height:1.2">{html.escape(field.meaning)}'

@@ -8,6 +8,16 @@
   customElements.define(
     "ms-unit",
     class extends HTMLElement {
+      constructor() {
+        super();
+        this.addEventListener("keydown", (event) => {
+          if (event.key !== "Enter" && event.key !== " ") return;
+          event.preventDefault();
+          event.stopPropagation(); // the editor would go to the code of the cell
+          offer(this);
+        });
+      }
+
       connectedCallback() {
         this.tabIndex = 0;
         this.role = "button";
@@ -159,12 +169,10 @@
     if (target.matches?.("ms-value ms-unit, ms-columns ms-unit")) offer(target);
   });
 
-  document.addEventListener("keydown", (event) => {
-    const { key, target } = event;
-    const step = { ArrowDown: "nextElementSibling", ArrowUp: "previousElementSibling" }[key];
-    if (target.matches("ms-unit") && (key === "Enter" || key === " ")) offer(target);
-    else if (step && target.parentElement === menu) target[step]?.focus();
-    else return;
+  menu.addEventListener("keydown", (event) => {
+    const step = { ArrowDown: "nextElementSibling", ArrowUp: "previousElementSibling" }[event.key];
+    if (!step) return;
     event.preventDefault();
+    event.target[step]?.focus();
   });
 })();

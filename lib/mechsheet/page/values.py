@@ -13,14 +13,15 @@ import numpy as np
 
 from mechsheet import units
 from mechsheet.document import chart, chart_svg
-from mechsheet.document.markup import in_words, named
-from mechsheet.page import drawing, fields, switched
+from mechsheet.document.markup import as_written, in_words, named
+from mechsheet.page import drawing, fields, index, switched
 from mechsheet.page.element import script
 from mechsheet.page.lines import lines
 from mechsheet.worksheet import numbers, symbol
 from mechsheet.worksheet.check import Check, Summary
 from mechsheet.worksheet.drawing import Drawing
 from mechsheet.worksheet.errors import SheetError
+from mechsheet.worksheet.index import Index
 from mechsheet.worksheet.inputs import Used
 from mechsheet.worksheet.lines import Typeset
 from mechsheet.worksheet.numbers import Notation
@@ -145,7 +146,8 @@ def _(value: Caption) -> str:
 
 
 def _caption(what: str, number: str, title: str) -> str:
-    return f'<div class="ms-caption"><b>{what} {escape(number)}</b> – {escape(title)}</div>'
+    place = escape(f"{what.lower()}-{number}")
+    return f'<div class="ms-caption" id="{place}"><b>{what} {escape(number)}</b> – {escape(title)}</div>'
 
 
 @html.register
@@ -199,6 +201,11 @@ def _(summary: Summary) -> str:
 
 
 @html.register
+def _(made: Index) -> str:
+    return index.written(made)
+
+
+@html.register
 def _(found: Verdict) -> str:
     failures = found.failures()
     colour = "#c62828" if failures else "#2e7d32" if np.any(found.solved) else "#8a6d00"
@@ -225,7 +232,7 @@ def _(used: Used) -> str:
     for field, _ in used.rows():
         unit = "" if field.unit == "-" else escape(units.shown(field.unit))
         weight = "bold" if field.name in changed else "normal"
-        name = named(field.name)
+        name = as_written(field.name)
         number = escape(field.brief(getattr(used.g, field.name)))
         shown = f"{name}&nbsp;=&nbsp;{number}&nbsp;{unit}"
         items.append(f'<span style="white-space:nowrap;font-weight:{weight}">{shown}</span>')

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from types import NoneType
-from typing import TYPE_CHECKING, Any, Literal, TypeVar, dataclass_transform, get_args, get_origin
+from typing import Any, Literal, TypeVar, dataclass_transform, get_args, get_origin
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -21,9 +21,6 @@ from mechsheet.worksheet.errors import SheetError, refuse
 from mechsheet.worksheet.kinds import Choice, Input, Offer, Switch, TextLine, number
 from mechsheet.worksheet.lists import Rows
 from mechsheet.worksheet.shown import Shown
-
-if TYPE_CHECKING:
-    import marimo as mo
 
 T = TypeVar("T")
 _LIMIT = re.compile(r"\s*(<=|>=|<|>)\s*([^\s<>=]+)(?=[\s<>]|$)")
@@ -384,8 +381,8 @@ def readings(fields: Iterable[Input], values: Mapping[str, object]) -> list[str]
     return [text for field in fields if field.name in values for text in field.readings(values[field.name])]
 
 
-def read(cls: type[T], form: "mo.ui.batch") -> T:
-    """Inputs as the text fields of ``form`` hold them, checked as in `build`."""
+def read(cls: type[T], form: Any) -> T:
+    """Inputs as the text fields that `ask` gives hold them, checked as in `build`."""
     values: dict[str, object] = form.value
     try:
         return build(cls, values)

@@ -15,6 +15,7 @@ from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.kinds import Input
 
 _MOST = 10_000  # rows
+_BRIEF = 12  # rows that stand in full where all inputs are listed
 
 
 @dataclass(frozen=True)
@@ -93,7 +94,10 @@ class Rows(Input):
 
     def brief(self, value: Any) -> str:
         columns = [[c.brief(float(x)) for x in xs] for c, xs in self.leaves(value).values()]
-        return ("; " if self.row is None else " | ").join(map("; ".join, zip(*columns, strict=True)))
+        rows = list(map("; ".join, zip(*columns, strict=True)))
+        count = f" ({len(rows)} rows)" if len(rows) > _BRIEF else ""
+        shown = [*rows[:3], "..", rows[-1]] if count else rows
+        return ("; " if self.row is None else " | ").join(shown) + count
 
     def readings(self, value: object) -> Iterator[str]:
         if isinstance(value, str) and value.strip().lower().endswith(data_file.ENDINGS):
