@@ -9,13 +9,13 @@ import pytest
 from playwright.sync_api import expect
 from test_page import HITCH, ready
 
-from mechsheet.page import element, values
+from mechsheet.page import script, values
 from mechsheet.units import parse, shown
 from mechsheet.worksheet import numbers
 from mechsheet.worksheet.check import check
 from mechsheet.worksheet.table import Column, Table
 
-SCRIPT = (Path(element.__file__).parent / "units.js").read_text(encoding="utf-8")
+SCRIPT = (Path(script.__file__).parent / "units.js").read_text(encoding="utf-8")
 STYLE = HITCH.with_name("page.css").read_text(encoding="utf-8")
 HALVES = [0.5, 1.5, 2.5, -0.5, 0.125, 0.375, -2.125, 9.5, 99.5, 0.0625, 1e-300, 1e22, -3e25, 0.0, -0.0, -4e-9]
 NONE = [np.nan, np.inf, -np.inf]

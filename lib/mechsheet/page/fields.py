@@ -8,7 +8,7 @@ import marimo as mo
 
 from mechsheet import units
 from mechsheet.document.markup import as_written
-from mechsheet.page.element import element, script
+from mechsheet.page.script import element, script
 from mechsheet.worksheet.inputs import declared
 from mechsheet.worksheet.kinds import Choice, Input, Switch
 from mechsheet.worksheet.lists import Rows

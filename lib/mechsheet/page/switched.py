@@ -10,7 +10,7 @@ from typing import Any
 
 from mechsheet import units
 from mechsheet.document.markup import HTML
-from mechsheet.page.element import element
+from mechsheet.page.script import element
 from mechsheet.worksheet import numbers
 from mechsheet.worksheet.numbers import Notation
 from mechsheet.worksheet.table import Column

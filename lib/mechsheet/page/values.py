@@ -15,8 +15,8 @@ from mechsheet import units
 from mechsheet.document import chart, chart_svg
 from mechsheet.document.markup import as_written, in_words, named
 from mechsheet.page import drawing, fields, index, switched
-from mechsheet.page.element import script
 from mechsheet.page.lines import lines
+from mechsheet.page.script import script
 from mechsheet.worksheet import numbers, symbol
 from mechsheet.worksheet.check import Check, Summary
 from mechsheet.worksheet.drawing import Drawing

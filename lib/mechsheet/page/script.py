@@ -1,4 +1,4 @@
-"""Elements that the page's own scripts show, and these scripts: one for each thing that the page does by itself."""
+"""The scripts of the page, one for each thing that it does by itself, and the elements that they show."""
 
 import base64
 import json
