@@ -19,18 +19,22 @@ UNIT = "<ms-unit>{}</ms-unit>"  # on which one clicks
 _SWITCHED = HTML._replace(degrees=UNIT.format(HTML.degrees), unit=f" {UNIT}")
 
 
-@cache
-def offered(unit: str) -> tuple[str, ...]:
-    """Other units in which a number may be shown; none for a pure number, whose unit is not seen."""
-    return tuple(other for other in units.alike(unit)[1:] if "-" not in (unit, other))
+def offered(unit: str) -> dict[str, str]:
+    """Other units in which a number may be shown, by how they are printed; none for a pure number."""
+    return {_printed(other): other for other in units.alike(unit)[1:] if "-" not in (unit, other)}
+
+
+@cache  # of names alone: what a unit of one's own measures may change
+def _printed(unit: str) -> str:
+    return units.shown(unit)
 
 
 def value(of: str, unit: str, text: Callable[[str, Notation], str]) -> str:
     """HTML that ``text`` gives in a unit and a notation; it follows the unit that is chosen for what it shows."""
-    texts = {units.shown(other): text(other, _SWITCHED) for other in offered(unit)}
+    texts = {label: text(other, _SWITCHED) for label, other in offered(unit).items()}
     if not texts:
         return text(unit, HTML)
-    return element("ms-value", f"<span>{text(unit, _SWITCHED)}</span>", of=of, unit=units.shown(unit), texts=texts)
+    return element("ms-value", f"<span>{text(unit, _SWITCHED)}</span>", of=of, unit=_printed(unit), texts=texts)
 
 
 def columns(shown: Sequence[Column], table: str) -> str:
@@ -40,11 +44,11 @@ def columns(shown: Sequence[Column], table: str) -> str:
 
 
 def _column(column: Column) -> dict[str, Any]:
-    known = (column.unit, *offered(column.unit))
+    known = {_printed(column.unit): column.unit, **offered(column.unit)}
     return {
         "of": column.of,
-        "unit": units.shown(column.unit),
-        "units": {units.shown(unit): units.parse(unit).factor for unit in known},
+        "unit": _printed(column.unit),
+        "units": {label: units.parse(unit).factor for label, unit in known.items()},
         "decimals": column.decimals,
         "power": column.power,
         "values": [x if isfinite(x) else numbers.fixed(x, 0, numbers.CELL) for x in column.values.tolist()],
