@@ -30,8 +30,9 @@ from typing import Any
 
 import numpy as np
 
-from mechsheet.accuracy import condition, exact, printed
+from mechsheet.accuracy import condition, exact, printed, rivals
 from mechsheet.accuracy.arithmetic import Numbers, mpc, mpf
+from mechsheet.accuracy.chain import crank_chain
 from mechsheet.mechanics.load import Load
 from mechsheet.mechanics.planar import angle
 from mechsheet.mechanics.rrr import RRRGroup, rrr_reach
@@ -344,15 +345,22 @@ def through_dead_centre(_worksheets: Path, given: Mapping[str, Any], _at: int = 
     Radau's implicit method, for they are stiff. Inputs: links a (crank), b, c, frame b + c - a - gap, angles of the
     crank theta_0, theta_1.
     """
-    a, b, c, gap, start, end = (float(given[name]) for name in ("a", "b", "c", "gap", "theta_0", "theta_1"))
+    a, b, c, gap, *turn = (float(given[name]) for name in ("a", "b", "c", "gap", "theta_0", "theta_1"))
     d = b + c - a - gap
-    found = RRRGroup(a * np.exp(1j * end), d, b, c, +1)
+    chain = crank_chain(a, d, b, c)
+    (start,), (end,) = map(chain.groups, turn)
+
+    def integrated(_: Numbers) -> Mapping[str, Any]:
+        first = angle([start.AC, start.BC])
+        phi2, phi3 = rivals.integrated(chain, turn, first, "Radau", 1e-10, 1e-12)[:, -1]
+        return {"C": d + c * np.exp(1j * phi3), "phi2": phi2, "phi3": phi3}
+
     return Case(
         words="",
         true=exact.four_bar,
-        x={"a": a, "b": b, "c": c, "d": d, "theta": end},
-        product=lambda _: {"C": found.C, "phi2": angle(found.AC), "phi3": angle(found.BC)},
-        printed=lambda _: printed.integrated_four_bar(a, b, c, d, start, end),
+        x={"a": a, "b": b, "c": c, "d": d, "theta": turn[-1]},
+        product=lambda _: {"C": end.C, "phi2": angle(end.AC), "phi3": angle(end.BC)},
+        printed=integrated,
     )
 
 
