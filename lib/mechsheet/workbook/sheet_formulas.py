@@ -5,10 +5,12 @@ from typing import NamedTuple
 from mechsheet import units
 from mechsheet.recording.graph import Node, bottom_up
 from mechsheet.recording.lines import Line
+from mechsheet.recording.quantity import Quantity
 from mechsheet.recording.record import leaves_of
 from mechsheet.workbook.arrangement import Arrangement
 from mechsheet.workbook.cell_formula import CellFormulas, written
 from mechsheet.workbook.content import Live, quoted
+from mechsheet.workbook.place import Place
 from mechsheet.worksheet.table import Figure, Table
 
 
@@ -32,6 +34,12 @@ class SheetFormulas:
     def name(self, node: Node) -> str:
         """Defined name of a quantity that has a place."""
         return self.arrangement.places[node].name
+
+    def place(self, name: str) -> Place | None:
+        """Where a line of the worksheet stands, its first coordinate or row; None where it has no place of its own."""
+        value = self.recording.values.get(name)
+        nodes = value.parts if isinstance(value, Quantity) else ()
+        return next((self.arrangement.places[node] for node in nodes if node in self.arrangement.places), None)
 
     def column(self, table: Table, n: int) -> list[str] | None:
         """Formulas of a table's column in its display unit; None where it holds the same numbers for all inputs."""
