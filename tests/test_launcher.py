@@ -35,9 +35,11 @@ def calls(monkeypatch: pytest.MonkeyPatch) -> list[list[str]]:
 
 @pytest.fixture
 def sheet(tmp_path: Path) -> Path:
-    """A script that prints its arguments and exits with 3."""
+    """A worksheet that prints its arguments and exits with 3."""
     path = tmp_path / "sheet.py"
-    path.write_text("import sys\nprint(*sys.argv[1:], 'φ')\nsys.exit(3)\n", encoding="utf-8")
+    lines = ("import marimo", "", "app = marimo.App()", "", "@app.cell", "def told():", "    import sys")
+    ends = ("    print(*sys.argv[1:], 'φ')", "    sys.exit(3)", "    return", "")
+    path.write_text("\n".join((*lines, *ends)), encoding="utf-8")
     return path
 
 

@@ -32,7 +32,8 @@ def _single(line: Formula | Given, shown: Typeset) -> frozenset[str]:
     if shown.numbers is None:
         return frozenset()
     known = shown.numbers.namespace
-    over = np.ndim(known.get("S", 0)) > 0
+    S = np.asarray(known.get("S", 0))
+    over = S.ndim > 0 and S.dtype.kind in "iuf"  # the stroke; a point may have that name too
     return frozenset(n for n in fields_by_name(line) if not over or (n in known and np.ndim(known[n]) == 0))
 
 
