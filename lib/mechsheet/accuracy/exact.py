@@ -13,6 +13,7 @@ from types import SimpleNamespace
 from typing import Any
 
 from mechsheet.accuracy.arithmetic import DIGITS, SLACK, Numbers, cross, derivatives, mp, mpc, mpf, rotation, rrp, rrr
+from mechsheet.worksheet.kinds import Chosen
 
 _NOTHING = mpf(10) ** -95  # below the root of the rounding of the work: the sine at a dead centre
 _LINKS = {3: ("O3", "P23_S"), 4: ("P34_S", "P45_S"), 5: ("O5", "P45_S"), 6: ("P56_S", "P67_S"), 7: ("O7", "P67_S")}
@@ -212,8 +213,13 @@ def four_bar(a: Any, b: Any, c: Any, d: Any, theta: Any) -> Numbers:
     return {"C": C, "phi2": mp.arg(C - A), "phi3": mp.arg(C - B)}
 
 
+def numbers(g: Any) -> dict[str, Any]:
+    """Inputs that are numbers; the sides on which a mechanism is assembled are none, and here those of the document."""
+    return {name: value for name, value in vars(g).items() if not isinstance(value, str | Chosen)}
+
+
 def _exact(g: Any) -> SimpleNamespace:
-    return SimpleNamespace(**{name: mpf(value) for name, value in vars(g).items()})
+    return SimpleNamespace(**{name: mpf(value) for name, value in numbers(g).items()})
 
 
 def _nearest(name: str, roots: Iterator[tuple[mpf, mpc]], guess: mpf) -> tuple[mpf, mpc]:

@@ -271,7 +271,7 @@ def hitch(worksheets: Path, given: Mapping[str, Any], at: int = -1) -> Case:
     return Case(
         words=_reasons(names["checks_closing"]),
         true=true,
-        x={"S": S, **dict.fromkeys(rounding, 1.0), **vars(g)},
+        x={"S": S, **dict.fromkeys(rounding, 1.0), **exact.numbers(g)},
         rounding=rounding,
         product=lambda true: _row(sheet.run(true, names), true, at),
         printed=lambda true: printed.hitch(sheet, g, S, **{name: float(true[name]) for name in rounding}),
