@@ -249,7 +249,7 @@ def summed(A, B, C, loads_A=(), loads_B=()):
     [
         ("tiny_crank", "landing_gear", "angle_opposite", needle),
         ("mast_upright", "hitch", "rrr_reactions", eliminated),
-        ("axis_at_infinity_pressed", "joint", "total", lambda x: x.cumsum(-1)[..., -1:]),
+        ("axis_at_infinity_pressed", "joint", "total", lambda x: x.sum(-1, keepdims=True)),
     ],
 )
 def test_fault_in_a_worksheet_is_noticed(monkeypatch, name, worksheet, function, fault):

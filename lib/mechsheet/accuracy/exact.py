@@ -7,8 +7,6 @@ positions, reactions by the equilibrium of the bodies that are no two-force memb
 the names of the worksheet. Where something does not close or is infinite there, its result is NaN.
 """
 
-import re
-from collections import defaultdict
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cache, lru_cache
 from itertools import pairwise
@@ -128,16 +126,16 @@ def landing_gear(g: Any, l2: Any) -> Numbers:
     return synthesis | motion | {"F_c": F_c, "P_c": F_c * V21, "R23": F_c * rod, "R03": R03}
 
 
-def joint(x: Mapping[str, Any], plane: int) -> Numbers:
+def joint(tables: Any, x: Mapping[str, Any], plane: int) -> Numbers:
     """Stresses, forces and neutral axis of the rectangular joint, by trying every place of the neutral axis.
 
-    x are the inputs by name, of tables their elements: ``beams.y (1)``; of the load cases the first is taken.
+    x are the inputs by name, but of each column of the ``tables`` the factor by which all its elements change, such as
+    ``beams.y``, so that what is symmetrical stays so; of the load cases the first is taken.
     ``sigma_k`` belongs to the element k, from 0; P is the row of all forces. Raises ValueError where nothing is in
     equilibrium.
     """
     g = _exact(SimpleNamespace(**x))
-    tables = _tables(vars(g))
-    beams, stringers, load = tables["beams"], tables["stringers"], tables["loads"][0]
+    beams, stringers, (load, *_) = (_rows(tables, name, vars(g)) for name in ("beams", "stringers", "loads"))
     beta = _rounded(g.E_al / g.E_st, g.d_E)
     l_b, l_h = (g.psi * (max(side) - min(side)) / 2 for side in ([e.z for e in beams], [e.y for e in beams]))
     pressed, A_t = beta * g.k_a * g.delta**2, list[mpf]()
@@ -166,13 +164,10 @@ def joint(x: Mapping[str, Any], plane: int) -> Numbers:
     return named | {"P": [s * area for s, area in zip(sigma, A, strict=True)], "y_0": y_0}
 
 
-def _tables(x: Mapping[str, Any]) -> dict[str, list[Any]]:
-    """Tables of inputs by name, each a list of its rows, from their elements by name."""
-    tables = defaultdict[str, dict[int, SimpleNamespace]](lambda: defaultdict(SimpleNamespace))
-    for name, value in x.items():
-        if element := re.fullmatch(r"(\w+)\.(\w+) \((\d+)\)", name):
-            setattr(tables[element[1]][int(element[3])], element[2], value)
-    return {table: [rows[k] for k in sorted(rows)] for table, rows in tables.items()}
+def _rows(tables: Any, name: str, factors: Mapping[str, Any]) -> list[Any]:
+    """Rows of a table, each column times its factor."""
+    columns = {key: [mpf(v) * factors[f"{name}.{key}"] for v in xs] for key, xs in vars(getattr(tables, name)).items()}
+    return [SimpleNamespace(**dict(zip(columns, row, strict=True))) for row in zip(*columns.values(), strict=True)]
 
 
 def stresses(y: Sequence[Any], A: Sequence[Any], M: Any, N: Any) -> list[mpf]:

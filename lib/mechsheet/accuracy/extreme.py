@@ -21,7 +21,7 @@ table ``[extreme]``:
 """
 
 import tomllib
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
@@ -309,23 +309,15 @@ def joint(worksheets: Path, given: Mapping[str, Any], at: int = -1) -> Case:
     product = {f"sigma_{i}": value for i, value in enumerate(names["sigma"][p, 0])} | {"P": names["P"][p, 0]}
     step = names["steps"][p, 0, 0]
     formulas = {"y_0": names["axes"][step - 1, p, 0, 0] if step else np.nan}
+    leaves = [leaf for each in inputs.declared(type(g)) for leaf in each.leaves(getattr(g, each.name)).items()]
+    x = {name: 1.0 if np.ndim(value) else value for name, (_, value) in leaves}
     return Case(
         words=_reasons(names["checks_joint"]),
-        true=lambda **x: exact.joint(x, p + 1),
-        x=dict(_elements(g)),
+        true=lambda **x: exact.joint(g, x, p + 1),
+        x=x,
         product=lambda _: product | {"y_0": names["y_0"][p, 0, 0]},
         printed=lambda _: formulas,
     )
-
-
-def _elements(g: Any) -> Iterator[tuple[str, Any]]:
-    """The numbers of which inputs are made, in SI by name; of lists and tables each element."""
-    for each in inputs.declared(type(g)):
-        for name, (_, value) in each.leaves(getattr(g, each.name)).items():
-            if np.ndim(value):
-                yield from ((f"{name} ({k})", x) for k, x in enumerate(value.tolist(), 1))
-            else:
-                yield name, value
 
 
 _DYAD = {"A": ("X_A", "Y_A"), "B": ("X_B", "Y_B"), "P_A": ("X_PA", "Y_PA"), "P_B": ("X_PB", "Y_PB")}
