@@ -7,8 +7,9 @@ positions, reactions by the equilibrium of the bodies that are no two-force memb
 the names of the worksheet. Where something does not close or is infinite there, its result is NaN.
 """
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cache
+from itertools import pairwise
 from types import SimpleNamespace
 from typing import Any
 
@@ -98,36 +99,48 @@ def landing_gear(g: Any, l2: Any) -> Numbers:
     return synthesis | motion | {"F_c": F_c, "P_c": F_c * V21, "R23": F_c * rod, "R03": R03}
 
 
-def joint(g: Any, plane: int, case: int) -> Numbers:
+def joint(tables: Any, x: Mapping[str, Any], plane: int) -> Numbers:
     """Stresses, forces and neutral axis of the rectangular joint, by trying every place of the neutral axis.
 
+    x are the inputs by name, but of each column of the ``tables`` the factor by which all its elements change, such as
+    ``beams.y``, so that what is symmetrical stays so; of the load cases the first is taken.
     ``sigma_k`` belongs to the element k, from 0; P is the row of all forces. Raises ValueError where nothing is in
     equilibrium.
     """
-    x = _exact(g)
-    beta = _rounded(x.E_al / x.E_st, x.d_E)
-    l_b, l_h = x.psi * x.b / 2, x.psi * x.h / 2
-    beside = x.F_s * ((l_b >= x.b / 4) + (l_h >= x.h / 4))
-    F_bt = x.F_b + _rounded(beta * ((l_b + x.h / 4) * x.delta + beside), x.d_F)
-    F_bc, F_sc = x.F_b + beta * x.k_a * x.delta**2, beta * (x.F_s + x.k_a * x.delta**2)
-    half = (x.h, x.b)[plane - 1] / 2
-    y = [half * k for k in (1, -1, -1, 1)] + [half * k for k in (1, 0.5, -0.5, -1, -1, -0.5, 0.5, 1)]
-    A_t, A_c = [F_bt] * 4 + [mpf(0)] * 8, [F_bc] * 4 + [F_sc] * 8
-    M, N = ((x.M_1, x.N_1), (x.M_2, x.N_2))[case - 1]
-    places = [-2 * half, *(half * k / 4 for k in (-3, -1, 1, 3))]
+    g = _exact(SimpleNamespace(**x))
+    beams, stringers, (load, *_) = (_rows(tables, name, vars(g)) for name in ("beams", "stringers", "loads"))
+    beta = _rounded(g.E_al / g.E_st, g.d_E)
+    l_b, l_h = (g.psi * (max(side) - min(side)) / 2 for side in ([e.z for e in beams], [e.y for e in beams]))
+    pressed, A_t = beta * g.k_a * g.delta**2, list[mpf]()
+    for e in beams:
+        on_b = [s for s in stringers if abs(s.y - e.y) <= g.delta and abs(s.z - e.z) <= l_b]
+        on_h = [s for s in stringers if abs(s.z - e.z) <= g.delta and abs(s.y - e.y) <= l_h]
+        skin = (l_b + min([l_h, *(abs(s.y - e.y) for s in on_h)])) * g.delta
+        A_t.append(e.F + e.k_t * _rounded(beta * (skin + sum(s.F for s in [*on_b, *on_h])), g.d_F))
+    A_t += [s.k_t * beta * s.F for s in stringers]
+    A_c = [e.F + e.k_c * pressed for e in beams] + [s.k_c * (beta * s.F + pressed) for s in stringers]
+    y = [(e.y, e.z)[plane - 1] for e in [*beams, *stringers]]
+    M, N, levels = load.M + load.M_w, load.N, sorted(set(y))
     fits = []
-    for place in places:
+    for place in [levels[0] - 1, *((low + high) / 2 for low, high in pairwise(levels))]:
         for way in (1, -1):
             A = [t if way * (level - place) > 0 else c for level, t, c in zip(y, A_t, A_c, strict=True)]
             if sigma := _stresses(y, A, M, N):
                 wrong = max(-way * (level - place) * s for level, s in zip(y, sigma, strict=True))
                 fits.append((wrong, sigma, A))
     wrong, sigma, A = min(fits, key=lambda fit: fit[0])
-    if wrong > mpf(10) ** -DIGITS * half * max(map(abs, sigma)):
+    if wrong > mpf(10) ** -DIGITS * (levels[-1] - levels[0]) * max(map(abs, sigma)):
         raise ValueError("no place of the neutral axis is in equilibrium")
     named = {f"sigma_{k}": s for k, s in enumerate(sigma)}
-    forces, slope = [s * a for s, a in zip(sigma, A, strict=True)], sigma[0] - sigma[1]  # of y over its whole width
-    return named | {"P": forces, "y_0": -half * (sigma[0] + sigma[1]) / slope if slope else mpf("inf")}
+    low, high = sigma[y.index(levels[0])], sigma[y.index(levels[-1])]
+    y_0 = (levels[0] * high - levels[-1] * low) / (high - low) if high - low else mpf("inf")
+    return named | {"P": [s * area for s, area in zip(sigma, A, strict=True)], "y_0": y_0}
+
+
+def _rows(tables: Any, name: str, factors: Mapping[str, Any]) -> list[Any]:
+    """Rows of a table, each column times its factor."""
+    columns = {key: [mpf(v) * factors[f"{name}.{key}"] for v in xs] for key, xs in vars(getattr(tables, name)).items()}
+    return [SimpleNamespace(**dict(zip(columns, row, strict=True))) for row in zip(*columns.values(), strict=True)]
 
 
 def _stresses(y: Sequence[Any], A: Sequence[Any], M: Any, N: Any) -> list[mpf]:

@@ -293,19 +293,23 @@ def landing_gear(worksheets: Path, given: Mapping[str, Any], at: int = -1) -> Ca
 
 
 def joint(worksheets: Path, given: Mapping[str, Any], at: int = -1) -> Case:
-    """The rectangular joint of the joint worksheet; ``at`` counts the planes and, faster, the load cases."""
-    sheet, g = _worksheet(worksheets / "joint.py", given)
+    """The rectangular joint of the joint worksheet in the plane ``at`` under one load case, M and N."""
+    load = {"M": 3e5, "N": -13e3} | {name: given[name] for name in ("M", "N") if name in given}
+    others = {name: value for name, value in given.items() if name not in load}
+    sheet, g = _worksheet(worksheets / "joint.py", {**others, "loads": [{**load, "M_w": 0}]})
     names = sheet.run(["sigma", "P", "y_0", "axes", "steps", "checks_joint"], {"g": g})
-    p, k = divmod(range(4)[at], 2)
-    product = {f"sigma_{i}": value for i, value in enumerate(names["sigma"][p, k])}
-    product |= {"P": names["P"][p, k], "y_0": names["y_0"][p, k, 0]}
-    step = names["steps"][p, k, 0]
+    p = range(2)[at]
+    product = {f"sigma_{i}": value for i, value in enumerate(names["sigma"][p, 0])} | {"P": names["P"][p, 0]}
+    step = names["steps"][p, 0, 0]
+    formulas = {"y_0": names["axes"][step - 1, p, 0, 0] if step else np.nan}
+    leaves = [leaf for each in inputs.declared(type(g)) for leaf in each.leaves(getattr(g, each.name)).items()]
+    x = {name: 1.0 if np.ndim(value) else value for name, (_, value) in leaves}
     return Case(
         words=_reasons(names["checks_joint"]),
-        true=lambda **g: exact.joint(SimpleNamespace(**g), p + 1, k + 1),
-        x=vars(g),
-        product=lambda _: product,
-        printed=lambda _: {"y_0": names["axes"][step - 1, p, k, 0] if step else np.nan},
+        true=lambda **x: exact.joint(g, x, p + 1),
+        x=x,
+        product=lambda _: product | {"y_0": names["y_0"][p, 0, 0]},
+        printed=lambda _: formulas,
     )
 
 
