@@ -9,20 +9,11 @@ from typing import Any
 
 import numpy as np
 
+from mechsheet.recording.arithmetic import choice as where
+from mechsheet.recording.arithmetic import elementwise, trunc
 from mechsheet.recording.graph import NotRecorded
 from mechsheet.recording.memory import Memory, may_change, names_of
-from mechsheet.recording.quantity import (
-    Quantity,
-    elementwise,
-    has_quantity,
-    joined,
-    lift,
-    owner,
-    plain,
-    quantities,
-    trunc,
-)
-from mechsheet.recording.quantity import choice as where
+from mechsheet.recording.quantity import Quantity, has_quantity, joined, lift, owner, plain, quantities
 from mechsheet.worksheet.kinds import Chosen, cases
 
 _NUMBERS = int | float | complex | np.number | Quantity
@@ -39,7 +30,7 @@ UNBOUND = _Unbound()
 
 def _condition(value: Any) -> bool:
     """Whether a single recorded condition or number."""
-    return isinstance(value, Quantity) and value.size == 1 and value.im is None and value.re.op != "constant"
+    return isinstance(value, Quantity) and value.single and value.im is None and value.re.op != "constant"
 
 
 def choice(condition: Any, x: FunctionType, y: FunctionType, *given: Any) -> Any:
@@ -81,13 +72,21 @@ def _merged(condition: Quantity, x: Any, y: Any) -> Any:
     if isinstance(x, tuple) and type(x) is type(y) is tuple and len(x) == len(y):
         parts = [_merged(condition, a, b) for a, b in zip(x, y, strict=True)]
         return None if any(part is None for part in parts) else tuple(parts)
-    if isinstance(x, _ARRAYS) and isinstance(y, _ARRAYS) and np.shape(x) == np.shape(y):
+    if isinstance(x, _ARRAYS) and isinstance(y, _ARRAYS) and _lengths(x) == _lengths(y):
         return where(condition.graph, condition.reshape(()), x, y)
     return None
 
 
+def _lengths(value: Any) -> tuple[Any, ...]:
+    """The shape, with the nodes of lengths that follow a number of rows."""
+    lengths = value.shape if isinstance(value, Quantity) else np.shape(value)
+    return tuple(n.re if isinstance(n, Quantity) else n for n in lengths)
+
+
 def _missing(value: Any) -> Any:
     """What stands for a number on a way where the worksheet has none."""
+    if isinstance(value, Quantity):
+        return lift(value.graph, np.nan).like(value)
     return np.full(np.shape(value), np.nan) if isinstance(value, _ARRAYS) else UNBOUND
 
 
@@ -136,6 +135,13 @@ def negated(value: Any) -> Any:
     return elementwise("not")(value != 0 if value.re.value.dtype != bool else value) if _condition(value) else not value
 
 
+def matched(value: Any) -> Any:
+    """A value that is compared with True and False themselves, which no quantity is."""
+    if isinstance(value, tuple | list) and has_quantity(value):
+        return type(value)(map(matched, value))
+    return bool(value) if _condition(value) and value.re.value.dtype == bool else value
+
+
 def element(container: Any, key: Any) -> Any:
     """``container[key]``: where the key is a quantity, the one of several numbers that it points at."""
     if isinstance(key, Chosen) and isinstance(container, dict):
@@ -145,7 +151,7 @@ def element(container: Any, key: Any) -> Any:
     if isinstance(container, np.ndarray) and container.dtype.kind in "biufc":
         return lift(key.graph, container)[key]
     values = container if isinstance(container, dict) else dict(enumerate(container))
-    if key.size != 1 or not all(isinstance(v, _NUMBERS) for v in (*values, *values.values())):
+    if not key.single or not all(isinstance(v, _NUMBERS) for v in (*values, *values.values())):
         seen = key.seen()
         return container[seen.item() if seen.size == 1 else seen]
     if not any(key.value == known for known in values):
@@ -179,11 +185,16 @@ def put(array: Any, key: Any, value: Any) -> Any:
         return array
     graph = next(quantities([array, key, value])).graph
     graph.gone.append(weakref.ref(owner(array)))
-    old, key = lift(graph, array), plain(key)
-    order = np.arange(old.size).reshape(old.shape)
-    new = lift(graph, value).broadcast(np.shape(order[key])).reshape(-1)
-    order[key] = old.size + np.arange(new.size).reshape(np.shape(order[key]))
-    return joined([old.reshape(-1), new], order)
+    old, new = lift(graph, array), lift(graph, value)
+    return joined([old, new.astype(int) if old.dtype.kind in "iu" else new], _placed, plain(key))
+
+
+def _placed(old_and_new: Any, key: Any) -> Any:
+    """An array with some elements set to others."""
+    old, new = old_and_new
+    both = np.array(old, np.result_type(old, new))
+    both[key] = new
+    return both
 
 
 def changed(old: Any, operation: str, value: Any) -> Any:
@@ -193,8 +204,8 @@ def changed(old: Any, operation: str, value: Any) -> Any:
     graph = next(quantities([old, value])).graph
     graph.gone.append(weakref.ref(owner(old)))
     new = lift(graph, getattr(operator, operation)(old, value))
-    if new.shape != np.shape(old):
-        raise ValueError(f"an array of shape {np.shape(old)} cannot hold one of shape {new.shape}")
+    if new.extent != lift(graph, old).extent:
+        raise ValueError(f"an array of shape {lift(graph, old).extent} cannot hold one of shape {new.extent}")
     return new
 
 
@@ -235,9 +246,9 @@ def _extreme(name: str) -> Callable[..., Any]:
 
 
 CALLS: dict[str, Any] = {
-    "choice": choice, "and": both, "or": any_of, "not": negated, "element": element, "put": put,
+    "choice": choice, "and": both, "or": any_of, "not": negated, "matched": matched, "element": element, "put": put,
     "part": part, "changed": changed, "settled": settled, "handled": handled,
-    "known": known, "unbound": UNBOUND,
+    "len": lambda x: x.count(0) if isinstance(x, Quantity) and x.ndim else len(x), "known": known, "unbound": UNBOUND,
     "max": _extreme("max"), "min": _extreme("min"), "round": round,
     "float": lambda *x: x[0] if has_quantity(x) else float(*x),
     "int": lambda *x: trunc(x[0]) if has_quantity(x) else int(*x),

@@ -12,8 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mechsheet import units
-from mechsheet.recording.graph import Node
 from mechsheet.recording.lines import Recording, Residual, Solved
+from mechsheet.recording.node import Node
 from mechsheet.recording.pinpoint import Mistake, Places
 from mechsheet.recording.quantity import Quantity
 from mechsheet.units import PURE, Dims
@@ -359,7 +359,7 @@ def _same(reader: Reader, node: Node) -> Codes:
 
 
 def _take(reader: Reader, node: Node) -> Codes:
-    source, index = node.args
+    source, index, _ = node.args
     codes = reader.codes[source]
     return codes if isinstance(codes, int) else _simple(np.broadcast_to(codes, source.shape).reshape(-1)[index])
 
@@ -370,7 +370,7 @@ def _at(reader: Reader, node: Node) -> Codes:
 
 
 def _join(reader: Reader, node: Node) -> Codes:
-    sources, which, inside = node.args
+    sources, which, inside, _ = node.args
     codes = [reader.codes[source] for source in sources]
     if all(isinstance(c, int) for c in codes):
         return _simple(np.array(codes)[which])
@@ -382,7 +382,7 @@ def _join(reader: Reader, node: Node) -> Codes:
 
 
 def _reduce(reader: Reader, node: Node) -> Codes:
-    source, groups, kind = node.args
+    source, groups, kind, _ = node.args
     codes = reader.codes[source]
     if kind in ("any", "all", "argmax", "argmin"):
         return NUMBER
@@ -416,7 +416,7 @@ RULES: dict[str, Callable[[Reader, Node], Codes]] = {
     "sqrt": lambda reader, node: _each(lambda code: reader.power(code, 0.5), reader.codes[node.args[0]]),
     **dict.fromkeys(("add", "sub", "max", "min", "mod"), _alike),
     **dict.fromkeys(("lt", "le", "gt", "ge", "eq", "ne"), _compared),
-    **dict.fromkeys(("neg", "abs", "floor", "round"), _same),
+    **dict.fromkeys(("neg", "abs", "floor", "round", "like", "sized"), _same),
     **dict.fromkeys(("exp", "log", "sin", "cos", "tan", "asin", "acos"), _number),
-    **dict.fromkeys(("sign", "and", "or", "not", "finite"), _truth),
+    **dict.fromkeys(("sign", "and", "or", "not", "finite", "length"), _truth),
 }  # fmt: skip

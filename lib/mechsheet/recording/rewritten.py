@@ -15,7 +15,7 @@ from typing import Any
 from mechsheet.recording.choices import CALLS
 from mechsheet.worksheet.cells import bound
 
-_NAMES = {"float", "int", "complex", "max", "min", "pow", "round"}
+_NAMES = {"float", "int", "complex", "len", "max", "min", "pow", "round"}
 _SCOPED = ast.NamedExpr, ast.Yield, ast.YieldFrom, ast.Await  # are not what they are inside a lambda
 
 
@@ -58,11 +58,18 @@ class _Rewriting(ast.NodeTransformer):
     def visit_Compare(self, node: ast.Compare) -> ast.AST:
         self.generic_visit(node)
         if len(node.ops) == 1:
+            if isinstance(node.ops[0], ast.Is | ast.IsNot):
+                node.left = _call("matched", node, node.left)
             return node
         sides = [node.left, *node.comparators]
         pairs = zip(sides, node.ops, sides[1:], strict=False)
         parts = [ast.copy_location(ast.Compare(a, [op], [b]), node) for a, op, b in pairs]
         return _call("and", node, *map(_later, parts))
+
+    def visit_Match(self, node: ast.Match) -> ast.AST:
+        self.generic_visit(node)
+        node.subject = _call("matched", node, node.subject)
+        return node
 
     def visit_UnaryOp(self, node: ast.UnaryOp) -> ast.AST:
         self.generic_visit(node)

@@ -3,8 +3,8 @@
 from typing import NamedTuple
 
 from mechsheet import units
-from mechsheet.recording.graph import Node, bottom_up
 from mechsheet.recording.lines import Line, Solved
+from mechsheet.recording.node import Node, bottom_up
 from mechsheet.recording.record import leaves_of
 from mechsheet.workbook.arrangement import Arrangement
 from mechsheet.workbook.cell_formula import CellFormulas, written
