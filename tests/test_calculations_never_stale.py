@@ -199,9 +199,52 @@ CONSTRUCTS = [
         "    case _:\n        k = 9.0\ny = k * g.a"
     ),
 ]
+ITERATIONS = [
+    (
+        "v = 1.0\nfor _ in range(100):\n    new = math.cos(v) * g.a\n    if abs(new - v) < 1e-10:\n        break\n"
+        "    v = new\ny = v * 1.0"
+    ),
+    "v = g.F\nwhile abs(v * v - g.F) > 1e-12:\n    v = (v + g.F / v) / 2\ny = v * 1.0",
+    (
+        "v, n = g.F, 0\nwhile True:\n    step = (v**3 - g.F) / (3 * v**2)\n    v -= step\n    n += 1\n"
+        "    if abs(step) < 1e-12:\n        break\ny = np.array([v, n])"
+    ),
+    (
+        "lo, hi = 0.0, 10.0\nwhile hi - lo > 1e-9:\n    mid = (lo + hi) / 2\n    if mid**3 + g.a * mid > g.F:\n"
+        "        hi = mid\n    else:\n        lo = mid\ny = (lo + hi) / 2"
+    ),
+    (
+        "tol = 10.0 ** -g.k\nv = 1.0\nfor n in range(50):\n    new = (v + g.F / v) / 2\n"
+        "    done = abs(new - v) < tol\n    v = new\n    if done:\n        break\ny = np.array([v, n])"
+    ),
+    (
+        "def solved(F, start=1.0):\n    v = start\n    for _ in range(50):\n        new = (v + F / v) / 2\n"
+        "        if abs(new - v) < 1e-12:\n            break\n        v = new\n    return v\ny = solved(g.F) * g.a"
+    ),
+    "v = x * 0 + 1\nwhile np.max(np.abs(v * v - x)) > 1e-12:\n    v = (v + x / v) / 2\ny = v * 1.0",
+    (
+        "lam = 0.02\nfor _ in range(100):\n"
+        "    new = 1 / (-2 * math.log10(1e-4 / 3.7 + 2.51 / (1e5 * g.F * math.sqrt(lam)))) ** 2\n"
+        "    if abs(new - lam) < 1e-14:\n        break\n    lam = new\ny = lam * 1.0"
+    ),
+    (
+        "z = 1.0 + 0.5j\nwhile abs(z * z - (g.F + 1j * g.a)) > 1e-12:\n    z = (z + (g.F + 1j * g.a) / z) / 2\n"
+        "y = z.imag * 1.0"
+    ),
+    "n = 0\ns = 0.0\nwhile s < 10 * g.F:\n    n += 1\n    s += n * g.a\ny = np.array([s, n])",
+    "d = 6.0\nwhile g.F * 100 / d**2 > g.a:\n    d += 2.0\ny = d * 1.0",
+    "for d in (6.0, 8.0, 10.0, 12.0, 16.0):\n    if g.F * 100 / d**2 < g.a * 4:\n        break\ny = d * g.a",
+    (
+        "for d in np.array([6.0, 8.0, 10.0, 12.0]):\n    if d < 8.5:\n        continue\n"
+        "    if g.F * 100 / d**2 < g.a * 4:\n        break\ny = d * g.a"
+    ),
+    "v = 1.0\nk = 0\nwhile k < g.k:\n    v = v * g.F\n    k += 1\ny = v * 1.0",
+    "v = g.F\nhistory = []\nwhile v > 0.1:\n    history.append(v)\n    v = v * g.a\ny = np.array([len(history), v])",
+    "for i in range(5):\n    if x[i] > 1.2:\n        break\nelse:\n    i = 9\ny = i * g.a",
+]
 
 
 @pytest.mark.filterwarnings("ignore")
-@pytest.mark.parametrize("lines", CONSTRUCTS)
+@pytest.mark.parametrize("lines", [*CONSTRUCTS, *ITERATIONS])
 def test_no_number_is_stale(lines: str, tmp_path: Path) -> None:
     assert_never_stale(lines, tmp_path)

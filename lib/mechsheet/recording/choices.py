@@ -4,15 +4,18 @@ import builtins
 import operator
 import weakref
 from collections.abc import Callable, Iterable, Mapping
+from functools import reduce
+from itertools import repeat
 from types import FunctionType
 from typing import Any
 
 import numpy as np
 
 from mechsheet.recording.arithmetic import choice as where
-from mechsheet.recording.arithmetic import elementwise, trunc
-from mechsheet.recording.graph import NotRecorded
+from mechsheet.recording.arithmetic import elementwise, imaginary, trunc
+from mechsheet.recording.graph import Graph, Guard, NotRecorded
 from mechsheet.recording.memory import Memory, may_change, names_of
+from mechsheet.recording.node import Loop, Node
 from mechsheet.recording.quantity import Quantity, has_quantity, joined, lift, owner, plain, quantities
 from mechsheet.worksheet.kinds import Chosen, cases
 
@@ -98,6 +101,88 @@ def _reached(f: FunctionType) -> list[Any]:
 def _may_change(f: FunctionType) -> bool:
     inner = [c.cell_contents for c in f.__closure__ or () if isinstance(c.cell_contents, FunctionType)]
     return may_change([f.__code__, *(g.__code__ for g in inner)], f.__globals__)
+
+
+def iterated(turn: FunctionType, items: Any, item: int | None, *state: Any) -> Any:
+    """What the names of a loop are in the end; ``turn`` tells whether it ends, and what they are after it.
+
+    The name number ``item`` is the next one of the ``items``. Where a quantity decides about the end, readers repeat
+    the turns for the inputs that they have.
+    """
+    begun: tuple[int, tuple[Any, ...], dict[Node, Guard]] | None = None
+    for number, value in enumerate(repeat(None) if item is None else items):
+        if item is not None:
+            state = (*state[:item], value, *state[item + 1 :])
+        ends, *after = turn(*state)
+        if begun is None and _condition(ends):
+            begun = number, state, dict(ends.graph.looked)
+        state = tuple(after)
+        if ends:
+            break
+    if begun is None:
+        return state
+    number, first, looked = begun
+    if item is not None and not isinstance(items, range | list | tuple | np.ndarray | Quantity):
+        return state
+    return _repeated(turn, items if item is None else items[number:], item, first, state, looked) or state
+
+
+def _repeated(
+    turn: FunctionType,
+    items: Any,
+    item: int | None,
+    first: tuple[Any, ...],
+    last: tuple[Any, ...],
+    looked: dict[Node, Guard],
+) -> tuple[Any, ...] | None:
+    """What a loop gives however many turns it takes, by one from whatever state; None where that has no such form.
+
+    ``looked`` are the guards before any that tell how many turns it takes now.
+    """
+    if not all(isinstance(x, _ARRAYS) or x is UNBOUND for x in first) or not all(isinstance(x, _ARRAYS) for x in last):
+        return None
+    graph = next(quantities([first, last])).graph
+    met = {holds: guard for holds, guard in graph.looked.items() if holds not in looked}
+    end = [lift(graph, x) for x in (*last, 0)]
+    begin = [
+        lift(graph, np.nan).like(b) if a is UNBOUND else lift(graph, a) for a, b in zip((*first, 0), end, strict=True)
+    ]
+    like = [a + 0j if b.im is not None else a for a, b in zip(begin, end, strict=True)]
+    initial = _parts(begin, like)
+    nodes = [graph.state(node) for node in initial]
+    *state, number = _whole(graph, nodes, like)
+    now, graph.looked = graph.looked, {}
+    try:
+        if item is not None:
+            state[item] = lift(graph, items)[number]
+        ends, *after = turn(*state)
+        made = [lift(graph, x) for x in (*after, number + 1)]
+        followed = met and not graph.looked and _condition(ends)
+    except (Exception, NotRecorded):
+        followed = False
+    finally:
+        graph.looked = now
+    if not followed or [x.extent for x in made] != [x.extent for x in like]:
+        return None
+    if any(a.im is not None and b.im is None for a, b in zip(made, like, strict=True)):
+        return None
+    graph.looked = looked
+    same = reduce(operator.and_, (Quantity(graph, holds) for holds in met))
+    loop = Loop(nodes, initial, _parts(made, like), ends.re, None if item is None else len(items))
+    turns = [where(graph, same, Quantity(graph, node), np.nan).re for node in _parts(end[:-1], like[:-1])]
+    found = [graph.iterated(loop, k, node) for k, node in enumerate(turns)]
+    return tuple(_whole(graph, found, like[:-1]))
+
+
+def _parts(values: list[Quantity], like: list[Quantity]) -> list[Node]:
+    """Real parts, and imaginary ones where others have them."""
+    pairs = zip(values, like, strict=True)
+    return [part for x, y in pairs for part in ((x.re,) if y.im is None else (x.re, imaginary(x)))]
+
+
+def _whole(graph: Graph, parts: list[Node], like: list[Quantity]) -> list[Quantity]:
+    rest = iter(parts)
+    return [Quantity(graph, next(rest), None if x.im is None else next(rest)) for x in like]
 
 
 def known(names: Mapping[str, Any], *wanted: str) -> list[Any]:
@@ -248,7 +333,8 @@ def _extreme(name: str) -> Callable[..., Any]:
 CALLS: dict[str, Any] = {
     "choice": choice, "and": both, "or": any_of, "not": negated, "matched": matched, "element": element, "put": put,
     "part": part, "changed": changed, "settled": settled, "handled": handled,
-    "len": lambda x: x.count(0) if isinstance(x, Quantity) and x.ndim else len(x), "known": known, "unbound": UNBOUND,
+    "len": lambda x: x.count(0) if isinstance(x, Quantity) and x.ndim else len(x), "known": known,
+    "iterated": iterated, "unbound": UNBOUND,
     "max": _extreme("max"), "min": _extreme("min"), "round": round,
     "float": lambda *x: x[0] if has_quantity(x) else float(*x),
     "int": lambda *x: trunc(x[0]) if has_quantity(x) else int(*x),

@@ -293,6 +293,16 @@ def _found(reader: Reader, node: Node) -> Codes:
     return next((code for code in ends if isinstance(code, int) and code not in (ANY, LITERAL)), UNKNOWN)
 
 
+def _state(reader: Reader, node: Node) -> Codes:
+    codes = reader.codes[node.args[0]]
+    return UNKNOWN if _is(codes, LITERAL, ANY) else codes  # a number to begin with may have any unit
+
+
+def _iterated(reader: Reader, node: Node) -> Codes:
+    loop, number, _ = node.args
+    return reader.codes[loop.following[number]]
+
+
 def _mul(reader: Reader, node: Node) -> Codes:
     a, b = node.args
     return _each(reader.product, reader.codes[a], reader.codes[b])
@@ -411,6 +421,7 @@ _SAID = {
 
 RULES: dict[str, Callable[[Reader, Node], Codes]] = {
     "constant": _constant, "rows": lambda reader, node: LITERAL, "input": _input, "found": _found,
+    "state": _state, "iterated": _iterated,
     "exported": lambda reader, node: UNKNOWN, "take": _take, "at": _at, "join": _join, "reduce": _reduce,
     "mul": _mul, "div": _div, "pow": _pow, "where": _where, "atan2": _atan2,
     "sqrt": lambda reader, node: _each(lambda code: reader.power(code, 0.5), reader.codes[node.args[0]]),

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from mechsheet.recording.node import Block, Node, is_number
+from mechsheet.recording.node import Block, Loop, Node, is_number
 from mechsheet.recording.operations import ELEMENTWISE, REDUCE, REDUCE_SO_FAR, Along, Moved, Values
 
 
@@ -207,6 +207,16 @@ class Graph:
         """One of the values that a solve block finds."""
         array = np.array(value)
         return self._kept(("found", name, number), "found", (block, number), lambda: array, array.ndim > 0)
+
+    def state(self, initial: Node) -> Node:
+        """A number that a loop changes, at any of its turns."""
+        key = ("state", len(self.nodes))
+        return self._kept(key, "state", (initial,), lambda: initial.value.copy(), initial.stretches)
+
+    def iterated(self, loop: Loop, number: int, turns: Node) -> Node:
+        """What a loop makes of one of its numbers; the turns that it takes now give ``turns``."""
+        key = ("iterated", loop, number)
+        return self._kept(key, "iterated", (loop, number, turns), lambda: turns.value, turns.stretches)
 
     def rows(self, count: Node) -> Node:
         """The numbers 0, 1, 2 .. of so many rows."""

@@ -1,6 +1,6 @@
 """One quantity of a recording: an operation on others, with its values."""
 
-from collections.abc import Container, Iterable, Iterator, Mapping
+from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -30,16 +30,41 @@ class Block:
 
     def rest(self) -> None:
         """Find out what the block rests on, once its residuals are known."""
-        own, under = set(self.nodes), dict[Node, None]()
-        for node in bottom_up(self.residuals, own):
-            if not own.isdisjoint(node.operands):
-                own.add(node)
-                self.elementwise &= node.op in ELEMENTWISE
-                under |= dict.fromkeys(operand for operand in node.operands if operand not in own)
-        outside = (r for r in self.residuals if r not in own)
-        given = (node for nodes in self.starts.values() for node in nodes)
-        known = [*(node for node in under if node not in own), *outside, *given]
-        self.under = tuple(dict.fromkeys(node for node in known if node.op != "constant"))
+        own, self.under = _resting(self.nodes, self.residuals, [n for nodes in self.starts.values() for n in nodes])
+        self.elementwise = all(node.op in ELEMENTWISE for node in own)
+
+
+class Loop:
+    """A loop that ends by what it computes: the ``nodes`` of its state, of which a turn makes the ``following`` ones.
+
+    It begins with the ``initial`` numbers and ends where ``done`` holds after a turn, or after the ``most`` turns;
+    ``under`` are all that it rests on but its own state.
+    """
+
+    def __init__(
+        self,
+        nodes: Sequence["Node"],
+        initial: Sequence["Node"],
+        following: Sequence["Node"],
+        done: "Node",
+        most: int | None,
+    ) -> None:
+        self.nodes, self.initial, self.following, self.done, self.most = nodes, initial, following, done, most
+        _, self.under = _resting(nodes, [done, *following], initial)
+
+
+def _resting(
+    nodes: Iterable["Node"], made: Sequence["Node"], given: Iterable["Node"]
+) -> tuple[list["Node"], tuple["Node", ...]]:
+    """What rests on some nodes, of all that is made of these, and what else that rests on, beside what is given."""
+    own, under, rests = set(nodes), dict[Node, None](), list[Node]()
+    for node in bottom_up(made, own):
+        if not own.isdisjoint(node.operands):
+            own.add(node)
+            rests.append(node)
+            under |= dict.fromkeys(operand for operand in node.operands if operand not in own)
+    known = [*(node for node in under if node not in own), *(node for node in made if node not in own), *given]
+    return rests, tuple(dict.fromkeys(node for node in known if node.op != "constant"))
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
@@ -56,6 +81,8 @@ class Node:
     ``rows`` (count)            the numbers 0, 1, 2 .. of so many rows
     ``length`` (source, axis)   how many elements there are along an axis, which is counted from the last one
     ``found`` (block, number)   one of the unknowns that a `Block` finds; after them its evaluations of the equations
+    ``state`` (initial)         one of the numbers that a `Loop` changes, at any of its turns
+    ``iterated`` (loop, ..)     what its ``number`` is in the end; by its ``turns`` alone while these are as many
     ``exported``                numbers of the worksheet's own run, which rest on its operands nobody knows how
     ``take`` (source, ..)       elements by their flat positions, in the shape of these
     ``at`` (source, position)   elements by positions that are a quantity themselves
@@ -85,7 +112,7 @@ class Node:
     def operands(self) -> tuple["Node", ...]:
         if self.op in LEAVES:
             return ()
-        if self.op == "found":
+        if self.op in ("found", "iterated"):
             under: tuple[Node, ...] = self.args[0].under
             return under
         return self.args[0] if self.op == "join" else self.args[:1] if self.op in _OF_ONE else self.args

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from mechsheet.recording.node import Block, Node, bottom_up
+from mechsheet.recording.node import Block, Loop, Node, bottom_up
 from mechsheet.recording.operations import ELEMENTWISE, REDUCE, REDUCE_SO_FAR, Values
 from mechsheet.worksheet.find import find
 from mechsheet.worksheet.system import solve
@@ -77,7 +77,7 @@ def numbers(wanted: Iterable[Node], given: Mapping[Node, Any]) -> dict[Node, Val
     worksheet has no such rows or does not put as many together.
     """
     known: dict[Node, Values] = {node: np.asarray(value) for node, value in given.items()}
-    solved: dict[Block, list[Values]] = {}
+    solved: dict[Block | Loop, list[Values]] = {}
     none = set[Node]()
     for node in bottom_up(wanted, known):
         if not none.isdisjoint(node.operands):
@@ -97,13 +97,34 @@ def numbers(wanted: Iterable[Node], given: Mapping[Node, Any]) -> dict[Node, Val
     return known
 
 
-def _number(node: Node, known: Mapping[Node, Values], solved: dict[Block, list[Values]]) -> Values:
+def _number(node: Node, known: Mapping[Node, Values], solved: dict[Block | Loop, list[Values]]) -> Values:
+    if node.op == "iterated":
+        loop, number, _ = node.args
+        if loop not in solved:
+            solved[loop] = _repeated(loop, known)
+        ended: Values = solved[loop][number]
+        return ended
     if node.op != "found":
         return np.asarray(_RULES[node.op](node, *(known[operand] for operand in node.operands)))
     block, number = node.args
     if block not in solved and not _same(block.under, [known[o] for o in block.under]):
         solved[block] = _again(block, known)
     return solved[block][number] if block in solved else node.value
+
+
+def _repeated(loop: Loop, known: Mapping[Node, Values]) -> list[Values]:
+    """The numbers of a loop at its end; none of one that does not end."""
+    under = {node: known[node] for node in loop.under}
+    state = [known.get(node, node.value) for node in loop.initial]
+    for _ in range(_TURNS if loop.most is None else loop.most):
+        found = numbers([loop.done, *loop.following], {**under, **dict(zip(loop.nodes, state, strict=True))})
+        state = [found[node] for node in loop.following]
+        if found[loop.done].all():
+            return state
+    return [value + np.nan for value in state] if loop.most is None else state
+
+
+_TURNS = 10_000  # of a loop
 
 
 def _again(block: Block, known: Mapping[Node, Values]) -> list[Values]:

@@ -138,7 +138,7 @@ class Arrangement:
         seen: set[Node] = set()
 
         def walk(node: Node) -> None:
-            for operand in node.operands:
+            for operand in written_of(node):
                 if operand in seen or operand in self.lines or operand in self.places:
                     continue
                 seen.add(operand)

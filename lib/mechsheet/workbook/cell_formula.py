@@ -128,6 +128,8 @@ class CellFormulas:
                 return self._element(node.args[1], _position(node.args[1].shape, node.shape, at), rows)
             case "like" | "sized":  # the number of rows is fixed
                 return self._element(node.args[0], _position(node.args[0].shape, node.shape, at), rows)
+            case "iterated":
+                return self._element(node.args[2], at, rows)
             case "length":
                 return written(node.value.item()), 5
             case "rows":
@@ -204,6 +206,8 @@ def written_of(node: Node) -> tuple[Node, ...]:
             return node.operands[:1]
         case "rows" | "length":
             return ()
+        case "iterated":  # by the turns that the loop takes, while these are as many
+            return node.args[2:]
     return node.operands
 
 
