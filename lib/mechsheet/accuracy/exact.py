@@ -13,7 +13,10 @@ from itertools import pairwise
 from types import SimpleNamespace
 from typing import Any
 
+import numpy as np
+
 from mechsheet.accuracy.arithmetic import DIGITS, SLACK, Numbers, cross, derivatives, mp, mpc, mpf, rotation, rrp, rrr
+from mechsheet.worksheet.inputs import declared
 from mechsheet.worksheet.kinds import Chosen
 
 _NOTHING = mpf(10) ** -95  # below the root of the rounding of the work: the sine at a dead centre
@@ -99,16 +102,17 @@ def landing_gear(g: Any, l2: Any) -> Numbers:
     return synthesis | motion | {"F_c": F_c, "P_c": F_c * V21, "R23": F_c * rod, "R03": R03}
 
 
-def joint(tables: Any, x: Mapping[str, Any], plane: int) -> Numbers:
+def joint(tables: Any, x: Mapping[str, Any], plane: int, case: int = 0) -> Numbers:
     """Stresses, forces and neutral axis of the rectangular joint, by trying every place of the neutral axis.
 
     x are the inputs by name, but of each column of the ``tables`` the factor by which all its elements change, such as
-    ``beams.y``, so that what is symmetrical stays so; of the load cases the first is taken.
+    ``beams.y``, so that what is symmetrical stays so; they begin as `factors` has them. Load cases count from 0.
     ``sigma_k`` belongs to the element k, from 0; P is the row of all forces. Raises ValueError where nothing is in
     equilibrium.
     """
     g = _exact(SimpleNamespace(**x))
-    beams, stringers, (load, *_) = (_rows(tables, name, vars(g)) for name in ("beams", "stringers", "loads"))
+    beams, stringers, loads = (_rows(tables, name, vars(g)) for name in ("beams", "stringers", "loads"))
+    load = loads[case]
     beta = _rounded(g.E_al / g.E_st, g.d_E)
     l_b, l_h = (g.psi * (max(side) - min(side)) / 2 for side in ([e.z for e in beams], [e.y for e in beams]))
     pressed, A_t = beta * g.k_a * g.delta**2, list[mpf]()
@@ -135,6 +139,12 @@ def joint(tables: Any, x: Mapping[str, Any], plane: int) -> Numbers:
     low, high = sigma[y.index(levels[0])], sigma[y.index(levels[-1])]
     y_0 = (levels[0] * high - levels[-1] * low) / (high - low) if high - low else mpf("inf")
     return named | {"P": [s * area for s, area in zip(sigma, A, strict=True)], "y_0": y_0}
+
+
+def factors(g: Any) -> dict[str, Any]:
+    """Inputs by name, of each column of a table the factor 1."""
+    leaves = (leaf for each in declared(type(g)) for leaf in each.leaves(getattr(g, each.name)).items())
+    return {name: 1.0 if np.ndim(value) else value for name, (_, value) in leaves}
 
 
 def _rows(tables: Any, name: str, factors: Mapping[str, Any]) -> list[Any]:

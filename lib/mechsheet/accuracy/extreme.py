@@ -302,12 +302,10 @@ def joint(worksheets: Path, given: Mapping[str, Any], at: int = -1) -> Case:
     product = {f"sigma_{i}": value for i, value in enumerate(names["sigma"][p, 0])} | {"P": names["P"][p, 0]}
     step = names["steps"][p, 0, 0]
     formulas = {"y_0": names["axes"][step - 1, p, 0, 0] if step else np.nan}
-    leaves = [leaf for each in inputs.declared(type(g)) for leaf in each.leaves(getattr(g, each.name)).items()]
-    x = {name: 1.0 if np.ndim(value) else value for name, (_, value) in leaves}
     return Case(
         words=_reasons(names["checks_joint"]),
         true=lambda **x: exact.joint(g, x, p + 1),
-        x=x,
+        x=exact.factors(g),
         product=lambda _: product | {"y_0": names["y_0"][p, 0, 0]},
         printed=lambda _: formulas,
     )

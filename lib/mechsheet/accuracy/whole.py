@@ -72,8 +72,9 @@ _TRUTHS: dict[str, tuple[str, Callable[[Any, Any], Numbers], Sequence[str]]] = {
 def exact_results(stem: str, names: Mapping[str, Any], rows: Iterable[int]) -> Numbers:
     """Results of a worksheet at 50 digits at some of its positions, by name; of the joint, which has none, all."""
     if stem == "joint":
-        cases = (exact.joint(names["g"], plane, case)["P"] for plane in (1, 2) for case in (1, 2))
-        return {"P": [force for forces in cases for force in forces]}
+        g = names["g"]
+        cases = ((plane, case) for plane in (1, 2) for case in range(len(g.loads.M)))
+        return {"P": [force for at in cases for force in exact.joint(g, exact.factors(g), *at)["P"]]}
     field, truth, compared = _TRUTHS[stem]
     at = [truth(names["g"], float(names[field][i])) for i in rows]
     return {name: [p[name] for p in at] for name in compared or at[0].keys() & names.keys()}
