@@ -26,6 +26,11 @@ def _limits(field: Input) -> str:
     return ", ".join(f"{_SIGNS.get(sign, sign)}&nbsp;{_limit(other)}" for sign, other in field.limits)
 
 
+def _told(field: Input) -> str:
+    """Why the unit of a field is not known."""
+    return f' <span class="ms-badge ms-FAIL">mistake</span> {html.escape(field.mistake)}' if field.mistake else ""
+
+
 def _short(column: Input) -> str:
     return column.name.rpartition(".")[2]
 
@@ -86,7 +91,7 @@ def fields(g: Any) -> "mo.ui.batch":
             f'<tr><td style="padding-right:.5em">{as_written(field.name)}</td>'
             f'<td data-input="{field.name}">{grid}{{{field.name}}}</td>'
             f'<td style="padding-left:.4em">{html.escape(unit)}</td>'
-            f'<td style="padding-left:.7em;line-height:1.2">{html.escape(field.meaning)}'
+            f'<td style="padding-left:.7em;line-height:1.2">{html.escape(field.meaning)}{_told(field)}'
             f'<span style="opacity:.5;padding-left:.6em">{limits}</span></td></tr>'
         )
         texts[field.name] = _element(field, value)

@@ -216,12 +216,12 @@ def _(found: Verdict) -> str:
     lines = "".join(f"<div>{escape(text)}</div>" for text in failures)
     rows = "".join(
         f'<tr><td style="opacity:.65;padding:0 1em 0 0">{escape(k)}</td>'
-        f'<td style="padding:0;font-variant-numeric:tabular-nums">{escape(v)}</td></tr>'
+        f'<td style="padding:0;font-variant-numeric:tabular-nums">{in_words(v)}</td></tr>'
         for k, v in found.details()
     )
     return (
         '<div style="border-left:3px solid currentColor;padding:.2em .8em;margin:.4em 0">'
-        f"<div>{badge}<b>{escape(found.headline())}</b></div>{lines}"
+        f"<div>{badge}<b>{in_words(found.headline())}</b></div>{lines}"
         f'<table style="border-collapse:collapse;font-size:.9em;margin-top:.3em">{rows}</table></div>'
     )
 

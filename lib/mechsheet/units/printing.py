@@ -6,7 +6,7 @@ from fractions import Fraction
 from functools import lru_cache
 
 from mechsheet.units.definitions import BASE, DEFINED, OF_ANGLE, PREFIXED, Dims, parse, single
-from mechsheet.units.text import UNKNOWN, Unreadable, factors, plain
+from mechsheet.units.text import UNKNOWN, factors, plain
 
 _POWERS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 _PRINTED = {"degC": "°C", "inch": "in"}
@@ -37,11 +37,15 @@ def shown(text: str, power: Callable[[int], str] = raised, times: str = "·") ->
 
     >>> shown("kgf/cm**2"), shown("N*m"), shown("m/s**2", "^{}".format), shown("um"), shown("inch")
     ('kgf/cm²', 'N·m', 'm/s^2', 'µm', 'in')
+    >>> shown("open positions")
+    'open positions'
     """
-    try:
+    if text != UNKNOWN:
+        try:
+            parse(text)
+        except ValueError:
+            return text
         text = plain(text)
-    except Unreadable:
-        return text
     names = re.sub(r"[^\W\d_]+", lambda name: _printed(name[0]), text.replace("**(", "^("))
     return re.sub(r"\*\*(-?\d+)", lambda raising: power(int(raising[1])), names).replace("*", times)
 

@@ -188,5 +188,9 @@ def extent(values: ArrayLike, unit: str) -> str:
 
 
 def suffix(unit: str) -> str:
-    """A unit behind a number; a pure number has none."""
-    return "" if unit == "-" else f" {unit}"
+    """A unit behind a number, as it is printed; a pure number has none.
+
+    >>> suffix("m/s**2"), suffix("-")
+    (' m/s²', '')
+    """
+    return "" if unit == "-" else f" {units.shown(unit)}"
