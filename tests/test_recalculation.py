@@ -148,6 +148,18 @@ def test_changed_inputs_are_followed(
     assert not without_iterations(name, disagreements(recalculated(path), own))
 
 
+def test_hitch_assembled_on_its_other_sides_is_followed(
+    made: Callable[[str], Path], recalculated: Callable[[Path], Any], tmp_path: Path
+) -> None:
+    """The machine seen from its other side: what is chosen in the workbook turns every branch, the Finds too."""
+    abscissas = {"X01": -0.415, "X03": -0.25, "X05": -0.135, "X07": -0.415, "X6": -0.857, "phi_BD": -22}
+    changes = abscissas | {"side_23": "left", "side_45": "right", "side_67": "left", "side_6": "left"}
+    live = recalculated(edit(made("hitch"), changes, tmp_path / "edited.xlsx"))
+    own = load_workbook(export("hitch", tmp_path / "own", changes), data_only=True)
+    assert list(disagreements(live, own)) == []
+    assert live["Find"]["B3"].value == pytest.approx(0.6612831669, rel=1e-9), "the printed 0.6613 of the lifting rod"
+
+
 def test_edited_workbook_is_a_scene(tmp_path: Path) -> None:
     """The changed workbook, read back, is the worksheet's run on the same inputs."""
     changes = CHANGED["hitch"]

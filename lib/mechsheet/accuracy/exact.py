@@ -8,18 +8,18 @@ the names of the worksheet. Where something does not close or is infinite there,
 """
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from functools import cache, lru_cache
+from functools import cache
 from itertools import pairwise
 from types import SimpleNamespace
 from typing import Any
 
+import numpy as np
+
 from mechsheet.accuracy.arithmetic import DIGITS, SLACK, Numbers, cross, derivatives, mp, mpc, mpf, rotation, rrp, rrr
+from mechsheet.worksheet.inputs import declared
+from mechsheet.worksheet.kinds import Chosen
 
 _NOTHING = mpf(10) ** -95  # below the root of the rounding of the work: the sine at a dead centre
-_MOVING = (
-    *("X01", "X03", "X05", "X07", "Y01", "Y03", "Y05", "Y07", "L3", "L5", "L6", "L34", "L56", "phi_BD", "L7_0", "L4_0"),
-    *("Y56_min", "S_min", "S_max", "X6", "Y6", "Y_P56", "phi_P6"),
-)
 _LINKS = {3: ("O3", "P23_S"), 4: ("P34_S", "P45_S"), 5: ("O5", "P45_S"), 6: ("P56_S", "P67_S"), 7: ("O7", "P67_S")}
 
 
@@ -28,7 +28,11 @@ def finds(g: Any) -> Numbers:
 
     Raises ValueError where one of them has no solution.
     """
-    return _found(_moving(_exact(g)))
+    x = _exact(g)
+    L4, _ = _nearest("L4", _rods(x), (x.L4_0 / 10 + x.L4_0 * 1.5) / 2)
+    S_p, P56 = _nearest("S_p", _strokes(x, L4), (x.S_max + x.S_min) / 2)
+    L7, _ = _nearest("L7", _upper_links(x, P56), (x.L7_0 / 10 + x.L7_0 * 1.5) / 2)
+    return {"L4": L4, "S_p": S_p, "L7": L7}
 
 
 def hitch(g: Any, S: Any = None, **lengths: Any) -> Numbers:
@@ -39,8 +43,8 @@ def hitch(g: Any, S: Any = None, **lengths: Any) -> Numbers:
     x = _exact(g)
     length = {name: mpf(value) for name, value in lengths.items()}
     if len(length) < 3:
-        length = _found(_moving(x)) | length
-    results = _motion(_moving(x), length["S_p"] if S is None else mpf(S), **length)
+        length = finds(x) | length
+    results = _motion(x, length["S_p"] if S is None else mpf(S), **length)
     return results | _capacity(x, results) | _forces(x, results) | _stability(x, results)
 
 
@@ -98,16 +102,17 @@ def landing_gear(g: Any, l2: Any) -> Numbers:
     return synthesis | motion | {"F_c": F_c, "P_c": F_c * V21, "R23": F_c * rod, "R03": R03}
 
 
-def joint(tables: Any, x: Mapping[str, Any], plane: int) -> Numbers:
+def joint(tables: Any, x: Mapping[str, Any], plane: int, case: int = 0) -> Numbers:
     """Stresses, forces and neutral axis of the rectangular joint, by trying every place of the neutral axis.
 
     x are the inputs by name, but of each column of the ``tables`` the factor by which all its elements change, such as
-    ``beams.y``, so that what is symmetrical stays so; of the load cases the first is taken.
+    ``beams.y``, so that what is symmetrical stays so; they begin as `factors` has them. Load cases count from 0.
     ``sigma_k`` belongs to the element k, from 0; P is the row of all forces. Raises ValueError where nothing is in
     equilibrium.
     """
     g = _exact(SimpleNamespace(**x))
-    beams, stringers, (load, *_) = (_rows(tables, name, vars(g)) for name in ("beams", "stringers", "loads"))
+    beams, stringers, loads = (_rows(tables, name, vars(g)) for name in ("beams", "stringers", "loads"))
+    load = loads[case]
     beta = _rounded(g.E_al / g.E_st, g.d_E)
     l_b, l_h = (g.psi * (max(side) - min(side)) / 2 for side in ([e.z for e in beams], [e.y for e in beams]))
     pressed, A_t = beta * g.k_a * g.delta**2, list[mpf]()
@@ -124,7 +129,7 @@ def joint(tables: Any, x: Mapping[str, Any], plane: int) -> Numbers:
     for place in [levels[0] - 1, *((low + high) / 2 for low, high in pairwise(levels))]:
         for way in (1, -1):
             A = [t if way * (level - place) > 0 else c for level, t, c in zip(y, A_t, A_c, strict=True)]
-            if sigma := stresses(y, A, M, N):
+            if sigma := _stresses(y, A, M, N):
                 wrong = max(-way * (level - place) * s for level, s in zip(y, sigma, strict=True))
                 fits.append((wrong, sigma, A))
     wrong, sigma, A = min(fits, key=lambda fit: fit[0])
@@ -136,13 +141,19 @@ def joint(tables: Any, x: Mapping[str, Any], plane: int) -> Numbers:
     return named | {"P": [s * area for s, area in zip(sigma, A, strict=True)], "y_0": y_0}
 
 
+def factors(g: Any) -> dict[str, Any]:
+    """Inputs by name, of each column of a table the factor 1."""
+    leaves = (leaf for each in declared(type(g)) for leaf in each.leaves(getattr(g, each.name)).items())
+    return {name: 1.0 if np.ndim(value) else value for name, (_, value) in leaves}
+
+
 def _rows(tables: Any, name: str, factors: Mapping[str, Any]) -> list[Any]:
     """Rows of a table, each column times its factor."""
     columns = {key: [mpf(v) * factors[f"{name}.{key}"] for v in xs] for key, xs in vars(getattr(tables, name)).items()}
     return [SimpleNamespace(**dict(zip(columns, row, strict=True))) for row in zip(*columns.values(), strict=True)]
 
 
-def stresses(y: Sequence[Any], A: Sequence[Any], M: Any, N: Any) -> list[mpf]:
+def _stresses(y: Sequence[Any], A: Sequence[Any], M: Any, N: Any) -> list[mpf]:
     """Stresses of elements of the areas A on the levels y under a moment and a force; none if they are on one level."""
     F, S, J = (sum(mpf(a) * mpf(level) ** k for a, level in zip(A, y, strict=True)) for k in (0, 1, 2))
     D = F * J - S**2
@@ -225,22 +236,13 @@ def four_bar(a: Any, b: Any, c: Any, d: Any, theta: Any) -> Numbers:
     return {"C": C, "phi2": mp.arg(C - A), "phi3": mp.arg(C - B)}
 
 
+def numbers(g: Any) -> dict[str, Any]:
+    """Inputs that are numbers; the sides on which a mechanism is assembled are none, and here those of the document."""
+    return {name: value for name, value in vars(g).items() if not isinstance(value, str | Chosen)}
+
+
 def _exact(g: Any) -> SimpleNamespace:
-    return SimpleNamespace(**{name: mpf(value) for name, value in vars(g).items()})
-
-
-def _moving(x: Any) -> tuple[tuple[str, mpf], ...]:
-    """The inputs on which the motion depends. Most are loads: of changes in them the motion knows nothing."""
-    return tuple((name, getattr(x, name)) for name in _MOVING)
-
-
-@lru_cache(maxsize=8)
-def _found(moving: tuple[tuple[str, mpf], ...]) -> Numbers:
-    x = SimpleNamespace(**dict(moving))
-    L4, _ = _nearest("L4", _rods(x), (x.L4_0 / 10 + x.L4_0 * 1.5) / 2)
-    S_p, P56 = _nearest("S_p", _strokes(x, L4), (x.S_max + x.S_min) / 2)
-    L7, _ = _nearest("L7", _upper_links(x, P56), (x.L7_0 / 10 + x.L7_0 * 1.5) / 2)
-    return {"L4": L4, "S_p": S_p, "L7": L7}
+    return SimpleNamespace(**{name: mpf(value) for name, value in numbers(g).items()})
 
 
 def _nearest(name: str, roots: Iterator[tuple[mpf, mpc]], guess: mpf) -> tuple[mpf, mpc]:
@@ -278,7 +280,7 @@ def _strokes(x: Any, L4: mpf) -> Iterator[tuple[mpf, mpc]]:
 def _upper_links(x: Any, P56: mpc) -> Iterator[tuple[mpf, mpc]]:
     """Length L7 that puts the mast at its angle, and its upper pin."""
     O7 = _hinges(x)[-1]
-    P67 = P56 + x.L6 * _unit(x.phi_P6)
+    P67 = P56 + x.L6 * mp.expj(x.phi_P6)
     if _left(P56, O7, P67) <= 0:
         yield abs(P67 - O7), P67
 
@@ -302,10 +304,7 @@ def _hinges(x: Any) -> tuple[mpc, ...]:
 
 def _arm(x: Any) -> mpc:
     """The side of the lift arm next to the rod over the one next to the cylinder."""
-    return x.L34 / x.L3 * _unit(x.phi_BD)
-
-
-_unit = lru_cache(maxsize=16)(mp.expj)
+    return x.L34 / x.L3 * mp.expj(x.phi_BD)
 
 
 def _pins(x: Any, S: mpf, L4: mpf, L7: mpf) -> Numbers:
@@ -319,10 +318,8 @@ def _pins(x: Any, S: mpf, L4: mpf, L7: mpf) -> Numbers:
     return hinges | {"P23_S": P23, "P34_S": P34, "P45_S": P45, "P56_S": P56, "P67_S": P67}
 
 
-@lru_cache(maxsize=8)
-def _motion(moving: tuple[tuple[str, mpf], ...], S: mpf, L4: mpf, S_p: mpf, L7: mpf) -> Numbers:
+def _motion(x: Any, S: mpf, L4: mpf, S_p: mpf, L7: mpf) -> Numbers:
     """Positions, and derivatives with respect to S; the implement is fixed to the mast where it stands at S_p."""
-    x = SimpleNamespace(**dict(moving))
     Z, work = mpc(x.X6, x.Y6), _pins(x, S_p, L4, L7)
     mast = work["P67_S"] - work["P56_S"]
 

@@ -30,8 +30,9 @@ from typing import Any
 
 import numpy as np
 
-from mechsheet.accuracy import condition, exact, printed
+from mechsheet.accuracy import condition, exact, printed, rivals
 from mechsheet.accuracy.arithmetic import Numbers, mpc, mpf
+from mechsheet.accuracy.chain import crank_chain
 from mechsheet.mechanics.load import Load
 from mechsheet.mechanics.planar import angle
 from mechsheet.mechanics.rrr import RRRGroup, rrr_reach
@@ -270,7 +271,7 @@ def hitch(worksheets: Path, given: Mapping[str, Any], at: int = -1) -> Case:
     return Case(
         words=_reasons(names["checks_closing"]),
         true=true,
-        x={"S": S, **dict.fromkeys(rounding, 1.0), **vars(g)},
+        x={"S": S, **dict.fromkeys(rounding, 1.0), **exact.numbers(g)},
         rounding=rounding,
         product=lambda true: _row(sheet.run(true, names), true, at),
         printed=lambda true: printed.hitch(sheet, g, S, **{name: float(true[name]) for name in rounding}),
@@ -301,12 +302,10 @@ def joint(worksheets: Path, given: Mapping[str, Any], at: int = -1) -> Case:
     product = {f"sigma_{i}": value for i, value in enumerate(names["sigma"][p, 0])} | {"P": names["P"][p, 0]}
     step = names["steps"][p, 0, 0]
     formulas = {"y_0": names["axes"][step - 1, p, 0, 0] if step else np.nan}
-    leaves = [leaf for each in inputs.declared(type(g)) for leaf in each.leaves(getattr(g, each.name)).items()]
-    x = {name: 1.0 if np.ndim(value) else value for name, (_, value) in leaves}
     return Case(
         words=_reasons(names["checks_joint"]),
         true=lambda **x: exact.joint(g, x, p + 1),
-        x=x,
+        x=exact.factors(g),
         product=lambda _: product | {"y_0": names["y_0"][p, 0, 0]},
         printed=lambda _: formulas,
     )
@@ -348,15 +347,22 @@ def through_dead_centre(_worksheets: Path, given: Mapping[str, Any], _at: int = 
     Radau's implicit method, for they are stiff. Inputs: links a (crank), b, c, frame b + c - a - gap, angles of the
     crank theta_0, theta_1.
     """
-    a, b, c, gap, start, end = (float(given[name]) for name in ("a", "b", "c", "gap", "theta_0", "theta_1"))
+    a, b, c, gap, *turn = (float(given[name]) for name in ("a", "b", "c", "gap", "theta_0", "theta_1"))
     d = b + c - a - gap
-    found = RRRGroup(a * np.exp(1j * end), d, b, c, +1)
+    chain = crank_chain(a, d, b, c)
+    (start,), (end,) = map(chain.groups, turn)
+
+    def integrated(_: Numbers) -> Mapping[str, Any]:
+        first = angle([start.AC, start.BC])
+        phi2, phi3 = rivals.integrated(chain, turn, first, "Radau", 1e-10, 1e-12)[:, -1]
+        return {"C": d + c * np.exp(1j * phi3), "phi2": phi2, "phi3": phi3}
+
     return Case(
         words="",
         true=exact.four_bar,
-        x={"a": a, "b": b, "c": c, "d": d, "theta": end},
-        product=lambda _: {"C": found.C, "phi2": angle(found.AC), "phi3": angle(found.BC)},
-        printed=lambda _: printed.integrated_four_bar(a, b, c, d, start, end),
+        x={"a": a, "b": b, "c": c, "d": d, "theta": turn[-1]},
+        product=lambda _: {"C": end.C, "phi2": angle(end.AC), "phi3": angle(end.BC)},
+        printed=integrated,
     )
 
 
