@@ -102,20 +102,27 @@ def soffice() -> str:
 
 
 @pytest.fixture(scope="module")
-def recalculated(soffice: str, tmp_path_factory: pytest.TempPathFactory) -> Callable[[Path], Any]:
-    """Workbook as LibreOffice computes it, whatever values are stored in it."""
+def recalculated_all(soffice: str, tmp_path_factory: pytest.TempPathFactory) -> Callable[[list[Path]], list[Any]]:
+    """Workbooks as LibreOffice computes them, started once, whatever values are stored in them."""
     profile = tmp_path_factory.mktemp("profile")
     (profile / "user").mkdir()
     (profile / "user" / "registrymodifications.xcu").write_text(ALWAYS, encoding="utf-8")
 
-    def recalculate(path: Path) -> Any:
+    def recalculate(paths: list[Path]) -> list[Any]:
         out = tmp_path_factory.mktemp("recalculated")
         kind = "xlsx:Calc MS Excel 2007 XML"
         command = [soffice, f"-env:UserInstallation={profile.as_uri()}", "--headless", "--convert-to", kind]
-        subprocess.run([*command, "--outdir", str(out), str(path)], check=True, capture_output=True, timeout=WITHIN)
-        return load_workbook(out / path.name, data_only=True)
+        command += ["--outdir", str(out), *map(str, paths)]
+        subprocess.run(command, check=True, capture_output=True, timeout=WITHIN * len(paths))
+        return [load_workbook(out / path.name, data_only=True) for path in paths]
 
     return recalculate
+
+
+@pytest.fixture(scope="module")
+def recalculated(recalculated_all: Callable[[list[Path]], list[Any]]) -> Callable[[Path], Any]:
+    """Workbook as LibreOffice computes it, whatever values are stored in it."""
+    return lambda path: recalculated_all([path])[0]
 
 
 @pytest.fixture(autouse=True)
