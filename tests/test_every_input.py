@@ -5,6 +5,7 @@ The cells run as those of a page do: one that refuses stops those that need it a
 
 from __future__ import annotations
 
+import re
 import warnings
 from collections import Counter
 from collections.abc import Callable
@@ -19,11 +20,13 @@ from mechsheet.run import report
 from mechsheet.worksheet import cells, inputs
 from mechsheet.worksheet.check import Check
 from mechsheet.worksheet.errors import SheetError, raised
+from mechsheet.worksheet.kinds import Choice, Input, Switch, TextLine
+from mechsheet.worksheet.lists import Rows
 from mechsheet.worksheet.shown import Shown
 
 ROOT = Path(__file__).parents[1]
 SEARCHES = ("accuracy", "hitch_design")  # run for half a minute: what they are given is read, and no more
-WORKSHEETS = sorted(path.stem for path in (ROOT / "worksheets").glob("*.py"))
+WORKSHEETS = {path.stem: path for path in sorted((ROOT / "worksheets").rglob("*.py"))}
 ANSWERS = (
     *("no number", "outside its limits", "does not close", "refused by a cell"),
     *("not evaluated", "FAIL", "pass"),
@@ -45,6 +48,28 @@ TYPED = {
     "−1": -1.0,
     "12345678901234567890": 12345678901234567890.0,
 }
+# Of the kinds that are no number: what is typed, and what it is; None for what is none.
+SWITCHED: dict[str, object] = {"yes": True, "No": False, "1": True, "0": False, "": None, "perhaps": None, "1,5": None}
+OF_TEXT: dict[str, object] = {"Bridge 7": "Bridge 7", "  a  b ": "a b", "": "", "x" * 201: None, "a\x00b": None}
+LISTED: dict[str, object] = {"1; 2,5": [1.0, 2.5], "3": [3.0], "1;; 2": None, "1 2": None, "heavy": None, "": None}
+
+
+def typed(each: Input) -> dict[str, object]:
+    """What is typed into an input of its kind, and what that is."""
+    match each:
+        case Choice(options=options):
+            return {**{option: option for option in options}, "": None, "none of them": None}
+        case Switch():
+            return SWITCHED
+        case TextLine():
+            return OF_TEXT
+        case Rows(row=None):
+            return LISTED
+        case Rows(columns=columns):
+            row, count = "1; " * len(columns), len(columns)
+            rows = {row: [[1.0] * count], f"{row}|{row}": [[1.0] * count] * 2, row + "1": None, "heavy": None}
+            return {**rows, "": None, "no_such_file.csv": None}
+    return dict(TYPED)
 
 
 @dataclass
@@ -112,8 +137,8 @@ def tried(path: Path, run_too: bool) -> tuple[Counter[str], list[str]]:
     sheet = cells.read(path)
     written = set[str]()
     for each in inputs.declared(sheet.inputs):
-        runs = dict[float, str]()
-        for text, number in TYPED.items():
+        runs = dict[str, str]()
+        for text, number in typed(each).items():
             what = f"{path.stem} --{each.name}={text}"
             g, refusal = built(sheet, each.name, text)
             plain, why = (None, "no number") if number is None else built(sheet, each.name, number)
@@ -121,10 +146,10 @@ def tried(path: Path, run_too: bool) -> tuple[Counter[str], list[str]]:
                 wrong.append(f"{what}: {refusal or g} in place of {why or plain}")
             elif refusal:
                 counts["no number" if number is None else "outside its limits"] += 1
-                if "\n" in refusal or f"{each.name} = " not in refusal:
+                if "\n" in refusal or not re.search(rf"\b{each.name}\b|no_such_file.csv", refusal):
                     wrong.append(f"{what}: {refusal!r} does not name it in a line")
             elif run_too:
-                if number not in runs:
+                if str(number) not in runs:
                     try:
                         run = ran(sheet, g)
                         for value in shown(run.names):
@@ -137,8 +162,8 @@ def tried(path: Path, run_too: bool) -> tuple[Counter[str], list[str]]:
                         wrong.append(f"{what}: {run.refusals[0]}")
                     if reason := what_is_wrong(run):
                         wrong.append(f"{what}: {reason}")
-                    runs[number] = run.verdict
-                counts[runs[number]] += 1
+                    runs[str(number)] = run.verdict
+                counts[runs[str(number)]] += 1
     return counts, wrong
 
 
@@ -148,7 +173,7 @@ def test_whatever_is_typed_gives_the_result_of_that_number_or_one_line(
 ) -> None:
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        counts, wrong = tried(ROOT / "worksheets" / f"{name}.py", name not in SEARCHES)
+        counts, wrong = tried(WORKSHEETS[name], name not in SEARCHES)
     record_property("table", f"{name:14}" + "".join(f"  {counts[answer]:4} {answer}" for answer in ANSWERS))
     assert set(counts) <= set(ANSWERS)
     assert not wrong, "\n".join(wrong)
