@@ -14,7 +14,12 @@ from printed import agrees, rows
 from mechsheet import units
 from mechsheet.accuracy import exact
 from mechsheet.accuracy.arithmetic import reactions
+from mechsheet.worksheet import cells
+from mechsheet.worksheet.cells import load
 from mechsheet.worksheet.check import Check
+from mechsheet.worksheet.errors import SheetError
+from mechsheet.worksheet.inputs import build
+from mechsheet.worksheet.lines import registry
 from mechsheet.worksheet.table import Table
 from worksheets import hitch
 
@@ -184,3 +189,57 @@ def test_weightless_implement_and_one_position_less(sheet):
     empty = hitch.app.run(defs={"g": replace(sheet["g"], P6=0.0, N_pol=2)})[1]
     assert np.all(empty["R01"] == 0) and np.all(empty["Ra"] > 0) and np.all(np.isinf(empty["dGS65"]))
     assert "∞" in empty["table_41"]._mime_()[1]
+
+
+# The same machine seen from its other side
+
+
+MIRRORED = {"X01": -0.415, "X03": -0.250, "X05": -0.135, "X07": -0.415, "phi_BD": -22, "X6": -0.857, "phi_P6": 90}
+MIRRORED |= {"side_23": "left", "side_45": "right", "side_67": "left", "side_6": "left"}
+
+
+# turned by the mirror, or measured along the abscissa; what a formula of one quadrant gives is left out
+TURNED = ("phi", "psi", "delta", "dphi", "M", "D_p", "s_", "X_p", "P23s_S")
+
+
+def test_a_machine_seen_from_its_other_side_has_the_mirrored_results():
+    """Every point and force has the other abscissa, every length, ratio and load its own: no formula is edited."""
+    sheet = load(hitch.__file__)
+    own, other = (sheet.run(sheet.results, {"g": build(sheet.inputs, given)}) for given in ({}, MIRRORED))
+    lines = [name for name in registry(own) if isinstance(own[name], np.ndarray | float | complex)]
+    assert len(lines) >= 90
+    for name in (name for name in lines if not name.startswith(TURNED)):
+        a, b = np.asarray(own[name]), np.asarray(other[name])
+        mirrored = -a.conj() if a.dtype.kind == "c" else a
+        assert np.allclose(b, mirrored, rtol=1e-9, atol=1e-9 * np.max(np.abs(a)) + 1e-10), name
+    for name in ("phi12_S", "phi3_S", "phi34_S", "phi4_S", "phi5_S", "phi6_S", "phi7_S"):
+        assert np.allclose(np.exp(1j * other[name]), -np.exp(-1j * own[name]), rtol=0, atol=1e-12), name
+    for name in ("dphi3", "dphi4", "dphi5", "dphi6", "dphi7"):
+        assert np.allclose(other[name], -own[name], rtol=1e-9, atol=1e-9), name
+    assert np.allclose(other["X_p"], -own["X_p"], rtol=1e-9)
+    assert [check.name for check in cells.checks(other) if not check.passed] == []
+
+
+@pytest.mark.parametrize(
+    ("side", "turned", "pin", "outer"),
+    [
+        ("side_23", "left", lambda x: x["P23"](0.5), lambda x: (x["O1"], x["O3"])),
+        ("side_45", "right", lambda x: x["P45"](0.5, 0.66), lambda x: (x["P34"](0.5), x["O5"])),
+        ("side_67", "left", lambda x: x["P67"](0.5, 0.75), lambda x: (x["P56"](0.5, x["L4"]), x["O7"])),
+    ],
+)
+def test_the_other_side_of_one_group_is_its_pin_reflected_in_the_line_of_the_outer_pins(side, turned, pin, outer):
+    sheet = load(hitch.__file__)
+    names = ["O1", "O3", "O5", "O7", "P23", "P34", "P45", "P56", "P67", "L4"]
+    want = names[:5] if side == "side_23" else [*names[:7]] if side == "side_45" else names
+    own, other = (sheet.run(want, {"g": build(sheet.inputs, given)}) for given in ({}, {side: turned}))
+    (A, B), (C, D) = outer(own), outer(other)
+    assert (A, B) == (C, D)
+    reflected = A + (B - A) * ((pin(own) - A) / (B - A)).conjugate()
+    assert abs(pin(other) - reflected) < 1e-14
+    assert abs(pin(other) - pin(own)) > 0.1
+
+
+def test_a_side_that_there_is_not_is_told():
+    with pytest.raises(SheetError, match=r"side_45 = 'up' must be one of left, right"):
+        build(load(hitch.__file__).inputs, {"side_45": "up"})

@@ -22,7 +22,9 @@ def lengths(g, hinge, lever):
     S_p, L7 = abs(P23_p - hinge[1]), abs(P56_p + g.L6 * np.exp(1j * g.phi_P6) - hinge[7])
     known = {"L4": L4, "L4_c": L4, "S_p": S_p, "S_c": S_p, "L7": L7, "L7_c": L7, "P45_0": P45_0, "P45_p": P45_p}
     known |= {"P34_p": P34_p, "P23_p": P23_p, "P56_p": P56_p, "phi5_0": np.angle(P45_0 - hinge[5])}
-    return known | {"phi5_p": np.angle(P45_p - hinge[5])}
+    known |= {"P34_0": lever(g.S_min)[1], "psi5_0": known["phi5_0"], "psi5_p": np.angle(P45_p - hinge[5])}
+    sides = {"s_23": -1, "s_45": 1, "s_67": -1, "s_34": 1, "s_6": 1}  # of the machine as it is printed
+    return known | sides | {"phi5_p": np.angle(P45_p - hinge[5])}
 
 
 def reference(g):
@@ -60,7 +62,7 @@ def reference(g):
     known |= {"I56": I56, "IS6": IS6, "Imp": I56, "Isp": IS6, "S": S, "k": np.arange(g.N_pol)}
     known |= {"dS": S[1] - S[0], "t": (S - g.S_min) / (g.S_max - g.S_min)}
     known |= {"U43": turn[4] / turn[3], "U53": turn[5] / turn[3], "U65": turn[6] / turn[5], "U75": turn[7] / turn[5]}
-    known |= {"P23_S": P23, "P34_S": P34, "P45_S": P45, "P56_S": P56, "P67_S": P67, "PS6_S": PS6}
+    known |= {"x_6": PS6.real, "P23_S": P23, "P34_S": P34, "P45_S": P45, "P56_S": P56, "P67_S": P67, "PS6_S": PS6}
     known |= {"P23c_S": P23, "P34s_S": P34, "P45s_S": P45, "P67s_S": P67}
     known |= {"P23(S)": P23, "P34(S)": P34, "P45(S, L4)": P45, "P56(S, L4)": P56, "P67(S, L7)": P67, "PS6(S)": PS6}
     known |= {f"phi{k}_S": np.angle(link(k)(S)) for k in range(3, 8)} | {"phi12_S": np.angle(link(2)(S))}

@@ -200,6 +200,10 @@ def second_and_third(m, known, R):
     found |= {"T7_printed": T7_printed, "R36_t_printed": (T6 + T7_printed) / known["l_HK"], "d_134": -1}
     phi = known["phi6"]
     found |= {"d_134_printed": -np.cos(phi) * np.sin(phi + 0.5) - np.sin(phi) ** 2, "r_67 / max(R36)": 0}
+    found["gamma36_t_UGL2"] = np.angle(across * 1j * e6)
+    printed_67 = abs(across) * 1j * e6 + known["F6_sum"]  # with the sign of R36_t in its direction and in its number
+    found |= {"A_67_printed": printed_67.real, "B_67_printed": printed_67.imag}
+    found |= {"R76_printed": -along(printed_67, 1j * e6)}
     return found | {"r_67_printed": (square - abs(R["R_H"])) * np.sin(phi)}
 
 

@@ -6,6 +6,7 @@ import sys
 from dataclasses import replace
 from itertools import chain
 from pathlib import Path
+from types import SimpleNamespace
 
 import mpmath as mp
 import numpy as np
@@ -14,11 +15,14 @@ from conftest import examples
 from hypothesis import Phase, given
 from hypothesis import strategies as st
 from openpyxl import load_workbook
+from printed import agrees, rows
 
+from mechsheet import cross as cross_of
 from mechsheet.accuracy import arithmetic as exact
 from mechsheet.accuracy.arithmetic import cross, mpc, mpf
 from mechsheet.recording.dimensions import mismatches
 from mechsheet.worksheet.cells import evaluate
+from mechsheet.worksheet.cells import load as load_sheet
 from mechsheet.worksheet.check import Check
 from mechsheet.worksheet.lines import Formula, formulas
 from mechsheet.worksheet.source import cells
@@ -333,3 +337,45 @@ def test_piston_out_of_its_cylinder_is_no_success(tmp_path):
     done = script("--l6=0.2", f"--out={tmp_path}")
     assert done.returncode == 1
     assert "FAIL  the piston stays in its cylinder: 0.02129" in done.stdout
+
+
+# The document's formulas (1.3)-(1.21) on another machine: the hitch, whose document prints its reactions
+
+
+def first_kind(A, B, C, load, moment) -> dict:
+    """What the cell of program SR1 gives for links A-B and C-B, a load at B and a moment on the first of them."""
+    cell = next(cell for cell in load_sheet(SHEET).cells if cell.name == "kind_1")
+    none = np.zeros_like(A, float)
+    g = SimpleNamespace(l2=abs(B - A), l3=abs(B - C), l_BS2=0.0, l_BS3=0.0)
+    names = dict.fromkeys(cell.needs, none) | {"g": g, "G2": load, "M_in2": moment}
+    names |= {"phi2": np.angle(B - A), "phi3": np.angle(B - C)}
+    exec(cell.code, names := {**load_sheet(SHEET).common, **names, "typeset": lambda *_: None})
+    return names
+
+
+def test_program_SR1_gives_the_printed_reactions_of_the_hitch():
+    """Groups (6, 7), (4, 5) and (2, 3) from the implement to the cylinder, to half a unit of the last printed digit."""
+    pins = ["P23_S", "P34_S", "P45_S", "P56_S", "P67_S", "PS6_S", "O1", "O3", "O5", "O7"]
+    h = {name: np.broadcast_to(P, 10) for name, P in evaluate(SHEET.with_name("hitch.py"), want=pins).items()}
+    found, load, at = {}, np.full(10, -27500j), h["PS6_S"]
+    groups = (  # the reactions on the loaded link and on the other one, the pins there, the inner pin, what goes on
+        (("R56", "P56_S"), ("R07", "O7"), "P67_S", "R56"),
+        (("R05", "O5"), ("R34", "P34_S"), "P45_S", "R34"),
+        (("R03", "O3"), ("R01", "O1"), "P23_S", "R03"),
+    )
+    for (on_loaded, A), (on_other, C), B, on in groups:
+        own = first_kind(h[A], h[B], h[C], load, cross_of(at - h[B], load))
+        found[on_loaded] = own["R12"] * np.exp(1j * own["gamma12"])
+        found[on_other] = own["R03"] * np.exp(1j * own["gamma03"])
+        load, at = -found[on], h[A] if on == on_loaded else h[C]
+    found |= {name: -found[name] for name in ("R05", "R34")}  # as the hitch's document counts them
+    parts = {f"{name}{axis}": part for name, R in found.items() for axis, part in (("x", R.real), ("y", R.imag))}
+    compared = [
+        (heading, row["S"], text, parts[heading][i])
+        for table in "abcde"
+        for i, row in enumerate(rows(f"hitch/table_5.1{table}_reactions.csv"))
+        for heading, text in row.items()
+        if heading in parts
+    ]
+    assert len(compared) == 120
+    assert [number for number in compared if not agrees(number[3], number[2])] == []

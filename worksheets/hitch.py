@@ -4,17 +4,19 @@ __generated_with = "0.25.1"
 app = marimo.App(width="medium", app_title="Tractor hitch", css_file="page.css")
 
 with app.setup:
+    from typing import Literal
+
     import marimo as mo
     import numpy as np
-    from numpy import abs, arange, cos, exp, pi, sin, sqrt
+    from numpy import abs, arange, cos, exp, pi, sin, sqrt, where
     from numpy import arccos as acos
     from numpy import arcsin as asin
     from numpy import arctan2 as atan2
 
     from mechsheet import (
         Check, Drawing, Load, Used, angle, ask, assembled, caption, check, check_slope, closed_form, cross,
-        cut_group, export, figure, find, inputs, mark, player, read, require, rrr, rrr_reach, rrr_reactions,
-        rrr_velocity, side_by_side, slider, summary, table, title_block, typeset,
+        cut_group, export, figure, find, index, inputs, mark, player, read, require, rrr, rrr_reach,
+        rrr_reactions, rrr_velocity, side_by_side, slider, summary, table, title_block, typeset,
     )  # fmt: skip
     from mechsheet.units import deg
 
@@ -103,6 +105,12 @@ class Hitch:
     P_gr: float = 8000  # [N] weight of the counterweights; >= 0
     P_msha: float = 56000  # [N] weight of the tractor; > 0
 
+    # 1.7 Assembly
+    side_23: Literal["left", "right"] = "right"  # pin P23, as seen from O1 to O3
+    side_45: Literal["left", "right"] = "left"  # pin P45, as seen from P34 to O5
+    side_67: Literal["left", "right"] = "right"  # pin P67, as seen from P56 to O7
+    side_6: Literal["left", "right"] = "right"  # implement, from the rear axle
+
     """After # stand the unit and the meaning, after ; the limits; the page and the code take the same units."""
 
 
@@ -132,14 +140,26 @@ def coordinate(g):
 
 @app.cell(hide_code=True)
 def section_2():
-    mo.md("""
+    mo.md(r"""
     ## 2 Geometry
 
     Points are complex numbers $x + iy$ from the rear axle. Each structural group of two links closes in two
     ways; the last argument of `rrr` names the one meant: +1 puts the inner pin to the left of the line from the
-    first outer pin to the second.
+    first outer pin to the second. The inputs choose it, and the side of the tractor on which the implement is: a
+    machine seen from its other side has the other one everywhere, its abscissas and $\varphi_{BD}$ with the other sign
+    and $\varphi_{P6}$ from 180°.
     """)
     return
+
+
+@app.cell
+def sides(g):
+    s_23 = where(g.side_23 == "left", 1, -1)  # [-] branch of the group (2, 3)
+    s_45 = where(g.side_45 == "left", 1, -1)  # [-] branch of the group (4, 5)
+    s_67 = where(g.side_67 == "left", 1, -1)  # [-] branch of the group (6, 7)
+    s_6 = where(g.side_6 == "right", 1, -1)  # [-] direction from the rear axle to the implement
+    typeset()
+    return s_23, s_45, s_6, s_67
 
 
 @app.cell
@@ -161,10 +181,10 @@ def section_21():
 
 
 @app.cell
-def group_1(O1, O3, g):
+def group_1(O1, O3, g, s_23):
     L13 = abs(O1 - O3)  # [m] distance of the hinges O1, O3
     phi13 = atan2(g.Y03 - g.Y01, g.X01 - g.X03)  # [deg] slope of the line O1 O3
-    P23 = lambda S: rrr(O1, O3, S, g.L3, -1)  # [m] pin of the cylinder on the lift arm
+    P23 = lambda S: rrr(O1, O3, S, g.L3, s_23)  # [m] pin of the cylinder on the lift arm
     phi3 = lambda S: angle(P23(S) - O3)  # [deg] lift arm, side of the cylinder
     phi12 = lambda S: angle(P23(S) - O1)  # [deg] cylinder
     phi34 = lambda S: phi3(S) + g.phi_BD  # [deg] lift arm, side of the lifting rod
@@ -185,19 +205,19 @@ def section_22():
 
 
 @app.cell
-def group_2(O3, O5, P34, g):
+def group_2(O3, O5, P34, g, s_45):
     L35 = abs(O3 - O5)  # [m] distance of the hinges O3, O5
     delta1 = pi - angle(O3 - O5)  # [deg] slope of the line O5 O3, as the document counts it
-    P45 = lambda S, L4, branch=+1: rrr(P34(S), O5, L4, g.L5, branch)  # [m] pin of the lifting rod on the lower link
+    P45 = lambda S, L4, branch=s_45: rrr(P34(S), O5, L4, g.L5, branch)  # [m] pin of the lifting rod on the lower link
     phi4 = lambda S, L4: angle(P45(S, L4) - P34(S))  # [deg] lifting rod
-    phi5 = lambda S, L4, branch=+1: angle(P45(S, L4, branch) - O5)  # [deg] lower link
-    P56 = lambda S, L4, branch=+1: O5 + g.L56 * exp(1j * phi5(S, L4, branch))  # [m] suspension axis
+    phi5 = lambda S, L4, branch=s_45: angle(P45(S, L4, branch) - O5)  # [deg] lower link
+    P56 = lambda S, L4, branch=s_45: O5 + g.L56 * exp(1j * phi5(S, L4, branch))  # [m] suspension axis
     typeset()
     return P45, P56, phi4, phi5
 
 
 @app.cell
-def find_L4(O1, O3, O5, P34, P56, g):
+def find_L4(O1, O3, O5, P34, P56, g, s_45, s_6):
     require(P34(g.S_min), g.S_min, rrr_reach(O1, O3, g.L3), "cylinder S", "m")
     L4_guess = (g.L4_0 * 0.1 + g.L4_0 * 1.5) * 0.5  # [m] start of the document's Find
     L4_found = find(
@@ -206,19 +226,22 @@ def find_L4(O1, O3, O5, P34, P56, g):
         equals=g.Y56_min,
         guess=L4_guess,
         branches=(+1, -1),
-        branch=+1,
+        branch=s_45,
         unknown="lifting rod L4",
         quantity="height Y56 of the suspension axis",
         unit="m",
         unknown_unit="m",
     )
     L4 = L4_found.value  # [m] lifting rod, found
-    phi5_0 = asin((g.Y56_min - g.Y05) / g.L56)  # [deg] lower link at the least stroke
+    psi5_0 = asin((g.Y56_min - g.Y05) / g.L56)  # [deg] lower link at the least stroke, above the horizontal
+    phi5_0 = where(s_6 > 0, psi5_0, pi - psi5_0)  # [deg] lower link at the least stroke
     P45_0 = O5 + g.L5 * exp(1j * phi5_0)  # [m] its pin for the lifting rod
-    L4_c = abs(P45_0 - P34(g.S_min))  # [m] lifting rod as the distance of two points, which are now known
+    P34_0 = P34(g.S_min)  # [m] pin of the lifting rod on the lift arm at the least stroke
+    L4_c = abs(P45_0 - P34_0)  # [m] lifting rod as the distance of two points, which are now known
+    s_34 = where(cross(P45_0 - O3, P34_0 - O3) > 0, 1, -1)  # [-] side of O3 P45 on which P34 is
     checks_L4 = closed_form(L4_found, L4_c)
     typeset(L4_found, checks_L4)
-    return L4, checks_L4
+    return L4, checks_L4, s_34
 
 
 @app.cell(hide_code=True)
@@ -233,7 +256,7 @@ def section_23():
 
 
 @app.cell
-def find_S_p(L4, O1, O3, O5, P56, g):
+def find_S_p(L4, O1, O3, O5, P56, g, s_34, s_6):
     S_p_found = find(
         lambda S: P56(S, L4).imag,
         g.S_min,
@@ -246,9 +269,10 @@ def find_S_p(L4, O1, O3, O5, P56, g):
         unknown_unit="m",
     )
     S_p = S_p_found.value  # [m] working stroke, found
-    phi5_p = asin((g.Y_P56 - g.Y05) / g.L56)  # [deg] lower link at work
+    psi5_p = asin((g.Y_P56 - g.Y05) / g.L56)  # [deg] lower link at work, above the horizontal
+    phi5_p = where(s_6 > 0, psi5_p, pi - psi5_p)  # [deg] lower link at work
     P45_p = O5 + g.L5 * exp(1j * phi5_p)  # [m] its pin for the lifting rod
-    P34_p = rrr(O3, P45_p, g.L34, L4, +1)  # [m] pin of the lifting rod on the lift arm
+    P34_p = rrr(O3, P45_p, g.L34, L4, s_34)  # [m] pin of the lifting rod on the lift arm
     P23_p = O3 + g.L3 * exp(1j * (angle(P34_p - O3) - g.phi_BD))  # [m] pin of the cylinder
     S_c = abs(P23_p - O1)  # [m] working stroke as the distance of two points
     checks_S_p = closed_form(S_p_found, S_c)
@@ -257,12 +281,12 @@ def find_S_p(L4, O1, O3, O5, P56, g):
 
 
 @app.cell
-def group_3(L4, O5, O7, P56, g):
+def group_3(L4, O5, O7, P56, g, s_67):
     L57 = abs(O7 - O5)  # [m] distance of the hinges O5, O7
     delta2 = pi - angle(O7 - O5)  # [rad] slope of the line O5 O7, as the document counts it
-    P67 = lambda S, L7: rrr(P56(S, L4), O7, g.L6, L7, -1)  # [m] pin of the upper link on the mast
+    P67 = lambda S, L7: rrr(P56(S, L4), O7, g.L6, L7, s_67)  # [m] pin of the upper link on the mast
 
-    def phi6P(P, L7, branch=-1):
+    def phi6P(P, L7, branch=s_67):
         return angle(rrr(P, O7, g.L6, L7, branch) - P)  # [deg] mast where P is the suspension axis
 
     phi6 = lambda S, L7: phi6P(P56(S, L4), L7)  # [deg] mast
@@ -272,7 +296,7 @@ def group_3(L4, O5, O7, P56, g):
 
 
 @app.cell
-def find_L7(L4, O7, P56, S_p, g, phi6P):
+def find_L7(L4, O7, P56, S_p, g, phi6P, s_67):
     P56_p = P56(S_p, L4)  # [m] suspension axis at work
     L7_guess = (g.L7_0 * 0.1 + g.L7_0 * 1.5) * 0.5  # [m] start of the document's Find
     L7_found = find(
@@ -281,7 +305,7 @@ def find_L7(L4, O7, P56, S_p, g, phi6P):
         equals=g.phi_P6,
         guess=L7_guess,
         branches=(+1, -1),
-        branch=-1,
+        branch=s_67,
         unknown="upper link L7",
         quantity="mast angle phi6",
         unit="deg",
@@ -755,19 +779,18 @@ def section_6():
 
 
 @app.cell
-def stability(PS6_S, g):
-    Ra = (g.P_gr * (g.a + g.L) + g.P_msha * g.b - g.P6 * PS6_S.real) / g.L  # [N] load on the front axle
+def stability(PS6_S, g, s_6):
+    x_6 = s_6 * PS6_S.real  # [m] centre of mass of the implement behind the rear axle
+    Ra = (g.P_gr * (g.a + g.L) + g.P_msha * g.b - g.P6 * x_6) / g.L  # [N] load on the front axle
     Rb = g.P_gr + g.P_msha + g.P6 - Ra  # [N] load on the rear axle
     dRa = Ra / (g.P6 + g.P_msha + g.P_gr)  # [%] share of the front axle
     dRb = Rb / (g.P6 + g.P_msha + g.P_gr)  # [%] share of the rear axle
     Ra_min = 0.2 * (g.P6 + g.P_msha + g.P_gr)  # [N] least load on the front axle
-    GS6_max = (g.P_msha * g.b + g.P_gr * (g.a + g.L) - Ra_min) / PS6_S.real  # [N] greatest load, as printed (erratum)
+    GS6_max = (g.P_msha * g.b + g.P_gr * (g.a + g.L) - Ra_min) / x_6  # [N] greatest load, as printed (erratum)
     GS6_lim = (g.P_msha * g.b + g.P_gr * (g.a + g.L) - 0.2 * g.L * (g.P_msha + g.P_gr)) / (
-        PS6_S.real + 0.2 * g.L
+        x_6 + 0.2 * g.L
     )  # [N] greatest load
-    Ra_lim = (
-        g.P_gr * (g.a + g.L) + g.P_msha * g.b - GS6_lim * PS6_S.real
-    ) / g.L  # [N] front axle under the greatest load
+    Ra_lim = (g.P_gr * (g.a + g.L) + g.P_msha * g.b - GS6_lim * x_6) / g.L  # [N] front axle under the greatest load
     checks_stability = check(
         "front axle keeps 20 % under GS6lim", Ra_lim / (GS6_lim + g.P_msha + g.P_gr) - 0.2, 1e-12, of=1
     )
@@ -776,18 +799,21 @@ def stability(PS6_S, g):
 
 
 @app.cell
-def drawing_61(P23_S, P34_S, P45_S, P56_S, P67_S, PS6_S, Ra, Rb, frame, g, k_t, scheme):
+def drawing_61(P23_S, P34_S, P45_S, P56_S, P67_S, PS6_S, Ra, Rb, frame, g, k_t, s_6, scheme):
     pins_k = P23_S[k_t], P34_S[k_t], P45_S[k_t], P56_S[k_t], P67_S[k_t], PS6_S[k_t]
     rear, front = 0.8, 0.55  # radii of the wheels, for the picture only
-    nose = -g.L - g.a
-    body = [nose + 0.6j, nose + 1.05j, -g.b + 1.25j, 0.2 + 1.25j, 0.2 + 0.6j]
-    ground = Drawing(width=900, height=480).ground(nose - 0.3, np.max(frame.real) + 0.3)
-    machine = ground.wheel(1j * rear, rear).wheel(-g.L + 1j * front, front).polygon(body) + scheme(*pins_k).faint()
-    weights = machine.mass(-g.b + 0.9j, "C").force(-g.b + 0.9j, -1j * g.P_msha, "P_msha")
+    fore = -int(s_6)  # direction from the rear axle to the front one
+    nose, axle, C = fore * (g.L + g.a), fore * g.L, fore * g.b + 0.9j
+    body = [nose + 0.6j, nose + 1.05j, fore * g.b + 1.25j, -0.2 * fore + 1.25j, -0.2 * fore + 0.6j]
+    ends = sorted([nose + 0.3 * fore, -fore * (np.max(-fore * frame.real) + 0.3)])
+    machine = Drawing(width=900, height=480).ground(*ends).wheel(1j * rear, rear).wheel(axle + 1j * front, front)
+    weights = (machine.polygon(body) + scheme(*pins_k).faint()).mass(C, "C").force(C, -1j * g.P_msha, "P_msha")
     loads = weights.force(nose + 0.6j, -1j * g.P_gr, "P_gr").mass(PS6_S[k_t], "S6").force(PS6_S[k_t], -1j * g.P6, "P6")
-    wheels = loads.force(-g.L + 0j, 1j * Ra[k_t], "Ra", into=True).force(0j, 1j * Rb[k_t], "Rb", into=True)
-    lengths = wheels.dimension(nose + 1.05j, -g.L + 1.05j, "a").dimension(-g.L + 1.6j, 1.6j, "L")
-    drawing_61 = lengths.dimension(-g.b + 1.25j, 1.25j, "b")
+    wheels = loads.force(axle + 0j, 1j * Ra[k_t], "Ra", into=True).force(0j, 1j * Rb[k_t], "Rb", into=True)
+    drawing_61 = wheels
+    for name, level, *dimension in (("a", 1.05, nose, axle), ("L", 1.6, axle, 0), ("b", 1.25, fore * g.b, 0)):
+        low, high = sorted(dimension)
+        drawing_61 = drawing_61.dimension(low + 1j * level, high + 1j * level, name)
     typeset(drawing_61, caption("6.1", "The machine with its loads; wheels for the picture only"))
     return
 
@@ -860,6 +886,12 @@ def pole(I56, IS6, L7, O5, O7, P56_S, P67_S, PS6_S, dphi5, g, phi6_S, phi7_S):
 def table_7(I56, IS6, Imp, Isp, S, X_p):
     table_7 = table("7", "Instant centre", S, I56, IS6, Imp, Isp, X_p)
     table_7
+    return
+
+
+@app.cell(hide_code=True)
+def listed():
+    index()
     return
 
 

@@ -40,6 +40,9 @@ def title():
     plunger pump, whose dimensions, masses and loads are plausible and no more. Its crank drives a group of the first
     kind, whose rocker drives one of the second kind, the plunger, and one of the third kind, a gas cylinder. Change
     an input or a formula: everything below follows.
+
+    A second machine: with the groups of the worksheet `hitch`, all of the first kind, section 6 gives the reactions
+    that its document prints in table 5.1. For the other two kinds no published machine with all its numbers was found.
     """,
     )
     return

@@ -32,7 +32,8 @@ def title():
     and the forces. In brackets stand the numbers of the document's formulas, figures and
     appendices; the steps are those of its algorithm.
 
-    The document prints no numbers: the dimensions, masses and areas below are ours, plausible for an airliner.
+    The document prints no numbers: the dimensions, masses and areas below are ours, plausible for an airliner. No
+    second machine of this kind was found that is published with its dimensions and results.
     """,
     )
     return

@@ -376,7 +376,9 @@ def growing(F_K, F_M0, c, delta_P, delta_S, k_u, u_0):
 
 @app.cell
 def compared(F, F_K, F_SF, F_o, c, delta_P, delta_S, grow_c, h_F, k_u, u_0, x_F):
-    x_F0 = lambda F: 2 * (u_0 - delta_S * F) / (1 + sqrt(1 + 4 * k_u * (u_0 - delta_S * F)))  # [mil] while it is shut
+    x_F0 = lambda F: (
+        2 * (u_0 - delta_S * F) / (1 + sqrt(maximum(1 + 4 * k_u * (u_0 - delta_S * F), 0)))
+    )  # [mil] while it is shut
     delta_T = lambda x: delta_P + 1 / (2 * c * x)  # [mil/lbf] flanges and gasket, for a little more
     Phi = lambda F: delta_T(x_F0(F)) / (delta_S + delta_T(x_F0(F)))  # [-] part of the load that the bolt takes
     F_t = linspace(0, 0.9 * F_o, 10)  # [lbf] loads
@@ -417,7 +419,7 @@ def section_51():
 def diagram(c, delta_P, delta_S, u_0):
     f = linspace(0, u_0, 41)  # [mil] stretch of the bolt
     F_f = f / delta_S  # [lbf] bolt
-    F_p = (2 * (u_0 - f) / (1 / sqrt(c) + sqrt(1 / c + 4 * delta_P * (u_0 - f)))) ** 2  # [lbf] parts
+    F_p = (2 * (u_0 - f) / (1 / sqrt(c) + sqrt(maximum(1 / c + 4 * delta_P * (u_0 - f), 0)))) ** 2  # [lbf] parts
     typeset()
     return F_f, F_p, f
 

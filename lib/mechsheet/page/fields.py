@@ -1,7 +1,6 @@
 """The inputs of a worksheet as fields of the page, and its sliders."""
 
 import html
-import json
 from typing import Any
 from uuid import uuid4
 
@@ -9,7 +8,7 @@ import marimo as mo
 
 from mechsheet import units
 from mechsheet.document.markup import as_written
-from mechsheet.page.script import script
+from mechsheet.page.script import element, script
 from mechsheet.worksheet.inputs import declared
 from mechsheet.worksheet.kinds import Choice, Input, Switch
 from mechsheet.worksheet.lists import Rows
@@ -72,10 +71,9 @@ def _element(field: Input, value: Any) -> Any:
 
 def _grid(field: Rows, value: Any) -> str:
     """The grid that is shown for the text area behind it."""
-    columns = json.dumps([_head(column) for column in field.columns])
-    told = {"columns": columns, "text": field.text(value), "made": uuid4().hex}
-    attributes = " ".join(f'{name}="{html.escape(text)}"' for name, text in told.items())
-    return f"<ms-grid {attributes}></ms-grid>".replace("{", "{{").replace("}", "}}")
+    columns = [_head(column) for column in field.columns]
+    grid = element("ms-grid", columns=columns, text=field.text(value), made=uuid4().hex)
+    return grid.replace("{", "{{").replace("}", "}}")  # in a template
 
 
 def fields(g: Any) -> "mo.ui.batch":

@@ -10,13 +10,14 @@ from mechsheet.units.text import UNKNOWN, factors, plain
 
 _POWERS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 _PRINTED = {"degC": "°C", "inch": "in"}
-# Of each dimension what a reader may want to see instead; moments and energies are told apart by what is typed.
+# Of each dimension what a reader may want to see instead; moments and energies are told apart by what is typed. Of
+# kelvins nobody knows whether they are a temperature or a difference.
 _USUAL = (
     "m cm mm um km inch ft", "N kN MN kgf tf lbf kip", "N*m kN*m N*mm kgf*m kgf*cm lbf*ft lbf*inch", "J kJ MJ Wh kWh",
     "Pa kPa MPa GPa bar kgf/cm**2 psi ksi", "m**2 cm**2 mm**2 inch**2 ft**2", "m**3 cm**3 mm**3 L inch**3 ft**3",
     "m**4 cm**4 mm**4 inch**4", "kg g t lb", "kg*m**2 kg*cm**2 lb*inch**2", "s ms min h", "rad deg rev",
     "rad/s deg/s rpm", "rad/s**2 deg/s**2", "m/s mm/s km/h ft/s mile/h knot", "m/s**2 mm/s**2 ft/s**2", "W kW MW hp PS",
-    "N/m N/mm kN/m kgf/cm lbf/inch", "m**3/s L/min L/s m**3/h", "kg/m**3 g/cm**3 lb/ft**3", "K degC", "- %",
+    "N/m N/mm kN/m kgf/cm lbf/inch", "m**3/s L/min L/s m**3/h", "kg/m**3 g/cm**3 lb/ft**3", "- %",
 )  # fmt: skip
 
 
@@ -111,9 +112,13 @@ def word(dims: Dims) -> str:
 def alike(text: str) -> tuple[str, ...]:
     """Units in which a quantity may be shown instead, its own first; that one alone where no other is usual.
 
-    >>> alike("kN*m")[:3], alike("kg/s")
-    (('kN*m', 'N*m', 'N*mm'), ('kg/s',))
+    >>> alike("kN*m")[:3], alike("kg/s"), alike("positions")
+    (('kN*m', 'N*m', 'N*mm'), ('kg/s',), ('positions',))
     """
+    try:
+        parse(text)
+    except ValueError:  # what is counted, in words
+        return (text,)
     groups = [group.split() for group in _USUAL]
     own = next((g for g in groups if text in g), None) or next((g for g in groups if _fits(text, g)), [])
     return (text, *(unit for unit in own if unit != text))

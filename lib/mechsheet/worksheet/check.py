@@ -3,13 +3,14 @@
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import isnan
 from typing import Any, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from mechsheet import units
 from mechsheet.mechanics.equilibrium import Reaction, left_over
 from mechsheet.mechanics.load import Load
 from mechsheet.worksheet import numbers
@@ -50,6 +51,12 @@ class Check(Shown):
     def verdict(self) -> str:
         """One of pass, FAIL, not evaluated."""
         return "not evaluated" if not self.evaluated else "pass" if self.passed else "FAIL"
+
+    def shown_in(self, unit: str) -> "Check":
+        """The same check in another unit that measures the same."""
+        own, other = units.parse(self.unit).factor, units.parse(unit).factor
+        residual, limit = (x * own / other for x in (self.residual, self.limit))
+        return replace(self, residual=residual, limit=limit, unit=unit)
 
     @property
     def compared(self) -> tuple[str, str]:

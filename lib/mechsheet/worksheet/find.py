@@ -55,7 +55,7 @@ class Found(Verdict):
     value : float
         The root on the wanted branch nearest the guess. Unsolved: reading it raises SheetError with the reason;
         in an array the element is NaN.
-    branch : int or None
+    branch : int, array of int or None
         The wanted branch.
     residual : float
         f - equals at ``value``; NaN where unsolved.
@@ -78,7 +78,7 @@ class Found(Verdict):
     """
 
     _value: Any = field(repr=False)
-    branch: int | None
+    branch: Any
     residual: Any
     bracket: tuple[Any, Any]
     interval: tuple[Any, Any]
@@ -135,7 +135,7 @@ class Found(Verdict):
 
     def details(self) -> list[tuple[str, str]]:
         words, single = self.words, isinstance(self.reason, str)
-        on = "" if self.branch is None else f" on branch {self.branch:+d}"
+        on = "" if self.branch is None or np.ndim(self.branch) else f" on branch {self.branch:+d}"
         rows = [("condition", f"{words.quantity} = {numbers.extent(self.equals, words.unit)}{on}")]
         if np.any(self.solved):
             label = "residual" if single else "largest residual"
@@ -170,7 +170,7 @@ def find(  # type: ignore[overload-overlap]  # a name that is not one of these i
     *,
     equals: ArrayLike = 0.0,
     guess: ArrayLike | None = None,
-    branch: int | None = None,
+    branch: ArrayLike | None = None,
     branches: Sequence[int] | None = None,
     unknown: str = "unknown x",
     quantity: str = "f(x)",
@@ -193,7 +193,7 @@ def find(  # type: ignore[misc]
     *,
     equals: Any = 0.0,
     guess: ArrayLike | None = None,
-    branch: int | None = None,
+    branch: Any = None,
     branches: Sequence[int] | None = None,
     unknown: str = "unknown x",
     quantity: str = "f(x)",
@@ -221,7 +221,8 @@ def find(  # type: ignore[misc]
     guess : float, shape (...), optional
         Chooses among several roots: the nearest one is the value, the smaller one of two as near. By default the
         middle of the interval. Positive where an end of the interval is not given.
-    branch, branches : int, sequence of int, optional
+    branch : int, shape (...), optional
+    branches : sequence of int, optional
         The wanted assembly branch, and all of them; the roots on the others are reported too.
     unknown, quantity : str
         Words and symbol, as in ``lifting rod L4``.
@@ -268,26 +269,27 @@ def find(  # type: ignore[misc]
         if any(given is not None for given in (lo, hi, guess, branch, branches)):
             raise SheetError(f"find takes either an interval and a guess, or the unknowns {', '.join(unknowns)}")
         return solve(f, equals, unit, unknown_unit, unknowns)
-    if branch not in (branches or (None,)):
+    labels = [0] if branches is None else list(branches)
+    on = np.asarray(0 if branch is None else branch)
+    if (branch is None) != (branches is None) or not np.isin(on, labels).all():
         raise ValueError(f"branch = {branch} of {unknown} must be one of {branches}")
     measured(unit), measured(unknown_unit)
     words = _Words(unknown, quantity, unit, unknown_unit)
     given = _checked(words, lo=lo, hi=hi, equals=equals, guess=guess)
-    labels = [0] if branches is None else list(branches)
     functions = [f] if branches is None else [_on_branch(f, s) for s in labels]
-    wanted = 0 if branch is None else labels.index(branch)
+    wanted = f if branches is None else _on_branch(f, on[()])
 
     given = dict(zip(given, np.broadcast_arrays(*given.values()), strict=True))
     void = np.isnan(list(given.values())).any(0)
     if void.all():
-        return _nothing(words, branch, void.shape)
+        return _nothing(words, None if branch is None else on[()], void.shape)
     given = {name: np.where(void, v[~void][0], v) for name, v in given.items()}  # f sees no NaN
     start = given["guess"] if lo is None or hi is None else given["lo"] / 2 + given["hi"] / 2
-    first = real_values(functions[wanted], start)  # its shape shows what f closes over
+    first = real_values(wanted, start)  # its shape shows what f closes over
     shape = np.broadcast_shapes(void.shape, first.shape)
     void = np.broadcast_to(void, shape).reshape(-1)
     flat = {name: np.broadcast_to(v, shape).reshape(-1) for name, v in given.items()}
-    own, every = Counted([functions[wanted]], shape), Counted(functions, shape)
+    own, every = Counted([wanted], shape), Counted(functions, shape)
 
     def shaped(a: NDArray[Any]) -> Any:
         return a.reshape(shape) if shape else a.item()
@@ -297,7 +299,8 @@ def find(  # type: ignore[misc]
         columns = {name: np.tile(v, len(labels)) for name, v in flat.items()}  # branches x problems
         return all_roots(every, columns, np.tile(void, len(labels)))
 
-    at = wanted * void.size + np.arange(void.size)
+    ranks = np.argmax(np.equal.outer(labels, on), axis=0)  # of the wanted branches among all
+    at = np.broadcast_to(ranks, shape).reshape(-1) * void.size + np.arange(void.size)
 
     def everything() -> _Everything:
         search = search_all()
@@ -320,7 +323,7 @@ def find(  # type: ignore[misc]
     low, high, value, residual, *bracket = (np.where(void, np.nan, numbers) for numbers in answer)
     found = Found(
         _value=shaped(value),
-        branch=branch,
+        branch=None if branch is None else on[()],
         residual=shaped(residual),
         bracket=(shaped(bracket[0]), shaped(bracket[1])),
         interval=(shaped(low), shaped(high)),
@@ -334,7 +337,7 @@ def find(  # type: ignore[misc]
     return found
 
 
-def _nothing(words: _Words, branch: int | None, shape: tuple[int, ...]) -> Found:
+def _nothing(words: _Words, branch: Any, shape: tuple[int, ...]) -> Found:
     """The verdict on problems none of which has an interval, a target and a guess."""
     none = np.full(shape, np.nan)
     everything = _Everything(
@@ -372,7 +375,7 @@ def _in_order(words: _Words, names: tuple[str, str], low: Array, high: Array) ->
         raise SheetError(f"{names[0]} = {small} for {words.unknown} must be less than {names[1]} = {large}")
 
 
-def _on_branch(f: Callable[..., Any], s: int) -> Function:
+def _on_branch(f: Callable[..., Any], s: Any) -> Function:
     return lambda x: f(x, s)
 
 
