@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from mechsheet.page.values import html
 from mechsheet.worksheet.check import Check, assembled, check, check_slope, listen, require, summary
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.find import find
@@ -91,6 +92,10 @@ def test_slope_over_an_empty_range_fails_in_words():
 def test_a_unit_that_is_not_known_is_told_in_a_line(asked):
     with pytest.raises(SheetError, match=r"^unit \[Nn\] is not known; nearest: nN"):
         asked()
+
+
+def test_a_check_of_what_is_counted_is_shown_in_its_words():
+    assert "1 ≰ 0 open positions" in html(Check("closes", 1, 0, "open positions"))
 
 
 def test_open_position_is_named_with_its_reach():

@@ -32,7 +32,7 @@ class Editor:
         self.page = page
         page.set_viewport_size({"width": 1280, "height": 3000})
         page.goto(address)
-        self.expect("1 of 1 checks pass")
+        self.expect("2 of 2 checks pass")
 
     def expect(self, text: str) -> None:
         self.page.get_by_text(text).first.wait_for()
@@ -82,7 +82,7 @@ def test_edited_number_formula_and_unit_change_everything(editor, tmp_path):
         f"() => document.querySelector('svg.ms-chart path[stroke]').getAttribute('d') !== {before!r}"
     )
     editor.expect_last_moment("420")  # sine of a right angle
-    editor.expect("1 of 1 checks pass")
+    editor.expect("2 of 2 checks pass")
     editor.expect(f"{degrees(asin((310 / 420) ** (1 / 3))):.4f} deg")
     editor.edit("M_S = M(phi)  # [N*m]", "M_S = M(phi)  # [kN*m]")
     page.locator(".ms-table", has_text="kN·m").wait_for()
@@ -107,15 +107,15 @@ def test_mistakes_are_told_at_their_place_and_the_rest_stays(editor):
 
     told(editor.edit("# [N*m] moment\n", "# [Nm] moment\n"), "unit [Nm] is not known; nearest: N*m")
     expect(page.get_by_text("TRACEBACK")).to_have_count(0)
-    editor.expect("1 of 1 checks pass")
+    editor.expect("2 of 2 checks pass")
     told(editor.edit("# [Nm] moment\n", "# [N*m] moment\n"))
-    editor.expect("1 of 1 checks pass")
+    editor.expect("2 of 2 checks pass")
     told(editor.edit("g.L * sin", "g.Ll * sin"), "'Given' object has no attribute 'Ll'")
     told(editor.edit("g.Ll * sin(phi)", "g.L * sin(phii)"), "name 'phii' is not defined")
     editor.expect("An ancestor raised an exception (NameError)")
     told(editor.edit("sin(phii)", "sin(phi"), "'(' was never closed")
     told(editor.edit("sin(phi", "sin(phi)"))
-    editor.expect("1 of 1 checks pass")
+    editor.expect("2 of 2 checks pass")
     field = page.locator(".ms-inputs tr:has-text('greatest moment') input")
     field.fill("500")
     field.press("Enter")
@@ -128,7 +128,7 @@ def test_mistakes_are_told_at_their_place_and_the_rest_stays(editor):
     expect(page.locator(".ms-told")).to_be_visible()
     field.fill("300")
     field.press("Enter")
-    editor.expect("1 of 1 checks pass")
+    editor.expect("2 of 2 checks pass")
     expect(page.locator(".ms-told")).to_be_hidden()
     editor.expect_last_moment("420")
 
@@ -168,7 +168,7 @@ def test_mistakes_are_told_in_words_at_the_top_and_at_their_line(editor):
     editor.edit("sin(phi, 1, 2, 3)", "sin(phi")
     page.locator(".ms-title a", has_text="the cell that defines M_S has a mistake or was deleted").wait_for()
     editor.edit("sin(phi", "sin(phi)")
-    editor.expect("1 of 1 checks pass")
+    editor.expect("2 of 2 checks pass")
     page.wait_for_function("() => !document.querySelector('.ms-title a')")
     editor.expect_last_moment("420")
     editor.edit("M_S = M(phi)  # [N*m] moment over", "M_S = M(phi)  # moment over")

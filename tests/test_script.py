@@ -114,7 +114,7 @@ def test_an_unknown_unit_fails_the_check_of_units_and_nothing_else(tmp_path):
 
 
 def test_an_unknown_unit_of_an_input_fails_the_check_of_units_and_nothing_else(tmp_path):
-    sheet = changed(tmp_path, "# [N] weight of the implement", "# [Nn] weight of the implement")
+    sheet = changed(tmp_path, "# [N] weight of the implement; >", "# [Nn] weight of the implement; >")
     done = run(f"--out={tmp_path}", sheet=sheet)
     assert done.returncode == 1 and (tmp_path / "hitch.xlsx").exists()
     failed = [line for line in done.stdout.splitlines() if line.startswith("FAIL")]

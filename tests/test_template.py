@@ -31,7 +31,7 @@ def test_runs_and_writes_its_workbook(lever):
     done = subprocess.run([sys.executable, str(lever)], capture_output=True, encoding="utf-8")
     assert (done.returncode, done.stderr) == (0, "")
     book = load_workbook(lever.parent / "gear_lever.xlsx")
-    assert book.sheetnames[:4] == ["Front", "Inputs", "Find", "1 Moment of the lever"]
+    assert book.sheetnames[:5] == ["Front", "Inputs", "Find", "1 Moment of the lever", "2 Load cases"]
     assert len(book["1 Moment of the lever"]._charts) == 1
     changed = subprocess.run([sys.executable, str(lever), "--F=-5"], capture_output=True, encoding="utf-8")
     assert changed.returncode == 1 and "F = -5.0 N must be >= 0" in changed.stderr
@@ -59,13 +59,14 @@ def test_begins_like_an_example(example, lever, monkeypatch):
 
 def test_shows_its_page(lever, serve, page, console_errors):
     page.goto(serve("run", lever))
-    page.get_by_text("1 of 1 checks pass").wait_for()
-    for part in (
-        page.get_by_role("heading", name="Gear lever"),
-        page.locator(".ms-table"),
-        page.locator("svg.ms-chart"),
+    page.get_by_text("2 of 2 checks pass").wait_for()
+    for part, count in (
+        (page.get_by_role("heading", name="Gear lever"), 1),
+        (page.locator(".ms-table"), 2),
+        (page.locator("svg.ms-chart"), 1),
+        (page.locator(".ms-inputs select"), 1),
     ):
-        expect(part).to_have_count(1)
+        expect(part).to_have_count(count)
     assert console_errors == []
 
 

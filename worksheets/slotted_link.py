@@ -369,10 +369,17 @@ def section_51():
 
 
 @app.cell
-def others(g, phi1_k, residuals, units_f, units_x):
+def others(f1, f2, f3, f4, f5, f6, g, phi1_k, units_f, units_x):
     phi3_g = linspace(-pi, pi, 13)  # [deg] first approximation of the link's angle
     G_found = find(
-        lambda phi3, SAB, omega3, VAB, eps3, WAB: tuple(residuals((phi3, SAB, omega3, VAB, eps3, WAB), phi1_k)),
+        lambda phi3, SAB, omega3, VAB, eps3, WAB: (
+            f1(phi1_k, phi3, SAB),
+            f2(phi1_k, phi3, SAB),
+            f3(phi1_k, phi3, SAB, omega3, VAB),
+            f4(phi1_k, phi3, SAB, omega3, VAB),
+            f5(phi1_k, phi3, SAB, omega3, VAB, eps3, WAB),
+            f6(phi1_k, phi3, SAB, omega3, VAB, eps3, WAB),
+        ),
         phi3=phi3_g[:, None],
         SAB=g.SAB_0,
         omega3=g.omega3_0,

@@ -9,12 +9,13 @@ with app.setup:
     from numpy import linspace, log, maximum, minimum, pi, sqrt, trapezoid, where
 
     from mechsheet import (
-        Check, Drawing, Used, ask, caption, check, check_slope, closed_form, export, figure, find, inputs, one_of,
+        Drawing, Used, ask, caption, check, check_slope, closed_form, export, figure, find, inputs, one_of,
         read, slider, summary, table, title_block, typeset,
     )  # fmt: skip
     from mechsheet.units import MPa, define, inch, ksi, lbf, mm
 
     mil = define("mil", 0.001, "inch")
+    np.seterr(divide="ignore", invalid="ignore")  # embedding may take all preload; what there is not is shown so
 
     @inputs
     class Grade:
@@ -323,7 +324,7 @@ def strength(A_s, F_K0, F_S1, g, k_t, F_M):
         check("pull and torsion", sigma_r, g.grade.R_p, "ksi"),
         check("amplitude of the stress", sigma_a, sigma_A, "ksi"),
         check("pressure under the head", p_K, g.part.p_G, "ksi"),
-        Check("grip at the gasket: F_R - F_K0", float(np.max(F_R - F_K0)) / lbf, 0.0, "lbf"),
+        check("grip at the gasket: F_R less F_K0", maximum(F_R - F_K0, 0), 0, "lbf"),
     )
     typeset(*checks_strength)
     return F_R, S_F, checks_strength, sigma_r
@@ -375,7 +376,9 @@ def growing(F_K, F_M0, c, delta_P, delta_S, k_u, u_0):
 
 @app.cell
 def compared(F, F_K, F_SF, F_o, c, delta_P, delta_S, grow_c, h_F, k_u, u_0, x_F):
-    x_F0 = lambda F: 2 * (u_0 - delta_S * F) / (1 + sqrt(1 + 4 * k_u * (u_0 - delta_S * F)))  # [mil] while it is shut
+    x_F0 = lambda F: (
+        2 * (u_0 - delta_S * F) / (1 + sqrt(maximum(1 + 4 * k_u * (u_0 - delta_S * F), 0)))
+    )  # [mil] while it is shut
     delta_T = lambda x: delta_P + 1 / (2 * c * x)  # [mil/lbf] flanges and gasket, for a little more
     Phi = lambda F: delta_T(x_F0(F)) / (delta_S + delta_T(x_F0(F)))  # [-] part of the load that the bolt takes
     F_t = linspace(0, 0.9 * F_o, 10)  # [lbf] loads
@@ -416,7 +419,7 @@ def section_51():
 def diagram(c, delta_P, delta_S, u_0):
     f = linspace(0, u_0, 41)  # [mil] stretch of the bolt
     F_f = f / delta_S  # [lbf] bolt
-    F_p = (2 * (u_0 - f) / (1 / sqrt(c) + sqrt(1 / c + 4 * delta_P * (u_0 - f)))) ** 2  # [lbf] parts
+    F_p = (2 * (u_0 - f) / (1 / sqrt(c) + sqrt(maximum(1 / c + 4 * delta_P * (u_0 - f), 0)))) ** 2  # [lbf] parts
     typeset()
     return F_f, F_p, f
 

@@ -17,6 +17,8 @@ with app.setup:
     )  # fmt: skip
     from mechsheet.units import MPa, bar, mm, rpm
 
+    np.seterr(divide="ignore", invalid="ignore")  # a rod that does not reach the cylinder is told by its check
+
     @inputs
     class Gas:
         phi: float  # [deg] crank from the top dead centre before the intake; >= 0 <= 720

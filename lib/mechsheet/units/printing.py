@@ -112,9 +112,13 @@ def word(dims: Dims) -> str:
 def alike(text: str) -> tuple[str, ...]:
     """Units in which a quantity may be shown instead, its own first; that one alone where no other is usual.
 
-    >>> alike("kN*m")[:3], alike("kg/s")
-    (('kN*m', 'N*m', 'N*mm'), ('kg/s',))
+    >>> alike("kN*m")[:3], alike("kg/s"), alike("positions")
+    (('kN*m', 'N*m', 'N*mm'), ('kg/s',), ('positions',))
     """
+    try:
+        parse(text)
+    except ValueError:  # what is counted, in words
+        return (text,)
     groups = [group.split() for group in _USUAL]
     own = next((g for g in groups if text in g), None) or next((g for g in groups if _fits(text, g)), [])
     return (text, *(unit for unit in own if unit != text))

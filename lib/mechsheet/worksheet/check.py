@@ -53,7 +53,9 @@ class Check(Shown):
         return "not evaluated" if not self.evaluated else "pass" if self.passed else "FAIL"
 
     def shown_in(self, unit: str) -> "Check":
-        """The same check in another unit that measures the same."""
+        """The same check in another unit that measures the same; what is counted, in words, has its own alone."""
+        if unit == self.unit:
+            return self
         own, other = units.parse(self.unit).factor, units.parse(unit).factor
         residual, limit = (x * own / other for x in (self.residual, self.limit))
         return replace(self, residual=residual, limit=limit, unit=unit)
