@@ -3,6 +3,8 @@
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from mechsheet.recording.lines import Recording
 from mechsheet.recording.numbers import numbers
 from mechsheet.recording.record import record
@@ -78,3 +80,33 @@ def value_of(recording: Recording, name: str, given: dict[str, Any]) -> Any:
     known = numbers(found, {recording.inputs[key]: float(x) for key, x in given.items()})
     values = [known[node] for node in found]
     return values[0] if len(values) == 1 else values[0] + 1j * values[1]
+
+
+ELSEWHERE: list[dict[str, Any]] = [{}, *OTHER, {"F": 4.0, "a": 1.0}, {"F": 2.5000001}, {"n": 3}, {"n": 8, "F": 3.25}]
+
+
+def assert_never_stale(lines: str, tmp_path: Path) -> None:
+    """What lines of a cell make of inputs is read rightly for others, or is no number, and something says why."""
+    sheet = own(tmp_path, f'{lines}\nresult = np.atleast_1d(y) * 1  # [-] line\ntable_2 = table("2", "Two", result)')
+    names, recording = recorded(sheet)
+    if "2" not in recording.tables:  # it has other numbers at each run, so it holds for the exported inputs alone
+        assert any("random" in lines and gap.line for gap in recording.gaps)
+        return
+    (column,) = recording.tables["2"]
+    followed = 0
+    for given in ELSEWHERE:
+        told = recording.gaps or [guard for guard in recording.guards.values() if guard.rows <= ("n" in given)]
+        try:
+            expected = cells.evaluate(sheet.path, ["result"], **given)["result"]
+        except Exception:  # the worksheet itself has no number for these inputs
+            expected = np.array(np.nan)
+        values = names["table_2"].columns[0].values
+        if column is not None:
+            known = numbers([column.re], {recording.inputs[name]: float(x) for name, x in given.items()})
+            values = known[column.re]
+        if np.isnan(values).all() and (told or np.isnan(expected).all()):
+            continue
+        assert values.shape == expected.shape, given
+        np.testing.assert_allclose(values, expected, rtol=1e-12, atol=1e-13, err_msg=str(given))
+        followed += 1
+    assert followed, "not even for the inputs that it was recorded with"

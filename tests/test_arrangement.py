@@ -7,7 +7,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from mechsheet.recording.graph import Graph, Node
+from mechsheet.recording.graph import Graph
+from mechsheet.recording.node import Node
+from mechsheet.recording.operations import Moved
 from mechsheet.workbook.arrangement import needing_place
 from mechsheet.workbook.cell_formula import CellFormulas
 from mechsheet.workbook.place import Place, called
@@ -22,6 +24,9 @@ def depth(formula: str) -> int:
     return deepest
 
 
+PICKED = Moved(np.take, ([1],))
+
+
 @pytest.mark.parametrize(
     "wrap",
     [
@@ -30,7 +35,7 @@ def depth(formula: str) -> int:
         lambda graph, x: graph.node("where", graph.node("lt", x, graph.constant(2.0)), x, graph.constant(5.0)),
         lambda graph, x: graph.node("atan2", x, graph.node("sqrt", x)),
         lambda graph, x: graph.take(
-            graph.join([x, graph.node("neg", x)], graph.constant([1]).value), graph.constant([0]).value
+            graph.join([x, graph.node("neg", x)], graph.constant([1]).value, PICKED), graph.constant([0]).value
         ),
     ],
 )
@@ -112,7 +117,8 @@ def test_numbers_that_differ_from_row_to_row_stand_in_a_column() -> None:
 def test_elements_of_several_quantities_have_a_formula_for_each() -> None:
     graph = Graph()
     x, y = (graph.leaf("input", name, np.arange(6.0).reshape(2, 3)) for name in "xy")
-    node = graph.join([x, y], np.arange(12).reshape(2, 2, 3).transpose(1, 0, 2))
+    beside = Moved(np.stack, (), (("axis", 1),))
+    node = graph.join([x, y], beside([np.arange(6).reshape(2, 3), np.arange(6, 12).reshape(2, 3)]), beside)
     assert len(column(graph, node, x, y)) == 2
     assert node in needing_place([graph.node("sin", node)], set(), {})
 

@@ -5,6 +5,7 @@ import pytest
 
 from mechsheet.worksheet.check import Check, assembled, check, check_slope, listen, require, summary
 from mechsheet.worksheet.errors import SheetError
+from mechsheet.worksheet.find import find
 
 
 @pytest.mark.parametrize(("residual", "passed"), [(1e-12, True), ([0, -2e-12], False), (np.nan, False), (1e-12j, True)])
@@ -74,6 +75,22 @@ def test_slope_that_does_not_exist_or_is_zero_everywhere(slope):
 def test_slope_over_an_empty_range_fails_in_words():
     c = check_slope("point", np.ones(2), lambda x: x, np.ones(2), 1.0, 1.0)
     assert not c.passed and not c.evaluated and c.reason == "there is nothing to check: the range is empty"
+
+
+@pytest.mark.parametrize(
+    "asked",
+    [
+        lambda: check("force", 1.0, 2.0, "Nn"),
+        lambda: assembled("closes", 1j, 1.0, (0, 9), "cylinder", "Nn"),
+        lambda: find(lambda x: x, -1, 1, unit="Nn"),
+        lambda: find(lambda x: x, -1, 1, unknown_unit="Nn"),
+        lambda: find(lambda x, y: (x, y), unit=("N", "Nn"), x=1.0, y=1.0),
+        lambda: find(lambda x, y: (x, y), unknown_unit="Nn", x=1.0, y=1.0),
+    ],
+)
+def test_a_unit_that_is_not_known_is_told_in_a_line(asked):
+    with pytest.raises(SheetError, match=r"^unit \[Nn\] is not known; nearest: nN"):
+        asked()
 
 
 def test_open_position_is_named_with_its_reach():

@@ -13,7 +13,8 @@ import mechsheet
 from mechsheet.mechanics import crank, drive, equilibrium, joint, load, planar, prp, rpp, rpr, rrp, rrr
 from mechsheet.mechanics.load import Load
 from mechsheet.recording.elementary import GROUPS, STEPS
-from mechsheet.recording.graph import Graph, Node
+from mechsheet.recording.graph import Graph
+from mechsheet.recording.node import Node
 from mechsheet.recording.numbers import numbers as read
 from mechsheet.recording.quantity import Quantity
 from mechsheet.recording.substitutes import body, current, instead

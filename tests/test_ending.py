@@ -100,9 +100,11 @@ def test_what_mathcad_took_is_told_in_words(old: str, new: str, says: str, lever
 
 
 def test_a_declaration_is_told_with_its_line(lever: Callable[..., Path]) -> None:
-    path = lever("[m] length", "[mn] length")
-    unit = "unit [mn] is not known; nearest: mN, MN"
-    ends([sys.executable, path], f"error: line 38 of {path}: {unit}")
+    path = lever("[m] length", "metres, length")
+    ends(
+        [sys.executable, path],
+        f"error: line 38 of {path}: input L needs a comment with its unit, such as # [m] meaning",
+    )
 
 
 def test_what_python_cannot_read_is_told_with_its_line(lever: Callable[..., Path]) -> None:

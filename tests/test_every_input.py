@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import warnings
 from collections import Counter
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -19,6 +19,7 @@ from mechsheet.run import report
 from mechsheet.worksheet import cells, inputs
 from mechsheet.worksheet.check import Check
 from mechsheet.worksheet.errors import SheetError, raised
+from mechsheet.worksheet.lists import Rows
 from mechsheet.worksheet.shown import Shown
 
 ROOT = Path(__file__).parents[1]
@@ -84,10 +85,29 @@ def ran(sheet: cells.Worksheet, g: Any) -> Run:
     return run
 
 
-def built(sheet: cells.Worksheet, name: str, value: object) -> tuple[Any, str]:
+def typed(sheet: cells.Worksheet) -> Iterator[tuple[str, Callable[[object], dict[str, object]]]]:
+    """What can be typed, by name, and the inputs that are given with it: of each column of a table its last cell."""
+    default = sheet.inputs()
+    for each in inputs.declared(sheet.inputs):
+        if not isinstance(each, Rows):
+            yield each.name, lambda value, name=each.name: {name: value}
+            continue
+        columns = each.display(getattr(default, each.name))
+        for column, xs in columns.items():
+
+            def given(
+                value: object, each: Rows = each, others: Any = columns, column: str = column
+            ) -> dict[str, object]:
+                cells = {**others, column: [*others[column][:-1], value]}
+                return {each.name: cells if each.row else cells[column]}
+
+            yield f"{column} ({len(xs)})", given
+
+
+def built(sheet: cells.Worksheet, given: dict[str, object]) -> tuple[Any, str]:
     """Inputs with one replaced, or why they are refused."""
     try:
-        return inputs.build(sheet.inputs, {name: value}), ""
+        return inputs.build(sheet.inputs, given), ""
     except SheetError as error:
         return None, str(error)
 
@@ -111,17 +131,17 @@ def tried(path: Path, run_too: bool) -> tuple[Counter[str], list[str]]:
     counts, wrong = Counter[str](), list[str]()
     sheet = cells.read(path)
     written = set[str]()
-    for each in inputs.declared(sheet.inputs):
+    for name, given in typed(sheet):
         runs = dict[float, str]()
         for text, number in TYPED.items():
-            what = f"{path.stem} --{each.name}={text}"
-            g, refusal = built(sheet, each.name, text)
-            plain, why = (None, "no number") if number is None else built(sheet, each.name, number)
+            what = f"{path.stem} --{name}={text}"
+            g, refusal = built(sheet, given(text))
+            plain, why = (None, "no number") if number is None else built(sheet, given(number))
             if g != plain or bool(refusal) != bool(why):
                 wrong.append(f"{what}: {refusal or g} in place of {why or plain}")
             elif refusal:
                 counts["no number" if number is None else "outside its limits"] += 1
-                if "\n" in refusal or f"{each.name} = " not in refusal:
+                if "\n" in refusal or f"{name} = " not in refusal:
                     wrong.append(f"{what}: {refusal!r} does not name it in a line")
             elif run_too:
                 if number not in runs:

@@ -154,7 +154,7 @@ def test_a_list_is_given_in_many_ways(section: Path, way: Any) -> None:
         ({"F": [[1, 2]]}, "forces F (1) = [1, 2] kN is no number"),
         ({"F_max": 5}, "forces F (1) = 10.0 kN must be < F_max = 5.0"),
         ({"stringers": "1; 2"}, "stringers of the section stringers (1) = '1; 2' must have the columns A, y, y_top"),
-        ({"stringers": "0; 2; 30"}, "area stringers.A (1) = 0.0 cm**2 must be positive"),
+        ({"stringers": "0; 2; 30"}, "area stringers.A (1) = 0.0 cm² must be positive"),
         ({"stringers": "1; 2; 30 | 1; 31; 30"}, "level stringers.y (2) = 31.0 cm must be < stringers.y_top = 30.0"),
         ({"stringers": "1; 2; 30 | 1; x; 30"}, "level stringers.y (2) = 'x' cm is no number"),
         ({"stringers": [{"A": 1, "y": 2}]}, "stringers of the section stringers (1) must have the columns"),
@@ -194,7 +194,7 @@ def test_scenes_and_arguments_give_lists_and_tables(section: Path, tmp_path: Pat
     scene.write_text('want = ["A", "sigma"]\n[inputs]\nF = [1, "2,5"]\n[[inputs.stringers]]\nA = 2\ny = 3\ny_top = 9\n')
     answer = script(section, f"--scene={scene}")
     assert answer.returncode == 0, answer.stderr
-    assert "A = 2 cm**2" in answer.stdout and "5..12.5 MPa" in answer.stdout
+    assert "A = 2 cm²" in answer.stdout and "5..12.5 MPa" in answer.stdout
     fields = inputs.declared(load(section).inputs)
     assert inputs.build(load(section).inputs, arguments.load(scene, fields).inputs).F.tolist() == [1000.0, 2500.0]
     told = script(section, "--F=27,500; 3", "--stringers=1; 2; 30 | 1; 3; 30", f"--out={tmp_path}")

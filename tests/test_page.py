@@ -46,6 +46,25 @@ def test_opens_computed_with_every_section(opened, console_errors):
     assert console_errors == []
 
 
+def test_outputs_are_whole_and_indices_are_small(opened):
+    """In the editor too; the size of an index in an exponent follows that of the exponent."""
+    cut = """() => [...document.querySelectorAll(".output-area")]
+        .filter((e) => e.scrollHeight > e.clientHeight + 2).length"""
+    assert opened.evaluate(cut) == 0
+    opened.wait_for_function("() => document.querySelector('marimo-tex').shadowRoot?.querySelector('.katex-sizing')")
+    sizes = opened.evaluate("""() =>
+      [...document.querySelectorAll("marimo-tex")]
+        .flatMap((tex) => [...(tex.shadowRoot?.querySelectorAll(".katex-sizing") ?? [])])
+        .map((e) => [e.className, ...[e, e.parentElement].map((e) => parseFloat(getComputedStyle(e).fontSize))])
+    """)
+    parts = {name: size / whole for name, size, whole in sizes if "reset-size" in name}
+    assert len(parts) >= 1
+    of_texts = {"size1": 0.5, "size3": 0.7, "size6": 1.0}  # as KaTeX sets them
+    for name, part in parts.items():
+        outer, inner = (each.removeprefix("reset-") for each in name.split()[1:3])
+        assert part == pytest.approx(of_texts[inner] / of_texts[outer], rel=1e-3), name
+
+
 def test_changed_input_changes_the_tables(serve, page, console_errors):
     page.goto(serve("run", HITCH))
     ready(page)
@@ -124,6 +143,10 @@ def test_switch_shows_the_numbers_in_the_formulas(serve, page, console_errors):
     capacity = page.locator(".ms-line", has_text="piston area").locator("ms-numbers marimo-tex")
     page.wait_for_function("() => document.querySelector('ms-numbers marimo-tex').shadowRoot?.querySelector('.katex')")
     expect(capacity).to_contain_text(r"\frac{\pi\,(0.08\,\mathrm{m})^{2}}{4}")
+    clear = """() => [...document.querySelectorAll(".ms-line:has(ms-numbers marimo-tex)")].every((line) =>
+        line.querySelector("ms-numbers marimo-tex").getBoundingClientRect().top >=
+        line.querySelector(".ms-formula").getBoundingClientRect().bottom)"""
+    assert page.evaluate(clear), "numbers overlap the denominators above them"
     field = page.locator(".ms-inputs tr:has-text('piston diameter') input")
     field.fill("0.09")
     field.press("Enter")

@@ -16,7 +16,7 @@ CHANGED = {
     "landing_gear": ("mass", "1000"),
     "slotted_link": ("angular velocity of the crank", "-12,5"),
     "kinetostatics": ("rod AB", "0.43"),
-    "joint": ("bending moment, case 1", "510000"),
+    "joint": ("radius of the joint", "65"),
     "bucket": ("pressure", "30"),
     "engine": ("bore", "90"),
     "bolted_joint": ("friction in the thread", "0,1"),

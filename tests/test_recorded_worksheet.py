@@ -218,14 +218,19 @@ def test_what_python_saw_is_guarded(expression: str, same: dict[str, Any], other
         assert np.isnan(value_of(recording, "y", other)).all()
 
 
-def test_a_way_that_a_loop_took_is_guarded(tmp_path: Path) -> None:
-    """Iterations to convergence: the steps of the present numbers, while their verdicts are the same."""
+def test_iterations_to_convergence_are_repeated(tmp_path: Path) -> None:
+    """A reader takes as many turns as its inputs need; a workbook has those of now, while they are as many."""
     lines = "y = 1.0\nwhile abs(y * y - g.F) > 1e-9:\n    y = (y + g.F / y) / 2\nz = y * 1  # [-] root"
     sheet = own(tmp_path, lines)
     _, recording = recorded(sheet)
-    near, far = {"F": 2.5000001}, {"F": 400.0}
-    np.testing.assert_allclose(value_of(recording, "z", near), np.sqrt(2.5000001), rtol=1e-9)
-    assert np.isnan(value_of(recording, "z", far)).all()
+    for F in (2.5, 2.5000001, 400.0):
+        expected = cells.evaluate(sheet.path, ["z"], F=F)["z"]
+        assert value_of(recording, "z", {"F": F}) == pytest.approx(expected, rel=1e-14)
+    assert np.isnan(value_of(recording, "z", {"F": -2.0})), "it never ends"
+    (node,) = [node for node in recording.graph.nodes.values() if node.op == "iterated"]
+    (turns,) = node.args[2:]
+    known = {F: numbers([turns], {recording.inputs["F"]: F})[turns] for F in (2.5000001, 400.0)}
+    assert known[2.5000001] == pytest.approx(np.sqrt(2.5000001), rel=1e-9) and np.isnan(known[400.0])
 
 
 NOT_FOLLOWED = [

@@ -113,6 +113,16 @@ def test_an_unknown_unit_fails_the_check_of_units_and_nothing_else(tmp_path):
     assert "unit [MPaa] is not known; nearest: MPa" in failed[0]
 
 
+def test_an_unknown_unit_of_an_input_fails_the_check_of_units_and_nothing_else(tmp_path):
+    sheet = changed(tmp_path, "# [N] weight of the implement", "# [Nn] weight of the implement")
+    done = run(f"--out={tmp_path}", sheet=sheet)
+    assert done.returncode == 1 and (tmp_path / "hitch.xlsx").exists()
+    failed = [line for line in done.stdout.splitlines() if line.startswith("FAIL")]
+    line = next(n for n, text in enumerate(sheet.read_text(encoding="utf-8").splitlines(), 1) if "[Nn]" in text)
+    assert len(failed) == 1 and failed[0].startswith(f"FAIL  units: 1 <= 0 mistakes; line {line}, P6: ")
+    assert "unit [Nn] is not known; nearest: nN" in failed[0]
+
+
 def test_script_leaves_out_what_it_does_not_show(tmp_path):
     done = run(f"--out={tmp_path}", flags=("-X", "importtime"))
     assert done.returncode == 0

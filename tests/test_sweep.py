@@ -321,8 +321,8 @@ def test_a_number_of_positions_may_vary_where_the_results_are_numbers(lever):
 
 def test_any_worksheet_can_be_swept():
     joint = ROOT / "worksheets" / "joint.py"
-    swept = sweep(joint, ["P_n"], {"h": [100, 101]})
-    assert not swept.at_once and np.array_equal(swept["P_n"][1], evaluate(joint, ["P_n"], h=101)["P_n"])
+    swept = sweep(joint, ["P_k"], {"r": [100, 101]})
+    assert not swept.at_once and np.array_equal(swept["P_k"][1], evaluate(joint, ["P_k"], r=101)["P_k"])
 
 
 def test_an_error_in_a_formula_is_no_reason_but_an_error(lever):

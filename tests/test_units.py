@@ -233,3 +233,4 @@ def test_units_to_show_instead_measure_the_same() -> None:
         assert {parse(unit).dims for unit in others} == {parse(first).dims}
     assert alike("J")[1] == "kJ" and alike("N*mm")[1] == "N*m", "energy and moment"
     assert alike("kg/s") == ("kg/s",)
+    assert alike("K") == ("K",), "a temperature in kelvins is another number of degrees Celsius"

@@ -8,7 +8,7 @@ with app.setup:
 
     import marimo as mo
     import numpy as np
-    from numpy import abs, arange, cos, exp, heaviside, isfinite, isnan, nan, pi, sin, where
+    from numpy import abs, arange, array, cos, exp, isfinite, isnan, nan, pi, sin, where
     from numpy import arcsin as asin
 
     from mechsheet import (
@@ -28,7 +28,8 @@ def title():
     Forces and stresses in the joints of aircraft compartments under a bending moment and an axial force, after the
     industry standard OST 92-9236-79: a rectangular joint of beams and stringers, whose elements carry with one area
     in tension and with another in compression (appendices 1 and 3), and a circular joint, whose bolts carry the
-    tension and whose rims the compression (appendix 2). Change an input or a formula: everything below follows.
+    tension and whose rims the compression (appendix 2), each with as many elements and load cases as are given.
+    Change an input or a formula: everything below follows.
     """,
     )
     return
@@ -48,19 +49,69 @@ def section_1():
     The circular joint is an example of ours; all other numbers are the document's. An axial force is positive in
     tension. Inputs are in the document's units; the last one shows all results in SI units.
 
-    Another load case needs two input lines like those of case 1, and their names in `cases` below.
+    Tables are the arrays that the document's programs read, a row an element or a load case; add or delete rows, or
+    paste them. The programs read the levels of the elements for each plane of the load; here a row gives both. In the
+    plane ZOX the document counts the other way round: its beams 1 to 4 are 1, 4, 3, 2 here, its stringers 1 to 8 are
+    2, 1, 8, 7, 6, 5, 4, 3.
     """)
     return
 
 
 @app.class_definition
 @inputs
+class Beam:
+    y: float  # [cm] level in the plane YOX
+    z: float  # [cm] level in the plane ZOX
+    F: float  # [cm**2] area, steel; > 0
+    k_t: float  # [-] parts of the additional area in tension; >= 0
+    k_c: float  # [-] parts of the additional area in compression; >= 0
+
+
+@app.class_definition
+@inputs
+class Stringer:
+    y: float  # [cm] level in the plane YOX
+    z: float  # [cm] level in the plane ZOX
+    F: float  # [cm**2] area, aluminium; >= 0
+    k_t: float  # [-] part of it that is joined in tension; >= 0
+    k_c: float  # [-] part of it, with its skin, that is pressed; >= 0
+
+
+@app.class_definition
+@inputs
+class Load:
+    M: float  # [kgf*cm] bending moment
+    N: float  # [kgf] axial force
+    M_w: float  # [kgf*cm] moment of the third array
+
+
+@app.class_definition
+@inputs
+class RingLoad:
+    M: float  # [kgf*cm] bending moment
+    N: float  # [kgf] axial force
+
+
+@app.class_definition
+@inputs
 class Joint:
     # 1.1 Rectangular joint
-    h: float = 50 * cm  # [cm] side along Y, between the beams; > 0
-    b: float = 25 * cm  # [cm] side along Z, between the beams; > 0
-    F_b: float = 1 * cm**2  # [cm**2] beam; > 0
-    F_s: float = 0.5 * cm**2  # [cm**2] stringer; >= 0
+    beams: list[Beam] = [
+        Beam(25 * cm, 12.5 * cm, 1 * cm**2, 1, 1),
+        Beam(-25 * cm, 12.5 * cm, 1 * cm**2, 1, 1),
+        Beam(-25 * cm, -12.5 * cm, 1 * cm**2, 1, 1),
+        Beam(25 * cm, -12.5 * cm, 1 * cm**2, 1, 1),
+    ]  # beams, as they are numbered
+    stringers: list[Stringer] = [
+        Stringer(25 * cm, 6.25 * cm, 0.5 * cm**2, 0, 1),
+        Stringer(12.5 * cm, 12.5 * cm, 0.5 * cm**2, 0, 1),
+        Stringer(-12.5 * cm, 12.5 * cm, 0.5 * cm**2, 0, 1),
+        Stringer(-25 * cm, 6.25 * cm, 0.5 * cm**2, 0, 1),
+        Stringer(-25 * cm, -6.25 * cm, 0.5 * cm**2, 0, 1),
+        Stringer(-12.5 * cm, -12.5 * cm, 0.5 * cm**2, 0, 1),
+        Stringer(12.5 * cm, -12.5 * cm, 0.5 * cm**2, 0, 1),
+        Stringer(25 * cm, -6.25 * cm, 0.5 * cm**2, 0, 1),
+    ]  # stringers, as they are numbered
     delta: float = 0.1 * cm  # [cm] thickness of the skin; >= 0
     E_al: float = 0.72e6 * kgf / cm**2  # [kgf/cm**2] modulus of skin and stringers, aluminium; > 0
     E_st: float = 2.1e6 * kgf / cm**2  # [kgf/cm**2] modulus of the beams, steel; > 0
@@ -72,25 +123,24 @@ class Joint:
     d_F: float = 0.01 * cm**2  # [cm**2] step of the beam's reduced additional area, 0 for all digits; >= 0
 
     # 1.3 Loads of the rectangular joint
-    M_1: float = 5e5 * kgf * cm  # [kgf*cm] bending moment, case 1
-    N_1: float = 13e3 * kgf  # [kgf] axial force, case 1
-    M_2: float = 3e5 * kgf * cm  # [kgf*cm] bending moment, case 2
-    N_2: float = -13e3 * kgf  # [kgf] axial force, case 2
+    loads: list[Load] = [
+        Load(5e5 * kgf * cm, 13e3 * kgf, 0),
+        Load(3e5 * kgf * cm, -13e3 * kgf, 0),
+    ]  # load cases
 
     # 1.4 Search for the neutral axis
     y_00: float = 0 * cm  # [cm] first neutral axis
-    k_max: int = 10  # [-] greatest number of iterations; >= 1 <= 1000
+    k_max: int = 10  # [-] number of iterations; >= 1 <= 100
 
     # 1.5 Circular joint, an example of ours
     r: float = 60 * cm  # [cm] radius of the joint; > 0
-    m: int = 24  # [-] number of bolts, evenly spaced; >= 3 <= 1000
-    phi_1: float = 0 * deg  # [deg] first bolt from plane 1
-    phi_2: float = 7.5 * deg  # [deg] first bolt from plane 2
+    bolts: list[float] = [15 * k * deg for k in range(24)]  # [deg] angles of the bolts; >= -360 <= 360
+    alpha: list[float] = [0, -7.5 * deg]  # [deg] angles of the planes of the load; >= -360 <= 360
     t: float = 15 * cm  # [cm] pitch of the stringers; > 0
-    M_r1: float = 2e6 * kgf * cm  # [kgf*cm] bending moment, case 1
-    N_r1: float = -2e4 * kgf  # [kgf] axial force, case 1
-    M_r2: float = 1.2e6 * kgf * cm  # [kgf*cm] bending moment, case 2
-    N_r2: float = 2.5e4 * kgf  # [kgf] axial force, case 2
+    ring_loads: list[RingLoad] = [
+        RingLoad(2e6 * kgf * cm, -2e4 * kgf),
+        RingLoad(1.2e6 * kgf * cm, 2.5e4 * kgf),
+    ]  # load cases of the circular joint
 
     # 1.6 Units of the results
     SI: int = 0  # [-] units of the results, 1 for SI and 0 for kgf, cm; >= 0 <= 1
@@ -106,20 +156,20 @@ def rounded(x, step):
 
 @app.function
 def planes(first, second):
-    """Values of the two planes of the load, on the first axis of three: plane, load case, element."""
-    return np.array([first, second])[:, None, None]
+    """Values of the elements in the two planes of the load, on the first axis of three: plane, load case, element."""
+    return array([first, second])[:, None]
 
 
 @app.function
-def cases(*values):
+def cases(x):
     """Values of the load cases, on the second axis."""
-    return np.array(values)[:, None]
+    return x[:, None]
 
 
 @app.function
 def counted(x):
     """Numbers along the first axis of x, from 1."""
-    return np.arange(1, len(x) + 1).reshape(-1, *[1] * (x.ndim - 1))
+    return arange(1, len(x) + 1).reshape(-1, *[1] * (x.ndim - 1))
 
 
 @app.function
@@ -130,25 +180,13 @@ def of_cases(x):
 
 @app.function
 def elements(beams, stringers):
-    """Values of the four beams and the eight stringers, on the last axis."""
-    return np.concatenate([beams + np.zeros(4), stringers + np.zeros(8)], axis=-1)
-
-
-@app.function
-def beams(x):
-    """The four beams of all elements."""
-    return x[..., :4]
-
-
-@app.function
-def stringers(x):
-    """The eight stringers of all elements."""
-    return x[..., 4:]
+    """Values of the beams, behind them those of the stringers, on the last axis."""
+    return np.concatenate([beams, stringers], axis=-1)
 
 
 @app.function
 def total(x):
-    """Sum over the elements."""
+    """Sum over the elements, which stay an axis of one."""
     return sum_of_elements(x)[..., None]
 
 
@@ -187,11 +225,25 @@ def units_shown(g):
     return display, unit_F, unit_M, unit_p
 
 
+@app.cell(hide_code=True)
+def section_17():
+    mo.md(r"""
+    ### 1.7 Load cases
+
+    For each case the program reads three loads: a moment, a force, and a third one, which is 0 in both cases of the
+    example. What it stood for is lost with the beginning of the listing; here it is one more moment in the plane of
+    the load, which is added.
+    """)
+    return
+
+
 @app.cell
 def load_cases(display, g):
-    M = cases(g.M_1, g.M_2)  # [kgf*cm] bending moment
-    N = cases(g.N_1, g.N_2)  # [kgf] axial force, positive in tension
-    plane = planes(1, 2)  # [-] plane of the load: 1 is YOX, 2 is ZOX
+    M_b = cases(g.loads.M)  # [kgf*cm] bending moment of the first array
+    M_w = cases(g.loads.M_w)  # [kgf*cm] moment of the third array
+    M = M_b + M_w  # [kgf*cm] bending moment
+    N = cases(g.loads.N)  # [kgf] axial force, positive in tension
+    plane = arange(1, 3)[:, None, None]  # [-] plane of the load: 1 is YOX, 2 is ZOX
     case = counted(M)  # [-] load case
     typeset(display=display)
     return M, N, case, plane
@@ -203,8 +255,11 @@ def section_2():
     ## 2 Reduced areas (sheets 55, 56)
 
     All areas are reduced to steel. In tension a beam works together with the skin beside it and with each stringer
-    that stands within the width of that skin; the stringers themselves are not joined in tension. In compression
-    every element works with a strip of skin.
+    that stands within the width of that skin, on a side where the beam stands itself: no farther from its line than
+    the skin is thick. The stringers themselves are not joined in tension. In compression every element works with a
+    strip of skin.
+
+    Where a beam has more or less of this, or a stringer is joined, its row in 1.1 says how many parts.
     """)
     return
 
@@ -212,50 +267,69 @@ def section_2():
 @app.cell
 def reduced_areas(display, g):
     beta = rounded(g.E_al / g.E_st, g.d_E)  # [-] aluminium reduced to steel
-    t_b = g.b / 4  # [cm] beam to stringer on the side b
-    t_h = g.h / 4  # [cm] beam to stringer on the side h
-    l_b = 0.5 * g.psi * g.b  # [cm] width of skin on the side b
-    l_h = 0.5 * g.psi * g.h  # [cm] width of skin on the side h
-    F_sb = g.F_s * heaviside(l_b - t_b, 1)  # [cm**2] stringer of the side b, if within the width
-    F_sh = g.F_s * heaviside(l_h - t_h, 1)  # [cm**2] stringer of the side h, if within the width
-    F_sk = (l_b + t_h) * g.delta  # [cm**2] skin, added up as the document does
+    h = np.ptp(g.beams.y)  # [cm] side along Y, between the beams
+    b = np.ptp(g.beams.z)  # [cm] side along Z, between the beams
+    l_b = 0.5 * g.psi * b  # [cm] width of skin on the side b
+    l_h = 0.5 * g.psi * h  # [cm] width of skin on the side h
+    d_y = abs(cases(g.beams.y) - g.stringers.y)  # [cm] from each beam to each stringer, along Y
+    d_z = abs(cases(g.beams.z) - g.stringers.z)  # [cm] from each beam to each stringer, along Z
+    on_b, on_h = (d_y <= g.delta) & (d_z <= l_b), (d_z <= g.delta) & (d_y <= l_h)
+    F_sb = sum_of_elements(g.stringers.F * on_b)  # [cm**2] stringers of the side b within the width
+    F_sh = sum_of_elements(g.stringers.F * on_h)  # [cm**2] stringers of the side h within the width
+    w_h = where(on_h, d_y, l_h).min(-1)  # [cm] width of skin on the side h, up to the first stringer
+    F_sk = (l_b + w_h) * g.delta  # [cm**2] skin, added up as the document does
     dF_t = F_sk + F_sb + F_sh  # [cm**2] additional area of a beam in tension
     dF_tr = rounded(beta * dF_t, g.d_F)  # [cm**2] the same, reduced
-    dF_cr = beta * g.k_a * g.delta**2  # [cm**2] additional area of a beam in compression, reduced
-    F_bt = g.F_b + dF_tr  # [cm**2] beam in tension
-    F_bc = g.F_b + dF_cr  # [cm**2] beam in compression
-    F_sc = beta * (g.F_s + g.k_a * g.delta**2)  # [cm**2] stringer in compression
-    F_bt2 = g.F_b + beta * ((l_b + l_h) * g.delta + F_sb + F_sh)  # [cm**2] beam in tension, both widths whole
+    dF_cr = beta * g.k_a * g.delta**2  # [cm**2] additional area of an element in compression, reduced
+    F_bt = g.beams.F + g.beams.k_t * dF_tr  # [cm**2] beams in tension
+    F_bc = g.beams.F + g.beams.k_c * dF_cr  # [cm**2] beams in compression
+    F_st = g.stringers.k_t * beta * g.stringers.F  # [cm**2] stringers in tension
+    F_sc = g.stringers.k_c * (beta * g.stringers.F + dF_cr)  # [cm**2] stringers in compression
     typeset(display=display)
-    return F_bc, F_bt, F_bt2, F_sc, beta, l_b, l_h
+    return F_bc, F_bt, F_sb, F_sc, F_sh, F_st, b, beta, h, l_b, l_h, w_h
 
 
-@app.cell
-def printed_areas(F_bt, F_bt2, l_b, l_h):
-    mo.md(f"""
-    The document prints 8.15 cm for the width {l_b / cm:.4g} cm and 16.3 cm for {l_h / cm:.5g} cm; with its rounding,
-    which 1.2 repeats, both give the same beam. It then adds the whole width of skin on the side *b*, but on the
-    side *h* only the part up to the stringer. With both widths whole the beam in tension would be
-    {F_bt2 / cm**2:.3f} cm² and not {F_bt / cm**2:.3f} cm². The rule for the width stood in a part of the standard that
-    is lost, so the sum is kept as printed.
+@app.cell(hide_code=True)
+def section_21():
+    mo.md("""
+    ### 2.1 The example's own numbers
+
+    The document prints 8.15 cm and 16.3 cm for the widths 8.125 cm and 16.25 cm. It then adds the whole width of skin
+    on the side *b*, but on the side *h* only the part up to the stringer, 8.15 + 12.5. The rule for the width stood in
+    a part of the standard that is lost, so the sum is kept as printed. The table has beam 1 in three ways: 1 with the
+    example's own numbers, 2 with those of this worksheet, 3 with both widths whole. With the rounding of 1.2 the
+    first two give the same area; the third does not.
     """)
     return
 
 
 @app.cell
-def section_of_elements(F_bc, F_bt, F_sc, display, g):
-    h_p = planes(g.h, g.b)  # [cm] height of the section in the plane of the load
-    b_p = planes(g.b, g.h)  # [cm] width of the section across it
-    y_b = h_p / 2 * [1, -1, -1, 1]  # [cm] level of the beams
-    y_s = h_p / 2 * [1, 0.5, -0.5, -1, -1, -0.5, 0.5, 1]  # [cm] level of the stringers
-    z_b = b_p / 2 * [1, 1, -1, -1]  # [cm] place of the beams across the plane
-    z_s = b_p / 2 * [0.5, 1, 1, 0.5, -0.5, -1, -1, -0.5]  # [cm] place of the stringers across the plane
+def printed_areas(F_sb, F_sh, beta, display, g, l_b, l_h, w_h):
+    way = arange(1, 4)  # [-] 1 as printed, 2 as above, 3 with both widths whole
+    l_be = array([8.15 * cm, l_b, l_b])  # [cm] width of skin on the side b; 8.15 is an erratum
+    w_he = array([12.5 * cm, w_h[0], l_h])  # [cm] width of skin on the side h
+    F_ske = (l_be + w_he) * g.delta  # [cm**2] skin
+    dF_te = F_ske + F_sb[0] + F_sh[0]  # [cm**2] additional area in tension
+    dF_tre = rounded(beta * dF_te, g.d_F)  # [cm**2] the same, reduced
+    F_bte = g.beams.F[0] + g.beams.k_t[0] * dF_tre  # [cm**2] beam 1 in tension
+    typeset(display=display)
+    table_21 = table("2.1", "Beam 1 in tension, as printed and right", way, l_be, w_he, F_ske, dF_te, dF_tre, F_bte)
+    table_21
+    return
+
+
+@app.cell
+def section_of_elements(F_bc, F_bt, F_sc, F_st, display, g):
+    y_b = planes(g.beams.y, g.beams.z)  # [cm] level of the beams in the plane of the load
+    y_s = planes(g.stringers.y, g.stringers.z)  # [cm] level of the stringers in the plane of the load
+    z_b = planes(g.beams.z, g.beams.y)  # [cm] place of the beams across the plane
+    z_s = planes(g.stringers.z, g.stringers.y)  # [cm] place of the stringers across the plane
     y = elements(y_b, y_s)  # [cm] level of the elements
     z = elements(z_b, z_s)  # [cm] place of the elements across the plane
-    A_t = elements(F_bt, 0)  # [cm**2] areas in tension
+    A_t = elements(F_bt, F_st)  # [cm**2] areas in tension
     A_c = elements(F_bc, F_sc)  # [cm**2] areas in compression
     typeset(display=display)
-    return A_c, A_t, b_p, h_p, y, z
+    return A_c, A_t, y, z
 
 
 @app.cell(hide_code=True)
@@ -297,13 +371,33 @@ def equilibrium(A_c, A_t, M, N, display, y):
 def table_31(F, I_c, M, M_c, N, S, case, joint, plane, y_0, y_0c, y_c):
     table_31 = table("3.1", "Section in equilibrium", plane, case, M, N, M_c, y_0, y_0c, y_c, F, S, I_c)
     _found = [f"- plane {p + 1}, case {k + 1}: {state}" for (p, k), state in np.ndenumerate(joint.state)]
-    _as_printed = f"""
-    For plane 1 and case 1 the scan reads *F* = 6.928 cm² and *y*<sub>c</sub> = 4.677 cm. Only {
-        F[0, 0, 0] / cm**2:.3f} cm² and {
-        y_c[0, 0, 0] / cm:.3f} cm agree with the other printed numbers of that line, *S* = 33.3 cm³,
-    *I* = 4105 cm⁴, the axis at −13.02 cm, and with table 1: one digit of each is misread.
-    """
-    typeset(table_31, "\n".join(_found), _as_printed)
+    typeset(table_31, "\n".join(_found))
+    return
+
+
+@app.cell(hide_code=True)
+def section_31():
+    mo.md("""
+    ### 3.1 Sheet 57 as it reads
+
+    For plane 1 and case 1 the scan reads *F* = 6.928 cm² and *y*<sub>c</sub> = 4.677 cm, line 1 of the table; line 2 is
+    that of table 3.1. Only with the latter follow the other printed numbers: *S* = 33.3 cm³, the reduced moment
+    4.366·10⁵ kgf·cm, the axis −17.9 cm from the centroid with *I* = 4105 cm⁴. One digit of each is misread.
+    """)
+    return
+
+
+@app.cell
+def printed_section(F, I_c, M, N, display, y_c):
+    line = arange(1, 3)  # [-] 1 as the scan reads, 2 as computed
+    F_e = array([6.928 * cm**2, F[0, 0, 0]])  # [cm**2] area of the section; 6.928 is an erratum
+    y_ce = array([4.677 * cm, y_c[0, 0, 0]])  # [cm] centroid; 4.677 is an erratum
+    S_e = F_e * y_ce  # [cm**3] first moment of area that follows
+    M_ce = M[0, 0] - N[0, 0] * y_ce  # [kgf*cm] reduced moment that follows
+    y_0ce = -N[0, 0] * I_c[0, 0, 0] / (F_e * M_ce)  # [cm] neutral axis from the centroid that follows
+    typeset(display=display)
+    table_33 = table("3.3", "Plane 1, case 1, as the scan reads and right", line, F_e, y_ce, S_e, M_ce, y_0ce)
+    table_33
     return
 
 
@@ -314,8 +408,9 @@ def section_32():
 
     The document starts from an assumed axis, takes the areas that belong to it, finds the axis of that section, and
     begins again. This is Newton's method for a system that is linear piece by piece: once the areas repeat, they are
-    the right ones. It ends after a few steps, but without an axis where it meets areas that cannot carry the load,
-    and no proof says that it always ends. It is shown for comparison; the results do not use it.
+    the right ones, and the axis stays. Mostly they do after a few steps, but there is no axis where the areas that
+    are met cannot carry the load, and no proof says that they always repeat. It is shown for comparison; the results
+    do not use it.
     """)
     return
 
@@ -330,10 +425,8 @@ def iteration(A_c, A_t, M, N, g, y):
             before, stretched = stretched, step.sigma > 0
             axes.append(step.y_0[..., None])
             settled.append(((stretched == before) & isfinite(step.sigma)).all(-1, keepdims=True))
-            if settled[-1].all():
-                break
-        ends = np.array(settled)
-        return np.array(axes), where(ends.any(0), ends.argmax(0) + 1, 0)
+        ends = array(settled)
+        return array(axes), where(ends.any(0), ends.argmax(0) + 1, 0)
 
     axes, steps = iterated()
     return axes, steps
@@ -359,7 +452,7 @@ def section_33():
 
 
 @app.cell
-def joint_check(A, A_c, A_t, M, N, P, g, joint, sigma, unit_F, unit_M, y):
+def joint_check(A, A_c, A_t, M, N, P, b, h, joint, sigma, unit_F, unit_M, y):
     lost = isnan(joint.sigma).any(-1)
     reason = "; ".join(
         f"plane {p + 1}, case {k + 1}: no elements carry M = {M[k, 0] / (kgf * cm):.7g} kgf*cm"
@@ -371,7 +464,7 @@ def joint_check(A, A_c, A_t, M, N, P, g, joint, sigma, unit_F, unit_M, y):
     checks_joint = (
         Check("equilibrium exists", np.count_nonzero(lost), 0, "cases", reason, essential=True),
         check("equilibrium of forces", total(P) - N, 1e-12, unit_F, of=largest),
-        check("equilibrium of moments", total(P * y) - M, 1e-12, unit_M, of=largest * max(g.h, g.b)),
+        check("equilibrium of moments", total(P * y) - M, 1e-12, unit_M, of=largest * np.maximum(h, b)),
         check("areas belong to the signs of the stresses", opposite, 1e-12, unit_F, of=largest),
     )
     typeset(*checks_joint)
@@ -384,23 +477,23 @@ def section_4():
     ## 4 Results (appendix 3, item 6)
 
     Stresses are reduced to steel; the stress in the aluminium itself is $\beta$ times as much. A stretched stringer
-    carries nothing.
+    that is not joined carries nothing.
     """)
     return
 
 
 @app.cell
-def of_elements(A, P, beta, display, sigma):
-    beam = arange(1, 5)  # [-] beam
-    P_b = beams(P)  # [kgf] force in the beam
-    sigma_b = beams(sigma)  # [kgf/cm**2] stress in the beam
-    A_b = beams(A)  # [cm**2] area of the beam that acts
-    acts = A > 0
-    stringer = arange(1, 9)  # [-] stringer
-    P_s = stringers(P)  # [kgf] force in the stringer
-    sigma_s = stringers(sigma * acts)  # [kgf/cm**2] stress in the stringer, reduced to steel
+def of_elements(A, P, beta, display, g, sigma):
+    beam = counted(g.beams.y)  # [-] beam
+    n_b = len(beam)
+    P_b = P[..., :n_b]  # [kgf] force in the beam
+    sigma_b = sigma[..., :n_b]  # [kgf/cm**2] stress in the beam
+    A_b = A[..., :n_b]  # [cm**2] area of the beam that acts
+    stringer = counted(g.stringers.y)  # [-] stringer
+    P_s = P[..., n_b:]  # [kgf] force in the stringer
+    A_s = A[..., n_b:]  # [cm**2] area of the stringer that acts
+    sigma_s = sigma[..., n_b:] * (A_s > 0)  # [kgf/cm**2] stress in the stringer, reduced to steel
     sigma_al = beta * sigma_s  # [kgf/cm**2] stress in the aluminium
-    A_s = stringers(A)  # [cm**2] area of the stringer that acts
     typeset(display=display)
     return A_b, A_s, P_b, P_s, beam, sigma_al, sigma_b, sigma_s, stringer
 
@@ -432,32 +525,36 @@ def drawn_case(N):
 
 
 @app.cell
-def scheme(A, b_p, g, h_p, sigma, y, y_0, z):
+def scheme(A, g, sigma, y, y_0, z):
     def scheme(p, k, side, across):
         """Section in plane p under load case k; side and across name its dimensions."""
-        half, reach, size = h_p[p, 0, 0] / 2, b_p[p, 0, 0] / 2, np.max(h_p)
-        corners = np.array([-reach - 1j * half, -reach + 1j * half, reach + 1j * half, reach - 1j * half])
+        lowest, highest = np.argmin(y[p, 0]), np.argmax(y[p, 0])
+        low, high = y[p, 0, lowest], y[p, 0, highest]
+        left, right = np.min(z[p]), np.max(z[p])
+        size, reach = max(high - low, right - left), (right - left) / 2
+        corners = array([left + 1j * low, left + 1j * high, right + 1j * high, right + 1j * low])
         picture = Drawing(width=760, height=420).polygon(corners)
         picture = picture.dimension(corners[0], corners[1], side).dimension(corners[3], corners[0], across)
-        square = size * np.array([-1 - 1j, 1 - 1j, 1 + 1j, -1 + 1j])
-        for place, part, stress, area in zip(
-            z[p, 0] + 1j * y[p, 0], elements(0.015, 0.009), sigma[p, k], A[p, k], strict=True
-        ):
+        square = size * array([-1 - 1j, 1 - 1j, 1 + 1j, -1 + 1j])
+        parts = np.repeat([0.015, 0.009], [len(g.beams.y), len(g.stringers.y)])
+        for place, part, stress, area in zip(z[p, 0] + 1j * y[p, 0], parts, sigma[p, k], A[p, k], strict=True):
             colour = ("red" if stress > 0 else "blue") if area else ""
             picture = picture.polygon(place + part * square, colour=colour)
         axis = y_0[p, k, 0]
-        if abs(axis) < half:
-            picture = picture.path([-1.3 * reach + 1j * axis, 1.3 * reach + 1j * axis], "n.a.", "green")
-        base, scale = 1.6 * reach + 0.2 * size, 0.3 * size / np.max(abs(sigma))
-        levels = np.unique([-half, axis if abs(axis) < half else half, half])
-        stress = np.interp(levels, [-half, half], sigma[p, k, [1, 0]])  # the first two beams are at the two sides
-        for (low, high), (s_low, s_high) in zip(pairwise(levels), pairwise(stress), strict=True):
-            outline = [base + 1j * low, base + scale * s_low + 1j * low]
-            outline += [base + scale * s_high + 1j * high, base + 1j * high]
-            picture = picture.polygon(outline, colour="red" if s_low + s_high > 0 else "blue")
-        for level, value in ((-half, stress[0]), (half, stress[-1])):
+        inside = low < axis < high
+        if inside:
+            line = (left + right) / 2 + 1.3 * reach * array([-1, 1]) + 1j * axis
+            picture = picture.path(line, "n.a.", "green")
+        base, scale = right + 0.6 * reach + 0.2 * size, 0.3 * size / np.max(abs(sigma))
+        levels = np.unique([low, axis if inside else high, high])
+        stress = np.interp(levels, [low, high], sigma[p, k, [lowest, highest]])
+        for (bottom, top), (s_bottom, s_top) in zip(pairwise(levels), pairwise(stress), strict=True):
+            outline = [base + 1j * bottom, base + scale * s_bottom + 1j * bottom]
+            outline += [base + scale * s_top + 1j * top, base + 1j * top]
+            picture = picture.polygon(outline, colour="red" if s_bottom + s_top > 0 else "blue")
+        for level, value, way in ((low, stress[0], -1), (high, stress[-1], 1)):
             text = f"{value / 1e6:.4g} MPa" if g.SI else f"{value / (kgf / cm**2):.4g} kgf/cm²"
-            picture = picture.text(base + 1j * (level + np.sign(level) * 0.03 * size), text.replace("-", "−"))
+            picture = picture.text(base + 1j * (level + way * 0.03 * size), text.replace("-", "−"))
         return picture
 
     return (scheme,)
@@ -495,13 +592,15 @@ def section_5():
 
 @app.cell
 def ring_loads(display, g):
-    M_r = cases(g.M_r1, g.M_r2)  # [kgf*cm] bending moment
-    N_r = cases(g.N_r1, g.N_r2)  # [kgf] axial force, positive in tension
-    phi = planes(g.phi_1, g.phi_2) + 2 * pi * arange(g.m) / g.m  # [deg] angle of the bolts
+    M_r = cases(g.ring_loads.M)  # [kgf*cm] bending moment
+    N_r = cases(g.ring_loads.N)  # [kgf] axial force, positive in tension
+    phi = g.bolts - g.alpha[:, None, None]  # [deg] angle of the bolts from the plane of the load
+    plane_r = counted(phi)  # [-] plane of the load
     load = counted(M_r)  # [-] load case
-    bolt = arange(1, g.m + 1)  # [-] bolt
+    bolt = counted(g.bolts)  # [-] bolt
+    m = len(g.bolts)
     typeset(display=display)
-    return M_r, N_r, bolt, load, phi
+    return M_r, N_r, bolt, load, m, phi, plane_r
 
 
 @app.cell
@@ -539,7 +638,7 @@ def section_52():
 
 
 @app.cell
-def ring_printed(M_r, N_r, P_max, c, display, g, p_o, phi, ring):
+def ring_printed(M_r, N_r, P_max, c, display, g, m, p_o, phi, ring):
     holds = (ring.state == "tension and compression")[..., None] & (M_r > 0)
     c_n = where(holds, c, nan)  # [-] force parameter, where the formulas hold
     phi_n = 0.5 * pi + asin(c_n)  # [deg] angle of the neutral axis
@@ -552,7 +651,7 @@ def ring_printed(M_r, N_r, P_max, c, display, g, p_o, phi, ring):
     P_n = P_1 * (greatest(cos(phi)) + c_n)  # [kgf] greatest force in a bolt
     p_n = k_2 * (S_1 * P_1 - N_r) / g.r  # [kgf/cm] greatest line load
     N_e1 = N_r + 2 * abs(M_r) / g.r  # [kgf] equivalent force in tension
-    P_e = N_e1 / g.m  # [kgf] force in a bolt from it
+    P_e = N_e1 / m  # [kgf] force in a bolt from it
     N_e2 = N_r - 2 * abs(M_r) / g.r  # [kgf] equivalent force in compression
     p_e = N_e2 / (2 * pi * g.r)  # [kgf/cm] line load from it
     i_P = P_max / P_e  # [-] greatest force in a bolt to the equivalent one
@@ -562,9 +661,9 @@ def ring_printed(M_r, N_r, P_max, c, display, g, p_o, phi, ring):
 
 
 @app.cell
-def tables_51_52(M_r, M_x, N_e1, N_e2, N_r, P_e, P_max, P_str, c, i_P, i_p, load, p_e, p_o, phi_no, plane, y_r0):
-    table_51 = table("5.1", "Circular joint", plane, load, M_r, N_r, c, y_r0, phi_no, P_max, p_o, P_str, M_x)
-    table_52 = table("5.2", "Equivalent forces", plane, load, N_e1, P_e, N_e2, p_e, i_P, i_p)
+def tables_51_52(M_r, M_x, N_e1, N_e2, N_r, P_e, P_max, P_str, c, i_P, i_p, load, p_e, p_o, phi_no, plane_r, y_r0):
+    table_51 = table("5.1", "Circular joint", plane_r, load, M_r, N_r, c, y_r0, phi_no, P_max, p_o, P_str, M_x)
+    table_52 = table("5.2", "Equivalent forces", plane_r, load, N_e1, P_e, N_e2, p_e, i_P, i_p)
     typeset(table_51, table_52)
     return
 
@@ -627,7 +726,7 @@ def ring_scheme(M_r, N_r, P_k, g, p_o, phi, phi_no, y_r0):
         def out(angle, radius):
             return radius * 1j * exp(-1j * angle)  # angles from the vertical, clockwise
 
-        picture = Drawing(width=430, height=430, frame=1.4 * g.r * np.array([-1 - 1j, 1 + 1j]))
+        picture = Drawing(width=430, height=430, frame=1.4 * g.r * array([-1 - 1j, 1 + 1j]))
         picture = picture.path(out(np.linspace(0, 2 * pi, 181), g.r), colour="")
 
         if p_o[p, k, 0] < 0:
@@ -656,16 +755,16 @@ def ring_scheme(M_r, N_r, P_k, g, p_o, phi, phi_no, y_r0):
 
 
 @app.cell
-def drawing_51(drawn_ring, ring_scheme):
-    drawing_51 = tuple(ring_scheme(p, drawn_ring.value - 1) for p in (0, 1))
-    _caption = caption("5.1", f"Load in plane 1 and in plane 2, case {drawn_ring.value}")
+def drawing_51(drawn_ring, phi, ring_scheme):
+    drawing_51 = tuple(ring_scheme(p, drawn_ring.value - 1) for p in range(len(phi)))
+    _caption = caption("5.1", f"Load in each plane, case {drawn_ring.value}")
     typeset(side_by_side(*drawing_51), _caption)
     return
 
 
 @app.cell
-def table_53(P_k, bolt, load, phi, plane):
-    table_53 = table("5.3", "Forces in the bolts", plane, load, bolt, phi, P_k)
+def table_53(P_k, bolt, load, phi, plane_r):
+    table_53 = table("5.3", "Forces in the bolts", plane_r, load, bolt, phi, P_k)
     table_53
     return
 

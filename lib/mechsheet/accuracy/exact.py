@@ -7,19 +7,19 @@ positions, reactions by the equilibrium of the bodies that are no two-force memb
 the names of the worksheet. Where something does not close or is infinite there, its result is NaN.
 """
 
-from collections.abc import Callable, Iterator, Sequence
-from functools import cache, lru_cache
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from functools import cache
+from itertools import pairwise
 from types import SimpleNamespace
 from typing import Any
 
+import numpy as np
+
 from mechsheet.accuracy.arithmetic import DIGITS, SLACK, Numbers, cross, derivatives, mp, mpc, mpf, rotation, rrp, rrr
+from mechsheet.worksheet.inputs import declared
 from mechsheet.worksheet.kinds import Chosen
 
 _NOTHING = mpf(10) ** -95  # below the root of the rounding of the work: the sine at a dead centre
-_MOVING = (
-    *("X01", "X03", "X05", "X07", "Y01", "Y03", "Y05", "Y07", "L3", "L5", "L6", "L34", "L56", "phi_BD", "L7_0", "L4_0"),
-    *("Y56_min", "S_min", "S_max", "X6", "Y6", "Y_P56", "phi_P6"),
-)
 _LINKS = {3: ("O3", "P23_S"), 4: ("P34_S", "P45_S"), 5: ("O5", "P45_S"), 6: ("P56_S", "P67_S"), 7: ("O7", "P67_S")}
 
 
@@ -28,7 +28,11 @@ def finds(g: Any) -> Numbers:
 
     Raises ValueError where one of them has no solution.
     """
-    return _found(_moving(_exact(g)))
+    x = _exact(g)
+    L4, _ = _nearest("L4", _rods(x), (x.L4_0 / 10 + x.L4_0 * 1.5) / 2)
+    S_p, P56 = _nearest("S_p", _strokes(x, L4), (x.S_max + x.S_min) / 2)
+    L7, _ = _nearest("L7", _upper_links(x, P56), (x.L7_0 / 10 + x.L7_0 * 1.5) / 2)
+    return {"L4": L4, "S_p": S_p, "L7": L7}
 
 
 def hitch(g: Any, S: Any = None, **lengths: Any) -> Numbers:
@@ -39,8 +43,8 @@ def hitch(g: Any, S: Any = None, **lengths: Any) -> Numbers:
     x = _exact(g)
     length = {name: mpf(value) for name, value in lengths.items()}
     if len(length) < 3:
-        length = _found(_moving(x)) | length
-    results = _motion(_moving(x), length["S_p"] if S is None else mpf(S), **length)
+        length = finds(x) | length
+    results = _motion(x, length["S_p"] if S is None else mpf(S), **length)
     return results | _capacity(x, results) | _forces(x, results) | _stability(x, results)
 
 
@@ -98,39 +102,58 @@ def landing_gear(g: Any, l2: Any) -> Numbers:
     return synthesis | motion | {"F_c": F_c, "P_c": F_c * V21, "R23": F_c * rod, "R03": R03}
 
 
-def joint(g: Any, plane: int, case: int) -> Numbers:
+def joint(tables: Any, x: Mapping[str, Any], plane: int, case: int = 0) -> Numbers:
     """Stresses, forces and neutral axis of the rectangular joint, by trying every place of the neutral axis.
 
+    x are the inputs by name, but of each column of the ``tables`` the factor by which all its elements change, such as
+    ``beams.y``, so that what is symmetrical stays so; they begin as `factors` has them. Load cases count from 0.
     ``sigma_k`` belongs to the element k, from 0; P is the row of all forces. Raises ValueError where nothing is in
     equilibrium.
     """
-    x = _exact(g)
-    beta = _rounded(x.E_al / x.E_st, x.d_E)
-    l_b, l_h = x.psi * x.b / 2, x.psi * x.h / 2
-    beside = x.F_s * ((l_b >= x.b / 4) + (l_h >= x.h / 4))
-    F_bt = x.F_b + _rounded(beta * ((l_b + x.h / 4) * x.delta + beside), x.d_F)
-    F_bc, F_sc = x.F_b + beta * x.k_a * x.delta**2, beta * (x.F_s + x.k_a * x.delta**2)
-    half = (x.h, x.b)[plane - 1] / 2
-    y = [half * k for k in (1, -1, -1, 1)] + [half * k for k in (1, 0.5, -0.5, -1, -1, -0.5, 0.5, 1)]
-    A_t, A_c = [F_bt] * 4 + [mpf(0)] * 8, [F_bc] * 4 + [F_sc] * 8
-    M, N = ((x.M_1, x.N_1), (x.M_2, x.N_2))[case - 1]
-    places = [-2 * half, *(half * k / 4 for k in (-3, -1, 1, 3))]
+    g = _exact(SimpleNamespace(**x))
+    beams, stringers, loads = (_rows(tables, name, vars(g)) for name in ("beams", "stringers", "loads"))
+    load = loads[case]
+    beta = _rounded(g.E_al / g.E_st, g.d_E)
+    l_b, l_h = (g.psi * (max(side) - min(side)) / 2 for side in ([e.z for e in beams], [e.y for e in beams]))
+    pressed, A_t = beta * g.k_a * g.delta**2, list[mpf]()
+    for e in beams:
+        on_b = [s for s in stringers if abs(s.y - e.y) <= g.delta and abs(s.z - e.z) <= l_b]
+        on_h = [s for s in stringers if abs(s.z - e.z) <= g.delta and abs(s.y - e.y) <= l_h]
+        skin = (l_b + min([l_h, *(abs(s.y - e.y) for s in on_h)])) * g.delta
+        A_t.append(e.F + e.k_t * _rounded(beta * (skin + sum(s.F for s in [*on_b, *on_h])), g.d_F))
+    A_t += [s.k_t * beta * s.F for s in stringers]
+    A_c = [e.F + e.k_c * pressed for e in beams] + [s.k_c * (beta * s.F + pressed) for s in stringers]
+    y = [(e.y, e.z)[plane - 1] for e in [*beams, *stringers]]
+    M, N, levels = load.M + load.M_w, load.N, sorted(set(y))
     fits = []
-    for place in places:
+    for place in [levels[0] - 1, *((low + high) / 2 for low, high in pairwise(levels))]:
         for way in (1, -1):
             A = [t if way * (level - place) > 0 else c for level, t, c in zip(y, A_t, A_c, strict=True)]
-            if sigma := stresses(y, A, M, N):
+            if sigma := _stresses(y, A, M, N):
                 wrong = max(-way * (level - place) * s for level, s in zip(y, sigma, strict=True))
                 fits.append((wrong, sigma, A))
     wrong, sigma, A = min(fits, key=lambda fit: fit[0])
-    if wrong > mpf(10) ** -DIGITS * half * max(map(abs, sigma)):
+    if wrong > mpf(10) ** -DIGITS * (levels[-1] - levels[0]) * max(map(abs, sigma)):
         raise ValueError("no place of the neutral axis is in equilibrium")
     named = {f"sigma_{k}": s for k, s in enumerate(sigma)}
-    forces, slope = [s * a for s, a in zip(sigma, A, strict=True)], sigma[0] - sigma[1]  # of y over its whole width
-    return named | {"P": forces, "y_0": -half * (sigma[0] + sigma[1]) / slope if slope else mpf("inf")}
+    low, high = sigma[y.index(levels[0])], sigma[y.index(levels[-1])]
+    y_0 = (levels[0] * high - levels[-1] * low) / (high - low) if high - low else mpf("inf")
+    return named | {"P": [s * area for s, area in zip(sigma, A, strict=True)], "y_0": y_0}
 
 
-def stresses(y: Sequence[Any], A: Sequence[Any], M: Any, N: Any) -> list[mpf]:
+def factors(g: Any) -> dict[str, Any]:
+    """Inputs by name, of each column of a table the factor 1."""
+    leaves = (leaf for each in declared(type(g)) for leaf in each.leaves(getattr(g, each.name)).items())
+    return {name: 1.0 if np.ndim(value) else value for name, (_, value) in leaves}
+
+
+def _rows(tables: Any, name: str, factors: Mapping[str, Any]) -> list[Any]:
+    """Rows of a table, each column times its factor."""
+    columns = {key: [mpf(v) * factors[f"{name}.{key}"] for v in xs] for key, xs in vars(getattr(tables, name)).items()}
+    return [SimpleNamespace(**dict(zip(columns, row, strict=True))) for row in zip(*columns.values(), strict=True)]
+
+
+def _stresses(y: Sequence[Any], A: Sequence[Any], M: Any, N: Any) -> list[mpf]:
     """Stresses of elements of the areas A on the levels y under a moment and a force; none if they are on one level."""
     F, S, J = (sum(mpf(a) * mpf(level) ** k for a, level in zip(A, y, strict=True)) for k in (0, 1, 2))
     D = F * J - S**2
@@ -222,20 +245,6 @@ def _exact(g: Any) -> SimpleNamespace:
     return SimpleNamespace(**{name: mpf(value) for name, value in numbers(g).items()})
 
 
-def _moving(x: Any) -> tuple[tuple[str, mpf], ...]:
-    """The inputs on which the motion depends. Most are loads: of changes in them the motion knows nothing."""
-    return tuple((name, getattr(x, name)) for name in _MOVING)
-
-
-@lru_cache(maxsize=8)
-def _found(moving: tuple[tuple[str, mpf], ...]) -> Numbers:
-    x = SimpleNamespace(**dict(moving))
-    L4, _ = _nearest("L4", _rods(x), (x.L4_0 / 10 + x.L4_0 * 1.5) / 2)
-    S_p, P56 = _nearest("S_p", _strokes(x, L4), (x.S_max + x.S_min) / 2)
-    L7, _ = _nearest("L7", _upper_links(x, P56), (x.L7_0 / 10 + x.L7_0 * 1.5) / 2)
-    return {"L4": L4, "S_p": S_p, "L7": L7}
-
-
 def _nearest(name: str, roots: Iterator[tuple[mpf, mpc]], guess: mpf) -> tuple[mpf, mpc]:
     found = sorted(roots, key=lambda root: root[0])
     if not found:
@@ -271,7 +280,7 @@ def _strokes(x: Any, L4: mpf) -> Iterator[tuple[mpf, mpc]]:
 def _upper_links(x: Any, P56: mpc) -> Iterator[tuple[mpf, mpc]]:
     """Length L7 that puts the mast at its angle, and its upper pin."""
     O7 = _hinges(x)[-1]
-    P67 = P56 + x.L6 * _unit(x.phi_P6)
+    P67 = P56 + x.L6 * mp.expj(x.phi_P6)
     if _left(P56, O7, P67) <= 0:
         yield abs(P67 - O7), P67
 
@@ -295,10 +304,7 @@ def _hinges(x: Any) -> tuple[mpc, ...]:
 
 def _arm(x: Any) -> mpc:
     """The side of the lift arm next to the rod over the one next to the cylinder."""
-    return x.L34 / x.L3 * _unit(x.phi_BD)
-
-
-_unit = lru_cache(maxsize=16)(mp.expj)
+    return x.L34 / x.L3 * mp.expj(x.phi_BD)
 
 
 def _pins(x: Any, S: mpf, L4: mpf, L7: mpf) -> Numbers:
@@ -312,10 +318,8 @@ def _pins(x: Any, S: mpf, L4: mpf, L7: mpf) -> Numbers:
     return hinges | {"P23_S": P23, "P34_S": P34, "P45_S": P45, "P56_S": P56, "P67_S": P67}
 
 
-@lru_cache(maxsize=8)
-def _motion(moving: tuple[tuple[str, mpf], ...], S: mpf, L4: mpf, S_p: mpf, L7: mpf) -> Numbers:
+def _motion(x: Any, S: mpf, L4: mpf, S_p: mpf, L7: mpf) -> Numbers:
     """Positions, and derivatives with respect to S; the implement is fixed to the mast where it stands at S_p."""
-    x = SimpleNamespace(**dict(moving))
     Z, work = mpc(x.X6, x.Y6), _pins(x, S_p, L4, L7)
     mast = work["P67_S"] - work["P56_S"]
 

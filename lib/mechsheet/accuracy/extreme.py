@@ -30,8 +30,9 @@ from typing import Any
 
 import numpy as np
 
-from mechsheet.accuracy import condition, exact, printed
+from mechsheet.accuracy import condition, exact, printed, rivals
 from mechsheet.accuracy.arithmetic import Numbers, mpc, mpf
+from mechsheet.accuracy.chain import crank_chain
 from mechsheet.mechanics.load import Load
 from mechsheet.mechanics.planar import angle
 from mechsheet.mechanics.rrr import RRRGroup, rrr_reach
@@ -292,19 +293,21 @@ def landing_gear(worksheets: Path, given: Mapping[str, Any], at: int = -1) -> Ca
 
 
 def joint(worksheets: Path, given: Mapping[str, Any], at: int = -1) -> Case:
-    """The rectangular joint of the joint worksheet; ``at`` counts the planes and, faster, the load cases."""
-    sheet, g = _worksheet(worksheets / "joint.py", given)
+    """The rectangular joint of the joint worksheet in the plane ``at`` under one load case, M and N."""
+    load = {"M": 3e5, "N": -13e3} | {name: given[name] for name in ("M", "N") if name in given}
+    others = {name: value for name, value in given.items() if name not in load}
+    sheet, g = _worksheet(worksheets / "joint.py", {**others, "loads": [{**load, "M_w": 0}]})
     names = sheet.run(["sigma", "P", "y_0", "axes", "steps", "checks_joint"], {"g": g})
-    p, k = divmod(range(4)[at], 2)
-    product = {f"sigma_{i}": value for i, value in enumerate(names["sigma"][p, k])}
-    product |= {"P": names["P"][p, k], "y_0": names["y_0"][p, k, 0]}
-    step = names["steps"][p, k, 0]
+    p = range(2)[at]
+    product = {f"sigma_{i}": value for i, value in enumerate(names["sigma"][p, 0])} | {"P": names["P"][p, 0]}
+    step = names["steps"][p, 0, 0]
+    formulas = {"y_0": names["axes"][step - 1, p, 0, 0] if step else np.nan}
     return Case(
         words=_reasons(names["checks_joint"]),
-        true=lambda **g: exact.joint(SimpleNamespace(**g), p + 1, k + 1),
-        x=vars(g),
-        product=lambda _: product,
-        printed=lambda _: {"y_0": names["axes"][step - 1, p, k, 0] if step else np.nan},
+        true=lambda **x: exact.joint(g, x, p + 1),
+        x=exact.factors(g),
+        product=lambda _: product | {"y_0": names["y_0"][p, 0, 0]},
+        printed=lambda _: formulas,
     )
 
 
@@ -344,15 +347,22 @@ def through_dead_centre(_worksheets: Path, given: Mapping[str, Any], _at: int = 
     Radau's implicit method, for they are stiff. Inputs: links a (crank), b, c, frame b + c - a - gap, angles of the
     crank theta_0, theta_1.
     """
-    a, b, c, gap, start, end = (float(given[name]) for name in ("a", "b", "c", "gap", "theta_0", "theta_1"))
+    a, b, c, gap, *turn = (float(given[name]) for name in ("a", "b", "c", "gap", "theta_0", "theta_1"))
     d = b + c - a - gap
-    found = RRRGroup(a * np.exp(1j * end), d, b, c, +1)
+    chain = crank_chain(a, d, b, c)
+    (start,), (end,) = map(chain.groups, turn)
+
+    def integrated(_: Numbers) -> Mapping[str, Any]:
+        first = angle([start.AC, start.BC])
+        phi2, phi3 = rivals.integrated(chain, turn, first, "Radau", 1e-10, 1e-12)[:, -1]
+        return {"C": d + c * np.exp(1j * phi3), "phi2": phi2, "phi3": phi3}
+
     return Case(
         words="",
         true=exact.four_bar,
-        x={"a": a, "b": b, "c": c, "d": d, "theta": end},
-        product=lambda _: {"C": found.C, "phi2": angle(found.AC), "phi3": angle(found.BC)},
-        printed=lambda _: printed.integrated_four_bar(a, b, c, d, start, end),
+        x={"a": a, "b": b, "c": c, "d": d, "theta": turn[-1]},
+        product=lambda _: {"C": end.C, "phi2": angle(end.AC), "phi3": angle(end.BC)},
+        printed=integrated,
     )
 
 

@@ -39,7 +39,7 @@ def accuracy_jobs(hitch: Any, crank: Any, N: int, factors: Sequence[float]) -> d
         return np.array([r[name] for name in _PINS])
 
     def printed_dyad() -> Any:
-        return printed.dyad_pin(dyad.A(q), B, crank.l_A, crank.l_B, +1)
+        return printed.dyad_pin(dyad.A(q), B, crank.l_A, crank.l_B, +1)[0]
 
     def printed_analogues() -> Any:
         r = printed.hitch_ratios(hitch, S, L4, L7, printed.hitch_pins(hitch, S, L4, L7))

@@ -11,11 +11,8 @@ import numpy as np
 from numpy import arccos as acos
 from numpy import arctan as atan
 from numpy import cos, exp, pi, sin, sqrt
-from numpy.typing import ArrayLike, NDArray
-from scipy.integrate import solve_ivp
+from numpy.typing import ArrayLike
 
-from mechsheet.mechanics.planar import angle
-from mechsheet.mechanics.rrr import rrr
 from mechsheet.worksheet.cells import Worksheet
 
 Results = dict[str, Any]
@@ -151,13 +148,8 @@ def landing_gear(g: Any, l2: ArrayLike) -> Results:
     return r | {"omega3i": V21 * omega3, "omega2i": V21 * omega2, "eps3i": V21**2 * eps3, "eps2i": V21**2 * eps2}
 
 
-def dyad_pin(A: Any, B: Any, r_A: Any, r_B: Any, branch: int) -> Any:
-    """The inner pin C of a group of two links by the law of cosines."""
-    return _pin(A, B, r_A, r_B, branch)[0]
-
-
-def _pin(A: Any, B: Any, r_A: Any, r_B: Any, branch: int) -> tuple[Any, Any, Any, Any]:
-    """Pin C, angle of the link AC, and length and angle of AB."""
+def dyad_pin(A: Any, B: Any, r_A: Any, r_B: Any, branch: int) -> tuple[Any, Any, Any, Any]:
+    """Inner pin C of a group of two links by the law of cosines, angle of the link AC, length and angle of AB."""
     d = B - A
     L, phi_AB = sqrt(d.real**2 + d.imag**2), np.arctan2(d.imag, d.real)
     phi_A = phi_AB + branch * _cosines(r_A, L, r_B)
@@ -169,7 +161,7 @@ def dyad(
     A: complex, B: complex, r_A: float, r_B: float, branch: int, P_A: complex, P_B: complex, F_A: complex, F_B: complex
 ) -> Results:
     """A group of two links as the hitch's document computes each of its own: acos, sines, elimination."""
-    C, phi_A, L, phi_AB = _pin(A, B, r_A, r_B, branch)
+    C, phi_A, L, phi_AB = dyad_pin(A, B, r_A, r_B, branch)
     phi_B = phi_AB + pi - branch * _cosines(r_B, L, r_A)
     omega_B = 1 / (r_B * sin(phi_A - phi_B))
     omega_A = omega_B * r_B * cos(phi_A - phi_B) / r_A
@@ -181,18 +173,3 @@ def dyad(
     R_Ax = (K * a.real + H_A * b.real) / (a.real * b.imag - b.real * a.imag)
     R_A = R_Ax + 1j * ((R_Ax * a.imag - H_A) / a.real)
     return {"C": C, "omega_A": omega_A, "omega_B": omega_B, "R_A": R_A, "R_B": -F - R_A, "R_C": -F_A - R_A}
-
-
-@np.errstate(all="ignore")
-def integrated_four_bar(a: float, b: float, c: float, d: float, start: float, end: float) -> Results:
-    """Velocity equations of a four-bar linkage integrated over the angle of its crank, from an exact start."""
-
-    def rates(theta: float, phi: NDArray[np.float64]) -> list[float]:
-        sine = sin(phi[1] - phi[0])
-        return [a * sin(theta - phi[1]) / (b * sine), a * sin(theta - phi[0]) / (c * sine)]
-
-    C = rrr(a * exp(1j * start), d, b, c, +1)
-    first = angle([C - a * exp(1j * start), C - d])
-    run = solve_ivp(rates, (start, end), first, "Radau", rtol=1e-10, atol=1e-12)
-    phi2, phi3 = run.y[:, -1] if run.success else (np.nan, np.nan)
-    return {"C": d + c * exp(1j * phi3), "phi2": phi2, "phi3": phi3}

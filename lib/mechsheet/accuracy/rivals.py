@@ -110,11 +110,14 @@ def _rates(q: float, y: Any, chain: Chain) -> list[float]:
     return slopes
 
 
-def _by_integration(chain: Chain, q: Any, start: Any, method: Any, tolerance: float) -> Any:
-    """The velocity equations integrated from the first position on."""
-    precise = {"method": method, "rtol": tolerance, "atol": tolerance}
-    run = solve_ivp(_rates, (q[0], q[-1]), start, t_eval=q, args=(chain,), **precise)
-    return _pins_at(chain, run.y) if run.success else np.full((len(chain.dyads), len(q)), nan)
+def integrated(chain: Chain, q: Any, start: Any, method: Any, relative: float, absolute: float) -> Any:
+    """Angles of the links at the positions q by the velocity equations, from the first on; NaN where that fails."""
+    run = solve_ivp(_rates, (q[0], q[-1]), start, method, q, rtol=relative, atol=absolute, args=(chain,))
+    return run.y if run.success else np.full((len(start), len(q)), nan)
+
+
+def _by_integration(chain: Chain, q: Any, start: Any, method: str, tolerance: float) -> Any:
+    return _pins_at(chain, integrated(chain, q, start, method, tolerance, tolerance))
 
 
 def position_methods(chain: Chain, q: Any, as_printed: Callable[[], Any]) -> list[Method]:

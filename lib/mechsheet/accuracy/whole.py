@@ -9,7 +9,7 @@ import numpy as np
 from numpy import linspace, pi
 
 from mechsheet.accuracy import exact
-from mechsheet.accuracy.arithmetic import Numbers, mpf
+from mechsheet.accuracy.arithmetic import Numbers
 from mechsheet.accuracy.precision import Measured, largest_error, timed
 from mechsheet.run.progress import progress
 from mechsheet.worksheet.cells import Worksheet, load, results
@@ -60,18 +60,6 @@ def _field(stem: str, sheet: Worksheet, n: int) -> dict[str, Any]:
     return {"g": g}
 
 
-def _joint(names: Mapping[str, Any]) -> Numbers:
-    """Forces in all elements of the joint, from the areas that act."""
-    shape = np.broadcast_shapes(*(np.shape(names[name]) for name in ("P", "y", "A")))
-    y, A = (np.broadcast_to(names[name], shape).reshape(-1, shape[-1]).tolist() for name in ("y", "A"))
-    M, N = (np.broadcast_to(names[name], (*shape[:-1], 1)).ravel().tolist() for name in ("M", "N"))
-    forces = []
-    for y_i, A_i, M_i, N_i in zip(y, A, M, N, strict=True):
-        sigma = exact.stresses(y_i, A_i, mpf(M_i), mpf(N_i))
-        forces += [s * area for s, area in zip(sigma, A_i, strict=True)]
-    return {"P": forces}
-
-
 # The field of positions, the truth at one of them, and the results that are compared: all, where none are named.
 _TRUTHS: dict[str, tuple[str, Callable[[Any, Any], Numbers], Sequence[str]]] = {
     "hitch": ("S", exact.hitch, ()),
@@ -84,7 +72,9 @@ _TRUTHS: dict[str, tuple[str, Callable[[Any, Any], Numbers], Sequence[str]]] = {
 def exact_results(stem: str, names: Mapping[str, Any], rows: Iterable[int]) -> Numbers:
     """Results of a worksheet at 50 digits at some of its positions, by name; of the joint, which has none, all."""
     if stem == "joint":
-        return _joint(names)
+        g = names["g"]
+        cases = ((plane, case) for plane in (1, 2) for case in range(len(g.loads.M)))
+        return {"P": [force for at in cases for force in exact.joint(g, exact.factors(g), *at)["P"]]}
     field, truth, compared = _TRUTHS[stem]
     at = [truth(names["g"], float(names[field][i])) for i in rows]
     return {name: [p[name] for p in at] for name in compared or at[0].keys() & names.keys()}

@@ -1,7 +1,6 @@
 """The inputs of a worksheet as fields of the page, and its sliders."""
 
 import html
-import json
 from typing import Any
 from uuid import uuid4
 
@@ -9,7 +8,7 @@ import marimo as mo
 
 from mechsheet import units
 from mechsheet.document.markup import as_written
-from mechsheet.page.script import script
+from mechsheet.page.script import element, script
 from mechsheet.worksheet.inputs import declared
 from mechsheet.worksheet.kinds import Choice, Input, Switch
 from mechsheet.worksheet.lists import Rows
@@ -25,6 +24,11 @@ def _limit(text: str) -> str:
 
 def _limits(field: Input) -> str:
     return ", ".join(f"{_SIGNS.get(sign, sign)}&nbsp;{_limit(other)}" for sign, other in field.limits)
+
+
+def _told(field: Input) -> str:
+    """Why the unit of a field is not known."""
+    return f' <span class="ms-badge ms-FAIL">mistake</span> {html.escape(field.mistake)}' if field.mistake else ""
 
 
 def _short(column: Input) -> str:
@@ -67,10 +71,9 @@ def _element(field: Input, value: Any) -> Any:
 
 def _grid(field: Rows, value: Any) -> str:
     """The grid that is shown for the text area behind it."""
-    columns = json.dumps([_head(column) for column in field.columns])
-    told = {"columns": columns, "text": field.text(value), "made": uuid4().hex}
-    attributes = " ".join(f'{name}="{html.escape(text)}"' for name, text in told.items())
-    return f"<ms-grid {attributes}></ms-grid>".replace("{", "{{").replace("}", "}}")
+    columns = [_head(column) for column in field.columns]
+    grid = element("ms-grid", columns=columns, text=field.text(value), made=uuid4().hex)
+    return grid.replace("{", "{{").replace("}", "}}")  # in a template
 
 
 def fields(g: Any) -> "mo.ui.batch":
@@ -88,7 +91,7 @@ def fields(g: Any) -> "mo.ui.batch":
             f'<tr><td style="padding-right:.5em">{as_written(field.name)}</td>'
             f'<td data-input="{field.name}">{grid}{{{field.name}}}</td>'
             f'<td style="padding-left:.4em">{html.escape(unit)}</td>'
-            f'<td style="padding-left:.7em;line-height:1.2">{html.escape(field.meaning)}'
+            f'<td style="padding-left:.7em;line-height:1.2">{html.escape(field.meaning)}{_told(field)}'
             f'<span style="opacity:.5;padding-left:.6em">{limits}</span></td></tr>'
         )
         texts[field.name] = _element(field, value)

@@ -9,8 +9,8 @@ from mechsheet import units
 from mechsheet.document.expression import equation, fields_by_name, reads, substituted
 from mechsheet.document.formula import Measure
 from mechsheet.document.latex import latex
-from mechsheet.document.markup import HTML
-from mechsheet.worksheet import numbers
+from mechsheet.page import switched
+from mechsheet.worksheet import numbers, symbol
 from mechsheet.worksheet.lines import Formula, Given, Numbers, Typeset
 
 
@@ -42,7 +42,9 @@ def _formula(line: Formula, value: object, shown: Typeset) -> str:
     if line.arguments:
         return _line(_equation(line, single), "", line.meaning, line.number, mistake=line.mistake, name=line.name)
     text = "" if shown.numbers is None else _substituted(line, shown.numbers, shown.position)
-    value_text = numbers.value(value, line.unit, HTML)
+    value_text = switched.value(
+        symbol.stem(line.name), line.unit, lambda unit, notation: numbers.value(value, unit, notation)
+    )
     told = line.meaning, line.number, text, line.mistake, line.name
     return _line(f"{_equation(line, single)} =", value_text, *told)
 

@@ -3,7 +3,7 @@
 import json
 import re
 from datetime import date
-from functools import lru_cache, singledispatch
+from functools import lru_cache, partial, singledispatch
 from html import escape
 from itertools import takewhile
 from typing import Any
@@ -14,7 +14,7 @@ import numpy as np
 from mechsheet import units
 from mechsheet.document import chart, chart_svg
 from mechsheet.document.markup import as_written, in_words, named
-from mechsheet.page import drawing, fields, index
+from mechsheet.page import drawing, fields, index, switched
 from mechsheet.page.lines import lines
 from mechsheet.page.script import script
 from mechsheet.worksheet import numbers, symbol
@@ -24,6 +24,7 @@ from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.index import Index
 from mechsheet.worksheet.inputs import Used
 from mechsheet.worksheet.lines import Typeset
+from mechsheet.worksheet.numbers import Notation
 from mechsheet.worksheet.shown import Charted, Shown
 from mechsheet.worksheet.table import Column, Figure, Table
 from mechsheet.worksheet.title import Caption, Mark, Note, Player, SideBySide, Slider, Title
@@ -98,7 +99,7 @@ def _(title: Title) -> str:
     fields = "".join(f"<span>{label} <b>{value}</b></span>" for label, value in cells)
     switch = '<label class="ms-screen"><input type="checkbox" class="ms-switch"> numbers in the formulas</label>'
     return (
-        f'{script("page.js")}<div class="ms-title">{text}<div class="ms-row">{fields}{switch}</div>'
+        f'{script("page.js")}{script("units.js")}<div class="ms-title">{text}<div class="ms-row">{fields}{switch}</div>'
         f"{_TOLD}{_noted(title.notes)}</div>"
     )
 
@@ -163,14 +164,17 @@ def _(value: Typeset) -> str:
 
 @html.register
 def _(check: Check) -> str:
-    unit = "" if check.unit == "-" else f" {escape(units.shown(check.unit))}"
-    sign = "≤" if check.passed else "≰"
-    residual, limit = check.compared
-    compared = f": {residual} {sign} {limit}{unit}" if check.evaluated else ""
+    compared = ": " + switched.value(_anchor(check), check.unit, partial(_compared, check)) if check.evaluated else ""
     return (
         f'<div id="{_anchor(check)}">{_badge(check)} {in_words(check.name)}{compared}'
         f'<span style="opacity:.7"> {escape(check.reason)}</span></div>'
     )
+
+
+def _compared(check: Check, unit: str, notation: Notation) -> str:
+    """Residual and limit of a check in a unit."""
+    residual, limit = (text.replace("-", notation.minus) for text in check.shown_in(unit).compared)
+    return f"{residual} {'≤' if check.passed else '≰'} {limit}{numbers.behind(unit, notation)}"
 
 
 def _badge(check: Check) -> str:
@@ -212,12 +216,12 @@ def _(found: Verdict) -> str:
     lines = "".join(f"<div>{escape(text)}</div>" for text in failures)
     rows = "".join(
         f'<tr><td style="opacity:.65;padding:0 1em 0 0">{escape(k)}</td>'
-        f'<td style="padding:0;font-variant-numeric:tabular-nums">{escape(v)}</td></tr>'
+        f'<td style="padding:0;font-variant-numeric:tabular-nums">{in_words(v)}</td></tr>'
         for k, v in found.details()
     )
     return (
         '<div style="border-left:3px solid currentColor;padding:.2em .8em;margin:.4em 0">'
-        f"<div>{badge}<b>{escape(found.headline())}</b></div>{lines}"
+        f"<div>{badge}<b>{in_words(found.headline())}</b></div>{lines}"
         f'<table style="border-collapse:collapse;font-size:.9em;margin-top:.3em">{rows}</table></div>'
     )
 
@@ -272,9 +276,15 @@ def _block(columns: list[Column]) -> str:
     heads = "".join(
         f'<th{kind} title="{escape(c.meaning)}">{named(c.symbol)}</th>' for c, kind in zip(columns, kinds, strict=True)
     )
-    unit_row = "".join(f"<th>{f'[{escape(units.shown(c.unit))}]' if c.unit else ''}</th>" for c in columns)
+    unit_row = "".join(f"<th>{f'[{_unit(c)}]' if c.unit else ''}</th>" for c in columns)
     rows = "".join(
         "<tr>" + "".join(f"<td{kind}>{t}</td>" for t, kind in zip(row, kinds, strict=True)) + "</tr>"
         for row in zip(*(c.texts() if c.unit else map(escape, c.texts()) for c in columns), strict=True)
     )
-    return f'<table><thead><tr>{heads}</tr><tr class="ms-units">{unit_row}</tr></thead><tbody>{rows}</tbody></table>'
+    head = f'<tr>{heads}</tr><tr class="ms-units">{unit_row}</tr>'
+    return switched.columns(columns, f"<table><thead>{head}</thead><tbody>{rows}</tbody></table>")
+
+
+def _unit(column: Column) -> str:
+    unit = escape(units.shown(column.unit))
+    return switched.UNIT.format(unit) if column.of and switched.offered(column.unit) else unit

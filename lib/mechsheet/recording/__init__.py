@@ -1,9 +1,11 @@
 """The quantities of a worksheet as a graph of operations, and what is read from it.
 
-`graph` has the nodes and how they are made, `quantity` what computes as numbers do and makes nodes meanwhile,
-`numpy_rules` what numpy's functions make of it, and `elementary` what functions of the mechanics do. `record` runs the
-cells of a worksheet: with the names of `substitutes`, each cell as a `stage`, into the `lines` of a recording; `memory`
-tells what a statement has changed in place, under whatever name.
-`dimensions` checks units, by the rules of `dimension_rules`; `pinpoint` finds where in the
-worksheet a part is written. Stands on the worksheet room and those below.
+`node` is one of them, `operations` what they mean in numpy, `graph` how they are made. `quantity` computes as numbers
+do and makes nodes meanwhile, by the rules of `arithmetic`; `numpy_rules` are what numpy's functions make of it, and
+`elementary` what functions of the mechanics do. `record` runs the cells of a worksheet: with the names of
+`substitutes`, each cell as a `stage`, into the `lines` of a recording; `memory` tells what a statement has changed in
+place, under whatever name.
+
+`numbers` reads a recording for other inputs, `dimensions` checks units, by the rules of `dimension_rules`; `pinpoint`
+finds where in the worksheet a part is written. Stands on the worksheet room and those below.
 """

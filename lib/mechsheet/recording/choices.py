@@ -4,25 +4,19 @@ import builtins
 import operator
 import weakref
 from collections.abc import Callable, Iterable, Mapping
+from functools import reduce
+from itertools import repeat
 from types import FunctionType
 from typing import Any
 
 import numpy as np
 
-from mechsheet.recording.graph import NotRecorded
+from mechsheet.recording.arithmetic import choice as where
+from mechsheet.recording.arithmetic import elementwise, imaginary, trunc
+from mechsheet.recording.graph import Graph, Guard, NotRecorded
 from mechsheet.recording.memory import Memory, may_change, names_of
-from mechsheet.recording.quantity import (
-    Quantity,
-    elementwise,
-    has_quantity,
-    joined,
-    lift,
-    owner,
-    plain,
-    quantities,
-    trunc,
-)
-from mechsheet.recording.quantity import choice as where
+from mechsheet.recording.node import Loop, Node
+from mechsheet.recording.quantity import Quantity, has_quantity, joined, lift, owner, plain, quantities
 from mechsheet.worksheet.kinds import Chosen, cases
 
 _NUMBERS = int | float | complex | np.number | Quantity
@@ -39,7 +33,7 @@ UNBOUND = _Unbound()
 
 def _condition(value: Any) -> bool:
     """Whether a single recorded condition or number."""
-    return isinstance(value, Quantity) and value.size == 1 and value.im is None and value.re.op != "constant"
+    return isinstance(value, Quantity) and value.single and value.im is None and value.re.op != "constant"
 
 
 def choice(condition: Any, x: FunctionType, y: FunctionType, *given: Any) -> Any:
@@ -81,13 +75,21 @@ def _merged(condition: Quantity, x: Any, y: Any) -> Any:
     if isinstance(x, tuple) and type(x) is type(y) is tuple and len(x) == len(y):
         parts = [_merged(condition, a, b) for a, b in zip(x, y, strict=True)]
         return None if any(part is None for part in parts) else tuple(parts)
-    if isinstance(x, _ARRAYS) and isinstance(y, _ARRAYS) and np.shape(x) == np.shape(y):
+    if isinstance(x, _ARRAYS) and isinstance(y, _ARRAYS) and _lengths(x) == _lengths(y):
         return where(condition.graph, condition.reshape(()), x, y)
     return None
 
 
+def _lengths(value: Any) -> tuple[Any, ...]:
+    """The shape, with the nodes of lengths that follow a number of rows."""
+    lengths = value.shape if isinstance(value, Quantity) else np.shape(value)
+    return tuple(n.re if isinstance(n, Quantity) else n for n in lengths)
+
+
 def _missing(value: Any) -> Any:
     """What stands for a number on a way where the worksheet has none."""
+    if isinstance(value, Quantity):
+        return lift(value.graph, np.nan).like(value)
     return np.full(np.shape(value), np.nan) if isinstance(value, _ARRAYS) else UNBOUND
 
 
@@ -99,6 +101,88 @@ def _reached(f: FunctionType) -> list[Any]:
 def _may_change(f: FunctionType) -> bool:
     inner = [c.cell_contents for c in f.__closure__ or () if isinstance(c.cell_contents, FunctionType)]
     return may_change([f.__code__, *(g.__code__ for g in inner)], f.__globals__)
+
+
+def iterated(turn: FunctionType, items: Any, item: int | None, *state: Any) -> Any:
+    """What the names of a loop are in the end; ``turn`` tells whether it ends, and what they are after it.
+
+    The name number ``item`` is the next one of the ``items``. Where a quantity decides about the end, readers repeat
+    the turns for the inputs that they have.
+    """
+    begun: tuple[int, tuple[Any, ...], dict[Node, Guard]] | None = None
+    for number, value in enumerate(repeat(None) if item is None else items):
+        if item is not None:
+            state = (*state[:item], value, *state[item + 1 :])
+        ends, *after = turn(*state)
+        if begun is None and _condition(ends):
+            begun = number, state, dict(ends.graph.looked)
+        state = tuple(after)
+        if ends:
+            break
+    if begun is None:
+        return state
+    number, first, looked = begun
+    if item is not None and not isinstance(items, range | list | tuple | np.ndarray | Quantity):
+        return state
+    return _repeated(turn, items if item is None else items[number:], item, first, state, looked) or state
+
+
+def _repeated(
+    turn: FunctionType,
+    items: Any,
+    item: int | None,
+    first: tuple[Any, ...],
+    last: tuple[Any, ...],
+    looked: dict[Node, Guard],
+) -> tuple[Any, ...] | None:
+    """What a loop gives however many turns it takes, by one from whatever state; None where that has no such form.
+
+    ``looked`` are the guards before any that tell how many turns it takes now.
+    """
+    if not all(isinstance(x, _ARRAYS) or x is UNBOUND for x in first) or not all(isinstance(x, _ARRAYS) for x in last):
+        return None
+    graph = next(quantities([first, last])).graph
+    met = {holds: guard for holds, guard in graph.looked.items() if holds not in looked}
+    end = [lift(graph, x) for x in (*last, 0)]
+    begin = [
+        lift(graph, np.nan).like(b) if a is UNBOUND else lift(graph, a) for a, b in zip((*first, 0), end, strict=True)
+    ]
+    like = [a + 0j if b.im is not None else a for a, b in zip(begin, end, strict=True)]
+    initial = _parts(begin, like)
+    nodes = [graph.state(node) for node in initial]
+    *state, number = _whole(graph, nodes, like)
+    now, graph.looked = graph.looked, {}
+    try:
+        if item is not None:
+            state[item] = lift(graph, items)[number]
+        ends, *after = turn(*state)
+        made = [lift(graph, x) for x in (*after, number + 1)]
+        followed = met and not graph.looked and _condition(ends)
+    except (Exception, NotRecorded):
+        followed = False
+    finally:
+        graph.looked = now
+    if not followed or [x.extent for x in made] != [x.extent for x in like]:
+        return None
+    if any(a.im is not None and b.im is None for a, b in zip(made, like, strict=True)):
+        return None
+    graph.looked = looked
+    same = reduce(operator.and_, (Quantity(graph, holds) for holds in met))
+    loop = Loop(nodes, initial, _parts(made, like), ends.re, None if item is None else len(items))
+    turns = [where(graph, same, Quantity(graph, node), np.nan).re for node in _parts(end[:-1], like[:-1])]
+    found = [graph.iterated(loop, k, node) for k, node in enumerate(turns)]
+    return tuple(_whole(graph, found, like[:-1]))
+
+
+def _parts(values: list[Quantity], like: list[Quantity]) -> list[Node]:
+    """Real parts, and imaginary ones where others have them."""
+    pairs = zip(values, like, strict=True)
+    return [part for x, y in pairs for part in ((x.re,) if y.im is None else (x.re, imaginary(x)))]
+
+
+def _whole(graph: Graph, parts: list[Node], like: list[Quantity]) -> list[Quantity]:
+    rest = iter(parts)
+    return [Quantity(graph, next(rest), None if x.im is None else next(rest)) for x in like]
 
 
 def known(names: Mapping[str, Any], *wanted: str) -> list[Any]:
@@ -136,6 +220,13 @@ def negated(value: Any) -> Any:
     return elementwise("not")(value != 0 if value.re.value.dtype != bool else value) if _condition(value) else not value
 
 
+def matched(value: Any) -> Any:
+    """A value that is compared with True and False themselves, which no quantity is."""
+    if isinstance(value, tuple | list) and has_quantity(value):
+        return type(value)(map(matched, value))
+    return bool(value) if _condition(value) and value.re.value.dtype == bool else value
+
+
 def element(container: Any, key: Any) -> Any:
     """``container[key]``: where the key is a quantity, the one of several numbers that it points at."""
     if isinstance(key, Chosen) and isinstance(container, dict):
@@ -145,7 +236,7 @@ def element(container: Any, key: Any) -> Any:
     if isinstance(container, np.ndarray) and container.dtype.kind in "biufc":
         return lift(key.graph, container)[key]
     values = container if isinstance(container, dict) else dict(enumerate(container))
-    if key.size != 1 or not all(isinstance(v, _NUMBERS) for v in (*values, *values.values())):
+    if not key.single or not all(isinstance(v, _NUMBERS) for v in (*values, *values.values())):
         seen = key.seen()
         return container[seen.item() if seen.size == 1 else seen]
     if not any(key.value == known for known in values):
@@ -179,11 +270,16 @@ def put(array: Any, key: Any, value: Any) -> Any:
         return array
     graph = next(quantities([array, key, value])).graph
     graph.gone.append(weakref.ref(owner(array)))
-    old, key = lift(graph, array), plain(key)
-    order = np.arange(old.size).reshape(old.shape)
-    new = lift(graph, value).broadcast(np.shape(order[key])).reshape(-1)
-    order[key] = old.size + np.arange(new.size).reshape(np.shape(order[key]))
-    return joined([old.reshape(-1), new], order)
+    old, new = lift(graph, array), lift(graph, value)
+    return joined([old, new.astype(int) if old.dtype.kind in "iu" else new], _placed, plain(key))
+
+
+def _placed(old_and_new: Any, key: Any) -> Any:
+    """An array with some elements set to others."""
+    old, new = old_and_new
+    both = np.array(old, np.result_type(old, new))
+    both[key] = new
+    return both
 
 
 def changed(old: Any, operation: str, value: Any) -> Any:
@@ -193,8 +289,8 @@ def changed(old: Any, operation: str, value: Any) -> Any:
     graph = next(quantities([old, value])).graph
     graph.gone.append(weakref.ref(owner(old)))
     new = lift(graph, getattr(operator, operation)(old, value))
-    if new.shape != np.shape(old):
-        raise ValueError(f"an array of shape {np.shape(old)} cannot hold one of shape {new.shape}")
+    if new.extent != lift(graph, old).extent:
+        raise ValueError(f"an array of shape {lift(graph, old).extent} cannot hold one of shape {new.extent}")
     return new
 
 
@@ -235,9 +331,10 @@ def _extreme(name: str) -> Callable[..., Any]:
 
 
 CALLS: dict[str, Any] = {
-    "choice": choice, "and": both, "or": any_of, "not": negated, "element": element, "put": put,
+    "choice": choice, "and": both, "or": any_of, "not": negated, "matched": matched, "element": element, "put": put,
     "part": part, "changed": changed, "settled": settled, "handled": handled,
-    "known": known, "unbound": UNBOUND,
+    "len": lambda x: x.count(0) if isinstance(x, Quantity) and x.ndim else len(x), "known": known,
+    "iterated": iterated, "unbound": UNBOUND,
     "max": _extreme("max"), "min": _extreme("min"), "round": round,
     "float": lambda *x: x[0] if has_quantity(x) else float(*x),
     "int": lambda *x: trunc(x[0]) if has_quantity(x) else int(*x),

@@ -12,8 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mechsheet import units
-from mechsheet.recording.graph import Node
 from mechsheet.recording.lines import Recording, Residual, Solved
+from mechsheet.recording.node import Node
 from mechsheet.recording.pinpoint import Mistake, Places
 from mechsheet.recording.quantity import Quantity
 from mechsheet.units import PURE, Dims
@@ -293,6 +293,16 @@ def _found(reader: Reader, node: Node) -> Codes:
     return next((code for code in ends if isinstance(code, int) and code not in (ANY, LITERAL)), UNKNOWN)
 
 
+def _state(reader: Reader, node: Node) -> Codes:
+    codes = reader.codes[node.args[0]]
+    return UNKNOWN if _is(codes, LITERAL, ANY) else codes  # a number to begin with may have any unit
+
+
+def _iterated(reader: Reader, node: Node) -> Codes:
+    loop, number, _ = node.args
+    return reader.codes[loop.following[number]]
+
+
 def _mul(reader: Reader, node: Node) -> Codes:
     a, b = node.args
     return _each(reader.product, reader.codes[a], reader.codes[b])
@@ -359,7 +369,7 @@ def _same(reader: Reader, node: Node) -> Codes:
 
 
 def _take(reader: Reader, node: Node) -> Codes:
-    source, index = node.args
+    source, index, _ = node.args
     codes = reader.codes[source]
     return codes if isinstance(codes, int) else _simple(np.broadcast_to(codes, source.shape).reshape(-1)[index])
 
@@ -370,7 +380,7 @@ def _at(reader: Reader, node: Node) -> Codes:
 
 
 def _join(reader: Reader, node: Node) -> Codes:
-    sources, which, inside = node.args
+    sources, which, inside, _ = node.args
     codes = [reader.codes[source] for source in sources]
     if all(isinstance(c, int) for c in codes):
         return _simple(np.array(codes)[which])
@@ -382,7 +392,7 @@ def _join(reader: Reader, node: Node) -> Codes:
 
 
 def _reduce(reader: Reader, node: Node) -> Codes:
-    source, groups, kind = node.args
+    source, groups, kind, _ = node.args
     codes = reader.codes[source]
     if kind in ("any", "all", "argmax", "argmin"):
         return NUMBER
@@ -411,12 +421,13 @@ _SAID = {
 
 RULES: dict[str, Callable[[Reader, Node], Codes]] = {
     "constant": _constant, "rows": lambda reader, node: LITERAL, "input": _input, "found": _found,
+    "state": _state, "iterated": _iterated,
     "exported": lambda reader, node: UNKNOWN, "take": _take, "at": _at, "join": _join, "reduce": _reduce,
     "mul": _mul, "div": _div, "pow": _pow, "where": _where, "atan2": _atan2,
     "sqrt": lambda reader, node: _each(lambda code: reader.power(code, 0.5), reader.codes[node.args[0]]),
     **dict.fromkeys(("add", "sub", "max", "min", "mod"), _alike),
     **dict.fromkeys(("lt", "le", "gt", "ge", "eq", "ne"), _compared),
-    **dict.fromkeys(("neg", "abs", "floor", "round"), _same),
+    **dict.fromkeys(("neg", "abs", "floor", "round", "like", "sized"), _same),
     **dict.fromkeys(("exp", "log", "sin", "cos", "tan", "asin", "acos"), _number),
-    **dict.fromkeys(("sign", "and", "or", "not", "finite"), _truth),
+    **dict.fromkeys(("sign", "and", "or", "not", "finite", "length"), _truth),
 }  # fmt: skip

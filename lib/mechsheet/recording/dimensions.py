@@ -11,6 +11,7 @@ from mechsheet.recording.pinpoint import Mistake, Places
 from mechsheet.recording.record import record
 from mechsheet.worksheet.cells import Worksheet, load
 from mechsheet.worksheet.check import Check
+from mechsheet.worksheet.inputs import declared
 from mechsheet.worksheet.lines import Formula, registry
 
 
@@ -46,6 +47,10 @@ def dimensions(
     lines = [line for line in known.values() if not line.arguments]
     places = Places(sheet, known)
     reader = Reader(recording, values, namespace, lines, places)
+    for field in declared(type(namespace["g"])):
+        for leaf, _ in field.leaves(getattr(namespace["g"], field.name)).values():
+            if leaf.mistake:
+                reader.add(Mistake(leaf.line, leaf.name, leaf.mistake))
     for line in known.values():
         if line.mistake:
             reader.add(Mistake(places.line_of(line), line.name, line.mistake))

@@ -2,7 +2,8 @@
 
 from typing import Any
 
-from mechsheet.recording.graph import Graph, Node
+from mechsheet.recording.graph import Graph
+from mechsheet.recording.node import Node
 from mechsheet.recording.quantity import Quantity
 from mechsheet.worksheet.inputs import declared
 from mechsheet.worksheet.kinds import Choice, TextLine

@@ -1,30 +1,14 @@
 """The graph of a recording: quantities as operations on other quantities, and how they are made."""
 
 import weakref
-from collections.abc import Callable, Container, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from contextvars import ContextVar
-from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-Values = NDArray[Any]
-
-
-def bottom_up(roots: Iterable["Node"], known: Container["Node"]) -> Iterator["Node"]:
-    """Nodes under ``roots`` that are not ``known`` yet, each once and after its operands."""
-    stack, done = [(root, False) for root in roots], set[Node]()
-    while stack:
-        node, ready = stack.pop()
-        if node in done or node in known:
-            continue
-        if ready:
-            done.add(node)
-            yield node
-        else:
-            stack.append((node, True))
-            stack.extend((operand, False) for operand in node.operands if operand not in done)
+from mechsheet.recording.node import Block, Loop, Node, is_number
+from mechsheet.recording.operations import ELEMENTWISE, REDUCE, REDUCE_SO_FAR, Along, Moved, Values
 
 
 class NotRecorded(BaseException):
@@ -32,84 +16,6 @@ class NotRecorded(BaseException):
 
 
 MOST = 50_000  # numbers that one statement of a worksheet may compute
-LEAVES = ("constant", "rows", "input")
-
-
-@dataclass(eq=False)
-class Block:
-    """A solve block: its unknowns are the ``nodes`` at which the ``residuals`` vanish, which themselves rest on these.
-
-    ``starts`` are the quantities that it was given, by their names: ``lo``, ``hi`` and ``guess`` of a ``single``
-    unknown, else the guess or the two ends of each. ``under`` are all that it rests on but its own unknowns. Where all
-    is ``elementwise``, the residuals of many values of the unknowns are those of each.
-    """
-
-    starts: Mapping[str, tuple["Node", ...]]
-    single: bool
-    least: bool = False
-    unit: tuple[str, ...] = ()
-    unknown_unit: tuple[str, ...] = ()
-    nodes: tuple["Node", ...] = ()
-    residuals: tuple["Node", ...] = ()
-    under: tuple["Node", ...] = ()
-    elementwise: bool = True
-
-    def rest(self) -> None:
-        """Find out what the block rests on, once its residuals are known."""
-        own, under = set(self.nodes), dict[Node, None]()
-        for node in bottom_up(self.residuals, own):
-            if not own.isdisjoint(node.operands):
-                own.add(node)
-                self.elementwise &= node.op in ELEMENTWISE
-                under |= dict.fromkeys(operand for operand in node.operands if operand not in own)
-        outside = (r for r in self.residuals if r not in own)
-        given = (node for nodes in self.starts.values() for node in nodes)
-        known = [*(node for node in under if node not in own), *outside, *given]
-        self.under = tuple(dict.fromkeys(node for node in known if node.op != "constant"))
-
-
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
-class Node:
-    """One real quantity of any shape: an operation on other quantities, with its values.
-
-    It never changes, nor do its values. A node equals only itself: what a reader finds out about nodes it keeps in a
-    table of its own, with the node as the key. ``line`` is the line of the worksheet that made it first, 0 for none.
-
-    Operations are those of `ELEMENTWISE`, on operands that are broadcast to each other, and
-
-    ==========================  ====================================================================================
-    ``constant``, ``rows``      numbers, with a unit where they have one; the numbers 0, 1, 2 .. of the rows
-    ``input``                   an input
-    ``found`` (block, number)   one of the unknowns that a `Block` finds; after them its evaluations of the equations
-    ``exported``                numbers of the worksheet's own run, which rest on its operands nobody knows how
-    ``take`` (source, index)    elements by their flat positions, in the shape of ``index``
-    ``at`` (source, position)   elements by positions that are a quantity themselves
-    ``join`` (sources, ..)      elements of several sources: which source, and which element of it
-    ``reduce`` (source, ..)     of each group of flat positions what the kind says, one of `REDUCE`
-    ==========================  ====================================================================================
-    """
-
-    op: str
-    args: tuple[Any, ...]
-    value: Values
-    line: int = 0
-
-    @property
-    def shape(self) -> tuple[int, ...]:
-        return self.value.shape
-
-    @property
-    def size(self) -> int:
-        return self.value.size
-
-    @property
-    def operands(self) -> tuple["Node", ...]:
-        if self.op in LEAVES:
-            return ()
-        if self.op == "found":
-            under: tuple[Node, ...] = self.args[0].under
-            return under
-        return self.args[0] if self.op == "join" else self.args[:1] if self.op in ("take", "reduce") else self.args
 
 
 class Guard(NamedTuple):
@@ -118,6 +24,7 @@ class Guard(NamedTuple):
     holds: Node  # true while Python would see the same
     line: int  # of the worksheet
     rows: bool = False  # it is the number of rows, which a writer with a fixed number of them knows
+    lengths: bool = False  # it follows from that number
 
 
 class Gap(NamedTuple):
@@ -156,9 +63,12 @@ class Graph:
         self.line = 0
         self.work = 0  # numbers computed since somebody set it to 0
         self.fixed = set[Node]()  # which rest on constants alone
+        self.counts = set[Node]()  # which rest on numbers of rows, and are these themselves
+        self.lengths: dict[tuple[Node, int], Node] = {}
         self.pivots = set[Node]()  # conditions that put the rows of linear equations in order, which may be unlike
         self.nodes: dict[Any, Node] = {}
         self.looked: dict[Node, Guard] = {}  # by their conditions; since somebody emptied it
+        self.numbered: dict[Node, Guard] = {}  # those of numbers of rows, likewise
         self.gone: list[weakref.ref[Any]] = []  # arrays in whose place another one was put
         self.supposed = 0  # ways that Python does not take and that are recorded beside it, one in another
         self.labels: dict[Node, Label] = {}
@@ -167,13 +77,20 @@ class Graph:
         """An operation, element by element, on operands that are broadcast to each other."""
         return self._kept((op, *args), op, args, lambda: ELEMENTWISE[op](*[a.value for a in args]))
 
-    def _kept(self, key: Any, op: str, args: tuple[Any, ...], value: Callable[[], Any]) -> Node:
+    def _kept(
+        self, key: Any, op: str, args: tuple[Any, ...], value: Callable[[], Any], stretches: bool | None = None
+    ) -> Node:
         known = self.nodes.get(key)
         if known is None:
-            known = self.nodes[key] = Node(op, args, _fixed(value()), self.line)
+            if stretches is None:
+                stretches = any(a.stretches for a in args)
+            known = self.nodes[key] = Node(op, args, _fixed(value()), self.line, stretches)
             self.work += known.size
-            if op == "constant" or (known.operands and self.fixed.issuperset(known.operands)):
+            under = known.operands
+            if op == "constant" or (under and self.fixed.issuperset(under)):
                 self.fixed.add(known)
+            elif op == "length" or (op in ELEMENTWISE and all(a in self.fixed or a in self.counts for a in under)):
+                self.counts.add(known)
             if self.work > MOST:
                 raise NotRecorded(f"it takes more than {MOST:,} operations on single numbers")
         return known
@@ -181,7 +98,86 @@ class Graph:
     def see(self, seen: Node, rows: bool = False) -> None:
         """Note that Python looks at a condition, which holds now."""
         if seen not in self.fixed:
-            self.looked.setdefault(seen, Guard(seen, self.line, rows))
+            kept = self.numbered if rows else self.looked
+            kept.setdefault(seen, Guard(seen, self.line, rows, not rows and seen in self.counts))
+
+    def measure(self, node: Node) -> None:
+        """Note that Python looks at the shape of a quantity."""
+        for axis in range(-len(node.shape), 0) if node.stretches else ():
+            self.see(self.same(self.length(node, axis)))
+
+    def length(self, node: Node, axis: int) -> Node:
+        """How many elements a quantity has along an axis, which is counted from the last one."""
+        if not node.stretches:
+            return self.constant(node.shape[axis])
+        if node.op == "rows":
+            count: Node = node.args[0]
+            return count
+        if node.op == "found":  # all unknowns of a block have one shape
+            node = node.args[0].nodes[0]
+        known = self.lengths.get((node, axis))
+        if known is None and node.op == "found" and not node.args[0].residuals:
+            return self._own_length(node, axis)
+        if known is None:
+            if node.op == "found":  # on which its residuals rest
+                self.lengths[node, axis] = self._own_length(node, axis)
+            known = self.lengths[node, axis] = self._length_under(node, axis) or self._own_length(node, axis)
+        return known
+
+    def _own_length(self, node: Node, axis: int) -> Node:
+        return self._kept(("length", node, axis), "length", (node, axis), lambda: np.array(node.shape[axis]), False)
+
+    def _length_under(self, node: Node, axis: int) -> Node | None:
+        """The length of what a quantity is made of, where both are as long whatever the number of rows is."""
+        parts = list[tuple[Node, int]]()
+        if node.op in ELEMENTWISE:
+            parts = [(part, axis) for part in node.args if len(part.shape) >= -axis]
+        elif node.op == "found":
+            parts = [(part, axis) for part in node.args[0].residuals if part.shape == node.shape]
+        elif node.op == "join":
+            sources, joined = node.args[0], node.args[3].along(len(node.shape))
+            if joined is not None and joined[0] != axis:
+                parts = [(source, axis + (joined[1] and axis < joined[0])) for source in sources]
+            elif joined is not None and (joined[1] or not any(self.stretch(source, axis) for source in sources)):
+                return self.constant(node.shape[axis])
+        elif node.op == "take" and len(node.args[2]) == 1:
+            source, _, (moved,) = node.args
+            origin = moved.origin(axis, len(source.shape))
+            if origin and (origin.whole or origin.axis is None or not self.stretch(source, origin.axis)):
+                return self.length(source, origin.axis) if origin.whole else self.constant(node.shape[axis])
+        found = {self.length(part, k) for part, k in parts if part.stretches}
+        if len(found) > 1:  # what is found for the rows has as many
+            found = {n for n in found if n.op != "length" or n.args[0].op != "found"}
+        fixed = all(part.stretches or part.shape[k] == 1 for part, k in parts)
+        return found.pop() if fixed and len(found) == 1 else None
+
+    def stretch(self, node: Node, axis: int) -> bool:
+        """Whether a quantity stretches along an axis, which is counted from the last one."""
+        return node.stretches and self.length(node, axis) not in self.fixed
+
+    def size(self, node: Node) -> tuple[Node, ...]:
+        """The lengths of all axes."""
+        return tuple(self.length(node, axis) for axis in range(-len(node.shape), 0))
+
+    def like(self, node: Node, *others: Node) -> Node:
+        """A quantity in the shape that it has together with others."""
+        for other in others:
+            shape = np.broadcast_shapes(node.shape, other.shape)
+            if not (node.stretches or other.stretches):
+                if shape != node.shape:
+                    index = np.broadcast_to(np.arange(node.size).reshape(node.shape), shape)
+                    node = self.take(node, np.ascontiguousarray(index))
+            elif shape != node.shape or (other.stretches and other.shape and self.size(node) != self.size(other)):
+                node = self.node("like", node, self._basis(other))
+        return node
+
+    def _basis(self, node: Node) -> Node:
+        """What gives a quantity its shape, as far as that is one of what it is made of."""
+        while node.op in ELEMENTWISE and (
+            parts := [a for a in node.args if a.stretches and self.size(a) == self.size(node)]
+        ):
+            node = parts[-1] if node.op == "like" else parts[0]
+        return node
 
     def same(self, node: Node) -> Node:
         """The condition that a quantity is what it is now, in all its elements."""
@@ -195,64 +191,106 @@ class Graph:
         """Numbers of the worksheet's own run, and the quantities that they rest on, nobody knows how."""
         array = _fixed(np.array(value))
         key = ("exported", tuple(rests_on), array.dtype.char, array.shape, array.tobytes())
-        return self._kept(key, "exported", tuple(rests_on), lambda: array)
+        return self._kept(key, "exported", tuple(rests_on), lambda: array, False)
 
     def constant(self, value: Any, *unit: str) -> Node:
         """A number or an array of numbers; in SI where a unit says what it measures."""
         array = np.asarray(value)
         key = ("constant", array.dtype.char, array.shape, array.tobytes(), *unit)
-        return self._kept(key, "constant", unit, array.copy)
+        return self._kept(key, "constant", unit, array.copy, False)
 
     def leaf(self, op: str, name: str, value: Any) -> Node:
         """An input."""
-        return self._kept((op, name), op, (), lambda: np.array(value))
+        return self._kept((op, name), op, (), lambda: np.array(value), False)
 
     def found(self, block: Block, number: int, name: str, value: Any) -> Node:
         """One of the values that a solve block finds."""
-        return self._kept(("found", name, number), "found", (block, number), lambda: np.array(value))
+        array = np.array(value)
+        return self._kept(("found", name, number), "found", (block, number), lambda: array, array.ndim > 0)
 
-    def rows(self, count: int) -> Node:
-        """The numbers 0, 1, 2 .. of the rows."""
-        return self._kept(("rows", count), "rows", (), lambda: np.arange(count))
+    def state(self, initial: Node) -> Node:
+        """A number that a loop changes, at any of its turns."""
+        key = ("state", len(self.nodes))
+        return self._kept(key, "state", (initial,), lambda: initial.value.copy(), initial.stretches)
 
-    def take(self, source: Node, index: Values) -> Node:
-        """Elements of a quantity by their flat positions."""
+    def iterated(self, loop: Loop, number: int, turns: Node) -> Node:
+        """What a loop makes of one of its numbers; the turns that it takes now give ``turns``."""
+        key = ("iterated", loop, number)
+        return self._kept(key, "iterated", (loop, number, turns), lambda: turns.value, turns.stretches)
+
+    def rows(self, count: Node) -> Node:
+        """The numbers 0, 1, 2 .. of so many rows."""
+        stretches = count not in self.fixed
+        if stretches:
+            self.counts.add(count)
+        return self._kept(("rows", count), "rows", (count,), lambda: np.arange(int(count.value)), stretches)
+
+    def take(self, source: Node, index: Values, *moved: Moved) -> Node:
+        """Elements of a quantity by their flat positions; by what has ``moved`` them, where it stretches."""
+        if source.stretches:
+            return self._taken(source, index, moved)
         if source.op in ("constant", "rows"):
-            return self.constant(source.value.reshape(-1)[index], *source.args)
+            return self.constant(source.value.reshape(-1)[index], *(source.args if source.op == "constant" else ()))
         if source.shape == index.shape and np.array_equal(index.reshape(-1), np.arange(source.size)):
             return source
-        if source.op == "take":
+        if source.op == "take" and not source.args[2]:
             return self.take(source.args[0], source.args[1].reshape(-1)[index])
         if source.op == "join" and index.size:
-            sources, which, inside = source.args
+            sources, which, inside, _ = source.args
             chosen = np.unique(which.reshape(-1)[index])
             if chosen.size == 1:
                 return self.take(sources[chosen[0]], inside.reshape(-1)[index])
         key = ("take", source, index.shape, index.tobytes())
-        return self._kept(key, "take", (source, _fixed(index)), lambda: source.value.reshape(-1)[index])
+        return self._kept(key, "take", (source, _fixed(index), ()), lambda: source.value.reshape(-1)[index], False)
+
+    def _taken(self, source: Node, index: Values, moved: tuple[Moved, ...]) -> Node:
+        *before, last = moved
+        if last.keeps(len(source.shape)) and not before:
+            return source
+        if source.op == "take":
+            first, inner, earlier = source.args
+            return self._kept_take(first, inner.reshape(-1)[index], (*earlier, *moved))
+        if source.op == "join" and not before and (picked := last.picked(source.args[3], len(source.shape))):
+            number, rest = picked
+            if len({self.size(one) for one in source.args[0]}) == 1:
+                part = source.args[0][number]
+                return self.take(part, source.args[2].reshape(-1)[index], *rest) if rest else part
+        return self._kept_take(source, index, moved)
+
+    def _kept_take(self, source: Node, index: Values, moved: tuple[Moved, ...]) -> Node:
+        key = ("take", source, index.shape, index.tobytes(), *(m.key for m in moved))
+        return self._kept(
+            key, "take", (source, _fixed(index), moved), lambda: source.value.reshape(-1)[index], index.ndim > 0
+        )
 
     def at(self, source: Node, position: Node) -> Node:
         """Elements of a quantity at flat positions that are a quantity themselves; NaN where there is none."""
         where = position.value.astype(float)
         inside = (where >= 0) & (where < source.size)
         if position.op == "constant" and inside.all():
-            return self.take(source, position.value.astype(np.intp))
+            fixed = position.value.astype(np.intp)
+            return self.take(source, fixed, Moved(np.take, (fixed,)))
         index = np.where(inside, where, 0).astype(np.intp)
         value = lambda: np.where(inside, source.value.reshape(-1)[index] + 0.0, np.nan)  # noqa: E731
-        return self._kept(("at", source, position), "at", (source, position), value)
+        return self._kept(("at", source, position), "at", (source, position), value, position.stretches)
 
-    def join(self, sources: Sequence[Node], where: Values) -> Node:
-        """Elements of several quantities as one: ``where`` numbers the elements of all of them, one after the other."""
+    def join(self, sources: Sequence[Node], where: Values, moved: Moved) -> Node:
+        """Elements of several quantities as one: ``where`` numbers the elements of all of them, one after the other.
+
+        ``moved`` has put them together.
+        """
         ends = np.cumsum([source.size for source in sources])
         which = np.searchsorted(ends, where, side="right")
-        args = tuple(sources), _fixed(which), _fixed(where - np.concatenate([[0], ends])[which])
+        stretches = any(source.stretches for source in sources)
+        inside = where - np.concatenate([[0], ends])[which]
+        args = tuple(sources), _fixed(which), _fixed(inside), moved if stretches else None
         flat = np.concatenate([source.value.reshape(-1) for source in sources])
-        key = ("join", *sources, where.shape, where.tobytes())
-        return self._kept(key, "join", args, lambda: flat[where])
+        key = ("join", *sources, where.shape, where.tobytes(), *([moved.key] if stretches else []))
+        return self._kept(key, "join", args, lambda: flat[where], stretches)
 
     def reduce(self, kind: str, source: Node, axis: int | None, keepdims: bool) -> Node:
         """What the kind says of the elements along an axis, or of all."""
-        if source.op == "join" and axis is None and kind in ("max", "min") and not keepdims:
+        if source.op == "join" and axis is None and kind in ("max", "min") and not keepdims and _whole(source):
             greatest, *others = [self.reduce(kind, part, None, False) for part in dict.fromkeys(source.args[0])]
             for other in others:
                 greatest = self.fold(kind, greatest, other)
@@ -260,12 +298,13 @@ class Graph:
         value = REDUCE[kind](source.value, axis=axis, keepdims=keepdims)
         if source.op == "constant":
             return self.constant(value)
-        if source.size == 1 and not kind.startswith("arg"):
+        if source.size == 1 and not kind.startswith("arg") and not source.stretches:
             return self.take(source, np.zeros(np.shape(value), int))
         flat = np.arange(source.size).reshape(source.shape)
         groups = flat.reshape(1, -1) if axis is None else np.moveaxis(flat, axis, -1).reshape(-1, flat.shape[axis])
         key = ("reduce", source, kind, axis, keepdims)
-        return self._kept(key, "reduce", (source, _fixed(groups), kind), lambda: value)
+        args = source, _fixed(groups), kind, Along(axis, keepdims)
+        return self._kept(key, "reduce", args, lambda: value, source.stretches and axis is not None)
 
     def scan(self, kind: str, source: Node, axis: int) -> Node:
         """What the kind says of the elements along an axis up to each one."""
@@ -275,7 +314,8 @@ class Graph:
             for n, k in enumerate(line, 1):
                 groups[k] = _fixed(line[:n].copy())
         value = lambda: REDUCE_SO_FAR[kind].accumulate(source.value, axis=axis)  # noqa: E731
-        return self._kept(("scan", source, kind, axis), "reduce", (source, tuple(groups), kind), value)
+        args = source, tuple(groups), kind, Along(axis, so_far=True)
+        return self._kept(("scan", source, kind, axis), "reduce", args, value, source.stretches)
 
     # The operations below leave out what adds nothing: a reader looks for none of it.
 
@@ -316,18 +356,21 @@ class Graph:
         return self.neg(self.div(a.args[0], b)) if a.op == "neg" else self.fold("div", a, b)
 
     def fold(self, op: str, *args: Node) -> Node:
-        """An operation; of constants without a unit the constant that it gives."""
-        if all(a.op == "constant" and not a.args for a in args):
-            return self.constant(ELEMENTWISE[op](*[a.value for a in args]))
+        """An operation; of constants without a unit the constant that it gives, in their shape."""
+        plain = [a.args[0] if a.op == "like" else a for a in args]
+        if all(a.op == "constant" and not a.args for a in plain):
+            return self.like(self.constant(ELEMENTWISE[op](*[a.value for a in plain])), *args)
         return self.node(op, *args)
 
 
 current: ContextVar[Graph] = ContextVar("current")  # the graph of the recording that is made here
 
 
-def is_number(node: Node, number: float) -> bool:
-    """Whether a node is this constant, without a unit."""
-    return node.op == "constant" and not node.args and node.shape == () and bool(node.value == number)
+def _whole(join: Node) -> bool:
+    """Whether all elements of what is joined are in it."""
+    sources, which, inside, _ = join.args
+    starts = np.cumsum([0, *(source.size for source in sources)])
+    return bool(np.unique(starts[which] + inside).size == starts[-1])
 
 
 def _fixed(value: Any) -> Values:
@@ -335,25 +378,3 @@ def _fixed(value: Any) -> Values:
     array = np.asarray(value)
     array.flags.writeable = False
     return array
-
-
-def _number(f: Callable[..., Values]) -> Callable[..., Values]:
-    """Arithmetic in which a condition counts as 1 or 0."""
-    return lambda *args: f(*[a + 0 if a.dtype == bool else a for a in args])
-
-
-# What the numbers of an operation are: the reference for all other readers.
-ELEMENTWISE: dict[str, Callable[..., Values]] = {
-    "add": _number(np.add), "sub": _number(np.subtract), "mul": _number(np.multiply), "div": np.true_divide,
-    "neg": np.negative, "pow": lambda a, b: np.power(np.asarray(a, float), b), "abs": np.abs, "sqrt": np.sqrt,
-    "exp": np.exp, "log": np.log, "sin": np.sin, "cos": np.cos, "tan": np.tan, "asin": np.arcsin, "acos": np.arccos,
-    "atan2": np.arctan2, "sign": np.sign, "floor": np.floor, "round": np.round, "mod": np.remainder, "max": np.maximum,
-    "min": np.minimum, "where": np.where, "lt": np.less, "le": np.less_equal, "gt": np.greater,
-    "ge": np.greater_equal, "eq": np.equal, "ne": np.not_equal, "and": np.logical_and, "or": np.logical_or,
-    "not": np.logical_not, "finite": np.isfinite,
-}  # fmt: skip
-REDUCE: dict[str, Callable[..., Any]] = {
-    "max": np.max, "min": np.min, "sum": np.sum, "prod": np.prod, "any": np.any, "all": np.all, "argmax": np.argmax,
-    "argmin": np.argmin, "nanmax": np.nanmax, "nanmin": np.nanmin, "nansum": np.nansum,
-}  # fmt: skip
-REDUCE_SO_FAR = {"sum": np.add, "prod": np.multiply, "max": np.maximum, "min": np.minimum, "all": np.logical_and}

@@ -4,8 +4,9 @@ from typing import Any
 
 import numpy as np
 
+from mechsheet.recording.arithmetic import absolute, choice
 from mechsheet.recording.graph import Graph, NotRecorded
-from mechsheet.recording.quantity import absolute, choice, lift, moved
+from mechsheet.recording.quantity import lift, moved
 
 _MOST = 6  # equations
 

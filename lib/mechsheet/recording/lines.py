@@ -6,7 +6,8 @@ from dataclasses import dataclass, field
 from functools import lru_cache
 from typing import Any, NamedTuple
 
-from mechsheet.recording.graph import Gap, Graph, Guard, Node
+from mechsheet.recording.graph import Gap, Graph, Guard
+from mechsheet.recording.node import Node
 from mechsheet.recording.quantity import Quantity
 from mechsheet.worksheet import symbol
 from mechsheet.worksheet.lines import Formula

@@ -19,7 +19,7 @@ from typing import Any
 
 import numpy as np
 
-from mechsheet.recording.graph import Node
+from mechsheet.recording.node import Node
 from mechsheet.recording.quantity import Quantity, owner
 
 _SETS = {"STORE_SUBSCR", "STORE_ATTR", "STORE_SLICE", "DELETE_SUBSCR", "DELETE_ATTR"}

@@ -5,10 +5,13 @@ from typing import Any
 
 import numpy as np
 
-from mechsheet.recording.graph import ELEMENTWISE, REDUCE, Block, Node, Values, bottom_up
+from mechsheet.recording.node import Block, Loop, Node, bottom_up
+from mechsheet.recording.operations import ELEMENTWISE, REDUCE, REDUCE_SO_FAR, Values
 from mechsheet.worksheet.find import find
 from mechsheet.worksheet.system import solve
 from mechsheet.worksheet.verdict import values_only
+
+_MOST = 1_000_000  # rows
 
 
 def _at(source: Values, position: Values) -> Values:
@@ -16,15 +19,34 @@ def _at(source: Values, position: Values) -> Values:
     return np.where(inside, source.reshape(-1)[np.where(inside, position, 0).astype(np.intp)], np.nan)
 
 
-def _reduced(node: Node, source: Values) -> Values:
-    _, groups, kind = node.args
-    return np.array([REDUCE[kind](source.reshape(-1)[group]) for group in groups]).reshape(node.shape)
+def _reduced(node: Node, source: Values) -> Any:
+    _, _, kind, along = node.args
+    if along.so_far:
+        return REDUCE_SO_FAR[kind].accumulate(source, axis=along.axis)
+    return REDUCE[kind](source, axis=along.axis, keepdims=along.keepdims)
+
+
+def _taken(node: Node, source: Values) -> Any:
+    _, index, moved = node.args
+    if not moved:
+        return source.reshape(-1)[index]
+    for move in moved:
+        source = np.asarray(move(source))
+    return source
+
+
+def _rows(count: Values) -> Values:
+    """Numbers of so many rows; none of a number that is not whole."""
+    if not (float(count).is_integer() and 0 <= count <= _MOST):
+        raise ValueError(f"{count} rows")
+    return np.arange(int(count))
 
 
 _RULES: dict[str, Callable[..., Any]] = {
     "constant": lambda node: node.value,
-    "rows": lambda node: node.value,
-    "take": lambda node, source: source.reshape(-1)[node.args[1]],
+    "rows": lambda _, count: _rows(count),
+    "length": lambda node, source: np.array(source.shape[node.args[1]]),
+    "take": _taken,
     "at": lambda _, source, position: _at(source, position),
     "join": lambda node, *sources: _joined(node, sources),
     "reduce": _reduced,
@@ -34,7 +56,9 @@ _RULES: dict[str, Callable[..., Any]] = {
 
 
 def _joined(node: Node, sources: tuple[Values, ...]) -> Any:
-    _, which, inside = node.args
+    _, which, inside, moved = node.args
+    if moved:
+        return moved(list(sources))
     starts = np.cumsum([0, *(source.size for source in sources)])[:-1]
     flat: Values = np.concatenate([np.asarray(s).reshape(-1) for s in sources])
     return flat[starts[which] + inside]
@@ -49,21 +73,58 @@ def _same(nodes: Sequence[Node], now: Sequence[Values]) -> bool:
 def numbers(wanted: Iterable[Node], given: Mapping[Node, Any]) -> dict[Node, Values]:
     """Numbers of nodes, where some are given; inputs that are not keep theirs, and what is found is solved again.
 
-    NaN where a number of the worksheet's own run is not that of these inputs, and where no solution is found.
+    NaN where a number of the worksheet's own run is not that of these inputs, where no solution is found, and where the
+    worksheet has no such rows or does not put as many together.
     """
     known: dict[Node, Values] = {node: np.asarray(value) for node, value in given.items()}
-    solved: dict[Block, list[Values]] = {}
+    solved: dict[Block | Loop, list[Values]] = {}
+    none = set[Node]()
     for node in bottom_up(wanted, known):
-        if node.op == "input":
+        if not none.isdisjoint(node.operands):
+            none.add(node)
+        elif node.op == "input":
             known[node] = node.value
-        elif node.op == "found":
-            block, number = node.args
-            if block not in solved and not _same(block.under, [known[o] for o in block.under]):
-                solved[block] = _again(block, known)
-            known[node] = solved[block][number] if block in solved else node.value
+            continue
         else:
-            known[node] = np.asarray(_RULES[node.op](node, *(known[o] for o in node.operands)))
+            try:
+                known[node] = _number(node, known, solved)
+                continue
+            except (ValueError, IndexError):
+                if not (node.stretches or any(operand.stretches for operand in node.operands)):
+                    raise
+                none.add(node)
+        known[node] = np.full(node.shape, np.nan)
     return known
+
+
+def _number(node: Node, known: Mapping[Node, Values], solved: dict[Block | Loop, list[Values]]) -> Values:
+    if node.op == "iterated":
+        loop, number, _ = node.args
+        if loop not in solved:
+            solved[loop] = _repeated(loop, known)
+        ended: Values = solved[loop][number]
+        return ended
+    if node.op != "found":
+        return np.asarray(_RULES[node.op](node, *(known[operand] for operand in node.operands)))
+    block, number = node.args
+    if block not in solved and not _same(block.under, [known[o] for o in block.under]):
+        solved[block] = _again(block, known)
+    return solved[block][number] if block in solved else node.value
+
+
+def _repeated(loop: Loop, known: Mapping[Node, Values]) -> list[Values]:
+    """The numbers of a loop at its end; none of one that does not end."""
+    under = {node: known[node] for node in loop.under}
+    state = [known.get(node, node.value) for node in loop.initial]
+    for _ in range(_TURNS if loop.most is None else loop.most):
+        found = numbers([loop.done, *loop.following], {**under, **dict(zip(loop.nodes, state, strict=True))})
+        state = [found[node] for node in loop.following]
+        if found[loop.done].all():
+            return state
+    return [value + np.nan for value in state] if loop.most is None else state
+
+
+_TURNS = 10_000  # of a loop
 
 
 def _again(block: Block, known: Mapping[Node, Values]) -> list[Values]:
@@ -76,7 +137,7 @@ def _again(block: Block, known: Mapping[Node, Values]) -> list[Values]:
 
     def of(*x: Values) -> list[Values]:
         """Residuals of values that stand on one more axis."""
-        if block.elementwise or x[0].shape == block.nodes[0].shape:
+        if block.elementwise or x[0].ndim == block.nodes[0].value.ndim:
             return residuals(x)
         each = [residuals(one) for one in zip(*x, strict=True)]
         return [np.stack(parts) for parts in zip(*each, strict=True)]

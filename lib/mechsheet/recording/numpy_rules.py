@@ -7,24 +7,11 @@ from typing import Any
 
 import numpy as np
 
-from mechsheet.recording.graph import REDUCE_SO_FAR, Graph, NotRecorded
+from mechsheet.recording.arithmetic import absolute, angle, choice, conjugate, rounded, square, trunc
+from mechsheet.recording.graph import Graph, NotRecorded
 from mechsheet.recording.linear_rules import determinant, outer, product, solution
-from mechsheet.recording.quantity import (
-    FUNCTIONS,
-    REDUCTIONS,
-    Quantity,
-    absolute,
-    angle,
-    choice,
-    conjugate,
-    joined,
-    lift,
-    moved,
-    plain,
-    rounded,
-    square,
-    trunc,
-)
+from mechsheet.recording.operations import REDUCE_SO_FAR
+from mechsheet.recording.quantity import FUNCTIONS, REDUCTIONS, Quantity, has_quantity, joined, lift, moved, plain
 from mechsheet.recording.ufunc_rules import finite
 
 _SORTED = 64  # so many numbers are sorted by comparisons; the order of more is that of the present ones
@@ -77,25 +64,26 @@ def _rearranged(f: Callable[..., Any]) -> Callable[..., Any]:
     """Function that only moves elements: what it does with their positions, it does with them."""
 
     def operation(graph: Graph, x: Any, *args: Any, **kwargs: Any) -> Any:
-        given = [plain(a) for a in args], {name: plain(a) for name, a in kwargs.items()}
+        given, named = [plain(a) for a in args], {name: plain(a) for name, a in kwargs.items()}
         x = lift(graph, x)
         if f in (np.split, np.array_split):
-            count = len(f(np.empty(x.shape), *given[0], **given[1]))
-            return [x.rearranged(lambda order, n=n: f(order, *given[0], **given[1])[n]) for n in range(count)]
-        return x.rearranged(lambda order: f(order, *given[0], **given[1]))
+            count = len(f(np.empty(x.extent), *given, **named))
+            return [x.rearranged(_part, f, n, *given, **named) for n in range(count)]
+        return x.rearranged(f, *given, **named)
 
     return operation
+
+
+def _part(order: Any, split: Callable[..., Any], n: int, *args: Any, **kwargs: Any) -> Any:
+    """One of the parts into which elements are split."""
+    return split(order, *args, **kwargs)[n]
 
 
 def _joined(f: Callable[..., Any]) -> Callable[..., Any]:
     """Function that puts several quantities together as one."""
 
     def operation(graph: Graph, parts: Any, *args: Any, **kwargs: Any) -> Any:
-        lifted = [lift(graph, p) for p in parts]
-        starts = np.cumsum([0, *(p.size for p in lifted)])
-        positions = [s + np.arange(p.size).reshape(p.shape) for s, p in zip(starts, lifted, strict=False)]
-        where = np.ascontiguousarray(f(positions, *args, **kwargs))
-        return joined(lifted, where)
+        return joined([lift(graph, p) for p in parts], f, *args, **kwargs)
 
     return operation
 
@@ -117,9 +105,9 @@ def _ends(x: Quantity, axis: int) -> tuple[Any, Any]:
 
 def _difference(graph: Graph, x: Any, n: int = 1, axis: int = -1, prepend: Any = None, append: Any = None) -> Any:
     x = lift(graph, x)
-    size = [1 if k == axis % x.ndim else count for k, count in enumerate(x.shape)]
+    one = x[(slice(None),) * (axis % x.ndim) + (slice(1),)]
     ends = [None if end is None else lift(graph, end) for end in (prepend, append)]
-    before, after = ([] if end is None else [end if end.ndim else end.broadcast(tuple(size))] for end in ends)
+    before, after = ([] if end is None else [end if end.ndim else end.like(one)] for end in ends)
     if before or after:
         x = _joined(np.concatenate)(graph, [*before, x, *after], axis=axis)
     for _ in range(n):
@@ -149,15 +137,15 @@ def trapezoid_so_far(graph: Graph, y: Any, x: Any = None, dx: Any = 1.0, axis: i
     parts = _so_far("sum")(graph, _strips(graph, y, x, dx, axis), axis)
     if initial is None:
         return parts
-    start = np.full([1 if n == axis % parts.ndim else size for n, size in enumerate(parts.shape)], float(initial))
-    return _joined(np.concatenate)(graph, [start, parts], axis=axis)
+    one = parts[(slice(None),) * (axis % parts.ndim) + (slice(1),)]
+    return _joined(np.concatenate)(graph, [lift(graph, float(initial)).like(one), parts], axis=axis)
 
 
 def _gradient(graph: Graph, y: Any, x: Any = 1.0, axis: Any = None, edge_order: int = 1) -> Any:
     y = lift(graph, y)
     if y.ndim != 1 or edge_order != 1:
         raise NotRecorded("numpy's gradient of a table, or of second order at its ends")
-    h = _difference(graph, x) if np.ndim(x) else lift(graph, x).broadcast((len(y) - 1,))
+    h = _difference(graph, x) if np.ndim(x) else lift(graph, x).like(y[1:])
     slope = _difference(graph, y) / h
     inner = (slope[:-1] * h[1:] + slope[1:] * h[:-1]) / (h[1:] + h[:-1])
     return _joined(np.concatenate)(graph, [slope[:1], inner, slope[-1:]])
@@ -165,9 +153,10 @@ def _gradient(graph: Graph, y: Any, x: Any = 1.0, axis: Any = None, edge_order: 
 
 def _interpolated(graph: Graph, x: Any, xp: Any, fp: Any, left: Any = None, right: Any = None) -> Any:
     x, xp, fp = (lift(graph, v) for v in (x, xp, fp))
-    if len(xp) == 1:
+    if xp.extent == (1,):
+        graph.measure(xp.re)
         return fp[0] + 0 * x
-    piece = np.clip((xp <= x[..., None]).reduced("sum", -1) - 1, 0, len(xp) - 2)
+    piece = np.clip((xp <= x[..., None]).reduced("sum", -1) - 1, 0, xp.count() - 2)
     start, end, low, high = xp[piece], xp[piece + 1], fp[piece], fp[piece + 1]
     inside = low + (x - start) / (end - start) * (high - low)
     below = choice(graph, x < xp[0], fp[0] if left is None else left, inside)
@@ -186,12 +175,14 @@ def _ordered(graph: Graph, x: Any, axis: Any = -1) -> Any:
     if axis is None:
         x, axis = x.reshape(-1), 0
     x = moved(x, axis, -1)
-    if x.shape[-1] > _SORTED:
+    graph.measure(x.re)
+    count = x.extent[-1]
+    if count > _SORTED:
         order = np.argsort(x.value, axis=-1, kind="stable")
         x = np.take_along_axis(x, order, axis=-1)
         graph.see((x[..., :-1] <= x[..., 1:]).reduced("all").re)
         return moved(x, -1, axis)
-    parts = [x[..., k] for k in range(x.shape[-1])]
+    parts = [x[..., k] for k in range(count)]
     for start in range(len(parts)):
         for k in range(start % 2, len(parts) - 1, 2):
             low, high = parts[k], parts[k + 1]
@@ -212,8 +203,7 @@ def _quantile(graph: Graph, x: Any, q: Any) -> Any:
 
 def _mean(graph: Graph, x: Any, axis: Any = None, keepdims: bool = False) -> Any:
     x = lift(graph, x)
-    total = x.reduced("sum", axis, keepdims)
-    return total / (x.size / max(total.size, 1))
+    return x.reduced("sum", axis, keepdims) / x.count(axis)
 
 
 def _average(graph: Graph, x: Any, axis: Any = None, weights: Any = None) -> Any:
@@ -230,8 +220,7 @@ def _known_mean(graph: Graph, x: Any, axis: Any = None) -> Any:
 def _variance(graph: Graph, x: Any, axis: Any = None, ddof: Any = 0) -> Any:
     x = lift(graph, x)
     off = square(absolute(x - _mean(graph, x, axis, True)))
-    total = off.reduced("sum", axis)
-    return total / (x.size / max(total.size, 1) - ddof)
+    return off.reduced("sum", axis) / (x.count(axis) - ddof)
 
 
 def _norm(graph: Graph, x: Any, axis: Any = None) -> Any:
@@ -280,7 +269,11 @@ def _near(graph: Graph, x: Any, y: Any, *, rel_tol: float = 1e-9, abs_tol: float
 
 
 def _like(value: Any) -> Callable[..., Any]:
-    return lambda graph, x, *given, dtype=None: np.full(np.shape(x), *(given or (value,)))
+    def operation(graph: Graph, x: Any, *given: Any, dtype: Any = None) -> Any:
+        x = lift(graph, x)
+        return lift(graph, *(given or (value,))).astype(dtype or x.dtype).like(x)
+
+    return operation
 
 
 def _first(kind: str) -> Callable[..., Any]:
@@ -293,7 +286,7 @@ def _first(kind: str) -> Callable[..., Any]:
 
 
 def _broadcast(graph: Graph, x: Any, shape: Any) -> Any:
-    return lift(graph, x).broadcast(shape if isinstance(shape, tuple) else (shape,))
+    return lift(graph, x).broadcast(plain(shape if isinstance(shape, tuple) else (shape,)))
 
 
 def _real(graph: Graph, x: Any) -> Any:
@@ -328,7 +321,7 @@ _OF_FUNCTIONS: dict[Any, Callable[..., Any]] = {
     np.nan_to_num: lambda graph, x, nan=0.0: choice(graph, finite(lift(graph, x)), x, nan),
     np.zeros_like: _like(0.0), np.ones_like: _like(1.0), np.full_like: _like(np.nan), np.empty_like: _like(0.0),
     np.broadcast_to: _broadcast,
-    np.broadcast_arrays: lambda graph, *x: [_broadcast(graph, a, np.broadcast_shapes(*map(np.shape, x))) for a in x],
+    np.broadcast_arrays: lambda graph, *x: [lift(graph, a).like(*(lift(graph, b) for b in x)) for a in x],
     np.meshgrid: lambda graph, *x, **rest: [
         lift(graph, a)[where] for a, where in zip(x, np.meshgrid(*(np.arange(len(a)) for a in x), **rest), strict=True)
     ],
@@ -347,27 +340,40 @@ FUNCTIONS.update(_OF_FUNCTIONS)
 FUNCTIONS[np.take] = lambda graph, x, k, axis=0: moved(moved(lift(graph, x), axis, 0)[k], 0, axis)
 
 
-def counted(graph: Graph, count: Any) -> int:
-    """A number of rows."""
-    if not isinstance(count, Quantity):
-        return int(count)
-    return int(count.seen(rows=True).reshape(()))
+def counted(graph: Graph, count: Any) -> Quantity:
+    """The numbers 0, 1, 2 .. of so many rows, which a writer with a fixed number of them notes."""
+    count = lift(graph, count)
+    rows = graph.rows(count.re)
+    graph.see(graph.same(count.re), rows=True)
+    return Quantity(graph, rows)
 
 
-def arange(graph: Graph, *ends: Any) -> Any:
-    """numpy's arange of whole numbers of rows."""
+def filled(graph: Graph, shape: Any, value: Any) -> Any:
+    """An array of one value."""
+    axes = list(shape) if isinstance(shape, tuple | list) else [shape]
+    array = lift(graph, value)
+    for k, count in enumerate(axes):
+        array = array.like(counted(graph, count)[(..., *(None,) * (len(axes) - 1 - k))])
+    return array
+
+
+def arange(graph: Graph, *ends: Any, dtype: Any = None) -> Any:
+    """numpy's arange."""
     start, stop, step = (0, *ends, 1) if len(ends) == 1 else (*ends, 1)[:3]
-    if not all(isinstance(e, Quantity) or float(e).is_integer() for e in ends):
-        return np.arange(*plain(ends))
-    whole = [counted(graph, e) for e in (start, stop, step)]
-    return Quantity(graph, graph.rows(len(range(*whole)))) * whole[2] + whole[0]
+    if not has_quantity(ends) and not all(float(e).is_integer() for e in ends):
+        return np.arange(*ends)
+    count = stop - start
+    if lift(graph, count).dtype.kind == "f" or not (isinstance(step, int) and step == 1):
+        count = np.maximum(np.ceil(count / step), 0)
+    return counted(graph, count) * step + start
 
 
 def linspace(graph: Graph, start: Any, stop: Any, count: Any = 50, endpoint: bool = True) -> Any:
     """numpy's linspace, of the positions alone that tables list."""
-    pieces = counted(graph, count) - bool(endpoint)
-    thin = graph.thin if endpoint and pieces % graph.thin == 0 else 1
+    pieces = count - bool(endpoint)
+    present = int(lift(graph, pieces).value)
+    thin = graph.thin if endpoint and present % graph.thin == 0 else 1
     if thin > 1:
-        graph.positions = pieces + 1
-    rows = Quantity(graph, graph.rows(pieces // thin + 1 if endpoint else pieces))
-    return start + (stop - start) * (rows * thin / ((count - 1) if endpoint else count))
+        graph.positions = present + 1
+    rows = counted(graph, pieces // thin + 1 if thin > 1 else count)
+    return start + (stop - start) * (rows * thin / pieces)

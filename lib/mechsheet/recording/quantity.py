@@ -5,13 +5,18 @@ gives the formula of a cell. What numpy's functions make of them is registered b
 """
 
 from collections.abc import Callable, Iterator, Sequence
-from functools import cache
+from functools import reduce
+from math import prod
+from operator import getitem, mul
+from operator import index as operator_index
 from typing import Any
 
 import numpy as np
 from numpy.lib.mixins import NDArrayOperatorsMixin
 
-from mechsheet.recording.graph import Graph, Label, Node, NotRecorded, Values, is_number
+from mechsheet.recording.graph import Graph, Label, NotRecorded
+from mechsheet.recording.node import Node
+from mechsheet.recording.operations import Moved, Values
 from mechsheet.units import Constant
 
 UFUNCS: dict[Any, Callable[..., "Quantity"]] = {}  # of quantities
@@ -44,16 +49,38 @@ class Quantity(NDArrayOperatorsMixin):
             yield self.im
 
     @property
-    def shape(self) -> tuple[int, ...]:
+    def extent(self) -> tuple[int, ...]:
+        """The shape with the present numbers of rows."""
         return self.re.shape if self.im is None else np.broadcast_shapes(self.re.shape, self.im.shape)
 
     @property
-    def ndim(self) -> int:
-        return len(self.shape)
+    def shape(self) -> tuple[Any, ...]:
+        """Lengths of the axes, those that follow a number of rows as quantities."""
+        return tuple(self.count(axis) for axis in range(self.ndim))
 
     @property
-    def size(self) -> int:
-        return int(np.prod(self.shape))
+    def ndim(self) -> int:
+        return len(self.extent)
+
+    @property
+    def size(self) -> Any:
+        return self.count()
+
+    @property
+    def single(self) -> bool:
+        """Whether one number, whatever the number of rows is."""
+        return not any(part.stretches for part in self.parts) and prod(self.extent) == 1
+
+    def count(self, axis: Any = None) -> Any:
+        """How many elements there are along one or several axes, or in all."""
+        axes = range(self.ndim) if axis is None else axis if isinstance(axis, tuple) else (axis,)
+        return reduce(mul, (self._length(k % self.ndim - self.ndim) for k in axes), 1)
+
+    def _length(self, axis: int) -> Any:
+        for part in self.parts:
+            if part.stretches and len(part.shape) >= -axis and part.shape[axis] == self.extent[axis]:
+                return Quantity(self.graph, self.graph.length(part, axis))
+        return self.extent[axis]
 
     @property
     def dtype(self) -> np.dtype[Any]:
@@ -75,7 +102,7 @@ class Quantity(NDArrayOperatorsMixin):
         return self
 
     def __len__(self) -> int:
-        return self.shape[0]
+        return operator_index(self.count(0))
 
     def __iter__(self) -> Iterator["Quantity"]:
         return (self[i] for i in range(len(self)))
@@ -85,28 +112,30 @@ class Quantity(NDArrayOperatorsMixin):
     def seen(self, rows: bool = False) -> Values:
         """Numbers for Python to look at; a guard tells while they are the same."""
         for node in self.parts:
+            self.graph.measure(node)
             self.graph.see(self.graph.same(node), rows)
         return self.value
 
     def __bool__(self) -> bool:
-        if self.im is not None or self.size != 1:
-            raise NotRecorded("the truth of a complex number" if self.size == 1 else "the truth of several numbers")
+        single = prod(self.extent) == 1
+        if self.im is not None or not single:
+            raise NotRecorded("the truth of a complex number" if single else "the truth of several numbers")
+        self.graph.measure(self.re)
         true = self.re if self.re.value.dtype == bool else self.graph.fold("ne", self.re, self.graph.constant(0))
         now = bool(true.value.reshape(()))
         self.graph.see(true if now else self.graph.fold("not", true))
         return now
 
     def __index__(self) -> int:
-        if self.im is not None or self.size != 1 or not float(self.re.value.reshape(())).is_integer():
+        if self.im is not None or prod(self.extent) != 1 or not float(self.re.value.reshape(())).is_integer():
             raise TypeError(f"{self.value} is not a whole number")
         return int(self.seen().reshape(()))
 
     def __int__(self) -> int:
-        whole: Quantity = trunc(self)
-        return whole.__index__()
+        return operator_index(np.trunc(self))
 
     def __round__(self, digits: int | None = None) -> Any:
-        return rounded(self, digits or 0)
+        return np.round(self, digits or 0)
 
     def __format__(self, spec: str) -> str:
         value = self.seen()
@@ -137,19 +166,25 @@ class Quantity(NDArrayOperatorsMixin):
     def item(self, *index: Any) -> "Quantity":
         return self[index] if index else self.reshape(())
 
-    def take(self, index: Values) -> "Quantity":
-        """Elements by their flat positions, in the shape of ``index``."""
-        shape = self.shape
-        return self.each(lambda node: self.graph.take(self._whole(node, shape), np.asarray(index, order="C")))
-
-    def rearranged(self, f: Callable[[Values], Values]) -> "Quantity":
+    def rearranged(self, f: Callable[..., Values], *args: Any, **kwargs: Any) -> "Quantity":
         """What a function that only moves elements makes of it: what it does with their positions."""
-        order = np.arange(self.size).reshape(self.shape)
-        moved = f(order)
-        result = self.take(moved)
-        if np.ndim(moved) and owner(moved) is owner(order):
+        order = np.arange(prod(self.extent)).reshape(self.extent)
+        moved = Moved(f, args, tuple(kwargs.items()))
+        position = moved(order)
+        index = np.asarray(position, order="C")
+        result = self.whole().each(lambda node: self.graph.take(node, index, moved))
+        if np.ndim(position) and owner(position) is owner(order):
             result.base = self
         return result
+
+    def whole(self) -> "Quantity":
+        """With both parts in the shape of the whole."""
+        return self if self.im is None else self.like(self)
+
+    def like(self, *others: "Quantity") -> "Quantity":
+        """In the shape that it has together with others."""
+        parts = [part for other in others for part in other.parts]
+        return self.each(lambda node: self.graph.like(node, *(p for p in parts if p is not node)))
 
     def __copy__(self) -> "Quantity":
         return Quantity(self.graph, self.re, self.im)
@@ -161,24 +196,25 @@ class Quantity(NDArrayOperatorsMixin):
         raise NotRecorded("a quantity written as bytes")
 
     def broadcast(self, shape: tuple[int, ...]) -> "Quantity":
-        return self.each(lambda node: self._whole(node, shape))
+        return self if self.single and not shape else self.rearranged(np.broadcast_to, shape)
 
     def __getitem__(self, key: Any) -> "Quantity":
         first, *rest = key if isinstance(key, tuple) and key else (key,)
         if isinstance(first, Quantity) and first.re.value.dtype != bool and first.im is None and self.ndim:
             return self._at(first)[(slice(None),) * first.ndim + tuple(rest)] if rest else self._at(first)
-        return self.rearranged(lambda order: order[plain(key)])
+        return self.rearranged(getitem, plain(key))
 
     def _at(self, position: "Quantity") -> "Quantity":
         """Elements along the first axis by positions that are quantities; NaN where there are none."""
-        count, inner = self.shape[0], self.shape[1:]
-        start = choice(self.graph, position < 0, position + count, position)
+        count, *inner = self.shape
+        start: Any = np.where(position < 0, position + count, position)
         if not inner:
-            return self.each(lambda node: self.graph.at(self._whole(node, self.shape), start.re))
-        rest = np.arange(int(np.prod(inner))).reshape(inner)
+            return self.whole().each(lambda node: self.graph.at(node, start.re))
+        sizes = [operator_index(size) for size in inner]
+        rest = np.arange(prod(sizes)).reshape(sizes)
         inside = (start >= 0) & (start < count)
-        flat = choice(self.graph, inside, start, np.nan)[(..., *(None,) * len(inner))] * rest.size + rest
-        return self.each(lambda node: self.graph.at(self._whole(node, self.shape), flat.re))
+        flat: Any = np.where(inside, start, np.nan)[(..., *(None,) * len(inner))] * rest.size + rest
+        return self.whole().each(lambda node: self.graph.at(node, flat.re))
 
     @property
     def T(self) -> "Quantity":
@@ -189,10 +225,13 @@ class Quantity(NDArrayOperatorsMixin):
         if (dtype := np.dtype(kind)).kind in "fc" and np.finfo(dtype).precision < 15:
             raise NotRecorded(f"numbers of the kind {dtype}")
         kind = dtype.kind
-        return trunc(self) if kind in "iu" else self != 0 if kind == "b" else self.__copy__()
+        if kind in "iu":
+            whole: Quantity = UFUNCS[np.trunc](self)
+            return whole
+        return self != 0 if kind == "b" else self.__copy__()
 
     def reshape(self, *shape: Any) -> "Quantity":
-        return self.rearranged(lambda order: order.reshape(*shape))
+        return self.rearranged(np.reshape, plain(shape[0] if len(shape) == 1 else shape))
 
     def reduced(self, kind: str, axis: Any = None, keepdims: bool = False) -> "Quantity":
         """What a kind of reduction says of a real quantity, along one or several axes or of all elements."""
@@ -207,7 +246,7 @@ class Quantity(NDArrayOperatorsMixin):
                 result = result.reduced(kind, one, keepdims)
             return result
         axis = None if axis is None else int(plain(axis)) % max(self.ndim, 1)
-        return self.each(lambda node: self.graph.reduce(kind, node, axis, keepdims))
+        return self.whole().each(lambda node: self.graph.reduce(kind, node, axis, keepdims))
 
     def __getattr__(self, name: str) -> Any:
         """Methods of arrays, as numpy's functions of the same name."""
@@ -219,12 +258,6 @@ class Quantity(NDArrayOperatorsMixin):
     def each(self, f: Callable[[Node], Node]) -> "Quantity":
         """The same for the real and the imaginary part."""
         return Quantity(self.graph, f(self.re), None if self.im is None else f(self.im))
-
-    def _whole(self, node: Node, shape: tuple[int, ...]) -> Node:
-        if node.shape == shape:
-            return node
-        index = np.broadcast_to(np.arange(node.size).reshape(node.shape), shape)
-        return self.graph.take(node, np.ascontiguousarray(index))
 
     def __array_ufunc__(self, ufunc: Any, method: str, *inputs: Any, **kwargs: Any) -> Any:
         if method in ("reduce", "accumulate") and ufunc in REDUCTIONS:
@@ -269,7 +302,7 @@ def plain(value: Any) -> Any:
 
 def moved(x: "Quantity", source: Any, destination: Any) -> "Quantity":
     """numpy's moveaxis."""
-    return x.rearranged(lambda order: np.moveaxis(order, source, destination))
+    return x.rearranged(np.moveaxis, source, destination)
 
 
 def quantities(value: Any) -> Iterator[Quantity]:
@@ -307,144 +340,18 @@ def lift(graph: Graph, value: Any) -> Quantity:
 
 def stack(parts: Sequence[Quantity]) -> Quantity:
     """Quantities along a new first axis."""
-    shape = np.broadcast_shapes(*(p.shape for p in parts))
-    whole = [p.broadcast(shape) for p in parts]
-    return joined(whole, np.arange(len(whole) * whole[0].size).reshape(len(whole), *shape))
+    return joined([part.like(*parts) for part in parts], np.stack)
 
 
-def joined(parts: Sequence[Quantity], where: Values) -> Quantity:
-    """Elements of several quantities, which ``where`` numbers one after the other."""
-    graph = parts[0].graph
-    whole = [p.broadcast(p.shape) for p in parts]
-    re = graph.join([p.re for p in whole], where)
+def joined(parts: Sequence[Quantity], f: Callable[..., Values], *args: Any, **kwargs: Any) -> Quantity:
+    """What a function that only puts elements together makes of several quantities."""
+    graph, moved = parts[0].graph, Moved(f, args, tuple(kwargs.items()))
+    starts = np.cumsum([0, *(prod(p.extent) for p in parts)])
+    positions = [s + np.arange(prod(p.extent)).reshape(p.extent) for s, p in zip(starts, parts, strict=False)]
+    where = np.ascontiguousarray(moved(positions))
+    whole = [p.whole() for p in parts]
+    re = graph.join([p.re for p in whole], where, moved)
     if all(p.im is None for p in whole):
         return Quantity(graph, re)
-    im = [graph.constant(np.zeros(p.shape)) if p.im is None else p.im for p in whole]
-    return Quantity(graph, re, graph.join(im, where))
-
-
-def imaginary(x: Quantity) -> Node:
-    """The imaginary part; 0 of a real quantity."""
-    return x.im if x.im is not None else x.graph.constant(0.0)
-
-
-def _whole_shape(f: Callable[[Quantity, Quantity], Quantity]) -> Callable[[Quantity, Quantity], Quantity]:
-    """Arithmetic whose result has all elements also where a zero or one of the other operand leaves nothing to do."""
-
-    def operation(x: Quantity, y: Quantity) -> Quantity:
-        result, shape = f(x, y), np.broadcast_shapes(x.shape, y.shape)
-        return result if result.shape == shape else result.broadcast(shape)
-
-    return operation
-
-
-@_whole_shape
-def add(x: Quantity, y: Quantity) -> Quantity:
-    graph = x.graph
-    if x.im is None and y.im is None:
-        return Quantity(graph, graph.add(x.re, y.re))
-    return Quantity(graph, graph.add(x.re, y.re), graph.add(imaginary(x), imaginary(y)))
-
-
-@_whole_shape
-def subtract(x: Quantity, y: Quantity) -> Quantity:
-    graph = x.graph
-    if x.im is None and y.im is None:
-        return Quantity(graph, graph.sub(x.re, y.re))
-    return Quantity(graph, graph.sub(x.re, y.re), graph.sub(imaginary(x), imaginary(y)))
-
-
-@_whole_shape
-def multiply(x: Quantity, y: Quantity) -> Quantity:
-    graph = x.graph
-    if x.im is None and y.im is None:
-        return Quantity(graph, graph.mul(x.re, y.re))
-    a, b, c, d = x.re, imaginary(x), y.re, imaginary(y)
-    return Quantity(graph, graph.sub(graph.mul(a, c), graph.mul(b, d)), graph.add(graph.mul(a, d), graph.mul(b, c)))
-
-
-@_whole_shape
-def divide(x: Quantity, y: Quantity) -> Quantity:
-    graph = x.graph
-    if y.im is None:
-        return x.each(lambda part: graph.div(part, y.re))
-    return divide(multiply(x, conjugate(y)), square(y))
-
-
-def square(x: Quantity) -> Quantity:
-    graph = x.graph
-    two = graph.constant(2)
-    re = graph.fold("pow", x.re, two)
-    return Quantity(graph, re if x.im is None or is_number(x.im, 0) else graph.add(re, graph.fold("pow", x.im, two)))
-
-
-def power(x: Quantity, y: Quantity) -> Quantity:
-    graph = x.graph
-    if y.im is not None:
-        raise NotRecorded("a complex power")
-    if x.im is None:
-        return x if is_number(y.re, 1) else Quantity(graph, graph.fold("pow", x.re, y.re))
-    if is_number(y.re, 2):
-        return multiply(x, x)
-    turned = multiply(angle(x), y)
-    return multiply(power(absolute(x), y), polar(turned))
-
-
-def angle(x: Quantity) -> Quantity:
-    return Quantity(x.graph, x.graph.fold("atan2", imaginary(x), x.re))
-
-
-def polar(phi: Quantity) -> Quantity:
-    """The unit vector at an angle."""
-    return Quantity(phi.graph, phi.graph.fold("cos", phi.re), phi.graph.fold("sin", phi.re))
-
-
-def floor_divide(x: Quantity, y: Quantity) -> Any:
-    """Whole quotients as numpy has them: what `mod` leaves is taken away first."""
-    return elementwise("round")((x - x % y) / y)
-
-
-def trunc(x: Quantity) -> Any:
-    down = elementwise("floor")
-    return choice(x.graph, x < 0, -down(-x), down(x))
-
-
-def rounded(x: Quantity, decimals: int) -> Any:
-    """Rounded to decimals, halves to the even neighbour."""
-    scale = 10.0**decimals
-    return elementwise("round")(x * scale) / scale if decimals else elementwise("round")(x)
-
-
-def conjugate(x: Quantity) -> Quantity:
-    return x if x.im is None else Quantity(x.graph, x.re, x.graph.neg(x.im))
-
-
-def absolute(x: Quantity) -> Quantity:
-    if x.im is None or is_number(x.im, 0):
-        return Quantity(x.graph, x.graph.fold("abs", x.re))
-    if is_number(x.re, 0):
-        return Quantity(x.graph, x.graph.fold("abs", x.im))
-    return Quantity(x.graph, x.graph.fold("sqrt", square(x).re))
-
-
-@cache
-def elementwise(op: str) -> Callable[..., Quantity]:
-    """An operation of the graph on real quantities."""
-
-    def operation(*args: Quantity) -> Quantity:
-        if any(a.im is not None for a in args):
-            raise NotRecorded(f"{op} of complex numbers")
-        return Quantity(args[0].graph, args[0].graph.fold(op, *[a.re for a in args]))
-
-    return operation
-
-
-def choice(graph: Graph, condition: Any, x: Any, y: Any) -> Any:
-    """Elements of ``x`` where the condition holds, else of ``y``; of texts those that hold now."""
-    if any(np.asarray(v).dtype.kind == "U" for v in (x, y) if not isinstance(v, Quantity | list | tuple)):
-        texts: Any = np.where(plain(condition), x, y)
-        return texts
-    c, a, b = lift(graph, condition), lift(graph, x), lift(graph, y)
-    if a.im is None and b.im is None:
-        return Quantity(graph, graph.fold("where", c.re, a.re, b.re))
-    return Quantity(graph, graph.fold("where", c.re, a.re, b.re), graph.fold("where", c.re, imaginary(a), imaginary(b)))
+    im = [graph.like(graph.constant(0.0), p.re) if p.im is None else p.im for p in whole]
+    return Quantity(graph, re, graph.join(im, where, moved))

@@ -11,12 +11,14 @@ import numpy as np
 
 from mechsheet import units
 from mechsheet.recording import statement
+from mechsheet.recording.arithmetic import choice as where
+from mechsheet.recording.arithmetic import sized
 from mechsheet.recording.given import given
-from mechsheet.recording.graph import Gap, Graph, Guard, Node, NotRecorded, bottom_up, current
+from mechsheet.recording.graph import Gap, Graph, Guard, NotRecorded, current
 from mechsheet.recording.lines import Recording
 from mechsheet.recording.memory import Memory, changes, names_of
+from mechsheet.recording.node import Node, bottom_up
 from mechsheet.recording.quantity import Quantity, has_quantity, is_literal
-from mechsheet.recording.quantity import choice as where
 from mechsheet.recording.solving import listed
 from mechsheet.recording.stage import Stage, held
 from mechsheet.recording.substitutes import BUILTINS, instead, shared, staged
@@ -99,7 +101,7 @@ class _Run:
         Those are not known of names that ``later`` statements of the cell bind or change again.
         """
         graph = self.graph
-        graph.line, graph.looked, graph.work = line, {}, 0
+        graph.line, graph.looked, graph.numbered, graph.work = line, {}, {}, 0
         graph.gone.clear()
         staged.set(stage.shows)
         reads = self.read(facts.loaded)
@@ -134,12 +136,12 @@ class _Run:
             beside = before.named(self.names, before.changed() | (before.mutable() if may_change else set()))
             self.lose(stage, beside.difference(touched), later, self.why(error, reads))
             return
-        ways = may_change and any(not guard.rows for guard in graph.looked.values())  # of which others change more
+        ways = may_change and bool(graph.looked)  # of which others change more
         beside = before.named(self.names, before.changed() | (before.mutable() if ways else set())).difference(touched)
         everywhere = not touched and not beside
-        self.recording.guards |= {holds: guard for holds, guard in graph.looked.items() if guard.rows or everywhere}
-        met = {holds: guard for holds, guard in graph.looked.items() if not guard.rows}
-        rests, shown = rests | met, shown | met
+        noted = (guard for guard in graph.looked.values() if everywhere and not guard.lengths)
+        self.recording.guards |= {guard.holds: guard for guard in (*graph.numbered.values(), *noted)}
+        rests, shown = rests | graph.looked, shown | graph.looked
         for name in beside:
             self.looked[name] = tuple(
                 {guard.holds: guard for guard in (*self.looked.get(name, ()), *rests.values())}.values()
@@ -245,12 +247,12 @@ class _Run:
             return
         graph, cell = self.graph, stage.cell
         if cell.name not in self.everywhere:
-            kept = graph.thin, graph.line, graph.looked, graph.work
+            kept = graph.thin, graph.line, graph.looked, graph.numbered, graph.work
             labels, graph.labels, graph.thin = graph.labels, {}, 1  # what only this run needs is no named step
             try:
                 self.everywhere[cell.name] = run = _Run(self.sheet, graph, self.namespace, cell.gives, self.lines)
             finally:
-                graph.thin, graph.line, graph.looked, graph.work = kept
+                graph.thin, graph.line, graph.looked, graph.numbered, graph.work = kept
                 graph.labels = labels
             self.recording.guards |= run.recording.guards
         run = self.everywhere[cell.name]
@@ -278,7 +280,7 @@ class _Run:
         Such a number without a unit of its own is the scale of a check over the same positions.
         """
         value = self.names[name]
-        if self.graph.thin == 1 or name in self.lines or not isinstance(value, Quantity) or value.size > 1:
+        if self.graph.thin == 1 or name in self.lines or not isinstance(value, Quantity) or not value.single:
             return False
         under = list(bottom_up([value.re], ()))
         kinds = {n.args[2] for n in under if n.op == "reduce" and n.args[0].size > 1}
@@ -294,6 +296,8 @@ class _Run:
                     known[part] = under[1] | {part.args[0]}
                 case "where":
                     known[part] = under[1] & under[2]
+                case "sized":
+                    known[part] = under[0] | {part.args[1]}
                 case "join":
                     known[part] = frozenset.intersection(*under)
                 case "pow" if part.args[1].op != "constant" or not part.args[1].value.all():
@@ -310,8 +314,11 @@ class _Run:
         """A quantity while Python sees the same, else no number."""
         for guard in rests:
             if any(guard.holds not in self.conditions(part) for part in x.parts):
-                self.recording.guards[guard.holds] = guard
-                x = where(self.graph, Quantity(self.graph, guard.holds), x, np.nan)
+                if guard.lengths:
+                    x = sized(x, guard.holds)
+                else:
+                    self.recording.guards[guard.holds] = guard
+                    x = where(self.graph, Quantity(self.graph, guard.holds), x, np.nan)
         return x
 
     def read(self, loaded: Iterable[str]) -> frozenset[str]:

@@ -15,7 +15,7 @@ from typing import Any
 from mechsheet.recording.choices import CALLS
 from mechsheet.worksheet.cells import bound
 
-_NAMES = {"float", "int", "complex", "max", "min", "pow", "round"}
+_NAMES = {"float", "int", "complex", "len", "max", "min", "pow", "round"}
 _SCOPED = ast.NamedExpr, ast.Yield, ast.YieldFrom, ast.Await  # are not what they are inside a lambda
 
 
@@ -58,11 +58,18 @@ class _Rewriting(ast.NodeTransformer):
     def visit_Compare(self, node: ast.Compare) -> ast.AST:
         self.generic_visit(node)
         if len(node.ops) == 1:
+            if isinstance(node.ops[0], ast.Is | ast.IsNot):
+                node.left = _call("matched", node, node.left)
             return node
         sides = [node.left, *node.comparators]
         pairs = zip(sides, node.ops, sides[1:], strict=False)
         parts = [ast.copy_location(ast.Compare(a, [op], [b]), node) for a, op, b in pairs]
         return _call("and", node, *map(_later, parts))
+
+    def visit_Match(self, node: ast.Match) -> ast.AST:
+        self.generic_visit(node)
+        node.subject = _call("matched", node, node.subject)
+        return node
 
     def visit_UnaryOp(self, node: ast.UnaryOp) -> ast.AST:
         self.generic_visit(node)
@@ -103,9 +110,39 @@ class _Rewriting(ast.NodeTransformer):
         lines = [*defined, ast.copy_location(ast.Assign([ast.Tuple(targets, ast.Store())], chosen), node)]
         lines = [self.visit(line) for line in lines]
         for name in sorted(each[0] ^ each[1]):
-            unbound = ast.Compare(ast.Name(name, ast.Load()), [ast.Is()], [ast.Name("recorded unbound", ast.Load())])
-            lines.append(ast.copy_location(ast.If(unbound, [ast.Delete([ast.Name(name, ast.Del())])], []), node))
+            lines.append(_unbound(name, node))
         return lines
+
+    def visit_While(self, node: ast.While) -> Any:
+        ended = ast.If(ast.UnaryOp(ast.Not(), node.test), [ast.Break()], [])
+        return self._repeated(node, None, ast.Constant(None), [ast.copy_location(ended, node), *node.body])
+
+    def visit_For(self, node: ast.For) -> Any:
+        ends = any(isinstance(part, ast.Break) for line in node.body for part in ast.walk(line))
+        if not (ends and isinstance(node.target, ast.Name)):
+            self.generic_visit(node)
+            return node
+        return self._repeated(node, node.target.id, node.iter, node.body)
+
+    def _repeated(self, node: ast.While | ast.For, item: str | None, items: ast.expr, body: list[ast.stmt]) -> Any:
+        """A loop that may end by what it computes, and does nothing but give names values, as a function of a turn."""
+        if node.orelse or _is_of_the_whole(items) or not all(map(_only_binds_or_ends, body)):
+            self.generic_visit(node)
+            return node
+        names = sorted({name for line in body for name in bound(line)} | ({item} if item else set()))
+        turn = [*body, ast.Continue()]
+        given = ast.arguments([], [ast.arg(name) for name in names], None, [], [], None, [])
+        ways = [way for line in turn for way in _returning(line, names)]
+        function = ast.copy_location(ast.FunctionDef("recorded turn", given, ways, []), node)
+        known = _call("known", node, _call_of("locals"), *map(ast.Constant, names))
+        place = ast.Constant(names.index(item) if item else None)
+        call = _call(
+            "iterated", node, ast.Name("recorded turn", ast.Load()), items, place, ast.Starred(known, ast.Load())
+        )
+        targets: list[ast.expr] = [ast.Name(name, ast.Store()) for name in names]
+        bind = ast.copy_location(ast.Assign([ast.Tuple(targets, ast.Store())], call), node)
+        lines = [self.visit(function), self.visit(bind)]
+        return [*lines, *(_unbound(name, node) for name in names)]
 
     def visit_FunctionDef(self, node: ast.FunctionDef) -> ast.AST:
         """Where a way of a function ends early, the rest of the function is the other way."""
@@ -143,6 +180,34 @@ def _only_binds(line: ast.stmt) -> bool:
         case _:
             return False
     return all(isinstance(t, ast.Name) for t in targets) and not any(map(_is_of_the_whole, ast.walk(value)))
+
+
+def _only_binds_or_ends(line: ast.stmt) -> bool:
+    """Whether a statement of a loop's turn does nothing but give names values, or end the turn or the loop."""
+    match line:
+        case ast.If(test, body, orelse):
+            return not _is_of_the_whole(test) and all(map(_only_binds_or_ends, [*body, *orelse]))
+        case ast.Break() | ast.Continue():
+            return True
+    return _only_binds(line)
+
+
+def _returning(line: ast.stmt, names: list[str]) -> list[ast.stmt]:
+    """A statement of a turn, which returns whether the loop ends, and what the names are."""
+    match line:
+        case ast.Break() | ast.Continue():
+            values = [ast.Constant(isinstance(line, ast.Break)), *(ast.Name(name, ast.Load()) for name in names)]
+            return [ast.copy_location(ast.Return(ast.Tuple(values, ast.Load())), line)]
+        case ast.If(test, body, orelse):
+            ways = ([new for one in way for new in _returning(one, names)] for way in (body, orelse))
+            return [ast.copy_location(ast.If(test, *ways), line)]
+    return [line]
+
+
+def _unbound(name: str, node: ast.stmt) -> ast.stmt:
+    """Delete a name that is not bound."""
+    test = ast.Compare(ast.Name(name, ast.Load()), [ast.Is()], [ast.Name("recorded unbound", ast.Load())])
+    return ast.copy_location(ast.If(test, [ast.Delete([ast.Name(name, ast.Del())])], []), node)
 
 
 def _is_of_the_whole(part: ast.AST) -> bool:

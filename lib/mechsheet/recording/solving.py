@@ -7,8 +7,9 @@ from typing import Any
 
 import numpy as np
 
-from mechsheet.recording.graph import Block, Graph, Node, NotRecorded
+from mechsheet.recording.graph import Graph, NotRecorded
 from mechsheet.recording.lines import Solved, Told
+from mechsheet.recording.node import Block, Node
 from mechsheet.recording.quantity import Quantity, lift
 from mechsheet.worksheet.find import Found
 from mechsheet.worksheet.system import Solution
@@ -54,7 +55,7 @@ def one(graph: Graph, found: Found, f: Callable[..., Any], asked: dict[str, Any]
     words = found.words
     told = Told(words.unknown, words.quantity, words.unit, words.unknown_unit)
     ends = (starts["lo"][0], starts["hi"][0]) if starts.keys() >= {"lo", "hi"} else None
-    return Solving(x, left, (Solved(block.nodes[0], left.re if left.size == 1 else None, ends, told),))
+    return Solving(x, left, (Solved(block.nodes[0], left.re if left.single else None, ends, told),))
 
 
 def several(graph: Graph, found: Solution, f: Callable[..., Any], asked: dict[str, Any]) -> Solving:
@@ -80,7 +81,7 @@ def several(graph: Graph, found: Solution, f: Callable[..., Any], asked: dict[st
     solved = []
     for k, (node, unknown, unit) in enumerate(zip(block.nodes, words.names, words.units, strict=True)):
         told = Told(unknown, words.equations[k], words.equation_units[k], unit)
-        residual = left[k].re if left[k].size == 1 else None
+        residual = left[k].re if left[k].single else None
         ends = starts[unknown]
         solved.append(Solved(node, residual, (ends[0], ends[-1]), told))
     value = namedtuple("Values", words.names)(*x)
@@ -109,5 +110,5 @@ def kept(graph: Graph, own: Verdict, exported: Callable[[Any], Quantity]) -> Sol
 
 def _parts(equation: Quantity, like: Node) -> list[Quantity]:
     """The real equations of one, in the shape of the problems."""
-    whole = equation.broadcast(np.broadcast_shapes(equation.shape, like.shape))
+    whole = equation.like(Quantity(equation.graph, like))
     return [whole.real, whole.imag] if equation.im is not None else [whole]

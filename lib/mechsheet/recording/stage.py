@@ -1,6 +1,5 @@
 """One cell of a worksheet while it is recorded: what `table`, `find`, `check` and their like do there."""
 
-import math
 from collections.abc import Callable, Mapping, Sequence
 from copy import copy
 from dataclasses import fields, is_dataclass, replace
@@ -10,8 +9,9 @@ import numpy as np
 
 from mechsheet import units
 from mechsheet.recording import solving
-from mechsheet.recording.graph import Node, NotRecorded, bottom_up
+from mechsheet.recording.graph import NotRecorded
 from mechsheet.recording.lines import Recording, Residual, Solved
+from mechsheet.recording.node import Node, bottom_up
 from mechsheet.recording.quantity import Quantity, lift
 from mechsheet.worksheet.cells import Cell
 from mechsheet.worksheet.check import Check
@@ -53,20 +53,17 @@ class Stage:
 
     def _show(self, number: str, columns: tuple[Any, ...], every: int) -> None:
         """Note the columns of a table or a figure, as long as each other."""
-        shape = np.broadcast_shapes((1,), *(np.shape(getattr(c, "value", c)) for c in columns))
-        kept = np.ascontiguousarray(np.arange(math.prod(shape)).reshape(shape)[..., ::every].ravel())
+        numeric = [isinstance(c, Quantity) or np.asarray(c).dtype.kind in "biuf" for c in columns]
+        lifted = [lift(self.graph, c if n else np.zeros(np.shape(c))) for c, n in zip(columns, numeric, strict=True)]
+        one = lift(self.graph, np.zeros(1))
 
-        def rows(column: Any) -> Any:
-            if not isinstance(column, Quantity):
-                if np.asarray(column).dtype.kind not in "biuf":
-                    return None
-                column = lift(self.graph, column)
-            if column.shape == shape and every == 1 and len(shape) == 1:
-                return copy(column)  # which later lines may set elements of
-            return column.take(np.broadcast_to(np.arange(column.size).reshape(column.shape), shape).reshape(-1)[kept])
+        def rows(column: Quantity) -> Quantity:
+            whole = column.like(one, *lifted)
+            listed = whole[..., ::every] if every > 1 else whole
+            return copy(listed.reshape(-1) if listed.ndim > 1 else listed)  # which later lines may set elements of
 
         self.shown_now.append((self.recording.tables, number))
-        self.recording.tables[number] = tuple(rows(c) for c in columns)
+        self.recording.tables[number] = tuple(rows(c) if n else None for c, n in zip(lifted, numeric, strict=True))
 
     def figure(self, number: str, title: str, *columns: Any, marks: Mapping[str, Any] | None = None, **_: Any) -> None:
         self._show(f"Fig {number}", columns, 1)
@@ -137,7 +134,7 @@ class Stage:
     ) -> None:
         """The slope by central differences, at the middle one of the positions."""
         slope, x = lift(self.graph, slope), lift(self.graph, x)
-        middle, step = len(x) // 2, 0.002 * (hi - lo)
+        middle, step = x.count(0) // 2, 0.002 * (hi - lo)
         at = x[middle]
         near, far = (f(at + n * step) - f(at - n * step) for n in (1, 2))
         left = slope[middle] - (8 * near - far) / (12 * step)
@@ -149,7 +146,7 @@ class Stage:
 
     def _check(self, name: str, parts: list[Node], limit: Any, unit: str, signed: bool = False) -> None:
         bound = lift(self.graph, limit)
-        if bound.size != 1:
+        if not bound.single:
             raise NotRecorded(f"check {name!r} has several limits")
         self.shown_now.append((self.recording.checks, name))
         self.recording.checks[name] = Residual(parts, bound.re, unit, signed)
@@ -188,7 +185,7 @@ class Stage:
         if kept.dtype.kind not in "iufc":
             return True
         value = lift(self.graph, value)
-        if kept.shape != value.shape:
+        if kept.shape != value.extent:
             kept = solving.listed(self.graph, kept)
         try:
             a, b = np.broadcast_arrays(value.value + 0, kept)

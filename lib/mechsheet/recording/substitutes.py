@@ -20,8 +20,8 @@ import numpy as np
 
 from mechsheet import units
 from mechsheet.recording.graph import NotRecorded, current
-from mechsheet.recording.numpy_rules import arange, linspace, trapezoid_so_far
-from mechsheet.recording.quantity import FUNCTIONS, Quantity, has_quantity, lift, plain
+from mechsheet.recording.numpy_rules import arange, filled, linspace, trapezoid_so_far
+from mechsheet.recording.quantity import FUNCTIONS, Quantity, has_quantity, lift
 from mechsheet.recording.rewritten import NAMES, rebuilt
 from mechsheet.recording.unrepeatable import instead_of_chance
 from mechsheet.worksheet import check as checks
@@ -150,11 +150,11 @@ def _takes(f: Callable[..., Any]) -> Callable[..., Any]:
         if f in _ARRAYS:
             return _array(*args, **kwargs) if f is not np.array else copy(_array(*args, **kwargs))
         if f in (np.zeros, np.ones, np.empty, np.full):
-            shape, *rest = args
-            shape = plain(shape)
-            if not has_quantity(rest):
-                return f(shape, *rest, **kwargs)
-            return lift(current.get(), rest[0]).broadcast(np.broadcast_shapes(shape))
+            shape, *value = args
+            if not has_quantity(value):
+                return filled(current.get(), shape, f((), *value, **kwargs))
+            dtype = kwargs.get("dtype", value[1] if len(value) > 1 else float)
+            return filled(current.get(), shape, value[0].astype(dtype))
         if f is np.frexp:  # a scale to divide by and to multiply with again: any will do
             return args[0], 0
         if isinstance(f, np.ufunc):

@@ -6,11 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from mechsheet.recording.graph import is_number
-from mechsheet.recording.linear_rules import product
-from mechsheet.recording.quantity import (
-    UFUNCS,
-    Quantity,
+from mechsheet.recording.arithmetic import (
     absolute,
     add,
     angle,
@@ -19,7 +15,6 @@ from mechsheet.recording.quantity import (
     divide,
     elementwise,
     floor_divide,
-    lift,
     multiply,
     polar,
     power,
@@ -27,6 +22,9 @@ from mechsheet.recording.quantity import (
     subtract,
     trunc,
 )
+from mechsheet.recording.linear_rules import product
+from mechsheet.recording.node import is_number
+from mechsheet.recording.quantity import UFUNCS, Quantity, lift
 
 
 def _exp(x: Quantity) -> Any:

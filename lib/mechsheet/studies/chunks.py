@@ -105,7 +105,8 @@ class Job:
                 return np.concatenate([self._reasons(half) for half in _halves(columns)])
             add(str(error))
         for name in (name for cell in cells for name in cell.gives):
-            value = np.asarray(names.get(name))
+            held = names.get(name)
+            value = np.asarray(None if isinstance(held, tuple) else held)  # the parts of one may differ in shape
             if value.dtype.kind in "fc" and _fits(value, columns):
                 missing = _lacking(_result(name, value, columns))
                 add(np.where(missing, f"{name} has no value", "")[:, None])

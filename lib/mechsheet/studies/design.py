@@ -275,4 +275,4 @@ def save_scene(text: str, name: str, namespace: Mapping[str, Any]) -> Any:
 
 
 def _text(value: float, unit: str) -> str:
-    return numbers.significant(value / units.parse(unit).factor, 4) + numbers.suffix(units.shown(unit))
+    return numbers.significant(value / units.parse(unit).factor, 4) + numbers.suffix(unit)

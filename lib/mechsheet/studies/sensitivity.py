@@ -85,9 +85,7 @@ class Sensitivity:
             for x in (self.slopes[name], self.errors[name], self.relative(name))
         )
         by = [list(self.inputs)[i] for i in order]
-        where = numbers.significant(np.atleast_1d(self.values[name])[k], 6) + numbers.suffix(
-            units.shown(self.units[name])
-        )
+        where = numbers.significant(np.atleast_1d(self.values[name])[k], 6) + numbers.suffix(self.units[name])
         columns = (
             _texts("input", by),
             Column("value", "", "where the derivative is taken, in the input's unit", 4, _at(self.inputs, by)),

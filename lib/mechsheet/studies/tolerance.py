@@ -9,7 +9,6 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from mechsheet import units
 from mechsheet.studies.sensitivity import continuous, point, real, solved
 from mechsheet.studies.sweep import sweep
 from mechsheet.worksheet import numbers
@@ -75,7 +74,7 @@ class Tolerance:
         if len(shapes) > 1:
             raise SheetError(f"bands of {', '.join(names or self.names)} have different positions and no common table")
         k = Column("k", "-", "number of the position", 0, np.arange(shapes.pop()[0], dtype=float))
-        units_of = {x: numbers.suffix(units.shown(self.units[x])) for x in self.tolerances}
+        units_of = {x: numbers.suffix(self.units[x]) for x in self.tolerances}
         each = (f"{x} ± {numbers.significant(t, 6)}{units_of[x]}" for x, t in self.tolerances.items())
         lost = f" {self.lost} have no value: {self.reason}." if self.lost else ""
         return Table(

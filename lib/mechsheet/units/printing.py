@@ -6,17 +6,18 @@ from fractions import Fraction
 from functools import lru_cache
 
 from mechsheet.units.definitions import BASE, DEFINED, OF_ANGLE, PREFIXED, Dims, parse, single
-from mechsheet.units.text import UNKNOWN, Unreadable, factors, plain
+from mechsheet.units.text import UNKNOWN, factors, plain
 
 _POWERS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 _PRINTED = {"degC": "°C", "inch": "in"}
-# Of each dimension what a reader may want to see instead; moments and energies are told apart by what is typed.
+# Of each dimension what a reader may want to see instead; moments and energies are told apart by what is typed. Of
+# kelvins nobody knows whether they are a temperature or a difference.
 _USUAL = (
     "m cm mm um km inch ft", "N kN MN kgf tf lbf kip", "N*m kN*m N*mm kgf*m kgf*cm lbf*ft lbf*inch", "J kJ MJ Wh kWh",
     "Pa kPa MPa GPa bar kgf/cm**2 psi ksi", "m**2 cm**2 mm**2 inch**2 ft**2", "m**3 cm**3 mm**3 L inch**3 ft**3",
     "m**4 cm**4 mm**4 inch**4", "kg g t lb", "kg*m**2 kg*cm**2 lb*inch**2", "s ms min h", "rad deg rev",
     "rad/s deg/s rpm", "rad/s**2 deg/s**2", "m/s mm/s km/h ft/s mile/h knot", "m/s**2 mm/s**2 ft/s**2", "W kW MW hp PS",
-    "N/m N/mm kN/m kgf/cm lbf/inch", "m**3/s L/min L/s m**3/h", "kg/m**3 g/cm**3 lb/ft**3", "K degC", "- %",
+    "N/m N/mm kN/m kgf/cm lbf/inch", "m**3/s L/min L/s m**3/h", "kg/m**3 g/cm**3 lb/ft**3", "- %",
 )  # fmt: skip
 
 
@@ -36,11 +37,15 @@ def shown(text: str, power: Callable[[int], str] = raised, times: str = "·") ->
 
     >>> shown("kgf/cm**2"), shown("N*m"), shown("m/s**2", "^{}".format), shown("um"), shown("inch")
     ('kgf/cm²', 'N·m', 'm/s^2', 'µm', 'in')
+    >>> shown("open positions")
+    'open positions'
     """
-    try:
+    if text != UNKNOWN:
+        try:
+            parse(text)
+        except ValueError:
+            return text
         text = plain(text)
-    except Unreadable:
-        return text
     names = re.sub(r"[^\W\d_]+", lambda name: _printed(name[0]), text.replace("**(", "^("))
     return re.sub(r"\*\*(-?\d+)", lambda raising: power(int(raising[1])), names).replace("*", times)
 

@@ -7,9 +7,9 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from mechsheet import units
-from mechsheet.recording.graph import LEAVES, Node, bottom_up
 from mechsheet.recording.lines import Line, Recording
-from mechsheet.workbook.cell_formula import nesting
+from mechsheet.recording.node import LEAVES, Node, bottom_up
+from mechsheet.workbook.cell_formula import nesting, written_of
 from mechsheet.workbook.place import DefinedNames, Place, called
 from mechsheet.worksheet.table import Table
 
@@ -138,7 +138,7 @@ class Arrangement:
         seen: set[Node] = set()
 
         def walk(node: Node) -> None:
-            for operand in node.operands:
+            for operand in written_of(node):
                 if operand in seen or operand in self.lines or operand in self.places:
                     continue
                 seen.add(operand)
@@ -188,13 +188,13 @@ def needing_place(roots: Iterable[Node], named: Set[Node], places: Container[Nod
         elif node not in visited:
             visited.add(node)
             stack.append((node, True))
-            stack.extend((operand, False) for operand in node.operands)
-    uses = Counter(operand for node in order for operand in node.operands)
+            stack.extend((operand, False) for operand in written_of(node))
+    uses = Counter(operand for node in order for operand in written_of(node))
     placed, weight, depth = dict[Node, None](), dict[Node, int](), dict[Node, int]()
     for node in order:
-        own = 1 + sum(weight[operand] for operand in node.operands) if node.operands else 0
+        own = 1 + sum(weight[operand] for operand in written_of(node)) if written_of(node) else 0
         deep = nesting(node, depth)
-        known = node in named or node.op in (*LEAVES, "found") or node in places
+        known = node in named or node.op in (*LEAVES, "rows", "found") or node in places
         repeated = uses[node] > 1 and own > _LIGHT and node.op not in ("take", "join")
         if node.op in ("constant", "input") or (node.op == "rows" and node.size == 1):
             own = 0

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from mechsheet.recording.graph import Node, bottom_up, is_number
+from mechsheet.recording.node import Node, bottom_up, is_number
 from mechsheet.workbook.column_rows import COUNTED, Index, Rows, Unlike
 from mechsheet.workbook.place import Place
 
@@ -99,7 +99,7 @@ class CellFormulas:
             here = stack.pop()
             if here.op in _FAILS and not _safe(here):
                 return True
-            stack.extend(operand for operand in here.operands if operand not in self.places)
+            stack.extend(operand for operand in written_of(here) if operand not in self.places)
         return False
 
     def _inputs_under(self, node: Node) -> tuple[Node, ...]:
@@ -126,14 +126,20 @@ class CellFormulas:
                 return self._element(node.args[0], _position(node.args[0].shape, node.shape, at), rows)
             case "mul" if _is_one(node.args[0]):
                 return self._element(node.args[1], _position(node.args[1].shape, node.shape, at), rows)
+            case "like" | "sized":  # the number of rows is fixed
+                return self._element(node.args[0], _position(node.args[0].shape, node.shape, at), rows)
+            case "iterated":
+                return self._element(node.args[2], at, rows)
+            case "length":
+                return written(node.value.item()), 5
             case "rows":
                 place = self.places.get(node)
                 return f"ROW()-{place.row + 1 if place else 1}", 2
             case "take":
-                source, index = node.args
+                source, index, _ = node.args
                 return self._element(source, index.reshape(-1)[at], rows)
             case "join":
-                sources, which, index = node.args
+                sources, which, index, _ = node.args
                 return self._element(sources[_only(which.reshape(-1)[at])], index.reshape(-1)[at], rows)
             case "reduce":
                 return self._reduced(node, at, rows)
@@ -156,7 +162,7 @@ class CellFormulas:
         return form.format(*texts), binding
 
     def _reduced(self, node: Node, at: Index, rows: Rows) -> tuple[str, int]:
-        source, groups, kind = node.args
+        source, groups, kind, _ = node.args
         place, chosen = self.places[source], [groups[k] for k in at.tolist()]
         if max(map(len, chosen)) > 1 and all((np.diff(group) == 1).all() for group in chosen):
             ends = [np.array([group[n] for group in chosen]) for n in (0, -1)]
@@ -193,9 +199,21 @@ def _only(values: Any) -> Any:
     return first
 
 
+def written_of(node: Node) -> tuple[Node, ...]:
+    """Quantities that stand in the formula of one: none of those that tell how many rows there are, which is fixed."""
+    match node.op:
+        case "like" | "sized":
+            return node.operands[:1]
+        case "rows" | "length":
+            return ()
+        case "iterated":  # by the turns that the loop takes, while these are as many
+            return node.args[2:]
+    return node.operands
+
+
 def nesting(node: Node, inside: Mapping[Node, int]) -> int:
     """Parentheses inside each other in the formula of an operation whose operands have ``inside``."""
-    deep = {operand: max(inside[operand], COUNTED * _elsewhere(operand, node)) for operand in node.operands}
+    deep = {operand: max(inside[operand], COUNTED * _elsewhere(operand, node)) for operand in written_of(node)}
     deepest = max(deep.values(), default=0)
     if node.op == "reduce":
         return deepest + (2 if node.args[2].startswith("arg") else 1)
@@ -228,7 +246,7 @@ def _safe(node: Node) -> bool:
 
 def _is_constant(node: Node) -> bool:
     """Whether a quantity is made of constants alone, such as ``2*kN``."""
-    return all(part.op == "constant" or part.operands for part in bottom_up([node], ()))
+    return all(part.op == "constant" or (part.operands and part.op != "rows") for part in bottom_up([node], ()))
 
 
 def _is_one(node: Node) -> bool:

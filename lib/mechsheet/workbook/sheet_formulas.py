@@ -3,8 +3,8 @@
 from typing import NamedTuple
 
 from mechsheet import units
-from mechsheet.recording.graph import Node, bottom_up
 from mechsheet.recording.lines import Line
+from mechsheet.recording.node import Node, bottom_up
 from mechsheet.recording.quantity import Quantity
 from mechsheet.recording.record import leaves_of
 from mechsheet.workbook.arrangement import Arrangement

@@ -4,7 +4,7 @@ import ast
 import difflib
 import re
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import lru_cache
 from itertools import chain
 from pathlib import Path
@@ -48,6 +48,7 @@ class Worksheet:
     common: Mapping[str, Any]
     title: str
     setup: tuple[ast.stmt, ...] = ()  # statements that bind shared names to values
+    errors: Mapping[str, Any] = field(default_factory=dict)  # what its setup has numpy do about errors
 
     def run(self, want: Iterable[str], given: Mapping[str, Any]) -> dict[str, Any]:
         """Namespace after running the cells that ``want`` depends on, where the names ``given`` are known already.
@@ -69,7 +70,7 @@ class Worksheet:
 
     def _run(self, cells: Iterable[Cell], given: Mapping[str, Any]) -> dict[str, Any]:
         names = {**self.common, **given}
-        with raised():
+        with raised(), np.errstate(**self.errors):
             for cell in cells:
                 try:
                     exec(cell.code, names)
@@ -295,10 +296,11 @@ def read(path: Path) -> Worksheet:
                 common[name or "marimo"] = Marimo()
             case _:
                 lines.append(node)
-    with raised():
+    with raised(), np.errstate():
         exec(compile(ast.Module(lines, []), path, "exec"), common)
+        errors = np.geterr()
     setup = tuple(node for node in lines if isinstance(node, ast.Assign | ast.AnnAssign))
-    return Worksheet(str(path), tuple(_cells(tree, text, path)), common, _title(tree) or path.stem, setup)
+    return Worksheet(str(path), tuple(_cells(tree, text, path)), common, _title(tree) or path.stem, setup, errors)
 
 
 def _title(tree: ast.Module) -> str | None:

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import isnan
 from typing import Any, overload
 
@@ -14,7 +14,7 @@ from mechsheet import units
 from mechsheet.mechanics.equilibrium import Reaction, left_over
 from mechsheet.mechanics.load import Load
 from mechsheet.worksheet import numbers
-from mechsheet.worksheet.errors import SheetError, refuse
+from mechsheet.worksheet.errors import SheetError, measured, refuse
 from mechsheet.worksheet.find import Found
 from mechsheet.worksheet.shown import Shown
 from mechsheet.worksheet.system import Solution
@@ -51,6 +51,12 @@ class Check(Shown):
     def verdict(self) -> str:
         """One of pass, FAIL, not evaluated."""
         return "not evaluated" if not self.evaluated else "pass" if self.passed else "FAIL"
+
+    def shown_in(self, unit: str) -> "Check":
+        """The same check in another unit that measures the same."""
+        own, other = units.parse(self.unit).factor, units.parse(unit).factor
+        residual, limit = (x * own / other for x in (self.residual, self.limit))
+        return replace(self, residual=residual, limit=limit, unit=unit)
 
     @property
     def compared(self) -> tuple[str, str]:
@@ -95,7 +101,7 @@ def check(name: str, residual: ArrayLike, limit: float, unit: str = "-", of: Arr
 
 def _held(name: str, residual: ArrayLike, limit: float, unit: str, size: float = np.inf) -> Check:
     """Check of a residual, of two computations of a quantity of that size; all in SI."""
-    sizes, factor = np.abs(residual), units.parse(unit).factor
+    sizes, factor = np.abs(residual), measured(unit).factor
     reason, lost = "", int(np.count_nonzero(np.isnan(sizes)))
     if not sizes.size:
         reason = "there is nothing to check"
@@ -192,6 +198,7 @@ def assembled(name: str, point: ArrayLike, over: ArrayLike, reaches: tuple[Any, 
     """
     if len(reaches) != 2:
         refuse(SheetError(f"assembled {name!r}: reaches must be the two limits of {what}, got {len(reaches)}"))
+    measured(unit)
     lost = np.isnan(point)
     count = int(np.count_nonzero(lost))
     if not lost.size:
@@ -208,6 +215,7 @@ def require(point: ArrayLike, over: ArrayLike, reaches: tuple[Any, Any], what: s
 
     Of many variants those that do not close stay NaN, and the others go on.
     """
+    measured(unit)
     lost = np.isnan(point)
     if np.ndim(lost) < 2 and lost.all():
         refuse(SheetError(_unreached(lost, over, reaches, what, unit)))
@@ -238,7 +246,7 @@ def _tell(lost: Any, over: ArrayLike, reaches: tuple[Any, Any], what: str, unit:
 
 
 def _unreached(lost: NDArray[np.bool_], over: ArrayLike, reaches: tuple[Any, Any], what: str, unit: str) -> str:
-    factor = units.parse(unit).factor
+    factor = measured(unit).factor
     x, lo, hi = (float(np.broadcast_to(v, np.shape(lost))[lost].flat[0]) / factor for v in (np.asarray(over), *reaches))
     if np.isnan(x):
         return f"no position closes: there is no {what}"

@@ -12,7 +12,7 @@ from mechsheet import units
 from mechsheet.mechanics.brackets import Array, Mask
 from mechsheet.mechanics.starts import Place
 from mechsheet.worksheet import numbers
-from mechsheet.worksheet.errors import SheetError
+from mechsheet.worksheet.errors import SheetError, measured
 
 Start = ArrayLike | tuple[ArrayLike, ArrayLike]  # a guess, or the ends of an interval
 
@@ -181,6 +181,8 @@ def _each(unit: str | Sequence[str], count: int, what: str, of: str) -> tuple[st
     several = (unit,) * count if isinstance(unit, str) else tuple(unit)
     if len(several) != count:
         raise SheetError(f"{what} has {len(several)} units for {count} {of}")
+    for each in several:
+        measured(each)
     return several
 
 

@@ -6,6 +6,7 @@ from contextlib import contextmanager
 from contextvars import ContextVar
 from typing import Any, NoReturn
 
+from mechsheet import units
 from mechsheet.worksheet import shown as values
 
 _called = ContextVar("_called", default=False)
@@ -51,6 +52,14 @@ def refuse(error: SheetError, shown: Any = None) -> NoReturn:
     if "marimo" in sys.modules and not _called.get():
         values.page().refused(error, shown)
     raise error
+
+
+def measured(unit: str) -> units.Unit:
+    """The unit of that text; one that is not known is refused."""
+    try:
+        return units.parse(unit)
+    except ValueError as error:
+        refuse(SheetError(str(error)))
 
 
 @contextmanager

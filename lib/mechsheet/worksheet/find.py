@@ -17,7 +17,7 @@ from mechsheet.mechanics.brackets import Array, Function
 from mechsheet.mechanics.roots import Counted, Roots, all_roots, nearest_root, real_values, together
 from mechsheet.worksheet import numbers
 from mechsheet.worksheet.equations import Start
-from mechsheet.worksheet.errors import SheetError, refuse
+from mechsheet.worksheet.errors import SheetError, measured, refuse
 from mechsheet.worksheet.system import Solution, solve
 from mechsheet.worksheet.verdict import Verdict, asks_values_only
 
@@ -273,6 +273,7 @@ def find(  # type: ignore[misc]
     on = np.asarray(0 if branch is None else branch)
     if (branch is None) != (branches is None) or not np.isin(on, labels).all():
         raise ValueError(f"branch = {branch} of {unknown} must be one of {branches}")
+    measured(unit), measured(unknown_unit)
     words = _Words(unknown, quantity, unit, unknown_unit)
     given = _checked(words, lo=lo, hi=hi, equals=equals, guess=guess)
     functions = [f] if branches is None else [_on_branch(f, s) for s in labels]

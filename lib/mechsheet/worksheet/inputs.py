@@ -107,10 +107,9 @@ def _declared(cls: type, cell: source.Cell, names: Mapping[str, Any]) -> tuple[I
         text = lines.declared(comment)
         if text is None and kind in (int, float, list[float]) and not isinstance(default, Offer):
             raise SheetError(f"{place}: input {name} needs a comment with its unit, such as # [m] meaning")
-        if text and text.mistake:
-            raise SheetError(f"{place}: {text.mistake}")
         unit, (meaning, _, limits) = text.unit if text else "-", (text.meaning if text else comment).partition(";")
-        plain = Input(name, unit, meaning.strip(), section, kind is int, tuple(_limits(limits, name, place)))
+        allowed, mistake = tuple(_limits(limits, name, place)), text.mistake if text else ""
+        plain = Input(name, unit, meaning.strip(), section, kind is int, allowed, mistake=mistake, line=line)
         own = _of_kind(plain, kind, default, place, folder)
         if isinstance(own, Rows):
             if own.row and limits:

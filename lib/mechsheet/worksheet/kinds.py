@@ -29,7 +29,8 @@ _LONGEST = 200  # characters of a text, so that a formula of a workbook can hold
 class Input:
     """One declared input, here a number; a value is held in SI, and shown in the display unit.
 
-    ``limits`` are pairs such as (">", "0"), in the display unit, or ("<", "S_max").
+    ``limits`` are pairs such as (">", "0"), in the display unit, or ("<", "S_max"). ``mistake`` tells why the unit is
+    not known, and the value is in SI; ``line`` is that of the declaration.
     """
 
     name: str
@@ -39,6 +40,8 @@ class Input:
     whole: bool
     limits: tuple[tuple[str, str], ...]
     many: bool = False  # whether it stands for a column of numbers
+    mistake: str = ""
+    line: int = 0
 
     @property
     def continuous(self) -> bool:

@@ -102,7 +102,7 @@ def value(values: Any, unit: str, to: Notation) -> str:
         text = to.span.join(_end(end.item(), unit, to) for end in (field.flat[0], field.flat[-1]))
     else:
         return _extent(field, unit, to)
-    return text + _unit(unit, to)
+    return text + behind(unit, to)
 
 
 _MOST_NUMBERS, _MOST_POINTS, _MOST_ROWS = 10, 4, 4  # that stand in full
@@ -111,7 +111,7 @@ _MOST_NUMBERS, _MOST_POINTS, _MOST_ROWS = 10, 4, 4  # that stand in full
 def _extent(field: NDArray[Any], unit: str, to: Notation) -> str:
     lost = np.count_nonzero(np.isnan(field))
     none = f" ({lost} of {field.size} {to.none})" if 0 < lost < field.size else ""
-    return _span(field, unit, to) + _unit(unit, to) + none
+    return _span(field, unit, to) + behind(unit, to) + none
 
 
 def _span(field: NDArray[Any], unit: str, to: Notation) -> str:
@@ -123,7 +123,7 @@ def _span(field: NDArray[Any], unit: str, to: Notation) -> str:
 
 def quantity(z: float | complex, unit: str, to: Notation) -> str:
     """Number or pair in its display unit."""
-    return _number(z, to) + _unit(unit, to)
+    return _number(z, to) + behind(unit, to)
 
 
 @lru_cache(maxsize=4096, typed=True)  # most numbers stay when an input changes; 0 and 0j are not shown alike
@@ -137,7 +137,8 @@ def _number(z: float | complex, to: Notation) -> str:
 
 
 @cache
-def _unit(unit: str, to: Notation) -> str:
+def behind(unit: str, to: Notation) -> str:
+    """A unit as it stands behind a number; a pure number has none."""
     special = {"-": "", "deg": to.degrees, "%": to.percent}
     if unit in special:
         return special[unit]
@@ -187,5 +188,9 @@ def extent(values: ArrayLike, unit: str) -> str:
 
 
 def suffix(unit: str) -> str:
-    """A unit behind a number; a pure number has none."""
-    return "" if unit == "-" else f" {unit}"
+    """A unit behind a number, as it is printed; a pure number has none.
+
+    >>> suffix("m/s**2"), suffix("-")
+    (' m/s²', '')
+    """
+    return "" if unit == "-" else f" {units.shown(unit)}"

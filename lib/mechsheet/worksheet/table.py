@@ -30,7 +30,8 @@ MARKED = 60  # points of a curve that are marked one by one; more of them hide t
 class Column:
     """One quantity over the rows of a table: its symbol, display unit, meaning and values in that unit.
 
-    Values may be texts, of unit "". ``power`` shows numbers as 1.2e-15.
+    Values may be texts, of unit "". ``power`` shows numbers as 1.2e-15. ``of`` is the name that the line declares, of
+    a field without its ``_S``.
     """
 
     symbol: str
@@ -39,6 +40,7 @@ class Column:
     decimals: int
     values: NDArray[Any]
     power: bool = False
+    of: str = ""
 
     def texts(self) -> list[str]:
         """The values as they are shown."""
@@ -197,7 +199,7 @@ def _columns(
         shown = np.broadcast_to(np.asarray(value) / units.parse(unit).factor, shape)[..., ::every].ravel()
         whole = np.asarray(value).dtype.kind in "iu"
         places = usual_decimals(unit) if decimals is None else decimals
-        columns.append(Column(label, unit, line.meaning, 0 if whole else places, shown))
+        columns.append(Column(label, unit, line.meaning, 0 if whole else places, shown, of=symbol.stem(name)))
     return tuple(columns)
 
 

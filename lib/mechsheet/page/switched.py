@@ -1,0 +1,51 @@
+"""Numbers whose unit is switched on the page: each with what it is in the other units that measure the same.
+
+The elements that carry them are shown by ``units.js``.
+"""
+
+from collections.abc import Callable, Sequence
+from functools import cache
+from math import isfinite
+from typing import Any
+
+from mechsheet import units
+from mechsheet.document.markup import HTML
+from mechsheet.page.script import element
+from mechsheet.worksheet import numbers
+from mechsheet.worksheet.numbers import Notation
+from mechsheet.worksheet.table import Column
+
+UNIT = "<ms-unit>{}</ms-unit>"  # on which one clicks
+_SWITCHED = HTML._replace(degrees=UNIT.format(HTML.degrees), unit=f" {UNIT}")
+
+
+@cache
+def offered(unit: str) -> tuple[str, ...]:
+    """Other units in which a number may be shown; none for a pure number, whose unit is not seen."""
+    return tuple(other for other in units.alike(unit)[1:] if "-" not in (unit, other))
+
+
+def value(of: str, unit: str, text: Callable[[str, Notation], str]) -> str:
+    """HTML that ``text`` gives in a unit and a notation; it follows the unit that is chosen for what it shows."""
+    texts = {units.shown(other): text(other, _SWITCHED) for other in offered(unit)}
+    if not texts:
+        return text(unit, HTML)
+    return element("ms-value", f"<span>{text(unit, _SWITCHED)}</span>", of=of, unit=units.shown(unit), texts=texts)
+
+
+def columns(shown: Sequence[Column], table: str) -> str:
+    """HTML of a table, whose columns follow the units that are chosen for what they show."""
+    told = [_column(column) if column.of and offered(column.unit) else None for column in shown]
+    return element("ms-columns", table, columns=told) if any(told) else table
+
+
+def _column(column: Column) -> dict[str, Any]:
+    known = (column.unit, *offered(column.unit))
+    return {
+        "of": column.of,
+        "unit": units.shown(column.unit),
+        "units": {units.shown(unit): units.parse(unit).factor for unit in known},
+        "decimals": column.decimals,
+        "power": column.power,
+        "values": [x if isfinite(x) else numbers.fixed(x, 0, numbers.CELL) for x in column.values.tolist()],
+    }

@@ -1,0 +1,178 @@
+// Units under the hand: a click on one offers those that measure the same; what it stands behind is shown in the chosen one.
+(() => {
+  if (customElements.get("ms-unit")) return;
+
+  const chosen = new Map(); // by what is shown, while the page is open
+  const hosts = new Set();
+
+  customElements.define(
+    "ms-unit",
+    class extends HTMLElement {
+      constructor() {
+        super();
+        this.addEventListener("keydown", (event) => {
+          if (event.key !== "Enter" && event.key !== " ") return;
+          event.preventDefault();
+          event.stopPropagation(); // the editor would go to the code of the cell
+          offer(this);
+        });
+      }
+
+      connectedCallback() {
+        this.tabIndex = 0;
+        this.role = "button";
+        this.ariaHasPopup = "menu";
+      }
+    },
+  );
+
+  // What the page shows in the declared units stays as it is, and is hidden behind its copy in the chosen ones.
+  class Host extends HTMLElement {
+    connectedCallback() {
+      hosts.add(this);
+      this.show();
+    }
+
+    disconnectedCallback() {
+      hosts.delete(this);
+    }
+
+    attributeChangedCallback(_name, before) {
+      if (before !== null) queueMicrotask(() => this.show()); // once its content has changed too
+    }
+
+    show() {
+      this.querySelector(":scope > .ms-chosen")?.remove();
+      const copy = this.copied();
+      this.toggleAttribute("switched", Boolean(copy));
+      if (!copy) return;
+      copy.classList.add("ms-chosen");
+      this.append(copy);
+    }
+
+    told(name) {
+      return JSON.parse(this.getAttribute(name));
+    }
+  }
+
+  class Value extends Host {
+    static observedAttributes = ["texts", "of"];
+
+    offered() {
+      const unit = this.getAttribute("unit");
+      return { of: this.getAttribute("of"), unit, units: [unit, ...Object.keys(this.told("texts"))] };
+    }
+
+    copied() {
+      const text = chosen.has(this.getAttribute("of")) && this.told("texts")[chosen.get(this.getAttribute("of"))];
+      return text && Object.assign(document.createElement("span"), { innerHTML: text });
+    }
+  }
+  customElements.define("ms-value", Value);
+
+  class Columns extends Host {
+    static observedAttributes = ["columns"];
+
+    offered(unit) {
+      const column = this.told("columns")[unit.closest("th").cellIndex];
+      return { ...column, units: Object.keys(column.units) };
+    }
+
+    copied() {
+      const switched = (column) => column && chosen.get(column.of) in column.units && chosen.get(column.of) !== column.unit;
+      const columns = this.told("columns");
+      if (!columns.some(switched)) return null;
+      const copy = this.firstElementChild.cloneNode(true);
+      columns.forEach((column, i) => {
+        if (!switched(column)) return;
+        const unit = chosen.get(column.of);
+        copy.querySelectorAll("ms-unit").forEach((each) => {
+          if (each.closest("th").cellIndex === i) each.textContent = unit;
+        });
+        const texts = inUnit(column, unit);
+        [...copy.tBodies[0].rows].forEach((row, k) => (row.cells[i].textContent = texts[k]));
+      });
+      return copy;
+    }
+  }
+  customElements.define("ms-columns", Columns);
+
+  // A column in another unit, not finer than it is in its own; of its greatest number five digits are enough.
+  function inUnit({ units, unit, decimals, power, values }, other) {
+    const shown = values.map((x) => (typeof x === "string" ? x : (x * units[unit]) / units[other]));
+    const greatest = Math.max(...shown.filter(Number.isFinite).map(Math.abs), 0);
+    const before = Number(greatest.toExponential().split("e")[1]) + 1;
+    const same = decimals + Math.round(Math.log10(units[other] / units[unit]));
+    const places = Math.max(0, Math.min(same, 5 - before));
+    return shown.map((y) => (typeof y === "string" ? y : power ? scientific(y, decimals) : fixed(y, places)));
+  }
+
+  // Numbers as the library writes them: of two as near the even one, no sign of a zero, two digits of a power of ten.
+  function fixed(x, decimals) {
+    const size = Math.abs(x);
+    if (size >= 1e21) return signed(x, BigInt(size) + (decimals ? `.${"0".repeat(decimals)}` : ""));
+    return signed(x, even(size.toFixed(decimals), size.toFixed(decimals + MORE)));
+  }
+
+  function scientific(x, decimals) {
+    const [digits, power] = Math.abs(x).toExponential(decimals).split("e");
+    const [longer, same] = Math.abs(x).toExponential(decimals + MORE).split("e");
+    const mantissa = power === same ? even(digits, longer) : digits;
+    return signed(x, `${mantissa}e${power[0]}${power.slice(1).padStart(2, "0")}`);
+  }
+
+  const MORE = 20; // digits behind the last one, by which a number half-way between two texts is known
+
+  function even(text, longer) {
+    const isHalf = longer.endsWith(`5${"0".repeat(MORE - 1)}`);
+    return isHalf && text.at(-1) % 2 ? text.slice(0, -1) + (text.at(-1) - 1) : text;
+  }
+
+  function signed(x, text) {
+    return x < 0 && /[1-9]/.test(text.split("e")[0]) ? `-${text}` : text;
+  }
+
+  const menu = document.createElement("div");
+  menu.className = "ms-menu";
+  menu.role = "menu";
+  menu.popover = "auto";
+
+  function offer(unit) {
+    const host = unit.closest("ms-value, ms-columns");
+    const { of, unit: own, units } = host.offered(unit);
+    const now = chosen.get(of) ?? own;
+    menu.replaceChildren(
+      ...units.map((label) => {
+        const item = document.createElement("button");
+        Object.assign(item, { textContent: label, role: "menuitemradio", ariaChecked: label === now });
+        item.onclick = () => choose(host, of, label);
+        return item;
+      }),
+    );
+    document.body.append(menu);
+    menu.showPopover();
+    const { left, bottom, top } = unit.getBoundingClientRect();
+    menu.style.left = `${Math.min(left, innerWidth - menu.offsetWidth - 8)}px`;
+    menu.style.top = `${bottom + menu.offsetHeight > innerHeight ? top - menu.offsetHeight : bottom}px`;
+    (menu.querySelector("[aria-checked=true]") ?? menu.firstElementChild).focus();
+  }
+
+  function choose(host, of, label) {
+    chosen.set(of, label);
+    hosts.forEach((each) => each.show());
+    menu.hidePopover();
+    const units = [...host.lastElementChild.querySelectorAll("ms-unit")];
+    units.find((unit) => host.offered(unit).of === of)?.focus();
+  }
+
+  document.addEventListener("click", ({ target }) => {
+    if (target.matches?.("ms-value ms-unit, ms-columns ms-unit")) offer(target);
+  });
+
+  menu.addEventListener("keydown", (event) => {
+    const step = { ArrowDown: "nextElementSibling", ArrowUp: "previousElementSibling" }[event.key];
+    if (!step) return;
+    event.preventDefault();
+    event.target[step]?.focus();
+  });
+})();

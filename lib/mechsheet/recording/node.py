@@ -1,0 +1,141 @@
+"""One quantity of a recording: an operation on others, with its values."""
+
+from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from mechsheet.recording.operations import ELEMENTWISE, Values
+
+LEAVES = ("constant", "input")
+
+
+@dataclass(eq=False)
+class Block:
+    """A solve block: its unknowns are the ``nodes`` at which the ``residuals`` vanish, which themselves rest on these.
+
+    ``starts`` are the quantities that it was given, by their names: ``lo``, ``hi`` and ``guess`` of a ``single``
+    unknown, else the guess or the two ends of each. ``under`` are all that it rests on but its own unknowns. Where all
+    is ``elementwise``, the residuals of many values of the unknowns are those of each.
+    """
+
+    starts: Mapping[str, tuple["Node", ...]]
+    single: bool
+    least: bool = False
+    unit: tuple[str, ...] = ()
+    unknown_unit: tuple[str, ...] = ()
+    nodes: tuple["Node", ...] = ()
+    residuals: tuple["Node", ...] = ()
+    under: tuple["Node", ...] = ()
+    elementwise: bool = True
+
+    def rest(self) -> None:
+        """Find out what the block rests on, once its residuals are known."""
+        own, self.under = _resting(self.nodes, self.residuals, [n for nodes in self.starts.values() for n in nodes])
+        self.elementwise = all(node.op in ELEMENTWISE for node in own)
+
+
+class Loop:
+    """A loop that ends by what it computes: the ``nodes`` of its state, of which a turn makes the ``following`` ones.
+
+    It begins with the ``initial`` numbers and ends where ``done`` holds after a turn, or after the ``most`` turns;
+    ``under`` are all that it rests on but its own state.
+    """
+
+    def __init__(
+        self,
+        nodes: Sequence["Node"],
+        initial: Sequence["Node"],
+        following: Sequence["Node"],
+        done: "Node",
+        most: int | None,
+    ) -> None:
+        self.nodes, self.initial, self.following, self.done, self.most = nodes, initial, following, done, most
+        _, self.under = _resting(nodes, [done, *following], initial)
+
+
+def _resting(
+    nodes: Iterable["Node"], made: Sequence["Node"], given: Iterable["Node"]
+) -> tuple[list["Node"], tuple["Node", ...]]:
+    """What rests on some nodes, of all that is made of these, and what else that rests on, beside what is given."""
+    own, under, rests = set(nodes), dict[Node, None](), list[Node]()
+    for node in bottom_up(made, own):
+        if not own.isdisjoint(node.operands):
+            own.add(node)
+            rests.append(node)
+            under |= dict.fromkeys(operand for operand in node.operands if operand not in own)
+    known = [*(node for node in under if node not in own), *(node for node in made if node not in own), *given]
+    return rests, tuple(dict.fromkeys(node for node in known if node.op != "constant"))
+
+
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Node:
+    """One real quantity of any shape: an operation on other quantities, with its values.
+
+    It never changes, nor do its values. A node equals only itself: what a reader finds out about nodes it keeps in a
+    table of its own, with the node as the key. ``line`` is the line of the worksheet that made it first, 0 for none.
+
+    Operations are those of `ELEMENTWISE`, on operands that are broadcast to each other, and
+
+    ==========================  ====================================================================================
+    ``constant``, ``input``     numbers, with a unit where they have one; an input
+    ``rows`` (count)            the numbers 0, 1, 2 .. of so many rows
+    ``length`` (source, axis)   how many elements there are along an axis, which is counted from the last one
+    ``found`` (block, number)   one of the unknowns that a `Block` finds; after them its evaluations of the equations
+    ``state`` (initial)         one of the numbers that a `Loop` changes, at any of its turns
+    ``iterated`` (loop, ..)     what its ``number`` is in the end; by its ``turns`` alone while these are as many
+    ``exported``                numbers of the worksheet's own run, which rest on its operands nobody knows how
+    ``take`` (source, ..)       elements by their flat positions, in the shape of these
+    ``at`` (source, position)   elements by positions that are a quantity themselves
+    ``join`` (sources, ..)      elements of several sources: which source, and which element of it
+    ``reduce`` (source, ..)     of each group of flat positions what the kind says, one of `REDUCE`
+    ==========================  ====================================================================================
+
+    A quantity ``stretches`` whose shape follows a number of rows that is a quantity. Positions are those of the present
+    number; `Moved` says what they are for others.
+    """
+
+    op: str
+    args: tuple[Any, ...]
+    value: Values
+    line: int = 0
+    stretches: bool = False
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        return self.value.shape
+
+    @property
+    def size(self) -> int:
+        return self.value.size
+
+    @property
+    def operands(self) -> tuple["Node", ...]:
+        if self.op in LEAVES:
+            return ()
+        if self.op in ("found", "iterated"):
+            under: tuple[Node, ...] = self.args[0].under
+            return under
+        return self.args[0] if self.op == "join" else self.args[:1] if self.op in _OF_ONE else self.args
+
+
+_OF_ONE = ("take", "reduce", "length")  # whose other arguments are no quantities
+
+
+def bottom_up(roots: Iterable["Node"], known: Container["Node"]) -> Iterator["Node"]:
+    """Nodes under ``roots`` that are not ``known`` yet, each once and after its operands."""
+    stack, done = [(root, False) for root in roots], set[Node]()
+    while stack:
+        node, ready = stack.pop()
+        if node in done or node in known:
+            continue
+        if ready:
+            done.add(node)
+            yield node
+        else:
+            stack.append((node, True))
+            stack.extend((operand, False) for operand in node.operands if operand not in done)
+
+
+def is_number(node: Node, number: float) -> bool:
+    """Whether a node is this constant, without a unit."""
+    return node.op == "constant" and not node.args and node.shape == () and bool(node.value == number)

@@ -1,0 +1,250 @@
+"""No number is stale of what an engineer writes in a cell: tables of gases and materials, load cases, statistics."""
+
+from pathlib import Path
+
+import pytest
+from own_worksheet import assert_never_stale
+
+CONSTRUCTS = [
+    (
+        "T = np.array([300.0, 400, 600, 900])\ncp = np.array([1.005, 1.013, 1.051, 1.121])\n"
+        "y = interp(300 * g.F, T, cp) * g.a"
+    ),
+    (
+        "T = np.array([300.0, 400, 600, 900])\nh = np.cumsum(T) / g.F\n"
+        "y = interp(g.a * 900, T, h) - interp(T, T * g.a, h)"
+    ),
+    "F_V, k_A = 20 * g.F, 1.6\nF_A = [1.0, g.F, 3.0]\ny = np.array([F_V / k_A + (1 - g.a) * F for F in F_A])",
+    (
+        "cases = {'start': (g.F, 1.0), 'stop': (1.0, g.a), 'idle': (0.2, 0.3)}\n"
+        "y = max(np.hypot(*c) for c in cases.values())"
+    ),
+    (
+        "cases = {'start': (g.F, 1.0), 'stop': (1.0, g.a)}\nworst = max(cases, key=lambda c: np.hypot(*cases[c]))\n"
+        "y = cases[worst][0] * g.a"
+    ),
+    "materials = {'S235': 235.0, 'S355': 355.0}\nR_e = materials['S355' if g.F > 3 else 'S235']\ny = R_e / g.a",
+    (
+        "materials = {'S235': {'R': 235.0, 'E': 2.1}, 'S355': {'R': 355.0, 'E': 2.0}}\n"
+        "m = materials['S355' if g.F > 3 else 'S235']\ny = m['R'] * m['E'] * g.a"
+    ),
+    "W = np.concatenate([[0.0], np.cumsum((x[1:] + x[:-1]) / 2 * np.diff(x))])\ny = W * g.a",
+    "W = np.zeros_like(x)\nfor i in range(1, len(x)):\n    W[i] = W[i - 1] + (x[i] + x[i - 1]) * g.a\ny = W * 1.0",
+    "W = np.zeros(len(x))\nW[1:] = np.cumsum(x[1:] * g.a)\ny = W * 1.0",
+    "from scipy.integrate import cumulative_trapezoid\ny = cumulative_trapezoid(np.sin(x), x, initial=0) * g.a",
+    "y = (x - x.mean()) / x.std(ddof=1) * g.a",
+    "y = np.corrcoef(x, np.sin(x))[0, 1] * g.a",
+    "y = np.cov(x, np.cos(x))[0, 1] * g.a",
+    "y = np.quantile(x * np.cos(x), [0.1, 0.5, g.a / 2])",
+    "y = np.percentile(np.cos(x * g.a), [25, 75])",
+    "y = np.median(np.array([[g.F, 1.0, g.a], [2.0, 0.1, 3.0]]), axis=0)",
+    "y = np.average(np.sin(x), weights=x**g.a)",
+    "mask = (x > 1) & (x < g.F)\ny = np.where(mask, x, 0.0).sum() * g.a",
+    "mask = (x > 1) & (x < g.F)\ny = x[mask].mean() * g.a if mask.any() else 0.0",
+    "y = np.where(x > g.F, np.nan, x) * g.a",
+    "v = np.where(x > g.F / 2, np.nan, x)\ny = np.nanmax(v) - np.nanmin(v) + np.nanmean(v) + np.nanstd(v)",
+    "v = np.where(x > 2.0, np.nan, x)\ny = np.nan_to_num(v, nan=g.a)",
+    "v = np.where(x > 2.0, np.nan, x)\ny = np.isnan(v).sum() * g.a",
+    "y = np.where(np.isnan(np.sqrt(x - 2)), 0.0, x) * g.a",
+    "y = np.select([x < 1, x < 2], [x * g.a, 1.0], default=np.nan)",
+    "y = np.piecewise(x, [x < 1, x > g.F], [lambda v: v**2, 3.0, lambda v: -v])",
+    "c = np.polyfit([0.0, 1.0, 2.0, 3.0], [g.F, 1.0, g.a, 2.0], 2)\ny = np.polyval(c, x)",
+    "p = np.poly1d([g.F, 1.0, g.a])\ny = p(x) + p.deriv()(1.0)",
+    "y = np.polyval(np.polyder([g.F, 2.0, 1.0]), x)",
+    "y = np.polyval(np.polyint([g.F, 2.0, 1.0]), x) * g.a",
+    "y = np.polymul([g.F, 1.0], [1.0, g.a]) * 1.0",
+    "from numpy.polynomial import Polynomial\ny = Polynomial([1.0, g.F, g.a])(x)",
+    "from numpy.polynomial import polynomial as P\ny = P.polyval(x, [1.0, g.F, g.a])",
+    "y = np.roots([1.0, -g.F - 1, g.F]).real.max() * g.a",
+    "y = np.trapezoid(np.vstack([x, x**2]), x, axis=1) * g.a",
+    "y = np.trapezoid(np.abs(np.sin(x)), dx=g.a)",
+    "y = np.gradient(np.sin(x), x[1] - x[0]) * g.a",
+    "y = np.gradient(np.sin(x), x, edge_order=2) * g.a",
+    "y = np.gradient(np.sin(x)) * g.a",
+    "K = np.array([[2 * g.F, -g.F], [-g.F, g.F + g.a]])\ny = np.linalg.solve(K, [1.0, 2.0])",
+    "K = np.array([[2 * g.F, -g.F], [-g.F, g.F + g.a]])\ny = np.linalg.eigvalsh(K)",
+    "K = np.array([[2 * g.F, -g.F], [-g.F, g.F + g.a]])\ny = np.sqrt(np.linalg.eigh(K)[0])",
+    "K = np.array([[2 * g.F, -g.F], [-g.F, g.F + g.a]])\ny = np.linalg.inv(K)[0] @ np.array([1.0, g.a])",
+    "K = np.array([[2 * g.F, -g.F], [-g.F, g.F + g.a]])\ny = np.linalg.det(K) + np.linalg.norm(K) + np.trace(K)",
+    "K = np.array([[2 * g.F, -g.F], [-g.F, g.F + g.a]])\ny = np.linalg.matrix_power(K, 2)[0]",
+    (
+        "K = np.array([[g.F, 1.0], [g.a, 3.0], [1.0, 1.0]])\n"
+        "y = np.linalg.lstsq(K, np.array([1.0, g.F, 2.0]), rcond=None)[0]"
+    ),
+    (
+        "K = np.array([[g.F, 1.0], [g.a, 3.0]])\n"
+        "y = np.linalg.norm(K, axis=1) + np.linalg.norm(x, ord=1) + np.linalg.norm(x, np.inf)"
+    ),
+    "K = np.array([[g.F, 1.0], [g.a, 3.0]])\ny = np.linalg.cond(K) * g.a",
+    "y = np.unwrap(np.angle(np.exp(3j * x))) * g.a",
+    "y = np.unwrap(np.arctan2(np.sin(x * g.F), np.cos(x * g.F)))",
+    "y = np.cross([g.F, 1.0, 0.0], [0.0, g.a, 2.0])",
+    "r, f = np.array([g.F, 1.0]), np.array([g.a, 2.0])\ny = r[0] * f[1] - r[1] * f[0] + np.dot(r, f)",
+    "y = np.outer(x, [1.0, g.a]).sum(axis=1)",
+    "y = np.einsum('i,j->ij', x, np.array([1.0, g.a]))[:, 1]",
+    "y = np.einsum('ij,j->i', np.array([[g.F, 1.0], [g.a, 2.0]]), [1.0, g.a])",
+    "y = np.tensordot(x, x, axes=1) * g.a",
+    "y = np.kron([1.0, g.F], [g.a, 2.0])",
+    "y = np.histogram(x, bins=[0.0, 1.0, 2.0, 9.0])[0] * g.a",
+    "y = np.histogram(x, 3, weights=x)[0] * g.a",
+    "edges = np.array([0.0, 1.0, 2.0, 4.0])\ny = np.array([10.0, 20, 30, 40, 50])[np.searchsorted(edges, x)] * g.a",
+    "d = np.array([6.0, 8, 10, 12, 16, 20])\ny = d[np.searchsorted(d, 3 * g.F)] * g.a",
+    "d = np.array([6.0, 8, 10, 12, 16, 20])\ny = d[d >= 3 * g.F][0] * g.a",
+    "d = np.array([6.0, 8, 10, 12, 16, 20])\ny = d[d >= 3 * g.F].min() * g.a",
+    "d = [6.0, 8.0, 10.0, 12.0, 16.0]\ny = next(v for v in d if v >= 3 * g.F) * g.a",
+    "d = [6.0, 8.0, 10.0, 12.0, 16.0]\ny = min((v for v in d if v >= 3 * g.F), default=20.0) * g.a",
+    "d = [6.0, 8.0, 10.0, 12.0, 16.0]\ny = min(d, key=lambda v: abs(v - 3 * g.F)) * g.a",
+    "d = np.array([6.0, 8, 10, 12, 16, 20])\ny = d[np.argmin(np.abs(d - 3 * g.F))] * g.a",
+    "d = np.array([6.0, 8, 10, 12, 16, 20])\ny = d[np.argmax(d >= 3 * g.F)] * g.a",
+    "t = sorted([(g.F, 1.0), (g.a, 2.0), (1.5, 3.0)])\ny = t[0][1] * g.F",
+    (
+        "t = sorted([(g.F, 1.0), (g.a, 2.0), (1.5, 3.0)], key=lambda r: r[0], reverse=True)\n"
+        "y = np.array([r[1] for r in t]) * g.F"
+    ),
+    "F = np.array([g.F, g.a, 1.5])\norder = np.argsort(F)\ny = np.array([1.0, 2.0, 3.0])[order] * g.a",
+    "F = np.array([[g.F, 1.0], [g.a, 2.0], [1.5, 3.0]])\ny = F[F[:, 0].argsort()][:, 1] * g.a",
+    "y = np.unique(np.array([1.0, g.F, 1.0, g.a])) * 2",
+    "v, n = np.unique(np.floor(x), return_counts=True)\ny = n * g.a",
+    (
+        "def area(d, t=2.0):\n    def inner(d):\n        return d - 2 * t * g.a\n"
+        "    return np.pi / 4 * (d**2 - inner(d) ** 2)\ny = area(g.F) + area(x, t=0.5)"
+    ),
+    (
+        "def stress(case):\n    F, M = case\n    return F / g.a + M / (g.F * 0.1)\n"
+        "y = np.array([stress(c) for c in [(1.0, 2.0), (g.F, g.a), (3.0, 0.0)]])"
+    ),
+    "sigma = np.array([[F / A for F in (1.0, g.F)] for A in (g.a, 2.0)])\ny = sigma.max(axis=0) - sigma.min(axis=1)",
+    "A = np.arange(12.0).reshape(3, 4) * g.F\ny = A[1:, ::2].sum(axis=1) * g.a",
+    "A = np.arange(12.0).reshape(3, 4) * g.F\nA[:, 1] = g.a\nA[2] *= 2\ny = A.max(axis=0)",
+    (
+        "A = np.zeros((3, 3))\nfor i in range(3):\n    for j in range(3):\n        A[i, j] = g.F / (i + j + 1)\n"
+        "y = A @ [1.0, g.a, 0.0]"
+    ),
+    "A = np.diag([g.F, g.a, 1.0])\ny = A.sum(axis=0)",
+    "A = np.triu(np.outer([1.0, g.F], [g.a, 2.0]))\ny = A.ravel()",
+    "A, B = np.meshgrid([1.0, g.F], x)\ny = (A * B).max(axis=0)",
+    "A = x[:, None] * np.array([1.0, g.a])[None, :]\ny = A.argmax(axis=0) + A.sum(axis=0)",
+    "y = np.apply_along_axis(lambda r: r.sum() * g.a, 1, np.outer(x, x))",
+    "y = np.array(list(map(lambda v: v * g.a, x)))",
+    "y = sum(v * w for v, w in zip(x, x[::-1])) * g.a",
+    "y = np.array([i * v for i, v in enumerate(x)]) * g.a",
+    "y = math.sqrt(sum(v**2 for v in (g.F, g.a, 1.0)))",
+    "y = math.prod([g.F, g.a, 2.0]) + math.fsum([g.F, g.a])",
+    "y = math.degrees(math.atan2(g.F, g.a)) + math.hypot(g.F, g.a, 1.0)",
+    "y = abs(complex(g.F, g.a)) + np.angle(complex(g.F, g.a), deg=True)",
+    "z = g.F * np.exp(1j * x)\ny = z.real * g.a + z.imag",
+    "y = np.linspace(0, g.F, 4)[-1] * g.a + np.linspace(0, 1, 3, endpoint=False)[1]",
+    "y = np.geomspace(1.0, g.F, 4)",
+    "y = np.logspace(0, g.a, 3)",
+    "y = np.arange(0, g.F, 0.5)[-1] * g.a",
+    "y = np.diff(np.sign(x - g.F))[np.newaxis].sum() * g.a",
+    "s = np.sin(3 * x)\ni = np.where(np.diff(np.sign(s)))[0]\ny = x[i[0]] * g.a if len(i) else 0.0",
+    "s = np.sin(3 * x)\ny = x[s.argmax()] - x[s.argmin()]",
+    "y = np.max(np.abs(np.fft.rfft(x))) * g.a",
+    "y = np.convolve(x, np.ones(3) / 3, mode='same') * g.a",
+    "y = np.minimum(np.maximum(x, g.a), g.F).sum()",
+    "y = np.clip(x, None, g.F) - np.clip(x, g.a, None)",
+    "y = np.round(g.F * 10) / 10 + np.ceil(g.a) + math.floor(g.F)",
+    "y = math.ceil(g.F / 0.4) * 0.4 * g.a",
+    "y = 5 * round(g.F / 0.4) * g.a",
+    "y = np.prod([1 + v for v in (g.F, g.a)])",
+    "k = 'a' * int(g.F)\ny = len(k) * g.a",
+    "grade = ('8.8', '10.9', '12.9')[g.k - 1]\nR_m = float(grade.split('.')[0]) * 100\ny = R_m * g.a",
+    "y = 1.0 if 2 <= g.F < 3 else g.a if g.F < 2 else 3.0",
+    "def step(v):\n    match v > 3:\n        case True:\n            return 2.0\n    return g.a\ny = step(g.F) * 1.0",
+    (
+        "from dataclasses import dataclass\n@dataclass\nclass Bolt:\n    d: float\n    def area(self):\n"
+        "        return np.pi * self.d**2 / 4\ny = Bolt(g.F).area() * g.a"
+    ),
+    (
+        "from typing import NamedTuple\nclass Case(NamedTuple):\n    F: float\n    M: float\n"
+        "y = max(c.F + c.M for c in (Case(g.F, 1.0), Case(1.0, g.a)))"
+    ),
+    (
+        "from collections import defaultdict\nsums = defaultdict(float)\nfor i, v in enumerate(x):\n"
+        "    sums[i % 2] += v\ny = sums[1] * g.a"
+    ),
+    "n = 0\nfor v in x:\n    if v > 1.0:\n        n += 1\ny = n * g.a",
+    "F_max = -1e9\nfor v in x * np.cos(x):\n    if v > F_max:\n        F_max = v\ny = F_max * g.a",
+    "i_max = 0\nfor i in range(5):\n    if np.sin(x[i]) > np.sin(x[i_max]):\n        i_max = i\ny = x[i_max] * g.a",
+    "y = np.interp(g.F, x / g.F, np.sin(x), period=2.0)",
+    "y = np.interp(x, np.sort([g.F, g.a, 1.0]), [1.0, 2.0, 3.0])",
+    "y = np.sinc(x) + np.deg2rad(g.F) + np.rad2deg(g.a)",
+    "y = np.nanargmax(np.where(x > 2.0, np.nan, x)) * g.a",
+    "y = np.nancumsum(x)[-1] * g.a + np.nanprod([g.F, np.nan])",
+    "y = np.mean(np.vstack([x, 2 * x]), axis=0) - np.std(np.vstack([x, 2 * x]), axis=0)",
+    "y = np.full(3, g.F) + np.ones_like(x)[:3] * g.a",
+    "y = np.insert(x, 1, g.a)",
+    "y = np.hstack([x, g.F]) * g.a",
+    "y = np.r_[x, g.F] * g.a",
+    "y = np.c_[x, x * g.a][:, 1]",
+    "y = x[[0, -1]] * g.a + x[np.array([1, 2])]",
+    "y = x[-1] - x[0] + x[len(x) // 2]",
+    "a, *rest = x\ny = a * g.a + sum(rest)",
+    "(a, b), c = (g.F, g.a), 2.0\ny = a * b + c",
+    "y = np.ma.masked_greater(x, 2.0).mean() * g.a",
+    "y = x.clip(g.a, g.F).cumsum().round(3)",
+    "y = np.take(x, [0, int(g.F)]) * g.a",
+    "y = np.choose(g.k, [1.0, g.F, g.a, 3.0])",
+    "y = np.vectorize(lambda F: F * g.a if F > 1.0 else 0.0)(x)",
+    "v = x.copy()\nv[0] = 9.0\nw = np.minimum(v, 3.0)\ny = v.max() + w.min() * g.a",
+    "v = x * 1.0\nv[-1] = 0.5\ny = v.min() + v.max() * g.a",
+    "v = x * 1.0\nv[0] = 5.0\ny = np.max(v) - np.ptp(v)",
+    "v = np.array([1, 2, 3])\nv[0] = g.k * g.F\ny = v * g.a",
+    "v = np.zeros(g.n, int)\nv[1] = 2 * g.F\ny = v * g.a",
+    "i = np.arange(g.n)\nv = np.zeros_like(i)\nv[:] = x\ny = v * g.a",
+    "y = 3.0 if (g.F > 3) is True else g.a",
+    (
+        "match g.F > 3, g.k:\n    case True, 2:\n        k = 5.0\n    case False, _:\n        k = 7.0\n"
+        "    case _:\n        k = 9.0\ny = k * g.a"
+    ),
+]
+ITERATIONS = [
+    (
+        "v = 1.0\nfor _ in range(100):\n    new = math.cos(v) * g.a\n    if abs(new - v) < 1e-10:\n        break\n"
+        "    v = new\ny = v * 1.0"
+    ),
+    "v = g.F\nwhile abs(v * v - g.F) > 1e-12:\n    v = (v + g.F / v) / 2\ny = v * 1.0",
+    (
+        "v, n = g.F, 0\nwhile True:\n    step = (v**3 - g.F) / (3 * v**2)\n    v -= step\n    n += 1\n"
+        "    if abs(step) < 1e-12:\n        break\ny = np.array([v, n])"
+    ),
+    (
+        "lo, hi = 0.0, 10.0\nwhile hi - lo > 1e-9:\n    mid = (lo + hi) / 2\n    if mid**3 + g.a * mid > g.F:\n"
+        "        hi = mid\n    else:\n        lo = mid\ny = (lo + hi) / 2"
+    ),
+    (
+        "tol = 10.0 ** -g.k\nv = 1.0\nfor n in range(50):\n    new = (v + g.F / v) / 2\n"
+        "    done = abs(new - v) < tol\n    v = new\n    if done:\n        break\ny = np.array([v, n])"
+    ),
+    (
+        "def solved(F, start=1.0):\n    v = start\n    for _ in range(50):\n        new = (v + F / v) / 2\n"
+        "        if abs(new - v) < 1e-12:\n            break\n        v = new\n    return v\ny = solved(g.F) * g.a"
+    ),
+    "v = x * 0 + 1\nwhile np.max(np.abs(v * v - x)) > 1e-12:\n    v = (v + x / v) / 2\ny = v * 1.0",
+    (
+        "lam = 0.02\nfor _ in range(100):\n"
+        "    new = 1 / (-2 * math.log10(1e-4 / 3.7 + 2.51 / (1e5 * g.F * math.sqrt(lam)))) ** 2\n"
+        "    if abs(new - lam) < 1e-14:\n        break\n    lam = new\ny = lam * 1.0"
+    ),
+    (
+        "z = 1.0 + 0.5j\nwhile abs(z * z - (g.F + 1j * g.a)) > 1e-12:\n    z = (z + (g.F + 1j * g.a) / z) / 2\n"
+        "y = z.imag * 1.0"
+    ),
+    "n = 0\ns = 0.0\nwhile s < 10 * g.F:\n    n += 1\n    s += n * g.a\ny = np.array([s, n])",
+    "d = 6.0\nwhile g.F * 100 / d**2 > g.a:\n    d += 2.0\ny = d * 1.0",
+    "for d in (6.0, 8.0, 10.0, 12.0, 16.0):\n    if g.F * 100 / d**2 < g.a * 4:\n        break\ny = d * g.a",
+    (
+        "for d in np.array([6.0, 8.0, 10.0, 12.0]):\n    if d < 8.5:\n        continue\n"
+        "    if g.F * 100 / d**2 < g.a * 4:\n        break\ny = d * g.a"
+    ),
+    "v = 1.0\nk = 0\nwhile k < g.k:\n    v = v * g.F\n    k += 1\ny = v * 1.0",
+    "v = g.F\nhistory = []\nwhile v > 0.1:\n    history.append(v)\n    v = v * g.a\ny = np.array([len(history), v])",
+    "for i in range(5):\n    if x[i] > 1.2:\n        break\nelse:\n    i = 9\ny = i * g.a",
+]
+
+
+@pytest.mark.filterwarnings("ignore")
+@pytest.mark.parametrize("lines", [*CONSTRUCTS, *ITERATIONS])
+def test_no_number_is_stale(lines: str, tmp_path: Path) -> None:
+    assert_never_stale(lines, tmp_path)

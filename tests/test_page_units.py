@@ -1,0 +1,121 @@
+"""Display units that are switched in place on the page, in a real browser."""
+
+from decimal import Decimal
+from math import log10
+from pathlib import Path
+
+import numpy as np
+import pytest
+from playwright.sync_api import expect
+from test_page import HITCH, ready
+
+from mechsheet.page import script, values
+from mechsheet.units import parse, shown
+from mechsheet.worksheet import numbers
+from mechsheet.worksheet.check import check
+from mechsheet.worksheet.table import Column, Table
+
+SCRIPT = (Path(script.__file__).parent / "units.js").read_text(encoding="utf-8")
+STYLE = HITCH.with_name("page.css").read_text(encoding="utf-8")
+HALVES = [0.5, 1.5, 2.5, -0.5, 0.125, 0.375, -2.125, 9.5, 99.5, 0.0625, 1e-300, 1e22, -3e25, 0.0, -0.0, -4e-9]
+NONE = [np.nan, np.inf, -np.inf]
+
+
+def static(page, html: str) -> None:
+    """A page of this alone, with the script of the units."""
+    page.set_content(f"<style>{STYLE}</style><body>{html}</body>")
+    page.add_script_tag(content=SCRIPT)
+
+
+def choose(page, unit, other: str) -> None:
+    unit.click()
+    page.get_by_role("menuitemradio", name=other, exact=True).click()
+
+
+@pytest.mark.parametrize("top", [3, 25])  # of the greatest number hangs how many decimals there are
+@pytest.mark.parametrize(
+    ("unit", "other", "decimals", "power"),
+    [
+        *[("m", "mm", 3, False), ("mm", "m", 1, False), ("N", "kgf", 0, False), ("N", "MN", 0, False)],
+        *[("deg", "rad", 1, False), ("rad", "deg", 3, False), ("MPa", "psi", 2, False), ("kN", "N", 5, False)],
+        *[("m", "km", 3, True), ("m", "inch", 0, True), ("kgf", "tf", 1, True), ("Pa", "kPa", 2, True)],
+        *[("mm", "cm", 1, False), ("cm", "mm", 2, True)],
+    ],
+)
+def test_a_number_is_written_as_the_library_writes_it(
+    page, unit: str, other: str, decimals: int, power: bool, top: int
+) -> None:
+    random = np.random.default_rng(18)
+    own, factor = parse(unit).factor, parse(other).factor
+    halves = np.array(HALVES) * factor / own  # halves in the other unit, where that is exact
+    drawn = random.normal(size=1500) * 10 ** random.uniform(-12, top, 1500)
+    rounded = np.round(random.normal(size=500), decimals) + 0.5 * 10.0**-decimals
+    all_of_them = np.array([*halves, *HALVES, *drawn, *rounded])
+    column = Column(
+        "F", unit, "force", decimals, np.array([*all_of_them[abs(all_of_them) < 10**top], *NONE]), power, of="F"
+    )
+    static(page, values.html(Table("1", "Forces", (column,))))
+    choose(page, page.locator("ms-unit").first, shown(other))
+    found = page.locator(".ms-chosen td").all_text_contents()
+    wanted = column.values * own / factor
+    before = Decimal(float(np.abs(wanted[np.isfinite(wanted)]).max())).adjusted() + 1  # digits of the greatest one
+    places = max(0, min(decimals + round(log10(factor / own)), 5 - before))
+    for text, x in zip(found, wanted.tolist(), strict=True):
+        written = numbers.scientific(x, decimals, numbers.CELL) if power else numbers.fixed(x, places, numbers.CELL)
+        assert text == written, repr(x)
+    assert page.locator(".ms-chosen th ms-unit").all_text_contents() == [shown(other)]
+
+
+def test_back_in_its_own_unit_a_table_is_as_it_was(page) -> None:
+    column = Column("F", "N", "force", 0, np.array([2.5e3, np.nan]), of="F")
+    static(page, values.html(Table("1", "Forces", (column,))))
+    before = page.locator("table").inner_html()
+    choose(page, page.locator("ms-unit").first, "kN")
+    assert page.locator("table:visible td").all_text_contents() == ["2.500", "–"]
+    choose(page, page.locator("ms-unit:visible").first, "N")
+    expect(page.locator("table")).to_have_count(1)
+    assert page.locator("table").inner_html() == before
+
+
+def test_a_check_is_shown_in_another_unit_with_the_same_verdict(page) -> None:
+    static(page, values.html(check("pressure", 17.5e6, 17.5e6 * (1 - 1e-9), "MPa")))
+    assert "17.5 ≰ 17.49999998 MPa" in page.locator("body").inner_text()
+    choose(page, page.locator("ms-unit").first, "kPa")
+    assert "17500 ≰ 17499.99998 kPa" in page.locator("body").inner_text()
+    assert page.locator("ms-unit:visible").count() == 1
+
+
+def force(page):
+    """The line of the force on the cylinders, and its column in table 4.1 as it is seen."""
+    table = page.locator(".ms-table:has-text('Table 4.1 ') table >> visible=true")
+    return page.locator(".ms-line", has_text="force on the hydraulic cylinders"), table.locator("td:nth-child(2)").first
+
+
+@pytest.mark.parametrize("mode", ["run", "edit"])
+def test_a_unit_is_switched_wherever_the_quantity_is_shown(serve, page, console_errors, mode) -> None:
+    """By the keys alone; it stays while the inputs change, and is printed as it is seen."""
+    page.goto(serve(mode, HITCH))
+    ready(page)
+    line, cell = force(page)
+    unit = line.locator("ms-unit")
+    unit.focus()
+    unit.press("Enter")
+    page.keyboard.press("ArrowDown")
+    page.keyboard.press("Enter")
+    expect(line).to_contain_text("129.61, 123.28, ")
+    expect(cell).to_have_text("129.61")
+    assert page.evaluate("document.activeElement.textContent") == "kN", "the focus stays at the unit"
+    choose(page, page.locator(".ms-table:has-text('Table 2.2 ') th ms-unit").first, "mm")
+    expect(page.locator(".ms-table:has-text('Table 4.1 ') td >> visible=true").first).to_have_text("420")
+    field = page.locator(".ms-inputs tr:has-text('weight of the implement') input")
+    field.fill("30000,5")
+    field.press("Enter")
+    expect(cell, "129.614 kN * 30000.5 / 27500").to_have_text("141.40")
+    expect(line.locator("ms-value .ms-chosen")).to_contain_text("141.4, ")
+    page.emulate_media(media="print")
+    expect(cell).to_have_text("141.40")
+    page.emulate_media(media="screen")
+    choose(page, page.locator(".ms-table:has-text('Table 4.1 ') th:nth-child(2) ms-unit >> visible=true").first, "N")
+    expect(line.locator(".ms-chosen")).to_have_count(0)
+    expect(line).to_contain_text("141399, ")
+    assert console_errors == []

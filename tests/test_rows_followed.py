@@ -1,0 +1,142 @@
+"""Rows are an axis whose length is a quantity: what is made of them is read for any number of them."""
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from own_worksheet import own, recorded, value_of
+
+from mechsheet.recording.numbers import numbers
+from mechsheet.worksheet import cells
+
+FOLLOWED = [
+    "x * g.F",
+    "linspace(0, 1, g.n).sum()",
+    "np.linspace(0, g.F, 2 * g.n + 1)",
+    "np.linspace(0, 1, g.n, endpoint=False)",
+    "np.arange(g.n) * g.a",
+    "np.arange(1, g.n + 1)[::-1]",
+    "np.arange(0, g.F * g.n, 0.7)",
+    "np.arange(2, 3 * g.n, 2) * 1.0",
+    "np.zeros(g.n) + g.F",
+    "np.full(g.n, g.F)",
+    "np.ones((g.n, 2)) * g.a",
+    "np.zeros_like(x) + 1",
+    "np.ones(len(x)) * g.F",
+    "x[1:] - x[:-1]",
+    "x[::2]",
+    "x[2:]",
+    "x[-1] - x[0]",
+    "x[len(x) // 2]",
+    "x[::-1].cumsum()",
+    "np.diff(x)",
+    "np.cumsum(x)",
+    "np.cumprod(x)",
+    "np.maximum.accumulate(np.sin(x))",
+    "np.gradient(np.sin(x), x)",
+    "x.mean()",
+    "np.trapezoid(np.sin(x), x)",
+    "np.concatenate([[0.0], np.cumsum(x)])",
+    "np.append(x, g.F)",
+    "np.stack([x, x**2])[1]",
+    "np.stack([x, x**2], axis=-1)[..., 1]",
+    "np.stack([x, x**2]).sum(axis=0)",
+    "np.stack([x, x**2]).sum(axis=1)",
+    "np.stack([x, x**2]).reshape(-1)",
+    "np.vstack([x, x]).T[:, 1]",
+    "(x[:, None] * [1.0, g.a]).max(axis=0)",
+    "(x[:, None] * x).sum(axis=1)",
+    "np.outer(x, [1.0, 2.0])[:, 1]",
+    "np.roll(x, 1)",
+    "np.repeat(x, 2)",
+    "np.tile(x, 2)",
+    "np.flip(x)",
+    "x.std(ddof=1)",
+    "np.var(x)",
+    "np.ptp(x)",
+    "np.argmax(np.sin(x))",
+    "x[np.argmax(np.sin(x))]",
+    "np.interp(g.a, x, x**2)",
+    "np.interp(x, [0.0, 1.0], [g.F, 2.0])",
+    "np.where(x > 1, x, 0.0)",
+    "x @ x",
+    "x.size * g.a",
+    "np.linalg.norm(x)",
+    "np.exp(1j * x).sum()",
+    "(x + 1j * g.a)[1:]",
+    "np.any(x > 4) * 1.0",
+    "np.count_nonzero(x > 1)",
+    "0 * x + g.a",
+    "rrr(0.0, g.F, x + 2, 2.0, +1)",
+    "np.stack([0 * x, x])[0]",
+    "np.piecewise(x, [x > 1], [g.F, 0.0])",
+    "find(lambda t: t**3 + t - x, 0, 9, unknown='t').value",
+    "np.split(np.arange(2.0 * g.n), 2)[1]",
+    "x.shape[0] * g.a",
+]
+ROWS: list[dict[str, Any]] = [{}, {"n": 3}, {"n": 4, "F": 3.25}, {"n": 12, "a": 0.3}, {"n": 40, "F": -1.0}]
+
+
+@pytest.mark.filterwarnings("ignore")
+@pytest.mark.parametrize("expression", FOLLOWED)
+def test_what_is_made_of_rows_is_read_for_any_number_of_them(expression: str, tmp_path: Path) -> None:
+    bind = "y_found = " + expression.removesuffix(".value") + "\ny = y_found.value" if "find(" in expression else ""
+    sheet = own(tmp_path, f"{bind or f'y = {expression}'}  # [-] line")
+    _, recording = recorded(sheet)
+    assert not recording.gaps and not [guard for guard in recording.guards.values() if not guard.rows]
+    for given in ROWS:
+        expected = np.asarray(cells.evaluate(sheet.path, ["y"], **given)["y"])
+        value = value_of(recording, "y", given)
+        assert np.shape(value) == expected.shape, given
+        np.testing.assert_allclose(value, expected + 0, rtol=1e-12, atol=1e-13, err_msg=str(given))
+
+
+@pytest.mark.parametrize(
+    "expression",
+    [
+        "sum(x)",
+        "np.array([v * g.a for v in x])",
+        "np.sort(np.sin(x))",
+        "x[x > 1].sum()",
+        "x * np.array([1.0, 2, 3, 4, 5])",
+        "x.reshape(5, 1)[:, 0]",
+        "x[np.array([0, 4])]",
+        "float(len(repr(x.shape))) + x.sum()",
+        "np.fft.fft(x).real",
+        "sum(linspace(0, 1, g.n))",
+        "max(v for v in linspace(0, g.F, g.n))",
+        "x[:5] * np.arange(5)",
+    ],
+)
+def test_what_rests_on_a_number_of_rows_that_python_saw_is_no_number_for_others(
+    expression: str, tmp_path: Path
+) -> None:
+    _, recording = recorded(own(tmp_path, f"y = {expression}  # [-] line"))
+    assert np.isfinite(value_of(recording, "y", {})).all()
+    assert np.isnan(value_of(recording, "y", {"n": 4})).all()
+
+
+@pytest.mark.parametrize("n", [2.5, -1, np.nan, 1e9])
+def test_rows_of_no_number_are_none(n: float, tmp_path: Path) -> None:
+    _, recording = recorded(own(tmp_path, "y = x.sum()  # [-] line"))
+    (node,) = [node for node, name in recording.names.items() if name == "y"]
+    assert np.isnan(numbers([node], {recording.inputs["n"]: n})[node]).all()
+
+
+def test_the_columns_of_a_table_are_as_long_as_there_are_rows(tmp_path: Path) -> None:
+    lines = "two = np.stack([x, 2 * x])  # [-] both\nforce = g.F * 2  # [-] one\n"
+    lines += 'table_2 = table("2", "Two", x, force, two, every=2)'
+    names, recording = recorded(own(tmp_path, lines))
+    assert [len(column.values) for column in names["table_2"].columns] == [6, 6, 6]
+    columns = [column.re for column in recording.tables["2"] if column is not None]
+    known = numbers(columns, {recording.inputs["n"]: 8})
+    assert [known[column].shape for column in columns] == [(8,), (8,), (8,)]
+
+
+def test_a_workbook_has_a_check_of_the_number_of_its_rows(tmp_path: Path) -> None:
+    _, recording = recorded(own(tmp_path, "y = x.mean()  # [-] line"))
+    (guard,) = recording.guards.values()
+    assert guard.rows
+    known = numbers([guard.holds], {recording.inputs["n"]: 6})
+    assert not known[guard.holds]
