@@ -199,7 +199,8 @@ MIRRORED |= {"side_23": "left", "side_45": "right", "side_67": "left", "side_6":
 
 
 # turned by the mirror, or measured along the abscissa; what a formula of one quadrant gives is left out
-TURNED = ("phi", "psi", "delta", "dphi", "M", "D_p", "s_", "X_p", "P23s_S")
+TURNED = ("phi", "psi", "delta", "dphi", "M", "D_", "s_", "X_p", "P23s_S", "R56_x", "R05_x", "R34_x", "R03_x", "R01_x")
+TURNED += ("b1", "b2", "b3", "d1", "d2", "d3", "e1", "e2", "e3")
 
 
 def test_a_machine_seen_from_its_other_side_has_the_mirrored_results():

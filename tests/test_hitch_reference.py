@@ -120,6 +120,15 @@ def reactions(g, hinge, pins, PS6):
     left = {f"{name}{k} / np.max(abs(R34))": 0 for name in "FM" for k in range(2, 8)}
     left |= {f"F{k} / np.max(abs(R34))": 0 for k in (23, 45, 67)}
     printed = 2 * (P67 - P56).real * R56.imag  # twice the term whose sign is wrong
+    # the document's lengths: heights a, c and abscissas b, d from pin to pin, e of the load or its moment
+    ways = {"1": (hinge[7] - P67, P67 - P56), "2": (P34 - P45, hinge[5] - P45), "3": (P23 - hinge[1], hinge[3] - P23)}
+    right = {"b1": -ways["1"][0], "d1": ways["1"][1], "b2": ways["2"][0], "d2": -ways["2"][1]}
+    right |= {"b3": ways["3"][0], "d3": ways["3"][1], "e1": PS6 - P67}
+    known |= {f"{axis}{k}": way.imag for k, pair in ways.items() for axis, way in zip("ac", pair, strict=True)}
+    known |= {name: way.real for name, way in right.items()}
+    known |= {"e2": moment(P56 - P45, -R56), "e3": moment(P34 - P23, on_5)}
+    known |= {f"{name}_x": known[name].real for name in ("R56", "R05", "R34", "R03", "R01")}
+    known |= {"D_2": moment(P45 - hinge[5], P34 - P45), "D_3": moment(hinge[3] - P23, P23 - hinge[1])}
     return known | left | {"R43": on_5, "M6_printed": printed}
 
 

@@ -600,6 +600,10 @@ def section_5():
 
     The equations $F_{67}$, $M_7$, $M_6$ leave rounding only. The document prints the last one with a plus before
     $R_{56y}(X_{67} - X_{56})$; its numbers follow the minus.
+
+    The document's lengths $a_1$ to $e_3$ and its formulas for the components along x stand below each group. Its
+    formulas for those along y divide by $d_1$, $b_2$, $d_2$, $b_3$ or $d_3$, which pass through zero: $d_1$ does so at
+    work, where the mast is upright. The group's own equations divide by its determinant alone.
     """)
     return
 
@@ -619,6 +623,18 @@ def forces_3(O7, P56_S, P67_S, PS6_S, g):
     )  # [N*m] as printed (erratum)
     typeset()
     return F67, G6, M6, M7, R07, R56, R67
+
+
+@app.cell
+def printed_3(O7, P56_S, P67_S, PS6_S, g):
+    a1 = (O7 - P67_S).imag  # [m] O7 above P67
+    b1 = (P67_S - O7).real  # [m] P67 to the right of O7
+    c1 = (P67_S - P56_S).imag  # [m] P67 above P56
+    d1 = (P67_S - P56_S).real  # [m] P67 to the right of P56
+    e1 = (PS6_S - P67_S).real  # [m] S6 to the right of P67
+    R56_x = g.P6 * b1 * (d1 + e1) / (a1 * d1 + b1 * c1)  # [N] R56 along x by the document's formula
+    typeset()
+    return
 
 
 @app.cell(hide_code=True)
@@ -645,6 +661,20 @@ def forces_2(O5, P34_S, P45_S, P56_S, R56):
     return F45, M4, M5, R05, R34, R45, R65
 
 
+@app.cell
+def printed_2(O5, P34_S, P45_S, P56_S, R65):
+    a2 = (P34_S - P45_S).imag  # [m] P34 above P45
+    b2 = (P34_S - P45_S).real  # [m] P34 to the right of P45
+    c2 = (O5 - P45_S).imag  # [m] O5 above P45
+    d2 = (P45_S - O5).real  # [m] P45 to the right of O5
+    e2 = R65.real * (P45_S - P56_S).imag + R65.imag * (P56_S - P45_S).real  # [N*m] moment of R65 about P45
+    D_2 = a2 * d2 + b2 * c2  # [m**2] determinant of the group
+    R05_x = -(b2 * e2 - R65.real * a2 * d2 + R65.imag * b2 * d2) / D_2  # [N] R05 along x by the document's formula
+    R34_x = (b2 * e2 + R65.real * b2 * c2 + R65.imag * b2 * d2) / D_2  # [N] R34 along x by the document's formula
+    typeset()
+    return
+
+
 @app.cell(hide_code=True)
 def section_53():
     mo.md(r"""
@@ -666,7 +696,21 @@ def forces_1(O1, O3, P23_S, P34_S, R34):
     M2 = cross(O1 - P23_S, R01)  # [N*m] moments on the cylinder 2 about P23
     M3 = cross(O3 - P23_S, R03) - cross(P34_S - P23_S, R43)  # [N*m] moments on the lift arm 3 about P23
     typeset()
-    return F23, M2, M3, R01, R03, R23
+    return F23, M2, M3, R01, R03, R23, R43
+
+
+@app.cell
+def printed_1(O1, O3, P23_S, P34_S, R43):
+    a3 = (P23_S - O1).imag  # [m] P23 above O1
+    b3 = (P23_S - O1).real  # [m] P23 to the right of O1
+    c3 = (O3 - P23_S).imag  # [m] O3 above P23
+    d3 = (O3 - P23_S).real  # [m] O3 to the right of P23
+    e3 = R43.real * (P23_S - P34_S).imag + R43.imag * (P34_S - P23_S).real  # [N*m] moment of R43 about P23
+    D_3 = a3 * d3 - b3 * c3  # [m**2] determinant of the group
+    R03_x = (b3 * e3 + R43.real * a3 * d3 - R43.imag * b3 * d3) / D_3  # [N] R03 along x by the document's formula
+    R01_x = -(b3 * e3 + R43.real * b3 * c3 - R43.imag * b3 * d3) / D_3  # [N] R01 along x by the document's formula
+    typeset()
+    return
 
 
 @app.cell(hide_code=True)
