@@ -137,7 +137,10 @@ def marimo_server(mode: str, worksheet: Path, folder: Path) -> Iterator[str]:
     The copy keeps what the editor saves out of the project; those beside it are there for one that reads them.
     """
     shutil.copytree(ROOT / "worksheets", folder / "worksheets", ignore=shutil.ignore_patterns("__*__"))
-    sheet = shutil.copy(worksheet, folder / "worksheets")
+    if worksheet.is_relative_to(ROOT / "worksheets"):
+        sheet = folder / worksheet.relative_to(ROOT)
+    else:
+        sheet = Path(shutil.copy(worksheet, folder / "worksheets"))
     shutil.copy(ROOT / "pyproject.toml", folder)
     with socket.socket() as free:
         free.bind(("127.0.0.1", 0))

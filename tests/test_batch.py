@@ -121,7 +121,7 @@ def test_workbook_of_a_scene_is_that_of_the_script(tmp_path):
         assert scene_s == script_s.replace("Tractor hitch", "Tractor hitch: own") != script_s
 
 
-@pytest.mark.parametrize("sheet", sorted((ROOT / "worksheets").glob("*.py")), ids=lambda path: path.stem)
+@pytest.mark.parametrize("sheet", sorted((ROOT / "worksheets").rglob("*.py")), ids=lambda path: path.stem)
 def test_every_worksheet_takes_scenes(sheet, tmp_path):
     file = scene(tmp_path, "own", '[limits]\n"no such check" = {max = 0}\n')
     with pytest.raises(SheetError, match="no check is named 'no such check'"):

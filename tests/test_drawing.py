@@ -491,5 +491,7 @@ def test_drawings_stand_side_by_side_each_above_its_caption():
     text = side_by_side((Drawing().hinge(0j, "A"), caption("5.1", "a < b")), Drawing().hinge(0j, "B"))._mime_()[1]
 
     first, second = re.fullmatch(r'<div class="ms-beside"><div>(.*)</div><div>(.*)</div></div>', text).groups()
-    assert re.fullmatch(r'<svg.*</svg><div class="ms-caption"><b>Figure 5\.1</b> – a &lt; b</div>', first)
+    assert re.fullmatch(
+        r'<svg.*</svg><div class="ms-caption" id="figure-5\.1"><b>Figure 5\.1</b> – a &lt; b</div>', first
+    )
     assert re.fullmatch(r"<svg.*>B<.*</svg>", second)

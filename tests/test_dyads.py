@@ -9,9 +9,10 @@ import numpy as np
 import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
+from random_groups import FAMILIES, numbers, triangles, vectors
 
 from mechsheet.accuracy import arithmetic as exact
-from mechsheet.accuracy.arithmetic import EPS, FAMILIES, numbers, triangles, vectors
+from mechsheet.accuracy.arithmetic import EPS
 from mechsheet.mechanics.load import Load
 from mechsheet.mechanics.planar import angle, cross, dot, link_acceleration, link_velocity
 from mechsheet.mechanics.rpr import rpr, rpr_acceleration, rpr_condition, rpr_transmission_angle, rpr_velocity

@@ -172,9 +172,12 @@ def test_ctrl_c_ends_a_run_in_a_line(start: list[str], lever: Callable[..., Path
     path = lever(
         "    M_S = M(phi)", "    print('waits', flush=True)\n    __import__('time').sleep(600)\n    M_S = M(phi)"
     )
-    with subprocess.Popen(
+    kept = signal.signal(signal.SIGINT, signal.default_int_handler)  # tests in the background of a shell ignore it
+    run = subprocess.Popen(
         [*start, path], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True
-    ) as run:
+    )
+    signal.signal(signal.SIGINT, kept)
+    with run:
         assert run.stdout and run.stderr and run.stdout.readline() == "waits\n"
         os.killpg(run.pid, signal.SIGINT)  # as a terminal does
         assert (run.wait(), run.stderr.read()) == (130, "interrupted\n")

@@ -247,7 +247,7 @@ def test_fault_in_a_worksheet_is_noticed(monkeypatch, name, worksheet, function,
 
 
 def test_fault_in_the_library_is_noticed_by_the_search(monkeypatch):
-    monkeypatch.setattr(extreme, "rrr_reactions", summed)
+    monkeypatch.setattr(extreme.RRRGroup, "reactions", lambda dyad, *loads: summed(dyad.A, dyad.B, dyad.C, *loads))
     with pytest.raises(AssertionError):
         test_search_for_worse_groups()
 

@@ -79,6 +79,13 @@ def test_polar_diagram_marks_the_quarters_of_the_turn() -> None:
     assert [e.points[0] for e in half.elements if e.kind == "hinge"] == [R[k] for k in (0, 90, 180, 270)]
 
 
+def test_polar_diagram_of_a_cycle_of_two_turns_marks_its_quarters() -> None:
+    R = np.exp(1j * np.radians(np.arange(0, 721, 2))) * np.linspace(1, 2, 361)
+    drawing = polar(R, 45, "R12", turn=180, turns=2)
+    hinges = {e.name: e.points[0] for e in drawing.elements if e.kind == "hinge"}
+    assert hinges == {"0°": R[0], "180°": R[90], "360°": R[180], "540°": R[270]}
+
+
 def test_largest_magnitude_is_that_of_the_finite_elements() -> None:
     assert largest_of(np.array([3 + 4j, np.nan]), -2.0) == 5
     assert largest_of(np.array([np.nan]), 0.0) == 1

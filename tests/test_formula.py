@@ -90,6 +90,9 @@ IMPORT = "from mechsheet import typeset\n"
         ),
         ("dot(F, v + w)*k", r"F \cdot (v + w)\,k"),
         ("trapezoid(M, phi1)", r"\int M\,\mathrm{d}\varphi_{1}"),
+        ("cumulative_trapezoid(M - T, phi, initial=0)", r"\int^{\varphi} (M - T)\,\mathrm{d}\varphi"),
+        ("np.ceil(h / b) * b", r"\left\lceil \frac{h}{b}\right\rceil \,b"),
+        ("dbeta(phi) + dx(phi)", r"\mathrm{d}\beta(\varphi) + \mathrm{d}x(\varphi)"),
         ("np.nanmin(SAB_k)", r"\min(S_{\mathrm{AB,k}})"),
         ("np.sum(S_g > 0, axis=1)", r"{\textstyle\sum }_{\text{axis 1}}(S_{\mathrm{g}} > 0)"),
         ("x.max(axis=0)", r"{\max}_{\text{axis 0}}(x)"),
@@ -142,7 +145,7 @@ def test_brackets_and_dots_stand_in_the_tree():
 
 
 def test_the_tree_knows_no_notation_of_a_writer():
-    for path in sorted((Path(__file__).parents[1] / "worksheets").glob("*.py")):
+    for path in sorted((Path(__file__).parents[1] / "worksheets").rglob("*.py")):
         assigned = (n.value for n in ast.walk(ast.parse(path.read_text("utf-8"))) if isinstance(n, ast.Assign))
         for node in (part for expression in assigned for part in parts(tree(expression))):
             if not isinstance(node, Text | Code):  # which hold what stands in the worksheet
@@ -200,6 +203,11 @@ def test_lines_with_a_unit_are_the_formulas():
         (np.full(11, np.nan), "m", r"\text{none}\,\mathrm{m}"),
         (np.full(11, 2.0), "m", r"2\,\mathrm{m}"),
         (np.arange(5) * 1j, "m", r"(0,\ 0) \,\ldots\, (0,\ 4)\,\mathrm{m}"),
+        (
+            2 * np.exp(1j * np.linspace(0, 2 * np.pi, 9)),
+            "m",
+            r"(-2 \,\ldots\, 2,\ -2 \,\ldots\, 2)\,\mathrm{m}",
+        ),
         (7, "-", "7"),
         (-0.0, "m", r"0\,\mathrm{m}"),
     ],
@@ -460,6 +468,11 @@ def test_a_field_has_positions():
         run(IMPORT + "s_S = [0, 1]  # [m]\nshown = typeset()")["shown"]
     )
     assert r"l_{\mathrm{S}} = 2 m" in text and r"P(S) = l_{\mathrm{S}}\,S = 0, 2, 4 m" in text
+
+
+def test_a_point_called_S_is_no_stroke():
+    code = "from numpy import arange, exp\nS = exp(1j * arange(3.0))  # [m]\na_S = -4 * S  # [m]\nshown = typeset()"
+    assert r"a_{\mathrm{S}} = -4\,S" in joined(run(IMPORT + code)["shown"])
 
 
 @pytest.mark.parametrize("args", ["S", "S, L7, branch=-1"])

@@ -8,9 +8,10 @@ from typing import Any
 
 import numpy as np
 import pytest
+from random_groups import FAMILIES, numbers, triangles, vectors
 
 from mechsheet.accuracy import arithmetic as exact
-from mechsheet.accuracy.arithmetic import EPS, FAMILIES, numbers, triangles, vectors
+from mechsheet.accuracy.arithmetic import EPS
 from mechsheet.mechanics.crank import crank
 from mechsheet.mechanics.drive import coupling_drive, cylinder_drive, gear_drive
 from mechsheet.mechanics.load import Load, inertia

@@ -35,9 +35,11 @@ def calls(monkeypatch: pytest.MonkeyPatch) -> list[list[str]]:
 
 @pytest.fixture
 def sheet(tmp_path: Path) -> Path:
-    """A script that prints its arguments and exits with 3."""
+    """A worksheet that prints its arguments and exits with 3."""
     path = tmp_path / "sheet.py"
-    path.write_text("import sys\nprint(*sys.argv[1:], 'φ')\nsys.exit(3)\n", encoding="utf-8")
+    lines = ("import marimo", "", "app = marimo.App()", "", "@app.cell", "def told():", "    import sys")
+    ends = ("    print(*sys.argv[1:], 'φ')", "    sys.exit(3)", "    return", "")
+    path.write_text("\n".join((*lines, *ends)), encoding="utf-8")
     return path
 
 
@@ -54,7 +56,7 @@ def refusal(*argv: str) -> str:
 def test_help_names_every_command(capsys: pytest.CaptureFixture[str]) -> None:
     assert launcher.main(["--help"]) == 0
     printed = capsys.readouterr().out
-    assert re.findall(r"^  (\w+)", printed, re.MULTILINE) == ["run", "new", "edit", "test"]
+    assert re.findall(r"^  (\w+)", printed, re.MULTILINE) == ["run", "new", "edit", "index", "test"]
 
 
 def test_help_shows_each_command_by_an_example_that_it_takes(
@@ -63,10 +65,10 @@ def test_help_shows_each_command_by_an_example_that_it_takes(
     assert launcher.main(["--help"]) == 0
     monkeypatch.setattr(launcher, "new", lambda *given: calls.append(["new", *given]) or 7)
     examples = re.findall(r"^ +such as +(.*)$", capsys.readouterr().out, re.MULTILINE)
-    assert [example.split()[0] for example in examples] == ["run", "new", "edit", "test"]
+    assert [example.split()[0] for example in examples] == ["run", "new", "edit", "index", "test"]
     for example in examples:
         assert launcher.main(example.split()) == 7, example
-    assert len(calls) == 4
+    assert len(calls) == 5
 
 
 def test_every_worksheet_stands_in_the_help_with_its_title(
@@ -91,7 +93,7 @@ def test_every_worksheet_stands_in_the_help_with_its_title(
 
 @pytest.mark.parametrize("argv", [["rn", "hitch"], ["--version"]])
 def test_any_other_command_names_them(argv: list[str], calls: list[list[str]]) -> None:
-    assert "run, edit, new and test" in refusal(*argv)
+    assert "run, edit, new, index and test" in refusal(*argv)
     assert not calls
 
 

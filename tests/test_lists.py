@@ -183,6 +183,12 @@ def test_the_default_is_held_to_the_last_bit_and_all_is_read_back(section: Path)
         default.F[0] = 1.0
 
 
+def test_a_long_list_is_listed_by_its_ends(section: Path) -> None:
+    (field, _), *_ = inputs.Used(load(section).inputs()).rows()
+    assert field.brief(np.arange(12.0) * 1e3) == "0; 1; 2; 3; 4; 5; 6; 7; 8; 9; 10; 11"
+    assert field.brief(np.arange(13.0) * 1e3) == "0; 1; 2; ..; 12 (13 rows)"
+
+
 def test_scenes_and_arguments_give_lists_and_tables(section: Path, tmp_path: Path) -> None:
     scene = tmp_path / "other.toml"
     scene.write_text('want = ["A", "sigma"]\n[inputs]\nF = [1, "2,5"]\n[[inputs.stringers]]\nA = 2\ny = 3\ny_top = 9\n')

@@ -11,9 +11,9 @@ from typing import Any, get_type_hints
 
 import numpy as np
 import pytest
+from random_groups import numbers, triangles, vectors
 
 import mechsheet
-from mechsheet.accuracy.arithmetic import numbers, triangles, vectors
 from mechsheet.mechanics.load import Load
 from mechsheet.mechanics.prp import PRPGroup, prp, prp_acceleration, prp_reactions, prp_velocity
 from mechsheet.mechanics.rpp import RPPGroup, rpp, rpp_acceleration, rpp_reactions, rpp_velocity

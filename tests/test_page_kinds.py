@@ -50,30 +50,96 @@ def test_each_kind_is_edited_at_its_field(serve, page, bolt, console_errors):
     assert console_errors == []
 
 
-def test_lists_and_tables_are_edited_as_text_and_pasted(serve, page, tmp_path_factory, console_errors):
+@pytest.fixture(scope="module")
+def section(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    text = displayed(SECTION).replace("App()", 'App(css_file="page.css")')
+    rows = 'greatest level\n\n        """Rows."""\n'  # the editor loses a comment at the end of a setup
+    text = text.replace("greatest level\n", rows)
     path = tmp_path_factory.mktemp("page") / "section.py"
-    path.write_text(displayed(SECTION), encoding="utf-8")
-    page.goto(serve("run", path))
+    path.write_text(text, encoding="utf-8")
+    return path
 
-    def column(table: str, number: int) -> list[str]:
-        cells = page.locator(f".ms-table:has-text('Table {table} ') tbody td:nth-child({number})")
-        return cells.all_inner_texts()
 
-    row = page.locator(".ms-inputs tr")
-    expect(page.locator(".ms-table:has-text('Table 1 ') tbody tr")).to_have_count(3)
-    forces = row.filter(has_text="forces").locator("input")
-    expect(forces).to_have_value("10; -4; 2.5")
-    forces.fill("10; -4; 2,5; 500 N")
-    forces.press("Enter")
-    expect(page.locator(".ms-table:has-text('Table 1 ') tbody tr")).to_have_count(4)
-    assert column("1", 1) == ["10.00", "-4.00", "2.50", "0.50"]
-    stringers = row.filter(has_text="stringers of the section").locator("textarea")
-    expect(stringers).to_have_value("1; 25; 30\n0.5; -25; 30")
-    stringers.fill("1\t25\t30\n1\t-25\t30\n2\t0\t30\n")  # as a spreadsheet program copies its cells
-    stringers.blur()
-    expect(page.locator(".ms-table:has-text('Table 2 ') tbody tr")).to_have_count(3)
-    assert column("2", 1) == ["0.250", "0.250", "0.500"]
-    stringers.fill("1; 25; 30 | 1; x; 30")
-    stringers.blur()
-    page.get_by_text("level stringers.y (2) = 'x' cm is no number").first.wait_for()
+def listed(page, table: str, numbers: list[str]) -> None:
+    """The first column of a table, as soon as it has these numbers."""
+    expect(page.locator(f".ms-table:has-text('Table {table} ') tbody td:first-child")).to_have_text(numbers)
+
+
+def pasted(cell, text: str) -> None:
+    """Cells of a spreadsheet program, pasted where the focus is."""
+    cell.evaluate(
+        """(cell, text) => {
+          const clipboardData = new DataTransfer();
+          clipboardData.setData("text/plain", text);
+          cell.dispatchEvent(new ClipboardEvent("paste", { clipboardData, bubbles: true, cancelable: true }));
+        }""",
+        text,
+    )
+
+
+@pytest.mark.parametrize("mode", ["run", "edit"])
+def test_lists_and_tables_are_edited_in_a_grid(serve, page, section, console_errors, mode):
+    """By typing, with the keys alone, and pasted from a spreadsheet program; units and decimal commas as in a field."""
+    page.goto(serve(mode, section))
+    listed(page, "1", ["10.00", "-4.00", "2.50"])
+    page.get_by_label("F [kN], row 2").fill("-4,5")
+    page.get_by_label("F [kN], row 2").press("Enter")
+    listed(page, "1", ["10.00", "-4.50", "2.50"])
+    assert page.evaluate("document.activeElement.ariaLabel") == "F [kN], row 3"
+    page.keyboard.press("Enter")
+    page.keyboard.type("500 N")
+    page.keyboard.press("Enter")
+    listed(page, "1", ["10.00", "-4.50", "2.50", "0.50"])
+    pasted(page.get_by_label("F [kN], row 4"), "1\t2\t3\r\n")  # a row of it is a list too
+    listed(page, "1", ["10.00", "-4.50", "2.50", "1.00", "2.00", "3.00"])
+
+    area = page.get_by_label("A [cm²], row 1")
+    listed(page, "2", ["0.667", "0.333"])
+    pasted(area, "1\t25\t30\r\n1\t-25\t30\r\n2\t0\t0,3 m\r\n")  # more rows than there are
+    listed(page, "2", ["0.250", "0.250", "0.500"])
+    area.press("Control+Delete")
+    listed(page, "2", ["0.333", "0.667"])
+    area.press("Control+Enter")  # in between, with the focus on it
+    for key in ("3", "Tab", "1", "Tab", "40", "Enter"):
+        page.keyboard.press(key) if len(key) > 2 else page.keyboard.type(key)
+    listed(page, "2", ["0.167", "0.500", "0.333"])
+    page.get_by_label("y [cm], row 2").hover()
+    page.locator("ms-grid tr", has=page.get_by_label("y [cm], row 2")).get_by_role("button").click()
+    listed(page, "2", ["0.333", "0.667"])
+    assert console_errors == []
+
+
+def test_a_bad_cell_is_told_at_its_place_and_nothing_is_lost(serve, page, section, console_errors):
+    page.goto(serve("run", section))
+    listed(page, "2", ["0.667", "0.333"])
+    level = page.get_by_label("y [cm], row 2")
+    red = "() => getComputedStyle(document.querySelector('[data-input=\"stringers.y (2)\"]')).outlineStyle"
+
+    def told(text: str) -> None:
+        page.wait_for_function(
+            """(text) => getComputedStyle(document.querySelector('td[data-input="stringers"]'), "::after")
+                .content.includes(text)""",
+            arg=text,
+        )
+        page.wait_for_function(f"{red} === 'solid'")
+
+    for typed, text in {
+        "x": "level stringers.y (2) = 'x' cm is no number",
+        "31": "level stringers.y (2) = 31.0 cm must be < stringers.y_top = 30.0",
+        "2 kN": "level stringers.y (2) = '2 kN': kN does not measure cm",
+        "": "level stringers.y (2) = '' cm is no number",
+    }.items():
+        level.fill(typed)
+        level.press("Tab")
+        told(text)
+        assert [each.input_value() for each in page.locator("ms-grid").nth(1).locator("input").all()] == [
+            *("1", "25", "30"),
+            *("0.5", typed, "30"),
+            *("", "", ""),
+        ]
+    level.fill("-25")
+    level.press("Tab")
+    listed(page, "2", ["0.667", "0.333"])
+    pasted(page.get_by_label("y_top [cm], row 2"), "30\t7")  # beside the columns
+    page.get_by_text("stringers (2) = '0.5; -25; 30; 7' must have the columns A, y, y_top").first.wait_for()
     assert console_errors == []

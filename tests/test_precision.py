@@ -13,7 +13,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mechsheet.accuracy import precision
-from mechsheet.accuracy.precision import ROUNDING, Comparison, Job, Measured, Method, Truth, timed
+from mechsheet.accuracy.arithmetic import EPS
+from mechsheet.accuracy.precision import Comparison, Job, Measured, Method, largest_error, timed
 from mechsheet.run.progress import progress
 from mechsheet.workbook import writing
 
@@ -31,17 +32,17 @@ def test_error_counts_from_the_exact_number_and_not_from_its_float():
     tenth = mp.mpf(1) / 10
     off = float(abs(mp.mpf(0.1) - tenth))
     with mp.workdps(50):
-        fine = Truth([mp.mpf(1) / 3 + mp.mpf("1e-12")])
-    assert Truth([tenth, mp.mpf(1)]).error([0.1, 1 + 3e-13]) == pytest.approx(3e-13, rel=1e-3)
-    assert off < ROUNDING and Truth([tenth]).error([0.1]) == ROUNDING
-    assert fine.error([1 / 3]) == pytest.approx(3e-12, rel=1e-4)
+        fine = [mp.mpf(1) / 3 + mp.mpf("1e-12")]
+    assert largest_error([0.1, 1 + 3e-13], [tenth, mp.mpf(1)]) == pytest.approx(3e-13, rel=1e-3)
+    assert off < EPS and largest_error([0.1], [tenth]) == EPS
+    assert largest_error([1 / 3], fine) == pytest.approx(3e-12, rel=1e-4)
 
 
 def test_error_is_relative_to_the_largest_number_and_ends_at_one():
-    truth = Truth([mp.mpc(3, 4), mp.mpf(1)])
-    assert truth.error([3 + 4j, 1.05]) == pytest.approx(0.01)
-    assert truth.error([30 + 40j, 1]) == truth.error([3 + 4j, np.nan]) == truth.error([np.inf, 1]) == 1
-    assert truth.error(np.array([[3 + 4j], [1]])) == ROUNDING
+    truth = [mp.mpc(3, 4), mp.mpf(1)]
+    assert largest_error([3 + 4j, 1.05], truth) == pytest.approx(0.01)
+    assert [largest_error(found, truth) for found in ([30 + 40j, 1], [3 + 4j, np.nan], [np.inf, 1])] == [1, 1, 1]
+    assert largest_error(np.array([[3 + 4j], [1]]), truth) == EPS
 
 
 # Places
@@ -137,7 +138,7 @@ def test_compare_returns_errors_and_times_in_order():
     ways = [Method("numpy", "", lambda: [np.pi, np.e]), Method("rough", "2", lambda: [3.14, 2.72])]
     found = Job("7", "Constants", [mp.pi, mp.e], ways).compare(1e-4)
     assert [(row.family, row.setting) for row in found.rows] == [("numpy", ""), ("rough", "2")]
-    assert found.rows[0].error == ROUNDING and found.rows[1].error == pytest.approx((2.72 - np.e) / np.pi)
+    assert found.rows[0].error == EPS and found.rows[1].error == pytest.approx((2.72 - np.e) / np.pi)
     assert all(row.seconds > 0 for row in found.rows)
 
 
@@ -183,8 +184,8 @@ def test_red_field_holds_what_is_faster_and_more_accurate_beyond_rounding():
     own = Measured("own", "", 1e-9, 2.0)
     found = layers(Comparison("1", "Job", (own, Measured("better", "", 1e-15, 1.0))))
     (grey,), (red,) = (data for mark, data in found if mark == "rect")
-    assert (red["right"], red["error"], red["high"]) == (1.0, 8 * ROUNDING, 1e-9)
-    assert (grey["error"], grey["high"]) == (1e-16, 8 * ROUNDING)
+    assert (red["right"], red["error"], red["high"]) == (1.0, 8 * EPS, 1e-9)
+    assert (grey["error"], grey["high"]) == (1e-16, 8 * EPS)
 
 
 def test_progress_is_drawn_on_a_terminal_only(monkeypatch, capsys):

@@ -172,6 +172,32 @@ def test_what_stands_behind_an_integral_over_all_positions_is_recorded_too(tmp_p
     np.testing.assert_allclose(value_of(recording, "W", {"F": 4.0}), expected, rtol=1e-12)
 
 
+def test_what_grows_over_all_positions_is_recorded_where_tables_list_some(tmp_path: Path) -> None:
+    lines = """from scipy.integrate import cumulative_trapezoid
+from mechsheet import table
+W = cumulative_trapezoid(x**2, x, initial=0)  # [-] work so far
+off = W - (W.max() + W.min()) / 2  # [-] from its middle
+table_2 = table("2", "Work", x, off, every=2)"""
+    sheet = own(tmp_path, lines)
+    Path(sheet.path).write_text(Path(sheet.path).read_text().replace('"All", x)', '"All", x, every=2)'))
+    sheet = cells.read(Path(sheet.path))
+    _, recording = recorded(sheet)
+    assert not recording.gaps
+    other = cells.evaluate(sheet.path, ["off"], F=4.0)["off"]
+    np.testing.assert_allclose(value_of(recording, "off", {"F": 4.0}), other[::2], rtol=1e-12)
+
+
+def test_a_greatest_number_at_a_listed_position_is_followed_to_others(tmp_path: Path) -> None:
+    """It is at the third of five positions, which is listed, and for the other inputs at the fourth, which is not."""
+    sheet = own(tmp_path, "y = x * (2.2 * g.a * g.F - x)  # [-] arch\nmost = y.max()  # [-] greatest")
+    Path(sheet.path).write_text(Path(sheet.path).read_text().replace('"All", x)', '"All", x, every=2)'))
+    sheet = cells.read(Path(sheet.path))
+    names, recording = recorded(sheet)
+    other = cells.evaluate(sheet.path, ["most", "y"], a=1.3)
+    assert names["y"].argmax() == 2 and other["y"].argmax() == 3
+    assert value_of(recording, "most", {"a": 1.3}) == pytest.approx(other["most"], rel=1e-12)
+
+
 GUARDED = [  # what the numbers are decides about lengths and ways: other numbers of the same kind are followed
     ("x[x > 2]", {"F": 2.55}, {"F": 4.0}),
     ("np.sort(x * np.cos(3 * x))[np.flatnonzero(x > 2)]", {"F": 2.55}, {"F": 4.0}),
@@ -342,9 +368,11 @@ def test_what_is_not_followed_rests_on_the_way_that_was_taken_too(tmp_path: Path
     assert np.isfinite(value_of(recording, "y", {"k": 3})).all()
 
 
-@pytest.mark.parametrize("name", ["hitch", "landing_gear", "kinetostatics", "joint"])
+@pytest.mark.parametrize(
+    "name", ["hitch", "landing_gear", "kinetostatics", "joint", "bucket", "engine", "bolted_joint"]
+)
 def test_a_document_is_held_whole(name: str) -> None:
-    sheet = cells.load(ROOT / "worksheets" / f"{name}.py")
+    sheet = cells.load(next((ROOT / "worksheets").rglob(f"{name}.py")))
     names = sheet.run(sheet.results, {"g": sheet.inputs()})
     assert not record({**names, "__file__": sheet.path}).gaps
 

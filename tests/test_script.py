@@ -126,3 +126,14 @@ def test_implement_beyond_the_machine_fails_but_is_written(tmp_path):
     assert done.returncode == 1
     assert done.stdout.count("FAIL  ") == 3 and "FAIL  front axle keeps its least load" in done.stdout
     assert (tmp_path / "hitch.xlsx").exists()
+
+
+def test_the_command_runs_every_worksheet_without_marimo_to_the_same_report_and_workbook(tmp_path):
+    """What the file itself prints and writes as a program of marimo is the measure."""
+    flags, sheet = ("-X", "importtime", "-m", "mechsheet.run.script"), HITCH.with_name("joint.py")
+    alone, command = tmp_path / "alone", tmp_path / "command"
+    by_marimo, by_command = run(f"--out={alone}", sheet=sheet), run(f"--out={command}", sheet=sheet, flags=flags)
+    assert (by_marimo.returncode, by_command.returncode) == (0, 0)
+    assert "| marimo\n" not in by_command.stderr and "xlsxwriter" in by_command.stderr
+    assert by_command.stdout == by_marimo.stdout.replace(str(alone), str(command))
+    assert (command / "joint.xlsx").read_bytes() == (alone / "joint.xlsx").read_bytes()

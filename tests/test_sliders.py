@@ -6,9 +6,10 @@ from typing import Any
 
 import numpy as np
 import pytest
+from random_groups import FAMILIES, numbers, triangles, vectors
 
 from mechsheet.accuracy import arithmetic as exact
-from mechsheet.accuracy.arithmetic import EPS, FAMILIES, numbers, triangles, vectors
+from mechsheet.accuracy.arithmetic import EPS
 from mechsheet.mechanics.planar import cross
 from mechsheet.mechanics.prp import prp, prp_acceleration, prp_condition, prp_transmission_angle, prp_velocity
 from mechsheet.mechanics.rpp import rpp, rpp_acceleration, rpp_condition, rpp_transmission_angle, rpp_velocity

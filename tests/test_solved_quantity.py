@@ -11,9 +11,10 @@ from openpyxl import load_workbook
 from test_recalculation import edit
 from test_recorded_worksheet import own, recorded, value_of
 
-from mechsheet import sweep
+from mechsheet import closed_form, find, sweep
 from mechsheet.recording.dimensions import mismatches
 from mechsheet.worksheet import cells
+from mechsheet.worksheet.errors import SheetError
 
 OTHER: list[dict[str, float]] = [{"F": 3.25}, {"F": 1.75, "a": 1.5}, {"a": 0.2}]
 
@@ -141,6 +142,38 @@ def test_an_array_of_problems_is_exported(recalculated: Any, tmp_path: Path) -> 
     assert values == pytest.approx([row[0].value for row in stored["2 Each"].iter_rows(min_row=5)], rel=1e-12)
     after = recalculated(edit(path, {"a": 0.5}, tmp_path / "edited.xlsx"))
     assert {row[0].value for row in after["2 Each"].iter_rows(min_row=5)} == {"#N/A"}
+
+
+CLOSED = """from mechsheet import closed_form
+uv_found = find(
+    lambda u, v: (u + v, v - g.a * u),
+    equals=(x, 0),
+    u=1.0,
+    v=1.0,
+)
+y = uv_found.value.u  # [-] first
+z = uv_found.value.v  # [-] second
+uv_c = closed_form(uv_found, u=x / (1 + g.a), v=x * g.a / (1 + g.a))
+table_2 = table("2", "Each", y, z)"""
+
+
+@pytest.mark.office
+def test_several_unknowns_with_closed_forms_follow_changed_inputs(recalculated: Any, tmp_path: Path) -> None:
+    path = exported(tmp_path, CLOSED)
+    after = recalculated(edit(path, {"a": 0.5, "F": 3.0}, tmp_path / "edited.xlsx"))
+    own_values = cells.evaluate(tmp_path / "own.py", ["y", "z", "uv_c"], a=0.5, F=3.0)
+    rows = [[c.value for c in row] for row in after["2 Each"].iter_rows(min_row=5)]
+    assert [row[0] for row in rows] == pytest.approx(own_values["y"].tolist(), rel=1e-12)
+    assert [row[1] for row in rows] == pytest.approx(own_values["z"].tolist(), rel=1e-12)
+    assert [c.verdict for c in own_values["uv_c"]] == ["pass", "pass"]
+    assert {row[4].value for row in after["Checks"].iter_rows(min_row=3)} == {"PASS"}
+
+
+def test_a_closed_form_of_no_unknown_is_refused() -> None:
+    found = find(lambda u, v: (u + v - 3, u - v - 1), u=1.0, v=1.0)
+    assert [c.name for c in closed_form(found, v=1.0)] == ["v: Find and the closed form"]
+    with pytest.raises(SheetError, match=r"^closed form of w: the unknowns are u, v$"):
+        closed_form(found, w=1.0)
 
 
 def test_a_sweep_has_nan_with_the_reason(tmp_path: Path) -> None:

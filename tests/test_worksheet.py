@@ -6,6 +6,7 @@ import subprocess
 import sys
 from dataclasses import replace
 from pathlib import Path
+from textwrap import indent
 
 import numpy as np
 import pytest
@@ -275,3 +276,43 @@ def test_changed_file_is_read_again(tmp_path):
     for value in (1, 22):
         sheet.write_text(text.format(value))
         assert load(sheet).run(["a"], {})["a"] == value
+
+
+def cells(*bodies: str) -> str:
+    """Text of a worksheet of cells, each the lines of its function."""
+    parts = ("import marimo\napp = marimo.App()\n", *(f"@app.cell\ndef _():\n{indent(b, '    ')}\n" for b in bodies))
+    return "\n\n".join(parts)
+
+
+def test_all_cells_run_those_first_that_others_need_and_those_too_that_give_nothing(tmp_path, capsys):
+    path = tmp_path / "sheet.py"
+    # As text editors leave it: the cells name none of what they read, be it in a function, as arguments.
+    path.write_text(cells("print(c)", "c = f()", "def f():\n    return 2 * b", "b = 21", "print('end')"))
+    names = load(path).run_whole()
+    assert (names["c"], capsys.readouterr().out) == (42, "42\nend\n")
+    assert evaluate(path, ["c"], g=None) == {"c": 42}
+
+
+def test_a_name_that_two_cells_define_is_refused_with_both_places(tmp_path):
+    path = tmp_path / "sheet.py"
+    path.write_text(cells("a = 1", "b = a", "for a in (1, 2):\n    pass"))
+    with pytest.raises(SheetError, match=r"^a is defined in two cells of .*sheet\.py, lines 6 and 16: one of them"):
+        load(path)
+
+
+def test_a_cell_that_the_editor_keeps_as_a_text_is_refused(tmp_path):
+    path = tmp_path / "sheet.py"
+    unread = 'app._unparsable_cell(\n    r"""\n    L = 2 g.F\n    """,\n    name="_"\n)\n'
+    path.write_text(cells("a = 1") + "\n\n" + unread)
+    with pytest.raises(SheetError, match=r"line 10: a cell there cannot be read: L = 2 g\.F: .*is a \* missing"):
+        load(path)
+    path.write_text("print('no cells')\n")
+    with pytest.raises(SheetError, match=r"sheet\.py is no worksheet: it has no cells"):
+        load(path).run_whole()
+
+
+def test_cells_that_need_each_other_are_refused(tmp_path):
+    path = tmp_path / "sheet.py"
+    path.write_text(cells("a = b + 1", "b = a - 1"))
+    with pytest.raises(SheetError, match="a and b need each other"):
+        load(path).run_whole()

@@ -50,7 +50,8 @@ def section_1():
     The kind of an input is its type: `float`, `int`, `bool` (a switch), `str` (a text), `Literal["single", "double"]`
     (names to choose from), `one_of(GRADES, "8.8")` (options with properties, `g.bolt.R_m`), `list[float]` (load
     cases), a list of rows of another class (a table), or either from a file beside the worksheet,
-    `from_file("gas.csv")`. Unit names are constants: `640 * MPa`, `3 * inch`.
+    `from_file("gas.csv")`; both are grids, into which the cells of a spreadsheet are pasted. Unit names are constants:
+    `640 * MPa`, `3 * inch`.
     """)
     return
 
@@ -316,7 +317,8 @@ def section_10():
     drives, drawings, sweeps and design. Each name tells its arguments and units by `help("mechsheet.rrr")`.
 
     A mechanism is written as its crank or cylinder, then one group a line, from which all else follows; the example
-    `bucket` shows it with forces, `hitch` with everything that a document has.
+    `bucket` shows it with forces, `hitch` with everything that a document has. `engine` reads a file and drives a
+    flywheel, `bolted_joint` has materials to choose from, load cases, inches and pounds, two unknowns.
     """)
     return
 

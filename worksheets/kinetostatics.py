@@ -15,10 +15,10 @@ with app.setup:
     from mechsheet import (
         Check, Drawing, DriveMoment, Load, PinReaction, RPRGroup, RRPGroup, RRRGroup, SlideReaction, Used,
         angle, ask, assembled, balance, caption, check, check_slope, coupling_drive, cross, cut_group, dot,
-        export, figure, gear_drive, inertia, inputs, largest_of, link_acceleration, link_velocity, magnitudes,
-        mark, player, polar_diagrams, read, rpr, rpr_acceleration, rpr_velocity, rrp, rrp_acceleration,
-        rrp_transmission_angle, rrp_velocity, rrr, rrr_acceleration, rrr_transmission_angle, rrr_velocity,
-        slider, solve_reactions, summary, table, title_block, typeset,
+        export, figure, gear_drive, index, inertia, inputs, largest_of, link_acceleration, link_velocity,
+        magnitudes, mark, player, polar_diagrams, read, rpr, rpr_acceleration, rpr_velocity, rrp,
+        rrp_acceleration, rrp_transmission_angle, rrp_velocity, rrr, rrr_acceleration, rrr_transmission_angle,
+        rrr_velocity, slider, solve_reactions, summary, table, title_block, typeset,
     )  # fmt: skip
     from mechsheet.units import deg
 
@@ -33,7 +33,8 @@ def title():
         "Kinetostatics",
         """
     Reactions in the pairs of a lever mechanism of the second class, its links' inertia included, after I. G. Shebanov,
-    *Force analysis*, Kharkiv Aviation Institute, 2003. The numbers in brackets are the document's formulas.
+    *Force analysis*, Kharkiv Aviation Institute, 2003. In brackets stand the numbers of the document's formulas,
+    figures and programs.
 
     The document gives the method for one group of each kind and prints no numbers. The mechanism here is ours: a
     plunger pump, whose dimensions, masses and loads are plausible and no more. Its crank drives a group of the first
@@ -385,7 +386,7 @@ def motion_shown(motion_lines, turn):
 @app.cell(hide_code=True)
 def section_32():
     mo.md(r"""
-    ### 3.2 Inertia forces and moments
+    ### 3.2 Inertia forces and moments (figure 1.1)
 
     Forces are complex numbers too. The plunger does not turn, so it has no inertia moment; the crank has none while it
     turns evenly.
@@ -471,7 +472,7 @@ def loads_listed(
 @app.cell(hide_code=True)
 def section_4():
     mo.md(r"""
-    ## 4 Second kind: group (4, 5), rod and slider (SR2)
+    ## 4 Second kind: group (4, 5), rod and slider (program SR2)
 
     The groups are taken from the last to the first (1.2). The document's links 1, 2, 3, 4 and points A, B of the second
     kind are here the links 3, 4, 5, 0 and the points D, E; its $\varphi_4$ is $\varphi_{05}$. So its $R_{12}$ is here
@@ -559,7 +560,9 @@ def drawing_41(D, E, F4_sum, F5_sum, R_05, R_D, S4, SR2, checks_45, g, lines_42,
     _forces = {"F4": (S4, F4_sum), "F5": (E, F5_sum, D), "R05": (E, R_05), "R34": (D, R_D, E)}
     drawing_41 = cut_group(_links.hinge(_d, "D").hinge(_e, "E").mass(_s4, "S4"), turn.value, _forces, [D, E])
     typeset(
-        *(turn, drawing_41, caption("4.1", f"Group (4, 5) with its forces, φ₁ = {turn.value}°"), SR2.at(turn.value)),
+        *(turn, drawing_41),
+        caption("4.1", f"Group (4, 5) with its forces (figure 1.3), φ₁ = {turn.value}°"),
+        SR2.at(turn.value),
         "The same vectors by the mechanics library, which solves the group's equations in another form:",
         *(vectors_45.at(turn.value), *checks_45),
         r"""
@@ -575,7 +578,7 @@ def drawing_41(D, E, F4_sum, F5_sum, R_05, R_D, S4, SR2, checks_45, g, lines_42,
 @app.cell(hide_code=True)
 def section_5():
     mo.md(r"""
-    ## 5 Third kind: group (6, 7), rod with piston and cylinder (SR3)
+    ## 5 Third kind: group (6, 7), rod with piston and cylinder (program SR3)
 
     The document's links 1, 2, 3, 4 and points A, E are here the links 3, 6, 7, 0 and the points K, H; its $\varphi_2$
     is $\varphi_6$, from K to H. So its $R_{12}$ is here $R_{36}$, its $R_{32}$, the force of the cylinder on the rod
@@ -638,13 +641,16 @@ def kind_3(F_gas, F_in6, F_in7, G6, G7, H, K, M_in6, M_in7, g, phi6):
     gamma07 = atan2(R07_y, R07_x) % (2 * pi)  # [deg] (1.43)
     h76 = -(F6 * g.l_KS6 * sin(gamma6 - phi6) + M6) / (R76 * sin(gamma76 - phi6))  # [m] (1.44)-(1.46) its arm from K
     SR3 = typeset()
-    return A_67, F6_sum, F7, F7_sum, M6, M7, R07, R36, R36_n, R76, SR3, T6, gamma07, gamma36, gamma6, gamma76, h76, l_HK
+    return (
+        A_67, F6, F6_sum, F7, F7_sum, M6, M7, R07, R36, R36_n, R36_t, R76, SR3, T6, gamma07, gamma36, gamma6,
+        gamma76, h76, l_HK,
+    )  # fmt: skip
 
 
 @app.cell
 def compared_67(
-    A_67, F7, F_gas, G6, G7, M7, R07, R36, R36_n, R76, S6, S7, T6, a_S6, a_S7, eps6, g, gamma07, gamma36, gamma6,
-    gamma76, group_67, h76, l_HK, lost, phi6,
+    A_67, F6, F7, F_gas, G6, G7, M7, R07, R36, R36_n, R36_t, R76, S6, S7, T6, a_S6, a_S7, eps6, g, gamma07, gamma36,
+    gamma6, gamma76, group_67, h76, l_HK, lost, phi6,
 ):  # fmt: skip
     found_67 = group_67.reactions(
         [Load(G6 + F_gas, S6), inertia(S6, g.m6, g.J6, a_S6, eps6)],
@@ -669,6 +675,10 @@ def compared_67(
     d_134_printed = cos(phi6 + pi) * sin(phi6 + 0.5) - sin(phi6 + pi) * cos(phi6 + 0.5 * pi)  # [-] (1.34) (erratum)
     r_67 = R36_n * cos(phi6) - R76 * sin(phi6) + A_67  # [N] (1.37) left by the first line
     r_67_printed = R36_n * cos(phi6) - R07 * sin(phi6) + A_67  # [N] (1.37) left as printed (erratum)
+    gamma36_t_UGL2 = where(R36_t < 0, phi6 - 0.5 * pi, phi6 + 0.5 * pi)  # [deg] (1.35) of |R36t|
+    A_67_printed = R36_t * cos(gamma36_t_UGL2) + F6 * cos(gamma6)  # [N] (1.37) as printed, R36t with its sign (erratum)
+    B_67_printed = R36_t * sin(gamma36_t_UGL2) + F6 * sin(gamma6)  # [N] (1.37) as printed, R36t with its sign (erratum)
+    R76_printed = A_67_printed * sin(phi6) - B_67_printed * cos(phi6)  # [N] (1.37) from them (erratum)
     lines_52 = typeset()
     return R_H, R_K, checks_67, lines_52, vectors_67
 
@@ -680,7 +690,9 @@ def drawing_51(F6_sum, F7_sum, H, K, R_H, R_K, S6, S7, SR3, checks_67, g, lines_
     _forces = {"F6": (S6, F6_sum), "F7": (S7, F7_sum), "R36": (K, R_K, H), "R07": (H, R_H, K)}
     drawing_51 = cut_group(_links, turn.value, _forces, [K, H])
     typeset(
-        *(turn, drawing_51, caption("5.1", f"Group (6, 7) with its forces, φ₁ = {turn.value}°"), SR3.at(turn.value)),
+        *(turn, drawing_51),
+        caption("5.1", f"Group (6, 7) with its forces (figure 1.4), φ₁ = {turn.value}°"),
+        SR3.at(turn.value),
         """
         The same vectors by the library; $R_{76}$ at the arm $h_{76}$ does the same as the library's $R_{76}$ at
         K with its moment.
@@ -690,7 +702,9 @@ def drawing_51(F6_sum, F7_sum, H, K, R_H, R_K, S6, S7, SR3, checks_67, g, lines_
         **Errata.** The second term of (1.35) is printed with $\sin(\varphi_2 - \gamma_2)$, the direction of the
         other link's load. (1.34) is printed with $\sin(\varphi_2 + 0.5)$ for $\sin(\varphi_2 + 0.5\,\pi)$: the
         determinant over $l_{EA} R_{12}^\tau$ is -1 with the $\pi$. The first line of the system after (1.37) is
-        printed with $R_{43}$ for $R_{32}$. The printed and the right numbers:
+        printed with $R_{43}$ for $R_{32}$, and its right sides are called those of (1.10). (1.37) itself has
+        $R_{12}^\tau$ where (1.10) and (1.26) have $|R_{12}^\tau|$: the direction is turned where $R_{12}^\tau$ is
+        negative, so the sign would count twice. The printed and the right numbers:
         """,
         lines_52.at(turn.value),
     )
@@ -700,7 +714,7 @@ def drawing_51(F6_sum, F7_sum, H, K, R_H, R_K, S6, S7, SR3, checks_67, g, lines_
 @app.cell(hide_code=True)
 def section_6():
     mo.md(r"""
-    ## 6 First kind: group (2, 3), rod and rocker (SR1)
+    ## 6 First kind: group (2, 3), rod and rocker (program SR1)
 
     Points and links have the document's names, but for its link 4, which is here the frame 0: its $R_{43}$ is
     $R_{03}$. The reactions found above act back on the rocker at D and K; with its own loads they make the force
@@ -800,7 +814,9 @@ def drawing_61(A, B, C, D, F2_sum, F3_own, K, R_A, R_C, R_D, R_K, S2, S3, SR1, c
     _own = {"F2": (S2, F2_sum), "F3_own": (S3, F3_own), "R12": (A, R_A, B), "R03": (C, R_C, B)}
     drawing_61 = cut_group(_pins, turn.value, _back | _own, [A, B, C, D, K])
     typeset(
-        *(turn, drawing_61, caption("6.1", f"Group (2, 3) with its forces, φ₁ = {turn.value}°"), SR1.at(turn.value)),
+        *(turn, drawing_61),
+        caption("6.1", f"Group (2, 3) with its forces (figure 1.2), φ₁ = {turn.value}°"),
+        SR1.at(turn.value),
         "The same vectors by the library:",
         *(vectors_23.at(turn.value), *checks_23),
     )
@@ -810,7 +826,7 @@ def drawing_61(A, B, C, D, F2_sum, F3_own, K, R_A, R_C, R_D, R_K, S2, S3, SR1, c
 @app.cell(hide_code=True)
 def section_61():
     mo.md(r"""
-    ### 6.1 Directions by cases (UGL2 to UGL4)
+    ### 6.1 Directions by cases (programs UGL2, UGL3, UGL4)
 
     The document's subprograms take the arctangent of a quotient and choose the quadrant by signs. Their schemes are
     lost in the scan; by their notation, UGL2 turns the assumed direction of a component that comes out with minus,
@@ -886,7 +902,7 @@ def loads_1_shown(given_1, turn):
 @app.cell(hide_code=True)
 def section_71():
     mo.md(r"""
-    ### 7.1 Drive by a gear (SRWL1)
+    ### 7.1 Drive by a gear (program SRWL1)
 
     The wheel on the crank is driven at its pitch point P, to the left of $O_1$. Whichever flank of its teeth works, the
     force on it points inwards, $\alpha_w$ off the tangent: where (1.49) comes out with minus, the direction is
@@ -938,7 +954,7 @@ def drawing_71(A, F1_sum, F_w, O1, P_w, R_1g, R_A, S1, checks_gear, g, gear_line
     _forces = {"F1": (S1, F1_sum), "R21": (A, -R_A, O1), "F_b": (P_w, F_w, O1), "R_O1": (O1, R_1g, A)}
     drawing_71 = cut_group(_links, turn.value, _forces, [A, *_wheel])
     typeset(
-        *(turn, drawing_71, caption("7.1", f"Crank driven by a gear, φ₁ = {turn.value}°")),
+        *(turn, drawing_71, caption("7.1", f"Crank driven by a gear (figure 1.5), φ₁ = {turn.value}°")),
         *(gear_lines.at(turn.value), *checks_gear),
     )
     return
@@ -947,7 +963,7 @@ def drawing_71(A, F1_sum, F_w, O1, P_w, R_1g, R_A, S1, checks_gear, g, gear_line
 @app.cell(hide_code=True)
 def section_72():
     mo.md(r"""
-    ### 7.2 Drive by a coupling (SRWL2)
+    ### 7.2 Drive by a coupling (program SRWL2)
 
     The coupling gives the crank a moment and no force:
 
@@ -960,7 +976,7 @@ def section_72():
     $$\bar R_{21} + \bar F_1 + \bar R_{O_1} = 0 \tag{1.57}$$
 
     **Errata.** In (1.54) the products are garbled: a moment is multiplied by a length there; above it is as (1.55) has
-    it. (1.56) is printed without the minus that (1.55) gives.
+    it. (1.56) is printed without the minus that (1.55) gives. From (1.57) on, the print has $F_{21}$ for $R_{21}$.
     """)
     return
 
@@ -993,7 +1009,7 @@ def drawing_72(A, F1_sum, M_c, O1, R_1c, R_A, S1, checks_drive, coupling_lines, 
     drawing_72 = cut_group(_links, turn.value, _forces, [A, O1])
     _says = f"balancing moment {_M:.4g} N·m" if isfinite(_M) else "no balancing moment"
     typeset(
-        *(turn, drawing_72, caption("7.2", f"Crank driven by a coupling, φ₁ = {turn.value}°: {_says}")),
+        *(turn, drawing_72, caption("7.2", f"Crank driven by a coupling (figure 1.6), φ₁ = {turn.value}°: {_says}")),
         *(coupling_lines.at(turn.value), *checks_drive),
     )
     return
@@ -1262,6 +1278,12 @@ def dense(largest, loads, longest, lost, reactions):
     )
     typeset(*checks_dense)
     return (checks_dense,)
+
+
+@app.cell(hide_code=True)
+def listed():
+    index()
+    return
 
 
 @app.cell

@@ -13,9 +13,9 @@ with app.setup:
 
     from mechsheet import (
         Drawing, Load, SheetError, Used, angle, angle_opposite, ask, caption, check, check_slope, closed_form,
-        cross, cylinder_drive, dot, export, figure, find, inertia, inputs, link_acceleration, link_velocity,
-        mark, player, read, refuse, rrr, rrr_acceleration, rrr_condition, rrr_reactions, rrr_velocity, slider,
-        summary, table, title_block, typeset,
+        cross, cylinder_drive, dot, export, figure, find, index, inertia, inputs, link_acceleration,
+        link_velocity, mark, player, read, refuse, rrr, rrr_acceleration, rrr_condition, rrr_reactions,
+        rrr_velocity, slider, summary, table, title_block, typeset,
     )  # fmt: skip
     from mechsheet.units import deg
 
@@ -29,7 +29,8 @@ def title():
         """
     Synthesis by the pressure angle and kinematics of the lever mechanism that retracts a main leg, after the method
     for the computer course project of the Kuibyshev Aviation Institute (1982); then the choice of the retraction time
-    and the forces. The numbers in brackets are the document's formulas, the steps those of its algorithm.
+    and the forces. In brackets stand the numbers of the document's formulas, figures and
+    appendices; the steps are those of its algorithm.
 
     The document prints no numbers: the dimensions, masses and areas below are ours, plausible for an airliner.
     """,
@@ -201,6 +202,53 @@ def pressure_ends(g, gamma_0, gamma_n, l12, mu, psi):
 
 
 @app.cell(hide_code=True)
+def section_25():
+    mo.md(r"""
+    The drawing is to scale, the leg cut short. At both ends of the stroke the red line is the force along the rod, the
+    green one the velocity of $A$; the stroke $H$ is what the arc about $O_1$ through $A_0$ leaves of $O_1 A_n$.
+    """)
+    return
+
+
+@app.cell
+def drawing_21(O1, O2, beta0, g, gamma_0, gamma_n, l20, mu, psi):
+    _up = pi / 2 + beta0  # direction from O2 to O1
+    _at = lambda gamma: O2 + g.l3 * exp(1j * (_up - gamma))
+    _corner, _A0, _Ak, _An = O2 + 1j * g.a, _at(gamma_0), _at(mu), _at(gamma_n)
+    _B0 = O2 + 2.2 * (_A0 - O2) * exp(1j * psi)
+    _arc = lambda P, r, start, turn: P + r * exp(1j * (start + turn * linspace(0, 1, 61)))
+
+    def _angled(drawing, P, r, start, turn, name):
+        return drawing.path(_arc(P, r, start, turn), colour="").text(
+            P + (r + 0.1 * g.l3) * exp(1j * (start + turn / 2)), name
+        )
+
+    def _pressure(drawing, A, name):
+        force, velocity = (A - O1) / abs(A - O1), -1j * (A - O2) / g.l3
+        drawing = drawing.path([A, A + 0.75 * g.l3 * force], colour="red")
+        drawing = drawing.path([A, A + 0.75 * g.l3 * velocity], colour="green")
+        return _angled(drawing, A, 0.42 * g.l3, angle(force), angle(velocity / force), name)
+
+    synthesis = Drawing(width=820, height=620).path(_arc(O2, g.l3, 0, 2 * pi))
+    for _line in ([O1, _corner], [_corner, O2], [O1, O2], [O1, _Ak], [O2, _Ak], [O1, _A0], [O1, _An]):
+        synthesis = synthesis.path(_line, colour="")
+    synthesis = synthesis.path(_arc(O1, l20, angle(_A0 - O1), angle((_An - O1) / (_A0 - O1))), colour="orange")
+    synthesis = synthesis.link(O2, _A0, "l3").link(O2, _An).link(O2, _B0, "3")
+    synthesis = synthesis.dimension(O1, _corner, "b").dimension(_corner, O2, "a", 18.0)
+    synthesis = synthesis.dimension(O1 + l20 * exp(1j * angle(_An - O1)), _An, "H", 70.0)
+    synthesis = _angled(synthesis, O2, 0.25 * g.l3, pi / 2, beta0, "β₀")
+    synthesis = _angled(synthesis, O2, 0.45 * g.l3, _up, -mu, "μ")
+    synthesis = _angled(synthesis, O2, 0.65 * g.l3, _up - gamma_0, -g.theta / 2, "θ/2")
+    synthesis = _angled(synthesis, O2, 0.65 * g.l3, _up - mu, -g.theta / 2, "θ/2")
+    synthesis = _angled(synthesis, O2, 0.55 * g.l3, _up - gamma_0, psi, "ψ")
+    synthesis = _pressure(_pressure(synthesis, _A0, "α₀"), _An, "αₙ")
+    pins = synthesis.hinge(_A0, "A0").hinge(_Ak, "Ak").hinge(_An, "An").hinge(_B0, "B0")
+    drawing_21 = pins.support(O1, "O1", pi / 2).support(O2, "O2", 0.0)
+    typeset(drawing_21, caption("2.1", "Synthesis by the pressure angle (figure 2)"))
+    return
+
+
+@app.cell(hide_code=True)
 def section_3():
     mo.md(r"""
     ## 3 Analytical study
@@ -225,7 +273,15 @@ def section_35():
 
     $\beta_2$ is the document's $\Delta\beta_i$, the angle at $O_1$ of the triangle $O_1 A O_2$: (27) in the form that
     keeps its digits. $\varphi_2$ is the direction from $A$ to $O_1$, $\varphi_3$ that from $O_2$ to $A$, and
-    $\varphi_{32}$ the document's $\Delta\varphi$.
+    $\varphi_{32}$ the document's $\Delta\varphi$. The leg's angle is a function of the cylinder's length, which the
+    loop gives:
+
+    $$\varphi_3 = \varphi(\ell_2) \tag{10}$$
+
+    $$\bar\ell_3 + \bar\ell_2 = \bar b + \bar a \tag{16}$$
+
+    $$\begin{aligned} \ell_3 \cos\varphi_3 + \ell_2 \cos\varphi_2 &= -b \\
+    \ell_3 \sin\varphi_3 + \ell_2 \sin\varphi_2 &= a \end{aligned} \tag{17}$$
 
     Formula (28) takes $\varphi_3$ from one projection of the loop (17), by the arcsine; one of the programs takes the
     arccosine. Each is right on one half of the circle only. Both projections together, $\ell_3 e^{i\varphi_3} = O_1 -
@@ -240,7 +296,7 @@ def steps_5_to_7(O1, beta0, g, l12, mu):
     phi3k = pi / 2 + beta0 - mu  # [deg] crank in the tangent position
     beta2 = lambda l2: angle_opposite(g.l3, l2, l12)  # [deg] (27) between O1 O2 and the cylinder
     phi2 = lambda l2: pi / 2 + beta0 + beta2(l2)  # [deg] (26) cylinder
-    phi3 = lambda l2: phi3k + angle((O1 - l2 * exp(1j * phi2(l2))) / exp(1j * phi3k))  # [deg] (17) crank
+    phi3 = lambda l2: phi3k + angle((O1 - l2 * exp(1j * phi2(l2))) / exp(1j * phi3k))  # [deg] (10), (16), (17) crank
     phi32 = lambda l2: phi3(l2) - phi2(l2)  # [deg] crank from the cylinder
     A = lambda l2: g.l3 * exp(1j * phi3(l2))  # [m] pin of the rod on the crank
 
@@ -350,7 +406,7 @@ def stroke():
 def drawing_32(H, ends, l20, part, paths, scheme):
     l2_t = l20 + part.value * H  # [m] cylinder as drawn
     drawing_32 = scheme(l2_t) + ends + paths
-    typeset(drawing_32, mark(l2f=l2_t), caption("3.2", "Scheme of the landing gear"))
+    typeset(drawing_32, mark(l2f=l2_t), caption("3.2", "Scheme of the landing gear (figure 1)"))
     return (l2_t,)
 
 
@@ -360,14 +416,26 @@ def section_38():
     ### Step 8: analogues of the angular velocities
 
     Derivatives with respect to $\ell_2$: the angular velocities per unit of the rod's speed.
+
+    $$(\omega_j)_{\ell_2} = \frac{\mathrm{d}\varphi_j}{\mathrm{d}\ell_2}, \qquad
+    (\varepsilon_j)_{\ell_2} = \frac{\mathrm{d}^2\varphi_j}{\mathrm{d}\ell_2^2} \tag{15}$$
+
+    The loop (17), differentiated, then in axes turned by $\varphi_2$:
+
+    $$\begin{aligned} -\ell_3 (\omega_3)_{\ell_2} \sin\varphi_3 - \ell_2 (\omega_2)_{\ell_2} \sin\varphi_2 +
+    \cos\varphi_2 &= 0 \\ \ell_3 (\omega_3)_{\ell_2} \cos\varphi_3 + \ell_2 (\omega_2)_{\ell_2} \cos\varphi_2 +
+    \sin\varphi_2 &= 0 \end{aligned} \tag{18}$$
+
+    $$\begin{aligned} -\ell_3 (\omega_3)_{\ell_2} \sin(\varphi_3 - \varphi_2) + 1 &= 0 \\
+    \ell_3 (\omega_3)_{\ell_2} \cos(\varphi_3 - \varphi_2) + \ell_2 (\omega_2)_{\ell_2} &= 0 \end{aligned} \tag{19}$$
     """)
     return
 
 
 @app.cell
 def step_8(g, phi32):
-    omega3_l2 = lambda l2: 1 / (g.l3 * sin(phi32(l2)))  # [rad/m] (20) crank
-    omega2_l2 = lambda l2: -(g.l3 * omega3_l2(l2) * cos(phi32(l2)) / l2)  # [rad/m] (21) cylinder
+    omega3_l2 = lambda l2: 1 / (g.l3 * sin(phi32(l2)))  # [rad/m] (15), (18)-(20) crank
+    omega2_l2 = lambda l2: -(g.l3 * omega3_l2(l2) * cos(phi32(l2)) / l2)  # [rad/m] (15), (18), (19), (21) cylinder
     typeset()
     return omega2_l2, omega3_l2
 
@@ -376,6 +444,19 @@ def step_8(g, phi32):
 def section_39():
     mo.md(r"""
     ### Step 9: analogues of the angular accelerations
+
+    The equations (18), differentiated, then in the turned axes:
+
+    $$\begin{aligned} -\ell_3 (\omega_3)_{\ell_2}^2 \cos\varphi_3 - \ell_3 (\varepsilon_3)_{\ell_2} \sin\varphi_3 -
+    \ell_2 (\omega_2)_{\ell_2}^2 \cos\varphi_2 - \ell_2 (\varepsilon_2)_{\ell_2} \sin\varphi_2 -
+    2 (\omega_2)_{\ell_2} \sin\varphi_2 &= 0 \\ -\ell_3 (\omega_3)_{\ell_2}^2 \sin\varphi_3 +
+    \ell_3 (\varepsilon_3)_{\ell_2} \cos\varphi_3 - \ell_2 (\omega_2)_{\ell_2}^2 \sin\varphi_2 +
+    \ell_2 (\varepsilon_2)_{\ell_2} \cos\varphi_2 + 2 (\omega_2)_{\ell_2} \cos\varphi_2 &= 0 \end{aligned} \tag{22}$$
+
+    $$\begin{aligned} -\ell_3 (\omega_3)_{\ell_2}^2 \cos(\varphi_3 - \varphi_2) - \ell_3 (\varepsilon_3)_{\ell_2}
+    \sin(\varphi_3 - \varphi_2) - \ell_2 (\omega_2)_{\ell_2}^2 &= 0 \\ -\ell_3 (\omega_3)_{\ell_2}^2
+    \sin(\varphi_3 - \varphi_2) + \ell_3 (\varepsilon_3)_{\ell_2} \cos(\varphi_3 - \varphi_2) +
+    2 (\omega_2)_{\ell_2} + \ell_2 (\varepsilon_2)_{\ell_2} &= 0 \end{aligned} \tag{23}$$
 
     From (23) the fraction (24) has a minus, which the document's print lacks; (25) takes its value and inherits the
     mistake with it. (24) is shown both ways.
@@ -388,12 +469,12 @@ def step_9(g, omega2_l2, omega3_l2, phi32):
     def eps3_l2(l2):
         return -(
             (l2 * omega2_l2(l2) ** 2 + g.l3 * omega3_l2(l2) ** 2 * cos(phi32(l2))) / (g.l3 * sin(phi32(l2)))
-        )  # [rad/m**2] (24) crank
+        )  # [rad/m**2] (15), (22)-(24) crank
 
     def eps2_l2(l2):
         return (
             g.l3 * omega3_l2(l2) ** 2 * sin(phi32(l2)) - g.l3 * eps3_l2(l2) * cos(phi32(l2)) - 2 * omega2_l2(l2)
-        ) / l2  # [rad/m**2] (25) cylinder
+        ) / l2  # [rad/m**2] (15), (22), (23), (25) cylinder
 
     typeset()
     return eps2_l2, eps3_l2
@@ -445,7 +526,7 @@ def analogues_shown(
 @app.cell(hide_code=True)
 def section_listings():
     mo.md(r"""
-    ### The programs as printed
+    ### The programs as printed (appendix 1, appendix 2)
 
     The Fortran listing has 3.14 for $\pi$, the arcsine (28), and `1/L3*SIN(DF)`, which multiplies by the sine that
     (20) divides by. The other program takes $\varphi_3$ from the projection on x by the arccosine, where its B is the
@@ -549,6 +630,54 @@ def step_12(
     )
     typeset(*checks_analogues)
     return checks_analogues, scale
+
+
+@app.cell(hide_code=True)
+def section_algorithm():
+    mo.md("""
+    ### The algorithm with its numbers
+
+    What the loop computes is told from its first position to its last.
+    """)
+    return
+
+
+@app.cell
+def drawing_35(
+    H, V21, beta2i, eps2_l2i, eps2i, eps3_l2i, eps3i, g, l20, l2i, l2n, mu, omega2_l2i, omega2i, omega3_l2i, omega3i,
+    phi2i, phi32i, phi3i, psi,
+):  # fmt: skip
+    _ends = lambda x, unit=1.0: f"{x[0] / unit:.4g} … {x[-1] / unit:.4g}".replace("-", "−")
+    _steps = (
+        ("data", f"a = {g.a:.4g} m, b = {g.b:.4g} m, l₃ = {g.l3:.4g} m, θ = {g.theta / deg:.4g}°, t = {g.t_r:.4g} s"),
+        ("1", f"μ = {mu / deg:.4g}° by (4)"),
+        ("2", f"ψ = {psi / deg:.4g}° by (5)"),
+        ("3", f"l₂₀ = {l20:.4g} m, l₂ₙ = {l2n:.4g} m, H = {H:.4g} m by (7), (8), (6)"),
+        ("10", f"V₂₁ = {V21:.4g} m/s by (1)"),
+        ("4", f"for i = 0 … {g.R}: l₂ = {_ends(l2i)} m by (9)"),
+        ("5", f"Δβ = {_ends(beta2i, deg)}° by (27)"),
+        ("6", f"φ₂ = {_ends(phi2i, deg)}°, φ₃ = {_ends(phi3i, deg)}° by (26), (17)"),
+        ("7", f"Δφ = {_ends(phi32i, deg)}°"),
+        ("8", f"dφ₃/dl₂ = {_ends(omega3_l2i)}, dφ₂/dl₂ = {_ends(omega2_l2i)} rad/m by (20), (21)"),
+        ("9", f"d²φ₃/dl₂² = {_ends(eps3_l2i)}, d²φ₂/dl₂² = {_ends(eps2_l2i)} rad/m² by (24), (25)"),
+        ("11", f"ω₃ = {_ends(omega3i)}, ω₂ = {_ends(omega2i)} rad/s by (11), (13)"),
+        ("11", f"ε₃ = {_ends(eps3i)}, ε₂ = {_ends(eps2i)} rad/s² by (12), (14)"),
+        ("", f"i = {g.R}?"),
+        ("12", "print, and compare with other methods"),
+    )
+    chart = Drawing(width=860, height=800, frame=[-5.5 + 0.3j, 5.9 - 1j * len(_steps) + 0.6j], unit="")
+    for _n, (_step, _says) in enumerate(_steps):
+        _at, _w, _h = -1j * _n, (5.4 if _step else 1.2), 0.32
+        _box = [_at + _w * _x + 1j * _h * _y for _x, _y in ((-1, -1), (-1, 1), (1, 1), (1, -1))]
+        _box = _box if _step else [_at - _w, _at + 1j * _h, _at + _w, _at - 1j * _h]
+        chart = chart.polygon(_box).text(_at, f"{_step}  {_says}".strip())
+        if _n:
+            chart = chart.path([_at + 1j - 1j * _h, _at + 1j * _h], colour="")
+    _loop, _back = (next(n for n, (step, _) in enumerate(_steps) if step == name) for name in ("4", ""))
+    chart = chart.path([1.2 - 1j * _back, 5.8 - 1j * _back, 5.8 - 1j * _loop, 5.4 - 1j * _loop], colour="blue")
+    drawing_35 = chart.text(2.2 + 0.25j - 1j * _back, "no, i + 1").text(0.4 + 0.5j - 1j * (_back + 1), "yes")
+    typeset(drawing_35, caption("3.5", "Algorithm (figure 3)"))
+    return
 
 
 @app.cell(hide_code=True)
@@ -833,6 +962,12 @@ def forces_shown(F_G, F_Gf, F_I, F_If, F_Q, F_Qf, F_c, F_cf, P_c, P_cf, R01, R03
     figure_63 = figure("6.3", "Force of the cylinder and its shares", l2f, F_cf, F_Gf, F_Qf, F_If, every=every)
     figure_64 = figure("6.4", "Power of the cylinder", l2f, P_cf, every=every)
     typeset(table_61, figure_63, figure_64)
+    return
+
+
+@app.cell(hide_code=True)
+def listed():
+    index()
     return
 
 

@@ -10,8 +10,9 @@ with app.setup:
     from numpy import arctan2 as atan2
 
     from mechsheet import (
-        Check, Drawing, Used, angle, angle_between, ask, caption, check, dot, export, figure, find, inputs, mark,
-        player, read, rpr, rpr_acceleration, rpr_velocity, slider, summary, table, title_block, typeset,
+        Check, Drawing, Used, angle, angle_between, ask, caption, check, dot, export, figure, find, index,
+        inputs, mark, player, read, rpr, rpr_acceleration, rpr_velocity, slider, summary, table, title_block,
+        typeset,
     )  # fmt: skip
     from mechsheet.units import deg
 
@@ -103,7 +104,8 @@ def section_2():
     ## 2 The six equations
 
     The loop $B A O_1$ is projected on both axes and differentiated twice. Each equation stands as its residual, left
-    side minus right side, which Find makes zero: what is typeset here is what is solved.
+    side minus right side, which Find makes zero: what is typeset here is what is solved. The page at hand, 39, solves
+    (2.33), (2.37) and (2.38); (2.34) to (2.36) stand before it and are not at hand.
     """)
     return
 
@@ -144,7 +146,7 @@ def equations(g):
 @app.cell(hide_code=True)
 def section_3():
     mo.md(r"""
-    ## 3 Find
+    ## 3 Find (program of page 39)
 
     One Find solves all six equations for every position, from the same first approximations: by Newton's own steps, and
     in a trust region where twenty of them end in no root. An evaluation is one value of all six equations; their slopes
@@ -281,7 +283,12 @@ def fields(C, SAB, VAB, VC, WAB, WC, eps_BC, g, omega_BC, phi1_k, phi3):
 
 @app.cell
 def tables_1_2(P_C_k, SAB_k, VAB_k, VC_k, WAB_k, WC_k, WCn_k, WCt_k, eps_BC_k, omega_BC_k, phi1_k, phi3_k):
-    table_1 = table("1", "Results", phi1_k, phi3_k, SAB_k, omega_BC_k, eps_BC_k, abs(VC_k), abs(WC_k), decimals=3)
+    table_1 = table(
+        "1",
+        "Results (table of page 39)",
+        *(phi1_k, phi3_k, SAB_k, omega_BC_k, eps_BC_k, abs(VC_k), abs(WC_k)),
+        decimals=3,
+    )
     table_2 = table(
         "2",
         "Point C and slider, by components",
@@ -592,6 +599,12 @@ def here(K, g, omega_far, omega_near, psi):
         f"**Here** L₁ = {g.L1:.6g} m, L₀ = {g.L0:.6g} m: {says}. "
         f"Angular velocity of the link near the hinge: {near}; far from it: {omega_far:.4g} rad/s."
     )
+    return
+
+
+@app.cell(hide_code=True)
+def listed():
+    index()
     return
 
 

@@ -10,7 +10,7 @@ A worksheet
     checks          check, require, check_slope, closed_form, assembled, balance, largest_of, Check, summary
     tables, charts  table, figure, Table, Figure, Column
     drawings        Drawing, cut_group, polar, polar_diagrams, caption, side_by_side, slider, player, mark
-    the document    title_block, progress, export
+    the document    title_block, index, progress, export
     errors          SheetError, refuse
 
 A worksheet as a function

@@ -183,6 +183,9 @@ from mechsheet.worksheet.kinds import (
 from mechsheet.worksheet.data_file import (
     from_file as from_file,
 )
+from mechsheet.worksheet.index import (
+    index as index,
+)
 from mechsheet.worksheet.inputs import (
     Used as Used,
     declared as declared,

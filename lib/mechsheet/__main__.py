@@ -21,7 +21,7 @@ from pathlib import Path
 
 MINIMUM = (3, 11)
 ROOT = Path(__file__).resolve().parents[2]
-COMMANDS = ("run", "new", "edit", "test")
+COMMANDS = ("run", "new", "edit", "index", "test")
 HELP = """\
 usage: mechsheet COMMAND              where the package is installed
        python lib/mechsheet COMMAND   in a clone of the project
@@ -33,6 +33,8 @@ usage: mechsheet COMMAND              where the package is installed
       such as                         new loader --like=bucket
   edit NAME [OPTIONS]                 open the worksheet in the browser (options of marimo edit)
       such as                         edit hitch
+  index NAME                          where the worksheet has the formulas, tables and figures of its document
+      such as                         index kinetostatics
   test [OPTIONS]                      run the project's tests (options of pytest)
       such as                         test -k hitch
 
@@ -49,7 +51,7 @@ def main(argv: "list[str] | None" = None) -> int:
     if command in ("", "-h", "--help"):
         say(contents() + HELP)
         return 0 if command else 1
-    if command in ("run", "edit"):
+    if command in ("run", "edit", "index"):
         if not options:
             sys.exit(f"mechsheet: {command} needs a worksheet: {known_worksheets()}")
         name, *options = options
@@ -58,6 +60,8 @@ def main(argv: "list[str] | None" = None) -> int:
             sys.exit(f"mechsheet: no worksheet {name}: {nearest(name, list(worksheets()))}{known_worksheets()}")
         if command == "edit":
             return call([interpreter(""), "-m", "marimo", "edit", *options, sheet])
+        if command == "index":
+            return call([interpreter(""), "-m", "mechsheet.run.index", sheet, *options])
         scenes = any(not option.startswith("-") for option in options)
         return call([interpreter(""), "-m", f"mechsheet.run.{'batch' if scenes else 'script'}", sheet, *options])
     if command == "new":
@@ -74,9 +78,8 @@ def main(argv: "list[str] | None" = None) -> int:
     if worksheet(command).endswith(".py"):
         sys.exit(f"mechsheet: {command} is a worksheet: run {command} computes it, edit {command} opens it")
     meant = nearest(command, [*COMMANDS, *("run " + name for name in worksheets())])
-    sys.exit(
-        f"mechsheet: command {command} is not known: {meant}there are run, edit, new and test, and --help tells more"
-    )
+    known = "there are run, edit, new, index and test, and --help tells more"
+    sys.exit(f"mechsheet: command {command} is not known: {meant}{known}")
 
 
 def nearest(given: str, known: "list[str]") -> str:

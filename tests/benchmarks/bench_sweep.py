@@ -3,8 +3,8 @@
     python tests/benchmarks/bench_sweep.py
 
 Those compared take turns, several rounds; the times are medians of the processor's time, as all of them run in one
-thread, and the results are compared too. It needs the extra ``bench``: numba for the loop by hand, pylinkage for its
-ensemble.
+thread, and the results are compared too. The extra ``bench`` brings the rivals: numba for the loop by hand, pylinkage
+for its ensemble. Where one is missing, a line says so.
 """
 
 import argparse
@@ -15,12 +15,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from compiled_hitch import COMPLEX, INPUTS, PER_POSITION, PER_VARIANT, hitch, widths
-from pylinkage.actuators import Crank
-from pylinkage.components import Ground
-from pylinkage.dyads import FixedDyad, RRRDyad
-from pylinkage.population import Ensemble
-from pylinkage.simulation import Linkage
+from hitch_results import COMPLEX, INPUTS, PER_POSITION, PER_VARIANT, widths
 from scipy.optimize import fsolve
 
 from mechsheet.mechanics.crank import crank
@@ -47,6 +42,16 @@ def medians(*jobs: Callable[[], Any], rounds: int) -> list[float]:
     return list(np.median(seconds, axis=0))
 
 
+def compared(rival: str, run: Callable[[], object]) -> bool:
+    """Whether the rival is there to be compared with; a line says it where it is not."""
+    try:
+        run()
+    except ModuleNotFoundError as missing:
+        print(f"{rival} is not compared: {missing.name} is not installed (extra bench)")
+        return False
+    return True
+
+
 # --- the whole document ------------------------------------------------------------------------------------------
 
 
@@ -60,6 +65,8 @@ def table(count: int) -> dict[str, np.ndarray]:
 
 def compiled(variants: dict[str, np.ndarray], samples: int) -> Callable[[], tuple[np.ndarray, np.ndarray]]:
     """The loop by hand, with so many samples of the interval of each Find."""
+    from compiled_hitch import hitch  # needs numba
+
     sheet, count = load(HITCH), len(variants["P6"])
     places = (1 - np.cos(np.linspace(0, np.pi, samples))) / 2
 
@@ -89,22 +96,26 @@ def difference(swept: Any, found: tuple[np.ndarray, np.ndarray]) -> float:
 
 
 def whole_document(sizes: list[int], rounds: int) -> None:
-    print(f"\nwhole hitch document, {len(WANT)} results, {POSITIONS} positions a variant, against the compiled loop:")
-    print(f"ratio of the times where its Finds take {len(_PLACES)} samples, as find does, and where they take 24")
-    print("variant-positions   sweep, s   us each   ratio, same search   ratio, 24 samples   largest difference")
+    print(f"\nwhole hitch document, {len(WANT)} results, {POSITIONS} positions a variant")
     few = table(10)
-    sweep(HITCH, WANT, few), compiled(few, 24)()  # loads and compiles
+    sweep(HITCH, WANT, few)  # loads
+    rivals = [len(_PLACES), 24] if compared("the compiled loop", lambda: compiled(few, 24)()) else []  # compiles
+    heading = "variant-positions   sweep, s   us each"
+    if rivals:
+        print(f"ratio of the times where the Finds of the loop take {len(_PLACES)} samples, as find does, and where 24")
+        heading += "   ratio, same search   ratio, 24 samples   largest difference"
+    print(heading)
     seconds = []
     for size in sizes:
         variants = table(size // POSITIONS)
-        jobs = [lambda v=variants: sweep(HITCH, WANT, v), compiled(variants, len(_PLACES)), compiled(variants, 24)]
-        own, same, lean = medians(*jobs, rounds=max(rounds, 3 * 10**4 // size))
-        worst = difference(jobs[0](), jobs[1]())
+        jobs = [lambda v=variants: sweep(HITCH, WANT, v), *(compiled(variants, samples) for samples in rivals)]
+        own, *others = medians(*jobs, rounds=max(rounds, 3 * 10**4 // size))
         seconds.append(own)
-        print(
-            f"{size:17,d} {own:10.3f} {own / size * 1e6:9.2f} {own / same:20.2f} {own / lean:19.2f} {worst:20.1e}",
-            flush=True,
-        )
+        ratios = "".join(f" {own / other:19.2f}" for other in others)
+        apart = f" {difference(jobs[0](), jobs[1]()):20.1e}" if rivals else ""
+        print(f"{size:17,d} {own:10.3f} {own / size * 1e6:9.2f}{ratios}{apart}", flush=True)
+    if len(sizes) == 1:
+        return
     slope, fixed = np.polyfit(sizes, seconds, 1, w=1 / np.array(seconds))
     off = np.max(np.abs(fixed + slope * np.array(sizes) - seconds) / seconds)
     print(f"line through all sizes: {fixed * 1e3:.1f} ms + {slope * 1e6:.2f} us each, at most {off:.0%} off")
@@ -162,6 +173,12 @@ def against_fsolve(rounds: int) -> None:
 
 def against_pylinkage(rounds: int) -> None:
     """The hitch driven by its lift arm, at an even rate: pylinkage has no cylinder as a driver of an ensemble."""
+    from pylinkage.actuators import Crank
+    from pylinkage.components import Ground
+    from pylinkage.dyads import FixedDyad, RRRDyad
+    from pylinkage.population import Ensemble
+    from pylinkage.simulation import Linkage
+
     print("\nhitch driven by its lift arm, pylinkage's ensemble against the library in blocks of 4000 elements")
     start, end, s6 = 0.6, -0.1, 0.857 - 0.2j
     for members, positions in ((10_000, 10), (1000, 100)):
@@ -216,7 +233,7 @@ if __name__ == "__main__":
     parser.add_argument("--rounds", type=int, default=5)
     parser.add_argument("--largest", type=float, default=1e6, help="variant-positions of the whole document")
     options = parser.parse_args()
-    against_pylinkage(max(options.rounds, 5))
+    compared("pylinkage's ensemble", lambda: against_pylinkage(max(options.rounds, 5)))
     against_fsolve(options.rounds)
     whole_document([n for n in (10**3, 10**4, 10**5, 10**6) if n <= options.largest], options.rounds)
     sys.exit()

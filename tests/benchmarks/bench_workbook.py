@@ -8,8 +8,13 @@ import time
 from pathlib import Path
 from types import SimpleNamespace
 
+from mechsheet.document import parts
+from mechsheet.recording.record import record
 from mechsheet.run import report
+from mechsheet.workbook import inputs_sheet, writing
 from mechsheet.worksheet import cells, inputs
+from mechsheet.worksheet.check import Check
+from mechsheet.worksheet.table import Figure, Table
 
 ROOT = Path(__file__).resolve().parents[2]
 ROUNDS = 15
@@ -20,27 +25,31 @@ def main() -> None:
     results = [name for name in sheet.results if name not in ("form", "part")]
     given = {"g": inputs.build(sheet.inputs, {}), "part": SimpleNamespace(value=0.2)}
     namespace = sheet.run(results, given)
-    whole = report.workbook("Tractor hitch", namespace, {})
-    kept, report.record = report.record, lambda namespace: None
-    plain = report.workbook("Tractor hitch", namespace, {})
-    times: dict[str, list[float]] = {"plain": [], "live": [], "recording alone": []}
+
+    def plain() -> bytes:
+        values = parts.values(namespace)
+        tables, figures, checks = ([v for v in values if isinstance(v, kind)] for kind in (Table, Figure, Check))
+        rows, found = inputs_sheet.rows(namespace["g"]), list(report.solved(namespace))
+        return writing.workbook("Hitch", inputs=rows, found=found, tables=tables, figures=figures, checks=checks)
+
+    def live() -> bytes:
+        return report.workbook("Hitch", namespace, {})
+
+    ways = {"plain": plain, "live": live, "recording alone": lambda: record(namespace, sheet)}
+    sizes = {name: len(write()) / 1e3 for name, write in (("plain", plain), ("live", live))}
+    times: dict[str, list[float]] = {name: [] for name in ways}
     for _ in range(ROUNDS):
-        for name, record in (("plain", lambda namespace: None), ("live", kept)):
-            report.record = record
+        for name, way in ways.items():
             start = time.perf_counter()
-            report.workbook("Tractor hitch", namespace, {})
+            way()
             times[name].append(time.perf_counter() - start)
-        start = time.perf_counter()
-        kept(namespace)
-        times["recording alone"].append(time.perf_counter() - start)
-    report.record = kept
     base = statistics.median(times["plain"])
     print(f"{'':18}{'median':>10}{'ratio':>8}{'least':>10}{'ratio':>8}")
     for name, taken in times.items():
         median, least = statistics.median(taken), min(taken)
         ratios = f"{median / base:8.2f}", f"{least / min(times['plain']):8.2f}"
         print(f"{name:18}{median * 1e3:8.1f}ms{ratios[0]}{least * 1e3:8.1f}ms{ratios[1]}")
-    print(f"size: plain {len(plain) / 1e3:.0f} kB, live {len(whole) / 1e3:.0f} kB")
+    print(", ".join(f"{name} {size:.0f} kB" for name, size in sizes.items()))
 
 
 if __name__ == "__main__":

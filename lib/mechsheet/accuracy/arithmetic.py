@@ -1,4 +1,4 @@
-"""Arithmetic of 50 digits, the groups in it, and random ones: what the numbers of the library are measured against.
+"""Arithmetic of 50 digits and the groups in it: what the numbers of the library are measured against.
 
 Positions come straight from the loop equations, derivatives from differences of the positions, reactions from the
 system of all equations. Numbers are those of a context of mpmath's of its own, whose precision nothing else changes.
@@ -24,6 +24,7 @@ sqrt, expj, nan = mp.sqrt, mp.expj, mp.nan
 Numbers = dict[str, Any]  # results by name; a row of them is a list
 STEP = mpf(10) ** -45  # for differences from both sides; its square for those from one
 EPS = 2.0**-53  # relative error of one rounding
+SLACK = 8 * mpf(EPS)  # within which an input may be another
 
 
 def exact(*arrays: Any) -> Iterator[list[mpc]]:
@@ -99,33 +100,6 @@ def rotation(a: Callable[[mpf], mpc]) -> tuple[mpf, mpf]:
 def floats(values: Iterable[Any]) -> np.ndarray[Any, Any]:
     """Exact numbers, rounded once."""
     return np.array([complex(z) for z in values])
-
-
-# --- random mechanisms ---------------------------------------------------------------------------------------
-
-SIZE = 100
-FAMILIES = ["ordinary", "links spread over 1e12", "near a dead centre", "1e6 links from the origin"]
-
-
-def triangles(family: str) -> tuple[np.random.Generator, Any, Any, Any]:
-    """A random generator and the pins A, B, C of random groups, with the angle mu between CA and CB."""
-    rng = np.random.default_rng(FAMILIES.index(family))
-    decades = 6.0 if "spread" in family else 0.5
-    r_A, r_B = 10 ** rng.uniform(-decades, decades, (2, SIZE))
-    mu = rng.uniform(0.2, np.pi - 0.2, SIZE) * rng.choice([-1, 1], SIZE)
-    if "dead" in family:
-        mu = rng.choice([0, np.pi], SIZE) + 10 ** rng.uniform(-9, -1, SIZE)
-    C = vectors(rng) + (1e6 if "origin" in family else 0)
-    direction = np.exp(1j * rng.uniform(0, 7, SIZE))
-    return rng, C + r_A * direction, C + r_B * direction * np.exp(1j * mu), C
-
-
-def vectors(rng: np.random.Generator, *shape: int) -> Any:
-    return rng.normal(size=(*shape, SIZE)) + 1j * rng.normal(size=(*shape, SIZE))
-
-
-def numbers(rng: np.random.Generator, *shape: int) -> Any:
-    return rng.normal(size=(*shape, SIZE))
 
 
 # --- equilibrium -----------------------------------------------------------------------------------------------

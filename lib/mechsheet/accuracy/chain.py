@@ -9,9 +9,8 @@ from numpy import exp
 
 from mechsheet.mechanics.load import Load
 from mechsheet.mechanics.planar import angle
-from mechsheet.mechanics.rrr import rrr, rrr_acceleration, rrr_reactions, rrr_velocity
+from mechsheet.mechanics.rrr import RRRGroup, RRRMotion, rrr, rrr_reactions
 
-Pins = list[tuple[Any, Any]]  # A and C of every dyad
 REACTIONS = ("R56", "R07", "R34", "R05", "R01", "R03")  # of the hitch, in the order in which all methods list them
 
 
@@ -25,6 +24,10 @@ class Dyad:
     branch: int
     z: complex = 0
 
+    def length(self, q: Any) -> Any:
+        """Length of AC."""
+        return q if self.r_A is None else self.r_A
+
 
 @dataclass(frozen=True)
 class Chain:
@@ -34,27 +37,36 @@ class Chain:
     dA: Callable[[Any], Any]
     dyads: tuple[Dyad, ...]
 
+    def groups(self, q: Any) -> list[RRRGroup]:
+        """The dyads in their positions."""
+        A, found = self.A(q), list[RRRGroup]()
+        for d in self.dyads:
+            found.append(RRRGroup(A, d.B, d.length(q), d.r_B, d.branch))
+            A = d.B + d.z * found[-1].BC
+        return found
+
 
 def hinges(h: Any) -> tuple[complex, ...]:
     """O1, O3, O5, O7 of the hitch with the inputs ``h``."""
     return tuple(getattr(h, f"X0{k}") + 1j * getattr(h, f"Y0{k}") for k in (1, 3, 5, 7))
 
 
-def hitch_chain(h: Any, L4: float, L7: float) -> Chain:
-    """The hitch with the inputs ``h`` over the length of its cylinder."""
-    O1, O3, O5, O7 = hinges(h)
-    dyads = (
-        Dyad(O3, None, h.L3, -1, h.L34 / h.L3 * exp(1j * h.phi_BD)),
-        Dyad(O5, L4, h.L5, +1, h.L56 / h.L5),
-        Dyad(O7, h.L6, L7, -1),
-    )
-    return Chain(lambda q: O1 + 0 * q, lambda q: 0 * q, dyads)
+def arm(h: Any) -> Any:
+    """The side of the hitch's lift arm next to the rod over the one next to the cylinder."""
+    return h.L34 / h.L3 * exp(1j * h.phi_BD)
 
 
 def arm_pin(h: Any, S: Any) -> Any:
     """P34 of the hitch, the end of its lift arm."""
     O1, O3, *_ = hinges(h)
-    return O3 + h.L34 / h.L3 * exp(1j * h.phi_BD) * (rrr(O1, O3, S, h.L3, -1) - O3)
+    return O3 + arm(h) * (rrr(O1, O3, S, h.L3, -1) - O3)
+
+
+def hitch_chain(h: Any, L4: float, L7: float) -> Chain:
+    """The hitch with the inputs ``h`` over the length of its cylinder."""
+    O1, O3, O5, O7 = hinges(h)
+    dyads = Dyad(O3, None, h.L3, -1, arm(h)), Dyad(O5, L4, h.L5, +1, h.L56 / h.L5), Dyad(O7, h.L6, L7, -1)
+    return Chain(lambda q: O1 + 0 * q, lambda q: 0 * q, dyads)
 
 
 def crank_chain(l_1: float, B: complex, l_A: float, l_B: float) -> Chain:
@@ -62,49 +74,36 @@ def crank_chain(l_1: float, B: complex, l_A: float, l_B: float) -> Chain:
     return Chain(lambda q: l_1 * exp(1j * q), lambda q: 1j * l_1 * exp(1j * q), (Dyad(B, l_A, l_B, +1),))
 
 
-def chain_pins(chain: Chain, q: Any) -> Pins:
-    """Pins A and C of all dyads."""
-    A, pins = chain.A(q), []
-    for d in chain.dyads:
-        C = rrr(A, d.B, q if d.r_A is None else d.r_A, d.r_B, d.branch)
-        pins.append((A, C))
-        A = d.B + d.z * (C - d.B)
-    return pins
-
-
 def inner_pins(chain: Chain, q: Any) -> Any:
     """Inner pins of all dyads."""
-    return np.array([C for _, C in chain_pins(chain, q)])
+    return np.array([group.C for group in chain.groups(q)])
 
 
 def link_angles(chain: Chain, q: Any) -> Any:
     """Angles of the links AC, BC of every dyad."""
-    ends = zip(chain_pins(chain, q), chain.dyads, strict=True)
-    return np.array([phi for (A, C), d in ends for phi in (angle(C - A), angle(C - d.B))])
+    return np.array([angle(link) for group in chain.groups(q) for link in (group.AC, group.BC)])
 
 
-def _velocities(chain: Chain, q: Any, pins: Pins) -> list[Any]:
-    dA, found = chain.dA(q), []
-    for (A, C), d in zip(pins, chain.dyads, strict=True):
-        v = rrr_velocity(A, d.B, C, dA, dr_A=float(d.r_A is None))
-        found.append(v)
-        dA = d.z * v.v_C
+def _velocities(chain: Chain, q: Any, groups: list[RRRGroup]) -> list[RRRMotion]:
+    dA, found = chain.dA(q), list[RRRMotion]()
+    for group, d in zip(groups, chain.dyads, strict=True):
+        found.append(group.velocity(dA, dr_A=float(d.r_A is None)))
+        dA = d.z * found[-1].v_C
     return found
 
 
 def first_analogues(chain: Chain, q: Any) -> Any:
     """Velocity analogues of the links but the cylinder."""
-    found = _velocities(chain, q, chain_pins(chain, q))
+    found = _velocities(chain, q, chain.groups(q))
     return np.array([w for v in found for w in (v.omega_A, v.omega_B)])[1:]
 
 
 def second_analogues(chain: Chain, q: Any) -> Any:
     """Acceleration analogues of the links but the cylinder, of a chain whose first pin A rests."""
-    pins = chain_pins(chain, q)
+    groups, found = chain.groups(q), list[Any]()
     ddA: Any = 0
-    found = list[Any]()
-    for (A, C), d, v in zip(pins, chain.dyads, _velocities(chain, q, pins), strict=True):
-        a = rrr_acceleration(A, d.B, C, v.omega_A, v.omega_B, dr_A=float(d.r_A is None), a_A=ddA)
+    for group, d, v in zip(groups, chain.dyads, _velocities(chain, q, groups), strict=True):
+        a = group.acceleration(v, ddA)
         found += [a.epsilon_A, a.epsilon_B]
         ddA = d.z * a.a_C
     return np.array(found)[1:]
@@ -112,8 +111,9 @@ def second_analogues(chain: Chain, q: Any) -> Any:
 
 def hitch_points(h: Any, S: Any, L4: float, L7: float, S6: Any) -> dict[str, Any]:
     """Pins of the hitch by their names in the worksheet, and the centre of mass S6 [m] of the implement."""
-    (_, P23), (P34, P45), (P56, P67) = chain_pins(hitch_chain(h, L4, L7), S)
-    return {"P23_S": P23, "P34_S": P34, "P45_S": P45, "P56_S": P56, "P67_S": P67, "PS6_S": S6}
+    of_23, of_45, of_67 = hitch_chain(h, L4, L7).groups(S)
+    outer = {"P34_S": of_45.A, "P56_S": of_67.A, "PS6_S": S6}
+    return outer | {"P23_S": of_23.C, "P45_S": of_45.C, "P67_S": of_67.C}
 
 
 def hitch_reactions(h: Any, p: dict[str, Any]) -> Any:

@@ -3,10 +3,11 @@
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from mechsheet.accuracy.arithmetic import Numbers, mp, mpc, mpf
+import numpy as np
+
+from mechsheet.accuracy.arithmetic import SLACK, Numbers, mp, mpc, mpf
 
 _CHANGE = mpf(10) ** -40  # of an input, relative
-_ROUNDING = mpf(2) ** -50
 
 
 def conditions(f: Callable[..., Numbers], inputs: Mapping[str, Any]) -> Numbers:
@@ -25,8 +26,8 @@ def conditions(f: Callable[..., Numbers], inputs: Mapping[str, Any]) -> Numbers:
         if value and not isinstance(inputs[name], int):
             changed = f(**{**x, name: value * (1 + _CHANGE)})
             for result in y:
-                sums[result] += _size(_difference(changed[result], y[result])) / _CHANGE
-    sizes = {name: _size(value) for name, value in y.items()}
+                sums[result] += _size(map(mp.fsub, _row(changed[result]), _row(y[result]))) / _CHANGE
+    sizes = {name: _size(_row(value)) for name, value in y.items()}
     return {name: sums[name] / size if size else mpf("inf" if sums[name] else 0) for name, size in sizes.items()}
 
 
@@ -41,13 +42,13 @@ def undecided(f: Callable[..., Numbers], inputs: Mapping[str, Any]) -> set[str]:
 
     x = {name: mpf(value) for name, value in inputs.items()}
     here = existing(x)
-    changed = ({**x, name: value * (1 + way * _ROUNDING)} for name, value in x.items() for way in (1, -1))
+    changed = ({**x, name: value * (1 + way * SLACK)} for name, value in x.items() for way in (1, -1))
     return set[str]().union(*(here ^ existing(values) for values in changed))
 
 
 def exist(y: Any) -> bool:
     """Whether a result, or every one of a row, is a finite number."""
-    return all(map(mp.isfinite, y)) if isinstance(y, list) else bool(mp.isfinite(y))
+    return all(map(mp.isfinite, _row(y)))
 
 
 def relative_error(value: Any, true: Any, turn: Any = None) -> float:
@@ -55,18 +56,17 @@ def relative_error(value: Any, true: Any, turn: Any = None) -> float:
 
     Infinite where a value that is not zero should be.
     """
-    row = isinstance(true, list)
-    error = _difference([mpc(complex(v)) for v in value] if row else mpc(complex(value)), true)
+    errors = [mpc(complex(v)) - y for v, y in zip(np.ravel(value), _row(true), strict=True)]
     if turn:
-        error = mpc((error.real + turn / 2) % turn - turn / 2)
-    size = _size(true)
-    return float(_size(error) / size) if size else float("inf" if _size(error) else 0)
+        errors = [(error.real + turn / 2) % turn - turn / 2 for error in errors]
+    error, size = _size(errors), _size(_row(true))
+    return float(error / size) if size else float("inf" if error else 0)
 
 
-def _difference(a: Any, b: Any) -> Any:
-    return [p - q for p, q in zip(a, b, strict=True)] if isinstance(b, list) else a - b
+def _row(y: Any) -> list[Any]:
+    return y if isinstance(y, list) else [y]
 
 
-def _size(y: Any) -> mpf:
-    """Magnitude of a number, or the greatest one of a row."""
-    return max(map(abs, y)) if isinstance(y, list) else abs(y)
+def _size(row: Any) -> mpf:
+    """The greatest magnitude of a row."""
+    return max(map(abs, row))

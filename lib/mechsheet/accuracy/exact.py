@@ -12,11 +12,14 @@ from functools import cache, lru_cache
 from types import SimpleNamespace
 from typing import Any
 
-from mechsheet.accuracy.arithmetic import DIGITS, STEP, Numbers, cross, derivatives, mp, mpc, mpf, rotation, rrp, rrr
+from mechsheet.accuracy.arithmetic import DIGITS, SLACK, Numbers, cross, derivatives, mp, mpc, mpf, rotation, rrp, rrr
 
-_AHEAD = STEP**2  # of S, for first derivatives from one side
 _NOTHING = mpf(10) ** -95  # below the root of the rounding of the work: the sine at a dead centre
-_ROUNDING = mpf(2) ** -50  # an end of an interval may be a number found and rounded
+_MOVING = (
+    *("X01", "X03", "X05", "X07", "Y01", "Y03", "Y05", "Y07", "L3", "L5", "L6", "L34", "L56", "phi_BD", "L7_0", "L4_0"),
+    *("Y56_min", "S_min", "S_max", "X6", "Y6", "Y_P56", "phi_P6"),
+)
+_LINKS = {3: ("O3", "P23_S"), 4: ("P34_S", "P45_S"), 5: ("O5", "P45_S"), 6: ("P56_S", "P67_S"), 7: ("O7", "P67_S")}
 
 
 def finds(g: Any) -> Numbers:
@@ -24,65 +27,34 @@ def finds(g: Any) -> Numbers:
 
     Raises ValueError where one of them has no solution.
     """
-    x = _exact(g)
-    return _found(tuple(getattr(x, name) for name in _MOVING))
+    return _found(_moving(_exact(g)))
 
 
-def hitch(g: Any, S: Any = None, *, L4: Any = None, S_p: Any = None, L7: Any = None) -> Numbers:
+def hitch(g: Any, S: Any = None, **lengths: Any) -> Numbers:
     """All results of the worksheet at one stroke S [m], by the names that they have there; S = S_p if none is given.
 
-    The lengths that are not given are found, as in `finds`.
+    Of the lengths L4, S_p, L7 those that are not given are found, as in `finds`.
     """
     x = _exact(g)
-    moving = tuple(getattr(x, name) for name in _MOVING)
-    given = tuple(None if value is None else mpf(value) for value in (S, L4, S_p, L7))
-    results = _motion(moving, *given)
+    length = {name: mpf(value) for name, value in lengths.items()}
+    if len(length) < 3:
+        length = _found(_moving(x)) | length
+    results = _motion(_moving(x), length["S_p"] if S is None else mpf(S), **length)
     return results | _capacity(x, results) | _forces(x, results) | _stability(x, results)
-
-
-_MOVING = (
-    *("X01", "X03", "X05", "X07", "Y01", "Y03", "Y05", "Y07", "L3", "L5", "L6", "L34", "L56", "phi_BD", "L7_0", "L4_0"),
-    *("Y56_min", "S_min", "S_max", "X6", "Y6", "Y_P56", "phi_P6"),
-)
-
-
-# Most inputs of a machine are loads: of changes in them the motion knows nothing.
-@lru_cache(maxsize=8)
-def _found(moving: tuple[mpf, ...]) -> Numbers:
-    x = SimpleNamespace(**dict(zip(_MOVING, moving, strict=True)))
-    L4, _ = _nearest("L4", _rods(x), (x.L4_0 / 10 + x.L4_0 * 1.5) / 2)
-    S_p, P56 = _nearest("S_p", _strokes(x, L4), (x.S_max + x.S_min) / 2)
-    L7, _ = _nearest("L7", _upper_links(x, P56), (x.L7_0 / 10 + x.L7_0 * 1.5) / 2)
-    return {"L4": L4, "S_p": S_p, "L7": L7}
-
-
-@lru_cache(maxsize=8)
-def _motion(moving: tuple[mpf, ...], S: mpf | None, L4: mpf | None, S_p: mpf | None, L7: mpf | None) -> Numbers:
-    x = SimpleNamespace(**dict(zip(_MOVING, moving, strict=True)))
-    given = {"L4": L4, "S_p": S_p, "L7": L7}
-    length: Numbers = _found(moving) if None in given.values() else {}
-    length = length | {name: value for name, value in given.items() if value is not None}
-    S = length["S_p"] if S is None else S
-    results = geometry(x, S, length["L4"], length["L7"]) | length
-    results |= _mass(x, results, **length)
-    return results | _kinematics(x, results, S, length["L4"], length["L7"])
 
 
 def geometry(g: Any, S: Any, L4: Any, L7: Any) -> Numbers:
     """Hinges and pins [m], and the angles of the links [rad]."""
     x = _exact(g)
     p = _pins(x, mpf(S), mpf(L4), mpf(L7))
-    phi3 = mp.arg(p["P23_S"] - p["O3"])
-    angles = {"phi12_S": mp.arg(p["P23_S"] - p["O1"]), "phi3_S": phi3, "phi34_S": phi3 + x.phi_BD}
-    angles |= {"phi4_S": mp.arg(p["P45_S"] - p["P34_S"]), "phi5_S": mp.arg(p["P45_S"] - p["O5"])}
-    return p | angles | {"phi6_S": mp.arg(p["P67_S"] - p["P56_S"]), "phi7_S": mp.arg(p["P67_S"] - p["O7"])}
+    angles = {f"phi{k}_S": mp.arg(p[end] - p[start]) for k, (start, end) in _LINKS.items()}
+    return p | angles | {"phi12_S": mp.arg(p["P23_S"] - p["O1"]), "phi34_S": angles["phi3_S"] + x.phi_BD}
 
 
 def second_analogues(g: Any, S: Any, L4: Any, L7: Any) -> list[mpf]:
     """Second derivatives of the angles of the links 3 to 7 with respect to S."""
-    behind, here, ahead = (geometry(g, mpf(S) + k * STEP, L4, L7) for k in (-1, 0, 1))
-    names = [f"phi{k}_S" for k in range(3, 8)]
-    return [(ahead[name] - 2 * here[name] + behind[name]) / STEP**2 for name in names]
+    x = _exact(g)
+    return [second for _, second in _analogues(cache(lambda t: _pins(x, mpf(S) + t, mpf(L4), mpf(L7))))]
 
 
 def stroke(g: Any) -> Numbers:
@@ -244,43 +216,31 @@ def _exact(g: Any) -> SimpleNamespace:
     return SimpleNamespace(**{name: mpf(value) for name, value in vars(g).items()})
 
 
-def _hinges(x: Any) -> tuple[mpc, ...]:
-    return tuple(mpc(getattr(x, f"X0{k}"), getattr(x, f"Y0{k}")) for k in (1, 3, 5, 7))
+def _moving(x: Any) -> tuple[tuple[str, mpf], ...]:
+    """The inputs on which the motion depends. Most are loads: of changes in them the motion knows nothing."""
+    return tuple((name, getattr(x, name)) for name in _MOVING)
 
 
-def _left(A: mpc, B: mpc, P: mpc) -> int:
-    """On which side of the line from A to B the point P is: +1 on its left, 0 on it."""
-    return int(mp.sign(cross(B - A, P - A)))
+@lru_cache(maxsize=8)
+def _found(moving: tuple[tuple[str, mpf], ...]) -> Numbers:
+    x = SimpleNamespace(**dict(moving))
+    L4, _ = _nearest("L4", _rods(x), (x.L4_0 / 10 + x.L4_0 * 1.5) / 2)
+    S_p, P56 = _nearest("S_p", _strokes(x, L4), (x.S_max + x.S_min) / 2)
+    L7, _ = _nearest("L7", _upper_links(x, P56), (x.L7_0 / 10 + x.L7_0 * 1.5) / 2)
+    return {"L4": L4, "S_p": S_p, "L7": L7}
 
 
-def _pins(x: Any, S: mpf, L4: mpf, L7: mpf) -> Numbers:
-    O1, O3, O5, O7 = _hinges(x)
-    P23 = rrr(O1, O3, S, x.L3, -1)
-    P34 = _arm(x, P23)
-    P45 = rrr(P34, O5, L4, x.L5, +1)
-    P56 = O5 + (P45 - O5) * (x.L56 / x.L5)
-    P67 = rrr(P56, O7, x.L6, L7, -1)
-    hinges = {"O1": O1, "O3": O3, "O5": O5, "O7": O7}
-    return hinges | {"P23_S": P23, "P34_S": P34, "P45_S": P45, "P56_S": P56, "P67_S": P67}
-
-
-def _arm(x: Any, P23: mpc) -> mpc:
-    O3 = mpc(x.X03, x.Y03)
-    return O3 + (P23 - O3) * (x.L34 / x.L3) * _unit(x.phi_BD)
-
-
-def _low_links(x: Any, height: mpf) -> Iterator[mpc]:
-    """Directions of the lower link that put its end at the height."""
-    rise = (height - x.Y05) / x.L56
-    if abs(rise) <= 1:
-        run = mp.sqrt(1 - rise**2)
-        yield from (mpc(run, rise), mpc(-run, rise))
+def _nearest(name: str, roots: Iterator[tuple[mpf, mpc]], guess: mpf) -> tuple[mpf, mpc]:
+    found = sorted(roots, key=lambda root: root[0])
+    if not found:
+        raise ValueError(f"{name} does not exist")
+    return min(found, key=lambda root: abs(root[0] - guess))
 
 
 def _rods(x: Any) -> Iterator[tuple[mpf, mpc]]:
     """Lengths L4 that put the suspension axis at its least height, and where it is then."""
     O1, O3, O5, _ = _hinges(x)
-    P34 = _arm(x, rrr(O1, O3, x.S_min, x.L3, -1))
+    P34 = O3 + (rrr(O1, O3, x.S_min, x.L3, -1) - O3) * _arm(x)
     for u in _low_links(x, x.Y56_min):
         P45 = O5 + x.L5 * u
         if _left(P34, O5, P45) >= 0:
@@ -294,9 +254,10 @@ def _strokes(x: Any, L4: mpf) -> Iterator[tuple[mpf, mpc]]:
         P45 = O5 + x.L5 * u
         for side in (+1, -1):
             P34 = rrr(O3, P45, x.L34, L4, side)
-            P23 = O3 + (P34 - O3) * (x.L3 / x.L34) / _unit(x.phi_BD)
+            P23 = O3 + (P34 - O3) / _arm(x)
             S = abs(P23 - O1)
-            inside = x.S_min * (1 - _ROUNDING) <= S <= x.S_max * (1 + _ROUNDING)
+            # an end of the interval may be a number found and rounded
+            inside = x.S_min * (1 - SLACK) <= S <= x.S_max * (1 + SLACK)
             if inside and _left(P34, O5, P45) >= 0 and _left(O1, O3, P23) <= 0:
                 yield S, O5 + x.L56 * u
 
@@ -309,48 +270,66 @@ def _upper_links(x: Any, P56: mpc) -> Iterator[tuple[mpf, mpc]]:
         yield abs(P67 - O7), P67
 
 
-def _nearest(name: str, roots: Iterator[tuple[mpf, mpc]], guess: mpf) -> tuple[mpf, mpc]:
-    found = sorted(roots, key=lambda root: root[0])
-    if not found:
-        raise ValueError(f"{name} does not exist")
-    return min(found, key=lambda root: abs(root[0] - guess))
+def _low_links(x: Any, height: mpf) -> Iterator[mpc]:
+    """Directions of the lower link that put its end at the height."""
+    rise = (height - x.Y05) / x.L56
+    if abs(rise) <= 1:
+        run = mp.sqrt(1 - rise**2)
+        yield from (mpc(run, rise), mpc(-run, rise))
 
 
-@lru_cache(maxsize=16)
-def _unit(angle: mpf) -> mpc:
-    return mp.expj(angle)
+def _left(A: mpc, B: mpc, P: mpc) -> int:
+    """On which side of the line from A to B the point P is: +1 on its left, 0 on it."""
+    return int(mp.sign(cross(B - A, P - A)))
 
 
-def _mass(x: Any, at: Numbers, L4: mpf, S_p: mpf, L7: mpf) -> Numbers:
-    """Centre of mass of the implement, fixed to the mast where it stands at S_p."""
-    work = _pins(x, S_p, L4, L7)
-    Z = mpc(x.X6, x.Y6)
+def _hinges(x: Any) -> tuple[mpc, ...]:
+    return tuple(mpc(getattr(x, f"X0{k}"), getattr(x, f"Y0{k}")) for k in (1, 3, 5, 7))
+
+
+def _arm(x: Any) -> mpc:
+    """The side of the lift arm next to the rod over the one next to the cylinder."""
+    return x.L34 / x.L3 * _unit(x.phi_BD)
+
+
+_unit = lru_cache(maxsize=16)(mp.expj)
+
+
+def _pins(x: Any, S: mpf, L4: mpf, L7: mpf) -> Numbers:
+    O1, O3, O5, O7 = _hinges(x)
+    P23 = rrr(O1, O3, S, x.L3, -1)
+    P34 = O3 + (P23 - O3) * _arm(x)
+    P45 = rrr(P34, O5, L4, x.L5, +1)
+    P56 = O5 + (P45 - O5) * (x.L56 / x.L5)
+    P67 = rrr(P56, O7, x.L6, L7, -1)
+    hinges = {"O1": O1, "O3": O3, "O5": O5, "O7": O7}
+    return hinges | {"P23_S": P23, "P34_S": P34, "P45_S": P45, "P56_S": P56, "P67_S": P67}
+
+
+@lru_cache(maxsize=8)
+def _motion(moving: tuple[tuple[str, mpf], ...], S: mpf, L4: mpf, S_p: mpf, L7: mpf) -> Numbers:
+    """Positions, and derivatives with respect to S; the implement is fixed to the mast where it stands at S_p."""
+    x = SimpleNamespace(**dict(moving))
+    Z, work = mpc(x.X6, x.Y6), _pins(x, S_p, L4, L7)
     mast = work["P67_S"] - work["P56_S"]
-    return {
-        "LS6": abs(Z),
-        "phiS6": (mp.arg(Z) - mp.arg(mast)) % (2 * mp.pi),
-        "PS6_S": at["P56_S"] + Z / mast * (at["P67_S"] - at["P56_S"]),
-    }
+
+    @cache
+    def pins(t: mpf) -> Numbers:
+        p = _pins(x, S + t, L4, L7)
+        return p | {"PS6_S": p["P56_S"] + Z / mast * (p["P67_S"] - p["P56_S"])}
+
+    dphi3, dphi4, dphi5, dphi6, dphi7 = (first for first, _ in _analogues(pins))
+    I56, IS6 = (derivatives(lambda t, P=P: pins(t)[P])[0].imag for P in ("P56_S", "PS6_S"))  # type: ignore[misc]
+    results = geometry(x, S, L4, L7) | pins(mpf(0)) | {"L4": L4, "S_p": S_p, "L7": L7}
+    results |= {"LS6": abs(Z), "phiS6": (mp.arg(Z) - mp.arg(mast)) % (2 * mp.pi)}
+    results |= {"dphi3": dphi3, "dphi4": dphi4, "dphi5": dphi5, "dphi6": dphi6, "dphi7": dphi7}
+    results |= {"U43": dphi4 / dphi3, "U53": dphi5 / dphi3, "U65": _over(dphi6, dphi5), "U75": _over(dphi7, dphi5)}
+    return results | {"I56": I56, "IS6": IS6, "Imp": I56, "Isp": IS6}
 
 
-def _kinematics(x: Any, at: Numbers, S: mpf, L4: mpf, L7: mpf) -> Numbers:
-    """Derivatives with respect to S."""
-    ahead = _pins(x, S + _AHEAD, L4, L7)
-
-    def slope(f: Callable[[Numbers], Any]) -> Any:
-        return (f(ahead) - f(at)) / _AHEAD
-
-    def turning(end: str, start: str) -> mpf:
-        return slope(lambda p: (p[end] - p[start]) / (at[end] - at[start])).imag
-
-    dphi3, dphi4, dphi5 = turning("P23_S", "O3"), turning("P45_S", "P34_S"), turning("P45_S", "O5")
-    dphi6, dphi7 = turning("P67_S", "P56_S"), turning("P67_S", "O7")
-    I56 = slope(lambda p: p["P56_S"].imag)
-    mast = (at["PS6_S"] - at["P56_S"]) / (at["P67_S"] - at["P56_S"])
-    IS6 = slope(lambda p: (p["P56_S"] + mast * (p["P67_S"] - p["P56_S"])).imag)
-    angular = {"dphi3": dphi3, "dphi4": dphi4, "dphi5": dphi5, "dphi6": dphi6, "dphi7": dphi7}
-    ratios = {"U43": dphi4 / dphi3, "U53": dphi5 / dphi3, "U65": _over(dphi6, dphi5), "U75": _over(dphi7, dphi5)}
-    return angular | ratios | {"I56": I56, "IS6": IS6, "Imp": I56, "Isp": IS6}
+def _analogues(pins: Callable[[mpf], Numbers]) -> list[tuple[mpf, mpf]]:
+    """First and second derivatives of the angles of the links 3 to 7, where the pins depend on a small change of S."""
+    return [rotation(lambda t, a=a, b=b: pins(t)[b] - pins(t)[a]) for a, b in _LINKS.values()]  # type: ignore[misc]
 
 
 def _over(a: mpf, b: mpf) -> mpf:

@@ -34,7 +34,7 @@ from mechsheet.accuracy import condition, exact, printed
 from mechsheet.accuracy.arithmetic import Numbers, mpc, mpf
 from mechsheet.mechanics.load import Load
 from mechsheet.mechanics.planar import angle
-from mechsheet.mechanics.rrr import rrr, rrr_reach, rrr_reactions, rrr_velocity
+from mechsheet.mechanics.rrr import RRRGroup, rrr_reach
 from mechsheet.run.progress import progress
 from mechsheet.worksheet import inputs, numbers
 from mechsheet.worksheet.cells import Worksheet, load
@@ -263,13 +263,9 @@ def hitch(worksheets: Path, given: Mapping[str, Any], at: int = -1) -> Case:
 
     def true(S: Any, L4: Any, S_p: Any, L7: Any, **inputs: Any) -> Numbers:
         x, rounded = SimpleNamespace(**inputs), {"L4": L4, "S_p": S_p, "L7": L7}
-        lengths = {name: length * rounded[name] for name, length in exact.finds(x).items()}
-        results = exact.hitch(x, S, **lengths)
-        return {name: result for name, result in results.items() if name not in _SECOND_WAY}
-
-    def formulas(true: Numbers) -> Mapping[str, Any]:
-        lengths = {name: float(true[name]) for name in ("L4", "S_p", "L7")}
-        return {name: value for name, value in printed.hitch(g, S, **lengths).items() if name not in lengths}
+        results = exact.hitch(x, S, **{name: length * rounded[name] for name, length in exact.finds(x).items()})
+        # section 7 finds I56 and IS6 again, as products of numbers that are worse conditioned than they are
+        return {name: result for name, result in results.items() if name not in ("Imp", "Isp")}
 
     return Case(
         words=_reasons(names["checks_closing"]),
@@ -277,12 +273,8 @@ def hitch(worksheets: Path, given: Mapping[str, Any], at: int = -1) -> Case:
         x={"S": S, **dict.fromkeys(rounding, 1.0), **vars(g)},
         rounding=rounding,
         product=lambda true: _row(sheet.run(true, names), true, at),
-        printed=formulas,
+        printed=lambda true: printed.hitch(sheet, g, S, **{name: float(true[name]) for name in rounding}),
     )
-
-
-# Section 7 finds I56 and IS6 again, as products of numbers that are worse conditioned than they are.
-_SECOND_WAY = ("Imp", "Isp")
 
 
 def landing_gear(worksheets: Path, given: Mapping[str, Any], at: int = -1) -> Case:
@@ -304,20 +296,19 @@ def joint(worksheets: Path, given: Mapping[str, Any], at: int = -1) -> Case:
     sheet, g = _worksheet(worksheets / "joint.py", given)
     names = sheet.run(["sigma", "P", "y_0", "axes", "steps", "checks_joint"], {"g": g})
     p, k = divmod(range(4)[at], 2)
-    product = {f"sigma_{i}": value for i, value in enumerate(names["sigma"][p, k])} | {"P": names["P"][p, k]}
+    product = {f"sigma_{i}": value for i, value in enumerate(names["sigma"][p, k])}
+    product |= {"P": names["P"][p, k], "y_0": names["y_0"][p, k, 0]}
     step = names["steps"][p, k, 0]
-    formulas = {"y_0": names["axes"][step - 1, p, k, 0] if step else np.nan}
     return Case(
         words=_reasons(names["checks_joint"]),
         true=lambda **g: exact.joint(SimpleNamespace(**g), p + 1, k + 1),
         x=vars(g),
-        product=lambda _: product | {"y_0": names["y_0"][p, k, 0]},
-        printed=lambda _: formulas,
+        product=lambda _: product,
+        printed=lambda _: {"y_0": names["axes"][step - 1, p, k, 0] if step else np.nan},
     )
 
 
-_DYAD = {"A": ("X_A", "Y_A"), "B": ("X_B", "Y_B"), "P_A": ("X_PA", "Y_PA"), "P_B": ("X_PB", "Y_PB")}
-_DYAD |= {"F_A": ("X_FA", "Y_FA"), "F_B": ("X_FB", "Y_FB")}
+_POINTS = ("A", "B", "P_A", "P_B", "F_A", "F_B")  # of a dyad and of its loads
 
 
 def dyad(_worksheets: Path, given: Mapping[str, Any], _at: int = -1) -> Case:
@@ -326,27 +317,23 @@ def dyad(_worksheets: Path, given: Mapping[str, Any], _at: int = -1) -> Case:
     Inputs: branch, lengths r_A, r_B, and components X, Y of the pins A, B, of the force FA on the link AC at the point
     PA, and of FB on BC at PB. What is left out is 0.
     """
-    x = {name: float(given.get(name, 0.0)) for name in ("r_A", "r_B", *(xy for pair in _DYAD.values() for xy in pair))}
-    branch = int(given["branch"])
+    ends = {name: [f"{axis}_{name.replace('_', '')}" for axis in "XY"] for name in _POINTS}
+    x = {name: float(given.get(name, 0.0)) for name in ("r_A", "r_B", *(xy for pair in ends.values() for xy in pair))}
 
     def group(number: Callable[[Any, Any], Any], x: Mapping[str, Any]) -> dict[str, Any]:
-        points = {name: number(x[real], x[imaginary]) for name, (real, imaginary) in _DYAD.items()}
-        return points | {"r_A": x["r_A"], "r_B": x["r_B"], "branch": branch}
+        points = {name: number(x[real], x[imaginary]) for name, (real, imaginary) in ends.items()}
+        return points | {"r_A": x["r_A"], "r_B": x["r_B"], "branch": int(given["branch"])}
 
-    def product(A: Any, B: Any, r_A: Any, r_B: Any, branch: int, P_A: Any, P_B: Any, F_A: Any, F_B: Any) -> Any:
-        C = rrr(A, B, r_A, r_B, branch)
-        v, R = rrr_velocity(A, B, C, dr_A=1), rrr_reactions(A, B, C, [Load(F_A, P_A)], [Load(F_B, P_B)])
-        return {"C": C, "omega_A": v.omega_A, "omega_B": v.omega_B, "R_A": R.R_A, "R_B": R.R_B, "R_C": R.R_C}
-
-    floats = group(complex, x)
-    results = product(**floats)
-    reach = rrr_reach(floats["B"], floats["A"], floats["r_B"])
+    z = group(complex, x)
+    found = RRRGroup(z["A"], z["B"], z["r_A"], z["r_B"], z["branch"])
+    v, R = found.velocity(dr_A=1), found.reactions([Load(z["F_A"], z["P_A"])], [Load(z["F_B"], z["P_B"])])
+    reach = rrr_reach(z["B"], z["A"], z["r_B"])
     return Case(
-        words=_reasons([assembled("dyad closes", results["C"], floats["r_A"], reach, "length r_A", "m")]),
+        words=_reasons([assembled("dyad closes", found.C, z["r_A"], reach, "length r_A", "m")]),
         true=lambda X_C, Y_C, **x: exact.dyad(**group(mpc, x), X_C=X_C, Y_C=Y_C),
         x={"X_C": 1.0, "Y_C": 1.0, **x},  # the pin is rounded before it is used
-        product=lambda _: results,
-        printed=lambda _: printed.dyad(**floats),
+        product=lambda _: {"C": found.C, "omega_A": v.omega_A, "omega_B": v.omega_B, **R._asdict()},
+        printed=lambda _: printed.dyad(**z),
     )
 
 
@@ -359,13 +346,12 @@ def through_dead_centre(_worksheets: Path, given: Mapping[str, Any], _at: int = 
     """
     a, b, c, gap, start, end = (float(given[name]) for name in ("a", "b", "c", "gap", "theta_0", "theta_1"))
     d = b + c - a - gap
-    A = a * np.exp(1j * end)
-    C = rrr(A, d, b, c, +1)
+    found = RRRGroup(a * np.exp(1j * end), d, b, c, +1)
     return Case(
         words="",
         true=exact.four_bar,
         x={"a": a, "b": b, "c": c, "d": d, "theta": end},
-        product=lambda _: {"C": C, "phi2": angle(C - A), "phi3": angle(C - d)},
+        product=lambda _: {"C": found.C, "phi2": angle(found.AC), "phi3": angle(found.BC)},
         printed=lambda _: printed.integrated_four_bar(a, b, c, d, start, end),
     )
 

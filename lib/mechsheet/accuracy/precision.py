@@ -9,34 +9,29 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import ArrayLike
 
+from mechsheet.accuracy.arithmetic import EPS
+from mechsheet.accuracy.condition import relative_error
 from mechsheet.recording.unrepeatable import clock_read
 from mechsheet.run.progress import progress
 from mechsheet.worksheet.check import Check
 from mechsheet.worksheet.shown import Charted
 from mechsheet.worksheet.table import Column, Figure, Table
 
-ROUNDING = 2.0**-53  # relative error of one rounding: no smaller error is shown, for numbers here are floats
-_NOISE = 8 * ROUNDING  # four units in the last place, within which errors count as equal
+_NOISE = 8 * EPS  # four units in the last place, within which errors count as equal
 _FASTER = 0.9  # part of a time that counts as less of it
 
 
-class Truth:
-    """Numbers of one kind, known to many digits; errors count relative to the largest of them.
+def largest_error(found: ArrayLike, truth: Iterable[Any]) -> float:
+    """Largest error of ``found``, in the order of the exact numbers and relative to the largest of them.
 
-    >>> Truth([2, 4]).error([2, 4.5])
+    From one rounding to 1, where no digit is right.
+
+    >>> largest_error([2, 4.5], [2, 4])
     0.125
     """
-
-    def __init__(self, numbers: Iterable[Any]) -> None:
-        exact = list(numbers)  # each is a float and the rest that the float leaves, or a float differs from it by less
-        self.high = np.array([complex(x) for x in exact])
-        self.low = np.array([complex(x - high) for x, high in zip(exact, self.high.tolist(), strict=True)])
-        self.size = float(np.max(np.abs(self.high)))
-
-    def error(self, found: ArrayLike) -> float:
-        """Largest error of ``found``, in the order of the numbers: from one rounding to 1, where no digit is right."""
-        off = np.abs((np.ravel(found) - self.high) - self.low) / self.size
-        return float(np.clip(np.max(off), ROUNDING, 1)) if np.isfinite(off).all() else 1.0
+    values = np.ravel(found)
+    error = relative_error(values, list(truth)) if np.isfinite(values).all() else 1.0
+    return min(max(error, EPS), 1.0)
 
 
 @dataclass(frozen=True)
@@ -92,8 +87,8 @@ class Comparison:
     @property
     def front(self) -> tuple[Measured, ...]:
         """Methods than which none is both faster and more accurate, from the fastest to the most accurate."""
-        ordered, front = sorted(self.rows, key=lambda row: (row.seconds, row.error)), list[Measured]()
-        for row in ordered:
+        front = list[Measured]()
+        for row in sorted(self.rows, key=lambda row: (row.seconds, row.error)):
             if not front or row.error < front[-1].error:
                 front.append(row)
         return tuple(front)
@@ -117,34 +112,25 @@ class Comparison:
         return self._table([_best(self.rows[part]) for _, part in _slices(self.rows)], note)
 
     def _table(self, rows: Sequence[Measured], note: str = "") -> Table:
-        ratio = np.array([row.seconds / self.own.seconds for row in rows])
-        return Table(
-            self.number,
-            self.title,
-            (
-                Column("method", "", "", 0, np.array([row.family for row in rows], object)),
-                Column("setting", "", "tolerance, step or size", 0, np.array([row.setting for row in rows], object)),
-                Column("error", "-", _ERROR, 1, np.array([row.error for row in rows]), power=True),
-                Column("digits", "-", "digits that are right", 1, np.array([row.digits for row in rows])),
-                Column("time", "ms", "median of the run times", 3, 1e3 * np.array([row.seconds for row in rows])),
-                Column("ratio", "-", _RATIO, 3, ratio),
-                Column(
-                    "place", "", "beside the product's own method", 0, np.array(list(map(self.place, rows)), object)
-                ),
-            ),
-            note,
+        error, digits, seconds = np.array([(row.error, row.digits, row.seconds) for row in rows]).T
+        columns = (
+            Column("method", "", "", 0, np.array([row.family for row in rows], object)),
+            Column("setting", "", "tolerance, step or size", 0, np.array([row.setting for row in rows], object)),
+            Column("error", "-", _ERROR, 1, error, power=True),
+            Column("digits", "-", "digits that are right", 1, digits),
+            Column("time", "ms", "median of the run times", 3, 1e3 * seconds),
+            Column("ratio", "-", "run time, times that of the product's own method", 3, seconds / self.own.seconds),
+            Column("place", "", "beside the product's own method", 0, np.array([*map(self.place, rows)], object)),
         )
+        return Table(self.number, self.title, columns, note)
 
     def figure(self) -> "WorkPrecision":
         """The work-precision diagram of all methods."""
-        columns = self.table().columns
-        return WorkPrecision(
-            self.number, self.title, columns[5], (columns[2],), rows=self.rows, own=self.own, front=self.front
-        )
+        _, _, error, _, _, ratio, _ = self.table().columns
+        return WorkPrecision(self.number, self.title, ratio, (error,), rows=self.rows, own=self.own, front=self.front)
 
 
 _ERROR = "largest error over the largest number, at least one rounding, at most 1"
-_RATIO = "run time, times that of the product's own method"
 
 
 @dataclass(frozen=True)
@@ -175,19 +161,19 @@ class WorkPrecision(Charted, Figure):
             | {"x": float(x), "order": i}
             for i, (row, x) in enumerate(zip(self.rows, self.x.values, strict=True))
         ]
-        x_marks, y_marks = _decades(self.x.values), _decades(self.lines[0].values)
-        y_marks = [mark for mark in y_marks if mark <= 1]
+        x_marks = _decades(self.x.values)
+        y_marks = [mark for mark in _decades(self.lines[0].values) if mark <= 1]
         title = f"{self.x.meaning} [{self.x.unit}]".removesuffix(" [-]")
-        x = alt.X("x:Q", title=title, axis=alt.Axis(values=x_marks, format="~g"))
-        x = x.scale(type="log", domain=(x_marks[0], x_marks[-1]), nice=False)
-        y = alt.Y("error:Q", title="error", axis=alt.Axis(values=y_marks[:: 1 + len(y_marks) // 10], format=".0e"))
-        y = y.scale(type="log", domain=(y_marks[0], y_marks[-1]), nice=False)
+        x = alt.X("x:Q", title=title).axis(values=x_marks, format="~g").scale(**_log(x_marks))
+        y = alt.Y("error:Q", title="error").axis(values=y_marks[:: 1 + len(y_marks) // 10], format=".0e")
+        y = y.scale(**_log(y_marks))
         looks = [_OTHERS[i % len(_OTHERS)] for i in range(len(names))]
-        if self.own:
-            looks = [_OWN, *looks[:-1]]
+        looks = [_OWN, *looks[:-1]] if self.own else looks
         legend = alt.Legend(title=None, orient="right", labelLimit=260, symbolSize=90, rowPadding=5)
-        color = alt.Color("method:N", sort=names, legend=legend).scale(domain=names, range=[c for c, _ in looks])
-        shape = alt.Shape("method:N", sort=names, legend=legend).scale(domain=names, range=[s for _, s in looks])
+        color, shape = (
+            channel("method:N", sort=names, legend=legend).scale(domain=names, range=look)
+            for channel, look in zip((alt.Color, alt.Shape), zip(*looks, strict=True), strict=True)
+        )
         tooltip = [
             *(alt.Tooltip("method:N"), alt.Tooltip("setting:N"), alt.Tooltip("error:Q", format=".2e")),
             *(alt.Tooltip("ms:Q", title="time, ms", format=".3f"), alt.Tooltip("x:Q", title=self.x.symbol)),
@@ -215,31 +201,25 @@ class WorkPrecision(Charted, Figure):
         """What lies behind the points: the band of rounding, the field of better methods and the front."""
         import altair as alt  # on use: only a page needs it
 
+        def field(color: str, right: float, low: float, high: float) -> Any:
+            corners = alt.InlineData([{"x": x_ends[0], "right": right, "error": low, "high": high}])
+            return alt.Chart(corners).mark_rect(color=color, opacity=0.13).encode(x2="right:Q", y2="high:Q")
+
         place = float(self.x.values[self.rows.index(own)])
-        low = max(y_ends[0], _NOISE)
-        layers = []
+        low, layers = max(y_ends[0], _NOISE), list[Any]()
         if y_ends[0] < low:
-            layers.append(_field(_GREY, x_ends[1], y_ends[0], low, x_ends[0]))
             text = alt.Chart(alt.InlineData([{"x": x_ends[0], "error": y_ends[0]}])).mark_text(
                 text="rounding", align="left", baseline="bottom", dx=5, dy=-4, fontSize=11, color=_GREY
             )
-            layers.append(text)
+            layers += [field(_GREY, x_ends[1], y_ends[0], low), text]
         if own.error > low:
-            layers.append(_field(_OWN[0], place, low, own.error, x_ends[0]))
+            layers.append(field(_OWN[0], place, low, own.error))
         steps = [{"x": place * row.seconds / own.seconds, "error": row.error} for row in self.front]
         steps = [{**steps[0], "error": y_ends[1]}, *steps, {**steps[-1], "x": x_ends[1]}]
-        dashed = alt.Chart(alt.InlineData(steps)).mark_line(
+        front = alt.Chart(alt.InlineData(steps)).mark_line(
             interpolate="step-after", color=_GREY, strokeDash=[4, 4], strokeWidth=1
         )
-        return [*layers, dashed]
-
-
-def _field(color: str, right: float, low: float, high: float, left: float) -> Any:
-    """A shaded rectangle."""
-    import altair as alt  # on use: only a page needs it
-
-    corners = alt.InlineData([{"x": left, "right": right, "error": low, "high": high}])
-    return alt.Chart(corners).mark_rect(color=color, opacity=0.13).encode(x2="right:Q", y2="high:Q")
+        return [*layers, front]
 
 
 _OWN = ("#D1495B", "diamond")
@@ -264,11 +244,10 @@ class Job:
 
     def compare(self, seconds: float) -> Comparison:
         """Run the methods turn about, and compare the medians of their run times and their errors; see `timed`."""
-        error = Truth(self.truth).error
         with progress(len(self.methods), f"{self.number} {self.title}") as done:
             found = timed([method.run for method in self.methods], seconds, done)
         rows = (
-            Measured(m.family, m.setting, error(result), time)
+            Measured(m.family, m.setting, largest_error(result, self.truth), time)
             for m, (result, time) in zip(self.methods, found, strict=True)
         )
         return Comparison(self.number, self.title, tuple(rows))
@@ -320,8 +299,11 @@ def _best(rows: Sequence[Measured]) -> Measured:
 
 def _decades(values: Any) -> list[float]:
     """Powers of ten around the values, with some room beside them."""
-    low, high = np.log10(np.min(values)) - _ROOM, np.log10(np.max(values)) + _ROOM
+    room = 0.15  # of a decade
+    low, high = np.log10(np.min(values)) - room, np.log10(np.max(values)) + room
     return [10.0**k for k in range(int(np.floor(low)), int(np.ceil(high)) + 1)]
 
 
-_ROOM = 0.15  # of a decade
+def _log(marks: Sequence[float]) -> dict[str, Any]:
+    """A logarithmic scale from the first mark to the last."""
+    return {"type": "log", "domain": (marks[0], marks[-1]), "nice": False}

@@ -16,60 +16,61 @@ from scipy.integrate import solve_ivp
 
 from mechsheet.mechanics.planar import angle
 from mechsheet.mechanics.rrr import rrr
+from mechsheet.worksheet.cells import Worksheet
 
 Results = dict[str, Any]
 
 
 @np.errstate(all="ignore")
-def hitch(g: Any, S: ArrayLike, L4: float, S_p: float, L7: float) -> Results:
-    """Sections 2 to 7 of the hitch's document for the strokes S [m] and the lengths found."""
+def hitch(sheet: Worksheet, g: Any, S: ArrayLike, L4: float, S_p: float, L7: float) -> Results:
+    """Sections 2 to 7 of the hitch's document for the strokes S [m] and the lengths found.
+
+    The worksheet computes sections 4 and 6 from these, with the printed formulas.
+    """
     S = np.asarray(S, np.float64)
     LS6 = sqrt(g.X6**2 + g.Y6**2)
     phiS6 = 2 * pi + atan(g.Y6 / g.X6) - hitch_pins(g, np.float64(S_p), L4, L7)["phi6_S"]
     r = hitch_pins(g, S, L4, L7)
     r["PS6_S"] = r["P56_S"] + LS6 * exp(1j * (phiS6 + r["phi6_S"]))
-    r |= {"L4": np.float64(L4), "S_p": np.float64(S_p), "L7": np.float64(L7), "LS6": LS6, "phiS6": phiS6}
-    r |= hitch_ratios(g, S, L4, L7, r)
-    r |= _hitch_heights(g, r)
-    A_gc = 0.25 * pi * g.D_gc**2
-    F_gc = g.P6 * r["IS6"]
-    r |= {"A_gc": A_gc, "F_gc": F_gc, "P_gc": F_gc / (g.k_gc * A_gc * g.eta)}
-    r["G56"] = g.k_gc * g.P_gc_max * g.eta * A_gc / r["I56"]
-    r["GS6"] = g.k_gc * g.P_gc_max * g.eta * A_gc / r["IS6"]
-    r["dGS65"] = (r["GS6"] - g.P6) / g.P6
-    r |= hitch_forces(g, r)
-    Ra = (g.P_gr * (g.a + g.L) + g.P_msha * g.b - g.P6 * r["PS6_S"].real) / g.L
-    Rb, weight = g.P_gr + g.P_msha + g.P6 - Ra, g.P6 + g.P_msha + g.P_gr
-    r |= {"Ra": Ra, "Rb": Rb, "dRa": Ra / weight, "dRb": Rb / weight, "Ra_min": np.float64(0.2 * weight)}
-    r["GS6_max"] = (g.P_msha * g.b + g.P_gr * (g.a + g.L) - 0.2 * weight) / r["PS6_S"].real
-    return r
+    r |= {"LS6": LS6, "phiS6": phiS6} | hitch_ratios(g, S, L4, L7, r)
+    r |= _hitch_heights(g, r) | hitch_forces(g, r)
+    return r | {name: value for name, value in sheet.run(_RESULTS, {"g": g, **r}).items() if name in _RESULTS}
+
+
+_RESULTS = ("F_gc", "A_gc", "P_gc", "G56", "GS6", "dGS65", "Ra", "Rb", "dRa", "dRb", "Ra_min", "GS6_max")
 
 
 def hitch_pins(g: Any, S: Any, L4: float, L7: float) -> Results:
     """2.1 to 2.3, with the corrected phi12 and the slopes of the frame in all quadrants: angles of the links, pins."""
+    O3, O5 = g.X03 + 1j * g.Y03, g.X05 + 1j * g.Y05
     L13 = sqrt((g.X01 - g.X03) ** 2 + (g.Y01 - g.Y03) ** 2)
     phi13 = np.arctan2(g.Y03 - g.Y01, g.X01 - g.X03)
-    phi3 = acos((g.L3**2 + L13**2 - S**2) / (2 * g.L3 * L13)) - phi13
-    phi12 = pi - phi13 - acos((S**2 + L13**2 - g.L3**2) / (2 * S * L13))
+    phi3 = _cosines(g.L3, L13, S) - phi13
+    phi12 = pi - phi13 - _cosines(S, L13, g.L3)
     phi34 = phi3 + g.phi_BD
     L35 = sqrt((g.X03 - g.X05) ** 2 + (g.Y03 - g.Y05) ** 2)
     delta1 = pi - acos((g.X03 - g.X05) / L35)
     S_1 = sqrt(L35**2 + g.L34**2 - 2 * L35 * g.L34 * cos(phi34 + delta1))
-    phiS1 = acos((L35**2 + S_1**2 - g.L34**2) / (2 * L35 * S_1))
-    phi4 = acos((L4**2 + S_1**2 - g.L5**2) / (2 * L4 * S_1)) - phiS1 - delta1
-    phi5 = pi - acos((g.L5**2 + S_1**2 - L4**2) / (2 * g.L5 * S_1)) - phiS1 - delta1
+    phiS1 = _cosines(L35, S_1, g.L34)
+    phi4 = _cosines(L4, S_1, g.L5) - phiS1 - delta1
+    phi5 = pi - _cosines(g.L5, S_1, L4) - phiS1 - delta1
     X56, Y56 = g.X05 + g.L56 * cos(phi5), g.Y05 + g.L56 * sin(phi5)
     L57 = sqrt((g.X07 - g.X05) ** 2 + (g.Y07 - g.Y05) ** 2)
     delta2 = pi - acos((g.X07 - g.X05) / L57)
     L53 = sqrt((g.X07 - X56) ** 2 + (g.Y07 - Y56) ** 2)
-    phi53 = acos((L53**2 + L57**2 - g.L56**2) / (2 * L53 * L57))
-    phi6 = pi - acos((g.L6**2 + L53**2 - L7**2) / (2 * g.L6 * L53)) + phi53 - delta2
-    phi7 = acos((L7**2 + L53**2 - g.L6**2) / (2 * L7 * L53)) + phi53 - delta2
+    phi53 = _cosines(L53, L57, g.L56)
+    phi6 = pi - _cosines(g.L6, L53, L7) + phi53 - delta2
+    phi7 = _cosines(L7, L53, g.L6) + phi53 - delta2
     angles = {"phi12_S": phi12, "phi3_S": phi3, "phi34_S": phi34, "phi4_S": phi4, "phi5_S": phi5}
     angles |= {"phi6_S": phi6, "phi7_S": phi7}
-    pins = {"P23_S": g.X03 + 1j * g.Y03 + g.L3 * exp(1j * phi3), "P34_S": g.X03 + 1j * g.Y03 + g.L34 * exp(1j * phi34)}
-    pins |= {"P45_S": g.X05 + 1j * g.Y05 + g.L5 * exp(1j * phi5), "P56_S": X56 + 1j * Y56}
+    pins = {"P23_S": O3 + g.L3 * exp(1j * phi3), "P34_S": O3 + g.L34 * exp(1j * phi34)}
+    pins |= {"P45_S": O5 + g.L5 * exp(1j * phi5), "P56_S": X56 + 1j * Y56}
     return angles | pins | {"P67_S": g.X07 + 1j * g.Y07 + L7 * exp(1j * phi7)}
+
+
+def _cosines(a: Any, b: Any, c: Any) -> Any:
+    """Angle between the sides a and b of a triangle, opposite to c, by the law of cosines."""
+    return acos((a**2 + b**2 - c**2) / (2 * a * b))
 
 
 def hitch_ratios(g: Any, S: Any, L4: float, L7: float, r: Results) -> Results:
@@ -107,26 +108,20 @@ def hitch_forces(g: Any, r: Results) -> Results:
     R56x = g.P6 * b1 * (d1 + e1) / (a1 * d1 + b1 * c1)
     R56 = R56x - 1j * ((g.P6 * e1 - R56x * c1) / d1)
     R07 = -R56.real + 1j * (g.P6 - R56.imag)
-
-    R65 = -R56
-    a2, b2, c2, d2 = P34.imag - P45.imag, P34.real - P45.real, g.Y05 - P45.imag, P45.real - g.X05
-    e2 = R65.real * (P45.imag - P56.imag) + R65.imag * (P56.real - P45.real)
-    under = a2 * d2 + b2 * c2
-    R05x = -(b2 * e2 - R65.real * a2 * d2 + R65.imag * b2 * d2) / under
-    R05 = R05x - 1j * ((e2 + R05x * c2) / d2)
-    R34x = (b2 * e2 + R65.real * b2 * c2 + R65.imag * b2 * d2) / under
-    R34 = R34x + 1j * (R34x * a2 / b2)
-
-    R43 = -R34
-    a3, b3, c3, d3 = P23.imag - g.Y01, P23.real - g.X01, g.Y03 - P23.imag, g.X03 - P23.real
-    e3 = R43.real * (P23.imag - P34.imag) + R43.imag * (P34.real - P23.real)
-    under = a3 * d3 - b3 * c3
-    R03x = (b3 * e3 + R43.real * a3 * d3 - R43.imag * b3 * d3) / under
-    R03 = R03x + 1j * ((e3 + R03x * c3) / d3)
-    R01x = -(b3 * e3 + R43.real * b3 * c3 - R43.imag * b3 * d3) / under
-    R01 = R01x + 1j * (R01x * a3 / b3)
-    group_67 = {"R56": R56, "R65": R65, "R07": R07, "R67": -R07}
+    R05, R34 = _eliminated(P34, P45, g.X05 + 1j * g.Y05, P56, -R56)
+    R03, R01 = _eliminated(g.X01 + 1j * g.Y01, P23, g.X03 + 1j * g.Y03, P34, -R34)
+    group_67 = {"R56": R56, "R65": -R56, "R07": R07, "R67": -R07}
     return group_67 | {"R05": R05, "R34": R34, "R45": R34, "R03": R03, "R01": R01, "R23": R01}
+
+
+def _eliminated(A: Any, C: Any, B: Any, P: Any, F: Any) -> tuple[Any, Any]:
+    """Forces in the pins B and A of a group whose link BC carries the force F at P, by the formulas of 5.2 and 5.3."""
+    a, b, c, d = A.imag - C.imag, A.real - C.real, B.imag - C.imag, C.real - B.real
+    e = F.real * (C.imag - P.imag) + F.imag * (P.real - C.real)
+    under = a * d + b * c
+    R_Bx = -(b * e - F.real * a * d + F.imag * b * d) / under
+    R_Ax = (b * e + F.real * b * c + F.imag * b * d) / under
+    return R_Bx - 1j * ((e + R_Bx * c) / d), R_Ax + 1j * (R_Ax * a / b)
 
 
 @np.errstate(all="ignore")
@@ -141,7 +136,7 @@ def landing_gear(g: Any, l2: ArrayLike) -> Results:
     l2n = sqrt(l12**2 + g.l3**2 - 2 * l12 * g.l3 * cos(mu + g.theta / 2))
     H = l2n - l20
     l2 = np.asarray(l2, np.float64)
-    phi2 = pi / 2 + beta0 + acos((l2**2 + l12**2 - g.l3**2) / (2 * l2 * l12))
+    phi2 = pi / 2 + beta0 + _cosines(l2, l12, g.l3)
     half = np.arcsin((g.a - l2 * sin(phi2)) / g.l3)
     phi3 = np.where(-g.b - l2 * cos(phi2) > 0, half, pi - half)
     cosine, sine = cos(phi3 - phi2), sin(phi3 - phi2)
@@ -165,7 +160,7 @@ def _pin(A: Any, B: Any, r_A: Any, r_B: Any, branch: int) -> tuple[Any, Any, Any
     """Pin C, angle of the link AC, and length and angle of AB."""
     d = B - A
     L, phi_AB = sqrt(d.real**2 + d.imag**2), np.arctan2(d.imag, d.real)
-    phi_A = phi_AB + branch * acos((r_A**2 + L**2 - r_B**2) / (2 * r_A * L))
+    phi_A = phi_AB + branch * _cosines(r_A, L, r_B)
     return A + r_A * exp(1j * phi_A), phi_A, L, phi_AB
 
 
@@ -175,7 +170,7 @@ def dyad(
 ) -> Results:
     """A group of two links as the hitch's document computes each of its own: acos, sines, elimination."""
     C, phi_A, L, phi_AB = _pin(A, B, r_A, r_B, branch)
-    phi_B = phi_AB + pi - branch * acos((r_B**2 + L**2 - r_A**2) / (2 * r_B * L))
+    phi_B = phi_AB + pi - branch * _cosines(r_B, L, r_A)
     omega_B = 1 / (r_B * sin(phi_A - phi_B))
     omega_A = omega_B * r_B * cos(phi_A - phi_B) / r_A
     p, q = P_A - C, P_B - C

@@ -4,7 +4,7 @@ Every function ``.._methods`` lists all ways to one job, the product's own first
 """
 
 import cmath
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any
@@ -17,9 +17,11 @@ from scipy.interpolate import CubicSpline
 from scipy.optimize import brentq, fsolve, newton, root
 
 from mechsheet.accuracy import printed
+from mechsheet.accuracy.arithmetic import cross, dot
 from mechsheet.accuracy.chain import (
     REACTIONS,
     Chain,
+    arm,
     arm_pin,
     first_analogues,
     hinges,
@@ -30,18 +32,16 @@ from mechsheet.accuracy.chain import (
     second_analogues,
 )
 from mechsheet.accuracy.precision import Method
-from mechsheet.mechanics.planar import angle, cross, dot
-from mechsheet.mechanics.rrr import rrr, rrr_reach, rrr_velocity
+from mechsheet.mechanics.planar import angle
+from mechsheet.mechanics.rrr import RRRGroup, rrr, rrr_reach
 from mechsheet.worksheet import numbers
 from mechsheet.worksheet.find import find
 
-Runs = Callable[[float], Callable[[], Any]]
 
-
-def _family(name: str, settings: Sequence[float], run: Runs) -> list[Method]:
+def _family(name: str, settings: Sequence[float], run: Callable[[Any], Any]) -> list[Method]:
     """A method at several tolerances, steps or sizes."""
     texts = (str(setting) if isinstance(setting, int) else numbers.scientific(setting, 0) for setting in settings)
-    return [Method(name, text, run(setting)) for text, setting in zip(texts, settings, strict=True)]
+    return [Method(name, text, partial(run, setting)) for text, setting in zip(texts, settings, strict=True)]
 
 
 def _powers(first: int, last: int, step: int = 1) -> list[float]:
@@ -53,18 +53,22 @@ def _powers(first: int, last: int, step: int = 1) -> list[float]:
 
 def _pins_at(chain: Chain, y: Any) -> Any:
     """Inner pins from the angles of the links."""
-    return np.array([d.B + d.r_B * exp(1j * y[2 * k + 1]) for k, d in enumerate(chain.dyads)])
+    return np.array([d.B + d.r_B * exp(1j * beta) for d, beta in zip(chain.dyads, y[1::2], strict=True)])
+
+
+def _turns(w: Any, a: Any, b: Any) -> tuple[Any, Any]:
+    """Turns of the links AC and BC that move the end of a by w beyond that of b: i (alpha a - beta b) = w."""
+    D = cross(a, b)
+    return dot(w, b) / D, dot(w, a) / D
 
 
 def _by_newton(chain: Chain, q: Any, guess: Any, tolerance: float) -> Any:
     """Newton's method on the loop of each dyad, at all positions at once."""
     A, y = chain.A(q), guess.copy()
     for k, d in enumerate(chain.dyads):
-        r_A = q if d.r_A is None else d.r_A
         for _ in range(50):
-            a, b = r_A * exp(1j * y[2 * k]), d.r_B * exp(1j * y[2 * k + 1])
-            gap, D = d.B + b - A - a, cross(a, b)
-            step = np.array([dot(gap, b) / D, dot(gap, a) / D])
+            a, b = d.length(q) * exp(1j * y[2 * k]), d.r_B * exp(1j * y[2 * k + 1])
+            step = np.array(_turns(d.B + b - A - a, a, b))
             y[2 * k : 2 * k + 2] += step
             if np.max(abs(step)) < tolerance:
                 break
@@ -72,12 +76,18 @@ def _by_newton(chain: Chain, q: Any, guess: Any, tolerance: float) -> Any:
     return _pins_at(chain, y)
 
 
-def _loops(y: Any, chain: Chain, q: float) -> list[float]:
+def _links(chain: Chain, q: float, y: Any) -> Iterator[tuple[Any, ...]]:
+    """The dyads at one position, each with the direction of AC and the vectors AC and BC."""
+    for d, alpha, beta in zip(chain.dyads, y[::2], y[1::2], strict=True):
+        u = cmath.exp(1j * alpha)
+        yield d, u, d.length(q) * u, d.r_B * cmath.exp(1j * beta)
+
+
+def _gaps(y: Any, chain: Chain, q: float) -> list[float]:
     """Gaps of all loops at one position, as real numbers."""
     A, gaps = chain.A(q), []
-    for k, d in enumerate(chain.dyads):
-        b = d.r_B * cmath.exp(1j * y[2 * k + 1])
-        gap = A + (q if d.r_A is None else d.r_A) * cmath.exp(1j * y[2 * k]) - d.B - b
+    for d, _, a, b in _links(chain, q, y):
+        gap = A + a - d.B - b
         gaps += [gap.real, gap.imag]
         A = d.B + d.z * b
     return gaps
@@ -85,32 +95,25 @@ def _loops(y: Any, chain: Chain, q: float) -> list[float]:
 
 def _by_fsolve(chain: Chain, q: Any, guess: Any, tolerance: float) -> Any:
     """fsolve on all loops, one position after the other."""
-    found = [
-        fsolve(_loops, start, args=(chain, s), xtol=tolerance, full_output=True)[0]
-        for s, start in zip(q.tolist(), guess.T, strict=True)
-    ]
+    starts = zip(q.tolist(), guess.T, strict=True)
+    found = [fsolve(_gaps, y, args=(chain, s), xtol=tolerance, full_output=True)[0] for s, y in starts]
     return _pins_at(chain, np.array(found).T)
 
 
 def _rates(q: float, y: Any, chain: Chain) -> list[float]:
     """Velocity equations: derivatives of the angles of the links with respect to q."""
-    dA, slopes = chain.dA(q), []
-    for k, d in enumerate(chain.dyads):
-        u = cmath.exp(1j * y[2 * k])
-        a, b = u * (q if d.r_A is None else d.r_A), d.r_B * cmath.exp(1j * y[2 * k + 1])
-        w = -dA - (u if d.r_A is None else 0)
-        D = a.real * b.imag - a.imag * b.real
-        turn = (w.real * a.real + w.imag * a.imag) / D
-        slopes += [(w.real * b.real + w.imag * b.imag) / D, turn]
-        dA = 1j * d.z * turn * b
+    dA, slopes = chain.dA(q), list[float]()
+    for d, u, a, b in _links(chain, q, y):
+        turns = _turns(-dA - (u if d.r_A is None else 0), a, b)
+        slopes += turns
+        dA = 1j * d.z * turns[1] * b
     return slopes
 
 
 def _by_integration(chain: Chain, q: Any, start: Any, method: Any, tolerance: float) -> Any:
     """The velocity equations integrated from the first position on."""
-    run = solve_ivp(
-        _rates, (q[0], q[-1]), start, method=method, t_eval=q, rtol=tolerance, atol=tolerance, args=(chain,)
-    )
+    precise = {"method": method, "rtol": tolerance, "atol": tolerance}
+    run = solve_ivp(_rates, (q[0], q[-1]), start, t_eval=q, args=(chain,), **precise)
     return _pins_at(chain, run.y) if run.success else np.full((len(chain.dyads), len(q)), nan)
 
 
@@ -119,17 +122,13 @@ def position_methods(chain: Chain, q: Any, as_printed: Callable[[], Any]) -> lis
     angles = link_angles(chain, q)
     guess, start = np.round(angles, 1), angles[:, 0]
     ways = [
-        Method("library: rrr", "", lambda: inner_pins(chain, q)),
+        Method("library: rrr", "", partial(inner_pins, chain, q)),
         Method("printed: law of cosines", "", as_printed),
-        *_family("Newton", _powers(3, 14), lambda t: lambda: _by_newton(chain, q, guess, t)),
-        *_family("fsolve, each position", _powers(3, 14, 3), lambda t: lambda: _by_fsolve(chain, q, guess, t)),
+        *_family("Newton", _powers(3, 14), partial(_by_newton, chain, q, guess)),
+        *_family("fsolve, each position", _powers(3, 14, 3), partial(_by_fsolve, chain, q, guess)),
     ]
     for name in ("RK45", "DOP853", "Radau"):
-        ways += _family(
-            f"solve_ivp {name}",
-            _powers(3, 12),
-            lambda t, name=name: lambda: _by_integration(chain, q, start, name, t),  # type: ignore[misc]
-        )
+        ways += _family(f"solve_ivp {name}", _powers(3, 12), partial(_by_integration, chain, q, start, name))
     return ways
 
 
@@ -144,20 +143,21 @@ def derivative_methods(
     def angles(at: Any) -> Any:
         return link_angles(chain, at)[1:]
 
-    def differences(h: float) -> Any:
+    def differences(part: float) -> Any:
+        h = part * stroke
         behind, ahead = angles(q - h), angles(q + h)
         return (ahead - behind) / (2 * h) if order == 1 else (ahead - 2 * angles(q) + behind) / h**2
 
-    def spline(n: float) -> Any:
-        table = linspace(q[0], q[-1], int(n))
+    def spline(n: int) -> Any:
+        table = linspace(q[0], q[-1], n)
         return CubicSpline(table, angles(table), axis=1)(q, order)
 
-    own = ("rrr_velocity", first_analogues) if order == 1 else ("rrr_acceleration", second_analogues)
+    name, own = ("rrr_velocity", first_analogues) if order == 1 else ("rrr_acceleration", second_analogues)
     return [
-        Method(f"library: {own[0]}", "", lambda: own[1](chain, q)),
+        Method(f"library: {name}", "", partial(own, chain, q)),
         *([Method("printed: sines of the angles", "", as_printed)] if as_printed else []),
-        *_family("central differences", _powers(1, 10), lambda h: lambda: differences(h * stroke)),
-        *_family("spline of the table", [10 * 2**k for k in range(8)], lambda n: lambda: spline(n)),
+        *_family("central differences", _powers(1, 10), differences),
+        *_family("spline of the table", [10 * 2**k for k in range(8)], spline),
     ]
 
 
@@ -169,11 +169,24 @@ class Unknown:
     """One Find of the hitch: f(x) = ``equals`` with x between the ends; f may take a branch where one is named."""
 
     f: Callable[..., Any]
+    printed: Callable[..., Any]  # f by the formulas of the document, as a port from Mathcad has it
     slope: Callable[[float], Any]
     ends: tuple[Any, Any]
     guess: float
     equals: float
     branch: int | None = None
+
+    def gap(self, x: Any) -> Any:
+        return self.f(x) - self.equals
+
+    def positive(self) -> "Unknown":
+        """The same, without a value for lengths that are not positive."""
+        if not self.branch:
+            return self
+        return replace(self, f=lambda x: self.f(x) if x > 0 else nan, slope=lambda x: self.slope(x) if x > 0 else nan)
+
+    def as_printed(self) -> "Unknown":
+        return replace(self, f=self.printed)
 
 
 def unknown(h: Any, factor: float, *known: float) -> Unknown:
@@ -182,42 +195,50 @@ def unknown(h: Any, factor: float, *known: float) -> Unknown:
     The guess is the document's, a length times the factor, the stroke as far towards its ends.
     """
     O1, O3, O5, O7 = hinges(h)
-    z, lever = h.L34 / h.L3 * exp(1j * h.phi_BD), h.L56 / h.L5
+    lever = h.L56 / h.L5
+
+    def lower(S: Any, L4: Any, branch: int = +1) -> RRRGroup:
+        return RRRGroup(arm_pin(h, S), O5, L4, h.L5, branch)
 
     def P56(S: Any, L4: Any, branch: int = +1) -> Any:
-        return O5 + lever * (rrr(arm_pin(h, S), O5, L4, h.L5, branch) - O5)
+        return O5 + lever * lower(S, L4, branch).BC
 
-    def height_rate(A: Any, L4: float, **rates: Any) -> Any:
-        return (lever * rrr_velocity(A, O5, rrr(A, O5, L4, h.L5, +1), **rates).v_C).imag
+    def as_printed(S: Any, L4: Any) -> Any:
+        return printed.hitch_pins(h, S, L4, h.L7_0)["P56_S"].imag
 
     if not known:
-        A = arm_pin(h, h.S_min)
         return Unknown(
             lambda L4, s=+1: P56(h.S_min, L4, s).imag,
-            lambda L4: height_rate(A, L4, dr_A=1),
-            *(rrr_reach(A, O5, h.L5), 0.8 * h.L4_0 * factor, h.Y56_min, +1),
+            lambda L4: as_printed(h.S_min, L4),
+            lambda L4: (lever * lower(h.S_min, L4).velocity(dr_A=1).v_C).imag,
+            rrr_reach(arm_pin(h, h.S_min), O5, h.L5),
+            *(0.8 * h.L4_0 * factor, h.Y56_min, +1),
         )
+    L4 = known[0]
     if len(known) == 1:
 
         def slope(S: float) -> Any:
-            v = rrr_velocity(O1, O3, rrr(O1, O3, S, h.L3, -1), dr_A=1).v_C
-            return height_rate(arm_pin(h, S), known[0], v_A=z * v)
+            v = RRRGroup(O1, O3, S, h.L3, -1).velocity(dr_A=1).v_C
+            return (lever * lower(S, L4).velocity(arm(h) * v).v_C).imag
 
-        guess = h.S_min + (0.5 if factor == 1 else float(factor > 1)) * (h.S_max - h.S_min)
-        return Unknown(lambda S: P56(S, known[0]).imag, slope, (h.S_min, h.S_max), guess, h.Y_P56)
-    P = P56(known[1], known[0])
+        part = 0.5 if factor == 1 else float(factor > 1)
+        ends, guess = (h.S_min, h.S_max), h.S_min + part * (h.S_max - h.S_min)
+        return Unknown(lambda S: P56(S, L4).imag, lambda S: as_printed(S, L4), slope, ends, guess, h.Y_P56)
+    P = P56(known[1], L4)
     return Unknown(
         lambda L7, s=-1: angle(rrr(P, O7, h.L6, L7, s) - P),
-        lambda L7: rrr_velocity(P, O7, rrr(P, O7, h.L6, L7, -1), dr_B=1).omega_A,
-        *(rrr_reach(P, O7, h.L6), 0.8 * h.L7_0 * factor, h.phi_P6, -1),
+        lambda L7: printed.hitch_pins(h, known[1], L4, L7)["phi6_S"],
+        lambda L7: RRRGroup(P, O7, h.L6, L7, -1).velocity(dr_B=1).omega_A,
+        rrr_reach(P, O7, h.L6),
+        *(0.8 * h.L7_0 * factor, h.phi_P6, -1),
     )
 
 
-def _in_turn(ask: Callable[..., Unknown], solve: Callable[[Unknown], float]) -> Any:
+def _in_turn(solve: Callable[..., float]) -> Any:
     """The three unknowns, each from the ones before it; NaN from the first that fails on."""
     found = list[float]()
     while len(found) < 3 and not (found and np.isnan(found[-1])):
-        found.append(solve(ask(*found)))
+        found.append(solve(*found))
     return np.array(found + [nan] * (3 - len(found)))
 
 
@@ -227,43 +248,26 @@ def _by_find(u: Unknown) -> float:
     return value
 
 
-def _positive(u: Unknown) -> Unknown:
-    """The same, without a value for lengths that are not positive."""
-    if not u.branch:
-        return u
-    return replace(u, f=lambda x: u.f(x) if x > 0 else nan, slope=lambda x: u.slope(x) if x > 0 else nan)
-
-
-def _as_printed(h: Any, u: Unknown, *known: float) -> Unknown:
-    """The same by the formulas of the document, as a port from Mathcad has it."""
-
-    def height(S: Any, L4: Any) -> Any:
-        return printed.hitch_pins(h, S, L4, h.L7_0)["P56_S"].imag
-
-    if not known:
-        return replace(u, f=lambda L4: height(h.S_min, L4))
-    if len(known) == 1:
-        return replace(u, f=lambda S: height(S, known[0]))
-    return replace(u, f=lambda L7: printed.hitch_pins(h, known[1], known[0], L7)["phi6_S"])
-
-
 def _bracketing(u: Unknown, tolerance: float) -> float:
     try:
-        return float(brentq(lambda x: u.f(x) - u.equals, *u.ends, xtol=tolerance, rtol=max(tolerance, 1e-15)))
+        return float(brentq(u.gap, *u.ends, xtol=tolerance, rtol=max(tolerance, 1e-15)))
     except ValueError:  # no change of sign between the ends
         return nan
 
 
-def _newton(u: Unknown, tolerance: float, slope: bool = True) -> float:
-    """Newton's method, or the secant method without a slope."""
-    first = u.slope if slope else None
-    x, r = newton(lambda x: u.f(x) - u.equals, u.guess, fprime=first, tol=tolerance, full_output=True, disp=False)
+def _newton(u: Unknown, tolerance: float) -> float:
+    x, r = newton(u.gap, u.guess, fprime=u.slope, tol=tolerance, full_output=True, disp=False)
+    return float(x) if r.converged else nan
+
+
+def _secant(u: Unknown, tolerance: float) -> float:
+    x, r = newton(u.gap, u.guess, tol=tolerance, full_output=True, disp=False)
     return float(x) if r.converged else nan
 
 
 def _hybr(u: Unknown, tolerance: float) -> float:
     def gap(x: NDArray[np.float64]) -> float:
-        return float(u.f(x.item()) - u.equals)
+        return float(u.gap(x.item()))
 
     result = root(gap, [u.guess], method="hybr", tol=tolerance)
     return float(result.x.item()) if result.success else nan
@@ -278,66 +282,47 @@ def _lower_link(h: Any, Y: Any) -> Any:
 def by_inverse(h: Any) -> Any:
     """The unknown lengths as distances between known points: the mechanism taken from the other end."""
     O1, O3, O5, O7 = hinges(h)
-    z = h.L34 / h.L3 * exp(1j * h.phi_BD)
     L4 = abs(O5 + h.L5 * _lower_link(h, h.Y56_min) - arm_pin(h, h.S_min))
     P45, P56 = (O5 + length * _lower_link(h, h.Y_P56) for length in (h.L5, h.L56))
-    P23 = O3 + (rrr(P45, O3, L4, h.L34, -1) - O3) / z
+    P23 = O3 + (rrr(P45, O3, L4, h.L34, -1) - O3) / arm(h)
     return np.array([L4, abs(P23 - O1), abs(P56 + h.L6 * exp(1j * h.phi_P6) - O7)])
 
 
 def find_methods(h: Any, factors: Sequence[float]) -> list[Method]:
     """All ways to the three unknowns L4, S_p, L7, each from all guesses."""
 
-    Asked = Callable[..., Unknown]  # of a factor and the lengths known
+    @np.errstate(all="ignore")
+    def each(solve: Callable[[Unknown], float]) -> Any:
+        return np.array([_in_turn(lambda *known, k=k: solve(unknown(h, k, *known))) for k in factors])
 
-    def each(solve: Callable[[Unknown], float], asked: Asked) -> Callable[[], Any]:
-        @np.errstate(all="ignore")
-        def all_of() -> Any:
-            return np.array([_in_turn(partial(asked, factor), solve) for factor in factors])
+    def iteration(name: str, solve: Callable[[Unknown, float], float]) -> list[Method]:
+        return _family(name, _powers(4, 14, 2), lambda tolerance: each(lambda u: solve(u.positive(), tolerance)))
 
-        return all_of
-
-    def positive(*factor_and_known: float) -> Unknown:
-        return _positive(unknown(h, *factor_and_known))
-
-    def port(*factor_and_known: float) -> Unknown:
-        return _as_printed(h, unknown(h, *factor_and_known), *factor_and_known[1:])
-
-    def iteration(solve: Callable[[Unknown, float], float], asked: Asked = positive) -> Runs:
-        return lambda t: each(lambda u: solve(u, t), asked)
-
-    tolerances = _powers(4, 14, 2)
     return [
-        Method("find", "", each(_by_find, partial(unknown, h))),
+        Method("find", "", partial(each, _by_find)),
         Method("inverse mechanism", "", lambda: np.array([by_inverse(h) for _ in factors])),
-        *_family("brentq on the reach", tolerances, iteration(_bracketing)),
-        *_family("Newton", tolerances, iteration(_newton)),
-        *_family("secant", tolerances, iteration(lambda u, t: _newton(u, t, slope=False))),
-        *_family("hybr", tolerances, iteration(_hybr)),
-        *_family("hybr, printed formulas", tolerances, iteration(_hybr, port)),
+        *iteration("brentq on the reach", _bracketing),
+        *iteration("Newton", _newton),
+        *iteration("secant", _secant),
+        *iteration("hybr", _hybr),
+        *iteration("hybr, printed formulas", lambda u, tolerance: _hybr(u.as_printed(), tolerance)),
     ]
 
 
-def rod_ways(h: Any) -> dict[str, Callable[[int], Callable[[], Any]]]:
-    """The lifting rod for n heights of the suspension axis at once."""
+def rod_ways(h: Any) -> dict[str, Callable[[Any], Any]]:
+    """The lifting rod for heights of the suspension axis, all at once."""
     u, P34, O5 = unknown(h, 1.0), arm_pin(h, h.S_min), hinges(h)[2]
 
-    def heights(n: int) -> Any:
-        return linspace(0.19, 0.21, n) if n > 1 else np.array([0.2])
+    def together(heights: Any) -> Any:
+        return find(u.f, *u.ends, equals=heights, branches=(+1, -1), branch=+1).value
 
-    def together(Y: Any) -> Any:
-        return find(u.f, *u.ends, equals=Y, branches=(+1, -1), branch=+1).value
+    def one_by_one(heights: Any) -> Any:
+        return [brentq(lambda L4, Y=Y: u.f(L4) - Y, *u.ends, xtol=1e-14) for Y in heights]
 
-    def one_by_one(Y: Any) -> Any:
-        return [brentq(lambda L4, Y=y: u.f(L4) - Y, *u.ends, xtol=1e-14) for y in Y]
+    def known_point(heights: Any) -> Any:
+        return abs(O5 + h.L5 * _lower_link(h, heights) - P34)
 
-    def known_point(Y: Any) -> Any:
-        return abs(O5 + h.L5 * _lower_link(h, Y) - P34)
-
-    def for_n(way: Callable[[Any], Any]) -> Callable[[int], Callable[[], Any]]:
-        return lambda n: partial(way, heights(n))
-
-    return {"find": for_n(together), "brentq": for_n(one_by_one), "inverse": for_n(known_point)}
+    return {"find": together, "brentq": one_by_one, "inverse": known_point}
 
 
 # Reactions
@@ -346,8 +331,8 @@ def rod_ways(h: Any) -> dict[str, Callable[[int], Callable[[], Any]]]:
 def _equations(h: Any, p: dict[str, Any]) -> tuple[Any, Any]:
     """Equilibrium of the bodies 2 to 7 at all positions: matrix (..., 18, 18) and right-hand side (..., 18)."""
     O1, O3, O5, O7 = hinges(h)
-    pins = (
-        *((p["P56_S"], 5, 6), (O7, 0, 7), (p["P34_S"], 4, 3), (O5, 0, 5), (O1, 0, 2), (O3, 0, 3)),
+    pins = (  # the force in each is that of the first body on the second
+        *((p["P56_S"], 5, 6), (O7, 0, 7), (p["P34_S"], 4, 3), (O5, 5, 0), (O1, 0, 2), (O3, 0, 3)),
         *((p["P23_S"], 2, 3), (p["P45_S"], 5, 4), (p["P67_S"], 6, 7)),
     )
     shape = p["P67_S"].shape
@@ -363,9 +348,8 @@ def _equations(h: Any, p: dict[str, Any]) -> tuple[Any, Any]:
 
 
 def _of_unknowns(x: Any) -> Any:
-    """The six reactions from the unknowns of the equations, where R05 is counted on the frame."""
-    R = np.moveaxis(x[..., 0:12:2] + 1j * x[..., 1:12:2], -1, 0)
-    return R * np.array([1, 1, 1, -1, 1, 1]).reshape(-1, *[1] * (R.ndim - 1))
+    """The six reactions from the unknowns of the equations."""
+    return np.moveaxis(x[..., 0:12:2] + 1j * x[..., 1:12:2], -1, 0)
 
 
 def _dense(h: Any, p: dict[str, Any]) -> Any:
@@ -387,12 +371,15 @@ def _eliminated(h: Any, p: dict[str, Any]) -> Any:
     return np.array([R[name] for name in REACTIONS])
 
 
+def reaction_ways(h: Any) -> dict[str, Callable[[dict[str, Any]], Any]]:
+    """All ways to the six reactions of the hitch from its points."""
+    ways = {"library": hitch_reactions, "printed": _eliminated, "dense": _dense, "least squares": _least_squares}
+    return {name: partial(way, h) for name, way in ways.items()}
+
+
 def reaction_methods(h: Any, S: Any, L4: float, L7: float, S6: Any) -> list[Method]:
-    """All ways to the six reactions of the hitch from the library's positions; S6 is the centre of mass [m]."""
+    """The same as methods, from the library's positions; S6 is the centre of mass [m]."""
     p = hitch_points(h, S, L4, L7, S6)
-    return [
-        Method("library: rrr_reactions", "", lambda: hitch_reactions(h, p)),
-        Method("printed: elimination", "", lambda: _eliminated(h, p)),
-        Method("dense system", "18 × 18", lambda: _dense(h, p)),
-        Method("least squares", "21 × 18", lambda: _least_squares(h, p)),
-    ]
+    families = "library: rrr_reactions", "printed: elimination", "dense system", "least squares"
+    ways = zip(families, ("", "", "18 × 18", "21 × 18"), reaction_ways(h).values(), strict=True)
+    return [Method(family, setting, partial(way, p)) for family, setting, way in ways]

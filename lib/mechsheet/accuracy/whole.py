@@ -10,7 +10,7 @@ from numpy import linspace, pi
 
 from mechsheet.accuracy import exact
 from mechsheet.accuracy.arithmetic import Numbers, mpf
-from mechsheet.accuracy.precision import Measured, Truth, timed
+from mechsheet.accuracy.precision import Measured, largest_error, timed
 from mechsheet.run.progress import progress
 from mechsheet.worksheet.cells import Worksheet, load, results
 from mechsheet.worksheet.lines import registry
@@ -97,7 +97,7 @@ def _error(stem: str, names: Mapping[str, Any], n: int) -> float:
     for name, numbers in exact_results(stem, names, rows).items():
         found = np.asarray(names[name])
         at = found.ravel() if len(numbers) == found.size else np.broadcast_to(found, (n,))[rows]
-        errors.append(Truth(numbers).error(at))
+        errors.append(largest_error(at, numbers))
     return max(errors)
 
 

@@ -117,7 +117,7 @@ _ANGULAR = ("sin", "cos", "tan")
 _COMPARISONS = {ast.Lt: "<", ast.LtE: "≤", ast.Gt: ">", ast.GtE: "≥", ast.Eq: "=", ast.NotEq: "≠"}
 _OVER = ("max", "min", "sum", "amax", "amin", "nanmax", "nanmin")  # with an axis
 _RATES = {"ds": Symbol("s", mark="."), "dds": Symbol("s", mark="..")}  # which the rule for names does not know
-_SYMBOL = re.compile(rf"([A-Z]+|{'|'.join(GREEK)})(_|$)")  # VC, eps_BC
+_SYMBOL = re.compile(rf"([A-Z]+|d?({'|'.join(GREEK)}))(_|$)")  # VC, eps_BC, dbeta
 
 
 class _Reader:
@@ -330,6 +330,10 @@ class _Reader:
                 return Range((self.read(start),), self.read(stop))
             case "trapezoid", [y, x]:
                 return Integral(self.least(y, PRODUCT), self.least(x, WHOLE))
+            case "cumulative_trapezoid", [y, x, *_]:
+                return Integral(self.least(y, PRODUCT), self.least(x, WHOLE), so_far=True)
+            case "ceil" | "floor", [x]:
+                return Brackets((self.read(x),), "⌈⌉" if name == "ceil" else "⌊⌋")
             case "where", [condition, a, b]:
                 return Cases(self.read(a), self.read(condition), self.read(b))
             case "celsius", [ast.Constant(int() | float() as degrees)]:
@@ -375,7 +379,7 @@ def _function(name: str) -> Node:
     """A function of the field, one with a symbol of its own, or one in words."""
     if name in _KNOWN:
         return Function(_FUNCTIONS.get(name, name))
-    word = re.fullmatch(r"[a-z]{3,}(_\w*)?", name) and not re.match("|".join(GREEK), name)
+    word = re.fullmatch(r"[a-z]{3,}(_\w*)?", name) and not re.match(f"d?({'|'.join(GREEK)})", name)
     is_symbol = (
         len(name) == 1 or re.fullmatch("d[a-z]", name) or (not word and (re.search(r"\d", name) or _SYMBOL.match(name)))
     )

@@ -117,7 +117,7 @@ class Overline:
 
 @dataclass(frozen=True, slots=True)
 class Brackets:
-    """Parts in brackets ``()``, ``[]``, ``||`` or ``⌊⌋``, as high as what they hold, or ``high`` in any case."""
+    """Parts in brackets ``()``, ``[]``, ``||``, ``⌊⌋``, ``⌈⌉``, as high as what they hold, or ``high``."""
 
     items: "tuple[Node, ...]"
     kind: str = "()"
@@ -152,10 +152,11 @@ class Range:
 
 @dataclass(frozen=True, slots=True)
 class Integral:
-    """Integral of one part over another."""
+    """Integral of one part over another, of all of it or up to each value of that."""
 
     of: "Node"
     over: "Node"
+    so_far: bool = False
 
 
 @dataclass(frozen=True, slots=True)

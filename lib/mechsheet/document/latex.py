@@ -56,7 +56,7 @@ _SIGNS = {
     "and": r"\text{ and }",
     "or": r"\text{ or }",
 }
-_BRACKETS = {"⌊": r"\lfloor ", "⌋": r"\rfloor "}
+_BRACKETS = {"⌊": r"\lfloor ", "⌋": r"\rfloor ", "⌈": r"\lceil ", "⌉": r"\rceil "}
 _SPECIAL = re.compile(r"([_#%&$])")
 _SPECIAL_IN_CODE = re.compile(r"([#$%&_{}])")
 
@@ -123,6 +123,11 @@ def _sum(node: Sum) -> str:
     return rf"\sum_{{{latex(node.index)} = {latex(node.start)}}}^{{{latex(node.end)}}} {latex(node.of)}"
 
 
+def _integral(node: Integral) -> str:
+    over = latex(node.over)
+    return rf"\int{f'^{{{over}}}' if node.so_far else ''} {latex(node.of)}\,\mathrm{{d}}{over}"
+
+
 def _matrix(node: Matrix) -> str:
     rows = r" \\ ".join(" & ".join(map(latex, row.items)) for row in node.rows)
     return rf"\begin{{bmatrix}} {rows} \end{{bmatrix}}"
@@ -151,7 +156,7 @@ RULES: dict[type[Any], Callable[[Any], str]] = {
     Apply: lambda node: latex(node.function) + latex(node.arguments),
     Prefix: lambda node: f"{latex(node.operator)} {latex(node.of)}",
     Range: lambda node: r",\,".join(map(latex, node.first)) + r"\,\ldots\," + latex(node.last),
-    Integral: lambda node: rf"\int {latex(node.of)}\,\mathrm{{d}}{latex(node.over)}",
+    Integral: _integral,
     Sum: _sum,
     Cases: _cases,
     Matrix: _matrix,

@@ -73,9 +73,9 @@ def _with_names(
 def _scale_bars(
     picture: Picture, scales: Mapping[str, float], colours: Mapping[str, str], left: float, y: float, longest: float
 ) -> float:
-    """Bars of round length side by side at height y, one for each unit; returns where they end."""
+    """Bars of round length side by side at height y, one for each unit that there is; returns where they end."""
     for unit, scale in scales.items():
-        if not 0 < (most := longest / scale if scale else 0.0) < inf:
+        if not unit or not 0 < (most := longest / scale if scale else 0.0) < inf:
             continue
         value = _round_below(most)
         end = left + value * scale

@@ -16,7 +16,16 @@ def named(name: str) -> str:
     >>> named("phi34"), named("R56x")
     ('<i>φ</i><sub>34</sub>', '<i>R</i><sub>56x</sub>')
     """
-    read = symbol.read(symbol.stem(name))
+    return as_written(symbol.stem(name))
+
+
+def as_written(name: str) -> str:
+    """Name of what is no field, such as an input, as its symbol.
+
+    >>> as_written("l_S")
+    '<i>l</i><sub>S</sub>'
+    """
+    read = symbol.read(name)
     return f"{read.mark}<i>{read.base}</i>" + (f"<sub>{read.index}</sub>" if read.index else "")
 
 

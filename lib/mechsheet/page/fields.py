@@ -1,24 +1,26 @@
 """The inputs of a worksheet as fields of the page, and its sliders."""
 
 import html
+import json
 from typing import Any
+from uuid import uuid4
 
 import marimo as mo
 
 from mechsheet import units
-from mechsheet.document.markup import named
+from mechsheet.document.markup import as_written
+from mechsheet.page.script import script
 from mechsheet.worksheet.inputs import declared
 from mechsheet.worksheet.kinds import Choice, Input, Switch
 from mechsheet.worksheet.lists import Rows
 from mechsheet.worksheet.title import Slider
 
-_TALLEST = 15  # lines of a table's field
 _SIGNS = {"<": "&lt;", ">": "&gt;", "<=": "≤", ">=": "≥"}
 
 
 def _limit(text: str) -> str:
     text = text.rpartition(".")[2]
-    return named(text) if text[0].isalpha() else text
+    return as_written(text) if text[0].isalpha() else text
 
 
 def _limits(field: Input) -> str:
@@ -29,9 +31,11 @@ def _short(column: Input) -> str:
     return column.name.rpartition(".")[2]
 
 
-def _headed(column: Input) -> str:
-    """A column of a table, with its unit."""
-    return named(_short(column)) + ("" if column.unit == "-" else f" [{html.escape(units.shown(column.unit))}]")
+def _head(column: Input) -> dict[str, str]:
+    """A column of a grid: its full name, its heading with the unit, and the same without markup."""
+    unit = "" if column.unit == "-" else f" [{units.shown(column.unit)}]"
+    head = as_written(_short(column)) + html.escape(unit)
+    return {"name": column.name, "head": head, "label": _short(column) + unit}
 
 
 class _Fields(mo.ui.batch):
@@ -56,11 +60,17 @@ def _element(field: Input, value: Any) -> Any:
             return mo.ui.dropdown(options, value=field.text(value))
         case Switch():
             return mo.ui.checkbox(value=value)
-        case Rows(row=kind) if kind is not None:
-            texts = field.text(value)
-            lines = min(texts.count("\n") + 2, _TALLEST)  # one more than there are, to be filled in
-            return mo.ui.text_area(value=texts, rows=lines, debounce=True)
+        case Rows():
+            return mo.ui.text_area(value=field.text(value), debounce=True)
     return mo.ui.text(value=field.text(value), debounce=True)
+
+
+def _grid(field: Rows, value: Any) -> str:
+    """The grid that is shown for the text area behind it."""
+    columns = json.dumps([_head(column) for column in field.columns])
+    told = {"columns": columns, "text": field.text(value), "made": uuid4().hex}
+    attributes = " ".join(f'{name}="{html.escape(text)}"' for name, text in told.items())
+    return f"<ms-grid {attributes}></ms-grid>".replace("{", "{{").replace("}", "}}")
 
 
 def fields(g: Any) -> "mo.ui.batch":
@@ -68,24 +78,26 @@ def fields(g: Any) -> "mo.ui.batch":
     sections: dict[str, list[str]] = {}
     texts = {}
     for field in declared(type(g)):
-        limits = _limits(field)
-        unit, heads = "" if field.unit == "-" else units.shown(field.unit), ""
-        if isinstance(field, Rows) and field.row:
-            heads = f"<div>{'; '.join(map(_headed, field.columns))}</div>"
-            limits = ", ".join(f"{named(_short(c))}&nbsp;{_limits(c)}" for c in field.columns if c.limits)
+        value, limits = getattr(g, field.name), _limits(field)
+        unit, grid = "" if field.unit == "-" else units.shown(field.unit), ""
+        if isinstance(field, Rows):
+            unit, grid = "", _grid(field, value)
+            if field.row:
+                limits = ", ".join(f"{as_written(_short(c))}&nbsp;{_limits(c)}" for c in field.columns if c.limits)
         sections.setdefault(field.section, []).append(
-            f'<tr><td style="padding-right:.5em">{named(field.name)}</td><td>{heads}{{{field.name}}}</td>'
+            f'<tr><td style="padding-right:.5em">{as_written(field.name)}</td>'
+            f'<td data-input="{field.name}">{grid}{{{field.name}}}</td>'
             f'<td style="padding-left:.4em">{html.escape(unit)}</td>'
             f'<td style="padding-left:.7em;line-height:1.2">{html.escape(field.meaning)}'
             f'<span style="opacity:.5;padding-left:.6em">{limits}</span></td></tr>'
         )
-        texts[field.name] = _element(field, getattr(g, field.name))
+        texts[field.name] = _element(field, value)
     blocks = "".join(
         f'<div style="break-inside:avoid"><b>{html.escape(section)}</b><table>{"".join(rows)}</table></div>'
         for section, rows in sections.items()
     )
     style = "columns:28em;column-gap:2em;font-size:.93em"
-    return _Fields(f'<div class="ms-inputs" style="{style}">{blocks}</div>', texts)
+    return _Fields(f'{script("grid.js")}<div class="ms-inputs" style="{style}">{blocks}</div>', texts)
 
 
 def slider(value: Slider) -> "mo.ui.slider":

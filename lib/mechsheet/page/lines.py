@@ -32,17 +32,19 @@ def _single(line: Formula | Given, shown: Typeset) -> frozenset[str]:
     if shown.numbers is None:
         return frozenset()
     known = shown.numbers.namespace
-    over = np.ndim(known.get("S", 0)) > 0
+    S = np.asarray(known.get("S", 0))
+    over = S.ndim > 0 and S.dtype.kind in "iuf"  # the stroke; a point may have that name too
     return frozenset(n for n in fields_by_name(line) if not over or (n in known and np.ndim(known[n]) == 0))
 
 
 def _formula(line: Formula, value: object, shown: Typeset) -> str:
     single = _single(line, shown)
     if line.arguments:
-        return _line(_equation(line, single), "", line.meaning, line.number, mistake=line.mistake)
+        return _line(_equation(line, single), "", line.meaning, line.number, mistake=line.mistake, name=line.name)
     text = "" if shown.numbers is None else _substituted(line, shown.numbers, shown.position)
     value_text = numbers.value(value, line.unit, HTML)
-    return _line(f"{_equation(line, single)} =", value_text, line.meaning, line.number, text, line.mistake)
+    told = line.meaning, line.number, text, line.mistake, line.name
+    return _line(f"{_equation(line, single)} =", value_text, *told)
 
 
 def _substituted(line: Formula, known: Numbers, position: int) -> str:
@@ -59,19 +61,26 @@ def _with_numbers(line: Formula, found: tuple[tuple[str, float | complex, str, t
 
 
 def _line(
-    tex: str, value: str = "", meaning: str = "", number: str = "", substituted: str = "", mistake: str = ""
+    tex: str,
+    value: str = "",
+    meaning: str = "",
+    number: str = "",
+    substituted: str = "",
+    mistake: str = "",
+    name: str = "",
 ) -> str:
     """A typeset line, the printed formula's number at its end; its numbers wait in an attribute until asked for.
 
     The value is an element of its own: where it alone changes, the browser keeps the formula as it has set it, and the
-    value is there with the output that holds it.
+    value is there with the output that holds it. The index leads to the line by its name.
     """
     more = f'<ms-numbers tex="{escape("= " + substituted)}"></ms-numbers>' if substituted else ""
     formula = _tex_element(tex) + (f'<span class="ms-value">{value}</span>' if value else "")
     told = f' <span class="ms-badge ms-FAIL">mistake</span> {escape(mistake)}' if mistake else ""
     said = f"<span>{escape(meaning)}{told}</span>" if meaning or told else ""
     said += f'<span class="ms-number">{escape(number)}</span>' if number else ""
-    return f'<div class="ms-line"><span class="ms-formula">{formula}</span>{said}{more}</div>'
+    place = f' id="line-{name}"' if name else ""
+    return f'<div class="ms-line"{place}><span class="ms-formula">{formula}</span>{said}{more}</div>'
 
 
 def _tex_element(tex: str) -> str:

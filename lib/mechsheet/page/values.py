@@ -1,13 +1,11 @@
 """What the page shows of each value: its writer by its kind, from the data to HTML."""
 
-import base64
 import json
 import re
 from datetime import date
-from functools import cache, lru_cache, singledispatch
+from functools import lru_cache, singledispatch
 from html import escape
 from itertools import takewhile
-from pathlib import Path
 from typing import Any
 
 import marimo as mo
@@ -15,12 +13,15 @@ import numpy as np
 
 from mechsheet import units
 from mechsheet.document import chart, chart_svg
-from mechsheet.document.markup import in_words, named
-from mechsheet.page import drawing, fields
+from mechsheet.document.markup import as_written, in_words, named
+from mechsheet.page import drawing, fields, index
 from mechsheet.page.lines import lines
+from mechsheet.page.script import script
 from mechsheet.worksheet import numbers, symbol
 from mechsheet.worksheet.check import Check, Summary
 from mechsheet.worksheet.drawing import Drawing
+from mechsheet.worksheet.errors import SheetError
+from mechsheet.worksheet.index import Index
 from mechsheet.worksheet.inputs import Used
 from mechsheet.worksheet.lines import Typeset
 from mechsheet.worksheet.shown import Charted, Shown
@@ -52,8 +53,13 @@ def refused(error: Exception, shown: Any) -> None:
     """
     if mo.running_in_notebook():
         place = mo.as_html(shown if shown is not None else mo.callout(str(error), kind="danger")).text
-        reason = f'.ms-told{{display:block!important}}.ms-told::after{{content:"{_quoted(str(error))}"}}'
-        mo.stop(True, mo.Html(f"{place}<style>{reason}</style>"))
+        reason = f'content:"{_quoted(str(error))}"'
+        told = f".ms-told{{display:block!important}}.ms-told::after{{{reason}}}"
+        if isinstance(error, SheetError) and error.of:
+            field = re.split(r"[. ]", error.of)[0]
+            told += f'td[data-input="{field}"]::after{{{reason}}}'
+            told += f'input[data-input="{error.of}"]{{outline:2px solid var(--red-11,#c62828)}}'
+        mo.stop(True, mo.Html(f"{place}<style>{told}</style>"))
 
 
 @singledispatch
@@ -92,16 +98,9 @@ def _(title: Title) -> str:
     fields = "".join(f"<span>{label} <b>{value}</b></span>" for label, value in cells)
     switch = '<label class="ms-screen"><input type="checkbox" class="ms-switch"> numbers in the formulas</label>'
     return (
-        f'{_script()}<div class="ms-title">{text}<div class="ms-row">{fields}{switch}</div>'
+        f'{script("page.js")}<div class="ms-title">{text}<div class="ms-row">{fields}{switch}</div>'
         f"{_TOLD}{_noted(title.notes)}</div>"
     )
-
-
-@cache
-def _script() -> str:
-    """The page's script, as an address: the only form in which a page of marimo runs one from an output."""
-    text = (Path(__file__).parent / "page.js").read_bytes()
-    return f'<script src="data:text/javascript;base64,{base64.b64encode(text).decode()}"></script>'
 
 
 def _noted(notes: tuple[Note, ...]) -> str:
@@ -146,7 +145,8 @@ def _(value: Caption) -> str:
 
 
 def _caption(what: str, number: str, title: str) -> str:
-    return f'<div class="ms-caption"><b>{what} {escape(number)}</b> – {escape(title)}</div>'
+    place = escape(f"{what.lower()}-{number}")
+    return f'<div class="ms-caption" id="{place}"><b>{what} {escape(number)}</b> – {escape(title)}</div>'
 
 
 @html.register
@@ -197,6 +197,11 @@ def _(summary: Summary) -> str:
 
 
 @html.register
+def _(made: Index) -> str:
+    return index.written(made)
+
+
+@html.register
 def _(found: Verdict) -> str:
     failures = found.failures()
     colour = "#c62828" if failures else "#2e7d32" if np.any(found.solved) else "#8a6d00"
@@ -223,7 +228,7 @@ def _(used: Used) -> str:
     for field, _ in used.rows():
         unit = "" if field.unit == "-" else escape(units.shown(field.unit))
         weight = "bold" if field.name in changed else "normal"
-        name = named(field.name)
+        name = as_written(field.name)
         number = escape(field.brief(getattr(used.g, field.name)))
         shown = f"{name}&nbsp;=&nbsp;{number}&nbsp;{unit}"
         items.append(f'<span style="white-space:nowrap;font-weight:{weight}">{shown}</span>')

@@ -43,12 +43,12 @@ def record(
     namespace does not tell; with ``whole`` all cells are run. What a recording
     does not hold keeps the numbers of the worksheet's own run, as nodes ``exported`` that know what they rest on;
     `Recording.gaps` says where and why. Where all tables list every so many positions, only those are recorded, and
-    all of them only for single numbers that rest on all, such as an integral.
+    all of them only for numbers that rest on all, such as an integral.
     """
     sheet = load(Path(namespace["__file__"])) if sheet is None else sheet
-    listed = {value.every for value in namespace.values() if isinstance(value, Table)}
+    steps = {value.every for value in namespace.values() if isinstance(value, Table)}
     want = sheet.results if whole else [name for name in sheet.results if _shown(namespace.get(name))]
-    graph = Graph(listed.pop() if len(listed) == 1 else 1)
+    graph = Graph(steps.pop() if len(steps) == 1 else 1)
     token = current.set(graph)
     try:
         return _Run(sheet, graph, namespace, want, registry(namespace) if known is None else known).recording
@@ -77,6 +77,7 @@ class _Run:
         self.lost: dict[str, NotRecorded] = {}  # names that have no value here, and why
         self.passing: dict[str, Any] = {}  # of these, lines whose numbers are others at the next run
         self.everywhere: dict[str, _Run] = {}  # over all positions, by the cell that needs it
+        self.of_rows = dict[Node, tuple[bool, bool]]()  # whether it rests on the positions listed; on a sum of them
         self.lines = lines
         for line in sheet.setup:
             self.set_up(line, sheet.path)
@@ -120,8 +121,9 @@ class _Run:
                 exec(facts.code, self.names)
             self.measure(touched, reads)
             differs = self.differing(stage, final)
-            if graph.thin > 1 and all(np.size(self.namespace[name]) == 1 for name in differs):
-                self.over_all(stage, [name for name in differs if not self.of_listed(name)])
+            if graph.thin > 1:
+                others = {name for name in differs if not self.of_listed(name)}
+                self.over_all(stage, [name for name in touched if name in others or self.over_listed(name)])
                 differs = self.differing(stage, final)
             if not all(map(self.of_listed, differs)):
                 of_all = " is of all positions, and only those that tables list are recorded"
@@ -239,7 +241,7 @@ class _Run:
         return [name for name in names if not stage.same(self.names.get(name), self.namespace.get(name))]
 
     def over_all(self, stage: Stage, names: Sequence[str]) -> None:
-        """Take single numbers from a run of the same graph over all positions, of the cells behind them alone."""
+        """Take numbers from a run of the same graph over all positions, of the cells behind them alone."""
         if not names:
             return
         graph, cell = self.graph, stage.cell
@@ -253,7 +255,23 @@ class _Run:
                 graph.labels = labels
             self.recording.guards |= run.recording.guards
         run = self.everywhere[cell.name]
-        self.names |= {name: run.names[name] for name in names if name in run.names}
+        for name in names:
+            if name in run.names:
+                self.names[name] = value = _listed(graph, run.names[name])
+                if isinstance(value, Quantity) and not value.single:
+                    self.of_rows |= dict.fromkeys(value.parts, (True, False))
+
+    def over_listed(self, name: str) -> bool:
+        """Whether a line is a sum or an extreme over the positions that tables list, which that over all may equal."""
+        value, count = self.names.get(name), (self.graph.positions - 1) // self.graph.thin + 1
+        if name not in self.lines or not isinstance(value, Quantity):
+            return False
+        for part in bottom_up(value.parts, self.of_rows):
+            under = [self.of_rows[operand] for operand in part.operands]
+            rests = (part.op == "rows" and part.size == count) or any(own for own, _ in under)
+            reduced = part.op == "reduce" and rests and part.size < count
+            self.of_rows[part] = rests, reduced or any(over for _, over in under)
+        return any(self.of_rows[part][1] for part in value.parts)
 
     def of_listed(self, name: str) -> bool:
         """Whether a number is a greatest or least one over the positions that tables list, and differs only by that.
@@ -342,6 +360,13 @@ def leaves_of(roots: Iterable[Node], recording: Recording) -> list[Node]:
         waiting.extend(node.operands)
     order = {node: n for n, node in enumerate(recording.inputs.values())}
     return sorted(found, key=order.__getitem__)
+
+
+def _listed(graph: Graph, value: Any) -> Any:
+    """What was recorded over all positions, at those that tables list."""
+    if not isinstance(value, Quantity):
+        return value
+    return value[tuple(slice(None, None, graph.thin if size == graph.positions else None) for size in value.extent)]
 
 
 def _is_array(value: Any) -> bool:

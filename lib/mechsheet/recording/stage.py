@@ -99,23 +99,24 @@ class Stage:
             self.shown_now.append((self.recording.found, key))
             self.recording.found[key] = solved
 
-    def closed_form(self, found: solving.Solving, value: Any, tolerance: float = 1e-10) -> None:
-        value, (solved,) = lift(self.graph, value), found.solved
+    def closed_form(self, found: solving.Solving, value: Any = None, tolerance: float = 1e-10, **values: Any) -> Any:
+        for solved in found.solved:
+            name = solved.words.unknown
+            if not values or name in values:
+                own = getattr(found.value, name) if values else found.value
+                self._closed(solved, own, lift(self.graph, values.get(name, value)), tolerance)
+        return () if values else None
+
+    def _closed(self, solved: Solved, found: Any, value: Quantity, tolerance: float) -> None:
         inside: Any = value
-        if solved.interval:
+        if solved.interval and solved.interval[0] is not solved.interval[1]:
             low, high = (Quantity(self.graph, end) for end in solved.interval)
             slack = 1e-12  # an end of the interval may be a found value, rounded
             within = (value >= low * (1 - slack)) & (value <= high * (1 + slack))
             inside = np.where(within, value, np.nan)
         solved.inverse = inside.re
         words = solved.words
-        self.check(
-            f"{words.unknown}: Find and the closed form",
-            value - found.value,
-            tolerance,
-            words.unknown_unit,
-            of=found.value,
-        )
+        self.check(f"{words.unknown}: Find and the closed form", value - found, tolerance, words.unknown_unit, of=found)
 
     def check(self, name: str, residual: Any, limit: Any, unit: str = "-", of: Any = None) -> None:
         if of is not None:
@@ -193,7 +194,8 @@ class Stage:
         size = np.max(np.abs(b), initial=0.0, where=np.isfinite(b))
         terms = max(_made_of(part, self.recording.made_of) for part in value.parts)
         off = 1e-7 * max(size, 1e-6 * terms)
-        return bool(np.all((np.abs(a - b) <= off) | (~np.isfinite(a) & ~np.isfinite(b))))
+        with np.errstate(invalid="ignore"):  # of two infinite numbers
+            return bool(np.all((np.abs(a - b) <= off) | (~np.isfinite(a) & ~np.isfinite(b))))
 
     def kept(self, own: Any, rests_on: Sequence[Node]) -> Any:
         """The worksheet's own value instead of a recorded one; what it shows of it too."""

@@ -16,10 +16,13 @@ from mechsheet.worksheet.scene import Scene
 
 def is_script(worksheet: str) -> bool:
     """Whether the worksheet itself was started, as ``python worksheet.py``."""
-    import marimo as mo  # on use: a worksheet called as a function needs it not
+    if not (sys.argv and sys.argv[0]) or Path(sys.argv[0]).resolve() != Path(worksheet).resolve():
+        return False
+    if "marimo" not in sys.modules:
+        return True
+    import marimo as mo  # on use: see above
 
-    started = bool(sys.argv and sys.argv[0]) and Path(sys.argv[0]).resolve() == Path(worksheet).resolve()
-    return started and not mo.running_in_notebook()  # an export to HTML runs in the name of the worksheet too
+    return not mo.running_in_notebook()  # an export to HTML runs in the name of the worksheet too
 
 
 def read(arguments: Sequence[str], declared: Sequence[Input]) -> Scene:

@@ -1,6 +1,7 @@
 """The beginning of a worksheet: its inputs asked for in the page, or taken from the arguments of a script."""
 
 import sys
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from mechsheet.run import arguments
@@ -12,14 +13,24 @@ if TYPE_CHECKING:
     import marimo as mo
 
 
-def ask(cls: type) -> "mo.ui.batch":
-    """Text fields for all inputs, section by section, with the defaults or what arguments and scenes give."""
-    from mechsheet.page.fields import fields  # on use: imports marimo, which a worksheet called as a function needs not
+@dataclass(frozen=True)
+class Given:
+    """What stands for the fields where nobody fills them in."""
 
+    value: dict[str, object]
+
+
+def ask(cls: type) -> "mo.ui.batch | Given":
+    """Text fields for all inputs, section by section, with the defaults or what arguments and scenes give."""
     try:
-        g: object = build(cls, _given(cls).inputs)
+        given = _given(cls).inputs
+        if "marimo" not in sys.modules:
+            return Given(given)
+        g: object = build(cls, given)
     except SheetError as error:
         refuse(error)
+    from mechsheet.page.fields import fields  # on use: imports marimo, which nothing but a page needs
+
     return fields(g)
 
 
@@ -38,7 +49,9 @@ def _given(cls: type) -> Scene:
 
             sys.exit(batch.answer(worksheet, scene))
         return scene
-    import marimo as mo  # on use: as above
+    if "marimo" not in sys.modules:
+        return Scene()
+    import marimo as mo  # on use: a worksheet called as a function needs it not
 
     given = mo.cli_args().to_dict() if mo.running_in_notebook() else {}
     return arguments.read([f"--{name}={value}" for name, value in given.items()], declared(cls))

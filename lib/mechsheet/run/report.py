@@ -18,7 +18,7 @@ from mechsheet.run.ending import say
 from mechsheet.workbook import inputs_sheet, writing
 from mechsheet.workbook.find_sheet import FoundRow
 from mechsheet.workbook.save import save
-from mechsheet.worksheet import inputs, numbers
+from mechsheet.worksheet import index, inputs, numbers
 from mechsheet.worksheet.cells import load, refuse_open, results
 from mechsheet.worksheet.check import Check
 from mechsheet.worksheet.errors import SheetError
@@ -126,6 +126,7 @@ def _workbook(title: str, namespace: Mapping[str, Any], values: list[Any], recor
         figures=_of(Figure, values),
         checks=_of(Check, values),
         recording=recording,
+        index=index.of_worksheet(namespace),
         fixed={check.name for check in _of(Check, values) if own.get(check.name, check.limit) != check.limit},
     )
 

@@ -1,6 +1,8 @@
-"""A worksheet as a script whose mistakes are told in a line from its first moment on, those of its syntax too."""
+"""A worksheet as a script whose mistakes are told in a line from its first moment on, those of its syntax too.
 
-import runpy
+Its cells are run from the file: marimo, which takes a second to load, is not needed where nobody looks at a page.
+"""
+
 import sys
 from io import StringIO
 
@@ -11,8 +13,10 @@ def main() -> None:
     """``python -m mechsheet.run.script WORKSHEET ..``"""
     del sys.argv[0]
     watch(sys.argv[0])
-    sys.stdout, sys.stderr = sys.stdout or StringIO(), sys.stderr or StringIO()  # none, if closed: marimo stops at it
-    runpy.run_path(sys.argv[0], run_name="__main__")
+    sys.stdout, sys.stderr = sys.stdout or StringIO(), sys.stderr or StringIO()  # none, where they were closed
+    from mechsheet.worksheet.cells import load  # on use: an interruption while this loads is told as any other
+
+    load(sys.argv[0]).run_whole()
 
 
 if __name__ == "__main__":

@@ -3,12 +3,14 @@
 from typing import NamedTuple
 
 from mechsheet import units
-from mechsheet.recording.lines import Line, Solved
+from mechsheet.recording.lines import Line
 from mechsheet.recording.node import Node, bottom_up
+from mechsheet.recording.quantity import Quantity
 from mechsheet.recording.record import leaves_of
 from mechsheet.workbook.arrangement import Arrangement
 from mechsheet.workbook.cell_formula import CellFormulas, written
 from mechsheet.workbook.content import Live, quoted
+from mechsheet.workbook.place import Place
 from mechsheet.worksheet.table import Figure, Table
 
 
@@ -27,11 +29,17 @@ class SheetFormulas:
         self.arrangement, self.recording = arrangement, arrangement.recording
         self._cells = CellFormulas(arrangement.places, arrangement.first)
         self._known: dict[Node, bool] = {}  # which rest on numbers that are not followed
-        self._open = {solved.node for solved in self.recording.found.values() if not solved.inverse}
+        self._inverse = {solved.node: solved.inverse for solved in self.recording.found.values()}
 
     def name(self, node: Node) -> str:
         """Defined name of a quantity that has a place."""
         return self.arrangement.places[node].name
+
+    def place(self, name: str) -> Place | None:
+        """Where a line of the worksheet stands, its first coordinate or row; None where it has no place of its own."""
+        value = self.recording.values.get(name)
+        nodes = value.parts if isinstance(value, Quantity) else ()
+        return next((self.arrangement.places[node] for node in nodes if node in self.arrangement.places), None)
 
     def column(self, table: Table, n: int) -> list[str] | None:
         """Formulas of a table's column in its display unit; None where it holds the same numbers for all inputs."""
@@ -40,7 +48,7 @@ class SheetFormulas:
             values = table.columns[n].values.tolist()
             return [self.as_exported(x).formula for x in values] if self.recording.gaps else None
         if (table.number, n) in self.arrangement.own:
-            return self._cells.formulas(node)
+            return self._formulas(node)
         factor = units.parse(table.columns[n].unit).factor
         if node.size == 1:
             return [self._cells.reference(node, factor)] * len(table.columns[n].values)
@@ -60,17 +68,21 @@ class SheetFormulas:
     def kept(self, node: Node) -> bool:
         """Whether a quantity rests on numbers of the worksheet's own run."""
         for part in bottom_up([node], self._known):
-            own = part.op == "exported" or part in self._open
+            own = part.op == "exported" or self._inverse.get(part, part) is None
             self._known[part] = own or any(self._known[operand] for operand in part.operands)
         return self._known[node]
 
     def line(self, line: Line) -> list[str] | None:
         """Formulas of a quantity of a section; None where it holds plain numbers."""
-        for solved in self.recording.found.values():
-            if solved.node is line.node and solved.node.size == 1:
-                return [self._solution(solved)]
         plain = line.node.op == "constant" and line.node.value.dtype != bool  # 1 is not TRUE to a spreadsheet
-        return None if plain else self._cells.formulas(line.node)
+        return None if plain else self._formulas(line.node)
+
+    def _formulas(self, node: Node) -> list[str]:
+        """Formulas in SI: of a found value its closed form, or the number while its equations are the same."""
+        inverse = self._inverse.get(node)
+        if inverse is None:
+            return self._cells.formulas(node)
+        return [self._cells.reference(inverse)] if node.size == 1 else self._cells.references(inverse, 1.0)
 
     def shown(self, line: Line) -> str:
         """Formula that shows a single number of a line in its display unit."""
@@ -84,14 +96,11 @@ class SheetFormulas:
         factor, target = units.parse(unit).factor, units.parse(target_unit).factor
         place = self.arrangement.places.get(solved.node)
         reference = self._cells.reference
-        value = self._solution(solved) if not place or place.sheet == "Find" else reference(solved.node, factor)
+        own = not place or place.sheet == "Find"
+        value = self._formulas(solved.node)[0] if own else reference(solved.node, factor)
         left = reference(solved.residual, target) if solved.residual else None
         low, high = (reference(end, factor) for end in solved.interval) if solved.interval else (None, None)
         return value, left, low, high
-
-    def _solution(self, solved: Solved) -> str:
-        """Formula of a found value in SI: its closed form, or the number found while its equation is the same."""
-        return self._cells.reference(solved.inverse) if solved.inverse else self._cells.formula(solved.node)
 
     def as_exported(self, value: float | str) -> Live:
         """What is known for the exported inputs alone: for others no number, no text."""

@@ -4,7 +4,16 @@ from collections.abc import Container, Sequence
 from dataclasses import replace
 
 from mechsheet.recording.lines import Recording
-from mechsheet.workbook import checks_sheet, find_sheet, front_sheet, inputs_sheet, looks, section_sheets, table_sheet
+from mechsheet.workbook import (
+    checks_sheet,
+    find_sheet,
+    front_sheet,
+    index_sheet,
+    inputs_sheet,
+    looks,
+    section_sheets,
+    table_sheet,
+)
 from mechsheet.workbook.arrangement import Arrangement
 from mechsheet.workbook.book import Book
 from mechsheet.workbook.chart import Charts, Listed, same_column
@@ -14,6 +23,7 @@ from mechsheet.workbook.inputs_sheet import InputRow
 from mechsheet.workbook.place import Place
 from mechsheet.workbook.sheet_formulas import SheetFormulas
 from mechsheet.worksheet.check import Check
+from mechsheet.worksheet.index import Index
 from mechsheet.worksheet.table import Column, Figure, Table
 
 
@@ -27,12 +37,14 @@ def workbook(
     checks: Sequence[Check],
     recording: Recording | None = None,
     fixed: Container[str] = (),
+    index: Index | None = None,
 ) -> bytes:
     """Bytes of an .xlsx file; on one machine, with the same versions, the same input gives the same bytes.
 
     Elsewhere numbers may differ in their last bits, for numpy takes other code paths on other processors.
 
-    Sheets: Front, Inputs, Find where there are found values, one for each table named by its number and title, Checks.
+    Sheets: Front, Inputs, Find where there are found values, one for each table named by its number and title, Checks,
+    Index where the ``index`` has numbers of printed formulas or errata.
     With a ``recording`` of the worksheet the cells hold formulas beside their values, and what stands behind the tables
     is listed by sections on sheets of its own at the end, in SI units, which are not printed; of the ``fixed`` checks a
     scene has set the limit.
@@ -74,6 +86,12 @@ def workbook(
         sheet, (spot,) = table_sheet.write(book, name, table.title, note, columns, 1, grey=grey)
         charts.insert(sheet, spot, figure, name, table.columns, grey)
     checks_sheet.write(book, checks, formulas, fixed)
+    if index and (index.formulas or index.errata):
+        sheets = {("table", table.number): name for table, name in zip(tables, names, strict=True)}
+        holding = dict(zip(map(id, tables), names, strict=True))
+        sheets |= {("figure", f.number): holding[id(t)] for f, t in zip(figures, holders, strict=True) if t is not None}
+        sheets |= {("figure", f.number): name for f, name in zip(alone, names_of_data, strict=True)}
+        index_sheet.write(book, index, sheets, formulas)
     if formulas:
         for section in formulas.arrangement.sections:
             section_sheets.write(book, section, formulas)

@@ -6,7 +6,10 @@ import re
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import lru_cache
+from itertools import chain
 from pathlib import Path
+from symtable import SymbolTable, symtable
+from textwrap import dedent
 from types import CodeType
 from typing import Any
 
@@ -31,6 +34,7 @@ class Cell:
     checks: tuple[re.Pattern[str], ...]
     lines: tuple[ast.stmt, ...]
     code: CodeType
+    certain: tuple[str, ...] = ()  # of what it gives, not what only a branch or a loop binds
     section: str = ""  # heading ## above the cell, or in it
     closing: bool = False  # whether it has an essential check, such as that a group closes
 
@@ -51,9 +55,22 @@ class Worksheet:
         Raises SheetError naming what no cell defines, a cell that stopped, or the essential check that fails where a
         cell raises: whatever is drawn or reduced behind a mechanism that does not close is explained by that.
         """
+        return self._run(self.needed(want, given), given)
+
+    def run_whole(self) -> dict[str, Any]:
+        """Namespace after running every cell, inputs and export among them: those that others need first.
+
+        Raises SheetError as `run` does, and where there is no cell.
+        """
+        if not self.cells:
+            raise SheetError(f"{self.path} is no worksheet: it has no cells")
+        order = self.needed(name for cell in self.cells for name in cell.gives)
+        return self._run([*order, *(cell for cell in self.cells if cell not in order)], {})
+
+    def _run(self, cells: Iterable[Cell], given: Mapping[str, Any]) -> dict[str, Any]:
         names = {**self.common, **given}
         with raised():
-            for cell in self.needed(want, given):
+            for cell in cells:
                 try:
                     exec(cell.code, names)
                 except BaseException as error:
@@ -89,7 +106,7 @@ class Worksheet:
         ``want`` are names, parts of them as tables take them (``P56_S.imag``, ``abs(R56)``), and names of checks.
         """
         givers = {name: cell for cell in self.cells for name in cell.gives}
-        known, order = set(self.common) | set(given), list[Cell]()
+        known, order, begun = set(self.common) | set(given), list[Cell](), dict[Cell, str]()
 
         def ask(name: str) -> None:
             if name in known:
@@ -98,12 +115,17 @@ class Worksheet:
                 near = difflib.get_close_matches(name, givers, n=3)
                 hint = f"; nearest: {', '.join(near)}" if near else ""
                 raise SheetError(f"{name} is defined by no cell of {self.path}{hint}")
-            run(givers[name])
+            if givers[name] in begun:
+                other = [*begun.values()][-1]
+                raise SheetError(f"{name} and {other} need each other: {self.path} has no order for them")
+            run(givers[name], name)
 
-        def run(cell: Cell) -> None:
-            known.update(cell.gives)
+        def run(cell: Cell, name: str) -> None:
+            begun[cell] = name
             for need in sorted(cell.needs):
                 ask(need)
+            del begun[cell]
+            known.update(cell.gives)
             order.append(cell)
 
         for name in want:
@@ -115,7 +137,7 @@ class Worksheet:
                 raise _no_check(name, (check.pattern.replace("\\", "") for c in self.cells for check in c.checks))
             for cell in checking:
                 if cell not in order:
-                    run(cell)
+                    run(cell, name)
         return order
 
     @property
@@ -214,8 +236,7 @@ def results(path: str | Path, certain: bool = False) -> list[str]:
 
     With ``certain`` not those that only a branch or a loop binds, which may have been left out.
     """
-    tree = ast.parse(Path(path).read_text(encoding="utf-8"))
-    return [name for node in functions(tree) for name in _gives(node, _OPEN if certain else ())]
+    return [name for cell in load(path).cells for name in (cell.certain if certain else cell.gives)]
 
 
 def load(path: str | Path) -> Worksheet:
@@ -237,12 +258,24 @@ def load(path: str | Path) -> Worksheet:
 
 
 class Marimo:
-    """marimo, imported at its first use: that takes half a second, and results need nothing of it."""
+    """marimo, imported at its first use: that takes half a second, and results need nothing of it, nor texts alone."""
+
+    def md(self, text: str) -> "Markdown":
+        return Markdown(text)
 
     def __getattr__(self, name: str) -> Any:
         import marimo  # on use: see above
 
         return getattr(marimo, name)
+
+
+class Markdown(str):
+    """A text that marimo lays out where something of it is asked for but the text itself."""
+
+    def __getattr__(self, name: str) -> Any:
+        import marimo  # on use: see above
+
+        return getattr(marimo.md(self), name)
 
 
 @lru_cache(maxsize=32)
@@ -252,7 +285,8 @@ def _load(path: Path, _changed: int) -> Worksheet:
 
 def read(path: Path) -> Worksheet:
     """Cells of a worksheet file, with shared names of their own."""
-    tree = ast.parse(path.read_text(encoding="utf-8"))
+    text = path.read_text(encoding="utf-8")
+    tree = ast.parse(text)
     common: dict[str, Any] = {"__file__": str(path), "__name__": path.stem}
     lines = list[ast.stmt]()
     for node in _shared(tree):
@@ -264,7 +298,7 @@ def read(path: Path) -> Worksheet:
     with raised():
         exec(compile(ast.Module(lines, []), path, "exec"), common)
     setup = tuple(node for node in lines if isinstance(node, ast.Assign | ast.AnnAssign))
-    return Worksheet(str(path), tuple(_cells(tree, path)), common, _title(tree) or path.stem, setup)
+    return Worksheet(str(path), tuple(_cells(tree, text, path)), common, _title(tree) or path.stem, setup)
 
 
 def _title(tree: ast.Module) -> str | None:
@@ -289,14 +323,52 @@ def _shared(tree: ast.Module) -> Iterator[ast.stmt]:
                     yield node
 
 
-def _cells(tree: ast.Module, path: Path) -> Iterator[Cell]:
-    section = ""
-    for n, node in enumerate(functions(tree)):
+def _cells(tree: ast.Module, text: str, path: Path) -> Iterator[Cell]:
+    _refuse_unread(tree, path)
+    nodes, scopes = list(functions(tree)), {t.get_lineno(): t for t in symtable(text, str(path), "exec").get_children()}
+    gives, section = [_gives(node.body) for node in nodes], ""
+    _refuse_twice(nodes, gives, path)
+    given = frozenset(chain.from_iterable(gives))
+    for n, node in enumerate(nodes):
         lines = node.body[:-1] if isinstance(node.body[-1], ast.Return) else node.body
         section = [section, *_SECTION.findall(constant(markdown(node)))][-1]
-        needs, gives, checks = frozenset(a.arg for a in node.args.args), _gives(node), tuple(_checks(node))
+        # What a program other than marimo has written may read more than it names as arguments.
+        needs = frozenset(a.arg for a in node.args.args) | given.intersection(_read_outside(scopes[node.lineno]))
+        branching = any(isinstance(line, _OPEN) for line in lines)
+        certain = _gives(line for line in lines if not isinstance(line, _OPEN)) if branching else gives[n]
         code = compiled(lines, str(path), f"_cell{n}")
-        yield Cell(node.name, needs, gives, checks, tuple(lines), code, section, _is_closing(node))
+        checks, closing = tuple(_checks(node)), _is_closing(node)
+        yield Cell(node.name, needs, gives[n], checks, tuple(lines), code, certain, section, closing)
+
+
+def _refuse_unread(tree: ast.Module, path: Path) -> None:
+    """Raise SheetError for a cell that the editor keeps as a text, because it is no Python."""
+    for node in tree.body:
+        match node:
+            case ast.Expr(ast.Call(ast.Attribute(attr="_unparsable_cell"), [ast.Constant(str(text)), *_])):
+                try:
+                    ast.parse(dedent(text))
+                    why = "it is written as none"
+                except SyntaxError as error:
+                    why = f"{(error.text or '').strip()}: {mistakes.unread(error)}"
+                raise SheetError(f"worksheet {path}, line {node.lineno}: a cell there cannot be read: {why}")
+
+
+def _refuse_twice(nodes: Iterable[ast.FunctionDef], gives: Iterable[Iterable[str]], path: Path) -> None:
+    """Raise SheetError for the first name that two cells define."""
+    first = dict[str, int]()
+    for node, names in zip(nodes, gives, strict=True):
+        for name in names:
+            if first.setdefault(name, node.lineno) != node.lineno:
+                places = f"lines {first[name]} and {node.lineno}"
+                raise SheetError(f"{name} is defined in two cells of {path}, {places}: one of them needs another name")
+
+
+def _read_outside(scope: SymbolTable) -> Iterator[str]:
+    """Names that a function, or what is defined in it, has neither as arguments nor of its own."""
+    yield from (symbol.get_name() for symbol in scope.get_symbols() if symbol.is_global())
+    for inner in scope.get_children():
+        yield from _read_outside(inner)
 
 
 def compiled(lines: list[ast.stmt], path: str, own: str) -> CodeType:
@@ -319,12 +391,12 @@ def compiled(lines: list[ast.stmt], path: str, own: str) -> CodeType:
 _OPEN = (ast.If, ast.For, ast.While, ast.Try, ast.TryStar, ast.Match)
 
 
-def _gives(node: ast.FunctionDef, without: tuple[type[ast.stmt], ...] = ()) -> tuple[str, ...]:
-    """Names that a cell defines for others, as marimo sees them: all that its lines bind, but for those with ``_``.
+def _gives(lines: Iterable[ast.stmt]) -> tuple[str, ...]:
+    """Names that lines of a cell define for others, as marimo sees them: all that they bind, but for those with ``_``.
 
-    Not those that it returns: marimo's editor writes only what other cells read behind ``return``.
+    Not those that a cell returns: marimo's editor writes only what other cells read behind ``return``.
     """
-    names = dict.fromkeys(name for line in node.body if not isinstance(line, without) for name in bound(line))
+    names = dict.fromkeys(name for line in lines for name in bound(line))
     return tuple(name for name in names if not name.startswith("_"))
 
 

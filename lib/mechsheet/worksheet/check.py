@@ -5,7 +5,7 @@ from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass
 from math import isnan
-from typing import Any
+from typing import Any, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -17,6 +17,7 @@ from mechsheet.worksheet import numbers
 from mechsheet.worksheet.errors import SheetError, refuse
 from mechsheet.worksheet.find import Found
 from mechsheet.worksheet.shown import Shown
+from mechsheet.worksheet.system import Solution
 
 _AGREED = 1e-3  # of a quantity: what may differ by more has not been compared
 _told = ContextVar[list[NDArray[np.object_]] | None]("_told", default=None)
@@ -156,13 +157,31 @@ def check_slope(
     return _held(name, np.asarray(slope) - found.df, limit, unit, size)
 
 
-def closed_form(found: Found, value: ArrayLike, tolerance: float = 1e-10) -> Check:
+@overload
+def closed_form(found: Found, value: ArrayLike, tolerance: float = 1e-10) -> Check: ...
+@overload
+def closed_form(found: Solution, *, tolerance: float = 1e-10, **values: ArrayLike) -> tuple[Check, ...]: ...
+def closed_form(
+    found: Found | Solution, value: ArrayLike = np.nan, tolerance: float = 1e-10, **values: ArrayLike
+) -> Check | tuple[Check, ...]:
     """Check that a solve block found what the unknown is in closed form, to a part of its own size.
 
-    A workbook then computes the unknown by its closed form, so that it follows changed inputs.
+    Of several unknowns those that have one are given by their names. A workbook then computes them by their closed
+    forms, so that they follow changed inputs.
+
+    Raises SheetError naming an unknown that the block does not have.
     """
-    name, unit = found.words.unknown, found.words.unknown_unit
-    return check(f"{name}: Find and the closed form", np.asarray(value) - found.value, tolerance, unit, of=found.value)
+    if isinstance(found, Found):
+        return _closed(found.words.unknown, found.words.unknown_unit, found.value, value, tolerance)
+    units_of = dict(zip(found.words.names, found.words.units, strict=True))
+    for name in values:
+        if name not in units_of:
+            refuse(SheetError(f"closed form of {name}: the unknowns are {found.words.unknowns}"))
+    return tuple(_closed(k, units_of[k], getattr(found.value, k), x, tolerance) for k, x in values.items())
+
+
+def _closed(unknown: str, unit: str, found: ArrayLike, value: ArrayLike, tolerance: float) -> Check:
+    return check(f"{unknown}: Find and the closed form", np.subtract(value, found), tolerance, unit, of=found)
 
 
 def assembled(name: str, point: ArrayLike, over: ArrayLike, reaches: tuple[Any, Any], what: str, unit: str) -> Check:

@@ -57,7 +57,8 @@ class Drawing(Shown):
         Length of an arrow of one unit [m], such as ``{"N": 2e-6}``; arrows whose scale is NaN are left out. By default
         the longest arrow of each unit is a fifth of the picture.
     unit : str, optional
-        Unit of the points if they are no places: ``"N"`` for a diagram of forces, whose arrows then have its scale.
+        Unit of the points if they are no places: ``"N"`` for a diagram of forces, whose arrows then have its scale;
+        ``""`` for a scheme of boxes, which has no scale.
 
     Examples
     --------

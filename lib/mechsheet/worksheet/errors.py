@@ -12,7 +12,14 @@ _called = ContextVar("_called", default=False)
 
 
 class SheetError(ValueError):
-    """Input or a result that cannot be used; the message is one line for the person at the worksheet."""
+    """Input or a result that cannot be used; the message is one line for the person at the worksheet.
+
+    ``of`` is the input that is refused, such as ``P6`` or ``bolts.x (2)``, where it is one.
+    """
+
+    def __init__(self, text: str, of: str = "") -> None:
+        super().__init__(text)
+        self.of = of
 
 
 _LONG = 60  # characters of what was given that an error shows

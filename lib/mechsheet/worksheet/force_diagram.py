@@ -64,19 +64,21 @@ def cut_group(
     return picture
 
 
-def polar(R: NDArray[np.complex128], at: int, name: str, turn: int = 360) -> Drawing:
-    """Polar diagram of a force: the path of its end over a turn, its quarters, and the force at one position.
+def polar(R: NDArray[np.complex128], at: int, name: str, turn: int = 360, turns: int = 1) -> Drawing:
+    """Polar diagram of a force: the path of its end over a cycle, its quarters, and the force at one position.
 
     Parameters
     ----------
     R : complex, shape (..)
-        Force [N], from the turn's beginning on.
+        Force [N], from the beginning of the cycle on.
     at : int
         Position at which it is drawn as an arrow.
     name : str
         Its symbol.
     turn : int
         Positions in a turn.
+    turns : int
+        Turns in a cycle.
     """
     seen = np.append(R[np.isfinite(R)], 0)
     x, y, beyond = seen.real, seen.imag, 0.1 * largest_of(seen)
@@ -84,7 +86,7 @@ def polar(R: NDArray[np.complex128], at: int, name: str, turn: int = 360) -> Dra
     axes = Drawing(width=320, height=300, unit="N", frame=[x0 + 1j * y0, x1 + 1j * y1])
     picture = axes.path([x0, x1], "x", "").path([1j * y0, 1j * y1], "y", "").path(R)
     for k in range(4):
-        picture = picture.hinge(R[k * turn // 4], f"{90 * k}°")
+        picture = picture.hinge(R[k * turn * turns // 4], f"{90 * k * turns}°")
     return picture.force(0j, R[at], name)
 
 

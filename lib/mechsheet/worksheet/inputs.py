@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from types import NoneType
-from typing import TYPE_CHECKING, Any, Literal, TypeVar, dataclass_transform, get_args, get_origin
+from typing import Any, Literal, TypeVar, dataclass_transform, get_args, get_origin
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -21,9 +21,6 @@ from mechsheet.worksheet.errors import SheetError, refuse
 from mechsheet.worksheet.kinds import Choice, Input, Offer, Switch, TextLine, number
 from mechsheet.worksheet.lists import Rows
 from mechsheet.worksheet.shown import Shown
-
-if TYPE_CHECKING:
-    import marimo as mo
 
 T = TypeVar("T")
 _LIMIT = re.compile(r"\s*(<=|>=|<|>)\s*([^\s<>=]+)(?=[\s<>]|$)")
@@ -218,19 +215,19 @@ def _validate(self: Any) -> None:
     shown = {field.name: field.display(value) for field, value in pairs}
     for holds, say in _rules(numbers, shown):
         if not np.all(holds):
-            raise SheetError(say(int(np.argmin(holds))))
+            raise say(int(np.argmin(holds)))
 
 
-def _rules(fields: Iterable[Input], shown: Mapping[str, Any]) -> Iterator[tuple[Any, Callable[[int], str]]]:
+def _rules(fields: Iterable[Input], shown: Mapping[str, Any]) -> Iterator[tuple[Any, Callable[[int], SheetError]]]:
     """The rules for inputs in display units, one by one: where each holds, and what to say of a variant where not."""
 
-    def say(field: Input, must: str, other: str = "") -> Callable[[int], str]:
-        def text(i: int) -> str:
+    def say(field: Input, must: str, other: str = "") -> Callable[[int], SheetError]:
+        def refusal(i: int) -> SheetError:
             limit = f" = {_element(shown[other], i)}" if other else ""
             named = dataclasses.replace(field, name=f"{field.name} ({i + 1})") if field.many else field
-            return f"{named.says(_element(shown[field.name], i))} must be {must}{limit}"
+            return SheetError(f"{named.says(_element(shown[field.name], i))} must be {must}{limit}", named.name)
 
-        return text
+        return refusal
 
     fields = tuple(fields)
     for field in fields:  # what is no number is named before what it would be compared with
@@ -295,7 +292,7 @@ def variants(cls: type, given: Mapping[str, ArrayLike]) -> Variants:
     for holds, say in _rules(plain.values(), every):
         if not np.all(holds):
             for i in np.flatnonzero(np.broadcast_to(~np.asarray(holds), reasons.shape) & (reasons == "")):
-                reasons[i] = say(int(i))
+                reasons[i] = str(say(int(i)))
     si = {name: _shared(fields[name].leaf(column, getattr(cls, name))) for name, column in flat.items()}
     lists = [field for field in fields.values() if isinstance(field, Rows)]
     limits = {other for field in lists for column in field.columns for _, other in column.limits}
@@ -384,8 +381,8 @@ def readings(fields: Iterable[Input], values: Mapping[str, object]) -> list[str]
     return [text for field in fields if field.name in values for text in field.readings(values[field.name])]
 
 
-def read(cls: type[T], form: "mo.ui.batch") -> T:
-    """Inputs as the text fields of ``form`` hold them, checked as in `build`."""
+def read(cls: type[T], form: Any) -> T:
+    """Inputs as the text fields that `ask` gives hold them, checked as in `build`."""
     values: dict[str, object] = form.value
     try:
         return build(cls, values)

@@ -64,18 +64,19 @@ class Input:
                 try:
                     theirs, own = units.parse(other), units.parse(self.unit)
                 except ValueError as error:
-                    raise SheetError(f"{given}: {error}") from None
+                    raise SheetError(f"{given}: {error}", self.name) from None
                 if theirs.dims != own.dims:
-                    raise SheetError(f"{given}: {other} does not measure {self.unit}")
+                    raise SheetError(f"{given}: {other} does not measure {self.unit}", self.name)
                 if units.plain(other) != self.unit and "degC" in (units.plain(other), self.unit):
-                    raise SheetError(f"{given}: write it in {self.unit}, for a temperature is not a difference")
+                    why = f"write it in {self.unit}, for a temperature is not a difference"
+                    raise SheetError(f"{given}: {why}", self.name)
                 x = float(numbers.significant(x * (theirs.factor / own.factor), 15))
         except SheetError:
             raise
         except ValueError:
-            raise SheetError(f"{self.says(errors.as_given(value))} is no number") from None
+            raise SheetError(f"{self.says(errors.as_given(value))} is no number", self.name) from None
         if self.whole and not x.is_integer():
-            raise SheetError(f"{self.says(x)} must be a whole number")
+            raise SheetError(f"{self.says(x)} must be a whole number", self.name)
         return x
 
     def si(self, value: Any, default: Any) -> Any:
@@ -236,7 +237,8 @@ class Choice(Input):
         if name not in self.options:
             near = difflib.get_close_matches(name[:_LONGEST], self.options, n=1, cutoff=0.6)
             hint = f"; nearest: {near[0]}" if near and len(self.options) > 5 else ""
-            raise SheetError(f"{self.says(errors.as_given(value))} must be one of {', '.join(self.options)}{hint}")
+            offered = ", ".join(self.options)
+            raise SheetError(f"{self.says(errors.as_given(value))} must be one of {offered}{hint}", self.name)
         return name
 
     def si(self, value: Any, default: Any) -> Any:
@@ -286,7 +288,7 @@ class Switch(Input):
             return bool(value)
         word = str(value).strip().lower()
         if word not in _SAID:
-            raise SheetError(f"{self.says(errors.as_given(value))} must be yes or no")
+            raise SheetError(f"{self.says(errors.as_given(value))} must be yes or no", self.name)
         return _SAID[word]
 
     def si(self, value: Any, default: Any) -> Any:
@@ -323,7 +325,8 @@ class TextLine(Input):
     def read(self, value: object) -> Any:
         text = " ".join(str(value).split())
         if isinstance(value, bool | list | dict) or len(text) > _LONGEST or not text.isprintable():
-            raise SheetError(f"{self.says(errors.as_given(value))} must be a line of at most {_LONGEST} characters")
+            must = f"must be a line of at most {_LONGEST} characters"
+            raise SheetError(f"{self.says(errors.as_given(value))} {must}", self.name)
         return text
 
     def si(self, value: Any, default: Any) -> Any:

@@ -15,6 +15,7 @@ from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.kinds import Input
 
 _MOST = 10_000  # rows
+_BRIEF = 12  # rows that stand in full where all inputs are listed
 
 
 @dataclass(frozen=True)
@@ -44,9 +45,11 @@ class Rows(Input):
         count = {len(xs) for xs in given.values()}
         if len(count) > 1:
             lengths = ", ".join(f"{len(xs)} of {name}" for name, xs in given.items())
-            raise SheetError(f"{self.meaning} {self.name}: columns must be as long as each other, not {lengths}")
+            must = "columns must be as long as each other"
+            raise SheetError(f"{self.meaning} {self.name}: {must}, not {lengths}", self.name)
         if not 0 < max(count) <= _MOST:
-            raise SheetError(f"{self.meaning} {self.name} must have 1 to {_MOST} rows, not {max(count)}")
+            must = f"must have 1 to {_MOST} rows"
+            raise SheetError(f"{self.meaning} {self.name} {must}, not {max(count)}", self.name)
         return {c.name: np.array([_of_row(c, k).read(x) for k, x in enumerate(given[c.name])]) for c in self.columns}
 
     def of_file(self, path: Path) -> Any:
@@ -60,7 +63,8 @@ class Rows(Input):
                 try:
                     _of_row(column, k).read(cell)
                 except SheetError as error:
-                    raise SheetError(f"file {file.path}, row {file.rows[k]}, column {name}: {error}") from None
+                    place = f"file {file.path}, row {file.rows[k]}, column {name}"
+                    raise SheetError(f"{place}: {error}", self.name) from None
             found[column.name] = np.array([column.read(cell) for cell in file.cells[name]])
         return self.read(found)
 
@@ -90,7 +94,10 @@ class Rows(Input):
 
     def brief(self, value: Any) -> str:
         columns = [[c.brief(float(x)) for x in xs] for c, xs in self.leaves(value).values()]
-        return ("; " if self.row is None else " | ").join(map("; ".join, zip(*columns, strict=True)))
+        rows = list(map("; ".join, zip(*columns, strict=True)))
+        count = f" ({len(rows)} rows)" if len(rows) > _BRIEF else ""
+        shown = [*rows[:3], "..", rows[-1]] if count else rows
+        return ("; " if self.row is None else " | ").join(shown) + count
 
     def readings(self, value: object) -> Iterator[str]:
         if isinstance(value, str) and value.strip().lower().endswith(data_file.ENDINGS):
@@ -138,14 +145,15 @@ class Rows(Input):
         """What is given of each column, not read yet."""
         short = {c.name.rpartition(".")[2]: c.name for c in self.columns}
         if isinstance(value, str):
-            value = _cells(value) if self.row else [cell for row in _cells(value) for cell in row]
+            cells = _cells(value, len(short))
+            value = cells if self.row else [cell for row in cells for cell in row]
         if hasattr(value, "items"):
             given = {str(name): np.ravel(np.asarray(xs, dtype=object)).tolist() for name, xs in value.items()}
             given = {short.get(name, name): xs for name, xs in given.items()}
             self._named(given, "")
             return given
         if not isinstance(value, list | tuple | np.ndarray):
-            raise SheetError(f"{self.says(errors.as_given(value))} must be {self._form()}")
+            raise SheetError(f"{self.says(errors.as_given(value))} must be {self._form()}", self.name)
         if self.row is None:
             return {self.name: list(value)}
         rows = list[dict[str, Any]]()
@@ -158,7 +166,8 @@ class Rows(Input):
                 rows.append(dict(zip(short.values(), row, strict=True)))
             else:
                 told = errors.as_given("; ".join(map(str, row)) if isinstance(row, list) else row)
-                raise SheetError(f"{self.meaning} {self.name} ({k}) = {told} must have the columns {', '.join(short)}")
+                at = f"{self.name} ({k})"
+                raise SheetError(f"{self.meaning} {at} = {told} must have the columns {', '.join(short)}", at)
         return {name: [row[name] for row in rows] for name in short.values()}
 
     def _named(self, given: Iterable[str], where: str) -> None:
@@ -167,17 +176,17 @@ class Rows(Input):
         if set(given) != set(own):
             names = ", ".join(name.rpartition(".")[2] for name in own)
             has = ", ".join(given) or "none"
-            raise SheetError(
-                f"{self.meaning} {self.name}{where} must have the columns {names}; it has {errors.cut(has)}"
-            )
+            at = f"{self.name}{where}"
+            raise SheetError(f"{self.meaning} {at} must have the columns {names}; it has {errors.cut(has)}", at)
 
     def _form(self) -> str:
         return 'a list such as "1; 2,5; 3"' if self.row is None else "rows of numbers, or columns by name"
 
 
-def _cells(text: str) -> list[list[str]]:
-    rows = [re.split(r"[;\t]", row) for row in re.split(r"[\n|]", text.strip()) if row.strip()]
-    return [[cell.strip() for cell in (row[:-1] if len(row) > 1 and not row[-1].strip() else row)] for row in rows]
+def _cells(text: str, width: int) -> list[list[str]]:
+    """Cells of the rows of a text; a row of that width may end in one more sign between them."""
+    rows = [re.split(r"[;\t]", row) for row in re.split(r"[\n|]", text) if row.strip()]
+    return [[cell.strip() for cell in (row[:-1] if len(row) > width and not row[-1].strip() else row)] for row in rows]
 
 
 def _of_row(column: Input, k: int) -> Input:

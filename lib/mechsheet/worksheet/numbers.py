@@ -88,7 +88,7 @@ def value(values: Any, unit: str, to: Notation) -> str:
     """SI value in its display unit; a point or a vector as a pair.
 
     A few numbers stand in full, a small matrix in rows; of more numbers the least .. the greatest, with how many there
-    are not, of more points the first .. the last.
+    are not, of more points the first .. the last, of a closed path the least .. the greatest x and y.
     """
     field = np.asarray(values)
     several = _MOST_POINTS if field.dtype.kind == "c" else _MOST_NUMBERS
@@ -96,6 +96,8 @@ def value(values: Any, unit: str, to: Notation) -> str:
         text = "[" + "; ".join(", ".join(_end(x, unit, to) for x in row) for row in field.tolist()) + "]"
     elif field.size <= several:
         text = ", ".join(_end(x, unit, to) for x in field.ravel().tolist())
+    elif field.dtype.kind == "c" and np.abs(field.flat[-1] - field.flat[0]) <= 1e-9 * np.nanmax(np.abs(field)):
+        text = to.pair.format(_span(field.real, unit, to), _span(field.imag, unit, to))
     elif field.dtype.kind == "c":
         text = to.span.join(_end(end.item(), unit, to) for end in (field.flat[0], field.flat[-1]))
     else:
@@ -107,10 +109,16 @@ _MOST_NUMBERS, _MOST_POINTS, _MOST_ROWS = 10, 4, 4  # that stand in full
 
 
 def _extent(field: NDArray[Any], unit: str, to: Notation) -> str:
+    lost = np.count_nonzero(np.isnan(field))
+    none = f" ({lost} of {field.size} {to.none})" if 0 < lost < field.size else ""
+    return _span(field, unit, to) + _unit(unit, to) + none
+
+
+def _span(field: NDArray[Any], unit: str, to: Notation) -> str:
+    """Least and greatest number that there is, without their unit."""
     known = field[~np.isnan(field)]
-    ends = dict.fromkeys(_end(end.item(), unit, to) for end in (known.min(), known.max())) if known.size else [to.none]
-    none = f" ({field.size - known.size} of {field.size} {to.none})" if 0 < known.size < field.size else ""
-    return to.span.join(ends) + _unit(unit, to) + none
+    ends = (known.min(), known.max()) if known.size else (field.flat[0],)
+    return to.span.join(dict.fromkeys(_end(end.item(), unit, to) for end in ends))
 
 
 def quantity(z: float | complex, unit: str, to: Notation) -> str:

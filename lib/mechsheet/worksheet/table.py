@@ -20,7 +20,8 @@ if TYPE_CHECKING:
 
 _DECIMALS = {
     "m": 3, "cm": 2, "mm": 1, "deg": 1, "N": 0, "kgf": 0, "kN": 2, "Pa": 0, "MPa": 2, "kgf/cm**2": 0, "%": 1,
-    "kgf*cm": 0, "kgf/cm": 1, "N*m": 0, "N/mm": 1, "mm**2": 1, "cm**4": 1, "mm**4": 0, "mm**3": 0,
+    "lbf": 0, "ksi": 2, "psi": 0, "bar": 2, "kgf*cm": 0, "kgf/cm": 1, "N*m": 0, "N/mm": 1, "mm**2": 1,
+    "cm**4": 1, "mm**4": 0, "mm**3": 0,
 }  # fmt: skip
 MARKED = 60  # points of a curve that are marked one by one; more of them hide the line
 
