@@ -13,14 +13,14 @@ with app.setup:
     from numpy import arcsin as asin
     from numpy import arctan2 as atan2
 
+    np.seterr(divide="ignore", invalid="ignore")  # no load: infinite reserve; no closure: NaN; both are shown so
+
     from mechsheet import (
         Check, Drawing, Load, Used, angle, ask, assembled, caption, check, check_slope, closed_form, cross,
         cut_group, export, figure, find, index, inputs, mark, player, read, require, rrr, rrr_reach,
         rrr_reactions, rrr_velocity, side_by_side, slider, summary, table, title_block, typeset,
     )  # fmt: skip
     from mechsheet.units import deg
-
-    np.seterr(divide="ignore", invalid="ignore")  # no load: infinite reserve; no closure: NaN; both are shown so
 
 
 @app.cell(hide_code=True)

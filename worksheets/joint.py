@@ -11,13 +11,13 @@ with app.setup:
     from numpy import abs, arange, array, cos, exp, isfinite, isnan, nan, pi, sin, where
     from numpy import arcsin as asin
 
+    np.seterr(divide="ignore", invalid="ignore")  # an axis at infinity or a joint without load is shown so
+
     from mechsheet import (
         Check, Drawing, Used, ask, bending, caption, check, circular_joint, export, inputs, neutral_axis, read,
         side_by_side, slider, sum_of_elements, summary, table, title_block, typeset,
     )  # fmt: skip
     from mechsheet.units import cm, deg, kgf
-
-    np.seterr(divide="ignore", invalid="ignore")  # an axis at infinity or a joint without load is shown so
 
 
 @app.cell(hide_code=True)

@@ -12,6 +12,8 @@ with app.setup:
     from numpy import max as most
     from numpy import min as least
 
+    np.seterr(divide="ignore", invalid="ignore")  # the arm of a force that is zero is shown as none
+
     from mechsheet import (
         Check, Drawing, DriveMoment, Load, PinReaction, RPRGroup, RRPGroup, RRRGroup, SlideReaction, Used,
         angle, ask, assembled, balance, caption, check, check_slope, coupling_drive, cross, cut_group, dot,
@@ -22,7 +24,6 @@ with app.setup:
     )  # fmt: skip
     from mechsheet.units import deg
 
-    np.seterr(divide="ignore", invalid="ignore")  # the arm of a force that is zero is shown as none
     ulp = np.finfo(float).eps
     group_picture = Drawing(width=760, height=460)  # of each group cut free
 

@@ -20,7 +20,8 @@ def _whole_shape(f: Callable[[Quantity, Quantity], Quantity]) -> Callable[[Quant
     """Arithmetic whose result has all elements also where a zero or one of the other operand leaves nothing to do."""
 
     def operation(x: Quantity, y: Quantity) -> Quantity:
-        result, shape = f(x, y), np.broadcast_shapes(x.extent, y.extent)
+        result, one, two = f(x, y), x.extent, y.extent
+        shape = one if one == two else np.broadcast_shapes(one, two)
         return result if result.extent == shape else result.like(x, y)
 
     return operation

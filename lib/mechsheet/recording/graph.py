@@ -65,6 +65,7 @@ class Graph:
         self.fixed = set[Node]()  # which rest on constants alone
         self.counts = set[Node]()  # which rest on numbers of rows, and are these themselves
         self.lengths: dict[tuple[Node, int], Node] = {}
+        self.sizes: dict[Node, tuple[Node, ...]] = {}
         self.pivots = set[Node]()  # conditions that put the rows of linear equations in order, which may be unlike
         self.nodes: dict[Any, Node] = {}
         self.looked: dict[Node, Guard] = {}  # by their conditions; since somebody emptied it
@@ -89,7 +90,11 @@ class Graph:
             under = known.operands
             if op == "constant" or (under and self.fixed.issuperset(under)):
                 self.fixed.add(known)
-            elif op == "length" or (op in ELEMENTWISE and all(a in self.fixed or a in self.counts for a in under)):
+            elif op == "length" or (
+                op in ELEMENTWISE
+                and not self.counts.isdisjoint(under)
+                and all(a in self.fixed or a in self.counts for a in under)
+            ):
                 self.counts.add(known)
             if self.work > MOST:
                 raise NotRecorded(f"it takes more than {MOST:,} operations on single numbers")
@@ -157,17 +162,24 @@ class Graph:
 
     def size(self, node: Node) -> tuple[Node, ...]:
         """The lengths of all axes."""
-        return tuple(self.length(node, axis) for axis in range(-len(node.shape), 0))
+        known = self.sizes.get(node)
+        if known is None:
+            known = tuple(self.length(node, axis) for axis in range(-len(node.shape), 0))
+            if node.op != "found":  # whose residuals tell, once they are known
+                self.sizes[node] = known
+        return known
 
     def like(self, node: Node, *others: Node) -> Node:
         """A quantity in the shape that it has together with others."""
         for other in others:
-            shape = np.broadcast_shapes(node.shape, other.shape)
+            if not other.shape:
+                continue
+            shape = node.shape if node.shape == other.shape else np.broadcast_shapes(node.shape, other.shape)
             if not (node.stretches or other.stretches):
                 if shape != node.shape:
                     index = np.broadcast_to(np.arange(node.size).reshape(node.shape), shape)
                     node = self.take(node, np.ascontiguousarray(index))
-            elif shape != node.shape or (other.stretches and other.shape and self.size(node) != self.size(other)):
+            elif shape != node.shape or (other.stretches and self.size(node) != self.size(other)):
                 node = self.node("like", node, self._basis(other))
         return node
 

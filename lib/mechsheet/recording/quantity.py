@@ -51,7 +51,9 @@ class Quantity(NDArrayOperatorsMixin):
     @property
     def extent(self) -> tuple[int, ...]:
         """The shape with the present numbers of rows."""
-        return self.re.shape if self.im is None else np.broadcast_shapes(self.re.shape, self.im.shape)
+        if self.im is None or self.re.shape == self.im.shape:
+            return self.re.shape
+        return np.broadcast_shapes(self.re.shape, self.im.shape)
 
     @property
     def shape(self) -> tuple[Any, ...]:

@@ -19,7 +19,6 @@ from mechsheet.recording.lines import Recording
 from mechsheet.recording.memory import Memory, changes, names_of
 from mechsheet.recording.node import Node, bottom_up
 from mechsheet.recording.quantity import Quantity, has_quantity, is_literal
-from mechsheet.recording.solving import listed
 from mechsheet.recording.stage import Stage, held
 from mechsheet.recording.substitutes import BUILTINS, instead, shared, staged
 from mechsheet.recording.unrepeatable import Unrepeatable
@@ -259,7 +258,7 @@ class _Run:
         for name in names:
             if name in run.names:
                 self.names[name] = value = _listed(graph, run.names[name])
-                if isinstance(value, Quantity) and value.size > 1:
+                if isinstance(value, Quantity) and not value.single:
                     self.of_rows |= dict.fromkeys(value.parts, (True, False))
 
     def over_listed(self, name: str) -> bool:
@@ -365,7 +364,9 @@ def leaves_of(roots: Iterable[Node], recording: Recording) -> list[Node]:
 
 def _listed(graph: Graph, value: Any) -> Any:
     """What was recorded over all positions, at those that tables list."""
-    return value.rearranged(lambda order: listed(graph, order)) if isinstance(value, Quantity) else value
+    if not isinstance(value, Quantity):
+        return value
+    return value[tuple(slice(None, None, graph.thin if size == graph.positions else None) for size in value.extent)]
 
 
 def _is_array(value: Any) -> bool:
