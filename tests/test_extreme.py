@@ -119,11 +119,15 @@ def test_no_input_takes_what_is_no_number(worksheet, value):
 searching = {"phases": [Phase.explicit, Phase.generate, Phase.target], "report_multiple_bugs": False}
 
 
+# What is promised of any inputs: 64 roundings times the condition number. A sum of a dozen terms may take twenty.
+PROMISED = np.log10(64)
+
+
 def holds(case):
-    """Every result of a case keeps its digits; the worst is what the search goes for."""
+    """Every result of a case keeps the digits that are promised; the worst is what the search goes for."""
     outcomes = extreme.outcomes(case)
     target(max(o.expected - o.product for o in outcomes))
-    assert lost(outcomes) == []
+    assert lost(o for o in outcomes if not o.expected - o.product <= PROMISED) == []
 
 
 def powers(low, high):

@@ -23,7 +23,7 @@ def cell(page, table: str, row: int, column: int):
 
 def ready(page) -> None:
     for last in ("Table 7 ", "24 of 24 checks pass"):
-        page.get_by_text(last).wait_for()
+        page.get_by_text(last).first.wait_for()
 
 
 @pytest.fixture(params=["run", "edit"])

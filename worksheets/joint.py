@@ -66,6 +66,8 @@ class Beam:
     k_t: float  # [-] parts of the additional area in tension; >= 0
     k_c: float  # [-] parts of the additional area in compression; >= 0
 
+    """A row of the beams."""
+
 
 @app.class_definition
 @inputs
@@ -76,6 +78,8 @@ class Stringer:
     k_t: float  # [-] part of it that is joined in tension; >= 0
     k_c: float  # [-] part of it, with its skin, that is pressed; >= 0
 
+    """A row of the stringers."""
+
 
 @app.class_definition
 @inputs
@@ -84,12 +88,16 @@ class Load:
     N: float  # [kgf] axial force
     M_w: float  # [kgf*cm] moment of the third array
 
+    """A load case of the rectangular joint."""
+
 
 @app.class_definition
 @inputs
 class RingLoad:
     M: float  # [kgf*cm] bending moment
     N: float  # [kgf] axial force
+
+    """A load case of the circular joint."""
 
 
 @app.class_definition

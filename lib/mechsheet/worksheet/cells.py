@@ -74,6 +74,7 @@ class Worksheet:
             for cell in cells:
                 try:
                     exec(cell.code, names)
+                    names.update(given)  # a cell that is needed for something else must not replace what is given
                 except BaseException as error:
                     if isinstance(error, Exception):
                         self.close(given)
@@ -94,6 +95,7 @@ class Worksheet:
                 try:
                     if lost.isdisjoint(cell.needs):
                         exec(cell.code, names)
+                        names.update(given)
                         continue
                 except BaseException as error:
                     if not (isinstance(error, Exception) or _is_stop(error)):
@@ -335,7 +337,8 @@ def _cells(tree: ast.Module, text: str, path: Path) -> Iterator[Cell]:
         lines = node.body[:-1] if isinstance(node.body[-1], ast.Return) else node.body
         section = [section, *_SECTION.findall(constant(markdown(node)))][-1]
         # What a program other than marimo has written may read more than it names as arguments.
-        needs = frozenset(a.arg for a in node.args.args) | given.intersection(_read_outside(scopes[node.lineno]))
+        others = given.difference(gives[n])
+        needs = frozenset(a.arg for a in node.args.args) | others.intersection(_read_outside(scopes[node.lineno]))
         branching = any(isinstance(line, _OPEN) for line in lines)
         certain = _gives(line for line in lines if not isinstance(line, _OPEN)) if branching else gives[n]
         code = compiled(lines, str(path), f"_cell{n}")
