@@ -239,7 +239,10 @@ ITERATIONS = [
         "    if g.F * 100 / d**2 < g.a * 4:\n        break\ny = d * g.a"
     ),
     "v = 1.0\nk = 0\nwhile k < g.k:\n    v = v * g.F\n    k += 1\ny = v * 1.0",
-    "v = g.F\nhistory = []\nwhile v > 0.1:\n    history.append(v)\n    v = v * g.a\ny = np.array([len(history), v])",
+    (
+        "v = g.F\nhistory = []\nwhile v > 0.1:\n    history.append(v)\n    v = v / (2 + g.a**2)\n"
+        "y = np.array([len(history), v])"
+    ),
     "for i in range(5):\n    if x[i] > 1.2:\n        break\nelse:\n    i = 9\ny = i * g.a",
 ]
 

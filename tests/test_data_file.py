@@ -135,7 +135,7 @@ def test_what_cannot_be_used_is_one_line_with_its_place(engine: Path, text: str,
     with pytest.raises(SheetError) as error:
         evaluate(engine, ["W"], gas="bad.csv")
     if message is None:
-        assert str(error.value) == "volume gas.V (2) = -5.0 cm**3 must be positive"
+        assert str(error.value) == "volume gas.V (2) = -5.0 cm³ must be positive"
     else:
         assert str(error.value).startswith(f"file {engine.parent / 'bad.csv'}") and message in str(error.value)
     assert "\n" not in str(error.value)

@@ -275,7 +275,7 @@ PLANTED = [
     ("hitch", "LS6 = sqrt(g.X6**2 + g.Y6**2)", "LS6 = sqrt(g.X6**2 + g.Y6)", "LS6", "g.X6 ** 2 + g.Y6: adds m² and m"),
     ("hitch", "IS6 = I56 + dphi6", "IS6 = I56 + 0.3 * dphi6 + dphi6", "IS6", ""),
     ("hitch", "phi3(S) + g.phi_BD", "phi3(S) + g.L34", "", "phi3(S) + g.L34: adds"),
-    ("hitch", "g.P6 * PS6_S.real) / g.L  # [N] load", "PS6_S.real / g.P6) / g.L  # [N] load", "Ra", "subtracts"),
+    ("hitch", "g.P6 * x_6) / g.L  # [N] load", "x_6 / g.P6) / g.L  # [N] load", "Ra", "subtracts"),
     ("hitch", "of=largest * g.L56", "of=largest", "", "the limit is in N, its unit in N·m"),
     ("joint", "F = total(A)  # [cm**2]", "F = total(A * y)  # [cm**2]", "F", "unit [cm**2] does not fit"),
     ("joint", "M_c = M - N * y_c", "M_c = M - N", "M_c", "M - N: subtracts N from N·m"),

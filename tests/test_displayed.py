@@ -16,6 +16,7 @@ import numpy as np
 import pytest
 
 from mechsheet.document import chart, chart_svg
+from mechsheet.document.markup import in_words
 from mechsheet.page.values import html as html_of
 from mechsheet.worksheet.check import Check, Summary
 from mechsheet.worksheet.find import Found
@@ -107,6 +108,7 @@ def shown_of(field: np.ndarray) -> list[complex]:
 
 
 def assert_formula(row: Formula, value: object, line: str) -> int:
+    line = re.sub("</?ms-unit[^>]*>", "", re.sub("<ms-value [^>]*><span>(.*?)</span></ms-value>", r"\1", line))
     (shown_value,) = re.findall(r'<span class="ms-value">(.*?)</span>', line)
     texts, unit = numbers_in(shown_value)
     field = np.asarray(value)
@@ -186,13 +188,15 @@ def assert_check(check: Check) -> int:
         assert "not evaluated" in text
         return 0
     assert match and ("PASS" if check.residual <= check.limit else "FAIL") in text
-    assert [float(t) for t in match.groups()] == pytest.approx([check.residual, check.limit], rel=0.051, abs=1e-300)
+    compared = [float(t.replace("−", "-").rstrip("°")) for t in match.groups()]
+    assert compared == pytest.approx([check.residual, check.limit], rel=0.051, abs=1e-300)
     return 2
 
 
 def assert_found(found: Found) -> int:
     text = html.unescape(re.sub("<[^>]*>", "", found._mime_()[1]))
-    match = re.search(rf"{re.escape(found.words.unknown)} = (\S+)(?: ([^\d\s]+?))?condition", text)
+    unknown = html.unescape(re.sub("<[^>]*>", "", in_words(found.words.unknown)))
+    match = re.search(rf"{re.escape(unknown)} = (\S+)(?: ([^\d\s]+?))?condition", text)
     assert match, text
     digits = match[1].rstrip("0").lstrip("-0.").replace(".", "")
     value = float(match[1]) * factor(match[2] or "")

@@ -240,8 +240,10 @@ def test_value_in_the_page(value, unit, text):
 
 
 def joined(shown):
-    """HTML with the elements of a line, formula and value, as one."""
-    return html(shown).replace('=||)</marimo-tex><span class="ms-value">', "= ")
+    """HTML with the elements of a line, formula and value, as one, without its place and what switches its unit."""
+    text = re.sub("<ms-value [^>]*><span>(.*?)</span></ms-value>", r"\1", html(shown))
+    text = re.sub("</?ms-unit>", "", re.sub(' id="line-\\w+"', "", text))
+    return text.replace('=||)</marimo-tex><span class="ms-value">', "= ")
 
 
 def test_one_position_of_the_fields():

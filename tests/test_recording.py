@@ -14,8 +14,7 @@ from mechsheet.recording.lines import Recording
 from mechsheet.recording.node import Node
 from mechsheet.recording.quantity import Quantity, lift
 from mechsheet.recording.record import record
-from mechsheet.workbook import writing
-from mechsheet.workbook.inputs_sheet import InputRow
+from mechsheet.workbook import inputs_sheet, writing
 from mechsheet.worksheet import cells
 from mechsheet.worksheet.table import Table
 
@@ -34,7 +33,7 @@ def recording(names: dict[str, Any]) -> Recording:
 
 
 def written(names: dict[str, Any], recording: Recording) -> bytes:
-    inputs = [InputRow(symbol, getattr(names["g"], symbol), "-", "") for symbol in recording.inputs]
+    inputs = inputs_sheet.rows(names["g"])
     tables = [value for value in names.values() if isinstance(value, Table)]
     return writing.workbook("t", inputs=inputs, found=[], tables=tables, figures=[], checks=[], recording=recording)
 

@@ -20,7 +20,7 @@ with app.setup:
         cut_group, export, figure, find, index, inputs, mark, player, read, require, rrr, rrr_reach,
         rrr_reactions, rrr_velocity, side_by_side, slider, summary, table, title_block, typeset,
     )  # fmt: skip
-    from mechsheet.units import deg
+    from mechsheet.units import deg, m
 
 
 @app.cell(hide_code=True)
@@ -849,7 +849,7 @@ def drawing_61(P23_S, P34_S, P45_S, P56_S, P67_S, PS6_S, Ra, Rb, frame, g, k_t, 
     fore = -int(s_6)  # direction from the rear axle to the front one
     nose, axle, C = fore * (g.L + g.a), fore * g.L, fore * g.b + 0.9j
     body = [nose + 0.6j, nose + 1.05j, fore * g.b + 1.25j, -0.2 * fore + 1.25j, -0.2 * fore + 0.6j]
-    ends = sorted([nose + 0.3 * fore, -fore * (np.max(-fore * frame.real) + 0.3)])
+    ends = sorted([nose + fore * 0.3 * m, -fore * (np.max(-fore * frame.real) + 0.3)])
     machine = Drawing(width=900, height=480).ground(*ends).wheel(1j * rear, rear).wheel(axle + 1j * front, front)
     weights = (machine.polygon(body) + scheme(*pins_k).faint()).mass(C, "C").force(C, -1j * g.P_msha, "P_msha")
     loads = weights.force(nose + 0.6j, -1j * g.P_gr, "P_gr").mass(PS6_S[k_t], "S6").force(PS6_S[k_t], -1j * g.P6, "P6")

@@ -220,4 +220,4 @@ def _of_options(row: InputRow) -> dict[str, object]:
     if not row.options or len(",".join(row.options)) > 255 or any("," in option for option in row.options):
         return {"validate": "any", **texts}
     wrong = {"error_title": "None of the options", "error_message": cut(allowed(row.allowed), 255)}
-    return {"validate": "list", "source": list(row.options), **texts, **wrong}
+    return {"validate": "list", "source": list(row.options), "ignore_blank": False, **texts, **wrong}

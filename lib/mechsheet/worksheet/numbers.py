@@ -96,7 +96,7 @@ def value(values: Any, unit: str, to: Notation) -> str:
         text = "[" + "; ".join(", ".join(_end(x, unit, to) for x in row) for row in field.tolist()) + "]"
     elif field.size <= several:
         text = ", ".join(_end(x, unit, to) for x in field.ravel().tolist())
-    elif field.dtype.kind == "c" and np.abs(field.flat[-1] - field.flat[0]) <= 1e-9 * np.nanmax(np.abs(field)):
+    elif field.dtype.kind == "c" and np.abs(field.flat[-1] - field.flat[0]) <= 1e-9 * _largest(field):
         text = to.pair.format(_span(field.real, unit, to), _span(field.imag, unit, to))
     elif field.dtype.kind == "c":
         text = to.span.join(_end(end.item(), unit, to) for end in (field.flat[0], field.flat[-1]))
@@ -106,6 +106,11 @@ def value(values: Any, unit: str, to: Notation) -> str:
 
 
 _MOST_NUMBERS, _MOST_POINTS, _MOST_ROWS = 10, 4, 4  # that stand in full
+
+
+def _largest(field: NDArray[Any]) -> float:
+    """The largest magnitude, 0 where there is none."""
+    return float(np.max(np.abs(field), where=~np.isnan(field), initial=0.0))
 
 
 def _extent(field: NDArray[Any], unit: str, to: Notation) -> str:
