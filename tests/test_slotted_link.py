@@ -267,7 +267,7 @@ def test_script_writes_the_workbook(tmp_path):
     done = script(f"--out={tmp_path}")
     assert (done.returncode, done.stderr) == (0, "")
     book = load_workbook(tmp_path / "slotted_link.xlsx", data_only=True)
-    assert [c.value for c in book["1 Results"][6]][:3] == pytest.approx([300, 76.8132, 1.75342], rel=1e-5)
+    assert [c.value for c in book["1 Results (table of page 39)"][6]][:3] == pytest.approx([300, 76.8132, 1.75342], rel=1e-5)
     assert book["5 Full turn"].max_row == 4 + 361
 
 
@@ -300,7 +300,7 @@ def test_position_without_numbers_fails_the_script_and_is_written(tmp_path):
         in done.stdout
     )
     book = load_workbook(tmp_path / "slotted_link.xlsx", data_only=True)
-    values = [c.value for c in book["1 Results"][8]]
+    values = [c.value for c in book["1 Results (table of page 39)"][8]]
     assert values[0] == pytest.approx(270) and values[1:7] == ["#N/A"] * 6
 
 

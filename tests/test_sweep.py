@@ -53,7 +53,7 @@ def test_every_number_of_every_variant_is_the_one_of_the_worksheet_alone_to_the_
     variants = table(12, 0.05)
     swept = sweep(HITCH, numbers, variants)
 
-    assert len(numbers) == 113 and swept.solved.all() and swept.at_once
+    assert len(numbers) == 144 and swept.solved.all() and swept.at_once
     for i in range(12):
         alone = evaluate(HITCH, numbers, **{name: float(values[i]) for name, values in variants.items()})
         for name in numbers:
