@@ -57,7 +57,8 @@ class Editor:
         return self.page.locator(".ms-title a").all_text_contents()
 
     def expect_last_moment(self, text: str) -> None:
-        expect(self.page.locator(".ms-table tbody tr").last.locator("td").last).to_have_text(text)
+        table = self.page.locator(".ms-table:has-text('Table 1 ')")
+        expect(table.locator("tbody tr").last.locator("td").last).to_have_text(text)
 
 
 @pytest.fixture
