@@ -259,6 +259,9 @@ def test_checks_hold_for_any_dimensions(L1, L0, omega1, n, phi_0):
 # The script
 
 
+RESULTS = "1 Results (table of page 39)"
+
+
 def script(*arguments: str) -> subprocess.CompletedProcess[str]:
     return subprocess.run([sys.executable, str(SHEET), *arguments], capture_output=True, encoding="utf-8")
 
@@ -267,7 +270,8 @@ def test_script_writes_the_workbook(tmp_path):
     done = script(f"--out={tmp_path}")
     assert (done.returncode, done.stderr) == (0, "")
     book = load_workbook(tmp_path / "slotted_link.xlsx", data_only=True)
-    assert [c.value for c in book["1 Results (table of page 39)"][6]][:3] == pytest.approx([300, 76.8132, 1.75342], rel=1e-5)
+    first = [cell.value for cell in book[RESULTS][6]]
+    assert first[:3] == pytest.approx([300, 76.8132, 1.75342], rel=1e-5)
     assert book["5 Full turn"].max_row == 4 + 361
 
 
@@ -300,7 +304,7 @@ def test_position_without_numbers_fails_the_script_and_is_written(tmp_path):
         in done.stdout
     )
     book = load_workbook(tmp_path / "slotted_link.xlsx", data_only=True)
-    values = [c.value for c in book["1 Results (table of page 39)"][8]]
+    values = [c.value for c in book[RESULTS][8]]
     assert values[0] == pytest.approx(270) and values[1:7] == ["#N/A"] * 6
 
 
