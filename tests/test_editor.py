@@ -104,7 +104,7 @@ def test_mistakes_are_told_at_their_place_and_the_rest_stays(editor):
         for text in texts:
             cell.get_by_text(text).first.wait_for()
         expect(page.get_by_role("heading", name="3 Results")).to_have_count(1)
-        expect(page.locator(".ms-inputs input")).to_have_count(3)
+        expect(page.locator(".ms-inputs td[data-input]")).to_have_count(7)
 
     told(editor.edit("# [N*m] moment\n", "# [Nm] moment\n"), "unit [Nm] is not known; nearest: N*m")
     expect(page.get_by_text("TRACEBACK")).to_have_count(0)
@@ -120,12 +120,12 @@ def test_mistakes_are_told_at_their_place_and_the_rest_stays(editor):
     field = page.locator(".ms-inputs tr:has-text('greatest moment') input")
     field.fill("500")
     field.press("Enter")
-    editor.expect("angle phi: moment reaches 0..420 N*m by 97 samples, 500 N*m is outside")
+    editor.expect("moment reaches 0..420 N·m by 97 samples, 500 N·m is outside")
     page.wait_for_function("() => !document.querySelector('.ms-table')")
     page.get_by_text("moment over the positions").first.wait_for()
     field.fill("abc")
     field.press("Enter")
-    editor.expect("M_max = 'abc' N*m is no number")
+    editor.expect("'abc' N·m is no number")
     expect(page.locator(".ms-told")).to_be_visible()
     field.fill("300")
     field.press("Enter")
