@@ -12,11 +12,12 @@ from mechsheet.studies.tolerance import tolerance
 from mechsheet.worksheet.cells import evaluate, load
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.inputs import declared
+from mechsheet.worksheet.kinds import Input
 
 ROOT = Path(__file__).parents[1]
 HITCH = ROOT / "worksheets" / "hitch.py"
 CLASS = load(HITCH).inputs
-FIELDS = {field.name: field for field in declared(CLASS)}
+FIELDS = {field.name: field for field in declared(CLASS) if type(field) is Input}
 POSITIONS = [0, 4, 9]
 WANT = ["GS6", "L4", "abs(R56)", "R56.real", "phi6_S"]
 
