@@ -129,6 +129,9 @@ def _cell(written: Content, value: Content) -> Cell:
     match = re.fullmatch(r"=IF\(inputs_changed=0,(.*),(?:NA\(\)|\"\")\)", str(written))
     if match and (match[1].strip('"') == str(value) or _number(match[1]) == value):
         written = "=IF(inputs_changed=0,..,NA())"
+    guarded = re.fullmatch(r"=IF\((AND\(.*\)|\w+=[^,()]*),([^,()]*),NA\(\)\)", str(written))
+    if guarded and _number(guarded[2]) == value:
+        written = f"=IF({guarded[1]},..,NA())"
     return Cell(written, value)
 
 

@@ -68,6 +68,7 @@ class Graph:
         self.sizes: dict[Node, tuple[Node, ...]] = {}
         self.pivots = set[Node]()  # conditions that put the rows of linear equations in order, which may be unlike
         self.nodes: dict[Any, Node] = {}
+        self.alike: dict[Any, list[Node]] = {}  # exported ones by what they rest on, their type and shape
         self.looked: dict[Node, Guard] = {}  # by their conditions; since somebody emptied it
         self.numbered: dict[Node, Guard] = {}  # those of numbers of rows, likewise
         self.gone: list[weakref.ref[Any]] = []  # arrays in whose place another one was put
@@ -200,10 +201,18 @@ class Graph:
         return self.reduce("all", now, None, False)
 
     def exported(self, rests_on: Sequence[Node], value: Any) -> Node:
-        """Numbers of the worksheet's own run, and the quantities that they rest on, nobody knows how."""
+        """Numbers of the worksheet's own run, and the quantities that they rest on, nobody knows how.
+
+        The same node for what differs by the rounding of a unit, such as a result and its column of a table.
+        """
         array = _fixed(np.array(value))
+        alike = self.alike.setdefault((tuple(rests_on), array.dtype.char, array.shape), [])
+        for node in alike:
+            if np.allclose(node.value, array, rtol=4 * np.finfo(float).eps, atol=0, equal_nan=True):
+                return node
         key = ("exported", tuple(rests_on), array.dtype.char, array.shape, array.tobytes())
-        return self._kept(key, "exported", tuple(rests_on), lambda: array, False)
+        alike.append(self._kept(key, "exported", tuple(rests_on), lambda: array, False))
+        return alike[-1]
 
     def constant(self, value: Any, *unit: str) -> Node:
         """A number or an array of numbers; in SI where a unit says what it measures."""
