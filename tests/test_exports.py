@@ -86,6 +86,11 @@ def digits(x: float, y: float, scale: Scale) -> bool:
     return abs(min(x, FULL) - min(y, FULL)) <= 0.5
 
 
+def nearly_singular(x: float, y: float, scale: Scale) -> bool:
+    """Where rounding alone moves an error by most of its order of magnitude."""
+    return abs(min(x, FULL) - min(y, FULL)) <= 1
+
+
 def duration(x: float, y: float, scale: Scale) -> bool:
     return True
 
@@ -99,6 +104,10 @@ KINDS: tuple[tuple[str, str, str, Alike], ...] = (
     (r"Find", r"Residual", r"", residual),
     (r"Residuals lines", r"Value", r"^(step of )?residual: ", residual),
     (r"Residuals fields", r"", r"", residual),  # a result where the column is no residual, and so has no limit
+    (r"Front", r"", r"^error$", error),
+    # Rounding chooses which of its results is the worst: the steps of an integrator end elsewhere.
+    (r"7\.1 Digits", r"", r"^through dead centre$", duration),
+    (r"7\.1 Digits", r"(printed|product|margin) \[", r"^rod in line$", nearly_singular),
     (r"7\.1 Digits", r"(printed|product|margin) \[", r"", digits),
     (r"", r"(digits|most) \[-\]", r"", digits),
     (r"", r"error \[-?\]", r"", error),
