@@ -86,7 +86,8 @@ def test_derivatives_to_the_accuracy_claimed(found):
                     v[i].ravel()[k if v[i].size > 1 else 0] for v in (found.slopes[name], found.errors[name])
                 )
                 size = np.max(np.abs(found.values[name])) / abs(found.inputs[x])
-                assert abs(slope - float(true[name]) * ratio) <= error, (name, x, k)
+                # The truth is a difference as well, by steps of 1e-25: true to about their square.
+                assert abs(slope - float(true[name]) * ratio) <= error + 1e-40 * size, (name, x, k)
                 assert error <= 1e-9 * size, (name, x, k)
 
 
