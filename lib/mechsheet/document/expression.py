@@ -254,7 +254,23 @@ class _Reader:
         return part
 
     def subscript(self, node: ast.Subscript) -> Node:
-        return Element(self.least(node.value, WHOLE), self.read(node.slice))
+        """An element, or those whose number k is in a slice; what only arranges axes is not shown."""
+        value, keys = (
+            self.least(node.value, WHOLE),
+            node.slice.elts if isinstance(node.slice, ast.Tuple) else [node.slice],
+        )
+        picked = [self.place(key) for key in keys if ast.unparse(key) not in (":", "...", "None")]
+        if not picked:
+            return value
+        return Element(value, picked[0] if len(picked) == 1 else Brackets(tuple(picked)))
+
+    def place(self, key: ast.expr) -> Node:
+        match key:
+            case ast.Slice(None, ast.expr() as stop, None) if not isinstance(stop, ast.UnaryOp):
+                return Binary(Symbol("k"), "<", self.least(stop, SUM))
+            case ast.Slice(ast.expr() as start, None, None) if not isinstance(start, ast.UnaryOp):
+                return Binary(Symbol("k"), "≥", self.least(start, SUM))
+        return self.read(key)
 
     def starred(self, node: ast.Starred) -> Node:
         return self.read(node.value)
@@ -289,8 +305,9 @@ class _Reader:
             case ast.Call(ast.Attribute(ast.Attribute(ast.Name("np"), "linalg"), ("det" | "norm") as name), [x]):
                 return self.function("abs" if name == "norm" else name, [x])
             case ast.Call(ast.Attribute(x, ("max" | "min" | "sum" | "mean") as name), args, keywords):
-                if not args:
-                    return self.call(ast.Call(ast.Name(name), [x], keywords))
+                if len(args) + len(keywords) < 2:
+                    axis = [ast.keyword("axis", arg) for arg in args]
+                    return self.call(ast.Call(ast.Name(name), [x], [*axis, *keywords]))
         return None
 
     def sum(self, terms: ast.GeneratorExp | ast.ListComp) -> Node | None:
