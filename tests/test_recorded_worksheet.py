@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 import re
+from io import BytesIO
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+from openpyxl import load_workbook
 from own_worksheet import OTHER, own, recorded, value_of
 
 from mechsheet.recording.numbers import numbers
 from mechsheet.recording.quantity import Quantity
 from mechsheet.recording.record import record
+from mechsheet.run import report
 from mechsheet.worksheet import cells
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -196,6 +199,33 @@ def test_a_greatest_number_at_a_listed_position_is_followed_to_others(tmp_path: 
     other = cells.evaluate(sheet.path, ["most", "y"], a=1.3)
     assert names["y"].argmax() == 2 and other["y"].argmax() == 3
     assert value_of(recording, "most", {"a": 1.3}) == pytest.approx(other["most"], rel=1e-12)
+
+
+def test_a_check_looks_at_all_positions_where_tables_list_some(tmp_path: Path) -> None:
+    """The limit is passed at the fourth of five positions alone, which no table lists; what takes more is told."""
+    lines = """from mechsheet import check
+y = x * (2.2 * g.a * g.F - x)  # [-] arch
+within = check("within", y, 1.6 * g.F), check("least", y.min(), 1.0)
+more = check("sum", sum(cos(k * x) for k in range(40)), 99.0)
+scaled = check("scaled", y - y.max(), 1e-9, of=y)"""
+    sheet = own(tmp_path, lines)
+    Path(sheet.path).write_text(Path(sheet.path).read_text().replace('"All", x)', '"All", x, every=2)'))
+    sheet = cells.read(Path(sheet.path))
+    names, recording = recorded(sheet)
+    assert not recording.gaps
+    assert {name: check.listed for name, check in recording.checks.items()} == {
+        "within": False, "least": False, "sum": True, "scaled": False
+    }  # fmt: skip
+    for given in ({}, {"a": 1.3}, {"F": 4.0, "a": 1.1}):
+        own_checks = cells.evaluate(sheet.path, ["within", "scaled"], **given)
+        for check in (*own_checks["within"], own_checks["scaled"]):
+            held = recording.checks[check.name]
+            known = numbers([*held.parts, held.limit], {recording.inputs[k]: x for k, x in given.items()})
+            assert max(np.max(known[p]) for p in held.parts) == pytest.approx(check.residual, rel=1e-12)
+            assert known[held.limit] == pytest.approx(check.limit, rel=1e-12)
+    book = load_workbook(BytesIO(report.workbook("", {**names, "__file__": sheet.path}, {})))
+    said = [row[0].value for row in book["Checks"].iter_rows(min_row=4)]
+    assert said[:4] == ["within", "least", "sum, at the listed positions", "scaled"]
 
 
 GUARDED = [  # what the numbers are decides about lengths and ways: other numbers of the same kind are followed
