@@ -654,8 +654,8 @@ def test_words_are_escaped_in_the_page():
     [
         ({"lo": 2.0, "hi": 1.0}, "lo = 2000 mm for rod must be less than hi = 1000 mm"),
         ({"lo": [0.0, 1.0], "hi": 1.0}, "lo = 1000 mm for rod must be less than hi = 1000 mm"),
-        ({"lo": 0.0, "hi": np.inf}, "hi = inf for rod must be finite"),
-        ({"lo": 0.0, "hi": 1.0, "guess": -np.inf}, "guess = -inf for rod must be finite"),
+        ({"lo": 0.0, "hi": np.inf}, "hi = ∞ mm for rod must be finite"),
+        ({"lo": 0.0, "hi": 1.0, "guess": -np.inf}, "guess = -∞ mm for rod must be finite"),
         ({"lo": 0.0}, "rod needs a guess, or both ends"),
         ({"guess": 0.0}, "guess = 0 mm for rod must be positive"),
         ({"hi": 2.0, "guess": 3.0}, "guess = 3000 mm for rod must be less than hi = 2000 mm"),

@@ -252,6 +252,27 @@ def test_what_is_nothing_but_rounding_is_recorded_however_it_is_computed(
     assert record({**names, "__file__": sheet.path}).gaps
 
 
+@pytest.mark.parametrize(
+    "expression",
+    [
+        "g.F / (g.a - 0.5)",
+        "(g.a - 0.5) ** -2",
+        "math.log(g.a - 0.5)",
+        "math.exp(2000 * g.a)",
+        "(100 * g.a) ** (300 * g.a)",
+    ],
+)
+def test_what_python_refuses_of_single_numbers_is_no_number(expression: str, tmp_path: Path) -> None:
+    sheet = own(tmp_path, f"y = {expression}  # [-] line\nz = 1 / (1 + y)  # [-] rests on it")
+    given = {"a": 0.5}
+    with pytest.raises((ArithmeticError, ValueError)):
+        cells.evaluate(sheet.path, ["y"], **(given if "g.a - " in expression else {"a": 2.0}))
+    _, recording = recorded(sheet, a=0.75 if "g.a - " in expression else 0.1)
+    assert not recording.gaps
+    there = given if "g.a - " in expression else {"a": 2.0}
+    assert np.isnan(value_of(recording, "y", there)) and np.isnan(value_of(recording, "z", there))
+
+
 GUARDED = [  # what the numbers are decides about lengths and ways: other numbers of the same kind are followed
     ("x[x > 2]", {"F": 2.55}, {"F": 4.0}),
     ("np.sort(x * np.cos(3 * x))[np.flatnonzero(x > 2)]", {"F": 2.55}, {"F": 4.0}),

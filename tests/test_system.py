@@ -270,7 +270,7 @@ def test_starts_around_the_guess_tell_of_solutions_where_the_guess_leads_to_none
     ("asked", "message"),
     [
         ({"x": (2, 0), "y": 1.0}, "x from 2 must end above that, not at 0"),
-        ({"x": (0, np.inf), "y": 1.0}, "an end of x = inf must be finite"),
+        ({"x": (0, np.inf), "y": 1.0}, "an end of x = ∞ must be finite"),
         ({"x": (1, 2, 3), "y": 1.0}, "x needs a guess, or the two ends of its interval, not 3 numbers"),
         ({"x": 1.0}, "the equations are of x, y, the unknowns given are x"),
         ({"x": 1.0, "y": 1.0, "equals": (1, 2, 3)}, "equals has 3 values for 2 equations"),

@@ -167,7 +167,8 @@ def _place(name: str, value: Start, unit: str) -> Place:
         raise SheetError(f"{name} needs a guess, or the two ends of its interval, not {len(ends)} numbers")
     for end in ends:
         if (bad := np.isinf(end)).any():
-            raise SheetError(f"{'an end of ' * interval}{name} = {end[bad][0]} must be finite")
+            given = numbers.amount(end[bad][0], unit)
+            raise SheetError(f"{'an end of ' * interval}{name} = {given} must be finite")
     if not interval:
         size = np.where(ends[0] == 0, factor, np.abs(ends[0]))
         endless = np.full(ends[0].shape, np.inf)

@@ -357,7 +357,8 @@ def _checked(words: _Words, **values: ArrayLike | None) -> dict[str, Array]:
     given = {name: np.asarray(v, dtype=float) for name, v in values.items() if v is not None}
     for name, v in given.items():
         if (bad := np.isinf(v)).any():
-            raise SheetError(f"{name} = {v[bad][0]} for {words.unknown} must be finite")
+            unit = words.unit if name == "equals" else words.unknown_unit
+            raise SheetError(f"{name} = {numbers.amount(v[bad][0], unit)} for {words.unknown} must be finite")
     ends = [given[name] for name in ("lo", "hi") if name in given]
     if len(ends) == 2:
         _in_order(words, ("lo", "hi"), *ends)
