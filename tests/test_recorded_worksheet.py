@@ -12,11 +12,13 @@ import pytest
 from openpyxl import load_workbook
 from own_worksheet import OTHER, own, recorded, value_of
 
+from mechsheet.recording.dimensions import dimensions
 from mechsheet.recording.numbers import numbers
 from mechsheet.recording.quantity import Quantity
 from mechsheet.recording.record import record
 from mechsheet.run import report
 from mechsheet.worksheet import cells
+from mechsheet.worksheet.lines import registry
 
 ROOT = Path(__file__).resolve().parents[1]
 FOLLOWED = [
@@ -271,6 +273,74 @@ def test_what_python_refuses_of_single_numbers_is_no_number(expression: str, tmp
     assert not recording.gaps
     there = given if "g.a - " in expression else {"a": 2.0}
     assert np.isnan(value_of(recording, "y", there)) and np.isnan(value_of(recording, "z", there))
+
+
+ARRAYS = {
+    "fit": "np.polyfit(x, np.sin(x) + g.a, 3)",
+    "line": "np.polyfit([0.0, 1.0, 2.0, 4.0], [g.F, 1.0, g.a, 2.0], 1, w=[1.0, g.F, 2.0, 1.0])",
+    "curve": "np.polyval(np.polyfit([1.0, 2.0, 3.0], [g.F, g.a, 2.0], 2), x)",
+    "least": "np.linalg.lstsq(np.array([[1.0, g.a], [g.F, 2.0], [1.0, 5.0]]), np.array([1.0, g.F, 2.0]))[0]",
+    "several": "np.linalg.lstsq(np.stack([x, x**2], 1), np.stack([g.a * x + 1, np.cos(x)], 1))[0].reshape(-1)",
+    "left": "np.linalg.lstsq(np.stack([x, x**2], 1), np.cos(x))[1]",
+    "order": "np.argsort(np.sin(3 * x) * g.a) * 1.0",
+    "ordered": "np.array([1.0, 2.0, 3.0])[np.argsort([g.F, g.a, 1.5])]",
+    "equal": "np.argsort([g.F, g.a, g.F, g.a, 1.0]) * 1.0",
+    "rows": "np.array([[g.F, 1.0], [g.a, 2.0], [1.5, 3.0]])[np.array([g.F, g.a, 1.5]).argsort()][:, 1]",
+    "columns": "np.argsort([[g.F, 1.0], [g.a, 2.0], [1.5, 0.5]], axis=0).reshape(-1) * 1.0",
+    "cross": "np.cross([g.F, 1.0, g.a], [1.0, 2.0, g.F])",
+    "crosses": "np.cross(np.stack([x, x**2, 1 + 0 * x], 1), [1.0, g.a, g.F]).reshape(-1)",
+    "unwrap": "np.unwrap(np.angle(np.exp(3j * x))) * g.a",
+    "degrees": "np.unwrap(np.mod(200 * x * g.a, 360), period=360)",
+    "product": "np.einsum('ij,jk->ik', [[g.F, 1.0], [g.a, 2.0]], [[1.0, g.a], [3.0, g.F]]).reshape(-1)",
+    "sums": "np.einsum('ij,j', np.array([[g.F, 1.0], [g.a, 2.0]]), np.array([1.0, g.a]))",
+    "outer": "np.einsum('i,j->ji', x, np.array([1.0, g.a])).reshape(-1)",
+}
+
+
+@pytest.mark.parametrize("expression", ARRAYS.values(), ids=ARRAYS)
+def test_functions_of_arrays_are_followed_to_other_inputs(expression: str, tmp_path: Path) -> None:
+    _, recording = recorded(sheet := own(tmp_path, f"y = {expression}  # [-] line"))
+    assert not recording.gaps and not [guard for guard in recording.guards.values() if not guard.rows]
+    for given in ({}, *OTHER, {"F": 1.125, "a": -0.5}):
+        expected = cells.evaluate(sheet.path, ["y"], **given)["y"]
+        np.testing.assert_allclose(value_of(recording, "y", given), expected, rtol=1e-9, atol=1e-12)
+
+
+def test_a_fit_is_as_accurate_as_its_condition_lets_it(tmp_path: Path) -> None:
+    """Of degree 7 over 40 places: the normal equations would keep no digit of it."""
+    lines = "t = np.linspace(1, 3, 40)\ny = np.polyfit(t, g.F * t**7 - g.a * t**2, 7)  # [-] coefficients"
+    _, recording = recorded(own(tmp_path, lines))
+    assert not recording.gaps
+    expected = [3.25, 0, 0, 0, 0, -0.5, 0, 0]
+    np.testing.assert_allclose(value_of(recording, "y", {"F": 3.25, "a": 0.5}), expected, atol=1e-6)
+
+
+def test_columns_that_rest_on_each_other_give_no_number_and_units_are_followed(tmp_path: Path) -> None:
+    lines = """K = np.stack([x, x * (1 + (g.a - 0.5) * x)], axis=1)
+y = np.linalg.lstsq(K, np.cos(x))[0]  # [-] unknowns
+force = np.polyfit(x * m, x**2 * N, 1)[1]  # [N] at the origin
+rate = np.polyfit(x * m, x**2 * N, 1)[0]  # [N/m] slope"""
+    sheet = own(tmp_path, "from mechsheet.units import N, m\n" + lines)
+    names, recording = recorded(sheet)
+    assert not recording.gaps
+    assert np.isnan(value_of(recording, "y", {"a": 0.5})).all() and np.isfinite(value_of(recording, "y", {})).all()
+    assert dimensions(recording, sheet, names, registry(names)).check().passed
+
+
+@pytest.mark.parametrize(
+    ("expression", "reason"),
+    [
+        ("np.polyfit(x, x, 1, full=True)[0]", "numpy's polyfit with all that it tells"),
+        ("np.linalg.lstsq(np.ones((2, 9)) * g.F, np.ones(2))[0]", "least squares of other than up to 8 unknowns"),
+        ("np.einsum('ii', np.array([[g.F, 1.0], [g.a, 2.0]]))", "numpy's einsum of 'ii'"),
+        ("np.linalg.eigvalsh(np.array([[g.F, 1.0], [1.0, g.a]]))", "numpy's eigvalsh"),
+        ("np.roots([1.0, -g.F, 0.1])", "numpy's roots"),
+    ],
+)
+def test_functions_of_arrays_that_are_not_followed_are_named(expression: str, reason: str, tmp_path: Path) -> None:
+    _, recording = recorded(own(tmp_path, f"y = {expression}  # [-] line"))
+    (gap,) = recording.gaps
+    assert gap.line == 37 and gap.reason.startswith(reason)
 
 
 GUARDED = [  # what the numbers are decides about lengths and ways: other numbers of the same kind are followed
