@@ -92,7 +92,7 @@ def cross(graph: Graph, a: Any, b: Any, axis: int = -1) -> Any:
     if a.extent[-1] != 3 or b.extent[-1] != 3:
         raise NotRecorded("numpy's cross of vectors without three components")
     parts = [a[..., i] * b[..., j] - a[..., j] * b[..., i] for i, j in ((1, 2), (2, 0), (0, 1))]
-    return moved(np.stack(parts, axis=-1), -1, axis)
+    return moved(lift(graph, np.stack(parts, axis=-1)), -1, axis)
 
 
 def unwrapped(graph: Graph, p: Any, discont: Any = None, axis: int = -1, *, period: float = 2 * np.pi) -> Any:
@@ -103,7 +103,8 @@ def unwrapped(graph: Graph, p: Any, discont: Any = None, axis: int = -1, *, peri
     near: Any = np.mod(step - low, period) + low
     near = np.where((near == low) & (step > 0), high, near)
     turn = np.where(abs(step) < (high if discont is None else np.maximum(discont, high)), 0.0, near - step)
-    return moved(np.concatenate([p[..., :1], p[..., 1:] + np.cumsum(turn, axis=-1)], axis=-1), -1, axis)
+    whole = np.concatenate([p[..., :1], p[..., 1:] + np.cumsum(turn, axis=-1)], axis=-1)
+    return moved(lift(graph, whole), -1, axis)
 
 
 def summed(graph: Graph, subscripts: str, *operands: Any) -> Any:
