@@ -202,7 +202,9 @@ def _(summary: Summary) -> str:
         f'<span>{_badge(check)} <a href="#{_anchor(check)}">{in_words(check.name)}</a> {escape(check.reason)}</span>'
         for check in worst_first
     )
-    bar = f"<b>{passed} of {len(summary.checks)} checks</b>" + "".join(_in_bar(check) for check in worst_first[:1] if not check.passed)
+    bar = f"<b>{passed} of {len(summary.checks)} checks</b>" + "".join(
+        _in_bar(check) for check in worst_first[:1] if not check.passed
+    )
     whole = f'<div class="ms-summary"><b>{count}</b><div class="ms-row">{items}</div></div>'
     return element("ms-verdict", whole, bar=bar)
 
