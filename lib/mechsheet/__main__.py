@@ -28,7 +28,8 @@ usage: mechsheet COMMAND              where the package is installed
 
   run NAME [--INPUT=VALUE ...]        compute the worksheet and write its workbook
       NAME SCENE ...                  compute scenes side by side, and write workbooks where --out=FOLDER says
-      such as                         run hitch --P6=25e3 --out=exports/light
+      NAME --want=RESULT,...          compute some results and what they need, and print them
+      such as                         run hitch --P6=25e3 --want=L4,GS6
   new NAME [--like=EXAMPLE]           begin a worksheet from a template, or from another worksheet
       such as                         new loader --like=bucket
   edit NAME [OPTIONS]                 open the worksheet in the browser (options of marimo edit)
