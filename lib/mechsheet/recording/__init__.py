@@ -7,5 +7,6 @@ do and makes nodes meanwhile, by the rules of `arithmetic`; `numpy_rules` are wh
 place, under whatever name.
 
 `numbers` reads a recording for other inputs, `dimensions` checks units, by the rules of `dimension_rules`; `pinpoint`
-finds where in the worksheet a part is written. Stands on the worksheet room and those below.
+finds where in the worksheet a part is written; `slopes` are derivatives of quantities by others, by the rules of
+`slope_rules`. Stands on the worksheet room and those below.
 """
