@@ -147,7 +147,8 @@ class _Forward:
             return lost(node, node.value, (), [moving[o] for o in node.operands if o in moving])
         if block not in self.solved:
             self.solved[block] = self._solved(block, moving)
-        return self.solved[block][number]
+        motion: Motion = self.solved[block][number]
+        return motion
 
     def _solved(self, block: Block, moving: Mapping[Node, Motion]) -> list[Motion]:
         under = {node: moving[node] for node in block.under if node in moving}
