@@ -283,7 +283,11 @@ def _of_recording(
     for _ in range(_DRAWS):
         signs = rng.choice([-1, 1], len(inputs))
         moved = {x: np.nextafter(x.value, s * np.inf) for x, s in zip(inputs, signs, strict=True)}
-        there = slopes(wanted, inputs, recomputed([*wanted, *solved_under(wanted)], moved))
+        try:
+            there = slopes(wanted, inputs, recomputed([*wanted, *solved_under(wanted)], moved))
+        except SheetError:  # one rounding decides whether there is a solution at all
+            off = {node: np.full_like(off[node], np.inf) for node in wanted}
+            break
         for node in wanted:
             own = np.abs(there[node].both - here[node].both) + np.finfo(float).eps * np.abs(here[node].both)
             off[node] = np.maximum(off[node], 4 * own)
