@@ -27,7 +27,7 @@ def is_script(worksheet: str) -> bool:
 
 
 def read(arguments: Sequence[str], declared: Sequence[Input]) -> Scene:
-    """Scene from ``--scene=FILE``, ``--out=FOLDER``, ``--want=NAMES``, ``--proof`` and ``--NAME=VALUE``; the later holds.
+    """Scene from ``--scene=FILE``, ``--out=FOLDER``, ``--want=NAMES``, ``--proof``, ``--NAME=VALUE``; the later holds.
 
     Wanted are names with commas between them, or one check by its own; those of all ``--want`` together.
     """
