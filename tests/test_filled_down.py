@@ -1,4 +1,4 @@
-"""Workbooks as their readers take them: one formula a column, no deep nesting, whole words."""
+"""Workbooks of documents and examples as readers take them: one formula a column, no deep nesting, whole words."""
 
 from __future__ import annotations
 

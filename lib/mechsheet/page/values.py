@@ -202,9 +202,8 @@ def _(summary: Summary) -> str:
         f'<span>{_badge(check)} <a href="#{_anchor(check)}">{in_words(check.name)}</a> {escape(check.reason)}</span>'
         for check in worst_first
     )
-    bar = f"<b>{passed} of {len(summary.checks)} checks</b>" + "".join(
-        _in_bar(check) for check in worst_first[:1] if not check.passed
-    )
+    failing = "".join(_in_bar(check) for check in worst_first[:1] if not check.passed)
+    bar = f"<b>{passed} of {len(summary.checks)} checks</b>{failing}"
     whole = f'<div class="ms-summary"><b>{count}</b><div class="ms-row">{items}</div></div>'
     return element("ms-verdict", whole, bar=bar)
 
@@ -304,7 +303,7 @@ def _block(columns: Sequence[Column]) -> str:
     )
     head = f'<tr>{heads}</tr><tr class="ms-units">{unit_row}</tr>'
     fit = min(1.0, _PAPER / sum(map(_width, columns)))
-    style = f' style="--fit:{fit:.2f}"' if fit < 1 else ""
+    style = f' style="--fit:{numbers.fixed(fit, 2)}"' if fit < 1 else ""
     return switched.columns(columns, f"<table{style}><thead>{head}</thead><tbody>{rows}</tbody></table>")
 
 

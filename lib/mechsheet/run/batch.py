@@ -17,6 +17,7 @@ from mechsheet.run import report
 from mechsheet.run.arguments import read
 from mechsheet.run.ending import INTERRUPTED, say, watch
 from mechsheet.run.progress import progress
+from mechsheet.run.proving import proof_of_wanted
 from mechsheet.workbook import writing
 from mechsheet.workbook.checks_sheet import verdict
 from mechsheet.worksheet import inputs, mistakes, numbers, results
@@ -33,7 +34,7 @@ _GAP = 2  # characters between columns
 
 @dataclass(frozen=True)
 class Outcome:
-    """What became of a scene: its inputs, how their texts were read, results and checks, or the error."""
+    """What became of a scene: its inputs, how their texts were read, results, checks and proof, or the error."""
 
     name: str
     g: Any = None
@@ -42,6 +43,7 @@ class Outcome:
     checks: tuple[Check, ...] = ()
     readings: tuple[str, ...] = ()
     error: str = ""
+    proof: tuple[str, ...] = ()
 
     @property
     def problems(self) -> list[str]:
@@ -75,8 +77,12 @@ def compute(sheet: Worksheet, name: str, given: Scene) -> tuple[Outcome, dict[st
             tables.append(what)
         elif base(want).isidentifier() and not _is_check(what):
             quantities |= {quantity.name: quantity for quantity in results.quantities(want, names)}
-    told = inputs.readings(inputs.declared(sheet.inputs), given.inputs)
-    return Outcome(name, g, tuple(quantities.values()), tuple(tables), tuple(judged), tuple(told)), names
+    told, proved = inputs.readings(inputs.declared(sheet.inputs), given.inputs), tuple[str, ...]()
+    if given.proof:
+        proof = proof_of_wanted(names, sheet, [*(given.want or sheet.results), *given.limits])
+        judged, proved = [*judged, proof.check(given.proof)], tuple(proof.lines())
+    outcome = Outcome(name, g, tuple(quantities.values()), tuple(tables), tuple(judged), tuple(told), proof=proved)
+    return outcome, names
 
 
 def answer(worksheet: str, given: Scene) -> int:
@@ -86,7 +92,7 @@ def answer(worksheet: str, given: Scene) -> int:
     say(*outcome.readings, *outcome.quantities)
     for table in outcome.tables:
         say(f"Table {table.number} - {table.title}", *_text(_printed(table)))
-    say(*(check for check in outcome.checks if check.passed), *outcome.problems)
+    say(*(check for check in outcome.checks if check.passed), *outcome.proof, *outcome.problems)
     if given.out:
         report.write(comparison(sheet, [outcome]), given.out / _summary(sheet))
     return 1 if outcome.problems else 0
