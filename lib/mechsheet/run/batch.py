@@ -250,10 +250,10 @@ def _table(sheet: Worksheet, outcomes: Sequence[Outcome]) -> list[list[str]]:
     rows = [["", *(o.name for o in outcomes)]]
     for field in _changed(sheet, outcomes):
         given = ("" if o.g is None else field.brief(getattr(o.g, field.name)) for o in outcomes)
-        rows.append([f"{field.name} [{field.unit}]", *given])
+        rows.append([f"{field.name} [{units.shown(field.unit)}]", *given])
     for name, quantity in _quantities(outcomes).items():
         spans = ({q.name: q.span for q in o.quantities}.get(name, "") for o in outcomes)
-        rows.append([f"{name} [{quantity.unit}]", *spans])
+        rows.append([f"{name} [{units.shown(quantity.unit)}]", *spans])
     passed = (f"{sum(check.passed for check in o.checks)} of {len(o.checks)}" if o.checks else "" for o in outcomes)
     return [*rows, ["checks passed", *passed], ["verdict", *(o.verdict for o in outcomes)]]
 
@@ -273,7 +273,7 @@ def _blocks(rows: Sequence[Sequence[str]], width: int) -> Iterator[list[Sequence
 
 def _printed(table: Table) -> list[list[str]]:
     """A table as it is printed: symbols, units, numbers."""
-    heads = [[c.symbol for c in table.columns], [f"[{c.unit}]" for c in table.columns]]
+    heads = [[c.symbol for c in table.columns], [f"[{units.shown(c.unit)}]" for c in table.columns]]
     columns = [[numbers.fixed(x, c.decimals) for x in c.values] for c in table.columns]
     return heads + [list(row) for row in zip(*columns, strict=True)]
 
