@@ -19,7 +19,7 @@ from mechsheet.recording.operations import ELEMENTWISE
 from mechsheet.recording.proof import Proof
 from mechsheet.recording.record import record
 from mechsheet.run import batch
-from mechsheet.run.proving import proof_of
+from mechsheet.run.proving import proof_of, proof_of_wanted
 from mechsheet.units import parse
 from mechsheet.worksheet import inputs, scene
 from mechsheet.worksheet.cells import load
@@ -315,6 +315,9 @@ def test_a_scene_may_ask_for_digits(tmp_path: Path, capsys: pytest.CaptureFixtur
     path.write_text('want = ["GS6"]\nproof = 12\n')
     assert batch.answer(str(WORKSHEETS / "hitch.py"), scene.load(path)) == 0
     shown = capsys.readouterr().out
+    g, names, _ = proved(load(WORKSHEETS / "hitch.py"), {})
+    of_field = proof_of_wanted(names, load(WORKSHEETS / "hitch.py"), ["GS6"]).columns
+    assert {c.name: c.digits.size for c in of_field}["GS6"] == g.N_pol
     assert "pass  every number proved to 12 digits" in shown and "not that the formulas are right" in shown
     assert batch.run(str(WORKSHEETS / "landing_gear.py"), [str(path), "--proof=15", "--t_r=8"]) == 1
 

@@ -49,13 +49,19 @@ def others(block: Block, under: Mapping[Node, Values], root: Any, low: Any, high
     return _joined(sorted(left))
 
 
-def _evaluated(block: Block, under: Mapping[Node, Values], x: Sequence[Any]) -> tuple[list[Any], list[Any]]:
-    """Residual and slope of each of some balls of the unknown."""
+def _residuals(block: Block, under: Mapping[Node, Values], x: Sequence[Any]) -> tuple[list[Any], Balls]:
+    """Residual of each of some balls of the unknown, and their evaluation."""
     array = np.empty(len(x), object)
     array[:] = x
     balls = Balls({**under, block.nodes[0]: array})
     (residual,) = balls.of(block.residuals)
-    return list(np.broadcast_to(residual, array.shape)), [J[0, 0] for J in tangents(balls, block)]
+    return list(np.broadcast_to(residual, array.shape)), balls
+
+
+def _evaluated(block: Block, under: Mapping[Node, Values], x: Sequence[Any]) -> tuple[list[Any], list[Any]]:
+    """Residual and slope of each of some balls of the unknown."""
+    residuals, balls = _residuals(block, under, x)
+    return residuals, [J[0, 0] for J in tangents(balls, block)]
 
 
 def _widest(block: Block, under: Mapping[Node, Values], root: Any, size: Any) -> Any:
@@ -63,7 +69,7 @@ def _widest(block: Block, under: Mapping[Node, Values], root: Any, size: Any) ->
     at = root.mid()
     widths = [(size / 2**k).upper() for k in range(2, 40, 3)]
     boxes = [at + arb(0, w) for w in widths]
-    residual = _evaluated(block, under, [at])[0]
+    residual, _ = _residuals(block, under, [at])
     for box, slope in zip(boxes, _evaluated(block, under, boxes)[1], strict=True):
         if slope.is_finite() and krawczyk([at], [box], residual, arb_mat(1, 1, [slope])) is not None:
             return box
@@ -71,14 +77,15 @@ def _widest(block: Block, under: Mapping[Node, Values], root: Any, size: Any) ->
 
 
 def _excluded(block: Block, under: Mapping[Node, Values], parts: Sequence[tuple[Any, Any]]) -> list[bool]:
-    residuals, slopes = _evaluated(block, under, [a.union(b) for a, b in parts])
-    lows, highs = (_evaluated(block, under, ends)[0] for ends in zip(*parts, strict=True))
-    return [
-        f is NONE
-        or bool(f > 0 or f < 0)
-        or (bool(slope > 0 or slope < 0) and NONE not in (a, b) and bool((a > 0 and b > 0) or (a < 0 and b < 0)))
-        for f, slope, a, b in zip(residuals, slopes, lows, highs, strict=True)
-    ]
+    hulls = [a.union(b) for a, b in parts]
+    out = [f is NONE or bool(f > 0 or f < 0) for f in _residuals(block, under, hulls)[0]]
+    if open_ := [k for k, excluded in enumerate(out) if not excluded]:
+        _, slopes = _evaluated(block, under, [hulls[k] for k in open_])
+        lows, highs = (_residuals(block, under, [parts[k][end] for k in open_])[0] for end in (0, 1))
+        for k, slope, a, b in zip(open_, slopes, lows, highs, strict=True):
+            one_sign = NONE not in (a, b) and bool((a > 0 and b > 0) or (a < 0 and b < 0))
+            out[k] = one_sign and bool(slope > 0 or slope < 0)
+    return out
 
 
 def _joined(parts: Sequence[Part]) -> list[Part]:

@@ -5,7 +5,7 @@ a formula is a fifth, and pi is pi. A proof shows that the numbers are those of 
 right.
 """
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from math import floor
@@ -136,12 +136,14 @@ def prove(
     tables: Iterable[Table],
     known: Mapping[str, Formula],
     lines: Mapping[str, int],
+    fields: Collection[str] = (),
 ) -> Proof:
     """Digits proved of tables and single results of a run, and of found values what roots there are.
 
     ``known`` are the worksheet's lines that declare a unit, ``lines`` where the names of the worksheet are bound.
+    Results over several positions are proved in their tables, and by themselves those of the ``fields``.
     """
-    shown = [*_of_tables(recording, tables, lines), *_of_lines(recording, namespace, known, lines)]
+    shown = [*_of_tables(recording, tables, lines), *_of_lines(recording, namespace, known, lines, fields)]
     digits = _Digits(recording)
     digits.enclose(shown)
     columns = tuple(digits.proved(each) for each in shown)
@@ -177,16 +179,20 @@ def _of_tables(recording: Recording, tables: Iterable[Table], lines: Mapping[str
 
 
 def _of_lines(
-    recording: Recording, namespace: Mapping[str, Any], known: Mapping[str, Formula], lines: Mapping[str, int]
+    recording: Recording,
+    namespace: Mapping[str, Any],
+    known: Mapping[str, Formula],
+    lines: Mapping[str, int],
+    fields: Collection[str],
 ) -> Iterator[_Shown]:
     for name, line in known.items():
         quantity, own = recording.values.get(name), np.asarray(namespace.get(name))
         if line.arguments or not isinstance(quantity, Quantity) or own.dtype.kind not in "biufc":
             continue
-        if quantity.single and own.size == 1:
-            for node, part in zip(quantity.parts, (own.real, own.imag), strict=False):
+        if name in fields or (quantity.single and own.size == 1):
+            for node, part in zip(quantity.whole().parts, (own.real, own.imag), strict=False):
                 if node.op not in LEAVES:
-                    yield _Shown("results", name, lines.get(name, 0), node, 1.0, part.reshape(1))
+                    yield _Shown("results", name, lines.get(name, 0), node, 1.0, part.reshape(-1))
 
 
 class _Digits:

@@ -13,11 +13,12 @@ import numpy as np
 
 from mechsheet import units
 from mechsheet.document import parts
+from mechsheet.recording.record import record
 from mechsheet.run import report
 from mechsheet.run.arguments import read
 from mechsheet.run.ending import INTERRUPTED, say, watch
 from mechsheet.run.progress import progress
-from mechsheet.run.proving import proof_of_wanted
+from mechsheet.run.proving import proof_of, proof_of_wanted
 from mechsheet.workbook import writing
 from mechsheet.workbook.checks_sheet import verdict
 from mechsheet.worksheet import inputs, mistakes, numbers, results
@@ -79,7 +80,8 @@ def compute(sheet: Worksheet, name: str, given: Scene) -> tuple[Outcome, dict[st
             quantities |= {quantity.name: quantity for quantity in results.quantities(want, names)}
     told, proved = inputs.readings(inputs.declared(sheet.inputs), given.inputs), tuple[str, ...]()
     if given.proof:
-        proof = proof_of_wanted(names, sheet, [*(given.want or sheet.results), *given.limits])
+        wanted = [*given.want, *given.limits]
+        proof = proof_of_wanted(names, sheet, wanted) if given.want else proof_of(names, sheet, record(names, sheet))
         judged, proved = [*judged, proof.check(given.proof)], tuple(proof.lines())
     outcome = Outcome(name, g, tuple(quantities.values()), tuple(tables), tuple(judged), tuple(told), proof=proved)
     return outcome, names
