@@ -62,21 +62,23 @@ def quotients(low: list[Any], high: list[Any]) -> list[float]:
 def worst(stem: str, given: Mapping[str, Any], every: int) -> tuple[float, int]:
     """The largest error of any slope, in roundings times its condition, and how many slopes there are.
 
-    The condition is what inputs changed by one rounding each make of the slopes, the most of several draws; a slope
-    itself counts as one.
+    The condition is what one rounding of each input makes of the slopes, added up; a slope itself counts as one.
     """
     _, results, by = recorded(stem, given)
     found = slopes(results, by)
-    rng, spread = np.random.default_rng(5), {node: np.zeros_like(found[node].ahead) for node in results}
-    for _ in range(16):
-        moved = {x: x.value * (1 + 64 * EPS * rng.choice([-1, 1], x.shape)) for x in by}
-        try:
-            there = slopes(results, by, numbers([*results, *solved_under(results)], moved))
-        except SheetError:  # these have no solution
-            continue
-        for node in results:
-            off = np.abs(there[node].ahead - found[node].ahead) / 64
-            spread[node] = np.fmax(spread[node], off)
+    spread = {node: np.zeros_like(found[node].ahead) for node in results}
+    for x in by:
+        for element in range(x.size):
+            factor = np.ones(x.size)
+            factor[element] += 64 * EPS
+            moved = {**{y: y.value for y in by}, x: x.value * factor.reshape(x.shape)}
+            try:
+                there = slopes(results, by, numbers([*results, *solved_under(results)], moved))
+            except SheetError:  # these have no solution
+                continue
+            for node in results:
+                off = np.abs(there[node].ahead - found[node].ahead) / 64
+                spread[node] += np.where(np.isfinite(off), off, 0.0)
     sizes = {node: np.max(np.abs(node.value + 0.0), initial=0.0, where=np.isfinite(node.value)) for node in results}
     most, count, k = 0.0, 0, -1
     with precision(BITS):
