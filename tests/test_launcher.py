@@ -93,7 +93,7 @@ def test_every_worksheet_stands_in_the_help_with_its_title(
 
 @pytest.mark.parametrize("argv", [["rn", "hitch"], ["--version"]])
 def test_any_other_command_names_them(argv: list[str], calls: list[list[str]]) -> None:
-    assert "run, edit, new, index and test" in refusal(*argv)
+    assert "run, html, edit, new, index and test" in refusal(*argv)
     assert not calls
 
 

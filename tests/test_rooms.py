@@ -74,7 +74,7 @@ def test_the_library_imports_from_where_a_name_is_defined(path: Path) -> None:
 
 
 # Coordinates of pictures are no numbers for a reader.
-_FORMATTING = {"worksheet/numbers.py", "document/chart_svg.py", "page/drawing.py"}
+_FORMATTING = {"worksheet/numbers.py", "document/chart_svg.py", "document/drawing_svg.py"}
 
 
 @pytest.mark.parametrize("path", [p for p in FILES if place(p) not in _FORMATTING], ids=place)

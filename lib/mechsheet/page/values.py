@@ -2,19 +2,22 @@
 
 import json
 import re
+from collections.abc import Sequence
 from datetime import date
 from functools import lru_cache, partial, singledispatch
 from html import escape
-from itertools import takewhile
 from typing import Any
 
 import marimo as mo
 import numpy as np
 
 from mechsheet import units
-from mechsheet.document import chart, chart_svg
+from mechsheet.document import chart, chart_svg, drawing_svg
+from mechsheet.document.blocks import blocks
 from mechsheet.document.markup import as_written, in_words, named
-from mechsheet.page import drawing, fields, index, switched
+from mechsheet.html import index
+from mechsheet.page import fields, switched
+from mechsheet.page.headings import heading
 from mechsheet.page.lines import lines
 from mechsheet.page.script import script
 from mechsheet.worksheet import numbers, symbol
@@ -30,7 +33,6 @@ from mechsheet.worksheet.table import Column, Figure, Table
 from mechsheet.worksheet.title import Caption, Mark, Note, Player, SideBySide, Slider, Title
 from mechsheet.worksheet.verdict import Verdict
 
-_BLOCK = 6  # columns of a table beside each other, those that name its rows apart
 # Shown by the style sheet that stands where something was refused.
 _TOLD = '<div class="ms-told" style="display:none"><span class="ms-badge ms-FAIL">not computed to its end</span> </div>'
 
@@ -89,7 +91,7 @@ def _(value: Charted) -> str:
 
 @html.register
 def _(value: Drawing) -> str:
-    return drawing.svg(value)
+    return drawing_svg.svg(value)
 
 
 @html.register
@@ -202,7 +204,7 @@ def _(summary: Summary) -> str:
 
 @html.register
 def _(made: Index) -> str:
-    return index.written(made)
+    return index.written(made, heading)
 
 
 @html.register
@@ -260,18 +262,12 @@ def _(figure: Figure) -> str:
 
 @html.register
 def _(table: Table) -> str:
-    whole = list(takewhile(lambda c: c.unit in ("-", "") and c.decimals == 0, table.columns))
-    keys = table.columns[: max(1, len(whole))] if len(whole) < len(table.columns) else table.columns[:1]
-    rest = table.columns[len(keys) :]
-    blocks = [rest[i : i + _BLOCK] for i in range(0, max(len(rest), 1), _BLOCK)]
-    if len(blocks) > 1 and len(blocks[-1]) == 1:
-        blocks[-2:] = [blocks[-2] + blocks[-1]]
     caption = _caption("Table", table.number, table.title)
     note = f'<div class="ms-note">{in_words(table.note)}</div>' if table.note else ""
-    return f'<div class="ms-table">{caption}{"".join(_block([*keys, *b]) for b in blocks)}{note}</div>'
+    return f'<div class="ms-table">{caption}{"".join(map(_block, blocks(table)))}{note}</div>'
 
 
-def _block(columns: list[Column]) -> str:
+def _block(columns: Sequence[Column]) -> str:
     kinds = ["" if c.unit else ' class="ms-text"' for c in columns]
     heads = "".join(
         f'<th{kind} title="{escape(c.meaning)}">{named(c.symbol)}</th>' for c, kind in zip(columns, kinds, strict=True)

@@ -67,7 +67,7 @@ def _script(title: str, namespace: Mapping[str, Any], worksheet: Path) -> None:
     recording, fit = _recorded(namespace)
     checks = [*_of(Check, values), fit]
     say(*inputs.readings(declared, given.inputs), *_of(Verdict, values), *checks)
-    path = (given.out or _folder(worksheet.resolve())) / f"{worksheet.stem}.xlsx"
+    path = (given.out or folder(worksheet.resolve())) / f"{worksheet.stem}.xlsx"
     write(_workbook(title, namespace, [*values, fit], recording), path)
     say(f"written {path}", *_not_followed(recording))
     if not all(check.passed for check in checks):
@@ -79,8 +79,8 @@ def _not_followed(recording: Recording) -> list[str]:
     return [f"not followed there: {gap}" for gap in recording.gaps]
 
 
-def _folder(worksheet: Path) -> Path:
-    """Where the workbook goes: into ``exports/`` of a clone of the project, elsewhere beside the worksheet."""
+def folder(worksheet: Path) -> Path:
+    """Where what is written goes: into ``exports/`` of a clone of the project, elsewhere beside the worksheet."""
     for root in worksheet.parents:
         if worksheet.is_relative_to(root / "worksheets") and (root / "lib" / "mechsheet").is_dir():
             return root / "exports"
