@@ -91,7 +91,7 @@ function chartSVG(spec, columns, results) {
     ...across.ticks.map(t => textAt(LEFT + kx * (t - across.low), under, "middle", across.text(t))),
     ...up.ticks.map(t => textAt(LEFT - 7, TOP + PLOT.height + ky * (t - up.low) + 4, "end", up.text(t))),
     textAt(LEFT + PLOT.width / 2, HEIGHT - 8, "middle", axisTitle([x], across.power)),
-    `<g transform="translate(16 ${TOP + PLOT.height / 2}) rotate(-90)">${textAt(0, 0, "middle", axisTitle(lines, up.power))}</g>`,
+    `<g transform="translate(16 ${one(TOP + PLOT.height / 2)}) rotate(-90)">${textAt(0, 0, "middle", axisTitle(lines, up.power))}</g>`,
   ];
   const readings = {
     at: Array.from(px, u => (Number.isFinite(u) ? Math.round(10 * (LEFT + u)) / 10 : null)),

@@ -7,15 +7,17 @@ import numpy as np
 
 from mechsheet import units
 from mechsheet.document import chart_svg
-from mechsheet.document.markup import HTML, named
+from mechsheet.document.markup import HTML, in_words, named
 from mechsheet.document.parts import Line
 from mechsheet.recording.lines import Recording
 from mechsheet.recording.node import Node
 from mechsheet.recording.quantity import Quantity
 from mechsheet.worksheet import numbers
 from mechsheet.worksheet.check import Check
+from mechsheet.worksheet.find import Found
 from mechsheet.worksheet.symbol import read, stem
 from mechsheet.worksheet.table import Column, Figure, Table
+from mechsheet.worksheet.verdict import Verdict
 
 Spec = dict[str, Any]  # one element of the page, as JSON
 
@@ -114,6 +116,23 @@ class Follower:
             behind=numbers.behind(unit, HTML),
             **spec,
         )
+
+    def found(self, found: Verdict) -> str:
+        """Attribute of the verdict of a solve block; that of several problems holds for the exported inputs alone."""
+        if not isinstance(found, Found) or np.ndim(found.residual):
+            return self.mark("found", words=None)
+        words, key = found.words, found.words.unknown
+        told = {
+            "unknown": in_words(words.unknown),
+            "quantity": in_words(words.quantity),
+            "factor": units.parse(words.unit).factor,
+            "suffix": numbers.suffix(words.unit),
+            "unknown_factor": units.parse(words.unknown_unit).factor,
+            "unknown_suffix": numbers.suffix(words.unknown_unit),
+            "branch": "" if found.branch is None else f"{found.branch:+d}",
+        }
+        known = key in self.recording.found and self.recording.found[key].node.op == "found"
+        return self.mark("found", key=key, words=told if known else None)
 
 
 def _listed(column: Column) -> list[Any]:

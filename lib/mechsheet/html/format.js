@@ -25,7 +25,7 @@ function positional(mantissa, power) {
   return behind ? `${before}.${behind}` : before;
 }
 
-const trimmed = text => (text.includes(".") ? text.replace(/\.?0+$/, "") : text);
+const trimmed = text => (text.includes(".") ? text.replace(/\.?0*$/, "") : text);
 
 function plainFixed(x, decimals) {
   const size = Math.abs(x);

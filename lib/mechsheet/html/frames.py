@@ -1,13 +1,14 @@
 """What a slider moves, at each of its positions: the worksheet's own pictures, made small.
 
-Pictures of neighbouring positions are alike but for their numbers: these are kept as differences beside one text.
+Pictures of one slider have most of their pieces in common: each is kept once, and of those that move the numbers alone.
 """
 
 import base64
 import json
 import re
 import zlib
-from collections.abc import Iterator, Mapping, Sequence
+from collections import Counter
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -22,6 +23,7 @@ from mechsheet.worksheet.title import Mark, Slider
 _MOST = 51  # positions of a slider
 # One that is written again as it was: not -0 or -0.0, nor with more digits than a whole number keeps.
 _NUMBER = re.compile(r"(?<![\w.])(?!-0(?:\.0+)?(?![\d.]))-?(?:0|[1-9]\d{0,8})(?:\.\d{1,6})?(?![\w.])")
+_PIECE = re.compile("<[^>]*>[^<]*|[^<]+")
 _HOLE = "\x00"
 _NO_RECORDING = Recording(Graph(), {})
 _MARK = re.compile(r' data-n="\d+"')
@@ -89,30 +91,25 @@ def _positions(control: Control) -> list[float]:
 
 def packed(found: Moved) -> str:
     """The pictures and marks of a control as base64 of compressed JSON."""
-    pictures = [_differences(each) for each in found.pictures.values()]
+    pictures = [_pieces(each) for each in found.pictures.values()]
     told = {"positions": list(found.positions), "pictures": pictures, "marks": found.marks}
     return base64.b64encode(zlib.compress(json.dumps(told, separators=(",", ":")).encode(), 9)).decode()
 
 
-def _differences(pictures: Sequence[str]) -> dict[str, Any]:
-    """Texts with a hole and the decimals for each number; each picture has its text, and how they changed."""
-    texts, of, rows = dict[str, int](), list[int](), list[list[int]]()
-    last = dict[int, list[int]]()
-    for picture in pictures:
-        numbers = list(_numbers(picture))
-        text = _NUMBER.sub(lambda m: f"{_HOLE}{_decimals(m[0])}", picture)
-        n = texts.setdefault(text, len(texts))
-        before = last.get(n, [0] * len(numbers))
-        of.append(n)
-        rows.append([x - y for x, y in zip(numbers, before, strict=True)])
-        last[n] = numbers
-    return {"texts": list(texts), "of": of, "numbers": rows}
+def _pieces(pictures: Sequence[str]) -> dict[str, Any]:
+    """Each picture as pieces that are kept once.
 
-
-def _numbers(picture: str) -> Iterator[int]:
-    """The numbers in a picture without their decimal points."""
-    for match in _NUMBER.finditer(picture):
-        yield int(match[0].replace(".", ""))
+    A piece that only one picture has holds a hole, with the decimals, for each of its numbers, which stand beside.
+    """
+    split = [_PIECE.findall(picture) for picture in pictures]
+    count = Counter(piece for each in split for piece in set(each))
+    pieces, of, rows = dict[str, int](), list[list[int]](), list[list[int]]()
+    for each in split:
+        moving = "".join(piece for piece in each if count[piece] == 1)
+        kept = (p if count[p] > 1 else _NUMBER.sub(lambda m: f"{_HOLE}{_decimals(m[0])}", p) for p in each)
+        of.append([pieces.setdefault(piece, len(pieces)) for piece in kept])
+        rows.append([int(match[0].replace(".", "")) for match in _NUMBER.finditer(moving)])
+    return {"pieces": list(pieces), "of": of, "numbers": rows}
 
 
 def _decimals(number: str) -> int:

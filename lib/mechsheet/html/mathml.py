@@ -52,6 +52,7 @@ _NUMBER = Notation(
 )
 _EMPTY = re.compile("<(mn|mtext)></\\1>")
 _THIN, _COMMA, _QUAD = '<mspace width=".17em"/>', '<mo separator="true">,</mo>', '<mspace width="1em"/>'
+_FORM = ' form="{}"'  # of a bar, which may begin or end
 _GREEK = re.compile(f"([{''.join(GREEK.values())}])")
 _UPRIGHT = re.compile("[A-ZΓΔΘΛΞΠΣΥΦΨΩ]")  # Greek capitals, and letters of an index
 _WORDS = ("mod", "and", "or")
@@ -116,10 +117,10 @@ def _digits(text: str) -> str:
     return f"<mrow>{_EMPTY.sub('', f'<mn>{text}</mn>')}</mrow>"
 
 
-def _sign(sign: str, form: str = "infix") -> str:
+def _sign(sign: str) -> str:
     if sign in _WORDS:
         return f"<mtext>\u2002{sign}\u2002</mtext>"
-    return f'<mo form="{form}">{escape(sign.replace("-", "−"))}</mo>'
+    return f"<mo>{escape(sign.replace('-', '−'))}</mo>"
 
 
 def _function(node: Function) -> str:
@@ -129,7 +130,7 @@ def _function(node: Function) -> str:
 
 
 def _signed(node: Signed) -> str:
-    return f"<mrow>{_sign(node.sign, 'prefix')}{inner(node.of)}</mrow>"
+    return f"<mrow>{_sign(node.sign)}{inner(node.of)}</mrow>"
 
 
 def _product(node: Product) -> str:
@@ -143,8 +144,9 @@ def _brackets(node: Brackets) -> str:
 
 def _fenced(left: str, inside: str, right: str, high: bool = True) -> str:
     """What stands between two signs, which are as high as it is where it is ``high``; the last one may be none."""
+    flat = "" if high else ' stretchy="false"'
     first, last = (
-        f'<mo form="{form}" fence="true" stretchy="{str(high).lower()}">{sign}</mo>' if sign else ""
+        f"<mo{_FORM.format(form) if sign == '|' else ''}{flat}>{sign}</mo>" if sign else ""
         for form, sign in (("prefix", left), ("postfix", right))
     )
     return f"<mrow>{first}<mrow>{inside}</mrow>{last}</mrow>"

@@ -16,14 +16,7 @@ function filled(text, numbers) {
   });
 }
 
-function picturesOf({texts, of, numbers}) {
-  const last = new Map();
-  return of.map((n, k) => {
-    const before = last.get(n), now = before ? numbers[k].map((x, i) => x + before[i]) : numbers[k];
-    last.set(n, now);
-    return () => filled(texts[n], now);
-  });
-}
+const picturesOf = ({pieces, of, numbers}) => of.map((each, k) => () => filled(each.map(n => pieces[n]).join(""), numbers[k]));
 
 const nearest = (positions, x) => positions.reduce((best, at, k) => (Math.abs(at - x) < Math.abs(positions[best] - x) ? k : best), 0);
 
@@ -48,7 +41,7 @@ function showMoved(name) {
 // Where along its field a line stands: where its control has it.
 function positionOf(spec) {
   const control = moving.get(spec.control);
-  return control ? Number(control.pictures[spec.picture][control.at]()) : spec.at;
+  return control && spec.at !== undefined ? Number(control.pictures[spec.picture][control.at]()) : spec.at;
 }
 
 function showAlong(spec, element) {

@@ -34,8 +34,9 @@ const show = {
     return known;
   },
   found(spec, element, results) {
-    element.innerHTML = "";
-    return false;
+    const verdict = spec.words && results.found[spec.key];
+    element.innerHTML = verdict ? foundHTML(spec.words, verdict) : "";
+    return Boolean(verdict);
   },
 };
 
@@ -172,7 +173,7 @@ function say(changed, errors, guards) {
     ? `not computed: ${[...errors.values()][0]}`
     : guards.length ? `not computed: ${guards[0]}` : changed.size ? `changed: ${names}` : "as in the document";
   bar.querySelector(".ms-state").textContent = text;
-  bar.classList.toggle("ms-refused", Boolean(errors.size || guards.length));
+  document.body.classList.toggle("ms-stopped", Boolean(errors.size || guards.length));
   bar.querySelector(".ms-back").hidden = !changed.size && !errors.size;
   bar.querySelector(".ms-save").hidden = !changed.size || Boolean(errors.size);
 }

@@ -12,8 +12,20 @@ function place(x, y) {
   tip.style.top = `${y + 14 + high > innerHeight ? Math.max(4, y - 14 - high) : y + 14}px`;
 }
 
+// Values of a chart: those that it was drawn with here, or those of the document's own.
+function readingsOf(chart) {
+  if (!chart.dataset.values) {
+    const spec = told.shown[chart.parentElement.dataset.n], results = (state.results ??= evaluate({}));
+    const columns = spec.columns.map(column => columnValues(column, results));
+    const held = document.createElement("template");
+    held.innerHTML = columns.every(Boolean) ? chartSVG(spec, columns, results) : "";
+    chart.dataset.values = held.content.firstChild?.dataset.values ?? '{"at":[]}';
+  }
+  return JSON.parse(chart.dataset.values);
+}
+
 function chartTip(chart, event) {
-  const {at, names, units, texts} = JSON.parse(chart.dataset.values);
+  const {at, names, units, texts} = chart.readings ?? (chart.readings = readingsOf(chart));
   const box = chart.getBoundingClientRect(), scale = box.width / chart.viewBox.baseVal.width;
   const x = (event.clientX - box.left) / scale;
   let best = -1;

@@ -30,6 +30,8 @@ from mechsheet.worksheet.table import Column, Figure, Table
 from mechsheet.worksheet.title import Caption, Mark, SideBySide, Title
 from mechsheet.worksheet.verdict import Verdict
 
+_READINGS = re.compile(' data-values="[^"]*"')  # of a chart: the page knows them
+
 
 @singledispatch
 def html(value: Any, page: Follower) -> str:
@@ -140,7 +142,7 @@ def _(figure: Figure, page: Follower) -> str:
     layout = chart.line_chart(figure.x, figure.lines, figure.marks, figure.every)
     follows = page.mark("chart", columns=page.figure(figure), marks=page.marks(figure), every=figure.every)
     caption = _caption("Figure", figure.number, figure.title)
-    return f'<figure class="ms-figure"><div{follows}>{chart_svg.svg(layout)}</div>{caption}</figure>'
+    return f'<figure class="ms-figure"><div{follows}>{_READINGS.sub("", chart_svg.svg(layout))}</div>{caption}</figure>'
 
 
 @html.register
@@ -219,7 +221,7 @@ def _(found: Verdict, page: Follower) -> str:
     lines = "".join(f"<div>{escape(text)}</div>" for text in found.failures())
     rows = "".join(f"<tr><th>{escape(k)}</th><td>{in_words(v)}</td></tr>" for k, v in found.details())
     return (
-        f'<div class="ms-found"{page.mark("found", keys=None)}><div>'
+        f'<div class="ms-found"{page.found(found)}><div>'
         f'<span class="ms-badge ms-{colour}">{found.word()}</span> '
         f"<b>{in_words(found.headline())}</b></div>{lines}<table>{rows}</table></div>"
     )

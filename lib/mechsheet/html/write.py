@@ -23,7 +23,7 @@ from mechsheet.worksheet.lines import registry
 from mechsheet.worksheet.title import Title
 
 _HERE = Path(__file__).parent
-_SCRIPTS = ("format.js", "chart.js", "fields.js", "page.js", "moved.js", "tip.js", "start.js")
+_SCRIPTS = ("format.js", "chart.js", "fields.js", "found.js", "page.js", "moved.js", "tip.js", "start.js")
 # The page asks for nothing: what it shows and runs stands in it.
 _POLICY = (
     "default-src 'none'; script-src {}; style-src 'unsafe-inline'; font-src data:; base-uri 'none'; form-action 'none'"
