@@ -22,7 +22,7 @@ from mechsheet.worksheet.cells import load
 ROOT = Path(__file__).parents[1]
 SHEETS = {
     "hitch": {"P6": "30000,5", "N_pol": "12", "L5": "0.47", "side_67": "right"},
-    "landing_gear": {"theta": "85"},
+    "landing_gear": {"theta": "86"},
     "joint": {"psi": "0.6"},
     "slotted_link": {"L0": "0.5"},
     "kinetostatics": {"Y_H": "0.2222"},

@@ -45,7 +45,7 @@ function axisTitle(columns, power) {
   }).join("; ");
 }
 
-const one = x => x.toFixed(1).replace(/^-(0\.0)$/, "$1");
+const one = x => fixed(x, 1, CELL);
 const textAt = (x, y, anchor, inside) => `<text x="${one(x)}" y="${one(y)}" text-anchor="${anchor}" fill="currentColor" stroke="none">${inside}</text>`;
 
 function curveSVG(n, px, py, every) {

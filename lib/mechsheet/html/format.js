@@ -7,14 +7,14 @@ const unlimited = (x, to) => (x !== x ? to.none : (x < 0 ? to.minus : "") + "∞
 
 // Whether what is cut off behind the last digit is exactly half of it; then the digit that was rounded up is taken back.
 const even = (rounded, longer, longest) =>
-  longer.at(-1) === "5" && /[13579]$/.test(rounded) && /^0*$/.test(longest.slice(longer.length));
+  longer.at(-1) === "5" && /[13579]$/.test(rounded) && /^0*$/.test(longest().slice(longer.length));
 
 // A magnitude in so many significant digits: these, and the power of ten of the first one.
 function digitsOf(x, count) {
-  const [cut, full] = [count, 100].map(n => Math.abs(x).toExponential(n).split("e")[0].replace(".", ""));
-  let [mantissa, power] = Math.abs(x).toExponential(count - 1).split("e");
-  mantissa = mantissa.replace(".", "");
-  if (even(mantissa, cut, full)) mantissa = mantissa.slice(0, -1) + (mantissa.at(-1) - 1);
+  const size = Math.abs(x), to = n => size.toExponential(n).split("e")[0].replace(".", "");
+  let mantissa = to(count - 1);
+  const power = size.toExponential(count - 1).split("e")[1];
+  if (even(mantissa, to(count), () => to(100))) mantissa = mantissa.slice(0, -1) + (mantissa.at(-1) - 1);
   return [mantissa, Number(power)];
 }
 
@@ -31,7 +31,7 @@ function plainFixed(x, decimals) {
   const size = Math.abs(x);
   if (size >= 1e21) return BigInt(size).toString() + (decimals ? `.${"0".repeat(decimals)}` : "");
   const rounded = size.toFixed(decimals);
-  if (!even(rounded, size.toFixed(decimals + 1), size.toFixed(Math.min(100, decimals + 60)))) return rounded;
+  if (!even(rounded, size.toFixed(decimals + 1), () => size.toFixed(Math.min(100, decimals + 60)))) return rounded;
   return rounded.slice(0, -1) + (rounded.at(-1) - 1);
 }
 
@@ -106,7 +106,7 @@ function span(numbers, factor) {
 function apart(values, digits = 4) {
   for (; ; digits++) {
     const rounded = values.map(x => (x === 0 ? ["0", 0] : digitsOf(x, digits)));
-    const texts = values.map((x, i) => (x < 0 ? "-" : "") + bare(...rounded[i]));
+    const texts = values.map((x, i) => (x < 0 || Object.is(x, -0) ? "-" : "") + bare(...rounded[i]));
     if (new Set(texts).size === new Set(values.map(x => x + 0)).size || digits === 17) return texts;
   }
 }
