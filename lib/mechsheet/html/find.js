@@ -248,4 +248,3 @@ function find(f, lo, hi, guess, equals = 0) {
     },
   };
 }
-const solve = (f, at) => ({x: at.map(() => NaN), evaluations: 0});

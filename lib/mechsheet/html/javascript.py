@@ -16,7 +16,7 @@ from mechsheet.recording.lines import Recording
 from mechsheet.recording.node import Block, Node, bottom_up
 from mechsheet.units import parse
 
-_FILES = "numbers.js", "find.js"
+_FILES = "numbers.js", "find.js", "solve.js"
 _WORDS = "I NaN do for if in let new of p i try var out"
 
 
@@ -213,7 +213,9 @@ def _iterated(scope: Scope, node: Node) -> str:
 def _found(scope: Scope, node: Node) -> str:
     block, number = node.args
     if block not in scope.solved:
-        scope.solved[block] = scope.bind(_solved(scope, block))
+        under = ",".join(map(scope.text, block.under))
+        search = _solved(scope, block)
+        scope.solved[block] = scope.bind(f"unless_same({json.dumps(scope.program.name())},[{under}],()=>{search})")
     part = "value" if block.single else f"x[{number}]" if number < len(block.starts) else "evaluations"
     if not node.shape:
         return f"{scope.solved[block]}.{part}"
@@ -258,7 +260,7 @@ def _residuals(scope: Scope, block: Block, unknowns: Sequence[Node], shape: str)
     size = scope.program.size(block.nodes[0])
     names = {n: scope.program.name() for n in unknowns}
     own = [n for n in bottom_up(block.residuals, {*scope.names, *names}) if n.op != "constant"]
-    each = bool(size) and block.elementwise and all(scope.program.size(n) == size for n in own)
+    each = bool(size) and block.elementwise and all(n.shape == block.nodes[0].shape for n in own)
     known = dict(names)
     if each:
         given = dict.fromkeys([*block.residuals, *(operand for n in own for operand in n.operands)])
@@ -274,12 +276,12 @@ def _residuals(scope: Scope, block: Block, unknowns: Sequence[Node], shape: str)
         f"{arguments}=>{body}"
     )  # problems at once, of which those that have other unknowns do not matter
     if block.single:
-        return f"x=>flat({all_of}(field(count({shape})).fill(x)))[p]"
-    return f"x=>{all_of}(x.map(v=>field(count({shape})).fill(v))).map(r=>flat(r)[p])"
+        return f"x=>flat({all_of}(filled({shape},x)))[p]"
+    return f"x=>{all_of}(x.map(v=>filled({shape},v))).map(r=>flat(r)[p])"
 
 
 RULES: dict[str, Rule] = {
-    "input": lambda scope, node: scope.program.inputs[node],
+    "input": lambda scope, node: f"{'Float64Array.from' if node.shape else ''}({scope.program.inputs[node]})",
     "rows": lambda scope, node: f"rows({scope.text(node.args[0])})",
     "length": _length, "take": _taken, "join": _joined, "reduce": _reduced, "exported": _exported,
     "at": lambda scope, node: f"pick({scope.text(node.args[0])},{scope.text(node.args[1])})",

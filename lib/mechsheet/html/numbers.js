@@ -18,6 +18,7 @@ const count = shape => shape.reduce((n, m) => n * m, 1);
 const whole = n => (Number.isInteger(n) && n >= 0 && n <= 1e6 ? n : 1);
 const rows = n => field(whole(n)).map((_, i) => (whole(n) == n ? i : NaN));
 const shaped = (a, shape) => Object.assign(a, {shape});
+const filled = (shape, x) => shaped(field(count(shape)).fill(x), shape);
 const pick = (a, k) => (k >= 0 && k < a.length ? a[trunc(k)] : NaN);
 
 const equal = (a, b) => {
@@ -154,6 +155,13 @@ function so_far(f, a, shape, axis) {
   const b = shaped(field(a.length), shape);
   lines(a, shape, axis, (line, j, step) => line.forEach((v, k) => (b[j + k * step] = k ? f(b[j + (k - 1) * step], v) : v)));
   return b;
+}
+
+// What was found before, unless what it rests on differs.
+const before = {};
+function unless_same(name, under, f) {
+  if (!before[name]?.under.every((x, k) => equal(x, under[k]))) before[name] = {under, value: f()};
+  return before[name].value;
 }
 
 const each = (n, f) => Array.from({length: n}, (_, p) => f(p));
