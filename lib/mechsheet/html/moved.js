@@ -50,8 +50,6 @@ function showAlong(spec, element) {
   grey(element, show.value(spec, element, results) ? "" : reasonOf(spec, results));
 }
 
-const MOVES_NOT = "drawn for the document's own inputs only";
-
 function play(button) {
   const name = button.closest(".ms-player").querySelector("[data-control]").dataset.control, control = moving.get(name);
   if (!control) return;

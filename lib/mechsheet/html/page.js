@@ -3,6 +3,7 @@ const told = JSON.parse(document.getElementById("told").textContent);
 const shownBy = told.shown.map((spec, n) => document.querySelector(`[data-n="${n}"]`));
 const first = shownBy.map(element => element.innerHTML);
 const UNKNOWN = "not known for these inputs: it holds for the document's own";
+const MOVES_NOT = "drawn for the document's own inputs only";
 const state = {changed: new Set(), refused: false, results: null};
 const moving = new Map(); // by the name of the control: its positions, pictures and marks, and which of them is shown
 
@@ -32,6 +33,10 @@ const show = {
     const known = columns.every(Boolean);
     element.innerHTML = known ? chartSVG(spec, columns, results) : "";
     return known;
+  },
+  moved(spec, element) {
+    element.innerHTML = "";
+    return false;
   },
   found(spec, element, results) {
     const verdict = spec.words && results.found[spec.key];
@@ -97,7 +102,7 @@ function refresh() {
   state.results = results;
   const guards = results?.guards ?? [];
   told.shown.forEach((spec, n) => {
-    if (spec.kind === "moved") return;
+    if (spec.kind === "moved") return own || empty(spec, shownBy[n], MOVES_NOT);
     if (own) put(shownBy[n], spec.control ? shownBy[n].innerHTML : first[n]);
     else if (errors.size || guards.length) empty(spec, shownBy[n], guards[0] ?? "an input cannot be used");
     else grey(shownBy[n], show[spec.kind](spec, shownBy[n], results) ? "" : reasonOf(spec, results));
