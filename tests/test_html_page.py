@@ -4,6 +4,8 @@ import base64
 import hashlib
 import json
 import re
+import subprocess
+import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
@@ -24,7 +26,7 @@ SHEETS = {
     "hitch": {"P6": "30000,5", "N_pol": "12", "L5": "0.47", "side_67": "right"},
     "landing_gear": {"theta": "86"},
     "joint": {"psi": "0.6"},
-    "slotted_link": {"L0": "0.7"},
+    "slotted_link": {"L0": "2.5"},
     "kinetostatics": {"Y_H": "0.2222"},
 }
 UNKNOWN = {"kinetostatics": 8}  # checks that the recording does not hold
@@ -53,8 +55,7 @@ READ = """() => {
 
 def written(name: str, given: dict[str, str]) -> str:
     sheet = load(ROOT / "worksheets" / f"{name}.py")
-    names = sheet.run(sheet.results, {"g": inputs.build(sheet.inputs, given)})
-    return write.page(sheet.title, names, sheet)
+    return write.page(sheet, inputs.build(sheet.inputs, given))
 
 
 @pytest.fixture(scope="module")
@@ -229,9 +230,8 @@ def test_texts_of_inputs_are_no_markup(tmp_path: Path, offline: Page) -> None:
     text = text.replace(line[0], f'{line[0]}    note: str = "{evil}"  # <i>what</i> it is\n', 1)
     worksheet.write_text(text, encoding="utf-8")
     sheet = load(worksheet)
-    names = sheet.run(sheet.results, {"g": sheet.inputs()})
     path = tmp_path / "evil.html"
-    path.write_text(write.page("Evil <b>title</b>", names, sheet), encoding="utf-8")
+    path.write_text(write.page(sheet, sheet.inputs()), encoding="utf-8")
     page = opened(offline, path, f"note={quote(evil + '&<script>')}")
     assert page.locator("main img").count() == 0
     assert page.locator("#input-note").input_value().startswith(evil)
@@ -269,3 +269,30 @@ def test_numbers_are_written_as_python_writes_them(document: Callable[..., Path]
 
 def power(x: float) -> str:
     return numbers.usual(x, numbers.AXIS._replace(power="{}e{}"))
+
+
+@pytest.mark.parametrize("name", ["hitch_design", "accuracy"])
+def test_a_worksheet_of_searches_or_measurements_is_refused_in_a_line(name: str, tmp_path: Path) -> None:
+    command = [sys.executable, "-m", "mechsheet", "html", str(ROOT / "worksheets" / f"{name}.py"), f"--out={tmp_path}"]
+    done = subprocess.run(command, capture_output=True, encoding="utf-8", timeout=WITHIN)
+    assert done.returncode == 1
+    assert re.fullmatch(rf"error: {name} computes by \w+, over many runs: a page cannot follow that\n", done.stderr)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_the_command_writes_the_page_with_the_inputs_given(tmp_path: Path) -> None:
+    sheet = str(ROOT / "worksheets" / "examples" / "bucket.py")
+    command = [sys.executable, "-m", "mechsheet", "html", sheet, f"--out={tmp_path}"]
+    done = subprocess.run(command, capture_output=True, encoding="utf-8", timeout=WITHIN)
+    assert done.returncode == 0, done.stderr
+    text = (tmp_path / "bucket.html").read_text(encoding="utf-8")
+    assert done.stdout == f"written {tmp_path / 'bucket.html'}, {len(text.encode()) / 1000:.0f} kB\n"
+
+
+def test_the_button_of_the_page_writes_it_with_the_inputs_there(serve: Any, page: Page, offline: Page) -> None:
+    page.goto(serve("run", ROOT / "worksheets" / "examples" / "bucket.py"))
+    page.get_by_text("Page in one file").wait_for()
+    with page.expect_download() as saved:
+        page.get_by_text("Page in one file").click()
+    path = saved.value.path().rename(saved.value.path().with_suffix(".html"))
+    expect(opened(offline, path).locator(".ms-state")).to_have_text("as in the document")

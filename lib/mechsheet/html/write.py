@@ -17,25 +17,33 @@ from mechsheet.html.frames import Moved
 from mechsheet.html.mathml import symbol
 from mechsheet.recording.record import record
 from mechsheet.worksheet import symbol as symbols
-from mechsheet.worksheet.cells import Worksheet
+from mechsheet.worksheet.cells import Worksheet, checks, refuse_open
+from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.inputs import Used, declared
 from mechsheet.worksheet.lines import registry
 from mechsheet.worksheet.title import Title
 
 _HERE = Path(__file__).parent
 _SCRIPTS = ("format.js", "chart.js", "fields.js", "found.js", "page.js", "moved.js", "tip.js", "start.js")
+_STUDIES = ("mechsheet.accuracy.", "mechsheet.studies.")
 # The page asks for nothing: what it shows and runs stands in it.
 _POLICY = (
     "default-src 'none'; script-src {}; style-src 'unsafe-inline'; font-src data:; base-uri 'none'; form-action 'none'"
 )
 
 
-def page(title: str, namespace: Mapping[str, Any], sheet: Worksheet) -> str:
-    """Text of an HTML file with everything that a whole run of a worksheet shows, in the order of its file.
+def page(sheet: Worksheet, g: Any) -> str:
+    """Text of an HTML file with everything that a worksheet shows for these inputs, in the order of its file.
 
     What the recording of the run holds follows the inputs of the page; anything else is there while these are the
     run's own.
+
+    Raises SheetError where an essential check fails, and for a worksheet of `studies`.
     """
+    if name := studies(sheet):
+        raise SheetError(f"{Path(sheet.path).stem} computes by {name}, over many runs: a page cannot follow that")
+    namespace = sheet.run(sheet.results, {"g": g})
+    refuse_open(checks(namespace))
     cells = by_cell(namespace)
     shown = [part for parts in cells.values() for part in parts]
     follower = Follower(record(namespace, sheet, whole=True, every=1))
@@ -60,10 +68,16 @@ def page(title: str, namespace: Mapping[str, Any], sheet: Worksheet) -> str:
         f'<!DOCTYPE html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n'
         f'<meta http-equiv="Content-Security-Policy" content="{policy}">\n'
         '<meta name="viewport" content="width=device-width, initial-scale=1">\n'
-        f'<meta name="color-scheme" content="light dark">\n<title>{escape(title)}</title>\n'
+        f'<meta name="color-scheme" content="light dark">\n<title>{escape(sheet.title)}</title>\n'
         f"<style>{face}\n{style}</style>\n</head>\n<body>\n{_contents(shown)}<main>{body}</main>\n"
         f'<script type="application/json" id="told">{data}</script>\n<script>{script}</script>\n</body>\n</html>\n'
     )
+
+
+def studies(sheet: Worksheet) -> str:
+    """What a worksheet searches or measures with, over many runs of another one or of a method; "" otherwise."""
+    named = ((name, f"{getattr(value, '__module__', '')}.") for name, value in sheet.common.items())
+    return next((name for name, module in named if module.startswith(_STUDIES)), "")
 
 
 def _part(at: tuple[int, int], part: Any, follower: Follower, moving: Iterable[Moved]) -> str:

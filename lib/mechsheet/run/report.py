@@ -38,7 +38,8 @@ def export(title: str, namespace: Mapping[str, Any]) -> Any:
 
     ``namespace`` is the last cell's ``globals()``.
 
-    In the page: a button that builds it when pressed, and then tells what it does not follow. In
+    In the page: a button that builds it when pressed, and then tells what it does not follow; beside it one that writes
+    the document as a page in one file. In
     ``python worksheet.py``: prints the found values and the checks, writes ``NAME.xlsx`` into ``exports/`` of the
     project whose worksheet it is, elsewhere beside the worksheet (or into ``--out``), and exits with 1 where a name
     that some cell returns does not exist or a check fails. Where a group does not close, nothing is written.
@@ -47,13 +48,21 @@ def export(title: str, namespace: Mapping[str, Any]) -> Any:
     if arguments.is_script(str(worksheet)):
         _script(title, namespace, worksheet)
         return None
-    from mechsheet.page.download import download  # on use: a worksheet called as a function needs no page
+    from mechsheet.html import write as html  # on use: a worksheet called as a function needs no page
+    from mechsheet.page.download import File, download  # on use: as above
 
-    def made() -> tuple[bytes, list[str]]:
+    def book() -> tuple[bytes, list[str]]:
         recording, fit = _recorded(namespace)
         return _workbook(title, namespace, [*parts.values(namespace), fit], recording), _not_followed(recording)
 
-    return download(made, f"{worksheet.stem}.xlsx", "Excel workbook")
+    def page() -> tuple[bytes, list[str]]:
+        return html.page(sheet, namespace["g"]).encode(), []
+
+    sheet = load(worksheet)
+    files = [File(f"{worksheet.stem}.xlsx", "Excel workbook", book)]
+    if not html.studies(sheet):
+        files.append(File(f"{worksheet.stem}.html", "Page in one file", page))
+    return download(*files)
 
 
 def _script(title: str, namespace: Mapping[str, Any], worksheet: Path) -> None:
