@@ -209,7 +209,7 @@ def test_a_slider_moves_its_pictures_and_they_are_gone_when_an_input_changes(
     page.wait_for_function(f"Math.abs({mark} - 0.57) < 1e-9")
     fill(page, "P6", "30000")
     expect(drawing.locator("svg")).to_have_count(0)
-    expect(drawing).to_have_attribute("data-reason", "drawn for the document's own inputs only")
+    expect(drawing).to_have_attribute("data-reason", "as in the document, for its own inputs only")
     page.locator(".ms-back").click()
     expect(drawing.locator("svg")).to_have_count(1)
 

@@ -97,7 +97,7 @@ function chartSVG(spec, columns, results) {
     at: Array.from(px, u => (Number.isFinite(u) ? Math.round(10 * (LEFT + u)) / 10 : null)),
     names: spec.columns.map(column => column.named),
     units: spec.columns.map(column => column.printed),
-    texts: spec.columns.map((column, n) => Array.from(columns[n], v => (Number.isFinite(v) ? fixed(v, column.decimals, CELL) : CELL.none))),
+    texts: spec.columns.map((column, n) => Array.from(columns[n], v => (Number.isFinite(v) ? fixed(v, column.decimals, AXIS) : AXIS.none))),
   };
   const moving = `transform:translateX(calc((var(--at-${x.symbol},-1e30) - ${across.low * x.factor}) / ${x.factor / kx} * 1px))`;
   return `<svg xmlns="http://www.w3.org/2000/svg" class="ms-chart" width="${WIDTH}" viewBox="0 0 ${WIDTH} ${HEIGHT}" style="max-width:100%;height:auto" fill="none" stroke="currentColor" stroke-linejoin="round" data-values="${escaped(JSON.stringify(readings))}">` +

@@ -32,6 +32,14 @@ class Follower:
         self.recording = recording
         self.keys: dict[Node, str] = {}
         self.specs: list[Spec] = []
+        self.texts: tuple[str, ...] = ()  # of the cell whose parts are written
+        self.depends = False  # whether that cell reads what others compute
+
+    def own(self, shown: str, text: str = "") -> str:
+        """What is shown for the run's inputs alone, unless it is a ``text`` as it stands in its cell."""
+        if text and any(text in constant for constant in self.texts):
+            return shown
+        return f"<span{self.mark('own')}>{shown}</span>" if self.depends else shown
 
     @property
     def wanted(self) -> dict[str, Node]:
@@ -95,7 +103,7 @@ class Follower:
         own: Spec = {"decimals": column.decimals, "power": column.power, "unit": column.unit}
         own |= {"factor": units.parse(column.unit).factor if column.unit else 1.0, "rows": len(column.values)}
         if isinstance(node, bool):
-            return own | {"key": None, "fixed": node, "texts": column.texts(), "values": _listed(column)}
+            return own | {"key": None, "fixed": node, "texts": column.texts(numbers.AXIS), "values": _listed(column)}
         return own | {"key": self.key(node)}
 
     def check(self, check: Check) -> str:
@@ -142,11 +150,11 @@ def _listed(column: Column) -> list[Any]:
 
 def _drawn(column: Column) -> Spec:
     """What a chart and its legend write of a column."""
-    name = read(stem(column.symbol))
+    name = read(stem(column.name))
     return {
         "drawn": chart_svg.inline([name]),
         "letters": len(name.mark + name.base + name.index),
-        "named": named(column.symbol),
+        "named": named(column.name),
         "printed": "" if column.unit == "-" else units.shown(column.unit),
         "symbol": column.symbol,
     }

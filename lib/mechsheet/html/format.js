@@ -117,7 +117,7 @@ function bare(mantissa, power) {
   return trimmed(`${digits[0]}.${digits.slice(1)}`) + exponent(power, 1);
 }
 
-const cellText = (x, column) => (column.power ? scientific : fixed)(x, column.decimals, CELL);
+const cellText = (x, column) => (column.power ? scientific : fixed)(x, column.decimals, AXIS);
 
 // What a check compares: told apart, and the residual with two digits where it is only rounding.
 function compared(residual, limit) {

@@ -3,7 +3,7 @@ const told = JSON.parse(document.getElementById("told").textContent);
 const shownBy = told.shown.map((spec, n) => document.querySelector(`[data-n="${n}"]`));
 const first = shownBy.map(element => element.innerHTML);
 const UNKNOWN = "not known for these inputs: it holds for the document's own";
-const MOVES_NOT = "drawn for the document's own inputs only";
+const MOVES_NOT = "as in the document, for its own inputs only";
 const state = {changed: new Set(), refused: false, results: null};
 const moving = new Map(); // by the name of the control: its positions, pictures and marks, and which of them is shown
 
@@ -33,6 +33,10 @@ const show = {
     const known = columns.every(Boolean);
     element.innerHTML = known ? chartSVG(spec, columns, results) : "";
     return known;
+  },
+  own(spec, element) {
+    element.innerHTML = "";
+    return false;
   },
   moved(spec, element) {
     element.innerHTML = "";

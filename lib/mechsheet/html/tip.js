@@ -70,6 +70,7 @@ function point(event) {
   place(event.clientX, event.clientY);
 }
 
+addEventListener("scroll", () => (tip.hidden = true), {passive: true});
 document.addEventListener("pointermove", point);
 document.addEventListener("pointerdown", point);
 document.addEventListener("click", event => {

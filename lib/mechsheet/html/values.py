@@ -12,7 +12,7 @@ import numpy as np
 
 from mechsheet import units
 from mechsheet.document import chart, chart_svg, drawing_svg
-from mechsheet.document.blocks import blocks
+from mechsheet.document.blocks import blocks, fitting
 from mechsheet.document.expression import equation, fields_by_name
 from mechsheet.document.markup import HTML, as_written, in_words, named
 from mechsheet.document.parts import Control, Line, Section, Text
@@ -62,7 +62,7 @@ def anchor(title: str) -> str:
 
 @html.register
 def _(text: Text, page: Follower) -> str:
-    return f'<div class="ms-between">{markdown.html(text.markdown)}</div>'
+    return f'<div class="ms-between">{page.own(markdown.html(text.markdown), text.markdown)}</div>'
 
 
 @html.register
@@ -118,46 +118,49 @@ def _line(formula: str, value: str = "", told: Formula | None = None) -> str:
 @html.register
 def _(table: Table, page: Follower) -> str:
     parts = "".join(_block(columns, page.columns(table, columns)) for columns in blocks(table))
-    note = f'<div class="ms-note">{in_words(table.note)}</div>' if table.note else ""
-    return f'<div class="ms-table">{_caption("Table", table.number, table.title)}{parts}{note}</div>'
+    note = f'<div class="ms-note">{page.own(in_words(table.note), table.note)}</div>' if table.note else ""
+    return f'<div class="ms-table">{_caption("Table", table.number, table.title, page)}{parts}{note}</div>'
 
 
 def _block(columns: Sequence[Column], follows: str) -> str:
     kinds = ["" if c.unit else ' class="ms-text"' for c in columns]
     heads = "".join(
-        f'<th{kind} scope="col" title="{escape(c.meaning)}">{named(c.symbol)}</th>'
+        f'<th{kind} scope="col" title="{escape(c.meaning)}">{named(c.name)}</th>'
         for c, kind in zip(columns, kinds, strict=True)
     )
     under = "".join(f"<th>{f'[{escape(units.shown(c.unit))}]' if c.unit else ''}</th>" for c in columns)
     rows = "".join(
         "<tr>" + "".join(f"<td{kind}>{t}</td>" for t, kind in zip(row, kinds, strict=True)) + "</tr>"
-        for row in zip(*(map(escape, c.texts()) for c in columns), strict=True)
+        for row in zip(*(map(escape, c.texts(numbers.AXIS)) for c in columns), strict=True)
     )
     head = f'<tr>{heads}</tr><tr class="ms-units">{under}</tr>'
-    return f'<div class="ms-wide" tabindex="0"><table{follows}><thead>{head}</thead><tbody>{rows}</tbody></table></div>'
+    fit = fitting(columns)
+    style = f' style="--fit:{fit:.2f}"' if fit < 1 else ""
+    made = f"<table{follows}{style}><thead>{head}</thead><tbody>{rows}</tbody></table>"
+    return f'<div class="ms-wide" tabindex="0">{made}</div>'
 
 
 @html.register
 def _(figure: Figure, page: Follower) -> str:
     layout = chart.line_chart(figure.x, figure.lines, figure.marks, figure.every)
     follows = page.mark("chart", columns=page.figure(figure), marks=page.marks(figure), every=figure.every)
-    caption = _caption("Figure", figure.number, figure.title)
+    caption = _caption("Figure", figure.number, figure.title, page)
     return f'<figure class="ms-figure"><div{follows}>{_READINGS.sub("", chart_svg.svg(layout))}</div>{caption}</figure>'
 
 
 @html.register
 def _(value: Caption, page: Follower) -> str:
-    return _caption("Figure", value.number, value.title)
+    return _caption("Figure", value.number, value.title, page)
 
 
-def _caption(what: str, number: str, title: str) -> str:
-    place = escape(f"{what.lower()}-{number}")
-    return f'<div class="ms-caption" id="{place}"><b>{what} {escape(number)}</b> – {escape(title)}</div>'
+def _caption(what: str, number: str, title: str, page: Follower) -> str:
+    place, words = escape(f"{what.lower()}-{number}"), page.own(escape(title), title)
+    return f'<div class="ms-caption" id="{place}"><b>{what} {escape(number)}</b> – {words}</div>'
 
 
 @html.register
 def _(drawing: Drawing, page: Follower) -> str:
-    return drawing_svg.svg(drawing)
+    return page.own(drawing_svg.svg(drawing))
 
 
 @html.register

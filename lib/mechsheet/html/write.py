@@ -1,11 +1,13 @@
 """The file of a document: one page with its style, its font, its script and what it computes."""
 
+import ast
 import base64
 import hashlib
 import json
 import re
 from collections.abc import Iterable, Mapping
 from html import escape, unescape
+from inspect import cleandoc
 from pathlib import Path
 from typing import Any
 
@@ -17,7 +19,7 @@ from mechsheet.html.frames import Moved
 from mechsheet.html.mathml import symbol
 from mechsheet.recording.record import record
 from mechsheet.worksheet import symbol as symbols
-from mechsheet.worksheet.cells import Worksheet, checks, refuse_open
+from mechsheet.worksheet.cells import Cell, Worksheet, checks, refuse_open
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.inputs import Used, declared
 from mechsheet.worksheet.lines import registry
@@ -48,7 +50,7 @@ def page(sheet: Worksheet, g: Any) -> str:
     shown = [part for parts in cells.values() for part in parts]
     follower = Follower(record(namespace, sheet, whole=True, every=1))
     moving = frames.moved(sheet, namespace, cells, follower)
-    body = "".join(_part((n, k), part, follower, moving) for n, parts in cells.items() for k, part in enumerate(parts))
+    body = "".join(_cell(n, parts, sheet.cells[n], follower, moving) for n, parts in cells.items())
     told = {
         "name": Path(sheet.path).stem,
         "inputs": fields.told(namespace["g"]),
@@ -78,6 +80,14 @@ def studies(sheet: Worksheet) -> str:
     """What a worksheet searches or measures with, over many runs of another one or of a method; "" otherwise."""
     named = ((name, f"{getattr(value, '__module__', '')}.") for name, value in sheet.common.items())
     return next((name for name, module in named if module.startswith(_STUDIES)), "")
+
+
+def _cell(n: int, parts: Iterable[Any], cell: Cell, follower: Follower, moving: Iterable[Moved]) -> str:
+    """HTML of what a cell shows."""
+    nodes = (node for line in cell.lines for node in ast.walk(line) if isinstance(node, ast.Constant))
+    follower.texts = tuple(cleandoc(node.value) for node in nodes if isinstance(node.value, str))
+    follower.depends = bool(cell.needs)
+    return "".join(_part((n, k), part, follower, moving) for k, part in enumerate(parts))
 
 
 def _part(at: tuple[int, int], part: Any, follower: Follower, moving: Iterable[Moved]) -> str:

@@ -13,13 +13,13 @@ import numpy as np
 
 from mechsheet import units
 from mechsheet.document import chart, chart_svg, drawing_svg
-from mechsheet.document.blocks import blocks
-from mechsheet.document.markup import as_written, in_words, named
+from mechsheet.document.blocks import blocks, fitting
+from mechsheet.document.markup import HTML, as_written, in_words, named
 from mechsheet.html import index
 from mechsheet.page import fields, switched
 from mechsheet.page.headings import heading
 from mechsheet.page.lines import lines
-from mechsheet.page.script import script
+from mechsheet.page.script import element, script
 from mechsheet.worksheet import numbers, symbol
 from mechsheet.worksheet.check import Check, Summary
 from mechsheet.worksheet.drawing import Drawing
@@ -195,11 +195,21 @@ def _(summary: Summary) -> str:
     failed = len(summary.checks) - passed - skipped
     count = f"{passed} of {len(summary.checks)} checks pass" + (f", {failed} fail" if failed else "")
     count += f", {skipped} not evaluated" if skipped else ""
+    worst_first = sorted(summary.checks, key=lambda check: (check.passed, not check.evaluated))
     items = "".join(
         f'<span>{_badge(check)} <a href="#{_anchor(check)}">{in_words(check.name)}</a> {escape(check.reason)}</span>'
-        for check in sorted(summary.checks, key=lambda check: (check.passed, not check.evaluated))
+        for check in worst_first
     )
-    return f'<div class="ms-summary"><b>{count}</b><div class="ms-row">{items}</div></div>'
+    bar = f"<b>{passed} of {len(summary.checks)} checks</b>" + "".join(
+        _in_bar(check) for check in worst_first[:1] if not check.passed
+    )
+    whole = f'<div class="ms-summary"><b>{count}</b><div class="ms-row">{items}</div></div>'
+    return element("ms-verdict", whole, bar=bar)
+
+
+def _in_bar(check: Check) -> str:
+    compared = f": {_compared(check, check.unit, HTML)}" if check.evaluated else ""
+    return f'<a href="#{_anchor(check)}">{_badge(check)} {in_words(check.name)}{compared}</a>'
 
 
 @html.register
@@ -270,15 +280,16 @@ def _(table: Table) -> str:
 def _block(columns: Sequence[Column]) -> str:
     kinds = ["" if c.unit else ' class="ms-text"' for c in columns]
     heads = "".join(
-        f'<th{kind} title="{escape(c.meaning)}">{named(c.symbol)}</th>' for c, kind in zip(columns, kinds, strict=True)
+        f'<th{kind} title="{escape(c.meaning)}">{named(c.name)}</th>' for c, kind in zip(columns, kinds, strict=True)
     )
     unit_row = "".join(f"<th>{f'[{_unit(c)}]' if c.unit else ''}</th>" for c in columns)
     rows = "".join(
         "<tr>" + "".join(f"<td{kind}>{t}</td>" for t, kind in zip(row, kinds, strict=True)) + "</tr>"
-        for row in zip(*(c.texts() if c.unit else map(escape, c.texts()) for c in columns), strict=True)
+        for row in zip(*(c.texts(numbers.AXIS) if c.unit else map(escape, c.texts()) for c in columns), strict=True)
     )
     head = f'<tr>{heads}</tr><tr class="ms-units">{unit_row}</tr>'
-    return switched.columns(columns, f"<table><thead>{head}</thead><tbody>{rows}</tbody></table>")
+    style = f' style="--fit:{fit:.2f}"' if (fit := fitting(columns)) < 1 else ""
+    return switched.columns(columns, f"<table{style}><thead>{head}</thead><tbody>{rows}</tbody></table>")
 
 
 def _unit(column: Column) -> str:
