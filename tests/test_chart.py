@@ -22,6 +22,10 @@ class Q:
     values: np.ndarray
     decimals: int = 3
 
+    @property
+    def name(self) -> str:
+        return self.symbol
+
 
 S = Q("S", "m", np.linspace(0.42, 0.67, 6))
 

@@ -77,6 +77,11 @@ def residual(x: float, y: float, scale: Scale) -> bool:
     return max(scale.size, abs(y)) <= SMALL * scale.limit or result(x, y, scale)
 
 
+def rounding(x: float, y: float, scale: Scale) -> bool:
+    """A residual of some roundings, whose limit is not many more."""
+    return max(scale.size, abs(y)) <= scale.limit
+
+
 def error(x: float, y: float, scale: Scale) -> bool:
     """An estimate or a measurement of an error tells its order of magnitude."""
     return x == y or (min(x, y) > 0 and abs(math.log10(x / y)) <= 1)
@@ -99,10 +104,12 @@ KINDS: tuple[tuple[str, str, str, Alike], ...] = (
     # Numbers that are no results, by the beginning of the sheet's name and of the column's head, and by the row's name,
     # in a list of lines by the row's meaning.
     (r"Checks", r"Residual", r"\bdigits\b", digits),
+    (r"Checks", r"Residual", r"but for whole turns$", rounding),
     (r"Checks", r"Residual", r"", residual),
     (r"Checks", r"Limit", r" is (its|the) slope\b", error),  # ten times what the differences say of their error
     (r"Find", r"Residual", r"", residual),
     (r"Residuals lines", r"Value", r"^(step of )?residual: ", residual),
+    (r"Residuals fields", r".*but for whole turns ", r"", rounding),
     (r"Residuals fields", r"", r"", residual),  # a result where the column is no residual, and so has no limit
     (r"Front", r"", r"^error$", error),
     # Rounding chooses which of its results is the worst: the steps of an integrator end elsewhere.

@@ -166,7 +166,7 @@ def test_edit_opens_the_worksheet_in_marimo(sheet: Path, calls: list[list[str]])
 def test_test_hands_its_arguments_to_pytest(calls: list[list[str]]) -> None:
     """Behind its own, so that ``-n 0`` is one process."""
     assert launcher.main(["test", "-k", "planar", "-n", "0"]) == 7
-    own = ["-n=logical", "--dist=worksteal"]
+    own = [f"-n={os.cpu_count() + 1}", "--dist=worksteal"]
     assert calls == [[sys.executable, "-m", "pytest", *own, "-k", "planar", "-n", "0"]]
 
 

@@ -76,6 +76,24 @@ def test_changed_input_changes_the_tables(serve, page, console_errors):
     assert console_errors == []
 
 
+def test_the_verdict_stays_in_sight_and_leads_to_the_check_that_fails(serve, page):
+    page.goto(serve("run", HITCH))
+    ready(page)
+    bar = page.locator(".ms-bar")
+    expect(bar, "the summary is in sight itself").to_be_hidden()
+    field = page.locator(".ms-inputs tr:has-text('weight of the implement') input")
+    field.scroll_into_view_if_needed()
+    cell(page, "4.1", 1, 2).scroll_into_view_if_needed()
+    expect(bar).to_have_text("24 of 24 checks")
+    field.fill("37500")
+    field.press("Enter")
+    cell(page, "4.1", 1, 2).scroll_into_view_if_needed()
+    expect(bar).to_contain_text("21 of 24 checks")
+    expect(bar).to_contain_text("pressure within its limit: Pgc − Pgc,max: 4.405 ≰ 0 MPa")
+    bar.get_by_role("link").click()
+    expect(page.locator("#check-pressure-within-its-limit-P_gc-P_gc_max")).to_be_in_viewport()
+
+
 def test_bad_input_is_told_at_its_place_and_the_inputs_stay(serve, page):
     page.goto(serve("run", HITCH))
     ready(page)
@@ -83,6 +101,7 @@ def test_bad_input_is_told_at_its_place_and_the_inputs_stay(serve, page):
     field.fill("heavy")
     field.press("Enter")
     page.get_by_text("P6 = 'heavy' N is no number").first.wait_for()
+    expect(page.locator(".ms-bar"), "there are no verdicts").to_have_count(0)
     page.wait_for_function("""() =>  // told where the verdicts of the checks were
         getComputedStyle(document.querySelector(".ms-told"), "::after").content.includes("P6 = 'heavy' N is no number")
     """)

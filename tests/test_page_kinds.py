@@ -81,17 +81,17 @@ def pasted(cell, text: str) -> None:
 def test_lists_and_tables_are_edited_in_a_grid(serve, page, section, console_errors, mode):
     """By typing, with the keys alone, and pasted from a spreadsheet program; units and decimal commas as in a field."""
     page.goto(serve(mode, section))
-    listed(page, "1", ["10.00", "-4.00", "2.50"])
+    listed(page, "1", ["10.00", "−4.00", "2.50"])
     page.get_by_label("F [kN], row 2").fill("-4,5")
     page.get_by_label("F [kN], row 2").press("Enter")
-    listed(page, "1", ["10.00", "-4.50", "2.50"])
+    listed(page, "1", ["10.00", "−4.50", "2.50"])
     assert page.evaluate("document.activeElement.ariaLabel") == "F [kN], row 3"
     page.keyboard.press("Enter")
     page.keyboard.type("500 N")
     page.keyboard.press("Enter")
-    listed(page, "1", ["10.00", "-4.50", "2.50", "0.50"])
+    listed(page, "1", ["10.00", "−4.50", "2.50", "0.50"])
     pasted(page.get_by_label("F [kN], row 4"), "1\t2\t3\r\n")  # a row of it is a list too
-    listed(page, "1", ["10.00", "-4.50", "2.50", "1.00", "2.00", "3.00"])
+    listed(page, "1", ["10.00", "−4.50", "2.50", "1.00", "2.00", "3.00"])
 
     area = page.get_by_label("A [cm²], row 1")
     listed(page, "2", ["0.667", "0.333"])

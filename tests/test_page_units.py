@@ -61,7 +61,7 @@ def test_a_number_is_written_as_the_library_writes_it(
     before = Decimal(float(np.abs(wanted[np.isfinite(wanted)]).max())).adjusted() + 1  # digits of the greatest one
     places = max(0, min(decimals + round(log10(factor / own)), 5 - before))
     for text, x in zip(found, wanted.tolist(), strict=True):
-        written = numbers.scientific(x, decimals, numbers.CELL) if power else numbers.fixed(x, places, numbers.CELL)
+        written = numbers.scientific(x, decimals, numbers.AXIS) if power else numbers.fixed(x, places, numbers.AXIS)
         assert text == written, repr(x)
     assert page.locator(".ms-chosen th ms-unit").all_text_contents() == [shown(other)]
 
@@ -83,6 +83,23 @@ def test_a_check_is_shown_in_another_unit_with_the_same_verdict(page) -> None:
     choose(page, page.locator("ms-unit").first, "kPa")
     assert "17500 ≰ 17499.99998 kPa" in page.locator("body").inner_text()
     assert page.locator("ms-unit:visible").count() == 1
+
+
+def test_a_table_is_copied_as_a_spreadsheet_reads_it(page) -> None:
+    """What is seen as a minus is a hyphen there; what stands beside tables is copied as it is."""
+    column = Column("F", "N", "force", 0, np.array([-2.5e3, 12.0]), of="F")
+    static(page, values.html(Table("1", "Forces", (column,))) + "<p id='text'>−1</p>")
+    page.add_script_tag(content=(Path(script.__file__).parent / "page.js").read_text(encoding="utf-8"))
+    copied = """of => {
+        getSelection().selectAllChildren(document.querySelector(of));
+        const clipboardData = new DataTransfer();
+        document.dispatchEvent(new ClipboardEvent("copy", {clipboardData}));
+        return ["text/plain", "text/html"].map(kind => clipboardData.getData(kind));
+    }"""
+    assert page.locator("tbody td").all_text_contents() == ["−2500", "12"]
+    text, html = page.evaluate(copied, "tbody")
+    assert text.split() == ["-2500", "12"] and "<td>-2500</td>" in html
+    assert page.evaluate(copied, "#text") == ["", ""]
 
 
 def force(page):

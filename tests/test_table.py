@@ -110,12 +110,14 @@ def test_figure_marks_are_in_the_unit_of_the_axis(names):
     assert 'R</tspan><tspan dy="4" font-size="11">56y</tspan><tspan dy="-4">\u200b</tspan> [kN]' in text
 
 
-def test_no_block_is_of_one_column(names):
-    """Wide tables are shown in blocks of six columns beside the first, but none of them for a single column."""
-    for columns, blocks in ((6, [6]), (7, [7]), (8, [6, 2]), (13, [6, 7])):
+def test_a_table_is_one_block_where_the_page_is_wide_enough(names):
+    """Else in blocks that are as good as equal, each with the column that names its rows; on paper it shrinks."""
+    for columns, blocks in ((6, [6]), (11, [11]), (13, [13]), (16, [16]), (25, [13, 12]), (40, [14, 14, 12])):
         run(f't = table("1", "T", S, *({"dRa, " * columns}))', names)
-        shown = [block.count("<th") // 2 - 1 for block in names["t"]._mime_()[1].split("<thead>")[1:]]
-        assert shown == blocks
+        text = names["t"]._mime_()[1]
+        assert [block.count("<th") // 2 - 1 for block in text.split("<thead>")[1:]] == blocks
+        assert text.count("<table") == len(blocks)
+        assert ("--fit" in text) == (max(blocks) > 13)
 
 
 def test_names_in_a_note_are_symbols(names):

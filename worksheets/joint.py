@@ -14,7 +14,7 @@ with app.setup:
     np.seterr(divide="ignore", invalid="ignore")  # an axis at infinity or a joint without load is shown so
 
     from mechsheet import (
-        Check, Drawing, Used, ask, bending, caption, check, circular_joint, export, inputs, neutral_axis, read,
+        Check, Drawing, Used, ask, bending, caption, check, circular_joint, export, index, inputs, neutral_axis, read,
         side_by_side, slider, sum_of_elements, summary, table, title_block, typeset,
     )  # fmt: skip
     from mechsheet.units import cm, deg, kgf
@@ -774,6 +774,12 @@ def drawing_51(drawn_ring, phi, ring_scheme):
 def table_53(P_k, bolt, load, phi, plane_r):
     table_53 = table("5.3", "Forces in the bolts", plane_r, load, bolt, phi, P_k)
     table_53
+    return
+
+
+@app.cell(hide_code=True)
+def listed():
+    index()
     return
 
 

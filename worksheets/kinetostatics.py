@@ -851,9 +851,9 @@ def directions(R03, R03_n, R03_t, R12, R12_n, R12_t, R23, R23_x, R23_y, gamma03,
     _t = abs(R12_t) * exp(1j * gamma12_UGL2) - R12_t * exp(1j * (phi2 + 0.5 * pi))
     checks_directions = (
         check("UGL2: |R12t| in its direction is R12t", _t, 32 * ulp, "N", of=R12_t),
-        check("UGL3: gamma23 but for whole turns", _apart(R23, gamma23, gamma23_UGL3), 1e-12, of=1),
-        check("UGL4: gamma12 but for whole turns", _apart(R12, gamma12, gamma12_UGL4), 1e-12, of=1),
-        check("UGL4: gamma03 but for whole turns", _apart(R03, gamma03, gamma03_UGL4), 1e-12, of=1),
+        check("UGL3: gamma23 but for whole turns", _apart(R23, gamma23, gamma23_UGL3), 64 * ulp, of=1),
+        check("UGL4: gamma12 but for whole turns", _apart(R12, gamma12, gamma12_UGL4), 64 * ulp, of=1),
+        check("UGL4: gamma03 but for whole turns", _apart(R03, gamma03, gamma03_UGL4), 64 * ulp, of=1),
     )
     direction_lines = typeset()
     return checks_directions, direction_lines, gamma03_UGL4, gamma12_UGL2, gamma12_UGL4, gamma23_UGL3

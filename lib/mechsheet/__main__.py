@@ -73,8 +73,9 @@ def main(argv: "list[str] | None" = None) -> int:
     if command == "test":
         if not (ROOT / "tests").is_dir():
             sys.exit(f"mechsheet: the tests are in a clone of the project, not beside {Path(__file__).parent}")
-        # On every processor; an option that is given again is the last word.
-        return call([interpreter("dev"), "-m", "pytest", "-n=logical", "--dist=worksteal", *options], cwd=ROOT)
+        # One more than there are processors: some wait for a browser. An option that is given again is the last word.
+        several = f"-n={(os.cpu_count() or 1) + 1}"
+        return call([interpreter("dev"), "-m", "pytest", several, "--dist=worksteal", *options], cwd=ROOT)
     if worksheet(command).endswith(".py"):
         sys.exit(f"mechsheet: {command} is a worksheet: run {command} computes it, edit {command} opens it")
     meant = nearest(command, [*COMMANDS, *("run " + name for name in worksheets())])

@@ -23,7 +23,7 @@ table ``[extreme]``:
 import tomllib
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import partial
+from functools import lru_cache, partial
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -175,13 +175,22 @@ def read(path: Path) -> Scene:
 
 
 def measured_scenes(worksheets: Path, short: bool) -> list[MeasuredScene]:
-    """Every listed scene with all results of its cases; see `measure`."""
+    """Every listed scene with all results of its cases; see `measure`.
+
+    The same worksheets are measured once: a cell runs again where it is recorded.
+    """
+    texts = tuple(path.read_bytes() for path in sorted(worksheets.glob("*.py")))
+    return [*_measured_scenes(worksheets, texts, short)]
+
+
+@lru_cache(maxsize=1)
+def _measured_scenes(worksheets: Path, texts: tuple[bytes, ...], short: bool) -> tuple[MeasuredScene, ...]:
     listed, found = scenes(), []
     with progress(len(listed), "scenes") as done:
         for scene in listed:
             found.append(MeasuredScene(**vars(scene), outcomes=measure(scene, worksheets, short)))
             done()
-    return found
+    return tuple(found)
 
 
 def measure(scene: Scene, worksheets: Path, short: bool = False) -> list[Outcome]:

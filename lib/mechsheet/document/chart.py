@@ -29,6 +29,8 @@ class Plotted(Protocol):
     @property
     def symbol(self) -> str: ...
     @property
+    def name(self) -> str: ...
+    @property
     def unit(self) -> str: ...
     @property
     def decimals(self) -> int: ...
@@ -174,7 +176,7 @@ def _title(quantities: Sequence[Plotted], power: int) -> tuple[Symbol | str, ...
     parts = list[Symbol | str]()
     for unit, members in groupby(quantities, key=lambda q: q.unit):
         for i, quantity in enumerate(members):
-            parts += [", " if i else "; " if parts else "", read(stem(quantity.symbol))]
+            parts += [", " if i else "; " if parts else "", read(stem(quantity.name))]
         factor = f"10{units.raised(power)} " if power else ""
         shown = f"{factor}{units.shown(unit)}" if unit != "-" else factor.strip()
         parts.append(f" [{shown}]" if shown else "")
@@ -184,13 +186,13 @@ def _title(quantities: Sequence[Plotted], power: int) -> tuple[Symbol | str, ...
 def _legend(lines: Sequence[Plotted]) -> Iterator[Sample]:
     left = float(_LEFT)
     for i, line in enumerate(lines):
-        name = read(stem(line.symbol))
+        name = read(stem(line.name))
         yield Sample(_stroke(i), left, 17, _SAMPLE, Label(left + _SAMPLE + 5, 21, (name,), "start"))
         left += _SAMPLE + 5 + _LETTER * len(name.mark + name.base + name.index) + 16
 
 
 def _reading(quantity: Plotted) -> Reading:
-    to = numbers.CELL
+    to = numbers.AXIS
     texts = [numbers.fixed(v, quantity.decimals, to) if isfinite(v) else to.none for v in quantity.values.tolist()]
     unit = "" if quantity.unit == "-" else units.shown(quantity.unit)
-    return Reading(quantity.symbol, unit, tuple(texts))
+    return Reading(quantity.name, unit, tuple(texts))

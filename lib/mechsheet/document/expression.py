@@ -306,8 +306,8 @@ class _Reader:
                 return self.function("abs" if name == "norm" else name, [x])
             case ast.Call(ast.Attribute(x, ("max" | "min" | "sum" | "mean") as name), args, keywords):
                 if len(args) + len(keywords) < 2:
-                    axis = [ast.keyword("axis", arg) for arg in args]
-                    return self.call(ast.Call(ast.Name(name), [x], [*axis, *keywords]))
+                    along = [ast.keyword("axis", arg) for arg in args]
+                    return self.call(ast.Call(ast.Name(name), [x], [*along, *keywords]))
         return None
 
     def sum(self, terms: ast.GeneratorExp | ast.ListComp) -> Node | None:

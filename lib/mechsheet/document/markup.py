@@ -32,7 +32,8 @@ def as_written(name: str) -> str:
 def in_words(sentence: str) -> str:
     """A sentence, the names of quantities in it as their symbols.
 
-    >>> in_words("omega3 < 1, theta/2")
-    '<i>ω</i><sub>3</sub> &lt; 1, <i>θ</i>/2'
+    >>> in_words("omega3 - 1 < 0, theta/2")
+    '<i>ω</i><sub>3</sub> − 1 &lt; 0, <i>θ</i>/2'
     """
-    return "".join(named(piece) if i % 2 else escape(piece) for i, piece in enumerate(symbol.pieces(sentence)))
+    pieces = enumerate(symbol.pieces(sentence))
+    return "".join(named(piece) if i % 2 else escape(piece).replace(" - ", " − ") for i, piece in pieces)

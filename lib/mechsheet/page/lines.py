@@ -42,9 +42,7 @@ def _formula(line: Formula, value: object, shown: Typeset) -> str:
     if line.arguments:
         return _line(_equation(line, single), "", line.meaning, line.number, mistake=line.mistake, name=line.name)
     text = "" if shown.numbers is None else _substituted(line, shown.numbers, shown.position)
-    value_text = switched.value(
-        symbol.stem(line.name), line.unit, lambda unit, notation: numbers.value(value, unit, notation)
-    )
+    value_text = switched.value(symbol.stem(line.name), line.unit, numbers.in_any_unit(value))
     told = line.meaning, line.number, text, line.mistake, line.name
     return _line(f"{_equation(line, single)} =", value_text, *told)
 

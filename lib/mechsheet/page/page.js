@@ -52,6 +52,31 @@
   }
   customElements.define("ms-figure", Figure);
 
+  // The verdict stays in sight: of a page long enough to lose it, a bar tells it wherever one reads.
+  const bar = document.createElement("div");
+  bar.className = "ms-bar";
+  bar.role = "status";
+
+  class Verdict extends HTMLElement {
+    static observedAttributes = ["bar"];
+
+    connectedCallback() {
+      this.seen = new IntersectionObserver(([{ isIntersecting }]) => (bar.hidden = isIntersecting));
+      this.seen.observe(this);
+      document.body.append(bar);
+    }
+
+    disconnectedCallback() {
+      this.seen.disconnect();
+      if (!document.querySelector("ms-verdict")) bar.remove(); // another one may have come in its place
+    }
+
+    attributeChangedCallback() {
+      bar.innerHTML = this.getAttribute("bar");
+    }
+  }
+  customElements.define("ms-verdict", Verdict);
+
   document.addEventListener("change", (event) => {
     if (!event.target.matches(".ms-switch")) return;
     document.documentElement.classList.toggle("ms-with-numbers", event.target.checked);
@@ -130,6 +155,17 @@
     playing.set(button, { timer, back: false });
     button.textContent = "❚❚";
     button.ariaLabel = "pause";
+  });
+
+  // Copied from a table, a minus is a hyphen: a spreadsheet reads no other.
+  document.addEventListener("copy", (event) => {
+    const selection = getSelection();
+    if (!selection.anchorNode?.parentElement?.closest(".ms-table")) return;
+    const copy = document.createElement("div");
+    copy.append(selection.getRangeAt(0).cloneContents());
+    event.clipboardData.setData("text/plain", selection.toString().replaceAll("−", "-"));
+    event.clipboardData.setData("text/html", copy.innerHTML.replaceAll("−", "-"));
+    event.preventDefault();
   });
 
   // Values of a chart where the pointer is.

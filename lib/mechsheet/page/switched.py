@@ -51,5 +51,5 @@ def _column(column: Column) -> dict[str, Any]:
         "units": {label: units.parse(unit).factor for label, unit in known.items()},
         "decimals": column.decimals,
         "power": column.power,
-        "values": [x if isfinite(x) else numbers.fixed(x, 0, numbers.CELL) for x in column.values.tolist()],
+        "values": [x if isfinite(x) else numbers.fixed(x, 0, numbers.AXIS) for x in column.values.tolist()],
     }

@@ -118,7 +118,7 @@
     const [digits, power] = Math.abs(x).toExponential(decimals).split("e");
     const [longer, same] = Math.abs(x).toExponential(decimals + MORE).split("e");
     const mantissa = power === same ? even(digits, longer) : digits;
-    return signed(x, `${mantissa}e${power[0]}${power.slice(1).padStart(2, "0")}`);
+    return signed(x, `${mantissa}e${power[0].replace("-", "−")}${power.slice(1).padStart(2, "0")}`);
   }
 
   const MORE = 20; // digits behind the last one, by which a number half-way between two texts is known
@@ -129,7 +129,7 @@
   }
 
   function signed(x, text) {
-    return x < 0 && /[1-9]/.test(text.split("e")[0]) ? `-${text}` : text;
+    return x < 0 && /[1-9]/.test(text.split("e")[0]) ? `−${text}` : text;
   }
 
   const menu = document.createElement("div");

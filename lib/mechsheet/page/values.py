@@ -2,10 +2,12 @@
 
 import json
 import re
+from collections.abc import Sequence
 from datetime import date
 from functools import lru_cache, partial, singledispatch
 from html import escape
 from itertools import takewhile
+from math import ceil
 from typing import Any
 
 import marimo as mo
@@ -13,10 +15,10 @@ import numpy as np
 
 from mechsheet import units
 from mechsheet.document import chart, chart_svg
-from mechsheet.document.markup import as_written, in_words, named
+from mechsheet.document.markup import HTML, as_written, in_words, named
 from mechsheet.page import drawing, fields, index, switched
 from mechsheet.page.lines import lines
-from mechsheet.page.script import script
+from mechsheet.page.script import element, script
 from mechsheet.worksheet import numbers, symbol
 from mechsheet.worksheet.check import Check, Summary
 from mechsheet.worksheet.drawing import Drawing
@@ -30,7 +32,7 @@ from mechsheet.worksheet.table import Column, Figure, Table
 from mechsheet.worksheet.title import Caption, Mark, Note, Player, SideBySide, Slider, Title
 from mechsheet.worksheet.verdict import Verdict
 
-_BLOCK = 6  # columns of a table beside each other, those that name its rows apart
+_SCREEN, _PAPER = 64.0, 54.0  # widths in em that a table may take; on paper its letters shrink before it breaks
 # Shown by the style sheet that stands where something was refused.
 _TOLD = '<div class="ms-told" style="display:none"><span class="ms-badge ms-FAIL">not computed to its end</span> </div>'
 
@@ -193,11 +195,19 @@ def _(summary: Summary) -> str:
     failed = len(summary.checks) - passed - skipped
     count = f"{passed} of {len(summary.checks)} checks pass" + (f", {failed} fail" if failed else "")
     count += f", {skipped} not evaluated" if skipped else ""
+    worst_first = sorted(summary.checks, key=lambda check: (check.passed, not check.evaluated))
     items = "".join(
         f'<span>{_badge(check)} <a href="#{_anchor(check)}">{in_words(check.name)}</a> {escape(check.reason)}</span>'
-        for check in sorted(summary.checks, key=lambda check: (check.passed, not check.evaluated))
+        for check in worst_first
     )
-    return f'<div class="ms-summary"><b>{count}</b><div class="ms-row">{items}</div></div>'
+    bar = f"<b>{passed} of {len(summary.checks)} checks</b>" + "".join(_in_bar(check) for check in worst_first[:1] if not check.passed)
+    whole = f'<div class="ms-summary"><b>{count}</b><div class="ms-row">{items}</div></div>'
+    return element("ms-verdict", whole, bar=bar)
+
+
+def _in_bar(check: Check) -> str:
+    compared = f": {_compared(check, check.unit, HTML)}" if check.evaluated else ""
+    return f'<a href="#{_anchor(check)}">{_badge(check)} {in_words(check.name)}{compared}</a>'
 
 
 @html.register
@@ -263,26 +273,34 @@ def _(table: Table) -> str:
     whole = list(takewhile(lambda c: c.unit in ("-", "") and c.decimals == 0, table.columns))
     keys = table.columns[: max(1, len(whole))] if len(whole) < len(table.columns) else table.columns[:1]
     rest = table.columns[len(keys) :]
-    blocks = [rest[i : i + _BLOCK] for i in range(0, max(len(rest), 1), _BLOCK)]
-    if len(blocks) > 1 and len(blocks[-1]) == 1:
-        blocks[-2:] = [blocks[-2] + blocks[-1]]
+    room = _SCREEN - sum(map(_width, keys))
+    blocks = ceil(sum(map(_width, rest)) / room) if room > 0 else len(rest)
+    each = ceil(len(rest) / max(1, blocks)) or 1
+    shown = "".join(_block([*keys, *rest[i : i + each]]) for i in range(0, max(len(rest), 1), each))
     caption = _caption("Table", table.number, table.title)
     note = f'<div class="ms-note">{in_words(table.note)}</div>' if table.note else ""
-    return f'<div class="ms-table">{caption}{"".join(_block([*keys, *b]) for b in blocks)}{note}</div>'
+    return f'<div class="ms-table">{caption}{shown}{note}</div>'
 
 
-def _block(columns: list[Column]) -> str:
+def _width(column: Column) -> float:
+    """Room that a column takes, in em: its longest text, and what stands on both sides of it."""
+    return 1.4 + 0.56 * max(map(len, (column.symbol, f"[{column.unit}]", *column.texts())))
+
+
+def _block(columns: Sequence[Column]) -> str:
     kinds = ["" if c.unit else ' class="ms-text"' for c in columns]
     heads = "".join(
-        f'<th{kind} title="{escape(c.meaning)}">{named(c.symbol)}</th>' for c, kind in zip(columns, kinds, strict=True)
+        f'<th{kind} title="{escape(c.meaning)}">{named(c.name)}</th>' for c, kind in zip(columns, kinds, strict=True)
     )
     unit_row = "".join(f"<th>{f'[{_unit(c)}]' if c.unit else ''}</th>" for c in columns)
     rows = "".join(
         "<tr>" + "".join(f"<td{kind}>{t}</td>" for t, kind in zip(row, kinds, strict=True)) + "</tr>"
-        for row in zip(*(c.texts() if c.unit else map(escape, c.texts()) for c in columns), strict=True)
+        for row in zip(*(c.texts(numbers.AXIS) if c.unit else map(escape, c.texts()) for c in columns), strict=True)
     )
     head = f'<tr>{heads}</tr><tr class="ms-units">{unit_row}</tr>'
-    return switched.columns(columns, f"<table><thead>{head}</thead><tbody>{rows}</tbody></table>")
+    fit = min(1.0, _PAPER / sum(map(_width, columns)))
+    style = f' style="--fit:{fit:.2f}"' if fit < 1 else ""
+    return switched.columns(columns, f"<table{style}><thead>{head}</thead><tbody>{rows}</tbody></table>")
 
 
 def _unit(column: Column) -> str:

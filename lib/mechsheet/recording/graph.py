@@ -1,5 +1,6 @@
 """The graph of a recording: quantities as operations on other quantities, and how they are made."""
 
+import math
 import weakref
 from collections.abc import Callable, Sequence
 from contextvars import ContextVar
@@ -68,7 +69,7 @@ class Graph:
         self.sizes: dict[Node, tuple[Node, ...]] = {}
         self.pivots = set[Node]()  # conditions that put the rows of linear equations in order, which may be unlike
         self.nodes: dict[Any, Node] = {}
-        self.alike: dict[Any, list[Node]] = {}  # exported ones by what they rest on, their type and shape
+        self.alike: dict[Any, list[tuple[float, Node]]] = {}  # exported, by what they rest on and shape
         self.looked: dict[Node, Guard] = {}  # by their conditions; since somebody emptied it
         self.numbered: dict[Node, Guard] = {}  # those of numbers of rows, likewise
         self.gone: list[weakref.ref[Any]] = []  # arrays in whose place another one was put
@@ -207,12 +208,14 @@ class Graph:
         """
         array = _fixed(np.array(value))
         alike = self.alike.setdefault((tuple(rests_on), array.dtype.char, array.shape), [])
-        for node in alike:
-            if np.allclose(node.value, array, rtol=4 * np.finfo(float).eps, atol=0, equal_nan=True):
+        size = float(np.nansum(np.abs(array)))
+        for other, node in alike:
+            if math.isclose(other, size) and np.allclose(node.value, array, 4 * np.finfo(float).eps, 0, equal_nan=True):
                 return node
         key = ("exported", tuple(rests_on), array.dtype.char, array.shape, array.tobytes())
-        alike.append(self._kept(key, "exported", tuple(rests_on), lambda: array, False))
-        return alike[-1]
+        new = self._kept(key, "exported", tuple(rests_on), lambda: array, False)
+        alike.append((size, new))
+        return new
 
     def constant(self, value: Any, *unit: str) -> Node:
         """A number or an array of numbers; in SI where a unit says what it measures."""

@@ -1,6 +1,6 @@
 """Numbers as texts: how many digits are shown, and how a notation writes them, with their unit."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from decimal import Decimal
 from functools import cache, lru_cache
 from math import inf, isfinite, isnan
@@ -90,19 +90,28 @@ def value(values: Any, unit: str, to: Notation) -> str:
     A few numbers stand in full, a small matrix in rows; of more numbers the least .. the greatest, with how many there
     are not, of more points the first .. the last, of a closed path the least .. the greatest x and y.
     """
+    return in_any_unit(values)(unit, to)
+
+
+def in_any_unit(values: Any) -> Callable[[str, Notation], str]:
+    """What `value` says of the values in a unit and a notation; they are looked at once."""
     field = np.asarray(values)
     several = _MOST_POINTS if field.dtype.kind == "c" else _MOST_NUMBERS
     if field.ndim == 2 and max(field.shape) <= _MOST_ROWS:
-        text = "[" + "; ".join(", ".join(_end(x, unit, to) for x in row) for row in field.tolist()) + "]"
-    elif field.size <= several:
-        text = ", ".join(_end(x, unit, to) for x in field.ravel().tolist())
-    elif field.dtype.kind == "c" and np.abs(field.flat[-1] - field.flat[0]) <= 1e-9 * _largest(field):
-        text = to.pair.format(_span(field.real, unit, to), _span(field.imag, unit, to))
-    elif field.dtype.kind == "c":
-        text = to.span.join(_end(end.item(), unit, to) for end in (field.flat[0], field.flat[-1]))
-    else:
-        return _extent(field, unit, to)
-    return text + behind(unit, to)
+        rows = field.tolist()
+        return lambda unit, to: "[" + "; ".join(_each(row, unit, to) for row in rows) + "]" + behind(unit, to)
+    if field.size <= several:
+        all_of_them = field.ravel().tolist()
+        return lambda unit, to: _each(all_of_them, unit, to) + behind(unit, to)
+    if field.dtype.kind != "c":
+        ends, lost = _ends(field), int(np.count_nonzero(np.isnan(field)))
+        of = f" ({lost} of {field.size} {{}})" if 0 < lost < field.size else ""
+        return lambda unit, to: _from_to(ends, unit, to) + behind(unit, to) + of.format(to.none)
+    if np.abs(field.flat[-1] - field.flat[0]) <= 1e-9 * _largest(field):
+        x, y = _ends(field.real), _ends(field.imag)
+        return lambda unit, to: to.pair.format(_from_to(x, unit, to), _from_to(y, unit, to)) + behind(unit, to)
+    first_last = field.flat[0].item(), field.flat[-1].item()
+    return lambda unit, to: to.span.join(_end(end, unit, to) for end in first_last) + behind(unit, to)
 
 
 _MOST_NUMBERS, _MOST_POINTS, _MOST_ROWS = 10, 4, 4  # that stand in full
@@ -113,17 +122,19 @@ def _largest(field: NDArray[Any]) -> float:
     return float(np.max(np.abs(field), where=~np.isnan(field), initial=0.0))
 
 
-def _extent(field: NDArray[Any], unit: str, to: Notation) -> str:
-    lost = np.count_nonzero(np.isnan(field))
-    none = f" ({lost} of {field.size} {to.none})" if 0 < lost < field.size else ""
-    return _span(field, unit, to) + behind(unit, to) + none
+def _each(values: list[Any], unit: str, to: Notation) -> str:
+    return ", ".join(_end(x, unit, to) for x in values)
 
 
-def _span(field: NDArray[Any], unit: str, to: Notation) -> str:
-    """Least and greatest number that there is, without their unit."""
+def _ends(field: NDArray[Any]) -> tuple[float, ...]:
+    """Least and greatest number that there is; a NaN where there is none."""
     known = field[~np.isnan(field)]
-    ends = (known.min(), known.max()) if known.size else (field.flat[0],)
-    return to.span.join(dict.fromkeys(_end(end.item(), unit, to) for end in ends))
+    return (known.min().item(), known.max().item()) if known.size else (field.flat[0].item(),)
+
+
+def _from_to(ends: tuple[float, ...], unit: str, to: Notation) -> str:
+    """Least and greatest number, without their unit."""
+    return to.span.join(dict.fromkeys(_end(end, unit, to) for end in ends))
 
 
 def quantity(z: float | complex, unit: str, to: Notation) -> str:

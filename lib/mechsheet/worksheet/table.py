@@ -42,10 +42,15 @@ class Column:
     power: bool = False
     of: str = ""
 
-    def texts(self) -> list[str]:
+    @property
+    def name(self) -> str:
+        """What it is called: as the line declares it, of a part as its heading is."""
+        return self.of if symbol.plain(self.of) == self.symbol else self.symbol
+
+    def texts(self, to: numbers.Notation = numbers.CELL) -> list[str]:
         """The values as they are shown."""
         written = numbers.scientific if self.power else numbers.fixed
-        return [v if isinstance(v, str) else written(v, self.decimals, numbers.CELL) for v in self.values.tolist()]
+        return [v if isinstance(v, str) else written(v, self.decimals, to) for v in self.values.tolist()]
 
 
 @dataclass(frozen=True)
