@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -13,15 +13,17 @@ if TYPE_CHECKING:
 _RUN = """(all) => {
   %s
   const plain = v => (v instanceof Float64Array ? [Array.from(v), v.shape ?? [v.length]] : v === undefined ? null : v);
+  const told = v => (v instanceof Float64Array ? Array.from(v) : Array.isArray(v) ? v.map(told)
+    : v && typeof v == "object" ? Object.fromEntries(Object.keys(v).map(key => [key, told(v[key])])) : v);
   return all.map(given => {
     const out = evaluate(given);
     const values = Object.fromEntries(Object.entries(out.values).map(([key, v]) => [key, plain(v)]));
-    return {values, gaps: out.gaps, guards: out.guards};
+    return {values, gaps: out.gaps, guards: out.guards, found: told(out.found)};
   });
 }"""
 
 
-def evaluated(page: Page, script: str, given: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
+def evaluated(page: Page, script: str, given: Iterable[Mapping[str, Any]]) -> list[dict[str, Any]]:
     """What a script gives for several sets of inputs; a value that it knows nothing of is None."""
     inputs = [{name: np.asarray(x, float).tolist() for name, x in each.items()} for each in given]
     found: list[dict[str, Any]] = page.evaluate(_RUN % script, inputs)

@@ -16,7 +16,7 @@ from mechsheet.recording.lines import Recording
 from mechsheet.recording.node import Block, Node, bottom_up
 from mechsheet.units import parse
 
-_FILES = "numbers.js", "find.js", "solve.js"
+_NUMBERS, _FIND, _SOLVE = "numbers.js", "find.js", "solve.js"
 _WORDS = "I NaN do for if in let new of p i try var out"
 
 
@@ -33,12 +33,13 @@ def module(recording: Recording, wanted: Mapping[str, Node]) -> str:
     - ``guards``: why all of the worksheet may be otherwise for these inputs;
     - ``found``: the verdict of each found value of the recording, of an array of problems an array of them.
     """
-    functions = runtime()
+    found = {key: solved.node for key, solved in recording.found.items() if solved.node.op == "found"}
+    results = [*wanted.values(), *found.values()]
+    single = {node.args[0].single for node in bottom_up(results, ()) if node.op == "found"}
+    functions = runtime(*(_NUMBERS, _FIND, _SOLVE)[: 3 if False in single else 1 + len(single)])
     program = Program(recording.graph, RULES, frozenset(_WORDS.split()) | set(re.findall(r"[A-Za-z]\w*", functions)))
     names = {node: json.dumps(name) for name, node in recording.inputs.items()}
     program.inputs = {node: f"I[{name}]" for node, name in names.items()}
-    found = {key: solved.node for key, solved in recording.found.items() if solved.node.op == "found"}
-    results = [*wanted.values(), *found.values()]
     conditions = [node.args[0] for node in bottom_up(results, ()) if _is_guarded(recording, node)]
     gaps = {gap.line for gap in recording.gaps}
     looked = {
@@ -64,9 +65,9 @@ def module(recording: Recording, wanted: Mapping[str, Node]) -> str:
 
 
 @cache
-def runtime() -> str:
+def runtime(*files: str) -> str:
     """The functions that a script stands on, without their comments."""
-    texts = [Path(__file__).with_name(name).read_text(encoding="utf-8") for name in _FILES]
+    texts = [Path(__file__).with_name(name).read_text(encoding="utf-8") for name in files]
     return "\n".join(line.strip() for text in texts for line in text.splitlines() if line.strip()[:2] not in ("", "//"))
 
 
@@ -229,9 +230,10 @@ def _solved(scope: Scope, block: Block) -> str:
     shape = _shape_of_problems(scope, block) if node.shape else ""
     unknowns = block.nodes[: len(block.starts)] if not block.single else block.nodes
     starts = {name: [_of_problem(scope, n, node, shape) for n in nodes] for name, nodes in block.starts.items()}
+    equals = "".join(_of_problem(scope, n, node, shape) for n in block.sides[1:])
     function = _residuals(scope, block, unknowns, shape)
     if block.single:
-        ends = (starts.get(name, ["null"])[0] for name in ("lo", "hi", "guess"))
+        ends = [*(starts.get(name, ["null"])[0] for name in ("lo", "hi", "guess")), equals]
         call = f"find({function},{','.join(ends)})"
     else:
         at = ",".join(f"[{','.join(ends)}]" for ends in starts.values())
@@ -256,25 +258,28 @@ def _shape_of_problems(scope: Scope, block: Block) -> str:
 
 
 def _residuals(scope: Scope, block: Block, unknowns: Sequence[Node], shape: str) -> str:
-    """The residuals as a function of the unknowns: of those of problem p where the operations are of each by itself."""
-    size = scope.program.size(block.nodes[0])
+    """The residuals as a function of the unknowns, of a single one the quantity that shall equal another one.
+
+    Where the operations are of each problem by itself, it is of problem p.
+    """
+    roots = block.sides[:1] or block.residuals
     names = {n: scope.program.name() for n in unknowns}
-    own = [n for n in bottom_up(block.residuals, {*scope.names, *names}) if n.op != "constant"]
-    each = bool(size) and block.elementwise and all(n.shape == block.nodes[0].shape for n in own)
-    known = dict(names)
+    own = [n for n in bottom_up(roots, {*scope.names, *names}) if n.op != "constant"]
+    many = bool(block.nodes[0].shape)
+    each = many and block.elementwise and all(n.shape == block.nodes[0].shape for n in own)
+    lengths = enumerate(scope.program.size(block.nodes[0]))
+    known = names | {n: f"{shape}[{k}]" for k, n in lengths if isinstance(n, Node) and n not in scope.names}
     if each:
-        given = dict.fromkeys([*block.residuals, *(operand for n in own for operand in n.operands)])
+        given = dict.fromkeys([*roots, *(operand for n in own for operand in n.operands)])
         known |= {n: _of_problem(scope, n, block.nodes[0], shape) for n in given if n.shape and n not in {*own, *names}}
     inner = scope.inner(known, each)
-    inner.write(block.residuals)
-    results = [inner.text(r) for r in block.residuals]
+    inner.write(roots)
+    results = [inner.text(root) for root in roots]
     arguments = next(iter(names.values())) if block.single else f"([{','.join(names.values())}])"
     body = f"{{{''.join(inner.lines)}return {results[0] if block.single else '[' + ','.join(results) + ']'}}}"
-    if each or not size:
+    if each or not many:
         return f"{arguments}=>{body}"
-    all_of = scope.bind(
-        f"{arguments}=>{body}"
-    )  # problems at once, of which those that have other unknowns do not matter
+    all_of = scope.bind(f"{arguments}=>{body}")  # of all problems at once, as if all had these unknowns
     if block.single:
         return f"x=>flat({all_of}(filled({shape},x)))[p]"
     return f"x=>{all_of}(x.map(v=>filled({shape},v))).map(r=>flat(r)[p])"

@@ -13,6 +13,7 @@ const mod = (x, y) => {
 };
 
 const field = n => new Float64Array(n);
+const nothing = n => field(n).fill(NaN);
 const flat = a => (a.length === undefined ? [a] : a);
 const count = shape => shape.reduce((n, m) => n * m, 1);
 const whole = n => (Number.isInteger(n) && n >= 0 && n <= 1e6 ? n : 1);
@@ -43,11 +44,12 @@ function gather(a, at) {
 }
 
 // A field in the shape that it has together with others; no numbers where they do not go together.
-function spread(a, from, to) {
-  const own = Array(max(to.length - from.length, 0)).fill(1).concat(from);
-  if (own.length > to.length || own.some((n, k) => n != 1 && n != to[k])) return field(count(to)).fill(NaN);
-  return gather(a, positions(to, strides(own).map((step, k) => (own[k] == 1 ? 0 : step))));
-}
+const spreading = (from, to) => {
+  const own = [...to.slice(from.length).map(() => 1), ...from], steps = strides(own);
+  const fits = own.length == to.length && own.every((n, k) => n == 1 || n == to[k]);
+  return fits ? positions(to, steps.map((step, k) => (own[k] == 1 ? 0 : step))) : nothing(count(to));
+};
+const spread = (a, from, to) => gather(a, spreading(from, to));
 
 const together = (...shapes) => {
   const axes = max(...shapes.map(shape => shape.length));
@@ -104,7 +106,6 @@ function joined(parts, shapes, axis) {
 
 const stacked = (parts, shapes, axis) =>
   joined(parts, shapes.map(shape => [...shape.slice(0, axis), 1, ...shape.slice(axis)]), axis);
-const nothing = n => field(n).fill(NaN);
 
 function all_of(...parts) {
   const a = field(parts.reduce((n, part) => n + flat(part).length, 0));

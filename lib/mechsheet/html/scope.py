@@ -96,13 +96,17 @@ class Scope:
 
     def spread(self, node: Node, shape: str) -> str:
         """A field in another shape."""
-        text = f"spread({self.text(node)},{self.shape(node)},{shape})"
-        if node.op == "constant" and shape.strip("[]").replace(",", "").isdigit():
-            return self.program.constant(text)
         key = node, shape
         if key not in self._spread:
-            self._spread[key] = self.bind(text)
+            self._spread[key] = self.bind(f"spread({self.text(node)},{self.shape(node)},{shape})")
         return self._spread[key]
+
+    def _spread_element(self, node: Node, shape: str) -> str:
+        """An element of a field in the shape of a loop."""
+        own = self.shape(node)
+        if not all(part.isdigit() for part in f"{own},{shape}".replace("[", "").replace("]", "").split(",")):
+            return f"{self.spread(node, shape)}[i]"
+        return f"{self.text(node)}[{self.program.constant(f'spreading({own},{shape})')}[i]]"
 
     def _length(self, length: "int | Node") -> str:
         if isinstance(length, int):
@@ -234,7 +238,7 @@ class Scope:
         size = self.program.size(node)
         if all(n == 1 for n in size):
             return literal(node.value.item()) if node.op == "constant" else Text(f"{self.names[node]}[0]")
-        return Text(f"{self.text(node) if size == key else self.spread(node, shape)}[i]")
+        return Text(f"{self.text(node)}[i]" if size == key else self._spread_element(node, shape))
 
 
 def _along(node: Node) -> tuple[Node, ...]:

@@ -49,8 +49,9 @@ def one(graph: Graph, found: Found, f: Callable[..., Any], asked: dict[str, Any]
     name = f"{found.words.unknown}, line {graph.line}"
     block.nodes = (graph.found(block, 0, name, listed(graph, found._value)),)
     x, branch = Quantity(graph, block.nodes[0]), asked.get("branch")
-    left = lift(graph, (f(x, branch) if branch is not None else f(x)) - asked.get("equals", 0))
-    block.residuals = (left.re,)
+    value, equals = lift(graph, f(x, branch) if branch is not None else f(x)), lift(graph, asked.get("equals", 0))
+    left = value - equals
+    block.residuals, block.sides = (left.re,), (value.re, equals.re)
     block.rest()
     words = found.words
     told = Told(words.unknown, words.quantity, words.unit, words.unknown_unit)
