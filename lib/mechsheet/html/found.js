@@ -9,9 +9,9 @@ function reasonFor(words, {reason, reached, interval, jump, samples, equals}) {
   if (reason === "closes") return `nothing closes for ${words.unknown} in ${place(interval)}${by}`;
   if (reason !== "outside" && reason !== "jumps") return reason;
   const [low, high, target] = amounts([...reached, equals], words.factor);
-  const what = `${words.unknown}: ${words.quantity}, less what it must be, reaches ${spanOf([low, high])}${words.suffix}${by}`;
-  if (reason === "outside") return `${what}, ${target}${words.suffix} is outside`;
-  return `${what} but jumps over ${target}${words.suffix}${jump === jump ? ` at ${place([jump])}` : ""}`;
+  const reach = `${words.unknown}: ${words.quantity} reaches ${spanOf([low, high])}${words.suffix}${by}`;
+  if (reason === "outside") return `${reach}, ${target}${words.suffix} is outside`;
+  return `${reach} but jumps over ${target}${words.suffix}${jump === jump ? ` at ${place([jump])}` : ""}`;
 }
 
 function foundHTML(words, verdict) {
@@ -19,7 +19,7 @@ function foundHTML(words, verdict) {
   const between = ends => spanOf(amounts(ends, words.unknown_factor)) + words.unknown_suffix;
   const reason = reasonFor(words, verdict), on = words.branch && ` on branch ${words.branch}`;
   const roots = verdict.roots.map(root => unknown(root.value, 6)).join("; ");
-  const rows = [["condition", `${words.quantity} as given${on}`]];
+  const rows = [["condition", `${words.quantity} = ${amounts([verdict.equals], words.factor)[0]}${words.suffix}${on}`]];
   if (!reason) {
     rows.push(["residual", amounts([Math.abs(verdict.residual)], words.factor, 2)[0] + words.suffix]);
     rows.push(["bracket", between(verdict.bracket)]);

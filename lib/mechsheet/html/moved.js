@@ -30,7 +30,7 @@ function showMoved(name) {
   control.elements.forEach(([spec, element]) => {
     if (spec.kind === "value") return state.refused || showAlong(spec, element);
     const html = known ? control.pictures[spec.picture][control.at]() : "";
-    if (element.innerHTML !== html) element.innerHTML = html;
+    set(element, html);
     grey(element, known ? "" : MOVES_NOT);
   });
   for (const [symbol, at] of Object.entries(control.marks)) {

@@ -1,7 +1,8 @@
 // The page itself: it shows for the inputs what evaluate gives, and nothing that it does not know.
 const told = JSON.parse(document.getElementById("told").textContent);
 const shownBy = told.shown.map((spec, n) => document.querySelector(`[data-n="${n}"]`));
-const first = shownBy.map(element => element.innerHTML);
+const contentOf = element => element.tBodies?.[0] ?? element;
+const first = shownBy.map(element => contentOf(element).innerHTML);
 const UNKNOWN = "not known for these inputs: it holds for the document's own";
 const MOVES_NOT = "as in the document, for its own inputs only";
 const state = {changed: new Set(), refused: false, results: null};
@@ -11,15 +12,16 @@ const moving = new Map(); // by the name of the control: its positions, pictures
 const show = {
   value(spec, element, results) {
     const parts = spec.keys?.map(key => along(results.values[key], positionOf(spec)));
-    element.innerHTML = parts && parts.every(part => part !== undefined) ? valueText(parts, spec.factor, spec.behind) : "";
-    return element.innerHTML !== "";
+    const known = parts && parts.every(part => part !== undefined);
+    set(element, known ? valueText(parts, spec.factor, spec.behind) : "");
+    return Boolean(known);
   },
   table(spec, element, results) {
     const columns = spec.columns.map(column => columnTexts(column, results));
     const rows = Math.max(...columns.map(texts => texts?.length ?? 0));
     const kinds = spec.columns.map(column => (column.unit ? "" : ' class="ms-text"'));
     const cells = k => columns.map((texts, n) => `<td${kinds[n]}>${texts ? escaped(texts[k] ?? "") : ""}</td>`).join("");
-    element.tBodies[0].innerHTML = Array.from({length: rows}, (_, k) => `<tr>${cells(k)}</tr>`).join("");
+    set(element.tBodies[0], Array.from({length: rows}, (_, k) => `<tr>${cells(k)}</tr>`).join(""));
     return columns.every(Boolean);
   },
   check(spec, element, results) {
@@ -31,20 +33,20 @@ const show = {
   chart(spec, element, results) {
     const columns = spec.columns.map(column => columnValues(column, results));
     const known = columns.every(Boolean);
-    element.innerHTML = known ? chartSVG(spec, columns, results) : "";
+    set(element, known ? chartSVG(spec, columns, results) : "");
     return known;
   },
   own(spec, element) {
-    element.innerHTML = "";
+    set(element, "");
     return false;
   },
   moved(spec, element) {
-    element.innerHTML = "";
+    set(element, "");
     return false;
   },
   found(spec, element, results) {
     const verdict = spec.words && results.found[spec.key];
-    element.innerHTML = verdict ? foundHTML(spec.words, verdict) : "";
+    set(element, verdict ? foundHTML(spec.words, verdict) : "");
     return Boolean(verdict);
   },
 };
@@ -95,6 +97,7 @@ function tell(element, {kind, word, compared, reason}) {
   badge.textContent = word;
   element.querySelector(".ms-compared").innerHTML = compared;
   element.querySelector(".ms-note").textContent = reason;
+  inside.delete(element);
 }
 
 function refresh() {
@@ -107,8 +110,10 @@ function refresh() {
   const guards = results?.guards ?? [];
   told.shown.forEach((spec, n) => {
     if (spec.kind === "moved") return own || empty(spec, shownBy[n], MOVES_NOT);
-    if (own) put(shownBy[n], spec.control ? shownBy[n].innerHTML : first[n]);
-    else if (errors.size || guards.length) empty(spec, shownBy[n], guards[0] ?? "an input cannot be used");
+    if (own) {
+      if (!spec.control) set(contentOf(shownBy[n]), first[n]);
+      grey(shownBy[n], "");
+    } else if (errors.size || guards.length) empty(spec, shownBy[n], guards[0] ?? "an input cannot be used");
     else grey(shownBy[n], show[spec.kind](spec, shownBy[n], results) ? "" : reasonOf(spec, results));
   });
   [...moving.keys()].forEach(showMoved);
@@ -125,9 +130,12 @@ function reasonOf(spec, results) {
   return keys.map(key => results.gaps[key]).find(Boolean) ?? UNKNOWN;
 }
 
-function put(element, html) {
-  if (element.innerHTML !== html) element.innerHTML = html;
-  grey(element, "");
+// What stands there already is left alone: laying it out again takes longer than computing it.
+const inside = new WeakMap();
+
+function set(element, html) {
+  if ((inside.get(element) ?? element.innerHTML) !== html) element.innerHTML = html;
+  inside.set(element, html);
 }
 
 function grey(element, reason) {
