@@ -135,7 +135,7 @@ def _block(columns: Sequence[Column], follows: str) -> str:
     )
     head = f'<tr>{heads}</tr><tr class="ms-units">{under}</tr>'
     fit = fitting(columns)
-    style = f' style="--fit:{fit:.2f}"' if fit < 1 else ""
+    style = f' style="--fit:{numbers.fixed(fit, 2)}"' if fit < 1 else ""
     made = f"<table{follows}{style}><thead>{head}</thead><tbody>{rows}</tbody></table>"
     return f'<div class="ms-wide" tabindex="0">{made}</div>'
 

@@ -27,12 +27,16 @@ class Line:
 
 @dataclass
 class Residual:
-    """What a check compares, in SI: the largest of some magnitudes, or one signed number, with its limit."""
+    """What a check compares, in SI: the largest of some magnitudes, or one signed number, with its limit.
+
+    Where it is ``listed`` it looks only at the positions that tables list, and the worksheet at all of them.
+    """
 
     parts: list[Node]
     limit: Node
     unit: str
     signed: bool = False
+    listed: bool = False
 
 
 class Told(NamedTuple):

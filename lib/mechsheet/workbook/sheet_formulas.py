@@ -28,6 +28,9 @@ class SheetFormulas:
     def __init__(self, arrangement: Arrangement) -> None:
         self.arrangement, self.recording = arrangement, arrangement.recording
         self._cells = CellFormulas(arrangement.places, arrangement.first)
+        counted = [holds for holds, guard in self.recording.guards.items() if guard.rows]
+        texts = sorted({self._cells.reference(holds)[1:] for holds in counted})
+        self._cells.counted = f"AND({','.join(texts)})" if len(texts) > 1 else "".join(texts)
         self._known: dict[Node, bool] = {}  # which rest on numbers that are not followed
         self._inverse = {solved.node: solved.inverse for solved in self.recording.found.values()}
 
