@@ -286,7 +286,7 @@ def test_the_command_writes_the_page_with_the_inputs_given(tmp_path: Path) -> No
     done = subprocess.run(command, capture_output=True, encoding="utf-8", timeout=WITHIN)
     assert done.returncode == 0, done.stderr
     text = (tmp_path / "bucket.html").read_text(encoding="utf-8")
-    assert done.stdout == f"written {tmp_path / 'bucket.html'}, {len(text.encode()) / 1000:.0f} kB\n"
+    assert done.stdout == f"written {tmp_path / 'bucket.html'}, {round(len(text.encode()) / 1000)} kB\n"
 
 
 def test_the_button_of_the_page_writes_it_with_the_inputs_there(serve: Any, page: Page, offline: Page) -> None:

@@ -19,13 +19,13 @@ def main() -> None:
     sheet = load(worksheet)
     declared = inputs.declared(sheet.inputs)
     given = read(options, declared)
-    if given.want or given.limits:
-        raise SheetError("a page in one file holds the whole worksheet: its scene may have [inputs] and nothing else")
+    if given.want or given.limits or given.proof:
+        raise SheetError("a page in one file holds the whole worksheet: it takes inputs, --scene of [inputs] and --out")
     g: Any = inputs.build(sheet.inputs, given.inputs)
     text = write.page(sheet, g).encode()
     path = (given.out or report.folder(Path(sheet.path))) / f"{Path(sheet.path).stem}.html"
     report.write(text, path)
-    say(*inputs.readings(declared, given.inputs), f"written {path}, {len(text) / 1000:.0f} kB")
+    say(*inputs.readings(declared, given.inputs), f"written {path}, {round(len(text) / 1000)} kB")
 
 
 if __name__ == "__main__":
