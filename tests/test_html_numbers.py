@@ -66,6 +66,15 @@ def test_a_loop_is_run_again(loop: str, blank: Page, tmp_path: Path) -> None:
     assert_computed(blank, sheet, OTHER)
 
 
+def test_an_element_that_is_not_there_empties_what_is_told_by_it(blank: Page, tmp_path: Path) -> None:
+    lines = "k_max = 0\nfor k in range(5):\n    if np.sin(x[k]) > np.sin(x[k_max]):\n        k_max = k"
+    sheet = own(tmp_path, f"{lines}\nresult = x[k_max] * g.a  # [-] line")
+    assert_computed(blank, sheet, [*OTHER, {"n": 7}])
+    script = javascript.module(recording := recorded(sheet)[1], {"a": recording.values["result"].re})
+    (found,) = evaluated(blank, script, [{"n": 3}])
+    assert found["values"]["a"] is None and "number of rows" in found["gaps"]["a"]
+
+
 def test_what_is_not_recorded_is_empty_for_other_inputs_and_says_why(blank: Page, tmp_path: Path) -> None:
     sheet = own(tmp_path, "y = np.fft.fft(x * g.a).real\nresult = y[1] + g.F  # [-] line\nother = x * g.F  # [-] line")
     _, recording = recorded(sheet)

@@ -118,7 +118,7 @@ def _reason(recording: Recording, scope: Scope, node: Node) -> tuple[str, str] |
         why = next((gap.reason for gap in recording.gaps if gap.line == node.line), "it is not recorded")
         return program.conditions[node.args], f"line {node.line}: {why}"
     if node in program.conditions:
-        return program.conditions[node], f"line {node.line}: for another number of rows its elements are not followed"
+        return program.conditions[node], f"line {node.line}: its elements are not known for this number of rows"
     if node.op == "input" and node.shape:
         return f"{program.inputs[node]}.length=={node.size}", "a list with another number of rows is not followed"
     if _is_guarded(recording, node):
@@ -143,15 +143,19 @@ def _taken(scope: Scope, node: Node) -> str:
         return f"gather({scope.text(source)},{scope.program.constant(places(index))})"
     lengths = scope.program.size(source)
     shape: list[int | None] = [n if isinstance(n, int) else None for n in lengths]
-    text, of = scope.text(source), scope.shape(source)
+    text, of, inside = scope.text(source), scope.shape(source), list[str]()
     for move in moved:
         call = moves.move(move, shape)
         if call is None:
             return _as_recorded(scope, node, [source], index)
         text = call[0].format(text, of)
-        if move is not moved[-1]:
+        counts = moves.counts(move)
+        if counts or move is not moved[-1]:
             text = scope.bind(text)
+        inside += [f"!{text}.outside"] if counts else []
         of, shape = f"{text}.shape", [None] * call[1]
+    if inside:
+        scope.program.conditions[node] = "&&".join(inside)
     return text if node.shape else f"{text}[0]"
 
 
