@@ -51,6 +51,42 @@ def test_a_line_is_computed_for_any_number_of_rows(expression: str, blank: Page,
     assert_computed(blank, sheet, [*ELSEWHERE, {"n": 2}, {"n": 12, "a": 0.4}])
 
 
+LOOPS = {
+    "while": "v, k = g.F, 0\nwhile v > 0.1 * g.a:\n    v = v / 2 - 0.01\n    k = k + 1\ny = v + k",
+    "break": "v = g.F\nfor k in range(50):\n    v = v - (v**3 - g.a) / (3 * v**2)\n"
+    "    if abs(v**3 - g.a) < 1e-13:\n        break\ny = v",
+    "field": "v = x * 1.0\nwhile v.max() > g.a:\n    v = v * 0.7\ny = v",
+}
+
+
+@pytest.mark.parametrize("loop", LOOPS)
+def test_a_loop_is_run_again(loop: str, blank: Page, tmp_path: Path) -> None:
+    sheet = own(tmp_path, f"{LOOPS[loop]}\nresult = y * 1  # [-] line")
+    assert not recorded(sheet)[1].gaps
+    assert_computed(blank, sheet, OTHER)
+
+
+def test_an_element_that_is_not_there_empties_what_is_told_by_it(blank: Page, tmp_path: Path) -> None:
+    lines = "k_max = 0\nfor k in range(5):\n    if np.sin(x[k]) > np.sin(x[k_max]):\n        k_max = k"
+    sheet = own(tmp_path, f"{lines}\nresult = x[k_max] * g.a  # [-] line")
+    assert_computed(blank, sheet, [*OTHER, {"n": 7}])
+    script = javascript.module(recording := recorded(sheet)[1], {"a": recording.values["result"].re})
+    (found,) = evaluated(blank, script, [{"n": 3}])
+    assert found["values"]["a"] is None and "number of rows" in found["gaps"]["a"]
+
+
+def test_what_is_not_recorded_is_empty_for_other_inputs_and_says_why(blank: Page, tmp_path: Path) -> None:
+    sheet = own(tmp_path, "y = np.fft.fft(x * g.a).real\nresult = y[1] + g.F  # [-] line\nother = x * g.F  # [-] line")
+    _, recording = recorded(sheet)
+    script = javascript.module(recording, {name: recording.values[name].re for name in ("result", "other")})
+    same, changed, beside = evaluated(blank, script, [{}, {"a": 0.5}, {"k": 3}])
+    assert not same["gaps"] and same["values"]["result"] == pytest.approx(recording.values["result"].re.value)
+    assert changed["values"]["result"] is None and changed["gaps"].keys() == {"result"}
+    assert changed["gaps"]["result"].startswith("line ")
+    np.testing.assert_allclose(changed["values"]["other"], recording.values["other"].re.value, rtol=1e-14)
+    assert beside["values"]["other"] is not None
+
+
 def assert_computed(page: Page, sheet: cells.Worksheet, others: list[dict[str, Any]]) -> None:
     """The line ``result`` has in a page the numbers that the worksheet has, or the page says why it has none."""
     _, recording = recorded(sheet)

@@ -26,6 +26,7 @@ from mechsheet.recording.solving import listed
 from mechsheet.worksheet import cells, inputs
 from mechsheet.worksheet.check import Check
 from mechsheet.worksheet.errors import SheetError
+from mechsheet.worksheet.kinds import Choice
 from mechsheet.worksheet.lines import registry
 from mechsheet.worksheet.table import Table
 
@@ -56,7 +57,9 @@ def test_every_number_is_the_worksheets_own(name: str, blank: Page) -> None:
     recording = record(names, sheet)
     wanted = shown(recording, names)
     script = javascript.module(recording, wanted)
-    scenes = [*itertools.chain([({}, names)], runs(sheet, of_rows(recording)), random_runs(name, sheet))]
+    scenes = [
+        *itertools.chain([({}, names)], runs(sheet, of_rows(recording) + others(sheet)), random_runs(name, sheet))
+    ]
     given = [in_si(sheet.inputs, own["g"]) for _, own in scenes]
     wrong = list[str]()
     recorded = values_of(recording, names)  # some checks are recorded in a form of their own, which is compared alone
@@ -101,6 +104,13 @@ def random_runs(name: str, sheet: cells.Worksheet) -> Iterator[tuple[dict[str, A
     scenes = (scene(sheet, random) for _ in range(20 * SCENES))
     ordered = (changes for changes in scenes if not any(key.startswith("gas.phi") for key in changes))
     return itertools.islice(runs(sheet, ordered), SCENES)  # interpolation of abscissas out of order means nothing
+
+
+@pytest.mark.parametrize("name", ["hitch_design", "accuracy"])
+def test_searches_and_measurements_are_refused_in_one_line(name: str) -> None:
+    with pytest.raises(SheetError, match=r"^[^\n]+ has no page in one file: [^\n]+ compute worksheets many times$"):
+        javascript.refuse_studies(cells.load(ROOT / f"{name}.py"))
+    javascript.refuse_studies(cells.load(ROOT / "hitch.py"))
 
 
 def shown(recording: Recording, names: Mapping[str, Any]) -> dict[str, Node]:
@@ -149,6 +159,13 @@ def of_rows(recording: Recording) -> list[dict[str, Any]]:
         names[node]: int(node.value) for node in bottom_up(rows, ()) if node in names and node.value.dtype.kind == "i"
     }
     return [{name: count + 3} for name, count in counts.items()]
+
+
+def others(sheet: cells.Worksheet) -> list[dict[str, Any]]:
+    """Another option of each choice, one at a time."""
+    default = sheet.inputs()
+    choices = [field for field in inputs.declared(sheet.inputs) if isinstance(field, Choice)]
+    return [{field.name: next(o for o in field.options if o != getattr(default, field.name))} for field in choices]
 
 
 def in_si(cls: type, g: Any) -> dict[str, Any]:

@@ -15,6 +15,8 @@ from mechsheet.html.scope import Program, Rule, Scope
 from mechsheet.recording.lines import Recording
 from mechsheet.recording.node import Block, Node, bottom_up
 from mechsheet.units import parse
+from mechsheet.worksheet.cells import Worksheet
+from mechsheet.worksheet.errors import SheetError
 
 _NUMBERS, _FIND, _SOLVE = "numbers.js", "find.js", "solve.js"
 _WORDS = "I NaN do for if in let new of p i try var out"
@@ -64,6 +66,16 @@ def module(recording: Recording, wanted: Mapping[str, Node]) -> str:
     return "\n".join(["const evaluate=(()=>{", functions, *lines, "return evaluate})();"])
 
 
+def refuse_studies(sheet: Worksheet) -> None:
+    """Raise SheetError for a worksheet that searches or measures: it runs others many times, which no page does."""
+    names = [
+        name for name, value in sheet.common.items()
+        if str(getattr(value, "__module__", "")).startswith(("mechsheet.accuracy", "mechsheet.studies.design"))
+    ]  # fmt: skip
+    if names:
+        raise SheetError(f"{sheet.title} has no page in one file: {', '.join(names)} compute worksheets many times")
+
+
 @cache
 def runtime(*files: str) -> str:
     """The functions that a script stands on, without their comments."""
@@ -106,7 +118,7 @@ def _reason(recording: Recording, scope: Scope, node: Node) -> tuple[str, str] |
         why = next((gap.reason for gap in recording.gaps if gap.line == node.line), "it is not recorded")
         return program.conditions[node.args], f"line {node.line}: {why}"
     if node in program.conditions:
-        return program.conditions[node], f"line {node.line}: for another number of rows its elements are not followed"
+        return program.conditions[node], f"line {node.line}: its elements are not known for this number of rows"
     if node.op == "input" and node.shape:
         return f"{program.inputs[node]}.length=={node.size}", "a list with another number of rows is not followed"
     if _is_guarded(recording, node):
@@ -131,15 +143,19 @@ def _taken(scope: Scope, node: Node) -> str:
         return f"gather({scope.text(source)},{scope.program.constant(places(index))})"
     lengths = scope.program.size(source)
     shape: list[int | None] = [n if isinstance(n, int) else None for n in lengths]
-    text, of = scope.text(source), scope.shape(source)
+    text, of, inside = scope.text(source), scope.shape(source), list[str]()
     for move in moved:
         call = moves.move(move, shape)
         if call is None:
             return _as_recorded(scope, node, [source], index)
         text = call[0].format(text, of)
-        if move is not moved[-1]:
+        counts = moves.counts(move)
+        if counts or move is not moved[-1]:
             text = scope.bind(text)
+        inside += [f"!{text}.outside"] if counts else []
         of, shape = f"{text}.shape", [None] * call[1]
+    if inside:
+        scope.program.conditions[node] = "&&".join(inside)
     return text if node.shape else f"{text}[0]"
 
 

@@ -47,6 +47,14 @@ def move(moved: Moved, shape: Sequence[int | None]) -> tuple[str, int] | None:
     return None
 
 
+def counts(moved: Moved) -> bool:
+    """Whether elements are picked by numbers, of which there may be too few."""
+    if moved.f is not getitem:
+        return moved.f is np.take
+    keys = moved.args[0] if isinstance(moved.args[0], tuple) else moved.args
+    return any(not (k is None or k is Ellipsis or isinstance(k, slice)) for k in keys)
+
+
 def _reshaped(dims: list[str]) -> tuple[str, int]:
     return f"reshaped({{0}},{{1}},[{','.join(dims)}])", len(dims)
 

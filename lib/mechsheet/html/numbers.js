@@ -77,7 +77,7 @@ function picked(a, shape, keys) {
     at = at.flatMap(p => inside.map(i => p + i));
     if (typeof key != "number") size.push(places.length);
   }
-  return shaped(gather(a, at), size);
+  return Object.assign(shaped(gather(a, at), size), {outside: at.some(i => i != i)});
 }
 
 function reshaped(a, _, dims) {
