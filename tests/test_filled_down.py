@@ -48,6 +48,12 @@ OF_SEVERAL = {
         "steps_13": 10,  # steps of the iteration
         "A_A_1": 2,  # TRUE and FALSE, as exported
     },
+    "engine": {
+        "E_3": 2,  # the first one is none, behind it sums so far
+        "size_13": 3,  # reactions
+        **{f"equilibrium_of_forces_crank_rod_piston_{n}": 3 for n in (2, 4)},
+        "equilibrium_of_moments_crank_rod_piston_1": 3,
+    },
     "slotted_link": {
         **dict.fromkeys(("guess_1", "size_1", "closed", "r_1", "slopes_14", "own_1"), 6),  # unknowns, equations
         "rates": 2,  # as the worksheet joins them

@@ -50,13 +50,17 @@ class Told(NamedTuple):
 
 @dataclass
 class Solved:
-    """A found value: what it leaves of its equation, its interval or guess, and its closed form where there is one."""
+    """A found value: what it leaves of its equation, its interval or guess, its closed form where there is one.
+
+    Of one unknown the ``target`` is what its equation must be.
+    """
 
     node: Node
     residual: Node | None
     interval: tuple[Node, Node] | None
     words: Told
     inverse: Node | None = None
+    target: Node | None = None
 
 
 @dataclass
