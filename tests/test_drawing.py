@@ -14,7 +14,7 @@ from conftest import examples
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mechsheet.page.drawing import COLOURS as WRITTEN
+from mechsheet.document.drawing_svg import COLOURS as WRITTEN
 from mechsheet.worksheet.drawing import COLOURS, Drawing
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.title import caption, side_by_side

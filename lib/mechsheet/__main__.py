@@ -21,7 +21,7 @@ from pathlib import Path
 
 MINIMUM = (3, 11)
 ROOT = Path(__file__).resolve().parents[2]
-COMMANDS = ("run", "new", "edit", "index", "test")
+COMMANDS = ("run", "html", "new", "edit", "index", "test")
 HELP = """\
 usage: mechsheet COMMAND              where the package is installed
        python lib/mechsheet COMMAND   in a clone of the project
@@ -31,6 +31,8 @@ usage: mechsheet COMMAND              where the package is installed
       NAME SCENE ...                  compute scenes side by side, and write workbooks where --out=FOLDER says
       NAME --want=RESULT,...          compute some results and what they need, and print them
       such as                         run hitch --P6=25e3 --want=L4,GS6
+  html NAME [--INPUT=VALUE ...]       write the document as one page that needs nothing but a browser, and computes
+      such as                         html hitch --P6=25e3 --out=exports
   new NAME [--like=EXAMPLE]           begin a worksheet from a template, or from another worksheet
       such as                         new loader --like=bucket
   edit NAME [OPTIONS]                 open the worksheet in the browser (options of marimo edit)
@@ -53,7 +55,7 @@ def main(argv: "list[str] | None" = None) -> int:
     if command in ("", "-h", "--help"):
         say(contents() + HELP)
         return 0 if command else 1
-    if command in ("run", "edit", "index"):
+    if command in ("run", "html", "edit", "index"):
         if not options:
             sys.exit(f"mechsheet: {command} needs a worksheet: {known_worksheets()}")
         name, *options = options
@@ -62,8 +64,8 @@ def main(argv: "list[str] | None" = None) -> int:
             sys.exit(f"mechsheet: no worksheet {name}: {nearest(name, list(worksheets()))}{known_worksheets()}")
         if command == "edit":
             return call([interpreter(""), "-m", "marimo", "edit", *options, sheet])
-        if command == "index":
-            return call([interpreter(""), "-m", "mechsheet.run.index", sheet, *options])
+        if command in ("html", "index"):
+            return call([interpreter(""), "-m", f"mechsheet.run.{command}", sheet, *options])
         scenes = any(not option.startswith("-") for option in options)
         return call([interpreter(""), "-m", f"mechsheet.run.{'batch' if scenes else 'script'}", sheet, *options])
     if command == "new":
@@ -81,7 +83,7 @@ def main(argv: "list[str] | None" = None) -> int:
     if worksheet(command).endswith(".py"):
         sys.exit(f"mechsheet: {command} is a worksheet: run {command} computes it, edit {command} opens it")
     meant = nearest(command, [*COMMANDS, *("run " + name for name in worksheets())])
-    known = "there are run, edit, new, index and test, and --help tells more"
+    known = "there are run, html, edit, new, index and test, and --help tells more"
     sys.exit(f"mechsheet: command {command} is not known: {meant}{known}")
 
 

@@ -39,6 +39,11 @@ def svg(chart: Chart) -> str:
     )
 
 
+def inline(parts: Iterable[Symbol | str]) -> str:
+    """Inside of a ``<text>`` element: symbols and words."""
+    return "".join(escape(part) if isinstance(part, str) else _symbol(part) for part in parts)
+
+
 def variable(name: str) -> str:
     """Name of the style that holds the moving position on an axis."""
     return f"--at-{name}"
@@ -91,13 +96,9 @@ def _text(label: Label) -> str:
     x, y = (0.0, 0.0) if label.upright else (label.x, label.y)
     text = (
         f'<text x="{x:.1f}" y="{y:.1f}" text-anchor="{label.anchor}" fill="currentColor" stroke="none">'
-        f"{_inline(label.parts)}</text>"
+        f"{inline(label.parts)}</text>"
     )
     return f'<g transform="translate({label.x} {label.y}) rotate(-90)">{text}</g>' if label.upright else text
-
-
-def _inline(parts: Iterable[Symbol | str]) -> str:
-    return "".join(escape(part) if isinstance(part, str) else _symbol(part) for part in parts)
 
 
 @lru_cache(maxsize=1024)

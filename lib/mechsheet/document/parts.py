@@ -2,7 +2,7 @@
 
 import ast
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Container, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import lru_cache
 from inspect import cleandoc
@@ -40,10 +40,11 @@ class Text:
 
 @dataclass(frozen=True)
 class Line:
-    """A line with its value in SI; None for a line that is a function."""
+    """A line with its value in SI; None for a line that is a function. Of a field it may be at one ``position``."""
 
     formula: Formula
     value: Any
+    position: int = 0
 
 
 @dataclass(frozen=True)
@@ -88,6 +89,11 @@ def contents(namespace: Mapping[str, Any]) -> list[Any]:
     return [part for parts, _ in _cells(namespace) for part in parts]
 
 
+def by_cell(namespace: Mapping[str, Any], only: Container[int] | None = None) -> dict[int, list[Any]]:
+    """What `contents` lists, by the number of the cell in the file; of some cells ``only`` where they are given."""
+    return {n: parts for n, (parts, _) in enumerate(_cells(namespace, only)) if parts}
+
+
 def values(namespace: Mapping[str, Any]) -> list[Any]:
     """What the cells of a run can show, in the order of the file, each value of a group on its own.
 
@@ -125,15 +131,16 @@ def _singly(group: Iterable[Any]) -> Iterator[Any]:
                 yield value
 
 
-def _cells(namespace: Mapping[str, Any]) -> Iterator[tuple[list[Any], list[Any]]]:
-    """What each cell that has run shows, and what it gives."""
+def _cells(namespace: Mapping[str, Any], only: Container[int] | None = None) -> Iterator[tuple[list[Any], list[Any]]]:
+    """What each cell shows, and what it gives: nothing of one that has not run, nor of one that is not asked for."""
     path = Path(namespace["__file__"]).resolve()
     cells = _read(path, path.stat().st_mtime_ns)
     names = dict(namespace)
     names["title_block"] = lambda name, text="": Title(name, text, path.name)  # that of a page watches its cells too
     with raised():
-        for cell in cells:
-            if not cell.certain <= names.keys():
+        for n, cell in enumerate(cells):
+            if not cell.certain <= names.keys() or (only is not None and n not in only):
+                yield [], []
                 continue
             parts = list[Any]()
             if cell.shown and cell.reads <= names.keys():
@@ -206,9 +213,9 @@ def _parts(value: Any, names: Mapping[str, Any]) -> Iterator[Any]:
     match value:
         case None:
             return
-        case Typeset():
+        case Typeset(position=at):
             for row, x in zip(value.rows, value.values, strict=True):
-                yield row if isinstance(row, Given) else Line(row, None if row.arguments else x)
+                yield row if isinstance(row, Given) else Line(row, None if row.arguments else x, at)
             for shown in value.shown:
                 yield from _parts(shown, names)
         case Player(Slider() as slider, turning):  # in a page it is marimo's element

@@ -6,17 +6,18 @@ from collections.abc import Sequence
 from datetime import date
 from functools import lru_cache, partial, singledispatch
 from html import escape
-from itertools import takewhile
-from math import ceil
 from typing import Any
 
 import marimo as mo
 import numpy as np
 
 from mechsheet import units
-from mechsheet.document import chart, chart_svg
+from mechsheet.document import chart, chart_svg, drawing_svg
+from mechsheet.document.blocks import blocks, fitting
 from mechsheet.document.markup import HTML, as_written, in_words, named
-from mechsheet.page import drawing, fields, index, switched
+from mechsheet.html import index
+from mechsheet.page import fields, switched
+from mechsheet.page.headings import heading
 from mechsheet.page.lines import lines
 from mechsheet.page.script import element, script
 from mechsheet.worksheet import numbers, symbol
@@ -32,7 +33,6 @@ from mechsheet.worksheet.table import Column, Figure, Table
 from mechsheet.worksheet.title import Caption, Mark, Note, Player, SideBySide, Slider, Title
 from mechsheet.worksheet.verdict import Verdict
 
-_SCREEN, _PAPER = 64.0, 54.0  # widths in em that a table may take; on paper its letters shrink before it breaks
 # Shown by the style sheet that stands where something was refused.
 _TOLD = '<div class="ms-told" style="display:none"><span class="ms-badge ms-FAIL">not computed to its end</span> </div>'
 
@@ -93,7 +93,7 @@ def _(value: Charted) -> str:
 
 @html.register
 def _(value: Drawing) -> str:
-    return drawing.svg(value)
+    return drawing_svg.svg(value)
 
 
 @html.register
@@ -215,7 +215,7 @@ def _in_bar(check: Check) -> str:
 
 @html.register
 def _(made: Index) -> str:
-    return index.written(made)
+    return index.written(made, heading)
 
 
 @html.register
@@ -274,21 +274,9 @@ def _(figure: Figure) -> str:
 
 @html.register
 def _(table: Table) -> str:
-    whole = list(takewhile(lambda c: c.unit in ("-", "") and c.decimals == 0, table.columns))
-    keys = table.columns[: max(1, len(whole))] if len(whole) < len(table.columns) else table.columns[:1]
-    rest = table.columns[len(keys) :]
-    room = _SCREEN - sum(map(_width, keys))
-    blocks = ceil(sum(map(_width, rest)) / room) if room > 0 else len(rest)
-    each = ceil(len(rest) / max(1, blocks)) or 1
-    shown = "".join(_block([*keys, *rest[i : i + each]]) for i in range(0, max(len(rest), 1), each))
     caption = _caption("Table", table.number, table.title)
     note = f'<div class="ms-note">{in_words(table.note)}</div>' if table.note else ""
-    return f'<div class="ms-table">{caption}{shown}{note}</div>'
-
-
-def _width(column: Column) -> float:
-    """Room that a column takes, in em: its longest text, and what stands on both sides of it."""
-    return 1.4 + 0.56 * max(map(len, (column.symbol, f"[{column.unit}]", *column.texts())))
+    return f'<div class="ms-table">{caption}{"".join(map(_block, blocks(table)))}{note}</div>'
 
 
 def _block(columns: Sequence[Column]) -> str:
@@ -302,7 +290,7 @@ def _block(columns: Sequence[Column]) -> str:
         for row in zip(*(c.texts(numbers.AXIS) if c.unit else map(escape, c.texts()) for c in columns), strict=True)
     )
     head = f'<tr>{heads}</tr><tr class="ms-units">{unit_row}</tr>'
-    fit = min(1.0, _PAPER / sum(map(_width, columns)))
+    fit = fitting(columns)
     style = f' style="--fit:{numbers.fixed(fit, 2)}"' if fit < 1 else ""
     return switched.columns(columns, f"<table{style}><thead>{head}</thead><tbody>{rows}</tbody></table>")
 

@@ -15,7 +15,8 @@ class Block:
 
     ``starts`` are the quantities that it was given, by their names: ``lo``, ``hi`` and ``guess`` of a ``single``
     unknown, else the guess or the two ends of each. ``under`` are all that it rests on but its own unknowns. Where all
-    is ``elementwise``, the residuals of many values of the unknowns are those of each.
+    is ``elementwise``, the residuals of many values of the unknowns are those of each. The residual of a ``single`` one
+    is the difference of two ``sides``: the quantity and what it shall equal.
     """
 
     starts: Mapping[str, tuple["Node", ...]]
@@ -27,10 +28,12 @@ class Block:
     residuals: tuple["Node", ...] = ()
     under: tuple["Node", ...] = ()
     elementwise: bool = True
+    sides: tuple["Node", ...] = ()
 
     def rest(self) -> None:
         """Find out what the block rests on, once its residuals are known."""
-        own, self.under = _resting(self.nodes, self.residuals, [n for nodes in self.starts.values() for n in nodes])
+        given = [n for nodes in self.starts.values() for n in nodes]
+        own, self.under = _resting(self.nodes, self.residuals, [*given, *self.sides[1:]])
         self.elementwise = all(node.op in ELEMENTWISE for node in own)
 
 

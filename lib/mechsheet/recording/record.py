@@ -37,20 +37,21 @@ def record(
     sheet: Worksheet | None = None,
     whole: bool = False,
     known: Mapping[str, Formula] | None = None,
+    every: int = 0,
 ) -> Recording:
     """Run the cells behind the tables, found values and checks of ``namespace`` with recorded quantities.
 
     ``sheet`` has the cells where they are not those of the file, and ``known`` the lines that declare a unit where the
     namespace does not tell; with ``whole`` all cells are run. What a recording
     does not hold keeps the numbers of the worksheet's own run, as nodes ``exported`` that know what they rest on;
-    `Recording.gaps` says where and why. Where all tables list every so many positions, only those are recorded, and
-    all of them only for numbers that rest on all, such as an integral, and for checks that take little more for it;
-    the others are `Residual.listed`.
+    `Recording.gaps` says where and why. Where all tables list every so many positions, or ``every`` so many are asked
+    for, only those are recorded, and all of them only for numbers that rest on all, such as an integral, and for checks
+    that take little more for it; the others are `Residual.listed`.
     """
     sheet = load(Path(namespace["__file__"])) if sheet is None else sheet
     steps = {value.every for value in namespace.values() if isinstance(value, Table)}
     want = sheet.results if whole else [name for name in sheet.results if _shown(namespace.get(name))]
-    graph = Graph(steps.pop() if len(steps) == 1 else 1)
+    graph = Graph(every or (steps.pop() if len(steps) == 1 else 1))
     token = current.set(graph)
     try:
         return _Run(sheet, graph, namespace, want, registry(namespace) if known is None else known).recording

@@ -50,8 +50,9 @@ def one(graph: Graph, found: Found, f: Callable[..., Any], asked: dict[str, Any]
     block.nodes = (graph.found(block, 0, name, listed(graph, found._value)),)
     x, branch = Quantity(graph, block.nodes[0]), asked.get("branch")
     target = lift(graph, asked.get("equals", 0.0))
-    left = lift(graph, (f(x, branch) if branch is not None else f(x)) - target)
-    block.residuals = (left.re,)
+    value = lift(graph, f(x, branch) if branch is not None else f(x))
+    left = value - target
+    block.residuals, block.sides = (left.re,), (value.re, target.re)
     block.rest()
     words = found.words
     told = Told(words.unknown, words.quantity, words.unit, words.unknown_unit)

@@ -39,7 +39,8 @@ def export(title: str, namespace: Mapping[str, Any]) -> Any:
 
     ``namespace`` is the last cell's ``globals()``.
 
-    In the page: a button that builds it when pressed, and then tells what it does not follow. In
+    In the page: a button that builds it when pressed, and then tells what it does not follow; beside it one that writes
+    the document as a page in one file. In
     ``python worksheet.py``: prints the found values and the checks, writes ``NAME.xlsx`` into ``exports/`` of the
     project whose worksheet it is, elsewhere beside the worksheet (or into ``--out``), and exits with 1 where a name
     that some cell returns does not exist or a check fails. Where a group does not close, nothing is written.
@@ -48,13 +49,21 @@ def export(title: str, namespace: Mapping[str, Any]) -> Any:
     if arguments.is_script(str(worksheet)):
         _script(title, namespace, worksheet)
         return None
-    from mechsheet.page.download import download  # on use: a worksheet called as a function needs no page
+    from mechsheet.html import write as html  # on use: a worksheet called as a function needs no page
+    from mechsheet.page.download import File, download  # on use: as above
 
-    def made() -> tuple[bytes, list[str]]:
+    def book() -> tuple[bytes, list[str]]:
         recording, fit = _recorded(namespace)
         return _workbook(title, namespace, [*parts.values(namespace), fit], recording), _not_followed(recording)
 
-    return download(made, f"{worksheet.stem}.xlsx", "Excel workbook")
+    def page() -> tuple[bytes, list[str]]:
+        return html.page(sheet, namespace["g"]).encode(), []
+
+    sheet = load(worksheet)
+    files = [File(f"{worksheet.stem}.xlsx", "Excel workbook", book)]
+    if not html.studies(sheet):
+        files.append(File(f"{worksheet.stem}.html", "Page in one file", page))
+    return download(*files)
 
 
 def _script(title: str, namespace: Mapping[str, Any], worksheet: Path) -> None:
@@ -72,7 +81,7 @@ def _script(title: str, namespace: Mapping[str, Any], worksheet: Path) -> None:
         proof = proof_of(namespace, load(worksheet), recording)
         checks.append(proof.check(given.proof))
         say(*proof.lines(), checks[-1])
-    path = (given.out or _folder(worksheet.resolve())) / f"{worksheet.stem}.xlsx"
+    path = (given.out or folder(worksheet.resolve())) / f"{worksheet.stem}.xlsx"
     write(_workbook(title, namespace, [*values, fit], recording), path)
     say(f"written {path}", *_not_followed(recording))
     if not all(check.passed for check in checks):
@@ -84,8 +93,8 @@ def _not_followed(recording: Recording) -> list[str]:
     return [f"not followed there: {gap}" for gap in recording.gaps]
 
 
-def _folder(worksheet: Path) -> Path:
-    """Where the workbook goes: into ``exports/`` of a clone of the project, elsewhere beside the worksheet."""
+def folder(worksheet: Path) -> Path:
+    """Where what is written goes: into ``exports/`` of a clone of the project, elsewhere beside the worksheet."""
     for root in worksheet.parents:
         if worksheet.is_relative_to(root / "worksheets") and (root / "lib" / "mechsheet").is_dir():
             return root / "exports"

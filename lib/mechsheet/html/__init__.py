@@ -1,0 +1,7 @@
+"""The document in one file: a page that needs nothing but a browser, and computes by itself.
+
+`write` makes the file: `values` has what is shown of each value, a formula as `mathml` in a `font` of its own, texts
+from Markdown, and `page.js` keeps the shown numbers at what `evaluate` gives for the inputs. That function is written
+by `javascript` from the recording, with what `numbers.js` computes and `find` solves.
+Stands on the document room and those below.
+"""

@@ -1,0 +1,143 @@
+"""The inputs of a worksheet as fields of the page, and what the page must know to read them."""
+
+from collections.abc import Iterator
+from html import escape
+from typing import Any
+
+import numpy as np
+
+from mechsheet import units
+from mechsheet.document.markup import as_written
+from mechsheet.units import parse
+from mechsheet.worksheet.inputs import LEAST, MOST, declared
+from mechsheet.worksheet.kinds import Choice, Input, Switch, TextLine, number
+from mechsheet.worksheet.lists import Rows
+
+_SIGNS = {"<": "&lt;", ">": "&gt;", "<=": "≤", ">=": "≥"}
+
+
+def fields(g: Any) -> str:
+    """Fields with the values of the inputs ``g``, section by section; every value is text, and escaped."""
+    sections: dict[str, list[str]] = {}
+    for field in declared(type(g)):
+        sections.setdefault(field.section, []).append(_row(field, getattr(g, field.name)))
+    blocks = "".join(
+        f"<fieldset><legend>{escape(section)}</legend>{''.join(rows)}</fieldset>" for section, rows in sections.items()
+    )
+    return f'<form class="ms-inputs" autocomplete="off">{blocks}</form>'
+
+
+def _row(field: Input, value: Any) -> str:
+    unit = "" if field.unit == "-" or isinstance(field, Rows) else escape(units.shown(field.unit))
+    mistake = f' <span class="ms-badge ms-FAIL">mistake</span> {escape(field.mistake)}' if field.mistake else ""
+    told = (
+        f'<span class="ms-meaning" id="meaning-{field.name}">{escape(field.meaning)}{mistake} <i>{_limits(field)}</i>'
+    )
+    return (
+        f'<div class="ms-field"><label for="input-{field.name}">{as_written(field.name)}</label>'
+        f'{_element(field, value)}<span class="ms-unit">{unit}</span>{told}</span>'
+        f'<output class="ms-error" id="error-{field.name}" role="alert"></output></div>'
+    )
+
+
+def _limits(field: Input) -> str:
+    columns = field.columns if isinstance(field, Rows) and field.row else (field,)
+    parts = list[str]()
+    for column in columns:
+        limits = ", ".join(f"{_SIGNS[sign]}&nbsp;{_limit(other)}" for sign, other in column.limits)
+        parts += [f"{as_written(_short(column))}&nbsp;{limits}" if column is not field else limits] if limits else []
+    return ", ".join(parts)
+
+
+def _limit(text: str) -> str:
+    text = text.rpartition(".")[2] if text[0].isalpha() else text
+    return as_written(text) if text[0].isalpha() else escape(text)
+
+
+def _short(column: Input) -> str:
+    return column.name.rpartition(".")[2]
+
+
+def _element(field: Input, value: Any) -> str:
+    """What an input is edited with: a drop-down, a check box, a grid, or a field of text."""
+    told = (
+        f'id="input-{field.name}" name="{field.name}" aria-describedby="meaning-{field.name} error-{field.name}" '
+        'autocomplete="off"'
+    )
+    text = field.text(value)
+    match field:
+        case Choice(options=options):
+            each = "".join(f"<option{' selected' * (option == text)}>{escape(option)}</option>" for option in options)
+            return f"<select {told}>{each}</select>"
+        case Switch():
+            return f'<input type="checkbox" {told}{" checked" * bool(value)}>'
+        case Rows(columns=columns):
+            return f"<textarea {told} hidden>{escape(text)}</textarea>{_grid(field, columns, value)}"
+        case TextLine():
+            return f'<input type="text" {told} value="{escape(text)}">'
+    return f'<input type="text" inputmode="decimal" spellcheck="false" {told} value="{escape(text)}">'
+
+
+def _grid(field: Rows, columns: tuple[Input, ...], value: Any) -> str:
+    """The rows of a list or a table, each a line of fields."""
+    heads = "".join(
+        f"<th>{as_written(_short(c))}{'' if c.unit == '-' else escape(f' [{units.shown(c.unit)}]')}</th>"
+        for c in columns
+    )
+    texts = zip(*([c.text(float(x)) for x in xs] for c, xs in field.leaves(value).values()), strict=True)
+    rows = "".join(
+        f"<tr><th>{k}</th>"
+        + "".join(
+            f'<td><input type="text" inputmode="decimal" spellcheck="false" value="{escape(text)}" '
+            f'aria-label="{escape(_short(c))}, row {k}"></td>'
+            for c, text in zip(columns, row, strict=True)
+        )
+        + "</tr>"
+        for k, row in enumerate(texts, 1)
+    )
+    return (
+        f'<div class="ms-grid" data-grid="{field.name}" tabindex="0"><table><thead><tr><th></th>{heads}</tr></thead>'
+        f"<tbody>{rows}</tbody></table></div>"
+    )
+
+
+def told(g: Any) -> dict[str, Any]:
+    """What the page must know of the inputs, and of the sizes that they may have, as JSON."""
+    return {"fields": list(_told(g)), "most": MOST, "least": LEAST}
+
+
+def _told(g: Any) -> Iterator[dict[str, Any]]:
+    cls = type(g)
+    for field in declared(cls):
+        value = getattr(g, field.name)
+        own = _number(field) | {"text": field.text(value)}
+        match field:
+            case Choice(options=options):
+                yield own | {"kind": "choice", "options": options, "own": options.index(str(value))}
+            case Switch():
+                yield own | {"kind": "switch", "own": int(bool(value))}
+            case TextLine():
+                yield own | {"kind": "text", "own": str(value)}
+            case Rows():
+                columns = [
+                    _number(c) | {"own": np.asarray(xs, float).tolist(), "shown": [c.display(float(x)) for x in xs]}
+                    for c, xs in field.leaves(value).values()
+                ]
+                yield own | {"kind": "rows", "columns": columns}
+            case _:
+                yield own | {"kind": "number", "own": float(value), "shown": float(field.display(value))}
+
+
+def _number(field: Input) -> dict[str, Any]:
+    """How a number is read: its unit, its limits, whether it is whole."""
+    limits = [[sign, other if other[0].isalpha() else number(other)] for sign, other in field.limits]
+    others = {name: parse(unit).factor for unit in units.alike(field.unit) for name in (unit, units.shown(unit))}
+    return {
+        "name": field.name,
+        "meaning": field.meaning,
+        "unit": "" if field.unit == "-" else units.shown(field.unit),
+        "factor": parse(field.unit).factor,
+        "units": others if field.unit != "-" else {},
+        "whole": field.whole,
+        "limits": limits,
+    }

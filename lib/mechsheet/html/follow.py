@@ -1,0 +1,160 @@
+"""What of a shown value follows the inputs: the recorded quantities by their keys, and what the page makes of them."""
+
+from math import isfinite
+from typing import Any
+
+import numpy as np
+
+from mechsheet import units
+from mechsheet.document import chart_svg
+from mechsheet.document.markup import HTML, in_words, named
+from mechsheet.document.parts import Line
+from mechsheet.recording.lines import Recording
+from mechsheet.recording.node import Node
+from mechsheet.recording.quantity import Quantity
+from mechsheet.worksheet import numbers
+from mechsheet.worksheet.check import Check
+from mechsheet.worksheet.find import Found
+from mechsheet.worksheet.symbol import read, stem
+from mechsheet.worksheet.table import Column, Figure, Table
+from mechsheet.worksheet.verdict import Verdict
+
+Spec = dict[str, Any]  # one element of the page, as JSON
+
+
+class Follower:
+    """Keys of the quantities that a page shows, and the elements that show them, by their order in the page.
+
+    What has no keys and is not ``fixed`` holds for the exported inputs alone.
+    """
+
+    def __init__(self, recording: Recording) -> None:
+        self.recording = recording
+        self.keys: dict[Node, str] = {}
+        self.specs: list[Spec] = []
+        self.texts: tuple[str, ...] = ()  # of the cell whose parts are written
+        self.depends = False  # whether that cell reads what others compute
+
+    def own(self, shown: str, text: str = "") -> str:
+        """What is shown for the run's inputs alone, unless it is a ``text`` as it stands in its cell."""
+        if text and any(text in constant for constant in self.texts):
+            return shown
+        return f"<span{self.mark('own')}>{shown}</span>" if self.depends else shown
+
+    @property
+    def wanted(self) -> dict[str, Node]:
+        """Quantities by their keys."""
+        return {key: node for node, key in self.keys.items()}
+
+    def mark(self, kind: str, **spec: Any) -> str:
+        """Attribute of the element that shows what this says."""
+        self.specs.append({"kind": kind, **spec})
+        return f' data-n="{len(self.specs) - 1}"'
+
+    def key(self, node: Node) -> str:
+        return self.keys.setdefault(node, str(len(self.keys)))
+
+    def value(self, line: Line, **moved: Any) -> str:
+        """Attribute of the value of a line, which a control may have ``moved`` along its field."""
+        name, unit = line.formula.name, line.formula.unit
+        held, shape = self.recording.values.get(name), np.shape(line.value)
+        spec: Spec = {"factor": units.parse(unit).factor, "behind": numbers.behind(unit, HTML), **moved}
+        if not isinstance(held, Quantity):
+            return "" if name in self.recording.values else self.mark("value", keys=None, **spec)
+        if held.extent != shape:
+            spec["at"] = line.position
+        same = held.extent == shape or held.extent[:-1] == shape
+        return self.mark("value", keys=[self.key(part) for part in held.parts] if same else None, **spec)
+
+    def along(self, line: Line) -> bool:
+        """Whether the value of a line stands at one position of a recorded field."""
+        held = self.recording.values.get(line.formula.name)
+        return isinstance(held, Quantity) and held.extent != () and held.extent[:-1] == np.shape(line.value)
+
+    def columns(self, table: Table, shown: tuple[Column, ...]) -> str:
+        """Attribute of a block of columns of a table."""
+        nodes = self._columns(table.number, table.columns)
+        at = {id(column): n for n, column in enumerate(table.columns)}
+        return self.mark("table", columns=[self._column(c, nodes[at[id(c)]]) for c in shown])
+
+    def figure(self, figure: Figure) -> list[Spec]:
+        """Columns of a figure, x first."""
+        columns = (figure.x, *figure.lines)
+        nodes = self._columns(f"Fig {figure.number}", columns)
+        return [self._column(c, node) | _drawn(c) for c, node in zip(columns, nodes, strict=True)]
+
+    def marks(self, figure: Figure) -> list[Spec]:
+        """Marks of a figure: their labels, and keys or fixed positions in the unit of x."""
+        held, found = self.recording.marks.get(figure.number, {}), list[Spec]()
+        for label, x in figure.marks:
+            node = held.get(label)
+            at = {"x": x} if node is None or node.op == "constant" else {"key": self.key(node)}
+            found.append({"drawn": chart_svg.inline([read(stem(label))]), **at})
+        return found
+
+    def _columns(self, number: str, columns: tuple[Column, ...]) -> list[Node | bool]:
+        """Node of each column, whether it is fixed where there is none."""
+        held = self.recording.tables.get(number)
+        if held is None:
+            return [False] * len(columns)
+        return [c.re if c is not None else bool(own.unit) for c, own in zip(held, columns, strict=True)]
+
+    def _column(self, column: Column, node: Node | bool) -> Spec:
+        own: Spec = {"decimals": column.decimals, "power": column.power, "unit": column.unit}
+        own |= {"factor": units.parse(column.unit).factor if column.unit else 1.0, "rows": len(column.values)}
+        if isinstance(node, bool):
+            return own | {"key": None, "fixed": node, "texts": column.texts(numbers.AXIS), "values": _listed(column)}
+        return own | {"key": self.key(node)}
+
+    def check(self, check: Check) -> str:
+        """Attribute of the verdict of a check."""
+        held, spec = self.recording.checks.get(check.name), {"name": check.name, "essential": check.essential}
+        if held is None:
+            return self.mark("check", keys=None, **spec)
+        unit = check.unit if held.unit == "-" else held.unit
+        factor = 1.0 if held.unit == "-" else units.parse(held.unit).factor
+        limit = check.limit if held.limit.op == "constant" else None  # that of a scene prevails
+        return self.mark(
+            "check",
+            keys=[self.key(part) for part in held.parts],
+            limit=limit if limit is not None else self.key(held.limit),
+            own=limit is not None,
+            factor=factor,
+            signed=held.signed,
+            behind=numbers.behind(unit, HTML),
+            **spec,
+        )
+
+    def found(self, found: Verdict) -> str:
+        """Attribute of the verdict of a solve block; that of several problems holds for the exported inputs alone."""
+        if not isinstance(found, Found) or np.ndim(found.residual):
+            return self.mark("found", words=None)
+        words, key = found.words, found.words.unknown
+        told = {
+            "unknown": in_words(words.unknown),
+            "quantity": in_words(words.quantity),
+            "factor": units.parse(words.unit).factor,
+            "suffix": numbers.suffix(words.unit),
+            "unknown_factor": units.parse(words.unknown_unit).factor,
+            "unknown_suffix": numbers.suffix(words.unknown_unit),
+            "branch": "" if found.branch is None else f"{found.branch:+d}",
+        }
+        known = key in self.recording.found and self.recording.found[key].node.op == "found"
+        return self.mark("found", key=key, words=told if known else None)
+
+
+def _listed(column: Column) -> list[Any]:
+    """Values of a column as JSON has them; none where it is no number."""
+    return [x if isinstance(x, str) or isfinite(x) else None for x in column.values.tolist()]
+
+
+def _drawn(column: Column) -> Spec:
+    """What a chart and its legend write of a column."""
+    name = read(stem(column.name))
+    return {
+        "drawn": chart_svg.inline([name]),
+        "letters": len(name.mark + name.base + name.index),
+        "named": named(column.name),
+        "printed": "" if column.unit == "-" else units.shown(column.unit),
+        "symbol": column.symbol,
+    }

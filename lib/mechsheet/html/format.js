@@ -1,0 +1,126 @@
+// Numbers as texts, digit by digit as Python writes them: ties go to the even digit, where the browser rounds them up.
+const CELL = {minus: "-", none: "–"};
+const AXIS = {minus: "−", none: "–"};
+const HTML = {minus: "−", none: "none"};
+
+const unlimited = (x, to) => (x !== x ? to.none : (x < 0 ? to.minus : "") + "∞");
+
+// Whether what is cut off behind the last digit is exactly half of it; then the digit that was rounded up is taken back.
+const even = (rounded, longer, longest) =>
+  longer.at(-1) === "5" && /[13579]$/.test(rounded) && /^0*$/.test(longest().slice(longer.length));
+
+// A magnitude in so many significant digits: these, and the power of ten of the first one.
+function digitsOf(x, count) {
+  const size = Math.abs(x), to = n => size.toExponential(n).split("e")[0].replace(".", "");
+  let mantissa = to(count - 1);
+  const power = size.toExponential(count - 1).split("e")[1];
+  if (even(mantissa, to(count), () => to(100))) mantissa = mantissa.slice(0, -1) + (mantissa.at(-1) - 1);
+  return [mantissa, Number(power)];
+}
+
+function positional(mantissa, power) {
+  if (power < 0) return `0.${"0".repeat(-power - 1)}${mantissa}`;
+  const before = mantissa.slice(0, power + 1).padEnd(power + 1, "0");
+  const behind = mantissa.slice(power + 1);
+  return behind ? `${before}.${behind}` : before;
+}
+
+const trimmed = text => (text.includes(".") ? text.replace(/\.?0*$/, "") : text);
+
+function plainFixed(x, decimals) {
+  const size = Math.abs(x);
+  if (size >= 1e21) return BigInt(size).toString() + (decimals ? `.${"0".repeat(decimals)}` : "");
+  const rounded = size.toFixed(decimals);
+  if (!even(rounded, size.toFixed(decimals + 1), () => size.toFixed(Math.min(100, decimals + 60)))) return rounded;
+  return rounded.slice(0, -1) + (rounded.at(-1) - 1);
+}
+
+function fixed(x, decimals, to) {
+  if (!Number.isFinite(x)) return unlimited(x, to);
+  const text = plainFixed(x, decimals);
+  return x < 0 && /[1-9]/.test(text) ? to.minus + text : text;
+}
+
+const exponent = (power, least) => `e${power < 0 ? "-" : "+"}${String(Math.abs(power)).padStart(least, "0")}`;
+
+function scientific(x, decimals, to) {
+  if (!Number.isFinite(x)) return unlimited(x, to);
+  const [mantissa, power] = x === 0 ? ["0".repeat(decimals + 1), 0] : digitsOf(x, decimals + 1);
+  const text = mantissa[0] + (decimals ? `.${mantissa.slice(1)}` : "") + exponent(power, 2);
+  return ((x < 0 ? "-" : "") + text).replaceAll("-", to.minus);
+}
+
+function significant(x, digits) {
+  if (!Number.isFinite(x)) return x !== x ? "nan" : x < 0 ? "-inf" : "inf";
+  if (x === 0) return Object.is(x, -0) ? "-0" : "0";
+  const [mantissa, power] = digitsOf(x, digits);
+  const sign = x < 0 ? "-" : "";
+  if (power >= -4 && power < digits) return sign + trimmed(positional(mantissa, power));
+  return sign + trimmed(`${mantissa[0]}.${mantissa.slice(1)}`) + exponent(power, 2);
+}
+
+// Five significant digits or all before the point; a power of ten outside 1e-3..1e6.
+function usual(x, to) {
+  if (!Number.isFinite(x)) return unlimited(x, to);
+  if (x === 0) return "0";
+  const size = Math.abs(x), sign = x < 0 ? to.minus : "";
+  if (size >= 1e5 && size < 1e6) return sign + plainFixed(x, 0);
+  const [mantissa, power] = digitsOf(x, 5);
+  if (size >= 1e-3 && size < 1e6) return sign + trimmed(positional(mantissa, power));
+  const shown = trimmed(`${mantissa[0]}.${mantissa.slice(1)}`);
+  return `${sign}${shown}\u2009·\u200910<sup>${power < 0 ? to.minus : ""}${Math.abs(power)}</sup>`;
+}
+
+// A value in SI, a field or a point of two parts, in its display unit: what stands between the equals sign and the meaning.
+function valueText(parts, factor, behind) {
+  const arrays = parts.map(part => (typeof part === "number" ? [part] : part));
+  const [re, im] = arrays, size = Math.max(...arrays.map(a => a.length));
+  const at = (a, i) => a[a.length === 1 ? 0 : i] / factor;
+  const end = i => (im ? `(${usual(at(re, i), HTML)}, ${usual(at(im, i), HTML)})` : usual(at(re, i), HTML));
+  const each = Array.from({length: Math.min(size, 16)}, (_, i) => i);
+  const shape = parts.find(part => part.shape)?.shape ?? [];
+  if (shape.length === 2 && Math.max(...shape) <= 4) {
+    const rows = Array.from({length: shape[0]}, (_, r) => each.slice(r * shape[1], (r + 1) * shape[1]).map(end).join(", "));
+    return `[${rows.join("; ")}]${behind}`;
+  }
+  if (size <= (im ? 4 : 10)) return each.slice(0, size).map(end).join(", ") + behind;
+  if (!im) {
+    const lost = re.reduce((n, x) => n + (x !== x), 0);
+    return span(re, factor) + behind + (lost && lost < size ? ` (${lost} of ${size} ${HTML.none})` : "");
+  }
+  const gap = Math.hypot(at(re, size - 1) - at(re, 0), at(im, size - 1) - at(im, 0));
+  let most = 0;
+  for (let i = 0; i < size; i++) most = Math.max(most, Math.hypot(at(re, i), at(im, i)) || 0);
+  if (gap <= 1e-9 * most) return `(${span(re, factor)}, ${span(im, factor)})${behind}`;
+  return `${end(0)} … ${end(size - 1)}${behind}`;
+}
+
+function span(numbers, factor) {
+  let low = Infinity, high = -Infinity, known = false;
+  for (const x of numbers) if (x === x) (known = true), (low = Math.min(low, x)), (high = Math.max(high, x));
+  const ends = known ? [low, high] : [numbers[0]];
+  return [...new Set(ends.map(x => usual(x / factor, HTML)))].join(" … ");
+}
+
+// Numbers with as many digits as tell unequal ones apart; 17 always do.
+function apart(values, digits = 4) {
+  for (; ; digits++) {
+    const rounded = values.map(x => (x === 0 ? ["0", 0] : digitsOf(x, digits)));
+    const texts = values.map((x, i) => (x < 0 || Object.is(x, -0) ? "-" : "") + bare(...rounded[i]));
+    if (new Set(texts).size === new Set(values.map(x => x + 0)).size || digits === 17) return texts;
+  }
+}
+
+function bare(mantissa, power) {
+  const digits = mantissa.replace(/0+$/, "") || "0";
+  if (power > -6 && power < 15) return trimmed(positional(digits, power));
+  return trimmed(`${digits[0]}.${digits.slice(1)}`) + exponent(power, 1);
+}
+
+const cellText = (x, column) => (column.power ? scientific : fixed)(x, column.decimals, AXIS);
+
+// What a check compares: told apart, and the residual with two digits where it is only rounding.
+function compared(residual, limit) {
+  if (!Number.isFinite(residual) || !Number.isFinite(limit)) return [residual, limit].map(x => significant(x, 4));
+  return apart([residual, limit], Math.abs(residual) < 1e-3 * limit ? 2 : 4);
+}

@@ -1,0 +1,310 @@
+"""A recording as a function in JavaScript: the numbers of a worksheet for whatever inputs it is given."""
+
+import json
+import re
+from collections.abc import Iterable, Mapping, Sequence
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from mechsheet.html import moves
+from mechsheet.html.scope import Program, Rule, Scope
+from mechsheet.html.terms import array, literal, places
+from mechsheet.recording.lines import Recording
+from mechsheet.recording.node import Block, Node, bottom_up
+from mechsheet.units import parse
+from mechsheet.worksheet.cells import Worksheet
+from mechsheet.worksheet.errors import SheetError
+
+_NUMBERS, _FIND, _SOLVE = "numbers.js", "find.js", "solve.js"
+_WORDS = "I NaN do for if in let new of p i try var out"
+
+
+def module(recording: Recording, wanted: Mapping[str, Node]) -> str:
+    """A script that defines ``evaluate(inputs)``, which gives the ``wanted`` quantities by their keys.
+
+    ``inputs`` are numbers in SI units by the names of the recording: of a choice the number of its option, of a switch
+    0 or 1, of a list as many numbers as it has in the recording, of a text 0 while it is the worksheet's own and else
+    1; those that are left out are the worksheet's own. What it returns has
+
+    - ``values`` by key: a number, or a Float64Array, which knows its ``shape`` where it has several axes; undefined
+      where nobody knows it for these inputs;
+    - ``gaps``: for each such key the reason;
+    - ``guards``: why all of the worksheet may be otherwise for these inputs;
+    - ``found``: the verdict of each found value of the recording, of an array of problems an array of them.
+    """
+    found = {key: solved.node for key, solved in recording.found.items() if solved.node.op == "found"}
+    results = [*wanted.values(), *found.values()]
+    single = {node.args[0].single for node in bottom_up(results, ()) if node.op == "found"}
+    functions = runtime(*(_NUMBERS, _FIND, _SOLVE)[: 3 if False in single else 1 + len(single)])
+    program = Program(recording.graph, RULES, frozenset(_WORDS.split()) | set(re.findall(r"[A-Za-z]\w*", functions)))
+    names = {node: json.dumps(name) for name, node in recording.inputs.items()}
+    program.inputs = {node: f"I[{name}]" for node, name in names.items()}
+    conditions = [node.args[0] for node in bottom_up(results, ()) if _is_guarded(recording, node)]
+    gaps = {gap.line for gap in recording.gaps}
+    looked = {
+        holds: guard.line for holds, guard in recording.guards.items() if not guard.rows and guard.line not in gaps
+    }
+    scope = Scope(program, {})
+    scope.write(dict.fromkeys([*results, *conditions, *looked]))
+
+    own = ",".join(f"{names[n]}:{_own(n)}" for n in bottom_up([*results, *looked], ()) if n.op == "input")
+    values = ",".join(f"{json.dumps(key)}:{_result(scope, node)}" for key, node in wanted.items())
+    verdicts = ",".join(f"{json.dumps(key)}:{scope.solved[node.args[0]]}" for key, node in found.items())
+    lines = [
+        *(f"const {name}={text};" for text, name in program.constants.items()),
+        f"const own={{{own}}};",
+        "function evaluate(inputs){const I={...own,...inputs};",
+        *scope.lines,
+        f"const out={{values:{{{values}}},gaps:{{}},guards:[],found:{{{verdicts}}}}};",
+        *_told(recording, scope, wanted),
+        *(f"{scope.text(holds)}||out.guards.push({json.dumps(_otherwise(line))});" for holds, line in looked.items()),
+        "return out}",
+    ]
+    return "\n".join(["const evaluate=(()=>{", functions, *lines, "return evaluate})();"])
+
+
+def refuse_studies(sheet: Worksheet) -> None:
+    """Raise SheetError for a worksheet that searches or measures: it runs others many times, which no page does."""
+    names = [
+        name for name, value in sheet.common.items()
+        if str(getattr(value, "__module__", "")).startswith(("mechsheet.accuracy", "mechsheet.studies.design"))
+    ]  # fmt: skip
+    if names:
+        raise SheetError(f"{sheet.title} has no page in one file: {', '.join(names)} compute worksheets many times")
+
+
+@cache
+def runtime(*files: str) -> str:
+    """The functions that a script stands on, without their comments."""
+    texts = [Path(__file__).with_name(name).read_text(encoding="utf-8") for name in files]
+    return "\n".join(line.strip() for text in texts for line in text.splitlines() if line.strip()[:2] not in ("", "//"))
+
+
+def _own(node: Node) -> str:
+    return array(node.value) if node.shape else literal(node.value.item()).text
+
+
+def _result(scope: Scope, node: Node) -> str:
+    text = scope.text(node)
+    if len(node.shape) > 1:
+        return f"shaped({text},{scope.shape(node)})"
+    return f"+{text}" if node.value.dtype == bool and not node.shape else text
+
+
+def _is_guarded(recording: Recording, node: Node) -> bool:
+    """Whether a quantity is no number where Python takes another way than it took."""
+    return node.op == "where" and node.args[0] in recording.guards and bool(np.isnan(node.args[2].value).all())
+
+
+def _told(recording: Recording, scope: Scope, wanted: Mapping[str, Node]) -> Iterable[str]:
+    """Statements that empty what rests on numbers that nobody knows for other inputs, and say why."""
+    under, told = dict[Node, frozenset[tuple[str, str]]](), dict[tuple[str, str], list[str]]()
+    for node in bottom_up(wanted.values(), under):
+        own = _reason(recording, scope, node)
+        under[node] = frozenset().union(*(under[operand] for operand in node.operands), [own] if own else [])
+    for key, node in wanted.items():
+        for reason in sorted(under[node]):
+            told.setdefault(reason, []).append(key)
+    return (f"{condition}||gap(out,{json.dumps(why)},{json.dumps(keys)});" for (condition, why), keys in told.items())
+
+
+def _reason(recording: Recording, scope: Scope, node: Node) -> tuple[str, str] | None:
+    """The condition under which a quantity is known, and why not otherwise; None where it always is."""
+    program = scope.program
+    if node.op == "exported":
+        why = next((gap.reason for gap in recording.gaps if gap.line == node.line), "it is not recorded")
+        return program.conditions[node.args], f"line {node.line}: {why}"
+    if node in program.conditions:
+        return program.conditions[node], f"line {node.line}: its elements are not known for this number of rows"
+    if node.op == "input" and node.shape:
+        return f"{program.inputs[node]}.length=={node.size}", "a list with another number of rows is not followed"
+    if _is_guarded(recording, node):
+        return scope.text(node.args[0]), _otherwise(recording.guards[node.args[0]].line)
+    return None
+
+
+def _otherwise(line: int) -> str:
+    return f"line {line}: for these inputs the worksheet's code goes another way"
+
+
+def _taken(scope: Scope, node: Node) -> str:
+    source, index, moved = node.args
+    if not moved:
+        at = index.reshape(-1)
+        if not node.shape:
+            return f"{scope.text(source)}[{at[0]}]" if source.shape else scope.text(source)
+        if source.size == 1:
+            return f"spread({scope.text(source)},[],{list(node.shape)})"
+        if np.array_equal(at, np.arange(at[0], at[0] + at.size)):
+            return f"{scope.text(source)}.slice({at[0]},{at[0] + at.size})"
+        return f"gather({scope.text(source)},{scope.program.constant(places(index))})"
+    lengths = scope.program.size(source)
+    shape: list[int | None] = [n if isinstance(n, int) else None for n in lengths]
+    text, of, inside = scope.text(source), scope.shape(source), list[str]()
+    for move in moved:
+        call = moves.move(move, shape)
+        if call is None:
+            return _as_recorded(scope, node, [source], index)
+        text = call[0].format(text, of)
+        counts = moves.counts(move)
+        if counts or move is not moved[-1]:
+            text = scope.bind(text)
+        inside += [f"!{text}.outside"] if counts else []
+        of, shape = f"{text}.shape", [None] * call[1]
+    if inside:
+        scope.program.conditions[node] = "&&".join(inside)
+    return text if node.shape else f"{text}[0]"
+
+
+def _as_recorded(scope: Scope, node: Node, sources: Sequence[Node], index: Any) -> str:
+    """Elements by their places for the number of rows that the recording has; no numbers for another one."""
+    same = "&&".join(f"equal({scope.shape(source)},{list(source.shape)})" for source in sources if source.stretches)
+    condition = scope.program.conditions[node] = scope.bind(same)
+    text = f"gather(all_of({','.join(map(scope.text, sources))}),{scope.program.constant(places(index))})"
+    return f"shaped({condition}?{text}:nothing({index.size}),{list(index.shape)}){'' if node.shape else '[0]'}"
+
+
+def _joined(scope: Scope, node: Node) -> str:
+    sources, which, inside, moved = node.args
+    starts = np.cumsum([0, *(source.size for source in sources)])
+    index = starts[which] + inside
+    texts = ",".join(map(scope.text, sources))
+    axes = {len(source.shape) for source in sources}
+    if moved is None:
+        if np.array_equal(index.reshape(-1), np.arange(starts[-1])):
+            return f"all_of({texts})"
+        return f"gather(all_of({texts}),{scope.program.constant(places(index))})"
+    way = moves.join(moved, axes.pop()) if len(axes) == 1 else None
+    if way is None:
+        return _as_recorded(scope, node, sources, index)
+    return f"{'stacked' if way[0] else 'joined'}([{texts}],[{','.join(map(scope.shape, sources))}],{way[1]})"
+
+
+def _reduced(scope: Scope, node: Node) -> str:
+    source, _, kind, way = node.args
+    text = scope.text(source) if source.shape else f"flat({scope.text(source)})"
+    axes = len(source.shape)
+    if way.so_far:
+        return f"so_far(next.{kind},{text},{scope.shape(source)},{way.axis % axes})"
+    if not node.shape:
+        return f"of.{kind}({text})"
+    if way.axis is None:
+        return f"Float64Array.of(of.{kind}({text}))"
+    return f"along(of.{kind},{text},{scope.shape(source)},{way.axis % axes}{',1' if way.keepdims else ''})"
+
+
+def _exported(scope: Scope, node: Node) -> str:
+    conditions = scope.program.conditions
+    if node.args not in conditions:
+        known = [scope.program.constant(array(x.value)) if x.shape else _own(x) for x in node.args]
+        same = (f"equal({scope.text(x)},{value})" for x, value in zip(node.args, known, strict=True))
+        conditions[node.args] = scope.bind("&&".join(same) or "true")
+    if not node.shape:
+        return f"{conditions[node.args]}?{_own(node)}:NaN"
+    return f"{conditions[node.args]}?{scope.program.constant(array(node.value))}:nothing({node.size})"
+
+
+def _length(scope: Scope, node: Node) -> str:
+    source, axis = node.args
+    return f"{scope.shape(source)}[{axis % len(source.shape)}]"
+
+
+def _iterated(scope: Scope, node: Node) -> str:
+    loop, number, _ = node.args
+    if loop not in scope.solved:
+        state = {n: scope.program.name() for n in loop.nodes}
+        turn = scope.inner(state)
+        turn.write([loop.done, *loop.following])
+        after = f"[{','.join(map(turn.text, loop.following))}],{turn.text(loop.done)}"
+        body = f"([{','.join(state.values())}])=>{{{''.join(turn.lines)}return[{after}]}}"
+        most = "null" if loop.most is None else str(loop.most)
+        begin = f"[{','.join(map(scope.text, loop.initial))}]"
+        scope.solved[loop] = scope.bind(f"repeated({begin},{most},{body})")
+    text = f"{scope.solved[loop]}[{number}]"
+    return f"shaped({text},{scope.shape(loop.initial[number])})" if len(node.shape) > 1 else text
+
+
+def _found(scope: Scope, node: Node) -> str:
+    block, number = node.args
+    if block not in scope.solved:
+        under = ",".join(map(scope.text, block.under))
+        search = _solved(scope, block)
+        scope.solved[block] = scope.bind(f"unless_same({json.dumps(scope.program.name())},[{under}],()=>{search})")
+    part = "value" if block.single else f"x[{number}]" if number < len(block.starts) else "evaluations"
+    if not node.shape:
+        return f"{scope.solved[block]}.{part}"
+    text = f"Float64Array.from({scope.solved[block]},v=>v.{part})"
+    return f"shaped({text},{_shape_of_problems(scope, block)})" if len(node.shape) > 1 else text
+
+
+def _solved(scope: Scope, block: Block) -> str:
+    """The search for the unknowns of a block, of many problems one after the other."""
+    node = block.nodes[0]
+    shape = _shape_of_problems(scope, block) if node.shape else ""
+    unknowns = block.nodes[: len(block.starts)] if not block.single else block.nodes
+    starts = {name: [_of_problem(scope, n, node, shape) for n in nodes] for name, nodes in block.starts.items()}
+    equals = "".join(_of_problem(scope, n, node, shape) for n in block.sides[1:])
+    function = _residuals(scope, block, unknowns, shape)
+    if block.single:
+        ends = [*(starts.get(name, ["null"])[0] for name in ("lo", "hi", "guess")), equals]
+        call = f"find({function},{','.join(ends)})"
+    else:
+        at = ",".join(f"[{','.join(ends)}]" for ends in starts.values())
+        factors = ",".join(literal(parse(unit).factor).text for unit in block.unknown_unit)
+        weights = ",".join(literal(parse(unit).factor).text for unit in block.unit) if block.least else ""
+        call = f"solve({function},[{at}],[{factors}]{f',[{weights}]' if weights else ''})"
+    return f"each(count({shape}),p=>{call})" if node.shape else call
+
+
+def _of_problem(scope: Scope, node: Node, like: Node, shape: str) -> str:
+    """A number that a search is given, or of a field that of problem p."""
+    if not node.shape:
+        return scope.text(node)
+    same = scope.program.size(node) == scope.program.size(like)
+    return f"{scope.text(node) if same else scope.spread(node, shape)}[p]"
+
+
+def _shape_of_problems(scope: Scope, block: Block) -> str:
+    if any(scope.program.tells(block.nodes[0], n) for n in scope.program.size(block.nodes[0])):
+        return scope.bind(f"together({','.join(scope.shape(node) for node in block.under if node.shape)})")
+    return scope.shape(block.nodes[0])
+
+
+def _residuals(scope: Scope, block: Block, unknowns: Sequence[Node], shape: str) -> str:
+    """The residuals as a function of the unknowns, of a single one the quantity that shall equal another one.
+
+    Where the operations are of each problem by itself, it is of problem p.
+    """
+    roots = block.sides[:1] or block.residuals
+    names = {n: scope.program.name() for n in unknowns}
+    own = [n for n in bottom_up(roots, {*scope.names, *names}) if n.op != "constant"]
+    many = bool(block.nodes[0].shape)
+    each = many and block.elementwise and all(n.shape == block.nodes[0].shape for n in own)
+    lengths = enumerate(scope.program.size(block.nodes[0]))
+    known = names | {n: f"{shape}[{k}]" for k, n in lengths if isinstance(n, Node) and n not in scope.names}
+    if each:
+        given = dict.fromkeys([*roots, *(operand for n in own for operand in n.operands)])
+        known |= {n: _of_problem(scope, n, block.nodes[0], shape) for n in given if n.shape and n not in {*own, *names}}
+    inner = scope.inner(known, each)
+    inner.write(roots)
+    results = [inner.text(root) for root in roots]
+    arguments = next(iter(names.values())) if block.single else f"([{','.join(names.values())}])"
+    body = f"{{{''.join(inner.lines)}return {results[0] if block.single else '[' + ','.join(results) + ']'}}}"
+    if each or not many:
+        return f"{arguments}=>{body}"
+    all_of = scope.bind(f"{arguments}=>{body}")  # of all problems at once, as if all had these unknowns
+    if block.single:
+        return f"x=>flat({all_of}(filled({shape},x)))[p]"
+    return f"x=>{all_of}(x.map(v=>filled({shape},v))).map(r=>flat(r)[p])"
+
+
+RULES: dict[str, Rule] = {
+    "input": lambda scope, node: f"{'Float64Array.from' if node.shape else ''}({scope.program.inputs[node]})",
+    "rows": lambda scope, node: f"rows({scope.text(node.args[0])})",
+    "length": _length, "take": _taken, "join": _joined, "reduce": _reduced, "exported": _exported,
+    "at": lambda scope, node: f"pick({scope.text(node.args[0])},{scope.text(node.args[1])})",
+    "iterated": _iterated, "found": _found,
+}  # fmt: skip

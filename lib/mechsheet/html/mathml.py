@@ -1,0 +1,224 @@
+"""Formulas in MathML: a rule for each kind of node of the tree, with the signs that LaTeX gives the page."""
+
+import re
+from collections.abc import Callable, Iterable
+from functools import lru_cache
+from html import escape
+from typing import Any
+
+from mechsheet.document.formula import (
+    Apply,
+    Binary,
+    Brackets,
+    Cases,
+    Code,
+    Element,
+    Fraction,
+    Function,
+    Integral,
+    Matrix,
+    Measure,
+    Node,
+    Number,
+    Overline,
+    Power,
+    Prefix,
+    Product,
+    Range,
+    Root,
+    Row,
+    Signed,
+    Sum,
+    Text,
+    is_high,
+)
+from mechsheet.worksheet import numbers
+from mechsheet.worksheet.numbers import Notation
+from mechsheet.worksheet.symbol import GREEK, Symbol
+
+# What is no digit stands outside the element of a number, which it ends and begins again.
+_NUMBER = Notation(
+    "</mn><mo>−</mo><mn>",
+    "</mn><mtext>none</mtext><mn>",
+    "∞",
+    "{}</mn><mo>⋅</mo><msup><mn>10</mn><mrow><mn>{}</mn></mrow></msup><mn>",
+    "</mn><mo>(</mo><mn>{}</mn><mo>,</mo><mn>{}</mn><mo>)</mo><mn>",
+    "</mn><mo>…</mo><mn>",
+    "°",
+    '</mn><mspace width=".17em"/><mtext>%</mtext><mn>',
+    '</mn><mspace width=".17em"/><mtext>{}</mtext><mn>',
+    "</mtext><msup><mrow></mrow><mrow><mn>{}</mn></mrow></msup><mtext>",
+    "·",
+)
+_EMPTY = re.compile("<(mn|mtext)></\\1>")
+_THIN, _COMMA, _QUAD = '<mspace width=".17em"/>', '<mo separator="true">,</mo>', '<mspace width="1em"/>'
+_FORM = ' form="{}"'  # of a bar, which may begin or end
+_GREEK = re.compile(f"([{''.join(GREEK.values())}])")
+_UPRIGHT = re.compile("[A-ZΓΔΘΛΞΠΣΥΦΨΩ]")  # Greek capitals, and letters of an index
+_WORDS = ("mod", "and", "or")
+_DOTS = {".": "˙", "..": "¨"}
+
+
+def mathml(node: Node, *, block: bool = True) -> str:
+    """A formula in MathML, with the space of a line of its own or of a text."""
+    display = ' displaystyle="true"' if block else ""
+    return f"<math{display}>{inner(node)}</math>"
+
+
+def inner(node: Node) -> str:
+    """One element of MathML."""
+    return RULES[type(node)](node)
+
+
+@lru_cache(maxsize=4096)
+def symbol(s: Symbol) -> str:
+    """A symbol in MathML.
+
+    >>> from mechsheet.worksheet.symbol import read
+    >>> symbol(read("phi34"))
+    '<msub><mi>φ</mi><mn>34</mn></msub>'
+    >>> symbol(read("dRa"))
+    '<mrow><mi mathvariant="normal">Δ</mi><msub><mi>R</mi><mi mathvariant="normal">a</mi></msub></mrow>'
+    """
+    base = _letters(s.base)
+    if s.mark in _DOTS:
+        base = f'<mover accent="true">{base}<mo stretchy="false">{_DOTS[s.mark]}</mo></mover>'
+    if s.index:
+        parts = [_index(part) for part in _GREEK.split(s.index) if part]
+        base = f"<msub>{base}{_row(parts)}</msub>"
+    return _row([_upright(s.mark), base]) if s.mark in ("Δ", "d") else base
+
+
+def _letters(text: str) -> str:
+    """A letter, slanted unless it is a Greek capital, or a word."""
+    return _upright(text) if text in _LETTERS and _UPRIGHT.fullmatch(text) else f"<mi>{escape(text)}</mi>"
+
+
+_LETTERS = frozenset(GREEK.values())
+
+
+def _upright(text: str) -> str:
+    return f'<mi mathvariant="normal">{escape(text)}</mi>'
+
+
+def _index(text: str) -> str:
+    if text in _LETTERS:
+        return _letters(text)
+    return _upright(text) if re.search("[A-Za-z]", text) else f"<mn>{escape(text)}</mn>"
+
+
+def _row(parts: Iterable[str]) -> str:
+    held = [part for part in parts if part]
+    return held[0] if len(held) == 1 else f"<mrow>{''.join(held)}</mrow>"
+
+
+def _digits(text: str) -> str:
+    """A number as `_NUMBER` writes it."""
+    return f"<mrow>{_EMPTY.sub('', f'<mn>{text}</mn>')}</mrow>"
+
+
+def _sign(sign: str) -> str:
+    if sign in _WORDS:
+        return f"<mtext>\u2002{sign}\u2002</mtext>"
+    return f"<mo>{escape(sign.replace('-', '−'))}</mo>"
+
+
+def _function(node: Function) -> str:
+    if node.name == "sum":
+        return '<mo largeop="false">∑</mo>'
+    return f"<mi>{escape(node.name)}</mi>" if len(node.name) > 1 else _upright(node.name)
+
+
+def _signed(node: Signed) -> str:
+    return f"<mrow>{_sign(node.sign)}{inner(node.of)}</mrow>"
+
+
+def _product(node: Product) -> str:
+    return f"<mrow>{inner(node.left)}{'<mo>⋅</mo>' if node.dot else _THIN}{inner(node.right)}</mrow>"
+
+
+def _brackets(node: Brackets) -> str:
+    between = _COMMA if node.close else _COMMA + _THIN
+    return _fenced(node.kind[0], between.join(map(inner, node.items)), node.kind[1], is_high(node))
+
+
+def _fenced(left: str, inside: str, right: str, high: bool = True) -> str:
+    """What stands between two signs, which are as high as it is where it is ``high``; the last one may be none."""
+    flat = "" if high else ' stretchy="false"'
+    first, last = (
+        f"<mo{_FORM.format(form) if sign == '|' else ''}{flat}>{sign}</mo>" if sign else ""
+        for form, sign in (("prefix", left), ("postfix", right))
+    )
+    return f"<mrow>{first}<mrow>{inside}</mrow>{last}</mrow>"
+
+
+def _prefix(node: Prefix) -> str:
+    space = "" if isinstance(node.operator, Text) else _THIN
+    return f"<mrow>{inner(node.operator)}{space}{inner(node.of)}</mrow>"
+
+
+def _range(node: Range) -> str:
+    parts = [*map(inner, node.first), '<mo form="infix">…</mo>']
+    return f"<mrow>{(_COMMA + _THIN).join(parts)}{_THIN}{inner(node.last)}</mrow>"
+
+
+def _cases(node: Cases) -> str:
+    rows, rest = list[str](), node
+    while True:
+        rows.append(_table_row([inner(rest.value), f"<mrow><mtext>if\u2002</mtext>{inner(rest.condition)}</mrow>"]))
+        if not isinstance(rest.otherwise, Cases):
+            break
+        rest = rest.otherwise
+    rows.append(_table_row([inner(rest.otherwise), "<mtext>otherwise</mtext>"]))
+    return _fenced("{", f'<mtable class="cases">{"".join(rows)}</mtable>', "")
+
+
+def _table_row(cells: Iterable[str]) -> str:
+    return f"<mtr>{''.join(f'<mtd>{cell}</mtd>' for cell in cells)}</mtr>"
+
+
+def _sum(node: Sum) -> str:
+    if node.end is None:
+        sign = f"<munder><mo>∑</mo><mrow>{inner(node.index)}<mo>∈</mo>{inner(node.start)}</mrow></munder>"
+    else:
+        start = f"<mrow>{inner(node.index)}<mo>=</mo>{inner(node.start)}</mrow>"
+        sign = f"<munderover><mo>∑</mo>{start}{inner(node.end)}</munderover>"
+    return f"<mrow>{sign}{inner(node.of)}</mrow>"
+
+
+def _integral(node: Integral) -> str:
+    over = inner(node.over)
+    sign = f"<msup><mo>∫</mo>{over}</msup>" if node.so_far else "<mo>∫</mo>"
+    return f"<mrow>{sign}{inner(node.of)}{_THIN}{_upright('d')}{over}</mrow>"
+
+
+def _matrix(node: Matrix) -> str:
+    rows = "".join(_table_row(map(inner, row.items)) for row in node.rows)
+    return _fenced("[", f"<mtable>{rows}</mtable>", "]")
+
+
+RULES: dict[type[Any], Callable[[Any], str]] = {
+    Symbol: symbol,
+    Number: lambda node: _digits(numbers.usual(node.value, _NUMBER)),
+    Measure: lambda node: _digits(numbers.quantity(node.value, node.unit, _NUMBER)),
+    Text: lambda node: f"<mtext>{escape(node.text)}</mtext>",
+    Code: lambda node: f'<mtext class="code">{escape(node.text)}</mtext>',
+    Function: _function,
+    Signed: _signed,
+    Binary: lambda node: f"<mrow>{inner(node.left)}{_sign(node.sign)}{inner(node.right)}</mrow>",
+    Product: _product,
+    Fraction: lambda node: f"<mfrac>{inner(node.over)}{inner(node.under)}</mfrac>",
+    Root: lambda node: f"<msqrt>{inner(node.of)}</msqrt>",
+    Power: lambda node: f"<msup>{inner(node.base)}{inner(node.exponent)}</msup>",
+    Element: lambda node: f"<msub>{inner(node.of)}{inner(node.index)}</msub>",
+    Overline: lambda node: f'<mover accent="true">{inner(node.of)}<mo stretchy="true">‾</mo></mover>',
+    Brackets: _brackets,
+    Apply: lambda node: f"<mrow>{inner(node.function)}{inner(node.arguments)}</mrow>",
+    Prefix: _prefix,
+    Range: _range,
+    Integral: _integral,
+    Sum: _sum,
+    Cases: _cases,
+    Matrix: _matrix,
+    Row: lambda node: f"<mrow>{_QUAD.join(map(inner, node.items))}</mrow>",
+}

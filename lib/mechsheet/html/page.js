@@ -1,0 +1,215 @@
+// The page itself: it shows for the inputs what evaluate gives, and nothing that it does not know.
+const told = JSON.parse(document.getElementById("told").textContent);
+const shownBy = told.shown.map((spec, n) => document.querySelector(`[data-n="${n}"]`));
+const contentOf = element => element.tBodies?.[0] ?? element;
+const first = shownBy.map(element => contentOf(element).innerHTML);
+const UNKNOWN = "not known for these inputs: it holds for the document's own";
+const MOVES_NOT = "as in the document, for its own inputs only";
+const state = {changed: new Set(), refused: false, results: null};
+const moving = new Map(); // by the name of the control: its positions, pictures and marks, and which of them is shown
+
+// Each kind of element: from the results to what stands in it; nothing where that is not known.
+const show = {
+  value(spec, element, results) {
+    const parts = spec.keys?.map(key => along(results.values[key], positionOf(spec)));
+    const known = parts && parts.every(part => part !== undefined);
+    set(element, known ? valueText(parts, spec.factor, spec.behind) : "");
+    return Boolean(known);
+  },
+  table(spec, element, results) {
+    const columns = spec.columns.map(column => columnTexts(column, results));
+    const rows = Math.max(...columns.map(texts => texts?.length ?? 0));
+    const kinds = spec.columns.map(column => (column.unit ? "" : ' class="ms-text"'));
+    const cells = k => columns.map((texts, n) => `<td${kinds[n]}>${texts ? escaped(texts[k] ?? "") : ""}</td>`).join("");
+    set(element.tBodies[0], Array.from({length: rows}, (_, k) => `<tr>${cells(k)}</tr>`).join(""));
+    return columns.every(Boolean);
+  },
+  check(spec, element, results) {
+    const verdict = judged(spec, results);
+    if (verdict) tell(element, verdict, spec);
+    else tell(element, {kind: "OPEN", word: "not known", compared: "", reason: UNKNOWN}, spec);
+    return Boolean(verdict);
+  },
+  chart(spec, element, results) {
+    const columns = spec.columns.map(column => columnValues(column, results));
+    const known = columns.every(Boolean);
+    set(element, known ? chartSVG(spec, columns, results) : "");
+    return known;
+  },
+  own(spec, element) {
+    set(element, "");
+    return false;
+  },
+  moved(spec, element) {
+    set(element, "");
+    return false;
+  },
+  found(spec, element, results) {
+    const verdict = spec.words && results.found[spec.key];
+    set(element, verdict ? foundHTML(spec.words, verdict) : "");
+    return Boolean(verdict);
+  },
+};
+
+// The part of a field at one position of its last axis; all of it where none is meant.
+function along(field, at) {
+  if (at === undefined || field === undefined || typeof field === "number") return field;
+  const length = (field.shape ?? [field.length]).at(-1);
+  const part = field.filter((_, i) => i % length === at);
+  return part.length > 1 ? Object.assign(part, {shape: field.shape.slice(0, -1)}) : part[0];
+}
+
+const escaped = text => String(text).replace(/[&<>"]/g, sign => ({"&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;"})[sign]);
+
+function columnValues(column, results) {
+  if (column.key === null) return column.fixed ? column.values ?? null : null;
+  const values = results.values[column.key];
+  return values === undefined ? null : Float64Array.from(typeof values === "number" ? [values] : values, x => x / column.factor);
+}
+
+function columnTexts(column, results) {
+  if (column.key === null) return column.fixed ? column.texts : null;
+  const values = columnValues(column, results);
+  return values && Array.from(values, x => cellText(x, column));
+}
+
+// Residual, limit and verdict of a check, as the worksheet judges it; null where they are not known.
+function judged(spec, results) {
+  const parts = spec.keys?.map(key => results.values[key]);
+  const bound = spec.own ? spec.limit : results.values[spec.limit];
+  if (!parts || parts.some(part => part === undefined) || bound === undefined) return null;
+  const all = parts.flatMap(part => (typeof part === "number" ? [part] : [...part]));
+  const lost = all.filter(x => x !== x).length, limit = bound / (spec.own ? 1 : spec.factor);
+  const sum = spec.essential && !spec.signed;
+  const residual = (sum ? all.reduce((a, b) => a + b, 0) : Math.max(...all)) / spec.factor;
+  const open = reason => ({kind: "OPEN", word: "not evaluated", compared: "", reason});
+  if (!all.length) return open("there is nothing to check");
+  if (lost) return open(`${lost} of ${all.length} values do not exist`);
+  if (limit !== limit) return open("there is no limit");
+  const passed = residual <= limit, kind = passed ? "PASS" : "FAIL";
+  const [a, b] = compared(residual, limit).map(text => text.replaceAll("-", HTML.minus));
+  return {kind, word: kind, compared: `: ${a} ${passed ? "≤" : "≰"} ${b}${spec.behind}`, reason: ""};
+}
+
+function tell(element, {kind, word, compared, reason}) {
+  const badge = element.querySelector(".ms-badge");
+  badge.className = `ms-badge ms-${kind}`;
+  badge.textContent = word;
+  element.querySelector(".ms-compared").innerHTML = compared;
+  element.querySelector(".ms-note").textContent = reason;
+  inside.delete(element);
+}
+
+function refresh() {
+  const {si, changed, errors} = readInputs();
+  told.inputs.fields.forEach(field => mark(field, changed.has(field.name), errors.get(field.name) ?? ""));
+  Object.assign(state, {changed, refused: errors.size > 0});
+  const own = !changed.size && !errors.size;
+  const results = own || errors.size ? null : evaluate(si);
+  state.results = results;
+  const guards = results?.guards ?? [];
+  told.shown.forEach((spec, n) => {
+    if (spec.kind === "moved") return own || empty(spec, shownBy[n], MOVES_NOT);
+    if (own) {
+      if (!spec.control) set(contentOf(shownBy[n]), first[n]);
+      grey(shownBy[n], "");
+    } else if (errors.size || guards.length) empty(spec, shownBy[n], guards[0] ?? "an input cannot be used");
+    else grey(shownBy[n], show[spec.kind](spec, shownBy[n], results) ? "" : reasonOf(spec, results));
+  });
+  [...moving.keys()].forEach(showMoved);
+  sum();
+  say(changed, errors, guards);
+  if (!errors.size) {
+    const address = addressOf(changed);
+    if (address !== location.hash.slice(1)) history.replaceState(null, "", address ? `#${address}` : location.pathname);
+  }
+}
+
+function reasonOf(spec, results) {
+  const keys = [...(spec.keys ?? []), ...(spec.columns ?? []).map(column => column.key)];
+  return keys.map(key => results.gaps[key]).find(Boolean) ?? UNKNOWN;
+}
+
+// What stands there already is left alone: laying it out again takes longer than computing it.
+const inside = new WeakMap();
+
+function set(element, html) {
+  if ((inside.get(element) ?? element.innerHTML) !== html) element.innerHTML = html;
+  inside.set(element, html);
+}
+
+function grey(element, reason) {
+  element.classList.toggle("ms-grey", Boolean(reason));
+  if (reason) element.dataset.reason = reason;
+  else delete element.dataset.reason;
+}
+
+const NOTHING = {values: {}, gaps: {}, guards: [], found: {}};
+
+function empty(spec, element, reason) {
+  show[spec.kind](spec, element, NOTHING);
+  grey(element, reason);
+}
+
+function mark(field, changed, error) {
+  const input = inputOf(field), row = input.closest(".ms-field");
+  row.classList.toggle("ms-changed", changed);
+  row.title = changed ? `the document's own: ${field.text}${unitOf(field)}` : "";
+  input.setAttribute("aria-invalid", Boolean(error));
+  document.getElementById(`error-${field.name}`).textContent = error;
+  const used = document.querySelector(`[data-used="${field.name}"]`);
+  used.classList.toggle("ms-changed", changed);
+  used.cells[1].textContent = typed(field);
+}
+
+// The verdicts of all checks where they are summed up, those that fail first.
+function sum() {
+  for (const summary of document.querySelectorAll(".ms-summary")) {
+    const row = summary.querySelector(".ms-row"), counts = {PASS: 0, FAIL: 0, OPEN: 0};
+    const items = [...row.children].map(item => {
+      const badge = document.getElementById(item.dataset.of)?.querySelector(".ms-badge");
+      const kind = /ms-(PASS|FAIL|OPEN)/.exec(badge?.className)?.[1] ?? "OPEN";
+      counts[kind]++;
+      const own = item.querySelector(".ms-badge");
+      own.className = badge.className;
+      own.textContent = badge.textContent;
+      return [kind, item];
+    });
+    for (const kind of ["OPEN", "FAIL"].reverse()) row.append(...items.filter(([k]) => k === kind).map(([, item]) => item));
+    row.append(...items.filter(([k]) => k === "PASS").map(([, item]) => item));
+    const total = items.length;
+    summary.querySelector("b").textContent = `${counts.PASS} of ${total} checks pass` +
+      (counts.FAIL ? `, ${counts.FAIL} fail` : "") + (counts.OPEN ? `, ${counts.OPEN} not evaluated` : "");
+  }
+}
+
+function say(changed, errors, guards) {
+  const bar = document.querySelector(".ms-bar");
+  const names = told.inputs.fields.filter(field => changed.has(field.name)).map(field => field.name).join(", ");
+  const text = errors.size
+    ? `not computed: ${[...errors.values()][0]}`
+    : guards.length ? `not computed: ${guards[0]}` : changed.size ? `changed: ${names}` : "as in the document";
+  bar.querySelector(".ms-state").textContent = text;
+  document.body.classList.toggle("ms-stopped", Boolean(errors.size || guards.length));
+  bar.querySelector(".ms-back").hidden = !changed.size && !errors.size;
+  bar.querySelector(".ms-save").hidden = !changed.size || Boolean(errors.size);
+}
+
+document.addEventListener("input", event => {
+  if (event.target.closest(".ms-inputs")) refresh();
+});
+document.addEventListener("submit", event => event.preventDefault());
+addEventListener("hashchange", () => (readAddress(), refresh()));
+
+document.querySelector(".ms-back")?.addEventListener("click", () => {
+  for (const field of told.inputs.fields) type(field, field.text);
+  refresh();
+});
+
+document.querySelector(".ms-save")?.addEventListener("click", () => {
+  const link = document.createElement("a");
+  link.href = URL.createObjectURL(new Blob([sceneText(state.changed)], {type: "application/toml"}));
+  link.download = `${told.name}.toml`;
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 1000);
+});

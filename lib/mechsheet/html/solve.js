@@ -1,0 +1,231 @@
+// Several equations in several unknowns, as the mechanics' newton and starts solve them; here one start of one problem
+// after the other.
+const STEP = EPS ** (1 / 3);
+function dot(a, b) {
+  let sum = 0;
+  for (let k = 0; k < a.length; k++) sum += a[k] * b[k];
+  return sum;
+}
+
+const times = (rows, x) => rows.map(row => dot(row, x));
+const all_finite = a => a.every(v => isFinite(v));
+const known_or_0 = v => (isFinite(v) ? v : 0);
+
+// Singular values in descending order with the columns of u and v, by rotations of pairs of columns.
+function decomposed(rows) {
+  const n = rows[0].length, u = comb(n, k => Float64Array.from(rows, row => known_or_0(row[k])));
+  const v = comb(n, k => field(n).map((_, i) => +(i == k)));
+  for (let turn = 0, turned = true; turned && turn < 60; turn++) {
+    turned = false;
+    for (let i = 0; i < n; i++)
+      for (let j = i + 1; j < n; j++) {
+        const a = dot(u[i], u[i]), b = dot(u[j], u[j]), c = dot(u[i], u[j]);
+        if (!(abs(c) > EPS * sqrt(a * b))) continue;
+        turned = true;
+        const zeta = (b - a) / (2 * c), t = (zeta < 0 ? -1 : 1) / (abs(zeta) + sqrt(1 + zeta * zeta));
+        const cosine = 1 / sqrt(1 + t * t);
+        rotate(u[i], u[j], cosine, cosine * t);
+        rotate(v[i], v[j], cosine, cosine * t);
+      }
+  }
+  const values = u.map(column => sqrt(dot(column, column)));
+  const order = comb(n, k => k).sort((i, j) => values[j] - values[i]);
+  return {
+    values: order.map(k => values[k]), v: order.map(k => v[k]),
+    u: order.map(k => u[k].map(x => (values[k] > 0 ? x / values[k] : 0))),
+  };
+}
+
+function rotate(a, b, cosine, sine) {
+  for (let k = 0; k < a.length; k++) {
+    const x = a[k];
+    a[k] = cosine * x - sine * b[k];
+    b[k] = sine * x + cosine * b[k];
+  }
+}
+
+// The step within the radius, and the length of Newton's own step.
+function step_within({u, values, v}, r, radius) {
+  const along = u.map(column => -dot(column, r.map(known_or_0)));
+  const smallest = max(r.length, v.length) * EPS * values[0];
+  let parts = along.map((x, k) => (values[k] > smallest ? x / values[k] : 0));
+  const length = sqrt(dot(parts, parts));
+  if (length > radius) {
+    let damping = 0;
+    for (let turn = 0; turn < 12; turn++) {
+      const below = values.map(value => value * value + damping);
+      parts = along.map((x, k) => (below[k] > 0 ? (values[k] * x) / below[k] : 0));
+      const slope = -parts.reduce((sum, x, k) => sum + (below[k] > 0 ? (x * x) / below[k] : 0), 0);
+      const norm = sqrt(dot(parts, parts));
+      damping = max(damping + (slope < 0 ? (norm ** 2 / slope) * (1 - norm / radius) : 0), 0);
+    }
+    const scale = radius / max(sqrt(dot(parts, parts)), 1e-300);
+    parts = parts.map(x => x * scale);
+  }
+  return [comb(v.length, n => parts.reduce((sum, x, k) => sum + x * v[k][n], 0)), length];
+}
+
+// f with each unknown by itself a step lower and higher: for each unknown two of its places and the residuals there.
+const beside = (f, x, step, lo, hi) => x.map((own, k) =>
+  [-1, 1].map(way => {
+    const at = clip(own + way * step[k], lo[k], hi[k]);
+    return [at, f(x.map((v, i) => (i == k ? at : v)))];
+  }));
+
+// Slopes [equation][unknown], one-sided where f has no number on the other side.
+function differences(f, x, r, size, lo, hi) {
+  const columns = beside(f, x, x.map((v, k) => STEP * max(abs(v), 2 ** -6 * size[k])), lo, hi);
+  return r.map((own, m) => columns.map((sides, k) => {
+    const [[a, ya], [b, yb]] = sides.map(([at, y]) => (isFinite(y[m]) ? [at, y[m]] : [x[k], own]));
+    return (yb - ya) / (b - a);
+  }));
+}
+
+// Where f leads from a start; without a number it stays. `unit` weighs residuals whose squares shall be least.
+function newton(f, x, size, lo, hi, reach, unit, free) {
+  const n = x.length;
+  let r = f(x), slopes = r.map(() => x.map(() => NaN)), scale = r.map(() => 0), evaluations = 1;
+  let moving = all_finite(r), fresh = moving, sank = moving, radius = reach, before = Infinity;
+  for (let turn = 0; turn < (free || 100) && moving; turn++) {
+    if (fresh) {
+      slopes = differences(f, x, r, size, lo, hi);
+      evaluations += 2 * n;
+      if (!slopes.every(all_finite)) break;
+    }
+    const changed = slopes.map(row => row.reduce((most, v, k) => max(most, abs(v * size[k])), 0));
+    const own_scale = unit ?? changed.map(v => (v > 0 ? v : 1));
+    scale = scale.map((v, m) => max(v, own_scale[m]));
+    const jacobian = slopes.map((row, m) => row.map((v, k) => (v * size[k]) / own_scale[m]));
+    const own = r.map((v, m) => v / own_scale[m]);
+    let parts = decomposed(jacobian), [step, whole] = step_within(parts, own, radius);
+    const held = step.map((v, k) => (x[k] <= lo[k] && v < 0) || (x[k] >= hi[k] && v > 0));
+    if (held.includes(true)) {
+      parts = decomposed(jacobian.map(row => row.map((v, k) => (held[k] ? 0 : v))));
+      [step, whole] = step_within(parts, own, radius);
+      step = step.map((v, k) => (held[k] ? 0 : v));
+    }
+    const length = sqrt(dot(step, step)), target = x.map((v, k) => clip(v + step[k] * size[k], lo[k], hi[k]));
+    const downhill = step.map((_, k) => dot(jacobian.map(row => row[k]), own));
+    const lowest = dot(downhill, downhill) <= 1e-9 ** 2 * jacobian.reduce((sum, row) => sum + dot(row, row), 0) * dot(own, own);
+    if ((whole <= 1e-6 && !sank && whole > 0.75 * before) || target.every((v, k) => v == x[k])
+      || own.every(v => v == 0) || radius < 1e-12 || lowest) break;
+    const there = f(target), left = there.map((v, m) => v / own_scale[m]);
+    evaluations++;
+    const ahead = times(jacobian, target.map((v, k) => (v - x[k]) / size[k])).map((v, m) => own[m] + v);
+    const expected = dot(own, own) - dot(ahead, ahead), fallen = dot(own, own) - dot(left, left);
+    let gain = fallen > 0 ? fallen / max(expected, 2 ** -1022) : -1;
+    if (!unit && all_finite(left) && step_within(parts, left, Infinity)[1] < whole - length / 4) gain = max(gain, 0.5);
+    const sinks = gain > 1e-4, taken = (sinks || whole <= 1e-6 || free > 0) && all_finite(there);
+    if (!free) radius = gain < 0.25 ? length / 4 : gain > 0.75 ? max(radius, 3 * length) : radius;
+    moving = taken || !free;
+    sank = sinks;
+    fresh = taken;
+    if (taken) [before, x, r] = [whole, target, there];
+  }
+  return {x, r, slopes, scale, evaluations};
+}
+
+// Whether all residuals are no more than rounding: what f varies by over the next floats.
+function vanishing(f, {x, r, slopes}, size, lo, hi) {
+  const around = beside(f, x, x.map((v, k) => EPS * max(8 * abs(v), size[k])), lo, hi).flat().map(side => side[1]);
+  return r.every((own, m) => {
+    const values = [own, ...around.map(y => y[m])], varied = largest(values) - least(values);
+    return abs(own) <= 8 * varied && !(varied == 0 && slopes[m].every(v => v == 0));
+  });
+}
+
+// Where starts end, and whether in a solution.
+function led(f, starts, at, reach, unit, free = 0) {
+  return starts.map(start => {
+    let ended = newton(f, start, at.size, at.lo, at.hi, reach, unit, free);
+    const fine = () => ended.x.map((v, k) => max(abs(v), at.least[k]));
+    if (!unit && fine().some((v, k) => v < 2 ** -10 * at.size[k])) {
+      const again = newton(f, ended.x, fine(), at.lo, at.hi, Infinity, null, 20);
+      ended = {...again, evaluations: ended.evaluations + again.evaluations};
+    }
+    return {...ended, held: !unit && vanishing(f, ended, fine(), at.lo, at.hi)};
+  });
+}
+
+// One more lot of starts, which fill the places evenly.
+function lot(f, at, number, unit) {
+  const n = at.first.length, many = 32 * n;
+  let golden = 2;
+  for (let k = 0; k < 64; k++) golden = (1 + golden) ** (1 / (n + 1));
+  const share = (i, k) => (0.5 + golden ** -(k + 1) * (number * many + i)) % 1;
+  return led(f, comb(many, i => at.first.map((a, k) => a * (1 - share(i, k)) + at.last[k] * share(i, k))), at, 1, unit);
+}
+
+// The solutions that are not the same as another one, in ascending order, and the start that came nearest to one.
+function distinct(ends, size) {
+  const scale = ends[0].scale.map((_, m) => largest(ends.map(end => end.scale[m])));
+  const condition = end => {
+    const {values} = decomposed(end.slopes.map((row, m) => row.map((v, k) => (v * size[k]) / scale[m])));
+    const ratio = values[0] / values[values.length - 1];
+    return ratio < 1 / EPS ? ratio : Infinity;
+  };
+  const radius = condition => min(64 * EPS * min(condition, 1 / EPS), 2 ** -10);
+  const seen = [];
+  for (const end of ends.filter(end => end.held)) {
+    const own = {x: end.x, residual: end.r, condition: condition(end)};
+    const same = other => other.x.every((v, k) =>
+      abs(v - own.x[k]) <= max(radius(own.condition), radius(other.condition)) * size[k]);
+    if (!seen.some(same)) seen.push(own);
+  }
+  seen.sort((a, b) => a.x[0] - b.x[0]);
+  const left = ends.map(end => end.r.map((v, m) => abs(v) / scale[m]));
+  const nearest = first_least(left.map(a => (all_finite(a) ? dot(a, a) : Infinity)));
+  const {x, r} = ends[nearest];
+  return {seen, evaluations: ends.reduce((sum, end) => sum + end.evaluations, 0), starts: ends.length,
+    nearest: {x, residual: r, left: left[nearest]}, lowest: () => ({x, residual: r, condition: condition(ends[nearest])})};
+}
+
+function from_guess(f, at, unit) {
+  if (unit) return distinct(led(f, [at.first], at, 100, unit), at.size);
+  let [end] = led(f, [at.first], at, Infinity, null, 20);
+  if (!end.held) {
+    const [more] = led(f, [at.first], at, 100, null);
+    end = {...more, evaluations: end.evaluations + more.evaluations};
+  }
+  return distinct([end], at.size);
+}
+
+function between(f, at, unit) {
+  let ends = [], known = {seen: []}, before = -1;
+  for (let number = 0; number < 16 && known.seen.length > before; number++) {
+    before = number ? known.seen.length : 0;
+    ends = [...ends, ...lot(f, at, number, unit)];
+    known = distinct(ends, at.size);
+  }
+  return known;
+}
+
+// The verdict on equations f(x) = 0: x and residual (NaN where there is none), condition, evaluations, solutions,
+// starts, the nearest place where none is a solution, and the reason: "" where solved, else "nothing" or "unsolved".
+// `asked` has of each unknown its guess or the two ends of its interval; with `unit` squares are made least.
+function solve(f, asked, factors, unit) {
+  const none = {x: asked.map(() => NaN), residual: [], condition: NaN, evaluations: 0, solutions: [], starts: 0};
+  if (asked.flat().some(v => v != v)) return {...none, reason: "nothing"};
+  const wrong = asked.findIndex(ends => !all_finite(ends) || ends[0] >= ends[1]);
+  if (wrong >= 0) return {...none, reason: `the ends of unknown ${wrong + 1} must be finite and in order`};
+  const size = asked.map(([a, b], k) => (b === undefined ? (a == 0 ? factors[k] : abs(a)) : b - a));
+  const at = {
+    first: asked.map(ends => ends[0]), last: asked.map(ends => ends[ends.length - 1]), size,
+    least: size.map((v, k) => min(v, factors[k])), lo: asked.map(ends => (ends.length > 1 ? ends[0] : -Infinity)),
+    hi: asked.map(ends => ends[1] ?? Infinity),
+  };
+  const real = x => f(x).map(v => (isFinite(v) ? +v : NaN));
+  const guessed = at.first.every((a, k) => a == at.last[k]);
+  const known = (guessed ? from_guess : between)(real, at, unit);
+  const off = ({x}) => max(...x.map((v, k) => abs(v - (at.first[k] / 2 + at.last[k] / 2)) / size[k]));
+  const chosen = unit ? known.lowest() : known.seen[first_least(known.seen.map(off))];
+  const around = {...at, first: at.first.map((a, k) => a - size[k]), last: at.last.map((b, k) => b + size[k])};
+  let others;
+  const every = () => (others ??= guessed && !unit ? distinct(lot(real, around, 0, null), size) : known);
+  const {evaluations, nearest} = known, reason = chosen && all_finite(chosen.x) ? "" : "unsolved";
+  return {
+    ...none, residual: nearest.residual.map(() => NaN), ...chosen, evaluations, nearest, guessed, reason,
+    get solutions() { return unit ? [] : every().seen.map(solution => solution.x); },
+    get starts() { return every().starts; },
+  };
+}

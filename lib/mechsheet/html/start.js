@@ -1,0 +1,4 @@
+// What the address says holds from the beginning.
+sum();
+if (location.hash.includes("=")) readAddress();
+refresh();

@@ -1,0 +1,251 @@
+"""What the page shows of each value: its writer by its kind, from the data to HTML."""
+
+import re
+from collections.abc import Sequence
+from datetime import date
+from functools import singledispatch
+from html import escape
+from inspect import cleandoc
+from typing import Any
+
+import numpy as np
+
+from mechsheet import units
+from mechsheet.document import chart, chart_svg, drawing_svg
+from mechsheet.document.blocks import blocks, fitting
+from mechsheet.document.expression import equation, fields_by_name
+from mechsheet.document.markup import HTML, as_written, in_words, named
+from mechsheet.document.parts import Control, Line, Section, Text
+from mechsheet.html import index, markdown
+from mechsheet.html.follow import Follower
+from mechsheet.html.mathml import mathml
+from mechsheet.worksheet import numbers
+from mechsheet.worksheet.check import Check, Summary
+from mechsheet.worksheet.drawing import Drawing
+from mechsheet.worksheet.index import Index
+from mechsheet.worksheet.inputs import Used
+from mechsheet.worksheet.lines import Formula, Given
+from mechsheet.worksheet.shown import Shown
+from mechsheet.worksheet.table import Column, Figure, Table
+from mechsheet.worksheet.title import Caption, Mark, SideBySide, Title
+from mechsheet.worksheet.verdict import Verdict
+
+_READINGS = re.compile(' data-values="[^"]*"')  # of a chart: the page knows them
+
+
+@singledispatch
+def html(value: Any, page: Follower) -> str:
+    """HTML of a value, which `Follower` marks where it follows the inputs."""
+    what = escape(type(value).__name__)
+    return f'<p class="ms-note">{what}: shown in the worksheet alone</p>' if isinstance(value, Shown) else ""
+
+
+@html.register
+def _(title: Title, page: Follower) -> str:
+    cells = (("Worksheet", escape(title.file)), ("Computed", f"{date.today():%Y-%m-%d}"))
+    told = "".join(f"<span>{label} <b>{value}</b></span>" for label, value in cells)
+    text = markdown.html(cleandoc(title.text))
+    return f'<header class="ms-title"><h1>{escape(title.name)}</h1>{text}<div class="ms-row">{told}</div></header>'
+
+
+@html.register
+def _(section: Section, page: Follower) -> str:
+    level = min(section.level, 6)
+    title = markdown.html(section.title).removeprefix("<p>").removesuffix("</p>")
+    return f'<h{level} id="{anchor(section.title)}">{title}</h{level}>'
+
+
+def anchor(title: str) -> str:
+    """Id of a heading."""
+    return "section-" + re.sub(r"\W+", "-", title.lower()).strip("-")
+
+
+@html.register
+def _(text: Text, page: Follower) -> str:
+    return f'<div class="ms-between">{page.own(markdown.html(text.markdown), text.markdown)}</div>'
+
+
+@html.register
+def _(given: Given, page: Follower) -> str:
+    return _line(mathml(equation(given)))
+
+
+@html.register
+def _(line: Line, page: Follower) -> str:
+    formula, shown = line.formula, ""
+    if not formula.arguments:
+        follows = page.value(line)
+        shown = f'<span class="ms-equals">=</span><span class="ms-value"{follows}>{value(line)}</span>'
+    return _line(mathml(equation(formula, _single(line))), shown, formula)
+
+
+def _single(line: Line) -> frozenset[str]:
+    """Names of a line that end as a field does, where the line is one number."""
+    alone = np.ndim(line.value) == 0 and not line.formula.arguments
+    return frozenset(fields_by_name(line.formula)) if alone else frozenset()
+
+
+def moving(part: Any, page: Follower, control: str, picture: int) -> str:
+    """A part with the place of what a control moves in it: of a line its value."""
+    if isinstance(part, Line) and page.along(part):
+        place = page.value(part, control=control, picture=picture)
+    else:
+        place = page.mark("moved", control=control, picture=picture)
+    if not isinstance(part, Line):
+        kept = len(page.specs)
+        inside = html(part, page)
+        del page.specs[kept:]
+        return f"<div{place}>{re.sub(' data-n=.[0-9]+.', '', inside)}</div>"
+    shown = f'<span class="ms-equals">=</span><span class="ms-value"{place}>{value(part)}</span>'
+    return _line(mathml(equation(part.formula, _single(part))), shown, part.formula)
+
+
+def value(line: Line) -> str:
+    """Value of a line in its display unit; nothing of a line that is a function."""
+    return "" if line.formula.arguments else numbers.value(line.value, line.formula.unit, HTML)
+
+
+def _line(formula: str, value: str = "", told: Formula | None = None) -> str:
+    """A typeset line, the printed formula's number at its end; the index leads to it by its name."""
+    if not told:
+        return f'<div class="ms-line"><span class="ms-formula">{formula}</span></div>'
+    mistake = f' <span class="ms-badge ms-FAIL">mistake</span> {escape(told.mistake)}' if told.mistake else ""
+    said = f"<span>{escape(told.meaning)}{mistake}</span>" if told.meaning or mistake else ""
+    said += f'<span class="ms-number">{escape(told.number)}</span>' if told.number else ""
+    return f'<div class="ms-line" id="line-{told.name}"><span class="ms-formula">{formula}{value}</span>{said}</div>'
+
+
+@html.register
+def _(table: Table, page: Follower) -> str:
+    parts = "".join(_block(columns, page.columns(table, columns)) for columns in blocks(table))
+    note = f'<div class="ms-note">{page.own(in_words(table.note), table.note)}</div>' if table.note else ""
+    return f'<div class="ms-table">{_caption("Table", table.number, table.title, page)}{parts}{note}</div>'
+
+
+def _block(columns: Sequence[Column], follows: str) -> str:
+    kinds = ["" if c.unit else ' class="ms-text"' for c in columns]
+    heads = "".join(
+        f'<th{kind} scope="col" title="{escape(c.meaning)}">{named(c.name)}</th>'
+        for c, kind in zip(columns, kinds, strict=True)
+    )
+    under = "".join(f"<th>{f'[{escape(units.shown(c.unit))}]' if c.unit else ''}</th>" for c in columns)
+    rows = "".join(
+        "<tr>" + "".join(f"<td{kind}>{t}</td>" for t, kind in zip(row, kinds, strict=True)) + "</tr>"
+        for row in zip(*(map(escape, c.texts(numbers.AXIS)) for c in columns), strict=True)
+    )
+    head = f'<tr>{heads}</tr><tr class="ms-units">{under}</tr>'
+    fit = fitting(columns)
+    style = f' style="--fit:{numbers.fixed(fit, 2)}"' if fit < 1 else ""
+    made = f"<table{follows}{style}><thead>{head}</thead><tbody>{rows}</tbody></table>"
+    return f'<div class="ms-wide" tabindex="0">{made}</div>'
+
+
+@html.register
+def _(figure: Figure, page: Follower) -> str:
+    layout = chart.line_chart(figure.x, figure.lines, figure.marks, figure.every)
+    follows = page.mark("chart", columns=page.figure(figure), marks=page.marks(figure), every=figure.every)
+    caption = _caption("Figure", figure.number, figure.title, page)
+    return f'<figure class="ms-figure"><div{follows}>{_READINGS.sub("", chart_svg.svg(layout))}</div>{caption}</figure>'
+
+
+@html.register
+def _(value: Caption, page: Follower) -> str:
+    return _caption("Figure", value.number, value.title, page)
+
+
+def _caption(what: str, number: str, title: str, page: Follower) -> str:
+    place, words = escape(f"{what.lower()}-{number}"), page.own(escape(title), title)
+    return f'<div class="ms-caption" id="{place}"><b>{what} {escape(number)}</b> – {words}</div>'
+
+
+@html.register
+def _(drawing: Drawing, page: Follower) -> str:
+    return page.own(drawing_svg.svg(drawing))
+
+
+@html.register
+def _(value: SideBySide, page: Follower) -> str:
+    columns = ("".join(html(each, page) for each in column) for column in value.columns)
+    row = f' data-row="{value.row}"' if value.row else ""
+    return f'<div class="ms-beside"{row}>{"".join(f"<div>{each}</div>" for each in columns)}</div>'
+
+
+@html.register
+def _(value: Mark, page: Follower) -> str:
+    return ""
+
+
+@html.register
+def _(control: Control, page: Follower) -> str:
+    label = control.label if control.unit == "-" else f"{control.label} [{units.shown(control.unit)}]"
+    step = control.step or (control.stop - control.start) / 100
+    return (
+        f'<div class="ms-player"><label>{escape(label)} <input type="range" data-control="{escape(control.name)}" '
+        f'min="{control.start}" max="{control.stop}" step="{step}" value="{control.value}"></label>'
+        f"<output>{numbers.significant(control.value, 6)}</output>"
+        f'<button type="button" class="ms-play" aria-label="play"{" data-turning" * control.turning}>▶</button></div>'
+    )
+
+
+@html.register
+def _(check: Check, page: Follower) -> str:
+    kind, verdict = ("PASS" if check.passed else "FAIL",) * 2 if check.evaluated else ("OPEN", "not evaluated")
+    compared = f": {_compared(check)}" if check.evaluated else ""
+    return (
+        f'<div class="ms-check" id="{_anchor(check)}"{page.check(check)}>'
+        f'<span class="ms-badge ms-{kind}">{verdict}</span> '
+        f'{in_words(check.name)}<span class="ms-compared">{compared}</span> '
+        f'<span class="ms-note">{escape(check.reason)}</span></div>'
+    )
+
+
+def _compared(check: Check) -> str:
+    residual, limit = (text.replace("-", HTML.minus) for text in check.compared)
+    return f"{residual} {'≤' if check.passed else '≰'} {limit}{numbers.behind(check.unit, HTML)}"
+
+
+def _anchor(check: Check) -> str:
+    return "check-" + re.sub(r"\W+", "-", check.name)
+
+
+@html.register
+def _(summary: Summary, page: Follower) -> str:
+    items = "".join(
+        f'<span data-of="{_anchor(check)}"><span class="ms-badge"></span> '
+        f'<a href="#{_anchor(check)}">{in_words(check.name)}</a></span>'
+        for check in summary.checks
+    )
+    return f'<div class="ms-summary" role="status"><b></b><div class="ms-row">{items}</div></div>'
+
+
+@html.register
+def _(found: Verdict, page: Follower) -> str:
+    colour = "FAIL" if found.failures() else "PASS" if np.any(found.solved) else "OPEN"
+    lines = "".join(f"<div>{escape(text)}</div>" for text in found.failures())
+    rows = "".join(f"<tr><th>{escape(k)}</th><td>{in_words(v)}</td></tr>" for k, v in found.details())
+    return (
+        f'<div class="ms-found"{page.found(found)}><div>'
+        f'<span class="ms-badge ms-{colour}">{found.word()}</span> '
+        f"<b>{in_words(found.headline())}</b></div>{lines}<table>{rows}</table></div>"
+    )
+
+
+@html.register
+def _(made: Index, page: Follower) -> str:
+    return index.written(made, anchor)
+
+
+@html.register
+def _(used: Used, page: Follower) -> str:
+    rows, section = list[str](), ""
+    for field, _ in used.rows():
+        if field.section != section:
+            section = field.section
+            rows.append(f'<tr><th colspan="4">{escape(section)}</th></tr>')
+        unit = "" if field.unit == "-" else escape(units.shown(field.unit))
+        number = escape(field.brief(getattr(used.g, field.name)))
+        rows.append(
+            f'<tr data-used="{field.name}"><td>{as_written(field.name)}</td><td>{number}</td>'
+            f"<td>{unit}</td><td>{escape(field.meaning)}</td></tr>"
+        )
+    return f'<table class="ms-print">{"".join(rows)}</table>'

@@ -1,0 +1,152 @@
+"""The file of a document: one page with its style, its font, its script and what it computes."""
+
+import ast
+import base64
+import hashlib
+import json
+import re
+from collections.abc import Iterable, Mapping
+from html import escape, unescape
+from inspect import cleandoc
+from pathlib import Path
+from typing import Any
+
+from mechsheet import units
+from mechsheet.document.parts import Line, Section, by_cell
+from mechsheet.html import fields, font, frames, javascript, values
+from mechsheet.html.follow import Follower
+from mechsheet.html.frames import Moved
+from mechsheet.html.mathml import symbol
+from mechsheet.recording.record import record
+from mechsheet.worksheet import symbol as symbols
+from mechsheet.worksheet.cells import Cell, Worksheet, checks, refuse_open
+from mechsheet.worksheet.errors import SheetError
+from mechsheet.worksheet.inputs import Used, declared
+from mechsheet.worksheet.lines import registry
+from mechsheet.worksheet.title import Title
+
+_HERE = Path(__file__).parent
+_SCRIPTS = ("format.js", "chart.js", "fields.js", "found.js", "page.js", "moved.js", "tip.js", "start.js")
+_STUDIES = ("mechsheet.accuracy.", "mechsheet.studies.")
+# The page asks for nothing: what it shows and runs stands in it.
+_POLICY = (
+    "default-src 'none'; script-src {}; style-src 'unsafe-inline'; font-src data:; base-uri 'none'; form-action 'none'"
+)
+
+
+def page(sheet: Worksheet, g: Any) -> str:
+    """Text of an HTML file with everything that a worksheet shows for these inputs, in the order of its file.
+
+    What the recording of the run holds follows the inputs of the page; anything else is there while these are the
+    run's own.
+
+    Raises SheetError where an essential check fails, and for a worksheet of `studies`.
+    """
+    if name := studies(sheet):
+        raise SheetError(f"{Path(sheet.path).stem} computes by {name}, over many runs: a page cannot follow that")
+    namespace = sheet.run(sheet.results, {"g": g})
+    refuse_open(checks(namespace))
+    cells = by_cell(namespace)
+    shown = [part for parts in cells.values() for part in parts]
+    follower = Follower(record(namespace, sheet, whole=True, every=1))
+    moving = frames.moved(sheet, namespace, cells, follower)
+    body = "".join(_cell(n, parts, sheet.cells[n], follower, moving) for n, parts in cells.items())
+    told = {
+        "name": Path(sheet.path).stem,
+        "inputs": fields.told(namespace["g"]),
+        "shown": follower.specs,
+        "symbols": _symbols(namespace, shown),
+        "moved": {each.control.name: frames.packed(each) for each in moving},
+    }
+    data = json.dumps(told, ensure_ascii=False, separators=(",", ":")).replace("<", "\\u003c")
+    computed = javascript.module(follower.recording, follower.wanted)
+    own = "\n".join((_HERE / name).read_text(encoding="utf-8") for name in _SCRIPTS)
+    script = f'"use strict";\n(() => {{\n{computed}\n{own}}})();'
+    style = (_HERE / "page.css").read_text(encoding="utf-8")
+    address = font.address(_signs(body))
+    face = f'@font-face{{font-family:"STIX Two Math";src:url({address})format("woff")}}'
+    policy = _POLICY.format(f"'sha256-{_digest(script)}'")
+    return (
+        f'<!DOCTYPE html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n'
+        f'<meta http-equiv="Content-Security-Policy" content="{policy}">\n'
+        '<meta name="viewport" content="width=device-width, initial-scale=1">\n'
+        f'<meta name="color-scheme" content="light dark">\n<title>{escape(sheet.title)}</title>\n'
+        f"<style>{face}\n{style}</style>\n</head>\n<body>\n{_contents(shown)}<main>{body}</main>\n"
+        f'<script type="application/json" id="told">{data}</script>\n<script>{script}</script>\n</body>\n</html>\n'
+    )
+
+
+def studies(sheet: Worksheet) -> str:
+    """What a worksheet searches or measures with, over many runs of another one or of a method; "" otherwise."""
+    named = ((name, f"{getattr(value, '__module__', '')}.") for name, value in sheet.common.items())
+    return next((name for name, module in named if module.startswith(_STUDIES)), "")
+
+
+def _cell(n: int, parts: Iterable[Any], cell: Cell, follower: Follower, moving: Iterable[Moved]) -> str:
+    """HTML of what a cell shows."""
+    nodes = (node for line in cell.lines for node in ast.walk(line) if isinstance(node, ast.Constant))
+    follower.texts = tuple(cleandoc(node.value) for node in nodes if isinstance(node.value, str))
+    follower.depends = bool(cell.needs)
+    return "".join(_part((n, k), part, follower, moving) for k, part in enumerate(parts))
+
+
+def _part(at: tuple[int, int], part: Any, follower: Follower, moving: Iterable[Moved]) -> str:
+    """HTML of a part of the document; of one that a slider moves with the place of its picture."""
+    for each in moving:
+        if at in each.pictures:
+            return values.moving(part, follower, each.control.name, [*each.pictures].index(at))
+    match part:
+        case Title():
+            return values.html(part, follower) + _BAR
+        case Used(g):
+            return fields.fields(g) + values.html(part, follower)
+    return values.html(part, follower)
+
+
+_BAR = (
+    '<div class="ms-bar" role="status"><span class="ms-state"></span>'
+    '<button type="button" class="ms-back" hidden>back to the document</button>'
+    '<button type="button" class="ms-save">save the inputs</button></div>'
+)
+
+
+def _contents(shown: Iterable[Any]) -> str:
+    """Links to the sections."""
+    links = "".join(
+        f'<li class="ms-level-{part.level}">'
+        f'<a href="#{values.anchor(part.title)}">{escape(_plain(part.title))}</a></li>'
+        for part in shown
+        if isinstance(part, Section)
+    )
+    return f'<nav aria-label="sections"><details open><summary>Sections</summary><ol>{links}</ol></details></nav>'
+
+
+def _plain(title: str) -> str:
+    return re.sub(r"[$\\{}]", "", title)
+
+
+def _signs(body: str) -> set[str]:
+    """What stands in formulas and values."""
+    formulas = re.findall(r"<math.*?</math>|<span class=\"ms-value.*?</span>", body, flags=re.DOTALL)
+    return set(unescape(re.sub("<[^>]*>", "", "".join(formulas))))
+
+
+def _symbols(namespace: Mapping[str, Any], shown: Iterable[Any]) -> dict[str, dict[str, str]]:
+    """What a symbol means, by its MathML: an input, or a line that is shown."""
+    found = dict[str, dict[str, str]]()
+    for field in declared(type(namespace["g"])):
+        found[symbol(symbols.read(field.name))] = {
+            "meaning": field.meaning,
+            "unit": "" if field.unit == "-" else units.shown(field.unit),
+            "to": f"input-{field.name}",
+        }
+    lines = {part.formula.name for part in shown if isinstance(part, Line)}
+    for name, line in registry(namespace).items():
+        if name in lines:
+            read = symbol(symbols.read(symbols.stem(name)))
+            found.setdefault(read, {"meaning": line.meaning, "unit": "", "to": f"line-{name}"})
+    return found
+
+
+def _digest(script: str) -> str:
+    return base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()

@@ -1,0 +1,38 @@
+"""Scripts of recordings run in a blank page of a browser."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Page
+
+_RUN = """(all) => {
+  %s
+  const plain = v => (v instanceof Float64Array ? [Array.from(v), v.shape ?? [v.length]] : v === undefined ? null : v);
+  const told = v => (v instanceof Float64Array ? Array.from(v) : Array.isArray(v) ? v.map(told)
+    : v && typeof v == "object" ? Object.fromEntries(Object.keys(v).map(key => [key, told(v[key])])) : v);
+  return all.map(given => {
+    const out = evaluate(given);
+    const values = Object.fromEntries(Object.entries(out.values).map(([key, v]) => [key, plain(v)]));
+    return {values, gaps: out.gaps, guards: out.guards, found: told(out.found)};
+  });
+}"""
+
+
+def evaluated(page: Page, script: str, given: Iterable[Mapping[str, Any]]) -> list[dict[str, Any]]:
+    """What a script gives for several sets of inputs; a value that it knows nothing of is None."""
+    inputs = [{name: np.asarray(x, float).tolist() for name, x in each.items()} for each in given]
+    found: list[dict[str, Any]] = page.evaluate(_RUN % script, inputs)
+    for each in found:
+        each["values"] = {key: _array(value) for key, value in each["values"].items()}
+    return found
+
+
+def _array(value: Any) -> Any:
+    if value is None:
+        return None
+    return np.reshape(np.array(value[0], float), value[1]) if isinstance(value, list) else np.array(float(value))

@@ -1,0 +1,298 @@
+"""The document in one file, in a browser that has no network."""
+
+import base64
+import hashlib
+import json
+import re
+import subprocess
+import sys
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+from urllib.parse import quote
+
+import numpy as np
+import pytest
+from conftest import WITHIN
+from playwright.sync_api import Browser, Page, expect
+
+from mechsheet.html import write
+from mechsheet.run import arguments
+from mechsheet.worksheet import inputs, numbers
+from mechsheet.worksheet.cells import load
+
+ROOT = Path(__file__).parents[1]
+SHEETS = {
+    "hitch": {"P6": "30000,5", "N_pol": "12", "L5": "0.47", "side_67": "right"},
+    "landing_gear": {"theta": "86"},
+    "joint": {"psi": "0.6"},
+    "slotted_link": {"L0": "2.5"},
+    "kinetostatics": {"Y_H": "0.2222"},
+}
+UNKNOWN = {"kinetostatics": 8}  # checks that the recording does not hold
+NUMBER = re.compile(r"(-?\d+(?:\.\d+)?(?:e[+-]\d+)?)")
+# Evaluations of the equations that are solved.
+COUNTED = {("slotted_link", "table-3"), ("slotted_link", "table-4")}
+COUNTS = {"line-N_F", "line-N_g"}
+READ = """() => {
+  const text = element => element?.textContent ?? null;
+  const each = (selector, read) => [...document.querySelectorAll(selector)].map(read);
+  return {
+    lines: Object.fromEntries(each(".ms-line[id]", e => {
+      const value = e.querySelector(".ms-value");
+      return [e.id, value?.matches(".ms-grey") ? null : text(value)];
+    })),
+    tables: Object.fromEntries(each(".ms-table", e => [e.querySelector(".ms-caption").id,
+      [...e.querySelectorAll("tbody tr")].map(row => [...row.cells].map(text))])),
+    verdicts: Object.fromEntries(each(".ms-check", e => [e.id, text(e.querySelector(".ms-badge"))])),
+    charts: each(".ms-figure svg.ms-chart", e => e.outerHTML.replace(/ (data-values|style)="[^"]*"/g, "")),
+    headlines: each(".ms-found", e => text(e.querySelector("b"))),
+    state: text(document.querySelector(".ms-state")),
+    sum: text(document.querySelector(".ms-summary b")),
+  };
+}"""
+
+
+def written(name: str, given: dict[str, str]) -> str:
+    sheet = load(ROOT / "worksheets" / f"{name}.py")
+    return write.page(sheet, inputs.build(sheet.inputs, given))
+
+
+@pytest.fixture(scope="module")
+def document(tmp_path_factory: pytest.TempPathFactory) -> Callable[..., Path]:
+    """File of a worksheet with some inputs, written once."""
+    folder, known = tmp_path_factory.mktemp("html"), dict[str, Path]()
+
+    def path(name: str, **given: str) -> Path:
+        key = name + json.dumps(given)
+        if key not in known:
+            known[key] = folder / f"{name}_{len(known)}.html"
+            known[key].write_text(written(name, given), encoding="utf-8")
+        return known[key]
+
+    return path
+
+
+@pytest.fixture
+def offline(browser: Browser) -> Iterator[Page]:
+    """A page without network, whose errors and requests fail the test."""
+    context = browser.new_context(viewport={"width": 1280, "height": 1000}, offline=True)
+    context.set_default_timeout(WITHIN * 1000)
+    page, trouble = context.new_page(), list[str]()
+    page.on("pageerror", lambda error: trouble.append(str(error)))
+    page.on("console", lambda message: trouble.append(message.text))
+    page.on("request", lambda request: request.url[:5] in ("file:", "blob:", "data:") or trouble.append(request.url))
+    yield page
+    context.close()
+    assert trouble == []
+
+
+def opened(page: Page, path: Path, address: str = "") -> Page:
+    page.goto("about:blank")
+    page.goto(path.as_uri() + (f"#{address}" if address else ""))
+    return page
+
+
+def fill(page: Page, name: str, text: str) -> None:
+    page.locator(f"#input-{name}").fill(text)
+
+
+def read(page: Page) -> Any:
+    return page.evaluate(READ)
+
+
+@pytest.mark.parametrize("name", SHEETS)
+def test_the_page_shows_for_other_inputs_what_the_worksheet_shows(
+    name: str, document: Callable[..., Path], offline: Page
+) -> None:
+    """Tables, verdicts and found values letter by letter, of lines those that are not rounding; charts to 0.1 px.
+
+    How often an equation was evaluated is no property of the document.
+    """
+    given = SHEETS[name]
+    there = read(opened(offline, document(name, **given)))
+    here = read(opened(offline, document(name), "&".join(f"{k}={quote(v)}" for k, v in given.items())))
+    assert here["state"].startswith("changed: ")
+    verdicts = {k: x for k, x in here["verdicts"].items() if x != "not known"}
+    assert verdicts == {k: there["verdicts"].get(k, "not evaluated") for k in verdicts}
+    assert len(verdicts) >= len(there["verdicts"]) - UNKNOWN.get(name, 0)
+    for k, headline in enumerate(here["headlines"]):
+        assert headline in (None, there["headlines"][k])
+    for caption, rows in there["tables"].items():
+        if (name, caption) not in COUNTED:
+            assert here["tables"][caption] == rows, caption
+    for k, chart in enumerate(there["charts"]):
+        mine, own = (re.split(NUMBER, text) for text in (here["charts"][k], chart))
+        assert mine[::2] == own[::2], k
+        np.testing.assert_allclose(np.array(mine[1::2], float), np.array(own[1::2], float), rtol=0, atol=0.11)
+    lines = {k: (x, there["lines"][k]) for k, x in here["lines"].items() if x is not None}
+    wrong = {k: pair for k, pair in lines.items() if len({*map(without_rounding, pair)}) > 1 and k not in COUNTS}
+    assert wrong == {}
+    assert len(lines) > 0.9 * sum(x is not None for x in there["lines"].values())
+
+
+def without_rounding(text: str) -> tuple[str, ...]:
+    """Numbers of a line, those of 1e-7 and less as 0: there stands what rounding leaves."""
+    found = re.findall("[\\d.]+(?:\u2009·\u200910−?\\d+)?", text.replace("−0", "0"))
+    shown = ["0" if re.search(r"10−(?:[7-9]|1\d|2\d)$", x) else x for x in found]
+    return tuple(dict.fromkeys(shown)) if "0" in shown else tuple(shown)
+
+
+def test_nothing_is_asked_for_and_only_its_own_script_runs(document: Callable[..., Path]) -> None:
+    text = document("hitch").read_text(encoding="utf-8")
+    assert len(text.encode()) < 600_000
+    policy = re.search('Content-Security-Policy" content="([^"]*)"', text)
+    assert policy and policy[1].startswith("default-src 'none'; ")
+    script = text[text.rindex("<script>") + 8 : text.rindex("</script>")]
+    digest = base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()
+    assert f"script-src 'sha256-{digest}';" in policy[1]
+    assert not re.search(r'(?:src|href)="(?!#)', text)
+    assert '<html lang="en">' in text
+
+
+def test_a_wrong_input_is_told_at_its_field_and_nothing_is_shown_for_it(
+    document: Callable[..., Path], offline: Page
+) -> None:
+    page = opened(offline, document("hitch"))
+    first = read(page)
+    for name, text, told in (
+        ("P6", "heavy", "weight of the implement P6 = 'heavy' N is no number"),
+        ("L5", "-1", "lower link, to the lifting rod L5 = -1 m must be positive"),
+        ("N_pol", "2.5", "number of positions N_pol = 2.5 must be a whole number"),
+        ("S_min", "0.7", "least length of the cylinder S_min = 0.7 m must be < S_max = 0.67"),
+        ("P6", "3 m", "P6 = '3 m' N has a unit that is none of"),
+    ):
+        fill(page, name, text)
+        expect(page.locator(f"#error-{name}")).to_contain_text(told)
+        shown = read(page)
+        assert shown["state"].startswith("not computed: ")
+        assert set(shown["lines"].values()) <= {None, *first["lines"].values()}
+        assert shown["lines"]["line-GS6"] is None
+        assert set(shown["verdicts"].values()) == {"not known"}
+        page.locator(".ms-back").click()
+        assert read(page) == first
+
+
+def test_units_are_read_and_the_changed_input_is_marked_and_kept_in_the_address(
+    document: Callable[..., Path], offline: Page
+) -> None:
+    page = opened(offline, document("hitch"))
+    fill(page, "P6", "30 kN")
+    expect(page.locator(".ms-field.ms-changed")).to_have_count(1)
+    expect(page.locator(".ms-state")).to_have_text("changed: P6")
+    assert page.evaluate("location.hash") == "#P6=30%20kN"
+    with page.expect_download() as saved:
+        page.locator(".ms-save").click()
+    path = saved.value.path()
+    assert path.read_text(encoding="utf-8") == '[inputs]\nP6 = "30 kN"\n'
+    sheet = load(ROOT / "worksheets" / "hitch.py")
+    named = path.with_name("scene.toml")
+    path.rename(named)
+    g = inputs.build(sheet.inputs, arguments.read([f"--scene={named}"], inputs.declared(sheet.inputs)).inputs)
+    assert g.P6 == 30e3
+
+
+def test_a_slider_moves_its_pictures_and_they_are_gone_when_an_input_changes(
+    document: Callable[..., Path], offline: Page
+) -> None:
+    page = opened(offline, document("hitch"))
+    place = "document.querySelector('[data-n] > svg[viewBox]:not(.ms-chart)').parentElement.dataset.n"
+    drawing = page.locator(f'[data-n="{page.evaluate(place)}"]')
+    expect(drawing.locator("svg")).to_have_count(1)
+    before = drawing.inner_html()
+    page.locator("[data-control=part]").evaluate(
+        "e => { e.value = 0.6; e.dispatchEvent(new Event('input', {bubbles: true})) }"
+    )
+    page.wait_for_function("document.querySelector('#line-S_t .ms-value').textContent === '0.57 m'")
+    assert drawing.inner_html() != before
+    mark = "getComputedStyle(document.documentElement).getPropertyValue('--at-S')"
+    page.wait_for_function(f"Math.abs({mark} - 0.57) < 1e-9")
+    fill(page, "P6", "30000")
+    expect(drawing.locator("svg")).to_have_count(0)
+    expect(drawing).to_have_attribute("data-reason", "as in the document, for its own inputs only")
+    page.locator(".ms-back").click()
+    expect(drawing.locator("svg")).to_have_count(1)
+
+
+def test_a_symbol_tells_what_it_means(document: Callable[..., Path], offline: Page) -> None:
+    page = opened(offline, document("hitch"))
+    page.locator("#line-S_c msub").last.hover()
+    expect(page.locator(".ms-tip")).to_contain_text("cylinder hinge")
+
+
+def test_texts_of_inputs_are_no_markup(tmp_path: Path, offline: Page) -> None:
+    evil = "<img src=x onerror=alert(1)>"
+    source = (ROOT / "lib" / "mechsheet" / "run" / "new_worksheet.txt").read_text(encoding="utf-8")
+    worksheet = tmp_path / "evil.py"
+    text = source.replace("TITLE", "Evil <b>title</b>")
+    line = re.search(r"\n    \w+: float = [^\n]*\n", text)
+    assert line
+    text = text.replace(line[0], f'{line[0]}    note: str = "{evil}"  # <i>what</i> it is\n', 1)
+    worksheet.write_text(text, encoding="utf-8")
+    sheet = load(worksheet)
+    path = tmp_path / "evil.html"
+    path.write_text(write.page(sheet, sheet.inputs()), encoding="utf-8")
+    page = opened(offline, path, f"note={quote(evil + '&<script>')}")
+    assert page.locator("main img").count() == 0
+    assert page.locator("#input-note").input_value().startswith(evil)
+    assert page.title() == "Evil <b>title</b>"
+    assert page.locator(".ms-meaning i i").count() == 0
+
+
+def test_numbers_are_written_as_python_writes_them(document: Callable[..., Path], offline: Page) -> None:
+    """A battery: ties, ends of the ranges, many random numbers."""
+    page = opened(offline, document("hitch"))
+    rng = np.random.default_rng(7)
+    wide = [float(x) for x in rng.choice([-1, 1], 4000) * 10 ** rng.uniform(-12, 24, 4000)]
+    ties = [n / 2**k for k in range(8) for n in (1, 3, 5, 7, 9, 25, 1001, 12345, 99999)]
+    ends = [0.0, -0.0, 1e-3, 9.99995e-4, 99999.5, 1e5, 999999.5, 1e6, 1e21, 1e22, 5e-324, 1.7e308, -0.0004, 0.00005]
+    values = [*wide, *ties, *(-x for x in ties), *ends]
+    script = (ROOT / "lib" / "mechsheet" / "html" / "format.js").read_text(encoding="utf-8")
+    told = page.evaluate(
+        f"""values => {{{script}
+        return values.map(x => [usual(x, AXIS), fixed(x, 0, CELL), fixed(x, 3, AXIS), scientific(x, 1, CELL),
+          significant(x, 6), significant(x, 15), apart([x])[0], apart([x, x * 1.0001 + 1e-9]).join(" ")])}}""",
+        values,
+    )
+    for x, texts in zip(values, told, strict=True):
+        assert texts[0].replace("\u2009·\u200910<sup>", "e").replace("</sup>", "") == power(x), x
+        assert texts[1:] == [
+            numbers.fixed(x, 0, numbers.CELL),
+            numbers.fixed(x, 3, numbers.AXIS),
+            numbers.scientific(x, 1, numbers.CELL),
+            numbers.significant(x, 6),
+            numbers.significant(x, 15),
+            numbers.apart([x])[0],
+            " ".join(numbers.apart([x, x * 1.0001 + 1e-9])),
+        ], x
+
+
+def power(x: float) -> str:
+    return numbers.usual(x, numbers.AXIS._replace(power="{}e{}"))
+
+
+@pytest.mark.parametrize("name", ["hitch_design", "accuracy"])
+def test_a_worksheet_of_searches_or_measurements_is_refused_in_a_line(name: str, tmp_path: Path) -> None:
+    command = [sys.executable, "-m", "mechsheet", "html", str(ROOT / "worksheets" / f"{name}.py"), f"--out={tmp_path}"]
+    done = subprocess.run(command, capture_output=True, encoding="utf-8", timeout=WITHIN)
+    assert done.returncode == 1
+    assert re.fullmatch(rf"error: {name} computes by \w+, over many runs: a page cannot follow that\n", done.stderr)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_the_command_writes_the_page_with_the_inputs_given(tmp_path: Path) -> None:
+    sheet = str(ROOT / "worksheets" / "examples" / "bucket.py")
+    command = [sys.executable, "-m", "mechsheet", "html", sheet, f"--out={tmp_path}"]
+    done = subprocess.run(command, capture_output=True, encoding="utf-8", timeout=WITHIN)
+    assert done.returncode == 0, done.stderr
+    text = (tmp_path / "bucket.html").read_text(encoding="utf-8")
+    assert done.stdout == f"written {tmp_path / 'bucket.html'}, {round(len(text.encode()) / 1000)} kB\n"
+
+
+def test_the_button_of_the_page_writes_it_with_the_inputs_there(serve: Any, page: Page, offline: Page) -> None:
+    page.goto(serve("run", ROOT / "worksheets" / "examples" / "bucket.py"))
+    page.get_by_text("Page in one file").wait_for()
+    with page.expect_download() as saved:
+        page.get_by_text("Page in one file").click()
+    path = saved.value.path().rename(saved.value.path().with_suffix(".html"))
+    expect(opened(offline, path).locator(".ms-state")).to_have_text("as in the document")
