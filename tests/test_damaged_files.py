@@ -72,7 +72,7 @@ def answer(data: bytes, path: Path) -> str:
         (f"[limits]\nL1 = 0x{'f' * 5000}\n", "must be {min = NUMBER}"),
         (f"want = 0x{'f' * 5000}\n", "must be a list of names"),
         (f"inputs = 0x{'f' * 5000}\n", "must be a table"),
-        (f"{'a' * 5000} = 1\n", "may hold [inputs], want and [limits] and nothing else"),
+        (f"{'a' * 5000} = 1\n", "may hold [inputs], want, proof and [limits] and nothing else"),
         ("[inputs\n", "no valid TOML"),
     ],
     ids=lambda text: text[:20],

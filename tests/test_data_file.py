@@ -125,7 +125,7 @@ def test_another_file_is_given_by_a_scene_beside_it(engine: Path, tmp_path: Path
         ("V;p;p\n100;1;1\n", "row 1: column p stands there twice"),
         ("V;p\n100;1;7\n", "row 2: 3 values under 2 names of columns"),
         ("V,p\n1,5,3\n", "row 2: 3 values under 2 names of columns"),
-        ("V [cm];p\n100;1\n", "row 2, column V: volume gas.V (1) = '100 cm': cm does not measure cm**3"),
+        ("V [cm];p\n100;1\n", "row 2, column V: volume gas.V (1) = '100 cm': cm does not measure cm³"),
         ("V [parsec**3];p\n100;1\n", "row 2, column V: "),
         ("", "is empty"),
     ],

@@ -20,14 +20,13 @@ from mechsheet.page import values
 from mechsheet.run import report
 from mechsheet.worksheet import cells, inputs
 from mechsheet.worksheet.check import Check
-from mechsheet.worksheet.errors import SheetError, raised
+from mechsheet.worksheet.errors import SheetError, Waits, raised
 from mechsheet.worksheet.kinds import Choice, Input, Switch, TextLine
 from mechsheet.worksheet.lists import Rows
 from mechsheet.worksheet.shown import Shown
 
 ROOT = Path(__file__).parents[1]
 SEARCHES = ("accuracy", "hitch_design")  # run for half a minute: what they are given is read, and no more
-SPEAKS = ("bucket", "engine")  # where they do not close, their Find says so too: what is given is read, and no more
 WORKSHEETS = {path.stem: path for path in sorted((ROOT / "worksheets").rglob("*.py"))}
 ANSWERS = (
     *("no number", "outside its limits", "does not close", "refused by a cell"),
@@ -80,6 +79,7 @@ class Run:
 
     names: dict[str, Any]
     refusals: list[str] = field(default_factory=list)
+    waits: list[str] = field(default_factory=list)
 
     @property
     def open(self) -> list[Check]:
@@ -90,7 +90,7 @@ class Run:
         judged = cells.checks(self.names)
         if self.open:
             return "does not close"
-        if self.refusals:
+        if self.refusals or self.waits:
             return "refused by a cell"
         if not all(check.evaluated for check in judged):
             return "not evaluated"
@@ -105,6 +105,8 @@ def ran(sheet: cells.Worksheet, g: Any) -> Run:
                 if lost.isdisjoint(cell.needs):
                     exec(cell.code, run.names)
                     continue
+            except Waits as error:
+                run.waits.append(str(error))
             except SheetError as error:
                 run.refusals.append(str(error))
             lost.update(cell.gives)
@@ -152,6 +154,10 @@ def what_is_wrong(run: Run) -> str:
     """Nothing where a run ends in a verdict on every check, or in a line."""
     if run.open and run.refusals:
         return f"{run.open[0].name} fails, and behind it speaks: {run.refusals[0]}"
+    if run.waits and not (run.open or run.refusals):
+        judged = [check for check in cells.checks(run.names) if not check.evaluated]
+        if not any(check.reason for check in judged):
+            return f"nothing tells why it waits: {run.waits[0]}"
     if run.verdict == "not evaluated":  # with the reason, which the check's own words give
         return "; ".join(str(check) for check in cells.checks(run.names) if not check.evaluated and not check.reason)
     return next((f"not one line: {text!r}" for text in run.refusals if "\n" in text), "")
@@ -180,7 +186,7 @@ def tried(path: Path, run_too: bool) -> tuple[Counter[str], list[str]]:
                         run = ran(sheet, g)
                         for value in shown(run.names):
                             values.html(value)
-                        if not run.refusals and not run.open and run.verdict not in written:
+                        if not (run.refusals or run.waits or run.open) and run.verdict not in written:
                             written.add(run.verdict)  # one workbook of each kind: a third of a second
                             report.workbook("", run.names, {})
                     except Exception as error:
@@ -199,7 +205,7 @@ def test_whatever_is_typed_gives_the_result_of_that_number_or_one_line(
 ) -> None:
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        counts, wrong = tried(WORKSHEETS[name], name not in SEARCHES + SPEAKS)
+        counts, wrong = tried(WORKSHEETS[name], name not in SEARCHES)
     record_property("table", f"{name:14}" + "".join(f"  {counts[answer]:4} {answer}" for answer in ANSWERS))
     assert set(counts) <= set(ANSWERS)
     assert not wrong, "\n".join(wrong)

@@ -3,6 +3,7 @@
 import re
 import subprocess
 import sys
+import warnings
 from decimal import Decimal
 
 import mpmath
@@ -12,7 +13,7 @@ from conftest import examples
 from hypothesis import assume, example, given
 from hypothesis import strategies as st
 
-from mechsheet.worksheet.errors import SheetError
+from mechsheet.worksheet.errors import SheetError, Waits
 from mechsheet.worksheet.find import find
 from mechsheet.worksheet.verdict import values_only
 
@@ -653,10 +654,8 @@ def test_words_are_escaped_in_the_page():
     [
         ({"lo": 2.0, "hi": 1.0}, "lo = 2000 mm for rod must be less than hi = 1000 mm"),
         ({"lo": [0.0, 1.0], "hi": 1.0}, "lo = 1000 mm for rod must be less than hi = 1000 mm"),
-        ({"lo": 0.0, "hi": np.inf}, "hi = inf for rod must be finite"),
-        ({"lo": np.nan, "hi": 1.0}, "lo = nan for rod must be finite"),
-        ({"lo": 0.0, "hi": 1.0, "equals": np.nan}, "equals = nan for rod must be finite"),
-        ({"lo": 0.0, "hi": 1.0, "guess": -np.inf}, "guess = -inf for rod must be finite"),
+        ({"lo": 0.0, "hi": np.inf}, "hi = ∞ mm for rod must be finite"),
+        ({"lo": 0.0, "hi": 1.0, "guess": -np.inf}, "guess = -∞ mm for rod must be finite"),
         ({"lo": 0.0}, "rod needs a guess, or both ends"),
         ({"guess": 0.0}, "guess = 0 mm for rod must be positive"),
         ({"hi": 2.0, "guess": 3.0}, "guess = 3000 mm for rod must be less than hi = 2000 mm"),
@@ -665,6 +664,31 @@ def test_words_are_escaped_in_the_page():
 def test_numbers_that_cannot_be_used_are_named(arguments, words):
     with pytest.raises(SheetError, match=re.escape(words)):
         find(lambda x: x, **arguments, unknown="rod", unknown_unit="mm")
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [{"lo": np.nan, "hi": 1.0}, {"lo": 0.0, "hi": np.nan}, {"lo": 0.0, "hi": 1.0, "equals": np.nan}, {"guess": np.nan}],
+)
+def test_what_rests_on_no_number_waits_with_the_reason(arguments):
+    says = "nothing to solve for rod: its interval, target or guess is NaN"
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        found = find(lambda x: 1 / 0, **arguments, unknown="rod", unknown_unit="mm")
+        page = found._mime_()[1]
+
+    assert found.reason == str(found) == says and found.waits and not found.solved
+    assert found.word() == "not evaluated" and says in page and "NaN mm" not in page
+    with pytest.raises(Waits, match=says):
+        _ = found.value
+
+
+def test_what_closes_nowhere_does_not_wait():
+    found = find(lambda x: x * np.nan, 0.0, 1.0, unknown="rod")
+    assert not found.waits and found.word() == "not found"
+    with pytest.raises(SheetError, match="nothing closes for rod") as error:
+        _ = found.value
+    assert not isinstance(error.value, Waits)
 
 
 @pytest.mark.parametrize(("branch", "branches"), [(0, (1, -1)), (None, (1, -1)), (1, None)])

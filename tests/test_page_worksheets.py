@@ -5,6 +5,7 @@ from pathlib import Path
 
 import pytest
 from conftest import until
+from playwright.sync_api import expect
 
 WORKSHEETS = Path(__file__).parents[1] / "worksheets"
 # an input of each sheet by its meaning, and a new value for it
@@ -48,3 +49,18 @@ def test_opens_and_reacts(name, serve, page, console_errors):
     for trouble in ("Traceback", "Something went wrong", "internal error"):
         assert page.get_by_text(trouble).count() == 0, trouble
     assert console_errors == []
+
+
+def test_a_find_behind_what_does_not_close_waits(serve, page, console_errors):
+    """The failing check tells why; the title block says that the page ends there, and no second reason."""
+    page.goto(serve("run", WORKSHEETS / "examples" / "bucket.py"))
+    page.get_by_text("Excel workbook").wait_for()
+    field = page.locator(".ms-inputs tr:has-text('hinge of the cylinder, along the arm') input").first
+    field.fill("0")
+    field.press("Enter")
+    page.get_by_text("nothing to solve for link").first.wait_for()
+    expect(page.locator(".ms-told")).to_be_visible()
+    told = page.evaluate('getComputedStyle(document.querySelector(".ms-told"), "::after").content')
+    assert told == "none"
+    expect(page.get_by_text("no position closes for cylinder S").first).to_be_visible()
+    assert page.get_by_text("must be finite").count() == 0 and console_errors == []

@@ -19,6 +19,7 @@ import pytest
 from openpyxl import Workbook, load_workbook
 from test_recorded_worksheet import FOLLOWED, own
 
+from mechsheet.run import report
 from mechsheet.workbook import reading
 from mechsheet.workbook.place import DefinedNames
 from mechsheet.worksheet import cells, inputs
@@ -198,11 +199,47 @@ def test_values_stand_beside_the_formulas(tmp_path: Path) -> None:
     assert read["GS6"].head(10).tolist() == own["GS6 [N]"].tolist()
 
 
-def test_number_of_positions_is_that_of_the_workbook(recalculated: Callable[[Path], Any], tmp_path: Path) -> None:
-    """Rows cannot grow: another number of positions is told, not computed wrongly."""
-    path = edit(exported("hitch"), {"N_pol": 12}, tmp_path / "more.xlsx")
-    rows = {row[0].value: row[4].value for row in recalculated(path)["Checks"].iter_rows(min_row=3)}
-    assert rows["made for these inputs: where this fails, export the worksheet again"] == "FAIL"
+def test_number_of_positions_is_that_of_the_workbook(
+    made: Callable[[str], Path], recalculated: Callable[[Path], Any], tmp_path: Path
+) -> None:
+    """Rows cannot grow nor be left out: for another number of positions there is no number of any."""
+    for count in (7, 12):
+        book = recalculated(edit(made("hitch"), {"N_pol": count}, tmp_path / f"{count}.xlsx"))
+        rows = {row[0].value: row[4].value for row in book["Checks"].iter_rows(min_row=3)}
+        assert rows["made for these inputs: where this fails, export the worksheet again"] == "FAIL"
+        assert {value for _, cell, value in numbers(book)} == {"#N/A"}
+
+
+def test_of_another_number_of_rows_no_cell_has_a_number(recalculated: Callable[[Path], Any], tmp_path: Path) -> None:
+    """Of the position, of one number in all rows, of what passes over gaps, of ends and lengths."""
+    lines = """from mechsheet import check, figure
+gaps = np.where(x > 2, x, np.nan)  # [-] gaps
+one = g.F + 0 * np.ones(g.n)  # [-] the same in all rows
+same = np.full(g.n, 3.0)  # [-] constant
+gap = np.where(np.isfinite(gaps), 1.0, 0.0)  # [-] from a condition
+most = np.nanmax(gaps)  # [-] passes over gaps
+mean = x.mean()  # [-] by the length
+end = x[-1]  # [-] last
+count = 1.0 * len(x)  # [-] length
+odd = np.linspace(0, 1, 2 * g.n + 1)  # [-] other rows
+table_2 = table("2", "Two", one, same, gap)
+table_3 = table("3", "Three", odd)
+figure_1 = figure("1", "One", x, gap)
+checks = check("most", most, 9.0), check("mean", mean, 9.0), check("end", end, 9.0), check("count", count, 9.0)"""
+    sheet = own(tmp_path, lines)
+    names = sheet.run(sheet.results, {"g": sheet.inputs()})
+    path = tmp_path / "own.xlsx"
+    path.write_bytes(report.workbook("", {**names, "__file__": sheet.path}, {}))
+    assert not any(str(value).startswith("#") for *_, value in numbers(recalculated(path)))
+    for count in (4, 9):
+        book = recalculated(edit(path, {"n": count}, tmp_path / f"{count}.xlsx"))
+        shown = list(numbers(book))
+        assert shown and {value for *_, value in shown} == {"#N/A"}, shown
+        checks = {row[0].value: row[4].value for row in book["Checks"].iter_rows(min_row=4)}
+        assert checks.pop("made for these inputs: where this fails, export the worksheet again") == "FAIL"
+        assert {name for name, said in checks.items() if said != "not evaluated"} == {"count", "units"}
+        front = [row[1].value for row in book["Front"].iter_rows(min_row=5) if row[3].value == "-"]
+        assert front and set(front) == {"#N/A"}, front
 
 
 def test_found_value_without_a_closed_form_is_that_of_its_own_inputs(

@@ -3,17 +3,22 @@
 from __future__ import annotations
 
 import re
+from io import BytesIO
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+from openpyxl import load_workbook
 from own_worksheet import OTHER, own, recorded, value_of
 
+from mechsheet.recording.dimensions import dimensions
 from mechsheet.recording.numbers import numbers
 from mechsheet.recording.quantity import Quantity
 from mechsheet.recording.record import record
+from mechsheet.run import report
 from mechsheet.worksheet import cells
+from mechsheet.worksheet.lines import registry
 
 ROOT = Path(__file__).resolve().parents[1]
 FOLLOWED = [
@@ -196,6 +201,146 @@ def test_a_greatest_number_at_a_listed_position_is_followed_to_others(tmp_path: 
     other = cells.evaluate(sheet.path, ["most", "y"], a=1.3)
     assert names["y"].argmax() == 2 and other["y"].argmax() == 3
     assert value_of(recording, "most", {"a": 1.3}) == pytest.approx(other["most"], rel=1e-12)
+
+
+def test_a_check_looks_at_all_positions_where_tables_list_some(tmp_path: Path) -> None:
+    """The limit is passed at the fourth of five positions alone, which no table lists; what takes more is told."""
+    lines = """from mechsheet import check
+y = x * (2.2 * g.a * g.F - x)  # [-] arch
+within = check("within", y, 1.6 * g.F), check("least", y.min(), 1.0)
+more = check("sum", sum(cos(k * x) for k in range(40)), 99.0)
+scaled = check("scaled", y - y.max(), 1e-9, of=y)"""
+    sheet = own(tmp_path, lines)
+    Path(sheet.path).write_text(Path(sheet.path).read_text().replace('"All", x)', '"All", x, every=2)'))
+    sheet = cells.read(Path(sheet.path))
+    names, recording = recorded(sheet)
+    assert not recording.gaps
+    assert {name: check.listed for name, check in recording.checks.items()} == {
+        "within": False, "least": False, "sum": True, "scaled": False
+    }  # fmt: skip
+    for given in ({}, {"a": 1.3}, {"F": 4.0, "a": 1.1}):
+        own_checks = cells.evaluate(sheet.path, ["within", "scaled"], **given)
+        for check in (*own_checks["within"], own_checks["scaled"]):
+            held = recording.checks[check.name]
+            known = numbers([*held.parts, held.limit], {recording.inputs[k]: x for k, x in given.items()})
+            assert max(np.max(known[p]) for p in held.parts) == pytest.approx(check.residual, rel=1e-12)
+            assert known[held.limit] == pytest.approx(check.limit, rel=1e-12)
+    book = load_workbook(BytesIO(report.workbook("", {**names, "__file__": sheet.path}, {})))
+    said = [row[0].value for row in book["Checks"].iter_rows(min_row=4)]
+    assert said[:4] == ["within", "least", "sum, at the listed positions", "scaled"]
+
+
+@pytest.mark.parametrize(
+    "expression",
+    [
+        "cos(g.F / 5 * math.pi + 3 * g.a - 3 * g.a)",
+        "sin(x[-1] * math.pi / g.F - 2 * math.pi + 100 * g.a - 100 * g.a)",
+        "np.tan(7 * g.a - 7 * g.a + 1e-17)",
+        "np.arctan2(g.F * (x[-1] - 2 * g.F) + 3 * g.a - 3 * g.a, 1.0)",
+        "np.log(1.0 + 30 * g.a - 30 * g.a)",
+        "cos(x * 0 + math.pi / 2 + 40 * g.a - 40 * g.a).max()",
+    ],
+)
+@pytest.mark.parametrize("a", [0.75, 0.3517, 0.6289])
+def test_what_is_nothing_but_rounding_is_recorded_however_it_is_computed(
+    expression: str, a: float, tmp_path: Path
+) -> None:
+    """The recorded sum is rounded in another order than the worksheet's."""
+    sheet = own(tmp_path, f"y = {expression}  # [-] rounding")
+    names = sheet.run(sheet.results, {"g": sheet.inputs(a=a)})
+    names["y"] = names["y"] + 100 * a * 2e-16  # as another order of the same terms leaves
+    assert not record({**names, "__file__": sheet.path}).gaps
+    names["y"] += 1e-9
+    assert record({**names, "__file__": sheet.path}).gaps
+
+
+@pytest.mark.parametrize(
+    "expression",
+    [
+        "g.F / (g.a - 0.5)",
+        "(g.a - 0.5) ** -2",
+        "math.log(g.a - 0.5)",
+        "math.exp(2000 * g.a)",
+        "(100 * g.a) ** (300 * g.a)",
+    ],
+)
+def test_what_python_refuses_of_single_numbers_is_no_number(expression: str, tmp_path: Path) -> None:
+    sheet = own(tmp_path, f"y = {expression}  # [-] line\nz = 1 / (1 + y)  # [-] rests on it")
+    given = {"a": 0.5}
+    with pytest.raises((ArithmeticError, ValueError)):
+        cells.evaluate(sheet.path, ["y"], **(given if "g.a - " in expression else {"a": 2.0}))
+    _, recording = recorded(sheet, a=0.75 if "g.a - " in expression else 0.1)
+    assert not recording.gaps
+    there = given if "g.a - " in expression else {"a": 2.0}
+    assert np.isnan(value_of(recording, "y", there)) and np.isnan(value_of(recording, "z", there))
+
+
+ARRAYS = {
+    "fit": "np.polyfit(x, np.sin(x) + g.a, 3)",
+    "line": "np.polyfit([0.0, 1.0, 2.0, 4.0], [g.F, 1.0, g.a, 2.0], 1, w=[1.0, g.F, 2.0, 1.0])",
+    "curve": "np.polyval(np.polyfit([1.0, 2.0, 3.0], [g.F, g.a, 2.0], 2), x)",
+    "least": "np.linalg.lstsq(np.array([[1.0, g.a], [g.F, 2.0], [1.0, 5.0]]), np.array([1.0, g.F, 2.0]))[0]",
+    "several": "np.linalg.lstsq(np.stack([x, x**2], 1), np.stack([g.a * x + 1, np.cos(x)], 1))[0].reshape(-1)",
+    "left": "np.linalg.lstsq(np.stack([x, x**2], 1), np.cos(x))[1]",
+    "order": "np.argsort(np.sin(3 * x) * g.a) * 1.0",
+    "ordered": "np.array([1.0, 2.0, 3.0])[np.argsort([g.F, g.a, 1.5])]",
+    "equal": "np.argsort([g.F, g.a, g.F, g.a, 1.0]) * 1.0",
+    "rows": "np.array([[g.F, 1.0], [g.a, 2.0], [1.5, 3.0]])[np.array([g.F, g.a, 1.5]).argsort()][:, 1]",
+    "columns": "np.argsort([[g.F, 1.0], [g.a, 2.0], [1.5, 0.5]], axis=0).reshape(-1) * 1.0",
+    "cross": "np.cross([g.F, 1.0, g.a], [1.0, 2.0, g.F])",
+    "crosses": "np.cross(np.stack([x, x**2, 1 + 0 * x], 1), [1.0, g.a, g.F]).reshape(-1)",
+    "unwrap": "np.unwrap(np.angle(np.exp(3j * x))) * g.a",
+    "degrees": "np.unwrap(np.mod(200 * x * g.a, 360), period=360)",
+    "product": "np.einsum('ij,jk->ik', [[g.F, 1.0], [g.a, 2.0]], [[1.0, g.a], [3.0, g.F]]).reshape(-1)",
+    "sums": "np.einsum('ij,j', np.array([[g.F, 1.0], [g.a, 2.0]]), np.array([1.0, g.a]))",
+    "outer": "np.einsum('i,j->ji', x, np.array([1.0, g.a])).reshape(-1)",
+}
+
+
+@pytest.mark.parametrize("expression", ARRAYS.values(), ids=ARRAYS)
+def test_functions_of_arrays_are_followed_to_other_inputs(expression: str, tmp_path: Path) -> None:
+    _, recording = recorded(sheet := own(tmp_path, f"y = {expression}  # [-] line"))
+    assert not recording.gaps and not [guard for guard in recording.guards.values() if not guard.rows]
+    for given in ({}, *OTHER, {"F": 1.125, "a": -0.5}):
+        expected = cells.evaluate(sheet.path, ["y"], **given)["y"]
+        np.testing.assert_allclose(value_of(recording, "y", given), expected, rtol=1e-9, atol=1e-12)
+
+
+def test_a_fit_is_as_accurate_as_its_condition_lets_it(tmp_path: Path) -> None:
+    """Of degree 7 over 40 places: the normal equations would keep no digit of it."""
+    lines = "t = np.linspace(1, 3, 40)\ny = np.polyfit(t, g.F * t**7 - g.a * t**2, 7)  # [-] coefficients"
+    _, recording = recorded(own(tmp_path, lines))
+    assert not recording.gaps
+    expected = [3.25, 0, 0, 0, 0, -0.5, 0, 0]
+    np.testing.assert_allclose(value_of(recording, "y", {"F": 3.25, "a": 0.5}), expected, atol=1e-6)
+
+
+def test_columns_that_rest_on_each_other_give_no_number_and_units_are_followed(tmp_path: Path) -> None:
+    lines = """K = np.stack([x, x * (1 + (g.a - 0.5) * x)], axis=1)
+y = np.linalg.lstsq(K, np.cos(x))[0]  # [-] unknowns
+force = np.polyfit(x * m, x**2 * N, 1)[1]  # [N] at the origin
+rate = np.polyfit(x * m, x**2 * N, 1)[0]  # [N/m] slope"""
+    sheet = own(tmp_path, "from mechsheet.units import N, m\n" + lines)
+    names, recording = recorded(sheet)
+    assert not recording.gaps
+    assert np.isnan(value_of(recording, "y", {"a": 0.5})).all() and np.isfinite(value_of(recording, "y", {})).all()
+    assert dimensions(recording, sheet, names, registry(names)).check().passed
+
+
+@pytest.mark.parametrize(
+    ("expression", "reason"),
+    [
+        ("np.polyfit(x, x, 1, full=True)[0]", "numpy's polyfit with all that it tells"),
+        ("np.linalg.lstsq(np.ones((2, 9)) * g.F, np.ones(2))[0]", "least squares of other than up to 8 unknowns"),
+        ("np.einsum('ii', np.array([[g.F, 1.0], [g.a, 2.0]]))", "numpy's einsum of 'ii'"),
+        ("np.linalg.eigvalsh(np.array([[g.F, 1.0], [1.0, g.a]]))", "numpy's eigvalsh"),
+        ("np.roots([1.0, -g.F, 0.1])", "numpy's roots"),
+    ],
+)
+def test_functions_of_arrays_that_are_not_followed_are_named(expression: str, reason: str, tmp_path: Path) -> None:
+    _, recording = recorded(own(tmp_path, f"y = {expression}  # [-] line"))
+    (gap,) = recording.gaps
+    assert gap.line == 37 and gap.reason.startswith(reason)
 
 
 GUARDED = [  # what the numbers are decides about lengths and ways: other numbers of the same kind are followed

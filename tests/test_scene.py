@@ -69,8 +69,8 @@ def test_all_parts_of_a_scene_file(tmp_path):
     [
         ("[inputs\n", "is no valid TOML"),
         ("[inputs]\nP6 = 27,5\n", r'is no valid TOML: .*; a number with a comma stands in quotes: "27,5"'),
-        ("P6 = 3\n", r"may hold \[inputs\], want and \[limits\] and nothing else; it has P6"),
-        ("", r"may hold \[inputs\], want and \[limits\] and nothing else; it is empty"),
+        ("P6 = 3\n", r"may hold \[inputs\], want, proof and \[limits\] and nothing else; it has P6"),
+        ("", r"may hold \[inputs\], want, proof and \[limits\] and nothing else; it is empty"),
         ("inputs = 3\n", r"inputs = 3 must be a table \[inputs\]"),
         ("[inputs]\nP6 = [1, 2]\n", r"input P6 = \[1, 2\] must be one value"),
         ("[inputs.P6]\nmin = 1\n", r"input P6 = \{'min': 1\} must be one value"),

@@ -33,6 +33,18 @@ def test_scene_and_arguments_replace_inputs_in_display_units(tmp_path):
     assert (used["P6"], used["phi_P6"], used["L5"]) == (20000.5, 85, 0.48)
 
 
+def test_wanted_results_are_printed_with_their_units_and_nothing_else_is_computed(tmp_path):
+    done = run("--P6=20e3", "--want=L4,GS6", "--want=P56_S.imag", "--want=group (2, 3) closes", f"--out={tmp_path}")
+    assert (done.returncode, done.stderr) == (0, "")
+    lines = done.stdout.splitlines()
+    for line, start in zip(lines, ("L4 = 0.661283 m, ", "GS6 = 29958.8..", "P56_S.imag = "), strict=False):
+        assert line.startswith(start)
+    judged = [line for line in lines[3:] if not line.startswith("written ")]
+    assert all(line.startswith("pass  ") for line in judged) and "group (2, 3) closes" in done.stdout
+    assert "equilibrium" not in done.stdout
+    assert [p.name for p in tmp_path.iterdir()] == ["hitch_scenes.xlsx"]
+
+
 @pytest.mark.parametrize(
     ("argument", "message"),
     [
@@ -46,6 +58,8 @@ def test_scene_and_arguments_replace_inputs_in_display_units(tmp_path):
         ("--S_max=0.9", "error: group (2, 3) closes: no position closes for cylinder S = 0.7"),
         ("--L3=2", "error: no position closes for cylinder S = 0.42 m: it reaches 1.42"),
         ("--k_gc=1e70", "error: number of cylinders k_gc = "),
+        ("--want=GS66", "error: GS66 is defined by no cell of"),
+        ("--want=F_T0,no check", "error: no check is named 'F_T0,no check'"),
         ("--out=", "error: argument '--out=' must be --NAME=VALUE"),
         ("--Y56_min=-2", "error: lifting rod L4"),
         ("--Y_P56=3", "error: working stroke S_p"),

@@ -13,6 +13,7 @@ from mechsheet.worksheet.cells import evaluate, load
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.inputs import declared
 from mechsheet.worksheet.kinds import Input
+from tests.own_worksheet import own
 
 ROOT = Path(__file__).parents[1]
 HITCH = ROOT / "worksheets" / "hitch.py"
@@ -122,9 +123,23 @@ def test_tornado_shows_the_largest_on_top(found):
 
 def test_inputs_at_a_limit_and_at_zero():
     found = sensitivity(HITCH, ["GS6", "Ra"], ["eta", "X05", "P6"], eta=1, X05=0)
-    assert "must be <= 1" in found.reasons["eta"] and found.reasons["X05"] == ""
-    assert np.isnan(found.slopes["GS6"][0]).all() and np.isnan(found.errors["GS6"][0]).all()
+    assert set(found.reasons.values()) == {""}
+    assert np.allclose(found.relative("GS6")[0], 1, rtol=1e-14), "linear in the efficiency, also at its limit"
     assert np.all(np.isfinite(found.slopes["GS6"][1])) and np.all(found.relative("GS6")[1] == 0)
+
+
+def test_what_is_not_recorded_is_differentiated_by_differences_and_says_so(tmp_path):
+    lines = """
+    y = float(f"{g.F:.17g}") * g.a  # [-] by way of a text
+    z = 3 * g.F  # [-] recorded
+    w = abs(g.F - 2.5)  # [-] with a corner"""
+    found = sensitivity(own(tmp_path, lines.replace("\n    ", "\n")).path, ["y", "z", "w"])
+    assert set(found.differences) == {"y"} and "line" in found.differences["y"]
+    assert found.differences["y"] in found.table("1", "", "y", 0).note
+    assert np.allclose(found.slopes["y"], [0.75, 2.5], rtol=1e-9)
+    assert found.slopes["z"].tolist() == [3.0, 0.0] and found.errors["z"][0] < 1e-14
+    assert np.isnan(found.slopes["w"][0]) and found.slopes["w"][1] == 0
+    assert "slope is 1 ahead and -1 behind" in found.reasons["F"] and found.reasons["a"] == ""
 
 
 def test_corners_bound_the_corners_and_hold_the_nominal():

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from numpy import cos, exp, sin
 
 from mechsheet import find, minerr, rrr
-from mechsheet.worksheet.errors import SheetError
+from mechsheet.worksheet.errors import SheetError, Waits
 from mechsheet.worksheet.system import Solution
 from mechsheet.worksheet.verdict import values_only
 
@@ -270,8 +270,7 @@ def test_starts_around_the_guess_tell_of_solutions_where_the_guess_leads_to_none
     ("asked", "message"),
     [
         ({"x": (2, 0), "y": 1.0}, "x from 2 must end above that, not at 0"),
-        ({"x": (0, np.inf), "y": 1.0}, "an end of x = inf must be finite"),
-        ({"x": np.nan, "y": 1.0}, "x = nan must be finite"),
+        ({"x": (0, np.inf), "y": 1.0}, "an end of x = ∞ must be finite"),
         ({"x": (1, 2, 3), "y": 1.0}, "x needs a guess, or the two ends of its interval, not 3 numbers"),
         ({"x": 1.0}, "the equations are of x, y, the unknowns given are x"),
         ({"x": 1.0, "y": 1.0, "equals": (1, 2, 3)}, "equals has 3 values for 2 equations"),
@@ -283,6 +282,33 @@ def test_bad_input_is_one_line(asked, message):
     with pytest.raises(SheetError) as error:
         find(lambda x, y: (x + y, x - y), **asked)
     assert str(error.value) == message
+
+
+@pytest.mark.parametrize(
+    "asked",
+    [
+        {"x": np.nan, "y": 1.0},
+        {"x": (0.0, np.nan), "y": (0.0, 1.0)},
+        {"x": 1.0, "y": 1.0, "equals": (np.nan, 0.0)},
+        {"x": np.nan, "y": 1.0, "unit": ("m", "s")},
+    ],
+)
+@pytest.mark.parametrize("ask", [find, minerr])
+def test_what_rests_on_no_number_waits_with_the_reason(ask, asked):
+    found = ask(lambda x, y: (x + y, x - y), **asked)
+    says = "nothing to solve for x, y: an interval, a guess or a target is NaN"
+
+    assert found.reason == says and found.waits and found.word() == "not evaluated"
+    assert np.isnan(found.residual).all() and len(found.residual) == 2 and says in found._mime_()[1]
+    with pytest.raises(Waits, match=says):
+        _ = found.value
+
+
+def test_a_target_without_a_number_leaves_its_neighbours_alone():
+    found = find(lambda x, y: (x + y, x - y), x=1.0, y=1.0, equals=(np.array([2.0, np.nan]), 0.0))
+
+    assert found.value.x[0] == 1 and np.isnan(found.value.x[1]) and found.waits.tolist() == [False, True]
+    assert found.reason.tolist() == ["", "nothing to solve for x, y: an interval, a guess or a target is NaN"]
 
 
 def test_equations_that_take_no_arrays_say_so():

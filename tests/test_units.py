@@ -14,6 +14,10 @@ from scipy import constants
 
 from mechsheet import units
 from mechsheet.units import alike, define, definitions, parse, plain, shown, si
+from mechsheet.worksheet.check import require
+from mechsheet.worksheet.errors import SheetError
+from mechsheet.worksheet.find import find
+from mechsheet.worksheet.kinds import Input
 
 M, KG, S, A, K, MOL, CD = np.eye(7, dtype=int)
 KNOWN = [name for name in units.names() if name.isidentifier() and not keyword.iskeyword(name)]
@@ -234,3 +238,14 @@ def test_units_to_show_instead_measure_the_same() -> None:
     assert alike("J")[1] == "kJ" and alike("N*mm")[1] == "N*m", "energy and moment"
     assert alike("kg/s") == ("kg/s",)
     assert alike("K") == ("K",), "a temperature in kelvins is another number of degrees Celsius"
+
+
+def test_errors_name_units_as_they_are_printed() -> None:
+    area = Input("A", "cm**2", "area", "", False, ())
+    for text in ("3 mm", "3 kN"):
+        with pytest.raises(SheetError, match=r"does not measure cm²$"):
+            area.read(text)
+    with pytest.raises(SheetError, match=r"it reaches 1\.\.2 cm²$"):
+        require(np.full(2, np.nan), np.full(2, 3e-4), (1e-4, 2e-4), "area", "cm**2")
+    with pytest.raises(SheetError, match="lo = ∞ cm² for area must be finite"):
+        find(lambda x: x, np.inf, 1.0, unknown="area", unknown_unit="cm**2")

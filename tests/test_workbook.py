@@ -139,9 +139,9 @@ def test_values_to_edit_have_a_ground_of_their_own() -> None:
 def test_find_shows_value_residual_and_interval() -> None:
     _, heads, row = rows(book()["Find"])
     assert heads[:8] == ["Symbol", "Value", "Unit", "Meaning", "Residual", "Unit", "From", "To"]
-    assert heads[8:] == ["Other roots", "Value is"]
+    assert heads[8:] == ["Other roots", "Value is", "Target"]
     assert row == [
-        *("S_p", 0.1 + 0.2, "m", "working length", -5.5e-17, "m", 0.42, 0.67, "0.51 (branch -1)", "found"),
+        *("S_p", 0.1 + 0.2, "m", "working length", -5.5e-17, "m", 0.42, 0.67, "0.51 (branch -1)", "found", None),
     ]
 
 

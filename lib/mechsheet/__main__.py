@@ -27,8 +27,10 @@ usage: mechsheet COMMAND              where the package is installed
        python lib/mechsheet COMMAND   in a clone of the project
 
   run NAME [--INPUT=VALUE ...]        compute the worksheet and write its workbook
+      NAME --proof                    prove how many digits of what it shows are right, at least 9 unless =DIGITS
       NAME SCENE ...                  compute scenes side by side, and write workbooks where --out=FOLDER says
-      such as                         run hitch --P6=25e3 --out=exports/light
+      NAME --want=RESULT,...          compute some results and what they need, and print them
+      such as                         run hitch --P6=25e3 --want=L4,GS6
   new NAME [--like=EXAMPLE]           begin a worksheet from a template, or from another worksheet
       such as                         new loader --like=bucket
   edit NAME [OPTIONS]                 open the worksheet in the browser (options of marimo edit)

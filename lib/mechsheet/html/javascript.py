@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from mechsheet.html import moves
-from mechsheet.html.expressions import array, literal, places
+from mechsheet.html.elementwise import array, literal, places
 from mechsheet.html.scope import Program, Rule, Scope
 from mechsheet.recording.lines import Recording
 from mechsheet.recording.node import Block, Node, bottom_up

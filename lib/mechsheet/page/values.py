@@ -22,7 +22,7 @@ from mechsheet.page.script import element, script
 from mechsheet.worksheet import numbers, symbol
 from mechsheet.worksheet.check import Check, Summary
 from mechsheet.worksheet.drawing import Drawing
-from mechsheet.worksheet.errors import SheetError
+from mechsheet.worksheet.errors import SheetError, Waits
 from mechsheet.worksheet.index import Index
 from mechsheet.worksheet.inputs import Used
 from mechsheet.worksheet.lines import Typeset
@@ -52,12 +52,14 @@ def slider(value: Slider) -> Any:
 def refused(error: Exception, shown: Any) -> None:
     """Stop the running cell with an error in its place, or ``shown``; return where no page is running.
 
-    The title block tells it too: the verdicts of the checks have gone with their cells.
+    The title block tells it too: the verdicts of the checks have gone with their cells. What waits for a number leaves
+    the reason to the line that has none.
     """
     if mo.running_in_notebook():
         place = mo.as_html(shown if shown is not None else mo.callout(str(error), kind="danger")).text
         reason = f'content:"{_quoted(str(error))}"'
-        told = f".ms-told{{display:block!important}}.ms-told::after{{{reason}}}"
+        told = ".ms-told{display:block!important}"
+        told += "" if isinstance(error, Waits) else f".ms-told::after{{{reason}}}"
         if isinstance(error, SheetError) and error.of:
             field = re.split(r"[. ]", error.of)[0]
             told += f'td[data-input="{field}"]::after{{{reason}}}'
@@ -200,7 +202,8 @@ def _(summary: Summary) -> str:
         f'<span>{_badge(check)} <a href="#{_anchor(check)}">{in_words(check.name)}</a> {escape(check.reason)}</span>'
         for check in worst_first
     )
-    bar = f"<b>{passed} of {len(summary.checks)} checks</b>" + "".join(_in_bar(check) for check in worst_first[:1] if not check.passed)
+    failing = "".join(_in_bar(check) for check in worst_first[:1] if not check.passed)
+    bar = f"<b>{passed} of {len(summary.checks)} checks</b>{failing}"
     whole = f'<div class="ms-summary"><b>{count}</b><div class="ms-row">{items}</div></div>'
     return element("ms-verdict", whole, bar=bar)
 
@@ -218,7 +221,8 @@ def _(made: Index) -> str:
 @html.register
 def _(found: Verdict) -> str:
     failures = found.failures()
-    colour = "#c62828" if failures else "#2e7d32" if np.any(found.solved) else "#8a6d00"
+    lost = failures and not np.all(found.waits)
+    colour = "#c62828" if lost else "#2e7d32" if np.any(found.solved) else "#8a6d00"
     badge = (
         f'<span style="background:{colour};color:#fff;border-radius:.3em;padding:.1em .5em;margin-right:.6em">'
         f"{found.word()}</span>"
@@ -299,7 +303,7 @@ def _block(columns: Sequence[Column]) -> str:
     )
     head = f'<tr>{heads}</tr><tr class="ms-units">{unit_row}</tr>'
     fit = min(1.0, _PAPER / sum(map(_width, columns)))
-    style = f' style="--fit:{fit:.2f}"' if fit < 1 else ""
+    style = f' style="--fit:{numbers.fixed(fit, 2)}"' if fit < 1 else ""
     return switched.columns(columns, f"<table{style}><thead>{head}</thead><tbody>{rows}</tbody></table>")
 
 

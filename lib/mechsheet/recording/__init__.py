@@ -7,5 +7,7 @@ do and makes nodes meanwhile, by the rules of `arithmetic`; `numpy_rules` are wh
 place, under whatever name.
 
 `numbers` reads a recording for other inputs, `dimensions` checks units, by the rules of `dimension_rules`; `pinpoint`
-finds where in the worksheet a part is written. Stands on the worksheet room and those below.
+finds where in the worksheet a part is written; `slopes` are derivatives of quantities by others, by the rules of
+`slope_rules`. `proof` tells how many digits of a worksheet's numbers are right, by its quantities in `balls` under the
+`ball_rules`, and by a `lone_root` of its equations. Stands on the worksheet room and those below.
 """

@@ -27,12 +27,16 @@ class Line:
 
 @dataclass
 class Residual:
-    """What a check compares, in SI: the largest of some magnitudes, or one signed number, with its limit."""
+    """What a check compares, in SI: the largest of some magnitudes, or one signed number, with its limit.
+
+    Where it is ``listed`` it looks only at the positions that tables list, and the worksheet at all of them.
+    """
 
     parts: list[Node]
     limit: Node
     unit: str
     signed: bool = False
+    listed: bool = False
 
 
 class Told(NamedTuple):
@@ -46,13 +50,17 @@ class Told(NamedTuple):
 
 @dataclass
 class Solved:
-    """A found value: what it leaves of its equation, its interval or guess, and its closed form where there is one."""
+    """A found value: what it leaves of its equation, its interval or guess, its closed form where there is one.
+
+    Of one unknown the ``target`` is what its equation must be.
+    """
 
     node: Node
     residual: Node | None
     interval: tuple[Node, Node] | None
     words: Told
     inverse: Node | None = None
+    target: Node | None = None
 
 
 @dataclass

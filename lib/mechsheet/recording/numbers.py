@@ -105,11 +105,18 @@ def _number(node: Node, known: Mapping[Node, Values], solved: dict[Block | Loop,
         ended: Values = solved[loop][number]
         return ended
     if node.op != "found":
-        return np.asarray(_RULES[node.op](node, *(known[operand] for operand in node.operands)))
+        values = [known[operand] for operand in node.operands]
+        made = np.asarray(_RULES[node.op](node, *values))
+        if node.op in _REFUSED and made.shape == () and np.isinf(made) and np.isfinite(values).all():
+            return np.asarray(np.nan)
+        return made
     block, number = node.args
     if block not in solved and not _same(block.under, [known[o] for o in block.under]):
         solved[block] = _again(block, known)
     return solved[block][number] if block in solved else node.value
+
+
+_REFUSED = ("div", "pow", "log", "exp")  # by Python, where one number of single ones is infinite
 
 
 def _repeated(loop: Loop, known: Mapping[Node, Values]) -> list[Values]:

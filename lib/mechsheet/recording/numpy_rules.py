@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from mechsheet.recording.arithmetic import absolute, angle, choice, conjugate, rounded, square, trunc
+from mechsheet.recording.array_rules import cross, least_squares, order, polynomial_fit, summed, unwrapped
 from mechsheet.recording.graph import Graph, NotRecorded
 from mechsheet.recording.linear_rules import determinant, outer, product, solution
 from mechsheet.recording.operations import REDUCE_SO_FAR
@@ -311,7 +312,9 @@ _OF_FUNCTIONS: dict[Any, Callable[..., Any]] = {
     np.cumsum: _so_far("sum"), np.cumprod: _so_far("prod"), np.diff: _difference, np.ediff1d: _difference,
     np.trapezoid: _trapezoid, np.gradient: _gradient, np.interp: _interpolated, np.searchsorted: _searched,
     np.digitize: lambda graph, x, bins: _searched(graph, bins, x, "right"), np.sort: _ordered,
-    np.dot: product, np.inner: product, np.vdot: lambda graph, x, y: (conjugate(lift(graph, x)) * y).reduced("sum"),
+    np.argsort: order, np.cross: cross, np.unwrap: unwrapped, np.einsum: summed, np.linalg.lstsq: least_squares,
+    np.polyfit: polynomial_fit, np.dot: product, np.inner: product,
+    np.vdot: lambda graph, x, y: (conjugate(lift(graph, x)) * y).reduced("sum"),
     np.outer: outer, np.linalg.solve: solution, np.linalg.det: determinant, np.linalg.norm: _norm,
     np.linalg.inv: lambda graph, A: solution(graph, A, np.eye(np.shape(A)[-1])),
     np.trace: lambda graph, A: lift(graph, A)[np.arange(len(A)), np.arange(len(A))].reduced("sum"),
@@ -329,7 +332,7 @@ _OF_FUNCTIONS: dict[Any, Callable[..., Any]] = {
         graph, [lift(graph, p).reshape(-1) if axis is None else p for p in (x, y)], axis=axis or 0
     ),
     **{f: _joined(f) for f in (np.concatenate, np.stack, np.vstack, np.hstack, np.dstack, np.column_stack, np.block)},
-    **{f: _seen(f) for f in (np.argwhere, np.nonzero, np.flatnonzero, np.argsort, np.unique, np.isin)},
+    **{f: _seen(f) for f in (np.argwhere, np.nonzero, np.flatnonzero, np.unique, np.isin)},
     **{f: _rearranged(f) for f in (
         np.ravel, np.reshape, np.transpose, np.squeeze, np.expand_dims, np.moveaxis, np.swapaxes, np.roll, np.flip,
         np.fliplr, np.flipud, np.rot90, np.repeat, np.tile, np.resize, np.delete, np.split, np.array_split,

@@ -2,6 +2,7 @@
 
 import ast
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
 from itertools import chain
 from pathlib import Path
 from types import CodeType, FunctionType
@@ -43,7 +44,8 @@ def record(
     namespace does not tell; with ``whole`` all cells are run. What a recording
     does not hold keeps the numbers of the worksheet's own run, as nodes ``exported`` that know what they rest on;
     `Recording.gaps` says where and why. Where all tables list every so many positions, only those are recorded, and
-    all of them only for numbers that rest on all, such as an integral.
+    all of them only for numbers that rest on all, such as an integral, and for checks that take little more for it;
+    the others are `Residual.listed`.
     """
     sheet = load(Path(namespace["__file__"])) if sheet is None else sheet
     steps = {value.every for value in namespace.values() if isinstance(value, Table)}
@@ -54,6 +56,9 @@ def record(
         return _Run(sheet, graph, namespace, want, registry(namespace) if known is None else known).recording
     finally:
         current.reset(token)
+
+
+_MORE = 50  # columns that a check over all positions may take more than one over those that tables list
 
 
 class _Run:
@@ -76,7 +81,7 @@ class _Run:
         self.chosen: dict[Node, frozenset[Node]] = {}
         self.lost: dict[str, NotRecorded] = {}  # names that have no value here, and why
         self.passing: dict[str, Any] = {}  # of these, lines whose numbers are others at the next run
-        self.everywhere: dict[str, _Run] = {}  # over all positions, by the cell that needs it
+        self.want, self.over_all_positions = want, list[_Run]()  # a run of the same graph, once it is needed
         self.of_rows = dict[Node, tuple[bool, bool]]()  # whether it rests on the positions listed; on a sum of them
         self.lines = lines
         for line in sheet.setup:
@@ -93,6 +98,8 @@ class _Run:
             for solved in stage.solved:
                 self.recording.define_steps(cell.section, solved)
         self.recording.values = self.names
+        if graph.thin > 1:
+            self.check_everywhere()
 
     def step(self, stage: Stage, line: int, facts: statement.Statement, later: set[str]) -> None:
         """Run one statement; where it cannot be recorded, its names keep the numbers of the worksheet's own run.
@@ -123,7 +130,7 @@ class _Run:
             differs = self.differing(stage, final)
             if graph.thin > 1:
                 others = {name for name in differs if not self.of_listed(name)}
-                self.over_all(stage, [name for name in touched if name in others or self.over_listed(name)])
+                self.over_all([name for name in touched if name in others or self.over_listed(name)])
                 differs = self.differing(stage, final)
             if not all(map(self.of_listed, differs)):
                 of_all = " is of all positions, and only those that tables list are recorded"
@@ -240,38 +247,71 @@ class _Run:
         """Names whose recorded numbers are not the worksheet's own."""
         return [name for name in names if not stage.same(self.names.get(name), self.namespace.get(name))]
 
-    def over_all(self, stage: Stage, names: Sequence[str]) -> None:
-        """Take numbers from a run of the same graph over all positions, of the cells behind them alone."""
-        if not names:
-            return
-        graph, cell = self.graph, stage.cell
-        if cell.name not in self.everywhere:
+    def everywhere(self) -> "_Run":
+        """A run of the same graph over all positions."""
+        graph = self.graph
+        if not self.over_all_positions:
             kept = graph.thin, graph.line, graph.looked, graph.numbered, graph.work
             labels, graph.labels, graph.thin = graph.labels, {}, 1  # what only this run needs is no named step
             try:
-                self.everywhere[cell.name] = run = _Run(self.sheet, graph, self.namespace, cell.gives, self.lines)
+                self.over_all_positions.append(_Run(self.sheet, graph, self.namespace, self.want, self.lines))
             finally:
                 graph.thin, graph.line, graph.looked, graph.numbered, graph.work = kept
                 graph.labels = labels
-            self.recording.guards |= run.recording.guards
-        run = self.everywhere[cell.name]
-        for name in names:
-            if name in run.names:
-                self.names[name] = value = _listed(graph, run.names[name])
-                if isinstance(value, Quantity) and not value.single:
-                    self.of_rows |= dict.fromkeys(value.parts, (True, False))
+        return self.over_all_positions[0]
 
-    def over_listed(self, name: str) -> bool:
-        """Whether a line is a sum or an extreme over the positions that tables list, which that over all may equal."""
-        value, count = self.names.get(name), (self.graph.positions - 1) // self.graph.thin + 1
-        if name not in self.lines or not isinstance(value, Quantity):
-            return False
-        for part in bottom_up(value.parts, self.of_rows):
+    def over_all(self, names: Sequence[str]) -> None:
+        """Take numbers from the run over all positions."""
+        for name in names:
+            run = self.everywhere()
+            if name in run.names:
+                self.names[name] = value = _listed(self.graph, run.names[name])
+                if isinstance(value, Quantity):
+                    self.guard_as(run, value.parts)
+                    if not value.single:
+                        self.of_rows |= dict.fromkeys(value.parts, (True, False))
+
+    def guard_as(self, run: "_Run", nodes: Iterable[Node]) -> None:
+        """Take over the guards of another run on which quantities rest."""
+        guards = run.recording.guards
+        if guards:
+            self.recording.guards |= {node: guards[node] for node in bottom_up(nodes, ()) if node in guards}
+
+    def check_everywhere(self) -> None:
+        """Let checks look at all positions where that takes few columns more; the others look at those listed."""
+        recording = self.recording
+        columns = (part for table in recording.tables.values() for c in table if c is not None for part in c.parts)
+        judged = (part for check in recording.checks.values() for part in (*check.parts, check.limit))
+        known = set(bottom_up([*columns, *judged, *recording.guards], ()))
+        for name, own in recording.checks.items():
+            if not any(any(rests) for rests in self.on_rows([*own.parts, own.limit])):
+                continue
+            whole = self.everywhere().recording.checks.get(name, own)
+            nodes = [*whole.parts, whole.limit]
+            more = list(bottom_up(nodes, known))
+            if sum(node.size > 1 for node in more) > _MORE or any(node.op == "exported" for node in more):
+                recording.checks[name] = replace(own, listed=True)
+            else:
+                recording.checks[name] = whole
+                known.update(more)
+                self.guard_as(self.everywhere(), nodes)
+
+    def on_rows(self, nodes: Sequence[Node]) -> list[tuple[bool, bool]]:
+        """Whether each rests on the positions that tables list, and on a sum or an extreme over them."""
+        count = (self.graph.positions - 1) // self.graph.thin + 1
+        for part in bottom_up(nodes, self.of_rows):
             under = [self.of_rows[operand] for operand in part.operands]
             rests = (part.op == "rows" and part.size == count) or any(own for own, _ in under)
             reduced = part.op == "reduce" and rests and part.size < count
             self.of_rows[part] = rests, reduced or any(over for _, over in under)
-        return any(self.of_rows[part][1] for part in value.parts)
+        return [self.of_rows[node] for node in nodes]
+
+    def over_listed(self, name: str) -> bool:
+        """Whether a line is a sum or an extreme over the positions that tables list, which that over all may equal."""
+        value = self.names.get(name)
+        if name not in self.lines or not isinstance(value, Quantity):
+            return False
+        return any(over for _, over in self.on_rows(list(value.parts)))
 
     def of_listed(self, name: str) -> bool:
         """Whether a number is a greatest or least one over the positions that tables list, and differs only by that.

@@ -49,14 +49,16 @@ def one(graph: Graph, found: Found, f: Callable[..., Any], asked: dict[str, Any]
     name = f"{found.words.unknown}, line {graph.line}"
     block.nodes = (graph.found(block, 0, name, listed(graph, found._value)),)
     x, branch = Quantity(graph, block.nodes[0]), asked.get("branch")
-    value, equals = lift(graph, f(x, branch) if branch is not None else f(x)), lift(graph, asked.get("equals", 0))
-    left = value - equals
-    block.residuals, block.sides = (left.re,), (value.re, equals.re)
+    value = lift(graph, f(x, branch) if branch is not None else f(x))
+    target = lift(graph, asked.get("equals", 0.0))
+    left = value - target
+    block.residuals, block.sides = (left.re,), (value.re, target.re)
     block.rest()
     words = found.words
     told = Told(words.unknown, words.quantity, words.unit, words.unknown_unit)
     ends = (starts["lo"][0], starts["hi"][0]) if starts.keys() >= {"lo", "hi"} else None
-    return Solving(x, left, (Solved(block.nodes[0], left.re if left.single else None, ends, told),))
+    alone = target.re if target.single else None
+    return Solving(x, left, (Solved(block.nodes[0], left.re if left.single else None, ends, told, target=alone),))
 
 
 def several(graph: Graph, found: Solution, f: Callable[..., Any], asked: dict[str, Any]) -> Solving:

@@ -249,7 +249,10 @@ def held(own: Any) -> bool:
 
 
 def _made_of(node: Node, known: dict[Node, float]) -> float:
-    """The largest number of which a quantity is a sum or difference, over all that it rests on."""
+    """The largest number of which a quantity is a sum or difference, over all that it rests on.
+
+    A function of such a sum has its roundings too, by as much as its slope: the cosine of a right angle is none.
+    """
     for part in bottom_up([node], known):
         size, parts = _size(part), part.operands
         match part.op:
@@ -260,10 +263,25 @@ def _made_of(node: Node, known: dict[Node, float]) -> float:
                 size = max(size, known[parts[0]] / least) if least else size
             case "pow" | "sqrt":
                 size = max(size, _size(parts[0]))
-            case "add" | "sub" | "neg" | "abs" | "max" | "min" | "take" | "join" | "reduce" | "where":
+            case "exp":
+                size *= max(1.0, known[parts[0]])
+            case "tan":
+                size = max(size, (1 + size**2) * known[parts[0]])
+            case "log":
+                size = max(size, known[parts[0]] / (_size(parts[0]) or 1.0))
+            case "atan2":
+                largest = max(map(_size, parts)) or 1.0
+                size = max(size, *(known[p] / largest for p in parts))
+            case op if op in _AS_LARGE:
                 size = max([size, *(known[p] for p in parts)])
         known[part] = size
     return known[node]
+
+
+_AS_LARGE = {  # as what they are made of: moved, chosen and added, and of functions those whose slope is about one
+    "add", "sub", "neg", "abs", "max", "min", "mod", "sin", "cos", "asin", "acos", "take", "join", "reduce", "where",
+    "like", "sized", "at",
+}  # fmt: skip
 
 
 def _size(node: Node) -> float:

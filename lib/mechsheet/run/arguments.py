@@ -1,4 +1,4 @@
-"""The arguments of a run: inputs by name, a scene, and the folder for what is written."""
+"""The arguments of a run: inputs by name, a scene, the folder for what is written, and whether digits are proved."""
 
 import os
 import sys
@@ -7,6 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from mechsheet.worksheet import scene as scenes
+from mechsheet.worksheet.cells import base
 from mechsheet.worksheet.data_file import ENDINGS
 from mechsheet.worksheet.errors import SheetError, as_given
 from mechsheet.worksheet.kinds import Input
@@ -26,20 +27,30 @@ def is_script(worksheet: str) -> bool:
 
 
 def read(arguments: Sequence[str], declared: Sequence[Input]) -> Scene:
-    """Scene from texts ``--scene=FILE``, ``--out=FOLDER`` and ``--NAME=VALUE``; the later one holds."""
-    scene = Scene()
+    """Scene from ``--scene=FILE``, ``--out=FOLDER``, ``--want=NAMES``, ``--proof``, ``--NAME=VALUE``; the later holds.
+
+    Wanted are names with commas between them, or one check by its own; those of all ``--want`` together.
+    """
+    scene, wanted = Scene(), list[str]()
     for argument in arguments:
         name, equals, value = argument.removeprefix("--").partition("=")
+        if name == "proof" and argument.startswith("--"):
+            scene = replace(scene, proof=scenes.digits(f"argument {argument!r}", value) if equals else scenes.PROVED)
+            continue
         if not (argument.startswith("--") and name and equals and value):
-            raise SheetError(f"argument {argument!r} must be --NAME=VALUE, --scene=FILE or --out=FOLDER")
+            raise SheetError(f"argument {argument!r} must be --NAME=VALUE, --want=NAMES, --scene=FILE or --out=FOLDER")
         if name == "scene":
             new = load(_path(value), declared)
-            scene = Scene(scene.inputs | new.inputs, scene.out, new.want or scene.want, scene.limits | new.limits)
+            inputs, limits, proof = scene.inputs | new.inputs, scene.limits | new.limits, new.proof or scene.proof
+            scene = Scene(inputs, scene.out, new.want or scene.want, limits, proof)
         elif name == "out":
             scene = replace(scene, out=_path(value))
+        elif name == "want":
+            names = [part.strip() for part in value.split(",")]
+            wanted += names if all(base(part).isidentifier() for part in names) else [value]
         else:
             scene = replace(scene, inputs={**scene.inputs, name: value})
-    return scene
+    return replace(scene, want=tuple(dict.fromkeys(wanted)) or scene.want)
 
 
 def _path(text: str) -> Path:

@@ -17,6 +17,7 @@ from mechsheet.run import report
 from mechsheet.run.arguments import read
 from mechsheet.run.ending import INTERRUPTED, say, watch
 from mechsheet.run.progress import progress
+from mechsheet.run.proving import proof_of_wanted
 from mechsheet.workbook import writing
 from mechsheet.workbook.checks_sheet import verdict
 from mechsheet.worksheet import inputs, mistakes, numbers, results
@@ -33,7 +34,7 @@ _GAP = 2  # characters between columns
 
 @dataclass(frozen=True)
 class Outcome:
-    """What became of a scene: its inputs, how their texts were read, results and checks, or the error."""
+    """What became of a scene: its inputs, how their texts were read, results, checks and proof, or the error."""
 
     name: str
     g: Any = None
@@ -42,6 +43,7 @@ class Outcome:
     checks: tuple[Check, ...] = ()
     readings: tuple[str, ...] = ()
     error: str = ""
+    proof: tuple[str, ...] = ()
 
     @property
     def problems(self) -> list[str]:
@@ -75,8 +77,12 @@ def compute(sheet: Worksheet, name: str, given: Scene) -> tuple[Outcome, dict[st
             tables.append(what)
         elif base(want).isidentifier() and not _is_check(what):
             quantities |= {quantity.name: quantity for quantity in results.quantities(want, names)}
-    told = inputs.readings(inputs.declared(sheet.inputs), given.inputs)
-    return Outcome(name, g, tuple(quantities.values()), tuple(tables), tuple(judged), tuple(told)), names
+    told, proved = inputs.readings(inputs.declared(sheet.inputs), given.inputs), tuple[str, ...]()
+    if given.proof:
+        proof = proof_of_wanted(names, sheet, [*(given.want or sheet.results), *given.limits])
+        judged, proved = [*judged, proof.check(given.proof)], tuple(proof.lines())
+    outcome = Outcome(name, g, tuple(quantities.values()), tuple(tables), tuple(judged), tuple(told), proof=proved)
+    return outcome, names
 
 
 def answer(worksheet: str, given: Scene) -> int:
@@ -86,7 +92,7 @@ def answer(worksheet: str, given: Scene) -> int:
     say(*outcome.readings, *outcome.quantities)
     for table in outcome.tables:
         say(f"Table {table.number} - {table.title}", *_text(_printed(table)))
-    say(*(check for check in outcome.checks if check.passed), *outcome.problems)
+    say(*(check for check in outcome.checks if check.passed), *outcome.proof, *outcome.problems)
     if given.out:
         report.write(comparison(sheet, [outcome]), given.out / _summary(sheet))
     return 1 if outcome.problems else 0
@@ -244,10 +250,10 @@ def _table(sheet: Worksheet, outcomes: Sequence[Outcome]) -> list[list[str]]:
     rows = [["", *(o.name for o in outcomes)]]
     for field in _changed(sheet, outcomes):
         given = ("" if o.g is None else field.brief(getattr(o.g, field.name)) for o in outcomes)
-        rows.append([f"{field.name} [{field.unit}]", *given])
+        rows.append([f"{field.name} [{units.shown(field.unit)}]", *given])
     for name, quantity in _quantities(outcomes).items():
         spans = ({q.name: q.span for q in o.quantities}.get(name, "") for o in outcomes)
-        rows.append([f"{name} [{quantity.unit}]", *spans])
+        rows.append([f"{name} [{units.shown(quantity.unit)}]", *spans])
     passed = (f"{sum(check.passed for check in o.checks)} of {len(o.checks)}" if o.checks else "" for o in outcomes)
     return [*rows, ["checks passed", *passed], ["verdict", *(o.verdict for o in outcomes)]]
 
@@ -267,7 +273,7 @@ def _blocks(rows: Sequence[Sequence[str]], width: int) -> Iterator[list[Sequence
 
 def _printed(table: Table) -> list[list[str]]:
     """A table as it is printed: symbols, units, numbers."""
-    heads = [[c.symbol for c in table.columns], [f"[{c.unit}]" for c in table.columns]]
+    heads = [[c.symbol for c in table.columns], [f"[{units.shown(c.unit)}]" for c in table.columns]]
     columns = [[numbers.fixed(x, c.decimals) for x in c.values] for c in table.columns]
     return heads + [list(row) for row in zip(*columns, strict=True)]
 

@@ -15,6 +15,7 @@ from mechsheet.recording.lines import Recording, Residual
 from mechsheet.recording.record import record
 from mechsheet.run import arguments
 from mechsheet.run.ending import say
+from mechsheet.run.proving import proof_of
 from mechsheet.workbook import inputs_sheet, writing
 from mechsheet.workbook.find_sheet import FoundRow
 from mechsheet.workbook.save import save
@@ -67,6 +68,10 @@ def _script(title: str, namespace: Mapping[str, Any], worksheet: Path) -> None:
     recording, fit = _recorded(namespace)
     checks = [*_of(Check, values), fit]
     say(*inputs.readings(declared, given.inputs), *_of(Verdict, values), *checks)
+    if given.proof:
+        proof = proof_of(namespace, load(worksheet), recording)
+        checks.append(proof.check(given.proof))
+        say(*proof.lines(), checks[-1])
     path = (given.out or _folder(worksheet.resolve())) / f"{worksheet.stem}.xlsx"
     write(_workbook(title, namespace, [*values, fit], recording), path)
     say(f"written {path}", *_not_followed(recording))

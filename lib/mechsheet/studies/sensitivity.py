@@ -1,7 +1,7 @@
-"""Sensitivity of results to inputs, by one sweep of a worksheet."""
+"""Sensitivity of results to inputs: slopes of what is recorded, and differences by one sweep of what is not."""
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, Literal
 
@@ -9,10 +9,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mechsheet import units
+from mechsheet.recording.graph import Gap
+from mechsheet.recording.node import Node
+from mechsheet.recording.numbers import numbers as recomputed
+from mechsheet.recording.quantity import Quantity
+from mechsheet.recording.record import record
+from mechsheet.recording.slopes import Slope, seen, slopes, solved_under, unfollowed
 from mechsheet.studies.sweep import Sweep, sweep
 from mechsheet.worksheet import inputs as declarations
 from mechsheet.worksheet import numbers, symbol
-from mechsheet.worksheet.cells import base, load, value
+from mechsheet.worksheet.cells import base, load, split, value
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.kinds import Input
 from mechsheet.worksheet.shown import Charted
@@ -25,6 +31,7 @@ _STEP = 2.0**-5  # of an input's size: the widest step
 _HALVINGS = 7  # steps down to 2**-12 of the size
 _ROUNDING = 32 * np.finfo(float).eps  # of a field's largest value: what the roundings of a worksheet make of it
 _BARS = 12
+_DRAWS = 4  # of inputs changed by one rounding
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,6 +48,8 @@ class Sensitivity:
         The results there.
     slopes, errors : dict of str to array, shape (inputs,) or (inputs, positions)
         Derivatives d result / d input and the estimates of their errors; NaN where there is none.
+    differences : dict of str to str
+        Results that are differentiated by differences, and what of them is not recorded.
     reasons : dict of str to str
         For an input, why the results cannot be differentiated by it; "" where they can.
     units : dict of str to str
@@ -52,6 +61,7 @@ class Sensitivity:
     values: dict[str, Array]
     slopes: dict[str, Array]
     errors: dict[str, Array]
+    differences: dict[str, str]
     reasons: dict[str, str]
     units: dict[str, str]
     meanings: dict[str, str]
@@ -95,7 +105,9 @@ class Sensitivity:
             _texts("derivative's unit", [units.shown(self.unit(name, x)) for x in by]),
             _texts("error", [numbers.significant(x, 1) for x in errors]),
         )
-        return Table(number, title, columns, f"{name} = {where}, position {k}; derivatives in the units beside them.")
+        note = f"{name} = {where}, position {k}; derivatives in the units beside them"
+        by_differences = f", by differences: {self.differences[name]}" if name in self.differences else ""
+        return Table(number, title, columns, f"{note}{by_differences}.")
 
     def over_positions(self, number: str, title: str, name: str) -> Table:
         """Elasticities of a result at every position, a column for each input that has any influence."""
@@ -159,11 +171,14 @@ class Tornado(Charted):
 def sensitivity(
     worksheet: str | Path, want: Iterable[str], inputs: Iterable[str] | None = None, **given: Any
 ) -> Sensitivity:
-    r"""Derivatives of results by inputs, through one sweep of the worksheet.
+    r"""Derivatives of results by inputs, exact to rounding, also of what a solve block finds.
+
+    Their errors are estimated by what one rounding of every input makes of them. Of a result that rests on something
+    that is not recorded they are
 
     .. math:: D(h) = \frac{f(x + h) - f(x - h)}{2h} = f'(x) + c_2 h^2 + c_4 h^4 + \dots
 
-    Central differences at steps halved from 1/32 of the input's own size down, extrapolated to none; of all the
+    central differences at steps halved from 1/32 of the input's own size down, extrapolated to none; of all the
     extrapolations that one is taken whose estimated error, by its two predecessors, is least.
 
     Parameters
@@ -181,7 +196,7 @@ def sensitivity(
     Returns
     -------
     Sensitivity
-        An input that cannot be moved both ways, such as one at its limit, has NaN and a reason.
+        Where a result has a corner or a jump, or cannot be moved both ways by differences, it has NaN and a reason.
 
     Raises
     ------
@@ -198,40 +213,114 @@ def sensitivity(
     chosen = [x for x, f in fields.items() if f.continuous] if inputs is None else list(dict.fromkeys(inputs))
     for x in chosen:
         continuous(fields, x, "cannot be differentiated by")
-    sizes = np.array([_size(fields, at, x) for x in chosen])
+    exact, why = _of_recording(worksheet, names, chosen, given)
+    sizes = np.array([_size(fields, at, x) for x in chosen if why])
     steps = _STEP / 2.0 ** np.arange(_HALVINGS + 1)
     moves = np.multiply.outer(sizes, np.concatenate([steps, -steps]))  # inputs, steps both ways
     rows = moves.size + 1
     variants = {x: np.full(rows, at[x]) for x in chosen}
-    for i, x in enumerate(chosen):
+    for i, x in enumerate(chosen if why else ()):
         variants[x][1 + i * moves.shape[1] :][: moves.shape[1]] += moves[i]
     swept = sweep(worksheet, dict.fromkeys(base(name) for name in names), {**given, **variants})
     solved(swept, 0)
 
-    values, slopes, errors = {}, {}, {}
+    found, errors = dict[str, Array](), dict[str, Array]()
     lost = dict.fromkeys(chosen, "")
+    results = {name: real(swept, name) for name in names}
+    values = {name: result[0] for name, result in results.items()}
+    reasons = swept.reasons[1:].reshape(len(chosen), -1)
     for name in names:
-        results = real(swept, name)
-        values[name] = results[0]
-        moved = results[1:].reshape(len(chosen), 2, len(steps), *results.shape[1:])
+        if name in exact:
+            own = units.parse(swept.units[base(name)]).factor
+            to_display = np.reshape(
+                [units.parse(fields[x].unit).factor / own for x in chosen], (-1, *[1] * values[name].ndim)
+            )
+            slope, errors[name] = exact[name]
+            found[name], errors[name] = slope.both * to_display, errors[name] * to_display
+            lost |= {x: _corner(name, slope, i) for i, x in enumerate(chosen) if np.isnan(slope.both[i]).any()}
+            continue
+        moved = results[name][1:].reshape(len(chosen), 2, len(steps), *values[name].shape)
         taken = [variants[x][1:].reshape(len(chosen), 2, len(steps))[i] for i, x in enumerate(chosen)]
         widths = np.reshape([t[0] - t[1] for t in taken], (len(chosen), len(steps), *[1] * values[name].ndim))
         quotients = (moved[:, 0] - moved[:, 1]) / widths  # the steps as they are after rounding
-        slopes[name], errors[name] = _extrapolated(quotients, widths, float(np.max(np.abs(values[name]))))
-    reasons = swept.reasons[1:].reshape(len(chosen), -1)
-    for i, x in enumerate(chosen):
-        if any(np.isnan(slopes[name][i]).any() for name in names):
-            lost[x] = next((reason for reason in reasons[i][::-1] if reason), "the result itself has no value")
+        found[name], errors[name] = _extrapolated(quotients, widths, float(np.max(np.abs(values[name]))))
+        for i, x in enumerate(chosen):
+            if np.isnan(found[name][i]).any():
+                lost[x] = next((reason for reason in reasons[i][::-1] if reason), "the result itself has no value")
     return Sensitivity(
         names,
         {x: at[x] for x in chosen},
         values,
-        slopes,
+        found,
         errors,
+        why,
         lost,
         {**{name: swept.units[base(name)] for name in names}, **{x: fields[x].unit for x in chosen}},
         {x: fields[x].meaning for x in chosen},
     )
+
+
+def _of_recording(
+    worksheet: str | Path, names: Sequence[str], by: Sequence[str], given: Mapping[str, Any]
+) -> tuple[dict[str, tuple[Slope, Array]], dict[str, str]]:
+    """Slopes of results in SI with estimates of their errors, and of the others what of them is not recorded."""
+    sheet = load(worksheet)
+    g: Any = declarations.build(sheet.inputs, given)
+    only = replace(sheet, cells=tuple(sheet.needed([base(name) for name in names], ["g"])))
+    recording = record(only.run(only.results, {"g": g}), only, whole=True)
+    inputs = [recording.inputs[x] for x in by]
+    nodes = {name: _node(name, recording.values) for name in names}
+    lacking = {name: unfollowed([node], inputs) for name, node in nodes.items() if node}
+    here = slopes([node for node in nodes.values() if node], inputs)
+    for name, node in nodes.items():
+        if node and np.isnan([*here[node]]).all(0).any() and not lacking[name]:
+            lacking[name] = seen([node], inputs)
+    exact = {name: node for name, node in nodes.items() if node and not lacking[name]}
+    why = {name: _untold(lacking.get(name), recording.gaps) for name in names if name not in exact}
+    wanted = list(dict.fromkeys(exact.values()))
+    off = {node: np.zeros_like(here[node].ahead) for node in wanted}
+    rng = np.random.default_rng(0)
+    for _ in range(_DRAWS):
+        signs = rng.choice([-1, 1], len(inputs))
+        moved = {x: np.nextafter(x.value, s * np.inf) for x, s in zip(inputs, signs, strict=True)}
+        try:
+            there = slopes(wanted, inputs, recomputed([*wanted, *solved_under(wanted)], moved))
+        except SheetError:  # one rounding decides whether there is a solution at all
+            off = {node: np.full_like(off[node], np.inf) for node in wanted}
+            break
+        for node in wanted:
+            own = np.abs(there[node].both - here[node].both) + np.finfo(float).eps * np.abs(here[node].both)
+            off[node] = np.maximum(off[node], 4 * own)
+    return {name: (here[node], off[node]) for name, node in exact.items()}, why
+
+
+def _untold(lacking: Node | None, gaps: Sequence[Gap]) -> str:
+    """What of a result is not recorded."""
+    if lacking is None:
+        return "it is no recorded number"
+    told = (str(gap) for gap in gaps if gap.line == lacking.line)
+    return next(told, f"what line {lacking.line} does is not followed")
+
+
+def _node(name: str, values: Mapping[str, Any]) -> Node | None:
+    """A result or a part of one in a recording; none of what is no real quantity there."""
+    root, part = split(name)
+    quantity = values.get(root)
+    if not isinstance(quantity, Quantity):
+        return None
+    if part:
+        quantity = abs(quantity) if part == "abs" else getattr(quantity, part)
+    return quantity.re if quantity.im is None else None
+
+
+def _corner(name: str, slope: Slope, i: int) -> str:
+    """Why a result has no slope by an input."""
+    at = int(np.argmax(np.isnan(slope.both[i]).reshape(-1)))
+    sides = [float(side[i].reshape(-1)[at]) for side in (slope.ahead, slope.behind)]
+    if not np.isfinite(sides).all():
+        return f"{name} jumps there, or ends"
+    ahead, behind = numbers.apart(sides)
+    return f"{name} has a corner there: in SI its slope is {ahead} ahead and {behind} behind"
 
 
 def _extrapolated(quotients: Array, widths: Array, size: float) -> tuple[Array, Array]:

@@ -125,7 +125,9 @@ def tolerance(
     for x, t in tolerances.items():
         continuous(fields, x, "cannot have a tolerance:")
         if not (np.isfinite(t) and t >= 0):
-            raise SheetError(f"tolerance of {fields[x].meaning} {x} = {t} {fields[x].unit} must be a number >= 0")
+            raise SheetError(
+                f"tolerance of {fields[x].meaning} {x} = {t}{numbers.suffix(fields[x].unit)} must be a number >= 0"
+            )
     spread = np.array(list(tolerances.values()))
     if method == "corners":
         if len(spread) > _CORNERS:

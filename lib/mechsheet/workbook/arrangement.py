@@ -92,7 +92,8 @@ class Arrangement:
         for table in self.tables:
             yield from (node for node in self.columns(table) if node)
         for solved in self.recording.found.values():
-            yield from (n for n in (solved.node, solved.inverse, solved.residual, *(solved.interval or ())) if n)
+            told = solved.inverse, solved.residual, solved.target
+            yield from (n for n in (solved.node, *told, *(solved.interval or ())) if n)
         for check in self.recording.checks.values():
             yield from check.parts
             yield check.limit

@@ -30,8 +30,9 @@ _TEXT: dict[str, tuple[str, int, tuple[int, ...]]] = {
 AGGREGATE = "_xlfn.AGGREGATE"  # the name of newer functions in the file; with 6 it passes over error values
 _OF_RANGE = {
     "max": "MAX({})", "min": "MIN({})", "sum": "SUM({})", "prod": "PRODUCT({})", "any": "OR({})", "all": "AND({})",
-    "argmax": "MATCH(MAX({0}),{1},0)-1", "argmin": "MATCH(MIN({0}),{1},0)-1", "nanmax": f"{AGGREGATE}(4,6,{{}})",
-    "nanmin": f"{AGGREGATE}(5,6,{{}})", "nansum": f"{AGGREGATE}(9,6,{{}})",
+    "argmax": "MATCH(MAX({0}),{1},0)-1", "argmin": "MATCH(MIN({0}),{1},0)-1",
+    "nanmax": f"IF(COUNT({{0}})=0,NA(),{AGGREGATE}(4,6,{{0}}))",
+    "nanmin": f"IF(COUNT({{0}})=0,NA(),{AGGREGATE}(5,6,{{0}}))", "nansum": f"{AGGREGATE}(9,6,{{}})",
 }  # fmt: skip
 _DIFFERS = 5  # columns between an input in SI units and whether it differs from the exported one
 _FIRST = np.zeros(1, np.intp)
@@ -42,11 +43,12 @@ _FAILS = {"sqrt", "asin", "acos", "atan2", "log", "div", "pow", "mod", "tan", "a
 class CellFormulas:
     """Formulas of quantities, some of which stand at a place of the workbook: there a formula refers to them.
 
-    ``first`` is the row of the first number of every column; what is no number is #N/A.
+    ``first`` is the row of the first number of every column, ``counted`` the condition under which there are as many
+    rows as columns have: no row has a number of another one's. What is no number is #N/A.
     """
 
-    def __init__(self, places: Mapping[Node, Place], first: int = 0) -> None:
-        self.places, self.first = places, first
+    def __init__(self, places: Mapping[Node, Place], first: int = 0, counted: str = "") -> None:
+        self.places, self.first, self.counted = places, first, counted
         self._inputs: dict[Node, tuple[Node, ...]] = {}
 
     def formula(self, node: Node, factor: float = 1.0) -> str:
@@ -126,15 +128,18 @@ class CellFormulas:
                 return self._element(node.args[0], _position(node.args[0].shape, node.shape, at), rows)
             case "mul" if _is_one(node.args[0]):
                 return self._element(node.args[1], _position(node.args[1].shape, node.shape, at), rows)
-            case "like" | "sized":  # the number of rows is fixed
-                return self._element(node.args[0], _position(node.args[0].shape, node.shape, at), rows)
+            case "like" | "sized":
+                whole = self._element(node.args[0], _position(node.args[0].shape, node.shape, at), rows)
+                return whole if node.args[0].stretches else self._while_counted(*whole)
             case "iterated":
                 return self._element(node.args[2], at, rows)
             case "length":
-                return written(node.value.item()), 5
+                return self._while_counted(written(node.value.item()), 5)
             case "rows":
-                place = self.places.get(node)
-                return f"ROW()-{place.row + 1 if place else 1}", 2
+                return self._while_counted(f"ROW()-{self.places[node].row + 1}" if node.size > 1 else "0", 2)
+            case "finite" if node.args[0].stretches:
+                inner = self._element(node.args[0], _position(node.args[0].shape, node.shape, at), rows)[0]
+                return self._while_counted(f"ISNUMBER({inner})", 5)
             case "take":
                 source, index, _ = node.args
                 return self._element(source, index.reshape(-1)[at], rows)
@@ -172,7 +177,12 @@ class CellFormulas:
             members = [rows.cells(place, np.array([group[n] for group in chosen])) for n in range(length)]
             cells = ",".join(members)
             one = f"CHOOSE({{{','.join(str(n + 1) for n in range(length))}}},{cells})"
-        return _OF_RANGE[kind].format(cells, one), 2 if kind.startswith("arg") else 5
+        text, binding = _OF_RANGE[kind].format(cells, one), 2 if kind.startswith("arg") else 5
+        return self._while_counted(text, binding) if source.stretches and kind.startswith("nan") else (text, binding)
+
+    def _while_counted(self, text: str, binding: int) -> tuple[str, int]:
+        """What is known of as many rows as columns have, and how tightly it binds."""
+        return (f"IF({self.counted},{text},NA())", 5) if self.counted else (text, binding)
 
     def _unchanged(self, node: Node, rows: Rows) -> str:
         """Condition under which an input or another quantity is what it was; of a list its rows tell what differs."""
@@ -216,9 +226,9 @@ def nesting(node: Node, inside: Mapping[Node, int]) -> int:
     deep = {operand: max(inside[operand], COUNTED * _elsewhere(operand, node)) for operand in written_of(node)}
     deepest = max(deep.values(), default=0)
     if node.op == "reduce":
-        return deepest + (2 if node.args[2].startswith("arg") else 1)
+        return deepest + (2 if node.args[2].startswith(("arg", "nan")) else 1)
     if node.op not in _TEXT:
-        return deepest + {"at": 1, "exported": 2, "found": 2}.get(node.op, 0)
+        return deepest + {"at": 1, "like": 1, "sized": 1, "exported": 2, "found": 2}.get(node.op, 0)
     _, binding, needs = _TEXT[node.op]
     if binding == 5:
         return deepest + 1

@@ -35,7 +35,14 @@ def write(book: Book, checks: Sequence[Check], formulas: SheetFormulas | None, f
         if guard := formulas.guard():
             rows.append((Check(_MADE, 0.0, 0.0), Live(guard, 0.0), 0.0))
         listed += [
-            (c.name, residual, limit, shown(c.unit), Live(_VERDICT.format(n), verdict(c)), _reason(c, formulas))
+            (
+                _name(c, formulas),
+                residual,
+                limit,
+                shown(c.unit),
+                Live(_VERDICT.format(n), verdict(c)),
+                _reason(c, formulas),
+            )
             for n, (c, residual, limit) in enumerate(rows, 3)
         ]
         cells = f"E3:E{len(rows) + 2}"
@@ -52,6 +59,12 @@ def verdict(check: Check) -> str:
 
 def _title(passed: int, count: int) -> str:
     return f"Checks: {passed} of {count} passed"
+
+
+def _name(check: Check, formulas: SheetFormulas) -> str:
+    """The name of a check, and whether it looks at fewer positions than that of the worksheet."""
+    known = formulas.recording.checks.get(check.name)
+    return f"{check.name}, at the listed positions" if known and known.listed else check.name
 
 
 def _compared(check: Check, formulas: SheetFormulas, fixed: bool) -> tuple[Content, Content]:

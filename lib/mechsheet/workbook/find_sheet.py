@@ -14,7 +14,8 @@ from mechsheet.workbook.sheet_formulas import SheetFormulas
 class FoundRow:
     """One solved value in ``unit``, searched for in ``lower..upper``, and the ``residual`` that it leaves.
 
-    ``unknown`` is what the solve block calls it, ``target`` the value that its equation must have, ``kind`` what it is.
+    ``unknown`` is what the solve block calls it, ``kind`` what it is, ``target`` the value that the equation of one
+    unknown must have.
     """
 
     symbol: str
@@ -27,7 +28,7 @@ class FoundRow:
     upper: float
     other_roots: str = ""
     unknown: str = ""
-    target: float = 0.0
+    target: float | None = None
     kind: str = "found"
 
 
@@ -36,23 +37,24 @@ def write(book: Book, rows: Sequence[FoundRow], formulas: SheetFormulas | None) 
     fields = (
         *(("Symbol", looks.TEXT), ("Value", looks.VALUE), ("Unit", looks.TEXT), ("Meaning", looks.TEXT)),
         *(("Residual", looks.SMALL), ("Unit", looks.TEXT), ("From", looks.VALUE), ("To", looks.VALUE)),
-        *(("Other roots", looks.TEXT), ("Value is", looks.TEXT)),
+        *(("Other roots", looks.TEXT), ("Value is", looks.TEXT), ("Target", looks.VALUE)),
     )
     listed: list[tuple[Content, ...]] = []
     for row in rows:
         numbers = (row.value, row.residual, row.lower, row.upper)
-        texts = formulas.found(row.unknown, row.unit, row.residual_unit) if formulas else (None,) * 4
+        *texts, must = formulas.found(row.unknown, row.unit, row.residual_unit) if formulas else (None,) * 5
         value, residual, lower, upper = (_known(f, x, formulas) for f, x in zip(texts, numbers, strict=True))
+        target: Content = "" if row.target is None else _known(must, row.target, formulas)
         others: Content = formulas.as_exported(row.other_roots) if formulas and row.other_roots else row.other_roots
         kind = "its closed form" if formulas and formulas.closed(row.unknown) else row.kind
         line = (row.symbol, value, shown(row.unit), row.meaning, residual, shown(row.residual_unit), lower, upper)
-        listed.append((*line, others, kind))
+        listed.append((*line, others, kind, target))
     title = "Found values, the residuals that they leave and the intervals searched"
     sheet = book.listing("Find", title, fields, listed)
-    for n, row in ((n, row) for n, row in enumerate(rows, 2) if row.kind == "found"):
+    for n in (n for n, row in enumerate(rows, 2) if row.kind == "found"):
         rule = {"type": "formula", "format": book.file.add_format(looks.FAIL)}
-        limit = 1e-9 * max(1.0, abs(row.target))
-        sheet.conditional_format(n, 4, n, 4, {**rule, "criteria": f"=NOT(IFERROR(ABS($E${n + 1})<={limit!r},FALSE))"})
+        within = f"ABS($E${n + 1})<=1E-9*MAX(1,ABS($K${n + 1}))"
+        sheet.conditional_format(n, 4, n, 4, {**rule, "criteria": f"=NOT(IFERROR({within},FALSE))"})
 
 
 def _known(formula: str | None, value: float, formulas: SheetFormulas | None) -> Content:

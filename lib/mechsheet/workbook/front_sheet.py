@@ -106,7 +106,10 @@ def _shown(drawn: Sequence[Listed]) -> Iterator[Result]:
             numbers = column.values[abs(column.values) < LARGEST]
             cells = at.range(0, len(column.values) - 1)
             ends = [
-                Live(f"=IFERROR({AGGREGATE}({code},6,{cells}),NA())", float(end(numbers)) if numbers.size else math.nan)
+                Live(
+                    f"=IF(COUNT({cells})=0,NA(),{AGGREGATE}({code},6,{cells}))",
+                    float(end(numbers)) if numbers.size else math.nan,
+                )
                 for code, end in ((5, min), (4, max))
             ]
             look = {**looks.NUMBER, "num_format": fixed(0, column.decimals) + ("E+00" if column.power else "")}

@@ -91,7 +91,7 @@ def _checked(path: Path, field: Input, value: object, row: int, column: int) -> 
 
 def _converted(field: Input, value: object, unit: str, place: str) -> str:
     """The value of an input with the other unit that somebody has typed beside it."""
-    wrong = f"{place}: {cut(unit) or 'an empty cell'} is not the unit of {field.name}, which is {field.unit}"
+    wrong = f"{place}: {cut(unit) or 'an empty cell'} is not the unit of {field.name}, which is {shown(field.unit)}"
     if not unit:
         raise SheetError(wrong)
     text = f"{value} {unit}"

@@ -28,6 +28,9 @@ class SheetFormulas:
     def __init__(self, arrangement: Arrangement) -> None:
         self.arrangement, self.recording = arrangement, arrangement.recording
         self._cells = CellFormulas(arrangement.places, arrangement.first)
+        counted = [holds for holds, guard in self.recording.guards.items() if guard.rows]
+        texts = sorted({self._cells.reference(holds)[1:] for holds in counted})
+        self._cells.counted = f"AND({','.join(texts)})" if len(texts) > 1 else "".join(texts)
         self._known: dict[Node, bool] = {}  # which rest on numbers that are not followed
         self._inverse = {solved.node: solved.inverse for solved in self.recording.found.values()}
 
@@ -89,10 +92,10 @@ class SheetFormulas:
         return self._cells.reference(line.node, units.parse(line.unit).factor)
 
     def found(self, unknown: str, unit: str, target_unit: str) -> tuple[str | None, ...]:
-        """Formulas of a found value, of what it leaves of its equation, and of its interval; None where none is."""
+        """Formulas of a found value, what it leaves of its equation, its interval and target; None where none is."""
         solved = self.recording.found.get(unknown)
         if solved is None:
-            return None, None, None, None
+            return (None,) * 5
         factor, target = units.parse(unit).factor, units.parse(target_unit).factor
         place = self.arrangement.places.get(solved.node)
         reference = self._cells.reference
@@ -100,7 +103,7 @@ class SheetFormulas:
         value = self._formulas(solved.node)[0] if own else reference(solved.node, factor)
         left = reference(solved.residual, target) if solved.residual else None
         low, high = (reference(end, factor) for end in solved.interval) if solved.interval else (None, None)
-        return value, left, low, high
+        return value, left, low, high, reference(solved.target, target) if solved.target else None
 
     def as_exported(self, value: float | str) -> Live:
         """What is known for the exported inputs alone: for others no number, no text."""

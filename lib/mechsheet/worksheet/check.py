@@ -253,4 +253,5 @@ def _unreached(lost: NDArray[np.bool_], over: ArrayLike, reaches: tuple[Any, Any
     if np.isnan(x):
         return f"no position closes: there is no {what}"
     at, low, high = numbers.apart([x, lo, hi], digits=7)
-    return f"no position closes for {what} = {at} {unit}: it reaches {low}..{high} {unit}"
+    after = numbers.suffix(unit)
+    return f"no position closes for {what} = {at}{after}: it reaches {low}..{high}{after}"

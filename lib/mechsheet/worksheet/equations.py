@@ -78,7 +78,9 @@ def asked(
     parts = zip(*places.values(), strict=True)
     place = Place(*(np.stack([np.broadcast_to(a, shape) for a in part]) for part in parts))
     void = np.isnan(np.stack(place)).any((0, 1))
+    guessed = bool(np.array_equal(place.first, place.last, equal_nan=True))
     if void.all():
+        words = _with_equations(words, [False] * len(names), unit if isinstance(unit, str) else "-", guessed)
         return Asked(words, interval, void.shape, void.reshape(-1), place, None)
     place = Place(*(np.where(void, part[:, ~void][:, :1].reshape(-1, *[1] * void.ndim), part) for part in place))
     with np.errstate(all="ignore"):
@@ -86,17 +88,18 @@ def asked(
     targets = _targets(equals, len(first))
     shape = np.broadcast_shapes(void.shape, *(a.shape for a in (*first, *targets)))
     complex_ = [np.iscomplexobj(v) or np.iscomplexobj(t) for v, t in zip(first, targets, strict=True)]
-    words = _with_equations(words, complex_, unit, bool(np.array_equal(place.first, place.last)))
+    words = _with_equations(words, complex_, unit, guessed)
     m, n = len(words.equations), len(names)
     counted = f"{m} equation{'s' * (m > 1)} for {n} unknown{'s' * (n > 1)} {words.unknowns}"
     if m < n:
         raise SheetError(f"{counted}: they do not determine them")
     if m > n and not least:
         raise SheetError(f"{counted}: minerr finds where their squares are least")
-    equations = Equations(f, names, shape, targets, complex_)
+    lost = np.any([np.broadcast_to(x, shape) for x in (void, *map(np.isnan, targets))], axis=0).reshape(-1)
+    equations = None if lost.all() else Equations(f, names, shape, targets, complex_)
     more = [1] * (len(shape) - void.ndim)  # axes of what f closes over
     flat = (np.broadcast_to(part.reshape(n, *more, *void.shape), (n, *shape)).reshape(n, -1) for part in place)
-    return Asked(words, interval, shape, np.broadcast_to(void, shape).reshape(-1), Place(*flat), equations)
+    return Asked(words, interval, shape, lost, Place(*flat), equations)
 
 
 class Equations:
@@ -163,9 +166,9 @@ def _place(name: str, value: Start, unit: str) -> Place:
     if interval and len(ends) != 2:
         raise SheetError(f"{name} needs a guess, or the two ends of its interval, not {len(ends)} numbers")
     for end in ends:
-        bad = ~np.isfinite(end) if end.ndim == 0 else np.isinf(end)
-        if bad.any():
-            raise SheetError(f"{'an end of ' * interval}{name} = {end[bad][0]} must be finite")
+        if (bad := np.isinf(end)).any():
+            given = numbers.amount(end[bad][0], unit)
+            raise SheetError(f"{'an end of ' * interval}{name} = {given} must be finite")
     if not interval:
         size = np.where(ends[0] == 0, factor, np.abs(ends[0]))
         endless = np.full(ends[0].shape, np.inf)

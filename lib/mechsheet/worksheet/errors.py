@@ -23,6 +23,10 @@ class SheetError(ValueError):
         self.of = of
 
 
+class Waits(SheetError):
+    """A number is to be computed from one that is NaN: why it is, another line tells."""
+
+
 _LONG = 60  # characters of what was given that an error shows
 
 

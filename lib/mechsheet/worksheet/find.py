@@ -17,7 +17,7 @@ from mechsheet.mechanics.brackets import Array, Function
 from mechsheet.mechanics.roots import Counted, Roots, all_roots, nearest_root, real_values, together
 from mechsheet.worksheet import numbers
 from mechsheet.worksheet.equations import Start
-from mechsheet.worksheet.errors import SheetError, measured, refuse
+from mechsheet.worksheet.errors import SheetError, measured
 from mechsheet.worksheet.system import Solution, solve
 from mechsheet.worksheet.verdict import Verdict, asks_values_only
 
@@ -53,8 +53,8 @@ class Found(Verdict):
     Attributes
     ----------
     value : float
-        The root on the wanted branch nearest the guess. Unsolved: reading it raises SheetError with the reason;
-        in an array the element is NaN.
+        The root on the wanted branch nearest the guess. Unsolved: reading it raises SheetError with the reason, Waits
+        where a number that was given is NaN; in an array the element is NaN.
     branch : int, array of int or None
         The wanted branch.
     residual : float
@@ -90,8 +90,13 @@ class Found(Verdict):
     @property
     def value(self) -> Any:
         if np.ndim(self._value) == 0 and not self.solved:
-            refuse(SheetError(self.reason), self)
+            self.refuse()
         return self._value
+
+    @property
+    def waits(self) -> Any:
+        waits = np.isnan(self.equals)
+        return waits if waits.ndim else bool(waits)
 
     @property
     def solved(self) -> Any:
@@ -135,6 +140,8 @@ class Found(Verdict):
 
     def details(self) -> list[tuple[str, str]]:
         words, single = self.words, isinstance(self.reason, str)
+        if np.all(self.waits):
+            return []
         on = "" if self.branch is None or np.ndim(self.branch) else f" on branch {self.branch:+d}"
         rows = [("condition", f"{words.quantity} = {numbers.extent(self.equals, words.unit)}{on}")]
         if np.any(self.solved):
@@ -242,8 +249,8 @@ def find(  # type: ignore[misc]
     Raises
     ------
     SheetError
-        An interval that is empty, an infinite number, NaN (in an array NaN leaves its problem unsolved), a guess
-        that is missing or cannot be used; fewer or more equations than unknowns. It is a ValueError.
+        An interval that is empty, an infinite number (NaN leaves its problem unsolved), a guess that is missing or
+        cannot be used; fewer or more equations than unknowns. It is a ValueError.
     ValueError
         A branch that is not one of ``branches``.
 
@@ -339,10 +346,9 @@ def find(  # type: ignore[misc]
 
 def _nothing(words: _Words, branch: Any, shape: tuple[int, ...]) -> Found:
     """The verdict on problems none of which has an interval, a target and a guess."""
-    none = np.full(shape, np.nan)
-    everything = _Everything(
-        (), np.zeros(shape, dtype=int), lambda: (none, none), np.full(shape, _without_numbers(words), dtype=object)
-    )
+    none = np.full(shape, np.nan)[()]
+    reasons = np.full(shape, _without_numbers(words), dtype=object)[()]
+    everything = _Everything((), np.zeros(shape, dtype=int)[()], lambda: (none, none), reasons)
     return Found(none, branch, none, (none, none), (none, none), none, words, lambda: 0, lambda: everything)
 
 
@@ -350,9 +356,9 @@ def _checked(words: _Words, **values: ArrayLike | None) -> dict[str, Array]:
     """The numbers that are given, as arrays; SheetError for the first that cannot be used."""
     given = {name: np.asarray(v, dtype=float) for name, v in values.items() if v is not None}
     for name, v in given.items():
-        bad = ~np.isfinite(v) if v.ndim == 0 else np.isinf(v)
-        if bad.any():
-            raise SheetError(f"{name} = {v[bad][0]} for {words.unknown} must be finite")
+        if (bad := np.isinf(v)).any():
+            unit = words.unit if name == "equals" else words.unknown_unit
+            raise SheetError(f"{name} = {numbers.amount(v[bad][0], unit)} for {words.unknown} must be finite")
     ends = [given[name] for name in ("lo", "hi") if name in given]
     if len(ends) == 2:
         _in_order(words, ("lo", "hi"), *ends)

@@ -15,6 +15,7 @@ from typing import Any, Literal, TypeVar, dataclass_transform, get_args, get_ori
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from mechsheet import units
 from mechsheet.worksheet import errors, lines, numbers, source
 from mechsheet.worksheet.data_file import DataFile
 from mechsheet.worksheet.errors import SheetError, refuse
@@ -195,7 +196,8 @@ def _comparable(fields: Iterable[Input], places: Mapping[str, str]) -> None:
             said = f"{places[field.name]}: limit {sign} {other} of {field.name}"
             if other in units_of:
                 if units_of[other] != field.unit:
-                    raise SheetError(f"{said}: {other} is in {units_of[other]}, {field.name} in {field.unit}")
+                    theirs, own = (units.shown(unit) for unit in (units_of[other], field.unit))
+                    raise SheetError(f"{said}: {other} is in {theirs}, {field.name} in {own}")
                 continue
             try:
                 number(other)

@@ -177,15 +177,16 @@ def span(texts: Iterable[str]) -> str:
 def apart(values: Sequence[float], unit: str = "-", digits: int = 4) -> list[str]:
     """The SI numbers in a display unit, with as many digits as tell unequal ones apart (17 always do).
 
-    >>> apart([0.5, 0.50001], "mm")
-    ['500', '500.01']
+    >>> apart([0.5, 0.50001], "mm"), apart([-inf, 1.0])
+    (['500', '500.01'], ['-∞', '1'])
     """
     factor = Decimal(repr(float(units.parse(unit).factor)))
     shown = [Decimal(float(v)) / factor for v in values]
     while True:
         rounded = [Decimal(f"{v:.{digits - 1}e}").normalize() for v in shown]
         if len(set(rounded)) == len(set(shown)) or digits == 17:
-            return [f"{v:f}" if -6 < v.adjusted() < 15 else f"{v:e}" for v in rounded]
+            texts = (f"{v:f}" if -6 < v.adjusted() < 15 else f"{v:e}" for v in rounded)
+            return [text.replace("Infinity", CELL.infinite) for text in texts]
         digits += 1
 
 

@@ -1,8 +1,9 @@
 """Scenes: what replaces the inputs of a worksheet, what is wanted of it, and within which limits.
 
-A scene file is TOML of up to three parts::
+A scene file is TOML of up to four parts::
 
     want = ["GS6", "PS6_S.imag"]     # results to compute, and nothing else; left out: the whole worksheet
+    proof = 9                        # digits to which every number shown must be proved; left out: no proof
 
     [inputs]
     P6 = 40e3                        # numbers, or texts such as "0,415", in display units
@@ -23,6 +24,8 @@ from typing import Any
 from mechsheet.worksheet.errors import SheetError, as_given, cut
 from mechsheet.worksheet.kinds import number
 
+PROVED, MOST_PROVED = 9.0, 15  # digits that a proof is asked for by itself, and at most
+
 
 @dataclass(frozen=True)
 class Limit:
@@ -35,12 +38,13 @@ class Limit:
 @dataclass(frozen=True)
 class Scene:
     """Inputs by name, in display units; the folder for files if one is given; the results wanted, none for all
-    of them; limits by the name of a result or check."""
+    of them; limits by the name of a result or check; the digits that must be proved, none for no proof."""
 
     inputs: dict[str, object] = field(default_factory=dict)
     out: Path | None = None
     want: tuple[str, ...] = ()
     limits: dict[str, Limit] = field(default_factory=dict)
+    proof: float | None = None
 
 
 def load(path: Path) -> Scene:
@@ -66,19 +70,32 @@ def load(path: Path) -> Scene:
 
 
 def _scene(path: Path, content: dict[str, Any]) -> Scene:
-    unknown = sorted(set(content) - {"inputs", "want", "limits"})
+    unknown = sorted(set(content) - {"inputs", "want", "limits", "proof"})
     if unknown or not content:
         has = f"it has {cut(', '.join(unknown))}" if unknown else "it is empty"
-        raise SheetError(f"scene {path} may hold [inputs], want and [limits] and nothing else; {has}")
+        raise SheetError(f"scene {path} may hold [inputs], want, proof and [limits] and nothing else; {has}")
     inputs, want, limits = content.get("inputs", {}), content.get("want"), content.get("limits", {})
     for name, table in (("inputs", inputs), ("limits", limits)):
         if not isinstance(table, dict):
             raise SheetError(f"scene {path}: {name} = {as_given(table)} must be a table [{name}]")
     if want is not None and not (isinstance(want, list) and want and all(isinstance(name, str) for name in want)):
         raise SheetError(f'scene {path}: want = {as_given(want)} must be a list of names such as ["GS6"]')
-    return Scene(
-        inputs, None, tuple(dict.fromkeys(want or ())), {name: _limit(path, name, x) for name, x in limits.items()}
+    proof = (
+        digits(f"scene {path}: proof = {as_given(content['proof'])}", content["proof"]) if "proof" in content else None
     )
+    limited = {name: _limit(path, name, x) for name, x in limits.items()}
+    return Scene(inputs, None, tuple(dict.fromkeys(want or ())), limited, proof)
+
+
+def digits(says: str, given: object) -> float:
+    """A number of digits to prove; SheetError, which begins with what it says, for anything else."""
+    try:
+        asked = number(given)
+    except ValueError:
+        asked = 0.0
+    if not 1 <= asked <= MOST_PROVED:
+        raise SheetError(f"{says} must be a number of digits, 1..{MOST_PROVED}")
+    return asked
 
 
 def _limit(path: Path, name: str, ends: object) -> Limit:

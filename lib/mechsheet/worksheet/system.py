@@ -18,11 +18,10 @@ from mechsheet.mechanics.brackets import Array
 from mechsheet.mechanics.starts import Place, Seen, around, between, from_guess
 from mechsheet.worksheet import numbers
 from mechsheet.worksheet.equations import Asked, Start, Words, asked
-from mechsheet.worksheet.errors import SheetError, refuse
 from mechsheet.worksheet.verdict import Verdict, asks_values_only
 
 _LISTED = 8  # solutions that the verdict lists
-_VOID = "nothing to solve for {}: an interval or a guess is NaN"
+_VOID = "nothing to solve for {}: an interval, a guess or a target is NaN"
 
 
 @dataclass(frozen=True, eq=False)
@@ -33,7 +32,8 @@ class Solution(Verdict):
     ----------
     value : named tuple
         The unknowns by their names: from guesses the solution to which they lead, in intervals the one nearest their
-        middle. Unsolved: reading it raises SheetError with the reason; in an array the element is NaN.
+        middle. Unsolved: reading it raises SheetError with the reason, Waits where a number that was given is NaN; in
+        an array the element is NaN.
     residual : tuple of float
         What each equation leaves at ``value``, of a complex one first the real part, then the imaginary one.
     condition : float
@@ -61,13 +61,18 @@ class Solution(Verdict):
     least: bool
     words: Words
     interval: Mapping[str, tuple[Any, Any]]
+    _waits: Any
     _compute: Callable[[], "_Others"]
 
     @property
     def value(self) -> Any:
         if np.ndim(self._values[0]) == 0 and not self.valued:
-            refuse(SheetError(self.reason), self)
+            self.refuse()
         return _named(self.words.names)(*self._values)
+
+    @property
+    def waits(self) -> Any:
+        return self._waits
 
     @property
     def valued(self) -> Any:
@@ -110,6 +115,8 @@ class Solution(Verdict):
     def details(self) -> list[tuple[str, str]]:
         words, rows = self.words, []
         single = isinstance(self.reason, str)
+        if np.all(self.waits):
+            return []
         if np.any(self.valued):
             left = [
                 numbers.amount(np.nanmax(np.abs(r)), unit, 2)
@@ -198,6 +205,7 @@ def solve(
         least=least,
         words=words,
         interval=problem.interval,
+        _waits=shaped(problem.void),
         _compute=others,
     )
     if not asks_values_only():
@@ -228,9 +236,11 @@ def _reason(words: Words, seen: Seen, every: Seen, i: int) -> str:
 def _nothing(problem: Asked, least: bool) -> Solution:
     """The verdict on problems none of which has a guess or an interval."""
     words, shape = problem.words, problem.shape
-    none, count = np.full(shape, np.nan), np.zeros(shape, dtype=int)
-    others = _Others((), count, np.full(shape, _VOID.format(words.unknowns), dtype=object))
-    return Solution((none,) * len(words.names), (), none, count, least, words, problem.interval, lambda: others)
+    none, count = np.full(shape, np.nan)[()], np.zeros(shape, dtype=int)[()]
+    others, waits = _Others((), count, np.full(shape, _VOID.format(words.unknowns), dtype=object)[()]), np.isnan(none)
+    lost = (none,) * len(words.names)
+    left = (none,) * len(words.equations)
+    return Solution(lost, left, none, count, least, words, problem.interval, waits, lambda: others)
 
 
 @lru_cache(maxsize=128)

@@ -3,10 +3,11 @@
 from collections.abc import Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
-from typing import Any
+from typing import Any, NoReturn
 
 import numpy as np
 
+from mechsheet.worksheet.errors import SheetError, Waits, refuse
 from mechsheet.worksheet.shown import Shown
 
 _values_only: ContextVar[bool] = ContextVar("values_only", default=False)
@@ -40,9 +41,18 @@ class Verdict(Shown):
         return self.solved
 
     @property
+    def waits(self) -> Any:
+        """Where there was nothing to solve, because a number that it was given is NaN itself."""
+        raise NotImplementedError
+
+    @property
     def reason(self) -> Any:
         """Why there is no value; "" where there is one."""
         raise NotImplementedError
+
+    def refuse(self) -> NoReturn:
+        """Stop where a value is read that is none."""
+        refuse((Waits if self.waits else SheetError)(self.reason), self)
 
     def headline(self) -> str:
         """The unknowns and their values, or how many problems are solved."""
@@ -54,7 +64,7 @@ class Verdict(Shown):
 
     def word(self) -> str:
         """The verdict in a word or two."""
-        return "not found" if self.failures() else "found"
+        return "not evaluated" if np.all(self.waits) else "not found" if self.failures() else "found"
 
     def failures(self) -> list[str]:
         """Why there is no value, of the first problems without one."""

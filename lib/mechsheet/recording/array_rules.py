@@ -1,0 +1,128 @@
+"""Fits by least squares, orders and products of arrays of recorded quantities, by rules that run on quantities."""
+
+import string
+from functools import reduce
+from operator import mul
+from typing import Any
+
+import numpy as np
+
+from mechsheet.recording.arithmetic import choice
+from mechsheet.recording.graph import Graph, NotRecorded
+from mechsheet.recording.quantity import Quantity, lift, moved
+
+_SORTED = 64  # so many numbers are put in order by comparisons; the order of more is that of the present ones
+_MOST = 8  # unknowns of a fit
+
+
+def least_squares(graph: Graph, A: Any, b: Any, rcond: Any = None) -> Any:
+    """numpy's lstsq: unknowns, sums of the squares left, rank; the singular values are not recorded.
+
+    Gram and Schmidt's columns of the matrix with the right sides beside it, each made orthogonal twice: as accurate as
+    Householder's, where the normal equations square the condition. Columns that rest on each other give no number.
+    """
+    A, b = lift(graph, A), lift(graph, b)
+    size = A.extent[-1]
+    if A.ndim != 2 or b.ndim not in (1, 2) or size > _MOST or A.extent[0] < size or A.im is not None:
+        raise NotRecorded(f"least squares of other than up to {_MOST} unknowns in as many equations or more")
+    columns, along = list[Quantity](), list[list[Any]]()
+    for k in range(size):
+        part, parts = _orthogonal(A[:, k], columns)
+        own, length = (np.sqrt((v * v).sum()) for v in (A[:, k], part))
+        rest: Any = np.where(length > own * A.extent[0] * np.finfo(float).eps, length, np.nan)
+        columns.append(part / rest)
+        along.append([*parts, rest])
+    solved, left = list[Any](), list[Any]()
+    for right in [b] if b.ndim == 1 else [b[:, k] for k in range(b.extent[1])]:
+        rest, parts = _orthogonal(right, columns)
+        for i in reversed(range(size)):
+            for j in range(i + 1, size):
+                parts[i] = parts[i] - along[j][i] * parts[j]
+            parts[i] = parts[i] / along[i][i]
+        solved.append(lift(graph, parts))
+        left.append((rest * rest).sum())
+    x = solved[0] if b.ndim == 1 else moved(lift(graph, solved), 0, -1)
+    return x, lift(graph, left if A.extent[0] > size else []), size, np.full(size, np.nan)
+
+
+def _orthogonal(column: Quantity, columns: list[Quantity]) -> tuple[Quantity, list[Any]]:
+    """What of a column is across all others, which have the length 1, and its parts along them."""
+    parts: list[Any] = [0.0] * len(columns)
+    for _ in range(2):
+        for k, other in enumerate(columns):
+            part = (other * column).sum()
+            column, parts[k] = column - part * other, parts[k] + part
+    return column, parts
+
+
+def polynomial_fit(graph: Graph, x: Any, y: Any, deg: int, rcond: Any = None, full: bool = False, w: Any = None) -> Any:
+    """numpy's polyfit; its columns are made as long as each other first, as numpy's are."""
+    if full:
+        raise NotRecorded("numpy's polyfit with all that it tells")
+    x, y = lift(graph, x), lift(graph, y)
+    powers = [x**k if k else lift(graph, 1.0).like(x) for k in reversed(range(deg + 1))]
+    if w is not None:
+        powers, y = [power * w for power in powers], y * w
+    lengths = [np.sqrt((power * power).sum()) for power in powers]
+    matrix = np.stack([power / length for power, length in zip(powers, lengths, strict=True)], axis=-1)
+    found, *_ = least_squares(graph, matrix, y)
+    return lift(graph, [found[k] / length for k, length in enumerate(lengths)])
+
+
+def order(graph: Graph, x: Any, axis: Any = -1, kind: Any = None, stable: Any = None) -> Any:
+    """numpy's argsort, equal numbers in the order that they have: where the rank of each one points."""
+    x = lift(graph, x)
+    if axis is None:
+        x, axis = x.reshape(-1), 0
+    x = moved(x, axis, -1)
+    graph.measure(x.re)
+    count = x.extent[-1]
+    if count > _SORTED:
+        return np.argsort(x.seen(), axis=-1, kind="stable")
+    one, other, number = x[..., :, None], x[..., None, :], np.arange(count)
+    before: Any = (other < one) | ((other == one) & (number < number[:, None]))
+    rank = choice(graph, before, 1, 0).reduced("sum", -1)
+    there = choice(graph, rank[..., None, :] == number[:, None], number, 0)
+    return moved(there.reduced("sum", -1), -1, axis)
+
+
+def cross(graph: Graph, a: Any, b: Any, axis: int = -1) -> Any:
+    """numpy's cross of vectors with three components."""
+    a, b = (moved(lift(graph, v), axis, -1) for v in (a, b))
+    if a.extent[-1] != 3 or b.extent[-1] != 3:
+        raise NotRecorded("numpy's cross of vectors without three components")
+    parts = [a[..., i] * b[..., j] - a[..., j] * b[..., i] for i, j in ((1, 2), (2, 0), (0, 1))]
+    return moved(lift(graph, np.stack(parts, axis=-1)), -1, axis)
+
+
+def unwrapped(graph: Graph, p: Any, discont: Any = None, axis: int = -1, *, period: float = 2 * np.pi) -> Any:
+    """numpy's unwrap: from one to the next never further than half a period."""
+    p = moved(lift(graph, p), axis, -1)
+    step: Any = np.diff(p)
+    low, high = -period / 2, period / 2
+    near: Any = np.mod(step - low, period) + low
+    near = np.where((near == low) & (step > 0), high, near)
+    turn = np.where(abs(step) < (high if discont is None else np.maximum(discont, high)), 0.0, near - step)
+    whole = np.concatenate([p[..., :1], p[..., 1:] + np.cumsum(turn, axis=-1)], axis=-1)
+    return moved(lift(graph, whole), -1, axis)
+
+
+def summed(graph: Graph, subscripts: str, *operands: Any) -> Any:
+    """numpy's einsum of named axes, none of them twice in one operand."""
+    given, arrow, result = subscripts.replace(" ", "").partition("->")
+    names = given.split(",")
+    every = sorted(set("".join(names)))
+    if not arrow:
+        result = "".join(letter for letter in every if given.count(letter) == 1)
+    if not set(every) <= set(string.ascii_letters) or any(len(set(name)) < len(name) for name in (*names, result)):
+        raise NotRecorded(f"numpy's einsum of {subscripts!r}")
+    factors = list[Any]()
+    for name, operand in zip(names, operands, strict=True):
+        own = [letter for letter in every if letter in name]
+        whole = np.transpose(lift(graph, operand), [name.index(letter) for letter in own])
+        factors.append(whole[tuple(slice(None) if letter in own else None for letter in every)])
+    product = reduce(mul, factors)
+    left = [letter for letter in every if letter in result]
+    lost = tuple(k for k, letter in enumerate(every) if letter not in result)
+    total = product.reduced("sum", lost) if lost else product
+    return np.transpose(total, [left.index(letter) for letter in result])

@@ -1,0 +1,308 @@
+"""How many digits of what a worksheet shows are proved: its own numbers against balls that enclose the exact ones.
+
+Exact is what the worksheet's formulas have for the inputs at hand, which are the floats as which they are held; 0.2 in
+a formula is a fifth, and pi is pi. A proof shows that the numbers are those of the formulas, not that the formulas are
+right.
+"""
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from math import floor
+from typing import Any, NamedTuple
+
+import numpy as np
+from flint import arb
+
+from mechsheet import units
+from mechsheet.recording import lone_root
+from mechsheet.recording.ball_rules import NONE, UNDECIDED, constant
+from mechsheet.recording.balls import Balls, precision, unfollowed
+from mechsheet.recording.lines import Recording, Solved
+from mechsheet.recording.node import LEAVES, Node, bottom_up
+from mechsheet.recording.operations import Values
+from mechsheet.recording.quantity import Quantity
+from mechsheet.worksheet import numbers
+from mechsheet.worksheet.check import Check
+from mechsheet.worksheet.lines import Formula
+from mechsheet.worksheet.scene import PROVED
+from mechsheet.worksheet.table import Column, Table
+
+_ALL = 16.0  # digits of a float, claimed where a number is exact
+_BITS = (128, 256, 512, 1024)
+_SMALL = 2.0**-60  # a ball beside the largest number of its column
+
+
+@dataclass(frozen=True)
+class Proved:
+    """Digits proved of each number of a column, relative to the largest one; 0 where nothing is.
+
+    ``where`` is the table, ``name`` the column or result, ``why`` what keeps digits from being proved, with its line.
+    """
+
+    where: str
+    name: str
+    digits: Values
+    why: str = ""
+
+    @property
+    def least(self) -> float:
+        return float(np.min(self.digits))
+
+    def __str__(self) -> str:
+        return f"{self.where}, {self.name}: {_shown(self.least)} digits" + (f"; {self.why}" if self.why else "")
+
+
+@dataclass(frozen=True)
+class ProvedRoot:
+    """What is proved of a found value: that there is one, and where another is not excluded."""
+
+    name: str
+    exists: bool
+    interval: tuple[float, float] | None
+    others: tuple[lone_root.Part, ...] | None
+    unit: str
+
+    def __str__(self) -> str:
+        if not self.exists:
+            return f"{self.name}: not proved"
+        if self.interval is None or self.others is None:
+            return f"{self.name}: proved, one solution there; others are not looked for"
+        alone = f"the only root of its equation in {numbers.extent(self.interval, self.unit)}"
+        if not self.others:
+            return f"{self.name}: proved, {alone}"
+        size = sum(part.high - part.low for part in self.others) / (self.interval[1] - self.interval[0])
+        places = ", ".join(numbers.amount(part.low, self.unit, 6) for part in self.others)
+        where = f"but for {numbers.significant(size, 1)} of it beside {places}, which is not excluded"
+        return f"{self.name}: proved, {alone} {where}"
+
+
+@dataclass(frozen=True)
+class Proof:
+    """What is proved of a run of a worksheet."""
+
+    columns: tuple[Proved, ...]
+    roots: tuple[ProvedRoot, ...]
+
+    @cached_property
+    def least(self) -> dict[str, Proved]:
+        """Of each table, and of the single results, the column with the fewest digits."""
+        found = dict[str, Proved]()
+        for column in self.columns:
+            if column.where not in found or column.least < found[column.where].least:
+                found[column.where] = column
+        return found
+
+    def below(self, digits: float) -> list[Proved]:
+        """Columns of which not every number is proved to so many digits."""
+        return [column for column in self.columns if column.least < digits]
+
+    def check(self, digits: float = PROVED) -> Check:
+        """The check that every number is proved to so many digits, which names the first that is not."""
+        missing = max((max(digits - column.least, 0.0) for column in self.columns), default=np.nan)
+        told = [str(column) for column in self.below(digits)[:1]]
+        unproved = [str(root) for root in self.roots if not root.exists][:1]
+        name = f"every number proved to {numbers.significant(digits, 4)} digits"
+        return Check(name, missing, 0.0, "digits missing", "; ".join(told + unproved))
+
+    def table(self) -> Table:
+        """A row for each table: how many numbers it has, the fewest digits proved, and of which column."""
+        rows = [(where, column, [c for c in self.columns if c.where == where]) for where, column in self.least.items()]
+        columns = (
+            _texts("where", "", [where for where, _, _ in rows]),
+            Column(
+                "numbers", "-", "how many it shows", 0, np.array([sum(c.digits.size for c in cs) for *_, cs in rows])
+            ),
+            Column("digits", "-", "fewest that are proved", 1, np.array([_down(c.least) for _, c, _ in rows])),
+            _texts("least", "column with the fewest", [c.name for _, c, _ in rows]),
+            _texts("why", "what keeps them from being proved", [c.why for _, c, _ in rows]),
+        )
+        return Table(
+            "proof", "Digits proved", columns, "Of the formulas' own numbers: not that the formulas are right."
+        )
+
+    def lines(self) -> list[str]:
+        """The table and what is proved of found values, as texts."""
+        rows = list(zip(*(column.texts() for column in self.table().columns), strict=True))
+        heads = [("", "numbers", "digits proved", "least in", "")]
+        wide = [max(len(row[k]) for row in [*heads, *rows]) for k in range(5)]
+        shown = ["  ".join(text.ljust(w) for text, w in zip(row, wide, strict=True)).rstrip() for row in heads + rows]
+        return [*shown, *map(str, self.roots), self.table().note]
+
+
+def prove(
+    recording: Recording,
+    namespace: Mapping[str, Any],
+    tables: Iterable[Table],
+    known: Mapping[str, Formula],
+    lines: Mapping[str, int],
+) -> Proof:
+    """Digits proved of tables and single results of a run, and of found values what roots there are.
+
+    ``known`` are the worksheet's lines that declare a unit, ``lines`` where the names of the worksheet are bound.
+    """
+    shown = [*_of_tables(recording, tables, lines), *_of_lines(recording, namespace, known, lines)]
+    digits = _Digits(recording)
+    digits.enclose(shown)
+    columns = tuple(digits.proved(each) for each in shown)
+    with precision(_BITS[0]):
+        roots = (_root(digits.first, name, solved) for name, solved in recording.found.items())
+        return Proof(columns, tuple(roots))
+
+
+class _Shown(NamedTuple):
+    """Numbers that are shown, in a unit, the line where they are defined, and the quantity that they are."""
+
+    where: str
+    name: str
+    line: int
+    node: Node | None
+    factor: float
+    own: Values
+
+    @property
+    def size(self) -> float:
+        """Largest magnitude, in the unit."""
+        return float(np.max(np.abs(self.own), initial=0.0, where=np.isfinite(self.own)))
+
+
+def _of_tables(recording: Recording, tables: Iterable[Table], lines: Mapping[str, int]) -> Iterator[_Shown]:
+    for table in tables:
+        recorded = recording.tables.get(table.number, (None,) * len(table.columns))
+        for column, quantity in zip(table.columns, recorded, strict=True):
+            if column.values.dtype.kind in "biuf":
+                line = lines.get(column.of) or lines.get(f"{column.of}_S", 0)
+                node, factor = None if quantity is None else quantity.re, units.parse(column.unit).factor
+                yield _Shown(f"table {table.number}", column.symbol, line, node, factor, column.values)
+
+
+def _of_lines(
+    recording: Recording, namespace: Mapping[str, Any], known: Mapping[str, Formula], lines: Mapping[str, int]
+) -> Iterator[_Shown]:
+    for name, line in known.items():
+        quantity, own = recording.values.get(name), np.asarray(namespace.get(name))
+        if line.arguments or not isinstance(quantity, Quantity) or own.dtype.kind not in "biufc":
+            continue
+        if quantity.single and own.size == 1:
+            for node, part in zip(quantity.parts, (own.real, own.imag), strict=False):
+                if node.op not in LEAVES:
+                    yield _Shown("results", name, lines.get(name, 0), node, 1.0, part.reshape(1))
+
+
+class _Digits:
+    """Balls of what is shown, each as small as the precisions that are tried make it."""
+
+    def __init__(self, recording: Recording) -> None:
+        self.recording = recording
+        self.found = dict[Node, Values]()
+        self.first = self.last = Balls()
+
+    def enclose(self, shown: Iterable[_Shown]) -> None:
+        sizes = dict[Node, float]()
+        for each in shown:
+            if each.node:
+                sizes[each.node] = min(each.size * each.factor, sizes.get(each.node, np.inf))
+        for bits in _BITS:
+            with precision(bits):
+                self.last = self.first if bits == _BITS[0] else Balls()
+                self.found |= zip(sizes, self.last.of(sizes), strict=True)
+            hopeless = unfollowed(sizes)
+            sizes = {
+                node: size
+                for node, size in sizes.items()
+                if node not in hopeless and not all(_small(x, size) for x in self.found[node].flat)
+            }
+            if not sizes:
+                break
+
+    def proved(self, shown: _Shown) -> Proved:
+        def nothing(why: str) -> Proved:
+            return Proved(shown.where, shown.name, np.zeros(shown.own.shape), f"line {shown.line}: {why}")
+
+        if shown.node is None:
+            return nothing("it is not recorded")
+        balls = self.found[shown.node].reshape(-1)
+        if balls.size != shown.own.size:
+            return nothing("it is recorded with another number of rows")
+        with precision(_BITS[0]):
+            each = zip(balls, shown.own.tolist(), strict=True)
+            digits = np.array([_digits(x, float(v), shown.factor, shown.size) for x, v in each])
+        return Proved(shown.where, shown.name, digits, self.why(shown) if digits.min() < PROVED else "")
+
+    def why(self, shown: _Shown) -> str:
+        """What keeps digits from being proved: the first operation that leaves something open, or their rounding."""
+        known = self.last.known if shown.node in self.last.known else self.first.known
+        for part in bottom_up([shown.node] if shown.node else (), ()):
+            if part in known and _open(known[part]) and not any(_open(known[o]) for o in part.operands):
+                gap = next((str(gap) for gap in self.recording.gaps if gap.line == part.line), "")
+                if part.op == "exported" and gap:
+                    return gap
+                if part.op == "found":
+                    least, counts = part.args[0].least, part.args[1] >= len(part.args[0].nodes)
+                    what = "a count of evaluations is no formula" if counts else "no root is proved there"
+                    return f"line {part.line}: {'least squares are not enclosed' if least else what}"
+                return f"line {part.line}: {_WHY.get(part.op, 'it')} is not decided"
+        return f"line {shown.line}: the rest is lost to rounding"
+
+
+# What of an operation nobody knows where its ball says nothing.
+_WHY = {
+    "exported": "what is not recorded", "iterated": "what a loop ends with",
+    "sqrt": "whether the root is of a negative number",
+    "div": "whether the divisor is 0", "at": "which element is taken", "where": "a choice",
+    "atan2": "the side of a full turn", "asin": "whether there is such an angle",
+    "acos": "whether there is such an angle", "floor": "a whole number", "round": "a whole number",
+    "mod": "a whole turn",
+    **dict.fromkeys(("lt", "le", "gt", "ge", "eq", "ne"), "a comparison"),
+}  # fmt: skip
+
+
+def _small(x: Any, size: float) -> bool:
+    if x is NONE or isinstance(x, float):
+        return x is NONE or x != UNDECIDED
+    return bool(x.is_finite() and x.rad() <= _SMALL * size)
+
+
+def _open(balls: Values) -> bool:
+    return any(x == UNDECIDED if isinstance(x, float) else x is not NONE and not x.is_finite() for x in balls.flat)
+
+
+def _digits(x: Any, own: float, factor: float, size: float) -> float:
+    """Digits of a number that its ball proves; also that it is none."""
+    if x is NONE or np.isnan(own):
+        return _ALL if x is NONE and np.isnan(own) else 0.0
+    if isinstance(x, float):
+        x = arb(x) if x != UNDECIDED else arb.nan()
+    off = abs(x / constant(factor) - own).upper()
+    if not off.is_finite() or off.is_zero() or not size:
+        return _ALL if off.is_zero() else 0.0
+    return float(np.clip(-np.log10(float(off / size)), 0.0, _ALL)) if float(off / size) else _ALL
+
+
+def _root(balls: Balls, name: str, solved: Solved) -> ProvedRoot:
+    node, unit = solved.node, solved.words.unknown_unit
+    if node.op != "found":
+        return ProvedRoot(name, False, None, None, unit)
+    block = node.args[0]
+    (found,) = balls.of([node])
+    exists = all(x is not NONE and x.is_finite() for x in found.flat)
+    if not (exists and block.single and block.elementwise and not node.shape and solved.interval):
+        return ProvedRoot(name, exists, None, None, unit)
+    low, high = balls.of(solved.interval)
+    under = {n: balls.known[n] for n in block.under}
+    others = lone_root.others(block, under, found[()], low[()], high[()])
+    ends = float(low[()]), float(high[()])
+    return ProvedRoot(name, exists, ends, None if others is None else tuple(others), unit)
+
+
+def _down(digits: float) -> float:
+    """Rounded to the tenth below: never more than there are."""
+    return floor(10 * digits) / 10
+
+
+def _shown(digits: float) -> str:
+    return numbers.fixed(_down(digits), 1)
+
+
+def _texts(heading: str, meaning: str, texts: Sequence[str]) -> Column:
+    return Column(heading, "", meaning, 0, np.array(texts, dtype=object))

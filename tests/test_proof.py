@@ -1,0 +1,327 @@
+"""Proved digits: balls that enclose, found values that exist, and never more digits claimed than there are."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from flint import arb
+
+from mechsheet.accuracy import exact, extreme
+from mechsheet.accuracy.arithmetic import mp, mpc, mpf
+from mechsheet.document import parts
+from mechsheet.recording.ball_rules import MADE, NONE, SINGLE, UNDECIDED
+from mechsheet.recording.balls import krawczyk
+from mechsheet.recording.operations import ELEMENTWISE
+from mechsheet.recording.proof import Proof
+from mechsheet.recording.record import record
+from mechsheet.run import batch
+from mechsheet.run.proving import proof_of
+from mechsheet.units import parse
+from mechsheet.worksheet import inputs, scene
+from mechsheet.worksheet.cells import load
+from mechsheet.worksheet.errors import SheetError
+from mechsheet.worksheet.table import Table, heading
+from tests.own_worksheet import own
+
+WORKSHEETS = Path(__file__).parents[1] / "worksheets"
+DOCUMENTS = ("hitch", "landing_gear", "kinetostatics", "slotted_link", "joint")
+
+
+# --- rules -------------------------------------------------------------------------------------------------------
+
+
+def test_every_operation_has_a_rule() -> None:
+    """But those that rest on nothing, what is found, which has a pass of its own, and what is not followed."""
+    assert set(ELEMENTWISE) == set(SINGLE) and set(MADE) == {"take", "at", "join", "reduce"}
+
+
+REAL = {
+    "add": lambda a, b: a + b, "sub": lambda a, b: a - b, "mul": lambda a, b: a * b, "div": lambda a, b: a / b,
+    "neg": lambda a: -a, "abs": abs, "sqrt": mp.sqrt, "exp": mp.exp, "log": mp.log, "sin": mp.sin, "cos": mp.cos,
+    "tan": mp.tan, "asin": mp.asin, "acos": mp.acos, "atan2": mp.atan2, "sign": mp.sign, "floor": mp.floor,
+    "round": mp.nint, "mod": lambda a, b: a - b * mp.floor(a / b), "max": max, "min": min,
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("op", sorted(REAL))
+def test_a_ball_holds_the_number_of_every_point(op: str) -> None:
+    rng = np.random.default_rng(7)
+    count = 2 if op in ("add", "sub", "mul", "div", "atan2", "mod", "max", "min") else 1
+    held = 0
+    for _ in range(300):
+        middle, radius = rng.uniform(-3, 3, count) * rng.choice([1, 0.2], count), 10.0 ** rng.uniform(-3, 0, count)
+        balls = [arb(m, r) for m, r in zip(middle, radius, strict=True)]
+        found = SINGLE[op](*balls)
+        for _ in range(5):
+            point = [
+                mpf(m) + mpf(r) * mpf(t) for m, r, t in zip(middle, radius, rng.uniform(-1, 1, count), strict=True)
+            ]
+            if op in ("div", "mod") and not point[1]:
+                continue
+            true = REAL[op](*point)
+            if found is NONE:
+                assert isinstance(true, mpc) or (op == "log" and point[0] < 0)
+            elif found.is_finite() and not isinstance(true, mpc):
+                held += 1
+                low, high = (mpf(str(end.str(40, radius=False))) for end in (found.lower(), found.upper()))
+                assert low - abs(low) * mpf("1e-15") <= true <= high + abs(high) * mpf("1e-15"), (op, point)
+    assert held > 100
+
+
+@pytest.mark.parametrize(
+    ("op", "balls", "result"),
+    [
+        ("lt", [arb(1), arb(2, 0.5)], 1.0),
+        ("lt", [arb(1, 0.5), arb(1)], UNDECIDED),
+        ("ge", [arb(1, 0.5), arb(2)], 0.0),
+        ("eq", [arb(1), arb(1)], 1.0),
+        ("eq", [arb(1, 1e-30), arb(1)], UNDECIDED),
+        ("eq", [arb(1, 1e-30), arb(2)], 0.0),
+        ("eq", [NONE, arb(2)], 0.0),
+        ("ne", [NONE, arb(2)], 1.0),
+        ("and", [0.0, UNDECIDED], 0.0),
+        ("and", [1.0, UNDECIDED], UNDECIDED),
+        ("or", [1.0, UNDECIDED], 1.0),
+        ("not", [UNDECIDED], UNDECIDED),
+        ("finite", [NONE], 0.0),
+        ("finite", [arb.nan()], UNDECIDED),
+        ("sqrt", [arb(-2, 1)], NONE),
+        ("acos", [arb(3, 1)], NONE),
+        ("div", [arb(0), arb(0)], NONE),
+        ("where", [0.0, arb(1), NONE], NONE),
+    ],
+)
+def test_what_is_decided_and_what_is_not(op: str, balls: list[Any], result: Any) -> None:
+    assert SINGLE[op](*balls) is result or SINGLE[op](*balls) == result
+
+
+@pytest.mark.parametrize(
+    ("op", "balls"),
+    [
+        ("sqrt", [arb(0, 1)]),
+        ("div", [arb(1), arb(0, 1)]),
+        ("div", [arb(1), arb(0)]),
+        ("max", [NONE, arb(1)]),
+        ("where", [UNDECIDED, arb(1), NONE]),
+        ("pow", [arb(0, 1), arb(0.5)]),
+        ("asin", [arb(1, 0.1)]),
+    ],
+)
+def test_what_nobody_knows_is_a_ball_that_says_nothing(op: str, balls: list[Any]) -> None:
+    assert not SINGLE[op](*balls).is_finite()
+
+
+def test_powers_of_balls_about_zero() -> None:
+    square, cube = SINGLE["pow"](arb(0.5, 1), arb(2)), SINGLE["pow"](arb(0.5, 1), arb(3))
+    assert square.contains(0) and square.contains(2.25) and not square.contains(-0.1)
+    assert cube.contains(-0.125) and cube.contains(3.375)
+    assert SINGLE["pow"](NONE, arb(0)) == 1
+
+
+# --- found values ------------------------------------------------------------------------------------------------
+
+
+def enclosed(residual: Any, slope: Any, at: float, width: float) -> Any:
+    from flint import arb_mat
+
+    box = arb(at, width)
+    return krawczyk([arb(at)], [box], [residual(arb(at))], arb_mat(1, 1, [slope(box)]))
+
+
+def test_a_box_holds_a_root_only_where_there_is_one() -> None:
+    f, slope = (lambda x: x * x - 2), (lambda x: 2 * x)
+    found = enclosed(f, slope, 1.4142135, 1e-6)
+    assert found is not None and found[0].contains(arb(2).sqrt())
+    assert enclosed(f, slope, 1.41, 1e-6) is None, "the root is outside"
+    assert enclosed(f, slope, 0.5, 2.0) is None, "the slope may be 0"
+    assert enclosed(lambda x: x * x, slope, 0.0, 1e-6) is None, "a double root is not proved"
+    assert enclosed(lambda x: x * x + 1e-12, slope, 0.0, 1e-3) is None, "there is none"
+
+
+def sheet_of(tmp_path: Path, lines: str, **given: Any) -> Proof:
+    sheet = own(tmp_path, lines)
+    names = sheet.run(sheet.results, {"g": sheet.inputs(**given)})
+    return proof_of(
+        {**names, "__file__": sheet.path}, sheet, record({**names, "__file__": sheet.path}, sheet, whole=True)
+    )
+
+
+def test_roots_are_proved_alone_or_others_told(tmp_path: Path) -> None:
+    lines = """
+u_found = find(lambda x: x**3 - g.F, 0.0, 3.0, unknown="cube root u")
+u = u_found.value  # [-] root
+v_found = find(lambda x: cos(3 * x) - 0.1, 0.0, 1.0, unknown="first v")
+v = v_found.value  # [-] root
+w_found = find(lambda x: cos(3 * x) - 0.1, 0.0, 3.0, guess=0.4, unknown="one of several w")
+w = w_found.value  # [-] root
+d_found = find(lambda x: (x - g.a) ** 2, 0.0, 3.0, unknown="double root d")
+d = d_found.value  # [-] root
+s_found = find(lambda p, q: (p**2 + q**2 - 4, q - p**2 + 1), p=(0, 2), q=(0, 2))
+p, q = s_found.value  # [-] one, [-] other"""
+    proof = sheet_of(tmp_path, lines.strip())
+    told = {root.name: root for root in proof.roots}
+    assert "the only root of its equation in 0..3" in str(told["cube root u"])
+    assert told["first v"].others == ()
+    (other, *rest) = told["one of several w"].others or ()
+    assert not rest or len(rest) == 1
+    assert any(part.low <= (2 * np.pi - np.arccos(0.1)) / 3 <= part.high for part in (other, *rest))
+    assert not told["double root d"].exists and "not proved" in str(told["double root d"])
+    assert told["s_found.p"].exists and "others are not looked for" in str(told["s_found.q"])
+    check = proof.check()
+    assert not check.passed and "no root is proved there" in check.reason and "line " in check.reason
+
+
+# --- never more digits than there are ----------------------------------------------------------------------------
+
+
+def proved(sheet: Any, given: Mapping[str, Any]) -> tuple[Any, dict[str, Any], Proof]:
+    g = inputs.build(sheet.inputs, given)
+    names = sheet.run(sheet.results, {"g": g})
+    return g, names, proof_of(names, sheet, record(names, sheet))
+
+
+def compared(
+    names: Mapping[str, Any], proof: Proof, truths: Mapping[int, Mapping[str, Any]]
+) -> Iterator[tuple[str, float, float]]:
+    """Digits claimed and the error that there is, of all numbers of tables whose exact ones are known by row."""
+    claims = iter(column for column in proof.columns if column.where != "results")
+    for table in (value for value in parts.values(names) if isinstance(value, Table)):
+        for column in (c for c in table.columns if c.values.dtype.kind in "biuf"):
+            claimed, factor = next(claims), mpf(repr(parse(column.unit).factor))
+            assert (claimed.where, claimed.name) == (f"table {table.number}", column.symbol)
+            size = float(np.max(np.abs(column.values)))
+            for row, true in truths.items():
+                if column.symbol in true and claimed.digits.size > row and size:
+                    off = abs(mpf(float(column.values[row])) - true[column.symbol] / factor) / size
+                    yield f"{claimed} row {row}", float(claimed.digits[row]), float(off)
+
+
+def headed(results: Mapping[str, Any]) -> dict[str, Any]:
+    """Exact results by the headings of their columns; angles may be shown in another turn, and are left out."""
+    found = dict[str, Any]()
+    for name, y in results.items():
+        if not name.startswith(("phi", "psi")) and not isinstance(y, list):
+            if hasattr(y, "imag") and type(y).__name__ == "mpc":
+                found |= {heading(name, "real"): y.real, heading(name, "imag"): y.imag}
+            else:
+                found[heading(name)] = y
+    return found
+
+
+def assert_honest(pairs: list[tuple[str, float, float]], least: int) -> None:
+    assert len(pairs) >= least
+    more = [pair for pair in pairs if pair[2] > 10.0 ** -pair[1] * (1 + 1e-6)]
+    fewer = [pair for pair in pairs if 10.0 ** -pair[1] > 100 * max(pair[2], 1e-16) and "differ" not in pair[0]]
+    assert not more and len(fewer) <= 0.05 * len(pairs), (more[:3], fewer[:3])
+
+
+HITCH = [scene for scene in extreme.scenes() if scene.job == "hitch" and not scene.says]
+
+
+@pytest.mark.parametrize("of", [None, *HITCH], ids=lambda s: s.name if s else "document")
+def test_no_more_digits_than_the_exact_chain_has_of_the_hitch(of: extreme.Scene | None) -> None:
+    sheet = load(WORKSHEETS / "hitch.py")
+    given = of.cases()[len(of.values) // 2] if of else {}
+    g, names, proof = proved(sheet, given)
+    lengths = exact.finds(g)
+    S_min, S_max = mpf(float(g.S_min)), mpf(float(g.S_max))
+    rows = [0, 4, g.N_pol - 1] if of is None else [of.at % g.N_pol]
+    truths = {k: headed(exact.hitch(g, S_min + (S_max - S_min) * k / (g.N_pol - 1), **lengths)) for k in rows}
+    assert_honest(list(compared(names, proof, truths)), 20 * len(rows))
+
+
+def test_no_more_digits_than_the_exact_chain_has_of_the_slotted_link() -> None:
+    sheet = load(WORKSHEETS / "slotted_link.py")
+    g, names, proof = proved(sheet, {})
+    truths = {k: headed(exact.slotted_link(g, mpf(float(names["phi1_k"][k])))) for k in (0, 3)}
+    assert_honest(list(compared(names, proof, truths)), 8)
+
+
+LOSING = {
+    "arccosine near 0": ("np.arccos(1 - g.a * 1e-10)", lambda F, a: mp.acos(1 - a * mpf(1e-10))),
+    "difference of far points": ("(1e9 + g.a) - (1e9 + g.F / 7)", lambda F, a: a - F / 7),
+    "removable singularity": ("(1 - cos(g.a * 1e-4)) / (g.a * 1e-4) ** 2", None),
+    "kept": ("2 * np.arcsin(np.sqrt(g.a * 1e-10 / 2))", lambda F, a: 2 * mp.asin(mp.sqrt(a * mpf(1e-10) / 2))),
+}
+
+
+@pytest.mark.parametrize("name", LOSING)
+def test_a_formula_that_loses_digits_is_seen_with_those_that_it_loses(name: str, tmp_path: Path) -> None:
+    text, true = LOSING[name]
+    sheet = own(tmp_path, f"y = {text}  # [-] losing")
+    names = sheet.run(sheet.results, {"g": sheet.inputs()})
+    names = {**names, "__file__": sheet.path}
+    proof = proof_of(names, sheet, record(names, sheet, whole=True))
+    (claimed,) = (c for c in proof.columns if c.name == "y")
+    F, a = mpf(2.5), mpf(0.75)
+    x = a * mpf(1e-4)
+    exactly = true(F, a) if true else (1 - mp.cos(x)) / x**2
+    there = min(16.0, float(-mp.log10(abs(mpf(float(names["y"])) - exactly) / abs(exactly))))
+    assert there - 0.2 < claimed.least <= there + 1e-6
+    assert (claimed.least > 14) == (name == "kept") and proof.check(14).passed == (name == "kept")
+    if name != "kept":
+        assert f"line {line_of(sheet.path, 'y = ')}" in str(claimed) or claimed.least >= 9
+
+
+def line_of(path: str, text: str) -> int:
+    return 1 + next(n for n, line in enumerate(Path(path).read_text().splitlines()) if text in line)
+
+
+def test_what_cannot_be_proved_is_told_with_its_line(tmp_path: Path) -> None:
+    lines = """
+y = float(np.convolve([g.F], [2.0])[0])  # [-] not recorded
+z = np.where(np.sqrt(g.a) ** 2 <= g.a, 1.0, 2.0) * g.F  # [-] decided by rounding
+n = np.sqrt(-g.F) * 1  # [-] no number"""
+    with np.errstate(all="ignore"):
+        proof = sheet_of(tmp_path, lines.strip())
+    told = {column.name: column for column in proof.columns}
+    path = str(tmp_path / "own.py")
+    assert told["y"].least == 0 and f"line {line_of(path, 'y = ')}" in told["y"].why
+    assert told["z"].least == 0 and f"line {line_of(path, 'z = ')}: a comparison is not decided" in str(told["z"])
+    assert told["n"].least == 16, "that it is no number is proved"
+
+
+# --- the documents -----------------------------------------------------------------------------------------------
+
+EXCEPTIONS = {
+    "slotted_link": {("table 3", "NF"), ("table 4", "Ng")},  # counts of evaluations
+    "joint": {("table 5.1", "Mx")},  # zero but for rounding
+    "landing_gear": {("results", "eps3_k")},  # zero but for rounding
+}
+
+
+@pytest.mark.parametrize("stem", DOCUMENTS)
+def test_nine_digits_of_all_tables_are_proved_but_for_listed_exceptions(stem: str) -> None:
+    _, names, proof = proved(load(WORKSHEETS / f"{stem}.py"), {})
+    assert {(c.where, c.name) for c in proof.below(9)} == EXCEPTIONS.get(stem, set())
+    assert all("line " in column.why for column in proof.below(9))
+    assert {c.where for c in proof.columns} >= {
+        f"table {v.number}" for v in parts.values(names) if isinstance(v, Table)
+    }
+    assert all(root.exists for root in proof.roots)
+    assert sum(c.digits.size for c in proof.columns) == proof.table().columns[1].values.sum()
+    assert "not that the formulas are right" in proof.lines()[-1]
+
+
+# --- scenes and arguments ----------------------------------------------------------------------------------------
+
+
+def test_a_scene_may_ask_for_digits(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = tmp_path / "proved.toml"
+    path.write_text('want = ["GS6"]\nproof = 12\n')
+    assert batch.answer(str(WORKSHEETS / "hitch.py"), scene.load(path)) == 0
+    shown = capsys.readouterr().out
+    assert "pass  every number proved to 12 digits" in shown and "not that the formulas are right" in shown
+    assert batch.run(str(WORKSHEETS / "landing_gear.py"), [str(path), "--proof=15", "--t_r=8"]) == 1
+
+
+@pytest.mark.parametrize("proof", ["0", "16", '"many"', "true", "[9]"])
+def test_digits_that_cannot_be_asked_for(proof: str, tmp_path: Path) -> None:
+    path = tmp_path / "proved.toml"
+    path.write_text(f"proof = {proof}\n")
+    with pytest.raises(SheetError, match=r"proof = .* must be a number of digits, 1\.\.15"):
+        scene.load(path)
