@@ -15,7 +15,7 @@ from in_browser import evaluated
 from own_worksheet import ELSEWHERE, OTHER, own, recorded
 
 from mechsheet.html import javascript
-from mechsheet.html.terms import ELEMENTWISE
+from mechsheet.html.elementwise import ELEMENTWISE
 from mechsheet.recording import operations
 from mechsheet.worksheet import cells
 

@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 
 from mechsheet.html import moves
+from mechsheet.html.elementwise import array, literal, places
 from mechsheet.html.scope import Program, Rule, Scope
-from mechsheet.html.terms import array, literal, places
 from mechsheet.recording.lines import Recording
 from mechsheet.recording.node import Block, Node, bottom_up
 from mechsheet.units import parse
@@ -268,9 +268,13 @@ def _of_problem(scope: Scope, node: Node, like: Node, shape: str) -> str:
 
 
 def _shape_of_problems(scope: Scope, block: Block) -> str:
-    if any(scope.program.tells(block.nodes[0], n) for n in scope.program.size(block.nodes[0])):
-        return scope.bind(f"together({','.join(scope.shape(node) for node in block.under if node.shape)})")
-    return scope.shape(block.nodes[0])
+    """The shape of the unknowns; where only the search tells it, that of what it is given together."""
+    node = block.nodes[0]
+    if not any(scope.program.tells(node, n) for n in scope.program.size(node)):
+        return scope.shape(node)
+    starts = [n for nodes in block.starts.values() for n in nodes if n.shape]
+    given = starts + [n for n in block.under if n.shape] if block.elementwise or not starts else starts
+    return scope.bind(f"together({','.join(map(scope.shape, given))})")
 
 
 def _residuals(scope: Scope, block: Block, unknowns: Sequence[Node], shape: str) -> str:

@@ -3,7 +3,7 @@
 from collections import Counter, defaultdict
 from collections.abc import Callable, Iterable, Iterator, Mapping
 
-from mechsheet.html.terms import ELEMENTWISE, Text, array, literal, names, operation
+from mechsheet.html.elementwise import ELEMENTWISE, Text, array, literal, names, operation
 from mechsheet.recording.graph import Graph
 from mechsheet.recording.node import Block, Node, bottom_up
 
