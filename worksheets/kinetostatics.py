@@ -22,7 +22,7 @@ with app.setup:
         rrp_acceleration, rrp_transmission_angle, rrp_velocity, rrr, rrr_acceleration, rrr_transmission_angle,
         rrr_velocity, slider, solve_reactions, summary, table, title_block, typeset,
     )  # fmt: skip
-    from mechsheet.units import deg
+    from mechsheet.units import deg, mm
 
     ulp = np.finfo(float).eps
     group_picture = Drawing(width=760, height=460)  # of each group cut free
@@ -270,7 +270,7 @@ def scheme(A, B, C, D, E, H, K, O1, O5, g, s5, u5):
     frame = np.concatenate([[O1, C, H, O1 - g.l_O1P], A, B, D, E, K])
     along = s5[isfinite(s5)]
     paths = Drawing(width=820, height=520, frame=frame).path(A).path(B).path(D).path(K)
-    guided = paths.guide(O5 + (along.min() - 0.03) * u5, O5 + (along.max() + 0.03) * u5) if along.size else paths
+    guided = paths.guide(O5 + (along.min() - 30 * mm) * u5, O5 + (along.max() + 30 * mm) * u5) if along.size else paths
 
     def scheme(k):
         bars = guided.link(O1, A[k], "1").link(A[k], B[k], "2").plate([C, B[k], K[k], D[k]], "3").link(D[k], E[k], "4")
@@ -560,7 +560,7 @@ def compared_45(
 @app.cell
 def drawing_41(D, E, F4_sum, F5_sum, R_05, R_D, S4, SR2, checks_45, g, lines_42, turn, u5, vectors_45):
     _d, _e, _s4 = D[turn.value], E[turn.value], S4[turn.value]
-    _links = group_picture.guide(_e - 0.06 * u5, _e + 0.06 * u5).link(_d, _e, "4").slider(_e, g.phi05, "5")
+    _links = group_picture.guide(_e - 60 * mm * u5, _e + 60 * mm * u5).link(_d, _e, "4").slider(_e, g.phi05, "5")
     _forces = {"F4": (S4, F4_sum), "F5": (E, F5_sum, D), "R05": (E, R_05), "R34": (D, R_D, E)}
     drawing_41 = cut_group(_links.hinge(_d, "D").hinge(_e, "E").mass(_s4, "S4"), turn.value, _forces, [D, E])
     typeset(
