@@ -10,7 +10,7 @@ import numpy as np
 if TYPE_CHECKING:
     from playwright.sync_api import Page
 
-_RUN = """(all) => {
+_RUN = """([all, verdicts]) => {
   %s
   const plain = v => (v instanceof Float64Array ? [Array.from(v), v.shape ?? [v.length]] : v === undefined ? null : v);
   const told = v => (v instanceof Float64Array ? Array.from(v) : Array.isArray(v) ? v.map(told)
@@ -18,15 +18,20 @@ _RUN = """(all) => {
   return all.map(given => {
     const out = evaluate(given);
     const values = Object.fromEntries(Object.entries(out.values).map(([key, v]) => [key, plain(v)]));
-    return {values, gaps: out.gaps, guards: out.guards, found: told(out.found)};
+    return {values, gaps: out.gaps, guards: out.guards, found: verdicts && told(out.found)};
   });
 }"""
 
 
-def evaluated(page: Page, script: str, given: Iterable[Mapping[str, Any]]) -> list[dict[str, Any]]:
-    """What a script gives for several sets of inputs; a value that it knows nothing of is None."""
+def evaluated(
+    page: Page, script: str, given: Iterable[Mapping[str, Any]], verdicts: bool = False
+) -> list[dict[str, Any]]:
+    """What a script gives for several sets of inputs; a value that it knows nothing of is None.
+
+    With ``verdicts`` all that is told of found values, for which other solutions are searched.
+    """
     inputs = [{name: np.asarray(x, float).tolist() for name, x in each.items()} for each in given]
-    found: list[dict[str, Any]] = page.evaluate(_RUN % script, inputs)
+    found: list[dict[str, Any]] = page.evaluate(_RUN % script, [inputs, verdicts])
     for each in found:
         each["values"] = {key: _array(value) for key, value in each["values"].items()}
     return found

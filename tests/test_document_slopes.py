@@ -121,8 +121,8 @@ def test_slopes_of_the_documents_are_exact_to_rounding(stem: str) -> None:
     assert count > 1000 and most <= ROUNDINGS, (most, count)
 
 
-# The leg that goes to its dead centre is accelerated without bound: its worksheet finds no time for it. With a tiny crank
-# the length of the cylinder, rounded before it is used, decides its angles.
+# The leg that goes to its dead centre is accelerated without bound: its worksheet finds no time for it. With a tiny
+# crank the length of the cylinder, rounded before it is used, decides its angles.
 OTHERS = ("leg_to_dead_centre", "tiny_crank")
 JOBS = ("hitch", "landing_gear")
 EXTREME = [s for s in extreme.scenes() if s.job in JOBS and not s.says and s.name not in OTHERS][::3]

@@ -81,7 +81,7 @@ def test_one_unknown_has_the_same_verdict(case: str, blank: Page, tmp_path: Path
     assert not recording.gaps
     script = javascript.module(recording, {})
     given = [{}, *OTHER]
-    for inputs, each in zip(given, evaluated(blank, script, given), strict=True):
+    for inputs, each in zip(given, evaluated(blank, script, given, verdicts=True), strict=True):
         expected = sheet.run(["y_found"], {"g": sheet.inputs(**inputs)})["y_found"]
         verdicts = each["found"]["t"]
         many = verdicts if isinstance(verdicts, list) else [verdicts]
@@ -124,7 +124,7 @@ def test_several_unknowns_have_the_same_verdict(case: str, blank: Page, tmp_path
     _, recording = recorded(sheet)
     assert not recording.gaps
     script, given = javascript.module(recording, {}), [{}, *OTHER]
-    for inputs, each in zip(given, evaluated(blank, script, given), strict=True):
+    for inputs, each in zip(given, evaluated(blank, script, given, verdicts=True), strict=True):
         expected = sheet.run(["y_found"], {"g": sheet.inputs(**inputs)})["y_found"]
         verdict = next(iter(each["found"].values()))
         many = isinstance(verdict, list)
@@ -150,7 +150,7 @@ def test_least_squares_are_the_same(blank: Page, tmp_path: Path) -> None:
     path.write_text(path.read_text().replace("from mechsheet import ", "from mechsheet import minerr, ", 1))
     sheet = cells.load(path)
     _, recording = recorded(sheet)
-    (found,) = evaluated(blank, javascript.module(recording, {}), [{"a": 0.5}])
+    (found,) = evaluated(blank, javascript.module(recording, {}), [{"a": 0.5}], verdicts=True)
     expected = sheet.run(["y_least"], {"g": sheet.inputs(a=0.5)})["y_least"]
     assert next(iter(found["found"].values()))["x"] == pytest.approx([expected.value.k], rel=1e-7)
 
