@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import inspect
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import Any
 
 import numpy as np
@@ -141,6 +141,15 @@ ON_STRUCTURES: set[Callable[..., Any]] = {  # take bodies and reactions by numbe
 }
 
 
+@pytest.fixture
+def graph() -> Iterator[Graph]:
+    """What is recorded, while the test runs and no longer."""
+    graph = Graph()
+    token = current.set(graph)
+    yield graph
+    current.reset(token)
+
+
 def public() -> list[Callable[..., Any]]:
     """All public functions of the mechanics."""
     named = [getattr(mechsheet, name) for name in mechsheet.__all__]
@@ -153,9 +162,9 @@ def test_every_function_is_tried() -> None:
 
 
 @pytest.mark.parametrize("f", BODIES, ids=lambda f: f.__name__)
-def test_a_function_is_recorded_by_running_itself_and_read_again_for_other_numbers(f: Callable[..., Any]) -> None:
-    graph = Graph()
-    current.set(graph)
+def test_a_function_is_recorded_by_running_itself_and_read_again_for_other_numbers(
+    f: Callable[..., Any], graph: Graph
+) -> None:
     given: dict[Node, Any] = {}
 
     def recorded(value: Any) -> Any:
@@ -264,8 +273,7 @@ def test_every_group_is_tried() -> None:
 
 @pytest.mark.parametrize("kind", FIELDS, ids=lambda kind: kind.__name__)
 @pytest.mark.parametrize("known", [True, False], ids=["positions recorded", "motion alone recorded"])
-def test_a_group_of_recorded_quantities_gives_what_the_group_gives(kind: Any, known: bool) -> None:
-    graph = Graph()
+def test_a_group_of_recorded_quantities_gives_what_the_group_gives(kind: Any, known: bool, graph: Graph) -> None:
     count = 0
 
     def record(x: Any) -> Any:
@@ -276,7 +284,6 @@ def test_a_group_of_recorded_quantities_gives_what_the_group_gives(kind: Any, kn
 
     arguments, rates = FIELDS[kind]
     v, a, on_A, on_B = points(), points(), loads(), loads()
-    current.set(graph)
     shown = instead(kind)
     assert shown is not kind
     own, group = kind(*arguments), shown(*[record(x) if known else x for x in arguments])

@@ -399,7 +399,7 @@ def test_a_changed_cell_is_seen(worksheet: str, sheet: str, place: str, change: 
         ("hitch", "Checks", "B7", {"value": times(3)}),
         ("hitch", "Checks", "B7", {"value": 0.0}),
         ("hitch", "Residuals fields", "A6", {"value": 5e-16}),
-        ("hitch_design", "5.1 Sensitivity of the capacity", "G10", {"value": "1e-07"}),
+        ("hitch_design", "5.1 Sensitivity of the capacity", "G10", {"value": "8e-09"}),
         ("accuracy", "1.1 Position of the hitch", "C6", {"written": times(2), "value": times(2)}),
         ("accuracy", "1.1 Position of the hitch", "D7", {"value": lambda x: x + 0.4}),
         ("accuracy", "1.1 Position of the hitch", "E6", {"value": times(9)}),
