@@ -104,12 +104,12 @@ KINDS: tuple[tuple[str, str, str, Alike], ...] = (
     # Numbers that are no results, by the beginning of the sheet's name and of the column's head, and by the row's name,
     # in a list of lines by the row's meaning.
     (r"Checks", r"Residual", r"\bdigits\b", digits),
-    (r"Checks", r"Residual", r"but for whole turns$", rounding),
+    (r"Checks", r"Residual", r"but for whole turns\b", rounding),
     (r"Checks", r"Residual", r"", residual),
     (r"Checks", r"Limit", r" is (its|the) slope\b", error),  # ten times what the differences say of their error
     (r"Find", r"Residual", r"", residual),
     (r"Residuals lines", r"Value", r"^(step of )?residual: ", residual),
-    (r"Residuals fields", r".*but for whole turns ", r"", rounding),
+    (r"Residuals fields", r".*_but_for_whole_turns\b", r"", rounding),
     (r"Residuals fields", r"", r"", residual),  # a result where the column is no residual, and so has no limit
     (r"Front", r"", r"^error$", error),
     # Rounding chooses which of its results is the worst: the steps of an integrator end elsewhere.
@@ -215,8 +215,8 @@ def _limits(book: Book) -> dict[str, float]:
     in_si = {}
     checks = book["Checks"]
     for row in range(3, 1 + max(row for row, _ in checks)):
-        name, limit = str(checks[row, 1].value), checks[row, 3].value
-        limits[name] = float(limit or 0)
+        name, limit = str(checks[row, 1].value).removesuffix(", at the listed positions"), checks[row, 3].value
+        limits[str(checks[row, 1].value)] = limits[name] = float(limit or 0)
         unit = re.search(r"/(\d[\d.E-]*)$", str(checks[row, 2].written))
         in_si[f"residual: {name}"] = limits[name] * (float(unit[1]) if unit else 1.0)
     listed = book.get("Residuals lines", {})
