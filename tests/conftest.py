@@ -227,6 +227,15 @@ def page(browser: Browser) -> Iterator[Page]:
         yield page
 
 
+@pytest.fixture(scope="module")
+def blank(browser: Browser) -> Iterator[Page]:
+    """A page with nothing on it, and no network."""
+    page = new_page(browser)
+    page.context.set_offline(True)
+    with page.context:
+        yield page
+
+
 def until(page: Page, holds: Callable[[], bool], otherwise: str) -> None:
     """Wait for a state of the page that no locator can wait for."""
     deadline = time.monotonic() + WITHIN

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
-from conftest import new_page
 from in_browser import evaluated
 from own_worksheet import own, recorded
 
@@ -16,16 +14,7 @@ from mechsheet.html import javascript
 from mechsheet.worksheet import cells
 
 if TYPE_CHECKING:
-    from playwright.sync_api import Browser, Page
-
-
-@pytest.fixture(scope="module")
-def blank(browser: Browser) -> Iterator[Page]:
-    """A page with nothing on it, and no network."""
-    page = new_page(browser)
-    page.context.set_offline(True)
-    with page.context:
-        yield page
+    from playwright.sync_api import Page
 
 
 # What is asked of one unknown: the function, its interval, and what else is said.

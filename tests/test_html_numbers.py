@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -10,7 +9,6 @@ import numpy as np
 import pytest
 import test_recorded_worksheet
 import test_rows_followed
-from conftest import new_page
 from in_browser import evaluated
 from own_worksheet import ELSEWHERE, OTHER, own, recorded
 
@@ -20,16 +18,7 @@ from mechsheet.recording import operations
 from mechsheet.worksheet import cells
 
 if TYPE_CHECKING:
-    from playwright.sync_api import Browser, Page
-
-
-@pytest.fixture(scope="module")
-def blank(browser: Browser) -> Iterator[Page]:
-    """A page with nothing on it, and no network."""
-    page = new_page(browser)
-    page.context.set_offline(True)
-    with page.context:
-        yield page
+    from playwright.sync_api import Page
 
 
 def test_every_operation_has_a_rule() -> None:

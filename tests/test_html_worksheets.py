@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
-from conftest import new_page
 from in_browser import evaluated
 from test_random_scenes import scene
 from test_recalculation import whole
@@ -31,7 +30,7 @@ from mechsheet.worksheet.lines import registry
 from mechsheet.worksheet.table import Table
 
 if TYPE_CHECKING:
-    from playwright.sync_api import Browser, Page
+    from playwright.sync_api import Page
 
 ROOT = Path(__file__).resolve().parents[1] / "worksheets"
 DOCUMENTS = ("hitch", "landing_gear", "slotted_link", "kinetostatics", "joint")
@@ -39,15 +38,6 @@ EXAMPLES = ("examples/bucket", "examples/engine", "examples/bolted_joint")
 SCENES = 4
 EPS = np.finfo(float).eps
 _AS_LARGE = ["add", "sub", "neg", "abs", "max", "min", "take", "join", "reduce", "where", "like", "sized"]
-
-
-@pytest.fixture(scope="module")
-def blank(browser: Browser) -> Iterator[Page]:
-    """A page with nothing on it, and no network."""
-    page = new_page(browser)
-    page.context.set_offline(True)
-    with page.context:
-        yield page
 
 
 @pytest.mark.parametrize("name", [*DOCUMENTS, *EXAMPLES])
@@ -104,13 +94,6 @@ def random_runs(name: str, sheet: cells.Worksheet) -> Iterator[tuple[dict[str, A
     scenes = (scene(sheet, random) for _ in range(20 * SCENES))
     ordered = (changes for changes in scenes if not any(key.startswith("gas.phi") for key in changes))
     return itertools.islice(runs(sheet, ordered), SCENES)  # interpolation of abscissas out of order means nothing
-
-
-@pytest.mark.parametrize("name", ["hitch_design", "accuracy"])
-def test_searches_and_measurements_are_refused_in_one_line(name: str) -> None:
-    with pytest.raises(SheetError, match=r"^[^\n]+ has no page in one file: [^\n]+ compute worksheets many times$"):
-        javascript.refuse_studies(cells.load(ROOT / f"{name}.py"))
-    javascript.refuse_studies(cells.load(ROOT / "hitch.py"))
 
 
 def shown(recording: Recording, names: Mapping[str, Any]) -> dict[str, Node]:

@@ -15,8 +15,6 @@ from mechsheet.html.scope import Program, Rule, Scope
 from mechsheet.recording.lines import Recording
 from mechsheet.recording.node import Block, Node, bottom_up
 from mechsheet.units import parse
-from mechsheet.worksheet.cells import Worksheet
-from mechsheet.worksheet.errors import SheetError
 
 _NUMBERS, _FIND, _SOLVE = "numbers.js", "find.js", "solve.js"
 _WORDS = "I NaN do for if in let new of p i try var out"
@@ -64,16 +62,6 @@ def module(recording: Recording, wanted: Mapping[str, Node]) -> str:
         "return out}",
     ]
     return "\n".join(["const evaluate=(()=>{", functions, *lines, "return evaluate})();"])
-
-
-def refuse_studies(sheet: Worksheet) -> None:
-    """Raise SheetError for a worksheet that searches or measures: it runs others many times, which no page does."""
-    names = [
-        name for name, value in sheet.common.items()
-        if str(getattr(value, "__module__", "")).startswith(("mechsheet.accuracy", "mechsheet.studies.design"))
-    ]  # fmt: skip
-    if names:
-        raise SheetError(f"{sheet.title} has no page in one file: {', '.join(names)} compute worksheets many times")
 
 
 @cache

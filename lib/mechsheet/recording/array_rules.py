@@ -11,7 +11,7 @@ from mechsheet.recording.arithmetic import choice
 from mechsheet.recording.graph import Graph, NotRecorded
 from mechsheet.recording.quantity import Quantity, lift, moved
 
-_SORTED = 64  # so many numbers are put in order by comparisons; the order of more is that of the present ones
+SORTED = 64  # so many numbers are put in order by comparisons; the order of more is that of the present ones
 _MOST = 8  # unknowns of a fit
 
 
@@ -69,15 +69,20 @@ def polynomial_fit(graph: Graph, x: Any, y: Any, deg: int, rcond: Any = None, fu
     return lift(graph, [found[k] / length for k, length in enumerate(lengths)])
 
 
-def order(graph: Graph, x: Any, axis: Any = -1, kind: Any = None, stable: Any = None) -> Any:
-    """numpy's argsort, equal numbers in the order that they have: where the rank of each one points."""
+def to_sort(graph: Graph, x: Any, axis: Any) -> tuple[Quantity, int, int]:
+    """What is put in order along its last axis, the axis that this was, and how many numbers it has."""
     x = lift(graph, x)
     if axis is None:
         x, axis = x.reshape(-1), 0
     x = moved(x, axis, -1)
     graph.measure(x.re)
-    count = x.extent[-1]
-    if count > _SORTED:
+    return x, axis, x.extent[-1]
+
+
+def order(graph: Graph, x: Any, axis: Any = -1, kind: Any = None, stable: Any = None) -> Any:
+    """numpy's argsort, equal numbers in the order that they have: where the rank of each one points."""
+    x, axis, count = to_sort(graph, x, axis)
+    if count > SORTED:
         return np.argsort(x.seen(), axis=-1, kind="stable")
     one, other, number = x[..., :, None], x[..., None, :], np.arange(count)
     before: Any = (other < one) | ((other == one) & (number < number[:, None]))

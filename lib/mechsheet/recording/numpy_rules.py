@@ -8,15 +8,21 @@ from typing import Any
 import numpy as np
 
 from mechsheet.recording.arithmetic import absolute, angle, choice, conjugate, rounded, square, trunc
-from mechsheet.recording.array_rules import cross, least_squares, order, polynomial_fit, summed, unwrapped
+from mechsheet.recording.array_rules import (
+    SORTED,
+    cross,
+    least_squares,
+    order,
+    polynomial_fit,
+    summed,
+    to_sort,
+    unwrapped,
+)
 from mechsheet.recording.graph import Graph, NotRecorded
 from mechsheet.recording.linear_rules import determinant, outer, product, solution
 from mechsheet.recording.operations import REDUCE_SO_FAR
 from mechsheet.recording.quantity import FUNCTIONS, REDUCTIONS, Quantity, has_quantity, joined, lift, moved, plain
 from mechsheet.recording.ufunc_rules import finite
-
-_SORTED = 64  # so many numbers are sorted by comparisons; the order of more is that of the present ones
-
 
 _OF_REDUCTIONS: dict[Any, str] = {
     np.add: "sum", np.multiply: "prod", np.maximum: "max", np.minimum: "min", np.logical_and: "all",
@@ -172,13 +178,8 @@ def _searched(graph: Graph, a: Any, v: Any, side: str = "left") -> Any:
 
 def _ordered(graph: Graph, x: Any, axis: Any = -1) -> Any:
     """Sorted by an even-odd network of comparisons; many numbers by the order that they have now."""
-    x = lift(graph, x)
-    if axis is None:
-        x, axis = x.reshape(-1), 0
-    x = moved(x, axis, -1)
-    graph.measure(x.re)
-    count = x.extent[-1]
-    if count > _SORTED:
+    x, axis, count = to_sort(graph, x, axis)
+    if count > SORTED:
         order = np.argsort(x.value, axis=-1, kind="stable")
         x = np.take_along_axis(x, order, axis=-1)
         graph.see((x[..., :-1] <= x[..., 1:]).reduced("all").re)
