@@ -22,7 +22,7 @@ from hypothesis import settings
 from openpyxl import load_workbook
 
 if TYPE_CHECKING:
-    from playwright.sync_api import Browser, ConsoleMessage, Page
+    from playwright.sync_api import Browser, ConsoleMessage, Page, ViewportSize
 
 ROOT = Path(__file__).resolve().parents[1]
 collect_ignore = ["benchmarks"]  # nothing there is a test, and it needs numba
@@ -40,6 +40,7 @@ ALWAYS = """<?xml version="1.0" encoding="UTF-8"?>
 <oor:items xmlns:oor="http://openoffice.org/2001/registry">
 <item oor:path="/org.openoffice.Office.Calc/Formula/Load"><prop oor:name="OOXMLRecalcMode" oor:op="fuse">
 <value>0</value></prop></item></oor:items>"""
+SIZE: ViewportSize = {"width": 1280, "height": 1600}
 CHROMIUM_FLAGS = [
     "--no-sandbox",
     "--disable-gpu",
@@ -214,7 +215,7 @@ def browser(chromium: str) -> Iterator[Browser]:
 
 def new_page(browser: Browser) -> Page:
     """A page without cookies or history, wide enough for a worksheet; closed with its context."""
-    context = browser.new_context(viewport={"width": 1280, "height": 1600}, locale="en-US")
+    context = browser.new_context(viewport=SIZE, locale="en-US")
     context.set_default_timeout(WITHIN * 1000)
     return context.new_page()
 
@@ -225,6 +226,49 @@ def page(browser: Browser) -> Iterator[Page]:
     page = new_page(browser)
     with page.context:
         yield page
+
+
+@pytest.fixture(scope="session")
+def pages(browser: Browser, serve: Callable[[str, Path], str]) -> Iterator[tuple[Callable[[Path, str], Page], list[str]]]:
+    """Pages that many tests use in turn, and what they report as errors."""
+    known: dict[Path, Page] = {}
+    fresh: dict[Path, object] = {}
+    errors: list[str] = []
+
+    def state(page: Page) -> object:
+        of_user = page.locator("input, select, details, [role=slider], .ms-chosen, .ms-told")
+        return of_user.evaluate_all("all => all.map(e => [e.value, e.checked, e.ariaValueNow, e.open, e.className])")
+
+    def opened(worksheet: Path, text: str) -> Page:
+        if worksheet not in known:
+            known[worksheet] = new_page(browser)
+            report_errors(known[worksheet], errors)
+        page = known[worksheet]
+        page.set_viewport_size(SIZE)
+        page.mouse.move(5, 5)
+        if worksheet not in fresh or state(page) != fresh[worksheet]:
+            page.goto(serve("run", worksheet))
+            page.get_by_text(text).first.wait_for()
+            fresh[worksheet] = state(page)
+        page.evaluate("scrollTo(0, 0)")
+        return page
+
+    yield opened, errors
+    for page in known.values():
+        page.context.close()
+
+
+@pytest.fixture
+def left_open(pages: tuple[Callable[[Path, str], Page], list[str]]) -> Iterator[Callable[[Path, str], Page]]:
+    """``left_open(worksheet, text)``: a page of ``marimo run`` with that text on it, left open for other tests.
+
+    It is opened again where a test has left something typed, moved, switched or told. An error of it fails the test.
+    """
+    opened, errors = pages
+    yield opened
+    said = errors.copy()
+    errors.clear()
+    assert said == []
 
 
 @pytest.fixture(scope="module")
@@ -251,12 +295,18 @@ def drawn(page: Page) -> None:
 
 @pytest.fixture
 def console_errors(page: Page) -> list[str]:
-    """What the page has reported as errors so far.
+    """What the page has reported as errors so far."""
+    errors: list[str] = []
+    report_errors(page, errors)
+    return errors
+
+
+def report_errors(page: Page, errors: list[str]) -> None:
+    """Let a page add what it reports as errors.
 
     Not among them: half a minute after it is opened, marimo's editor reports that the language server of a completion
     which is switched off has not answered.
     """
-    errors: list[str] = []
 
     def reported(message: ConsoleMessage) -> None:
         if message.type == "error" and not message.text.startswith("Language server initialization failed RPCError"):
@@ -264,4 +314,3 @@ def console_errors(page: Page) -> list[str]:
 
     page.on("console", reported)
     page.on("pageerror", lambda error: errors.append(str(error)))
-    return errors

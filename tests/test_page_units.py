@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from conftest import until
 from playwright.sync_api import expect
 from test_page import HITCH, ready
 
@@ -28,8 +29,15 @@ def static(page, html: str) -> None:
 
 
 def choose(page, unit, other: str) -> None:
-    unit.click()
-    page.get_by_role("menuitemradio", name=other, exact=True).click()
+    """Again where the page moved under the click, as while its formulas are still being set."""
+    item = page.get_by_role("menuitemradio", name=other, exact=True)
+
+    def offered() -> bool:
+        unit.click()
+        return item.is_visible()
+
+    until(page, offered, "no unit is offered")
+    item.click()
 
 
 @pytest.mark.parametrize("top", [3, 25])  # of the greatest number hangs how many decimals there are
