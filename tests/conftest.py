@@ -229,7 +229,9 @@ def page(browser: Browser) -> Iterator[Page]:
 
 
 @pytest.fixture(scope="session")
-def pages(browser: Browser, serve: Callable[[str, Path], str]) -> Iterator[tuple[Callable[[Path, str], Page], list[str]]]:
+def pages(
+    browser: Browser, serve: Callable[[str, Path], str]
+) -> Iterator[tuple[Callable[[Path, str], Page], list[str]]]:
     """Pages that many tests use in turn, and what they report as errors."""
     known: dict[Path, Page] = {}
     fresh: dict[Path, object] = {}
