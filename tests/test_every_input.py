@@ -49,6 +49,7 @@ TYPED = {
     "−1": -1.0,
     "12345678901234567890": 12345678901234567890.0,
 }
+READ = (1000.0, 12345678901234567890.0)  # numbers that are read, and run no other way than those beside them
 # Of the kinds that are no number: what is typed, and what it is; None for what is none.
 SWITCHED: dict[str, object] = {"yes": True, "No": False, "1": True, "0": False, "": None, "perhaps": None, "1,5": None}
 OF_TEXT: dict[str, object] = {"Bridge 7": "Bridge 7", "  a  b ": "a b", "": "", "x" * 201: None, "a\x00b": None}
@@ -180,12 +181,13 @@ def tried(path: Path, run_too: bool) -> tuple[Counter[str], list[str]]:
                 counts["no number" if number is None else "outside its limits"] += 1
                 if "\n" in refusal or not re.search(rf"\b{re.escape(name)}( = |[ .]|:)|no_such_file.csv", refusal):
                     wrong.append(f"{what}: {refusal!r} does not name it in a line")
-            elif run_too:
+            elif run_too and number not in READ:
                 if str(number) not in runs:
                     try:
                         run = ran(sheet, g)
-                        for value in shown(run.names):
-                            values.html(value)
+                        if run.verdict not in runs.values():  # a page of each kind
+                            for value in shown(run.names):
+                                values.html(value)
                         if not (run.refusals or run.waits or run.open) and run.verdict not in written:
                             written.add(run.verdict)  # one workbook of each kind: a third of a second
                             report.workbook("", run.names, {})
