@@ -601,7 +601,9 @@ def rod_at(equals, *interval):
 
 def test_reasons_name_the_unknown_its_reach_and_the_limit_in_display_units():
     assert rod_at(2.0).reason == "lifting rod L4: height Y56 reaches -55.5..128.9 cm by 226 samples, 200 cm is outside"
-    assert rod_at(0.2, 0.1, 0.15).reason == "nothing closes for lifting rod L4 in 100..150 mm by 97 samples"
+    why = "as of a group that does not close, or a square root of a negative number"
+    nowhere = "lifting rod L4: height Y56 is NaN at each of 97 samples in 100..150 mm"
+    assert rod_at(0.2, 0.1, 0.15).reason == f"{nowhere}, {why}"
     assert find(lambda x: x, 0.0, 27500.0, equals=1e9, unit="kN").reason.endswith(
         "reaches 0..27.5 kN by 97 samples, 1000000 kN is outside"
     )
@@ -686,7 +688,7 @@ def test_what_rests_on_no_number_waits_with_the_reason(arguments):
 def test_what_closes_nowhere_does_not_wait():
     found = find(lambda x: x * np.nan, 0.0, 1.0, unknown="rod")
     assert not found.waits and found.word() == "not found"
-    with pytest.raises(SheetError, match="nothing closes for rod") as error:
+    with pytest.raises(SheetError, match=r"rod: f\(x\) is NaN at each of 97 samples in 0..1, as of") as error:
         _ = found.value
     assert not isinstance(error.value, Waits)
 

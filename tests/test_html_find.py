@@ -146,7 +146,7 @@ def test_least_squares_are_the_same(blank: Page, tmp_path: Path) -> None:
 
 def kind(reason: str) -> str:
     """The reason in one word, as the page's Find gives it."""
-    words = {"nothing to solve": "nothing", "nothing closes": "closes", "jumps over": "jumps", "is outside": "outside"}
+    words = {"nothing to solve": "nothing", "is NaN at each": "closes", "jumps over": "jumps", "is outside": "outside"}
     return next((word for text, word in words.items() if text in reason), reason)
 
 

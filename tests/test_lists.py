@@ -11,7 +11,7 @@ import pandas as pd
 import pytest
 from openpyxl import load_workbook
 from test_kinds import script
-from test_recalculation import disagreements, edit
+from test_recalculation import cell_of, disagreements, edit
 
 from mechsheet import evaluate, load, sweep
 from mechsheet.recording.dimensions import mismatches
@@ -235,27 +235,98 @@ def test_the_workbook_follows_each_element(section: Path, tmp_path: Path, recalc
     assert not list(disagreements(recalculated(path), own))
 
 
-@pytest.mark.parametrize(("value", "unit"), [(20_000, "N"), ("20000 N", "kN"), (20, "kN")])
-def test_an_element_of_the_workbook_may_have_another_unit(
-    section: Path, tmp_path: Path, value: object, unit: str
+@pytest.fixture(scope="module")
+def exported(section: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    out = tmp_path_factory.mktemp("exported")
+    assert script(section, f"--out={out}").returncode == 0
+    return out / "section.xlsx"
+
+
+def typed(exported: Path, to: Path, changes: dict[tuple[str, int], object]) -> Path:
+    """The workbook with other cells of its input tables, by column and row; row 0 is the unit, -1 the heading."""
+    book = load_workbook(exported)
+    cells = {place: cell_of(book, *place) for place in changes}
+    for place, cell in cells.items():
+        cell.value = changes[place]
+    book.save(to)
+    return to
+
+
+@pytest.mark.parametrize(
+    ("changes", "given"),
+    [
+        ({("F", 4): 20}, {"F": [10, -4, 2.5, 20]}),
+        ({("F", 4): "20000 N", ("F", 1): "0,5"}, {"F": [0.5, -4, 2.5, 20]}),
+        ({("F", 0): "N"}, {"F": ["10 N", "-4 N", "2,5 N"]}),
+        ({("F", 2): None}, {"F": [10, 2.5]}),
+        ({("stringers.A", 5): 1, ("stringers.y", 5): -2, ("stringers.y_top", 5): 30},
+         {"stringers": [(1, 25, 30), (0.5, -25, 30), (1, -2, 30)]}),
+        ({("F", -1): "other"}, {}),
+    ],
+)  # fmt: skip
+def test_rows_and_units_of_input_tables_are_read_as_they_are_typed(
+    exported: Path, section: Path, tmp_path: Path, changes: dict[tuple[str, int], object], given: dict[str, Any]
 ) -> None:
-    assert script(section, f"--out={tmp_path}").returncode == 0
-    book = load_workbook(tmp_path / "section.xlsx")
-    book["Inputs"].append(["F (4)", value, unit])
-    book.save(tmp_path / "added.xlsx")
     cls = load(section).inputs
-    assert inputs.build(cls, reading.inputs(tmp_path / "added.xlsx", inputs.declared(cls))).F[-1] == 2e4
+    path = typed(exported, tmp_path / "typed.xlsx", changes)
+    assert inputs.build(cls, reading.inputs(path, inputs.declared(cls))) == inputs.build(cls, given)
 
 
-def test_a_row_added_in_the_workbook_is_not_passed_over(
-    section: Path, tmp_path: Path, recalculated: Callable[[Path], Any]
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({("F", 2): "heavy"}, "sheet Input tables, cell B9: forces F (2) = 'heavy' kN is no number"),
+        (
+            {("F", 0): "MPa"},
+            "cell B7: MPa is not the unit of F (1), which is kN: forces F (1) = '10 MPa': MPa does not",
+        ),
+        ({("F", 0): None}, "cell B7: an empty cell is not the unit of F (1), which is kN"),
+        ({("stringers.y", 2): None}, "cell E9: stringers.y (2): the value is missing"),
+        ({("stringers.y", -1): "y"}, "stringers of the section stringers must have the columns A, y, y_top; it has"),
+        ({("stringers.y", -1): "stringers.A"}, "cell E6: stringers.A stands in D6 already"),
+    ],
+)
+def test_what_cannot_be_read_of_input_tables_is_told_at_its_cell(
+    exported: Path, section: Path, tmp_path: Path, changes: dict[tuple[str, int], object], message: str
 ) -> None:
-    assert script(section, f"--out={tmp_path}").returncode == 0
-    book = load_workbook(tmp_path / "section.xlsx")
-    sheet = book["Inputs"]
-    sheet.append(["F (4)", 20, "kN"])
-    book.save(tmp_path / "added.xlsx")
-    read = reading.inputs(tmp_path / "added.xlsx", inputs.declared(load(section).inputs))
-    assert inputs.build(load(section).inputs, read).F.tolist() == [1e4, -4e3, 2.5e3, 2e4]
-    live = recalculated(tmp_path / "added.xlsx")
-    assert {row[0].value for row in live["1 Stresses"].iter_rows(min_row=5, max_row=7)} == {"#N/A"}
+    path = typed(exported, tmp_path / "typed.xlsx", changes)
+    with pytest.raises(SheetError) as error:
+        reading.inputs(path, inputs.declared(load(section).inputs))
+    assert message in str(error.value) and "\n" not in str(error.value)
+
+
+def test_the_sheet_of_the_inputs_tells_where_its_tables_are(exported: Path, section: Path, tmp_path: Path) -> None:
+    book = load_workbook(exported)
+    told = {row[0].value: row for row in book["Inputs"].iter_rows(min_row=3)}
+    assert told["stringers"][4].value == "2 rows on the sheet Input tables"
+    assert "'Input tables'!A1" in told["stringers"][4].hyperlink.location
+    told["F"][1].value = "1; 2; 3"
+    book.save(tmp_path / "typed.xlsx")
+    with pytest.raises(SheetError, match="the rows of F stand on the sheet Input tables"):
+        reading.inputs(tmp_path / "typed.xlsx", inputs.declared(load(section).inputs))
+
+
+def test_cells_of_input_tables_refuse_what_the_limits_do_not_allow(exported: Path) -> None:
+    """In rows that are added too."""
+    book = load_workbook(exported)
+    rules = {str(rule.sqref): rule.formula1 for rule in book["Input tables"].data_validations.dataValidation}
+    F_max = next(row[0].row for row in book["Inputs"].iter_rows() if row[0].value == "F_max")
+    assert rules == {
+        "B8:B10007": f"IF(ISTEXT($B8),TRUE,AND(ISNUMBER($B8),$B8<Inputs!$I${F_max}))",
+        "D8:D10007": "IF(ISTEXT($D8),TRUE,AND(ISNUMBER($D8),$D8>=1E-60))",
+        "E8:E10007": "IF(ISTEXT($E8),TRUE,AND(ISNUMBER($E8),OR(ISTEXT($F8),$E8<$F8)))",
+        "F8:F10007": "IF(ISTEXT($F8),TRUE,AND(ISNUMBER($F8)))",
+    }
+
+
+def test_a_row_added_or_outside_its_limits_has_no_number_in_the_workbook(
+    exported: Path, tmp_path: Path, recalculated: Callable[[Path], Any]
+) -> None:
+    """Of a list with another number of rows nothing is shown; of a limit that does not hold only what rests on it."""
+    added = recalculated(typed(exported, tmp_path / "added.xlsx", {("F", 4): 20}))
+    assert {row[0].value for row in added["1 Stresses"].iter_rows(min_row=5, max_row=7)} == {"#N/A"}
+    assert {row[0].value for row in added["2 Stringers"].iter_rows(min_row=5, max_row=6)} != {"#N/A"}
+    verdicts = {row[0].value: row[4].value for row in added["Checks"].iter_rows(min_row=3)}
+    assert verdicts["inputs within their limits"] == "FAIL"
+    above = recalculated(typed(exported, tmp_path / "above.xlsx", {("F", 2): 51, ("stringers.y", 1): "0,3 m"}))
+    assert [row[0].value for row in above["1 Stresses"].iter_rows(min_row=5, max_row=7)] == [10, "#N/A", 2.5]

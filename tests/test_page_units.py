@@ -1,5 +1,6 @@
 """Display units that are switched in place on the page, in a real browser."""
 
+import json
 from decimal import Decimal
 from math import log10
 from pathlib import Path
@@ -14,7 +15,7 @@ from mechsheet.page import script, values
 from mechsheet.units import parse, shown
 from mechsheet.worksheet import numbers
 from mechsheet.worksheet.check import check
-from mechsheet.worksheet.table import Column, Table
+from mechsheet.worksheet.table import Column, Figure, Table
 
 SCRIPT = (Path(script.__file__).parent / "units.js").read_text(encoding="utf-8")
 STYLE = HITCH.with_name("page.css").read_text(encoding="utf-8")
@@ -83,6 +84,46 @@ def test_back_in_its_own_unit_a_table_is_as_it_was(page) -> None:
     choose(page, page.locator("ms-unit:visible").first, "N")
     expect(page.locator("table")).to_have_count(1)
     assert page.locator("table").inner_html() == before
+
+
+def test_an_axis_of_a_chart_and_what_the_pointer_tells_follow_the_unit(page) -> None:
+    """The curves stay: 2500 N is where 2.5 kN is. An axis of several units stays as it is."""
+    S = Column("S", "m", "stroke", 3, np.linspace(0.1, 0.5, 5), of="S")
+    forces = [
+        Column(name, "N", "force", 0, np.linspace(1e3, top, 5), of=name) for name, top in (("F", 4e3), ("G", 3e3))
+    ]
+    phi = Column("phi", "deg", "angle", 1, np.linspace(0, 40, 5), of="phi")
+    figures = [Figure("1", "Forces", S, tuple(forces)), Figure("2", "Mixed", S, (forces[0], phi))]
+    static(page, "".join(map(values.html, [Table("1", "Forces", (S, *forces, phi)), *figures])))
+
+    def ticks(figure: int) -> list[tuple[float, float]]:
+        """Where each number up the axis stands, and what it says."""
+        found = page.locator("ms-figure").nth(figure).locator(".ms-chart:visible > g > text[text-anchor=end]")
+        return [(float(text.get_attribute("y")), float(text.text_content().replace("−", "-"))) for text in found.all()]
+
+    def title() -> str:
+        return page.locator("ms-figure").first.locator(".ms-chart:visible > g > g > text").text_content()
+
+    curve = page.locator("ms-figure").first.locator(".ms-chart:visible svg path").nth(1)
+    own, mixed, path = ticks(0), ticks(1), curve.get_attribute("d")
+    assert own[0][1] == 1000 and title().replace("\u200b", "") == "F, G [N]"
+    choose(page, page.locator("th ms-unit:visible").nth(1), "kgf")
+    slope = (own[-1][1] - own[0][1]) / (own[-1][0] - own[0][0])
+    shown = ticks(0)
+    assert len(shown) >= 4 and title().endswith("F, G [kgf]")
+    for y, number in shown:
+        assert number * 9.80665 == pytest.approx(own[0][1] + slope * (y - own[0][0]), abs=abs(slope) * 0.06)
+    chart = page.locator("ms-figure").first.locator(".ms-chart:visible")
+    told = json.loads(chart.get_attribute("data-values"))
+    assert told["units"] == ["m", "kgf", "N"] and told["texts"][1][-1] == "407.9"
+    grid = chart.locator("svg path").first.get_attribute("d")
+    assert grid.count("H") == len(shown) and grid.count("V") == 5
+    assert (curve.get_attribute("d"), ticks(1)) == (path, mixed)
+    choose(page, page.locator("th ms-unit:visible").first, "mm")
+    across = chart.locator("> g > text[text-anchor=middle]")
+    assert across.all_text_contents() == [*map(str, range(100, 501, 50)), "S [mm]"]
+    choose(page, page.locator("th ms-unit:visible").nth(1), "N")
+    assert ticks(0) == own
 
 
 def test_a_check_is_shown_in_another_unit_with_the_same_verdict(page) -> None:

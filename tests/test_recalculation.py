@@ -46,7 +46,7 @@ def exported(name: str) -> Path:
 
 
 def whole(cls: type, changes: dict[str, Any]) -> dict[str, Any]:
-    """Inputs as they are given, of lists and tables all elements, from elements as the sheet Inputs names them."""
+    """Inputs as they are given, of lists and tables all elements, from elements such as ``bolts.x (2)``."""
     left, default = dict(changes), cls()
     for field in inputs.declared(cls):
         if isinstance(field, Rows):
@@ -83,9 +83,12 @@ def kept(made: Callable[[str], Path]) -> Callable[[str], Path]:
 
 
 def edit(path: Path, changes: dict[str, Any], to: Path, units: Mapping[str, str] = MappingProxyType({})) -> Path:
-    """The workbook with other values and units on the sheet Inputs, as somebody types them."""
+    """The workbook with other values and units of inputs, as somebody types them; ``bolts.x (2)`` is of a table."""
     book = load_workbook(path)
     left = dict(changes)
+    for name in [name for name in left if "Input tables" in book and name.endswith(")")]:
+        column, _, k = name[:-1].partition(" (")
+        cell_of(book, column, int(k)).value = left.pop(name)
     for row in book["Inputs"].iter_rows(min_row=3):
         row[2].value = units.get(row[0].value, row[2].value)
         if row[0].value in left:
@@ -93,6 +96,13 @@ def edit(path: Path, changes: dict[str, Any], to: Path, units: Mapping[str, str]
     assert not left
     book.save(to)
     return to
+
+
+def cell_of(book: Any, column: str, k: int) -> Any:
+    """The cell of the k-th row of a column on the sheet Input tables; 0 is that of its unit, -1 of its heading."""
+    sheet = book["Input tables"]
+    head = next(cell for cell in sheet[6] if cell.value == column)
+    return sheet.cell(7 + k, head.column)
 
 
 def numbers(book: Any, titles: str = r"\d") -> Iterator[tuple[str, str, float | str]]:

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mechsheet import units
-from mechsheet.document.axis import axis
+from mechsheet.document.axis import Axis, axis
 from mechsheet.worksheet import numbers
 from mechsheet.worksheet.symbol import Symbol, read, stem
 from mechsheet.worksheet.table import MARKED
@@ -122,6 +122,28 @@ class Chart:
     low: float  # its value at the left edge, in SI
     scale: float  # of it, SI units a pixel
     readings: tuple[Reading, ...]
+    axes: tuple[Axis, Axis]  # across and up, in the units of the first quantities on them
+
+
+@dataclass(frozen=True)
+class Ticks:
+    """Ticks of an axis in another unit: their places inside the plot [px], how they are written, and that unit."""
+
+    at: tuple[float, ...]
+    texts: tuple[str, ...]
+    unit: str
+
+
+def ticks(chart: Chart, up: bool, unit: str, other: str) -> Ticks:
+    """Round ticks of the axis across or ``up`` in another unit than its own, where it ends as it does."""
+    own, factor = chart.axes[up], units.parse(unit).factor / units.parse(other).factor
+    ends = own.low * factor, own.high * factor
+    made = axis([ends], other, count=8)
+    inside = [t for t in made.ticks if ends[0] - 1e-9 * made.step <= t <= ends[1] + 1e-9 * made.step]
+    length = chart.plot.height if up else chart.plot.width
+    parts = [(t - ends[0]) / (ends[1] - ends[0]) * length for t in inside]
+    places = [length - part for part in parts] if up else parts
+    return Ticks(tuple(round(u, 1) for u in places), tuple(map(made.text, inside)), _unit(other, made.power))
 
 
 def line_chart(x: Plotted, lines: Sequence[Plotted], marks: Sequence[tuple[str, float]] = (), every: int = 1) -> Chart:
@@ -164,6 +186,7 @@ def line_chart(x: Plotted, lines: Sequence[Plotted], marks: Sequence[tuple[str, 
         across.low * factor,
         factor / k_x,
         tuple(map(_reading, [x, *lines])),
+        (across, up),
     )
 
 
@@ -177,10 +200,14 @@ def _title(quantities: Sequence[Plotted], power: int) -> tuple[Symbol | str, ...
     for unit, members in groupby(quantities, key=lambda q: q.unit):
         for i, quantity in enumerate(members):
             parts += [", " if i else "; " if parts else "", read(stem(quantity.name))]
-        factor = f"10{units.raised(power)} " if power else ""
-        shown = f"{factor}{units.shown(unit)}" if unit != "-" else factor.strip()
-        parts.append(f" [{shown}]" if shown else "")
+        parts.append(_unit(unit, power))
     return tuple(part for part in parts if part)
+
+
+def _unit(unit: str, power: int) -> str:
+    factor = f"10{units.raised(power)} " if power else ""
+    shown = f"{factor}{units.shown(unit)}" if unit != "-" else factor.strip()
+    return f" [{shown}]" if shown else ""
 
 
 def _legend(lines: Sequence[Plotted]) -> Iterator[Sample]:

@@ -46,8 +46,9 @@
 
   class Figure extends HTMLElement {
     connectedCallback() {
-      mark(this.querySelector("svg.ms-chart"));
-      new MutationObserver(() => mark(this.querySelector("svg.ms-chart"))).observe(this, { childList: true });
+      const markAll = () => this.querySelectorAll("svg.ms-chart").forEach(mark);
+      markAll();
+      new MutationObserver(markAll).observe(this, { childList: true, subtree: true });
     }
   }
   customElements.define("ms-figure", Figure);

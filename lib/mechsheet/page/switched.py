@@ -1,4 +1,4 @@
-"""Numbers whose unit is switched on the page: each with what it is in the other units that measure the same.
+"""Numbers and axes whose unit is switched on the page: each with what it is in the others that measure the same.
 
 The elements that carry them are shown by ``units.js``.
 """
@@ -9,11 +9,12 @@ from math import isfinite
 from typing import Any
 
 from mechsheet import units
+from mechsheet.document.chart import Chart, ticks
 from mechsheet.document.markup import HTML
 from mechsheet.page.script import element
 from mechsheet.worksheet import numbers
 from mechsheet.worksheet.numbers import Notation
-from mechsheet.worksheet.table import Column
+from mechsheet.worksheet.table import Column, Figure
 
 UNIT = "<ms-unit>{}</ms-unit>"  # on which one clicks
 _SWITCHED = HTML._replace(degrees=UNIT.format(HTML.degrees), unit=f" {UNIT}")
@@ -41,6 +42,29 @@ def columns(shown: Sequence[Column], table: str) -> str:
     """HTML of a table, whose columns follow the units that are chosen for what they show."""
     told = [_column(column) if column.of and offered(column.unit) else None for column in shown]
     return element("ms-columns", table, columns=told) if any(told) else table
+
+
+def chart(figure: Figure, layout: Chart, picture: str) -> str:
+    """HTML of a chart, whose axes and values under the pointer follow the units that are chosen for what they show.
+
+    The curves stay where they are: an axis keeps its ends and has round ticks in the other unit, which is that of its
+    first quantity for which another one is chosen. An axis of quantities in several units stays as it is.
+    """
+    axes = [_axis(layout, up, on) for up, on in enumerate(([figure.x], figure.lines))]
+    told = [_column(column) if column.of and offered(column.unit) else None for column in (figure.x, *figure.lines)]
+    return element("ms-axes", picture, axes=axes, columns=told) if any(axes) else picture
+
+
+def _axis(layout: Chart, up: int, on: Sequence[Column]) -> dict[str, Any] | None:
+    unit, of = on[0].unit, [column.of for column in on if column.of]
+    if not of or not offered(unit) or any(column.unit != unit for column in on):
+        return None
+    made = {label: ticks(layout, bool(up), unit, other) for label, other in offered(unit).items()}
+    return {
+        "of": of,
+        "unit": _printed(unit),
+        "ticks": {label: {"at": t.at, "texts": t.texts, "unit": t.unit} for label, t in made.items()},
+    }
 
 
 def _column(column: Column) -> dict[str, Any]:

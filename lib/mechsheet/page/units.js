@@ -97,6 +97,59 @@
   }
   customElements.define("ms-columns", Columns);
 
+  // A chart: its curves stay, the ticks of an axis and the values under the pointer are those in the chosen unit.
+  class Axes extends Host {
+    static observedAttributes = ["axes", "columns"];
+
+    copied() {
+      const unitOf = (axis) => {
+        const of = axis?.of.find((name) => chosen.get(name) in axis.ticks);
+        return of && axis.ticks[chosen.get(of)];
+      };
+      const axes = this.told("axes").map(unitOf);
+      const columns = this.told("columns").map((column) => {
+        const unit = column && chosen.get(column.of);
+        return column && unit in column.units && unit !== column.unit ? { column, unit } : null;
+      });
+      if (!axes.some(Boolean) && !columns.some(Boolean)) return null;
+      const copy = this.firstElementChild.cloneNode(true);
+      axes.forEach((ticks, up) => ticks && along(copy, up, ticks));
+      const values = JSON.parse(copy.dataset.values);
+      columns.forEach((each, i) => {
+        if (!each) return;
+        values.units[i] = each.unit;
+        values.texts[i] = inUnit(each.column, each.unit);
+      });
+      copy.dataset.values = JSON.stringify(values);
+      return copy;
+    }
+  }
+  customElements.define("ms-axes", Axes);
+
+  // Other ticks of one axis: lines of the grid, numbers beside them, and the unit behind what the axis shows.
+  function along(chart, up, { at, texts, unit }) {
+    const plot = chart.querySelector("svg");
+    const grid = plot.firstElementChild;
+    const [width, height] = ["width", "height"].map((name) => plot.getAttribute(name));
+    const lines = grid.getAttribute("d").match(/M[^M]+/g);
+    const isOther = (line) => line.includes("H") !== Boolean(up);
+    const own = at.map((u) => (up ? `M0 ${u}H${width}` : `M${u} 0V${height}`));
+    grid.setAttribute("d", [...lines.filter(isOther), ...own].join(""));
+    const titles = chart.querySelectorAll(":scope > g > text[text-anchor=middle]");
+    const title = up ? chart.querySelector(":scope > g > g > text") : titles[titles.length - 1];
+    const numbers = [...chart.querySelectorAll(`:scope > g > text[text-anchor=${up ? "end" : "middle"}]`)];
+    const [first, ...rest] = numbers.filter((text) => text !== title);
+    at.forEach((u, i) => {
+      const text = first.cloneNode();
+      const [name, corner] = up ? ["y", Number(plot.getAttribute("y")) + 4] : ["x", Number(plot.getAttribute("x"))];
+      text.setAttribute(name, corner + u);
+      text.textContent = texts[i];
+      first.before(text);
+    });
+    [first, ...rest].forEach((text) => text.remove());
+    title.lastChild.textContent = unit;
+  }
+
   // A column in another unit, not finer than it is in its own; of its greatest number five digits are enough.
   function inUnit({ units, unit, decimals, power, values }, other) {
     const shown = values.map((x) => (typeof x === "string" ? x : (x * units[unit]) / units[other]));

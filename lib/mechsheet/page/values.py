@@ -267,7 +267,8 @@ def _(used: Used) -> str:
 
 @html.register
 def _(figure: Figure) -> str:
-    picture = chart_svg.svg(chart.line_chart(figure.x, figure.lines, figure.marks, figure.every))
+    layout = chart.line_chart(figure.x, figure.lines, figure.marks, figure.every)
+    picture = switched.chart(figure, layout, chart_svg.svg(layout))
     caption = _caption("Figure", figure.number, figure.title)
     return f'<ms-figure class="ms-figure">{picture}{caption}</ms-figure>'
 

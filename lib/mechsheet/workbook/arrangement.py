@@ -2,7 +2,7 @@
 
 from collections import Counter
 from collections.abc import Callable, Container, Iterable, Iterator, Mapping, Sequence, Set
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -13,7 +13,6 @@ from mechsheet.workbook.cell_formula import nesting, written_of
 from mechsheet.workbook.place import DefinedNames, Place, called
 from mechsheet.worksheet.table import Table
 
-_SI = 5  # column of the inputs in SI units, on their sheet
 _LIGHT = 6  # operations that a formula repeats rather than give them a cell
 _HEAVY = 60  # operations that one formula holds at most
 _DEEP = 6  # parentheses inside each other in one formula, to which what a sheet puts around it adds two
@@ -34,9 +33,9 @@ class Arrangement:
     """The places of the quantities of a recording, and the names that mean them.
 
     ``changed`` is the place of how many inputs differ from the exported ones, ``followed`` are those on which formulas
-    rest, ``last`` the results where nothing is found. ``inputs`` and ``found`` give the rows of their sheets by symbol,
-    ``sheets`` the names of the tables' sheets, ``first`` the row of the first number on each, ``name`` makes that of
-    a new sheet of a title and an ending.
+    rest, ``last`` the results where nothing is found. ``inputs`` gives their places and ``found`` the rows of the sheet
+    Find by symbol, ``sheets`` the names of the tables' sheets, ``first`` the row of the first number on each, ``name``
+    makes that of a new sheet of a title and an ending.
     """
 
     def __init__(
@@ -44,7 +43,8 @@ class Arrangement:
         recording: Recording,
         tables: Sequence[Table],
         sheets: Sequence[str],
-        inputs: Mapping[str, int],
+        inputs: Mapping[str, Place],
+        changed: Place,
         found: Mapping[str, int],
         first: int,
         name: Callable[[str, str], str],
@@ -56,11 +56,10 @@ class Arrangement:
         self.lines = {line.node: line for lines in recording.lines.values() for line in lines}
         self.last = [] if found else last_lines(recording)
         self._names = DefinedNames()
-        last = max((inputs[symbol] + node.size - 1 for symbol, node in recording.inputs.items()), default=1)
-        self.changed = Place(self._names.new("inputs_changed"), "Inputs", last + 1, _SI)  # how many differ
-        self.defined.append((self.changed.name, self.changed.meaning(1)))
+        self.changed = self._defined(changed, changed.name, 1)
         for symbol, node in recording.inputs.items():
-            self._settle(node, symbol, "Inputs", inputs[symbol], _SI, aligned=node.size == 1)
+            place = replace(inputs[symbol], aligned=node.size == 1)
+            self.places[node] = self._defined(place, symbol, node.size)
         under = set(bottom_up(self._roots(), ()))
         self.followed = {symbol for symbol, node in recording.inputs.items() if node in under}
         for solved in recording.found.values():
@@ -84,9 +83,14 @@ class Arrangement:
         nodes = [None if c is None or c.im is not None else c.re for c in columns]
         return (*nodes, *[None] * (len(table.columns) - len(nodes)))
 
-    def _settle(self, node: Node, symbol: str, sheet: str, row: int, column: int, aligned: bool = True) -> None:
-        place = self.places[node] = Place(self._names.new(symbol.replace(".", "_")), sheet, row, column, aligned)
-        self.defined.append((place.name, place.meaning(node.size)))
+    def _settle(self, node: Node, symbol: str, sheet: str, row: int, column: int) -> None:
+        self.places[node] = self._defined(Place("", sheet, row, column), symbol, node.size)
+
+    def _defined(self, place: Place, symbol: str, size: int) -> Place:
+        """A place under a name of its own."""
+        named = replace(place, name=self._names.new(symbol.replace(".", "_")))
+        self.defined.append((named.name, named.meaning(size)))
+        return named
 
     def _roots(self) -> Iterator[Node]:
         for table in self.tables:

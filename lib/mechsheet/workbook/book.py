@@ -12,7 +12,7 @@ from mechsheet.workbook import looks
 from mechsheet.workbook.content import Content, Live, allowed, cut, put
 
 _PROPERTIES = {"author": "mechsheet", "created": datetime(2000, 1, 1)}
-_SHEETS = ("Front", "Inputs", "Find", "Checks", "Index", "Marks", "Scenes")
+_SHEETS = ("Front", "Inputs", "Input tables", "Find", "Checks", "Index", "Marks", "Scenes")
 _OPTIONS: dict[str, object] = {
     "in_memory": True,  # stamps the parts of the file with a fixed date
     "default_format_properties": {"font_name": "Arial", "font_size": 10, "font_scheme": False},

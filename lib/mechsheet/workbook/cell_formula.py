@@ -34,7 +34,6 @@ _OF_RANGE = {
     "nanmax": f"IF(COUNT({{0}})=0,NA(),{AGGREGATE}(4,6,{{0}}))",
     "nanmin": f"IF(COUNT({{0}})=0,NA(),{AGGREGATE}(5,6,{{0}}))", "nansum": f"{AGGREGATE}(9,6,{{}})",
 }  # fmt: skip
-_DIFFERS = 5  # columns between an input in SI units and whether it differs from the exported one
 _FIRST = np.zeros(1, np.intp)
 _ALONE = Rows(_FIRST, (), 0, alone=True)
 _FAILS = {"sqrt", "asin", "acos", "atan2", "log", "div", "pow", "mod", "tan", "at"}  # may give an error value
@@ -189,7 +188,7 @@ class CellFormulas:
         if node.size == 1:
             return f"{self._element(node, _FIRST, rows)[0]}={written(node.value.item())}"
         place = self.places[node]
-        return f"SUM({replace(place, column=place.column + _DIFFERS).range(0, node.size - 1)})=0"
+        return f"SUM({replace(place, column=place.column + place.differs).range(0, node.size - 1)})=0"
 
 
 def _of_one_source(node: Node) -> list[Index]:

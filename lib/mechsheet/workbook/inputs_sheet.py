@@ -1,24 +1,26 @@
 """The sheet of the inputs, which the user of a workbook edits."""
 
-import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import groupby
 from typing import Any
 
-from mechsheet.units import parse, shown, si
-from mechsheet.workbook import looks
+from mechsheet.units import shown, si
+from mechsheet.workbook import input_formulas, input_tables_sheet, looks
 from mechsheet.workbook.book import Book
-from mechsheet.workbook.cell_formula import written
 from mechsheet.workbook.content import Content, Live, allowed, cut, put, quoted
+from mechsheet.workbook.input_tables_sheet import Grid, GridColumn
+from mechsheet.workbook.place import Place
+from mechsheet.workbook.place import quoted as quoted_sheet
 from mechsheet.workbook.sheet_formulas import SheetFormulas
-from mechsheet.worksheet.inputs import LEAST, MOST, declared
-from mechsheet.worksheet.kinds import Choice, Switch, number
+from mechsheet.worksheet.inputs import declared
+from mechsheet.worksheet.kinds import Choice, Switch
 from mechsheet.worksheet.lists import Rows
 
 _FOLLOWED = "No formula of this workbook follows a value without a yellow ground: run the worksheet again for it."
 _AS_TEXT = {"num_format": "@"}  # what is typed stays a text
-_LETTERS = '"0123456789.,+-−eE"'  # of a number as text
+_SHEET = "Inputs"
+_SI = 5  # column of the numbers in SI units
 
 
 @dataclass(frozen=True)
@@ -49,9 +51,12 @@ class InputRow:
         return ", ".join([*(["whole number"] if self.whole else []), *(" ".join(limit) for limit in self.limits)])
 
 
-def rows(g: Any) -> list[InputRow]:
-    """Rows of all inputs of a worksheet, behind them those of the properties of its options."""
-    asked, shown, cls = list[InputRow](), list[InputRow](), type(g)
+Item = InputRow | Grid
+
+
+def rows(g: Any) -> list[Item]:
+    """All inputs of a worksheet, behind them rows of the properties of its options."""
+    asked, shown, cls = list[Item](), list[InputRow](), type(g)
     for field in declared(cls):
         value = getattr(g, field.name)
         written = field.written(value, getattr(cls, field.name))
@@ -61,7 +66,11 @@ def rows(g: Any) -> list[InputRow]:
                 options = field.options
                 shown += _properties(field)
             case Rows():
-                asked += _of_rows(field, written)
+                columns = (
+                    GridColumn(c.name, tuple(written[c.name].tolist()), c.unit, c.meaning, c.limits)
+                    for c in field.columns
+                )
+                asked.append(Grid(field.name, field.meaning, field.section, tuple(columns)))
                 continue
             case Switch():
                 written, options = field.text(value), (field.text(False), field.text(True))
@@ -70,19 +79,6 @@ def rows(g: Any) -> list[InputRow]:
         )
         asked.append(row)
     return asked + shown
-
-
-def _of_rows(field: Rows, written: Mapping[str, Any]) -> Iterator[InputRow]:
-    """The numbers of a list or a table, column by column, each with the number of its row behind its name."""
-    for column in field.columns:
-        meaning = column.meaning if column.meaning == field.meaning else f"{field.meaning}: {column.meaning}"
-        for k, value in enumerate(written[column.name].tolist()):
-            limits = tuple(
-                (sign, f"{other} ({k + 1})" if "." in other and other in written else other)
-                for sign, other in column.limits
-            )
-            words = (column.unit, meaning, field.section, limits)
-            yield InputRow(f"{column.name} ({k + 1})", value, *words, leaf=column.name, k=k)
 
 
 def _properties(field: Choice) -> Iterator[InputRow]:
@@ -94,10 +90,27 @@ def _properties(field: Choice) -> Iterator[InputRow]:
             yield InputRow(f"{name} ({option})", *shown, leaf=name, k=k, asked=False)
 
 
-def write(book: Book, rows: Sequence[InputRow], formulas: SheetFormulas | None) -> None:
-    """The sheet Inputs; with ``formulas`` each input also in SI units, under the name that formulas use.
+def grids(items: Sequence[Item]) -> list[Grid]:
+    """The lists and tables among the inputs."""
+    return [item for item in items if isinstance(item, Grid)]
 
-    There is none where the value is outside its limits or no number, or stands in another unit.
+
+def places(items: Sequence[Item]) -> dict[str, Place]:
+    """Where the inputs stand in SI units, by the names of their leaves; they have no names yet."""
+    first = {x.leaf or x.symbol: n for n, x in listed_rows(items) if isinstance(x, InputRow) and x.k == 0}
+    own = {name: Place("", _SHEET, n, _SI, differs=5) for name, n in first.items()}
+    return own | input_tables_sheet.places(grids(items))
+
+
+def changed(items: Sequence[Item]) -> Place:
+    """Where it stands how many inputs differ from the exported ones."""
+    return Place("inputs_changed", _SHEET, 2 + sum(1 for _ in listed_rows(items)), _SI)
+
+
+def write(book: Book, items: Sequence[Item], formulas: SheetFormulas | None) -> None:
+    """The sheet Inputs, and that of lists and tables; with ``formulas`` also in SI units, under the names they use.
+
+    There is no number in SI units where the value is outside its limits or no number, or stands in another unit.
     """
     fields = [("Symbol", looks.TEXT), ("Value", looks.FIELD), ("Unit", looks.TEXT), ("Meaning", looks.TEXT)]
     fields.append(("Limits", looks.TEXT))
@@ -105,83 +118,77 @@ def write(book: Book, rows: Sequence[InputRow], formulas: SheetFormulas | None) 
         fields += [("in SI units", looks.SI), ("Unit", looks.TEXT), ("Name", looks.TEXT)]
         fields += [("As read", looks.SI), ("As exported", looks.SI), ("Differs", looks.SI)]
     listed: list[tuple[Content, ...]] = []
-    placed = {row.symbol: n + 1 for n, row in listed_rows(rows) if isinstance(row, InputRow)}
-    for _, row in listed_rows(rows):
-        if isinstance(row, InputRow):
-            line: tuple[Content, ...] = (row.symbol, row.value, shown(row.unit), row.meaning, row.allowed)
-            listed.append((*line, *(_computed(row, placed, formulas) if formulas else ())))
-        else:
-            listed.append((row,))
-    sheet = book.listing("Inputs", f"{book.title} - inputs", fields, listed)
-    if not formulas:
-        return
-    for n, row in listed_rows(rows):
+    cells = {item.symbol: f"$I${n + 1}" for n, item in listed_rows(items) if isinstance(item, InputRow)}
+    tables = grids(items)
+    read = cells | input_tables_sheet.as_read(tables)
+    for n, item in listed_rows(items):
+        match item:
+            case InputRow():
+                line: tuple[Content, ...] = (item.symbol, item.value, shown(item.unit), item.meaning, item.allowed)
+                listed.append((*line, *(_computed(item, n + 1, read, formulas) if formulas else ())))
+            case Grid():
+                listed.append((item.symbol, "", "", item.meaning, item.told, *[""] * (len(fields) - 5)))
+            case heading:
+                listed.append((heading,))
+    sheet = book.listing(_SHEET, f"{book.title} - inputs", fields, listed)
+    for n, item in listed_rows(items):
+        if isinstance(item, Grid):
+            put(sheet, n, 1, "", book.style(looks.CELL))
+            link = f"internal:{quoted_sheet(input_tables_sheet.SHEET)}!A1"
+            sheet.write_url(n, 4, link, book.style(looks.CELL, looks.LINK), item.told)
+    if formulas:
+        _live(book, sheet, items, read, formulas)
+    if tables:
+        others = {symbol: f"{_SHEET}!{cell}" for symbol, cell in cells.items()}
+        input_tables_sheet.write(book, tables, others, formulas)
+
+
+def _live(book: Book, sheet: Any, items: Sequence[Item], read: dict[str, str], formulas: SheetFormulas) -> None:
+    """What may be typed into each cell, and how many inputs differ from the exported ones."""
+    asked = set[str]()
+    for n, row in listed_rows(items):
         if isinstance(row, InputRow):
             followed = (row.leaf or row.symbol) in formulas.arrangement.followed
             if row.asked:
-                sheet.data_validation(n, 1, n, 1, _validation(row, placed))
+                asked.add(row.leaf or row.symbol)
+                sheet.data_validation(n, 1, n, 1, _validation(row, f"B{n + 1}", read))
             if isinstance(row.value, str) or not (followed and row.asked):
                 look = {**(looks.FIELD if followed and row.asked else looks.NUMBER)}
                 look |= _AS_TEXT if isinstance(row.value, str) else {}
                 put(sheet, n, 1, row.value, book.style(looks.CELL, look))
-    end = len(listed) + 2
-    changed = formulas.arrangement.changed
+        elif isinstance(row, Grid):
+            asked |= {column.symbol for column in row.columns}
+    place = formulas.arrangement.changed
     text, small = book.style(looks.TEXT), book.style(looks.SI)
-    put(sheet, changed.row, changed.column - 2, "inputs that differ from the exported ones", text)
-    put(sheet, changed.row, changed.column, Live(f"=SUM(K3:K{end})", 0.0), small)
-    put(sheet, changed.row, changed.column + 2, changed.name, text)
-    if not {row.leaf or row.symbol for row in rows if row.asked} <= formulas.arrangement.followed:
-        put(sheet, changed.row + 1, 0, _FOLLOWED, book.style(looks.NOTE))
+    put(sheet, place.row, place.column - 2, "inputs that differ from the exported ones", text)
+    differing = ",".join([f"K3:K{max(place.row, 3)}", *input_tables_sheet.differing(grids(items))])
+    put(sheet, place.row, place.column, Live(f"=SUM({differing})", 0.0), small)
+    put(sheet, place.row, place.column + 2, place.name, text)
+    if not asked <= formulas.arrangement.followed:
+        put(sheet, place.row + 1, 0, _FOLLOWED, book.style(looks.NOTE))
 
 
-def listed_rows(rows: Sequence[InputRow]) -> Iterator[tuple[int, InputRow | str]]:
+def listed_rows(items: Sequence[Item]) -> Iterator[tuple[int, Item | str]]:
     """Inputs and the headings of their sections, with the rows of the sheet in which they stand."""
     n = 2
-    for section, members in groupby(rows, key=lambda row: row.section):
+    for section, members in groupby(items, key=lambda item: item.section):
         for item in [section, *members] if section else members:
             yield n, item
             n += 1
 
 
-def _computed(row: InputRow, placed: dict[str, int], formulas: SheetFormulas) -> tuple[Content, ...]:
+def _computed(row: InputRow, n: int, read: dict[str, str], formulas: SheetFormulas) -> tuple[Content, ...]:
     """Value in SI, its unit and name, the number read and the exported one, and whether they differ."""
-    n, node, factor = placed[row.symbol], formulas.recording.inputs[row.leaf or row.symbol], parse(row.unit).factor
-    read = f"I{n}"
-    units = [row.unit, shown(row.unit), *([""] if row.unit == "-" else [])]
-    same = ",".join(f"EXACT(TRIM(C{n}),{quoted(unit)})" for unit in dict.fromkeys(units))
-    rules = [f"OR({same})", f"ABS({read})<={written(MOST)}", *_rules(row, read, placed)]
-    if row.leaf and row.asked:  # rows that are added are not followed
-        rules.append(f'COUNTIF($A:$A,"{row.leaf} (*")={node.size}')
+    node = formulas.recording.inputs[row.leaf or row.symbol]
     exported: Any = node.value.reshape(-1)[row.k].item()
-    scaled = "" if factor == 1 else "*PI()/180" if factor == math.pi / 180 else f"*{factor!r}"
-    if exported is True or exported is False:
-        scaled = "=1"
-    value = Live(f"=IF(AND({','.join(rules)}),{read}{scaled},NA())", exported)
+    rules = list(input_formulas.limits(row.limits, row.whole, f"I{n}", read))
+    truth = exported is True or exported is False
+    value = Live(input_formulas.in_si(f"I{n}", f"C{n}", row.unit, rules, truth), exported)
     number = exported + 0 if isinstance(row.value, str) else row.value
-    as_read = Live(_option(row, f"B{n}") if isinstance(row.value, str) else _read(f"B{n}"), number)
-    differs = Live(f"=IF(ISERROR(F{n}),1,IF({read}=J{n},0,1))", 0.0)
+    held = _option(row, f"B{n}") if isinstance(row.value, str) else input_formulas.read(f"B{n}")
     name = formulas.name(node) + (f" ({row.k + 1})" if node.shape else "")
-    return value, shown(si(row.unit)), name, as_read, number, differs
-
-
-def _rules(row: InputRow, value: str, placed: dict[str, int]) -> Iterator[str]:
-    """Formulas of the limits of an input whose ``value`` stands in that cell; other inputs are taken as read."""
-    for sign, other in row.limits:
-        if (sign, other) == (">", "0"):
-            yield f"{value}>={written(LEAST)}"
-        else:
-            yield f"{value}{sign}" + (f"$I${placed[other]}" if other in placed else written(number(other)))
-    if row.whole:
-        yield f"{value}=INT({value})"
-
-
-def _read(cell: str) -> str:
-    """Formula of the number that a cell holds: a number, or a text with a decimal comma or point."""
-    text = f"TRIM({cell})"
-    strange = f"SUMPRODUCT(--ISERROR(FIND(MID({text}&REPT(0,40),ROW($1:$40),1),{_LETTERS})))"
-    plain = f'SUBSTITUTE(SUBSTITUTE({text},"−","-"),",",".")'
-    held = f'IF(AND(LEN({text})>0,LEN({text})<=40,{strange}=0),IFERROR(_xlfn.NUMBERVALUE({plain},"."," "),NA()),NA())'
-    return f"=IF(ISLOGICAL({cell}),NA(),IF(ISNUMBER({cell}),{cell},{held}))"
+    differs = Live(input_formulas.differs(f"F{n}", f"I{n}", f"J{n}"), 0.0)
+    return value, shown(si(row.unit)), name, Live(held, number), number, differs
 
 
 def _option(row: InputRow, cell: str) -> str:
@@ -194,12 +201,11 @@ def _option(row: InputRow, cell: str) -> str:
     return f"=IF(SUMPRODUCT(--{same})=1,SUMPRODUCT({same}*(ROW($1:${len(row.options)})-1)),NA())"
 
 
-def _validation(row: InputRow, placed: dict[str, int]) -> dict[str, object]:
+def _validation(row: InputRow, cell: str, read: dict[str, str]) -> dict[str, object]:
     """What a spreadsheet program takes into the cell of an input; a text is judged by its value in SI units."""
-    cell = f"B{placed[row.symbol]}"
     if isinstance(row.value, str):
         return _of_options(row)
-    rules = ",".join([f"ISNUMBER({cell})", *_rules(row, cell, placed)])
+    rules = ",".join([f"ISNUMBER({cell})", *input_formulas.limits(row.limits, row.whole, cell, read)])
     limits = f"Limits: {row.allowed}. " if row.allowed else ""
     message = allowed(f"{row.meaning} [{shown(row.unit)}]. {limits}Decimal point, or comma as text.")
     return {

@@ -30,7 +30,8 @@ class DefinedNames:
 class Place:
     """Where a quantity stands: a cell or a column, and the name that means it (in a column: the cell of its row).
 
-    The name of a column whose rows are not those of the tables means all of it: it is not ``aligned``.
+    The name of a column whose rows are not those of the tables means all of it: it is not ``aligned``. Of an input,
+    ``differs`` is how many columns further it stands whether it differs from the exported one.
     """
 
     name: str
@@ -38,6 +39,7 @@ class Place:
     row: int
     column: int
     aligned: bool = True
+    differs: int = 0
 
     def at(self, k: int = 0) -> str:
         """Address of the k-th cell."""

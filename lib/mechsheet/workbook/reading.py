@@ -2,9 +2,10 @@
 
 import difflib
 import warnings
-from collections.abc import Iterator, Sequence
+from collections.abc import Container, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from itertools import islice
+from dataclasses import dataclass, replace
+from itertools import islice, product
 from pathlib import Path
 from typing import Any
 
@@ -17,81 +18,151 @@ from mechsheet.worksheet.kinds import Choice, Input
 from mechsheet.worksheet.lists import Rows
 
 _SHEET = "Inputs"
+_TABLES = "Input tables"
 _HEADS = ("Symbol", "Value", "Unit")
 _NAME = 60  # characters by which the nearest input is looked for
-_COLUMNS = 100  # among which the headings are looked for: a sheet may have 16384
+_COLUMNS = 400  # among which the headings are looked for: a sheet may have 16384
 _EMPTY = 10_000  # empty rows, one after the other, that are passed over: a sheet may have a million
 
 _Row = tuple[int, tuple[Any, ...]]  # number of a row and the values of its cells
 
 
 def inputs(path: Path, declared: Sequence[Input]) -> dict[str, object]:
-    """Inputs by name, in display units, of the sheet Inputs; a row that was taken out keeps the worksheet's value.
+    """Inputs by name, in display units, of the sheets Inputs and Input tables.
 
-    The columns Symbol, Value and Unit are found by their headings; a value may be a number, a text such as
-    ``0,415``, or a formula that the spreadsheet program has computed. Rows are read up to the first empty one behind
-    the last input.
+    A row or a table that was taken out keeps the worksheet's value. Columns are found by their headings; a value may be
+    a number, a text such as ``0,415``, or a formula that the spreadsheet program has computed. Rows of Inputs are read
+    up to the first empty one behind the last input, those of a table as far as it has some.
 
     Raises SheetError naming the file, the cell and what it holds where that cannot be used.
     """
-    fields, found = {field.name: field for field in declared if not isinstance(field, Rows)}, dict[str, object]()
-    columns_of = {column.name: column for f in declared if isinstance(f, Rows) for column in f.columns}
-    named, several = set(fields), dict[str, dict[str, object]]()
-    places = dict[str, str]()
-    properties = {f"{f.name}.{p.name}" for f in declared if isinstance(f, Choice) for p in f.properties}
-    with _rows(path, values=True) as rows:
-        columns = _columns(path, rows)
-        for number, row in rows:
-            symbol, value, unit = (row[column] for column in columns)
-            at = [f"{get_column_letter(column + 1)}{number}" for column in columns]
-            name = _text(symbol)
-            if value is None and (not name or (name not in fields and not _text(unit))):
-                if len(found) == len(fields) and not name and not columns_of:  # rows may be added to a list
-                    break
-                continue  # an empty row, or the heading of a section
-            if name.rpartition(" (")[0] in properties:
-                continue
-            if field := columns_of.get(name.rpartition(" (")[0]):
-                fields.setdefault(name, field)
-            if name not in fields:
-                near = difflib.get_close_matches(name[:_NAME], fields, n=3, cutoff=0.5)
-                hint = f"; nearest: {', '.join(near)}" if near else ""
-                raise SheetError(f"{_at(path, at[0])}: {cut(name) or 'an empty cell'} is no input{hint}")
-            if name in places:
-                raise SheetError(f"{_at(path, at[0])}: {name} stands in {places[name]} already")
-            places[name] = at[0]
-            number_of = found if name in named else several.setdefault(fields[name].name, dict[str, object]())
-            number_of[name] = _checked(path, fields[name], value, number, columns[1])
-            if (_text(unit) or "-") not in (fields[name].unit, shown(fields[name].unit)):
-                number_of[name] = _converted(fields[name], value, _text(unit), _at(path, at[2]))
-    for field in (f for f in declared if isinstance(f, Rows)):
-        lists = {column.name: list(several[column.name].values()) for column in field.columns if column.name in several}
-        if lists:
-            found[field.name] = lists
-            try:
-                field.read(lists)
-            except SheetError as error:
-                raise SheetError(f"workbook {path}, sheet {_SHEET}: {error}") from None
+    tables = [field for field in declared if isinstance(field, Rows)]
+    fields = {field.name: field for field in declared if not isinstance(field, Rows)}
+    with _book(path, values=True) as book:
+        found = _listed(path, _rows(path, book, _SHEET), fields, [*_told_elsewhere(declared)])
+        if tables and _TABLES in book.sheetnames:
+            found |= _of_tables(path, _rows(path, book, _TABLES), tables)
     return found
 
 
-def _checked(path: Path, field: Input, value: object, row: int, column: int) -> object:
-    """The value of an input as it stands in its cell."""
-    place = _at(path, f"{get_column_letter(column + 1)}{row}")
+def _told_elsewhere(declared: Sequence[Input]) -> Iterator[str]:
+    """Names on the sheet Inputs that are none to be read there: of tables, and of the properties of options."""
+    for field in declared:
+        if isinstance(field, Choice):
+            for each, option in product(field.properties, field.options):
+                yield f"{field.name}.{each.name} ({option})"
+        elif isinstance(field, Rows):
+            yield field.name
+
+
+def _listed(
+    path: Path, rows: Iterator[_Row], fields: Mapping[str, Input], elsewhere: Container[str]
+) -> dict[str, object]:
+    """Inputs of the sheet Inputs, one a row."""
+    found, places = dict[str, object](), dict[str, str]()
+    columns = _columns(path, rows)
+    for number, row in rows:
+        symbol, value, unit = (row[column] for column in columns)
+        at = [f"{get_column_letter(column + 1)}{number}" for column in columns]
+        name = _text(symbol)
+        if value is None and (not name or (name not in fields and not _text(unit))):
+            if len(found) == len(fields) and not name:
+                break
+            continue  # an empty row, the heading of a section, or the line of a table
+        if name in elsewhere and name.endswith(")"):
+            continue
+        if name in elsewhere:
+            raise SheetError(f"{_at(path, at[1])}: the rows of {name} stand on the sheet {_TABLES}")
+        if name not in fields:
+            near = difflib.get_close_matches(name[:_NAME], fields, n=3, cutoff=0.5)
+            hint = f"; nearest: {', '.join(near)}" if near else ""
+            raise SheetError(f"{_at(path, at[0])}: {cut(name) or 'an empty cell'} is no input{hint}")
+        if name in places:
+            raise SheetError(f"{_at(path, at[0])}: {name} stands in {places[name]} already")
+        places[name] = at[0]
+        cell = _Cell(path, _SHEET, number, columns[1])
+        found[name] = _read(fields[name], value, _text(unit), cell, _Cell(path, _SHEET, number, columns[2]))
+    return found
+
+
+def _of_tables(path: Path, rows: Iterator[_Row], tables: Sequence[Rows]) -> dict[str, object]:
+    """Lists and tables of the sheet Input tables, the numbers of each column under its name and its unit."""
+    known = {column.name: column for field in tables for column in field.columns}
+    top, at = _heads(path, rows, known)
+    _, units = next(rows, (0, ()))
+    elements: dict[str, list[object]] = {name: [] for name in at}
+    for number, row in rows:
+        for field in tables:
+            names = [column.name for column in field.columns if column.name in at]
+            if all(row[at[name]] is None for name in names):
+                continue
+            for name in names:
+                column = replace(known[name], name=f"{name} ({len(elements[name]) + 1})")
+                cell, unit = _Cell(path, _TABLES, number, at[name]), _Cell(path, _TABLES, top + 1, at[name])
+                elements[name].append(_read(column, row[at[name]], _text(units[at[name]]), cell, unit))
+    found = dict[str, object]()
+    for field in tables:
+        lists = {column.name: elements[column.name] for column in field.columns if column.name in elements}
+        if lists:
+            try:
+                field.read(lists)
+            except SheetError as error:
+                raise SheetError(f"workbook {path}, sheet {_TABLES}: {error}") from None
+            found[field.name] = lists
+    return found
+
+
+def _heads(path: Path, rows: Iterator[_Row], known: Container[str]) -> tuple[int, dict[str, int]]:
+    """The row that has names of columns, and where each stands."""
+    for number, row in rows:
+        texts = [_text(value) for value in row]
+        at = {text: column for column, text in reversed([*enumerate(texts)]) if text in known}
+        if at:
+            twice = next((column for column, text in enumerate(texts) if text in known and at[text] != column), None)
+            if twice is not None:
+                place = _Cell(path, _TABLES, number, twice)
+                first = _Cell(path, _TABLES, number, at[texts[twice]])
+                raise SheetError(f"{place}: {texts[twice]} stands in {first.coordinate} already")
+            return number, at
+    return 0, {}
+
+
+@dataclass(frozen=True)
+class _Cell:
+    """A cell, the row counted from 1 and the column from 0."""
+
+    path: Path
+    sheet: str
+    row: int
+    column: int
+
+    @property
+    def coordinate(self) -> str:
+        return f"{get_column_letter(self.column + 1)}{self.row}"
+
+    def __str__(self) -> str:
+        return _at(self.path, self.coordinate, self.sheet)
+
+    def formula(self) -> str:
+        """The formula that it holds."""
+        with _book(self.path, values=False) as book:
+            rows = _rows(self.path, book, self.sheet)
+            return next((str(cells[self.column] or "") for _, cells in islice(rows, self.row - 1, self.row)), "")
+
+
+def _read(field: Input, value: object, unit: str, cell: _Cell, unit_cell: _Cell) -> object:
+    """The value of an input as it stands in its cell, with the other unit that somebody has typed beside it."""
     if value is None:
-        formula = _formula(path, row, column)
+        formula = cell.formula()
         holds = f"the formula {cut(formula)} has no value; open and save the file in the spreadsheet program"
-        raise SheetError(f"{place}: {field.name}: {holds if formula else 'the value is missing'}")
+        raise SheetError(f"{cell}: {field.name}: {holds if formula else 'the value is missing'}")
     try:
         field.read(value)
     except SheetError as error:
-        raise SheetError(f"{place}: {error}") from None
-    return value
-
-
-def _converted(field: Input, value: object, unit: str, place: str) -> str:
-    """The value of an input with the other unit that somebody has typed beside it."""
-    wrong = f"{place}: {cut(unit) or 'an empty cell'} is not the unit of {field.name}, which is {shown(field.unit)}"
+        raise SheetError(f"{cell}: {error}") from None
+    if (unit or "-") in (field.unit, shown(field.unit)):
+        return value
+    wrong = f"{unit_cell}: {cut(unit) or 'an empty cell'} is not the unit of {field.name}, which is {shown(field.unit)}"
     if not unit:
         raise SheetError(wrong)
     text = f"{value} {unit}"
@@ -112,17 +183,15 @@ def _columns(path: Path, rows: Iterator[_Row]) -> list[int]:
 
 
 @contextmanager
-def _rows(path: Path, values: bool) -> Iterator[Iterator[_Row]]:
-    """Rows of the sheet of inputs, read as they are asked for, with the values of its formulas or the formulas."""
+def _book(path: Path, values: bool) -> Iterator[Any]:
+    """The workbook, read as it is asked for, with the values of its formulas or the formulas."""
     try:
         with path.open("rb") as file, warnings.catch_warnings():
             warnings.simplefilter("ignore")  # of parts of the file that openpyxl does not keep; nothing is written back
             book = load_workbook(file, read_only=True, data_only=values)
             if _SHEET not in book.sheetnames:
                 raise SheetError(f"workbook {path} has no sheet {_SHEET}; it has {cut(', '.join(book.sheetnames))}")
-            sheet = book[_SHEET]
-            sheet.reset_dimensions()  # a file may tell others than it has
-            yield _to_the_end(path, sheet.iter_rows(max_col=_COLUMNS, values_only=True))
+            yield book
     except SheetError:
         raise
     except OSError as error:
@@ -132,26 +201,24 @@ def _rows(path: Path, values: bool) -> Iterator[Iterator[_Row]]:
         raise SheetError(f"workbook {path} is no Excel workbook, or damaged: {cut(words)}") from None
 
 
-def _to_the_end(path: Path, rows: Iterator[tuple[Any, ...]]) -> Iterator[_Row]:
-    last = 0
-    for number, row in enumerate(rows, 1):
+def _rows(path: Path, book: Any, name: str) -> Iterator[_Row]:
+    """Rows of a sheet that hold something, and the empty ones between them."""
+    sheet, last = book[name], 0
+    sheet.reset_dimensions()  # a file may tell others than it has
+    for number, row in enumerate(sheet.iter_rows(max_col=_COLUMNS, values_only=True), 1):
         if any(value is not None for value in row):
             last = number
         elif number - last > _EMPTY:
             raise SheetError(
-                f"workbook {path}, sheet {_SHEET}: over {_EMPTY} empty rows from row {last + 1}; delete them"
+                f"workbook {path}, sheet {name}: over {_EMPTY} empty rows from row {last + 1}; delete them"
             )
         yield number, row
-
-
-def _formula(path: Path, row: int, column: int) -> str:
-    with _rows(path, values=False) as rows:
-        return next((str(cells[column] or "") for _, cells in islice(rows, row - 1, row)), "")
 
 
 def _text(value: object) -> str:
     return "" if value is None else str(value).strip()
 
 
-def _at(path: Path, coordinate: str) -> str:
-    return f"workbook {path}, cell {coordinate}"
+def _at(path: Path, coordinate: str, sheet: str = _SHEET) -> str:
+    on = "" if sheet == _SHEET else f"sheet {sheet}, "
+    return f"workbook {path}, {on}cell {coordinate}"

@@ -112,10 +112,14 @@ class SheetFormulas:
 
     def outside(self) -> str:
         """Formula of how many inputs have no value in SI units."""
-        places = [(self.arrangement.places[node], node.size) for node in self.recording.inputs.values()]
-        first = min((place for place, _ in places), key=lambda place: place.row, default=None)
-        cells = first.range(0, max(place.row + size for place, size in places) - first.row - 1) if first else ""
-        return f"=SUMPRODUCT(--ISERROR({cells}))" if cells else "=0"
+        ends = dict[tuple[str, int], tuple[Place, int]]()  # of each column: its first place, and its last row
+        for node in self.recording.inputs.values():
+            place = self.arrangement.places[node]
+            first, last = ends.get((place.sheet, place.column), (place, place.row))
+            top = min(first, place, key=lambda at: at.row)
+            ends[place.sheet, place.column] = top, max(last, place.row + node.size - 1)
+        counts = [f"SUMPRODUCT(--ISERROR({first.range(0, last - first.row)}))" for first, last in ends.values()]
+        return f"={'+'.join(counts) or '0'}"
 
     def closed(self, unknown: str) -> bool:
         """Whether a found value is computed by its closed form."""

@@ -19,7 +19,7 @@ from mechsheet.workbook.book import Book
 from mechsheet.workbook.chart import Charts, Listed, same_column
 from mechsheet.workbook.content import caption
 from mechsheet.workbook.find_sheet import FoundRow
-from mechsheet.workbook.inputs_sheet import InputRow
+from mechsheet.workbook.inputs_sheet import Item
 from mechsheet.workbook.place import Place
 from mechsheet.workbook.sheet_formulas import SheetFormulas
 from mechsheet.worksheet.check import Check
@@ -30,7 +30,7 @@ from mechsheet.worksheet.table import Column, Figure, Table
 def workbook(
     title: str,
     *,
-    inputs: Sequence[InputRow],
+    inputs: Sequence[Item],
     found: Sequence[FoundRow],
     tables: Sequence[Table],
     figures: Sequence[Figure],
@@ -43,8 +43,9 @@ def workbook(
 
     Elsewhere numbers may differ in their last bits, for numpy takes other code paths on other processors.
 
-    Sheets: Front, Inputs, Find where there are found values, one for each table named by its number and title, Checks,
-    Index where the ``index`` has numbers of printed formulas or errata.
+    Sheets: Front, Inputs, Input tables where there are lists or tables among them, Find where there are found values,
+    one for each table named by its number and title, Checks, Index where the ``index`` has numbers of printed formulas
+    or errata.
     With a ``recording`` of the worksheet the cells hold formulas beside their values, and what stands behind the tables
     is listed by sections on sheets of its own at the end, in SI units, which are not printed; of the ``fixed`` checks a
     scene has set the limit.
@@ -133,14 +134,13 @@ def _formulas(
     recording: Recording,
     tables: Sequence[Table],
     sheets: Sequence[str],
-    inputs: Sequence[InputRow],
+    inputs: Sequence[Item],
     found: Sequence[FoundRow],
 ) -> SheetFormulas:
     """Formulas of a recording, the names in them defined."""
-    listed = inputs_sheet.listed_rows(inputs)
-    rows = {row.leaf or row.symbol: n for n, row in listed if isinstance(row, InputRow) and row.k == 0}
+    places, changed = inputs_sheet.places(inputs), inputs_sheet.changed(inputs)
     solved = {row.symbol: n for n, row in enumerate(found, 2)}
-    arrangement = Arrangement(recording, tables, sheets, rows, solved, looks.FIRST, book.name)
+    arrangement = Arrangement(recording, tables, sheets, places, changed, solved, looks.FIRST, book.name)
     for name, meaning in arrangement.defined:
         book.file.define_name(name, meaning)
     return SheetFormulas(arrangement)

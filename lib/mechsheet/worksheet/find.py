@@ -392,7 +392,9 @@ def _reason(words: _Words, equals: float, search: Roots, c: int) -> str:
     if np.isnan(search.interval[:, c]).any():
         return _without_numbers(words)
     if np.isnan(least):
-        return f"nothing closes for {words.unknown} in {numbers.extent(search.interval[:, c], at)}{by}"
+        nowhere = f"is NaN at each of {search.samples[c]} samples in {numbers.extent(search.interval[:, c], at)}"
+        why = "as of a group that does not close, or a square root of a negative number"
+        return f"{words.unknown}: {words.quantity} {nowhere}, {why}"
     *ends, target = numbers.apart([least, greatest, equals], unit)
     reach, after = numbers.span(ends), numbers.suffix(unit)
     if not least <= equals <= greatest:

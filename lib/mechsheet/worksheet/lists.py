@@ -14,7 +14,7 @@ from mechsheet.worksheet import data_file, errors
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.kinds import Input
 
-_MOST = 10_000  # rows
+MOST_ROWS = 10_000
 _BRIEF = 12  # rows that stand in full where all inputs are listed
 
 
@@ -47,8 +47,8 @@ class Rows(Input):
             lengths = ", ".join(f"{len(xs)} of {name}" for name, xs in given.items())
             must = "columns must be as long as each other"
             raise SheetError(f"{self.meaning} {self.name}: {must}, not {lengths}", self.name)
-        if not 0 < max(count) <= _MOST:
-            must = f"must have 1 to {_MOST} rows"
+        if not 0 < max(count) <= MOST_ROWS:
+            must = f"must have 1 to {MOST_ROWS} rows"
             raise SheetError(f"{self.meaning} {self.name} {must}, not {max(count)}", self.name)
         return {c.name: np.array([_of_row(c, k).read(x) for k, x in enumerate(given[c.name])]) for c in self.columns}
 
