@@ -275,6 +275,46 @@ def test_what_python_refuses_of_single_numbers_is_no_number(expression: str, tmp
     assert np.isnan(value_of(recording, "y", there)) and np.isnan(value_of(recording, "z", there))
 
 
+@pytest.mark.parametrize(
+    "expression", ["x.max() / (g.a - 0.5)", "-x[1] / (g.a - 0.5)", "(x - x).sum() + x[1] / (g.a - 0.5)"]
+)
+@pytest.mark.filterwarnings("ignore")
+def test_a_number_of_numpy_may_be_infinite(expression: str, tmp_path: Path) -> None:
+    sheet = own(tmp_path, f"y = {expression}  # [-] line")
+    _, recording = recorded(sheet)
+    assert value_of(recording, "y", {"a": 0.5}) == cells.evaluate(sheet.path, ["y"], a=0.5)["y"]
+
+
+@pytest.mark.parametrize(
+    ("expression", "out_of_order"),
+    [
+        ("np.interp(g.F, [0.0, g.a, 2.0, 4.0], [1.0, g.F, 7.0, 8.0])", {"a": 2.5}),
+        ("np.interp(g.a, x, x**2)", {"F": -1.0}),
+        ("np.interp(x, [0.0, g.a, g.a], [1.0, 2.0, g.F], right=9.0)", {"a": -0.5}),
+        ("np.searchsorted([0.0, g.a, 2.0], x) * 1.0", {"a": 2.5}),
+        ("np.digitize(x, [0.0, g.a, 2.0]) * 1.0", {"a": 2.5}),
+    ],
+)
+def test_what_numpy_finds_among_ordered_numbers_is_followed_while_they_are(
+    expression: str, out_of_order: dict[str, float], tmp_path: Path
+) -> None:
+    sheet = own(tmp_path, f"y = {expression}  # [-] line")
+    _, recording = recorded(sheet)
+    assert not recording.gaps
+    for given in ({}, {"a": 0.2}, {"F": 1.0}, {"n": 8}, {"a": 2.0}, {"F": 0.5, "a": 0.0}):
+        expected = cells.evaluate(sheet.path, ["y"], **given)["y"]
+        np.testing.assert_allclose(value_of(recording, "y", given), expected, rtol=1e-12, err_msg=str(given))
+    inputs = {recording.inputs[name]: x for name, x in out_of_order.items()}
+    known = numbers(recording.guards, inputs)
+    assert np.isnan(value_of(recording, "y", out_of_order)).all()
+    assert not all(known[holds] for holds in recording.guards)
+
+
+def test_among_numbers_that_are_not_in_order_nothing_is_followed(tmp_path: Path) -> None:
+    _, recording = recorded(own(tmp_path, "y = np.interp(g.a, [2.0, g.F, 1.0], [1.0, 2.0, 3.0])  # [-] line"))
+    assert "not in order" in recording.gaps[0].reason and np.isnan(value_of(recording, "y", {"F": 3.0}))
+
+
 ARRAYS = {
     "fit": "np.polyfit(x, np.sin(x) + g.a, 3)",
     "line": "np.polyfit([0.0, 1.0, 2.0, 4.0], [g.F, 1.0, g.a, 2.0], 1, w=[1.0, g.F, 2.0, 1.0])",

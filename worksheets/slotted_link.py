@@ -462,9 +462,8 @@ def strokes(A, B, g, phi1_k, u):
     start = np.min(phi1_k)
     turned = {"e1": start + (phi_e1 - start) % (2 * pi), "e2": start + (phi_e2 - start) % (2 * pi)}
     ends = {name: float(x) for name, x in turned.items() if isfinite(x)}
-    what = "the link touches the crank's circle" if g.L1 < g.L0 else "the link lies along the x axis"
-    checks_strokes = tuple(
-        check(f"at the end {e}: {what}", dot(u(x), exp(1j * x)) if g.L1 < g.L0 else u(x).imag, 1e-12, of=1)
+    checks_strokes = tuple(  # the link touches the crank's circle there, or lies along the x axis
+        check(f"the link turns back at {e}", dot(u(x), exp(1j * x)) if g.L1 < g.L0 else u(x).imag, 1e-12, of=1)
         for e, x in ends.items()
     )
     typeset(*checks_strokes)

@@ -44,7 +44,7 @@ def html(value: Any, page: Follower) -> str:
 def _(title: Title, page: Follower) -> str:
     cells = (("Worksheet", escape(title.file)), ("Computed", f"{date.today():%Y-%m-%d}"))
     told = "".join(f"<span>{label} <b>{value}</b></span>" for label, value in cells)
-    text = markdown.html(cleandoc(title.text))
+    text = page.own(markdown.html(cleandoc(title.text)), cleandoc(title.text))
     return f'<header class="ms-title"><h1>{escape(title.name)}</h1>{text}<div class="ms-row">{told}</div></header>'
 
 
@@ -52,7 +52,7 @@ def _(title: Title, page: Follower) -> str:
 def _(section: Section, page: Follower) -> str:
     level = min(section.level, 6)
     title = markdown.html(section.title).removeprefix("<p>").removesuffix("</p>")
-    return f'<h{level} id="{anchor(section.title)}">{title}</h{level}>'
+    return f'<h{level} id="{anchor(section.title)}">{page.own(title, section.title)}</h{level}>'
 
 
 def anchor(title: str) -> str:

@@ -5,7 +5,7 @@ import base64
 import hashlib
 import json
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from html import escape, unescape
 from inspect import cleandoc
 from pathlib import Path
@@ -27,6 +27,8 @@ from mechsheet.worksheet.title import Title
 
 _HERE = Path(__file__).parent
 _SCRIPTS = ("format.js", "chart.js", "fields.js", "found.js", "page.js", "moved.js", "tip.js", "start.js")
+_SHOWING = {"md", "title_block", "table", "figure", "caption"}  # calls whose texts a page shows
+_CHOICES = (ast.IfExp, ast.BoolOp, ast.Subscript, ast.If, ast.For, ast.While, ast.Match, ast.FunctionDef, ast.Lambda)
 _STUDIES = ("mechsheet.accuracy.", "mechsheet.studies.")
 # The page asks for nothing: what it shows and runs stands in it.
 _POLICY = (
@@ -84,10 +86,21 @@ def studies(sheet: Worksheet) -> str:
 
 def _cell(n: int, parts: Iterable[Any], cell: Cell, follower: Follower, moving: Iterable[Moved]) -> str:
     """HTML of what a cell shows."""
-    nodes = (node for line in cell.lines for node in ast.walk(line) if isinstance(node, ast.Constant))
-    follower.texts = tuple(cleandoc(node.value) for node in nodes if isinstance(node.value, str))
+    follower.texts = tuple(text for line in cell.lines for text in _as_written(line))
     follower.depends = bool(cell.needs)
     return "".join(_part((n, k), part, follower, moving) for k, part in enumerate(parts))
+
+
+def _as_written(node: ast.AST) -> Iterator[str]:
+    """Texts that stand in a cell as they are shown, whatever the inputs are."""
+    if isinstance(node, _CHOICES):
+        return
+    match node:
+        case ast.Call(ast.Name(name) | ast.Attribute(attr=name), args, keywords) if name in _SHOWING:
+            values = (*args, *(keyword.value for keyword in keywords))
+            yield from (cleandoc(v.value) for v in values if isinstance(v, ast.Constant) and isinstance(v.value, str))
+    for part in ast.iter_child_nodes(node):
+        yield from _as_written(part)
 
 
 def _part(at: tuple[int, int], part: Any, follower: Follower, moving: Iterable[Moved]) -> str:

@@ -107,7 +107,8 @@ def _number(node: Node, known: Mapping[Node, Values], solved: dict[Block | Loop,
     if node.op != "found":
         values = [known[operand] for operand in node.operands]
         made = np.asarray(_RULES[node.op](node, *values))
-        if node.op in _REFUSED and made.shape == () and np.isinf(made) and np.isfinite(values).all():
+        refused = node.op in _REFUSED and made.shape == () and np.isinf(made) and np.isfinite(values).all()
+        if refused and not _of_arrays(node):
             return np.asarray(np.nan)
         return made
     block, number = node.args
@@ -117,6 +118,20 @@ def _number(node: Node, known: Mapping[Node, Values], solved: dict[Block | Loop,
 
 
 _REFUSED = ("div", "pow", "log", "exp")  # by Python, where one number of single ones is infinite
+
+
+def _of_arrays(node: Node) -> bool:
+    """Whether a number is computed from elements of arrays, by numpy, which refuses nothing."""
+    waiting = [node]
+    while waiting:
+        part = waiting.pop()
+        if part.shape:
+            return True
+        waiting += part.operands if part.op in ELEMENTWISE or part.op in _ELEMENTS else ()
+    return False
+
+
+_ELEMENTS = ("take", "at", "reduce")
 
 
 def _repeated(loop: Loop, known: Mapping[Node, Values]) -> list[Values]:

@@ -163,15 +163,26 @@ def _interpolated(graph: Graph, x: Any, xp: Any, fp: Any, left: Any = None, righ
     if xp.extent == (1,):
         graph.measure(xp.re)
         return fp[0] + 0 * x
+    _in_order(graph, xp)
     piece = np.clip((xp <= x[..., None]).reduced("sum", -1) - 1, 0, xp.count() - 2)
     start, end, low, high = xp[piece], xp[piece + 1], fp[piece], fp[piece + 1]
     inside = low + (x - start) / (end - start) * (high - low)
+    inside = choice(graph, x == xp[-1], fp[-1], inside)  # though others before it may be as great
     below = choice(graph, x < xp[0], fp[0] if left is None else left, inside)
     return choice(graph, x > xp[-1], fp[-1] if right is None else right, below)
 
 
+def _in_order(graph: Graph, x: Quantity) -> None:
+    """Note that numbers do not fall: of others nobody knows what numpy finds among them."""
+    rising = (x[:-1] <= x[1:]).reduced("all")
+    if not rising.value:
+        raise NotRecorded("numbers that are not in order")
+    graph.see(rising.re)
+
+
 def _searched(graph: Graph, a: Any, v: Any, side: str = "left") -> Any:
     a, v = lift(graph, a), lift(graph, v)
+    _in_order(graph, a)
     below = a < v[..., None] if side == "left" else a <= v[..., None]
     return below.reduced("sum", -1)
 

@@ -116,10 +116,9 @@ class _Run:
         codes = [facts.code, *(f.__code__ for f in functions if f.__globals__ is self.names)]
         touched = dict.fromkeys([*facts.touched, *chain.from_iterable(map(statement.shared_names, codes))])
         final = {name for name in touched if name not in later and not name.startswith("_")}
-        texts = {name for name in reads if isinstance(self.names.get(name), str)}
         rests, shown = (
             {guard.holds: guard for name in names for guard in self.looked.get(name, ())}
-            for names in (reads, reads - texts)
+            for names in (reads, self.read(facts.heard))
         )
         before = Memory((self.names.get(name) for name in reads - {"g"}), self.names)
         may_change = any(map(changes, codes))
@@ -142,6 +141,7 @@ class _Run:
             self.keep(stage, touched, final, self.why(error, reads), rests_on)
             beside = before.named(self.names, before.changed() | (before.mutable() if may_change else set()))
             self.lose(stage, beside.difference(touched), later, self.why(error, reads))
+            stage.finish(lambda x: x)
             return
         ways = may_change and bool(graph.looked)  # of which others change more
         beside = before.named(self.names, before.changed() | (before.mutable() if ways else set())).difference(touched)

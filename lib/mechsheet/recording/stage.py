@@ -29,6 +29,7 @@ class Stage:
         self.graph, self.recording, self.namespace, self.cell = recording.graph, recording, namespace, cell
         self.solved: list[Solved] = []
         self.shown_now: list[tuple[dict[str, Any], str]] = []  # by the statement that is run
+        self.solved_now: list[Solved] = []  # by it, or given their closed form
         given = [namespace.get(name) for name in cell.gives]
         self.real = [v for group in given for v in (group if isinstance(group, tuple | list) else [group])]
 
@@ -98,6 +99,7 @@ class Stage:
             key = (name if isinstance(own, Solution) else "") + solved.words.unknown
             self.shown_now.append((self.recording.found, key))
             self.recording.found[key] = solved
+            self.solved_now.append(solved)
 
     def closed_form(self, found: solving.Solving, value: Any = None, tolerance: float = 1e-10, **values: Any) -> Any:
         for solved in found.solved:
@@ -115,6 +117,7 @@ class Stage:
             within = (value >= low * (1 - slack)) & (value <= high * (1 + slack))
             inside = np.where(within, value, np.nan)
         solved.inverse = inside.re
+        self.solved_now.append(solved)
         words = solved.words
         self.check(f"{words.unknown}: Find and the closed form", value - found, tolerance, words.unknown_unit, of=found)
 
@@ -155,7 +158,10 @@ class Stage:
         """Take back what the present statement has shown."""
         for place, key in self.shown_now:
             place.pop(key, None)
+        for solved in self.solved_now:
+            solved.inverse = None
         self.shown_now.clear()
+        self.solved_now.clear()
 
     def finish(self, f: Callable[[Quantity], Quantity]) -> None:
         """End the present statement, with a function of every quantity that it has shown."""
@@ -174,7 +180,13 @@ class Stage:
                 recording.checks[key] = replace(check, parts=[of(p) for p in check.parts], limit=limit)
             elif place is recording.marks:
                 recording.marks[key] = {name: of(node) for name, node in recording.marks[key].items()}
+        for solved in self.solved_now:
+            solved.residual, solved.inverse, solved.target = (
+                node and of(node) for node in (solved.residual, solved.inverse, solved.target)
+            )
+            solved.interval = solved.interval and (of(solved.interval[0]), of(solved.interval[1]))
         self.shown_now.clear()
+        self.solved_now.clear()
 
     def same(self, value: Any, own: Any) -> bool:
         """Whether a recorded value has the worksheet's own numbers, but for the rounding of what it is made of."""

@@ -4,13 +4,22 @@ import ast
 import dis
 from collections.abc import Iterable, Iterator
 from functools import lru_cache
+from inspect import signature
 from types import CodeType
 from typing import NamedTuple
 
 from mechsheet.recording.rewritten import compiled
 from mechsheet.worksheet.cells import bound
+from mechsheet.worksheet.check import Check, check, check_slope
+from mechsheet.worksheet.find import find
+from mechsheet.worksheet.system import minerr
+from mechsheet.worksheet.table import figure, table
 
 _TEXTS = {"typeset", "print"}  # calls whose result stands on the page alone
+_ARGUMENTS = {
+    f.__name__: list(signature(f).parameters) for f in (Check, check, check_slope, find, minerr, table, figure)
+}
+_BESIDE = {"unit", "unknown_unit", "show", "reason"}  # arguments that no writer shows beside numbers of other inputs
 
 
 class Statement(NamedTuple):
@@ -19,6 +28,7 @@ class Statement(NamedTuple):
     code: CodeType
     touched: tuple[str, ...]  # names that it binds, or whose value it changes
     loaded: frozenset[str]
+    heard: frozenset[str]  # of these what it takes for more than the units and the reasons of what it shows
     parts: frozenset[str]  # attributes that it reads, of whatever
     whole: bool  # whether it hands on the inputs as a whole
 
@@ -29,13 +39,24 @@ def facts(statement: ast.stmt, path: str) -> Statement:
     attributes = [n for n in nodes if isinstance(n, ast.Attribute)]
     names = [n for n in nodes if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Load)]
     of_parts = {id(n.value) for n in attributes}
+    beside = {id(n) for argument in _beside(nodes) for n in ast.walk(argument)}
     return Statement(
         compiled(statement, path),
         tuple(dict.fromkeys([*bound(statement), *_changed(nodes)])),
         frozenset(n.id for n in names),
+        frozenset(n.id for n in names if id(n) not in beside),
         frozenset(n.attr for n in attributes),
         any(n.id == "g" and id(n) not in of_parts for n in names),
     )
+
+
+def _beside(nodes: Iterable[ast.AST]) -> Iterator[ast.expr]:
+    """Arguments that are the unit or the reason of what is shown: the one stays right, the other goes."""
+    for node in nodes:
+        match node:
+            case ast.Call(ast.Name(name), args, keywords) if name in _ARGUMENTS:
+                yield from (arg for role, arg in zip(_ARGUMENTS[name], args, strict=False) if role in _BESIDE)
+                yield from (keyword.value for keyword in keywords if keyword.arg in _BESIDE)
 
 
 def on_the_page(statement: ast.stmt) -> bool:

@@ -1,0 +1,135 @@
+"""A text that is chosen by an input names numbers of these inputs alone: with others there is no number under it."""
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from own_worksheet import own, recorded
+
+from mechsheet.html import write
+from mechsheet.recording.lines import Recording
+from mechsheet.recording.node import Node
+from mechsheet.recording.numbers import numbers
+from mechsheet.worksheet import cells
+
+CHOSEN = {  # how a text comes from the inputs; other inputs of OTHER give another one, and some the same
+    "expression": "said = 'low' if g.F < 3 else 'high'",
+    "statement": "said = 'low'\nif g.F > 3:\n    said = 'high'",
+    "list": "said = ['low', 'high'][int(g.F > 3)]",
+    "dictionary": "said = {0: 'zero', 1: 'one', 2: 'low', 3: 'high'}[g.k]",
+    "number": "said = f'{np.round(g.F, 0):.0f}'",
+    "match": "match int(g.F):\n    case 3:\n        said = 'high'\n    case _:\n        said = 'low'",
+    "function": "def word():\n    return 'low' if g.F < 3 else 'high'\nsaid = word()",
+    "pair": "pair = ('low', 'd') if g.F < 3 else ('high', 'u')\nsaid = pair[0]",
+    "method": "said = 'low high'.split()[int(g.F // 3)]",
+    "loop": "said = ''\nfor v in (1.0, 3.0):\n    if g.F > v:\n        said += 'i'",
+    "array": "said = 'all' if np.all(x < 6) else 'some'",
+}
+SHOWN = {  # where it stands
+    "check": "check_2 = check(f'stress is {said}', y, 9.0)",
+    "Check": "check_2 = Check(said, float(np.max(y)), 9.0)",
+    "check of a constant": "check_2 = check(said, 1.0, 9.0)",
+    "checks of a list": "checks_2 = tuple(check(f'{part}: {said}', y, 9.0) for part in ('a', 'b'))",
+    "title of a table": "table_2 = table('2', f'Forces, {said}', y)",
+    "number of a table": "table_2 = table(said, 'Forces', y)",
+    "note of a table": "table_2 = table('2', 'Forces', y, note=said)",
+    "title of a figure": "figure_2 = figure('2', said, x, y)",
+    "mark of a figure": "figure_2 = figure('2', 'Forces', x, y, marks={said: x[1]})",
+    "quantity of a find": "t_found = find(lambda t: t * g.a - g.F, 0, 99, unknown='t', quantity=said)",
+    "unknown of a find": "t_found = find(lambda t: t * g.a - g.F, 0, 99, unknown=said)",
+    "closed form of a find": (
+        "t_found = find(lambda t: t * g.a - g.F, 0, 99, unknown=said)\ncheck_2 = closed_form(t_found, g.F / g.a)"
+    ),
+    "a function of its own": "def shown(word):\n    return check(word, y, 9.0)\ncheck_2 = shown(said)",
+}
+OTHER: list[dict[str, Any]] = [{"F": 2.6}, {"F": 3.25, "k": 3}, {"F": 3.5, "k": 0}, {"F": 1.75, "a": 1.5, "k": 1}]
+
+
+def held(recording: Recording) -> list[Node]:
+    """The quantities that stand under a text: those of the last table, figure, check or found value."""
+    columns = [c for number, table in recording.tables.items() if number != "1" for c in table if c is not None]
+    nodes = [part for column in columns for part in column.parts]
+    nodes += [part for check in recording.checks.values() for part in check.parts]
+    nodes += [node for marks in recording.marks.values() for node in marks.values()]
+    for solved in recording.found.values():
+        nodes += [n for n in (solved.residual, solved.inverse, solved.target, *(solved.interval or ())) if n]
+    return nodes
+
+
+def sheet_of(tmp_path: Path, chosen: str, shown: str) -> cells.Worksheet:
+    lines = f"y = np.sin(x) * g.a  # [-] result\n{CHOSEN[chosen]}\n{SHOWN[shown]}"
+    sheet = own(tmp_path, lines)
+    path = Path(sheet.path)
+    text = path.read_text().replace("import ask, find", "import Check, ask, check, closed_form, find", 1)
+    path.write_text(text.replace("    table_1 = table", "    said_now = said\n    table_1 = table"))
+    return cells.load(path)
+
+
+@pytest.mark.parametrize(
+    ("chosen", "shown"),
+    [(c, s) for n, c in enumerate(CHOSEN) for k, s in enumerate(SHOWN) if (n - k) % 5 == 0 or c == "expression"],
+)
+def test_no_number_stands_under_the_text_of_other_inputs(chosen: str, shown: str, tmp_path: Path) -> None:
+    sheet = sheet_of(tmp_path, chosen, shown)
+    names, recording = recorded(sheet)
+    nodes, same = held(recording), set[bool]()
+    assert nodes and not recording.gaps
+    for given in ({}, *OTHER):
+        inputs = {recording.inputs[name]: float(x) for name, x in given.items()}
+        known = numbers([*nodes, *recording.guards], inputs)
+        as_it_was = cells.evaluate(sheet.path, ["said_now"], **given)["said_now"] == names["said"]
+        guarded = not all(known[guard].all() for guard in recording.guards)
+        numbered = [bool(np.isfinite(known[node]).all()) for node in nodes]
+        assert as_it_was or (guarded and not any(numbered)), given
+        assert given or (not guarded and all(numbered))
+        same.add(as_it_was)
+    assert same == {True, False}
+
+
+@pytest.mark.parametrize(
+    "shown",
+    [
+        "check_2 = check('stress', y, 9.0, 'N' if False else unit)",
+        "check_2 = Check('stress', float(np.max(y)), 9.0, reason=said)",
+        "check_2 = Check('stress', float(np.max(y)), 9.0, unit, said)",
+        "table_2 = table('2', 'Forces', y, show={'y': unit})",
+    ],
+)
+def test_units_and_reasons_leave_a_number_as_it_is(shown: str, tmp_path: Path) -> None:
+    """A number in the unit that was chosen is right beside that unit, and a reason goes with other inputs."""
+    SHOWN["beside"] = f"unit = 'deg' if g.F < 3 else 'rad'\n{shown}"
+    sheet = sheet_of(tmp_path, "expression", "beside")
+    _, recording = recorded(sheet)
+    nodes = held(recording)
+    assert nodes and all(guard.rows for guard in recording.guards.values())
+    known = numbers(nodes, {recording.inputs["F"]: 3.25})
+    assert all(np.isfinite(known[node]).all() for node in nodes)
+
+
+@pytest.mark.parametrize(
+    ("text", "follows"),
+    [
+        ("mo.md('plain words')", False),
+        ("caption('2', 'plain words')", False),
+        ("caption('2', title='plain words')", False),
+        ("mo.md('plain words' if g.F < 3 else 'other words')", True),
+        ("mo.md(['plain words', 'other words'][int(g.F // 3)])", True),
+        ("mo.md((g.F < 3 and 'plain words') or 'other words')", True),
+        ("mo.md('### plain words' if g.F < 3 else '### other words')", True),
+        ("caption('2', 'plain words' if g.F < 3 else 'other words')", True),
+        ("caption('2', {0: 'other words'}.get(g.k, 'plain words'))", True),
+        ("title_block('Machine', 'plain words' if g.F < 3 else 'other words')", True),
+    ],
+)
+def test_a_page_takes_away_the_text_of_other_inputs(text: str, follows: bool, tmp_path: Path) -> None:
+    path = Path(own(tmp_path, "y = g.F * x  # [-] result").path)
+    cell = f"    return\n\n@app.cell\ndef words(g):\n    {text}\n    return\n\nif __name__"
+    source = path.read_text().replace("import ask, find", "import ask, caption, find, title_block", 1)
+    source = source.replace("    from mechsheet import", "    import marimo as mo\n    from mechsheet import", 1)
+    path.write_text(source.replace("    return\n\nif __name__", cell))
+    sheet = cells.load(path)
+    page = write.page(sheet, sheet.inputs())
+    before = page[: page.index("plain words", page.index("</nav>"))]
+    last = max(before.rfind(f"<{kind}") for kind in ("span data-n", "div", "h1", "b>Figure"))
+    assert before[last:].startswith("<span data-n") == follows
