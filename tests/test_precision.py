@@ -170,7 +170,7 @@ def test_table_shows_texts_powers_and_the_workbook_keeps_them():
     assert "[]" not in page
     assert list(table.frame().columns) == [
         *("method", "setting", "error [-]", "digits [-]", "time [ms]", "ratio [-]", "place"),
-        *("low [ms]", "high [ms]", "runs [-]"),
+        *("spread [%]", "runs [-]"),
     ]
 
 

@@ -72,13 +72,10 @@ class Measured:
 
 
 def time_spread(times: Sequence[Timed | Measured]) -> tuple[Column, ...]:
-    """Columns of the quartiles of run times and of how many were taken."""
-    low, high, runs = np.array([(t.low, t.high, t.runs) for t in times]).T
-    return (
-        Column("low", "ms", "lower quartile of the run times", 3, 1e3 * low),
-        Column("high", "ms", "upper quartile of the run times", 3, 1e3 * high),
-        Column("runs", "-", "run times taken", 0, runs),
-    )
+    """Columns of how far run times lie apart, and of how many were taken."""
+    seconds, low, high, runs = np.array([(t.seconds, t.low, t.high, t.runs) for t in times]).T
+    apart = "half of what lies between the quartiles of the run times, over their median"
+    return Column("spread", "%", apart, 0, 50 * (high - low) / seconds), Column("runs", "-", "run times taken", 0, runs)
 
 
 @dataclass(frozen=True)
@@ -218,7 +215,7 @@ def measured_on(number: str) -> Table:
     """Table of what the run times were measured on."""
     cores = np.array([os.cpu_count() or 1])
     facts = {"processor": platform.processor() or platform.machine(), "system": platform.system()}
-    facts |= {"Python": platform.python_version(), "numpy": np.__version__}
+    facts |= {"software": f"Python {platform.python_version()}, numpy {np.__version__}"}
     columns = (Column(name, "", "", 0, np.array([fact], object)) for name, fact in facts.items())
     return Table(number, "Machine of the run times", (Column("cores", "-", "of the machine", 0, cores), *columns))
 
