@@ -187,6 +187,13 @@ def test_less_is_run_for_less():
     assert cells["lifting capacity"] < cells["whole document"] / 2
 
 
+def test_studies_stand_beside_what_is_kept_of_a_run():
+    table = jobs.study_costs("8", WORKSHEET.with_name("slotted_link.py"), {"nothing": int}, 1e-6)
+    study, time, _, runs = (column.values for column in table.columns)
+    assert list(study) == ["nothing", "formulas of a run recorded", "all its digits proved", "its workbook written"]
+    assert np.all(time[1:] > time[0]) and np.all(runs >= 1)
+
+
 def test_every_worksheet_is_measured_at_every_size():
     rows = run("rows_5")["rows_5"]
     sheets = {path.stem for path in WORKSHEET.parent.glob("*.py")} - {

@@ -11,9 +11,12 @@ from numpy import linspace, pi
 
 from mechsheet.accuracy import exact, printed, rivals
 from mechsheet.accuracy.arithmetic import Numbers
-from mechsheet.accuracy.precision import Job, Measured, Method, Timed, largest_error, timed
+from mechsheet.accuracy.precision import Job, Measured, Method, Timed, largest_error, time_spread, timed
 from mechsheet.accuracy.rivals import REACTIONS, crank_chain, hitch_chain, hitch_points
+from mechsheet.recording.record import record
+from mechsheet.run import report
 from mechsheet.run.progress import progress
+from mechsheet.run.proving import proof_of
 from mechsheet.worksheet.cells import Worksheet, load, results
 from mechsheet.worksheet.lines import registry
 from mechsheet.worksheet.table import Column, Table
@@ -202,11 +205,40 @@ def whole_worksheets(folder: Path, sizes: Sequence[int], seconds: float) -> list
     return [whole(*case, t) for case, t in zip(cases, made, strict=True)]
 
 
-def asked_costs(path: Path, asked: Iterable[Sequence[str]], seconds: float) -> list[tuple[int, Timed]]:
-    """Cells run and run times for the results asked for of a worksheet; of the whole document for no names."""
-    sheet = load(path)
+def asked_costs(number: str, path: Path, asked: Mapping[str, Sequence[str]], seconds: float) -> Table:
+    """Table of the cells run and the run times for results asked for; no names ask for the whole document, at last."""
+    sheet, title = load(path), "Cost of what is asked for"
     given = {"g": sheet.inputs()}
-    whole = [name for name in results(sheet.path) if name not in ("form", "g")]
-    wants = [list(names) or whole for names in asked]
-    times = timed([lambda want=want: sheet.run(want, given) for want in wants], seconds)  # type: ignore[misc]
-    return [(len(sheet.needed(want, given)), time) for want, time in zip(wants, times, strict=True)]
+    wants = [list(names) or [name for name in sheet.results if name != "form"] for names in asked.values()]
+    time, *apart = _run_times(f"{number} {title}", [partial(sheet.run, want, given) for want in wants], seconds)
+    cells = np.array([len(sheet.needed(want, given)) for want in wants], float)
+    columns = (
+        Column("asked for", "", "", 0, np.array(list(asked), object)),
+        Column("cells", "-", "cells run", 0, cells),
+        Column("of all", "%", "cells run over those of the whole document", 0, 100 * cells / cells[-1]),
+        time,
+        Column("of whole", "%", "time over that of the whole document", 0, 100 * time.values / time.values[-1]),
+    )
+    return Table(number, title, (*columns, *apart))
+
+
+def study_costs(number: str, path: Path, studies: Mapping[str, Callable[[], Any]], seconds: float) -> Table:
+    """Table of the run times of studies, of a recording of a worksheet's run, of its proof and of its workbook."""
+    sheet, title = load(path), "Cost of studies"
+    names = sheet.run(sheet.results, {"g": sheet.inputs()}) | {"__file__": str(path)}
+    ways = {
+        **studies,
+        "formulas of a run recorded": partial(record, names, sheet),
+        "all its digits proved": partial(proof_of, names, sheet, record(names, sheet)),
+        "its workbook written": partial(report.workbook, path.stem, names, {}),
+    }
+    study = Column("study", "", "", 0, np.array(list(ways), object))
+    return Table(number, title, (study, *_run_times(f"{number} {title}", list(ways.values()), seconds)))
+
+
+def _run_times(job: str, runs: Sequence[Callable[[], Any]], seconds: float) -> tuple[Column, ...]:
+    """Columns of the medians of run times, of their spread and of their number."""
+    with progress(len(runs), job) as done:
+        taken = timed(runs, seconds, done)
+    ms = 1e3 * np.array([time.seconds for time in taken])
+    return Column("time", "ms", "median of the run times", 1, ms), *time_spread(taken)
