@@ -9,7 +9,7 @@ import test_joint
 import test_kinetostatics_sheet
 import test_slotted_link
 
-from mechsheet.accuracy import chain, exact, extreme, rivals, whole
+from mechsheet.accuracy import exact, extreme, jobs, rivals
 from mechsheet.accuracy.arithmetic import mp
 from mechsheet.accuracy.precision import largest_error
 from mechsheet.mechanics import rrr
@@ -37,7 +37,7 @@ S = np.linspace(HITCH.S_min, HITCH.S_max, 10)
 
 @pytest.fixture(scope="module")
 def hitch():
-    return chain.hitch_chain(HITCH, FOUND["L4"], FOUND["L7"])
+    return rivals.hitch_chain(HITCH, FOUND["L4"], FOUND["L7"])
 
 
 @pytest.fixture(scope="module")
@@ -74,7 +74,7 @@ def test_derivatives_finds_and_reactions_are_compared_by_every_method(hitch):
 @pytest.mark.parametrize("family", ["Newton", "fsolve, each position", "solve_ivp RK45", "solve_ivp Radau"])
 def test_an_iteration_reaches_its_tolerance_and_no_more_without_need(positions, hitch, family):
     """A method that returned the library's own numbers would be exact at any tolerance."""
-    pins = chain.inner_pins(hitch, S)
+    pins = hitch.pins(S)
     loose = next(m for m in positions if m.family == family)
     tight = next(m for m in positions if m.family == family and float(m.setting) < 1e-8)
     errors = [np.max(abs(m.run() - pins)) for m in (loose, tight)]
@@ -138,7 +138,7 @@ def test_balancing_moment_by_work_is_that_of_the_dense_system(phi1):
 def test_forces_of_the_joint_are_those_of_its_equilibria():
     sheet = load(WORKSHEET.with_name("joint.py"))
     names = sheet.run(["P", "A_t", "A_c"], {"g": sheet.inputs()})
-    found = iter(whole.exact_results("joint", names, [])["P"])
+    found = iter(jobs.exact_results("joint", names, [])["P"])
     for plane in (0, 1):
         for case in (0, 1):
             y = names["y"][plane, 0]
@@ -185,6 +185,13 @@ def test_less_is_run_for_less():
     cells = dict(zip(table.columns[0].values, table.columns[1].values, strict=True))
     assert cells["lift arm's angle as a function"] < cells["length of the lifting rod"] < cells["lifting capacity"]
     assert cells["lifting capacity"] < cells["whole document"] / 2
+
+
+def test_studies_stand_beside_what_is_kept_of_a_run():
+    table = jobs.study_costs("8", WORKSHEET.with_name("slotted_link.py"), {"nothing": int}, 1e-6)
+    study, time, _, runs = (column.values for column in table.columns)
+    assert list(study) == ["nothing", "formulas of a run recorded", "all its digits proved", "its workbook written"]
+    assert np.all(time[1:] > time[0]) and np.all(runs >= 1)
 
 
 def test_every_worksheet_is_measured_at_every_size():

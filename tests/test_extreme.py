@@ -10,8 +10,7 @@ from hypothesis import Phase, assume, given, target
 from hypothesis import strategies as st
 
 from mechsheet.accuracy import exact, extreme, printed
-from mechsheet.accuracy.arithmetic import equations, pin, reactions, sign
-from mechsheet.accuracy.condition import conditions, undecided
+from mechsheet.accuracy.arithmetic import conditions, equations, pin, reactions, sign, undecided
 from mechsheet.mechanics.load import Load
 from mechsheet.mechanics.planar import cross
 from mechsheet.mechanics.rrr import RRRReactions, rrr_reactions

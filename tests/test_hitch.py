@@ -120,8 +120,7 @@ def test_truth_is_in_equilibrium(S):
 def test_truth_solves_the_three_finds():
     g = hitch.Hitch()
     found = exact.finds(g)
-    low = exact.geometry(g, g.S_min, found["L4"], found["L7"])
-    work = exact.geometry(g, found["S_p"], found["L4"], found["L7"])
+    low, work = (exact.hitch(g, S, **found) for S in (g.S_min, found["S_p"]))
     for value, wanted in ((low["P56_S"].imag, g.Y56_min), (work["P56_S"].imag, g.Y_P56), (work["phi6_S"], g.phi_P6)):
         assert abs(value - wanted) < mp.mpf(10) ** -exact.DIGITS
 

@@ -62,6 +62,23 @@ def test_place_beside_the_own_method(error, seconds, place):
     assert job(row := Measured("other", "", error, seconds)).place(row) == place
 
 
+@pytest.mark.parametrize(
+    ("error", "low", "high", "place"),
+    [
+        (3e-16, 0.5, 0.8, "faster, the same digits"),
+        (3e-16, 0.5, 0.9, "no difference"),
+        (1e-10, 0.5, 1.0, "the same time, fewer digits"),
+        (1e-18, 0.5, 1.0, "no difference"),  # both are rounding
+    ],
+)
+def test_times_whose_quartiles_overlap_are_no_difference(error, low, high, place):
+    own = Measured("own", "", 3e-16, 1.0, 0.9, 1.1, 9)
+    found = Comparison("1", "Job", (own, row := Measured("other", "", error, 0.7, low, high, 9)))
+    assert found.place(row) == place and found.better == ()
+    accurate = Comparison("1", "Job", (Measured("own", "", 1e-9, 1.0, 0.9, 1.1, 9), row))
+    assert bool(accurate.better) == (high < 0.9)
+
+
 def test_a_method_that_is_faster_and_more_accurate_is_named_and_the_check_fails():
     better = Measured("better", "1e-14", 1e-14, 0.5)
     bad = Comparison("1", "Job", (Measured("own", "", 1e-12, 1.0), better, Measured("worse", "", 1e-3, 0.1)))
@@ -117,7 +134,8 @@ def test_methods_run_turn_about_and_medians_are_taken(monkeypatch):
 
     done = count()
     found = timed([run("long", None), run("short", 1.0)], 6.0, lambda: next(done))
-    assert found == [("long", 4.0), ("short", 1.0)]
+    assert [(time.result, time.seconds) for time in found] == [("long", 4.0), ("short", 1.0)]
+    assert [(time.low, time.high, time.runs) for time in found] == [(3.5, 4.5, 3), (1.0, 1.0, 6)]
     assert calls == ["long", "short"] * 3 + ["short"] * 4, "the first run of the short one is not counted"
     assert next(done) == 2
 
@@ -131,7 +149,7 @@ def test_a_very_long_method_runs_once(monkeypatch):
         next(runs)
         now[0] += 100.0
 
-    assert timed([long], 6.0) == [(None, 100.0)] and next(runs) == 1
+    assert timed([long], 6.0) == [(None, 100.0, 100.0, 100.0, 1)] and next(runs) == 1
 
 
 def test_compare_returns_errors_and_times_in_order():
@@ -152,6 +170,7 @@ def test_table_shows_texts_powers_and_the_workbook_keeps_them():
     assert "[]" not in page
     assert list(table.frame().columns) == [
         *("method", "setting", "error [-]", "digits [-]", "time [ms]", "ratio [-]", "place"),
+        *("spread [%]", "runs [-]"),
     ]
 
 

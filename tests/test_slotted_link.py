@@ -18,7 +18,7 @@ from openpyxl import load_workbook
 from printed import agrees, rows
 
 from mechsheet.accuracy import exact
-from mechsheet.accuracy.condition import relative_error
+from mechsheet.accuracy.arithmetic import relative_error
 from mechsheet.document.expression import tree
 from mechsheet.document.latex import latex
 from mechsheet.worksheet.check import Check

@@ -333,22 +333,16 @@ def section_3():
 
 
 @app.cell
-def centres(C, H, O1, P_A, P_B, P_D, P_E, P_K, e7, g):
+def motion(
+    A, B, C, D, E, H, K, O1, O5, P_A, P_B, P_D, P_E, P_K, e7, g, motion_45, motion_67, omega1, phi1, u2, u3, u4, u5, u6
+):
     P_S1 = lambda phi1: O1 + g.l_O1S1 * exp(1j * phi1)  # [m] crank
     P_S2 = lambda phi1: P_B(phi1) + g.l_BS2 / g.l2 * (P_A(phi1) - P_B(phi1))  # [m] rod 2
     P_S3 = lambda phi1: P_B(phi1) + g.l_BS3 / g.l3 * (C - P_B(phi1))  # [m] rocker
     P_S4 = lambda phi1: P_E(phi1) + g.l_ES4 / g.l4 * (P_D(phi1) - P_E(phi1))  # [m] rod 4
     P_S6 = lambda phi1: P_K(phi1) - g.l_KS6 * e7(phi1)  # [m] rod with piston
     P_S7 = lambda phi1: H + g.l_HS7 * e7(phi1)  # [m] cylinder
-    typeset()
-    return P_S1, P_S2, P_S3, P_S4, P_S6, P_S7
-
-
-@app.cell
-def motion(
-    A, B, C, D, E, H, K, O1, O5, P_S1, P_S2, P_S3, P_S4, P_S6, P_S7, g, motion_45, motion_67, omega1, phi1, u2, u3, u4,
-    u5, u6,
-):  # fmt: skip
+    centre_lines = typeset()
     omega2 = omega1 * u2(phi1)  # [rad/s] rod 2
     omega3 = omega1 * u3(phi1)  # [rad/s] rocker 3
     omega4 = omega1 * u4(phi1)  # [rad/s] rod 4
@@ -378,12 +372,15 @@ def motion(
     a_S6 = link_acceleration(S6, K, omega6, eps6, a_K)  # [m/s**2] rod with piston
     a_S7 = link_acceleration(S7, H, omega6, eps6)  # [m/s**2] cylinder
     motion_lines = typeset()
-    return S1, S2, S3, S4, S6, S7, a_E, a_S1, a_S2, a_S3, a_S4, a_S6, a_S7, eps2, eps3, eps4, eps6, motion_lines
+    return (
+        P_S1, P_S2, P_S3, P_S4, P_S6, P_S7, S1, S2, S3, S4, S6, S7, a_E, a_S1, a_S2, a_S3, a_S4, a_S6, a_S7,
+        centre_lines, eps2, eps3, eps4, eps6, motion_lines,
+    )  # fmt: skip
 
 
 @app.cell
-def motion_shown(motion_lines, turn):
-    motion_lines.at(turn.value)
+def motion_shown(centre_lines, motion_lines, turn):
+    typeset(centre_lines, motion_lines.at(turn.value))
     return
 
 
@@ -1029,9 +1026,14 @@ def section_8():
 
 @app.cell
 def turn_listed(
-    F_b, M_b, P_b, R03, R05, R07, R12, R23, R34, R36, R45, R76, R_O1c, R_O1g, g, gamma03, gamma07, gamma12, gamma23,
-    gamma34, gamma36, gamma45, gamma_O1c, gamma_O1g, gamma_b, h76, phi1,
+    F_b, M_b, R03, R05, R07, R12, R23, R34, R36, R45, R76, R_O1c, R_O1g, g, gamma03, gamma07, gamma12, gamma23,
+    gamma34, gamma36, gamma45, gamma_O1c, gamma_O1g, gamma_b, h76, omega1, phi1, s5,
 ):  # fmt: skip
+    P_b = M_b * omega1  # [kW] power of the drive
+    W_b = trapezoid(M_b, phi1)  # [J] work of the drive in a turn
+    M_mean = W_b / (2 * pi)  # [N*m] mean moment
+    W_Q = g.Q5 * (most(s5) - least(s5))  # [J] work against the resistance in a turn
+    power_lines = typeset()
     table_81 = table("8.1", "Reactions, second kind", phi1, R34, gamma34, R05, R45, gamma45, every=g.step)
     table_82 = table(
         "8.2",
@@ -1044,17 +1046,7 @@ def turn_listed(
     table_84 = table("8.4", "Drive by a gear", phi1, F_b, gamma_b, R_O1g, gamma_O1g, every=g.step)
     table_85 = table("8.5", "Drive by a coupling", phi1, M_b, R_O1c, gamma_O1c, P_b, every=g.step)
     typeset(table_81, table_82, table_83, table_84, table_85)
-    return
-
-
-@app.cell
-def power(M_b, g, omega1, phi1, s5):
-    P_b = M_b * omega1  # [kW] power of the drive
-    W_b = trapezoid(M_b, phi1)  # [J] work of the drive in a turn
-    M_mean = W_b / (2 * pi)  # [N*m] mean moment
-    W_Q = g.Q5 * (most(s5) - least(s5))  # [J] work against the resistance in a turn
-    power_lines = typeset()
-    return P_b, power_lines
+    return (power_lines,)
 
 
 @app.cell
@@ -1111,8 +1103,8 @@ def section_9():
 @app.cell
 def reactions(
     A, B, C, D, E, F1_sum, F2_sum, F3_own, F4_sum, F5_sum, F6_sum, F7_sum, H, K, M1, M2, M4, M6, M7, M_b, M_in3, O1,
-    R03, R05, R07, R12, R23, R43, R45, R63, R76, R_O1c, S1, S2, S3, S4, S6, S7, gamma03, gamma05, gamma07, gamma12,
-    gamma23, gamma45, gamma76, gamma_O1c, group_67, h76, u5,
+    R03, R05, R07, R12, R23, R43, R45, R63, R76, R_A, R_D, R_K, R_O1c, S1, S2, S3, S4, S6, S7, gamma03, gamma05,
+    gamma07, gamma12, gamma23, gamma45, gamma76, gamma_O1c, group_67, h76, largest, lost, u5,
 ):  # fmt: skip
     R12_v = R12 * exp(1j * gamma12)  # [N] crank 1 on the rod 2
     R23_v = R23 * exp(1j * gamma23)  # [N] rod 2 on the rocker 3
@@ -1139,12 +1131,6 @@ def reactions(
     _forces = F1_sum, F2_sum, F3_own, F4_sum, F5_sum, F6_sum, F7_sum
     _loads = zip(_forces, (S1, S2, S3, S4, E, S6, S7), (M1, M2, M_in3, M4, 0, M6, M7), strict=True)
     loads = [[Load(*load)] for load in _loads]  # on the bodies 1..7: force, its point, moment
-    typeset()
-    return loads, reactions
-
-
-@app.cell
-def equilibrium(A, B, C, D, E, H, K, O1, R_A, R_D, R_K, largest, loads, lost, reactions):
     _lost = ~isfinite(R_A + R_D + R_K)
     _first = f"first at phi1 = {np.argmax(_lost)} deg" if np.any(_lost) else ""
     longest = largest_of(A - O1, B - C, A - B, D - E, H - K)
@@ -1153,7 +1139,7 @@ def equilibrium(A, B, C, D, E, H, K, O1, R_A, R_D, R_K, largest, loads, lost, re
         *balance("bodies 1..7", loads, reactions, lost, largest, longest),
     )
     typeset(*checks_bodies)
-    return checks_bodies, longest
+    return checks_bodies, loads, longest, reactions
 
 
 @app.cell(hide_code=True)
@@ -1216,8 +1202,8 @@ def energy(C, F_g, H, P_A, P_D, P_E, P_K, P_S1, P_S2, P_S3, P_S4, P_S6, P_S7, V_
 
 @app.cell
 def work(
-    F1_sum, F2_sum, F3_own, F4_sum, F5_sum, F6_sum, F7_sum, M1, M2, M4, M6, M7, M_in3, O1, S1, V_E, V_S2, V_S3, V_S4,
-    V_S6, V_S7, phi1, u2, u3, u4, u6,
+    F1_sum, F2_sum, F3_own, F4_sum, F5_sum, F6_sum, F7_sum, F_Q, F_w, J_r, M1, M2, M4, M6, M7, M_b, M_in3, O1, P_w, S1,
+    U, V_E, V_S2, V_S3, V_S4, V_S6, V_S7, g, largest, longest, lost, omega1, phi1, u2, u3, u4, u6,
 ):  # fmt: skip
     V_S1 = 1j * (S1 - O1)  # [m] velocity analogue of S1
     W_1 = dot(F1_sum, V_S1) + M1  # [N*m] work of the loads on the crank, for a radian of the crank
@@ -1228,19 +1214,6 @@ def work(
     W_6 = dot(F6_sum, V_S6(phi1)) + M6 * u6(phi1)  # [N*m] on the rod with piston 6
     W_7 = dot(F7_sum, V_S7(phi1)) + M7 * u6(phi1)  # [N*m] on the cylinder 7
     work_lines = typeset()
-    return W_1, W_2, W_3, W_4, W_5, W_6, W_7, work_lines
-
-
-@app.cell
-def work_shown(turn, work_lines):
-    work_lines.at(turn.value)
-    return
-
-
-@app.cell
-def work_checks(
-    F_Q, F_w, J_r, M_b, O1, P_w, U, V_E, W_1, W_2, W_3, W_4, W_5, W_6, W_7, g, largest, longest, lost, omega1, phi1
-):
     energy = lambda phi1: omega1**2 * J_r(phi1) / 2 + U(phi1)  # [J] energy at the speed of the crank
     driven = M_b - g.eps1 * J_r(phi1) + dot(F_Q, V_E(phi1))  # [N*m] left of the moment for the change of energy
     _some = slice(None, None, 15)
@@ -1251,8 +1224,14 @@ def work_checks(
         check("the gear gives the power of the coupling", _gear - M_b, lost, "N*m", of=_size),
         check_slope("energy: the moment is its slope", driven[_some], energy, phi1[_some], -pi / 2, 5 * pi / 2, "N*m"),
     )
-    typeset(*checks_work)
-    return (checks_work,)
+    energy_lines = typeset()
+    return checks_work, energy_lines, work_lines
+
+
+@app.cell
+def work_shown(checks_work, energy_lines, turn, work_lines):
+    typeset(work_lines.at(turn.value), energy_lines, *checks_work)
+    return
 
 
 @app.cell(hide_code=True)

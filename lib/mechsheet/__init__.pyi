@@ -2,19 +2,22 @@
 
 # isort: skip_file
 from mechsheet.accuracy.extreme import (
-    DigitsKept as DigitsKept,
     measured_scenes as measured_scenes,
 )
 from mechsheet.accuracy.jobs import (
     accuracy_jobs as accuracy_jobs,
+    asked_costs as asked_costs,
     batch_times as batch_times,
+    study_costs as study_costs,
+    whole_worksheets as whole_worksheets,
 )
 from mechsheet.accuracy.precision import (
-    WorkPrecision as WorkPrecision,
+    measured_on as measured_on,
+    time_spread as time_spread,
 )
-from mechsheet.accuracy.whole import (
-    asked_costs as asked_costs,
-    whole_worksheets as whole_worksheets,
+from mechsheet.document.error_chart import (
+    DigitsKept as DigitsKept,
+    WorkPrecision as WorkPrecision,
 )
 from mechsheet.mechanics.crank import (
     crank as crank,

@@ -8,7 +8,7 @@ the names of the worksheet. Where something does not close or is infinite there,
 """
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from functools import cache
+from functools import cache, lru_cache
 from itertools import pairwise
 from types import SimpleNamespace
 from typing import Any
@@ -23,12 +23,20 @@ _NOTHING = mpf(10) ** -95  # below the root of the rounding of the work: the sin
 _LINKS = {3: ("O3", "P23_S"), 4: ("P34_S", "P45_S"), 5: ("O5", "P45_S"), 6: ("P56_S", "P67_S"), 7: ("O7", "P67_S")}
 
 
+_LOADS = {"P6", "k_gc", "P_gc_max", "eta", "D_gc", "P_msha", "P_gr", "a", "L", "b"}  # move nothing of the hitch
+
+
 def finds(g: Any) -> Numbers:
     """L4, S_p and L7 [m] of the document's three solve blocks, on its branches, each nearest to its guess.
 
     Raises ValueError where one of them has no solution.
     """
-    x = _exact(g)
+    return _finds(**{name: value for name, value in vars(_exact(g)).items() if name not in _LOADS})
+
+
+@lru_cache(maxsize=1)  # while the loads alone change
+def _finds(**unloaded: mpf) -> Numbers:
+    x = SimpleNamespace(**unloaded)
     L4, _ = _nearest("L4", _rods(x), (x.L4_0 / 10 + x.L4_0 * 1.5) / 2)
     S_p, P56 = _nearest("S_p", _strokes(x, L4), (x.S_max + x.S_min) / 2)
     L7, _ = _nearest("L7", _upper_links(x, P56), (x.L7_0 / 10 + x.L7_0 * 1.5) / 2)
@@ -44,16 +52,9 @@ def hitch(g: Any, S: Any = None, **lengths: Any) -> Numbers:
     length = {name: mpf(value) for name, value in lengths.items()}
     if len(length) < 3:
         length = finds(x) | length
-    results = _motion(x, length["S_p"] if S is None else mpf(S), **length)
+    unloaded = {name: value for name, value in vars(x).items() if name not in _LOADS}
+    results = _motion(length["S_p"] if S is None else mpf(S), **length, **unloaded)
     return results | _capacity(x, results) | _forces(x, results) | _stability(x, results)
-
-
-def geometry(g: Any, S: Any, L4: Any, L7: Any) -> Numbers:
-    """Hinges and pins [m], and the angles of the links [rad]."""
-    x = _exact(g)
-    p = _pins(x, mpf(S), mpf(L4), mpf(L7))
-    angles = {f"phi{k}_S": mp.arg(p[end] - p[start]) for k, (start, end) in _LINKS.items()}
-    return p | angles | {"phi12_S": mp.arg(p["P23_S"] - p["O1"]), "phi34_S": angles["phi3_S"] + x.phi_BD}
 
 
 def second_analogues(g: Any, S: Any, L4: Any, L7: Any) -> list[mpf]:
@@ -155,9 +156,12 @@ def _rows(tables: Any, name: str, factors: Mapping[str, Any]) -> list[Any]:
 
 def _stresses(y: Sequence[Any], A: Sequence[Any], M: Any, N: Any) -> list[mpf]:
     """Stresses of elements of the areas A on the levels y under a moment and a force; none if they are on one level."""
-    F, S, J = (sum(mpf(a) * mpf(level) ** k for a, level in zip(A, y, strict=True)) for k in (0, 1, 2))
-    D = F * J - S**2
-    return [(N * J - M * S + (M * F - N * S) * level) / D for level in y] if D > 0 else []
+    F, S = sum(A), mp.fdot(A, y)
+    J = mp.fdot(A, [level * level for level in y])
+    if (D := F * J - S * S) <= 0:
+        return []
+    middle, slope = (N * J - M * S) / D, (M * F - N * S) / D
+    return [middle + slope * level for level in y]
 
 
 def slotted_link(g: Any, phi1: Any) -> Numbers:
@@ -242,7 +246,7 @@ def numbers(g: Any) -> dict[str, Any]:
 
 
 def _exact(g: Any) -> SimpleNamespace:
-    return SimpleNamespace(**{name: mpf(value) for name, value in numbers(g).items()})
+    return SimpleNamespace(**{name: mp.convert(value) for name, value in numbers(g).items()})
 
 
 def _nearest(name: str, roots: Iterator[tuple[mpf, mpc]], guess: mpf) -> tuple[mpf, mpc]:
@@ -314,12 +318,14 @@ def _pins(x: Any, S: mpf, L4: mpf, L7: mpf) -> Numbers:
     P45 = rrr(P34, O5, L4, x.L5, +1)
     P56 = O5 + (P45 - O5) * (x.L56 / x.L5)
     P67 = rrr(P56, O7, x.L6, L7, -1)
-    hinges = {"O1": O1, "O3": O3, "O5": O5, "O7": O7}
-    return hinges | {"P23_S": P23, "P34_S": P34, "P45_S": P45, "P56_S": P56, "P67_S": P67}
+    frame = {"O1": O1, "O3": O3, "O5": O5, "O7": O7}
+    return frame | {"P23_S": P23, "P34_S": P34, "P45_S": P45, "P56_S": P56, "P67_S": P67}
 
 
-def _motion(x: Any, S: mpf, L4: mpf, S_p: mpf, L7: mpf) -> Numbers:
+@lru_cache(maxsize=1)  # while the loads alone change
+def _motion(S: mpf, L4: mpf, S_p: mpf, L7: mpf, **unloaded: mpf) -> Numbers:
     """Positions, and derivatives with respect to S; the implement is fixed to the mast where it stands at S_p."""
+    x = SimpleNamespace(**unloaded)
     Z, work = mpc(x.X6, x.Y6), _pins(x, S_p, L4, L7)
     mast = work["P67_S"] - work["P56_S"]
 
@@ -330,7 +336,9 @@ def _motion(x: Any, S: mpf, L4: mpf, S_p: mpf, L7: mpf) -> Numbers:
 
     dphi3, dphi4, dphi5, dphi6, dphi7 = (first for first, _ in _analogues(pins))
     I56, IS6 = (derivatives(lambda t, P=P: pins(t)[P])[0].imag for P in ("P56_S", "PS6_S"))  # type: ignore[misc]
-    results = geometry(x, S, L4, L7) | pins(mpf(0)) | {"L4": L4, "S_p": S_p, "L7": L7}
+    results = pins(mpf(0)) | {"L4": L4, "S_p": S_p, "L7": L7}
+    results |= {f"phi{k}_S": mp.arg(results[end] - results[start]) for k, (start, end) in _LINKS.items()}
+    results |= {"phi12_S": mp.arg(results["P23_S"] - results["O1"]), "phi34_S": results["phi3_S"] + x.phi_BD}
     results |= {"LS6": abs(Z), "phiS6": (mp.arg(Z) - mp.arg(mast)) % (2 * mp.pi)}
     results |= {"dphi3": dphi3, "dphi4": dphi4, "dphi5": dphi5, "dphi6": dphi6, "dphi7": dphi7}
     results |= {"U43": dphi4 / dphi3, "U53": dphi5 / dphi3, "U65": _over(dphi6, dphi5), "U75": _over(dphi7, dphi5)}

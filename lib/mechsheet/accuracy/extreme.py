@@ -30,9 +30,9 @@ from typing import Any
 
 import numpy as np
 
-from mechsheet.accuracy import condition, exact, printed, rivals
+from mechsheet.accuracy import arithmetic, exact, printed, rivals
 from mechsheet.accuracy.arithmetic import Numbers, mpc, mpf
-from mechsheet.accuracy.chain import crank_chain
+from mechsheet.document.error_chart import FULL, SPARE
 from mechsheet.mechanics.load import Load
 from mechsheet.mechanics.planar import angle
 from mechsheet.mechanics.rrr import RRRGroup, rrr_reach
@@ -40,10 +40,6 @@ from mechsheet.run.progress import progress
 from mechsheet.worksheet import inputs, numbers
 from mechsheet.worksheet.cells import Worksheet, load
 from mechsheet.worksheet.check import Check, assembled
-from mechsheet.worksheet.shown import Charted
-
-FULL = 16.0  # digits of a float
-SPARE = 1.0  # digits that a result may lose beyond its condition number
 
 
 @dataclass(frozen=True)
@@ -103,40 +99,6 @@ class Case:
     product: Callable[[Numbers], Mapping[str, Any]]
     printed: Callable[[Numbers], Mapping[str, Any]]
     rounding: Mapping[str, Any] = field(default_factory=dict)
-
-
-@dataclass(frozen=True)
-class DigitsKept(Charted):
-    """Chart of the digits kept over the digits expected: every result of every scene."""
-
-    outcomes: Sequence[Outcome]
-
-    def chart(self) -> Any:
-        """The altair chart; above the solid line lies more than can be expected, below the dashed one too little."""
-        import altair as alt  # on use: only a page needs it
-
-        measured = [o for o in self.outcomes if not o.wanted]
-        ways = {"printed formulas": [o.printed for o in measured], "product": [o.product for o in measured]}
-        points = [
-            {"expected": o.expected, "kept": kept, "way": way, "scene": o.scene, "case": o.case, "result": o.result}
-            for way, digits in ways.items()
-            for o, kept in zip(measured, digits, strict=True)
-            if np.isfinite(kept)
-        ]
-        colour = alt.Color("way:N", title=None, sort=[*ways], legend=alt.Legend(orient="top"))
-        base = alt.Chart(alt.InlineData(points)).encode(
-            x=alt.X("expected:Q", title="digits expected, 16 - log κ", scale=alt.Scale(domain=[0, FULL])),
-            y=alt.Y("kept:Q", title="digits kept", scale=alt.Scale(domain=[0, FULL])),
-            color=colour.scale(domain=[*ways], range=["#d55e00", "#0072b2"]),
-            tooltip=["scene:N", "case:N", "result:N", alt.Tooltip("expected:Q", format=".1f"), "kept:Q"],
-        )
-        ends = [{"x": 0.0, "y": 0.0, "spared": -SPARE}, {"x": FULL, "y": FULL, "spared": FULL - SPARE}]
-        lines = alt.Chart(alt.InlineData(ends)).encode(x="x:Q")
-        return alt.layer(
-            base.mark_circle(size=14, opacity=0.5, clip=True),
-            lines.mark_line(color="gray").encode(y="y:Q"),
-            lines.mark_line(color="gray", strokeDash=[5, 4], clip=True).encode(y="spared:Q"),
-        ).properties(width=560, height=420, usermeta={"embedOptions": {"renderer": "svg"}})
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -217,10 +179,10 @@ def outcomes(job: Case, scene: str = "", case: str = "") -> list[Outcome]:
     One that does not exist must be NaN or infinite, unless the rounding of an input decides whether it exists.
     """
     found, true = list[Outcome](), job.true(**{**job.x, **job.rounding})
-    conditions, product, formulas = condition.conditions(job.true, job.x), job.product(true), job.printed(true)
-    exist = {name: condition.exist(y) for name, y in true.items()}
+    conditions, product, formulas = arithmetic.conditions(job.true, job.x), job.product(true), job.printed(true)
+    exist = {name: arithmetic.exist(y) for name, y in true.items()}
     told = {name: bool(np.all(np.isfinite(product[name]))) for name in true}
-    undecided = condition.undecided(job.true, job.x) if exist != told else set()
+    undecided = arithmetic.undecided(job.true, job.x) if exist != told else set()
     for name, y in true.items():
         exists, given = exist[name], told[name]
         kappa, kept, by_formula = 1.0, 0.0 if given else FULL, np.nan
@@ -238,7 +200,7 @@ def digits(name: str, value: Any, true: Any) -> float:
     """Digits that a value keeps of the true one, from 0 to 16; an angle may be counted in any turn."""
     if not np.all(np.isfinite(value)):
         return 0.0
-    error = condition.relative_error(value, true, 2 * np.pi if name.startswith(("phi", "psi")) else None)
+    error = arithmetic.relative_error(value, true, 2 * np.pi if name.startswith(("phi", "psi")) else None)
     return float(np.clip(-np.log10(error), 0.0, FULL)) if error else FULL
 
 
@@ -358,7 +320,7 @@ def through_dead_centre(_worksheets: Path, given: Mapping[str, Any], _at: int = 
     """
     a, b, c, gap, *turn = (float(given[name]) for name in ("a", "b", "c", "gap", "theta_0", "theta_1"))
     d = b + c - a - gap
-    chain = crank_chain(a, d, b, c)
+    chain = rivals.crank_chain(a, d, b, c)
     (start,), (end,) = map(chain.groups, turn)
 
     def integrated(_: Numbers) -> Mapping[str, Any]:

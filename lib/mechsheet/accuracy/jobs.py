@@ -1,17 +1,26 @@
-"""The jobs in which the product's methods stand beside the others: titles, truths at 50 digits and methods."""
+"""What is timed: jobs in which the product's methods stand beside the others, batches of them, whole worksheets."""
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
 from functools import partial
+from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy import linspace
+from numpy import linspace, pi
 
 from mechsheet.accuracy import exact, printed, rivals
 from mechsheet.accuracy.arithmetic import Numbers
-from mechsheet.accuracy.chain import REACTIONS, crank_chain, hitch_chain, hitch_points
-from mechsheet.accuracy.precision import Job, Method, timed
+from mechsheet.accuracy.precision import Job, Measured, Method, Timed, largest_error, time_spread, timed
+from mechsheet.accuracy.rivals import REACTIONS, crank_chain, hitch_chain, hitch_points
+from mechsheet.recording.record import record
+from mechsheet.run import report
+from mechsheet.run.progress import progress
+from mechsheet.run.proving import proof_of
+from mechsheet.worksheet.cells import Worksheet, load, results
+from mechsheet.worksheet.lines import registry
 from mechsheet.worksheet.table import Column, Table
+from mechsheet.worksheet.title import Slider
 
 _PINS = ("P23_S", "P45_S", "P67_S")
 _ANALOGUES = tuple(f"dphi{k}" for k in range(3, 8))
@@ -92,6 +101,144 @@ def batch_times(number: str, hitch: Any, sizes: Sequence[int], seconds: float) -
     }
     title, cases, ways = batches[number]
     times = timed([partial(way, given) for given in map(cases, sizes) for way in ways.values()], seconds)
-    each = 1e6 * np.array([time for _, time in times]).reshape(len(sizes), -1) / np.array(sizes)[:, None]
-    columns = [Column(name, "µs", "time of one of them", 2, each[:, k]) for k, name in enumerate(ways)]
+    taken = np.array([(time.seconds, (time.high - time.low) / 2) for time in times]).reshape(len(sizes), -1, 2)
+    each = 1e6 * taken / np.array(sizes)[:, None, None]
+    columns = [Column(name, "µs", "median time of one of them", 2, each[:, k, 0]) for k, name in enumerate(ways)]
+    half = "half of what lies between the quartiles"
+    columns += [Column(f"{name} ±", "µs", half, 2, each[:, k, 1]) for k, name in enumerate(ways)]
     return Table(number, title, (Column("count", "-", "computed at once", 0, np.array(sizes, float)), *columns))
+
+
+# Whole worksheets
+
+_STUDY = ("phi3_g", "N_same", "N_other", "N_none", "N_g")  # first approximations of the slotted link
+
+
+@dataclass(frozen=True, kw_only=True)
+class Whole(Measured):
+    """All numbers and checks of a worksheet over so many positions."""
+
+    positions: int
+    names: int
+    cells: int
+
+
+def _numbers_of(sheet: Worksheet) -> list[str]:
+    """Names of a worksheet's numbers and checks: lines with a unit, without tables and what follows a slider."""
+    names = [name for name in results(sheet.path) if name not in ("form", "g")]
+    found = sheet.run(names, {"g": sheet.inputs()})
+    declared, sliders = registry(found), {name for name in names if isinstance(found[name], Slider)}
+
+    def moves(name: str) -> bool:
+        return any(sliders & set(cell.gives) for cell in sheet.needed([name], ["g"]))
+
+    numbers = [name for name in names if name in declared and name not in _STUDY]
+    return [name for name in (*numbers, *(name for name in names if name.startswith("check"))) if not moves(name)]
+
+
+def _field(stem: str, sheet: Worksheet, n: int) -> dict[str, Any]:
+    """The inputs, and a field of n positions that takes the place of the worksheet's own one."""
+    g = sheet.inputs()
+    t = linspace(0, 1, n) if n > 1 else np.array([0.5])
+    if stem == "hitch":
+        S = g.S_min * (1 - t) + g.S_max * t
+        return {"g": g, "k": np.arange(n), "t": t, "S": S, "dS": (g.S_max - g.S_min) / max(n - 1, 1)}
+    if stem == "landing_gear":
+        made = sheet.run(["l20", "H"], {"g": g})
+        return {"g": g, "i": np.arange(n), "l2i": made["l20"] + t * made["H"]}
+    if stem == "slotted_link":
+        return {"g": g, "k": np.arange(n), "dphi1": 2 * pi / max(n - 1, 1), "phi1_k": 2 * pi * t}
+    if stem == "kinetostatics":
+        base = ("C", "H", "O1", "O5", "omega1", "u5")
+        made = sheet.run(base, {"g": g})
+        return {"g": g, "phi1": 2 * pi * t} | {name: made[name] for name in base}
+    return {"g": g}
+
+
+# The field of positions, the truth at one of them, and the results that are compared: all, where none are named.
+_TRUTHS: dict[str, tuple[str, Callable[[Any, Any], Numbers], Sequence[str]]] = {
+    "hitch": ("S", exact.hitch, ()),
+    "landing_gear": ("l2i", exact.landing_gear, ("Ai", "omega3_l2i", "eps3_l2i", "F_c")),
+    "slotted_link": ("phi1_k", exact.slotted_link, ()),
+    "kinetostatics": ("phi1", exact.kinetostatics, ()),
+}
+
+
+def exact_results(stem: str, names: Mapping[str, Any], rows: Iterable[int]) -> Numbers:
+    """Results of a worksheet at 50 digits at some of its positions, by name; of the joint, which has none, all."""
+    if stem == "joint":
+        g = names["g"]
+        cases = ((plane, case) for plane in (1, 2) for case in range(len(g.loads.M)))
+        return {"P": [force for at in cases for force in exact.joint(g, exact.factors(g), *at)["P"]]}
+    field, truth, compared = _TRUTHS[stem]
+    at = [truth(names["g"], float(names[field][i])) for i in rows]
+    return {name: [p[name] for p in at] for name in compared or at[0].keys() & names.keys()}
+
+
+def _error(stem: str, names: Mapping[str, Any], n: int) -> float:
+    """Largest error of the results of a worksheet at three of its n positions."""
+    rows = sorted({0, n // 3, n - 1})
+    errors = []
+    for name, numbers in exact_results(stem, names, rows).items():
+        found = np.asarray(names[name])
+        at = found.ravel() if len(numbers) == found.size else np.broadcast_to(found, (n,))[rows]
+        errors.append(largest_error(at, numbers))
+    return max(errors)
+
+
+def whole_worksheets(folder: Path, sizes: Sequence[int], seconds: float) -> list[Whole]:
+    """The worksheets of a folder with all their numbers and checks, each at several numbers of positions."""
+    sheets = {stem: load(folder / f"{stem}.py") for stem in (*_TRUTHS, "joint")}
+    wanted = {stem: _numbers_of(sheet) for stem, sheet in sheets.items()}
+    cases = [(stem, n) for stem in sheets for n in (sizes if stem in _TRUTHS else (1,))]
+    given = [_field(stem, sheets[stem], n) for stem, n in cases]
+    runs = [lambda s=s, g=g: sheets[s].run(wanted[s], g) for (s, _), g in zip(cases, given, strict=True)]
+    with progress(len(cases), "5 Whole worksheets") as done:
+        made = timed(runs, seconds, done)
+
+    def whole(stem: str, n: int, t: Timed) -> Whole:
+        setting, cells = str(n) if stem in _TRUTHS else "load cases", sheets[stem].needed(wanted[stem], ["g"])
+        taken = t.seconds, t.low, t.high, t.runs
+        counts = {"positions": n, "names": len(wanted[stem]), "cells": len(cells)}
+        return Whole(stem, setting, _error(stem, t.result, n), *taken, **counts)
+
+    return [whole(*case, t) for case, t in zip(cases, made, strict=True)]
+
+
+def asked_costs(number: str, path: Path, asked: Mapping[str, Sequence[str]], seconds: float) -> Table:
+    """Table of the cells run and the run times for results asked for; no names ask for the whole document, at last."""
+    sheet, title = load(path), "Cost of what is asked for"
+    given = {"g": sheet.inputs()}
+    wants = [list(names) or [name for name in sheet.results if name != "form"] for names in asked.values()]
+    time, *apart = _run_times(f"{number} {title}", [partial(sheet.run, want, given) for want in wants], seconds)
+    cells = np.array([len(sheet.needed(want, given)) for want in wants], float)
+    columns = (
+        Column("asked for", "", "", 0, np.array(list(asked), object)),
+        Column("cells", "-", "cells run", 0, cells),
+        Column("of all", "%", "cells run over those of the whole document", 0, 100 * cells / cells[-1]),
+        time,
+        Column("of whole", "%", "time over that of the whole document", 0, 100 * time.values / time.values[-1]),
+    )
+    return Table(number, title, (*columns, *apart))
+
+
+def study_costs(number: str, path: Path, studies: Mapping[str, Callable[[], Any]], seconds: float) -> Table:
+    """Table of the run times of studies, of a recording of a worksheet's run, of its proof and of its workbook."""
+    sheet, title = load(path), "Cost of studies"
+    names = sheet.run(sheet.results, {"g": sheet.inputs()}) | {"__file__": str(path)}
+    ways = {
+        **studies,
+        "formulas of a run recorded": partial(record, names, sheet),
+        "all its digits proved": partial(proof_of, names, sheet, record(names, sheet)),
+        "its workbook written": partial(report.workbook, path.stem, names, {}),
+    }
+    study = Column("study", "", "", 0, np.array(list(ways), object))
+    return Table(number, title, (study, *_run_times(f"{number} {title}", list(ways.values()), seconds)))
+
+
+def _run_times(job: str, runs: Sequence[Callable[[], Any]], seconds: float) -> tuple[Column, ...]:
+    """Columns of the medians of run times, of their spread and of their number."""
+    with progress(len(runs), job) as done:
+        taken = timed(runs, seconds, done)
+    ms = 1e3 * np.array([time.seconds for time in taken])
+    return Column("time", "ms", "median of the run times", 1, ms), *time_spread(taken)

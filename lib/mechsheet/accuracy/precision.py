@@ -1,21 +1,21 @@
 """Error against run time: the methods of one job, timed turn about in one run, against the truth at 50 digits."""
 
+import os
+import platform
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass, field
-from statistics import median
+from dataclasses import dataclass, replace
 from time import perf_counter
-from typing import Any, ClassVar
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mechsheet.accuracy.arithmetic import EPS
-from mechsheet.accuracy.condition import relative_error
+from mechsheet.accuracy.arithmetic import EPS, relative_error
+from mechsheet.document.error_chart import WorkPrecision, families
 from mechsheet.recording.unrepeatable import clock_read
 from mechsheet.run.progress import progress
 from mechsheet.worksheet.check import Check
-from mechsheet.worksheet.shown import Charted
-from mechsheet.worksheet.table import Column, Figure, Table
+from mechsheet.worksheet.table import Column, Table
 
 _NOISE = 8 * EPS  # four units in the last place, within which errors count as equal
 _FASTER = 0.9  # part of a time that counts as less of it
@@ -43,19 +43,39 @@ class Method:
     run: Callable[[], Any]
 
 
+class Timed(NamedTuple):
+    """What a run returns, and of its run times the median, the quartiles [s] and the number."""
+
+    result: Any
+    seconds: float
+    low: float
+    high: float
+    runs: int
+
+
 @dataclass(frozen=True)
 class Measured:
-    """A method with its error and the median of its run times [s]."""
+    """A method with its error, the median of its run times [s], their quartiles [s] and their number."""
 
     family: str
     setting: str
     error: float
     seconds: float
+    low: float = np.nan
+    high: float = np.nan
+    runs: int = 1
 
     @property
     def digits(self) -> float:
         """Digits that are right."""
         return float(-np.log10(self.error))
+
+
+def time_spread(times: Sequence[Timed | Measured]) -> tuple[Column, ...]:
+    """Columns of how far run times lie apart, and of how many were taken."""
+    seconds, low, high, runs = np.array([(t.seconds, t.low, t.high, t.runs) for t in times]).T
+    apart = "half of what lies between the quartiles of the run times, over their median"
+    return Column("spread", "%", apart, 0, 50 * (high - low) / seconds), Column("runs", "-", "run times taken", 0, runs)
 
 
 @dataclass(frozen=True)
@@ -71,13 +91,18 @@ class Comparison:
         return self.rows[0]
 
     def place(self, row: Measured) -> str:
-        """A method beside the product's own, in words."""
-        if row is self.own:
+        """A method beside the product's own, in words; its time is the same where the quartiles overlap."""
+        own = self.own
+        if row is own:
             return "the product's own"
-        time = "faster" if row.seconds < _FASTER * self.own.seconds else "slower"
-        if _better(row.error, self.own.error):
+        time = "faster" if row.seconds < _FASTER * own.seconds else "slower"
+        if row.low <= own.high and own.low <= row.high:
+            time = "the same time"
+        if _better(row.error, own.error):
             return f"{time}, more digits"
-        return f"{time}, fewer digits" if _better(self.own.error, row.error) else f"{time}, the same digits"
+        if _better(own.error, row.error):
+            return f"{time}, fewer digits"
+        return "no difference" if time == "the same time" else f"{time}, the same digits"
 
     @property
     def better(self) -> tuple[Measured, ...]:
@@ -109,7 +134,7 @@ class Comparison:
     def summary(self) -> Table:
         """One row a family: its fastest setting among those of as many digits as it has."""
         note = "Each method at its fastest setting among those of its most digits; the workbook holds all settings."
-        return self._table([_best(self.rows[part]) for _, part in _slices(self.rows)], note)
+        return self._table([_best(self.rows[part]) for _, part in families(self.rows)], note)
 
     def _table(self, rows: Sequence[Measured], note: str = "") -> Table:
         error, digits, seconds = np.array([(row.error, row.digits, row.seconds) for row in rows]).T
@@ -121,113 +146,18 @@ class Comparison:
             Column("time", "ms", "median of the run times", 3, 1e3 * seconds),
             Column("ratio", "-", "run time, times that of the product's own method", 3, seconds / self.own.seconds),
             Column("place", "", "beside the product's own method", 0, np.array([*map(self.place, rows)], object)),
+            *time_spread(rows),
         )
         return Table(self.number, self.title, columns, note)
 
-    def figure(self) -> "WorkPrecision":
+    def figure(self) -> WorkPrecision:
         """The work-precision diagram of all methods."""
-        _, _, error, _, _, ratio, _ = self.table().columns
-        return WorkPrecision(self.number, self.title, ratio, (error,), rows=self.rows, own=self.own, front=self.front)
+        _, _, error, _, _, ratio, *_ = self.table().columns
+        figure = WorkPrecision(self.number, self.title, ratio, (error,), rows=self.rows)
+        return replace(figure, own=self.own, front=self.front, noise=_NOISE)
 
 
 _ERROR = "largest error over the largest number, at least one rounding, at most 1"
-
-
-@dataclass(frozen=True)
-class WorkPrecision(Charted, Figure):
-    """Error over run time, both logarithmic: one line a family.
-
-    Where there is a method of the product's own, it is marked, and a field shaded red: whatever is both faster and
-    more accurate would lie there. Errors in the grey band are rounding and count as equal. A dashed line joins the
-    methods of the front.
-    """
-
-    rows: tuple[Measured, ...] = field(kw_only=True)
-    own: Measured | None = None
-    front: tuple[Measured, ...] = ()
-
-    logarithmic: ClassVar[bool] = True
-
-    def series(self) -> list[tuple[Column, slice, str]]:
-        return [(self.lines[0], rows, name) for name, rows in _slices(self.rows)]
-
-    def chart(self) -> Any:
-        """The diagram as an altair chart."""
-        import altair as alt  # on use: only a page needs it
-
-        names = [name for name, _ in _slices(self.rows)]
-        points = [
-            {"method": row.family, "setting": row.setting, "error": row.error, "ms": 1e3 * row.seconds}
-            | {"x": float(x), "order": i}
-            for i, (row, x) in enumerate(zip(self.rows, self.x.values, strict=True))
-        ]
-        x_marks = _decades(self.x.values)
-        y_marks = [mark for mark in _decades(self.lines[0].values) if mark <= 1]
-        title = f"{self.x.meaning} [{self.x.unit}]".removesuffix(" [-]")
-        x = alt.X("x:Q", title=title).axis(values=x_marks, format="~g").scale(**_log(x_marks))
-        y = alt.Y("error:Q", title="error").axis(values=y_marks[:: 1 + len(y_marks) // 10], format=".0e")
-        y = y.scale(**_log(y_marks))
-        looks = [_OTHERS[i % len(_OTHERS)] for i in range(len(names))]
-        looks = [_OWN, *looks[:-1]] if self.own else looks
-        legend = alt.Legend(title=None, orient="right", labelLimit=260, symbolSize=90, rowPadding=5)
-        color, shape = (
-            channel("method:N", sort=names, legend=legend).scale(domain=names, range=look)
-            for channel, look in zip((alt.Color, alt.Shape), zip(*looks, strict=True), strict=True)
-        )
-        tooltip = [
-            *(alt.Tooltip("method:N"), alt.Tooltip("setting:N"), alt.Tooltip("error:Q", format=".2e")),
-            *(alt.Tooltip("ms:Q", title="time, ms", format=".3f"), alt.Tooltip("x:Q", title=self.x.symbol)),
-        ]
-        base = alt.Chart(alt.InlineData(points)).encode(x=x, y=y, color=color)
-        layers = [
-            base.mark_line(strokeWidth=1.6, opacity=0.75).encode(order="order:Q"),
-            base.mark_point(filled=True, size=46, opacity=0.9).encode(shape=shape, tooltip=tooltip),
-        ]
-        if self.own:
-            marked = base.transform_filter(alt.datum.method == self.own.family).encode(shape=shape, tooltip=tooltip)
-            behind = self._behind(self.own, (x_marks[0], x_marks[-1]), (y_marks[0], y_marks[-1]))
-            layers = [*(layer.encode(x=x, y=y) for layer in behind), *layers]
-            layers.append(marked.mark_point(filled=True, size=260, opacity=1))
-        title = f"Figure {self.number} – {self.title}"
-        sharp = {"embedOptions": {"renderer": "svg"}}  # on paper too
-        chart = alt.layer(*layers).properties(title=title, width=560, height=360, usermeta=sharp)
-        return (
-            chart.configure_axis(labelFontSize=12, titleFontSize=12, titleFontWeight="normal", gridColor="#E4E4E4")
-            .configure_legend(labelFontSize=13)
-            .configure_title(fontSize=14, anchor="start", offset=12)
-        )
-
-    def _behind(self, own: Measured, x_ends: tuple[float, float], y_ends: tuple[float, float]) -> list[Any]:
-        """What lies behind the points: the band of rounding, the field of better methods and the front."""
-        import altair as alt  # on use: only a page needs it
-
-        def field(color: str, right: float, low: float, high: float) -> Any:
-            corners = alt.InlineData([{"x": x_ends[0], "right": right, "error": low, "high": high}])
-            return alt.Chart(corners).mark_rect(color=color, opacity=0.13).encode(x2="right:Q", y2="high:Q")
-
-        place = float(self.x.values[self.rows.index(own)])
-        low, layers = max(y_ends[0], _NOISE), list[Any]()
-        if y_ends[0] < low:
-            text = alt.Chart(alt.InlineData([{"x": x_ends[0], "error": y_ends[0]}])).mark_text(
-                text="rounding", align="left", baseline="bottom", dx=5, dy=-4, fontSize=11, color=_GREY
-            )
-            layers += [field(_GREY, x_ends[1], y_ends[0], low), text]
-        if own.error > low:
-            layers.append(field(_OWN[0], place, low, own.error))
-        steps = [{"x": place * row.seconds / own.seconds, "error": row.error} for row in self.front]
-        steps = [{**steps[0], "error": y_ends[1]}, *steps, {**steps[-1], "x": x_ends[1]}]
-        front = alt.Chart(alt.InlineData(steps)).mark_line(
-            interpolate="step-after", color=_GREY, strokeDash=[4, 4], strokeWidth=1
-        )
-        return [*layers, front]
-
-
-_OWN = ("#D1495B", "diamond")
-_GREY = "#6B7280"
-_OTHERS = (
-    *(("#1F4E79", "circle"), ("#2E8B8B", "square"), ("#EDAE49", "triangle-up"), ("#7030A0", "triangle-down")),
-    *(("#548235", "cross"), ("#8C564B", "triangle-right"), (_GREY, "triangle-left"), ("#3D9BE9", "circle")),
-)
 
 
 @dataclass(frozen=True)
@@ -247,16 +177,14 @@ class Job:
         with progress(len(self.methods), f"{self.number} {self.title}") as done:
             found = timed([method.run for method in self.methods], seconds, done)
         rows = (
-            Measured(m.family, m.setting, largest_error(result, self.truth), time)
-            for m, (result, time) in zip(self.methods, found, strict=True)
+            Measured(m.family, m.setting, largest_error(t.result, self.truth), t.seconds, t.low, t.high, t.runs)
+            for m, t in zip(self.methods, found, strict=True)
         )
         return Comparison(self.number, self.title, tuple(rows))
 
 
-def timed(
-    runs: Sequence[Callable[[], Any]], seconds: float, done: Callable[[], object] = lambda: None
-) -> list[tuple[Any, float]]:
-    """What each run returns, and the median of its times [s], all taken turn about.
+def timed(runs: Sequence[Callable[[], Any]], seconds: float, done: Callable[[], object] = lambda: None) -> list[Timed]:
+    """What each run returns, and its times, all taken turn about.
 
     A run that was made three times and takes ``seconds`` in all, or ten times as long, is left out of further turns.
     ``done`` is called when a run has its turn the first time.
@@ -279,7 +207,17 @@ def timed(
     while waiting := [i for i, taken in enumerate(times) if sum(taken) < (seconds if len(taken) > 2 else 10 * seconds)]:
         for i in waiting:
             once(i)
-    return [(result, median(taken)) for result, taken in zip(results, times, strict=True)]
+    quartiles = np.array([np.quantile(taken, (0.5, 0.25, 0.75)) for taken in times]).T.tolist()
+    return list(map(Timed, results, *quartiles, map(len, times)))
+
+
+def measured_on(number: str) -> Table:
+    """Table of what the run times were measured on."""
+    cores = np.array([os.cpu_count() or 1])
+    facts = {"processor": platform.processor() or platform.machine(), "system": platform.system()}
+    facts |= {"software": f"Python {platform.python_version()}, numpy {np.__version__}"}
+    columns = (Column(name, "", "", 0, np.array([fact], object)) for name, fact in facts.items())
+    return Table(number, "Machine of the run times", (Column("cores", "-", "of the machine", 0, cores), *columns))
 
 
 def _better(a: float, b: float) -> bool:
@@ -287,23 +225,6 @@ def _better(a: float, b: float) -> bool:
     return 2 * a + _NOISE < b
 
 
-def _slices(rows: Sequence[Measured]) -> list[tuple[str, slice]]:
-    starts = [i for i, row in enumerate(rows) if i == 0 or row.family != rows[i - 1].family]
-    return [(rows[a].family, slice(a, b)) for a, b in zip(starts, [*starts[1:], len(rows)], strict=True)]
-
-
 def _best(rows: Sequence[Measured]) -> Measured:
     least = min(row.error for row in rows)
     return min((row for row in rows if not _better(least, row.error)), key=lambda row: row.seconds)
-
-
-def _decades(values: Any) -> list[float]:
-    """Powers of ten around the values, with some room beside them."""
-    room = 0.15  # of a decade
-    low, high = np.log10(np.min(values)) - room, np.log10(np.max(values)) + room
-    return [10.0**k for k in range(int(np.floor(low)), int(np.ceil(high)) + 1)]
-
-
-def _log(marks: Sequence[float]) -> dict[str, Any]:
-    """A logarithmic scale from the first mark to the last."""
-    return {"type": "log", "domain": (marks[0], marks[-1]), "nice": False}

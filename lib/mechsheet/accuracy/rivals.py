@@ -1,4 +1,4 @@
-"""The other methods that could do the product's jobs, each beside its own: iterations, integration, differences, ports.
+"""Chains of dyads by the library, and by the other methods that could do the same jobs: iterations, integration, ports.
 
 Every function ``.._methods`` lists all ways to one job, the product's own first.
 """
@@ -18,24 +18,116 @@ from scipy.optimize import brentq, fsolve, newton, root
 
 from mechsheet.accuracy import printed
 from mechsheet.accuracy.arithmetic import cross, dot
-from mechsheet.accuracy.chain import (
-    REACTIONS,
-    Chain,
-    arm,
-    arm_pin,
-    first_analogues,
-    hinges,
-    hitch_points,
-    hitch_reactions,
-    inner_pins,
-    link_angles,
-    second_analogues,
-)
 from mechsheet.accuracy.precision import Method
+from mechsheet.mechanics.load import Load
 from mechsheet.mechanics.planar import angle
-from mechsheet.mechanics.rrr import RRRGroup, rrr, rrr_reach
+from mechsheet.mechanics.rrr import RRRGroup, rrr, rrr_reach, rrr_reactions
 from mechsheet.worksheet import numbers
 from mechsheet.worksheet.find import find
+
+REACTIONS = ("R56", "R07", "R34", "R05", "R01", "R03")  # of the hitch, in the order in which all methods list them
+
+
+@dataclass(frozen=True)
+class Dyad:
+    """Links AC and BC, and the point that the rocker BC carries: B + z (C - B) is the next dyad's pin A."""
+
+    B: complex
+    r_A: float | None  # None: the coordinate itself, a driving cylinder
+    r_B: float
+    branch: int
+    z: complex = 0
+
+    def length(self, q: Any) -> Any:
+        """Length of AC."""
+        return q if self.r_A is None else self.r_A
+
+
+@dataclass(frozen=True)
+class Chain:
+    """Dyads that hang one on another, the first on the point A(q) that moves by dA(q)."""
+
+    A: Callable[[Any], Any]
+    dA: Callable[[Any], Any]
+    dyads: tuple[Dyad, ...]
+
+    def groups(self, q: Any) -> list[RRRGroup]:
+        """The dyads in their positions."""
+        A, found = self.A(q), list[RRRGroup]()
+        for d in self.dyads:
+            found.append(RRRGroup(A, d.B, d.length(q), d.r_B, d.branch))
+            A = d.B + d.z * found[-1].BC
+        return found
+
+    def pins(self, q: Any) -> Any:
+        """Inner pins of all dyads."""
+        return np.array([group.C for group in self.groups(q)])
+
+    def angles(self, q: Any) -> Any:
+        """Angles of the links AC, BC of every dyad."""
+        return np.array([angle(link) for group in self.groups(q) for link in (group.AC, group.BC)])
+
+    def analogues(self, order: int, q: Any) -> Any:
+        """First or second derivatives of the angles but the first; the second ones where the first pin A rests."""
+        dA, found = self.dA(q), list[Any]()
+        ddA: Any = 0
+        for group, d in zip(self.groups(q), self.dyads, strict=True):
+            v = group.velocity(dA, dr_A=float(d.r_A is None))
+            dA = d.z * v.v_C
+            if order == 1:
+                found += [v.omega_A, v.omega_B]
+            else:
+                a = group.acceleration(v, ddA)
+                found += [a.epsilon_A, a.epsilon_B]
+                ddA = d.z * a.a_C
+        return np.array(found)[1:]
+
+
+def hinges(h: Any) -> tuple[complex, ...]:
+    """O1, O3, O5, O7 of the hitch with the inputs ``h``."""
+    return tuple(complex(getattr(h, f"X0{k}"), getattr(h, f"Y0{k}")) for k in (1, 3, 5, 7))
+
+
+def arm(h: Any) -> Any:
+    """The side of the hitch's lift arm next to the rod over the one next to the cylinder."""
+    return h.L34 / h.L3 * exp(1j * h.phi_BD)
+
+
+def arm_pin(h: Any, S: Any) -> Any:
+    """P34 of the hitch, the end of its lift arm."""
+    O1, O3, *_ = hinges(h)
+    return O3 + arm(h) * (rrr(O1, O3, S, h.L3, -1) - O3)
+
+
+def hitch_chain(h: Any, L4: float, L7: float) -> Chain:
+    """The hitch with the inputs ``h`` over the length of its cylinder."""
+    O1, O3, O5, O7 = hinges(h)
+    dyads = Dyad(O3, None, h.L3, -1, arm(h)), Dyad(O5, L4, h.L5, +1, h.L56 / h.L5), Dyad(O7, h.L6, L7, -1)
+    return Chain(lambda q: O1 + 0 * q, lambda q: 0 * q, dyads)
+
+
+def crank_chain(l_1: float, B: complex, l_A: float, l_B: float) -> Chain:
+    """A dyad on a crank about 0, over the angle of the crank."""
+    return Chain(lambda q: l_1 * exp(1j * q), lambda q: 1j * l_1 * exp(1j * q), (Dyad(B, l_A, l_B, +1),))
+
+
+def hitch_points(h: Any, S: Any, L4: float, L7: float, S6: Any) -> dict[str, Any]:
+    """Pins of the hitch by their names in the worksheet, and the centre of mass S6 [m] of the implement."""
+    of_23, of_45, of_67 = hitch_chain(h, L4, L7).groups(S)
+    outer = {"P34_S": of_45.A, "P56_S": of_67.A, "PS6_S": S6}
+    return outer | {"P23_S": of_23.C, "P45_S": of_45.C, "P67_S": of_67.C}
+
+
+def hitch_reactions(h: Any, p: dict[str, Any]) -> Any:
+    """The six `REACTIONS` to the weight of the implement."""
+    O1, O3, O5, O7 = hinges(h)
+    group_67 = rrr_reactions(p["P56_S"], O7, p["P67_S"], [Load(-1j * h.P6, p["PS6_S"])])
+    group_45 = rrr_reactions(p["P34_S"], O5, p["P45_S"], [], [Load(-group_67.R_A, p["P56_S"])])
+    group_23 = rrr_reactions(O1, O3, p["P23_S"], [], [Load(-group_45.R_A, p["P34_S"])])
+    return np.array([group_67.R_A, group_67.R_B, -group_45.R_A, -group_45.R_B, group_23.R_A, group_23.R_B])
+
+
+# Position
 
 
 def _family(name: str, settings: Sequence[float], run: Callable[[Any], Any]) -> list[Method]:
@@ -46,9 +138,6 @@ def _family(name: str, settings: Sequence[float], run: Callable[[Any], Any]) -> 
 
 def _powers(first: int, last: int, step: int = 1) -> list[float]:
     return [10.0**-k for k in range(first, last + 1, step)]
-
-
-# Position
 
 
 def _pins_at(chain: Chain, y: Any) -> Any:
@@ -76,7 +165,7 @@ def _by_newton(chain: Chain, q: Any, guess: Any, tolerance: float) -> Any:
     return _pins_at(chain, y)
 
 
-def _links(chain: Chain, q: float, y: Any) -> Iterator[tuple[Any, ...]]:
+def _links(chain: Chain, q: float, y: Any) -> Iterator[tuple[Dyad, complex, complex, complex]]:
     """The dyads at one position, each with the direction of AC and the vectors AC and BC."""
     for d, alpha, beta in zip(chain.dyads, y[::2], y[1::2], strict=True):
         u = cmath.exp(1j * alpha)
@@ -116,22 +205,22 @@ def integrated(chain: Chain, q: Any, start: Any, method: Any, relative: float, a
     return run.y if run.success else np.full((len(start), len(q)), nan)
 
 
-def _by_integration(chain: Chain, q: Any, start: Any, method: str, tolerance: float) -> Any:
-    return _pins_at(chain, integrated(chain, q, start, method, tolerance, tolerance))
-
-
 def position_methods(chain: Chain, q: Any, as_printed: Callable[[], Any]) -> list[Method]:
     """All ways to the inner pins of a chain at the positions q; ``as_printed`` is that of the documents."""
-    angles = link_angles(chain, q)
+    angles = chain.angles(q)
     guess, start = np.round(angles, 1), angles[:, 0]
     ways = [
-        Method("library: rrr", "", partial(inner_pins, chain, q)),
+        Method("library: rrr", "", partial(chain.pins, q)),
         Method("printed: law of cosines", "", as_printed),
         *_family("Newton", _powers(3, 14), partial(_by_newton, chain, q, guess)),
         *_family("fsolve, each position", _powers(3, 14, 3), partial(_by_fsolve, chain, q, guess)),
     ]
+
+    def by_integration(method: str, tolerance: float) -> Any:
+        return _pins_at(chain, integrated(chain, q, start, method, tolerance, tolerance))
+
     for name in ("RK45", "DOP853", "Radau"):
-        ways += _family(f"solve_ivp {name}", _powers(3, 12), partial(_by_integration, chain, q, start, name))
+        ways += _family(f"solve_ivp {name}", _powers(3, 12), partial(by_integration, name))
     return ways
 
 
@@ -143,21 +232,17 @@ def derivative_methods(
 ) -> list[Method]:
     """All ways to the first or second derivatives of the angles of the links but the cylinder."""
 
-    def angles(at: Any) -> Any:
-        return link_angles(chain, at)[1:]
-
     def differences(part: float) -> Any:
         h = part * stroke
-        behind, ahead = angles(q - h), angles(q + h)
-        return (ahead - behind) / (2 * h) if order == 1 else (ahead - 2 * angles(q) + behind) / h**2
+        behind, ahead = chain.angles(q - h)[1:], chain.angles(q + h)[1:]
+        return (ahead - behind) / (2 * h) if order == 1 else (ahead - 2 * chain.angles(q)[1:] + behind) / h**2
 
     def spline(n: int) -> Any:
         table = linspace(q[0], q[-1], n)
-        return CubicSpline(table, angles(table), axis=1)(q, order)
+        return CubicSpline(table, chain.angles(table)[1:], axis=1)(q, order)
 
-    name, own = ("rrr_velocity", first_analogues) if order == 1 else ("rrr_acceleration", second_analogues)
     return [
-        Method(f"library: {name}", "", partial(own, chain, q)),
+        Method(f"library: rrr_{('velocity', 'acceleration')[order - 1]}", "", partial(chain.analogues, order, q)),
         *([Method("printed: sines of the angles", "", as_printed)] if as_printed else []),
         *_family("central differences", _powers(1, 10), differences),
         *_family("spline of the table", [10 * 2**k for k in range(8)], spline),
@@ -172,7 +257,7 @@ class Unknown:
     """One Find of the hitch: f(x) = ``equals`` with x between the ends; f may take a branch where one is named."""
 
     f: Callable[..., Any]
-    printed: Callable[..., Any]  # f by the formulas of the document, as a port from Mathcad has it
+    printed: Callable[[float], Any]  # f by the formulas of the document, as a port from Mathcad has it
     slope: Callable[[float], Any]
     ends: tuple[Any, Any]
     guess: float
@@ -187,9 +272,6 @@ class Unknown:
         if not self.branch:
             return self
         return replace(self, f=lambda x: self.f(x) if x > 0 else nan, slope=lambda x: self.slope(x) if x > 0 else nan)
-
-    def as_printed(self) -> "Unknown":
-        return replace(self, f=self.printed)
 
 
 def unknown(h: Any, factor: float, *known: float) -> Unknown:
@@ -247,8 +329,7 @@ def _in_turn(solve: Callable[..., float]) -> Any:
 
 def _by_find(u: Unknown) -> float:
     branches: dict[str, Any] = {"branches": (+1, -1), "branch": u.branch} if u.branch else {}
-    value: float = find(u.f, *u.ends, equals=u.equals, guess=u.guess, **branches).value
-    return value
+    return float(find(u.f, *u.ends, equals=u.equals, guess=u.guess, **branches).value)
 
 
 def _bracketing(u: Unknown, tolerance: float) -> float:
@@ -258,13 +339,9 @@ def _bracketing(u: Unknown, tolerance: float) -> float:
         return nan
 
 
-def _newton(u: Unknown, tolerance: float) -> float:
-    x, r = newton(u.gap, u.guess, fprime=u.slope, tol=tolerance, full_output=True, disp=False)
-    return float(x) if r.converged else nan
-
-
-def _secant(u: Unknown, tolerance: float) -> float:
-    x, r = newton(u.gap, u.guess, tol=tolerance, full_output=True, disp=False)
+def _newton(u: Unknown, tolerance: float, slope: Callable[[float], Any] | None = None) -> float:
+    """The secant method where no slope is given."""
+    x, r = newton(u.gap, u.guess, fprime=slope, tol=tolerance, full_output=True, disp=False)
     return float(x) if r.converged else nan
 
 
@@ -305,10 +382,10 @@ def find_methods(h: Any, factors: Sequence[float]) -> list[Method]:
         Method("find", "", partial(each, _by_find)),
         Method("inverse mechanism", "", lambda: np.array([by_inverse(h) for _ in factors])),
         *iteration("brentq on the reach", _bracketing),
-        *iteration("Newton", _newton),
-        *iteration("secant", _secant),
+        *iteration("Newton", lambda u, tolerance: _newton(u, tolerance, u.slope)),
+        *iteration("secant", _newton),
         *iteration("hybr", _hybr),
-        *iteration("hybr, printed formulas", lambda u, tolerance: _hybr(u.as_printed(), tolerance)),
+        *iteration("hybr, printed formulas", lambda u, tolerance: _hybr(replace(u, f=u.printed), tolerance)),
     ]
 
 
@@ -328,11 +405,8 @@ def rod_ways(h: Any) -> dict[str, Callable[[Any], Any]]:
     return {"find": together, "brentq": one_by_one, "inverse": known_point}
 
 
-# Reactions
-
-
-def _equations(h: Any, p: dict[str, Any]) -> tuple[Any, Any]:
-    """Equilibrium of the bodies 2 to 7 at all positions: matrix (..., 18, 18) and right-hand side (..., 18)."""
+def _by_equations(h: Any, p: dict[str, Any], whole: bool) -> Any:
+    """Equilibrium of the bodies 2 to 7 solved, (..., 18, 18); by least squares with that of the ``whole`` beside it."""
     O1, O3, O5, O7 = hinges(h)
     pins = (  # the force in each is that of the first body on the second
         *((p["P56_S"], 5, 6), (O7, 0, 7), (p["P34_S"], 4, 3), (O5, 5, 0), (O1, 0, 2), (O3, 0, 3)),
@@ -347,37 +421,23 @@ def _equations(h: Any, p: dict[str, Any]) -> tuple[Any, Any]:
                 matrix[..., row, 2 * k] = matrix[..., row + 1, 2 * k + 1] = sense
                 matrix[..., row + 2, 2 * k], matrix[..., row + 2, 2 * k + 1] = -sense * P.imag, sense * P.real
     right[..., 13], right[..., 14] = h.P6, h.P6 * p["PS6_S"].real
-    return matrix, right
-
-
-def _of_unknowns(x: Any) -> Any:
-    """The six reactions from the unknowns of the equations."""
+    if whole:
+        matrix = np.concatenate([matrix, matrix.reshape(*shape, 6, 3, 18).sum(-3)], axis=-2)
+        right = np.concatenate([right, right.reshape(*shape, 6, 3).sum(-2)], axis=-1)
+        x = np.array([np.linalg.lstsq(A, b, rcond=None)[0] for A, b in zip(matrix, right, strict=True)])
+    else:
+        x = np.linalg.solve(matrix, right[..., None])[..., 0]
     return np.moveaxis(x[..., 0:12:2] + 1j * x[..., 1:12:2], -1, 0)
-
-
-def _dense(h: Any, p: dict[str, Any]) -> Any:
-    matrix, right = _equations(h, p)
-    return _of_unknowns(np.linalg.solve(matrix, right[..., None])[..., 0])
-
-
-def _least_squares(h: Any, p: dict[str, Any]) -> Any:
-    """With the equilibrium of the whole mechanism beside that of each body."""
-    matrix, right = _equations(h, p)
-    whole = matrix.reshape(*matrix.shape[:-2], 6, 3, 18).sum(-3)
-    matrix = np.concatenate([matrix, whole], axis=-2)
-    right = np.concatenate([right, right.reshape(*right.shape[:-1], 6, 3).sum(-2)], axis=-1)
-    return _of_unknowns(np.array([np.linalg.lstsq(A, b, rcond=None)[0] for A, b in zip(matrix, right, strict=True)]))
-
-
-def _eliminated(h: Any, p: dict[str, Any]) -> Any:
-    R = printed.hitch_forces(h, p)
-    return np.array([R[name] for name in REACTIONS])
 
 
 def reaction_ways(h: Any) -> dict[str, Callable[[dict[str, Any]], Any]]:
     """All ways to the six reactions of the hitch from its points."""
-    ways = {"library": hitch_reactions, "printed": _eliminated, "dense": _dense, "least squares": _least_squares}
-    return {name: partial(way, h) for name, way in ways.items()}
+    return {
+        "library": partial(hitch_reactions, h),
+        "printed": lambda p: np.array([*map(printed.hitch_forces(h, p).__getitem__, REACTIONS)]),
+        "dense": partial(_by_equations, h, whole=False),
+        "least squares": partial(_by_equations, h, whole=True),
+    }
 
 
 def reaction_methods(h: Any, S: Any, L4: float, L7: float, S6: Any) -> list[Method]:
