@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import groupby
 from typing import Any
 
@@ -25,8 +25,9 @@ _LETTERS = '"0123456789.,+-−eE"'  # of a number as text
 class InputRow:
     """One input: ``value`` is in ``unit``, a text, or one of the ``options``; those of a ``section`` stand together.
 
-    ``limits`` and ``whole`` are those of the declared input. It is element ``k`` of the ``leaf`` of a recording, which
-    has the name of the symbol where none is given. What is not ``asked`` is shown, and not to be changed.
+    ``limits``, ``whole`` and ``tolerance`` are those of the declared input. It is element ``k`` of the ``leaf`` of a
+    recording, which has the name of the symbol where none is given. What is not ``asked`` is shown, and not to be
+    changed.
     """
 
     symbol: str
@@ -40,6 +41,7 @@ class InputRow:
     leaf: str = ""
     k: int = 0
     asked: bool = True
+    tolerance: str = ""
 
     @property
     def allowed(self) -> str:
@@ -68,6 +70,8 @@ def rows(g: Any) -> list[InputRow]:
         row = InputRow(
             field.name, written, field.unit, field.meaning, field.section, field.limits, field.whole, options
         )
+        if field.tolerance:
+            row = replace(row, tolerance=field.tolerance.text(field.unit))
         asked.append(row)
     return asked + shown
 
@@ -108,7 +112,8 @@ def write(book: Book, rows: Sequence[InputRow], formulas: SheetFormulas | None) 
     placed = {row.symbol: n + 1 for n, row in listed_rows(rows) if isinstance(row, InputRow)}
     for _, row in listed_rows(rows):
         if isinstance(row, InputRow):
-            line: tuple[Content, ...] = (row.symbol, row.value, shown(row.unit), row.meaning, row.allowed)
+            bounds = ", ".join(filter(None, (row.allowed, row.tolerance)))
+            line: tuple[Content, ...] = (row.symbol, row.value, shown(row.unit), row.meaning, bounds)
             listed.append((*line, *(_computed(row, placed, formulas) if formulas else ())))
         else:
             listed.append((row,))
