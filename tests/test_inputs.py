@@ -136,6 +136,53 @@ def test_limit_that_cannot_be_read_is_an_error_at_its_line(limits, message):
     assert "\n" not in str(error.value)
 
 
+@pytest.mark.parametrize(
+    ("comment", "tolerance", "at_2"),
+    [
+        ("lower link; > 0; ± 0.001", "± 0.001 m", 0.001),
+        ("lower link; ± 0,001; > 0", "± 0.001 m", 0.001),
+        ("lower link; +- 0.5 mm normal", "± 0.0005 m normal", 0.0005),
+        ("lower link; +/- 1 %", "± 1 %", 0.02),
+        ("lower link;±1%normal", "± 1 % normal", 0.02),
+        ("lower link; ± 0", "± 0 m", 0.0),
+    ],
+)
+def test_a_line_may_carry_its_tolerance(comment, tolerance, at_2):
+    L5 = inputs.declared(run(CELL.replace("lower link; > 0", comment))["Arm"])[0]
+    assert (L5.meaning, L5.limits) == ("lower link", ((">", "0"),) if "> 0" in comment else ())
+    assert (L5.tolerance.text(L5.unit), L5.tolerance.of(-2.0)) == (tolerance, pytest.approx(at_2))
+
+
+@pytest.mark.parametrize(
+    ("comment", "message"),
+    [
+        ("lower link; ± -0.001", "tolerance of lower link L5 = -0.001 m must be a finite number >= 0"),
+        ("lower link; ± -1 %", "tolerance of lower link L5 = -1 % must be a finite number >= 0"),
+        ("lower link; ± 1e999", "tolerance of lower link L5 = inf m must be a finite number >= 0"),
+        (
+            "lower link; ± about 1",
+            "tolerance of lower link L5 = 'about 1' m is no number; it is such as ± 0.001, ± 1 %",
+        ),
+        ("lower link; ±", "tolerance of lower link L5 = '' m is no number"),
+        ("lower link; ± 1 N", "tolerance of lower link L5 = '1 N': N does not measure m"),
+        ("lower link; ± 1; ± 2", "tolerance of lower link L5 = '1; ± 2' m is no number"),
+        ("lower link; > 0 ± 0.001", "tolerance of L5 must stand behind a semicolon of its own, as in ; ± 0.001"),
+        ("lower link ± 1 %", "tolerance of L5 must stand behind a semicolon of its own, as in ; ± 0.001"),
+    ],
+)
+def test_a_tolerance_that_cannot_be_used_is_an_error_at_its_line(comment, message):
+    with pytest.raises(SheetError, match=f"^line 7 of .*: {re.escape(message)}") as error:
+        run(CELL.replace("lower link; > 0", comment))
+    assert "\n" not in str(error.value)
+
+
+def test_only_a_number_that_may_be_a_little_off_has_a_tolerance():
+    with pytest.raises(SheetError, match="N has a tolerance, ± 1, which only a single float can have"):
+        run(CELL.replace("positions; >= 2", "positions; >= 2; ± 1"))
+    with pytest.raises(SheetError, match="bolt has a tolerance, ± 1, which only"):
+        run('from mechsheet import inputs\n@inputs\nclass A:\n    bolt: str = "M8"  # bolt; ± 1\n')
+
+
 @pytest.mark.parametrize("limits", ["> 0 < S_max", "> 0, < S_max", ">0<S_max", " >=0,1   <= 3e0 ", "> -.5"])
 def test_limits_stand_in_a_row(limits):
     arm = run(CELL.replace("lower link; > 0", f"lower link; {limits}"))["Arm"]

@@ -47,6 +47,9 @@ def section_1():
 
     **Try** in the code: below `l` add `m: float = 12.0  # [kg] ram; > 0`. A new field is there.
 
+    Behind the limits a tolerance may stand, `; ± 0.05`, `; ± 1 %` or `; ± 5 % normal`: all within is as likely, unless
+    `normal` makes it three standard deviations.
+
     The kind of an input is its type: `float`, `int`, `bool` (a switch), `str` (a text), `Literal["single", "double"]`
     (names to choose from), `one_of(GRADES, "8.8")` (options with properties, `g.bolt.R_m`), `list[float]` (load
     cases), a list of rows of another class (a table), or either from a file beside the worksheet,
@@ -60,12 +63,12 @@ def section_1():
 @inputs
 class Press:
     # 1.1 Links
-    r: float = 0.06  # [mm] crank; > 0 < l
-    l: float = 0.24  # [mm] rod; > 0
+    r: float = 0.06  # [mm] crank; > 0 < l; ± 0.05
+    l: float = 0.24  # [mm] rod; > 0; ± 0.1
 
     # 1.2 Work
-    F: float = 50e3  # [kN] force on the ram, constant over its way; >= 0
-    h: float = 0.02  # [mm] ram above its lowest place, where the work begins; > 0
+    F: float = 50e3  # [kN] force on the ram, constant over its way; >= 0; ± 5 % normal
+    h: float = 0.02  # [mm] ram above its lowest place, where the work begins; > 0; ± 0.2
     M_max: float = 2500.0  # [N*m] what the drive can give; > 0
 
     """The fields above are made of these lines."""
@@ -263,6 +266,9 @@ def section_8():
 
         [limits]
         M = { max = 2000 }  # N*m, at every position
+
+    `run guide --tolerances` shows how far every result may be off within the tolerances, and how sure each check is,
+    `--tolerances --want=M` the moment at every position, by the slopes, by random cases, and guaranteed.
 
     `run guide --scene=stiff.toml` runs it; with several files you get a table of scenes side by side. From Python, a
     worksheet is a function, and many variants are computed at once:

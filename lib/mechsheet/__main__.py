@@ -28,6 +28,8 @@ usage: mechsheet COMMAND              where the package is installed
 
   run NAME [--INPUT=VALUE ...]        compute the worksheet and write its workbook
       NAME --proof                    prove how many digits of what it shows are right, at least 9 unless =DIGITS
+      NAME --tolerances               show how far results are off within the tolerances of the inputs, and how sure
+                                      each check is; with --want also by random cases and by guaranteed bounds
       NAME SCENE ...                  compute scenes side by side, and write workbooks where --out=FOLDER says
       NAME --want=RESULT,...          compute some results and what they need, and print them
       such as                         run hitch --P6=25e3 --want=L4,GS6

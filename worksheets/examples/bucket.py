@@ -47,33 +47,33 @@ def section_1():
 @inputs
 class Bucket:
     # 1.1 Hinges on the arm
-    X_A: float = -2.15  # [m] hinge of the cylinder, along the arm
-    Y_A: float = 0.62  # [m] hinge of the cylinder, across the arm
-    X_C: float = -0.42  # [m] hinge of the rocker, along the arm
-    Y_C: float = 0.06  # [m] hinge of the rocker, across the arm
+    X_A: float = -2.15  # [m] hinge of the cylinder, along the arm; ± 0.002
+    Y_A: float = 0.62  # [m] hinge of the cylinder, across the arm; ± 0.002
+    X_C: float = -0.42  # [m] hinge of the rocker, along the arm; ± 0.001
+    Y_C: float = 0.06  # [m] hinge of the rocker, across the arm; ± 0.001
 
     # 1.2 Links
-    L_CB: float = 0.62  # [m] rocker; > 0
-    L_DE: float = 0.46  # [m] bucket from its hinge D to the pin E; > 0
-    L_DT: float = 1.45  # [m] bucket from its hinge D to the teeth; > 0
+    L_CB: float = 0.62  # [m] rocker; > 0; ± 0.001
+    L_DE: float = 0.46  # [m] bucket from its hinge D to the pin E; > 0; ± 0.001
+    L_DT: float = 1.45  # [m] bucket from its hinge D to the teeth; > 0; ± 0.005
     delta_T: float = 105 * pi / 180  # [deg] angle from DT to DE at the bucket; > 0 < 180
 
     # 1.3 Cylinder
     S_min: float = 1.45  # [m] shortest length; > 0 < S_max
     S_max: float = 2.33  # [m] greatest length; > 0
-    D_c: float = 0.12  # [mm] bore; > 0
-    p_c: float = 34.3e6  # [MPa] pressure; > 0
+    D_c: float = 0.12  # [mm] bore; > 0; ± 0.05
+    p_c: float = 34.3e6  # [MPa] pressure; > 0; ± 3 %
     phi_open: float = 5 * pi / 180  # [deg] teeth with the shortest cylinder; > -90 < 90
 
     # 1.4 Load
-    m: float = 950.0  # [kg] bucket and soil; >= 0
+    m: float = 950.0  # [kg] bucket and soil; >= 0; ± 10 % normal
     L_DS: float = 0.75  # [m] centre of mass from the hinge D; >= 0
     delta_S: float = 80 * pi / 180  # [deg] angle from DS to DE; >= 0 < 180
     g_n: float = 9.81  # [m/s**2] gravity, across the arm; >= 0
 
     # 1.5 Pins
-    d_pin: float = 0.09  # [mm] diameter; > 0
-    b_pin: float = 0.1  # [mm] length in the bush; > 0
+    d_pin: float = 0.09  # [mm] diameter; > 0; ± 0.05
+    b_pin: float = 0.1  # [mm] length in the bush; > 0; ± 0.5
     p_pin: float = 60e6  # [MPa] greatest bearing pressure; > 0
 
     # 1.6 Positions

@@ -46,7 +46,7 @@ def _limits(field: Input) -> str:
     for column in columns:
         limits = ", ".join(f"{_SIGNS[sign]}&nbsp;{_limit(other)}" for sign, other in column.limits)
         parts += [f"{as_written(_short(column))}&nbsp;{limits}" if column is not field else limits] if limits else []
-    return ", ".join(parts)
+    return ", ".join(parts + ([escape(field.tolerance.text(field.unit))] if field.tolerance else []))
 
 
 def _limit(text: str) -> str:

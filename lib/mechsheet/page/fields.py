@@ -23,7 +23,9 @@ def _limit(text: str) -> str:
 
 
 def _limits(field: Input) -> str:
-    return ", ".join(f"{_SIGNS.get(sign, sign)}&nbsp;{_limit(other)}" for sign, other in field.limits)
+    limits = [f"{_SIGNS.get(sign, sign)}&nbsp;{_limit(other)}" for sign, other in field.limits]
+    tolerance = [html.escape(field.tolerance.text(field.unit))] if field.tolerance else []
+    return ", ".join(limits + tolerance)
 
 
 def _told(field: Input) -> str:

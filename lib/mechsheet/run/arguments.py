@@ -1,4 +1,4 @@
-"""The arguments of a run: inputs by name, a scene, the folder for what is written, and whether digits are proved."""
+"""The arguments of a run: inputs by name, a scene, the folder for what is written, whether proof or bands are asked."""
 
 import os
 import sys
@@ -27,7 +27,9 @@ def is_script(worksheet: str) -> bool:
 
 
 def read(arguments: Sequence[str], declared: Sequence[Input]) -> Scene:
-    """Scene from ``--scene=FILE``, ``--out=FOLDER``, ``--want=NAMES``, ``--proof``, ``--NAME=VALUE``; the later holds.
+    """Scene from ``--scene=FILE``, ``--out=FOLDER``, ``--want=NAMES``, ``--NAME=VALUE``; the later holds.
+
+    ``--proof`` and ``--tolerances`` stand alone.
 
     Wanted are names with commas between them, or one check by its own; those of all ``--want`` together.
     """
@@ -37,12 +39,15 @@ def read(arguments: Sequence[str], declared: Sequence[Input]) -> Scene:
         if name == "proof" and argument.startswith("--"):
             scene = replace(scene, proof=scenes.digits(f"argument {argument!r}", value) if equals else scenes.PROVED)
             continue
+        if argument == "--tolerances":
+            scene = replace(scene, tolerances=True)
+            continue
         if not (argument.startswith("--") and name and equals and value):
             raise SheetError(f"argument {argument!r} must be --NAME=VALUE, --want=NAMES, --scene=FILE or --out=FOLDER")
         if name == "scene":
             new = load(_path(value), declared)
             inputs, limits, proof = scene.inputs | new.inputs, scene.limits | new.limits, new.proof or scene.proof
-            scene = Scene(inputs, scene.out, new.want or scene.want, limits, proof)
+            scene = Scene(inputs, scene.out, new.want or scene.want, limits, proof, scene.tolerances)
         elif name == "out":
             scene = replace(scene, out=_path(value))
         elif name == "want":

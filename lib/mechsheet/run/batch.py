@@ -14,7 +14,7 @@ import numpy as np
 from mechsheet import units
 from mechsheet.document import parts
 from mechsheet.recording.record import record
-from mechsheet.run import report
+from mechsheet.run import banding, report
 from mechsheet.run.arguments import read
 from mechsheet.run.ending import INTERRUPTED, say, watch
 from mechsheet.run.progress import progress
@@ -35,7 +35,7 @@ _GAP = 2  # characters between columns
 
 @dataclass(frozen=True)
 class Outcome:
-    """What became of a scene: its inputs, how their texts were read, results, checks and proof, or the error."""
+    """What became of a scene: its inputs, how their texts were read, results, checks, proof and bands, or the error."""
 
     name: str
     g: Any = None
@@ -45,6 +45,7 @@ class Outcome:
     readings: tuple[str, ...] = ()
     error: str = ""
     proof: tuple[str, ...] = ()
+    bands: tuple[str, ...] = ()
 
     @property
     def problems(self) -> list[str]:
@@ -83,8 +84,9 @@ def compute(sheet: Worksheet, name: str, given: Scene) -> tuple[Outcome, dict[st
         wanted = [*given.want, *given.limits]
         proof = proof_of_wanted(names, sheet, wanted) if given.want else proof_of(names, sheet, record(names, sheet))
         judged, proved = [*judged, proof.check(given.proof)], tuple(proof.lines())
-    outcome = Outcome(name, g, tuple(quantities.values()), tuple(tables), tuple(judged), tuple(told), proof=proved)
-    return outcome, names
+    bands = tuple(banding.lines(names, sheet, given, [*quantities], judged)) if given.tolerances else ()
+    shown = tuple(quantities.values()), tuple(tables), tuple(judged), tuple(told)
+    return Outcome(name, g, *shown, proof=proved, bands=bands), names
 
 
 def answer(worksheet: str, given: Scene) -> int:
@@ -94,7 +96,7 @@ def answer(worksheet: str, given: Scene) -> int:
     say(*outcome.readings, *outcome.quantities)
     for table in outcome.tables:
         say(f"Table {table.number} - {table.title}", *_text(_printed(table)))
-    say(*(check for check in outcome.checks if check.passed), *outcome.proof, *outcome.problems)
+    say(*(check for check in outcome.checks if check.passed), *outcome.proof, *outcome.bands, *outcome.problems)
     if given.out:
         report.write(comparison(sheet, [outcome]), given.out / _summary(sheet))
     return 1 if outcome.problems else 0
@@ -164,7 +166,7 @@ def run(worksheet: str, arguments: Sequence[str]) -> int:
     for block in _blocks(_table(sheet, outcomes), shutil.get_terminal_size((120, 24)).columns):
         say(*_text(block), "")
     for outcome in outcomes:
-        say(*(f"{outcome.name}: {text}" for text in (*outcome.readings, *outcome.problems)))
+        say(*(f"{outcome.name}: {text}" for text in (*outcome.readings, *outcome.bands, *outcome.problems)))
     failed = sum(o.verdict != "pass" for o in outcomes)
     say(f"{len(outcomes) - failed} of {len(outcomes)} scenes pass" + (f", written to {out}" if out else ""))
     return 1 if failed else 0

@@ -19,7 +19,7 @@ def main() -> None:
     sheet = load(worksheet)
     declared = inputs.declared(sheet.inputs)
     given = read(options, declared)
-    if given.want or given.limits or given.proof:
+    if given.want or given.limits or given.proof or given.tolerances:
         raise SheetError("a page in one file holds the whole worksheet: it takes inputs, --scene of [inputs] and --out")
     g: Any = inputs.build(sheet.inputs, given.inputs)
     text = write.page(sheet, g).encode()

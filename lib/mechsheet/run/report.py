@@ -14,6 +14,7 @@ from mechsheet.recording.dimensions import dimensions
 from mechsheet.recording.lines import Recording, Residual
 from mechsheet.recording.record import record
 from mechsheet.run import arguments
+from mechsheet.run.banding import bands_of
 from mechsheet.run.ending import say
 from mechsheet.run.proving import proof_of
 from mechsheet.workbook import inputs_sheet, writing
@@ -76,7 +77,11 @@ def _script(title: str, namespace: Mapping[str, Any], worksheet: Path) -> None:
     refuse_open(_of(Check, values))
     recording, fit = _recorded(namespace)
     checks = [*_of(Check, values), fit]
-    say(*inputs.readings(declared, given.inputs), *_of(Verdict, values), *checks)
+    bands = bands_of(namespace, load(worksheet), checks) if given.tolerances else None
+    told = map(bands.told, checks) if bands else checks
+    say(*inputs.readings(declared, given.inputs), *_of(Verdict, values), *told)
+    if bands:
+        say(*bands.lines())
     if given.proof:
         proof = proof_of(namespace, load(worksheet), recording)
         checks.append(proof.check(given.proof))

@@ -12,13 +12,13 @@ from mechsheet import units
 from mechsheet.recording.graph import Gap
 from mechsheet.recording.node import Node
 from mechsheet.recording.numbers import numbers as recomputed
-from mechsheet.recording.quantity import Quantity
 from mechsheet.recording.record import record
 from mechsheet.recording.slopes import Slope, seen, slopes, solved_under, unfollowed
+from mechsheet.run.banding import part_of
 from mechsheet.studies.sweep import Sweep, sweep
 from mechsheet.worksheet import inputs as declarations
 from mechsheet.worksheet import numbers, symbol
-from mechsheet.worksheet.cells import base, load, split, value
+from mechsheet.worksheet.cells import base, load, value
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.kinds import Input
 from mechsheet.worksheet.shown import Charted
@@ -269,7 +269,7 @@ def _of_recording(
     only = replace(sheet, cells=tuple(sheet.needed([base(name) for name in names], ["g"])))
     recording = record(only.run(only.results, {"g": g}), only, whole=True)
     inputs = [recording.inputs[x] for x in by]
-    nodes = {name: _node(name, recording.values) for name in names}
+    nodes = {name: part_of(name, recording.values) for name in names}
     lacking = {name: unfollowed([node], inputs) for name, node in nodes.items() if node}
     here = slopes([node for node in nodes.values() if node], inputs)
     for name, node in nodes.items():
@@ -300,17 +300,6 @@ def _untold(lacking: Node | None, gaps: Sequence[Gap]) -> str:
         return "it is no recorded number"
     told = (str(gap) for gap in gaps if gap.line == lacking.line)
     return next(told, f"what line {lacking.line} does is not followed")
-
-
-def _node(name: str, values: Mapping[str, Any]) -> Node | None:
-    """A result or a part of one in a recording; none of what is no real quantity there."""
-    root, part = split(name)
-    quantity = values.get(root)
-    if not isinstance(quantity, Quantity):
-        return None
-    if part:
-        quantity = abs(quantity) if part == "abs" else getattr(quantity, part)
-    return quantity.re if quantity.im is None else None
 
 
 def _corner(name: str, slope: Slope, i: int) -> str:

@@ -13,6 +13,7 @@ from mechsheet.studies.sensitivity import continuous, point, real, solved
 from mechsheet.studies.sweep import sweep
 from mechsheet.worksheet import numbers
 from mechsheet.worksheet.cells import base
+from mechsheet.worksheet.deviation import SIGMAS
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.table import Column, Table, usual_decimals
 
@@ -85,7 +86,7 @@ class Tolerance:
 def tolerance(
     worksheet: str | Path,
     want: Iterable[str],
-    tolerances: Mapping[str, float],
+    tolerances: Mapping[str, float] | None = None,
     method: Literal["corners", "monte carlo"] = "corners",
     *,
     seed: int | None = None,
@@ -100,8 +101,9 @@ def tolerance(
     ----------
     worksheet, want, given
         As in `sensitivity`.
-    tolerances : mapping of str to float
-        Input name -> ± its tolerance, in its display unit.
+    tolerances : mapping of str to float, optional
+        Input name -> ± its tolerance, in its display unit; by default those that stand at the inputs, with their
+        distributions.
     method : {"corners", "monte carlo"}
         All 2**n corners of the tolerances, which bound every result that is monotonic in each input; or ``count``
         random variants.
@@ -120,8 +122,15 @@ def tolerance(
     """
     names = tuple(dict.fromkeys(want))
     fields, at = point(worksheet, given)
+    normal = [distribution == "normal"] * len(tolerances or ())
+    if tolerances is None:
+        declared = {x: field.tolerance for x, field in fields.items() if field.tolerance}
+        tolerances, normal = {x: d.of(at[x]) for x, d in declared.items()}, [d.normal for d in declared.values()]
+        distribution = "uniform"
     if not tolerances:
         raise SheetError("no input has a tolerance")
+    if distribution not in ("uniform", "normal"):
+        raise SheetError(f"distribution {distribution!r} must be 'uniform' or 'normal'")
     for x, t in tolerances.items():
         continuous(fields, x, "cannot have a tolerance:")
         if not (np.isfinite(t) and t >= 0):
@@ -136,7 +145,7 @@ def tolerance(
             )
         parts = np.array(list(product((-1.0, 1.0), repeat=len(spread))))
     elif method == "monte carlo":
-        parts = _drawn(seed, count, len(spread), distribution)
+        parts = _drawn(seed, count, normal)
     else:
         raise SheetError(f"method {method!r} must be 'corners' or 'monte carlo'")
     moved = np.vstack([np.zeros(len(spread)), parts]) * spread
@@ -156,7 +165,7 @@ def tolerance(
     return Tolerance(
         names,
         dict(tolerances),
-        f"{method}, {distribution}, seed {seed}" if method == "monte carlo" else method,
+        f"{method}, {_said(normal)}, seed {seed}" if method == "monte carlo" else method,
         bands,
         {**{name: swept.units[base(name)] for name in names}, **{x: fields[x].unit for x in tolerances}},
         len(parts),
@@ -165,16 +174,16 @@ def tolerance(
     )
 
 
-def _drawn(seed: int | None, count: int, inputs: int, distribution: str) -> Array:
+def _said(normal: Sequence[bool]) -> str:
+    return "normal" if all(normal) else "uniform and normal" if any(normal) else "uniform"
+
+
+def _drawn(seed: int | None, count: int, normal: Sequence[bool]) -> Array:
     """Random parts of the tolerances, a row for each variant."""
     if seed is None:
         raise SheetError("monte carlo needs a seed, such as seed=1")
     if count < 2:
         raise SheetError(f"count = {count} variants must be at least 2")
     rng = np.random.default_rng(seed)
-    match distribution:
-        case "uniform":
-            return rng.uniform(-1, 1, (count, inputs))
-        case "normal":
-            return rng.normal(0, 1 / 3, (count, inputs))
-    raise SheetError(f"distribution {distribution!r} must be 'uniform' or 'normal'")
+    columns = (rng.normal(0, 1 / SIGMAS, count) if bell else rng.uniform(-1, 1, count) for bell in normal)
+    return np.stack(list(columns), 1)

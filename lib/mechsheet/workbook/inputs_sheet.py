@@ -1,7 +1,7 @@
 """The sheet of the inputs, which the user of a workbook edits."""
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import groupby
 from typing import Any
 
@@ -27,8 +27,9 @@ _SI = 5  # column of the numbers in SI units
 class InputRow:
     """One input: ``value`` is in ``unit``, a text, or one of the ``options``; those of a ``section`` stand together.
 
-    ``limits`` and ``whole`` are those of the declared input. It is element ``k`` of the ``leaf`` of a recording, which
-    has the name of the symbol where none is given. What is not ``asked`` is shown, and not to be changed.
+    ``limits``, ``whole`` and ``tolerance`` are those of the declared input. It is element ``k`` of the ``leaf`` of a
+    recording, which has the name of the symbol where none is given. What is not ``asked`` is shown, and not to be
+    changed.
     """
 
     symbol: str
@@ -42,6 +43,7 @@ class InputRow:
     leaf: str = ""
     k: int = 0
     asked: bool = True
+    tolerance: str = ""
 
     @property
     def allowed(self) -> str:
@@ -77,6 +79,8 @@ def rows(g: Any) -> list[Item]:
         row = InputRow(
             field.name, written, field.unit, field.meaning, field.section, field.limits, field.whole, options
         )
+        if field.tolerance:
+            row = replace(row, tolerance=field.tolerance.text(field.unit))
         asked.append(row)
     return asked + shown
 
@@ -124,7 +128,8 @@ def write(book: Book, items: Sequence[Item], formulas: SheetFormulas | None) -> 
     for n, item in listed_rows(items):
         match item:
             case InputRow():
-                line: tuple[Content, ...] = (item.symbol, item.value, shown(item.unit), item.meaning, item.allowed)
+                bounds = ", ".join(filter(None, (item.allowed, item.tolerance)))
+                line: tuple[Content, ...] = (item.symbol, item.value, shown(item.unit), item.meaning, bounds)
                 listed.append((*line, *(_computed(item, n + 1, read, formulas) if formulas else ())))
             case Grid():
                 listed.append((item.symbol, "", "", item.meaning, item.told, *[""] * (len(fields) - 5)))

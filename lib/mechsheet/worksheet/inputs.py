@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mechsheet import units
-from mechsheet.worksheet import errors, lines, numbers, source
+from mechsheet.worksheet import deviation, errors, lines, numbers, source
 from mechsheet.worksheet.data_file import DataFile
 from mechsheet.worksheet.errors import SheetError, refuse
 from mechsheet.worksheet.kinds import Choice, Input, Offer, Switch, TextLine, number
@@ -34,7 +34,8 @@ def inputs(cls: type[T]) -> type[T]:
     """Make a class of lines ``X01: float = 0.415  # [m] meaning; > 0`` the frozen, validated inputs of a worksheet.
 
     Comments alone on a line are section headings; after ``;`` stand limits, against numbers in the
-    display unit or other inputs. Values are SI and radians. Arrays serve as variants.
+    display unit or other inputs, and after another one a tolerance, ``± 0.001`` or ``± 1 %``: all within is as likely,
+    unless ``normal`` behind it makes it three standard deviations. Values are SI and radians. Arrays serve as variants.
 
     The kind of an input is its type: ``float``, ``int``, ``bool`` (a switch), ``str`` (a text),
     ``Literal["single", "double"]`` (a choice of names), what `one_of` gives (options with properties), ``list[float]``
@@ -108,9 +109,14 @@ def _declared(cls: type, cell: source.Cell, names: Mapping[str, Any]) -> tuple[I
         text = lines.declared(comment)
         if text is None and kind in (int, float, list[float]) and not isinstance(default, Offer):
             raise SheetError(f"{place}: input {name} needs a comment with its unit, such as # [m] meaning")
-        unit, (meaning, _, limits) = text.unit if text else "-", (text.meaning if text else comment).partition(";")
+        unit, (meaning, *parts) = text.unit if text else "-", (text.meaning if text else comment).split(";")
+        limits, deviations = (";".join(p for p in parts if deviation.is_meant(p) is meant) for meant in (False, True))
+        if kind is float and any(map(deviation.is_misplaced, (meaning, limits))):
+            raise SheetError(f"{place}: tolerance of {name} must stand behind a semicolon of its own, as in ; ± 0.001")
         allowed, mistake = tuple(_limits(limits, name, place)), text.mistake if text else ""
         plain = Input(name, unit, meaning.strip(), section, kind is int, allowed, mistake=mistake, line=line)
+        if deviations:
+            plain = _with_tolerance(plain, deviations, kind is float and name in vars(cls), place)
         own = _of_kind(plain, kind, default, place, folder)
         if isinstance(own, Rows):
             if own.row and limits:
@@ -133,6 +139,17 @@ def _declared(cls: type, cell: source.Cell, names: Mapping[str, Any]) -> tuple[I
             raise SheetError(f"{places[other[0]]}: property {other[0]} of an option must be a float")
     _comparable(found, places)
     return tuple(found)
+
+
+def _with_tolerance(plain: Input, text: str, varies: bool, place: str) -> Input:
+    """An input whose tolerance is written so; SheetError where it has none, as only one that ``varies`` can."""
+    if not varies:
+        raise SheetError(f"{place}: {plain.name} has a tolerance, {text.strip()}, which only a single float can have")
+    try:
+        part = dataclasses.replace(plain, unit="%")
+        return dataclasses.replace(plain, tolerance=deviation.read(text, plain, part))
+    except SheetError as error:
+        raise SheetError(f"{place}: {error}") from None
 
 
 def _of_kind(plain: Input, kind: Any, default: Any, place: str, folder: str) -> Input:

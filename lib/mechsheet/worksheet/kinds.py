@@ -16,6 +16,7 @@ import numpy as np
 
 from mechsheet import units
 from mechsheet.worksheet import errors, numbers
+from mechsheet.worksheet.deviation import Deviation
 from mechsheet.worksheet.errors import SheetError
 
 T = TypeVar("T")
@@ -29,8 +30,8 @@ _LONGEST = 200  # characters of a text, so that a formula of a workbook can hold
 class Input:
     """One declared input, here a number; a value is held in SI, and shown in the display unit.
 
-    ``limits`` are pairs such as (">", "0"), in the display unit, or ("<", "S_max"). ``mistake`` tells why the unit is
-    not known, and the value is in SI; ``line`` is that of the declaration.
+    ``limits`` are pairs such as (">", "0"), in the display unit, or ("<", "S_max"); ``tolerance`` is how far the value
+    may be off. ``mistake`` tells why the unit is not known, and the value is in SI; ``line`` is where it is declared.
     """
 
     name: str
@@ -42,6 +43,7 @@ class Input:
     many: bool = False  # whether it stands for a column of numbers
     mistake: str = ""
     line: int = 0
+    tolerance: Deviation | None = None
 
     @property
     def continuous(self) -> bool:

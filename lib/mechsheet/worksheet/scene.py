@@ -38,13 +38,15 @@ class Limit:
 @dataclass(frozen=True)
 class Scene:
     """Inputs by name, in display units; the folder for files if one is given; the results wanted, none for all
-    of them; limits by the name of a result or check; the digits that must be proved, none for no proof."""
+    of them; limits by the name of a result or check; the digits that must be proved, none for no proof; whether bands
+    for the tolerances of the inputs are wanted."""
 
     inputs: dict[str, object] = field(default_factory=dict)
     out: Path | None = None
     want: tuple[str, ...] = ()
     limits: dict[str, Limit] = field(default_factory=dict)
     proof: float | None = None
+    tolerances: bool = False
 
 
 def load(path: Path) -> Scene:

@@ -1,4 +1,4 @@
-"""What the page's room tells those below: how a page shows values, which are data, and which cells it runs.
+"""What higher rooms tell those below: how a page shows values, which are data, which cells it runs; many runs.
 
 The package itself loads this file: nothing else is imported here.
 """
@@ -27,6 +27,20 @@ def _none() -> Page:
 
 
 page: Callable[[], Page] = _none  # set by the package itself, and called when a value is shown for the first time
+
+
+class Study(Protocol):
+    """What the study of tolerances tells those below."""
+
+    def tolerance(self, worksheet: str, want: Any, tolerances: None, method: str, **given: Any) -> Any:
+        """Bands of results of a worksheet for the tolerances of its inputs, by many runs."""
+
+
+def _unregistered() -> Study:
+    raise RuntimeError("no study of tolerances is registered: import mechsheet, not a part of it by its file")
+
+
+tolerances: Callable[[], Study] = _unregistered  # set by the package itself
 
 
 def _no_page(_namespace: Mapping[str, Any]) -> Texts | None:

@@ -1,0 +1,139 @@
+"""The bands of a run within the tolerances of its inputs: by the slopes, and of wanted results in other ways too."""
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from mechsheet import units
+from mechsheet.document import parts
+from mechsheet.recording.banded import RunBands, off, run_bands
+from mechsheet.recording.bands import Band, Bands, Tolerance, tolerances
+from mechsheet.recording.node import Node
+from mechsheet.recording.quantity import Quantity
+from mechsheet.recording.record import record
+from mechsheet.worksheet import numbers, shown
+from mechsheet.worksheet.cells import Worksheet, base, split
+from mechsheet.worksheet.check import Check
+from mechsheet.worksheet.lines import Formula, registry
+from mechsheet.worksheet.scene import Scene
+from mechsheet.worksheet.table import Table
+
+_CASES = 1000  # of Monte Carlo
+_WIDE = 5.0  # times the worst case of the slopes: wider bounds tell nothing
+_MOST = 3  # inputs that are named as those that matter
+
+
+def bands_of(namespace: Mapping[str, Any], sheet: Worksheet, checks: Iterable[Check]) -> RunBands:
+    """Bands of what a run of a whole worksheet shows.
+
+    Raises SheetError where no input has a tolerance, or one breaks a limit of its input.
+    """
+    by = tolerances(namespace["g"])
+    tables = [value for value in parts.values(namespace) if isinstance(value, Table)]
+    own = {check.name: check.limit for check in parts.values(namespace) if isinstance(check, Check)}
+    checks = [check for check in checks if own.get(check.name) == check.limit]  # not those of a scene
+    return run_bands(record(namespace, sheet, whole=True), tables, checks, registry(namespace), by)
+
+
+def lines(
+    namespace: Mapping[str, Any], sheet: Worksheet, given: Scene, quantities: Sequence[str], checks: Sequence[Check]
+) -> Iterator[str]:
+    """Bands of a run for some results alone: each at all its positions and in all ways; of a whole run as it shows."""
+    if not given.want:
+        whole = bands_of(namespace, sheet, checks)
+        yield from whole.lines()
+        yield from (f"{name}: {sure}" for name, sure in whole.sure.items())
+        return
+    by = tolerances(namespace["g"])
+    needed = replace(sheet, cells=tuple(sheet.needed([*given.want, *given.limits], ["g"])))
+    recording = record(namespace, needed, whole=True, every=1)
+    bands, known = Bands(recording, by), registry(namespace)
+    nodes = {name: node for name in quantities if (node := part_of(name, recording.values))}
+    yield f"within {', '.join(map(str, by.values()))}"
+    if nodes:
+        found = bands.of(nodes.values())
+        sampled = shown.tolerances().tolerance(
+            sheet.path, [*nodes], None, "monte carlo", seed=1, count=_CASES, **given.inputs
+        )
+        bounds = _bounds(nodes.values(), recording.inputs, by)
+        for name, node in nodes.items():
+            yield from _in_all_ways(name, node, known[base(name)], found[node], sampled, bounds[node], by)
+    judged = {check.name: check for check in checks if check.name in recording.checks}
+    for name, check in judged.items():
+        yield f"{name}: {check.verdict} {bands.sure(recording.checks[name], check.passed)}"
+
+
+def part_of(name: str, values: Mapping[str, Any]) -> Node | None:
+    """A result or a part of one in a recording; none of what is no real quantity there."""
+    root, part = split(name)
+    quantity = values.get(root)
+    if not isinstance(quantity, Quantity):
+        return None
+    if part:
+        quantity = abs(quantity) if part == "abs" else getattr(quantity, part)
+    return quantity.re if quantity.im is None else None
+
+
+def _bounds(
+    nodes: Iterable[Node], inputs: Mapping[str, Node], by: Mapping[str, Tolerance]
+) -> dict[Node, tuple[Any, Any]]:
+    from mechsheet.recording.enclosed import enclosed  # on use: only bounds need balls
+
+    return enclosed(nodes, {inputs[name]: tolerance.size for name, tolerance in by.items()})
+
+
+def _in_all_ways(
+    name: str,
+    node: Node,
+    line: Formula,
+    band: Band,
+    sampled: Any,
+    bounds: tuple[Any, Any],
+    by: Mapping[str, Tolerance],
+) -> Iterator[str]:
+    """One result: a row for each position, then by how much the ways differ and which inputs matter most."""
+    factor = units.parse(line.unit).factor
+    values = node.value.reshape(-1) / factor
+    if band.why:
+        yield f"{name}: no slopes, {band.why}"
+    worst, squares, deviation = (x.reshape(-1) / factor for x in (band.worst, band.squares, band.deviation))
+    drawn = [np.reshape(x, -1) for x in (sampled[name].least, sampled[name].greatest, sampled[name].deviation)]
+    low, high = (x.reshape(-1) / factor for x in bounds)
+    beyond = np.maximum(high - values, values - low)
+    narrow = np.where(worst > 0, beyond <= _WIDE * worst, np.isfinite(beyond))
+    heads = [f"{name} [{units.shown(line.unit)}]", "worst case", "root of squares", f"{_CASES} random cases"]
+    any_narrow = bool(narrow.any())
+    rows = [[*heads, *["guaranteed"] * any_narrow]]
+    for k, value in enumerate(values):
+        row = [numbers.significant(value, 6), *(f"± {off(x[k])}" for x in (worst, squares))]
+        bound = _ends(low[k], high[k]) if narrow[k] else numbers.CELL.none
+        rows.append([*row, _ends(drawn[0][k], drawn[1][k]), *[bound] * any_narrow])
+    wide = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    yield from ("  ".join(text.ljust(w) for text, w in zip(row, wide, strict=True)).rstrip() for row in rows)
+    if sampled.lost:
+        yield f"{sampled.lost} of {_CASES} random cases have no value: {sampled.reason}"
+    elif not band.why:
+        apart = np.max(np.abs(drawn[2] - deviation), initial=0.0) / (np.max(deviation, initial=0.0) or 1.0)
+        yield (
+            f"standard deviation of the random cases and by the slopes differ by {numbers.significant(100 * apart, 2)}"
+            f" % of the greatest, by chance about {numbers.significant(100 / np.sqrt(2 * _CASES), 2)} %"
+        )
+    if not narrow.all():
+        where = f" at {np.count_nonzero(~narrow)} of {values.size} positions" if narrow.any() else ""
+        yield f"bounds that balls guarantee are none, or too wide to tell anything{where}"
+    if not band.why:
+        yield f"most by {', '.join(_mattering(name, line, band, by))}"
+
+
+def _mattering(name: str, line: Formula, band: Band, by: Mapping[str, Tolerance]) -> Iterator[str]:
+    """The inputs that move a result most where its worst case is greatest, and by how much."""
+    k = int(np.argmax(np.nan_to_num(band.worst).reshape(-1)))
+    moves = np.abs(band.moves.reshape(len(by), -1)[:, k]) / units.parse(line.unit).factor
+    for i in np.argsort(-moves, kind="stable")[:_MOST]:
+        yield f"{[*by][i]} (± {off(moves[i])}{numbers.suffix(line.unit)})"
+
+
+def _ends(low: float, high: float) -> str:
+    return numbers.span(numbers.significant(float(end), 6) for end in (low, high))

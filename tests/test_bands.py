@@ -1,0 +1,170 @@
+"""Bands of results within the tolerances of inputs: against random cases, by hand, and what is said of checks."""
+
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+from own_worksheet import own
+
+from mechsheet.document import parts
+from mechsheet.recording.banded import run_bands
+from mechsheet.recording.bands import Bands, tolerances
+from mechsheet.recording.enclosed import enclosed
+from mechsheet.recording.record import record
+from mechsheet.run import arguments, batch
+from mechsheet.studies.sweep import sweep
+from mechsheet.studies.tolerance import tolerance
+from mechsheet.worksheet import cells
+from mechsheet.worksheet.check import Check
+from mechsheet.worksheet.errors import SheetError
+from mechsheet.worksheet.inputs import declared
+from mechsheet.worksheet.lines import registry
+from mechsheet.worksheet.table import Table
+
+EXAMPLES = Path(__file__).parents[1] / "worksheets" / "examples"
+PART = 1e-4  # of an input: so little that nothing bends by more than its square
+
+
+def toleranced(tmp_path: Path, name: str) -> cells.Worksheet:
+    """An example whose every number has a tolerance."""
+    text = (EXAMPLES / f"{name}.py").read_text(encoding="utf-8")
+    text = re.sub(r"; ± [^;\n]*", "", text)
+    text = re.sub(r"(?m)^(    \w+: float = .*  # \[.*)$", rf"\1; ± {100 * PART} %", text)
+    for data in EXAMPLES.glob("*.csv"):
+        (tmp_path / data.name).write_bytes(data.read_bytes())
+    path = tmp_path / f"{name}.py"
+    path.write_text(text, encoding="utf-8")
+    return cells.load(path)
+
+
+def bands(sheet: cells.Worksheet):
+    """All bands of a worksheet, and its namespace."""
+    names = sheet.run(sheet.results, {"g": sheet.inputs()})
+    shown = parts.values(names)
+    tables, checks = ([v for v in shown if isinstance(v, kind)] for kind in (Table, Check))
+    by = tolerances(names["g"])
+    return run_bands(record(names, sheet, whole=True, every=1), tables, checks, registry(names), by), names
+
+
+@pytest.mark.parametrize("name", ["bucket", "engine", "bolted_joint"])
+def test_every_random_case_is_where_the_slopes_say(name, tmp_path):
+    """Every result of worksheets that are no test's own, found values among them."""
+    sheet = toleranced(tmp_path, name)
+    found, names = bands(sheet)
+    shown = {field.name: field for field in declared(sheet.inputs)}
+    drawn = np.random.default_rng(20).uniform(-1, 1, (len(found.by), 6))
+    own_values = {x: shown[x].display(getattr(names["g"], x)) for x in found.by}
+    variants = {x: v + abs(v) * PART * d for (x, v), d in zip(own_values.items(), drawn, strict=True)}
+    results = [b for b in found.banded if b.where == "results" and np.max(b.band.worst) > 1e-12]  # no mere rounding
+    assert len(results) > 10
+    swept = sweep(sheet.path, dict.fromkeys(b.name.split(".")[0] for b in results), variants)
+    assert swept.solved.all()
+    for b in results:
+        values = np.asarray(cells.value(b.name, swept)) if "." in b.name else swept[b.name]
+        off = values.reshape(6, -1) - np.asarray(cells.value(b.name, names)).reshape(1, -1)
+        said = drawn.T @ b.band.moves.reshape(len(drawn), -1)
+        size = np.max(b.band.worst)
+        assert np.max(np.abs(off - said)) <= 50 * PART * size + 1e-13 * np.max(np.abs(values)), b.name
+
+
+OFF = ("F: float = 2.5  # [-] number", "a: float = 0.75  # [-] part")
+LINES = """
+from mechsheet import check
+y = 2 * g.F + g.a  # [-] line
+w = abs(g.F - 2.5)  # [-] with a corner
+c = check("below", y, LIMIT)"""
+
+
+TEXT = '\nz = float(f"{g.F:.17g}") * g.a  # [-] by way of a text'
+
+
+def off(tmp_path: Path, limit: float, F: str = "± 1", a: str = "± 0.5", more: str = "") -> cells.Worksheet:
+    sheet = own(tmp_path, LINES.replace("LIMIT", str(limit)) + more)
+    path = Path(sheet.path)
+    text = path.read_text(encoding="utf-8")
+    for line, tolerance_of in zip(OFF, (F, a), strict=True):
+        text = text.replace(line, f"{line}; {tolerance_of}" if tolerance_of else line)
+    path.write_text(text, encoding="utf-8")
+    return cells.load(path)
+
+
+def test_worst_case_root_of_squares_and_what_is_not_followed(tmp_path):
+    found, _ = bands(off(tmp_path, 9, more=TEXT))
+    by_name = {b.name: b for b in found.banded}
+    assert (by_name["y"].worst.tolist(), by_name["y"].squares.tolist()) == ([2.5], [4.25**0.5])
+    assert by_name["w"].worst.tolist() == [1.0], "the steeper side"
+    assert "line 42" in by_name["z"].cells()[-1]
+    table = next(b for b in found.banded if b.where == "table 1")
+    assert np.allclose(table.worst, np.linspace(0.1, 2, 5))
+    assert re.search(r"table 1 +x .*± 2 .*in row 5", "\n".join(found.lines()))
+
+
+@pytest.mark.parametrize(
+    ("limit", "F", "a", "said"),
+    [
+        (9.0, "± 1", "", "in all the tolerances"),
+        (6.75, "± 1", "", r"in 7[45](\.\d)? % of cases, fails at worst"),  # of y = 5.75 ± 2
+        (6.75, "± 1 normal", "", r"in 93\.\d % of cases, fails at worst"),  # half a length is 1.5 standard deviations
+        (7.70, "± 1", "", "in 98.[5-9] % of cases, fails at worst"),
+        (8.2, "± 1 normal", "± 0.5", r"in more than 99.9 % of cases, fails at worst"),
+        (4.75, "± 1", "", "holds in 2[456] % of cases"),
+        (3.0, "± 1", "", "in all the tolerances"),
+    ],
+)
+def test_a_check_says_how_sure_it_is(limit, F, a, said, tmp_path):
+    found, names = bands(off(tmp_path, limit, F, a))
+    assert re.fullmatch(said, found.sure["below"]), found.sure
+    assert found.told(names["c"]) == f"{names['c']}; {found.sure['below']}"
+
+
+def test_whether_a_group_closes_is_looked_at_at_the_ends(tmp_path):
+    lines = """
+from mechsheet import assembled
+C = rrr(0, 5.0, g.F, 3.0, +1)  # [m] pin
+c = assembled("closes", C, g.F, (2.0, 8.0), "F", "-")"""
+    for tolerance_of, said in (("± 0.4", "at both ends of each tolerance"), ("± 0.6", "fails for F = 1.9")):
+        sheet = own(tmp_path, lines)
+        path = Path(sheet.path)
+        path.write_text(path.read_text(encoding="utf-8").replace(OFF[0], f"{OFF[0]}; {tolerance_of}"), encoding="utf-8")
+        assert bands(cells.load(path))[0].sure["closes"] == said
+
+
+def test_guaranteed_bounds_hold_all_cases(tmp_path):
+    sheet = off(tmp_path, 9)
+    names = sheet.run(sheet.results, {"g": sheet.inputs()})
+    recording = record(names, sheet, whole=True)
+    by = tolerances(names["g"])
+    node = recording.values["y"].re
+    low, high = enclosed([node], {recording.inputs[x]: t.size for x, t in by.items()})[node]
+    assert low <= 3.25 and high >= 8.25 and high - low < 5 + 1e-6
+    assert Bands(recording, by).of([node])[node].worst == 2.5
+
+
+def test_a_run_shows_bands_only_where_it_is_asked_for_them(tmp_path, capsys):
+    sheet = off(tmp_path, 6.75, more=TEXT)
+    declared_inputs = declared(sheet.inputs)
+    asked = arguments.read(["--tolerances", "--want=y,z,c", "--F=2.75"], declared_inputs)
+    assert batch.answer(sheet.path, asked) == 0
+    out = capsys.readouterr().out
+    assert "within F = 2.75 ± 1, a = 0.75 ± 0.5" in out and "most by F (± 2), a (± 0.5)" in out
+    assert re.search(r"6.25 +± 2.5 +± 2.1 +3\.\d+..8\.\d+ +3.75..8.75", out), "guaranteed too"
+    assert "z: no slopes" in out and re.search(r"^below: pass in 6\d(\.\d)? % of cases", out, re.MULTILINE)
+    assert batch.answer(sheet.path, arguments.read(["--want=y"], declared_inputs)) == 0
+    assert "±" not in capsys.readouterr().out
+
+
+def test_what_cannot_be_banded_is_said(tmp_path):
+    with pytest.raises(SheetError, match=r"no input has a tolerance: behind the limits of one write ; ± 0\.001"):
+        tolerances(off(tmp_path, 9, "", "").inputs())
+    with pytest.raises(SheetError, match=r"tolerance ± 3 normal: number F = -0.5 must be positive"):
+        tolerances(off(tmp_path, 9, "> 0; ± 3 normal").inputs())
+    with pytest.raises(SheetError, match=r"argument '--tolerances=' must be"):
+        arguments.read(["--tolerances="], declared(off(tmp_path, 9).inputs))
+
+
+def test_random_cases_are_drawn_from_the_distributions_at_the_inputs(tmp_path):
+    sheet = off(tmp_path, 9, "± 1 normal")
+    drawn = tolerance(sheet.path, ["y"], method="monte carlo", seed=1, count=4000)
+    assert drawn["y"].deviation == pytest.approx(np.hypot(2 / 3, 0.5 / 3**0.5), rel=0.05)
+    assert "uniform and normal" in drawn.method and drawn.tolerances == {"F": 1.0, "a": 0.5}
