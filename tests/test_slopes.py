@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from mechsheet.recording.gradients import gradient
 from mechsheet.recording.graph import Graph, current
 from mechsheet.recording.node import Block
 from mechsheet.recording.operations import ELEMENTWISE
@@ -26,13 +27,23 @@ def test_every_operation_has_a_rule() -> None:
     assert {*ELEMENTWISE, *made} == {*RULES, *SMOOTH}
 
 
+def assert_same(backwards: Slope, forwards: Slope, element: int) -> None:
+    """That the pass backwards has what the forward ones have of one element."""
+    for seen_back, side in zip(backwards, forwards, strict=True):
+        wanted = side.reshape(seen_back.size, -1)[:, element]
+        np.testing.assert_allclose(seen_back, wanted, rtol=1e-13, atol=1e-15 * np.nanmax(np.abs(wanted), initial=1.0))
+
+
 def seen(f: Callable[..., Any], *at: float) -> Slope:
     graph = Graph()
     token = current.set(graph)
     try:
         x = [Quantity(graph, graph.leaf("input", f"x{k}", float(v))) for k, v in enumerate(at)]
-        y = f(*x)
-        return slopes([y.re], [v.re for v in x])[y.re]
+        y, by = f(*x), [v.re for v in x]
+        found = slopes([y.re], by)[y.re]
+        for element in range(y.re.size):
+            assert_same(gradient(y.re, element, by), found, element)
+        return found
     finally:
         current.reset(token)
 
@@ -65,6 +76,7 @@ def seen(f: Callable[..., Any], *at: float) -> Slope:
         (np.log1p, [1e-9], [1 / (1 + 1e-9)], [1 / (1 + 1e-9)]),
         (np.sinh, [1e-9], [1], [1]),
         (np.cumsum, [3], [1], [1]),
+        (lambda x: (np.where(x > 1, 7.0, x) - 1) ** 2, [1], [nan], [0]),
     ],
 )
 def test_corners_and_kernels(f: Any, at: list[float], ahead: list[float], behind: list[float]) -> None:
@@ -94,6 +106,7 @@ def test_elements(f: Any, slope: Any) -> None:
         leaf = graph.leaf("input", "a", np.array([3.0, 3.0, 2.0]))
         y = f(Quantity(graph, leaf))
         found = slopes([y.re], [leaf])[y.re]
+        assert_same(gradient(y.re, 0, [leaf]), found, 0)
     finally:
         current.reset(token)
     for side, wanted in zip(found, slope, strict=True):
@@ -121,7 +134,10 @@ def test_what_is_found_moves_with_its_equations(coupled: bool) -> None:
     u, v = x.value, y.value
     assert jacobian(made).shape == ((1, 4, 4) if coupled else (2, 2, 2))
     wanted = (x + 3 * y).re
-    found = slopes([wanted], [p.re, q.re])[wanted].both
+    seen = slopes([wanted], [p.re, q.re])[wanted]
+    for element in range(wanted.size):
+        assert_same(gradient(wanted, element, [p.re, q.re]), seen, element)
+    found = seen.both
     # with v = u - 1: (2 u + p) du = dq - v dp
     by_p, by_q = -v / (2 * u + 2), 1 / (2 * u + 2)
     np.testing.assert_allclose(found, 4 * np.array([by_p, [by_q[0], 0], [0, by_q[1]]]), rtol=1e-14, atol=1e-16)
@@ -133,4 +149,5 @@ def test_what_is_not_recorded_has_no_slope(tmp_path: Path) -> None:
     lacking = unfollowed([node], [F])
     assert lacking is not None and lacking.op == "exported" and lacking.line == recording.gaps[0].line
     assert unfollowed([node], [recording.inputs["n"]]) is None
+    assert np.isnan(gradient(node, 0, [F]).both).all()
     assert np.isnan(slopes([node], [F])[node].both).all() and unfollowed([F], [a]) is None

@@ -27,7 +27,7 @@ from mechsheet.recording.ball_rules import (
     distance,
     elementwise,
 )
-from mechsheet.recording.node import Block, Node, bottom_up
+from mechsheet.recording.node import Block, Node, bottom_up, has_equation
 from mechsheet.recording.operations import ELEMENTWISE, Values
 from mechsheet.recording.slope_rules import SMOOTH, kernel
 
@@ -88,23 +88,18 @@ class Balls:
 
     def _found(self, node: Node) -> Values:
         block: Block = node.args[0]
-        if not _has_equation(node):
+        if not has_equation(node):
             return _nothing(node.shape)
         if block not in self.solved:
             self.solved[block] = enclosed(block, {n: self.known[n] for n in block.under})
         return self.solved[block][int(node.args[1])]
 
 
-def _has_equation(found: Node) -> bool:
-    block, number = found.args
-    return not block.least and number < len(block.nodes) == len(block.residuals)
-
-
 def unfollowed(wanted: Iterable[Node]) -> set[Node]:
     """Nodes of which no precision tells anything, with all that rests on them."""
     lost = set[Node]()
     for node in bottom_up(wanted, ()):
-        own = node.op in ("exported", "iterated") or (node.op == "found" and not _has_equation(node))
+        own = node.op in ("exported", "iterated") or (node.op == "found" and not has_equation(node))
         if own or not lost.isdisjoint(node.operands):
             lost.add(node)
     return lost

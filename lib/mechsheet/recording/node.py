@@ -139,6 +139,12 @@ def bottom_up(roots: Iterable["Node"], known: Container["Node"]) -> Iterator["No
             stack.extend((operand, False) for operand in node.operands if operand not in done)
 
 
+def has_equation(found: Node) -> bool:
+    """Whether a quantity that is found is one of as many unknowns as its block has equations, which it solves."""
+    block, number = found.args
+    return not block.least and number < len(block.nodes) == len(block.residuals)
+
+
 def is_number(node: Node, number: float) -> bool:
     """Whether a node is this constant, without a unit."""
     return node.op == "constant" and not node.args and node.shape == () and bool(node.value == number)

@@ -30,6 +30,7 @@ ELEMENTWISE: dict[str, Callable[..., Values]] = {
     "like": lambda a, *b: np.broadcast_arrays(a, *b)[0],  # in the shape that it has together with another one
     "sized": lambda a, same: np.where(same, a, np.nan),  # while lengths are the same
 }  # fmt: skip
+SHAPED = ("like", "sized")  # whose further operands give the shape alone
 REDUCE: dict[str, Callable[..., Any]] = {
     "max": np.max, "min": np.min, "sum": np.sum, "prod": np.prod, "any": np.any, "all": np.all, "argmax": np.argmax,
     "argmin": np.argmin, "nanmax": np.nanmax, "nanmin": np.nanmin, "nansum": np.nansum,

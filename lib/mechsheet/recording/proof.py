@@ -18,9 +18,10 @@ from mechsheet import units
 from mechsheet.recording import lone_root
 from mechsheet.recording.ball_rules import NONE, UNDECIDED, constant
 from mechsheet.recording.balls import Balls, precision, unfollowed
+from mechsheet.recording.gradients import adjoints
 from mechsheet.recording.lines import Recording, Solved
 from mechsheet.recording.node import LEAVES, Node, bottom_up
-from mechsheet.recording.operations import Values
+from mechsheet.recording.operations import SHAPED, Values
 from mechsheet.recording.quantity import Quantity
 from mechsheet.worksheet import numbers
 from mechsheet.worksheet.check import Check
@@ -31,26 +32,35 @@ from mechsheet.worksheet.table import Column, Table
 _ALL = 16.0  # digits of a float, claimed where a number is exact
 _BITS = (128, 256, 512, 1024)
 _SMALL = 2.0**-60  # a ball beside the largest number of its column
+_ZERO = 2.0**-500  # of what a number is made of: all that the highest precision leaves of one that is 0
+_HELD = 2.0**-51  # of an input: by how much it is off that is held as a float, in another unit than it is written
 
 
 @dataclass(frozen=True)
 class Proved:
-    """Digits proved of each number of a column, relative to the largest one; 0 where nothing is.
+    """Digits proved of each number of a column, relative to the largest one; 0 where nothing is, NaN where none can be.
 
     ``where`` is the table, ``name`` the column or result, ``why`` what keeps digits from being proved, with its line.
+    One that is an ``exception`` has no digits, for the reason given, or those beside what it is made of.
     """
 
     where: str
     name: str
     digits: Values
     why: str = ""
+    exception: bool = False
 
     @property
     def least(self) -> float:
         return float(np.min(self.digits))
 
+    @property
+    def title(self) -> str:
+        return f"{self.where}, {self.name}"
+
     def __str__(self) -> str:
-        return f"{self.where}, {self.name}: {_shown(self.least)} digits" + (f"; {self.why}" if self.why else "")
+        digits = [] if np.isnan(self.least) else [f"{_shown(self.least)} digits"]
+        return f"{self.title}: " + "; ".join([*digits, *([self.why] if self.why else [])])
 
 
 @dataclass(frozen=True)
@@ -88,10 +98,14 @@ class Proof:
     def least(self) -> dict[str, Proved]:
         """Of each table, and of the single results, the column with the fewest digits."""
         found = dict[str, Proved]()
-        for column in self.columns:
-            if column.where not in found or column.least < found[column.where].least:
-                found[column.where] = column
-        return found
+        for column in sorted(self.columns, key=lambda c: np.nan_to_num(c.least, nan=np.inf)):
+            found.setdefault(column.where, column)
+        return {column.where: found[column.where] for column in self.columns}
+
+    @property
+    def exceptions(self) -> list[Proved]:
+        """Columns that are no numbers of the formulas, or 0 but for rounding."""
+        return [column for column in self.columns if column.exception]
 
     def below(self, digits: float) -> list[Proved]:
         """Columns of which not every number is proved to so many digits."""
@@ -99,11 +113,14 @@ class Proof:
 
     def check(self, digits: float = PROVED) -> Check:
         """The check that every number is proved to so many digits, which names the first that is not."""
-        missing = max((max(digits - column.least, 0.0) for column in self.columns), default=np.nan)
+        least = [column.least for column in self.columns if not np.isnan(column.least)]
+        missing = max((max(digits - own, 0.0) for own in least), default=np.nan)
         told = [str(column) for column in self.below(digits)[:1]]
-        unproved = [str(root) for root in self.roots if not root.exists][:1]
+        told += [str(root) for root in self.roots if not root.exists][:1]
+        apart = [column.title for column in self.exceptions]
+        told += [f"but for exceptions: {'; '.join(apart)}"] if apart else []
         name = f"every number proved to {numbers.significant(digits, 4)} digits"
-        return Check(name, missing, 0.0, "digits missing", "; ".join(told + unproved))
+        return Check(name, missing, 0.0, "digits missing", "; ".join(told))
 
     def table(self) -> Table:
         """A row for each table: how many numbers it has, the fewest digits proved, and of which column."""
@@ -122,12 +139,13 @@ class Proof:
         )
 
     def lines(self) -> list[str]:
-        """The table and what is proved of found values, as texts."""
+        """The table, its exceptions and what is proved of found values, as texts."""
         rows = list(zip(*(column.texts() for column in self.table().columns), strict=True))
         heads = [("", "numbers", "digits proved", "least in", "")]
         wide = [max(len(row[k]) for row in [*heads, *rows]) for k in range(5)]
         shown = ["  ".join(text.ljust(w) for text, w in zip(row, wide, strict=True)).rstrip() for row in heads + rows]
-        return [*shown, *map(str, self.roots), self.table().note]
+        apart = [f"exception: {column}" for column in self.exceptions]
+        return [*shown, *apart, *map(str, self.roots), self.table().note]
 
 
 def prove(
@@ -202,6 +220,7 @@ class _Digits:
         self.recording = recording
         self.found = dict[Node, Values]()
         self.first = self.last = Balls()
+        self.finest = Balls()
 
     def enclose(self, shown: Iterable[_Shown]) -> None:
         sizes = dict[Node, float]()
@@ -233,7 +252,31 @@ class _Digits:
         with precision(_BITS[0]):
             each = zip(balls, shown.own.tolist(), strict=True)
             digits = np.array([_digits(x, float(v), shown.factor, shown.size) for x, v in each])
-        return Proved(shown.where, shown.name, digits, self.why(shown) if digits.min() < PROVED else "")
+        if digits.min() >= PROVED:
+            return Proved(shown.where, shown.name, digits)
+        if _is_count(shown.node):
+            why = f"line {shown.line}: a count of evaluations, which is none of the formulas' numbers"
+            return Proved(shown.where, shown.name, np.full(shown.own.shape, np.nan), why, exception=True)
+        return self.zero(shown, shown.node) or Proved(shown.where, shown.name, digits, self.why(shown))
+
+    def zero(self, shown: _Shown, node: Node) -> Proved | None:
+        """Digits of numbers that are 0 but for rounding, beside what they are made of; None of others.
+
+        They are 0 to hundreds of digits, or less than what the inputs move them by that are held as floats.
+        """
+        with precision(_BITS[-1]):
+            (found,) = self.finest.of([node])
+        largest = int(np.argmax(np.abs(shown.own)))
+        moves = {part: np.abs(share * part.value) for part, share in adjoints(node, largest).items()}
+        made = max(float(np.max(m, initial=0.0, where=np.isfinite(m))) for m in moves.values())
+        held = _HELD * sum(float(np.nansum(m)) for part, m in moves.items() if part.op == "input")
+        if not all(x is not NONE and x.is_finite() and abs(x) <= max(held, made * _ZERO) for x in found.flat):
+            return None
+        each = zip(found.flat, shown.own.flat, strict=True)
+        digits = np.array([_digits(x, float(v), shown.factor, made / shown.factor) for x, v in each])
+        part = numbers.significant(shown.size * shown.factor / made, 1)
+        why = f"line {shown.line}: 0 but for rounding, {part} of what it is made of, beside which its digits are"
+        return Proved(shown.where, shown.name, digits, why, exception=True)
 
     def why(self, shown: _Shown) -> str:
         """What keeps digits from being proved: the first operation that leaves something open, or their rounding."""
@@ -244,9 +287,8 @@ class _Digits:
                 if part.op == "exported" and gap:
                     return gap
                 if part.op == "found":
-                    least, counts = part.args[0].least, part.args[1] >= len(part.args[0].nodes)
-                    what = "a count of evaluations is no formula" if counts else "no root is proved there"
-                    return f"line {part.line}: {'least squares are not enclosed' if least else what}"
+                    what = "a count of evaluations is no formula" if _is_count(part) else "no root is proved there"
+                    return f"line {part.line}: {'least squares are not enclosed' if part.args[0].least else what}"
                 return f"line {part.line}: {_WHY.get(part.op, 'it')} is not decided"
         return f"line {shown.line}: the rest is lost to rounding"
 
@@ -261,6 +303,19 @@ _WHY = {
     "mod": "a whole turn",
     **dict.fromkeys(("lt", "le", "gt", "ge", "eq", "ne"), "a comparison"),
 }  # fmt: skip
+
+
+def _is_count(node: Node) -> bool:
+    """Whether a quantity is made of counts of evaluations and of nothing else."""
+    counts = set[Node]()
+    for part in bottom_up([node], ()):
+        if part.op == "found":
+            counts |= {part} if part.args[1] >= len(part.args[0].nodes) else set()
+            continue
+        made_of = part.operands[:1] if part.op in SHAPED else part.operands
+        if own := [operand for operand in made_of if operand.op != "constant"]:
+            counts |= {part} if counts.issuperset(own) else set()
+    return node in counts
 
 
 def _small(x: Any, size: float) -> bool:

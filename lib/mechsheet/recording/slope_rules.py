@@ -118,11 +118,12 @@ def _where(node: Node, y: Values, values: Sequence[Values], operands: Sequence[M
     if ahead.ahead.dtype != bool:  # a number as a condition holds unless it is 0, from which it moves away
         ahead = Motion(now | (ahead.ahead != 0), ~now & (ahead.ahead != 0))
     if p.ahead.dtype == q.ahead.dtype == bool:
-        return Motion(np.where(ahead.ahead, p.ahead, q.ahead), ahead.moves | p.moves | q.moves)
+        slope, moves = (np.where(ahead.ahead, x, z) for x, z in zip(p, q, strict=True))
+        return Motion(slope, ahead.moves | moves)
     p, q = number(p), number(q)
     jumps = (ahead.ahead != now) & ~(np.abs((a + 0.0) - b) <= ROUNDING * np.abs(a))
     jumps |= ahead.moves & (ahead.ahead == now)
-    slope, moves = (np.where(ahead.ahead, x, z) for x, z in ((p.ahead, q.ahead), (p.moves, q.moves)))
+    slope, moves = (np.where(ahead.ahead, x, z) for x, z in zip(p, q, strict=True))
     return Motion(np.where(jumps, np.nan, slope), moves | jumps)
 
 
@@ -189,13 +190,13 @@ def _reduce(node: Node, y: Values, values: Sequence[Values], operands: Sequence[
     motion = operands[0].rearranged(lambda x: x.reshape(len(x), -1))
     source, ends = values[0].reshape(-1), y.reshape(-1)
     each = [
-        _reduced(kind, source[g], end, Motion(motion.ahead[:, g], motion.moves[:, g]))
+        reduced(kind, source[g], end, Motion(motion.ahead[:, g], motion.moves[:, g]))
         for g, end in zip(groups, ends, strict=True)
     ]
     return shaped(Motion(np.stack([m.ahead for m in each], 1), np.stack([m.moves for m in each], 1)), node)
 
 
-def _reduced(kind: str, x: Values, y: Any, motion: Motion) -> Motion:
+def reduced(kind: str, x: Values, y: Any, motion: Motion) -> Motion:
     """How one number moves that is made of several, of which there is one axis."""
     moves = np.logical_or.reduce(motion.moves, axis=1)
     if kind in ("any", "all"):

@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from mechsheet.recording.node import Block, Node, bottom_up
+from mechsheet.recording.node import Block, Node, bottom_up, has_equation
 from mechsheet.recording.operations import ELEMENTWISE, Values
 from mechsheet.recording.slope_rules import ROUNDING, RULES, Motion, Rule, kernel, number, smooth
 
@@ -67,7 +67,7 @@ def unfollowed(wanted: Iterable[Node], by: Iterable[Node]) -> Node | None:
     moving = set(by)
     for node in bottom_up(wanted, ()):
         if not moving.isdisjoint(node.operands):
-            if node.op in ("exported", "iterated") or (node.op == "found" and not _followed(node)):
+            if node.op in ("exported", "iterated") or (node.op == "found" and not has_equation(node)):
                 return node
             moving.add(node)
     return None
@@ -90,11 +90,6 @@ def solved_under(wanted: Iterable[Node]) -> list[Node]:
     """What solve blocks make zero, of all on which some quantities rest: slopes for other numbers need theirs."""
     blocks = dict.fromkeys(node.args[0] for node in bottom_up(wanted, ()) if node.op == "found")
     return [node for block in blocks for node in block.residuals]
-
-
-def _followed(found: Node) -> bool:
-    block, number = found.args
-    return not block.least and number < len(block.nodes) == len(block.residuals)
 
 
 class _Forward:
@@ -142,7 +137,7 @@ class _Forward:
     def _found(self, node: Node, moving: Mapping[Node, Motion]) -> Motion:
         """By the equations: what their residuals move by is made good by the unknowns."""
         block, number = node.args
-        if not _followed(node):
+        if not has_equation(node):
             lost: Rule = RULES["exported"]
             return lost(node, node.value, (), [moving[o] for o in node.operands if o in moving])
         if block not in self.solved:
@@ -157,10 +152,10 @@ class _Forward:
         shape, count, n = block.nodes[0].shape, self.count, len(block.nodes)
         right = np.stack([np.broadcast_to(r.ahead, (count, *shape)).reshape(count, -1) for r in rest], -1)
         if block.elementwise:
-            found = -_solution(jacobian(block, self.known), np.moveaxis(right, 0, -1))  # problems, unknowns, directions
+            found = -solution(jacobian(block, self.known), np.moveaxis(right, 0, -1))  # problems, unknowns, directions
         else:
             whole = right.transpose(2, 1, 0).reshape(1, -1, count)
-            found = -_solution(jacobian(block, self.known), whole).reshape(n, -1, count).transpose(1, 0, 2)
+            found = -solution(jacobian(block, self.known), whole).reshape(n, -1, count).transpose(1, 0, 2)
         moves = np.logical_or.reduce([m for r in rest for m in r.moves.reshape(count, -1).T])
         moves = np.broadcast_to(moves.reshape(-1, *[1] * len(shape)), (count, *shape))
         return [Motion(np.where(moves, found[:, k].T.reshape(count, *shape), 0.0), moves) for k in range(n)]
@@ -187,7 +182,7 @@ def jacobian(block: Block, known: Mapping[Node, Values] | None = None) -> Values
     return np.concatenate(rows, 1).T[None]
 
 
-def _solution(J: Values, right: Values) -> Values:
+def solution(J: Values, right: Values) -> Values:
     """Of linear equations; NaN where they have none, or more than one."""
     bad: Values = ~np.logical_and.reduce(np.isfinite(J), axis=(-2, -1))
     J = np.where(bad[:, None, None], np.eye(J.shape[-1]), J)
