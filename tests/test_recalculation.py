@@ -18,6 +18,7 @@ import pandas as pd
 import pytest
 from openpyxl import Workbook, load_workbook
 from test_recorded_worksheet import FOLLOWED, own
+from typed_workbook import typed
 
 from mechsheet.run import report
 from mechsheet.workbook import reading
@@ -84,18 +85,18 @@ def kept(made: Callable[[str], Path]) -> Callable[[str], Path]:
 
 def edit(path: Path, changes: dict[str, Any], to: Path, units: Mapping[str, str] = MappingProxyType({})) -> Path:
     """The workbook with other values and units of inputs, as somebody types them; ``bolts.x (2)`` is of a table."""
-    book = load_workbook(path)
-    left = dict(changes)
+    book = load_workbook(path, read_only=True)  # all of it would take seconds
+    left, contents = dict(changes), dict[tuple[str, str], object]()
     for name in [name for name in left if "Input tables" in book and name.endswith(")")]:
         column, _, k = name[:-1].partition(" (")
-        cell_of(book, column, int(k)).value = left.pop(name)
-    for row in book["Inputs"].iter_rows(min_row=3):
-        row[2].value = units.get(row[0].value, row[2].value)
-        if row[0].value in left:
-            row[1].value = left.pop(row[0].value)
+        contents["Input tables", cell_of(book, column, int(k)).coordinate] = left.pop(name)
+    for n, (symbol, *_) in enumerate(book["Inputs"].iter_rows(min_row=3, values_only=True), 3):
+        if symbol in units:
+            contents["Inputs", f"C{n}"] = units[symbol]
+        if symbol in left:
+            contents["Inputs", f"B{n}"] = left.pop(symbol)
     assert not left
-    book.save(to)
-    return to
+    return typed(path, contents, to)
 
 
 def cell_of(book: Any, column: str, k: int) -> Any:
@@ -314,7 +315,7 @@ def test_cells_of_inputs_are_read_as_the_worksheet_reads_them(
     made: Callable[[str], Path], recalculated: Callable[[Path], Any], tmp_path: Path
 ) -> None:
     """A text or number of every kind, each typed for another input: the same number in SI units, or none in both."""
-    typed = {
+    texts = {
         "X01": "0,415",
         "X03": " .5 ",
         "X05": "5.",
@@ -343,7 +344,7 @@ def test_cells_of_inputs_are_read_as_the_worksheet_reads_them(
         "a": 0,
         "L": "1-2",
     }
-    live = recalculated(edit(made("hitch"), typed, tmp_path / "edited.xlsx"))
+    live = recalculated(edit(made("hitch"), texts, tmp_path / "edited.xlsx"))
     sheet = cells.load(ROOT / "worksheets" / "hitch.py")
 
     def accepted(symbol: str, value: object) -> object:
@@ -352,8 +353,8 @@ def test_cells_of_inputs_are_read_as_the_worksheet_reads_them(
         except SheetError:
             return "#N/A"
 
-    read = {row[0].value: row[5].value for row in live["Inputs"].iter_rows(min_row=3) if row[0].value in typed}
-    expected = {symbol: accepted(symbol, value) for symbol, value in typed.items()}
+    read = {row[0].value: row[5].value for row in live["Inputs"].iter_rows(min_row=3) if row[0].value in texts}
+    expected = {symbol: accepted(symbol, value) for symbol, value in texts.items()}
     assert read == {symbol: x if x == "#N/A" else pytest.approx(x, rel=1e-14) for symbol, x in expected.items()}
     assert live["Checks"]["B3"].value == list(read.values()).count("#N/A") > 10
 
