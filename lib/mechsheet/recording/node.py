@@ -139,6 +139,11 @@ def bottom_up(roots: Iterable["Node"], known: Container["Node"]) -> Iterator["No
             stack.extend((operand, False) for operand in node.operands if operand not in done)
 
 
+def passes_over(node: Node) -> bool:
+    """Whether an operation has a number where an operand is none: nobody may take a number not known for none."""
+    return node.op == "finite" or (node.op == "reduce" and node.args[2].startswith("nan"))
+
+
 def is_number(node: Node, number: float) -> bool:
     """Whether a node is this constant, without a unit."""
     return node.op == "constant" and not node.args and node.shape == () and bool(node.value == number)
