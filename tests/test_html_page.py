@@ -26,7 +26,7 @@ SHEETS = {
     "hitch": {"P6": "30000,5", "N_pol": "12", "L5": "0.47", "side_67": "right"},
     "landing_gear": {"theta": "86"},
     "joint": {"psi": "0.6"},
-    "slotted_link": {"L0": "2.5"},
+    "slotted_link": {"L0": "0.5"},
     "kinetostatics": {"Y_H": "0.2222"},
 }
 UNKNOWN = {"kinetostatics": 8}  # checks that the recording does not hold

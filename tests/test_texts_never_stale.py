@@ -133,3 +133,38 @@ def test_a_page_takes_away_the_text_of_other_inputs(text: str, follows: bool, tm
     before = page[: page.index("plain words", page.index("</nav>"))]
     last = max(before.rfind(f"<{kind}") for kind in ("span data-n", "div", "h1", "b>Figure"))
     assert before[last:].startswith("<span data-n") == follows
+
+
+TOGETHER = """y = np.sin(x) * g.a  # [-] result
+kind = 'low' if g.F < 3 else 'high'
+checks_2 = (
+    check('plain', y, 9.0),
+    check(f'of a {kind} force', y, 9.0),
+    Check('with a reason', float(np.max(y)), 9.0, '-', f'too much by {g.F - 1:.3g}' if g.F > 2 else ''),
+    *[check(f'part {k}', y * k, 9.0) for k in (1, 2)],
+)"""
+
+
+def test_of_checks_that_stand_together_each_rests_on_what_was_seen_for_it(tmp_path: Path) -> None:
+    path = Path(own(tmp_path, TOGETHER).path)
+    path.write_text(path.read_text().replace("import ask, find", "import Check, ask, check, find", 1))
+    names, recording = recorded(cells.load(path))
+    assert list(recording.checks) == [check.name for check in names["checks_2"]]
+    residuals = {name: check.parts[0] for name, check in recording.checks.items()}
+    known = numbers(residuals.values(), {recording.inputs["F"]: 3.25})
+    numbered = {name: bool(np.isfinite(known[node]).all()) for name, node in residuals.items()}
+    lost = ["of a low force"]
+    assert [name for name, there in numbered.items() if not there] == lost
+    assert not any(name.startswith("_part") for name in recording.values)
+
+
+def test_checks_that_stand_together_are_named_once_where_one_is_not_recorded(tmp_path: Path) -> None:
+    lines = TOGETHER.replace("check('plain', y, 9.0)", "check('plain', np.linalg.eigvalsh([[g.F, 1], [1, g.a]]), 9.0)")
+    path = Path(own(tmp_path, lines).path)
+    path.write_text(path.read_text().replace("import ask, find", "import Check, ask, check, find", 1))
+    names, recording = recorded(cells.load(path))
+    assert [gap.names for gap in recording.gaps] == [("checks_2",)]
+    assert {*recording.checks} == {check.name for check in names["checks_2"]}
+    parts = [check.parts[0] for check in recording.checks.values()]
+    known = numbers(parts, {recording.inputs["F"]: 3.25})
+    assert not any(np.isfinite(known[part]).any() for part in parts)

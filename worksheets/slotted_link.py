@@ -331,9 +331,11 @@ def solved(A, B, F, SAB_k, VAB_k, WAB_k, eps_BC_k, g, omega_BC_k, phi1_k, phi3_k
     r = where(found_k, residuals(F, phi1_k), none)
     side = np.sign(F[1])
 
+    def at(angles):
+        return " at phi1 = " + ", ".join(f"{x / deg:.6g}" for x in angles) + " deg"
+
     def every_position(name, lost, why):
-        angles = ", ".join(f"{x / deg:.6g}" for x in phi1_k[lost])
-        return Check(name, np.count_nonzero(lost), 0, "positions", f"{why} at phi1 = {angles} deg" if angles else "")
+        return Check(name, np.count_nonzero(lost), 0, "positions", why + at(phi1_k[lost]) if np.any(lost) else "")
 
     def agrees(name, found, closed, i, unit):
         return check(

@@ -79,7 +79,8 @@ class Node:
 
     Operations are those of `ELEMENTWISE`, on operands that are broadcast to each other, and
 
-    ==========================  ====================================================================================
+    ==========================  =============================================================================
+
     ``constant``, ``input``     numbers, with a unit where they have one; an input
     ``rows`` (count)            the numbers 0, 1, 2 .. of so many rows
     ``length`` (source, axis)   how many elements there are along an axis, which is counted from the last one
@@ -91,7 +92,8 @@ class Node:
     ``at`` (source, position)   elements by positions that are a quantity themselves
     ``join`` (sources, ..)      elements of several sources: which source, and which element of it
     ``reduce`` (source, ..)     of each group of flat positions what the kind says, one of `REDUCE`
-    ==========================  ====================================================================================
+    ==========================  =============================================================================
+
 
     A quantity ``stretches`` whose shape follows a number of rows that is a quantity. Positions are those of the present
     number; `Moved` says what they are for others.
@@ -143,6 +145,11 @@ def has_equation(found: Node) -> bool:
     """Whether a quantity that is found is one of as many unknowns as its block has equations, which it solves."""
     block, number = found.args
     return not block.least and number < len(block.nodes) == len(block.residuals)
+
+
+def passes_over(node: Node) -> bool:
+    """Whether an operation has a number where an operand is none: nobody may take a number not known for none."""
+    return node.op == "finite" or (node.op == "reduce" and node.args[2].startswith("nan"))
 
 
 def is_number(node: Node, number: float) -> bool:

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from mechsheet.recording.node import Block, Loop, Node, bottom_up
+from mechsheet.recording.node import Block, Loop, Node, bottom_up, passes_over
 from mechsheet.recording.operations import ELEMENTWISE, REDUCE, REDUCE_SO_FAR, Values
 from mechsheet.worksheet.find import find
 from mechsheet.worksheet.system import solve
@@ -78,9 +78,13 @@ def numbers(wanted: Iterable[Node], given: Mapping[Node, Any]) -> dict[Node, Val
     """
     known: dict[Node, Values] = {node: np.asarray(value) for node, value in given.items()}
     solved: dict[Block | Loop, list[Values]] = {}
-    none = set[Node]()
+    none, lost = set[Node](), set[Node]()  # no numbers, and what rests on numbers that are lost with other inputs
     for node in bottom_up(wanted, known):
-        if not none.isdisjoint(node.operands):
+        if (node.op == "exported" and not _same(node.args, [known[o] for o in node.args])) or not lost.isdisjoint(
+            node.operands
+        ):
+            lost.add(node)
+        if not none.isdisjoint(node.operands) or (node in lost and passes_over(node)):
             none.add(node)
         elif node.op == "input":
             known[node] = node.value

@@ -92,8 +92,9 @@ class _Run:
             facts = [statement.facts(line, sheet.path) for line in cell.lines]
             last = {name: n for n, fact in enumerate(facts) for name in fact.touched}
             for n, (line, fact) in enumerate(zip(cell.lines, facts, strict=True)):
-                if not statement.on_the_page(line):
-                    self.step(stage, line.lineno, fact, {name for name, end in last.items() if end > n})
+                later = {name for name, end in last.items() if end > n}
+                if not statement.on_the_page(line) and not self.apart(stage, line, later):
+                    self.step(stage, line.lineno, fact, later)
             for name in dict.fromkeys([*(n for n in cell.code.co_names if n in lines), *cell.gives]):
                 self.recording.define(cell.section, name, self.names.get(name, self.passing.get(name)), lines)
             for solved in stage.solved:
@@ -101,6 +102,22 @@ class _Run:
         self.recording.values = self.names
         if graph.thin > 1:
             self.check_everywhere()
+
+    def apart(self, stage: Stage, line: ast.stmt, later: set[str]) -> bool:
+        """Run a statement part by part; whether it has such parts, and all of them can be recorded."""
+        parts = [statement.facts(part, self.sheet.path) for part in statement.apart(line)]
+        gaps, own = len(self.recording.gaps), {name for part in parts[:-1] for name in part.touched}
+        for part in parts:
+            self.step(stage, line.lineno, part, later)
+            if not own.isdisjoint(self.lost):
+                break
+        whole = bool(parts) and own.isdisjoint(self.lost)
+        if not whole:
+            del self.recording.gaps[gaps:]
+        for name in own:
+            self.names.pop(name, None)
+            self.lost.pop(name, None)
+        return whole
 
     def step(self, stage: Stage, line: int, facts: statement.Statement, later: set[str]) -> None:
         """Run one statement; where it cannot be recorded, its names keep the numbers of the worksheet's own run.

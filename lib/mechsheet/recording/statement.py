@@ -50,6 +50,27 @@ def facts(statement: ast.stmt, path: str) -> Statement:
     )
 
 
+@lru_cache(maxsize=4096)
+def apart(statement: ast.stmt) -> tuple[ast.stmt, ...]:
+    """A statement that puts values together, such as checks, as one for each: what is seen for one is not the others'.
+
+    The last one is the statement itself with the names of the others; there are none where nothing is put together.
+    """
+    match statement:
+        case ast.Assign([ast.Name() as target], ast.Tuple(parts) | ast.List(parts)) if len(parts) > 1:
+            lines, names = list[ast.stmt](), list[ast.expr]()
+            for k, part in enumerate(parts):
+                value = part.value if isinstance(part, ast.Starred) else part
+                known: ast.expr = value
+                if not isinstance(value, ast.Name | ast.Constant):
+                    lines.append(ast.Assign([ast.Name(f"_part {k}", ast.Store())], value))
+                    known = ast.Name(f"_part {k}", ast.Load())
+                names.append(known if value is part else ast.Starred(known, ast.Load()))
+            together = (ast.List if isinstance(statement.value, ast.List) else ast.Tuple)(names, ast.Load())
+            return tuple(ast.copy_location(line, statement) for line in (*lines, ast.Assign([target], together)))
+    return ()
+
+
 def _beside(nodes: Iterable[ast.AST]) -> Iterator[ast.expr]:
     """Arguments that are the unit or the reason of what is shown: the one stays right, the other goes."""
     for node in nodes:

@@ -5,11 +5,12 @@ import re
 from collections.abc import Mapping
 from dataclasses import replace
 from functools import lru_cache
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
 
-from mechsheet.recording.node import Node, bottom_up, is_number
+from mechsheet.recording.node import Node, bottom_up, is_number, passes_over
 from mechsheet.workbook.column_rows import COUNTED, Index, Rows, Unlike
 from mechsheet.workbook.place import Place
 
@@ -43,12 +44,20 @@ class CellFormulas:
     """Formulas of quantities, some of which stand at a place of the workbook: there a formula refers to them.
 
     ``first`` is the row of the first number of every column, ``counted`` the condition under which there are as many
-    rows as columns have: no row has a number of another one's. What is no number is #N/A.
+    rows as columns have: no row has a number of another one's; ``inverse`` are the closed forms of found values. What
+    is no number is #N/A.
     """
 
-    def __init__(self, places: Mapping[Node, Place], first: int = 0, counted: str = "") -> None:
-        self.places, self.first, self.counted = places, first, counted
+    def __init__(
+        self,
+        places: Mapping[Node, Place],
+        first: int = 0,
+        counted: str = "",
+        inverse: Mapping[Node, Node | None] = MappingProxyType({}),
+    ) -> None:
+        self.places, self.first, self.counted, self.inverse = places, first, counted, inverse
         self._inputs: dict[Node, tuple[Node, ...]] = {}
+        self._fixed: dict[Node, frozenset[Node]] = {}
 
     def formula(self, node: Node, factor: float = 1.0) -> str:
         """Formula of a single number over ``factor``, without its own name."""
@@ -116,7 +125,28 @@ class CellFormulas:
             return self._operation(node, at, rows)
         return place.name if node.size == 1 else rows.cells(place, at), 5
 
+    def while_fixed(self, node: Node) -> str:
+        """Condition under which the numbers of the worksheet's own run under a quantity are right; "" without any."""
+        same = sorted(self._unchanged(each, _ALONE) for each in self._fixed_by(node))
+        return f"AND({','.join(same)})" if same else ""
+
+    def _fixed_by(self, node: Node) -> frozenset[Node]:
+        """What must be as it was for the numbers of the worksheet's own run under a quantity."""
+        for part in bottom_up([node], self._fixed):
+            closed = self.inverse.get(part)
+            if part.op in ("exported", "found") and closed is None:
+                self._fixed[part] = frozenset(part.args if part.op == "exported" else self._inputs_under(part))
+            else:
+                under = [closed] if closed is not None else part.operands
+                self._fixed[part] = frozenset[Node]().union(*(self._fixed_by(operand) for operand in under))
+        return self._fixed[node]
+
     def _operation(self, node: Node, at: Index, rows: Rows) -> tuple[str, int]:
+        if passes_over(node) and (same := self.while_fixed(node)):
+            return f"IF({same},{self._of_known(node, at, rows)[0]},NA())", 5
+        return self._of_known(node, at, rows)
+
+    def _of_known(self, node: Node, at: Index, rows: Rows) -> tuple[str, int]:
         match node.op:
             case "constant":
                 text = written(_only(node.value.reshape(-1)[at if node.size > 1 else 0]))

@@ -27,12 +27,12 @@ class SheetFormulas:
 
     def __init__(self, arrangement: Arrangement) -> None:
         self.arrangement, self.recording = arrangement, arrangement.recording
-        self._cells = CellFormulas(arrangement.places, arrangement.first)
+        self._inverse = {solved.node: solved.inverse for solved in self.recording.found.values()}
+        self._cells = CellFormulas(arrangement.places, arrangement.first, inverse=self._inverse)
         counted = [holds for holds, guard in self.recording.guards.items() if guard.rows]
         texts = sorted({self._cells.reference(holds)[1:] for holds in counted})
         self._cells.counted = f"AND({','.join(texts)})" if len(texts) > 1 else "".join(texts)
         self._known: dict[Node, bool] = {}  # which rest on numbers that are not followed
-        self._inverse = {solved.node: solved.inverse for solved in self.recording.found.values()}
 
     def name(self, node: Node) -> str:
         """Defined name of a quantity that has a place."""
@@ -139,8 +139,14 @@ class SheetFormulas:
         return Compared(residual, reference(check.limit, factor), check.limit.value.item() / factor)
 
     def guard(self) -> str:
-        """Formula of how many of the conditions that the worksheet's code looked at have changed; "" without any."""
-        texts = {f"IF({self._cells.reference(holds)[1:]},0,1)" for holds in self.recording.guards}
+        """Formula of how many of the conditions that the worksheet's code looked at have changed; "" without any.
+
+        Found values without a closed form are those of the worksheet's own run, while what they rest on is the same.
+        """
+        solved = [node for node, inverse in self._inverse.items() if inverse is None and node.op == "found"]
+        holds = {*map(self._cells.while_fixed, solved)} - {""}
+        holds |= {self._cells.reference(condition)[1:] for condition in self.recording.guards}
+        texts = [f"IF({text},0,1)" for text in holds]
         return "=" + "+".join(sorted(texts)) if texts else ""
 
     def mark(self, figure: str, label: str, unit: str) -> str | None:
