@@ -289,7 +289,8 @@ def section_9():
     ## 9 The workbook
 
     The button below, and every run, writes a workbook for Excel or LibreOffice. It is live: change a value on its sheet
-    Inputs, and tables, charts and checks follow, for its cells hold the formulas of your lines.
+    Inputs, and tables, charts and checks follow, for its cells hold the formulas of your lines. Lists and tables among
+    the inputs are grids on the sheet Input tables.
 
     - A name means the cell of its own row. It is that of the worksheet without the `_S` of a field; a point has two,
       `X56` and `Y56`, a force `R56x` and `R56y`. A name that would be the address of a cell, or that differs from
@@ -321,6 +322,10 @@ def section_10():
     writes a small worksheet to start from, or one like an example. `help("mechsheet")` in Python lists all that a
     worksheet can use: groups of links (`rrr`, `RRPGroup`, ..), their velocities, accelerations and reactions, loads and
     drives, drawings, sweeps and design. Each name tells its arguments and units by `help("mechsheet.rrr")`.
+
+        python lib/mechsheet rename hinge M_max M_lim
+
+    gives a symbol another name in all lines, comments and texts of a worksheet, and in its scenes.
 
     A mechanism is written as its crank or cylinder, then one group a line, from which all else follows; the example
     `bucket` shows it with forces, `hitch` with everything that a document has. `engine` reads a file and drives a

@@ -1,0 +1,39 @@
+"""A symbol of a worksheet under another name: ``python -m mechsheet.run.rename WORKSHEET OLD NEW``."""
+
+import sys
+from pathlib import Path
+
+from mechsheet.run.ending import say, watch
+from mechsheet.workbook.save import save
+from mechsheet.worksheet.errors import SheetError
+from mechsheet.worksheet.renaming import renamed
+
+
+def main() -> None:
+    worksheet, *names = sys.argv[1:]
+    watch(worksheet)
+    if len(names) != 2:
+        raise SheetError("rename takes a worksheet, a symbol and its new name, such as hitch F_gc F_c")
+    path, (old, new) = Path(worksheet), names
+    scenes = {scene: scene.read_text(encoding="utf-8") for scene in _beside(path)}
+    made = renamed(path, old, new, scenes)
+    before = {file: file.read_bytes() for file in made}
+    done = list[Path]()
+    try:
+        for file, text in made.items():
+            save(text.encode(), file)
+            done.append(file)
+    except SheetError:
+        for file in done:  # all of them or none
+            save(before[file], file)
+        raise
+    say(*(f"written {file}" for file in made))
+
+
+def _beside(path: Path) -> list[Path]:
+    """Scenes in the folder of the worksheet, and in ``scenes`` there."""
+    return sorted([*path.parent.glob("*.toml"), *path.parent.glob("scenes/*.toml")])
+
+
+if __name__ == "__main__":
+    main()
