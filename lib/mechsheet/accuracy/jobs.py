@@ -226,7 +226,7 @@ def study_costs(number: str, path: Path, studies: Mapping[str, Callable[[], Any]
     """Table of the run times of studies, of a recording of a worksheet's run, of its proof and of its workbook."""
     sheet, title = load(path), "Cost of studies"
     names = sheet.run(sheet.results, {"g": sheet.inputs()}) | {"__file__": str(path)}
-    ways = {
+    ways: dict[str, Callable[[], Any]] = {
         **studies,
         "formulas of a run recorded": partial(record, names, sheet),
         "all its digits proved": partial(proof_of, names, sheet, record(names, sheet)),
