@@ -286,8 +286,7 @@ def drawing_21(phi1, position_lines, scheme, turn):
     drawing_21 = scheme(turn.value)
     typeset(
         *(drawing_21, mark(phi1=phi1[turn.value])),
-        caption("2.1", f"Scheme of the mechanism, φ₁ = {turn.value}°"),
-        position_lines.at(turn.value),
+        *(caption("2.1", f"Scheme of the mechanism, φ₁ = {turn.value}°"), position_lines.at(turn.value)),
     )
     return
 
@@ -533,8 +532,7 @@ def compared_45(
     phi4,
 ):  # fmt: skip
     found_45 = group_45.reactions(
-        [Load(G4, S4), inertia(S4, g.m4, g.J4, a_S4, eps4)],
-        [Load(G5 + F_Q, E), inertia(E, g.m5, 0, a_E)],
+        [Load(G4, S4), inertia(S4, g.m4, g.J4, a_S4, eps4)], [Load(G5 + F_Q, E), inertia(E, g.m5, 0, a_E)]
     )
     R_D = found_45.R_A  # [N] rocker 3 on the rod 4, at D
     R_05 = found_45.R_B  # [N] guide on the plunger 5, at E
@@ -1165,36 +1163,20 @@ def energy(C, F_g, H, P_A, P_D, P_E, P_K, P_S1, P_S2, P_S3, P_S4, P_S6, P_S7, V_
     V_S4 = lambda phi1: link_velocity(P_S4(phi1), P_D(phi1), u4(phi1), V_D(phi1))  # [m] velocity analogue of S4
     V_S6 = lambda phi1: link_velocity(P_S6(phi1), P_K(phi1), u6(phi1), V_K(phi1))  # [m] velocity analogue of S6
     V_S7 = lambda phi1: link_velocity(P_S7(phi1), H, u6(phi1))  # [m] velocity analogue of S7
-
+    # fmt: off
     J_m = lambda phi1: (
-        g.m1 * g.l_O1S1**2
-        + g.m2 * abs(V_S2(phi1)) ** 2
-        + g.m3 * abs(V_S3(phi1)) ** 2
-        + g.m4 * abs(V_S4(phi1)) ** 2
-        + g.m5 * abs(V_E(phi1)) ** 2
-        + g.m6 * abs(V_S6(phi1)) ** 2
-        + g.m7 * abs(V_S7(phi1)) ** 2
+        g.m1 * g.l_O1S1**2 + g.m2 * abs(V_S2(phi1)) ** 2 + g.m3 * abs(V_S3(phi1)) ** 2 + g.m4 * abs(V_S4(phi1)) ** 2
+        + g.m5 * abs(V_E(phi1)) ** 2 + g.m6 * abs(V_S6(phi1)) ** 2 + g.m7 * abs(V_S7(phi1)) ** 2
     )  # [kg*m**2] reduced masses
-
     J_r = lambda phi1: (
-        J_m(phi1)
-        + g.J1
-        + g.J2 * u2(phi1) ** 2
-        + g.J3 * u3(phi1) ** 2
-        + g.J4 * u4(phi1) ** 2
+        J_m(phi1) + g.J1 + g.J2 * u2(phi1) ** 2 + g.J3 * u3(phi1) ** 2 + g.J4 * u4(phi1) ** 2
         + (g.J6 + g.J7) * u6(phi1) ** 2
     )  # [kg*m**2] reduced moment of inertia
-
     Y_m = lambda phi1: (
-        g.m1 * P_S1(phi1).imag
-        + g.m2 * P_S2(phi1).imag
-        + g.m3 * P_S3(phi1).imag
-        + g.m4 * P_S4(phi1).imag
-        + g.m5 * P_E(phi1).imag
-        + g.m6 * P_S6(phi1).imag
-        + g.m7 * P_S7(phi1).imag
+        g.m1 * P_S1(phi1).imag + g.m2 * P_S2(phi1).imag + g.m3 * P_S3(phi1).imag + g.m4 * P_S4(phi1).imag
+        + g.m5 * P_E(phi1).imag + g.m6 * P_S6(phi1).imag + g.m7 * P_S7(phi1).imag
     )  # [kg*m] masses times their heights
-
+    # fmt: on
     U = lambda phi1: g.g_n * Y_m(phi1) - F_g * abs(P_K(phi1) - H)  # [J] potential of weights and gas
     typeset()
     return J_r, U, V_S2, V_S3, V_S4, V_S6, V_S7
@@ -1218,10 +1200,9 @@ def work(
     driven = M_b - g.eps1 * J_r(phi1) + dot(F_Q, V_E(phi1))  # [N*m] left of the moment for the change of energy
     _some = slice(None, None, 15)
     _size = largest * longest
-    _gear = dot(F_w, 1j * (P_w - O1))
     checks_work = (
         check("virtual work of moment and loads", M_b + W_1 + W_2 + W_3 + W_4 + W_5 + W_6 + W_7, lost, "N*m", of=_size),
-        check("the gear gives the power of the coupling", _gear - M_b, lost, "N*m", of=_size),
+        check("the gear gives the power of the coupling", dot(F_w, 1j * (P_w - O1)) - M_b, lost, "N*m", of=_size),
         check_slope("energy: the moment is its slope", driven[_some], energy, phi1[_some], -pi / 2, 5 * pi / 2, "N*m"),
     )
     energy_lines = typeset()
