@@ -138,7 +138,7 @@ def place(labels: Iterable[Label], texts: list[Text], lines: Segments, low: comp
         for _, c, r in texts:
             apart, least = c - centre, r + half + _APART
             clashes += abs(apart.real) < least.real and abs(apart.imag) < least.imag
-        return float(6 * ink + 50 * clashes + 100 * outside)
+        return float(0.3 * ink + 50 * clashes + 100 * outside)
 
     for name, half, places in labels:
         best, least = 0j, inf

@@ -126,7 +126,8 @@ class Picture:
     def _around(self, half: complex, p: complex, r: float) -> Iterator[complex]:
         arms = sorted(phase(q) for q in self._arms.get(_key(p), ()) if q)
         if arms:
-            gap, start = max((b - a, a) for a, b in pairwise((*arms, arms[0] + 2 * pi)))
+            # of gaps that differ by rounding alone the last one
+            gap, start = max((round(b - a, 6), a) for a, b in pairwise((*arms, arms[0] + 2 * pi)))
             best = start + gap / 2
         else:
             best = -pi / 4
@@ -148,7 +149,7 @@ class Picture:
         """Start, end and weight of all lines; circles as polygons."""
         rows: list[tuple[complex, complex, float]] = []
         for group in self.groups:
-            weight = 0.15 if group.faint else 1.0
+            weight = 3.0 if group.faint else 20.0  # whole numbers, whose sums are exact
             for points, _, r, *_ in group.marks:
                 if r:
                     points = [points[0] + r * q for q in _circle(24 if r > 10 else 4)]

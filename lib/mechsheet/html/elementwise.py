@@ -70,7 +70,10 @@ def literal(value: Any) -> Text:
 
 def array(values: Any) -> str:
     """A constant field."""
-    return f"Float64Array.of({','.join(literal(x).text for x in np.asarray(values).reshape(-1).tolist())})"
+    texts = [literal(x).text for x in np.asarray(values).reshape(-1).tolist()]
+    if len(texts) > 4 and len(set(texts)) == 1:
+        return f"new Float64Array({len(texts)}).fill({texts[0]})"
+    return f"Float64Array.of({','.join(texts)})"
 
 
 def places(index: Index) -> str:

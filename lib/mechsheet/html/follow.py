@@ -1,5 +1,6 @@
 """What of a shown value follows the inputs: the recorded quantities by their keys, and what the page makes of them."""
 
+from collections.abc import Iterable, Mapping, Sequence
 from math import isfinite
 from typing import Any
 
@@ -9,14 +10,19 @@ from mechsheet import units
 from mechsheet.document import chart_svg
 from mechsheet.document.markup import HTML, in_words, named
 from mechsheet.document.parts import Line
-from mechsheet.recording.lines import Recording
-from mechsheet.recording.node import Node
+from mechsheet.html import sketched
+from mechsheet.recording import showing
+from mechsheet.recording.lines import SLIDER, Recording
+from mechsheet.recording.node import Node, bottom_up
 from mechsheet.recording.quantity import Quantity
+from mechsheet.recording.sketch import Drawn
 from mechsheet.worksheet import numbers
 from mechsheet.worksheet.check import Check
+from mechsheet.worksheet.drawing import Drawing
 from mechsheet.worksheet.find import Found
 from mechsheet.worksheet.symbol import read, stem
 from mechsheet.worksheet.table import Column, Figure, Table
+from mechsheet.worksheet.title import Mark
 from mechsheet.worksheet.verdict import Verdict
 
 Spec = dict[str, Any]  # one element of the page, as JSON
@@ -32,8 +38,32 @@ class Follower:
         self.recording = recording
         self.keys: dict[Node, str] = {}
         self.specs: list[Spec] = []
+        self.drawn: dict[int, Drawn] = {}  # recorded drawings by the identity of what is shown
+        self.pictures: dict[
+            int, str
+        ] = {}  # by the order of the elements; of charts and drawings as the worksheet has them
+        self._asked: list[Node] = []  # for the next element
+        self._slid: dict[Node, frozenset[str]] = {}
         self.texts: tuple[str, ...] = ()  # of the cell whose parts are written
         self.depends = False  # whether that cell reads what others compute
+
+    def pair(self, shown: Mapping[int, Sequence[Any]]) -> None:
+        """Find what is recorded of the drawings that the cells show, but for those that a slider makes others."""
+        for n, drawn in self.recording.drawings.items():
+            own = list(showing.drawings(list(shown.get(n, ()))))
+            for a, b in zip(own, drawn, strict=False) if len(own) == len(drawn) else ():
+                if b is not None and not self._sliders([guard.holds for guard in b.guards]):
+                    self.drawn[id(a)] = b
+
+    def follows(self, part: Any) -> bool:
+        """Whether all that a control moves in a part is recorded."""
+        if isinstance(part, Line):
+            held = self.recording.values.get(part.formula.name)
+            return isinstance(held, Quantity) and held.extent == np.shape(part.value)
+        if isinstance(part, Mark):
+            return all(name in self.recording.positions for name, _ in part.positions)
+        own = list(showing.drawings(part))
+        return bool(own) and all(id(drawing) in self.drawn for drawing in own)
 
     def own(self, shown: str, text: str = "") -> str:
         """What is shown for the run's inputs alone, unless it is a ``text`` as it stands in its cell."""
@@ -48,11 +78,42 @@ class Follower:
 
     def mark(self, kind: str, **spec: Any) -> str:
         """Attribute of the element that shows what this says."""
-        self.specs.append({"kind": kind, **spec})
+        slid = sorted(self._sliders(self._asked))
+        self._asked = []
+        self.specs.append({"kind": kind, **spec} | ({"slid": slid} if slid else {}))
         return f' data-n="{len(self.specs) - 1}"'
 
+    def picture(self, follows: str, svg: str) -> str:
+        """An element for the picture that the last mark says; it is kept apart, where it takes a third of the room."""
+        self.pictures[len(self.specs) - 1] = svg
+        return f"<div{follows}></div>"
+
     def key(self, node: Node) -> str:
+        self._asked.append(node)
         return self.keys.setdefault(node, str(len(self.keys)))
+
+    def _sliders(self, nodes: Iterable[Node]) -> frozenset[str]:
+        """Names of the sliders that quantities rest on."""
+        if not self._slid:
+            self._slid = {node: frozenset([name.removeprefix(SLIDER)])
+                          for name, node in self.recording.inputs.items() if name.startswith(SLIDER)}  # fmt: skip
+        for node in bottom_up(nodes, self._slid):
+            self._slid[node] = frozenset().union(*(self._slid[operand] for operand in node.operands))
+        return frozenset().union(*(self._slid[node] for node in nodes))
+
+    def drawing(self, drawing: Drawing) -> str:
+        """Attribute of a drawing; "" of one that the recording does not hold."""
+        drawn = self.drawn.get(id(drawing))
+        if drawn is None:
+            return ""
+        told = sketched.told(drawn, self.key)
+        return self.mark("drawing", keys=[self.keys[node] for node in dict.fromkeys(self._asked)], **told)
+
+    def positions(self) -> dict[str, str]:
+        """Keys of the positions that are marked along charts, by their quantities."""
+        found = {name: self.key(node) for name, node in self.recording.positions.items()}
+        self._asked = []
+        return found
 
     def value(self, line: Line, **moved: Any) -> str:
         """Attribute of the value of a line, which a control may have ``moved`` along its field."""

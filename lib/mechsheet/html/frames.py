@@ -3,10 +3,9 @@
 Pictures of one slider have most of their pieces in common: each is kept once, and of those that move the numbers alone.
 """
 
-import base64
+import ast
 import json
 import re
-import zlib
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
@@ -14,19 +13,16 @@ from typing import Any
 
 from mechsheet.document.parts import Control, Line, by_cell
 from mechsheet.html.follow import Follower
-from mechsheet.html.values import html, value
-from mechsheet.recording.graph import Graph
-from mechsheet.recording.lines import Recording
-from mechsheet.worksheet.cells import Worksheet
-from mechsheet.worksheet.title import Mark, Slider
+from mechsheet.html.values import still, value
+from mechsheet.recording import showing
+from mechsheet.worksheet.cells import Cell, Worksheet
+from mechsheet.worksheet.title import Caption, Mark, Slider
 
-_MOST = 51  # positions of a slider
+_MOST, _MOST_PICTURES = 400, 51  # positions of a slider; where drawings are kept for each
 # One that is written again as it was: not -0 or -0.0, nor with more digits than a whole number keeps.
 _NUMBER = re.compile(r"(?<![\w.])(?!-0(?:\.0+)?(?![\d.]))-?(?:0|[1-9]\d{0,8})(?:\.\d{1,6})?(?![\w.])")
 _PIECE = re.compile("<[^>]*>[^<]*|[^<]+")
 _HOLE = "\x00"
-_NO_RECORDING = Recording(Graph(), {})
-_MARK = re.compile(r' data-n="\d+"')
 
 
 @dataclass
@@ -37,6 +33,7 @@ class Moved:
     positions: Sequence[float]
     pictures: dict[tuple[int, int], list[str]] = field(default_factory=dict)
     marks: dict[str, list[float]] = field(default_factory=dict)
+    free: set[tuple[int, int]] = field(default_factory=set)  # which rest on nothing but the control
 
 
 def moved(
@@ -44,22 +41,37 @@ def moved(
 ) -> list[Moved]:
     """What each control of a run moves: ``shown`` is what its cells show."""
     controls = {part.name: part for parts in shown.values() for part in parts if isinstance(part, Control)}
-    return [_moved(sheet, namespace, control, page) for control in controls.values()]
+    return [_moved(sheet, namespace, control, shown, page) for control in controls.values()]
 
 
-def _moved(sheet: Worksheet, namespace: Mapping[str, Any], control: Control, page: Follower) -> Moved:
+def _moved(
+    sheet: Worksheet,
+    namespace: Mapping[str, Any],
+    control: Control,
+    shown: Mapping[int, Sequence[Any]],
+    page: Follower,
+) -> Moved:
     names, cells = {control.name}, set[int]()
     while more := {n for n, c in enumerate(sheet.cells) if n not in cells and c.needs & names and "g" not in c.gives}:
         cells |= more
         names |= {name for n in more for name in sheet.cells[n].gives}
     still = {name: value for name, value in namespace.items() if name not in names}
-    want, found = sorted(names - {control.name}), Moved(control, _positions(control))
+    left = {n: parts for n in cells if (parts := [p for p in shown.get(n, ()) if not page.follows(p)])}
+    drawn = any(any(showing.drawings(part)) for parts in left.values() for part in parts)
+    want, found = (
+        sorted(names - {control.name}),
+        Moved(control, _positions(control, _MOST_PICTURES if drawn else _MOST)),
+    )
+    if not left:
+        return found
     own = namespace[control.name]
     for x in found.positions:
         slider: Slider = replace(own, value=x)
         at = sheet.run(want, {**still, control.name: slider})
         for n, parts in by_cell(at, cells).items():
             for k, part in enumerate(parts):
+                if page.follows(shown[n][k]):
+                    continue
                 if isinstance(part, Mark):
                     for name, position in part.positions:
                         found.marks.setdefault(name, []).append(float(position))
@@ -67,6 +79,7 @@ def _moved(sheet: Worksheet, namespace: Mapping[str, Any], control: Control, pag
                     found.pictures.setdefault((n, k), []).append(_picture(part, page))
     count = len(found.positions)
     found.pictures = {at: each for at, each in found.pictures.items() if len(each) == count and len(set(each)) > 1}
+    found.free = {(n, k) for n, k in found.pictures if _is_free(shown[n][k], sheet.cells[n], control)}
     found.marks = {name: each for name, each in found.marks.items() if len(each) == count}
     return found
 
@@ -75,25 +88,41 @@ def _picture(part: Any, page: Follower) -> str:
     """What of a part a slider may change: of a line its value, or where along its field that stands."""
     if isinstance(part, Line):
         return str(part.position) if page.along(part) else value(part)
-    return _MARK.sub("", html(part, Follower(_NO_RECORDING)))
+    return still(part)
 
 
-def _positions(control: Control) -> list[float]:
+def _is_free(part: Any, cell: Cell, control: Control) -> bool:
+    """Whether a caption is written with the position of the control alone."""
+    calls = (node for line in cell.lines for node in ast.walk(line) if isinstance(node, ast.Call))
+    for call in calls:
+        match call:
+            case ast.Call(ast.Name("caption"), [ast.Constant(number), title]) if isinstance(part, Caption):
+                if number == part.number:
+                    return {node.id for node in ast.walk(title) if isinstance(node, ast.Name)} == {control.name}
+    return False
+
+
+def _positions(control: Control, most: int) -> list[float]:
     """At most so many positions of a slider, of its own step or a multiple, its ends and the present one among them."""
     step = control.step or (control.stop - control.start) / 100
     count = round((control.stop - control.start) / step)
-    every = -(-count // (_MOST - 1))
+    every = -(-count // (most - 1))
     at = sorted({*range(0, count + 1, every), count, round((control.value - control.start) / step)})
     if any(isinstance(x, float) for x in (control.start, step)):
         return [round(control.start + i * step, 12) for i in at]
     return [control.start + i * step for i in at]  # whole numbers may be indices
 
 
-def packed(found: Moved) -> str:
-    """The pictures and marks of a control as base64 of compressed JSON."""
-    pictures = [_pieces(each) for each in found.pictures.values()]
-    told = {"positions": list(found.positions), "pictures": pictures, "marks": found.marks}
-    return base64.b64encode(zlib.compress(json.dumps(told, separators=(",", ":")).encode(), 9)).decode()
+def told(found: Moved) -> dict[str, Any]:
+    """The pictures and marks of a control as JSON has them, pictures that are alike once."""
+    pictures = [json.dumps(_pieces(each)) for each in found.pictures.values()]
+    known = list(dict.fromkeys(pictures))
+    return {
+        "positions": list(found.positions),
+        "pictures": [json.loads(each) for each in known],
+        "which": [known.index(each) for each in pictures],
+        "marks": found.marks,
+    }
 
 
 def _pieces(pictures: Sequence[str]) -> dict[str, Any]:

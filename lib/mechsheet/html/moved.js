@@ -1,10 +1,5 @@
-// Sliders and play buttons: the pictures of their positions, and the marks that they set in charts.
-const STEP = 60; // ms between two pictures while it plays
-
-async function unpacked(text) {
-  const bytes = Uint8Array.from(atob(text), letter => letter.charCodeAt(0));
-  return new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"))).json();
-}
+// Sliders and play buttons: what they move, and the marks that they set in charts.
+const PASS = 3000; // ms from one end to the other while it plays
 
 // A text with the numbers of one position in its holes.
 function filled(text, numbers) {
@@ -20,22 +15,46 @@ const picturesOf = ({pieces, of, numbers}) => of.map((each, k) => () => filled(e
 
 const nearest = (positions, x) => positions.reduce((best, at, k) => (Math.abs(at - x) < Math.abs(positions[best] - x) ? k : best), 0);
 
+const isSlid = name => moving.get(name) && moving.get(name).at !== moving.get(name).first;
+const slid = () => Object.fromEntries([...moving].map(([name, control]) => [`slider ${name}`, control.positions[control.at]]));
+
+// Show what a control moves: from an evaluation, or one of the pictures that the document has.
 function showMoved(name) {
-  const control = moving.get(name);
-  const known = !state.changed.size && !state.refused;
+  const control = moving.get(name), own = !state.changed.size;
   document.querySelectorAll(`[data-control="${name}"]`).forEach(input => {
     input.value = control.positions[control.at];
     input.closest(".ms-player").querySelector("output").textContent = significant(control.positions[control.at], 6);
   });
+  if (state.refused) return;
   control.elements.forEach(([spec, element]) => {
-    if (spec.kind === "value") return state.refused || showAlong(spec, element);
-    const html = known ? control.pictures[spec.picture][control.at]() : "";
-    set(element, html);
+    if (spec.kind === "value") return showAlong(spec, element);
+    const known = own || spec.free;
+    set(element, known ? control.pictures[spec.picture][control.at]() : "");
     grey(element, known ? "" : MOVES_NOT);
   });
-  for (const [symbol, at] of Object.entries(control.marks)) {
-    document.documentElement.style.setProperty(`--at-${symbol}`, known ? at[control.at] : -1e30);
-  }
+  for (const [symbol, at] of Object.entries(control.marks)) setMark(symbol, own ? at[control.at] : NaN);
+}
+
+// On the charts alone: on the page as a whole all of its styles would be looked at again.
+const figures = [...document.querySelectorAll(".ms-figure")];
+const setMark = (symbol, at) => figures.forEach(figure => figure.style.setProperty(`--at-${symbol}`, Number.isFinite(at) ? at : -1e30));
+
+function showPositions() {
+  for (const [symbol, key] of Object.entries(told.positions)) setMark(symbol, state.results?.values[key]);
+}
+
+// Move a control: what rests on it is computed anew.
+function move(name, at) {
+  moving.get(name).at = at;
+  if (state.refused) return showMoved(name);
+  state.results = computed();
+  told.shown.forEach((spec, n) => {
+    if (!spec.slid?.includes(name) || spec.control || state.results.guards.length) return;
+    if (state.changed.size || spec.slid.some(isSlid)) showOne(spec, n);
+    else showFirst(n);
+  });
+  showMoved(name);
+  showPositions();
 }
 
 // Where along its field a line stands: where its control has it.
@@ -45,7 +64,7 @@ function positionOf(spec) {
 }
 
 function showAlong(spec, element) {
-  const results = (state.results ??= evaluate({}));
+  const results = (state.results ??= computed());
   if (results.guards.length) return;
   grey(element, show.value(spec, element, results) ? "" : reasonOf(spec, results));
 }
@@ -54,7 +73,7 @@ function play(button) {
   const name = button.closest(".ms-player").querySelector("[data-control]").dataset.control, control = moving.get(name);
   if (!control) return;
   const stop = () => {
-    clearInterval(control.timer);
+    cancelAnimationFrame(control.timer);
     control.timer = 0;
     button.textContent = "▶";
     button.ariaLabel = "play";
@@ -62,31 +81,40 @@ function play(button) {
   if (control.timer) return stop();
   button.textContent = "❚❚";
   button.ariaLabel = "pause";
-  const last = control.positions.length - 1;
-  control.timer = setInterval(() => {
-    if (state.changed.size || state.refused) return stop();
+  const last = control.positions.length - 1, turning = "turning" in button.dataset;
+  let begun = performance.now();
+  const advance = now => {
+    if (state.refused) return stop();
+    control.timer = requestAnimationFrame(advance);
+    const steps = Math.floor((now - begun) / PASS * last);
+    if (steps < 1) return;
+    begun = now;
     if (control.at >= last) control.step = -1;
     if (control.at <= 0) control.step = 1;
-    const turned = "turning" in button.dataset && control.at >= last;
-    control.at = turned ? 0 : control.at + (control.step ?? 1);
-    showMoved(name);
-  }, STEP);
+    move(name, turning ? (control.at + steps) % (last + 1) : Math.min(Math.max(control.at + steps * (control.step ?? 1), 0), last));
+  };
+  control.timer = requestAnimationFrame(advance);
 }
 
-for (const [name, text] of Object.entries(told.moved)) {
-  unpacked(text).then(({positions, pictures, marks}) => {
-    const elements = told.shown.flatMap((spec, n) => (spec.control === name ? [[spec, shownBy[n]]] : []));
-    const input = document.querySelector(`[data-control="${name}"]`);
-    moving.set(name, {positions, pictures: pictures.map(picturesOf), marks, elements, at: nearest(positions, Number(input.value))});
-    showMoved(name);
-  });
+for (const [name, {positions, pictures, which, marks}] of Object.entries(told.moved)) {
+  const elements = told.shown.flatMap((spec, n) => (spec.control === name ? [[spec, shownBy[n]]] : []));
+  const at = nearest(positions, Number(document.querySelector(`[data-control="${name}"]`).value));
+  moving.set(name, {positions, pictures: which.map(n => picturesOf(pictures[n])), marks, elements, at, first: at});
 }
+
+// The last position of a slider in each frame.
+const dragged = new Map();
 
 document.addEventListener("input", event => {
   const control = moving.get(event.target.dataset?.control);
   if (!control) return;
-  control.at = nearest(control.positions, Number(event.target.value));
-  requestAnimationFrame(() => showMoved(event.target.dataset.control));
+  if (!dragged.size) {
+    requestAnimationFrame(() => {
+      dragged.forEach((at, name) => move(name, at));
+      dragged.clear();
+    });
+  }
+  dragged.set(event.target.dataset.control, nearest(control.positions, Number(event.target.value)));
 });
 
 document.addEventListener("click", event => {

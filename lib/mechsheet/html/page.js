@@ -1,8 +1,13 @@
 // The page itself: it shows for the inputs what evaluate gives, and nothing that it does not know.
-const told = JSON.parse(document.getElementById("told").textContent);
+async function unpacked(text) {
+  const bytes = Uint8Array.from(atob(text), letter => letter.charCodeAt(0));
+  return new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"))).json();
+}
+
+const told = await unpacked(document.getElementById("told").textContent);
 const shownBy = told.shown.map((spec, n) => document.querySelector(`[data-n="${n}"]`));
 const contentOf = element => element.tBodies?.[0] ?? element;
-const first = shownBy.map(element => contentOf(element).innerHTML);
+const first = shownBy.map((element, n) => told.pictures[n] ?? contentOf(element).innerHTML);
 const UNKNOWN = "not known for these inputs: it holds for the document's own";
 const MOVES_NOT = "as in the document, for its own inputs only";
 const state = {changed: new Set(), refused: false, results: null};
@@ -35,6 +40,12 @@ const show = {
     const known = columns.every(Boolean);
     set(element, known ? chartSVG(spec, columns, results) : "");
     return known;
+  },
+  drawing(spec, element, results) {
+    const known = spec.keys.every(key => results.values[key] !== undefined);
+    const same = known && spec.guards.every(([key]) => results.values[key]);
+    set(element, same ? drawingSVG(drawnWith(spec, results)) : "");
+    return same;
   },
   own(spec, element) {
     set(element, "");
@@ -105,18 +116,16 @@ function refresh() {
   told.inputs.fields.forEach(field => mark(field, changed.has(field.name), errors.get(field.name) ?? ""));
   Object.assign(state, {changed, refused: errors.size > 0});
   const own = !changed.size && !errors.size;
-  const results = own || errors.size ? null : evaluate(si);
-  state.results = results;
-  const guards = results?.guards ?? [];
+  state.si = si;
+  state.results = errors.size ? null : computed();
+  const guards = state.results?.guards ?? [];
   told.shown.forEach((spec, n) => {
-    if (spec.kind === "moved") return own || empty(spec, shownBy[n], MOVES_NOT);
-    if (own) {
-      if (!spec.control) set(contentOf(shownBy[n]), first[n]);
-      grey(shownBy[n], "");
-    } else if (errors.size || guards.length) empty(spec, shownBy[n], guards[0] ?? "an input cannot be used");
-    else grey(shownBy[n], show[spec.kind](spec, shownBy[n], results) ? "" : reasonOf(spec, results));
+    if (own && !spec.control && spec.kind !== "moved" && !spec.slid?.some(isSlid)) showFirst(n);
+    else if (errors.size || guards.length) empty(spec, shownBy[n], guards[0] ?? "an input cannot be used");
+    else if (spec.kind !== "moved" && !spec.control) showOne(spec, n);
   });
   [...moving.keys()].forEach(showMoved);
+  showPositions();
   sum();
   say(changed, errors, guards);
   if (!errors.size) {
@@ -125,7 +134,20 @@ function refresh() {
   }
 }
 
+function showFirst(n) {
+  set(contentOf(shownBy[n]), first[n]);
+  grey(shownBy[n], "");
+}
+
+const showOne = (spec, n) =>
+  grey(shownBy[n], show[spec.kind](spec, shownBy[n], state.results) ? "" : reasonOf(spec, state.results));
+
+// What the page computes for its inputs and the positions of its sliders.
+const computed = () => evaluate({...state.si, ...slid()});
+
 function reasonOf(spec, results) {
+  const broken = spec.guards?.find(([key]) => results.values[key] === 0 || results.values[key] === false);
+  if (broken) return `line ${broken[1]}: for these inputs it is drawn in another way`;
   const keys = [...(spec.keys ?? []), ...(spec.columns ?? []).map(column => column.key)];
   return keys.map(key => results.gaps[key]).find(Boolean) ?? UNKNOWN;
 }

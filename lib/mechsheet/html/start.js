@@ -2,3 +2,4 @@
 sum();
 if (location.hash.includes("=")) readAddress();
 refresh();
+document.body.dataset.ready = "";

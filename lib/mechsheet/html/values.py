@@ -19,6 +19,8 @@ from mechsheet.document.parts import Control, Line, Section, Text
 from mechsheet.html import index, markdown
 from mechsheet.html.follow import Follower
 from mechsheet.html.mathml import mathml
+from mechsheet.recording.graph import Graph
+from mechsheet.recording.lines import Recording
 from mechsheet.worksheet import numbers
 from mechsheet.worksheet.check import Check, Summary
 from mechsheet.worksheet.drawing import Drawing
@@ -30,6 +32,7 @@ from mechsheet.worksheet.table import Column, Figure, Table
 from mechsheet.worksheet.title import Caption, Mark, SideBySide, Title
 from mechsheet.worksheet.verdict import Verdict
 
+_MARK = re.compile(r' data-n="(\d+)"(>?)')
 _READINGS = re.compile(' data-values="[^"]*"')  # of a chart: the page knows them
 
 
@@ -85,19 +88,22 @@ def _single(line: Line) -> frozenset[str]:
     return frozenset(fields_by_name(line.formula)) if alone else frozenset()
 
 
-def moving(part: Any, page: Follower, control: str, picture: int) -> str:
+def moving(part: Any, page: Follower, **moved: Any) -> str:
     """A part with the place of what a control moves in it: of a line its value."""
-    if isinstance(part, Line) and page.along(part):
-        place = page.value(part, control=control, picture=picture)
-    else:
-        place = page.mark("moved", control=control, picture=picture)
+    along = isinstance(part, Line) and page.along(part)
+    place = page.value(part, **moved) if along else page.mark("moved", **moved)
     if not isinstance(part, Line):
-        kept = len(page.specs)
-        inside = html(part, page)
-        del page.specs[kept:]
-        return f"<div{place}>{re.sub(' data-n=.[0-9]+.', '', inside)}</div>"
+        page.pictures[len(page.specs) - 1] = still(part)
+        return f"<div{place}></div>"
     shown = f'<span class="ms-equals">=</span><span class="ms-value"{place}>{value(part)}</span>'
     return _line(mathml(equation(part.formula, _single(part))), shown, part.formula)
+
+
+def still(part: Any) -> str:
+    """HTML of a part that follows no input."""
+    bare = Follower(Recording(Graph(), {}))
+    text = html(part, bare)
+    return _MARK.sub(lambda mark: f">{bare.pictures[int(mark[1])]}" if int(mark[1]) in bare.pictures else mark[2], text)
 
 
 def value(line: Line) -> str:
@@ -145,7 +151,8 @@ def _(figure: Figure, page: Follower) -> str:
     layout = chart.line_chart(figure.x, figure.lines, figure.marks, figure.every)
     follows = page.mark("chart", columns=page.figure(figure), marks=page.marks(figure), every=figure.every)
     caption = _caption("Figure", figure.number, figure.title, page)
-    return f'<figure class="ms-figure"><div{follows}>{_READINGS.sub("", chart_svg.svg(layout))}</div>{caption}</figure>'
+    svg = _READINGS.sub("", chart_svg.svg(layout))
+    return f'<figure class="ms-figure">{page.picture(follows, svg)}{caption}</figure>'
 
 
 @html.register
@@ -160,7 +167,8 @@ def _caption(what: str, number: str, title: str, page: Follower) -> str:
 
 @html.register
 def _(drawing: Drawing, page: Follower) -> str:
-    return page.own(drawing_svg.svg(drawing))
+    svg = drawing_svg.svg(drawing)
+    return page.picture(follows, svg) if (follows := page.drawing(drawing)) else page.own(svg)
 
 
 @html.register

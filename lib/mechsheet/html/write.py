@@ -5,6 +5,7 @@ import base64
 import hashlib
 import json
 import re
+import zlib
 from collections.abc import Iterable, Iterator, Mapping
 from html import escape, unescape
 from inspect import cleandoc
@@ -26,7 +27,18 @@ from mechsheet.worksheet.lines import registry
 from mechsheet.worksheet.title import Title
 
 _HERE = Path(__file__).parent
-_SCRIPTS = ("format.js", "chart.js", "fields.js", "found.js", "page.js", "moved.js", "tip.js", "start.js")
+_SCRIPTS = (
+    "format.js",
+    "chart.js",
+    "drawing.js",
+    "looks.js",
+    "fields.js",
+    "found.js",
+    "page.js",
+    "moved.js",
+    "tip.js",
+    "start.js",
+)
 _SHOWING = {"md", "title_block", "table", "figure", "caption"}  # calls whose texts a page shows
 _CHOICES = (ast.IfExp, ast.BoolOp, ast.Subscript, ast.If, ast.For, ast.While, ast.Match, ast.FunctionDef, ast.Lambda)
 _STUDIES = ("mechsheet.accuracy.", "mechsheet.studies.")
@@ -50,7 +62,8 @@ def page(sheet: Worksheet, g: Any) -> str:
     refuse_open(checks(namespace))
     cells = by_cell(namespace)
     shown = [part for parts in cells.values() for part in parts]
-    follower = Follower(record(namespace, sheet, whole=True, every=1))
+    follower = Follower(record(namespace, sheet, whole=True, every=1, draws=True))
+    follower.pair(cells)
     moving = frames.moved(sheet, namespace, cells, follower)
     body = "".join(_cell(n, parts, sheet.cells[n], follower, moving) for n, parts in cells.items())
     told = {
@@ -58,13 +71,16 @@ def page(sheet: Worksheet, g: Any) -> str:
         "inputs": fields.told(namespace["g"]),
         "shown": follower.specs,
         "symbols": _symbols(namespace, shown),
-        "moved": {each.control.name: frames.packed(each) for each in moving},
+        "pictures": follower.pictures,
+        "positions": follower.positions(),
+        "moved": {each.control.name: frames.told(each) for each in moving},
     }
-    data = json.dumps(told, ensure_ascii=False, separators=(",", ":")).replace("<", "\\u003c")
+    data = json.dumps(told, ensure_ascii=False, separators=(",", ":")).encode()
+    packed = base64.b64encode(zlib.compress(data, 9)).decode()
     computed = javascript.module(follower.recording, follower.wanted)
-    own = "\n".join((_HERE / name).read_text(encoding="utf-8") for name in _SCRIPTS)
-    script = f'"use strict";\n(() => {{\n{computed}\n{own}}})();'
-    style = (_HERE / "page.css").read_text(encoding="utf-8")
+    own = javascript.runtime(*_SCRIPTS)
+    script = f'"use strict";\n(async () => {{\n{computed}\n{own}}})();'
+    style = javascript.runtime("page.css")
     address = font.address(_signs(body))
     face = f'@font-face{{font-family:"STIX Two Math";src:url({address})format("woff")}}'
     policy = _POLICY.format(f"'sha256-{_digest(script)}'")
@@ -74,7 +90,8 @@ def page(sheet: Worksheet, g: Any) -> str:
         '<meta name="viewport" content="width=device-width, initial-scale=1">\n'
         f'<meta name="color-scheme" content="light dark">\n<title>{escape(sheet.title)}</title>\n'
         f"<style>{face}\n{style}</style>\n</head>\n<body>\n{_contents(shown)}<main>{body}</main>\n"
-        f'<script type="application/json" id="told">{data}</script>\n<script>{script}</script>\n</body>\n</html>\n'
+        f'<script type="application/octet-stream" id="told">{packed}</script>\n'
+        f"<script>{script}</script>\n</body>\n</html>\n"
     )
 
 
@@ -107,7 +124,8 @@ def _part(at: tuple[int, int], part: Any, follower: Follower, moving: Iterable[M
     """HTML of a part of the document; of one that a slider moves with the place of its picture."""
     for each in moving:
         if at in each.pictures:
-            return values.moving(part, follower, each.control.name, [*each.pictures].index(at))
+            control, picture = each.control.name, [*each.pictures].index(at)
+            return values.moving(part, follower, control=control, picture=picture, free=at in each.free)
     match part:
         case Title():
             return values.html(part, follower) + _BAR

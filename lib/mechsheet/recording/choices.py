@@ -17,6 +17,7 @@ from mechsheet.recording.graph import Graph, Guard, NotRecorded
 from mechsheet.recording.memory import Memory, may_change, names_of
 from mechsheet.recording.node import Loop, Node
 from mechsheet.recording.quantity import Quantity, has_quantity, joined, lift, owner, plain, quantities
+from mechsheet.recording.sketch import Sketch, merged
 from mechsheet.worksheet.kinds import Chosen, cases
 
 _NUMBERS = int | float | complex | np.number | Quantity
@@ -75,6 +76,8 @@ def _merged(condition: Quantity, x: Any, y: Any) -> Any:
     if isinstance(x, tuple) and type(x) is type(y) is tuple and len(x) == len(y):
         parts = [_merged(condition, a, b) for a, b in zip(x, y, strict=True)]
         return None if any(part is None for part in parts) else tuple(parts)
+    if isinstance(x, Sketch) and isinstance(y, Sketch):
+        return merged(condition, x, y)
     if isinstance(x, _ARRAYS) and isinstance(y, _ARRAYS) and _lengths(x) == _lengths(y):
         return where(condition.graph, condition.reshape(()), x, y)
     return None

@@ -16,7 +16,7 @@ class NotRecorded(BaseException):
     """Something that a recording does not hold, in words; no code of a worksheet handles it."""
 
 
-MOST = 50_000  # numbers that one statement of a worksheet may compute
+MOST, MOST_DRAWN = 50_000, 2_000_000  # numbers that one statement may compute: as cells; where a page computes them
 
 
 class Guard(NamedTuple):
@@ -58,8 +58,9 @@ class Graph:
     line of the worksheet that is run.
     """
 
-    def __init__(self, thin: int = 1) -> None:
+    def __init__(self, thin: int = 1, draws: bool = False) -> None:
         self.thin = thin
+        self.draws = draws  # drawings are recorded too
         self.positions = 0  # numbers of linspace before any were left out
         self.line = 0
         self.work = 0  # numbers computed since somebody set it to 0
@@ -98,8 +99,8 @@ class Graph:
                 and all(a in self.fixed or a in self.counts for a in under)
             ):
                 self.counts.add(known)
-            if self.work > MOST:
-                raise NotRecorded(f"it takes more than {MOST:,} operations on single numbers")
+            if self.work > (most := MOST_DRAWN if self.draws else MOST):
+                raise NotRecorded(f"it takes more than {most:,} operations on single numbers")
         return known
 
     def see(self, seen: Node, rows: bool = False) -> None:

@@ -9,8 +9,11 @@ from typing import Any, NamedTuple
 from mechsheet.recording.graph import Gap, Graph, Guard
 from mechsheet.recording.node import Node
 from mechsheet.recording.quantity import Quantity
+from mechsheet.recording.sketch import Drawn
 from mechsheet.worksheet import symbol
 from mechsheet.worksheet.lines import Formula
+
+SLIDER = "slider "  # before the name of one among the inputs
 
 
 @dataclass
@@ -70,8 +73,9 @@ class Recording:
     ``tables`` are the columns by the number of a table, of a figure under ``Fig 1``; ``marks`` the marks of a figure by
     its number and their labels; ``lines`` those of a section; ``names`` the name that each node has in the worksheet.
     ``gaps`` are what keeps the numbers of the worksheet's own run, with the reasons; ``guards`` the conditions under
-    which all is recorded as the worksheet has it; ``values`` what the names are in the recording.
-    Only every ``every``-th position is recorded.
+    which all is recorded as the worksheet has it; ``drawings`` those that a cell shows, by its number, or None for one
+    that is not recorded; ``positions`` what is marked along charts, by the name of its quantity; ``values`` what the
+    names are in the recording. Only every ``every``-th position is recorded.
     """
 
     graph: Graph
@@ -81,6 +85,8 @@ class Recording:
     found: dict[str, Solved] = field(default_factory=dict)
     lines: dict[str, list[Line]] = field(default_factory=dict)
     marks: dict[str, dict[str, Node]] = field(default_factory=dict)
+    drawings: dict[int, list[Drawn | None]] = field(default_factory=dict)
+    positions: dict[str, Node] = field(default_factory=dict)
     gaps: list[Gap] = field(default_factory=list)
     guards: dict[Node, Guard] = field(default_factory=dict)  # by their conditions
     made_of: dict[Node, float] = field(default_factory=dict)  # the largest terms of sums, as far as looked at

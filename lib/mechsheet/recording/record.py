@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from mechsheet import units
-from mechsheet.recording import statement
+from mechsheet.recording import showing, statement
 from mechsheet.recording.arithmetic import choice as where
 from mechsheet.recording.arithmetic import sized
 from mechsheet.recording.given import given
@@ -19,16 +19,17 @@ from mechsheet.recording.graph import Gap, Graph, Guard, NotRecorded, current
 from mechsheet.recording.lines import Recording
 from mechsheet.recording.memory import Memory, changes, names_of
 from mechsheet.recording.node import Node, bottom_up
-from mechsheet.recording.quantity import Quantity, has_quantity, is_literal
+from mechsheet.recording.quantity import Quantity, has_quantity, is_literal, lift
+from mechsheet.recording.sketch import Drawn, Sketch
 from mechsheet.recording.stage import Stage, held
 from mechsheet.recording.substitutes import BUILTINS, instead, shared, staged
 from mechsheet.recording.unrepeatable import Unrepeatable
 from mechsheet.units import Constant
-from mechsheet.worksheet.cells import Worksheet, load
+from mechsheet.worksheet.cells import Cell, Worksheet, load
 from mechsheet.worksheet.check import Check
 from mechsheet.worksheet.lines import Formula, registry
 from mechsheet.worksheet.table import Figure, Table
-from mechsheet.worksheet.title import Slider
+from mechsheet.worksheet.title import Mark, Slider
 from mechsheet.worksheet.verdict import Verdict
 
 
@@ -38,6 +39,7 @@ def record(
     whole: bool = False,
     known: Mapping[str, Formula] | None = None,
     every: int = 0,
+    draws: bool = False,
 ) -> Recording:
     """Run the cells behind the tables, found values and checks of ``namespace`` with recorded quantities.
 
@@ -46,12 +48,13 @@ def record(
     does not hold keeps the numbers of the worksheet's own run, as nodes ``exported`` that know what they rest on;
     `Recording.gaps` says where and why. Where all tables list every so many positions, or ``every`` so many are asked
     for, only those are recorded, and all of them only for numbers that rest on all, such as an integral, and for checks
-    that take little more for it; the others are `Residual.listed`.
+    that take little more for it; the others are `Residual.listed`. Where it ``draws``, sliders are inputs too, named
+    ``slider part``, and the drawings that cells show are recorded.
     """
     sheet = load(Path(namespace["__file__"])) if sheet is None else sheet
     steps = {value.every for value in namespace.values() if isinstance(value, Table)}
     want = sheet.results if whole else [name for name in sheet.results if _shown(namespace.get(name))]
-    graph = Graph(every or (steps.pop() if len(steps) == 1 else 1))
+    graph = Graph(every or (steps.pop() if len(steps) == 1 else 1), draws)
     token = current.set(graph)
     try:
         return _Run(sheet, graph, namespace, want, registry(namespace) if known is None else known).recording
@@ -87,7 +90,8 @@ class _Run:
         self.lines = lines
         for line in sheet.setup:
             self.set_up(line, sheet.path)
-        for cell in sheet.needed(want, {"g": g}):
+        needed = sheet.needed(want, {"g": g})
+        for cell in [*needed, *(showing.cells(sheet, needed) if graph.draws else ())]:
             stage = Stage(self.recording, namespace, cell)
             facts = [statement.facts(line, sheet.path) for line in cell.lines]
             last = {name: n for n, fact in enumerate(facts) for name in fact.touched}
@@ -99,6 +103,8 @@ class _Run:
                 self.recording.define(cell.section, name, self.names.get(name, self.passing.get(name)), lines)
             for solved in stage.solved:
                 self.recording.define_steps(cell.section, solved)
+            if graph.draws:
+                self.show(stage, cell)
         self.recording.values = self.names
         if graph.thin > 1:
             self.check_everywhere()
@@ -118,6 +124,23 @@ class _Run:
             self.names.pop(name, None)
             self.lost.pop(name, None)
         return whole
+
+    def show(self, stage: Stage, cell: Cell) -> None:
+        """Record the drawings and the marked positions that a cell shows; of the drawings all or none are known."""
+        found = list[Drawn | None]()
+        for part in showing.expressions(cell):
+            name = part.id if isinstance(part, ast.Name) else showing.HERE
+            if name is showing.HERE:
+                self.step(stage, part.lineno, statement.facts(showing.bound(part), self.sheet.path), set())
+                if name not in self.names:
+                    return
+            value, own = self.names.get(name), [*showing.drawings(self.namespace.get(name))]
+            if isinstance(value, Mark):
+                self.recording.positions |= {k: lift(self.graph, x).re for k, x in value.positions}
+            guards, drawn = self.looked.get(name, ()), [*showing.drawings(value)]
+            sketches = (Drawn(each, guards) if isinstance(each, Sketch) else None for each in drawn)
+            found += [None] * len(own) if own and len(own) != len(drawn) else sketches
+        self.recording.drawings[self.sheet.cells.index(cell)] = found
 
     def step(self, stage: Stage, line: int, facts: statement.Statement, later: set[str]) -> None:
         """Run one statement; where it cannot be recorded, its names keep the numbers of the worksheet's own run.
@@ -172,7 +195,8 @@ class _Run:
             )
         for name in touched:
             if isinstance(self.names.get(name), Slider):  # it rests where the worksheet has it
-                self.names[name] = self.namespace.get(name, self.names[name])
+                own = self.namespace.get(name, self.names[name])
+                self.names[name] = showing.slid(self.recording, name, own) if graph.draws else own
             self.looked[name] = tuple(rests.values())
             value = self.names.get(name)
             if isinstance(value, Quantity) and value.dtype != bool and any(p.op != "constant" for p in value.parts):

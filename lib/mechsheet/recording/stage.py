@@ -13,12 +13,15 @@ from mechsheet.recording.graph import NotRecorded
 from mechsheet.recording.lines import Recording, Residual, Solved
 from mechsheet.recording.node import Node, bottom_up
 from mechsheet.recording.quantity import Quantity, lift
+from mechsheet.recording.substitutes import instead
 from mechsheet.worksheet.cells import Cell
 from mechsheet.worksheet.check import Check
 from mechsheet.worksheet.find import Found
+from mechsheet.worksheet.force_diagram import polar
 from mechsheet.worksheet.shown import Shown
 from mechsheet.worksheet.system import Solution
 from mechsheet.worksheet.table import Figure, Table
+from mechsheet.worksheet.title import side_by_side
 from mechsheet.worksheet.verdict import Verdict
 
 
@@ -46,6 +49,7 @@ class Stage:
             "check_slope": self.check_slope,
             "Check": self.stated,
             "assembled": self.assembled,
+            "polar_diagrams": self.polar_diagrams,
         }
 
     def table(self, number: str, title: str, *columns: Any, every: Any = 1, **_: Any) -> None:
@@ -146,6 +150,11 @@ class Stage:
     def assembled(self, name: str, point: Any, *_: Any) -> None:
         missing: Any = np.where(np.isfinite(lift(self.graph, point)), 0.0, 1.0)
         self._check(name, [missing.re], 0.0, "-")
+
+    def polar_diagrams(self, at: Any, turn: int = 360, **forces: Any) -> Any:
+        if not self.graph.draws:
+            raise NotRecorded("diagrams are drawn")
+        return side_by_side(*(instead(polar)(force, at, name, turn) for name, force in forces.items()))
 
     def _check(self, name: str, parts: list[Node], limit: Any, unit: str, signed: bool = False) -> None:
         bound = lift(self.graph, limit)

@@ -23,9 +23,11 @@ from mechsheet.recording.graph import NotRecorded, current
 from mechsheet.recording.numpy_rules import arange, filled, linspace, trapezoid_so_far
 from mechsheet.recording.quantity import FUNCTIONS, Quantity, has_quantity, lift
 from mechsheet.recording.rewritten import NAMES, rebuilt
+from mechsheet.recording.sketch import Sketch, drawing
 from mechsheet.recording.unrepeatable import instead_of_chance
 from mechsheet.worksheet import check as checks
 from mechsheet.worksheet.cells import Marimo
+from mechsheet.worksheet.drawing import Drawing
 
 _ROOMS = ("mechsheet.mechanics.", "mechsheet.worksheet.force_diagram")
 _WRITTEN = {"__post_init__"}  # the only special method of a group that is not made by `dataclass`
@@ -33,7 +35,9 @@ _ARRAYS = (np.array, np.asarray, np.asanyarray, np.ascontiguousarray)
 
 
 staged: ContextVar[Mapping[str, Any]] = ContextVar("staged")  # what those of `SHOWING` do in the cell that is run
-SHOWING = frozenset({"table", "figure", "find", "minerr", "closed_form", "check", "check_slope", "Check", "assembled"})
+SHOWING = frozenset(
+    {"table", "figure", "find", "minerr", "closed_form", "check", "check_slope", "Check", "assembled", "polar_diagrams"}
+)
 _NOWHERE = frozenset({"require", "refuse", "summary", "export", "typeset"})  # of no use in a workbook
 
 
@@ -73,6 +77,10 @@ def instead(value: Any) -> Any:
         return _takes(_MATH[value])
     if isinstance(value, np.ufunc) or (callable(value) and _of_numpy(value)):
         return _takes(value)
+    if value is Drawing:
+        return drawing
+    if isinstance(value, Drawing) and current.get().draws:
+        return Sketch.of(value)
     room = str(getattr(value, "__module__", ""))
     if isinstance(value, FunctionType | type) and room.startswith("mechsheet."):
         return _of_package(value, room)
@@ -209,7 +217,8 @@ def _space(module: str) -> dict[str, Any]:
     names: dict[str, Any] = {"__builtins__": builtins, **_NAMES}
     for name, value in vars(sys.modules[module]).items():
         if not name.startswith("__"):
-            names[name] = value if isinstance(value, type) and value.__name__ not in SHOWING else instead(value)
+            kept = isinstance(value, type) and value is not Drawing and value.__name__ not in SHOWING
+            names[name] = value if kept else instead(value)
     return names
 
 

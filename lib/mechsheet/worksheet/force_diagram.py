@@ -60,7 +60,7 @@ def cut_group(
     picture = Drawing(drawn.width, drawn.height, _corners(np.concatenate(room)), {"N": scale}) + drawn
     for name, (P, F, *other) in forces.items():
         p, f, *q = (_at(field, at) for field in (P, F, *other))
-        picture = picture.force(p, f, name, into=bool(q and (np.conj(f) * (q[0] - p)).real > 0))
+        picture = picture.force(p, f, name, into=bool(q) and (np.conj(f) * (q[0] - p)).real > 0)
     return picture
 
 
