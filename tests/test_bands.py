@@ -5,7 +5,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from conftest import until
 from own_worksheet import own
+from playwright.sync_api import expect
 
 from mechsheet.document import parts
 from mechsheet.recording.banded import run_bands
@@ -22,6 +24,7 @@ from mechsheet.worksheet.inputs import declared
 from mechsheet.worksheet.lines import registry
 from mechsheet.worksheet.table import Table
 
+GUIDE = Path(__file__).parents[1] / "worksheets" / "guide.py"
 EXAMPLES = Path(__file__).parents[1] / "worksheets" / "examples"
 PART = 1e-4  # of an input: so little that nothing bends by more than its square
 
@@ -168,3 +171,29 @@ def test_random_cases_are_drawn_from_the_distributions_at_the_inputs(tmp_path):
     drawn = tolerance(sheet.path, ["y"], method="monte carlo", seed=1, count=4000)
     assert drawn["y"].deviation == pytest.approx(np.hypot(2 / 3, 0.5 / 3**0.5), rel=0.05)
     assert "uniform and normal" in drawn.method and drawn.tolerances == {"F": 1.0, "a": 0.5}
+
+
+def test_the_page_shows_bands_and_what_matters_once_it_is_asked(serve, page, console_errors):
+    """Behind numbers, cells and checks; when a number changes they are gone until they are those of the new one."""
+    page.goto(serve("run", GUIDE))
+    study, moment = page.locator(".ms-study"), page.locator("#line-M .ms-value")
+    study.wait_for()
+    assert page.locator("[data-band]").count() == 0
+    study.get_by_role("checkbox").click()
+    expect(moment).to_have_attribute("data-band", "± up to 160 N·m")
+    expect(page.locator("#line-H .ms-value")).to_have_attribute("data-band", "± 0.1 mm")
+    expect(page.locator("#check-moment-where-the-work-begins")).to_have_attribute(
+        "data-band", re.compile("in 92.* at worst")
+    )
+    cell = page.locator(".ms-table:has-text('Table 1 ') tbody tr:nth-child(8) td:nth-child(3)")
+    expect(cell).to_have_attribute("data-band", "± 160")
+    study.locator("select").select_option("M_work")
+    row = page.locator(".ms-matters tbody tr").first
+    expect(row, "the moment is as large as the force").to_contain_text("F50.0000kN1.0000")
+    field = page.locator(".ms-inputs tr:has-text('force on the ram') input")
+    field.fill("25")
+    field.press("Enter")
+    expect(moment, "half the force").to_have_attribute("data-band", "± up to 79 N·m")
+    study.get_by_role("checkbox").click()
+    until(page, lambda: page.locator("[data-band]").count() == 0, "bands stay")
+    assert console_errors == []

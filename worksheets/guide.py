@@ -279,6 +279,9 @@ def section_8():
         sweep("worksheets/guide.py", ["M"], grid(r=[50, 55, 60], F=[40, 50])).frame()
 
     What a scene does not ask for is not computed.
+
+    On the page the switch above the buttons at its end shows the tolerances behind all numbers, and the fields beside
+    it what matters for a result: by how many percent it changes for one percent of each input.
     """)
     return
 

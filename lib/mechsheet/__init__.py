@@ -115,7 +115,7 @@ def _cells_in_page(namespace: Mapping[str, Any]) -> shown.Texts | None:
 # What the lower rooms need of the page's, which is loaded only where a page asks for it.
 shown.page = lambda: import_module("mechsheet.page.values")  # type: ignore[assignment,return-value]
 shown.cells_in_page = _cells_in_page
-shown.tolerances = lambda: import_module("mechsheet.studies.tolerance")  # type: ignore[assignment,return-value]
+shown.study = lambda name: getattr(import_module(f"mechsheet.studies.{name}"), name)
 
 # A worksheet that is run as a script tells its mistakes in a line.
 _main = sys.modules.get("__main__")

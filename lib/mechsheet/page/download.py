@@ -1,11 +1,13 @@
 """The buttons that make a file when they are pressed, and what is said of that file below them."""
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from functools import partial
 from html import escape
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import marimo as mo
+
+from mechsheet.page.study import Asked, Study
 
 
 class File(NamedTuple):
@@ -16,18 +18,27 @@ class File(NamedTuple):
     made: Callable[[], tuple[bytes, Iterable[str]]]
 
 
-def download(*files: File) -> mo.Html:
-    """Buttons of some files; once one is pressed, the lines that come with its bytes stand below them."""
+def download(*files: File, asked: Asked, namespace: Mapping[str, Any]) -> mo.Html:
+    """Buttons of some files; once one is pressed, the lines that come with its bytes stand below them.
 
-    def shown(lines: Iterable[str]) -> mo.Html:
-        told = "<br>".join(map(escape, lines))
+    Above them stands what else the page may be ``asked`` for, of the values in its ``namespace``.
+    """
+    told = list[str]()
+
+    def shown() -> mo.Html:
+        lines = "<br>".join(map(escape, told))
         side = "".join(button.text for button in buttons)
-        return mo.Html(f'<div><div class="ms-row">{side}</div><div class="ms-note">{told}</div></div>')
+        files = f'<div class="ms-row">{side}</div><div class="ms-note">{lines}</div>'
+        return mo.Html(f"<div>{study.text}{files}</div>")
+
+    def redraw() -> None:
+        mo.output.replace(shown())
 
     def pressed(file: File) -> bytes:
-        data, lines = file.made()
-        mo.output.replace(shown(lines))
+        data, told[:] = file.made()
+        redraw()
         return data
 
+    study = Study(asked, namespace, redraw)
     buttons = [mo.download(partial(pressed, file), filename=file.name, label=file.label) for file in files]
-    return shown(())
+    return shown()

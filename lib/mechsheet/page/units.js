@@ -90,7 +90,10 @@
           if (each.closest("th").cellIndex === i) each.textContent = unit;
         });
         const texts = inUnit(column, unit);
-        [...copy.tBodies[0].rows].forEach((row, k) => (row.cells[i].textContent = texts[k]));
+        [...copy.tBodies[0].rows].forEach((row, k) => {
+          row.cells[i].textContent = texts[k];
+          delete row.cells[i].dataset.band; // which is in the other unit
+        });
       });
       return copy;
     }

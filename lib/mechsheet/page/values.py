@@ -168,9 +168,11 @@ def _(value: Typeset) -> str:
 
 @html.register
 def _(check: Check) -> str:
-    compared = ": " + switched.value(_anchor(check), check.unit, partial(_compared, check)) if check.evaluated else ""
+    compared = (
+        ": " + switched.value(anchor(check.name), check.unit, partial(_compared, check)) if check.evaluated else ""
+    )
     return (
-        f'<div id="{_anchor(check)}">{_badge(check)} {in_words(check.name)}{compared}'
+        f'<div id="{anchor(check.name)}">{_badge(check)} {in_words(check.name)}{compared}'
         f'<span style="opacity:.7"> {escape(check.reason)}</span></div>'
     )
 
@@ -186,8 +188,9 @@ def _badge(check: Check) -> str:
     return f'<span class="ms-badge ms-{kind}">{verdict}</span>'
 
 
-def _anchor(check: Check) -> str:
-    return "check-" + re.sub(r"\W+", "-", check.name)
+def anchor(name: str) -> str:
+    """Id of a check in the page."""
+    return "check-" + re.sub(r"\W+", "-", name)
 
 
 @html.register
@@ -199,7 +202,7 @@ def _(summary: Summary) -> str:
     count += f", {skipped} not evaluated" if skipped else ""
     worst_first = sorted(summary.checks, key=lambda check: (check.passed, not check.evaluated))
     items = "".join(
-        f'<span>{_badge(check)} <a href="#{_anchor(check)}">{in_words(check.name)}</a> {escape(check.reason)}</span>'
+        f"<span>{_badge(check)} {_link(check, in_words(check.name))} {escape(check.reason)}</span>"
         for check in worst_first
     )
     failing = "".join(_in_bar(check) for check in worst_first[:1] if not check.passed)
@@ -210,7 +213,11 @@ def _(summary: Summary) -> str:
 
 def _in_bar(check: Check) -> str:
     compared = f": {_compared(check, check.unit, HTML)}" if check.evaluated else ""
-    return f'<a href="#{_anchor(check)}">{_badge(check)} {in_words(check.name)}{compared}</a>'
+    return _link(check, f"{_badge(check)} {in_words(check.name)}{compared}")
+
+
+def _link(check: Check, text: str) -> str:
+    return f'<a href="#{anchor(check.name)}">{text}</a>'
 
 
 @html.register

@@ -14,6 +14,7 @@ from mechsheet.recording.quantity import Quantity
 from mechsheet.worksheet import numbers
 from mechsheet.worksheet.check import Check
 from mechsheet.worksheet.lines import Formula
+from mechsheet.worksheet.symbol import stem
 from mechsheet.worksheet.table import Table
 
 _RESULTS = "results"
@@ -28,6 +29,7 @@ class Banded:
     unit: str
     values: Values
     band: Band
+    listed: bool = False  # a result that is the column of a table too
 
     @property
     def worst(self) -> Values:
@@ -61,7 +63,10 @@ class RunBands:
     def lines(self) -> list[str]:
         """All of it as texts, the checks left out: they stand beside their verdicts."""
         heads = ["", "", "", "worst case", "root of squares", ""]
-        rows = [heads, *(row + [""] * (len(heads) - len(row)) for row in (each.cells() for each in self.banded))]
+        rows = [
+            heads,
+            *(row + [""] * (len(heads) - len(row)) for row in (b.cells() for b in self.banded if not b.listed)),
+        ]
         wide = [max(map(len, column)) for column in zip(*rows, strict=True)]
         shown = ["  ".join(text.ljust(w) for text, w in zip(row, wide, strict=True)).rstrip() for row in rows]
         return [f"within {', '.join(map(str, self.by.values()))}", *shown, NOTE]
@@ -81,7 +86,7 @@ def run_bands(
     known: Mapping[str, Formula],
     by: Mapping[str, Tolerance],
 ) -> RunBands:
-    """Bands of single results, of columns of tables, and of fields that are none; ``known`` are lines with a unit."""
+    """Bands of results and of columns of tables; ``known`` are lines with a unit."""
     bands = Bands(recording, by)
     tables = list(tables)
     shown = [*_of_lines(recording, known, {column.of for table in tables for column in table.columns})]
@@ -89,13 +94,15 @@ def run_bands(
     judged = {
         check.name: (recording.checks[check.name], check.passed) for check in checks if check.name in recording.checks
     }
-    found = bands.of([node for *_, node in shown] + [n for check, _ in judged.values() for n in bands.compared(check)])
-    banded = (Banded(where, name, unit, values, found[node]) for where, name, unit, values, node in shown)
+    found = bands.of(
+        [node for *_, node, _ in shown] + [n for check, _ in judged.values() for n in bands.compared(check)]
+    )
+    banded = (Banded(where, name, unit, x, found[node], listed) for where, name, unit, x, node, listed in shown)
     moved = tuple(each for each in banded if each.band.why or np.any(each.band.moves))
     return RunBands(by, moved, {name: bands.sure(check, passed) for name, (check, passed) in judged.items()})
 
 
-_Shown = tuple[str, str, str, Values, Node]
+_Shown = tuple[str, str, str, Values, Node, bool]
 
 
 def _of_lines(recording: Recording, known: Mapping[str, Formula], listed: set[str]) -> Iterator[_Shown]:
@@ -103,12 +110,14 @@ def _of_lines(recording: Recording, known: Mapping[str, Formula], listed: set[st
         quantity = recording.values.get(name)
         if line.arguments or not isinstance(quantity, Quantity):
             continue
-        if quantity.single or name.removesuffix("_S") not in listed:
-            ends = ("real", "imag") if quantity.im is not None else ("",)
-            for node, part in zip(quantity.whole().parts, ends, strict=True):
-                if node.op not in LEAVES and node.value.dtype.kind in "if" and node.size:
-                    values = node.value / units.parse(line.unit).factor
-                    yield _RESULTS, f"{name}.{part}" if part else name, line.unit, values, node
+        ends = ("real", "imag") if quantity.im is not None else ("",)
+        for node, part in zip(quantity.whole().parts, ends, strict=True):
+            if node.op not in LEAVES and node.value.dtype.kind in "if" and node.size:
+                values, column = (
+                    node.value / units.parse(line.unit).factor,
+                    not quantity.single and stem(name) in listed,
+                )
+                yield _RESULTS, f"{name}.{part}" if part else name, line.unit, values, node, column
 
 
 def _of_tables(recording: Recording, tables: Iterable[Table]) -> Iterator[_Shown]:
@@ -116,7 +125,7 @@ def _of_tables(recording: Recording, tables: Iterable[Table]) -> Iterator[_Shown
         recorded = recording.tables.get(table.number, (None,) * len(table.columns))
         for column, quantity in zip(table.columns, recorded, strict=True):
             if quantity is not None and column.values.dtype.kind in "biuf" and quantity.re.size == column.values.size:
-                yield f"table {table.number}", column.name, column.unit, column.values, quantity.re
+                yield f"table {table.number}", column.name, column.unit, column.values, quantity.re, False
 
 
 def off(x: float) -> str:

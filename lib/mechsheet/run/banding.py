@@ -16,6 +16,8 @@ from mechsheet.recording.record import record
 from mechsheet.worksheet import numbers, shown
 from mechsheet.worksheet.cells import Worksheet, base, split
 from mechsheet.worksheet.check import Check
+from mechsheet.worksheet.errors import SheetError, as_given
+from mechsheet.worksheet.inputs import Used
 from mechsheet.worksheet.lines import Formula, registry
 from mechsheet.worksheet.scene import Scene
 from mechsheet.worksheet.table import Table
@@ -31,10 +33,37 @@ def bands_of(namespace: Mapping[str, Any], sheet: Worksheet, checks: Iterable[Ch
     Raises SheetError where no input has a tolerance, or one breaks a limit of its input.
     """
     by = tolerances(namespace["g"])
-    tables = [value for value in parts.values(namespace) if isinstance(value, Table)]
     own = {check.name: check.limit for check in parts.values(namespace) if isinstance(check, Check)}
     checks = [check for check in checks if own.get(check.name) == check.limit]  # not those of a scene
-    return run_bands(record(namespace, sheet, whole=True), tables, checks, registry(namespace), by)
+    return run_bands(record(namespace, sheet, whole=True), tables_of(namespace), checks, registry(namespace), by)
+
+
+def tables_of(namespace: Mapping[str, Any]) -> list[Table]:
+    """Tables of a run in the order of its file."""
+    return [value for value in parts.values(namespace) if isinstance(value, Table)]
+
+
+def results_of(namespace: Mapping[str, Any]) -> list[str]:
+    """Results of a run that are real numbers, or the parts of complex ones, by which one may ask what matters."""
+    found = list[str]()
+    for name, line in registry(namespace).items():
+        kind = "" if line.arguments else np.asarray(namespace.get(name)).dtype.kind
+        found += [f"{name}.real", f"{name}.imag", f"abs({name})"] if kind == "c" else [name] if kind in "if" else []
+    return found
+
+
+def matters(sheet: Worksheet, namespace: Mapping[str, Any], name: str, position: str) -> tuple[Any, Any]:
+    """Tornado and table of the elasticities of a result by all inputs, as they are in a run, at a position.
+
+    Raises SheetError where there is no such position, or what `mechsheet.sensitivity` raises.
+    """
+    at: Any = int(position) if position.isdecimal() else position
+    if not isinstance(at, int) and at not in ("least", "greatest"):
+        raise SheetError(f"position {as_given(position)} must be least, greatest or a number from 0")
+    given = {field.name: value for field, value in Used(namespace["g"]).rows()}
+    found = shown.study("sensitivity")(sheet.path, [name], **given)
+    title = f"What matters for {name}"
+    return found.tornado("", title, name, at), found.table("", title, name, at)
 
 
 def lines(
@@ -54,9 +83,8 @@ def lines(
     yield f"within {', '.join(map(str, by.values()))}"
     if nodes:
         found = bands.of(nodes.values())
-        sampled = shown.tolerances().tolerance(
-            sheet.path, [*nodes], None, "monte carlo", seed=1, count=_CASES, **given.inputs
-        )
+        drawn = {"seed": 1, "count": _CASES, **given.inputs}
+        sampled = shown.study("tolerance")(sheet.path, [*nodes], None, "monte carlo", **drawn)
         bounds = _bounds(nodes.values(), recording.inputs, by)
         for name, node in nodes.items():
             yield from _in_all_ways(name, node, known[base(name)], found[node], sampled, bounds[node], by)

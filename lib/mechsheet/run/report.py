@@ -3,6 +3,7 @@
 import ast
 import sys
 from collections.abc import Iterable, Iterator, Mapping
+from functools import partial
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -10,18 +11,19 @@ import numpy as np
 
 from mechsheet import units
 from mechsheet.document import parts
+from mechsheet.recording.banded import RunBands
 from mechsheet.recording.dimensions import dimensions
 from mechsheet.recording.lines import Recording, Residual
 from mechsheet.recording.record import record
 from mechsheet.run import arguments
-from mechsheet.run.banding import bands_of
+from mechsheet.run.banding import bands_of, matters, results_of, tables_of
 from mechsheet.run.ending import say
 from mechsheet.run.proving import proof_of
 from mechsheet.workbook import inputs_sheet, writing
 from mechsheet.workbook.find_sheet import FoundRow
 from mechsheet.workbook.save import save
 from mechsheet.worksheet import index, inputs, numbers
-from mechsheet.worksheet.cells import load, refuse_open, results
+from mechsheet.worksheet.cells import Worksheet, load, refuse_open, results
 from mechsheet.worksheet.check import Check
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.find import Found
@@ -51,6 +53,7 @@ def export(title: str, namespace: Mapping[str, Any]) -> Any:
         _script(title, namespace, worksheet)
         return None
     from mechsheet.html import write as html  # on use: a worksheet called as a function needs no page
+    from mechsheet.page import study  # on use: as above
     from mechsheet.page.download import File, download  # on use: as above
 
     def book() -> tuple[bytes, list[str]]:
@@ -61,10 +64,16 @@ def export(title: str, namespace: Mapping[str, Any]) -> Any:
         return html.page(sheet, namespace["g"]).encode(), []
 
     sheet = load(worksheet)
+    asked = study.Asked(results_of(namespace), partial(_bands, sheet, namespace), partial(matters, sheet, namespace))
     files = [File(f"{worksheet.stem}.xlsx", "Excel workbook", book)]
     if not html.studies(sheet):
         files.append(File(f"{worksheet.stem}.html", "Page in one file", page))
-    return download(*files)
+    return download(*files, asked=asked, namespace=namespace)
+
+
+def _bands(sheet: Worksheet, namespace: Mapping[str, Any]) -> tuple[RunBands, list[Table]]:
+    """Bands of what a page shows, and its tables."""
+    return bands_of(namespace, sheet, _of(Check, parts.values(namespace))), tables_of(namespace)
 
 
 def _script(title: str, namespace: Mapping[str, Any], worksheet: Path) -> None:

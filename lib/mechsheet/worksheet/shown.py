@@ -29,18 +29,11 @@ def _none() -> Page:
 page: Callable[[], Page] = _none  # set by the package itself, and called when a value is shown for the first time
 
 
-class Study(Protocol):
-    """What the study of tolerances tells those below."""
-
-    def tolerance(self, worksheet: str, want: Any, tolerances: None, method: str, **given: Any) -> Any:
-        """Bands of results of a worksheet for the tolerances of its inputs, by many runs."""
+def _unregistered(_name: str) -> Any:
+    raise RuntimeError("no studies are registered: import mechsheet, not a part of it by its file")
 
 
-def _unregistered() -> Study:
-    raise RuntimeError("no study of tolerances is registered: import mechsheet, not a part of it by its file")
-
-
-tolerances: Callable[[], Study] = _unregistered  # set by the package itself
+study: Callable[[str], Any] = _unregistered  # the function of that name, of many runs; set by the package itself
 
 
 def _no_page(_namespace: Mapping[str, Any]) -> Texts | None:

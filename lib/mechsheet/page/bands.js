@@ -1,0 +1,60 @@
+// Bands within tolerances, behind the numbers that they belong to: attributes, which the page's own changes leave alone.
+(() => {
+  if (customElements.get("ms-bands")) return;
+
+  const marked = new Set();
+
+  function mark(target, text) {
+    if (!target || !text) return;
+    target.dataset.band = text;
+    marked.add(target);
+  }
+
+  function clear() {
+    marked.forEach((target) => delete target.dataset.band);
+    marked.clear();
+  }
+
+  // A number that changes has lost its band, and so have all others: they wait for new ones.
+  const NUMBERS = ".ms-line, .ms-table, [id^=check-]";
+  const isNumber = ({ target }) => {
+    const shown = (target.closest ? target : target.parentElement)?.closest(NUMBERS);
+    return shown?.isConnected && !shown.closest(".ms-matters");
+  };
+  const changes = new MutationObserver((records) => records.some(isNumber) && clear());
+
+  class Bands extends HTMLElement {
+    static observedAttributes = ["made"];
+
+    connectedCallback() {
+      this.show();
+    }
+
+    disconnectedCallback() {
+      changes.disconnect();
+      clear();
+    }
+
+    attributeChangedCallback() {
+      if (this.isConnected) this.show();
+    }
+
+    show() {
+      clear();
+      const { lines, tables, checks } = JSON.parse(this.getAttribute("told"));
+      const at = (id) => document.getElementById(id);
+      for (const [name, text] of Object.entries(lines)) mark(at(`line-${name}`)?.querySelector(".ms-value"), text);
+      for (const [id, text] of Object.entries(checks)) mark(at(id), text);
+      for (const [number, blocks] of Object.entries(tables)) {
+        const shown = at(`table-${number}`)?.parentElement.querySelectorAll("table:not(.ms-chosen)") ?? [];
+        blocks.forEach((columns, n) =>
+          columns.forEach((texts, i) =>
+            texts?.forEach((text, k) => mark(shown[n]?.tBodies[0].rows[k]?.cells[i], text)),
+          ),
+        );
+      }
+      changes.observe(document.body, { childList: true, characterData: true, subtree: true });
+    }
+  }
+  customElements.define("ms-bands", Bands);
+})();

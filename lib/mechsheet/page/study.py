@@ -1,0 +1,127 @@
+"""What a page shows beyond the numbers when it is asked: bands within tolerances, and what a result depends on.
+
+Nothing is computed before; then it follows whatever changes on the page.
+"""
+
+import time
+from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from html import escape
+from typing import Any, NamedTuple, TypeVar
+from uuid import uuid4
+
+import marimo as mo
+
+from mechsheet.document.blocks import blocks
+from mechsheet.page import notebook, values
+from mechsheet.page.script import element, script
+from mechsheet.recording.banded import NOTE, Banded, RunBands, off
+from mechsheet.worksheet import numbers
+from mechsheet.worksheet.table import Table
+
+T = TypeVar("T")
+_PERIOD = 0.25  # s between two looks at the page
+_AT = "least"  # position at which a result is looked at unless another is chosen
+
+
+class Asked(NamedTuple):
+    """What computes that which a page may be asked for: bands of tables and of all else; what a result depends on."""
+
+    results: Sequence[str]
+    bands: Callable[[], tuple[RunBands, Sequence[Table]]]
+    matters: Callable[[str, str], Sequence[Any]]
+
+
+class Study:
+    """A switch for the bands, and fields for a result and a position, with what they ask for below them."""
+
+    def __init__(self, asked: Asked, namespace: Mapping[str, Any], redraw: Callable[[], object]) -> None:
+        self.asked, self.namespace, self.redraw = asked, namespace, redraw
+        self.bands = mo.ui.checkbox(label="tolerances", on_change=self.changed)
+        self.result = mo.ui.dropdown(list(asked.results), label="what matters for", on_change=self.changed)
+        self.position = mo.ui.text(value=_AT, label="at position", on_change=self.changed)
+        self.told, self.looking = "", False
+        try:
+            self.cells = notebook.running()[0]
+        except notebook.Unlike:  # then it is at rest as soon as its values are
+            self.cells = tuple
+
+    @property
+    def text(self) -> str:
+        """HTML of all of it."""
+        switches = "".join(each.text for each in (self.bands, self.result, self.position))
+        return f'{script("bands.js")}<div class="ms-row ms-screen ms-study">{switches}</div>{self.told}'
+
+    def changed(self, _: object) -> None:
+        """Follow the page from now on, as long as anything is asked for."""
+        if not self.looking:
+            self.looking = True
+            mo.Thread(target=self.look, daemon=True).start()
+
+    def look(self) -> None:
+        """Compute what is asked for again whenever the page has come to rest with other values."""
+        this, before, done = mo.current_thread(), (), ()
+        try:
+            while not this.should_exit and (self.bands.value or self.result.value):
+                now: Any = (self.bands.value, self.result.value, self.position.value, *map(id, self.namespace.values()))
+                if now == before and now != done and not any(cell.busy for cell in self.cells()):
+                    self.told, done = self.answer(), now
+                    self.redraw()
+                before = now
+                time.sleep(_PERIOD)
+        finally:
+            self.looking, self.told = False, ""
+        if not this.should_exit:
+            self.redraw()
+
+    def answer(self) -> str:
+        """HTML of what is asked for, or why there is none."""
+        parts = list[str]()
+        try:
+            if self.bands.value:
+                bands, tables = _elsewhere(self.asked.bands)
+                within = escape(", ".join(map(str, bands.by.values())))
+                parts.append(element("ms-bands", told=_told(bands, tables), made=uuid4().hex))
+                parts.append(f'<div class="ms-note">Behind ± the worst case within {within}. {escape(NOTE)}</div>')
+            if self.result.value:
+                of, at = str(self.result.value), self.position.value.strip() or _AT
+                shown = _elsewhere(lambda: self.asked.matters(of, at))
+                parts += [f'<div class="ms-matters">{values.html(each)}</div>' for each in shown]
+        except Exception as error:  # of a line that cannot be followed too: the page goes on without
+            parts.append(
+                f'<div class="ms-note"><span class="ms-badge ms-FAIL">not shown</span> {escape(str(error))}</div>'
+            )
+        return "".join(parts)
+
+
+def _elsewhere(work: Callable[[], T]) -> T:
+    """What some work gives in a thread of no page, where sliders that it makes are none that the page moves."""
+    with ThreadPoolExecutor(1) as pool:
+        return pool.submit(work).result()
+
+
+def _told(bands: RunBands, tables: Sequence[Table]) -> dict[str, Any]:
+    """Texts of all bands: of lines by their names, of checks by their places, of tables by blocks and columns."""
+    lines, columns = dict[str, list[Banded]](), dict[tuple[str, str], Banded]()
+    for each in bands.banded:
+        if each.where == "results":
+            lines.setdefault(each.name.split(".")[0], []).append(each)
+        columns[each.where, each.name] = each
+
+    def cells(table: Table, name: str) -> list[str] | None:
+        own = columns.get((f"table {table.number}", name))
+        return None if own is None or own.band.why else [f"± {off(x)}" for x in own.worst]
+
+    return {
+        "lines": {name: _of_line(parts) for name, parts in lines.items()},
+        "tables": {t.number: [[cells(t, c.name) for c in block] for block in blocks(t)] for t in tables},
+        "checks": {values.anchor(name): sure for name, sure in bands.sure.items()},
+    }
+
+
+def _of_line(parts: Sequence[Banded]) -> str:
+    if why := next((part.band.why for part in parts if part.band.why), ""):
+        return f"± not known: {why}"
+    most = [off(part.worst.max()) for part in parts]
+    among = "up to " if parts[0].values.size > 1 else ""
+    return f"± {among}{most[0] if len(most) == 1 else '(' + ', '.join(most) + ')'}{numbers.suffix(parts[0].unit)}"
