@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import subprocess
+import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -216,3 +217,19 @@ def test_the_number_of_a_printed_formula_stands_before_the_meaning_where_lines_a
     texts = [cell.value for sheet in sheets for row in sheet for cell in row]
     assert texts.count("(2.4) does not") == 1, "in the list of lines"
     assert texts.count("does not") <= 1, "and not in the results"
+
+
+def test_proved_digits_are_those_of_the_exported_inputs(
+    recalculated_all: Callable[[list[Path]], list[Any]], tmp_path: Path
+) -> None:
+    command = [sys.executable, "-m", "mechsheet", "run", "landing_gear", "--proof", f"--out={tmp_path}"]
+    subprocess.run(command, cwd=Path(__file__).parents[1], check=True, capture_output=True, timeout=WITHIN)
+    path = tmp_path / "landing_gear.xlsx"
+    kept, edited = recalculated_all([path, edit(path, {"l3": 0.31}, tmp_path / "edited.xlsx")])
+    for book, digits in ((kept, True), (edited, False)):
+        head, *listed = [[cell.value for cell in row] for row in book["Checks"].iter_rows(min_row=2)]
+        proved = [row for row in listed if row[0].endswith("every number proved to 9 digits")]
+        assert head[6] == "Digits proved" and len(proved) > 5
+        assert all(row[4] == ("PASS" if digits else "not evaluated") for row in proved)
+        assert all(row[6] > 9 if digits else row[6] == "#N/A" for row in proved)
+        assert not any(row[6] for row in listed if row not in proved)

@@ -6,7 +6,7 @@ right.
 """
 
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from math import floor
 from typing import Any, NamedTuple
@@ -121,6 +121,14 @@ class Proof:
         told += [f"but for exceptions: {'; '.join(apart)}"] if apart else []
         name = f"every number proved to {numbers.significant(digits, 4)} digits"
         return Check(name, missing, 0.0, "digits missing", "; ".join(told))
+
+    def checks(self, digits: float = PROVED) -> list[tuple[Check, float]]:
+        """The same of each table and of the single results, with the digits that are proved."""
+        found = list[tuple[Check, float]]()
+        for where, least in self.least.items():
+            own = Proof(tuple(column for column in self.columns if column.where == where), ()).check(digits)
+            found.append((replace(own, name=f"{where}: {own.name}"), _down(least.least)))
+        return found
 
     def table(self) -> Table:
         """A row for each table: how many numbers it has, the fewest digits proved, and of which column."""
@@ -358,7 +366,7 @@ def _root(balls: Balls, name: str, solved: Solved) -> ProvedRoot:
 
 def _down(digits: float) -> float:
     """Rounded to the tenth below: never more than there are."""
-    return floor(10 * digits) / 10
+    return floor(10 * digits) / 10 if digits == digits else digits
 
 
 def _shown(digits: float) -> str:

@@ -91,12 +91,14 @@ def _script(title: str, namespace: Mapping[str, Any], worksheet: Path) -> None:
     say(*inputs.readings(declared, given.inputs), *_of(Verdict, values), *told)
     if bands:
         say(*bands.lines())
+    proved = dict[Check, float]()
     if given.proof:
         proof = proof_of(namespace, load(worksheet), recording)
         checks.append(proof.check(given.proof))
+        proved = dict(proof.checks(given.proof))
         say(*proof.lines(), checks[-1])
     path = (given.out or folder(worksheet.resolve())) / f"{worksheet.stem}.xlsx"
-    write(_workbook(title, namespace, [*values, fit], recording), path)
+    write(_workbook(title, namespace, [*values, fit, *proved], recording, proved), path)
     say(f"written {path}", *_not_followed(recording))
     if not all(check.passed for check in checks):
         sys.exit(1)
@@ -144,7 +146,13 @@ def _recorded(namespace: Mapping[str, Any]) -> tuple[Recording, Check]:
     return recording, fit
 
 
-def _workbook(title: str, namespace: Mapping[str, Any], values: list[Any], recording: Recording) -> bytes:
+def _workbook(
+    title: str,
+    namespace: Mapping[str, Any],
+    values: list[Any],
+    recording: Recording,
+    proved: Mapping[Check, float] | None = None,
+) -> bytes:
     own = {check.name: check.limit for check in _of(Check, parts.values(namespace))}
     return writing.workbook(
         title,
@@ -156,6 +164,7 @@ def _workbook(title: str, namespace: Mapping[str, Any], values: list[Any], recor
         recording=recording,
         index=index.of_worksheet(namespace),
         fixed={check.name for check in _of(Check, values) if own.get(check.name, check.limit) != check.limit},
+        proved={check.name: digits for check, digits in (proved or {}).items()},
     )
 
 

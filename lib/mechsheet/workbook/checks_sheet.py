@@ -1,6 +1,6 @@
 """The sheet of the checks, and the colours of their verdicts."""
 
-from collections.abc import Container, Sequence
+from collections.abc import Container, Mapping, Sequence
 from typing import Any
 
 from mechsheet.units import shown
@@ -15,12 +15,19 @@ _MADE = "made for these inputs: where this fails, export the worksheet again"
 _VERDICT = '=IF(ISNUMBER(B{0}-C{0}),IF(B{0}<=C{0},"PASS","FAIL"),"not evaluated")'
 
 
-def write(book: Book, checks: Sequence[Check], formulas: SheetFormulas | None, fixed: Container[str] = ()) -> None:
+def write(
+    book: Book,
+    checks: Sequence[Check],
+    formulas: SheetFormulas | None,
+    fixed: Container[str] = (),
+    proved: Mapping[str, float] | None = None,
+) -> None:
     """The sheet Checks; with ``formulas`` also rows that tell whether inputs are within their limits and all holds.
 
-    Of the ``fixed`` checks a scene has set the limit.
+    Of the ``fixed`` checks a scene has set the limit. Where there is a proof, a column has the digits ``proved`` by the
+    names of its checks, for the exported inputs alone.
     """
-    fields = (
+    fields: tuple[tuple[str, looks.Look], ...] = (
         *(("Check", looks.TEXT), ("Residual", looks.SMALL), ("Limit", looks.SMALL), ("Unit", looks.TEXT)),
         *(("Verdict", looks.VERDICT), ("Reason", looks.TEXT)),
     )
@@ -48,8 +55,18 @@ def write(book: Book, checks: Sequence[Check], formulas: SheetFormulas | None, f
         cells = f"E3:E{len(rows) + 2}"
         known = _title(sum(c.passed for c, *_ in rows), len(rows))
         title = Live(f'="Checks: "&COUNTIF({cells},"PASS")&" of "&ROWS({cells})&" passed"', known)
+    if proved:
+        fields = (*fields, ("Digits proved", looks.NUMBER))
+        shown_digits = (_digits(row[0], proved, formulas) for row in listed)
+        listed = [(*row, digits) for row, digits in zip(listed, shown_digits, strict=True)]
     sheet = book.listing("Checks", title, fields, listed)
     verdicts(book, sheet, len(listed), 4, 4)
+
+
+def _digits(name: Content, proved: Mapping[str, float], formulas: SheetFormulas | None) -> Content:
+    if name not in proved:
+        return ""
+    return formulas.as_exported(proved[str(name)]) if formulas else proved[str(name)]
 
 
 def verdict(check: Check) -> str:

@@ -1,6 +1,6 @@
 """Workbooks as the bytes of a file: that of a worksheet, and that of scenes side by side."""
 
-from collections.abc import Container, Sequence
+from collections.abc import Container, Mapping, Sequence
 from dataclasses import replace
 
 from mechsheet.recording.lines import Recording
@@ -38,6 +38,7 @@ def workbook(
     recording: Recording | None = None,
     fixed: Container[str] = (),
     index: Index | None = None,
+    proved: Mapping[str, float] | None = None,
 ) -> bytes:
     """Bytes of an .xlsx file; on one machine, with the same versions, the same input gives the same bytes.
 
@@ -48,7 +49,7 @@ def workbook(
     or errata.
     With a ``recording`` of the worksheet the cells hold formulas beside their values, and what stands behind the tables
     is listed by sections on sheets of its own at the end, in SI units, which are not printed; of the ``fixed`` checks a
-    scene has set the limit.
+    scene has set the limit, and those of a proof have the digits ``proved``, by their names.
     A table's sheet has its title in row 1, its note in row 2, symbols in row 3, units in row 4, then the numbers
     to their last bit; pandas reads it by ``read_excel(file, sheet_name=name, header=2, skiprows=[3])``. NaN is
     the error value #N/A and an infinite number #NUM!: pandas reads both as NaN, charts leave a gap.
@@ -86,7 +87,7 @@ def workbook(
         note = table_sheet.not_followed(table.columns, grey)
         sheet, (spot,) = table_sheet.write(book, name, table.title, note, columns, 1, grey=grey)
         charts.insert(sheet, spot, figure, name, table.columns, grey)
-    checks_sheet.write(book, checks, formulas, fixed)
+    checks_sheet.write(book, checks, formulas, fixed, proved)
     if index and (index.formulas or index.errata):
         sheets = {("table", table.number): name for table, name in zip(tables, names, strict=True)}
         holding = dict(zip(map(id, tables), names, strict=True))
