@@ -149,6 +149,8 @@ def marimo_server(mode: str, worksheet: Path, folder: Path) -> Iterator[str]:
         sheet = folder / worksheet.relative_to(ROOT)
     else:
         sheet = Path(shutil.copy(worksheet, folder / "worksheets"))
+        for beside in worksheet.parent.glob("*.csv"):
+            shutil.copy(beside, folder / "worksheets")
     shutil.copy(ROOT / "pyproject.toml", folder)
     with socket.socket() as free:
         free.bind(("127.0.0.1", 0))

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import subprocess
 import sys
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 from openpyxl import Workbook
+from playwright.sync_api import expect
 
 from mechsheet import evaluate, load
 from mechsheet.run import arguments
@@ -29,6 +31,8 @@ with app.setup:
     class Gas:
         V: float  # [cm**3] volume; > 0
         p: float  # [bar] pressure
+
+        """A row of the file."""
 
 
 @app.class_definition
@@ -161,3 +165,15 @@ def test_a_missing_file_of_the_worksheet_itself_is_one_line(engine: Path) -> Non
     done = subprocess.run([sys.executable, str(engine)], capture_output=True, encoding="utf-8", cwd=engine.parent)
     assert done.returncode == 1
     assert "gas.csv cannot be read" in done.stderr and "Traceback" not in done.stderr
+
+
+def test_the_file_is_found_by_the_editor_from_another_folder(
+    serve: Callable[[str, Path], str], page: Any, console_errors: list[str], engine: Path
+) -> None:
+    text = SHEET.replace("    form = ask(Engine)\n", "    form = ask(Engine)\n    form\n")
+    text = text.replace("W)\n    return (table_1,)", "W)\n    table_1\n    return (table_1,)")
+    engine.write_text(text, encoding="utf-8")
+    page.goto(serve("edit", engine))
+    cell = page.locator(".ms-table:has-text('Table 1 ') tbody tr").last.locator("td").last
+    expect(cell).to_have_text(f"{WORK:.3f}")
+    assert console_errors == []

@@ -40,6 +40,7 @@ OF_SEVERAL = {
     },
     "joint": {
         **dict.fromkeys(("y", "A_t", "A_c"), 2),  # beams and stringers
+        **dict.fromkeys(("y_b_1", "y_s_1"), 2),  # levels in the two planes, of two columns of the input
         "l_be": 2,
         "w_he": 3,
         "F_e": 2,

@@ -303,7 +303,8 @@ def section_9():
     - What the cells cannot follow is grey, holds for the exported inputs and says `#N/A` for others; the front sheet
       and the run name its line and the reason.
 
-    A saved workbook is a scene too: `run guide --scene=guide.xlsx` computes with the inputs that you changed there.
+    A saved workbook is a scene too: `run guide --scene=guide.xlsx` computes with the inputs that you changed there, and
+    `compare guide HEAD guide.xlsx` tells what changed since the last revision in git, and by how much.
     """)
     return
 

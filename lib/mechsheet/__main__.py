@@ -21,7 +21,7 @@ from pathlib import Path
 
 MINIMUM = (3, 11)
 ROOT = Path(__file__).resolve().parents[2]
-COMMANDS = ("run", "html", "new", "edit", "index", "rename", "test")
+COMMANDS = ("run", "html", "new", "edit", "index", "compare", "rename", "test")
 HELP = """\
 usage: mechsheet COMMAND              where the package is installed
        python lib/mechsheet COMMAND   in a clone of the project
@@ -41,6 +41,8 @@ usage: mechsheet COMMAND              where the package is installed
       such as                         edit hitch
   index NAME                          where the worksheet has the formulas, tables and figures of its document
       such as                         index kinetostatics
+  compare NAME OLD NEW [--markdown]   what changed from one scene, workbook or revision of git to another; exit code 1
+      such as                         compare hitch HEAD worksheets/scenes/heavy.toml
   rename NAME OLD NEW                 rename a symbol in the worksheet, its comments and texts, and in its scenes
       such as                         rename hitch F_gc F_c
   test [OPTIONS]                      run the project's tests (options of pytest)
@@ -59,7 +61,7 @@ def main(argv: "list[str] | None" = None) -> int:
     if command in ("", "-h", "--help"):
         say(contents() + HELP)
         return 0 if command else 1
-    if command in ("run", "html", "edit", "index", "rename"):
+    if command in ("run", "html", "edit", "index", "compare", "rename"):
         if not options:
             sys.exit(f"mechsheet: {command} needs a worksheet: {known_worksheets()}")
         name, *options = options
@@ -68,7 +70,7 @@ def main(argv: "list[str] | None" = None) -> int:
             sys.exit(f"mechsheet: no worksheet {name}: {nearest(name, list(worksheets()))}{known_worksheets()}")
         if command == "edit":
             return call([interpreter(""), "-m", "marimo", "edit", *options, sheet])
-        if command in ("html", "index", "rename"):
+        if command in ("html", "index", "compare", "rename"):
             return call([interpreter(""), "-m", f"mechsheet.run.{command}", sheet, *options])
         scenes = any(not option.startswith("-") for option in options)
         return call([interpreter(""), "-m", f"mechsheet.run.{'batch' if scenes else 'script'}", sheet, *options])
@@ -87,7 +89,7 @@ def main(argv: "list[str] | None" = None) -> int:
     if worksheet(command).endswith(".py"):
         sys.exit(f"mechsheet: {command} is a worksheet: run {command} computes it, edit {command} opens it")
     meant = nearest(command, [*COMMANDS, *("run " + name for name in worksheets())])
-    known = "there are run, html, edit, new, index, rename and test, and --help tells more"
+    known = "there are run, html, edit, new, index, compare, rename and test, and --help tells more"
     sys.exit(f"mechsheet: command {command} is not known: {meant}{known}")
 
 

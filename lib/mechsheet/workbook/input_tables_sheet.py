@@ -11,6 +11,7 @@ from mechsheet.workbook.book import Book
 from mechsheet.workbook.content import Content, Live, allowed, cut, put
 from mechsheet.workbook.place import Place, letters, quoted
 from mechsheet.workbook.sheet_formulas import SheetFormulas
+from mechsheet.worksheet import numbers
 from mechsheet.worksheet.lists import MOST_ROWS
 
 SHEET = "Input tables"
@@ -136,7 +137,7 @@ def _words(column: GridColumn) -> tuple[str, str]:
 
 def _characters(column: GridColumn) -> int:
     """Characters of a column's width."""
-    return max(_WIDTH, len(column.symbol), *(len(f"{x:.15g}") for x in column.values))
+    return max(_WIDTH, len(column.symbol), *(len(numbers.significant(x, 15)) for x in column.values))
 
 
 def _heads(book: Book, sheet: Any, spot: _Spot) -> None:

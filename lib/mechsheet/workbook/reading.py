@@ -21,7 +21,7 @@ _SHEET = "Inputs"
 _TABLES = "Input tables"
 _HEADS = ("Symbol", "Value", "Unit")
 _NAME = 60  # characters by which the nearest input is looked for
-_COLUMNS = 400  # among which the headings are looked for: a sheet may have 16384
+_COLUMNS = {_SHEET: 100, _TABLES: 400}  # among which the headings are looked for: a sheet may have 16384
 _EMPTY = 10_000  # empty rows, one after the other, that are passed over: a sheet may have a million
 
 _Row = tuple[int, tuple[Any, ...]]  # number of a row and the values of its cells
@@ -205,7 +205,7 @@ def _rows(path: Path, book: Any, name: str) -> Iterator[_Row]:
     """Rows of a sheet that hold something, and the empty ones between them."""
     sheet, last = book[name], 0
     sheet.reset_dimensions()  # a file may tell others than it has
-    for number, row in enumerate(sheet.iter_rows(max_col=_COLUMNS, values_only=True), 1):
+    for number, row in enumerate(sheet.iter_rows(max_col=_COLUMNS[name], values_only=True), 1):
         if any(value is not None for value in row):
             last = number
         elif number - last > _EMPTY:

@@ -80,6 +80,9 @@ def _hash(self: Any) -> int:
     return hash(tuple(np.asarray(value).tobytes() for value in values))
 
 
+_LOST = '; the editor loses one that ends the setup cell, so end the class with a line such as """Rows."""'
+
+
 def declared(cls: type) -> tuple[Input, ...]:
     """Inputs of a class made by `inputs`, or the properties of one without values, in their order."""
     fields: tuple[Input, ...] = getattr(cls, "__inputs__", None) or cls.__properties__  # type: ignore[attr-defined]
@@ -100,6 +103,9 @@ def _declared(cls: type, cell: source.Cell, names: Mapping[str, Any]) -> tuple[I
     for node in body.body:
         between = [cell.comments[n] for n in range(line + 1, node.lineno) if n in cell.comments]
         section, line = between[-1] if between else section, node.end_lineno or node.lineno
+        if isinstance(node, ast.Assign):
+            untyped = ast.unparse(node.targets[0])
+            raise SheetError(f"{cell.at(node.lineno)}: input {untyped} needs a type, such as {untyped}: float = 1.0")
         if not isinstance(node, ast.AnnAssign):
             continue
         name, place = ast.unparse(node.target), cell.at(line)
@@ -108,7 +114,8 @@ def _declared(cls: type, cell: source.Cell, names: Mapping[str, Any]) -> tuple[I
         comment = cell.comments.get(line, "")
         text = lines.declared(comment)
         if text is None and kind in (int, float, list[float]) and not isinstance(default, Offer):
-            raise SheetError(f"{place}: input {name} needs a comment with its unit, such as # [m] meaning")
+            last = "" if comment or node is not body.body[-1] else _LOST
+            raise SheetError(f"{place}: input {name} needs a comment with its unit, such as # [m] meaning{last}")
         unit, (meaning, *parts) = text.unit if text else "-", (text.meaning if text else comment).split(";")
         limits, deviations = (";".join(p for p in parts if deviation.is_meant(p) is meant) for meant in (False, True))
         if kind is float and any(map(deviation.is_misplaced, (meaning, limits))):

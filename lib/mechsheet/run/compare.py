@@ -1,0 +1,205 @@
+"""Two states of a document: ``python -m mechsheet.run.compare WORKSHEET OLD NEW [--markdown]``.
+
+A state is a scene, a workbook, or a revision of git: the worksheet of that revision, run by this library.
+"""
+
+import ast
+import io
+import subprocess
+import sys
+import tarfile
+import tempfile
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import ExitStack
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mechsheet import units
+from mechsheet.document import parts
+from mechsheet.run import arguments
+from mechsheet.run.ending import say, watch
+from mechsheet.workbook.checks_sheet import verdict
+from mechsheet.worksheet import inputs, mistakes, numbers, results
+from mechsheet.worksheet.cells import Worksheet, load
+from mechsheet.worksheet.check import Check
+from mechsheet.worksheet.errors import SheetError
+from mechsheet.worksheet.kinds import Input
+from mechsheet.worksheet.lines import registry
+from mechsheet.worksheet.results import Displayed
+from mechsheet.worksheet.scene import Scene
+
+_SAME = 1e-12  # of the greatest value: what differs by less is rounding
+
+
+class State(NamedTuple):
+    """What a document shows in one state, by name."""
+
+    inputs: dict[str, tuple[str, str]]  # as they are listed, and in full
+    formulas: dict[str, str]
+    numbers: dict[str, Displayed]
+    verdicts: dict[str, str]
+
+
+class Change(NamedTuple):
+    """What changed: an input, a formula, a number or a verdict; empty where there is none, and by how much."""
+
+    kind: str
+    name: str
+    old: str
+    new: str
+    by: str = ""
+
+
+def main() -> None:
+    worksheet, *options = sys.argv[1:]
+    watch(worksheet)
+    try:
+        found = _compared(Path(worksheet), options)
+    except Exception as error:  # of the library or of the worksheet's own lines; 1 says that something differs
+        told = str(error) if isinstance(error, SheetError) else mistakes.told(error, worksheet)
+        print(f"error: {told}", file=sys.stderr)
+        sys.exit(2)
+    say(*(_markdown(found) if "--markdown" in options else _text(found)))
+    sys.exit(1 if found else 0)
+
+
+def _compared(worksheet: Path, options: Sequence[str]) -> list[Change]:
+    names = [option for option in options if option != "--markdown"]
+    if len(names) != 2 or any(name.startswith("--") for name in names):
+        raise SheetError("compare takes a worksheet, two states and --markdown, such as hitch HEAD heavy.toml")
+    with ExitStack() as folders:
+        old, new = (state(worksheet, name, folders) for name in names)
+    return list(changes(old, new))
+
+
+def state(worksheet: Path, name: str, folders: ExitStack) -> State:
+    """The document in a state; what a revision needs is put in a folder that ends with ``folders``.
+
+    Raises SheetError where the state is neither a file nor a revision, or cannot be computed.
+    """
+    if Path(name).suffix.lower() in (".toml", ".xlsx"):
+        sheet = load(worksheet)
+        return _of(sheet, arguments.load(Path(name), inputs.declared(sheet.inputs)))
+    folder = Path(folders.enter_context(tempfile.TemporaryDirectory()))
+    _check_out(worksheet.resolve(), name, folder)
+    return _of(load(folder / worksheet.name), Scene())
+
+
+def _check_out(worksheet: Path, revision: str, folder: Path) -> None:
+    """The folder of the worksheet as it was in a revision, with the files that it reads."""
+    command = ["git", "-C", str(worksheet.parent), "archive", "--format=tar", "--end-of-options", revision, "."]
+    try:
+        done = subprocess.run(command, capture_output=True)
+    except OSError as error:
+        raise SheetError(f"{revision} is no .toml or .xlsx, and git cannot be run: {error.strerror}") from None
+    if done.returncode:
+        said = done.stderr.decode(errors="replace").strip().splitlines() or ["git archive failed"]
+        raise SheetError(f"{revision} is no .toml, no .xlsx and no revision of {worksheet.parent}: {said[-1]}")
+    with tarfile.open(fileobj=io.BytesIO(done.stdout)) as tar:
+        tar.extractall(folder, filter="data")
+    if not (folder / worksheet.name).exists():
+        raise SheetError(f"revision {revision} has no {worksheet.name}")
+
+
+def _of(sheet: Worksheet, scene: Scene) -> State:
+    g: Any = inputs.build(sheet.inputs, scene.inputs)
+    names = sheet.run(sheet.results, {"g": g})
+    lines = registry(names)
+    values = [value for value in parts.values(names) if isinstance(value, Check)]
+    judged = results.limited(values, scene.limits, names)
+    return State(
+        {f.name: _shown(f, getattr(g, f.name)) for f in inputs.declared(sheet.inputs)},
+        {name: ast.unparse(line.expression) for name, line in lines.items()},
+        {q.name: q for name, line in lines.items() for q in _quantities(name, line.arguments, names)},
+        {check.name: verdict(check) for check in judged},
+    )
+
+
+def _shown(field: Input, value: Any) -> tuple[str, str]:
+    unit = numbers.suffix(field.unit)
+    return f"{field.brief(value)}{unit}", f"{field.text(value)}{unit}"
+
+
+def _quantities(name: str, takes: Sequence[str], names: dict[str, Any]) -> list[Displayed]:
+    numeric = not takes and np.asarray(names.get(name)).dtype.kind in "biufc" and np.size(names[name])
+    return results.quantities(name, names) if numeric else []
+
+
+def changes(old: State, new: State) -> Iterator[Change]:
+    """What differs, inputs first."""
+    for name in dict.fromkeys([*old.inputs, *new.inputs]):
+        a, b = old.inputs.get(name, ("", "")), new.inputs.get(name, ("", ""))
+        if a != b:
+            yield Change("input", name, a[0], b[0], "in a row that is not shown" if a[0] == b[0] else "")
+    for name in dict.fromkeys([*old.formulas, *new.formulas]):
+        if old.formulas.get(name) != new.formulas.get(name):
+            yield Change("formula", name, old.formulas.get(name, ""), new.formulas.get(name, ""))
+    sizes = dict[Any, float]()  # the greatest value of each dimension, of whose rounding all of its numbers have some
+    for q in (*old.numbers.values(), *new.numbers.values()):
+        dims = units.parse(q.unit).dims
+        sizes[dims] = max(sizes.get(dims, 0.0), float(np.nanmax(np.abs([*_si(q).ravel(), 0.0]))))
+    for name in dict.fromkeys([*old.numbers, *new.numbers]):
+        yield from _changed(name, old.numbers.get(name), new.numbers.get(name), sizes)
+    for name in dict.fromkeys([*old.verdicts, *new.verdicts]):
+        if old.verdicts.get(name) != new.verdicts.get(name):
+            yield Change("verdict", name, old.verdicts.get(name, ""), new.verdicts.get(name, ""))
+
+
+def _si(quantity: Displayed) -> NDArray[np.float64]:
+    return np.asarray(quantity.values * units.parse(quantity.unit).factor, dtype=float)
+
+
+def _changed(name: str, old: Displayed | None, new: Displayed | None, sizes: Mapping[Any, float]) -> Iterator[Change]:
+    """A number that differs: by the greatest difference, in the new unit, and its part of the old greatest value."""
+    said = ["" if q is None else f"{q.span}{numbers.suffix(q.unit)}" for q in (old, new)]
+    if old is None or new is None:
+        yield Change("number", name, said[0], said[1])
+        return
+    dims, own = units.parse(old.unit).dims, units.parse(new.unit)
+    if old.values.shape != new.values.shape or dims != own.dims:
+        what = "another unit" if dims != own.dims else f"{old.values.size} values, now {new.values.size}"
+        yield Change("number", name, said[0], said[1], what)
+        return
+    a, b = _si(old), _si(new)
+    by, gaps = np.nan_to_num(b - a, posinf=0.0, neginf=0.0), np.isnan(a) != np.isnan(b)
+    most = float(by.ravel()[int(np.abs(by).argmax())])
+    if not gaps.any() and abs(most) <= _SAME * sizes[dims]:
+        return
+    greatest = float(np.nanmax(np.abs([*a.ravel(), 0.0])))
+    part = f" ({_signed(100 * most / greatest, 3)} %)" if greatest else ""
+    told = f"{_signed(most / own.factor, 4)}{numbers.suffix(new.unit)}{part}" if most else ""
+    lost = f"{np.count_nonzero(gaps)} of {gaps.size} values are there in one state only" if gaps.any() else ""
+    yield Change("number", name, said[0], said[1], "; ".join(filter(None, (told, lost))))
+
+
+def _signed(x: float, digits: int) -> str:
+    return "+" * (x > 0) + numbers.significant(x, digits)
+
+
+def _text(found: Sequence[Change]) -> Iterator[str]:
+    if not found:
+        yield "nothing differs"
+    kind = ""
+    for change in found:
+        if change.kind != kind:
+            kind = change.kind
+            yield f"{kind}s:"
+        by = f"  {change.by}" if change.by else ""
+        yield f"  {change.name}: {change.old or 'none'} -> {change.new or 'none'}{by}"
+
+
+def _markdown(found: Sequence[Change]) -> Iterator[str]:
+    if not found:
+        yield "Nothing differs."
+        return
+    yield "| what | name | old | new | by |"
+    yield "| --- | --- | --- | --- | --- |"
+    for change in found:
+        yield "| " + " | ".join(cell.replace("|", "\\|") for cell in change) + " |"
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,99 @@
+"""Two states of a document side by side: inputs, formulas, numbers and verdicts that differ."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from openpyxl import Workbook
+from test_kinds import SHEET, use
+
+from mechsheet.run import compare
+
+CHECKED = SHEET.replace("export, inputs", "export, inputs").replace(
+    "    return (table_1,)\n", '    check_1 = check("use", U_x.max(), 1.0)\n    return check_1, table_1\n'
+)
+
+
+def git(folder: Path, *arguments: str) -> None:
+    known = ("-c", "user.name=A", "-c", "user.email=a@example.org", "-c", "commit.gpgsign=false")
+    subprocess.run(["git", "-C", folder, *known, *arguments], check=True, capture_output=True)
+
+
+@pytest.fixture(scope="module")
+def bolt(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A worksheet in two revisions, of which the second has another formula, a scene and a workbook."""
+    folder = tmp_path_factory.mktemp("sheet")
+    path = folder / "bolt.py"
+    path.write_text(CHECKED, encoding="utf-8")
+    git(folder, "init", "-q")
+    git(folder, "add", ".")
+    git(folder, "commit", "-qm", "first")
+    path.write_text(CHECKED.replace("U = gamma * tau", "U = 2 * gamma * tau"), encoding="utf-8")
+    git(folder, "commit", "-qam", "second")
+    (folder / "strong.toml").write_text('[inputs]\ngrade = "10.9"\nF = 40\n', encoding="utf-8")
+    (folder / "plain.toml").write_text("[inputs]\nF = 5\n", encoding="utf-8")
+    book = Workbook()
+    book.active.title = "Inputs"
+    for row in (["Symbol", "Value", "Unit"], ["F", 40, "kN"], ["grade", "10.9", "-"]):
+        book.active.append(row)
+    book.save(folder / "strong.xlsx")
+    return path
+
+
+def compared(
+    bolt: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], *options: str
+) -> tuple[object, str, str]:
+    """Exit code and what is printed."""
+    monkeypatch.chdir(bolt.parent)
+    monkeypatch.setattr(sys, "argv", ["compare", str(bolt), *options])
+    monkeypatch.setattr(compare, "watch", lambda _: None)
+    with pytest.raises(SystemExit) as exit_:
+        compare.main()
+    return (exit_.value.code, *capsys.readouterr())
+
+
+def test_what_differs_between_two_revisions_is_told(bolt, monkeypatch, capsys) -> None:
+    code, out, _ = compared(bolt, monkeypatch, capsys, "HEAD~1", "HEAD")
+    old, new = use(), 2 * use()
+    assert code == 1
+    assert out.splitlines() == [
+        "formulas:",
+        "  U: gamma * tau / (alpha * g.grade.R_m) -> 2 * gamma * tau / (alpha * g.grade.R_m)",
+        "numbers:",
+        f"  U: {old:.6g} -> {new:.6g}  {new - old:+.4g} (+100 %)",
+        f"  U_x: 0..{old:.6g} -> 0..{new:.6g}  {new - old:+.4g} (+100 %)",
+    ]
+
+
+@pytest.mark.parametrize("state", ["strong.toml", "strong.xlsx"])
+def test_a_scene_and_a_workbook_are_states_too(bolt, monkeypatch, capsys, state: str) -> None:
+    code, out, _ = compared(bolt, monkeypatch, capsys, "HEAD", state, "--markdown")
+    old, new = 2 * use(), 2 * use("10.9", F=40.0)
+    rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in out.splitlines()]
+    assert code == 1 and rows[0] == ["what", "name", "old", "new", "by"]
+    assert ["input", "F", "5 kN", "40 kN", ""] in rows and ["input", "grade", "8.8", "10.9", ""] in rows
+    part = f"{new - old:+.4g} ({100 * (new - old) / old:+.3g} %)"
+    assert ["number", "U", f"{old:.6g}", f"{new:.6g}", part] in rows
+    assert ["verdict", "use", "PASS", "FAIL", ""] in rows
+    assert not [row for row in rows if row[1] in ("A", "n", "k", "x")]
+
+
+def test_where_nothing_differs_the_exit_code_is_0(bolt, monkeypatch, capsys) -> None:
+    assert compared(bolt, monkeypatch, capsys, "HEAD", "plain.toml")[:2] == (0, "nothing differs\n")
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        (("HEAD",), "compare takes a worksheet, two states and --markdown, such as hitch HEAD heavy.toml"),
+        (("HEAD", "none.toml"), "scene none.toml cannot be read: No such file or directory"),
+        (("HEAD", "v9"), "v9 is no .toml, no .xlsx and no revision of "),
+        (("HEAD", "--output=x"), "compare takes a worksheet, two states and --markdown"),
+    ],
+)
+def test_what_is_no_state_is_one_line_and_exit_code_2(bolt, monkeypatch, capsys, options, message) -> None:
+    code, out, err = compared(bolt, monkeypatch, capsys, *options)
+    assert (code, out) == (2, "") and err.startswith(f"error: {message}") and err.count("\n") == 1
