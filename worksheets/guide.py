@@ -280,6 +280,12 @@ def section_8():
 
     What a scene does not ask for is not computed.
 
+        python lib/mechsheet design guide --vary="r=50..70" --vary="h=10..40" --need="M <= 2700" --best="max H"
+        python lib/mechsheet design guide --vary="h=10..60" --need="M_work = 2000"
+
+    finds the inputs within bounds that meet all requirements, at every position, and have the best goal, or the one
+    input that gives a result its value; it says how sure that is, and writes the scene `guide_designed.toml`.
+
     On the page the switch above the buttons at its end shows the tolerances behind all numbers, and the fields beside
     it what matters for a result: by how many percent it changes for one percent of each input.
     """)

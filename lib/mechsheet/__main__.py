@@ -21,7 +21,7 @@ from pathlib import Path
 
 MINIMUM = (3, 11)
 ROOT = Path(__file__).resolve().parents[2]
-COMMANDS = ("run", "html", "new", "edit", "index", "compare", "rename", "test")
+COMMANDS = ("run", "html", "design", "new", "edit", "index", "compare", "rename", "test")
 HELP = """\
 usage: mechsheet COMMAND              where the package is installed
        python lib/mechsheet COMMAND   in a clone of the project
@@ -35,6 +35,9 @@ usage: mechsheet COMMAND              where the package is installed
       such as                         run hitch --P6=25e3 --want=L4,GS6
   html NAME [--INPUT=VALUE ...]       write the document as one page that needs nothing but a browser, and computes
       such as                         html hitch --P6=25e3 --out=exports
+  design NAME --vary=.. --best=..     find the inputs within bounds that meet all requirements and are best at a goal;
+      NAME --vary=.. --need=..        or the one input that gives a result its value; writes NAME_designed.toml
+      such as                         design bucket --vary="L_DE=0.42..0.5" --need="mu_2 >= 30 deg" --best="max F_T"
   new NAME [--like=EXAMPLE]           begin a worksheet from a template, or from another worksheet
       such as                         new loader --like=bucket
   edit NAME [OPTIONS]                 open the worksheet in the browser (options of marimo edit)
@@ -61,7 +64,7 @@ def main(argv: "list[str] | None" = None) -> int:
     if command in ("", "-h", "--help"):
         say(contents() + HELP)
         return 0 if command else 1
-    if command in ("run", "html", "edit", "index", "compare", "rename"):
+    if command in ("run", "html", "design", "edit", "index", "compare", "rename"):
         if not options:
             sys.exit(f"mechsheet: {command} needs a worksheet: {known_worksheets()}")
         name, *options = options
@@ -72,6 +75,8 @@ def main(argv: "list[str] | None" = None) -> int:
             return call([interpreter(""), "-m", "marimo", "edit", *options, sheet])
         if command in ("html", "index", "compare", "rename"):
             return call([interpreter(""), "-m", f"mechsheet.run.{command}", sheet, *options])
+        if command == "design":
+            return call([interpreter(""), "-m", "mechsheet.studies.asked_design", sheet, *options])
         scenes = any(not option.startswith("-") for option in options)
         return call([interpreter(""), "-m", f"mechsheet.run.{'batch' if scenes else 'script'}", sheet, *options])
     if command == "new":
@@ -89,7 +94,7 @@ def main(argv: "list[str] | None" = None) -> int:
     if worksheet(command).endswith(".py"):
         sys.exit(f"mechsheet: {command} is a worksheet: run {command} computes it, edit {command} opens it")
     meant = nearest(command, [*COMMANDS, *("run " + name for name in worksheets())])
-    known = "there are run, html, edit, new, index, compare, rename and test, and --help tells more"
+    known = f"there are {', '.join(COMMANDS[:-1])} and {COMMANDS[-1]}, and --help tells more"
     sys.exit(f"mechsheet: command {command} is not known: {meant}{known}")
 
 

@@ -41,10 +41,6 @@ class Study:
         self.result = mo.ui.dropdown(list(asked.results), label="what matters for", on_change=self.changed)
         self.position = mo.ui.text(value=_AT, label="at position", on_change=self.changed)
         self.told, self.looking = "", False
-        try:
-            self.cells = notebook.running()[0]
-        except notebook.Unlike:  # then it is at rest as soon as its values are
-            self.cells = tuple
 
     @property
     def text(self) -> str:
@@ -56,15 +52,19 @@ class Study:
         """Follow the page from now on, as long as anything is asked for."""
         if not self.looking:
             self.looking = True
-            mo.Thread(target=self.look, daemon=True).start()
+            try:
+                cells, _ = notebook.running()
+            except notebook.Unlike:  # then it is at rest as soon as its values are
+                cells = tuple
+            mo.Thread(target=self.look, args=(cells,), daemon=True).start()
 
-    def look(self) -> None:
+    def look(self, cells: Callable[[], tuple[notebook.Cell, ...]]) -> None:
         """Compute what is asked for again whenever the page has come to rest with other values."""
         this, before, done = mo.current_thread(), (), ()
         try:
             while not this.should_exit and (self.bands.value or self.result.value):
                 now: Any = (self.bands.value, self.result.value, self.position.value, *map(id, self.namespace.values()))
-                if now == before and now != done and not any(cell.busy for cell in self.cells()):
+                if now == before and now != done and not any(cell.busy for cell in cells()):
                     self.told, done = self.answer(), now
                     self.redraw()
                 before = now

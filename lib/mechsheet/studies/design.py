@@ -3,6 +3,7 @@
 The search knows nothing of mechanisms: a worksheet says what a variant is worth, for many variants at once.
 """
 
+import json
 import sys
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
@@ -25,6 +26,7 @@ from mechsheet.worksheet.scene import Limit
 Array = NDArray[np.float64]
 
 _FAR = 1e6  # energies of variants that miss a requirement lie above those of all that hold them
+_INSIDE = 1 - 1e-12  # a start at a bound must not be outside by rounding; it is rounded back to it
 _LOST = 1e30  # and of those that have no value above all others
 
 
@@ -200,6 +202,7 @@ def _evolved(
     from scipy.optimize import Bounds, differential_evolution  # on use: takes longer than the rest of the package
 
     names, tried = list(bounds), 0
+    middle = {name: (low + high) / 2 for name, (low, high) in bounds.items()}
 
     def variants(x: Array) -> dict[str, Array]:
         rounded = (np.round(column, decimals[name]) for name, column in zip(names, np.atleast_2d(x.T).T, strict=True))
@@ -227,7 +230,7 @@ def _evolved(
         polish=False,
         updating="deferred",
         vectorized=True,
-        x0=None if start is None else [start[name] for name in names],
+        x0=None if start is None else [middle[x] + (start[x] - middle[x]) * _INSIDE for x in names],
     )
     chosen = variants(found.x[:, None])
     return {name: float(column[0]) for name, column in chosen.items()}, judge(chosen), tried, found.population_energies
@@ -245,11 +248,12 @@ def pareto(a: Array, b: Array) -> NDArray[np.intp]:
 
 
 def scene_text(
-    fields: Mapping[str, Input], inputs: Mapping[str, float], limits: Mapping[str, Limit], remarks: Sequence[str]
+    fields: Mapping[str, Input], inputs: Mapping[str, float | str], limits: Mapping[str, Limit], remarks: Sequence[str]
 ) -> str:
     """Text of a scene file: remarks, inputs with their units, and limits of results."""
     lines = [*(f"# {remark}" for remark in remarks), "[inputs]"]
-    lines += [f"{name} = {value!r}  # {units.shown(fields[name].unit)}" for name, value in inputs.items()]
+    texts = {name: json.dumps(value) if isinstance(value, str) else repr(value) for name, value in inputs.items()}
+    lines += [f"{name} = {text}  # {units.shown(fields[name].unit)}" for name, text in texts.items()]
     lines += ["", "[limits]"]
     for name, limit in limits.items():
         ends = (f"{end} = {value!r}" for end, value in (("min", limit.min), ("max", limit.max)) if value is not None)

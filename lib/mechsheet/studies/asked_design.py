@@ -1,0 +1,276 @@
+"""What would it take: ``design NAME --vary=INPUT=LEAST..GREATEST --need=REQUIREMENT --best=GOAL`` for any worksheet.
+
+Several inputs within bounds are searched and then refined by slopes; one input and one value of a result are solved.
+"""
+
+import re
+import sys
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mechsheet import units
+from mechsheet.run import arguments, report
+from mechsheet.run.ending import say, watch
+from mechsheet.run.progress import progress
+from mechsheet.studies import design, refined
+from mechsheet.studies.sensitivity import continuous, point, solved
+from mechsheet.studies.sweep import Sweep, sweep
+from mechsheet.worksheet import inputs, numbers
+from mechsheet.worksheet.cells import base, load, value
+from mechsheet.worksheet.errors import SheetError, as_given
+from mechsheet.worksheet.find import find
+from mechsheet.worksheet.kinds import Input
+from mechsheet.worksheet.scene import Limit, Scene
+
+Array = NDArray[np.float64]
+
+_GENERATIONS, _MEMBERS, _SEED = 30, 10, 1
+_DIGITS = 5  # to which the inputs are found, of their ranges
+_NAME = r"(\w+(?:\.real|\.imag)?|abs\(\w+\))"
+_NEED = re.compile(rf"(?:(min|max)\s+)?{_NAME}\s*(>=|<=|=)\s*(.+)")
+_BEST = re.compile(rf"(max|min)\s+{_NAME}")
+_VARY = re.compile(r"(\w+)\s*=\s*(.+?)\s*\.\.\s*(.+)")
+
+
+class Need(NamedTuple):
+    """A result that must be at least (``>=``), at most or equal to a number, in its display unit, at every position.
+
+    The least or the greatest one over the positions is what is meant where ``end`` is ``min`` or ``max``.
+    """
+
+    text: str
+    end: str
+    name: str
+    sign: str
+    limit: str
+
+    def of(self, values: Array) -> Array:
+        """What must keep the limit, of each variant: of several positions the worst, or the end that is meant."""
+        rows = values.reshape(len(values), -1)
+        end = self.end or {">=": "min", "<=": "max"}.get(self.sign, "")
+        if not end and rows.shape[1] > 1:
+            raise SheetError(f"--need={self.text!r}: {self.name} has {rows.shape[1]} positions: min or max {self.name}")
+        return np.asarray(rows.max(1) if end == "max" else rows.min(1))
+
+
+@dataclass(frozen=True)
+class Asked:
+    """What is varied, between which texts; what is needed; what shall be greatest (``max``) or least; the scene."""
+
+    vary: dict[str, tuple[str, str]]
+    needs: tuple[Need, ...]
+    best: tuple[str, str] | None
+    scene: Scene
+
+    @property
+    def results(self) -> list[str]:
+        """Results that tell what a variant is worth."""
+        return list(dict.fromkeys([*(need.name for need in self.needs), *([self.best[1]] if self.best else [])]))
+
+
+def read(options: Sequence[str], declared: Sequence[Input]) -> Asked:
+    """What is asked for by arguments of the command.
+
+    Raises SheetError for one of another form, and where nothing is varied or asked for.
+    """
+    vary, needs, best, rest = dict[str, tuple[str, str]](), list[Need](), list[tuple[str, str]](), list[str]()
+    for option in _joined(options):
+        name, _, text = option.partition("=")
+        match name:
+            case "--vary":
+                found = _form(_VARY, option, text, '--vary="b=0.3..0.5"')
+                vary[found[1]] = found[2], found[3]
+            case "--need":
+                found = _form(_NEED, option, text, '--need="gamma >= 25 deg"')
+                needs.append(Need(text, found[1] or "", found[2], found[3], found[4]))
+            case "--best":
+                found = _form(_BEST, option, text, '--best="max F_T"')
+                best.append((found[1], found[2]))
+            case _:
+                rest.append(option)
+    scene = arguments.read(rest, declared)
+    if scene.want or scene.proof or scene.tolerances or scene.limits:
+        raise SheetError("design takes --vary, --need, --best, inputs, --scene of [inputs] and --out")
+    if not vary:
+        raise SheetError('nothing is varied: give an input and its bounds, such as --vary="b=0.3..0.5"')
+    equal = [need for need in needs if need.sign == "="]
+    if len(best) > 1 or (equal and (len(needs) > 1 or best or len(vary) > 1)) or not (best or needs):
+        form = 'one --best="max F_T" with any --need="gamma >= 25 deg", or one --vary with one --need="L = 0.5 m"'
+        raise SheetError(f"design takes {form}")
+    return Asked(vary, tuple(needs), best[0] if best else None, scene)
+
+
+def _joined(options: Sequence[str]) -> Iterator[str]:
+    """Options whose value stands behind a space, as one each."""
+    given = iter(options)
+    for option in given:
+        yield f"{option}={next(given, '')}" if option in ("--vary", "--need", "--best") else option
+
+
+def _form(form: re.Pattern[str], option: str, text: str, like: str) -> re.Match[str]:
+    match = form.fullmatch(text.strip())
+    if not match:
+        raise SheetError(f"argument {as_given(option)} must be such as {like}")
+    return match
+
+
+class Problem:
+    """What is asked of a worksheet, with the units and bounds in which it is asked."""
+
+    def __init__(self, worksheet: str | Path, asked: Asked) -> None:
+        self.worksheet, self.asked = worksheet, asked
+        self.fields, self.at = point(worksheet, asked.scene.inputs)
+        g: Any = inputs.build(load(worksheet).inputs, asked.scene.inputs)
+        shown = {f.name: x if type(f) is Input else f.text(getattr(g, f.name)) for f, x in inputs.Used(g).rows()}
+        self.given = {name: shown[name] for name in asked.scene.inputs}  # of a list its text, which is no variants
+        self.bounds = dict[str, tuple[float, float]]()
+        for name, ends in asked.vary.items():
+            continuous(self.fields, name, "cannot be had by")
+            low, high = (self.fields[name].read(end) for end in ends)
+            if not low < high:
+                raise SheetError(f"bounds of {self.fields[name].says('..'.join(ends))} must be in order")
+            self.bounds[name] = low, high
+        now = self.swept({name: np.array([self.at[name]]) for name in self.bounds})
+        solved(now, 0)
+        self.units = {name: now.units[base(name)] for name in asked.results}
+        for name in asked.results:
+            if np.iscomplexobj(value(name, {base(name): now[base(name)]})):
+                raise SheetError(f"{name} is complex; take {name}.real, {name}.imag or abs({name})")
+        self.limits = {need: self._limit(need) for need in asked.needs}
+        self.now = self.judged(now)
+
+    def _limit(self, need: Need) -> float:
+        """The limit of a requirement in SI."""
+        unit = self.units[need.name]
+        return float(Input(need.name, unit, "limit of", "", False, ()).read(need.limit) * units.parse(unit).factor)
+
+    def swept(self, variants: Mapping[str, Array]) -> Sweep:
+        return sweep(self.worksheet, dict.fromkeys(map(base, self.asked.results)), {**self.given, **variants})
+
+    def values(self, swept: Sweep, name: str) -> Array:
+        return np.asarray(value(name, {base(name): swept[base(name)]}))
+
+    def judge(self, variants: dict[str, Array]) -> design.Judged:
+        """What variants are worth: without a goal by the least reserve, each in parts of its limit."""
+        return self.judged(self.swept(variants))
+
+    def judged(self, swept: Sweep) -> design.Judged:
+        requirements = tuple(
+            design.Requirement(
+                need.text,
+                need.of(self.values(swept, need.name)),
+                self.limits[need],
+                self.units[need.name],
+                need.sign == ">=",
+            )
+            for need in self.asked.needs
+        )
+        if self.asked.best:
+            way, name = self.asked.best
+            rows = self.values(swept, name).reshape(len(swept.reasons), -1)
+            goal = rows.min(1) if way == "max" else -rows.max(1)
+        else:
+            goal = np.min([r.reserve / (abs(r.limit) or 1.0) for r in requirements], axis=0)
+        return design.Judged(np.asarray(goal), requirements, swept.reasons)
+
+    @property
+    def decimals(self) -> dict[str, int]:
+        """To how many decimals each input is found."""
+        return {x: int(_DIGITS - np.ceil(np.log10(high - low))) for x, (low, high) in self.bounds.items()}
+
+    def goal(self, x: float) -> str:
+        """The goal of a variant, in words."""
+        if not self.asked.best:
+            return f"least reserve of the requirements = {numbers.significant(100 * x, 4)} % of its limit"
+        way, name = self.asked.best
+        which, own = ("least", x) if way == "max" else ("greatest", -x)
+        return f"{which} {name} = {numbers.amount(own, self.units[name], 6)}"
+
+
+def solve(problem: Problem) -> tuple[dict[str, float], list[str]]:
+    """The one input that gives one result its value, by `find` on the worksheet, and its verdict."""
+    ((name, (low, high)),) = problem.bounds.items()
+    (need,) = problem.asked.needs
+    field, factor = problem.fields[name], units.parse(problem.fields[name].unit).factor
+
+    def f(x: Any) -> Any:
+        swept = problem.swept({name: np.ravel(x) / factor})
+        return need.of(problem.values(swept, need.name)).reshape(np.shape(x))
+
+    found = find(
+        f,
+        low * factor,
+        high * factor,
+        equals=problem.limits[need],
+        unknown=f"{field.meaning} {name}",
+        quantity=" ".join(filter(None, (need.end, need.name))),
+        unit=problem.units[need.name],
+        unknown_unit=field.unit,
+    )
+    if not found.solved:
+        raise SheetError(str(found.reason))
+    return {name: float(found.value / factor)}, [str(found)]
+
+
+def best(problem: Problem) -> tuple[dict[str, float], list[str]]:
+    """The inputs that hold all requirements and have the best goal, and how sure that is."""
+    with progress(_GENERATIONS, "search") as done:
+        found = design.search(
+            problem.judge,
+            problem.bounds,
+            problem.decimals,
+            seed=_SEED,
+            generations=_GENERATIONS,
+            members=_MEMBERS,
+            done=lambda: done(""),
+        )
+    told = [f"{problem.goal(found.goal)} by {found.tried} variants"]
+    chosen, told_of = refined.refined(problem, found.inputs)
+    judged = problem.judge({x: np.array([v]) for x, v in chosen.items()})
+    better = judged.reasons[0] == "" and all(r.missed[0] == 0 for r in judged.requirements)
+    if better and judged.goal[0] >= found.goal:
+        told.append(f"refined by slopes: {problem.goal(float(judged.goal[0]))}")
+    else:
+        chosen, judged = found.inputs, problem.judge({x: np.array([v]) for x, v in found.inputs.items()})
+    told += [f"{r.name}: it is {numbers.amount(float(r.values[0]), r.unit, 6)}" for r in judged.requirements]
+    told += [f"now {problem.goal(float(problem.now.goal[0]))}", told_of]
+    return chosen, [*told, "elsewhere within the bounds only the search has looked"]
+
+
+def scene_of(problem: Problem, chosen: Mapping[str, float], told: Sequence[str]) -> str:
+    """Text of the scene of a design; what must be equal to a number is no limit."""
+    limits = dict[str, Limit]()
+    for need, limit in problem.limits.items():
+        if need.end in ("", {">=": "min", "<=": "max"}.get(need.sign)):
+            end = limit / units.parse(problem.units[need.name]).factor
+            known = limits.get(need.name, Limit())
+            limits[need.name] = Limit(end, known.max) if need.sign == ">=" else Limit(known.min, end)
+    limits = {} if any(need.sign == "=" for need in problem.asked.needs) else limits
+    return design.scene_text(problem.fields, {**problem.given, **chosen}, limits, told)
+
+
+def main() -> None:
+    """``python -m mechsheet.studies.asked_design WORKSHEET ..``"""
+    worksheet, *options = sys.argv[1:]
+    watch(worksheet)
+    sheet = load(worksheet)
+    asked = read(options, inputs.declared(sheet.inputs))
+    problem = Problem(sheet.path, asked)
+    chosen, told = (solve if any(need.sign == "=" for need in asked.needs) else best)(problem)
+    for name, x in chosen.items():
+        field, (low, high) = problem.fields[name], problem.bounds[name]
+        ends = numbers.span(numbers.significant(end, 10) for end in (low, high))
+        say(f"{name} = {numbers.significant(x, 10)}{numbers.suffix(field.unit)}, within {ends}; {field.meaning}")
+    say(*told)
+    path = (asked.scene.out or Path()) / f"{Path(sheet.path).stem}_designed.toml"
+    report.write(scene_of(problem, chosen, told).encode(), path)
+    say(f"written {path}")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,112 @@
+"""What would it take: designs of a worksheet that is no test's own, against what they are by hand."""
+
+import re
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from own_worksheet import own
+
+from mechsheet.run import arguments, batch
+from mechsheet.studies import asked_design
+from mechsheet.worksheet import cells
+from mechsheet.worksheet.errors import SheetError
+from mechsheet.worksheet.inputs import declared
+
+LINES = """
+p = g.F * (4 - g.F) - g.a  # [-] greatest at F = 2
+s = linspace(0, 1, 2)  # [-] two positions
+w = g.F * (1 - 2 * s) + 3 * s  # [-] F and 3 - F
+t = 1j * w  # [-] complex"""
+TEXT = """
+z = float(f"{g.F:.17g}") * (4 - g.F)  # [-] by way of a text"""
+
+
+def asked(sheet: cells.Worksheet, *options: str) -> asked_design.Problem:
+    return asked_design.Problem(sheet.path, asked_design.read(options, declared(sheet.inputs)))
+
+
+@pytest.fixture(scope="module")
+def sheet(tmp_path_factory) -> cells.Worksheet:
+    return own(tmp_path_factory.mktemp("own"), LINES)
+
+
+@pytest.mark.parametrize(
+    ("options", "F", "said"),
+    [
+        (["--vary=F=0..5", "--best=max p"], 2.0, "conditions of an optimum hold: none"),
+        (["--vary=F=0..5", "--best=max w"], 1.5, "conditions of an optimum hold"),  # the least of two, at their corner
+        (["--vary=F=0..5", "--need=w <= 1.75", "--best=max p"], 1.75, "held by w <= 1.75 at position 0"),
+        (["--vary=F=0..1.25", "--best=max p"], 1.25, "held by the upper bound of F"),
+        (["--vary=F=0..5", "--need=w >= 0.5"], 1.5, "conditions of an optimum hold"),  # the greatest reserve
+        (["--vary=F=1..5", "--best=min w"], 1.5, "conditions of an optimum hold"),
+    ],
+)
+def test_the_best_design_is_that_by_hand(options, F, said, sheet):
+    chosen, told = asked_design.best(asked(sheet, *options))
+    assert chosen["F"] == pytest.approx(F, abs=1e-6) and said in "\n".join(told)
+
+
+def test_two_inputs_with_requirements_make_a_scene_that_passes(sheet, tmp_path, monkeypatch, capsys):
+    options = ["--vary", "F=0..5", "--vary", "a=0.1..1", "--need", "w <= 1.75", "--best", "max p", "--n=4"]
+    monkeypatch.setattr(sys, "argv", ["design", sheet.path, *options, f"--out={tmp_path}"])
+    asked_design.main()
+    out = capsys.readouterr().out
+    assert re.search(r"^F = 1.75, within 0..5; number$", out, re.MULTILINE) or "F = 1.749999" in out
+    assert "least p = 3.8375" in out and "now least p = 3" in out
+    scene = tmp_path / "own_designed.toml"
+    given = arguments.read([f"--scene={scene}", "--want=p"], declared(sheet.inputs))
+    outcome, _ = batch.compute(sheet, "scene", given)
+    assert outcome.problems == [] and outcome.g.n == 4 and len(outcome.checks) == 1
+    assert [path.name for path in tmp_path.iterdir()] == [scene.name]
+
+
+def test_one_input_gives_a_result_its_value(sheet):
+    chosen, (told,) = asked_design.solve(asked(sheet, "--vary=F=0..2", "--need=p = 2.25"))
+    assert chosen["F"] == pytest.approx(1.0, abs=1e-12) and "roots by 97 samples 1" in told
+    chosen, _ = asked_design.solve(asked(sheet, "--vary=F=2..5", "--need=max w = 4"))
+    assert chosen["F"] == pytest.approx(4.0, abs=1e-12)
+
+
+def test_what_has_no_slope_is_searched_and_says_so(tmp_path):
+    chosen, told = asked_design.best(asked(own(tmp_path, LINES + TEXT), "--vary=F=0..5", "--best=max z"))
+    assert chosen["F"] == pytest.approx(2.0, abs=1e-3) and "not refined by slopes: z has no slope" in "\n".join(told)
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        (["--vary=F=0..5", "--need=p >= 4", "--best=max w"], "p >= 4: best reachable 3.25, required at least 4"),
+        (["--vary=F=0..5", "--need=w >= 1.2", "--need=p >= 3.24", "--best=max w"], "holds all requirements together"),
+        (["--vary=F=5..0", "--best=max p"], r"bounds of number F = 5..0 must be in order"),
+        (["--vary=F=0..x", "--best=max p"], "number F = 'x' is no number"),
+        (["--vary=G=0..5", "--best=max p"], "input G is unknown; nearest: "),
+        (["--vary=n=2..5", "--best=max p"], "n, which is a whole number"),
+        (["--vary=F=0..5", "--best=max q"], "q is defined by no cell"),
+        (["--vary=F=0..5", "--best=max t"], "t is complex; take t.real"),
+        (["--vary=F=0..5", "--best=p"], "argument '--best=p' must be such as --best="),
+        (["--vary=F=0..5", "--need=p > 1"], "must be such as --need="),
+        (["--vary=F=0..5", "--need=p >= much"], "limit of p = 'much' is no number"),
+        (["--vary=F", "--best=max p"], "must be such as --vary="),
+        (["--best=max p"], "nothing is varied"),
+        (["--vary=F=0..5"], "design takes one --best="),
+        (["--vary=F=0..5", "--vary=a=0..1", "--need=p = 1"], "design takes one --best="),
+        (["--vary=F=0..5", "--need=w = 1"], "w has 2 positions: min or max w"),
+        (["--vary=F=0..2", "--need=p = 9"], "reaches -0.75..3.25"),
+        (["--vary=F=0..5", "--best=max p", "--want=p"], "design takes --vary, --need, --best, inputs"),
+    ],
+)
+def test_what_cannot_be_asked_or_reached_is_said_in_a_line(options, message, sheet):
+    with pytest.raises(SheetError, match=message) as error:
+        problem = asked(sheet, *options)
+        (asked_design.solve if any(n.sign == "=" for n in problem.asked.needs) else asked_design.best)(problem)
+    assert "\n" not in str(error.value)
+
+
+def test_a_design_may_start_at_a_bound():
+    """Rounding puts no start outside: the search for what can be reached sets out from the nearest design."""
+    bucket = Path(__file__).parents[1] / "worksheets" / "examples" / "bucket.py"
+    with pytest.raises(SheetError, match=r"no design within the bounds: mu_2 >= 70 deg: best reachable \d"):
+        asked_design.best(asked(cells.load(bucket), "--vary=L_DE=0.42..0.5", "--need=mu_2 >= 70 deg", "--best=max F_T"))
+    assert np.isfinite(asked(cells.load(bucket), "--vary=L_DE=0.42..0.5", "--best=max F_T").now.goal)
