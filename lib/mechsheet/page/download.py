@@ -1,4 +1,4 @@
-"""The buttons that make a file when they are pressed, and what is said of that file below them."""
+"""The end of a page: buttons that make a file when they are pressed, a switch that proves, and what these say."""
 
 from collections.abc import Callable, Iterable
 from functools import partial
@@ -16,18 +16,29 @@ class File(NamedTuple):
     made: Callable[[], tuple[bytes, Iterable[str]]]
 
 
-def download(*files: File) -> mo.Html:
-    """Buttons of some files; once one is pressed, the lines that come with its bytes stand below them."""
+def download(*files: File, proof: Callable[[], str]) -> mo.Html:
+    """Buttons of some files, and the switch of a proof.
 
-    def shown(lines: Iterable[str]) -> mo.Html:
-        told = "<br>".join(map(escape, lines))
-        side = "".join(button.text for button in buttons)
-        return mo.Html(f'<div><div class="ms-row">{side}</div><div class="ms-note">{told}</div></div>')
+    Once a button is pressed, the lines that come with its bytes stand below; while it is switched on, the HTML of the
+    proof does.
+    """
+    told = {"file": "", "proof": ""}
+
+    def shown() -> mo.Html:
+        side = "".join(button.text for button in buttons) + switch.text
+        below = f'<div class="ms-note">{told["file"]}</div>{told["proof"]}'
+        return mo.Html(f'<div><div class="ms-row">{side}</div>{below}</div>')
 
     def pressed(file: File) -> bytes:
         data, lines = file.made()
-        mo.output.replace(shown(lines))
+        told["file"] = "<br>".join(map(escape, lines))
+        mo.output.replace(shown())
         return data
 
+    def switched(on: bool) -> None:
+        told["proof"] = proof() if on else ""
+        mo.output.replace(shown())
+
     buttons = [mo.download(partial(pressed, file), filename=file.name, label=file.label) for file in files]
-    return shown(())
+    switch = mo.ui.switch(label="every number proved", on_change=switched)
+    return shown()
