@@ -271,6 +271,33 @@ def test_the_button_of_the_workbook_tells_what_the_workbook_does_not_follow(left
         expect(told).to_have_text(f"not followed there: line {number}, M_S: numpy's fft")
 
 
+def test_digits_that_are_not_proved_are_grey_while_they_are_asked_for(left_open, tmp_path):
+    text, line = TEMPLATE.read_text(encoding="utf-8"), "M_S = M(phi)  # "
+    assert line in text
+    sheet = tmp_path / "losing.py"
+    losing = "M_S = (1e14 * g.M_max + M(phi)) - 1e14 * g.M_max  # "  # to 4 N m
+    sheet.write_text(text.replace(line, losing), encoding="utf-8")
+    page = left_open(sheet, "checks pass")
+    grey = """() => [...(CSS.highlights.get('ms-unproved') ?? [])]
+        .map((r) => [r.startContainer.data, r.startContainer.data.slice(r.startOffset)])"""
+    assert page.evaluate(grey) == []
+    switch = page.get_by_text("every number proved")
+    switch.click()
+    told = page.locator("ms-proof")
+    expect(told).to_contain_text("every number proved to 9 digits")
+    expect(told).to_contain_text("digits missing")
+    page.wait_for_function("() => CSS.highlights.get('ms-unproved')?.size")
+    lost = page.evaluate(grey)
+    assert all(whole != digits for whole, digits in lost)
+    field = page.locator(".ms-inputs tr:has-text('force on the lever') input")
+    field.fill("1000")
+    field.press("Enter")
+    expect(told).to_contain_text("other numbers now")
+    assert page.evaluate(grey) == []
+    switch.click()
+    expect(told).to_have_count(0)
+
+
 def test_printed_page_is_a_document(page, tmp_path):
     """A4 with page numbers, inputs as a table, sharp charts, and none of the controls."""
     from pypdf import PdfReader

@@ -41,7 +41,8 @@ class Proved:
     """Digits proved of each number of a column, relative to the largest one; 0 where nothing is, NaN where none can be.
 
     ``where`` is the table, ``name`` the column or result, ``why`` what keeps digits from being proved, with its line.
-    One that is an ``exception`` has no digits, for the reason given, or those beside what it is made of.
+    One that is an ``exception`` has no digits, for the reason given, or those beside what it is made of. ``size`` is
+    the number beside which they are, in the unit that is shown.
     """
 
     where: str
@@ -49,6 +50,12 @@ class Proved:
     digits: Values
     why: str = ""
     exception: bool = False
+    size: float = np.inf
+
+    @property
+    def off(self) -> Values:
+        """By how much each number may be off, in the unit that is shown; infinite where nobody knows."""
+        return np.where(self.digits > 0, self.size * 10.0**-self.digits, np.where(np.isnan(self.digits), 0.0, np.inf))
 
     @property
     def least(self) -> float:
@@ -107,6 +114,11 @@ class Proof:
         """Columns that are no numbers of the formulas, or 0 but for rounding."""
         return [column for column in self.columns if column.exception]
 
+    @property
+    def apart(self) -> list[str]:
+        """The exceptions, a line each."""
+        return [f"exception: {column}" for column in self.exceptions]
+
     def below(self, digits: float) -> list[Proved]:
         """Columns of which not every number is proved to so many digits."""
         return [column for column in self.columns if column.least < digits]
@@ -152,8 +164,7 @@ class Proof:
         heads = [("", "numbers", "digits proved", "least in", "")]
         wide = [max(len(row[k]) for row in [*heads, *rows]) for k in range(5)]
         shown = ["  ".join(text.ljust(w) for text, w in zip(row, wide, strict=True)).rstrip() for row in heads + rows]
-        apart = [f"exception: {column}" for column in self.exceptions]
-        return [*shown, *apart, *map(str, self.roots), self.table().note]
+        return [*shown, *self.apart, *map(str, self.roots), self.table().note]
 
 
 def prove(
@@ -261,11 +272,12 @@ class _Digits:
             each = zip(balls, shown.own.tolist(), strict=True)
             digits = np.array([_digits(x, float(v), shown.factor, shown.size) for x, v in each])
         if digits.min() >= PROVED:
-            return Proved(shown.where, shown.name, digits)
+            return Proved(shown.where, shown.name, digits, size=shown.size)
         if _is_count(shown.node):
             why = f"line {shown.line}: a count of evaluations, which is none of the formulas' numbers"
             return Proved(shown.where, shown.name, np.full(shown.own.shape, np.nan), why, exception=True)
-        return self.zero(shown, shown.node) or Proved(shown.where, shown.name, digits, self.why(shown))
+        lost = Proved(shown.where, shown.name, digits, self.why(shown), size=shown.size)
+        return self.zero(shown, shown.node) or lost
 
     def zero(self, shown: _Shown, node: Node) -> Proved | None:
         """Digits of numbers that are 0 but for rounding, beside what they are made of; None of others.
@@ -284,7 +296,7 @@ class _Digits:
         digits = np.array([_digits(x, float(v), shown.factor, made / shown.factor) for x, v in each])
         part = numbers.significant(shown.size * shown.factor / made, 1)
         why = f"line {shown.line}: 0 but for rounding, {part} of what it is made of, beside which its digits are"
-        return Proved(shown.where, shown.name, digits, why, exception=True)
+        return Proved(shown.where, shown.name, digits, why, exception=True, size=made / shown.factor)
 
     def why(self, shown: _Shown) -> str:
         """What keeps digits from being proved: the first operation that leaves something open, or their rounding."""
