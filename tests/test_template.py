@@ -31,7 +31,7 @@ def test_runs_and_writes_its_workbook(lever):
     done = subprocess.run([sys.executable, str(lever)], capture_output=True, encoding="utf-8")
     assert (done.returncode, done.stderr) == (0, "")
     book = load_workbook(lever.parent / "gear_lever.xlsx")
-    assert book.sheetnames[:5] == ["Front", "Inputs", "Find", "1 Moment of the lever", "2 Load cases"]
+    assert book.sheetnames[:6] == ["Front", "Inputs", "Input tables", "Find", "1 Moment of the lever", "2 Load cases"]
     assert len(book["1 Moment of the lever"]._charts) == 1
     changed = subprocess.run([sys.executable, str(lever), "--F=-5"], capture_output=True, encoding="utf-8")
     assert changed.returncode == 1 and "F = -5.0 N must be >= 0" in changed.stderr
