@@ -49,12 +49,12 @@ def cut_group(
         What was ``drawn`` with the forces; as it was where the group closes in no position or has no size.
     """
     ends = np.concatenate([np.ravel(point) for point in points])
-    seen = ends[np.isfinite(ends)]
-    size = max(np.ptp(seen.real), np.ptp(seen.imag)) if seen.size else 0.0
-    if not size:
+    low, high = _corners(ends)
+    size = max((high - low).real, (high - low).imag)
+    if not size > 0:
         return drawn
     scale = part * size / largest_of(*(F for _, F, *_ in forces.values()))
-    room = [seen]
+    room = [ends]
     for P, F, *other in forces.values():
         room += [np.ravel(P + sign * scale * np.asarray(F)) for sign in ((1, -1) if other else (1,))]
     picture = Drawing(drawn.width, drawn.height, _corners(np.concatenate(room)), {"N": scale}) + drawn
@@ -80,9 +80,8 @@ def polar(R: NDArray[np.complex128], at: int, name: str, turn: int = 360, turns:
     turns : int
         Turns in a cycle.
     """
-    seen = np.append(R[np.isfinite(R)], 0)
-    x, y, beyond = seen.real, seen.imag, 0.1 * largest_of(seen)
-    x0, x1, y0, y1 = np.min(x) - beyond, np.max(x) + beyond, np.min(y) - beyond, np.max(y) + beyond
+    (low, high), beyond = _corners(np.append(R, 0)), 0.1 * (1 + 1j) * largest_of(R)
+    x0, x1, y0, y1 = (low - beyond).real, (high + beyond).real, (low - beyond).imag, (high + beyond).imag
     axes = Drawing(width=320, height=300, unit="N", frame=[x0 + 1j * y0, x1 + 1j * y1])
     picture = axes.path([x0, x1], "x", "").path([1j * y0, 1j * y1], "y", "").path(R)
     for k in range(4):
@@ -109,6 +108,8 @@ def _at(field: ArrayLike, at: int) -> complex:
 
 
 def _corners(z: NDArray[np.complex128]) -> NDArray[np.complex128]:
-    """Corners of the box around the finite points."""
-    z = z[np.isfinite(z)]
-    return np.array([np.min(z.real) + 1j * np.min(z.imag), np.max(z.real) + 1j * np.max(z.imag)])
+    """Corners of the box around the finite points; infinite where there is none."""
+    x, y, seen = z.real, z.imag, np.isfinite(z)
+    low = [np.min(part, initial=np.inf, where=seen) for part in (x, y)]
+    high = [np.max(part, initial=-np.inf, where=seen) for part in (x, y)]
+    return np.array([low[0] + 1j * low[1], high[0] + 1j * high[1]])
