@@ -1,7 +1,7 @@
 """What a recording holds: lines and steps by their names, columns of tables, checks, found values and marks."""
 
 import ast
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import lru_cache
 from typing import Any, NamedTuple
@@ -135,3 +135,19 @@ def _coordinate(name: str, part: str) -> str:
 
 
 _source = lru_cache(maxsize=4096)(ast.unparse)
+
+
+def leaves_of(roots: Iterable[Node], recording: Recording) -> list[Node]:
+    """Inputs that quantities rest on; of found values those of their equations."""
+    found: dict[Node, None] = {}
+    waiting, visited = list(roots), set[Node]()
+    while waiting:
+        node = waiting.pop()
+        if node in visited:
+            continue
+        visited.add(node)
+        if node.op == "input":
+            found[node] = None
+        waiting.extend(node.operands)
+    order = {node: n for n, node in enumerate(recording.inputs.values())}
+    return sorted(found, key=order.__getitem__)

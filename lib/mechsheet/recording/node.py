@@ -4,6 +4,8 @@ from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+
 from mechsheet.recording.operations import ELEMENTWISE, Values
 
 LEAVES = ("constant", "input")
@@ -150,6 +152,34 @@ def has_equation(found: Node) -> bool:
 def passes_over(node: Node) -> bool:
     """Whether an operation has a number where an operand is none: nobody may take a number not known for none."""
     return node.op == "finite" or (node.op == "reduce" and node.args[2].startswith("nan"))
+
+
+def conditions(node: Node, known: dict[Node, frozenset[Node]]) -> frozenset[Node]:
+    """Conditions where a quantity is no number in all its elements unless they hold, as it is chosen already.
+
+    What is ``known`` of others is not looked for again, and added to.
+    """
+    none = frozenset[Node]()
+    for part in bottom_up([node], known):
+        under = [known[operand] for operand in part.operands]
+        match part.op:
+            case "where" if part.args[2].op == "constant" and np.isnan(part.args[2].value).all():
+                known[part] = under[1] | {part.args[0]}
+            case "where":
+                known[part] = under[1] & under[2]
+            case "sized":
+                known[part] = under[0] | {part.args[1]}
+            case "join":
+                known[part] = frozenset.intersection(*under)
+            case "pow" if part.args[1].op != "constant" or not part.args[1].value.all():
+                known[part] = none
+            case "lt" | "le" | "gt" | "ge" | "eq" | "ne" | "and" | "or" | "not" | "finite":
+                known[part] = none
+            case "reduce" if part.args[2] not in ("sum", "prod", "max", "min"):
+                known[part] = none
+            case _:
+                known[part] = none.union(*under)
+    return known[node]
 
 
 def is_number(node: Node, number: float) -> bool:

@@ -16,9 +16,9 @@ from mechsheet.recording.arithmetic import choice as where
 from mechsheet.recording.arithmetic import sized
 from mechsheet.recording.given import given
 from mechsheet.recording.graph import Gap, Graph, Guard, NotRecorded, current
-from mechsheet.recording.lines import Recording
+from mechsheet.recording.lines import Recording, leaves_of
 from mechsheet.recording.memory import Memory, changes, names_of
-from mechsheet.recording.node import Node, bottom_up
+from mechsheet.recording.node import Node, bottom_up, conditions
 from mechsheet.recording.quantity import Quantity, has_quantity, is_literal, lift
 from mechsheet.recording.sketch import Drawn, Sketch
 from mechsheet.recording.stage import Stage, held
@@ -367,34 +367,10 @@ class _Run:
         kinds = {n.args[2] for n in under if n.op == "reduce" and n.args[0].size > 1}
         return kinds <= {"max", "min"} and any(n.op == "rows" for n in under)
 
-    def conditions(self, node: Node) -> frozenset[Node]:
-        """Conditions where a quantity is no number in all its elements unless they hold, as it is chosen already."""
-        known, none = self.chosen, frozenset[Node]()
-        for part in bottom_up([node], known):
-            under = [known[operand] for operand in part.operands]
-            match part.op:
-                case "where" if part.args[2].op == "constant" and np.isnan(part.args[2].value).all():
-                    known[part] = under[1] | {part.args[0]}
-                case "where":
-                    known[part] = under[1] & under[2]
-                case "sized":
-                    known[part] = under[0] | {part.args[1]}
-                case "join":
-                    known[part] = frozenset.intersection(*under)
-                case "pow" if part.args[1].op != "constant" or not part.args[1].value.all():
-                    known[part] = none
-                case "lt" | "le" | "gt" | "ge" | "eq" | "ne" | "and" | "or" | "not" | "finite":
-                    known[part] = none
-                case "reduce" if part.args[2] not in ("sum", "prod", "max", "min"):
-                    known[part] = none
-                case _:
-                    known[part] = none.union(*under)
-        return known[node]
-
     def while_same(self, x: Quantity, rests: Iterable[Guard]) -> Quantity:
         """A quantity while Python sees the same, else no number."""
         for guard in rests:
-            if any(guard.holds not in self.conditions(part) for part in x.parts):
+            if any(guard.holds not in conditions(part, self.chosen) for part in x.parts):
                 if guard.lengths:
                     x = sized(x, guard.holds)
                 else:
@@ -426,22 +402,6 @@ class _Run:
             used = [name for name in self.recording.inputs if name.partition(".")[0] in parts]
             roots += [self.recording.inputs[name] for name in (self.recording.inputs if facts.whole else used)]
         return leaves_of(roots, self.recording)
-
-
-def leaves_of(roots: Iterable[Node], recording: Recording) -> list[Node]:
-    """Inputs that quantities rest on; of found values those of their equations."""
-    found: dict[Node, None] = {}
-    waiting, visited = list(roots), set[Node]()
-    while waiting:
-        node = waiting.pop()
-        if node in visited:
-            continue
-        visited.add(node)
-        if node.op == "input":
-            found[node] = None
-        waiting.extend(node.operands)
-    order = {node: n for n, node in enumerate(recording.inputs.values())}
-    return sorted(found, key=order.__getitem__)
 
 
 def _listed(graph: Graph, value: Any) -> Any:

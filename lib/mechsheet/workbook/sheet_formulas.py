@@ -3,10 +3,9 @@
 from typing import NamedTuple
 
 from mechsheet import units
-from mechsheet.recording.lines import Line
+from mechsheet.recording.lines import Line, leaves_of
 from mechsheet.recording.node import Node, bottom_up
 from mechsheet.recording.quantity import Quantity
-from mechsheet.recording.record import leaves_of
 from mechsheet.workbook.arrangement import Arrangement
 from mechsheet.workbook.cell_formula import CellFormulas, written
 from mechsheet.workbook.content import Live, quoted
