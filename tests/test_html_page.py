@@ -196,9 +196,7 @@ def test_units_are_read_and_the_changed_input_is_marked_and_kept_in_the_address(
     assert g.P6 == 30e3
 
 
-def test_a_slider_moves_its_pictures_and_they_are_gone_when_an_input_changes(
-    document: Callable[..., Path], offline: Page
-) -> None:
+def test_a_slider_moves_its_drawings_which_follow_the_inputs(document: Callable[..., Path], offline: Page) -> None:
     page = opened(offline, document("hitch"))
     place = "document.querySelector('[data-n] > svg[viewBox]:not(.ms-chart)').parentElement.dataset.n"
     drawing = page.locator(f'[data-n="{page.evaluate(place)}"]')
