@@ -6,7 +6,7 @@ function reasonFor(words, {reason, reached, interval, jump, samples, equals}) {
   const place = (values, digits) => spanOf(amounts(values, words.unknown_factor, digits)) + words.unknown_suffix;
   const by = ` by ${samples} samples`;
   if (reason === "nothing") return `nothing to solve for ${words.unknown}: its interval, target or guess is NaN`;
-  if (reason === "closes") return {
+  if (reason === "closes") {
     const nowhere = `is NaN at each of ${samples} samples in ${place(interval)}`;
     return `${words.unknown}: ${words.quantity} ${nowhere}, as of a group that does not close, or a square root of a negative number`;
   }
