@@ -4,15 +4,19 @@ from __future__ import annotations
 
 import subprocess
 import sys
+import warnings
+from math import inf, nan
 from pathlib import Path
 
+import numpy as np
 import pytest
 from openpyxl import Workbook
 from test_kinds import SHEET, use
 
 from mechsheet.run import compare
+from mechsheet.worksheet.results import Displayed
 
-CHECKED = SHEET.replace("export, inputs", "export, inputs").replace(
+CHECKED = SHEET.replace(
     "    return (table_1,)\n", '    check_1 = check("use", U_x.max(), 1.0)\n    return check_1, table_1\n'
 )
 
@@ -97,3 +101,39 @@ def test_where_nothing_differs_the_exit_code_is_0(bolt, monkeypatch, capsys) -> 
 def test_what_is_no_state_is_one_line_and_exit_code_2(bolt, monkeypatch, capsys, options, message) -> None:
     code, out, err = compared(bolt, monkeypatch, capsys, *options)
     assert (code, out) == (2, "") and err.startswith(f"error: {message}") and err.count("\n") == 1
+
+
+def numbers_that_differ(old: dict[str, list[float]], new: dict[str, list[float]]) -> dict[str, str]:
+    """By how much, of results without a dimension; a warning of numpy is an error."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        states = [
+            compare.State({}, {}, {name: Displayed(name, "-", "", np.array(x)) for name, x in values.items()}, {})
+            for values in (old, new)
+        ]
+        return {change.name: change.by for change in compare.changes(*states)}
+
+
+@pytest.mark.parametrize("other", [inf, -inf, nan])
+def test_a_number_that_is_no_more_finite_differs(other: float) -> None:
+    for a, b in (([1.0], [other]), ([other], [1.0]), ([1.0, 2.0, other], [1.0, 2.0, 3.0])):
+        (said,) = numbers_that_differ({"x": a}, {"x": b}).values()
+        assert said == f"1 of {len(a)} values differ by no finite number"
+    assert numbers_that_differ({"x": [1.0, other]}, {"x": [1.0, other]}) == {}
+    assert numbers_that_differ({"x": [other, 1.0]}, {"x": [other, 2.0]}) == {"x": "+1 (+100 %)"}
+
+
+def test_infinities_of_other_signs_differ_and_so_do_numbers_whose_difference_is_infinite() -> None:
+    assert numbers_that_differ({"x": [inf]}, {"x": [-inf]}) == {"x": "1 of 1 values differ by no finite number"}
+    assert numbers_that_differ({"x": [inf]}, {"x": [nan]}) == {"x": "1 of 1 values differ by no finite number"}
+    assert list(numbers_that_differ({"x": [-1.5e308]}, {"x": [1.5e308]})) == ["x"]
+
+
+@pytest.mark.parametrize("beside", [inf, 1e12])
+def test_a_great_number_hides_no_change_of_another(beside: float) -> None:
+    assert numbers_that_differ({"N": [beside], "x": [0.5]}, {"N": [beside], "x": [0.9]}) == {"x": "+0.4 (+80 %)"}
+
+
+def test_rounding_is_no_difference() -> None:
+    assert numbers_that_differ({"x": [0.3]}, {"x": [0.1 + 0.2]}) == {}
+    assert numbers_that_differ({"F": [400.0], "left": [1e-14]}, {"F": [400.0], "left": [-3e-14]}) == {}

@@ -31,7 +31,8 @@ from mechsheet.worksheet.lines import registry
 from mechsheet.worksheet.results import Displayed
 from mechsheet.worksheet.scene import Scene
 
-_SAME = 1e-12  # of the greatest value: what differs by less is rounding
+_SAME = 1e-12  # of the greatest value of a result: what differs by less is rounding
+_ZERO = 1e-13  # of the greatest value of its dimension: a result that is less is zero but for rounding
 
 
 class State(NamedTuple):
@@ -137,10 +138,10 @@ def changes(old: State, new: State) -> Iterator[Change]:
     for name in dict.fromkeys([*old.formulas, *new.formulas]):
         if old.formulas.get(name) != new.formulas.get(name):
             yield Change("formula", name, old.formulas.get(name, ""), new.formulas.get(name, ""))
-    sizes = dict[Any, float]()  # the greatest value of each dimension, of whose rounding all of its numbers have some
+    sizes = dict[Any, float]()  # the greatest value of each dimension, of whose rounding a zero has some
     for q in (*old.numbers.values(), *new.numbers.values()):
         dims = units.parse(q.unit).dims
-        sizes[dims] = max(sizes.get(dims, 0.0), float(np.nanmax(np.abs([*_si(q).ravel(), 0.0]))))
+        sizes[dims] = max(sizes.get(dims, 0.0), _greatest(_si(q)))
     for name in dict.fromkeys([*old.numbers, *new.numbers]):
         yield from _changed(name, old.numbers.get(name), new.numbers.get(name), sizes)
     for name in dict.fromkeys([*old.verdicts, *new.verdicts]):
@@ -150,6 +151,11 @@ def changes(old: State, new: State) -> Iterator[Change]:
 
 def _si(quantity: Displayed) -> NDArray[np.float64]:
     return np.asarray(quantity.values * units.parse(quantity.unit).factor, dtype=float)
+
+
+def _greatest(values: NDArray[np.float64]) -> float:
+    """The greatest of the finite values, of either sign; 0 where there is none."""
+    return float(np.abs(values[np.isfinite(values)]).max(initial=0.0))
 
 
 def _changed(name: str, old: Displayed | None, new: Displayed | None, sizes: Mapping[Any, float]) -> Iterator[Change]:
@@ -164,14 +170,17 @@ def _changed(name: str, old: Displayed | None, new: Displayed | None, sizes: Map
         yield Change("number", name, said[0], said[1], what)
         return
     a, b = _si(old), _si(new)
-    by, gaps = np.nan_to_num(b - a, posinf=0.0, neginf=0.0), np.isnan(a) != np.isnan(b)
+    finite = np.isfinite(a) & np.isfinite(b)
+    gaps = ~finite & (a != b) & ~(np.isnan(a) & np.isnan(b))
+    with np.errstate(invalid="ignore", over="ignore"):
+        by = np.where(finite, b - a, 0.0)
     most = float(by.ravel()[int(np.abs(by).argmax())])
-    if not gaps.any() and abs(most) <= _SAME * sizes[dims]:
+    greatest, size = _greatest(a), max(_greatest(a), _greatest(b))
+    if not gaps.any() and (abs(most) <= _SAME * size or size <= _ZERO * sizes[dims]):
         return
-    greatest = float(np.nanmax(np.abs([*a.ravel(), 0.0])))
     part = f" ({_signed(100 * most / greatest, 3)} %)" if greatest else ""
     told = f"{_signed(most / own.factor, 4)}{numbers.suffix(new.unit)}{part}" if most else ""
-    lost = f"{np.count_nonzero(gaps)} of {gaps.size} values are there in one state only" if gaps.any() else ""
+    lost = f"{np.count_nonzero(gaps)} of {gaps.size} values differ by no finite number" if gaps.any() else ""
     yield Change("number", name, said[0], said[1], "; ".join(filter(None, (told, lost))))
 
 
