@@ -7,11 +7,13 @@ import sys
 from pathlib import Path
 
 import pytest
+from own_worksheet import own
 from test_kinds import SHEET
 
 from mechsheet import evaluate
 from mechsheet.run import rename as command
 from mechsheet.worksheet.errors import SheetError
+from mechsheet.worksheet.renaming import renamed
 
 SCENE = 'want = ["U"]\n[inputs]\nF = 7  # kN, F of the bolt\n[limits]\nU = {max = 2}\n'
 OTHER = "[inputs]\nF = 1\nspan = 3\n"  # of another worksheet, which has an F too
@@ -94,3 +96,51 @@ def test_where_a_scene_cannot_be_written_the_worksheet_stays(bolt: Path, monkeyp
     with pytest.raises(SheetError, match=r"heavy\.toml cannot be written: the file is read-only"):
         in_process(monkeypatch, bolt, "F", "F_b")
     assert bolt.read_bytes() == before
+
+
+@pytest.mark.parametrize("saved", [True, False])
+def test_ctrl_c_between_two_files_leaves_all_as_they_were(
+    bolt: Path, monkeypatch: pytest.MonkeyPatch, saved: bool
+) -> None:
+    """Just behind the first file, or before the second one."""
+    files = [bolt, bolt.parent / "scenes" / "heavy.toml"]
+    before, pressed = [file.read_bytes() for file in files], list[Path]()
+
+    def save(data: bytes, file: Path) -> None:
+        now = file == files[0 if saved else 1] and not pressed
+        if saved or not now:
+            file.write_bytes(data)
+        if now:
+            pressed.append(file)
+            raise KeyboardInterrupt
+
+    monkeypatch.setattr(command, "save", save)
+    with pytest.raises(KeyboardInterrupt):
+        in_process(monkeypatch, bolt, "F", "F_b")
+    assert [file.read_bytes() for file in files] == before and len(pressed) == 1
+
+
+KEYWORDS = """
+c = 2 * g.F  # [-] count
+def times(x, c=2): return x * c
+y = np.diff(linspace(0, 1, 9) ** 3, n=2); z = np.round(times(g.F, c=c), decimals=c)  # [-] c and φ
+t = f"φ c {c:{g.n}.1f}{np.diff([1, 4, 9], n=2)} {times(1, c=3)} {np.round(g.F, decimals=int(c))} {{c}}"
+both = find(lambda k, c: (k + c - 3, k - c), k=1.0, c=1.0)"""
+
+
+@pytest.mark.parametrize("inside", [False, True])
+def test_an_argument_of_another_function_keeps_its_name(tmp_path: Path, inside: bool) -> None:
+    """Of the worksheet's own functions, and of those that take symbols, it follows; within texts too."""
+    path = Path(own(tmp_path, KEYWORDS, inside).path)
+    texts = {name: renamed(path, name, new, {})[path] for name, new in (("n", "m"), ("c", "decimals_c"))}
+    assert "g.m" in texts["n"] and "m: int = 5" in texts["n"]
+    assert "** 3, n=2)" in texts["n"] and "{c:{g.m}.1f}{np.diff([1, 4, 9], n=2)}" in texts["n"]
+    after = texts["c"]
+    assert "times(g.F, decimals_c=decimals_c), decimals=decimals_c)  # [-] decimals_c and φ" in after
+    assert "{times(1, decimals_c=3)} {np.round(g.F, decimals=int(decimals_c))} {{decimals_c}}" in after
+    assert "lambda k, decimals_c: (k + decimals_c - 3, k - decimals_c), k=1.0, decimals_c=1.0)" in after
+
+
+def test_a_named_argument_of_find_is_none_of_its_unknowns(tmp_path: Path) -> None:
+    path = Path(own(tmp_path, "\nguess = 1.0  # [-] start\nx_0 = find(lambda x: x - 2, guess=guess).value").path)
+    assert "x - 2, guess=x_s)" in renamed(path, "guess", "x_s", {})[path]

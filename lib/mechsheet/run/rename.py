@@ -18,14 +18,13 @@ def main() -> None:
     scenes = {scene: scene.read_text(encoding="utf-8") for scene in _beside(path)}
     made = renamed(path, old, new, scenes)
     before = {file: file.read_bytes() for file in made}
-    done = list[Path]()
     try:
         for file, text in made.items():
             save(text.encode(), file)
-            done.append(file)
-    except SheetError:
-        for file in done:  # all of them or none
-            save(before[file], file)
+    except BaseException:  # all of them or none, after Ctrl-C too
+        for file, held in before.items():
+            if file.read_bytes() != held:
+                save(held, file)
         raise
     say(*(f"written {file}" for file in made))
 
