@@ -9,7 +9,7 @@ import pytest
 from own_worksheet import own
 
 from mechsheet.run import arguments, batch
-from mechsheet.studies import asked_design
+from mechsheet.studies import asked_design, refined
 from mechsheet.worksheet import cells
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.inputs import declared
@@ -18,7 +18,9 @@ LINES = """
 p = g.F * (4 - g.F) - g.a  # [-] greatest at F = 2
 s = linspace(0, 1, 2)  # [-] two positions
 w = g.F * (1 - 2 * s) + 3 * s  # [-] F and 3 - F
-t = 1j * w  # [-] complex"""
+t = 1j * w  # [-] complex
+q = 1 + 1e-7 * g.F  # [-] nearly flat
+u = 9 + 0.5 * g.F  # [-] 10 at F = 2"""
 TEXT = """
 z = float(f"{g.F:.17g}") * (4 - g.F)  # [-] by way of a text"""
 
@@ -35,7 +37,7 @@ def sheet(tmp_path_factory) -> cells.Worksheet:
 @pytest.mark.parametrize(
     ("options", "F", "said"),
     [
-        (["--vary=F=0..5", "--best=max p"], 2.0, "conditions of an optimum hold: none"),
+        (["--vary=F=0..5", "--best=max p"], 2.0, "conditions of an optimum hold: to the first order none"),
         (["--vary=F=0..5", "--best=max w"], 1.5, "conditions of an optimum hold"),  # the least of two, at their corner
         (["--vary=F=0..5", "--need=w <= 1.75", "--best=max p"], 1.75, "held by w <= 1.75 at position 0"),
         (["--vary=F=0..1.25", "--best=max p"], 1.25, "held by the upper bound of F"),
@@ -72,6 +74,47 @@ def test_one_input_gives_a_result_its_value(sheet):
 def test_what_has_no_slope_is_searched_and_says_so(tmp_path):
     chosen, told = asked_design.best(asked(own(tmp_path, LINES + TEXT), "--vary=F=0..5", "--best=max z"))
     assert chosen["F"] == pytest.approx(2.0, abs=1e-3) and "not refined by slopes: z has no slope" in "\n".join(told)
+    assert not [line for line in told if line.startswith("refined") or "conditions" in line]
+
+
+@pytest.mark.parametrize(("to", "reason"), [(1.5, "no better one"), (2.5, "a design that misses w <= 1.75")])
+def test_what_slopes_make_worse_is_not_written_and_what_is_said_is_of_the_design_written(
+    to, reason, sheet, monkeypatch
+):
+    monkeypatch.setattr(refined.Slopes, "refined", lambda _: {"F": to})
+    problem = asked(sheet, "--vary=F=0..5", "--need=w <= 1.75", "--best=max p")
+    chosen, told = asked_design.best(problem)
+    assert chosen == {"F": 1.75} and f"not refined by slopes: they lead to {reason}" in told
+    assert refined.Slopes(problem, chosen).conditions(chosen) in told and "an optimum hold, held by" in "\n".join(told)
+    assert not [line for line in told if line.startswith("refined")]
+
+
+def test_a_slope_that_is_left_is_told_by_what_the_goal_varies_by(sheet):
+    """However small beside the goal, and the same on both sides of a power of ten of it."""
+    for goal, slope in (("q", 1e-7), ("u", 0.5)):
+        problem = asked(sheet, "--vary=F=0..5", f"--best=max {goal}")
+        slopes = refined.Slopes(problem, {"F": 2.0})
+        told = [slopes.conditions({"F": F}) for F in (1.0, 1.9, 2.1, 4.0)]
+        assert len(set(told)) == 1 and "do not hold" in told[0]
+        part = float(re.search(r"a slope of ([\d.]+) of what the goal varies by", told[0])[1])
+        assert part == pytest.approx(5 * slope / np.median(slope * abs(np.linspace(0, 5, 1001) - 2.0)), rel=0.1)
+
+
+def test_of_several_limits_of_a_result_the_strictest_stands_in_the_scene(sheet):
+    needs = ["--need=p >= 1", "--need=p >= 2", "--need=p >= 1.5", "--need=p <= 9", "--need=p <= 7", "--need=p <= 8"]
+    problem = asked(sheet, "--vary=F=0..5", *needs, "--best=max w")
+    assert "p = {min = 2.0, max = 7.0}" in asked_design.scene_of(problem, {"F": 2.0}, []).replace('"', "")
+
+
+def test_the_scene_is_written_beside_a_worksheet_of_ones_own(tmp_path, monkeypatch):
+    (tmp_path / "elsewhere").mkdir()
+    (tmp_path / "sheets").mkdir()
+    monkeypatch.chdir(tmp_path / "elsewhere")
+    monkeypatch.setattr(asked_design, "watch", lambda _: None)
+    sheet = own(tmp_path / "sheets", LINES)
+    monkeypatch.setattr(sys, "argv", ["design", sheet.path, "--vary=F=0..2", "--need=p = 2.25"])
+    asked_design.main()
+    assert (tmp_path / "sheets" / "own_designed.toml").is_file() and not [*(tmp_path / "elsewhere").iterdir()]
 
 
 @pytest.mark.parametrize(
@@ -83,7 +126,7 @@ def test_what_has_no_slope_is_searched_and_says_so(tmp_path):
         (["--vary=F=0..x", "--best=max p"], "number F = 'x' is no number"),
         (["--vary=G=0..5", "--best=max p"], "input G is unknown; nearest: "),
         (["--vary=n=2..5", "--best=max p"], "n, which is a whole number"),
-        (["--vary=F=0..5", "--best=max q"], "q is defined by no cell"),
+        (["--vary=F=0..5", "--best=max v"], "v is defined by no cell"),
         (["--vary=F=0..5", "--best=max t"], "t is complex; take t.real"),
         (["--vary=F=0..5", "--best=p"], "argument '--best=p' must be such as --best="),
         (["--vary=F=0..5", "--need=p > 1"], "must be such as --need="),

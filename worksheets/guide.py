@@ -47,8 +47,8 @@ def section_1():
 
     **Try** in the code: below `l` add `m: float = 12.0  # [kg] ram; > 0`. A new field is there.
 
-    Behind the limits a tolerance may stand, `; ± 0.05`, `; ± 1 %` or `; ± 5 % normal`: all within is as likely, unless
-    `normal` makes it three standard deviations.
+    Behind the limits a tolerance may stand, `; ± 0.05`, `; ± 1 %` or `; ± 5 % normal`: all values within are equally
+    likely, unless `normal` makes it three standard deviations.
 
     The kind of an input is its type: `float`, `int`, `bool` (a switch), `str` (a text), `Literal["single", "double"]`
     (names to choose from), `one_of(GRADES, "8.8")` (options with properties, `g.bolt.R_m`), `list[float]` (load
@@ -284,7 +284,8 @@ def section_8():
         python lib/mechsheet design guide --vary="h=10..60" --need="M_work = 2000"
 
     finds the inputs within bounds that meet all requirements, at every position, and have the best goal, or the one
-    input that gives a result its value; it says how sure that is, and writes the scene `guide_designed.toml`.
+    input that gives a result its value; it says how sure that is, and writes the scene `guide_designed.toml` into
+    `exports/`, beside a worksheet of your own, or where `--out=FOLDER` says.
 
     On the page the switch above the buttons at its end shows the tolerances behind all numbers, and the fields beside
     it what matters for a result: by how many percent it changes for one percent of each input.

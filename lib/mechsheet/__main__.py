@@ -37,6 +37,7 @@ usage: mechsheet COMMAND              where the package is installed
       such as                         html hitch --P6=25e3 --out=exports
   design NAME --vary=.. --best=..     find the inputs within bounds that meet all requirements and are best at a goal;
       NAME --vary=.. --need=..        or the one input that gives a result its value; writes NAME_designed.toml
+                                      where run writes the workbook, or where --out=FOLDER says
       such as                         design bucket --vary="L_DE=0.42..0.5" --need="mu_2 >= 30 deg" --best="max F_T"
   new NAME [--like=EXAMPLE]           begin a worksheet from a template, or from another worksheet
       such as                         new loader --like=bucket
@@ -45,6 +46,7 @@ usage: mechsheet COMMAND              where the package is installed
   index NAME                          where the worksheet has the formulas, tables and figures of its document
       such as                         index kinetostatics
   compare NAME OLD NEW [--markdown]   what changed from one scene, workbook or revision of git to another; exit code 1
+                                      where something did
       such as                         compare hitch HEAD worksheets/scenes/heavy.toml
   rename NAME OLD NEW                 rename a symbol in the worksheet, its comments and texts, and in its scenes
       such as                         rename hitch F_gc F_c

@@ -230,16 +230,31 @@ def best(problem: Problem) -> tuple[dict[str, float], list[str]]:
             done=lambda: done(""),
         )
     told = [f"{problem.goal(found.goal)} by {found.tried} variants"]
-    chosen, told_of = refined.refined(problem, found.inputs)
-    judged = problem.judge({x: np.array([v]) for x, v in chosen.items()})
-    better = judged.reasons[0] == "" and all(r.missed[0] == 0 for r in judged.requirements)
-    if better and judged.goal[0] >= found.goal:
-        told.append(f"refined by slopes: {problem.goal(float(judged.goal[0]))}")
-    else:
-        chosen, judged = found.inputs, problem.judge({x: np.array([v]) for x, v in found.inputs.items()})
-    told += [f"{r.name}: it is {numbers.amount(float(r.values[0]), r.unit, 6)}" for r in judged.requirements]
-    told += [f"now {problem.goal(float(problem.now.goal[0]))}", told_of]
+    chosen, refinement = _refined(problem, found)
+    needs = problem.judge(_alone(chosen)).requirements
+    told += [f"{r.name}: it is {numbers.amount(float(r.values[0]), r.unit, 6)}" for r in needs]
+    told += [f"now {problem.goal(float(problem.now.goal[0]))}", *refinement]
     return chosen, [*told, "elsewhere within the bounds only the search has looked"]
+
+
+def _refined(problem: Problem, found: design.Design) -> tuple[dict[str, float], list[str]]:
+    """What slopes make of the design of a search, that design itself where this is no better; and what they say."""
+    try:
+        slopes = refined.Slopes(problem, found.inputs)
+        chosen = slopes.refined()
+        judged = problem.judge(_alone(chosen))
+        missed = [f"a design that misses {r.name}" for r in judged.requirements if r.missed[0] != 0]
+        reason = [f"a design that has no value: {judged.reasons[0]}"] if judged.reasons[0] else missed
+        if not reason and judged.goal[0] >= found.goal:
+            return chosen, [f"refined by slopes: {problem.goal(float(judged.goal[0]))}", slopes.conditions(chosen)]
+        lead = (reason or ["no better one"])[0]
+        return found.inputs, [f"not refined by slopes: they lead to {lead}", slopes.conditions(found.inputs)]
+    except SheetError as error:
+        return found.inputs, [f"not refined by slopes: {error}"]
+
+
+def _alone(chosen: Mapping[str, float]) -> dict[str, Array]:
+    return {x: np.array([v]) for x, v in chosen.items()}
 
 
 def scene_of(problem: Problem, chosen: Mapping[str, float], told: Sequence[str]) -> str:
@@ -249,7 +264,8 @@ def scene_of(problem: Problem, chosen: Mapping[str, float], told: Sequence[str])
         if need.end in ("", {">=": "min", "<=": "max"}.get(need.sign)):
             end = limit / units.parse(problem.units[need.name]).factor
             known = limits.get(need.name, Limit())
-            limits[need.name] = Limit(end, known.max) if need.sign == ">=" else Limit(known.min, end)
+            ends = [x for x in (known.min if need.sign == ">=" else known.max, end) if x is not None]
+            limits[need.name] = Limit(max(ends), known.max) if need.sign == ">=" else Limit(known.min, min(ends))
     limits = {} if any(need.sign == "=" for need in problem.asked.needs) else limits
     return design.scene_text(problem.fields, {**problem.given, **chosen}, limits, told)
 
@@ -267,7 +283,7 @@ def main() -> None:
         ends = numbers.span(numbers.significant(end, 10) for end in (low, high))
         say(f"{name} = {numbers.significant(x, 10)}{numbers.suffix(field.unit)}, within {ends}; {field.meaning}")
     say(*told)
-    path = (asked.scene.out or Path()) / f"{Path(sheet.path).stem}_designed.toml"
+    path = (asked.scene.out or report.folder(Path(sheet.path))) / f"{Path(sheet.path).stem}_designed.toml"
     report.write(scene_of(problem, chosen, told).encode(), path)
     say(f"written {path}")
 

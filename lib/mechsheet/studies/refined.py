@@ -23,9 +23,10 @@ from mechsheet.worksheet.errors import SheetError
 Array = NDArray[np.float64]
 
 _KEPT = 1e-9  # of a limit: reserve of each requirement, so that rounding breaks none
-_HOLDS = 1e-6  # of the slope of the goal: what may be left of the conditions of an optimum
+_HOLDS = 1e-6  # of what the goal varies by over the bounds: what may be left of its slope at an optimum
 _ACTIVE = 1e-6  # of its size: a constraint that has less reserve holds the design
 _STEPS = 60
+_SAMPLES, _SEED = 32, 1  # designs all over the bounds that tell what the goal varies by
 
 
 class Asked(Protocol):
@@ -48,9 +49,24 @@ class Problem(Protocol):
     bounds: dict[str, tuple[float, float]]
     limits: Any
 
+    def judge(self, variants: dict[str, Array], /) -> Any: ...
+
+
+class _Goal(NamedTuple):
+    """The goal of a design, and what that of others is mostly off it by: its reserves are counted from it, in these.
+
+    The same for all designs, so that reserves and slopes change only where the goal does.
+    """
+
+    start: float
+    varies: float
+
 
 class _At(NamedTuple):
-    """All reserves at a design, each in parts of its size, and their slopes by the parts of the ranges."""
+    """All reserves at a design, each in parts of its size, and their slopes by the parts of the ranges.
+
+    Those of the goal are what is above its start, in parts of what it varies by.
+    """
 
     reserves: Array
     slopes: Array
@@ -58,55 +74,82 @@ class _At(NamedTuple):
     names: Sequence[str]
 
 
-def refined(problem: Problem, start: Mapping[str, float]) -> tuple[dict[str, float], str]:
-    """A better design near one, inputs in display units, and whether the conditions of an optimum hold there.
+class Slopes:
+    """The slopes of a problem near a design, with its inputs in display units.
 
-    The start itself where the slopes of a result are not known, which is said.
+    All of it raises SheetError where a design on the way has no value, or the slopes of a result are not known.
     """
-    from scipy.optimize import Bounds, minimize  # on use: takes longer than the rest of the package
 
-    names = list(start)
-    low, high = np.array([problem.bounds[x] for x in names]).T
-    known = dict[bytes, _At]()
+    def __init__(self, problem: Problem, start: Mapping[str, float]) -> None:
+        self._problem, self._start, self._goal = problem, start, _goal(problem, start)
+        self._low, self._high = np.array([problem.bounds[x] for x in start]).T
+        self._known = dict[bytes, _At]()
 
-    def at(z: Array) -> _At:
-        part = np.clip(z[:-1], 0.0, 1.0)
-        if part.tobytes() not in known:
-            known[part.tobytes()] = _evaluated(problem, dict(zip(names, low + part * (high - low), strict=True)))
-        return known[part.tobytes()]
+    def _parts(self, design: Mapping[str, float]) -> Array:
+        """A design by the parts of the ranges."""
+        own = np.array([design[x] for x in self._start])
+        return np.asarray(np.clip((own - self._low) / (self._high - self._low), 0.0, 1.0))
 
-    def reserve(z: Array) -> Array:
-        here = at(z)
-        return here.reserves - np.where(here.goals, z[-1], _KEPT)
+    def _design(self, parts: Array) -> dict[str, float]:
+        own = (self._low + parts * (self._high - self._low)).tolist()
+        return dict(zip(self._start, own, strict=True))
 
-    def slope(z: Array) -> Array:
-        here = at(z)
-        return np.column_stack([here.slopes, -1.0 * here.goals])
+    def _at(self, parts: Array) -> _At:
+        key = parts.tobytes()
+        if key not in self._known:
+            self._known[key] = _evaluated(self._problem, self._design(parts), self._goal)
+        return self._known[key]
 
-    first = np.clip((np.array([start[x] for x in names]) - low) / (high - low), 0.0, 1.0)
-    try:
-        here = at(np.append(first, 0.0))
-        z = np.append(first, here.reserves[here.goals].min())
-        down = np.append(np.zeros(len(names)), -1.0)
-        ends = np.append(np.ones(len(names)), np.inf)
+    def refined(self) -> dict[str, float]:
+        """A design near the start that is better, as far as slopes lead to one."""
+        from scipy.optimize import Bounds, minimize  # on use: takes longer than the rest of the package
+
+        def at(z: Array) -> _At:
+            return self._at(np.clip(z[:-1], 0.0, 1.0))
+
+        def reserve(z: Array) -> Array:
+            here = at(z)
+            return here.reserves - np.where(here.goals, z[-1], _KEPT)
+
+        def slope(z: Array) -> Array:
+            here = at(z)
+            return np.column_stack([here.slopes, -1.0 * here.goals])
+
+        first = self._parts(self._start)
+        here = self._at(first)
+        down = np.append(np.zeros(len(first)), -1.0)
+        ends = np.append(np.ones(len(first)), np.inf)
         method: Any = minimize  # its stubs refuse a start of a known length beside slopes that have none
         found = method(
             lambda z: float(-z[-1]),
-            z,
+            np.append(first, here.reserves[here.goals].min()),
             jac=lambda _: down,
             bounds=Bounds(np.where(np.isfinite(ends), 0.0, -np.inf), ends),
             constraints=[{"type": "ineq", "fun": reserve, "jac": slope}],
             method="SLSQP",
             options={"maxiter": _STEPS, "ftol": 1e-14},
         )
-        part = np.clip(found.x[:-1], 0.0, 1.0)
-        told = _conditions(at(found.x), part, names)
-    except SheetError as error:
-        return dict(start), f"not refined by slopes: {error}"
-    return {x: float(v) for x, v in zip(names, low + part * (high - low), strict=True)}, told
+        return self._design(np.clip(found.x[:-1], 0.0, 1.0))
+
+    def conditions(self, design: Mapping[str, float]) -> str:
+        """Whether the conditions of an optimum hold at a design, and what holds it."""
+        parts = self._parts(design)
+        return _conditions(self._at(parts), parts, list(self._start))
 
 
-def _evaluated(problem: Problem, design: Mapping[str, float]) -> _At:
+def _goal(problem: Problem, start: Mapping[str, float]) -> _Goal:
+    """The goal at the start, and its scale: the median of how far that of designs all over the bounds is off it."""
+    random, variants = np.random.default_rng(_SEED), dict[str, Array]()
+    for x, (low, high) in problem.bounds.items():
+        spread = low + (high - low) * (random.permutation(_SAMPLES) + 0.5) / _SAMPLES
+        variants[x] = np.append(start[x], spread)
+    judged = problem.judge(variants)
+    own, others = float(judged.goal[0]), judged.goal[1:]
+    off = np.abs(others[np.isfinite(others)] - own)
+    return _Goal(own, float(np.median(off if off.size else [0.0])) or abs(own) or 1.0)
+
+
+def _evaluated(problem: Problem, design: Mapping[str, float], goal: _Goal) -> _At:
     """Reserves of a design and their slopes, from one run and its recording.
 
     Raises SheetError where the design has no value, or a slope that is needed is not known.
@@ -130,9 +173,10 @@ def _evaluated(problem: Problem, design: Mapping[str, float]) -> _At:
         keep = range(values.size)
         if (end == "max" and sign > 0) or (end == "min" and sign < 0):  # at one position alone: that which is the end
             keep = range(k := int(np.argmax(sign * values)), k + 1)
+        off, part = (goal.start, size * goal.varies) if is_goal else (0.0, size)
         for k in keep:
-            reserves.append(np.array([sign * (values[k] - limit) / size]))
-            slants.append(sign * slant[k : k + 1] / size)
+            reserves.append(np.array([(sign * (values[k] - limit) - off * size) / part]))
+            slants.append(sign * slant[k : k + 1] / part)
             goals.append(is_goal)
             labels.append(text + (f" at position {k}" if values.size > 1 else ""))
 
@@ -142,9 +186,7 @@ def _evaluated(problem: Problem, design: Mapping[str, float]) -> _At:
         add(need.name, sign, limit, size, not asked.best, need.text, need.end)
     if asked.best:
         way, name = asked.best
-        size = float(np.max(np.abs(nodes[name].value))) or 1.0
-        size = 10.0 ** np.floor(np.log10(size))  # the same for designs near each other
-        add(name, 1.0 if way == "max" else -1.0, 0.0, size, True, f"{way} {name}")
+        add(name, 1.0 if way == "max" else -1.0, 0.0, 1.0, True, f"{way} {name}")
     return _At(np.concatenate(reserves), np.concatenate(slants), np.array(goals), labels)
 
 
@@ -153,8 +195,8 @@ def _conditions(here: _At, part: Array, names: Sequence[str]) -> str:
     from scipy.optimize import nnls  # on use: as above
 
     level = here.reserves[here.goals].min()
-    left = here.reserves - here.goals * level
-    holding = np.flatnonzero(left <= _ACTIVE * np.maximum(1.0, np.abs(here.reserves))).tolist()
+    above = here.reserves - here.goals * level
+    holding = np.flatnonzero(above <= _ACTIVE * np.maximum(1.0, np.abs(here.reserves))).tolist()
     rows = [np.append(here.slopes[i], -1.0 * here.goals[i]) for i in holding]
     said = [here.names[i] for i in holding if not here.goals[i]]
     for i, x in enumerate(part):
@@ -163,8 +205,12 @@ def _conditions(here: _At, part: Array, names: Sequence[str]) -> str:
                 rows.append(np.append(way * np.eye(len(part))[i], 0.0))
                 said.append(f"the {word} bound of {names[i]}")
     target = np.append(np.zeros(len(part)), -1.0)
-    _, rest = nnls(np.array(rows).T, target)
+    balance = np.array(rows).T
+    factors, _ = nnls(balance, target)
+    *rest, whole = balance @ factors  # of factors of the goal that are one in all there is this part
+    left = float(np.linalg.norm(rest) / -whole)
     held = f", held by {', '.join(said)}" if said else ""
-    if rest <= _HOLDS:
-        return f"the conditions of an optimum hold{held}: none near it is better"
-    return f"the conditions of an optimum do not hold: {numbers.significant(rest, 2)} of the goal's slope is left{held}"
+    if left <= _HOLDS:
+        return f"the conditions of an optimum hold{held}: to the first order none near it is better"
+    slope = f"a slope of {numbers.significant(left, 2)} of what the goal varies by within the bounds is left"
+    return f"the conditions of an optimum do not hold: {slope}{held}"
