@@ -43,10 +43,11 @@ def test_a_later_scene_adds_to_an_earlier_one(tmp_path):
     assert found == Scene({"P6": 2}, None, ("GS6",), {"GS6": Limit(min=1), "dRa": Limit(max=1)})
 
 
-@pytest.mark.parametrize("argument", ["P6=3", "--P6", "--=3", "-P6=3", "--scene", ""])
+@pytest.mark.parametrize("argument", ["P6=3", "--P6", "--=3", "-P6=3", "--scene", "--tolerances=", ""])
 def test_other_forms_are_refused(argument):
-    with pytest.raises(SheetError, match="must be --NAME=VALUE"):
+    with pytest.raises(SheetError, match="must be --NAME=VALUE") as error:
         arguments.read([argument], FIELDS)
+    assert all(form in str(error.value) for form in ("--proof", "--proof=DIGITS", "--tolerances"))
 
 
 def test_all_parts_of_a_scene_file(tmp_path):

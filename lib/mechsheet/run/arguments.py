@@ -29,7 +29,7 @@ def is_script(worksheet: str) -> bool:
 def read(arguments: Sequence[str], declared: Sequence[Input]) -> Scene:
     """Scene from ``--scene=FILE``, ``--out=FOLDER``, ``--want=NAMES``, ``--NAME=VALUE``; the later holds.
 
-    ``--proof`` and ``--tolerances`` stand alone.
+    ``--tolerances`` stands alone, and ``--proof`` too or as ``--proof=DIGITS``.
 
     Wanted are names with commas between them, or one check by its own; those of all ``--want`` together.
     """
@@ -43,7 +43,8 @@ def read(arguments: Sequence[str], declared: Sequence[Input]) -> Scene:
             scene = replace(scene, tolerances=True)
             continue
         if not (argument.startswith("--") and name and equals and value):
-            raise SheetError(f"argument {argument!r} must be --NAME=VALUE, --want=NAMES, --scene=FILE or --out=FOLDER")
+            forms = "--NAME=VALUE, --want=NAMES, --scene=FILE, --out=FOLDER, --proof, --proof=DIGITS or --tolerances"
+            raise SheetError(f"argument {argument!r} must be {forms}")
         if name == "scene":
             new = load(_path(value), declared)
             inputs, limits, proof = scene.inputs | new.inputs, scene.limits | new.limits, new.proof or scene.proof

@@ -28,7 +28,7 @@ class Number(Protocol):
 class Deviation:
     """A tolerance: ``amount`` in the display unit of the input, or of ``percent`` of its value.
 
-    All that lies within is as likely, or what is ``normal`` has it as three standard deviations.
+    All values within are equally likely, unless ``normal``: then it is three standard deviations.
     """
 
     amount: float

@@ -34,8 +34,9 @@ def inputs(cls: type[T]) -> type[T]:
     """Make a class of lines ``X01: float = 0.415  # [m] meaning; > 0`` the frozen, validated inputs of a worksheet.
 
     Comments alone on a line are section headings; after ``;`` stand limits, against numbers in the
-    display unit or other inputs, and after another one a tolerance, ``± 0.001`` or ``± 1 %``: all within is as likely,
-    unless ``normal`` behind it makes it three standard deviations. Values are SI and radians. Arrays serve as variants.
+    display unit or other inputs, and after another one a tolerance, ``± 0.001`` or ``± 1 %``: all values within are
+    equally likely, unless ``normal`` behind it makes it three standard deviations. Values are SI and radians. Arrays
+    serve as variants.
 
     The kind of an input is its type: ``float``, ``int``, ``bool`` (a switch), ``str`` (a text),
     ``Literal["single", "double"]`` (a choice of names), what `one_of` gives (options with properties), ``list[float]``
