@@ -108,7 +108,7 @@ class Bands:
         for node in new:
             lost = lacking.get(node)
             self.known[node] = (
-                self._none(node, _untold(lost, self.recording.gaps)) if lost else self._band(node, *moved[node])
+                self._none(node, untold(lost, self.recording.gaps)) if lost else self._band(node, *moved[node])
             )
         return {node: self.known[node] for node in nodes}
 
@@ -118,7 +118,7 @@ class Bands:
         if np.isnan(steeper[:, np.isfinite(node.value)]).any():
             lost = seen([node], self.inputs)
             jumps = f"it jumps or ends there by {self._jumping(steeper)}"
-            return self._none(node, _untold(lost, self.recording.gaps) if lost else jumps)
+            return self._none(node, untold(lost, self.recording.gaps) if lost else jumps)
         sizes, sigmas = (
             np.reshape(x, (-1, *[1] * len(node.shape)))
             for x in ([t.size for t in self.by], [t.deviation for t in self.by])
@@ -206,6 +206,7 @@ def _is_step(node: Node) -> bool:
     return node.op == "where" and all(part.op == "constant" for part in node.args[1:])
 
 
-def _untold(lost: Node, gaps: Sequence[Gap]) -> str:
+def untold(lost: Node, gaps: Sequence[Gap]) -> str:
+    """Why nothing is known of a quantity that is not recorded."""
     told = (str(gap) for gap in gaps if gap.line == lost.line)
     return next(told, f"what line {lost.line} does is not followed")
