@@ -67,8 +67,7 @@ class RunBands:
             heads,
             *(row + [""] * (len(heads) - len(row)) for row in (b.cells() for b in self.banded if not b.listed)),
         ]
-        wide = [max(map(len, column)) for column in zip(*rows, strict=True)]
-        shown = ["  ".join(text.ljust(w) for text, w in zip(row, wide, strict=True)).rstrip() for row in rows]
+        shown = numbers.aligned(rows)
         return [
             f"within {', '.join(map(str, self.by.values()))}",
             *shown,

@@ -18,7 +18,7 @@ from mechsheet.recording.numbers import numbers as recomputed
 from mechsheet.recording.operations import Values
 from mechsheet.recording.slopes import seen, slopes, unfollowed
 from mechsheet.worksheet import inputs, numbers
-from mechsheet.worksheet.deviation import SIGMAS
+from mechsheet.worksheet.deviation import LIKE, SIGMAS
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.kinds import Input
 
@@ -63,7 +63,7 @@ def tolerances(g: Any) -> dict[str, Tolerance]:
                 raise SheetError(f"tolerance {field.tolerance.text(field.unit)}: {reason}", field.name)
             found[field.name] = Tolerance(field, getattr(g, field.name), size * units.parse(field.unit).factor)
     if not found:
-        raise SheetError("no input has a tolerance: behind the limits of one write ; ± 0.001, ± 1 % or ± 0.001 normal")
+        raise SheetError(f"no input has a tolerance: behind the limits of one write ; {LIKE}")
     return found
 
 

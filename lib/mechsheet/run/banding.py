@@ -144,8 +144,7 @@ def _in_all_ways(
         row = [numbers.significant(value, 6), *(f"± {off(x[k])}" for x in (worst, squares))]
         bound = _ends(low[k], high[k]) if narrow[k] else numbers.CELL.none
         rows.append([*row, _ends(drawn[0][k], drawn[1][k]), *[bound] * any_narrow])
-    wide = [max(map(len, column)) for column in zip(*rows, strict=True)]
-    yield from ("  ".join(text.ljust(w) for text, w in zip(row, wide, strict=True)).rstrip() for row in rows)
+    yield from numbers.aligned(rows)
     if sampled.lost:
         yield f"{sampled.lost} of {_CASES} random cases have no value: {sampled.reason}"
     elif not band.why:
