@@ -14,7 +14,7 @@ from mechsheet.recording.banded import run_bands
 from mechsheet.recording.bands import Bands, tolerances
 from mechsheet.recording.enclosed import enclosed
 from mechsheet.recording.record import record
-from mechsheet.run import arguments, batch
+from mechsheet.run import arguments, banding, batch
 from mechsheet.studies.sweep import sweep
 from mechsheet.studies.tolerance import tolerance
 from mechsheet.worksheet import cells
@@ -133,6 +133,16 @@ c = assembled("closes", C, g.F, (2.0, 8.0), "F", "-")"""
         assert bands(cells.load(path))[0].sure["closes"] == said
 
 
+def test_of_a_check_that_is_not_evaluated_nothing_is_sure(tmp_path):
+    sheet = off(
+        tmp_path,
+        9,
+        more="\ngap = np.where(g.F > 9, g.F, np.nan)  # [-] is no number\ncheck_3 = check('reserve', gap, 9)",
+    )
+    found, names = bands(sheet)
+    assert not names["check_3"].evaluated and "reserve" not in found.sure
+
+
 def test_guaranteed_bounds_hold_all_cases(tmp_path):
     sheet = off(tmp_path, 9)
     names = sheet.run(sheet.results, {"g": sheet.inputs()})
@@ -179,8 +189,9 @@ def test_the_page_shows_bands_and_what_matters_once_it_is_asked(serve, page, con
     study, moment = page.locator(".ms-study"), page.locator("#line-M .ms-value")
     study.wait_for()
     assert page.locator("[data-band]").count() == 0
-    study.get_by_role("checkbox").click()
+    study.get_by_role("checkbox").first.click()
     expect(moment).to_have_attribute("data-band", "± up to 160 N·m")
+    assert "160" in moment.evaluate("e => getComputedStyle(e, '::after').content"), "it is seen"
     expect(page.locator("#line-H .ms-value")).to_have_attribute("data-band", "± 0.1 mm")
     expect(page.locator("#check-moment-where-the-work-begins")).to_have_attribute(
         "data-band", re.compile("in 92.* at worst")
@@ -194,6 +205,13 @@ def test_the_page_shows_bands_and_what_matters_once_it_is_asked(serve, page, con
     field.fill("25")
     field.press("Enter")
     expect(moment, "half the force").to_have_attribute("data-band", "± up to 79 N·m")
-    study.get_by_role("checkbox").click()
+    study.get_by_role("checkbox").first.click()
     until(page, lambda: page.locator("[data-band]").count() == 0, "bands stay")
     assert console_errors == []
+
+
+def test_what_matters_is_known_of_a_worksheet_with_lists(tmp_path):
+    sheet = cells.load(EXAMPLES / "bolted_joint.py")
+    names = sheet.run(sheet.results, {"g": sheet.inputs()})
+    tornado, table = banding.matters(sheet, names, "p_K", "least")
+    assert len(table.columns[0].values) > 5 and tornado

@@ -11,6 +11,7 @@ from mechsheet.html import write
 from mechsheet.recording.lines import Recording
 from mechsheet.recording.node import Node
 from mechsheet.recording.numbers import numbers
+from mechsheet.recording.record import record
 from mechsheet.worksheet import cells
 
 CHOSEN = {  # how a text comes from the inputs; other inputs of OTHER give another one, and some the same
@@ -96,9 +97,9 @@ def test_no_number_stands_under_the_text_of_other_inputs(chosen: str, shown: str
         "table_2 = table('2', 'Forces', y, show={'y': unit})",
     ],
 )
-def test_units_and_reasons_leave_a_number_as_it_is(shown: str, tmp_path: Path) -> None:
+def test_units_and_reasons_leave_a_number_as_it_is(shown: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """A number in the unit that was chosen is right beside that unit, and a reason goes with other inputs."""
-    SHOWN["beside"] = f"unit = 'deg' if g.F < 3 else 'rad'\n{shown}"
+    monkeypatch.setitem(SHOWN, "beside", f"unit = 'deg' if g.F < 3 else 'rad'\n{shown}")
     sheet = sheet_of(tmp_path, "expression", "beside")
     _, recording = recorded(sheet)
     nodes = held(recording)
@@ -113,6 +114,8 @@ def test_units_and_reasons_leave_a_number_as_it_is(shown: str, tmp_path: Path) -
         ("mo.md('plain words')", False),
         ("caption('2', 'plain words')", False),
         ("caption('2', title='plain words')", False),
+        ("{2.5: mo.md('plain words')}[g.F]", True),
+        ("[mo.md('plain words') for _ in (0,) if g.F < 3]", True),
         ("mo.md('plain words' if g.F < 3 else 'other words')", True),
         ("mo.md(['plain words', 'other words'][int(g.F // 3)])", True),
         ("mo.md((g.F < 3 and 'plain words') or 'other words')", True),
@@ -168,3 +171,16 @@ def test_checks_that_stand_together_are_named_once_where_one_is_not_recorded(tmp
     parts = [check.parts[0] for check in recording.checks.values()]
     known = numbers(parts, {recording.inputs["F"]: 3.25})
     assert not any(np.isfinite(known[part]).any() for part in parts)
+
+
+def test_a_position_that_is_marked_rests_on_what_was_seen(tmp_path: Path) -> None:
+    lines = "kind = 'low' if g.F < 3 else 'high'\nm = mark(F=g.F if kind == 'low' else 7.0)"
+    path = Path(own(tmp_path, lines).path)
+    text = path.read_text().replace("import ask, find", "import ask, find, mark", 1)
+    path.write_text(text.replace("    typeset()\n", "    typeset(m)\n", 1))
+    sheet = cells.load(path)
+    names = sheet.run(sheet.results, {"g": sheet.inputs()})
+    recording = record(names, sheet, whole=True, every=1, draws=True)
+    at = recording.positions["F"]
+    there = [float(numbers([at], {recording.inputs["F"]: F})[at]) for F in (2.75, 4.0)]
+    np.testing.assert_equal(there, [2.75, np.nan])

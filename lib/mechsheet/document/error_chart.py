@@ -13,7 +13,7 @@ FULL = 16.0  # digits of a float
 SPARE = 1.0  # digits that a result may lose beyond its condition number
 
 
-class Timed(Protocol):
+class Plotted(Protocol):
     """What a chart shows of a method: its error, the median of its run times [s], and the methods of its family."""
 
     @property
@@ -88,9 +88,9 @@ class WorkPrecision(Charted, Figure):
     methods of the front.
     """
 
-    rows: Sequence[Timed] = field(kw_only=True)
-    own: Timed | None = None
-    front: Sequence[Timed] = ()
+    rows: Sequence[Plotted] = field(kw_only=True)
+    own: Plotted | None = None
+    front: Sequence[Plotted] = ()
     noise: float = 0.0  # within which errors count as equal
 
     logarithmic: ClassVar[bool] = True
@@ -144,7 +144,7 @@ class WorkPrecision(Charted, Figure):
             .configure_title(fontSize=14, anchor="start", offset=12)
         )
 
-    def _behind(self, own: Timed, x_ends: tuple[float, float], y_ends: tuple[float, float]) -> list[Any]:
+    def _behind(self, own: Plotted, x_ends: tuple[float, float], y_ends: tuple[float, float]) -> list[Any]:
         """What lies behind the points: the band of rounding, the field of better methods and the front."""
         import altair as alt  # on use: only a page needs it
 
@@ -177,7 +177,7 @@ _OTHERS = (
 )
 
 
-def families(rows: Sequence[Timed]) -> list[tuple[str, slice]]:
+def families(rows: Sequence[Plotted]) -> list[tuple[str, slice]]:
     """Neighbours of one family, by its name."""
     starts = [i for i, row in enumerate(rows) if i == 0 or row.family != rows[i - 1].family]
     return [(rows[a].family, slice(a, b)) for a, b in zip(starts, [*starts[1:], len(rows)], strict=True)]

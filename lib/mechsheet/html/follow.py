@@ -39,9 +39,7 @@ class Follower:
         self.keys: dict[Node, str] = {}
         self.specs: list[Spec] = []
         self.drawn: dict[int, Drawn] = {}  # recorded drawings by the identity of what is shown
-        self.pictures: dict[
-            int, str
-        ] = {}  # by the order of the elements; of charts and drawings as the worksheet has them
+        self.pictures: dict[int, str] = {}  # charts and drawings as the worksheet has them, by their elements
         self._asked: list[Node] = []  # for the next element
         self._slid: dict[Node, frozenset[str]] = {}
         self.texts: tuple[str, ...] = ()  # of the cell whose parts are written
@@ -59,7 +57,9 @@ class Follower:
         """Whether all that a control moves in a part is recorded."""
         if isinstance(part, Line):
             held = self.recording.values.get(part.formula.name)
-            return isinstance(held, Quantity) and held.extent == np.shape(part.value)
+            if not isinstance(held, Quantity) or held.extent != np.shape(part.value):
+                return False
+            return not any(node.op == "exported" for node in bottom_up(held.parts, ()))
         if isinstance(part, Mark):
             return all(name in self.recording.positions for name, _ in part.positions)
         own = list(showing.drawings(part))

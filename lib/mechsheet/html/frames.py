@@ -55,19 +55,17 @@ def _moved(
     while more := {n for n, c in enumerate(sheet.cells) if n not in cells and c.needs & names and "g" not in c.gives}:
         cells |= more
         names |= {name for n in more for name in sheet.cells[n].gives}
-    still = {name: value for name, value in namespace.items() if name not in names}
+    resting = {name: value for name, value in namespace.items() if name not in names}
     left = {n: parts for n in cells if (parts := [p for p in shown.get(n, ()) if not page.follows(p)])}
     drawn = any(any(showing.drawings(part)) for parts in left.values() for part in parts)
-    want, found = (
-        sorted(names - {control.name}),
-        Moved(control, _positions(control, _MOST_PICTURES if drawn else _MOST)),
-    )
+    want = sorted(names - {control.name})
+    found = Moved(control, _positions(control, _MOST_PICTURES if drawn else _MOST))
     if not left:
         return found
     own = namespace[control.name]
     for x in found.positions:
         slider: Slider = replace(own, value=x)
-        at = sheet.run(want, {**still, control.name: slider})
+        at = sheet.run(want, {**resting, control.name: slider})
         for n, parts in by_cell(at, cells).items():
             for k, part in enumerate(parts):
                 if page.follows(shown[n][k]):

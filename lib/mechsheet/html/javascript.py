@@ -66,7 +66,7 @@ def module(recording: Recording, wanted: Mapping[str, Node]) -> str:
 
 @cache
 def runtime(*files: str) -> str:
-    """The functions that a script stands on, without their comments."""
+    """Texts of files beside this one, without indents, empty lines, and comments that begin with //."""
     texts = [Path(__file__).with_name(name).read_text(encoding="utf-8") for name in files]
     return "\n".join(line.strip() for text in texts for line in text.splitlines() if line.strip()[:2] not in ("", "//"))
 

@@ -49,8 +49,9 @@ function move(name, at) {
   if (state.refused) return showMoved(name);
   state.results = computed();
   told.shown.forEach((spec, n) => {
-    if (!spec.slid?.includes(name) || spec.control || state.results.guards.length) return;
-    if (state.changed.size || spec.slid.some(isSlid)) showOne(spec, n);
+    if (!spec.slid?.includes(name) || spec.control) return;
+    if (state.results.guards.length) empty(spec, shownBy[n], state.results.guards[0]);
+    else if (state.changed.size || spec.slid.some(isSlid)) showOne(spec, n);
     else showFirst(n);
   });
   showMoved(name);
@@ -64,7 +65,7 @@ function positionOf(spec) {
 }
 
 function showAlong(spec, element) {
-  const results = (state.results ??= computed());
+  const results = state.results;
   if (results.guards.length) return;
   grey(element, show.value(spec, element, results) ? "" : reasonOf(spec, results));
 }

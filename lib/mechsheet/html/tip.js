@@ -15,7 +15,7 @@ function place(x, y) {
 // Values of a chart: those that it was drawn with here, or those of the document's own.
 function readingsOf(chart) {
   if (!chart.dataset.values) {
-    const spec = told.shown[chart.parentElement.dataset.n], results = (state.results ??= computed());
+    const spec = told.shown[chart.parentElement.dataset.n], {results} = state;
     const columns = spec.columns.map(column => columnValues(column, results));
     const held = document.createElement("template");
     held.innerHTML = columns.every(Boolean) ? chartSVG(spec, columns, results) : "";

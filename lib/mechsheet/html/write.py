@@ -26,7 +26,6 @@ from mechsheet.worksheet.inputs import Used, declared
 from mechsheet.worksheet.lines import registry
 from mechsheet.worksheet.title import Title
 
-_HERE = Path(__file__).parent
 _SCRIPTS = (
     "format.js",
     "chart.js",
@@ -40,7 +39,10 @@ _SCRIPTS = (
     "start.js",
 )
 _SHOWING = {"md", "title_block", "table", "figure", "caption"}  # calls whose texts a page shows
-_CHOICES = (ast.IfExp, ast.BoolOp, ast.Subscript, ast.If, ast.For, ast.While, ast.Match, ast.FunctionDef, ast.Lambda)
+_CHOICES = (
+    *(ast.IfExp, ast.BoolOp, ast.Subscript, ast.Dict, ast.ListComp, ast.SetComp, ast.DictComp, ast.GeneratorExp),
+    *(ast.If, ast.For, ast.While, ast.Match, ast.Try, ast.FunctionDef, ast.Lambda),
+)
 _STUDIES = ("mechsheet.accuracy.", "mechsheet.studies.")
 # The page asks for nothing: what it shows and runs stands in it.
 _POLICY = (

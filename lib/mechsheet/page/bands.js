@@ -17,9 +17,10 @@
 
   // A number that changes has lost its band, and so have all others: they wait for new ones.
   const NUMBERS = ".ms-line, .ms-table, [id^=check-]";
-  const isNumber = ({ target }) => {
+  const isNumber = ({ target, removedNodes }) => {
     const shown = (target.closest ? target : target.parentElement)?.closest(NUMBERS);
-    return shown?.isConnected && !shown.closest(".ms-matters");
+    if (shown?.isConnected) return !shown.closest(".ms-matters");
+    return [...removedNodes].some((e) => e.querySelector && !e.closest(".ms-matters") && (e.matches(NUMBERS) || e.querySelector("[data-band]")));
   };
   const changes = new MutationObserver((records) => records.some(isNumber) && clear());
 

@@ -1,4 +1,4 @@
-"""The end of a page: buttons that make a file when they are pressed, a switch that proves, and what these say."""
+"""The end of a page: what it may be asked for, and buttons that make a file when they are pressed."""
 
 from collections.abc import Callable, Iterable, Mapping
 from functools import partial
@@ -18,33 +18,26 @@ class File(NamedTuple):
     made: Callable[[], tuple[bytes, Iterable[str]]]
 
 
-def download(*files: File, asked: Asked, namespace: Mapping[str, Any], proof: Callable[[], str]) -> mo.Html:
-    """Buttons of some files, and the switch of a proof.
+def download(*files: File, asked: Asked, namespace: Mapping[str, Any]) -> mo.Html:
+    """Buttons of some files; once one is pressed, the lines that come with its bytes stand below them.
 
-    Once a button is pressed, the lines that come with its bytes stand below; while it is switched on, the HTML of the
-    proof does. Above them stands what else the page may be ``asked`` for, of the values in its ``namespace``.
+    Above them stands what else the page may be ``asked`` for, of the values in its ``namespace``.
     """
-    told = {"file": "", "proof": ""}
+    told = list[str]()
 
     def shown() -> mo.Html:
-        side = "".join(button.text for button in buttons) + switch.text
-        below = f'<div class="ms-note">{told["file"]}</div>{told["proof"]}'
-        return mo.Html(f'<div>{study.text}<div class="ms-row">{side}</div>{below}</div>')
+        lines = "<br>".join(map(escape, told))
+        side = "".join(button.text for button in buttons)
+        return mo.Html(f'<div>{study.text}<div class="ms-row">{side}</div><div class="ms-note">{lines}</div></div>')
 
     def redraw() -> None:
         mo.output.replace(shown())
 
     def pressed(file: File) -> bytes:
-        data, lines = file.made()
-        told["file"] = "<br>".join(map(escape, lines))
+        data, told[:] = file.made()
         redraw()
         return data
 
-    def switched(on: bool) -> None:
-        told["proof"] = proof() if on else ""
-        redraw()
-
     study = Study(asked, namespace, redraw)
     buttons = [mo.download(partial(pressed, file), filename=file.name, label=file.label) for file in files]
-    switch = mo.ui.switch(label="every number proved", on_change=switched)
     return shown()

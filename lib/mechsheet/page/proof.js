@@ -4,7 +4,7 @@
 
   const grey = new Highlight();
   CSS.highlights.set("ms-unproved", grey);
-  const SHOWN = ".ms-table, ms-verdict"; // what other numbers would change
+  const SHOWN = ".ms-table:not(.ms-matters *), ms-verdict"; // what other numbers would change
 
   class Proof extends HTMLElement {
     connectedCallback() {
@@ -15,7 +15,7 @@
       document.addEventListener("change", this.given);
       for (const [table, block, row, column, off] of JSON.parse(this.getAttribute("unproved"))) {
         const host = document.getElementById(`table-${table}`)?.closest(".ms-table");
-        const text = host?.querySelectorAll("table")[block]?.tBodies[0].rows[row]?.cells[column]?.firstChild;
+        const text = host?.querySelectorAll("table:not(.ms-chosen)")[block]?.tBodies[0].rows[row]?.cells[column]?.firstChild;
         if (!text) continue;
         const ends = { startContainer: text, endContainer: text, endOffset: text.length };
         grey.add(new StaticRange({ ...ends, startOffset: lost(text.data, off) }));
@@ -34,7 +34,7 @@
 
     end() {
       this.disconnectedCallback();
-      this.textContent = "The page shows other numbers now: prove these by switching off and on.";
+      this.textContent = "The page shows other numbers now: these are proved as soon as it rests.";
     }
   }
   customElements.define("ms-proof", Proof);

@@ -1,4 +1,4 @@
-"""What a page shows beyond the numbers when it is asked: bands within tolerances, and what a result depends on.
+"""What a page shows beyond the numbers when it is asked: bands, what a result depends on, a proof of all digits.
 
 Nothing is computed before; then it follows whatever changes on the page.
 """
@@ -16,7 +16,8 @@ from mechsheet.document.blocks import blocks
 from mechsheet.page import notebook, values
 from mechsheet.page.script import element, script
 from mechsheet.recording.banded import NOTE, Banded, RunBands, off
-from mechsheet.worksheet import numbers
+from mechsheet.worksheet import mistakes, numbers
+from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.table import Table
 
 T = TypeVar("T")
@@ -25,28 +26,33 @@ _AT = "least"  # position at which a result is looked at unless another is chose
 
 
 class Asked(NamedTuple):
-    """What computes that which a page may be asked for: bands of tables and of all else; what a result depends on."""
+    """What computes that which a page may be asked for.
+
+    These are bands of tables and of all else, what a result depends on, and the HTML of a proof.
+    """
 
     results: Sequence[str]
     bands: Callable[[], tuple[RunBands, Sequence[Table]]]
     matters: Callable[[str, str], Sequence[Any]]
+    proof: Callable[[], str]
 
 
 class Study:
-    """A switch for the bands, and fields for a result and a position, with what they ask for below them."""
+    """Switches for bands and proof, and fields for a result and a position, with what they ask for below them."""
 
     def __init__(self, asked: Asked, namespace: Mapping[str, Any], redraw: Callable[[], object]) -> None:
         self.asked, self.namespace, self.redraw = asked, namespace, redraw
         self.bands = mo.ui.checkbox(label="tolerances", on_change=self.changed)
         self.result = mo.ui.dropdown(list(asked.results), label="what matters for", on_change=self.changed)
         self.position = mo.ui.text(value=_AT, label="at position", on_change=self.changed)
+        self.proof = mo.ui.checkbox(label="every number proved", on_change=self.changed)
         self.told, self.looking = "", False
 
     @property
     def text(self) -> str:
         """HTML of all of it."""
-        switches = "".join(each.text for each in (self.bands, self.result, self.position))
-        return f'{script("bands.js")}<div class="ms-row ms-screen ms-study">{switches}</div>{self.told}'
+        switches = "".join(each.text for each in (self.bands, self.result, self.position, self.proof))
+        return f'{script("bands.js")}<div class="ms-row ms-screen ms-study">{switches}</div><div>{self.told}</div>'
 
     def changed(self, _: object) -> None:
         """Follow the page from now on, as long as anything is asked for."""
@@ -54,19 +60,22 @@ class Study:
             self.looking = True
             try:
                 cells, _ = notebook.running()
+                cells()
             except notebook.Unlike:  # then it is at rest as soon as its values are
                 cells = tuple
             mo.Thread(target=self.look, args=(cells,), daemon=True).start()
 
     def look(self, cells: Callable[[], tuple[notebook.Cell, ...]]) -> None:
         """Compute what is asked for again whenever the page has come to rest with other values."""
-        this, before, done = mo.current_thread(), (), ()
+        this, before, done = mo.current_thread(), list[Any](), list[Any]()
         try:
-            while not this.should_exit and (self.bands.value or self.result.value):
-                now: Any = (self.bands.value, self.result.value, self.position.value, *map(id, self.namespace.values()))
-                if now == before and now != done and not any(cell.busy for cell in cells()):
-                    self.told, done = self.answer(), now
-                    self.redraw()
+            while not this.should_exit and self.asks:
+                now = self.state()
+                if _same(now, before) and not _same(now, done) and not any(cell.busy for cell in cells()):
+                    told = self.answer()
+                    if _same(now, self.state()):  # else it is of numbers that are no longer there
+                        self.told, done = told, now
+                        self.redraw()
                 before = now
                 time.sleep(_PERIOD)
         finally:
@@ -74,24 +83,39 @@ class Study:
         if not this.should_exit:
             self.redraw()
 
+    @property
+    def asks(self) -> bool:
+        """Whether anything is asked for."""
+        return bool(self.bands.value or self.result.value or self.proof.value)
+
+    def state(self) -> list[Any]:
+        """What an answer rests on."""
+        asked = (self.bands.value, self.result.value, self.position.value, self.proof.value)
+        return [*asked, *self.namespace.values()]
+
     def answer(self) -> str:
         """HTML of what is asked for, or why there is none."""
         parts = list[str]()
         try:
+            if self.proof.value:
+                parts.append(_elsewhere(self.asked.proof))
             if self.bands.value:
                 bands, tables = _elsewhere(self.asked.bands)
                 within = escape(", ".join(map(str, bands.by.values())))
                 parts.append(element("ms-bands", told=_told(bands, tables), made=uuid4().hex))
-                parts.append(f'<div class="ms-note">Behind ± the worst case within {within}. {escape(NOTE)}</div>')
+                parts.append(f'<div class="ms-note">± is the worst case within {within}. {escape(NOTE)}.</div>')
             if self.result.value:
                 of, at = str(self.result.value), self.position.value.strip() or _AT
                 shown = _elsewhere(lambda: self.asked.matters(of, at))
                 parts += [f'<div class="ms-matters">{values.html(each)}</div>' for each in shown]
-        except Exception as error:  # of a line that cannot be followed too: the page goes on without
-            parts.append(
-                f'<div class="ms-note"><span class="ms-badge ms-FAIL">not shown</span> {escape(str(error))}</div>'
-            )
+        except Exception as error:  # of the library or of the worksheet's own lines: the page goes on without
+            why = str(error) if isinstance(error, SheetError) else mistakes.told(error, self.namespace["__file__"])
+            parts.append(f'<div class="ms-note"><span class="ms-badge ms-FAIL">not shown</span> {escape(why)}</div>')
         return "".join(parts)
+
+
+def _same(one: Sequence[Any], other: Sequence[Any]) -> bool:
+    return len(one) == len(other) and all(x is y for x, y in zip(one, other, strict=True))
 
 
 def _elsewhere(work: Callable[[], T]) -> T:

@@ -67,16 +67,19 @@ class RunBands:
             heads,
             *(row + [""] * (len(heads) - len(row)) for row in (b.cells() for b in self.banded if not b.listed)),
         ]
-        wide = [max(map(len, column)) for column in zip(*rows, strict=True)]
-        shown = ["  ".join(text.ljust(w) for text, w in zip(row, wide, strict=True)).rstrip() for row in rows]
-        return [f"within {', '.join(map(str, self.by.values()))}", *shown, NOTE]
+        shown = numbers.aligned(rows)
+        return [
+            f"within {', '.join(map(str, self.by.values()))}",
+            *shown,
+            f"{NOTE}; --tolerances --want=RESULT shows by how much one does.",
+        ]
 
     def told(self, check: Check) -> str:
         """A check with how sure it is."""
         return f"{check}; {self.sure[check.name]}" if check.name in self.sure else str(check)
 
 
-NOTE = "By the slopes: right for tolerances in which no result bends; --want=RESULT shows by how much one does."
+NOTE = "By the slopes: right for tolerances in which no result bends"
 
 
 def run_bands(
@@ -92,7 +95,9 @@ def run_bands(
     shown = [*_of_lines(recording, known, {column.of for table in tables for column in table.columns})]
     shown += _of_tables(recording, tables)
     judged = {
-        check.name: (recording.checks[check.name], check.passed) for check in checks if check.name in recording.checks
+        check.name: (recording.checks[check.name], check.passed)
+        for check in checks
+        if check.evaluated and check.name in recording.checks
     }
     found = bands.of(
         [node for *_, node, _ in shown] + [n for check, _ in judged.values() for n in bands.compared(check)]

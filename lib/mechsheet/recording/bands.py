@@ -18,7 +18,7 @@ from mechsheet.recording.numbers import numbers as recomputed
 from mechsheet.recording.operations import Values
 from mechsheet.recording.slopes import seen, slopes, unfollowed
 from mechsheet.worksheet import inputs, numbers
-from mechsheet.worksheet.deviation import SIGMAS
+from mechsheet.worksheet.deviation import LIKE, SIGMAS
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.kinds import Input
 
@@ -63,7 +63,7 @@ def tolerances(g: Any) -> dict[str, Tolerance]:
                 raise SheetError(f"tolerance {field.tolerance.text(field.unit)}: {reason}", field.name)
             found[field.name] = Tolerance(field, getattr(g, field.name), size * units.parse(field.unit).factor)
     if not found:
-        raise SheetError("no input has a tolerance: behind the limits of one write ; ± 0.001, ± 1 % or ± 0.001 normal")
+        raise SheetError(f"no input has a tolerance: behind the limits of one write ; {LIKE}")
     return found
 
 
@@ -108,7 +108,7 @@ class Bands:
         for node in new:
             lost = lacking.get(node)
             self.known[node] = (
-                self._none(node, _untold(lost, self.recording.gaps)) if lost else self._band(node, *moved[node])
+                self._none(node, untold(lost, self.recording.gaps)) if lost else self._band(node, *moved[node])
             )
         return {node: self.known[node] for node in nodes}
 
@@ -118,7 +118,7 @@ class Bands:
         if np.isnan(steeper[:, np.isfinite(node.value)]).any():
             lost = seen([node], self.inputs)
             jumps = f"it jumps or ends there by {self._jumping(steeper)}"
-            return self._none(node, _untold(lost, self.recording.gaps) if lost else jumps)
+            return self._none(node, untold(lost, self.recording.gaps) if lost else jumps)
         sizes, sigmas = (
             np.reshape(x, (-1, *[1] * len(node.shape)))
             for x in ([t.size for t in self.by], [t.deviation for t in self.by])
@@ -206,6 +206,7 @@ def _is_step(node: Node) -> bool:
     return node.op == "where" and all(part.op == "constant" for part in node.args[1:])
 
 
-def _untold(lost: Node, gaps: Sequence[Gap]) -> str:
+def untold(lost: Node, gaps: Sequence[Gap]) -> str:
+    """Why nothing is known of a quantity that is not recorded."""
     told = (str(gap) for gap in gaps if gap.line == lost.line)
     return next(told, f"what line {lost.line} does is not followed")

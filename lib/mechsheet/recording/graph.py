@@ -16,7 +16,8 @@ class NotRecorded(BaseException):
     """Something that a recording does not hold, in words; no code of a worksheet handles it."""
 
 
-MOST, MOST_DRAWN = 50_000, 2_000_000  # numbers that one statement may compute: as cells; where a page computes them
+MOST = 50_000  # numbers that one statement may compute, each a cell of a workbook
+MOST_DRAWN = 2_000_000  # the same in a page in one file, which computes them itself
 
 
 class Guard(NamedTuple):

@@ -81,8 +81,7 @@ class Node:
 
     Operations are those of `ELEMENTWISE`, on operands that are broadcast to each other, and
 
-    ==========================  =============================================================================
-
+    ==========================  ====================================================================================
     ``constant``, ``input``     numbers, with a unit where they have one; an input
     ``rows`` (count)            the numbers 0, 1, 2 .. of so many rows
     ``length`` (source, axis)   how many elements there are along an axis, which is counted from the last one
@@ -94,8 +93,7 @@ class Node:
     ``at`` (source, position)   elements by positions that are a quantity themselves
     ``join`` (sources, ..)      elements of several sources: which source, and which element of it
     ``reduce`` (source, ..)     of each group of flat positions what the kind says, one of `REDUCE`
-    ==========================  =============================================================================
-
+    ==========================  ====================================================================================
 
     A quantity ``stretches`` whose shape follows a number of rows that is a quantity. Positions are those of the present
     number; `Moved` says what they are for others.

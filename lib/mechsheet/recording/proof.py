@@ -162,9 +162,7 @@ class Proof:
         """The table, its exceptions and what is proved of found values, as texts."""
         rows = list(zip(*(column.texts() for column in self.table().columns), strict=True))
         heads = [("", "numbers", "digits proved", "least in", "")]
-        wide = [max(len(row[k]) for row in [*heads, *rows]) for k in range(5)]
-        shown = ["  ".join(text.ljust(w) for text, w in zip(row, wide, strict=True)).rstrip() for row in heads + rows]
-        return [*shown, *self.apart, *map(str, self.roots), self.table().note]
+        return [*numbers.aligned([*heads, *rows]), *self.apart, *map(str, self.roots), self.table().note]
 
 
 def prove(

@@ -133,13 +133,18 @@ class _Run:
             if name is showing.HERE:
                 self.step(stage, part.lineno, statement.facts(showing.bound(part), self.sheet.path), set())
                 if name not in self.names:
+                    self.lost.pop(name, None)
                     return
             value, own = self.names.get(name), [*showing.drawings(self.namespace.get(name))]
-            if isinstance(value, Mark):
-                self.recording.positions |= {k: lift(self.graph, x).re for k, x in value.positions}
             guards, drawn = self.looked.get(name, ()), [*showing.drawings(value)]
+            for k, x in value.positions if isinstance(value, Mark) else ():
+                at = lift(self.graph, x)
+                for guard in guards:
+                    at = where(self.graph, Quantity(self.graph, guard.holds), at, np.nan)
+                self.recording.positions[k] = at.re
             sketches = (Drawn(each, guards) if isinstance(each, Sketch) else None for each in drawn)
             found += [None] * len(own) if own and len(own) != len(drawn) else sketches
+        self.names.pop(showing.HERE, None)
         self.recording.drawings[self.sheet.cells.index(cell)] = found
 
     def step(self, stage: Stage, line: int, facts: statement.Statement, later: set[str]) -> None:

@@ -33,9 +33,14 @@ def bands_of(namespace: Mapping[str, Any], sheet: Worksheet, checks: Iterable[Ch
     Raises SheetError where no input has a tolerance, or one breaks a limit of its input.
     """
     by = tolerances(namespace["g"])
+    recording = record(namespace, sheet, whole=True)
+    return run_bands(recording, tables_of(namespace), _own(checks, namespace), registry(namespace), by)
+
+
+def _own(checks: Iterable[Check], namespace: Mapping[str, Any]) -> list[Check]:
+    """Checks under the limits of the worksheet, not of a scene, which are not recorded."""
     own = {check.name: check.limit for check in parts.values(namespace) if isinstance(check, Check)}
-    checks = [check for check in checks if own.get(check.name) == check.limit]  # not those of a scene
-    return run_bands(record(namespace, sheet, whole=True), tables_of(namespace), checks, registry(namespace), by)
+    return [check for check in checks if own.get(check.name) == check.limit]
 
 
 def tables_of(namespace: Mapping[str, Any]) -> list[Table]:
@@ -60,7 +65,7 @@ def matters(sheet: Worksheet, namespace: Mapping[str, Any], name: str, position:
     at: Any = int(position) if position.isdecimal() else position
     if not isinstance(at, int) and at not in ("least", "greatest"):
         raise SheetError(f"position {as_given(position)} must be least, greatest or a number from 0")
-    given = {field.name: value for field, value in Used(namespace["g"]).rows()}
+    given = Used(namespace["g"]).given()
     found = shown.study("sensitivity")(sheet.path, [name], **given)
     title = f"What matters for {name}"
     return found.tornado("", title, name, at), found.table("", title, name, at)
@@ -83,14 +88,15 @@ def lines(
     yield f"within {', '.join(map(str, by.values()))}"
     if nodes:
         found = bands.of(nodes.values())
-        drawn = {"seed": 1, "count": _CASES, **given.inputs}
-        sampled = shown.study("tolerance")(sheet.path, [*nodes], None, "monte carlo", **drawn)
+        here = Used(namespace["g"]).given()
+        drawn = {name: here[name] for name in given.inputs}
+        sampled = shown.study("tolerance")(sheet.path, [*nodes], None, "monte carlo", seed=1, count=_CASES, **drawn)
         bounds = _bounds(nodes.values(), recording.inputs, by)
         for name, node in nodes.items():
             yield from _in_all_ways(name, node, known[base(name)], found[node], sampled, bounds[node], by)
-    judged = {check.name: check for check in checks if check.name in recording.checks}
-    for name, check in judged.items():
-        yield f"{name}: {check.verdict} {bands.sure(recording.checks[name], check.passed)}"
+    for check in _own(checks, namespace):
+        if check.evaluated and check.name in recording.checks:
+            yield f"{check.name}: {check.verdict} {bands.sure(recording.checks[check.name], check.passed)}"
 
 
 def part_of(name: str, values: Mapping[str, Any]) -> Node | None:
@@ -138,8 +144,7 @@ def _in_all_ways(
         row = [numbers.significant(value, 6), *(f"± {off(x[k])}" for x in (worst, squares))]
         bound = _ends(low[k], high[k]) if narrow[k] else numbers.CELL.none
         rows.append([*row, _ends(drawn[0][k], drawn[1][k]), *[bound] * any_narrow])
-    wide = [max(map(len, column)) for column in zip(*rows, strict=True)]
-    yield from ("  ".join(text.ljust(w) for text, w in zip(row, wide, strict=True)).rstrip() for row in rows)
+    yield from numbers.aligned(rows)
     if sampled.lost:
         yield f"{sampled.lost} of {_CASES} random cases have no value: {sampled.reason}"
     elif not band.why:
@@ -151,15 +156,15 @@ def _in_all_ways(
     if not narrow.all():
         where = f" at {np.count_nonzero(~narrow)} of {values.size} positions" if narrow.any() else ""
         yield f"bounds that balls guarantee are none, or too wide to tell anything{where}"
-    if not band.why:
-        yield f"most by {', '.join(_mattering(name, line, band, by))}"
+    if not band.why and (most := ", ".join(_mattering(line, band, by))):
+        yield f"most by {most}"
 
 
-def _mattering(name: str, line: Formula, band: Band, by: Mapping[str, Tolerance]) -> Iterator[str]:
+def _mattering(line: Formula, band: Band, by: Mapping[str, Tolerance]) -> Iterator[str]:
     """The inputs that move a result most where its worst case is greatest, and by how much."""
     k = int(np.argmax(np.nan_to_num(band.worst).reshape(-1)))
     moves = np.abs(band.moves.reshape(len(by), -1)[:, k]) / units.parse(line.unit).factor
-    for i in np.argsort(-moves, kind="stable")[:_MOST]:
+    for i in np.argsort(-moves, kind="stable")[: min(_MOST, np.count_nonzero(moves))]:
         yield f"{[*by][i]} (± {off(moves[i])}{numbers.suffix(line.unit)})"
 
 

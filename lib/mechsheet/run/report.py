@@ -43,10 +43,11 @@ def export(title: str, namespace: Mapping[str, Any]) -> Any:
     ``namespace`` is the last cell's ``globals()``.
 
     In the page: a button that builds it when pressed, and then tells what it does not follow; beside it one that writes
-    the document as a page in one file, and a switch that proves the digits of all numbers. In
-    ``python worksheet.py``: prints the found values and the checks, writes ``NAME.xlsx`` into ``exports/`` of the
-    project whose worksheet it is, elsewhere beside the worksheet (or into ``--out``), and exits with 1 where a name
-    that some cell returns does not exist or a check fails. Where a group does not close, nothing is written.
+    the document as a page in one file, and above them switches for bands within tolerances, for what a result depends
+    on, and for a proof of the digits of all numbers. In ``python worksheet.py``: prints the found values and the
+    checks, writes ``NAME.xlsx`` into ``exports/`` of the project whose worksheet it is, elsewhere beside the worksheet
+    (or into ``--out``), and exits with 1 where a name that some cell returns does not exist or a check fails. Where a
+    group does not close, nothing is written.
     """
     worksheet = Path(namespace["__file__"])
     if arguments.is_script(str(worksheet)):
@@ -64,7 +65,6 @@ def export(title: str, namespace: Mapping[str, Any]) -> Any:
         return html.page(sheet, namespace["g"]).encode(), []
 
     sheet = load(worksheet)
-    asked = study.Asked(results_of(namespace), partial(_bands, sheet, namespace), partial(matters, sheet, namespace))
 
     def proof() -> str:
         from mechsheet.page import proved  # on use: only a proof needs balls
@@ -72,10 +72,12 @@ def export(title: str, namespace: Mapping[str, Any]) -> Any:
         recording, _ = _recorded(namespace)
         return proved.html(proof_of(namespace, sheet, recording), _of(Table, parts.values(namespace)))
 
+    bands, matter = partial(_bands, sheet, namespace), partial(matters, sheet, namespace)
+    asked = study.Asked(results_of(namespace), bands, matter, proof)
     files = [File(f"{worksheet.stem}.xlsx", "Excel workbook", book)]
     if not html.studies(sheet):
         files.append(File(f"{worksheet.stem}.html", "Page in one file", page))
-    return download(*files, asked=asked, namespace=namespace, proof=proof)
+    return download(*files, asked=asked, namespace=namespace)
 
 
 def _bands(sheet: Worksheet, namespace: Mapping[str, Any]) -> tuple[RunBands, list[Table]]:

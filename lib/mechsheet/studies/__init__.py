@@ -1,1 +1,4 @@
-"""Many runs of one worksheet: sweeps, sensitivity, tolerances, design. Stands on the run room and those below."""
+"""Many runs of one worksheet: sweeps, sensitivity, tolerances, design and its command.
+
+Stands on the run room and those below.
+"""

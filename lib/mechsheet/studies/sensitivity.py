@@ -9,8 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mechsheet import units
-from mechsheet.recording.graph import Gap
-from mechsheet.recording.node import Node
+from mechsheet.recording.bands import untold
 from mechsheet.recording.numbers import numbers as recomputed
 from mechsheet.recording.record import record
 from mechsheet.recording.slopes import Slope, seen, slopes, solved_under, unfollowed
@@ -276,7 +275,9 @@ def _of_recording(
         if node and np.isnan([*here[node]]).all(0).any() and not lacking[name]:
             lacking[name] = seen([node], inputs)
     exact = {name: node for name, node in nodes.items() if node and not lacking[name]}
-    why = {name: _untold(lacking.get(name), recording.gaps) for name in names if name not in exact}
+    none = "it is no recorded number"
+    why = dict.fromkeys((name for name in names if name not in exact), none)
+    why |= {name: untold(node, recording.gaps) for name, node in lacking.items() if node}
     wanted = list(dict.fromkeys(exact.values()))
     off = {node: np.zeros_like(here[node].ahead) for node in wanted}
     rng = np.random.default_rng(0)
@@ -292,14 +293,6 @@ def _of_recording(
             own = np.abs(there[node].both - here[node].both) + np.finfo(float).eps * np.abs(here[node].both)
             off[node] = np.maximum(off[node], 4 * own)
     return {name: (here[node], off[node]) for name, node in exact.items()}, why
-
-
-def _untold(lacking: Node | None, gaps: Sequence[Gap]) -> str:
-    """What of a result is not recorded."""
-    if lacking is None:
-        return "it is no recorded number"
-    told = (str(gap) for gap in gaps if gap.line == lacking.line)
-    return next(told, f"what line {lacking.line} does is not followed")
 
 
 def _corner(name: str, slope: Slope, i: int) -> str:

@@ -11,7 +11,7 @@ from mechsheet.worksheet.errors import SheetError
 SIGMAS = 3.0  # standard deviations that the tolerance of a normal distribution stands for
 _SIGN = re.compile(r"(?:±|\+/?-)\s*(.*?)\s*(normal)?")
 _AT_END = re.compile(r"(?:±|\+/?-)\s*[\d.,]+[^;]*$")
-_LIKE = "± 0.001, ± 1 % or ± 0.001 normal"
+LIKE = "± 0.001, ± 1 % or ± 0.001 normal"
 
 
 class Number(Protocol):
@@ -72,7 +72,7 @@ def read(text: str, own: Number, part: Number) -> Deviation:
     try:
         x = float(field.read(amount.removesuffix("%").strip()))
     except SheetError as error:
-        raise SheetError(f"tolerance of {error}; it is such as {_LIKE}") from None
+        raise SheetError(f"tolerance of {error}; it is such as {LIKE}") from None
     if not 0 <= x < inf:
         raise SheetError(f"tolerance of {field.says(numbers.significant(x, 10))} must be a finite number >= 0")
     return Deviation(x, percent, normal)

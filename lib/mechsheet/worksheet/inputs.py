@@ -429,6 +429,10 @@ class Used(Shown):
             (field, field.written(getattr(self.g, field.name), getattr(cls, field.name))) for field in declared(cls)
         ]
 
+    def given(self) -> dict[str, Any]:
+        """What gives these values when it is read as inputs: of a list or table its text, which is no variants."""
+        return {f.name: x if type(f) is Input else f.text(getattr(self.g, f.name)) for f, x in self.rows()}
+
     @property
     def changed(self) -> set[str]:
         """Names of the inputs that differ from the worksheet's own."""

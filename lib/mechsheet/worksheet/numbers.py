@@ -211,3 +211,9 @@ def suffix(unit: str) -> str:
     (' m/s²', '')
     """
     return "" if unit == "-" else f" {units.shown(unit)}"
+
+
+def aligned(rows: Sequence[Sequence[str]]) -> list[str]:
+    """Rows of equally many texts as lines of columns."""
+    wide = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    return ["  ".join(text.ljust(w) for text, w in zip(row, wide, strict=True)).rstrip() for row in rows]
