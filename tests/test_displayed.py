@@ -139,7 +139,7 @@ def cells(text: str, tag: str) -> list[str]:
 def assert_table(table: Table, names: dict[str, object]) -> int:
     """Cells against the columns' values, whose unit is the one in the heading; columns against the names' SI values."""
     text, count = table._mime_()[1], 0
-    columns = {re.sub("[^A-Za-z0-9]", "", c.symbol): c for c in table.columns}
+    columns = {re.sub("[^A-Za-z0-9±]", "", c.symbol): c for c in table.columns}
     for block in re.findall(r"<table>(.*?)</table>", text):
         head, units_row = re.findall(r"<tr.*?</tr>", block)[:2]
         heads, units_shown = cells(head, "th"), [u.strip("[]") for u in cells(units_row, "th")]
@@ -148,7 +148,7 @@ def assert_table(table: Table, names: dict[str, object]) -> int:
             greek = {"Φ": "Phi", "φ": "phi", "ω": "omega", "ε": "eps", "Δ": "d", "β": "beta", "α": "alpha",
                      "γ": "gamma", "μ": "mu", "σ": "sigma", "ψ": "psi", "δ": "delta", "θ": "theta", "η": "eta",
                      "λ": "lambda"}  # fmt: skip
-            ascii_name = re.sub("[^A-Za-z0-9]", "", "".join(greek.get(c, c) for c in name))
+            ascii_name = re.sub("[^A-Za-z0-9±]", "", "".join(greek.get(c, c) for c in name))
             column = columns.get(ascii_name) or columns[ascii_name.replace("eps", "epsilon", 1)]
             assert_column(column, unit, names)
             assert abs(factor(unit) / factor(column.unit.replace("**", "^").replace("*", "·")) - 1) < 1e-12

@@ -239,7 +239,7 @@ def _same_formula(x: Content, y: Content) -> bool:
 
 def _same_value(x: Content, y: Content, alike: Alike, scale: Scale) -> bool:
     if alike is duration:
-        return type(x) is type(y)
+        return type(x) is type(y) or (isinstance(x, float | int) and isinstance(y, float | int))
     if alike is error and isinstance(x, str) and isinstance(y, str):
         x, y = float(x), float(y)
     if isinstance(x, float | int) and isinstance(y, float | int):

@@ -7,7 +7,10 @@
   const SHOWN = ".ms-table:not(.ms-matters *), ms-verdict"; // what other numbers would change
 
   class Proof extends HTMLElement {
+    static observedAttributes = ["made"];
+
     connectedCallback() {
+      this.classList.remove("ms-ended");
       this.shown = [...document.querySelectorAll(SHOWN)].map((each) => each.textContent).join();
       this.changed = new MutationObserver(() => this.compare());
       this.changed.observe(document.body, { childList: true, characterData: true, subtree: true });
@@ -22,6 +25,12 @@
       }
     }
 
+    attributeChangedCallback(_name, before) {
+      if (before === null) return;
+      this.disconnectedCallback();
+      queueMicrotask(() => this.isConnected && this.connectedCallback()); // once its other attributes have changed too
+    }
+
     disconnectedCallback() {
       this.changed.disconnect();
       document.removeEventListener("change", this.given);
@@ -32,9 +41,10 @@
       if ([...document.querySelectorAll(SHOWN)].map((each) => each.textContent).join() !== this.shown) this.end();
     }
 
+    // The page shows other numbers now, which are proved as soon as it rests.
     end() {
       this.disconnectedCallback();
-      this.textContent = "The page shows other numbers now: these are proved as soon as it rests.";
+      this.classList.add("ms-ended");
     }
   }
   customElements.define("ms-proof", Proof);

@@ -6,6 +6,7 @@
 from collections.abc import Iterator, Sequence
 from html import escape
 from math import isfinite
+from uuid import uuid4
 
 from mechsheet.document.blocks import blocks
 from mechsheet.page import values
@@ -21,7 +22,7 @@ def html(proof: Proof, tables: Sequence[Table]) -> str:
     said = values.html(proof.check()) + "".join(f'<div class="ms-note">{escape(line)}</div>' for line in lines)
     columns = {(column.where, column.name): column for column in proof.columns}
     unproved = [place for table in tables for place in _unproved(table, columns)]
-    return script("proof.js") + element("ms-proof", said, unproved=unproved)
+    return script("proof.js") + element("ms-proof", said, unproved=unproved, made=uuid4().hex)
 
 
 _Place = tuple[str, int, int, int, float | None]
