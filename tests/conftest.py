@@ -248,8 +248,9 @@ def pages(
             known[worksheet] = new_page(browser)
             report_errors(known[worksheet], errors)
         page = known[worksheet]
-        page.set_viewport_size(SIZE)
-        page.mouse.move(5, 5)
+        page.bring_to_front()  # one that is behind others may draw nothing
+        if page.viewport_size != SIZE:
+            page.set_viewport_size(SIZE)
         if worksheet not in fresh or state(page) != fresh[worksheet]:
             page.goto(serve("run", worksheet))
             page.get_by_text(text).first.wait_for()
@@ -294,7 +295,10 @@ def until(page: Page, holds: Callable[[], bool], otherwise: str) -> None:
 
 def drawn(page: Page) -> None:
     """Wait until the page has nothing left to do and has drawn what was done."""
-    page.evaluate("() => new Promise(done => requestIdleCallback(() => requestAnimationFrame(() => setTimeout(done))))")
+    page.bring_to_front()
+    page.wait_for_function(
+        "() => new Promise(done => requestIdleCallback(() => requestAnimationFrame(() => setTimeout(done, 0, true))))"
+    )
 
 
 @pytest.fixture
