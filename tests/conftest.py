@@ -249,8 +249,6 @@ def pages(
             report_errors(known[worksheet], errors)
         page = known[worksheet]
         page.bring_to_front()  # one that is behind others may draw nothing
-        if page.viewport_size != SIZE:
-            page.set_viewport_size(SIZE)
         if worksheet not in fresh or state(page) != fresh[worksheet]:
             page.goto(serve("run", worksheet))
             page.get_by_text(text).first.wait_for()

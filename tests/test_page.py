@@ -228,8 +228,11 @@ def test_outline_leads_to_the_sections(page):
     page.mouse.move(5, 5)  # off the outline
 
 
-def test_a_mark_on_every_output_styles_the_outputs_and_not_what_stands_in_them(browser, page):
+def test_a_mark_on_every_output_styles_the_outputs_and_not_what_stands_in_them(serve, browser):
     """marimo marks an output while its cell runs; formulas and tables in it must not be styled again for that."""
+    page = new_page(browser)  # so high that it may be of no use to others
+    page.goto(serve("run", HITCH))
+    ready(page)
     page.wait_for_function("() => 'measured' in document.documentElement.dataset")
     page.set_viewport_size({"width": 1280, "height": 14_000})  # cells out of sight are not styled at all
     drawn(page)
@@ -241,6 +244,7 @@ def test_a_mark_on_every_output_styles_the_outputs_and_not_what_stands_in_them(b
     events = json.loads(browser.stop_tracing())["traceEvents"]
     styled = sum(e["args"].get("elementCount", 0) for e in events if e["name"] == "UpdateLayoutTree")
     assert 0 < styled < elements / 20
+    page.context.close()
 
 
 def test_download_is_the_workbook(page, tmp_path):

@@ -38,7 +38,7 @@ def test_opens_and_reacts(name, left_open):
     page = left_open(next(WORKSHEETS.rglob(f"{name}.py")), "Excel workbook")
     count = page.get_by_text(re.compile(r"^\d+ of \d+ checks pass$")).first
     count.wait_for()
-    passed, checks = re.findall(r"\d+", count.inner_text())
+    passed, checks = re.findall(r"\d+", count.text_content())
     assert passed == checks
     before = tables(page)
     field = page.locator(f".ms-inputs tr:has-text('{meaning}') input").first
