@@ -16,11 +16,9 @@ class NotRecorded(BaseException):
     """Something that a recording does not hold, in words; no code of a worksheet handles it."""
 
 
-# Operations that give finite numbers of all finite ones; division by a constant is another.
-_ALWAYS = frozenset(
-    "input rows length take join reduce add sub mul neg abs sin cos atan2 sign floor round max min where lt le gt ge eq "
-    "ne and or not finite like".split()
-)
+# Operations that may have no finite number where all their operands have one.
+_PARTIAL = frozenset(("div", "pow", "sqrt", "exp", "log", "tan", "asin", "acos", "mod", "sized"))
+_MOVING = frozenset(("input", "rows", "length", "take", "join", "reduce"))
 MOST = 50_000  # numbers that one statement may compute, each a cell of a workbook
 MOST_DRAWN = 2_000_000  # the same in a page in one file, which computes them itself
 
@@ -406,7 +404,7 @@ def _exists(node: Node) -> bool:
         return bool(np.all(np.isfinite(node.value)))
     if node.op == "div":
         return node.args[1].op == "constant" and bool(np.all(node.args[1].value))
-    return node.op in _ALWAYS
+    return node.op in _MOVING or (node.op in ELEMENTWISE and node.op not in _PARTIAL)
 
 
 def _whole(join: Node) -> bool:
