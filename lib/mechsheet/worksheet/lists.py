@@ -144,7 +144,7 @@ class Rows(Input):
     def _columns(self, value: Any) -> dict[str, list[Any]]:
         """What is given of each column, not read yet."""
         short = {c.name.rpartition(".")[2]: c.name for c in self.columns}
-        apart = " apart by ;, rows by |" if isinstance(value, str) else ""
+        apart = " apart by ;, rows by |" if isinstance(value, str) and ";" not in value else ""
         if isinstance(value, str):
             cells = _cells(value, len(short))
             value = cells if self.row else [cell for row in cells for cell in row]
