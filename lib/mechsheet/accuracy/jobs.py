@@ -13,8 +13,8 @@ from mechsheet.accuracy import exact, printed, rivals
 from mechsheet.accuracy.arithmetic import Numbers
 from mechsheet.accuracy.precision import Job, Measured, Method, Timed, largest_error, time_spread, timed
 from mechsheet.accuracy.rivals import REACTIONS, crank_chain, hitch_chain, hitch_points
+from mechsheet.recording import numbers as computed
 from mechsheet.recording.gradients import gradient
-from mechsheet.recording.numbers import numbers
 from mechsheet.recording.record import record
 from mechsheet.recording.slopes import slopes
 from mechsheet.run import report
@@ -236,7 +236,9 @@ def study_costs(number: str, path: Path, studies: Mapping[str, Callable[[], Any]
     ways: dict[str, Callable[[], Any]] = {
         "a run of the worksheet's cells": partial(sheet.run, sheet.results, given),
         "the run recorded": partial(record, names, sheet),
-        "its tables computed by the recording": partial(numbers, columns, {node: node.value for node in inputs}),
+        "its tables computed by the recording": partial(
+            computed.numbers, columns, {node: node.value for node in inputs}
+        ),
         "their slopes by one input": partial(slopes, columns, inputs[:1]),
         f"their slopes by all {len(inputs)} inputs": partial(slopes, columns, inputs),
         f"one number's slopes by all {len(inputs)} inputs": partial(gradient, columns[-1], 0, inputs),
