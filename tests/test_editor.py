@@ -33,6 +33,8 @@ class Editor:
         page.set_viewport_size({"width": 1280, "height": 3000})
         page.goto(address)
         self.expect("2 of 2 checks pass")
+        expect(page.locator(".cm-content:visible")).to_have_count(0)  # it opens for reading, even the setup folded
+        page.get_by_label("code of all cells").check()
 
     def expect(self, text: str) -> None:
         self.page.get_by_text(text).first.wait_for()

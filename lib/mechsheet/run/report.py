@@ -16,6 +16,7 @@ from mechsheet.recording.banded import RunBands
 from mechsheet.recording.dimensions import dimensions
 from mechsheet.recording.lines import Recording, Residual
 from mechsheet.recording.record import record
+from mechsheet.recording.searched import search
 from mechsheet.run import arguments
 from mechsheet.run.banding import bands_of, matters, results_of, tables_of
 from mechsheet.run.ending import say
@@ -157,6 +158,7 @@ def _recorded(namespace: Mapping[str, Any]) -> tuple[Recording, Check]:
     """The recording of a run, and the check of its units."""
     sheet = load(namespace["__file__"])
     recording = record(namespace, sheet)
+    search(recording)
     fit = dimensions(recording, sheet, namespace, registry(namespace)).check()
     mistakes, none = recording.graph.constant(fit.residual), recording.graph.constant(fit.limit)
     recording.checks[fit.name] = Residual([mistakes], none, "-", signed=True)  # the same for all inputs
