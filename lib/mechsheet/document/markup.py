@@ -1,16 +1,19 @@
-"""Symbols and numbers in HTML."""
+"""Symbols, numbers and limits in HTML."""
 
 import re
 from html import escape
 from typing import Any
 
 from mechsheet.worksheet import numbers, symbol
+from mechsheet.worksheet.kinds import Input
 from mechsheet.worksheet.numbers import Notation
 from mechsheet.worksheet.over import Over
 
 HTML = Notation(
     "−", "none", "∞", "{}\u2009·\u200910<sup>{}</sup>", "({}, {})", " … ", "°", " %", " {}", "<sup>{}</sup>", "·"
 )
+
+_SIGNS = {"<": "&lt;", ">": "&gt;", "<=": "≤", ">=": "≥"}
 
 
 def named(name: str) -> str:
@@ -57,3 +60,16 @@ def where(field: Any, over: Over | None) -> str:
         return ""
     least, greatest = (f"{named(over.line.name)} = {numbers.value(x, over.line.unit, HTML)}" for x in ends)
     return f' <span class="ms-where">least at {least}, greatest at {greatest}</span>'
+
+
+def limits(field: Input) -> str:
+    """Limits of an input, or of one column of a table; other columns by their short names.
+
+    >>> limits(Input("b.x", "m", "", "", False, ((">", "0.5"), ("<=", "b.l_2"))))
+    '&gt;&nbsp;0.5, ≤&nbsp;<i>l</i><sub>2</sub>'
+    """
+    return ", ".join(f"{_SIGNS[sign]}&nbsp;{_limit(other)}" for sign, other in field.limits)
+
+
+def _limit(text: str) -> str:
+    return as_written(text.rpartition(".")[2]) if text[0].isalpha() else escape(text)

@@ -106,8 +106,8 @@ def _(title: Title) -> str:
     switch = '<label class="ms-screen"><input type="checkbox" class="ms-switch"> numbers in the formulas</label>'
     scripts = script("page.js") + script("units.js") + script("symbols.js", "tooltip.js")
     return (
-        f'{scripts}<div class="ms-title">{text}<div class="ms-row">{fields}{switch}</div>'
-        f"{_TOLD}{_noted(title.notes)}</div>"
+        f'{scripts}<div class="ms-title">{text}<div class="ms-row">{fields}{switch}'
+        f"{''.join(map(html, title.tools))}</div>{_TOLD}{_noted(title.notes)}</div>"
     )
 
 
