@@ -14,7 +14,7 @@ from mechsheet import units
 from mechsheet.document import chart, chart_svg, drawing_svg
 from mechsheet.document.blocks import blocks, fitting
 from mechsheet.document.expression import equation, fields_by_name
-from mechsheet.document.markup import HTML, as_written, in_words, named
+from mechsheet.document.markup import HTML, as_written, in_words, named, where
 from mechsheet.document.parts import Control, Line, Section, Text
 from mechsheet.html import index, markdown
 from mechsheet.html.follow import Follower
@@ -108,7 +108,9 @@ def still(part: Any) -> str:
 
 def value(line: Line) -> str:
     """Value of a line in its display unit; nothing of a line that is a function."""
-    return "" if line.formula.arguments else numbers.value(line.value, line.formula.unit, HTML)
+    if line.formula.arguments:
+        return ""
+    return numbers.value(line.value, line.formula.unit, HTML) + where(line.value, line.over)
 
 
 def _line(formula: str, value: str = "", told: Formula | None = None) -> str:

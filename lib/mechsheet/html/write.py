@@ -31,10 +31,12 @@ _SCRIPTS = (
     "chart.js",
     "drawing.js",
     "looks.js",
+    "given.js",
     "fields.js",
     "found.js",
     "page.js",
     "moved.js",
+    "tooltip.js",
     "tip.js",
     "start.js",
 )
