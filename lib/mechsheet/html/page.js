@@ -9,6 +9,7 @@ const shownBy = told.shown.map((spec, n) => document.querySelector(`[data-n="${n
 const contentOf = element => element.tBodies?.[0] ?? element;
 const first = shownBy.map((element, n) => told.pictures[n] ?? contentOf(element).innerHTML);
 const UNKNOWN = "not known for these inputs: it holds for the document's own";
+const DRAWN = new Set(["chart", "drawing"]);
 const MOVES_NOT = "as in the document, for its own inputs only";
 const state = {changed: new Set(), refused: false, results: null};
 const moving = new Map(); // by the name of the control: its positions, pictures and marks, and which of them is shown
@@ -45,6 +46,13 @@ const show = {
     const known = spec.keys.every(key => results.values[key] !== undefined);
     const same = known && spec.guards.every(([key]) => results.values[key]);
     set(element, same ? drawingSVG(drawnWith(spec, results)) : "");
+    return same;
+  },
+  text(spec, element, results) {
+    const known = spec.keys.every(key => results.values[key] !== undefined);
+    const same = known && spec.guards.every(([key]) => results.values[key]);
+    const read = key => results.values[key];
+    set(element, same ? spec.pieces.map(part => (typeof part === "string" ? part : escaped(piece(part, read)))).join("") : "");
     return same;
   },
   own(spec, element) {
@@ -120,9 +128,10 @@ function refresh() {
   state.results = errors.size ? null : computed();
   const guards = state.results?.guards ?? [];
   told.shown.forEach((spec, n) => {
-    if (own && !spec.control && spec.kind !== "moved" && !spec.slid?.some(isSlid)) showFirst(n);
-    else if (errors.size || guards.length) empty(spec, shownBy[n], guards[0] ?? "an input cannot be used");
-    else if (spec.kind !== "moved" && !spec.control) showOne(spec, n);
+    const at = spec.kind === "check" ? (_, f) => f() : soon; // the checks are summed up
+    if (own && !spec.control && spec.kind !== "moved" && !spec.slid?.some(isSlid)) at(n, () => showFirst(n));
+    else if (errors.size || guards.length) at(n, () => empty(spec, shownBy[n], guards[0] ?? "an input cannot be used"));
+    else if (spec.kind !== "moved" && !spec.control) at(n, () => showOne(spec, n));
   });
   [...moving.keys()].forEach(showMoved);
   showPositions();
@@ -135,6 +144,7 @@ function refresh() {
 }
 
 function showFirst(n) {
+  if (!first[n] && DRAWN.has(told.shown[n].kind)) return showOne(told.shown[n], n);
   set(contentOf(shownBy[n]), first[n]);
   grey(shownBy[n], "");
 }

@@ -65,7 +65,7 @@ def anchor(title: str) -> str:
 
 @html.register
 def _(text: Text, page: Follower) -> str:
-    return f'<div class="ms-between">{page.own(markdown.html(text.markdown), text.markdown)}</div>'
+    return f'<div class="ms-between">{page.text(text, markdown.html)}</div>'
 
 
 @html.register
@@ -148,27 +148,36 @@ def _block(columns: Sequence[Column], follows: str) -> str:
 
 @html.register
 def _(figure: Figure, page: Follower) -> str:
-    layout = chart.line_chart(figure.x, figure.lines, figure.marks, figure.every)
-    follows = page.mark("chart", columns=page.figure(figure), marks=page.marks(figure), every=figure.every)
+    columns = page.figure(figure)
+    follows = page.mark("chart", columns=columns, marks=page.marks(figure), every=figure.every)
     caption = _caption("Figure", figure.number, figure.title, page)
-    svg = _READINGS.sub("", chart_svg.svg(layout))
-    return f'<figure class="ms-figure">{page.picture(follows, svg)}{caption}</figure>'
+    known = all(column["key"] is not None or column["fixed"] for column in columns)
+    shown = f"<div{follows}></div>" if known else page.picture(follows, _READINGS.sub("", _chart(figure)))
+    return f'<figure class="ms-figure">{shown}{caption}</figure>'
+
+
+def _chart(figure: Figure) -> str:
+    return chart_svg.svg(chart.line_chart(figure.x, figure.lines, figure.marks, figure.every))
 
 
 @html.register
 def _(value: Caption, page: Follower) -> str:
-    return _caption("Figure", value.number, value.title, page)
+    return _titled("Figure", value.number, page.text(value, escape))
 
 
 def _caption(what: str, number: str, title: str, page: Follower) -> str:
-    place, words = escape(f"{what.lower()}-{number}"), page.own(escape(title), title)
+    return _titled(what, number, page.own(escape(title), title))
+
+
+def _titled(what: str, number: str, words: str) -> str:
+    place = escape(f"{what.lower()}-{number}")
     return f'<div class="ms-caption" id="{place}"><b>{what} {escape(number)}</b> – {words}</div>'
 
 
 @html.register
 def _(drawing: Drawing, page: Follower) -> str:
-    svg = drawing_svg.svg(drawing)
-    return page.picture(follows, svg) if (follows := page.drawing(drawing)) else page.own(svg)
+    follows = page.drawing(drawing)
+    return f"<div{follows}></div>" if follows else page.own(drawing_svg.svg(drawing))
 
 
 @html.register
