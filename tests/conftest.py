@@ -157,7 +157,7 @@ def marimo_server(mode: str, worksheet: Path, folder: Path) -> Iterator[str]:
         port = free.getsockname()[1]
     options = ["--headless", "--no-token", "--host=127.0.0.1", f"--port={port}"]
     if mode == "edit":
-        options.append("--skip-update-check")
+        options += ["--skip-update-check", "--watch"]  # as ``mechsheet edit`` does
     # A configuration folder of its own: the settings of whoever runs the tests must not change the page.
     environment = {**os.environ, "XDG_CONFIG_HOME": str(folder), "PYTHONUTF8": "1"}
     with (folder / "server.log").open("w+", encoding="utf-8") as log:

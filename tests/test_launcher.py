@@ -160,7 +160,7 @@ def test_run_with_scenes_computes_them_side_by_side(sheet: Path, calls: list[lis
 
 def test_edit_opens_the_worksheet_in_marimo(sheet: Path, calls: list[list[str]]) -> None:
     assert launcher.main(["edit", str(sheet), "--headless"]) == 7
-    assert calls == [[sys.executable, "-m", "marimo", "edit", "--headless", str(sheet)]]
+    assert calls == [[sys.executable, "-m", "marimo", "edit", "--watch", "--headless", str(sheet)]]
 
 
 def test_test_hands_its_arguments_to_pytest(calls: list[list[str]]) -> None:

@@ -74,7 +74,7 @@ def main(argv: "list[str] | None" = None) -> int:
         if not sheet:
             sys.exit(f"mechsheet: no worksheet {name}: {nearest(name, list(worksheets()))}{known_worksheets()}")
         if command == "edit":
-            return call([interpreter(""), "-m", "marimo", "edit", *options, sheet])
+            return call([interpreter(""), "-m", "marimo", "edit", "--watch", *options, sheet])
         if command in ("html", "index", "compare", "rename"):
             return call([interpreter(""), "-m", f"mechsheet.run.{command}", sheet, *options])
         if command == "design":

@@ -7,25 +7,17 @@ from uuid import uuid4
 import marimo as mo
 
 from mechsheet import units
-from mechsheet.document.markup import as_written
+from mechsheet.document.markup import as_written, limits
 from mechsheet.page.script import element, script
 from mechsheet.worksheet.inputs import declared
 from mechsheet.worksheet.kinds import Choice, Input, Switch
 from mechsheet.worksheet.lists import Rows
 from mechsheet.worksheet.title import Slider
 
-_SIGNS = {"<": "&lt;", ">": "&gt;", "<=": "≤", ">=": "≥"}
-
-
-def _limit(text: str) -> str:
-    text = text.rpartition(".")[2]
-    return as_written(text) if text[0].isalpha() else text
-
 
 def _limits(field: Input) -> str:
-    limits = [f"{_SIGNS.get(sign, sign)}&nbsp;{_limit(other)}" for sign, other in field.limits]
     tolerance = [html.escape(field.tolerance.text(field.unit))] if field.tolerance else []
-    return ", ".join(limits + tolerance)
+    return ", ".join([limits(field)] * bool(field.limits) + tolerance)
 
 
 def _told(field: Input) -> str:
@@ -83,18 +75,18 @@ def fields(g: Any) -> "mo.ui.batch":
     sections: dict[str, list[str]] = {}
     texts = {}
     for field in declared(type(g)):
-        value, limits = getattr(g, field.name), _limits(field)
+        value, allowed = getattr(g, field.name), _limits(field)
         unit, grid = "" if field.unit == "-" else units.shown(field.unit), ""
         if isinstance(field, Rows):
             unit, grid = "", _grid(field, value)
             if field.row:
-                limits = ", ".join(f"{as_written(_short(c))}&nbsp;{_limits(c)}" for c in field.columns if c.limits)
+                allowed = ", ".join(f"{as_written(_short(c))}&nbsp;{_limits(c)}" for c in field.columns if c.limits)
         sections.setdefault(field.section, []).append(
             f'<tr><td style="padding-right:.5em">{as_written(field.name)}</td>'
             f'<td data-input="{field.name}">{grid}{{{field.name}}}</td>'
             f'<td style="padding-left:.4em">{html.escape(unit)}</td>'
             f'<td style="padding-left:.7em;line-height:1.2">{html.escape(field.meaning)}{_told(field)}'
-            f'<span style="opacity:.5;padding-left:.6em">{limits}</span></td></tr>'
+            f'<span style="opacity:.5;padding-left:.6em">{allowed}</span></td></tr>'
         )
         texts[field.name] = _element(field, value)
     blocks = "".join(

@@ -15,7 +15,10 @@ def title_block(name: str, text: str = "") -> Title:
 
         if mo.app_meta().mode == "edit":
             from mechsheet.page import editor  # on use: only the editor needs it
+            from mechsheet.page.script import element, script
 
+            folded = mo.Html(script("folded.js") + element("ms-folded", **{"class": "ms-screen"}))
+            title = replace(title, tools=(folded,))
             told = editor.watch(lambda notes: mo.output.replace(replace(title, notes=tuple(notes))))
             return replace(title, notes=told)
     return title

@@ -103,8 +103,8 @@ def _(title: Title) -> str:
     fields = "".join(f"<span>{label} <b>{value}</b></span>" for label, value in cells)
     switch = '<label class="ms-screen"><input type="checkbox" class="ms-switch"> numbers in the formulas</label>'
     return (
-        f'{script("page.js")}{script("units.js")}<div class="ms-title">{text}<div class="ms-row">{fields}{switch}</div>'
-        f"{_TOLD}{_noted(title.notes)}</div>"
+        f'{script("page.js")}{script("units.js")}<div class="ms-title">{text}<div class="ms-row">{fields}{switch}'
+        f"{''.join(map(html, title.tools))}</div>{_TOLD}{_noted(title.notes)}</div>"
     )
 
 

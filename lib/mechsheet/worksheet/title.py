@@ -18,12 +18,13 @@ class Note:
 
 @dataclass(frozen=True)
 class Title(Shown):
-    """Title block: what the worksheet is about, its file, the day, and the mistakes that the editor has found."""
+    """Title block: what the worksheet is about, its file, the day, the mistakes and the tools of the editor."""
 
     name: str
     text: str
     file: str
     notes: tuple[Note, ...] = ()
+    tools: tuple[Any, ...] = ()
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,48 @@
+// The editor's page opens for reading: the code of every cell is folded, one click unfolds it; a cell made later is open.
+(() => {
+  if (customElements.get("ms-folded")) return;
+
+  const cells = () => document.querySelectorAll(".marimo-cell");
+  const fold = (cell, folded) => cell.toggleAttribute("data-ms-folded", folded);
+
+  class Folded extends HTMLElement {
+    connectedCallback() {
+      const shown = document.createElement("label");
+      shown.innerHTML = '<input type="checkbox"> code of all cells';
+      shown.firstChild.checked = ![...cells()].some((cell) => "msFolded" in cell.dataset) && opened;
+      shown.firstChild.addEventListener("change", ({ target }) => cells().forEach((c) => fold(c, !target.checked)));
+      this.replaceChildren(shown);
+      if (opened) return;
+      opened = true;
+      cells().forEach((cell) => fold(cell, true));
+    }
+  }
+  let opened = false;
+  customElements.define("ms-folded", Folded);
+
+  // One button for all cells, at the one under the pointer.
+  const button = document.createElement("button");
+  button.className = "ms-unfold";
+  button.textContent = "code";
+  let of; // the cell
+
+  document.addEventListener("pointerover", ({ target }) => {
+    if (target === button) return;
+    of = target.closest?.(".marimo-cell");
+    button.hidden = !of;
+    if (!of) return;
+    button.title = "msFolded" in of.dataset ? "show the code of this cell" : "fold the code of this cell";
+    const box = of.getBoundingClientRect();
+    if (!button.isConnected) document.body.append(button);
+    button.style.left = `${box.right + 4}px`;
+    button.style.top = `${Math.max(box.top, 0) + 4}px`;
+  });
+  document.addEventListener("scroll", () => (button.hidden = true), { capture: true, passive: true });
+  button.addEventListener("click", () => fold(of, !("msFolded" in of.dataset)));
+
+  // What leads to a cell shows it: a mistake in the title may be that of a cell without anything to read.
+  document.addEventListener("click", ({ target }) => {
+    const cell = document.querySelector(target.closest?.('a[href^="#cell-"]')?.getAttribute("href") ?? ":not(*)");
+    if (cell) fold(cell, false);
+  });
+})();
