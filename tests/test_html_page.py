@@ -258,6 +258,36 @@ def test_a_symbol_tells_what_it_means(document: Callable[..., Path], offline: Pa
     expect(page.locator(".ms-tip")).to_contain_text("cylinder hinge")
 
 
+def test_a_unit_is_switched_in_place_wherever_the_quantity_is_shown(
+    document: Callable[..., Path], offline: Page
+) -> None:
+    page = opened(offline, document("hitch"))
+    first = read(page)
+    value, unit = page.locator("#line-S_t .ms-value"), page.locator("#line-S_t ms-unit")
+    unit.focus()
+    page.keyboard.press("Enter")
+    page.get_by_role("menuitemradio", name="mm", exact=True).click()
+    expect(value).to_have_text("470 mm")
+    expect(unit).to_be_focused()
+    head = page.locator("#table-2\\.1 ~ .ms-wide .ms-units ms-unit").first
+    column = page.locator("#table-2\\.1 ~ .ms-wide tbody tr:first-child td").first
+    own = column.inner_text()
+    assert head.inner_text() == "m"
+    head.click()
+    page.get_by_role("menuitemradio", name="mm", exact=True).click()
+    expect(head).to_have_text("mm")
+    page.evaluate(SETTLED)
+    assert float(column.inner_text()) == pytest.approx(1000 * float(own))
+    fill(page, "S_max", "0.7")
+    page.evaluate(SETTLED)
+    assert "mm" in value.inner_text()
+    page.locator(".ms-back").click()
+    for place in (unit, head):
+        place.click()
+        page.get_by_role("menuitemradio", name="m", exact=True).click()
+    assert read(page) == first
+
+
 def test_texts_of_inputs_are_no_markup(tmp_path: Path, offline: Page) -> None:
     evil = "<img src=x onerror=alert(1)>"
     source = (ROOT / "lib" / "mechsheet" / "run" / "new_worksheet.txt").read_text(encoding="utf-8")

@@ -7,11 +7,14 @@ from typing import Any
 
 import pytest
 
+import mechsheet.recording.record  # noqa: F401  # knows what numpy does with quantities
 from mechsheet.html import texts
 from mechsheet.recording.choices import choice
 from mechsheet.recording.graph import Graph, current
 from mechsheet.recording.quantity import Quantity
+from mechsheet.recording.sketch import Sketch
 from mechsheet.recording.written import Number, Written, text
+from mechsheet.worksheet.drawing import Drawing
 
 
 @pytest.fixture
@@ -57,3 +60,10 @@ def test_the_first_word_of_a_name_is_a_symbol_or_a_number(graph: Graph) -> None:
 def test_a_number_in_a_formula_is_not_followed(graph: Graph) -> None:
     told = text("the **arm** $a = ", (quantity(graph, "x", 3.0), ".4g"), "$")
     assert texts.pieces(told, lambda shown: shown.replace("$", "<math>", 1).replace("$", "</math>"), str) == []
+
+
+@pytest.mark.parametrize("end", [0.3, 1.5])
+def test_a_recorded_cylinder_has_its_points_though_it_has_no_length(graph: Graph, end: float) -> None:
+    drawn = Sketch().cylinder(quantity(graph, "a", 0.3), quantity(graph, "b", end), barrel=0.2)
+    own = Drawing().cylinder(0.3, end, barrel=0.2)
+    assert [complex(p.value) for p in drawn.elements[0].points] == pytest.approx(own.elements[0].points)

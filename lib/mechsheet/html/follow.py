@@ -10,7 +10,7 @@ from mechsheet import units
 from mechsheet.document import chart_svg
 from mechsheet.document.markup import HTML, in_words, named
 from mechsheet.document.parts import Line, Text
-from mechsheet.html import sketched, texts
+from mechsheet.html import offered, sketched, texts
 from mechsheet.recording import showing
 from mechsheet.recording.lines import SLIDER, Recording
 from mechsheet.recording.node import Node, bottom_up
@@ -40,6 +40,7 @@ class Follower:
         self.keys: dict[Node, str] = {}
         self.specs: list[Spec] = []
         self.drawn: dict[int, Drawn] = {}  # recorded drawings by the identity of what is shown
+        self.units: dict[str, list[Any]] = {}  # with those that measure the same
         self.told: dict[int, Said] = {}  # recorded texts by the identity of what is shown
         self.pictures: dict[int, str] = {}  # what the page cannot draw itself, by their elements
         self._asked: list[Node] = []  # for the next element
@@ -135,6 +136,12 @@ class Follower:
         told = sketched.told(drawn, self.key)
         return self.mark("drawing", keys=[self.keys[node] for node in dict.fromkeys(self._asked)], **told)
 
+    def unit(self, unit: str) -> str:
+        """A unit, of which the page must know the others that measure the same."""
+        if unit:
+            self.units.setdefault(unit, offered.told(unit))
+        return unit
+
     def positions(self) -> dict[str, str]:
         """Keys of the positions that are marked along charts, by their quantities."""
         found = {name: self.key(node) for name, node in self.recording.positions.items()}
@@ -145,7 +152,7 @@ class Follower:
         """Attribute of the value of a line, which a control may have ``moved`` along its field."""
         name, unit = line.formula.name, line.formula.unit
         held, shape = self.recording.values.get(name), np.shape(line.value)
-        spec: Spec = {"factor": units.parse(unit).factor, "behind": numbers.behind(unit, HTML), **moved}
+        spec: Spec = {"unit": self.unit(unit), "of": name, **moved}
         if not isinstance(held, Quantity):
             return "" if name in self.recording.values else self.mark("value", keys=None, **spec)
         if held.extent != shape:
@@ -187,7 +194,8 @@ class Follower:
         return [c.re if c is not None else bool(own.unit) for c, own in zip(held, columns, strict=True)]
 
     def _column(self, column: Column, node: Node | bool) -> Spec:
-        own: Spec = {"decimals": column.decimals, "power": column.power, "unit": column.unit}
+        own: Spec = {"decimals": column.decimals, "power": column.power}
+        own |= {"unit": self.unit(column.unit), "of": column.of}
         own |= {"factor": units.parse(column.unit).factor if column.unit else 1.0, "rows": len(column.values)}
         if isinstance(node, bool):
             return own | {"key": None, "fixed": node, "texts": column.texts(numbers.AXIS), "values": _listed(column)}

@@ -19,11 +19,11 @@ const show = {
   value(spec, element, results) {
     const parts = spec.keys?.map(key => along(results.values[key], positionOf(spec)));
     const known = parts && parts.every(part => part !== undefined);
-    set(element, known ? valueText(parts, spec.factor, spec.behind) : "");
+    set(element, known ? valueText(parts, ...unitNow(spec).slice(1)) : "");
     return Boolean(known);
   },
   table(spec, element, results) {
-    const columns = spec.columns.map(column => columnTexts(column, results));
+    const columns = spec.columns.map(column => columnTexts(inUnit(column, results), results));
     const rows = Math.max(...columns.map(texts => texts?.length ?? 0));
     const kinds = spec.columns.map(column => (column.unit ? "" : ' class="ms-text"'));
     const cells = k => columns.map((texts, n) => `<td${kinds[n]}>${texts ? escaped(texts[k] ?? "") : ""}</td>`).join("");
@@ -37,9 +37,9 @@ const show = {
     return Boolean(verdict);
   },
   chart(spec, element, results) {
-    const columns = spec.columns.map(column => columnValues(column, results));
+    const switched = chartInUnits(spec, results), columns = switched.columns.map(column => columnValues(column, results));
     const known = columns.every(Boolean);
-    set(element, known ? chartSVG(spec, columns, results) : "");
+    set(element, known ? chartSVG(switched, columns, results) : "");
     return known;
   },
   drawing(spec, element, results) {
@@ -81,13 +81,13 @@ function along(field, at) {
 const escaped = text => String(text).replace(/[&<>"]/g, sign => ({"&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;"})[sign]);
 
 function columnValues(column, results) {
-  if (column.key === null) return column.fixed ? column.values ?? null : null;
+  if (column.key === null) return column.fixed ? column.values?.map(x => x * ((column.own ?? column.factor) / column.factor)) ?? null : null;
   const values = results.values[column.key];
   return values === undefined ? null : Float64Array.from(typeof values === "number" ? [values] : values, x => x / column.factor);
 }
 
 function columnTexts(column, results) {
-  if (column.key === null) return column.fixed ? column.texts : null;
+  if (column.key === null && (!column.fixed || !column.own)) return column.fixed ? column.texts : null;
   const values = columnValues(column, results);
   return values && Array.from(values, x => cellText(x, column));
 }
@@ -144,7 +144,7 @@ function refresh() {
 }
 
 function showFirst(n) {
-  if (!first[n] && DRAWN.has(told.shown[n].kind)) return showOne(told.shown[n], n);
+  if (isSwitched(told.shown[n]) || (!first[n] && DRAWN.has(told.shown[n].kind))) return showOne(told.shown[n], n);
   set(contentOf(shownBy[n]), first[n]);
   grey(shownBy[n], "");
 }

@@ -16,7 +16,7 @@ from mechsheet.document.blocks import blocks, fitting
 from mechsheet.document.expression import equation, fields_by_name
 from mechsheet.document.markup import HTML, as_written, in_words, named
 from mechsheet.document.parts import Control, Line, Section, Text
-from mechsheet.html import index, markdown
+from mechsheet.html import index, markdown, offered
 from mechsheet.html.follow import Follower
 from mechsheet.html.mathml import mathml
 from mechsheet.recording.graph import Graph
@@ -108,7 +108,8 @@ def still(part: Any) -> str:
 
 def value(line: Line) -> str:
     """Value of a line in its display unit; nothing of a line that is a function."""
-    return "" if line.formula.arguments else numbers.value(line.value, line.formula.unit, HTML)
+    unit = line.formula.unit
+    return "" if line.formula.arguments else numbers.value(line.value, unit, offered.notation(unit))
 
 
 def _line(formula: str, value: str = "", told: Formula | None = None) -> str:
@@ -134,7 +135,7 @@ def _block(columns: Sequence[Column], follows: str) -> str:
         f'<th{kind} scope="col" title="{escape(c.meaning)}">{named(c.name)}</th>'
         for c, kind in zip(columns, kinds, strict=True)
     )
-    under = "".join(f"<th>{f'[{escape(units.shown(c.unit))}]' if c.unit else ''}</th>" for c in columns)
+    under = "".join(f"<th>{offered.head(c.unit) if c.unit else ''}</th>" for c in columns)
     rows = "".join(
         "<tr>" + "".join(f"<td{kind}>{t}</td>" for t, kind in zip(row, kinds, strict=True)) + "</tr>"
         for row in zip(*(map(escape, c.texts(numbers.AXIS)) for c in columns), strict=True)

@@ -1,5 +1,5 @@
 // What is in view is shown at once, the rest while the browser has time, before it comes into view or is printed.
-const inView = new Set(), waiting = new Map(), LEAST_TIME = 2; // ms
+const inView = new Set(), waiting = new Map(), WITHIN = 100, SLICE = 8; // ms
 let isWatched = false, isAsked = false;
 
 function soon(n, show) {
@@ -22,11 +22,13 @@ const settleAll = () => [...waiting.keys()].forEach(settle);
 function whenIdle() {
   if (isAsked) return;
   isAsked = true;
-  (globalThis.requestIdleCallback ?? (f => setTimeout(f, 20, {timeRemaining: () => Infinity})))(time => {
+  const ask = globalThis.requestIdleCallback ?? (f => setTimeout(f, SLICE, {timeRemaining: () => 0}));
+  ask(time => {
     isAsked = false;
-    for (const n of [...waiting.keys()]) if (time.timeRemaining() > LEAST_TIME) settle(n);
+    const end = performance.now() + Math.max(time.timeRemaining(), SLICE);
+    for (const n of [...waiting.keys()]) if (performance.now() < end) settle(n);
     if (waiting.size) whenIdle();
-  });
+  }, {timeout: WITHIN});
 }
 
 const watcher = new IntersectionObserver(entries => {

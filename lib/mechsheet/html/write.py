@@ -35,6 +35,7 @@ _SCRIPTS = (
     "found.js",
     "page.js",
     "view.js",
+    "units.js",
     "moved.js",
     "tip.js",
     "start.js",
@@ -75,6 +76,7 @@ def page(sheet: Worksheet, g: Any) -> str:
         "shown": follower.specs,
         "symbols": _symbols(namespace, shown),
         "pictures": follower.pictures,
+        "units": follower.units,
         "positions": follower.positions(),
         "moved": {each.control.name: frames.told(each) for each in moving},
     }

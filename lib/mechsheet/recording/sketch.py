@@ -52,9 +52,8 @@ class Sketch(Drawing):
 
     def cylinder(self, A: Any, B: Any, name: str = "", barrel: Any = None) -> "Drawing":
         along = B - A
-        return self._with(
-            "cylinder", (A, B, A + (0.6 * along if barrel is None else barrel * along / abs(along))), name
-        )
+        size = np.where(abs(along) > 0, abs(along), 1.0)  # one of no length has a barrel of none
+        return self._with("cylinder", (A, B, A + (0.6 * along if barrel is None else barrel * along / size)), name)
 
     def wheel(self, centre: Any, r: Any, name: str = "") -> "Drawing":
         return self._with("wheel", [centre, *(centre + r * i for i in (1, 1j, -1, -1j))], name)
