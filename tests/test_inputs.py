@@ -136,8 +136,13 @@ def test_an_input_without_its_type_is_told_and_not_dropped():
     ],
 )
 def test_limit_that_cannot_be_read_is_an_error_at_its_line(limits, message):
+    refuses(f"lower link; {limits}", message)
+
+
+def refuses(comment, message):
+    """The comment of an input is an error at its line, told in one."""
     with pytest.raises(SheetError, match=f"^line 7 of .*: {re.escape(message)}") as error:
-        run(CELL.replace("lower link; > 0", f"lower link; {limits}"))
+        run(CELL.replace("lower link; > 0", comment))
     assert "\n" not in str(error.value)
 
 
@@ -176,9 +181,7 @@ def test_a_line_may_carry_its_tolerance(comment, tolerance, at_2):
     ],
 )
 def test_a_tolerance_that_cannot_be_used_is_an_error_at_its_line(comment, message):
-    with pytest.raises(SheetError, match=f"^line 7 of .*: {re.escape(message)}") as error:
-        run(CELL.replace("lower link; > 0", comment))
-    assert "\n" not in str(error.value)
+    refuses(comment, message)
 
 
 def test_only_a_number_that_may_be_a_little_off_has_a_tolerance():
