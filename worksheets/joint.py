@@ -460,7 +460,7 @@ def section_33():
 
 
 @app.cell
-def joint_check(A, A_c, A_t, M, N, P, b, h, joint, sigma, unit_F, unit_M, y):
+def joint_check(A, A_c, A_t, M, N, P, joint, sigma, unit_F, unit_M, y):
     lost = isnan(joint.sigma).any(-1)
     reason = "; ".join(
         f"plane {p + 1}, case {k + 1}: no elements carry M = {M[k, 0] / (kgf * cm):.7g} kgf*cm"
@@ -472,7 +472,7 @@ def joint_check(A, A_c, A_t, M, N, P, b, h, joint, sigma, unit_F, unit_M, y):
     checks_joint = (
         Check("equilibrium exists", np.count_nonzero(lost), 0, "cases", reason, essential=True),
         check("equilibrium of forces", total(P) - N, 1e-12, unit_F, of=largest),
-        check("equilibrium of moments", total(P * y) - M, 1e-12, unit_M, of=largest * np.maximum(h, b)),
+        check("equilibrium of moments", total(P * y) - M, 1e-12, unit_M, of=largest * np.ptp(y)),
         check("areas belong to the signs of the stresses", opposite, 1e-12, unit_F, of=largest),
     )
     typeset(*checks_joint)

@@ -157,6 +157,11 @@ class Follower:
             return "" if name in self.recording.values else self.mark("value", keys=None, **spec)
         if held.extent != shape:
             spec["at"] = line.position
+        elif line.over and isinstance(axis := self.recording.values.get(line.over.line.name), Quantity):
+            unit = line.over.line.unit
+            factor, behind = units.parse(unit).factor, numbers.behind(unit, HTML)
+            named_over = {"key": self.key(axis.re), "named": named(line.over.line.name)}
+            spec["over"] = named_over | {"factor": factor, "behind": behind}
         same = held.extent == shape or held.extent[:-1] == shape
         return self.mark("value", keys=[self.key(part) for part in held.parts] if same else None, **spec)
 

@@ -19,7 +19,8 @@ const show = {
   value(spec, element, results) {
     const parts = spec.keys?.map(key => along(results.values[key], positionOf(spec)));
     const known = parts && parts.every(part => part !== undefined);
-    set(element, known ? valueText(parts, ...unitNow(spec).slice(1)) : "");
+    const where = known && spec.over ? whereText(parts, results.values[spec.over.key], spec.over) : "";
+    set(element, known ? valueText(parts, ...unitNow(spec).slice(1)) + where : "");
     return Boolean(known);
   },
   table(spec, element, results) {
@@ -138,7 +139,7 @@ function refresh() {
   sum();
   say(changed, errors, guards);
   if (!errors.size) {
-    const address = addressOf(changed);
+    const address = addressOf(textsOf(changed));
     if (address !== location.hash.slice(1)) history.replaceState(null, "", address ? `#${address}` : location.pathname);
   }
 }
@@ -238,10 +239,4 @@ document.querySelector(".ms-back")?.addEventListener("click", () => {
   refresh();
 });
 
-document.querySelector(".ms-save")?.addEventListener("click", () => {
-  const link = document.createElement("a");
-  link.href = URL.createObjectURL(new Blob([sceneText(state.changed)], {type: "application/toml"}));
-  link.download = `${told.name}.toml`;
-  link.click();
-  setTimeout(() => URL.revokeObjectURL(link.href), 1000);
-});
+document.querySelector(".ms-save")?.addEventListener("click", () => saveScene(told.name, textsOf(state.changed)));

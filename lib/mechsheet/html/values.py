@@ -14,7 +14,7 @@ from mechsheet import units
 from mechsheet.document import chart, chart_svg, drawing_svg
 from mechsheet.document.blocks import blocks, fitting
 from mechsheet.document.expression import equation, fields_by_name
-from mechsheet.document.markup import HTML, as_written, in_words, named
+from mechsheet.document.markup import HTML, as_written, in_words, named, where
 from mechsheet.document.parts import Control, Line, Section, Text
 from mechsheet.html import index, markdown, offered
 from mechsheet.html.follow import Follower
@@ -108,8 +108,10 @@ def still(part: Any) -> str:
 
 def value(line: Line) -> str:
     """Value of a line in its display unit; nothing of a line that is a function."""
+    if line.formula.arguments:
+        return ""
     unit = line.formula.unit
-    return "" if line.formula.arguments else numbers.value(line.value, unit, offered.notation(unit))
+    return numbers.value(line.value, unit, offered.notation(unit)) + where(line.value, line.over)
 
 
 def _line(formula: str, value: str = "", told: Formula | None = None) -> str:

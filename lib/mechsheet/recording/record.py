@@ -393,6 +393,7 @@ class _Run:
                     x = sized(x, guard.holds)
                 else:
                     self.recording.guards[guard.holds] = guard
+                    self.graph.work = 0  # what guards a statement's numbers is none of its own operations
                     x = where(self.graph, Quantity(self.graph, guard.holds), x, np.nan)
         return x
 
