@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 import mechsheet.recording.record  # noqa: F401  # knows what numpy does with quantities
-from mechsheet.html import texts
+from mechsheet.html import wording
 from mechsheet.recording.choices import choice
 from mechsheet.recording.graph import Graph, current
 from mechsheet.recording.quantity import Quantity
@@ -47,7 +47,7 @@ def test_one_of_two_texts_is_chosen_by_a_number(graph: Graph) -> None:
     holds = Quantity(graph, graph.fold("gt", x.re, graph.constant(1.0)))
     told = choice(holds, lambda: text("long, ", (x, ".1f")), lambda: "short")
     assert told.now == "long, 2.0" and not graph.looked
-    assert texts.written(told, str)[0]["else"] == ["short"]
+    assert wording.written(told, str)[0]["else"] == ["short"]
 
 
 def test_the_first_word_of_a_name_is_a_symbol_or_a_number(graph: Graph) -> None:
@@ -59,7 +59,7 @@ def test_the_first_word_of_a_name_is_a_symbol_or_a_number(graph: Graph) -> None:
 
 def test_a_number_in_a_formula_is_not_followed(graph: Graph) -> None:
     told = text("the **arm** $a = ", (quantity(graph, "x", 3.0), ".4g"), "$")
-    assert texts.pieces(told, lambda shown: shown.replace("$", "<math>", 1).replace("$", "</math>"), str) == []
+    assert wording.pieces(told, lambda shown: shown.replace("$", "<math>", 1).replace("$", "</math>"), str) == []
 
 
 @pytest.mark.parametrize("end", [0.3, 1.5])

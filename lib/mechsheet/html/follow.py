@@ -10,7 +10,7 @@ from mechsheet import units
 from mechsheet.document import chart_svg
 from mechsheet.document.markup import HTML, in_words, named
 from mechsheet.document.parts import Line, Text
-from mechsheet.html import offered, sketched, texts
+from mechsheet.html import offered, sketched, wording
 from mechsheet.recording import showing
 from mechsheet.recording.lines import SLIDER, Recording
 from mechsheet.recording.node import Node, bottom_up
@@ -84,7 +84,7 @@ class Follower:
     def text(self, part: Text | Caption, shown: Callable[[str], str]) -> str:
         """HTML of a text, by what ``shown`` makes of one; what is recorded of it follows."""
         told, own = self.told.get(id(part)), part.markdown if isinstance(part, Text) else part.title
-        pieces = told and texts.pieces(told.text, shown, self.key)
+        pieces = told and wording.pieces(told.text, shown, self.key)
         if not pieces:
             self._asked = []
             return self.own(shown(own), own)

@@ -5,7 +5,7 @@ from math import isfinite
 from typing import Any
 
 from mechsheet.document.labels import as_printed, plain
-from mechsheet.html import texts
+from mechsheet.html import wording
 from mechsheet.recording.node import Node
 from mechsheet.recording.quantity import Quantity
 from mechsheet.recording.sketch import Drawn
@@ -39,7 +39,7 @@ def size(drawing: Drawing) -> Spec:
 def _element(e: Any, key: Key) -> Spec:
     own: Spec = {"kind": e.kind, "points": [*_points(e.points, key)]}
     if isinstance(e.name, Written):
-        own |= {"name": _name(e.name, e.kind, key), "raw": texts.written(e.name, key)}
+        own |= {"name": _name(e.name, e.kind, key), "raw": wording.written(e.name, key)}
     elif e.name:
         own |= {"name": list(plain(e.name)[0] if e.kind == "text" else as_printed(e.name)[0]), "raw": e.name}
     if e.vector is not None:
@@ -47,7 +47,7 @@ def _element(e: Any, key: Key) -> Spec:
         own |= {"vector": next(_points([vector], key)), "into": _number(e.into, key)}
     value = _number(e.value, key)
     own |= {"value": value} if value else {}
-    colour = texts.written(e.colour, key) if isinstance(e.colour, Written) else e.colour
+    colour = wording.written(e.colour, key) if isinstance(e.colour, Written) else e.colour
     return own | {part: text for part, text in (("unit", e.unit), ("colour", colour)) if text}
 
 
@@ -58,13 +58,13 @@ def _name(name: Written, kind: str, key: Key) -> Any:
             return {"if": key(holds.re), "then": _name(then, kind, key), "else": _name(otherwise, kind, key)}
     split = None if kind == "text" else name.head()
     if split is None:
-        return [texts.written(name, key), "", "", ""]
+        return [wording.written(name, key), "", "", ""]
     first, rest = split
     if isinstance(first, Number):
-        begin: list[Any] = ["", [texts.piece(first._replace(instead=(*first.instead, ("-", "−"))), key)], "", ""]
+        begin: list[Any] = ["", [wording.piece(first._replace(instead=(*first.instead, ("-", "−"))), key)], "", ""]
     else:
         begin = list(as_printed(first)[0])
-    return [*begin[:3], texts.written(rest, key)]
+    return [*begin[:3], wording.written(rest, key)]
 
 
 def _points(points: Iterable[Any], key: Key) -> Iterator[list[Any]]:

@@ -82,6 +82,6 @@ def circular_joint(r: Quantity, phi: Quantity, M: Quantity, N: Quantity) -> Ring
         M_x=r * (P * np.sin(phi)).sum(axis=-1),
         c=c,
         y_0=-c * r,
-        phi_0=(np.pi - alpha).like(p_0),
+        phi_0=np.broadcast_arrays(np.pi - alpha, p_0)[0],
         state=known.state,
     )

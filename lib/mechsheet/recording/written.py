@@ -20,7 +20,7 @@ class Number(NamedTuple):
     instead: tuple[tuple[str, str], ...] = ()
 
     def now(self) -> str:
-        text = format(self.value.re.value.item(), self.spec)
+        text: str = self.value.re.value.item().__format__(self.spec)
         return reduce(lambda told, pair: told.replace(*pair), self.instead, text)
 
 
@@ -56,7 +56,7 @@ class Written:
         return self.now
 
     def __format__(self, spec: str) -> str:
-        return format(str(self), spec)
+        return str(self).__format__(spec)
 
     def __bool__(self) -> bool:
         return any(part and isinstance(part, str | Number) for part in self.parts) or bool(str(self))
@@ -135,7 +135,7 @@ def text(*parts: Any) -> Any:
         value, spec = part if isinstance(part, tuple) else (part, "")
         followed = _is_followed(value, spec)
         pieces.append(Number(value, spec) if followed and isinstance(value, Quantity) else
-                      value if followed else format(value, spec))  # fmt: skip
+                      value if followed else value.__format__(spec))  # fmt: skip
     return "".join(pieces) if all(isinstance(part, str) for part in pieces) else Written(tuple(_pieces(pieces)))
 
 
