@@ -11,7 +11,9 @@ from in_browser import evaluated
 from own_worksheet import own, recorded
 
 from mechsheet.html import javascript
+from mechsheet.html import write as html
 from mechsheet.worksheet import cells
+from mechsheet.worksheet.errors import SheetError
 
 if TYPE_CHECKING:
     from playwright.sync_api import Page
@@ -153,3 +155,16 @@ def kind(reason: str) -> str:
 def assert_same(found: list[float], expected: list[float], within: float = 1e-14) -> None:
     assert len(found) == len(expected)
     np.testing.assert_allclose(found, expected, rtol=within, atol=1e-29)
+
+
+def test_values_whose_count_only_their_own_equations_tell_are_refused_in_a_line(tmp_path: Path) -> None:
+    sheet = own(
+        tmp_path,
+        "c = np.array([1.0, 2.0, 3.0])\n"
+        "pull = lambda u: np.sum(np.maximum(np.asarray(u)[..., None] * c - 0.1, 0), axis=-1)\n"
+        "two = find(lambda u, v: (pull(u) * v - x, u + v), equals=(0, 3), u=(0.5, 2.5), v=(0.5, 2.5))\n"
+        "y = pull(two.value.u)  # [-] line\n"
+        'table_2 = table("2", "Two", y)',
+    )
+    with pytest.raises(SheetError, match="line 39: how many values are found there is not known before"):
+        html.page(sheet, sheet.inputs())

@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from mechsheet.html.elementwise import ELEMENTWISE, Text, array, literal, names, operation
 from mechsheet.recording.graph import Graph
 from mechsheet.recording.node import Block, Node, bottom_up
+from mechsheet.worksheet.errors import SheetError
 
 Size = tuple["int | Node", ...]  # lengths of all axes: numbers, and quantities of those that follow the inputs
 Rule = Callable[["Scope", Node], str]
@@ -193,7 +194,10 @@ class Scope:
 
     def _without_loop(self, waiting: list[Node]) -> list[Node]:
         """Write the next loop; what is still waiting then."""
-        first = next(node for node in waiting if self._in_loop(node) and self._ready(node))
+        first = next((node for node in waiting if self._in_loop(node) and self._ready(node)), None)
+        if first is None:
+            place = f"line {waiting[0].line}"
+            raise SheetError(f"{place}: how many values are found there is not known before: no page can follow that")
         key, loop = self._key(first), dict[Node, str]()
         for node in waiting:
             if self._in_loop(node) and self._key(node) == key and self._ready(node, loop):
