@@ -59,6 +59,29 @@ function significant(x, digits) {
   return sign + trimmed(`${mantissa[0]}.${mantissa.slice(1)}`) + exponent(power, 2);
 }
 
+// A number as Python's format writes it: "d" a whole one, "r" as many digits as it takes, ".4g", ".2f" and ".3e".
+function formatted(x, spec) {
+  if (spec === "d") return String(x);
+  if (!Number.isFinite(x)) return x !== x ? "nan" : x < 0 ? "-inf" : "inf";
+  const digits = Number(spec.slice(1, -1)), sign = x < 0 || Object.is(x, -0) ? "-" : "";
+  if (spec.endsWith("f")) return sign + plainFixed(x, digits);
+  if (spec.endsWith("g")) return significant(x, digits || 1);
+  if (spec.endsWith("e")) return sign + scientific(Math.abs(x), digits, CELL);
+  const [mantissa, power] = Math.abs(x).toExponential().split("e");
+  if (x && (power < -4 || power > 15)) return `${sign}${mantissa}${exponent(Number(power), 2)}`;
+  return sign + Math.abs(x) + (Number.isInteger(x) ? ".0" : "");
+}
+
+// A text with numbers in it; what `read` gives for their keys stands there.
+const written = (text, read) => (typeof text === "string" ? text : text.map(part => piece(part, read)).join(""));
+
+function piece(part, read) {
+  if (typeof part === "string") return part;
+  if (!Array.isArray(part)) return written(read(part.if) ? part.then : part.else, read);
+  const [key, spec, ...instead] = part, x = read(key);
+  return instead.reduce((told, pair) => told.replaceAll(...pair), formatted(typeof x === "number" ? x : x[0], spec));
+}
+
 // Five significant digits or all before the point; a power of ten outside 1e-3..1e6.
 function usual(x, to) {
   if (!Number.isFinite(x)) return unlimited(x, to);

@@ -34,6 +34,7 @@ function symbolAt(element) {
 }
 
 function symbolTip(element, known) {
+  settleAll();
   tip.replaceChildren();
   const meaning = document.createElement("div"), value = document.createElement("div");
   meaning.textContent = known.meaning;
