@@ -209,10 +209,10 @@ def assert_check(check: Check) -> int:
 def assert_found(found: Found) -> int:
     text = html.unescape(re.sub("<[^>]*>", "", found._mime_()[1]))
     unknown = html.unescape(re.sub("<[^>]*>", "", in_words(found.words.unknown)))
-    match = re.search(rf"{re.escape(unknown)} = (\S+)(?: ([^\d\s]+?))?condition", text)
+    match = re.search(rf"{re.escape(unknown)} = ([^\s°]+)((?: [^\d\s]+?|°)?)condition", text)
     assert match, text
-    digits = match[1].rstrip("0").lstrip("-0.").replace(".", "")
-    value = float(match[1]) * factor(match[2] or "")
+    digits = match[1].rstrip("0").lstrip("−0.").replace(".", "")
+    value = float(match[1].replace("−", "-")) * factor(match[2].strip())
     assert abs(value / found.value - 1) < 0.51 * 10.0 ** (1 - max(6, len(digits)))
     return 1
 
