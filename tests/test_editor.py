@@ -13,7 +13,9 @@ from conftest import drawn, until
 from playwright.sync_api import expect
 
 from mechsheet import __main__ as launcher
+from mechsheet.document.left_out import left_out
 from mechsheet.page import editor as told_by
+from mechsheet.worksheet import source
 from mechsheet.worksheet.lines import registry
 from mechsheet.worksheet.source import of_texts
 
@@ -321,6 +323,24 @@ def test_lines_below_the_last_typeset_and_units_that_do_not_match_their_names_ar
         "c4: line 1 of c4: 2 names need 2 units, such as # [m] one, [s] other; got 1",
         "c3: line 5, def C(A): C is not shown: end the cell in typeset()",
         "c3: line 3, B = A: B stands in formulas and is not shown: end its line in # [unit] meaning",
+    ]
+
+
+def test_a_unit_that_declares_nothing_and_what_only_a_last_line_would_show_are_told():
+    inside = "def A(x):\n    y = 2 * x  # [m] twice\n    return y\ntypeset()"
+    looped = "for k in range(3):\n    B = k * L  # [m] last\nC = (  # [m] sum\n    B + L\n)\ntypeset()"
+    bare = "D = 2 * L  # [m] twice\ntable_1 = table('1', 'Own', D)\ntable_1\ntypeset()"
+    called = "check('own', 1.0, 2.0)\ntypeset()"
+    shown = "'a text alone'\nE = 1  # [m] one\ntypeset()\ntable_1"
+    cells = source.of_texts(tuple((text, "") for text in (inside, looped, bare, called, shown)))
+    nothing = "the unit says nothing here: it stands behind the end of what a line of a cell binds"
+    given = "is not shown: a cell shows its last line, so give it to typeset()"
+    assert [tuple(told) for told in left_out(cells, {})] == [
+        (0, 2, nothing),
+        (1, 2, nothing),
+        (1, 3, nothing),
+        (2, 3, f"table_1 {given}"),
+        (3, 1, f"check own {given}"),
     ]
 
 

@@ -9,7 +9,7 @@ import numpy as np
 from mechsheet.worksheet import source
 from mechsheet.worksheet.cells import bound
 from mechsheet.worksheet.errors import SheetError
-from mechsheet.worksheet.lines import Formula, formulas, names_read, typeset_lines
+from mechsheet.worksheet.lines import Formula, formulas, names_read, typeset_lines, undeclaring
 
 
 class LeftOut(NamedTuple):
@@ -36,11 +36,30 @@ def left_out(cells: Iterable[source.Cell], names: Mapping[str, Any]) -> Iterator
             first = next(node.lineno for node in cells[n].body if below[0] in bound(node))
             verb = "is" if len(below) == 1 else "are"
             yield LeftOut(n, first, f"{', '.join(below)} {verb} not shown: end the cell in typeset()")
+        shown = [node for node in cells[n].body if not isinstance(node, ast.Return)][:-1]
         for node in cells[n].body:
+            for line in undeclaring(cells[n], node):
+                yield LeftOut(
+                    n, line, "the unit says nothing here: it stands behind the end of what a line of a cell binds"
+                )
+            if node in shown and (name := _bare(node)):
+                yield LeftOut(
+                    n, node.lineno, f"{name} is not shown: a cell shows its last line, so give it to typeset()"
+                )
             match node:
                 case ast.Assign([ast.Name(name)]) if name in met - own and is_numeric(names.get(name)):
                     why = f"{name} stands in formulas and is not shown: end its line in # [unit] meaning"
                     yield LeftOut(n, node.lineno, why)
+
+
+def _bare(node: ast.stmt) -> str:
+    """What a statement would show, were it the last one of its cell; "" where it would show nothing."""
+    match node:
+        case ast.Expr(ast.Name(name)):
+            return name
+        case ast.Expr(ast.Call(ast.Name("table" | "figure" | "check" | "caption" as kind), [ast.Constant(what), *_])):
+            return f"{kind} {what}"
+    return ""
 
 
 def is_numeric(value: Any) -> bool:

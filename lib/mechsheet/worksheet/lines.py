@@ -106,6 +106,20 @@ def _formulas(cell: source.Cell) -> Iterator[Formula | Given]:
                 yield replace(line, unit=told.unit, number=printed, meaning=meaning, mistake=told.mistake)
 
 
+def undeclaring(cell: source.Cell, node: ast.stmt) -> Iterator[int]:
+    """Lines of a statement whose comment is a unit that declares nothing, where its last line declares nothing either.
+
+    As within a function, a loop or a choice.
+    """
+    last = node.end_lineno or node.lineno
+    if isinstance(node, ast.ClassDef) or (_bound(node) and declared(cell.comments.get(last, ""))):
+        return
+    for line in range(node.lineno, last + 1):
+        told = declared(cell.comments.get(line, ""))
+        if told and not told.mistake:
+            yield line
+
+
 def _bound(node: ast.stmt) -> list[Formula]:
     """What a statement binds names to, without a unit as yet."""
     match node:
