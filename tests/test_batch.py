@@ -110,6 +110,23 @@ def test_an_exception_of_one_scene_is_its_one_line(tmp_path, capsys):
     assert "a: sheet.py, line 19, y = int(1 // g.x): float floor division by zero" in printed
 
 
+def test_a_result_that_rests_on_no_solution_says_which_equation_resists(tmp_path, capsys):
+    sheet = tmp_path / "sheet.py"
+    sheet.write_text(
+        "import marimo\napp = marimo.App()\n\nwith app.setup:\n    from mechsheet import find, inputs, typeset\n"
+        "    from numpy import array\n\n\n@app.class_definition\n@inputs\nclass A:\n"
+        '    x: float = 2.0  # [-] number\n\n    """Text."""\n\n\n'
+        "@app.cell\ndef one(g):\n    x = array([g.x, 4])\n"
+        "    found = find(lambda u, v: (u**2, u + v), equals=(x, 0), u=1.0, v=1.0)\n"
+        "    u = found.value.u  # [-] root\n    typeset()\n    return (u,)\n"
+    )
+    files = [scene(tmp_path, name, f'want = ["u"]\n[inputs]\nx = {x}\n') for name, x in (("a", -3), ("b", 1))]
+    assert batch.run(str(sheet), files) == 1
+    printed = capsys.readouterr().out
+    assert row(printed, "verdict") == ["FAIL", "pass"] and "a: FAIL  u does not exist at 1 of 2 positions" in printed
+    assert "problem 0: no solution for u, v from the guess: equation 1 leaves 3 at the nearest" in printed
+
+
 def test_workbook_of_a_scene_is_that_of_the_script(tmp_path):
     file = scene(tmp_path, "own", "[inputs]\nP6 = 20e3\n")
     assert batch.run(str(HITCH), [file, f"--out={tmp_path}"]) == 0

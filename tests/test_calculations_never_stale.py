@@ -6,6 +6,15 @@ import pytest
 from own_worksheet import assert_never_stale
 
 CONSTRUCTS = [
+    "y = np.log(g.F - 2.0) * 0 + x * g.a",
+    "y = 0.0 * np.sqrt(g.F - x) + g.a",
+    "y = np.abs(0.0 * np.exp(1j * np.arcsin(g.F - 1.5))) + g.a",
+    "y = np.abs(0j * np.sqrt(g.F - 2.0)) + np.abs((x + 0j) * 0.0) * g.a",
+    "y = 0.0 / (x - g.F) * g.a",
+    "y = 0.0 / np.sqrt(g.F - 2.0) * g.a",
+    "y = np.array([0.0, 1.0]) @ np.array([np.log(g.F - 2.0), g.a])",
+    "y = np.diag([1.0, g.a]) @ np.array([np.log(g.F - 2.0), 1.0])",
+    "y = np.linalg.solve(np.diag([1.0, g.a]), [np.log(g.F - 2.0), 1.0])",
     (
         "T = np.array([300.0, 400, 600, 900])\ncp = np.array([1.005, 1.013, 1.051, 1.121])\n"
         "y = interp(300 * g.F, T, cp) * g.a"

@@ -239,7 +239,13 @@ class Cells:
         except Exception as error:
             exception = error
         top = ast.parse(code).body
-        defs = {n.id for node in top if isinstance(node, ast.Assign) for n in node.targets}
+        defs = {
+            n.id
+            for node in top
+            if isinstance(node, ast.Assign)
+            for n in ast.walk(node.targets[0])
+            if isinstance(n, ast.Name)
+        }
         defs |= {node.name for node in top if isinstance(node, ast.FunctionDef | ast.ClassDef)}
         defs |= {alias.name for node in top if isinstance(node, ast.ImportFrom) for alias in node.names}
         refs = {n.id for n in nodes if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Load)} - defs
@@ -350,8 +356,24 @@ def test_what_would_be_left_out_without_a_word_is_told():
     found = bar(code, "C = 2 * B  # [m**2] twice", "k = 3  # [-]\nD = k * B  # [m**2] thrice\ntypeset()")
     assert found.texts(told_by.unsaid(found.cells, found.names)) == [
         "c3: line 1, A = 2 * g.D: A stands in formulas and is not shown: end its line in # [unit] meaning",
-        "c4: the formulas of C are not shown: end the cell in typeset()",
+        "c4: line 1, C = 2 * B: C is not shown: end the cell in typeset()",
     ]
+
+
+def test_lines_below_the_last_typeset_and_units_that_do_not_match_their_names_are_told():
+    below = "A = 2 * g.D  # [m] twice\ntypeset()\nB = A\n\ndef C(A):\n    return 2 * A * B  # [m**2] other"
+    found = bar(below, "D, E = 1, 2  # [m] one\nF = D  # [m] one", "typeset()\n'text'")
+    assert found.texts(told_by.unsaid(found.cells, found.names)) == [
+        "c4: line 1 of c4: 2 names need 2 units, such as # [m] one, [s] other; got 1",
+        "c3: line 5, def C(A): C is not shown: end the cell in typeset()",
+        "c3: line 3, B = A: B stands in formulas and is not shown: end its line in # [unit] meaning",
+    ]
+
+
+def test_a_name_of_a_formula_s_own_is_no_number_of_a_cell():
+    code = "f = lambda rate: 2 * rate  # [-] twice\ntypeset()"
+    found = bar(code, "rate = 3.0")
+    assert list(told_by.unsaid(found.cells, found.names)) == []
 
 
 def test_line_that_has_lost_its_unit_does_not_keep_the_former_one():

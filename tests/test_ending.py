@@ -220,6 +220,13 @@ def test_a_worksheet_of_a_clone_writes_into_its_exports(
     assert [path.name for path in (tmp_path / "exports").iterdir()] == ["lever.xlsx"]
 
 
-def test_a_comma_is_told_once_where_it_could_mean_thousands(lever: Callable[..., Path]) -> None:
-    done = subprocess.run([sys.executable, lever(), "--F=999,500"], capture_output=True, encoding="utf-8")
+def test_a_comma_that_could_mean_thousands_and_formulas_that_are_not_shown_are_told_once(
+    lever: Callable[..., Path],
+) -> None:
+    path = lever("    typeset(strong)\n", "    strong\n")
+    done = subprocess.run([sys.executable, path, "--F=999,500"], capture_output=True, encoding="utf-8")
     assert done.stdout.count("read with a decimal comma") == done.stdout.count("F = 999.5 N, read with") == 1
+    assert [line for line in done.stdout.splitlines() if "not shown" in line] == [
+        "line 126, n = 2 if g.both else 1: n, M_n, sigma are not shown: end the cell in typeset()"
+    ]
+    assert done.returncode == 0

@@ -13,7 +13,7 @@ from openpyxl import load_workbook
 from test_kinds import script
 from test_recalculation import cell_of, disagreements, edit
 
-from mechsheet import evaluate, load, sweep
+from mechsheet import evaluate, grid, load, sweep
 from mechsheet.recording.dimensions import mismatches
 from mechsheet.recording.record import record
 from mechsheet.run import arguments
@@ -154,6 +154,7 @@ def test_a_list_is_given_in_many_ways(section: Path, way: Any) -> None:
         ({"F": [[1, 2]]}, "forces F (1) = [1, 2] kN is no number"),
         ({"F_max": 5}, "forces F (1) = 10.0 kN must be < F_max = 5.0"),
         ({"stringers": "1; 2"}, "stringers of the section stringers (1) = '1; 2' must have the columns A, y, y_top"),
+        ({"stringers": "1 |"}, "stringers of the section stringers (1) = '1' must have the columns A, y, y_top apart"),
         ({"stringers": "0; 2; 30"}, "area stringers.A (1) = 0.0 cm² must be positive"),
         ({"stringers": "1; 2; 30 | 1; 31; 30"}, "level stringers.y (2) = 31.0 cm must be < stringers.y_top = 30.0"),
         ({"stringers": "1; 2; 30 | 1; x; 30"}, "level stringers.y (2) = 'x' cm is no number"),
@@ -210,6 +211,10 @@ def test_sweeps_vary_lists_and_tables(section: Path) -> None:
     assert limited.reasons.tolist() == ["", "forces F (1) = 10.0 kN must be < F_max = 5.0"]
     tables = sweep(section, ["A"], {"stringers": ["1; 2; 30", [[1, 2, 30], [3, 4, 30]]]})
     assert tables["A"].tolist() == pytest.approx([1e-4, 4e-4], rel=1e-14)
+    every = grid(F=[[1, 2], [4, 5]], stringers=["1; 2; 30", [{"A": 3, "y": 4, "y_top": 30}]], F_max=[50, 60])
+    combined = sweep(section, ["most"], every)
+    assert combined["most"].shape == (2, 2, 2) and combined.solved.all()
+    assert combined["most"][1, 1, 0] == sweep(section, ["most"], {"F": ["4; 5"], "stringers": ["3; 4; 30"]})["most"][0]
 
 
 def test_units_are_followed_and_nothing_is_left_out(section: Path) -> None:

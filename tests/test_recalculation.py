@@ -266,28 +266,45 @@ checks = check("most", most, 9.0), check("mean", mean, 9.0), check("end", end, 9
         assert front and set(front) == {"#N/A"}, front
 
 
-def test_found_value_without_a_closed_form_is_that_of_its_own_inputs(
-    recalculated: Callable[[Path], Any], tmp_path: Path
+def test_found_value_without_a_closed_form_is_searched_or_that_of_its_own_inputs(
+    recalculated_all: Callable[[list[Path]], list[Any]], tmp_path: Path
 ) -> None:
+    """Its cells search the interval; where one end of that is open, they have the number of the exported inputs."""
     source = (ROOT / "worksheets" / "hitch.py").read_text(encoding="utf-8")
-    start, end = source.index("    phi5_p = "), source.index("    typeset(S_p_found, checks_S_p)")
-    shorter = source[:start] + source[end:]
-    shorter = shorter.replace("    checks_S_p,\n", "").replace(", checks_S_p", "")
-    (tmp_path / "worksheets").mkdir()
-    (tmp_path / "worksheets" / "hitch.py").write_text(shorter, encoding="utf-8")
-    run = [sys.executable, "-X", "utf8", tmp_path / "worksheets" / "hitch.py", f"--out={tmp_path}"]
-    subprocess.run(run, check=True, capture_output=True)
-    before = recalculated(tmp_path / "hitch.xlsx")["Find"]
-    book = recalculated(edit(tmp_path / "hitch.xlsx", {"Y_P56": 0.41}, tmp_path / "edited.xlsx"))
-    after = book["Find"]
+    start, end = source.index("    psi5_p = "), source.index("    typeset(S_p_found, checks_S_p)")
+    searched = source[:start] + source[end:]
+    searched = searched.replace("    checks_S_p,\n", "").replace(", checks_S_p", "")
+    open_end = searched.replace("P56(S, L4).imag,\n        g.S_min,\n        g.S_max,", "P56(S, L4).imag, g.S_min,")
+    assert open_end != searched
+    for name, text in (("searched", searched), ("open", open_end)):
+        path = tmp_path / f"{name}.py"
+        path.write_text(text, encoding="utf-8")
+        data = report.workbook(name, cells.load(path).run_whole(), {})
+        (tmp_path / f"{name}.xlsx").write_bytes(data)
+    lower, better = {"Y_P56": 0.41}, {"eta": 0.8}
+    books = recalculated_all(
+        [
+            tmp_path / "open.xlsx",
+            edit(tmp_path / "open.xlsx", lower, tmp_path / "lower.xlsx"),
+            edit(tmp_path / "open.xlsx", better, tmp_path / "better.xlsx"),
+            edit(tmp_path / "searched.xlsx", lower, tmp_path / "found.xlsx"),
+        ]
+    )
+    before, after, other, found = (book["Find"] for book in books)
+    verdicts, of_found = (
+        {row[0].value: row[4].value for row in book["Checks"].iter_rows(min_row=3)} for book in (books[1], books[3])
+    )
     assert [row[9].value for row in after.iter_rows(min_row=3)] == ["its closed form", "found", "its closed form"]
     assert isinstance(before["B4"].value, float) and abs(before["E4"].value) < 1e-12
     assert after["B4"].value == after["E4"].value == "#N/A" and isinstance(after["B3"].value, float)
     assert after["B5"].value == "#N/A", "L7 is computed at the stroke that is not known"
-    verdicts = {row[0].value: row[4].value for row in book["Checks"].iter_rows(min_row=3)}
     assert verdicts["upper link L7: Find and the closed form"] == "not evaluated"
-    other = recalculated(edit(tmp_path / "hitch.xlsx", {"eta": 0.8}, tmp_path / "edited.xlsx"))["Find"]
     assert math.isclose(other["B4"].value, before["B4"].value, rel_tol=1e-14), "it does not rest on eta"
+    own = cells.evaluate(tmp_path / "searched.py", ["S_p", "L7"], **lower)
+    assert found["J4"].value == "the one change of sign of 129 places" and abs(found["E4"].value) < 1e-12
+    assert math.isclose(found["B4"].value, own["S_p"], rel_tol=1e-13)
+    assert math.isclose(found["B5"].value, own["L7"], rel_tol=1e-12)
+    assert set(of_found.values()) <= {"PASS", None}
 
 
 @pytest.mark.parametrize(

@@ -549,8 +549,9 @@ def section_8():
     mo.md("""
     ## 8 Studies
 
-    What runs over the hitch's worksheet, and what is kept of a run of it. The neutral axis is that of 24 elements; the
-    two unknowns are the angles of the general dyad's links, every solution in a full turn of both.
+    What reads the recording of a run of the hitch, tables, slopes, proof and workbook, and what runs over its worksheet
+    many times. The neutral axis is that of 24 elements; the two unknowns are the angles of the general dyad's links,
+    every solution in a full turn of both.
     """)
     return
 

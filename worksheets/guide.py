@@ -20,8 +20,9 @@ def title():
         "Guide",
         """
     A worksheet that teaches by being edited: a press, whose crank drives a ram through a rod. Open it with
-    `python lib/mechsheet edit guide`, do what stands after **Try**, and watch what follows. Whatever you break, undo it
-    with Ctrl-Z in its cell; the file changes only when you save it.
+    `python lib/mechsheet edit guide`, do what stands after **Try**, and watch what follows. A click on a formula, or
+    on the symbol of an input, edits its line: Enter writes it into the file, Ctrl-Z takes it back. The button *code*
+    beside a cell unfolds all of its lines, which Ctrl-Enter runs and Ctrl-S writes into the file.
     """,
     )
     return
@@ -45,7 +46,8 @@ def section_1():
     **Try** `40` in the field of the crank, then `-40`, then `0,05 m`: a number that breaks its limit is told in words,
     a decimal comma is a decimal point, and a unit of your own is converted.
 
-    **Try** in the code: below `l` add `m: float = 12.0  # [kg] ram; > 0`. A new field is there.
+    **Try** a click on the symbol `l`, and Ctrl-Enter for a new line: `m: float = 12.0  # [kg] ram; > 0`. A new field is
+    there.
 
     Behind the limits a tolerance may stand, `; ± 0.05`, `; ± 1 %` or `; ± 5 % normal`: all values within are equally
     likely, unless `normal` makes it three standard deviations.
@@ -98,7 +100,7 @@ def section_2():
     $\varphi_1$, `A_gc` is $A_{gc}$. An input is `g.` and its name. A power is `**`; `pi`, `sqrt`, `sin` come from the
     first cell.
 
-    **Try** to add the line `k = g.l / g.r  # [-] rod to crank` above `typeset()`, then run the cell with Ctrl-Enter.
+    **Try** a click on the formula, and Ctrl-Enter for a new line: `k = g.l / g.r  # [-] rod to crank`.
 
     **Try** to spoil a unit: `[mm]` of the stroke as `[N]`. It is told, with the unit that fits: write units for reading
     and never convert in a formula.
@@ -305,7 +307,9 @@ def section_9():
     - A name means the cell of its own row. It is that of the worksheet without the `_S` of a field; a point has two,
       `X56` and `Y56`, a force `R56x` and `R56y`. A name that would be the address of a cell, or that differs from
       another in capitals only, gets a line behind it: `L3_`.
-    - What is found is computed by its closed form where there is one; else it holds for the exported inputs alone.
+    - What is found is computed by its closed form where there is one. Else the cells search the interval of an equation
+      of one unknown: where 129 places of it show one change of sign, there is a value. All else that is found holds for
+      the exported inputs alone.
     - Where there is no number, a mechanism that does not close, an input outside its limits, cells say `#N/A`.
     - What the cells cannot follow is grey, holds for the exported inputs and says `#N/A` for others; the front sheet
       and the run name its line and the reason.

@@ -493,7 +493,7 @@ def section_4():
 @app.cell
 def of_elements(A, P, beta, display, g, sigma):
     beam = counted(g.beams.y)  # [-] beam
-    n_b = len(beam)
+    n_b = len(beam)  # [-] number of beams
     P_b = P[..., :n_b]  # [kgf] force in the beam
     sigma_b = sigma[..., :n_b]  # [kgf/cm**2] stress in the beam
     A_b = A[..., :n_b]  # [cm**2] area of the beam that acts
@@ -606,7 +606,7 @@ def ring_loads(display, g):
     plane_r = counted(phi)  # [-] plane of the load
     load = counted(M_r)  # [-] load case
     bolt = counted(g.bolts)  # [-] bolt
-    m = len(g.bolts)
+    m = len(g.bolts)  # [-] number of bolts
     typeset(display=display)
     return M_r, N_r, bolt, load, m, phi, plane_r
 

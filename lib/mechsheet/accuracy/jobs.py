@@ -13,7 +13,10 @@ from mechsheet.accuracy import exact, printed, rivals
 from mechsheet.accuracy.arithmetic import Numbers
 from mechsheet.accuracy.precision import Job, Measured, Method, Timed, largest_error, time_spread, timed
 from mechsheet.accuracy.rivals import REACTIONS, crank_chain, hitch_chain, hitch_points
+from mechsheet.recording import numbers as computed
+from mechsheet.recording.gradients import gradient
 from mechsheet.recording.record import record
+from mechsheet.recording.slopes import slopes
 from mechsheet.run import report
 from mechsheet.run.progress import progress
 from mechsheet.run.proving import proof_of
@@ -223,17 +226,32 @@ def asked_costs(number: str, path: Path, asked: Mapping[str, Sequence[str]], sec
 
 
 def study_costs(number: str, path: Path, studies: Mapping[str, Callable[[], Any]], seconds: float) -> Table:
-    """Table of the run times of studies, of a recording of a worksheet's run, of its proof and of its workbook."""
+    """Table of the run times of studies and of the readers of a worksheet's recording, as multiples of one run, too."""
     sheet, title = load(path), "Cost of studies"
-    names = sheet.run(sheet.results, {"g": sheet.inputs()}) | {"__file__": str(path)}
+    given = {"g": sheet.inputs()}
+    names = sheet.run(sheet.results, given) | {"__file__": str(path)}
+    recording = record(names, sheet)
+    inputs = [node for node in recording.inputs.values() if node.size == 1 and node.value.dtype.kind == "f"]
+    columns = [part for table in recording.tables.values() for c in table if c is not None for part in c.parts]
     ways: dict[str, Callable[[], Any]] = {
-        **studies,
-        "formulas of a run recorded": partial(record, names, sheet),
-        "all its digits proved": partial(proof_of, names, sheet, record(names, sheet)),
+        "a run of the worksheet's cells": partial(sheet.run, sheet.results, given),
+        "the run recorded": partial(record, names, sheet),
+        "its tables computed by the recording": partial(
+            computed.numbers, columns, {node: node.value for node in inputs}
+        ),
+        "their slopes by one input": partial(slopes, columns, inputs[:1]),
+        f"their slopes by all {len(inputs)} inputs": partial(slopes, columns, inputs),
+        f"one number's slopes by all {len(inputs)} inputs": partial(gradient, columns[-1], 0, inputs),
+        "all their digits proved": partial(proof_of, names, sheet, recording),
         "its workbook written": partial(report.workbook, path.stem, names, {}),
+        **studies,
     }
     study = Column("study", "", "", 0, np.array(list(ways), object))
-    return Table(number, title, (study, *_run_times(f"{number} {title}", list(ways.values()), seconds)))
+    time, *spread = _run_times(f"{number} {title}", list(ways.values()), seconds)
+    of_run = Column(
+        "of a run", "-", "time over that of a run of the worksheet's cells", 2, time.values / time.values[0]
+    )
+    return Table(number, title, (study, time, of_run, *spread))
 
 
 def _run_times(job: str, runs: Sequence[Callable[[], Any]], seconds: float) -> tuple[Column, ...]:

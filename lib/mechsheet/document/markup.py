@@ -1,13 +1,16 @@
-"""Symbols and numbers in HTML."""
+"""Symbols, numbers and limits in HTML."""
 
 from html import escape
 
 from mechsheet.worksheet import symbol
+from mechsheet.worksheet.kinds import Input
 from mechsheet.worksheet.numbers import Notation
 
 HTML = Notation(
     "−", "none", "∞", "{}\u2009·\u200910<sup>{}</sup>", "({}, {})", " … ", "°", " %", " {}", "<sup>{}</sup>", "·"
 )
+
+_SIGNS = {"<": "&lt;", ">": "&gt;", "<=": "≤", ">=": "≥"}
 
 
 def named(name: str) -> str:
@@ -37,3 +40,16 @@ def in_words(sentence: str) -> str:
     """
     pieces = enumerate(symbol.pieces(sentence))
     return "".join(named(piece) if i % 2 else escape(piece).replace(" - ", " − ") for i, piece in pieces)
+
+
+def limits(field: Input) -> str:
+    """Limits of an input, or of one column of a table; other columns by their short names.
+
+    >>> limits(Input("b.x", "m", "", "", False, ((">", "0.5"), ("<=", "b.l_2"))))
+    '&gt;&nbsp;0.5, ≤&nbsp;<i>l</i><sub>2</sub>'
+    """
+    return ", ".join(f"{_SIGNS[sign]}&nbsp;{_limit(other)}" for sign, other in field.limits)
+
+
+def _limit(text: str) -> str:
+    return as_written(text.rpartition(".")[2]) if text[0].isalpha() else escape(text)

@@ -7,13 +7,11 @@ from typing import Any
 import numpy as np
 
 from mechsheet import units
-from mechsheet.document.markup import as_written
+from mechsheet.document.markup import as_written, limits
 from mechsheet.units import parse
 from mechsheet.worksheet.inputs import LEAST, MOST, declared
 from mechsheet.worksheet.kinds import Choice, Input, Switch, TextLine, number
 from mechsheet.worksheet.lists import Rows
-
-_SIGNS = {"<": "&lt;", ">": "&gt;", "<=": "≤", ">=": "≥"}
 
 
 def fields(g: Any) -> str:
@@ -44,14 +42,9 @@ def _limits(field: Input) -> str:
     columns = field.columns if isinstance(field, Rows) and field.row else (field,)
     parts = list[str]()
     for column in columns:
-        limits = ", ".join(f"{_SIGNS[sign]}&nbsp;{_limit(other)}" for sign, other in column.limits)
-        parts += [f"{as_written(_short(column))}&nbsp;{limits}" if column is not field else limits] if limits else []
+        own = limits(column)
+        parts += [f"{as_written(_short(column))}&nbsp;{own}" if column is not field else own] if own else []
     return ", ".join(parts + ([escape(field.tolerance.text(field.unit))] if field.tolerance else []))
-
-
-def _limit(text: str) -> str:
-    text = text.rpartition(".")[2] if text[0].isalpha() else text
-    return as_written(text) if text[0].isalpha() else escape(text)
 
 
 def _short(column: Input) -> str:

@@ -10,15 +10,13 @@ from traceback import walk_tb
 from types import FrameType
 from typing import Any
 
-import numpy as np
-
 from mechsheet import units
-from mechsheet.document.expression import reads
+from mechsheet.document.left_out import left_out
 from mechsheet.page import notebook
 from mechsheet.recording import dimensions
 from mechsheet.worksheet import mistakes, source
 from mechsheet.worksheet.cells import Cell, Worksheet, compiled
-from mechsheet.worksheet.lines import Formula, formulas, registry
+from mechsheet.worksheet.lines import registry
 from mechsheet.worksheet.title import Note
 
 _PERIOD = 0.25  # s between two looks at the cells
@@ -107,23 +105,8 @@ def failed(cells: Iterable[notebook.Cell]) -> Iterator[Note]:
 def unsaid(cells: Iterable[notebook.Cell], names: Mapping[str, Any]) -> Iterator[Note]:
     """What would be left out without a word: numbers that formulas read and nothing declares, formulas not typeset."""
     ran = [cell for cell in cells if cell.status == "success"]
-    lines = {cell.cell_id: source.of_texts(((cell.code, cell.filename),))[0] for cell in ran}
-    formulas_of = {key: [line for line in formulas(read) if isinstance(line, Formula)] for key, read in lines.items()}
-    met = {name for found in formulas_of.values() for line in found for name in reads(line)}
-    for cell in ran:
-        declared = [line.name for line in formulas_of[cell.cell_id]]
-        if declared and "typeset" not in cell.refs:
-            yield Note(cell.cell_id, f"the formulas of {', '.join(declared)} are not shown: end the cell in typeset()")
-        for node in lines[cell.cell_id].body:
-            match node:
-                case ast.Assign([ast.Name(name)]) if name in met.difference(declared) and is_numeric(names.get(name)):
-                    why = f"{name} stands in formulas and is not shown: end its line in # [unit] meaning"
-                    yield Note(cell.cell_id, f"{_line(cell, node.lineno)}: {why}")
-
-
-def is_numeric(value: Any) -> bool:
-    """Whether a value is a number or an array of numbers."""
-    return isinstance(value, int | float | complex | np.ndarray | np.generic) and np.asarray(value).dtype.kind in "iufc"
+    for n, line, why in left_out(source.of_texts(tuple((cell.code, cell.filename) for cell in ran)), names):
+        yield Note(ran[n].cell_id, why if line is None else f"{_line(ran[n], line)}: {why}")
 
 
 def unfit(cells: Iterable[notebook.Cell], names: Mapping[str, Any]) -> Iterator[Note]:

@@ -7,25 +7,17 @@ from uuid import uuid4
 import marimo as mo
 
 from mechsheet import units
-from mechsheet.document.markup import as_written
+from mechsheet.document.markup import as_written, limits
 from mechsheet.page.script import element, script
 from mechsheet.worksheet.inputs import declared
 from mechsheet.worksheet.kinds import Choice, Input, Switch
 from mechsheet.worksheet.lists import Rows
 from mechsheet.worksheet.title import Slider
 
-_SIGNS = {"<": "&lt;", ">": "&gt;", "<=": "≤", ">=": "≥"}
-
-
-def _limit(text: str) -> str:
-    text = text.rpartition(".")[2]
-    return as_written(text) if text[0].isalpha() else text
-
 
 def _limits(field: Input) -> str:
-    limits = [f"{_SIGNS.get(sign, sign)}&nbsp;{_limit(other)}" for sign, other in field.limits]
     tolerance = [html.escape(field.tolerance.text(field.unit))] if field.tolerance else []
-    return ", ".join(limits + tolerance)
+    return ", ".join([limits(field)] * bool(field.limits) + tolerance)
 
 
 def _told(field: Input) -> str:

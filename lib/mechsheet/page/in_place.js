@@ -98,19 +98,29 @@
     box.remove();
   }
 
+  // One question at a time: what was typed meanwhile is asked for then.
   let timer;
+  let asking = false;
   async function preview(told = "") {
-    const mine = of;
-    const answer = await ask({ do: "type", name: of.name, was: of.was, new: area.value, below: of.below });
-    if (of !== mine || mine.busy) return;
+    if (asking) return;
+    const [mine, text] = [of, area.value];
+    asking = true;
+    const answer = await ask({ do: "type", name: of.name, was: of.was, new: text, below: of.below });
+    asking = false;
+    if (of && (of !== mine || area.value !== text)) return typing();
+    if (!of || of.busy) return;
     why.textContent = answer.why ?? (isUnsaved() ? UNSAVED : told);
+    typed.classList.toggle("ms-former", answer.shown === undefined);
     if (answer.shown !== undefined) typed.innerHTML = answer.shown;
   }
-  area.addEventListener("input", () => {
+
+  function typing() {
     area.rows = Math.max(area.value.split("\n").length, 1);
+    typed.classList.add("ms-former"); // until what stands there is of this text
     clearTimeout(timer);
     timer = setTimeout(() => of && (area.value.trim() || !of.below) && preview(), 200);
-  });
+  }
+  area.addEventListener("input", typing);
 
   // Written is a line once the page holds it: until then, text typed elsewhere would be lost to the file that comes.
   async function write(what, name, then) {

@@ -16,6 +16,9 @@ class NotRecorded(BaseException):
     """Something that a recording does not hold, in words; no code of a worksheet handles it."""
 
 
+# Operations that may have no finite number where all their operands have one.
+_PARTIAL = frozenset(("div", "pow", "sqrt", "exp", "log", "tan", "asin", "acos", "mod", "sized"))
+_MOVING = frozenset(("input", "rows", "length", "take", "join", "reduce"))
 MOST = 50_000  # numbers that one statement may compute, each a cell of a workbook
 MOST_DRAWN = 2_000_000  # the same in a page in one file, which computes them itself
 
@@ -67,6 +70,7 @@ class Graph:
         self.work = 0  # numbers computed since somebody set it to 0
         self.fixed = set[Node]()  # which rest on constants alone
         self.counts = set[Node]()  # which rest on numbers of rows, and are these themselves
+        self.always = set[Node]()  # which are numbers whatever the inputs are
         self.lengths: dict[tuple[Node, int], Node] = {}
         self.sizes: dict[Node, tuple[Node, ...]] = {}
         self.pivots = set[Node]()  # conditions that put the rows of linear equations in order, which may be unlike
@@ -100,6 +104,8 @@ class Graph:
                 and all(a in self.fixed or a in self.counts for a in under)
             ):
                 self.counts.add(known)
+            if self.always.issuperset(under) and _exists(known):
+                self.always.add(known)
             if self.work > (most := MOST_DRAWN if self.draws else MOST):
                 raise NotRecorded(f"it takes more than {most:,} operations on single numbers")
         return known
@@ -390,6 +396,15 @@ class Graph:
 
 
 current: ContextVar[Graph] = ContextVar("current")  # the graph of the recording that is made here
+
+
+def _exists(node: Node) -> bool:
+    """Whether an operation gives finite numbers wherever its operands are finite, whatever they are."""
+    if node.op == "constant":
+        return bool(np.all(np.isfinite(node.value)))
+    if node.op == "div":
+        return node.args[1].op == "constant" and bool(np.all(node.args[1].value))
+    return node.op in _MOVING or (node.op in ELEMENTWISE and node.op not in _PARTIAL)
 
 
 def _whole(join: Node) -> bool:

@@ -55,7 +55,7 @@ class Told(NamedTuple):
 class Solved:
     """A found value: what it leaves of its equation, its interval or guess, its closed form where there is one.
 
-    Of one unknown the ``target`` is what its equation must be.
+    Of one unknown the ``target`` is what its equation must be. It may be ``searched`` in place of a closed form.
     """
 
     node: Node
@@ -64,6 +64,7 @@ class Solved:
     words: Told
     inverse: Node | None = None
     target: Node | None = None
+    searched: bool = False
 
 
 @dataclass

@@ -29,13 +29,17 @@ from mechsheet.worksheet.kinds import Input
 from mechsheet.worksheet.results import Displayed
 from mechsheet.worksheet.scene import Scene
 from mechsheet.worksheet.table import Column, Table
+from mechsheet.worksheet.verdict import Verdict
 
 _GAP = 2  # characters between columns
 
 
 @dataclass(frozen=True)
 class Outcome:
-    """What became of a scene: its inputs, how their texts were read, results, checks, proof and bands, or the error."""
+    """What became of a scene: its inputs, how their texts were read, results, checks, proof and bands, or the error.
+
+    ``unsolved`` tells of each solve block without a value why it has none.
+    """
 
     name: str
     g: Any = None
@@ -46,13 +50,14 @@ class Outcome:
     error: str = ""
     proof: tuple[str, ...] = ()
     bands: tuple[str, ...] = ()
+    unsolved: tuple[str, ...] = ()
 
     @property
     def problems(self) -> list[str]:
         """Why the scene did not pass, a line each."""
         failed = [str(check) for check in self.checks if not check.passed]
         gaps = [f"FAIL  {quantity.gaps}" for quantity in self.quantities if quantity.gaps]
-        return [self.error] if self.error else failed + gaps
+        return [self.error] if self.error else [*failed, *gaps, *(self.unsolved if failed or gaps else ())]
 
     @property
     def verdict(self) -> str:
@@ -86,7 +91,8 @@ def compute(sheet: Worksheet, name: str, given: Scene) -> tuple[Outcome, dict[st
         judged, proved = [*judged, proof.check(given.proof)], tuple(proof.lines())
     bands = tuple(banding.lines(names, sheet, given, [*quantities], judged)) if given.tolerances else ()
     shown = tuple(quantities.values()), tuple(tables), tuple(judged), tuple(told)
-    return Outcome(name, g, *shown, proof=proved, bands=bands), names
+    unsolved = tuple(str(value) for value in names.values() if isinstance(value, Verdict) and value.failures())
+    return Outcome(name, g, *shown, proof=proved, bands=bands, unsolved=unsolved), names
 
 
 def answer(worksheet: str, given: Scene) -> int:

@@ -11,10 +11,12 @@ import numpy as np
 
 from mechsheet import units
 from mechsheet.document import parts
+from mechsheet.document.left_out import left_out
 from mechsheet.recording.banded import RunBands
 from mechsheet.recording.dimensions import dimensions
 from mechsheet.recording.lines import Recording, Residual
 from mechsheet.recording.record import record
+from mechsheet.recording.searched import search
 from mechsheet.run import arguments
 from mechsheet.run.banding import bands_of, matters, results_of, tables_of
 from mechsheet.run.ending import say
@@ -22,7 +24,7 @@ from mechsheet.run.proving import proof_of
 from mechsheet.workbook import inputs_sheet, writing
 from mechsheet.workbook.find_sheet import FoundRow
 from mechsheet.workbook.save import save
-from mechsheet.worksheet import index, inputs, numbers
+from mechsheet.worksheet import index, inputs, mistakes, numbers, source
 from mechsheet.worksheet.cells import Worksheet, load, refuse_open, results
 from mechsheet.worksheet.check import Check
 from mechsheet.worksheet.errors import SheetError
@@ -108,9 +110,16 @@ def _script(title: str, namespace: Mapping[str, Any], worksheet: Path) -> None:
         say(*proof.lines(), checks[-1])
     path = (given.out or folder(worksheet.resolve())) / f"{worksheet.stem}.xlsx"
     write(_workbook(title, namespace, [*values, fit, *proved], recording, proved), path)
-    say(f"written {path}", *_not_followed(recording))
+    say(f"written {path}", *_not_followed(recording), *_left_out(namespace, worksheet))
     if not all(check.passed for check in checks):
         sys.exit(1)
+
+
+def _left_out(namespace: Mapping[str, Any], worksheet: Path) -> Iterator[str]:
+    """What the document leaves out without a word, a line for each."""
+    text = worksheet.read_text(encoding="utf-8").splitlines()
+    for _, line, why in left_out(source.cells(namespace), namespace):
+        yield why if line is None else f"{mistakes.at(line, text[line - 1])}: {why}"
 
 
 def _not_followed(recording: Recording) -> list[str]:
@@ -149,6 +158,7 @@ def _recorded(namespace: Mapping[str, Any]) -> tuple[Recording, Check]:
     """The recording of a run, and the check of its units."""
     sheet = load(namespace["__file__"])
     recording = record(namespace, sheet)
+    search(recording)
     fit = dimensions(recording, sheet, namespace, registry(namespace)).check()
     mistakes, none = recording.graph.constant(fit.residual), recording.graph.constant(fit.limit)
     recording.checks[fit.name] = Residual([mistakes], none, "-", signed=True)  # the same for all inputs

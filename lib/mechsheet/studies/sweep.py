@@ -113,7 +113,13 @@ def grid(**axes: ArrayLike) -> dict[str, NDArray[Any]]:
     >>> {name: values.shape for name, values in grid(P6=[20e3, 25e3, 30e3], S_max=[0.65, 0.67]).items()}
     {'P6': (3, 1), 'S_max': (1, 2)}
     """
-    return dict(zip(axes, np.ix_(*(np.atleast_1d(values) for values in axes.values())), strict=True))
+    return dict(zip(axes, np.ix_(*map(_along, axes.values())), strict=True))
+
+
+def _along(values: Any) -> NDArray[Any]:
+    """Values of an input along an axis; each list or table among them is one."""
+    several = isinstance(values, list | tuple) and any(np.iterable(x) and not isinstance(x, str) for x in values)
+    return inputs.each(values) if several else np.atleast_1d(values)
 
 
 def sweep(

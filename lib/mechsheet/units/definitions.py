@@ -1,6 +1,7 @@
 """What units hold: their definitions, prefixes, dimensions, and units of one's own."""
 
 import difflib
+import re
 import sys
 from fractions import Fraction
 from functools import lru_cache
@@ -55,6 +56,12 @@ PREFIXED = dict.fromkeys(_OF_SI.split(), tuple(_PREFIXES)) | {
 }  # fmt: skip
 
 
+# Words and signs of the trade that are no units here, with the one that is meant.
+_MEANT = {
+    "lbs": "lb", "pound": "lb", "pounds": "lb", "feet": "ft", "foot": "ft", "inches": "inch", "sec": "s", "hr": "h",
+    "hour": "h", "hours": "h", "kp": "kgf", "kph": "km/h", "mph": "mile/h", "cc": "cm**3", "ccm": "cm**3",
+    "newton": "N", "degF": "degC", "degK": "K", "cSt": "mm**2/s", "cP": "mPa*s",
+}  # fmt: skip
 _LIKE = "write units as m, kN*m, rad/s**2 or 1/m"
 
 
@@ -93,7 +100,9 @@ def _known(text: str) -> Unit | str:
     try:
         factor, dims = _product(text)
     except Unreadable:
-        return f"unit [{text}] is not known; {_LIKE}"
+        raised = re.sub(r"(?<=[^\W\d_])([2-9])", r"**\1", text)  # mm2
+        known = raised != text and not isinstance(_known(raised), str)
+        return f"unit [{text}] is not known; " + (f"nearest: {raised}" if known else _LIKE)
     except KeyError as error:
         (name,) = error.args
         of = f": {name}" if name != text else ""
@@ -141,6 +150,8 @@ def single(name: str) -> tuple[Fraction | float, Dims]:
 
 def nearest(name: str) -> list[str]:
     """Units that are written much like another name, best first; of two that run together their product."""
+    if meant := _MEANT.get(name) or _MEANT.get(name.lower()):
+        return [meant]
     known = names()
     halves = ((name[:n], name[n:]) for n in range(1, len(name)))
     if together := [f"{a}*{b}" for a, b in halves if a in known and b in (*BASE, *DEFINED)]:

@@ -46,7 +46,7 @@ def write(book: Book, rows: Sequence[FoundRow], formulas: SheetFormulas | None) 
         value, residual, lower, upper = (_known(f, x, formulas) for f, x in zip(texts, numbers, strict=True))
         target: Content = "" if row.target is None else _known(must, row.target, formulas)
         others: Content = formulas.as_exported(row.other_roots) if formulas and row.other_roots else row.other_roots
-        kind = "its closed form" if formulas and formulas.closed(row.unknown) else row.kind
+        kind = formulas.kind(row.unknown, row.kind) if formulas else row.kind
         line = (row.symbol, value, shown(row.unit), row.meaning, residual, shown(row.residual_unit), lower, upper)
         listed.append((*line, others, kind, target))
     title = "Found values, the residuals that they leave and the intervals searched"

@@ -6,6 +6,7 @@ from mechsheet import units
 from mechsheet.recording.lines import Line, leaves_of
 from mechsheet.recording.node import Node, bottom_up
 from mechsheet.recording.quantity import Quantity
+from mechsheet.recording.searched import PLACES
 from mechsheet.workbook.arrangement import Arrangement
 from mechsheet.workbook.cell_formula import CellFormulas, written
 from mechsheet.workbook.content import Live, quoted
@@ -120,10 +121,12 @@ class SheetFormulas:
         counts = [f"SUMPRODUCT(--ISERROR({first.range(0, last - first.row)}))" for first, last in ends.values()]
         return f"={'+'.join(counts) or '0'}"
 
-    def closed(self, unknown: str) -> bool:
-        """Whether a found value is computed by its closed form."""
+    def kind(self, unknown: str, own: str) -> str:
+        """What a found value is in the workbook: ``own`` where it is the number of the worksheet's own run."""
         solved = self.recording.found.get(unknown)
-        return solved is not None and solved.inverse is not None
+        if solved is None or solved.inverse is None:
+            return own
+        return f"the one change of sign of {PLACES} places" if solved.searched else "its closed form"
 
     def check(self, name: str) -> Compared | None:
         """Formulas of a check; None where it holds plain numbers."""

@@ -342,7 +342,7 @@ def instance(cls: type[T], si: Mapping[str, Any]) -> T:
 def _column(field: Input, given: ArrayLike) -> tuple[NDArray[Any], NDArray[np.object_]]:
     """What is given of an input, in its display unit, and the reason for each that cannot be used."""
     try:
-        column = _each(given) if isinstance(field, Rows) else np.asarray(given)
+        column = each(given) if isinstance(field, Rows) else np.asarray(given)
     except ValueError:  # of rows that differ in length
         raise SheetError(f"{field.says(errors.as_given(given))} is no array of numbers") from None
     texts = np.full(column.shape, "", dtype=object)
@@ -361,8 +361,10 @@ def _column(field: Input, given: ArrayLike) -> tuple[NDArray[Any], NDArray[np.ob
     return shown, texts
 
 
-def _each(given: Any) -> NDArray[np.object_]:
-    """Lists or tables, one a variant; a text is that of all."""
+def each(given: Any) -> NDArray[np.object_]:
+    """Lists or tables, one a variant; a text is that of all, and an array of them is as it is."""
+    if isinstance(given, np.ndarray) and given.dtype == object:
+        return given
     several = [given] if isinstance(given, str) else list(given)
     column = np.empty(len(several), dtype=object)
     column[:] = several if len(several) != 1 else [None]

@@ -275,7 +275,7 @@ def typeset(*shown: Any, display: Mapping[str, str] | None = None) -> "Typeset":
     """
     frame = sys._getframe(1)
     cell, here = source.cell(frame), frame.f_lineno
-    above = max((end for end in _typeset_lines(cell) if end < here), default=0)
+    above = max((end for end in typeset_lines(cell) if end < here), default=0)
     try:
         lines = [row for row in formulas(cell) if above < row.expression.lineno < here]
     except SheetError as error:
@@ -288,7 +288,7 @@ def typeset(*shown: Any, display: Mapping[str, str] | None = None) -> "Typeset":
 
 def _with_constants(row: Formula | Given, namespace: Mapping[str, Any]) -> Formula | Given:
     """A line with the units among the names that it reads."""
-    found = ((name, _of_unit(name, namespace)) for name in _names(row))
+    found = ((name, _of_unit(name, namespace)) for name in names_read(row))
     constants = tuple((name, value.unit) for name, value in found if isinstance(value, units.Constant))
     return replace(row, constants=constants) if constants else row
 
@@ -300,7 +300,7 @@ def _of_unit(name: str, namespace: Mapping[str, Any]) -> Any:
 
 
 @lru_cache(maxsize=4096)
-def _names(row: Formula | Given) -> tuple[str, ...]:
+def names_read(row: Formula | Given) -> tuple[str, ...]:
     """Names that a line reads, parts of modules too, without its arguments."""
     parts = [row.expression, *((row.target,) if isinstance(row, Given) else (value for _, value in row.where))]
     nodes = (node for part in parts for node in ast.walk(part))
@@ -310,7 +310,7 @@ def _names(row: Formula | Given) -> tuple[str, ...]:
 
 
 @lru_cache(maxsize=1000)
-def _typeset_lines(cell: source.Cell) -> tuple[int, ...]:
+def typeset_lines(cell: source.Cell) -> tuple[int, ...]:
     """Lines in which the statements of a cell end that call typeset."""
     calls = ((node, call) for node in cell.body for call in ast.walk(node) if isinstance(call, ast.Call))
     named = (node for node, call in calls if isinstance(call.func, ast.Name) and call.func.id == "typeset")

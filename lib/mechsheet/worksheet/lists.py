@@ -144,6 +144,7 @@ class Rows(Input):
     def _columns(self, value: Any) -> dict[str, list[Any]]:
         """What is given of each column, not read yet."""
         short = {c.name.rpartition(".")[2]: c.name for c in self.columns}
+        apart = " apart by ;, rows by |" if isinstance(value, str) and ";" not in value else ""
         if isinstance(value, str):
             cells = _cells(value, len(short))
             value = cells if self.row else [cell for row in cells for cell in row]
@@ -167,7 +168,7 @@ class Rows(Input):
             else:
                 told = errors.as_given("; ".join(map(str, row)) if isinstance(row, list) else row)
                 at = f"{self.name} ({k})"
-                raise SheetError(f"{self.meaning} {at} = {told} must have the columns {', '.join(short)}", at)
+                raise SheetError(f"{self.meaning} {at} = {told} must have the columns {', '.join(short)}{apart}", at)
         return {name: [row[name] for row in rows] for name in short.values()}
 
     def _named(self, given: Iterable[str], where: str) -> None:

@@ -10,7 +10,7 @@ from traceback import walk_tb
 
 def at(line: int, text: str) -> str:
     """A line of a worksheet as a mistake names it: its number, and its text without its comment."""
-    return f"line {line}, {text.partition('  #')[0].strip()}"
+    return f"line {line}, {text.partition('  #')[0].strip().removesuffix(':')}"
 
 
 def undefined(name: str, known: Iterable[str]) -> str:

@@ -77,4 +77,5 @@ class Verdict(Shown):
     def __str__(self) -> str:
         if isinstance(self.reason, str) and self.reason:
             return self.reason
-        return f"{self.headline()}: " + ", ".join(f"{k} {v}" for k, v in self.details())
+        told = f"{self.headline()}: " + ", ".join(f"{k} {v}" for k, v in self.details())
+        return "; ".join([told, *self.failures()])

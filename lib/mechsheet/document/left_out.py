@@ -1,0 +1,48 @@
+"""What a document leaves out without a word: formulas that no typeset shows, numbers that formulas read undeclared."""
+
+import ast
+from collections.abc import Iterable, Iterator, Mapping
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from mechsheet.worksheet import source
+from mechsheet.worksheet.cells import bound
+from mechsheet.worksheet.errors import SheetError
+from mechsheet.worksheet.lines import Formula, formulas, names_read, typeset_lines
+
+
+class LeftOut(NamedTuple):
+    """Why something is left out, at a line of the cell of that number; None where the reason names its line."""
+
+    cell: int
+    line: int | None
+    why: str
+
+
+def left_out(cells: Iterable[source.Cell], names: Mapping[str, Any]) -> Iterator[LeftOut]:
+    """What the cells of a worksheet leave out, from the namespace ``names`` of its run."""
+    cells, declared = list(cells), dict[int, list[Formula]]()
+    for n, cell in enumerate(cells):
+        try:
+            declared[n] = [line for line in formulas(cell) if isinstance(line, Formula)]
+        except SheetError as error:
+            yield LeftOut(n, None, str(error))
+    met = {name for found in declared.values() for line in found for name in names_read(line)}
+    for n, found in declared.items():
+        own, last = {line.name for line in found}, max(typeset_lines(cells[n]), default=0)
+        below = [line.name for line in found if line.expression.lineno > last]
+        if below:
+            first = next(node.lineno for node in cells[n].body if below[0] in bound(node))
+            verb = "is" if len(below) == 1 else "are"
+            yield LeftOut(n, first, f"{', '.join(below)} {verb} not shown: end the cell in typeset()")
+        for node in cells[n].body:
+            match node:
+                case ast.Assign([ast.Name(name)]) if name in met - own and is_numeric(names.get(name)):
+                    why = f"{name} stands in formulas and is not shown: end its line in # [unit] meaning"
+                    yield LeftOut(n, node.lineno, why)
+
+
+def is_numeric(value: Any) -> bool:
+    """Whether a value is a number or an array of numbers."""
+    return isinstance(value, int | float | complex | np.ndarray | np.generic) and np.asarray(value).dtype.kind in "iufc"
