@@ -5,6 +5,7 @@ from collections.abc import Iterable
 from dataclasses import replace
 from pathlib import Path
 
+from mechsheet.page.script import element, script
 from mechsheet.worksheet.title import Note, Title
 
 
@@ -16,15 +17,13 @@ def title_block(name: str, text: str = "") -> Title:
         import marimo as mo  # on use: a worksheet called as a function needs it not
 
         if mo.app_meta().mode == "edit" and mo.running_in_notebook():
-            from mechsheet.page import editor  # on use: only the editor needs these
-            from mechsheet.page.in_place import InPlace
-            from mechsheet.page.script import element, script
+            from mechsheet.page import editor, in_place  # on use: only the editor needs them
 
             folded = mo.Html(script("folded.js") + element("ms-folded", **{"class": "ms-screen"}))
             told = list[Note]()
 
             def edited() -> Title:
-                return replace(title, notes=tuple(told), tools=(folded, in_place.shown))
+                return replace(title, notes=tuple(told), tools=(folded, lines.shown))
 
             def redraw() -> None:
                 mo.output.replace(edited())
@@ -33,7 +32,7 @@ def title_block(name: str, text: str = "") -> Title:
                 told[:] = notes
                 redraw()
 
-            in_place = InPlace(namespace, redraw)
+            lines = in_place.InPlace(namespace, redraw)
             told[:] = editor.watch(tell)
             return edited()
     return title
