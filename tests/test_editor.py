@@ -107,6 +107,13 @@ def edit_in_place(editor):
     done.get_by_role("button").click()
     expect(done).to_have_text("M_max is as it was")
     assert file.read_bytes() == before
+    page.locator("#line-M_n > span").last.click()
+    expect(area).to_have_value("M_n = g.parts * g.F * g.L / n  # [N*m] greatest moment in each load case")
+    area.fill("")
+    box.get_by_text("M_n goes; it is needed for sigma, table_2").wait_for()
+    area.press("Control+Enter")
+    assert file.read_bytes() == before
+    area.press("Escape")
     return area, lambda: file.read_bytes() == before
 
 

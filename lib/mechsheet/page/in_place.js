@@ -132,6 +132,7 @@
     if (of) of.busy = true;
     const answer = await ask(what);
     if (mine) mine.busy = false;
+    if (what.below) name = what.new.trim().match(/^(?:def )?(\w*)/)[1];
     if (answer.why) return tell(answer.why);
     if (what.do === "undo") written.pop();
     else written.push({ name, ...answer.written });
@@ -169,7 +170,7 @@
     // What is typed is written first; the new line opens where it stands then.
     below() {
       const { name } = of;
-      if (of.below || area.value === of.was) return below();
+      if (of.below || area.value === of.was || !area.value.trim()) return below();
       acts.write(() => {
         const now = placeOf(name);
         if (now) open(now, name).then(below);

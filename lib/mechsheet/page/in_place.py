@@ -170,10 +170,11 @@ def _input(made: str, new: str, names: dict[str, Any]) -> str:
 
 def _gone(cells: Iterable[notebook.Cell], name: str) -> str:
     """What is told where a line is to go: what needs it."""
-    word = rf"(?<![\w.]){re.escape(name)}\b"
-    plain = name.removeprefix(OF_INPUT)
-    need = {each for cell in cells if re.search(word, cell.code) for each in cell.defs} - {plain}
-    return f"{escape(plain)} goes" + (f"; it is needed for {escape(', '.join(sorted(need)))}" if need else "")
+    plain, need = name.removeprefix(OF_INPUT), dict[str, None]()
+    for node in (node for cell in cells for node in ast.parse(cell.code).body):
+        if any(ast.unparse(part) == name for part in ast.walk(node) if isinstance(part, ast.Name | ast.Attribute)):
+            need |= dict.fromkeys(sorted(declares(node) - {plain}))
+    return f"{escape(plain)} goes" + (f"; it is needed for {escape(', '.join(need))}" if need else "")
 
 
 def _mistake(text: str) -> str:

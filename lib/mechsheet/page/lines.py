@@ -17,7 +17,9 @@ from mechsheet.worksheet.lines import Formula, Given, Numbers, Typeset
 def lines(shown: Typeset) -> str:
     """The lines as they stand in the page."""
     return "".join(
-        _line(_equation(row, _single(row, shown))) if isinstance(row, Given) else _formula(row, value, shown)
+        _line(_equation(row, _single(row, shown)), name=row.name if row.first else "")
+        if isinstance(row, Given)
+        else _formula(row, value, shown)
         for row, value in zip(shown.rows, shown.values, strict=True)
     )
 
