@@ -19,10 +19,9 @@ def title():
     title_block(
         "Guide",
         """
-    A worksheet that teaches by being edited: a press, whose crank drives a ram through a rod. Open it with
-    `python lib/mechsheet edit guide`, do what stands after **Try**, and watch what follows. A click on a formula, or
-    on the symbol of an input, edits its line: Enter writes it into the file, Ctrl-Z takes it back. The button *code*
-    beside a cell unfolds all of its lines, which Ctrl-Enter runs and Ctrl-S writes into the file.
+    A worksheet that teaches by being edited: a press. Do what stands after **Try**, in `python lib/mechsheet edit guide`.
+    A click on a formula or on the symbol of an input edits its line, Enter writes it, Ctrl-Z takes it back; the button
+    *code* shows all lines of a cell, which Ctrl-Enter runs and Ctrl-S saves.
     """,
     )
     return
@@ -46,8 +45,7 @@ def section_1():
     **Try** `40` in the field of the crank, then `-40`, then `0,05 m`: a number that breaks its limit is told in words,
     a decimal comma is a decimal point, and a unit of your own is converted.
 
-    **Try** a click on the symbol `l`, and Ctrl-Enter for a new line: `m: float = 12.0  # [kg] ram; > 0`. A new field is
-    there.
+    **Try** a click on the symbol `l`, then Ctrl-Enter and `m: float = 12.0  # [kg] ram; > 0`: a new field is there.
 
     Behind the limits a tolerance may stand, `; ± 0.05`, `; ± 1 %` or `; ± 5 % normal`: all values within are equally
     likely, unless `normal` makes it three standard deviations.

@@ -139,7 +139,7 @@ def _unfit(
     cells: Iterable[notebook.Cell], name: str, was: str, made: str, new: str, names: dict[str, Any]
 ) -> Iterator[str]:
     """What does not fit in the units of a line in its cell."""
-    changed = list[notebook.Cell]()
+    changed, its, lines = list[notebook.Cell](), "", range(0)
     for cell in cells:
         if name in cell.defs and was in cell.code:
             code = cell.code.replace(was, made, 1)
