@@ -19,7 +19,7 @@ def title():
     title_block(
         "Guide",
         """
-    A worksheet that teaches by being edited: a press. Do what stands after **Try**, in `python lib/mechsheet edit guide`.
+    A press that teaches by being edited: open it with `python lib/mechsheet edit guide`, do what stands after **Try**.
     A click on a formula or on the symbol of an input edits its line, Enter writes it, Ctrl-Z takes it back; the button
     *code* shows all lines of a cell, which Ctrl-Enter runs and Ctrl-S saves.
     """,
