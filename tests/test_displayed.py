@@ -16,7 +16,7 @@ import numpy as np
 import pytest
 
 from mechsheet.document import chart, chart_svg
-from mechsheet.document.markup import in_words
+from mechsheet.document.markup import in_words, named
 from mechsheet.page.values import html as html_of
 from mechsheet.worksheet.check import Check, Summary
 from mechsheet.worksheet.find import Found
@@ -82,7 +82,8 @@ def same(text: str, value: float, unit: str, digits: int = 0) -> bool:
     return bool(abs(read * factor(unit) - value) <= (1 + 1e-6) * half * factor(unit) + 1e-12 * abs(value))
 
 
-VALUE = r"(?:−?[\d.]+(?:\s·\s10<sup>−?\d+</sup>)?|none|−?∞)"
+VALUE = r"(?:−?[\d.]+(?:\s·\s10<sup>−?\d+</sup>)?|none|−?∞|≈ 0)"
+WHERE = rf' <span class="ms-where">least at (.*?) = ({VALUE})(.*?), greatest at .*? = ({VALUE}).*?</span>'
 
 
 def numbers_in(text: str) -> tuple[list[str], str]:
@@ -99,17 +100,26 @@ def shown_of(field: np.ndarray) -> list[complex]:
     points = np.iscomplexobj(field)
     if field.size <= (4 if points else 10) or (field.ndim == 2 and max(field.shape) <= 4):
         return field.ravel().tolist()
-    if points and abs(field.flat[-1] - field.flat[0]) <= 1e-9 * abs(field).max():  # a closed path
-        return [end for part in (field.real, field.imag) for end in dict.fromkeys((part.min(), part.max()))]
     if points:
-        return [field.flat[0], field.flat[-1]]
+        parts = [part[~np.isnan(part)] for part in (field.real, field.imag)]
+        return [end for part in parts for end in (dict.fromkeys((part.min(), part.max())) if part.size else [np.nan])]
     known = field[~np.isnan(field)]
     return list(dict.fromkeys([known.min(), known.max()])) if known.size else [np.nan]
 
 
-def assert_formula(row: Formula, value: object, line: str) -> int:
+def assert_where(field: np.ndarray, shown: tuple[str, str, str, str], names: dict[str, object]) -> None:
+    """The place of an end of a field is one where the quantity that is named has that value."""
+    name, least, unit, greatest = shown
+    (axis,) = (np.asarray(value) for key, value in names.items() if named(key) == name and np.size(value) == field.size)
+    assert field[[same(least, x, unit.strip(), digits=5) for x in axis]].min() == np.nanmin(field)
+    assert field[[same(greatest, x, unit.strip(), digits=5) for x in axis]].max() == np.nanmax(field)
+
+
+def assert_formula(row: Formula, value: object, line: str, names: dict[str, object]) -> int:
     line = re.sub("</?ms-unit[^>]*>", "", re.sub("<ms-value [^>]*><span>(.*?)</span></ms-value>", r"\1", line))
-    (shown_value,) = re.findall(r'<span class="ms-value">(.*?)</span>', line)
+    for where in re.findall(WHERE, line):
+        assert_where(np.asarray(value), where, names)
+    (shown_value,) = re.findall(r'<span class="ms-value">(.*?)</span>', re.sub(WHERE, "", line))
     texts, unit = numbers_in(shown_value)
     field = np.asarray(value)
     shown = shown_of(field)
@@ -118,6 +128,9 @@ def assert_formula(row: Formula, value: object, line: str) -> int:
         values = values[:1]
     assert len(texts) == len(values), line
     for text, x in zip(texts, values, strict=True):
+        if text == "≈ 0":
+            assert 0 < abs(x) < 4e-15 * np.nanmax(abs(field)), f"{row.name}: {x} is more than its roundings"
+            continue
         assert same(text, x, unit, digits=5), f"{row.name}: {text} {unit} is not {x}"
     return len(texts)
 
@@ -128,7 +141,8 @@ def assert_typeset(shown: Typeset) -> int:
     count = 0
     for (row, value), line in zip(rows, lines, strict=True):
         if isinstance(row, Formula) and not row.arguments:
-            count += assert_formula(row, value, line)
+            assert shown.numbers
+            count += assert_formula(row, value, line, dict(shown.numbers.namespace))
     return count
 
 
@@ -168,16 +182,15 @@ def assert_column(column: Column, unit: str, names: dict[str, object]) -> None:
 
 
 def assert_used(used: Used) -> int:
-    text = used._mime_()[1]
-    shown = re.findall(r"&nbsp;=&nbsp;(.+?)&nbsp;([^<]*)</span>", text)
+    (told,) = re.findall(r'<ms-used told="(.*?)">', used._mime_()[1])
+    shown = json.loads(html.unescape(told))
     rows = used.rows()
-    assert len(shown) == len(rows)
-    for (value, unit), (field, _) in zip(shown, rows, strict=True):
+    for each, (field, _) in zip(shown, rows, strict=True):
         held = getattr(used.g, field.name)
-        if isinstance(held, int | float):
-            assert same(value, float(held), unit), field.name
+        if isinstance(held, int | float) and not isinstance(held, bool):
+            assert same(each["text"], float(held), each["unit"]), field.name
         else:
-            assert html.unescape(value) == field.brief(held), field.name
+            assert each["text"] == field.text(held), field.name
     return len(shown)
 
 

@@ -46,6 +46,8 @@ IMPORT = "from mechsheet import typeset\n"
         ("O3 + g.L34*exp(1j*phi34(S))", r"O_{3} + L_{34}\,e^{i\,\varphi_{34}(S)}"),
         ("sqrt(X6**2 + Y6**2)", r"\sqrt{X_{6}^{2} + Y_{6}^{2}}"),
         ('h["GS6_lim"]', r"{h}_{\text{GS6\_lim}}"),
+        ("np.arctan2(y, x) + log10(x)", r"\operatorname{atan2}(y,\ x) + \operatorname{lg}(x)"),
+        ("log2(x) + expm1(x)", r"\operatorname{log2}(x) + \operatorname{expm1}(x)"),
         ("a - (b - c)", r"a - (b - c)"),
         ("a - (b + c)", r"a - (b + c)"),
         ("a + (b - c)", r"a + b - c"),

@@ -17,10 +17,13 @@ from conftest import WITHIN
 from playwright.sync_api import Browser, Page, expect
 from test_html_drawing import alike
 
+from mechsheet.document import chart, chart_svg, drawing_svg, parts
 from mechsheet.html import write
+from mechsheet.recording import showing
 from mechsheet.run import arguments
 from mechsheet.worksheet import inputs, numbers
 from mechsheet.worksheet.cells import load
+from mechsheet.worksheet.table import Figure
 
 ROOT = Path(__file__).parents[1]
 SHEETS = {
@@ -30,12 +33,15 @@ SHEETS = {
     "slotted_link": {"L0": "0.5"},
     "kinetostatics": {"Y_H": "0.2222"},
 }
-UNDRAWN = {"joint": 2, "landing_gear": 1}  # drawings with numbers in their texts
+UNTOLD = {"joint": 2}  # lists of states, which are texts of Python's
 NUMBER = re.compile(r"(-?\d+(?:\.\d+)?(?:e[+-]\d+)?)")
 # Evaluations of the equations that are solved.
 COUNTED = {("slotted_link", "table-3"), ("slotted_link", "table-4")}
 COUNTS = {"line-N_F", "line-N_g"}
-READ = """() => {
+SETTLED = "dispatchEvent(new Event('beforeprint'))"  # what is out of view may wait
+READ = (
+    f"() => {{ {SETTLED};"
+    + """
   const text = element => element?.textContent ?? null;
   const each = (selector, read) => [...document.querySelectorAll(selector)].map(read);
   return {
@@ -47,17 +53,36 @@ READ = """() => {
       [...e.querySelectorAll("tbody tr")].map(row => [...row.cells].map(text))])),
     verdicts: Object.fromEntries(each(".ms-check", e => [e.id, text(e.querySelector(".ms-badge"))])),
     charts: each(".ms-figure svg.ms-chart", e => e.outerHTML.replace(/ (data-values|style)="[^"]*"/g, "")),
-    drawings: Object.fromEntries(each("[data-n] > svg:not(.ms-chart)", e => [e.parentElement.dataset.n, e.outerHTML])),
+    drawings: each("[data-n] > svg:not(.ms-chart)", e => e.outerHTML),
+    texts: each(".ms-between, .ms-caption", e => (e.querySelector(".ms-grey") ? null : text(e))),
     headlines: each(".ms-found", e => text(e.querySelector("b"))),
     state: text(document.querySelector(".ms-state")),
     sum: text(document.querySelector(".ms-summary b")),
   };
 }"""
+)
 
 
 def written(name: str, given: dict[str, str]) -> str:
     sheet = load(ROOT / "worksheets" / f"{name}.py")
     return write.page(sheet, inputs.build(sheet.inputs, given))
+
+
+def drawn(name: str, given: dict[str, str]) -> dict[str, list[str]]:
+    """Drawings and charts of a worksheet as Python lays them out."""
+    sheet = load(ROOT / "worksheets" / f"{name}.py")
+    shown = parts.contents(sheet.run(sheet.results, {"g": inputs.build(sheet.inputs, given)}))
+    figures = [part for part in shown if isinstance(part, Figure)]
+    layouts = [chart.line_chart(figure.x, figure.lines, figure.marks, figure.every) for figure in figures]
+    return {
+        "drawings": [closed(drawing_svg.svg(part)) for part in showing.drawings(shown)],
+        "charts": [re.sub(r' (?:data-values|style)="[^"]*"', "", closed(chart_svg.svg(layout))) for layout in layouts],
+    }
+
+
+def closed(svg: str) -> str:
+    """A picture as a browser writes it."""
+    return re.sub(r"<(\w+)([^<>]*)/>", r"<\1\2></\1>", svg)
 
 
 @pytest.fixture(scope="module")
@@ -115,19 +140,24 @@ def test_the_page_shows_for_other_inputs_what_the_worksheet_shows(
     given = SHEETS[name]
     assert document(name).stat().st_size < 600_000
     there = read(opened(offline, document(name, **given)))
+    pictures = drawn(name, given)
     here = read(opened(offline, document(name), "&".join(f"{k}={quote(v)}" for k, v in given.items())))
     assert here["state"].startswith("changed: ")
     assert here["verdicts"] == there["verdicts"]
-    assert len(here["drawings"]) >= len(there["drawings"]) - UNDRAWN.get(name, 0)
-    for n, drawing in here["drawings"].items():
-        assert alike(there["drawings"][n], drawing)
+    for shown in (here, there):
+        assert len(shown["drawings"]) == len(pictures["drawings"])
+        for own, drawing in zip(pictures["drawings"], shown["drawings"], strict=True):
+            assert alike(own, drawing)
+    assert [x for x in here["texts"] if x is None] == [None] * UNTOLD.get(name, 0)
+    for k, text in enumerate(here["texts"]):
+        assert text in (None, there["texts"][k])
     for k, headline in enumerate(here["headlines"]):
         assert headline in (None, there["headlines"][k])
     for caption, rows in there["tables"].items():
         if (name, caption) not in COUNTED:
             assert here["tables"][caption] == rows, caption
-    for k, chart in enumerate(there["charts"]):
-        mine, own = (re.split(NUMBER, text) for text in (here["charts"][k], chart))
+    for k, curve in enumerate(pictures["charts"]):
+        mine, own = (re.split(NUMBER, text) for text in (here["charts"][k], curve))
         assert mine[::2] == own[::2], k
         np.testing.assert_allclose(np.array(mine[1::2], float), np.array(own[1::2], float), rtol=0, atol=0.11)
     lines = {k: (x, there["lines"][k]) for k, x in here["lines"].items() if x is not None}
@@ -137,10 +167,11 @@ def test_the_page_shows_for_other_inputs_what_the_worksheet_shows(
 
 
 def without_rounding(text: str) -> tuple[str, ...]:
-    """Numbers of a line, those of 1e-7 and less as 0: there stands what rounding leaves."""
+    """Numbers of a line, those of 1e-7 and less as 0: there stands what rounding leaves, and its place says nothing."""
+    text, *place = text.partition(" least at ")
     found = re.findall("[\\d.]+(?:\u2009·\u200910−?\\d+)?", text.replace("−0", "0"))
     shown = ["0" if re.search(r"10−(?:[7-9]|1\d|2\d)$", x) else x for x in found]
-    return tuple(dict.fromkeys(shown)) if "0" in shown else tuple(shown)
+    return tuple(dict.fromkeys(shown)) if "0" in shown else (*shown, *place)
 
 
 def test_nothing_is_asked_for_and_only_its_own_script_runs(document: Callable[..., Path]) -> None:
@@ -205,16 +236,20 @@ def test_a_slider_moves_its_drawings_which_follow_the_inputs(document: Callable[
     page.locator("[data-control=part]").evaluate(
         "e => { e.value = 0.6; e.dispatchEvent(new Event('input', {bubbles: true})) }"
     )
-    page.wait_for_function("document.querySelector('#line-S_t .ms-value').textContent === '0.57 m'")
+    moving = expect(page.locator("#line-S_t .ms-value"))
+    moving.to_have_text("0.57 m")
+    page.evaluate(SETTLED)
     assert drawing.inner_html() != before
     mark = "getComputedStyle(document.querySelector('.ms-figure')).getPropertyValue('--at-S')"
-    page.wait_for_function(f"Math.abs({mark} - 0.57) < 1e-9")
+    assert page.evaluate(f"Math.abs({mark} - 0.57) < 1e-9")
     moved = drawing.inner_html()
     fill(page, "S_max", "0.7")
-    page.wait_for_function("document.querySelector('#line-S_t .ms-value').textContent !== '0.57 m'")
+    moving.not_to_have_text("0.57 m")
+    page.evaluate(SETTLED)
     assert drawing.inner_html() != moved
     page.locator(".ms-back").click()
-    expect(page.locator("#line-S_t .ms-value")).to_have_text("0.57 m")
+    moving.to_have_text("0.57 m")
+    page.evaluate(SETTLED)
     assert drawing.inner_html() == moved
 
 
@@ -222,6 +257,36 @@ def test_a_symbol_tells_what_it_means(document: Callable[..., Path], offline: Pa
     page = opened(offline, document("hitch"))
     page.locator("#line-S_c msub").last.hover()
     expect(page.locator(".ms-tip")).to_contain_text("cylinder hinge")
+
+
+def test_a_unit_is_switched_in_place_wherever_the_quantity_is_shown(
+    document: Callable[..., Path], offline: Page
+) -> None:
+    page = opened(offline, document("hitch"))
+    first = read(page)
+    value, unit = page.locator("#line-S_t .ms-value"), page.locator("#line-S_t ms-unit")
+    unit.focus()
+    page.keyboard.press("Enter")
+    page.get_by_role("menuitemradio", name="mm", exact=True).click()
+    expect(value).to_have_text("470 mm")
+    expect(unit).to_be_focused()
+    head = page.locator("#table-2\\.1 ~ .ms-wide .ms-units ms-unit").first
+    column = page.locator("#table-2\\.1 ~ .ms-wide tbody tr:first-child td").first
+    own = column.inner_text()
+    assert head.inner_text() == "m"
+    head.click()
+    page.get_by_role("menuitemradio", name="mm", exact=True).click()
+    expect(head).to_have_text("mm")
+    page.evaluate(SETTLED)
+    assert float(column.inner_text()) == pytest.approx(1000 * float(own))
+    fill(page, "S_max", "0.7")
+    page.evaluate(SETTLED)
+    assert "mm" in value.inner_text()
+    page.locator(".ms-back").click()
+    for place in (unit, head):
+        place.click()
+        page.get_by_role("menuitemradio", name="m", exact=True).click()
+    assert read(page) == first
 
 
 def test_texts_of_inputs_are_no_markup(tmp_path: Path, offline: Page) -> None:
@@ -255,7 +320,8 @@ def test_numbers_are_written_as_python_writes_them(document: Callable[..., Path]
     told = page.evaluate(
         f"""values => {{{script}
         return values.map(x => [usual(x, AXIS), fixed(x, 0, CELL), fixed(x, 3, AXIS), scientific(x, 1, CELL),
-          significant(x, 6), significant(x, 15), apart([x])[0], apart([x, x * 1.0001 + 1e-9]).join(" ")])}}""",
+          significant(x, 6), significant(x, 15), apart([x])[0], apart([x, x * 1.0001 + 1e-9]).join(" "),
+          ...{json.dumps(FORMATS)}.map(spec => formatted(x, spec))])}}""",
         values,
     )
     for x, texts in zip(values, told, strict=True):
@@ -268,7 +334,11 @@ def test_numbers_are_written_as_python_writes_them(document: Callable[..., Path]
             numbers.significant(x, 15),
             numbers.apart([x])[0],
             " ".join(numbers.apart([x, x * 1.0001 + 1e-9])),
+            *(f"{x:{'' if spec == 'r' else spec}}" for spec in FORMATS),
         ], x
+
+
+FORMATS = ("r", ".4g", ".1g", ".2f", ".0f", ".3e")
 
 
 def power(x: float) -> str:

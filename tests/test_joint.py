@@ -479,6 +479,13 @@ EXTREME = {
         "alpha": [0, 10, 20],
         "bolts": [*range(0, 360, 30)],
     },
+    "one element of each kind": {
+        "beams": [(20, 10, 1, 1, 1)],
+        "stringers": [(-15, -11, 0.5, 1, 1)],
+        "loads": [(5e5, 1e4, 0)],
+        "bolts": [0, 90, 180, 270],
+        "ring_loads": RING[:1],
+    },
     "one plane, one case": {"loads": CASES[:1], "ring_loads": RING[:1], "alpha": [0]},
 }
 

@@ -163,6 +163,17 @@ def test_edit_opens_the_worksheet_in_marimo(sheet: Path, calls: list[list[str]])
     assert calls == [[sys.executable, "-m", "marimo", "edit", "--watch", "--headless", str(sheet)]]
 
 
+def test_a_worksheet_runs_as_it_opens_outside_a_clone_too(capfd: pytest.CaptureFixture[str]) -> None:
+    setting = "_MARIMO_CONFIG_OVERLOAD_RUNTIME_AUTO_INSTANTIATE"
+    code = (
+        "from marimo._config.manager import get_default_config_manager as config\n"
+        "print(config(current_path='/').get_config()['runtime']['auto_instantiate'])"
+    )
+    assert setting not in os.environ
+    assert launcher.call([sys.executable, "-c", code]) == 0
+    assert capfd.readouterr().out.strip() == "True"
+
+
 def test_test_hands_its_arguments_to_pytest(calls: list[list[str]]) -> None:
     """Behind its own, so that ``-n 0`` is one process."""
     assert launcher.main(["test", "-k", "planar", "-n", "0"]) == 7

@@ -8,7 +8,9 @@ from typing import Any
 
 import numpy as np
 import pytest
+from own_worksheet import own, recorded
 
+from mechsheet.recording import graph
 from mechsheet.recording.graph import Graph
 from mechsheet.recording.lines import Recording
 from mechsheet.recording.node import Node
@@ -91,3 +93,14 @@ def test_a_writer_leaves_the_recording_as_it_was(names: dict[str, Any], recordin
     assert (dict(recording.names), dict(recording.graph.labels), len(recording.graph.nodes)) == before
     assert written(names, recording) == first
     assert written(names, record(names)) == first
+
+
+def test_what_guards_many_numbers_is_none_of_a_statement_s_operations(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Ten columns of five numbers, each guarded by the branch that shows them, where a statement may compute 40."""
+    monkeypatch.setattr(graph, "MOST", 40)
+    lines = [f"y{k} = x * {k + 2}  # [-] line" for k in range(10)]
+    shown = f'if y1.sum() > 0:\n    table_2 = table("2", "Two", {", ".join(f"y{k}" for k in range(10))})'
+    _, recording = recorded(own(tmp_path, "\n".join([*lines, shown])))
+    assert recording.gaps == [] and all(c is not None and c.re.op == "where" for c in recording.tables["2"])

@@ -460,7 +460,7 @@ def section_33():
 
 
 @app.cell
-def joint_check(A, A_c, A_t, M, N, P, b, h, joint, sigma, unit_F, unit_M, y):
+def joint_check(A, A_c, A_t, M, N, P, joint, sigma, unit_F, unit_M, y):
     lost = isnan(joint.sigma).any(-1)
     reason = "; ".join(
         f"plane {p + 1}, case {k + 1}: no elements carry M = {M[k, 0] / (kgf * cm):.7g} kgf*cm"
@@ -472,7 +472,7 @@ def joint_check(A, A_c, A_t, M, N, P, b, h, joint, sigma, unit_F, unit_M, y):
     checks_joint = (
         Check("equilibrium exists", np.count_nonzero(lost), 0, "cases", reason, essential=True),
         check("equilibrium of forces", total(P) - N, 1e-12, unit_F, of=largest),
-        check("equilibrium of moments", total(P * y) - M, 1e-12, unit_M, of=largest * np.maximum(h, b)),
+        check("equilibrium of moments", total(P * y) - M, 1e-12, unit_M, of=largest * np.ptp(y)),
         check("areas belong to the signs of the stresses", opposite, 1e-12, unit_F, of=largest),
     )
     typeset(*checks_joint)
@@ -554,8 +554,8 @@ def scheme(A, g, sigma, y, y_0, z):
             line = (left + right) / 2 + 1.3 * reach * array([-1, 1]) + 1j * axis
             picture = picture.path(line, "n.a.", "green")
         base, scale = right + 0.6 * reach + 0.2 * size, 0.3 * size / np.max(abs(sigma))
-        levels = np.unique([low, axis if inside else high, high])
-        stress = np.interp(levels, [low, high], sigma[p, k, [lowest, highest]])
+        levels = array([low, axis if inside else high, high])
+        stress = np.interp(levels, [low, high], [sigma[p, k, lowest], sigma[p, k, highest]])
         for (bottom, top), (s_bottom, s_top) in zip(pairwise(levels), pairwise(stress), strict=True):
             outline = [base + 1j * bottom, base + scale * s_bottom + 1j * bottom]
             outline += [base + scale * s_top + 1j * top, base + 1j * top]
@@ -749,11 +749,10 @@ def ring_scheme(M_r, N_r, P_k, g, p_o, phi, phi_no, y_r0):
         greatest_at = np.argmax(P_k[p, k])
         for i, (angle, force) in enumerate(zip(phi[p, 0], P_k[p, k], strict=True)):
             picture = picture.hinge(out(angle, g.r))
+            end = out(angle, g.r * (1 + 0.35 * force / np.max(P_k)))
+            text = f"{force:.4g} N" if g.SI else f"{force / kgf:.4g} kgf"
             if force > 0:
-                length = 0.35 * force / np.max(P_k)
-                text = f"{force:.4g} N" if g.SI else f"{force / kgf:.4g} kgf"
-                bar = [out(angle, g.r), out(angle, g.r * (1 + length))]
-                picture = picture.path(bar, text if i == greatest_at else "", "red")
+                picture = picture.path([out(angle, g.r), end], text if i == greatest_at else "", "red")
         axis = y_r0[k, 0]
         if abs(axis) < g.r:
             picture = picture.path([-1.1 * g.r + 1j * axis, 1.1 * g.r + 1j * axis], "n.a.", "green")

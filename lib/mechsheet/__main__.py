@@ -173,8 +173,12 @@ def known_worksheets() -> str:
 
 
 def call(command: "list[str]", cwd: "Path | None" = None) -> int:
-    """Exit code of a program in this terminal, with UTF-8 output also where Windows would encode it otherwise."""
-    with subprocess.Popen(command, cwd=cwd, env={**os.environ, "PYTHONUTF8": "1"}) as process:
+    """Exit code of a program in this terminal, with UTF-8 output also where Windows would encode it otherwise.
+
+    In the editor a worksheet runs as it opens, beside no pyproject.toml that says so either.
+    """
+    settings = {"PYTHONUTF8": "1", "_MARIMO_CONFIG_OVERLOAD_RUNTIME_AUTO_INSTANTIATE": "true"}
+    with subprocess.Popen(command, cwd=cwd, env={**os.environ, **settings}) as process:
         while True:
             try:
                 code = process.wait()

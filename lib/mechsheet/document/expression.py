@@ -110,9 +110,9 @@ def tree(node: ast.expr, numbers: Mapping[str, Measure] | None = None, single: f
 
 _FUNCTIONS = {
     "asin": "arcsin", "acos": "arccos", "atan": "arctan", "angle": "arg", "log": "ln", "maximum": "max",
-    "nanmax": "max", "minimum": "min", "nanmin": "min",
+    "nanmax": "max", "minimum": "min", "nanmin": "min", "arctan2": "atan2", "log10": "lg",
 }  # fmt: skip
-_KNOWN = {"sin", "cos", "tan", "exp", "max", "min", "sum", *_FUNCTIONS}
+_KNOWN = {"sin", "cos", "tan", "exp", "max", "min", "sum", "log2", "log1p", "expm1", *_FUNCTIONS}
 _ANGULAR = ("sin", "cos", "tan")
 _COMPARISONS = {ast.Lt: "<", ast.LtE: "≤", ast.Gt: ">", ast.GtE: "≥", ast.Eq: "=", ast.NotEq: "≠"}
 _OVER = ("max", "min", "sum", "amax", "amin", "nanmax", "nanmin")  # with an axis

@@ -1,10 +1,13 @@
 """Symbols, numbers and limits in HTML."""
 
+import re
 from html import escape
+from typing import Any
 
-from mechsheet.worksheet import symbol
+from mechsheet.worksheet import numbers, symbol
 from mechsheet.worksheet.kinds import Input
 from mechsheet.worksheet.numbers import Notation
+from mechsheet.worksheet.over import Over
 
 HTML = Notation(
     "−", "none", "∞", "{}\u2009·\u200910<sup>{}</sup>", "({}, {})", " … ", "°", " %", " {}", "<sup>{}</sup>", "·"
@@ -33,13 +36,30 @@ def as_written(name: str) -> str:
 
 
 def in_words(sentence: str) -> str:
-    """A sentence, the names of quantities in it as their symbols.
+    r"""A sentence, the names of quantities in it as their symbols, its numbers and degrees as the page writes them.
 
     >>> in_words("omega3 - 1 < 0, theta/2")
     '<i>ω</i><sub>3</sub> − 1 &lt; 0, <i>θ</i>/2'
+    >>> in_words("phi3 = -1.5e-7..90 deg")
+    '<i>φ</i><sub>3</sub> = −1.5\u2009·\u200910<sup>−7</sup>..90°'
     """
     pieces = enumerate(symbol.pieces(sentence))
-    return "".join(named(piece) if i % 2 else escape(piece).replace(" - ", " − ") for i, piece in pieces)
+    return "".join(named(piece) if i % 2 else _numbers_in(escape(piece)) for i, piece in pieces)
+
+
+def _numbers_in(text: str) -> str:
+    text = re.sub(r"(?<=\d) deg\b", HTML.degrees, text)
+    text = re.sub(r"(?<=\d)e([+-]?)0*(\d+)\b", lambda e: HTML.power.format("", f"{e[1].strip('+')}{e[2]}"), text)
+    return re.sub(r"(?<![\w.)])-(?=[\d.∞])|(?<= )-(?= )|(?<=<sup>)-", HTML.minus, text)
+
+
+def where(field: Any, over: Over | None) -> str:
+    """Where a field is least and where it is greatest, if its numbers do not stand in full."""
+    ends = over.ends(field) if over and not numbers.in_full(field) else None
+    if not over or not ends:
+        return ""
+    least, greatest = (f"{named(over.line.name)} = {numbers.value(x, over.line.unit, HTML)}" for x in ends)
+    return f' <span class="ms-where">least at {least}, greatest at {greatest}</span>'
 
 
 def limits(field: Input) -> str:

@@ -15,6 +15,7 @@ from mechsheet.worksheet.cells import load, results
 from mechsheet.worksheet.check import Summary
 from mechsheet.worksheet.errors import raised
 from mechsheet.worksheet.lines import Formula, Given, Typeset
+from mechsheet.worksheet.over import Over, over
 from mechsheet.worksheet.shown import Shown
 from mechsheet.worksheet.table import Figure, Table
 from mechsheet.worksheet.title import Player, SideBySide, Slider, Title
@@ -40,11 +41,15 @@ class Text:
 
 @dataclass(frozen=True)
 class Line:
-    """A line with its value in SI; None for a line that is a function. Of a field it may be at one ``position``."""
+    """A line with its value in SI; None for a line that is a function. Of a field it may be at one ``position``.
+
+    ``over`` is what a field runs over, where that is known.
+    """
 
     formula: Formula
     value: Any
     position: int = 0
+    over: Over | None = None
 
 
 @dataclass(frozen=True)
@@ -215,7 +220,7 @@ def _parts(value: Any, names: Mapping[str, Any]) -> Iterator[Any]:
             return
         case Typeset(position=at):
             for row, x in zip(value.rows, value.values, strict=True):
-                yield row if isinstance(row, Given) else Line(row, None if row.arguments else x, at)
+                yield row if isinstance(row, Given) else _line(row, x, at, names)
             for shown in value.shown:
                 yield from _parts(shown, names)
         case Player(Slider() as slider, turning):  # in a page it is marimo's element
@@ -229,6 +234,12 @@ def _parts(value: Any, names: Mapping[str, Any]) -> Iterator[Any]:
                 yield from _parts(each, names)
         case _:
             yield value
+
+
+def _line(row: Formula, value: Any, at: int, names: Mapping[str, Any]) -> Line:
+    if row.arguments:
+        return Line(row, None, at)
+    return Line(row, value, at, over(row.name, names) if getattr(value, "ndim", 0) else None)
 
 
 def _control(slider: Slider, turning: bool, names: Mapping[str, Any]) -> Control:

@@ -3,6 +3,7 @@
 `write` makes the file: `values` has what is shown of each value, a formula as `mathml` in a `font` of its own, texts
 from Markdown, and `page.js` keeps the shown numbers at what `evaluate` gives for the inputs. That function is written
 by `javascript` from the recording, with what `numbers.js` computes and `find` solves. A drawing is `sketched` by the
-keys of its numbers, and laid out by `drawing.js`; `frames` has what else a slider moves.
+keys of its numbers, and laid out by `drawing.js`; `texts` have theirs, and `frames` has what else a slider moves. What
+is out of view waits: `view.js`. Numbers are shown in the units that are `offered`, by `units.js`.
 Stands on the document room and those below.
 """

@@ -45,7 +45,11 @@ function axisTitle(columns, power) {
   }).join("; ");
 }
 
-const one = x => fixed(x, 1, CELL);
+function one(x) {
+  const tenths = Math.round(10 * x), isClear = Math.abs(10 * x - tenths) < 0.499 && Math.abs(x) < 1e9;
+  return isClear ? (tenths % 10 ? String(tenths / 10) : `${tenths / 10}.0`) : fixed(x, 1, CELL);
+}
+
 const textAt = (x, y, anchor, inside) => `<text x="${one(x)}" y="${one(y)}" text-anchor="${anchor}" fill="currentColor" stroke="none">${inside}</text>`;
 
 function curveSVG(n, px, py, every) {

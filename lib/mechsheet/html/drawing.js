@@ -326,10 +326,16 @@ function drawnWith(spec, results) {
     const at = (v, i) => (typeof v === "number" ? v : v[v.length === 1 ? 0 : i]);
     return many === undefined ? [[x, y]] : Array.from(many, (_, i) => [at(x, i), at(y, i)]);
   });
+  const nameOf = name => {
+    if (name?.if) return nameOf(read(name.if) ? name.then : name.else);
+    const parts = name?.map(part => written(part, read));
+    return parts?.some(Boolean) ? parts : null;
+  };
   const elements = spec.elements.map(e => {
     const value = read(e.value ?? 0), known = Number.isFinite(value);
     return {
-      ...{name: null, raw: "", unit: "", colour: "", faint: false}, ...e, value,
+      ...{unit: "", faint: false}, ...e, value, name: nameOf(e.name),
+      raw: written(e.raw ?? "", read), colour: written(e.colour ?? "", read),
       points: known ? points(e.points) : [[NaN, NaN]], into: Boolean(read(e.into ?? 0)), vector: e.vector ? points([e.vector])[0] : null,
     };
   });

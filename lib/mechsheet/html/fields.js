@@ -138,30 +138,10 @@ function gridRow(field, cells, k) {
   return row;
 }
 
-const addressOf = changed =>
-  told.inputs.fields.filter(f => changed.has(f.name)).map(f => `${f.name}=${encodeURIComponent(typed(f))}`).join("&");
+const textsOf = changed => told.inputs.fields.filter(f => changed.has(f.name)).map(f => ({...f, text: typed(f)}));
 
 function readAddress() {
-  const given = new Map(location.hash.slice(1).split("&").filter(part => part.includes("=")).map(part => {
-    const at = part.indexOf("=");
-    try {
-      return [part.slice(0, at), decodeURIComponent(part.slice(at + 1))];
-    } catch {
-      return [part.slice(0, at), part.slice(at + 1)]; // a percent sign as it stands
-    }
-  }));
+  const given = textsIn(location.hash);
   for (const field of told.inputs.fields) type(field, given.get(field.name) ?? field.text);
   return given.size > 0;
-}
-
-// A scene file: numbers in display units, texts in quotes.
-function sceneText(changed) {
-  const quoted = text => JSON.stringify(text).replaceAll("\u007f", "\\u007f");
-  const lines = told.inputs.fields.filter(f => changed.has(f.name)).map(field => {
-    const text = typed(field);
-    const number = field.kind === "number" && /^[+-]?\d+(\.\d+)?([eE][+-]?\d+)?$/.test(text);
-    if (field.kind === "switch") return `${field.name} = ${text === "yes"}`;
-    return `${field.name} = ${number ? text : quoted(text)}`;
-  });
-  return `[inputs]\n${lines.join("\n")}\n`;
 }

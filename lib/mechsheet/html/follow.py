@@ -1,6 +1,6 @@
 """What of a shown value follows the inputs: the recorded quantities by their keys, and what the page makes of them."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from math import isfinite
 from typing import Any
 
@@ -9,20 +9,21 @@ import numpy as np
 from mechsheet import units
 from mechsheet.document import chart_svg
 from mechsheet.document.markup import HTML, in_words, named
-from mechsheet.document.parts import Line
-from mechsheet.html import sketched
+from mechsheet.document.parts import Line, Text
+from mechsheet.html import offered, sketched, texts
 from mechsheet.recording import showing
 from mechsheet.recording.lines import SLIDER, Recording
 from mechsheet.recording.node import Node, bottom_up
 from mechsheet.recording.quantity import Quantity
 from mechsheet.recording.sketch import Drawn
+from mechsheet.recording.written import Said
 from mechsheet.worksheet import numbers
 from mechsheet.worksheet.check import Check
 from mechsheet.worksheet.drawing import Drawing
 from mechsheet.worksheet.find import Found
 from mechsheet.worksheet.symbol import read, stem
 from mechsheet.worksheet.table import Column, Figure, Table
-from mechsheet.worksheet.title import Mark
+from mechsheet.worksheet.title import Caption, Mark
 from mechsheet.worksheet.verdict import Verdict
 
 Spec = dict[str, Any]  # one element of the page, as JSON
@@ -39,7 +40,9 @@ class Follower:
         self.keys: dict[Node, str] = {}
         self.specs: list[Spec] = []
         self.drawn: dict[int, Drawn] = {}  # recorded drawings by the identity of what is shown
-        self.pictures: dict[int, str] = {}  # charts and drawings as the worksheet has them, by their elements
+        self.units: dict[str, list[Any]] = {}  # with those that measure the same
+        self.told: dict[int, Said] = {}  # recorded texts by the identity of what is shown
+        self.pictures: dict[int, str] = {}  # what the page cannot draw itself, by their elements
         self._asked: list[Node] = []  # for the next element
         self._slid: dict[Node, frozenset[str]] = {}
         self.texts: tuple[str, ...] = ()  # of the cell whose parts are written
@@ -52,6 +55,17 @@ class Follower:
             for a, b in zip(own, drawn, strict=False) if len(own) == len(drawn) else ():
                 if b is not None and not self._sliders([guard.holds for guard in b.guards]):
                     self.drawn[id(a)] = b
+        for n, parts in shown.items():
+            for part in parts:
+                match part:
+                    case Caption(number, title):
+                        told = self.recording.captions.get(number)
+                    case Text(title):
+                        told = self.recording.texts.get(n)
+                    case _:
+                        continue
+                if told and told.text.now == title and not self._sliders([guard.holds for guard in told.guards]):
+                    self.told[id(part)] = told
 
     def follows(self, part: Any) -> bool:
         """Whether all that a control moves in a part is recorded."""
@@ -62,8 +76,21 @@ class Follower:
             return not any(node.op == "exported" for node in bottom_up(held.parts, ()))
         if isinstance(part, Mark):
             return all(name in self.recording.positions for name, _ in part.positions)
+        if id(part) in self.told:
+            return True
         own = list(showing.drawings(part))
         return bool(own) and all(id(drawing) in self.drawn for drawing in own)
+
+    def text(self, part: Text | Caption, shown: Callable[[str], str]) -> str:
+        """HTML of a text, by what ``shown`` makes of one; what is recorded of it follows."""
+        told, own = self.told.get(id(part)), part.markdown if isinstance(part, Text) else part.title
+        pieces = told and texts.pieces(told.text, shown, self.key)
+        if not pieces:
+            self._asked = []
+            return self.own(shown(own), own)
+        keys = [self.keys[node] for node in dict.fromkeys(self._asked)]
+        guards = [[self.key(guard.holds), guard.line] for guard in told.guards] if told else []
+        return f"<span{self.mark('text', keys=keys, pieces=pieces, guards=guards)}>{shown(own)}</span>"
 
     def own(self, shown: str, text: str = "") -> str:
         """What is shown for the run's inputs alone, unless it is a ``text`` as it stands in its cell."""
@@ -109,6 +136,12 @@ class Follower:
         told = sketched.told(drawn, self.key)
         return self.mark("drawing", keys=[self.keys[node] for node in dict.fromkeys(self._asked)], **told)
 
+    def unit(self, unit: str) -> str:
+        """A unit, of which the page must know the others that measure the same."""
+        if unit:
+            self.units.setdefault(unit, offered.told(unit))
+        return unit
+
     def positions(self) -> dict[str, str]:
         """Keys of the positions that are marked along charts, by their quantities."""
         found = {name: self.key(node) for name, node in self.recording.positions.items()}
@@ -119,11 +152,16 @@ class Follower:
         """Attribute of the value of a line, which a control may have ``moved`` along its field."""
         name, unit = line.formula.name, line.formula.unit
         held, shape = self.recording.values.get(name), np.shape(line.value)
-        spec: Spec = {"factor": units.parse(unit).factor, "behind": numbers.behind(unit, HTML), **moved}
+        spec: Spec = {"unit": self.unit(unit), "of": name, **moved}
         if not isinstance(held, Quantity):
             return "" if name in self.recording.values else self.mark("value", keys=None, **spec)
         if held.extent != shape:
             spec["at"] = line.position
+        elif line.over and isinstance(axis := self.recording.values.get(line.over.line.name), Quantity):
+            unit = line.over.line.unit
+            factor, behind = units.parse(unit).factor, numbers.behind(unit, HTML)
+            named_over = {"key": self.key(axis.re), "named": named(line.over.line.name)}
+            spec["over"] = named_over | {"factor": factor, "behind": behind}
         same = held.extent == shape or held.extent[:-1] == shape
         return self.mark("value", keys=[self.key(part) for part in held.parts] if same else None, **spec)
 
@@ -161,7 +199,8 @@ class Follower:
         return [c.re if c is not None else bool(own.unit) for c, own in zip(held, columns, strict=True)]
 
     def _column(self, column: Column, node: Node | bool) -> Spec:
-        own: Spec = {"decimals": column.decimals, "power": column.power, "unit": column.unit}
+        own: Spec = {"decimals": column.decimals, "power": column.power}
+        own |= {"unit": self.unit(column.unit), "of": column.of}
         own |= {"factor": units.parse(column.unit).factor if column.unit else 1.0, "rows": len(column.values)}
         if isinstance(node, bool):
             return own | {"key": None, "fixed": node, "texts": column.texts(numbers.AXIS), "values": _listed(column)}

@@ -59,6 +59,29 @@ function significant(x, digits) {
   return sign + trimmed(`${mantissa[0]}.${mantissa.slice(1)}`) + exponent(power, 2);
 }
 
+// A number as Python's format writes it: "d" a whole one, "r" as many digits as it takes, ".4g", ".2f" and ".3e".
+function formatted(x, spec) {
+  if (spec === "d") return String(x);
+  if (!Number.isFinite(x)) return x !== x ? "nan" : x < 0 ? "-inf" : "inf";
+  const digits = Number(spec.slice(1, -1)), sign = x < 0 || Object.is(x, -0) ? "-" : "";
+  if (spec.endsWith("f")) return sign + plainFixed(x, digits);
+  if (spec.endsWith("g")) return significant(x, digits || 1);
+  if (spec.endsWith("e")) return sign + scientific(Math.abs(x), digits, CELL);
+  const [mantissa, power] = Math.abs(x).toExponential().split("e");
+  if (x && (power < -4 || power > 15)) return `${sign}${mantissa}${exponent(Number(power), 2)}`;
+  return sign + Math.abs(x) + (Number.isInteger(x) ? ".0" : "");
+}
+
+// A text with numbers in it; what `read` gives for their keys stands there.
+const written = (text, read) => (typeof text === "string" ? text : text.map(part => piece(part, read)).join(""));
+
+function piece(part, read) {
+  if (typeof part === "string") return part;
+  if (!Array.isArray(part)) return written(read(part.if) ? part.then : part.else, read);
+  const [key, spec, ...instead] = part, x = read(key);
+  return instead.reduce((told, pair) => told.replaceAll(...pair), formatted(typeof x === "number" ? x : x[0], spec));
+}
+
 // Five significant digits or all before the point; a power of ten outside 1e-3..1e6.
 function usual(x, to) {
   if (!Number.isFinite(x)) return unlimited(x, to);
@@ -71,12 +94,20 @@ function usual(x, to) {
   return `${sign}${shown}\u2009·\u200910<sup>${power < 0 ? to.minus : ""}${Math.abs(power)}</sup>`;
 }
 
+const ROUNDING = 2 ** -48; // of the largest number of a field: what is less may be nothing but roundings
+
 // A value in SI, a field or a point of two parts, in its display unit: what stands between the equals sign and the meaning.
 function valueText(parts, factor, behind) {
   const arrays = parts.map(part => (typeof part === "number" ? [part] : part));
   const [re, im] = arrays, size = Math.max(...arrays.map(a => a.length));
-  const at = (a, i) => a[a.length === 1 ? 0 : i] / factor;
-  const end = i => (im ? `(${usual(at(re, i), HTML)}, ${usual(at(im, i), HTML)})` : usual(at(re, i), HTML));
+  const at = (a, i) => a[a.length === 1 ? 0 : i];
+  let most = 0;
+  for (let i = 0; i < size; i++) {
+    const magnitude = im ? Math.hypot(at(re, i), at(im, i)) : Math.abs(at(re, i));
+    if (Number.isFinite(magnitude)) most = Math.max(most, magnitude);
+  }
+  const least = ROUNDING * most, shown = x => (x !== 0 && Math.abs(x) < least ? "≈ 0" : usual(x / factor, HTML));
+  const end = i => (im ? `(${shown(at(re, i))}, ${shown(at(im, i))})` : shown(at(re, i)));
   const each = Array.from({length: Math.min(size, 16)}, (_, i) => i);
   const shape = parts.find(part => part.shape)?.shape ?? [];
   if (shape.length === 2 && Math.max(...shape) <= 4) {
@@ -84,22 +115,29 @@ function valueText(parts, factor, behind) {
     return `[${rows.join("; ")}]${behind}`;
   }
   if (size <= (im ? 4 : 10)) return each.slice(0, size).map(end).join(", ") + behind;
-  if (!im) {
-    const lost = re.reduce((n, x) => n + (x !== x), 0);
-    return span(re, factor) + behind + (lost && lost < size ? ` (${lost} of ${size} ${HTML.none})` : "");
-  }
-  const gap = Math.hypot(at(re, size - 1) - at(re, 0), at(im, size - 1) - at(im, 0));
-  let most = 0;
-  for (let i = 0; i < size; i++) most = Math.max(most, Math.hypot(at(re, i), at(im, i)) || 0);
-  if (gap <= 1e-9 * most) return `(${span(re, factor)}, ${span(im, factor)})${behind}`;
-  return `${end(0)} … ${end(size - 1)}${behind}`;
+  if (im) return `(${span(re, shown)}, ${span(im, shown)})${behind}`;
+  const lost = re.reduce((n, x) => n + (x !== x), 0);
+  return span(re, shown) + behind + (lost && lost < size ? ` (${lost} of ${size} ${HTML.none})` : "");
 }
 
-function span(numbers, factor) {
+function span(numbers, shown) {
+  return [...new Set(leastAndGreatest(numbers).map(shown))].join(" … ");
+}
+
+// Least and greatest number that there is; a NaN where there is none.
+function leastAndGreatest(numbers) {
   let low = Infinity, high = -Infinity, known = false;
   for (const x of numbers) if (x === x) (known = true), (low = Math.min(low, x)), (high = Math.max(high, x));
-  const ends = known ? [low, high] : [numbers[0]];
-  return [...new Set(ends.map(x => usual(x / factor, HTML)))].join(" … ");
+  return known ? [low, high] : [numbers[0]];
+}
+
+// Where a field is least and greatest along the quantity over which it runs, as the page of marimo says it.
+function whereText(parts, along, over) {
+  if (parts.length > 1 || typeof parts[0] === "number" || parts[0].length <= 10 || along?.length !== parts[0].length) return "";
+  const [low, high] = leastAndGreatest(parts[0]);
+  if (!(low < high)) return "";
+  const at = x => `${over.named} = ${usual(along[parts[0].indexOf(x)] / over.factor, HTML)}${over.behind}`;
+  return ` <span class="ms-where">least at ${at(low)}, greatest at ${at(high)}</span>`;
 }
 
 // Numbers with as many digits as tell unequal ones apart; 17 always do.
@@ -118,6 +156,13 @@ function bare(mantissa, power) {
 }
 
 const cellText = (x, column) => (column.power ? scientific : fixed)(x, column.decimals, AXIS);
+
+// Numbers and degrees of a sentence as the page writes them.
+const inWords = text =>
+  String(text)
+    .replace(/(\d) deg\b/g, "$1°")
+    .replace(/(\d)e([+-]?)0*(\d+)\b/g, (_, digit, sign, power) => `${digit}\u2009·\u200910<sup>${sign === "-" ? "−" : ""}${power}</sup>`)
+    .replace(/(^|[^\w.)])-(?=[\d.∞])/g, "$1−");
 
 // What a check compares: told apart, and the residual with two digits where it is only rounding.
 function compared(residual, limit) {

@@ -25,13 +25,14 @@ function foundHTML(words, verdict) {
   const rows = [["condition", `${words.quantity} = ${amounts([verdict.equals], words.factor)[0]}${words.suffix}${on}`]];
   if (!reason) {
     rows.push(["residual", amounts([Math.abs(verdict.residual)], words.factor, 2)[0] + words.suffix]);
-    rows.push(["bracket", between(verdict.bracket)]);
+    const [low, high] = verdict.bracket;
+    rows.push(["bracket", `${amounts([high - low], words.unknown_factor, 2)[0]}${words.unknown_suffix} wide`]);
   }
   rows.push([`roots by ${verdict.samples} samples`, roots ? roots + on : "none"]);
   if (verdict.interval.every(Number.isFinite)) rows.push(["searched", between(verdict.interval)]);
   rows.push(["evaluations", verdict.evaluations]);
-  const head = reason ? words.unknown : `${words.unknown} = ${unknown(verdict.value, 6)}`;
+  const head = reason ? words.unknown : inWords(`${words.unknown} = ${unknown(verdict.value, 6)}`);
   return `<div><span class="ms-badge ms-${reason ? "FAIL" : "PASS"}">${reason ? "not found" : "found"}</span> <b>${head}</b></div>` +
     (reason && `<div>${reason}</div>`) +
-    `<table>${rows.map(([what, text]) => `<tr><th>${what}</th><td>${text}</td></tr>`).join("")}</table>`;
+    `<table>${rows.map(([what, text]) => `<tr><th>${what}</th><td>${inWords(text)}</td></tr>`).join("")}</table>`;
 }

@@ -3,7 +3,6 @@
 Pictures of one slider have most of their pieces in common: each is kept once, and of those that move the numbers alone.
 """
 
-import ast
 import json
 import re
 from collections import Counter
@@ -15,8 +14,8 @@ from mechsheet.document.parts import Control, Line, by_cell
 from mechsheet.html.follow import Follower
 from mechsheet.html.values import still, value
 from mechsheet.recording import showing
-from mechsheet.worksheet.cells import Cell, Worksheet
-from mechsheet.worksheet.title import Caption, Mark, Slider
+from mechsheet.worksheet.cells import Worksheet
+from mechsheet.worksheet.title import Mark, Slider
 
 _MOST, _MOST_PICTURES = 400, 51  # positions of a slider; where drawings are kept for each
 # One that is written again as it was: not -0 or -0.0, nor with more digits than a whole number keeps.
@@ -33,7 +32,6 @@ class Moved:
     positions: Sequence[float]
     pictures: dict[tuple[int, int], list[str]] = field(default_factory=dict)
     marks: dict[str, list[float]] = field(default_factory=dict)
-    free: set[tuple[int, int]] = field(default_factory=set)  # which rest on nothing but the control
 
 
 def moved(
@@ -77,7 +75,6 @@ def _moved(
                     found.pictures.setdefault((n, k), []).append(_picture(part, page))
     count = len(found.positions)
     found.pictures = {at: each for at, each in found.pictures.items() if len(each) == count and len(set(each)) > 1}
-    found.free = {(n, k) for n, k in found.pictures if _is_free(shown[n][k], sheet.cells[n], control)}
     found.marks = {name: each for name, each in found.marks.items() if len(each) == count}
     return found
 
@@ -87,17 +84,6 @@ def _picture(part: Any, page: Follower) -> str:
     if isinstance(part, Line):
         return str(part.position) if page.along(part) else value(part)
     return still(part)
-
-
-def _is_free(part: Any, cell: Cell, control: Control) -> bool:
-    """Whether a caption is written with the position of the control alone."""
-    calls = (node for line in cell.lines for node in ast.walk(line) if isinstance(node, ast.Call))
-    for call in calls:
-        match call:
-            case ast.Call(ast.Name("caption"), [ast.Constant(number), title]) if isinstance(part, Caption):
-                if number == part.number:
-                    return {node.id for node in ast.walk(title) if isinstance(node, ast.Name)} == {control.name}
-    return False
 
 
 def _positions(control: Control, most: int) -> list[float]:

@@ -26,11 +26,10 @@ function showMoved(name) {
     input.closest(".ms-player").querySelector("output").textContent = significant(control.positions[control.at], 6);
   });
   if (state.refused) return;
-  control.elements.forEach(([spec, element]) => {
-    if (spec.kind === "value") return showAlong(spec, element);
-    const known = own || spec.free;
-    set(element, known ? control.pictures[spec.picture][control.at]() : "");
-    grey(element, known ? "" : MOVES_NOT);
+  control.elements.forEach(([spec, element, n]) => {
+    if (spec.kind === "value") return soon(n, () => showAlong(spec, element));
+    set(element, own ? control.pictures[spec.picture][control.at]() : "");
+    grey(element, own ? "" : MOVES_NOT);
   });
   for (const [symbol, at] of Object.entries(control.marks)) setMark(symbol, own ? at[control.at] : NaN);
 }
@@ -50,9 +49,8 @@ function move(name, at) {
   state.results = computed();
   told.shown.forEach((spec, n) => {
     if (!spec.slid?.includes(name) || spec.control) return;
-    if (state.results.guards.length) empty(spec, shownBy[n], state.results.guards[0]);
-    else if (state.changed.size || spec.slid.some(isSlid)) showOne(spec, n);
-    else showFirst(n);
+    const [guard] = state.results.guards, own = !state.changed.size && !spec.slid.some(isSlid);
+    soon(n, guard ? () => empty(spec, shownBy[n], guard) : own ? () => showFirst(n) : () => showOne(spec, n));
   });
   showMoved(name);
   showPositions();
@@ -98,7 +96,7 @@ function play(button) {
 }
 
 for (const [name, {positions, pictures, which, marks}] of Object.entries(told.moved)) {
-  const elements = told.shown.flatMap((spec, n) => (spec.control === name ? [[spec, shownBy[n]]] : []));
+  const elements = told.shown.flatMap((spec, n) => (spec.control === name ? [[spec, shownBy[n], n]] : []));
   const at = nearest(positions, Number(document.querySelector(`[data-control="${name}"]`).value));
   moving.set(name, {positions, pictures: which.map(n => picturesOf(pictures[n])), marks, elements, at, first: at});
 }

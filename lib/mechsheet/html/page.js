@@ -9,6 +9,7 @@ const shownBy = told.shown.map((spec, n) => document.querySelector(`[data-n="${n
 const contentOf = element => element.tBodies?.[0] ?? element;
 const first = shownBy.map((element, n) => told.pictures[n] ?? contentOf(element).innerHTML);
 const UNKNOWN = "not known for these inputs: it holds for the document's own";
+const DRAWN = new Set(["chart", "drawing"]);
 const MOVES_NOT = "as in the document, for its own inputs only";
 const state = {changed: new Set(), refused: false, results: null};
 const moving = new Map(); // by the name of the control: its positions, pictures and marks, and which of them is shown
@@ -18,11 +19,12 @@ const show = {
   value(spec, element, results) {
     const parts = spec.keys?.map(key => along(results.values[key], positionOf(spec)));
     const known = parts && parts.every(part => part !== undefined);
-    set(element, known ? valueText(parts, spec.factor, spec.behind) : "");
+    const where = known && spec.over ? whereText(parts, results.values[spec.over.key], spec.over) : "";
+    set(element, known ? valueText(parts, ...unitNow(spec).slice(1)) + where : "");
     return Boolean(known);
   },
   table(spec, element, results) {
-    const columns = spec.columns.map(column => columnTexts(column, results));
+    const columns = spec.columns.map(column => columnTexts(inUnit(column, results), results));
     const rows = Math.max(...columns.map(texts => texts?.length ?? 0));
     const kinds = spec.columns.map(column => (column.unit ? "" : ' class="ms-text"'));
     const cells = k => columns.map((texts, n) => `<td${kinds[n]}>${texts ? escaped(texts[k] ?? "") : ""}</td>`).join("");
@@ -36,15 +38,22 @@ const show = {
     return Boolean(verdict);
   },
   chart(spec, element, results) {
-    const columns = spec.columns.map(column => columnValues(column, results));
+    const switched = chartInUnits(spec, results), columns = switched.columns.map(column => columnValues(column, results));
     const known = columns.every(Boolean);
-    set(element, known ? chartSVG(spec, columns, results) : "");
+    set(element, known ? chartSVG(switched, columns, results) : "");
     return known;
   },
   drawing(spec, element, results) {
     const known = spec.keys.every(key => results.values[key] !== undefined);
     const same = known && spec.guards.every(([key]) => results.values[key]);
     set(element, same ? drawingSVG(drawnWith(spec, results)) : "");
+    return same;
+  },
+  text(spec, element, results) {
+    const known = spec.keys.every(key => results.values[key] !== undefined);
+    const same = known && spec.guards.every(([key]) => results.values[key]);
+    const read = key => results.values[key];
+    set(element, same ? spec.pieces.map(part => (typeof part === "string" ? part : escaped(piece(part, read)))).join("") : "");
     return same;
   },
   own(spec, element) {
@@ -73,13 +82,13 @@ function along(field, at) {
 const escaped = text => String(text).replace(/[&<>"]/g, sign => ({"&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;"})[sign]);
 
 function columnValues(column, results) {
-  if (column.key === null) return column.fixed ? column.values ?? null : null;
+  if (column.key === null) return column.fixed ? column.values?.map(x => x * ((column.own ?? column.factor) / column.factor)) ?? null : null;
   const values = results.values[column.key];
   return values === undefined ? null : Float64Array.from(typeof values === "number" ? [values] : values, x => x / column.factor);
 }
 
 function columnTexts(column, results) {
-  if (column.key === null) return column.fixed ? column.texts : null;
+  if (column.key === null && (!column.fixed || !column.own)) return column.fixed ? column.texts : null;
   const values = columnValues(column, results);
   return values && Array.from(values, x => cellText(x, column));
 }
@@ -120,21 +129,23 @@ function refresh() {
   state.results = errors.size ? null : computed();
   const guards = state.results?.guards ?? [];
   told.shown.forEach((spec, n) => {
-    if (own && !spec.control && spec.kind !== "moved" && !spec.slid?.some(isSlid)) showFirst(n);
-    else if (errors.size || guards.length) empty(spec, shownBy[n], guards[0] ?? "an input cannot be used");
-    else if (spec.kind !== "moved" && !spec.control) showOne(spec, n);
+    const at = spec.kind === "check" ? (_, f) => f() : soon; // the checks are summed up
+    if (own && !spec.control && spec.kind !== "moved" && !spec.slid?.some(isSlid)) at(n, () => showFirst(n));
+    else if (errors.size || guards.length) at(n, () => empty(spec, shownBy[n], guards[0] ?? "an input cannot be used"));
+    else if (spec.kind !== "moved" && !spec.control) at(n, () => showOne(spec, n));
   });
   [...moving.keys()].forEach(showMoved);
   showPositions();
   sum();
   say(changed, errors, guards);
   if (!errors.size) {
-    const address = addressOf(changed);
+    const address = addressOf(textsOf(changed));
     if (address !== location.hash.slice(1)) history.replaceState(null, "", address ? `#${address}` : location.pathname);
   }
 }
 
 function showFirst(n) {
+  if (isSwitched(told.shown[n]) || (!first[n] && DRAWN.has(told.shown[n].kind))) return showOne(told.shown[n], n);
   set(contentOf(shownBy[n]), first[n]);
   grey(shownBy[n], "");
 }
@@ -228,10 +239,4 @@ document.querySelector(".ms-back")?.addEventListener("click", () => {
   refresh();
 });
 
-document.querySelector(".ms-save")?.addEventListener("click", () => {
-  const link = document.createElement("a");
-  link.href = URL.createObjectURL(new Blob([sceneText(state.changed)], {type: "application/toml"}));
-  link.download = `${told.name}.toml`;
-  link.click();
-  setTimeout(() => URL.revokeObjectURL(link.href), 1000);
-});
+document.querySelector(".ms-save")?.addEventListener("click", () => saveScene(told.name, textsOf(state.changed)));

@@ -5,9 +5,11 @@ from math import isfinite
 from typing import Any
 
 from mechsheet.document.labels import as_printed, plain
+from mechsheet.html import texts
 from mechsheet.recording.node import Node
 from mechsheet.recording.quantity import Quantity
 from mechsheet.recording.sketch import Drawn
+from mechsheet.recording.written import Either, Number, Written
 from mechsheet.worksheet.drawing import Drawing, Element
 
 Spec = dict[str, Any]
@@ -35,15 +37,34 @@ def size(drawing: Drawing) -> Spec:
 
 
 def _element(e: Any, key: Key) -> Spec:
-    name, _ = plain(e.name) if e.kind == "text" else as_printed(e.name)
     own: Spec = {"kind": e.kind, "points": [*_points(e.points, key)]}
-    own |= {"name": list(name), "raw": e.name} if e.name else {}
+    if isinstance(e.name, Written):
+        own |= {"name": _name(e.name, e.kind, key), "raw": texts.written(e.name, key)}
+    elif e.name:
+        own |= {"name": list(plain(e.name)[0] if e.kind == "text" else as_printed(e.name)[0]), "raw": e.name}
     if e.vector is not None:
         vector = -e.vector if isinstance(e, Element) and e.into else e.vector  # as it was given
         own |= {"vector": next(_points([vector], key)), "into": _number(e.into, key)}
     value = _number(e.value, key)
     own |= {"value": value} if value else {}
-    return own | {part: text for part in ("unit", "colour") if (text := getattr(e, part))}
+    colour = texts.written(e.colour, key) if isinstance(e.colour, Written) else e.colour
+    return own | {part: text for part, text in (("unit", e.unit), ("colour", colour)) if text}
+
+
+def _name(name: Written, kind: str, key: Key) -> Any:
+    """The parts of a printed name that has numbers in it: before its first space stands a symbol or a number."""
+    match name.parts:
+        case (Either(holds, then, otherwise),) if kind != "text":
+            return {"if": key(holds.re), "then": _name(then, kind, key), "else": _name(otherwise, kind, key)}
+    split = None if kind == "text" else name.head()
+    if split is None:
+        return [texts.written(name, key), "", "", ""]
+    first, rest = split
+    if isinstance(first, Number):
+        begin: list[Any] = ["", [texts.piece(first._replace(instead=(*first.instead, ("-", "−"))), key)], "", ""]
+    else:
+        begin = list(as_printed(first)[0])
+    return [*begin[:3], texts.written(rest, key)]
 
 
 def _points(points: Iterable[Any], key: Key) -> Iterator[list[Any]]:

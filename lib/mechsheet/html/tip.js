@@ -1,17 +1,4 @@
 // What stands under the pointer or the finger: values of a chart, the meaning of a symbol, why a number is not known.
-const tip = document.createElement("div");
-tip.className = "ms-tip";
-tip.hidden = true;
-tip.setAttribute("role", "tooltip");
-
-function place(x, y) {
-  if (!tip.isConnected) document.body.append(tip);
-  tip.hidden = false;
-  const [wide, high] = [tip.offsetWidth, tip.offsetHeight];
-  tip.style.left = `${Math.max(4, x + 14 + wide > innerWidth ? x - 14 - wide : x + 14)}px`;
-  tip.style.top = `${y + 14 + high > innerHeight ? Math.max(4, y - 14 - high) : y + 14}px`;
-}
-
 // Values of a chart: those that it was drawn with here, or those of the document's own.
 function readingsOf(chart) {
   if (!chart.dataset.values) {
@@ -47,6 +34,7 @@ function symbolAt(element) {
 }
 
 function symbolTip(element, known) {
+  settleAll();
   tip.replaceChildren();
   const meaning = document.createElement("div"), value = document.createElement("div");
   meaning.textContent = known.meaning;

@@ -14,9 +14,9 @@ from mechsheet import units
 from mechsheet.document import chart, chart_svg, drawing_svg
 from mechsheet.document.blocks import blocks, fitting
 from mechsheet.document.expression import equation, fields_by_name
-from mechsheet.document.markup import HTML, as_written, in_words, named
+from mechsheet.document.markup import HTML, as_written, in_words, named, where
 from mechsheet.document.parts import Control, Line, Section, Text
-from mechsheet.html import index, markdown
+from mechsheet.html import index, markdown, offered
 from mechsheet.html.follow import Follower
 from mechsheet.html.mathml import mathml
 from mechsheet.recording.graph import Graph
@@ -65,7 +65,7 @@ def anchor(title: str) -> str:
 
 @html.register
 def _(text: Text, page: Follower) -> str:
-    return f'<div class="ms-between">{page.own(markdown.html(text.markdown), text.markdown)}</div>'
+    return f'<div class="ms-between">{page.text(text, markdown.html)}</div>'
 
 
 @html.register
@@ -108,7 +108,10 @@ def still(part: Any) -> str:
 
 def value(line: Line) -> str:
     """Value of a line in its display unit; nothing of a line that is a function."""
-    return "" if line.formula.arguments else numbers.value(line.value, line.formula.unit, HTML)
+    if line.formula.arguments:
+        return ""
+    unit = line.formula.unit
+    return numbers.value(line.value, unit, offered.notation(unit)) + where(line.value, line.over)
 
 
 def _line(formula: str, value: str = "", told: Formula | None = None) -> str:
@@ -134,7 +137,7 @@ def _block(columns: Sequence[Column], follows: str) -> str:
         f'<th{kind} scope="col" title="{escape(c.meaning)}">{named(c.name)}</th>'
         for c, kind in zip(columns, kinds, strict=True)
     )
-    under = "".join(f"<th>{f'[{escape(units.shown(c.unit))}]' if c.unit else ''}</th>" for c in columns)
+    under = "".join(f"<th>{offered.head(c.unit) if c.unit else ''}</th>" for c in columns)
     rows = "".join(
         "<tr>" + "".join(f"<td{kind}>{t}</td>" for t, kind in zip(row, kinds, strict=True)) + "</tr>"
         for row in zip(*(map(escape, c.texts(numbers.AXIS)) for c in columns), strict=True)
@@ -148,27 +151,36 @@ def _block(columns: Sequence[Column], follows: str) -> str:
 
 @html.register
 def _(figure: Figure, page: Follower) -> str:
-    layout = chart.line_chart(figure.x, figure.lines, figure.marks, figure.every)
-    follows = page.mark("chart", columns=page.figure(figure), marks=page.marks(figure), every=figure.every)
+    columns = page.figure(figure)
+    follows = page.mark("chart", columns=columns, marks=page.marks(figure), every=figure.every)
     caption = _caption("Figure", figure.number, figure.title, page)
-    svg = _READINGS.sub("", chart_svg.svg(layout))
-    return f'<figure class="ms-figure">{page.picture(follows, svg)}{caption}</figure>'
+    known = all(column["key"] is not None or column["fixed"] for column in columns)
+    shown = f"<div{follows}></div>" if known else page.picture(follows, _READINGS.sub("", _chart(figure)))
+    return f'<figure class="ms-figure">{shown}{caption}</figure>'
+
+
+def _chart(figure: Figure) -> str:
+    return chart_svg.svg(chart.line_chart(figure.x, figure.lines, figure.marks, figure.every))
 
 
 @html.register
 def _(value: Caption, page: Follower) -> str:
-    return _caption("Figure", value.number, value.title, page)
+    return _titled("Figure", value.number, page.text(value, escape))
 
 
 def _caption(what: str, number: str, title: str, page: Follower) -> str:
-    place, words = escape(f"{what.lower()}-{number}"), page.own(escape(title), title)
+    return _titled(what, number, page.own(escape(title), title))
+
+
+def _titled(what: str, number: str, words: str) -> str:
+    place = escape(f"{what.lower()}-{number}")
     return f'<div class="ms-caption" id="{place}"><b>{what} {escape(number)}</b> – {words}</div>'
 
 
 @html.register
 def _(drawing: Drawing, page: Follower) -> str:
-    svg = drawing_svg.svg(drawing)
-    return page.picture(follows, svg) if (follows := page.drawing(drawing)) else page.own(svg)
+    follows = page.drawing(drawing)
+    return f"<div{follows}></div>" if follows else page.own(drawing_svg.svg(drawing))
 
 
 @html.register

@@ -31,14 +31,18 @@ _SCRIPTS = (
     "chart.js",
     "drawing.js",
     "looks.js",
+    "given.js",
     "fields.js",
     "found.js",
     "page.js",
+    "view.js",
+    "units.js",
     "moved.js",
+    "tooltip.js",
     "tip.js",
     "start.js",
 )
-_SHOWING = {"md", "title_block", "table", "figure", "caption"}  # calls whose texts a page shows
+_SHOWING = {"md", "title_block", "table", "figure", "caption", "typeset"}  # calls whose texts a page shows
 _CHOICES = (
     *(ast.IfExp, ast.BoolOp, ast.Subscript, ast.Dict, ast.ListComp, ast.SetComp, ast.DictComp, ast.GeneratorExp),
     *(ast.If, ast.For, ast.While, ast.Match, ast.Try, ast.FunctionDef, ast.Lambda),
@@ -74,6 +78,7 @@ def page(sheet: Worksheet, g: Any) -> str:
         "shown": follower.specs,
         "symbols": _symbols(namespace, shown),
         "pictures": follower.pictures,
+        "units": follower.units,
         "positions": follower.positions(),
         "moved": {each.control.name: frames.told(each) for each in moving},
     }
@@ -127,7 +132,7 @@ def _part(at: tuple[int, int], part: Any, follower: Follower, moving: Iterable[M
     for each in moving:
         if at in each.pictures:
             control, picture = each.control.name, [*each.pictures].index(at)
-            return values.moving(part, follower, control=control, picture=picture, free=at in each.free)
+            return values.moving(part, follower, control=control, picture=picture)
     match part:
         case Title():
             return values.html(part, follower) + _BAR

@@ -91,7 +91,9 @@ def fields(g: Any) -> "mo.ui.batch":
         for section, rows in sections.items()
     )
     style = "columns:28em;column-gap:2em;font-size:.93em"
-    return _Fields(f'{script("grid.js")}<div class="ms-inputs" style="{style}">{blocks}</div>', texts)
+    states = element("ms-states", of=type(g).__name__.lower())
+    template = f'<div class="ms-inputs" style="{style}">{blocks}</div><div class="ms-screen">{states}</div>'
+    return _Fields(script("grid.js") + script("inputs.js", "given.js") + template, texts)
 
 
 def said(field: Input) -> str:

@@ -1,5 +1,6 @@
 """Lines of a cell in the page: formula, value, unit, meaning, printed number; the formula with numbers for symbols."""
 
+import json
 from functools import lru_cache
 from html import escape
 
@@ -9,9 +10,11 @@ from mechsheet import units
 from mechsheet.document.expression import equation, fields_by_name, reads, substituted
 from mechsheet.document.formula import Measure
 from mechsheet.document.latex import latex
+from mechsheet.document.markup import where
 from mechsheet.page import switched
 from mechsheet.worksheet import numbers, symbol
 from mechsheet.worksheet.lines import Formula, Given, Numbers, Typeset
+from mechsheet.worksheet.over import over
 
 
 def lines(shown: Typeset) -> str:
@@ -42,10 +45,12 @@ def _single(line: Formula | Given, shown: Typeset) -> frozenset[str]:
 def _formula(line: Formula, value: object, shown: Typeset) -> str:
     single = _single(line, shown)
     if line.arguments:
-        return _line(_equation(line, single), "", line.meaning, line.number, mistake=line.mistake, name=line.name)
+        return _line(_equation(line, single), "", line.meaning, line.number, mistake=line.mistake, line=line)
     text = "" if shown.numbers is None else _substituted(line, shown.numbers, shown.position)
     value_text = switched.value(symbol.stem(line.name), line.unit, numbers.in_any_unit(value))
-    told = line.meaning, line.number, text, line.mistake, line.name
+    if shown.numbers is not None and isinstance(value, np.ndarray):
+        value_text += where(value, over(line.name, shown.numbers.namespace))
+    told = line.meaning, line.number, text, line.mistake, line
     return _line(f"{_equation(line, single)} =", value_text, *told)
 
 
@@ -69,20 +74,29 @@ def _line(
     number: str = "",
     substituted: str = "",
     mistake: str = "",
-    name: str = "",
+    line: Formula | None = None,
 ) -> str:
     """A typeset line, the printed formula's number at its end; its numbers wait in an attribute until asked for.
 
     The value is an element of its own: where it alone changes, the browser keeps the formula as it has set it, and the
-    value is there with the output that holds it. The index leads to the line by its name.
+    value is there with the output that holds it. The index leads to the line by its name, symbols
+    to what they stand for.
     """
     more = f'<ms-numbers tex="{escape("= " + substituted)}"></ms-numbers>' if substituted else ""
     formula = _tex_element(tex) + (f'<span class="ms-value">{value}</span>' if value else "")
     told = f' <span class="ms-badge ms-FAIL">mistake</span> {escape(mistake)}' if mistake else ""
     said = f"<span>{escape(meaning)}{told}</span>" if meaning or told else ""
     said += f'<span class="ms-number">{escape(number)}</span>' if number else ""
-    place = f' id="line-{name}"' if name else ""
+    place = f' id="line-{line.name}" data-reads="{escape(_symbols(line))}"' if line else ""
     return f'<div class="ms-line"{place}><span class="ms-formula">{formula}</span>{said}{more}</div>'
+
+
+@lru_cache(maxsize=4096)
+def _symbols(line: Formula) -> str:
+    """Names of a line by the letters of their symbols, as JSON; ``g.L3`` of an input."""
+    names = (line.name, *reads(line))
+    read = {name: symbol.read(name[2:] if name.startswith("g.") else symbol.stem(name)) for name in names}
+    return json.dumps({s.base + s.index: name for name, s in reversed(read.items())}, ensure_ascii=False)
 
 
 def _tex_element(tex: str) -> str:

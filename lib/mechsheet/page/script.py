@@ -7,6 +7,8 @@ from html import escape
 from pathlib import Path
 from typing import Any
 
+from mechsheet.html.javascript import runtime
+
 
 def element(kind: str, content: str = "", **told: Any) -> str:
     """HTML of an element with what it is told in its attributes: a text, or else JSON."""
@@ -16,7 +18,12 @@ def element(kind: str, content: str = "", **told: Any) -> str:
 
 
 @cache
-def script(name: str) -> str:
-    """A script beside this file, as an address: the only form in which a page of marimo runs one from an output."""
+def script(name: str, *before: str) -> str:
+    """A script beside this file, as an address: the only form in which a page of marimo runs one from an output.
+
+    What it shares with the page in one file comes ``before`` it, within its own scope.
+    """
     text = (Path(__file__).parent / name).read_bytes()
+    if before:
+        text = f"(() => {{\n{runtime(*before)}\n{text.decode()}\n}})();".encode()
     return f'<script src="data:text/javascript;base64,{base64.b64encode(text).decode()}"></script>'

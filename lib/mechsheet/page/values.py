@@ -26,7 +26,9 @@ from mechsheet.worksheet.drawing import Drawing
 from mechsheet.worksheet.errors import SheetError, Waits
 from mechsheet.worksheet.index import Index
 from mechsheet.worksheet.inputs import Used
+from mechsheet.worksheet.kinds import Choice, Input, Switch, TextLine
 from mechsheet.worksheet.lines import Typeset
+from mechsheet.worksheet.lists import Rows
 from mechsheet.worksheet.numbers import Notation
 from mechsheet.worksheet.shown import Charted, Shown
 from mechsheet.worksheet.table import Column, Figure, Table
@@ -102,8 +104,9 @@ def _(title: Title) -> str:
     cells = [("Worksheet", escape(title.file)), ("Computed", f"{date.today():%Y-%m-%d}")]
     fields = "".join(f"<span>{label} <b>{value}</b></span>" for label, value in cells)
     switch = '<label class="ms-screen"><input type="checkbox" class="ms-switch"> numbers in the formulas</label>'
+    scripts = script("page.js") + script("units.js") + script("symbols.js", "tooltip.js")
     return (
-        f'{script("page.js")}{script("units.js")}<div class="ms-title">{text}<div class="ms-row">{fields}{switch}'
+        f'{scripts}<div class="ms-title">{text}<div class="ms-row">{fields}{switch}'
         f"{''.join(map(html, title.tools))}</div>{_TOLD}{_noted(title.notes)}</div>"
     )
 
@@ -249,27 +252,27 @@ def _(found: Verdict) -> str:
 
 @html.register
 def _(used: Used) -> str:
-    changed, items, rows, section = used.changed, [], [], ""
+    changed, rows, told, section = used.changed, [], [], ""
     for field, _ in used.rows():
-        unit = "" if field.unit == "-" else escape(units.shown(field.unit))
+        unit = "" if field.unit == "-" else units.shown(field.unit)
         weight = "bold" if field.name in changed else "normal"
-        name = as_written(field.name)
-        number = escape(field.brief(getattr(used.g, field.name)))
-        shown = f"{name}&nbsp;=&nbsp;{number}&nbsp;{unit}"
-        items.append(f'<span style="white-space:nowrap;font-weight:{weight}">{shown}</span>')
+        name, value = as_written(field.name), getattr(used.g, field.name)
         if field.section != section:
             section = field.section
             rows.append(f'<tr><th colspan="4" style="text-align:left">{escape(section)}</th></tr>')
         rows.append(
             f'<tr style="font-weight:{weight}"><td>{name}</td>'
-            f'<td style="text-align:right;padding:0 .5em">{number}</td>'
-            f'<td style="padding-right:1em">{unit}</td><td>{escape(field.meaning)}</td></tr>'
+            f'<td style="text-align:right;padding:0 .5em">{escape(field.brief(value))}</td>'
+            f'<td style="padding-right:1em">{escape(unit)}</td><td>{escape(field.meaning)}</td></tr>'
         )
-    style = "display:flex;flex-wrap:wrap;gap:.2em 1.6em;font-size:.9em"
-    return (
-        f'<div class="ms-screen" style="{style}">{"".join(items)}</div>'
-        f'<table class="ms-print" style="display:none">{"".join(rows)}</table>'
-    )
+        own = field.text(getattr(type(used.g), field.name))
+        text = field.text(value) if field.name in changed else own
+        told.append({"name": field.name, "head": name, "kind": _kind(field), "text": text, "own": own, "unit": unit})
+    return f'{element("ms-used", told=told)}<table class="ms-print" style="display:none">{"".join(rows)}</table>'
+
+
+def _kind(field: Input) -> str:
+    return {Choice: "choice", Switch: "switch", TextLine: "text", Rows: "rows"}.get(type(field), "number")
 
 
 @html.register

@@ -18,6 +18,8 @@ from mechsheet.recording.memory import Memory, may_change, names_of
 from mechsheet.recording.node import Loop, Node
 from mechsheet.recording.quantity import Quantity, has_quantity, joined, lift, owner, plain, quantities
 from mechsheet.recording.sketch import Sketch, merged
+from mechsheet.recording.written import Written, either, text
+from mechsheet.worksheet.drawing import COLOURS
 from mechsheet.worksheet.kinds import Chosen, cases
 
 _NUMBERS = int | float | complex | np.number | Quantity
@@ -78,9 +80,18 @@ def _merged(condition: Quantity, x: Any, y: Any) -> Any:
         return None if any(part is None for part in parts) else tuple(parts)
     if isinstance(x, Sketch) and isinstance(y, Sketch):
         return merged(condition, x, y)
+    if condition.graph.draws and _are_written(x, y):
+        return either(condition, x, y)
     if isinstance(x, _ARRAYS) and isinstance(y, _ARRAYS) and _lengths(x) == _lengths(y):
         return where(condition.graph, condition.reshape(()), x, y)
     return None
+
+
+def _are_written(x: Any, y: Any) -> bool:
+    """Whether two texts with numbers in them, or two colours: of any other text Python sees which one it is."""
+    if isinstance(x, Written) or isinstance(y, Written):
+        return isinstance(x, str | Written) and isinstance(y, str | Written)
+    return isinstance(x, str) and isinstance(y, str) and {x, y} <= {"", *COLOURS}
 
 
 def _lengths(value: Any) -> tuple[Any, ...]:
@@ -90,7 +101,9 @@ def _lengths(value: Any) -> tuple[Any, ...]:
 
 
 def _missing(value: Any) -> Any:
-    """What stands for a number on a way where the worksheet has none."""
+    """What stands for a number on a way where the worksheet has none; for a text, which is of no use there, itself."""
+    if isinstance(value, str | Written):
+        return value
     if isinstance(value, Quantity):
         return lift(value.graph, np.nan).like(value)
     return np.full(np.shape(value), np.nan) if isinstance(value, _ARRAYS) else UNBOUND
@@ -337,7 +350,7 @@ CALLS: dict[str, Any] = {
     "choice": choice, "and": both, "or": any_of, "not": negated, "matched": matched, "element": element, "put": put,
     "part": part, "changed": changed, "settled": settled, "handled": handled,
     "len": lambda x: x.count(0) if isinstance(x, Quantity) and x.ndim else len(x), "known": known,
-    "iterated": iterated, "unbound": UNBOUND,
+    "iterated": iterated, "unbound": UNBOUND, "text": text,
     "max": _extreme("max"), "min": _extreme("min"), "round": round,
     "float": lambda *x: x[0] if has_quantity(x) else float(*x),
     "int": lambda *x: trunc(x[0]) if has_quantity(x) else int(*x),

@@ -73,14 +73,15 @@ def circular_joint(r: Quantity, phi: Quantity, M: Quantity, N: Quantity) -> Ring
     alone = np.where(rim[..., None], 0.0, alone)
     P = np.where(mixed[..., None], k_t[..., None] * q, alone) / (r[..., None] if np.ndim(r) else r)
     c = side * axial / bend
+    p_0 = k_c * np.where(alpha > 0, axial - bend, 0.0) / (2 * np.pi * r**2)
     return Ring(
         P=P,
-        p_0=k_c * np.where(alpha > 0, axial - bend, 0.0) / (2 * np.pi * r**2),
+        p_0=p_0,
         R=k_c * arc_N / r,
         M_R=side * k_c * arc_M,
         M_x=r * (P * np.sin(phi)).sum(axis=-1),
         c=c,
         y_0=-c * r,
-        phi_0=np.pi - alpha,
+        phi_0=(np.pi - alpha).like(p_0),
         state=known.state,
     )

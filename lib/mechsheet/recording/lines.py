@@ -10,6 +10,7 @@ from mechsheet.recording.graph import Gap, Graph, Guard
 from mechsheet.recording.node import Node
 from mechsheet.recording.quantity import Quantity
 from mechsheet.recording.sketch import Drawn
+from mechsheet.recording.written import Said
 from mechsheet.worksheet import symbol
 from mechsheet.worksheet.lines import Formula
 
@@ -75,7 +76,8 @@ class Recording:
     its number and their labels; ``lines`` those of a section; ``names`` the name that each node has in the worksheet.
     ``gaps`` are what keeps the numbers of the worksheet's own run, with the reasons; ``guards`` the conditions under
     which all is recorded as the worksheet has it; ``drawings`` those that a cell shows, by its number, or None for one
-    that is not recorded; ``positions`` what is marked along charts, by the name of its quantity; ``values`` what the
+    that is not recorded; ``captions`` and ``texts`` what captions, by their numbers, and cells that are texts say with
+    recorded numbers in it; ``positions`` what is marked along charts, by the name of its quantity; ``values`` what the
     names are in the recording. Only every ``every``-th position is recorded.
     """
 
@@ -88,6 +90,8 @@ class Recording:
     marks: dict[str, dict[str, Node]] = field(default_factory=dict)
     drawings: dict[int, list[Drawn | None]] = field(default_factory=dict)
     positions: dict[str, Node] = field(default_factory=dict)
+    captions: dict[str, Said] = field(default_factory=dict)
+    texts: dict[int, Said] = field(default_factory=dict)
     gaps: list[Gap] = field(default_factory=list)
     guards: dict[Node, Guard] = field(default_factory=dict)  # by their conditions
     made_of: dict[Node, float] = field(default_factory=dict)  # the largest terms of sums, as far as looked at

@@ -164,7 +164,7 @@ def _interpolated(graph: Graph, x: Any, xp: Any, fp: Any, left: Any = None, righ
         graph.measure(xp.re)
         return fp[0] + 0 * x
     _in_order(graph, xp)
-    piece = np.clip((xp <= x[..., None]).reduced("sum", -1) - 1, 0, xp.count() - 2)
+    piece = _rank(graph, xp[1:-1], x)
     start, end, low, high = xp[piece], xp[piece + 1], fp[piece], fp[piece + 1]
     inside = low + (x - start) / (end - start) * (high - low)
     inside = choice(graph, x == xp[-1], fp[-1], inside)  # though others before it may be as great
@@ -183,8 +183,24 @@ def _in_order(graph: Graph, x: Quantity) -> None:
 def _searched(graph: Graph, a: Any, v: Any, side: str = "left") -> Any:
     a, v = lift(graph, a), lift(graph, v)
     _in_order(graph, a)
-    below = a < v[..., None] if side == "left" else a <= v[..., None]
-    return below.reduced("sum", -1)
+    return _rank(graph, a, v, strictly=side == "left")
+
+
+def _rank(graph: Graph, a: Quantity, v: Quantity, strictly: bool = False) -> Any:
+    """How many numbers, which do not fall, each number is not below; ``strictly`` how many it is above."""
+    if a.re.stretches:
+        below = a < v[..., None] if strictly else a <= v[..., None]
+        return below.reduced("sum", -1)
+
+    def passed(k: Any) -> Any:
+        return a[k] < v if strictly else a[k] <= v
+
+    found, left = lift(graph, 0).like(v), a.re.size  # of those left, which follow the ones found
+    while left > 1:
+        half = left // 2
+        found = choice(graph, passed(found + (half - 1)), found + half, found)
+        left -= half
+    return choice(graph, passed(found), found + 1, found) if left else found
 
 
 def _ordered(graph: Graph, x: Any, axis: Any = -1) -> Any:

@@ -204,6 +204,8 @@ class Quantity(NDArrayOperatorsMixin):
         first, *rest = key if isinstance(key, tuple) and key else (key,)
         if isinstance(first, Quantity) and first.re.value.dtype != bool and first.im is None and self.ndim:
             return self._at(first)[(slice(None),) * first.ndim + tuple(rest)] if rest else self._at(first)
+        if rest and isinstance(first, int) and any(isinstance(k, Quantity) and not k.ndim for k in rest):
+            return self[first][tuple(rest)]
         return self.rearranged(getitem, plain(key))
 
     def _at(self, position: "Quantity") -> "Quantity":

@@ -24,6 +24,7 @@ from mechsheet.recording.sketch import Drawn, Sketch
 from mechsheet.recording.stage import Stage, held
 from mechsheet.recording.substitutes import BUILTINS, instead, shared, staged
 from mechsheet.recording.unrepeatable import Unrepeatable
+from mechsheet.recording.written import Said, Written
 from mechsheet.units import Constant
 from mechsheet.worksheet.cells import Cell, Worksheet, load
 from mechsheet.worksheet.check import Check
@@ -144,8 +145,20 @@ class _Run:
                 self.recording.positions[k] = at.re
             sketches = (Drawn(each, guards) if isinstance(each, Sketch) else None for each in drawn)
             found += [None] * len(own) if own and len(own) != len(drawn) else sketches
+        for number, title in showing.captions(cell).items():
+            if told := self.told(stage, title):
+                self.recording.captions[number] = told
+        if (text := showing.text(cell)) and (told := self.told(stage, text)):
+            self.recording.texts[self.sheet.cells.index(cell)] = told
         self.names.pop(showing.HERE, None)
         self.recording.drawings[self.sheet.cells.index(cell)] = found
+
+    def told(self, stage: Stage, text: ast.expr) -> Said | None:
+        """A text with recorded numbers in it."""
+        self.step(stage, text.lineno, statement.facts(showing.bound(text), self.sheet.path), set())
+        self.lost.pop(showing.HERE, None)
+        value = self.names.pop(showing.HERE, None)
+        return Said(value, self.looked.get(showing.HERE, ())) if isinstance(value, Written) else None
 
     def step(self, stage: Stage, line: int, facts: statement.Statement, later: set[str]) -> None:
         """Run one statement; where it cannot be recorded, its names keep the numbers of the worksheet's own run.
@@ -380,6 +393,7 @@ class _Run:
                     x = sized(x, guard.holds)
                 else:
                     self.recording.guards[guard.holds] = guard
+                    self.graph.work = 0  # what guards a statement's numbers is none of its own operations
                     x = where(self.graph, Quantity(self.graph, guard.holds), x, np.nan)
         return x
 

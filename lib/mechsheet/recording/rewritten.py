@@ -43,6 +43,19 @@ class _Rewriting(ast.NodeTransformer):
             node.func = ast.copy_location(ast.Name(f"recorded {node.func.id}", ast.Load()), node.func)
         return node
 
+    def visit_JoinedStr(self, node: ast.JoinedStr) -> ast.AST:
+        """A text with numbers in it as a call with its pieces, but for what is not simply formatted."""
+        if any(isinstance(part, ast.FormattedValue) and part.conversion != -1 for part in node.values):
+            self.generic_visit(node)
+            return node
+        return _call("text", node, *map(self._piece, node.values))
+
+    def _piece(self, part: ast.expr) -> ast.expr:
+        if not isinstance(part, ast.FormattedValue):
+            return part
+        spec = part.format_spec or ast.Constant("")
+        return ast.copy_location(ast.Tuple([self.visit(part.value), spec], ast.Load()), part)
+
     def visit_Subscript(self, node: ast.Subscript) -> ast.AST:
         self.generic_visit(node)
         if not isinstance(node.ctx, ast.Load) or isinstance(node.slice, ast.Slice | ast.Tuple | ast.Constant):

@@ -20,7 +20,11 @@ _WRITTEN = {"caption", "check", "figure", "player", "slider", "summary", "table"
 def cells(sheet: Worksheet, needed: Sequence[Cell]) -> list[Cell]:
     """Further cells that can be run after some, and that only show something."""
     known = {"g", *sheet.common, *chain.from_iterable(cell.gives for cell in needed)}
-    return [cell for cell in sheet.cells if not cell.gives and cell.needs <= known and expressions(cell)]
+    return [cell for cell in sheet.cells if not cell.gives and cell.needs <= known and _shows(cell)]
+
+
+def _shows(cell: Cell) -> bool:
+    return bool(expressions(cell) or text(cell) or captions(cell))
 
 
 def expressions(cell: Cell) -> list[ast.expr]:
@@ -29,6 +33,24 @@ def expressions(cell: Cell) -> list[ast.expr]:
         case [ast.Expr(shown)]:
             return list(_singly(shown))
     return []
+
+
+def text(cell: Cell) -> ast.expr | None:
+    """The text in which a cell ends, where it is one with numbers in it."""
+    match cell.lines[-1:]:
+        case [ast.Expr(ast.Call(ast.Attribute(ast.Name("mo"), "md"), [ast.JoinedStr() as shown]))]:
+            return shown
+    return None
+
+
+def captions(cell: Cell) -> dict[str, ast.expr]:
+    """Titles with numbers in them, by the numbers of their captions."""
+    found = dict[str, ast.expr]()
+    for call in (node for line in cell.lines for node in ast.walk(line)):
+        match call:
+            case ast.Call(ast.Name("caption"), [ast.Constant(str(number)), ast.JoinedStr() as title]):
+                found[number] = title
+    return found
 
 
 def _singly(shown: ast.expr) -> Iterator[ast.expr]:

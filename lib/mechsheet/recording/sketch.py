@@ -9,6 +9,7 @@ import numpy as np
 from mechsheet.recording.arithmetic import choice as where
 from mechsheet.recording.graph import Guard, NotRecorded, current
 from mechsheet.recording.quantity import Quantity, lift
+from mechsheet.recording.written import Written
 from mechsheet.worksheet.drawing import Drawing
 
 
@@ -21,12 +22,12 @@ class Outline:
 
     kind: str
     points: tuple[Quantity, ...]
-    name: str = ""
+    name: str | Written = ""
     value: Quantity | float = 0.0
     vector: Quantity | None = None
     unit: str = ""
     into: Quantity | bool = False
-    colour: str = ""
+    colour: str | Written = ""
 
     def where(self, condition: Quantity) -> "Outline":
         """The element while a condition holds; else its points are no numbers, and it is not drawn."""
@@ -51,9 +52,8 @@ class Sketch(Drawing):
 
     def cylinder(self, A: Any, B: Any, name: str = "", barrel: Any = None) -> "Drawing":
         along = B - A
-        return self._with(
-            "cylinder", (A, B, A + (0.6 * along if barrel is None else barrel * along / abs(along))), name
-        )
+        size = np.where(abs(along) > 0, abs(along), 1.0)  # one of no length has a barrel of none
+        return self._with("cylinder", (A, B, A + (0.6 * along if barrel is None else barrel * along / size)), name)
 
     def wheel(self, centre: Any, r: Any, name: str = "") -> "Drawing":
         return self._with("wheel", [centre, *(centre + r * i for i in (1, 1j, -1, -1j))], name)
@@ -71,6 +71,8 @@ class Sketch(Drawing):
         for looked in ("measure", "least", "tip"):
             others.pop(looked, None)
         graph = current.get()
+        if isinstance(name, Written) and kind != "text" and not name.is_name():
+            name = str(name)
         single = isinstance(points, list | tuple)
         each = tuple(lift(graph, p) for p in (points if single else (points,)))
         lifted = {key: lift(graph, x) for key, x in others.items() if key in ("value", "vector") and x is not None}

@@ -12,20 +12,18 @@ import numpy as np
 from mechsheet import units
 from mechsheet.document import parts
 from mechsheet.document.left_out import left_out
-from mechsheet.recording.banded import RunBands
 from mechsheet.recording.dimensions import dimensions
 from mechsheet.recording.lines import Recording, Residual
 from mechsheet.recording.record import record
 from mechsheet.recording.searched import search
 from mechsheet.run import arguments
-from mechsheet.run.banding import bands_of, matters, results_of, tables_of
 from mechsheet.run.ending import say
 from mechsheet.run.proving import proof_of
 from mechsheet.workbook import inputs_sheet, writing
 from mechsheet.workbook.find_sheet import FoundRow
 from mechsheet.workbook.save import save
 from mechsheet.worksheet import index, inputs, mistakes, numbers, source
-from mechsheet.worksheet.cells import Worksheet, load, refuse_open, results
+from mechsheet.worksheet.cells import load, refuse_open, results
 from mechsheet.worksheet.check import Check
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.find import Found
@@ -58,6 +56,7 @@ def export(title: str, namespace: Mapping[str, Any]) -> Any:
     from mechsheet.html import write as html  # on use: a worksheet called as a function needs no page
     from mechsheet.page import study  # on use: as above
     from mechsheet.page.download import File, download  # on use: as above
+    from mechsheet.run import banding  # on use: only a page and tolerances need it
 
     def book() -> tuple[bytes, list[str]]:
         recording, fit = _recorded(namespace)
@@ -74,17 +73,16 @@ def export(title: str, namespace: Mapping[str, Any]) -> Any:
         recording, _ = _recorded(namespace)
         return proved.html(proof_of(namespace, sheet, recording), _of(Table, parts.values(namespace)))
 
-    bands, matter = partial(_bands, sheet, namespace), partial(matters, sheet, namespace)
-    asked = study.Asked(results_of(namespace), bands, matter, proof)
+    def bands() -> Any:
+        checks = _of(Check, parts.values(namespace))
+        return banding.bands_of(namespace, sheet, checks), banding.tables_of(namespace)
+
+    matter = partial(banding.matters, sheet, namespace)
+    asked = study.Asked(banding.results_of(namespace), bands, matter, proof)
     files = [File(f"{worksheet.stem}.xlsx", "Excel workbook", book)]
     if not html.studies(sheet):
         files.append(File(f"{worksheet.stem}.html", "Page in one file", page))
     return download(*files, asked=asked, namespace=namespace)
-
-
-def _bands(sheet: Worksheet, namespace: Mapping[str, Any]) -> tuple[RunBands, list[Table]]:
-    """Bands of what a page shows, and its tables."""
-    return bands_of(namespace, sheet, _of(Check, parts.values(namespace))), tables_of(namespace)
 
 
 def _script(title: str, namespace: Mapping[str, Any], worksheet: Path) -> None:
@@ -97,7 +95,11 @@ def _script(title: str, namespace: Mapping[str, Any], worksheet: Path) -> None:
     refuse_open(_of(Check, values))
     recording, fit = _recorded(namespace)
     checks = [*_of(Check, values), fit]
-    bands = bands_of(namespace, load(worksheet), checks) if given.tolerances else None
+    bands = None
+    if given.tolerances:
+        from mechsheet.run import banding  # on use: as on the page
+
+        bands = banding.bands_of(namespace, load(worksheet), checks)
     told = map(bands.told, checks) if bands else checks
     say(*inputs.readings(declared, given.inputs), *_of(Verdict, values), *told)
     if bands:

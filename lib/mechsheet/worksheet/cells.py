@@ -31,7 +31,7 @@ class Cell:
     name: str
     needs: frozenset[str]
     gives: tuple[str, ...]
-    checks: tuple[re.Pattern[str], ...]
+    checks: tuple[str, ...]  # as patterns
     lines: tuple[ast.stmt, ...]
     code: CodeType
     certain: tuple[str, ...] = ()  # of what it gives, not what only a branch or a loop binds
@@ -135,9 +135,9 @@ class Worksheet:
             if (root := base(name)).isidentifier():
                 ask(root)
                 continue
-            checking = [cell for cell in self.cells if any(check.fullmatch(name) for check in cell.checks)]
+            checking = [cell for cell in self.cells if any(re.fullmatch(check, name) for check in cell.checks)]
             if not checking:
-                raise _no_check(name, (check.pattern.replace("\\", "") for c in self.cells for check in c.checks))
+                raise _no_check(name, (check.replace("\\", "") for c in self.cells for check in c.checks))
             for cell in checking:
                 if cell not in order:
                     run(cell, name)
@@ -432,12 +432,12 @@ def _is_closing(node: ast.FunctionDef) -> bool:
     return False
 
 
-def _checks(node: ast.FunctionDef) -> Iterator[re.Pattern[str]]:
+def _checks(node: ast.FunctionDef) -> Iterator[str]:
     """Texts that calls in a cell take first, which is where a check has its name; of an f-string its fixed parts."""
     for call in ast.walk(node):
         match call:
             case ast.Call(args=[ast.Constant(str(text)), *_]):
-                yield re.compile(re.escape(text))
+                yield re.escape(text)
             case ast.Call(args=[ast.JoinedStr(parts), *_]) if any(isinstance(p, ast.Constant) for p in parts):
                 texts = (re.escape(str(p.value)) if isinstance(p, ast.Constant) else ".*" for p in parts)
-                yield re.compile("".join(texts))
+                yield "".join(texts)

@@ -148,7 +148,8 @@ class Found(Verdict):
             label = "residual" if single else "largest residual"
             rows.append((label, numbers.amount(np.nanmax(np.abs(self.residual)), words.unit, 2)))
         if single and not self.reason:
-            rows.append(("bracket", numbers.extent(self.bracket, words.unknown_unit)))
+            low, high = self.bracket
+            rows.append(("bracket", f"{numbers.amount(high - low, words.unknown_unit, 2)} wide"))
         if single:
             roots = [
                 numbers.amount(root.value, words.unknown_unit, 6) + (on and f" (branch {root.branch:+d})")

@@ -5,6 +5,7 @@ import re
 import sys
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any
 
 from mechsheet.worksheet import source
@@ -81,8 +82,8 @@ def of_cells(cells: Iterable[source.Cell], texts: Iterable[source.Cell]) -> Inde
     numbered = [_of_line(line, label, line.meaning) for line in lines for label in numbers(line.number)]
     wrong = (line for line in lines if "erratum" in line.meaning)
     errata = [_of_line(line, line.number, line.meaning.removesuffix("(erratum)").rstrip()) for line in wrong]
-    headings = [entry for cell in texts for node in cell.body for entry in _headings(node)]
-    titles = [entry for cell in cells for node in cell.body for entry in _titles(node)]
+    headings = [entry for cell in texts for node in cell.body for entry in _entries(node)[0]]
+    titles = [entry for cell in cells for node in cell.body for entry in _entries(node)[1]]
     by_number = sorted(numbered, key=lambda entry: _order(entry.label))
     return Index(tuple(by_number), (*headings, *titles), tuple(errata))
 
@@ -108,6 +109,12 @@ def numbers(printed: str) -> list[str]:
 
 def _order(label: str) -> tuple[tuple[int, ...], str]:
     return tuple(map(int, re.findall(r"\d+", label))), label
+
+
+@lru_cache(maxsize=4096)
+def _entries(node: ast.stmt) -> tuple[tuple[Entry, ...], tuple[Entry, ...]]:
+    """Headings of a statement, and its tables, figures and captions: once for all who ask."""
+    return tuple(_headings(node)), tuple(_titles(node))
 
 
 def _titles(node: ast.stmt) -> Iterator[Entry]:

@@ -88,7 +88,8 @@ def value(values: Any, unit: str, to: Notation) -> str:
     """SI value in its display unit; a point or a vector as a pair.
 
     A few numbers stand in full, a small matrix in rows; of more numbers the least .. the greatest, with how many there
-    are not, of more points the first .. the last, of a closed path the least .. the greatest x and y.
+    are not, of more points the least .. the greatest x and y. Beside numbers that are 1e15 times as large, one of
+    their rounding is about 0.
     """
     return in_any_unit(values)(unit, to)
 
@@ -96,34 +97,39 @@ def value(values: Any, unit: str, to: Notation) -> str:
 def in_any_unit(values: Any) -> Callable[[str, Notation], str]:
     """What `value` says of the values in a unit and a notation; they are looked at once."""
     field = np.asarray(values)
-    several = _MOST_POINTS if field.dtype.kind == "c" else _MOST_NUMBERS
+    least = _ROUNDING * _largest(field)
     if field.ndim == 2 and max(field.shape) <= _MOST_ROWS:
         rows = field.tolist()
-        return lambda unit, to: "[" + "; ".join(_each(row, unit, to) for row in rows) + "]" + behind(unit, to)
-    if field.size <= several:
+        return lambda unit, to: "[" + "; ".join(_each(row, least, unit, to) for row in rows) + "]" + behind(unit, to)
+    if in_full(field):
         all_of_them = field.ravel().tolist()
-        return lambda unit, to: _each(all_of_them, unit, to) + behind(unit, to)
+        return lambda unit, to: _each(all_of_them, least, unit, to) + behind(unit, to)
     if field.dtype.kind != "c":
         ends, lost = _ends(field), int(np.count_nonzero(np.isnan(field)))
         of = f" ({lost} of {field.size} {{}})" if 0 < lost < field.size else ""
-        return lambda unit, to: _from_to(ends, unit, to) + behind(unit, to) + of.format(to.none)
-    if np.abs(field.flat[-1] - field.flat[0]) <= 1e-9 * _largest(field):
-        x, y = _ends(field.real), _ends(field.imag)
-        return lambda unit, to: to.pair.format(_from_to(x, unit, to), _from_to(y, unit, to)) + behind(unit, to)
-    first_last = field.flat[0].item(), field.flat[-1].item()
-    return lambda unit, to: to.span.join(_end(end, unit, to) for end in first_last) + behind(unit, to)
+        return lambda unit, to: _from_to(ends, least, unit, to) + behind(unit, to) + of.format(to.none)
+    x, y = _ends(field.real), _ends(field.imag)
+    return lambda unit, to: (
+        to.pair.format(_from_to(x, least, unit, to), _from_to(y, least, unit, to)) + behind(unit, to)
+    )
+
+
+def in_full(values: Any) -> bool:
+    """Whether all numbers of a row stand where it is shown."""
+    return bool(np.size(values) <= (_MOST_POINTS if np.asarray(values).dtype.kind == "c" else _MOST_NUMBERS))
 
 
 _MOST_NUMBERS, _MOST_POINTS, _MOST_ROWS = 10, 4, 4  # that stand in full
+_ROUNDING = 2.0**-48  # 16 roundings of the largest number of a field: what is less may be nothing but these
 
 
 def _largest(field: NDArray[Any]) -> float:
-    """The largest magnitude, 0 where there is none."""
-    return float(np.max(np.abs(field), where=~np.isnan(field), initial=0.0))
+    """The largest finite magnitude, 0 where there is none."""
+    return float(np.max(np.abs(field), where=np.isfinite(field), initial=0.0)) if field.dtype.kind in "fc" else 0.0
 
 
-def _each(values: list[Any], unit: str, to: Notation) -> str:
-    return ", ".join(_end(x, unit, to) for x in values)
+def _each(values: list[Any], least: float, unit: str, to: Notation) -> str:
+    return ", ".join(_end(x, least, unit, to) for x in values)
 
 
 def _ends(field: NDArray[Any]) -> tuple[float, ...]:
@@ -132,9 +138,9 @@ def _ends(field: NDArray[Any]) -> tuple[float, ...]:
     return (known.min().item(), known.max().item()) if known.size else (field.flat[0].item(),)
 
 
-def _from_to(ends: tuple[float, ...], unit: str, to: Notation) -> str:
+def _from_to(ends: tuple[float, ...], least: float, unit: str, to: Notation) -> str:
     """Least and greatest number, without their unit."""
-    return to.span.join(dict.fromkeys(_end(end, unit, to) for end in ends))
+    return to.span.join(dict.fromkeys(_end(end, least, unit, to) for end in ends))
 
 
 def quantity(z: float | complex, unit: str, to: Notation) -> str:
@@ -143,8 +149,10 @@ def quantity(z: float | complex, unit: str, to: Notation) -> str:
 
 
 @lru_cache(maxsize=4096, typed=True)  # most numbers stay when an input changes; 0 and 0j are not shown alike
-def _end(end: float | complex, unit: str, to: Notation) -> str:
-    return _number(end / units.parse(unit).factor, to)
+def _end(end: float | complex, least: float, unit: str, to: Notation) -> str:
+    if isinstance(end, complex):
+        return to.pair.format(_end(end.real, least, unit, to), _end(end.imag, least, unit, to))
+    return "≈ 0" if 0 < abs(end) < least else usual(end / units.parse(unit).factor, to)
 
 
 @lru_cache(maxsize=4096, typed=True)

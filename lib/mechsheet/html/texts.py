@@ -1,0 +1,50 @@
+"""Recorded texts as the page must know them: their pieces, with the keys of the numbers that stand in them."""
+
+import re
+from collections.abc import Callable
+from typing import Any
+
+from mechsheet.recording.node import Node
+from mechsheet.recording.written import Either, Number, Written
+
+Key = Callable[[Node], str]
+_PLACE, _HELD = "\ue000", re.compile("\ue000(\\d+)\ue001")
+_MARKUP = re.compile(r"[*_`$\\\[\]<>|#]")  # in a text that stands for another one
+
+
+def piece(part: "str | Number | Either", key: Key) -> Any:
+    """A text as it stands; of a number its key, its format and what signs stand for others; one of two by a key."""
+    match part:
+        case Number(value, spec, instead):
+            spec = spec or ("d" if value.dtype.kind in "iu" else "r")
+            return [key(value.re), spec, *instead]
+        case Either(holds, then, otherwise):
+            return {"if": key(holds.re), "then": written(then, key), "else": written(otherwise, key)}
+    return part
+
+
+def written(text: Written, key: Key) -> list[Any]:
+    return [piece(part, key) for part in text.parts]
+
+
+def pieces(text: Written, shown: Callable[[str], str], key: Key) -> list[Any]:
+    """Pieces of the HTML that ``shown`` makes of a text, and between them those with numbers; none where one of these
+    is more than a text there, as it is in a formula."""
+    places = [part for part in text.parts if not isinstance(part, str)]
+    numbers = iter(range(len(places)))
+    marked = "".join(p if isinstance(p, str) else f"{_PLACE}{next(numbers)}\ue001" for p in text.parts)
+    html = shown(marked)
+    outside = re.sub(r"<math.*?</math>|<[^>]*>", "", html, flags=re.DOTALL)
+    if [int(n) for n in _HELD.findall(outside)] != [*range(len(places))] or any(map(_is_markup, places)):
+        return []
+    split = _HELD.split(html)
+    return [piece(places[int(x)], key) if n % 2 else x for n, x in enumerate(split)]
+
+
+def _is_markup(part: "str | Number | Either") -> bool:
+    match part:
+        case Either(_, then, otherwise):
+            return any(map(_is_markup, (*then.parts, *otherwise.parts)))
+        case str():
+            return bool(_MARKUP.search(part))
+    return False

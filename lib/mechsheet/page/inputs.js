@@ -1,0 +1,149 @@
+// Inputs of the page as a whole: what is changed, a step back and on, the document's own, a link and a scene with them.
+(() => {
+  if (customElements.get("ms-used")) return;
+
+  let fields = []; // as they were last computed with
+  const steps = []; // sets of texts that the page has computed, by the names of the inputs
+  let at = -1;
+  let wanted = null; // a set on its way through the page
+
+  const setter = (kind) => Object.getOwnPropertyDescriptor(kind.prototype, "value").set;
+  const same = (a, b) => Object.keys(a).every((name) => a[name] === b[name]);
+
+  // A field takes its text as from the hand.
+  function type(name, text) {
+    const host = document.querySelector(`td[data-input="${name}"] marimo-ui-element > *`);
+    const field = host?.shadowRoot?.querySelector("input, textarea, select, button");
+    if (!field) return;
+    if (field.matches("select")) {
+      const option = [...field.options].find((each) => each.text === text || each.value === text);
+      setter(HTMLSelectElement).call(field, option?.value ?? text);
+      field.dispatchEvent(new Event("change", { bubbles: true }));
+    } else if (field.matches("button, [type=checkbox]")) {
+      const checked = field.ariaChecked === "true" || field.getAttribute("aria-checked") === "true" || field.checked === true;
+      if (checked !== (text === "yes")) field.click();
+    } else {
+      setter(field.constructor).call(field, text);
+      field.dispatchEvent(new InputEvent("input", { bubbles: true }));
+      field.dispatchEvent(new FocusEvent("focusout", { bubbles: true }));
+      const grid = host.closest("td").querySelector("ms-grid");
+      grid?.show(text);
+    }
+  }
+
+  const shown = (name) => {
+    const field = document.querySelector(`td[data-input="${name}"] marimo-ui-element > *`)?.shadowRoot?.querySelector("input");
+    return field && field.type !== "checkbox" ? field.value : undefined;
+  };
+
+  // The inputs that the page computes with, told anew with each run; nothing while one of them is refused.
+  class Used extends HTMLElement {
+    static observedAttributes = ["told"];
+
+    connectedCallback() {
+      this.tell();
+    }
+
+    disconnectedCallback() {
+      queueMicrotask(() => document.querySelectorAll("ms-states").forEach((bar) => bar.show()));
+    }
+
+    attributeChangedCallback() {
+      if (this.isConnected) this.tell();
+    }
+
+    tell() {
+      fields = JSON.parse(this.getAttribute("told"));
+      document.querySelectorAll("ms-states").forEach((bar) => bar.follow());
+    }
+  }
+  class States extends HTMLElement {
+    constructor() {
+      super();
+      this.addEventListener("click", ({ target }) => this.act(target.closest("button")?.name));
+    }
+
+    connectedCallback() {
+      if (fields.length) this.follow();
+    }
+
+    get refused() {
+      return !document.querySelector("ms-used");
+    }
+
+    follow() {
+      const now = Object.fromEntries(fields.map(({ name, text }) => [name, text]));
+      const first = at < 0;
+      if (wanted && same(wanted, now)) wanted = null;
+      if (!wanted && (first || !same(steps[at], now))) steps.splice(++at, steps.length, now);
+      this.show();
+      const given = textsIn(location.hash);
+      if (first && given.size) this.open(given);
+      else if (!wanted) this.address();
+    }
+
+    // What a link carries holds from the beginning, once its fields are there.
+    open(given, tries = 100) {
+      const known = Object.keys(steps[at]).filter((name) => given.has(name));
+      if (known.some((name) => !document.querySelector(`td[data-input="${name}"] marimo-ui-element > *`)?.shadowRoot))
+        return tries && setTimeout(() => this.open(given, tries - 1), 100);
+      known.forEach((name) => type(name, given.get(name)));
+    }
+
+    get given() {
+      return fields.filter(({ own, text }) => own !== text);
+    }
+
+    address() {
+      const text = addressOf(this.given);
+      if (text || location.hash.includes("=")) history.replaceState(history.state, "", text ? `#${text}` : location.pathname + location.search);
+    }
+
+    show() {
+      const changed = this.given.map(
+        ({ head, text, own, unit }) => `<span>${head} = <b>${plain(text)}</b> ${plain(unit)} <i>(${plain(own)} in the document)</i></span>`,
+      );
+      const button = (name, label, title, is) => `<button name="${name}" title="${title}"${is ? "" : " disabled"}>${label}</button>`;
+      this.innerHTML =
+        `<div class="ms-row">${button("undo", "↶ undo", "the inputs before the last change", at > 0 || this.refused)}` +
+        button("redo", "↷ redo", "the inputs after it", at < steps.length - 1) +
+        button("back", "back to the document", "all inputs as the document has them", changed.length || this.refused) +
+        button("link", "copy a link", "an address with these inputs", true) +
+        button("scene", "save as a scene", "a file of these inputs, for --scene and compare", changed.length) +
+        `<span role="status">${this.refused ? "not computed with what the fields say" : changed.length ? "" : "as in the document"}</span></div>` +
+        `<div class="ms-row">${changed.join("")}</div>`;
+    }
+
+    act(name) {
+      const own = () => Object.fromEntries(fields.map((field) => [field.name, field.own]));
+      const acts = {
+        undo: () => this.to(this.refused ? steps[at] : steps[(at = Math.max(0, at - 1))]),
+        redo: () => this.to(steps[(at = Math.min(steps.length - 1, at + 1))]),
+        back: () => this.to(own()),
+        link: () => this.copy(),
+        scene: () => saveScene(this.getAttribute("of"), this.given),
+      };
+      acts[name]?.();
+    }
+
+    // Only the fields that differ are typed into; until all have arrived the states in between are no steps of their own.
+    to(texts) {
+      const now = Object.fromEntries(fields.map(({ name, text }) => [name, shown(name) ?? text]));
+      const others = Object.keys(texts).filter((name) => texts[name] !== now[name]);
+      if (!same(steps[at], texts)) steps.splice(++at, steps.length, texts);
+      const reached = fields.every(({ name, text }) => texts[name] === text);
+      wanted = reached ? null : texts;
+      others.forEach((name) => type(name, texts[name]));
+    }
+
+    copy() {
+      this.address();
+      navigator.clipboard?.writeText(location.href);
+      this.querySelector("[role=status]").textContent = "the address above carries these inputs";
+    }
+  }
+
+  const plain = (text) => String(text).replace(/[&<>"]/g, (sign) => ({ "&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;" })[sign]);
+  customElements.define("ms-states", States);
+  customElements.define("ms-used", Used); // which tells the others at once
+})();
