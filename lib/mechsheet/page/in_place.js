@@ -111,7 +111,9 @@
     if (!of || of.busy) return;
     why.textContent = answer.why ?? (isUnsaved() ? UNSAVED : told);
     typed.classList.toggle("ms-former", answer.shown === undefined);
-    if (answer.shown !== undefined) typed.innerHTML = answer.shown;
+    if (answer.shown === undefined) return;
+    typed.innerHTML = answer.shown;
+    typed.querySelectorAll("[id]").forEach((each) => each.removeAttribute("id")); // the page's own lines have them
   }
 
   function typing() {
