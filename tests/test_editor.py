@@ -126,7 +126,7 @@ def test_edited_number_formula_and_unit_change_everything(editor, tmp_path):
     curve = page.locator("svg.ms-chart path[stroke='#3b82d0']").first
     before = curve.get_attribute("d")
     editor.edit("M_max: float = 300.0", "M_max: float = 310.0")
-    page.locator(".ms-screen", has_text="310").first.wait_for()
+    expect(page.locator(".ms-inputs tr:has-text('greatest moment') input")).to_have_value("310")
     page.locator("#line-M_S > span").last.click()
     page.get_by_text("a cell holds text that is not saved: run it and save it").wait_for()
     area.press("Enter")
