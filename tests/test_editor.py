@@ -2,6 +2,7 @@
 
 import ast
 import linecache
+import re
 from contextlib import nullcontext
 from math import asin, degrees
 from pathlib import Path
@@ -72,15 +73,67 @@ def editor(serve, page, tmp_path):
     return Editor(page, serve("edit", sheet))
 
 
+def edit_in_place(editor):
+    """Lines edited where they stand, seen in the file and in the page, and taken back."""
+    page, file = editor.page, Path(editor.page.locator("marimo-filename").text_content())
+    before, box, done = file.read_bytes(), page.locator(".ms-box"), page.locator(".ms-written")
+    area = box.locator("textarea")
+    page.locator("#line-M_S > span").last.click()
+    expect(area).to_have_value("M_S = M(phi)  # [N*m] moment over the positions")
+    area.fill("M_S = 2 * M(phi)  # [m] moment over the positions")
+    box.get_by_text("unit [m] does not fit; the value is in N·m").wait_for()
+    area.fill("M_S = 2 * M(phii)  # [N*m] moment over the positions")
+    box.get_by_text("the name phii is not defined in any cell (did you mean phi?)").wait_for()
+    area.fill("M_S = 2 * M(phi)  # [N*m] moment over the positions")
+    box.get_by_text("840 N·m").wait_for()
+    assert file.read_bytes() == before
+    area.press("Enter")
+    expect(done).to_have_text(re.compile("^M_S is writtenundo"))
+    editor.expect_last_moment("840")
+    assert file.read_bytes() == before.replace(b"M_S = M(phi)", b"M_S = 2 * M(phi)")
+    page.keyboard.press("Control+z")
+    expect(done).to_have_text("M_S is as it was")
+    editor.expect_last_moment("420")
+    assert file.read_bytes() == before
+    page.locator(".ms-inputs tr:has-text('greatest moment') td").first.click()
+    expect(area).to_have_value("M_max: float = 300.0  # [N*m] greatest moment; > 0")
+    area.fill("M_max: float = 300.0  # [N*m] greatest moment; > 1000")
+    box.get_by_text("must be > 1000").wait_for()
+    area.press("Enter")
+    page.locator(".ms-box [data-do=below]").click()
+    area.fill("M_add: float = 5  # [N*m] further moment")
+    box.get_by_text("5 N·m").wait_for()
+    area.press("Enter")
+    page.locator(".ms-inputs tr", has_text="further moment").wait_for()
+    expect(done).to_have_text(re.compile("^M_max is writtenundo"))
+    done.get_by_role("button").click()
+    expect(done).to_have_text("M_max is as it was")
+    assert file.read_bytes() == before
+    page.locator("#line-M_n > span").last.click()
+    expect(area).to_have_value("M_n = g.parts * g.F * g.L / n  # [N*m] greatest moment in each load case")
+    area.fill("")
+    box.get_by_text("M_n goes; it is needed for sigma, table_2").wait_for()
+    area.press("Control+Enter")
+    assert file.read_bytes() == before
+    area.press("Escape")
+    return area, lambda: file.read_bytes() == before
+
+
 def test_edited_number_formula_and_unit_change_everything(editor, tmp_path):
     from openpyxl import load_workbook
 
     page = editor.page
     editor.expect_last_moment("420")
+    area, is_unchanged = edit_in_place(editor)
     curve = page.locator("svg.ms-chart path[stroke='#3b82d0']").first
     before = curve.get_attribute("d")
     editor.edit("M_max: float = 300.0", "M_max: float = 310.0")
-    page.locator(".ms-screen", has_text="310").first.wait_for()
+    expect(page.locator(".ms-inputs tr:has-text('greatest moment') input")).to_have_value("310")
+    page.locator("#line-M_S > span").last.click()
+    page.get_by_text("a cell holds text that is not saved: run it and save it").wait_for()
+    area.press("Enter")
+    area.press("Escape")
+    assert is_unchanged()
     editor.edit("g.F * g.L * sin(phi)  # [N*m]", "g.F * g.L * sin(phi) ** 3  # [kN*m]")
     page.locator("marimo-tex", has_text="sin^{3}").first.wait_for(state="attached")
     page.wait_for_function(
@@ -88,7 +141,7 @@ def test_edited_number_formula_and_unit_change_everything(editor, tmp_path):
     )
     editor.expect_last_moment("420")  # sine of a right angle
     editor.expect("2 of 2 checks pass")
-    editor.expect(f"{degrees(asin((310 / 420) ** (1 / 3))):.4f} deg")
+    editor.expect(f"{degrees(asin((310 / 420) ** (1 / 3))):.4f}°")
     editor.edit("M_S = M(phi)  # [N*m]", "M_S = M(phi)  # [kN*m]")
     page.locator(".ms-table", has_text="kN·m").wait_for()
     editor.expect_last_moment("0.420")

@@ -267,6 +267,7 @@ def test_the_button_of_the_workbook_tells_what_the_workbook_does_not_follow(left
     sheet = tmp_path / "tangled.py"
     sheet.write_text(text.replace(line, "M_S = np.fft.ifft(np.fft.fft(M(phi))).real  # "), encoding="utf-8")
     page = left_open(sheet, "2 of 2 checks pass")
+    expect(page.locator("ms-in-place, ms-folded, [data-ms-folded]")).to_have_count(0)  # of the editor alone
     told = page.locator(UNDER_THE_BUTTON)
     expect(told).to_have_text("")
     number = next(n for n, line in enumerate(sheet.read_text(encoding="utf-8").splitlines(), 1) if "np.fft" in line)

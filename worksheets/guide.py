@@ -19,9 +19,9 @@ def title():
     title_block(
         "Guide",
         """
-    A worksheet that teaches by being edited: a press, whose crank drives a ram through a rod. Open it with
-    `python lib/mechsheet edit guide`, do what stands after **Try**, and watch what follows. Whatever you break, undo it
-    with Ctrl-Z in its cell; the file changes only when you save it.
+    A press that teaches by being edited: open it with `python lib/mechsheet edit guide`, do what stands after **Try**.
+    A click on a formula or on the symbol of an input edits its line, Enter writes it, Ctrl-Z takes it back; the button
+    *code* shows all lines of a cell, which Ctrl-Enter runs and Ctrl-S saves.
     """,
     )
     return
@@ -45,7 +45,7 @@ def section_1():
     **Try** `40` in the field of the crank, then `-40`, then `0,05 m`: a number that breaks its limit is told in words,
     a decimal comma is a decimal point, and a unit of your own is converted.
 
-    **Try** in the code: below `l` add `m: float = 12.0  # [kg] ram; > 0`. A new field is there.
+    **Try** a click on the symbol `l`, then Ctrl-Enter and `m: float = 12.0  # [kg] ram; > 0`: a new field is there.
 
     Behind the limits a tolerance may stand, `; ± 0.05`, `; ± 1 %` or `; ± 5 % normal`: all values within are equally
     likely, unless `normal` makes it three standard deviations.
@@ -98,7 +98,7 @@ def section_2():
     $\varphi_1$, `A_gc` is $A_{gc}$. An input is `g.` and its name. A power is `**`; `pi`, `sqrt`, `sin` come from the
     first cell.
 
-    **Try** to add the line `k = g.l / g.r  # [-] rod to crank` above `typeset()`, then run the cell with Ctrl-Enter.
+    **Try** a click on the formula, and Ctrl-Enter for a new line: `k = g.l / g.r  # [-] rod to crank`.
 
     **Try** to spoil a unit: `[mm]` of the stroke as `[N]`. It is told, with the unit that fits: write units for reading
     and never convert in a formula.

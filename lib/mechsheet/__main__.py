@@ -41,7 +41,7 @@ usage: mechsheet COMMAND              where the package is installed
       such as                         design bucket --vary="L_DE=0.42..0.5" --need="mu_2 >= 30 deg" --best="max F_T"
   new NAME [--like=EXAMPLE]           begin a worksheet from a template, or from another worksheet
       such as                         new loader --like=bucket
-  edit NAME [OPTIONS]                 open the worksheet in the browser (options of marimo edit)
+  edit NAME [OPTIONS]                 open the worksheet in the browser; a click on a formula edits its line
       such as                         edit hitch
   index NAME                          where the worksheet has the formulas, tables and figures of its document
       such as                         index kinetostatics

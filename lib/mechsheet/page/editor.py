@@ -118,7 +118,7 @@ def unfit(cells: Iterable[notebook.Cell], names: Mapping[str, Any]) -> Iterator[
     if not hasattr(type(names.get("g")), "__inputs__"):
         return
     ran = [cell for cell in cells if cell.status == "success"]
-    others = {name for cell in ran for name in cell.refs if getattr(names.get(name), "__module__", "") in _OTHERS}
+    others = {name for cell in ran for name in cell.refs if is_of_studies(names.get(name))}
     known = registry(names, source.of_texts(tuple((cell.code, cell.filename) for cell in ran)))
     measured = {name for name, value in names.items() if isinstance(value, units.Constant) or value is units}
     setup = _setup(ran, _depending(ran, {"g", *_functions(ran)}))
@@ -135,6 +135,11 @@ def unfit(cells: Iterable[notebook.Cell], names: Mapping[str, Any]) -> Iterator[
     for mistake in found.mistakes:
         cell, line = divmod(mistake.line, _MOST)
         yield Note(ran[cell].cell_id, str(mistake._replace(line=line)))
+
+
+def is_of_studies(value: Any) -> bool:
+    """Whether a value is a function that computes through another worksheet."""
+    return getattr(value, "__module__", "") in _OTHERS
 
 
 def _functions(cells: Iterable[notebook.Cell]) -> set[str]:

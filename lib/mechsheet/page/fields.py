@@ -75,18 +75,15 @@ def fields(g: Any) -> "mo.ui.batch":
     sections: dict[str, list[str]] = {}
     texts = {}
     for field in declared(type(g)):
-        value, allowed = getattr(g, field.name), _limits(field)
+        value = getattr(g, field.name)
         unit, grid = "" if field.unit == "-" else units.shown(field.unit), ""
         if isinstance(field, Rows):
             unit, grid = "", _grid(field, value)
-            if field.row:
-                allowed = ", ".join(f"{as_written(_short(c))}&nbsp;{_limits(c)}" for c in field.columns if c.limits)
         sections.setdefault(field.section, []).append(
             f'<tr><td style="padding-right:.5em">{as_written(field.name)}</td>'
             f'<td data-input="{field.name}">{grid}{{{field.name}}}</td>'
             f'<td style="padding-left:.4em">{html.escape(unit)}</td>'
-            f'<td style="padding-left:.7em;line-height:1.2">{html.escape(field.meaning)}{_told(field)}'
-            f'<span style="opacity:.5;padding-left:.6em">{allowed}</span></td></tr>'
+            f'<td style="padding-left:.7em;line-height:1.2">{said(field)}</td></tr>'
         )
         texts[field.name] = _element(field, value)
     blocks = "".join(
@@ -97,6 +94,15 @@ def fields(g: Any) -> "mo.ui.batch":
     states = element("ms-states", of=type(g).__name__.lower())
     template = f'<div class="ms-inputs" style="{style}">{blocks}</div><div class="ms-screen">{states}</div>'
     return _Fields(script("grid.js") + script("inputs.js", "given.js") + template, texts)
+
+
+def said(field: Input) -> str:
+    """Meaning of an input, a mistake in its unit, and its limits."""
+    limits = _limits(field)
+    if isinstance(field, Rows) and field.row:
+        limits = ", ".join(f"{as_written(_short(c))}&nbsp;{_limits(c)}" for c in field.columns if c.limits)
+    told = f"{html.escape(field.meaning)}{_told(field)}"
+    return f'{told}<span style="opacity:.5;padding-left:.6em">{limits}</span>'
 
 
 def slider(value: Slider) -> "mo.ui.slider":

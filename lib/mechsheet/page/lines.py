@@ -20,7 +20,9 @@ from mechsheet.worksheet.over import over
 def lines(shown: Typeset) -> str:
     """The lines as they stand in the page."""
     return "".join(
-        _line(_equation(row, _single(row, shown))) if isinstance(row, Given) else _formula(row, value, shown)
+        _line(_equation(row, _single(row, shown)), line=row if row.first else None)
+        if isinstance(row, Given)
+        else _formula(row, value, shown)
         for row, value in zip(shown.rows, shown.values, strict=True)
     )
 
@@ -72,7 +74,7 @@ def _line(
     number: str = "",
     substituted: str = "",
     mistake: str = "",
-    line: Formula | None = None,
+    line: Formula | Given | None = None,
 ) -> str:
     """A typeset line, the printed formula's number at its end; its numbers wait in an attribute until asked for.
 
@@ -85,7 +87,8 @@ def _line(
     told = f' <span class="ms-badge ms-FAIL">mistake</span> {escape(mistake)}' if mistake else ""
     said = f"<span>{escape(meaning)}{told}</span>" if meaning or told else ""
     said += f'<span class="ms-number">{escape(number)}</span>' if number else ""
-    place = f' id="line-{line.name}" data-reads="{escape(_symbols(line))}"' if line else ""
+    place = f' id="line-{line.name}"' if line else ""
+    place += f' data-reads="{escape(_symbols(line))}"' if isinstance(line, Formula) else ""
     return f'<div class="ms-line"{place}><span class="ms-formula">{formula}</span>{said}{more}</div>'
 
 

@@ -88,6 +88,7 @@
     const name = !getSelection().toString() && symbolAt(event);
     if (!name) return;
     const of = placeOf(name);
+    if (!of.contains(event.target)) event.preventDefault(); // in the editor a click elsewhere edits the line
     of.scrollIntoView({ block: "center" });
     of.querySelector("marimo-ui-element > *")?.shadowRoot?.querySelector("input, select")?.focus({ preventScroll: true });
     of.animate?.([{ background: "#f2c14e88" }, { background: "transparent" }], 1500);

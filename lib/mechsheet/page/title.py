@@ -1,24 +1,38 @@
-"""The title block of a worksheet, which tells its mistakes too while it is edited."""
+"""The title block of a worksheet, which tells its mistakes and has the tools of the editor while it is edited."""
 
 import sys
+from collections.abc import Iterable
 from dataclasses import replace
 from pathlib import Path
 
-from mechsheet.worksheet.title import Title
+from mechsheet.page.script import element, script
+from mechsheet.worksheet.title import Note, Title
 
 
 def title_block(name: str, text: str = "") -> Title:
     """Title block of the calling worksheet; ``text`` is Markdown."""
-    title = Title(name, text, Path(sys._getframe(1).f_globals.get("__file__", "")).name)
+    namespace = sys._getframe(1).f_globals
+    title = Title(name, text, Path(namespace.get("__file__", "")).name)
     if "marimo" in sys.modules:
         import marimo as mo  # on use: a worksheet called as a function needs it not
 
-        if mo.app_meta().mode == "edit":
-            from mechsheet.page import editor  # on use: only the editor needs it
-            from mechsheet.page.script import element, script
+        if mo.app_meta().mode == "edit" and mo.running_in_notebook():
+            from mechsheet.page import editor, in_place  # on use: only the editor needs them
 
             folded = mo.Html(script("folded.js") + element("ms-folded", **{"class": "ms-screen"}))
-            title = replace(title, tools=(folded,))
-            told = editor.watch(lambda notes: mo.output.replace(replace(title, notes=tuple(notes))))
-            return replace(title, notes=told)
+            told = list[Note]()
+
+            def edited() -> Title:
+                return replace(title, notes=tuple(told), tools=(folded, lines.shown))
+
+            def redraw() -> None:
+                mo.output.replace(edited())
+
+            def tell(notes: Iterable[Note]) -> None:
+                told[:] = notes
+                redraw()
+
+            lines = in_place.InPlace(namespace, redraw)
+            told[:] = editor.watch(tell)
+            return edited()
     return title

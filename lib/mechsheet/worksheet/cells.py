@@ -330,7 +330,7 @@ def _shared(tree: ast.Module) -> Iterator[ast.stmt]:
 def _cells(tree: ast.Module, text: str, path: Path) -> Iterator[Cell]:
     _refuse_unread(tree, path)
     nodes, scopes = list(functions(tree)), {t.get_lineno(): t for t in symtable(text, str(path), "exec").get_children()}
-    gives, section = [_gives(node.body) for node in nodes], ""
+    gives, section = [defines(node.body) for node in nodes], ""
     _refuse_twice(nodes, gives, path)
     given = frozenset(chain.from_iterable(gives))
     for n, node in enumerate(nodes):
@@ -338,9 +338,9 @@ def _cells(tree: ast.Module, text: str, path: Path) -> Iterator[Cell]:
         section = [section, *_SECTION.findall(constant(markdown(node)))][-1]
         # What a program other than marimo has written may read more than it names as arguments.
         others = given.difference(gives[n])
-        needs = frozenset(a.arg for a in node.args.args) | others.intersection(_read_outside(scopes[node.lineno]))
+        needs = frozenset(a.arg for a in node.args.args) | others.intersection(read_outside(scopes[node.lineno]))
         branching = any(isinstance(line, _OPEN) for line in lines)
-        certain = _gives(line for line in lines if not isinstance(line, _OPEN)) if branching else gives[n]
+        certain = defines(line for line in lines if not isinstance(line, _OPEN)) if branching else gives[n]
         code = compiled(lines, str(path), f"_cell{n}")
         checks, closing = tuple(_checks(node)), _is_closing(node)
         yield Cell(node.name, needs, gives[n], checks, tuple(lines), code, certain, section, closing)
@@ -369,11 +369,11 @@ def _refuse_twice(nodes: Iterable[ast.FunctionDef], gives: Iterable[Iterable[str
                 raise SheetError(f"{name} is defined in two cells of {path}, {places}: one of them needs another name")
 
 
-def _read_outside(scope: SymbolTable) -> Iterator[str]:
+def read_outside(scope: SymbolTable) -> Iterator[str]:
     """Names that a function, or what is defined in it, has neither as arguments nor of its own."""
     yield from (symbol.get_name() for symbol in scope.get_symbols() if symbol.is_global())
     for inner in scope.get_children():
-        yield from _read_outside(inner)
+        yield from read_outside(inner)
 
 
 def compiled(lines: list[ast.stmt], path: str, own: str) -> CodeType:
@@ -396,7 +396,7 @@ def compiled(lines: list[ast.stmt], path: str, own: str) -> CodeType:
 _OPEN = (ast.If, ast.For, ast.While, ast.Try, ast.TryStar, ast.Match)
 
 
-def _gives(lines: Iterable[ast.stmt]) -> tuple[str, ...]:
+def defines(lines: Iterable[ast.stmt]) -> tuple[str, ...]:
     """Names that lines of a cell define for others, as marimo sees them: all that they bind, but for those with ``_``.
 
     Not those that a cell returns: marimo's editor writes only what other cells read behind ``return``.

@@ -45,12 +45,16 @@ class Formula:
 
 @dataclass(frozen=True)
 class Given:
-    """An equation of a solve block: ``expression`` must become ``target``; ``first`` of the block or a further one."""
+    """An equation of a solve block: ``expression`` must become ``target``; ``first`` of the block or a further one.
+
+    ``name`` is what the block is bound to.
+    """
 
     expression: ast.expr
     target: ast.expr
     first: bool = True
     constants: tuple[tuple[str, str], ...] = ()
+    name: str = ""
 
 
 class Declared(NamedTuple):
@@ -88,8 +92,8 @@ def formulas(cell: source.Cell) -> tuple[Formula | Given, ...]:
 def _formulas(cell: source.Cell) -> Iterator[Formula | Given]:
     for node in cell.body:
         match node:
-            case ast.Assign([ast.Name()], ast.Call(ast.Name("find" | "minerr"), [f, *_], keywords)):
-                yield from _given(f, next((k.value for k in keywords if k.arg == "equals"), ast.Constant(0)))
+            case ast.Assign([ast.Name(name)], ast.Call(ast.Name("find" | "minerr"), [f, *_], keywords)):
+                yield from _given(name, f, next((k.value for k in keywords if k.arg == "equals"), ast.Constant(0)))
                 continue
         lines, number = _bound(node), node.end_lineno or node.lineno
         found = _declared_each(cell.comments.get(number, ""), cell.at(number), len(lines)) if lines else ()
@@ -185,13 +189,13 @@ def _on_its_branch(args: ast.arguments, expression: ast.expr) -> ast.expr:
     return ast.copy_location(ast.parse(text, mode="eval").body, expression)
 
 
-def _given(f: ast.expr, target: ast.expr) -> Iterator[Given]:
+def _given(name: str, f: ast.expr, target: ast.expr) -> Iterator[Given]:
     """The equations of a solve block: what its function computes where it is written in the call, else the function."""
     left = f.body if isinstance(f, ast.Lambda) else f
     several = left.elts if isinstance(left, ast.Tuple) else [left]
     targets = target.elts if isinstance(target, ast.Tuple) else [target] * len(several)
     for n, (expression, wanted) in enumerate(zip(several, targets, strict=False)):
-        yield Given(expression, wanted, n == 0)
+        yield Given(expression, wanted, n == 0, name=name)
 
 
 def registry(namespace: Mapping[str, Any], cells: tuple[source.Cell, ...] | None = None) -> Mapping[str, Formula]:

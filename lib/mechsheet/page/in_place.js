@@ -1,0 +1,226 @@
+// A click on a formula or on an input's symbol edits its line there: typeset beneath as one types, Enter writes the file.
+(() => {
+  if (customElements.get("ms-in-place")) return;
+
+  const EMPTY = { false: "F = m * a  # [N] force", true: "L: float = 0.5  # [m] length; > 0" };
+  const UNSAVED = "a cell holds text that is not run and saved: run it and save (Ctrl+S), then write here";
+  const TAKEN = 500; // ms between two questions whether the page has taken the file over
+  const waiting = new Map();
+  const written = []; // changes, the last one at the end
+  let count = 0;
+
+  class InPlace extends HTMLElement {
+    static observedAttributes = ["answer"];
+
+    attributeChangedCallback(_name, _before, text) {
+      const answer = JSON.parse(text);
+      waiting.get(answer.number)?.(answer);
+      waiting.delete(answer.number);
+    }
+  }
+  customElements.define("ms-in-place", InPlace);
+
+  // The field takes its text as from the hand, and passes it on when it is left.
+  function ask(what) {
+    const area = document.querySelector("ms-in-place + * marimo-text-area")?.shadowRoot?.querySelector("textarea");
+    const number = ++count;
+    Object.getOwnPropertyDescriptor(HTMLTextAreaElement.prototype, "value").set.call(
+      area,
+      JSON.stringify({ number, ...what }),
+    );
+    area.dispatchEvent(new InputEvent("input", { bubbles: true }));
+    area.dispatchEvent(new FocusEvent("focusout", { bubbles: true }));
+    return new Promise((done) => waiting.set(number, done));
+  }
+
+  const box = document.createElement("div");
+  box.className = "ms-box";
+  box.innerHTML =
+    '<textarea spellcheck="false" aria-label="line of the worksheet"></textarea><div class="ms-typed"></div>' +
+    '<div class="ms-why" role="alert"></div><div class="ms-keys"><button data-do="write">write <kbd>Enter</kbd></button>' +
+    '<button data-do="below">new line below <kbd>Ctrl+Enter</kbd></button>' +
+    '<button data-do="undo">undo <kbd>Ctrl+Z</kbd></button>' +
+    '<button data-do="code">code</button><button data-do="close">close <kbd>Esc</kbd></button></div>';
+  const [area, typed, why, keys] = box.children;
+  const chip = document.createElement("div");
+  chip.className = "ms-written";
+  chip.role = "status";
+  let of; // what is edited: its place in the page, name, the line as it was, whether below it; busy while it is written
+
+  const isUnsaved = () => document.querySelector(".marimo-cell.needs-run");
+
+  function place() {
+    if (!box.isConnected || !of.place.isConnected) return;
+    const at = of.place.getBoundingClientRect();
+    box.style.left = `${at.left}px`;
+    box.style.top = `${at.bottom + 2}px`;
+    box.style.width = `${Math.max(at.width, 500)}px`;
+  }
+  document.addEventListener("scroll", place, { capture: true, passive: true });
+  addEventListener("resize", place);
+
+  function show(text) {
+    area.value = text;
+    area.placeholder = EMPTY[of.name.startsWith("g.")];
+    area.rows = Math.max(text.split("\n").length, 1);
+    document.body.append(box);
+    keys.querySelector('[data-do="undo"]').hidden = !written.length;
+    place();
+    area.focus();
+    if (box.getBoundingClientRect().bottom > innerHeight - 150) of.place.scrollIntoView({ block: "center" });
+  }
+
+  async function open(host, name) {
+    close();
+    const mine = (of = { place: host, name, was: "", below: false });
+    host.classList.add("ms-edited");
+    typed.replaceChildren();
+    const { line, why: told } = await ask({ do: "open", name });
+    if (of !== mine) return;
+    why.textContent = told || (isUnsaved() ? UNSAVED : "");
+    of.was = line ?? "";
+    show(of.was);
+    area.readOnly = line === undefined;
+    if (line) preview(why.textContent);
+  }
+
+  function below() {
+    of.below = true;
+    why.textContent = "";
+    typed.replaceChildren();
+    show("");
+  }
+
+  function close() {
+    of?.place.classList.remove("ms-edited");
+    of = undefined;
+    area.readOnly = false;
+    box.remove();
+  }
+
+  // One question at a time: what was typed meanwhile is asked for then.
+  let timer;
+  let asking = false;
+  async function preview(told = "") {
+    if (asking) return;
+    const [mine, text] = [of, area.value];
+    asking = true;
+    const answer = await ask({ do: "type", name: of.name, was: of.was, new: text, below: of.below });
+    asking = false;
+    if (of && (of !== mine || area.value !== text)) return typing();
+    if (!of || of.busy) return;
+    why.textContent = answer.why ?? (isUnsaved() ? UNSAVED : told);
+    typed.classList.toggle("ms-former", answer.shown === undefined);
+    if (answer.shown === undefined) return;
+    typed.innerHTML = answer.shown;
+    typed.querySelectorAll("[id]").forEach((each) => each.removeAttribute("id")); // the page's own lines have them
+  }
+
+  function typing() {
+    area.rows = Math.max(area.value.split("\n").length, 1);
+    typed.classList.add("ms-former"); // until what stands there is of this text
+    clearTimeout(timer);
+    timer = setTimeout(() => of && (area.value.trim() || !of.below) && preview(), 200);
+  }
+  area.addEventListener("input", typing);
+
+  // Written is a line once the page holds it: until then, text typed elsewhere would be lost to the file that comes.
+  async function write(what, name, then) {
+    if (of?.busy) return;
+    clearTimeout(timer);
+    const tell = (text) => (of ? (why.textContent = text) : say(text));
+    if (isUnsaved()) return tell(UNSAVED);
+    const mine = of;
+    if (of) of.busy = true;
+    const answer = await ask(what);
+    if (mine) mine.busy = false;
+    if (what.below) name = what.new.trim().match(/^(?:def )?(\w*)/)[1];
+    if (answer.why) return tell(answer.why);
+    if (what.do === "undo") written.pop();
+    else written.push({ name, ...answer.written });
+    close();
+    const done = `${name.replace("g.", "")} is ${what.do === "undo" ? "as it was" : "written"}`;
+    say(`${done}, the page takes it over`);
+    for (let n = 0; n < 40; n++) {
+      await new Promise((later) => setTimeout(later, TAKEN));
+      if ((await ask({ do: "taken" })).taken) return say(done), then?.();
+    }
+    say(`${done} into the file, but the page has not taken it over: open it by mechsheet edit, which watches the file`);
+  }
+
+  function say(text) {
+    chip.textContent = text;
+    if (written.length) {
+      const back = document.createElement("button");
+      back.innerHTML = `undo ${written.at(-1).name.replace("g.", "")} <kbd>Ctrl+Z</kbd>`;
+      back.addEventListener("click", undo);
+      chip.append(back);
+    }
+    document.body.append(chip);
+  }
+
+  function undo() {
+    const last = written.at(-1);
+    if (last) write({ do: "undo", before: last.after, after: last.before }, last.name);
+  }
+
+  const acts = {
+    write(then) {
+      if (!area.readOnly && (area.value.trim() || !of.below))
+        write({ do: "write", name: of.name, was: of.was, new: area.value, below: of.below }, of.name, then);
+    },
+    // What is typed is written first; the new line opens where it stands then.
+    below() {
+      const { name } = of;
+      if (of.below || area.value === of.was || !area.value.trim()) return below();
+      acts.write(() => {
+        const now = placeOf(name);
+        if (now) open(now, name).then(below);
+      });
+    },
+    undo,
+    code() {
+      of.place.closest(".marimo-cell").removeAttribute("data-ms-folded");
+      close();
+    },
+    close,
+  };
+  keys.addEventListener("click", ({ target }) => acts[target.closest("button")?.dataset.do]?.());
+  box.addEventListener("keydown", (event) => {
+    event.stopPropagation(); // the editor has uses of its own for these keys
+    if (event.key === "Escape") close();
+    else if (event.key === "Enter" && !event.shiftKey) {
+      event.preventDefault();
+      acts[event.ctrlKey || event.metaKey ? "below" : "write"]();
+    }
+  });
+
+  const isTyped = (event) => event.composedPath()[0].closest?.("input, textarea, select, [contenteditable=true]");
+  const pressed = (event) => {
+    if (event.key !== "z" || !(event.ctrlKey || event.metaKey) || isTyped(event) || !written.length) return;
+    event.preventDefault();
+    event.stopPropagation();
+    undo();
+  };
+  document.addEventListener("keydown", pressed, { capture: true }); // before the editor, which has uses of its own for it
+
+  function placeOf(name) {
+    return name.startsWith("g.")
+      ? document.querySelector(`td[data-input="${name.slice(2)}"]`)?.parentElement
+      : document.getElementById(`line-${name}`);
+  }
+
+  // A line, or the row of an input but for its field; what is clicked for something else in it does that.
+  document.addEventListener("click", (event) => {
+    const { target } = event;
+    if (event.defaultPrevented || !getSelection().isCollapsed || box.contains(target)) return;
+    if (target.closest?.("a, button, ms-unit, [data-input], marimo-ui-element, .ms-box")) return;
+    const row = target.closest?.(".ms-line, .ms-inputs tr");
+    if (!row || !row.closest(".marimo-cell.interactive")) return;
+    const input = row.querySelector(":scope > td[data-input]");
+    let line = row;
+    while (line && !input && !line.id) line = line.previousElementSibling; // further equations of a solve block
+    if (input) open(row, `g.${input.dataset.input}`);
+    else if (line?.id.startsWith("line-")) open(row, line.id.slice("line-".length));
+  });
+})();

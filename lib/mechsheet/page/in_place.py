@@ -1,0 +1,181 @@
+"""A line edited where it stands on the page of the editor: what it would be as one types, then written into the file.
+
+What the page asks comes as the text of a field, the answer stands in an element beside it, for ``in_place.js``.
+"""
+
+import ast
+import json
+import linecache
+import re
+from collections.abc import Callable, Iterable, Iterator
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
+from html import escape
+from pathlib import Path
+from typing import Any
+
+import marimo as mo
+import numpy as np
+
+from mechsheet import units
+from mechsheet.document.markup import as_written
+from mechsheet.page import editor, fields, notebook, values
+from mechsheet.page.script import element, script
+from mechsheet.workbook.save import save
+from mechsheet.worksheet import inputs, mistakes, source
+from mechsheet.worksheet.errors import SheetError
+from mechsheet.worksheet.line_edit import OF_INPUT, Change, asked_for, change, declares, line, same_cells
+from mechsheet.worksheet.lines import Formula, Numbers, Typeset, formulas
+from mechsheet.worksheet.shown import Shown
+
+_FILE = "__marimo__cell_in_place"  # under which a line is compiled
+_LINE = re.compile(r"line (\d+), ")
+_UNSAVED = "a cell holds text that is not saved: run it and save it (Ctrl+S), then write here"
+
+
+class InPlace:
+    """The field that takes what the page asks, and the answer to it; ``redraw`` is called with a new answer."""
+
+    def __init__(self, namespace: dict[str, Any], redraw: Callable[[], object]) -> None:
+        self.namespace, self.redraw = namespace, redraw
+        self.path = Path(namespace["__file__"])
+        self.answer: dict[str, Any] = {}
+        self.field = mo.ui.text_area(on_change=self.asked)
+
+    @property
+    def shown(self) -> mo.Html:
+        """What stands in the page, out of sight."""
+        answer = json.dumps(self.answer, ensure_ascii=False)
+        return mo.Html(
+            f"{script('in_place.js')}<div hidden>{element('ms-in-place', answer=answer)}{self.field.text}</div>"
+        )
+
+    def asked(self, text: str) -> None:
+        """Answer what the page asks: a line as it stands, what a text would be, or to write it."""
+        asked = json.loads(text)
+        try:
+            found = self.done(**{key: value for key, value in asked.items() if key != "number"})
+        except SheetError as error:
+            found = {"why": str(error)}
+        except Exception as error:  # of the library: the page is told, which waits for an answer
+            found = {"why": mistakes.why(error, ())}
+        self.answer = {"number": asked["number"], **found}
+        self.redraw()
+
+    def done(self, do: str, name: str = "", was: str = "", new: str = "", below: bool = False, **parts: str) -> Any:
+        """What the page is told of what it asked."""
+        text = self.path.read_bytes().decode()
+        match do:
+            case "open":
+                return {"line": line(text, name), "why": "" if self.is_taken(text) else _UNSAVED}
+            case "type":
+                return {"shown": self.preview(change(text, name, was, new, below).of(text), name, was, new, below)}
+            case "taken":
+                return {"taken": self.is_taken(text)}
+        if not self.is_taken(text):
+            raise SheetError(_UNSAVED)
+        told = Change(**parts) if do == "undo" else change(text, name, was, new, below)
+        made = told.of(text)
+        if do == "write" and name.startswith(OF_INPUT):
+            self.preview(made, name, was, new, below)  # without inputs there is nothing: a mistake refuses them
+        save(made.encode(), self.path)
+        return {"written": told._asdict()}
+
+    def is_taken(self, text: str) -> bool:
+        """Whether the cells of the page are those of the file."""
+        try:
+            cells = notebook.running()[0]()
+        except notebook.Unlike as error:
+            raise SheetError(f"this marimo tells nothing of its cells ({error}): edit the code of the cell") from None
+        return same_cells(text, (cell.code for cell in cells))
+
+    def preview(self, made: str, name: str, was: str, new: str, below: bool) -> str:
+        """HTML of a line: as it is typeset with its value, and its mistakes."""
+        cells = notebook.running()[0]()
+        if not new.strip():
+            return _gone(cells, name)
+        if name.startswith(OF_INPUT):
+            return _elsewhere(lambda: _input(made, new, dict(self.namespace)))
+        return _elsewhere(lambda: _computed(cells, name, was, new.strip(), below, dict(self.namespace)))
+
+
+def _elsewhere(work: Callable[[], str]) -> str:
+    """What some work gives in a thread of no page: what is refused there is raised."""
+    with ThreadPoolExecutor(1) as pool:
+        return pool.submit(work).result()
+
+
+def _run(text: str, names: dict[str, Any]) -> None:
+    """Run a text whose lines can be read as those of a cell."""
+    linecache.cache[_FILE] = len(text), None, text.splitlines(keepends=True), _FILE
+    with np.errstate(all="ignore"):
+        exec(compile(text, _FILE, "exec"), names)
+
+
+def _computed(cells: Iterable[notebook.Cell], name: str, was: str, new: str, below: bool, names: dict[str, Any]) -> str:
+    """HTML of a formula computed with the names of the page, and its mistakes."""
+    known, told, bound = set(names), list[str](), declares(ast.parse(new).body[0])
+    rows = formulas(source.of_texts(((new, _FILE),))[0])
+    read = {node.id for node in ast.walk(ast.parse(new)) if isinstance(node, ast.Name)}
+    if slow := sorted(each for each in read if editor.is_of_studies(names.get(each))):
+        told.append(f"{slow[0]} computes for long: the value follows once the line is written")
+    else:
+        try:
+            _run(new, names)
+        except Exception as error:
+            told.append(mistakes.why(error, known, new))
+    there = tuple(row for row in rows if not told or not isinstance(row, Formula))
+    numbers = tuple(names[row.name] if isinstance(row, Formula) else None for row in there)
+    shown = values.html(Typeset(there, numbers, (), Numbers(names)))
+    if not told:
+        shown += "".join(values.html(names[each]) for each in sorted(bound) if isinstance(names[each], Shown))
+        told += _unfit(cells, name, was, f"{was}\n{new}" if below else new, new, names)
+        if not shown:
+            told.append("it is not shown in the document: end the line in # [unit] meaning")
+    return shown + "".join(map(_mistake, told))
+
+
+def _unfit(
+    cells: Iterable[notebook.Cell], name: str, was: str, made: str, new: str, names: dict[str, Any]
+) -> Iterator[str]:
+    """What does not fit in the units of a line in its cell."""
+    changed, its, lines = list[notebook.Cell](), "", range(0)
+    for cell in cells:
+        if name in cell.defs and was in cell.code:
+            code = cell.code.replace(was, made, 1)
+            own = {node for node in ast.walk(ast.parse(new)) if isinstance(node, ast.Name)}
+            refs = cell.refs | {node.id for node in own if isinstance(node.ctx, ast.Load)}
+            defs = cell.defs | {*declares(ast.parse(new).body[0])}
+            first = code[: code.index(made) + len(made) - len(new)].count("\n") + 1
+            lines, its = range(first, first + new.count("\n") + 1), cell.cell_id
+            cell = replace(cell, code=code, filename=_FILE, refs=refs - defs, defs=defs)
+        changed.append(cell)
+    for note in editor.unfit(changed, names):
+        if (match := _LINE.match(note.text)) and note.cell == its and int(match[1]) in lines:
+            yield note.text[match.end() :]
+
+
+def _input(made: str, new: str, names: dict[str, Any]) -> str:
+    """HTML of an input as the class of the worksheet declares it."""
+    holder = asked_for(made)
+    _run(holder, names)
+    cls, field = ast.parse(holder).body[0], ast.parse(new).body[0]
+    assert isinstance(cls, ast.ClassDef) and isinstance(field, ast.AnnAssign)
+    g = names[cls.name]()
+    (own,) = (each for each in inputs.declared(type(g)) if each.name == ast.unparse(field.target))
+    unit = "" if own.unit == "-" else units.shown(own.unit)
+    number = f"{as_written(own.name)} = {escape(own.brief(getattr(g, own.name)))} {escape(unit)}"
+    return f'<div class="ms-line"><b>{number}</b><span>{fields.said(own)}</span></div>'
+
+
+def _gone(cells: Iterable[notebook.Cell], name: str) -> str:
+    """What is told where a line is to go: what needs it."""
+    plain, need = name.removeprefix(OF_INPUT), dict[str, None]()
+    for node in (node for cell in cells for node in ast.parse(cell.code).body):
+        if any(ast.unparse(part) == name for part in ast.walk(node) if isinstance(part, ast.Name | ast.Attribute)):
+            need |= dict.fromkeys(sorted(declares(node) - {plain}))
+    return f"{escape(plain)} goes" + (f"; it is needed for {escape(', '.join(need))}" if need else "")
+
+
+def _mistake(text: str) -> str:
+    return f'<div><span class="ms-badge ms-FAIL">mistake</span> {escape(text)}</div>'

@@ -1,0 +1,309 @@
+"""One line of a worksheet's file in another text: that of a symbol which a cell declares, or of an input.
+
+Texts in, texts out. Nothing else in the file changes but the arguments and the return of the cell, where the line reads
+or gives other names.
+"""
+
+import ast
+import io
+import re
+import textwrap
+import tokenize
+from collections import Counter
+from collections.abc import Iterable, Iterator, Sequence
+from functools import lru_cache
+from symtable import symtable
+from typing import NamedTuple, TypeAlias
+
+from mechsheet.worksheet import mistakes
+from mechsheet.worksheet.cells import bound, defines, read_outside
+from mechsheet.worksheet.errors import SheetError
+from mechsheet.worksheet.source import functions, is_app
+
+_WIDE = 120  # characters of a line of the file
+OF_INPUT = "g."  # before the name of an input, as formulas read it
+_LIKE = {
+    False: "a line is a name and what it is, such as F = m * a  # [N] force",
+    True: "an input is a name, its type and its value, such as L: float = 0.5  # [m] length; > 0",
+}
+
+
+class Change(NamedTuple):
+    """A part of the file, and what stands in its place after the change."""
+
+    before: str
+    after: str
+
+    def of(self, text: str) -> str:
+        """The text after the change.
+
+        Raises SheetError where the part is not there, or what comes out is no Python.
+        """
+        if text.count(self.before) != 1:
+            raise SheetError("the cell has changed since in the file: nothing is written")
+        made = text.replace(self.before, self.after)
+        _parsed(made)
+        return made
+
+    def back(self) -> "Change":
+        """The change that takes this one back."""
+        return Change(self.after, self.before)
+
+
+def line(text: str, name: str) -> str:
+    """Text of the line that declares a symbol, or the input ``g.NAME``, with its comment and without its indentation.
+
+    Raises SheetError where no line does, several do, or it shares its line with others.
+    """
+    return _place(text, name).line
+
+
+def change(text: str, name: str, was: str, new: str, below: bool = False) -> Change:
+    """The change of the file in which ``new`` stands in place of the line ``was`` of a name, or ``below`` it.
+
+    Without a text the line goes. Raises SheetError where the line is another one by now, or ``new`` is no such line.
+    """
+    place, new = _place(text, name), "\n".join(row.rstrip() for row in new.strip().splitlines())
+    if place.line != was:
+        raise SheetError(f"the line of {name} has changed since in the file: nothing is written")
+    if below and not new:
+        raise SheetError(_LIKE[name.startswith(OF_INPUT)])
+    if new == was and not below:
+        return Change(place.cell, place.cell)
+    if new:
+        _refuse(new, place, name.startswith(OF_INPUT), below)
+    end = "\r\n" if "\r\n" in text else "\n"
+    rows = [place.indent + row + end if row else end for row in new.splitlines()]
+    own = list(io.StringIO(place.cell, newline=""))
+    own[place.last if below else place.first : place.last] = rows
+    made = "".join(own)
+    if place.cell_number is not None and _named(new) != _named("" if below else was):
+        whole = text.replace(place.cell, made)
+        made = _signed(made, _parsed(text), _parsed(whole), place.cell_number, end)
+    found = Change(place.cell, made)
+    found.of(text)
+    return found
+
+
+def asked_for(text: str) -> str:
+    """Text of the class of the inputs as the file has it, without marimo's decorator; SheetError where none is."""
+    rows = list(io.StringIO(text, newline=""))
+    for node in ast.walk(_parsed(text)):
+        if isinstance(node, ast.ClassDef) and _is_asked(node):
+            first, last = _rows(node)
+            return textwrap.dedent("".join(row for row in rows[first:last] if not _ALONE.fullmatch(row.strip())))
+    raise SheetError("the file declares no inputs")
+
+
+def same_cells(text: str, codes: Iterable[str]) -> bool:
+    """Whether the cells of a file are those of a page, whatever space stands in them.
+
+    A page that was opened holds no text cells: those of the file that it lacks are as they are.
+    """
+    bodies = [(_plain(text, body), body) for body in _bodies(_parsed(text)) if body]
+    in_page = Counter(_plain(code, body) for code in codes if (body := ast.parse(code).body))
+    texts = Counter(plain for plain, body in bodies if _is_text(body))
+    in_file = Counter(plain for plain, _ in bodies)
+    return in_page <= in_file and in_file - in_page <= texts
+
+
+class _Place(NamedTuple):
+    """A line of a cell: the text of the cell, the rows of the line in it, and what the line shares its names with."""
+
+    line: str
+    cell: str
+    first: int
+    last: int
+    indent: str
+    names: frozenset[str]  # that others of the file have
+    cell_number: int | None  # among those that marimo calls with arguments
+
+
+_Holder: TypeAlias = ast.FunctionDef | ast.ClassDef
+
+
+@lru_cache(maxsize=16)
+def _lines(text: str) -> dict[str, list[tuple[_Holder, int]]]:
+    """Lines of a file by name, ``g.NAME`` of an input: the cell or class that holds each, and its place there."""
+    tree, found = _parsed(text), dict[str, list[tuple[_Holder, int]]]()
+    asked = (node for node in ast.walk(tree) if isinstance(node, ast.ClassDef) and _is_asked(node))
+    holders: list[_Holder] = [*functions(tree), *asked]
+    for holder in holders:
+        before = OF_INPUT if isinstance(holder, ast.ClassDef) else ""
+        for n, node in enumerate(holder.body):
+            for name in declares(node):
+                found.setdefault(before + name, []).append((holder, n))
+    return found
+
+
+def _place(text: str, name: str) -> _Place:
+    rows, lines = list(io.StringIO(text, newline="")), _lines(text)
+    found = lines.get(name, [])
+    if len(found) != 1:
+        raise SheetError(f"{name} has {len(found) or 'no'} lines in the file: edit the code of its cell")
+    (holder, n), *_ = found
+    body = holder.body
+    first, last = _rows(body[n])
+    if any(_rows(node)[0] < last and first < _rows(node)[1] for node in (*body[:n], *body[n + 1 :])):
+        raise SheetError(f"{name} shares its line with another one: edit the code of its cell")
+    indent = " " * body[n].col_offset
+    own = [row.rstrip("\r\n") for row in rows[first:last]]
+    if any(row.strip() and not row.startswith(indent) for row in own):
+        raise SheetError(f"the line of {name} holds a text at the margin: edit the code of its cell")
+    above, below = _rows(holder)
+    before = OF_INPUT if isinstance(holder, ast.ClassDef) else ""
+    others = (each.removeprefix(before) for each in lines if each.startswith(OF_INPUT) == bool(before))
+    return _Place(
+        "\n".join(row.removeprefix(indent) for row in own),
+        "".join(rows[above:below]),
+        first - above,
+        last - above,
+        indent,
+        frozenset(others).difference(declares(body[n])),
+        list(functions(_parsed(text))).index(holder) if isinstance(holder, ast.FunctionDef) else None,
+    )
+
+
+def declares(node: ast.stmt) -> set[str]:
+    """Names that a line declares; none where a statement is no line."""
+    match node:
+        case ast.Assign(targets=targets):
+            return {name for target in targets for name in bound(target)}
+        case ast.AnnAssign(ast.Name(name)) | ast.FunctionDef(name=name):
+            return {name}
+    return set()
+
+
+def _is_text(body: Sequence[ast.stmt]) -> bool:
+    """Whether a cell does nothing but show a text as it is written."""
+    match body:
+        case [ast.Expr(ast.Call(ast.Attribute(ast.Name("mo"), "md"), [ast.Constant()]))]:
+            return True
+    return False
+
+
+def _named(line: str) -> set[str]:
+    """Names that a line reads or declares."""
+    tree = ast.parse(line)
+    read = {node.id for node in ast.walk(tree) if isinstance(node, ast.Name)}
+    return read.union(*map(declares, tree.body))
+
+
+def _is_asked(node: ast.ClassDef) -> bool:
+    """Whether a class declares inputs with their values."""
+    decorated = any(isinstance(d, ast.Name) and d.id == "inputs" for d in node.decorator_list)
+    return decorated and any(isinstance(field, ast.AnnAssign) and field.value for field in node.body)
+
+
+def _rows(node: ast.stmt) -> tuple[int, int]:
+    """First row of a statement, and that behind its last."""
+    decorated = getattr(node, "decorator_list", [])
+    return min(n.lineno for n in (node, *decorated)) - 1, node.end_lineno or node.lineno
+
+
+def _refuse(new: str, place: _Place, is_input: bool, below: bool) -> None:
+    """Raise SheetError where a text is no line of a formula or an input, or binds a name that another line has."""
+    try:
+        body = ast.parse(new).body
+    except SyntaxError as error:
+        raise SheetError(mistakes.unread(error)) from None
+    match body:
+        case [ast.AnnAssign(ast.Name(), _, ast.expr())]:
+            pass
+        case [ast.Assign() | ast.FunctionDef()] if not is_input:
+            pass
+        case _:
+            raise SheetError(_LIKE[is_input])
+    taken = place.names | {name for node in ast.parse(place.line).body if below for name in declares(node)}
+    if twice := sorted(declares(body[0]) & taken):
+        raise SheetError(f"{twice[0]} is declared by another line: take another name")
+
+
+def _signed(cell: str, before: ast.Module, after: ast.Module, number: int, end: str) -> str:
+    """Text of a cell with the arguments and the return that fit what its lines read and give after a change."""
+    node, past = list(functions(after))[number], _reads(before, number)
+    now, given = _reads(after, number), set(defines(node.body))
+    arguments = [a.arg for a in node.args.args]
+    wanted = {a for a in arguments if a not in past - now} | (now - past)
+    rows = list(io.StringIO(cell, newline=""))
+    top = _rows(node)[0]
+    match node.body[-1]:
+        case ast.Return(ast.expr() as value) as last:
+            kept = [n.id for n in ast.walk(value) if isinstance(n, ast.Name)]
+            if not given.issuperset(kept):
+                kept = [name for name in kept if name in given]
+                first, behind = _rows(last)
+                one = ", ".join(kept) if len(kept) != 1 else f"({kept[0]},)"
+                listed = one if len(one) <= _WIDE - len("    return ") else _several(kept, "    ", end)
+                rows[first - top : behind - top] = [f"    return {listed}".rstrip() + end]
+    if wanted != set(arguments):
+        text, several = "".join(rows), _several(sorted(wanted), "", end)
+        start, stop = _brackets(text, node.name)
+        one = f"({', '.join(sorted(wanted))})"
+        return text[:start] + (one if len(f"def {node.name}{one}:") <= _WIDE else several) + text[stop:]
+    return "".join(rows)
+
+
+def _several(names: Sequence[str], indent: str, end: str) -> str:
+    """Names in brackets over several lines."""
+    rows = textwrap.wrap(", ".join(names) + ",", _WIDE - len(indent) - 4)
+    return end.join(["(", *(f"{indent}    {row}" for row in rows), f"{indent})"])
+
+
+def _brackets(cell: str, name: str) -> tuple[int, int]:
+    """Where the brackets of a cell's arguments begin, and where what follows them does."""
+    starts = [0]
+    for row in io.StringIO(cell, newline=""):
+        starts.append(starts[-1] + len(row))
+    depth, begin, before = 0, None, ("", "")
+    for token in tokenize.generate_tokens(io.StringIO(cell, newline="").readline):
+        at = starts[token.start[0] - 1] + token.start[1]
+        if begin is None and token.string == "(" and before == ("def", name):
+            begin = at
+        if begin is not None and token.string in "()" and token.string:
+            depth += 1 if token.string == "(" else -1
+            if not depth:
+                return begin, at + 1
+        before = before[1], token.string
+    raise SheetError(f"cell {name} has no arguments")
+
+
+def _reads(tree: ast.Module, number: int) -> set[str]:
+    """Names of other cells that a cell reads."""
+    cells = list(functions(tree))
+    node = cells[number]
+    bare = ast.FunctionDef("cell", ast.arguments([], [], None, [], [], None, []), node.body, [])
+    text = ast.unparse(ast.fix_missing_locations(ast.Module([bare], [])))
+    read = set(read_outside(symtable(text, "", "exec").get_children()[0]))
+    return read & {name for other in cells if other is not node for name in defines(other.body)}
+
+
+def _bodies(tree: ast.Module) -> Iterator[Sequence[ast.stmt]]:
+    """Statements of each cell of a file, as the page holds them."""
+    yield from ([s for s in node.body if not isinstance(s, ast.Return)] for node in functions(tree))
+    for node in tree.body:
+        match node:
+            case ast.With(items=[ast.withitem(context)]) if is_app(context, ("setup",)):
+                yield node.body
+            case ast.ClassDef() | ast.FunctionDef():
+                if any(is_app(d, ("class_definition", "function")) for d in node.decorator_list):
+                    yield [node]
+
+
+_ALONE = re.compile(r"@app\.(class_definition|function)(\(.*\))?")
+
+
+def _plain(text: str, body: Sequence[ast.stmt]) -> str:
+    """Statements of a cell without space, without marimo's decorator of one that stands alone, and without the comment
+    behind the last of them, which the page may lack."""
+    own = list(io.StringIO(text, newline=""))[_rows(body[0])[0] : _rows(body[-1])[1]]
+    own[-1] = own[-1].encode()[: body[-1].end_col_offset].decode()
+    return re.sub(r"\s", "", "".join(row for row in own if not _ALONE.fullmatch(row.strip())))
+
+
+@lru_cache(maxsize=16)
+def _parsed(text: str) -> ast.Module:
+    try:
+        return ast.parse(text)
+    except SyntaxError as error:
+        raise SheetError(f"line {error.lineno} of the file: {mistakes.unread(error)}") from None

@@ -1,0 +1,138 @@
+"""One line of a worksheet's file in another text: everything else stays byte for byte, and it can be taken back."""
+
+from __future__ import annotations
+
+import ast
+from pathlib import Path
+
+import pytest
+from conftest import ROOT
+from hypothesis import settings
+
+from mechsheet.worksheet import cells
+from mechsheet.worksheet.errors import SheetError
+from mechsheet.worksheet.inputs import declared
+from mechsheet.worksheet.line_edit import Change, change, line, same_cells
+from mechsheet.worksheet.lines import Formula, formulas
+from mechsheet.worksheet.source import _in_file
+
+WORKSHEETS = [*sorted(ROOT.glob("worksheets/*.py")), *sorted(ROOT.glob("worksheets/examples/*.py"))]
+EVERY = 1600 // settings.default.max_examples or 1  # one line in so many, all of them in a search
+TEMPLATE = (ROOT / "lib/mechsheet/run/new_worksheet.txt").read_text(encoding="utf-8")
+
+
+def names(path: Path) -> list[str]:
+    """All that can be edited in a worksheet: inputs, and symbols of lines that stand alone."""
+    lines = [row.name for cell in _in_file(str(path), 0) for row in formulas(cell) if isinstance(row, Formula)]
+    once = [name for name in dict.fromkeys(lines) if lines.count(name) == 1]
+    return [*(f"g.{field.name}" for field in declared(cells.load(path).inputs)), *once]
+
+
+@pytest.mark.parametrize("path", WORKSHEETS, ids=lambda path: path.stem)
+def test_every_line_of_every_worksheet_is_edited_alone_and_back(path: Path) -> None:
+    text = path.read_bytes().decode()
+    editable = names(path)
+    assert len(editable) > 3
+    for n, name in enumerate(editable):
+        was = line(text, name)
+        assert ast.parse(was).body and was == was.strip()
+        if n % EVERY:
+            continue
+        assert change(text, name, was, was).of(text) == text
+        told = change(text, name, was, f"{was}  # told")
+        made = told.of(text)
+        assert made.replace("  # told", "") == text
+        assert told.back().of(made) == text
+        if n % (5 * EVERY):
+            continue
+        assert line(made, name) == f"{was}  # told"
+        new = "Q_added: float = 1.0  # [m] new" if name.startswith("g.") else "Q_added = 1  # [m] new"
+        added = change(text, name, was, new, below=True)
+        assert [row for row in added.of(text).splitlines() if "Q_added" not in row] == text.splitlines()
+        assert line(added.of(text), "g.Q_added" if name.startswith("g.") else "Q_added") == new
+        assert added.back().of(added.of(text)) == text
+        gone = change(text, name, was, "")
+        with pytest.raises(SheetError, match="no lines"):
+            line(gone.of(text), name)
+        assert gone.back().of(gone.of(text)) == text
+
+
+def edited(name: str, new: str, below: bool = False, text: str = TEMPLATE) -> str:
+    return change(text, name, line(text, name), new, below).of(text)
+
+
+def test_arguments_and_return_follow_what_a_cell_reads_and_gives() -> None:
+    made = edited("n", "n = M(1)  # [-] levers")
+    assert "def load_cases(M, g):" in made
+    assert "def load_cases(g):" in edited("n", "n = 2  # [-] levers", text=made)
+    gone = edited("sigma", "")
+    assert "return M_n, strong" in gone
+    assert "return (M_n,)" in edited("strong", "", text=gone)
+    many = "".join(f"    long_name_of_a_symbol_{n} = {n}  # [-] one\n" for n in range(9))
+    text = TEMPLATE.replace("    phi = linspace", many + "    phi = linspace")
+    wide = edited("n", f"n = {' + '.join(f'long_name_of_a_symbol_{n}' for n in range(9))}  # [-] sum", text=text)
+    assert "def load_cases(\n    g, long_name_of_a_symbol_0," in wide
+    assert [a.arg for a in cell(wide, "load_cases").args.args] == [
+        "g",
+        *(f"long_name_of_a_symbol_{n}" for n in range(9)),
+    ]
+
+
+def cell(text: str, name: str) -> ast.FunctionDef:
+    return next(node for node in ast.parse(text).body if isinstance(node, ast.FunctionDef) and node.name == name)
+
+
+def test_ends_of_lines_and_a_line_of_several_rows_stay() -> None:
+    text = TEMPLATE.replace("\n", "\r\n")
+    made = edited("M", "def M(phi):\n    return 2 * g.F * g.L * sin(phi)  # [N*m] moment", text=text)
+    assert made == text.replace("return g.F", "return 2 * g.F")
+    assert line(TEMPLATE, "phi_found").count("\n") == 2
+
+
+@pytest.mark.parametrize(
+    ("name", "new", "says"),
+    [
+        ("n", "n = 2 (3)  ]", "unmatched"),
+        ("n", "n := 2", "a definition is written =, not :="),
+        ("n", "typeset()", "a line is a name and what it is"),
+        ("n", "n = 1\nk = 2", "a line is a name and what it is"),
+        ("n", "# only words", "a line is a name and what it is"),
+        ("n", "sigma = 2  # [-] twice", "sigma is declared by another line"),
+        ("g.F", "F = 3", "an input is a name, its type and its value"),
+        ("g.F", "L: float = 3  # [m] twice", "L is declared by another line"),
+        ("n", "n = 1 \\", "unexpected EOF"),
+    ],
+)
+def test_what_is_no_line_is_refused_in_words(name: str, new: str, says: str) -> None:
+    with pytest.raises(SheetError, match=says):
+        edited(name, new)
+
+
+def test_a_line_that_is_another_one_by_now_is_left_alone() -> None:
+    with pytest.raises(SheetError, match="the line of n has changed since"):
+        change(TEMPLATE, "n", "n = 1  # [-] levers", "n = 3")
+    told = change(TEMPLATE, "n", line(TEMPLATE, "n"), "n = 3  # [-] levers")
+    with pytest.raises(SheetError, match="the cell has changed since"):
+        told.back().of(TEMPLATE)
+    with pytest.raises(SheetError, match="n has no lines"):
+        line(TEMPLATE.replace("n = 2 if", "m = 2 if"), "n")
+    with pytest.raises(SheetError, match="n shares its line"):
+        line(TEMPLATE.replace("n = 2 if", "m = 1; n = 2 if"), "n")
+    with pytest.raises(SheetError, match="never closed"):
+        Change("n = 2 if", "n = (2 if").of(TEMPLATE)
+
+
+@pytest.mark.parametrize("path", WORKSHEETS[1::3], ids=lambda path: path.stem)
+def test_cells_of_the_page_are_told_from_those_of_the_file(path: Path) -> None:
+    from marimo._ast.load import load_app
+
+    codes = list(load_app(path)._cell_manager.codes())
+    text = path.read_bytes().decode()
+    assert same_cells(text, codes)
+    assert same_cells(text, [*codes, "", "\n"])
+    assert not same_cells(text, [*codes, "x = 1"])
+    assert not same_cells(text, [codes[-1] + "\ny = 2", *codes[:-1]])
+    assert not same_cells(text, codes[1:])
+    texts = [code for code in codes if code.startswith("mo.md(") and not code.startswith("mo.md(f")]
+    assert texts and same_cells(text, [code for code in codes if code not in texts])
+    assert not same_cells(text, [*codes, 'mo.md("of one\'s own")'])
