@@ -57,7 +57,9 @@ def _bare(node: ast.stmt) -> str:
     match node:
         case ast.Expr(ast.Name(name)):
             return name
-        case ast.Expr(ast.Call(ast.Name("table" | "figure" | "check" | "caption" as kind), [ast.Constant(what), *_])):
+        case ast.Expr(
+            ast.Call(ast.Name("table" | "figure" | "check" | "caption" as kind), [ast.Constant(str(what)), *_])
+        ):
             return f"{kind} {what}"
     return ""
 
