@@ -9,7 +9,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mechsheet import units
-from mechsheet.mechanics.differences import extrapolated
 from mechsheet.recording.bands import untold
 from mechsheet.recording.numbers import numbers as recomputed
 from mechsheet.recording.record import record
@@ -29,6 +28,7 @@ Position = int | Literal["least", "greatest"]
 
 _STEP = 2.0**-5  # of an input's size: the widest step
 _HALVINGS = 7  # steps down to 2**-12 of the size
+_ROUNDING = 32 * np.finfo(float).eps  # of a field's largest value: what the roundings of a worksheet make of it
 _BARS = 12
 _DRAWS = 4  # of inputs changed by one rounding
 
@@ -242,7 +242,7 @@ def sensitivity(
         taken = [variants[x][1:].reshape(len(chosen), 2, len(steps))[i] for i, x in enumerate(chosen)]
         widths = np.reshape([t[0] - t[1] for t in taken], (len(chosen), len(steps), *[1] * values[name].ndim))
         quotients = (moved[:, 0] - moved[:, 1]) / widths  # the steps as they are after rounding
-        found[name], errors[name] = extrapolated(quotients, widths, float(np.max(np.abs(values[name]))))
+        found[name], errors[name] = _extrapolated(quotients, widths, float(np.max(np.abs(values[name]))))
         for i, x in enumerate(chosen):
             if np.isnan(found[name][i]).any():
                 lost[x] = next((reason for reason in reasons[i][::-1] if reason), "the result itself has no value")
@@ -303,6 +303,26 @@ def _corner(name: str, slope: Slope, i: int) -> str:
         return f"{name} jumps there, or ends"
     ahead, behind = numbers.apart(sides)
     return f"{name} has a corner there: in SI its slope is {ahead} ahead and {behind} behind"
+
+
+def _extrapolated(quotients: Array, widths: Array, size: float) -> tuple[Array, Array]:
+    """Limits of difference quotients for no step, and estimates of their errors; steps on axis 1, halved each."""
+    best = np.full_like(quotients[:, 0], np.nan)
+    error = np.full_like(best, np.inf)
+    before = [quotients[:, 0]]
+    for n in range(1, quotients.shape[1]):
+        row = [quotients[:, n]]
+        rounding = _ROUNDING * size / np.abs(widths[:, n])
+        for m in range(1, n + 1):
+            row.append(row[-1] + (row[-1] - before[m - 1]) / (4.0**m - 1))
+            off = np.maximum(np.abs(row[m] - row[m - 1]), np.abs(row[m] - before[m - 1]))
+            with np.errstate(invalid="ignore"):
+                new = np.where(np.isnan(row[m]), np.inf, off + rounding)
+            better = new < error
+            best, error = np.where(better, row[m], best), np.where(better, new, error)
+        before = row
+    flat = np.all(quotients == 0, axis=1)  # no influence at all: no error either
+    return best, np.where(flat, 0.0, np.where(np.isnan(best), np.nan, error))
 
 
 def point(worksheet: str | Path, given: Mapping[str, Any]) -> tuple[dict[str, Input], dict[str, float]]:
