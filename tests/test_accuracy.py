@@ -189,9 +189,15 @@ def test_less_is_run_for_less():
 
 def test_studies_stand_beside_what_is_kept_of_a_run():
     table = jobs.study_costs("8", WORKSHEET.with_name("slotted_link.py"), {"nothing": int}, 1e-6)
-    study, time, _, runs = (column.values for column in table.columns)
-    assert list(study) == ["nothing", "formulas of a run recorded", "all its digits proved", "its workbook written"]
-    assert np.all(time[1:] > time[0]) and np.all(runs >= 1)
+    study, time, of_run, _, runs = (column.values for column in table.columns)
+    assert [study[0], *study[-3:]] == [
+        "a run of the worksheet's cells",
+        "all their digits proved",
+        "its workbook written",
+        "nothing",
+    ]
+    assert np.all(time[:-1] > time[-1]) and np.all(runs >= 1)
+    assert of_run[0] == 1 and np.allclose(of_run, time / time[0])
 
 
 def test_every_worksheet_is_measured_at_every_size():

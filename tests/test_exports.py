@@ -118,7 +118,7 @@ KINDS: tuple[tuple[str, str, str, Alike], ...] = (
     (r"7\.1 Digits", r"(printed|product|margin) \[", r"", digits),
     (r"", r"(digits|most) \[-\]", r"", digits),
     (r"", r"error \[-?\]", r"", error),
-    (r"", r"(time|ratio|place|least time|of whole|spread|runs) \[|.* \[µs\]", r"", duration),
+    (r"", r"(time|ratio|place|least time|of whole|of a run|spread|runs) \[|.* \[µs\]", r"", duration),
     (r"0\.1 Machine", r"", r"", duration),
 )
 

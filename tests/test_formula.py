@@ -208,7 +208,7 @@ def test_lines_with_a_unit_are_the_formulas():
         (np.array([np.nan, *np.arange(11.0)]), "m", r"0 \,\ldots\, 10\,\mathrm{m} (1 of 12 \text{none})"),
         (np.full(11, np.nan), "m", r"\text{none}\,\mathrm{m}"),
         (np.full(11, 2.0), "m", r"2\,\mathrm{m}"),
-        (np.arange(5) * 1j, "m", r"(0,\ 0) \,\ldots\, (0,\ 4)\,\mathrm{m}"),
+        (np.arange(5) * 1j, "m", r"(0,\ 0 \,\ldots\, 4)\,\mathrm{m}"),
         (
             2 * np.exp(1j * np.linspace(0, 2 * np.pi, 9)),
             "m",
@@ -224,7 +224,7 @@ def test_value_in_its_display_unit(value, unit, tex):
 
 def test_an_unknown_unit_is_told_on_its_line_alone():
     names = run(IMPORT + "a = 1.0  # [mm] fine\np = 2.0  # [MPaa] wrong\nb = 2 * a  # [mm] fine\nshown = typeset()")
-    first, second, third = joined(names["shown"]).split('<div class="ms-line">')[1:]
+    first, second, third = joined(names["shown"]).split('class="ms-line"')[1:]
     assert "1000 mm" in first and "2000 mm" in third and "mistake" not in first + third
     assert "2 ?" in second and "unit [MPaa] is not known; nearest: MPa" in second
 

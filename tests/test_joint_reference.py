@@ -103,6 +103,7 @@ def reference(g):
     dF_tre = np.array([reduced(g, beta, skin + first) for skin in F_ske])
     loads = list(zip(g.loads.M + g.loads.M_w, g.loads.N, strict=True))
     known |= {
+        "m": len(g.bolts), "n_b": len(beams),
         "beta": beta, "h": h, "b": b, "l_b": l_b, "l_h": l_h, "dF_cr": strip, "F_bt": F_bt, "F_bc": F_bc, "F_st": F_st,
         "F_sc": F_sc, "way": [1, 2, 3], "l_be": l_be, "w_he": w_he, "F_ske": F_ske, "dF_te": F_ske + first,
         "dF_tre": dF_tre, "F_bte": beams[0][2] + beams[0][3] * dF_tre, "line": [1, 2],

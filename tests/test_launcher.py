@@ -163,13 +163,15 @@ def test_edit_opens_the_worksheet_in_marimo(sheet: Path, calls: list[list[str]])
     assert calls == [[sys.executable, "-m", "marimo", "edit", "--watch", "--headless", str(sheet)]]
 
 
-def test_a_worksheet_runs_as_it_opens_outside_a_clone_too(capfd: pytest.CaptureFixture[str]) -> None:
+def test_a_worksheet_runs_as_it_opens_outside_a_clone_too(
+    capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
     setting = "_MARIMO_CONFIG_OVERLOAD_RUNTIME_AUTO_INSTANTIATE"
     code = (
         "from marimo._config.manager import get_default_config_manager as config\n"
         "print(config(current_path='/').get_config()['runtime']['auto_instantiate'])"
     )
-    assert setting not in os.environ
+    monkeypatch.delenv(setting, raising=False)
     assert launcher.call([sys.executable, "-c", code]) == 0
     assert capfd.readouterr().out.strip() == "True"
 

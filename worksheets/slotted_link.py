@@ -391,10 +391,9 @@ def others(f1, f2, f3, f4, f5, f6, g, phi1_k, units_f, units_x):
         unit=units_f,
         unknown_unit=units_x,
     )
-    S_g = G_found.value.SAB  # [m] sliding distance found
-    N_same = np.sum(S_g > 0, axis=1)  # [-] positions found on the branch +1: the link points to the slider
-    N_other = np.sum(S_g < 0, axis=1)  # [-] positions found on the branch -1: it points away
-    N_none = np.sum(np.isnan(S_g), axis=1)  # [-] positions not found
+    N_same = np.sum(G_found.value.SAB > 0, axis=1)  # [-] positions found on the branch +1: link points to slider
+    N_other = np.sum(G_found.value.SAB < 0, axis=1)  # [-] positions found on the branch -1: it points away
+    N_none = np.sum(np.isnan(G_found.value.SAB), axis=1)  # [-] positions not found
     N_g = np.sum(G_found.evaluations, axis=1)  # [-] evaluations of the six equations, in all
     typeset()
     return G_found, N_g, N_none, N_other, N_same, phi3_g
