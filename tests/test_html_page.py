@@ -313,7 +313,7 @@ def test_numbers_are_written_as_python_writes_them(document: Callable[..., Path]
     page = opened(offline, document("hitch"))
     rng = np.random.default_rng(7)
     wide = [float(x) for x in rng.choice([-1, 1], 4000) * 10 ** rng.uniform(-12, 24, 4000)]
-    ties = [n / 2**k for k in range(8) for n in (1, 3, 5, 7, 9, 25, 1001, 12345, 99999)]
+    ties = [n / 2**k for k in range(8) for n in (1, 3, 5, 7, 9, 19, 25, 95, 1001, 12345, 99999)]
     ends = [0.0, -0.0, 1e-3, 9.99995e-4, 99999.5, 1e5, 999999.5, 1e6, 1e21, 1e22, 5e-324, 1.7e308, -0.0004, 0.00005]
     values = [*wide, *ties, *(-x for x in ties), *ends]
     script = (ROOT / "lib" / "mechsheet" / "html" / "format.js").read_text(encoding="utf-8")

@@ -14,7 +14,8 @@ function digitsOf(x, count) {
   const size = Math.abs(x), to = n => size.toExponential(n).split("e")[0].replace(".", "");
   let mantissa = to(count - 1);
   const power = size.toExponential(count - 1).split("e")[1];
-  if (even(mantissa, to(count), () => to(100))) mantissa = mantissa.slice(0, -1) + (mantissa.at(-1) - 1);
+  const isTen = count === 1 && mantissa === "1" && to(1)[0] === "9"; // the even one of 9 and 10
+  if (!isTen && even(mantissa, to(count), () => to(100))) mantissa = mantissa.slice(0, -1) + (mantissa.at(-1) - 1);
   return [mantissa, Number(power)];
 }
 
@@ -79,7 +80,7 @@ function piece(part, read) {
   if (typeof part === "string") return part;
   if (!Array.isArray(part)) return written(read(part.if) ? part.then : part.else, read);
   const [key, spec, ...instead] = part, x = read(key);
-  return instead.reduce((told, pair) => told.replaceAll(...pair), formatted(typeof x === "number" ? x : x[0], spec));
+  return instead.reduce((told, [old, now]) => told.replaceAll(old, () => now), formatted(typeof x === "number" ? x : x[0], spec));
 }
 
 // Five significant digits or all before the point; a power of ten outside 1e-3..1e6.
