@@ -28,8 +28,10 @@ function showMoved(name) {
   if (state.refused) return;
   control.elements.forEach(([spec, element, n]) => {
     if (spec.kind === "value") return soon(n, () => showAlong(spec, element));
-    set(element, own ? control.pictures[spec.picture][control.at]() : "");
-    grey(element, own ? "" : MOVES_NOT);
+    soon(n, () => {
+      set(element, own ? control.pictures[spec.picture][control.at]() : "");
+      grey(element, own ? "" : MOVES_NOT);
+    });
   });
   for (const [symbol, at] of Object.entries(control.marks)) setMark(symbol, own ? at[control.at] : NaN);
 }
