@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from html import escape
 from typing import Any
 
 import pytest
 
 import mechsheet.recording.record  # noqa: F401  # knows what numpy does with quantities
-from mechsheet.html import wording
+from mechsheet.html import markdown, wording
 from mechsheet.recording.choices import choice
 from mechsheet.recording.graph import Graph, current
 from mechsheet.recording.quantity import Quantity
@@ -60,6 +61,24 @@ def test_the_first_word_of_a_name_is_a_symbol_or_a_number(graph: Graph) -> None:
 def test_a_number_in_a_formula_is_not_followed(graph: Graph) -> None:
     told = text("the **arm** $a = ", (quantity(graph, "x", 3.0), ".4g"), "$")
     assert wording.pieces(told, lambda shown: shown.replace("$", "<math>", 1).replace("$", "</math>"), str) == []
+
+
+@pytest.mark.parametrize("other", ["on\n\nthe next line", "20&deg;", "a *long* one", "$x$"])
+def test_markup_of_a_text_that_stands_for_another_one_is_not_followed(graph: Graph, other: str) -> None:
+    x = quantity(graph, "x", 3.0)
+    holds = Quantity(graph, graph.fold("gt", x.re, graph.constant(1.0)))
+    for told in choice(holds, lambda: text(other, (x, "")), lambda: "short"), text((x, ".1f")).replace(".", other):
+        assert wording.pieces(Written((*told.parts, " end")), markdown.html, str) == []
+
+
+def test_a_number_that_begins_a_list_is_not_followed(graph: Graph) -> None:
+    told = text((quantity(graph, "x", 2.0), ".0f"), ". first")
+    assert "<ol" in markdown.html(told.now) and wording.pieces(told, markdown.html, str) == []
+    assert len(wording.pieces(text(told, " & more"), escape, str)) == 3
+
+
+def test_a_class_in_a_text_is_written_as_python_does(graph: Graph) -> None:
+    assert text("a ", (float, "")) == f"a {float}"
 
 
 @pytest.mark.parametrize("end", [0.3, 1.5])

@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Callable
+from html import unescape
 from typing import Any
 
 from mechsheet.recording.node import Node
@@ -9,7 +10,7 @@ from mechsheet.recording.written import Either, Number, Written
 
 Key = Callable[[Node], str]
 _PLACE, _HELD = "\ue000", re.compile("\ue000(\\d+)\ue001")
-_MARKUP = re.compile(r"[*_`$\\\[\]<>|#]")  # in a text that stands for another one
+_MARKUP = re.compile(r"[*_`$\\\[\]<>|#\n]|&[\w#]")  # in a text that stands for another one
 
 
 def piece(part: "str | Number | Either", key: Key) -> Any:
@@ -38,6 +39,9 @@ def pieces(text: Written, shown: Callable[[str], str], key: Key) -> list[Any]:
     if [int(n) for n in _HELD.findall(outside)] != [*range(len(places))] or any(map(_is_markup, places)):
         return []
     split = _HELD.split(html)
+    now = (Written((places[int(x)],)).now if n % 2 else unescape(x) for n, x in enumerate(split))
+    if "".join(now) != unescape(shown(text.now)):  # such as 2. at the beginning, which makes a list
+        return []
     return [piece(places[int(x)], key) if n % 2 else x for n, x in enumerate(split)]
 
 
@@ -45,6 +49,8 @@ def _is_markup(part: "str | Number | Either") -> bool:
     match part:
         case Either(_, then, otherwise):
             return any(map(_is_markup, (*then.parts, *otherwise.parts)))
+        case Number(_, _, instead):
+            return any(_MARKUP.search(sign) for _, sign in instead)
         case str():
             return bool(_MARKUP.search(part))
     return False
