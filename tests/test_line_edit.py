@@ -87,6 +87,27 @@ def test_ends_of_lines_and_a_line_of_several_rows_stay() -> None:
     made = edited("M", "def M(phi):\n    return 2 * g.F * g.L * sin(phi)  # [N*m] moment", text=text)
     assert made == text.replace("return g.F", "return 2 * g.F")
     assert line(TEMPLATE, "phi_found").count("\n") == 2
+    was = line(TEMPLATE, "n")
+    one = TEMPLATE.replace(was, f"{was} \u2028\x0c ")
+    assert change(one, "n", line(one, "n"), line(one, "n")).of(one) == one
+    assert edited("n", "n = 3  # [-] one\u2028line", text=one) == TEMPLATE.replace(was, "n = 3  # [-] one\u2028line")
+    mixed = TEMPLATE.replace("\n", "\r\n", 5)
+    assert edited("n", "n = 3", text=mixed) == mixed.replace(was, "n = 3")
+    tabs = TEMPLATE.replace("\n    ", "\n\t")
+    assert edited("n", "n = 3", text=tabs) == tabs.replace(was, "n = 3")
+    assert "\treturn M_n, strong" in edited("sigma", "", text=tabs)
+
+
+def test_a_line_is_found_after_many_other_texts() -> None:
+    text = TEMPLATE.replace("1200.0", "1201.0")
+    for n in range(40):
+        change(text, "g.F", line(text, "g.F"), f"F: float = {n}  # [N] force")
+    assert change(text, "n", line(text, "n"), "n = 3").of(text) == text.replace(line(text, "n"), "n = 3")
+
+
+def test_a_name_that_its_cell_binds_again_can_be_edited() -> None:
+    text = TEMPLATE.replace("    M_n = g.parts", "    for n in (1, 2):\n        pass\n    M_n = g.parts")
+    assert edited("n", "n = 3", text=text) == text.replace(line(text, "n"), "n = 3")
 
 
 @pytest.mark.parametrize(
@@ -101,6 +122,11 @@ def test_ends_of_lines_and_a_line_of_several_rows_stay() -> None:
         ("g.F", "F = 3", "an input is a name, its type and its value"),
         ("g.F", "L: float = 3  # [m] twice", "L is declared by another line"),
         ("n", "n = 1 \\", "unexpected EOF"),
+        ("n", "g.F = 3", "a line is a name and what it is"),
+        ("n", "n, phi[0] = 3, 4", "a line is a name and what it is"),
+        ("n", "pi = 3  # [-] own", "pi is declared by another line"),
+        ("n", "def typeset():\n    return 1", "typeset is declared by another line"),
+        ("n", "n = (sigma := 3)", "sigma is declared by another line"),
     ],
 )
 def test_what_is_no_line_is_refused_in_words(name: str, new: str, says: str) -> None:

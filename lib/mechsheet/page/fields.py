@@ -67,7 +67,12 @@ def _grid(field: Rows, value: Any) -> str:
     """The grid that is shown for the text area behind it."""
     columns = [_head(column) for column in field.columns]
     grid = element("ms-grid", columns=columns, text=field.text(value), made=uuid4().hex)
-    return grid.replace("{", "{{").replace("}", "}}")  # in a template
+    return _in_template(grid)
+
+
+def _in_template(text: str) -> str:
+    """HTML as a template has it, in which braces stand round the names of fields."""
+    return text.replace("{", "{{").replace("}", "}}")
 
 
 def fields(g: Any) -> "mo.ui.batch":
@@ -79,15 +84,15 @@ def fields(g: Any) -> "mo.ui.batch":
         unit, grid = "" if field.unit == "-" else units.shown(field.unit), ""
         if isinstance(field, Rows):
             unit, grid = "", _grid(field, value)
-        sections.setdefault(field.section, []).append(
+        sections.setdefault(_in_template(html.escape(field.section)), []).append(
             f'<tr><td style="padding-right:.5em">{as_written(field.name)}</td>'
             f'<td data-input="{field.name}">{grid}{{{field.name}}}</td>'
             f'<td style="padding-left:.4em">{html.escape(unit)}</td>'
-            f'<td style="padding-left:.7em;line-height:1.2">{said(field)}</td></tr>'
+            f'<td style="padding-left:.7em;line-height:1.2">{_in_template(said(field))}</td></tr>'
         )
         texts[field.name] = _element(field, value)
     blocks = "".join(
-        f'<div style="break-inside:avoid"><b>{html.escape(section)}</b><table>{"".join(rows)}</table></div>'
+        f'<div style="break-inside:avoid"><b>{section}</b><table>{"".join(rows)}</table></div>'
         for section, rows in sections.items()
     )
     style = "columns:28em;column-gap:2em;font-size:.93em"

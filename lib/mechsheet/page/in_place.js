@@ -5,7 +5,10 @@
   const EMPTY = { false: "F = m * a  # [N] force", true: "L: float = 0.5  # [m] length; > 0" };
   const UNSAVED = "a cell holds text that is not run and saved: run it and save (Ctrl+S), then write here";
   const TAKEN = 500; // ms between two questions whether the page has taken the file over
-  const waiting = new Map();
+  const AGAIN = "the page was being computed anew meanwhile: once more";
+  const LEFT = "Enter writes this line, Esc leaves it as it was";
+  let waiting; // the question that has no answer yet
+  let last = Promise.resolve();
   const written = []; // changes, the last one at the end
   let count = 0;
 
@@ -14,15 +17,22 @@
 
     attributeChangedCallback(_name, _before, text) {
       const answer = JSON.parse(text);
-      waiting.get(answer.number)?.(answer);
-      waiting.delete(answer.number);
+      if (answer.number === undefined) waiting?.done({ why: AGAIN }); // another field, which was not asked
+      else if (answer.number === waiting?.number) waiting.done(answer);
     }
   }
   customElements.define("ms-in-place", InPlace);
 
-  // The field takes its text as from the hand, and passes it on when it is left.
+  // One question after the other: of two that wait for it, marimo would hear the later one alone.
   function ask(what) {
+    last = last.then(() => answerTo(what));
+    return last;
+  }
+
+  // The field takes its text as from the hand, and passes it on when it is left.
+  function answerTo(what) {
     const area = document.querySelector("ms-in-place + * marimo-text-area")?.shadowRoot?.querySelector("textarea");
+    if (!area) return { why: AGAIN };
     const number = ++count;
     Object.getOwnPropertyDescriptor(HTMLTextAreaElement.prototype, "value").set.call(
       area,
@@ -30,7 +40,7 @@
     );
     area.dispatchEvent(new InputEvent("input", { bubbles: true }));
     area.dispatchEvent(new FocusEvent("focusout", { bubbles: true }));
-    return new Promise((done) => waiting.set(number, done));
+    return new Promise((done) => (waiting = { number, done }));
   }
 
   const box = document.createElement("div");
@@ -47,6 +57,7 @@
   chip.role = "status";
   let of; // what is edited: its place in the page, name, the line as it was, whether below it; busy while it is written
 
+  const isTypedIn = () => area.value !== (of.below ? "" : of.was);
   const isUnsaved = () => document.querySelector(".marimo-cell.needs-run");
 
   function place() {
@@ -71,7 +82,12 @@
   }
 
   async function open(host, name) {
+    if (of && !area.readOnly && isTypedIn()) {
+      why.textContent = LEFT; // what is typed is not lost by a click elsewhere
+      return area.focus();
+    }
     close();
+    area.value = "";
     const mine = (of = { place: host, name, was: "", below: false });
     host.classList.add("ms-edited");
     typed.replaceChildren();
@@ -128,22 +144,23 @@
   async function write(what, name, then) {
     if (of?.busy) return;
     clearTimeout(timer);
-    const tell = (text) => (of ? (why.textContent = text) : say(text));
-    if (isUnsaved()) return tell(UNSAVED);
     const mine = of;
+    const tell = (text) => (mine && of === mine ? (why.textContent = text) : say(text));
+    if (isUnsaved()) return tell(UNSAVED);
     if (of) of.busy = true;
     const answer = await ask(what);
     if (mine) mine.busy = false;
-    if (what.below) name = what.new.trim().match(/^(?:def )?(\w*)/)[1];
+    const own = what.new?.trim().match(/^(?:def\s+)?([\p{L}\p{N}_]+)/u)?.[1];
+    if (own) name = (name.startsWith("g.") ? "g." : "") + own;
     if (answer.why) return tell(answer.why);
     if (what.do === "undo") written.pop();
     else written.push({ name, ...answer.written });
-    close();
+    if (of === mine) close();
     const done = `${name.replace("g.", "")} is ${what.do === "undo" ? "as it was" : "written"}`;
     say(`${done}, the page takes it over`);
     for (let n = 0; n < 40; n++) {
       await new Promise((later) => setTimeout(later, TAKEN));
-      if ((await ask({ do: "taken" })).taken) return say(done), then?.();
+      if ((await ask({ do: "taken" })).taken) return say(done), then?.(name);
     }
     say(`${done} into the file, but the page has not taken it over: open it by mechsheet edit, which watches the file`);
   }
@@ -169,11 +186,10 @@
       if (!area.readOnly && (area.value.trim() || !of.below))
         write({ do: "write", name: of.name, was: of.was, new: area.value, below: of.below }, of.name, then);
     },
-    // What is typed is written first; the new line opens where it stands then.
+    // What is typed is written first; the new line opens beneath it, where it stands then.
     below() {
-      const { name } = of;
-      if (of.below || area.value === of.was || !area.value.trim()) return below();
-      acts.write(() => {
+      if (!isTypedIn() || !area.value.trim()) return below();
+      acts.write((name) => {
         const now = placeOf(name);
         if (now) open(now, name).then(below);
       });

@@ -63,18 +63,19 @@ def change(text: str, name: str, was: str, new: str, below: bool = False) -> Cha
 
     Without a text the line goes. Raises SheetError where the line is another one by now, or ``new`` is no such line.
     """
-    place, new = _place(text, name), "\n".join(row.rstrip() for row in new.strip().splitlines())
+    place = _place(text, name)
     if place.line != was:
         raise SheetError(f"the line of {name} has changed since in the file: nothing is written")
-    if below and not new:
-        raise SheetError(_LIKE[name.startswith(OF_INPUT)])
     if new == was and not below:
         return Change(place.cell, place.cell)
+    new = "\n".join(row.rstrip() for row in new.strip().split("\n"))
+    if below and not new:
+        raise SheetError(_LIKE[name.startswith(OF_INPUT)])
     if new:
         _refuse(new, place, name.startswith(OF_INPUT), below)
-    end = "\r\n" if "\r\n" in text else "\n"
-    rows = [place.indent + row + end if row else end for row in new.splitlines()]
     own = list(io.StringIO(place.cell, newline=""))
+    end = "\r\n" if own[place.first].endswith("\r\n") else "\n"
+    rows = [place.indent + row + end if row else end for row in new.split("\n")] if new else []
     own[place.last if below else place.first : place.last] = rows
     made = "".join(own)
     if place.cell_number is not None and _named(new) != _named("" if below else was):
@@ -115,7 +116,7 @@ class _Place(NamedTuple):
     first: int
     last: int
     indent: str
-    names: frozenset[str]  # that others of the file have
+    names: frozenset[str]  # that the others of the class or the file bind
     cell_number: int | None  # among those that marimo calls with arguments
 
 
@@ -123,17 +124,24 @@ _Holder: TypeAlias = ast.FunctionDef | ast.ClassDef
 
 
 @lru_cache(maxsize=16)
-def _lines(text: str) -> dict[str, list[tuple[_Holder, int]]]:
-    """Lines of a file by name, ``g.NAME`` of an input: the cell or class that holds each, and its place there."""
-    tree, found = _parsed(text), dict[str, list[tuple[_Holder, int]]]()
+def _lines(text: str) -> dict[str, list[tuple[_Holder, int, int | None]]]:
+    """Lines of a file by name, ``g.NAME`` of an input: the cell or class that holds each, its place there, and the
+    number of the cell."""
+    tree, found = _parsed(text), dict[str, list[tuple[_Holder, int, int | None]]]()
     asked = (node for node in ast.walk(tree) if isinstance(node, ast.ClassDef) and _is_asked(node))
-    holders: list[_Holder] = [*functions(tree), *asked]
-    for holder in holders:
-        before = OF_INPUT if isinstance(holder, ast.ClassDef) else ""
+    holders: list[tuple[_Holder, int | None]] = [(node, n) for n, node in enumerate(functions(tree))]
+    for holder, number in (*holders, *((node, None) for node in asked)):
+        before = OF_INPUT if number is None else ""
         for n, node in enumerate(holder.body):
             for name in declares(node):
-                found.setdefault(before + name, []).append((holder, n))
+                found.setdefault(before + name, []).append((holder, n, number))
     return found
+
+
+@lru_cache(maxsize=16)
+def _defined(text: str) -> tuple[tuple[int, tuple[str, ...]], ...]:
+    """Rows of the statements of all cells, with the names that each defines."""
+    return tuple((node.lineno, defines([node])) for body in _bodies(_parsed(text)) for node in body)
 
 
 def _place(text: str, name: str) -> _Place:
@@ -141,26 +149,28 @@ def _place(text: str, name: str) -> _Place:
     found = lines.get(name, [])
     if len(found) != 1:
         raise SheetError(f"{name} has {len(found) or 'no'} lines in the file: edit the code of its cell")
-    (holder, n), *_ = found
+    (holder, n, number), *_ = found
     body = holder.body
     first, last = _rows(body[n])
-    if any(_rows(node)[0] < last and first < _rows(node)[1] for node in (*body[:n], *body[n + 1 :])):
+    indent = rows[first][: body[n].col_offset]
+    others = [*body[:n], *body[n + 1 :]]
+    if indent.strip() or any(_rows(node)[0] < last and first < _rows(node)[1] for node in others):
         raise SheetError(f"{name} shares its line with another one: edit the code of its cell")
-    indent = " " * body[n].col_offset
     own = [row.rstrip("\r\n") for row in rows[first:last]]
     if any(row.strip() and not row.startswith(indent) for row in own):
         raise SheetError(f"the line of {name} holds a text at the margin: edit the code of its cell")
     above, below = _rows(holder)
-    before = OF_INPUT if isinstance(holder, ast.ClassDef) else ""
-    others = (each.removeprefix(before) for each in lines if each.startswith(OF_INPUT) == bool(before))
+    taken = frozenset(defines(others))
+    if number is not None:
+        taken = frozenset(name for at, names in _defined(text) if at != body[n].lineno for name in names)
     return _Place(
         "\n".join(row.removeprefix(indent) for row in own),
         "".join(rows[above:below]),
         first - above,
         last - above,
         indent,
-        frozenset(others).difference(declares(body[n])),
-        list(functions(_parsed(text))).index(holder) if isinstance(holder, ast.FunctionDef) else None,
+        taken,
+        number,
     )
 
 
@@ -210,13 +220,21 @@ def _refuse(new: str, place: _Place, is_input: bool, below: bool) -> None:
     match body:
         case [ast.AnnAssign(ast.Name(), _, ast.expr())]:
             pass
-        case [ast.Assign() | ast.FunctionDef()] if not is_input:
+        case [ast.Assign(targets=targets)] if not is_input and all(map(_is_of_names, targets)):
+            pass
+        case [ast.FunctionDef()] if not is_input:
             pass
         case _:
             raise SheetError(_LIKE[is_input])
-    taken = place.names | {name for node in ast.parse(place.line).body if below for name in declares(node)}
-    if twice := sorted(declares(body[0]) & taken):
+    own = {name for node in ast.parse(place.line).body for name in bound(node)}
+    taken = place.names | own if below else place.names - own
+    if twice := sorted(taken.intersection(bound(body[0]))):
         raise SheetError(f"{twice[0]} is declared by another line: take another name")
+
+
+def _is_of_names(target: ast.expr) -> bool:
+    """Whether a line binds names, and alters no part of what another one has."""
+    return not any(isinstance(node, ast.Attribute | ast.Subscript) for node in ast.walk(target))
 
 
 def _signed(cell: str, before: ast.Module, after: ast.Module, number: int, end: str) -> str:
@@ -234,8 +252,9 @@ def _signed(cell: str, before: ast.Module, after: ast.Module, number: int, end: 
                 kept = [name for name in kept if name in given]
                 first, behind = _rows(last)
                 one = ", ".join(kept) if len(kept) != 1 else f"({kept[0]},)"
-                listed = one if len(one) <= _WIDE - len("    return ") else _several(kept, "    ", end)
-                rows[first - top : behind - top] = [f"    return {listed}".rstrip() + end]
+                indent = rows[first - top][: last.col_offset]
+                listed = one if len(one) <= _WIDE - len(f"{indent}return ") else _several(kept, indent, end)
+                rows[first - top : behind - top] = [f"{indent}return {listed}".rstrip() + end]
     if wanted != set(arguments):
         text, several = "".join(rows), _several(sorted(wanted), "", end)
         start, stop = _brackets(text, node.name)
