@@ -26,7 +26,8 @@ usage: mechsheet COMMAND              where the package is installed
       NAME --proof                    prove how many digits of what it shows are right, at least 9 unless =DIGITS
       NAME --tolerances               show how far results are off within the tolerances of the inputs, and how sure
                                       each check is; with --want also by random cases and by guaranteed bounds
-      NAME SCENE ...                  compute scenes side by side, and write workbooks where --out=FOLDER says
+      NAME SCENE ...                  compute scenes side by side, and write workbooks where --out=FOLDER says; with
+                                      --jobs=N by so many processes at the same time
       NAME --want=RESULT,...          compute some results and what they need, and print them
       such as                         run hitch --P6=25e3 --want=L4,GS6
   html NAME [--INPUT=VALUE ...]       write the document as one page that needs nothing but a browser, and computes
