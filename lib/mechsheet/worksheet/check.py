@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mechsheet import units
+from mechsheet.mechanics.differences import derivative
 from mechsheet.mechanics.equilibrium import Reaction, left_over
 from mechsheet.mechanics.load import Load
 from mechsheet.worksheet import numbers
@@ -149,8 +150,6 @@ def check_slope(
     The limit is 1e-8 of the greatest slope, or ten times what the differences say of their own error, or what
     rounding of ``f`` makes of them; over a thousandth of the slope it would tell nothing.
     """
-    from scipy.differentiate import derivative  # on use: scipy takes a tenth of a second
-
     if not hi > lo or not np.size(x):
         return Check(name, np.nan, 0.0, unit, "there is nothing to check: the range is empty")
     ends = np.where(x == lo, 1, np.where(x == hi, -1, 0))
@@ -159,10 +158,10 @@ def check_slope(
     least = 1e-8 * size
     # Finer differences than the check needs would be rounding, which their own error does not tell.
     enough = least / 10 if least > 0 else 0.0  # a slope may be NaN, a tolerance may not
-    found = derivative(f, x, initial_step=step, step_direction=ends, tolerances={"atol": enough, "rtol": 0.0})
+    differences, error = derivative(f, x, step, ends, enough)
     rounding = 100 * float(np.finfo(float).eps * np.max(np.abs(f(x)))) / step
-    limit = max(least, 10 * float(np.max(found.error)), rounding)
-    return _held(name, np.asarray(slope) - found.df, limit, unit, size)
+    limit = max(least, 10 * float(np.max(error)), rounding)
+    return _held(name, np.asarray(slope) - differences, limit, unit, size)
 
 
 @overload
