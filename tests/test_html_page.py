@@ -16,13 +16,17 @@ import pytest
 from conftest import WITHIN
 from playwright.sync_api import Browser, Page, expect
 from test_html_drawing import alike
+from test_html_page_formulas import as_seen
 
-from mechsheet.document import chart, chart_svg, drawing_svg, parts
+from mechsheet import units
+from mechsheet.document import chart, chart_svg, drawing_svg, expression, formula, parts
 from mechsheet.html import write
+from mechsheet.html.mathml import mathml
 from mechsheet.recording import showing
 from mechsheet.run import arguments
 from mechsheet.worksheet import inputs, numbers
 from mechsheet.worksheet.cells import load
+from mechsheet.worksheet.lines import Numbers
 from mechsheet.worksheet.table import Figure
 
 ROOT = Path(__file__).parents[1]
@@ -32,6 +36,10 @@ SHEETS = {
     "joint": {"psi": "0.6"},
     "slotted_link": {"L0": "0.5"},
     "kinetostatics": {"Y_H": "0.2222"},
+    "guide": {"F": "42", "r": "55"},
+    "examples/bucket": {"m": "1100", "D_c": "125"},
+    "examples/engine": {"n": "2000", "e": "2"},
+    "examples/bolted_joint": {"grade": "10.9", "mu_G": "0.14"},
 }
 UNTOLD = {"joint": 2}  # lists of states, which are texts of Python's
 NUMBER = re.compile(r"(-?\d+(?:\.\d+)?(?:e[+-]\d+)?)")
@@ -49,6 +57,10 @@ READ = (
       const value = e.querySelector(".ms-value");
       return [e.id, value?.matches(".ms-grey") ? null : text(value)];
     })),
+    numbers: each(".ms-line[id]:has(> .ms-numbers)", line => {
+      const e = line.querySelector(".ms-numbers");
+      return [line.id, e.matches(".ms-grey") ? null : e.innerHTML];
+    }),
     tables: Object.fromEntries(each(".ms-table", e => [e.querySelector(".ms-caption").id,
       [...e.querySelectorAll("tbody tr")].map(row => [...row.cells].map(text))])),
     verdicts: Object.fromEntries(each(".ms-check", e => [e.id, text(e.querySelector(".ms-badge"))])),
@@ -68,16 +80,28 @@ def written(name: str, given: dict[str, str]) -> str:
     return write.page(sheet, inputs.build(sheet.inputs, given))
 
 
-def drawn(name: str, given: dict[str, str]) -> dict[str, list[str]]:
-    """Drawings and charts of a worksheet as Python lays them out."""
+def drawn(name: str, given: dict[str, str]) -> dict[str, list[Any]]:
+    """Drawings, charts and formulas with numbers of a worksheet as Python lays them out."""
     sheet = load(ROOT / "worksheets" / f"{name}.py")
-    shown = parts.contents(sheet.run(sheet.results, {"g": inputs.build(sheet.inputs, given)}))
+    namespace = sheet.run(sheet.results, {"g": inputs.build(sheet.inputs, given)})
+    shown, known = parts.contents(namespace), Numbers(namespace)
     figures = [part for part in shown if isinstance(part, Figure)]
     layouts = [chart.line_chart(figure.x, figure.lines, figure.marks, figure.every) for figure in figures]
     return {
         "drawings": [closed(drawing_svg.svg(part)) for part in showing.drawings(shown)],
         "charts": [re.sub(r' (?:data-values|style)="[^"]*"', "", closed(chart_svg.svg(layout))) for layout in layouts],
+        "numbers": [
+            (f"line-{p.formula.name}", x) for p in shown if isinstance(p, parts.Line) and (x := put_in(p, known))
+        ],
     }
+
+
+def put_in(line: parts.Line, known: Numbers) -> str:
+    """The formula of a line with numbers for its symbols; nothing where it has none."""
+    found = {name: x for name in expression.reads(line.formula) if (x := known.at(name, line.position))}
+    read = {name: formula.Measure(x / units.parse(unit).factor, unit) for name, (x, unit) in found.items()}
+    node = None if line.formula.arguments else expression.substituted(line.formula, read)
+    return mathml(node).replace(">", "><mo>=</mo>", 1) if node else ""
 
 
 def closed(svg: str) -> str:
@@ -93,7 +117,7 @@ def document(tmp_path_factory: pytest.TempPathFactory) -> Callable[..., Path]:
     def path(name: str, **given: str) -> Path:
         key = name + json.dumps(given)
         if key not in known:
-            known[key] = folder / f"{name}_{len(known)}.html"
+            known[key] = folder / f"{Path(name).name}_{len(known)}.html"
             known[key].write_text(written(name, given), encoding="utf-8")
         return known[key]
 
@@ -141,7 +165,9 @@ def test_the_page_shows_for_other_inputs_what_the_worksheet_shows(
     assert document(name).stat().st_size < 600_000
     there = read(opened(offline, document(name, **given)))
     pictures = drawn(name, given)
-    here = read(opened(offline, document(name), "&".join(f"{k}={quote(v)}" for k, v in given.items())))
+    changed = opened(offline, document(name), "&".join(f"{k}={quote(v)}" for k, v in given.items()))
+    changed.get_by_label("numbers in the formulas").check()
+    here = read(changed)
     assert here["state"].startswith("changed: ")
     assert here["verdicts"] == there["verdicts"]
     for shown in (here, there):
@@ -160,6 +186,9 @@ def test_the_page_shows_for_other_inputs_what_the_worksheet_shows(
         mine, own = (re.split(NUMBER, text) for text in (here["charts"][k], curve))
         assert mine[::2] == own[::2], k
         np.testing.assert_allclose(np.array(mine[1::2], float), np.array(own[1::2], float), rtol=0, atol=0.11)
+    assert [line for line, _ in here["numbers"]] == [line for line, _ in pictures["numbers"]]
+    for (line, mine), (_, own) in zip(here["numbers"], pictures["numbers"], strict=True):
+        assert as_seen(mine) == as_seen(own), line
     lines = {k: (x, there["lines"][k]) for k, x in here["lines"].items() if x is not None}
     wrong = {k: pair for k, pair in lines.items() if len({*map(without_rounding, pair)}) > 1 and k not in COUNTS}
     assert wrong == {}

@@ -2,15 +2,18 @@
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from math import isfinite
+from operator import attrgetter
 from typing import Any
 
 import numpy as np
 
 from mechsheet import units
 from mechsheet.document import chart_svg
+from mechsheet.document.expression import reads
 from mechsheet.document.markup import HTML, in_words, named
 from mechsheet.document.parts import Line, Text
-from mechsheet.html import offered, sketched, wording
+from mechsheet.html import mathml, offered, sketched, wording
+from mechsheet.html.put_in import Read, put_in
 from mechsheet.recording import showing
 from mechsheet.recording.lines import SLIDER, Recording
 from mechsheet.recording.node import Node, bottom_up
@@ -21,6 +24,7 @@ from mechsheet.worksheet import numbers
 from mechsheet.worksheet.check import Check
 from mechsheet.worksheet.drawing import Drawing
 from mechsheet.worksheet.find import Found
+from mechsheet.worksheet.lines import Numbers
 from mechsheet.worksheet.symbol import read, stem
 from mechsheet.worksheet.table import Column, Figure, Table
 from mechsheet.worksheet.title import Caption, Mark
@@ -35,8 +39,9 @@ class Follower:
     What has no keys and is not ``fixed`` holds for the exported inputs alone.
     """
 
-    def __init__(self, recording: Recording) -> None:
+    def __init__(self, recording: Recording, numbers: Numbers | None = None) -> None:
         self.recording = recording
+        self.numbers = numbers  # of the run, by the names that formulas read
         self.keys: dict[Node, str] = {}
         self.specs: list[Spec] = []
         self.drawn: dict[int, Drawn] = {}  # recorded drawings by the identity of what is shown
@@ -165,6 +170,28 @@ class Follower:
         same = held.extent == shape or held.extent[:-1] == shape
         return self.mark("value", keys=[self.key(part) for part in held.parts] if same else None, **spec)
 
+    def put_in(self, line: Line, **moved: Any) -> str:
+        """Attribute of the formula of a line with numbers for its symbols; "" where it has none."""
+        at = self.numbers.at if self.numbers else lambda name, position: None
+        known = {name: x for name in reads(line.formula) if (x := at(name, line.position))}
+        made = put_in(line.formula, {name: Read(unit, isinstance(x, complex)) for name, (x, unit) in known.items()})
+        if made is None:
+            return ""
+        told = [self._put_in(name, *x) for name, x in known.items()]
+        spec: Spec = {"text": made.text, "signs": made.signs, "numbers": told, "at": line.position, **moved}
+        return self.mark("numbers", keys=[self.keys[node] for node in dict.fromkeys(self._asked)], **spec)
+
+    def _put_in(self, name: str, value: complex, unit: str) -> Spec:
+        """A number in a formula: the keys of its parts, or those of one that holds for the run alone."""
+        head, _, part = name.partition(".")
+        held: Any = self.recording.values.get(head)
+        held = attrgetter(part)(held) if part and held is not None else held
+        own = [value.real, value.imag] if isinstance(value, complex) else [value]
+        spec: Spec = {"factor": units.parse(unit).factor, "behind": numbers.behind(unit, mathml.NUMBER)}
+        if isinstance(held, Quantity) and (held.im is not None) == isinstance(value, complex):
+            return spec | {"parts": [self.key(part) for part in held.parts]}
+        return spec | {"parts": [_plain(x) for x in own], "own": isinstance(held, Quantity) or held is None}
+
     def along(self, line: Line) -> bool:
         """Whether the value of a line stands at one position of a recorded field."""
         held = self.recording.values.get(line.formula.name)
@@ -241,6 +268,11 @@ class Follower:
         }
         known = key in self.recording.found and self.recording.found[key].node.op == "found"
         return self.mark("found", key=key, words=told if known else None)
+
+
+def _plain(x: float) -> float | None:
+    """A number as JSON has it; none for what is not finite."""
+    return float(x) if isfinite(x) else None
 
 
 def _listed(column: Column) -> list[Any]:

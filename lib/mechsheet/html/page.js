@@ -9,7 +9,7 @@ const shownBy = told.shown.map((spec, n) => document.querySelector(`[data-n="${n
 const contentOf = element => element.tBodies?.[0] ?? element;
 const first = shownBy.map((element, n) => told.pictures[n] ?? contentOf(element).innerHTML);
 const UNKNOWN = "not known for these inputs: it holds for the document's own";
-const DRAWN = new Set(["chart", "drawing"]);
+const DRAWN = new Set(["chart", "drawing", "numbers"]);
 const MOVES_NOT = "as in the document, for its own inputs only";
 const state = {changed: new Set(), refused: false, results: null};
 const moving = new Map(); // by the name of the control: its positions, pictures and marks, and which of them is shown
@@ -55,6 +55,11 @@ const show = {
     const read = key => results.values[key];
     set(element, same ? spec.pieces.map(part => (typeof part === "string" ? part : escaped(piece(part, read)))).join("") : "");
     return same;
+  },
+  numbers(spec, element, results) {
+    const known = isPutIn() ? numbersOf(spec, results) : [];
+    set(element, known && isPutIn() ? withNumbers(spec, known) : "");
+    return Boolean(known);
   },
   own(spec, element) {
     set(element, "");

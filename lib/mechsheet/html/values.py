@@ -47,6 +47,7 @@ def html(value: Any, page: Follower) -> str:
 def _(title: Title, page: Follower) -> str:
     cells = (("Worksheet", escape(title.file)), ("Computed", f"{date.today():%Y-%m-%d}"))
     told = "".join(f"<span>{label} <b>{value}</b></span>" for label, value in cells)
+    told += '<label class="ms-screen"><input type="checkbox" class="ms-switch"> numbers in the formulas</label>'
     text = page.own(markdown.html(cleandoc(title.text)), cleandoc(title.text))
     return f'<header class="ms-title"><h1>{escape(title.name)}</h1>{text}<div class="ms-row">{told}</div></header>'
 
@@ -75,11 +76,17 @@ def _(given: Given, page: Follower) -> str:
 
 @html.register
 def _(line: Line, page: Follower) -> str:
-    formula, shown = line.formula, ""
-    if not formula.arguments:
-        follows = page.value(line)
-        shown = f'<span class="ms-equals">=</span><span class="ms-value"{follows}>{value(line)}</span>'
-    return _line(mathml(equation(formula, _single(line))), shown, formula)
+    formula = line.formula
+    if formula.arguments:
+        return _line(mathml(equation(formula, _single(line))), "", formula)
+    return _valued(line, page.value(line), page.put_in(line))
+
+
+def _valued(line: Line, follows: str, put_in: str) -> str:
+    """A line with its value, and room for its formula with numbers."""
+    shown = f'<span class="ms-equals">=</span><span class="ms-value"{follows}>{value(line)}</span>'
+    numbers = f'<span class="ms-numbers"{put_in}></span>' if put_in else ""
+    return _line(mathml(equation(line.formula, _single(line))), shown, line.formula, numbers)
 
 
 def _single(line: Line) -> frozenset[str]:
@@ -90,13 +97,13 @@ def _single(line: Line) -> frozenset[str]:
 
 def moving(part: Any, page: Follower, **moved: Any) -> str:
     """A part with the place of what a control moves in it: of a line its value."""
-    along = isinstance(part, Line) and page.along(part)
-    place = page.value(part, **moved) if along else page.mark("moved", **moved)
-    if not isinstance(part, Line):
-        page.pictures[len(page.specs) - 1] = still(part)
-        return f"<div{place}></div>"
-    shown = f'<span class="ms-equals">=</span><span class="ms-value"{place}>{value(part)}</span>'
-    return _line(mathml(equation(part.formula, _single(part))), shown, part.formula)
+    if isinstance(part, Line) and page.along(part):
+        return _valued(part, page.value(part, **moved), page.put_in(part, **moved))
+    place = page.mark("moved", **moved)
+    if isinstance(part, Line):
+        return _valued(part, place, page.put_in(part))
+    page.pictures[len(page.specs) - 1] = still(part)
+    return f"<div{place}></div>"
 
 
 def still(part: Any) -> str:
@@ -114,14 +121,15 @@ def value(line: Line) -> str:
     return numbers.value(line.value, unit, offered.notation(unit)) + where(line.value, line.over)
 
 
-def _line(formula: str, value: str = "", told: Formula | None = None) -> str:
+def _line(formula: str, value: str = "", told: Formula | None = None, numbers: str = "") -> str:
     """A typeset line, the printed formula's number at its end; the index leads to it by its name."""
     if not told:
         return f'<div class="ms-line"><span class="ms-formula">{formula}</span></div>'
     mistake = f' <span class="ms-badge ms-FAIL">mistake</span> {escape(told.mistake)}' if told.mistake else ""
     said = f"<span>{escape(told.meaning)}{mistake}</span>" if told.meaning or mistake else ""
     said += f'<span class="ms-number">{escape(told.number)}</span>' if told.number else ""
-    return f'<div class="ms-line" id="line-{told.name}"><span class="ms-formula">{formula}{value}</span>{said}</div>'
+    shown = f'<span class="ms-formula">{formula}{value}</span>{said}{numbers}'
+    return f'<div class="ms-line" id="line-{told.name}">{shown}</div>'
 
 
 @html.register
