@@ -1,6 +1,7 @@
 """What of a shown value follows the inputs: the recorded quantities by their keys, and what the page makes of them."""
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from html import escape
 from math import isfinite
 from operator import attrgetter
 from typing import Any
@@ -26,6 +27,7 @@ from mechsheet.worksheet.drawing import Drawing
 from mechsheet.worksheet.find import Found
 from mechsheet.worksheet.lines import Numbers
 from mechsheet.worksheet.symbol import read, stem
+from mechsheet.worksheet.system import Solution
 from mechsheet.worksheet.table import Column, Figure, Table
 from mechsheet.worksheet.title import Caption, Mark
 from mechsheet.worksheet.verdict import Verdict
@@ -253,21 +255,48 @@ class Follower:
         )
 
     def found(self, found: Verdict) -> str:
-        """Attribute of the verdict of a solve block; that of several problems holds for the exported inputs alone."""
-        if not isinstance(found, Found) or np.ndim(found.residual):
-            return self.mark("found", words=None)
-        words, key = found.words, found.words.unknown
-        told = {
-            "unknown": in_words(words.unknown),
-            "quantity": in_words(words.quantity),
-            "factor": units.parse(words.unit).factor,
-            "suffix": numbers.suffix(words.unit),
-            "unknown_factor": units.parse(words.unknown_unit).factor,
-            "unknown_suffix": numbers.suffix(words.unknown_unit),
-            "branch": "" if found.branch is None else f"{found.branch:+d}",
-        }
-        known = key in self.recording.found and self.recording.found[key].node.op == "found"
-        return self.mark("found", key=key, words=told if known else None)
+        """Attribute of the verdict of a solve block, with its words where the page solves it again."""
+        match found:
+            case Found(words=words):
+                key, told, own = words.unknown, _of_one(found), found._value
+            case Solution(words=words):
+                names = self.numbers.namespace if self.numbers else {}
+                name = next((name for name, value in names.items() if value is found), "")
+                key, told, own = f"{name}.{words.names[0]}", _of_several(found), found._values[0]
+            case _:
+                return self.mark("found", words=None)
+        solved = self.recording.found.get(key)
+        again = solved and solved.node.op == "found" and np.array_equal(solved.node.value, own, equal_nan=True)
+        return self.mark("found", key=key, words=told if again else None)
+
+
+def _of_one(found: Found) -> Spec:
+    words = found.words
+    return {
+        "unknown": in_words(words.unknown),
+        "quantity": in_words(words.quantity),
+        "plain": {"unknown": escape(words.unknown), "quantity": escape(words.quantity)},
+        "unit": _measured(words.unit),
+        "unknown_unit": _measured(words.unknown_unit),
+    }
+
+
+def _of_several(found: Solution) -> Spec:
+    words = found.words
+    return {
+        "names": [in_words(name) for name in words.names],
+        "plain": {"names": [escape(name) for name in words.names]},
+        "units": [_measured(unit) for unit in words.units],
+        "equations": words.equations,
+        "equation_units": [_measured(unit) for unit in words.equation_units],
+        "guessed": words.guessed,
+        "least": found.least,
+    }
+
+
+def _measured(unit: str) -> tuple[float, str]:
+    """Factor of a unit, and what stands behind a number."""
+    return units.parse(unit).factor, escape(numbers.suffix(unit))
 
 
 def _plain(x: float) -> float | None:

@@ -235,10 +235,13 @@ def _solved(scope: Scope, block: Block) -> str:
     unknowns = block.nodes[: len(block.starts)] if not block.single else block.nodes
     starts = {name: [_of_problem(scope, n, node, shape) for n in nodes] for name, nodes in block.starts.items()}
     equals = "".join(_of_problem(scope, n, node, shape) for n in block.sides[1:])
-    function = _residuals(scope, block, unknowns, shape)
+    function = _residuals(scope, block, block.sides[:1] or block.residuals, unknowns, shape)
     if block.single:
-        ends = [*(starts.get(name, ["null"])[0] for name in ("lo", "hi", "guess")), equals]
-        call = f"find({function},{','.join(ends)})"
+        ends = ",".join([*(starts.get(name, ["null"])[0] for name in ("lo", "hi", "guess")), equals])
+        call = f"find({function},{ends})"
+        if block.branch is not None and not node.shape:
+            on = (f"[{s},{_residuals(scope, block, [f], unknowns, shape)}]" for s, f in block.branches.items())
+            call = f"on_branch({scope.text(block.branch)},{call},[{','.join(on)}],{ends})"
     else:
         at = ",".join(f"[{','.join(ends)}]" for ends in starts.values())
         factors = ",".join(literal(parse(unit).factor).text for unit in block.unknown_unit)
@@ -265,12 +268,11 @@ def _shape_of_problems(scope: Scope, block: Block) -> str:
     return scope.bind(f"together({','.join(map(scope.shape, given))})")
 
 
-def _residuals(scope: Scope, block: Block, unknowns: Sequence[Node], shape: str) -> str:
-    """The residuals as a function of the unknowns, of a single one the quantity that shall equal another one.
+def _residuals(scope: Scope, block: Block, roots: Sequence[Node], unknowns: Sequence[Node], shape: str) -> str:
+    """The residuals ``roots`` as a function of the unknowns, of a single one the quantity that shall equal another one.
 
     Where the operations are of each problem by itself, it is of problem p.
     """
-    roots = block.sides[:1] or block.residuals
     names = {n: scope.program.name() for n in unknowns}
     own = [n for n in bottom_up(roots, {*scope.names, *names}) if n.op != "constant"]
     many = bool(block.nodes[0].shape)
