@@ -261,6 +261,33 @@ def test_units_are_read_and_the_changed_input_is_marked_and_kept_in_the_address(
     assert g.P6 == 30e3
 
 
+def test_of_a_list_with_other_rows_nothing_is_shown_that_rests_on_it(
+    document: Callable[..., Path], offline: Page
+) -> None:
+    page = opened(offline, document("examples/bolted_joint"))
+    first = read(page)
+    for cell in page.locator("[data-grid=cases] tbody tr:first-child input").all():
+        cell.fill("")
+    told = "3 rows, 4 in the document: what rests on them is not known here"
+    expect(page.locator("#error-cases")).to_have_text(told)
+    shown = read(page)
+    assert shown["lines"]["line-F_S0"] is None
+    assert shown["lines"]["line-k_u"] == first["lines"]["line-k_u"], "which does not rest on them"
+    assert shown["found"][:2] == [None, None]
+    assert page.locator(".ms-found").first.get_attribute("data-reason") == "cases has more or fewer rows"
+    own = "check-F_S0-Find-and-the-closed-form"
+    assert (first["verdicts"][own], shown["verdicts"][own]) == ("PASS", "not known")
+    page.locator(".ms-back").click()
+    assert read(page) == first
+    expect(page.locator("#error-cases")).to_have_text("")
+
+
+def test_what_ends_as_a_field_but_has_no_positions_is_written_as_a_number(document: Callable[..., Path]) -> None:
+    text = document("examples/bolted_joint").read_text(encoding="utf-8")
+    line = re.search('id="line-delta_S"><span class="ms-formula"><math[^>]*><mrow>(.*?)<mo>=</mo>', text)
+    assert line and line[1] == '<msub><mi>δ</mi><mi mathvariant="normal">S</mi></msub>'
+
+
 def test_a_slider_moves_its_drawings_which_follow_the_inputs(document: Callable[..., Path], offline: Page) -> None:
     page = opened(offline, document("hitch"))
     place = "document.querySelector('[data-n] > svg[viewBox]:not(.ms-chart)').parentElement.dataset.n"

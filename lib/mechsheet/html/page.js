@@ -34,7 +34,7 @@ const show = {
   check(spec, element, results) {
     const verdict = judged(spec, results);
     if (verdict) tell(element, verdict, spec);
-    else tell(element, {kind: "OPEN", word: "not known", compared: "", reason: UNKNOWN}, spec);
+    else tell(element, {kind: "OPEN", word: "not known", compared: "", reason: ""}, spec); // it is told as of others
     return Boolean(verdict);
   },
   chart(spec, element, results) {
@@ -70,7 +70,7 @@ const show = {
     return false;
   },
   found(spec, element, results) {
-    const verdict = spec.words && results.found[spec.key];
+    const verdict = spec.words && !results.gaps[`found ${spec.key}`] && results.found[spec.key];
     set(element, verdict ? foundHTML(spec.words, verdict) : "");
     return Boolean(verdict);
   },
@@ -126,8 +126,8 @@ function tell(element, {kind, word, compared, reason}) {
 }
 
 function refresh() {
-  const {si, changed, errors} = readInputs();
-  told.inputs.fields.forEach(field => mark(field, changed.has(field.name), errors.get(field.name) ?? ""));
+  const {si, changed, errors, notes} = readInputs();
+  told.inputs.fields.forEach(({name}, n) => mark(told.inputs.fields[n], changed.has(name), errors.get(name) ?? "", notes.get(name)));
   Object.assign(state, {changed, refused: errors.size > 0});
   const own = !changed.size && !errors.size;
   state.si = si;
@@ -164,7 +164,7 @@ const computed = () => evaluate({...state.si, ...slid()});
 function reasonOf(spec, results) {
   const broken = spec.guards?.find(([key]) => results.values[key] === 0 || results.values[key] === false);
   if (broken) return `line ${broken[1]}: for these inputs it is drawn in another way`;
-  const keys = [...(spec.keys ?? []), ...(spec.columns ?? []).map(column => column.key)];
+  const keys = [...(spec.keys ?? []), ...(spec.columns ?? []).map(column => column.key), `found ${spec.key}`, spec.limit];
   return keys.map(key => results.gaps[key]).find(Boolean) ?? UNKNOWN;
 }
 
@@ -189,12 +189,12 @@ function empty(spec, element, reason) {
   grey(element, reason);
 }
 
-function mark(field, changed, error) {
+function mark(field, changed, error, note = "") {
   const input = inputOf(field), row = input.closest(".ms-field");
   row.classList.toggle("ms-changed", changed);
   row.title = changed ? `the document's own: ${field.text}${unitOf(field)}` : "";
   input.setAttribute("aria-invalid", Boolean(error));
-  document.getElementById(`error-${field.name}`).textContent = error;
+  document.getElementById(`error-${field.name}`).textContent = error || note;
   const used = document.querySelector(`[data-used="${field.name}"]`);
   used.classList.toggle("ms-changed", changed);
   used.cells[1].textContent = typed(field);

@@ -71,37 +71,36 @@ def _(text: Text, page: Follower) -> str:
 
 @html.register
 def _(given: Given, page: Follower) -> str:
-    return _line(mathml(equation(given)))
+    return _line(_equation(given, page))
 
 
 @html.register
 def _(line: Line, page: Follower) -> str:
     formula = line.formula
     if formula.arguments:
-        return _line(mathml(equation(formula, _single(line))), "", formula)
-    return _valued(line, page.value(line), page.put_in(line))
+        return _line(_equation(formula, page), "", formula)
+    return _valued(line, page.value(line), page.put_in(line), page)
 
 
-def _valued(line: Line, follows: str, put_in: str) -> str:
+def _valued(line: Line, follows: str, put_in: str, page: Follower) -> str:
     """A line with its value, and room for its formula with numbers."""
     shown = f'<span class="ms-equals">=</span><span class="ms-value"{follows}>{value(line)}</span>'
     numbers = f'<span class="ms-numbers"{put_in}></span>' if put_in else ""
-    return _line(mathml(equation(line.formula, _single(line))), shown, line.formula, numbers)
+    return _line(_equation(line.formula, page), shown, line.formula, numbers)
 
 
-def _single(line: Line) -> frozenset[str]:
-    """Names of a line that end as a field does, where the line is one number."""
-    alone = np.ndim(line.value) == 0 and not line.formula.arguments
-    return frozenset(fields_by_name(line.formula)) if alone else frozenset()
+def _equation(line: Formula | Given, page: Follower) -> str:
+    """A line as an equation in MathML."""
+    return mathml(equation(line, page.numbers.single(fields_by_name(line)) if page.numbers else frozenset()))
 
 
 def moving(part: Any, page: Follower, **moved: Any) -> str:
     """A part with the place of what a control moves in it: of a line its value."""
     if isinstance(part, Line) and page.along(part):
-        return _valued(part, page.value(part, **moved), page.put_in(part, **moved))
+        return _valued(part, page.value(part, **moved), page.put_in(part, **moved), page)
     place = page.mark("moved", **moved)
     if isinstance(part, Line):
-        return _valued(part, place, page.put_in(part))
+        return _valued(part, place, page.put_in(part), page)
     page.pictures[len(page.specs) - 1] = still(part)
     return f"<div{place}></div>"
 
