@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
@@ -41,6 +42,19 @@ def evaluated(
     for each in found:
         each["values"] = {key: _array(value) for key, value in each["values"].items()}
     return found
+
+
+def faults(page: Page) -> list[str]:
+    """What keeps someone from reading or using a page, light or dark."""
+    found = list[str]()
+    schemes: list[Literal["light", "dark"]] = ["light", "dark"]
+    for scheme in schemes:
+        page.emulate_media(color_scheme=scheme)
+        found += (f"{scheme}: {fault}" for fault in page.evaluate(_AUDIT))
+    return found
+
+
+_AUDIT = Path(__file__).with_name("audit.js").read_text(encoding="utf-8")
 
 
 def _array(value: Any) -> Any:

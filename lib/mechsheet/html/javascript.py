@@ -91,11 +91,11 @@ def _is_guarded(recording: Recording, node: Node) -> bool:
 def _told(recording: Recording, scope: Scope, wanted: Mapping[str, Node], found: Mapping[str, Node]) -> Iterable[str]:
     """Statements that empty what rests on numbers that nobody knows for other inputs, and say why."""
     under, told = dict[Node, frozenset[tuple[str, str]]](), dict[tuple[str, str], list[str]]()
-    verdicts = {f"found {key}": node for key, node in found.items()}
-    for node in bottom_up([*wanted.values(), *found.values()], under):
+    every = {**wanted, **{f"found {key}": node for key, node in found.items()}}
+    for node in bottom_up(every.values(), under):
         own = _reason(recording, scope, node)
         under[node] = frozenset().union(*(under[operand] for operand in node.operands), [own] if own else [])
-    for key, node in (wanted | verdicts).items():
+    for key, node in every.items():
         for reason in sorted(under[node]):
             told.setdefault(reason, []).append(key)
     return (f"{condition}||gap(out,{json.dumps(why)},{json.dumps(keys)});" for (condition, why), keys in told.items())

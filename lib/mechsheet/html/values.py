@@ -133,12 +133,13 @@ def _line(formula: str, value: str = "", told: Formula | None = None, numbers: s
 
 @html.register
 def _(table: Table, page: Follower) -> str:
-    parts = "".join(_block(columns, page.columns(table, columns)) for columns in blocks(table))
+    named = f'role="group" aria-labelledby="{_place("Table", table.number)}"'
+    parts = "".join(_block(columns, page.columns(table, columns), named) for columns in blocks(table))
     note = f'<div class="ms-note">{page.own(in_words(table.note), table.note)}</div>' if table.note else ""
     return f'<div class="ms-table">{_caption("Table", table.number, table.title, page)}{parts}{note}</div>'
 
 
-def _block(columns: Sequence[Column], follows: str) -> str:
+def _block(columns: Sequence[Column], follows: str, told: str) -> str:
     kinds = ["" if c.unit else ' class="ms-text"' for c in columns]
     heads = "".join(
         f'<th{kind} scope="col" title="{escape(c.meaning)}">{named(c.name)}</th>'
@@ -153,13 +154,14 @@ def _block(columns: Sequence[Column], follows: str) -> str:
     fit = fitting(columns)
     style = f' style="--fit:{numbers.fixed(fit, 2)}"' if fit < 1 else ""
     made = f"<table{follows}{style}><thead>{head}</thead><tbody>{rows}</tbody></table>"
-    return f'<div class="ms-wide" tabindex="0">{made}</div>'
+    return f'<div class="ms-wide" tabindex="0" {told}>{made}</div>'
 
 
 @html.register
 def _(figure: Figure, page: Follower) -> str:
     columns = page.figure(figure)
-    follows = page.mark("chart", columns=columns, marks=page.marks(figure), every=figure.every)
+    named = f' role="img" aria-labelledby="{_place("Figure", figure.number)}"'
+    follows = named + page.mark("chart", columns=columns, marks=page.marks(figure), every=figure.every)
     caption = _caption("Figure", figure.number, figure.title, page)
     known = all(column["key"] is not None or column["fixed"] for column in columns)
     shown = f"<div{follows}></div>" if known else page.picture(follows, _READINGS.sub("", _chart(figure)))
@@ -180,14 +182,19 @@ def _caption(what: str, number: str, title: str, page: Follower) -> str:
 
 
 def _titled(what: str, number: str, words: str) -> str:
-    place = escape(f"{what.lower()}-{number}")
-    return f'<div class="ms-caption" id="{place}"><b>{what} {escape(number)}</b> – {words}</div>'
+    return f'<div class="ms-caption" id="{_place(what, number)}"><b>{what} {escape(number)}</b> – {words}</div>'
+
+
+def _place(what: str, number: str) -> str:
+    """Id of a caption."""
+    return escape(f"{what.lower()}-{number}")
 
 
 @html.register
 def _(drawing: Drawing, page: Follower) -> str:
     follows = page.drawing(drawing)
-    return f"<div{follows}></div>" if follows else page.own(drawing_svg.svg(drawing))
+    shown = f"<div{follows}></div>" if follows else page.own(drawing_svg.svg(drawing))
+    return f'<div role="img" aria-label="drawing">{shown}</div>'
 
 
 @html.register

@@ -72,7 +72,7 @@ def page(sheet: Worksheet, g: Any) -> str:
     follower = Follower(record(namespace, sheet, whole=True, every=1, draws=True), Numbers(namespace))
     follower.pair(cells)
     moving = frames.moved(sheet, namespace, cells, follower)
-    body = "".join(_cell(n, parts, sheet.cells[n], follower, moving) for n, parts in cells.items())
+    body = _linked("".join(_cell(n, parts, sheet.cells[n], follower, moving) for n, parts in cells.items()))
     told = {
         "name": Path(sheet.path).stem,
         "inputs": fields.told(namespace["g"]),
@@ -114,6 +114,19 @@ def _cell(n: int, parts: Iterable[Any], cell: Cell, follower: Follower, moving: 
     follower.texts = tuple(text for line in cell.lines for text in _as_written(line))
     follower.depends = bool(cell.needs)
     return "".join(_part((n, k), part, follower, moving) for k, part in enumerate(parts))
+
+
+def _linked(body: str) -> str:
+    """HTML in which each place is named once, and a link to what is not there, but in a workbook alone, is a text."""
+    places = set[str]()
+
+    def first(place: "re.Match[str]") -> str:
+        known = place[1] in places
+        places.add(place[1])
+        return "" if known else place[0]
+
+    body = re.sub(' id="([^"]*)"', first, body)
+    return re.sub('<a href="#([^"]*)"[^>]*>(.*?)</a>', lambda link: link[0 if link[1] in places else 2], body)
 
 
 def _as_written(node: ast.AST) -> Iterator[str]:
