@@ -3,7 +3,7 @@
 import ast
 import re
 import sys
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from operator import attrgetter
@@ -358,6 +358,14 @@ class Numbers:
         field = np.asarray(value)
         inside = field.shape and field.shape[-1] > position
         return (field[..., position].flat[0] if inside else field.flat[0]).item(), unit
+
+    def single(self, names: Iterable[str]) -> frozenset[str]:
+        """Of names that end as that of a field over S does those that have no positions."""
+        S = np.asarray(self.namespace.get("S", 0))
+        if S.ndim == 0 or S.dtype.kind not in "iuf":  # no stroke; a point may have that name too
+            return frozenset(names)
+        known = self.namespace
+        return frozenset(name for name in names if name in known and np.ndim(known[name]) == 0)
 
 
 @dataclass(frozen=True)
