@@ -111,6 +111,13 @@ def test_a_declaration_is_told_with_its_line(lever: Callable[..., Path]) -> None
     )
 
 
+def test_a_mark_of_byte_order_is_told(lever: Callable[..., Path]) -> None:
+    path = lever("", "")
+    path.write_text("\ufeff" + path.read_text(encoding="utf-8"), encoding="utf-8")
+    why = "the file begins with a byte order mark (BOM), which Python's editors refuse: save it as UTF-8 without one"
+    ends([*LAUNCHED, path], f"error: worksheet {path}, line 1: {why}")
+
+
 def test_what_python_cannot_read_is_told_with_its_line(lever: Callable[..., Path]) -> None:
     path = lever("summary(within, strong)", "summary(within, strong")
     ends([*LAUNCHED, path], f"error: worksheet {path}, line 30: '(' was never closed")

@@ -331,7 +331,22 @@ def typeset(*shown: Any, display: Mapping[str, str] | None = None) -> "Typeset":
     rows = [_displayed(row, display or {}) if isinstance(row, Formula) else row for row in lines]
     rows = [_with_constants(row, frame.f_globals) for row in rows]
     values = tuple(frame.f_globals[row.name] if isinstance(row, Formula) else None for row in rows)
+    for row, value in zip(rows, values, strict=True):
+        if isinstance(row, Formula) and (why := no_number(row, value)):
+            refuse(SheetError(f"{cell.at(row.expression.lineno)}: {why}"))
     return Typeset(tuple(rows), values, shown, Numbers(frame.f_globals))
+
+
+def no_number(row: Formula, value: Any) -> str:
+    """Why the value of a line cannot have its unit: it is neither a number, nor an array of them, nor a function."""
+    computes = hasattr(value, "__array_ufunc__") and not isinstance(value, np.ndarray | np.generic)
+    if row.arguments or computes or isinstance(value, int | float | complex):
+        return ""
+    try:
+        kind = np.asarray(value).dtype.kind
+    except ValueError:  # of rows that differ in length
+        kind = "O"
+    return "" if kind in "biufc" else f"{row.name} = {ast.unparse(row.expression)} is no number: it has no [unit]"
 
 
 def _with_constants(row: Formula | Given, namespace: Mapping[str, Any]) -> Formula | Given:

@@ -54,6 +54,10 @@ def why(error: BaseException, known: Iterable[str], text: str = "") -> str:
 
 def unread(error: SyntaxError) -> str:
     """Why Python cannot read a line, with what may have been meant by who writes formulas."""
+    if "U+FEFF" in error.msg:
+        return (
+            "the file begins with a byte order mark (BOM), which Python's editors refuse: save it as UTF-8 without one"
+        )
     text = (error.text or "").partition("#")[0]
     return error.msg + next((f" ({hint})" for pattern, hint in _MEANT.items() if re.search(pattern, text)), "")
 
