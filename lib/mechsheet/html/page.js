@@ -108,8 +108,12 @@ function judged(spec, results) {
   if (limit !== limit) return open("there is no limit");
   const passed = residual <= limit, kind = passed ? "PASS" : "FAIL";
   const [a, b] = compared(residual, limit).map(text => text.replaceAll("-", HTML.minus));
-  return {kind, word: kind, compared: `: ${a} ${passed ? "≤" : "≰"} ${b}${spec.behind}`, reason: ""};
+  const told = passed && spec.agreement ? `within ${b}${spec.behind}` : `${a} ${passed ? "≤" : "&gt;"} ${b}${spec.behind}`;
+  return {kind, word: kind, compared: `: ${told}${spec.agreement ? "" : utilised(residual, limit)}`, reason: ""};
 }
+
+// What part of its limit a quantity takes, told apart from 100 %.
+const utilised = (residual, limit) => (limit > 0 && isFinite(residual) && isFinite(limit) ? `, ${apart([(100 * residual) / limit, 100], 3)[0]} %` : "");
 
 function tell(element, {kind, word, compared, reason}) {
   const badge = element.querySelector(".ms-badge");
