@@ -229,6 +229,37 @@ def test_outline_leads_to_the_sections(page):
     page.mouse.move(5, 5)  # off the outline
 
 
+def test_a_click_on_a_heading_closes_its_section_and_what_leads_there_opens_it(page):
+    """Closed it stays while the page computes; printed it is whole."""
+    page.wait_for_function("() => 'measured' in document.documentElement.dataset")
+    geometry, below = (page.get_by_role("heading", name=name) for name in ("2 Geometry", "2.2 Second"))
+    check = page.locator("#check-loop-of-group-2-3-")
+    expect(geometry).to_have_attribute("aria-expanded", "true")
+    geometry.click()
+    expect(geometry).to_have_attribute("aria-expanded", "false")
+    expect(below).to_be_hidden()
+    expect(check).to_be_hidden()
+    expect(page.get_by_role("heading", name="3 Kinematics"), "the next of its level stays").to_be_visible()
+    field = page.locator(".ms-inputs tr:has-text('weight of the implement') input")
+    for weight, force in (("20000", "94265"), ("27500", "129614")):
+        field.fill(weight)
+        field.press("Enter")
+        expect(cell(page, "4.1", 1, 2)).to_have_text(force)
+        expect(check, "computed anew it stays closed").to_be_hidden()
+    page.emulate_media(media="print")
+    expect(check).to_be_visible()
+    page.emulate_media(media="screen")
+    expect(check).to_be_hidden()
+    page.locator(".ms-summary a", has_text="loop of group (2, 3)").click()
+    expect(check).to_be_in_viewport()
+    expect(below).to_be_visible()
+    below.click()
+    expect(below).to_have_attribute("aria-expanded", "false")
+    expect(check, "a part of a section is closed by itself").to_be_visible()
+    below.click()
+    expect(below).to_have_attribute("aria-expanded", "true")
+
+
 def test_a_mark_on_every_output_styles_the_outputs_and_not_what_stands_in_them(serve, browser):
     """marimo marks an output while its cell runs; formulas and tables in it must not be styled again for that."""
     page = new_page(browser)  # so high that it may be of no use to others

@@ -21,7 +21,8 @@ def title():
         """
     A press that teaches by being edited: open it with `python lib/mechsheet edit guide`, do what stands after **Try**.
     A click on a formula or on the symbol of an input edits its line, Enter writes it, Ctrl-Z takes it back; the button
-    *code* shows all lines of a cell, which Ctrl-Enter runs and Ctrl-S saves.
+    *code* shows all lines of a cell, which Ctrl-Enter runs and Ctrl-S saves. A click on a heading closes its section
+    on the screen, and another one opens it.
     """,
     )
     return

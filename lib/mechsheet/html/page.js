@@ -106,9 +106,9 @@ function judged(spec, results) {
   if (!all.length) return open("there is nothing to check");
   if (lost) return open(`${lost} of ${all.length} values do not exist`);
   if (limit !== limit) return open("there is no limit");
-  const passed = residual <= limit, kind = passed ? "PASS" : "FAIL";
-  const [a, b] = compared(residual, limit).map(text => text.replaceAll("-", HTML.minus));
-  const told = passed && spec.agreement ? `within ${b}${spec.behind}` : `${a} ${passed ? "≤" : "&gt;"} ${b}${spec.behind}`;
+  const passed = residual <= limit, kind = passed ? "PASS" : "FAIL", agrees = spec.agreement && passed;
+  const [a, b] = compared(residual, limit, agrees).map(text => text.replaceAll("-", HTML.minus));
+  const told = agrees ? `within ${b}${spec.behind}` : `${a} ${passed ? "≤" : "&gt;"} ${b}${spec.behind}`;
   return {kind, word: kind, compared: `: ${told}${spec.agreement ? "" : utilised(residual, limit)}`, reason: ""};
 }
 

@@ -118,6 +118,7 @@
       requestAnimationFrame(() => {
         page.classList.remove("ms-measure");
         page.dataset.measured = "";
+        document.dispatchEvent(new Event("ms-measured"));
       }),
     );
   }
