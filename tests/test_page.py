@@ -5,7 +5,7 @@ from math import inf
 from pathlib import Path
 
 import pytest
-from conftest import drawn, new_page, report_errors, until
+from conftest import SIZE, drawn, new_page, report_errors, until
 from playwright.sync_api import expect
 
 HITCH = Path(__file__).parents[1] / "worksheets" / "hitch.py"
@@ -258,6 +258,28 @@ def test_a_click_on_a_heading_closes_its_section_and_what_leads_there_opens_it(p
     expect(check, "a part of a section is closed by itself").to_be_visible()
     below.click()
     expect(below).to_have_attribute("aria-expanded", "true")
+
+
+def test_in_the_editor_a_closed_section_takes_no_room_and_the_bar_leaves_the_footer_free(edited):
+    edited.wait_for_function("() => 'measured' in document.documentElement.dataset")
+    geometry, kinematics = (edited.get_by_role("heading", name=name) for name in ("2 Geometry", "3 Kinematics"))
+    geometry.click()
+    until(edited, lambda: 0 < kinematics.bounding_box()["y"] - geometry.bounding_box()["y"] < 200, "room is left")
+    geometry.click()
+    kinematics.scroll_into_view_if_needed()
+    drawn(edited)
+    bar, footer = (edited.locator(place).bounding_box() for place in (".ms-bar", "footer"))
+    assert bar["y"] + bar["height"] <= footer["y"]
+
+
+def test_on_a_narrow_screen_no_number_of_a_list_is_cut_off(edited):
+    edited.set_viewport_size({"width": 800, "height": 1600})
+    drawn(edited)
+    beyond = """() => [...document.querySelectorAll(".ms-value")]
+        .filter((e) => e.getBoundingClientRect().right > e.closest(".output-area").getBoundingClientRect().right + 1)
+        .map((e) => e.textContent)"""
+    assert edited.evaluate(beyond) == []
+    edited.set_viewport_size(SIZE)
 
 
 def test_a_mark_on_every_output_styles_the_outputs_and_not_what_stands_in_them(serve, browser):

@@ -10,6 +10,9 @@
   // A style sheet hides the cells by their ids: what marimo draws anew in them stays hidden.
   const style = document.head.appendChild(document.createElement("style"));
 
+  // In the editor a cell stands in a frame that takes room without it.
+  const hiding = (id) => `#${id},[data-is-dragging]:has(> #${id})`;
+
   // Each heading with its name, its cell and the cells below it, up to the next heading of its level or a higher one.
   function sections() {
     const found = [];
@@ -35,7 +38,7 @@
       .filter(({ name }) => closed.has(name))
       .flatMap(({ heading, cell, cells }) => {
         const own = `#${CSS.escape(cell.id)} #${CSS.escape(heading.id)}`;
-        const hidden = [`${own} ~ *`, ...cells.map(({ id }) => `#${CSS.escape(id)}`)];
+        const hidden = [`${own} ~ *`, ...cells.map(({ id }) => hiding(CSS.escape(id)))];
         return [`${hidden.join(",")}{display:none!important}`, `${own}::after{content:" …"}`, `${own}::before{content:"▸"}`];
       });
     style.textContent = rules.length ? `@media screen{${rules.join("")}}` : "";
