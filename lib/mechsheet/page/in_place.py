@@ -127,7 +127,7 @@ def _elsewhere(work: Callable[[], str]) -> str:
         return done.result(_PATIENCE)
     except TimeoutError:
         pythonapi.PyThreadState_SetAsyncExc(c_ulong(thread.ident or 0), py_object(_TooLong))
-        raise SheetError(f"it computes for more than {_PATIENCE:g} s") from None
+        raise SheetError(f"it computes for more than {_PATIENCE} s") from None
 
 
 def _run(text: str, names: dict[str, Any]) -> None:
