@@ -30,14 +30,22 @@ def sampled(name):
 
 @pytest.mark.parametrize("name", FUNCTIONS)
 @pytest.mark.parametrize("enough", [0.0, 1e-9, 1e-4])
-def test_slopes_and_their_errors_are_those_of_scipy(name, enough):
+def test_slopes_are_those_of_scipy_within_the_errors_of_both(name, enough):
     f, _, x, step, side = sampled(name)
     slope, error = derivative(f, x, step, side, enough)
     theirs = by_scipy(f, x, initial_step=step, step_direction=side, tolerances={"atol": enough, "rtol": 0.0})
-    size, rounding = np.max(np.abs(slope)), 1e-10 * np.max(np.abs(f(x))) / step
-    assert slope == pytest.approx(theirs.df, abs=max(rounding, 1e-12 * size))
-    if enough:  # without an end that is asked for, the last halving is where rounding has it
-        assert error == pytest.approx(theirs.error, rel=1e-3, abs=rounding)
+    rounding = 1e-13 * np.max(np.abs(f(x))) / step
+    assert np.all(np.abs(slope - theirs.df) <= 10 * (error + theirs.error) + rounding)
+    assert np.all(error <= np.maximum(10 * theirs.error, enough) + 100 * rounding)
+
+
+def test_rounding_that_is_alike_twice_is_no_agreement():
+    """Near a dead centre the last digits of the values hide what a halving changes."""
+    x, past = np.array([0.0, 0.5, 0.9]), 1.0000001
+    for side in (-1, 0, 1):
+        slope, error = derivative(lambda x: np.arccos(x) + np.sqrt(past - x), x, 1e-5, np.full(3, side), 1e-12)
+        exact = -1 / np.sqrt(1 - x**2) - 0.5 / np.sqrt(past - x)
+        assert np.all(np.abs(slope - exact) <= 10 * error)
 
 
 @pytest.mark.parametrize("name", FUNCTIONS)

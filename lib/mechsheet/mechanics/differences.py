@@ -15,6 +15,7 @@ Array = NDArray[np.float64]
 
 _HALVINGS = 10  # of the step, the first one included
 _WORSE = 10  # times the error before: finer steps are nothing but rounding
+_EPS = float(np.finfo(float).eps)
 _HALVES = 2.0 ** -np.arange(4)
 _BOTH = np.stack([_HALVES, -_HALVES], 1).ravel()  # in pairs, so that halving the step goes on by one pair
 _ONE = 2.0 ** (-np.arange(8) / 2)
@@ -47,9 +48,10 @@ def derivative(
         more = np.asarray(f(x[left, None] + step * new[left]), float)
         values = np.hstack([values, more])[:, -8:]
         found = np.einsum("ij,ij->i", np.hstack([values, middle[left]]), weights[left]) / step
+        rounded = _EPS * np.einsum("ij,ij->i", np.abs(np.hstack([values, middle[left]])), np.abs(weights[left])) / step
         change, before = np.abs(found - slope[left]), error[left]
-        slope[left], error[left] = found, change
-        going = ~(change < enough) & np.isfinite(found) & ~(change > _WORSE * before)
+        slope[left], error[left] = found, change + rounded
+        going = ~(change < enough) & np.isfinite(found) & ~(change > _WORSE * before) & ~(change < rounded)
         left, values, new, step = left[going], values[going], new[:, -2:], step / 2
         if not left.size:
             break

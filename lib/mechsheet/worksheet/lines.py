@@ -3,7 +3,7 @@
 import ast
 import re
 import sys
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from operator import attrgetter
@@ -65,12 +65,17 @@ class Declared(NamedTuple):
     mistake: str
 
 
-def declared(comment: str) -> Declared | None:
-    """Unit, in signs that Python reads, and meaning of a comment; None where it declares nothing."""
+def declared(comment: str, expression: ast.expr | None = None) -> Declared | None:
+    """Unit, in signs that Python reads, and meaning of a comment behind an expression; None where it declares nothing.
+
+    Of a temperature no unit is known but K, for °C is that of a difference.
+    """
     match = _DECLARED.match(comment)
     if not match:
         return None
     unit, mistake = _read(match[1])
+    if unit == "degC" and expression and _temperatures(expression) == 1:
+        unit, mistake = units.UNKNOWN, f"unit [{match[1]}] is of a difference: write a temperature in [K]"
     return Declared(unit, match[2], mistake)
 
 
@@ -96,18 +101,41 @@ def _formulas(cell: source.Cell) -> Iterator[Formula | Given]:
                 yield from _given(name, f, next((k.value for k in keywords if k.arg == "equals"), ast.Constant(0)))
                 continue
         lines, number = _bound(node), node.end_lineno or node.lineno
-        found = _declared_each(cell.comments.get(number, ""), cell.at(number), len(lines)) if lines else ()
+        found = _declared_each(cell.comments.get(number, ""), cell.at(number), lines) if lines else ()
         for line, told in zip(lines, found, strict=False):
-            match line.expression:  # without brackets of its own it begins where its first part does
-                case ast.Tuple([first, *_]) as several if first.col_offset == several.col_offset:
-                    raise SheetError(
-                        f"{cell.at(number)}: {line.name} = {ast.unparse(several)[1:-1]} is several values: "
-                        "a decimal number has a point, not a comma"
-                    )
+            if several := _several(line.expression):
+                raise SheetError(
+                    f"{cell.at(number)}: {line.name} = {several} is several values: "
+                    "a decimal number has a point, not a comma"
+                )
             if not line.name.startswith("_"):
                 printed = match[0] if (match := _NUMBER.match(told.meaning)) else ""
                 meaning = told.meaning.removeprefix(printed).lstrip()
                 yield replace(line, unit=told.unit, number=printed, meaning=meaning, mistake=told.mistake)
+
+
+def _several(expression: ast.expr) -> str:
+    """An expression where values apart by commas stand for one number; "" where none do."""
+    match expression:  # without brackets of its own it begins where its first part does
+        case ast.Tuple([first, *_]) if first.col_offset == expression.col_offset:
+            return ast.unparse(expression)[1:-1]
+    for node in ast.walk(expression):
+        match node:
+            case ast.BinOp(ast.Tuple([ast.Constant(), _]), _, _) | ast.BinOp(_, _, ast.Tuple([ast.Constant(), _])):
+                return ast.unparse(expression)
+    return ""
+
+
+def _temperatures(expression: ast.expr) -> int:
+    """How many temperatures an expression adds, less those that it subtracts: one where it is a temperature itself."""
+    match expression:
+        case ast.Call(ast.Name("celsius") | ast.Attribute(attr="celsius")):
+            return 1
+        case ast.BinOp(left, ast.Add(), right):
+            return _temperatures(left) + _temperatures(right)
+        case ast.BinOp(left, ast.Sub(), right):
+            return _temperatures(left) - _temperatures(right)
+    return 0
 
 
 def undeclaring(cell: source.Cell, node: ast.stmt) -> Iterator[int]:
@@ -142,10 +170,12 @@ def _bound(node: ast.stmt) -> list[Formula]:
     return []
 
 
-def _declared_each(comment: str, place: str, count: int) -> Iterator[Declared]:
+def _declared_each(comment: str, place: str, lines: Sequence[Formula]) -> Iterator[Declared]:
     """Unit and meaning of each name of a line; several are told as ``[m] one, [s] other``."""
+    count = len(lines)
     parts = re.split(r",\s*(?=\[)", comment) if count > 1 else [comment]
-    found = [told for part in parts if (told := declared(part))]
+    expressions = (*(line.expression for line in lines[: len(parts)]), *[None] * (len(parts) - count))
+    found = [told for part, own in zip(parts, expressions, strict=True) if (told := declared(part, own))]
     if found and len(found) != count:
         raise SheetError(f"{place}: {count} names need {count} units, such as # [m] one, [s] other; got {len(found)}")
     yield from found
@@ -301,7 +331,22 @@ def typeset(*shown: Any, display: Mapping[str, str] | None = None) -> "Typeset":
     rows = [_displayed(row, display or {}) if isinstance(row, Formula) else row for row in lines]
     rows = [_with_constants(row, frame.f_globals) for row in rows]
     values = tuple(frame.f_globals[row.name] if isinstance(row, Formula) else None for row in rows)
+    for row, value in zip(rows, values, strict=True):
+        if isinstance(row, Formula) and (why := no_number(row, value)):
+            refuse(SheetError(f"{cell.at(row.expression.lineno)}: {why}"))
     return Typeset(tuple(rows), values, shown, Numbers(frame.f_globals))
+
+
+def no_number(row: Formula, value: Any) -> str:
+    """Why the value of a line cannot have its unit: it is neither a number, nor an array of them, nor a function."""
+    computes = hasattr(value, "__array_ufunc__") and not isinstance(value, np.ndarray | np.generic)
+    if row.arguments or computes or isinstance(value, int | float | complex):
+        return ""
+    try:
+        kind = np.asarray(value).dtype.kind
+    except ValueError:  # of rows that differ in length
+        kind = "O"
+    return "" if kind in "biufc" else f"{row.name} = {ast.unparse(row.expression)} is no number: it has no [unit]"
 
 
 def _with_constants(row: Formula | Given, namespace: Mapping[str, Any]) -> Formula | Given:
@@ -358,6 +403,14 @@ class Numbers:
         field = np.asarray(value)
         inside = field.shape and field.shape[-1] > position
         return (field[..., position].flat[0] if inside else field.flat[0]).item(), unit
+
+    def single(self, names: Iterable[str]) -> frozenset[str]:
+        """Of names that end as that of a field over S does those that have no positions."""
+        S = np.asarray(self.namespace.get("S", 0))
+        if S.ndim == 0 or S.dtype.kind not in "iuf":  # no stroke; a point may have that name too
+            return frozenset(names)
+        known = self.namespace
+        return frozenset(name for name in names if name in known and np.ndim(known[name]) == 0)
 
 
 @dataclass(frozen=True)
