@@ -290,8 +290,8 @@ def section_8():
     input that gives a result its value; it says how sure that is, and writes the scene `guide_designed.toml` into
     `exports/`, beside a worksheet of your own, or where `--out=FOLDER` says.
 
-    On the page the switch above the buttons at its end shows the tolerances behind all numbers, and the fields beside
-    it what matters for a result: by how many percent it changes for one percent of each input.
+    On the page the switch above the buttons at its end shows the tolerances behind all numbers and in charts, and the
+    fields beside it what matters for a result: by how many percent it changes for one percent of each input.
     """)
     return
 
