@@ -84,6 +84,7 @@
   async function open(host, name) {
     if (of && !area.readOnly && isTypedIn()) {
       why.textContent = LEFT; // what is typed is not lost by a click elsewhere
+      of.place.scrollIntoView({ block: "center" });
       return area.focus();
     }
     close();
