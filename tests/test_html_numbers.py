@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -15,7 +16,7 @@ from own_worksheet import ELSEWHERE, OTHER, own, recorded
 from mechsheet.html import javascript
 from mechsheet.html.elementwise import ELEMENTWISE
 from mechsheet.recording import operations
-from mechsheet.worksheet import cells
+from mechsheet.worksheet import cells, numbers
 
 if TYPE_CHECKING:
     from playwright.sync_api import Page
@@ -95,3 +96,38 @@ def assert_computed(page: Page, sheet: cells.Worksheet, others: list[dict[str, A
         number = parts[0] if len(parts) == 1 else parts[0] + 1j * parts[1]
         assert number.shape == np.shape(expected), inputs
         np.testing.assert_allclose(number, expected, rtol=1e-12, atol=1e-13, err_msg=str(inputs))
+
+
+def test_numbers_are_written_as_python_writes_them(blank: Page) -> None:
+    """A battery: ties, ends of the ranges, many random numbers."""
+    rng = np.random.default_rng(7)
+    wide = [float(x) for x in rng.choice([-1, 1], 4000) * 10 ** rng.uniform(-12, 24, 4000)]
+    ties = [n / 2**k for k in range(8) for n in (1, 3, 5, 7, 9, 19, 25, 95, 1001, 12345, 99999)]
+    ends = [0.0, -0.0, 1e-3, 9.99995e-4, 99999.5, 1e5, 999999.5, 1e6, 1e21, 1e22, 5e-324, 1.7e308, -0.0004, 0.00005]
+    values = [*wide, *ties, *(-x for x in ties), *ends]
+    told = blank.evaluate(
+        f"""values => {{{javascript.runtime("format.js")}
+        return values.map(x => [usual(x, AXIS), fixed(x, 0, CELL), fixed(x, 3, AXIS), scientific(x, 1, CELL),
+          significant(x, 6), significant(x, 15), apart([x])[0], apart([x, x * 1.0001 + 1e-9]).join(" "),
+          ...{json.dumps(FORMATS)}.map(spec => formatted(x, spec))])}}""",
+        values,
+    )
+    for x, texts in zip(values, told, strict=True):
+        assert texts[0].replace("\u2009·\u200910<sup>", "e").replace("</sup>", "") == power(x), x
+        assert texts[1:] == [
+            numbers.fixed(x, 0, numbers.CELL),
+            numbers.fixed(x, 3, numbers.AXIS),
+            numbers.scientific(x, 1, numbers.CELL),
+            numbers.significant(x, 6),
+            numbers.significant(x, 15),
+            numbers.apart([x])[0],
+            " ".join(numbers.apart([x, x * 1.0001 + 1e-9])),
+            *(f"{x:{'' if spec == 'r' else spec}}" for spec in FORMATS),
+        ], x
+
+
+FORMATS = ("r", ".4g", ".1g", ".2f", ".0f", ".3e")
+
+
+def power(x: float) -> str:
+    return numbers.usual(x, numbers.AXIS._replace(power="{}e{}"))

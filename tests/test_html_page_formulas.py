@@ -1,17 +1,26 @@
 """Formulas of the page in one file: MathML from the tree, and the font that is cut to their signs."""
 
+from __future__ import annotations
+
 import ast
 import base64
 import re
 from io import BytesIO
-from typing import get_args
+from typing import TYPE_CHECKING, Any, get_args
 from xml.etree import ElementTree
 
+import numpy as np
 import pytest
 
-from mechsheet.document.expression import tree
+from mechsheet.document.expression import reads, substituted, tree
 from mechsheet.document.formula import Measure, Node, Power, Row, Symbol, Text
-from mechsheet.html import font, mathml
+from mechsheet.html import font, javascript, mathml
+from mechsheet.html.put_in import Read, put_in
+from mechsheet.worksheet import numbers
+from mechsheet.worksheet.lines import Formula
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Page
 
 EXPRESSIONS = {
     "a + b*c": "𝑎+𝑏𝑐",
@@ -86,3 +95,50 @@ def test_the_font_has_the_signs_and_what_a_root_and_a_high_bracket_need() -> Non
     for sign in "(√∫":
         assert signs[ord(sign)] in variants.VertGlyphCoverage.glyphs, sign
     assert len(address) < 120_000
+
+
+PUT_IN = (
+    "a + b", "a - b", "-a", "a*b", "a*b*c", "2*a", "2*a*b", "a/b", "-a/b*c", "a*(b + c)", "a + b*c", "a + (b + c)",
+    "a + (b - c)*a", "a**2", "a**b", "(a/b)**2", "sin(a)", "sin(a)*b", "b*sin(a)", "cos(a)**2", "sqrt(a)", "abs(a - b)",
+    "exp(-a)", "a % b", "a < b", "where(a < b, a, c)", "max(a, b)", "np.array([a, b])", "a[b]", "conj(p)*a", "p + q",
+    "p*a", "a*p", "p - q", "abs(p)", "cross(p, q)", "dot(p, q)", "p.imag", "1j*a*p", "arctan2(a, b)", "a*(-b)",
+    "a*(b/c)", "g.k*a", "g.k*g.k*p", "f(a)*b", "sum(a*x for x in c)", "a*b**2*c", "a and b or c", "-(a + b)",
+    "a*b @ c", "a // b",
+)  # fmt: skip
+UNITS = {"a": "-", "b": "deg", "c": "kN", "p": "mm", "q": "-", "g.k": "m/s**2"}
+REALS = (0.0, -0.0, 0.5, 2.0, -3.25, 1e-7, -4e-7, 9e5, 2.5e8, -1e12, float("nan"), float("inf"), -float("inf"))
+
+
+def test_numbers_are_put_into_a_formula_as_python_puts_them_in(blank: Page) -> None:
+    """Brackets and dots too, whatever the numbers are, alone and together."""
+    rng, given, expected = np.random.default_rng(5), list[Any](), list[str]()
+    for expression in PUT_IN:
+        line = Formula("y", ast.parse(expression, mode="eval").body, "-", "")
+        names = [name for name in reads(line) if name in UNITS]
+        told = put_in(line, {name: Read(UNITS[name], name in "pq") for name in names})
+        for _ in range(40):
+            x = {n: complex(*rng.choice(REALS, 2)) if n in "pq" else float(rng.choice(REALS)) for n in names}
+            node = substituted(line, {name: Measure(x[name], UNITS[name]) for name in names})
+            assert (node is None) == (told is None)
+            if node is None or told is None:
+                continue
+            parts = [[x[n].real, x[n].imag] if n in "pq" else [x[n]] for n in names]
+            behind = [numbers.behind(UNITS[n], mathml.NUMBER) for n in names]
+            asked = [{"factor": 1, "behind": text} for text in behind]
+            given.append([{"text": told.text, "signs": told.signs, "numbers": asked}, parts])
+            expected.append(mathml.mathml(node).replace(">", "><mo>=</mo>", 1))
+    found = blank.evaluate(
+        f"all => {{{javascript.runtime('format.js', 'put_in.js')}\nreturn all.map(each => withNumbers(...each))}}",
+        given,
+    )
+    for (spec, parts), own, text in zip(given, expected, found, strict=True):
+        assert as_seen(text) == as_seen(own), (spec, parts)
+
+
+def as_seen(text: str) -> str:
+    """MathML without what only groups, how high brackets are and how wide a space is, and a dot that none needs.
+
+    High brackets have none before them, and how high they are may hang on a number far from where they begin.
+    """
+    bare = re.sub(r"</?mrow>|</?mspace[^>]*>| stretchy=\"false\"", "", text)
+    return bare.replace("<mo>⋅</mo><mo>(</mo><mo>−</mo>", "<mo>(</mo><mo>−</mo>")

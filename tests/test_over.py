@@ -30,8 +30,24 @@ def test_a_field_says_where_it_is_least_and_greatest(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(
     "line",
-    ["y = 3 * g.F", "y = linspace(0, 1, 21)", "y = 0 * x", "y = x + 1j", "y = np.outer(x, x)", "y = x[:15] * 1"],
-    ids=["a number", "not computed from it", "level", "points", "two axes", "of another length"],
+    [
+        "y = 3 * g.F",
+        "y = linspace(0, 1, 21)",
+        "y = 0 * x",
+        "y = 1 + x * 1e-16",
+        "y = x + 1j",
+        "y = np.outer(x, x)",
+        "y = x[:15] * 1",
+    ],
+    ids=[
+        "a number",
+        "not computed from it",
+        "level",
+        "level but for rounding",
+        "points",
+        "two axes",
+        "of another length",
+    ],
 )
 def test_what_has_no_place_says_none(line: str, tmp_path: Path) -> None:
     assert shown(run(tmp_path, f"{line}  # [-] line"), "y") == ""

@@ -46,9 +46,10 @@ function hold(field, x, shown, k) {
 const inputOf = field => document.getElementById(`input-${field.name}`);
 const gridOf = field => document.querySelector(`[data-grid="${field.name}"]`);
 
-// All inputs: numbers in SI by the names that evaluate takes, those that differ from the document's own, and what is refused.
+// All inputs: numbers in SI by the names that evaluate takes, those that differ from the document's own, what is refused,
+// and what is to be noted of one that is not.
 function readInputs() {
-  const shown = new Map(), si = {}, changed = new Set(), errors = new Map();
+  const shown = new Map(), si = {}, changed = new Set(), errors = new Map(), notes = new Map();
   const attempt = (field, read) => {
     try {
       read();
@@ -74,6 +75,8 @@ function readInputs() {
       rows: () => field.columns.some(c => !same(si[c.name], c.own)),
     }[field.kind] ?? (() => si[field.name] !== field.own);
     if (differs()) changed.add(field.name);
+    const [own, now] = [field.columns?.[0].own, si[field.columns?.[0].name]].map(rows => rows?.length);
+    if (now && now !== own) notes.set(field.name, `${now} rows, ${own} in the document: what rests on them is not known here`);
   }
   for (const field of told.inputs.fields) {
     if (field.kind === "number" && shown.has(field.name)) attempt(field, () => hold(field, shown.get(field.name), shown));
@@ -81,7 +84,7 @@ function readInputs() {
       if (shown.has(column.name)) attempt(field, () => shown.get(column.name).forEach((x, k) => hold(column, x, shown, k)));
     }
   }
-  return {si, changed, errors, shown};
+  return {si, changed, errors, notes};
 }
 
 const same = (a, b) => Boolean(a) && a.length === b.length && a.every((x, i) => x === b[i]);

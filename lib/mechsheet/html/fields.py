@@ -89,7 +89,8 @@ def _grid(field: Rows, columns: tuple[Input, ...], value: Any) -> str:
         for k, row in enumerate(texts, 1)
     )
     return (
-        f'<div class="ms-grid" data-grid="{field.name}" tabindex="0"><table><thead><tr><th></th>{heads}</tr></thead>'
+        f'<div class="ms-grid" data-grid="{field.name}" tabindex="0" role="group" '
+        f'aria-label="{escape(field.meaning)}"><table><thead><tr><th></th>{heads}</tr></thead>'
         f"<tbody>{rows}</tbody></table></div>"
     )
 

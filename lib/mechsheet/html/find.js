@@ -248,3 +248,10 @@ function find(f, lo, hi, guess, equals = 0) {
     },
   };
 }
+
+// A verdict that knows its assembly branch, and all of them with their own, which are searched when they are asked for.
+function on_branch(branch, verdict, functions, ...given) {
+  let all;
+  const every = () => (all ??= functions.map(([s, f]) => [s, s == branch ? verdict : find(f, ...given)]));
+  return Object.defineProperties(verdict, {branch: {value: branch}, branches: {get: every}});
+}

@@ -1,16 +1,20 @@
 """What of a shown value follows the inputs: the recorded quantities by their keys, and what the page makes of them."""
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from html import escape
 from math import isfinite
+from operator import attrgetter
 from typing import Any
 
 import numpy as np
 
 from mechsheet import units
 from mechsheet.document import chart_svg
+from mechsheet.document.expression import reads
 from mechsheet.document.markup import HTML, in_words, named
 from mechsheet.document.parts import Line, Text
-from mechsheet.html import offered, sketched, wording
+from mechsheet.html import mathml, offered, sketched, wording
+from mechsheet.html.put_in import Read, put_in
 from mechsheet.recording import showing
 from mechsheet.recording.lines import SLIDER, Recording
 from mechsheet.recording.node import Node, bottom_up
@@ -21,7 +25,9 @@ from mechsheet.worksheet import numbers
 from mechsheet.worksheet.check import Check
 from mechsheet.worksheet.drawing import Drawing
 from mechsheet.worksheet.find import Found
+from mechsheet.worksheet.lines import Numbers
 from mechsheet.worksheet.symbol import read, stem
+from mechsheet.worksheet.system import Solution
 from mechsheet.worksheet.table import Column, Figure, Table
 from mechsheet.worksheet.title import Caption, Mark
 from mechsheet.worksheet.verdict import Verdict
@@ -35,8 +41,9 @@ class Follower:
     What has no keys and is not ``fixed`` holds for the exported inputs alone.
     """
 
-    def __init__(self, recording: Recording) -> None:
+    def __init__(self, recording: Recording, numbers: Numbers | None = None) -> None:
         self.recording = recording
+        self.numbers = numbers  # of the run, by the names that formulas read
         self.keys: dict[Node, str] = {}
         self.specs: list[Spec] = []
         self.drawn: dict[int, Drawn] = {}  # recorded drawings by the identity of what is shown
@@ -165,6 +172,28 @@ class Follower:
         same = held.extent == shape or held.extent[:-1] == shape
         return self.mark("value", keys=[self.key(part) for part in held.parts] if same else None, **spec)
 
+    def put_in(self, line: Line, **moved: Any) -> str:
+        """Attribute of the formula of a line with numbers for its symbols; "" where it has none."""
+        at = self.numbers.at if self.numbers else lambda name, position: None
+        known = {name: x for name in reads(line.formula) if (x := at(name, line.position))}
+        made = put_in(line.formula, {name: Read(unit, isinstance(x, complex)) for name, (x, unit) in known.items()})
+        if made is None:
+            return ""
+        told = [self._put_in(name, *x) for name, x in known.items()]
+        spec: Spec = {"text": made.text, "signs": made.signs, "numbers": told, "at": line.position, **moved}
+        return self.mark("numbers", keys=[self.keys[node] for node in dict.fromkeys(self._asked)], **spec)
+
+    def _put_in(self, name: str, value: complex, unit: str) -> Spec:
+        """A number in a formula: the keys of its parts, or those of one that holds for the run alone."""
+        head, _, part = name.partition(".")
+        held: Any = self.recording.values.get(head)
+        held = attrgetter(part)(held) if part and held is not None else held
+        own = [value.real, value.imag] if isinstance(value, complex) else [value]
+        spec: Spec = {"factor": units.parse(unit).factor, "behind": numbers.behind(unit, mathml.NUMBER)}
+        if isinstance(held, Quantity) and (held.im is not None) == isinstance(value, complex):
+            return spec | {"parts": [self.key(part) for part in held.parts]}
+        return spec | {"parts": [_plain(x) for x in own], "own": isinstance(held, Quantity) or held is None}
+
     def along(self, line: Line) -> bool:
         """Whether the value of a line stands at one position of a recorded field."""
         held = self.recording.values.get(line.formula.name)
@@ -208,7 +237,8 @@ class Follower:
 
     def check(self, check: Check) -> str:
         """Attribute of the verdict of a check."""
-        held, spec = self.recording.checks.get(check.name), {"name": check.name, "essential": check.essential}
+        held = self.recording.checks.get(check.name)
+        spec = {"name": check.name, "essential": check.essential, "agreement": check.agreement}
         if held is None:
             return self.mark("check", keys=None, **spec)
         unit = check.unit if held.unit == "-" else held.unit
@@ -226,21 +256,53 @@ class Follower:
         )
 
     def found(self, found: Verdict) -> str:
-        """Attribute of the verdict of a solve block; that of several problems holds for the exported inputs alone."""
-        if not isinstance(found, Found) or np.ndim(found.residual):
-            return self.mark("found", words=None)
-        words, key = found.words, found.words.unknown
-        told = {
-            "unknown": in_words(words.unknown),
-            "quantity": in_words(words.quantity),
-            "factor": units.parse(words.unit).factor,
-            "suffix": numbers.suffix(words.unit),
-            "unknown_factor": units.parse(words.unknown_unit).factor,
-            "unknown_suffix": numbers.suffix(words.unknown_unit),
-            "branch": "" if found.branch is None else f"{found.branch:+d}",
-        }
-        known = key in self.recording.found and self.recording.found[key].node.op == "found"
-        return self.mark("found", key=key, words=told if known else None)
+        """Attribute of the verdict of a solve block, with its words where the page solves it again."""
+        match found:
+            case Found(words=words):
+                key, told, own = words.unknown, _of_one(found), found._value
+            case Solution(words=words):
+                names = self.numbers.namespace if self.numbers else {}
+                name = next((name for name, value in names.items() if value is found), "")
+                key, told, own = f"{name}.{words.names[0]}", _of_several(found), found._values[0]
+            case _:
+                return self.mark("found", words=None)
+        solved = self.recording.found.get(key)
+        again = solved and solved.node.op == "found" and np.array_equal(solved.node.value, own, equal_nan=True)
+        return self.mark("found", key=key, words=told if again else None)
+
+
+def _of_one(found: Found) -> Spec:
+    words = found.words
+    return {
+        "unknown": in_words(words.unknown),
+        "quantity": in_words(words.quantity),
+        "plain": {"unknown": escape(words.unknown), "quantity": escape(words.quantity)},
+        "unit": _measured(words.unit),
+        "unknown_unit": _measured(words.unknown_unit),
+    }
+
+
+def _of_several(found: Solution) -> Spec:
+    words = found.words
+    return {
+        "names": [in_words(name) for name in words.names],
+        "plain": {"names": [escape(name) for name in words.names]},
+        "units": [_measured(unit) for unit in words.units],
+        "equations": words.equations,
+        "equation_units": [_measured(unit) for unit in words.equation_units],
+        "guessed": words.guessed,
+        "least": found.least,
+    }
+
+
+def _measured(unit: str) -> tuple[float, str]:
+    """Factor of a unit, and what stands behind a number."""
+    return units.parse(unit).factor, escape(numbers.suffix(unit))
+
+
+def _plain(x: float) -> float | None:
+    """A number as JSON has it; none for what is not finite."""
+    return float(x) if isfinite(x) else None
 
 
 def _listed(column: Column) -> list[Any]:

@@ -2,6 +2,10 @@
 const CELL = {minus: "-", none: "–"};
 const AXIS = {minus: "−", none: "–"};
 const HTML = {minus: "−", none: "none"};
+const MATHML = {
+  minus: "</mn><mo>−</mo><mn>", none: "</mn><mtext>none</mtext><mn>",
+  power: (x, power) => `${x}</mn><mo>⋅</mo><msup><mn>10</mn><mrow><mn>${power}</mn></mrow></msup><mn>`,
+};
 
 const unlimited = (x, to) => (x !== x ? to.none : (x < 0 ? to.minus : "") + "∞");
 
@@ -92,7 +96,8 @@ function usual(x, to) {
   const [mantissa, power] = digitsOf(x, 5);
   if (size >= 1e-3 && size < 1e6) return sign + trimmed(positional(mantissa, power));
   const shown = trimmed(`${mantissa[0]}.${mantissa.slice(1)}`);
-  return `${sign}${shown}\u2009·\u200910<sup>${power < 0 ? to.minus : ""}${Math.abs(power)}</sup>`;
+  const raised = (power < 0 ? to.minus : "") + Math.abs(power);
+  return sign + (to.power ? to.power(shown, raised) : `${shown}\u2009·\u200910<sup>${raised}</sup>`);
 }
 
 const ROUNDING = 2 ** -48; // of the largest number of a field: what is less may be nothing but roundings
@@ -136,7 +141,8 @@ function leastAndGreatest(numbers) {
 function whereText(parts, along, over) {
   if (parts.length > 1 || typeof parts[0] === "number" || parts[0].length <= 10 || along?.length !== parts[0].length) return "";
   const [low, high] = leastAndGreatest(parts[0]);
-  if (!(low < high)) return "";
+  const most = parts[0].reduce((x, y) => (Number.isFinite(y) ? Math.max(x, Math.abs(y)) : x), 0);
+  if (!(high - low > ROUNDING * most)) return "";
   const at = x => `${over.named} = ${usual(along[parts[0].indexOf(x)] / over.factor, HTML)}${over.behind}`;
   return ` <span class="ms-where">least at ${at(low)}, greatest at ${at(high)}</span>`;
 }
@@ -165,8 +171,8 @@ const inWords = text =>
     .replace(/(\d)e([+-]?)0*(\d+)\b/g, (_, digit, sign, power) => `${digit}\u2009·\u200910<sup>${sign === "-" ? "−" : ""}${power}</sup>`)
     .replace(/(^|[^\w.)])-(?=[\d.∞])/g, "$1−");
 
-// What a check compares: told apart, and the residual with two digits where it is only rounding.
-function compared(residual, limit) {
+// What a check compares: told apart, with two digits where the residual is only rounding.
+function compared(residual, limit, agrees) {
   if (!Number.isFinite(residual) || !Number.isFinite(limit)) return [residual, limit].map(x => significant(x, 4));
-  return apart([residual, limit], Math.abs(residual) < 1e-3 * limit ? 2 : 4);
+  return apart([residual, limit], agrees || Math.abs(residual) < 1e-3 * limit ? 2 : 4);
 }

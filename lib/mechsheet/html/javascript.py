@@ -29,9 +29,10 @@ def module(recording: Recording, wanted: Mapping[str, Node]) -> str:
 
     - ``values`` by key: a number, or a Float64Array, which knows its ``shape`` where it has several axes; undefined
       where nobody knows it for these inputs;
-    - ``gaps``: for each such key the reason;
+    - ``gaps``: for each such key the reason; for that of a verdict after the word found;
     - ``guards``: why all of the worksheet may be otherwise for these inputs;
-    - ``found``: the verdict of each found value of the recording, of an array of problems an array of them.
+    - ``found``: the verdict of each found value of the recording, of an array of problems an array of them; it means
+      nothing where it has a gap.
     """
     found = {key: solved.node for key, solved in recording.found.items() if solved.node.op == "found"}
     results = [*wanted.values(), *found.values()]
@@ -57,7 +58,7 @@ def module(recording: Recording, wanted: Mapping[str, Node]) -> str:
         "function evaluate(inputs){const I={...own,...inputs};",
         *scope.lines,
         f"const out={{values:{{{values}}},gaps:{{}},guards:[],found:{{{verdicts}}}}};",
-        *_told(recording, scope, wanted),
+        *_told(recording, scope, wanted, found),
         *(f"{scope.text(holds)}||out.guards.push({json.dumps(_otherwise(line))});" for holds, line in looked.items()),
         "return out}",
     ]
@@ -87,13 +88,14 @@ def _is_guarded(recording: Recording, node: Node) -> bool:
     return node.op == "where" and node.args[0] in recording.guards and bool(np.isnan(node.args[2].value).all())
 
 
-def _told(recording: Recording, scope: Scope, wanted: Mapping[str, Node]) -> Iterable[str]:
+def _told(recording: Recording, scope: Scope, wanted: Mapping[str, Node], found: Mapping[str, Node]) -> Iterable[str]:
     """Statements that empty what rests on numbers that nobody knows for other inputs, and say why."""
     under, told = dict[Node, frozenset[tuple[str, str]]](), dict[tuple[str, str], list[str]]()
-    for node in bottom_up(wanted.values(), under):
+    every = {**wanted, **{f"found {key}": node for key, node in found.items()}}
+    for node in bottom_up(every.values(), under):
         own = _reason(recording, scope, node)
         under[node] = frozenset().union(*(under[operand] for operand in node.operands), [own] if own else [])
-    for key, node in wanted.items():
+    for key, node in every.items():
         for reason in sorted(under[node]):
             told.setdefault(reason, []).append(key)
     return (f"{condition}||gap(out,{json.dumps(why)},{json.dumps(keys)});" for (condition, why), keys in told.items())
@@ -108,7 +110,8 @@ def _reason(recording: Recording, scope: Scope, node: Node) -> tuple[str, str] |
     if node in program.conditions:
         return program.conditions[node], f"line {node.line}: its elements are not known for this number of rows"
     if node.op == "input" and node.shape:
-        return f"{program.inputs[node]}.length=={node.size}", "a list with another number of rows is not followed"
+        name = next(name for name, own in recording.inputs.items() if own is node).partition(".")[0]
+        return f"{program.inputs[node]}.length=={node.size}", f"{name} has more or fewer rows"
     if _is_guarded(recording, node):
         return scope.text(node.args[0]), _otherwise(recording.guards[node.args[0]].line)
     return None
@@ -235,10 +238,13 @@ def _solved(scope: Scope, block: Block) -> str:
     unknowns = block.nodes[: len(block.starts)] if not block.single else block.nodes
     starts = {name: [_of_problem(scope, n, node, shape) for n in nodes] for name, nodes in block.starts.items()}
     equals = "".join(_of_problem(scope, n, node, shape) for n in block.sides[1:])
-    function = _residuals(scope, block, unknowns, shape)
+    function = _residuals(scope, block, block.sides[:1] or block.residuals, unknowns, shape)
     if block.single:
-        ends = [*(starts.get(name, ["null"])[0] for name in ("lo", "hi", "guess")), equals]
-        call = f"find({function},{','.join(ends)})"
+        ends = ",".join([*(starts.get(name, ["null"])[0] for name in ("lo", "hi", "guess")), equals])
+        call = f"find({function},{ends})"
+        if block.branch is not None and not node.shape:
+            on = (f"[{s},{_residuals(scope, block, [f], unknowns, shape)}]" for s, f in block.branches.items())
+            call = f"on_branch({scope.text(block.branch)},{call},[{','.join(on)}],{ends})"
     else:
         at = ",".join(f"[{','.join(ends)}]" for ends in starts.values())
         factors = ",".join(literal(parse(unit).factor).text for unit in block.unknown_unit)
@@ -265,12 +271,11 @@ def _shape_of_problems(scope: Scope, block: Block) -> str:
     return scope.bind(f"together({','.join(map(scope.shape, given))})")
 
 
-def _residuals(scope: Scope, block: Block, unknowns: Sequence[Node], shape: str) -> str:
-    """The residuals as a function of the unknowns, of a single one the quantity that shall equal another one.
+def _residuals(scope: Scope, block: Block, roots: Sequence[Node], unknowns: Sequence[Node], shape: str) -> str:
+    """The residuals ``roots`` as a function of the unknowns, of a single one the quantity that shall equal another one.
 
     Where the operations are of each problem by itself, it is of problem p.
     """
-    roots = block.sides[:1] or block.residuals
     names = {n: scope.program.name() for n in unknowns}
     own = [n for n in bottom_up(roots, {*scope.names, *names}) if n.op != "constant"]
     many = bool(block.nodes[0].shape)

@@ -37,7 +37,7 @@ from mechsheet.worksheet.numbers import Notation
 from mechsheet.worksheet.symbol import GREEK, Symbol
 
 # What is no digit stands outside the element of a number, which it ends and begins again.
-_NUMBER = Notation(
+NUMBER = Notation(
     "</mn><mo>−</mo><mn>",
     "</mn><mtext>none</mtext><mn>",
     "∞",
@@ -113,7 +113,7 @@ def _row(parts: Iterable[str]) -> str:
 
 
 def _digits(text: str) -> str:
-    """A number as `_NUMBER` writes it."""
+    """A number as `NUMBER` writes it."""
     return f"<mrow>{_EMPTY.sub('', f'<mn>{text}</mn>')}</mrow>"
 
 
@@ -199,8 +199,8 @@ def _matrix(node: Matrix) -> str:
 
 RULES: dict[type[Any], Callable[[Any], str]] = {
     Symbol: symbol,
-    Number: lambda node: _digits(numbers.usual(node.value, _NUMBER)),
-    Measure: lambda node: _digits(numbers.quantity(node.value, node.unit, _NUMBER)),
+    Number: lambda node: _digits(numbers.usual(node.value, NUMBER)),
+    Measure: lambda node: _digits(numbers.quantity(node.value, node.unit, NUMBER)),
     Text: lambda node: f"<mtext>{escape(node.text)}</mtext>",
     Code: lambda node: f'<mtext class="code">{escape(node.text)}</mtext>',
     Function: _function,

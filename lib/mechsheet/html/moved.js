@@ -27,7 +27,7 @@ function showMoved(name) {
   });
   if (state.refused) return;
   control.elements.forEach(([spec, element, n]) => {
-    if (spec.kind === "value") return soon(n, () => showAlong(spec, element));
+    if (spec.kind !== "moved") return soon(n, () => showAlong(spec, element));
     soon(n, () => {
       set(element, own ? control.pictures[spec.picture][control.at]() : "");
       grey(element, own ? "" : MOVES_NOT);
@@ -67,7 +67,7 @@ function positionOf(spec) {
 function showAlong(spec, element) {
   const results = state.results;
   if (results.guards.length) return;
-  grey(element, show.value(spec, element, results) ? "" : reasonOf(spec, results));
+  grey(element, show[spec.kind](spec, element, results) ? "" : reasonOf(spec, results));
 }
 
 function play(button) {

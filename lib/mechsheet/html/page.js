@@ -9,7 +9,7 @@ const shownBy = told.shown.map((spec, n) => document.querySelector(`[data-n="${n
 const contentOf = element => element.tBodies?.[0] ?? element;
 const first = shownBy.map((element, n) => told.pictures[n] ?? contentOf(element).innerHTML);
 const UNKNOWN = "not known for these inputs: it holds for the document's own";
-const DRAWN = new Set(["chart", "drawing"]);
+const DRAWN = new Set(["chart", "drawing", "numbers"]);
 const MOVES_NOT = "as in the document, for its own inputs only";
 const state = {changed: new Set(), refused: false, results: null};
 const moving = new Map(); // by the name of the control: its positions, pictures and marks, and which of them is shown
@@ -34,7 +34,7 @@ const show = {
   check(spec, element, results) {
     const verdict = judged(spec, results);
     if (verdict) tell(element, verdict, spec);
-    else tell(element, {kind: "OPEN", word: "not known", compared: "", reason: UNKNOWN}, spec);
+    else tell(element, {kind: "OPEN", word: "not known", compared: "", reason: ""}, spec); // it is told as of others
     return Boolean(verdict);
   },
   chart(spec, element, results) {
@@ -56,6 +56,11 @@ const show = {
     set(element, same ? spec.pieces.map(part => (typeof part === "string" ? part : escaped(piece(part, read)))).join("") : "");
     return same;
   },
+  numbers(spec, element, results) {
+    const known = isPutIn() ? numbersOf(spec, results) : [];
+    set(element, known && isPutIn() ? withNumbers(spec, known) : "");
+    return Boolean(known);
+  },
   own(spec, element) {
     set(element, "");
     return false;
@@ -65,7 +70,7 @@ const show = {
     return false;
   },
   found(spec, element, results) {
-    const verdict = spec.words && results.found[spec.key];
+    const verdict = spec.words && !results.gaps[`found ${spec.key}`] && results.found[spec.key];
     set(element, verdict ? foundHTML(spec.words, verdict) : "");
     return Boolean(verdict);
   },
@@ -106,10 +111,14 @@ function judged(spec, results) {
   if (!all.length) return open("there is nothing to check");
   if (lost) return open(`${lost} of ${all.length} values do not exist`);
   if (limit !== limit) return open("there is no limit");
-  const passed = residual <= limit, kind = passed ? "PASS" : "FAIL";
-  const [a, b] = compared(residual, limit).map(text => text.replaceAll("-", HTML.minus));
-  return {kind, word: kind, compared: `: ${a} ${passed ? "≤" : "≰"} ${b}${spec.behind}`, reason: ""};
+  const passed = residual <= limit, kind = passed ? "PASS" : "FAIL", agrees = spec.agreement && passed;
+  const [a, b] = compared(residual, limit, agrees).map(text => text.replaceAll("-", HTML.minus));
+  const told = agrees ? `within ${b}${spec.behind}` : `${a} ${passed ? "≤" : "&gt;"} ${b}${spec.behind}`;
+  return {kind, word: kind, compared: `: ${told}${spec.agreement ? "" : utilised(residual, limit)}`, reason: ""};
 }
+
+// What part of its limit a quantity takes, told apart from 100 %.
+const utilised = (residual, limit) => (limit > 0 && isFinite(residual) && isFinite(limit) ? `, ${apart([(100 * residual) / limit, 100], 3)[0]} %` : "");
 
 function tell(element, {kind, word, compared, reason}) {
   const badge = element.querySelector(".ms-badge");
@@ -121,8 +130,8 @@ function tell(element, {kind, word, compared, reason}) {
 }
 
 function refresh() {
-  const {si, changed, errors} = readInputs();
-  told.inputs.fields.forEach(field => mark(field, changed.has(field.name), errors.get(field.name) ?? ""));
+  const {si, changed, errors, notes} = readInputs();
+  told.inputs.fields.forEach(({name}, n) => mark(told.inputs.fields[n], changed.has(name), errors.get(name) ?? "", notes.get(name)));
   Object.assign(state, {changed, refused: errors.size > 0});
   const own = !changed.size && !errors.size;
   state.si = si;
@@ -159,7 +168,7 @@ const computed = () => evaluate({...state.si, ...slid()});
 function reasonOf(spec, results) {
   const broken = spec.guards?.find(([key]) => results.values[key] === 0 || results.values[key] === false);
   if (broken) return `line ${broken[1]}: for these inputs it is drawn in another way`;
-  const keys = [...(spec.keys ?? []), ...(spec.columns ?? []).map(column => column.key)];
+  const keys = [...(spec.keys ?? []), ...(spec.columns ?? []).map(column => column.key), `found ${spec.key}`, spec.limit];
   return keys.map(key => results.gaps[key]).find(Boolean) ?? UNKNOWN;
 }
 
@@ -184,12 +193,12 @@ function empty(spec, element, reason) {
   grey(element, reason);
 }
 
-function mark(field, changed, error) {
+function mark(field, changed, error, note = "") {
   const input = inputOf(field), row = input.closest(".ms-field");
   row.classList.toggle("ms-changed", changed);
   row.title = changed ? `the document's own: ${field.text}${unitOf(field)}` : "";
   input.setAttribute("aria-invalid", Boolean(error));
-  document.getElementById(`error-${field.name}`).textContent = error;
+  document.getElementById(`error-${field.name}`).textContent = error || note;
   const used = document.querySelector(`[data-used="${field.name}"]`);
   used.classList.toggle("ms-changed", changed);
   used.cells[1].textContent = typed(field);

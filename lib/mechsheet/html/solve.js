@@ -204,7 +204,7 @@ function between(f, at, unit) {
 // starts, the nearest place where none is a solution, and the reason: "" where solved, else "nothing" or "unsolved".
 // `asked` has of each unknown its guess or the two ends of its interval; with `unit` squares are made least.
 function solve(f, asked, factors, unit) {
-  const none = {x: asked.map(() => NaN), residual: [], condition: NaN, evaluations: 0, solutions: [], starts: 0};
+  const none = {x: asked.map(() => NaN), residual: [], condition: NaN, evaluations: 0, solutions: [], starts: 0, asked};
   if (asked.flat().some(v => v != v)) return {...none, reason: "nothing"};
   const wrong = asked.findIndex(ends => !all_finite(ends) || ends[0] >= ends[1]);
   if (wrong >= 0) return {...none, reason: `the ends of unknown ${wrong + 1} must be finite and in order`};

@@ -14,7 +14,7 @@ from mechsheet import units
 from mechsheet.document import chart, chart_svg, drawing_svg
 from mechsheet.document.blocks import blocks, fitting
 from mechsheet.document.expression import equation, fields_by_name
-from mechsheet.document.markup import HTML, as_written, in_words, named, where
+from mechsheet.document.markup import as_written, compared, in_words, named, where
 from mechsheet.document.parts import Control, Line, Section, Text
 from mechsheet.html import index, markdown, offered
 from mechsheet.html.follow import Follower
@@ -47,6 +47,7 @@ def html(value: Any, page: Follower) -> str:
 def _(title: Title, page: Follower) -> str:
     cells = (("Worksheet", escape(title.file)), ("Computed", f"{date.today():%Y-%m-%d}"))
     told = "".join(f"<span>{label} <b>{value}</b></span>" for label, value in cells)
+    told += '<label class="ms-screen"><input type="checkbox" class="ms-switch"> numbers in the formulas</label>'
     text = page.own(markdown.html(cleandoc(title.text)), cleandoc(title.text))
     return f'<header class="ms-title"><h1>{escape(title.name)}</h1>{text}<div class="ms-row">{told}</div></header>'
 
@@ -70,33 +71,38 @@ def _(text: Text, page: Follower) -> str:
 
 @html.register
 def _(given: Given, page: Follower) -> str:
-    return _line(mathml(equation(given)))
+    return _line(_equation(given, page))
 
 
 @html.register
 def _(line: Line, page: Follower) -> str:
-    formula, shown = line.formula, ""
-    if not formula.arguments:
-        follows = page.value(line)
-        shown = f'<span class="ms-equals">=</span><span class="ms-value"{follows}>{value(line)}</span>'
-    return _line(mathml(equation(formula, _single(line))), shown, formula)
+    formula = line.formula
+    if formula.arguments:
+        return _line(_equation(formula, page), "", formula)
+    return _valued(line, page.value(line), page.put_in(line), page)
 
 
-def _single(line: Line) -> frozenset[str]:
-    """Names of a line that end as a field does, where the line is one number."""
-    alone = np.ndim(line.value) == 0 and not line.formula.arguments
-    return frozenset(fields_by_name(line.formula)) if alone else frozenset()
+def _valued(line: Line, follows: str, put_in: str, page: Follower) -> str:
+    """A line with its value, and room for its formula with numbers."""
+    shown = f'<span class="ms-equals">=</span><span class="ms-value"{follows}>{value(line)}</span>'
+    numbers = f'<span class="ms-numbers"{put_in}></span>' if put_in else ""
+    return _line(_equation(line.formula, page), shown, line.formula, numbers)
+
+
+def _equation(line: Formula | Given, page: Follower) -> str:
+    """A line as an equation in MathML."""
+    return mathml(equation(line, page.numbers.single(fields_by_name(line)) if page.numbers else frozenset()))
 
 
 def moving(part: Any, page: Follower, **moved: Any) -> str:
     """A part with the place of what a control moves in it: of a line its value."""
-    along = isinstance(part, Line) and page.along(part)
-    place = page.value(part, **moved) if along else page.mark("moved", **moved)
-    if not isinstance(part, Line):
-        page.pictures[len(page.specs) - 1] = still(part)
-        return f"<div{place}></div>"
-    shown = f'<span class="ms-equals">=</span><span class="ms-value"{place}>{value(part)}</span>'
-    return _line(mathml(equation(part.formula, _single(part))), shown, part.formula)
+    if isinstance(part, Line) and page.along(part):
+        return _valued(part, page.value(part, **moved), page.put_in(part, **moved), page)
+    place = page.mark("moved", **moved)
+    if isinstance(part, Line):
+        return _valued(part, place, page.put_in(part), page)
+    page.pictures[len(page.specs) - 1] = still(part)
+    return f"<div{place}></div>"
 
 
 def still(part: Any) -> str:
@@ -114,24 +120,26 @@ def value(line: Line) -> str:
     return numbers.value(line.value, unit, offered.notation(unit)) + where(line.value, line.over)
 
 
-def _line(formula: str, value: str = "", told: Formula | None = None) -> str:
+def _line(formula: str, value: str = "", told: Formula | None = None, numbers: str = "") -> str:
     """A typeset line, the printed formula's number at its end; the index leads to it by its name."""
     if not told:
         return f'<div class="ms-line"><span class="ms-formula">{formula}</span></div>'
     mistake = f' <span class="ms-badge ms-FAIL">mistake</span> {escape(told.mistake)}' if told.mistake else ""
     said = f"<span>{escape(told.meaning)}{mistake}</span>" if told.meaning or mistake else ""
     said += f'<span class="ms-number">{escape(told.number)}</span>' if told.number else ""
-    return f'<div class="ms-line" id="line-{told.name}"><span class="ms-formula">{formula}{value}</span>{said}</div>'
+    shown = f'<span class="ms-formula">{formula}{value}</span>{said}{numbers}'
+    return f'<div class="ms-line" id="line-{told.name}">{shown}</div>'
 
 
 @html.register
 def _(table: Table, page: Follower) -> str:
-    parts = "".join(_block(columns, page.columns(table, columns)) for columns in blocks(table))
+    named = f'role="group" aria-labelledby="{_place("Table", table.number)}"'
+    parts = "".join(_block(columns, page.columns(table, columns), named) for columns in blocks(table))
     note = f'<div class="ms-note">{page.own(in_words(table.note), table.note)}</div>' if table.note else ""
     return f'<div class="ms-table">{_caption("Table", table.number, table.title, page)}{parts}{note}</div>'
 
 
-def _block(columns: Sequence[Column], follows: str) -> str:
+def _block(columns: Sequence[Column], follows: str, told: str) -> str:
     kinds = ["" if c.unit else ' class="ms-text"' for c in columns]
     heads = "".join(
         f'<th{kind} scope="col" title="{escape(c.meaning)}">{named(c.name)}</th>'
@@ -146,13 +154,14 @@ def _block(columns: Sequence[Column], follows: str) -> str:
     fit = fitting(columns)
     style = f' style="--fit:{numbers.fixed(fit, 2)}"' if fit < 1 else ""
     made = f"<table{follows}{style}><thead>{head}</thead><tbody>{rows}</tbody></table>"
-    return f'<div class="ms-wide" tabindex="0">{made}</div>'
+    return f'<div class="ms-wide" tabindex="0" {told}>{made}</div>'
 
 
 @html.register
 def _(figure: Figure, page: Follower) -> str:
     columns = page.figure(figure)
-    follows = page.mark("chart", columns=columns, marks=page.marks(figure), every=figure.every)
+    named = f' role="img" aria-labelledby="{_place("Figure", figure.number)}"'
+    follows = named + page.mark("chart", columns=columns, marks=page.marks(figure), every=figure.every)
     caption = _caption("Figure", figure.number, figure.title, page)
     known = all(column["key"] is not None or column["fixed"] for column in columns)
     shown = f"<div{follows}></div>" if known else page.picture(follows, _READINGS.sub("", _chart(figure)))
@@ -173,14 +182,19 @@ def _caption(what: str, number: str, title: str, page: Follower) -> str:
 
 
 def _titled(what: str, number: str, words: str) -> str:
-    place = escape(f"{what.lower()}-{number}")
-    return f'<div class="ms-caption" id="{place}"><b>{what} {escape(number)}</b> – {words}</div>'
+    return f'<div class="ms-caption" id="{_place(what, number)}"><b>{what} {escape(number)}</b> – {words}</div>'
+
+
+def _place(what: str, number: str) -> str:
+    """Id of a caption."""
+    return escape(f"{what.lower()}-{number}")
 
 
 @html.register
 def _(drawing: Drawing, page: Follower) -> str:
     follows = page.drawing(drawing)
-    return f"<div{follows}></div>" if follows else page.own(drawing_svg.svg(drawing))
+    shown = f"<div{follows}></div>" if follows else page.own(drawing_svg.svg(drawing))
+    return f'<div role="img" aria-label="drawing">{shown}</div>'
 
 
 @html.register
@@ -210,18 +224,13 @@ def _(control: Control, page: Follower) -> str:
 @html.register
 def _(check: Check, page: Follower) -> str:
     kind, verdict = ("PASS" if check.passed else "FAIL",) * 2 if check.evaluated else ("OPEN", "not evaluated")
-    compared = f": {_compared(check)}" if check.evaluated else ""
+    told = f": {compared(check, check.unit)}" if check.evaluated else ""
     return (
         f'<div class="ms-check" id="{_anchor(check)}"{page.check(check)}>'
         f'<span class="ms-badge ms-{kind}">{verdict}</span> '
-        f'{in_words(check.name)}<span class="ms-compared">{compared}</span> '
+        f'{in_words(check.name)}<span class="ms-compared">{told}</span> '
         f'<span class="ms-note">{escape(check.reason)}</span></div>'
     )
-
-
-def _compared(check: Check) -> str:
-    residual, limit = (text.replace("-", HTML.minus) for text in check.compared)
-    return f"{residual} {'≤' if check.passed else '≰'} {limit}{numbers.behind(check.unit, HTML)}"
 
 
 def _anchor(check: Check) -> str:

@@ -23,7 +23,7 @@ from mechsheet.worksheet import symbol as symbols
 from mechsheet.worksheet.cells import Cell, Worksheet, checks, refuse_open
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.inputs import Used, declared
-from mechsheet.worksheet.lines import registry
+from mechsheet.worksheet.lines import Numbers, registry
 from mechsheet.worksheet.title import Title
 
 _SCRIPTS = (
@@ -34,6 +34,7 @@ _SCRIPTS = (
     "given.js",
     "fields.js",
     "found.js",
+    "put_in.js",
     "page.js",
     "view.js",
     "units.js",
@@ -68,10 +69,10 @@ def page(sheet: Worksheet, g: Any) -> str:
     refuse_open(checks(namespace))
     cells = by_cell(namespace)
     shown = [part for parts in cells.values() for part in parts]
-    follower = Follower(record(namespace, sheet, whole=True, every=1, draws=True))
+    follower = Follower(record(namespace, sheet, whole=True, every=1, draws=True), Numbers(namespace))
     follower.pair(cells)
     moving = frames.moved(sheet, namespace, cells, follower)
-    body = "".join(_cell(n, parts, sheet.cells[n], follower, moving) for n, parts in cells.items())
+    body = _linked("".join(_cell(n, parts, sheet.cells[n], follower, moving) for n, parts in cells.items()))
     told = {
         "name": Path(sheet.path).stem,
         "inputs": fields.told(namespace["g"]),
@@ -88,7 +89,7 @@ def page(sheet: Worksheet, g: Any) -> str:
     own = javascript.runtime(*_SCRIPTS)
     script = f'"use strict";\n(async () => {{\n{computed}\n{own}}})();'
     style = javascript.runtime("page.css")
-    address = font.address(_signs(body))
+    address = font.address(_signs(body + "".join(spec.get("text", "") for spec in follower.specs)))
     face = f'@font-face{{font-family:"STIX Two Math";src:url({address})format("woff")}}'
     policy = _POLICY.format(f"'sha256-{_digest(script)}'")
     return (
@@ -113,6 +114,19 @@ def _cell(n: int, parts: Iterable[Any], cell: Cell, follower: Follower, moving: 
     follower.texts = tuple(text for line in cell.lines for text in _as_written(line))
     follower.depends = bool(cell.needs)
     return "".join(_part((n, k), part, follower, moving) for k, part in enumerate(parts))
+
+
+def _linked(body: str) -> str:
+    """HTML in which each place is named once, and a link to what is not there, but in a workbook alone, is a text."""
+    places = set[str]()
+
+    def first(place: "re.Match[str]") -> str:
+        known = place[1] in places
+        places.add(place[1])
+        return "" if known else place[0]
+
+    body = re.sub(' id="([^"]*)"', first, body)
+    return re.sub('<a href="#([^"]*)"[^>]*>(.*?)</a>', lambda link: link[0 if link[1] in places else 2], body)
 
 
 def _as_written(node: ast.AST) -> Iterator[str]:

@@ -34,12 +34,7 @@ def _equation(line: Formula | Given, single: frozenset[str]) -> str:
 
 def _single(line: Formula | Given, shown: Typeset) -> frozenset[str]:
     """Names of a line that end as a field does and have no positions."""
-    if shown.numbers is None:
-        return frozenset()
-    known = shown.numbers.namespace
-    S = np.asarray(known.get("S", 0))
-    over = S.ndim > 0 and S.dtype.kind in "iuf"  # the stroke; a point may have that name too
-    return frozenset(n for n in fields_by_name(line) if not over or (n in known and np.ndim(known[n]) == 0))
+    return shown.numbers.single(fields_by_name(line)) if shown.numbers else frozenset()
 
 
 def _formula(line: Formula, value: object, shown: Typeset) -> str:

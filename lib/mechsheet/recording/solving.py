@@ -53,6 +53,9 @@ def one(graph: Graph, found: Found, f: Callable[..., Any], asked: dict[str, Any]
     value = lift(graph, f(x, branch) if branch is not None else f(x))
     left = value - target
     block.residuals, block.sides = (left.re,), (value.re, target.re)
+    if branch is not None:
+        block.branch = lift(graph, branch).re
+        block.branches = {s: lift(graph, f(x, s)).re for s in asked["branches"]}
     block.rest()
     words = found.words
     told = Told(words.unknown, words.quantity, words.unit, words.unknown_unit)

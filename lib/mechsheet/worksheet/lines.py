@@ -3,7 +3,7 @@
 import ast
 import re
 import sys
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from operator import attrgetter
@@ -304,7 +304,7 @@ def _lines(cells: tuple[source.Cell, ...]) -> dict[str, _Line | SheetError]:
 
 def _display(node: ast.stmt) -> ast.expr | None:
     """Display units that a statement of a cell gives to typeset."""
-    for call in ast.walk(node):
+    for call in source.nodes(node):
         match call:
             case ast.Call(ast.Name("typeset"), _, keywords):
                 return next((k.value for k in keywords if k.arg == "display"), None)
@@ -366,8 +366,9 @@ def _of_unit(name: str, namespace: Mapping[str, Any]) -> Any:
 def names_read(row: Formula | Given) -> tuple[str, ...]:
     """Names that a line reads, parts of modules too, without its arguments."""
     parts = [row.expression, *((row.target,) if isinstance(row, Given) else (value for _, value in row.where))]
-    nodes = (node for part in parts for node in ast.walk(part))
-    read = (ast.unparse(node) for node in nodes if isinstance(node, ast.Name | ast.Attribute))
+    nodes = (node for part in parts for node in source.nodes(part))
+    named = (node for node in nodes if isinstance(node, ast.Name | ast.Attribute))
+    read = (node.id if isinstance(node, ast.Name) else ast.unparse(node) for node in named)
     own = () if isinstance(row, Given) else (*row.arguments, *(name for name, _ in row.where))
     return tuple(name for name in dict.fromkeys(read) if name not in own)
 
@@ -375,7 +376,7 @@ def names_read(row: Formula | Given) -> tuple[str, ...]:
 @lru_cache(maxsize=1000)
 def typeset_lines(cell: source.Cell) -> tuple[int, ...]:
     """Lines in which the statements of a cell end that call typeset."""
-    calls = ((node, call) for node in cell.body for call in ast.walk(node) if isinstance(call, ast.Call))
+    calls = ((node, call) for node in cell.body for call in source.nodes(node) if isinstance(call, ast.Call))
     named = (node for node, call in calls if isinstance(call.func, ast.Name) and call.func.id == "typeset")
     return tuple(node.end_lineno or node.lineno for node in named)
 
@@ -402,6 +403,14 @@ class Numbers:
         field = np.asarray(value)
         inside = field.shape and field.shape[-1] > position
         return (field[..., position].flat[0] if inside else field.flat[0]).item(), unit
+
+    def single(self, names: Iterable[str]) -> frozenset[str]:
+        """Of names that end as that of a field over S does those that have no positions."""
+        S = np.asarray(self.namespace.get("S", 0))
+        if S.ndim == 0 or S.dtype.kind not in "iuf":  # no stroke; a point may have that name too
+            return frozenset(names)
+        known = self.namespace
+        return frozenset(name for name in names if name in known and np.ndim(known[name]) == 0)
 
 
 @dataclass(frozen=True)

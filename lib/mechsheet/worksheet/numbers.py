@@ -97,7 +97,7 @@ def value(values: Any, unit: str, to: Notation) -> str:
 def in_any_unit(values: Any) -> Callable[[str, Notation], str]:
     """What `value` says of the values in a unit and a notation; they are looked at once."""
     field = np.asarray(values)
-    least = _ROUNDING * _largest(field)
+    least = rounding(field)
     if field.ndim == 2 and max(field.shape) <= _MOST_ROWS:
         rows = field.tolist()
         return lambda unit, to: "[" + "; ".join(_each(row, least, unit, to) for row in rows) + "]" + behind(unit, to)
@@ -120,12 +120,14 @@ def in_full(values: Any) -> bool:
 
 
 _MOST_NUMBERS, _MOST_POINTS, _MOST_ROWS = 10, 4, 4  # that stand in full
-_ROUNDING = 2.0**-48  # 16 roundings of the largest number of a field: what is less may be nothing but these
+_ROUNDING = 2.0**-48
 
 
-def _largest(field: NDArray[Any]) -> float:
-    """The largest finite magnitude, 0 where there is none."""
-    return float(np.max(np.abs(field), where=np.isfinite(field), initial=0.0)) if field.dtype.kind in "fc" else 0.0
+def rounding(field: NDArray[Any]) -> float:
+    """16 roundings of the largest finite number of a field: what is less may be nothing but these."""
+    if field.dtype.kind not in "fc":
+        return 0.0
+    return _ROUNDING * float(np.max(np.abs(field), where=np.isfinite(field), initial=0.0))
 
 
 def _each(values: list[Any], least: float, unit: str, to: Notation) -> str:

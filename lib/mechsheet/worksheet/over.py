@@ -8,7 +8,7 @@ from typing import Any, NamedTuple, TypeGuard
 import numpy as np
 from numpy.typing import NDArray
 
-from mechsheet.worksheet import source
+from mechsheet.worksheet import numbers, source
 from mechsheet.worksheet.cells import bound
 from mechsheet.worksheet.lines import Formula, registry
 
@@ -20,10 +20,13 @@ class Over(NamedTuple):
     values: Any
 
     def ends(self, field: Any) -> tuple[float, float] | None:
-        """Its SI values where a field of shape (n,) is least and greatest; None where that is nowhere or everywhere."""
+        """Its SI values where a field of shape (n,) is least and greatest; None where that is nowhere or everywhere.
+
+        Where it differs by no more than rounding, its place means nothing.
+        """
         field = np.asarray(field)
         known = field[~np.isnan(field)]
-        if not known.size or known.min() == known.max():
+        if not known.size or known.max() - known.min() <= numbers.rounding(known):
             return None
         least, greatest = (np.flatnonzero(field == end)[0] for end in (known.min(), known.max()))
         return float(self.values[least]), float(self.values[greatest])
@@ -87,7 +90,7 @@ def _read(node: ast.AST) -> set[str]:
 
 
 def _shown(node: ast.stmt) -> Iterator[tuple[str, frozenset[str]]]:
-    for call in ast.walk(node):
+    for call in source.nodes(node):
         match call:
             case ast.Call(ast.Name("figure" | "table"), [_, _, ast.Starred(ast.Tuple([first, *_])) | first, *_]):
                 if isinstance(first, ast.Name):
