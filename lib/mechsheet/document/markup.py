@@ -41,8 +41,8 @@ def in_words(sentence: str) -> str:
 
     >>> in_words("omega3 - 1 < 0, theta/2")
     '<i>ω</i><sub>3</sub> − 1 &lt; 0, <i>θ</i>/2'
-    >>> in_words("phi3 = -1.5e-7..90 deg")
-    '<i>φ</i><sub>3</sub> = −1.5\u2009·\u200910<sup>−7</sup>..90°'
+    >>> in_words("phi3 = -1.5e-7..90 deg, -2..-1 m")
+    '<i>φ</i><sub>3</sub> = −1.5\u2009·\u200910<sup>−7</sup>..90°, −2..−1 m'
     """
     pieces = enumerate(symbol.pieces(sentence))
     return "".join(named(piece) if i % 2 else _numbers_in(escape(piece)) for i, piece in pieces)
@@ -51,7 +51,7 @@ def in_words(sentence: str) -> str:
 def _numbers_in(text: str) -> str:
     text = re.sub(r"(?<=\d) deg\b", HTML.degrees, text)
     text = re.sub(r"(?<=\d)e([+-]?)0*(\d+)\b", lambda e: HTML.power.format("", f"{e[1].strip('+')}{e[2]}"), text)
-    return re.sub(r"(?<![\w.)])-(?=[\d.∞])|(?<= )-(?= )|(?<=<sup>)-", HTML.minus, text)
+    return re.sub(r"(?<![\w.)])-(?=[\d.∞])|(?<=\.\.)-|(?<= )-(?= )|(?<=<sup>)-", HTML.minus, text)
 
 
 def compared(check: Check, unit: str, to: Notation = HTML) -> str:

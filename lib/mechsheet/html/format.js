@@ -169,7 +169,7 @@ const inWords = text =>
   String(text)
     .replace(/(\d) deg\b/g, "$1°")
     .replace(/(\d)e([+-]?)0*(\d+)\b/g, (_, digit, sign, power) => `${digit}\u2009·\u200910<sup>${sign === "-" ? "−" : ""}${power}</sup>`)
-    .replace(/(^|[^\w.)])-(?=[\d.∞])/g, "$1−");
+    .replace(/(^|\.\.|[^\w.)])-(?=[\d.∞])/g, "$1−");
 
 // What a check compares: told apart, with two digits where the residual is only rounding.
 function compared(residual, limit, agrees) {

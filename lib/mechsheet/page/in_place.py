@@ -33,7 +33,7 @@ from mechsheet.worksheet.shown import Shown
 
 _FILE = "__marimo__cell_in_place"  # under which a line is compiled
 _LINE = re.compile(r"line (\d+), ")
-_PATIENCE = 3.0  # seconds that a line may compute as one types
+_PATIENCE = 3  # seconds that a line may compute as one types
 _ALTERED = (np.ndarray, list, dict, set)  # what a line may alter, of which it is given a copy
 _UNSAVED = "a cell holds text that is not saved: run it and save it (Ctrl+S), then write here"
 

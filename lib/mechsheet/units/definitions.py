@@ -58,9 +58,11 @@ PREFIXED = dict.fromkeys(_OF_SI.split(), tuple(_PREFIXES)) | {
 
 # Words and signs of the trade that are no units here, with the one that is meant.
 _MEANT = {
-    "lbs": "lb", "pound": "lb", "pounds": "lb", "feet": "ft", "foot": "ft", "inches": "inch", "sec": "s", "hr": "h",
-    "hour": "h", "hours": "h", "kp": "kgf", "kph": "km/h", "mph": "mile/h", "cc": "cm**3", "ccm": "cm**3",
-    "newton": "N", "degF": "degC", "degK": "K", "cSt": "mm**2/s", "cP": "mPa*s",
+    "lbs": "lb", "pound": "lb", "feet": "ft", "foot": "ft", "inches": "inch", "sec": "s", "hr": "h", "hour": "h",
+    "kp": "kgf", "kph": "km/h", "mph": "mile/h", "cc": "cm**3", "ccm": "cm**3", "degF": "degC", "degK": "K",
+    "cSt": "mm**2/s", "cP": "mPa*s", "meter": "m", "metre": "m", "second": "s", "minute": "min", "degree": "deg",
+    "radian": "rad", "gram": "g", "kilogram": "kg", "newton": "N", "pascal": "Pa", "joule": "J", "watt": "W",
+    "kelvin": "K", "millimeter": "mm", "millimetre": "mm", "centimeter": "cm", "centimetre": "cm",
 }  # fmt: skip
 _LIKE = "write units as m, kN*m, rad/s**2 or 1/m"
 
@@ -150,7 +152,7 @@ def single(name: str) -> tuple[Fraction | float, Dims]:
 
 def nearest(name: str) -> list[str]:
     """Units that are written much like another name, best first; of two that run together their product."""
-    if meant := _MEANT.get(name) or _MEANT.get(name.lower()):
+    if meant := _MEANT.get(name) or _MEANT.get(name.lower()) or _MEANT.get(name.lower().removesuffix("s")):
         return [meant]
     known = names()
     halves = ((name[:n], name[n:]) for n in range(1, len(name)))
