@@ -9,7 +9,7 @@ import test_joint
 import test_kinetostatics_sheet
 import test_slotted_link
 
-from mechsheet.accuracy import exact, extreme, jobs, rivals
+from mechsheet.accuracy import claims, exact, extreme, jobs, rivals
 from mechsheet.accuracy.arithmetic import mp
 from mechsheet.accuracy.precision import largest_error
 from mechsheet.mechanics import rrr
@@ -198,6 +198,21 @@ def test_studies_stand_beside_what_is_kept_of_a_run():
     ]
     assert np.all(time[:-1] > time[-1]) and np.all(runs >= 1)
     assert of_run[0] == 1 and np.allclose(of_run, time / time[0])
+
+
+def test_a_proof_claims_the_digits_that_there_are_and_seldom_fewer():
+    for stem, least in (("landing_gear", 40), ("kinetostatics", 15), ("joint", 48)):
+        made = claims.claims(WORKSHEET.with_name(f"{stem}.py"))
+        assert len(made) >= least and not any(claim.is_more or claim.is_fewer for claim in made), stem
+        assert all(claim.proved > 13 for claim in made), stem
+
+
+def test_a_claim_of_digits_that_there_are_not_fails(monkeypatch):
+    made = [claims.Claim("hitch", "F_gc", 14.9, 12.25), claims.Claim("hitch", "GS6", 12.5, 15.1)]
+    monkeypatch.setattr(claims, "claims", lambda path: made)
+    table, check = claims.claims_table("7.4", WORKSHEET.parent)
+    assert not check.passed and check.reason.startswith("hitch F_gc: 14.9 proved of 12.2 digits; ")
+    assert [column.values[0] for column in table.columns[1:]] == [2, 12.5, 12.25, 50]
 
 
 def test_every_worksheet_is_measured_at_every_size():

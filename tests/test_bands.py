@@ -198,6 +198,12 @@ def test_the_page_shows_bands_and_what_matters_once_it_is_asked(serve, page, con
     )
     cell = page.locator(".ms-table:has-text('Table 1 ') tbody tr:nth-child(8) td:nth-child(3)")
     expect(cell).to_have_attribute("data-band", "± 160")
+    assert page.locator("[data-band*=e-]").count() == 0, "rounding is no band"
+    bars = page.locator("#figure-1 ~ * .ms-bars, .ms-figure:has(#figure-1) .ms-bars")
+    expect(bars).to_have_count(1)
+    scale = 250 / 4000  # px in N·m, by the chart's axis
+    halves = [-float(half) for half in re.findall(r"M\S+ \S+m-3 (\S+)h6", bars.get_attribute("d"))]
+    assert len(halves) == 13 and halves[7] == pytest.approx(160 * scale, abs=0.2) and halves[0] == 0
     study.locator("select").select_option("M_work")
     row = page.locator(".ms-matters tbody tr").first
     expect(row, "the moment is as large as the force").to_contain_text("F50.0000kN1.0000")
@@ -206,7 +212,7 @@ def test_the_page_shows_bands_and_what_matters_once_it_is_asked(serve, page, con
     field.press("Enter")
     expect(moment, "half the force").to_have_attribute("data-band", "± up to 79 N·m")
     study.get_by_role("checkbox").first.click()
-    until(page, lambda: page.locator("[data-band]").count() == 0, "bands stay")
+    until(page, lambda: page.locator("[data-band], .ms-bars").count() == 0, "bands stay")
     assert console_errors == []
 
 

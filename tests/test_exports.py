@@ -116,6 +116,7 @@ KINDS: tuple[tuple[str, str, str, Alike], ...] = (
     (r"7\.1 Digits", r"", r"^through dead centre$", duration),
     (r"7\.1 Digits", r"(printed|product|margin) \[", r"^rod in line$", nearly_singular),
     (r"7\.1 Digits", r"(printed|product|margin) \[", r"", digits),
+    (r"7\.4 Digits", r"(proved|right) \[", r"", digits),
     (r"", r"(digits|most) \[-\]", r"", digits),
     (r"", r"error \[-?\]", r"", error),
     (r"", r"(time|ratio|place|least time|of whole|of a run|spread|runs) \[|.* \[µs\]", r"", duration),

@@ -22,6 +22,11 @@ SEARCHED = {  # by the unknown: the equation, its interval and what it must be
     "J": "lambda x: np.where(x < g.F, x - 1, x + 10), 0.0, 2.0",
     "W": "lambda x: np.sin(g.F * x), 0.5, 2.0",
     "N": "lambda x: x**3 - g.F, 0.0, 2.0",
+    "B": "lambda x: (x + g.F - 0.625) * (1 - x), 0.0, 2.0, guess=0.1",
+    "U": "lambda x: (x - g.a) * (2 * g.F - x), 1.0, 6.0, guess=6.0",
+    "D": "lambda x: ((x - 0.7) ** 2 + (g.F - 0.625) ** 2) * (1.55 - x), 0.0, 2.0, guess=0.8",
+    "C": "lambda x: (x - g.a) * ((x - 1.012) ** 2 + (g.F - 0.625) ** 2 - 1e-5), 0.0, 2.0, guess=1.0",
+    "V": "lambda x: np.sqrt(x - 0.1) * (1.2 - x) + (g.F - 0.625) - 1e-4, 0.0, 4.0, guess=0.1",
 }
 CELL = """
 @app.cell
@@ -41,8 +46,9 @@ def fields(E, g):
     return j, s, t, t_found
 """
 CHANGES: list[tuple[dict[str, Any], str]] = [  # with those that have no value in the cells
-    ({"F": 0.625, "a": 0.25}, "PJW"),  # the sign changes at a pole, where it jumps, and nowhere
-    ({"F": 8.5}, "WNP"),  # W has several roots, the others none
+    # the sign changes at a pole, where it jumps, nowhere; there are other roots: at an end, touching, close, beside NaN
+    ({"F": 0.625, "a": 0.25}, "PJWBDCV"),
+    ({"F": 8.5}, "WNPUV"),  # W has several roots, the others none
 ]
 
 

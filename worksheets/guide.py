@@ -287,8 +287,8 @@ def section_8():
     input that gives a result its value; it says how sure that is, and writes the scene `guide_designed.toml` into
     `exports/`, beside a worksheet of your own, or where `--out=FOLDER` says.
 
-    On the page the switch above the buttons at its end shows the tolerances behind all numbers, and the fields beside
-    it what matters for a result: by how many percent it changes for one percent of each input.
+    On the page the switch above the buttons at its end shows the tolerances behind all numbers and in charts, and the
+    fields beside it what matters for a result: by how many percent it changes for one percent of each input.
     """)
     return
 
@@ -306,7 +306,7 @@ def section_9():
       `X56` and `Y56`, a force `R56x` and `R56y`. A name that would be the address of a cell, or that differs from
       another in capitals only, gets a line behind it: `L3_`.
     - What is found is computed by its closed form where there is one. Else the cells search the interval of an equation
-      of one unknown: where 129 places of it show one change of sign, there is a value. All else that is found holds for
+      of one unknown: where 97 places of it show one change of sign, there is a value. All else that is found holds for
       the exported inputs alone.
     - Where there is no number, a mechanism that does not close, an input outside its limits, cells say `#N/A`.
     - What the cells cannot follow is grey, holds for the exported inputs and says `#N/A` for others; the front sheet

@@ -1,6 +1,7 @@
 """The public names and where they are defined; `mechsheet` loads each on its first use."""
 
 # isort: skip_file
+from mechsheet.accuracy.claims import claims_table as claims_table
 from mechsheet.accuracy.extreme import (
     measured_scenes as measured_scenes,
 )

@@ -4,6 +4,15 @@
 
   const marked = new Set();
 
+  // A bar at each point of a curve, with a stroke at both of its ends.
+  function draw(plot, [colour, points]) {
+    const bar = document.createElementNS("http://www.w3.org/2000/svg", "path");
+    bar.setAttribute("class", "ms-bars");
+    bar.setAttribute("stroke", colour);
+    bar.setAttribute("d", points.map(([x, y, half]) => `M${x} ${y}m-3 ${-half}h6m-3 0v${2 * half}m-3 0h6`).join(""));
+    plot.append(bar);
+  }
+
   function mark(target, text) {
     if (!target || !text) return;
     target.dataset.band = text;
@@ -13,6 +22,7 @@
   function clear() {
     marked.forEach((target) => delete target.dataset.band);
     marked.clear();
+    document.querySelectorAll(".ms-bars").forEach((bar) => bar.remove()); // those copied into another unit too
   }
 
   // A number that changes has lost its band, and so have all others: they wait for new ones.
@@ -42,7 +52,7 @@
 
     show() {
       clear();
-      const { lines, tables, checks } = JSON.parse(this.getAttribute("told"));
+      const { lines, tables, checks, figures } = JSON.parse(this.getAttribute("told"));
       const at = (id) => document.getElementById(id);
       for (const [name, text] of Object.entries(lines)) mark(at(`line-${name}`)?.querySelector(".ms-value"), text);
       for (const [id, text] of Object.entries(checks)) mark(at(id), text);
@@ -53,6 +63,10 @@
             texts?.forEach((text, k) => mark(shown[n]?.tBodies[0].rows[k]?.cells[i], text)),
           ),
         );
+      }
+      for (const [number, curves] of Object.entries(figures)) {
+        const plots = at(`figure-${number}`)?.parentElement.querySelectorAll("svg.ms-chart > svg") ?? [];
+        plots.forEach((plot) => curves.forEach((curve) => draw(plot, curve)));
       }
       changes.observe(document.body, { childList: true, characterData: true, subtree: true });
     }

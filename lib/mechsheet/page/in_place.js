@@ -76,15 +76,20 @@
     area.rows = Math.max(text.split("\n").length, 1);
     document.body.append(box);
     keys.querySelector('[data-do="undo"]').hidden = !written.length;
+    toView();
+  }
+
+  function toView() {
     place();
     area.focus();
-    if (box.getBoundingClientRect().bottom > innerHeight - 150) of.place.scrollIntoView({ block: "center" });
+    const { top, bottom } = box.getBoundingClientRect();
+    if (top < 0 || bottom > innerHeight - 150) of.place.scrollIntoView({ block: "center" });
   }
 
   async function open(host, name) {
     if (of && !area.readOnly && isTypedIn()) {
       why.textContent = LEFT; // what is typed is not lost by a click elsewhere
-      return area.focus();
+      return toView();
     }
     close();
     area.value = "";

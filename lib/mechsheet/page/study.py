@@ -4,35 +4,39 @@ Nothing is computed before; then it follows whatever changes on the page.
 """
 
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from html import escape
 from typing import Any, NamedTuple, TypeVar
 from uuid import uuid4
 
 import marimo as mo
+import numpy as np
 
+from mechsheet import units
 from mechsheet.document.blocks import blocks
+from mechsheet.document.chart import line_chart
 from mechsheet.page import notebook, values
 from mechsheet.page.script import element, script
 from mechsheet.recording.banded import NOTE, Banded, RunBands, off
 from mechsheet.worksheet import mistakes, numbers
 from mechsheet.worksheet.errors import SheetError
-from mechsheet.worksheet.table import Table
+from mechsheet.worksheet.table import Column, Figure, Table
 
 T = TypeVar("T")
 _PERIOD = 0.25  # s between two looks at the page
+_NOISE = 1e-12  # of the largest band of a column: less is rounding
 _AT = "least"  # position at which a result is looked at unless another is chosen
 
 
 class Asked(NamedTuple):
     """What computes that which a page may be asked for.
 
-    These are bands of tables and of all else, what a result depends on, and the HTML of a proof.
+    These are bands of tables, charts and all else, what a result depends on, and the HTML of a proof.
     """
 
     results: Sequence[str]
-    bands: Callable[[], tuple[RunBands, Sequence[Table]]]
+    bands: Callable[[], tuple[RunBands, Sequence[Table], Sequence[Figure]]]
     matters: Callable[[str, str], Sequence[Any]]
     proof: Callable[[], str]
 
@@ -100,14 +104,15 @@ class Study:
             if self.proof.value:
                 parts.append(_elsewhere(self.asked.proof))
             if self.bands.value:
-                bands, tables = _elsewhere(self.asked.bands)
+                bands, tables, figures = _elsewhere(self.asked.bands)
                 within = escape(", ".join(map(str, bands.by.values())))
-                parts.append(element("ms-bands", told=_told(bands, tables), made=uuid4().hex))
-                parts.append(f'<div class="ms-note">± is the worst case within {within}. {escape(NOTE)}.</div>')
+                parts.append(element("ms-bands", told=_told(bands, tables, figures), made=uuid4().hex))
+                told = f"± and the bars in charts are the worst case within {within}. {escape(NOTE)}."
+                parts.append(f'<div class="ms-note">{told}</div>')
             if self.result.value:
                 of, at = str(self.result.value), self.position.value.strip() or _AT
-                shown = _elsewhere(lambda: self.asked.matters(of, at))
-                parts += [f'<div class="ms-matters">{values.html(each)}</div>' for each in shown]
+                found = _elsewhere(lambda: self.asked.matters(of, at))
+                parts += [f'<div class="ms-matters">{values.html(each)}</div>' for each in found]
         except Exception as error:  # of the library or of the worksheet's own lines: the page goes on without
             why = str(error) if isinstance(error, SheetError) else mistakes.told(error, self.namespace["__file__"])
             parts.append(f'<div class="ms-note"><span class="ms-badge ms-FAIL">not shown</span> {escape(why)}</div>')
@@ -124,8 +129,11 @@ def _elsewhere(work: Callable[[], T]) -> T:
         return pool.submit(work).result()
 
 
-def _told(bands: RunBands, tables: Sequence[Table]) -> dict[str, Any]:
-    """Texts of all bands: of lines by their names, of checks by their places, of tables by blocks and columns."""
+def _told(bands: RunBands, tables: Sequence[Table], figures: Iterable[Figure]) -> dict[str, Any]:
+    """Texts of all bands: of lines by their names, of checks by their places, of tables by blocks and columns.
+
+    Of figures they are bars.
+    """
     lines, columns = dict[str, list[Banded]](), dict[tuple[str, str], Banded]()
     for each in bands.banded:
         if each.where == "results":
@@ -134,13 +142,39 @@ def _told(bands: RunBands, tables: Sequence[Table]) -> dict[str, Any]:
 
     def cells(table: Table, name: str) -> list[str] | None:
         own = columns.get((f"table {table.number}", name))
-        return None if own is None or own.band.why else [f"± {off(x)}" for x in own.worst]
+        return (
+            None
+            if own is None or own.band.why
+            else [f"± {off(x)}" for x in np.where(own.worst < _NOISE * own.worst.max(), 0.0, own.worst)]
+        )
 
     return {
         "lines": {name: _of_line(parts) for name, parts in lines.items()},
         "tables": {t.number: [[cells(t, c.name) for c in block] for block in blocks(t)] for t in tables},
         "checks": {values.anchor(name): sure for name, sure in bands.sure.items()},
+        "figures": {figure.number: _bars(figure, bands) for figure in figures},
     }
+
+
+def _bars(figure: Figure, bands: RunBands) -> list[tuple[str, list[list[float]]]]:
+    """Of each curve whose points have bands its colour and the bars of these: x, y and half the length [px]."""
+    found, chart = [], line_chart(figure.x, figure.lines, figure.marks, figure.every)
+    _, up = chart.axes
+    scale = chart.plot.height / (up.high - up.low)
+    for line, curve in zip(figure.lines, chart.curves, strict=True):
+        points = slice(None, None, figure.every)
+        own = next((each for each in bands.banded if each.name == line.name and _is_of(each, line, points)), None)
+        if own is not None and not own.band.why:
+            half = own.band.worst.reshape(-1) / units.parse(line.unit).factor * scale
+            bars = np.stack([curve.x[points], curve.y[points], half], axis=-1)
+            found.append((curve.stroke.colour, np.round(bars[np.isfinite(bars).all(axis=1)], 2).tolist()))
+    return found
+
+
+def _is_of(banded: Banded, line: Column, points: slice) -> bool:
+    """Whether bands are those of the points of a curve."""
+    own, shown = banded.values.reshape(-1) * units.parse(banded.unit).factor, line.values[points]
+    return own.shape == shown.shape and np.allclose(own, shown * units.parse(line.unit).factor, 1e-12, equal_nan=True)
 
 
 def _of_line(parts: Sequence[Banded]) -> str:

@@ -74,8 +74,8 @@ def export(title: str, namespace: Mapping[str, Any]) -> Any:
         return proved.html(proof_of(namespace, sheet, recording), _of(Table, parts.values(namespace)))
 
     def bands() -> Any:
-        checks = _of(Check, parts.values(namespace))
-        return banding.bands_of(namespace, sheet, checks), banding.tables_of(namespace)
+        shown = parts.values(namespace)
+        return banding.bands_of(namespace, sheet, _of(Check, shown)), _of(Table, shown), _of(Figure, shown)
 
     matter = partial(banding.matters, sheet, namespace)
     asked = study.Asked(banding.results_of(namespace), bands, matter, proof)

@@ -1,0 +1,125 @@
+"""The digits that a proof claims beside those that there are, by exact results from the inputs to the end."""
+
+from collections.abc import Callable, Iterator, Mapping
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+from mpmath import mp, mpf
+
+from mechsheet.accuracy import exact
+from mechsheet.accuracy.arithmetic import Numbers
+from mechsheet.accuracy.jobs import exact_results
+from mechsheet.run.progress import progress
+from mechsheet.run.proving import proof_of_wanted
+from mechsheet.worksheet.cells import Worksheet, load
+from mechsheet.worksheet.check import Check
+from mechsheet.worksheet.inputs import build
+from mechsheet.worksheet.table import Column, Table
+
+_ROUNDED = 16.0  # digits of a float, which are all that count
+_FEWER = 2.0  # digits less than there are that a proof should seldom claim
+_TURNS = ("phi", "psi", "alpha")  # angles, which the exact results may have in another turn
+
+
+class Claim(NamedTuple):
+    """One number: digits proved of it, and digits that agree with the exact one, both beside its column's largest."""
+
+    worksheet: str
+    name: str
+    proved: float
+    right: float
+
+    @property
+    def is_more(self) -> bool:
+        return self.proved > self.right + 1e-6
+
+    @property
+    def is_fewer(self) -> bool:
+        return self.proved < min(self.right, _ROUNDED) - _FEWER
+
+
+def _hitch(g: Any, k: int) -> Numbers:
+    S_min, S_max = mpf(g.S_min), mpf(g.S_max)
+    return exact.hitch(g, S_min + (S_max - S_min) * k / (g.N_pol - 1))
+
+
+def _landing_gear(g: Any, i: int) -> Numbers:
+    made = exact.stroke(g)
+    return exact.landing_gear(g, made["l20"] + made["H"] * i / mpf(g.R))
+
+
+def _slotted_link(g: Any, k: int) -> Numbers:
+    return exact.slotted_link(g, mpf(g.phi_0) + k * mp.sign(g.omega1) * 2 * mp.pi / g.n)
+
+
+def _kinetostatics(g: Any, k: int) -> Numbers:
+    return exact.kinetostatics(g, 2 * mp.pi * k / 360)
+
+
+_GIVEN = {"kinetostatics": {"step": 1}}  # its recording holds the positions that its tables list
+
+# Exact results at a position from the inputs alone, and the field whose length is the number of positions.
+_EXACT: dict[str, tuple[Callable[[Any, int], Numbers], str]] = {
+    "hitch": (_hitch, "S"),
+    "landing_gear": (_landing_gear, "l2i"),
+    "slotted_link": (_slotted_link, "phi1_k"),
+    "kinetostatics": (_kinetostatics, "phi1"),
+}
+
+
+def _truths(stem: str, names: Mapping[str, Any]) -> dict[str, dict[int, Any]]:
+    """Exact results of a worksheet at three of its positions, by name and position; of the joint all its forces."""
+    if stem == "joint":
+        return {name: dict(enumerate(y)) for name, y in exact_results(stem, names, ()).items()}
+    results, field = _EXACT[stem]
+    n = len(names[field])
+    at = {k: results(names["g"], k) for k in (0, n // 3, n - 1)}
+    shown = [name for name in at[0] if name in names and np.shape(names[name]) == (n,) and not name.startswith(_TURNS)]
+    return {name: {k: made[name] for k, made in at.items()} for name in shown}
+
+
+def claims(path: Path) -> list[Claim]:
+    """What is proved of the results of one of the five documents for which there are exact ones."""
+    sheet = load(path)
+    names = sheet.run(sheet.results, {"g": build(sheet.inputs, _GIVEN.get(path.stem, {}))})
+    with mp.workdps(50):
+        return list(_compared(path.stem, names, _truths(path.stem, names), sheet))
+
+
+def _compared(
+    stem: str, names: Mapping[str, Any], truths: dict[str, dict[int, Any]], sheet: Worksheet
+) -> Iterator[Claim]:
+    proof = proof_of_wanted(names, sheet, truths)
+    for name, truth in truths.items():
+        columns = [column for column in proof.columns if (column.where, column.name) == ("results", name)]
+        own = np.ravel(names[name])
+        parts = ("real", "imag") if np.iscomplexobj(own) else ("real",)
+        for part, column in zip(parts, columns, strict=True):
+            size = mpf(float(np.max(np.abs(getattr(own, part)))))
+            for k, true in truth.items():
+                off = abs(mpf(float(getattr(own[k], part))) - getattr(true, part)) / size
+                yield Claim(stem, name, float(column.digits[k]), float(-mp.log10(off)) if off else np.inf)
+
+
+def claims_table(number: str, folder: Path) -> tuple[Table, Check]:
+    """A row for each of the five documents, and the check that no proof claims digits that there are not."""
+    stems = (*_EXACT, "joint")
+    with progress(len(stems), f"{number} Proof") as done:
+        rows = []
+        for stem in stems:
+            rows.append(claims(folder / f"{stem}.py"))
+            done()
+    more = [claim for row in rows for claim in row if claim.is_more]
+    told = "; ".join(f"{c.worksheet} {c.name}: {c.proved:.1f} proved of {c.right:.1f} digits" for c in more[:3])
+    fewer = np.array([100 * np.mean([claim.is_fewer for claim in row]) for row in rows])
+    columns = (
+        Column("worksheet", "", "", 0, np.array([stem.replace("_", " ") for stem in stems], object)),
+        Column("numbers", "-", "how many are compared", 0, np.array([len(row) for row in rows])),
+        Column("proved", "-", "fewest digits proved", 1, np.array([min(c.proved for c in row) for row in rows])),
+        Column("right", "-", "fewest digits that are right", 1, np.array([min(c.right for c in row) for row in rows])),
+        Column("fewer", "%", "numbers with over two digits fewer proved than right", 1, fewer),
+    )
+    return Table(number, "Digits proved and digits that are right", columns), Check(
+        "digits proved that there are not", len(more), 0, reason=told
+    )
