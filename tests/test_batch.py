@@ -222,9 +222,32 @@ def test_bar_on_a_terminal(tmp_path, monkeypatch, capsys):
     monkeypatch.setattr(sys.stderr, "isatty", lambda: True, raising=False)
     assert batch.run(str(HITCH), files) == 0
     first, second, last, after = capsys.readouterr().err.split("\r")[1:]
-    assert first.strip() == f"[{30 * '.'}] 0 of 2  a"
-    assert second.strip() == f"[{15 * '#'}{15 * '.'}] 1 of 2  b"
+    assert first.strip() == f"[{20 * '.'}] 0 of 2  a"
+    assert re.fullmatch(r"\[#{10}\.{10}\] 1 of 2  b  \d+ (s|min) left", second.strip())
     assert last == " " * len(second) and after == "", "nothing of it stays"
+
+
+def test_several_processes_tell_and_write_what_one_does(tmp_path, capsys):
+    """A scene that fails among them, one with a mistake, and inputs that differ from the worksheet's."""
+    files = [
+        scene(tmp_path, "strong", 'want = ["L4", "GS6"]\n[inputs]\nP6 = 30e3'),
+        scene(tmp_path, "wrong", 'want = ["L4"]\n[inputs]\nP6 = "much"'),
+        scene(tmp_path, "limited", 'want = ["L4"]\n[limits]\nL4 = {max = 0.1}'),
+    ]
+    said, books = [], []
+    for jobs in ("1", "2"):
+        out = tmp_path / jobs
+        assert batch.run(str(HITCH), [*files, f"--jobs={jobs}", f"--out={out}"]) == 1
+        said.append(capsys.readouterr().out.replace(str(out), "FOLDER"))
+        books.append(workbook(out / "hitch_scenes.xlsx"))
+    assert said[0] == said[1] and "wrong: " in said[0] and "0.1 m" in said[0]
+    assert books[0] == books[1]
+
+
+@pytest.mark.parametrize("jobs", ["0", "-1", "two", "1.5", ""])
+def test_jobs_are_a_number_of_processes(jobs):
+    with pytest.raises(SheetError, match=f"jobs = {jobs} must be a number of processes, at least 1"):
+        batch.run(str(HITCH), [str(EXAMPLES / "heavy.toml"), f"--jobs={jobs}"])
 
 
 def test_files_that_would_overwrite_one_another_are_refused(tmp_path):

@@ -1,5 +1,7 @@
 """Checks as values."""
 
+import re
+
 import numpy as np
 import pytest
 
@@ -53,7 +55,31 @@ def test_slope_whose_differences_know_nothing_is_not_evaluated():
 def test_shown_in_its_unit():
     c = check("c", 0.5, 2.0, "mm")
     assert (c.residual, c.limit) == (500, 2000)
-    assert str(c) == "pass  c: 500 <= 2000 mm"
+    assert str(c) == "pass  c: 500 <= 2000 mm, 25 %"
+
+
+def test_rounding_is_not_shown_as_a_value():
+    """Of two computations that agree the limit is told; where they do not, by how much they differ."""
+    agreed, apart = check("loop", 2.2e-16, 1e-12, "m", of=1.0), check("loop", 1e-9, 1e-12, "m", of=1.0)
+    assert str(agreed) == "pass  loop: within 1e-12 m" and "2.2" not in html(agreed)
+    assert str(apart) == "FAIL  loop: 1e-9 <= 1e-12 m" and "1e−9 &gt; 1e−12" in re.sub("<[^>]*>", "", html(apart))
+
+
+def test_only_of_a_positive_limit_a_quantity_takes_a_part():
+    limits = {2.0: "pass  c: 1 <= 2 N, 50 %", 1.0: "pass  c: 1 <= 1 N, 100 %", 0.0: "FAIL  c: 1 <= 0 N"}
+    assert {limit: str(check("c", 1.0, limit, "N")) for limit in limits} == limits
+    assert check("c", 100.0001, 100.0).utilised == "100.0001 %", "told apart from all of it"
+    assert not check("c", 1.0, -2.0).utilised and not check("c", [], 2.0).utilised
+
+
+def test_the_worst_comes_first():
+    fails, less, open_ = check("fails", 3.0, 2.0), check("less", 2.1, 2.0), check("open", np.nan, 2.0)
+    loop, near, far = check("loop", 0.0, 1e-12, of=1), check("near", 1.9, 2.0), check("far", 0.2, 2.0)
+    shown = summary(loop, far, open_, less, near, fails)
+    assert [c.name for c in shown.worst_first] == ["fails", "less", "open", "near", "far", "loop"]
+    bar = re.search('bar="(.*?)"', html(shown))[1]
+    assert "3 of 6 checks" in bar and "fails: 3 &amp;gt; 2, 150 %" in bar
+    assert "near 95 %" in re.search('bar="(.*?)"', html(summary(near, far)))[1]
 
 
 def test_slope_against_differences():
@@ -95,7 +121,7 @@ def test_a_unit_that_is_not_known_is_told_in_a_line(asked):
 
 
 def test_a_check_of_what_is_counted_is_shown_in_its_words():
-    assert "1 ≰ 0 open positions" in html(Check("closes", 1, 0, "open positions"))
+    assert "1 &gt; 0 open positions" in html(Check("closes", 1, 0, "open positions"))
 
 
 def test_open_position_is_named_with_its_reach():

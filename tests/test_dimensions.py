@@ -25,7 +25,7 @@ with app.setup:
     import numpy as np
     from math import hypot
     from numpy import abs, arange, atan2, cos, exp, interp, linspace, log, pi, sin, sqrt, where
-    from mechsheet import angle, check, cross, find, inputs, table
+    from mechsheet import angle, check, cross, find, inputs, minerr, table
     from mechsheet import units
     from mechsheet.units import MPa, N, cm, celsius, define, deg, degC, kN, kg, m, mm
     from mechsheet.units import s as second
@@ -214,6 +214,27 @@ WRONG = {
         ["x_found = find(lambda x: g.F * x, 0, g.F, equals=g.M, unknown='x', unknown_unit='m')"],
         1,
         "find: the interval is in N, x in m",
+    ),
+    "unit of one of many problems": (
+        ["x_found = find(lambda x: g.F * x - g.M, 0, g.L * np.array([2.0, 3.0]), unit='N')"],
+        1,
+        "find: unit [N] does not fit; f(x) is in N·m",
+    ),
+    "unit of an equation of many problems": (
+        [
+            "x_found = find(lambda x, y: (g.F * x - g.M, y - g.L), unit=('N*m', 's'),",
+            "    unknown_unit=('m', 'm'), x=g.L * np.array([1.0, 2.0]), y=g.L)",
+        ],
+        1,
+        "find: unit [s] does not fit; equation 2 is in m",
+    ),
+    "unit of a further equation": (
+        [
+            "k_least = minerr(lambda k: (g.F * k - g.M, k - g.L, k + g.L), unit=('N*m', 'm', 's'),",
+            "    unknown_unit=('m',), k=g.L)",
+        ],
+        1,
+        "find: unit [s] does not fit; equation 3 is in m",
     ),
     "equation": (
         ["x_found = find(lambda x: g.F * x, 0, 99, equals=g.F, unknown='x', unknown_unit='m')"],

@@ -196,7 +196,12 @@ def assert_used(used: Used) -> int:
 
 def assert_check(check: Check) -> int:
     text = html.unescape(re.sub("<[^>]*>", "", check._mime_()[1]))
-    match = re.search(r": (\S+) [≤≰] (\S+)", text)
+    if check.agrees:
+        within = re.search(r": within (\S+)", text)
+        assert within and "PASS" in text
+        assert float(within[1].replace("−", "-").rstrip("°")) == pytest.approx(check.limit, rel=0.051, abs=1e-300)
+        return 1
+    match = re.search(r": (\S+) [≤>] (\S+?),?(?: |$)", text)
     if not check.evaluated:
         assert "not evaluated" in text
         return 0

@@ -88,6 +88,9 @@ def test_a_mistake_is_told_with_its_line_in_the_words_of_the_editor(
         ("M_S = M(phi)", "k = 1,5\n    M_S = k * g.F", "a decimal number has a point, not a comma"),
         ("M_S = M(phi)", "M_S = 1,5 * g.F", "M_S = 1, 5 * g.F is several values: a decimal number has a point"),
         ("M_S = M(phi)", "M_S = 0,02 * g.F", "a decimal number has a point, not a comma"),
+        ("M_S = M(phi)", "M_S = 2 * (1,5 + M(phi))", "a decimal number has a point, not a comma"),
+        ("M_S = M(phi)", "M_S = M(sin(0,5))", "a decimal number has a point, not a comma"),
+        ("M_S = M(phi)", "M_S = 2 * (1,5)  # [N] wrong\n    typeset()", "M_S = 2 * (1, 5) is several values"),
         ("M_S = M(phi)", "M_S := M(phi)", "a definition is written =, not :="),
         ("M_S = M(phi)", "M_S = 2 M(phi)", "is a * missing?"),
         ("M_S = M(phi)", "M_S = 2M(phi)", "is a * missing?"),
@@ -106,6 +109,13 @@ def test_a_declaration_is_told_with_its_line(lever: Callable[..., Path]) -> None
         [sys.executable, path],
         f"error: line 47 of {path}: input L needs a comment with its unit, such as # [m] meaning",
     )
+
+
+def test_a_mark_of_byte_order_is_told(lever: Callable[..., Path]) -> None:
+    path = lever("", "")
+    path.write_text("\ufeff" + path.read_text(encoding="utf-8"), encoding="utf-8")
+    why = "the file begins with a byte order mark (BOM), which Python's editors refuse: save it as UTF-8 without one"
+    ends([*LAUNCHED, path], f"error: worksheet {path}, line 1: {why}")
 
 
 def test_what_python_cannot_read_is_told_with_its_line(lever: Callable[..., Path]) -> None:

@@ -642,9 +642,8 @@ def test_si_changes_the_units_and_nothing_else(sheet):
     ],
 )
 def test_bad_input_is_one_line_and_writes_nothing(tmp_path, arguments, message):
-    done = subprocess.run(
-        [sys.executable, SHEET, *arguments, f"--out={tmp_path}"], capture_output=True, encoding="utf-8"
-    )
+    command = [sys.executable, "-m", "mechsheet.run.script", SHEET, *arguments, f"--out={tmp_path}"]
+    done = subprocess.run(command, capture_output=True, encoding="utf-8")
     assert (done.returncode, done.stderr.strip(), list(tmp_path.iterdir())) == (1, message, [])
 
 

@@ -178,7 +178,7 @@ def test_bad_input_is_one_line(bolt: Path, given: dict[str, Any], message: str) 
 def test_a_name_that_is_no_option_is_told_where_it_is_compared(bolt: Path) -> None:
     g: Any = load(bolt).inputs()
     assert g.shear == "single" and g.shear != "double" and f"{g.shear:>8}" == "  single"
-    with pytest.raises(SheetError, match="'dobule' is none of the options single, double"):
+    with pytest.raises(ValueError, match="'dobule' is none of the options single, double"):
         assert g.shear == "dobule"
     with pytest.raises(AttributeError, match="an option has no property R_p; it has R_m, R_e"):
         assert g.grade.R_p
@@ -212,12 +212,45 @@ def test_inputs_of_all_kinds_are_values(bolt: Path) -> None:
         ("a: float  # [m] length\n    b: float = 1.0  # [m] width", "input a needs a value, such as a: float = 1.0"),
         ("a: float = 1.0  # metre", "input a needs a comment with its unit, such as # \\[m\\] meaning"),
         ("a: int  # [-] count", "property a of an option must be a float"),
+        ("a: int = 2.5  # [-] count", "line 5 of .*: a = 2.5 must be a whole number"),
+        ('a: float = "4 mm"  # [mm] length', "line 5 of .*: a = '4 mm' is no number"),
+        ('a: int = "2"  # [-] count', "a = '2' is no number"),
+        ("a: float = True  # [m] length", "a = True is no number"),
+        ("a: float = None  # [m] length", "a = None is no number"),
+        ("a: float = 0,5  # [m] length; > 0", r"a = \(0, 5\) is several values: a decimal number has a point"),
+        ("a: list[float] = 2.0  # [m] lengths", "a = 2.0 must be a list of numbers"),
+        ("a: list[float] = []  # [m] lengths", "lengths a must have 1 to 10000 rows, not 0"),
+        ('a: list[float] = ["1 m", 2.0]  # [m] lengths', "a = .'1 m', 2.0. must be a list of numbers"),
+        ("a: list[float] = [[1.0], [1.0, 2.0]]  # [m] lengths", "must be a list of numbers"),
+        ("a: list[Row] = [(1.0, 2.0)]  # rows", r"a = .* must be a list of rows such as Row\(x, y\)"),
+        ("a: list[Row] = Row(1.0, 2.0)  # row", r"a = Row\(x=1.0, y=2.0\) must be a list of rows such as Row"),
+        ("a: list[Row] = []  # rows", "rows a must have 1 to 10000 rows, not 0"),
+        ('a: bool = "perhaps"  # switch', "switch a = 'perhaps' must be yes or no"),
     ],
 )
 def test_a_declaration_that_cannot_be_meant_is_told_at_its_line(lines: str, message: str) -> None:
-    text = f"from typing import Literal\nfrom mechsheet import one_of, inputs\n@inputs\nclass A:\n    {lines}\n"
+    row = "@inputs\nclass Row:\n    x: float  # [m] place\n    y: float  # [m] place\n" if "Row" in lines else ""
+    start = "from typing import Literal\nfrom mechsheet import one_of, inputs\n"
     with pytest.raises(SheetError, match=message):
-        run(text)
+        run(f"{start}{row}@inputs\nclass A:\n    {lines}\n")
+
+
+def test_limits_stand_beside_a_unit_that_is_not_known() -> None:
+    """A bad unit harms its own line only: what can be compared with it is not."""
+    lines = "a: float = 0.2  # [mms] length; > 0 < 30\n    b: float = 0.1  # [mm] width; > 0 < a <= 200\n"
+    cls: Any = run(f"from mechsheet import inputs\n@inputs\nclass A:\n    {lines}")["A"]
+    a, b = inputs.declared(cls)
+    assert "unit [mms] is not known" in a.mistake and not b.mistake and cls().a == 0.2
+    assert (a.limits, b.limits) == (((">", "0"),), ((">", "0"), ("<=", "200")))
+    with pytest.raises(SheetError, match=r"width b = 300\.0 mm must be <= 200"):
+        cls(b=0.3)
+
+
+def test_a_temperature_is_in_kelvins() -> None:
+    lines = "t: float = celsius(40)  # [degC] oil; > 0\n    d: float = 40 * degC  # [degC] rise\n"
+    start = "from mechsheet import inputs\nfrom mechsheet.units import celsius, degC\n@inputs\nclass A:\n    "
+    t, d = inputs.declared(run(start + lines)["A"])
+    assert "write a temperature in [K]" in t.mistake and not d.mistake and d.unit == "degC"
 
 
 def test_scenes_give_every_kind(bolt: Path, tmp_path: Path) -> None:

@@ -303,7 +303,8 @@ def test_reactions_of_the_later_groups_keep_their_moments_on_the_rocker(sheet):
 
 
 def script(*arguments: str) -> subprocess.CompletedProcess[str]:
-    return subprocess.run([sys.executable, str(SHEET), *arguments], capture_output=True, encoding="utf-8")
+    command = [sys.executable, "-m", "mechsheet.run.script", str(SHEET), *arguments]
+    return subprocess.run(command, capture_output=True, encoding="utf-8")
 
 
 def test_script_writes_the_workbook(tmp_path):

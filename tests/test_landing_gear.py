@@ -280,7 +280,8 @@ def test_scheme_has_three_wheels_and_moves(sheet):
 
 
 def script(*arguments):
-    return subprocess.run([sys.executable, str(SHEET), *arguments], capture_output=True, encoding="utf-8")
+    command = [sys.executable, "-m", "mechsheet.run.script", str(SHEET), *arguments]
+    return subprocess.run(command, capture_output=True, encoding="utf-8")
 
 
 @pytest.mark.parametrize(

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import ast
+import threading
 from pathlib import Path
 
+import numpy as np
 import pytest
 from conftest import ROOT
 from hypothesis import settings
 
+from mechsheet.page import in_place
 from mechsheet.worksheet import cells
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.inputs import declared
@@ -127,6 +130,11 @@ def test_a_name_that_its_cell_binds_again_can_be_edited() -> None:
         ("n", "pi = 3  # [-] own", "pi is declared by another line"),
         ("n", "def typeset():\n    return 1", "typeset is declared by another line"),
         ("n", "n = (sigma := 3)", "sigma is declared by another line"),
+        ("n", "n = yield", "'yield' outside function"),
+        ("n", "n = await phi", "'await' outside function"),
+        ("n", "@vectorize\ndef n(x):\n    return x", "a line is a name and what it is"),
+        ("n", "async def n(x):\n    return x", "a line is a name and what it is"),
+        ("g.F", "F: float = yield", "'yield' outside function"),
     ],
 )
 def test_what_is_no_line_is_refused_in_words(name: str, new: str, says: str) -> None:
@@ -162,3 +170,31 @@ def test_cells_of_the_page_are_told_from_those_of_the_file(path: Path) -> None:
     texts = [code for code in codes if code.startswith("mo.md(") and not code.startswith("mo.md(f")]
     assert texts and same_cells(text, [code for code in codes if code not in texts])
     assert not same_cells(text, [*codes, 'mo.md("of one\'s own")'])
+
+
+@pytest.mark.parametrize(
+    "new", ["phi.sort()", "phi.__imul__(2)", "parts.append(1)", "rows.update(a=1)", "rows['b'].append(2)"]
+)
+def test_what_is_shown_as_one_types_alters_nothing_of_the_page(new: str) -> None:
+    names = {"phi": np.array([3.0, 1.0]), "parts": [1, 2], "rows": {"b": [2]}}
+    shown = in_place._computed((), "k", "k = 1", f"k = {new}  # [-] k", False, dict(names))
+    assert "is no number: it has no [unit]" in shown or "__imul__" in new
+    assert names["phi"].tolist() == [3.0, 1.0] and names["parts"] == [1, 2] and names["rows"] == {"b": [2]}
+
+
+def test_what_computes_for_long_as_one_types_is_ended(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(in_place, "_PATIENCE", 0.05)
+    running: list[threading.Thread] = []
+
+    def endless() -> str:
+        running.append(threading.current_thread())
+        while True:
+            try:
+                sum(range(1000))
+            except Exception:
+                continue
+
+    with pytest.raises(SheetError, match=r"computes for more than 0\.05 s"):
+        in_place._elsewhere(endless)
+    running[0].join(20)
+    assert not running[0].is_alive()

@@ -217,6 +217,15 @@ def test_sweeps_vary_lists_and_tables(section: Path) -> None:
     assert combined["most"][1, 1, 0] == sweep(section, ["most"], {"F": ["4; 5"], "stringers": ["3; 4; 30"]})["most"][0]
 
 
+def test_a_list_of_one_element_keeps_its_axis_in_sweeps(section: Path) -> None:
+    for rows in (["3"], ["3", "5"], ["3", "5; 6"][:1] * 2):
+        swept = sweep(section, ["sigma", "most"], {"F": rows})
+        assert swept["sigma"].shape == (len(rows), 1) and swept["most"].shape == (len(rows),)
+        assert swept["sigma"][:, 0] == pytest.approx(swept["most"], rel=1e-14)
+    both = sweep(section, ["share"], grid(stringers=["1; 2; 30", [[2, 3, 30]]], F_max=[50, 60, 70]))
+    assert both["share"].shape == (2, 3, 1) and (both["share"] == 1).all()
+
+
 def test_units_are_followed_and_nothing_is_left_out(section: Path) -> None:
     assert mismatches(section) == []
     sheet = load(section)

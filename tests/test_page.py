@@ -5,7 +5,7 @@ from math import inf
 from pathlib import Path
 
 import pytest
-from conftest import drawn, new_page, report_errors, until
+from conftest import SIZE, drawn, new_page, report_errors, until
 from playwright.sync_api import expect
 
 HITCH = Path(__file__).parents[1] / "worksheets" / "hitch.py"
@@ -98,14 +98,15 @@ def test_the_verdict_stays_in_sight_and_leads_to_the_check_that_fails(page):
     field = page.locator(".ms-inputs tr:has-text('weight of the implement') input")
     field.scroll_into_view_if_needed()
     cell(page, "4.1", 1, 2).scroll_into_view_if_needed()
-    expect(bar).to_have_text("24 of 24 checks")
+    expect(bar).to_contain_text("24 of 24 checks")
+    expect(bar, "how near the worst comes to its limit").to_contain_text("91.8 %")
     field.fill("37500")
     field.press("Enter")
     cell(page, "4.1", 1, 2).scroll_into_view_if_needed()
     expect(bar).to_contain_text("21 of 24 checks")
-    expect(bar).to_contain_text("pressure within its limit: Pgc − Pgc,max: 4.405 ≰ 0 MPa")
-    bar.get_by_role("link").click()
-    expect(page.locator("#check-pressure-within-its-limit-P_gc-P_gc_max")).to_be_in_viewport()
+    expect(bar).to_contain_text("front axle keeps its least load: 20300 > 14620 N, 139 %")
+    bar.get_by_role("link").last.click()
+    expect(page.locator("#check-front-axle-keeps-its-least-load")).to_be_in_viewport()
     field.fill("27500")
     field.press("Enter")
     ready(page)
@@ -226,6 +227,59 @@ def test_outline_leads_to_the_sections(page):
 
     until(page, rests_in_sight, "the section is not in sight")
     page.mouse.move(5, 5)  # off the outline
+
+
+def test_a_click_on_a_heading_closes_its_section_and_what_leads_there_opens_it(page):
+    """Closed it stays while the page computes; printed it is whole."""
+    page.wait_for_function("() => 'measured' in document.documentElement.dataset")
+    geometry, below = (page.get_by_role("heading", name=name) for name in ("2 Geometry", "2.2 Second"))
+    check = page.locator("#check-loop-of-group-2-3-")
+    expect(geometry).to_have_attribute("aria-expanded", "true")
+    geometry.click()
+    expect(geometry).to_have_attribute("aria-expanded", "false")
+    expect(below).to_be_hidden()
+    expect(check).to_be_hidden()
+    expect(page.get_by_role("heading", name="3 Kinematics"), "the next of its level stays").to_be_visible()
+    field = page.locator(".ms-inputs tr:has-text('weight of the implement') input")
+    for weight, force in (("20000", "94265"), ("27500", "129614")):
+        field.fill(weight)
+        field.press("Enter")
+        expect(cell(page, "4.1", 1, 2)).to_have_text(force)
+        expect(check, "computed anew it stays closed").to_be_hidden()
+    page.emulate_media(media="print")
+    expect(check).to_be_visible()
+    page.emulate_media(media="screen")
+    expect(check).to_be_hidden()
+    page.locator(".ms-summary a", has_text="loop of group (2, 3)").click()
+    expect(check).to_be_in_viewport()
+    expect(below).to_be_visible()
+    below.click()
+    expect(below).to_have_attribute("aria-expanded", "false")
+    expect(check, "a part of a section is closed by itself").to_be_visible()
+    below.click()
+    expect(below).to_have_attribute("aria-expanded", "true")
+
+
+def test_in_the_editor_a_closed_section_takes_no_room_and_the_bar_leaves_the_footer_free(edited):
+    edited.wait_for_function("() => 'measured' in document.documentElement.dataset")
+    geometry, kinematics = (edited.get_by_role("heading", name=name) for name in ("2 Geometry", "3 Kinematics"))
+    geometry.click()
+    until(edited, lambda: 0 < kinematics.bounding_box()["y"] - geometry.bounding_box()["y"] < 200, "room is left")
+    geometry.click()
+    kinematics.scroll_into_view_if_needed()
+    drawn(edited)
+    bar, footer = (edited.locator(place).bounding_box() for place in (".ms-bar", "footer"))
+    assert bar["y"] + bar["height"] <= footer["y"]
+
+
+def test_on_a_narrow_screen_no_number_of_a_list_is_cut_off(edited):
+    edited.set_viewport_size({"width": 800, "height": 1600})
+    drawn(edited)
+    beyond = """() => [...document.querySelectorAll(".ms-value")]
+        .filter((e) => e.getBoundingClientRect().right > e.closest(".output-area").getBoundingClientRect().right + 1)
+        .map((e) => e.textContent)"""
+    assert edited.evaluate(beyond) == []
+    edited.set_viewport_size(SIZE)
 
 
 def test_a_mark_on_every_output_styles_the_outputs_and_not_what_stands_in_them(serve, browser):

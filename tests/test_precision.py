@@ -4,6 +4,7 @@ import re
 import sys
 from io import BytesIO
 from itertools import count
+from pathlib import Path
 from zipfile import ZipFile
 
 import mpmath as mp
@@ -16,8 +17,10 @@ from mechsheet.accuracy import precision
 from mechsheet.accuracy.arithmetic import EPS
 from mechsheet.accuracy.precision import Comparison, Job, Measured, Method, largest_error, timed
 from mechsheet.run.progress import progress
+from mechsheet.studies.sweep import sweep
 from mechsheet.workbook import writing
 
+ROOT = Path(__file__).resolve().parents[1]
 OWN = Measured("own", "", 3e-16, 1.0)
 
 
@@ -214,4 +217,25 @@ def test_progress_is_drawn_on_a_terminal_only(monkeypatch, capsys):
     monkeypatch.setattr(sys.stderr, "isatty", lambda: True)
     with progress(2, "Job") as done:
         done()
-        assert f"[{'#' * 15}{'.' * 15}]" in capsys.readouterr().err
+        drawn = capsys.readouterr().err
+        assert f"[{'#' * 10}{'.' * 10}] 1 of 2  Job  0 s left" in drawn
+    assert len(drawn.split("\r")[-1]) < 80 and capsys.readouterr().err.strip() == ""
+
+
+def test_progress_of_a_part_has_no_bar_of_its_own(monkeypatch, capsys):
+    monkeypatch.setattr(sys.stderr, "isatty", lambda: True)
+    with progress(2, "Job") as done:
+        capsys.readouterr()
+        with progress(3, "Part") as done_part:
+            done_part()
+        assert capsys.readouterr().err == ""
+        done()
+        assert "Job" in capsys.readouterr().err
+
+
+def test_a_sweep_of_several_chunks_has_a_bar_on_a_terminal(monkeypatch, capsys):
+    monkeypatch.setattr(sys.stderr, "isatty", lambda: True)
+    sweep(ROOT / "worksheets" / "examples" / "bucket.py", ["mu_2"], {"L_DE": [0.42, 0.44, 0.46]}, chunk=1)
+    assert "2 of 3" in capsys.readouterr().err
+    sweep(ROOT / "worksheets" / "examples" / "bucket.py", ["mu_2"], {"L_DE": [0.42, 0.44, 0.46]})
+    assert capsys.readouterr().err == ""

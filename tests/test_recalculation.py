@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import math
 import re
-import subprocess
-import sys
 from collections import defaultdict
 from collections.abc import Callable, Iterator, Mapping
 from functools import cache
@@ -20,7 +18,7 @@ from openpyxl import Workbook, load_workbook
 from test_recorded_worksheet import FOLLOWED, own
 from typed_workbook import typed
 
-from mechsheet.run import report
+from mechsheet.run import arguments, batch, report
 from mechsheet.workbook import reading
 from mechsheet.workbook.place import DefinedNames
 from mechsheet.worksheet import cells, inputs
@@ -63,12 +61,16 @@ def whole(cls: type, changes: dict[str, Any]) -> dict[str, Any]:
 
 def export(name: str, out: Path, changes: dict[str, Any]) -> Path:
     script = next(path for folder in FOLDERS if (path := folder / f"{name}.py").exists())
-    arguments = [f"--{key}={value}" for key, value in whole(cells.load(script).inputs, changes).items()]
-    run = subprocess.run(
-        [sys.executable, "-X", "utf8", script, f"--out={out}", *arguments], capture_output=True, encoding="utf-8"
-    )
-    assert (out / f"{name}.xlsx").exists(), run.stdout + run.stderr
-    return out / f"{name}.xlsx"
+    return computed(script, out, whole(cells.load(script).inputs, changes))
+
+
+def computed(worksheet: Path, out: Path, given: Mapping[str, Any]) -> Path:
+    """The workbook of a worksheet on other inputs, as its script writes it."""
+    sheet, path = cells.load(worksheet), out / f"{worksheet.stem}.xlsx"
+    scene = arguments.read([f"--{key}={value}" for key, value in given.items()], inputs.declared(sheet.inputs))
+    _, names = batch.compute(sheet, "", scene)
+    report.write(report.workbook(sheet.title, names, scene.limits), path)
+    return path
 
 
 @pytest.fixture(scope="module")
@@ -434,10 +436,7 @@ from mechsheet import check
 held = SimpleNamespace(noise=np.lexsort((g.F * np.array([2.0, 3.0, 1.0]),)) + 0.5)
 check_2 = check("noise", float(held.noise.max()), 9)""",
     )
-    text = Path(sheet.path).read_text().replace("    typeset()\n", '    export("Own", globals())\n', 1)
-    Path(sheet.path).write_text(text, encoding="utf-8")
-    subprocess.run([sys.executable, "-X", "utf8", sheet.path, f"--out={tmp_path}"], check=True, capture_output=True)
-    path = tmp_path / "own.xlsx"
+    path = computed(Path(sheet.path), tmp_path, {})
     as_is, other = recalculated(path), recalculated(edit(path, {"F": 3}, tmp_path / "edited.xlsx"))
     for book, verdict in ((as_is, "PASS"), (other, "not evaluated")):
         verdicts = {row[0].value: row[4].value for row in book["Checks"].iter_rows(min_row=3)}
@@ -490,15 +489,9 @@ def test_what_a_worksheet_of_ones_own_does_is_followed_by_its_cells(
         alike[np.shape(value)] += [f"{name}.real", f"{name}.imag"] if np.iscomplexobj(value) else [name]
     shown = [f'table_{n} = table("{n}", "table {n}", {", ".join(these)})' for n, these in enumerate(alike.values())]
     sheet = own(tmp_path, "\n".join([*lines, *shown]))
-    Path(sheet.path).write_text(
-        Path(sheet.path).read_text().replace("    typeset()\n", '    export("Own", globals())\n', 1), encoding="utf-8"
-    )
     changes = {"F": 3.25, "a": 0.2, "k": 3}
-    books = []
-    for folder, given in (("as_it_is", {}), ("changed", changes)):
-        command = [sys.executable, "-X", "utf8", sheet.path, f"--out={tmp_path / folder}"]
-        subprocess.run([*command, *(f"--{k}={v}" for k, v in given.items())], check=True, capture_output=True)
-        books.append(tmp_path / folder / "own.xlsx")
+    given = {"as_it_is": {}, "changed": changes}
+    books = [computed(Path(sheet.path), tmp_path / folder, each) for folder, each in given.items()]
     live = recalculated(edit(books[0], changes, tmp_path / "edited.xlsx"))
     assert not list(disagreements(live, load_workbook(books[1], data_only=True)))
     assert {row[4].value for row in live["Checks"].iter_rows(min_row=3)} == {"PASS"}

@@ -124,6 +124,15 @@ def test_mechanics_load_numpy_alone() -> None:
         assert loaded(statement) - loaded("import mechsheet") - sys.stdlib_module_names == {"numpy"}
 
 
+def test_a_run_of_a_document_loads_what_it_computes_and_writes_with(tmp_path: Path) -> None:
+    sheet = ROOT / "worksheets" / "hitch.py"
+    run = f"sys.argv = ['', {str(sheet)!r}, {f'--out={tmp_path}'!r}]; from mechsheet.run.script import main; main()"
+    others = loaded(run) - loaded("import mechsheet") - sys.stdlib_module_names - {"mechsheet"}
+    assert others >= {"numpy", "xlsxwriter"}
+    assert not others & {"marimo", "scipy", "pandas", "altair", "openpyxl", "flint", "mpmath"}
+    assert (tmp_path / "hitch.xlsx").exists()
+
+
 # --- public names ------------------------------------------------------------------------------------------------
 
 

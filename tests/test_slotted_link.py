@@ -263,7 +263,8 @@ RESULTS = "1 Results (table of page 39)"
 
 
 def script(*arguments: str) -> subprocess.CompletedProcess[str]:
-    return subprocess.run([sys.executable, str(SHEET), *arguments], capture_output=True, encoding="utf-8")
+    command = [sys.executable, "-m", "mechsheet.run.script", str(SHEET), *arguments]
+    return subprocess.run(command, capture_output=True, encoding="utf-8")
 
 
 def test_script_writes_the_workbook(tmp_path):

@@ -30,6 +30,23 @@ def test_no_rows_are_refused(names, shown):
         run(f"t = {shown}", names)
 
 
+@pytest.mark.parametrize(
+    ("shown", "says"),
+    [
+        ('table("1", "T", S, P23_S)', r"column P23_S: P23_S is a point or a force: take P23_S.real and P23_S.imag"),
+        ('figure("1", "T", P23_S)', "column P23_S: P23_S is a point or a force"),
+        ('table("1", "T", grade)', "column grade: grade is no number"),
+        ('table("1", "T", S, three, dRa)', "columns must be as long as each other, not 2 of S, 3 of three"),
+        ('figure("1", "T", S)', "figure 1 needs at least 2 columns"),
+        ('table("1", "T")', "table 1 needs at least 1 column$"),
+    ],
+)
+def test_what_is_no_column_is_refused_where_it_is_given(names, shown, says):
+    run('grade = "8.8"  # [-] grade\nthree = np.arange(3.0)  # [m] places', names)
+    with pytest.raises(SheetError, match=f"^{says}"):
+        run(f"t = {shown}", names)
+
+
 def test_a_result_without_values_is_refused(names):
     with pytest.raises(SheetError, match=r"^S has no values$"):
         quantities("S", names | {"S": names["S"][:0]})

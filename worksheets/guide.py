@@ -21,7 +21,8 @@ def title():
         """
     A press that teaches by being edited: open it with `python lib/mechsheet edit guide`, do what stands after **Try**.
     A click on a formula or on the symbol of an input edits its line, Enter writes it, Ctrl-Z takes it back; the button
-    *code* shows all lines of a cell, which Ctrl-Enter runs and Ctrl-S saves.
+    *code* shows all lines of a cell, which Ctrl-Enter runs and Ctrl-S saves. A click on a heading closes its section
+    on the screen, and another one opens it.
     """,
     )
     return
@@ -200,7 +201,9 @@ def section_6():
 
     `check` compares a quantity, or what is left of two that should be equal, with a limit. Its verdict stands here, at
     the top of the page, in the workbook, and in the exit code of a run: a check that could not look at anything has not
-    passed. `check_slope` compares a derivative with differences.
+    passed. Of a limit the check tells how much is taken, in per cent; the bar at the foot of the page names the worst
+    one wherever you read, and a click leads to it. With `of`, the size of what two computations share, a check tells
+    within what they agree. `check_slope` compares a derivative with differences.
 
     **Try** a force of 90 kN. Then find with the field of `h` how much of the stroke the drive can work.
     """)

@@ -439,7 +439,9 @@ def scene_of_design(P56_S, dRa, design, fields, g, r_min, with_design):
 def scene_check(design, g, hitch, scene):
     opened = evaluate(hitch, ["GS6", "GS6_lim"], **tomllib.loads(scene)["inputs"])
     r_scene = min(minimum(opened["GS6"], opened["GS6_lim"])) / g.P6 - 1
-    checks_scene = Check("the scene keeps the promised reserve", float(abs(r_scene - design.goal)), 1e-12)
+    checks_scene = Check(
+        "the scene keeps the promised reserve", float(abs(r_scene - design.goal)), 1e-12, agreement=True
+    )
     checks_scene
     return (checks_scene,)
 

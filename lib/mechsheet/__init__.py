@@ -84,7 +84,6 @@ The balancing moment does the work of all loads, the inertia forces' sum over a 
 """
 
 import ast
-import inspect
 import sys
 from collections.abc import Mapping
 from importlib import import_module
@@ -140,6 +139,5 @@ def __getattr__(name: str) -> Any:
 
 def __dir__() -> list[str]:
     # who asks for the members and their values too, as help() does, would load all and print it behind the contents
-    asking = inspect.currentframe()
-    asked_by = asking.f_back.f_globals.get("__name__") if asking and asking.f_back else None
-    return [] if asked_by == inspect.__name__ else __all__
+    asked_by = sys._getframe(1).f_globals.get("__name__")
+    return [] if asked_by == "inspect" else __all__

@@ -10,13 +10,9 @@ import sys
 if not __package__:  # run as a folder, which heads the path: its modules must not shadow the standard library's
     del sys.path[0]
 
-import difflib
-import hashlib
 import os
 import re
-import shutil
 import subprocess
-import venv
 from pathlib import Path
 
 MINIMUM = (3, 11)
@@ -30,7 +26,8 @@ usage: mechsheet COMMAND              where the package is installed
       NAME --proof                    prove how many digits of what it shows are right, at least 9 unless =DIGITS
       NAME --tolerances               show how far results are off within the tolerances of the inputs, and how sure
                                       each check is; with --want also by random cases and by guaranteed bounds
-      NAME SCENE ...                  compute scenes side by side, and write workbooks where --out=FOLDER says
+      NAME SCENE ...                  compute scenes side by side, and write workbooks where --out=FOLDER says; with
+                                      --jobs=N by so many processes at the same time
       NAME --want=RESULT,...          compute some results and what they need, and print them
       such as                         run hitch --P6=25e3 --want=L4,GS6
   html NAME [--INPUT=VALUE ...]       write the document as one page that needs nothing but a browser, and computes
@@ -102,6 +99,8 @@ def main(argv: "list[str] | None" = None) -> int:
 
 def nearest(given: str, known: "list[str]") -> str:
     """What may have been meant, by the last word of what is known."""
+    import difflib  # on use: only a mistaken name needs it
+
     near = difflib.get_close_matches(given, [text.split()[-1] for text in known], n=1)
     return next((f"did you mean {text}? " for text in known if near and text.split()[-1] == near[0]), "")
 
@@ -138,6 +137,8 @@ def contents() -> str:
 
 def new(name: str, like: str = "") -> int:
     """Write a worksheet from the template or like another one, with what it needs, into worksheets/ or else here."""
+    import shutil  # on use: to compute a worksheet is what nearly every call is for
+
     if not re.match(r"[A-Za-z]\w*$", name):
         sys.exit(f"mechsheet: name of the worksheet = {name!r} must be a letter, then letters, digits or _")
     folder = ROOT / "worksheets" if (ROOT / "worksheets").is_dir() else Path.cwd()
@@ -207,6 +208,8 @@ def environment(root: Path, extra: str) -> str:
     ``.venv/mechsheet.installed`` says what a finished installation was made of; it is empty while one goes on,
     so that an interrupted one is never taken for good.
     """
+    import hashlib  # on use: an installed package has no environment of its own
+
     folder = root / ".venv"
     mark = folder / "mechsheet.installed"
     python = folder / ("Scripts/python.exe" if os.name == "nt" else "bin/python")
@@ -239,6 +242,9 @@ def environment(root: Path, extra: str) -> str:
 
 def create(folder: Path, mark: Path) -> None:
     """Make an empty environment with the mark of an unfinished one."""
+    import shutil  # on use: once for a clone
+    import venv  # on use: as above
+
     if folder.exists():
         shutil.rmtree(folder)
     folder.mkdir()

@@ -15,6 +15,7 @@ from mechsheet.run.proving import proof_of_wanted
 from mechsheet.worksheet.cells import Worksheet, load
 from mechsheet.worksheet.check import Check
 from mechsheet.worksheet.inputs import build
+from mechsheet.worksheet.numbers import fixed
 from mechsheet.worksheet.table import Column, Table
 
 _ROUNDED = 16.0  # digits of a float, which are all that count
@@ -111,7 +112,7 @@ def claims_table(number: str, folder: Path) -> tuple[Table, Check]:
             rows.append(claims(folder / f"{stem}.py"))
             done()
     more = [claim for row in rows for claim in row if claim.is_more]
-    told = "; ".join(f"{c.worksheet} {c.name}: {c.proved:.1f} proved of {c.right:.1f} digits" for c in more[:3])
+    told = "; ".join(f"{c.worksheet} {c.name}: {fixed(c.proved, 1)} proved of {fixed(c.right, 1)}" for c in more[:3])
     fewer = np.array([100 * np.mean([claim.is_fewer for claim in row]) for row in rows])
     columns = (
         Column("worksheet", "", "", 0, np.array([stem.replace("_", " ") for stem in stems], object)),

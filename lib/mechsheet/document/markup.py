@@ -5,6 +5,7 @@ from html import escape
 from typing import Any
 
 from mechsheet.worksheet import numbers, symbol
+from mechsheet.worksheet.check import Check
 from mechsheet.worksheet.kinds import Input
 from mechsheet.worksheet.numbers import Notation
 from mechsheet.worksheet.over import Over
@@ -51,6 +52,22 @@ def _numbers_in(text: str) -> str:
     text = re.sub(r"(?<=\d) deg\b", HTML.degrees, text)
     text = re.sub(r"(?<=\d)e([+-]?)0*(\d+)\b", lambda e: HTML.power.format("", f"{e[1].strip('+')}{e[2]}"), text)
     return re.sub(r"(?<![\w.)])-(?=[\d.∞])|(?<= )-(?= )|(?<=<sup>)-", HTML.minus, text)
+
+
+def compared(check: Check, unit: str, to: Notation = HTML) -> str:
+    """Residual and limit of an evaluated check in a unit, what part of its limit it takes; or how well it agrees.
+
+    >>> compared(Check("stress", 330.0, 355.0, "MPa"), "MPa")
+    '330 ≤ 355 MPa, 93 %'
+    >>> compared(Check("loop", 2e-16, 1e-12, agreement=True), "-")
+    'within 1e−12'
+    """
+    residual, limit = (text.replace("-", to.minus) for text in check.shown_in(unit).compared)
+    limit += numbers.behind(unit, to)
+    if check.agrees:
+        return f"within {limit}"
+    part = f", {check.utilised}" if check.utilised else ""
+    return f"{residual} {'≤' if check.passed else '&gt;'} {limit}{part}"
 
 
 def where(field: Any, over: Over | None) -> str:

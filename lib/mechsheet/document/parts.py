@@ -91,12 +91,15 @@ def contents(namespace: Mapping[str, Any]) -> list[Any]:
     they are: title, captions, drawings, columns of them, tables, figures, found values, checks and their summary.
     Of a run that was asked for some results only, it is what the cells that have run show.
     """
-    return [part for parts, _ in _cells(namespace) for part in parts]
+    names = dict(namespace)
+    return [part for value, _ in _cells(names) for part in _parts(value, names)]
 
 
 def by_cell(namespace: Mapping[str, Any], only: Container[int] | None = None) -> dict[int, list[Any]]:
     """What `contents` lists, by the number of the cell in the file; of some cells ``only`` where they are given."""
-    return {n: parts for n, (parts, _) in enumerate(_cells(namespace, only)) if parts}
+    names = dict(namespace)
+    found = {n: list(_parts(value, names)) for n, (value, _) in enumerate(_cells(names, only))}
+    return {n: parts for n, parts in found.items() if parts}
 
 
 def values(namespace: Mapping[str, Any]) -> list[Any]:
@@ -105,7 +108,7 @@ def values(namespace: Mapping[str, Any]) -> list[Any]:
     Of a cell first what it gives, by its lines, be it for the workbook alone; then what it shows under no name, but for
     a shorter table of a number that is given. Last comes what stands in the namespace and not yet in the file.
     """
-    cells = [(list(_singly(given)), list(_singly(parts))) for parts, given in _cells(namespace)]
+    cells = [(list(_singly(given)), list(_singly([value]))) for value, given in _cells(dict(namespace))]
     numbers = {_number(value) for given, _ in cells for value in given} - {None}
     held = [v for given, parts in cells for v in (*given, *(part for part in parts if _number(part) not in numbers))]
     found, sums = dict[int, Any](), list[Summary]()
@@ -136,30 +139,32 @@ def _singly(group: Iterable[Any]) -> Iterator[Any]:
                 yield value
 
 
-def _cells(namespace: Mapping[str, Any], only: Container[int] | None = None) -> Iterator[tuple[list[Any], list[Any]]]:
-    """What each cell shows, and what it gives: nothing of one that has not run, nor of one that is not asked for."""
-    path = Path(namespace["__file__"]).resolve()
+def _cells(names: dict[str, Any], only: Container[int] | None = None) -> Iterator[tuple[Any, list[Any]]]:
+    """What each cell shows, and what it gives: nothing of one that has not run, nor of one that is not asked for.
+
+    ``names`` are a copy of the run's, to which those that cells keep to themselves are added.
+    """
+    path = Path(names["__file__"]).resolve()
     cells = _read(path, path.stat().st_mtime_ns)
-    names = dict(namespace)
     names["title_block"] = lambda name, text="": Title(name, text, path.name)  # that of a page watches its cells too
     with raised():
         for n, cell in enumerate(cells):
             if not cell.certain <= names.keys() or (only is not None and n not in only):
-                yield [], []
+                yield None, []
                 continue
-            parts = list[Any]()
+            value = None
             if cell.shown and cell.reads <= names.keys():
                 if cell.before:
                     exec(cell.before, names)
                 value = eval(cell.shown, names)
-                parts += _texts(str(value)) if cell.is_text else _parts(value, names)
-            yield parts, [names[name] for name in cell.gives if name in names]
+                value = str(value) if cell.is_text else value
+            yield value, [names[name] for name in cell.gives if name in names]
 
 
 @lru_cache(maxsize=32)
 def _read(path: Path, _changed: int) -> tuple[_Written, ...]:
     """The cells of a file in their order."""
-    nodes = list(source.functions(ast.parse(path.read_text(encoding="utf-8"))))
+    nodes = list(source.functions(source.parsed(path.read_text(encoding="utf-8"))[0]))
     given = [cell.gives for cell in load(path).cells]
     certain, every = frozenset(results(path, certain=True)), frozenset(results(path))
     return tuple(
@@ -193,12 +198,12 @@ def _before(lines: list[ast.stmt], shown: ast.expr) -> list[ast.stmt]:
 
 
 def _names(node: ast.AST) -> Iterator[str]:
-    return (part.id for part in ast.walk(node) if isinstance(part, ast.Name))
+    return (part.id for part in source.nodes(node) if isinstance(part, ast.Name))
 
 
 def _asks(node: ast.FunctionDef) -> bool:
     """Whether a cell shows what is there to be filled in or pressed."""
-    calls = (call.func for call in ast.walk(node) if isinstance(call, ast.Call))
+    calls = (call.func for call in source.nodes(node) if isinstance(call, ast.Call))
     return any(isinstance(called, ast.Name) and called.id in _OF_PAGE for called in calls)
 
 

@@ -237,7 +237,8 @@ class Follower:
 
     def check(self, check: Check) -> str:
         """Attribute of the verdict of a check."""
-        held, spec = self.recording.checks.get(check.name), {"name": check.name, "essential": check.essential}
+        held = self.recording.checks.get(check.name)
+        spec = {"name": check.name, "essential": check.essential, "agreement": check.agreement}
         if held is None:
             return self.mark("check", keys=None, **spec)
         unit = check.unit if held.unit == "-" else held.unit

@@ -171,8 +171,8 @@ const inWords = text =>
     .replace(/(\d)e([+-]?)0*(\d+)\b/g, (_, digit, sign, power) => `${digit}\u2009·\u200910<sup>${sign === "-" ? "−" : ""}${power}</sup>`)
     .replace(/(^|[^\w.)])-(?=[\d.∞])/g, "$1−");
 
-// What a check compares: told apart, and the residual with two digits where it is only rounding.
-function compared(residual, limit) {
+// What a check compares: told apart, with two digits where the residual is only rounding.
+function compared(residual, limit, agrees) {
   if (!Number.isFinite(residual) || !Number.isFinite(limit)) return [residual, limit].map(x => significant(x, 4));
-  return apart([residual, limit], Math.abs(residual) < 1e-3 * limit ? 2 : 4);
+  return apart([residual, limit], agrees || Math.abs(residual) < 1e-3 * limit ? 2 : 4);
 }

@@ -111,10 +111,14 @@ function judged(spec, results) {
   if (!all.length) return open("there is nothing to check");
   if (lost) return open(`${lost} of ${all.length} values do not exist`);
   if (limit !== limit) return open("there is no limit");
-  const passed = residual <= limit, kind = passed ? "PASS" : "FAIL";
-  const [a, b] = compared(residual, limit).map(text => text.replaceAll("-", HTML.minus));
-  return {kind, word: kind, compared: `: ${a} ${passed ? "≤" : "≰"} ${b}${spec.behind}`, reason: ""};
+  const passed = residual <= limit, kind = passed ? "PASS" : "FAIL", agrees = spec.agreement && passed;
+  const [a, b] = compared(residual, limit, agrees).map(text => text.replaceAll("-", HTML.minus));
+  const told = agrees ? `within ${b}${spec.behind}` : `${a} ${passed ? "≤" : "&gt;"} ${b}${spec.behind}`;
+  return {kind, word: kind, compared: `: ${told}${spec.agreement ? "" : utilised(residual, limit)}`, reason: ""};
 }
+
+// What part of its limit a quantity takes, told apart from 100 %.
+const utilised = (residual, limit) => (limit > 0 && isFinite(residual) && isFinite(limit) ? `, ${apart([(100 * residual) / limit, 100], 3)[0]} %` : "");
 
 function tell(element, {kind, word, compared, reason}) {
   const badge = element.querySelector(".ms-badge");

@@ -14,7 +14,7 @@ from mechsheet import units
 from mechsheet.document import chart, chart_svg, drawing_svg
 from mechsheet.document.blocks import blocks, fitting
 from mechsheet.document.expression import equation, fields_by_name
-from mechsheet.document.markup import HTML, as_written, in_words, named, where
+from mechsheet.document.markup import as_written, compared, in_words, named, where
 from mechsheet.document.parts import Control, Line, Section, Text
 from mechsheet.html import index, markdown, offered
 from mechsheet.html.follow import Follower
@@ -224,18 +224,13 @@ def _(control: Control, page: Follower) -> str:
 @html.register
 def _(check: Check, page: Follower) -> str:
     kind, verdict = ("PASS" if check.passed else "FAIL",) * 2 if check.evaluated else ("OPEN", "not evaluated")
-    compared = f": {_compared(check)}" if check.evaluated else ""
+    told = f": {compared(check, check.unit)}" if check.evaluated else ""
     return (
         f'<div class="ms-check" id="{_anchor(check)}"{page.check(check)}>'
         f'<span class="ms-badge ms-{kind}">{verdict}</span> '
-        f'{in_words(check.name)}<span class="ms-compared">{compared}</span> '
+        f'{in_words(check.name)}<span class="ms-compared">{told}</span> '
         f'<span class="ms-note">{escape(check.reason)}</span></div>'
     )
-
-
-def _compared(check: Check) -> str:
-    residual, limit = (text.replace("-", HTML.minus) for text in check.compared)
-    return f"{residual} {'≤' if check.passed else '≰'} {limit}{numbers.behind(check.unit, HTML)}"
 
 
 def _anchor(check: Check) -> str:

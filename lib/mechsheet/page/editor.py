@@ -173,8 +173,7 @@ def _lines(n: int, cell: notebook.Cell) -> list[ast.stmt]:
 
 def _recorded(n: int, cell: notebook.Cell, computed: set[str]) -> Cell:
     """A cell as a recording takes it, its lines counted behind those of the cells before it."""
-    lines = _lines(n, cell)
-    code = compiled(lines, cell.filename, f"_{cell.cell_id}")
+    lines, code = compiled(_lines(n, cell), cell.filename, f"_{cell.cell_id}")
     return Cell(cell.cell_id, frozenset(cell.refs & computed), tuple(cell.defs), (), tuple(lines), code)
 
 

@@ -148,11 +148,12 @@
   // Written is a line once the page holds it: until then, text typed elsewhere would be lost to the file that comes.
   async function write(what, name, then) {
     if (of?.busy) return;
-    clearTimeout(timer);
-    const mine = of;
+    // Another line, and text that is typed, stay in the box while something is taken back.
+    const mine = what.do === "undo" && of && (of.name !== name || isTypedIn()) ? undefined : of;
+    if (mine) clearTimeout(timer);
     const tell = (text) => (mine && of === mine ? (why.textContent = text) : say(text));
     if (isUnsaved()) return tell(UNSAVED);
-    if (of) of.busy = true;
+    if (mine) mine.busy = true;
     const answer = await ask(what);
     if (mine) mine.busy = false;
     const own = what.new?.trim().match(/^(?:def\s+)?([\p{L}\p{N}_]+)/u)?.[1];
@@ -160,7 +161,7 @@
     if (answer.why) return tell(answer.why);
     if (what.do === "undo") written.pop();
     else written.push({ name, ...answer.written });
-    if (of === mine) close();
+    if (mine && of === mine) close();
     const done = `${name.replace("g.", "")} is ${what.do === "undo" ? "as it was" : "written"}`;
     say(`${done}, the page takes it over`);
     for (let n = 0; n < 40; n++) {

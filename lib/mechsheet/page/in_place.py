@@ -8,10 +8,13 @@ import json
 import linecache
 import re
 from collections.abc import Callable, Iterable, Iterator
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import Future
+from copy import deepcopy
+from ctypes import c_ulong, py_object, pythonapi
 from dataclasses import replace
 from html import escape
 from pathlib import Path
+from threading import Thread
 from typing import Any
 
 import marimo as mo
@@ -25,11 +28,13 @@ from mechsheet.workbook.save import save
 from mechsheet.worksheet import inputs, mistakes, source
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.line_edit import OF_INPUT, Change, asked_for, change, declares, line, same_cells
-from mechsheet.worksheet.lines import Formula, Numbers, Typeset, formulas
+from mechsheet.worksheet.lines import Formula, Numbers, Typeset, formulas, no_number
 from mechsheet.worksheet.shown import Shown
 
 _FILE = "__marimo__cell_in_place"  # under which a line is compiled
 _LINE = re.compile(r"line (\d+), ")
+_PATIENCE = 3.0  # seconds that a line may compute as one types
+_ALTERED = (np.ndarray, list, dict, set)  # what a line may alter, of which it is given a copy
 _UNSAVED = "a cell holds text that is not saved: run it and save it (Ctrl+S), then write here"
 
 
@@ -99,10 +104,30 @@ class InPlace:
         return _elsewhere(lambda: _computed(cells, name, was, new.strip(), below, dict(self.namespace)))
 
 
+class _TooLong(BaseException):
+    """Work has taken longer than one who types waits; no error, which a line might catch."""
+
+
 def _elsewhere(work: Callable[[], str]) -> str:
-    """What some work gives in a thread of no page: what is refused there is raised."""
-    with ThreadPoolExecutor(1) as pool:
-        return pool.submit(work).result()
+    """What some work gives in a thread of no page: what is refused there is raised.
+
+    Raises SheetError where that takes long; the thread ends with its next step in Python.
+    """
+    done: Future[str] = Future()
+
+    def run() -> None:
+        try:
+            done.set_result(work())
+        except BaseException as error:
+            done.set_exception(error)
+
+    thread = Thread(target=run, daemon=True)  # that of a step which never ends would keep the page's process
+    thread.start()
+    try:
+        return done.result(_PATIENCE)
+    except TimeoutError:
+        pythonapi.PyThreadState_SetAsyncExc(c_ulong(thread.ident or 0), py_object(_TooLong))
+        raise SheetError(f"it computes for more than {_PATIENCE} s") from None
 
 
 def _run(text: str, names: dict[str, Any]) -> None:
@@ -117,11 +142,13 @@ def _computed(cells: Iterable[notebook.Cell], name: str, was: str, new: str, bel
     known, told, bound = set(names), list[str](), declares(ast.parse(new).body[0])
     rows = formulas(source.of_texts(((new, _FILE),))[0])
     read = {node.id for node in ast.walk(ast.parse(new)) if isinstance(node, ast.Name)}
+    names |= {each: deepcopy(names[each]) for each in read if isinstance(names.get(each), _ALTERED)}
     if slow := sorted(each for each in read if editor.is_of_studies(names.get(each))):
         told.append(f"{slow[0]} computes for long: the value follows once the line is written")
     else:
         try:
             _run(new, names)
+            told += filter(None, (no_number(row, names[row.name]) for row in rows if isinstance(row, Formula)))
         except Exception as error:
             told.append(mistakes.why(error, known, new))
     there = tuple(row for row in rows if not told or not isinstance(row, Formula))

@@ -89,6 +89,7 @@
     if (!name) return;
     const of = placeOf(name);
     if (!of.contains(event.target)) event.preventDefault(); // in the editor a click elsewhere edits the line
+    of.dispatchEvent(new Event("ms-lead", { bubbles: true }));
     of.scrollIntoView({ block: "center" });
     of.querySelector("marimo-ui-element > *")?.shadowRoot?.querySelector("input, select")?.focus({ preventScroll: true });
     of.animate?.([{ background: "#f2c14e88" }, { background: "transparent" }], 1500);

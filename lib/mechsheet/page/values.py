@@ -14,7 +14,7 @@ import numpy as np
 from mechsheet import units
 from mechsheet.document import chart, chart_svg, drawing_svg
 from mechsheet.document.blocks import blocks, fitting
-from mechsheet.document.markup import HTML, as_written, in_words, named
+from mechsheet.document.markup import as_written, compared, in_words, named
 from mechsheet.html import index
 from mechsheet.page import fields, switched
 from mechsheet.page.headings import heading
@@ -29,7 +29,6 @@ from mechsheet.worksheet.inputs import Used
 from mechsheet.worksheet.kinds import Choice, Input, Switch, TextLine
 from mechsheet.worksheet.lines import Typeset
 from mechsheet.worksheet.lists import Rows
-from mechsheet.worksheet.numbers import Notation
 from mechsheet.worksheet.shown import Charted, Shown
 from mechsheet.worksheet.table import Column, Figure, Table
 from mechsheet.worksheet.title import Caption, Mark, Note, Player, SideBySide, Slider, Title
@@ -104,7 +103,7 @@ def _(title: Title) -> str:
     cells = [("Worksheet", escape(title.file)), ("Computed", f"{date.today():%Y-%m-%d}")]
     fields = "".join(f"<span>{label} <b>{value}</b></span>" for label, value in cells)
     switch = '<label class="ms-screen"><input type="checkbox" class="ms-switch"> numbers in the formulas</label>'
-    scripts = script("page.js") + script("units.js") + script("symbols.js", "tooltip.js")
+    scripts = script("page.js") + script("units.js") + script("symbols.js", "tooltip.js") + script("sections.js")
     return (
         f'{scripts}<div class="ms-title">{text}<div class="ms-row">{fields}{switch}'
         f"{''.join(map(html, title.tools))}</div>{_TOLD}{_noted(title.notes)}</div>"
@@ -171,19 +170,11 @@ def _(value: Typeset) -> str:
 
 @html.register
 def _(check: Check) -> str:
-    compared = (
-        ": " + switched.value(anchor(check.name), check.unit, partial(_compared, check)) if check.evaluated else ""
-    )
+    told = ": " + switched.value(anchor(check.name), check.unit, partial(compared, check)) if check.evaluated else ""
     return (
-        f'<div id="{anchor(check.name)}">{_badge(check)} {in_words(check.name)}{compared}'
+        f'<div id="{anchor(check.name)}">{_badge(check)} {in_words(check.name)}{told}'
         f'<span style="opacity:.7"> {escape(check.reason)}</span></div>'
     )
-
-
-def _compared(check: Check, unit: str, notation: Notation) -> str:
-    """Residual and limit of a check in a unit."""
-    residual, limit = (text.replace("-", notation.minus) for text in check.shown_in(unit).compared)
-    return f"{residual} {'≤' if check.passed else '≰'} {limit}{numbers.behind(unit, notation)}"
 
 
 def _badge(check: Check) -> str:
@@ -203,20 +194,22 @@ def _(summary: Summary) -> str:
     failed = len(summary.checks) - passed - skipped
     count = f"{passed} of {len(summary.checks)} checks pass" + (f", {failed} fail" if failed else "")
     count += f", {skipped} not evaluated" if skipped else ""
-    worst_first = sorted(summary.checks, key=lambda check: (check.passed, not check.evaluated))
     items = "".join(
-        f"<span>{_badge(check)} {_link(check, in_words(check.name))} {escape(check.reason)}</span>"
-        for check in worst_first
+        f"<span>{_badge(check)} {_link(check, in_words(check.name))} {check.utilised} {escape(check.reason)}</span>"
+        for check in summary.worst_first
     )
-    failing = "".join(_in_bar(check) for check in worst_first[:1] if not check.passed)
-    bar = f"<b>{passed} of {len(summary.checks)} checks</b>{failing}"
-    whole = f'<div class="ms-summary"><b>{count}</b><div class="ms-row">{items}</div></div>'
+    worst = "".join(map(_in_bar, summary.worst_first[:1]))
+    bar = f'<a href="#checks"><b>{passed} of {len(summary.checks)} checks</b></a>{worst}'
+    whole = f'<div class="ms-summary" id="checks"><b>{count}</b><div class="ms-row">{items}</div></div>'
     return element("ms-verdict", whole, bar=bar)
 
 
 def _in_bar(check: Check) -> str:
-    compared = f": {_compared(check, check.unit, HTML)}" if check.evaluated else ""
-    return _link(check, f"{_badge(check)} {in_words(check.name)}{compared}")
+    """The worst check: why it fails, or how near to its limit it comes; nothing of one that has no such part."""
+    if check.passed:
+        return _link(check, f"{in_words(check.name)} {check.utilised}") if check.utilised else ""
+    told = f": {compared(check, check.unit)}" if check.evaluated else ""
+    return _link(check, f"{_badge(check)} {in_words(check.name)}{told}")
 
 
 def _link(check: Check, text: str) -> str:

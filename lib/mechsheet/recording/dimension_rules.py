@@ -5,7 +5,7 @@ stand beside the exponents: 0, infinite ones and NaN fit any dimension; a litera
 it is multiplied and takes the other's dimension where it is added or compared; of what is unknown nothing is told.
 """
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import Any
 
 import numpy as np
@@ -173,10 +173,10 @@ class Reader:
                 why = f"the interval is in {self.word(code)}, {words.unknown} in {self.word(own)}"
                 self.add(Mistake(solved.node.line, "find", why))
                 return
-        if solved.residual is not None and words.unit != "-":
-            code = self.one(solved.residual)
-            if not self.fits(code, self.of_unit(words.unit)):
-                why = f"unit [{words.unit}] does not fit; {words.quantity} is in {self.word(code)}"
+        for residual, unit, quantity in _equations(solved):
+            code = self.one(residual)
+            if unit != "-" and not self.fits(code, self.of_unit(unit)):
+                why = f"unit [{unit}] does not fit; {quantity} is in {self.word(code)}"
                 self.add(Mistake(solved.node.line, "find", why))
 
     @staticmethod
@@ -236,6 +236,16 @@ class Reader:
             return "- (a number)"
         used = [units.si(unit) for unit in self.used if units.parse(unit).dims == dims]
         return units.shown(min(used, key=len, default=units.word(dims)))
+
+
+def _equations(solved: Solved) -> Iterator[tuple[Node, str, str]]:
+    """What a found value solves, in which unit, and its name; the first one has those beyond the unknowns as well."""
+    if solved.node.op != "found":
+        return
+    block, number = solved.node.args
+    yield block.residuals[number], solved.words.unit, solved.words.quantity
+    more = zip(block.residuals, block.unit, strict=False)
+    yield from ((r, u, f"equation {k}") for k, (r, u) in enumerate(more, 1) if not number and k > len(block.nodes))
 
 
 # --- rules -------------------------------------------------------------------------------------------------------

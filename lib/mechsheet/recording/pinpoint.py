@@ -5,6 +5,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from functools import cached_property
 from typing import NamedTuple
 
+from mechsheet.worksheet import source
 from mechsheet.worksheet.cells import Worksheet, bound
 from mechsheet.worksheet.lines import Formula
 from mechsheet.worksheet.numbers import scientific
@@ -68,7 +69,7 @@ class Places:
 
     def function_solved(self, line: int) -> Formula | None:
         """The function with a unit that a Find of a line solves."""
-        for node in ast.walk(self.statements[line]) if line in self.statements else ():
+        for node in source.nodes(self.statements[line]) if line in self.statements else ():
             match node:
                 case ast.Call(ast.Name("find"), [ast.Name() as f, *_]):
                     return self.function_called(ast.Call(f, [], []))
@@ -86,7 +87,7 @@ class Places:
         """The line where a check of this name is made, by a statement of one of some lines."""
         lines = [line for line in lines if line in self.statements]
         for line in lines:
-            for node in ast.walk(self.statements[line]):
+            for node in source.nodes(self.statements[line]):
                 if isinstance(node, ast.Constant) and node.value == name:
                     return node.lineno
         return max(lines, default=0)
@@ -101,7 +102,7 @@ class Places:
 
     def literals(self, expression: ast.expr) -> list[str]:
         """The numbers of several digits that a formula has, as they are written."""
-        numbers = [n for n in ast.walk(expression) if isinstance(n, ast.Constant)]
+        numbers = [n for n in source.nodes(expression) if isinstance(n, ast.Constant)]
         ordered = (n.value for n in sorted(numbers, key=lambda n: (n.lineno, n.col_offset)))
         return [repr(x) for x in ordered if isinstance(x, int | float) and scientific(x, 1)[2] != "0"]
 
@@ -110,7 +111,7 @@ class Places:
         best, likest = _LIKE, None
         for part in self.parts(line):
             own = _locals(part)
-            for node in ast.walk(part):
+            for node in source.nodes(part):
                 if isinstance(node, ast.expr) and (likeness := _likeness(node, op, operands, own)) > best:
                     best, likest = likeness, node
         if likest:
@@ -150,8 +151,8 @@ def _alike(parts: list[ast.expr], names: set[str], own: set[str]) -> float:
 
 def _locals(part: ast.stmt) -> set[str]:
     """Names that functions in a statement call their own."""
-    functions = [f for f in ast.walk(part) if isinstance(f, ast.FunctionDef | ast.Lambda)]
-    arguments = {a.arg for f in functions for a in ast.walk(f.args) if isinstance(a, ast.arg)}
+    functions = [f for f in source.nodes(part) if isinstance(f, ast.FunctionDef | ast.Lambda)]
+    arguments = {a.arg for f in functions for a in source.nodes(f.args) if isinstance(a, ast.arg)}
     return arguments.union(*(bound(s) for f in functions if isinstance(f, ast.FunctionDef) for s in f.body))
 
 
@@ -159,7 +160,7 @@ _CALLED = frozenset(["g", "np", "pi", "abs", "sqrt", "sin", "cos", "tan", "exp",
 
 
 def _names(node: ast.AST) -> Iterator[str]:
-    for part in ast.walk(node):
+    for part in source.nodes(node):
         if isinstance(part, ast.Name):
             yield part.id
         elif isinstance(part, ast.Attribute):

@@ -8,6 +8,7 @@ from typing import Any
 
 from mechsheet.recording.lines import SLIDER, Recording
 from mechsheet.recording.quantity import Quantity
+from mechsheet.worksheet import source
 from mechsheet.worksheet.cells import Cell, Worksheet
 from mechsheet.worksheet.drawing import Drawing
 from mechsheet.worksheet.title import SideBySide, Slider
@@ -46,7 +47,7 @@ def text(cell: Cell) -> ast.expr | None:
 def captions(cell: Cell) -> dict[str, ast.expr]:
     """Titles with numbers in them, by the numbers of their captions."""
     found = dict[str, ast.expr]()
-    for call in (node for line in cell.lines for node in ast.walk(line)):
+    for call in (node for line in cell.lines for node in source.nodes(line)):
         match call:
             case ast.Call(ast.Name("caption"), [ast.Constant(str(number)), ast.JoinedStr() as title]):
                 found[number] = title

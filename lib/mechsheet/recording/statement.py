@@ -8,7 +8,9 @@ from inspect import signature
 from types import CodeType
 from typing import NamedTuple
 
+from mechsheet.recording.memory import operations
 from mechsheet.recording.rewritten import compiled
+from mechsheet.worksheet import source
 from mechsheet.worksheet.cells import bound
 from mechsheet.worksheet.check import Check, check, check_slope
 from mechsheet.worksheet.find import find
@@ -19,6 +21,7 @@ _TEXTS = {"typeset", "print"}  # calls whose result stands on the page alone
 _ARGUMENTS = {
     f.__name__: list(signature(f).parameters) for f in (Check, check, check_slope, find, minerr, table, figure)
 }
+_BINDING = {"STORE_GLOBAL", "DELETE_GLOBAL"}
 _BESIDE = {"unit", "unknown_unit", "show", "reason"}  # arguments that no writer shows beside numbers of other inputs
 
 
@@ -35,11 +38,11 @@ class Statement(NamedTuple):
 
 @lru_cache(maxsize=4096)
 def facts(statement: ast.stmt, path: str) -> Statement:
-    nodes = list(ast.walk(statement))
+    nodes = source.nodes(statement)
     attributes = [n for n in nodes if isinstance(n, ast.Attribute)]
     names = [n for n in nodes if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Load)]
     of_parts = {id(n.value) for n in attributes}
-    beside = {id(n) for argument in _beside(nodes) for n in ast.walk(argument)}
+    beside = {id(n) for argument in _beside(nodes) for n in source.nodes(argument)}
     return Statement(
         compiled(statement, path),
         tuple(dict.fromkeys([*bound(statement), *_changed(nodes)])),
@@ -104,5 +107,6 @@ def _changed(nodes: Iterable[ast.AST]) -> Iterator[str]:
 def shared_names(code: CodeType) -> frozenset[str]:
     """Names of the worksheet that functions in a piece of code bind."""
     inside = [constant for constant in code.co_consts if isinstance(constant, CodeType)]
-    own = {i.argval for i in dis.get_instructions(code) if i.opname in ("STORE_GLOBAL", "DELETE_GLOBAL")}
+    binds = not operations(code).isdisjoint(_BINDING)
+    own = {i.argval for i in dis.get_instructions(code) if i.opname in _BINDING} if binds else set[str]()
     return frozenset(own.union(*map(shared_names, inside)))

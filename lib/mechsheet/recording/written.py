@@ -135,7 +135,7 @@ def text(*parts: Any) -> Any:
         value, spec = part if isinstance(part, tuple) else (part, "")
         followed = _is_followed(value, spec)
         pieces.append(Number(value, spec) if followed and isinstance(value, Quantity) else
-                      value if followed else format(value, spec))  # fmt: skip
+                      value if followed else f"{value:{spec}}")  # fmt: skip
     return "".join(pieces) if all(isinstance(part, str) for part in pieces) else Written(tuple(_pieces(pieces)))
 
 

@@ -2,9 +2,11 @@
 
 import glob
 import shutil
+import signal
 import sys
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import partial
 from itertools import chain
 from pathlib import Path
 from typing import Any
@@ -142,18 +144,19 @@ def comparison(sheet: Worksheet, outcomes: Sequence[Outcome]) -> bytes:
 
 
 def run(worksheet: str, arguments: Sequence[str]) -> int:
-    """Exit code of ``mechsheet run WORKSHEET SCENE.. [--out=FOLDER] [--NAME=VALUE ..]``: 1 if any scene failed.
+    """Exit code of ``mechsheet run WORKSHEET SCENE.. [--out=FOLDER] [--jobs=N] [--NAME=VALUE ..]``: 1 if any failed.
 
     Prints a table of the scenes. Into ``out`` go a workbook of all of them side by side, and one of each scene that
-    wants the whole worksheet; without it nothing is written. Arguments replace inputs of every scene.
+    wants the whole worksheet; without it nothing is written. Arguments replace inputs of every scene. ``jobs`` are
+    processes that compute scenes at the same time.
 
-    Raises SheetError where the worksheet or the folder cannot be used, or two scenes have one name.
+    Raises SheetError where the worksheet, the folder or the jobs cannot be used, or two scenes have one name.
     """
     sheet = load(worksheet)
     files = [Path(name) for argument in arguments if not argument.startswith("-") for name in _expanded(argument)]
     if not files:
         raise SheetError("no scene given")
-    options = [argument for argument in arguments if argument.startswith("-")]
+    jobs, options = _jobs([argument for argument in arguments if argument.startswith("-")])
     declared = inputs.declared(sheet.inputs)
     out = read(options, declared).out
     _distinct(sheet, files, out)
@@ -161,8 +164,9 @@ def run(worksheet: str, arguments: Sequence[str]) -> int:
     try:
         names = [file.stem for file in files]
         with progress(len(files), names[0]) as done:
-            for file, following in zip(files, [*names[1:], ""], strict=True):
-                outcomes.append(_attempt(sheet, file, options, out))
+            attempts = _attempts(sheet, files, options, out, min(jobs, len(files)))
+            for outcome, following in zip(attempts, [*names[1:], ""], strict=True):
+                outcomes.append(outcome)
                 done(following)
         if out:
             report.write(comparison(sheet, outcomes), out / _summary(sheet))
@@ -176,6 +180,46 @@ def run(worksheet: str, arguments: Sequence[str]) -> int:
     failed = sum(o.verdict != "pass" for o in outcomes)
     say(f"{len(outcomes) - failed} of {len(outcomes)} scenes pass" + (f", written to {out}" if out else ""))
     return 1 if failed else 0
+
+
+def _jobs(options: Sequence[str]) -> tuple[int, list[str]]:
+    """Number of processes that the last ``--jobs=N`` asks for, one where there is none, and the other options."""
+    given = [option.partition("=")[2] for option in options if option.startswith("--jobs=")]
+    for text in given:
+        if not (text.isascii() and text.isdecimal() and int(text)):
+            raise SheetError(f"jobs = {text} must be a number of processes, at least 1")
+    return int(given[-1]) if given else 1, [option for option in options if not option.startswith("--jobs=")]
+
+
+def _attempts(
+    sheet: Worksheet, files: Sequence[Path], options: Sequence[str], out: Path | None, jobs: int
+) -> Iterator[Outcome]:
+    """Outcomes of the scenes in their order, computed here or by several processes."""
+    if jobs == 1:
+        yield from (_attempt(sheet, file, options, out) for file in files)
+        return
+    from concurrent.futures import ProcessPoolExecutor  # on use: one process needs nothing of it
+    from multiprocessing import get_context  # on use: as above
+
+    pool = ProcessPoolExecutor(jobs, get_context("spawn"), signal.signal, (signal.SIGINT, signal.SIG_IGN))
+    try:
+        found = pool.map(partial(_elsewhere, sheet.path, options=options, out=out), files)
+        for file, (outcome, built) in zip(files, found, strict=True):
+            yield replace(outcome, g=_inputs(sheet, file, options)) if built else outcome
+    finally:
+        pool.shutdown(cancel_futures=True)
+
+
+def _elsewhere(path: str, file: Path, options: Sequence[str], out: Path | None) -> tuple[Outcome, bool]:
+    """Outcome of a scene without its inputs, whose class no other process knows, and whether they could be built."""
+    outcome = _attempt(load(path), file, options, out)
+    return replace(outcome, g=None), outcome.g is not None
+
+
+def _inputs(sheet: Worksheet, file: Path, options: Sequence[str]) -> Any:
+    """The inputs of the scene of a file."""
+    given = read([f"--scene={file}", *options], inputs.declared(sheet.inputs))
+    return inputs.build(sheet.inputs, given.inputs)
 
 
 def _attempt(sheet: Worksheet, file: Path, options: Sequence[str], out: Path | None) -> Outcome:

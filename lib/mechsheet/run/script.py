@@ -3,10 +3,13 @@
 Its cells are run from the file: marimo, which takes a second to load, is not needed where nobody looks at a page.
 """
 
+import gc
 import sys
 from io import StringIO
 
 from mechsheet.run.ending import watch
+
+_OBJECTS = 100_000  # made between two searches for circles among them, which take a tenth of a run if done as usual
 
 
 def main() -> None:
@@ -14,6 +17,7 @@ def main() -> None:
     del sys.argv[0]
     watch(sys.argv[0])
     sys.stdout, sys.stderr = sys.stdout or StringIO(), sys.stderr or StringIO()  # none, where they were closed
+    gc.set_threshold(_OBJECTS, *gc.get_threshold()[1:])
     from mechsheet.worksheet.cells import load  # on use: an interruption while this loads is told as any other
 
     load(sys.argv[0]).run_whole()

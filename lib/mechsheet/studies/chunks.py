@@ -20,6 +20,7 @@ from mechsheet.worksheet.cells import Cell, Worksheet, base, load
 from mechsheet.worksheet.cells import value as wanted
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.lines import registry
+from mechsheet.worksheet.lists import Rows
 from mechsheet.worksheet.verdict import Verdict, values_only
 
 _AHEAD = 256  # chunks handed to an executor and not yet taken back: bounds the memory of results that wait
@@ -64,10 +65,12 @@ class Job:
         sheet, count = self._sheet(), _count(columns)
         names: dict[str, Any] = {}
         lacking = np.zeros(count, dtype=bool)
-        for cell in _run(sheet, sheet.needed(self.want, ["g"]), inputs.instance(sheet.inputs, columns), names):
+        g: Any = inputs.instance(sheet.inputs, columns)
+        for cell in _run(sheet, sheet.needed(self.want, ["g"]), g, names):
             for found in _founds(cell, names):
                 lacking |= ~_by_variant(found.valued, count).all(1)
-        values = {name: _result(name, _wanted(name, names), columns) for name in self.want}
+        one_row = not varied(columns) and _has_one_row(g)
+        values = {name: _result(name, _wanted(name, names), columns, one_row) for name in self.want}
         for value in values.values():
             lacking |= _lacking(value)
         lines = registry(names)
@@ -238,16 +241,25 @@ def _wanted(name: str, names: Mapping[str, Any]) -> Any:
     return wanted(name, names)
 
 
-def _result(name: str, value: Any, columns: Mapping[str, Any]) -> NDArray[Any]:
-    """A result of each variant; among many variants it is a number or a field."""
+def _result(name: str, value: Any, columns: Mapping[str, Any], one_row: bool = False) -> NDArray[Any]:
+    """A result of each variant; among many variants it is a number or a field.
+
+    Of one alone an array of one is a number, unless a list or a table has ``one_row``, whose axis it may be.
+    """
     found: NDArray[Any] = np.asarray(value)
     found = found.astype(complex if found.dtype.kind == "c" else float, copy=False)
     if not varied(columns):
-        return found.reshape(1) if found.shape == (1,) else found[None]
+        return found.reshape(1) if found.shape == (1,) and not one_row else found[None]
     if not _fits(found, columns):
         raise TypeError(f"{name} of shape {found.shape} has no axis of {_count(columns)} variants")
     rows = _by_variant(found, _count(columns))
     return rows[:, 0] if found.ndim == 0 or found.shape[1:] == (1,) else rows
+
+
+def _has_one_row(g: Any) -> bool:
+    """Whether a list or a table among the inputs has one row."""
+    lists = (field for field in inputs.declared(type(g)) if isinstance(field, Rows))
+    return any(len(x) == 1 for field in lists for _, x in field.leaves(getattr(g, field.name)).values())
 
 
 def _fits(value: NDArray[Any], columns: Mapping[str, Any]) -> bool:

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mechsheet import units
+from mechsheet.run.progress import on_terminal
 from mechsheet.studies.chunks import Job, Part, computed, digest, one_by_one, same_shape, varied
 from mechsheet.worksheet import inputs
 from mechsheet.worksheet.cells import asked, load, split
@@ -185,14 +186,16 @@ def sweep(
     declared: dict[str, str] = {}
     lacking = np.zeros(size, dtype=bool)
     chunks = _split(rows, chunk)
-    for i, part in computed(job.results, [given.at(rows) for rows in chunks], executor):
-        for name, value in part.values.items():
-            if name not in values:
-                values[name] = np.full((size, *value.shape[1:]), np.nan, value.dtype)
-            same_shape(name, values[name], value)
-            values[name][chunks[i]] = value
-        lacking[chunks[i]] = part.lacking
-        declared |= part.units
+    with on_terminal(len(chunks), "sweep") as done:
+        for i, part in computed(job.results, [given.at(rows) for rows in chunks], executor):
+            for name, value in part.values.items():
+                if name not in values:
+                    values[name] = np.full((size, *value.shape[1:]), np.nan, value.dtype)
+                same_shape(name, values[name], value)
+                values[name][chunks[i]] = value
+            lacking[chunks[i]] = part.lacking
+            declared |= part.units
+            done()
     chunks = _split(np.flatnonzero(lacking), chunk)
     for i, texts in computed(job.reasons, [given.at(rows) for rows in chunks], executor):
         reasons[chunks[i]] = texts

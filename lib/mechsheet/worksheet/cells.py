@@ -4,6 +4,7 @@ import ast
 import difflib
 import re
 from collections.abc import Iterable, Iterator, Mapping
+from copy import copy, deepcopy
 from dataclasses import dataclass, field
 from functools import lru_cache
 from itertools import chain
@@ -15,10 +16,10 @@ from typing import Any
 
 import numpy as np
 
-from mechsheet.worksheet import inputs, mistakes
+from mechsheet.worksheet import inputs, mistakes, source
 from mechsheet.worksheet.check import Check
 from mechsheet.worksheet.errors import SheetError, as_given, raised
-from mechsheet.worksheet.source import constant, functions, is_app, markdown
+from mechsheet.worksheet.source import constant, functions, is_app, markdown, parsed
 
 _SECTION = re.compile(r"^\s*## +(.*\S)", re.MULTILINE)
 _PART = re.compile(r"abs\((\w+)\)|(\w+)\.(real|imag)")
@@ -289,7 +290,7 @@ def _load(path: Path, _changed: int) -> Worksheet:
 def read(path: Path) -> Worksheet:
     """Cells of a worksheet file, with shared names of their own."""
     text = path.read_text(encoding="utf-8")
-    tree = ast.parse(text)
+    tree, _ = parsed(text)
     common: dict[str, Any] = {"__file__": str(path), "__name__": path.stem}
     lines = list[ast.stmt]()
     for node in _shared(tree):
@@ -323,8 +324,9 @@ def _shared(tree: ast.Module) -> Iterator[ast.stmt]:
             case ast.ClassDef() | ast.FunctionDef():
                 kept = [d for d in node.decorator_list if not is_app(d, ("class_definition", "function"))]
                 if len(kept) < len(node.decorator_list):
-                    node.decorator_list = kept
-                    yield node
+                    alone = copy(node)
+                    alone.decorator_list = kept
+                    yield alone
 
 
 def _cells(tree: ast.Module, text: str, path: Path) -> Iterator[Cell]:
@@ -341,7 +343,7 @@ def _cells(tree: ast.Module, text: str, path: Path) -> Iterator[Cell]:
         needs = frozenset(a.arg for a in node.args.args) | others.intersection(read_outside(scopes[node.lineno]))
         branching = any(isinstance(line, _OPEN) for line in lines)
         certain = defines(line for line in lines if not isinstance(line, _OPEN)) if branching else gives[n]
-        code = compiled(lines, str(path), f"_cell{n}")
+        lines, code = compiled(lines, str(path), f"_cell{n}")
         checks, closing = tuple(_checks(node)), _is_closing(node)
         yield Cell(node.name, needs, gives[n], checks, tuple(lines), code, certain, section, closing)
 
@@ -376,11 +378,12 @@ def read_outside(scope: SymbolTable) -> Iterator[str]:
         yield from read_outside(inner)
 
 
-def compiled(lines: list[ast.stmt], path: str, own: str) -> CodeType:
-    """Code of a cell, whose names with ``_`` are changed to begin with ``own``: they are none of another cell's."""
+def compiled(lines: list[ast.stmt], path: str, own: str) -> tuple[list[ast.stmt], CodeType]:
+    """Lines of a cell and their code, names with ``_`` changed to begin with ``own``, as they are no other cell's."""
     code = compile(ast.Module(lines, []), path, "exec")
     if not any(name.startswith("_") for name in code.co_names):  # as of most cells
-        return code
+        return lines, code
+    lines = deepcopy(lines)
     private = {name for line in lines for name in bound(line) if name.startswith("_")}
     for node in (node for line in lines for node in ast.walk(line)):
         if isinstance(node, ast.alias):
@@ -390,7 +393,7 @@ def compiled(lines: list[ast.stmt], path: str, own: str) -> CodeType:
         for part in ("id", "arg", "name"):  # of names, parameters and arguments, definitions and patterns
             if getattr(node, part, None) in private:
                 setattr(node, part, own + getattr(node, part))
-    return compile(ast.Module(lines, []), path, "exec")
+    return lines, compile(ast.Module(lines, []), path, "exec")
 
 
 _OPEN = (ast.If, ast.For, ast.While, ast.Try, ast.TryStar, ast.Match)
@@ -425,7 +428,7 @@ def bound(node: ast.AST) -> Iterator[str]:
 
 
 def _is_closing(node: ast.FunctionDef) -> bool:
-    for part in ast.walk(node):
+    for part in source.nodes(node):
         match part:
             case ast.Call(ast.Name("assembled")) | ast.keyword("essential"):
                 return True
@@ -434,7 +437,7 @@ def _is_closing(node: ast.FunctionDef) -> bool:
 
 def _checks(node: ast.FunctionDef) -> Iterator[str]:
     """Texts that calls in a cell take first, which is where a check has its name; of an f-string its fixed parts."""
-    for call in ast.walk(node):
+    for call in source.nodes(node):
         match call:
             case ast.Call(args=[ast.Constant(str(text)), *_]):
                 yield re.escape(text)

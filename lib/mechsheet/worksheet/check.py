@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mechsheet import units
+from mechsheet.mechanics.differences import derivative
 from mechsheet.mechanics.equilibrium import Reaction, left_over
 from mechsheet.mechanics.load import Load
 from mechsheet.worksheet import numbers
@@ -29,6 +30,7 @@ class Check(Shown):
 
     ``residual`` and ``limit`` are in ``unit``; the check passes where ``residual <= limit``. Where one of them is NaN
     it is not evaluated, which is no pass. A check that is ``essential`` stops a script run before anything is written.
+    In an ``agreement`` the residual is the difference of two computations: rounding and no value, while it passes.
     """
 
     name: str
@@ -37,6 +39,7 @@ class Check(Shown):
     unit: str = "-"
     reason: str = ""
     essential: bool = False
+    agreement: bool = False
 
     @property
     def passed(self) -> bool:
@@ -52,6 +55,17 @@ class Check(Shown):
         """One of pass, FAIL, not evaluated."""
         return "not evaluated" if not self.evaluated else "pass" if self.passed else "FAIL"
 
+    @property
+    def utilisation(self) -> float:
+        """What part of its limit a quantity takes; NaN where that tells nothing."""
+        return self.residual / self.limit if self.limit > 0 and not self.agreement else np.nan
+
+    @property
+    def utilised(self) -> str:
+        """The utilisation in per cent, told apart from 100; nothing where there is none."""
+        part = self.utilisation
+        return f"{numbers.apart([100 * part, 100.0], digits=3)[0]} %" if np.isfinite(part) else ""
+
     def shown_in(self, unit: str) -> "Check":
         """The same check in another unit that measures the same; what is counted, in words, has its own alone."""
         if unit == self.unit:
@@ -62,17 +76,24 @@ class Check(Shown):
 
     @property
     def compared(self) -> tuple[str, str]:
-        """Residual and limit as texts: told apart, and the residual with two digits where it is only rounding."""
+        """Residual and limit as texts: told apart, with two digits where the residual is only rounding."""
         both = self.residual, self.limit
         if not np.isfinite(both).all():
             return numbers.significant(both[0], 4), numbers.significant(both[1], 4)
-        residual, limit = numbers.apart(both, digits=2 if abs(both[0]) < 1e-3 * both[1] else 4)
+        residual, limit = numbers.apart(both, digits=2 if self.agrees or abs(both[0]) < 1e-3 * both[1] else 4)
         return residual, limit
+
+    @property
+    def agrees(self) -> bool:
+        """Whether two computations agree: then the limit tells how well, and the residual nothing."""
+        return self.agreement and self.passed
 
     def __str__(self) -> str:
         residual, limit = self.compared
-        compared = f": {residual} <= {limit}{numbers.suffix(self.unit)}" if self.evaluated else ""
-        return f"{self.verdict}  {self.name}{compared}" + (f"; {self.reason}" if self.reason else "")
+        said = f"within {limit}" if self.agrees else f"{residual} <= {limit}"
+        compared = f": {said}{numbers.suffix(self.unit)}" if self.evaluated else ""
+        part = f", {self.utilised}" if self.utilised else ""
+        return f"{self.verdict}  {self.name}{compared}{part}" + (f"; {self.reason}" if self.reason else "")
 
 
 @dataclass(frozen=True)
@@ -81,9 +102,18 @@ class Summary(Shown):
 
     checks: tuple[Check, ...]
 
+    @property
+    def worst_first(self) -> tuple[Check, ...]:
+        """Those that fail, those that are not evaluated, those that pass; in each the most utilised first."""
+
+        def place(check: Check) -> tuple[bool, bool, float]:
+            return check.passed, not check.evaluated, -check.utilisation if check.utilised else np.inf
+
+        return tuple(sorted(self.checks, key=place))
+
 
 def summary(*checks: Check | tuple[Check, ...]) -> Summary:
-    """Verdicts of checks and groups of checks, those that fail first."""
+    """Verdicts of checks and groups of checks, the worst first."""
     return Summary(tuple(c for group in checks for c in (group if isinstance(group, tuple) else (group,))))
 
 
@@ -91,7 +121,8 @@ def check(name: str, residual: ArrayLike, limit: float, unit: str = "-", of: Arr
     """Check that the largest magnitude of ``residual`` is at most ``limit``, both in SI; shown in ``unit``.
 
     Where the residual is the difference of two computations, ``of`` is the quantity that both compute, and ``limit``
-    the part of its largest magnitude by which they may differ: over a thousandth it would tell nothing.
+    the part of its largest magnitude by which they may differ: over a thousandth it would tell nothing. Without it the
+    residual is a quantity, and what part of its limit it takes is its utilisation.
 
     The check is not evaluated, and says why, over no values, where a value is NaN, and where the limit tells nothing.
     """
@@ -112,7 +143,8 @@ def _held(name: str, residual: ArrayLike, limit: float, unit: str, size: float =
     elif not limit <= _AGREED * size:
         of, least = (numbers.significant(x / factor, 2) for x in (size, limit))
         reason = f"the limit, {least}, is more than a thousandth of what is compared, {of}{numbers.suffix(unit)}"
-    return Check(name, np.nan if reason else float(np.max(sizes)) / factor, limit / factor, unit, reason)
+    residual = np.nan if reason else float(np.max(sizes)) / factor
+    return Check(name, residual, limit / factor, unit, reason, agreement=bool(np.isfinite(size)))
 
 
 def balance(
@@ -149,8 +181,6 @@ def check_slope(
     The limit is 1e-8 of the greatest slope, or ten times what the differences say of their own error, or what
     rounding of ``f`` makes of them; over a thousandth of the slope it would tell nothing.
     """
-    from scipy.differentiate import derivative  # on use: scipy takes a tenth of a second
-
     if not hi > lo or not np.size(x):
         return Check(name, np.nan, 0.0, unit, "there is nothing to check: the range is empty")
     ends = np.where(x == lo, 1, np.where(x == hi, -1, 0))
@@ -159,10 +189,10 @@ def check_slope(
     least = 1e-8 * size
     # Finer differences than the check needs would be rounding, which their own error does not tell.
     enough = least / 10 if least > 0 else 0.0  # a slope may be NaN, a tolerance may not
-    found = derivative(f, x, initial_step=step, step_direction=ends, tolerances={"atol": enough, "rtol": 0.0})
+    differences, error = derivative(f, x, step, ends, enough)
     rounding = 100 * float(np.finfo(float).eps * np.max(np.abs(f(x)))) / step
-    limit = max(least, 10 * float(np.max(found.error)), rounding)
-    return _held(name, np.asarray(slope) - found.df, limit, unit, size)
+    limit = max(least, 10 * float(np.max(error)), rounding)
+    return _held(name, np.asarray(slope) - differences, limit, unit, size)
 
 
 @overload

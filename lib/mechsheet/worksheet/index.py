@@ -119,7 +119,7 @@ def _entries(node: ast.stmt) -> tuple[tuple[Entry, ...], tuple[Entry, ...]]:
 
 def _titles(node: ast.stmt) -> Iterator[Entry]:
     """Tables, figures and captions of a statement."""
-    for call in ast.walk(node):
+    for call in source.nodes(node):
         match call:
             case ast.Call(ast.Name("table" | "figure" | "caption" as kind), [ast.Constant(str(number)), title, *_]):
                 kind, text = "figure" if kind == "caption" else kind, _title(title)
@@ -129,7 +129,7 @@ def _titles(node: ast.stmt) -> Iterator[Entry]:
 
 def _headings(node: ast.stmt) -> Iterator[Entry]:
     """Headings of a statement's text that the document has a name for."""
-    for call in ast.walk(node):
+    for call in source.nodes(node):
         match call:
             case ast.Call(ast.Attribute(ast.Name("mo"), "md"), [markdown]):
                 for heading in _HEADING.findall(source.constant(markdown)):

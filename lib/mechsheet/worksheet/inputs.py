@@ -5,7 +5,7 @@ import dataclasses
 import difflib
 import re
 import sys
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Container, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -17,7 +17,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from mechsheet import units
 from mechsheet.worksheet import deviation, errors, lines, numbers, source
-from mechsheet.worksheet.data_file import DataFile
 from mechsheet.worksheet.errors import SheetError, refuse
 from mechsheet.worksheet.kinds import Choice, Input, Offer, Switch, TextLine, number
 from mechsheet.worksheet.lists import Rows
@@ -113,7 +112,7 @@ def _declared(cls: type, cell: source.Cell, names: Mapping[str, Any]) -> tuple[I
         kind, default = cls.__annotations__[name], vars(cls).get(name)
         kind = eval(kind, dict(names)) if isinstance(kind, str) else kind
         comment = cell.comments.get(line, "")
-        text = lines.declared(comment)
+        text = lines.declared(comment, node.value)
         if text is None and kind in (int, float, list[float]) and not isinstance(default, Offer):
             last = "" if comment or node is not body.body[-1] else _LOST
             raise SheetError(f"{place}: input {name} needs a comment with its unit, such as # [m] meaning{last}")
@@ -129,13 +128,13 @@ def _declared(cls: type, cell: source.Cell, names: Mapping[str, Any]) -> tuple[I
         if isinstance(own, Rows):
             if own.row and limits:
                 raise SheetError(f"{place}: limits of the table {name} stand in the class of its rows")
-            if name in vars(cls):
-                read = own.of_file(Path(folder) / default.name) if isinstance(default, DataFile) else None
-                setattr(cls, name, own.si(read, own.taken([])) if read else own.taken(default))
         elif own is not plain and (unit != "-" or limits):
             raise SheetError(f"{place}: {name} is no number and has neither unit nor limits")
-        elif name in vars(cls) and own is not plain:
-            setattr(cls, name, own.si(own.read(default.name if isinstance(default, Offer) else default), None))
+        if name in vars(cls):
+            try:
+                setattr(cls, name, own.first(default))
+            except SheetError as error:
+                raise SheetError(f"{place}: {error}") from None
         found.append(own)
         places[name] = place
     if without := [f.name for f in found if f.name not in vars(cls)]:
@@ -145,8 +144,16 @@ def _declared(cls: type, cell: source.Cell, names: Mapping[str, Any]) -> tuple[I
             )
         if other := [f.name for f in found if not f.continuous]:
             raise SheetError(f"{places[other[0]]}: property {other[0]} of an option must be a float")
+    unknown = {field.name for field in found if field.mistake}
+    found = [_without(field, unknown) for field in found] if unknown else found
     _comparable(found, places)
     return tuple(found)
+
+
+def _without(field: Input, unknown: Container[str]) -> Input:
+    """An input without the limits that nothing can be compared with, as a unit is not known: another line tells it."""
+    kept = (limit for limit in field.limits if limit[1] == "0" or not (field.mistake or limit[1] in unknown))
+    return dataclasses.replace(field, limits=tuple(kept))
 
 
 def _with_tolerance(plain: Input, text: str, varies: bool, place: str) -> Input:

@@ -127,6 +127,17 @@ class Input:
         """The value that is held where code gives this one, in SI."""
         return value
 
+    def first(self, value: Any) -> Any:
+        """The value that is held where the line that declares it gives this one; SheetError where it cannot be."""
+        given = f"{self.name} = {errors.as_given(value)}"
+        if isinstance(value, list | tuple):
+            raise SheetError(f"{given} is several values: a decimal number has a point, not a comma")
+        if isinstance(value, bool | np.bool_) or not isinstance(value, int | float | np.integer | np.floating):
+            raise SheetError(f"{given} is no number")
+        if self.whole and not isinstance(value, int | np.integer) and not float(value).is_integer():
+            raise SheetError(f"{given} must be a whole number")
+        return int(value) if self.whole else value
+
     def leaves(self, value: Any) -> "dict[str, tuple[Input, Any]]":
         """Numbers of which a value is made, by name, each with its declaration."""
         return {self.name: (self, value)}
@@ -154,7 +165,7 @@ class Chosen:
 
     def _of(self, name: str) -> int:
         if name not in self._options:
-            raise SheetError(f"{errors.as_given(name)} is none of the options {', '.join(self._options)}")
+            raise ValueError(f"{errors.as_given(name)} is none of the options {', '.join(self._options)}")
         return self._options.index(name)
 
     def __eq__(self, other: object) -> Any:
@@ -249,6 +260,9 @@ class Choice(Input):
     def si(self, value: Any, default: Any) -> Any:
         return self.held({self.name: self.options.index(value)})
 
+    def first(self, value: Any) -> Any:
+        return self.si(self.read(value.name if isinstance(value, Offer) else value), None)
+
     def leaf(self, column: Any, default: Any) -> Any:
         return np.array([self.options.index(name) if name in self.options else -1 for name in column])
 
@@ -299,6 +313,9 @@ class Switch(Input):
     def si(self, value: Any, default: Any) -> Any:
         return bool(value)
 
+    def first(self, value: Any) -> Any:
+        return self.read(value)
+
     def leaf(self, column: Any, default: Any) -> Any:
         return column.astype(bool)
 
@@ -336,6 +353,9 @@ class TextLine(Input):
 
     def si(self, value: Any, default: Any) -> Any:
         return value
+
+    def first(self, value: Any) -> Any:
+        return self.read(value)
 
     def written(self, value: Any, default: Any) -> Any:
         return value

@@ -215,6 +215,7 @@ def _refuse(new: str, place: _Place, is_input: bool, below: bool) -> None:
     """Raise SheetError where a text is no line of a formula or an input, or binds a name that another line has."""
     try:
         body = ast.parse(new).body
+        compile(new, "", "exec")  # which refuses what a cell may hold and a line may not, such as n = yield
     except SyntaxError as error:
         raise SheetError(mistakes.unread(error)) from None
     match body:
@@ -222,7 +223,7 @@ def _refuse(new: str, place: _Place, is_input: bool, below: bool) -> None:
             pass
         case [ast.Assign(targets=targets)] if not is_input and all(map(_is_of_names, targets)):
             pass
-        case [ast.FunctionDef()] if not is_input:
+        case [ast.FunctionDef(decorator_list=[])] if not is_input:
             pass
         case _:
             raise SheetError(_LIKE[is_input])

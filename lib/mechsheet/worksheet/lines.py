@@ -65,12 +65,17 @@ class Declared(NamedTuple):
     mistake: str
 
 
-def declared(comment: str) -> Declared | None:
-    """Unit, in signs that Python reads, and meaning of a comment; None where it declares nothing."""
+def declared(comment: str, expression: ast.expr | None = None) -> Declared | None:
+    """Unit, in signs that Python reads, and meaning of a comment behind an expression; None where it declares nothing.
+
+    Of a temperature no unit is known but K, for °C is that of a difference.
+    """
     match = _DECLARED.match(comment)
     if not match:
         return None
     unit, mistake = _read(match[1])
+    if unit == "degC" and expression and _temperatures(expression) == 1:
+        unit, mistake = units.UNKNOWN, f"unit [{match[1]}] is of a difference: write a temperature in [K]"
     return Declared(unit, match[2], mistake)
 
 
@@ -96,18 +101,41 @@ def _formulas(cell: source.Cell) -> Iterator[Formula | Given]:
                 yield from _given(name, f, next((k.value for k in keywords if k.arg == "equals"), ast.Constant(0)))
                 continue
         lines, number = _bound(node), node.end_lineno or node.lineno
-        found = _declared_each(cell.comments.get(number, ""), cell.at(number), len(lines)) if lines else ()
+        found = _declared_each(cell.comments.get(number, ""), cell.at(number), lines) if lines else ()
         for line, told in zip(lines, found, strict=False):
-            match line.expression:  # without brackets of its own it begins where its first part does
-                case ast.Tuple([first, *_]) as several if first.col_offset == several.col_offset:
-                    raise SheetError(
-                        f"{cell.at(number)}: {line.name} = {ast.unparse(several)[1:-1]} is several values: "
-                        "a decimal number has a point, not a comma"
-                    )
+            if several := _several(line.expression):
+                raise SheetError(
+                    f"{cell.at(number)}: {line.name} = {several} is several values: "
+                    "a decimal number has a point, not a comma"
+                )
             if not line.name.startswith("_"):
                 printed = match[0] if (match := _NUMBER.match(told.meaning)) else ""
                 meaning = told.meaning.removeprefix(printed).lstrip()
                 yield replace(line, unit=told.unit, number=printed, meaning=meaning, mistake=told.mistake)
+
+
+def _several(expression: ast.expr) -> str:
+    """An expression where values apart by commas stand for one number; "" where none do."""
+    match expression:  # without brackets of its own it begins where its first part does
+        case ast.Tuple([first, *_]) if first.col_offset == expression.col_offset:
+            return ast.unparse(expression)[1:-1]
+    for node in ast.walk(expression):
+        match node:
+            case ast.BinOp(ast.Tuple([ast.Constant(), _]), _, _) | ast.BinOp(_, _, ast.Tuple([ast.Constant(), _])):
+                return ast.unparse(expression)
+    return ""
+
+
+def _temperatures(expression: ast.expr) -> int:
+    """How many temperatures an expression adds, less those that it subtracts: one where it is a temperature itself."""
+    match expression:
+        case ast.Call(ast.Name("celsius") | ast.Attribute(attr="celsius")):
+            return 1
+        case ast.BinOp(left, ast.Add(), right):
+            return _temperatures(left) + _temperatures(right)
+        case ast.BinOp(left, ast.Sub(), right):
+            return _temperatures(left) - _temperatures(right)
+    return 0
 
 
 def undeclaring(cell: source.Cell, node: ast.stmt) -> Iterator[int]:
@@ -142,10 +170,12 @@ def _bound(node: ast.stmt) -> list[Formula]:
     return []
 
 
-def _declared_each(comment: str, place: str, count: int) -> Iterator[Declared]:
+def _declared_each(comment: str, place: str, lines: Sequence[Formula]) -> Iterator[Declared]:
     """Unit and meaning of each name of a line; several are told as ``[m] one, [s] other``."""
+    count = len(lines)
     parts = re.split(r",\s*(?=\[)", comment) if count > 1 else [comment]
-    found = [told for part in parts if (told := declared(part))]
+    expressions = (*(line.expression for line in lines[: len(parts)]), *[None] * (len(parts) - count))
+    found = [told for part, own in zip(parts, expressions, strict=True) if (told := declared(part, own))]
     if found and len(found) != count:
         raise SheetError(f"{place}: {count} names need {count} units, such as # [m] one, [s] other; got {len(found)}")
     yield from found
@@ -274,7 +304,7 @@ def _lines(cells: tuple[source.Cell, ...]) -> dict[str, _Line | SheetError]:
 
 def _display(node: ast.stmt) -> ast.expr | None:
     """Display units that a statement of a cell gives to typeset."""
-    for call in ast.walk(node):
+    for call in source.nodes(node):
         match call:
             case ast.Call(ast.Name("typeset"), _, keywords):
                 return next((k.value for k in keywords if k.arg == "display"), None)
@@ -301,7 +331,22 @@ def typeset(*shown: Any, display: Mapping[str, str] | None = None) -> "Typeset":
     rows = [_displayed(row, display or {}) if isinstance(row, Formula) else row for row in lines]
     rows = [_with_constants(row, frame.f_globals) for row in rows]
     values = tuple(frame.f_globals[row.name] if isinstance(row, Formula) else None for row in rows)
+    for row, value in zip(rows, values, strict=True):
+        if isinstance(row, Formula) and (why := no_number(row, value)):
+            refuse(SheetError(f"{cell.at(row.expression.lineno)}: {why}"))
     return Typeset(tuple(rows), values, shown, Numbers(frame.f_globals))
+
+
+def no_number(row: Formula, value: Any) -> str:
+    """Why the value of a line cannot have its unit: it is neither a number, nor an array of them, nor a function."""
+    computes = hasattr(value, "__array_ufunc__") and not isinstance(value, np.ndarray | np.generic)
+    if row.arguments or computes or isinstance(value, int | float | complex):
+        return ""
+    try:
+        kind = np.asarray(value).dtype.kind
+    except ValueError:  # of rows that differ in length
+        kind = "O"
+    return "" if kind in "biufc" else f"{row.name} = {ast.unparse(row.expression)} is no number: it has no [unit]"
 
 
 def _with_constants(row: Formula | Given, namespace: Mapping[str, Any]) -> Formula | Given:
@@ -321,8 +366,9 @@ def _of_unit(name: str, namespace: Mapping[str, Any]) -> Any:
 def names_read(row: Formula | Given) -> tuple[str, ...]:
     """Names that a line reads, parts of modules too, without its arguments."""
     parts = [row.expression, *((row.target,) if isinstance(row, Given) else (value for _, value in row.where))]
-    nodes = (node for part in parts for node in ast.walk(part))
-    read = (ast.unparse(node) for node in nodes if isinstance(node, ast.Name | ast.Attribute))
+    nodes = (node for part in parts for node in source.nodes(part))
+    named = (node for node in nodes if isinstance(node, ast.Name | ast.Attribute))
+    read = (node.id if isinstance(node, ast.Name) else ast.unparse(node) for node in named)
     own = () if isinstance(row, Given) else (*row.arguments, *(name for name, _ in row.where))
     return tuple(name for name in dict.fromkeys(read) if name not in own)
 
@@ -330,7 +376,7 @@ def names_read(row: Formula | Given) -> tuple[str, ...]:
 @lru_cache(maxsize=1000)
 def typeset_lines(cell: source.Cell) -> tuple[int, ...]:
     """Lines in which the statements of a cell end that call typeset."""
-    calls = ((node, call) for node in cell.body for call in ast.walk(node) if isinstance(call, ast.Call))
+    calls = ((node, call) for node in cell.body for call in source.nodes(node) if isinstance(call, ast.Call))
     named = (node for node, call in calls if isinstance(call.func, ast.Name) and call.func.id == "typeset")
     return tuple(node.end_lineno or node.lineno for node in named)
 

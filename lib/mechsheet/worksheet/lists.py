@@ -47,9 +47,7 @@ class Rows(Input):
             lengths = ", ".join(f"{len(xs)} of {name}" for name, xs in given.items())
             must = "columns must be as long as each other"
             raise SheetError(f"{self.meaning} {self.name}: {must}, not {lengths}", self.name)
-        if not 0 < max(count) <= MOST_ROWS:
-            must = f"must have 1 to {MOST_ROWS} rows"
-            raise SheetError(f"{self.meaning} {self.name} {must}, not {max(count)}", self.name)
+        self._counted(max(count))
         return {c.name: np.array([_of_row(c, k).read(x) for k, x in enumerate(given[c.name])]) for c in self.columns}
 
     def of_file(self, path: Path) -> Any:
@@ -107,14 +105,42 @@ class Rows(Input):
             for k, x in enumerate(xs):
                 yield from _of_row(column, k).readings(x)
 
+    def first(self, value: Any) -> Any:
+        if isinstance(value, data_file.DataFile):
+            none = self.held({column.name: np.empty(0) for column in self.columns})
+            return self.si(self.of_file(Path(self.folder) / value.name), none)
+        return self.taken(value)
+
     def taken(self, value: Any) -> Any:
-        """Arrays of what code gives in SI: numbers, or objects of the class of the rows."""
+        """Arrays of what code gives in SI: numbers, or objects of the class of the rows.
+
+        Raises SheetError where it is no such list, or has none or too many rows.
+        """
         if self.row is None:
-            return _fixed(np.array(value, dtype=float))
-        if not isinstance(value, list | tuple):
+            return self._numbers(value)
+        own = {column.name: column.name.rpartition(".")[2] for column in self.columns}
+        if all(np.ndim(getattr(value, name, 0.0)) == 1 for name in own.values()):
             return value
-        columns = {c.name: [getattr(row, c.name.rpartition(".")[2]) for row in value] for c in self.columns}
-        return self.held({name: _fixed(np.array(xs, dtype=float)) for name, xs in columns.items()})
+        if not isinstance(value, list | tuple) or not all(hasattr(row, n) for row in value for n in own.values()):
+            must = f"must be a list of rows such as {self.row.__name__}({', '.join(own.values())})"
+            raise SheetError(f"{self.name} = {errors.as_given(value)} {must}", self.name)
+        return self.held({full: self._numbers([getattr(row, name) for row in value]) for full, name in own.items()})
+
+    def _numbers(self, value: Any) -> NDArray[np.float64]:
+        """An array of its own of a list of numbers."""
+        try:
+            numbers = np.array(value)
+        except ValueError:  # of rows that differ in length
+            numbers = np.array("")
+        if numbers.size and (numbers.ndim != 1 or numbers.dtype.kind not in "iuf"):
+            raise SheetError(f"{self.name} = {errors.as_given(value)} must be a list of numbers", self.name)
+        self._counted(numbers.size)
+        return _fixed(numbers.astype(float))
+
+    def _counted(self, count: int) -> None:
+        if not 0 < count <= MOST_ROWS:
+            must = f"must have 1 to {MOST_ROWS} rows"
+            raise SheetError(f"{self.meaning} {self.name} {must}, not {count}", self.name)
 
     def leaves(self, value: Any) -> dict[str, tuple[Input, Any]]:
         if self.row is None:

@@ -46,23 +46,31 @@ def why(error: BaseException, known: Iterable[str], text: str = "") -> str:
     said = " ".join(str(error).split())
     if " " not in said:  # the bare name of a key, or nothing
         said = f"{type(error).__name__}: {said}".removesuffix(": ")
-    return said + next((f" ({hint})" for pattern, hint in _HINTS.items() if re.search(pattern, said)), "")
+    hint = next((hint for pattern, hint in _HINTS.items() if re.search(pattern, said)), "")
+    if hint == _SEVERAL and (typed := _TYPED.search(text)):  # often it is a line further up
+        hint += f", as in {typed[0].strip()}"
+    return said + (f" ({hint})" if hint else "")
 
 
 def unread(error: SyntaxError) -> str:
     """Why Python cannot read a line, with what may have been meant by who writes formulas."""
+    if "U+FEFF" in error.msg:
+        return (
+            "the file begins with a byte order mark (BOM), which Python's editors refuse: save it as UTF-8 without one"
+        )
     text = (error.text or "").partition("#")[0]
     return error.msg + next((f" ({hint})" for pattern, hint in _MEANT.items() if re.search(pattern, text)), "")
 
 
+_SEVERAL = "several values stand there: a decimal number has a point, not a comma"
 _HINTS = {
     r"for \^|'bitwise_xor'": "a power is written **, not ^",
     r"'(int|float|complex|numpy\.\w+|Quantity)' object is not callable": "is a * missing before the bracket?",
-    r"can't multiply sequence|'tuple' and|and 'tuple'|'list' and|and 'list'": (
-        "several values stand there: a decimal number has a point, not a comma"
-    ),
+    r"can't multiply sequence|'tuple' and|and 'tuple'|'list' and|and 'list'": _SEVERAL,
+    r"for unary .: 'tuple'|return arrays must be of ArrayType|positional arguments? but \d+ were given": _SEVERAL,
     r"unhashable type": "an array, a list or a table can be no key, and no member of a set",
 }
+_TYPED = re.compile(r"^[ \t]*\w+(:\s*\w+)?\s*=[^#=\"'({\[\n]*?\d,\d[^#\n]*", re.MULTILINE)
 _MEANT = {  # by the line that cannot be read
     r":=": "a definition is written =, not :=",
     r"\d,\d": "a decimal number has a point, not a comma",

@@ -90,7 +90,7 @@ def _read(node: ast.AST) -> set[str]:
 
 
 def _shown(node: ast.stmt) -> Iterator[tuple[str, frozenset[str]]]:
-    for call in ast.walk(node):
+    for call in source.nodes(node):
         match call:
             case ast.Call(ast.Name("figure" | "table"), [_, _, ast.Starred(ast.Tuple([first, *_])) | first, *_]):
                 if isinstance(first, ast.Name):

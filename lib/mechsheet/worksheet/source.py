@@ -65,13 +65,13 @@ def of_texts(texts: shown.Texts) -> tuple[Cell, ...]:
 
 @lru_cache(maxsize=1000)
 def _alone(text: str, filename: str) -> Cell:
-    tree, comments = _parse(text)
+    tree, comments = parsed(text)
     return Cell(tuple(tree.body), comments, filename)
 
 
 @lru_cache(maxsize=32)
 def _in_file(path: str, _changed: int) -> tuple[Cell, ...]:
-    tree, comments = _parse(Path(path).read_text(encoding="utf-8"))
+    tree, comments = parsed(Path(path).read_text(encoding="utf-8"))
     return tuple(Cell(tuple(node.body), comments, path) for node in functions(tree))
 
 
@@ -110,7 +110,7 @@ def call(frame: FrameType) -> ast.Call:
     """Call expression that ``frame`` is making now."""
     position = list(frame.f_code.co_positions())[frame.f_lasti // 2]
     body = _body(_file(frame)[0], frame.f_lineno)
-    for node in (n for statement in body for n in ast.walk(statement) if isinstance(n, ast.Call)):
+    for node in (n for statement in body for n in nodes(statement) if isinstance(n, ast.Call)):
         for indent in (0, body[0].col_offset):  # marimo runs a cell without the indentation that it has in the file
             end_column = (node.end_col_offset or 0) - indent
             if position == (node.lineno, node.end_lineno, node.col_offset - indent, end_column):
@@ -118,9 +118,23 @@ def call(frame: FrameType) -> ast.Call:
     raise RuntimeError(f"the source of {frame.f_code.co_filename} line {frame.f_lineno} cannot be read")
 
 
+@lru_cache(maxsize=4096)
+def nodes(tree: ast.AST) -> tuple[ast.AST, ...]:
+    """All nodes of a tree whose shape stays, in the order of `ast.walk`: once for all who look for something in it."""
+    found = [tree]
+    for node in found:
+        for name in node._fields:
+            part = getattr(node, name, None)
+            if isinstance(part, ast.AST):
+                found.append(part)
+            elif isinstance(part, list):
+                found += [each for each in part if isinstance(each, ast.AST)]
+    return tuple(found)
+
+
 def _file(frame: FrameType) -> tuple[ast.Module, dict[int, str]]:
     linecache.checkcache(frame.f_code.co_filename)
-    return _parse("".join(linecache.getlines(frame.f_code.co_filename)))
+    return parsed("".join(linecache.getlines(frame.f_code.co_filename)))
 
 
 def _body(tree: ast.Module, line: int) -> tuple[ast.stmt, ...]:
@@ -131,7 +145,10 @@ def _body(tree: ast.Module, line: int) -> tuple[ast.stmt, ...]:
 
 
 @lru_cache(maxsize=256)
-def _parse(text: str) -> tuple[ast.Module, dict[int, str]]:
-    tokens = tokenize.generate_tokens(io.StringIO(text).readline)
-    comments = {t.start[0]: t.string.lstrip("# ") for t in tokens if t.type == tokenize.COMMENT}
-    return ast.parse(text), comments
+def parsed(text: str) -> tuple[ast.Module, dict[int, str]]:
+    """Tree of a source, which all who ask share and none of them changes, and the comments of its lines.
+
+    Raises SyntaxError where the text is no Python.
+    """
+    tree, tokens = ast.parse(text), tokenize.generate_tokens(io.StringIO(text).readline)
+    return tree, {t.start[0]: t.string.lstrip("# ") for t in tokens if t.type == tokenize.COMMENT}

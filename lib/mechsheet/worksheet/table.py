@@ -85,7 +85,7 @@ class Figure(Shown):
     every: int = 1  # only every so many positions are marked by a point
 
     def __post_init__(self) -> None:
-        _some_rows(f"figure {self.number}", (self.x, *self.lines))
+        _some_rows(f"figure {self.number}", (self.x, *self.lines), 2)
 
     logarithmic: ClassVar[bool] = False  # both axes
 
@@ -188,9 +188,14 @@ def _columns(
 ) -> tuple[Column, ...]:
     known, columns = lines.registry(frame.f_globals), []
     nodes = [n for node in nodes for n in (node.value.elts if _is_group(node) else [node])]  # type: ignore[attr-defined]
-    shape = np.broadcast_shapes((1,), *(np.shape(v) for v in values))
+    shape = _common_shape(nodes, values)
     for node, value in zip(nodes, values, strict=True):
         name, part = _name(node)
+        if (kind := np.asarray(value).dtype.kind) not in "iufb":
+            why = (
+                f"a point or a force: take {name}.real and {name}.imag, or abs({name})" if kind == "c" else "no number"
+            )
+            refuse(SheetError(f"column {ast.unparse(node)}: {name} is {why}"))
         try:
             line = known[name]
         except KeyError:
@@ -202,10 +207,19 @@ def _columns(
         label = heading(name, part)
         unit = show.get(label, line.unit)
         shown = np.broadcast_to(np.asarray(value) / units.parse(unit).factor, shape)[..., ::every].ravel()
-        whole = np.asarray(value).dtype.kind in "iu"
+        whole = kind in "iu"
         places = usual_decimals(unit) if decimals is None else decimals
         columns.append(Column(label, unit, line.meaning, 0 if whole else places, shown, of=symbol.stem(name)))
     return tuple(columns)
+
+
+def _common_shape(nodes: list[ast.expr], values: tuple[Any, ...]) -> tuple[int, ...]:
+    """Shape over which all columns stand."""
+    try:
+        return np.broadcast_shapes((1,), *(np.shape(v) for v in values))
+    except ValueError:
+        lengths = ", ".join(f"{len(v)} of {ast.unparse(n)}" for n, v in zip(nodes, values, strict=True) if np.ndim(v))
+        refuse(SheetError(f"columns must be as long as each other, not {lengths}"))
 
 
 def usual_decimals(unit: str) -> int:
@@ -213,8 +227,10 @@ def usual_decimals(unit: str) -> int:
     return _DECIMALS.get(unit, 3)
 
 
-def _some_rows(what: str, columns: tuple[Column, ...]) -> None:
-    """Refuse what would be shown without a row: it would look like a result."""
+def _some_rows(what: str, columns: tuple[Column, ...], least: int = 1) -> None:
+    """Refuse what would be shown with fewer columns, or without a row: it would look like a result."""
+    if len(columns) < least:
+        refuse(SheetError(f"{what} needs at least {least} column{'s' * (least > 1)}"))
     if not all(len(column.values) for column in columns):
         refuse(SheetError(f"{what} has no rows"))
 

@@ -1,0 +1,80 @@
+// Sections: a click on a heading closes what stands below it, another one opens it; so it stays while the page runs.
+(() => {
+  if (window.msSections) return;
+  window.msSections = true;
+
+  const HEADINGS = ".markdown :is(h2, h3)";
+  const place = `ms-closed ${location.pathname}${location.search}`;
+  const closed = new Set(JSON.parse(sessionStorage.getItem(place) ?? "[]"));
+
+  // A style sheet hides the cells by their ids: what marimo draws anew in them stays hidden.
+  const style = document.head.appendChild(document.createElement("style"));
+
+  // In the editor a cell stands in a frame that takes room without it.
+  const hiding = (id) => `#${id},[data-is-dragging]:has(> #${id})`;
+
+  // Each heading with its name, its cell and the cells below it, up to the next heading of its level or a higher one.
+  function sections() {
+    const found = [];
+    let chapter = "";
+    for (const cell of document.querySelectorAll(".marimo-cell")) {
+      const headings = [...cell.querySelectorAll(HEADINGS)];
+      for (const heading of headings) {
+        if (heading.matches("h2")) chapter = heading.id;
+        const own = { heading, cell, level: heading.tagName, name: `${chapter}/${heading.id}`, cells: [] };
+        found.filter((each) => each.level >= own.level).forEach((each) => (each.ended = true));
+        found.push(own);
+      }
+      const below = ({ ended, cell: own }) => !ended && own !== cell;
+      found.filter(below).forEach(({ cells }) => cells.push(cell));
+    }
+    return found;
+  }
+
+  function show() {
+    const all = sections();
+    for (const { heading, name } of all) heading.ariaExpanded = !closed.has(name);
+    const rules = all
+      .filter(({ name }) => closed.has(name))
+      .flatMap(({ heading, cell, cells }) => {
+        const own = `#${CSS.escape(cell.id)} #${CSS.escape(heading.id)}`;
+        const hidden = [`${own} ~ *`, ...cells.map(({ id }) => hiding(CSS.escape(id)))];
+        return [`${hidden.join(",")}{display:none!important}`, `${own}::after{content:" …"}`, `${own}::before{content:"▸"}`];
+      });
+    style.textContent = rules.length ? `@media screen{${rules.join("")}}` : "";
+    sessionStorage.setItem(place, JSON.stringify([...closed]));
+  }
+
+  // Whatever leads to a place in closed sections opens them.
+  function open(to) {
+    const cell = to?.closest(".marimo-cell");
+    const round = sections().filter(({ heading, cells, cell: own }) => {
+      const after = own === cell && heading.compareDocumentPosition(to) & Node.DOCUMENT_POSITION_FOLLOWING;
+      return cells.includes(cell) || after;
+    });
+    if (round.map(({ name }) => closed.delete(name)).some(Boolean)) show();
+  }
+
+  const targetOf = (link) => document.getElementById(decodeURIComponent(link.hash.slice(1)));
+
+  document.addEventListener(
+    "click",
+    ({ target }) => {
+      const link = target.closest?.('a[href^="#"]');
+      if (link) return open(targetOf(link));
+      const heading = target.closest?.(HEADINGS);
+      if (heading) {
+        if (getSelection().toString()) return;
+        const { name } = sections().find((each) => each.heading === heading);
+        if (!closed.delete(name)) closed.add(name);
+        return show();
+      }
+      if (!closed.size || target.closest?.(".marimo-cell")) return;
+      const text = target.textContent?.trim(); // an entry of marimo's outline
+      open([...document.querySelectorAll(HEADINGS)].find((each) => each.textContent.trim() === text));
+    },
+    { capture: true },
+  );
+  document.addEventListener("ms-lead", ({ target }) => open(target));
+  document.addEventListener("ms-measured", show); // once everything is there
+})();
