@@ -20,6 +20,8 @@
   for (const e of all("input, select, textarea, button, a, summary, [role], [tabindex]")) {
     if (seen(e) && !named(e) && !["status", "alert", "tooltip", "img"].includes(e.role)) faults.add(`${what(e)} has no name`);
   }
+  const {scrollWidth} = document.documentElement;
+  if (scrollWidth > innerWidth) faults.add(`the page is ${scrollWidth} px wide in a window of ${innerWidth}`);
   let level = 0;
   for (const e of all("h1, h2, h3, h4, h5, h6")) {
     const own = Number(e.localName[1]);

@@ -12,7 +12,12 @@ function after(x, to) {
 
 const spacing = x => after(abs(x), Infinity) - abs(x);
 const clip = (x, low, high) => min(max(x, low), high);
-const comb = (n, f) => Array.from({length: n}, (_, k) => f(k));
+function comb(n, f) {
+  const a = [];
+  for (let k = 0; k < n; k++) a.push(f(k));
+  return a;
+}
+
 const least = a => a.reduce((x, v) => (v < x || x != x ? v : x), NaN);
 const largest = a => a.reduce((x, v) => (v > x || x != x ? v : x), NaN);
 const first_least = a => a.reduce((k, v, i) => (v < a[k] || (a[k] != a[k] && v == v) ? i : k), 0);

@@ -13,18 +13,20 @@ const known_or_0 = v => (isFinite(v) ? v : 0);
 
 // Singular values in descending order with the columns of u and v, by rotations of pairs of columns.
 function decomposed(rows) {
-  const n = rows[0].length, u = comb(n, k => Float64Array.from(rows, row => known_or_0(row[k])));
-  const v = comb(n, k => field(n).map((_, i) => +(i == k)));
+  const n = rows[0].length, u = comb(n, k => rows.map(row => known_or_0(row[k])));
+  const v = comb(n, k => comb(n, i => +(i == k)));
   for (let turn = 0, turned = true; turned && turn < 60; turn++) {
     turned = false;
     for (let i = 0; i < n; i++)
       for (let j = i + 1; j < n; j++) {
-        const a = dot(u[i], u[i]), b = dot(u[j], u[j]), c = dot(u[i], u[j]);
+        const x = u[i], y = u[j];
+        let a = 0, b = 0, c = 0;
+        for (let m = 0; m < x.length; m++) (a += x[m] * x[m]), (b += y[m] * y[m]), (c += x[m] * y[m]);
         if (!(abs(c) > EPS * sqrt(a * b))) continue;
         turned = true;
         const zeta = (b - a) / (2 * c), t = (zeta < 0 ? -1 : 1) / (abs(zeta) + sqrt(1 + zeta * zeta));
         const cosine = 1 / sqrt(1 + t * t);
-        rotate(u[i], u[j], cosine, cosine * t);
+        rotate(x, y, cosine, cosine * t);
         rotate(v[i], v[j], cosine, cosine * t);
       }
   }

@@ -54,8 +54,9 @@ def one(graph: Graph, found: Found, f: Callable[..., Any], asked: dict[str, Any]
     left = value - target
     block.residuals, block.sides = (left.re,), (value.re, target.re)
     if branch is not None:
-        block.branch = lift(graph, branch).re
+        block.branch, labels = lift(graph, branch).re, dict(graph.labels)
         block.branches = {s: lift(graph, f(x, s)).re for s in asked["branches"]}
+        graph.labels = labels  # only the wanted branch has steps with names
     block.rest()
     words = found.words
     told = Told(words.unknown, words.quantity, words.unit, words.unknown_unit)
