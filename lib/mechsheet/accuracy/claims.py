@@ -116,7 +116,7 @@ def claims_table(number: str, folder: Path) -> tuple[Table, Check]:
     fewer = np.array([100 * np.mean([claim.is_fewer for claim in row]) for row in rows])
     columns = (
         Column("worksheet", "", "", 0, np.array([stem.replace("_", " ") for stem in stems], object)),
-        Column("numbers", "-", "how many are compared", 0, np.array([len(row) for row in rows])),
+        Column("compared", "-", "numbers of which there are exact ones", 0, np.array([len(row) for row in rows])),
         Column("proved", "-", "fewest digits proved", 1, np.array([min(c.proved for c in row) for row in rows])),
         Column("right", "-", "fewest digits that are right", 1, np.array([min(c.right for c in row) for row in rows])),
         Column("fewer", "%", "numbers with over two digits fewer proved than right", 1, fewer),
