@@ -180,7 +180,7 @@ def test_a_unit_is_switched_wherever_the_quantity_is_shown(serve, page, console_
     expect(line.locator("ms-value .ms-chosen")).to_contain_text("141.4, ")
     page.emulate_media(media="print")
     expect(cell).to_have_text("141.40")
-    page.emulate_media(media="screen")
+    page.emulate_media(media="null")
     choose(page, page.locator(".ms-table:has-text('Table 4.1 ') th:nth-child(2) ms-unit >> visible=true").first, "N")
     expect(line.locator(".ms-chosen")).to_have_count(0)
     expect(line).to_contain_text("141399, ")

@@ -33,12 +33,16 @@
 
   function show() {
     const all = sections();
-    for (const { heading, name } of all) heading.ariaExpanded = !closed.has(name);
+    for (const { heading, name } of all) {
+      heading.ariaExpanded = !closed.has(name);
+      heading.tabIndex = 0;
+    }
     const rules = all
       .filter(({ name }) => closed.has(name))
-      .flatMap(({ heading, cell, cells }) => {
+      .flatMap(({ heading, level, cell, cells }) => {
         const own = `#${CSS.escape(cell.id)} #${CSS.escape(heading.id)}`;
-        const hidden = [`${own} ~ *`, ...cells.map(({ id }) => hiding(CSS.escape(id)))];
+        const next = `${own} ~ ${level === "H2" ? "h2" : ":is(h2,h3)"}`; // in the same text
+        const hidden = [`${own} ~ :not(${next},${next} ~ *)`, ...cells.map(({ id }) => hiding(CSS.escape(id)))];
         return [`${hidden.join(",")}{display:none!important}`, `${own}::after{content:" …"}`, `${own}::before{content:"▸"}`];
       });
     style.textContent = rules.length ? `@media screen{${rules.join("")}}` : "";
@@ -52,7 +56,15 @@
       const after = own === cell && heading.compareDocumentPosition(to) & Node.DOCUMENT_POSITION_FOLLOWING;
       return cells.includes(cell) || after;
     });
-    if (round.map(({ name }) => closed.delete(name)).some(Boolean)) show();
+    if (!round.map(({ name }) => closed.delete(name)).some(Boolean)) return;
+    show();
+    lead(to, 3);
+  }
+
+  // What has been opened takes its heights as it comes into sight, and moves the place, or is drawn anew, meanwhile.
+  function lead(to, times) {
+    (document.getElementById(to.id) ?? to).scrollIntoView({ block: "center" });
+    if (times) requestAnimationFrame(() => requestAnimationFrame(() => lead(to, times - 1)));
   }
 
   const targetOf = (link) => document.getElementById(decodeURIComponent(link.hash.slice(1)));
@@ -75,6 +87,11 @@
     },
     { capture: true },
   );
+  document.addEventListener("keydown", (event) => {
+    if (event.key !== "Enter" || !event.target.matches?.(HEADINGS)) return;
+    event.preventDefault();
+    event.target.click();
+  });
   document.addEventListener("ms-lead", ({ target }) => open(target));
   document.addEventListener("ms-measured", show); // once everything is there
 })();
