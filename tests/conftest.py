@@ -8,6 +8,7 @@ import socket
 import subprocess
 import sys
 import time
+import tomllib
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
 from functools import cache
@@ -133,6 +134,26 @@ def errors_of_numpy() -> Iterator[None]:
         yield
 
 
+@pytest.fixture
+def brief_accuracy(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+    """The accuracy worksheet measures some of the extreme scenes and times each method once or twice.
+
+    For what does not ask how they come out: that is the script's, whose workbook is compared, and the test of the
+    scenes.
+    """
+    from mechsheet.accuracy import extreme, jobs, precision
+
+    some, timed = extreme.scenes()[::8], precision.timed
+    assert {bool(scene.says) for scene in some} == {True, False}
+    with monkeypatch.context() as patched:
+        patched.setattr(extreme, "scenes", lambda: some)
+        for module in (jobs, precision):
+            patched.setattr(module, "timed", lambda runs, _seconds, *done: timed(runs, 1e-6, *done))
+        extreme._measured_scenes.cache_clear()
+        yield
+    extreme._measured_scenes.cache_clear()
+
+
 def examples(count: int, **others: Any) -> settings:
     """Settings of a test that takes so many examples, not the usual 100, and as many times more in a search."""
     return settings(max_examples=count * settings.default.max_examples // 100, **others)
@@ -149,7 +170,7 @@ def marimo_server(mode: str, worksheet: Path, folder: Path) -> Iterator[str]:
         sheet = folder / worksheet.relative_to(ROOT)
     else:
         sheet = Path(shutil.copy(worksheet, folder / "worksheets"))
-        for beside in worksheet.parent.glob("*.csv"):
+        for beside in (*worksheet.parent.glob("*.csv"), *worksheet.parent.glob("*.toml")):
             shutil.copy(beside, folder / "worksheets")
     shutil.copy(ROOT / "pyproject.toml", folder)
     with socket.socket() as free:
@@ -184,6 +205,18 @@ def marimo_server(mode: str, worksheet: Path, folder: Path) -> Iterator[str]:
             except subprocess.TimeoutExpired:
                 server.kill()
                 server.wait()
+
+
+def installed(folder: Path) -> str:
+    """Search path of a process for which the package is installed, in a folder, with the entry points it declares."""
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]
+    told = folder / "mechsheet-0.dist-info"
+    told.mkdir(exist_ok=True)
+    (told / "METADATA").write_text("Metadata-Version: 2.1\nName: mechsheet\nVersion: 0\n")
+    groups = project["entry-points"].items()
+    texts = (f"[{group}]\n" + "".join(f"{name} = {at}\n" for name, at in points.items()) for group, points in groups)
+    (told / "entry_points.txt").write_text("".join(texts))
+    return os.pathsep.join([str(folder), *filter(None, sys.path)])
 
 
 def answers(port: int) -> bool:

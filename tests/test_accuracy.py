@@ -1,6 +1,7 @@
 """The accuracy worksheet: every method that it must compare, its truths against other derivations, its verdicts."""
 
 import shutil
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -9,11 +10,12 @@ import test_joint
 import test_kinetostatics_sheet
 import test_slotted_link
 
-from mechsheet.accuracy import claims, exact, extreme, jobs, rivals
+from mechsheet.accuracy import claims, conditioning, exact, extreme, jobs, rivals
 from mechsheet.accuracy.arithmetic import mp
 from mechsheet.accuracy.precision import largest_error
 from mechsheet.mechanics import rrr
 from mechsheet.worksheet.cells import load
+from mechsheet.worksheet.inputs import declared
 
 WORKSHEET = Path(__file__).parents[1] / "worksheets" / "accuracy.py"
 SHEET = load(WORKSHEET)
@@ -213,6 +215,41 @@ def test_a_claim_of_digits_that_there_are_not_fails(monkeypatch):
     table, check = claims.claims_table("7.4", WORKSHEET.parent)
     assert not check.passed and check.reason.startswith("hitch F_gc: 14.9 proved of 12.2")
     assert [column.values[0] for column in table.columns[1:]] == [2, 12.5, 12.25, 50]
+
+
+def test_random_groups_are_measured_in_roundings_and_one_that_loses_digits_fails(monkeypatch):
+    table, check = conditioning.random_groups("7.5", 40)
+    group, positions, *quantiles = (column.values for column in table.columns)
+    assert list(group) == ["RRR", "RRP", "RPR", "PRP", "RPP"] and np.all(positions == 40)
+    assert np.all(np.diff(quantiles, axis=0) >= 0) and np.all(quantiles[0] > 0)
+    assert check.passed and check.residual == quantiles[-1].max()
+    own = conditioning._GROUPS["PRP"]
+    worse = own._replace(found=lambda *given: own.found(*given) * (1 + 1e-11))
+    monkeypatch.setitem(conditioning._GROUPS, "PRP", worse)
+    assert not conditioning.random_groups("7.5", 5)[1].passed
+
+
+def test_condition_from_end_to_end_is_that_of_runs_with_other_inputs():
+    table, check = conditioning.end_to_end("7.6", WORKSHEET.with_name("hitch.py"))
+    name, kappa, expected, kept = (column.values for column in table.columns)
+    assert len(name) > 40 and check.passed and np.all(kept > expected - 2)
+    sheet, want, step, rows = load(WORKSHEET.with_name("hitch.py")), ["GS6", "R05", "phi6_S"], 1e-6, [0, 3, 9]
+    g = sheet.inputs()
+
+    def results(**changed: float):
+        found = sheet.run(want, {"g": replace(g, **changed)})
+        return {key: found[key][rows] for key in want}
+
+    moved = {key: np.zeros(3) for key in want}
+    for field in declared(sheet.inputs):
+        x = getattr(g, field.name)
+        if isinstance(x, float) and x:
+            ahead, behind = (results(**{field.name: x * (1 + way * step)}) for way in (1, -1))
+            for key in want:
+                moved[key] += np.abs(ahead[key] - behind[key]) / (2 * step)
+    for key, size in results().items():
+        other = moved[key].max() / np.abs(size).max()
+        assert kappa[list(name).index(key)] == pytest.approx(np.log10(other), abs=1e-5), key
 
 
 def test_every_worksheet_is_measured_at_every_size():

@@ -6,14 +6,18 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from conftest import WITHIN
 from own_worksheet import own
+from playwright.sync_api import expect
 
 from mechsheet.run import arguments, batch
 from mechsheet.studies import asked_design, refined
 from mechsheet.worksheet import cells
+from mechsheet.worksheet.cells import evaluate
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.inputs import declared
 
+GUIDE = Path(__file__).parents[1] / "worksheets" / "guide.py"
 LINES = """
 p = g.F * (4 - g.F) - g.a  # [-] greatest at F = 2
 s = linspace(0, 1, 2)  # [-] two positions
@@ -153,3 +157,40 @@ def test_a_design_may_start_at_a_bound():
     with pytest.raises(SheetError, match=r"no design within the bounds: mu_2 >= 70 deg: best reachable \d"):
         asked_design.best(asked(cells.load(bucket), "--vary=L_DE=0.42..0.5", "--need=mu_2 >= 70 deg", "--best=max F_T"))
     assert np.isfinite(asked(cells.load(bucket), "--vary=L_DE=0.42..0.5", "--best=max F_T").now.goal)
+
+
+def test_the_page_finds_what_it_would_take(serve, page, console_errors):
+    """In the guide the moment is as large as the force: M_work = 2442.8 N m at 50 kN, and H = 2 r the stroke."""
+    page.goto(serve("run", GUIDE))
+    form, told = page.locator("ms-design"), page.locator(".ms-designed")
+    form.get_by_text("what would it take").click()
+    vary, need = form.locator(".ms-vary > div"), form.locator(".ms-need > div")
+    vary.last.locator("select").select_option("F")
+    expect(vary.first.get_by_label("least")).to_have_value("25")
+    need.last.get_by_label("result that is required").select_option("M_work")
+    need.first.get_by_label("value").fill("2")
+    form.get_by_role("button").click()
+    expect(told, "which one, and what is reachable").to_contain_text("M_work reaches 1221..3664 N·m by 97 samples")
+    need.first.get_by_label("value").fill("2000 N*m")
+    form.get_by_role("button").click()
+    expect(told).to_contain_text("M_work = 2000 N·m")
+    moment = evaluate(GUIDE, ["M_work"])["M_work"]
+    found = float(re.match(r"F = ([\d.]+) kN, within 25..75", told.inner_text())[1])
+    assert found == pytest.approx(50 * 2000 / moment, rel=1e-9)
+    need.first.get_by_label("is", exact=True).select_option("<=")
+    vary.last.locator("select").select_option("r")
+    form.get_by_label("goal").select_option("max")
+    form.get_by_label("result that shall be best").select_option("H")
+    form.get_by_role("button").click()
+    expect(told).to_contain_text("conditions of an optimum hold", timeout=WITHIN * 1000)
+    assert "r = 90 mm, within 30..90" in told.inner_text(), "with less force the longest crank"
+    with page.expect_download() as scene:
+        told.get_by_text("Scene of the design").click()
+    text = Path(scene.value.path()).read_text(encoding="utf-8")
+    assert scene.value.suggested_filename == "guide_designed.toml" and '"M_work" = {max = 2000.0}' in text
+    field = page.locator(".ms-inputs tr:has-text('force on the ram') input")
+    field.fill("40")
+    field.press("Enter")
+    expect(told).to_have_text("The inputs are others by now.")
+    expect(vary.first.get_by_label("least"), "what is filled in stays").to_have_value("25")
+    assert console_errors == []

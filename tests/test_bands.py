@@ -14,7 +14,7 @@ from mechsheet.recording.banded import run_bands
 from mechsheet.recording.bands import Bands, tolerances
 from mechsheet.recording.enclosed import enclosed
 from mechsheet.recording.record import record
-from mechsheet.run import arguments, banding, batch
+from mechsheet.run import arguments, batch, studied
 from mechsheet.studies.sweep import sweep
 from mechsheet.studies.tolerance import tolerance
 from mechsheet.worksheet import cells
@@ -79,6 +79,9 @@ w = abs(g.F - 2.5)  # [-] with a corner
 c = check("below", y, LIMIT)"""
 
 
+CANCELLED = """
+p = g.F * linspace(0.1, 0.7, 9) ** 2 * 0.7 / (1.1 * g.F)  # [-] whatever F is
+q = p + 1e-9 * g.F  # [-] hardly moved by it"""
 TEXT = '\nz = float(f"{g.F:.17g}") * g.a  # [-] by way of a text'
 
 
@@ -101,6 +104,13 @@ def test_worst_case_root_of_squares_and_what_is_not_followed(tmp_path):
     table = next(b for b in found.banded if b.where == "table 1")
     assert np.allclose(table.worst, np.linspace(0.1, 2, 5))
     assert re.search(r"table 1 +x .*± 2 .*in row 5", "\n".join(found.lines()))
+
+
+def test_rounding_is_no_band(tmp_path):
+    found, _ = bands(off(tmp_path, 9, more=CANCELLED))
+    by_name = {b.name: b for b in found.banded}
+    assert "p" not in by_name
+    assert np.allclose(by_name["q"].worst, 1e-9, rtol=1e-6)
 
 
 @pytest.mark.parametrize(
@@ -219,5 +229,5 @@ def test_the_page_shows_bands_and_what_matters_once_it_is_asked(serve, page, con
 def test_what_matters_is_known_of_a_worksheet_with_lists(tmp_path):
     sheet = cells.load(EXAMPLES / "bolted_joint.py")
     names = sheet.run(sheet.results, {"g": sheet.inputs()})
-    tornado, table = banding.matters(sheet, names, "p_K", "least")
+    tornado, table = studied.matters(sheet, names, "p_K", "least")
     assert len(table.columns[0].values) > 5 and tornado

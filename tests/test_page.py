@@ -1,6 +1,7 @@
 """The hitch worksheet in a real browser."""
 
 import json
+import re
 from math import inf
 from pathlib import Path
 
@@ -340,6 +341,7 @@ def test_digits_that_are_not_proved_are_grey_while_they_are_asked_for(left_open,
     sheet.write_text(text.replace(line, losing), encoding="utf-8")
     page = left_open(sheet, "checks pass")
     grey = """() => [...(CSS.highlights.get('ms-unproved') ?? [])]
+        .filter((r) => r.startContainer.parentElement.closest('td'))
         .map((r) => [r.startContainer.data, r.startContainer.data.slice(r.startOffset)])"""
     assert page.evaluate(grey) == []
     switch = page.locator(".ms-study").get_by_role("checkbox").last
@@ -350,6 +352,17 @@ def test_digits_that_are_not_proved_are_grey_while_they_are_asked_for(left_open,
     page.wait_for_function("() => CSS.highlights.get('ms-unproved')?.size")
     lost = page.evaluate(grey)
     assert all(whole != digits for whole, digits in lost)
+    value = page.locator("#line-M_S .ms-value")
+    own = """(value) => [...CSS.highlights.get('ms-unproved')].filter((r) => value.contains(r.startContainer))
+        .map((r) => r.startContainer.data.slice(r.startOffset, r.endOffset))"""
+    digits = value.evaluate(own)
+    assert digits == [number[-1] for number in re.findall(r"\d+", value.inner_text())], "4 N·m: the last digit of each"
+    value.locator("ms-unit").first.click()
+    page.get_by_role("menuitemradio", name="N·mm", exact=True).click()
+    copy = page.locator("#line-M_S .ms-chosen")
+    until(page, lambda: copy.evaluate(own)[1:] == [f"{digit}000" for digit in digits[1:]], "so has the other unit")
+    value.locator(".ms-chosen ms-unit").click()
+    page.get_by_role("menuitemradio", name="N·m", exact=True).click()
     field = page.locator(".ms-inputs tr:has-text('force on the lever') input")
     field.fill("1000")
     field.press("Enter")

@@ -3,18 +3,30 @@
 from __future__ import annotations
 
 import re
+import shutil
 import tomllib
 from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from conftest import ROOT, WITHIN
+import pytest
+from conftest import ROOT, WITHIN, until
 from playwright.sync_api import expect
+
+from mechsheet import evaluate, units
 
 if TYPE_CHECKING:
     from playwright.sync_api import Page
 
-GUIDE = ROOT / "worksheets" / "guide.py"
+
+@pytest.fixture(scope="module")
+def press(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The guide with two scenes beside it, one of which is refused, and one of another worksheet."""
+    folder = tmp_path_factory.mktemp("press")
+    scenes = {"short": "r = 52\nF = '40,5'\n", "turned": "r = -1\n", "other": "L4 = 0.5\n"}
+    for name, text in scenes.items():
+        (folder / f"{name}.toml").write_text(f"[inputs]\n{text}", encoding="utf-8")
+    return Path(shutil.copy(ROOT / "worksheets" / "guide.py", folder / "press.py"))
 
 
 def fill(page: Page, name: str, text: str) -> None:
@@ -24,9 +36,9 @@ def fill(page: Page, name: str, text: str) -> None:
 
 
 def test_a_step_back_and_on_the_documents_own_and_a_link(
-    left_open: Callable[[Path, str], Page], tmp_path: Path
+    press: Path, left_open: Callable[[Path, str], Page], tmp_path: Path
 ) -> None:
-    page = left_open(GUIDE, "as in the document")
+    page = left_open(press, "as in the document")
     states, field = page.locator("ms-states"), page.locator('td[data-input="r"] input')
     own = field.input_value()
     fill(page, "r", "52")
@@ -54,8 +66,43 @@ def test_a_step_back_and_on_the_documents_own_and_a_link(
     assert "#" not in page.url
 
 
-def test_a_symbol_tells_what_it_stands_for_and_leads_there(left_open: Callable[[Path, str], Page]) -> None:
-    page = left_open(GUIDE, "as in the document")
+AT_ONCE = """(texts) => Object.entries(texts).forEach(([name, text]) => {
+  const host = document.querySelector(`td[data-input="${name}"] marimo-ui-element > *`);
+  const field = host.shadowRoot.querySelector("input");
+  Object.getOwnPropertyDescriptor(HTMLInputElement.prototype, "value").set.call(field, text);
+  field.dispatchEvent(new InputEvent("input", { bubbles: true }));
+  field.dispatchEvent(new FocusEvent("focusout", { bubbles: true }));
+})"""
+
+
+def test_fields_that_change_while_the_page_computes_all_arrive(
+    press: Path, left_open: Callable[[Path, str], Page]
+) -> None:
+    page = left_open(press, "as in the document")
+    states, frames = page.locator("ms-states"), list[str | bytes]()
+    page.on("websocket", lambda socket: socket.on("framereceived", lambda frame: frames.append(frame)))
+    page.reload()
+    expect(states).to_contain_text("as in the document", timeout=WITHIN * 1000)
+    page.evaluate(AT_ONCE, {"r": "53", "l": "250", "F": "41", "h": "15"})
+    for changed in ("r = 53 mm", "l = 250 mm", "F = 41 kN", "h = 15 mm"):
+        expect(states).to_contain_text(changed)
+
+    def runs() -> int:
+        return sum("completed-run" in str(frame) for frame in frames)
+
+    before = runs()
+    fill(page, "r", "54")
+    expect(states).to_contain_text("r = 54 mm")
+    fill(page, "l", "251")
+    expect(states).to_contain_text("l = 251 mm")
+    until(page, lambda: runs() >= before + 2, "the page has not computed")
+    fill(page, "h", "16")
+    expect(states).to_contain_text("h = 16 mm")
+    assert runs() <= before + 3, "a field and the element beside it both told of a change"
+
+
+def test_a_symbol_tells_what_it_stands_for_and_leads_there(press: Path, left_open: Callable[[Path, str], Page]) -> None:
+    page = left_open(press, "as in the document")
     formula = page.locator("#line-M marimo-tex")
     formula.scroll_into_view_if_needed()
     formula.locator(".katex-html .mathnormal", has_text="F").hover()
@@ -67,3 +114,59 @@ def test_a_symbol_tells_what_it_stands_for_and_leads_there(left_open: Callable[[
     expect(page.locator("#line-s_k")).not_to_have_class(re.compile("ms-(uses|depends)"))
     formula.locator(".katex-html .mathnormal", has_text="F").click()
     expect(page.locator('td[data-input="F"] input')).to_be_focused()
+
+
+def test_a_scene_beside_the_worksheet_is_chosen_from_a_list(
+    press: Path, left_open: Callable[[Path, str], Page]
+) -> None:
+    page = left_open(press, "as in the document")
+    states = page.locator("ms-states")
+    chosen = states.get_by_role("combobox", name="scenes")
+    texts = chosen.locator("option").all_text_contents()
+    assert texts[:2] == ["a scene", "short"] and len(texts) == 3
+    assert texts[2].startswith("turned: ") and "must be positive" in texts[2]
+    expect(chosen.locator("option").nth(2)).to_be_disabled()
+    fill(page, "l", "250")
+    expect(states).to_contain_text("l = 250 mm")
+    chosen.select_option(label="short")
+    expect(states).to_contain_text("r = 52 mm")
+    expect(states).to_contain_text("F = 40.5 kN")
+    expect(states).not_to_contain_text("l = 250 mm")
+    expect(chosen).to_have_value("0")
+    until(page, lambda: "r=52" in page.url, "the address has not followed")
+    page.reload()  # with two inputs in the address
+    expect(states).to_contain_text("r = 52 mm", timeout=WITHIN * 1000)
+    expect(states).to_contain_text("F = 40.5 kN")
+    fill(page, "r", "53")
+    expect(states).to_contain_text("r = 53 mm")
+    expect(chosen.locator("option:checked")).to_have_text("a scene")
+
+
+def test_what_differs_from_the_document_is_marked_with_its_own_numbers(
+    press: Path, left_open: Callable[[Path, str], Page]
+) -> None:
+    page = left_open(press, "as in the document")
+    marked = page.locator("[data-own]")
+    page.get_by_text("what differs from the document").click()
+    page.locator("ms-own").wait_for(state="attached")
+    expect(marked).to_have_count(0)
+    fill(page, "r", "52")
+    expect(page.locator("#line-H .ms-value")).to_have_attribute("data-own", "120 mm")
+    expect(page.locator("tr:has(> .ms-changed)")).to_have_count(1)
+    rows = page.locator(".ms-table:has(#table-1) tbody tr")
+    until(page, lambda: rows.first.locator("[data-own]").count() == 1, "the table is not marked")
+
+    found = [evaluate(press, ["s_k", "M"], **given) for given in ({}, {"r": 52})]
+    shown = [
+        [[f"{x / units.parse(unit).factor:.{digits}f}" for x in each[name]] for each in found]
+        for name, unit, digits in (("s_k", "mm", 1), ("M", "N*m", 0))
+    ]
+    for column, (own, now) in enumerate(shown, start=1):
+        for row, (before, after) in enumerate(zip(own, now, strict=True)):
+            told = rows.nth(row).locator("td").nth(column).get_attribute("data-own")
+            assert told == (None if before.strip("-") == after.strip("-") else before), (column, row)
+    assert page.locator("#line-phi .ms-value").get_attribute("data-own") is None
+    page.locator("ms-states").get_by_role("button", name="back to the document").click()
+    expect(marked).to_have_count(0)
+    page.get_by_text("what differs from the document").click()
+    expect(page.locator("ms-own")).to_have_count(0)

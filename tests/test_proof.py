@@ -175,6 +175,20 @@ p, q = s_found.value  # [-] one, [-] other"""
     assert not check.passed and "no root is proved there" in check.reason and "line " in check.reason
 
 
+def test_a_root_of_the_largest_or_least_of_several_is_proved(tmp_path: Path) -> None:
+    lines = """
+s = linspace(0.4, 1.3, 9)  # [-] positions
+u_found = find(lambda x: np.max(np.sin(s * x)) - 0.5 * x, 0.2, 1.2, equals=0.3, unknown="largest u")
+u = u_found.value  # [-] root
+v_found = find(lambda x: np.min(np.cos(s * x)), 0.2, 1.2, equals=0.7, unknown="least v")
+v = v_found.value  # [-] root
+w_found = find(lambda x: np.max(np.abs(s - x)), 0.5, 0.86, equals=0.45, unknown="corner w")
+w = w_found.value  # [-] root"""
+    told = {root.name: root for root in sheet_of(tmp_path, lines.strip()).roots}
+    assert told["largest u"].exists and told["least v"].exists
+    assert not told["corner w"].exists, "at 0.85 the largest falls on one side and grows on the other"
+
+
 # --- never more digits than there are ----------------------------------------------------------------------------
 
 
@@ -266,7 +280,7 @@ def line_of(path: str, text: str) -> int:
 
 def test_what_cannot_be_proved_is_told_with_its_line(tmp_path: Path) -> None:
     lines = """
-y = float(np.convolve([g.F], [2.0])[0])  # [-] not recorded
+y = float(np.fft.fft([g.F, 2.0])[0].real)  # [-] not recorded
 z = np.where(np.sqrt(g.a) ** 2 <= g.a, 1.0, 2.0) * g.F  # [-] decided by rounding
 n = np.sqrt(-g.F) * 1  # [-] no number"""
     with np.errstate(all="ignore"):
@@ -307,6 +321,7 @@ def test_nine_digits_of_all_tables_are_proved_but_for_listed_exceptions(stem: st
 ZEROS = {
     "zero": ("np.cos(g.F * np.pi) * g.a", {}, True),
     "less than an input is held to": ("(1 + np.cos(g.F)) - 1", {"F": np.pi / 2}, True),
+    "parts that cancel move nothing": ("(lambda u: u + (-u))(g.F / 3)", {}, True),
     "lost": ("(1e17 + g.a) - 1e17", {}, False),
     "lost beside what is left out again": ("(1e17 * g.F + g.a) - 1e17 * g.F", {}, False),
     "small": ("1e-30 * g.F / 7", {}, None),

@@ -4,12 +4,10 @@ import ast
 import json
 import os
 import re
-import shutil
 import socket
 import subprocess
 import sys
 import time
-import tomllib
 import urllib.request
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
@@ -17,7 +15,7 @@ from http.cookiejar import CookieJar
 from pathlib import Path
 
 import pytest
-from conftest import WITHIN, answers
+from conftest import WITHIN, answers, installed
 from websockets.sync.client import connect
 
 from mechsheet import __main__ as launcher
@@ -27,17 +25,18 @@ ROOT = Path(__file__).parents[1]
 
 
 @pytest.fixture
-def served(tmp_path):
+def served(tmp_path, monkeypatch):
     """Port of the README's own command, but for the host and the port."""
-    shutil.copytree(ROOT / "worksheets", tmp_path / "worksheets")
     (tmp_path / "password.txt").write_text("sesame\n", encoding="utf-8")
-    command = re.search(r"^    marimo (run .*--token-password-file.*)$", (ROOT / "README.md").read_text("utf-8"), re.M)
+    written = re.search(r"^    python lib/mechsheet (serve .*)$", (ROOT / "README.md").read_text("utf-8"), re.M)
     with socket.socket() as free:
         free.bind(("127.0.0.1", 0))
         port = free.getsockname()[1]
-    options = command[1].replace("0.0.0.0", "127.0.0.1").replace("8080", str(port)).split()
+    options = written[1].replace("0.0.0.0", "127.0.0.1").replace("8080", str(port)).split()
+    monkeypatch.setattr(launcher, "call", lambda command, **_: command)
+    command = launcher.main([*options, "--headless"])
     quiet = {"stdin": subprocess.DEVNULL, "stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
-    with subprocess.Popen([sys.executable, "-m", "marimo", *options], cwd=tmp_path, **quiet) as server:
+    with subprocess.Popen(command, cwd=tmp_path, **quiet) as server:
         try:
             deadline = time.monotonic() + WITHIN
             while not answers(port):
@@ -61,14 +60,7 @@ def test_only_the_password_opens_the_page(served):
 @contextmanager
 def serving(sheet: Path):
     """Port of a server that no page was asked of; the package is installed for it with the entry points it declares."""
-    project = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]
-    installed = sheet.parent / "mechsheet-0.dist-info"
-    installed.mkdir(exist_ok=True)
-    (installed / "METADATA").write_text("Metadata-Version: 2.1\nName: mechsheet\nVersion: 0\n")
-    groups = project["entry-points"].items()
-    texts = (f"[{group}]\n" + "".join(f"{name} = {at}\n" for name, at in points.items()) for group, points in groups)
-    (installed / "entry_points.txt").write_text("".join(texts))
-    path = os.pathsep.join([str(sheet.parent), *filter(None, sys.path)])
+    path = installed(sheet.parent)
     with socket.socket() as free:
         free.bind(("127.0.0.1", 0))
         port = free.getsockname()[1]

@@ -110,6 +110,47 @@ def test_undeclared_column_says_what_is_missing(names):
         run('table("1", "T", S + 1)', names)
 
 
+INPUTS = """
+from mechsheet import inputs, one_of
+
+@inputs
+class Bolt:
+    x: float  # [mm] place
+    F: float  # [kN] force
+
+@inputs
+class Grade:
+    R_m: float  # [MPa] strength
+
+@inputs
+class Given:
+    k: float = 1.5  # [-] factor; > 0
+    places: list[float] = [0.01, 0.02]  # [mm] places
+    bolts: list[Bolt] = [Bolt(0.1, 5e3), Bolt(0.2, 7e3)]  # bolts
+    grade: Grade = one_of({"8.8": Grade(800e6)}, "8.8")  # grade
+
+g = Given()
+"""
+
+
+def test_inputs_are_columns_with_their_declarations(names):
+    run(INPUTS, names)
+    run('t = table("1", "T", g.bolts.x, g.bolts.F, g.places, g.k, g.grade.R_m, show={"xbolts": "m"})', names)
+    columns = names["t"].columns
+    assert [(c.symbol, c.unit, c.meaning) for c in columns] == [
+        ("xbolts", "m", "place"),
+        ("Fbolts", "kN", "force"),
+        ("places", "mm", "places"),
+        ("k", "-", "factor"),
+        ("Rmgrade", "MPa", "strength"),
+    ]
+    assert np.allclose([c.values for c in columns], [[0.1, 0.2], [5, 7], [10, 20], [1.5, 1.5], [800, 800]])
+    with pytest.raises(SheetError, match=r"column g.bolts: a column is a name, an input"):
+        run('table("1", "T", g.bolts)', names)
+    with pytest.raises(SheetError, match=r"column other.k: a column is a name, an input"):
+        run('class Other:\n    k = 1.5\nother = Other()\ntable("1", "T", other.k)', names)
+
+
 def test_page_leaves_what_is_not_assembled_empty(names):
     run("S = np.array([0.42, np.nan])  # [m] stroke\ntypeset()", names)
     run('t = table("2.1", "<T>", S)', names)

@@ -282,7 +282,6 @@ def section_8():
         sweep("worksheets/guide.py", ["M"], grid(r=[50, 55, 60], F=[40, 50])).frame()
 
     What a scene does not ask for is not computed.
-
         python lib/mechsheet design guide --vary="r=50..70" --vary="h=10..40" --need="M <= 2700" --best="max H"
         python lib/mechsheet design guide --vary="h=10..60" --need="M_work = 2000"
 
@@ -290,8 +289,11 @@ def section_8():
     input that gives a result its value; it says how sure that is, and writes the scene `guide_designed.toml` into
     `exports/`, beside a worksheet of your own, or where `--out=FOLDER` says.
 
-    On the page the switch above the buttons at its end shows the tolerances behind all numbers and in charts, and the
-    fields beside it what matters for a result: by how many percent it changes for one percent of each input.
+    On the page a list below the inputs offers the scenes beside the worksheet. Switches at its end mark every number
+    that differs from the document, with its own behind it, and show the tolerances behind all numbers and in charts;
+    fields there show what matters for a result: by how many percent it changes for one percent of each input. Below
+    them is asked what it would take: the same as `design`, for the inputs of the page, with the scene to be saved.
+    The last switch proves every number that the page shows, and greys the digits that are not proved.
     """)
     return
 
@@ -309,8 +311,9 @@ def section_9():
       `X56` and `Y56`, a force `R56x` and `R56y`. A name that would be the address of a cell, or that differs from
       another in capitals only, gets a line behind it: `L3_`.
     - What is found is computed by its closed form where there is one. Else the cells search the interval of an equation
-      of one unknown: where 97 places of it show one change of sign, there is a value. All else that is found holds for
-      the exported inputs alone.
+      of one unknown: where 97 places of it show one change of sign, there is a value. Of several unknowns with guesses
+      they take the worksheet's own first twelve steps, with a value where these surely end in the same root. All else
+      that is found holds for the exported inputs alone, and the front sheet says why.
     - Where there is no number, a mechanism that does not close, an input outside its limits, cells say `#N/A`.
     - What the cells cannot follow is grey, holds for the exported inputs and says `#N/A` for others; the front sheet
       and the run name its line and the reason.

@@ -2,6 +2,7 @@
 
 # isort: skip_file
 from mechsheet.accuracy.claims import claims_table as claims_table
+from mechsheet.accuracy.conditioning import end_to_end as end_to_end, random_groups as random_groups
 from mechsheet.accuracy.extreme import (
     measured_scenes as measured_scenes,
 )

@@ -17,7 +17,7 @@ from pathlib import Path
 
 MINIMUM = (3, 11)
 ROOT = Path(__file__).resolve().parents[2]
-COMMANDS = ("run", "html", "design", "new", "edit", "index", "compare", "rename", "test")
+COMMANDS = ("run", "html", "design", "new", "edit", "serve", "index", "compare", "rename", "test")
 HELP = """\
 usage: mechsheet COMMAND              where the package is installed
        python lib/mechsheet COMMAND   in a clone of the project
@@ -38,8 +38,12 @@ usage: mechsheet COMMAND              where the package is installed
       such as                         design bucket --vary="L_DE=0.42..0.5" --need="mu_2 >= 30 deg" --best="max F_T"
   new NAME [--like=EXAMPLE]           begin a worksheet from a template, or from another worksheet
       such as                         new loader --like=bucket
-  edit NAME [OPTIONS]                 open the worksheet in the browser; a click on a formula edits its line
+  edit [NAME] [OPTIONS]               open the worksheet in the browser; a click on a formula edits its line; without
+                                      a name a page with all worksheets, their drawings and verdicts
       such as                         edit hitch
+  serve [NAME] [OPTIONS]              show it, or all of them, in the browser without the code: on this computer only
+                                      unless --host=0.0.0.0, to who knows the password of --password-file=FILE
+      such as                         serve hitch --port=8080
   index NAME                          where the worksheet has the formulas, tables and figures of its document
       such as                         index kinetostatics
   compare NAME OLD NEW [--markdown]   what changed from one scene, workbook or revision of git to another; exit code 1
@@ -63,15 +67,14 @@ def main(argv: "list[str] | None" = None) -> int:
     if command in ("", "-h", "--help"):
         say(contents() + HELP)
         return 0 if command else 1
-    if command in ("run", "html", "design", "edit", "index", "compare", "rename"):
+    if command in ("edit", "serve"):
+        name, *options = options if options and not options[0].startswith("-") else ["", *options]
+        return page(command, [known(name)] if name else [], options)
+    if command in ("run", "html", "design", "index", "compare", "rename"):
         if not options:
             sys.exit(f"mechsheet: {command} needs a worksheet: {known_worksheets()}")
         name, *options = options
-        sheet = worksheet(name)
-        if not sheet:
-            sys.exit(f"mechsheet: no worksheet {name}: {nearest(name, list(worksheets()))}{known_worksheets()}")
-        if command == "edit":
-            return call([interpreter(""), "-m", "marimo", "edit", "--watch", *options, sheet])
+        sheet = known(name)
         if command in ("html", "index", "compare", "rename"):
             return call([interpreter(""), "-m", f"mechsheet.run.{command}", sheet, *options])
         if command == "design":
@@ -93,8 +96,8 @@ def main(argv: "list[str] | None" = None) -> int:
     if worksheet(command).endswith(".py"):
         sys.exit(f"mechsheet: {command} is a worksheet: run {command} computes it, edit {command} opens it")
     meant = nearest(command, [*COMMANDS, *("run " + name for name in worksheets())])
-    known = f"there are {', '.join(COMMANDS[:-1])} and {COMMANDS[-1]}, and --help tells more"
-    sys.exit(f"mechsheet: command {command} is not known: {meant}{known}")
+    there = f"there are {', '.join(COMMANDS[:-1])} and {COMMANDS[-1]}, and --help tells more"
+    sys.exit(f"mechsheet: command {command} is not known: {meant}{there}")
 
 
 def nearest(given: str, known: "list[str]") -> str:
@@ -103,6 +106,48 @@ def nearest(given: str, known: "list[str]") -> str:
 
     near = difflib.get_close_matches(given, [text.split()[-1] for text in known], n=1)
     return next((f"did you mean {text}? " for text in known if near and text.split()[-1] == near[0]), "")
+
+
+def page(command: str, sheets: "list[str]", options: "list[str]") -> int:
+    """Exit code of marimo's server of a worksheet, or of the start page and all worksheets."""
+    import json  # on use: only a page needs it
+
+    settings = {}
+    if not sheets:
+        groups = [(title, paths) for title, paths in grouped().items() if paths]
+        if not groups:
+            sys.exit(f"mechsheet: {command} without a name shows all worksheets, and there is none: new begins one")
+        settings["MECHSHEET_START"] = json.dumps(groups)
+        sheets = [path for _, paths in groups for path in paths]
+        if command == "edit":  # marimo edits one file, or what it is asked for in a folder
+            sheets = [os.path.commonpath([str(Path(path).parent) for path in sheets])]
+    if command == "edit":
+        return call([interpreter(""), "-m", "marimo", "edit", "--watch", *options, *sheets], settings=settings)
+    password = "--password-file"
+    options = [re.sub(f"^{password}(?==|$)", "--token-password-file", option) for option in options]
+    if any(option.startswith("--token-password-file") for option in options):
+        options = ["--token", *options]
+    return call([interpreter(""), "-m", "marimo", "run", *options, *sheets], settings=settings)
+
+
+def grouped() -> "dict[str, dict[str, str]]":
+    """Titles of all worksheets by their paths, in the groups of the start page."""
+    groups = {"Here": {}, "To begin with": {}, "Documents": {}}  # type: dict[str, dict[str, str]]
+    for name, (path, title) in worksheets().items():
+        path = path.resolve()
+        ours = path.parent in map(Path.resolve, folders())
+        begins = name == "guide" or path.parent.name == "examples"
+        groups["Here" if not ours else "To begin with" if begins else "Documents"][str(path)] = title or name
+    first = sorted(groups["To begin with"].items(), key=lambda each: Path(each[0]).stem != "guide")
+    return {**groups, "To begin with": dict(first)}
+
+
+def known(name: str) -> str:
+    """Path of the worksheet of that name; without one the command ends."""
+    sheet = worksheet(name)
+    if not sheet:
+        sys.exit(f"mechsheet: no worksheet {name}: {nearest(name, list(worksheets()))}{known_worksheets()}")
+    return sheet
 
 
 def worksheet(name: str) -> str:
@@ -115,23 +160,23 @@ def folders() -> "list[Path]":
     return [ROOT / "worksheets", ROOT / "worksheets" / "examples", Path(__file__).resolve().parent / "examples"]
 
 
-def worksheets() -> "dict[str, str]":
-    """Titles of the worksheets that a name alone finds, read from their text; one found earlier hides a later one."""
-    found = {}  # type: dict[str, str]
+def worksheets() -> "dict[str, tuple[Path, str]]":
+    """Worksheets that a name alone finds, with the titles in their texts; one found earlier hides a later one."""
+    found = {}  # type: dict[str, tuple[Path, str]]
     for folder in (Path(), *folders()):
         for path in sorted(folder.glob("*.py")):
             text = path.read_text(encoding="utf-8", errors="replace") if path.is_file() else ""
             title = re.search(r"""app_title=(["'])(.*?)\1""", text)
             if "marimo.App(" in text or folder.name:  # in the current folder there may be any program
-                found.setdefault(path.stem, title.group(2) if title else "")
+                found.setdefault(path.stem, (path, title.group(2) if title else ""))
     return found
 
 
 def contents() -> str:
     """The worksheets with their titles."""
-    titles = worksheets()
-    wide = max(map(len, titles), default=0)
-    lines = [f"    {name:{wide}}  {title}".rstrip() for name, title in titles.items()]
+    found = worksheets()
+    wide = max(map(len, found), default=0)
+    lines = [f"    {name:{wide}}  {title}".rstrip() for name, (_, title) in found.items()]
     return "\n".join(["worksheets:", "", *lines, "", ""]) if lines else ""
 
 
@@ -147,9 +192,7 @@ def new(name: str, like: str = "") -> int:
         sys.exit(f"mechsheet: {path} is there already")
     title = name.replace("_", " ").capitalize()
     if like:
-        source = Path(worksheet(like))
-        if not source.name:
-            sys.exit(f"mechsheet: no worksheet {like}: {nearest(like, list(worksheets()))}{known_worksheets()}")
+        source = Path(known(like))
         text = source.read_text(encoding="utf-8").replace("../page.css", "page.css")
         named = re.search(r"""app_title=(["'].*?["'])""", text)
         text = text.replace(named.group(1), f'"{title}"') if named else text
@@ -173,13 +216,13 @@ def known_worksheets() -> str:
     return f"give a file or one of {', '.join(names)}" if names else "give a file"
 
 
-def call(command: "list[str]", cwd: "Path | None" = None) -> int:
+def call(command: "list[str]", cwd: "Path | None" = None, settings: "dict[str, str] | None" = None) -> int:
     """Exit code of a program in this terminal, with UTF-8 output also where Windows would encode it otherwise.
 
     In the editor a worksheet runs as it opens, beside no pyproject.toml that says so either.
     """
-    settings = {"PYTHONUTF8": "1", "_MARIMO_CONFIG_OVERLOAD_RUNTIME_AUTO_INSTANTIATE": "true"}
-    with subprocess.Popen(command, cwd=cwd, env={**os.environ, **settings}) as process:
+    always = {"PYTHONUTF8": "1", "_MARIMO_CONFIG_OVERLOAD_RUNTIME_AUTO_INSTANTIATE": "true"}
+    with subprocess.Popen(command, cwd=cwd, env={**os.environ, **always, **(settings or {})}) as process:
         while True:
             try:
                 code = process.wait()

@@ -87,15 +87,19 @@ def turning(u: mpc, omega: mpc, epsilon: mpc) -> Callable[[mpf], mpc]:
 
 def derivatives(f: Callable[[mpf], mpc]) -> tuple[mpc, mpc]:
     """First and second derivative at t = 0."""
+    return _value_and_derivatives(f)[1:]
+
+
+def _value_and_derivatives(f: Callable[[mpf], mpc]) -> tuple[mpc, mpc, mpc]:
     ahead, here, behind = f(STEP), f(mpf(0)), f(-STEP)
-    return (ahead - behind) / (2 * STEP), (ahead - 2 * here + behind) / STEP**2
+    return here, (ahead - behind) / (2 * STEP), (ahead - 2 * here + behind) / STEP**2
 
 
 def rotation(a: Callable[[mpf], mpc]) -> tuple[mpf, mpf]:
     """Angular velocity and acceleration of the vector a(t) at t = 0."""
-    first, second = derivatives(a)
-    rate = first / a(mpf(0))
-    return rate.imag, (second / a(mpf(0)) - rate**2).imag
+    here, first, second = _value_and_derivatives(a)
+    rate = first / here
+    return rate.imag, (second / here - rate**2).imag
 
 
 def floats(values: Iterable[Any]) -> np.ndarray[Any, Any]:

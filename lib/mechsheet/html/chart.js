@@ -52,6 +52,31 @@ function one(x) {
 
 const textAt = (x, y, anchor, inside) => `<text x="${one(x)}" y="${one(y)}" text-anchor="${anchor}" fill="currentColor" stroke="none">${inside}</text>`;
 
+// Points that curves of many need to look as they are: see `thinned` of the document.
+const PIECES = 400, MOST = 4 * PIECES;
+
+function pointsShown(columns) {
+  const count = columns[0].length, shown = new Uint8Array(count);
+  if (count <= MOST) return undefined;
+  for (let piece = 0; piece < PIECES; piece++) {
+    const [from, end] = [piece, piece + 1].map(k => Math.floor(k * count / PIECES));
+    shown[from] = shown[end - 1] = 1;
+    for (const values of columns) {
+      let least = -1, greatest = -1;
+      for (let i = from; i < end; i++) {
+        if (!Number.isFinite(values[i])) continue;
+        if (least < 0 || values[i] < values[least]) least = i;
+        if (greatest < 0 || values[i] > values[greatest]) greatest = i;
+      }
+      if (least >= 0) shown[least] = shown[greatest] = 1;
+    }
+  }
+  for (const values of columns)
+    for (let i = 1; i < count; i++)
+      if (Number.isFinite(values[i]) !== Number.isFinite(values[i - 1])) shown[i] = shown[i - 1] = 1;
+  return Array.from(shown.keys()).filter(i => shown[i]);
+}
+
 function curveSVG(n, px, py, every) {
   const colour = COLOURS[n % 8], dash = DASHES[n % 4] && ` stroke-dasharray="${DASHES[n % 4]}"`;
   let path = "", drawing = false;
@@ -76,13 +101,14 @@ function legendSVG(lines) {
   }).join("");
 }
 
-function chartSVG(spec, columns, results) {
-  const [x, ...lines] = spec.columns, [xs, ...ys] = columns;
+function chartSVG(spec, whole, results) {
+  const at = pointsShown(whole), columns = at ? whole.map(values => at.map(i => values[i])) : whole;
+  const [x, ...lines] = spec.columns, [xs, ...ys] = columns, every = at ? 1 : spec.every;
   const marks = spec.marks.map(mark => ({...mark, x: mark.key === undefined ? mark.x : results.values[mark.key] / x.factor}));
   const across = axisOf([xs, ...marks.map(mark => [mark.x])], x.unit), up = axisOf(ys, lines[0].unit);
   const kx = PLOT.width / (across.high - across.low), ky = -PLOT.height / (up.high - up.low);
   const px = Float64Array.from(xs, v => kx * (v - across.low));
-  const curves = ys.map((y, n) => curveSVG(n, px, Float64Array.from(y, v => PLOT.height + ky * (v - up.low)), spec.every));
+  const curves = ys.map((y, n) => curveSVG(n, px, Float64Array.from(y, v => PLOT.height + ky * (v - up.low)), every));
   const grid = across.ticks.map(t => `M${one(kx * (t - across.low))} 0V${PLOT.height}`).join("") +
     up.ticks.map(t => `M0 ${one(PLOT.height + ky * (t - up.low))}H${PLOT.width}`).join("");
   const marked = marks.map(mark => {

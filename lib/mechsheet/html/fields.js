@@ -44,12 +44,11 @@ function hold(field, x, shown, k) {
 }
 
 const inputOf = field => document.getElementById(`input-${field.name}`);
-const gridOf = field => document.querySelector(`[data-grid="${field.name}"]`);
 
-// All inputs: numbers in SI by the names that evaluate takes, those that differ from the document's own, what is refused,
-// and what is to be noted of one that is not.
+// All inputs: numbers in SI by the names that evaluate takes, those that differ from the document's own, and what is
+// refused.
 function readInputs() {
-  const shown = new Map(), si = {}, changed = new Set(), errors = new Map(), notes = new Map();
+  const shown = new Map(), si = {}, changed = new Set(), errors = new Map();
   const attempt = (field, read) => {
     try {
       read();
@@ -75,8 +74,6 @@ function readInputs() {
       rows: () => field.columns.some(c => !same(si[c.name], c.own)),
     }[field.kind] ?? (() => si[field.name] !== field.own);
     if (differs()) changed.add(field.name);
-    const [own, now] = [field.columns?.[0].own, si[field.columns?.[0].name]].map(rows => rows?.length);
-    if (now && now !== own) notes.set(field.name, `${now} rows, ${own} in the document: what rests on them is not known here`);
   }
   for (const field of told.inputs.fields) {
     if (field.kind === "number" && shown.has(field.name)) attempt(field, () => hold(field, shown.get(field.name), shown));
@@ -84,16 +81,16 @@ function readInputs() {
       if (shown.has(column.name)) attempt(field, () => shown.get(column.name).forEach((x, k) => hold(column, x, shown, k)));
     }
   }
-  return {si, changed, errors, notes};
+  return {si, changed, errors};
 }
 
 const same = (a, b) => Boolean(a) && a.length === b.length && a.every((x, i) => x === b[i]);
 
-const cellsOf = field => [...gridOf(field).querySelectorAll("tbody tr")].map(row => [...row.querySelectorAll("input")].map(cell => cell.value.trim()));
-
 function readRows(field, shown, si) {
-  const rows = cellsOf(field).filter(cells => cells.some(Boolean));
-  if (!rows.length) throw new Refused(`${field.meaning} ${field.name} must have 1 to 10000 rows, not 0`);
+  const rows = cellsOf(field);
+  const {rows: most} = told.inputs;
+  if (!rows.length || rows.length > most)
+    throw new Refused(`${field.meaning} ${field.name} must have 1 to ${most} rows, not ${rows.length}`);
   field.columns.forEach((column, n) => {
     const named = k => ({...column, name: `${column.name} (${k + 1})`});
     const numbers = rows.map((cells, k) => readNumber(named(k), cells[n]));
@@ -107,7 +104,7 @@ function readRows(field, shown, si) {
 const typed = field => {
   if (field.kind === "switch") return inputOf(field).checked ? "yes" : "no";
   if (field.kind !== "rows") return inputOf(field).value.trim();
-  return cellsOf(field).filter(cells => cells.some(Boolean)).map(cells => cells.join("; ")).join(" | ");
+  return cellsOf(field).map(cells => cells.join("; ")).join(" | ");
 };
 
 function type(field, text) {
@@ -116,29 +113,8 @@ function type(field, text) {
   else if (field.kind === "choice") {
     const at = [...input.options].findIndex(option => option.value === text);
     if (at >= 0) input.selectedIndex = at;
-  } else if (field.kind === "rows") fillGrid(field, text.split(/[\n|]/).map(row => row.split(/[;\t]/).map(cell => cell.trim())));
+  } else if (field.kind === "rows") fillGrid(field, text);
   else input.value = text;
-}
-
-// Rows of a list; an empty one at the end is there to be filled in.
-function fillGrid(field, rows) {
-  const body = gridOf(field).querySelector("tbody"), width = field.columns.length;
-  const cells = width > 1 ? rows : rows.flat().map(cell => [cell]);
-  body.replaceChildren(...[...cells.filter(row => row.some(Boolean)), []].map((row, k) => gridRow(field, row, k)));
-}
-
-function gridRow(field, cells, k) {
-  const row = document.createElement("tr"), head = document.createElement("th");
-  head.textContent = k + 1;
-  const each = field.columns.map((column, n) => {
-    const cell = document.createElement("td"), input = document.createElement("input");
-    Object.assign(input, {type: "text", inputMode: "decimal", spellcheck: false, value: cells[n] ?? ""});
-    input.ariaLabel = `${column.name.split(".").at(-1)}, row ${k + 1}`;
-    cell.append(input);
-    return cell;
-  });
-  row.append(head, ...each);
-  return row;
 }
 
 const textsOf = changed => told.inputs.fields.filter(f => changed.has(f.name)).map(f => ({...f, text: typed(f)}));

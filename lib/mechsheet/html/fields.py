@@ -11,7 +11,7 @@ from mechsheet.document.markup import as_written, limits
 from mechsheet.units import parse
 from mechsheet.worksheet.inputs import LEAST, MOST, declared
 from mechsheet.worksheet.kinds import Choice, Input, Switch, TextLine, number
-from mechsheet.worksheet.lists import Rows
+from mechsheet.worksheet.lists import MOST_ROWS, Rows
 
 
 def fields(g: Any) -> str:
@@ -65,39 +65,27 @@ def _element(field: Input, value: Any) -> str:
         case Switch():
             return f'<input type="checkbox" {told}{" checked" * bool(value)}>'
         case Rows(columns=columns):
-            return f"<textarea {told} hidden>{escape(text)}</textarea>{_grid(field, columns, value)}"
+            return f"<textarea {told} hidden>{escape(text)}</textarea>{_grid(field, columns)}"
         case TextLine():
             return f'<input type="text" {told} value="{escape(text)}">'
     return f'<input type="text" inputmode="decimal" spellcheck="false" {told} value="{escape(text)}">'
 
 
-def _grid(field: Rows, columns: tuple[Input, ...], value: Any) -> str:
-    """The rows of a list or a table, each a line of fields."""
+def _grid(field: Rows, columns: tuple[Input, ...]) -> str:
+    """The head of a list or a table, whose rows the page puts in."""
     heads = "".join(
         f"<th>{as_written(_short(c))}{'' if c.unit == '-' else escape(f' [{units.shown(c.unit)}]')}</th>"
         for c in columns
     )
-    texts = zip(*([c.text(float(x)) for x in xs] for c, xs in field.leaves(value).values()), strict=True)
-    rows = "".join(
-        f"<tr><th>{k}</th>"
-        + "".join(
-            f'<td><input type="text" inputmode="decimal" spellcheck="false" value="{escape(text)}" '
-            f'aria-label="{escape(_short(c))}, row {k}"></td>'
-            for c, text in zip(columns, row, strict=True)
-        )
-        + "</tr>"
-        for k, row in enumerate(texts, 1)
-    )
     return (
-        f'<div class="ms-grid" data-grid="{field.name}" tabindex="0" role="group" '
-        f'aria-label="{escape(field.meaning)}"><table><thead><tr><th></th>{heads}</tr></thead>'
-        f"<tbody>{rows}</tbody></table></div>"
+        f'<div class="ms-grid" data-grid="{field.name}" tabindex="0" role="group" aria-label="{escape(field.meaning)}">'
+        f"<table><thead><tr><th></th>{heads}</tr></thead><tbody></tbody></table></div>"
     )
 
 
 def told(g: Any) -> dict[str, Any]:
     """What the page must know of the inputs, and of the sizes that they may have, as JSON."""
-    return {"fields": list(_told(g)), "most": MOST, "least": LEAST}
+    return {"fields": list(_told(g)), "most": MOST, "least": LEAST, "rows": MOST_ROWS}
 
 
 def _told(g: Any) -> Iterator[dict[str, Any]]:

@@ -17,6 +17,7 @@ from mechsheet.recording.node import Block, Node, bottom_up
 from mechsheet.units import parse
 
 _NUMBERS, _FIND, _SOLVE = "numbers.js", "find.js", "solve.js"
+_COUNTED = "its elements are not known for this number of rows"
 _WORDS = "I NaN do for if in let new of p i try var out"
 
 
@@ -24,8 +25,8 @@ def module(recording: Recording, wanted: Mapping[str, Node]) -> str:
     """A script that defines ``evaluate(inputs)``, which gives the ``wanted`` quantities by their keys.
 
     ``inputs`` are numbers in SI units by the names of the recording: of a choice the number of its option, of a switch
-    0 or 1, of a list as many numbers as it has in the recording, of a text 0 while it is the worksheet's own and else
-    1; those that are left out are the worksheet's own. What it returns has
+    0 or 1, of a list its numbers, of a text 0 while it is the worksheet's own and else 1; those that are left out are
+    the worksheet's own. What it returns has
 
     - ``values`` by key: a number, or a Float64Array, which knows its ``shape`` where it has several axes; undefined
       where nobody knows it for these inputs;
@@ -36,12 +37,14 @@ def module(recording: Recording, wanted: Mapping[str, Node]) -> str:
     """
     found = {key: solved.node for key, solved in recording.found.items() if solved.node.op == "found"}
     results = [*wanted.values(), *found.values()]
-    single = {node.args[0].single for node in bottom_up(results, ()) if node.op == "found"}
+    every = list(bottom_up(results, ()))
+    single = {node.args[0].single for node in every if node.op == "found"}
     functions = runtime(*(_NUMBERS, _FIND, _SOLVE)[: 3 if False in single else 1 + len(single)])
     program = Program(recording.graph, RULES, frozenset(_WORDS.split()) | set(re.findall(r"[A-Za-z]\w*", functions)))
     names = {node: json.dumps(name) for name, node in recording.inputs.items()}
     program.inputs = {node: f"I[{name}]" for node, name in names.items()}
-    conditions = [node.args[0] for node in bottom_up(results, ()) if _is_guarded(recording, node)]
+    conditions = [node.args[0] for node in every if _is_guarded(recording, node)]
+    conditions += [node.args[1] for node in every if node.op == "sized"]
     gaps = {gap.line for gap in recording.gaps}
     looked = {
         holds: guard.line for holds, guard in recording.guards.items() if not guard.rows and guard.line not in gaps
@@ -107,11 +110,13 @@ def _reason(recording: Recording, scope: Scope, node: Node) -> tuple[str, str] |
     if node.op == "exported":
         why = next((gap.reason for gap in recording.gaps if gap.line == node.line), "it is not recorded")
         return program.conditions[node.args], f"line {node.line}: {why}"
-    if node in program.conditions:
-        return program.conditions[node], f"line {node.line}: its elements are not known for this number of rows"
-    if node.op == "input" and node.shape:
+    if node.op == "input" and node.shape and not node.stretches:
         name = next(name for name, own in recording.inputs.items() if own is node).partition(".")[0]
         return f"{program.inputs[node]}.length=={node.size}", f"{name} has more or fewer rows"
+    if node in program.conditions:
+        return program.conditions[node], f"line {node.line}: {_COUNTED}"
+    if node.op == "sized":
+        return scope.text(node.args[1]), f"line {node.line}: {_COUNTED}"
     if _is_guarded(recording, node):
         return scope.text(node.args[0]), _otherwise(recording.guards[node.args[0]].line)
     return None
@@ -249,7 +254,8 @@ def _solved(scope: Scope, block: Block) -> str:
         at = ",".join(f"[{','.join(ends)}]" for ends in starts.values())
         factors = ",".join(literal(parse(unit).factor).text for unit in block.unknown_unit)
         weights = ",".join(literal(parse(unit).factor).text for unit in block.unit) if block.least else ""
-        call = f"solve({function},[{at}],[{factors}]{f',[{weights}]' if weights else ''})"
+        equals = ",".join(_of_problem(scope, n, node, shape) for n in block.targets)
+        call = f"solve({function},[{at}],[{factors}],[{equals}]{f',[{weights}]' if weights else ''})"
     return f"each(count({shape}),p=>{call})" if node.shape else call
 
 

@@ -10,6 +10,10 @@ from mechsheet.recording.operations import Moved
 
 _AXES = (np.transpose, np.moveaxis, np.swapaxes)
 _SAME_ORDER = (np.ravel, np.expand_dims, np.squeeze, np.atleast_1d, np.atleast_2d)
+# How many elements there are after it, of n, and which of them each one is.
+_AT = {
+    np.roll: "n=>[n,i=>mod(i-{0},n)]", np.repeat: "n=>[n*{0},i=>floor(i/{0})]", np.tile: "n=>[n*{0},i=>i%n]",
+}  # fmt: skip
 _PRIMES = (2, 3, 5, 7, 11, 13, 17, 19)
 
 
@@ -42,6 +46,8 @@ def move(moved: Moved, shape: Sequence[int | None]) -> tuple[str, int] | None:
             return _reshaped(["-1"])
         lengths = {n: f"{{1}}[{k}]" for k, n in enumerate(probe.shape) if shape[k] is None}
         return _reshaped([lengths.get(n, str(n)) for n in after])
+    if moved.f in _AT and len(args) == 1 and isinstance(args[0], int) and not named and axes == 1:
+        return f"moved({{}},{_AT[moved.f].format(args[0])})", 1
     if moved.f is np.take and len(args) == 1 and not named and axes == 1 and np.ndim(args[0]) == 1:
         return _index((np.asarray(args[0]),), axes)
     return None

@@ -85,6 +85,11 @@ function reshaped(a, _, dims) {
   return count(shape) == flat(a).length ? shaped(all_of(a), shape) : shaped(nothing(1), dims.map(() => 1));
 }
 
+function moved(a, to) {
+  const [n, from] = to(flat(a).length);
+  return shaped(gather(a, each(n, from)), [n]);
+}
+
 function turned(a, shape, axes) {
   const steps = strides(shape), size = axes.map(k => shape[k]);
   return shaped(gather(a, positions(size, axes.map(k => steps[k]))), size);

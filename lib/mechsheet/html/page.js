@@ -14,6 +14,8 @@ const MOVES_NOT = "as in the document, for its own inputs only";
 const state = {changed: new Set(), refused: false, results: null};
 const moving = new Map(); // by the name of the control: its positions, pictures and marks, and which of them is shown
 
+const ENDS = 100; // rows at either end of a table that are shown: see `rows` of the document
+
 // Each kind of element: from the results to what stands in it; nothing where that is not known.
 const show = {
   value(spec, element, results) {
@@ -28,7 +30,10 @@ const show = {
     const rows = Math.max(...columns.map(texts => texts?.length ?? 0));
     const kinds = spec.columns.map(column => (column.unit ? "" : ' class="ms-text"'));
     const cells = k => columns.map((texts, n) => `<td${kinds[n]}>${texts ? escaped(texts[k] ?? "") : ""}</td>`).join("");
-    set(element.tBodies[0], Array.from({length: rows}, (_, k) => `<tr>${cells(k)}</tr>`).join(""));
+    const shown = Array.from({length: rows}, (_, k) => k).filter(k => rows <= 2 * ENDS || k < ENDS || k >= rows - ENDS);
+    set(element.tBodies[0], shown.map(k => `<tr>${cells(k)}</tr>`).join(""));
+    const told = rows > shown.length ? `rows ${ENDS + 1} to ${rows - ENDS} of ${rows} are not shown` : "";
+    if (told || element.tFoot) set(element.createTFoot(), told && `<tr><td class="ms-text" colspan="${columns.length}">${told}</td></tr>`);
     return columns.every(Boolean);
   },
   check(spec, element, results) {
@@ -130,8 +135,8 @@ function tell(element, {kind, word, compared, reason}) {
 }
 
 function refresh() {
-  const {si, changed, errors, notes} = readInputs();
-  told.inputs.fields.forEach(({name}, n) => mark(told.inputs.fields[n], changed.has(name), errors.get(name) ?? "", notes.get(name)));
+  const {si, changed, errors} = readInputs();
+  told.inputs.fields.forEach(({name}, n) => mark(told.inputs.fields[n], changed.has(name), errors.get(name) ?? ""));
   Object.assign(state, {changed, refused: errors.size > 0});
   const own = !changed.size && !errors.size;
   state.si = si;
@@ -193,12 +198,12 @@ function empty(spec, element, reason) {
   grey(element, reason);
 }
 
-function mark(field, changed, error, note = "") {
+function mark(field, changed, error) {
   const input = inputOf(field), row = input.closest(".ms-field");
   row.classList.toggle("ms-changed", changed);
   row.title = changed ? `the document's own: ${field.text}${unitOf(field)}` : "";
   input.setAttribute("aria-invalid", Boolean(error));
-  document.getElementById(`error-${field.name}`).textContent = error || note;
+  document.getElementById(`error-${field.name}`).textContent = error;
   const used = document.querySelector(`[data-used="${field.name}"]`);
   used.classList.toggle("ms-changed", changed);
   used.cells[1].textContent = typed(field);

@@ -8,7 +8,18 @@ function dot(a, b) {
 }
 
 const times = (rows, x) => rows.map(row => dot(row, x));
-const all_finite = a => a.every(v => isFinite(v));
+
+function all_finite(a) {
+  for (let k = 0; k < a.length; k++) if (!isFinite(a[k])) return false;
+  return true;
+}
+
+function norm(rows) {
+  let sum = 0;
+  for (const row of rows) sum += dot(row, row);
+  return sqrt(sum);
+}
+
 const known_or_0 = v => (isFinite(v) ? v : 0);
 
 // Singular values in descending order with the columns of u and v, by rotations of pairs of columns.
@@ -46,8 +57,50 @@ function rotate(a, b, cosine, sine) {
   }
 }
 
+// A square matrix by elimination; null of one that is next to singular. Of two unknowns one rotation takes less.
+const REGULAR = 2 ** 40; // times that the largest pivot may be the least one
+function eliminated(rows) {
+  const n = rows.length, a = rows.map(row => row.slice()), order = comb(n, k => k);
+  if (n < 3 || n != rows[0].length) return null;
+  let most = 0, smallest = Infinity;
+  for (let k = 0; k < n; k++) {
+    let pivot = k;
+    for (let m = k + 1; m < n; m++) if (abs(a[m][k]) > abs(a[pivot][k])) pivot = m;
+    [a[k], a[pivot], order[k], order[pivot]] = [a[pivot], a[k], order[pivot], order[k]];
+    const row = a[k];
+    most = max(most, abs(row[k])), smallest = min(smallest, abs(row[k]));
+    if (!(smallest * REGULAR > most)) return null;
+    for (let m = k + 1; m < n; m++) {
+      const own = a[m], part = (own[k] /= row[k]);
+      for (let i = k + 1; i < n; i++) own[i] -= part * row[i];
+    }
+  }
+  return {a, order};
+}
+
+function put_back({a, order}, r) {
+  const n = a.length, x = order.map(k => r[k]);
+  for (let k = 0; k < n; k++) for (let i = 0; i < k; i++) x[k] -= a[k][i] * x[i];
+  for (let k = n - 1; k >= 0; k--) {
+    for (let i = k + 1; i < n; i++) x[k] -= a[k][i] * x[i];
+    x[k] /= a[k][k];
+  }
+  return x;
+}
+
+// Slopes that are solved by elimination as far as that does.
+const solved = rows => {
+  let parts;
+  return {regular: eliminated(rows), parts: () => (parts ??= decomposed(rows))};
+};
+
 // The step within the radius, and the length of Newton's own step.
-function step_within({u, values, v}, r, radius) {
+function step_within(slopes, r, radius) {
+  if (slopes.regular) {
+    const step = put_back(slopes.regular, r.map(v => (isFinite(v) ? -v : 0))), length = sqrt(dot(step, step));
+    if (length <= radius) return [step, length];
+  }
+  const {u, values, v} = slopes.parts();
   const along = u.map(column => -dot(column, r.map(known_or_0)));
   const smallest = max(r.length, v.length) * EPS * values[0];
   let parts = along.map((x, k) => (values[k] > smallest ? x / values[k] : 0));
@@ -70,17 +123,25 @@ function step_within({u, values, v}, r, radius) {
 // f with each unknown by itself a step lower and higher: for each unknown two of its places and the residuals there.
 const beside = (f, x, step, lo, hi) => x.map((own, k) =>
   [-1, 1].map(way => {
-    const at = clip(own + way * step[k], lo[k], hi[k]);
-    return [at, f(x.map((v, i) => (i == k ? at : v)))];
+    const at = clip(own + way * step[k], lo[k], hi[k]), place = x.slice();
+    place[k] = at;
+    return [at, f(place)];
   }));
 
 // Slopes [equation][unknown], one-sided where f has no number on the other side.
 function differences(f, x, r, size, lo, hi) {
   const columns = beside(f, x, x.map((v, k) => STEP * max(abs(v), 2 ** -6 * size[k])), lo, hi);
-  return r.map((own, m) => columns.map((sides, k) => {
-    const [[a, ya], [b, yb]] = sides.map(([at, y]) => (isFinite(y[m]) ? [at, y[m]] : [x[k], own]));
-    return (yb - ya) / (b - a);
+  return r.map((own, m) => columns.map(([[low, below], [high, above]], k) => {
+    const y = below[m], z = above[m], [a, b] = [isFinite(y) ? low : x[k], isFinite(z) ? high : x[k]];
+    return ((isFinite(z) ? z : own) - (isFinite(y) ? y : own)) / (b - a);
   }));
+}
+
+// What an equation changes over the sizes of the unknowns at most.
+function changed(slopes, size) {
+  let most = 0;
+  for (let k = 0; k < size.length; k++) most = max(most, abs(slopes[k] * size[k]));
+  return most;
 }
 
 // Where f leads from a start; without a number it stays. `unit` weighs residuals whose squares shall be least.
@@ -94,21 +155,21 @@ function newton(f, x, size, lo, hi, reach, unit, free) {
       evaluations += 2 * n;
       if (!slopes.every(all_finite)) break;
     }
-    const changed = slopes.map(row => row.reduce((most, v, k) => max(most, abs(v * size[k])), 0));
-    const own_scale = unit ?? changed.map(v => (v > 0 ? v : 1));
+    const own_scale = unit ?? slopes.map(row => changed(row, size) || 1);
     scale = scale.map((v, m) => max(v, own_scale[m]));
     const jacobian = slopes.map((row, m) => row.map((v, k) => (v * size[k]) / own_scale[m]));
     const own = r.map((v, m) => v / own_scale[m]);
-    let parts = decomposed(jacobian), [step, whole] = step_within(parts, own, radius);
+    let parts = solved(jacobian), [step, whole] = step_within(parts, own, radius);
     const held = step.map((v, k) => (x[k] <= lo[k] && v < 0) || (x[k] >= hi[k] && v > 0));
     if (held.includes(true)) {
-      parts = decomposed(jacobian.map(row => row.map((v, k) => (held[k] ? 0 : v))));
+      parts = solved(jacobian.map(row => row.map((v, k) => (held[k] ? 0 : v))));
       [step, whole] = step_within(parts, own, radius);
       step = step.map((v, k) => (held[k] ? 0 : v));
     }
     const length = sqrt(dot(step, step)), target = x.map((v, k) => clip(v + step[k] * size[k], lo[k], hi[k]));
-    const downhill = step.map((_, k) => dot(jacobian.map(row => row[k]), own));
-    const lowest = dot(downhill, downhill) <= 1e-9 ** 2 * jacobian.reduce((sum, row) => sum + dot(row, row), 0) * dot(own, own);
+    const downhill = x.map(() => 0);
+    jacobian.forEach((row, m) => row.forEach((v, k) => (downhill[k] += v * own[m])));
+    const lowest = dot(downhill, downhill) <= (1e-9 * norm(jacobian)) ** 2 * dot(own, own);
     if ((whole <= 1e-6 && !sank && whole > 0.75 * before) || target.every((v, k) => v == x[k])
       || own.every(v => v == 0) || radius < 1e-12 || lowest) break;
     const there = f(target), left = there.map((v, m) => v / own_scale[m]);
@@ -169,7 +230,7 @@ function distinct(ends, size) {
   const radius = condition => min(64 * EPS * min(condition, 1 / EPS), 2 ** -10);
   const seen = [];
   for (const end of ends.filter(end => end.held)) {
-    const own = {x: end.x, residual: end.r, condition: condition(end)};
+    const own = {x: end.x, residual: end.r, get condition() { return condition(end); }};
     const same = other => other.x.every((v, k) =>
       abs(v - own.x[k]) <= max(radius(own.condition), radius(other.condition)) * size[k]);
     if (!seen.some(same)) seen.push(own);
@@ -204,10 +265,11 @@ function between(f, at, unit) {
 
 // The verdict on equations f(x) = 0: x and residual (NaN where there is none), condition, evaluations, solutions,
 // starts, the nearest place where none is a solution, and the reason: "" where solved, else "nothing" or "unsolved".
-// `asked` has of each unknown its guess or the two ends of its interval; with `unit` squares are made least.
-function solve(f, asked, factors, unit) {
+// `asked` has of each unknown its guess or the two ends of its interval, `equals` the targets; with `unit` squares are
+// made least.
+function solve(f, asked, factors, equals, unit) {
   const none = {x: asked.map(() => NaN), residual: [], condition: NaN, evaluations: 0, solutions: [], starts: 0, asked};
-  if (asked.flat().some(v => v != v)) return {...none, reason: "nothing"};
+  if ([...asked.flat(), ...equals].some(v => v != v)) return {...none, reason: "nothing"};
   const wrong = asked.findIndex(ends => !all_finite(ends) || ends[0] >= ends[1]);
   if (wrong >= 0) return {...none, reason: `the ends of unknown ${wrong + 1} must be finite and in order`};
   const size = asked.map(([a, b], k) => (b === undefined ? (a == 0 ? factors[k] : abs(a)) : b - a));
@@ -216,7 +278,7 @@ function solve(f, asked, factors, unit) {
     least: size.map((v, k) => min(v, factors[k])), lo: asked.map(ends => (ends.length > 1 ? ends[0] : -Infinity)),
     hi: asked.map(ends => ends[1] ?? Infinity),
   };
-  const real = x => f(x).map(v => (isFinite(v) ? +v : NaN));
+  const real = x => f(x).map(v => (v - v == 0 ? +v : NaN));
   const guessed = at.first.every((a, k) => a == at.last[k]);
   const known = (guessed ? from_guess : between)(real, at, unit);
   const off = ({x}) => max(...x.map((v, k) => abs(v - (at.first[k] / 2 + at.last[k] / 2)) / size[k]));
@@ -226,7 +288,9 @@ function solve(f, asked, factors, unit) {
   const every = () => (others ??= guessed && !unit ? distinct(lot(real, around, 0, null), size) : known);
   const {evaluations, nearest} = known, reason = chosen && all_finite(chosen.x) ? "" : "unsolved";
   return {
-    ...none, residual: nearest.residual.map(() => NaN), ...chosen, evaluations, nearest, guessed, reason,
+    ...none, x: chosen?.x ?? none.x, residual: chosen?.residual ?? nearest.residual.map(() => NaN),
+    evaluations, nearest, guessed, reason,
+    get condition() { return chosen?.condition ?? NaN; },
     get solutions() { return unit ? [] : every().seen.map(solution => solution.x); },
     get starts() { return every().starts; },
   };

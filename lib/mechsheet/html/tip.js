@@ -11,60 +11,65 @@ function readingsOf(chart) {
   return JSON.parse(chart.dataset.values);
 }
 
-function chartTip(chart, event) {
-  const {at, names, units, texts} = chart.readings ?? (chart.readings = readingsOf(chart));
-  const box = chart.getBoundingClientRect(), scale = box.width / chart.viewBox.baseVal.width;
-  const x = (event.clientX - box.left) / scale;
+// The values at a place of a chart: of all that have a number there.
+function chartTip(chart, k, y) {
+  const {at, names, units, texts} = readingsAt(chart);
+  const box = chart.getBoundingClientRect();
+  tip.innerHTML = names.map((name, i) => `<div>${name} = ${escaped(texts[i][k])} ${escaped(units[i])}</div>`).join("");
+  place(box.left + (at[k] * box.width) / chart.viewBox.baseVal.width, y);
+}
+
+const readingsAt = chart => chart.readings ?? (chart.readings = readingsOf(chart));
+
+function pointedAt(chart, event) {
+  const {at} = readingsAt(chart), box = chart.getBoundingClientRect();
+  const x = ((event.clientX - box.left) * chart.viewBox.baseVal.width) / box.width;
   let best = -1;
   at.forEach((u, i) => {
     if (u !== null && (best < 0 || Math.abs(u - x) < Math.abs(at[best] - x))) best = i;
   });
-  if (best < 0) return;
-  tip.innerHTML = names.map((name, i) => `<div>${name} = ${escaped(texts[i][best])} ${escaped(units[i])}</div>`).join("");
-  place(box.left + at[best] * scale, event.clientY);
+  if (best >= 0) chartTip(chart, best, event.clientY);
 }
 
-// The symbol of a formula at an element: what the document says of it.
-function symbolAt(element) {
-  for (let e = element; e?.closest("math") && e.localName !== "math"; e = e.parentElement) {
-    const known = told.symbols[e.outerHTML.replace(/ class="[^"]*"/g, "").replace(/ xmlns="[^"]*"/g, "")];
-    if (known) return [e, known];
-  }
-  return null;
-}
-
-function symbolTip(element, known) {
-  settleAll();
-  tip.replaceChildren();
-  const meaning = document.createElement("div"), value = document.createElement("div");
-  meaning.textContent = known.meaning;
-  const input = document.getElementById(known.to);
-  if (input?.matches("input, select")) {
-    value.textContent = `input: ${input.type === "checkbox" ? (input.checked ? "yes" : "no") : input.value} ${known.unit}`;
-  } else if (input) {
-    const shown = input.querySelector(".ms-value");
-    value.innerHTML = shown && !shown.matches(".ms-grey") ? `= ${shown.innerHTML}` : "";
-  }
-  tip.append(meaning, value);
+// By keys: from one value to the next, with Shift ten further, to the ends.
+function pressedAt(figure, {key, shiftKey}) {
+  const chart = figure.querySelector("svg.ms-chart"), {at} = chart ? readingsAt(chart) : {at: []};
+  const known = at.flatMap((u, k) => (u === null ? [] : [k])), last = known.length - 1;
+  if (last < 0) return false;
+  const now = chart.at ?? -1, far = shiftKey ? 10 : 1;
+  const to = {ArrowRight: now + far, ArrowLeft: now < 0 ? last : now - far, Home: 0, End: last}[key];
+  if (to === undefined) return false;
+  chart.at = Math.max(0, Math.min(last, to));
+  chartTip(chart, known[chart.at], chart.getBoundingClientRect().top + 30);
+  return true;
 }
 
 function point(event) {
   const target = event.target.closest ? event.target : null;
   const chart = target?.closest("svg.ms-chart");
-  if (chart) return chartTip(chart, event);
+  if (chart) return pointedAt(chart, event);
   const found = target?.closest("math") && symbolAt(target);
-  if (!found) return (tip.hidden = true);
-  symbolTip(...found);
-  place(event.clientX, event.clientY);
+  if (found) symbolTip(found, event.clientX, event.clientY);
+  else clearTip();
 }
 
-addEventListener("scroll", () => (tip.hidden = true), {passive: true});
+addEventListener("scroll", clearTip, {passive: true});
 document.addEventListener("pointermove", point);
 document.addEventListener("pointerdown", point);
 document.addEventListener("click", event => {
   const found = event.target.closest?.("math") && symbolAt(event.target);
-  if (!found || (event.pointerType && event.pointerType !== "mouse")) return;
-  const place = document.getElementById(found[1].to);
-  place?.scrollIntoView({block: "center"});
-  if (place?.matches("input, select")) place.focus({preventScroll: true});
+  if (found && (!event.pointerType || event.pointerType === "mouse")) goTo(found);
+});
+
+tip.setAttribute("aria-live", "polite");
+for (const [kind, keys] of [[".ms-line .ms-formula", "arrow keys: its symbols; Enter: where one is defined"], [".ms-figure [data-n]", "arrow keys: its values"]])
+  for (const element of document.querySelectorAll(kind)) {
+    element.tabIndex = 0;
+    element.setAttribute("aria-description", keys);
+  }
+document.addEventListener("focusout", clearTip);
+document.addEventListener("keydown", event => {
+  if (event.key === "Escape") return clearTip();
+  const {target} = event, is = kind => target.matches?.(kind);
+  if (is(".ms-formula") ? pressedIn(target, event.key) : is(".ms-figure [data-n]") && pressedAt(target, event)) event.preventDefault();
 });

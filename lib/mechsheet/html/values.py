@@ -16,6 +16,7 @@ from mechsheet.document.blocks import blocks, fitting
 from mechsheet.document.expression import equation, fields_by_name
 from mechsheet.document.markup import as_written, compared, in_words, named, where
 from mechsheet.document.parts import Control, Line, Section, Text
+from mechsheet.document.shortened import foot, shortened, thinned
 from mechsheet.html import index, markdown, offered
 from mechsheet.html.follow import Follower
 from mechsheet.html.mathml import mathml
@@ -139,7 +140,8 @@ def _(table: Table, page: Follower) -> str:
     return f'<div class="ms-table">{_caption("Table", table.number, table.title, page)}{parts}{note}</div>'
 
 
-def _block(columns: Sequence[Column], follows: str, told: str) -> str:
+def _block(whole: Sequence[Column], follows: str, told: str) -> str:
+    columns, left_out = shortened(whole)
     kinds = ["" if c.unit else ' class="ms-text"' for c in columns]
     heads = "".join(
         f'<th{kind} scope="col" title="{escape(c.meaning)}">{named(c.name)}</th>'
@@ -151,9 +153,9 @@ def _block(columns: Sequence[Column], follows: str, told: str) -> str:
         for row in zip(*(map(escape, c.texts(numbers.AXIS)) for c in columns), strict=True)
     )
     head = f'<tr>{heads}</tr><tr class="ms-units">{under}</tr>'
-    fit = fitting(columns)
+    fit = fitting(whole)
     style = f' style="--fit:{numbers.fixed(fit, 2)}"' if fit < 1 else ""
-    made = f"<table{follows}{style}><thead>{head}</thead><tbody>{rows}</tbody></table>"
+    made = f"<table{follows}{style}><thead>{head}</thead><tbody>{rows}</tbody>{foot(left_out, len(columns))}</table>"
     return f'<div class="ms-wide" tabindex="0" {told}>{made}</div>'
 
 
@@ -168,7 +170,8 @@ def _(figure: Figure, page: Follower) -> str:
     return f'<figure class="ms-figure">{shown}{caption}</figure>'
 
 
-def _chart(figure: Figure) -> str:
+def _chart(whole: Figure) -> str:
+    figure = thinned(whole)
     return chart_svg.svg(chart.line_chart(figure.x, figure.lines, figure.marks, figure.every))
 
 

@@ -36,10 +36,12 @@ _SCRIPTS = (
     "found.js",
     "put_in.js",
     "page.js",
+    "grid.js",
     "view.js",
     "units.js",
     "moved.js",
     "tooltip.js",
+    "symbols.js",
     "tip.js",
     "start.js",
 )
@@ -49,6 +51,7 @@ _CHOICES = (
     *(ast.If, ast.For, ast.While, ast.Match, ast.Try, ast.FunctionDef, ast.Lambda),
 )
 _STUDIES = ("mechsheet.accuracy.", "mechsheet.studies.")
+_MOST = 550_000  # letters of a page; one that is longer has its lists at their own length
 # The page asks for nothing: what it shows and runs stands in it.
 _POLICY = (
     "default-src 'none'; script-src {}; style-src 'unsafe-inline'; font-src data:; base-uri 'none'; form-action 'none'"
@@ -67,9 +70,18 @@ def page(sheet: Worksheet, g: Any) -> str:
         raise SheetError(f"{Path(sheet.path).stem} computes by {name}, over many runs: a page cannot follow that")
     namespace = sheet.run(sheet.results, {"g": g})
     refuse_open(checks(namespace))
+    try:
+        text = _page(sheet, namespace, lists=True)
+    except SheetError:  # how many values are found is not known before the list is
+        text = ""
+    return text if 0 < len(text) < _MOST else _page(sheet, namespace, lists=False)
+
+
+def _page(sheet: Worksheet, namespace: dict[str, Any], lists: bool) -> str:
+    """The file of a run; what rests on ``lists`` among the inputs follows them at any length, or at their own."""
     cells = by_cell(namespace)
     shown = [part for parts in cells.values() for part in parts]
-    follower = Follower(record(namespace, sheet, whole=True, every=1, draws=True), Numbers(namespace))
+    follower = Follower(record(namespace, sheet, whole=True, every=1, draws=True, lists=lists), Numbers(namespace))
     follower.pair(cells)
     moving = frames.moved(sheet, namespace, cells, follower)
     body = _linked("".join(_cell(n, parts, sheet.cells[n], follower, moving) for n, parts in cells.items()))

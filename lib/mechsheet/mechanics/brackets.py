@@ -90,8 +90,9 @@ def bracketed(g: Function, x: Array, r: Array, active: Mask, floor: Array) -> tu
 
     The next points are the zero of the parabola x(r) through the bracket and the point x[2] beside it, and one on
     either side: as far off as half way to the zero of the line, and farther where that has not narrowed the bracket to
-    a quarter. Where it has not three times, and at the end, where f is rounding, the points are evenly spaced. Where it
-    has not there are more of them: a jump must be closed in to the last float to be told from a root.
+    an eighth, which evenly spaced ones would not either. Where it has not three times, and at the end, where f is
+    rounding, the points are evenly spaced. Where it has not there are more of them: a jump must be closed in to the
+    last float to be told from a root.
     """
     poor = np.zeros(active.shape)
     while True:
@@ -113,7 +114,7 @@ def bracketed(g: Function, x: Array, r: Array, active: Mask, floor: Array) -> tu
             rest = np.broadcast_to(b, (len(_MANY) - len(new), *b.shape))
             new = np.where(many, a * (1 - _MANY) + b * _MANY, np.concatenate([new, rest]))
         x, r = _narrowed(g, x, r, np.clip(new, a, b), active)
-        poor = np.where(x[1] - x[0] > width / 4, poor + 1, np.where(even & (poor > 2), poor, 0))
+        poor = np.where(x[1] - x[0] > width / 8, poor + 1, np.where(even & (poor > 2), poor, 0))
 
 
 def _narrowed(g: Function, x: Array, r: Array, new: Array, active: Mask) -> tuple[Array, Array]:

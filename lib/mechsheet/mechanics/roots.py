@@ -192,7 +192,7 @@ def _pieces(f: Counted, lo: Array, hi: Array, equals: Array) -> _Pieces:
     y = f(x)
     if np.isnan(y).any():
         x, y = _with_edges(f, x, y)
-    samples = 1 + np.count_nonzero(np.diff(x, axis=0), axis=0)
+    samples = 1 + np.count_nonzero(x[1:] != x[:-1], axis=0)
     r = y - equals
     turn = _turning(y)
     row, column = turn.nonzero()
@@ -282,7 +282,8 @@ def _touching(f: Counted, x: Array, y: Array, r: Array, equals: Array, turn: Mas
 
     On the calmer side of a turn, so that a jump beside it is no excuse.
     """
-    out = np.pad(np.isnan(y), ((1, 1), (0, 0)), constant_values=True)
+    out = np.ones((len(y) + 2, y.shape[1]), dtype=bool)
+    out[1:-1] = np.isnan(y)
     end = (out[:-2] | out[2:]) & ~out[1:-1]
     row, column = end.nonzero()
     next_ = np.where(out[row, column], row + 1, row - 1) % len(y)

@@ -7,6 +7,7 @@ from typing import Any, NamedTuple
 
 import marimo as mo
 
+from mechsheet.page.design import Design, Designing
 from mechsheet.page.study import Asked, Study
 
 
@@ -18,17 +19,19 @@ class File(NamedTuple):
     made: Callable[[], tuple[bytes, Iterable[str]]]
 
 
-def download(*files: File, asked: Asked, namespace: Mapping[str, Any]) -> mo.Html:
+def download(*files: File, asked: Asked, designing: Designing, namespace: Mapping[str, Any]) -> mo.Html:
     """Buttons of some files; once one is pressed, the lines that come with its bytes stand below them.
 
-    Above them stands what else the page may be ``asked`` for, of the values in its ``namespace``.
+    Above them stands what else the page may be ``asked`` for, of the values in its ``namespace``, and what it would
+    take to have others.
     """
     told = list[str]()
 
     def shown() -> mo.Html:
         lines = "<br>".join(map(escape, told))
         side = "".join(button.text for button in buttons)
-        return mo.Html(f'<div>{study.text}<div class="ms-row">{side}</div><div class="ms-note">{lines}</div></div>')
+        below = f'<div class="ms-row">{side}</div><div class="ms-note">{lines}</div>'
+        return mo.Html(f"<div>{study.text}{design.text}{below}</div>")
 
     def redraw() -> None:
         mo.output.replace(shown())
@@ -38,6 +41,6 @@ def download(*files: File, asked: Asked, namespace: Mapping[str, Any]) -> mo.Htm
         redraw()
         return data
 
-    study = Study(asked, namespace, redraw)
+    study, design = Study(asked, namespace, redraw), Design(designing, namespace, redraw)
     buttons = [mo.download(partial(pressed, file), filename=file.name, label=file.label) for file in files]
     return shown()

@@ -1,6 +1,7 @@
 """The inputs of a worksheet as fields of the page, and its sliders."""
 
 import html
+from pathlib import Path
 from typing import Any
 from uuid import uuid4
 
@@ -9,7 +10,9 @@ import marimo as mo
 from mechsheet import units
 from mechsheet.document.markup import as_written, limits
 from mechsheet.page.script import element, script
-from mechsheet.worksheet.inputs import declared
+from mechsheet.worksheet import scene
+from mechsheet.worksheet.errors import SheetError
+from mechsheet.worksheet.inputs import build, declared
 from mechsheet.worksheet.kinds import Choice, Input, Switch
 from mechsheet.worksheet.lists import Rows
 from mechsheet.worksheet.title import Slider
@@ -37,18 +40,16 @@ def _head(column: Input) -> dict[str, str]:
 
 
 class _Fields(mo.ui.batch):
-    """Fields in a template, shown without the element of the batch round them.
-
-    A field tells of its change itself; the batch told of it again, so that the whole sheet ran twice.
-    """
+    """Fields in a template, with the element of the batch, which tells of their changes, out of sight beside it."""
 
     def __init__(self, template: str, fields: "dict[str, Any]") -> None:
         self.template = template
-        super().__init__(mo.Html(template), fields)
+        super().__init__(mo.Html(""), fields)
 
     @property
     def text(self) -> str:
-        return self.template.format(**{name: field.text for name, field in self.elements.items()})
+        shown = self.template.format(**{name: field.text for name, field in self.elements.items()})
+        return f"{shown}<div hidden>{super().text}</div>"
 
 
 def _element(field: Input, value: Any) -> Any:
@@ -96,9 +97,24 @@ def fields(g: Any) -> "mo.ui.batch":
         for section, rows in sections.items()
     )
     style = "columns:28em;column-gap:2em;font-size:.93em"
-    states = element("ms-states", of=type(g).__name__.lower())
+    states = _in_template(element("ms-states", of=type(g).__name__.lower(), scenes=_scenes(type(g))))
     template = f'<div class="ms-inputs" style="{style}">{blocks}</div><div class="ms-screen">{states}</div>'
     return _Fields(script("grid.js") + script("inputs.js", "given.js") + template, texts)
+
+
+def _scenes(cls: type) -> list[dict[str, Any]]:
+    """Scenes beside the worksheet: of each the texts of the inputs that it gives, or why it cannot be used."""
+    own, found = {field.name: field for field in declared(cls)}, list[dict[str, Any]]()
+    worksheet: str = cls.__worksheet__  # type: ignore[attr-defined]
+    for path in scene.beside(Path(worksheet)):
+        if scene.is_of(path.read_text(encoding="utf-8-sig", errors="replace"), own):
+            try:
+                given = scene.load(path).inputs
+                g: Any = build(cls, given)
+                found.append({"name": path.stem, "texts": {name: own[name].text(getattr(g, name)) for name in given}})
+            except SheetError as error:
+                found.append({"name": path.stem, "why": str(error)})
+    return found
 
 
 def said(field: Input) -> str:

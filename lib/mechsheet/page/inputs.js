@@ -6,6 +6,12 @@
   const steps = []; // sets of texts that the page has computed, by the names of the inputs
   let at = -1;
   let wanted = null; // a set on its way through the page
+  const QUIET = 500; // ms without a run: what was typed has been computed with
+
+  // The element beside the fields tells of all that have changed; of each alone marimo would keep the last, and lose
+  // what was typed before it while the page computed.
+  const alone = ({ objectId }) => document.querySelector(`td[data-input] marimo-ui-element[object-id="${CSS.escape(objectId)}"]`);
+  window.addEventListener("marimo-value-ready", (event) => alone(event.detail) && event.stopImmediatePropagation(), true);
 
   const setter = (kind) => Object.getOwnPropertyDescriptor(kind.prototype, "value").set;
   const same = (a, b) => Object.keys(a).every((name) => a[name] === b[name]);
@@ -36,6 +42,8 @@
     return field && field.type !== "checkbox" ? field.value : undefined;
   };
 
+  const ownTexts = () => Object.fromEntries(fields.map((field) => [field.name, field.own]));
+
   // The inputs that the page computes with, told anew with each run; nothing while one of them is refused.
   class Used extends HTMLElement {
     static observedAttributes = ["told"];
@@ -61,10 +69,15 @@
     constructor() {
       super();
       this.addEventListener("click", ({ target }) => this.act(target.closest("button")?.name));
+      this.addEventListener("change", ({ target }) => this.to({ ...ownTexts(), ...this.scenes[target.value].texts }));
     }
 
     connectedCallback() {
       if (fields.length) this.follow();
+    }
+
+    get scenes() {
+      return JSON.parse(this.getAttribute("scenes"));
     }
 
     get refused() {
@@ -76,6 +89,9 @@
       const first = at < 0;
       if (wanted && same(wanted, now)) wanted = null;
       if (!wanted && (first || !same(steps[at], now))) steps.splice(++at, steps.length, now);
+      clearTimeout(this.quiet);
+      // What an address says in other words than the page, such as 0,055 m, is never the same.
+      if (wanted) this.quiet = setTimeout(() => (wanted = null, this.follow()), QUIET);
       this.show();
       const given = textsIn(location.hash);
       if (first && given.size) this.open(given);
@@ -87,7 +103,7 @@
       const known = Object.keys(steps[at]).filter((name) => given.has(name));
       if (known.some((name) => !document.querySelector(`td[data-input="${name}"] marimo-ui-element > *`)?.shadowRoot))
         return tries && setTimeout(() => this.open(given, tries - 1), 100);
-      known.forEach((name) => type(name, given.get(name)));
+      this.to({ ...steps[at], ...Object.fromEntries(known.map((name) => [name, given.get(name)])) });
     }
 
     get given() {
@@ -100,6 +116,8 @@
     }
 
     show() {
+      const differs = new Set(this.given.map(({ name }) => name));
+      document.querySelectorAll("td[data-input]").forEach((cell) => cell.classList.toggle("ms-changed", differs.has(cell.dataset.input)));
       const changed = this.given.map(
         ({ head, text, own, unit }) => `<span>${head} = <b>${plain(text)}</b> ${plain(unit)} <i>(${plain(own)} in the document)</i></span>`,
       );
@@ -110,16 +128,27 @@
         button("back", "back to the document", "all inputs as the document has them", changed.length || this.refused) +
         button("link", "copy a link", "an address with these inputs", true) +
         button("scene", "save as a scene", "a file of these inputs, for --scene and compare", changed.length) +
+        this.list() +
         `<span role="status">${this.refused ? "not computed with what the fields say" : changed.length ? "" : "as in the document"}</span></div>` +
         `<div class="ms-row">${changed.join("")}</div>`;
     }
 
+    // The scenes beside the worksheet; shown is the one that the inputs are as they stand.
+    list() {
+      const now = Object.fromEntries(fields.map(({ name, text }) => [name, text]));
+      const options = this.scenes.map(({ name, texts, why }, n) => {
+        const is = texts && !this.refused && same({ ...ownTexts(), ...texts }, now) ? " selected" : why ? " disabled" : "";
+        return `<option value="${n}"${is}>${plain(name)}${why ? `: ${plain(why)}` : ""}</option>`;
+      });
+      const none = `<option${options.some((each) => each.includes(" selected>")) ? "" : " selected"} disabled>a scene</option>`;
+      return options.length ? `<select aria-label="scenes" title="inputs of a file beside the worksheet">${none}${options.join("")}</select>` : "";
+    }
+
     act(name) {
-      const own = () => Object.fromEntries(fields.map((field) => [field.name, field.own]));
       const acts = {
         undo: () => this.to(this.refused ? steps[at] : steps[(at = Math.max(0, at - 1))]),
         redo: () => this.to(steps[(at = Math.min(steps.length - 1, at + 1))]),
-        back: () => this.to(own()),
+        back: () => this.to(ownTexts()),
         link: () => this.copy(),
         scene: () => saveScene(this.getAttribute("of"), this.given),
       };

@@ -1,8 +1,10 @@
 """Lines of a cell in the page: formula, value, unit, meaning, printed number; the formula with numbers for symbols."""
 
 import json
+from collections.abc import Mapping
 from functools import lru_cache
 from html import escape
+from typing import Any
 
 import numpy as np
 
@@ -42,11 +44,17 @@ def _formula(line: Formula, value: object, shown: Typeset) -> str:
     if line.arguments:
         return _line(_equation(line, single), "", line.meaning, line.number, mistake=line.mistake, line=line)
     text = "" if shown.numbers is None else _substituted(line, shown.numbers, shown.position)
-    value_text = switched.value(symbol.stem(line.name), line.unit, numbers.in_any_unit(value))
-    if shown.numbers is not None and isinstance(value, np.ndarray):
-        value_text += where(value, over(line.name, shown.numbers.namespace))
+    value_text = valued(line, value, shown.numbers.namespace if shown.numbers else None)
     told = line.meaning, line.number, text, line.mistake, line
     return _line(f"{_equation(line, single)} =", value_text, *told)
+
+
+def valued(line: Formula, value: object, namespace: Mapping[str, Any] | None) -> str:
+    """The value of a line, of a field also where it is least and greatest, if a namespace tells over what it is one."""
+    text = switched.value(symbol.stem(line.name), line.unit, numbers.in_any_unit(value))
+    if namespace is None or not isinstance(value, np.ndarray):
+        return text
+    return text + where(value, over(line.name, namespace))
 
 
 def _substituted(line: Formula, known: Numbers, position: int) -> str:

@@ -1,4 +1,4 @@
-"""What a page shows beyond the numbers when it is asked: bands, what a result depends on, a proof of all digits.
+"""What a page shows beyond the numbers when it is asked: the document's own, bands, what matters, a proof.
 
 Nothing is computed before; then it follows whatever changes on the page.
 """
@@ -6,6 +6,7 @@ Nothing is computed before; then it follows whatever changes on the page.
 import time
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
 from html import escape
 from typing import Any, NamedTuple, TypeVar
 from uuid import uuid4
@@ -16,7 +17,8 @@ import numpy as np
 from mechsheet import units
 from mechsheet.document.blocks import blocks
 from mechsheet.document.chart import line_chart
-from mechsheet.page import notebook, values
+from mechsheet.document.shortened import rows, shortened
+from mechsheet.page import notebook, own, values
 from mechsheet.page.script import element, script
 from mechsheet.recording.banded import NOTE, Banded, RunBands, off
 from mechsheet.worksheet import mistakes, numbers
@@ -32,17 +34,19 @@ _AT = "least"  # position at which a result is looked at unless another is chose
 class Asked(NamedTuple):
     """What computes that which a page may be asked for.
 
-    These are bands of tables, charts and all else, what a result depends on, and the HTML of a proof.
+    These are bands of tables, charts and all else, what a result depends on, the HTML of a proof, and the namespace of
+    a run with the document's own inputs.
     """
 
     results: Sequence[str]
     bands: Callable[[], tuple[RunBands, Sequence[Table], Sequence[Figure]]]
     matters: Callable[[str, str], Sequence[Any]]
     proof: Callable[[], str]
+    own: Callable[[], Mapping[str, Any]]
 
 
 class Study:
-    """Switches for bands and proof, and fields for a result and a position, with what they ask for below them."""
+    """Switches for own numbers, bands and proof, fields for a result and a position, and below what they ask for."""
 
     def __init__(self, asked: Asked, namespace: Mapping[str, Any], redraw: Callable[[], object]) -> None:
         self.asked, self.namespace, self.redraw = asked, namespace, redraw
@@ -50,13 +54,15 @@ class Study:
         self.result = mo.ui.dropdown(list(asked.results), label="what matters for", on_change=self.changed)
         self.position = mo.ui.text(value=_AT, label="at position", on_change=self.changed)
         self.proof = mo.ui.checkbox(label="every number proved", on_change=self.changed)
+        self.own = mo.ui.checkbox(label="what differs from the document", on_change=self.changed)
         self.told, self.looking = "", False
 
     @property
     def text(self) -> str:
         """HTML of all of it."""
-        switches = "".join(each.text for each in (self.bands, self.result, self.position, self.proof))
-        return f'{script("bands.js")}<div class="ms-row ms-screen ms-study">{switches}</div><div>{self.told}</div>'
+        switches = "".join(each.text for each in (self.bands, self.result, self.position, self.own, self.proof))
+        scripts = script("bands.js") + script("own.js")
+        return f'{scripts}<div class="ms-row ms-screen ms-study">{switches}</div><div>{self.told}</div>'
 
     def changed(self, _: object) -> None:
         """Follow the page from now on, as long as anything is asked for."""
@@ -90,17 +96,19 @@ class Study:
     @property
     def asks(self) -> bool:
         """Whether anything is asked for."""
-        return bool(self.bands.value or self.result.value or self.proof.value)
+        return bool(self.own.value or self.bands.value or self.result.value or self.proof.value)
 
     def state(self) -> list[Any]:
         """What an answer rests on."""
-        asked = (self.bands.value, self.result.value, self.position.value, self.proof.value)
+        asked = (self.own.value, self.bands.value, self.result.value, self.position.value, self.proof.value)
         return [*asked, *self.namespace.values()]
 
     def answer(self) -> str:
         """HTML of what is asked for, or why there is none."""
         parts = list[str]()
         try:
+            if self.own.value:
+                parts.append(own.html(_elsewhere(self.asked.own)))
             if self.proof.value:
                 parts.append(_elsewhere(self.asked.proof))
             if self.bands.value:
@@ -142,15 +150,17 @@ def _told(bands: RunBands, tables: Sequence[Table], figures: Iterable[Figure]) -
 
     def cells(table: Table, name: str) -> list[str] | None:
         own = columns.get((f"table {table.number}", name))
-        return (
-            None
-            if own is None or own.band.why
-            else [f"± {off(x)}" for x in np.where(own.worst < _NOISE * own.worst.max(), 0.0, own.worst)]
-        )
+        if own is None or own.band.why:
+            return None
+        worst = np.where(own.worst < _NOISE * own.worst.max(), 0.0, own.worst)
+        return [f"± {off(x)}" for x in worst[rows(len(worst))]]
+
+    def shown(table: Table) -> list[tuple[Column, ...]]:
+        return blocks(replace(table, columns=shortened(table.columns)[0]))
 
     return {
         "lines": {name: _of_line(parts) for name, parts in lines.items()},
-        "tables": {t.number: [[cells(t, c.name) for c in block] for block in blocks(t)] for t in tables},
+        "tables": {t.number: [[cells(t, c.name) for c in block] for block in shown(t)] for t in tables},
         "checks": {values.anchor(name): sure for name, sure in bands.sure.items()},
         "figures": {figure.number: _bars(figure, bands) for figure in figures},
     }

@@ -3,6 +3,7 @@
 import json
 import re
 from collections.abc import Sequence
+from dataclasses import replace
 from datetime import date
 from functools import lru_cache, partial, singledispatch
 from html import escape
@@ -15,6 +16,7 @@ from mechsheet import units
 from mechsheet.document import chart, chart_svg, drawing_svg
 from mechsheet.document.blocks import blocks, fitting
 from mechsheet.document.markup import as_written, compared, in_words, named
+from mechsheet.document.shortened import foot, shortened, thinned
 from mechsheet.html import index
 from mechsheet.page import fields, switched
 from mechsheet.page.headings import heading
@@ -190,17 +192,13 @@ def anchor(name: str) -> str:
 @html.register
 def _(summary: Summary) -> str:
     passed = sum(check.passed for check in summary.checks)
-    skipped = sum(not check.evaluated for check in summary.checks)
-    failed = len(summary.checks) - passed - skipped
-    count = f"{passed} of {len(summary.checks)} checks pass" + (f", {failed} fail" if failed else "")
-    count += f", {skipped} not evaluated" if skipped else ""
     items = "".join(
         f"<span>{_badge(check)} {_link(check, in_words(check.name))} {check.utilised} {escape(check.reason)}</span>"
         for check in summary.worst_first
     )
     worst = "".join(map(_in_bar, summary.worst_first[:1]))
     bar = f'<a href="#checks"><b>{passed} of {len(summary.checks)} checks</b></a>{worst}'
-    whole = f'<div class="ms-summary" id="checks"><b>{count}</b><div class="ms-row">{items}</div></div>'
+    whole = f'<div class="ms-summary" id="checks"><b>{summary.count}</b><div class="ms-row">{items}</div></div>'
     return element("ms-verdict", whole, bar=bar)
 
 
@@ -269,7 +267,8 @@ def _kind(field: Input) -> str:
 
 
 @html.register
-def _(figure: Figure) -> str:
+def _(whole: Figure) -> str:
+    figure = thinned(whole)
     layout = chart.line_chart(figure.x, figure.lines, figure.marks, figure.every)
     picture = switched.chart(figure, layout, chart_svg.svg(layout))
     caption = _caption("Figure", figure.number, figure.title)
@@ -280,10 +279,12 @@ def _(figure: Figure) -> str:
 def _(table: Table) -> str:
     caption = _caption("Table", table.number, table.title)
     note = f'<div class="ms-note">{in_words(table.note)}</div>' if table.note else ""
-    return f'<div class="ms-table">{caption}{"".join(map(_block, blocks(table)))}{note}</div>'
+    columns, left_out = shortened(table.columns)
+    parts = "".join(_block(part, left_out) for part in blocks(replace(table, columns=columns)))
+    return f'<div class="ms-table">{caption}{parts}{note}</div>'
 
 
-def _block(columns: Sequence[Column]) -> str:
+def _block(columns: Sequence[Column], left_out: int) -> str:
     kinds = ["" if c.unit else ' class="ms-text"' for c in columns]
     heads = "".join(
         f'<th{kind} title="{escape(c.meaning)}">{named(c.name)}</th>' for c, kind in zip(columns, kinds, strict=True)
@@ -296,7 +297,8 @@ def _block(columns: Sequence[Column]) -> str:
     head = f'<tr>{heads}</tr><tr class="ms-units">{unit_row}</tr>'
     fit = fitting(columns)
     style = f' style="--fit:{numbers.fixed(fit, 2)}"' if fit < 1 else ""
-    return switched.columns(columns, f"<table{style}><thead>{head}</thead><tbody>{rows}</tbody></table>")
+    below = foot(left_out, len(columns))
+    return switched.columns(columns, f"<table{style}><thead>{head}</thead><tbody>{rows}</tbody>{below}</table>")
 
 
 def _unit(column: Column) -> str:

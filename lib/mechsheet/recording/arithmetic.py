@@ -58,6 +58,9 @@ def multiply(x: Quantity, y: Quantity) -> Quantity:
     graph = x.graph
     if _none_times(x, y):
         zero, other = (x, y) if _zero(x) else (y, x)
+        if other.im is not None:  # both parts are none where one is
+            none = graph.fold("mul", zero.re, graph.add(other.re, other.im))
+            return Quantity(graph, none, none)
         return other.each(lambda part: graph.fold("mul", zero.re, part))
     if x.im is None and y.im is None:
         return Quantity(graph, graph.mul(x.re, y.re))

@@ -1,4 +1,4 @@
-"""Fits by least squares, orders and products of arrays of recorded quantities, by rules that run on quantities."""
+"""Fits by least squares, orders, places in them and products of arrays, by rules that run on recorded quantities."""
 
 import string
 from functools import reduce
@@ -9,7 +9,7 @@ import numpy as np
 
 from mechsheet.recording.arithmetic import choice
 from mechsheet.recording.graph import Graph, NotRecorded
-from mechsheet.recording.quantity import Quantity, lift, moved
+from mechsheet.recording.quantity import Quantity, is_any_length, lift, moved
 
 SORTED = 64  # so many numbers are put in order by comparisons; the order of more is that of the present ones
 _MOST = 8  # unknowns of a fit
@@ -79,12 +79,21 @@ def to_sort(graph: Graph, x: Any, axis: Any) -> tuple[Quantity, int, int]:
     return x, axis, x.extent[-1]
 
 
+def is_ranked(x: Quantity) -> bool:
+    """Whether numbers are put in order by comparing each with all others, however many they are."""
+    return is_any_length(x) and x.extent[0] <= SORTED
+
+
 def order(graph: Graph, x: Any, axis: Any = -1, kind: Any = None, stable: Any = None) -> Any:
     """numpy's argsort, equal numbers in the order that they have: where the rank of each one points."""
-    x, axis, count = to_sort(graph, x, axis)
-    if count > SORTED:
-        return np.argsort(x.seen(), axis=-1, kind="stable")
-    one, other, number = x[..., :, None], x[..., None, :], np.arange(count)
+    if is_ranked(x := lift(graph, x)):
+        number: Any = Quantity(graph, graph.rows(graph.length(x.re, -1)))
+    else:
+        x, axis, count = to_sort(graph, x, axis)
+        if count > SORTED:
+            return np.argsort(x.seen(), axis=-1, kind="stable")
+        number = np.arange(count)
+    one, other = x[..., :, None], x[..., None, :]
     before: Any = (other < one) | ((other == one) & (number < number[:, None]))
     rank = choice(graph, before, 1, 0).reduced("sum", -1)
     there = choice(graph, rank[..., None, :] == number[:, None], number, 0)
@@ -131,3 +140,66 @@ def summed(graph: Graph, subscripts: str, *operands: Any) -> Any:
     lost = tuple(k for k, letter in enumerate(every) if letter not in result)
     total = product.reduced("sum", lost) if lost else product
     return np.transpose(total, [left.index(letter) for letter in result])
+
+
+def interpolated(graph: Graph, x: Any, xp: Any, fp: Any, left: Any = None, right: Any = None) -> Any:
+    x, xp, fp = (lift(graph, v) for v in (x, xp, fp))
+    if xp.extent == (1,):
+        graph.measure(xp.re)
+        return fp[0] + 0 * x
+    in_order(graph, xp)
+    piece = _rank(graph, xp[1:-1], x)
+    start, end, low, high = xp[piece], xp[piece + 1], fp[piece], fp[piece + 1]
+    inside = low + (x - start) / (end - start) * (high - low)
+    inside = choice(graph, x == xp[-1], fp[-1], inside)  # though others before it may be as great
+    below = choice(graph, x < xp[0], fp[0] if left is None else left, inside)
+    return choice(graph, x > xp[-1], fp[-1] if right is None else right, below)
+
+
+def in_order(graph: Graph, x: Quantity) -> None:
+    """Note that numbers do not fall: of others nobody knows what numpy finds among them."""
+    rising = (x[:-1] <= x[1:]).reduced("all")
+    if not rising.value:
+        raise NotRecorded("numbers that are not in order")
+    graph.see(rising.re)
+
+
+def searched(graph: Graph, a: Any, v: Any, side: str = "left") -> Any:
+    a, v = lift(graph, a), lift(graph, v)
+    in_order(graph, a)
+    return _rank(graph, a, v, strictly=side == "left")
+
+
+def _rank(graph: Graph, a: Quantity, v: Quantity, strictly: bool = False) -> Any:
+    """How many numbers, which do not fall, each number is not below; ``strictly`` how many it is above."""
+    if a.re.stretches:
+        below = a < v[..., None] if strictly else a <= v[..., None]
+        return below.reduced("sum", -1)
+
+    def passed(k: Any) -> Any:
+        return a[k] < v if strictly else a[k] <= v
+
+    found, left = lift(graph, 0).like(v), a.re.size  # of those left, which follow the ones found
+    while left > 1:
+        half = left // 2
+        found = choice(graph, passed(found + (half - 1)), found + half, found)
+        left -= half
+    return choice(graph, passed(found), found + 1, found) if left else found
+
+
+def ordered(graph: Graph, x: Any, axis: Any = -1) -> Any:
+    """Sorted by an even-odd network of comparisons; many numbers by the order that they have now."""
+    if is_ranked(x := lift(graph, x)):
+        return x[order(graph, x)]
+    x, axis, count = to_sort(graph, x, axis)
+    if count > SORTED:
+        now = np.argsort(x.value, axis=-1, kind="stable")
+        x = np.take_along_axis(x, now, axis=-1)
+        graph.see((x[..., :-1] <= x[..., 1:]).reduced("all").re)
+        return moved(x, -1, axis)
+    parts = [x[..., k] for k in range(count)]
+    for start in range(len(parts)):
+        for k in range(start % 2, len(parts) - 1, 2):
+            low, high = parts[k], parts[k + 1]
+            parts[k], parts[k + 1] = np.minimum(low, high), np.maximum(low, high)
+    return moved(lift(graph, parts), 0, axis)

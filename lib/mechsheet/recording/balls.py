@@ -9,6 +9,7 @@ R. Krawczyk, Newton-Algorithmen zur Bestimmung von Nullstellen mit Fehlerschrank
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from functools import reduce
 from itertools import pairwise
 from typing import Any
 
@@ -290,7 +291,18 @@ def _moved(node: Node, known: Mapping[Node, Values], moving: Mapping[Node, Value
             return MADE[node.op](node, *filled)
         case "reduce" if node.args[2] == "sum":
             return MADE["reduce"](node, *filled)
+        case "reduce" if node.args[2] in ("max", "min"):
+            return _of_extreme(node, _known(values[0]), filled[0])
     return _filled(y.shape, arb(0)) if node.value.dtype == bool else _nothing(y.shape)
+
+
+def _of_extreme(node: Node, values: Values, moved: Values) -> Values:
+    """How the largest or least of several moves: as each of those that may be it."""
+    sizes, found = (values if node.args[2] == "max" else -values).reshape(-1), np.empty(len(node.args[1]), object)
+    for n, group in enumerate(node.args[1]):
+        largest = reduce(arb.max, sizes[group])
+        found[n] = reduce(arb.union, moved.reshape(-1)[group][[not x < largest for x in sizes[group]]])
+    return found.reshape(node.shape)
 
 
 _signed = np.frompyfunc(lambda a, m: arb.nan() if a is NONE else a.sgn() * m, 2, 1)

@@ -25,6 +25,7 @@ from mechsheet.worksheet.kinds import Input
 _CASES = 20_000  # random ones by which a check is judged
 _CRITICAL = 100  # elements of a check that are judged at a time
 _SURE = 0.999  # a greater part of the cases is more than they can tell
+_EPS = float(np.finfo(float).eps)
 
 
 class Tolerance(NamedTuple):
@@ -123,6 +124,8 @@ class Bands:
             np.reshape(x, (-1, *[1] * len(node.shape)))
             for x in ([t.size for t in self.by], [t.deviation for t in self.by])
         )
+        size = float(np.max(np.abs(node.value[np.isfinite(node.value)]), initial=0))
+        steeper = np.where(np.abs(steeper * sizes) <= _EPS * size, 0.0, steeper)  # what cancels but for rounding
         return Band(steeper * sizes, steeper * sigmas)
 
     def _none(self, node: Node, why: str) -> Band:

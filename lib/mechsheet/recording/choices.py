@@ -16,7 +16,7 @@ from mechsheet.recording.arithmetic import elementwise, imaginary, trunc
 from mechsheet.recording.graph import Graph, Guard, NotRecorded
 from mechsheet.recording.memory import Memory, may_change, names_of
 from mechsheet.recording.node import Loop, Node
-from mechsheet.recording.quantity import Quantity, has_quantity, joined, lift, owner, plain, quantities
+from mechsheet.recording.quantity import Quantity, has_quantity, is_any_length, joined, lift, owner, plain, quantities
 from mechsheet.recording.sketch import Sketch, merged
 from mechsheet.recording.written import Written, either, text
 from mechsheet.worksheet.drawing import COLOURS
@@ -335,6 +335,8 @@ def _extreme(name: str) -> Callable[..., Any]:
     fold = {"max": np.maximum, "min": np.minimum}[name]
 
     def function(*args: Any, **kwargs: Any) -> Any:
+        if len(args) == 1 and not kwargs and is_any_length(args[0]):
+            return args[0].reduced(name)
         values = list(args[0]) if len(args) == 1 and isinstance(args[0], Iterable) else list(args)
         if kwargs or not has_quantity(values):
             return getattr(builtins, name)(*args if len(args) > 1 else [values], **kwargs)
@@ -344,6 +346,11 @@ def _extreme(name: str) -> Callable[..., Any]:
         return result
 
     return function
+
+
+def total(values: Any, start: Any = 0) -> Any:
+    """Python's sum."""
+    return values.reduced("sum") + start if is_any_length(values) else sum(values, start)
 
 
 CALLS: dict[str, Any] = {

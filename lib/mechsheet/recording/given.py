@@ -7,6 +7,7 @@ from mechsheet.recording.node import Node
 from mechsheet.recording.quantity import Quantity
 from mechsheet.worksheet.inputs import declared
 from mechsheet.worksheet.kinds import Choice, TextLine
+from mechsheet.worksheet.lists import Rows
 
 
 def given(graph: Graph, g: Any) -> tuple[Any, dict[str, Node]]:
@@ -24,6 +25,8 @@ def given(graph: Graph, g: Any) -> tuple[Any, dict[str, Node]]:
             case TextLine():
                 texts[field.name] = _read(graph, leaves[field.name], value)
                 continue
+            case Rows():
+                graph.columns([*leaves.values()])
             case Choice():
                 own = leaves[field.name]
                 leaves = {name: node if node is own else graph.at(node, own) for name, node in leaves.items()}

@@ -62,9 +62,10 @@ class Graph:
     line of the worksheet that is run.
     """
 
-    def __init__(self, thin: int = 1, draws: bool = False) -> None:
+    def __init__(self, thin: int = 1, draws: bool = False, lists: bool = False) -> None:
         self.thin = thin
         self.draws = draws  # drawings are recorded too
+        self.lists = lists  # those among the inputs may have any length
         self.positions = 0  # numbers of linspace before any were left out
         self.line = 0
         self.work = 0  # numbers computed since somebody set it to 0
@@ -233,7 +234,12 @@ class Graph:
 
     def leaf(self, op: str, name: str, value: Any) -> Node:
         """An input."""
-        return self._kept((op, name), op, (), lambda: np.array(value), False)
+        return self._kept((op, name), op, (), lambda: np.array(value), self.lists and np.ndim(value) > 0)
+
+    def columns(self, nodes: Sequence[Node]) -> None:
+        """Let lists that are inputs be of one length."""
+        for node in nodes[1:]:
+            self.lengths[node, -1] = self.length(nodes[0], -1)
 
     def found(self, block: Block, number: int, name: str, value: Any) -> Node:
         """One of the values that a solve block finds."""

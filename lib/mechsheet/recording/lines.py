@@ -56,7 +56,7 @@ class Told(NamedTuple):
 class Solved:
     """A found value: what it leaves of its equation, its interval or guess, its closed form where there is one.
 
-    Of one unknown the ``target`` is what its equation must be. It may be ``searched`` in place of a closed form.
+    Of one unknown the ``target`` is what its equation must be. How it is ``searched`` in place of a closed form.
     """
 
     node: Node
@@ -65,7 +65,7 @@ class Solved:
     words: Told
     inverse: Node | None = None
     target: Node | None = None
-    searched: bool = False
+    searched: str = ""
 
 
 @dataclass
@@ -74,11 +74,12 @@ class Recording:
 
     ``tables`` are the columns by the number of a table, of a figure under ``Fig 1``; ``marks`` the marks of a figure by
     its number and their labels; ``lines`` those of a section; ``names`` the name that each node has in the worksheet.
-    ``gaps`` are what keeps the numbers of the worksheet's own run, with the reasons; ``guards`` the conditions under
-    which all is recorded as the worksheet has it; ``drawings`` those that a cell shows, by its number, or None for one
-    that is not recorded; ``captions`` and ``texts`` what captions, by their numbers, and cells that are texts say with
-    recorded numbers in it; ``positions`` what is marked along charts, by the name of its quantity; ``values`` what the
-    names are in the recording. Only every ``every``-th position is recorded.
+    ``gaps`` are what keeps the numbers of the worksheet's own run, with the reasons, ``unsolved`` the found values that
+    do so in the cells of a workbook alone; ``guards`` the conditions under which all is recorded as the worksheet has
+    it; ``drawings`` those that a cell shows, by its number, or None for one that is not recorded; ``captions`` and
+    ``texts`` what captions, by their numbers, and cells that are texts say with recorded numbers in it; ``positions``
+    what is marked along charts, by the name of its quantity; ``values`` what the names are in the recording. Only every
+    ``every``-th position is recorded.
     """
 
     graph: Graph
@@ -93,6 +94,7 @@ class Recording:
     captions: dict[str, Said] = field(default_factory=dict)
     texts: dict[int, Said] = field(default_factory=dict)
     gaps: list[Gap] = field(default_factory=list)
+    unsolved: list[Gap] = field(default_factory=list)
     guards: dict[Node, Guard] = field(default_factory=dict)  # by their conditions
     made_of: dict[Node, float] = field(default_factory=dict)  # the largest terms of sums, as far as looked at
     values: dict[str, Any] = field(default_factory=dict)

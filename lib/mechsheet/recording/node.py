@@ -18,8 +18,8 @@ class Block:
     ``starts`` are the quantities that it was given, by their names: ``lo``, ``hi`` and ``guess`` of a ``single``
     unknown, else the guess or the two ends of each. ``under`` are all that it rests on but its own unknowns. Where all
     is ``elementwise``, the residuals of many values of the unknowns are those of each. The residual of a ``single`` one
-    is the difference of two ``sides``: the quantity and what it shall equal. On the assembly ``branches`` the quantity
-    is another one; that of the first side is on the ``branch`` that is wanted.
+    is the difference of two ``sides``: the quantity and what it shall equal; those of several have ``targets``. On the
+    assembly ``branches`` the quantity is another one; that of the first side is on the ``branch`` that is wanted.
     """
 
     starts: Mapping[str, tuple["Node", ...]]
@@ -32,13 +32,14 @@ class Block:
     under: tuple["Node", ...] = ()
     elementwise: bool = True
     sides: tuple["Node", ...] = ()
+    targets: tuple["Node", ...] = ()
     branch: "Node | None" = None
     branches: Mapping[int, "Node"] = field(default_factory=dict)
 
     def rest(self) -> None:
         """Find out what the block rests on, once its residuals are known."""
         given = [n for nodes in self.starts.values() for n in nodes]
-        given += [*self.sides[1:], *([] if self.branch is None else [self.branch])]
+        given += [*self.sides[1:], *self.targets, *([] if self.branch is None else [self.branch])]
         own, self.under = _resting(self.nodes, [*self.residuals, *self.branches.values()], given)
         self.elementwise = all(node.op in ELEMENTWISE for node in own)
 

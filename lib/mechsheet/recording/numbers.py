@@ -162,13 +162,16 @@ def _again(block: Block, known: Mapping[Node, Values]) -> list[Values]:
         return [found[node] for node in block.residuals]
 
     def of(*x: Values) -> list[Values]:
-        """Residuals of values that stand on one more axis."""
+        """Residuals of values that stand on one more axis; of single numbers as if all elements were that."""
         if block.elementwise or x[0].ndim == block.nodes[0].value.ndim:
             return residuals(x)
+        if not x[0].ndim:
+            return residuals([np.broadcast_to(one, whole) for one in x])
         each = [residuals(one) for one in zip(*x, strict=True)]
         return [np.stack(parts) for parts in zip(*each, strict=True)]
 
     starts = {name: tuple(known.get(n, n.value) for n in nodes) for name, nodes in block.starts.items()}
+    whole = np.broadcast_shapes(*(np.shape(end) for ends in starts.values() for end in ends))
     with values_only():
         if block.single:
             lo, hi, guess = ((starts.get(name) or (None,))[0] for name in ("lo", "hi", "guess"))

@@ -7,21 +7,45 @@ from typing import Any
 
 import numpy as np
 
-from mechsheet.recording.arithmetic import absolute, angle, choice, conjugate, rounded, square, trunc
+from mechsheet.recording import polynomial_rules
+from mechsheet.recording.arithmetic import absolute, angle, choice, conjugate, rounded, trunc
 from mechsheet.recording.array_rules import (
-    SORTED,
     cross,
+    interpolated,
     least_squares,
     order,
+    ordered,
     polynomial_fit,
+    searched,
     summed,
-    to_sort,
     unwrapped,
 )
 from mechsheet.recording.graph import Graph, NotRecorded
-from mechsheet.recording.linear_rules import determinant, outer, product, solution
+from mechsheet.recording.linear_rules import (
+    determinant,
+    diagonal,
+    eigenvalues,
+    lower,
+    matrix_power,
+    outer,
+    product,
+    solution,
+    upper,
+)
 from mechsheet.recording.operations import REDUCE_SO_FAR
 from mechsheet.recording.quantity import FUNCTIONS, REDUCTIONS, Quantity, has_quantity, joined, lift, moved, plain
+from mechsheet.recording.statistics_rules import (
+    average,
+    filled_up,
+    histogram,
+    known_mean,
+    known_variance,
+    mean,
+    median,
+    norm,
+    quantile,
+    variance,
+)
 from mechsheet.recording.ufunc_rules import finite
 
 _OF_REDUCTIONS: dict[Any, str] = {
@@ -158,111 +182,6 @@ def _gradient(graph: Graph, y: Any, x: Any = 1.0, axis: Any = None, edge_order: 
     return _joined(np.concatenate)(graph, [slope[:1], inner, slope[-1:]])
 
 
-def _interpolated(graph: Graph, x: Any, xp: Any, fp: Any, left: Any = None, right: Any = None) -> Any:
-    x, xp, fp = (lift(graph, v) for v in (x, xp, fp))
-    if xp.extent == (1,):
-        graph.measure(xp.re)
-        return fp[0] + 0 * x
-    _in_order(graph, xp)
-    piece = _rank(graph, xp[1:-1], x)
-    start, end, low, high = xp[piece], xp[piece + 1], fp[piece], fp[piece + 1]
-    inside = low + (x - start) / (end - start) * (high - low)
-    inside = choice(graph, x == xp[-1], fp[-1], inside)  # though others before it may be as great
-    below = choice(graph, x < xp[0], fp[0] if left is None else left, inside)
-    return choice(graph, x > xp[-1], fp[-1] if right is None else right, below)
-
-
-def _in_order(graph: Graph, x: Quantity) -> None:
-    """Note that numbers do not fall: of others nobody knows what numpy finds among them."""
-    rising = (x[:-1] <= x[1:]).reduced("all")
-    if not rising.value:
-        raise NotRecorded("numbers that are not in order")
-    graph.see(rising.re)
-
-
-def _searched(graph: Graph, a: Any, v: Any, side: str = "left") -> Any:
-    a, v = lift(graph, a), lift(graph, v)
-    _in_order(graph, a)
-    return _rank(graph, a, v, strictly=side == "left")
-
-
-def _rank(graph: Graph, a: Quantity, v: Quantity, strictly: bool = False) -> Any:
-    """How many numbers, which do not fall, each number is not below; ``strictly`` how many it is above."""
-    if a.re.stretches:
-        below = a < v[..., None] if strictly else a <= v[..., None]
-        return below.reduced("sum", -1)
-
-    def passed(k: Any) -> Any:
-        return a[k] < v if strictly else a[k] <= v
-
-    found, left = lift(graph, 0).like(v), a.re.size  # of those left, which follow the ones found
-    while left > 1:
-        half = left // 2
-        found = choice(graph, passed(found + (half - 1)), found + half, found)
-        left -= half
-    return choice(graph, passed(found), found + 1, found) if left else found
-
-
-def _ordered(graph: Graph, x: Any, axis: Any = -1) -> Any:
-    """Sorted by an even-odd network of comparisons; many numbers by the order that they have now."""
-    x, axis, count = to_sort(graph, x, axis)
-    if count > SORTED:
-        order = np.argsort(x.value, axis=-1, kind="stable")
-        x = np.take_along_axis(x, order, axis=-1)
-        graph.see((x[..., :-1] <= x[..., 1:]).reduced("all").re)
-        return moved(x, -1, axis)
-    parts = [x[..., k] for k in range(count)]
-    for start in range(len(parts)):
-        for k in range(start % 2, len(parts) - 1, 2):
-            low, high = parts[k], parts[k + 1]
-            parts[k], parts[k + 1] = np.minimum(low, high), np.maximum(low, high)
-    return moved(lift(graph, parts), 0, axis)
-
-
-def _middle(graph: Graph, x: Any) -> Any:
-    x = _ordered(graph, x, None)
-    half = len(x) // 2
-    return x[half] if len(x) % 2 else (x[half - 1] + x[half]) / 2
-
-
-def _quantile(graph: Graph, x: Any, q: Any) -> Any:
-    x = _ordered(graph, x, None)
-    return _interpolated(graph, lift(graph, q) * (len(x) - 1), np.arange(len(x)), x)
-
-
-def _mean(graph: Graph, x: Any, axis: Any = None, keepdims: bool = False) -> Any:
-    x = lift(graph, x)
-    return x.reduced("sum", axis, keepdims) / x.count(axis)
-
-
-def _average(graph: Graph, x: Any, axis: Any = None, weights: Any = None) -> Any:
-    if weights is None:
-        return _mean(graph, x, axis)
-    return (lift(graph, x) * weights).reduced("sum", axis) / (lift(graph, weights) + 0 * x).reduced("sum", axis)
-
-
-def _known_mean(graph: Graph, x: Any, axis: Any = None) -> Any:
-    x = lift(graph, x)
-    return x.reduced("nansum", axis) / choice(graph, finite(x), 1.0, 0.0).reduced("sum", axis)
-
-
-def _variance(graph: Graph, x: Any, axis: Any = None, ddof: Any = 0) -> Any:
-    x = lift(graph, x)
-    off = square(absolute(x - _mean(graph, x, axis, True)))
-    return off.reduced("sum", axis) / (x.count(axis) - ddof)
-
-
-def _norm(graph: Graph, x: Any, axis: Any = None) -> Any:
-    return np.sqrt(square(absolute(lift(graph, x))).reduced("sum", axis))
-
-
-def _polynomial(graph: Graph, p: Any, x: Any) -> Any:
-    value: Any = 0.0
-    for c in p:
-        value = value * x + c
-    return value
-
-
 def _selected(graph: Graph, conditions: Any, choices: Any, default: Any = 0) -> Any:
     value = default
     for condition, one in reversed(list(zip(conditions, choices, strict=True))):
@@ -333,20 +252,32 @@ _OF_FUNCTIONS: dict[Any, Callable[..., Any]] = {
     np.sum: _reduction("sum"), np.nansum: _reduction("nansum"), np.prod: _reduction("prod"),
     np.any: _reduction("any"), np.all: _reduction("all"), np.argmax: _first("argmax"), np.argmin: _first("argmin"),
     np.ptp: lambda graph, x, axis=None: lift(graph, x).reduced("max", axis) - lift(graph, x).reduced("min", axis),
-    np.mean: _mean, np.average: _average, np.nanmean: _known_mean, np.var: _variance, np.median: _middle,
-    np.std: lambda graph, x, axis=None, ddof=0: np.sqrt(_variance(graph, x, axis, ddof)), np.quantile: _quantile,
-    np.percentile: lambda graph, x, q: _quantile(graph, x, lift(graph, q) / 100),
+    np.mean: mean, np.average: average, np.nanmean: known_mean, np.var: variance, np.median: median,
+    np.std: lambda graph, x, axis=None, ddof=0: np.sqrt(variance(graph, x, axis, ddof)), np.quantile: quantile,
+    np.percentile: lambda graph, x, q: quantile(graph, x, lift(graph, q) / 100),
     np.count_nonzero: lambda graph, x, axis=None: choice(graph, x, 1.0, 0.0).reduced("sum", axis),
     np.cumsum: _so_far("sum"), np.cumprod: _so_far("prod"), np.diff: _difference, np.ediff1d: _difference,
-    np.trapezoid: _trapezoid, np.gradient: _gradient, np.interp: _interpolated, np.searchsorted: _searched,
-    np.digitize: lambda graph, x, bins: _searched(graph, bins, x, "right"), np.sort: _ordered,
+    np.trapezoid: _trapezoid, np.gradient: _gradient, np.interp: interpolated, np.searchsorted: searched,
+    np.digitize: lambda graph, x, bins: searched(graph, bins, x, "right"), np.sort: ordered,
     np.argsort: order, np.cross: cross, np.unwrap: unwrapped, np.einsum: summed, np.linalg.lstsq: least_squares,
     np.polyfit: polynomial_fit, np.dot: product, np.inner: product,
     np.vdot: lambda graph, x, y: (conjugate(lift(graph, x)) * y).reduced("sum"),
-    np.outer: outer, np.linalg.solve: solution, np.linalg.det: determinant, np.linalg.norm: _norm,
+    np.outer: outer, np.linalg.solve: solution, np.linalg.det: determinant, np.linalg.norm: norm,
     np.linalg.inv: lambda graph, A: solution(graph, A, np.eye(np.shape(A)[-1])),
+    np.linalg.eigvalsh: lambda graph, A, UPLO="L": ordered(
+        graph, moved(lift(graph, eigenvalues(graph, A, UPLO)), 0, -1)
+    ),
+    np.histogram: histogram,
     np.trace: lambda graph, A: lift(graph, A)[np.arange(len(A)), np.arange(len(A))].reduced("sum"),
-    np.polyval: _polynomial, np.select: _selected, np.piecewise: _piecewise, np.clip: _clipped, np.isclose: _close,
+    np.polyval: polynomial_rules.value, np.polyder: polynomial_rules.derivative, np.polyint: polynomial_rules.integral,
+    np.convolve: polynomial_rules.convolved, np.polyadd: polynomial_rules.added,
+    np.diag: diagonal, np.triu: upper, np.tril: lower, np.linalg.matrix_power: matrix_power,
+    np.logspace: lambda graph, *ends: 10.0 ** linspace(graph, *ends),
+    np.geomspace: lambda graph, start, stop, *count: start * (stop / start) ** linspace(graph, 0.0, 1.0, *count),
+    np.nanprod: lambda graph, x, axis=None: filled_up(graph, x, 1.0).reduced("prod", axis),
+    np.nancumsum: lambda graph, x, axis=None: _so_far("sum")(graph, filled_up(graph, x, 0.0), axis),
+    np.nanvar: known_variance, np.nanstd: lambda graph, *args, **rest: np.sqrt(known_variance(graph, *args, **rest)),
+    np.select: _selected, np.piecewise: _piecewise, np.clip: _clipped, np.isclose: _close,
     math.isclose: _near,
     np.allclose: lambda graph, *args, **rest: _close(graph, *args, **rest).reduced("all"),
     np.nan_to_num: lambda graph, x, nan=0.0: choice(graph, finite(lift(graph, x)), x, nan),

@@ -42,7 +42,7 @@ class Proved:
 
     ``where`` is the table, ``name`` the column or result, ``why`` what keeps digits from being proved, with its line.
     One that is an ``exception`` has no digits, for the reason given, or those beside what it is made of. ``size`` is
-    the number beside which they are, in the unit that is shown.
+    the number beside which they are, in the unit of the table's column, of results in SI.
     """
 
     where: str
@@ -54,7 +54,7 @@ class Proved:
 
     @property
     def off(self) -> Values:
-        """By how much each number may be off, in the unit that is shown; infinite where nobody knows."""
+        """By how much each number may be off, in the unit of ``size``; infinite where nobody knows."""
         return np.where(self.digits > 0, self.size * 10.0**-self.digits, np.where(np.isnan(self.digits), 0.0, np.inf))
 
     @property
@@ -286,7 +286,8 @@ class _Digits:
             (found,) = self.finest.of([node])
         largest = int(np.argmax(np.abs(shown.own)))
         moves = {part: np.abs(share * part.value) for part, share in adjoints(node, largest).items()}
-        made = max(float(np.max(m, initial=0.0, where=np.isfinite(m))) for m in moves.values())
+        parts = [*moves.values(), *(np.abs(part.value) for part in _addends(node))]  # those that cancel move nothing
+        made = max(float(np.max(m, initial=0.0, where=np.isfinite(m))) for m in parts)
         held = _HELD * sum(float(np.nansum(m)) for part, m in moves.items() if part.op == "input")
         if not all(x is not NONE and x.is_finite() and abs(x) <= max(held, made * _ZERO) for x in found.flat):
             return None
@@ -321,6 +322,14 @@ _WHY = {
     "mod": "a whole turn",
     **dict.fromkeys(("lt", "le", "gt", "ge", "eq", "ne"), "a comparison"),
 }  # fmt: skip
+
+
+def _addends(node: Node) -> Iterator[Node]:
+    """What a sum is made of; nothing of a quantity that is none."""
+    if node.op in ("add", "sub"):
+        for part in node.operands:
+            yield part
+            yield from _addends(part)
 
 
 def _is_count(node: Node) -> bool:

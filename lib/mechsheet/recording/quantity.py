@@ -229,6 +229,9 @@ class Quantity(NDArrayOperatorsMixin):
         if (dtype := np.dtype(kind)).kind in "fc" and np.finfo(dtype).precision < 15:
             raise NotRecorded(f"numbers of the kind {dtype}")
         kind = dtype.kind
+        if kind in "iu" and self.dtype == bool:
+            number: Quantity = FUNCTIONS[np.where](self.graph, self, 1, 0)
+            return number
         if kind in "iu":
             whole: Quantity = UFUNCS[np.trunc](self)
             return whole
@@ -324,6 +327,11 @@ def quantities(value: Any) -> Iterator[Quantity]:
 
 def has_quantity(value: Any) -> bool:
     return next(quantities(value), None) is not None
+
+
+def is_any_length(value: Any) -> bool:
+    """Whether a list that readers take for any number of its rows, as a page in one file does."""
+    return isinstance(value, Quantity) and value.graph.draws and value.ndim == 1 and value.re.stretches
 
 
 def lift(graph: Graph, value: Any) -> Quantity:

@@ -22,7 +22,7 @@ from mechsheet.recording.node import Node, bottom_up, conditions
 from mechsheet.recording.quantity import Quantity, has_quantity, is_literal, lift
 from mechsheet.recording.sketch import Drawn, Sketch
 from mechsheet.recording.stage import Stage, held
-from mechsheet.recording.substitutes import BUILTINS, instead, shared, staged
+from mechsheet.recording.substitutes import BUILTINS, Module, instead, shared, staged
 from mechsheet.recording.unrepeatable import Unrepeatable
 from mechsheet.recording.written import Said, Written
 from mechsheet.units import Constant
@@ -41,6 +41,7 @@ def record(
     known: Mapping[str, Formula] | None = None,
     every: int = 0,
     draws: bool = False,
+    lists: bool = False,
 ) -> Recording:
     """Run the cells behind the tables, found values and checks of ``namespace`` with recorded quantities.
 
@@ -50,12 +51,13 @@ def record(
     `Recording.gaps` says where and why. Where all tables list every so many positions, or ``every`` so many are asked
     for, only those are recorded, and all of them only for numbers that rest on all, such as an integral, and for checks
     that take little more for it; the others are `Residual.listed`. Where it ``draws``, sliders are inputs too, named
-    ``slider part``, and the drawings that cells show are recorded.
+    ``slider part``, and the drawings that cells show are recorded. With ``lists`` those among the inputs may have any
+    length.
     """
     sheet = load(Path(namespace["__file__"])) if sheet is None else sheet
     steps = {value.every for value in namespace.values() if isinstance(value, Table)}
     want = sheet.results if whole else [name for name in sheet.results if _shown(namespace.get(name))]
-    graph = Graph(every or (steps.pop() if len(steps) == 1 else 1), draws)
+    graph = Graph(every or (steps.pop() if len(steps) == 1 else 1), draws, lists)
     token = current.set(graph)
     try:
         return _Run(sheet, graph, namespace, want, registry(namespace) if known is None else known).recording
@@ -172,7 +174,8 @@ class _Run:
         reads = self.read(facts.loaded)
         functions = (f for f in map(self.names.get, reads) if isinstance(f, FunctionType))
         codes = [facts.code, *(f.__code__ for f in functions if f.__globals__ is self.names)]
-        touched = dict.fromkeys([*facts.touched, *chain.from_iterable(map(statement.shared_names, codes))])
+        changed = [*facts.touched, *chain.from_iterable(map(statement.shared_names, codes))]
+        touched = dict.fromkeys(name for name in changed if not isinstance(self.names.get(name), Module))
         final = {name for name in touched if name not in later and not name.startswith("_")}
         rests, shown = (
             {guard.holds: guard for name in names for guard in self.looked.get(name, ())}

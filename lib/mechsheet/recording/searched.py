@@ -1,51 +1,98 @@
-"""A found value without a closed form as a search for it, in operations that a cell of a workbook has as well."""
+"""A found value without a closed form as a search for it, in operations that a cell of a workbook has as well.
 
-from collections.abc import Mapping
+That of one equation closes in on its only change of sign; of several they are the `stepped` ones.
+"""
+
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 import numpy as np
 
-from mechsheet.recording.graph import Graph, Label, NotRecorded
-from mechsheet.recording.lines import Recording
+from mechsheet.recording.arithmetic import choice
+from mechsheet.recording.graph import Gap, Graph, Label, NotRecorded
+from mechsheet.recording.lines import Recording, leaves_of
 from mechsheet.recording.node import Block, Node, bottom_up
-from mechsheet.recording.quantity import Quantity
+from mechsheet.recording.quantity import Quantity, lift
+from mechsheet.recording.stepped import steps
 
 PLACES = 97  # of the first look at the whole interval, dense at its ends
 _FIRST = (1 - np.cos(np.linspace(0, np.pi, PLACES))) / 2
 _LATER, _LOOKS = np.linspace(0, 1, 17), 15  # of each later one at the part in which the residual changes its sign
 _EARLY = 4  # looks that count changes of sign; later ones may meet rounding
 _NEAR, _AT_END = 0.45, 1e-9  # of the residual beside a place, that there may be a root about without a change of sign
+_ONE = f"the one change of sign of {PLACES} places"
 _LESS = 0.1  # of the residual in the last early look may be left in the end: more is a jump or a pole
 
 
 def search(recording: Recording) -> None:
-    """Give found values of one equation without a closed form the search for them in its place.
+    """Give found values without a closed form the search for them in its place.
 
-    It has no value where its places show no change of sign, more than one, or that there may be more. A value that it
-    doesn't find for the inputs at hand, or that takes too many cells, keeps the number of the worksheet's own run.
+    It has no value where that of the worksheet is not sure to be the same: of one equation where its places show no
+    change of sign, more than one, or that there may be more. What it doesn't find for the inputs at hand keeps the
+    number of the worksheet's own run; `Recording.unsolved` says which found values do so whatever there is, and why.
     """
+    graph, roots = recording.graph, dict[Node, Node]()
+    blocks = {solved.node.args[0]: solved for solved in recording.found.values() if solved.node.op == "found"}
+    for block, last in blocks.items():
+        if any(solved.inverse is None for solved in recording.found.values() if solved.node in block.nodes):
+            try:
+                with np.errstate(all="ignore"):  # the equations need not have a value everywhere
+                    found = [_root(graph, block, last.words.unknown_unit)] if block.single else steps(graph, block)
+                    roots |= {n: _at_hand(recording, n, x) for n, x in zip(block.nodes, found, strict=True)}
+            except NotRecorded as reason:
+                recording.unsolved.append(Gap(_named(recording, block), block.nodes[0].line, f"{_KEPT}: {reason}"))
     for solved in recording.found.values():
-        if solved.inverse is None and solved.node.op == "found":
-            root = _root(recording.graph, solved.node, solved.words.unknown_unit)
-            if root is not None:
-                solved.inverse, solved.searched = root, True
-                recording.define_steps("Search", solved)
+        if solved.inverse is None and solved.node in roots:
+            solved.inverse = roots[solved.node]
+            solved.searched = _ONE if solved.node.args[0].single else "Newton's steps from its guess"
+            recording.define_steps("Search", solved)
+    recording.unsolved += _counted(recording)
 
 
-def _root(graph: Graph, found: Node, unit: str) -> Node | None:
-    block: Block = found.args[0]
-    if not block.single or not block.elementwise or not block.starts.keys() >= {"lo", "hi"}:
-        return None
+def _counted(recording: Recording) -> Iterator[Gap]:
+    """Counts of evaluations that are shown: they hang on the last bits of the worksheet's own search."""
+    columns = (part for table in recording.tables.values() for c in table if c is not None for part in c.parts)
+    judged = (part for check in recording.checks.values() for part in check.parts)
+    for node in bottom_up([*columns, *judged], ()):
+        if node.op == "found" and node.args[1] == len(node.args[0].nodes):
+            names = tuple(name for known, name in recording.names.items() if node in (known, *known.operands))
+            yield Gap(names, node.line, f"{_KEPT}: how often the equations are evaluated")
+
+
+_KEPT = "the workbook has this of the exported inputs"
+
+
+def _named(recording: Recording, block: Block) -> tuple[str, ...]:
+    """The lines that are what a block finds, else its unknowns."""
+    return tuple(recording.names.get(node, name) for node, name in zip(block.nodes, block.starts, strict=False))
+
+
+def _at_hand(recording: Recording, found: Node, root: Any) -> Node:
+    """A root, with the numbers of the worksheet's own run where it isn't sure, while the inputs are the same."""
+    graph, own = recording.graph, found.value
+    known = np.isfinite(root.value)
+    size = np.max(np.abs(own), initial=0.0, where=np.isfinite(own))
+    if not np.any(known) or np.any(known & ~np.isclose(root.value, own, 1e-12, 1e-12 * size)):
+        raise NotRecorded("its cells do not come to it")
+    if (known == np.isfinite(own)).all():
+        return lift(graph, root).re
+    same: Any = True
+    for leaf in leaves_of([found], recording):
+        same = same & Quantity(graph, graph.same(leaf))
+    kept = choice(graph, same, own, np.nan)
+    return lift(graph, choice(graph, np.isfinite(root), root, kept)).re
+
+
+def _root(graph: Graph, block: Block, unit: str) -> Any:
+    if not block.elementwise:
+        raise NotRecorded("its equation rests on sums or on other elements")
+    if not block.starts.keys() >= {"lo", "hi"}:
+        raise NotRecorded("its interval has an open end")
     (low,), (high,) = block.starts["lo"], block.starts["hi"]
     a, b = (Quantity(graph, graph.like(end, low, high, *block.under)) for end in (low, high))
-    try:
-        root = _searched(block, a, b, unit)
-    except NotRecorded:
-        return None
-    return root.re if np.allclose(root.value, found.value, 1e-12, 1e-300, equal_nan=True) else None
+    return _searched(block, a, b, unit)
 
 
-@np.errstate(all="ignore")  # the residual need not have a value everywhere
 def _searched(block: Block, a: Quantity, b: Quantity, unit: str) -> Any:
     """The root between a and b, which closes in on it look by look; none where it isn't sure to be the only one."""
     graph = a.graph

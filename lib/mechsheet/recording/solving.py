@@ -84,6 +84,7 @@ def several(graph: Graph, found: Solution, f: Callable[..., Any], asked: dict[st
     if len(left) != len(words.equations):
         raise NotRecorded(f"{len(left)} equations where the worksheet has {len(words.equations)}")
     block.residuals = tuple(part.re for part in left)
+    block.targets = tuple(dict.fromkeys(n for w in wanted for n in lift(graph, w).parts if n.op != "constant"))
     block.rest()
     solved = []
     for k, (node, unknown, unit) in enumerate(zip(block.nodes, words.names, words.units, strict=True)):

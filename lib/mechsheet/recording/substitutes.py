@@ -19,6 +19,7 @@ from typing import Any
 import numpy as np
 
 from mechsheet import units
+from mechsheet.recording.choices import total
 from mechsheet.recording.graph import NotRecorded, current
 from mechsheet.recording.numpy_rules import arange, filled, linspace, trapezoid_so_far
 from mechsheet.recording.quantity import FUNCTIONS, Quantity, has_quantity, lift
@@ -124,7 +125,7 @@ def _of_numpy(value: Any) -> bool:
     return of_numpy and not isinstance(value, type | GenericAlias)
 
 
-class _Module:
+class Module:
     """A module whose functions take recorded quantities; the units are such."""
 
     def __init__(self, module: Any) -> None:
@@ -134,14 +135,15 @@ class _Module:
         return instead(getattr(self._module, name))
 
 
-_module = cache(_Module)
+_module = cache(Module)
 
 
 def _imported(name: str, *args: Any, **kwargs: Any) -> Any:
     return instead(__import__(name, *args, **kwargs))
 
 
-BUILTINS = {**vars(builtins), "__import__": _imported}  # an import inside a cell is one of what takes quantities too
+# An import inside a cell is one of what takes quantities too.
+BUILTINS = {**vars(builtins), "__import__": _imported, "sum": total}
 
 
 @cache

@@ -16,7 +16,6 @@ from mechsheet.recording.record import record
 from mechsheet.worksheet import numbers, shown
 from mechsheet.worksheet.cells import Worksheet, base, split
 from mechsheet.worksheet.check import Check
-from mechsheet.worksheet.errors import SheetError, as_given
 from mechsheet.worksheet.inputs import Used
 from mechsheet.worksheet.lines import Formula, registry
 from mechsheet.worksheet.scene import Scene
@@ -46,29 +45,6 @@ def _own(checks: Iterable[Check], namespace: Mapping[str, Any]) -> list[Check]:
 def tables_of(namespace: Mapping[str, Any]) -> list[Table]:
     """Tables of a run in the order of its file."""
     return [value for value in parts.values(namespace) if isinstance(value, Table)]
-
-
-def results_of(namespace: Mapping[str, Any]) -> list[str]:
-    """Results of a run that are real numbers, or the parts of complex ones, by which one may ask what matters."""
-    found = list[str]()
-    for name, line in registry(namespace).items():
-        kind = "" if line.arguments else np.asarray(namespace.get(name)).dtype.kind
-        found += [f"{name}.real", f"{name}.imag", f"abs({name})"] if kind == "c" else [name] if kind in "if" else []
-    return found
-
-
-def matters(sheet: Worksheet, namespace: Mapping[str, Any], name: str, position: str) -> tuple[Any, Any]:
-    """Tornado and table of the elasticities of a result by all inputs, as they are in a run, at a position.
-
-    Raises SheetError where there is no such position, or what `mechsheet.sensitivity` raises.
-    """
-    at: Any = int(position) if position.isdecimal() else position
-    if not isinstance(at, int) and at not in ("least", "greatest"):
-        raise SheetError(f"position {as_given(position)} must be least, greatest or a number from 0")
-    given = Used(namespace["g"]).given()
-    found = shown.study("sensitivity")(sheet.path, [name], **given)
-    title = f"What matters for {name}"
-    return found.tornado("", title, name, at), found.table("", title, name, at)
 
 
 def lines(

@@ -7,6 +7,7 @@ from mechsheet.run.ending import say, watch
 from mechsheet.workbook.save import save
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.renaming import renamed
+from mechsheet.worksheet.scene import beside
 
 
 def main() -> None:
@@ -15,7 +16,7 @@ def main() -> None:
     if len(names) != 2:
         raise SheetError("rename takes a worksheet, a symbol and its new name, such as hitch F_gc F_c")
     path, (old, new) = Path(worksheet), names
-    scenes = {scene: scene.read_text(encoding="utf-8") for scene in _beside(path)}
+    scenes = {scene: scene.read_text(encoding="utf-8") for scene in beside(path)}
     made = renamed(path, old, new, scenes)
     before = {file: file.read_bytes() for file in made}
     try:
@@ -27,11 +28,6 @@ def main() -> None:
                 save(held, file)
         raise
     say(*(f"written {file}" for file in made))
-
-
-def _beside(path: Path) -> list[Path]:
-    """Scenes in the folder of the worksheet, and in ``scenes`` there."""
-    return sorted([*path.parent.glob("*.toml"), *path.parent.glob("scenes/*.toml")])
 
 
 if __name__ == "__main__":

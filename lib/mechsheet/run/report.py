@@ -43,20 +43,20 @@ def export(title: str, namespace: Mapping[str, Any]) -> Any:
     ``namespace`` is the last cell's ``globals()``.
 
     In the page: a button that builds it when pressed, and then tells what it does not follow; beside it one that writes
-    the document as a page in one file, and above them switches for bands within tolerances, for what a result depends
-    on, and for a proof of the digits of all numbers. In ``python worksheet.py``: prints the found values and the
-    checks, writes ``NAME.xlsx`` into ``exports/`` of the project whose worksheet it is, elsewhere beside the worksheet
-    (or into ``--out``), and exits with 1 where a name that some cell returns does not exist or a check fails. Where a
-    group does not close, nothing is written.
+    the document as a page in one file, and above them switches for what differs from the document's own inputs, for
+    bands within tolerances, for what a result depends on, and for a proof of the digits of all numbers. In
+    ``python worksheet.py``: prints the found values and the checks, writes ``NAME.xlsx`` into ``exports/`` of the
+    project whose worksheet it is, elsewhere beside the worksheet (or into ``--out``), and exits with 1 where a name
+    that some cell returns does not exist or a check fails. Where a group does not close, nothing is written.
     """
     worksheet = Path(namespace["__file__"])
     if arguments.is_script(str(worksheet)):
         _script(title, namespace, worksheet)
         return None
     from mechsheet.html import write as html  # on use: a worksheet called as a function needs no page
-    from mechsheet.page import study  # on use: as above
+    from mechsheet.page import design, study  # on use: as above
     from mechsheet.page.download import File, download  # on use: as above
-    from mechsheet.run import banding  # on use: only a page and tolerances need it
+    from mechsheet.run import banding, studied  # on use: only a page and tolerances need it
 
     def book() -> tuple[bytes, list[str]]:
         recording, fit = _recorded(namespace)
@@ -70,19 +70,29 @@ def export(title: str, namespace: Mapping[str, Any]) -> Any:
     def proof() -> str:
         from mechsheet.page import proved  # on use: only a proof needs balls
 
-        recording, _ = _recorded(namespace)
-        return proved.html(proof_of(namespace, sheet, recording), _of(Table, parts.values(namespace)))
+        known = registry(namespace)
+        fields = [name for name, line in known.items() if not line.arguments and np.ndim(namespace.get(name, 0.0))]
+        shown = proof_of(namespace, sheet, record(namespace, sheet, whole=True, every=1), fields)
+        return proved.html(shown, _of(Table, parts.values(namespace)), known)
 
     def bands() -> Any:
         shown = parts.values(namespace)
         return banding.bands_of(namespace, sheet, _of(Check, shown)), _of(Table, shown), _of(Figure, shown)
 
-    matter = partial(banding.matters, sheet, namespace)
-    asked = study.Asked(banding.results_of(namespace), bands, matter, proof)
+    matter = partial(studied.matters, sheet, namespace)
+    results = studied.results_of(namespace)
+    asked = study.Asked([*results], bands, matter, proof, partial(_own, worksheet))
+    designing = design.Designing(results, partial(studied.designed, sheet, namespace))
     files = [File(f"{worksheet.stem}.xlsx", "Excel workbook", book)]
     if not html.studies(sheet):
         files.append(File(f"{worksheet.stem}.html", "Page in one file", page))
-    return download(*files, asked=asked, namespace=namespace)
+    return download(*files, asked=asked, designing=designing, namespace=namespace)
+
+
+def _own(worksheet: Path) -> dict[str, Any]:
+    """Namespace of a run of the worksheet as it stands, with its own inputs."""
+    sheet = load(worksheet)
+    return sheet.run(sheet.results, {"g": inputs.build(sheet.inputs, {})})
 
 
 def _script(title: str, namespace: Mapping[str, Any], worksheet: Path) -> None:
@@ -126,7 +136,7 @@ def _left_out(namespace: Mapping[str, Any], worksheet: Path) -> Iterator[str]:
 
 def _not_followed(recording: Recording) -> list[str]:
     """What the workbook does not follow, a line for each."""
-    return [f"not followed there: {gap}" for gap in recording.gaps]
+    return [f"not followed there: {gap}" for gap in (*recording.gaps, *recording.unsolved)]
 
 
 def folder(worksheet: Path) -> Path:

@@ -1,12 +1,13 @@
 """What would it take: ``design NAME --vary=INPUT=LEAST..GREATEST --need=REQUIREMENT --best=GOAL`` for any worksheet.
 
 Several inputs within bounds are searched and then refined by slopes; one input and one value of a result are solved.
+The page asks the same in the same words.
 """
 
 import re
 import sys
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -217,18 +218,17 @@ def solve(problem: Problem) -> tuple[dict[str, float], list[str]]:
     return {name: float(found.value / factor)}, [str(found)]
 
 
-def best(problem: Problem) -> tuple[dict[str, float], list[str]]:
+def best(problem: Problem, done: Callable[[], object] = lambda: None) -> tuple[dict[str, float], list[str]]:
     """The inputs that hold all requirements and have the best goal, and how sure that is."""
-    with progress(_GENERATIONS, "search") as done:
-        found = design.search(
-            problem.judge,
-            problem.bounds,
-            problem.decimals,
-            seed=_SEED,
-            generations=_GENERATIONS,
-            members=_MEMBERS,
-            done=lambda: done(""),
-        )
+    found = design.search(
+        problem.judge,
+        problem.bounds,
+        problem.decimals,
+        seed=_SEED,
+        generations=_GENERATIONS,
+        members=_MEMBERS,
+        done=done,
+    )
     told = [f"{problem.goal(found.goal)} by {found.tried} variants"]
     chosen, refinement = _refined(problem, found)
     needs = problem.judge(_alone(chosen)).requirements
@@ -270,21 +270,57 @@ def scene_of(problem: Problem, chosen: Mapping[str, float], told: Sequence[str])
     return design.scene_text(problem.fields, {**problem.given, **chosen}, limits, told)
 
 
+class Answer(NamedTuple):
+    """The inputs found, what is said of them, and the text of their scene."""
+
+    inputs: list[str]
+    told: list[str]
+    scene: str
+
+
+def answer(worksheet: str | Path, asked: Asked, done: Callable[[], object] = lambda: None) -> Answer:
+    """What it would take; ``done`` is called after each generation of a search.
+
+    Raises SheetError where it cannot be asked or reached.
+    """
+    problem = Problem(worksheet, asked)
+    solving = any(need.sign == "=" for need in asked.needs)
+    chosen, told = solve(problem) if solving else best(problem, done)
+    found = list[str]()
+    for name, x in chosen.items():
+        field = problem.fields[name]
+        ends = numbers.span(numbers.significant(end, 10) for end in problem.bounds[name])
+        own = numbers.significant(x, 10) + numbers.suffix(field.unit)
+        found.append(f"{name} = {own}, within {ends}; {field.meaning}")
+    return Answer(found, told, scene_of(problem, chosen, told))
+
+
+def asked_design(
+    worksheet: str | Path, options: Sequence[str], given: Mapping[str, Any], done: Callable[[int, int], object]
+) -> Answer:
+    """`answer` for the inputs of a page; ``done`` is called with how many of how many generations are behind."""
+    asked, count = read(options, inputs.declared(load(worksheet).inputs)), 0
+    asked = replace(asked, scene=Scene(inputs={**given, **asked.scene.inputs}))
+
+    def generation() -> None:
+        nonlocal count
+        count += 1
+        done(count, _GENERATIONS)
+
+    return answer(worksheet, asked, generation)
+
+
 def main() -> None:
     """``python -m mechsheet.studies.asked_design WORKSHEET ..``"""
     worksheet, *options = sys.argv[1:]
     watch(worksheet)
     sheet = load(worksheet)
     asked = read(options, inputs.declared(sheet.inputs))
-    problem = Problem(sheet.path, asked)
-    chosen, told = (solve if any(need.sign == "=" for need in asked.needs) else best)(problem)
-    for name, x in chosen.items():
-        field, (low, high) = problem.fields[name], problem.bounds[name]
-        ends = numbers.span(numbers.significant(end, 10) for end in (low, high))
-        say(f"{name} = {numbers.significant(x, 10)}{numbers.suffix(field.unit)}, within {ends}; {field.meaning}")
-    say(*told)
+    with progress(_GENERATIONS, "search") as done:
+        found = answer(sheet.path, asked, lambda: done(""))
+    say(*found.inputs, *found.told)
     path = (asked.scene.out or report.folder(Path(sheet.path))) / f"{Path(sheet.path).stem}_designed.toml"
-    report.write(scene_of(problem, chosen, told).encode(), path)
+    report.write(found.scene.encode(), path)
     say(f"written {path}")
 
 

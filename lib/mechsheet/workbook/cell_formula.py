@@ -2,7 +2,7 @@
 
 import math
 import re
-from collections.abc import Mapping
+from collections.abc import Container, Mapping
 from dataclasses import replace
 from functools import lru_cache
 from types import MappingProxyType
@@ -44,8 +44,8 @@ class CellFormulas:
     """Formulas of quantities, some of which stand at a place of the workbook: there a formula refers to them.
 
     ``first`` is the row of the first number of every column, ``counted`` the condition under which there are as many
-    rows as columns have: no row has a number of another one's; ``inverse`` are the closed forms of found values. What
-    is no number is #N/A.
+    rows as columns have: no row has a number of another one's; ``inverse`` are the closed forms of found values, or the
+    searches for the ``searched`` ones. What is no number is #N/A.
     """
 
     def __init__(
@@ -54,8 +54,9 @@ class CellFormulas:
         first: int = 0,
         counted: str = "",
         inverse: Mapping[Node, Node | None] = MappingProxyType({}),
+        searched: Container[Node] = (),
     ) -> None:
-        self.places, self.first, self.counted, self.inverse = places, first, counted, inverse
+        self.places, self.first, self.counted, self.inverse, self.searched = places, first, counted, inverse, searched
         self._inputs: dict[Node, tuple[Node, ...]] = {}
         self._fixed: dict[Node, frozenset[Node]] = {}
 
@@ -131,11 +132,13 @@ class CellFormulas:
         return f"AND({','.join(same)})" if same else ""
 
     def _fixed_by(self, node: Node) -> frozenset[Node]:
-        """What must be as it was for the numbers of the worksheet's own run under a quantity."""
+        """What must be as it was for the numbers of the worksheet's own run under a quantity, or must be found."""
         for part in bottom_up([node], self._fixed):
             closed = self.inverse.get(part)
             if part.op in ("exported", "found") and closed is None:
                 self._fixed[part] = frozenset(part.args if part.op == "exported" else self._inputs_under(part))
+            elif part in self.searched:  # whose numbers may be there and not be sure
+                self._fixed[part] = frozenset([part])
             else:
                 under = [closed] if closed is not None else part.operands
                 self._fixed[part] = frozenset[Node]().union(*(self._fixed_by(operand) for operand in under))
@@ -214,7 +217,16 @@ class CellFormulas:
         return (f"IF({self.counted},{text},NA())", 5) if self.counted else (text, binding)
 
     def _unchanged(self, node: Node, rows: Rows) -> str:
-        """Condition under which an input or another quantity is what it was; of a list its rows tell what differs."""
+        """Condition under which an input or another quantity is what it was; of a list its rows tell what differs.
+
+        Of what is searched, that all of it is found.
+        """
+        if node in self.searched:
+            found = f"COUNT({self.places[node].range(0, node.size - 1)})={node.size}"
+            if np.isfinite(node.value).all():
+                return found
+            same = ",".join(self._unchanged(each, rows) for each in self._inputs_under(node))
+            return f"OR({found},AND({same}))"
         if node.size == 1:
             return f"{self._element(node, _FIRST, rows)[0]}={written(node.value.item())}"
         place = self.places[node]

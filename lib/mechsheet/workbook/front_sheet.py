@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from mechsheet import units
-from mechsheet.recording.graph import Gap
+from mechsheet.recording.lines import Recording
 from mechsheet.workbook import looks
 from mechsheet.workbook.book import Book
 from mechsheet.workbook.cell_formula import AGGREGATE
@@ -21,6 +21,7 @@ from mechsheet.worksheet.numbers import fixed
 _NAME = "Front"
 _WIDTHS = (200, 95, 95, 60, 230)
 _GREY = "Grey cells hold for the exported inputs only, and show #N/A otherwise."
+_SEARCHED = "Found values are searched by their cells: #N/A where it is not sure that the worksheet finds the same."
 _ALL = "all checks PASS"
 _VERDICT = "Checks!$E:$E"
 
@@ -42,8 +43,8 @@ def add(book: Book) -> Any:
     return book.sheet(_NAME, book.title, _WIDTHS, 2, looks.UPRIGHT)
 
 
-def write(book: Book, sheet: Any, checks: Sequence[Check], results: Sequence[Result], gaps: Sequence[Gap]) -> None:
-    """Fill the sheet, when all others are there."""
+def write(book: Book, sheet: Any, checks: Sequence[Check], results: Sequence[Result], known: Recording | None) -> None:
+    """Fill the sheet, when all others are there; the recording ``known`` says what is not followed."""
     put(sheet, 1, 0, _verdict(checks), book.style({"bold": True, "align": "left"}))
     for criterion, look in (("==", looks.PASS), ("!=", looks.FAIL)):
         rule = {"type": "cell", "criteria": criterion, "value": f'"{_ALL}"', "format": book.file.add_format(look)}
@@ -62,6 +63,7 @@ def write(book: Book, sheet: Any, checks: Sequence[Check], results: Sequence[Res
     for name, title in book.contents[1:]:
         sheet.write_url(row, 0, f"internal:{quoted(name)}!A1", book.style(looks.CELL, looks.LINK), name)
         row = _text(book, sheet, row, 1, Live(f"={quoted(name)}!$A$1", title))
+    gaps = [*known.gaps, *known.unsolved] if known else []
     if gaps:
         row = _block(book, sheet, row + 1, ("Not followed", "Reason", "", "", ""))
         for gap in gaps:
@@ -69,6 +71,9 @@ def write(book: Book, sheet: Any, checks: Sequence[Check], results: Sequence[Res
             put(sheet, row, 0, names, book.style(looks.CELL, looks.TEXT))
             row = _text(book, sheet, row, 1, gap.reason)
         put(sheet, row, 0, _GREY, book.style(looks.NOTE))
+        row += 1
+    if known and any(solved.searched for solved in known.found.values()):
+        put(sheet, row, 0, _SEARCHED, book.style(looks.NOTE))
 
 
 def results(found: Sequence[FoundRow], drawn: Sequence[Listed], formulas: SheetFormulas | None) -> list[Result]:

@@ -6,7 +6,6 @@ from mechsheet import units
 from mechsheet.recording.lines import Line, leaves_of
 from mechsheet.recording.node import Node, bottom_up
 from mechsheet.recording.quantity import Quantity
-from mechsheet.recording.searched import PLACES
 from mechsheet.workbook.arrangement import Arrangement
 from mechsheet.workbook.cell_formula import CellFormulas, written
 from mechsheet.workbook.content import Live, quoted
@@ -28,7 +27,8 @@ class SheetFormulas:
     def __init__(self, arrangement: Arrangement) -> None:
         self.arrangement, self.recording = arrangement, arrangement.recording
         self._inverse = {solved.node: solved.inverse for solved in self.recording.found.values()}
-        self._cells = CellFormulas(arrangement.places, arrangement.first, inverse=self._inverse)
+        searched = {solved.node for solved in self.recording.found.values() if solved.searched}
+        self._cells = CellFormulas(arrangement.places, arrangement.first, inverse=self._inverse, searched=searched)
         counted = [holds for holds, guard in self.recording.guards.items() if guard.rows]
         texts = sorted({self._cells.reference(holds)[1:] for holds in counted})
         self._cells.counted = f"AND({','.join(texts)})" if len(texts) > 1 else "".join(texts)
@@ -71,7 +71,7 @@ class SheetFormulas:
     def kept(self, node: Node) -> bool:
         """Whether a quantity rests on numbers of the worksheet's own run."""
         for part in bottom_up([node], self._known):
-            own = part.op == "exported" or self._inverse.get(part, part) is None
+            own = part.op == "exported" or (part.op == "found" and self._inverse.get(part) is None)
             self._known[part] = own or any(self._known[operand] for operand in part.operands)
         return self._known[node]
 
@@ -126,7 +126,7 @@ class SheetFormulas:
         solved = self.recording.found.get(unknown)
         if solved is None or solved.inverse is None:
             return own
-        return f"the one change of sign of {PLACES} places" if solved.searched else "its closed form"
+        return solved.searched or "its closed form"
 
     def check(self, name: str) -> Compared | None:
         """Formulas of a check; None where it holds plain numbers."""

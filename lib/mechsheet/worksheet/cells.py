@@ -20,6 +20,7 @@ from mechsheet.worksheet import inputs, mistakes, source
 from mechsheet.worksheet.check import Check
 from mechsheet.worksheet.errors import SheetError, as_given, raised
 from mechsheet.worksheet.source import constant, functions, is_app, markdown, parsed
+from mechsheet.worksheet.verdict import values_only
 
 _SECTION = re.compile(r"^\s*## +(.*\S)", re.MULTILINE)
 _PART = re.compile(r"abs\((\w+)\)|(\w+)\.(real|imag)")
@@ -169,7 +170,8 @@ def evaluate(worksheet: str | Path, want: Iterable[str], **given: Any) -> dict[s
     """
     sheet, want = load(worksheet), asked(want)
     g = given.pop("g") if "g" in given else inputs.build(sheet.inputs, given)
-    names = sheet.run(want, {"g": g})
+    with values_only():  # what else a verdict tells it computes when it is read: nobody changes these names any more
+        names = sheet.run(want, {"g": g})
     return {name: value(name, names) for name in want}
 
 

@@ -14,6 +14,7 @@ from mechsheet import units
 from mechsheet.mechanics.differences import derivative
 from mechsheet.mechanics.equilibrium import Reaction, left_over
 from mechsheet.mechanics.load import Load
+from mechsheet.mechanics.rows import each_alone, of_one, takes_arrays
 from mechsheet.worksheet import numbers
 from mechsheet.worksheet.errors import SheetError, measured, refuse
 from mechsheet.worksheet.find import Found
@@ -103,6 +104,15 @@ class Summary(Shown):
     checks: tuple[Check, ...]
 
     @property
+    def count(self) -> str:
+        """How many pass, and how many do not."""
+        passed = sum(check.passed for check in self.checks)
+        skipped = sum(not check.evaluated for check in self.checks)
+        failed = len(self.checks) - passed - skipped
+        told = f"{passed} of {len(self.checks)} checks pass" + (f", {failed} fail" if failed else "")
+        return told + (f", {skipped} not evaluated" if skipped else "")
+
+    @property
     def worst_first(self) -> tuple[Check, ...]:
         """Those that fail, those that are not evaluated, those that pass; in each the most utilised first."""
 
@@ -178,11 +188,14 @@ def check_slope(
 ) -> Check:
     """Check a derivative against adaptive differences of ``f`` at ``x``, taken inside ``lo``..``hi``.
 
-    The limit is 1e-8 of the greatest slope, or ten times what the differences say of their own error, or what
-    rounding of ``f`` makes of them; over a thousandth of the slope it would tell nothing.
+    ``f`` takes arrays or, where it does not, one number after the other. The limit is 1e-8 of the greatest slope, or
+    ten times what the differences say of their own error, or what rounding of ``f`` makes of them; over a thousandth
+    of the slope it would tell nothing.
     """
     if not hi > lo or not np.size(x):
         return Check(name, np.nan, 0.0, unit, "there is nothing to check: the range is empty")
+    if not takes_arrays(of_one(f), x[None, [0, -1]], ()):
+        f = each_alone(f, ())
     ends = np.where(x == lo, 1, np.where(x == hi, -1, 0))
     step = 0.04 * (hi - lo)
     size = float(np.max(np.abs(slope)))

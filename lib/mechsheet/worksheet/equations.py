@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from mechsheet import units
 from mechsheet.mechanics.brackets import Array, Mask
+from mechsheet.mechanics.rows import Parts, one_by_one, takes_arrays
 from mechsheet.mechanics.starts import Place
 from mechsheet.worksheet import numbers
 from mechsheet.worksheet.errors import SheetError, measured
@@ -83,8 +84,8 @@ def asked(
         words = _with_equations(words, [False] * len(names), unit if isinstance(unit, str) else "-", guessed)
         return Asked(words, interval, void.shape, void.reshape(-1), place, None)
     place = Place(*(np.where(void, part[:, ~void][:, :1].reshape(-1, *[1] * void.ndim), part) for part in place))
-    with np.errstate(all="ignore"):
-        first = _parts(f(**dict(zip(names, place.first / 2 + place.last / 2, strict=True))))
+    values = _values(f, names)
+    first = values((place.first / 2 + place.last / 2).reshape(len(names), -1)[:, 0])
     targets = _targets(equals, len(first))
     shape = np.broadcast_shapes(void.shape, *(a.shape for a in (*first, *targets)))
     complex_ = [np.iscomplexobj(v) or np.iscomplexobj(t) for v, t in zip(first, targets, strict=True)]
@@ -96,40 +97,44 @@ def asked(
     if m > n and not least:
         raise SheetError(f"{counted}: minerr finds where their squares are least")
     lost = np.any([np.broadcast_to(x, shape) for x in (void, *map(np.isnan, targets))], axis=0).reshape(-1)
-    equations = None if lost.all() else Equations(f, names, shape, targets, complex_)
+    if lost.all():
+        return Asked(words, interval, shape, lost, place, None)
+    alone = shape if any(v.ndim for v in first) else ()
     more = [1] * (len(shape) - void.ndim)  # axes of what f closes over
-    flat = (np.broadcast_to(part.reshape(n, *more, *void.shape), (n, *shape)).reshape(n, -1) for part in place)
-    return Asked(words, interval, shape, lost, Place(*flat), equations)
+    flat = Place(*(np.broadcast_to(v.reshape(n, *more, *void.shape), (n, *shape)).reshape(n, -1) for v in place))
+    tried = np.stack([flat.first / 2 + flat.last / 2, flat.first + flat.size / 8], axis=1)
+    tried = tried.reshape(n, 2, *shape) if alone else tried[..., 0]
+    if not takes_arrays(values, tried, alone):
+        values = one_by_one(values, alone)
+    return Asked(words, interval, shape, lost, flat, Equations(values, shape, targets, complex_))
 
 
 class Equations:
     """Equations less what they equal, in real parts: of unknowns (n, k, p) the residuals (m, k, p)."""
 
-    def __init__(
-        self,
-        f: Callable[..., Any],
-        names: tuple[str, ...],
-        shape: tuple[int, ...],
-        targets: Sequence[Any],
-        complex_: Sequence[bool],
-    ) -> None:
-        self.f, self.names, self.shape, self.targets, self.complex = f, names, shape, targets, complex_
+    def __init__(self, values: Parts, shape: tuple[int, ...], targets: Sequence[Any], complex_: Sequence[bool]) -> None:
+        self.values, self.shape, self.targets, self.complex = values, shape, targets, complex_
 
     def __call__(self, x: Array) -> Array:
         rows = max(1, _BLOCK // x.shape[2])
-        return np.concatenate([self._values(x[:, i : i + rows]) for i in range(0, x.shape[1], rows)], axis=1)
+        return np.concatenate([self._left(x[:, i : i + rows]) for i in range(0, x.shape[1], rows)], axis=1)
 
-    def _values(self, x: Array) -> Array:
-        whole = (x.shape[1], *self.shape)
-        try:
-            with np.errstate(all="ignore"):
-                values = _parts(self.f(**dict(zip(self.names, x.reshape(len(x), *whole), strict=True))))
-                left = [np.broadcast_to(v - t, whole) for v, t in zip(values, self.targets, strict=True)]
-        except (TypeError, ValueError) as error:
-            raise SheetError(f"the equations of {', '.join(self.names)} must take arrays of values: {error}") from error
+    def _left(self, x: Array) -> Array:
+        values = self.values(x.reshape(*x.shape[:2], *self.shape))
+        left = [v - t for v, t in zip(values, self.targets, strict=True)]
         parts = [p for v, two in zip(left, self.complex, strict=True) for p in ((v.real, v.imag) if two else (v,))]
         y = np.stack(parts).reshape(len(parts), *x.shape[1:]).astype(float)
         return np.where(np.isfinite(y), y, np.nan)
+
+
+def _values(f: Callable[..., Any], names: tuple[str, ...]) -> Parts:
+    """The equations of unknowns in the order of their names."""
+
+    def values(x: Array) -> list[NDArray[Any]]:
+        with np.errstate(all="ignore"):
+            return _parts(f(**dict(zip(names, x, strict=True))))
+
+    return values
 
 
 def _parts(values: Any) -> list[NDArray[Any]]:

@@ -7,7 +7,7 @@ has a root, with the same value.
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
-from functools import cache, cached_property
+from functools import cache, cached_property, partial
 from typing import Any, overload
 
 import numpy as np
@@ -15,11 +15,14 @@ from numpy.typing import ArrayLike, NDArray
 
 from mechsheet.mechanics.brackets import Array, Function
 from mechsheet.mechanics.roots import Counted, Roots, all_roots, nearest_root, real_values, together
+from mechsheet.mechanics.rows import each_alone, of_one, takes_arrays
 from mechsheet.worksheet import numbers
 from mechsheet.worksheet.equations import Start
 from mechsheet.worksheet.errors import SheetError, measured
 from mechsheet.worksheet.system import Solution, solve
 from mechsheet.worksheet.verdict import Verdict, asks_values_only
+
+_BESIDE = 1.125  # times the guess: another place to try f
 
 
 @dataclass(frozen=True)
@@ -218,8 +221,9 @@ def find(  # type: ignore[misc]
     ----------
     f : callable
         ``f(x)``, or ``f(x, branch)`` where ``branches`` are given: the quantity that must equal ``equals``; NaN
-        where the mechanism does not close. It broadcasts: x has the shape of the problems behind one more axis.
-        It is called with x inside the interval only.
+        where the mechanism does not close. It is called with x inside the interval only, and with many at once: x has
+        the shape of the problems behind one more axis. One that does not broadcast, such as the largest value over
+        some positions, is seen by that, and called for one number after the other.
     lo, hi : float, shape (...), optional
         The interval. An end that is not given is the end of the reachable interval: f is sampled on
         ``guess * 2**(k/8)``, k = -64..64, and the run of finite values around the finite sample nearest the guess
@@ -279,7 +283,8 @@ def find(  # type: ignore[misc]
         return solve(f, equals, unit, unknown_unit, unknowns)
     labels = [0] if branches is None else list(branches)
     on = np.asarray(0 if branch is None else branch)
-    if (branch is None) != (branches is None) or not np.isin(on, labels).all():
+    among = np.equal.outer(labels, on)
+    if (branch is None) != (branches is None) or not among.any(0).all():
         raise ValueError(f"branch = {branch} of {unknown} must be one of {branches}")
     measured(unit), measured(unknown_unit)
     words = _Words(unknown, quantity, unit, unknown_unit)
@@ -291,10 +296,16 @@ def find(  # type: ignore[misc]
     void = np.isnan(list(given.values())).any(0)
     if void.all():
         return _nothing(words, None if branch is None else on[()], void.shape)
-    given = {name: np.where(void, v[~void][0], v) for name, v in given.items()}  # f sees no NaN
+    if void.any():
+        given = {name: np.where(void, v[~void][0], v) for name, v in given.items()}  # f sees no NaN
     start = given["guess"] if lo is None or hi is None else given["lo"] / 2 + given["hi"] / 2
-    first = real_values(wanted, start)  # its shape shows what f closes over
+    beside = next((given[end] for end in ("lo", "hi") if end in given), start * _BESIDE)
+    first = real_values(wanted, start.reshape(-1)[0])  # its shape shows what f closes over
     shape = np.broadcast_shapes(void.shape, first.shape)
+    alone = shape if first.shape else ()
+    places = np.stack([np.broadcast_to(x, alone) if alone else x.reshape(-1)[0] for x in (start, beside)])
+    if not takes_arrays(of_one(partial(real_values, wanted)), places[None], alone):
+        wanted, *functions = (each_alone(function, alone) for function in (wanted, *functions))
     void = np.broadcast_to(void, shape).reshape(-1)
     flat = {name: np.broadcast_to(v, shape).reshape(-1) for name, v in given.items()}
     own, every = Counted([wanted], shape), Counted(functions, shape)
@@ -307,7 +318,7 @@ def find(  # type: ignore[misc]
         columns = {name: np.tile(v, len(labels)) for name, v in flat.items()}  # branches x problems
         return all_roots(every, columns, np.tile(void, len(labels)))
 
-    ranks = np.argmax(np.equal.outer(labels, on), axis=0)  # of the wanted branches among all
+    ranks = among.argmax(0)  # of the wanted branches among all
     at = np.broadcast_to(ranks, shape).reshape(-1) * void.size + np.arange(void.size)
 
     def everything() -> _Everything:
@@ -337,7 +348,7 @@ def find(  # type: ignore[misc]
         interval=(shaped(low), shaped(high)),
         equals=shaped(np.where(void, np.nan, flat["equals"])),
         words=words,
-        _evaluations=lambda: first.size + own.count + every.count,
+        _evaluations=lambda: void.size + own.count + every.count,
         _compute=everything,
     )
     if not asks_values_only():
@@ -376,6 +387,8 @@ def _checked(words: _Words, **values: ArrayLike | None) -> dict[str, Array]:
 
 
 def _in_order(words: _Words, names: tuple[str, str], low: Array, high: Array) -> None:
+    if not (low >= high).any():
+        return
     low, high = np.broadcast_arrays(low, high)
     for a, b in zip(low[low >= high], high[low >= high], strict=True):
         small, large = (numbers.amount(v, words.unknown_unit) for v in (a, b))

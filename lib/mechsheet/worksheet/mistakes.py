@@ -68,6 +68,10 @@ _HINTS = {
     r"'(int|float|complex|numpy\.\w+|Quantity)' object is not callable": "is a * missing before the bracket?",
     r"can't multiply sequence|'tuple' and|and 'tuple'|'list' and|and 'list'": _SEVERAL,
     r"for unary .: 'tuple'|return arrays must be of ArrayType|positional arguments? but \d+ were given": _SEVERAL,
+    r"'[A-Z]\w*' object (is not (iterable|subscriptable)|has no len)|type '[A-Z]\w*' has no len|non-iterable [A-Z]": (
+        "a table of inputs is read by its columns, each an array: g.bolts.x"
+    ),
+    r"'(Found|Solution)'|type (Found|Solution)\b": "what a Find has found is its .value",
     r"unhashable type": "an array, a list or a table can be no key, and no member of a set",
 }
 _TYPED = re.compile(r"^[ \t]*\w+(:\s*\w+)?\s*=[^#=\"'({\[\n]*?\d,\d[^#\n]*", re.MULTILINE)

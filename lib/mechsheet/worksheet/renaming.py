@@ -8,7 +8,6 @@ import keyword
 import re
 import sys
 import tokenize
-import tomllib
 from collections.abc import Iterator, Mapping, Set
 from inspect import signature
 from itertools import accumulate
@@ -17,6 +16,7 @@ from typing import Any, NamedTuple
 
 from mechsheet.worksheet import cells, inputs
 from mechsheet.worksheet.errors import SheetError, as_given
+from mechsheet.worksheet.scene import is_of
 from mechsheet.worksheet.source import functions
 
 _WORDS = {"a", "A", "I"}  # of English too
@@ -50,7 +50,7 @@ def renamed(path: Path, old: str, new: str, scenes: Mapping[Path, str]) -> dict[
     made = {path: _in_worksheet(text, old, new, old in declared)}
     ast.parse(made[path])
     for scene, held in scenes.items():
-        if _is_of(held, declared) and (other := _in_scene(held, old, new)) != held:
+        if is_of(held, declared) and (other := _in_scene(held, old, new)) != held:
             made[scene] = other
     return made
 
@@ -123,15 +123,6 @@ def _in_words(text: str, old: str, new: str, stay: Set[int]) -> str:
 
 def _in_scene(text: str, old: str, new: str) -> str:
     return re.sub(rf"{_FIRST}{re.escape(old)}{_LAST}", new, text)
-
-
-def _is_of(text: str, declared: list[str]) -> bool:
-    """Whether a scene gives inputs, and all of them are the worksheet's."""
-    try:
-        given = tomllib.loads(text).get("inputs", {})
-    except tomllib.TOMLDecodeError:
-        return False
-    return bool(given) and set(given) <= set(declared)
 
 
 class _Token(NamedTuple):

@@ -17,6 +17,7 @@ A wanted or limited name is that of a result, a part of one as in a table (``PS6
 
 import re
 import tomllib
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -47,6 +48,20 @@ class Scene:
     limits: dict[str, Limit] = field(default_factory=dict)
     proof: float | None = None
     tolerances: bool = False
+
+
+def beside(worksheet: Path) -> list[Path]:
+    """Files that may be scenes in the folder of a worksheet, and in ``scenes`` there."""
+    return sorted([*worksheet.parent.glob("*.toml"), *worksheet.parent.glob("scenes/*.toml")])
+
+
+def is_of(text: str, declared: Iterable[str]) -> bool:
+    """Whether the text of a file is that of a scene that gives inputs, all of them among the ``declared`` ones."""
+    try:
+        given = tomllib.loads(text).get("inputs", {})
+    except tomllib.TOMLDecodeError:
+        return False
+    return bool(given) and set(given) <= set(declared)
 
 
 def load(path: Path) -> Scene:

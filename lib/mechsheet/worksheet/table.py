@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from mechsheet import units
 from mechsheet.worksheet import lines, numbers, source, symbol
 from mechsheet.worksheet.errors import SheetError, refuse
+from mechsheet.worksheet.kinds import Input
 from mechsheet.worksheet.shown import Shown
 
 if TYPE_CHECKING:
@@ -148,9 +149,9 @@ def table(
 ) -> Table:
     """Table of the given quantities: symbols, units and meanings are read from the lines that define them.
 
-    An argument is a name, ``P23_S.real`` or ``.imag`` (columns X23, Y23 of a point, R56x, R56y of a
-    force) or ``abs(R56)`` (column R56). Quantities over several axes are listed with the last one running
-    fastest. ``show`` gives another display unit for some symbols.
+    An argument is a name, an input such as ``g.F`` or ``g.bolts.x``, ``P23_S.real`` or ``.imag`` (columns X23, Y23 of
+    a point, R56x, R56y of a force) or ``abs(R56)`` (column R56). Quantities over several axes are listed with the last
+    one running fastest. ``show`` gives another display unit for some symbols.
     ``note`` stands below the table. ``decimals`` are printed in all columns, by default as many as the unit
     asks for; whole numbers have none. ``every`` lists only every so many positions, from the first.
     """
@@ -190,14 +191,15 @@ def _columns(
     nodes = [n for node in nodes for n in (node.value.elts if _is_group(node) else [node])]  # type: ignore[attr-defined]
     shape = _common_shape(nodes, values)
     for node, value in zip(nodes, values, strict=True):
-        name, part = _name(node)
+        given = _input(frame.f_globals, node)
+        name, part = (_of_table(node), "") if given else _name(node)
         if (kind := np.asarray(value).dtype.kind) not in "iufb":
             why = (
                 f"a point or a force: take {name}.real and {name}.imag, or abs({name})" if kind == "c" else "no number"
             )
             refuse(SheetError(f"column {ast.unparse(node)}: {name} is {why}"))
         try:
-            line = known[name]
+            line = given or known[name]
         except KeyError:
             refuse(
                 SheetError(f"column {ast.unparse(node)}: no line declares {name} with its unit, such as # [m] meaning")
@@ -208,8 +210,9 @@ def _columns(
         unit = show.get(label, line.unit)
         shown = np.broadcast_to(np.asarray(value) / units.parse(unit).factor, shape)[..., ::every].ravel()
         whole = kind in "iu"
+        own = "" if given else symbol.stem(name)
         places = usual_decimals(unit) if decimals is None else decimals
-        columns.append(Column(label, unit, line.meaning, 0 if whole else places, shown, of=symbol.stem(name)))
+        columns.append(Column(label, unit, line.meaning, 0 if whole else places, shown, of=own))
     return tuple(columns)
 
 
@@ -239,6 +242,20 @@ def _is_group(node: ast.expr) -> bool:
     return isinstance(node, ast.Starred) and isinstance(node.value, ast.Tuple)
 
 
+def _input(namespace: Mapping[str, Any], node: ast.expr) -> Input | None:
+    """The declaration of a column that is an input, such as ``g.F`` or ``g.bolts.x``."""
+    head, _, name = ast.unparse(node).partition(".")
+    given = namespace.get(head)
+    fields: tuple[Input, ...] = getattr(type(given), "__inputs__", ())
+    leaves = (field.leaves(getattr(given, field.name)) for field in fields)
+    return next((each[name][0] for each in leaves if name in each), None)
+
+
+def _of_table(node: ast.expr) -> str:
+    """Name of an input; of the column ``g.bolts.x`` of a table ``x_bolts``."""
+    return "_".join(reversed(ast.unparse(node).split(".")[1:]))
+
+
 def _name(node: ast.expr) -> tuple[str, str]:
     match node:
         case ast.Name(name):
@@ -248,7 +265,11 @@ def _name(node: ast.expr) -> tuple[str, str]:
         case ast.Call(ast.Name("abs"), [ast.Name(name)]):
             found = name, ""
         case _:
-            refuse(SheetError(f"column {ast.unparse(node)}: a column is a name, name.real, name.imag or abs(name)"))
+            refuse(
+                SheetError(
+                    f"column {ast.unparse(node)}: a column is a name, an input, name.real, name.imag or abs(name)"
+                )
+            )
     return found
 
 

@@ -1,0 +1,145 @@
+"""Errors in units of the condition number times a rounding: of random groups, and of a worksheet from end to end."""
+
+from collections.abc import Callable, Mapping
+from functools import lru_cache
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+from mpmath import mpf
+
+from mechsheet.accuracy import arithmetic, exact
+from mechsheet.accuracy.arithmetic import EPS, Numbers, mpc
+from mechsheet.accuracy.precision import largest_error
+from mechsheet.mechanics.planar import cross
+from mechsheet.mechanics.prp import prp
+from mechsheet.mechanics.rpp import rpp
+from mechsheet.mechanics.rpr import rpr
+from mechsheet.mechanics.rrp import rrp
+from mechsheet.mechanics.rrr import rrr
+from mechsheet.recording.quantity import Quantity
+from mechsheet.recording.record import record
+from mechsheet.recording.slopes import slopes
+from mechsheet.worksheet.cells import load
+from mechsheet.worksheet.check import Check
+from mechsheet.worksheet.table import Column, Table
+
+_WITHIN = 64  # roundings times the condition number that an error may be
+_QUANTILES = {"median": 0.5, "of 90 %": 0.9, "of 99 %": 0.99, "greatest": 1.0}
+
+
+class _Group(NamedTuple):
+    """What a group is given, which is a pair of real numbers for a point; its position, and the exact one."""
+
+    given: tuple[str, ...]
+    found: Callable[..., Any]
+    true: Callable[..., Any]
+
+
+_GROUPS = {
+    "RRR": _Group(
+        ("A", "B", "r_A", "r_B"),
+        lambda A, B, r_A, r_B: rrr(A, B, r_A, r_B, 1),
+        lambda A, B, r_A, r_B: arithmetic.rrr(A, B, r_A, r_B, 1),
+    ),
+    "RRP": _Group(
+        ("A", "B", "u", "r_A", "e"),
+        lambda A, B, u, r, e: rrp(A, B, u, r, 1, e),
+        lambda A, B, u, r, e: arithmetic.rrp(A, B, u, r, 1, e),
+    ),
+    "RPR": _Group(("A", "B", "f"), lambda A, B, f: rpr(A, B, 1, f).u, lambda A, B, f: arithmetic.rpr(A, B, 1, f)[0]),
+    "PRP": _Group(("A", "B", "u", "w"), prp, arithmetic.lines),
+    "RPP": _Group(("A", "B", "u", "w"), rpp, arithmetic.lines),
+}
+
+
+def _drawn(count: int) -> dict[str, Any]:
+    """Random pins A and B of links that meet, their lengths, directions u and w, offsets e from u and f from AC."""
+    rng = np.random.default_rng(1)
+    r_A, r_B = 10 ** rng.uniform(-0.5, 0.5, (2, count))
+    C, w = rng.normal(size=(2, count)) + 1j * rng.normal(size=(2, count))
+    a, u = np.exp(1j * rng.uniform(0, 2 * np.pi, (2, count)))
+    A, B = C + r_A * a, C + r_B * a * np.exp(1j * rng.uniform(0.2, np.pi - 0.2, count))
+    return {"A": A, "B": B, "r_A": r_A, "r_B": r_B, "u": u, "w": w, "e": cross(u, C - B), "f": cross(-a, A - B)}
+
+
+def _roundings(group: _Group, x: Mapping[str, Any], found: Any) -> float:
+    """The error of one position in roundings times its condition number; NaN where the group does not close."""
+
+    def true(**parts: Any) -> Numbers:
+        points = (mpc(parts[name], parts[f"{name}y"]) if f"{name}y" in parts else parts[name] for name in group.given)
+        return {"C": group.true(*points)}
+
+    parts = {name: float(np.real(x[name])) for name in group.given}
+    parts |= {f"{name}y": float(np.imag(x[name])) for name in group.given if np.iscomplexobj(x[name])}
+    exactly = true(**{name: mpf(value) for name, value in parts.items()})["C"]
+    if not arithmetic.exist(exactly):
+        return np.nan
+    condition = max(1.0, float(arithmetic.conditions(true, parts)["C"]))
+    return arithmetic.relative_error(found, exactly) / (condition * EPS)
+
+
+@lru_cache(maxsize=1)  # a cell runs again where it is recorded
+def random_groups(number: str, count: int) -> tuple[Table, Check]:
+    """Quantiles of the errors of so many random positions of each group, in roundings times their condition number."""
+    drawn, errors = _drawn(count), dict[str, Any]()
+    for name, group in _GROUPS.items():
+        found = group.found(*(drawn[key] for key in group.given))
+        each = (_roundings(group, {key: x[k] for key, x in drawn.items()}, found[k]) for k in range(count))
+        errors[name] = np.array([error for error in each if not np.isnan(error)])
+    columns = [
+        Column("group", "", "", 0, np.array(list(errors), object)),
+        Column("positions", "-", "random positions at which it closes", 0, np.array([len(e) for e in errors.values()])),
+    ]
+    for name, part in _QUANTILES.items():
+        meaning = f"{name}, in roundings times the condition number"
+        columns.append(
+            Column(f"{name} error", "-", meaning, 2, np.array([np.quantile(e, part) for e in errors.values()]))
+        )
+    worst = max(float(e.max()) for e in errors.values())
+    return Table(number, "Errors of random groups", tuple(columns)), Check(
+        "errors of random groups, in roundings times their condition", worst, _WITHIN
+    )
+
+
+def end_to_end(number: str, path: Path) -> tuple[Table, Check]:
+    """Condition numbers of the hitch's results from its inputs on, through the lengths found, and the digits they keep.
+
+    The slopes are those of the recording; of three positions the greatest change over the greatest number.
+    """
+    return _end_to_end(number, path, path.read_bytes())
+
+
+@lru_cache(maxsize=1)
+def _end_to_end(number: str, path: Path, _text: bytes) -> tuple[Table, Check]:
+    sheet = load(path)
+    names = sheet.run(sheet.results, {"g": sheet.inputs()}) | {"__file__": str(path)}
+    recording, g, n = record(names, sheet), names["g"], len(names["S"])
+    inputs = [node for node in recording.inputs.values() if node.size == 1 and node.value.dtype.kind == "f"]
+    rows = [0, n // 3, n - 1]
+    span = mpf(g.S_max) - mpf(g.S_min)
+    truth = [exact.hitch(g, mpf(g.S_min) + span * k / (n - 1)) for k in rows]
+    parts = {
+        name: [*value.parts]
+        for name in truth[0]
+        if name in names and isinstance(value := recording.values.get(name), Quantity) and np.shape(names[name]) == (n,)
+    }
+    motion = slopes([part for own in parts.values() for part in own], inputs)
+    sizes = np.array([abs(float(node.value)) for node in inputs])
+    conditions, errors = list[float](), list[float]()
+    for name, own in parts.items():
+        moves = np.sqrt(sum(motion[part].both[:, rows] ** 2 for part in own))
+        of = float(np.max(np.abs(names[name][rows])))
+        conditions.append(max(1.0, float(np.max(sizes @ moves)) / of))
+        errors.append(largest_error(names[name][rows], [at[name] for at in truth]))
+    kappa, error = np.array(conditions), np.array(errors)
+    columns = (
+        Column("result", "", "", 0, np.array(list(parts), object)),
+        Column("log κ", "-", "logarithm of the condition number", 1, np.log10(kappa)),
+        Column("expected digits", "-", "digits that the rounded inputs leave", 1, -np.log10(kappa * EPS)),
+        Column("kept digits", "-", "digits that are right", 1, -np.log10(error)),
+    )
+    worst = float(np.max(error / (kappa * EPS)))
+    return Table(number, "Condition from end to end", columns), Check(
+        "errors from end to end, in roundings times their condition", worst, _WITHIN
+    )

@@ -1,0 +1,40 @@
+"""The start page: a card for each worksheet, with its drawing, its title and what its last run told."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from html import escape
+from pathlib import Path
+from urllib.parse import quote
+
+
+@dataclass(frozen=True)
+class Card:
+    """A worksheet by its path; of its last run the kind of verdict, what it told, a drawing as SVG, and when it was.
+
+    ``holds`` is false where that was another worksheet or another package; then ``when`` says what is done about it.
+    """
+
+    path: str
+    title: str
+    when: str
+    kind: str = ""
+    told: str = ""
+    picture: str = ""
+    holds: bool = True
+
+
+def card(shown: Card) -> str:
+    """HTML of a worksheet, which leads to it."""
+    told = f'<span class="{shown.kind}">{escape(shown.told)}</span>' if shown.kind else ""
+    return (
+        f'<a href="?file={quote(shown.path)}"><i{"" if shown.holds else " class=old"}>{shown.picture}</i>'
+        f"<b>{escape(shown.title)}</b><code>{escape(Path(shown.path).stem)}</code>"
+        f"{told}<small>{escape(shown.when)}</small></a>"
+    )
+
+
+def page(groups: Iterable[tuple[str, Iterable[Card]]]) -> str:
+    """The page of all worksheets, group by group; it asks for ``?verdicts`` as long as worksheets are run."""
+    texts = [f"<h2>{escape(name)}</h2><div>{''.join(map(card, cards))}</div>" for name, cards in groups]
+    template = (Path(__file__).parent / "cards.html").read_text(encoding="utf-8")
+    return template.replace("GROUPS", "".join(texts))

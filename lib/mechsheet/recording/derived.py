@@ -1,0 +1,87 @@
+"""Equations at other values of their unknowns and their slopes by these, as quantities that a cell can compute."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from mechsheet.recording.arithmetic import choice
+from mechsheet.recording.graph import NotRecorded
+from mechsheet.recording.node import Node, bottom_up, is_number
+from mechsheet.recording.operations import SHAPED
+from mechsheet.recording.quantity import Quantity
+from mechsheet.recording.slope_rules import SMOOTH
+
+Slopes = dict[int, Quantity]  # by the number of an unknown; none of what does not move
+Sloped = tuple[Quantity, Slopes]
+
+_COMPARED = frozenset(("lt", "le", "gt", "ge", "eq", "ne", "max", "min"))
+_LEVEL = _COMPARED - {"max", "min"} | {"sign", "and", "or", "not", "finite"}
+
+
+def at(unknowns: Mapping[Node, Quantity], equations: Sequence[Node]) -> tuple[list[Sloped], list[Sloped]]:
+    """What elementwise equations are at other values of their unknowns, with their slopes by each of these.
+
+    And what is 0 where they have a corner or jump, such as the difference of two numbers that they compare. Raises
+    NotRecorded for an operation whose slope is not known.
+    """
+    graph = next(iter(unknowns.values())).graph
+    new, slopes, corners = dict(unknowns), dict[Node, Slopes](), list[Sloped]()
+    for k, node in enumerate(unknowns):
+        slopes[node] = {k: Quantity(graph, graph.constant(1.0))}
+    for node in bottom_up(equations, new):
+        if any(operand in new for operand in node.operands):
+            operands = [new[o] if o in new else Quantity(graph, o) for o in node.operands]
+            moves = [slopes.get(operand, {}) for operand in node.operands]
+            new[node] = Quantity(graph, graph.fold(node.op, *(x.re for x in operands)))
+            slopes[node] = _slopes(node.op, new[node], operands, moves)
+            if any(moves) and (node.op in _COMPARED or node.op in ("abs", "sign")):
+                corners.append(_corner(operands, moves))
+    known = [(new[node] if node in new else Quantity(graph, node), slopes.get(node, {})) for node in equations]
+    return known, corners
+
+
+def _corner(operands: Sequence[Quantity], moves: Sequence[Slopes]) -> Sloped:
+    """The difference of what is compared, else with 0."""
+    if len(operands) == 1:
+        return operands[0], moves[0]
+    (a, b), (own, others) = operands, moves
+    return a - b, own | {k: own[k] - slope if k in own else -slope for k, slope in others.items()}
+
+
+def _slopes(op: str, y: Quantity, operands: Sequence[Quantity], moves: Sequence[Slopes]) -> Slopes:
+    """How a result moves with each unknown, where its operands do."""
+    if op in _LEVEL:
+        return {}
+    if op in SHAPED:
+        return moves[0]
+    found = Slopes()
+    for k in sorted({k for own in moves for k in own}):
+        own = [move.get(k) for move in moves]
+        slope = _slope(op, y, operands, own)
+        if slope is not None and not is_number(slope.re, 0):
+            found[k] = slope
+    return found
+
+
+def _slope(op: str, y: Quantity, operands: Sequence[Any], moves: Sequence[Quantity | None]) -> Any:
+    """The slope of a result by one unknown, where some operands move."""
+    graph = y.graph
+    zero = Quantity(graph, graph.constant(0.0))
+    first, *others = list[Any](zero if move is None else move for move in moves)
+    match op:
+        case "abs":
+            return np.sign(operands[0]) * first
+        case "max" | "min":
+            a, b = operands
+            return choice(graph, a > b if op == "max" else a < b, first, others[0])
+        case "where":
+            return choice(graph, operands[0], *others)
+        case "pow" if moves[1] is None:
+            base, exponent = operands
+            return exponent * base ** (exponent - 1) * first
+        case _ if op in SMOOTH:
+            parts = SMOOTH[op](y, *operands)
+            terms = [part * move for part, move in zip(parts, moves, strict=True) if move is not None]
+            return sum(terms[1:], terms[0])
+    raise NotRecorded(f"the slope of {op}")

@@ -1,0 +1,56 @@
+"""What a page may ask of many runs of its worksheet: what matters for a result, what it would take to have another."""
+
+import time
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from mechsheet import units
+from mechsheet.run.progress import remaining
+from mechsheet.worksheet import shown
+from mechsheet.worksheet.cells import Worksheet
+from mechsheet.worksheet.errors import SheetError, as_given
+from mechsheet.worksheet.inputs import Used
+from mechsheet.worksheet.lines import registry
+
+
+def results_of(namespace: Mapping[str, Any]) -> dict[str, str]:
+    """Results of a run that are real numbers, or the parts of complex ones, by which one may ask, and their units."""
+    found = dict[str, str]()
+    for name, line in registry(namespace).items():
+        kind = "" if line.arguments else np.asarray(namespace.get(name)).dtype.kind
+        parts = [f"{name}.real", f"{name}.imag", f"abs({name})"] if kind == "c" else [name] if kind in "if" else []
+        found |= dict.fromkeys(parts, "" if line.unit == "-" else units.shown(line.unit))
+    return found
+
+
+def matters(sheet: Worksheet, namespace: Mapping[str, Any], name: str, position: str) -> tuple[Any, Any]:
+    """Tornado and table of the elasticities of a result by all inputs, as they are in a run, at a position.
+
+    Raises SheetError where there is no such position, or what `mechsheet.sensitivity` raises.
+    """
+    at: Any = int(position) if position.isdecimal() else position
+    if not isinstance(at, int) and at not in ("least", "greatest"):
+        raise SheetError(f"position {as_given(position)} must be least, greatest or a number from 0")
+    given = Used(namespace["g"]).given()
+    found = shown.study("sensitivity")(sheet.path, [name], **given)
+    title = f"What matters for {name}"
+    return found.tornado("", title, name, at), found.table("", title, name, at)
+
+
+def designed(
+    sheet: Worksheet, namespace: Mapping[str, Any], options: Sequence[str], done: Callable[[float, str], object]
+) -> Any:
+    """What it would take, asked by options of the command, with the other inputs as they are in a run.
+
+    ``done`` is called with the part of a search that is behind it and the time that is left, in words. Raises
+    SheetError where it cannot be asked or reached.
+    """
+    used, begun = Used(namespace["g"]), time.monotonic()
+    given = {name: value for name, value in used.given().items() if name in used.changed}
+
+    def generation(count: int, total: int) -> None:
+        done(count / total, remaining(time.monotonic() - begun, count, total))
+
+    return shown.study("asked_design")(sheet.path, options, given, generation)

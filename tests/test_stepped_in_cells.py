@@ -1,0 +1,134 @@
+"""Several unknowns without closed forms are found by the cells of the workbook, by the worksheet's own steps."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from own_worksheet import recorded
+from test_recalculation import edit
+from test_solved_quantity import sheet_with
+
+from mechsheet.recording.lines import Recording
+from mechsheet.recording.numbers import numbers
+from mechsheet.recording.searched import search
+from mechsheet.run import report
+from mechsheet.worksheet import cells
+from mechsheet.worksheet.errors import SheetError
+
+LINES = """uv_found = find(lambda u, v: EQUATIONS, STARTS)
+y = uv_found.value.u  # [-] first
+z = uv_found.value.v  # [-] second
+yz = np.array([y, z])  # [-] both
+table_2 = table("2", "Two", yz)"""
+STEPPED = {  # equations, guesses, and how many of 10 inputs have a value at least, in each element
+    "circle": ("(u**2 + v**2 - g.F**2, v - g.a * exp(u / 9))", "u=g.F, v=0.0", 7),
+    "loop": ("np.exp(1j * u) + g.a * np.exp(1j * v) - 0.2 * x", "u=1.0, v=-1.0", 2),
+    "far roots": ("(u * v - g.F, np.sin(u / 4) + v * g.a - 2)", "u=2.0, v=1.0", 3),
+    "corners": (
+        "(abs(u) * u + np.maximum(v, g.a) - g.F, np.where(u > 1, v**g.a, v) + np.hypot(u, v) - x)", "u=1.2, v=2.0", 3
+    ),
+    "at a corner": ("(abs(u - 1) - g.a + v / 9, v - g.F)", "u=1.000001, v=2.0", 0),
+    "a jump": ("(u + np.sign(v - 2) - g.a, v - g.F)", "u=0.5, v=2.0", 0),
+    "ratio": ("(np.pi * np.arctan2(v, u) - g.a, np.sqrt(u) * np.log(v + 3) - g.F + np.tan(v / 4))", "u=2.0, v=1.0", 6),
+    "linear": ("(g.F * u - v - 1, u + 1e3 * g.a * v - 5)", "u=1.0, v=1e-5", 10),
+}  # fmt: skip
+THREE = """uvw_found = find(
+    lambda u, v, w: (u * v + w - g.F, v + w**3 - 2 * g.a, np.sin(u / 4) + v * w - 0.9), u=2.0, v=1.0, w=g.a
+)
+y = uvw_found.value.u  # [-] first
+z = uvw_found.value.w  # [-] third
+yz = np.array([y, z])  # [-] both
+table_2 = table("2", "Two", yz)"""
+
+
+def assert_the_same_or_none(sheet: cells.Worksheet, found: str, count: int) -> None:
+    """What cells compute is what the worksheet finds for whatever inputs, else there is nothing."""
+    _, recording = recorded(sheet)
+    search(recording)
+    random, shown = np.random.default_rng(16), 0
+    roots = [solved.inverse or solved.node for solved in recording.found.values()]
+    for F, a in zip(random.uniform(1, 6, 10), random.uniform(0.05, 2, 10), strict=True):
+        try:
+            own = np.asarray(cells.evaluate(sheet.path, [found], F=F, a=a)[found]._values)
+        except SheetError:
+            own = np.full(len(roots), np.nan)
+        known = numbers(roots, {recording.inputs["F"]: F, recording.inputs["a"]: a})
+        values = np.asarray([known[root] for root in roots])
+        there = np.isfinite(values)
+        np.testing.assert_allclose(values[there], own[there], 1e-10, 1e-10, err_msg=str((F, a)))
+        shown += there.mean()
+    assert shown >= count
+
+
+@pytest.mark.parametrize("name", STEPPED)
+def test_steps_end_where_the_worksheet_does(name: str, tmp_path: Path) -> None:
+    equations, starts, count = STEPPED[name]
+    lines = LINES.replace("EQUATIONS", equations).replace("STARTS", starts)
+    assert_the_same_or_none(sheet_with(tmp_path, lines), "uv_found", count)
+
+
+def test_steps_of_three_unknowns(tmp_path: Path) -> None:
+    assert_the_same_or_none(sheet_with(tmp_path, THREE), "uvw_found", 3)
+
+
+def unsolved(tmp_path: Path, lines: str) -> tuple[Recording, str]:
+    _, recording = recorded(sheet_with(tmp_path, lines))
+    search(recording)
+    return recording, "; ".join(map(str, recording.unsolved))
+
+
+@pytest.mark.parametrize(
+    ("equations", "starts", "reason"),
+    [
+        ("(u**2 + v - 9, v - u)", "u=(0, 9), v=(0, 9)", "intervals"),
+        ("(np.sum(u[..., None] * x, -1) - g.F, v - u)", "u=1.0, v=1.0", "rest on sums"),
+        ("(u % 3 - g.a, v - g.F)", "u=2.0, v=1.0", "the slope of mod"),
+        ("(u - g.F, v - 1, u)", "u=1.0, v=1.0", "squares"),
+    ],
+)
+def test_what_cells_do_not_find_is_named_with_its_reason(
+    equations: str, starts: str, reason: str, tmp_path: Path
+) -> None:
+    lines = LINES.replace("EQUATIONS", equations).replace("STARTS", starts)
+    lines = lines.replace("= find(", "= minerr(") if reason == "squares" else lines
+    recording, told = unsolved(tmp_path, lines)
+    assert "y, z: the workbook has this of the exported inputs: " in told and reason in told
+    assert not recording.gaps and all(solved.inverse is None for solved in recording.found.values())
+
+
+def test_evaluations_are_named(tmp_path: Path) -> None:
+    lines = LINES.replace("EQUATIONS", "(u + v**2 - x, v - g.a)").replace("STARTS", "u=1.0, v=1.0")
+    _, told = unsolved(tmp_path, f'{lines}\nn = uv_found.evaluations  # [-] count\ntable_3 = table("3", "Count", n)')
+    assert told.endswith("n: the workbook has this of the exported inputs: how often the equations are evaluated")
+
+
+@pytest.mark.office
+def test_cells_step_to_what_the_worksheet_finds(recalculated_all: Any, tmp_path: Path) -> None:
+    """Of single problems and arrays of them; where it is not sure, nor is what counts numbers."""
+    equations, starts, _ = STEPPED["loop"]
+    loop = LINES.replace("EQUATIONS", equations).replace("STARTS", starts).split("yz =")[0]
+    known = 'one = np.where(np.isfinite(y), 1.0, 0.0)  # [-] found\ntable_3 = table("3", "Loop", y, z, one)'
+    three = THREE.replace("yz", "uw").replace("y =", "p =").replace("z =", "q =").replace("[y, z]", "[p, q]")
+    path = Path(sheet_with(tmp_path, f"{loop}{known}\n{three}").path)
+    book = tmp_path / "own.xlsx"
+    book.write_bytes(report.workbook("Own", cells.load(path).run_whole(), {}))
+    changes = [{"F": 1.75, "a": 1.5}, {"F": 3.25}, {"a": 0.8, "F": 2.6}]
+    edited = [edit(book, given, tmp_path / f"changed{n}.xlsx") for n, given in enumerate(changes)]
+    sure = 0
+    for given, changed in zip(changes, recalculated_all(edited), strict=True):
+        own = cells.evaluate(path, ["y", "z", "uw"], **given)
+        rows = [*changed["3 Loop"].iter_rows(min_row=5, max_row=9, values_only=True)]
+        for row, y, z in zip(rows, own["y"], own["z"], strict=True):
+            assert row[:2] == ("#N/A", "#N/A") or row[:2] == pytest.approx((y, z), rel=1e-10)
+            assert row[2] == ("#N/A" if any(r[0] == "#N/A" for r in rows) else 1)
+        found = [row[0] for row in changed["2 Two"].iter_rows(min_row=5, max_row=6, values_only=True)]
+        assert found == pytest.approx(own["uw"].tolist(), rel=1e-10) or found == ["#N/A", "#N/A"]
+        sure += "#N/A" not in found
+    assert sure >= 2
+    front = [row[0] for row in changed["Front"].iter_rows(values_only=True)]
+    assert any("not sure that the worksheet finds the same" in str(text) for text in front)
+    kinds = [row[9] for row in changed["Find"].iter_rows(min_row=3, values_only=True)]
+    assert kinds == ["Newton's steps from its guess"] * 2
