@@ -96,6 +96,16 @@ def nearly_singular(x: float, y: float, scale: Scale) -> bool:
     return abs(min(x, FULL) - min(y, FULL)) <= 1
 
 
+def effort(x: float, y: float, scale: Scale) -> bool:
+    """Evaluations of a search, whose last steps rounding decides on: their order of magnitude."""
+    return max(x, y) <= 10 * min(x, y)
+
+
+def cancelled(x: float, y: float, scale: Scale) -> bool:
+    """A difference of equal numbers of the size of one to a hundred."""
+    return abs(x - y) <= ROUNDING
+
+
 def duration(x: float, y: float, scale: Scale) -> bool:
     return True
 
@@ -117,6 +127,10 @@ KINDS: tuple[tuple[str, str, str, Alike], ...] = (
     (r"7\.1 Digits", r"(printed|product|margin) \[", r"^rod in line$", nearly_singular),
     (r"7\.1 Digits", r"(printed|product|margin) \[", r"", digits),
     (r"7\.4 Digits", r"(proved|right) \[", r"", digits),
+    (r"7\.5 Errors", r".* error \[", r"", error),
+    (r"7\.6 Condition", r"kept digits \[", r"", nearly_singular),  # the worst of three positions
+    (r"[345] Find", r"N_?[Fg](_\d+)? \[", r"", effort),
+    (r"5 Find against fields", r"r_\d* \[", r"", cancelled),
     (r"", r"(digits|most) \[-\]", r"", digits),
     (r"", r"error \[-?\]", r"", error),
     (r"", r"(time|ratio|place|least time|of whole|of a run|spread|runs) \[|.* \[µs\]", r"", duration),
@@ -387,6 +401,11 @@ def test_a_change_of_any_result_is_seen() -> None:
         ("accuracy", "1.1 Position of the hitch", "E6", {"written": None, "value": None}),
         ("accuracy", "7.1 Digits in stiff and extreme", "G20", {"value": 15.1}),
         ("accuracy", "7.1 Digits in stiff and extreme", "D20", {"value": times(1 + 1e-11)}),
+        ("accuracy", "7.5 Errors of random groups", "C5", {"value": times(11)}),
+        ("slotted_link", "3 Find", "H5", {"value": 911.0}),
+        ("slotted_link", "5 Find against fields", "E21", {"value": 2e-12}),
+        ("accuracy", "7.6 Condition from end to end", "B5", {"value": times(1 + 1e-11)}),
+        ("accuracy", "7.6 Condition from end to end", "D7", {"value": lambda x: x - 1.1}),
         ("accuracy", "Checks", "E3", {"value": "FAIL"}),
     ],
 )
@@ -407,6 +426,10 @@ def test_a_changed_cell_is_seen(worksheet: str, sheet: str, place: str, change: 
         ("accuracy", "1.1 Position of the hitch", "E6", {"value": times(9)}),
         ("accuracy", "1.1 Position of the hitch", "G6", {"value": "slower, the same digits"}),
         ("accuracy", "7.1 Digits in stiff and extreme", "G5", {"value": 15.6}),  # both are all that a number holds
+        ("accuracy", "7.5 Errors of random groups", "C5", {"value": times(3)}),
+        ("slotted_link", "3 Find", "H5", {"value": 104.0}),
+        ("slotted_link", "5 Find against fields", "E21", {"value": 9e-16}),
+        ("accuracy", "7.6 Condition from end to end", "D7", {"value": lambda x: x - 0.9}),
     ],
 )
 def test_what_is_rounding_or_time_may_change(worksheet: str, sheet: str, place: str, change: dict) -> None:
