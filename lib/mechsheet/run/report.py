@@ -1,11 +1,12 @@
 """The end of a worksheet: the workbook in the page, and in a script the report, the file and the exit code."""
 
 import ast
+import gc
 import sys
-from collections.abc import Iterable, Iterator, Mapping
-from functools import partial
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from functools import partial, wraps
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any, ParamSpec, TypeVar
 
 import numpy as np
 
@@ -34,7 +35,24 @@ from mechsheet.worksheet.system import Solution
 from mechsheet.worksheet.table import Figure, Table
 from mechsheet.worksheet.verdict import Verdict
 
+P = ParamSpec("P")
 T = TypeVar("T")
+
+
+def _uncollected(make: Callable[P, T]) -> Callable[P, T]:
+    """Without looks for garbage: what is made stays, and each look goes over all of it."""
+
+    @wraps(make)
+    def made(*args: P.args, **kwargs: P.kwargs) -> T:
+        was = gc.isenabled()
+        gc.disable()
+        try:
+            return make(*args, **kwargs)
+        finally:
+            if was:
+                gc.enable()
+
+    return made
 
 
 def export(title: str, namespace: Mapping[str, Any]) -> Any:
@@ -166,6 +184,7 @@ def workbook(title: str, namespace: Mapping[str, Any], limits: Mapping[str, Limi
     return _workbook(title, namespace, [*values, fit], recording)
 
 
+@_uncollected
 def _recorded(namespace: Mapping[str, Any]) -> tuple[Recording, Check]:
     """The recording of a run, and the check of its units."""
     sheet = load(namespace["__file__"])
@@ -177,6 +196,7 @@ def _recorded(namespace: Mapping[str, Any]) -> tuple[Recording, Check]:
     return recording, fit
 
 
+@_uncollected
 def _workbook(
     title: str,
     namespace: Mapping[str, Any],

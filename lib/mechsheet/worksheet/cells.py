@@ -410,8 +410,13 @@ def defines(lines: Iterable[ast.stmt]) -> tuple[str, ...]:
     return tuple(name for name in names if not name.startswith("_"))
 
 
-def bound(node: ast.AST) -> Iterator[str]:
+@lru_cache(maxsize=4096)
+def bound(node: ast.AST) -> tuple[str, ...]:
     """Names that a statement binds where it stands, in the order of its text; what has a scope of its own keeps its."""
+    return tuple(_bound(node))
+
+
+def _bound(node: ast.AST) -> Iterator[str]:
     match node:
         case ast.FunctionDef(name=name) | ast.AsyncFunctionDef(name=name) | ast.ClassDef(name=name):
             yield name
@@ -426,7 +431,7 @@ def bound(node: ast.AST) -> Iterator[str]:
         case ast.MatchAs(name=str(name)) | ast.MatchStar(name=str(name)):
             yield name
     for part in ast.iter_child_nodes(node):
-        yield from bound(part)
+        yield from _bound(part)
 
 
 def _is_closing(node: ast.FunctionDef) -> bool:
