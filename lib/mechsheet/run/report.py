@@ -3,10 +3,11 @@
 import ast
 import gc
 import sys
-from collections.abc import Callable, Iterable, Iterator, Mapping
-from functools import partial, wraps
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
-from typing import Any, ParamSpec, TypeVar
+from typing import Any, TypeVar
 
 import numpy as np
 
@@ -35,24 +36,19 @@ from mechsheet.worksheet.system import Solution
 from mechsheet.worksheet.table import Figure, Table
 from mechsheet.worksheet.verdict import Verdict
 
-P = ParamSpec("P")
 T = TypeVar("T")
 
 
-def _uncollected(make: Callable[P, T]) -> Callable[P, T]:
+@contextmanager
+def _uncollected() -> Iterator[None]:
     """Without looks for garbage: what is made stays, and each look goes over all of it."""
-
-    @wraps(make)
-    def made(*args: P.args, **kwargs: P.kwargs) -> T:
-        was = gc.isenabled()
-        gc.disable()
-        try:
-            return make(*args, **kwargs)
-        finally:
-            if was:
-                gc.enable()
-
-    return made
+    was = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if was:
+            gc.enable()
 
 
 def export(title: str, namespace: Mapping[str, Any]) -> Any:
@@ -184,7 +180,7 @@ def workbook(title: str, namespace: Mapping[str, Any], limits: Mapping[str, Limi
     return _workbook(title, namespace, [*values, fit], recording)
 
 
-@_uncollected
+@_uncollected()
 def _recorded(namespace: Mapping[str, Any]) -> tuple[Recording, Check]:
     """The recording of a run, and the check of its units."""
     sheet = load(namespace["__file__"])
@@ -196,7 +192,7 @@ def _recorded(namespace: Mapping[str, Any]) -> tuple[Recording, Check]:
     return recording, fit
 
 
-@_uncollected
+@_uncollected()
 def _workbook(
     title: str,
     namespace: Mapping[str, Any],
