@@ -410,13 +410,8 @@ def defines(lines: Iterable[ast.stmt]) -> tuple[str, ...]:
     return tuple(name for name in names if not name.startswith("_"))
 
 
-@lru_cache(maxsize=4096)
-def bound(node: ast.AST) -> tuple[str, ...]:
+def bound(node: ast.AST) -> Iterator[str]:
     """Names that a statement binds where it stands, in the order of its text; what has a scope of its own keeps its."""
-    return tuple(_bound(node))
-
-
-def _bound(node: ast.AST) -> Iterator[str]:
     match node:
         case ast.FunctionDef(name=name) | ast.AsyncFunctionDef(name=name) | ast.ClassDef(name=name):
             yield name
@@ -431,7 +426,7 @@ def _bound(node: ast.AST) -> Iterator[str]:
         case ast.MatchAs(name=str(name)) | ast.MatchStar(name=str(name)):
             yield name
     for part in ast.iter_child_nodes(node):
-        yield from _bound(part)
+        yield from bound(part)
 
 
 def _is_closing(node: ast.FunctionDef) -> bool:
