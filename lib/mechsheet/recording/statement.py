@@ -115,7 +115,7 @@ def shared_names(code: CodeType) -> frozenset[str]:
 
 
 def taker(error: BaseException) -> str:
-    """The function or class of another package that a statement handed quantities to when an error was raised; "" for none."""
+    """What of another package a statement had handed quantities to when an error was raised; "" for none."""
     for frame, _ in walk_tb(error.__traceback__):
         package = str(frame.f_globals.get("__name__", "")).partition(".")[0]
         if package in sys.modules and package not in ("mechsheet", "numpy", "__main__"):
