@@ -282,6 +282,14 @@ class _Reader:
             return Matrix(tuple(Row(tuple(map(self.read, row))) for row in rows))
         return Brackets(tuple(map(self.read, node.elts)), "[]" if isinstance(node, ast.List) else "()", high=True)
 
+    def each(self, node: ast.ListComp | ast.GeneratorExp) -> Node | None:
+        """What is computed for each element of something."""
+        match node.generators:
+            case [ast.comprehension(ast.Name() as index, source, [])]:
+                of = Prefix(self.read(index), Prefix(Text(" of "), self.read(source)), RELATION)
+                return Brackets((Prefix(self.read(node.elt), Prefix(Text(" for each "), of)),), "[]", high=True)
+        return None
+
     def brackets(self, args: list[ast.expr]) -> Brackets:
         return Brackets(tuple(map(self.read, args)))
 
@@ -361,8 +369,8 @@ class _Reader:
                 for condition, x in zip(reversed(conditions), reversed(values), strict=True):
                     chosen = Cases(self.read(x), self.read(condition), chosen)
                 return chosen
-            case "array" | "asarray", [ast.List() | ast.Tuple() as rows]:
-                return self.listed(rows)
+            case "array" | "asarray", [ast.List() | ast.Tuple() | ast.ListComp() as rows]:
+                return self.read(rows)
             case "atan2", [y, x]:
                 return Apply(Function(name), self.brackets([y, x]))
         return _applied(names.function(name), self.brackets(args))
@@ -381,7 +389,8 @@ _RULES: dict[type[ast.expr], Callable[[_Reader, Any], Node | None]] = {
     ast.Name: _Reader.name, ast.Constant: _Reader.constant, ast.Attribute: _Reader.attribute,
     ast.UnaryOp: _Reader.unary, ast.BinOp: _Reader.binary, ast.Compare: _Reader.compare, ast.Call: _Reader.call,
     ast.Subscript: _Reader.subscript, ast.Starred: _Reader.starred, ast.List: _Reader.listed,
-    ast.Tuple: _Reader.listed, ast.IfExp: _Reader.choice, ast.BoolOp: _Reader.boolean,
+    ast.ListComp: _Reader.each, ast.GeneratorExp: _Reader.each, ast.Tuple: _Reader.listed,
+    ast.IfExp: _Reader.choice, ast.BoolOp: _Reader.boolean,
 }  # fmt: skip
 
 
