@@ -116,9 +116,7 @@ def enclosed(block: Block, under: Mapping[Node, Values]) -> list[Values]:
     for _ in range(_NEWTON):
         step = problems.step(at)
         at = [[x.mid() for x in row] for row in problems.minus(at, step)]
-        if all(
-            problems.small(x, d) for row, steps in zip(at, step, strict=True) for x, d in zip(row, steps, strict=True)
-        ):
+        if all(d.contains(0) for row in step for d in row):  # no more than its rounding, or nobody knows where to
             break
     boxes: list[Any] = [None] * len(at)
     width = [
@@ -183,9 +181,6 @@ class _Problems:
             [x - d if d.is_finite() else x for x, d in zip(row, ds, strict=True)]
             for row, ds in zip(at, step, strict=True)
         ]
-
-    def small(self, x: Any, d: Any) -> bool:
-        return not d.is_finite() or bool(abs(d) <= abs(x).upper() * _unit())
 
     def mapped(self, at: Sequence[Sequence[Any]], width: Sequence[Sequence[Any]]) -> list[list[Any] | None]:
         """What Krawczyk's operator makes of boxes about points, where that is inside them; None elsewhere."""

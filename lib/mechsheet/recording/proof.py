@@ -8,7 +8,7 @@ right.
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from math import floor
+from math import floor, log10
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -267,8 +267,7 @@ class _Digits:
         if balls.size != shown.own.size:
             return nothing("it is recorded with another number of rows")
         with precision(_BITS[0]):
-            each = zip(balls, shown.own.tolist(), strict=True)
-            digits = np.array([_digits(x, float(v), shown.factor, shown.size) for x, v in each])
+            digits = _digits(balls, shown.own, shown.factor, shown.size)
         if digits.min() >= PROVED:
             return Proved(shown.where, shown.name, digits, size=shown.size)
         if _is_count(shown.node):
@@ -291,8 +290,7 @@ class _Digits:
         held = _HELD * sum(float(np.nansum(m)) for part, m in moves.items() if part.op == "input")
         if not all(x is not NONE and x.is_finite() and abs(x) <= max(held, made * _ZERO) for x in found.flat):
             return None
-        each = zip(found.flat, shown.own.flat, strict=True)
-        digits = np.array([_digits(x, float(v), shown.factor, made / shown.factor) for x, v in each])
+        digits = _digits(found, shown.own, shown.factor, made / shown.factor)
         part = numbers.significant(shown.size * shown.factor / made, 1)
         why = f"line {shown.line}: 0 but for rounding, {part} of what it is made of, beside which its digits are"
         return Proved(shown.where, shown.name, digits, why, exception=True, size=made / shown.factor)
@@ -355,16 +353,22 @@ def _open(balls: Values) -> bool:
     return any(x == UNDECIDED if isinstance(x, float) else x is not NONE and not x.is_finite() for x in balls.flat)
 
 
-def _digits(x: Any, own: float, factor: float, size: float) -> float:
-    """Digits of a number that its ball proves; also that it is none."""
+def _digits(balls: Values, own: Values, factor: float, size: float) -> Values:
+    """Digits of numbers that their balls prove beside a size, in a unit; also that there is no number."""
+    unit = constant(factor)
+    return np.array([_digits_of(x, v, unit, size) for x, v in zip(balls.flat, own.astype(float).flat, strict=True)])
+
+
+def _digits_of(x: Any, own: float, unit: Any, size: float) -> float:
     if x is NONE or np.isnan(own):
         return _ALL if x is NONE and np.isnan(own) else 0.0
     if isinstance(x, float):
         x = arb(x) if x != UNDECIDED else arb.nan()
-    off = abs(x / constant(factor) - own).upper()
+    off = abs(x / unit - own).upper()
     if not off.is_finite() or off.is_zero() or not size:
         return _ALL if off.is_zero() else 0.0
-    return float(np.clip(-np.log10(float(off / size)), 0.0, _ALL)) if float(off / size) else _ALL
+    part = float(off / size)
+    return min(max(-log10(part), 0.0), _ALL) if part else _ALL
 
 
 def _root(balls: Balls, name: str, solved: Solved) -> ProvedRoot:
