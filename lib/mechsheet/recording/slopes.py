@@ -56,7 +56,7 @@ def _seen(
     count = max(map(len, units.values()), default=0)
     each = list[dict[Node, Values]]()
     for way in (1.0, -1.0):
-        forward = _Forward(count, known)
+        forward = Forward(count, known)
         moving = forward.through(wanted, {node: Motion(way * unit, unit != 0) for node, unit in units.items()})
         each.append({node: way * number(moving.get(node) or forward.rest(node)).ahead for node in wanted})
     return {node: Slope(each[0][node], each[1][node]) for node in wanted}
@@ -92,7 +92,7 @@ def solved_under(wanted: Iterable[Node]) -> list[Node]:
     return [node for block in blocks for node in block.residuals]
 
 
-class _Forward:
+class Forward:
     """One pass through a recording, in some directions."""
 
     def __init__(self, count: int, known: Mapping[Node, Values] | None) -> None:
@@ -123,7 +123,7 @@ class _Forward:
         rule, args = kernel(node) or (RULES.get(node.op, smooth), node.operands)
         motions = [moving.get(operand) or self.rest(operand) for operand in args]
         if node.op in ELEMENTWISE:
-            motions = [_spread(m, len(node.shape)) for m in motions]
+            motions = [spread(m, len(node.shape)) for m in motions]
         return rule(node, self.value(node), [self.value(operand) for operand in args], motions)
 
     def rest(self, node: Node) -> Motion:
@@ -191,6 +191,6 @@ def solution(J: Values, right: Values) -> Values:
     return np.where(bad[:, None, None], np.nan, np.linalg.solve(J, right))
 
 
-def _spread(motion: Motion, ndim: int) -> Motion:
+def spread(motion: Motion, ndim: int) -> Motion:
     """With axes of length 1 behind that of the directions, as many as broadcasting would add in front."""
     return motion.rearranged(lambda x: x.reshape(len(x), *[1] * (ndim + 1 - x.ndim), *x.shape[1:]))
