@@ -6,11 +6,11 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-import mechsheet
 import numpy as np
 import pytest
 from own_worksheet import own
 
+import mechsheet
 from mechsheet.accuracy.arithmetic import mp, mpc, mpf
 from mechsheet.mechanics.rrr import rrr
 from mechsheet.recording.elementary import STEPS

@@ -132,7 +132,8 @@ def _bend(node: Node, rule: Rule, y: Values, dy: Values, values: Sequence[Values
         return -dy * dy  # a logarithm
     if node.op in BENT:
         return BENT[node.op](y, dy, *(v + 0.0 for v in values), *(np.where(x.dtype == bool, 0.0, x) for x in first))
-    return np.nan if node.op in ("exported", "iterated") or node.args[-2:-1] == ("prod",) else 0.0
+    of_many = node.op == "reduce" and node.args[2] == "prod"  # of which there is no rule
+    return np.nan if of_many or node.op in ("exported", "iterated") else 0.0
 
 
 def _at_corner(node: Node, values: Sequence[Values]) -> Any:

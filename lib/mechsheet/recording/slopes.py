@@ -1,4 +1,4 @@
-"""Slopes of a recording: how its quantities move where inputs do, exact to rounding.
+"""Slopes of a recording: how its quantities move where inputs do, within 64 roundings of their condition.
 
 Forward accumulation: each direction is an input that moves ahead, and each operation tells how its result moves then.
 Where a formula has a corner, such as `abs` at 0 or the greater of two equal numbers, that is the slope on the side to
