@@ -132,6 +132,16 @@ def enclosed(block: Block, under: Mapping[Node, Values]) -> list[Values]:
     return problems.apart([box or [arb.nan()] * len(row) for box, row in zip(boxes, at, strict=True)])
 
 
+def is_least(balls: Balls, block: Block) -> bool:
+    """Whether a sum of squares surely bends upwards, along all unknowns, where its slopes vanish."""
+    found = dict(zip(block.nodes, balls.of(block.nodes), strict=True))
+    there = Balls({**{node: balls.known[node] for node in block.under}, **found})
+    there.of(block.equations)
+    counts = range(1, len(block.nodes) + 1)
+    minors = (arb_mat([row[:k] for row in J.tolist()[:k]]) for J in tangents(there, block) for k in counts)
+    return all(bool(minor.det() > 0) for minor in minors)
+
+
 def _unit() -> Any:
     """One unit in the last place of the present precision."""
     return arb(2) ** (4 - ctx.prec)
@@ -167,7 +177,7 @@ class _Problems:
         """Residuals of each problem, and their derivatives by its unknowns."""
         given = dict(zip(self.block.nodes, self.apart(at), strict=True))
         balls = Balls({**self.under, **given})
-        residuals = self.rows(balls.of(self.block.residuals))
+        residuals = self.rows(balls.of(self.block.equations))
         slopes = tangents(balls, self.block)
         return residuals, slopes
 
@@ -222,7 +232,7 @@ def _solved(J: Any, f: Sequence[Any]) -> list[Any]:
 
 
 def tangents(balls: Balls, block: Block) -> list[Any]:
-    """Derivatives of the residuals of a block by its unknowns, a matrix for each of its problems.
+    """Derivatives of the equations of a block by its unknowns, a matrix for each of its problems.
 
     In balls that enclose all slopes between any two points of the balls at hand; those of a choice that these leave
     open say nothing.
@@ -243,16 +253,16 @@ def tangents(balls: Balls, block: Block) -> list[Any]:
 
 
 def _tangent(balls: Balls, block: Block, moving: dict[Node, Values]) -> list[Values]:
-    """How the residuals of a block move where some unknowns do."""
+    """How the equations of a block move where some unknowns do."""
     done = {*moving, *block.nodes, *block.under}
-    for node in bottom_up(block.residuals, done):
+    for node in bottom_up(block.equations, done):
         done.add(node)
         if any(operand in moving for operand in node.operands):
             moving[node] = _moved(node, balls.known, moving)
-    shapes = [balls.known[r].shape for r in block.residuals]
+    shapes = [balls.known[r].shape for r in block.equations]
     return [
         np.broadcast_to(moving.get(r, _filled((), arb(0))), shape)
-        for r, shape in zip(block.residuals, shapes, strict=True)
+        for r, shape in zip(block.equations, shapes, strict=True)
     ]
 
 

@@ -105,16 +105,16 @@ class _Second:
         return found
 
     def _solved(self, block: Block, moves: Moving, bent: Mapping[Node, Values]) -> list[Values]:
-        """By the equations: what their residuals bend by while the unknowns move evenly is made good by these."""
+        """By the equations: what these bend by while the unknowns move evenly is made good by these."""
         count, shape, n = self.forward.count, block.nodes[0].shape, len(block.nodes)
         own = dict(zip(block.nodes, self.forward.solved[block], strict=True))
         under = {node: moves[node] for node in block.under if node in moves}
         inside = Forward(count, None)  # which solves again what blocks in this one find
-        moving = inside.through(block.residuals, {**under, **own})
+        moving = inside.through(block.equations, {**under, **own})
         evenly = {node: np.zeros(motion.ahead.shape) for node, motion in own.items()}
         given = {**{node: bent[node] for node in under if node in bent}, **evenly}
-        terms = _Second(inside).through(block.residuals, moving, given)
-        rest = [np.broadcast_to(terms.get(node, np.zeros(())), (count, *shape)) for node in block.residuals]
+        terms = _Second(inside).through(block.equations, moving, given)
+        rest = [np.broadcast_to(terms.get(node, np.zeros(())), (count, *shape)) for node in block.equations]
         right = np.stack(rest).reshape(n, count, -1)  # equations, directions, elements
         if block.elementwise:
             found = -solution(jacobian(block), right.transpose(2, 0, 1)).transpose(1, 2, 0)

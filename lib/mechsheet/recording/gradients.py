@@ -120,7 +120,7 @@ class _Backward:
         return args, list(_both_sides(rule, node, y, [self.value(operand) for operand in args]))
 
     def _found(self, block: Block, shares: Known) -> _Shares:
-        """By the equations: what the unknowns hand on goes to the residuals, which go on to vanish."""
+        """By the equations: what the unknowns hand on goes to these, which go on to vanish."""
         given = [shares.get(node, np.zeros((2, *node.shape))).reshape(2, -1) for node in block.nodes]
         right, hangs = np.stack(given, -1) if block.elementwise else np.concatenate(given, 1)[:, None]
         if hangs.any():
@@ -128,7 +128,7 @@ class _Backward:
             each = found.T if block.elementwise else found.reshape(len(block.nodes), -1)
             on = np.broadcast_to(hangs.sum(-1), each[0].shape)
             residuals = dict[Node, Values]()
-            for node, own in zip(block.residuals, each, strict=True):
+            for node, own in zip(block.equations, each, strict=True):
                 share = _summed(np.stack([own, on]).reshape(2, *block.nodes[0].shape), node.shape)
                 residuals[node] = residuals.get(node, 0.0) + share
             under = self.through(residuals, {*block.nodes, *block.under})

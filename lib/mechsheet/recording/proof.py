@@ -17,7 +17,7 @@ from flint import arb
 from mechsheet import units
 from mechsheet.recording import lone_root
 from mechsheet.recording.ball_rules import NONE, UNDECIDED, constant
-from mechsheet.recording.balls import Balls, precision, unfollowed
+from mechsheet.recording.balls import Balls, is_least, precision, unfollowed
 from mechsheet.recording.gradients import adjoints
 from mechsheet.recording.lines import Recording, Solved
 from mechsheet.recording.node import LEAVES, Node, bottom_up
@@ -72,19 +72,20 @@ class Proved:
 
 @dataclass(frozen=True)
 class ProvedRoot:
-    """What is proved of a found value: that there is one, and where another is not excluded."""
+    """What is proved of a found value: that there is one, of which kind, and where another is not excluded."""
 
     name: str
     exists: bool
     interval: tuple[float, float] | None
     others: tuple[lone_root.Part, ...] | None
     unit: str
+    kind: str = "solution"
 
     def __str__(self) -> str:
         if not self.exists:
             return f"{self.name}: not proved"
         if self.interval is None or self.others is None:
-            return f"{self.name}: proved, one solution there; others are not looked for"
+            return f"{self.name}: proved, one {self.kind} there; others are not looked for"
         alone = f"the only root of its equation in {numbers.extent(self.interval, self.unit)}"
         if not self.others:
             return f"{self.name}: proved, {alone}"
@@ -304,8 +305,9 @@ class _Digits:
                 if part.op == "exported" and gap:
                     return gap
                 if part.op == "found":
-                    what = "a count of evaluations is no formula" if _is_count(part) else "no root is proved there"
-                    return f"line {part.line}: {'least squares are not enclosed' if part.args[0].least else what}"
+                    root = "least sum of squares" if part.args[0].least else "root"
+                    what = f"no {root} is proved there"
+                    return f"line {part.line}: {'a count of evaluations is no formula' if _is_count(part) else what}"
                 return f"line {part.line}: {_WHY.get(part.op, 'it')} is not decided"
         return f"line {shown.line}: the rest is lost to rounding"
 
@@ -378,6 +380,9 @@ def _root(balls: Balls, name: str, solved: Solved) -> ProvedRoot:
     block = node.args[0]
     (found,) = balls.of([node])
     exists = all(x is not NONE and x.is_finite() for x in found.flat)
+    if block.least:
+        kind = "least sum of squares" if exists and is_least(balls, block) else "level sum of squares"
+        return ProvedRoot(name, exists, None, None, unit, kind)
     if not (exists and block.single and block.elementwise and not node.shape and solved.interval):
         return ProvedRoot(name, exists, None, None, unit)
     low, high = balls.of(solved.interval)

@@ -89,7 +89,7 @@ def seen(wanted: Iterable[Node], by: Iterable[Node]) -> Node | None:
 def solved_under(wanted: Iterable[Node]) -> list[Node]:
     """What solve blocks make zero, of all on which some quantities rest: slopes for other numbers need theirs."""
     blocks = dict.fromkeys(node.args[0] for node in bottom_up(wanted, ()) if node.op == "found")
-    return [node for block in blocks for node in block.residuals]
+    return [node for block in blocks for node in block.equations]
 
 
 class Forward:
@@ -135,7 +135,7 @@ class Forward:
         )
 
     def _found(self, node: Node, moving: Mapping[Node, Motion]) -> Motion:
-        """By the equations: what their residuals move by is made good by the unknowns."""
+        """By the equations: what these move by is made good by the unknowns."""
         block, number = node.args
         if not has_equation(node):
             lost: Rule = RULES["exported"]
@@ -147,8 +147,8 @@ class Forward:
 
     def _solved(self, block: Block, moving: Mapping[Node, Motion]) -> list[Motion]:
         under = {node: moving[node] for node in block.under if node in moving}
-        pushed = self.through(block.residuals, under, block.nodes)
-        rest = [pushed.get(node) or self.rest(node) for node in block.residuals]
+        pushed = self.through(block.equations, under, block.nodes)
+        rest = [pushed.get(node) or self.rest(node) for node in block.equations]
         shape, count, n = block.nodes[0].shape, self.count, len(block.nodes)
         right = np.stack([np.broadcast_to(r.ahead, (count, *shape)).reshape(count, -1) for r in rest], -1)
         if block.elementwise:
@@ -162,7 +162,7 @@ class Forward:
 
 
 def jacobian(block: Block, known: Mapping[Node, Values] | None = None) -> Values:
-    """Derivatives of the residuals of a block by its unknowns, shape (problems, equations, unknowns).
+    """Derivatives of the equations of a block by its unknowns, shape (problems, equations, unknowns).
 
     Where all is elementwise each element is a problem, else they are one, whose equations and unknowns have all
     elements, those of the first one before those of the second. NaN at a corner.
@@ -174,8 +174,8 @@ def jacobian(block: Block, known: Mapping[Node, Values] | None = None) -> Values
             unit[k] = 1.0
     else:
         units = _units(block.nodes)
-    seen = _seen(block.residuals, units, known)
-    rows = [seen[node].both.reshape(len(seen[node].ahead), -1) for node in block.residuals]
+    seen = _seen(block.equations, units, known)
+    rows = [seen[node].both.reshape(len(seen[node].ahead), -1) for node in block.equations]
     if block.elementwise:
         rows = [np.broadcast_to(row, (n, block.nodes[0].size)) for row in rows]
         return np.stack(rows).transpose(2, 0, 1)
