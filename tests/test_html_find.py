@@ -72,6 +72,7 @@ ONE = {
 }
 ROUGH = {
     "no solution": 1e-6,
+    "no solution from the guess": 1e-6,
     "just crosses twice": 1e-10,
     "a double solution": 1e-6,
     "array": 1e-10,

@@ -50,6 +50,17 @@ NUMBER = re.compile(r"(-?\d+(?:\.\d+)?(?:e[+-]\d+)?)")
 # Evaluations of the equations that are solved.
 COUNTED = {("slotted_link", "table-3"), ("slotted_link", "table-4")}
 COUNTS = {"line-N_F", "line-N_g"}
+# What is told is hidden as the page scrolls, which it does while parts that come into view take their heights.
+SCROLLED = """() => new Promise(done => {
+  let last, still = 0;
+  const look = () => {
+    const now = `${scrollY} ${document.body.scrollHeight}`;
+    still = now === last ? still + 1 : 0;
+    last = now;
+    still < 10 ? requestAnimationFrame(look) : done();
+  };
+  look();
+})"""
 SETTLED = "dispatchEvent(new Event('beforeprint'))"  # what is out of view may wait
 READ = (
     f"() => {{ {SETTLED};"
@@ -349,7 +360,10 @@ def test_a_slider_moves_its_drawings_which_follow_the_inputs(document: Callable[
 
 def test_a_symbol_tells_what_it_means(document: Callable[..., Path], offline: Page) -> None:
     page = opened(offline, document("hitch"))
-    page.locator("#line-S_c msub").last.hover()
+    symbol = page.locator("#line-S_c msub").last
+    symbol.scroll_into_view_if_needed()
+    page.evaluate(SCROLLED)
+    symbol.hover()
     tip = page.locator(".ms-tip")
     expect(tip).to_contain_text("cylinder hinge")
     expect(tip).to_contain_text("in 2 Geometry")
@@ -360,9 +374,8 @@ def test_a_symbol_tells_what_it_means(document: Callable[..., Path], offline: Pa
 def test_symbols_and_charts_tell_by_keys(document: Callable[..., Path], offline: Page) -> None:
     page = opened(offline, document("hitch"))
     formula, tip = page.locator("#line-S_c .ms-formula"), page.locator(".ms-tip")
-    scrolled = "() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))"
     formula.focus()
-    page.evaluate(scrolled)  # it hides what was told
+    page.evaluate(SCROLLED)
     page.keyboard.press("ArrowLeft")
     last = tip.inner_text()
     page.keyboard.press("ArrowRight")
@@ -373,7 +386,7 @@ def test_symbols_and_charts_tell_by_keys(document: Callable[..., Path], offline:
     page.keyboard.press("Enter")
     assert page.evaluate("document.activeElement.closest('.ms-field, .ms-line').matches(':not(#line-S_c)')")
     page.locator(".ms-figure [data-n]").first.focus()
-    page.evaluate(scrolled)
+    page.evaluate(SCROLLED)
     told = list[str]()
     for key in ("Home", "ArrowRight", "ArrowLeft", "End", "ArrowRight"):
         page.keyboard.press(key)

@@ -140,7 +140,8 @@ def test_a_list_is_given_in_many_ways(section: Path, way: Any) -> None:
     ("given", "message"),
     [
         ({"F": "1; heavy; 3"}, "forces F (2) = 'heavy' kN is no number"),
-        ({"F": "1 2 3"}, "forces F (1) = '1 2 3' kN is no number"),
+        ({"F": "1 2 3"}, "forces F (1) = '1 2 3' kN is no number; those of a list stand apart by ;"),
+        ({"F": "[1,2,3]"}, "forces F (1) = '[1,2,3]' kN is no number; those of a list stand apart by ;"),
         ({"F": "1;; 3"}, "forces F (2) = '' kN is no number"),
         ({"F": ""}, "forces F must have 1 to 10000 rows, not 0"),
         ({"F": []}, "forces F must have 1 to 10000 rows, not 0"),

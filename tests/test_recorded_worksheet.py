@@ -500,6 +500,25 @@ table_2 = table("2", "Of this run", v, z)
     np.testing.assert_allclose(value_of(recording, "w", {"F": 5.0}), 2 * names["w"], rtol=1e-12)
 
 
+def test_what_another_package_is_handed_is_told_by_its_name(tmp_path: Path) -> None:
+    """A solution that has its keys as attributes is read as in the worksheet: what rests on it is no gap of its own."""
+    lines = """
+from scipy.integrate import solve_ivp
+from scipy.interpolate import CubicSpline
+solution = solve_ivp(lambda t, y: -g.a * y, (0, 1), [g.F], t_eval=[0.0, 0.5, 1.0])
+y = solution.y[0]  # [-] line
+k = CubicSpline([0.0, 5.0, 9.0], [0.0, 25.0, 81.0])(g.F)  # [-] line
+"""
+    names, recording = recorded(own(tmp_path, lines.strip()))
+    told = {gap.names: gap.reason for gap in recording.gaps}
+    assert told == {
+        ("solution",): "solve_ivp of scipy takes plain numbers",
+        ("k",): "CubicSpline of scipy takes plain numbers",
+    }
+    np.testing.assert_array_equal(value_of(recording, "y", {}), names["y"])
+    assert np.isnan(value_of(recording, "y", {"F": 5.0})).all()
+
+
 @pytest.mark.parametrize("seeded", ["np.random.default_rng([7, 8]).normal(size=5)", "np.random.RandomState(7).rand(5)"])
 def test_numbers_drawn_with_a_seed_are_recorded(seeded: str, tmp_path: Path) -> None:
     names, recording = recorded(own(tmp_path, f"y = {seeded} * g.F  # [-] line"))

@@ -4,8 +4,12 @@ const LISTED = 8; // solutions that a verdict lists
 const amounts = (values, [factor], digits) => apart(values.map(x => x / factor), digits);
 const withUnit = (x, unit, digits) => amounts([x], unit, digits)[0] + unit[1];
 const spanOf = texts => [...new Set(texts)].join("..");
-const extent = (values, unit) => spanOf(amounts(leastAndGreatest(values.filter(x => x === x)), unit)) + unit[1];
 const largestOf = values => Math.max(...values.filter(x => x === x).map(Math.abs));
+// Least..greatest, one number where they are equal but for rounding.
+const extent = (values, unit) => {
+  const ends = leastAndGreatest(values.filter(x => x === x)), isOne = ends[1] - ends[0] <= 2 ** -48 * largestOf(ends);
+  return spanOf(amounts(isOne ? ends.slice(0, 1) : ends, unit)) + unit[1];
+};
 
 const signed = branch => `${branch < 0 ? "" : "+"}${branch}`;
 

@@ -55,10 +55,14 @@
   const chip = document.createElement("div");
   chip.className = "ms-written";
   chip.role = "status";
-  let of; // what is edited: its place in the page, name, the line as it was, whether below it; busy while it is written
+  // What is edited: its place in the page, name, the line as it was, whether below it; busy while it is written; what is
+  // told because one clicked elsewhere, until one types again.
+  let of;
 
   const isTypedIn = () => area.value !== (of.below ? "" : of.was);
   const isUnsaved = () => document.querySelector(".marimo-cell.needs-run");
+
+  const explain = (text) => (why.textContent = [text, of.left].filter(Boolean).join("; "));
 
   function place() {
     if (!box.isConnected || !of.place.isConnected) return;
@@ -88,7 +92,8 @@
 
   async function open(host, name) {
     if (of && !area.readOnly && isTypedIn()) {
-      why.textContent = LEFT; // what is typed is not lost by a click elsewhere
+      of.left = LEFT; // what is typed is not lost by a click elsewhere
+      explain("");
       return toView();
     }
     close();
@@ -130,7 +135,7 @@
     asking = false;
     if (of && (of !== mine || area.value !== text)) return typing();
     if (!of || of.busy) return;
-    why.textContent = answer.why ?? (isUnsaved() ? UNSAVED : told);
+    explain(answer.why ?? (isUnsaved() ? UNSAVED : told));
     typed.classList.toggle("ms-former", answer.shown === undefined);
     if (answer.shown === undefined) return;
     typed.innerHTML = answer.shown;
@@ -138,6 +143,7 @@
   }
 
   function typing() {
+    of.left = "";
     area.rows = Math.max(area.value.split("\n").length, 1);
     typed.classList.add("ms-former"); // until what stands there is of this text
     clearTimeout(timer);
@@ -151,7 +157,7 @@
     // Another line, and text that is typed, stay in the box while something is taken back.
     const mine = what.do === "undo" && of && (of.name !== name || isTypedIn()) ? undefined : of;
     if (mine) clearTimeout(timer);
-    const tell = (text) => (mine && of === mine ? (why.textContent = text) : say(text));
+    const tell = (text) => (mine && of === mine ? explain(text) : say(text));
     if (isUnsaved()) return tell(UNSAVED);
     if (mine) mine.busy = true;
     const answer = await ask(what);

@@ -247,7 +247,9 @@ class Stage:
             case tuple() | list():
                 return type(own)(self.kept(v, rests_on) for v in own)
             case dict():
-                return {key: self.kept(v, rests_on) for key, v in own.items()}
+                known = copy(own)  # which may have its keys as attributes
+                known.update((key, self.kept(v, rests_on)) for key, v in own.items())
+                return known
         if is_dataclass(own) and not isinstance(own, type | Shown):
             new = copy(own)  # without its checks, which look at numbers
             for f in fields(own):

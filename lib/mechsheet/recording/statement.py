@@ -2,9 +2,11 @@
 
 import ast
 import dis
+import sys
 from collections.abc import Iterable, Iterator
 from functools import lru_cache
 from inspect import signature
+from traceback import walk_tb
 from types import CodeType
 from typing import NamedTuple
 
@@ -110,3 +112,13 @@ def shared_names(code: CodeType) -> frozenset[str]:
     binds = not operations(code).isdisjoint(_BINDING)
     own = {i.argval for i in dis.get_instructions(code) if i.opname in _BINDING} if binds else set[str]()
     return frozenset(own.union(*map(shared_names, inside)))
+
+
+def taker(error: BaseException) -> str:
+    """What of another package a statement had handed quantities to when an error was raised; "" for none."""
+    for frame, _ in walk_tb(error.__traceback__):
+        package = str(frame.f_globals.get("__name__", "")).partition(".")[0]
+        if package in sys.modules and package not in ("mechsheet", "numpy", "__main__"):
+            of = type(frame.f_locals["self"]).__name__ if "self" in frame.f_locals else frame.f_code.co_name
+            return f"{of} of {package}"
+    return ""

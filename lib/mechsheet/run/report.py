@@ -1,8 +1,10 @@
 """The end of a worksheet: the workbook in the page, and in a script the report, the file and the exit code."""
 
 import ast
+import gc
 import sys
 from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
 from typing import Any, TypeVar
@@ -35,6 +37,18 @@ from mechsheet.worksheet.table import Figure, Table
 from mechsheet.worksheet.verdict import Verdict
 
 T = TypeVar("T")
+
+
+@contextmanager
+def _uncollected() -> Iterator[None]:
+    """Without looks for garbage: what is made stays, and each look goes over all of it."""
+    was = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if was:
+            gc.enable()
 
 
 def export(title: str, namespace: Mapping[str, Any]) -> Any:
@@ -166,6 +180,7 @@ def workbook(title: str, namespace: Mapping[str, Any], limits: Mapping[str, Limi
     return _workbook(title, namespace, [*values, fit], recording)
 
 
+@_uncollected()
 def _recorded(namespace: Mapping[str, Any]) -> tuple[Recording, Check]:
     """The recording of a run, and the check of its units."""
     sheet = load(namespace["__file__"])
@@ -177,6 +192,7 @@ def _recorded(namespace: Mapping[str, Any]) -> tuple[Recording, Check]:
     return recording, fit
 
 
+@_uncollected()
 def _workbook(
     title: str,
     namespace: Mapping[str, Any],

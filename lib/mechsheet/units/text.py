@@ -3,6 +3,7 @@
 import re
 from collections.abc import Iterator
 from fractions import Fraction
+from functools import lru_cache
 from typing import NamedTuple
 
 _RAISED = str.maketrans("⁻⁺⁰¹²³⁴⁵⁶⁷⁸⁹", "-+0123456789")
@@ -31,6 +32,7 @@ class Unreadable(ValueError):
     """A text that is no product of units."""
 
 
+@lru_cache(maxsize=1024)
 def plain(text: str) -> str:
     """A unit in signs that Python reads.
 
@@ -42,6 +44,7 @@ def plain(text: str) -> str:
     return "".join(token.text for token in _tokens(text)) if text.strip() not in _ALONE else text.strip()
 
 
+@lru_cache(maxsize=1024)
 def factors(text: str) -> tuple[Factor, ...]:
     """Units of a text with their powers, in its order; none of a pure number.
 

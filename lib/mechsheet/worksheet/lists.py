@@ -48,6 +48,15 @@ class Rows(Input):
             must = "columns must be as long as each other"
             raise SheetError(f"{self.meaning} {self.name}: {must}, not {lengths}", self.name)
         self._counted(max(count))
+        try:
+            return self._read(given)
+        except SheetError as error:
+            alone = isinstance(value, str) and len(given[self.columns[0].name]) == 1
+            if alone and str(error).endswith("no number") and re.search(r"\d[\s,]+\S*\d", str(value)):
+                raise SheetError(f"{error}; those of a list stand apart by ;", error.of) from None
+            raise
+
+    def _read(self, given: Mapping[str, list[Any]]) -> Any:
         return {c.name: np.array([_of_row(c, k).read(x) for k, x in enumerate(given[c.name])]) for c in self.columns}
 
     def of_file(self, path: Path) -> Any:

@@ -210,8 +210,14 @@ def amount(x: float, unit: str, digits: int = 4) -> str:
 
 
 def extent(values: ArrayLike, unit: str) -> str:
-    """Least..greatest of SI numbers in a display unit, one number where they are equal."""
-    return span(apart([np.nanmin(values), np.nanmax(values)], unit)) + suffix(unit)
+    """Least..greatest of SI numbers in a display unit, one number where they are equal but for rounding.
+
+    >>> extent([0.5, 1.0], "mm"), extent([0.1 + 0.2, 0.3], "mm")
+    ('500..1000 mm', '300 mm')
+    """
+    ends = np.array([np.nanmin(values), np.nanmax(values)], float)
+    known = ends[:1] if ends[1] - ends[0] <= rounding(ends) else ends
+    return span(apart(list(known), unit)) + suffix(unit)
 
 
 def suffix(unit: str) -> str:
