@@ -69,6 +69,8 @@ class Balls:
             return _array(_constants if node.op == "constant" else _balls, node.value.astype(object))
         if node.op == "found":
             return self._found(node)
+        if node.op == "iterated":  # by as many turns as the worksheet took, where that is decided
+            return self.of(node.args[2:])[0]
         if node.op in ELEMENTWISE:
             values = [self.known[operand] for operand in node.args]
             if node.op in ("eq", "ne"):  # with a number as Python saw it, it is the float that it is
@@ -100,7 +102,8 @@ def unfollowed(wanted: Iterable[Node]) -> set[Node]:
     """Nodes of which no precision tells anything, with all that rests on them."""
     lost = set[Node]()
     for node in bottom_up(wanted, ()):
-        own = node.op in ("exported", "iterated") or (node.op == "found" and not has_equation(node))
+        own = node.op == "exported" or (node.op == "found" and not has_equation(node))
+        own |= node.op == "iterated" and not unfollowed(node.args[2:]).isdisjoint(node.args[2:])
         if own or not lost.isdisjoint(node.operands):
             lost.add(node)
     return lost

@@ -84,6 +84,9 @@ class _Second:
     def _of(self, node: Node, moving: Moving, bent: Mapping[Node, Values]) -> Values:
         if node.op == "found":
             return self._found(node, moving, bent)
+        if node.op == "iterated":
+            turns = self.forward.through(node.args[2:], moving)
+            return self.through(node.args[2:], turns, bent).get(node.args[2], np.zeros(turns[node].ahead.shape))
         rule: Rule
         rule, args = kernel(node) or (RULES.get(node.op, smooth), node.operands)
         y, values = node.value, [operand.value for operand in args]
@@ -133,7 +136,7 @@ def _bend(node: Node, rule: Rule, y: Values, dy: Values, values: Sequence[Values
     if node.op in BENT:
         return BENT[node.op](y, dy, *(v + 0.0 for v in values), *(np.where(x.dtype == bool, 0.0, x) for x in first))
     of_many = node.op == "reduce" and node.args[2] == "prod"  # of which there is no rule
-    return np.nan if of_many or node.op in ("exported", "iterated") else 0.0
+    return np.nan if of_many or node.op == "exported" else 0.0
 
 
 def _at_corner(node: Node, values: Sequence[Values]) -> Any:

@@ -81,6 +81,8 @@ class _Backward:
             yield from self._found(block, shares) if first[block] is node else ()
         elif node not in shares:
             return
+        elif node.op == "iterated":
+            yield from self._iterated(node, shares[node])
         elif node.op in _MOVED:
             yield from _MOVED[node.op](node, shares[node], self.value)
         elif node.op in ELEMENTWISE:
@@ -118,6 +120,11 @@ class _Backward:
         if rule is smooth:
             return args, SMOOTH[node.op](y, *(v + 0.0 for v in values))
         return args, list(_both_sides(rule, node, y, [self.value(operand) for operand in args]))
+
+    def _iterated(self, node: Node, share: Values) -> _Shares:
+        """By as many turns as the loop takes: down to what these rest on."""
+        ends = self.through({node.args[2]: share}, node.operands)
+        yield from ((end, own) for end, own in ends.items() if end in node.operands or not end.operands)
 
     def _found(self, block: Block, shares: Known) -> _Shares:
         """By the equations: what the unknowns hand on goes to these, which go on to vanish."""

@@ -309,6 +309,12 @@ class _Digits:
                     what = f"no {root} is proved there"
                     return f"line {part.line}: {'a count of evaluations is no formula' if _is_count(part) else what}"
                 return f"line {part.line}: {_WHY.get(part.op, 'it')} is not decided"
+            if (
+                part in known
+                and _no_longer(part, known[part])
+                and not any(_no_longer(o, known[o]) for o in part.operands if o in known)
+            ):
+                return f"line {part.line}: in exact arithmetic {_EXACTLY.get(part.op, 'it is no number')}"
         return f"line {shown.line}: the rest is lost to rounding"
 
 
@@ -322,6 +328,9 @@ _WHY = {
     "mod": "a whole turn",
     **dict.fromkeys(("lt", "le", "gt", "ge", "eq", "ne"), "a comparison"),
 }  # fmt: skip
+
+# What has a number by rounding alone.
+_EXACTLY = {"iterated": "a loop takes other turns", "where": "another way is taken"}
 
 
 def _addends(node: Node) -> Iterator[Node]:
@@ -353,6 +362,11 @@ def _small(x: Any, size: float) -> bool:
 
 def _open(balls: Values) -> bool:
     return any(x == UNDECIDED if isinstance(x, float) else x is not NONE and not x.is_finite() for x in balls.flat)
+
+
+def _no_longer(node: Node, balls: Values) -> bool:
+    """Whether exact arithmetic has no number where the worksheet has one."""
+    return any(x is NONE and v == v for x, v in zip(balls.flat, node.value.flat, strict=False))
 
 
 def _digits(balls: Values, own: Values, factor: float, size: float) -> Values:

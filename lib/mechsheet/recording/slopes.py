@@ -3,7 +3,7 @@
 Forward accumulation: each direction is an input that moves ahead, and each operation tells how its result moves then.
 Where a formula has a corner, such as `abs` at 0 or the greater of two equal numbers, that is the slope on the side to
 which the direction points; where it jumps there, or is no number ahead, it is NaN. What is found moves so that its
-equations go on to hold.
+equations go on to hold, and what a loop ends with as by as many turns as it takes.
 """
 
 from collections.abc import Iterable, Mapping, Sequence
@@ -67,8 +67,10 @@ def unfollowed(wanted: Iterable[Node], by: Iterable[Node]) -> Node | None:
     moving = set(by)
     for node in bottom_up(wanted, ()):
         if not moving.isdisjoint(node.operands):
-            if node.op in ("exported", "iterated") or (node.op == "found" and not has_equation(node)):
+            if node.op == "exported" or (node.op == "found" and not has_equation(node)):
                 return node
+            if node.op == "iterated" and (lost := unfollowed(node.args[2:], by)):
+                return lost
             moving.add(node)
     return None
 
@@ -87,9 +89,14 @@ def seen(wanted: Iterable[Node], by: Iterable[Node]) -> Node | None:
 
 
 def solved_under(wanted: Iterable[Node]) -> list[Node]:
-    """What solve blocks make zero, of all on which some quantities rest: slopes for other numbers need theirs."""
-    blocks = dict.fromkeys(node.args[0] for node in bottom_up(wanted, ()) if node.op == "found")
-    return [node for block in blocks for node in block.equations]
+    """What solve blocks make zero and loops end with, of all on which some quantities rest.
+
+    Slopes for other numbers need theirs.
+    """
+    under = list(bottom_up(wanted, ()))
+    blocks = dict.fromkeys(node.args[0] for node in under if node.op == "found")
+    turns = [node.args[2] for node in under if node.op == "iterated"]
+    return [*turns, *(node for block in blocks for node in block.equations), *(solved_under(turns) if turns else ())]
 
 
 class Forward:
@@ -119,6 +126,8 @@ class Forward:
     def _of(self, node: Node, moving: Mapping[Node, Motion]) -> Motion:
         if node.op == "found":
             return self._found(node, moving)
+        if node.op == "iterated":
+            return self.through(node.args[2:], moving).get(node.args[2]) or self.rest(node)
         rule: Rule
         rule, args = kernel(node) or (RULES.get(node.op, smooth), node.operands)
         motions = [moving.get(operand) or self.rest(operand) for operand in args]
