@@ -24,6 +24,9 @@ s = linspace(0, 1, 2)  # [-] two positions
 w = g.F * (1 - 2 * s) + 3 * s  # [-] F and 3 - F
 t = 1j * w  # [-] complex
 q = 1 + 1e-7 * g.F  # [-] nearly flat
+e = (g.F - 2) ** 2 - (g.a - 0.5) ** 2  # [-] a saddle at F = 2, a = 0.5
+f = 1 - (g.F - 2) ** 4 - (g.a - 0.5) ** 2  # [-] level along F
+h = 1 - (g.F - 2) * abs(g.F - 2) - (g.a - 0.5) ** 2  # [-] without a second slope at F = 2
 u = 9 + 0.5 * g.F  # [-] 10 at F = 2"""
 TEXT = """
 z = float(f"{g.F:.17g}") * (4 - g.F)  # [-] by way of a text"""
@@ -91,6 +94,31 @@ def test_what_slopes_make_worse_is_not_written_and_what_is_said_is_of_the_design
     assert chosen == {"F": 1.75} and f"not refined by slopes: they lead to {reason}" in told
     assert refined.Slopes(problem, chosen).conditions(chosen) in told and "an optimum hold, held by" in "\n".join(told)
     assert not [line for line in told if line.startswith("refined")]
+
+
+SECOND = {
+    "a peak": (
+        ["--best=max p"],
+        {"F": 2.0, "a": 0.1},
+        "bound of a: .*second order each one near it is",
+    ),
+    "a vertex": (["--need=w <= 1.75", "--best=max p"], {"F": 1.75, "a": 0.1}, "what holds it leaves no way free"),
+    "a saddle": (["--best=max e"], {"F": 2.0, "a": 0.5}, "to the first order alone: .*better along F by -?1 of the"),
+    "its peak within a bound": (
+        ["--vary=F=2..5", "--best=min e"],
+        {"F": 2.0, "a": 0.5},
+        "along a by -?1 of the",
+    ),
+    "level": (["--best=max f"], {"F": 2.0, "a": 0.5}, "optimum hold: .*to the second order it is level along F by"),
+    "unknown": (["--best=max h"], {"F": 2.0, "a": 0.5}, "nothing is known, for max h has no second slope there"),
+}
+
+
+@pytest.mark.parametrize("name", SECOND)
+def test_the_second_order_tells_a_peak_from_a_saddle(name, sheet):
+    options, design, said = SECOND[name]
+    problem = asked(sheet, "--vary=F=0..5", "--vary=a=0.1..1", *options)
+    assert re.search(said, told := refined.Slopes(problem, design).conditions(design)), told
 
 
 def test_a_slope_that_is_left_is_told_by_what_the_goal_varies_by(sheet):

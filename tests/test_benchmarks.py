@@ -40,3 +40,12 @@ def test_a_sweep_is_timed_and_a_missing_rival_takes_one_line(benchmark, monkeypa
         "the compiled loop is not compared: numba is not installed (extra bench)"
     ]
     assert said[-1].split()[0] == "1,000"
+
+
+def test_a_proof_takes_less_than_half_a_second_of_the_processor(benchmark, monkeypatch, capsys):
+    bench = benchmark("bench_proof")
+    monkeypatch.setattr(bench, "ROUNDS", 1)
+    assert bench.main(["kinetostatics", "slotted_link"]) == 0
+    said = capsys.readouterr().out.splitlines()
+    assert [line.split()[0] for line in said] == ["kinetostatics", "slotted_link"]
+    assert all("proof" in line and "gradient" in line for line in said)

@@ -9,9 +9,9 @@ numbers in it as it is `written`.
 
 `numbers` reads a recording for other inputs, `dimensions` checks units, by the rules of `dimension_rules`; `pinpoint`
 finds where in the worksheet a part is written; `slopes` are derivatives of quantities by others, by the rules of
-`slope_rules`; `gradients` have all of one number in one pass backwards. `bands` tell how far quantities are off within
-tolerances, `banded` what of a run has them, and `enclosed` guarantees bounds by balls. `proof` tells how many digits of
-a worksheet's numbers are right, by its quantities in `balls` under the `ball_rules`, and by a `lone_root` of its
-equations. What is found is `searched` by cells of a workbook, or `stepped` to by equations `derived` there. Stands on
-the worksheet room and those below.
+`slope_rules`; `gradients` have all of one number in one pass backwards, `bends` are second ones along directions.
+`bands` tell how far quantities are off within tolerances, `banded` what of a run has them, and `enclosed` guarantees
+bounds by balls. `proof` tells how many digits of a worksheet's numbers are right, by its quantities in `balls` under
+the `ball_rules`, and by a `lone_root` of its equations. What is found is `searched` by cells of a workbook, or
+`stepped` to by equations `derived` there. Stands on the worksheet room and those below.
 """

@@ -21,8 +21,8 @@ _HALF, _UNKNOWN = arb(0.5), arb.nan()
 
 
 def _of_numbers(f: Callable[..., Any]) -> Callable[..., Any]:
-    """A function of balls, no number where an operand is none."""
-    return lambda *args: NONE if any(a is NONE for a in args) else f(*args)
+    """A function of one or two balls, no number where an operand is none."""
+    return lambda a, *b: NONE if a is NONE or (b and b[0] is NONE) else f(a, *b)
 
 
 def _divided(a: Any, b: Any) -> Any:

@@ -69,6 +69,8 @@ class Balls:
             return _array(_constants if node.op == "constant" else _balls, node.value.astype(object))
         if node.op == "found":
             return self._found(node)
+        if node.op == "iterated":  # by as many turns as the worksheet took, where that is decided
+            return self.of(node.args[2:])[0]
         if node.op in ELEMENTWISE:
             values = [self.known[operand] for operand in node.args]
             if node.op in ("eq", "ne"):  # with a number as Python saw it, it is the float that it is
@@ -100,7 +102,8 @@ def unfollowed(wanted: Iterable[Node]) -> set[Node]:
     """Nodes of which no precision tells anything, with all that rests on them."""
     lost = set[Node]()
     for node in bottom_up(wanted, ()):
-        own = node.op in ("exported", "iterated") or (node.op == "found" and not has_equation(node))
+        own = node.op == "exported" or (node.op == "found" and not has_equation(node))
+        own |= node.op == "iterated" and not unfollowed(node.args[2:]).isdisjoint(node.args[2:])
         if own or not lost.isdisjoint(node.operands):
             lost.add(node)
     return lost
@@ -116,9 +119,7 @@ def enclosed(block: Block, under: Mapping[Node, Values]) -> list[Values]:
     for _ in range(_NEWTON):
         step = problems.step(at)
         at = [[x.mid() for x in row] for row in problems.minus(at, step)]
-        if all(
-            problems.small(x, d) for row, steps in zip(at, step, strict=True) for x, d in zip(row, steps, strict=True)
-        ):
+        if all(d.contains(0) for row in step for d in row):  # no more than its rounding, or nobody knows where to
             break
     boxes: list[Any] = [None] * len(at)
     width = [
@@ -132,6 +133,16 @@ def enclosed(block: Block, under: Mapping[Node, Values]) -> list[Values]:
             break
         width = [[w * 16 for w in row] for row in width]
     return problems.apart([box or [arb.nan()] * len(row) for box, row in zip(boxes, at, strict=True)])
+
+
+def is_least(balls: Balls, block: Block) -> bool:
+    """Whether a sum of squares surely bends upwards, along all unknowns, where its slopes vanish."""
+    found = dict(zip(block.nodes, balls.of(block.nodes), strict=True))
+    there = Balls({**{node: balls.known[node] for node in block.under}, **found})
+    there.of(block.equations)
+    counts = range(1, len(block.nodes) + 1)
+    minors = (arb_mat([row[:k] for row in J.tolist()[:k]]) for J in tangents(there, block) for k in counts)
+    return all(bool(minor.det() > 0) for minor in minors)
 
 
 def _unit() -> Any:
@@ -169,7 +180,7 @@ class _Problems:
         """Residuals of each problem, and their derivatives by its unknowns."""
         given = dict(zip(self.block.nodes, self.apart(at), strict=True))
         balls = Balls({**self.under, **given})
-        residuals = self.rows(balls.of(self.block.residuals))
+        residuals = self.rows(balls.of(self.block.equations))
         slopes = tangents(balls, self.block)
         return residuals, slopes
 
@@ -183,9 +194,6 @@ class _Problems:
             [x - d if d.is_finite() else x for x, d in zip(row, ds, strict=True)]
             for row, ds in zip(at, step, strict=True)
         ]
-
-    def small(self, x: Any, d: Any) -> bool:
-        return not d.is_finite() or bool(abs(d) <= abs(x).upper() * _unit())
 
     def mapped(self, at: Sequence[Sequence[Any]], width: Sequence[Sequence[Any]]) -> list[list[Any] | None]:
         """What Krawczyk's operator makes of boxes about points, where that is inside them; None elsewhere."""
@@ -227,7 +235,7 @@ def _solved(J: Any, f: Sequence[Any]) -> list[Any]:
 
 
 def tangents(balls: Balls, block: Block) -> list[Any]:
-    """Derivatives of the residuals of a block by its unknowns, a matrix for each of its problems.
+    """Derivatives of the equations of a block by its unknowns, a matrix for each of its problems.
 
     In balls that enclose all slopes between any two points of the balls at hand; those of a choice that these leave
     open say nothing.
@@ -248,16 +256,16 @@ def tangents(balls: Balls, block: Block) -> list[Any]:
 
 
 def _tangent(balls: Balls, block: Block, moving: dict[Node, Values]) -> list[Values]:
-    """How the residuals of a block move where some unknowns do."""
+    """How the equations of a block move where some unknowns do."""
     done = {*moving, *block.nodes, *block.under}
-    for node in bottom_up(block.residuals, done):
+    for node in bottom_up(block.equations, done):
         done.add(node)
         if any(operand in moving for operand in node.operands):
             moving[node] = _moved(node, balls.known, moving)
-    shapes = [balls.known[r].shape for r in block.residuals]
+    shapes = [balls.known[r].shape for r in block.equations]
     return [
         np.broadcast_to(moving.get(r, _filled((), arb(0))), shape)
-        for r, shape in zip(block.residuals, shapes, strict=True)
+        for r, shape in zip(block.equations, shapes, strict=True)
     ]
 
 

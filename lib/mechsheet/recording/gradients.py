@@ -81,6 +81,8 @@ class _Backward:
             yield from self._found(block, shares) if first[block] is node else ()
         elif node not in shares:
             return
+        elif node.op == "iterated":
+            yield from self._iterated(node, shares[node])
         elif node.op in _MOVED:
             yield from _MOVED[node.op](node, shares[node], self.value)
         elif node.op in ELEMENTWISE:
@@ -119,8 +121,13 @@ class _Backward:
             return args, SMOOTH[node.op](y, *(v + 0.0 for v in values))
         return args, list(_both_sides(rule, node, y, [self.value(operand) for operand in args]))
 
+    def _iterated(self, node: Node, share: Values) -> _Shares:
+        """By as many turns as the loop takes: down to what these rest on."""
+        ends = self.through({node.args[2]: share}, node.operands)
+        yield from ((end, own) for end, own in ends.items() if end in node.operands or not end.operands)
+
     def _found(self, block: Block, shares: Known) -> _Shares:
-        """By the equations: what the unknowns hand on goes to the residuals, which go on to vanish."""
+        """By the equations: what the unknowns hand on goes to these, which go on to vanish."""
         given = [shares.get(node, np.zeros((2, *node.shape))).reshape(2, -1) for node in block.nodes]
         right, hangs = np.stack(given, -1) if block.elementwise else np.concatenate(given, 1)[:, None]
         if hangs.any():
@@ -128,7 +135,7 @@ class _Backward:
             each = found.T if block.elementwise else found.reshape(len(block.nodes), -1)
             on = np.broadcast_to(hangs.sum(-1), each[0].shape)
             residuals = dict[Node, Values]()
-            for node, own in zip(block.residuals, each, strict=True):
+            for node, own in zip(block.equations, each, strict=True):
                 share = _summed(np.stack([own, on]).reshape(2, *block.nodes[0].shape), node.shape)
                 residuals[node] = residuals.get(node, 0.0) + share
             under = self.through(residuals, {*block.nodes, *block.under})

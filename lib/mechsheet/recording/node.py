@@ -20,6 +20,7 @@ class Block:
     is ``elementwise``, the residuals of many values of the unknowns are those of each. The residual of a ``single`` one
     is the difference of two ``sides``: the quantity and what it shall equal; those of several have ``targets``. On the
     assembly ``branches`` the quantity is another one; that of the first side is on the ``branch`` that is wanted.
+    Where squares are made ``least``, the slopes of their sum by the unknowns are ``level``: none where not known.
     """
 
     starts: Mapping[str, tuple["Node", ...]]
@@ -29,6 +30,7 @@ class Block:
     unknown_unit: tuple[str, ...] = ()
     nodes: tuple["Node", ...] = ()
     residuals: tuple["Node", ...] = ()
+    level: tuple["Node", ...] = ()
     under: tuple["Node", ...] = ()
     elementwise: bool = True
     sides: tuple["Node", ...] = ()
@@ -36,11 +38,16 @@ class Block:
     branch: "Node | None" = None
     branches: Mapping[int, "Node"] = field(default_factory=dict)
 
+    @property
+    def equations(self) -> tuple["Node", ...]:
+        """What vanishes at the unknowns."""
+        return self.level if self.least else self.residuals
+
     def rest(self) -> None:
         """Find out what the block rests on, once its residuals are known."""
         given = [n for nodes in self.starts.values() for n in nodes]
         given += [*self.sides[1:], *self.targets, *([] if self.branch is None else [self.branch])]
-        own, self.under = _resting(self.nodes, [*self.residuals, *self.branches.values()], given)
+        own, self.under = _resting(self.nodes, [*self.residuals, *self.level, *self.branches.values()], given)
         self.elementwise = all(node.op in ELEMENTWISE for node in own)
 
 
@@ -149,7 +156,7 @@ def bottom_up(roots: Iterable["Node"], known: Container["Node"]) -> Iterator["No
 def has_equation(found: Node) -> bool:
     """Whether a quantity that is found is one of as many unknowns as its block has equations, which it solves."""
     block, number = found.args
-    return not block.least and number < len(block.nodes) == len(block.residuals)
+    return bool(number < len(block.nodes) == len(block.equations))
 
 
 def passes_over(node: Node) -> bool:

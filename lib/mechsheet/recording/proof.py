@@ -8,7 +8,7 @@ right.
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from math import floor
+from math import floor, log10
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -17,7 +17,7 @@ from flint import arb
 from mechsheet import units
 from mechsheet.recording import lone_root
 from mechsheet.recording.ball_rules import NONE, UNDECIDED, constant
-from mechsheet.recording.balls import Balls, precision, unfollowed
+from mechsheet.recording.balls import Balls, is_least, precision, unfollowed
 from mechsheet.recording.gradients import adjoints
 from mechsheet.recording.lines import Recording, Solved
 from mechsheet.recording.node import LEAVES, Node, bottom_up
@@ -72,19 +72,20 @@ class Proved:
 
 @dataclass(frozen=True)
 class ProvedRoot:
-    """What is proved of a found value: that there is one, and where another is not excluded."""
+    """What is proved of a found value: that there is one, of which kind, and where another is not excluded."""
 
     name: str
     exists: bool
     interval: tuple[float, float] | None
     others: tuple[lone_root.Part, ...] | None
     unit: str
+    kind: str = "solution"
 
     def __str__(self) -> str:
         if not self.exists:
             return f"{self.name}: not proved"
         if self.interval is None or self.others is None:
-            return f"{self.name}: proved, one solution there; others are not looked for"
+            return f"{self.name}: proved, one {self.kind} there; others are not looked for"
         alone = f"the only root of its equation in {numbers.extent(self.interval, self.unit)}"
         if not self.others:
             return f"{self.name}: proved, {alone}"
@@ -267,8 +268,7 @@ class _Digits:
         if balls.size != shown.own.size:
             return nothing("it is recorded with another number of rows")
         with precision(_BITS[0]):
-            each = zip(balls, shown.own.tolist(), strict=True)
-            digits = np.array([_digits(x, float(v), shown.factor, shown.size) for x, v in each])
+            digits = _digits(balls, shown.own, shown.factor, shown.size)
         if digits.min() >= PROVED:
             return Proved(shown.where, shown.name, digits, size=shown.size)
         if _is_count(shown.node):
@@ -291,8 +291,7 @@ class _Digits:
         held = _HELD * sum(float(np.nansum(m)) for part, m in moves.items() if part.op == "input")
         if not all(x is not NONE and x.is_finite() and abs(x) <= max(held, made * _ZERO) for x in found.flat):
             return None
-        each = zip(found.flat, shown.own.flat, strict=True)
-        digits = np.array([_digits(x, float(v), shown.factor, made / shown.factor) for x, v in each])
+        digits = _digits(found, shown.own, shown.factor, made / shown.factor)
         part = numbers.significant(shown.size * shown.factor / made, 1)
         why = f"line {shown.line}: 0 but for rounding, {part} of what it is made of, beside which its digits are"
         return Proved(shown.where, shown.name, digits, why, exception=True, size=made / shown.factor)
@@ -306,9 +305,16 @@ class _Digits:
                 if part.op == "exported" and gap:
                     return gap
                 if part.op == "found":
-                    what = "a count of evaluations is no formula" if _is_count(part) else "no root is proved there"
-                    return f"line {part.line}: {'least squares are not enclosed' if part.args[0].least else what}"
+                    root = "least sum of squares" if part.args[0].least else "root"
+                    what = f"no {root} is proved there"
+                    return f"line {part.line}: {'a count of evaluations is no formula' if _is_count(part) else what}"
                 return f"line {part.line}: {_WHY.get(part.op, 'it')} is not decided"
+            if (
+                part in known
+                and _no_longer(part, known[part])
+                and not any(_no_longer(o, known[o]) for o in part.operands if o in known)
+            ):
+                return f"line {part.line}: in exact arithmetic {_EXACTLY.get(part.op, 'it is no number')}"
         return f"line {shown.line}: the rest is lost to rounding"
 
 
@@ -322,6 +328,9 @@ _WHY = {
     "mod": "a whole turn",
     **dict.fromkeys(("lt", "le", "gt", "ge", "eq", "ne"), "a comparison"),
 }  # fmt: skip
+
+# What has a number by rounding alone.
+_EXACTLY = {"iterated": "a loop takes other turns", "where": "another way is taken"}
 
 
 def _addends(node: Node) -> Iterator[Node]:
@@ -355,16 +364,27 @@ def _open(balls: Values) -> bool:
     return any(x == UNDECIDED if isinstance(x, float) else x is not NONE and not x.is_finite() for x in balls.flat)
 
 
-def _digits(x: Any, own: float, factor: float, size: float) -> float:
-    """Digits of a number that its ball proves; also that it is none."""
+def _no_longer(node: Node, balls: Values) -> bool:
+    """Whether exact arithmetic has no number where the worksheet has one."""
+    return any(x is NONE and v == v for x, v in zip(balls.flat, node.value.flat, strict=False))
+
+
+def _digits(balls: Values, own: Values, factor: float, size: float) -> Values:
+    """Digits of numbers that their balls prove beside a size, in a unit; also that there is no number."""
+    unit = constant(factor)
+    return np.array([_digits_of(x, v, unit, size) for x, v in zip(balls.flat, own.astype(float).flat, strict=True)])
+
+
+def _digits_of(x: Any, own: float, unit: Any, size: float) -> float:
     if x is NONE or np.isnan(own):
         return _ALL if x is NONE and np.isnan(own) else 0.0
     if isinstance(x, float):
         x = arb(x) if x != UNDECIDED else arb.nan()
-    off = abs(x / constant(factor) - own).upper()
+    off = abs(x / unit - own).upper()
     if not off.is_finite() or off.is_zero() or not size:
         return _ALL if off.is_zero() else 0.0
-    return float(np.clip(-np.log10(float(off / size)), 0.0, _ALL)) if float(off / size) else _ALL
+    part = float(off / size)
+    return min(max(-log10(part), 0.0), _ALL) if part else _ALL
 
 
 def _root(balls: Balls, name: str, solved: Solved) -> ProvedRoot:
@@ -374,6 +394,9 @@ def _root(balls: Balls, name: str, solved: Solved) -> ProvedRoot:
     block = node.args[0]
     (found,) = balls.of([node])
     exists = all(x is not NONE and x.is_finite() for x in found.flat)
+    if block.least:
+        kind = "least sum of squares" if exists and is_least(balls, block) else "level sum of squares"
+        return ProvedRoot(name, exists, None, None, unit, kind)
     if not (exists and block.single and block.elementwise and not node.shape and solved.interval):
         return ProvedRoot(name, exists, None, None, unit)
     low, high = balls.of(solved.interval)

@@ -224,7 +224,7 @@ def reduced(kind: str, x: Values, y: Any, motion: Motion) -> Motion:
 
 
 def _unknown(node: Node, y: Values, values: Sequence[Values], operands: Sequence[Motion]) -> Motion:
-    """Numbers of the worksheet's own run, or of a loop: none where anything under them moves."""
+    """Numbers of the worksheet's own run: none where anything under them moves."""
     count = len(operands[0].ahead)
     moves = np.any([m.moves.reshape(count, -1).any(1) for m in operands], 0)
     spread = np.broadcast_to(moves.reshape(-1, *[1] * len(node.shape)), (count, *node.shape))
@@ -237,7 +237,7 @@ RULES: dict[str, Rule] = {
     "floor": _step, "round": _step, "sign": _step, "like": _same, "sized": _same, "finite": _finite,
     **dict.fromkeys(("lt", "le", "gt", "ge", "eq", "ne"), _compared),
     **dict.fromkeys(("and", "or", "not"), _logical),
-    "take": _take, "at": _at, "join": _join, "reduce": _reduce, "exported": _unknown, "iterated": _unknown,
+    "take": _take, "at": _at, "join": _join, "reduce": _reduce, "exported": _unknown,
 }  # fmt: skip
 
 

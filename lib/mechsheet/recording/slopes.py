@@ -1,9 +1,9 @@
-"""Slopes of a recording: how its quantities move where inputs do, exact to rounding.
+"""Slopes of a recording: how its quantities move where inputs do, within 64 roundings of their condition.
 
 Forward accumulation: each direction is an input that moves ahead, and each operation tells how its result moves then.
 Where a formula has a corner, such as `abs` at 0 or the greater of two equal numbers, that is the slope on the side to
 which the direction points; where it jumps there, or is no number ahead, it is NaN. What is found moves so that its
-equations go on to hold.
+equations go on to hold, and what a loop ends with as by as many turns as it takes.
 """
 
 from collections.abc import Iterable, Mapping, Sequence
@@ -56,7 +56,7 @@ def _seen(
     count = max(map(len, units.values()), default=0)
     each = list[dict[Node, Values]]()
     for way in (1.0, -1.0):
-        forward = _Forward(count, known)
+        forward = Forward(count, known)
         moving = forward.through(wanted, {node: Motion(way * unit, unit != 0) for node, unit in units.items()})
         each.append({node: way * number(moving.get(node) or forward.rest(node)).ahead for node in wanted})
     return {node: Slope(each[0][node], each[1][node]) for node in wanted}
@@ -67,8 +67,10 @@ def unfollowed(wanted: Iterable[Node], by: Iterable[Node]) -> Node | None:
     moving = set(by)
     for node in bottom_up(wanted, ()):
         if not moving.isdisjoint(node.operands):
-            if node.op in ("exported", "iterated") or (node.op == "found" and not has_equation(node)):
+            if node.op == "exported" or (node.op == "found" and not has_equation(node)):
                 return node
+            if node.op == "iterated" and (lost := unfollowed(node.args[2:], by)):
+                return lost
             moving.add(node)
     return None
 
@@ -87,12 +89,17 @@ def seen(wanted: Iterable[Node], by: Iterable[Node]) -> Node | None:
 
 
 def solved_under(wanted: Iterable[Node]) -> list[Node]:
-    """What solve blocks make zero, of all on which some quantities rest: slopes for other numbers need theirs."""
-    blocks = dict.fromkeys(node.args[0] for node in bottom_up(wanted, ()) if node.op == "found")
-    return [node for block in blocks for node in block.residuals]
+    """What solve blocks make zero and loops end with, of all on which some quantities rest.
+
+    Slopes for other numbers need theirs.
+    """
+    under = list(bottom_up(wanted, ()))
+    blocks = dict.fromkeys(node.args[0] for node in under if node.op == "found")
+    turns = [node.args[2] for node in under if node.op == "iterated"]
+    return [*turns, *(node for block in blocks for node in block.equations), *(solved_under(turns) if turns else ())]
 
 
-class _Forward:
+class Forward:
     """One pass through a recording, in some directions."""
 
     def __init__(self, count: int, known: Mapping[Node, Values] | None) -> None:
@@ -119,11 +126,13 @@ class _Forward:
     def _of(self, node: Node, moving: Mapping[Node, Motion]) -> Motion:
         if node.op == "found":
             return self._found(node, moving)
+        if node.op == "iterated":
+            return self.through(node.args[2:], moving).get(node.args[2]) or self.rest(node)
         rule: Rule
         rule, args = kernel(node) or (RULES.get(node.op, smooth), node.operands)
         motions = [moving.get(operand) or self.rest(operand) for operand in args]
         if node.op in ELEMENTWISE:
-            motions = [_spread(m, len(node.shape)) for m in motions]
+            motions = [spread(m, len(node.shape)) for m in motions]
         return rule(node, self.value(node), [self.value(operand) for operand in args], motions)
 
     def rest(self, node: Node) -> Motion:
@@ -135,7 +144,7 @@ class _Forward:
         )
 
     def _found(self, node: Node, moving: Mapping[Node, Motion]) -> Motion:
-        """By the equations: what their residuals move by is made good by the unknowns."""
+        """By the equations: what these move by is made good by the unknowns."""
         block, number = node.args
         if not has_equation(node):
             lost: Rule = RULES["exported"]
@@ -147,8 +156,8 @@ class _Forward:
 
     def _solved(self, block: Block, moving: Mapping[Node, Motion]) -> list[Motion]:
         under = {node: moving[node] for node in block.under if node in moving}
-        pushed = self.through(block.residuals, under, block.nodes)
-        rest = [pushed.get(node) or self.rest(node) for node in block.residuals]
+        pushed = self.through(block.equations, under, block.nodes)
+        rest = [pushed.get(node) or self.rest(node) for node in block.equations]
         shape, count, n = block.nodes[0].shape, self.count, len(block.nodes)
         right = np.stack([np.broadcast_to(r.ahead, (count, *shape)).reshape(count, -1) for r in rest], -1)
         if block.elementwise:
@@ -162,7 +171,7 @@ class _Forward:
 
 
 def jacobian(block: Block, known: Mapping[Node, Values] | None = None) -> Values:
-    """Derivatives of the residuals of a block by its unknowns, shape (problems, equations, unknowns).
+    """Derivatives of the equations of a block by its unknowns, shape (problems, equations, unknowns).
 
     Where all is elementwise each element is a problem, else they are one, whose equations and unknowns have all
     elements, those of the first one before those of the second. NaN at a corner.
@@ -174,8 +183,8 @@ def jacobian(block: Block, known: Mapping[Node, Values] | None = None) -> Values
             unit[k] = 1.0
     else:
         units = _units(block.nodes)
-    seen = _seen(block.residuals, units, known)
-    rows = [seen[node].both.reshape(len(seen[node].ahead), -1) for node in block.residuals]
+    seen = _seen(block.equations, units, known)
+    rows = [seen[node].both.reshape(len(seen[node].ahead), -1) for node in block.equations]
     if block.elementwise:
         rows = [np.broadcast_to(row, (n, block.nodes[0].size)) for row in rows]
         return np.stack(rows).transpose(2, 0, 1)
@@ -191,6 +200,6 @@ def solution(J: Values, right: Values) -> Values:
     return np.where(bad[:, None, None], np.nan, np.linalg.solve(J, right))
 
 
-def _spread(motion: Motion, ndim: int) -> Motion:
+def spread(motion: Motion, ndim: int) -> Motion:
     """With axes of length 1 behind that of the directions, as many as broadcasting would add in front."""
     return motion.rearranged(lambda x: x.reshape(len(x), *[1] * (ndim + 1 - x.ndim), *x.shape[1:]))

@@ -7,6 +7,8 @@ from typing import Any
 
 import numpy as np
 
+from mechsheet import units
+from mechsheet.recording import derived
 from mechsheet.recording.graph import Graph, NotRecorded
 from mechsheet.recording.lines import Solved, Told
 from mechsheet.recording.node import Block, Node
@@ -84,6 +86,8 @@ def several(graph: Graph, found: Solution, f: Callable[..., Any], asked: dict[st
     if len(left) != len(words.equations):
         raise NotRecorded(f"{len(left)} equations where the worksheet has {len(words.equations)}")
     block.residuals = tuple(part.re for part in left)
+    if block.least:
+        block.level = _level(block)
     block.targets = tuple(dict.fromkeys(n for w in wanted for n in lift(graph, w).parts if n.op != "constant"))
     block.rest()
     solved = []
@@ -94,6 +98,24 @@ def several(graph: Graph, found: Solution, f: Callable[..., Any], asked: dict[st
         solved.append(Solved(node, residual, (ends[0], ends[-1]), told))
     value = namedtuple("Values", words.names)(*x)
     return Solving(value, tuple(left), tuple(solved), Quantity(graph, evaluations))
+
+
+def _level(block: Block) -> tuple[Node, ...]:
+    """Slopes of the sum of squares by the unknowns, which are 0 where it is least; none where they are not known."""
+    block.rest()
+    graph = Graph()  # of its own: the worksheet does not compute them
+    if not block.elementwise:
+        return ()
+    try:
+        equations, _ = derived.at({node: Quantity(graph, node) for node in block.nodes}, block.residuals)
+    except NotRecorded:
+        return ()
+    counts = [units.parse(unit).factor ** -2 for unit in block.unit]
+    level = []
+    for k, node in enumerate(block.nodes):
+        terms = [count * x * slopes[k] for (x, slopes), count in zip(equations, counts, strict=True) if k in slopes]
+        level.append((sum(terms[1:], terms[0]) if terms else lift(graph, 0.0)).like(Quantity(graph, node)).re)
+    return tuple(level)
 
 
 def kept(graph: Graph, own: Verdict, exported: Callable[[Any], Quantity]) -> Solving:

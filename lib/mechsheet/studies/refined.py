@@ -3,7 +3,7 @@
 The least of several numbers has corners, so it is a variable of its own below each of them, which is made greatest.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, NamedTuple, Protocol
@@ -12,19 +12,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mechsheet import units
+from mechsheet.recording.bends import bends
+from mechsheet.recording.node import Node
 from mechsheet.recording.record import record
 from mechsheet.recording.slopes import slopes
 from mechsheet.run.banding import part_of
+from mechsheet.studies.optimum import At, conditions
 from mechsheet.worksheet import inputs as declarations
-from mechsheet.worksheet import numbers
 from mechsheet.worksheet.cells import base, load
 from mechsheet.worksheet.errors import SheetError
 
 Array = NDArray[np.float64]
 
 _KEPT = 1e-9  # of a limit: reserve of each requirement, so that rounding breaks none
-_HOLDS = 1e-6  # of what the goal varies by over the bounds: what may be left of its slope at an optimum
-_ACTIVE = 1e-6  # of its size: a constraint that has less reserve holds the design
 _STEPS = 60
 _SAMPLES, _SEED = 32, 1  # designs all over the bounds that tell what the goal varies by
 
@@ -62,18 +62,6 @@ class _Goal(NamedTuple):
     varies: float
 
 
-class _At(NamedTuple):
-    """All reserves at a design, each in parts of its size, and their slopes by the parts of the ranges.
-
-    Those of the goal are what is above its start, in parts of what it varies by.
-    """
-
-    reserves: Array
-    slopes: Array
-    goals: NDArray[np.bool_]  # those from which the variable of the goal is taken
-    names: Sequence[str]
-
-
 class Slopes:
     """The slopes of a problem near a design, with its inputs in display units.
 
@@ -83,7 +71,7 @@ class Slopes:
     def __init__(self, problem: Problem, start: Mapping[str, float]) -> None:
         self._problem, self._start, self._goal = problem, start, _goal(problem, start)
         self._low, self._high = np.array([problem.bounds[x] for x in start]).T
-        self._known = dict[bytes, _At]()
+        self._known = dict[bytes, At]()
 
     def _parts(self, design: Mapping[str, float]) -> Array:
         """A design by the parts of the ranges."""
@@ -94,7 +82,7 @@ class Slopes:
         own = (self._low + parts * (self._high - self._low)).tolist()
         return dict(zip(self._start, own, strict=True))
 
-    def _at(self, parts: Array) -> _At:
+    def _at(self, parts: Array) -> At:
         key = parts.tobytes()
         if key not in self._known:
             self._known[key] = _evaluated(self._problem, self._design(parts), self._goal)
@@ -104,7 +92,7 @@ class Slopes:
         """A design near the start that is better, as far as slopes lead to one."""
         from scipy.optimize import Bounds, minimize  # on use: takes longer than the rest of the package
 
-        def at(z: Array) -> _At:
+        def at(z: Array) -> At:
             return self._at(np.clip(z[:-1], 0.0, 1.0))
 
         def reserve(z: Array) -> Array:
@@ -134,7 +122,7 @@ class Slopes:
     def conditions(self, design: Mapping[str, float]) -> str:
         """Whether the conditions of an optimum hold at a design, and what holds it."""
         parts = self._parts(design)
-        return _conditions(self._at(parts), parts, list(self._start))
+        return conditions(self._at(parts), parts, list(self._start))
 
 
 def _goal(problem: Problem, start: Mapping[str, float]) -> _Goal:
@@ -149,7 +137,7 @@ def _goal(problem: Problem, start: Mapping[str, float]) -> _Goal:
     return _Goal(own, float(np.median(off if off.size else [0.0])) or abs(own) or 1.0)
 
 
-def _evaluated(problem: Problem, design: Mapping[str, float], goal: _Goal) -> _At:
+def _evaluated(problem: Problem, design: Mapping[str, float], goal: _Goal) -> At:
     """Reserves of a design and their slopes, from one run and its recording.
 
     Raises SheetError where the design has no value, or a slope that is needed is not known.
@@ -161,9 +149,11 @@ def _evaluated(problem: Problem, design: Mapping[str, float], goal: _Goal) -> _A
     nodes = {name: node for name in asked.results if (node := part_of(name, recording.values))}
     if missing := [name for name in asked.results if name not in nodes]:
         raise SheetError(f"{missing[0]} is not recorded")
-    found = slopes(nodes.values(), [recording.inputs[x] for x in design])
+    by = [recording.inputs[x] for x in design]
+    found = slopes(nodes.values(), by)
     ranges = np.array([(b - a) * units.parse(problem.fields[x].unit).factor for x, (a, b) in problem.bounds.items()])
     reserves, slants, goals, labels = list[Array](), list[Array](), list[bool](), list[str]()
+    places = list[tuple[Node, int, float]]()
 
     def add(name: str, sign: float, limit: float, size: float, is_goal: bool, text: str, end: str = "") -> None:
         values, ahead = nodes[name].value.reshape(-1), found[nodes[name]].both
@@ -178,6 +168,7 @@ def _evaluated(problem: Problem, design: Mapping[str, float], goal: _Goal) -> _A
             reserves.append(np.array([(sign * (values[k] - limit) - off * size) / part]))
             slants.append(sign * slant[k : k + 1] / part)
             goals.append(is_goal)
+            places.append((nodes[name], k, sign / part))
             labels.append(text + (f" at position {k}" if values.size > 1 else ""))
 
     for need in asked.needs:
@@ -187,30 +178,9 @@ def _evaluated(problem: Problem, design: Mapping[str, float], goal: _Goal) -> _A
     if asked.best:
         way, name = asked.best
         add(name, 1.0 if way == "max" else -1.0, 0.0, 1.0, True, f"{way} {name}")
-    return _At(np.concatenate(reserves), np.concatenate(slants), np.array(goals), labels)
 
+    def bent(directions: Array) -> Array:
+        seconds = bends(nodes.values(), by, directions * ranges)
+        return np.stack([x * seconds[node].reshape(len(directions), -1)[:, k] for node, k, x in places], axis=1)
 
-def _conditions(here: _At, part: Array, names: Sequence[str]) -> str:
-    """Whether the slopes of what holds a design balance that of the goal, by factors that are not negative."""
-    from scipy.optimize import nnls  # on use: as above
-
-    level = here.reserves[here.goals].min()
-    above = here.reserves - here.goals * level
-    holding = np.flatnonzero(above <= _ACTIVE * np.maximum(1.0, np.abs(here.reserves))).tolist()
-    rows = [np.append(here.slopes[i], -1.0 * here.goals[i]) for i in holding]
-    said = [here.names[i] for i in holding if not here.goals[i]]
-    for i, x in enumerate(part):
-        for end, way, word in ((0.0, 1.0, "lower"), (1.0, -1.0, "upper")):
-            if abs(x - end) <= _ACTIVE:
-                rows.append(np.append(way * np.eye(len(part))[i], 0.0))
-                said.append(f"the {word} bound of {names[i]}")
-    target = np.append(np.zeros(len(part)), -1.0)
-    balance = np.array(rows).T
-    factors, _ = nnls(balance, target)
-    *rest, whole = balance @ factors  # of factors of the goal that are one in all there is this part
-    left = float(np.linalg.norm(rest) / -whole)
-    held = f", held by {', '.join(said)}" if said else ""
-    if left <= _HOLDS:
-        return f"the conditions of an optimum hold{held}: to the first order none near it is better"
-    slope = f"a slope of {numbers.significant(left, 2)} of what the goal varies by within the bounds is left"
-    return f"the conditions of an optimum do not hold: {slope}{held}"
+    return At(np.concatenate(reserves), np.concatenate(slants), np.array(goals), labels, bent)
