@@ -172,14 +172,17 @@ function unless_same(name, under, f) {
 
 const each = (n, f) => Array.from({length: n}, (_, p) => f(p));
 
+const TURNS = 1e5;
+
 // What a loop makes of its state; no numbers where it does not end.
 function repeated(state, most, turn) {
   let ends = false;
-  for (let k = 0; k < (most ?? 1e4) && !ends; k++) {
+  for (let k = 0; k < (most ?? TURNS) && !ends; k++) {
     [state, ends] = turn(state);
     ends = flat(ends).every(v => v != 0);
   }
-  return ends || most !== null ? state : state.map(v => (v.length === undefined ? NaN : nothing(v.length)));
+  const known = ends || most !== null ? state : state.map(v => (v.length === undefined ? NaN : nothing(v.length)));
+  return Object.assign(known, {ends});
 }
 
 function gap(out, why, keys) {
