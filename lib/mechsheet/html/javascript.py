@@ -53,7 +53,7 @@ def module(recording: Recording, wanted: Mapping[str, Node]) -> str:
     scope.write(dict.fromkeys([*results, *conditions, *looked]))
 
     own = ",".join(f"{names[n]}:{_own(n)}" for n in bottom_up([*results, *looked], ()) if n.op == "input")
-    values = ",".join(f"{json.dumps(key)}:{_result(scope, node)}" for key, node in wanted.items())
+    values = ",".join(f"{_key(key)}:{_result(scope, node)}" for key, node in wanted.items())
     verdicts = ",".join(f"{json.dumps(key)}:{scope.solved[node.args[0]]}" for key, node in found.items())
     lines = [
         *(f"const {name}={text};" for text, name in program.constants.items()),
@@ -79,6 +79,11 @@ def _own(node: Node) -> str:
     return array(node.value) if node.shape else literal(node.value.item()).text
 
 
+def _key(key: str) -> str:
+    """The key of a value as JavaScript has it: most are numbers."""
+    return key if key.isdecimal() else json.dumps(key)
+
+
 def _result(scope: Scope, node: Node) -> str:
     text = scope.text(node)
     if len(node.shape) > 1:
@@ -101,7 +106,12 @@ def _told(recording: Recording, scope: Scope, wanted: Mapping[str, Node], found:
     for key, node in every.items():
         for reason in sorted(under[node]):
             told.setdefault(reason, []).append(key)
-    return (f"{condition}||gap(out,{json.dumps(why)},{json.dumps(keys)});" for (condition, why), keys in told.items())
+    conditions = dict[tuple[str, str], dict[str, None]]()  # of the same with the same reason
+    for (condition, why), keys in told.items():
+        conditions.setdefault((why, ",".join(map(_key, keys))), {})[condition] = None
+    return (
+        f"({'&&'.join(all_of)})||gap(out,{json.dumps(why)},[{keys}]);" for (why, keys), all_of in conditions.items()
+    )
 
 
 def _reason(recording: Recording, scope: Scope, node: Node) -> tuple[str, str] | None:

@@ -51,6 +51,13 @@ const spreading = (from, to) => {
 };
 const spread = (a, from, to) => gather(a, spreading(from, to));
 
+// A field of this shape, element by element.
+function over(shape, f) {
+  const a = field(count(shape));
+  for (let i = 0; i < a.length; i++) a[i] = f(i);
+  return a;
+}
+
 const together = (...shapes) => {
   const axes = max(...shapes.map(shape => shape.length));
   const along = k => shapes.map(shape => shape[k - axes + shape.length] ?? 1).filter(n => n != 1);
