@@ -65,7 +65,7 @@ _MATH[math.isclose] = math.isclose  # whose tolerances are not those of numpy's
 def instead(value: Any) -> Any:
     """What takes quantities in place of a function, class or module; anything else is itself."""
     if isinstance(value, Marimo) or value is sys.modules.get("marimo"):
-        return _NOTHING
+        return _PAGE
     if isinstance(value, ModuleType):
         return _module(value)
     if isinstance(value, units.Constant):
@@ -251,5 +251,13 @@ class _Nothing:
         return self
 
 
-_NOTHING = _Nothing()
+class _Page(_Nothing):
+    """Stands for marimo, which may stop a cell."""
+
+    def stop(self, predicate: Any, output: Any = None) -> None:
+        if predicate:
+            raise NotRecorded("the cell stops here")
+
+
+_NOTHING, _PAGE = _Nothing(), _Page()
 _NAMES = {**NAMES, "recorded imported": instead}
