@@ -145,6 +145,8 @@ def section_4():
     ## 4 A table and a chart
 
     `table` and `figure` take a number, a title and quantities; headings, units and decimals come from their lines.
+    The pointer over a chart reads all its curves. While the worksheet runs, a part that is dragged out over a chart fills
+    it, as Ctrl and the wheel do; a double click shows the whole again, and what is seen is what is printed.
 
     **Try** to add `ds(phi)` to the table: it is refused, for a column is a name with a line of its own. Add that line
     to section 3 and the name to the table.

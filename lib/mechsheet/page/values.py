@@ -105,7 +105,8 @@ def _(title: Title) -> str:
     cells = [("Worksheet", escape(title.file)), ("Computed", f"{date.today():%Y-%m-%d}")]
     fields = "".join(f"<span>{label} <b>{value}</b></span>" for label, value in cells)
     switch = '<label class="ms-screen"><input type="checkbox" class="ms-switch"> numbers in the formulas</label>'
-    scripts = script("page.js") + script("units.js") + script("symbols.js", "tooltip.js") + script("sections.js")
+    scripts = script("page.js") + script("units.js") + script("chart.js", "tooltip.js", "format.js", "chart.js")
+    scripts += script("symbols.js", "tooltip.js") + script("sections.js")
     return (
         f'{scripts}<div class="ms-title">{text}<div class="ms-row">{fields}{switch}'
         f"{''.join(map(html, title.tools))}</div>{_TOLD}{_noted(title.notes)}</div>"
