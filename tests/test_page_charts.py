@@ -6,11 +6,12 @@ import base64
 import json
 import re
 
+import marimo as mo
 import numpy as np
 import pytest
 from test_page_units import STYLE, choose
 
-from mechsheet.page import script, values
+from mechsheet.page import notebook, script, smooth, values
 from mechsheet.worksheet.table import Column, Figure, Table
 
 CALLED = re.compile('base64,([^"]*)')
@@ -104,10 +105,78 @@ def test_a_part_stays_when_the_chart_is_drawn_anew_and_its_texts_keep_their_shap
     before = across(page)
     values_now = json.loads(page.locator("svg.ms-part").get_attribute("data-values"))
     page.evaluate("""() => {
-      const chart = document.querySelector("ms-figure svg.ms-chart:not(.ms-part)"), values = JSON.parse(chart.dataset.values);
+      const chart = document.querySelector("ms-figure svg.ms-chart:not(.ms-part)");
+      const values = JSON.parse(chart.dataset.values);
       values.texts[1] = values.texts[1].map(() => "7");
       chart.dataset.values = JSON.stringify(values);
     }""")
     page.locator("svg.ms-part[data-values*='[\"7\"']").wait_for()
     assert across(page) == before
     assert values_now["axes"][0] == {"low": 0.1, "high": 0.5, "power": 0, "unit": "m", "factor": 1.0}
+
+
+COMMON = "from numpy import arange, cumsum, linspace, gradient, sin"
+CELLS = (
+    "S = linspace(0.1, 0.5, 9)",
+    "F = sin(9 * S)",
+    "def G(S): return F_0 + S\nF_0 = 2.0",
+    "G_S = G(S)\nk = arange(9)",
+    "I = cumsum(F)\nK = S * k\nD = gradient(F, S)",
+    "C = linspace(1, 2, 9)",
+    "Z = F + 1j * G_S",
+)
+DEFINES = ("S", "F", "G F_0", "G_S k", "I K D", "C", "Z")
+READS = ("", "S", "", "S G", "F S k", "", "F G_S")
+
+
+@pytest.fixture
+def curves(monkeypatch):
+    """What becomes of a curve over S in a page of these cells."""
+    namespace: dict[str, object] = {}
+    exec("\n".join((COMMON, *CELLS)), namespace)
+    cells = tuple(
+        notebook.Cell(
+            f"c{n}", code, f"c{n}", frozenset(gives.split()), frozenset(reads.split()), "success", None, False
+        )
+        for n, (code, gives, reads) in enumerate(zip(CELLS, DEFINES, READS, strict=True))
+    )
+    monkeypatch.setattr(notebook, "running", lambda: (lambda: cells, namespace))
+    monkeypatch.setattr(mo, "running_in_notebook", lambda: True)
+
+    def column(want: str) -> Column:
+        return Column(want, "-", "", 3, np.asarray(eval(want, namespace), float), want=want)
+
+    return namespace, lambda *wants, over="S": smooth.smooth(Figure("1", "", column(over), tuple(map(column, wants))))
+
+
+def test_a_curve_is_computed_between_the_points_of_a_table(curves):
+    namespace, drawn = curves
+    figure = drawn("F", "G_S", "abs(Z)", "Z.imag")
+    x = figure.x.values
+    assert len(x) == 121 and figure.every == 15
+    np.testing.assert_array_equal(x[::15], namespace["S"])
+    F, G, size, imaginary = (line.values for line in figure.lines)
+    np.testing.assert_allclose(F, np.sin(9 * x), rtol=1e-15, atol=1e-15)
+    np.testing.assert_allclose([G, imaginary], [2 + x, 2 + x], rtol=1e-15)
+    np.testing.assert_allclose(size, np.hypot(F, G), rtol=1e-15)
+    namespace["F_0"] = 3.0  # of the same page, an input later
+    namespace["G"] = lambda S: 3.0 + S
+    namespace["G_S"] = namespace["G"](namespace["S"])
+    np.testing.assert_allclose(drawn("G_S").lines[0].values, 3 + x, rtol=1e-15)
+
+
+@pytest.mark.parametrize(
+    ("wants", "over", "why"),
+    [
+        (("I",), "S", "a sum over the positions depends on how many there are"),
+        (("D",), "S", "so does a difference from one to the next"),
+        (("K",), "S", "their numbers are not between each other"),
+        (("C",), "S", "it does not depend on what stands across"),
+        (("F", "I"), "S", "one of them alone would be smooth"),
+        (("S",), "F", "the other way round, and F turns back"),
+        (("I",), "k", "there is no position between 1 and 2"),
+    ],
+)
+def test_points_are_joined_by_straight_lines_where_nothing_is_known_between_them(curves, wants, over, why):
+    figure = curves[1](*wants, over=over)
+    assert (len(figure.x.values), figure.every) == (9, 1), why

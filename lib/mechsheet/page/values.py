@@ -22,6 +22,7 @@ from mechsheet.page import fields, switched
 from mechsheet.page.headings import heading
 from mechsheet.page.lines import lines
 from mechsheet.page.script import element, script
+from mechsheet.page.smooth import smooth
 from mechsheet.worksheet import numbers, symbol
 from mechsheet.worksheet.check import Check, Summary
 from mechsheet.worksheet.drawing import Drawing
@@ -269,7 +270,7 @@ def _kind(field: Input) -> str:
 
 @html.register
 def _(whole: Figure) -> str:
-    figure = thinned(whole)
+    figure = thinned(smooth(whole))
     layout = chart.line_chart(figure.x, figure.lines, figure.marks, figure.every)
     picture = switched.chart(figure, layout, chart_svg.svg(layout))
     caption = _caption("Figure", figure.number, figure.title)
