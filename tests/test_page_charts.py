@@ -124,9 +124,10 @@ CELLS = (
     "I = cumsum(F)\nK = S * k\nD = gradient(F, S)",
     "C = linspace(1, 2, 9)",
     "Z = F + 1j * G_S",
+    "t = linspace(\n    0, 1, 9)\nQ = t**3\nt_S = S / 4",
 )
-DEFINES = ("S", "F", "G F_0", "G_S k", "I K D", "C", "Z")
-READS = ("", "S", "", "S G", "F S k", "", "F G_S")
+DEFINES = ("S", "F", "G F_0", "G_S k", "I K D", "C", "Z", "t Q t_S")
+READS = ("", "S", "", "S G", "F S k", "", "F G_S", "S")
 
 
 @pytest.fixture
@@ -159,6 +160,8 @@ def test_a_curve_is_computed_between_the_points_of_a_table(curves):
     np.testing.assert_allclose(F, np.sin(9 * x), rtol=1e-15, atol=1e-15)
     np.testing.assert_allclose([G, imaginary], [2 + x, 2 + x], rtol=1e-15)
     np.testing.assert_allclose(size, np.hypot(F, G), rtol=1e-15)
+    cube = drawn("Q", over="t")  # of the same cell as what it depends on
+    np.testing.assert_allclose(cube.lines[0].values, cube.x.values**3, rtol=1e-15)
     namespace["F_0"] = 3.0  # of the same page, an input later
     namespace["G"] = lambda S: 3.0 + S
     namespace["G_S"] = namespace["G"](namespace["S"])

@@ -27,6 +27,17 @@
   }
   customElements.define("ms-numbers", Numbers);
 
+  // The style of a worksheet that names no style sheet, as marimo would have it in the page: it reaches formulas too.
+  class Style extends HTMLElement {
+    connectedCallback() {
+      if (document.querySelector("style.ms-style")) return;
+      const style = document.createElement("style");
+      Object.assign(style, { className: "ms-style", title: "marimo-custom", textContent: this.getAttribute("css") });
+      document.head.append(style);
+    }
+  }
+  customElements.define("ms-style", Style);
+
   // The verdict stays in sight: of a page long enough to lose it, a bar tells it wherever one reads.
   const bar = document.createElement("div");
   bar.className = "ms-bar";

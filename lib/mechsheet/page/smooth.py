@@ -1,9 +1,10 @@
 """Curves between the points of a table: the cells of the page computed at more positions, for its charts."""
 
+import ast
 import threading
 from collections.abc import Mapping
 from dataclasses import replace
-from functools import lru_cache
+from functools import lru_cache, partial
 from typing import Any
 
 import marimo as mo
@@ -62,6 +63,7 @@ def _run(
 ) -> dict[str, Any] | None:
     """Namespace with the curves of a figure at other positions; None where one of them does not depend on these."""
     across, wanted = figure.x.want, {base(line.want) for line in figure.lines}
+    cells = tuple(map(partial(_without, name=across), cells))
     computed = editor.depending(cells, {across}) - {across}
     if not wanted <= computed:
         return None
@@ -77,6 +79,19 @@ def _run(
         names = Worksheet("", _runnable(texts, frozenset(computed)), common, "").run(wanted, {across: fine, **known})
     _kept.run = rests_on, {name: names[name] for name in computed if name in names}, read  # held: the ids stay theirs
     return names
+
+
+def _without(cell: notebook.Cell, name: str) -> notebook.Cell:
+    """A cell without its line that defines a name, which it reads instead; where it does nothing else, as it is."""
+    if name not in cell.defs:
+        return cell
+    code = cell.code.splitlines()
+    for line in ast.parse(cell.code).body:
+        if isinstance(line, ast.Assign) and [ast.unparse(target) for target in line.targets] == [name]:
+            end = line.end_lineno or line.lineno
+            code[line.lineno - 1 : end] = [""] * (end - line.lineno + 1)
+            return replace(cell, code="\n".join(code), defs=cell.defs - {name}, refs=cell.refs | {name})
+    return cell
 
 
 def _nothing(*_: Any) -> None:
