@@ -352,7 +352,7 @@ def test_solve_block_of_several_unknowns_is_typeset_equation_by_equation():
     assert r"x = \operatorname{Find}(x) = 1.4142 m</span>" in text
     assert r"k = \operatorname{Minerr}(k) = 2.4 m" in text
     assert ">found</span>" in text and ">least squares</span>" in text
-    assert "solutions by 128 starts" in text and "x in 0..3; y in 0..3" in text
+    assert "solutions seen by 128 starts" in text and "x in 0..3; y in 0..3" in text
 
 
 @pytest.mark.parametrize(
