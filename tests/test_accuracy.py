@@ -223,9 +223,9 @@ def test_random_groups_are_measured_in_roundings_and_one_that_loses_digits_fails
     assert list(group) == ["RRR", "RRP", "RPR", "PRP", "RPP"] and np.all(positions == 40)
     assert np.all(np.diff(quantiles, axis=0) >= 0) and np.all(quantiles[0] > 0)
     assert check.passed and check.residual == quantiles[-1].max()
-    own = conditioning._GROUPS["PRP"]
+    own = conditioning.GROUPS["PRP"]
     worse = own._replace(found=lambda *given: own.found(*given) * (1 + 1e-11))
-    monkeypatch.setitem(conditioning._GROUPS, "PRP", worse)
+    monkeypatch.setitem(conditioning.GROUPS, "PRP", worse)
     assert not conditioning.random_groups("7.5", 5)[1].passed
 
 
