@@ -192,10 +192,11 @@ def test_less_is_run_for_less():
 def test_studies_stand_beside_what_is_kept_of_a_run():
     table = jobs.study_costs("8", WORKSHEET.with_name("slotted_link.py"), {"nothing": int}, 1e-6)
     study, time, of_run, _, runs = (column.values for column in table.columns)
-    assert [study[0], *study[-3:]] == [
+    assert [study[0], *study[-4:]] == [
         "a run of the worksheet's cells",
         "all their digits proved",
         "its workbook written",
+        "its page refreshed: a run, and all that it shows drawn",
         "nothing",
     ]
     assert np.all(time[:-1] > time[-1]) and np.all(runs >= 1)

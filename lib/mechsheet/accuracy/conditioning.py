@@ -56,7 +56,7 @@ GROUPS = {
     ),
     "RPR": Group(("A", "B", "f"), lambda A, B, f: rpr(A, B, 1, f).u, lambda A, B, f: arithmetic.rpr(A, B, 1, f)[0]),
     "PRP": Group(("A", "B", "u", "w"), prp, arithmetic.lines),
-    "RPP": Group(("B", "A", "w", "u"), rpp, arithmetic.lines),
+    "RPP": Group(("A", "B", "w", "u"), rpp, arithmetic.lines),
 }
 
 

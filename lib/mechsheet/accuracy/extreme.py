@@ -122,9 +122,9 @@ class MeasuredScene(Scene):
 
     @property
     def hardest(self) -> Outcome:
-        """The result whose printed formula loses most beyond its condition, or the product where none is printed."""
+        """The result whose printed formula loses most beyond its condition; else that of the greatest one."""
         told = [o for o in self.outcomes if o.expected > SPARE and np.isfinite(o.condition)]
-        return max(told, key=lambda o: (o.expected - o.printed if np.isfinite(o.printed) else -99, -o.product))
+        return max(told, key=lambda o: (o.expected - o.printed if np.isfinite(o.printed) else -99, o.condition))
 
 
 def scenes() -> list[Scene]:

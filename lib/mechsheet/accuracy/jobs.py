@@ -20,6 +20,7 @@ from mechsheet.recording.slopes import slopes
 from mechsheet.run import report
 from mechsheet.run.progress import progress
 from mechsheet.run.proving import proof_of
+from mechsheet.worksheet import shown
 from mechsheet.worksheet.cells import Worksheet, load, results
 from mechsheet.worksheet.lines import registry
 from mechsheet.worksheet.table import Column, Table
@@ -233,6 +234,11 @@ def study_costs(number: str, path: Path, studies: Mapping[str, Callable[[], Any]
     recording = record(names, sheet)
     inputs = [node for node in recording.inputs.values() if node.size == 1 and node.value.dtype.kind == "f"]
     columns = [part for table in recording.tables.values() for c in table if c is not None for part in c.parts]
+
+    def refreshed() -> list[tuple[str, str]]:
+        values = sheet.run(sheet.results, given).values()
+        return [shown.page().written(value) for value in values if isinstance(value, shown.Shown)]
+
     ways: dict[str, Callable[[], Any]] = {
         "a run of the worksheet's cells": partial(sheet.run, sheet.results, given),
         "the run recorded": partial(record, names, sheet),
@@ -244,6 +250,7 @@ def study_costs(number: str, path: Path, studies: Mapping[str, Callable[[], Any]
         f"one number's slopes by all {len(inputs)} inputs": partial(gradient, columns[-1], 0, inputs),
         "all their digits proved": partial(proof_of, names, sheet, recording),
         "its workbook written": partial(report.workbook, path.stem, names, {}),
+        "its page refreshed: a run, and all that it shows drawn": refreshed,
         **studies,
     }
     study = Column("study", "", "", 0, np.array(list(ways), object))

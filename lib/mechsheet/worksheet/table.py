@@ -31,8 +31,8 @@ MARKED = 60  # points of a curve that are marked one by one; more of them hide t
 class Column:
     """One quantity over the rows of a table: its symbol, display unit, meaning and values in that unit.
 
-    Values may be texts, of unit "". ``power`` shows numbers as 1.2e-15. ``of`` is the name that the line declares, of
-    a field without its ``_S``.
+    Values may be a list, which becomes an array, and texts, of unit "". ``power`` shows numbers as 1.2e-15. ``of`` is
+    the name that the line declares, of a field without its ``_S``.
     """
 
     symbol: str
@@ -42,6 +42,11 @@ class Column:
     values: NDArray[Any]
     power: bool = False
     of: str = ""
+
+    def __post_init__(self) -> None:
+        if isinstance(self.values, list):
+            kind = object if any(isinstance(value, str) for value in self.values) else None
+            object.__setattr__(self, "values", np.array(self.values, kind))
 
     @property
     def name(self) -> str:
