@@ -31,8 +31,9 @@ MARKED = 60  # points of a curve that are marked one by one; more of them hide t
 class Column:
     """One quantity over the rows of a table: its symbol, display unit, meaning and values in that unit.
 
-    Values may be texts, of unit "". ``power`` shows numbers as 1.2e-15. ``of`` is the name that the line declares, of
-    a field without its ``_S``; ``want`` is what stands in the worksheet, a name or a part of one.
+    Values may be a list, which becomes an array, and texts, of unit "". ``power`` shows numbers as 1.2e-15. ``of`` is
+    the name that the line declares, of a field without its ``_S``; ``want`` is what stands in the worksheet, a name or
+    a part of one.
     """
 
     symbol: str
@@ -43,6 +44,11 @@ class Column:
     power: bool = False
     of: str = ""
     want: str = ""
+
+    def __post_init__(self) -> None:
+        if isinstance(self.values, list):
+            kind = object if any(isinstance(value, str) for value in self.values) else None
+            object.__setattr__(self, "values", np.array(self.values, kind))
 
     @property
     def name(self) -> str:
