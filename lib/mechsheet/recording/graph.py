@@ -69,6 +69,7 @@ class Graph:
         self.positions = 0  # numbers of linspace before any were left out
         self.line = 0
         self.work = 0  # numbers computed since somebody set it to 0
+        self.most = MOST_DRAWN if draws else MOST  # that these may be
         self.fixed = set[Node]()  # which rest on constants alone
         self.counts = set[Node]()  # which rest on numbers of rows, and are these themselves
         self.always = set[Node]()  # which are numbers whatever the inputs are
@@ -107,8 +108,8 @@ class Graph:
                 self.counts.add(known)
             if self.always.issuperset(under) and _exists(known):
                 self.always.add(known)
-            if self.work > (most := MOST_DRAWN if self.draws else MOST):
-                raise NotRecorded(f"it takes more than {most:,} operations on single numbers")
+            if self.work > self.most:
+                raise NotRecorded(f"it takes more than {self.most:,} operations on single numbers")
         return known
 
     def see(self, seen: Node, rows: bool = False) -> None:

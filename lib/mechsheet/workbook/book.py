@@ -136,14 +136,17 @@ class Book:
 @cache
 def _sheet_class() -> Any:
     """XlsxWriter's worksheet, which otherwise looks for thirty new functions of Excel in every formula."""
-    from xlsxwriter.worksheet import Worksheet  # type: ignore[import-untyped]  # on use: as above
+    from xlsxwriter.worksheet import CellFormulaTuple, Worksheet  # type: ignore[import-untyped]  # on use: as above
 
     class Sheet(Worksheet):  # type: ignore[misc]
         def write_live(self, row: int, col: int, formula: str, style: Any, value: float | str) -> None:
-            self._write_formula(row, col, formula, style, value)
+            self._check_dimensions(row, col)  # which also notes how far the sheet goes
+            self.table[row][col] = CellFormulaTuple(formula.removeprefix("="), style, value)
 
-        def _prepare_formula(self, formula: str, expand_future_functions: bool = False) -> str:
-            return formula.removeprefix("=")
+        def _xml_formula_element(self, formula: str, result: Any, attributes: Sequence[tuple[str, Any]] = ()) -> None:
+            given = "".join(f' {key}="{value}"' for key, value in attributes)
+            known = self._escape_data(result)
+            self.fh.write(f"<c{given}><f>{self._escape_data(formula)}</f><v>{known}</v></c>")
 
     return Sheet
 
