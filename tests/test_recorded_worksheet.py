@@ -438,7 +438,7 @@ def test_what_python_saw_is_guarded(expression: str, same: dict[str, Any], other
 
 
 def test_iterations_to_convergence_are_repeated(tmp_path: Path) -> None:
-    """A reader takes as many turns as its inputs need; a workbook has those of now, while they are as many."""
+    """A reader takes as many turns as its inputs need; a workbook has twice as many as now and some more."""
     lines = "y = 1.0\nwhile abs(y * y - g.F) > 1e-9:\n    y = (y + g.F / y) / 2\nz = y * 1  # [-] root"
     sheet = own(tmp_path, lines)
     _, recording = recorded(sheet)
@@ -448,8 +448,9 @@ def test_iterations_to_convergence_are_repeated(tmp_path: Path) -> None:
     assert np.isnan(value_of(recording, "z", {"F": -2.0})), "it never ends"
     (node,) = [node for node in recording.graph.nodes.values() if node.op == "iterated"]
     (turns,) = node.args[2:]
-    known = {F: numbers([turns], {recording.inputs["F"]: F})[turns] for F in (2.5000001, 400.0)}
-    assert known[2.5000001] == pytest.approx(np.sqrt(2.5000001), rel=1e-9) and np.isnan(known[400.0])
+    known = {F: numbers([turns], {recording.inputs["F"]: F})[turns] for F in (2.5000001, 400.0, 1e30)}
+    assert known[2.5000001] == pytest.approx(np.sqrt(2.5000001), rel=1e-9)
+    assert known[400.0] == pytest.approx(20.0, rel=1e-9) and np.isnan(known[1e30])
 
 
 def test_roots_of_a_parabola_come_in_the_order_of_numpy(tmp_path: Path) -> None:

@@ -339,7 +339,9 @@ class _Run:
         """Take over the guards of another run on which quantities rest."""
         guards = run.recording.guards
         if guards:
-            self.recording.guards |= {node: guards[node] for node in bottom_up(nodes, ()) if node in guards}
+            under = list(bottom_up(nodes, ()))
+            under += bottom_up((node.args[2] for node in under if node.op == "iterated"), under)
+            self.recording.guards |= {node: guards[node] for node in under if node in guards}
 
     def check_everywhere(self) -> None:
         """Let checks look at all positions while that is not too much; the others look at those listed."""
