@@ -143,11 +143,6 @@ def _sheet_class() -> Any:
             self._check_dimensions(row, col)  # which also notes how far the sheet goes
             self.table[row][col] = CellFormulaTuple(formula.removeprefix("="), style, value)
 
-        def _xml_formula_element(self, formula: str, result: Any, attributes: Sequence[tuple[str, Any]] = ()) -> None:
-            given = "".join(f' {key}="{value}"' for key, value in attributes)
-            known = self._escape_data(result)
-            self.fh.write(f"<c{given}><f>{self._escape_data(formula)}</f><v>{known}</v></c>")
-
     return Sheet
 
 
