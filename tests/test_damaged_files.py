@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 import random
 import re
+import time
 import zipfile
 from collections.abc import Callable
 from functools import cache
@@ -135,6 +136,15 @@ def test_entities_that_grow_without_end_are_refused_at_once(exported: bytes, tmp
         "<sheetData>", "<sheetData>&e12;"
     ))  # fmt: skip
     assert "damaged: " in answer(data, tmp_path / "scene.xlsx")
+
+
+def test_texts_without_end_are_refused_before_they_are_read(exported: bytes, tmp_path: Path) -> None:
+    """The texts of all sheets stand in one part, which is read as a whole: 3 million took a minute."""
+    texts = "<si><t>" + "a" * 10_000_000 + "</t></si>"
+    data = changed(exported, "xl/sharedStrings.xml", lambda part: part.replace("</sst>", texts + "</sst>"))
+    begun = time.process_time()
+    assert "xl/sharedStrings.xml has 10 MB, over 10: " in answer(data, tmp_path / "scene.xlsx")
+    assert time.process_time() - begun < 0.5
 
 
 def test_a_long_value_is_shortened_in_its_line(exported: bytes, tmp_path: Path) -> None:

@@ -47,7 +47,9 @@ def module(recording: Recording, wanted: Mapping[str, Node]) -> str:
     conditions += [node.args[1] for node in every if node.op == "sized"]
     gaps = {gap.line for gap in recording.gaps}
     looked = {
-        holds: guard.line for holds, guard in recording.guards.items() if not guard.rows and guard.line not in gaps
+        holds: guard.line
+        for holds, guard in recording.guards.items()
+        if not (guard.rows or guard.turns or guard.line in gaps)
     }
     scope = Scope(program, {})
     scope.write(dict.fromkeys([*results, *conditions, *looked]))

@@ -66,7 +66,7 @@ def record(
         current.reset(token)
 
 
-_MORE = 50  # columns that a check over all positions may take more than one over those that tables list
+_MORE = 1_000_000  # operations on single numbers that checks over all positions take at most, beside those of tables
 
 
 class _Run:
@@ -334,12 +334,13 @@ class _Run:
         """A run of the same graph over all positions."""
         graph = self.graph
         if not self.over_all_positions:
-            kept = graph.thin, graph.line, graph.looked, graph.numbered, graph.work
-            labels, graph.labels, graph.thin = graph.labels, {}, 1  # what only this run needs is no named step
+            kept = graph.thin, graph.most, graph.line, graph.looked, graph.numbered, graph.work
+            graph.thin, graph.most = 1, graph.most * graph.thin
+            labels, graph.labels = graph.labels, {}  # what only this run needs is no named step
             try:
                 self.over_all_positions.append(_Run(self.sheet, graph, self.namespace, self.want, self.lines))
             finally:
-                graph.thin, graph.line, graph.looked, graph.numbered, graph.work = kept
+                graph.thin, graph.most, graph.line, graph.looked, graph.numbered, graph.work = kept
                 graph.labels = labels
         return self.over_all_positions[0]
 
@@ -358,11 +359,13 @@ class _Run:
         """Take over the guards of another run on which quantities rest."""
         guards = run.recording.guards
         if guards:
-            self.recording.guards |= {node: guards[node] for node in bottom_up(nodes, ()) if node in guards}
+            under = list(bottom_up(nodes, ()))
+            under += bottom_up((node.args[2] for node in under if node.op == "iterated"), under)
+            self.recording.guards |= {node: guards[node] for node in under if node in guards}
 
     def check_everywhere(self) -> None:
-        """Let checks look at all positions where that takes few columns more; the others look at those listed."""
-        recording = self.recording
+        """Let checks look at all positions while that is not too much; the others look at those listed."""
+        recording, left = self.recording, _MORE
         columns = (part for table in recording.tables.values() for c in table if c is not None for part in c.parts)
         judged = (part for check in recording.checks.values() for part in (*check.parts, check.limit))
         known = set(bottom_up([*columns, *judged, *recording.guards], ()))
@@ -372,10 +375,11 @@ class _Run:
             whole = self.everywhere().recording.checks.get(name, own)
             nodes = [*whole.parts, whole.limit]
             more = list(bottom_up(nodes, known))
-            if sum(node.size > 1 for node in more) > _MORE or any(node.op == "exported" for node in more):
+            takes = sum(node.size for node in more if node.size > 1)
+            if takes > left or any(node.op == "exported" for node in more):
                 recording.checks[name] = replace(own, listed=True)
             else:
-                recording.checks[name] = whole
+                recording.checks[name], left = whole, left - takes
                 known.update(more)
                 self.guard_as(self.everywhere(), nodes)
 
