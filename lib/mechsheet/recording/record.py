@@ -22,17 +22,15 @@ from mechsheet.recording.node import Node, bottom_up, conditions
 from mechsheet.recording.positions import listed, on_rows
 from mechsheet.recording.quantity import Quantity, has_quantity, is_literal, lift
 from mechsheet.recording.sketch import Drawn, Sketch
-from mechsheet.recording.stage import Stage, held
+from mechsheet.recording.stage import Stage, held, shown
 from mechsheet.recording.substitutes import BUILTINS, Module, instead, shared, staged
 from mechsheet.recording.unrepeatable import Unrepeatable
 from mechsheet.recording.written import Said, Written
 from mechsheet.units import Constant
 from mechsheet.worksheet.cells import Cell, Worksheet, load
-from mechsheet.worksheet.check import Check
 from mechsheet.worksheet.lines import Formula, registry
-from mechsheet.worksheet.table import Figure, Table
+from mechsheet.worksheet.table import Table
 from mechsheet.worksheet.title import Mark, Slider
-from mechsheet.worksheet.verdict import Verdict
 
 
 def record(
@@ -57,7 +55,7 @@ def record(
     """
     sheet = load(Path(namespace["__file__"])) if sheet is None else sheet
     steps = {value.every for value in namespace.values() if isinstance(value, Table)}
-    want = sheet.results if whole else [name for name in sheet.results if _shown(namespace.get(name))]
+    want = sheet.results if whole else [name for name in sheet.results if shown(namespace.get(name))]
     graph = Graph(every or (steps.pop() if len(steps) == 1 else 1), draws, lists)
     token = current.set(graph)
     try:
@@ -446,8 +444,3 @@ def _is_array(value: Any) -> bool:
 
 def _is_number(value: Any) -> bool:
     return isinstance(value, float | np.floating) or _is_array(value)
-
-
-def _shown(value: Any) -> bool:
-    group = value if isinstance(value, tuple | list) else [value]
-    return any(isinstance(v, Table | Figure | Check | Verdict) for v in group)

@@ -269,6 +269,12 @@ class Stage:
         return own
 
 
+def shown(own: Any) -> bool:
+    """Whether a value of a worksheet is what a writer shows."""
+    group = own if isinstance(own, tuple | list) else [own]
+    return any(isinstance(v, Table | Figure | Check | Verdict) for v in group)
+
+
 def held(own: Any) -> bool:
     """Whether a value of a worksheet is one that a recording holds."""
     if isinstance(own, tuple | list):
