@@ -125,7 +125,7 @@ class Solution(Verdict):
             rows.append(("missed by" if single else "missed at most by", "; ".join(left)))
             worst = float(np.nanmax(self.condition))
             known = f"{numbers.significant(worst, 2)} times"
-            if np.isinf(worst):
+            if not np.isfinite(worst):
                 known = "infinite: the slopes are singular"
             rows.append(("errors grow" if single else "errors grow at most", known))
         if single and not self.least:
