@@ -116,7 +116,7 @@ def circular_joint(r: Quantity, phi: Quantity, M: Quantity, N: Quantity) -> Ring
     rounding = np.sum(1.0 + 0 * phi, axis=-1) * np.finfo(float).eps * load
     none, pulled = mixed & (bolt_N == 0), mixed & (k_c * arc_N > rounding)
     least = -(rounding / r)[..., None]
-    pressed = ~mixed & ~rim & (P < least).any(axis=-1)
+    pressed = ~mixed & ~rim & (least > P).any(axis=-1)
     holds = step("holds", "-", "an equilibrium of this kind", ~(none | pulled | pressed))
     cases = {
         "tension and compression": mixed & holds,
