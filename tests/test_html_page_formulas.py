@@ -14,7 +14,7 @@ import pytest
 
 from mechsheet.document.expression import reads, substituted, tree
 from mechsheet.document.formula import Measure, Node, Power, Row, Symbol, Text
-from mechsheet.html import font, javascript, mathml
+from mechsheet.html import font, javascript, markdown, mathml
 from mechsheet.html.put_in import Read, put_in
 from mechsheet.worksheet import numbers
 from mechsheet.worksheet.lines import Formula
@@ -142,3 +142,21 @@ def as_seen(text: str) -> str:
     """
     bare = re.sub(r"</?mrow>|</?mspace[^>]*>| stretchy=\"false\"", "", text)
     return bare.replace("<mo>⋅</mo><mo>(</mo><mo>−</mo>", "<mo>(</mo><mo>−</mo>")
+
+
+def test_equations_below_each_other_are_rows_of_a_table() -> None:
+    """In one line they would be another equation."""
+    for environment in ("aligned", "gathered"):
+        latex = rf"\begin{{{environment}}} a {'&' * (environment == 'aligned')}= b \\ c = d \end{{{environment}}}"
+        written = markdown.formula(latex, block=True)
+        assert written.count("<mtr>") == 2 and "&<" not in written and "newline" not in written
+
+
+def test_bars_of_a_determinant_are_as_high_as_it() -> None:
+    written = markdown.formula(r"M + \begin{vmatrix} a & b \\ c & d \end{vmatrix} + \begin{vmatrix} e \end{vmatrix}")
+    assert written.count('stretchy="true"') == 4 and written.count("<mtable>") == 2
+
+
+def test_a_function_stands_apart_from_the_factors_beside_it() -> None:
+    spaced = markdown.formula(r"l \cos\varphi + \sin(x) - l \sin^2 x")
+    assert spaced.count("<mspace") == 2 and "<msup><mi>sin</mi><mn>2</mn></msup>" in spaced

@@ -388,7 +388,7 @@ def section_31():
     mo.md("""
     ### 3.1 Sheet 57 as it reads
 
-    For plane 1 and case 1 the scan reads *F* = 6.928 cm² and *y*<sub>c</sub> = 4.677 cm, line 1 of the table; line 2 is
+    For plane 1 and case 1 the scan reads $F$ = 6.928 cm² and $y_c$ = 4.677 cm, line 1 of the table; line 2 is
     that of table 3.1. Only with the latter follow the other printed numbers: *S* = 33.3 cm³, the reduced moment
     4.366·10⁵ kgf·cm, the axis −17.9 cm from the centroid with *I* = 4105 cm⁴. One digit of each is misread.
     """)

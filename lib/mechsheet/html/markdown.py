@@ -10,6 +10,14 @@ from markdown.inlinepatterns import InlineProcessor  # type: ignore[import-untyp
 
 _TAG = re.compile(r"\\tag\{([^}]*)\}")
 _UPRIGHT = re.compile(r"\\mathrm\{([^{}]*)\}")  # which is left slanted otherwise
+_TABLES = {"aligned": "split", "gathered": "matrix"}  # environments that run into one line otherwise
+_BARS = re.compile(r"<mo>(&#x0007C;|&#x02016;)</mo>(<mtable>(?:(?!<mtable>).)*?</mtable>)<mo>\1</mo>")
+_ENDS = "m(?:i|n|sub|sup|subsup|row|frac|sqrt)"
+_FUNCTION = re.compile(  # between factors, but not with a power of its own
+    rf"(</{_ENDS}>|&#x00029;</mo>)?(?<!<msup>)(?<!<msub>)<mi>(arc)?(sin|cos|tan|ln|log|exp)</mi>(?=(<{_ENDS}[ >])?)"
+)
+_THIN = '<mspace width=".17em"/>'
+_BAR = '<mo stretchy="true" symmetric="true" form="{}fix">{}</mo>'
 
 
 @lru_cache(maxsize=512)
@@ -25,12 +33,24 @@ def html(text: str) -> str:
 def formula(latex: str, *, block: bool = False) -> str:
     """A formula of a text in MathML, the number of one that stands alone at its end."""
     number = _TAG.search(latex)
+    for environment, other in _TABLES.items():
+        latex = re.sub(rf"\\(begin|end)\{{{environment}\}}", rf"\\\1{{{other}}}", latex)
     written = convert(_UPRIGHT.sub(r"\\text{\1}", _TAG.sub("", latex)))
     inside = re.sub(r"^<math[^>]*><mrow>(.*)</mrow></math>$", r"\1", written, flags=re.DOTALL)
+    inside = _BARS.sub(lambda m: f"<mrow>{_BAR.format('pre', m[1])}{m[2]}{_BAR.format('post', m[1])}</mrow>", inside)
+    inside = _FUNCTION.sub(_spaced, inside)
+    # Browsers know of columns what styles say of their cells.
+    inside = inside.replace('<mtd columnalign="left"><mi />', '<mtd style="text-align:left;padding-left:0"><mi />')
+    inside = re.sub('<mtd columnalign="([a-z]+)"', r'<mtd style="text-align:\1;text-align:-webkit-\1"', inside)
     if not block:
         return f"<math>{inside}</math>"
     label = f'<span class="ms-number">({escape(number[1])})</span>' if number else ""
     return f'<span class="ms-line"><math displaystyle="true">{inside}</math>{label}</span>'
+
+
+def _spaced(function: "re.Match[str]") -> str:
+    before, arc, name, behind = (part or "" for part in function.groups())
+    return f"{before}{_THIN * bool(before)}<mi>{arc}{name}</mi>{_THIN * bool(behind)}"
 
 
 class _Formula(InlineProcessor):  # type: ignore[misc]

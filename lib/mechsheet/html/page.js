@@ -149,10 +149,14 @@ function refresh() {
   showPositions();
   sum();
   say(changed, errors);
-  if (!errors.size) {
-    const address = addressOf(textsOf(changed));
-    if (address !== location.hash.slice(1)) history.replaceState(null, "", address ? `#${address}` : location.pathname);
-  }
+  waiting.set("address", keepAddress); // browsers refuse it after many within seconds
+  whenIdle();
+}
+
+function keepAddress() {
+  const address = addressOf(textsOf(state.changed));
+  if (state.refused || address === location.hash.slice(1)) return;
+  history.replaceState(null, "", address ? `#${address}` : location.pathname);
 }
 
 function showFirst(n) {
@@ -224,12 +228,11 @@ function sum() {
       const kind = /ms-(PASS|FAIL|OPEN)/.exec(badge?.className)?.[1] ?? "OPEN";
       counts[kind]++;
       const own = item.querySelector(".ms-badge");
-      own.className = badge.className;
-      own.textContent = badge.textContent;
+      if (own.textContent !== badge.textContent) Object.assign(own, {className: badge.className, textContent: badge.textContent});
       return [kind, item];
     });
-    for (const kind of ["OPEN", "FAIL"].reverse()) row.append(...items.filter(([k]) => k === kind).map(([, item]) => item));
-    row.append(...items.filter(([k]) => k === "PASS").map(([, item]) => item));
+    const sorted = ["FAIL", "OPEN", "PASS"].flatMap(kind => items.filter(([k]) => k === kind).map(([, item]) => item));
+    if (sorted.some((item, k) => item !== row.children[k])) row.append(...sorted);
     const total = items.length;
     summary.querySelector("b").textContent = `${counts.PASS} of ${total} checks pass` +
       (counts.FAIL ? `, ${counts.FAIL} fail` : "") + (counts.OPEN ? `, ${counts.OPEN} not evaluated` : "");

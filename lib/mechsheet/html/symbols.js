@@ -54,7 +54,12 @@ function symbolTip(element, x, y) {
   direct.forEach(line => line.classList.add("ms-uses"));
   tip.replaceChildren(...rows.filter(row => row.textContent));
   place(x, y);
+  stand(element);
 }
+
+let toldOf = null, toldAt = 0; // what the tip tells of, and where that stands in the window
+const topOf = element => element?.getBoundingClientRect().top;
+const stand = element => ([toldOf, toldAt] = [element, topOf(element)]);
 
 function clearTip() {
   document.querySelectorAll(".ms-uses, .ms-chosen").forEach(element => element.classList.remove("ms-uses", "ms-chosen"));

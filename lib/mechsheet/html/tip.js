@@ -17,6 +17,7 @@ function chartTip(chart, k, y) {
   const box = chart.getBoundingClientRect();
   tip.innerHTML = names.map((name, i) => `<div>${name} = ${escaped(texts[i][k])} ${escaped(units[i])}</div>`).join("");
   place(box.left + (at[k] * box.width) / chart.viewBox.baseVal.width, y);
+  stand(chart);
 }
 
 const readingsAt = chart => chart.readings ?? (chart.readings = readingsOf(chart));
@@ -53,7 +54,8 @@ function point(event) {
   else clearTip();
 }
 
-addEventListener("scroll", clearTip, {passive: true});
+// Browsers tell late of a scrolling that came before the tip.
+addEventListener("scroll", () => topOf(toldOf) === toldAt || clearTip(), {passive: true});
 document.addEventListener("pointermove", point);
 document.addEventListener("pointerdown", point);
 document.addEventListener("click", event => {
