@@ -20,7 +20,7 @@ from mechsheet.document.chart import line_chart
 from mechsheet.document.shortened import rows, shortened
 from mechsheet.page import notebook, own, values
 from mechsheet.page.script import element, script
-from mechsheet.recording.banded import NOTE, Banded, RunBands, off
+from mechsheet.recording.banded import NOTE, Banded, RunBands, about, off
 from mechsheet.worksheet import mistakes, numbers
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.table import Column, Figure, Table
@@ -152,8 +152,8 @@ def _told(bands: RunBands, tables: Sequence[Table], figures: Iterable[Figure]) -
         own = columns.get((f"table {table.number}", name))
         if own is None or own.band.why:
             return None
-        worst = np.where(own.worst < _NOISE * own.worst.max(), 0.0, own.worst)
-        return [f"± {off(x)}" for x in worst[rows(len(worst))]]
+        worst = np.where(own.worst < _NOISE * own.most, 0.0, own.worst)
+        return [about(x) for x in worst[rows(len(worst))]]
 
     def shown(table: Table) -> list[tuple[Column, ...]]:
         return blocks(replace(table, columns=shortened(table.columns)[0]))
@@ -190,6 +190,6 @@ def _is_of(banded: Banded, line: Column, points: slice) -> bool:
 def _of_line(parts: Sequence[Banded]) -> str:
     if why := next((part.band.why for part in parts if part.band.why), ""):
         return f"± not known: {why}"
-    most = [off(part.worst.max()) for part in parts]
+    most = [off(part.most) for part in parts]
     among = "up to " if parts[0].values.size > 1 else ""
     return f"± {among}{most[0] if len(most) == 1 else '(' + ', '.join(most) + ')'}{numbers.suffix(parts[0].unit)}"
