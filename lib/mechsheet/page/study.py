@@ -5,8 +5,9 @@ Nothing is computed before; then it follows whatever changes on the page.
 
 import time
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import ThreadPoolExecutor, wait
 from dataclasses import replace
+from functools import partial
 from html import escape
 from typing import Any, NamedTuple, TypeVar
 from uuid import uuid4
@@ -27,6 +28,7 @@ from mechsheet.worksheet.table import Column, Figure, Table
 
 T = TypeVar("T")
 _PERIOD = 0.25  # s between two looks at the page
+_LONG = 2.0  # s of a proof that shows how far it is
 _NOISE = 1e-12  # of the largest band of a column: less is rounding
 _AT = "least"  # position at which a result is looked at unless another is chosen
 
@@ -34,14 +36,14 @@ _AT = "least"  # position at which a result is looked at unless another is chose
 class Asked(NamedTuple):
     """What computes that which a page may be asked for.
 
-    These are bands of tables, charts and all else, what a result depends on, the HTML of a proof, and the namespace of
-    a run with the document's own inputs.
+    These are bands of tables, charts and all else, what a result depends on, the HTML of a proof, which tells how many
+    of how many steps are behind, and the namespace of a run with the document's own inputs.
     """
 
     results: Sequence[str]
     bands: Callable[[], tuple[RunBands, Sequence[Table], Sequence[Figure]]]
     matters: Callable[[str, str], Sequence[Any]]
-    proof: Callable[[], str]
+    proof: Callable[[Callable[[int, int], object]], str]
     own: Callable[[], Mapping[str, Any]]
 
 
@@ -55,7 +57,7 @@ class Study:
         self.position = mo.ui.text(value=_AT, label="at position", on_change=self.changed)
         self.proof = mo.ui.checkbox(label="every number proved", on_change=self.changed)
         self.own = mo.ui.checkbox(label="what differs from the document", on_change=self.changed)
-        self.told, self.looking = "", False
+        self.told, self.looking, self.part = "", False, 0.0
 
     @property
     def text(self) -> str:
@@ -93,6 +95,16 @@ class Study:
         if not this.should_exit:
             self.redraw()
 
+    def behind(self, steps: int, count: int) -> None:
+        """Note how far a proof is."""
+        self.part = steps / count
+
+    def wait(self, begun: float) -> None:
+        """Show how far a proof is that takes long."""
+        if time.monotonic() - begun > _LONG:
+            self.told = f'<progress value="{numbers.fixed(self.part, 2)}"></progress> proof'
+            self.redraw()
+
     @property
     def asks(self) -> bool:
         """Whether anything is asked for."""
@@ -110,7 +122,7 @@ class Study:
             if self.own.value:
                 parts.append(own.html(_elsewhere(self.asked.own)))
             if self.proof.value:
-                parts.append(_elsewhere(self.asked.proof))
+                parts.append(_elsewhere(lambda: self.asked.proof(self.behind), partial(self.wait, time.monotonic())))
             if self.bands.value:
                 bands, tables, figures = _elsewhere(self.asked.bands)
                 within = escape(", ".join(map(str, bands.by.values())))
@@ -131,10 +143,13 @@ def _same(one: Sequence[Any], other: Sequence[Any]) -> bool:
     return len(one) == len(other) and all(x is y for x, y in zip(one, other, strict=True))
 
 
-def _elsewhere(work: Callable[[], T]) -> T:
+def _elsewhere(work: Callable[[], T], meanwhile: Callable[[], object] = lambda: None) -> T:
     """What some work gives in a thread of no page, where sliders that it makes are none that the page moves."""
     with ThreadPoolExecutor(1) as pool:
-        return pool.submit(work).result()
+        future = pool.submit(work)
+        while not wait([future], _PERIOD).done:
+            meanwhile()
+        return future.result()
 
 
 def _told(bands: RunBands, tables: Sequence[Table], figures: Iterable[Figure]) -> dict[str, Any]:
