@@ -332,6 +332,9 @@ class _Digits:
                 and not any(_no_longer(o, known[o]) for o in part.operands if o in known)
             ):
                 return f"line {part.line}: in exact arithmetic {_EXACTLY.get(part.op, 'it is no number')}"
+        least = (p for p in bottom_up([shown.node] if shown.node else (), ()) if p.op == "found" and p.args[0].least)
+        if found := next(least, None):
+            return f"line {found.line}: the search for the least sum of squares ends there"
         return f"line {shown.line}: the rest is lost to rounding"
 
 

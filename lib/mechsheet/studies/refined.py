@@ -159,7 +159,9 @@ def _evaluated(problem: Problem, design: Mapping[str, float], goal: _Goal) -> At
     def add(name: str, sign: float, limit: float, size: float, is_goal: bool, text: str, end: str = "") -> None:
         values, ahead = nodes[name].value.reshape(-1), found[nodes[name]].both
         slant = ahead.reshape(len(ranges), -1).T * ranges
-        if np.isnan(values).any() or np.isnan(slant).any():
+        if np.isnan(values).any():
+            raise SheetError(f"a design on the way to a better one has no {name}")
+        if np.isnan(slant).any():
             raise SheetError(f"{name} has no slope at {text}")
         keep = range(values.size)
         if (end == "max" and sign > 0) or (end == "min" and sign < 0):  # at one position alone: that which is the end
