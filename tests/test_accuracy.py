@@ -192,10 +192,11 @@ def test_less_is_run_for_less():
 def test_studies_stand_beside_what_is_kept_of_a_run():
     table = jobs.study_costs("8", WORKSHEET.with_name("slotted_link.py"), {"nothing": int}, 1e-6)
     study, time, of_run, _, runs = (column.values for column in table.columns)
-    assert [study[0], *study[-3:]] == [
+    assert [study[0], *study[-4:]] == [
         "a run of the worksheet's cells",
         "all their digits proved",
         "its workbook written",
+        "its page refreshed: a run, and all that it shows drawn",
         "nothing",
     ]
     assert np.all(time[:-1] > time[-1]) and np.all(runs >= 1)
@@ -223,9 +224,9 @@ def test_random_groups_are_measured_in_roundings_and_one_that_loses_digits_fails
     assert list(group) == ["RRR", "RRP", "RPR", "PRP", "RPP"] and np.all(positions == 40)
     assert np.all(np.diff(quantiles, axis=0) >= 0) and np.all(quantiles[0] > 0)
     assert check.passed and check.residual == quantiles[-1].max()
-    own = conditioning._GROUPS["PRP"]
+    own = conditioning.GROUPS["PRP"]
     worse = own._replace(found=lambda *given: own.found(*given) * (1 + 1e-11))
-    monkeypatch.setitem(conditioning._GROUPS, "PRP", worse)
+    monkeypatch.setitem(conditioning.GROUPS, "PRP", worse)
     assert not conditioning.random_groups("7.5", 5)[1].passed
 
 

@@ -2,14 +2,19 @@
 
 import re
 from collections.abc import Callable
+from io import BytesIO
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+from openpyxl import load_workbook
+from own_worksheet import own
 
 from mechsheet.recording.graph import Graph
 from mechsheet.recording.node import Node
 from mechsheet.recording.operations import Moved
+from mechsheet.run import report
 from mechsheet.workbook.arrangement import needing_place
 from mechsheet.workbook.cell_formula import CellFormulas
 from mechsheet.workbook.place import Place, called
@@ -50,6 +55,20 @@ def test_deep_formulas_are_split_into_steps(wrap: Callable[[Graph, Node], Node])
     formulas = [cells.formulas(node)[0] for node in placed[1:]]
     assert max(map(depth, formulas)) <= 8
     assert len(formulas) < 30
+
+
+def test_columns_behind_the_tables_go_over_several_sheets(tmp_path: Path) -> None:
+    """The list of a section's lines says on which one; formulas find them there."""
+    lines = [f"y{n}_ = {f'y{n - 1}_' if n else 'x'} + g.a * cos(x)  # [-] line {n}" for n in range(70)]
+    sheet = own(tmp_path, "\n".join(lines) + '\ntable_2 = table("2", "last", y69_)')
+    names = sheet.run(sheet.results, {"g": sheet.inputs()})
+    book = load_workbook(BytesIO(report.workbook("", {**names, "__file__": sheet.path}, {})))
+    first, second = (ws for ws in book.worksheets if re.match("[^R].* fields", ws.title))
+    (listing,) = (ws for ws in book.worksheets if re.match("[^R].* lines", ws.title))
+    told = {row[0].value: row[1].value for row in listing.iter_rows(min_row=3)}
+    for ws in (first, second):
+        assert all(told[cell.value] == f"column {cell.column_letter} of {ws.title}" for cell in ws[3])
+    assert len(first[3]) == 64 and first.max_row == second.max_row == 4 + len(names["x"])
 
 
 def test_position_of_the_greatest_of_cells_apart_from_each_other() -> None:

@@ -73,7 +73,7 @@ def test_two_inputs_with_requirements_make_a_scene_that_passes(sheet, tmp_path, 
 
 def test_one_input_gives_a_result_its_value(sheet):
     chosen, (told,) = asked_design.solve(asked(sheet, "--vary=F=0..2", "--need=p = 2.25"))
-    assert chosen["F"] == pytest.approx(1.0, abs=1e-12) and "roots by 97 samples 1" in told
+    assert chosen["F"] == pytest.approx(1.0, abs=1e-12) and "roots seen by 97 samples 1" in told
     chosen, _ = asked_design.solve(asked(sheet, "--vary=F=2..5", "--need=max w = 4"))
     assert chosen["F"] == pytest.approx(4.0, abs=1e-12)
 

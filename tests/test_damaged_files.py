@@ -5,8 +5,10 @@ from __future__ import annotations
 import io
 import random
 import re
+import time
 import zipfile
 from collections.abc import Callable
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -27,13 +29,18 @@ def exported() -> bytes:
 
 
 def changed(book: bytes, part: str, change: Callable[[str], str]) -> bytes:
-    """The workbook with a part of it changed."""
+    """The workbook with a part of it changed, and none compressed, which takes longer than to read it."""
     out = io.BytesIO()
-    with zipfile.ZipFile(io.BytesIO(book)) as old, zipfile.ZipFile(out, "w", zipfile.ZIP_DEFLATED) as new:
-        for name in old.namelist():
-            data = old.read(name)
+    with zipfile.ZipFile(out, "w") as new:
+        for name, data in parts(book).items():
             new.writestr(name, change(data.decode()).encode() if name == part else data)
     return out.getvalue()
+
+
+@cache
+def parts(book: bytes) -> dict[str, bytes]:
+    with zipfile.ZipFile(io.BytesIO(book)) as old:
+        return {name: old.read(name) for name in old.namelist()}
 
 
 def rows(text: str) -> Callable[[str], str]:
@@ -96,7 +103,7 @@ def test_a_damaged_workbook_is_one_line_or_what_is_left_of_it(exported: bytes, t
         data, at = bytearray(exported), chance.randrange(len(exported))
         data[at : at + 20] = chance.randbytes(20)
         damaged.append(bytes(data))
-    for part in zipfile.ZipFile(io.BytesIO(exported)).namelist():
+    for part in parts(exported):
         middle = f"{part}: cut"
         damaged.append(changed(exported, part, lambda text: text[: len(text) // 2]))
         damaged.append(changed(exported, part, lambda text, middle=middle: middle))
@@ -129,6 +136,15 @@ def test_entities_that_grow_without_end_are_refused_at_once(exported: bytes, tmp
         "<sheetData>", "<sheetData>&e12;"
     ))  # fmt: skip
     assert "damaged: " in answer(data, tmp_path / "scene.xlsx")
+
+
+def test_texts_without_end_are_refused_before_they_are_read(exported: bytes, tmp_path: Path) -> None:
+    """The texts of all sheets stand in one part, which is read as a whole: 3 million took a minute."""
+    texts = "<si><t>" + "a" * 10_000_000 + "</t></si>"
+    data = changed(exported, "xl/sharedStrings.xml", lambda part: part.replace("</sst>", texts + "</sst>"))
+    begun = time.process_time()
+    assert "xl/sharedStrings.xml has 10 MB, over 10: " in answer(data, tmp_path / "scene.xlsx")
+    assert time.process_time() - begun < 0.5
 
 
 def test_a_long_value_is_shortened_in_its_line(exported: bytes, tmp_path: Path) -> None:

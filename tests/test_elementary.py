@@ -12,6 +12,7 @@ import pytest
 import mechsheet
 from mechsheet.mechanics import crank, drive, equilibrium, joint, load, planar, prp, rpp, rpr, rrp, rrr
 from mechsheet.mechanics.load import Load
+from mechsheet.recording import elementary_joint
 from mechsheet.recording.elementary import GROUPS, STEPS
 from mechsheet.recording.graph import Graph
 from mechsheet.recording.node import Node
@@ -320,3 +321,19 @@ def parts(result: Any) -> dict[str, Any]:
         result = {"": result}
     arrays = {name: np.asarray(value) for name, value in result.items()}
     return {name: value for name, value in arrays.items() if value.dtype.kind in "fc"}
+
+
+def test_a_ring_of_uneven_bolts_is_none_where_it_has_no_equilibrium() -> None:
+    """Its texts too: they are compared like numbers."""
+    random, seen = np.random.default_rng(1), set[str]()
+    for _ in range(200):
+        phi = np.sort(random.uniform(0, 2 * np.pi, random.integers(2, 7)))
+        M, N, r = 10 * random.normal(), 30 * random.normal() * random.integers(0, 2), random.uniform(0.2, 2)
+        own = joint.circular_joint(r, phi, M, N)
+        with np.errstate(all="ignore"):
+            ring = elementary_joint.circular_joint(np.float64(r), phi, np.float64(M), np.float64(N))
+        for name in ("P", "p_0", "R", "M_R", "M_x", "c", "phi_0"):
+            assert np.array_equal(np.isnan(getattr(ring, name)), np.isnan(getattr(own, name))), name
+        assert ring.state == str(own.state)
+        seen.add(str(own.state))
+    assert len(seen) > 3

@@ -46,6 +46,13 @@ def test_every_export_has_its_worksheet() -> None:
     assert {path.stem for path in EXPORTS.glob("*.xlsx")} == {path.stem for path in WORKSHEETS}
 
 
+def test_checks_of_the_documents_look_at_all_positions() -> None:
+    """Tables list some; a check of these alone may pass where the worksheet's own fails; its name says so."""
+    for path in EXPORTS.glob("*.xlsx"):
+        rows = load_workbook(path, read_only=True)["Checks"].iter_rows(min_row=3, values_only=True)
+        assert not [row[0] for row in rows if "listed" in str(row[0])], path.name
+
+
 Content = str | float | None
 
 
@@ -220,7 +227,7 @@ def _compared(title: str, cells: Cells, at: tuple[int, int], limits: dict[str, f
     if row > (2 if _listing(cells) else 4):
         for sheet, begin, named, alike in KINDS:
             if re.match(sheet, title) and re.match(begin, head) and re.search(named, name):
-                of = {"Find": title, "Residuals fields": text(3, column)}.get(title, name)
+                of = text(3, column) if title.startswith("Residuals fields") else title if title == "Find" else name
                 return alike, limits.get(of, 0.0)
     return result, 0.0
 
@@ -399,10 +406,10 @@ def test_a_change_of_any_result_is_seen() -> None:
         ("accuracy", "1.1 Position of the hitch", "C6", {"written": times(11), "value": times(11)}),
         ("accuracy", "1.1 Position of the hitch", "D7", {"value": lambda x: x - 0.6}),
         ("accuracy", "1.1 Position of the hitch", "E6", {"written": None, "value": None}),
-        ("accuracy", "7.1 Digits in stiff and extreme", "G20", {"value": 15.1}),
-        ("accuracy", "7.1 Digits in stiff and extreme", "D20", {"value": times(1 + 1e-11)}),
+        ("accuracy", "7.1 Digits in stiff and extreme", "G29", {"value": 15.1}),
+        ("accuracy", "7.1 Digits in stiff and extreme", "D38", {"value": times(1 + 1e-11)}),
         ("accuracy", "7.5 Errors of random groups", "C5", {"value": times(11)}),
-        ("slotted_link", "3 Find", "H5", {"value": 911.0}),
+        ("slotted_link", "3 Find", "H5", {"value": times(10.02)}),
         ("slotted_link", "5 Find against fields", "E21", {"value": 2e-12}),
         ("accuracy", "7.6 Condition from end to end", "B5", {"value": times(1 + 1e-11)}),
         ("accuracy", "7.6 Condition from end to end", "D7", {"value": lambda x: x - 1.1}),
@@ -427,7 +434,7 @@ def test_a_changed_cell_is_seen(worksheet: str, sheet: str, place: str, change: 
         ("accuracy", "1.1 Position of the hitch", "G6", {"value": "slower, the same digits"}),
         ("accuracy", "7.1 Digits in stiff and extreme", "G5", {"value": 15.6}),  # both are all that a number holds
         ("accuracy", "7.5 Errors of random groups", "C5", {"value": times(3)}),
-        ("slotted_link", "3 Find", "H5", {"value": 104.0}),
+        ("slotted_link", "3 Find", "H5", {"value": times(8 / 7)}),
         ("slotted_link", "5 Find against fields", "E21", {"value": 9e-16}),
         ("accuracy", "7.6 Condition from end to end", "D7", {"value": lambda x: x - 0.9}),
     ],

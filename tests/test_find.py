@@ -619,12 +619,12 @@ def test_a_solved_block_says_its_value_residual_bracket_roots_and_evaluations(ro
         "lifting rod L4 = 0.661283 m",
         "0.2 m on branch -1",
         "0.661283 m (branch -1); 1.10473 m (branch +1)",
-        f"roots by {rod.samples} samples",
-        f"{rod.evaluations}",
+        f"roots seen by {rod.samples} samples",
+        f"{rod.evaluations} times",
     ):
         assert words in text
         assert words.replace("-1", "−1") in re.sub("<[^>]*>", "", page)
-    assert re.search(r"residual [\d.]+e-1[67] m, bracket [\d.]+e-1[67] m wide", text)
+    assert re.search(r"missed by [\d.]+e-1[67] m, value within [\d.]+e-1[67] m,", text)
     assert ">found<" in page
 
 

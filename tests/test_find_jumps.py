@@ -124,7 +124,7 @@ def test_what_stands_between_the_samples_is_not_denied():
     assert find(island, 0, 1, equals=0.5).reason.startswith("unknown x: f(x) is NaN at each of 97 samples in 0..1")
     many = find(lambda x: np.sin(1000 * x), 0, 1)
     assert 0 < len(many.roots) < 318
-    assert f"roots by {many.samples} samples" in str(many) and "all roots" not in str(many)
+    assert f"roots seen by {many.samples} samples" in str(many) and "all roots" not in str(many)
 
 
 def test_samples_are_the_places_that_were_looked_at():

@@ -47,6 +47,17 @@ IMPORT = "from mechsheet import typeset\n"
         ("sqrt(X6**2 + Y6**2)", r"\sqrt{X_{6}^{2} + Y_{6}^{2}}"),
         ('h["GS6_lim"]', r"{h}_{\text{GS6\_lim}}"),
         ("np.arctan2(y, x) + log10(x)", r"\operatorname{atan2}(y,\ x) + \operatorname{lg}(x)"),
+        ("math.pi*np.pi*x/numpy.e", r"\frac{\pi\,\pi\,x}{e}"),
+        ("math.sqrt(2*x) + np.inf", r"\sqrt{2\,x} + \infty"),
+        ("np.power(a, n) - math.pow(a, 2) + np.square(b)", r"a^{n} - a^{2} + b^{2}"),
+        ("float(math.fabs(x)) + np.real(z)", r"\left|x\right| + \operatorname{Re} z"),
+        ("np.deg2rad(x) + scipy.special.gamma(n)", r"\operatorname{deg2rad}(x) + \Gamma(n)"),
+        ("math.log(x, 10)", r"{\operatorname{log}}_{10}(x)"),
+        ("K_1.T @ x + drive.T", r"K_{1}^{\operatorname{T}}\,x + T(\text{drive})"),
+        ("g.T + g.motor.T", r"T + T_{\mathrm{motor}}"),
+        ("x[1:] - x[:-1]", r"{x}_{k \ge 1} - {x}_{\text{all but last}}"),
+        ("x[-1] + x[2:5] + x[-3:]", r"{x}_{\text{last}} + {x}_{2 \le k < 5} + {x}_{\text{last 3}}"),
+        ("np.array([width(v) for v in x])", r"\left[\operatorname{width}(v) \text{ for each } v \text{ of } x\right]"),
         ("log2(x) + expm1(x)", r"\operatorname{log2}(x) + \operatorname{expm1}(x)"),
         ("a - (b - c)", r"a - (b - c)"),
         ("a - (b + c)", r"a - (b + c)"),
@@ -341,7 +352,7 @@ def test_solve_block_of_several_unknowns_is_typeset_equation_by_equation():
     assert r"x = \operatorname{Find}(x) = 1.4142 m</span>" in text
     assert r"k = \operatorname{Minerr}(k) = 2.4 m" in text
     assert ">found</span>" in text and ">least squares</span>" in text
-    assert "solutions by 128 starts" in text and "x in 0..3; y in 0..3" in text
+    assert "solutions seen by 128 starts" in text and "x in 0..3; y in 0..3" in text
 
 
 @pytest.mark.parametrize(

@@ -34,10 +34,11 @@ from mechsheet.worksheet.table import Figure
 
 ROOT = Path(__file__).parents[1]
 CASES = "500;200|700;100|2500;400|3.5 kN;100|4;0"
+LOADS = "500000;13000;0|300000;-13000;0|400000;5000;100"
 SHEETS = {
     "hitch": {"P6": "30000,5", "N_pol": "12", "L5": "0.47", "side_67": "right"},
     "landing_gear": {"theta": "86"},
-    "joint": {"psi": "0.6"},
+    "joint": {"psi": "0.6", "loads": LOADS, "ring_loads": "2000000;-20000|1200000;25000|900000;1000"},
     "slotted_link": {"L0": "0.5"},
     "kinetostatics": {"Y_H": "0.2222"},
     "guide": {"F": "42", "r": "55"},

@@ -12,6 +12,7 @@ import pytest
 from openpyxl import load_workbook
 from own_worksheet import OTHER, own, recorded, value_of
 
+import mechsheet.recording.record as record_module
 from mechsheet.recording.dimensions import dimensions
 from mechsheet.recording.numbers import numbers
 from mechsheet.recording.quantity import Quantity
@@ -67,6 +68,18 @@ FOLLOWED = [
     "np.linalg.norm(x - 1, 1)", "np.linalg.norm(-x, np.inf)", "np.linalg.norm(np.outer(x, x), axis=1)",
     "np.median(np.outer(x, -x), axis=0)", "np.average(np.outer(x, x), axis=0, weights=x**2)",
     "(x > g.F).astype(int) * 2", "np.full(3, g.F)",
+    "np.cov(x, x**2)", "np.cov(np.column_stack([x, x**2]), rowvar=False, ddof=0)", "np.corrcoef(x, np.sin(x))",
+    "np.cov(x, bias=True)", "np.kron([1.0, g.F], [g.a, 2.0])", "np.kron([[1.0, g.F], [0, 1]], [[g.a, 2], [1, 3]])[2]",
+    "np.sinc(x - g.F)", "np.sinc(x - x[2])", "np.linalg.inv([[g.F, 1.0], [g.a, 3.0]])[1]",
+    "np.quantile(x, g.a / 2, axis=0)",
+    "np.percentile(np.outer(x, [1.0, g.F]), 30, axis=0)", "np.digitize(x, [3.0, 2.0, 1.0], right=True) * g.a",
+    "np.einsum('ii', [[1.0, g.F], [g.a, 2.0]])", "np.einsum('ii->i', [[1.0, g.F], [g.a, 2.0]])",
+    "np.gradient(x**2, x**1.5, edge_order=2)", "np.gradient(np.outer(x, [1.0, g.F]), g.a, axis=0)[:, 1]",
+    "np.linalg.norm([g.F, -g.a, 1.0], 3)", "np.linalg.norm([g.F, -g.a, 0], 0)", "np.linalg.norm(x, -np.inf)",
+    "np.linalg.norm([[g.F, -3.0], [g.a, 2]], np.inf)", "np.linalg.norm(np.outer(x, x), axis=1, keepdims=True)[:, 0]",
+    "np.convolve(x, [1.0, g.F], mode='same')", "np.convolve(x, [1.0, g.F], mode='valid')", "np.cumulative_sum(x)",
+    "np.polymul([g.F, 1.0], [g.a, 2.0])", "np.polysub([1.0, g.F, 2], [g.a, 2.0])", "np.fmod(-x, g.a + 0.01)",
+    "np.modf(-x)[0] + np.divmod(x, g.a + 0.01)[0]", "np.logaddexp(x, g.F)", "np.subtract.outer(x, [1.0, g.F])[:, 1]",
     "np.ones_like(x) * g.F", "np.radians(g.F) + np.degrees(g.a)", "x.T + x.real + x.imag",
 ]  # fmt: skip
 
@@ -95,6 +108,9 @@ def test_a_line_is_followed(expression: str, inside: bool, tmp_path: Path) -> No
         "def f(v):\n    from math import hypot, sqrt as root\n    return root(hypot(v, g.a))\ny = f(g.F)",
         "if True:\n    from math import exp as grow\ny = grow(g.F)",
         "def balance(x):\n    return 2 * x\ny = balance(x)",
+        "from scipy.integrate import simpson\ny = simpson(np.outer([1.0, g.F], x**3), x=x**1.5, axis=1)[1]",
+        "from scipy import integrate\ny = integrate.simpson(x[:4]**3, x=x[:4]) + integrate.trapezoid(x**2, dx=g.a)",
+        "import scipy.linalg as la\ny = la.solve([[g.F, 1.0], [g.a, 3.0]], [1.0, 2.0])",
     ],
 )
 def test_what_is_imported_or_defined_under_any_name_is_followed(lines: str, tmp_path: Path) -> None:
@@ -218,8 +234,9 @@ def test_a_greatest_number_at_a_listed_position_is_followed_to_others(tmp_path: 
     assert value_of(recording, "most", {"a": 1.3}) == pytest.approx(other["most"], rel=1e-12)
 
 
-def test_a_check_looks_at_all_positions_where_tables_list_some(tmp_path: Path) -> None:
+def test_a_check_looks_at_all_positions_where_tables_list_some(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """The limit is passed at the fourth of five positions alone, which no table lists; what takes more is told."""
+    monkeypatch.setattr(record_module, "_MORE", 400)
     lines = """from mechsheet import check
 y = x * (2.2 * g.a * g.F - x)  # [-] arch
 within = check("within", y, 1.6 * g.F), check("least", y.min(), 1.0)
@@ -387,11 +404,11 @@ rate = np.polyfit(x * m, x**2 * N, 1)[0]  # [N/m] slope"""
     [
         ("np.polyfit(x, x, 1, full=True)[0]", "numpy's polyfit with all that it tells"),
         ("np.linalg.lstsq(np.ones((2, 9)) * g.F, np.ones(2))[0]", "least squares of other than up to 8 unknowns"),
-        ("np.einsum('ii', np.array([[g.F, 1.0], [g.a, 2.0]]))", "numpy's einsum of 'ii'"),
+        ("np.einsum('...i,i', np.array([[g.F, 1.0], [g.a, 2.0]]), x[:2])", "numpy's einsum of '...i,i'"),
         ("np.linalg.eigvalsh(np.eye(4) * g.F)", "eigenvalues of a matrix of more than 3 rows"),
-        ("np.linalg.norm(np.eye(2) * g.F, 1)", "numpy's norm of the order 1"),
-        ("np.convolve(x, x, 'valid')", "numpy's convolve of the mode 'valid'"),
-        ("np.roots([1.0, -g.F, 0.1])", "numpy's roots"),
+        ("np.linalg.norm(np.eye(2) * g.F, 2)", "numpy's norm of the order 2 of a matrix"),
+        ("np.correlate(x, x)", "numpy's correlate"),
+        ("np.roots([1.0, -g.F, 0.1, 2.0]).real", "numpy's roots of other than one or two"),
     ],
 )
 def test_functions_of_arrays_that_are_not_followed_are_named(expression: str, reason: str, tmp_path: Path) -> None:
@@ -421,7 +438,7 @@ def test_what_python_saw_is_guarded(expression: str, same: dict[str, Any], other
 
 
 def test_iterations_to_convergence_are_repeated(tmp_path: Path) -> None:
-    """A reader takes as many turns as its inputs need; a workbook has those of now, while they are as many."""
+    """A reader takes as many turns as its inputs need; a workbook has twice as many as now and some more."""
     lines = "y = 1.0\nwhile abs(y * y - g.F) > 1e-9:\n    y = (y + g.F / y) / 2\nz = y * 1  # [-] root"
     sheet = own(tmp_path, lines)
     _, recording = recorded(sheet)
@@ -431,12 +448,28 @@ def test_iterations_to_convergence_are_repeated(tmp_path: Path) -> None:
     assert np.isnan(value_of(recording, "z", {"F": -2.0})), "it never ends"
     (node,) = [node for node in recording.graph.nodes.values() if node.op == "iterated"]
     (turns,) = node.args[2:]
-    known = {F: numbers([turns], {recording.inputs["F"]: F})[turns] for F in (2.5000001, 400.0)}
-    assert known[2.5000001] == pytest.approx(np.sqrt(2.5000001), rel=1e-9) and np.isnan(known[400.0])
+    known = {F: numbers([turns], {recording.inputs["F"]: F})[turns] for F in (2.5000001, 400.0, 1e30)}
+    assert known[2.5000001] == pytest.approx(np.sqrt(2.5000001), rel=1e-9)
+    assert known[400.0] == pytest.approx(20.0, rel=1e-9) and np.isnan(known[1e30])
+
+
+def test_roots_of_a_parabola_come_in_the_order_of_numpy(tmp_path: Path) -> None:
+    """While there are as many real ones; for others there is no number, and a guard says why."""
+    real = "y = np.roots([g.a, -g.F, 1.2])  # [-] roots\nz = np.roots([1.0, 0, -g.F])[0]  # [-] first"
+    _, recording = recorded(own(tmp_path, real))
+    for given in ({}, {"F": 3.25}, {"a": -0.2}, {"F": -2.4}):
+        own_values = cells.evaluate(tmp_path / "own.py", ["y", "z"], **given)
+        for name in ("y", "z") if given.get("F", 1) > 0 else "y":
+            np.testing.assert_allclose(value_of(recording, name, given), own_values[name], rtol=1e-12)
+    assert np.isnan(value_of(recording, "y", {"a": 2.0})).all() and recording.guards
+    _, recording = recorded(own(tmp_path, "y = np.roots([g.a, -g.F, 9.0])  # [-] roots"))
+    np.testing.assert_allclose(value_of(recording, "y", {"F": 3.0}), np.roots([0.75, -3.0, 9.0]), rtol=1e-12)
 
 
 NOT_FOLLOWED = [
     ("np.fft.fft(x).real", "fft"),
+    ("np.linalg.cond([[g.F, 1.0], [0.5, 3.0]])", "numpy's cond"),
+    ("np.roots([1.0, g.F, 2.0, -0.5])[2].real", "whose order"),
     ("np.array([np.float64(v) for v in x.tolist()])", "an array made of a quantity"),
     ("np.vectorize(math.gamma)(x)", ""),
 ]

@@ -26,10 +26,11 @@ TEMPLATE = (Path(launcher.__file__).parent / "run" / "new_worksheet.txt").read_t
 
 
 class Server:
-    """A server of two worksheets, one of which does not run."""
+    """A server of three worksheets, of which one does not run and one takes long."""
 
     def __init__(self, folder: Path, port: int) -> None:
         self.lever, self.broken, self.port = folder / "lever.py", folder / "broken.py", port
+        self.long = folder / "long.py"
         self.browser = urllib.request.build_opener(urllib.request.HTTPCookieProcessor(CookieJar()))
 
     def get(self, query: str = "") -> str:
@@ -54,7 +55,11 @@ def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Server]:
     made.lever.write_text(TEMPLATE.replace("TITLE", "A lever"), encoding="utf-8")
     made.broken.write_text(TEMPLATE.replace("TITLE", "Broken").replace("pi / 2", "pie / 2"), encoding="utf-8")
     assert "pie / 2" in made.broken.read_text(encoding="utf-8")
-    groups = [["Here", {str(made.lever): "A <lever>", str(made.broken): "Broken"}]]
+    measuring = TEMPLATE.replace("TITLE", "Long").replace(
+        "import linspace, pi, sin", "import linspace, pi, sin\n    from mechsheet import sweep"
+    )
+    made.long.write_text(measuring, encoding="utf-8")
+    groups = [["Here", {str(made.lever): "A <lever>", str(made.broken): "Broken", str(made.long): "Long"}]]
     environment = {
         **os.environ,
         "PYTHONPATH": installed(folder),
@@ -79,13 +84,22 @@ def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Server]:
 def test_each_worksheet_is_told_with_its_last_run(server: Server) -> None:
     assert "Worksheets</title>" not in server.get(), "the password is asked for first"
     first = server.get("?access_token=sesame")
-    assert "A &lt;lever&gt;" in first and first.count("not run yet") == 2
-    lever, broken = server.at_rest()
+    assert "A &lt;lever&gt;" in first and first.count("not run yet") == 3
+    lever, broken, _ = server.at_rest()
     assert f'href="?file={quote(str(server.lever))}"' in lever
     assert "<svg" in lever and 'class="PASS">' in lever and "checks pass" in lever
     assert "run 20" in lever and "changed" not in lever
     assert 'class="FAIL">it does not run: broken.py, line' in broken and "pie is not defined" in broken
     assert "lever.py" in server.get(f"?file={quote(str(server.lever))}"), "all else is marimo's"
+
+
+def test_what_searches_or_measures_is_run_once_someone_asks_for_it(server: Server) -> None:
+    server.get("?access_token=sesame")
+    *_, long = server.at_rest()
+    assert "not run yet</small>" in long and "for minutes</button>" in long
+    server.get(f"?verdicts&run={quote(str(server.long))}")
+    *_, long = server.at_rest()
+    assert "run 20" in long and 'class="PASS">' in long and "<button" not in long
 
 
 DRAWN = """
@@ -105,10 +119,10 @@ def test_a_verdict_of_before_a_change_says_so_until_the_worksheet_is_run_again(s
     server.at_rest()
     text = server.lever.read_text(encoding="utf-8")
     server.lever.write_text(text + "\n# one more line\n", encoding="utf-8")
-    lever, _ = server.at_rest()
+    lever, *_ = server.at_rest()
     assert "class=old" in lever and "before it or the package changed" in lever
     assert re.search("it (is being|waits to be) run", server.get())
-    lever, _ = server.at_rest()
+    lever, *_ = server.at_rest()
     assert "class=old" not in lever and "changed" not in lever
     server.lever.unlink()
     assert "its file is gone" in server.at_rest()[0]

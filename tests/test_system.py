@@ -188,7 +188,7 @@ def test_from_a_guess_the_value_is_where_it_leads_and_the_others_around_it_are_l
 
     assert np.allclose(found.value, (3.584428, -1.848127), atol=1e-6)
     assert len(found.solutions) > 1 and found.starts == 64
-    assert "solutions by 64 starts around the guess" in dict(found.details())
+    assert "solutions seen by 64 starts around the guess" in dict(found.details())
     alone = find(himmelblau, x=np.array([3.5]), y=-1.5)
     assert alone.value.x[0] == found.value.x, "what a problem gets does not depend on how it is asked"
 

@@ -70,6 +70,19 @@ def test_shows_its_page(lever, serve, page, console_errors):
     assert console_errors == []
 
 
+def test_the_style_comes_without_a_style_sheet_and_the_curve_is_smooth(lever, serve, page, console_errors):
+    bare = lever.with_name("bare_lever.py")
+    bare.write_text(lever.read_text(encoding="utf-8").replace(', css_file="page.css"', ""), encoding="utf-8")
+    page.goto(serve("run", bare))
+    page.get_by_text("2 of 2 checks pass").wait_for()
+    expect(page.locator(".ms-line").first).to_have_css("display", "flex")
+    expect(page.locator(".ms-PASS").first).to_have_css("background-color", "rgb(46, 125, 50)")
+    curve = page.locator("svg.ms-chart")
+    expect(curve.locator("circle")).to_have_count(7)
+    assert curve.locator("svg path[stroke-width='1.8']").get_attribute("d").count("L") >= 120
+    assert console_errors == []
+
+
 @pytest.mark.parametrize(
     ("options", "says"),
     [

@@ -11,10 +11,10 @@ with app.setup:
     import numpy as np
 
     from mechsheet import (
-        Check, Column, DigitsKept, SheetError, Table, Used, WorkPrecision, accuracy_jobs, ask, asked_costs,
-        batch_times, caption, claims_table, end_to_end, export, find, inputs, load, measured_on, measured_scenes,
-        neutral_axis, random_groups, read, refuse, sensitivity, study_costs, summary, sweep, time_spread, title_block,
-        tolerance, typeset, whole_worksheets,
+        Check, Column, DigitsKept, Judged, SheetError, Table, Used, WorkPrecision, accuracy_jobs, ask, asked_costs,
+        batch_times, caption, circular_joint, claims_table, end_to_end, export, find, inputs, load, measured_on,
+        measured_scenes, neutral_axis, random_groups, read, refuse, search, sensitivity, study_costs, summary, sweep,
+        time_spread, title_block, tolerance, typeset, whole_worksheets,
     )  # fmt: skip
 
     folder = Path(__file__).parent
@@ -47,22 +47,18 @@ def verdict(check_11, check_12, check_21, check_22, check_31, check_32, check_41
 def front(job_11, job_12, job_21, job_22, job_31, job_32, job_41, job_42):
     compared = (job_11, job_12, job_21, job_22, job_31, job_32, job_41, job_42)
     least = [min(row.error for row in job.rows) for job in compared]
-    alike = [
-        min(row.seconds for row in job.rows if "fewer" not in job.place(row)) / job.own.seconds for job in compared
-    ]
+    ratios = [[r.seconds / job.own.seconds for r in job.rows if "fewer" not in job.place(r)] for job in compared]
     better = [", ".join(f"{row.family} {row.setting}" for row in job.better) or "none" for job in compared]
     table_0 = Table(
         "0",
         "The product's own methods",
         (
-            Column("job", "", "", 0, np.array([f"{job.number} {job.title}" for job in compared], object)),
-            Column("own method", "", "", 0, np.array([job.own.family for job in compared], object)),
-            Column("digits", "-", "digits that are right", 1, np.array([job.own.digits for job in compared])),
+            Column("job", "", "", 0, [f"{job.number} {job.title}" for job in compared]),
+            Column("own method", "", "", 0, [job.own.family for job in compared]),
+            Column("digits", "-", "digits that are right", 1, [job.own.digits for job in compared]),
             Column("most", "-", "digits of the most accurate method", 1, -np.log10(least)),
-            Column("least time", "-", "of the methods of no fewer digits, times the own time", 3, np.array(alike)),
-            Column(
-                "faster and more accurate", "", "methods that leave the product's behind", 0, np.array(better, object)
-            ),
+            Column("least time", "-", "of the methods of no fewer digits, times the own time", 3, [*map(min, ratios)]),
+            Column("faster and more accurate", "", "methods that leave the product's behind", 0, better),
         ),
         "least time: the fastest method of no fewer digits, in times of the product's own.",
     )
@@ -291,7 +287,8 @@ def section_4():
     From the same pins and the weight of the implement, all ways compute the same six reactions. The dense system holds
     the 18 equations of the six bodies at each position; least squares add the equilibrium of the whole mechanism.
     The second comparison has the hitch at $S_p$, where the mast is upright and the printed formulas divide by its
-    horizontal part, which is nothing but rounding.
+    horizontal part, which is nothing but rounding. For a few positions one dense system is quicker than the library's
+    checked functions, for many it is not.
     """)
     return
 
@@ -310,16 +307,6 @@ def job_42(jobs, seconds):
     figure_42, table_42, check_42 = job_42.figure(), job_42.table(), job_42.check()
     typeset(figure_42, job_42.summary(), check_42)
     return check_42, figure_42, job_42, table_42
-
-
-@app.cell(hide_code=True)
-def section_43():
-    mo.md("""
-    ### Cost of a position
-
-    For a few positions one dense system is quicker than the library's checked functions, for many it is not.
-    """)
-    return
 
 
 @app.cell
@@ -360,24 +347,20 @@ def job_5(g, sizes):
 
 @app.cell
 def shown_5(rows_5):
-    time_5 = Column("time", "ms", "run time", 1, np.array([1e3 * row.seconds for row in rows_5]))
-    error_5 = Column(
-        "error", "-", "largest error of the results", 1, np.array([row.error for row in rows_5]), power=True
-    )
-    each_5 = np.array([1e6 * row.seconds / row.positions for row in rows_5])
-    names_5 = np.array([row.names for row in rows_5])
+    time_5 = Column("time", "ms", "run time", 1, [1e3 * row.seconds for row in rows_5])
+    error_5 = Column("error", "-", "largest error of the results", 1, [row.error for row in rows_5], power=True)
     table_5 = Table(
         "5",
         "Whole worksheets",
         (
-            Column("worksheet", "", "", 0, np.array([row.family for row in rows_5], object)),
-            Column("positions", "", "", 0, np.array([row.setting for row in rows_5], object)),
-            Column("names", "-", "numbers and checks, each over all positions", 0, names_5),
-            Column("cells", "-", "cells run", 0, np.array([row.cells for row in rows_5])),
+            Column("worksheet", "", "", 0, [row.family for row in rows_5]),
+            Column("positions", "", "", 0, [row.setting for row in rows_5]),
+            Column("names", "-", "numbers and checks, each over all positions", 0, [row.names for row in rows_5]),
+            Column("cells", "-", "cells run", 0, [row.cells for row in rows_5]),
             time_5,
-            Column("each", "µs", "time of a position", 1, each_5),
+            Column("each", "µs", "time of a position", 1, [1e6 * row.seconds / row.positions for row in rows_5]),
             error_5,
-            Column("digits", "-", "digits that are right", 1, np.array([row.digits for row in rows_5])),
+            Column("digits", "-", "digits that are right", 1, [row.digits for row in rows_5]),
             *time_spread(rows_5),
         ),
     )
@@ -449,99 +432,75 @@ def scenes(g):
 
 @app.cell
 def checks_of_scenes(outcomes_7):
-    def lost(outcomes):
-        return "; ".join(f"{o.scene} {o.case} {o.result}: {o.product:.1f} of {o.expected:.1f} digits" for o in outcomes)
+    def failing(name, says, told):
+        judged = [o for o in outcomes_7 if bool(o.wanted) is says]
+        wrong = [o for o in judged if not o.holds]
+        reason = "; ".join(told.format(o=o) for o in wrong[:3]) if judged else "there is nothing to check"
+        return Check(name, len(wrong) if judged else np.nan, 0, reason=reason)
 
-    def unsaid(outcomes):
-        return "; ".join(f"{o.scene} {o.case}: {o.wanted!r} is not said" for o in outcomes)
-
-    def failing(name, outcomes, reasons):
-        wrong = [o for o in outcomes if not o.holds]
-        if not outcomes:
-            return Check(name, np.nan, 0, reason="there is nothing to check")
-        return Check(name, len(wrong), 0, reason=reasons(wrong[:3]))
-
-    existing, impossible = ([o for o in outcomes_7 if bool(o.wanted) is says] for says in (False, True))
+    lost = "{o.scene} {o.case} {o.result}: {o.product:.1f} of {o.expected:.1f} digits"
     checks_7 = (
-        failing("results that lose more than a digit beyond their condition", existing, lost),
-        failing("scenes that cannot exist, and nobody says so", impossible, unsaid),
+        failing("results that lose more than a digit beyond their condition", False, lost),
+        failing("scenes that cannot exist, and nobody says so", True, "{o.scene} {o.case}: {o.wanted!r} is not said"),
     )
     typeset(*checks_7)
     return (checks_7,)
 
 
 @app.cell
-def table_71(scenes_7):
+def table_71(outcomes_7, scenes_7):
     shown = [scene for scene in scenes_7 if not scene.says]
     hardest = [scene.hardest for scene in shown]
-
-    def texts(values):
-        return np.array([*values], object)
-
-    def numbers(values):
-        return np.array([*values], float)
-
+    beyond = "digits kept less digits expected, the least of all results"
     table_71 = Table(
         "7.1",
         "Digits in stiff and extreme scenes",
         (
-            Column("scene", "", "file of the scene", 0, texts(s.words for s in shown)),
-            Column("results", "-", "results measured", 0, numbers(len(s.outcomes) for s in shown)),
-            Column("result", "", "where the printed formulas lose most", 0, texts(o.result for o in hardest)),
-            Column("log κ", "-", "logarithm of its condition number", 1, np.log10([o.condition for o in hardest])),
-            Column("expected", "-", "digits expected", 1, numbers(o.expected for o in hardest)),
-            Column("printed", "-", "digits kept by the printed formulas", 1, numbers(o.printed for o in hardest)),
-            Column("product", "-", "digits kept by the product", 1, numbers(o.product for o in hardest)),
+            Column("scene", "", "file of the scene", 0, [s.words for s in shown]),
+            Column("results", "-", "results measured", 0, [len(s.outcomes) for s in shown]),
             Column(
-                "margin",
-                "-",
-                "digits kept less digits expected, the least of all results",
-                1,
-                numbers(s.margin for s in shown),
+                "result",
+                "",
+                "where the printed formulas lose most, or the worst conditioned",
+                0,
+                [o.result for o in hardest],
             ),
+            Column("log κ", "-", "logarithm of its condition number", 1, [np.log10(o.condition) for o in hardest]),
+            Column("expected", "-", "digits expected", 1, [o.expected for o in hardest]),
+            Column("printed", "-", "digits kept by the printed formulas", 1, [o.printed for o in hardest]),
+            Column("product", "-", "digits kept by the product", 1, [o.product for o in hardest]),
+            Column("margin", "-", beyond, 1, [s.margin for s in shown]),
         ),
         note="A dash: the documents have no formula. The margin must not be less than -1.",
     )
-    table_71
-    return table_71, texts
+    figure_71 = DigitsKept(outcomes_7)
+    typeset(table_71, figure_71, caption("7.1", "Digits kept over digits expected, every result of every scene"))
+    return figure_71, table_71
 
 
 @app.cell
-def table_72(scenes_7, texts):
+def tables_of_scenes(outcomes_7, scenes_7):
     table_72 = Table(
         "7.2",
         "What the scenes are",
         (
-            Column("scene", "", "file of the scene", 0, texts(s.words for s in scenes_7)),
-            Column("through", "", "worksheet or group", 0, texts(s.job.replace("_", " ") for s in scenes_7)),
-            Column("what it is", "", "", 0, texts(s.about for s in scenes_7)),
+            Column("scene", "", "file of the scene", 0, [s.words for s in scenes_7]),
+            Column("through", "", "worksheet or group", 0, [s.job.replace("_", " ") for s in scenes_7]),
+            Column("what it is", "", "", 0, [s.about for s in scenes_7]),
         ),
     )
-    table_72
-    return (table_72,)
-
-
-@app.cell
-def figure_71(outcomes_7):
-    figure_71 = DigitsKept(outcomes_7)
-    typeset(figure_71, caption("7.1", "Digits kept over digits expected, every result of every scene"))
-    return (figure_71,)
-
-
-@app.cell
-def table_73(outcomes_7, texts):
     said = [o for o in outcomes_7 if o.wanted]
     table_73 = Table(
         "7.3",
         "What is said where nothing exists",
         (
-            Column("scene", "", "file of the scene", 0, texts(o.scene.replace("_", " ") for o in said)),
-            Column("input", "", "value of the input that varies", 0, texts(o.case for o in said)),
-            Column("words", "", "", 0, texts(o.words.split("; ")[0] for o in said)),
+            Column("scene", "", "file of the scene", 0, [o.scene.replace("_", " ") for o in said]),
+            Column("input", "", "value of the input that varies", 0, [o.case for o in said]),
+            Column("words", "", "", 0, [o.words.split("; ")[0] for o in said]),
         ),
     )
-    table_73
-    return (table_73,)
+    typeset(table_72, table_73)
+    return table_72, table_73
 
 
 @app.cell(hide_code=True)
@@ -579,15 +538,9 @@ def about_condition():
 @app.cell
 def table_75(g):
     table_75, check_75 = random_groups("7.5", 10_000 if g.full else 100)
-    typeset(table_75, check_75)
-    return check_75, table_75
-
-
-@app.cell
-def table_76():
     table_76, check_76 = end_to_end("7.6", folder / "hitch.py")
-    typeset(table_76, check_76)
-    return check_76, table_76
+    typeset(table_75, check_75, table_76, check_76)
+    return check_75, check_76, table_75, table_76
 
 
 @app.cell(hide_code=True)
@@ -606,20 +559,25 @@ def section_8():
 def job_8(g):
     sheet_8, B_8 = folder / "hitch.py", g.X_B - g.l_1 + 1j * g.Y_B
     tolerances, y_8 = {"L3": 1e-3, "L5": 1e-3}, np.linspace(-0.1, 0.1, 24)
-    moments, turn_8 = np.linspace(1e3, 1e5, 1000)[:, None], (-np.pi, np.pi)
+    moments, turn_8 = np.linspace(1e3, 1e5, 1000), (-np.pi, np.pi)
+    searched = partial(search, bounds={"L3": (0.2, 0.24), "L5": (0.46, 0.5)}, decimals={"L3": 3, "L5": 3}, seed=1)
 
     def loop(alpha, beta):
         gap = g.l_A * np.exp(1j * alpha) - B_8 - g.l_B * np.exp(1j * beta)
         return gap.real, gap.imag
 
+    def judge(variants):
+        swept = sweep(sheet_8, ["GS6"], variants)
+        return Judged(swept["GS6"].min(-1), (), swept.reasons)
+
     studies = {
-        "sweep: capacity for 1000 places of the centre of mass": partial(
-            sweep, sheet_8, ["GS6"], {"X6": np.linspace(0.7, 0.9, 1000)}
-        ),
+        "sweep: capacity for 1000 centres of mass": partial(sweep, sheet_8, ["GS6"], {"X6": 0.7 + moments / 5e5}),
+        "design: two links, 3 generations": partial(searched, judge, generations=3, members=10),
         "tolerances of two links: capacity at the corners": partial(tolerance, sheet_8, ["GS6"], tolerances),
         "tolerances of two links: 1000 drawn": partial(tolerance, sheet_8, ["GS6"], tolerances, "monte carlo", seed=1),
         "sensitivity of the capacity to every input": partial(sensitivity, sheet_8, ["GS6"]),
-        "neutral axis for 1000 moments": partial(neutral_axis, y_8, 2e-4 + 0 * y_8, 3e-4 + 0 * y_8, moments, -1e4),
+        "neutral axis for 1000 moments": partial(neutral_axis, y_8, 2e-4, 3e-4, moments[:, None], -1e4),
+        "circular joint of 24 bolts, 1000 moments": partial(circular_joint, 0.6, 10 * y_8, moments, 2e4),
         "two unknowns found": partial(find, loop, unknown_unit="deg", unit="m", alpha=turn_8, beta=turn_8),
     }
     table_8 = study_costs("8", sheet_8, studies, run_time(g))

@@ -145,6 +145,9 @@ def section_4():
     ## 4 A table and a chart
 
     `table` and `figure` take a number, a title and quantities; headings, units and decimals come from their lines.
+    While the worksheet runs, a curve is computed between the points of the table too, where it follows from the
+    quantity across. The pointer over a chart reads all its curves. A part that is dragged out over a chart fills it;
+    Ctrl and the wheel enlarge it too, and a double click shows the whole again. It is printed as it is seen.
 
     **Try** to add `ds(phi)` to the table: it is refused, for a column is a name with a line of its own. Add that line
     to section 3 and the name to the table.

@@ -71,8 +71,9 @@ def rpr(A: mpc, B: mpc, branch: int, e: mpf) -> tuple[mpc, mpf]:
 
 
 def lines(A: mpc, B: mpc, u_A: mpc, u_B: mpc) -> mpc:
-    """Crossing of the line through A along u_A with the line through B along u_B."""
-    return A + u_A * cross(B - A, u_B) / cross(u_A, u_B)
+    """Crossing of the line through A along u_A with the line through B along u_B; NaN of parallel ones."""
+    D = cross(u_A, u_B)
+    return A + u_A * cross(B - A, u_B) / D if D else mpc(nan, nan)
 
 
 def path(x: mpc, v: mpc, a: mpc) -> Callable[[mpf], mpc]:

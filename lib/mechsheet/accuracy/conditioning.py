@@ -6,10 +6,9 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
-from mpmath import mpf
 
 from mechsheet.accuracy import arithmetic, exact
-from mechsheet.accuracy.arithmetic import EPS, Numbers, mpc
+from mechsheet.accuracy.arithmetic import EPS, Numbers, mpc, mpf
 from mechsheet.accuracy.precision import largest_error
 from mechsheet.mechanics.planar import cross
 from mechsheet.mechanics.prp import prp
@@ -28,28 +27,36 @@ _WITHIN = 64  # roundings times the condition number that an error may be
 _QUANTILES = {"median": 0.5, "of 90 %": 0.9, "of 99 %": 0.99, "greatest": 1.0}
 
 
-class _Group(NamedTuple):
-    """What a group is given, which is a pair of real numbers for a point; its position, and the exact one."""
+class Group(NamedTuple):
+    """What a group is given; its position, and the exact one."""
 
     given: tuple[str, ...]
     found: Callable[..., Any]
     true: Callable[..., Any]
 
+    def exactly(self, **parts: Any) -> Numbers:
+        """The exact position C for real numbers: of a point or direction A its components A and Ay."""
+        return {"C": self.true(*self.arguments(mpc, {name: mpf(part) for name, part in parts.items()}))}
 
-_GROUPS = {
-    "RRR": _Group(
+    def arguments(self, complex_of: Callable[[Any, Any], Any], parts: Mapping[str, Any]) -> list[Any]:
+        """What is given, from its components."""
+        return [complex_of(parts[x], parts[f"{x}y"]) if f"{x}y" in parts else parts[x] for x in self.given]
+
+
+GROUPS = {
+    "RRR": Group(
         ("A", "B", "r_A", "r_B"),
         lambda A, B, r_A, r_B: rrr(A, B, r_A, r_B, 1),
         lambda A, B, r_A, r_B: arithmetic.rrr(A, B, r_A, r_B, 1),
     ),
-    "RRP": _Group(
+    "RRP": Group(
         ("A", "B", "u", "r_A", "e"),
         lambda A, B, u, r, e: rrp(A, B, u, r, 1, e),
         lambda A, B, u, r, e: arithmetic.rrp(A, B, u, r, 1, e),
     ),
-    "RPR": _Group(("A", "B", "f"), lambda A, B, f: rpr(A, B, 1, f).u, lambda A, B, f: arithmetic.rpr(A, B, 1, f)[0]),
-    "PRP": _Group(("A", "B", "u", "w"), prp, arithmetic.lines),
-    "RPP": _Group(("A", "B", "u", "w"), rpp, arithmetic.lines),
+    "RPR": Group(("A", "B", "f"), lambda A, B, f: rpr(A, B, 1, f).u, lambda A, B, f: arithmetic.rpr(A, B, 1, f)[0]),
+    "PRP": Group(("A", "B", "u", "w"), prp, arithmetic.lines),
+    "RPP": Group(("A", "B", "w", "u"), rpp, arithmetic.lines),
 }
 
 
@@ -63,19 +70,15 @@ def _drawn(count: int) -> dict[str, Any]:
     return {"A": A, "B": B, "r_A": r_A, "r_B": r_B, "u": u, "w": w, "e": cross(u, C - B), "f": cross(-a, A - B)}
 
 
-def _roundings(group: _Group, x: Mapping[str, Any], found: Any) -> float:
+def _roundings(group: Group, x: Mapping[str, Any], found: Any) -> float:
     """The error of one position in roundings times its condition number; NaN where the group does not close."""
-
-    def true(**parts: Any) -> Numbers:
-        points = (mpc(parts[name], parts[f"{name}y"]) if f"{name}y" in parts else parts[name] for name in group.given)
-        return {"C": group.true(*points)}
 
     parts = {name: float(np.real(x[name])) for name in group.given}
     parts |= {f"{name}y": float(np.imag(x[name])) for name in group.given if np.iscomplexobj(x[name])}
-    exactly = true(**{name: mpf(value) for name, value in parts.items()})["C"]
+    exactly = group.exactly(**parts)["C"]
     if not arithmetic.exist(exactly):
         return np.nan
-    condition = max(1.0, float(arithmetic.conditions(true, parts)["C"]))
+    condition = max(1.0, float(arithmetic.conditions(group.exactly, parts)["C"]))
     return arithmetic.relative_error(found, exactly) / (condition * EPS)
 
 
@@ -83,7 +86,7 @@ def _roundings(group: _Group, x: Mapping[str, Any], found: Any) -> float:
 def random_groups(number: str, count: int) -> tuple[Table, Check]:
     """Quantiles of the errors of so many random positions of each group, in roundings times their condition number."""
     drawn, errors = _drawn(count), dict[str, Any]()
-    for name, group in _GROUPS.items():
+    for name, group in GROUPS.items():
         found = group.found(*(drawn[key] for key in group.given))
         each = (_roundings(group, {key: x[k] for key, x in drawn.items()}, found[k]) for k in range(count))
         errors[name] = np.array([error for error in each if not np.isnan(error)])

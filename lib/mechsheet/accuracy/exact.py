@@ -240,6 +240,19 @@ def four_bar(a: Any, b: Any, c: Any, d: Any, theta: Any) -> Numbers:
     return {"C": C, "phi2": mp.arg(C - A), "phi3": mp.arg(C - B)}
 
 
+def ring(phi: Sequence[float], r: Any, M: Any, N: Any) -> Numbers:
+    """Bolt forces P at the angles phi, resultant R and greatest line load p_0 of a circular joint in part pressed."""
+    r, M, N = map(mpf, (r, M, N))
+    c, angles = N * r / (2 * M), [mpf(angle) for angle in phi]
+    edge = mp.acos(-c)
+    s, t = mp.sin(edge), mp.pi - edge
+    arc_N, arc_M = 2 * r * (c * t - s), 2 * r * (t / 2 - s * mp.cos(edge) / 2 - c * s)
+    stretched = [max(mp.cos(angle) + c, mpf(0)) for angle in angles]
+    bolt_N, bolt_M = mp.fsum(stretched), mp.fdot(stretched, map(mp.cos, angles))
+    k_t, k_c = mp.lu_solve(mp.matrix([[bolt_N, arc_N], [bolt_M, arc_M]]), mp.matrix([N, M / r]))
+    return {"P": [k_t * q for q in stretched], "R": k_c * arc_N, "p_0": k_c * (c - 1), "y_0": -c * r}
+
+
 def numbers(g: Any) -> dict[str, Any]:
     """Inputs that are numbers; the sides on which a mechanism is assembled are none, and here those of the document."""
     return {name: value for name, value in vars(g).items() if not isinstance(value, str | Chosen)}

@@ -12,7 +12,7 @@ table ``[extreme]``:
 
 ===========  ======================================================================================================
 ``about``    what the scene is, in words
-``job``      which job of `JOBS` it is run through: a worksheet's name, ``dyad`` or ``through_dead_centre``
+``job``      which job of `JOBS` it is run through: a worksheet's name, a group's, ``ring`` or ``through_dead_centre``
 ``over``     the inputs that take one ``values`` after the other, all the same; left out where there is one case
 ``values``   these values, in display units
 ``at``       the position of the table that is measured: 0 is the first, -1 the last
@@ -32,7 +32,10 @@ import numpy as np
 
 from mechsheet.accuracy import arithmetic, exact, printed, rivals
 from mechsheet.accuracy.arithmetic import Numbers, mpc, mpf
+from mechsheet.accuracy.conditioning import GROUPS
+from mechsheet.accuracy.jobs import TRUTHS
 from mechsheet.document.error_chart import FULL, SPARE
+from mechsheet.mechanics.joint import circular_joint
 from mechsheet.mechanics.load import Load
 from mechsheet.mechanics.planar import angle
 from mechsheet.mechanics.rrr import RRRGroup, rrr_reach
@@ -119,9 +122,9 @@ class MeasuredScene(Scene):
 
     @property
     def hardest(self) -> Outcome:
-        """The result whose printed formula loses most beyond its condition, or the product where none is printed."""
+        """The result whose printed formula loses most beyond its condition; else that of the greatest one."""
         told = [o for o in self.outcomes if o.expected > SPARE and np.isfinite(o.condition)]
-        return max(told, key=lambda o: (o.expected - o.printed if np.isfinite(o.printed) else -99, -o.product))
+        return max(told, key=lambda o: (o.expected - o.printed if np.isfinite(o.printed) else -99, o.condition))
 
 
 def scenes() -> list[Scene]:
@@ -249,17 +252,18 @@ def hitch(worksheets: Path, given: Mapping[str, Any], at: int = -1) -> Case:
     )
 
 
-def landing_gear(worksheets: Path, given: Mapping[str, Any], at: int = -1) -> Case:
-    """The landing gear worksheet."""
-    sheet, g = _worksheet(worksheets / "landing_gear.py", given)
-    names = sheet.run(["l2i"], {"g": g})
-    l2 = float(names["l2i"][at])
+def document(stem: str, worksheets: Path, given: Mapping[str, Any], at: int = -1) -> Case:
+    """A worksheet at one of its positions, which counts as an input of what follows."""
+    sheet, g = _worksheet(worksheets / f"{stem}.py", given)
+    field, truth, _ = TRUTHS[stem]
+    names = sheet.run([field], {"g": g})
+    position = float(names[field][at])
     return Case(
         words="",
-        true=lambda l2, **g: exact.landing_gear(SimpleNamespace(**g), l2),
-        x={"l2": l2, **vars(g)},
+        true=lambda position, **g: truth(SimpleNamespace(**g), position),
+        x={"position": position, **exact.numbers(g)},
         product=lambda true: _row(sheet.run(true, names), true, at),
-        printed=lambda _: printed.landing_gear(g, l2),
+        printed=lambda _: printed.landing_gear(g, position) if stem == "landing_gear" else {},
     )
 
 
@@ -311,6 +315,26 @@ def dyad(_worksheets: Path, given: Mapping[str, Any], _at: int = -1) -> Case:
     )
 
 
+def group(name: str, _worksheets: Path, given: Mapping[str, Any], _at: int = -1) -> Case:
+    """Position of one of the groups of `GROUPS` by the library; the inputs are what it is given, by components."""
+    own, x = GROUPS[name], {part: float(value) for part, value in given.items()}
+    found = own.found(*own.arguments(complex, x))
+    return Case("", own.exactly, x, lambda _: {"C": found}, lambda _: {})
+
+
+def ring(_worksheets: Path, given: Mapping[str, Any], _at: int = -1) -> Case:
+    """Circular joint of 24 even bolts by the library. Inputs: its radius r, moment M, normal force N."""
+    phi = 2 * np.pi * np.arange(24) / 24
+    found = circular_joint(phi=phi, **given)
+    return Case(
+        words="",
+        true=lambda **x: exact.ring(phi.tolist(), **x),
+        x=given,
+        product=lambda true: {name: getattr(found, name) for name in true},
+        printed=lambda _: {},
+    )
+
+
 def through_dead_centre(_worksheets: Path, given: Mapping[str, Any], _at: int = -1) -> Case:
     """Four-bar linkage whose crank passes a near-dead centre of coupler and rocker.
 
@@ -339,8 +363,10 @@ def through_dead_centre(_worksheets: Path, given: Mapping[str, Any], _at: int = 
 
 JOBS: Mapping[str, Callable[[Path, Mapping[str, Any], int], Case]] = {
     "hitch": hitch,
-    "landing_gear": landing_gear,
+    **{stem: partial(document, stem) for stem in ("landing_gear", "slotted_link", "kinetostatics")},
     "joint": joint,
+    "ring": ring,
     "dyad": dyad,
+    **{name: partial(group, name) for name in GROUPS},
     "through_dead_centre": through_dead_centre,
 }

@@ -20,6 +20,7 @@ from mechsheet.recording.slopes import slopes
 from mechsheet.run import report
 from mechsheet.run.progress import progress
 from mechsheet.run.proving import proof_of
+from mechsheet.worksheet import shown
 from mechsheet.worksheet.cells import Worksheet, load, results
 from mechsheet.worksheet.lines import registry
 from mechsheet.worksheet.table import Column, Table
@@ -159,7 +160,7 @@ def _field(stem: str, sheet: Worksheet, n: int) -> dict[str, Any]:
 
 
 # The field of positions, the truth at one of them, and the results that are compared: all, where none are named.
-_TRUTHS: dict[str, tuple[str, Callable[[Any, Any], Numbers], Sequence[str]]] = {
+TRUTHS: dict[str, tuple[str, Callable[[Any, Any], Numbers], Sequence[str]]] = {
     "hitch": ("S", exact.hitch, ()),
     "landing_gear": ("l2i", exact.landing_gear, ("Ai", "omega3_l2i", "eps3_l2i", "F_c")),
     "slotted_link": ("phi1_k", exact.slotted_link, ()),
@@ -173,7 +174,7 @@ def exact_results(stem: str, names: Mapping[str, Any], rows: Iterable[int]) -> N
         g = names["g"]
         cases = ((plane, case) for plane in (1, 2) for case in range(len(g.loads.M)))
         return {"P": [force for at in cases for force in exact.joint(g, exact.factors(g), *at)["P"]]}
-    field, truth, compared = _TRUTHS[stem]
+    field, truth, compared = TRUTHS[stem]
     at = [truth(names["g"], float(names[field][i])) for i in rows]
     return {name: [p[name] for p in at] for name in compared or at[0].keys() & names.keys()}
 
@@ -191,16 +192,16 @@ def _error(stem: str, names: Mapping[str, Any], n: int) -> float:
 
 def whole_worksheets(folder: Path, sizes: Sequence[int], seconds: float) -> list[Whole]:
     """The worksheets of a folder with all their numbers and checks, each at several numbers of positions."""
-    sheets = {stem: load(folder / f"{stem}.py") for stem in (*_TRUTHS, "joint")}
+    sheets = {stem: load(folder / f"{stem}.py") for stem in (*TRUTHS, "joint")}
     wanted = {stem: _numbers_of(sheet) for stem, sheet in sheets.items()}
-    cases = [(stem, n) for stem in sheets for n in (sizes if stem in _TRUTHS else (1,))]
+    cases = [(stem, n) for stem in sheets for n in (sizes if stem in TRUTHS else (1,))]
     given = [_field(stem, sheets[stem], n) for stem, n in cases]
     runs = [lambda s=s, g=g: sheets[s].run(wanted[s], g) for (s, _), g in zip(cases, given, strict=True)]
     with progress(len(cases), "5 Whole worksheets") as done:
         made = timed(runs, seconds, done)
 
     def whole(stem: str, n: int, t: Timed) -> Whole:
-        setting, cells = str(n) if stem in _TRUTHS else "load cases", sheets[stem].needed(wanted[stem], ["g"])
+        setting, cells = str(n) if stem in TRUTHS else "load cases", sheets[stem].needed(wanted[stem], ["g"])
         taken = t.seconds, t.low, t.high, t.runs
         counts = {"positions": n, "names": len(wanted[stem]), "cells": len(cells)}
         return Whole(stem, setting, _error(stem, t.result, n), *taken, **counts)
@@ -233,6 +234,11 @@ def study_costs(number: str, path: Path, studies: Mapping[str, Callable[[], Any]
     recording = record(names, sheet)
     inputs = [node for node in recording.inputs.values() if node.size == 1 and node.value.dtype.kind == "f"]
     columns = [part for table in recording.tables.values() for c in table if c is not None for part in c.parts]
+
+    def refreshed() -> list[tuple[str, str]]:
+        values = sheet.run(sheet.results, given).values()
+        return [shown.page().written(value) for value in values if isinstance(value, shown.Shown)]
+
     ways: dict[str, Callable[[], Any]] = {
         "a run of the worksheet's cells": partial(sheet.run, sheet.results, given),
         "the run recorded": partial(record, names, sheet),
@@ -244,6 +250,7 @@ def study_costs(number: str, path: Path, studies: Mapping[str, Callable[[], Any]
         f"one number's slopes by all {len(inputs)} inputs": partial(gradient, columns[-1], 0, inputs),
         "all their digits proved": partial(proof_of, names, sheet, recording),
         "its workbook written": partial(report.workbook, path.stem, names, {}),
+        "its page refreshed: a run, and all that it shows drawn": refreshed,
         **studies,
     }
     study = Column("study", "", "", 0, np.array(list(ways), object))

@@ -4,7 +4,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import groupby
 from math import isfinite
-from typing import Protocol
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -123,6 +123,7 @@ class Chart:
     scale: float  # of it, SI units a pixel
     readings: tuple[Reading, ...]
     axes: tuple[Axis, Axis]  # across and up, in the units of the first quantities on them
+    axis_units: tuple[str, str]
 
 
 @dataclass(frozen=True)
@@ -132,6 +133,12 @@ class Ticks:
     at: tuple[float, ...]
     texts: tuple[str, ...]
     unit: str
+    axis: dict[str, Any]
+
+
+def told(of: Axis, unit: str, power: int, factor: float = 1.0) -> dict[str, Any]:
+    """What a page must know of an axis in a unit to show a part of it; ``factor`` of these are one of its own unit."""
+    return {"low": of.low * factor, "high": of.high * factor, "power": power, "unit": unit, "factor": factor}
 
 
 def ticks(chart: Chart, up: bool, unit: str, other: str) -> Ticks:
@@ -143,7 +150,8 @@ def ticks(chart: Chart, up: bool, unit: str, other: str) -> Ticks:
     length = chart.plot.height if up else chart.plot.width
     parts = [(t - ends[0]) / (ends[1] - ends[0]) * length for t in inside]
     places = [length - part for part in parts] if up else parts
-    return Ticks(tuple(round(u, 1) for u in places), tuple(map(made.text, inside)), _unit(other, made.power))
+    rounded, texts = tuple(round(u, 1) for u in places), tuple(map(made.text, inside))
+    return Ticks(rounded, texts, _unit(other, made.power), told(own, other, made.power, factor))
 
 
 def line_chart(x: Plotted, lines: Sequence[Plotted], marks: Sequence[tuple[str, float]] = (), every: int = 1) -> Chart:
@@ -187,6 +195,7 @@ def line_chart(x: Plotted, lines: Sequence[Plotted], marks: Sequence[tuple[str, 
         factor / k_x,
         tuple(map(_reading, [x, *lines])),
         (across, up),
+        (x.unit, lines[0].unit),
     )
 
 

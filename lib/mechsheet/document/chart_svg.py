@@ -11,7 +11,7 @@ from operator import itemgetter
 import numpy as np
 from numpy.typing import NDArray
 
-from mechsheet.document.chart import Chart, Curve, Label, Mark, Sample, Stroke
+from mechsheet.document.chart import Chart, Curve, Label, Mark, Sample, Stroke, told
 from mechsheet.document.markup import named
 from mechsheet.worksheet.symbol import Symbol
 
@@ -111,12 +111,13 @@ def _symbol(name: Symbol) -> str:
 
 
 def _values(chart: Chart) -> str:
-    """What hovering shows: places [px of the picture], and texts of the quantities there."""
+    """What the pointer shows: places [px of the picture], texts of the quantities there, and the axes."""
     left = chart.plot.left
     values = {
         "at": [round(left + u, 1) if isfinite(u) else None for u in chart.curves[0].x.tolist()],
         "names": [named(reading.name) for reading in chart.readings],
         "units": [reading.unit for reading in chart.readings],
         "texts": [reading.texts for reading in chart.readings],
+        "axes": [told(axis, unit, axis.power) for axis, unit in zip(chart.axes, chart.axis_units, strict=True)],
     }
     return escape(json.dumps(values, ensure_ascii=False, separators=(",", ":")))

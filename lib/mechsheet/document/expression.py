@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping
 from functools import lru_cache
 from typing import Any
 
+from mechsheet.document import names
 from mechsheet.document.constant import measured
 from mechsheet.document.formula import (
     POWER,
@@ -42,14 +43,14 @@ from mechsheet.document.formula import (
     strength,
 )
 from mechsheet.worksheet.lines import Formula, Given
-from mechsheet.worksheet.symbol import GREEK, Symbol, is_field, read, stem
+from mechsheet.worksheet.symbol import Symbol, is_field, read
 
 
 @lru_cache(maxsize=4096)
 def left(line: Formula, single: frozenset[str] = frozenset()) -> Node:
     """Left side of a line: its symbol, of a function with its arguments; ``single`` are no fields."""
-    symbol = read(line.name) if line.name in single else _name(line.name)
-    return Apply(symbol, Brackets(tuple(map(_name, line.arguments)), close=True)) if line.arguments else symbol
+    symbol = read(line.name) if line.name in single else names.symbol(line.name)
+    return Apply(symbol, Brackets(tuple(map(names.symbol, line.arguments)), close=True)) if line.arguments else symbol
 
 
 @lru_cache(maxsize=4096)
@@ -75,7 +76,7 @@ def equation(line: Formula | Given, single: frozenset[str] = frozenset()) -> Nod
     if node is None:
         return left(line, single)
     own = (tree(measured(value, line.constants), single=single) for _, value in line.where)
-    where = tuple(Binary(_name(name), "=", value) for (name, _), value in zip(line.where, own, strict=True))
+    where = tuple(Binary(names.symbol(name), "=", value) for (name, _), value in zip(line.where, own, strict=True))
     whole = Binary(left(line, single), "=", node)
     return Row((whole, Text("where"), *where)) if where else whole
 
@@ -108,16 +109,9 @@ def tree(node: ast.expr, numbers: Mapping[str, Measure] | None = None, single: f
     return _Reader(numbers or {}, single).read(node)
 
 
-_FUNCTIONS = {
-    "asin": "arcsin", "acos": "arccos", "atan": "arctan", "angle": "arg", "log": "ln", "maximum": "max",
-    "nanmax": "max", "minimum": "min", "nanmin": "min", "arctan2": "atan2", "log10": "lg",
-}  # fmt: skip
-_KNOWN = {"sin", "cos", "tan", "exp", "max", "min", "sum", "log2", "log1p", "expm1", *_FUNCTIONS}
 _ANGULAR = ("sin", "cos", "tan")
 _COMPARISONS = {ast.Lt: "<", ast.LtE: "≤", ast.Gt: ">", ast.GtE: "≥", ast.Eq: "=", ast.NotEq: "≠"}
 _OVER = ("max", "min", "sum", "amax", "amin", "nanmax", "nanmin")  # with an axis
-_RATES = {"ds": Symbol("s", mark="."), "dds": Symbol("s", mark="..")}  # which the rule for names does not know
-_SYMBOL = re.compile(rf"([A-Z]+|d?({'|'.join(GREEK)}))(_|$)")  # VC, eps_BC, dbeta
 
 
 class _Reader:
@@ -127,6 +121,7 @@ class _Reader:
         self.numbers, self.single = numbers, single
 
     def read(self, node: ast.expr) -> Node:
+        node = names.bare(node)
         kind = type(node)
         if self.numbers and kind in (ast.Name, ast.Attribute) and (number := self.numbers.get(_read_as(node))):
             return number
@@ -139,7 +134,7 @@ class _Reader:
         return part if strength(part) >= least else Brackets((part,))
 
     def name(self, node: ast.Name) -> Node:
-        return read(node.id) if node.id in self.single else _name(node.id)
+        return read(node.id) if node.id in self.single else names.symbol(node.id)
 
     def constant(self, node: ast.Constant) -> Node:
         match node.value:
@@ -154,24 +149,28 @@ class _Reader:
         return Text(str(node.value))
 
     def attribute(self, node: ast.Attribute) -> Node | None:
+        if number := names.constant(node):
+            return number
         match node:
             case ast.Attribute(ast.Name("g"), name):
                 return read(name)
             case ast.Attribute(ast.Attribute(ast.Name("g"), name), part):  # a property or a column of an input
-                return _name(f"{part}_{name}")
+                return names.symbol(f"{part}_{name}")
             case ast.Attribute(inner, ("real" | "imag") as part):
                 return Prefix(Function("Re" if part == "real" else "Im"), self.least(inner, WHOLE), PRODUCT)
             case ast.Attribute(ast.Name(name), "value") if name.endswith("_found"):
-                return Apply(Function("Find"), Brackets((_name(name.removesuffix("_found")),)))
+                return Apply(Function("Find"), Brackets((names.symbol(name.removesuffix("_found")),)))
             case ast.Attribute(ast.Attribute(ast.Name(name), "value"), unknown):  # one of several
                 ending = next((end for end in _SOLVED if name.endswith(end)), None)
-                return Apply(Function(_SOLVED[ending]), Brackets((_name(unknown),))) if ending else None
+                return Apply(Function(_SOLVED[ending]), Brackets((names.symbol(unknown),))) if ending else None
             case ast.Attribute(ast.Name(name), "value"):  # of a slider or field of the page
-                return _name(name)
+                return names.symbol(name)
+            case ast.Attribute(ast.Name(name), "T") if re.fullmatch(r"[A-Z](_\w+)?", name):  # a matrix
+                return Power(names.symbol(name), Function("T"))
             case ast.Attribute(ast.Name(name), part):  # a result of several parts
-                return Apply(_part(part), Brackets((Text(name.replace("_", " ")),)))
+                return Apply(names.part(part), Brackets((Text(name.replace("_", " ")),)))
             case ast.Attribute(ast.Call() as inner, part):
-                return Apply(_part(part), Brackets((self.read(inner),), "[]", high=True))
+                return Apply(names.part(part), Brackets((self.read(inner),), "[]", high=True))
         return None
 
     def unary(self, node: ast.UnaryOp) -> Node | None:
@@ -265,6 +264,8 @@ class _Reader:
         return Element(value, picked[0] if len(picked) == 1 else Brackets(tuple(picked)))
 
     def place(self, key: ast.expr) -> Node:
+        if words := names.place(key):
+            return words
         match key:
             case ast.Slice(None, ast.expr() as stop, None) if not isinstance(stop, ast.UnaryOp):
                 return Binary(Symbol("k"), "<", self.least(stop, SUM))
@@ -281,6 +282,14 @@ class _Reader:
             return Matrix(tuple(Row(tuple(map(self.read, row))) for row in rows))
         return Brackets(tuple(map(self.read, node.elts)), "[]" if isinstance(node, ast.List) else "()", high=True)
 
+    def each(self, node: ast.ListComp | ast.GeneratorExp) -> Node | None:
+        """What is computed for each element of something."""
+        match node.generators:
+            case [ast.comprehension(ast.Name() as index, source, [])]:
+                of = Prefix(self.read(index), Prefix(Text(" of "), self.read(source)), RELATION)
+                return Brackets((Prefix(self.read(node.elt), Prefix(Text(" for each "), of)),), "[]", high=True)
+        return None
+
     def brackets(self, args: list[ast.expr]) -> Brackets:
         return Brackets(tuple(map(self.read, args)))
 
@@ -288,16 +297,14 @@ class _Reader:
         match node:
             case ast.Call(ast.Name("sum") | ast.Attribute(_, "sum"), [ast.GeneratorExp() | ast.ListComp() as terms]):
                 return self.sum(terms)
-            case ast.Call(ast.Name(name) | ast.Attribute(ast.Name("np"), name), [x], [ast.keyword("axis", axis)]):
+            case ast.Call(ast.Name(name), [x], [ast.keyword("axis", axis)]):
                 if name in _OVER:
-                    over = Element(Function(_FUNCTIONS.get(name, name)), Text(f"axis {ast.unparse(axis)}"))
+                    over = Element(Function(names.FUNCTIONS.get(name, name)), Text(f"axis {ast.unparse(axis)}"))
                     return Apply(over, self.brackets([x]))
                 return self.function(name, [x])
             case ast.Call(ast.Name(name), args, keywords):
                 given = [*args, *(k.value for k in keywords)]
                 return self.function(name, [a for a in given if not (isinstance(a, ast.Name) and a.id == "branch")])
-            case ast.Call(ast.Attribute(ast.Name("np"), name), args):
-                return self.function(name, args)
             case ast.Call(ast.Attribute(ast.Attribute(ast.Name("np"), "linalg"), "solve"), [A, b]):
                 return Product(Power(self.least(A, WHOLE), Number(-1)), self.least(b, PRODUCT))
             case ast.Call(ast.Attribute(ast.Attribute(ast.Name("np"), "linalg"), "inv"), [A]):
@@ -331,6 +338,8 @@ class _Reader:
                 return Root(first)
             case "abs", [x]:
                 return Brackets((self.read(x),), "||", high=True)
+            case "log", [x, base]:
+                return Apply(Element(Function("log"), self.read(base)), self.brackets([x]))
             case "conj", [x]:
                 return Overline(self.read(x))
             case "exp", [x]:
@@ -360,11 +369,11 @@ class _Reader:
                 for condition, x in zip(reversed(conditions), reversed(values), strict=True):
                     chosen = Cases(self.read(x), self.read(condition), chosen)
                 return chosen
-            case "array" | "asarray", [ast.List() | ast.Tuple() as rows]:
-                return self.listed(rows)
+            case "array" | "asarray", [ast.List() | ast.Tuple() | ast.ListComp() as rows]:
+                return self.read(rows)
             case "atan2", [y, x]:
                 return Apply(Function(name), self.brackets([y, x]))
-        return _applied(_function(name), self.brackets(args))
+        return _applied(names.function(name), self.brackets(args))
 
     def before(self, stop: ast.expr) -> Node:
         """The last whole number before ``stop``."""
@@ -380,27 +389,9 @@ _RULES: dict[type[ast.expr], Callable[[_Reader, Any], Node | None]] = {
     ast.Name: _Reader.name, ast.Constant: _Reader.constant, ast.Attribute: _Reader.attribute,
     ast.UnaryOp: _Reader.unary, ast.BinOp: _Reader.binary, ast.Compare: _Reader.compare, ast.Call: _Reader.call,
     ast.Subscript: _Reader.subscript, ast.Starred: _Reader.starred, ast.List: _Reader.listed,
-    ast.Tuple: _Reader.listed, ast.IfExp: _Reader.choice, ast.BoolOp: _Reader.boolean,
+    ast.ListComp: _Reader.each, ast.GeneratorExp: _Reader.each, ast.Tuple: _Reader.listed,
+    ast.IfExp: _Reader.choice, ast.BoolOp: _Reader.boolean,
 }  # fmt: skip
-
-
-@lru_cache(maxsize=4096)
-def _name(name: str) -> Node:
-    """Symbol of a name; a field is a function of S."""
-    symbol = read(stem(name))
-    return Apply(symbol, Brackets((Symbol("S"),))) if is_field(name) else symbol
-
-
-@lru_cache(maxsize=1024)
-def _function(name: str) -> Node:
-    """A function of the field, one with a symbol of its own, or one in words."""
-    if name in _KNOWN:
-        return Function(_FUNCTIONS.get(name, name))
-    word = re.fullmatch(r"[a-z]{3,}(_\w*)?", name) and not re.match(f"d?({'|'.join(GREEK)})", name)
-    is_symbol = (
-        len(name) == 1 or re.fullmatch("d[a-z]", name) or (not word and (re.search(r"\d", name) or _SYMBOL.match(name)))
-    )
-    return _name(name) if is_symbol else Function(name.replace("_", " "))
 
 
 def _applied(function: Node, arguments: Brackets) -> Node:
@@ -430,12 +421,6 @@ def _without_minus(node: ast.expr) -> ast.expr | None:
         case ast.BinOp(left, (ast.Mult() | ast.Div()) as op, right) if positive := _without_minus(left):
             return ast.BinOp(positive, op, right)
     return None
-
-
-def _part(name: str) -> Node:
-    """Part of a result: its symbol, or its name in words."""
-    words = re.fullmatch(r"[a-z]{3,}(_[a-z]{3,})*", name) and not re.match("|".join(GREEK), name)
-    return _RATES.get(name) or (Function(name.replace("_", " ")) if words else _name(name))
 
 
 def _read_as(node: ast.AST) -> str:

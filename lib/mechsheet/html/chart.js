@@ -25,7 +25,7 @@ function axisOf(arrays, unit, count = 6) {
   axis.power = largest >= 1e-2 && largest < 1e5 ? 0 : 3 * Math.floor(Math.log10(largest) / 3);
   const [from, to] = [axis.low, axis.high].map(end => Math.round(end / step));
   axis.ticks = Array.from({length: to - from + 1}, (_, i) => (from + i) * step);
-  axis.text = tick => fixed(tick / 10 ** axis.power, Math.max(0, places + axis.power), AXIS);
+  axis.text = (tick, power = axis.power) => fixed(tick / 10 ** power, Math.max(0, places + power), AXIS);
   return axis;
 }
 

@@ -14,8 +14,10 @@ from mechsheet.document.expression import reads
 from mechsheet.document.markup import HTML, in_words, named
 from mechsheet.document.parts import Line, Text
 from mechsheet.html import mathml, offered, sketched, wording
+from mechsheet.html.javascript import otherwise
 from mechsheet.html.put_in import Read, put_in
 from mechsheet.recording import showing
+from mechsheet.recording.graph import Guard
 from mechsheet.recording.lines import SLIDER, Recording
 from mechsheet.recording.node import Node, bottom_up
 from mechsheet.recording.quantity import Quantity
@@ -96,8 +98,19 @@ class Follower:
             self._asked = []
             return self.own(shown(own), own)
         keys = [self.keys[node] for node in dict.fromkeys(self._asked)]
-        guards = [[self.key(guard.holds), guard.line] for guard in told.guards] if told else []
-        return f"<span{self.mark('text', keys=keys, pieces=pieces, guards=guards)}>{shown(own)}</span>"
+        guards = self._guards(told.guards) if told else {}
+        return f"<span{self.mark('text', keys=keys, pieces=pieces, **guards)}>{shown(own)}</span>"
+
+    def _guards(self, guards: Iterable[Guard]) -> Spec:
+        """Keys of the conditions under which something is known, where there are any, and why not otherwise."""
+        told = [[self.key(guard.holds), otherwise(guard.line)] for guard in guards]
+        return {"guards": told} if told else {}
+
+    def _named(self, *names: str) -> Spec:
+        """Guards of values under these names that a broken one leaves as they are: other recorded numbers are none."""
+        held = ((name, self.recording.values.get(name)) for name in names)
+        plain = [n for n, x in held if not isinstance(x, Quantity) or x.dtype == bool or x.re.op == "constant"]
+        return self._guards({g.holds: g for name in plain for g in self.recording.looked.get(name, ())}.values())
 
     def own(self, shown: str, text: str = "") -> str:
         """What is shown for the run's inputs alone, unless it is a ``text`` as it stands in its cell."""
@@ -141,7 +154,8 @@ class Follower:
         if drawn is None:
             return ""
         told = sketched.told(drawn, self.key)
-        return self.mark("drawing", keys=[self.keys[node] for node in dict.fromkeys(self._asked)], **told)
+        keys = [self.keys[node] for node in dict.fromkeys(self._asked)]
+        return self.mark("drawing", keys=keys, **told, **self._guards(drawn.guards))
 
     def unit(self, unit: str) -> str:
         """A unit, of which the page must know the others that measure the same."""
@@ -160,8 +174,10 @@ class Follower:
         name, unit = line.formula.name, line.formula.unit
         held, shape = self.recording.values.get(name), np.shape(line.value)
         spec: Spec = {"unit": self.unit(unit), "of": name, **moved}
+        guards = self._named(name)
         if not isinstance(held, Quantity):
-            return "" if name in self.recording.values else self.mark("value", keys=None, **spec)
+            known = name in self.recording.values
+            return self.mark("value", keys=None, fixed=known, **spec, **guards) if guards or not known else ""
         if held.extent != shape:
             spec["at"] = line.position
         elif line.over and isinstance(axis := self.recording.values.get(line.over.line.name), Quantity):
@@ -170,7 +186,7 @@ class Follower:
             named_over = {"key": self.key(axis.re), "named": named(line.over.line.name)}
             spec["over"] = named_over | {"factor": factor, "behind": behind}
         same = held.extent == shape or held.extent[:-1] == shape
-        return self.mark("value", keys=[self.key(part) for part in held.parts] if same else None, **spec)
+        return self.mark("value", keys=[self.key(part) for part in held.parts] if same else None, **spec, **guards)
 
     def put_in(self, line: Line, **moved: Any) -> str:
         """Attribute of the formula of a line with numbers for its symbols; "" where it has none."""
@@ -181,7 +197,9 @@ class Follower:
             return ""
         told = [self._put_in(name, *x) for name, x in known.items()]
         spec: Spec = {"text": made.text, "signs": made.signs, "numbers": told, "at": line.position, **moved}
-        return self.mark("numbers", keys=[self.keys[node] for node in dict.fromkeys(self._asked)], **spec)
+        keys = [self.keys[node] for node in dict.fromkeys(self._asked)]
+        heads = (name.partition(".")[0] for name in known)
+        return self.mark("numbers", keys=keys, **spec, **self._named(*heads))
 
     def _put_in(self, name: str, value: complex, unit: str) -> Spec:
         """A number in a formula: the keys of its parts, or those of one that holds for the run alone."""
@@ -257,18 +275,18 @@ class Follower:
 
     def found(self, found: Verdict) -> str:
         """Attribute of the verdict of a solve block, with its words where the page solves it again."""
+        names = self.numbers.namespace if self.numbers else {}
+        name = next((name for name, value in names.items() if value is found), "")
         match found:
             case Found(words=words):
                 key, told, own = words.unknown, _of_one(found), found._value
             case Solution(words=words):
-                names = self.numbers.namespace if self.numbers else {}
-                name = next((name for name, value in names.items() if value is found), "")
                 key, told, own = f"{name}.{words.names[0]}", _of_several(found), found._values[0]
             case _:
                 return self.mark("found", words=None)
         solved = self.recording.found.get(key)
         again = solved and solved.node.op == "found" and np.array_equal(solved.node.value, own, equal_nan=True)
-        return self.mark("found", key=key, words=told if again else None)
+        return self.mark("found", key=key, words=told if again else None, **self._named(name))
 
 
 def _of_one(found: Found) -> Spec:

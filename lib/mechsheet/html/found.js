@@ -64,13 +64,13 @@ function rowsOfOne(words, verdicts, reasons, isAlone) {
   const valued = verdicts.filter((_, k) => !reasons[k]), [first] = verdicts, all = name => verdicts.flatMap(v => v[name]);
   const {branch, branches} = first, on = branch === undefined ? "" : ` on branch ${signed(branch)}`;
   const rows = [["condition", `${words.quantity} = ${extent(all("equals"), words.unit)}${on}`]];
-  if (valued.length) rows.push([isAlone ? "residual" : "largest residual", withUnit(largestOf(valued.map(v => v.residual)), words.unit, 2)]);
-  if (isAlone && valued.length) rows.push(["bracket", `${withUnit(first.bracket[1] - first.bracket[0], words.unknown_unit, 2)} wide`]);
+  if (valued.length) rows.push([isAlone ? "missed by" : "missed at most by", withUnit(largestOf(valued.map(v => v.residual)), words.unit, 2)]);
+  if (isAlone && valued.length) rows.push(["value within", withUnit(first.bracket[1] - first.bracket[0], words.unknown_unit, 2)]);
   if (isAlone) {
     const every = branches ?? [[null, first]], samples = every.reduce((n, [, v]) => n + v.samples, 0);
     const roots = every.flatMap(([s, v]) => v.roots.map(({value}) => [value, s])).sort(([a], [b]) => a - b);
     const shown = roots.map(([x, s]) => withUnit(x, words.unknown_unit, 6) + (branches ? ` (branch ${signed(s)})` : ""));
-    rows.push([`roots by ${samples} samples`, shown.join("; ") || "none"]);
+    rows.push([`roots seen by ${samples} samples`, shown.join("; ") || "none"]);
   }
   if (all("interval").every(Number.isFinite)) rows.push(["searched", extent(all("interval"), words.unknown_unit)]);
   return rows;
@@ -80,15 +80,15 @@ function rowsOfSeveral(words, verdicts, reasons, isAlone) {
   const valued = verdicts.filter((_, k) => !reasons[k]), rows = [];
   if (valued.length) {
     const left = words.equation_units.map((unit, m) => withUnit(largestOf(valued.map(v => v.residual[m])), unit, 2));
-    rows.push([isAlone ? "residuals" : "largest residuals", left.join("; ")]);
+    rows.push([isAlone ? "missed by" : "missed at most by", left.join("; ")]);
     const worst = largestOf(valued.map(v => v.condition));
-    rows.push([isAlone ? "condition" : "largest condition", Number.isFinite(worst) ? significant(worst, 2) : "infinite: the slopes are singular"]);
+    rows.push([isAlone ? "errors grow" : "errors grow at most", Number.isFinite(worst) ? `${significant(worst, 2)} times` : "infinite: the slopes are singular"]);
   }
   if (isAlone && !words.least) {
     const {solutions, starts} = verdicts[0], more = solutions.length - LISTED;
     const listed = solutions.slice(0, LISTED).map(x => pointOf(words, x));
     const where = `${starts} starts${words.guessed ? " around the guess" : ""}`;
-    rows.push([`solutions by ${where}`, [...listed, ...(more > 0 ? [`and ${more} more`] : [])].join("; ") || "none"]);
+    rows.push([`solutions seen by ${where}`, [...listed, ...(more > 0 ? [`and ${more} more`] : [])].join("; ") || "none"]);
   }
   const searched = words.names.map((name, k) => {
     const ends = verdicts.flatMap(v => v.asked[k]);
@@ -107,7 +107,7 @@ function foundHTML(words, found) {
   const word = isLeast ? "least squares" : waits ? "not evaluated" : failures.length ? "not found" : "found";
   const kind = isLeast ? "OPEN" : failures.length ? "FAIL" : "PASS";
   const rows = waits ? [] : (words.names ? rowsOfSeveral : rowsOfOne)(words, verdicts, reasons, isAlone);
-  if (!waits) rows.push(["evaluations", verdicts.reduce((n, v) => n + v.evaluations, 0)]);
+  if (!waits) rows.push(["computed", `${verdicts.reduce((n, v) => n + v.evaluations, 0)} times`]);
   const head = inWords(headOf(words, verdicts, reasons, isAlone));
   return `<div><span class="ms-badge ms-${kind}">${word}</span> <b>${head}</b></div>` +
     failures.map(text => `<div>${text}</div>`).join("") +

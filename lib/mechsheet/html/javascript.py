@@ -31,7 +31,7 @@ def module(recording: Recording, wanted: Mapping[str, Node]) -> str:
     - ``values`` by key: a number, or a Float64Array, which knows its ``shape`` where it has several axes; undefined
       where nobody knows it for these inputs;
     - ``gaps``: for each such key the reason; for that of a verdict after the word found;
-    - ``guards``: why all of the worksheet may be otherwise for these inputs;
+    - ``guards``: why the worksheet may be otherwise for these inputs;
     - ``found``: the verdict of each found value of the recording, of an array of problems an array of them; it means
       nothing where it has a gap.
     """
@@ -47,13 +47,15 @@ def module(recording: Recording, wanted: Mapping[str, Node]) -> str:
     conditions += [node.args[1] for node in every if node.op == "sized"]
     gaps = {gap.line for gap in recording.gaps}
     looked = {
-        holds: guard.line for holds, guard in recording.guards.items() if not guard.rows and guard.line not in gaps
+        holds: guard.line
+        for holds, guard in recording.guards.items()
+        if not (guard.rows or guard.turns or guard.line in gaps)
     }
     scope = Scope(program, {})
     scope.write(dict.fromkeys([*results, *conditions, *looked]))
 
     own = ",".join(f"{names[n]}:{_own(n)}" for n in bottom_up([*results, *looked], ()) if n.op == "input")
-    values = ",".join(f"{json.dumps(key)}:{_result(scope, node)}" for key, node in wanted.items())
+    values = ",".join(f"{_key(key)}:{_result(scope, node)}" for key, node in wanted.items())
     verdicts = ",".join(f"{json.dumps(key)}:{scope.solved[node.args[0]]}" for key, node in found.items())
     lines = [
         *(f"const {name}={text};" for text, name in program.constants.items()),
@@ -62,7 +64,7 @@ def module(recording: Recording, wanted: Mapping[str, Node]) -> str:
         *scope.lines,
         f"const out={{values:{{{values}}},gaps:{{}},guards:[],found:{{{verdicts}}}}};",
         *_told(recording, scope, wanted, found),
-        *(f"{scope.text(holds)}||out.guards.push({json.dumps(_otherwise(line))});" for holds, line in looked.items()),
+        *(f"{scope.text(holds)}||out.guards.push({json.dumps(otherwise(line))});" for holds, line in looked.items()),
         "return out}",
     ]
     return "\n".join(["const evaluate=(()=>{", functions, *lines, "return evaluate})();"])
@@ -77,6 +79,11 @@ def runtime(*files: str) -> str:
 
 def _own(node: Node) -> str:
     return array(node.value) if node.shape else literal(node.value.item()).text
+
+
+def _key(key: str) -> str:
+    """The key of a value as JavaScript has it: most are numbers."""
+    return key if key.isdecimal() else json.dumps(key)
 
 
 def _result(scope: Scope, node: Node) -> str:
@@ -101,12 +108,19 @@ def _told(recording: Recording, scope: Scope, wanted: Mapping[str, Node], found:
     for key, node in every.items():
         for reason in sorted(under[node]):
             told.setdefault(reason, []).append(key)
-    return (f"{condition}||gap(out,{json.dumps(why)},{json.dumps(keys)});" for (condition, why), keys in told.items())
+    conditions = dict[tuple[str, str], dict[str, None]]()  # of the same with the same reason
+    for (condition, why), keys in told.items():
+        conditions.setdefault((why, ",".join(map(_key, keys))), {})[condition] = None
+    return (
+        f"({'&&'.join(all_of)})||gap(out,{json.dumps(why)},[{keys}]);" for (why, keys), all_of in conditions.items()
+    )
 
 
 def _reason(recording: Recording, scope: Scope, node: Node) -> tuple[str, str] | None:
     """The condition under which a quantity is known, and why not otherwise; None where it always is."""
     program = scope.program
+    if node.op == "iterated" and node.args[0].most is None:
+        return f"{scope.solved[node.args[0]]}.ends", f"line {node.line}: its loop has not ended after 100000 turns"
     if node.op == "exported":
         why = next((gap.reason for gap in recording.gaps if gap.line == node.line), "it is not recorded")
         return program.conditions[node.args], f"line {node.line}: {why}"
@@ -118,11 +132,12 @@ def _reason(recording: Recording, scope: Scope, node: Node) -> tuple[str, str] |
     if node.op == "sized":
         return scope.text(node.args[1]), f"line {node.line}: {_COUNTED}"
     if _is_guarded(recording, node):
-        return scope.text(node.args[0]), _otherwise(recording.guards[node.args[0]].line)
+        return scope.text(node.args[0]), otherwise(recording.guards[node.args[0]].line)
     return None
 
 
-def _otherwise(line: int) -> str:
+def otherwise(line: int) -> str:
+    """Why something is not known where Python takes another way than it took."""
     return f"line {line}: for these inputs the worksheet's code goes another way"
 
 

@@ -27,7 +27,7 @@ function showMoved(name) {
   });
   if (state.refused) return;
   control.elements.forEach(([spec, element, n]) => {
-    if (spec.kind !== "moved") return soon(n, () => showAlong(spec, element));
+    if (spec.kind !== "moved") return soon(n, () => showNow(spec, element));
     soon(n, () => {
       set(element, own ? control.pictures[spec.picture][control.at]() : "");
       grey(element, own ? "" : MOVES_NOT);
@@ -51,8 +51,8 @@ function move(name, at) {
   state.results = computed();
   told.shown.forEach((spec, n) => {
     if (!spec.slid?.includes(name) || spec.control) return;
-    const [guard] = state.results.guards, own = !state.changed.size && !spec.slid.some(isSlid);
-    soon(n, guard ? () => empty(spec, shownBy[n], guard) : own ? () => showFirst(n) : () => showOne(spec, n));
+    const own = !state.changed.size && !spec.slid.some(isSlid);
+    soon(n, own ? () => showFirst(n) : () => showOne(spec, n));
   });
   showMoved(name);
   showPositions();
@@ -62,12 +62,6 @@ function move(name, at) {
 function positionOf(spec) {
   const control = moving.get(spec.control);
   return control && spec.at !== undefined ? Number(control.pictures[spec.picture][control.at]()) : spec.at;
-}
-
-function showAlong(spec, element) {
-  const results = state.results;
-  if (results.guards.length) return;
-  grey(element, show[spec.kind](spec, element, results) ? "" : reasonOf(spec, results));
 }
 
 function play(button) {

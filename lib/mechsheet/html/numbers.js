@@ -51,6 +51,13 @@ const spreading = (from, to) => {
 };
 const spread = (a, from, to) => gather(a, spreading(from, to));
 
+// A field of this shape, element by element.
+function over(shape, f) {
+  const a = field(count(shape));
+  for (let i = 0; i < a.length; i++) a[i] = f(i);
+  return a;
+}
+
 const together = (...shapes) => {
   const axes = max(...shapes.map(shape => shape.length));
   const along = k => shapes.map(shape => shape[k - axes + shape.length] ?? 1).filter(n => n != 1);
@@ -172,14 +179,17 @@ function unless_same(name, under, f) {
 
 const each = (n, f) => Array.from({length: n}, (_, p) => f(p));
 
+const TURNS = 1e5;
+
 // What a loop makes of its state; no numbers where it does not end.
 function repeated(state, most, turn) {
   let ends = false;
-  for (let k = 0; k < (most ?? 1e4) && !ends; k++) {
+  for (let k = 0; k < (most ?? TURNS) && !ends; k++) {
     [state, ends] = turn(state);
     ends = flat(ends).every(v => v != 0);
   }
-  return ends || most !== null ? state : state.map(v => (v.length === undefined ? NaN : nothing(v.length)));
+  const known = ends || most !== null ? state : state.map(v => (v.length === undefined ? NaN : nothing(v.length)));
+  return Object.assign(known, {ends});
 }
 
 function gap(out, why, keys) {

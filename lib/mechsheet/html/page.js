@@ -50,16 +50,14 @@ const show = {
   },
   drawing(spec, element, results) {
     const known = spec.keys.every(key => results.values[key] !== undefined);
-    const same = known && spec.guards.every(([key]) => results.values[key]);
-    set(element, same ? drawingSVG(drawnWith(spec, results)) : "");
-    return same;
+    set(element, known ? drawingSVG(drawnWith(spec, results)) : "");
+    return known;
   },
   text(spec, element, results) {
     const known = spec.keys.every(key => results.values[key] !== undefined);
-    const same = known && spec.guards.every(([key]) => results.values[key]);
     const read = key => results.values[key];
-    set(element, same ? spec.pieces.map(part => (typeof part === "string" ? part : escaped(piece(part, read)))).join("") : "");
-    return same;
+    set(element, known ? spec.pieces.map(part => (typeof part === "string" ? part : escaped(piece(part, read)))).join("") : "");
+    return known;
   },
   numbers(spec, element, results) {
     const known = isPutIn() ? numbersOf(spec, results) : [];
@@ -141,17 +139,16 @@ function refresh() {
   const own = !changed.size && !errors.size;
   state.si = si;
   state.results = errors.size ? null : computed();
-  const guards = state.results?.guards ?? [];
   told.shown.forEach((spec, n) => {
     const at = spec.kind === "check" ? (_, f) => f() : soon; // the checks are summed up
     if (own && !spec.control && spec.kind !== "moved" && !spec.slid?.some(isSlid)) at(n, () => showFirst(n));
-    else if (errors.size || guards.length) at(n, () => empty(spec, shownBy[n], guards[0] ?? "an input cannot be used"));
+    else if (errors.size) at(n, () => empty(spec, shownBy[n], "an input cannot be used"));
     else if (spec.kind !== "moved" && !spec.control) at(n, () => showOne(spec, n));
   });
   [...moving.keys()].forEach(showMoved);
   showPositions();
   sum();
-  say(changed, errors, guards);
+  say(changed, errors);
   if (!errors.size) {
     const address = addressOf(textsOf(changed));
     if (address !== location.hash.slice(1)) history.replaceState(null, "", address ? `#${address}` : location.pathname);
@@ -164,17 +161,26 @@ function showFirst(n) {
   grey(shownBy[n], "");
 }
 
-const showOne = (spec, n) =>
-  grey(shownBy[n], show[spec.kind](spec, shownBy[n], state.results) ? "" : reasonOf(spec, state.results));
+const showOne = (spec, n) => (spec.fixed && !broken(spec, state.results) ? showFirst(n) : showNow(spec, shownBy[n]));
+
+function showNow(spec, element) {
+  const results = state.results, known = show[spec.kind](spec, element, broken(spec, results) ? NOTHING : results);
+  grey(element, known ? "" : reasonOf(spec, results));
+}
+
+// Why the worksheet would show something else; undefined where it would not.
+const broken = (spec, results) => spec.guards?.filter(([key]) => !results.values[key]).map(([key, why]) => results.gaps[key] ?? why)[0];
 
 // What the page computes for its inputs and the positions of its sliders.
 const computed = () => evaluate({...state.si, ...slid()});
 
 function reasonOf(spec, results) {
-  const broken = spec.guards?.find(([key]) => results.values[key] === 0 || results.values[key] === false);
-  if (broken) return `line ${broken[1]}: for these inputs it is drawn in another way`;
+  return broken(spec, results) ?? gapOf(spec, results) ?? UNKNOWN;
+}
+
+function gapOf(spec, results) {
   const keys = [...(spec.keys ?? []), ...(spec.columns ?? []).map(column => column.key), `found ${spec.key}`, spec.limit];
-  return keys.map(key => results.gaps[key]).find(Boolean) ?? UNKNOWN;
+  return keys.map(key => results.gaps[key]).find(Boolean);
 }
 
 // What stands there already is left alone: laying it out again takes longer than computing it.
@@ -230,14 +236,27 @@ function sum() {
   }
 }
 
-function say(changed, errors, guards) {
+// What is not known for these inputs, by the reason.
+function lacking(results) {
+  const found = new Map(results.guards.map(why => [why, new Set()]));
+  told.shown.forEach((spec, n) => {
+    const why = broken(spec, results) ?? gapOf(spec, results), name = nameOf(spec, shownBy[n]);
+    if (why && name) found.set(why, (found.get(why) ?? new Set()).add(name));
+  });
+  return [...found].map(([why, names]) => (names.size ? `not known: ${listed([...names])} (${why})` : why));
+}
+
+const nameOf = (spec, element) => spec.of ?? spec.name ?? spec.key ?? element.closest(".ms-table, .ms-figure")?.querySelector(".ms-caption b").textContent;
+const listed = names => names.slice(0, LISTED).join(", ") + (names.length > LISTED ? ` and ${names.length - LISTED} more` : "");
+
+function say(changed, errors) {
   const bar = document.querySelector(".ms-bar");
   const names = told.inputs.fields.filter(field => changed.has(field.name)).map(field => field.name).join(", ");
   const text = errors.size
     ? `not computed: ${[...errors.values()][0]}`
-    : guards.length ? `not computed: ${guards[0]}` : changed.size ? `changed: ${names}` : "as in the document";
+    : changed.size ? [`changed: ${names}`, ...lacking(state.results)].join("; ") : "as in the document";
   bar.querySelector(".ms-state").textContent = text;
-  document.body.classList.toggle("ms-stopped", Boolean(errors.size || guards.length));
+  document.body.classList.toggle("ms-stopped", errors.size > 0);
   bar.querySelector(".ms-back").hidden = !changed.size && !errors.size;
   bar.querySelector(".ms-save").hidden = !changed.size || Boolean(errors.size);
 }

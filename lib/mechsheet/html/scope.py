@@ -172,7 +172,8 @@ class Scope:
                 )
                 if not (alike and uses[operand] == 1 and deep[operand] < _DEEPEST):
                     continue
-                if not self._in_loop(node) or self._key(node) == self._key(operand):
+                again = node.op == operand.op == "like" and operand is node.args[0]
+                if not self._in_loop(node) or self._key(node) == self._key(operand) or again:
                     self._inside.add(operand)
                     deep[node] = max(deep[node], deep[operand] + 1)
 
@@ -199,18 +200,16 @@ class Scope:
             place = f"line {waiting[0].line}"
             raise SheetError(f"{place}: how many values are found there is not known before: no page can follow that")
         key, loop = self._key(first), dict[Node, str]()
+        if key is first:
+            self.names[first] = self.bind(self._alone(first))
+            return [node for node in waiting if node is not first]
         for node in waiting:
             if self._in_loop(node) and self._key(node) == key and self._ready(node, loop):
                 loop[node] = self.program.name()
         stored = {node for node in loop if not self._users[node].issubset(loop.keys())}
-        if key is first:
-            shapes = (self.shape(operand) for operand in _along(first) if operand.shape)
-            shape = self._shapes[first] = self.bind(f"together({','.join(shapes)})")
-            count = self.bind(f"count({shape})")
-        else:
-            shape = self.shape(first)
-            count = "*".join(shape.strip("[]").split(","))
-            count = self.bind(count) if "*" in count else count
+        shape = self.shape(first)
+        count = "*".join(shape.strip("[]").split(","))
+        count = self.bind(count) if "*" in count else count
         places = {node: f"{name}[i]" if node in stored else name for node, name in loop.items()}
         body = [
             f"{place if node in stored else f'const {place}'}={self._operation(node, key, shape, places).text};"
@@ -220,6 +219,18 @@ class Scope:
         self.lines.append(f"(()=>{{for(let i=0;i<{count};i++){{{''.join(body)}}}}})();")
         self.names |= {node: loop[node] for node in stored}
         return [node for node in waiting if node not in loop]
+
+    def _alone(self, node: Node) -> str:
+        """A field whose shape only its operands tell."""
+        source, others = node, list[Node]()
+        while source.op == "like" and (source is node or source in self._inside):
+            source, others = source.args[0], [source.args[1], *others]
+        along = [source, *others] if others else _along(node)
+        shape = self.bind(f"together({','.join(self.shape(operand) for operand in along if operand.shape)})")
+        self._shapes[node] = shape
+        if others and source.shape and source not in self._inside:
+            return f"spread({self.text(source)},{self.shape(source)},{shape})"
+        return f"over({shape},i=>{self._operation(node, node, shape).text})"
 
     def _operation(self, node: Node, key: "Size | Node" = (), shape: str = "", places: Mapping[Node, str] = {}) -> Text:
         """The expression of an elementwise operation, in a loop of this key and shape over fields at these places."""

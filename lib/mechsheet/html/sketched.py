@@ -17,7 +17,7 @@ Key = Callable[[Node], str]
 
 
 def told(drawn: Drawn, key: Key) -> Spec:
-    """Elements, frame, scales and guards of a drawing as JSON; ``key`` names the quantities."""
+    """Elements, frame and scales of a drawing as JSON; ``key`` names the quantities."""
     sketch = drawn.sketch
     frame: Any = [] if sketch.frame is None else sketch.frame
     return {
@@ -28,7 +28,6 @@ def told(drawn: Drawn, key: Key) -> Spec:
             *(_element(e, key) | {"faint": True} for e in sketch.behind),
             *(_element(e, key) for e in sketch.elements),
         ],
-        "guards": [[key(guard.holds), guard.line] for guard in drawn.guards],
     }
 
 

@@ -10,6 +10,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from html import escape, unescape
 from inspect import cleandoc
 from pathlib import Path
+from types import FunctionType
 from typing import Any
 
 from mechsheet import units
@@ -18,6 +19,7 @@ from mechsheet.html import fields, font, frames, javascript, values
 from mechsheet.html.follow import Follower
 from mechsheet.html.frames import Moved
 from mechsheet.html.mathml import symbol
+from mechsheet.recording.memory import names_of
 from mechsheet.recording.record import record
 from mechsheet.worksheet import symbol as symbols
 from mechsheet.worksheet.cells import Cell, Worksheet, checks, refuse_open
@@ -51,7 +53,7 @@ _CHOICES = (
     *(ast.If, ast.For, ast.While, ast.Match, ast.Try, ast.FunctionDef, ast.Lambda),
 )
 _STUDIES = ("mechsheet.accuracy.", "mechsheet.studies.")
-_MOST = 550_000  # letters of a page; one that is longer has its lists at their own length
+_MOST = 590_000  # letters of a page; one that is longer has its lists at their own length
 # The page asks for nothing: what it shows and runs stands in it.
 _POLICY = (
     "default-src 'none'; script-src {}; style-src 'unsafe-inline'; font-src data:; base-uri 'none'; form-action 'none'"
@@ -79,12 +81,14 @@ def page(sheet: Worksheet, g: Any) -> str:
 
 def _page(sheet: Worksheet, namespace: dict[str, Any], lists: bool) -> str:
     """The file of a run; what rests on ``lists`` among the inputs follows them at any length, or at their own."""
-    cells = by_cell(namespace)
+    cells = _with_fields(by_cell(namespace), sheet, namespace["g"])
     shown = [part for parts in cells.values() for part in parts]
     follower = Follower(record(namespace, sheet, whole=True, every=1, draws=True, lists=lists), Numbers(namespace))
     follower.pair(cells)
     moving = frames.moved(sheet, namespace, cells, follower)
     body = _linked("".join(_cell(n, parts, sheet.cells[n], follower, moving) for n, parts in cells.items()))
+    if not any(isinstance(part, Title) for part in shown):
+        body = _BAR + body
     told = {
         "name": Path(sheet.path).stem,
         "inputs": fields.told(namespace["g"]),
@@ -115,10 +119,26 @@ def _page(sheet: Worksheet, namespace: dict[str, Any], lists: bool) -> str:
     )
 
 
+def _with_fields(cells: dict[int, list[Any]], sheet: Worksheet, g: Any) -> dict[int, list[Any]]:
+    """What the cells show, with the inputs; where none shows those, at the cell that gives them."""
+    if any(isinstance(part, Used) for parts in cells.values() for part in parts):
+        return cells
+    at = next((n for n, cell in enumerate(sheet.cells) if "g" in cell.gives), 0)
+    return dict(sorted({**cells, at: [*cells.get(at, ()), Used(g)]}.items()))
+
+
 def studies(sheet: Worksheet) -> str:
     """What a worksheet searches or measures with, over many runs of another one or of a method; "" otherwise."""
-    named = ((name, f"{getattr(value, '__module__', '')}.") for name, value in sheet.common.items())
-    return next((name for name, module in named if module.startswith(_STUDIES)), "")
+    waiting, read = [cell.code for cell in sheet.cells], set[str]()
+    for code in waiting:
+        for name in set(names_of(code)).difference(read):
+            read.add(name)
+            value = sheet.common.get(name)
+            if f"{getattr(value, '__module__', '')}.".startswith(_STUDIES):
+                return name
+            if isinstance(value, FunctionType) and not value.__module__.startswith("mechsheet."):
+                waiting.append(value.__code__)
+    return ""
 
 
 def _cell(n: int, parts: Iterable[Any], cell: Cell, follower: Follower, moving: Iterable[Moved]) -> str:

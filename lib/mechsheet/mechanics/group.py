@@ -72,6 +72,12 @@ def solve(a: Complex, b: Complex, w: Complex, D: Float) -> tuple[Float, Float]:
     return cross(w, b) / D, cross(a, w) / D
 
 
+def crossing(A: Complex, B: Complex, u_A: Complex, u_B: Complex, D: Float) -> Complex:
+    """Where the lines through A along u_A and through B along u_B meet, counted from the nearer one."""
+    along_A, along_B = solve(u_A, u_B, B - A, D)
+    return np.where(np.abs(along_A) < np.abs(along_B), A + along_A * u_A, B - along_B * u_B)[()]
+
+
 def turned(a: Complex, b: Complex, w: Complex, D: Float) -> tuple[Float, Float]:
     """x, y of i (x a - y b) = w, for the determinant D = a x b."""
     return dot(w, b) / D, dot(w, a) / D

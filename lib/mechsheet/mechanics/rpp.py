@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mechsheet.mechanics.arguments import Complex, Float, elementwise, field, scalar_field, unit
-from mechsheet.mechanics.group import condition, determinant, solve
+from mechsheet.mechanics.group import condition, crossing, determinant, solve
 from mechsheet.mechanics.load import Load, lever, resultant
 from mechsheet.mechanics.planar import angle_between, cross
 
@@ -86,9 +86,7 @@ def rpp(A: ArrayLike, B: ArrayLike, u_A: ArrayLike, u_B: ArrayLike) -> Complex:
     np.complex128(0.3+0j)
     """
     u_A, u_B, D = _directions(u_A, u_B)
-    A = field(A, "A")
-    along_A, _ = solve(u_A, u_B, field(B, "B") - A, D)
-    return A + along_A * u_A
+    return crossing(field(A, "A"), field(B, "B"), u_A, u_B, D)
 
 
 @elementwise

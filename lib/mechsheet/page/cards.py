@@ -12,6 +12,7 @@ class Card:
     """A worksheet by its path; of its last run the kind of verdict, what it told, a drawing as SVG, and when it was.
 
     ``holds`` is false where that was another worksheet or another package; then ``when`` says what is done about it.
+    One that takes minutes waits ``to_run`` until someone asks for it.
     """
 
     path: str
@@ -21,15 +22,17 @@ class Card:
     told: str = ""
     picture: str = ""
     holds: bool = True
+    to_run: bool = False
 
 
 def card(shown: Card) -> str:
     """HTML of a worksheet, which leads to it."""
     told = f'<span class="{shown.kind}">{escape(shown.told)}</span>' if shown.kind else ""
+    asks = f'<button data-run="{quote(shown.path)}">run it: it searches or measures, for minutes</button>'
     return (
-        f'<a href="?file={quote(shown.path)}"><i{"" if shown.holds else " class=old"}>{shown.picture}</i>'
+        f'<div><a href="?file={quote(shown.path)}"><i{"" if shown.holds else " class=old"}>{shown.picture}</i>'
         f"<b>{escape(shown.title)}</b><code>{escape(Path(shown.path).stem)}</code>"
-        f"{told}<small>{escape(shown.when)}</small></a>"
+        f"{told}<small>{escape(shown.when)}</small></a>{asks if shown.to_run else ''}</div>"
     )
 
 

@@ -121,11 +121,11 @@ def unfit(cells: Iterable[notebook.Cell], names: Mapping[str, Any]) -> Iterator[
     others = {name for cell in ran for name in cell.refs if is_of_studies(names.get(name))}
     known = registry(names, source.of_texts(tuple((cell.code, cell.filename) for cell in ran)))
     measured = {name for name, value in names.items() if isinstance(value, units.Constant) or value is units}
-    setup = _setup(ran, _depending(ran, {"g", *_functions(ran)}))
+    setup = _setup(ran, depending(ran, {"g", *_functions(ran)}))
     of_setup = {name for n in setup for name in ran[n].defs}
-    computed = _depending(ran, {"g", *_functions(ran), *measured, *known}) - of_setup - _depending(ran, others)
+    computed = depending(ran, {"g", *_functions(ran), *measured, *known}) - of_setup - depending(ran, others)
     common = {name: value for name, value in names.items() if name not in computed}
-    recorded = tuple(_recorded(n, cell, computed) for n, cell in enumerate(ran) if cell.defs & (computed - {"g"}))
+    recorded = tuple(runnable(n, cell, computed) for n, cell in enumerate(ran) if cell.defs & (computed - {"g"}))
     assigned = tuple(line for n in setup for line in _lines(n, ran[n]) if isinstance(line, ast.Assign | ast.AnnAssign))
     try:
         found = dimensions.of_every_line(Worksheet("", recorded, common, "", assigned), names, known)
@@ -148,7 +148,7 @@ def _functions(cells: Iterable[notebook.Cell]) -> set[str]:
     return {name for cell, body in bodies if all(isinstance(s, ast.FunctionDef) for s in body) for name in cell.defs}
 
 
-def _depending(cells: Iterable[notebook.Cell], names: set[str]) -> set[str]:
+def depending(cells: Iterable[notebook.Cell], names: set[str]) -> set[str]:
     """Names that depend on some names, and these."""
     found, cells = set(names), list(cells)
     while more := {name for cell in cells if cell.refs & found for name in cell.defs} - found:
@@ -171,8 +171,8 @@ def _lines(n: int, cell: notebook.Cell) -> list[ast.stmt]:
     return ast.increment_lineno(ast.parse(cell.code), n * _MOST).body
 
 
-def _recorded(n: int, cell: notebook.Cell, computed: set[str]) -> Cell:
-    """A cell as a recording takes it, its lines counted behind those of the cells before it."""
+def runnable(n: int, cell: notebook.Cell, computed: set[str]) -> Cell:
+    """A cell that can be run by itself, its lines counted behind those of the cells before it."""
     lines, code = compiled(_lines(n, cell), cell.filename, f"_{cell.cell_id}")
     return Cell(cell.cell_id, frozenset(cell.refs & computed), tuple(cell.defs), (), tuple(lines), code)
 

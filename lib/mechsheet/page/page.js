@@ -1,4 +1,4 @@
-// What the page does by itself: numbers in formulas, play buttons, values under the pointer in charts.
+// What the page does by itself: numbers in formulas, the verdict in sight, play buttons, what is copied from tables.
 (() => {
   if (customElements.get("ms-numbers")) return;
 
@@ -27,31 +27,16 @@
   }
   customElements.define("ms-numbers", Numbers);
 
-  // Moving positions, shown in every chart by a variable of its own: a style sheet for all would be read again whole.
-  const marks = new Map();
-
-  function mark(chart) {
-    marks.forEach((at, name) => chart?.style.setProperty(name, at));
-  }
-
-  class Marks extends HTMLElement {
-    static observedAttributes = ["at"];
-
-    attributeChangedCallback() {
-      this.getAttribute("at").split(";").forEach((each) => marks.set(...each.split(":")));
-      document.querySelectorAll("svg.ms-chart").forEach(mark);
-    }
-  }
-  customElements.define("ms-marks", Marks);
-
-  class Figure extends HTMLElement {
+  // The style of a worksheet that names no style sheet, as marimo would have it in the page: it reaches formulas too.
+  class Style extends HTMLElement {
     connectedCallback() {
-      const markAll = () => this.querySelectorAll("svg.ms-chart").forEach(mark);
-      markAll();
-      new MutationObserver(markAll).observe(this, { childList: true, subtree: true });
+      if (document.querySelector("style.ms-style")) return;
+      const style = document.createElement("style");
+      Object.assign(style, { className: "ms-style", title: "marimo-custom", textContent: this.getAttribute("css") });
+      document.head.append(style);
     }
   }
-  customElements.define("ms-figure", Figure);
+  customElements.define("ms-style", Style);
 
   // The verdict stays in sight: of a page long enough to lose it, a bar tells it wherever one reads.
   const bar = document.createElement("div");
@@ -177,37 +162,5 @@
     event.clipboardData.setData("text/plain", selection.toString().replaceAll("−", "-"));
     event.clipboardData.setData("text/html", copy.innerHTML.replaceAll("−", "-"));
     event.preventDefault();
-  });
-
-  // Values of a chart where the pointer is.
-  const tip = document.createElement("div");
-  tip.className = "ms-tip";
-  tip.hidden = true;
-  let shown; // the chart, its values and their text
-
-  document.addEventListener("pointermove", (event) => {
-    const chart = event.target.closest?.("svg.ms-chart");
-    if (!chart) {
-      tip.hidden = true;
-      return;
-    }
-    const text = chart.dataset.values;
-    if (shown?.text !== text) shown = { text, ...JSON.parse(text) };
-    const box = chart.getBoundingClientRect();
-    const scale = box.width / chart.viewBox.baseVal.width;
-    const x = (event.clientX - box.left) / scale;
-    let best = -1;
-    shown.at.forEach((at, i) => {
-      if (at !== null && (best < 0 || Math.abs(at - x) < Math.abs(shown.at[best] - x))) best = i;
-    });
-    if (best < 0) return;
-    tip.innerHTML = shown.names
-      .map((name, i) => `<div>${name} = ${shown.texts[i][best]} ${shown.units[i]}</div>`)
-      .join("");
-    if (!tip.isConnected) document.body.append(tip);
-    const left = box.left + shown.at[best] * scale;
-    tip.hidden = false;
-    tip.style.left = `${left + (left + 14 + tip.offsetWidth > innerWidth ? -14 - tip.offsetWidth : 14)}px`;
-    tip.style.top = `${event.clientY + 14}px`;
   });
 })();

@@ -21,6 +21,7 @@ from mechsheet.document.chart import line_chart
 from mechsheet.document.shortened import rows, shortened
 from mechsheet.page import notebook, own, values
 from mechsheet.page.script import element, script
+from mechsheet.page.smooth import smooth
 from mechsheet.recording.banded import NOTE, Banded, RunBands, about, off
 from mechsheet.worksheet import mistakes, numbers
 from mechsheet.worksheet.errors import SheetError
@@ -177,7 +178,7 @@ def _told(bands: RunBands, tables: Sequence[Table], figures: Iterable[Figure]) -
         "lines": {name: _of_line(parts) for name, parts in lines.items()},
         "tables": {t.number: [[cells(t, c.name) for c in block] for block in shown(t)] for t in tables},
         "checks": {values.anchor(name): sure for name, sure in bands.sure.items()},
-        "figures": {figure.number: _bars(figure, bands) for figure in figures},
+        "figures": {figure.number: _bars(smooth(figure), bands) for figure in figures},
     }
 
 

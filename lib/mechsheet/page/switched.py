@@ -63,7 +63,7 @@ def _axis(layout: Chart, up: int, on: Sequence[Column]) -> dict[str, Any] | None
     return {
         "of": of,
         "unit": _printed(unit),
-        "ticks": {label: {"at": t.at, "texts": t.texts, "unit": t.unit} for label, t in made.items()},
+        "ticks": {label: {"at": t.at, "texts": t.texts, "unit": t.unit, "axis": t.axis} for label, t in made.items()},
     }
 
 

@@ -116,8 +116,12 @@
       });
       if (!axes.some(Boolean) && !columns.some(Boolean)) return null;
       const copy = this.firstElementChild.cloneNode(true);
-      axes.forEach((ticks, up) => ticks && along(copy, up, ticks));
       const values = JSON.parse(copy.dataset.values);
+      axes.forEach((ticks, up) => {
+        if (!ticks) return;
+        Axes.along(copy, up, ticks);
+        values.axes[up] = ticks.axis;
+      });
       columns.forEach((each, i) => {
         if (!each) return;
         values.units[i] = each.unit;
@@ -126,32 +130,34 @@
       copy.dataset.values = JSON.stringify(values);
       return copy;
     }
+
+    // Other ticks of one axis: lines of the grid, numbers beside them, and the unit behind what the axis shows.
+    static along(chart, up, { at, texts, unit }) {
+      const plot = chart.querySelector("svg");
+      const grid = plot.firstElementChild;
+      const [width, height] = ["width", "height"].map((name) => Number(plot.getAttribute(name)));
+      const lines = grid.getAttribute("d").match(/M[^M]+/g);
+      const isOther = (line) => line.includes("H") !== Boolean(up);
+      const own = at.map((u) => (up ? `M0 ${u}H${width}` : `M${u} 0V${height}`));
+      grid.setAttribute("d", [...lines.filter(isOther), ...own].join(""));
+      const titles = chart.querySelectorAll(":scope > g > text[text-anchor=middle]");
+      const title = up ? chart.querySelector(":scope > g > g > text") : titles[titles.length - 1];
+      const numbers = [...chart.querySelectorAll(`:scope > g > text[text-anchor=${up ? "end" : "middle"}]`)];
+      const [first, ...rest] = numbers.filter((text) => text !== title);
+      const part = plot.viewBox.baseVal;
+      const beside = (u) => (up ? ((u - part.y) * height) / part.height + 4 : ((u - part.x) * width) / part.width);
+      at.forEach((u, i) => {
+        const text = first.cloneNode();
+        const name = up ? "y" : "x";
+        text.setAttribute(name, Number(plot.getAttribute(name)) + beside(u));
+        text.textContent = texts[i];
+        first.before(text);
+      });
+      [first, ...rest].forEach((text) => text.remove());
+      if (unit !== undefined) title.lastChild.textContent = unit;
+    }
   }
   customElements.define("ms-axes", Axes);
-
-  // Other ticks of one axis: lines of the grid, numbers beside them, and the unit behind what the axis shows.
-  function along(chart, up, { at, texts, unit }) {
-    const plot = chart.querySelector("svg");
-    const grid = plot.firstElementChild;
-    const [width, height] = ["width", "height"].map((name) => plot.getAttribute(name));
-    const lines = grid.getAttribute("d").match(/M[^M]+/g);
-    const isOther = (line) => line.includes("H") !== Boolean(up);
-    const own = at.map((u) => (up ? `M0 ${u}H${width}` : `M${u} 0V${height}`));
-    grid.setAttribute("d", [...lines.filter(isOther), ...own].join(""));
-    const titles = chart.querySelectorAll(":scope > g > text[text-anchor=middle]");
-    const title = up ? chart.querySelector(":scope > g > g > text") : titles[titles.length - 1];
-    const numbers = [...chart.querySelectorAll(`:scope > g > text[text-anchor=${up ? "end" : "middle"}]`)];
-    const [first, ...rest] = numbers.filter((text) => text !== title);
-    at.forEach((u, i) => {
-      const text = first.cloneNode();
-      const [name, corner] = up ? ["y", Number(plot.getAttribute("y")) + 4] : ["x", Number(plot.getAttribute("x"))];
-      text.setAttribute(name, corner + u);
-      text.textContent = texts[i];
-      first.before(text);
-    });
-    [first, ...rest].forEach((text) => text.remove());
-    title.lastChild.textContent = unit;
-  }
 
   // A column in another unit, not finer than it is in its own; of its greatest number five digits are enough.
   function inUnit({ units, unit, decimals, power, values }, other) {

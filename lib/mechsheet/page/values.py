@@ -22,6 +22,7 @@ from mechsheet.page import fields, switched
 from mechsheet.page.headings import heading
 from mechsheet.page.lines import lines
 from mechsheet.page.script import element, script
+from mechsheet.page.smooth import smooth
 from mechsheet.worksheet import numbers, symbol
 from mechsheet.worksheet.check import Check, Summary
 from mechsheet.worksheet.drawing import Drawing
@@ -105,7 +106,8 @@ def _(title: Title) -> str:
     cells = [("Worksheet", escape(title.file)), ("Computed", f"{date.today():%Y-%m-%d}")]
     fields = "".join(f"<span>{label} <b>{value}</b></span>" for label, value in cells)
     switch = '<label class="ms-screen"><input type="checkbox" class="ms-switch"> numbers in the formulas</label>'
-    scripts = script("page.js") + script("units.js") + script("symbols.js", "tooltip.js") + script("sections.js")
+    scripts = script("page.js") + script("units.js") + script("chart.js", "tooltip.js", "format.js", "chart.js")
+    scripts += script("symbols.js", "tooltip.js") + script("sections.js")
     return (
         f'{scripts}<div class="ms-title">{text}<div class="ms-row">{fields}{switch}'
         f"{''.join(map(html, title.tools))}</div>{_TOLD}{_noted(title.notes)}</div>"
@@ -268,7 +270,7 @@ def _kind(field: Input) -> str:
 
 @html.register
 def _(whole: Figure) -> str:
-    figure = thinned(whole)
+    figure = thinned(smooth(whole))
     layout = chart.line_chart(figure.x, figure.lines, figure.marks, figure.every)
     picture = switched.chart(figure, layout, chart_svg.svg(layout))
     caption = _caption("Figure", figure.number, figure.title)

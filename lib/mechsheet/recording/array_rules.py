@@ -122,18 +122,22 @@ def unwrapped(graph: Graph, p: Any, discont: Any = None, axis: int = -1, *, peri
 
 
 def summed(graph: Graph, subscripts: str, *operands: Any) -> Any:
-    """numpy's einsum of named axes, none of them twice in one operand."""
+    """numpy's einsum of named axes."""
     given, arrow, result = subscripts.replace(" ", "").partition("->")
     names = given.split(",")
     every = sorted(set("".join(names)))
     if not arrow:
         result = "".join(letter for letter in every if given.count(letter) == 1)
-    if not set(every) <= set(string.ascii_letters) or any(len(set(name)) < len(name) for name in (*names, result)):
+    if not set(every) <= set(string.ascii_letters):
         raise NotRecorded(f"numpy's einsum of {subscripts!r}")
     factors = list[Any]()
     for name, operand in zip(names, operands, strict=True):
-        own = [letter for letter in every if letter in name]
-        whole = np.transpose(lift(graph, operand), [name.index(letter) for letter in own])
+        own: list[str] = [letter for letter in every if letter in name]
+        whole: Any = lift(graph, operand)
+        for letter in [letter for letter in own if name.count(letter) > 1]:  # of a matrix its diagonal
+            first, second = name.index(letter), name.rindex(letter)
+            whole, name = np.diagonal(whole, 0, first, second), name.replace(letter, "") + letter
+        whole = np.transpose(whole, [name.index(letter) for letter in own])
         factors.append(whole[tuple(slice(None) if letter in own else None for letter in every)])
     product = reduce(mul, factors)
     left = [letter for letter in every if letter in result]
@@ -168,6 +172,14 @@ def searched(graph: Graph, a: Any, v: Any, side: str = "left") -> Any:
     a, v = lift(graph, a), lift(graph, v)
     in_order(graph, a)
     return _rank(graph, a, v, strictly=side == "left")
+
+
+def digitized(graph: Graph, x: Any, bins: Any, right: bool = False) -> Any:
+    """numpy's digitize, of edges that rise or fall."""
+    bins, side = lift(graph, bins), "left" if right else "right"
+    if bins.extent[0] > 1 and bins.value[0] > bins.value[-1]:
+        return bins.count(0) - searched(graph, bins[::-1], x, side)
+    return searched(graph, bins, x, side)
 
 
 def _rank(graph: Graph, a: Quantity, v: Quantity, strictly: bool = False) -> Any:

@@ -13,7 +13,7 @@ import numpy as np
 
 from mechsheet.recording.arithmetic import choice as where
 from mechsheet.recording.arithmetic import elementwise, imaginary, trunc
-from mechsheet.recording.graph import Graph, Guard, NotRecorded
+from mechsheet.recording.graph import Graph, Guard, NotRecorded, current
 from mechsheet.recording.memory import Memory, may_change, names_of
 from mechsheet.recording.node import Loop, Node
 from mechsheet.recording.quantity import Quantity, has_quantity, is_any_length, joined, lift, owner, plain, quantities
@@ -157,7 +157,7 @@ def _repeated(
     """
     if not all(isinstance(x, _ARRAYS) or x is UNBOUND for x in first) or not all(isinstance(x, _ARRAYS) for x in last):
         return None
-    graph = next(quantities([first, last])).graph
+    graph = current.get()
     met = {holds: guard for holds, guard in graph.looked.items() if holds not in looked}
     end = [lift(graph, x) for x in (*last, 0)]
     begin = [
@@ -183,11 +183,46 @@ def _repeated(
     if any(a.im is not None and b.im is None for a, b in zip(made, like, strict=True)):
         return None
     graph.looked = looked
+    most = None if item is None else len(items)
+    loop = Loop(nodes, initial, _parts(made, like), ends.re, most)
     same = reduce(operator.and_, (Quantity(graph, holds) for holds in met))
-    loop = Loop(nodes, initial, _parts(made, like), ends.re, None if item is None else len(items))
-    turns = [where(graph, same, Quantity(graph, node), np.nan).re for node in _parts(end[:-1], like[:-1])]
+    ended, state = _in_turns(turn, items, item, _whole(graph, initial, like)[:-1], most) or (same, end[:-1])
+    graph.see(lift(graph, ended).re, turns=True)
+    turns = [where(graph, ended, Quantity(graph, node), np.nan).re for node in _parts(state, like[:-1])]
     found = [graph.iterated(loop, k, node) for k, node in enumerate(turns)]
     return tuple(_whole(graph, found, like[:-1]))
+
+
+def _in_turns(
+    turn: FunctionType, items: Any, item: int | None, begin: list[Quantity], most: int | None
+) -> tuple[Any, list[Quantity]] | None:
+    """Whether a loop has ended after twice as many turns as it takes now and some more, and its state then.
+
+    A turn behind its end changes nothing. None where that would take too many operations.
+    """
+    graph, state = begin[0].graph, begin
+    now, work, graph.looked = graph.looked, graph.work, {}
+    ended, number, count = lift(graph, False), 0, None
+    try:
+        while number not in (most, count):
+            if item is not None:
+                state[item] = where(graph, ended, state[item], lift(graph, items)[number])
+            ends, *after = turn(*state)
+            state = [where(graph, ended, a, b) for a, b in zip(state, after, strict=True)]
+            ended, number = ended | ends, number + 1
+            if count is None and ended.value:
+                count = 2 * number + _FURTHER
+        looked = bool(graph.looked)
+    except (Exception, NotRecorded):
+        looked = True
+    finally:
+        graph.looked, graph.work = now, work
+    if looked:
+        return None
+    return (True if number == most else ended), state
+
+
+_FURTHER = 8  # turns
 
 
 def _parts(values: list[Quantity], like: list[Quantity]) -> list[Node]:

@@ -1,12 +1,51 @@
 """Joints of compartments in elementary steps."""
 
-from typing import Any
+from collections.abc import Mapping, Sequence
+from typing import Any, cast
 
 import numpy as np
 
 from mechsheet.mechanics import joint
 from mechsheet.mechanics.joint import Bending, Ring, Section
 from mechsheet.recording.elementary_planar import Quantity, step
+from mechsheet.recording.quantity import plain
+
+
+class States:
+    """Texts of which one holds for each element; whoever looks at them takes them for those of the present numbers.
+
+    Of ``cases`` is known where they hold, so that a text is compared like a number.
+    """
+
+    def __init__(self, now: Any, rest_on: Sequence[Quantity], cases: Mapping[str, Quantity] | None = None) -> None:
+        self._now, self._rest_on, self._cases = now, rest_on, cases or {}
+
+    def seen(self) -> Any:
+        for x in self._rest_on:
+            plain(x)
+        return self._now
+
+    def __eq__(self, text: object) -> Any:
+        return self._cases[text] if isinstance(text, str) and text in self._cases else self.seen() == text
+
+    def __ne__(self, text: object) -> Any:
+        equal = self == text
+        return ~equal
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def __array__(self, *args: Any, **kwargs: Any) -> Any:
+        return np.asarray(self.seen(), *args)
+
+    def __getitem__(self, key: Any) -> Any:
+        return self.seen()[key]
+
+    def __iter__(self) -> Any:
+        return iter(self.seen())
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        return tuple(self.seen().shape)
 
 
 def sum_of_elements(x: Quantity) -> Quantity:
@@ -47,7 +86,8 @@ def neutral_axis(y: Quantity, A_t: Quantity, A_c: Quantity, M: Quantity, N: Quan
     settled = ((stretched & before) | ~(stretched | before)).all(axis=-1, keepdims=True)
     area = np.where(settled, area, np.nan)
     result = bending(y, area, M, N)
-    return Section(result.sigma, result.sigma * area, area, result.y_0, known.state)
+    state = States(known.state, [settled, (result.sigma > 0).any(axis=-1), (result.sigma < 0).any(axis=-1)])
+    return Section(result.sigma, result.sigma * area, area, result.y_0, cast("joint.Text", state))
 
 
 def circular_joint(r: Quantity, phi: Quantity, M: Quantity, N: Quantity) -> Ring:
@@ -72,16 +112,31 @@ def circular_joint(r: Quantity, phi: Quantity, M: Quantity, N: Quantity) -> Ring
     alone = bending(u, 1 + 0 * u, bend / 2, axial).sigma
     alone = np.where(rim[..., None], 0.0, alone)
     P = np.where(mixed[..., None], k_t[..., None] * q, alone) / (r[..., None] if np.ndim(r) else r)
-    c = side * axial / bend
+    load = bend + np.abs(axial)
+    rounding = np.sum(1.0 + 0 * phi, axis=-1) * np.finfo(float).eps * load
+    none, pulled = mixed & (bolt_N == 0), mixed & (k_c * arc_N > rounding)
+    least = -(rounding / r)[..., None]
+    pressed = ~mixed & ~rim & (least > P).any(axis=-1)
+    holds = step("holds", "-", "an equilibrium of this kind", ~(none | pulled | pressed))
+    cases = {
+        "tension and compression": mixed & holds,
+        "all in compression": rim & holds,
+        "no load": (load == 0) & holds & ~rim,
+        "no bolt in tension": none,
+        "ring in tension": pulled & ~none,
+        "bolt in compression": pressed,
+    }
+    M_x = np.where(holds, r * (P * np.sin(phi)).sum(axis=-1), np.nan)
+    c, k_c = np.where(holds, side * axial / bend, np.nan), np.where(holds, k_c, np.nan)
     p_0 = k_c * np.where(alpha > 0, axial - bend, 0.0) / (2 * np.pi * r**2)
     return Ring(
-        P=P,
+        P=np.where(holds[..., None], P, np.nan),
         p_0=p_0,
         R=k_c * arc_N / r,
         M_R=side * k_c * arc_M,
-        M_x=r * (P * np.sin(phi)).sum(axis=-1),
+        M_x=M_x,
         c=c,
         y_0=-c * r,
-        phi_0=np.broadcast_arrays(np.pi - alpha, p_0)[0],
-        state=known.state,
+        phi_0=np.broadcast_arrays(np.where(holds, np.pi - alpha, np.nan), p_0)[0],
+        state=cast("joint.Text", States(known.state, [*cases.values()], cases)),
     )

@@ -30,6 +30,7 @@ class Guard(NamedTuple):
     line: int  # of the worksheet
     rows: bool = False  # it is the number of rows, which a writer with a fixed number of them knows
     lengths: bool = False  # it follows from that number
+    turns: bool = False  # a loop ends within the turns that a writer has which does not repeat it
 
 
 class Gap(NamedTuple):
@@ -69,6 +70,7 @@ class Graph:
         self.positions = 0  # numbers of linspace before any were left out
         self.line = 0
         self.work = 0  # numbers computed since somebody set it to 0
+        self.most = MOST_DRAWN if draws else MOST  # that these may be
         self.fixed = set[Node]()  # which rest on constants alone
         self.counts = set[Node]()  # which rest on numbers of rows, and are these themselves
         self.always = set[Node]()  # which are numbers whatever the inputs are
@@ -78,7 +80,7 @@ class Graph:
         self.nodes: dict[Any, Node] = {}
         self.alike: dict[Any, list[tuple[float, Node]]] = {}  # exported, by what they rest on and shape
         self.looked: dict[Node, Guard] = {}  # by their conditions; since somebody emptied it
-        self.numbered: dict[Node, Guard] = {}  # those of numbers of rows, likewise
+        self.numbered: dict[Node, Guard] = {}  # those of numbers of rows and of turns, likewise
         self.gone: list[weakref.ref[Any]] = []  # arrays in whose place another one was put
         self.supposed = 0  # ways that Python does not take and that are recorded beside it, one in another
         self.labels: dict[Node, Label] = {}
@@ -107,15 +109,15 @@ class Graph:
                 self.counts.add(known)
             if self.always.issuperset(under) and _exists(known):
                 self.always.add(known)
-            if self.work > (most := MOST_DRAWN if self.draws else MOST):
-                raise NotRecorded(f"it takes more than {most:,} operations on single numbers")
+            if self.work > self.most:
+                raise NotRecorded(f"it takes more than {self.most:,} operations on single numbers")
         return known
 
-    def see(self, seen: Node, rows: bool = False) -> None:
+    def see(self, seen: Node, rows: bool = False, turns: bool = False) -> None:
         """Note that Python looks at a condition, which holds now."""
         if seen not in self.fixed:
-            kept = self.numbered if rows else self.looked
-            kept.setdefault(seen, Guard(seen, self.line, rows, not rows and seen in self.counts))
+            kept = self.numbered if rows or turns else self.looked
+            kept.setdefault(seen, Guard(seen, self.line, rows, not rows and seen in self.counts, turns))
 
     def measure(self, node: Node) -> None:
         """Note that Python looks at the shape of a quantity."""
@@ -148,6 +150,8 @@ class Graph:
         parts = list[tuple[Node, int]]()
         if node.op in ELEMENTWISE:
             parts = [(part, axis) for part in node.args if len(part.shape) >= -axis]
+        elif node.op in ("state", "iterated"):  # which is as it was at first
+            parts = [(node.args[0] if node.op == "state" else node.args[2], axis)]
         elif node.op == "found":
             parts = [(part, axis) for part in node.args[0].residuals if part.shape == node.shape]
         elif node.op == "join":
@@ -252,7 +256,7 @@ class Graph:
         return self._kept(key, "state", (initial,), lambda: initial.value.copy(), initial.stretches)
 
     def iterated(self, loop: Loop, number: int, turns: Node) -> Node:
-        """What a loop makes of one of its numbers; the turns that it takes now give ``turns``."""
+        """What a loop makes of one of its numbers; the ``turns`` one after the other give it too, while they do."""
         key = ("iterated", loop, number)
         return self._kept(key, "iterated", (loop, number, turns), lambda: turns.value, turns.stretches)
 

@@ -31,6 +31,21 @@ def outer(graph: Graph, x: Any, y: Any) -> Any:
     return lift(graph, x).reshape(-1, 1) * lift(graph, y).reshape(-1)
 
 
+def kron(graph: Graph, x: Any, y: Any) -> Any:
+    x, y = lift(graph, x), lift(graph, y)
+    if x.ndim != y.ndim or x.ndim not in (1, 2):
+        raise NotRecorded("numpy's kron of other than two vectors or two matrices")
+    if x.ndim == 1:
+        return (x[:, None] * y).reshape(-1)
+    rows, columns = len(x) * len(y), len(x[0]) * len(y[0])
+    return (x[:, None, :, None] * y[None, :, None, :]).reshape(rows, columns)
+
+
+def inverse(graph: Graph, A: Any) -> Any:
+    A = lift(graph, A)
+    return solution(graph, A, np.eye(A.shape[-1]))
+
+
 def diagonal(graph: Graph, x: Any, k: int = 0) -> Any:
     """numpy's diag: that of a matrix, or a matrix of it."""
     x = lift(graph, x)

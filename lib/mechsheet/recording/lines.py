@@ -78,8 +78,8 @@ class Recording:
     do so in the cells of a workbook alone; ``guards`` the conditions under which all is recorded as the worksheet has
     it; ``drawings`` those that a cell shows, by its number, or None for one that is not recorded; ``captions`` and
     ``texts`` what captions, by their numbers, and cells that are texts say with recorded numbers in it; ``positions``
-    what is marked along charts, by the name of its quantity; ``values`` what the names are in the recording. Only every
-    ``every``-th position is recorded.
+    what is marked along charts, by the name of its quantity; ``values`` what the names are in the recording, ``looked``
+    the guards that these rest on. Only every ``every``-th position is recorded.
     """
 
     graph: Graph
@@ -98,6 +98,7 @@ class Recording:
     guards: dict[Node, Guard] = field(default_factory=dict)  # by their conditions
     made_of: dict[Node, float] = field(default_factory=dict)  # the largest terms of sums, as far as looked at
     values: dict[str, Any] = field(default_factory=dict)
+    looked: dict[str, tuple[Guard, ...]] = field(default_factory=dict)
     every: int = 1
     sections: list[str] = field(default_factory=list)
     names: dict[Node, str] = field(default_factory=dict)

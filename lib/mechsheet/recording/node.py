@@ -99,7 +99,7 @@ class Node:
     ``length`` (source, axis)   how many elements there are along an axis, which is counted from the last one
     ``found`` (block, number)   one of the unknowns that a `Block` finds; after them its evaluations of the equations
     ``state`` (initial)         one of the numbers that a `Loop` changes, at any of its turns
-    ``iterated`` (loop, ..)     what its ``number`` is in the end; by its ``turns`` alone while these are as many
+    ``iterated`` (loop, ..)     what its ``number`` is in the end; by some ``turns`` alone while it ends in them
     ``exported``                numbers of the worksheet's own run, which rest on its operands nobody knows how
     ``take`` (source, ..)       elements by their flat positions, in the shape of these
     ``at`` (source, position)   elements by positions that are a quantity themselves

@@ -11,6 +11,7 @@ from mechsheet.recording import polynomial_rules
 from mechsheet.recording.arithmetic import absolute, angle, choice, conjugate, rounded, trunc
 from mechsheet.recording.array_rules import (
     cross,
+    digitized,
     interpolated,
     least_squares,
     order,
@@ -25,6 +26,8 @@ from mechsheet.recording.linear_rules import (
     determinant,
     diagonal,
     eigenvalues,
+    inverse,
+    kron,
     lower,
     matrix_power,
     outer,
@@ -36,6 +39,8 @@ from mechsheet.recording.operations import REDUCE_SO_FAR
 from mechsheet.recording.quantity import FUNCTIONS, REDUCTIONS, Quantity, has_quantity, joined, lift, moved, plain
 from mechsheet.recording.statistics_rules import (
     average,
+    correlation,
+    covariance,
     filled_up,
     histogram,
     known_mean,
@@ -172,14 +177,39 @@ def trapezoid_so_far(graph: Graph, y: Any, x: Any = None, dx: Any = 1.0, axis: i
     return _joined(np.concatenate)(graph, [lift(graph, float(initial)).like(one), parts], axis=axis)
 
 
+def simpson(graph: Graph, y: Any, x: Any = None, *, dx: Any = 1.0, axis: int = -1) -> Any:
+    """scipy's simpson: parabolas over each two strips, and over the last one the end of the parabola before it."""
+    y = moved(lift(graph, y), axis, -1)
+    widths = lift(graph, dx).like(y[..., 1:]) if x is None else _difference(graph, x)
+    graph.measure(y.re)
+    if (count := y.extent[-1]) < 3:
+        return _trapezoid(graph, y, x, dx)
+    first = slice(0, count - 2, 2)
+    a, b = widths[..., first], widths[..., 1 : count - 1 : 2]
+    low, middle, high = y[..., first], y[..., 1 : count - 1 : 2], y[..., 2:count:2]
+    parts = (a + b) / 6 * ((2 - b / a) * low + (a + b) ** 2 / (a * b) * middle + (2 - a / b) * high)
+    whole = parts.reduced("sum", -1)
+    if count % 2 == 0:
+        a, b = widths[..., -2], widths[..., -1]
+        last = (2 * b + 3 * a) * b / (6 * (a + b)) * y[..., -1] + (b + 3 * a) * b / (6 * a) * y[..., -2]
+        whole = whole + last - b**3 / (6 * a * (a + b)) * y[..., -3]
+    return whole
+
+
 def _gradient(graph: Graph, y: Any, x: Any = 1.0, axis: Any = None, edge_order: int = 1) -> Any:
     y = lift(graph, y)
-    if y.ndim != 1 or edge_order != 1:
-        raise NotRecorded("numpy's gradient of a table, or of second order at its ends")
-    h = _difference(graph, x) if np.ndim(x) else lift(graph, x).like(y[1:])
+    if y.ndim != 1 and axis is None:
+        raise NotRecorded("numpy's gradient of a table along all of its axes")
+    y = y if axis is None else moved(y, axis, -1)
+    h = _difference(graph, x) if np.ndim(x) else lift(graph, x).like(y[..., 1:])
     slope = _difference(graph, y) / h
-    inner = (slope[:-1] * h[1:] + slope[1:] * h[:-1]) / (h[1:] + h[:-1])
-    return _joined(np.concatenate)(graph, [slope[:1], inner, slope[-1:]])
+    start, end = slope[..., :-1], slope[..., 1:]
+    bend = (end - start) / (h[..., 1:] + h[..., :-1])
+    inner, first, last = start + bend * h[..., :-1], slope[..., :1], slope[..., -1:]
+    if edge_order == 2:
+        first, last = first - bend[..., :1] * h[..., :1], last + bend[..., -1:] * h[..., -1:]
+    whole = _joined(np.concatenate)(graph, [first, inner, last], axis=-1)
+    return whole if axis is None else moved(whole, -1, axis)
 
 
 def _selected(graph: Graph, conditions: Any, choices: Any, default: Any = 0) -> Any:
@@ -254,23 +284,26 @@ _OF_FUNCTIONS: dict[Any, Callable[..., Any]] = {
     np.ptp: lambda graph, x, axis=None: lift(graph, x).reduced("max", axis) - lift(graph, x).reduced("min", axis),
     np.mean: mean, np.average: average, np.nanmean: known_mean, np.var: variance, np.median: median,
     np.std: lambda graph, x, axis=None, ddof=0: np.sqrt(variance(graph, x, axis, ddof)), np.quantile: quantile,
-    np.percentile: lambda graph, x, q: quantile(graph, x, lift(graph, q) / 100),
+    np.percentile: lambda graph, x, q, axis=None: quantile(graph, x, lift(graph, q) / 100, axis),
     np.count_nonzero: lambda graph, x, axis=None: choice(graph, x, 1.0, 0.0).reduced("sum", axis),
     np.cumsum: _so_far("sum"), np.cumprod: _so_far("prod"), np.diff: _difference, np.ediff1d: _difference,
     np.trapezoid: _trapezoid, np.gradient: _gradient, np.interp: interpolated, np.searchsorted: searched,
-    np.digitize: lambda graph, x, bins: searched(graph, bins, x, "right"), np.sort: ordered,
+    np.digitize: digitized, np.sort: ordered, np.cov: covariance, np.corrcoef: correlation, np.kron: kron,
     np.argsort: order, np.cross: cross, np.unwrap: unwrapped, np.einsum: summed, np.linalg.lstsq: least_squares,
     np.polyfit: polynomial_fit, np.dot: product, np.inner: product,
     np.vdot: lambda graph, x, y: (conjugate(lift(graph, x)) * y).reduced("sum"),
     np.outer: outer, np.linalg.solve: solution, np.linalg.det: determinant, np.linalg.norm: norm,
-    np.linalg.inv: lambda graph, A: solution(graph, A, np.eye(np.shape(A)[-1])),
+    np.linalg.inv: inverse, np.cumulative_sum: _so_far("sum"),
+    np.sinc: lambda graph, x: choice(graph, lift(graph, x) == 0, 1.0, np.sin(np.pi * x) / (np.pi * x)),
     np.linalg.eigvalsh: lambda graph, A, UPLO="L": ordered(
         graph, moved(lift(graph, eigenvalues(graph, A, UPLO)), 0, -1)
     ),
     np.histogram: histogram,
     np.trace: lambda graph, A: lift(graph, A)[np.arange(len(A)), np.arange(len(A))].reduced("sum"),
     np.polyval: polynomial_rules.value, np.polyder: polynomial_rules.derivative, np.polyint: polynomial_rules.integral,
-    np.convolve: polynomial_rules.convolved, np.polyadd: polynomial_rules.added,
+    np.convolve: polynomial_rules.convolved, np.polymul: polynomial_rules.convolved,
+    np.polyadd: polynomial_rules.added, np.polysub: lambda graph, p, q: np.polyadd(p, -lift(graph, q)),
+    np.roots: polynomial_rules.roots,
     np.diag: diagonal, np.triu: upper, np.tril: lower, np.linalg.matrix_power: matrix_power,
     np.logspace: lambda graph, *ends: 10.0 ** linspace(graph, *ends),
     np.geomspace: lambda graph, start, stop, *count: start * (stop / start) ** linspace(graph, 0.0, 1.0, *count),

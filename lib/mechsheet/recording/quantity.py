@@ -272,6 +272,9 @@ class Quantity(NDArrayOperatorsMixin):
         if not np.ndim(inputs[0]) and len(kwargs.get("out", ())) == 1 and kwargs["out"][0] is inputs[0]:
             kwargs.pop("out")  # of x += y, which binds a number anew
         operation = UFUNCS.get(ufunc)
+        if operation and method == "outer" and not kwargs:
+            x, y = (lift(self.graph, each) for each in inputs)
+            return operation(x[(..., *(None,) * y.ndim)], y)
         if operation is None or method != "__call__" or kwargs:
             given = f" with {', '.join(kwargs)}" if kwargs else ""
             raise NotRecorded((f"{ufunc.__name__}.{method}" if method != "__call__" else ufunc.__name__) + given)

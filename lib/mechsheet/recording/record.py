@@ -19,19 +19,18 @@ from mechsheet.recording.graph import Gap, Graph, Guard, NotRecorded, current
 from mechsheet.recording.lines import Recording, leaves_of
 from mechsheet.recording.memory import Memory, changes, names_of
 from mechsheet.recording.node import Node, bottom_up, conditions
+from mechsheet.recording.positions import listed, on_rows
 from mechsheet.recording.quantity import Quantity, has_quantity, is_literal, lift
 from mechsheet.recording.sketch import Drawn, Sketch
-from mechsheet.recording.stage import Stage, held
+from mechsheet.recording.stage import Stage, held, shown
 from mechsheet.recording.substitutes import BUILTINS, Module, instead, shared, staged
 from mechsheet.recording.unrepeatable import Unrepeatable
 from mechsheet.recording.written import Said, Written
 from mechsheet.units import Constant
 from mechsheet.worksheet.cells import Cell, Worksheet, load
-from mechsheet.worksheet.check import Check
 from mechsheet.worksheet.lines import Formula, registry
-from mechsheet.worksheet.table import Figure, Table
+from mechsheet.worksheet.table import Table
 from mechsheet.worksheet.title import Mark, Slider
-from mechsheet.worksheet.verdict import Verdict
 
 
 def record(
@@ -56,7 +55,7 @@ def record(
     """
     sheet = load(Path(namespace["__file__"])) if sheet is None else sheet
     steps = {value.every for value in namespace.values() if isinstance(value, Table)}
-    want = sheet.results if whole else [name for name in sheet.results if _shown(namespace.get(name))]
+    want = sheet.results if whole else [name for name in sheet.results if shown(namespace.get(name))]
     graph = Graph(every or (steps.pop() if len(steps) == 1 else 1), draws, lists)
     token = current.set(graph)
     try:
@@ -65,7 +64,7 @@ def record(
         current.reset(token)
 
 
-_MORE = 50  # columns that a check over all positions may take more than one over those that tables list
+_MORE = 1_000_000  # operations on single numbers that checks over all positions take at most, beside those of tables
 
 
 class _Run:
@@ -102,13 +101,14 @@ class _Run:
                 later = {name for name, end in last.items() if end > n}
                 if not statement.on_the_page(line) and not self.apart(stage, line, later):
                     self.step(stage, line.lineno, fact, later)
+            self.decide(stage, last)
             for name in dict.fromkeys([*(n for n in cell.code.co_names if n in lines), *cell.gives]):
                 self.recording.define(cell.section, name, self.names.get(name, self.passing.get(name)), lines)
             for solved in stage.solved:
                 self.recording.define_steps(cell.section, solved)
             if graph.draws:
                 self.show(stage, cell)
-        self.recording.values = self.names
+        self.recording.values, self.recording.looked = self.names, self.looked
         if graph.thin > 1:
             self.check_everywhere()
 
@@ -139,7 +139,8 @@ class _Run:
                     self.lost.pop(name, None)
                     return
             value, own = self.names.get(name), [*showing.drawings(self.namespace.get(name))]
-            guards, drawn = self.looked.get(name, ()), [*showing.drawings(value)]
+            guards = *self.looked.get(name, ()), *stage.guards.values()
+            drawn = [*showing.drawings(value)]
             for k, x in value.positions if isinstance(value, Mark) else ():
                 at = lift(self.graph, x)
                 for guard in guards:
@@ -160,7 +161,8 @@ class _Run:
         self.step(stage, text.lineno, statement.facts(showing.bound(text), self.sheet.path), set())
         self.lost.pop(showing.HERE, None)
         value = self.names.pop(showing.HERE, None)
-        return Said(value, self.looked.get(showing.HERE, ())) if isinstance(value, Written) else None
+        guards = *self.looked.get(showing.HERE, ()), *stage.guards.values()
+        return Said(value, guards) if isinstance(value, Written) else None
 
     def step(self, stage: Stage, line: int, facts: statement.Statement, later: set[str]) -> None:
         """Run one statement; where it cannot be recorded, its names keep the numbers of the worksheet's own run.
@@ -207,8 +209,9 @@ class _Run:
         ways = may_change and bool(graph.looked)  # of which others change more
         beside = before.named(self.names, before.changed() | (before.mutable() if ways else set())).difference(touched)
         everywhere = not touched and not beside
-        noted = (guard for guard in graph.looked.values() if everywhere and not guard.lengths)
-        self.recording.guards |= {guard.holds: guard for guard in (*graph.numbered.values(), *noted)}
+        noted = {holds: guard for holds, guard in graph.looked.items() if everywhere and not guard.lengths}
+        stage.guards |= noted
+        self.recording.guards |= graph.numbered | noted
         rests, shown = rests | graph.looked, shown | graph.looked
         for name in beside:
             self.looked[name] = tuple(
@@ -219,10 +222,24 @@ class _Run:
                 own = self.namespace.get(name, self.names[name])
                 self.names[name] = showing.slid(self.recording, name, own) if graph.draws else own
             self.looked[name] = tuple(rests.values())
-            value = self.names.get(name)
-            if isinstance(value, Quantity) and value.dtype != bool and any(p.op != "constant" for p in value.parts):
-                self.names[name] = self.while_same(value, rests.values())
+            self.hold(name, rests.values())
         stage.finish(lambda x: self.while_same(x, shown.values()))
+
+    def decide(self, stage: Stage, names: Iterable[str]) -> None:
+        """Let what a cell gives and shows rest on what Python saw for statements that bind nothing, and may end it."""
+        guards = stage.guards
+        if not guards:
+            return
+        for name in names:
+            self.looked[name] = tuple(({guard.holds: guard for guard in self.looked.get(name, ())} | guards).values())
+            self.hold(name, guards.values())
+        stage.end(lambda x: self.while_same(x, guards.values()))
+
+    def hold(self, name: str, guards: Iterable[Guard]) -> None:
+        """Let the number of a name be none unless Python sees the same."""
+        value = self.names.get(name)
+        if isinstance(value, Quantity) and value.dtype != bool and any(p.op != "constant" for p in value.parts):
+            self.names[name] = self.while_same(value, guards)
 
     def measure(self, touched: Iterable[str], reads: frozenset[str]) -> None:
         """Let unit constants that a statement binds be quantities, and numbers that a line declares in a unit.
@@ -315,12 +332,13 @@ class _Run:
         """A run of the same graph over all positions."""
         graph = self.graph
         if not self.over_all_positions:
-            kept = graph.thin, graph.line, graph.looked, graph.numbered, graph.work
-            labels, graph.labels, graph.thin = graph.labels, {}, 1  # what only this run needs is no named step
+            kept = graph.thin, graph.most, graph.line, graph.looked, graph.numbered, graph.work
+            graph.thin, graph.most = 1, graph.most * graph.thin
+            labels, graph.labels = graph.labels, {}  # what only this run needs is no named step
             try:
                 self.over_all_positions.append(_Run(self.sheet, graph, self.namespace, self.want, self.lines))
             finally:
-                graph.thin, graph.line, graph.looked, graph.numbered, graph.work = kept
+                graph.thin, graph.most, graph.line, graph.looked, graph.numbered, graph.work = kept
                 graph.labels = labels
         return self.over_all_positions[0]
 
@@ -329,7 +347,7 @@ class _Run:
         for name in names:
             run = self.everywhere()
             if name in run.names:
-                self.names[name] = value = _listed(self.graph, run.names[name])
+                self.names[name] = value = listed(self.graph, run.names[name])
                 if isinstance(value, Quantity):
                     self.guard_as(run, value.parts)
                     if not value.single:
@@ -339,43 +357,36 @@ class _Run:
         """Take over the guards of another run on which quantities rest."""
         guards = run.recording.guards
         if guards:
-            self.recording.guards |= {node: guards[node] for node in bottom_up(nodes, ()) if node in guards}
+            under = list(bottom_up(nodes, ()))
+            under += bottom_up((node.args[2] for node in under if node.op == "iterated"), under)
+            self.recording.guards |= {node: guards[node] for node in under if node in guards}
 
     def check_everywhere(self) -> None:
-        """Let checks look at all positions where that takes few columns more; the others look at those listed."""
-        recording = self.recording
+        """Let checks look at all positions while that is not too much; the others look at those listed."""
+        recording, left = self.recording, _MORE
         columns = (part for table in recording.tables.values() for c in table if c is not None for part in c.parts)
         judged = (part for check in recording.checks.values() for part in (*check.parts, check.limit))
         known = set(bottom_up([*columns, *judged, *recording.guards], ()))
         for name, own in recording.checks.items():
-            if not any(any(rests) for rests in self.on_rows([*own.parts, own.limit])):
+            if not any(any(rests) for rests in on_rows(self.graph, [*own.parts, own.limit], self.of_rows)):
                 continue
             whole = self.everywhere().recording.checks.get(name, own)
             nodes = [*whole.parts, whole.limit]
             more = list(bottom_up(nodes, known))
-            if sum(node.size > 1 for node in more) > _MORE or any(node.op == "exported" for node in more):
+            takes = sum(node.size for node in more if node.size > 1)
+            if takes > left or any(node.op == "exported" for node in more):
                 recording.checks[name] = replace(own, listed=True)
             else:
-                recording.checks[name] = whole
+                recording.checks[name], left = whole, left - takes
                 known.update(more)
                 self.guard_as(self.everywhere(), nodes)
-
-    def on_rows(self, nodes: Sequence[Node]) -> list[tuple[bool, bool]]:
-        """Whether each rests on the positions that tables list, and on a sum or an extreme over them."""
-        count = (self.graph.positions - 1) // self.graph.thin + 1
-        for part in bottom_up(nodes, self.of_rows):
-            under = [self.of_rows[operand] for operand in part.operands]
-            rests = (part.op == "rows" and part.size == count) or any(own for own, _ in under)
-            reduced = part.op == "reduce" and rests and part.size < count
-            self.of_rows[part] = rests, reduced or any(over for _, over in under)
-        return [self.of_rows[node] for node in nodes]
 
     def over_listed(self, name: str) -> bool:
         """Whether a line is a sum or an extreme over the positions that tables list, which that over all may equal."""
         value = self.names.get(name)
         if name not in self.lines or not isinstance(value, Quantity):
             return False
-        return any(over for _, over in self.on_rows(list(value.parts)))
+        return any(over for _, over in on_rows(self.graph, [*value.parts], self.of_rows))
 
     def of_listed(self, name: str) -> bool:
         """Whether a number is a greatest or least one over the positions that tables list, and differs only by that.
@@ -427,21 +438,9 @@ class _Run:
         return leaves_of(roots, self.recording)
 
 
-def _listed(graph: Graph, value: Any) -> Any:
-    """What was recorded over all positions, at those that tables list."""
-    if not isinstance(value, Quantity):
-        return value
-    return value[tuple(slice(None, None, graph.thin if size == graph.positions else None) for size in value.extent)]
-
-
 def _is_array(value: Any) -> bool:
     return isinstance(value, np.ndarray) and value.dtype.kind in "iuf"
 
 
 def _is_number(value: Any) -> bool:
     return isinstance(value, float | np.floating) or _is_array(value)
-
-
-def _shown(value: Any) -> bool:
-    group = value if isinstance(value, tuple | list) else [value]
-    return any(isinstance(v, Table | Figure | Check | Verdict) for v in group)

@@ -9,7 +9,7 @@ import numpy as np
 
 from mechsheet import units
 from mechsheet.recording import solving
-from mechsheet.recording.graph import NotRecorded
+from mechsheet.recording.graph import Guard, NotRecorded
 from mechsheet.recording.lines import Recording, Residual, Solved
 from mechsheet.recording.node import Node, bottom_up
 from mechsheet.recording.quantity import Quantity, lift
@@ -33,6 +33,8 @@ class Stage:
         self.solved: list[Solved] = []
         self.shown_now: list[tuple[dict[str, Any], str]] = []  # by the statement that is run
         self.solved_now: list[Solved] = []  # by it, or given their closed form
+        self.shown: list[tuple[dict[str, Any], str]] = []  # by the statements before it
+        self.guards: dict[Node, Guard] = {}  # by their conditions: of statements that bind nothing
         given = [namespace.get(name) for name in cell.gives]
         self.real = [v for group in given for v in (group if isinstance(group, tuple | list) else [group])]
 
@@ -194,8 +196,15 @@ class Stage:
                 node and of(node) for node in (solved.residual, solved.inverse, solved.target)
             )
             solved.interval = solved.interval and (of(solved.interval[0]), of(solved.interval[1]))
+        self.shown += self.shown_now
         self.shown_now.clear()
         self.solved_now.clear()
+
+    def end(self, f: Callable[[Quantity], Quantity]) -> None:
+        """End the cell, with a function of every quantity that it has shown."""
+        self.shown_now = [(place, key) for place, key in self.shown if key in place]
+        self.solved_now = [*self.solved]
+        self.finish(f)
 
     def same(self, value: Any, own: Any) -> bool:
         """Whether a recorded value has the worksheet's own numbers, but for the rounding of what it is made of."""
@@ -231,11 +240,13 @@ class Stage:
             case bool() | int() | float() | complex() | np.generic() | np.ndarray():
                 return exported(own) if np.asarray(own).dtype.kind in "biufc" else own
             case Table(number=number, columns=columns):
+                self.shown.append((recording.tables, number))
                 recording.tables[number] = tuple(
                     Quantity(graph, graph.exported(rests_on, c.values * units.parse(c.unit).factor)) if c.unit else None
                     for c in columns
                 )
             case Check():
+                self.shown.append((recording.checks, own.name))
                 numbers = [graph.exported(rests_on, x) for x in (own.residual, own.limit)]
                 recording.checks[own.name] = Residual(numbers[:1], numbers[1], "-", signed=True)
             case Verdict():
@@ -256,6 +267,12 @@ class Stage:
                 object.__setattr__(new, f.name, self.kept(getattr(own, f.name), rests_on))
             return new
         return own
+
+
+def shown(own: Any) -> bool:
+    """Whether a value of a worksheet is what a writer shows."""
+    group = own if isinstance(own, tuple | list) else [own]
+    return any(isinstance(v, Table | Figure | Check | Verdict) for v in group)
 
 
 def held(own: Any) -> bool:

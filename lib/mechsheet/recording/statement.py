@@ -88,7 +88,9 @@ def _beside(nodes: Iterable[ast.AST]) -> Iterator[ast.expr]:
 def on_the_page(statement: ast.stmt) -> bool:
     """Whether a statement shows a text or a value, which is of no other use."""
     match statement:
-        case ast.Expr(ast.Call(ast.Attribute(ast.Name("mo"))) | ast.Constant() | ast.Name()):
+        case ast.Expr(ast.Call(ast.Attribute(ast.Name("mo"), name))):
+            return name != "stop"
+        case ast.Expr(ast.Constant() | ast.Name()):
             return True
         case ast.Expr(ast.Call(ast.Name(name))):
             return name in _TEXTS

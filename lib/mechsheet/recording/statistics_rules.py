@@ -19,14 +19,17 @@ def median(graph: Graph, x: Any, axis: Any = None) -> Any:
     return x[low] if isinstance(count, int) and low == high else (x[low] + x[high]) / 2
 
 
-def quantile(graph: Graph, x: Any, q: Any) -> Any:
-    x = ordered(graph, lift(graph, x).reshape(-1))
-    if is_any_length(x):
+def quantile(graph: Graph, x: Any, q: Any, axis: Any = None) -> Any:
+    x, q = lift(graph, x), lift(graph, q)
+    x = ordered(graph, x.reshape(-1)) if axis is None else moved(ordered(graph, x, axis), axis, 0)
+    if x.ndim > 1 and q.ndim:
+        raise NotRecorded("several of numpy's quantiles along an axis")
+    if is_any_length(x) or x.ndim > 1:
         last = x.count(0) - 1
-        at: Any = lift(graph, q) * last
+        at: Any = q * last
         low: Any = np.floor(at)
         return x[low] + (at - low) * (x[np.minimum(low + 1, last)] - x[low])
-    return interpolated(graph, lift(graph, q) * (len(x) - 1), np.arange(len(x)), x)
+    return interpolated(graph, q * (len(x) - 1), np.arange(len(x)), x)
 
 
 def mean(graph: Graph, x: Any, axis: Any = None, keepdims: bool = False) -> Any:
@@ -65,14 +68,37 @@ def variance(graph: Graph, x: Any, axis: Any = None, ddof: Any = 0) -> Any:
     return off.reduced("sum", axis) / (x.count(axis) - ddof)
 
 
-def norm(graph: Graph, x: Any, ord: Any = None, axis: Any = None) -> Any:
+def covariance(graph: Graph, x: Any, y: Any = None, rowvar: bool = True, bias: bool = False, ddof: Any = None) -> Any:
+    """numpy's cov, of rows or columns, or of one quantity alone."""
     x = lift(graph, x)
-    if ord not in (None, 1, 2, np.inf) or (ord is not None and axis is None and x.ndim > 1):
-        raise NotRecorded(f"numpy's norm of the order {ord}")
+    rows = [*(x if x.ndim > 1 and rowvar else x.T if x.ndim > 1 else [x]), *([] if y is None else [lift(graph, y)])]
+    off = [row - mean(graph, row) for row in rows]
+    left = rows[0].count(0) - ((0 if bias else 1) if ddof is None else ddof)
+    table = [[(one * other).reduced("sum") / left for other in off] for one in off]
+    return lift(graph, table) if len(rows) > 1 else table[0][0]
+
+
+def correlation(graph: Graph, *given: Any, **rest: Any) -> Any:
+    """numpy's corrcoef."""
+    table = covariance(graph, *given, **rest)
+    spread = np.sqrt(np.diagonal(table)) if table.ndim else np.sqrt(table)
+    return table / (spread[:, None] * spread) if table.ndim else table / spread**2
+
+
+def norm(graph: Graph, x: Any, ord: Any = None, axis: Any = None, keepdims: bool = False) -> Any:
+    x = lift(graph, x)
     size = absolute(x)
-    if ord in (1, np.inf):
-        return size.reduced("sum" if ord == 1 else "max", axis)
-    return np.sqrt(square(size).reduced("sum", axis))
+    if ord is not None and axis is None and x.ndim > 1:
+        if ord not in (1, np.inf):
+            raise NotRecorded(f"numpy's norm of the order {ord} of a matrix")
+        return size.reduced("sum", 0 if ord == 1 else 1).reduced("max")
+    if ord in (np.inf, -np.inf):
+        return size.reduced("max" if ord > 0 else "min", axis, keepdims)
+    if ord == 0:
+        return choice(graph, size == 0, 0.0, 1.0).reduced("sum", axis, keepdims)
+    if ord in (None, 2):
+        return np.sqrt(square(size).reduced("sum", axis, keepdims))
+    return (size**ord).reduced("sum", axis, keepdims) ** (1 / ord)
 
 
 def histogram(graph: Graph, x: Any, bins: Any = 10, range: Any = None) -> Any:

@@ -21,7 +21,7 @@ import numpy as np
 from mechsheet import units
 from mechsheet.recording.choices import total
 from mechsheet.recording.graph import NotRecorded, current
-from mechsheet.recording.numpy_rules import arange, filled, linspace, trapezoid_so_far
+from mechsheet.recording.numpy_rules import arange, filled, linspace, simpson, trapezoid_so_far
 from mechsheet.recording.quantity import FUNCTIONS, Quantity, has_quantity, lift
 from mechsheet.recording.rewritten import NAMES, rebuilt
 from mechsheet.recording.sketch import Sketch, drawing
@@ -65,7 +65,7 @@ _MATH[math.isclose] = math.isclose  # whose tolerances are not those of numpy's
 def instead(value: Any) -> Any:
     """What takes quantities in place of a function, class or module; anything else is itself."""
     if isinstance(value, Marimo) or value is sys.modules.get("marimo"):
-        return _NOTHING
+        return _PAGE
     if isinstance(value, ModuleType):
         return _module(value)
     if isinstance(value, units.Constant):
@@ -85,9 +85,26 @@ def instead(value: Any) -> Any:
     room = str(getattr(value, "__module__", ""))
     if isinstance(value, FunctionType | type) and room.startswith("mechsheet."):
         return _of_package(value, room)
-    if callable(value) and getattr(value, "__name__", "") == "cumulative_trapezoid":
-        return lambda y, *args, **rest: trapezoid_so_far(current.get(), y, *args, **rest)
+    if isinstance(value, FunctionType) and room.startswith("scipy."):
+        return _of_scipy(value)
     return value
+
+
+@cache
+def _of_scipy(f: Callable[..., Any]) -> Callable[..., Any]:
+    """A function of scipy, by the rule of its own or of numpy's of the same name."""
+    rules = {"cumulative_trapezoid": trapezoid_so_far, "simpson": simpson, "trapezoid": FUNCTIONS[np.trapezoid]}
+    alike = getattr(np.linalg, f.__name__, None) if f.__module__.startswith("scipy.linalg.") else None
+    rule = FUNCTIONS.get(alike) or rules.get(f.__name__)
+
+    def function(*args: Any, **kwargs: Any) -> Any:
+        if not has_quantity([*args, *kwargs.values()]):
+            return f(*args, **kwargs)
+        if rule is None:
+            raise NotRecorded(f"scipy's {f.__name__}")
+        return rule(current.get(), *args, **kwargs)
+
+    return function
 
 
 def _of_package(value: Any, room: str) -> Any:
@@ -169,9 +186,11 @@ def _takes(f: Callable[..., Any]) -> Callable[..., Any]:
             return args[0], 0
         if isinstance(f, np.ufunc):
             return f(*(lift(current.get(), a) for a in args), **kwargs)
+        if f not in FUNCTIONS and hasattr(f, "_implementation"):  # it would look into lists of quantities
+            raise NotRecorded(f"numpy's {f.__name__}")
         return FUNCTIONS[f](current.get(), *args, **kwargs) if f in FUNCTIONS else f(*args, **kwargs)
 
-    for name in ("reduce", "accumulate"):
+    for name in ("reduce", "accumulate", "outer"):
         if isinstance(f, np.ufunc):
             setattr(function, name, getattr(f, name))
     return function
@@ -251,5 +270,13 @@ class _Nothing:
         return self
 
 
-_NOTHING = _Nothing()
+class _Page(_Nothing):
+    """Stands for marimo, which may stop a cell."""
+
+    def stop(self, predicate: Any, output: Any = None) -> None:
+        if predicate:
+            raise NotRecorded("the cell stops here")
+
+
+_NOTHING, _PAGE = _Nothing(), _Page()
 _NAMES = {**NAMES, "recorded imported": instead}

@@ -1,7 +1,8 @@
 """What a worksheet shows at a glance, from one run with its own inputs: ``python -m mechsheet.run.glance WORKSHEET``.
 
-It is kept in the user's cache with the time of the run and a digest of what it was computed from, so that whoever reads
-it later knows whether it still holds.
+One that searches or measures, for minutes, is run only with ``--asked`` behind it, else it ends with `LONG`. A run is
+kept in the user's cache with its time and a digest of what it was computed from, so that whoever reads it later knows
+whether it still holds.
 """
 
 import hashlib
@@ -26,6 +27,7 @@ from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.table import Figure
 
 _PACKAGE = Path(__file__).parents[1]
+LONG = 3  # exit code: it was not run, as nobody asked for it
 _BACKGROUND = 10  # how much it gives way to other programs, of 19
 
 
@@ -61,6 +63,16 @@ def _package() -> bytes:
 def _place(worksheet: Path) -> Path:
     folder = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache")
     return folder / "mechsheet" / f"{hashlib.sha256(str(worksheet).encode()).hexdigest()}.json"
+
+
+def searches(worksheet: Path) -> bool:
+    """Whether a worksheet searches or measures over many runs; not known, so no, of one that cannot be read."""
+    from mechsheet.html.write import studies  # on use: the start page needs it not
+
+    try:
+        return bool(studies(load(worksheet)))
+    except Exception:  # of the worksheet's own lines: its run tells it
+        return False
 
 
 def computed(worksheet: Path) -> Glance:
@@ -108,6 +120,8 @@ def main() -> None:
     Thread(target=_end_with_who_asked, daemon=True).start()
     worksheet = Path(sys.argv[1]).resolve()
     watch(str(worksheet))
+    if "--asked" not in sys.argv and searches(worksheet):
+        sys.exit(LONG)
     if hasattr(os, "nice"):  # where there is none, it runs beside the pages as they do
         os.nice(_BACKGROUND)
     made = json.dumps(asdict(computed(worksheet)))

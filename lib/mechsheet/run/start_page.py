@@ -1,7 +1,8 @@
 """The page that ``edit`` and ``serve`` open without a name: every worksheet with title, drawing and last verdict.
 
 It stands in the place of marimo's own list of files, as middleware of its server, and only where ``MECHSHEET_START``
-tells which worksheets there are. What was not run since it last changed is run behind the page, one after another.
+tells which worksheets there are. What was not run since it last changed is run behind the page, one after another; what
+searches or measures, for minutes, only once someone asks for it.
 """
 
 import json
@@ -29,11 +30,12 @@ class Runs:
 
     def __init__(self) -> None:
         self.asked, self.failed = set[str](), dict[str, str]()
-        self.running, self._queue = set[str](), SimpleQueue[str]()
+        self.long = dict[str, str]()  # digests of those that are not run unasked
+        self.running, self._queue = set[str](), SimpleQueue[tuple[str, bool]]()
         self._threads = [Thread(target=self._work, daemon=True) for _ in range(_AT_ONCE)]
 
-    def ask(self, worksheet: str) -> None:
-        """Run a worksheet soon; once, however often it is asked for until then."""
+    def ask(self, worksheet: str, whatever: bool) -> None:
+        """Run a worksheet soon, ``whatever`` time it takes; once, however often it is asked for until then."""
         if worksheet in self.asked:
             return
         self.failed.pop(worksheet, None)
@@ -41,12 +43,12 @@ class Runs:
             for thread in self._threads:
                 thread.start()
         self.asked.add(worksheet)
-        self._queue.put(worksheet)
+        self._queue.put((worksheet, whatever))
 
     def _work(self) -> None:
         while True:
-            worksheet = self._queue.get()
-            command = [sys.executable, "-m", "mechsheet.run.glance", worksheet]
+            worksheet, whatever = self._queue.get()
+            command = [sys.executable, "-m", "mechsheet.run.glance", worksheet, *["--asked"] * whatever]
             # Its input is never written to: it ends with this process, in whatever way that ends.
             pipe, text = subprocess.PIPE, {**os.environ, "PYTHONUTF8": "1"}
             with subprocess.Popen(command, stdin=pipe, stdout=subprocess.DEVNULL, stderr=pipe, env=text) as process:
@@ -54,7 +56,9 @@ class Runs:
                 self.running.add(worksheet)
                 said = process.stderr.read().decode(errors="replace")
                 self.running.discard(worksheet)
-            if process.returncode:
+            if process.returncode == glance.LONG:
+                self.long[worksheet] = glance.digest(Path(worksheet))
+            elif process.returncode:
                 self.failed[worksheet] = "; " + said.strip().rpartition("\n")[2]
             self.asked.discard(worksheet)
 
@@ -73,8 +77,11 @@ class StartPage:
     def _answer(self, request: Request) -> Response | None:
         base = getattr(request.app.state, "base_url", "")
         of_list = request.url.path.removeprefix(base) in ("", "/") and request.method == "GET"
-        if not of_list or not set(request.query_params) <= {"verdicts"} or "read" not in request.auth.scopes:
+        if not of_list or not set(request.query_params) <= {"verdicts", "run"} or "read" not in request.auth.scopes:
             return None
+        asked = request.query_params.get("run")
+        if any(asked in of for _, of in self._groups):
+            self._runs.ask(str(asked), whatever=True)
         if not request.query_params:
             cards_of = [[self._card(path, title, ask=True) for path, title in of.items()] for _, of in self._groups]
             return HTMLResponse(cards.page(zip((name for name, _ in self._groups), cards_of, strict=True)))
@@ -86,16 +93,17 @@ class StartPage:
         """A worksheet by its last run; with ``ask`` it is run again where that does not hold."""
         if not Path(path).exists():
             return cards.Card(path, title, "its file is gone", holds=False)
-        last = glance.kept(Path(path))
-        holds = last is not None and last.digest == glance.digest(Path(path))
-        if ask and not holds:
-            self._runs.ask(path)
+        last, now = glance.kept(Path(path)), glance.digest(Path(path))
+        holds, long = last is not None and last.digest == now, self._runs.long.get(path) == now
+        if ask and not holds and not long:
+            self._runs.ask(path, whatever=False)
         when = f"run {last.when}" if last else "not run yet"
         if not holds:
             when += ", before it or the package changed" if last else ""
-            now = "it is being run" if path in self._runs.running else "it waits to be run"
-            when += f"; {now}" if path in self._runs.asked else self._runs.failed.get(path, "")
-        card = cards.Card(path, title, when, holds=holds)
+            state = "it is being run" if path in self._runs.running else "it waits to be run"
+            when += f"; {state}" if path in self._runs.asked else self._runs.failed.get(path, "")
+        to_run = long and not holds and path not in self._runs.asked
+        card = cards.Card(path, title, when, holds=holds, to_run=to_run)
         return replace(card, kind=last.kind, told=last.told, picture=last.picture) if last else card
 
 

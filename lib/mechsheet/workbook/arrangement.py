@@ -2,7 +2,7 @@
 
 from collections import Counter
 from collections.abc import Callable, Container, Iterable, Iterator, Mapping, Sequence, Set
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -15,18 +15,18 @@ from mechsheet.worksheet.table import Table
 
 _LIGHT = 6  # operations that a formula repeats rather than give them a cell
 _HEAVY = 60  # operations that one formula holds at most
+_WIDE = 64  # columns on one sheet: in a file with wider rows their repetitions are out of the compression's sight
 _DEEP = 6  # parentheses inside each other in one formula, to which what a sheet puts around it adds two
 
 
 @dataclass
 class Section:
-    """Quantities behind the tables of one section: a list of all, those with many values in columns of their own."""
+    """Quantities behind the tables of one section: a list of all, those with many values in columns of sheets."""
 
     title: str
     listing: str
-    sheet: str
-    single: list[Line] = field(default_factory=list)
-    fields: list[Line] = field(default_factory=list)
+    single: list[Line]
+    fields: dict[str, list[Line]]  # by the sheet on which they stand
 
 
 class Arrangement:
@@ -156,16 +156,15 @@ class Arrangement:
         return found
 
     def _section(self, title: str, lines: Sequence[Line], name: Callable[[str, str], str]) -> Section:
-        section = Section(title, "", "")
-        section.single = [line for line in lines if line.node.size == 1]
-        section.fields = [line for line in lines if line.node.size > 1]
-        section.listing = name(title, " lines")
-        if section.fields:
-            section.sheet = name(title, " fields")
-        for n, line in enumerate(section.single):
+        single, fields = ([line for line in lines if (line.node.size > 1) == many] for many in (False, True))
+        section = Section(title, name(title, " lines"), single, {})
+        for n, line in enumerate(single):
             self._settle(line.node, line.symbol, section.listing, 2 + n, 1)
-        for n, line in enumerate(section.fields):
-            self._settle(line.node, line.symbol, section.sheet, self.first, n)
+        for start in range(0, len(fields), _WIDE):
+            sheet = name(title, " fields")
+            section.fields[sheet] = fields[start : start + _WIDE]
+            for n, line in enumerate(section.fields[sheet]):
+                self._settle(line.node, line.symbol, sheet, self.first, n)
         return section
 
 

@@ -136,14 +136,12 @@ class Book:
 @cache
 def _sheet_class() -> Any:
     """XlsxWriter's worksheet, which otherwise looks for thirty new functions of Excel in every formula."""
-    from xlsxwriter.worksheet import Worksheet  # type: ignore[import-untyped]  # on use: as above
+    from xlsxwriter.worksheet import CellFormulaTuple, Worksheet  # type: ignore[import-untyped]  # on use: as above
 
     class Sheet(Worksheet):  # type: ignore[misc]
         def write_live(self, row: int, col: int, formula: str, style: Any, value: float | str) -> None:
-            self._write_formula(row, col, formula, style, value)
-
-        def _prepare_formula(self, formula: str, expand_future_functions: bool = False) -> str:
-            return formula.removeprefix("=")
+            self._check_dimensions(row, col)  # which also notes how far the sheet goes
+            self.table[row][col] = CellFormulaTuple(formula.removeprefix("="), style, value)
 
     return Sheet
 

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 from itertools import islice, product
 from pathlib import Path
 from typing import Any
+from zipfile import ZipFile
 
 from openpyxl import load_workbook  # type: ignore[import-untyped]
 from openpyxl.utils import get_column_letter  # type: ignore[import-untyped]
@@ -22,6 +23,8 @@ _TABLES = "Input tables"
 _HEADS = ("Symbol", "Value", "Unit")
 _NAME = 60  # characters by which the nearest input is looked for
 _COLUMNS = {_SHEET: 100, _TABLES: 400}  # among which the headings are looked for: a sheet may have 16384
+_WHOLE = ("xl/workbook.xml", "xl/sharedStrings.xml", "xl/styles.xml")  # parts of the file that are read as a whole
+_LARGEST = 10_000_000  # bytes of each, unpacked
 _EMPTY = 10_000  # empty rows, one after the other, that are passed over: a sheet may have a million
 
 _Row = tuple[int, tuple[Any, ...]]  # number of a row and the values of its cells
@@ -188,6 +191,10 @@ def _book(path: Path, values: bool) -> Iterator[Any]:
     try:
         with path.open("rb") as file, warnings.catch_warnings():
             warnings.simplefilter("ignore")  # of parts of the file that openpyxl does not keep; nothing is written back
+            for part in ZipFile(file).infolist():
+                if part.filename in _WHOLE and part.file_size > _LARGEST:
+                    size = f"{part.file_size / 1e6:.0f} MB, over {_LARGEST / 1e6:.0f}"
+                    raise SheetError(f"workbook {path}: its {part.filename} has {size}: delete sheets of your own")
             book = load_workbook(file, read_only=True, data_only=values)
             if _SHEET not in book.sheetnames:
                 raise SheetError(f"workbook {path} has no sheet {_SHEET}; it has {cut(', '.join(book.sheetnames))}")

@@ -155,7 +155,9 @@ class Worksheet:
         """Class of the inputs."""
         for value in self.common.values():
             if isinstance(value, type) and hasattr(value, "__inputs__"):
-                return value
+                if any("g" in {*cell.gives, *cell.needs} for cell in self.cells):
+                    return value
+                raise SheetError(f"{self.path}: no cell gives g, as which inputs are read: g = read(..)")
         raise SheetError(f"{self.path} declares no inputs")
 
 

@@ -148,19 +148,19 @@ class Found(Verdict):
         on = "" if self.branch is None or np.ndim(self.branch) else f" on branch {self.branch:+d}"
         rows = [("condition", f"{words.quantity} = {numbers.extent(self.equals, words.unit)}{on}")]
         if np.any(self.solved):
-            label = "residual" if single else "largest residual"
+            label = "missed by" if single else "missed at most by"
             rows.append((label, numbers.amount(np.nanmax(np.abs(self.residual)), words.unit, 2)))
         if single and not self.reason:
             low, high = self.bracket
-            rows.append(("bracket", f"{numbers.amount(high - low, words.unknown_unit, 2)} wide"))
+            rows.append(("value within", numbers.amount(high - low, words.unknown_unit, 2)))
         if single:
             roots = [
                 numbers.amount(root.value, words.unknown_unit, 6) + (on and f" (branch {root.branch:+d})")
                 for root in self.roots
             ]
-            rows.append((f"roots by {self.samples} samples", "; ".join(roots) or "none"))
+            rows.append((f"roots seen by {self.samples} samples", "; ".join(roots) or "none"))
         rows.append(("searched", numbers.extent(self.interval, words.unknown_unit)))
-        return [*rows, ("evaluations", str(self.evaluations))]
+        return [*rows, ("computed", f"{self.evaluations} times")]
 
 
 @dataclass(frozen=True, eq=False)

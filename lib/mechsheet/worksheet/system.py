@@ -122,17 +122,19 @@ class Solution(Verdict):
                 numbers.amount(np.nanmax(np.abs(r)), unit, 2)
                 for r, unit in zip(self.residual, words.equation_units, strict=True)
             ]
-            rows.append(("residuals" if single else "largest residuals", "; ".join(left)))
+            rows.append(("missed by" if single else "missed at most by", "; ".join(left)))
             worst = float(np.nanmax(self.condition))
-            known = f"{numbers.significant(worst, 2)}" if np.isfinite(worst) else "infinite: the slopes are singular"
-            rows.append(("condition" if single else "largest condition", known))
+            known = f"{numbers.significant(worst, 2)} times"
+            if not np.isfinite(worst):
+                known = "infinite: the slopes are singular"
+            rows.append(("errors grow" if single else "errors grow at most", known))
         if single and not self.least:
             where = f"{self.starts} starts" + (" around the guess" if words.guessed else "")
             listed = [words.point(x) for x in self.solutions[:_LISTED]]
             more = [f"and {len(self.solutions) - _LISTED} more"] * (len(self.solutions) > _LISTED)
-            rows.append((f"solutions by {where}", "; ".join([*listed, *more]) or "none"))
+            rows.append((f"solutions seen by {where}", "; ".join([*listed, *more]) or "none"))
         rows.append(("searched", "; ".join(map(self._searched, words.names, words.units))))
-        return [*rows, ("evaluations", str(np.sum(self.evaluations)))]
+        return [*rows, ("computed", f"{np.sum(self.evaluations)} times")]
 
     def _searched(self, name: str, unit: str) -> str:
         ends = self.interval[name]

@@ -31,8 +31,9 @@ MARKED = 60  # points of a curve that are marked one by one; more of them hide t
 class Column:
     """One quantity over the rows of a table: its symbol, display unit, meaning and values in that unit.
 
-    Values may be texts, of unit "". ``power`` shows numbers as 1.2e-15. ``of`` is the name that the line declares, of
-    a field without its ``_S``.
+    Values may be a list, which becomes an array, and texts, of unit "". ``power`` shows numbers as 1.2e-15. ``of`` is
+    the name that the line declares, of a field without its ``_S``; ``want`` is what stands in the worksheet, a name or
+    a part of one.
     """
 
     symbol: str
@@ -42,6 +43,12 @@ class Column:
     values: NDArray[Any]
     power: bool = False
     of: str = ""
+    want: str = ""
+
+    def __post_init__(self) -> None:
+        if isinstance(self.values, list):
+            kind = object if any(isinstance(value, str) for value in self.values) else None
+            object.__setattr__(self, "values", np.array(self.values, kind))
 
     @property
     def name(self) -> str:
@@ -212,7 +219,8 @@ def _columns(
         whole = kind in "iu"
         own = "" if given else symbol.stem(name)
         places = usual_decimals(unit) if decimals is None else decimals
-        columns.append(Column(label, unit, line.meaning, 0 if whole else places, shown, of=own))
+        want = "" if given else ast.unparse(node)
+        columns.append(Column(label, unit, line.meaning, 0 if whole else places, shown, of=own, want=want))
     return tuple(columns)
 
 

@@ -1,0 +1,106 @@
+"""A page where Python took one way of several: only what rests on that way is empty for inputs that go another one."""
+
+from pathlib import Path
+
+import pytest
+from own_worksheet import own
+from playwright.sync_api import Page
+
+from mechsheet.html import write
+from mechsheet.worksheet import inputs
+from mechsheet.worksheet.cells import Worksheet, load
+from mechsheet.worksheet.errors import SheetError
+
+MASK = """y = x**2  # [-] squares
+big = y[y > 5.0]  # [-] some of them
+s = big.sum()  # [-] rests on them
+z = y.sum() + len("ab" if g.a < 1 else "a")  # [-] rests on a
+v = 2.0 * g.F  # [-] rests on neither
+table_2 = table("2", "Some", big)
+word = "much" if g.F > 3 else "little"
+letters = len(word)  # [-] counted by Python"""
+ENDED = {
+    "raise": "if v > 6:\n    raise ValueError('too much')",
+    "assert": "assert v < 6",
+    "stop": "mo.stop(v > 6)",
+}
+READ = """() => {
+  dispatchEvent(new Event("beforeprint"));
+  return Object.fromEntries([...document.querySelectorAll(".ms-line[id]")].map(line => {
+    const value = line.querySelector(".ms-value"), why = value.dataset.reason;
+    return [line.id.slice(5), [value.textContent, why ?? ""]];
+  }));
+}"""
+
+
+def shown(page: Page, path: Path, sheet: Worksheet, address: str = "", **given: float) -> dict[str, tuple[str, str]]:
+    """Values of the lines, and why there is none, on the page of a worksheet."""
+    path.write_text(write.page(sheet, inputs.build(sheet.inputs, given)), encoding="utf-8")
+    page.goto("about:blank")
+    page.goto(f"{path.as_uri()}#{address}")
+    page.wait_for_selector("body[data-ready]")
+    return {name: (value, why) for name, (value, why) in page.evaluate(READ).items()}
+
+
+def test_only_what_rests_on_a_way_that_python_took_is_empty(blank: Page, tmp_path: Path) -> None:
+    """The worksheet has no title, and does not say where its inputs stand: they stand where it reads them."""
+    sheet = own(tmp_path, MASK)
+    here = shown(blank, tmp_path / "a.html", sheet, "F=4")
+    state = blank.locator(".ms-state").text_content() or ""
+    there = shown(blank, tmp_path / "b.html", sheet, F=4.0)
+    empty = {name for name, (value, why) in here.items() if why}
+    assert empty == {"big", "s", "letters"} and here.keys() == there.keys()
+    assert {name: here[name] for name in here if name not in empty} == {
+        n: x for n, x in there.items() if n not in empty
+    }
+    assert all(not value and "goes another way" in why for value, why in (here[name] for name in empty))
+    assert "not known: big, s (line" in state and "letters (line" in state
+    assert shown(blank, tmp_path / "a.html", sheet, "F=2.4") == shown(blank, tmp_path / "b.html", sheet, F=2.4)
+    assert {n for n, (_, why) in shown(blank, tmp_path / "a.html", sheet, "a=1.5").items() if why} == {"z"}
+
+
+@pytest.mark.parametrize("end", ENDED)
+def test_a_cell_that_ends_shows_and_gives_nothing(end: str, blank: Page, tmp_path: Path) -> None:
+    sheet = own(tmp_path, f"v = 2.0 * g.F  # [-] before\n{ENDED[end]}\nw = 3.0 * g.F  # [-] behind")
+    text = (
+        Path(sheet.path)
+        .read_text()
+        .replace("from mechsheet import ask", "import marimo as mo\n    from mechsheet import ask", 1)
+    )
+    text = text.replace(
+        "    return\n\nif",
+        "    return v, w\n\n@app.cell\ndef other(g):\n    u = 4.0 * g.F  # [-] elsewhere\n"
+        "    typeset()\n    return (u,)\n\n@app.cell\ndef under(w):\n    t = w + 1  # [-] under\n"
+        "    typeset()\n    return (t,)\n\nif",
+    )
+    Path(sheet.path).write_text(text)
+    sheet = load(sheet.path)
+    page = tmp_path / "a.html"
+    assert {name for name, (_, why) in shown(blank, page, sheet, "F=4").items() if why} == {"v", "w", "t", "x"}
+    assert not any(why for _, why in shown(blank, page, sheet, "F=2").values())
+
+
+def test_a_loop_that_does_not_end_on_the_page_says_so(blank: Page, tmp_path: Path) -> None:
+    """The harmonic sum is 30 after 6e12 turns."""
+    sheet = own(
+        tmp_path, "y, k = 0.0, 0\nwhile y < 3 * g.a:\n    k = k + 1\n    y = y + 1 / k\nN = float(k)  # [-] turns"
+    )
+    assert "has not ended" in shown(blank, tmp_path / "a.html", sheet, "a=10")["N"][1]
+    assert shown(blank, tmp_path / "a.html", sheet, "a=2") == shown(blank, tmp_path / "b.html", sheet, a=2.0)
+
+
+def test_inputs_under_another_name_are_refused(tmp_path: Path) -> None:
+    sheet = own(tmp_path, "y = 2 * g.F  # [-] line")
+    text = Path(sheet.path).read_text()
+    Path(sheet.path).write_text(text.replace("g = read", "h = read").replace("(g,)", "(h,)").replace("(g)", "(h)"))
+    with pytest.raises(SheetError, match="no cell gives g"):
+        inputs.build(load(sheet.path).inputs, {})
+
+
+def test_a_study_that_is_imported_and_not_used_leaves_a_page(tmp_path: Path) -> None:
+    sheet = own(tmp_path, "y = 2 * g.F  # [-] line")
+    path, text = Path(sheet.path), Path(sheet.path).read_text()
+    path.write_text(text.replace("import ask, find", "import ask, sweep, find", 1))
+    assert not write.studies(load(path))
+    path.write_text(path.read_text().replace("y = 2 * g.F", "y = 2 * len(sweep.__name__)"))
+    assert write.studies(load(path)) == "sweep"
