@@ -78,6 +78,18 @@ def test_one_input_gives_a_result_its_value(sheet):
     assert chosen["F"] == pytest.approx(4.0, abs=1e-12)
 
 
+def test_what_a_design_does_not_rest_on_may_have_no_value(tmp_path, recwarn):
+    sheet = own(tmp_path, LINES + "\nv = np.sqrt(g.F - 9)  # [-] no number")
+    chosen, _ = asked_design.best(asked(sheet, "--vary=F=0..5", "--best=max p"))
+    assert chosen["F"] == pytest.approx(2.0, abs=1e-6) and not list(recwarn)
+
+
+def test_what_ends_on_the_way_to_a_better_design_is_told(tmp_path):
+    sheet = own(tmp_path, LINES + "\nv = np.where(g.F < 3.00004, g.F, np.nan)  # [-] ends")
+    _, told = asked_design.best(asked(sheet, "--vary=F=0..5", "--best=max v"))
+    assert "not refined by slopes: a design on the way to a better one has no v" in told
+
+
 def test_what_has_no_slope_is_searched_and_says_so(tmp_path):
     chosen, told = asked_design.best(asked(own(tmp_path, LINES + TEXT), "--vary=F=0..5", "--best=max z"))
     assert chosen["F"] == pytest.approx(2.0, abs=1e-3) and "not refined by slopes: z has no slope" in "\n".join(told)

@@ -14,7 +14,7 @@ from mechsheet.recording.banded import run_bands
 from mechsheet.recording.bands import Bands, tolerances
 from mechsheet.recording.enclosed import enclosed
 from mechsheet.recording.record import record
-from mechsheet.run import arguments, batch, studied
+from mechsheet.run import arguments, banding, batch, studied
 from mechsheet.studies.sweep import sweep
 from mechsheet.studies.tolerance import tolerance
 from mechsheet.worksheet import cells
@@ -175,6 +175,26 @@ def test_a_run_shows_bands_only_where_it_is_asked_for_them(tmp_path, capsys):
     assert "z: no slopes" in out and re.search(r"^below: pass in 6\d(\.\d)? % of cases", out, re.MULTILINE)
     assert batch.answer(sheet.path, arguments.read(["--want=y"], declared_inputs)) == 0
     assert "±" not in capsys.readouterr().out
+
+
+def test_a_table_that_is_asked_for_shows_the_band_of_every_number(tmp_path, capsys):
+    more = """
+s = linspace(1, 3, 3)  # [-] positions
+e = g.F * s  # [-] moves
+r = np.where(s > 2.5, e, np.nan)  # [-] at the last one alone
+table_2 = table("2", "Both", s, e, r)"""
+    sheet = off(tmp_path, 9, more=more)
+    given = arguments.read(["--tolerances", "--want=table_2,r,e"], declared(sheet.inputs))
+    assert batch.answer(sheet.path, given) == 1, "r does not exist at 2 of 3 positions"
+    out = capsys.readouterr().out
+    rows = re.search(r"Table 2 - Both: worst case\n(.*\n.*\n.*\n.*\n.*)", out)[1].split("\n")
+    assert [row.split() for row in rows] == [
+        ["e", "r"], ["[-]", "[-]"], ["±", "1", "–"], ["±", "2", "–"], ["±", "3", "±", "3"]
+    ]  # fmt: skip
+    assert "r: not known, there is none at 2 of 3 positions" in out and "e [-]" in out
+    names = sheet.run(sheet.results, {"g": sheet.inputs()})
+    rows = banding.bands_of({**names, "__file__": sheet.path}, sheet, ()).lines()
+    assert any(row.startswith("table 2  e") and "in row 3" in row for row in rows)
 
 
 def test_what_cannot_be_banded_is_said(tmp_path):

@@ -5,8 +5,9 @@ Nothing is computed before; then it follows whatever changes on the page.
 
 import time
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import ThreadPoolExecutor, wait
 from dataclasses import replace
+from functools import partial
 from html import escape
 from typing import Any, NamedTuple, TypeVar
 from uuid import uuid4
@@ -21,13 +22,14 @@ from mechsheet.document.shortened import rows, shortened
 from mechsheet.page import notebook, own, values
 from mechsheet.page.script import element, script
 from mechsheet.page.smooth import smooth
-from mechsheet.recording.banded import NOTE, Banded, RunBands, off
+from mechsheet.recording.banded import NOTE, Banded, RunBands, about, off
 from mechsheet.worksheet import mistakes, numbers
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.table import Column, Figure, Table
 
 T = TypeVar("T")
 _PERIOD = 0.25  # s between two looks at the page
+_LONG = 2.0  # s of a proof that shows how far it is
 _NOISE = 1e-12  # of the largest band of a column: less is rounding
 _AT = "least"  # position at which a result is looked at unless another is chosen
 
@@ -35,14 +37,14 @@ _AT = "least"  # position at which a result is looked at unless another is chose
 class Asked(NamedTuple):
     """What computes that which a page may be asked for.
 
-    These are bands of tables, charts and all else, what a result depends on, the HTML of a proof, and the namespace of
-    a run with the document's own inputs.
+    These are bands of tables, charts and all else, what a result depends on, the HTML of a proof, which tells how many
+    of how many steps are behind, and the namespace of a run with the document's own inputs.
     """
 
     results: Sequence[str]
     bands: Callable[[], tuple[RunBands, Sequence[Table], Sequence[Figure]]]
     matters: Callable[[str, str], Sequence[Any]]
-    proof: Callable[[], str]
+    proof: Callable[[Callable[[int, int], object]], str]
     own: Callable[[], Mapping[str, Any]]
 
 
@@ -56,7 +58,7 @@ class Study:
         self.position = mo.ui.text(value=_AT, label="at position", on_change=self.changed)
         self.proof = mo.ui.checkbox(label="every number proved", on_change=self.changed)
         self.own = mo.ui.checkbox(label="what differs from the document", on_change=self.changed)
-        self.told, self.looking = "", False
+        self.told, self.looking, self.part = "", False, 0.0
 
     @property
     def text(self) -> str:
@@ -94,6 +96,16 @@ class Study:
         if not this.should_exit:
             self.redraw()
 
+    def behind(self, steps: int, count: int) -> None:
+        """Note how far a proof is."""
+        self.part = steps / count
+
+    def wait(self, begun: float) -> None:
+        """Show how far a proof is that takes long."""
+        if time.monotonic() - begun > _LONG:
+            self.told = f'<progress value="{numbers.fixed(self.part, 2)}"></progress> proof'
+            self.redraw()
+
     @property
     def asks(self) -> bool:
         """Whether anything is asked for."""
@@ -111,7 +123,7 @@ class Study:
             if self.own.value:
                 parts.append(own.html(_elsewhere(self.asked.own)))
             if self.proof.value:
-                parts.append(_elsewhere(self.asked.proof))
+                parts.append(_elsewhere(lambda: self.asked.proof(self.behind), partial(self.wait, time.monotonic())))
             if self.bands.value:
                 bands, tables, figures = _elsewhere(self.asked.bands)
                 within = escape(", ".join(map(str, bands.by.values())))
@@ -132,10 +144,13 @@ def _same(one: Sequence[Any], other: Sequence[Any]) -> bool:
     return len(one) == len(other) and all(x is y for x, y in zip(one, other, strict=True))
 
 
-def _elsewhere(work: Callable[[], T]) -> T:
+def _elsewhere(work: Callable[[], T], meanwhile: Callable[[], object] = lambda: None) -> T:
     """What some work gives in a thread of no page, where sliders that it makes are none that the page moves."""
     with ThreadPoolExecutor(1) as pool:
-        return pool.submit(work).result()
+        future = pool.submit(work)
+        while not wait([future], _PERIOD).done:
+            meanwhile()
+        return future.result()
 
 
 def _told(bands: RunBands, tables: Sequence[Table], figures: Iterable[Figure]) -> dict[str, Any]:
@@ -153,8 +168,8 @@ def _told(bands: RunBands, tables: Sequence[Table], figures: Iterable[Figure]) -
         own = columns.get((f"table {table.number}", name))
         if own is None or own.band.why:
             return None
-        worst = np.where(own.worst < _NOISE * own.worst.max(), 0.0, own.worst)
-        return [f"± {off(x)}" for x in worst[rows(len(worst))]]
+        worst = np.where(own.worst < _NOISE * own.most, 0.0, own.worst)
+        return [about(x) for x in worst[rows(len(worst))]]
 
     def shown(table: Table) -> list[tuple[Column, ...]]:
         return blocks(replace(table, columns=shortened(table.columns)[0]))
@@ -191,6 +206,6 @@ def _is_of(banded: Banded, line: Column, points: slice) -> bool:
 def _of_line(parts: Sequence[Banded]) -> str:
     if why := next((part.band.why for part in parts if part.band.why), ""):
         return f"± not known: {why}"
-    most = [off(part.worst.max()) for part in parts]
+    most = [off(part.most) for part in parts]
     among = "up to " if parts[0].values.size > 1 else ""
     return f"± {among}{most[0] if len(most) == 1 else '(' + ', '.join(most) + ')'}{numbers.suffix(parts[0].unit)}"

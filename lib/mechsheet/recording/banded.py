@@ -33,23 +33,37 @@ class Banded:
 
     @property
     def worst(self) -> Values:
-        """Greatest deviations, in the unit."""
-        return self.band.worst.reshape(-1) / units.parse(self.unit).factor
+        """Greatest deviations, in the unit; NaN where there is no number."""
+        return self._of_numbers(self.band.worst)
 
     @property
     def squares(self) -> Values:
-        """Deviations by the root of squares, in the unit."""
-        return self.band.squares.reshape(-1) / units.parse(self.unit).factor
+        """Deviations by the root of squares, in the unit; NaN likewise."""
+        return self._of_numbers(self.band.squares)
+
+    @property
+    def most(self) -> float:
+        """The greatest deviation of any number."""
+        return float(np.max(self.worst, initial=0.0, where=~np.isnan(self.worst)))
+
+    def _of_numbers(self, deviations: Values) -> Values:
+        own = deviations.reshape(-1) / units.parse(self.unit).factor
+        return np.where(np.isnan(self.values.reshape(-1)), np.nan, own)
 
     def cells(self) -> list[str]:
         """Where, name, value, worst case, root of squares: of several numbers those whose worst case is greatest."""
         after, values = numbers.suffix(self.unit), self.values.reshape(-1)
-        span = numbers.span(numbers.significant(end, 6) for end in (np.min(values), np.max(values))) + after
+        known = values[~np.isnan(values)]
+        if not known.size:
+            return [self.where, self.name, numbers.CELL.none, "not known", "there is none at any position"]
+        span = numbers.span(numbers.significant(end, 6) for end in (np.min(known), np.max(known))) + after
         if self.band.why:
             return [self.where, self.name, span, "not known", self.band.why]
         k = int(np.argmax(np.nan_to_num(self.worst)))
+        gaps = values.size - known.size
         at = f"in row {k + 1}" if values.size > 1 else ""
-        return [self.where, self.name, span, *(f"± {off(x[k])}{after}" for x in (self.worst, self.squares)), at]
+        at += f"; there is none at {gaps} of {values.size} positions" if gaps else ""
+        return [self.where, self.name, span, *(f"{about(x[k])}{after}" for x in (self.worst, self.squares)), at]
 
 
 @dataclass(frozen=True, eq=False)
@@ -131,6 +145,11 @@ def _of_tables(recording: Recording, tables: Iterable[Table]) -> Iterator[_Shown
         for column, quantity in zip(table.columns, recorded, strict=True):
             if quantity is not None and column.values.dtype.kind in "biuf" and quantity.re.size == column.values.size:
                 yield f"table {table.number}", column.name, column.unit, column.values, quantity.re, False
+
+
+def about(x: float) -> str:
+    """A deviation behind the sign of one; nothing in place of none."""
+    return f"± {off(x)}" if np.isfinite(x) else off(x)
 
 
 def off(x: float) -> str:

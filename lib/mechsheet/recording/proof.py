@@ -5,7 +5,8 @@ a formula is a fifth, and pi is pi. A proof shows that the numbers are those of 
 right.
 """
 
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+import itertools
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from math import floor, log10
@@ -173,19 +174,31 @@ def prove(
     known: Mapping[str, Formula],
     lines: Mapping[str, int],
     fields: Collection[str] = (),
+    done: Callable[[int, int], object] = lambda behind, count: None,
 ) -> Proof:
     """Digits proved of tables and single results of a run, and of found values what roots there are.
 
     ``known`` are the worksheet's lines that declare a unit, ``lines`` where the names of the worksheet are bound.
-    Results over several positions are proved in their tables, and by themselves those of the ``fields``.
+    Results over several positions are proved in their tables, and by themselves those of the ``fields``. ``done`` is
+    called with how many of how many steps are behind.
     """
     shown = [*_of_tables(recording, tables, lines), *_of_lines(recording, namespace, known, lines, fields)]
     digits = _Digits(recording)
-    digits.enclose(shown)
-    columns = tuple(digits.proved(each) for each in shown)
+    steps, count = itertools.count(1), 2 * len(shown) + len(recording.found)
+
+    def step() -> None:
+        done(next(steps), count)
+
+    digits.enclose(shown, step)
+    columns, roots = list[Proved](), list[ProvedRoot]()
+    for each in shown:
+        columns.append(digits.proved(each))
+        step()
     with precision(_BITS[0]):
-        roots = (_root(digits.first, name, solved) for name, solved in recording.found.items())
-        return Proof(columns, tuple(roots))
+        for name, solved in recording.found.items():
+            roots.append(_root(digits.first, name, solved))
+            step()
+    return Proof(tuple(columns), tuple(roots))
 
 
 class _Shown(NamedTuple):
@@ -240,11 +253,15 @@ class _Digits:
         self.first = self.last = Balls()
         self.finest = Balls()
 
-    def enclose(self, shown: Iterable[_Shown]) -> None:
+    def enclose(self, shown: Iterable[_Shown], step: Callable[[], object]) -> None:
+        """Find the balls; ``step`` is called as soon as each has one."""
         sizes = dict[Node, float]()
         for each in shown:
             if each.node:
                 sizes[each.node] = min(each.size * each.factor, sizes.get(each.node, np.inf))
+                with precision(_BITS[0]):
+                    self.first.of([each.node])
+            step()
         for bits in _BITS:
             with precision(bits):
                 self.last = self.first if bits == _BITS[0] else Balls()
@@ -315,6 +332,9 @@ class _Digits:
                 and not any(_no_longer(o, known[o]) for o in part.operands if o in known)
             ):
                 return f"line {part.line}: in exact arithmetic {_EXACTLY.get(part.op, 'it is no number')}"
+        least = (p for p in bottom_up([shown.node] if shown.node else (), ()) if p.op == "found" and p.args[0].least)
+        if found := next(least, None):
+            return f"line {found.line}: the search for the least sum of squares ends there"
         return f"line {shown.line}: the rest is lost to rounding"
 
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from mechsheet import units
 from mechsheet.document import parts
-from mechsheet.recording.banded import RunBands, off, run_bands
+from mechsheet.recording.banded import Banded, RunBands, about, off, run_bands
 from mechsheet.recording.bands import Band, Bands, Tolerance, tolerances
 from mechsheet.recording.node import Node
 from mechsheet.recording.quantity import Quantity
@@ -62,6 +62,9 @@ def lines(
     bands, known = Bands(recording, by), registry(namespace)
     nodes = {name: node for name in quantities if (node := part_of(name, recording.values))}
     yield f"within {', '.join(map(str, by.values()))}"
+    gaps = {name: np.count_nonzero(np.isnan(node.value)) for name, node in nodes.items()}
+    yield from (f"{x}: not known, there is none at {n} of {nodes[x].size} positions" for x, n in gaps.items() if n)
+    nodes = {name: node for name, node in nodes.items() if not gaps[name]}
     if nodes:
         found = bands.of(nodes.values())
         here = Used(namespace["g"]).given()
@@ -70,6 +73,8 @@ def lines(
         bounds = _bounds(nodes.values(), recording.inputs, by)
         for name, node in nodes.items():
             yield from _in_all_ways(name, node, known[base(name)], found[node], sampled, bounds[node], by)
+    for table in (value for name in given.want if isinstance(value := namespace.get(name), Table)):
+        yield from _of_table(table, run_bands(recording, [table], (), {}, by).banded)
     for check in _own(checks, namespace):
         if check.evaluated and check.name in recording.checks:
             yield f"{check.name}: {check.verdict} {bands.sure(recording.checks[check.name], check.passed)}"
@@ -117,7 +122,7 @@ def _in_all_ways(
     any_narrow = bool(narrow.any())
     rows = [[*heads, *["guaranteed"] * any_narrow]]
     for k, value in enumerate(values):
-        row = [numbers.significant(value, 6), *(f"± {off(x[k])}" for x in (worst, squares))]
+        row = [numbers.significant(value, 6), *(about(x[k]) for x in (worst, squares))]
         bound = _ends(low[k], high[k]) if narrow[k] else numbers.CELL.none
         rows.append([*row, _ends(drawn[0][k], drawn[1][k]), *[bound] * any_narrow])
     yield from numbers.aligned(rows)
@@ -134,6 +139,23 @@ def _in_all_ways(
         yield f"bounds that balls guarantee are none, or too wide to tell anything{where}"
     if not band.why and (most := ", ".join(_mattering(line, band, by))):
         yield f"most by {most}"
+
+
+def _of_table(table: Table, banded: Sequence[Banded]) -> Iterator[str]:
+    """A table with the worst cases in place of its numbers, without the columns that keep still."""
+    yield f"Table {table.number} - {table.title}: worst case" + (": keeps still" if not banded else "")
+    units_of = {column.name: column.unit for column in table.columns}
+    columns = [
+        (
+            each.name,
+            f"[{units.shown(units_of[each.name])}]",
+            *map(about, each.worst),
+        )
+        for each in banded
+        if not each.band.why
+    ]
+    yield from numbers.aligned(list(zip(*columns, strict=True)))
+    yield from (f"{each.name}: not known, {each.band.why}" for each in banded if each.band.why)
 
 
 def _mattering(line: Formula, band: Band, by: Mapping[str, Tolerance]) -> Iterator[str]:

@@ -3,10 +3,11 @@
 import sys
 import time
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from contextvars import ContextVar
 
 _WIDTH, _TITLE = 20, 26  # characters of the bar and of what stands behind it: together less than a line
+_LONG = 2.0  # s of a job that shows how far it is
 _shown = ContextVar("_shown", default=False)  # whether there is a bar already: one of a part would stand in its place
 
 
@@ -26,12 +27,15 @@ def progress(total: int, title: str) -> Iterator[Callable[..., object]]:
 
 
 @contextmanager
-def on_terminal(total: int, title: str) -> Iterator[Callable[..., object]]:
-    """The same as `progress` where nothing else has a bar, and none in a page, whose cells may show their own."""
+def on_terminal(total: int, title: str, since: float | None = None) -> Iterator[Callable[..., object]]:
+    """The same as `progress` where nothing else has a bar, and none in a page, whose cells may show their own.
+
+    The time that is left is told by that ``since`` which the work goes on, on the clock that never goes back.
+    """
     marimo = sys.modules.get("marimo")
     in_page = marimo is not None and marimo.running_in_notebook()
     drawing = total > 1 and sys.stderr.isatty() and not _shown.get() and not in_page
-    begun, count, width = time.monotonic(), 0, 0
+    begun, count, width = time.monotonic() if since is None else since, 0, 0
 
     def draw() -> None:
         nonlocal width
@@ -57,6 +61,24 @@ def on_terminal(total: int, title: str) -> Iterator[Callable[..., object]]:
         _shown.reset(token)
         if width:
             print(f"\r{'':{width}}\r", end="", file=sys.stderr, flush=True)
+
+
+@contextmanager
+def if_long(title: str) -> Iterator[Callable[[int, int], object]]:
+    """A bar on the terminal once a job takes long; called with how many of how many steps are behind."""
+    begun, shown = time.monotonic(), 0
+    step: Callable[..., object] | None = None
+    with ExitStack() as stack:
+
+        def done(behind: int, count: int) -> None:
+            nonlocal step, shown
+            if step is None and time.monotonic() - begun > _LONG:
+                step = stack.enter_context(on_terminal(count, title, begun))
+            while step and shown < behind:
+                step()
+                shown += 1
+
+        yield done
 
 
 def remaining(seconds: float, count: int, total: int) -> str:

@@ -1,6 +1,6 @@
 """The proof of a run: how many digits of what it shows are right, and the check that they are enough."""
 
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
@@ -8,6 +8,7 @@ from mechsheet.document import parts
 from mechsheet.recording.lines import Recording
 from mechsheet.recording.pinpoint import Places
 from mechsheet.recording.record import record
+from mechsheet.run.progress import if_long
 from mechsheet.worksheet.cells import Worksheet, base
 from mechsheet.worksheet.lines import registry
 from mechsheet.worksheet.table import Table
@@ -17,17 +18,23 @@ if TYPE_CHECKING:
 
 
 def proof_of(
-    namespace: Mapping[str, Any], sheet: Worksheet, recording: Recording, fields: Collection[str] = ()
+    namespace: Mapping[str, Any],
+    sheet: Worksheet,
+    recording: Recording,
+    fields: Collection[str] = (),
+    done: Callable[[int, int], object] | None = None,
 ) -> "Proof":
     """What is proved of the tables, results and found values of a run, which has been recorded.
 
-    Also of ``fields``, which are results over several positions.
+    Also of ``fields``, which are results over several positions. ``done`` is called with how many of how many steps
+    are behind; without it a bar on the terminal shows them.
     """
     from mechsheet.recording.proof import prove  # on use: only a proof needs balls
 
     known = registry(namespace)
     tables = [value for value in parts.values(namespace) if isinstance(value, Table)]
-    return prove(recording, namespace, tables, known, Places(sheet, known).lines, fields)
+    with if_long("proof") as shown:
+        return prove(recording, namespace, tables, known, Places(sheet, known).lines, fields, done or shown)
 
 
 def proof_of_wanted(namespace: Mapping[str, Any], sheet: Worksheet, want: Iterable[str]) -> "Proof":

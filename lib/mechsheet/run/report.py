@@ -3,7 +3,7 @@
 import ast
 import gc
 import sys
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
@@ -81,12 +81,12 @@ def export(title: str, namespace: Mapping[str, Any]) -> Any:
 
     sheet = load(worksheet)
 
-    def proof() -> str:
+    def proof(done: Callable[[int, int], object]) -> str:
         from mechsheet.page import proved  # on use: only a proof needs balls
 
         known = registry(namespace)
         fields = [name for name, line in known.items() if not line.arguments and np.ndim(namespace.get(name, 0.0))]
-        shown = proof_of(namespace, sheet, record(namespace, sheet, whole=True, every=1), fields)
+        shown = proof_of(namespace, sheet, record(namespace, sheet, whole=True, every=1), fields, done)
         return proved.html(shown, _of(Table, parts.values(namespace)), known)
 
     def bands() -> Any:

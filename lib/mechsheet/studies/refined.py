@@ -18,6 +18,7 @@ from mechsheet.recording.record import record
 from mechsheet.recording.slopes import slopes
 from mechsheet.run.banding import part_of
 from mechsheet.studies.optimum import At, conditions
+from mechsheet.studies.sensitivity import quiet
 from mechsheet.worksheet import inputs as declarations
 from mechsheet.worksheet.cells import base, load
 from mechsheet.worksheet.errors import SheetError
@@ -144,7 +145,7 @@ def _evaluated(problem: Problem, design: Mapping[str, float], goal: _Goal) -> At
     """
     sheet, asked = load(Path(problem.worksheet)), problem.asked
     g: Any = declarations.build(sheet.inputs, {**asked.scene.inputs, **design})
-    only = replace(sheet, cells=tuple(sheet.needed([base(name) for name in asked.results], ["g"])))
+    only = replace(quiet(sheet), cells=tuple(sheet.needed([base(name) for name in asked.results], ["g"])))
     recording = record(only.run(only.results, {"g": g}), only, whole=True, every=1)
     nodes = {name: node for name in asked.results if (node := part_of(name, recording.values))}
     if missing := [name for name in asked.results if name not in nodes]:
@@ -158,7 +159,9 @@ def _evaluated(problem: Problem, design: Mapping[str, float], goal: _Goal) -> At
     def add(name: str, sign: float, limit: float, size: float, is_goal: bool, text: str, end: str = "") -> None:
         values, ahead = nodes[name].value.reshape(-1), found[nodes[name]].both
         slant = ahead.reshape(len(ranges), -1).T * ranges
-        if np.isnan(values).any() or np.isnan(slant).any():
+        if np.isnan(values).any():
+            raise SheetError(f"a design on the way to a better one has no {name}")
+        if np.isnan(slant).any():
             raise SheetError(f"{name} has no slope at {text}")
         keep = range(values.size)
         if (end == "max" and sign > 0) or (end == "min" and sign < 0):  # at one position alone: that which is the end
