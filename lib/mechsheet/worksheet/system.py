@@ -124,7 +124,9 @@ class Solution(Verdict):
             ]
             rows.append(("missed by" if single else "missed at most by", "; ".join(left)))
             worst = float(np.nanmax(self.condition))
-            known = f"{numbers.significant(worst, 2)} times" if np.isfinite(worst) else "infinite: the slopes are singular"
+            known = (
+                f"{numbers.significant(worst, 2)} times" if np.isfinite(worst) else "infinite: the slopes are singular"
+            )
             rows.append(("errors grow" if single else "errors grow at most", known))
         if single and not self.least:
             where = f"{self.starts} starts" + (" around the guess" if words.guessed else "")
