@@ -355,7 +355,7 @@ def test_what_another_worksheet_computes_is_left_out():
 
 def test_mistakes_in_names_and_of_python_are_put_in_words():
     found = bar("S_1 = 2 * g.LL", "S_2 = S3 * 2  # twice", "S_3 = 1 / 0", "S_3 = M", "len(S_3)")
-    assert found.texts(told_by.unknown(found.cells, found.names, {"M"})) == [
+    assert found.texts(told_by.unknown(found.cells, found.names, {"M": "c2"})) == [
         "c3: line 1, S_1 = 2 * g.LL: there is no input LL (did you mean L?)",
         "c4: line 1, S_2 = S3 * 2: the name S3 is not defined in any cell (did you mean S_3?)",
         "c5: S_3 is defined in two cells: rename it in one of them",
@@ -363,8 +363,24 @@ def test_mistakes_in_names_and_of_python_are_put_in_words():
         "c6: line 1, S_3 = M: the cell that defines M has a mistake or was deleted",
     ]
     assert "c5: line 1, S_3 = 1 / 0: division by zero" in found.texts(told_by.failed(found.cells))
+    unit = bar("S_1 = 2 * mm", "S_2 = 2 * W")
+    assert found.texts(told_by.unknown(unit.cells, unit.names)) == [
+        "c3: line 1, S_1 = 2 * mm: the name mm is not defined in any cell "
+        "(for the unit: from mechsheet.units import mm)",
+        "c4: line 1, S_2 = 2 * W: the name W is not defined in any cell",
+    ]
     right = bar("S_1 = 2 * g.L")
     assert [*told_by.unknown(right.cells, right.names), *told_by.failed(right.cells)] == []
+
+
+def test_what_waits_for_a_deleted_cell_is_told_in_one_line():
+    found = bar("a = M", "b = M * A", "c = A\nd = M", "e = 1 / 0", *(f"f{n} = A" for n in range(5)))
+    notes = list(told_by.unknown(found.cells, found.names, {"M": "c2", "A": "c2"}))
+    assert found.texts(notes) == [
+        "c3: line 1, a = M: the cell that defines M, A has a mistake or was deleted; 8 other lines wait for it too: "
+        "b = M * A; c = A; d = M; f0 = A; f1 = A and 3 more"
+    ]
+    assert [n.cell for n in told_by.failed(found.cells, {"M", "A"})] == ["c6"], "no second line for one cause"
 
 
 def test_what_would_be_left_out_without_a_word_is_told():

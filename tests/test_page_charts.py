@@ -115,7 +115,7 @@ def test_a_part_stays_when_the_chart_is_drawn_anew_and_its_texts_keep_their_shap
     assert values_now["axes"][0] == {"low": 0.1, "high": 0.5, "power": 0, "unit": "m", "factor": 1.0}
 
 
-COMMON = "from numpy import arange, cumsum, linspace, gradient, sin"
+COMMON = "from mechsheet import sweep\nfrom numpy import arange, cumsum, linspace, gradient, sin"
 CELLS = (
     "S = linspace(0.1, 0.5, 9)",
     "F = sin(9 * S)",
@@ -125,9 +125,10 @@ CELLS = (
     "C = linspace(1, 2, 9)",
     "Z = F + 1j * G_S",
     "t = linspace(\n    0, 1, 9)\nQ = t**3\nt_S = S / 4",
+    "found = sweep and S * 2",
 )
-DEFINES = ("S", "F", "G F_0", "G_S k", "I K D", "C", "Z", "t Q t_S")
-READS = ("", "S", "", "S G", "F S k", "", "F G_S", "S")
+DEFINES = ("S", "F", "G F_0", "G_S k", "I K D", "C", "Z", "t Q t_S", "found")
+READS = ("", "S", "", "S G", "F S k", "", "F G_S", "S", "S sweep")
 
 
 @pytest.fixture
@@ -176,6 +177,7 @@ def test_a_curve_is_computed_between_the_points_of_a_table(curves):
         (("K",), "S", "their numbers are not between each other"),
         (("C",), "S", "it does not depend on what stands across"),
         (("F", "I"), "S", "one of them alone would be smooth"),
+        (("found",), "S", "a search would be done again, over more positions"),
         (("S",), "F", "the other way round, and F turns back"),
         (("I",), "k", "there is no position between 1 and 2"),
     ],

@@ -169,7 +169,7 @@ def test_compare_returns_errors_and_times_in_order():
 def test_table_shows_texts_powers_and_the_workbook_keeps_them():
     table = job(Measured("Newton <5>", "1e-03", 4.2e-12, 2.0)).table()
     page = table._mime_()[1]
-    assert "4.2e−12" in page and "Newton &lt;5&gt;" in page and "slower, fewer digits" in page
+    assert "4.2·10⁻¹²" in page and "Newton &lt;5&gt;" in page and "slower, fewer digits" in page
     assert "[]" not in page
     assert list(table.frame().columns) == [
         *("method", "setting", "error [-]", "digits [-]", "time [ms]", "ratio [-]", "place"),

@@ -1,6 +1,5 @@
 """Symbols, numbers and limits in HTML."""
 
-import re
 from html import escape
 from typing import Any
 
@@ -45,24 +44,18 @@ def in_words(sentence: str) -> str:
     '<i>φ</i><sub>3</sub> = −1.5\u2009·\u200910<sup>−7</sup>..90°, −2..−1 m'
     """
     pieces = enumerate(symbol.pieces(sentence))
-    return "".join(named(piece) if i % 2 else _numbers_in(escape(piece)) for i, piece in pieces)
-
-
-def _numbers_in(text: str) -> str:
-    text = re.sub(r"(?<=\d) deg\b", HTML.degrees, text)
-    text = re.sub(r"(?<=\d)e([+-]?)0*(\d+)\b", lambda e: HTML.power.format("", f"{e[1].strip('+')}{e[2]}"), text)
-    return re.sub(r"(?<![\w.)])-(?=[\d.∞])|(?<=\.\.)-|(?<= )-(?= )|(?<=<sup>)-", HTML.minus, text)
+    return "".join(named(piece) if i % 2 else numbers.rewritten(escape(piece), HTML) for i, piece in pieces)
 
 
 def compared(check: Check, unit: str, to: Notation = HTML) -> str:
-    """Residual and limit of an evaluated check in a unit, what part of its limit it takes; or how well it agrees.
+    r"""Residual and limit of an evaluated check in a unit, what part of its limit it takes; or how well it agrees.
 
     >>> compared(Check("stress", 330.0, 355.0, "MPa"), "MPa")
     '330 ≤ 355 MPa, 93 %'
     >>> compared(Check("loop", 2e-16, 1e-12, agreement=True), "-")
-    'within 1e−12'
+    'within 1\u2009·\u200910<sup>−12</sup>'
     """
-    residual, limit = (text.replace("-", to.minus) for text in check.shown_in(unit).compared)
+    residual, limit = (numbers.rewritten(text, to) for text in check.shown_in(unit).compared)
     limit += numbers.behind(unit, to)
     if check.agrees:
         return f"within {limit}"

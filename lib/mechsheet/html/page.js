@@ -115,7 +115,7 @@ function judged(spec, results) {
   if (lost) return open(`${lost} of ${all.length} values do not exist`);
   if (limit !== limit) return open("there is no limit");
   const passed = residual <= limit, kind = passed ? "PASS" : "FAIL", agrees = spec.agreement && passed;
-  const [a, b] = compared(residual, limit, agrees).map(text => text.replaceAll("-", HTML.minus));
+  const [a, b] = compared(residual, limit, agrees).map(inWords);
   const told = agrees ? `within ${b}${spec.behind}` : `${a} ${passed ? "≤" : "&gt;"} ${b}${spec.behind}`;
   return {kind, word: kind, compared: `: ${told}${spec.agreement ? "" : utilised(residual, limit)}`, reason: ""};
 }

@@ -14,7 +14,7 @@ from mechsheet import units
 from mechsheet.document import chart, chart_svg, drawing_svg
 from mechsheet.document.blocks import blocks, fitting
 from mechsheet.document.expression import equation, fields_by_name
-from mechsheet.document.markup import as_written, compared, in_words, named, where
+from mechsheet.document.markup import HTML, as_written, compared, in_words, named, where
 from mechsheet.document.parts import Control, Line, Section, Text
 from mechsheet.document.shortened import foot, shortened, thinned
 from mechsheet.html import index, markdown, offered
@@ -232,7 +232,7 @@ def _(check: Check, page: Follower) -> str:
         f'<div class="ms-check" id="{_anchor(check)}"{page.check(check)}>'
         f'<span class="ms-badge ms-{kind}">{verdict}</span> '
         f'{in_words(check.name)}<span class="ms-compared">{told}</span> '
-        f'<span class="ms-note">{escape(check.reason)}</span></div>'
+        f'<span class="ms-note">{numbers.rewritten(escape(check.reason), HTML)}</span></div>'
     )
 
 

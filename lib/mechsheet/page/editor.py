@@ -4,7 +4,7 @@ import ast
 import builtins
 import time
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import lru_cache
 from traceback import walk_tb
 from types import FrameType
@@ -21,6 +21,8 @@ from mechsheet.worksheet.title import Note
 
 _PERIOD = 0.25  # s between two looks at the cells
 _MOST = 100_000  # lines of a cell
+_LISTED = 5  # lines that wait for what is gone
+_NONE: Mapping[str, str] = {}
 # Their functions compute through another worksheet, for long: nothing is known of the units of what they give.
 _OTHERS = {
     f"mechsheet.{name}"
@@ -38,7 +40,7 @@ def watch(show: Callable[[list[Note]], object]) -> tuple[Note, ...]:
     import marimo as mo  # on use: reading the cells needs it not
 
     def look() -> None:
-        this, told, gone = mo.current_thread(), list[Note](), set[str]()
+        this, told, gone = mo.current_thread(), list[Note](), dict[str, str]()
         seen: list[Any] = []
         last: list[Any] = []
         while not this.should_exit:
@@ -49,10 +51,10 @@ def watch(show: Callable[[list[Note]], object]) -> tuple[Note, ...]:
             if last == seen or last != before or any(cell.busy for cell in cells):
                 continue
             seen = last
-            gone |= {name for cell in cells for name in cell.defs}
+            gone |= {name: cell.cell_id for cell in cells for name in cell.defs}
             notes = [*unknown(cells, names, gone), *unsaid(cells, names), *unfit(cells, names)]
             known = {note.cell for note in notes}
-            notes += [note for note in failed(cells) if note.cell not in known]
+            notes += [note for note in failed(cells, gone) if note.cell not in known]
             if notes != told:
                 told = notes
                 show(notes)
@@ -66,12 +68,15 @@ def watch(show: Callable[[list[Note]], object]) -> tuple[Note, ...]:
     return ()
 
 
-def unknown(cells: Iterable[notebook.Cell], names: Mapping[str, Any], gone: Iterable[str] = ()) -> Iterator[Note]:
+def unknown(
+    cells: Iterable[notebook.Cell], names: Mapping[str, Any], gone: Mapping[str, str] = _NONE
+) -> Iterator[Note]:
     """Names that a cell reads and none defines or two do, and inputs that there are not.
 
-    What was defined before, by a cell that has a mistake now or is deleted, is in ``gone``.
+    What was defined before, by a cell that has a mistake now or is deleted, is in ``gone`` with the id of that cell:
+    all that waits for it is told at once.
     """
-    cells = list(cells)
+    cells, waiting = list(cells), dict[str, list[tuple[str, str, str]]]()
     defined = {name for cell in cells for name in cell.defs} | set(names)
     twice = [name for name, count in Counter(name for cell in cells for name in cell.defs).items() if count > 1]
     fields = [field.name for field in getattr(type(names.get("g")), "__inputs__", ())]
@@ -88,14 +93,29 @@ def unknown(cells: Iterable[notebook.Cell], names: Mapping[str, Any], gone: Iter
                 missing = missing - {node.id}  # told once a cell
                 why = mistakes.undefined(node.id, defined)
                 if node.id in gone:
-                    why = f"the cell that defines {node.id} has a mistake or was deleted"
+                    place = cell.cell_id, _line(cell, node.lineno), node.id
+                    waiting.setdefault(gone[node.id], []).append(place)
+                    continue
             if why:
                 yield Note(cell.cell_id, f"{_line(cell, node.lineno)}: {why}")
+    yield from map(_lost, waiting.values())
 
 
-def failed(cells: Iterable[notebook.Cell]) -> Iterator[Note]:
-    """What else Python could not compute, with the line of the cell."""
+def _lost(waiting: Sequence[tuple[str, str, str]]) -> Note:
+    """What a cell no longer defines, at the first line that waits for it, and which others do."""
+    lost = ", ".join(dict.fromkeys(name for *_, name in waiting))
+    (cell, first), *others = dict.fromkeys((cell, line) for cell, line, _ in waiting)
+    places = [line.partition(", ")[2] for _, line in others]
+    more = f" and {len(places) - _LISTED} more" if len(places) > _LISTED else ""
+    wait = f"; {len(places)} other lines wait for it too: {'; '.join(places[:_LISTED])}{more}" if places else ""
+    return Note(cell, f"{first}: the cell that defines {lost} has a mistake or was deleted{wait}")
+
+
+def failed(cells: Iterable[notebook.Cell], gone: Iterable[str] = ()) -> Iterator[Note]:
+    """What else Python could not compute, with the line of the cell; what waits for names that are ``gone`` is told."""
     for cell in cells:
+        if isinstance(cell.exception, NameError) and (cell.exception.name or "") in gone:
+            continue
         if cell.status == "exception" and isinstance(cell.exception, Exception):
             lines = [line for frame, line in walk_tb(cell.exception.__traceback__) if _is_of(frame, cell)]
             why = mistakes.why(cell.exception, (), cell.code)

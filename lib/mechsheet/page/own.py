@@ -14,10 +14,9 @@ from mechsheet.document.shortened import shortened
 from mechsheet.page import values
 from mechsheet.page.lines import valued
 from mechsheet.page.script import element
-from mechsheet.worksheet import numbers
 from mechsheet.worksheet.check import Check
 from mechsheet.worksheet.lines import registry
-from mechsheet.worksheet.table import Column, Table
+from mechsheet.worksheet.table import Table
 
 
 def html(own: Mapping[str, Any]) -> str:
@@ -36,11 +35,7 @@ def html(own: Mapping[str, Any]) -> str:
 def _table(table: Table) -> tuple[int, list[list[list[str]]]]:
     """How many rows there are, and by blocks and columns the texts of those that the page shows."""
     shown = replace(table, columns=shortened(table.columns)[0])
-    return len(table.columns[0].values), [[_cells(column) for column in block] for block in blocks(shown)]
-
-
-def _cells(column: Column) -> list[str]:
-    return column.texts(numbers.AXIS) if column.unit else column.texts()
+    return len(table.columns[0].values), [[values.cells(column) for column in block] for block in blocks(shown)]
 
 
 def _verdict(check: Check) -> str:

@@ -75,8 +75,12 @@ def _run(
     known = before[1] if before and before[0] == rests_on else {}
     common = {name: value for name, value in namespace.items() if name not in computed}
     common |= {name: _nothing for name, value in read.items() if value is typeset}
+    sheet = Worksheet("", _runnable(texts, frozenset(computed)), common, "")
+    needed = {cell.name for cell in sheet.needed(wanted, {across})}
+    if any(editor.is_of_studies(read.get(name)) for cell in again if cell.cell_id in needed for name in cell.refs):
+        return None  # what is computed over many runs would be again, over more positions
     with values_only():
-        names = Worksheet("", _runnable(texts, frozenset(computed)), common, "").run(wanted, {across: fine, **known})
+        names = sheet.run(wanted, {across: fine, **known})
     _kept.run = rests_on, {name: names[name] for name in computed if name in names}, read  # held: the ids stay theirs
     return names
 

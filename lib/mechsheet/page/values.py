@@ -15,7 +15,7 @@ import numpy as np
 from mechsheet import units
 from mechsheet.document import chart, chart_svg, drawing_svg
 from mechsheet.document.blocks import blocks, fitting
-from mechsheet.document.markup import as_written, compared, in_words, named
+from mechsheet.document.markup import HTML, as_written, compared, in_words, named
 from mechsheet.document.shortened import foot, shortened, thinned
 from mechsheet.html import index
 from mechsheet.page import fields, switched
@@ -60,8 +60,9 @@ def refused(error: Exception, shown: Any) -> None:
     the reason to the line that has none.
     """
     if mo.running_in_notebook():
-        place = mo.as_html(shown if shown is not None else mo.callout(str(error), kind="danger")).text
-        reason = f'content:"{_quoted(str(error))}"'
+        place = mo.as_html(shown if shown is not None else mo.callout(mo.Html(_said(str(error))), kind="danger")).text
+        said = numbers.rewritten(str(error), numbers.ON_PAGE, units.raised)
+        reason = f'content:"{_quoted(said)}"'
         told = ".ms-told{display:block!important}"
         told += "" if isinstance(error, Waits) else f".ms-told::after{{{reason}}}"
         if isinstance(error, SheetError) and error.of:
@@ -69,6 +70,11 @@ def refused(error: Exception, shown: Any) -> None:
             told += f'td[data-input="{field}"]::after{{{reason}}}'
             told += f'input[data-input="{error.of}"]{{outline:2px solid var(--red-11,#c62828)}}'
         mo.stop(True, mo.Html(f"{place}<style>{told}</style>"))
+
+
+def _said(text: str) -> str:
+    """A message as HTML, its numbers as the page writes them; its names may be those of lines and stay."""
+    return numbers.rewritten(escape(text), HTML)
 
 
 @singledispatch
@@ -177,7 +183,7 @@ def _(check: Check) -> str:
     told = ": " + switched.value(anchor(check.name), check.unit, partial(compared, check)) if check.evaluated else ""
     return (
         f'<div id="{anchor(check.name)}">{_badge(check)} {in_words(check.name)}{told}'
-        f'<span style="opacity:.7"> {escape(check.reason)}</span></div>'
+        f'<span style="opacity:.7"> {_said(check.reason)}</span></div>'
     )
 
 
@@ -195,7 +201,7 @@ def anchor(name: str) -> str:
 def _(summary: Summary) -> str:
     passed = sum(check.passed for check in summary.checks)
     items = "".join(
-        f"<span>{_badge(check)} {_link(check, in_words(check.name))} {check.utilised} {escape(check.reason)}</span>"
+        f"<span>{_badge(check)} {_link(check, in_words(check.name))} {check.utilised} {_said(check.reason)}</span>"
         for check in summary.worst_first
     )
     worst = "".join(map(_in_bar, summary.worst_first[:1]))
@@ -230,7 +236,7 @@ def _(found: Verdict) -> str:
         f'<span style="background:{colour};color:#fff;border-radius:.3em;padding:.1em .5em;margin-right:.6em">'
         f"{found.word()}</span>"
     )
-    lines = "".join(f"<div>{escape(text)}</div>" for text in failures)
+    lines = "".join(f"<div>{_said(text)}</div>" for text in failures)
     rows = "".join(
         f'<tr><td style="opacity:.65;padding:0 1em 0 0">{escape(k)}</td>'
         f'<td style="padding:0;font-variant-numeric:tabular-nums">{in_words(v)}</td></tr>'
@@ -294,13 +300,20 @@ def _block(columns: Sequence[Column], left_out: int) -> str:
     unit_row = "".join(f"<th>{f'[{_unit(c)}]' if c.unit else ''}</th>" for c in columns)
     rows = "".join(
         "<tr>" + "".join(f"<td{kind}>{t}</td>" for t, kind in zip(row, kinds, strict=True)) + "</tr>"
-        for row in zip(*(c.texts(numbers.AXIS) if c.unit else map(escape, c.texts()) for c in columns), strict=True)
+        for row in zip(*(map(escape, cells(c)) for c in columns), strict=True)
     )
     head = f'<tr>{heads}</tr><tr class="ms-units">{unit_row}</tr>'
     fit = fitting(columns)
     style = f' style="--fit:{numbers.fixed(fit, 2)}"' if fit < 1 else ""
     below = foot(left_out, len(columns))
     return switched.columns(columns, f"<table{style}><thead>{head}</thead><tbody>{rows}</tbody>{below}</table>")
+
+
+def cells(column: Column) -> list[str]:
+    """Texts of a column of a table."""
+    if column.power:
+        return [numbers.rewritten(text, numbers.ON_PAGE, units.raised) for text in column.texts()]
+    return column.texts(numbers.AXIS) if column.unit else column.texts()
 
 
 def _unit(column: Column) -> str:

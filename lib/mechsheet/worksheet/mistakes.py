@@ -7,6 +7,8 @@ from collections.abc import Iterable
 from pathlib import Path
 from traceback import walk_tb
 
+from mechsheet import units
+
 
 def at(line: int, text: str) -> str:
     """A line of a worksheet as a mistake names it: its number, and its text without its comment."""
@@ -14,7 +16,9 @@ def at(line: int, text: str) -> str:
 
 
 def undefined(name: str, known: Iterable[str]) -> str:
-    return f"the name {name} is not defined in any cell{_near(name, known)}"
+    is_unit = len(name) > 1 and name in units.names()  # a letter is as often a quantity
+    hint = f" (for the unit: from mechsheet.units import {name})" if is_unit else _near(name, known)
+    return f"the name {name} is not defined in any cell{hint}"
 
 
 def no_input(name: str, known: Iterable[str]) -> str:

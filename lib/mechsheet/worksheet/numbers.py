@@ -1,5 +1,6 @@
 """Numbers as texts: how many digits are shown, and how a notation writes them, with their unit."""
 
+import re
 from collections.abc import Callable, Iterable, Sequence
 from decimal import Decimal
 from functools import cache, lru_cache
@@ -227,6 +228,23 @@ def suffix(unit: str) -> str:
     (' m/s²', '')
     """
     return "" if unit == "-" else f" {units.shown(unit)}"
+
+
+_POWER = re.compile(r"(?<!\w)(?<!\w\.)(\d+(?:\.\d*)?)e([+-]?\d+)\b")
+_HYPHEN = re.compile(r"(?<![\w.)])-(?=[\d.∞])|(?<=\.\.)-|(?<= )-(?= )")
+
+
+def rewritten(text: str, to: Notation, raised: Callable[[int], str] = str) -> str:
+    """The plain numbers and degrees of a text as a notation writes them, their powers of ten ``raised``.
+
+    >>> rewritten("-2e-05..3.5e+30 deg, x2e3", AXIS._replace(power="{}·10{}", degrees="°"), units.raised)
+    '−2·10⁻⁵..3.5·10³⁰°, x2e3'
+    """
+    text = _HYPHEN.sub(to.minus, re.sub(r"(?<=\d) deg\b", to.degrees, text))
+    return _POWER.sub(lambda e: to.power.format(e[1], raised(int(e[2])).replace("-", to.minus)), text)
+
+
+ON_PAGE = AXIS._replace(power="{}·10{}", degrees="°")  # where nothing can be raised but by signs of their own
 
 
 def aligned(rows: Sequence[Sequence[str]]) -> list[str]:
