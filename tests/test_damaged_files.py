@@ -143,7 +143,7 @@ def test_texts_without_end_are_refused_before_they_are_read(exported: bytes, tmp
     texts = "<si><t>" + "a" * 10_000_000 + "</t></si>"
     data = changed(exported, "xl/sharedStrings.xml", lambda part: part.replace("</sst>", texts + "</sst>"))
     begun = time.process_time()
-    assert "xl/sharedStrings.xml has 10 MB, over 10: " in answer(data, tmp_path / "scene.xlsx")
+    assert "xl/sharedStrings.xml has over 10 MB: " in answer(data, tmp_path / "scene.xlsx")
     assert time.process_time() - begun < 0.5
 
 

@@ -4,14 +4,18 @@ from __future__ import annotations
 
 import textwrap
 from collections.abc import Callable
+from io import BytesIO
 from pathlib import Path
 
 import pytest
+from openpyxl import load_workbook
+from own_worksheet import own
 
 from mechsheet.recording.dimension_rules import RULES
 from mechsheet.recording.dimensions import Dimensions, mismatches, of_every_line
 from mechsheet.recording.node import LEAVES
 from mechsheet.recording.operations import ELEMENTWISE
+from mechsheet.run import report
 from mechsheet.worksheet.cells import load
 from mechsheet.worksheet.lines import registry
 
@@ -275,6 +279,20 @@ def test_what_is_not_followed_is_said_and_passes(told: Callable[..., Dimensions]
     assert check.passed and check.reason == f"not followed at line {FIRST}"
     check = told("x = g.F + g.M").check()
     assert (check.name, check.passed, check.reason) == ("units", False, f"line {FIRST}, g.F + g.M: adds N and N·m")
+
+
+def test_a_script_tells_mistakes_of_lines_on_which_nothing_rests(tmp_path: Path) -> None:
+    """They are typeset with their units, though no table, found value or check takes them; the exit code tells."""
+    sheet = own(tmp_path, 'y = g.F * x  # [-] shown\ntable_2 = table("2", "Two", y)')
+    apart = "@app.cell\ndef apart(g):\n    z = g.F * g.a  # [mm] alone\n    return\n\nif __name__"
+    text = Path(sheet.path).read_text().replace("if __name__", apart)
+    Path(sheet.path).write_text(text)
+    sheet = load(sheet.path)
+    names = {**sheet.run(sheet.results, {"g": sheet.inputs()}), "z": 1.875, "__file__": sheet.path}
+    book = load_workbook(BytesIO(report.workbook("", names, {})))
+    (row,) = (row for row in book["Checks"].iter_rows(min_row=3, values_only=True) if row[0] == "units")
+    line = next(n for n, written in enumerate(text.splitlines(), 1) if "z = " in written)
+    assert f"line {line}, z: unit [mm] does not fit" in str(row[5])
 
 
 def test_every_operation_has_a_rule() -> None:

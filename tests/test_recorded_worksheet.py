@@ -12,7 +12,7 @@ import pytest
 from openpyxl import load_workbook
 from own_worksheet import OTHER, own, recorded, value_of
 
-import mechsheet.recording.record as record_module
+from mechsheet.recording import positions
 from mechsheet.recording.dimensions import dimensions
 from mechsheet.recording.numbers import numbers
 from mechsheet.recording.quantity import Quantity
@@ -236,7 +236,7 @@ def test_a_greatest_number_at_a_listed_position_is_followed_to_others(tmp_path: 
 
 def test_a_check_looks_at_all_positions_where_tables_list_some(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """The limit is passed at the fourth of five positions alone, which no table lists; what takes more is told."""
-    monkeypatch.setattr(record_module, "_MORE", 400)
+    monkeypatch.setattr(positions, "_MORE", 400)
     lines = """from mechsheet import check
 y = x * (2.2 * g.a * g.F - x)  # [-] arch
 within = check("within", y, 1.6 * g.F), check("least", y.min(), 1.0)

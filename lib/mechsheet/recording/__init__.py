@@ -3,9 +3,9 @@
 `node` is one of them, `operations` what they mean in numpy, `graph` how they are made. `quantity` computes as numbers
 do and makes nodes meanwhile, by the rules of `arithmetic`; `numpy_rules` are what numpy's functions make of it, and
 `elementary` what functions of the mechanics do. `record` runs the cells of a worksheet: with the names of
-`substitutes`, each cell as a `stage`, into the `lines` of a recording; `memory` tells what a statement has changed in
-place, under whatever name. A drawing is recorded as a `sketch`, where a cell ends in `showing` it, and a text with
-numbers in it as it is `written`.
+`substitutes`, each cell as a `stage`, into the `lines` of a recording, over the `positions` that tables list; `memory`
+tells what a statement has changed in place, under whatever name. A drawing is recorded as a `sketch`, where a cell ends
+in `showing` it, and a text with numbers in it as it is `written`.
 
 `numbers` reads a recording for other inputs, `dimensions` checks units, by the rules of `dimension_rules`; `pinpoint`
 finds where in the worksheet a part is written; `slopes` are derivatives of quantities by others, by the rules of

@@ -1,29 +1,122 @@
-"""Positions that tables list, of all those that a worksheet computes: what rests on them."""
+"""Runs over the positions that tables list: what of them rests on all positions, as a sum or a check does."""
 
-from collections.abc import Sequence
-from typing import Any
+from abc import ABC, abstractmethod
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
+from typing import Any, Self
 
 from mechsheet.recording.graph import Graph
+from mechsheet.recording.lines import Recording
 from mechsheet.recording.node import Node, bottom_up
 from mechsheet.recording.quantity import Quantity
+from mechsheet.worksheet.lines import Formula
+
+_MORE = 1_000_000  # operations on single numbers that checks over all positions take at most, beside those of tables
 
 
-def listed(graph: Graph, value: Any) -> Any:
+class OfPositions(ABC):
+    """A run of a worksheet's cells over the positions that its tables list.
+
+    ``lines`` declare a unit, ``names`` are what it knows of them.
+    """
+
+    names: dict[str, Any]
+    lines: Mapping[str, Formula]
+
+    def __init__(self, recording: Recording) -> None:
+        self.recording, self.graph = recording, recording.graph
+        self.over_all_positions = list[Self]()  # a run of the same graph, once it is needed
+        self.of_rows = dict[Node, tuple[bool, bool]]()  # whether it rests on the positions listed; on a sum of them
+
+    @abstractmethod
+    def again(self) -> Self:
+        """Another run of the same graph."""
+
+    def everywhere(self) -> Self:
+        """A run of the same graph over all positions."""
+        graph = self.graph
+        if not self.over_all_positions:
+            kept = graph.thin, graph.most, graph.line, graph.looked, graph.numbered, graph.work
+            graph.thin, graph.most = 1, graph.most * graph.thin
+            labels, graph.labels = graph.labels, {}  # what only this run needs is no named step
+            try:
+                self.over_all_positions.append(self.again())
+            finally:
+                graph.thin, graph.most, graph.line, graph.looked, graph.numbered, graph.work = kept
+                graph.labels = labels
+        return self.over_all_positions[0]
+
+    def over_all(self, names: Sequence[str]) -> None:
+        """Take numbers from the run over all positions."""
+        for name in names:
+            run = self.everywhere()
+            if name in run.names:
+                self.names[name] = value = _listed(self.graph, run.names[name])
+                if isinstance(value, Quantity):
+                    self.guard_as(run, value.parts)
+                    if not value.single:
+                        self.of_rows |= dict.fromkeys(value.parts, (True, False))
+
+    def guard_as(self, run: "OfPositions", nodes: Iterable[Node]) -> None:
+        """Take over the guards of another run on which quantities rest."""
+        guards = run.recording.guards
+        if guards:
+            under = list(bottom_up(nodes, ()))
+            under += bottom_up((node.args[2] for node in under if node.op == "iterated"), under)
+            self.recording.guards |= {node: guards[node] for node in under if node in guards}
+
+    def check_everywhere(self) -> None:
+        """Let checks look at all positions while that is not too much; the others look at those listed."""
+        recording, left = self.recording, _MORE
+        columns = (part for table in recording.tables.values() for c in table if c is not None for part in c.parts)
+        judged = (part for check in recording.checks.values() for part in (*check.parts, check.limit))
+        known = set(bottom_up([*columns, *judged, *recording.guards], ()))
+        for name, own in recording.checks.items():
+            if not any(any(rests) for rests in self.on_rows([*own.parts, own.limit])):
+                continue
+            whole = self.everywhere().recording.checks.get(name, own)
+            nodes = [*whole.parts, whole.limit]
+            more = list(bottom_up(nodes, known))
+            takes = sum(node.size for node in more if node.size > 1)
+            if takes > left or any(node.op == "exported" for node in more):
+                recording.checks[name] = replace(own, listed=True)
+            else:
+                recording.checks[name], left = whole, left - takes
+                known.update(more)
+                self.guard_as(self.everywhere(), nodes)
+
+    def on_rows(self, nodes: Sequence[Node]) -> list[tuple[bool, bool]]:
+        """Whether each rests on the positions that tables list, and on a sum or an extreme over them."""
+        count = (self.graph.positions - 1) // self.graph.thin + 1
+        for part in bottom_up(nodes, self.of_rows):
+            under = [self.of_rows[operand] for operand in part.operands]
+            rests = (part.op == "rows" and part.size == count) or any(own for own, _ in under)
+            reduced = part.op == "reduce" and rests and part.size < count
+            self.of_rows[part] = rests, reduced or any(over for _, over in under)
+        return [self.of_rows[node] for node in nodes]
+
+    def over_listed(self, name: str) -> bool:
+        """Whether a line is a sum or an extreme over the positions that tables list, which that over all may equal."""
+        value = self.names.get(name)
+        if name not in self.lines or not isinstance(value, Quantity):
+            return False
+        return any(over for _, over in self.on_rows(list(value.parts)))
+
+    def of_listed(self, name: str) -> bool:
+        """Whether a number is a greatest or least one over the positions that tables list, and differs only by that.
+
+        Such a number without a unit of its own is the scale of a check over the same positions.
+        """
+        value = self.names[name]
+        if self.graph.thin == 1 or name in self.lines or not isinstance(value, Quantity) or not value.single:
+            return False
+        under = list(bottom_up([value.re], ()))
+        kinds = {n.args[2] for n in under if n.op == "reduce" and n.args[0].size > 1}
+        return kinds <= {"max", "min"} and any(n.op == "rows" for n in under)
+
+
+def _listed(graph: Graph, value: Any) -> Any:
     """What was recorded over all positions, at those that tables list."""
     if not isinstance(value, Quantity):
         return value
     return value[tuple(slice(None, None, graph.thin if size == graph.positions else None) for size in value.extent)]
-
-
-def on_rows(graph: Graph, nodes: Sequence[Node], known: dict[Node, tuple[bool, bool]]) -> list[tuple[bool, bool]]:
-    """Whether each rests on the positions that tables list, and on a sum or an extreme over them.
-
-    What is ``known`` of others is not looked for again, and added to.
-    """
-    count = (graph.positions - 1) // graph.thin + 1
-    for part in bottom_up(nodes, known):
-        under = [known[operand] for operand in part.operands]
-        rests = (part.op == "rows" and part.size == count) or any(own for own, _ in under)
-        reduced = part.op == "reduce" and rests and part.size < count
-        known[part] = rests, reduced or any(over for _, over in under)
-    return [known[node] for node in nodes]

@@ -2,7 +2,8 @@
 
 import ast
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import replace
+from copy import copy
+from dataclasses import fields
 from itertools import chain
 from pathlib import Path
 from types import CodeType, FunctionType
@@ -18,8 +19,8 @@ from mechsheet.recording.given import given
 from mechsheet.recording.graph import Gap, Graph, Guard, NotRecorded, current
 from mechsheet.recording.lines import Recording, leaves_of
 from mechsheet.recording.memory import Memory, changes, names_of
-from mechsheet.recording.node import Node, bottom_up, conditions
-from mechsheet.recording.positions import listed, on_rows
+from mechsheet.recording.node import Node, conditions
+from mechsheet.recording.positions import OfPositions
 from mechsheet.recording.quantity import Quantity, has_quantity, is_literal, lift
 from mechsheet.recording.sketch import Drawn, Sketch
 from mechsheet.recording.stage import Stage, held, shown
@@ -28,6 +29,7 @@ from mechsheet.recording.unrepeatable import Unrepeatable
 from mechsheet.recording.written import Said, Written
 from mechsheet.units import Constant
 from mechsheet.worksheet.cells import Cell, Worksheet, load
+from mechsheet.worksheet.drawing import Drawing
 from mechsheet.worksheet.lines import Formula, registry
 from mechsheet.worksheet.table import Table
 from mechsheet.worksheet.title import Mark, Slider
@@ -53,21 +55,38 @@ def record(
     ``slider part``, and the drawings that cells show are recorded. With ``lists`` those among the inputs may have any
     length.
     """
+    return _recorded(namespace, sheet, whole, known, every, draws, lists)[0]
+
+
+def record_every_line(namespace: Mapping[str, Any], sheet: Worksheet) -> tuple[Recording, Recording]:
+    """The recording of what is shown, and one that has the lines on which nothing of that rests too."""
+    return _recorded(namespace, sheet, further=True)
+
+
+def _recorded(
+    namespace: Mapping[str, Any],
+    sheet: Worksheet | None,
+    whole: bool = False,
+    known: Mapping[str, Formula] | None = None,
+    every: int = 0,
+    draws: bool = False,
+    lists: bool = False,
+    further: bool = False,
+) -> tuple[Recording, Recording]:
     sheet = load(Path(namespace["__file__"])) if sheet is None else sheet
     steps = {value.every for value in namespace.values() if isinstance(value, Table)}
     want = sheet.results if whole else [name for name in sheet.results if shown(namespace.get(name))]
     graph = Graph(every or (steps.pop() if len(steps) == 1 else 1), draws, lists)
     token = current.set(graph)
     try:
-        return _Run(sheet, graph, namespace, want, registry(namespace) if known is None else known).recording
+        run = _Run(sheet, graph, namespace, want, registry(namespace) if known is None else known)
+        recording = run.recording
+        return recording, run.with_every_line() if further else recording
     finally:
         current.reset(token)
 
 
-_MORE = 1_000_000  # operations on single numbers that checks over all positions take at most, beside those of tables
-
-
-class _Run:
+class _Run(OfPositions):
     """One run of a worksheet's cells, statement by statement."""
 
     def __init__(
@@ -78,39 +97,63 @@ class _Run:
         want: Sequence[str],
         lines: Mapping[str, Formula],
     ) -> None:
-        self.sheet, self.graph, self.namespace = sheet, graph, namespace
         g, known = given(graph, namespace["g"])
-        self.recording = Recording(graph, known, every=graph.thin)
+        super().__init__(Recording(graph, known, every=graph.thin))
+        self.sheet, self.namespace = sheet, namespace
         self.recording.sections = list(dict.fromkeys(cell.section for cell in sheet.cells))
         self.names: dict[str, Any] = shared(sheet.common) | {"__builtins__": BUILTINS, "g": g}
         self.looked: dict[str, tuple[Guard, ...]] = {}  # by name: the guards that its value rests on
         self.chosen: dict[Node, frozenset[Node]] = {}
         self.lost: dict[str, NotRecorded] = {}  # names that have no value here, and why
         self.passing: dict[str, Any] = {}  # of these, lines whose numbers are others at the next run
-        self.want, self.over_all_positions = want, list[_Run]()  # a run of the same graph, once it is needed
-        self.of_rows = dict[Node, tuple[bool, bool]]()  # whether it rests on the positions listed; on a sum of them
-        self.lines = lines
+        self.want, self.lines = want, lines
         for line in sheet.setup:
             self.set_up(line, sheet.path)
-        needed = sheet.needed(want, {"g": g})
-        for cell in [*needed, *(showing.cells(sheet, needed) if graph.draws else ())]:
-            stage = Stage(self.recording, namespace, cell)
-            facts = [statement.facts(line, sheet.path) for line in cell.lines]
-            last = {name: n for n, fact in enumerate(facts) for name in fact.touched}
-            for n, (line, fact) in enumerate(zip(cell.lines, facts, strict=True)):
-                later = {name for name, end in last.items() if end > n}
-                if not statement.on_the_page(line) and not self.apart(stage, line, later):
-                    self.step(stage, line.lineno, fact, later)
-            self.decide(stage, last)
-            for name in dict.fromkeys([*(n for n in cell.code.co_names if n in lines), *cell.gives]):
-                self.recording.define(cell.section, name, self.names.get(name, self.passing.get(name)), lines)
-            for solved in stage.solved:
-                self.recording.define_steps(cell.section, solved)
-            if graph.draws:
-                self.show(stage, cell)
+        self.needed = sheet.needed(want, {"g": g})
+        for cell in [*self.needed, *(showing.cells(sheet, self.needed) if graph.draws else ())]:
+            self.run(cell)
         self.recording.values, self.recording.looked = self.names, self.looked
         if graph.thin > 1:
             self.check_everywhere()
+
+    def run(self, cell: Cell, draws: bool = True) -> None:
+        """Run the statements of a cell, those that only draw where it ``draws``, and name what they give."""
+        stage = Stage(self.recording, self.namespace, cell)
+        facts = [statement.facts(line, self.sheet.path) for line in cell.lines]
+        last = {name: n for n, fact in enumerate(facts) for name in fact.touched}
+        for n, (line, fact) in enumerate(zip(cell.lines, facts, strict=True)):
+            later = {name for name, end in last.items() if end > n}
+            if not draws and fact.touched and all(isinstance(self.namespace.get(x), Drawing) for x in fact.touched):
+                continue
+            if not statement.on_the_page(line) and not self.apart(stage, line, later):
+                self.step(stage, line.lineno, fact, later)
+        self.decide(stage, last)
+        for name in dict.fromkeys([*(n for n in cell.code.co_names if n in self.lines), *cell.gives]):
+            self.recording.define(cell.section, name, self.names.get(name, self.passing.get(name)), self.lines)
+        for solved in stage.solved:
+            self.recording.define_steps(cell.section, solved)
+        if self.graph.draws:
+            self.show(stage, cell)
+
+    def again(self) -> "_Run":
+        return _Run(self.sheet, self.graph, self.namespace, self.want, self.lines)
+
+    def with_every_line(self) -> Recording:
+        """The recording with the lines on which nothing rests that is shown; itself stays as it is."""
+        own, labels = self.recording, self.graph.labels
+        known = {"g", *(name for cell in self.needed for name in cell.gives)}
+        every = {field.name: copy(getattr(own, field.name)) for field in fields(own) if field.name != "graph"}
+        every["lines"] = {section: [*lines] for section, lines in own.lines.items()}
+        self.recording, own.values = Recording(self.graph, **every), {**self.names}
+        self.graph.labels = {**labels}
+        for cell in self.sheet.cells:
+            binds = {name for line in cell.lines for name in statement.facts(line, self.sheet.path).touched}
+            if cell not in self.needed and any(name in self.lines for name in binds):
+                for each in [*self.sheet.needed(sorted(cell.needs), known), cell]:
+                    self.run(each, draws=False)
+                    known.update(each.gives)
+        self.recording.values, self.graph.labels = self.names, labels
+        return self.recording
 
     def apart(self, stage: Stage, line: ast.stmt, later: set[str]) -> bool:
         """Run a statement part by part; whether it has such parts, and all of them can be recorded."""
@@ -327,78 +370,6 @@ class _Run:
     def differing(self, stage: Stage, names: Iterable[str]) -> list[str]:
         """Names whose recorded numbers are not the worksheet's own."""
         return [name for name in names if not stage.same(self.names.get(name), self.namespace.get(name))]
-
-    def everywhere(self) -> "_Run":
-        """A run of the same graph over all positions."""
-        graph = self.graph
-        if not self.over_all_positions:
-            kept = graph.thin, graph.most, graph.line, graph.looked, graph.numbered, graph.work
-            graph.thin, graph.most = 1, graph.most * graph.thin
-            labels, graph.labels = graph.labels, {}  # what only this run needs is no named step
-            try:
-                self.over_all_positions.append(_Run(self.sheet, graph, self.namespace, self.want, self.lines))
-            finally:
-                graph.thin, graph.most, graph.line, graph.looked, graph.numbered, graph.work = kept
-                graph.labels = labels
-        return self.over_all_positions[0]
-
-    def over_all(self, names: Sequence[str]) -> None:
-        """Take numbers from the run over all positions."""
-        for name in names:
-            run = self.everywhere()
-            if name in run.names:
-                self.names[name] = value = listed(self.graph, run.names[name])
-                if isinstance(value, Quantity):
-                    self.guard_as(run, value.parts)
-                    if not value.single:
-                        self.of_rows |= dict.fromkeys(value.parts, (True, False))
-
-    def guard_as(self, run: "_Run", nodes: Iterable[Node]) -> None:
-        """Take over the guards of another run on which quantities rest."""
-        guards = run.recording.guards
-        if guards:
-            under = list(bottom_up(nodes, ()))
-            under += bottom_up((node.args[2] for node in under if node.op == "iterated"), under)
-            self.recording.guards |= {node: guards[node] for node in under if node in guards}
-
-    def check_everywhere(self) -> None:
-        """Let checks look at all positions while that is not too much; the others look at those listed."""
-        recording, left = self.recording, _MORE
-        columns = (part for table in recording.tables.values() for c in table if c is not None for part in c.parts)
-        judged = (part for check in recording.checks.values() for part in (*check.parts, check.limit))
-        known = set(bottom_up([*columns, *judged, *recording.guards], ()))
-        for name, own in recording.checks.items():
-            if not any(any(rests) for rests in on_rows(self.graph, [*own.parts, own.limit], self.of_rows)):
-                continue
-            whole = self.everywhere().recording.checks.get(name, own)
-            nodes = [*whole.parts, whole.limit]
-            more = list(bottom_up(nodes, known))
-            takes = sum(node.size for node in more if node.size > 1)
-            if takes > left or any(node.op == "exported" for node in more):
-                recording.checks[name] = replace(own, listed=True)
-            else:
-                recording.checks[name], left = whole, left - takes
-                known.update(more)
-                self.guard_as(self.everywhere(), nodes)
-
-    def over_listed(self, name: str) -> bool:
-        """Whether a line is a sum or an extreme over the positions that tables list, which that over all may equal."""
-        value = self.names.get(name)
-        if name not in self.lines or not isinstance(value, Quantity):
-            return False
-        return any(over for _, over in on_rows(self.graph, [*value.parts], self.of_rows))
-
-    def of_listed(self, name: str) -> bool:
-        """Whether a number is a greatest or least one over the positions that tables list, and differs only by that.
-
-        Such a number without a unit of its own is the scale of a check over the same positions.
-        """
-        value = self.names[name]
-        if self.graph.thin == 1 or name in self.lines or not isinstance(value, Quantity) or not value.single:
-            return False
-        under = list(bottom_up([value.re], ()))
-        kinds = {n.args[2] for n in under if n.op == "reduce" and n.args[0].size > 1}
-        return kinds <= {"max", "min"} and any(n.op == "rows" for n in under)
 
     def while_same(self, x: Quantity, rests: Iterable[Guard]) -> Quantity:
         """A quantity while Python sees the same, else no number."""

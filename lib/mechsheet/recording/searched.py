@@ -34,6 +34,7 @@ def search(recording: Recording) -> None:
     graph, roots = recording.graph, dict[Node, Node]()
     blocks = {solved.node.args[0]: solved for solved in recording.found.values() if solved.node.op == "found"}
     for block, last in blocks.items():
+        graph.line = block.nodes[0].line
         if any(solved.inverse is None for solved in recording.found.values() if solved.node in block.nodes):
             try:
                 with np.errstate(all="ignore"):  # the equations need not have a value everywhere

@@ -65,7 +65,7 @@ def steps(graph: Graph, block: Block) -> list[Quantity]:
 def _size(graph: Graph, guess: Any, unit: str) -> Any:
     """What an unknown is measured by: its guess, or its unit."""
     known = abs(Quantity(graph, guess))
-    return choice(graph, known == 0, units.parse(unit).factor, known)
+    return choice(graph, known == 0, Quantity(graph, graph.constant(units.parse(unit).factor, unit)), known)
 
 
 def _sure(

@@ -5,6 +5,7 @@ import gc
 import sys
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import Any, TypeVar
@@ -16,7 +17,7 @@ from mechsheet.document import parts
 from mechsheet.document.left_out import left_out
 from mechsheet.recording.dimensions import dimensions
 from mechsheet.recording.lines import Recording, Residual
-from mechsheet.recording.record import record
+from mechsheet.recording.record import record, record_every_line
 from mechsheet.recording.searched import search
 from mechsheet.run import arguments
 from mechsheet.run.ending import say
@@ -184,9 +185,10 @@ def workbook(title: str, namespace: Mapping[str, Any], limits: Mapping[str, Limi
 def _recorded(namespace: Mapping[str, Any]) -> tuple[Recording, Check]:
     """The recording of a run, and the check of its units."""
     sheet = load(namespace["__file__"])
-    recording = record(namespace, sheet)
+    recording, every_line = record_every_line(namespace, sheet)
     search(recording)
-    fit = dimensions(recording, sheet, namespace, registry(namespace)).check()
+    shown, every = (dimensions(each, sheet, namespace, registry(namespace)) for each in (recording, every_line))
+    fit = replace(shown, mistakes=every.mistakes).check()
     mistakes, none = recording.graph.constant(fit.residual), recording.graph.constant(fit.limit)
     recording.checks[fit.name] = Residual([mistakes], none, "-", signed=True)  # the same for all inputs
     return recording, fit

@@ -193,7 +193,7 @@ def _book(path: Path, values: bool) -> Iterator[Any]:
             warnings.simplefilter("ignore")  # of parts of the file that openpyxl does not keep; nothing is written back
             for part in ZipFile(file).infolist():
                 if part.filename in _WHOLE and part.file_size > _LARGEST:
-                    size = f"{part.file_size / 1e6:.0f} MB, over {_LARGEST / 1e6:.0f}"
+                    size = f"over {_LARGEST // 10**6} MB"
                     raise SheetError(f"workbook {path}: its {part.filename} has {size}: delete sheets of your own")
             book = load_workbook(file, read_only=True, data_only=values)
             if _SHEET not in book.sheetnames:
