@@ -214,7 +214,7 @@ def test_a_worksheet_runs_as_it_opens_outside_a_clone_too(
 def test_test_hands_its_arguments_to_pytest(calls: list[list[str]]) -> None:
     """Behind its own, so that ``-n 0`` is one process."""
     assert launcher.main(["test", "-k", "planar", "-n", "0"]) == 7
-    own = [f"-n={os.cpu_count() + 1}", "--dist=worksteal"]
+    own = [f"-n={os.cpu_count() + 1}", "--dist=worksteal", "--durations=10"]
     assert calls == [[sys.executable, "-m", "pytest", *own, "-k", "planar", "-n", "0"]]
 
 

@@ -91,8 +91,8 @@ def main(argv: "list[str] | None" = None) -> int:
         if not (ROOT / "tests").is_dir():
             sys.exit(f"mechsheet: the tests are in a clone of the project, not beside {Path(__file__).parent}")
         # One more than there are processors: some wait for a browser. An option that is given again is the last word.
-        several = f"-n={(os.cpu_count() or 1) + 1}"
-        return call([interpreter("dev"), "-m", "pytest", several, "--dist=worksteal", *options], cwd=ROOT)
+        usual = [f"-n={(os.cpu_count() or 1) + 1}", "--dist=worksteal", "--durations=10"]
+        return call([interpreter("dev"), "-m", "pytest", *usual, *options], cwd=ROOT)
     if worksheet(command).endswith(".py"):
         sys.exit(f"mechsheet: {command} is a worksheet: run {command} computes it, edit {command} opens it")
     meant = nearest(command, [*COMMANDS, *("run " + name for name in worksheets())])

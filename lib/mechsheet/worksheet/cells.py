@@ -165,8 +165,8 @@ def evaluate(worksheet: str | Path, want: Iterable[str], **given: Any) -> dict[s
     """Wanted results of a worksheet, by name, in SI.
 
     ``given`` are inputs by name in their display units, as in a scene, or the whole of them as ``g``.
-    Only the cells that the results depend on are run. A result is a name, a part of one as in a table
-    (``P56_S.imag``, ``abs(R56)``), or a check by its own name.
+    Only the cells that the results depend on are run; most of the time goes into searching again what a Find finds. A
+    result is a name, a part of one as in a table (``P56_S.imag``, ``abs(R56)``), or a check by its own name.
 
     Raises SheetError for an unknown name, an input outside its limits, or where no solution exists.
     """
