@@ -544,10 +544,7 @@ k = CubicSpline([0.0, 5.0, 9.0], [0.0, 25.0, 81.0])(g.F)  # [-] line
 """
     names, recording = recorded(own(tmp_path, lines.strip()))
     told = {gap.names: gap.reason for gap in recording.gaps}
-    assert told == {
-        ("solution",): "solve_ivp of scipy takes plain numbers",
-        ("k",): "CubicSpline of scipy takes plain numbers",
-    }
+    assert told == {("solution",): "scipy's solve_ivp", ("k",): "scipy's CubicSpline"}
     np.testing.assert_array_equal(value_of(recording, "y", {}), names["y"])
     assert np.isnan(value_of(recording, "y", {"F": 5.0})).all()
 

@@ -363,7 +363,7 @@ class _Run(OfPositions):
             return next((reason for reason in known if isinstance(reason, Unrepeatable)), known[0])
         if isinstance(error, NotRecorded):
             taker = "" if isinstance(error, Unrepeatable) else statement.taker(error)
-            return NotRecorded(f"{taker} takes plain numbers") if taker else error.with_traceback(None)
+            return NotRecorded(taker) if taker else error.with_traceback(None)
         said = str(error).splitlines()[0] if str(error) else repr(error)
         return NotRecorded(f"it does not run with recorded quantities ({said})")
 

@@ -122,5 +122,5 @@ def taker(error: BaseException) -> str:
         package = str(frame.f_globals.get("__name__", "")).partition(".")[0]
         if package in sys.modules and package not in ("mechsheet", "numpy", "__main__"):
             of = type(frame.f_locals["self"]).__name__ if "self" in frame.f_locals else frame.f_code.co_name
-            return f"{of} of {package}"
+            return f"{package}'s {of}"
     return ""
