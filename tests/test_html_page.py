@@ -14,7 +14,7 @@ from urllib.parse import quote
 import numpy as np
 import pytest
 import test_html_find
-from conftest import WITHIN
+from conftest import WITHIN, until
 from in_browser import faults
 from playwright.sync_api import Browser, Page, expect
 from test_html_drawing import alike
@@ -371,6 +371,28 @@ def test_a_symbol_tells_what_it_means(document: Callable[..., Path], offline: Pa
     expect(tip).to_contain_text("in 2 Geometry")
     expect(tip).to_contain_text("all depend on it")
     assert page.locator(".ms-uses").count() > 0
+
+
+def test_a_number_that_differs_tells_the_document_s_own(document: Callable[..., Path], offline: Page) -> None:
+    page = opened(offline, document("hitch"))
+    places = [
+        "#line-A_gc .ms-value",
+        "#line-F_gc .ms-value",
+        "#table-4\\.1 ~ .ms-wide tbody tr:nth-child(3) td:nth-child(2)",
+    ]
+    places.append(".ms-check:has-text('pressure within') .ms-compared")
+    own = [page.locator(place).first.text_content() or "" for place in places]
+    fill(page, "P6", "25000")
+
+    def told(place: str) -> str:
+        page.mouse.move(0, 0)
+        page.locator(place).first.hover()
+        tip = page.locator(".ms-tip")
+        return tip.inner_text() if tip.count() and tip.is_visible() else ""
+
+    assert told(places[0]) == ""
+    for place, text in zip(places[1:], own[1:], strict=True):
+        until(page, lambda at=place, x=text: told(at) == f"the document's own: {x.removeprefix(': ')}", place)
 
 
 def test_symbols_and_charts_tell_by_keys(document: Callable[..., Path], offline: Page) -> None:

@@ -49,9 +49,31 @@ function point(event) {
   const target = event.target.closest ? event.target : null;
   const chart = target?.closest("svg.ms-chart");
   if (chart) return pointedAt(chart, event);
-  const found = target?.closest("math") && symbolAt(target);
-  if (found) symbolTip(found, event.clientX, event.clientY);
-  else clearTip();
+  const found = target?.closest("math") && symbolAt(target), own = target && ownOf(target);
+  if (found) return symbolTip(found, event.clientX, event.clientY);
+  clearTip();
+  if (!own) return;
+  tip.innerHTML = `the document's own: ${own}`;
+  place(event.clientX, event.clientY);
+  stand(target);
+}
+
+// What the document has for its own inputs in the place of another number; nothing where it has the same.
+function ownOf(target) {
+  const element = target.closest("[data-n]"), n = element?.dataset.n, spec = told.shown[n];
+  const part = {value: "*", table: "td", check: ".ms-compared"}[spec?.kind], place = part === "*" ? element : target.closest(part);
+  if (!part || !place || !element.contains(place) || isSwitched(spec)) return "";
+  const held = document.createElement("template"), at = place.closest("tr")?.sectionRowIndex;
+  held.innerHTML = spec.kind === "table" ? `<table><tbody>${first[n]}</tbody></table>` : `<span>${first[n]}</span>`;
+  const own = {
+    value: () => held.content.firstChild,
+    table() {
+      const {rows} = held.content.querySelector("tbody");
+      return rows.length === element.tBodies[0].rows.length && rows[at]?.cells[place.cellIndex];
+    },
+    check: () => held.content.querySelector(part),
+  }[spec.kind]();
+  return !own || own.textContent === place.textContent ? "" : own.innerHTML.replace(/^: /, "");
 }
 
 // Browsers tell late of a scrolling that came before the tip.
