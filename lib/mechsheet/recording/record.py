@@ -152,6 +152,8 @@ class _Run(OfPositions):
                 for each in [*self.sheet.needed(sorted(cell.needs), known), cell]:
                     self.run(each, draws=False)
                     known.update(each.gives)
+        gaps = self.recording.gaps
+        gaps[len(own.gaps) :] = [gap for gap in gaps[len(own.gaps) :] if any(x in self.lines for x in gap.names)]
         self.recording.values, self.graph.labels = self.names, labels
         return self.recording
 

@@ -5,7 +5,6 @@ import gc
 import sys
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import Any, TypeVar
@@ -187,8 +186,7 @@ def _recorded(namespace: Mapping[str, Any]) -> tuple[Recording, Check]:
     sheet = load(namespace["__file__"])
     recording, every_line = record_every_line(namespace, sheet)
     search(recording)
-    shown, every = (dimensions(each, sheet, namespace, registry(namespace)) for each in (recording, every_line))
-    fit = replace(shown, mistakes=every.mistakes).check()
+    fit = dimensions(every_line, sheet, namespace, registry(namespace)).check()
     mistakes, none = recording.graph.constant(fit.residual), recording.graph.constant(fit.limit)
     recording.checks[fit.name] = Residual([mistakes], none, "-", signed=True)  # the same for all inputs
     return recording, fit
