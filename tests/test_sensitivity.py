@@ -1,5 +1,6 @@
 """Derivatives and tolerance bands of a worksheet against 50-digit arithmetic and against each other."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import mpmath as mp
@@ -111,6 +112,13 @@ def test_table_is_sorted_and_names_its_position(found):
     assert "<td" in table._mime_()[1] and "N/deg" in table._mime_()[1]
     over = found.over_positions("2", "All", "GS6").frame()
     assert over.shape[0] == 10 and "P_msha [-]" not in over and "L3 [-]" in over
+
+
+def test_a_small_derivative_keeps_its_digits_in_the_table(found):
+    small = replace(found, slopes={name: 1e-9 * x for name, x in found.slopes.items()})
+    *_, derivative, _, _ = small.table("1", "Sensitivity", "GS6").columns
+    shown = [float(text.replace("−", "-")) for text in derivative.texts()]
+    np.testing.assert_allclose(shown, derivative.values, rtol=1e-4)
 
 
 def test_tornado_shows_the_largest_on_top(found):

@@ -94,13 +94,14 @@ class Sensitivity:
             for x in (self.slopes[name], self.errors[name], self.relative(name))
         )
         by = [list(self.inputs)[i] for i in order]
+        here = _at(self.inputs, by)
         where = numbers.significant(np.atleast_1d(self.values[name])[k], 6) + numbers.suffix(self.units[name])
         columns = (
             _texts("input", by),
-            Column("value", "", "where the derivative is taken, in the input's unit", 4, _at(self.inputs, by)),
+            Column("value", "", "where the derivative is taken, in the input's unit", 4, here, _has_small(here)),
             _texts("unit", [units.shown(self.units[x]) for x in by]),
             Column("relative", "-", f"d ln {name} / d ln input", 4, relative),
-            Column("derivative", "", f"d {name} / d input", 4, slopes),
+            Column("derivative", "", f"d {name} / d input", 4, slopes, _has_small(slopes)),
             _texts("derivative's unit", [units.shown(self.unit(name, x)) for x in by]),
             _texts("error", [numbers.significant(x, 1) for x in errors]),
         )
@@ -367,6 +368,11 @@ def real(swept: Sweep, name: str) -> Array:
 
 def _at(values: Mapping[str, float], names: Sequence[str]) -> Array:
     return np.array([values[name] for name in names])
+
+
+def _has_small(values: Array) -> bool:
+    """Whether four decimals would leave no digit of a number that others of its column are far above."""
+    return bool(np.any((values != 0) & (np.abs(values) < 1e-3)))
 
 
 def _texts(heading: str, texts: Sequence[str]) -> Column:
