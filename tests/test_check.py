@@ -118,7 +118,7 @@ def test_slope_over_an_empty_range_fails_in_words():
     ],
 )
 def test_a_unit_that_is_not_known_is_told_in_a_line(asked):
-    with pytest.raises(SheetError, match=r"^unit \[Nn\] is not known; nearest: nN"):
+    with pytest.raises(SheetError, match=r"^(check \w+: )?unit \[Nn\] is not known; nearest: nN"):
         asked()
 
 
@@ -180,3 +180,20 @@ def test_what_has_no_number_is_not_evaluated_and_no_pass():
 def test_limits_of_an_assembly_are_two():
     with pytest.raises(SheetError, match="assembled 'loop': reaches must be the two limits of angle, got 0"):
         assembled("loop", np.array([1.0]), np.array([1.0]), (), "angle", "deg")
+
+
+@pytest.mark.parametrize(
+    ("given", "told"),
+    [
+        (("a", 1.0, 2.0, 1.0), "check a: its unit must be a text between quotes, not 1.0"),
+        ((3, 1.0, 2.0), "check 3: its name must be a text between quotes, not 3"),
+        (("a", "big", 2.0), "check a: its residual must be numbers, not 'big'"),
+        (("a", 1.0, "2"), "check a: its limit must be one number, not '2'"),
+        (("a", 1.0, np.array([1.0, 2.0])), "check a: its limit must be one number, not [1. 2.]"),
+        (("a", 1.0, None), "check a: its limit must be one number, not None"),
+        (("a", 1.0, 2.0, "mmm"), "check a: unit [mmm] is not known"),
+    ],
+)
+def test_what_a_check_cannot_take_is_named(given, told):
+    with pytest.raises(SheetError, match=re.escape(told)):
+        check(*given)

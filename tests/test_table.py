@@ -1,11 +1,14 @@
 """Tables and figures read their columns from the lines that define them."""
 
+import re
+
 import numpy as np
 import pytest
 from cells import run
 
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.results import quantities
+from mechsheet.worksheet.table import figure, table
 
 CELL = """
 import numpy as np
@@ -181,3 +184,19 @@ def test_a_table_is_one_block_where_the_page_is_wide_enough(names):
 def test_names_in_a_note_are_symbols(names):
     run('t = table("1", "T", S, note="phi3 < V21")', names)
     assert "<i>φ</i><sub>3</sub> &lt; <i>V</i><sub>21</sub></div>" in names["t"]._mime_()[1]
+
+
+@pytest.mark.parametrize(
+    ("given", "told"),
+    [
+        ("table(1, 'Shaft', x)", "table: its number must be a text between quotes, not 1"),
+        ("table('1', x, y)", "table 1: its title must be a text between quotes, not [1. 2.]"),
+        ("figure('2', None, x, y)", "figure 2: its title must be a text between quotes, not None"),
+        ("table('1', 'Shaft', x, every=0)", "table 1: every must be a whole number from 1 on, not 0"),
+        ("figure('1', 'Shaft', x, y, every=1.5)", "figure 1: every must be a whole number from 1 on, not 1.5"),
+    ],
+)
+def test_what_a_table_cannot_take_is_named(given, told):
+    known = {"table": table, "figure": figure, "x": np.array([1.0, 2.0]), "y": np.array([3.0, 4.0])}
+    with pytest.raises(SheetError, match=re.escape(told)):
+        eval(given, known)

@@ -16,7 +16,7 @@ from mechsheet.mechanics.equilibrium import Reaction, left_over
 from mechsheet.mechanics.load import Load
 from mechsheet.mechanics.rows import each_alone, of_one, takes_arrays
 from mechsheet.worksheet import numbers
-from mechsheet.worksheet.errors import SheetError, measured, refuse
+from mechsheet.worksheet.errors import SheetError, as_given, measured, refuse, texts
 from mechsheet.worksheet.find import Found
 from mechsheet.worksheet.shown import Shown
 from mechsheet.worksheet.system import Solution
@@ -144,15 +144,21 @@ def check(name: str, residual: ArrayLike, limit: float, unit: str = "-", of: Arr
 
 def _held(name: str, residual: ArrayLike, limit: float, unit: str, size: float = np.inf) -> Check:
     """Check of a residual, of two computations of a quantity of that size; all in SI."""
-    sizes, factor = np.abs(residual), measured(unit).factor
+    of = f"check {name if isinstance(name, str) else as_given(name)}"
+    texts(of, name=name, unit=unit)
+    if np.asarray(residual).dtype.kind not in "biufc":
+        refuse(SheetError(f"{of}: its residual must be numbers, not {as_given(residual)}"))
+    if np.ndim(limit) or np.asarray(limit).dtype.kind not in "biuf":
+        refuse(SheetError(f"{of}: its limit must be one number, not {as_given(limit)}"))
+    sizes, factor = np.abs(residual), measured(unit, of).factor
     reason, lost = "", int(np.count_nonzero(np.isnan(sizes)))
     if not sizes.size:
         reason = "there is nothing to check"
     elif lost:
         reason = f"{lost} of {sizes.size} values do not exist"
     elif not limit <= _AGREED * size:
-        of, least = (numbers.significant(x / factor, 2) for x in (size, limit))
-        reason = f"the limit, {least}, is more than a thousandth of what is compared, {of}{numbers.suffix(unit)}"
+        compared, least = (numbers.significant(x / factor, 2) for x in (size, limit))
+        reason = f"the limit, {least}, is more than a thousandth of what is compared, {compared}{numbers.suffix(unit)}"
     residual = np.nan if reason else float(np.max(sizes)) / factor
     return Check(name, residual, limit / factor, unit, reason, agreement=bool(np.isfinite(size)))
 
@@ -243,7 +249,7 @@ def assembled(name: str, point: ArrayLike, over: ArrayLike, reaches: tuple[Any, 
     """
     if len(reaches) != 2:
         refuse(SheetError(f"assembled {name!r}: reaches must be the two limits of {what}, got {len(reaches)}"))
-    measured(unit)
+    measured(unit, f"check {name}")
     lost = np.isnan(point)
     count = int(np.count_nonzero(lost))
     if not lost.size:

@@ -42,7 +42,7 @@ def cut(text: str) -> str:
 def as_given(value: object) -> str:
     """What was given, as an error shows it: a text between quotes."""
     try:
-        return cut(repr(value) if isinstance(value, str) else str(value))
+        return cut(repr(value) if isinstance(value, str) else " ".join(str(value).split()))
     except ValueError:
         return "a whole number of thousands of digits"
 
@@ -58,12 +58,19 @@ def refuse(error: SheetError, shown: Any = None) -> NoReturn:
     raise error
 
 
-def measured(unit: str) -> units.Unit:
-    """The unit of that text; one that is not known is refused."""
+def measured(unit: str, of: str = "") -> units.Unit:
+    """The unit of that text; one that is not known is refused, in the name of what has it."""
     try:
         return units.parse(unit)
     except ValueError as error:
-        refuse(SheetError(str(error)))
+        refuse(SheetError(f"{of}: {error}" if of else str(error)))
+
+
+def texts(of: str, **given: object) -> None:
+    """Refuse what is no text where one is asked for."""
+    for name, value in given.items():
+        if not isinstance(value, str):
+            refuse(SheetError(f"{of}: its {name} must be a text between quotes, not {as_given(value)}"))
 
 
 @contextmanager

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from mechsheet import units
 from mechsheet.worksheet import lines, numbers, source, symbol
-from mechsheet.worksheet.errors import SheetError, refuse
+from mechsheet.worksheet.errors import SheetError, as_given, refuse, texts
 from mechsheet.worksheet.kinds import Input
 from mechsheet.worksheet.shown import Shown
 
@@ -162,6 +162,7 @@ def table(
     ``note`` stands below the table. ``decimals`` are printed in all columns, by default as many as the unit
     asks for; whole numbers have none. ``every`` lists only every so many positions, from the first.
     """
+    _named("table", number, title, every)
     frame = sys._getframe(1)
     nodes = source.call(frame).args[2:]
     return Table(number, title, _columns(frame, nodes, columns, show or {}, decimals, every), note, every)
@@ -180,10 +181,20 @@ def figure(
 
     ``every`` marks only every so many positions of a smooth curve by a point: those that a table lists.
     """
+    _named("figure", number, title, every)
     frame = sys._getframe(1)
     first, *rest = _columns(frame, source.call(frame).args[2:], (x, *lines), show or {})
     factor = units.parse(first.unit).factor
     return Figure(number, title, first, tuple(rest), tuple((k, v / factor) for k, v in (marks or {}).items()), every)
+
+
+def _named(kind: str, number: object, title: object, every: object) -> None:
+    """Refuse a number or title that is no text, and a step from position to position that is none."""
+    texts(kind, number=number)
+    texts(f"{kind} {number}", title=title)
+    if not isinstance(every, int | np.integer) or every < 1:
+        must = "must be a whole number from 1 on"
+        refuse(SheetError(f"{kind} {number}: every {must}, not {as_given(every)}"))
 
 
 def _columns(
