@@ -50,7 +50,7 @@ NUMBER = Notation(
     "</mtext><msup><mrow></mrow><mrow><mn>{}</mn></mrow></msup><mtext>",
     "·",
 )
-_BLANK = "\u00a0"
+_ENDING, _BLANK = re.compile("^ | $"), "\u00a0"  # a plain blank at the end of a text is left out
 _EMPTY = re.compile("<(mn|mtext)></\\1>")
 _THIN, _COMMA, _QUAD = '<mspace width=".17em"/>', '<mo separator="true">,</mo>', '<mspace width="1em"/>'
 _FORM = ' form="{}"'  # of a bar, which may begin or end
@@ -202,7 +202,7 @@ RULES: dict[type[Any], Callable[[Any], str]] = {
     Symbol: symbol,
     Number: lambda node: _digits(numbers.usual(node.value, NUMBER)),
     Measure: lambda node: _digits(numbers.quantity(node.value, node.unit, NUMBER)),
-    Text: lambda node: f"<mtext>{escape(node.text).replace(' ', _BLANK)}</mtext>",  # blanks at its ends are left out
+    Text: lambda node: f"<mtext>{_ENDING.sub(_BLANK, escape(node.text))}</mtext>",
     Code: lambda node: f'<mtext class="code">{escape(node.text)}</mtext>',
     Function: _function,
     Signed: _signed,

@@ -351,10 +351,11 @@ class Graph:
     def scan(self, kind: str, source: Node, axis: int) -> Node:
         """What the kind says of the elements along an axis up to each one."""
         lines = np.moveaxis(np.arange(source.size).reshape(source.shape), axis, -1).reshape(-1, source.shape[axis])
+        lines.flags.writeable = False
         groups: list[Any] = [None] * source.size
         for line in lines:
             for n, k in enumerate(line, 1):
-                groups[k] = _fixed(line[:n].copy())
+                groups[k] = line[:n]  # a view: copies of all would be as many numbers as half the square of a line's
         value = lambda: REDUCE_SO_FAR[kind].accumulate(source.value, axis=axis)  # noqa: E731
         args = source, tuple(groups), kind, Along(axis, so_far=True)
         return self._kept(("scan", source, kind, axis), "reduce", args, value, source.stretches)

@@ -355,7 +355,10 @@ def lift(graph: Graph, value: Any) -> Quantity:
 
 def stack(parts: Sequence[Quantity]) -> Quantity:
     """Quantities along a new first axis."""
-    return joined([part.like(*parts) for part in parts], np.stack)
+    shapes = {
+        id(part) if any(own.stretches for own in part.parts) else part.extent: part for part in parts if part.extent
+    }
+    return joined([part.like(*shapes.values()) for part in parts], np.stack)
 
 
 def joined(parts: Sequence[Quantity], f: Callable[..., Values], *args: Any, **kwargs: Any) -> Quantity:
