@@ -1,0 +1,56 @@
+"""The page in one file beside the worksheet's own."""
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from conftest import WITHIN
+from playwright.sync_api import Browser, Page
+from test_html_page import fill, opened, written
+
+from mechsheet.document import formula, parts
+from mechsheet.html import markdown
+from mechsheet.html.mathml import mathml
+from mechsheet.worksheet import inputs
+from mechsheet.worksheet.cells import load
+from mechsheet.worksheet.check import Summary
+
+ROOT = Path(__file__).parents[1]
+
+
+@pytest.fixture(scope="module")
+def hitch(browser: Browser, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Page]:
+    path = tmp_path_factory.mktemp("html") / "hitch.html"
+    path.write_text(written("hitch", {}), encoding="utf-8")
+    context = browser.new_context(viewport={"width": 1280, "height": 1000}, offline=True)
+    context.set_default_timeout(WITHIN * 1000)
+    yield opened(context.new_page(), path)
+    context.close()
+
+
+@pytest.mark.parametrize("weight", ["27500", "29000", "26000,5"])
+def test_checks_are_summed_up_the_worst_first_with_what_they_take_of_their_limit(hitch: Page, weight: str) -> None:
+    sheet = load(ROOT / "worksheets" / "hitch.py")
+    namespace = sheet.run(sheet.results, {"g": inputs.build(sheet.inputs, {"P6": weight})})
+    (summary,) = (part for part in parts.contents(namespace) if isinstance(part, Summary))
+    fill(hitch, "P6", weight)
+    rows = hitch.locator(".ms-summary .ms-row > span")
+    shown = [(" ".join(row.split()[:1]), row.split()[-2:]) for row in rows.all_inner_texts()]
+    for (verdict, end), check in zip(shown, summary.worst_first, strict=True):
+        assert verdict.upper() == check.verdict.upper()
+        assert (" ".join(end) == check.utilised) == bool(check.utilised), check.name
+
+
+def test_formulas_of_texts_have_blanks_where_print_has_them() -> None:
+    """A minus at the beginning of what a relation, a comma or a bracket goes before is no difference."""
+    for latex in (r"c \le -1", "a = -b", "(-a", "[-1, 1]", "a, -b", r"x \to -\infty"):
+        assert markdown.formula(latex).count('form="prefix">&#x02212;') == 1, latex
+    assert 'form="prefix"' not in markdown.formula("a - b")
+    assert 'mathvariant="normal">' in markdown.formula(r"\Delta\beta") != markdown.formula(r"\beta")
+    assert markdown.formula("a/2").count("<mo ") == 1
+
+
+def test_a_range_has_dots_between_its_ends_alone() -> None:
+    """As in the worksheet's own page: 0, 1 ... N."""
+    ends = formula.Range((formula.Number(0), formula.Number(1)), formula.Number(9))
+    assert mathml(ends).count(",") == 1
