@@ -1,12 +1,12 @@
-"""The page in one file beside the worksheet's own."""
+"""The page in one file beside the worksheet's own: what both show alike, and what keys tell."""
 
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 from conftest import WITHIN
-from playwright.sync_api import Browser, Page
-from test_html_page import fill, opened, written
+from playwright.sync_api import Browser, Page, expect
+from test_html_page import SCROLLED, SETTLED, fill, opened, written
 
 from mechsheet.document import formula, parts
 from mechsheet.html import markdown
@@ -39,6 +39,38 @@ def test_checks_are_summed_up_the_worst_first_with_what_they_take_of_their_limit
     for (verdict, end), check in zip(shown, summary.worst_first, strict=True):
         assert verdict.upper() == check.verdict.upper()
         assert (" ".join(end) == check.utilised) == bool(check.utilised), check.name
+
+
+def test_space_tells_the_document_s_own_numbers(hitch: Page) -> None:
+    def put_in(weight: str) -> None:
+        fill(hitch, "P6", weight)
+        hitch.evaluate(SETTLED)
+
+    put_in("27500")
+    value = hitch.locator("#line-F_gc .ms-value")
+    cells = hitch.locator("#table-4\\.1 ~ .ms-wide td")
+    own, first = value.text_content(), cells.all_text_contents()
+    put_in("25000")
+    tip, table = hitch.locator(".ms-tip"), hitch.locator("#table-4\\.1 ~ .ms-wide table").first
+    differ = [text for text, now in zip(first, cells.all_text_contents(), strict=True) if text != now]
+    assert len(differ) > 5
+
+    def pressed(place: str, *keys: str) -> str:
+        hitch.locator(place).first.focus()
+        hitch.evaluate(SCROLLED)
+        for key in keys:
+            hitch.keyboard.press(key)
+        return tip.inner_text()
+
+    assert pressed("#line-F_gc .ms-formula", "Space") == f"the document's own: {own}"
+    assert "91.8" in pressed(".ms-check:has-text('pressure within')", "Space")
+    wide = "#table-4\\.1 ~ .ms-wide table"
+    assert table.get_attribute("aria-description") == "space: the document's own number where one differs"
+    told = [pressed(wide, "Space"), pressed(wide, "Space"), pressed(wide, "Shift+Space")]
+    assert told == [f"the document's own: {text}" for text in (differ[0], differ[1], differ[0])]
+    hitch.locator("#line-A_gc .ms-formula").focus()
+    hitch.keyboard.press("Space")  # the same as in the document
+    expect(tip).to_be_hidden()
 
 
 def test_formulas_of_texts_have_blanks_where_print_has_them() -> None:
