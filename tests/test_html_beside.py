@@ -1,5 +1,6 @@
 """The page in one file beside the worksheet's own: what both show alike, and what keys tell."""
 
+import re
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -9,7 +10,7 @@ from playwright.sync_api import Browser, Page, expect
 from test_html_page import SCROLLED, SETTLED, fill, opened, written
 
 from mechsheet.document import formula, parts
-from mechsheet.html import markdown
+from mechsheet.html import javascript, markdown
 from mechsheet.html.mathml import mathml
 from mechsheet.worksheet import inputs
 from mechsheet.worksheet.cells import load
@@ -86,3 +87,17 @@ def test_a_range_has_dots_between_its_ends_alone() -> None:
     """As in the worksheet's own page: 0, 1 ... N."""
     ends = formula.Range((formula.Number(0), formula.Number(1)), formula.Number(9))
     assert mathml(ends).count(",") == 1
+
+
+def test_a_long_table_goes_on_on_the_next_page_under_its_heading(browser: Browser) -> None:
+    """It begins below what stands before it; a page was left half empty before it."""
+    rows = "".join(f"<tr><td>{n}</td></tr>" for n in range(40))
+    table = f"<table><thead><tr><th>x</th></tr></thead><tbody>{rows}</tbody></table>"
+    style = javascript.runtime("page.css")
+    page = browser.new_page()
+
+    for before, count, sheets in ((20, 1, 1), (150, 4, 6)):  # 8 where a table stays whole
+        body = f'<div style="height:{before}mm"></div><div class="ms-table">{table}</div>' * count
+        page.set_content(f"<style>{style}</style><main>{body}</main>")
+        assert len(re.findall(rb"/Type\s*/Page\b", page.pdf(prefer_css_page_size=True))) == sheets
+    page.close()
