@@ -101,3 +101,22 @@ def test_a_long_table_goes_on_on_the_next_page_under_its_heading(browser: Browse
         page.set_content(f"<style>{style}</style><main>{body}</main>")
         assert len(re.findall(rb"/Type\s*/Page\b", page.pdf(prefer_css_page_size=True))) == sheets
     page.close()
+
+
+def test_many_numbers_of_a_line_go_on_in_the_next_and_none_is_cut(hitch: Page) -> None:
+    """At the width of a telephone too; a number with its power of ten stays in one line."""
+    cut = "[...document.querySelectorAll('.ms-value')].filter(e => e.getBoundingClientRect().right > innerWidth).length"
+    lines = """[...document.querySelectorAll('.ms-value sup')].map(e => e.previousSibling).filter(
+      text => text.data?.endsWith('10')).map(text => {
+      const range = document.createRange();
+      range.setStart(text, text.length - 6);
+      range.setEnd(text, text.length);
+      return new Set([...range.getClientRects()].map(box => box.top)).size;
+    })"""
+    hitch.set_viewport_size({"width": 390, "height": 1000})
+    try:
+        assert hitch.evaluate(cut) == 0
+        counts = hitch.evaluate(lines)
+        assert len(counts) > 10 and set(counts) == {1}
+    finally:
+        hitch.set_viewport_size({"width": 1280, "height": 1000})
