@@ -120,3 +120,17 @@ def test_many_numbers_of_a_line_go_on_in_the_next_and_none_is_cut(hitch: Page) -
         assert len(counts) > 10 and set(counts) == {1}
     finally:
         hitch.set_viewport_size({"width": 1280, "height": 1000})
+
+
+def test_nothing_of_a_field_is_cut_or_covered(browser: Browser, tmp_path: Path) -> None:
+    """Numbers and columns of lists, and units beside the meanings: those of the joint are the widest."""
+    path = tmp_path / "joint.html"
+    path.write_text(written("joint", {}), encoding="utf-8")
+    for width in (800, 1280):
+        page = opened(browser.new_page(viewport={"width": width, "height": 1000}), path)
+        cut = """[...document.querySelectorAll('.ms-grid input')].filter(e => e.scrollWidth > e.clientWidth
+          || e.getBoundingClientRect().right > e.closest('.ms-grid').getBoundingClientRect().right + 1).length"""
+        over = """[...document.querySelectorAll('.ms-field > .ms-unit')].filter(
+          unit => unit.textContent && unit.scrollWidth > unit.clientWidth).map(unit => unit.textContent)"""
+        assert (page.evaluate(cut), page.evaluate(over)) == (0, []), width
+        page.close()
