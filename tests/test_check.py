@@ -62,7 +62,7 @@ def test_rounding_is_not_shown_as_a_value():
     """Of two computations that agree the limit is told; where they do not, by how much they differ."""
     agreed, apart = check("loop", 2.2e-16, 1e-12, "m", of=1.0), check("loop", 1e-9, 1e-12, "m", of=1.0)
     assert str(agreed) == "pass  loop: within 1e-12 m" and "2.2" not in html(agreed)
-    assert str(apart) == "FAIL  loop: 1e-9 <= 1e-12 m" and "1\u2009·\u200910−9 &gt; 1\u2009·\u200910−12" in re.sub(
+    assert str(apart) == "FAIL  loop: 1e-9 <= 1e-12 m" and "1\u202f·\u202f10−9 &gt; 1\u202f·\u202f10−12" in re.sub(
         "<[^>]*>", "", html(apart)
     )
 

@@ -246,7 +246,7 @@ def test_an_unknown_unit_is_told_on_its_line_alone():
         (-0.66132, "m", "−0.66132 m"),
         (np.pi / 6, "deg", "30°"),
         (0.14, "%", "14 %"),
-        (-1.5e-7, "m", "−1.5\u2009·\u200910<sup>−7</sup> m"),
+        (-1.5e-7, "m", "−1.5\u202f·\u202f10<sup>−7</sup> m"),
         (np.inf, "-", "∞"),
         (0.5 - 2j, "m/s**2", "(0.5, −2) m/s<sup>2</sup>"),
         (np.array([1.0, np.nan]), "N*m**-1", "1, none N·m<sup>−1</sup>"),

@@ -113,7 +113,7 @@ def test_numbers_are_written_as_python_writes_them(blank: Page) -> None:
         values,
     )
     for x, texts in zip(values, told, strict=True):
-        assert texts[0].replace("\u2009·\u200910<sup>", "e").replace("</sup>", "") == power(x), x
+        assert texts[0].replace("\u202f·\u202f10<sup>", "e").replace("</sup>", "") == power(x), x
         assert texts[1:] == [
             numbers.fixed(x, 0, numbers.CELL),
             numbers.fixed(x, 3, numbers.AXIS),

@@ -219,7 +219,7 @@ def without_counts(found: str) -> str:
 def without_rounding(text: str) -> tuple[str, ...]:
     """Numbers of a line, those of 1e-7 and less as 0: there stands what rounding leaves, and its place says nothing."""
     text, *place = text.partition(" least at ")
-    found = re.findall("[\\d.]+(?:\u2009·\u200910−?\\d+)?", text.replace("−0", "0"))
+    found = re.findall("[\\d.]+(?:\u202f·\u202f10−?\\d+)?", text.replace("−0", "0"))
     shown = ["0" if re.search(r"10−(?:[7-9]|1\d|2\d)$", x) else x for x in found]
     return tuple(dict.fromkeys(shown)) if "0" in shown else (*shown, *place)
 

@@ -138,8 +138,10 @@ def test_numbers_are_put_into_a_formula_as_python_puts_them_in(blank: Page) -> N
 def as_seen(text: str) -> str:
     """MathML without what only groups, how high brackets are and how wide a space is, and a dot that none needs.
 
-    High brackets have none before them, and how high they are may hang on a number far from where they begin.
+    High brackets have none before them, and how high they are may hang on a number far from where they begin. A browser
+    writes a blank that does not break by its name.
     """
+    text = text.replace("&nbsp;", "\u00a0")
     bare = re.sub(r"</?mrow>|</?mspace[^>]*>| stretchy=\"false\"", "", text)
     return bare.replace("<mo>⋅</mo><mo>(</mo><mo>−</mo>", "<mo>(</mo><mo>−</mo>")
 

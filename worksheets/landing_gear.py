@@ -666,16 +666,16 @@ def drawing_35(
         ("", f"i = {g.R}?"),
         ("12", "print, and compare with other methods"),
     )
-    chart = Drawing(width=860, height=800, frame=[-5.5 + 0.3j, 5.9 - 1j * len(_steps) + 0.6j], unit="")
+    chart = Drawing(width=860, height=800, frame=[-6.1 + 0.3j, 6.5 - 1j * len(_steps) + 0.6j], unit="")
     for _n, (_step, _says) in enumerate(_steps):
-        _at, _w, _h = -1j * _n, (5.4 if _step else 1.2), 0.32
+        _at, _w, _h = -1j * _n, (6.0 if _step else 1.2), 0.32
         _box = [_at + _w * _x + 1j * _h * _y for _x, _y in ((-1, -1), (-1, 1), (1, 1), (1, -1))]
         _box = _box if _step else [_at - _w, _at + 1j * _h, _at + _w, _at - 1j * _h]
         chart = chart.polygon(_box).text(_at, f"{_step}  {_says}".strip())
         if _n:
             chart = chart.path([_at + 1j - 1j * _h, _at + 1j * _h], colour="")
     _loop, _back = (next(n for n, (step, _) in enumerate(_steps) if step == name) for name in ("4", ""))
-    chart = chart.path([1.2 - 1j * _back, 5.8 - 1j * _back, 5.8 - 1j * _loop, 5.4 - 1j * _loop], colour="blue")
+    chart = chart.path([1.2 - 1j * _back, 6.4 - 1j * _back, 6.4 - 1j * _loop, 6.0 - 1j * _loop], colour="blue")
     drawing_35 = chart.text(2.2 + 0.25j - 1j * _back, "no, i + 1").text(0.4 + 0.5j - 1j * (_back + 1), "yes")
     typeset(drawing_35, caption("3.5", "Algorithm (figure 3)"))
     return

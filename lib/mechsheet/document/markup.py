@@ -10,7 +10,7 @@ from mechsheet.worksheet.numbers import Notation
 from mechsheet.worksheet.over import Over
 
 HTML = Notation(
-    "−", "none", "∞", "{}\u2009·\u200910<sup>{}</sup>", "({}, {})", " … ", "°", " %", " {}", "<sup>{}</sup>", "·"
+    "−", "none", "∞", "{}\u202f·\u202f10<sup>{}</sup>", "({}, {})", " … ", "°", " %", " {}", "<sup>{}</sup>", "·"
 )
 
 _SIGNS = {"<": "&lt;", ">": "&gt;", "<=": "≤", ">=": "≥"}
@@ -41,7 +41,7 @@ def in_words(sentence: str) -> str:
     >>> in_words("omega3 - 1 < 0, theta/2")
     '<i>ω</i><sub>3</sub> − 1 &lt; 0, <i>θ</i>/2'
     >>> in_words("phi3 = -1.5e-7..90 deg, -2..-1 m")
-    '<i>φ</i><sub>3</sub> = −1.5\u2009·\u200910<sup>−7</sup>..90°, −2..−1 m'
+    '<i>φ</i><sub>3</sub> = −1.5\u202f·\u202f10<sup>−7</sup>..90°, −2..−1 m'
     """
     pieces = enumerate(symbol.pieces(sentence))
     return "".join(named(piece) if i % 2 else numbers.rewritten(escape(piece), HTML) for i, piece in pieces)
@@ -53,7 +53,7 @@ def compared(check: Check, unit: str, to: Notation = HTML) -> str:
     >>> compared(Check("stress", 330.0, 355.0, "MPa"), "MPa")
     '330 ≤ 355 MPa, 93 %'
     >>> compared(Check("loop", 2e-16, 1e-12, agreement=True), "-")
-    'within 1\u2009·\u200910<sup>−12</sup>'
+    'within 1\u202f·\u202f10<sup>−12</sup>'
     """
     residual, limit = (numbers.rewritten(text, to) for text in check.shown_in(unit).compared)
     limit += numbers.behind(unit, to)

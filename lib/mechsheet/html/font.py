@@ -8,7 +8,7 @@ from io import BytesIO
 from pathlib import Path
 
 # What a number, a unit or a reason may have once an input is changed, and the sign of a root, which no text has.
-_ALWAYS = "".join(map(chr, range(0x20, 0x7F))) + "−·⋅×∞…°–≤≥√⁻⁰¹²³⁴⁵⁶⁷⁸⁹\u2009"
+_ALWAYS = "".join(map(chr, range(0x20, 0x7F))) + "−·⋅×∞…°–≤≥√⁻⁰¹²³⁴⁵⁶⁷⁸⁹\u202f"
 _CAPITAL, _SMALL, _GREEK_CAPITAL, _GREEK_SMALL = 0x1D434, 0x1D44E, 0x1D6E2, 0x1D6FC  # slanted letters of mathematics
 _SLANTED = {"h": "\u210e", "ϵ": "\U0001d716", "ϑ": "\U0001d717", "ϕ": "\U0001d719"}  # which stand apart
 

@@ -97,7 +97,7 @@ function usual(x, to) {
   if (size >= 1e-3 && size < 1e6) return sign + trimmed(positional(mantissa, power));
   const shown = trimmed(`${mantissa[0]}.${mantissa.slice(1)}`);
   const raised = (power < 0 ? to.minus : "") + Math.abs(power);
-  return sign + (to.power ? to.power(shown, raised) : `${shown}\u2009·\u200910<sup>${raised}</sup>`);
+  return sign + (to.power ? to.power(shown, raised) : `${shown}\u202f·\u202f10<sup>${raised}</sup>`);
 }
 
 const ROUNDING = 2 ** -48; // of the largest number of a field: what is less may be nothing but roundings
@@ -168,7 +168,7 @@ const cellText = (x, column) => (column.power ? scientific : fixed)(x, column.de
 const inWords = text =>
   String(text)
     .replace(/(\d) deg\b/g, "$1°")
-    .replace(/(\d)e([+-]?)0*(\d+)\b/g, (_, digit, sign, power) => `${digit}\u2009·\u200910<sup>${sign === "-" ? "−" : ""}${power}</sup>`)
+    .replace(/(\d)e([+-]?)0*(\d+)\b/g, (_, digit, sign, power) => `${digit}\u202f·\u202f10<sup>${sign === "-" ? "−" : ""}${power}</sup>`)
     .replace(/(^|\.\.|[^\w.)])-(?=[\d.∞])/g, "$1−");
 
 // What a check compares: told apart, with two digits where the residual is only rounding.

@@ -10,12 +10,18 @@ from markdown.inlinepatterns import InlineProcessor  # type: ignore[import-untyp
 
 _TAG = re.compile(r"\\tag\{([^}]*)\}")
 _UPRIGHT = re.compile(r"\\mathrm\{([^{}]*)\}")  # which is left slanted otherwise
+_CAPITAL = re.compile(r"<mi>(&#x003(?:9[348BE]|A[035689]);)</mi>")  # Greek ones, which print has upright
 _TABLES = {"aligned": "split", "gathered": "matrix"}  # environments that run into one line otherwise
 _BARS = re.compile(r"<mo>(&#x0007C;|&#x02016;)</mo>(<mtable>(?:(?!<mtable>).)*?</mtable>)<mo>\1</mo>")
 _ENDS = "m(?:i|n|sub|sup|subsup|row|frac|sqrt)"
 _FUNCTION = re.compile(  # between factors, but not with a power of its own
     rf"(</{_ENDS}>|&#x00029;</mo>)?(?<!<msup>)(?<!<msub>)<mi>(arc)?(sin|cos|tan|ln|log|exp)</mi>(?=(<{_ENDS}[ >])?)"
 )
+_SIGN = re.compile(  # of what begins there: with blanks at both sides it would be a difference
+    r"(<mo>&#x0(?:003D|003C|003E|2264|2265|002C|2192|2208|22C5);</mo>|<mo [^>]*>(?:&#x00028;|\[)</mo>)"
+    r"<mo>(?=&#x02212;</mo>)"
+)
+_SLASH = "<mo>&#x0002F;</mo>"
 _THIN = '<mspace width=".17em"/>'
 _BAR = '<mo stretchy="true" symmetric="true" form="{}fix">{}</mo>'
 
@@ -39,8 +45,10 @@ def formula(latex: str, *, block: bool = False) -> str:
     inside = re.sub(r"^<math[^>]*><mrow>(.*)</mrow></math>$", r"\1", written, flags=re.DOTALL)
     inside = _BARS.sub(lambda m: f"<mrow>{_BAR.format('pre', m[1])}{m[2]}{_BAR.format('post', m[1])}</mrow>", inside)
     inside = _FUNCTION.sub(_spaced, inside)
+    inside = _CAPITAL.sub(r'<mi mathvariant="normal">\1</mi>', inside)
+    inside = _SIGN.sub(r'\1<mo form="prefix">', inside).replace(_SLASH, '<mo lspace="0" rspace="0">&#x0002F;</mo>')
     # Browsers know of columns what styles say of their cells.
-    inside = inside.replace('<mtd columnalign="left"><mi />', '<mtd style="text-align:left;padding-left:0"><mi />')
+    inside = inside.replace('columnspacing="0em"', 'class="aligned"')
     inside = re.sub('<mtd columnalign="([a-z]+)"', r'<mtd style="text-align:\1;text-align:-webkit-\1"', inside)
     if not block:
         return f"<math>{inside}</math>"

@@ -159,8 +159,8 @@ def _prefix(node: Prefix) -> str:
 
 
 def _range(node: Range) -> str:
-    parts = [*map(inner, node.first), '<mo form="infix">…</mo>']
-    return f"<mrow>{(_COMMA + _THIN).join(parts)}{_THIN}{inner(node.last)}</mrow>"
+    first = (_COMMA + _THIN).join(map(inner, node.first))
+    return f"<mrow>{first}{_THIN}<mo>…</mo>{_THIN}{inner(node.last)}</mrow>"
 
 
 def _cases(node: Cases) -> str:

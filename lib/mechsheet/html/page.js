@@ -117,17 +117,20 @@ function judged(spec, results) {
   const passed = residual <= limit, kind = passed ? "PASS" : "FAIL", agrees = spec.agreement && passed;
   const [a, b] = compared(residual, limit, agrees).map(inWords);
   const told = agrees ? `within ${b}${spec.behind}` : `${a} ${passed ? "≤" : "&gt;"} ${b}${spec.behind}`;
-  return {kind, word: kind, compared: `: ${told}${spec.agreement ? "" : utilised(residual, limit)}`, reason: ""};
+  const part = limit > 0 && !spec.agreement ? residual / limit : NaN, used = utilised(part);
+  return {kind, word: kind, compared: `: ${told}${used && `, ${used}`}`, reason: "", part};
 }
 
 // What part of its limit a quantity takes, told apart from 100 %.
-const utilised = (residual, limit) => (limit > 0 && isFinite(residual) && isFinite(limit) ? `, ${apart([(100 * residual) / limit, 100], 3)[0]} %` : "");
+const utilised = part => (isFinite(part) ? `${apart([100 * part, 100], 3)[0]} %` : "");
 
-function tell(element, {kind, word, compared, reason}) {
+function tell(element, {kind, word, compared, reason, part = NaN}) {
   const badge = element.querySelector(".ms-badge");
   badge.className = `ms-badge ms-${kind}`;
   badge.textContent = word;
-  element.querySelector(".ms-compared").innerHTML = compared;
+  const place = element.querySelector(".ms-compared");
+  place.innerHTML = compared;
+  place.dataset.part = part;
   element.querySelector(".ms-note").textContent = reason;
   inside.delete(element);
 }
@@ -219,19 +222,22 @@ function mark(field, changed, error) {
   used.cells[1].textContent = typed(field);
 }
 
-// The verdicts of all checks where they are summed up, those that fail first.
+// The verdicts of all checks where they are summed up, the worst first.
 function sum() {
   for (const summary of document.querySelectorAll(".ms-summary")) {
     const row = summary.querySelector(".ms-row"), counts = {PASS: 0, FAIL: 0, OPEN: 0};
     const items = [...row.children].map(item => {
-      const badge = document.getElementById(item.dataset.of)?.querySelector(".ms-badge");
+      const check = document.getElementById(item.dataset.of), badge = check?.querySelector(".ms-badge");
       const kind = /ms-(PASS|FAIL|OPEN)/.exec(badge?.className)?.[1] ?? "OPEN";
       counts[kind]++;
       const own = item.querySelector(".ms-badge");
       if (own.textContent !== badge.textContent) Object.assign(own, {className: badge.className, textContent: badge.textContent});
-      return [kind, item];
+      const part = Number(check?.querySelector(".ms-compared").dataset.part ?? NaN), reason = check?.querySelector(".ms-note").textContent;
+      item.querySelector(".ms-note").textContent = utilised(part) || reason;
+      return {kind, item, part: isFinite(part) ? part : -Infinity};
     });
-    const sorted = ["FAIL", "OPEN", "PASS"].flatMap(kind => items.filter(([k]) => k === kind).map(([, item]) => item));
+    const worse = (a, b) => (a.part === b.part ? 0 : b.part - a.part);
+    const sorted = ["FAIL", "OPEN", "PASS"].flatMap(kind => items.filter(each => each.kind === kind).sort(worse).map(({item}) => item));
     if (sorted.some((item, k) => item !== row.children[k])) row.append(...sorted);
     const total = items.length;
     summary.querySelector("b").textContent = `${counts.PASS} of ${total} checks pass` +

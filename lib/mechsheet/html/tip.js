@@ -53,9 +53,38 @@ function point(event) {
   if (found) return symbolTip(found, event.clientX, event.clientY);
   clearTip();
   if (!own) return;
+  ownTip(target, own, event.clientX, event.clientY);
+}
+
+function ownTip(target, own, x, y) {
   tip.innerHTML = `the document's own: ${own}`;
-  place(event.clientX, event.clientY);
+  place(x, y);
   stand(target);
+}
+
+// By a key: the next number that differs from the document's own, with Shift the one before.
+function pressedOn(element, {key, shiftKey}) {
+  const all = key === " " ? [...element.querySelectorAll(".ms-value, td, .ms-compared")] : [], many = all.length, now = all.indexOf(toldOf);
+  const from = shiftKey && now < 0 ? 0 : now, step = shiftKey ? -1 : 1;
+  const next = all.map((_, k) => all[(from + step * (k + 1) + 2 * many) % many]).find(ownOf);
+  if (!next) return false;
+  clearTip();
+  next.scrollIntoView({block: "nearest", inline: "nearest"});
+  const {right, bottom} = next.getBoundingClientRect();
+  ownTip(next, ownOf(next), right, bottom);
+  next.classList.add("ms-chosen");
+  return true;
+}
+
+const ownParts = new Map(); // as the document has them, read once
+
+function heldOf(n) {
+  if (!ownParts.has(n)) {
+    const held = document.createElement("template");
+    held.innerHTML = told.shown[n].kind === "table" ? `<table><tbody>${first[n]}</tbody></table>` : `<span>${first[n]}</span>`;
+    ownParts.set(n, held.content);
+  }
+  return ownParts.get(n);
 }
 
 // What the document has for its own inputs in the place of another number; nothing where it has the same.
@@ -63,15 +92,14 @@ function ownOf(target) {
   const element = target.closest("[data-n]"), n = element?.dataset.n, spec = told.shown[n];
   const part = {value: "*", table: "td", check: ".ms-compared"}[spec?.kind], place = part === "*" ? element : target.closest(part);
   if (!part || !place || !element.contains(place) || isSwitched(spec)) return "";
-  const held = document.createElement("template"), at = place.closest("tr")?.sectionRowIndex;
-  held.innerHTML = spec.kind === "table" ? `<table><tbody>${first[n]}</tbody></table>` : `<span>${first[n]}</span>`;
+  const held = heldOf(n), at = place.closest("tr")?.sectionRowIndex;
   const own = {
-    value: () => held.content.firstChild,
+    value: () => held.firstChild,
     table() {
-      const {rows} = held.content.querySelector("tbody");
+      const {rows} = held.querySelector("tbody");
       return rows.length === element.tBodies[0].rows.length && rows[at]?.cells[place.cellIndex];
     },
-    check: () => held.content.querySelector(part),
+    check: () => held.querySelector(part),
   }[spec.kind]();
   return !own || own.textContent === place.textContent ? "" : own.innerHTML.replace(/^: /, "");
 }
@@ -86,7 +114,12 @@ document.addEventListener("click", event => {
 });
 
 tip.setAttribute("aria-live", "polite");
-for (const [kind, keys] of [[".ms-line .ms-formula", "arrow keys: its symbols; Enter: where one is defined"], [".ms-figure [data-n]", "arrow keys: its values"]])
+const OWN = "space: the document's own number where one differs";
+for (const [kind, keys] of [
+  [".ms-line .ms-formula", `arrow keys: its symbols; Enter: where one is defined; ${OWN}`],
+  [".ms-figure [data-n]", "arrow keys: its values"],
+  [".ms-table table[data-n], .ms-check[data-n]", OWN],
+])
   for (const element of document.querySelectorAll(kind)) {
     element.tabIndex = 0;
     element.setAttribute("aria-description", keys);
@@ -95,5 +128,6 @@ document.addEventListener("focusout", clearTip);
 document.addEventListener("keydown", event => {
   if (event.key === "Escape") return clearTip();
   const {target} = event, is = kind => target.matches?.(kind);
-  if (is(".ms-formula") ? pressedIn(target, event.key) : is(".ms-figure [data-n]") && pressedAt(target, event)) event.preventDefault();
+  const isDone = is(".ms-figure [data-n]") ? pressedAt(target, event) : is(".ms-formula") && pressedIn(target, event.key);
+  if (isDone || (is(".ms-formula, table, .ms-check") && pressedOn(target, event))) event.preventDefault();
 });

@@ -105,7 +105,7 @@ def _page(sheet: Worksheet, namespace: dict[str, Any], lists: bool) -> str:
     own = javascript.runtime(*_SCRIPTS)
     script = f'"use strict";\n(async () => {{\n{computed}\n{own}}})();'
     style = javascript.runtime("page.css")
-    address = font.address(_signs(body + "".join(spec.get("text", "") for spec in follower.specs)))
+    address = font.address(_signs(body + json.dumps(follower.specs, ensure_ascii=False)))
     face = f'@font-face{{font-family:"STIX Two Math";src:url({address})format("woff")}}'
     policy = _POLICY.format(f"'sha256-{_digest(script)}'")
     return (
@@ -210,9 +210,8 @@ def _plain(title: str) -> str:
 
 
 def _signs(body: str) -> set[str]:
-    """What stands in formulas and values."""
-    formulas = re.findall(r"<math.*?</math>|<span class=\"ms-value.*?</span>", body, flags=re.DOTALL)
-    return set(unescape(re.sub("<[^>]*>", "", "".join(formulas))))
+    """What stands in formulas, values, drawings and charts: more than the font has is left out of it."""
+    return set(unescape(re.sub("<[^>]*>", "", body)))
 
 
 def _symbols(namespace: Mapping[str, Any], shown: Iterable[Any]) -> dict[str, dict[str, str]]:

@@ -7,7 +7,7 @@
   // What other numbers would change, in the declared units.
   const SHOWN =
     ".ms-table:not(.ms-matters *) table:not(.ms-chosen), ms-verdict, .ms-value:not(:has(> ms-value)), .ms-value > ms-value > :first-child";
-  const NUMBER = /(\d+(?:\.\d+)?)(?:e([+−]?\d+)|(\u2009·\u200910)$)?/g; // a power of ten, or one that is raised
+  const NUMBER = /(\d+(?:\.\d+)?)(?:e([+−]?\d+)|(\u202f·\u202f10)$)?/g; // a power of ten, or one that is raised
   const text = () => [...document.querySelectorAll(SHOWN)].map((each) => each.textContent).join();
   const isCopy = (node) => node.classList?.contains("ms-chosen");
 

@@ -1,0 +1,136 @@
+"""The page in one file beside the worksheet's own: what both show alike, and what keys tell."""
+
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from conftest import WITHIN
+from playwright.sync_api import Browser, Page, expect
+from test_html_page import SCROLLED, SETTLED, fill, opened, written
+
+from mechsheet.document import formula, parts
+from mechsheet.html import javascript, markdown
+from mechsheet.html.mathml import mathml
+from mechsheet.worksheet import inputs
+from mechsheet.worksheet.cells import load
+from mechsheet.worksheet.check import Summary
+
+ROOT = Path(__file__).parents[1]
+
+
+@pytest.fixture(scope="module")
+def hitch(browser: Browser, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Page]:
+    path = tmp_path_factory.mktemp("html") / "hitch.html"
+    path.write_text(written("hitch", {}), encoding="utf-8")
+    context = browser.new_context(viewport={"width": 1280, "height": 1000}, offline=True)
+    context.set_default_timeout(WITHIN * 1000)
+    yield opened(context.new_page(), path)
+    context.close()
+
+
+@pytest.mark.parametrize("weight", ["27500", "29000", "26000,5"])
+def test_checks_are_summed_up_the_worst_first_with_what_they_take_of_their_limit(hitch: Page, weight: str) -> None:
+    sheet = load(ROOT / "worksheets" / "hitch.py")
+    namespace = sheet.run(sheet.results, {"g": inputs.build(sheet.inputs, {"P6": weight})})
+    (summary,) = (part for part in parts.contents(namespace) if isinstance(part, Summary))
+    fill(hitch, "P6", weight)
+    rows = hitch.locator(".ms-summary .ms-row > span")
+    shown = [(" ".join(row.split()[:1]), row.split()[-2:]) for row in rows.all_inner_texts()]
+    for (verdict, end), check in zip(shown, summary.worst_first, strict=True):
+        assert verdict.upper() == check.verdict.upper()
+        assert (" ".join(end) == check.utilised) == bool(check.utilised), check.name
+
+
+def test_space_tells_the_document_s_own_numbers(hitch: Page) -> None:
+    def put_in(weight: str) -> None:
+        fill(hitch, "P6", weight)
+        hitch.evaluate(SETTLED)
+
+    put_in("27500")
+    value = hitch.locator("#line-F_gc .ms-value")
+    cells = hitch.locator("#table-4\\.1 ~ .ms-wide td")
+    own, first = value.text_content(), cells.all_text_contents()
+    put_in("25000")
+    tip, table = hitch.locator(".ms-tip"), hitch.locator("#table-4\\.1 ~ .ms-wide table").first
+    differ = [text for text, now in zip(first, cells.all_text_contents(), strict=True) if text != now]
+    assert len(differ) > 5
+
+    def pressed(place: str, *keys: str) -> str:
+        hitch.locator(place).first.focus()
+        hitch.evaluate(SCROLLED)
+        for key in keys:
+            hitch.keyboard.press(key)
+        return tip.inner_text()
+
+    assert pressed("#line-F_gc .ms-formula", "Space") == f"the document's own: {own}"
+    assert "91.8" in pressed(".ms-check:has-text('pressure within')", "Space")
+    wide = "#table-4\\.1 ~ .ms-wide table"
+    assert table.get_attribute("aria-description") == "space: the document's own number where one differs"
+    told = [pressed(wide, "Space"), pressed(wide, "Space"), pressed(wide, "Shift+Space")]
+    assert told == [f"the document's own: {text}" for text in (differ[0], differ[1], differ[0])]
+    hitch.locator("#line-A_gc .ms-formula").focus()
+    hitch.keyboard.press("Space")  # the same as in the document
+    expect(tip).to_be_hidden()
+
+
+def test_formulas_of_texts_have_blanks_where_print_has_them() -> None:
+    """A minus at the beginning of what a relation, a comma or a bracket goes before is no difference."""
+    for latex in (r"c \le -1", "a = -b", "(-a", "[-1, 1]", "a, -b", r"x \to -\infty"):
+        assert markdown.formula(latex).count('form="prefix">&#x02212;') == 1, latex
+    assert 'form="prefix"' not in markdown.formula("a - b")
+    assert 'mathvariant="normal">' in markdown.formula(r"\Delta\beta") != markdown.formula(r"\beta")
+    assert markdown.formula("a/2").count("<mo ") == 1
+
+
+def test_a_range_has_dots_between_its_ends_alone() -> None:
+    """As in the worksheet's own page: 0, 1 ... N."""
+    ends = formula.Range((formula.Number(0), formula.Number(1)), formula.Number(9))
+    assert mathml(ends).count(",") == 1
+
+
+def test_a_long_table_goes_on_on_the_next_page_under_its_heading(browser: Browser) -> None:
+    """It begins below what stands before it; a page was left half empty before it."""
+    rows = "".join(f"<tr><td>{n}</td></tr>" for n in range(40))
+    table = f"<table><thead><tr><th>x</th></tr></thead><tbody>{rows}</tbody></table>"
+    style = javascript.runtime("page.css")
+    page = browser.new_page()
+
+    for before, count, sheets in ((20, 1, 1), (150, 4, 6)):  # 8 where a table stays whole
+        body = f'<div style="height:{before}mm"></div><div class="ms-table">{table}</div>' * count
+        page.set_content(f"<style>{style}</style><main>{body}</main>")
+        assert len(re.findall(rb"/Type\s*/Page\b", page.pdf(prefer_css_page_size=True))) == sheets
+    page.close()
+
+
+def test_many_numbers_of_a_line_go_on_in_the_next_and_none_is_cut(hitch: Page) -> None:
+    """At the width of a telephone too; a number with its power of ten stays in one line."""
+    cut = "[...document.querySelectorAll('.ms-value')].filter(e => e.getBoundingClientRect().right > innerWidth).length"
+    lines = """[...document.querySelectorAll('.ms-value sup')].map(e => e.previousSibling).filter(
+      text => text.data?.endsWith('10')).map(text => {
+      const range = document.createRange();
+      range.setStart(text, text.length - 6);
+      range.setEnd(text, text.length);
+      return new Set([...range.getClientRects()].map(box => box.top)).size;
+    })"""
+    hitch.set_viewport_size({"width": 390, "height": 1000})
+    try:
+        assert hitch.evaluate(cut) == 0
+        counts = hitch.evaluate(lines)
+        assert len(counts) > 10 and set(counts) == {1}
+    finally:
+        hitch.set_viewport_size({"width": 1280, "height": 1000})
+
+
+def test_nothing_of_a_field_is_cut_or_covered(browser: Browser, tmp_path: Path) -> None:
+    """Numbers and columns of lists, and units beside the meanings: those of the joint are the widest."""
+    path = tmp_path / "joint.html"
+    path.write_text(written("joint", {}), encoding="utf-8")
+    for width in (800, 1280):
+        page = opened(browser.new_page(viewport={"width": width, "height": 1000}), path)
+        cut = """[...document.querySelectorAll('.ms-grid input')].filter(e => e.scrollWidth > e.clientWidth
+          || e.getBoundingClientRect().right > e.closest('.ms-grid').getBoundingClientRect().right + 1).length"""
+        over = """[...document.querySelectorAll('.ms-field > .ms-unit')].filter(
+          unit => unit.textContent && unit.scrollWidth > unit.clientWidth).map(unit => unit.textContent)"""
+        assert (page.evaluate(cut), page.evaluate(over)) == (0, []), width
+        page.close()
