@@ -27,16 +27,10 @@ _KEPT = re.compile(r",-?[\d.E+-]+,NA\(\)\)")
 OF_SEVERAL = {
     "hitch": {"largest_1": 6, "largest_2": 6},  # reactions
     "landing_gear": {"scale_1": 3, "largest_1": 3, "largest_2": 3},  # accelerations, reactions
-    "kinetostatics": {
-        "largest_1": 8,
-        "longest_1": 5,  # reactions, arms
-        **{f"{kind}_kind_{R}_is_that_of_the_library_limit_1": 3 for kind, R in (("second", "R34"), ("third", "R36"))},
-        "gear_the_force_is_that_of_the_library_limit_1": 3,
-        "coupling_the_moment_is_that_limit_1": 2,
-        **{f"equilibrium_of_forces_bodies_1_7_{n}": 7 for n in (1, 2)},
-        "equilibrium_of_moments_bodies_1_7_1": 7,
-        "dense": 21,
-        "one_system_balancing_moment_1": 21,
+    "kinetostatics": {  # reactions of which the largest is looked for
+        "second_kind_R34_is_that_of_the_library_limit_12": 3,
+        "third_kind_R36_is_that_of_the_library_limit_3": 3,
+        "first_kind_R12_is_that_of_the_library_limit_2": 8,
     },
     "joint": {
         **dict.fromkeys(("y", "A_t", "A_c"), 2),  # beams and stringers

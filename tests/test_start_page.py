@@ -58,6 +58,8 @@ def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Server]:
     measuring = TEMPLATE.replace("TITLE", "Long").replace(
         "import linspace, pi, sin", "import linspace, pi, sin\n    from mechsheet import sweep"
     )
+    measuring = measuring.replace("pi / 2", "pi / (2 if sweep else 1)")
+    assert "if sweep" in measuring
     made.long.write_text(measuring, encoding="utf-8")
     groups = [["Here", {str(made.lever): "A <lever>", str(made.broken): "Broken", str(made.long): "Long"}]]
     environment = {

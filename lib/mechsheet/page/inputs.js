@@ -98,11 +98,11 @@
       else if (!wanted) this.address();
     }
 
-    // What a link carries holds from the beginning, once its fields are there.
-    open(given, tries = 100) {
+    // What a link carries holds from the beginning, once its fields are there, which a busy machine draws late.
+    open(given) {
       const known = Object.keys(steps[at]).filter((name) => given.has(name));
       if (known.some((name) => !document.querySelector(`td[data-input="${name}"] marimo-ui-element > *`)?.shadowRoot))
-        return tries && setTimeout(() => this.open(given, tries - 1), 100);
+        return this.isConnected && setTimeout(() => this.open(given), 100);
       this.to({ ...steps[at], ...Object.fromEntries(known.map((name) => [name, given.get(name)])) });
     }
 
@@ -146,7 +146,7 @@
 
     act(name) {
       const acts = {
-        undo: () => this.to(this.refused ? steps[at] : steps[(at = Math.max(0, at - 1))]),
+        undo: () => this.to(this.refused && !wanted ? steps[at] : steps[(at = Math.max(0, at - 1))]),
         redo: () => this.to(steps[(at = Math.min(steps.length - 1, at + 1))]),
         back: () => this.to(ownTexts()),
         link: () => this.copy(),

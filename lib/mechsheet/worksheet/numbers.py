@@ -231,15 +231,23 @@ def suffix(unit: str) -> str:
 
 
 _POWER = re.compile(r"(?<!\w)(?<!\w\.)(\d+(?:\.\d*)?)e([+-]?\d+)\b")
+_QUOTED = re.compile(r"((?<!\w)'[^']*'(?!\w)|(?<!\w)&#x27;.*?&#x27;(?!\w))")
 _HYPHEN = re.compile(r"(?<![\w.)])-(?=[\d.∞])|(?<=\.\.)-|(?<= )-(?= )")
 
 
 def rewritten(text: str, to: Notation, raised: Callable[[int], str] = str) -> str:
     """The plain numbers and degrees of a text as a notation writes them, their powers of ten ``raised``.
 
-    >>> rewritten("-2e-05..3.5e+30 deg, x2e3", AXIS._replace(power="{}·10{}", degrees="°"), units.raised)
-    '−2·10⁻⁵..3.5·10³⁰°, x2e3'
+    What stands between quotes is as it was typed.
+
+    >>> rewritten("-2e-05..3.5e+30 deg, x2e3, '-2e5'", AXIS._replace(power="{}·10{}", degrees="°"), units.raised)
+    "−2·10⁻⁵..3.5·10³⁰°, x2e3, '-2e5'"
     """
+    parts = enumerate(_QUOTED.split(text))
+    return "".join(part if n % 2 else _rewritten(part, to, raised) for n, part in parts)
+
+
+def _rewritten(text: str, to: Notation, raised: Callable[[int], str]) -> str:
     text = _HYPHEN.sub(to.minus, re.sub(r"(?<=\d) deg\b", to.degrees, text))
     return _POWER.sub(lambda e: to.power.format(e[1], raised(int(e[2])).replace("-", to.minus)), text)
 
