@@ -106,6 +106,11 @@
       this.to({ ...steps[at], ...Object.fromEntries(known.map((name) => [name, given.get(name)])) });
     }
 
+    // Whether the fields show the last set that was computed, which is on its way again.
+    get isBack() {
+      return Object.entries(steps[at]).every(([name, text]) => (shown(name) ?? text) === text);
+    }
+
     get given() {
       return fields.filter(({ own, text }) => own !== text);
     }
@@ -146,7 +151,7 @@
 
     act(name) {
       const acts = {
-        undo: () => this.to(this.refused && !wanted ? steps[at] : steps[(at = Math.max(0, at - 1))]),
+        undo: () => this.to(this.refused && !this.isBack ? steps[at] : steps[(at = Math.max(0, at - 1))]),
         redo: () => this.to(steps[(at = Math.min(steps.length - 1, at + 1))]),
         back: () => this.to(ownTexts()),
         link: () => this.copy(),
