@@ -231,7 +231,7 @@ def test_mistakes_are_told_in_words_at_the_top_and_at_their_line(editor):
         editor.edit("sinn(phi)", "sin(phi, 1, 2, 3)"), "line 4, return g.F * g.L * sin(phi, 1, 2, 3): sin() takes from"
     )
     editor.edit("sin(phi, 1, 2, 3)", "sin(phi")
-    page.locator(".ms-title a", has_text="the cell that defines M_S has a mistake or was deleted").wait_for()
+    page.locator(".ms-title a", has_text="the cell that defines M, phi, M_S has a mistake or was deleted").wait_for()
     editor.edit("sin(phi", "sin(phi)")
     editor.expect("2 of 2 checks pass")
     page.wait_for_function("() => !document.querySelector('.ms-title a')")

@@ -107,7 +107,8 @@ def _lost(waiting: Sequence[tuple[str, str, str]]) -> Note:
     (cell, first), *others = dict.fromkeys((cell, line) for cell, line, _ in waiting)
     places = [line.partition(", ")[2] for _, line in others]
     more = f" and {len(places) - _LISTED} more" if len(places) > _LISTED else ""
-    wait = f"; {len(places)} other lines wait for it too: {'; '.join(places[:_LISTED])}{more}" if places else ""
+    count = "1 other line waits" if len(places) == 1 else f"{len(places)} other lines wait"
+    wait = f"; {count} for it too: {'; '.join(places[:_LISTED])}{more}" if places else ""
     return Note(cell, f"{first}: the cell that defines {lost} has a mistake or was deleted{wait}")
 
 
