@@ -638,3 +638,17 @@ def test_a_number_over_all_positions_is_followed_where_tables_list_some() -> Non
         assert names[name] != pytest.approx(own[name], rel=1e-4)
         assert value_of(recording, name, changed) == pytest.approx(own[name], rel=1e-12)
     assert {c.size for c in recording.tables["8.5"] if c is not None} == {25}
+
+
+def test_a_loop_over_many_positions_is_given_up_before_it_takes_much_room(tmp_path: Path) -> None:
+    """Each of its numbers is a node of its own, which takes more room than a number in a field."""
+    lines = """
+t = np.linspace(0, 1, 30_001)  # [-] places
+y = np.array([v * g.F + v**2 * g.a - np.sin(v * g.a) for v in t])  # [-] line
+table_2 = table("2", "Thinned", t, y, every=10_000)
+check_2 = check("greatest", np.max(y), 9.0)
+"""
+    sheet = own(tmp_path, "from mechsheet import check" + lines)
+    names = sheet.run(sheet.results, {"g": sheet.inputs()}) | {"__file__": sheet.path}
+    recording = record(names, sheet, every=10_000)
+    assert len(recording.graph.nodes) < 60_000

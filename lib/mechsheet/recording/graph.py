@@ -97,7 +97,7 @@ class Graph:
             if stretches is None:
                 stretches = any(a.stretches for a in args)
             known = self.nodes[key] = Node(op, args, _fixed(value()), self.line, stretches)
-            self.work += known.size
+            self.work += max(known.size, self.most // MOST)  # of nodes no more than of numbers, which take less room
             under = known.operands
             if op == "constant" or (under and self.fixed.issuperset(under)):
                 self.fixed.add(known)
