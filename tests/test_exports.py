@@ -151,12 +151,12 @@ def exported(worksheet: str) -> Book:
 
 
 def read(file: Path | io.BytesIO) -> Book:
-    written, values = load_workbook(file), load_workbook(file, data_only=True)
+    written, values = (load_workbook(file, read_only=True, data_only=of_values) for of_values in (False, True))
     return {
         sheet.title: {
-            (cell.row, cell.column): _cell(cell.value, values[sheet.title].cell(cell.row, cell.column).value)
-            for line in sheet.iter_rows()
-            for cell in line
+            (cell.row, cell.column): _cell(cell.value, shown.value)
+            for line, lines in zip(sheet.iter_rows(), values[sheet.title].iter_rows(), strict=True)
+            for cell, shown in zip(line, lines, strict=True)
             if cell.value is not None
         }
         for sheet in written.worksheets
@@ -224,12 +224,20 @@ def _compared(title: str, cells: Cells, at: tuple[int, int], limits: dict[str, f
 
     name = text(row, 4 if title.endswith(" lines") else 1)
     head = text(2, column) if _listing(cells) else f"{text(3, column)} [{text(4, column)}]"
-    if row > (2 if _listing(cells) else 4):
-        for sheet, begin, named, alike in KINDS:
-            if re.match(sheet, title) and re.match(begin, head) and re.search(named, name):
-                of = text(3, column) if title.startswith("Residuals fields") else title if title == "Find" else name
-                return alike, limits.get(of, 0.0)
-    return result, 0.0
+    if row <= (2 if _listing(cells) else 4):
+        return result, 0.0
+    of = text(3, column) if title.startswith("Residuals fields") else title if title == "Find" else name
+    alike = kind(title, head, name)
+    return alike or result, limits.get(of, 0.0) if alike else 0.0
+
+
+@cache
+def kind(title: str, head: str, name: str) -> Alike | None:
+    """How numbers are compared that are no results."""
+    for sheet, begin, named, alike in KINDS:
+        if re.match(sheet, title) and re.match(begin, head) and re.search(named, name):
+            return alike
+    return None
 
 
 def _limits(book: Book) -> dict[str, float]:
@@ -251,6 +259,8 @@ def _limits(book: Book) -> dict[str, float]:
 
 def _same_formula(x: Content, y: Content) -> bool:
     """Whether two formulas differ in nothing but the rounding of their constants; what is no formula has none."""
+    if x == y:
+        return True
     p, q = (z if isinstance(z, str) and z.startswith("=") else "" for z in (x, y))
     constant = r"(?<![\w.$])(\d+(?:\.\d*)?(?:[eE][+-]?\d+)?)"  # not what ends a name or the address of a cell
     parts, others = (re.split(constant, z) for z in (p, q))

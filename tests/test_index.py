@@ -7,6 +7,7 @@ import subprocess
 import sys
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
 from conftest import until
@@ -151,9 +152,9 @@ def kinetostatics(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return path
 
 
-def rows(path: Path) -> Iterator[tuple[str, str, str]]:
+def rows(book: Any) -> Iterator[tuple[str, str, str]]:
     """Label, shown text and address of each link of the sheet Index."""
-    for row in load_workbook(path)["Index"].iter_rows(min_row=3):
+    for row in book["Index"].iter_rows(min_row=3):
         for cell in row:
             if cell.hyperlink:
                 yield row[0].value or "", cell.value, cell.hyperlink.location
@@ -161,7 +162,7 @@ def rows(path: Path) -> Iterator[tuple[str, str, str]]:
 
 def test_sheet_leads_to_the_cell_of_the_line(kinetostatics: Path) -> None:
     book = load_workbook(kinetostatics, data_only=True)
-    linked = list(rows(kinetostatics))
+    linked = list(rows(book))
     assert {label for label, *_ in linked} >= {f"(1.{n})" for n in range(1, 60)}
     (at,) = {at for label, name, at in linked if (label, name) == ("(1.11)", "R12")}
     sheet, address = re.fullmatch(r"'(.*)'!(.*)", at).groups()
