@@ -137,13 +137,18 @@ class Problem:
                 raise SheetError(f"bounds of {self.fields[name].says('..'.join(ends))} must be in order")
             self.bounds[name] = low, high
         now = self.swept({name: np.array([self.at[name]]) for name in self.bounds})
-        solved(now, 0)
-        self.units = {name: now.units[base(name)] for name in asked.results}
+        valued = now
+        if now.reasons[0]:  # a mechanism may be looked for that closes; the document's own tells the units
+            _, own = point(worksheet, {})
+            valued = sweep(worksheet, dict.fromkeys(map(base, asked.results)), _alone({x: own[x] for x in self.bounds}))
+            solved(valued, 0)
+        self.units = {name: valued.units[base(name)] for name in asked.results}
         for name in asked.results:
-            if np.iscomplexobj(value(name, {base(name): now[base(name)]})):
+            if np.iscomplexobj(value(name, {base(name): valued[base(name)]})):
                 raise SheetError(f"{name} is complex; take {name}.real, {name}.imag or abs({name})")
         self.limits = {need: self._limit(need) for need in asked.needs}
         self.now = self.judged(now)
+        self.several = asked.best is not None and self.values(valued, asked.best[1]).size > 1  # positions of the goal
 
     def _limit(self, need: Need) -> float:
         """The limit of a requirement in SI."""
@@ -189,8 +194,8 @@ class Problem:
         if not self.asked.best:
             return f"least reserve of the requirements = {numbers.significant(100 * x, 4)} % of its limit"
         way, name = self.asked.best
-        which, own = ("least", x) if way == "max" else ("greatest", -x)
-        return f"{which} {name} = {numbers.amount(own, self.units[name], 6)}"
+        end, own = ("least ", x) if way == "max" else ("greatest ", -x)
+        return f"{end if self.several else ''}{name} = {numbers.amount(own, self.units[name], 6)}"
 
 
 def solve(problem: Problem) -> tuple[dict[str, float], list[str]]:
@@ -233,7 +238,8 @@ def best(problem: Problem, done: Callable[[], object] = lambda: None) -> tuple[d
     chosen, refinement = _refined(problem, found)
     needs = problem.judge(_alone(chosen)).requirements
     told += [f"{r.name}: it is {numbers.amount(float(r.values[0]), r.unit, 6)}" for r in needs]
-    told += [f"now {problem.goal(float(problem.now.goal[0]))}", *refinement]
+    lost = problem.now.reasons[0]
+    told += [f"now: {lost}" if lost else f"now {problem.goal(float(problem.now.goal[0]))}", *refinement]
     return chosen, [*told, "elsewhere within the bounds only the search has looked"]
 
 

@@ -25,9 +25,9 @@ from mechsheet.worksheet.scene import Limit
 
 Array = NDArray[np.float64]
 
-_FAR = 1e6  # energies of variants that miss a requirement lie above those of all that hold them
+_FAR = 1e60  # energies of variants that miss a requirement lie above those of all that hold them, in any unit
 _INSIDE = 1 - 1e-12  # a start at a bound must not be outside by rounding; it is rounded back to it
-_LOST = 1e30  # and of those that have no value above all others
+_LOST = 1e150  # and of those that have no value above all others; its square is still a number
 
 
 @dataclass(frozen=True, eq=False)
@@ -213,7 +213,7 @@ def _evolved(
         judged = judge(variants(x))
         tried += len(judged.goal)
         missed = _missed(judged)
-        value = np.where(missed > 0, _FAR + missed, -judged.goal)
+        value = np.where(missed > 0, _FAR * (1 + missed), -judged.goal)
         return np.where((judged.reasons != "") | np.isnan(value), _LOST, value)
 
     def progress(*_: Any) -> None:

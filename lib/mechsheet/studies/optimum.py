@@ -75,12 +75,12 @@ def _second(here: At, holding: Sequence[int], rows: Array, factors: Array, names
     count = len(names)
     pairs = [(i, j) for i in range(count) for j in range(i, count)]
     units = np.eye(count)
-    along = here.bends(np.array([units[i] if i == j else units[i] + units[j] for i, j in pairs]))
-    moved = [(i, factor) for i, factor in zip(holding, factors, strict=False) if factor > _HOLDS]
-    for i, _ in moved:
-        if np.isnan(along[:, i]).any():
+    bends = here.bends(np.array([units[i] if i == j else units[i] + units[j] for i, j in pairs]))
+    held = [(i, factor) for i, factor in zip(holding, factors, strict=False) if factor > _HOLDS]
+    for i, _ in held:
+        if np.isnan(bends[:, i]).any():
             return False, f"to the second order nothing is known, for {here.names[i]} has no second slope there"
-    bend = dict(zip(pairs, sum(factor * along[:, i] for i, factor in moved), strict=True))
+    bend = dict(zip(pairs, sum(factor * bends[:, i] for i, factor in held), strict=True))
     H = np.diag([bend[i, i] for i in range(count)])
     for i, j in pairs:
         if i < j:
@@ -90,10 +90,11 @@ def _second(here: At, holding: Sequence[int], rows: Array, factors: Array, names
         return False, "to the second order each one near it is worse"
     if free.size:
         most, way = _most(free, H)
-    moves = ", ".join(f"{x} by {numbers.significant(d, 2)}" for x, d in zip(names, way, strict=True) if abs(d) > 0.01)
-    if free.size and most > _HOLDS:
-        return True, f"to the second order it gets better along {moves} of the ranges"
-    return False, f"to the second order it is level along {moves} of the ranges"
+    moved = {x: d for x, d in zip(names, way * np.sign(way[np.argmax(np.abs(way))]), strict=True) if abs(d) > 0.01}
+    several = ", ".join(f"{x} by {numbers.significant(d, 2)}" for x, d in moved.items())
+    along = f"{several} of the ranges" if len(moved) > 1 else "".join(moved)
+    better = bool(free.size) and most > _HOLDS
+    return better, f"to the second order it {'gets better' if better else 'is level'} along {along}"
 
 
 def _ways(rows: Array) -> Array:
