@@ -194,8 +194,13 @@ function gapOf(spec, results) {
 const inside = new WeakMap();
 
 function set(element, html) {
-  if ((inside.get(element) ?? element.innerHTML) !== html) element.innerHTML = html;
+  const before = inside.get(element) ?? element.innerHTML;
   inside.set(element, html);
+  if (before === html) return;
+  const [old, now] = [before, html].map(text => text.split("<", 1)[0]), {firstChild} = element;
+  const isText = old && now && !/[&\r]/.test(now) && before.slice(old.length) === html.slice(now.length);
+  if (isText && firstChild?.data === old) firstChild.data = now; // a number before its unit
+  else element.innerHTML = html;
 }
 
 function grey(element, reason) {
