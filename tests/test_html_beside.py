@@ -104,7 +104,7 @@ def test_a_long_table_goes_on_on_the_next_page_under_its_heading(browser: Browse
 
 
 def test_many_numbers_of_a_line_go_on_in_the_next_and_none_is_cut(hitch: Page) -> None:
-    """At the width of a telephone too; a number with its power of ten stays in one line."""
+    """At the width of a telephone too; a number stays with its power of ten and its unit in one line."""
     cut = "[...document.querySelectorAll('.ms-value')].filter(e => e.getBoundingClientRect().right > innerWidth).length"
     lines = """[...document.querySelectorAll('.ms-value sup')].map(e => e.previousSibling).filter(
       text => text.data?.endsWith('10')).map(text => {
@@ -113,11 +113,32 @@ def test_many_numbers_of_a_line_go_on_in_the_next_and_none_is_cut(hitch: Page) -
       range.setEnd(text, text.length);
       return new Set([...range.getClientRects()].map(box => box.top)).size;
     })"""
+    alone = """[...document.querySelectorAll('.ms-value > ms-unit')].filter(
+      unit => unit.previousSibling?.length > 1).filter(unit => {
+      const range = document.createRange(), before = unit.previousSibling;
+      range.setStart(before, before.length - 2);
+      range.setEnd(before, before.length - 1);
+      return range.getBoundingClientRect().bottom < unit.getBoundingClientRect().top;
+    }).length"""
     hitch.set_viewport_size({"width": 390, "height": 1000})
     try:
         assert hitch.evaluate(cut) == 0
+        assert hitch.evaluate(alone) == 0
         counts = hitch.evaluate(lines)
         assert len(counts) > 10 and set(counts) == {1}
+    finally:
+        hitch.set_viewport_size({"width": 1280, "height": 1000})
+
+
+def test_sections_are_listed_beside_the_page_and_above_it_on_request(hitch: Page) -> None:
+    expect(hitch.locator("nav a").first).to_be_visible()
+    hitch.set_viewport_size({"width": 800, "height": 1000})
+    try:
+        hitch.reload()
+        hitch.wait_for_selector("body[data-ready]")
+        expect(hitch.locator("nav a").first).to_be_hidden()
+        hitch.locator("nav summary").click()
+        expect(hitch.locator("nav a").first).to_be_visible()
     finally:
         hitch.set_viewport_size({"width": 1280, "height": 1000})
 
