@@ -30,6 +30,7 @@ EXPRESSIONS = {
     "abs(phi34)": "|𝜑_34|",
     "1.5e-7*x": "1.5⋅10^(−7)𝑥",
     "a[2]": "𝑎_2",
+    "omega3**2": "𝜔_3^2",
     "floor(x)": "⌊𝑥⌋",
     "a & (b | c)": "𝑎and(𝑏or𝑐)",
 }
@@ -46,6 +47,8 @@ def read_out(element: ElementTree.Element) -> str:
             sign = "_" if element.tag == "msub" else "^"
             lowered = f"({parts[1]})" if len(list(element[1])) > 1 else parts[1]
             return f"{parts[0]}{sign}{lowered}"
+        case "msubsup":
+            return f"{parts[0]}_{parts[1]}^{parts[2]}"
         case "mfrac":
             return "/".join(
                 f"({p})" if len(list(e)) > 1 and "(" not in p else p for p, e in zip(parts, element, strict=True)

@@ -134,6 +134,19 @@ def _signed(node: Signed) -> str:
     return f"<mrow>{_sign(node.sign)}{inner(node.of)}</mrow>"
 
 
+def _power(node: Power) -> str:
+    """An exponent stands over the index of its base.
+
+    >>> from mechsheet.worksheet.symbol import read
+    >>> _power(Power(read("omega3"), Number(2)))
+    '<msubsup><mi>ω</mi><mn>3</mn><mrow><mn>2</mn></mrow></msubsup>'
+    """
+    base, exponent = inner(node.base), inner(node.exponent)
+    if isinstance(node.base, Symbol) and base.startswith("<msub>"):
+        return f"<msubsup>{base.removeprefix('<msub>').removesuffix('</msub>')}{exponent}</msubsup>"
+    return f"<msup>{base}{exponent}</msup>"
+
+
 def _product(node: Product) -> str:
     return f"<mrow>{inner(node.left)}{'<mo>⋅</mo>' if node.dot else _THIN}{inner(node.right)}</mrow>"
 
@@ -210,7 +223,7 @@ RULES: dict[type[Any], Callable[[Any], str]] = {
     Product: _product,
     Fraction: lambda node: f"<mfrac>{inner(node.over)}{inner(node.under)}</mfrac>",
     Root: lambda node: f"<msqrt>{inner(node.of)}</msqrt>",
-    Power: lambda node: f"<msup>{inner(node.base)}{inner(node.exponent)}</msup>",
+    Power: _power,
     Element: lambda node: f"<msub>{inner(node.of)}{inner(node.index)}</msub>",
     Overline: lambda node: f'<mover accent="true">{inner(node.of)}<mo stretchy="true">‾</mo></mover>',
     Brackets: _brackets,
