@@ -186,3 +186,32 @@ def test_a_part_that_changes_is_painted_without_the_others(hitch: Page) -> None:
         style.evaluate("element => element.remove()")
     finally:
         hitch.set_viewport_size({"width": 1280, "height": 1000})
+
+
+def test_a_browser_of_two_years_ago_shows_the_page(hitch: Page, browser: Browser) -> None:
+    """Without what has come since."""
+    context = browser.new_context(offline=True)
+    page = context.new_page()
+    page.add_init_script("""
+      const iterator = Object.getPrototypeOf(Object.getPrototypeOf([].values()));
+      for (const name of ["map", "filter", "take", "drop", "flatMap", "reduce", "toArray", "forEach", "some", "every",
+                          "find"]) delete iterator[name];
+      for (const name of ["union", "intersection", "difference", "symmetricDifference", "isSubsetOf", "isSupersetOf",
+                          "isDisjointFrom"]) delete Set.prototype[name];
+      for (const name of ["groupBy", "withResolvers", "try", "escape", "fromAsync"])
+        for (const owner of [Object, Map, Promise, RegExp, Array]) delete owner[name];
+    """)
+    errors = list[str]()
+    page.on("pageerror", lambda error: errors.append(str(error)))
+    page.goto(hitch.url.split("#")[0])
+    page.wait_for_selector("body[data-ready]")
+    page.locator(".ms-switch").check()
+    fill(page, "P6", "26000")
+    slider = page.locator("[data-control]").first
+    slider.focus()
+    slider.press("ArrowRight")
+    page.locator("#line-P23 msub").first.hover()
+    page.evaluate(SETTLED)
+    expect(page.locator("#line-A_gc .ms-numbers math")).to_be_visible()
+    assert errors == []
+    context.close()
