@@ -146,7 +146,16 @@ def as_seen(text: str) -> str:
     """
     text = text.replace("&nbsp;", "\u00a0")
     bare = re.sub(r"</?mrow>|</?mspace[^>]*>| stretchy=\"false\"", "", text)
-    return bare.replace("<mo>⋅</mo><mo>(</mo><mo>−</mo>", "<mo>(</mo><mo>−</mo>")
+    return re.sub(r"<mo>⋅</mo>(<mo>\(</mo><mo[^>]*>−</mo>)", r"\1", bare)
+
+
+def test_a_minus_of_a_number_stands_at_it_wherever_the_number_stands(blank: Page) -> None:
+    """After an opening bracket and a comma too, where browsers take it for that of a difference."""
+    written = mathml.mathml(Measure(complex(-1, -2), "m"))
+    blank.set_content(f"<math>{written}</math>")
+    gaps = blank.evaluate("""() => [...document.querySelectorAll("mo")].filter(e => e.textContent === "−").map(e =>
+      e.nextElementSibling.getBoundingClientRect().left - e.getBoundingClientRect().right)""")
+    assert gaps == [0, 0]
 
 
 def test_equations_below_each_other_are_rows_of_a_table() -> None:

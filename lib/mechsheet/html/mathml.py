@@ -38,7 +38,7 @@ from mechsheet.worksheet.symbol import GREEK, Symbol
 
 # What is no digit stands outside the element of a number, which it ends and begins again.
 NUMBER = Notation(
-    "</mn><mo>−</mo><mn>",
+    '</mn><mo form="prefix">−</mo><mn>',
     "</mn><mtext>none</mtext><mn>",
     "∞",
     "{}</mn><mo>⋅</mo><msup><mn>10</mn><mrow><mn>{}</mn></mrow></msup><mn>",
