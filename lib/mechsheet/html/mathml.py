@@ -115,7 +115,8 @@ def _row(parts: Iterable[str]) -> str:
 
 def _digits(text: str) -> str:
     """A number as `NUMBER` writes it."""
-    return f"<mrow>{_EMPTY.sub('', f'<mn>{text}</mn>')}</mrow>"
+    parts = _EMPTY.sub("", f"<mn>{text}</mn>")
+    return f"<mrow>{parts}</mrow>" if parts.count("<m") > 1 else parts
 
 
 def _sign(sign: str) -> str:
@@ -139,7 +140,7 @@ def _power(node: Power) -> str:
 
     >>> from mechsheet.worksheet.symbol import read
     >>> _power(Power(read("omega3"), Number(2)))
-    '<msubsup><mi>ω</mi><mn>3</mn><mrow><mn>2</mn></mrow></msubsup>'
+    '<msubsup><mi>ω</mi><mn>3</mn><mn>2</mn></msubsup>'
     """
     base, exponent = inner(node.base), inner(node.exponent)
     if isinstance(node.base, Symbol) and base.startswith("<msub>"):
