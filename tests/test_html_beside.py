@@ -157,6 +157,20 @@ def test_nothing_of_a_field_is_cut_or_covered(browser: Browser, tmp_path: Path) 
         page.close()
 
 
+def test_a_list_is_printed_as_a_table_of_what_is_in_its_fields(browser: Browser, tmp_path: Path) -> None:
+    path = tmp_path / "bolted_joint.html"
+    path.write_text(written("examples/bolted_joint", {}), encoding="utf-8")
+    page = opened(browser.new_page(), path)
+    page.locator("[data-grid=cases] input").first.fill("250")
+    page.emulate_media(media="print")
+    printed = page.locator("[data-used=cases] + tr table")
+    expect(printed).to_be_visible()
+    head, *rows = (row.split() for row in printed.locator("tr").all_inner_texts())
+    assert head == ["FA", "[lbf]", "FQ", "[lbf]"]
+    assert rows == [["1", "250", "300"], ["2", "1500", "600"], ["3", "2500", "400"], ["4", "3000", "0"]]
+    page.close()
+
+
 def test_a_part_that_changes_is_painted_without_the_others(hitch: Page) -> None:
     """A frame of the whole page in view, beside one in which all is painted again: 5 ms of the thread and 14."""
     session = hitch.context.new_cdp_session(hitch)

@@ -224,7 +224,8 @@ function mark(field, changed, error) {
   document.getElementById(`error-${field.name}`).textContent = error;
   const used = document.querySelector(`[data-used="${field.name}"]`);
   used.classList.toggle("ms-changed", changed);
-  used.cells[1].textContent = typed(field);
+  if (field.kind === "rows") set(used.nextElementSibling.cells[0], onPaper(field));
+  else used.cells[1].textContent = typed(field);
 }
 
 // The verdicts of all checks where they are summed up, the worst first.
