@@ -105,6 +105,14 @@ IMPORT = "from mechsheet import typeset\n"
             "where(F_b < 0, a, b)",
             r"\begin{cases} a & \text{if } F_{\mathrm{b}} < 0 \\ b & \text{otherwise} \end{cases}",
         ),
+        (
+            "a + where(b < 0, pi, 0) + c",
+            r"a + \left(\begin{cases} \pi & \text{if } b < 0 \\ 0 & \text{otherwise} \end{cases}\right) + c",
+        ),
+        (
+            "max(where(b < 0, pi, 0), c)",
+            r"\max\left(\begin{cases} \pi & \text{if } b < 0 \\ 0 & \text{otherwise} \end{cases},\ c\right)",
+        ),
         ("dot(F, v + w)*k", r"F \cdot (v + w)\,k"),
         ("trapezoid(M, phi1)", r"\int M\,\mathrm{d}\varphi_{1}"),
         ("cumulative_trapezoid(M - T, phi, initial=0)", r"\int^{\varphi} (M - T)\,\mathrm{d}\varphi"),

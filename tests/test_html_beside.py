@@ -104,7 +104,7 @@ def test_a_long_table_goes_on_on_the_next_page_under_its_heading(browser: Browse
 
 
 def test_many_numbers_of_a_line_go_on_in_the_next_and_none_is_cut(hitch: Page) -> None:
-    """At the width of a telephone too; a number with its power of ten stays in one line."""
+    """At the width of a telephone too; a number stays with its power of ten and its unit in one line."""
     cut = "[...document.querySelectorAll('.ms-value')].filter(e => e.getBoundingClientRect().right > innerWidth).length"
     lines = """[...document.querySelectorAll('.ms-value sup')].map(e => e.previousSibling).filter(
       text => text.data?.endsWith('10')).map(text => {
@@ -113,11 +113,32 @@ def test_many_numbers_of_a_line_go_on_in_the_next_and_none_is_cut(hitch: Page) -
       range.setEnd(text, text.length);
       return new Set([...range.getClientRects()].map(box => box.top)).size;
     })"""
+    alone = """[...document.querySelectorAll('.ms-value > ms-unit')].filter(
+      unit => unit.previousSibling?.length > 1).filter(unit => {
+      const range = document.createRange(), before = unit.previousSibling;
+      range.setStart(before, before.length - 2);
+      range.setEnd(before, before.length - 1);
+      return range.getBoundingClientRect().bottom < unit.getBoundingClientRect().top;
+    }).length"""
     hitch.set_viewport_size({"width": 390, "height": 1000})
     try:
         assert hitch.evaluate(cut) == 0
+        assert hitch.evaluate(alone) == 0
         counts = hitch.evaluate(lines)
         assert len(counts) > 10 and set(counts) == {1}
+    finally:
+        hitch.set_viewport_size({"width": 1280, "height": 1000})
+
+
+def test_sections_are_listed_beside_the_page_and_above_it_on_request(hitch: Page) -> None:
+    expect(hitch.locator("nav a").first).to_be_visible()
+    hitch.set_viewport_size({"width": 800, "height": 1000})
+    try:
+        hitch.reload()
+        hitch.wait_for_selector("body[data-ready]")
+        expect(hitch.locator("nav a").first).to_be_hidden()
+        hitch.locator("nav summary").click()
+        expect(hitch.locator("nav a").first).to_be_visible()
     finally:
         hitch.set_viewport_size({"width": 1280, "height": 1000})
 
@@ -134,3 +155,77 @@ def test_nothing_of_a_field_is_cut_or_covered(browser: Browser, tmp_path: Path) 
           unit => unit.textContent && unit.scrollWidth > unit.clientWidth).map(unit => unit.textContent)"""
         assert (page.evaluate(cut), page.evaluate(over)) == (0, []), width
         page.close()
+
+
+def test_a_list_is_printed_as_a_table_of_what_is_in_its_fields(browser: Browser, tmp_path: Path) -> None:
+    path = tmp_path / "bolted_joint.html"
+    path.write_text(written("examples/bolted_joint", {}), encoding="utf-8")
+    page = opened(browser.new_page(), path)
+    page.locator("[data-grid=cases] input").first.fill("250")
+    page.emulate_media(media="print")
+    printed = page.locator("[data-used=cases] + tr table")
+    expect(printed).to_be_visible()
+    head, *rows = (row.split() for row in printed.locator("tr").all_inner_texts())
+    assert head == ["FA", "[lbf]", "FQ", "[lbf]"]
+    assert rows == [["1", "250", "300"], ["2", "1500", "600"], ["3", "2500", "400"], ["4", "3000", "0"]]
+    page.close()
+
+
+def test_a_part_that_changes_is_painted_without_the_others(hitch: Page) -> None:
+    """A frame of the whole page in view, beside one in which all is painted again: 5 ms of the thread and 14."""
+    session = hitch.context.new_cdp_session(hitch)
+    session.send("Performance.enable", {"timeDomain": "threadTicks"})
+    frames = """async () => {
+      for (let k = 0; k < 10; k++) {
+        document.querySelector(".ms-state").textContent = k;
+        await new Promise(done => requestAnimationFrame(() => setTimeout(done)));
+      }
+    }"""
+
+    def spent() -> float:
+        metrics = {m["name"]: m["value"] for m in session.send("Performance.getMetrics")["metrics"]}
+        return float(metrics["TaskDuration"])
+
+    def taken() -> float:
+        hitch.evaluate(frames)
+        before = spent()
+        hitch.evaluate(frames)
+        return spent() - before
+
+    hitch.set_viewport_size({"width": 1280, "height": hitch.evaluate("document.body.scrollHeight")})
+    try:
+        alone = taken()
+        style = hitch.add_style_tag(content="main > *, math { isolation: auto !important }")
+        assert alone < 0.7 * taken()
+        style.evaluate("element => element.remove()")
+    finally:
+        hitch.set_viewport_size({"width": 1280, "height": 1000})
+
+
+def test_a_browser_of_two_years_ago_shows_the_page(hitch: Page, browser: Browser) -> None:
+    """Without what has come since."""
+    context = browser.new_context(offline=True)
+    page = context.new_page()
+    page.add_init_script("""
+      const iterator = Object.getPrototypeOf(Object.getPrototypeOf([].values()));
+      for (const name of ["map", "filter", "take", "drop", "flatMap", "reduce", "toArray", "forEach", "some", "every",
+                          "find"]) delete iterator[name];
+      for (const name of ["union", "intersection", "difference", "symmetricDifference", "isSubsetOf", "isSupersetOf",
+                          "isDisjointFrom"]) delete Set.prototype[name];
+      for (const name of ["groupBy", "withResolvers", "try", "escape", "fromAsync"])
+        for (const owner of [Object, Map, Promise, RegExp, Array]) delete owner[name];
+    """)
+    errors = list[str]()
+    page.on("pageerror", lambda error: errors.append(str(error)))
+    page.goto(hitch.url.split("#")[0])
+    page.wait_for_selector("body[data-ready]")
+    page.locator(".ms-switch").check()
+    fill(page, "P6", "26000")
+    slider = page.locator("[data-control]").first
+    slider.focus()
+    slider.press("ArrowRight")
+    page.locator("#line-P23 msub").first.hover()
+    page.evaluate(SETTLED)
+    expect(page.locator("#line-A_gc .ms-numbers math")).to_be_visible()
+    assert errors == []
+    context.close()

@@ -30,6 +30,7 @@ EXPRESSIONS = {
     "abs(phi34)": "|𝜑_34|",
     "1.5e-7*x": "1.5⋅10^(−7)𝑥",
     "a[2]": "𝑎_2",
+    "omega3**2": "𝜔_3^2",
     "floor(x)": "⌊𝑥⌋",
     "a & (b | c)": "𝑎and(𝑏or𝑐)",
 }
@@ -46,6 +47,8 @@ def read_out(element: ElementTree.Element) -> str:
             sign = "_" if element.tag == "msub" else "^"
             lowered = f"({parts[1]})" if len(list(element[1])) > 1 else parts[1]
             return f"{parts[0]}{sign}{lowered}"
+        case "msubsup":
+            return f"{parts[0]}_{parts[1]}^{parts[2]}"
         case "mfrac":
             return "/".join(
                 f"({p})" if len(list(e)) > 1 and "(" not in p else p for p, e in zip(parts, element, strict=True)
@@ -143,7 +146,16 @@ def as_seen(text: str) -> str:
     """
     text = text.replace("&nbsp;", "\u00a0")
     bare = re.sub(r"</?mrow>|</?mspace[^>]*>| stretchy=\"false\"", "", text)
-    return bare.replace("<mo>⋅</mo><mo>(</mo><mo>−</mo>", "<mo>(</mo><mo>−</mo>")
+    return re.sub(r"<mo>⋅</mo>(<mo>\(</mo><mo[^>]*>−</mo>)", r"\1", bare)
+
+
+def test_a_minus_of_a_number_stands_at_it_wherever_the_number_stands(blank: Page) -> None:
+    """After an opening bracket and a comma too, where browsers take it for that of a difference."""
+    written = mathml.mathml(Measure(complex(-1, -2), "m"))
+    blank.set_content(f"<math>{written}</math>")
+    gaps = blank.evaluate("""() => [...document.querySelectorAll("mo")].filter(e => e.textContent === "−").map(e =>
+      e.nextElementSibling.getBoundingClientRect().left - e.getBoundingClientRect().right)""")
+    assert gaps == [0, 0]
 
 
 def test_equations_below_each_other_are_rows_of_a_table() -> None:

@@ -213,7 +213,7 @@ def is_high(node: Node) -> bool:
     match node:
         case Symbol() | Text() | Code() | Function():
             return False
-        case Fraction() | Power() | Sum() | Matrix():
+        case Fraction() | Power() | Sum() | Matrix() | Cases():
             return True
         case Brackets(items, high=high):
             return high or any(map(is_high, items))
@@ -228,6 +228,7 @@ def is_high(node: Node) -> bool:
 _STRENGTHS = {
     Symbol: WHOLE, Fraction: WHOLE, Brackets: WHOLE, Apply: WHOLE, Power: POWER, Product: PRODUCT, Integral: PRODUCT,
     Sum: PRODUCT, Signed: SUM, Range: RELATION, Row: RELATION,
+    Cases: RELATION,
 }  # fmt: skip
 _SUMS = ("+", "-", "×", "mod")
 

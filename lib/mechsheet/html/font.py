@@ -12,6 +12,8 @@ _ALWAYS = "".join(map(chr, range(0x20, 0x7F))) + "−·⋅×∞…°–≤≥√
 _CAPITAL, _SMALL, _GREEK_CAPITAL, _GREEK_SMALL = 0x1D434, 0x1D44E, 0x1D6E2, 0x1D6FC  # slanted letters of mathematics
 _SLANTED = {"h": "\u210e", "ϵ": "\U0001d716", "ϑ": "\U0001d717", "ϕ": "\U0001d719"}  # which stand apart
 
+_BELOW = 225  # of 1000: how far letters reach below the line
+
 
 def slanted(letter: str) -> str:
     """The letter of mathematics that a browser draws for a variable of one letter.
@@ -49,5 +51,8 @@ def _cut(signs: frozenset[str]) -> str:
     with subset.load_font(path, options) as font:
         cutter.populate(unicodes=[ord(sign) for sign in signs])
         cutter.subset(font)
+        # Letters that reach below the line have their index where the others have it, as in print.
+        constants = font["MATH"].table.MathConstants
+        constants.SubscriptBaselineDropMin.Value = constants.SubscriptShiftDown.Value - _BELOW
         subset.save_font(font, out, options)
     return base64.b64encode(out.getvalue()).decode()

@@ -3,7 +3,7 @@ const CELL = {minus: "-", none: "–"};
 const AXIS = {minus: "−", none: "–"};
 const HTML = {minus: "−", none: "none"};
 const MATHML = {
-  minus: "</mn><mo>−</mo><mn>", none: "</mn><mtext>none</mtext><mn>",
+  minus: '</mn><mo form="prefix">−</mo><mn>', none: "</mn><mtext>none</mtext><mn>",
   power: (x, power) => `${x}</mn><mo>⋅</mo><msup><mn>10</mn><mrow><mn>${power}</mn></mrow></msup><mn>`,
 };
 

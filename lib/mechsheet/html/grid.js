@@ -13,6 +13,10 @@ function rowsIn(text, width) {
   return width > 1 ? rows : rows.flat().map(cell => [cell]);
 }
 
+// Its rows under their heads, as they are printed.
+const onPaper = field => `<table>${gridOf(field).tHead.outerHTML}<tbody>${cellsOf(field).map((cells, k) =>
+  `<tr><th>${k + 1}</th>${cells.map(text => `<td>${escaped(text)}</td>`).join("")}</tr>`).join("")}</tbody></table>`;
+
 function fillGrid(field, text) {
   const grid = gridOf(field), width = field.columns.length;
   grid.title = KEYS;

@@ -38,7 +38,7 @@ from mechsheet.worksheet.symbol import GREEK, Symbol
 
 # What is no digit stands outside the element of a number, which it ends and begins again.
 NUMBER = Notation(
-    "</mn><mo>−</mo><mn>",
+    '</mn><mo form="prefix">−</mo><mn>',
     "</mn><mtext>none</mtext><mn>",
     "∞",
     "{}</mn><mo>⋅</mo><msup><mn>10</mn><mrow><mn>{}</mn></mrow></msup><mn>",
@@ -115,7 +115,8 @@ def _row(parts: Iterable[str]) -> str:
 
 def _digits(text: str) -> str:
     """A number as `NUMBER` writes it."""
-    return f"<mrow>{_EMPTY.sub('', f'<mn>{text}</mn>')}</mrow>"
+    parts = _EMPTY.sub("", f"<mn>{text}</mn>")
+    return f"<mrow>{parts}</mrow>" if parts.count("<m") > 1 else parts
 
 
 def _sign(sign: str) -> str:
@@ -132,6 +133,19 @@ def _function(node: Function) -> str:
 
 def _signed(node: Signed) -> str:
     return f"<mrow>{_sign(node.sign)}{inner(node.of)}</mrow>"
+
+
+def _power(node: Power) -> str:
+    """An exponent stands over the index of its base.
+
+    >>> from mechsheet.worksheet.symbol import read
+    >>> _power(Power(read("omega3"), Number(2)))
+    '<msubsup><mi>ω</mi><mn>3</mn><mn>2</mn></msubsup>'
+    """
+    base, exponent = inner(node.base), inner(node.exponent)
+    if isinstance(node.base, Symbol) and base.startswith("<msub>"):
+        return f"<msubsup>{base.removeprefix('<msub>').removesuffix('</msub>')}{exponent}</msubsup>"
+    return f"<msup>{base}{exponent}</msup>"
 
 
 def _product(node: Product) -> str:
@@ -210,7 +224,7 @@ RULES: dict[type[Any], Callable[[Any], str]] = {
     Product: _product,
     Fraction: lambda node: f"<mfrac>{inner(node.over)}{inner(node.under)}</mfrac>",
     Root: lambda node: f"<msqrt>{inner(node.of)}</msqrt>",
-    Power: lambda node: f"<msup>{inner(node.base)}{inner(node.exponent)}</msup>",
+    Power: _power,
     Element: lambda node: f"<msub>{inner(node.of)}{inner(node.index)}</msub>",
     Overline: lambda node: f'<mover accent="true">{inner(node.of)}<mo stretchy="true">‾</mo></mover>',
     Brackets: _brackets,

@@ -8,12 +8,13 @@ from mechsheet.worksheet import numbers
 from mechsheet.worksheet.numbers import Notation
 
 _UNIT = "<ms-unit>{}</ms-unit>"
-_SWITCHED = HTML._replace(degrees=_UNIT.format(HTML.degrees), unit=f" {_UNIT}")
+_PLAIN = HTML._replace(unit="\u00a0{}")  # a number and its unit stand in one line
+_SWITCHED = _PLAIN._replace(degrees=_UNIT.format(HTML.degrees), unit=f"\u00a0{_UNIT}")
 
 
 def notation(unit: str) -> Notation:
     """How a number and this unit are written."""
-    return _SWITCHED if len(_alike(unit)) > 1 else HTML
+    return _SWITCHED if len(_alike(unit)) > 1 else _PLAIN
 
 
 def head(unit: str) -> str:

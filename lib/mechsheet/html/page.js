@@ -194,8 +194,13 @@ function gapOf(spec, results) {
 const inside = new WeakMap();
 
 function set(element, html) {
-  if ((inside.get(element) ?? element.innerHTML) !== html) element.innerHTML = html;
+  const before = inside.get(element) ?? element.innerHTML;
   inside.set(element, html);
+  if (before === html) return;
+  const [old, now] = [before, html].map(text => text.split("<", 1)[0]), {firstChild} = element;
+  const isText = old && now && !/[&\r]/.test(now) && before.slice(old.length) === html.slice(now.length);
+  if (isText && firstChild?.data === old) firstChild.data = now; // a number before its unit
+  else element.innerHTML = html;
 }
 
 function grey(element, reason) {
@@ -219,7 +224,8 @@ function mark(field, changed, error) {
   document.getElementById(`error-${field.name}`).textContent = error;
   const used = document.querySelector(`[data-used="${field.name}"]`);
   used.classList.toggle("ms-changed", changed);
-  used.cells[1].textContent = typed(field);
+  if (field.kind === "rows") set(used.nextElementSibling.cells[0], onPaper(field));
+  else used.cells[1].textContent = typed(field);
 }
 
 // The verdicts of all checks where they are summed up, the worst first.

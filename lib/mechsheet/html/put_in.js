@@ -4,7 +4,7 @@ const isPutIn = () => root.classList.contains("ms-with-numbers");
 
 // Values in SI of the numbers of a formula; null where one is not known.
 function numbersOf(spec, results) {
-  const at = positionOf(spec) ?? 0, own = !state.changed.size && !moving.keys().some(isSlid);
+  const at = positionOf(spec) ?? 0, own = !state.changed.size && ![...moving.keys()].some(isSlid);
   const found = spec.numbers.map(number => (number.own && !own ? null : number.parts.map(part => {
     const x = typeof part === "string" ? results.values[part] : part ?? NaN;
     if (x === undefined || typeof x === "number") return x;

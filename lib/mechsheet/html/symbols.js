@@ -1,15 +1,26 @@
 // A symbol of a formula: its meaning, unit and value, where it is defined and used; a click goes there.
-const knownAs = element => told.symbols[element.outerHTML.replace(/ class="[^"]*"/g, "").replace(/ xmlns="[^"]*"/g, "")];
+const markup = element => element.outerHTML.replace(/ class="[^"]*"/g, "").replace(/ xmlns="[^"]*"/g, "");
+const raisedIn = element => (element.localName === "msubsup" ? element.children[2] : null);
+const knownAs = element =>
+  told.symbols[raisedIn(element) ? `<msub>${[...element.children].slice(0, 2).map(markup).join("")}</msub>` : markup(element)];
 
 // The largest part of a formula round an element that is a symbol: of a base with an index both.
 function symbolAt(element) {
   let found = null;
-  for (let e = element; e?.closest("math") && e.localName !== "math"; e = e.parentElement) if (knownAs(e)) found = e;
+  for (let e = element; e?.closest("math") && e.localName !== "math"; e = e.parentElement) {
+    if (knownAs(e)) found = e;
+    if (found && raisedIn(e.parentElement) === e) break; // an exponent is a symbol of its own
+  }
   return found;
 }
 
 function symbolsIn(formula) {
-  const found = [], look = e => (knownAs(e) ? found.push(e) : [...e.children].forEach(look));
+  const found = [], look = e => {
+    const isKnown = knownAs(e), raised = raisedIn(e);
+    if (isKnown) found.push(e);
+    if (!isKnown) [...e.children].forEach(look);
+    else if (raised) look(raised);
+  };
   formula.querySelectorAll("math").forEach(look);
   return found;
 }

@@ -28,6 +28,7 @@ from mechsheet.worksheet.drawing import Drawing
 from mechsheet.worksheet.index import Index
 from mechsheet.worksheet.inputs import Used
 from mechsheet.worksheet.lines import Formula, Given
+from mechsheet.worksheet.lists import Rows
 from mechsheet.worksheet.shown import Shown
 from mechsheet.worksheet.table import Column, Figure, Table
 from mechsheet.worksheet.title import Caption, Mark, SideBySide, Title
@@ -275,9 +276,10 @@ def _(used: Used, page: Follower) -> str:
             section = field.section
             rows.append(f'<tr><th colspan="4">{escape(section)}</th></tr>')
         unit = "" if field.unit == "-" else escape(units.shown(field.unit))
-        number = escape(field.brief(getattr(used.g, field.name)))
+        number = "" if isinstance(field, Rows) else escape(field.brief(getattr(used.g, field.name)))
         rows.append(
             f'<tr data-used="{field.name}"><td>{as_written(field.name)}</td><td>{number}</td>'
             f"<td>{unit}</td><td>{escape(field.meaning)}</td></tr>"
         )
+        rows += ['<tr><td colspan="4"></td></tr>'] if isinstance(field, Rows) else []  # for the page's own table
     return f'<table class="ms-print">{"".join(rows)}</table>'
