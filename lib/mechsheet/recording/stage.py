@@ -15,13 +15,11 @@ from mechsheet.recording.node import Node, bottom_up
 from mechsheet.recording.quantity import Quantity, lift
 from mechsheet.recording.substitutes import instead
 from mechsheet.worksheet.cells import Cell
-from mechsheet.worksheet.check import Check
+from mechsheet.worksheet.check import Check, closed
 from mechsheet.worksheet.find import Found
-from mechsheet.worksheet.force_diagram import polar
 from mechsheet.worksheet.shown import Shown
 from mechsheet.worksheet.system import Solution
 from mechsheet.worksheet.table import Figure, Table
-from mechsheet.worksheet.title import side_by_side
 from mechsheet.worksheet.verdict import Verdict
 
 
@@ -47,11 +45,10 @@ class Stage:
             "find": self.find,
             "minerr": self.find,
             "closed_form": self.closed_form,
-            "check": self.check,
+            "judged": self.judged,
             "check_slope": self.check_slope,
             "Check": self.stated,
-            "assembled": self.assembled,
-            "polar_diagrams": self.polar_diagrams,
+            "meanings": self.meanings,
         }
 
     def table(self, number: str, title: str, *columns: Any, every: Any = 1, **_: Any) -> None:
@@ -125,15 +122,12 @@ class Stage:
         solved.inverse = inside.re
         self.solved_now.append(solved)
         words = solved.words
-        self.check(f"{words.unknown}: Find and the closed form", value - found, tolerance, words.unknown_unit, of=found)
+        instead(closed)(words.unknown, words.unknown_unit, found, value, tolerance)
 
-    def check(self, name: str, residual: Any, limit: Any, unit: str = "-", of: Any = None) -> None:
-        if of is not None:
-            told: Any = limit <= 1e-3 if isinstance(limit, float) else lift(self.graph, limit) <= 1e-3
-            bound: Any = limit * abs(lift(self.graph, of)).max()
-            limit = bound if told is True else np.where(told, bound, np.nan)
+    def judged(self, name: str, residual: Any, limit: Any, unit: str, size: Any = np.inf, tells: Any = True) -> None:
         parts = [lift(self.graph, r) for r in (residual if isinstance(residual, list) else [residual])]
-        self._check(name, [abs(p).re for p in parts], limit, unit)
+        bound = limit if tells is True else np.where(lift(self.graph, tells), limit, np.nan)
+        self._check(name, [abs(p).re for p in parts], bound, unit)
 
     def stated(self, name: str, residual: Any, limit: Any, unit: str = "-", *_: Any, **__: Any) -> None:
         self._check(name, [lift(self.graph, residual).re], limit, "-", signed=True)
@@ -147,16 +141,13 @@ class Stage:
         at = x[middle]
         near, far = (f(at + n * step) - f(at - n * step) for n in (1, 2))
         left = slope[middle] - (8 * near - far) / (12 * step)
-        self._check(name, [abs(left).re], 1e-7 * abs(slope).max(), unit)
+        self.judged(name, left, 1e-7 * abs(slope).max(), unit)
 
-    def assembled(self, name: str, point: Any, *_: Any) -> None:
-        missing: Any = np.where(np.isfinite(lift(self.graph, point)), 0.0, 1.0)
-        self._check(name, [missing.re], 0.0, "-")
-
-    def polar_diagrams(self, at: Any, turn: int = 360, **forces: Any) -> Any:
+    def meanings(self) -> dict[str, str]:
+        """No words: of diagrams only the drawings are recorded, where they are at all."""
         if not self.graph.draws:
             raise NotRecorded("diagrams are drawn")
-        return side_by_side(*(instead(polar)(force, at, name, turn) for name, force in forces.items()))
+        return {}
 
     def _check(self, name: str, parts: list[Node], limit: Any, unit: str, signed: bool = False) -> None:
         bound = lift(self.graph, limit)

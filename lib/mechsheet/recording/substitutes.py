@@ -36,9 +36,7 @@ _ARRAYS = (np.array, np.asarray, np.asanyarray, np.ascontiguousarray)
 
 
 staged: ContextVar[Mapping[str, Any]] = ContextVar("staged")  # what those of `SHOWING` do in the cell that is run
-SHOWING = frozenset(
-    {"table", "figure", "find", "minerr", "closed_form", "check", "check_slope", "Check", "assembled", "polar_diagrams"}
-)
+SHOWING = frozenset({"table", "figure", "find", "minerr", "closed_form", "check_slope", "judged", "Check", "meanings"})
 _NOWHERE = frozenset({"require", "refuse", "summary", "export", "typeset"})  # of no use in a workbook
 
 
