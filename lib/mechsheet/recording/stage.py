@@ -13,13 +13,13 @@ from mechsheet.recording.graph import Guard, NotRecorded
 from mechsheet.recording.lines import Recording, Residual, Solved
 from mechsheet.recording.node import Node, bottom_up
 from mechsheet.recording.quantity import Quantity, lift
-from mechsheet.recording.substitutes import instead
+from mechsheet.recording.substitutes import body, instead
 from mechsheet.worksheet.cells import Cell
 from mechsheet.worksheet.check import Check, closed
 from mechsheet.worksheet.find import Found
 from mechsheet.worksheet.shown import Shown
 from mechsheet.worksheet.system import Solution
-from mechsheet.worksheet.table import Figure, Table
+from mechsheet.worksheet.table import Figure, Table, listed
 from mechsheet.worksheet.verdict import Verdict
 
 
@@ -52,22 +52,14 @@ class Stage:
         }
 
     def table(self, number: str, title: str, *columns: Any, every: Any = 1, **_: Any) -> None:
-        listed = int(np.asarray(getattr(every, "value", every)))
-        self._show(number, columns, 1 if self.graph.thin > 1 else listed)
+        step = int(np.asarray(getattr(every, "value", every)))
+        self._show(number, columns, 1 if self.graph.thin > 1 else step)
 
     def _show(self, number: str, columns: tuple[Any, ...], every: int) -> None:
-        """Note the columns of a table or a figure, as long as each other."""
-        numeric = [isinstance(c, Quantity) or np.asarray(c).dtype.kind in "biuf" for c in columns]
-        lifted = [lift(self.graph, c if n else np.zeros(np.shape(c))) for c, n in zip(columns, numeric, strict=True)]
-        one = lift(self.graph, np.zeros(1))
-
-        def rows(column: Quantity) -> Quantity:
-            whole = column.like(one, *lifted)
-            listed = whole[..., ::every] if every > 1 else whole
-            return copy(listed.reshape(-1) if listed.ndim > 1 else listed)  # which later lines may set elements of
-
+        """Note the columns of a table or a figure."""
         self.shown_now.append((self.recording.tables, number))
-        self.recording.tables[number] = tuple(rows(c) if n else None for c, n in zip(lifted, numeric, strict=True))
+        rows = (lift(self.graph, column) for column in body(listed)(columns, every))
+        self.recording.tables[number] = tuple(map(copy, rows))  # which later lines may set elements of
 
     def figure(self, number: str, title: str, *columns: Any, marks: Mapping[str, Any] | None = None, **_: Any) -> None:
         self._show(f"Fig {number}", columns, 1)
