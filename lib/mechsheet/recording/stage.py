@@ -3,7 +3,7 @@
 from collections.abc import Callable, Mapping, Sequence
 from copy import copy
 from dataclasses import fields, is_dataclass, replace
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 
@@ -21,6 +21,8 @@ from mechsheet.worksheet.shown import Shown
 from mechsheet.worksheet.system import Solution
 from mechsheet.worksheet.table import Figure, Table, listed
 from mechsheet.worksheet.verdict import Verdict
+
+V = TypeVar("V", bound=Verdict)
 
 
 class Stage:
@@ -42,8 +44,8 @@ class Stage:
         return {
             "table": self.table,
             "figure": self.figure,
-            "find": self.find,
-            "minerr": self.find,
+            "sought": self.sought,
+            "solve": self.solve,
             "closed_form": self.closed_form,
             "judged": self.judged,
             "check_slope": self.check_slope,
@@ -66,25 +68,30 @@ class Stage:
         self.shown_now.append((self.recording.marks, number))
         self.recording.marks[number] = {k: lift(self.graph, v).re for k, v in (marks or {}).items()}
 
-    def find(self, f: Callable[..., Any], lo: Any = None, hi: Any = None, **asked: Any) -> Any:
-        unknowns = solving.unknowns_of(asked)
-        unknown = asked.get("unknown", "unknown x")
+    def sought(
+        self, f: Any, words: Any, lo: Any, hi: Any, equals: Any, guess: Any, branch: Any, branches: Any
+    ) -> solving.Solving:
+        found = self._own(Found, lambda own: own.words.unknown == words.unknown)
+        given = {"lo": lo, "hi": hi, "guess": guess}
+        return self._solved(found, solving.one(self.graph, found, f, given, equals, branch, branches))
 
-        def meant(v: Any) -> bool:
-            if unknowns:
-                return isinstance(v, Solution) and list(v.words.names) == unknowns
-            return isinstance(v, Found) and v.words.unknown == unknown
+    def solve(
+        self, f: Any, equals: Any, _unit: Any, _unknown_unit: Any, unknowns: Mapping[str, Any], least: bool = False
+    ) -> solving.Solving:
+        found = self._own(Solution, lambda own: list(own.words.names) == list(unknowns) and own.least is least)
+        return self._solved(found, solving.several(self.graph, found, f, equals, unknowns))
 
-        found = next(filter(meant, self.real), None)
-        if found is None:
-            raise NotRecorded("its verdict is not given by the cell under a name of its own")
-        self.real = [v for v in self.real if v is not found]  # the next one of that name is another
-        if unknowns:
-            new = solving.several(self.graph, found, f, asked)
-        else:
-            new = solving.one(self.graph, found, f, {**asked, "lo": lo, "hi": hi})
+    def _own(self, kind: type[V], meant: Callable[[V], bool]) -> V:
+        """The verdict of the worksheet's own run; the next one that is meant is another."""
+        for n, value in enumerate(self.real):
+            if isinstance(value, kind) and meant(value):
+                del self.real[n]
+                return value
+        raise NotRecorded("its verdict is not given by the cell under a name of its own")
+
+    def _solved(self, own: Verdict, new: solving.Solving) -> solving.Solving:
         self.solved += new.solved
-        self._note(new, found)
+        self._note(new, own)
         return new
 
     def _note(self, new: solving.Solving, own: Verdict) -> None:
