@@ -3,6 +3,8 @@
 from collections.abc import Callable, Mapping, Sequence
 from copy import copy
 from dataclasses import fields, is_dataclass, replace
+from functools import reduce
+from operator import and_
 from typing import Any, TypeVar
 
 import numpy as np
@@ -22,6 +24,7 @@ from mechsheet.worksheet.system import Solution
 from mechsheet.worksheet.table import Figure, Table, listed
 from mechsheet.worksheet.verdict import Verdict
 
+_LEFT = 1e-6  # of what an equation is made of may be left by a root
 V = TypeVar("V", bound=Verdict)
 
 
@@ -108,8 +111,17 @@ class Stage:
             name = solved.words.unknown
             if not values or name in values:
                 own = getattr(found.value, name) if values else found.value
-                self._closed(solved, own, lift(self.graph, values.get(name, value)), tolerance)
+                root = np.where(self._solves(found), own, 0.0)  # what is none is compared with nothing
+                self._closed(solved, root, lift(self.graph, values.get(name, value)), tolerance)
         return () if values else None
+
+    def _solves(self, found: solving.Solving) -> Any:
+        """Whether the equations hold where readers have closed forms, which may be those of another branch."""
+        holds = list[Any]()
+        for left in found.residual if isinstance(found.residual, tuple) else (found.residual,):
+            size = max(_made_of(part, self.recording.made_of) for part in left.parts)
+            holds.append(abs(left) <= Quantity(self.graph, self.graph.constant(_LEFT * size, units.UNKNOWN)))
+        return reduce(and_, holds)
 
     def _closed(self, solved: Solved, found: Any, value: Quantity, tolerance: float) -> None:
         inside: Any = value
