@@ -113,6 +113,21 @@ def test_rounding_is_no_band(tmp_path):
     assert np.allclose(by_name["q"].worst, 1e-9, rtol=1e-6)
 
 
+def test_how_many_rows_there_are_does_not_move(tmp_path):
+    """A mean of values found for as many problems as there are, whatever these are moved by."""
+    found, _ = bands(
+        off(
+            tmp_path,
+            9,
+            more="""
+r = find(lambda u, v: (u**2 - np.arange(1, g.n) * g.F, v - u), u=(0.0, 90.0), v=(0.0, 90.0))
+m = np.mean(r.value.u**2)  # [-] mean""",
+        )
+    )
+    band = next(b for b in found.banded if b.name == "m")
+    assert np.allclose(band.worst, np.mean(np.arange(1, 5)))
+
+
 @pytest.mark.parametrize(
     ("limit", "F", "a", "said"),
     [

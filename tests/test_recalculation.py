@@ -197,6 +197,16 @@ def test_edited_workbook_is_a_scene(tmp_path: Path) -> None:
     assert inputs.build(sheet.inputs, read) == inputs.build(sheet.inputs, changes)
 
 
+def test_a_closed_form_that_is_no_root_on_its_branch_fails(recalculated: Callable[[Path], Any], tmp_path: Path) -> None:
+    """The upper link's distance is the same on both sides of a group; the worksheet finds a root on neither."""
+    changes = {"P6": 25e3, "L5": "0,47", "S_max": 0.66, "side_45": "right"}
+    with pytest.raises(SheetError, match="upper link L7: mast angle phi6 reaches"):
+        export("hitch", tmp_path, changes)
+    book = recalculated(edit(exported("hitch"), changes, tmp_path / "other_branch.xlsx"))
+    assert verdicts(book)["upper link L7: Find and the closed form"] == "FAIL"
+    assert book["Front"]["A2"].value.startswith("4 FAIL")
+
+
 def test_what_does_not_close_is_not_available(recalculated: Callable[[Path], Any], tmp_path: Path) -> None:
     """Beyond the reach of the cylinder: #N/A from the first open position on, numbers before it."""
     path = edit(exported("hitch"), {"S_max": 0.9}, tmp_path / "open.xlsx")

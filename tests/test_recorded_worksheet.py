@@ -12,6 +12,7 @@ import pytest
 from openpyxl import load_workbook
 from own_worksheet import OTHER, own, recorded, value_of
 
+from mechsheet import units
 from mechsheet.recording import positions
 from mechsheet.recording.dimensions import dimensions
 from mechsheet.recording.numbers import numbers
@@ -652,3 +653,36 @@ check_2 = check("greatest", np.max(y), 9.0)
     names = sheet.run(sheet.results, {"g": sheet.inputs()}) | {"__file__": sheet.path}
     recording = record(names, sheet, every=10_000)
     assert len(recording.graph.nodes) < 60_000
+
+
+CHECKS = """
+from mechsheet import assembled, check, closed_form, find
+xs = linspace(2.05, 6.05, 9)  # [m] distance
+C = rrr(0j, xs, g.F, 3.0, +1)  # [m] pin
+found = find(lambda x: x**2, 0.0, 9.0, equals=g.F, unknown="x_0")
+checks_1 = (
+    check("two ways", xs * g.F - g.F * xs * (1 + 1e-13), 1e-9, "mm", of=xs * g.F),
+    check("by much", [g.F * xs, -g.a * xs], 30.0, "km"),
+    check("a part that is an input", 1e-4 * g.F, g.a / 500, of=g.F),
+    assembled("closes", C, xs, (abs(g.F - 3.0), g.F + 3.0), "x", "m"),
+    closed_form(found, sqrt(g.F)),
+)"""
+
+
+@pytest.mark.parametrize("given", [{}, {"F": 2.25, "a": 0.5}, {"F": 0.5, "a": 0.4}, {"F": 2.0}])
+def test_a_check_that_is_recorded_compares_what_the_worksheet_s_own_does(given: dict[str, Any], tmp_path: Path) -> None:
+    """Residual and limit of each kind for other inputs, of a group that opens and a limit that tells nothing too."""
+    sheet = own(tmp_path, CHECKS)
+    _, recording = recorded(sheet)
+    changed = {recording.inputs[name]: x for name, x in given.items()}
+    checks = sheet.run(sheet.results, {"g": sheet.inputs(**given)})["checks_1"]
+    for check in checks:
+        known = recording.checks[check.name]
+        now = numbers([*known.parts, known.limit], changed)
+        largest, limit = max(np.max(now[part]) for part in known.parts), now[known.limit].item()
+        factor = units.parse(known.unit).factor
+        assert (largest <= limit) == check.passed, check
+        if check.evaluated:
+            assert np.allclose([largest / factor, limit / factor], [check.residual, check.limit], 1e-9, 1e-12), check
+    told = "pass" if given.get("a", 0.75) <= 0.5 else "not evaluated"
+    assert [check.verdict for check in checks[:3]] == ["pass", "pass", told]

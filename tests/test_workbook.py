@@ -28,6 +28,7 @@ from mechsheet.workbook.save import save
 from mechsheet.worksheet.check import Check
 from mechsheet.worksheet.table import Column, Figure, Table
 
+EXPORTS = Path(__file__).parents[1] / "exports"  # which other tests keep current
 S = Column("S", "m", "cylinder length", 3, np.linspace(0.42, 0.67, 4))
 G56 = Column("G56", "N", "capacity at the axis", 0, np.array([33139.4, 37094.25, 1e5 / 3, -2.0]))
 GS6 = Column("GS6", "N", "capacity at the centre of mass", 0, np.array([31354.1, nan, inf, 32922.7]))
@@ -151,6 +152,19 @@ def test_checks_show_verdicts_and_their_count() -> None:
     assert heads == ["Check", "Residual", "Limit", "Unit", "Verdict", "Reason"]
     assert listed[0] == ["loop closes", 1.2e-16, 1e-12, "m", "PASS", "by both chains"]
     assert [(row[1], row[4]) for row in listed[1:]] == [(2e-9, "FAIL"), ("#N/A", "not evaluated")]
+
+
+def test_a_quantity_is_shown_as_one_and_what_two_computations_differ_by_as_rounding() -> None:
+    """A pressure of 16.064 MPa under a limit of 17.5 is not read as 1.6E+01."""
+    sheet = book(checks=[Check("pressure", 16.064, 17.5, "MPa"), Check("loop", 2e-16, 1e-12, agreement=True)])["Checks"]
+    formats = [[cell.number_format for cell in row[1:3]] for row in sheet["A3:E4"]]
+    assert formats == [["[>=100]0;[>=0.01]0.000;General"] * 2, ["0.0E+00;-0.0E+00;0"] * 2]
+
+
+def test_of_the_inputs_what_the_user_edits_is_printed_alone() -> None:
+    """The numbers in SI units beside them would be pages of their own, under titles cut off."""
+    with ZipFile(EXPORTS / "hitch.xlsx") as file:
+        assert re.search(r"Inputs!\$A\$1:\$E\$\d+<", file.read("xl/workbook.xml").decode())
 
 
 def test_headings_and_first_column_are_frozen_and_printed_on_every_page() -> None:

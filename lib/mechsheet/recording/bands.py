@@ -205,7 +205,9 @@ def _bare(node: Node, signed: bool) -> Node:
 
 
 def _is_step(node: Node) -> bool:
-    """Whether a quantity is 0 or 1 by a condition."""
+    """Whether a quantity is 0 or 1 by a condition, or a count of such."""
+    if node.op == "reduce" and node.args[2] == "sum":
+        node = node.args[0]
     return node.op == "where" and all(part.op == "constant" for part in node.args[1:])
 
 

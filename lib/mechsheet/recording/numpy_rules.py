@@ -72,6 +72,8 @@ def _reduction(kind: str) -> Callable[..., Any]:
         if where is not None and where is not True:
             x = choice(graph, where, x, neutral.get(kind) if initial is None else initial)
         result = x.reduced(kind, axis, keepdims)
+        if kind == "max" and x.re.op == "abs" and initial == 0.0:  # the least that a magnitude is
+            return result
         return result if initial is None else lift(graph, combine[kind.removeprefix("nan")](result, initial))
 
     return operation

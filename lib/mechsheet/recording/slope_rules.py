@@ -223,6 +223,12 @@ def reduced(kind: str, x: Values, y: Any, motion: Motion) -> Motion:
     return Motion((np.max if kind == "max" else np.min)(ahead[:, equal], 1), moves)
 
 
+def _still(node: Node, y: Values, values: Sequence[Values], operands: Sequence[Motion]) -> Motion:
+    """How many elements there are, however these move."""
+    shape = len(operands[0].ahead), *node.shape
+    return Motion(np.zeros(shape), np.zeros(shape, dtype=bool))
+
+
 def _unknown(node: Node, y: Values, values: Sequence[Values], operands: Sequence[Motion]) -> Motion:
     """Numbers of the worksheet's own run: none where anything under them moves."""
     count = len(operands[0].ahead)
@@ -237,7 +243,7 @@ RULES: dict[str, Rule] = {
     "floor": _step, "round": _step, "sign": _step, "like": _same, "sized": _same, "finite": _finite,
     **dict.fromkeys(("lt", "le", "gt", "ge", "eq", "ne"), _compared),
     **dict.fromkeys(("and", "or", "not"), _logical),
-    "take": _take, "at": _at, "join": _join, "reduce": _reduce, "exported": _unknown,
+    "take": _take, "at": _at, "join": _join, "reduce": _reduce, "length": _still, "exported": _unknown,
 }  # fmt: skip
 
 

@@ -1,7 +1,7 @@
 """Find while a worksheet is recorded: values that its equations determine, as quantities that can be solved again."""
 
 from collections import namedtuple
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -17,8 +17,6 @@ from mechsheet.worksheet.find import Found
 from mechsheet.worksheet.system import Solution
 from mechsheet.worksheet.verdict import Verdict
 
-_OWN = {"equals", "guess", "branch", "branches", "unknown", "quantity", "unit", "unknown_unit"}  # arguments of find
-
 
 @dataclass
 class Solving:
@@ -30,11 +28,6 @@ class Solving:
     evaluations: Any = None
 
 
-def unknowns_of(asked: dict[str, Any]) -> list[str]:
-    """Names of the unknowns that find is given beside its own arguments."""
-    return [name for name in asked if name not in _OWN]
-
-
 def listed(graph: Graph, values: Any) -> Any:
     """Values of the worksheet's own run at the positions that are recorded."""
     array = np.asarray(values)
@@ -44,20 +37,21 @@ def listed(graph: Graph, values: Any) -> Any:
     return array
 
 
-def one(graph: Graph, found: Found, f: Callable[..., Any], asked: dict[str, Any]) -> Solving:
-    """A value of one equation, as it was found."""
-    starts = {k: (lift(graph, asked[k]).re,) for k in ("lo", "hi", "guess") if asked.get(k) is not None}
+def one(
+    graph: Graph, found: Found, f: Callable[..., Any], given: dict[str, Any], equals: Any, branch: Any, branches: Any
+) -> Solving:
+    """A value of one equation, as it was found from what is ``given`` of its interval and its guess."""
+    starts = {k: (lift(graph, x).re,) for k, x in given.items() if x is not None}
     block = Block(starts, single=True)
     name = f"{found.words.unknown}, line {graph.line}"
     block.nodes = (graph.found(block, 0, name, listed(graph, found._value)),)
-    x, branch = Quantity(graph, block.nodes[0]), asked.get("branch")
-    target = lift(graph, asked.get("equals", 0.0))
+    x, target = Quantity(graph, block.nodes[0]), lift(graph, equals)
     value = lift(graph, f(x, branch) if branch is not None else f(x))
     left = value - target
     block.residuals, block.sides = (left.re,), (value.re, target.re)
     if branch is not None:
         block.branch, labels = lift(graph, branch).re, dict(graph.labels)
-        block.branches = {s: lift(graph, f(x, s)).re for s in asked["branches"]}
+        block.branches = {s: lift(graph, f(x, s)).re for s in branches}
         graph.labels = labels  # only the wanted branch has steps with names
     block.rest()
     words = found.words
@@ -67,10 +61,10 @@ def one(graph: Graph, found: Found, f: Callable[..., Any], asked: dict[str, Any]
     return Solving(x, left, (Solved(block.nodes[0], left.re if left.single else None, ends, told, target=alone),))
 
 
-def several(graph: Graph, found: Solution, f: Callable[..., Any], asked: dict[str, Any]) -> Solving:
+def several(graph: Graph, found: Solution, f: Callable[..., Any], equals: Any, unknowns: Mapping[str, Any]) -> Solving:
     """Values of several equations, as they were found."""
     words = found.words
-    given = {n: asked[n] if isinstance(asked[n], tuple) else (asked[n],) for n in words.names}
+    given = {name: x if isinstance(x, tuple) else (x,) for name, x in unknowns.items()}
     starts = {name: tuple(lift(graph, v).re for v in values) for name, values in given.items()}
     block = Block(starts, False, found.least, words.equation_units, words.units)
     name = f"{words.unknowns}, line {graph.line}"
@@ -79,7 +73,6 @@ def several(graph: Graph, found: Solution, f: Callable[..., Any], asked: dict[st
     block.nodes = tuple(block_nodes)
     x = [Quantity(graph, node) for node in block.nodes]
     equations = f(**dict(zip(words.names, x, strict=True)))
-    equals = asked.get("equals", 0)
     parts = equations if isinstance(equations, tuple | list) else [equations]
     wanted = equals if isinstance(equals, tuple | list) else [equals] * len(parts)
     left = [part for e, w in zip(parts, wanted, strict=True) for part in _parts(lift(graph, e - w), block.nodes[0])]

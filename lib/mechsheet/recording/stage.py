@@ -3,7 +3,9 @@
 from collections.abc import Callable, Mapping, Sequence
 from copy import copy
 from dataclasses import fields, is_dataclass, replace
-from typing import Any
+from functools import reduce
+from operator import and_
+from typing import Any, TypeVar
 
 import numpy as np
 
@@ -13,16 +15,17 @@ from mechsheet.recording.graph import Guard, NotRecorded
 from mechsheet.recording.lines import Recording, Residual, Solved
 from mechsheet.recording.node import Node, bottom_up
 from mechsheet.recording.quantity import Quantity, lift
-from mechsheet.recording.substitutes import instead
+from mechsheet.recording.substitutes import body, instead
 from mechsheet.worksheet.cells import Cell
-from mechsheet.worksheet.check import Check
+from mechsheet.worksheet.check import Check, closed
 from mechsheet.worksheet.find import Found
-from mechsheet.worksheet.force_diagram import polar
 from mechsheet.worksheet.shown import Shown
 from mechsheet.worksheet.system import Solution
-from mechsheet.worksheet.table import Figure, Table
-from mechsheet.worksheet.title import side_by_side
+from mechsheet.worksheet.table import Figure, Table, listed
 from mechsheet.worksheet.verdict import Verdict
+
+_LEFT = 1e-6  # of what an equation is made of may be left by a root
+V = TypeVar("V", bound=Verdict)
 
 
 class Stage:
@@ -44,58 +47,54 @@ class Stage:
         return {
             "table": self.table,
             "figure": self.figure,
-            "find": self.find,
-            "minerr": self.find,
+            "sought": self.sought,
+            "solve": self.solve,
             "closed_form": self.closed_form,
-            "check": self.check,
+            "judged": self.judged,
             "check_slope": self.check_slope,
             "Check": self.stated,
-            "assembled": self.assembled,
-            "polar_diagrams": self.polar_diagrams,
+            "meanings": self.meanings,
         }
 
     def table(self, number: str, title: str, *columns: Any, every: Any = 1, **_: Any) -> None:
-        listed = int(np.asarray(getattr(every, "value", every)))
-        self._show(number, columns, 1 if self.graph.thin > 1 else listed)
+        step = int(np.asarray(getattr(every, "value", every)))
+        self._show(number, columns, 1 if self.graph.thin > 1 else step)
 
     def _show(self, number: str, columns: tuple[Any, ...], every: int) -> None:
-        """Note the columns of a table or a figure, as long as each other."""
-        numeric = [isinstance(c, Quantity) or np.asarray(c).dtype.kind in "biuf" for c in columns]
-        lifted = [lift(self.graph, c if n else np.zeros(np.shape(c))) for c, n in zip(columns, numeric, strict=True)]
-        one = lift(self.graph, np.zeros(1))
-
-        def rows(column: Quantity) -> Quantity:
-            whole = column.like(one, *lifted)
-            listed = whole[..., ::every] if every > 1 else whole
-            return copy(listed.reshape(-1) if listed.ndim > 1 else listed)  # which later lines may set elements of
-
+        """Note the columns of a table or a figure."""
         self.shown_now.append((self.recording.tables, number))
-        self.recording.tables[number] = tuple(rows(c) if n else None for c, n in zip(lifted, numeric, strict=True))
+        rows = (lift(self.graph, column) for column in body(listed)(columns, every))
+        self.recording.tables[number] = tuple(map(copy, rows))  # which later lines may set elements of
 
     def figure(self, number: str, title: str, *columns: Any, marks: Mapping[str, Any] | None = None, **_: Any) -> None:
         self._show(f"Fig {number}", columns, 1)
         self.shown_now.append((self.recording.marks, number))
         self.recording.marks[number] = {k: lift(self.graph, v).re for k, v in (marks or {}).items()}
 
-    def find(self, f: Callable[..., Any], lo: Any = None, hi: Any = None, **asked: Any) -> Any:
-        unknowns = solving.unknowns_of(asked)
-        unknown = asked.get("unknown", "unknown x")
+    def sought(
+        self, f: Any, words: Any, lo: Any, hi: Any, equals: Any, guess: Any, branch: Any, branches: Any
+    ) -> solving.Solving:
+        found = self._own(Found, lambda own: own.words.unknown == words.unknown)
+        given = {"lo": lo, "hi": hi, "guess": guess}
+        return self._solved(found, solving.one(self.graph, found, f, given, equals, branch, branches))
 
-        def meant(v: Any) -> bool:
-            if unknowns:
-                return isinstance(v, Solution) and list(v.words.names) == unknowns
-            return isinstance(v, Found) and v.words.unknown == unknown
+    def solve(
+        self, f: Any, equals: Any, _unit: Any, _unknown_unit: Any, unknowns: Mapping[str, Any], least: bool = False
+    ) -> solving.Solving:
+        found = self._own(Solution, lambda own: list(own.words.names) == list(unknowns) and own.least is least)
+        return self._solved(found, solving.several(self.graph, found, f, equals, unknowns))
 
-        found = next(filter(meant, self.real), None)
-        if found is None:
-            raise NotRecorded("its verdict is not given by the cell under a name of its own")
-        self.real = [v for v in self.real if v is not found]  # the next one of that name is another
-        if unknowns:
-            new = solving.several(self.graph, found, f, asked)
-        else:
-            new = solving.one(self.graph, found, f, {**asked, "lo": lo, "hi": hi})
+    def _own(self, kind: type[V], meant: Callable[[V], bool]) -> V:
+        """The verdict of the worksheet's own run; the next one that is meant is another."""
+        for n, value in enumerate(self.real):
+            if isinstance(value, kind) and meant(value):
+                del self.real[n]
+                return value
+        raise NotRecorded("its verdict is not given by the cell under a name of its own")
+
+    def _solved(self, own: Verdict, new: solving.Solving) -> solving.Solving:
         self.solved += new.solved
-        self._note(new, found)
+        self._note(new, own)
         return new
 
     def _note(self, new: solving.Solving, own: Verdict) -> None:
@@ -112,8 +111,17 @@ class Stage:
             name = solved.words.unknown
             if not values or name in values:
                 own = getattr(found.value, name) if values else found.value
-                self._closed(solved, own, lift(self.graph, values.get(name, value)), tolerance)
+                root = np.where(self._solves(found), own, 0.0)  # what is none is compared with nothing
+                self._closed(solved, root, lift(self.graph, values.get(name, value)), tolerance)
         return () if values else None
+
+    def _solves(self, found: solving.Solving) -> Any:
+        """Whether the equations hold where readers have closed forms, which may be those of another branch."""
+        holds = list[Any]()
+        for left in found.residual if isinstance(found.residual, tuple) else (found.residual,):
+            size = max(_made_of(part, self.recording.made_of) for part in left.parts)
+            holds.append(abs(left) <= Quantity(self.graph, self.graph.constant(_LEFT * size, units.UNKNOWN)))
+        return reduce(and_, holds)
 
     def _closed(self, solved: Solved, found: Any, value: Quantity, tolerance: float) -> None:
         inside: Any = value
@@ -125,15 +133,12 @@ class Stage:
         solved.inverse = inside.re
         self.solved_now.append(solved)
         words = solved.words
-        self.check(f"{words.unknown}: Find and the closed form", value - found, tolerance, words.unknown_unit, of=found)
+        instead(closed)(words.unknown, words.unknown_unit, found, value, tolerance)
 
-    def check(self, name: str, residual: Any, limit: Any, unit: str = "-", of: Any = None) -> None:
-        if of is not None:
-            told: Any = limit <= 1e-3 if isinstance(limit, float) else lift(self.graph, limit) <= 1e-3
-            bound: Any = limit * abs(lift(self.graph, of)).max()
-            limit = bound if told is True else np.where(told, bound, np.nan)
+    def judged(self, name: str, residual: Any, limit: Any, unit: str, size: Any = np.inf, tells: Any = True) -> None:
         parts = [lift(self.graph, r) for r in (residual if isinstance(residual, list) else [residual])]
-        self._check(name, [abs(p).re for p in parts], limit, unit)
+        bound = limit if tells is True else np.where(lift(self.graph, tells), limit, np.nan)
+        self._check(name, [abs(p).re for p in parts], bound, unit)
 
     def stated(self, name: str, residual: Any, limit: Any, unit: str = "-", *_: Any, **__: Any) -> None:
         self._check(name, [lift(self.graph, residual).re], limit, "-", signed=True)
@@ -147,16 +152,13 @@ class Stage:
         at = x[middle]
         near, far = (f(at + n * step) - f(at - n * step) for n in (1, 2))
         left = slope[middle] - (8 * near - far) / (12 * step)
-        self._check(name, [abs(left).re], 1e-7 * abs(slope).max(), unit)
+        self.judged(name, left, 1e-7 * abs(slope).max(), unit)
 
-    def assembled(self, name: str, point: Any, *_: Any) -> None:
-        missing: Any = np.where(np.isfinite(lift(self.graph, point)), 0.0, 1.0)
-        self._check(name, [missing.re], 0.0, "-")
-
-    def polar_diagrams(self, at: Any, turn: int = 360, **forces: Any) -> Any:
+    def meanings(self) -> dict[str, str]:
+        """No words: of diagrams only the drawings are recorded, where they are at all."""
         if not self.graph.draws:
             raise NotRecorded("diagrams are drawn")
-        return side_by_side(*(instead(polar)(force, at, name, turn) for name, force in forces.items()))
+        return {}
 
     def _check(self, name: str, parts: list[Node], limit: Any, unit: str, signed: bool = False) -> None:
         bound = lift(self.graph, limit)

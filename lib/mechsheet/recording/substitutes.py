@@ -26,19 +26,18 @@ from mechsheet.recording.quantity import FUNCTIONS, Quantity, has_quantity, lift
 from mechsheet.recording.rewritten import NAMES, rebuilt
 from mechsheet.recording.sketch import Sketch, drawing
 from mechsheet.recording.unrepeatable import instead_of_chance
-from mechsheet.worksheet import check as checks
+from mechsheet.worksheet import check, find, system
 from mechsheet.worksheet.cells import Marimo
 from mechsheet.worksheet.drawing import Drawing
 
+_ASKING = check.__name__, find.__name__, system.__name__  # modules that hand on what they are given, to be shown
 _ROOMS = ("mechsheet.mechanics.", "mechsheet.worksheet.force_diagram")
 _WRITTEN = {"__post_init__"}  # the only special method of a group that is not made by `dataclass`
 _ARRAYS = (np.array, np.asarray, np.asanyarray, np.ascontiguousarray)
 
 
 staged: ContextVar[Mapping[str, Any]] = ContextVar("staged")  # what those of `SHOWING` do in the cell that is run
-SHOWING = frozenset(
-    {"table", "figure", "find", "minerr", "closed_form", "check", "check_slope", "Check", "assembled", "polar_diagrams"}
-)
+SHOWING = frozenset({"table", "figure", "sought", "solve", "closed_form", "check_slope", "judged", "Check", "meanings"})
 _NOWHERE = frozenset({"require", "refuse", "summary", "export", "typeset"})  # of no use in a workbook
 
 
@@ -109,13 +108,13 @@ def _of_scipy(f: Callable[..., Any]) -> Callable[..., Any]:
 
 def _of_package(value: Any, room: str) -> Any:
     """A function or class of this package."""
-    if value.__name__ in SHOWING:
+    if value.__name__ in SHOWING and room.startswith("mechsheet.worksheet."):
         return _on_stage(value.__name__)
     if value.__name__ in _NOWHERE:
         return _NOTHING
     if isinstance(value, type):
         return _group(value) if room.startswith(_ROOMS) and hasattr(value, "__dataclass_fields__") else value
-    if room.startswith((*_ROOMS, checks.__name__)):
+    if room.startswith((*_ROOMS, *_ASKING)):
         return _itself(value)
     return _refused(value.__name__) if room.startswith("mechsheet.studies.") else value
 
@@ -222,7 +221,7 @@ def body(f: Any) -> Callable[..., Any]:
 @cache
 def _itself(f: Any) -> Callable[..., Any]:
     """A function that is recorded by running itself, or its short form."""
-    always = f.__module__ == checks.__name__
+    always = f.__module__ in _ASKING
 
     def function(*args: Any, **kwargs: Any) -> Any:
         if not (always or has_quantity((args, kwargs))):

@@ -111,12 +111,18 @@ class Book:
         *,
         behind: bool = False,
         grey: Container[int] = (),
+        printed: int | None = None,
     ) -> Any:
-        """A sheet of rows under (heading, look) fields, ``grey`` ones apart; a row of one text heads a section."""
+        """A sheet of rows under (heading, look) fields, ``grey`` ones apart; a row of one text heads a section.
+
+        Only so many of the fields are ``printed``, all of them by default.
+        """
         texts = [[head for head, _ in fields], *(row for row in rows if len(row) > 1)]
         longest = [max(map(_length, column)) for column in zip(*texts, strict=True)]
         widths = [looks.CHAR * min(looks.WIDEST, length) + 2 * looks.PAD for length in longest]
-        sheet = self.sheet(name, heading, widths, 2, (sum(widths), looks.ROW * (len(rows) + 3)), behind)
+        sheet = self.sheet(name, heading, widths, 2, (sum(widths[:printed]), looks.ROW * (len(rows) + 3)), behind)
+        if printed:
+            sheet.print_area(0, 0, len(rows) + 1, printed - 1)
         for col, (head, look) in enumerate(fields):
             put(sheet, 1, col, head, self.style(looks.HEAD, looks.TOP, looks.BOTTOM, looks.side(look)))
         styles = [self.style(looks.CELL, look) for _, look in fields]

@@ -6,7 +6,7 @@ from typing import Any
 from mechsheet.units import shown
 from mechsheet.workbook import looks
 from mechsheet.workbook.book import Book
-from mechsheet.workbook.content import Content, Live
+from mechsheet.workbook.content import Content, Live, put
 from mechsheet.workbook.sheet_formulas import SheetFormulas
 from mechsheet.worksheet.check import Check
 
@@ -32,12 +32,13 @@ def write(
         *(("Verdict", looks.VERDICT), ("Reason", looks.TEXT)),
     )
     listed: list[tuple[Content, ...]] = []
+    rows: list[tuple[Check, Content, Content]] = [(c, c.residual, c.limit) for c in checks]
     if not formulas:
         listed += [(c.name, c.residual, c.limit, shown(c.unit), verdict(c), c.reason) for c in checks]
         title: Content = _title(sum(check.passed for check in checks), len(checks))
     else:
         within = Check(_WITHIN, 0.0, 0.0, "inputs")
-        rows: list[tuple[Check, Content, Content]] = [(within, Live(formulas.outside(), 0.0), 0.0)]
+        rows = [(within, Live(formulas.outside(), 0.0), 0.0)]
         rows += [(c, *_compared(c, formulas, c.name in fixed)) for c in checks]
         if guard := formulas.guard():
             rows.append((Check(_MADE, 0.0, 0.0), Live(guard, 0.0), 0.0))
@@ -60,6 +61,10 @@ def write(
         shown_digits = (_digits(row[0], proved, formulas) for row in listed)
         listed = [(*row, digits) for row, digits in zip(listed, shown_digits, strict=True)]
     sheet = book.listing("Checks", title, fields, listed)
+    quantity = book.style(looks.CELL, looks.QUANTITY)
+    for n, (check, *compared) in enumerate(rows, 2):
+        for col, value in enumerate(compared if not check.agreement else (), 1):
+            put(sheet, n, col, value, quantity)
     verdicts(book, sheet, len(listed), 4, 4)
 
 

@@ -135,7 +135,7 @@ def write(book: Book, items: Sequence[Item], formulas: SheetFormulas | None) -> 
                 listed.append((item.symbol, "", "", item.meaning, item.told, *[""] * (len(fields) - 5)))
             case heading:
                 listed.append((heading,))
-    sheet = book.listing(_SHEET, f"{book.title} - inputs", fields, listed)
+    sheet = book.listing(_SHEET, f"{book.title} - inputs", fields, listed, printed=_SI)
     for n, item in listed_rows(items):
         if isinstance(item, Grid):
             put(sheet, n, 1, "", book.style(looks.CELL))

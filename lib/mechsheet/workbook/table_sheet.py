@@ -106,7 +106,7 @@ def _break(sheet: Any, wide: int, rows: int) -> int:
     Breaks are ignored where a sheet is fitted to pages, and a page's end might cut a chart: so the scale is set.
     """
     page = page_of(wide)
-    scale = max(0.1, min(1.0, 0.97 * page[0] / wide))
+    scale = max(0.1, min(1.0, 0.85 * page[0] / wide))  # columns are wider in LibreOffice than in Excel
     held = int(page[1] / scale / ROW) - 5
     sheet.set_print_scale(int(100 * scale))
     sheet.set_h_pagebreaks(range(FIRST + held, FIRST + rows, held))

@@ -137,13 +137,13 @@ def check(name: str, residual: ArrayLike, limit: float, unit: str = "-", of: Arr
     The check is not evaluated, and says why, over no values, where a value is NaN, and where the limit tells nothing.
     """
     if of is None:
-        return _held(name, residual, limit, unit)
+        return judged(name, residual, limit, unit)
     size = float(np.max(np.abs(of), initial=0.0))
-    return _held(name, residual, limit * size, unit, size)
+    return judged(name, residual, limit * size, unit, size, limit <= _AGREED)
 
 
-def _held(name: str, residual: ArrayLike, limit: float, unit: str, size: float = np.inf) -> Check:
-    """Check of a residual, of two computations of a quantity of that size; all in SI."""
+def judged(name: str, residual: ArrayLike, limit: float, unit: str, size: float = np.inf, tells: bool = True) -> Check:
+    """Check of a residual, of two computations of a quantity of that size; all in SI. Whether its limit ``tells``."""
     of = f"check {name if isinstance(name, str) else as_given(name)}"
     texts(of, name=name, unit=unit)
     if np.asarray(residual).dtype.kind not in "biufc":
@@ -156,7 +156,7 @@ def _held(name: str, residual: ArrayLike, limit: float, unit: str, size: float =
         reason = "there is nothing to check"
     elif lost:
         reason = f"{lost} of {sizes.size} values do not exist"
-    elif not limit <= _AGREED * size:
+    elif not tells:
         compared, least = (numbers.significant(x / factor, 2) for x in (size, limit))
         reason = f"the limit, {least}, is more than a thousandth of what is compared, {compared}{numbers.suffix(unit)}"
     residual = np.nan if reason else float(np.max(sizes)) / factor
@@ -211,7 +211,7 @@ def check_slope(
     differences, error = derivative(f, x, step, ends, enough)
     rounding = 100 * float(np.finfo(float).eps * np.max(np.abs(f(x)))) / step
     limit = max(least, 10 * float(np.max(error)), rounding)
-    return _held(name, np.asarray(slope) - differences, limit, unit, size)
+    return judged(name, np.asarray(slope) - differences, limit, unit, size, limit <= _AGREED * size)
 
 
 @overload
@@ -229,15 +229,15 @@ def closed_form(
     Raises SheetError naming an unknown that the block does not have.
     """
     if isinstance(found, Found):
-        return _closed(found.words.unknown, found.words.unknown_unit, found.value, value, tolerance)
+        return closed(found.words.unknown, found.words.unknown_unit, found.value, value, tolerance)
     units_of = dict(zip(found.words.names, found.words.units, strict=True))
     for name in values:
         if name not in units_of:
             refuse(SheetError(f"closed form of {name}: the unknowns are {found.words.unknowns}"))
-    return tuple(_closed(k, units_of[k], getattr(found.value, k), x, tolerance) for k, x in values.items())
+    return tuple(closed(k, units_of[k], getattr(found.value, k), x, tolerance) for k, x in values.items())
 
 
-def _closed(unknown: str, unit: str, found: ArrayLike, value: ArrayLike, tolerance: float) -> Check:
+def closed(unknown: str, unit: str, found: ArrayLike, value: ArrayLike, tolerance: float) -> Check:
     return check(f"{unknown}: Find and the closed form", np.subtract(value, found), tolerance, unit, of=found)
 
 
@@ -251,14 +251,8 @@ def assembled(name: str, point: ArrayLike, over: ArrayLike, reaches: tuple[Any, 
         refuse(SheetError(f"assembled {name!r}: reaches must be the two limits of {what}, got {len(reaches)}"))
     measured(unit, f"check {name}")
     lost = np.isnan(point)
-    count = int(np.count_nonzero(lost))
-    if not lost.size:
-        return Check(name, np.nan, 0, "open positions", "there is nothing to check", essential=True)
-    if not count:
-        return Check(name, 0, 0, "open positions", essential=True)
-    reason = _unreached(lost, over, reaches, what, unit)
-    _tell(lost, over, reaches, what, unit)
-    return Check(name, count, 0, "open positions", reason, essential=True)
+    count = np.count_nonzero(lost) if lost.size else np.nan
+    return Check(name, float(count), 0, "open positions", _open(lost, over, reaches, what, unit), essential=True)
 
 
 def require(point: ArrayLike, over: ArrayLike, reaches: tuple[Any, Any], what: str, unit: str) -> None:
@@ -294,6 +288,16 @@ def _tell(lost: Any, over: ArrayLike, reaches: tuple[Any, Any], what: str, unit:
     for i in np.flatnonzero(lost.any(1)):
         reasons[i] = _unreached(lost[i], over[i], (low[i], high[i]), what, unit)
     told.append(reasons[:, None])
+
+
+def _open(lost: Any, over: ArrayLike, reaches: tuple[Any, Any], what: str, unit: str) -> str:
+    """Why a group is open somewhere, which others are told too; "" where it closes everywhere."""
+    if not lost.size:
+        return "there is nothing to check"
+    if not lost.any():
+        return ""
+    _tell(lost, over, reaches, what, unit)
+    return _unreached(lost, over, reaches, what, unit)
 
 
 def _unreached(lost: NDArray[np.bool_], over: ArrayLike, reaches: tuple[Any, Any], what: str, unit: str) -> str:

@@ -281,13 +281,26 @@ def find(  # type: ignore[misc]
         if any(given is not None for given in (lo, hi, guess, branch, branches)):
             raise SheetError(f"find takes either an interval and a guess, or the unknowns {', '.join(unknowns)}")
         return solve(f, equals, unit, unknown_unit, unknowns)
+    measured(unit), measured(unknown_unit)
+    return sought(f, _Words(unknown, quantity, unit, unknown_unit), lo, hi, equals, guess, branch, branches)
+
+
+def sought(
+    f: Callable[..., Any],
+    words: _Words,
+    lo: ArrayLike | None,
+    hi: ArrayLike | None,
+    equals: ArrayLike,
+    guess: ArrayLike | None,
+    branch: Any,
+    branches: Sequence[int] | None,
+) -> Found:
+    """`find` with one unknown."""
     labels = [0] if branches is None else list(branches)
     on = np.asarray(0 if branch is None else branch)
     among = np.equal.outer(labels, on)
     if (branch is None) != (branches is None) or not among.any(0).all():
-        raise ValueError(f"branch = {branch} of {unknown} must be one of {branches}")
-    measured(unit), measured(unknown_unit)
-    words = _Words(unknown, quantity, unit, unknown_unit)
+        raise ValueError(f"branch = {branch} of {words.unknown} must be one of {branches}")
     given = _checked(words, lo=lo, hi=hi, equals=equals, guess=guess)
     functions = [f] if branches is None else [_on_branch(f, s) for s in labels]
     wanted = f if branches is None else _on_branch(f, on[()])
@@ -327,7 +340,9 @@ def find(  # type: ignore[misc]
         for i in np.flatnonzero(np.isnan(value)):
             reasons[i] = _reason(words, flat["equals"][i], search, at[i])
             own_roots = [(s, x) for k, s in enumerate(labels) for x in search.roots[0, :, k * void.size + i]]
-            places = [f"at {numbers.amount(x, unknown_unit)} on branch {s:+d}" for s, x in own_roots if np.isfinite(x)]
+            places = [
+                f"at {numbers.amount(x, words.unknown_unit)} on branch {s:+d}" for s, x in own_roots if np.isfinite(x)
+            ]
             reasons[i] += f"; it is reached {', '.join(places)}" if places else ""
         roots = tuple(
             Root(shaped(x), shaped(s), shaped(r), (shaped(a), shaped(b)))

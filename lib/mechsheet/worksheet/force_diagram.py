@@ -94,12 +94,17 @@ def polar_diagrams(at: int, turn: int = 360, **forces: NDArray[np.complex128]) -
 
     ``at`` and ``turn`` are those of `polar`, the forces fields of the worksheet by their symbols: ``R12=R_A``.
     """
-    frame = sys._getframe(1)
-    known = registry(frame.f_globals)
-    fields = {k.arg: k.value.id for k in source.call(frame).keywords if isinstance(k.value, ast.Name)}
-    said = {name: known[field].meaning if field in known else "" for name, field in fields.items()}
+    said = meanings()
     drawn = ((polar(R, at, name, turn), said.get(name, "")) for name, R in forces.items())
     return side_by_side(*drawn, row=3)
+
+
+def meanings() -> dict[str, str]:
+    """What lines say that declare the fields given to the call of the caller's caller, by its keywords."""
+    frame = sys._getframe(2)
+    known = registry(frame.f_globals)
+    given = {k.arg: k.value.id for k in source.call(frame).keywords if k.arg and isinstance(k.value, ast.Name)}
+    return {name: known[field].meaning for name, field in given.items() if field in known}
 
 
 def _at(field: ArrayLike, at: int) -> complex:

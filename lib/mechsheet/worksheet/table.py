@@ -2,7 +2,7 @@
 
 import ast
 import sys
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from types import FrameType
 from typing import TYPE_CHECKING, Any, ClassVar
@@ -207,8 +207,8 @@ def _columns(
 ) -> tuple[Column, ...]:
     known, columns = lines.registry(frame.f_globals), []
     nodes = [n for node in nodes for n in (node.value.elts if _is_group(node) else [node])]  # type: ignore[attr-defined]
-    shape = _common_shape(nodes, values)
-    for node, value in zip(nodes, values, strict=True):
+    rows = _as_long_as_each_other(nodes, values, every)
+    for node, value, row in zip(nodes, values, rows, strict=True):
         given = _input(frame.f_globals, node)
         name, part = (_of_table(node), "") if given else _name(node)
         if (kind := np.asarray(value).dtype.kind) not in "iufb":
@@ -226,7 +226,7 @@ def _columns(
             refuse(error)
         label = heading(name, part)
         unit = show.get(label, line.unit)
-        shown = np.broadcast_to(np.asarray(value) / units.parse(unit).factor, shape)[..., ::every].ravel()
+        shown = row / units.parse(unit).factor
         whole = kind in "iu"
         own = "" if given else symbol.stem(name)
         places = usual_decimals(unit) if decimals is None else decimals
@@ -235,13 +235,19 @@ def _columns(
     return tuple(columns)
 
 
-def _common_shape(nodes: list[ast.expr], values: tuple[Any, ...]) -> tuple[int, ...]:
-    """Shape over which all columns stand."""
+def _as_long_as_each_other(nodes: list[ast.expr], values: tuple[Any, ...], every: int) -> list[NDArray[Any]]:
     try:
-        return np.broadcast_shapes((1,), *(np.shape(v) for v in values))
+        return listed(values, every)
     except ValueError:
         lengths = ", ".join(f"{len(v)} of {ast.unparse(n)}" for n, v in zip(nodes, values, strict=True) if np.ndim(v))
         refuse(SheetError(f"columns must be as long as each other, not {lengths}"))
+
+
+def listed(values: Sequence[Any], every: int) -> list[NDArray[Any]]:
+    """Quantities at every so many positions of the shape that they have together, the last axis running fastest."""
+    whole = np.broadcast_arrays(np.zeros(1), *values)[1:]
+    some = [value[..., ::every] for value in whole] if every > 1 else whole
+    return [value.reshape(-1) if value.ndim > 1 else value for value in some]
 
 
 def usual_decimals(unit: str) -> int:
