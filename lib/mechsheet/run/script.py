@@ -37,7 +37,10 @@ def _run(worksheet: str) -> None:
     gc.set_threshold(_OBJECTS, *gc.get_threshold()[1:])
     from mechsheet.worksheet.cells import load  # on use: an interruption while this loads is told as any other
 
-    load(worksheet).run_whole()
+    try:
+        load(worksheet).run_whole()
+    finally:
+        gc.freeze()  # the process ends: to look through all that is left takes a sixth of a run, for nothing
 
 
 if __name__ == "__main__":
