@@ -8,6 +8,8 @@ import pytest
 from openpyxl import load_workbook
 
 HITCH = Path(__file__).parents[1] / "worksheets" / "hitch.py"
+# The program that marimo makes of a worksheet, which is what it was before its cells were run from the file.
+BY_MARIMO = "import runpy, sys; del sys.argv[0]; runpy.run_path(sys.argv[0], run_name='sheet')['app'].run()"
 
 
 def run(*arguments: str, sheet: Path = HITCH, flags: tuple[str, ...] = ()) -> subprocess.CompletedProcess[str]:
@@ -96,8 +98,10 @@ def changed(tmp_path: Path, old: str, new: str) -> Path:
 def test_stopped_cell_is_no_success(tmp_path):
     sheet = changed(tmp_path, "    Ra = (", "    mo.stop(True)\n    Ra = (")
     done = run(f"--out={tmp_path}", sheet=sheet)
-    assert done.returncode == 1
-    assert done.stderr.startswith("error: some cells did not run: ") and "table_61" in done.stderr
+    assert (done.returncode, done.stderr) == (1, "error: cell stability stopped before its end\n")
+    by_marimo = run(f"--out={tmp_path}", sheet=sheet, flags=("-c", BY_MARIMO))
+    missing = by_marimo.stderr.partition("SheetError: some cells did not run: ")[2]
+    assert by_marimo.returncode == 1 and "table_61" in missing
     assert not (tmp_path / "hitch.xlsx").exists()
 
 
@@ -152,12 +156,25 @@ def test_implement_beyond_the_machine_fails_but_is_written(tmp_path):
     assert (tmp_path / "hitch.xlsx").exists()
 
 
-def test_the_command_runs_every_worksheet_without_marimo_to_the_same_report_and_workbook(tmp_path):
-    """What the file itself prints and writes as a program of marimo is the measure."""
-    flags, sheet = ("-X", "importtime", "-m", "mechsheet.run.script"), HITCH.with_name("joint.py")
-    alone, command = tmp_path / "alone", tmp_path / "command"
-    by_marimo, by_command = run(f"--out={alone}", sheet=sheet), run(f"--out={command}", sheet=sheet, flags=flags)
-    assert (by_marimo.returncode, by_command.returncode) == (0, 0)
-    assert "| marimo\n" not in by_command.stderr and "xlsxwriter" in by_command.stderr
-    assert by_command.stdout == by_marimo.stdout.replace(str(alone), str(command))
-    assert (command / "joint.xlsx").read_bytes() == (alone / "joint.xlsx").read_bytes()
+@pytest.mark.parametrize("flags", [(), ("-m", "mechsheet.run.script")], ids=["itself", "command"])
+def test_cells_are_run_from_the_file_to_the_same_report_and_workbook_as_by_marimo(tmp_path, flags):
+    """What marimo's own program of the file prints and writes is the measure."""
+    sheet, other, own = HITCH.with_name("joint.py"), tmp_path / "marimo", tmp_path / "own"
+    by_marimo = run(f"--out={other}", sheet=sheet, flags=("-X", "importtime", "-c", BY_MARIMO))
+    done = run(f"--out={own}", sheet=sheet, flags=("-X", "importtime", *flags))
+    assert (by_marimo.returncode, done.returncode) == (0, 0)
+    assert ("| marimo\n" in done.stderr) == (not flags) and "xlsxwriter" in done.stderr
+    running = "marimo._output.formatters.formatters"  # which marimo loads as it runs an app
+    assert running in by_marimo.stderr and running not in done.stderr
+    assert done.stdout == by_marimo.stdout.replace(str(other), str(own))
+    assert (own / "joint.xlsx").read_bytes() == (other / "joint.xlsx").read_bytes()
+
+
+def test_a_worksheet_that_imports_in_a_cell_is_run_once_by_marimo(tmp_path):
+    """Its cells have begun by then."""
+    sheet = tmp_path / "own.py"
+    cell = (
+        "@app.cell\ndef one():\n    print('begun')\n    from mechsheet import dot\n    print(dot(2, 3))\n    return\n"
+    )
+    sheet.write_text(f"import marimo\napp = marimo.App()\n\n{cell}\nif __name__ == '__main__':\n    app.run()\n")
+    assert run(sheet=sheet).stdout.splitlines() == ["begun", "6.0"]

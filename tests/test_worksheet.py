@@ -4,13 +4,16 @@ import runpy
 import shutil
 import subprocess
 import sys
+import tokenize
 from dataclasses import replace
+from io import StringIO
 from pathlib import Path
 from textwrap import indent
 
 import numpy as np
 import pytest
 
+from mechsheet.worksheet import source
 from mechsheet.worksheet.cells import checks, evaluate, load, results
 from mechsheet.worksheet.errors import SheetError
 from worksheets import hitch
@@ -25,6 +28,22 @@ def test_capacity_runs_only_what_it_depends_on():
         *("sides", "fields", "centre_of_mass", "transmission", "capacity"),
     }
     assert len(needed) < len(load(HITCH).cells) / 4
+
+
+def test_comments_are_those_of_pythons_own_tokens():
+    """In every way in which texts and comments may hold each other, and in the files of the project."""
+    files = (path for folder in ("tests", "worksheets") for path in HITCH.parents[1].glob(f"{folder}/**/*.py"))
+    texts = [path.read_text(encoding="utf-8") for path in files]
+    texts += [
+        """x = '#' "\\"#" r'\\'  # a '#' b\ny = \'\'\'# " \n'' #\'\'\'; z = f"{x:#}"  #: c\n#d""",
+        "a = 'b\\\n#c'  # d",
+        "",
+    ]
+    for text in texts:
+        tokens = tokenize.generate_tokens(StringIO(text).readline)
+        assert source.comments(text) == {
+            t.start[0]: t.string.lstrip("# ") for t in tokens if t.type == tokenize.COMMENT
+        }
 
 
 def test_what_marimos_editor_saves_is_the_same_worksheet(tmp_path):

@@ -116,16 +116,29 @@ shown.page = lambda: import_module("mechsheet.page.values")  # type: ignore[assi
 shown.cells_in_page = _cells_in_page
 shown.study = lambda name: getattr(import_module(f"mechsheet.studies.{name}"), name)
 
-# A worksheet that is run as a script tells its mistakes in a line.
-_main = sys.modules.get("__main__")
-if type(getattr(_main, "app", None)).__module__.startswith("marimo."):
-    import_module("mechsheet.run.ending").watch(_main.__file__)
+# A worksheet that is run as a script tells its mistakes in a line, and its cells are run as by the command.
+_started = vars(sys.modules.get("__main__", sys))
+_worksheet = type(_started.get("app")).__module__.startswith("marimo.")
+if _worksheet:
+    import_module("mechsheet.run.ending").watch(_started["__file__"])
+
+
+def _asked_by_the_worksheet() -> bool:
+    """Whether the statements of the started file itself ask for a name, and not a cell that marimo runs of it."""
+    frame = sys._getframe(2)
+    while frame.f_back and frame.f_globals.get("__name__") == "importlib._bootstrap":
+        frame = frame.f_back
+    return frame.f_globals is _started and frame.f_code.co_name == "<module>"
+
+
 __all__ = sorted([*_HOMES, "__version__"])
 
 
 def __getattr__(name: str) -> Any:
     """A public name, loaded on its first use: mechanics alone bring numpy alone, and the package itself nothing."""
     if name in _HOMES:
+        if _worksheet and _asked_by_the_worksheet():
+            import_module("mechsheet.run.script").start(_started["__file__"])
         value = getattr(import_module(_HOMES[name]), name)
     elif name == "__version__":
         from importlib.metadata import version  # on use: takes longer than the rest of the package

@@ -279,9 +279,9 @@ class Graph:
             return self.take(source.args[0], source.args[1].reshape(-1)[index])
         if source.op == "join" and index.size:
             sources, which, inside, _ = source.args
-            chosen = np.unique(which.reshape(-1)[index])
-            if chosen.size == 1:
-                return self.take(sources[chosen[0]], inside.reshape(-1)[index])
+            chosen = set(which.reshape(-1)[index].flat)
+            if len(chosen) == 1:
+                return self.take(sources[chosen.pop()], inside.reshape(-1)[index])
         key = ("take", source, index.shape, index.tobytes())
         return self._kept(key, "take", (source, _fixed(index), ()), lambda: source.value.reshape(-1)[index], False)
 
@@ -422,7 +422,7 @@ def _whole(join: Node) -> bool:
     """Whether all elements of what is joined are in it."""
     sources, which, inside, _ = join.args
     starts = np.cumsum([0, *(source.size for source in sources)])
-    return bool(np.unique(starts[which] + inside).size == starts[-1])
+    return len(set((starts[which] + inside).flat)) == int(starts[-1])
 
 
 def _fixed(value: Any) -> Values:

@@ -147,7 +147,7 @@ class _Run(OfPositions):
         self.recording, own.values = Recording(self.graph, **every), {**self.names}
         self.graph.labels = {**labels}
         for cell in self.sheet.cells:
-            binds = {name for line in cell.lines for name in statement.facts(line, self.sheet.path).touched}
+            binds = {name for line in cell.lines for name in statement.touched(line)}
             if cell not in self.needed and any(name in self.lines for name in binds):
                 for each in [*self.sheet.needed(sorted(cell.needs), known), cell]:
                     self.run(each, draws=False)

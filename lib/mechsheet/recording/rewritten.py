@@ -13,9 +13,14 @@ from types import CodeType, FunctionType
 from typing import Any
 
 from mechsheet.recording.choices import CALLS
+from mechsheet.worksheet import source
 from mechsheet.worksheet.cells import bound
 
 _NAMES = {"float", "int", "complex", "len", "max", "min", "pow", "round"}
+_KINDS = (
+    *(ast.Import, ast.ImportFrom, ast.JoinedStr, ast.Subscript, ast.IfExp, ast.BoolOp, ast.Compare, ast.Match, ast.Not),
+    *(ast.AugAssign, ast.If, ast.While, ast.For, ast.FunctionDef, ast.ExceptHandler),
+)
 _SCOPED = ast.NamedExpr, ast.Yield, ast.YieldFrom, ast.Await  # are not what they are inside a lambda
 
 
@@ -229,6 +234,13 @@ def _unbound(name: str, node: ast.stmt) -> ast.stmt:
     return ast.copy_location(ast.If(test, [ast.Delete([ast.Name(name, ast.Del())])], []), node)
 
 
+def _may_be_rewritten(part: ast.AST) -> bool:
+    """Whether a part of a statement is of a kind that is rewritten, as it is in few formulas."""
+    if isinstance(part, ast.Call):
+        return isinstance(part.func, ast.Name) and (part.func.id in _NAMES or part.func.id == "Check")
+    return isinstance(part, _KINDS) or (isinstance(part, ast.Attribute) and isinstance(part.ctx, ast.Store))
+
+
 def _is_of_the_whole(part: ast.AST) -> bool:
     """Whether a part of a function is not what it is in a function of its own."""
     return isinstance(part, (*_SCOPED, ast.Global, ast.Nonlocal)) or (
@@ -301,6 +313,8 @@ def _call(name: str, at: ast.AST, *args: ast.expr) -> ast.Call:
 
 def compiled(statement: ast.stmt, path: str) -> CodeType:
     """Code of a statement, to be run among the names of `CALLS`; the statement itself is not changed."""
+    if not any(map(_may_be_rewritten, source.nodes(statement))):
+        return compile(ast.Module([statement], []), path, "exec")
     tree = ast.Module([pickle.loads(pickle.dumps(statement))], [])
     return compile(ast.fix_missing_locations(_Rewriting().visit(tree)), path, "exec")
 

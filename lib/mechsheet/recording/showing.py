@@ -74,7 +74,8 @@ def _singly(shown: ast.expr) -> Iterator[ast.expr]:
 
 def bound(expression: ast.expr) -> ast.stmt:
     """A statement that binds the value of an expression to `HERE`."""
-    return ast.copy_location(ast.Assign([ast.Name(HERE, ast.Store())], expression), expression)
+    bind = ast.copy_location(ast.Assign([ast.Name(HERE, ast.Store())], expression), expression)
+    return ast.fix_missing_locations(bind)
 
 
 def drawings(shown: Any) -> Iterator[Drawing]:

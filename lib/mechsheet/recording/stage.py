@@ -224,10 +224,12 @@ class Stage:
         except ValueError:
             return False
         size = np.max(np.abs(b), initial=0.0, where=np.isfinite(b))
-        terms = max(_made_of(part, self.recording.made_of) for part in value.parts)
-        off = 1e-7 * max(size, 1e-6 * terms)
         with np.errstate(invalid="ignore"):  # of two infinite numbers
-            return bool(np.all((np.abs(a - b) <= off) | (~np.isfinite(a) & ~np.isfinite(b))))
+            off = np.abs(a - b)[np.isfinite(a) | np.isfinite(b)]
+        if (off <= 1e-7 * size).all():
+            return True
+        terms = max(_made_of(part, self.recording.made_of) for part in value.parts)
+        return bool((off <= 1e-7 * max(size, 1e-6 * terms)).all())
 
     def kept(self, own: Any, rests_on: Sequence[Node]) -> Any:
         """The worksheet's own value instead of a recorded one; what it shows of it too."""

@@ -47,12 +47,18 @@ def facts(statement: ast.stmt, path: str) -> Statement:
     beside = {id(n) for argument in _beside(nodes) for n in source.nodes(argument)}
     return Statement(
         compiled(statement, path),
-        tuple(dict.fromkeys([*bound(statement), *_changed(nodes)])),
+        touched(statement),
         frozenset(n.id for n in names),
         frozenset(n.id for n in names if id(n) not in beside),
         frozenset(n.attr for n in attributes),
         any(n.id == "g" and id(n) not in of_parts for n in names),
     )
+
+
+@lru_cache(maxsize=4096)
+def touched(statement: ast.stmt) -> tuple[str, ...]:
+    """Names that a statement binds, or whose value it changes."""
+    return tuple(dict.fromkeys([*bound(statement), *_changed(source.nodes(statement))]))
 
 
 @lru_cache(maxsize=4096)
@@ -72,7 +78,8 @@ def apart(statement: ast.stmt) -> tuple[ast.stmt, ...]:
                     known = ast.Name(f"_part {k}", ast.Load())
                 names.append(known if value is part else ast.Starred(known, ast.Load()))
             together = (ast.List if isinstance(statement.value, ast.List) else ast.Tuple)(names, ast.Load())
-            return tuple(ast.copy_location(line, statement) for line in (*lines, ast.Assign([target], together)))
+            made = (ast.copy_location(line, statement) for line in (*lines, ast.Assign([target], together)))
+            return tuple(map(ast.fix_missing_locations, made))
     return ()
 
 

@@ -2,6 +2,7 @@
 
 import datetime
 import random
+import sys
 import time
 from collections.abc import Callable
 from functools import cache
@@ -25,25 +26,36 @@ def clock_read() -> None:
 _NAMES = ("time", "monotonic", "perf_counter", "process_time", "thread_time")
 _CLOCKS = {getattr(time, f"{name}{unit}") for name in _NAMES for unit in ("", "_ns")}
 _CLOCKS |= {time.localtime, time.gmtime, time.ctime, time.asctime, time.strftime}
-_SEEDED = {random.Random, np.random.default_rng, np.random.RandomState, np.random.SeedSequence}
-_SEEDED |= set(np.random.BitGenerator.__subclasses__())
-_DRAWING: tuple[Any, ...] = (random.random, np.random.rand)
-_SHARED = tuple(draw.__self__ for draw in _DRAWING)  # generators that all of a program draw from
 
 
 def instead_of_chance(value: Any) -> Any:
     """What refuses to read the clock, and to draw numbers without a seed; None in place of anything else."""
+    seeded, shared = _generators("numpy.random" in sys.modules)
     try:
         if value in _CLOCKS:
             return lambda *_, **__: clock_read()
-        if value in _SEEDED:
+        if value in seeded:
             return _with_seed(value)
     except TypeError:  # not hashable: neither a function nor a class
         return None
     if isinstance(value, type) and value in (datetime.date, datetime.datetime):
         return _calendar(value)
-    shared = any(getattr(value, "__self__", None) is generator for generator in _SHARED)
-    return _draw if (shared and value is not random.seed) or value is random.SystemRandom else None
+    draws = any(getattr(value, "__self__", None) is generator for generator in shared)
+    return _draw if (draws and value is not random.seed) or value is random.SystemRandom else None
+
+
+@cache
+def _generators(of_numpy: bool) -> tuple[set[Any], list[Any]]:
+    """What takes a seed, and the generators that all of a program draw from.
+
+    Those of numpy, which loads them on use, are none of a worksheet's before they are loaded.
+    """
+    seeded, drawing = set[Any]([random.Random]), list[Any]([random.random])
+    if of_numpy:
+        seeded |= {np.random.default_rng, np.random.RandomState, np.random.SeedSequence}
+        seeded |= set(np.random.BitGenerator.__subclasses__())
+        drawing.append(np.random.rand)
+    return seeded, [draw.__self__ for draw in drawing]
 
 
 def _draw(*_: Any, **__: Any) -> Any:

@@ -47,6 +47,8 @@ def _uncollected() -> Iterator[None]:
     try:
         yield
     finally:
+        gc.freeze()
+        gc.unfreeze()  # all counts as old now: the next look among what is new does not go over it either
         if was:
             gc.enable()
 

@@ -217,8 +217,3 @@ def needing_place(roots: Iterable[Node], named: Set[Node], places: Container[Nod
             placed.setdefault(node.args[0])
         weight[node], depth[node] = own, deep
     return list(placed)
-
-
-def _of_several(node: Node) -> bool:
-    """Whether elements of several quantities are joined in one."""
-    return node.op == "join" and len(np.unique(node.args[1])) > 1

@@ -141,13 +141,27 @@ class Book:
 
 @cache
 def _sheet_class() -> Any:
-    """XlsxWriter's worksheet, which otherwise looks for thirty new functions of Excel in every formula."""
+    """XlsxWriter's worksheet, which otherwise looks for 150 new functions in each formula: ours have their names there.
+
+    A formula and its number are written without a look for what else a cell may be.
+    """
+    from xlsxwriter.utility import xl_rowcol_to_cell_fast  # type: ignore[import-untyped]  # on use: as above
     from xlsxwriter.worksheet import CellFormulaTuple, Worksheet  # type: ignore[import-untyped]  # on use: as above
 
     class Sheet(Worksheet):  # type: ignore[misc]
         def write_live(self, row: int, col: int, formula: str, style: Any, value: float | str) -> None:
             self._check_dimensions(row, col)  # which also notes how far the sheet goes
             self.table[row][col] = CellFormulaTuple(formula.removeprefix("="), style, value)
+
+        def _prepare_formula(self, formula: str, _expand: bool = False) -> str:
+            return formula.removeprefix("=")
+
+        def _write_cell(self, row: int, col: int, cell: Any) -> None:
+            if type(cell) is not CellFormulaTuple or type(cell.value) is not float:
+                super()._write_cell(row, col, cell)
+                return
+            place = ("r", xl_rowcol_to_cell_fast(row, col)), ("s", cell.format._get_xf_index())
+            self._xml_formula_element(cell.formula, cell.value, place)
 
     return Sheet
 

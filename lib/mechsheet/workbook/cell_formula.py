@@ -239,7 +239,7 @@ def _of_one_source(node: Node) -> list[Index]:
     if node.op != "join":
         return [rows]
     which = node.args[1].reshape(-1)
-    return [rows[which == source] for source in np.unique(which)]
+    return [rows[which == source] for source in sorted(set(which.tolist()))]
 
 
 def _only(values: Any) -> Any:

@@ -119,7 +119,7 @@ def _several(expression: ast.expr) -> str:
     match expression:  # without brackets of its own it begins where its first part does
         case ast.Tuple([first, *_]) if first.col_offset == expression.col_offset:
             return ast.unparse(expression)[1:-1]
-    for node in ast.walk(expression):
+    for node in source.nodes(expression):
         match node:
             case ast.BinOp(ast.Tuple([ast.Constant(), _]), _, _) | ast.BinOp(_, _, ast.Tuple([ast.Constant(), _])):
                 return ast.unparse(expression)

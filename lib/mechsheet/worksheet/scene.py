@@ -16,7 +16,6 @@ A wanted or limited name is that of a result, a part of one as in a table (``PS6
 """
 
 import re
-import tomllib
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -57,6 +56,8 @@ def beside(worksheet: Path) -> list[Path]:
 
 def is_of(text: str, declared: Iterable[str]) -> bool:
     """Whether the text of a file is that of a scene that gives inputs, all of them among the ``declared`` ones."""
+    import tomllib  # on use: most runs are given no scene
+
     try:
         given = tomllib.loads(text).get("inputs", {})
     except tomllib.TOMLDecodeError:
@@ -69,6 +70,8 @@ def load(path: Path) -> Scene:
 
     Raises SheetError naming the file and what in it cannot be used.
     """
+    import tomllib  # on use: as above
+
     text = ""
     try:
         text = path.read_text(encoding="utf-8-sig")
