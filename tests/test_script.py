@@ -178,3 +178,13 @@ def test_a_worksheet_that_imports_in_a_cell_is_run_once_by_marimo(tmp_path):
     )
     sheet.write_text(f"import marimo\napp = marimo.App()\n\n{cell}\nif __name__ == '__main__':\n    app.run()\n")
     assert run(sheet=sheet).stdout.splitlines() == ["begun", "6.0"]
+
+
+def test_what_a_worksheet_does_with_what_marimo_runs_of_it_is_done(tmp_path):
+    sheet = tmp_path / "own.py"
+    end = "    app.run()\n"
+    text = HITCH.with_name("slotted_link.py").read_text(encoding="utf-8")
+    assert text.endswith(end)
+    sheet.write_text(text.removesuffix(end) + '    _, defs = app.run()\n    print(type(defs["g"]).__name__)\n', encoding="utf-8")
+    done = run(f"--out={tmp_path}", sheet=sheet)
+    assert done.stdout.endswith("SlottedLink\n"), done.stdout + done.stderr

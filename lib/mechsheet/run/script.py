@@ -7,9 +7,11 @@ where the file itself is started, which has loaded it, as long again to register
 import gc
 import sys
 from io import StringIO
+from pathlib import Path
 
 from mechsheet.run.ending import watch
 
+_END = 'if __name__ == "__main__":\n    app.run()'  # of a worksheet, as marimo writes it
 _OBJECTS = 100_000  # made between two searches for circles among them, which take a tenth of a run if done as usual
 
 
@@ -24,11 +26,12 @@ def main() -> None:
 def start(worksheet: str) -> None:
     """``python WORKSHEET ..`` from where its setup asks for a first name of the package: the process ends here.
 
-    Returns where the file was started for something else, such as an export of its page by marimo.
+    Returns where the file was started for something else, such as an export of its page by marimo, or does something
+    else with what marimo runs of it.
     """
     from mechsheet.run.arguments import is_script  # on use: as below
 
-    if is_script(worksheet):
+    if is_script(worksheet) and Path(worksheet).read_text(encoding="utf-8").rstrip().endswith(_END):
         _run(worksheet)
         sys.exit()
 
