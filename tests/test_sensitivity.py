@@ -8,9 +8,10 @@ import numpy as np
 import pytest
 
 from mechsheet import units
+from mechsheet.recording.evaluation import evaluate
 from mechsheet.studies.sensitivity import sensitivity
 from mechsheet.studies.tolerance import tolerance
-from mechsheet.worksheet.cells import evaluate, load
+from mechsheet.worksheet.cells import load
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.inputs import declared
 from mechsheet.worksheet.kinds import Input

@@ -11,7 +11,8 @@ from textwrap import indent
 import numpy as np
 import pytest
 
-from mechsheet.worksheet.cells import checks, evaluate, load, results
+from mechsheet.recording.evaluation import evaluate
+from mechsheet.worksheet.cells import checks, load, results
 from mechsheet.worksheet.errors import SheetError
 from worksheets import hitch
 

@@ -377,7 +377,8 @@ def section_6():
     ## 6 Leave out what is not needed
 
     A worksheet is a graph of cells. `evaluate` runs those that the results asked for depend on, and no others: here for
-    the hitch, against the whole document with its tables and drawings.
+    the hitch, against the whole document with its tables and drawings. What is asked for again is recorded the second
+    time, and then computed without the cells wherever that gives the same; drawings and tables are not.
     """)
     return
 
