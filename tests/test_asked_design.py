@@ -10,10 +10,10 @@ from conftest import WITHIN
 from own_worksheet import own
 from playwright.sync_api import expect
 
+from mechsheet import evaluate
 from mechsheet.run import arguments, batch
 from mechsheet.studies import asked_design, refined
 from mechsheet.worksheet import cells
-from mechsheet.worksheet.cells import evaluate
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.inputs import declared
 

@@ -8,13 +8,14 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from by_cells import by_cells
 from openpyxl import load_workbook
 from test_exports import differences
 from test_exports import read as workbook
 
 from mechsheet.run import arguments, batch
 from mechsheet.workbook import save
-from mechsheet.worksheet.cells import evaluate, load
+from mechsheet.worksheet.cells import load
 from mechsheet.worksheet.errors import SheetError
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -56,7 +57,7 @@ def test_the_example_scenes_are_what_they_say(capsys):
     sheet = load(HITCH)
     road, _ = batch.compute(sheet, "", arguments.load(EXAMPLES / "transport.toml", ()))
     raised = {q.name: q.values for q in road.quantities}
-    document = evaluate(HITCH, ["L4", "L7", "P56", "PS6", "phi6"])
+    document = by_cells(HITCH, ["L4", "L7", "P56", "PS6", "phi6"])
     assert raised["L4"] == pytest.approx(document["L4"], abs=1e-5)
     assert raised["L7"] == pytest.approx(document["L7"], abs=1e-5)
     S = np.array([0.66, 0.665, 0.67])
@@ -165,10 +166,10 @@ def test_summary_workbook(tmp_path):
     assert cells["Symbol"] == ("Unit", "Meaning", "a", "b", "c")
     assert cells["P6"] == ("N", "weight of the implement", 20000, 27500, None)
     assert cells["N_pol"][2:] == (3, 10, None) and "L5" not in cells
-    GS6 = evaluate(HITCH, ["GS6"], P6=20e3, N_pol=3)["GS6"], evaluate(HITCH, ["GS6"])["GS6"]
+    GS6 = by_cells(HITCH, ["GS6"], P6=20e3, N_pol=3)["GS6"], by_cells(HITCH, ["GS6"])["GS6"]
     assert cells["GS6 least"] == ("N", "capacity at the centre of mass", *(x.min() for x in GS6), None)
     assert cells["GS6 greatest"][2:4] == tuple(x.max() for x in GS6)
-    assert cells["L4"][2] == cells["L4"][3] == evaluate(HITCH, ["L4"])["L4"]
+    assert cells["L4"][2] == cells["L4"][3] == by_cells(HITCH, ["L4"])["L4"]
     assert cells["GS6 >= 30000 N"][2:] == (None, "FAIL", None)
     assert cells["verdict"][2:] == ("PASS", "FAIL", "FAIL")
     assert cells["reason"][4] == "weight of the implement P6 = -1.0 N must be >= 0"

@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 
 from mechsheet import __main__ as launcher
-from mechsheet.worksheet.cells import evaluate
+from mechsheet.recording.evaluation import evaluate
 from mechsheet.worksheet.errors import SheetError
 
 TEMPLATE = (Path(launcher.__file__).parent / "run" / "new_worksheet.txt").read_text(encoding="utf-8")

@@ -140,7 +140,7 @@ KINDS: tuple[tuple[str, str, str, Alike], ...] = (
     (r"5 Find against fields", r"r_\d* \[", r"", cancelled),
     (r"", r"(digits|most) \[-\]", r"", digits),
     (r"", r"error \[-?\]", r"", error),
-    (r"", r"(time|ratio|place|least time|of whole|of a run|spread|runs) \[|.* \[µs\]", r"", duration),
+    (r"", r"(time|again|ratio|place|least time|of whole|of a run|spread|runs) \[|.* \[µs\]", r"", duration),
     (r"0\.1 Machine", r"", r"", duration),
 )
 

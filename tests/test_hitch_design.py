@@ -13,9 +13,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 from openpyxl import load_workbook
 
+from mechsheet.recording.evaluation import evaluate
 from mechsheet.run.batch import compute
 from mechsheet.studies.design import Judged, Requirement, pareto, save_scene, scene_text, search
-from mechsheet.worksheet.cells import evaluate
 from mechsheet.worksheet.cells import load as load_sheet
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.inputs import declared

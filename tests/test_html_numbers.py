@@ -13,6 +13,7 @@ import test_rows_followed
 from in_browser import evaluated
 from own_worksheet import ELSEWHERE, OTHER, own, recorded
 
+from mechsheet import evaluate
 from mechsheet.html import javascript
 from mechsheet.html.elementwise import ELEMENTWISE
 from mechsheet.recording import operations
@@ -86,7 +87,7 @@ def assert_computed(page: Page, sheet: cells.Worksheet, others: list[dict[str, A
     for inputs, found in zip(given, evaluated(page, script, given), strict=True):
         parts = [found["values"][key] for key, _ in zip("ab", value.parts, strict=False)]
         try:
-            expected = cells.evaluate(sheet.path, ["result"], **inputs)["result"]
+            expected = evaluate(sheet.path, ["result"], **inputs)["result"]
         except Exception:  # the worksheet itself has no number for these inputs
             assert all(part is None or np.isnan(part).all() for part in parts), inputs
             continue

@@ -21,7 +21,7 @@ from mechsheet import cross as cross_of
 from mechsheet.accuracy import arithmetic as exact
 from mechsheet.accuracy.arithmetic import cross, mpc, mpf
 from mechsheet.recording.dimensions import mismatches
-from mechsheet.worksheet.cells import evaluate
+from mechsheet.recording.evaluation import evaluate
 from mechsheet.worksheet.cells import load as load_sheet
 from mechsheet.worksheet.check import Check
 from mechsheet.worksheet.lines import Formula, formulas

@@ -11,8 +11,8 @@ from openpyxl import load_workbook
 from own_worksheet import own
 from typed_workbook import typed
 
+from mechsheet import evaluate
 from mechsheet.run import report
-from mechsheet.worksheet import cells
 
 LOOPS = """
 from mechsheet import check
@@ -63,7 +63,7 @@ def test_loops_are_followed_while_they_end_within_the_turns_of_the_cells(
             assert shown[0][0] == "#N/A" and set(shown[1]) == {"#N/A"}
             assert (checks["root"], made) == ("not evaluated", "FAIL")
             continue
-        expected = cells.evaluate(sheet.path, ["single", "field"], F=F)
+        expected = evaluate(sheet.path, ["single", "field"], F=F)
         np.testing.assert_allclose(shown[0], expected["single"], rtol=1e-10)
         np.testing.assert_allclose(shown[1], expected["field"], rtol=1e-10)
         assert (checks["root"], made) == ("PASS", "PASS")

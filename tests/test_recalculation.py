@@ -18,6 +18,7 @@ from openpyxl import Workbook, load_workbook
 from test_recorded_worksheet import FOLLOWED, own
 from typed_workbook import typed
 
+from mechsheet import evaluate
 from mechsheet.run import arguments, batch, report
 from mechsheet.workbook import reading
 from mechsheet.workbook.place import DefinedNames
@@ -232,7 +233,7 @@ def test_values_stand_beside_the_formulas(tmp_path: Path) -> None:
     """pandas, which computes nothing, reads the worksheet's numbers to the last bit, which is the processor's."""
     path = export("hitch", tmp_path, {})
     read = pd.read_excel(path, sheet_name="4.1 Lifting capacity", header=2, skiprows=[3])
-    own = cells.evaluate(ROOT / "worksheets" / "hitch.py", ["table_41"])["table_41"].frame()
+    own = evaluate(ROOT / "worksheets" / "hitch.py", ["table_41"])["table_41"].frame()
     assert read["GS6"].head(10).tolist() == own["GS6 [N]"].tolist()
 
 
@@ -313,7 +314,7 @@ def test_found_value_without_a_closed_form_is_searched_or_that_of_its_own_inputs
     assert after["B5"].value == "#N/A", "L7 is computed at the stroke that is not known"
     assert verdicts["upper link L7: Find and the closed form"] == "not evaluated"
     assert math.isclose(other["B4"].value, before["B4"].value, rel_tol=1e-14), "it does not rest on eta"
-    own = cells.evaluate(tmp_path / "searched.py", ["S_p", "L7"], **lower)
+    own = evaluate(tmp_path / "searched.py", ["S_p", "L7"], **lower)
     assert found["J4"].value == "the one change of sign of 97 places" and abs(found["E4"].value) < 1e-12
     assert math.isclose(found["B4"].value, own["S_p"], rel_tol=1e-13)
     assert math.isclose(found["B5"].value, own["L7"], rel_tol=1e-12)
@@ -496,7 +497,7 @@ def test_what_a_worksheet_of_ones_own_does_is_followed_by_its_cells(
     lines = [f"y{n}_ = {expression}  # [-] line {n}" for n, expression in enumerate(FOLLOWED)]
     names = [f"y{n}_" for n in range(len(lines))]
     alike = defaultdict(list)
-    for name, value in cells.evaluate(own(tmp_path, "\n".join(lines)).path, names).items():
+    for name, value in evaluate(own(tmp_path, "\n".join(lines)).path, names).items():
         alike[np.shape(value)] += [f"{name}.real", f"{name}.imag"] if np.iscomplexobj(value) else [name]
     shown = [f'table_{n} = table("{n}", "table {n}", {", ".join(these)})' for n, these in enumerate(alike.values())]
     sheet = own(tmp_path, "\n".join([*lines, *shown]))

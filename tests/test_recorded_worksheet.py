@@ -12,7 +12,7 @@ import pytest
 from openpyxl import load_workbook
 from own_worksheet import OTHER, own, recorded, value_of
 
-from mechsheet import units
+from mechsheet import evaluate, units
 from mechsheet.recording import positions
 from mechsheet.recording.dimensions import dimensions
 from mechsheet.recording.numbers import numbers
@@ -92,7 +92,7 @@ def test_a_line_is_followed(expression: str, inside: bool, tmp_path: Path) -> No
     _, recording = recorded(sheet)
     assert not recording.gaps and not [guard for guard in recording.guards.values() if not guard.rows]
     for given in ({}, *OTHER):
-        own_value = np.asarray(cells.evaluate(sheet.path, ["y"], **given)["y"])
+        own_value = np.asarray(evaluate(sheet.path, ["y"], **given)["y"])
         value = value_of(recording, "y", given)
         assert value.shape == own_value.shape
         np.testing.assert_allclose(value, own_value + 0, rtol=1e-12, atol=1e-13)
@@ -119,7 +119,7 @@ def test_what_is_imported_or_defined_under_any_name_is_followed(lines: str, tmp_
     _, recording = recorded(sheet)
     assert not recording.gaps and not [guard for guard in recording.guards.values() if not guard.rows]
     for given in OTHER:
-        own_value = cells.evaluate(sheet.path, ["y"], **given)["y"]
+        own_value = evaluate(sheet.path, ["y"], **given)["y"]
         np.testing.assert_allclose(value_of(recording, "y", given), own_value, rtol=1e-12, atol=1e-13)
 
 
@@ -162,7 +162,7 @@ def test_ways_that_only_bind_names_or_end_a_function_are_a_choice(lines: str, tm
     _, recording = recorded(sheet)
     assert not recording.gaps and not [guard for guard in recording.guards.values() if not guard.rows]
     for given in ({}, *OTHER, {"F": 4.0, "a": 1.5}):
-        expected = cells.evaluate(sheet.path, ["result"], **given)["result"]
+        expected = evaluate(sheet.path, ["result"], **given)["result"]
         value = value_of(recording, "result", given)
         assert np.shape(value) == np.shape(expected)
         np.testing.assert_allclose(value, expected, rtol=1e-12, atol=1e-13)
@@ -187,7 +187,7 @@ def test_ways_that_change_something_or_cannot_be_gone_are_guards(lines: str, tmp
     assert not recording.gaps and [guard for guard in recording.guards.values() if not guard.rows]
     assert "one" not in recording.checks
     same, other = {"F": 2.51, "a": 1.25}, {"F": 4.0}
-    expected = cells.evaluate(sheet.path, ["result"], **same)["result"]
+    expected = evaluate(sheet.path, ["result"], **same)["result"]
     (node,) = [node for node, name in recording.names.items() if name == "result"]
     known = numbers([node, *recording.guards], {recording.inputs[name]: x for name, x in same.items()})
     np.testing.assert_allclose(known[node], expected, rtol=1e-12)
@@ -205,7 +205,7 @@ def test_what_stands_behind_an_integral_over_all_positions_is_recorded_too(tmp_p
     sheet = cells.read(Path(sheet.path))
     _, recording = recorded(sheet)
     assert not recording.gaps and recording.checks.keys() == {"ok"} and recording.tables.keys() == {"1"}
-    expected = cells.evaluate(sheet.path, ["W"], F=4.0)["W"]
+    expected = evaluate(sheet.path, ["W"], F=4.0)["W"]
     np.testing.assert_allclose(value_of(recording, "W", {"F": 4.0}), expected, rtol=1e-12)
 
 
@@ -220,7 +220,7 @@ table_2 = table("2", "Work", x, off, every=2)"""
     sheet = cells.read(Path(sheet.path))
     _, recording = recorded(sheet)
     assert not recording.gaps
-    other = cells.evaluate(sheet.path, ["off"], F=4.0)["off"]
+    other = evaluate(sheet.path, ["off"], F=4.0)["off"]
     np.testing.assert_allclose(value_of(recording, "off", {"F": 4.0}), other[::2], rtol=1e-12)
 
 
@@ -230,7 +230,7 @@ def test_a_greatest_number_at_a_listed_position_is_followed_to_others(tmp_path: 
     Path(sheet.path).write_text(Path(sheet.path).read_text().replace('"All", x)', '"All", x, every=2)'))
     sheet = cells.read(Path(sheet.path))
     names, recording = recorded(sheet)
-    other = cells.evaluate(sheet.path, ["most", "y"], a=1.3)
+    other = evaluate(sheet.path, ["most", "y"], a=1.3)
     assert names["y"].argmax() == 2 and other["y"].argmax() == 3
     assert value_of(recording, "most", {"a": 1.3}) == pytest.approx(other["most"], rel=1e-12)
 
@@ -252,7 +252,7 @@ scaled = check("scaled", y - y.max(), 1e-9, of=y)"""
         "within": False, "least": False, "sum": True, "scaled": False
     }  # fmt: skip
     for given in ({}, {"a": 1.3}, {"F": 4.0, "a": 1.1}):
-        own_checks = cells.evaluate(sheet.path, ["within", "scaled"], **given)
+        own_checks = evaluate(sheet.path, ["within", "scaled"], **given)
         for check in (*own_checks["within"], own_checks["scaled"]):
             held = recording.checks[check.name]
             known = numbers([*held.parts, held.limit], {recording.inputs[k]: x for k, x in given.items()})
@@ -301,7 +301,7 @@ def test_what_python_refuses_of_single_numbers_is_no_number(expression: str, tmp
     sheet = own(tmp_path, f"y = {expression}  # [-] line\nz = 1 / (1 + y)  # [-] rests on it")
     given = {"a": 0.5}
     with pytest.raises((ArithmeticError, ValueError)):
-        cells.evaluate(sheet.path, ["y"], **(given if "g.a - " in expression else {"a": 2.0}))
+        evaluate(sheet.path, ["y"], **(given if "g.a - " in expression else {"a": 2.0}))
     _, recording = recorded(sheet, a=0.75 if "g.a - " in expression else 0.1)
     assert not recording.gaps
     there = given if "g.a - " in expression else {"a": 2.0}
@@ -315,7 +315,7 @@ def test_what_python_refuses_of_single_numbers_is_no_number(expression: str, tmp
 def test_a_number_of_numpy_may_be_infinite(expression: str, tmp_path: Path) -> None:
     sheet = own(tmp_path, f"y = {expression}  # [-] line")
     _, recording = recorded(sheet)
-    assert value_of(recording, "y", {"a": 0.5}) == cells.evaluate(sheet.path, ["y"], a=0.5)["y"]
+    assert value_of(recording, "y", {"a": 0.5}) == evaluate(sheet.path, ["y"], a=0.5)["y"]
 
 
 @pytest.mark.parametrize(
@@ -335,7 +335,7 @@ def test_what_numpy_finds_among_ordered_numbers_is_followed_while_they_are(
     _, recording = recorded(sheet)
     assert not recording.gaps
     for given in ({}, {"a": 0.2}, {"F": 1.0}, {"n": 8}, {"a": 2.0}, {"F": 0.5, "a": 0.0}):
-        expected = cells.evaluate(sheet.path, ["y"], **given)["y"]
+        expected = evaluate(sheet.path, ["y"], **given)["y"]
         np.testing.assert_allclose(value_of(recording, "y", given), expected, rtol=1e-12, err_msg=str(given))
     inputs = {recording.inputs[name]: x for name, x in out_of_order.items()}
     known = numbers(recording.guards, inputs)
@@ -375,7 +375,7 @@ def test_functions_of_arrays_are_followed_to_other_inputs(expression: str, tmp_p
     _, recording = recorded(sheet := own(tmp_path, f"y = {expression}  # [-] line"))
     assert not recording.gaps and not [guard for guard in recording.guards.values() if not guard.rows]
     for given in ({}, *OTHER, {"F": 1.125, "a": -0.5}):
-        expected = cells.evaluate(sheet.path, ["y"], **given)["y"]
+        expected = evaluate(sheet.path, ["y"], **given)["y"]
         np.testing.assert_allclose(value_of(recording, "y", given), expected, rtol=1e-9, atol=1e-12)
 
 
@@ -432,7 +432,7 @@ def test_what_python_saw_is_guarded(expression: str, same: dict[str, Any], other
     sheet = own(tmp_path, f"y = {expression}  # [-] line")
     _, recording = recorded(sheet)
     assert not recording.gaps
-    expected = cells.evaluate(sheet.path, ["y"], **same)["y"]
+    expected = evaluate(sheet.path, ["y"], **same)["y"]
     np.testing.assert_allclose(value_of(recording, "y", same), expected, rtol=1e-12)
     if other:
         assert np.isnan(value_of(recording, "y", other)).all()
@@ -444,7 +444,7 @@ def test_iterations_to_convergence_are_repeated(tmp_path: Path) -> None:
     sheet = own(tmp_path, lines)
     _, recording = recorded(sheet)
     for F in (2.5, 2.5000001, 400.0):
-        expected = cells.evaluate(sheet.path, ["z"], F=F)["z"]
+        expected = evaluate(sheet.path, ["z"], F=F)["z"]
         assert value_of(recording, "z", {"F": F}) == pytest.approx(expected, rel=1e-14)
     assert np.isnan(value_of(recording, "z", {"F": -2.0})), "it never ends"
     (node,) = [node for node in recording.graph.nodes.values() if node.op == "iterated"]
@@ -459,7 +459,7 @@ def test_roots_of_a_parabola_come_in_the_order_of_numpy(tmp_path: Path) -> None:
     real = "y = np.roots([g.a, -g.F, 1.2])  # [-] roots\nz = np.roots([1.0, 0, -g.F])[0]  # [-] first"
     _, recording = recorded(own(tmp_path, real))
     for given in ({}, {"F": 3.25}, {"a": -0.2}, {"F": -2.4}):
-        own_values = cells.evaluate(tmp_path / "own.py", ["y", "z"], **given)
+        own_values = evaluate(tmp_path / "own.py", ["y", "z"], **given)
         for name in ("y", "z") if given.get("F", 1) > 0 else "y":
             np.testing.assert_allclose(value_of(recording, name, given), own_values[name], rtol=1e-12)
     assert np.isnan(value_of(recording, "y", {"a": 2.0})).all() and recording.guards
@@ -582,7 +582,7 @@ y = np.array(rows) + v  # [-] line
     sheet = own(tmp_path, lines.strip())
     _, recording = recorded(sheet)
     assert not recording.gaps
-    expected = cells.evaluate(sheet.path, ["y"], F=4.0, a=0.5)["y"]
+    expected = evaluate(sheet.path, ["y"], F=4.0, a=0.5)["y"]
     np.testing.assert_allclose(value_of(recording, "y", {"F": 4.0, "a": 0.5}), expected, rtol=1e-12)
 
 
@@ -592,7 +592,7 @@ def test_recording_leaves_the_worksheet_alone(tmp_path: Path) -> None:
     before = dict(sheet.common)
     recorded(sheet)
     assert all(sheet.common[name] is value for name, value in before.items())
-    assert not isinstance(cells.evaluate(sheet.path, ["y"])["y"], Quantity)
+    assert not isinstance(evaluate(sheet.path, ["y"])["y"], Quantity)
 
 
 @pytest.mark.parametrize(

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from own_worksheet import own, recorded, value_of
 
+from mechsheet import evaluate
 from mechsheet.recording.numbers import numbers
-from mechsheet.worksheet import cells
 
 FOLLOWED = [
     "x * g.F",
@@ -85,7 +85,7 @@ def test_what_is_made_of_rows_is_read_for_any_number_of_them(expression: str, tm
     _, recording = recorded(sheet)
     assert not recording.gaps and not [guard for guard in recording.guards.values() if not guard.rows]
     for given in ROWS:
-        expected = np.asarray(cells.evaluate(sheet.path, ["y"], **given)["y"])
+        expected = np.asarray(evaluate(sheet.path, ["y"], **given)["y"])
         value = value_of(recording, "y", given)
         assert np.shape(value) == expected.shape, given
         np.testing.assert_allclose(value, expected + 0, rtol=1e-12, atol=1e-13, err_msg=str(given))

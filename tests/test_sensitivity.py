@@ -6,11 +6,13 @@ from pathlib import Path
 import mpmath as mp
 import numpy as np
 import pytest
+from by_cells import by_cells
 
 from mechsheet import units
+from mechsheet.recording.evaluation import evaluate
 from mechsheet.studies.sensitivity import sensitivity
 from mechsheet.studies.tolerance import tolerance
-from mechsheet.worksheet.cells import evaluate, load
+from mechsheet.worksheet.cells import load
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.inputs import declared
 from mechsheet.worksheet.kinds import Input
@@ -94,7 +96,7 @@ def test_derivatives_to_the_accuracy_claimed(found):
 
 
 def test_values_units_and_elasticities(found):
-    assert np.array_equal(found.values["GS6"], evaluate(HITCH, ["GS6"])["GS6"])
+    assert np.array_equal(found.values["GS6"], by_cells(HITCH, ["GS6"])["GS6"])
     names = list(found.inputs)
     assert np.allclose(found.relative("GS6")[names.index("D_gc")], 2, rtol=1e-9), "the piston's area is its square"
     assert np.allclose(found.relative("abs(R56)")[names.index("P6")], 1, rtol=1e-9), "reactions are linear in the load"
@@ -160,7 +162,7 @@ def test_corners_bound_the_corners_and_hold_the_nominal():
     assert np.allclose(bands["GS6"].least, each.min(0), rtol=1e-12)
     assert np.allclose(bands["GS6"].greatest, each.max(0), rtol=1e-12)
     assert bands["L4"].least.shape == () and bands.count == 4 and bands.lost == 0
-    assert np.array_equal(bands["GS6"].nominal, evaluate(HITCH, ["GS6"])["GS6"])
+    assert np.array_equal(bands["GS6"].nominal, by_cells(HITCH, ["GS6"])["GS6"])
 
 
 @pytest.mark.parametrize(("distribution", "part"), [("uniform", 3**-0.5), ("normal", 1 / 3)])

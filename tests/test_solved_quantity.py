@@ -11,7 +11,7 @@ from openpyxl import load_workbook
 from test_recalculation import edit
 from test_recorded_worksheet import own, recorded, value_of
 
-from mechsheet import closed_form, find, sweep
+from mechsheet import closed_form, evaluate, find, sweep
 from mechsheet.recording.dimensions import mismatches
 from mechsheet.worksheet import cells
 from mechsheet.worksheet.errors import SheetError
@@ -77,7 +77,7 @@ def test_a_found_value_is_solved_again(lines: str, tmp_path: Path) -> None:
     assert not recording.gaps
     for given in ({}, *OTHER):
         value = value_of(recording, "y", given)
-        expected = np.asarray(cells.evaluate(sheet.path, ["y"], **given)["y"])
+        expected = np.asarray(evaluate(sheet.path, ["y"], **given)["y"])
         assert value.shape == expected.shape
         np.testing.assert_allclose(value, expected, rtol=1e-9 if lines is LEAST else 1e-12)
 
@@ -141,7 +141,7 @@ def test_an_array_of_problems_is_searched_by_the_cells(recalculated: Any, tmp_pa
     values = [row[0].value for row in live["2 Each"].iter_rows(min_row=5)]
     assert values == pytest.approx([row[0].value for row in stored["2 Each"].iter_rows(min_row=5)], rel=1e-12)
     after = recalculated(edit(path, {"a": 0.5}, tmp_path / "edited.xlsx"))
-    own = cells.evaluate(tmp_path / "own.py", ["y"], a=0.5)["y"]
+    own = evaluate(tmp_path / "own.py", ["y"], a=0.5)["y"]
     assert [row[0].value for row in after["2 Each"].iter_rows(min_row=5)] == pytest.approx(own, rel=1e-12)
 
 
@@ -162,7 +162,7 @@ table_2 = table("2", "Each", y, z)"""
 def test_several_unknowns_with_closed_forms_follow_changed_inputs(recalculated: Any, tmp_path: Path) -> None:
     path = exported(tmp_path, CLOSED)
     after = recalculated(edit(path, {"a": 0.5, "F": 3.0}, tmp_path / "edited.xlsx"))
-    own_values = cells.evaluate(tmp_path / "own.py", ["y", "z", "uv_c"], a=0.5, F=3.0)
+    own_values = evaluate(tmp_path / "own.py", ["y", "z", "uv_c"], a=0.5, F=3.0)
     rows = [[c.value for c in row] for row in after["2 Each"].iter_rows(min_row=5)]
     assert [row[0] for row in rows] == pytest.approx(own_values["y"].tolist(), rel=1e-12)
     assert [row[1] for row in rows] == pytest.approx(own_values["z"].tolist(), rel=1e-12)

@@ -11,6 +11,7 @@ from own_worksheet import recorded
 from test_recalculation import edit
 from test_solved_quantity import sheet_with
 
+from mechsheet import evaluate
 from mechsheet.recording.lines import Recording
 from mechsheet.recording.numbers import numbers
 from mechsheet.recording.searched import search
@@ -52,7 +53,7 @@ def assert_the_same_or_none(sheet: cells.Worksheet, found: str, count: int) -> N
     roots = [solved.inverse or solved.node for solved in recording.found.values()]
     for F, a in zip(random.uniform(1, 6, 10), random.uniform(0.05, 2, 10), strict=True):
         try:
-            own = np.asarray(cells.evaluate(sheet.path, [found], F=F, a=a)[found]._values)
+            own = np.asarray(evaluate(sheet.path, [found], F=F, a=a)[found]._values)
         except SheetError:
             own = np.full(len(roots), np.nan)
         known = numbers(roots, {recording.inputs["F"]: F, recording.inputs["a"]: a})
@@ -119,7 +120,7 @@ def test_cells_step_to_what_the_worksheet_finds(recalculated_all: Any, tmp_path:
     edited = [edit(book, given, tmp_path / f"changed{n}.xlsx") for n, given in enumerate(changes)]
     sure = 0
     for given, changed in zip(changes, recalculated_all(edited), strict=True):
-        own = cells.evaluate(path, ["y", "z", "uw"], **given)
+        own = evaluate(path, ["y", "z", "uw"], **given)
         rows = [*changed["3 Loop"].iter_rows(min_row=5, max_row=9, values_only=True)]
         for row, y, z in zip(rows, own["y"], own["z"], strict=True):
             assert row[:2] == ("#N/A", "#N/A") or row[:2] == pytest.approx((y, z), rel=1e-10)

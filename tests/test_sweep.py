@@ -11,10 +11,11 @@ from threading import Event
 import numpy as np
 import pandas as pd
 import pytest
+from by_cells import by_cells
 
 from mechsheet.studies import chunks
 from mechsheet.studies.sweep import Sweep, grid, sweep
-from mechsheet.worksheet.cells import evaluate, load
+from mechsheet.worksheet.cells import load
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.lines import registry
 
@@ -55,7 +56,7 @@ def test_every_number_of_every_variant_is_the_one_of_the_worksheet_alone_to_the_
 
     assert len(numbers) == 144 and swept.solved.all() and swept.at_once
     for i in range(12):
-        alone = evaluate(HITCH, numbers, **{name: float(values[i]) for name, values in variants.items()})
+        alone = by_cells(HITCH, numbers, **{name: float(values[i]) for name, values in variants.items()})
         for name in numbers:
             assert np.array_equal(swept[name][i], alone[name]), (name, i)
 
@@ -77,14 +78,14 @@ def test_a_grid_has_an_axis_for_each_input():
     swept = sweep(HITCH, ["GS6", "L4"], grid(L5=[0.47, 0.48, 0.49], P6=[20e3, 30e3]))
 
     assert (swept.shape, swept["GS6"].shape, swept["L4"].shape) == ((3, 2), (3, 2, 10), (3, 2))
-    assert np.array_equal(swept["GS6"][2, 1], evaluate(HITCH, ["GS6"], L5=0.49, P6=30e3)["GS6"])
+    assert np.array_equal(swept["GS6"][2, 1], by_cells(HITCH, ["GS6"], L5=0.49, P6=30e3)["GS6"])
     assert np.array_equal(swept.inputs["P6"], [[20e3, 30e3]] * 3)
 
 
 def test_one_set_of_numbers_is_one_variant():
     swept = sweep(HITCH, SOME, {"P6": 30e3})
     assert swept.shape == () and swept.reasons[()] == "" and swept["GS6"].shape == (10,)
-    assert np.array_equal(swept["GS6"], evaluate(HITCH, ["GS6"], P6=30e3)["GS6"])
+    assert np.array_equal(swept["GS6"], by_cells(HITCH, ["GS6"], P6=30e3)["GS6"])
 
 
 def test_texts_and_a_data_frame_are_read_as_the_page_reads_them():
@@ -141,7 +142,7 @@ def test_a_variant_without_a_value_tells_why_and_its_neighbours_go_on(given, rea
     swept = sweep(HITCH, SOME, {name: [default[name], bad, default[name]]})
 
     assert list(swept.reasons) == ["", reason, ""] and list(swept.solved) == [True, False, True]
-    alone = evaluate(HITCH, SOME)
+    alone = by_cells(HITCH, SOME)
     for result in SOME:
         assert np.array_equal(swept[result][0], alone[result]) and np.array_equal(swept[result][2], alone[result])
     assert np.isnan(swept["GS6"][1]).any()
@@ -156,7 +157,7 @@ def test_reasons_are_those_with_which_the_worksheet_alone_refuses():
     refused = 0
     for i in np.flatnonzero(~swept.solved):
         try:
-            alone = evaluate(HITCH, SOME, **{name: float(values[i]) for name, values in variants.items()})
+            alone = by_cells(HITCH, SOME, **{name: float(values[i]) for name, values in variants.items()})
         except SheetError as error:
             refused += 1
             assert swept.reasons[i] == str(error)
@@ -322,7 +323,7 @@ def test_a_number_of_positions_may_vary_where_the_results_are_numbers(lever):
 def test_any_worksheet_can_be_swept():
     joint = ROOT / "worksheets" / "joint.py"
     swept = sweep(joint, ["P_k"], {"r": [100, 101]})
-    assert not swept.at_once and np.array_equal(swept["P_k"][1], evaluate(joint, ["P_k"], r=101)["P_k"])
+    assert not swept.at_once and np.array_equal(swept["P_k"][1], by_cells(joint, ["P_k"], r=101)["P_k"])
 
 
 def test_an_error_in_a_formula_is_no_reason_but_an_error(lever):

@@ -4,9 +4,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from by_cells import by_cells
 
 from mechsheet.studies.sweep import sweep
-from mechsheet.worksheet.cells import evaluate
 from mechsheet.worksheet.errors import SheetError
 
 HITCH = Path(__file__).parents[1] / "worksheets" / "hitch.py"
@@ -45,7 +45,7 @@ def test_parts_of_results_are_swept_as_they_are_evaluated():
     wanted = ["abs(R56)", "PS6_S.imag", "PS6_S.real", "R56"]
     swept = sweep(HITCH, wanted, {"P6": [20e3, 30e3]})
     for i, P6 in enumerate((20e3, 30e3)):
-        alone = evaluate(HITCH, wanted, P6=P6)
+        alone = by_cells(HITCH, wanted, P6=P6)
         for name in wanted:
             assert np.array_equal(swept[name][i], alone[name]), name
     assert [swept.units[name] for name in wanted] == ["N", "m", "m", "N"]

@@ -377,7 +377,8 @@ def section_6():
     ## 6 Leave out what is not needed
 
     A worksheet is a graph of cells. `evaluate` runs those that the results asked for depend on, and no others: here for
-    the hitch, against the whole document with its tables and drawings.
+    the hitch, against the whole document with its tables and drawings. What is asked for again is recorded the second
+    time, and then computed without the cells wherever that gives the same; drawings and tables are not.
     """)
     return
 
@@ -418,7 +419,8 @@ def section_7():
     The product must keep the digits expected, less at most one. Where nothing exists, or can be told from rounding, it
     must say so in words. The printed formulas get every help: the lengths found, the right quadrants, the corrected
     signs. In the scene `through_dead_centre` the velocity equations are integrated in their place, by Radau's implicit
-    method, for they are stiff.
+    method, for they are stiff. That is all there is to integrate: the product assembles every position by itself and
+    solves no equations of motion, so that it has no time responses to be compared with implicit methods.
     """)
     return
 

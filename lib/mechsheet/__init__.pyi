@@ -118,6 +118,9 @@ from mechsheet.mechanics.rrr import (
 from mechsheet.page.title import (
     title_block as title_block,
 )
+from mechsheet.recording.evaluation import (
+    evaluate as evaluate,
+)
 from mechsheet.run.ask import (
     ask as ask,
 )
@@ -147,7 +150,6 @@ from mechsheet.studies.tolerance import (
     tolerance as tolerance,
 )
 from mechsheet.worksheet.cells import (
-    evaluate as evaluate,
     load as load,
     results as results,
 )

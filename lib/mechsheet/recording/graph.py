@@ -56,15 +56,18 @@ class Graph:
     """All nodes of one recording; equal operations on equal operands are one node.
 
     With ``thin`` only every so many of the numbers that ``linspace`` gives are taken: what a worksheet computes from
-    position to position it then computes for the positions that its tables list.
+    position to position it then computes for the positions that its tables list. With ``bodies`` the functions of the
+    mechanics run themselves, in the steps that keep most digits and with what they refuse, and not in the shorter ones
+    of a workbook.
 
     ``looked`` are guards, what the Python code saw of quantities: where one of them no longer holds, what rests on it
     is no longer what the worksheet has. ``labels`` are the names of steps inside library functions. ``line`` is the
     line of the worksheet that is run.
     """
 
-    def __init__(self, thin: int = 1, draws: bool = False, lists: bool = False) -> None:
+    def __init__(self, thin: int = 1, draws: bool = False, lists: bool = False, bodies: bool = False) -> None:
         self.thin = thin
+        self.bodies = bodies
         self.draws = draws  # drawings are recorded too
         self.lists = lists  # those among the inputs may have any length
         self.positions = 0  # numbers of linspace before any were left out

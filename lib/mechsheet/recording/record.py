@@ -43,6 +43,7 @@ def record(
     every: int = 0,
     draws: bool = False,
     lists: bool = False,
+    bodies: bool = False,
 ) -> Recording:
     """Run the cells behind the tables, found values and checks of ``namespace`` with recorded quantities.
 
@@ -53,9 +54,9 @@ def record(
     for, only those are recorded, and all of them only for numbers that rest on all, such as an integral, and for checks
     that take little more for it; the others are `Residual.listed`. Where it ``draws``, sliders are inputs too, named
     ``slider part``, and the drawings that cells show are recorded. With ``lists`` those among the inputs may have any
-    length.
+    length, with ``bodies`` the functions of the mechanics are in all their steps.
     """
-    return _recorded(namespace, sheet, whole, known, every, draws, lists)[0]
+    return _recorded(namespace, sheet, whole, known, every, draws, lists, bodies)[0]
 
 
 def record_every_line(namespace: Mapping[str, Any], sheet: Worksheet) -> tuple[Recording, Recording]:
@@ -71,12 +72,13 @@ def _recorded(
     every: int = 0,
     draws: bool = False,
     lists: bool = False,
+    bodies: bool = False,
     further: bool = False,
 ) -> tuple[Recording, Recording]:
     sheet = load(Path(namespace["__file__"])) if sheet is None else sheet
     steps = {value.every for value in namespace.values() if isinstance(value, Table)}
     want = sheet.results if whole else [name for name in sheet.results if shown(namespace.get(name))]
-    graph = Graph(every or (steps.pop() if len(steps) == 1 else 1), draws, lists)
+    graph = Graph(every or (steps.pop() if len(steps) == 1 else 1), draws, lists, bodies)
     token = current.set(graph)
     try:
         run = _Run(sheet, graph, namespace, want, registry(namespace) if known is None else known)

@@ -110,6 +110,8 @@ def _of_package(value: Any, room: str) -> Any:
     """A function or class of this package."""
     if value.__name__ in SHOWING and room.startswith("mechsheet.worksheet."):
         return _on_stage(value.__name__)
+    if value is checks.require and current.get().bodies:
+        return _requires
     if value.__name__ in _NOWHERE:
         return _NOTHING
     if isinstance(value, type):
@@ -117,6 +119,12 @@ def _of_package(value: Any, room: str) -> Any:
     if room.startswith((*_ROOMS, *_ASKING)):
         return _itself(value)
     return _refused(value.__name__) if room.startswith("mechsheet.studies.") else value
+
+
+def _requires(point: Any, *_: Any) -> None:
+    """What `require` does where the group closes somewhere; otherwise it is the worksheet that refuses."""
+    if np.isnan(lift(current.get(), point)).all():
+        raise NotRecorded("the cell stops here")
 
 
 @cache
@@ -226,7 +234,8 @@ def _itself(f: Any) -> Callable[..., Any]:
     def function(*args: Any, **kwargs: Any) -> Any:
         if not (always or has_quantity((args, kwargs))):
             return f(*args, **kwargs)
-        return (_short().get(f) or body(f))(*args, **kwargs)
+        short = None if current.get().bodies else _short().get(f)
+        return (short or body(f))(*args, **kwargs)
 
     return function
 

@@ -69,8 +69,9 @@ class Job:
         for cell in _run(sheet, sheet.needed(self.want, ["g"]), g, names):
             for found in _founds(cell, names):
                 lacking |= ~_by_variant(found.valued, count).all(1)
-        one_row = not varied(columns) and _has_one_row(g)
-        values = {name: _result(name, _wanted(name, names), columns, one_row) for name in self.want}
+        among = count if varied(columns) else None
+        one_row = among is None and _has_one_row(g)
+        values = {name: _result(name, _wanted(name, names), among, one_row) for name in self.want}
         for value in values.values():
             lacking |= _lacking(value)
         lines = registry(names)
@@ -107,11 +108,12 @@ class Job:
             if count > 1 and not self._in_common(columns):
                 return np.concatenate([self._reasons(half) for half in _halves(columns)])
             add(str(error))
+        among = count if varied(columns) else None
         for name in (name for cell in cells for name in cell.gives):
             held = names.get(name)
             value = np.asarray(None if isinstance(held, tuple) else held)  # the parts of one may differ in shape
-            if value.dtype.kind in "fc" and _fits(value, columns):
-                missing = _lacking(_result(name, value, columns))
+            if value.dtype.kind in "fc" and _fits(value, among):
+                missing = _lacking(_result(name, value, among))
                 add(np.where(missing, f"{name} has no value", "")[:, None])
         return reasons
 
@@ -231,7 +233,7 @@ def _joined(parts: Sequence[Part]) -> Part:
 def _by_variant(value: Any, count: int) -> NDArray[Any]:
     """Values of each variant in a row of its own."""
     value = np.atleast_2d(value)
-    return np.broadcast_to(value, (count, value.shape[1]))
+    return value if len(value) == count else np.broadcast_to(value, (count, value.shape[1]))
 
 
 def _wanted(name: str, names: Mapping[str, Any]) -> Any:
@@ -241,18 +243,18 @@ def _wanted(name: str, names: Mapping[str, Any]) -> Any:
     return wanted(name, names)
 
 
-def _result(name: str, value: Any, columns: Mapping[str, Any], one_row: bool = False) -> NDArray[Any]:
-    """A result of each variant; among many variants it is a number or a field.
+def _result(name: str, value: Any, among: int | None, one_row: bool = False) -> NDArray[Any]:
+    """A result of each variant; ``among`` so many variants it is a number or a field.
 
     Of one alone an array of one is a number, unless a list or a table has ``one_row``, whose axis it may be.
     """
     found: NDArray[Any] = np.asarray(value)
     found = found.astype(complex if found.dtype.kind == "c" else float, copy=False)
-    if not varied(columns):
+    if among is None:
         return found.reshape(1) if found.shape == (1,) and not one_row else found[None]
-    if not _fits(found, columns):
-        raise TypeError(f"{name} of shape {found.shape} has no axis of {_count(columns)} variants")
-    rows = _by_variant(found, _count(columns))
+    if not _fits(found, among):
+        raise TypeError(f"{name} of shape {found.shape} has no axis of {among} variants")
+    rows = _by_variant(found, among)
     return rows[:, 0] if found.ndim == 0 or found.shape[1:] == (1,) else rows
 
 
@@ -262,9 +264,9 @@ def _has_one_row(g: Any) -> bool:
     return any(len(x) == 1 for field in lists for _, x in field.leaves(getattr(g, field.name)).values())
 
 
-def _fits(value: NDArray[Any], columns: Mapping[str, Any]) -> bool:
+def _fits(value: NDArray[Any], among: int | None) -> bool:
     """Whether a value is a number or a field, for each of the variants or for all of them."""
-    return not varied(columns) or value.ndim < 2 or (value.ndim == 2 and len(value) in (1, _count(columns)))
+    return among is None or value.ndim < 2 or (value.ndim == 2 and len(value) in (1, among))
 
 
 def varied(columns: Mapping[str, Any]) -> tuple[str, ...]:

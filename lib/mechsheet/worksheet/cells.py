@@ -1,4 +1,4 @@
-"""A worksheet file as a function: ask for some results, and only the cells that they need are run."""
+"""The cells of a worksheet file: of those that some results need, in an order in which they can run."""
 
 import ast
 import difflib
@@ -16,11 +16,10 @@ from typing import Any
 
 import numpy as np
 
-from mechsheet.worksheet import inputs, mistakes, source
+from mechsheet.worksheet import mistakes, source
 from mechsheet.worksheet.check import Check
 from mechsheet.worksheet.errors import SheetError, as_given, raised
 from mechsheet.worksheet.source import constant, functions, is_app, markdown, parsed
-from mechsheet.worksheet.verdict import values_only
 
 _SECTION = re.compile(r"^\s*## +(.*\S)", re.MULTILINE)
 _PART = re.compile(r"abs\((\w+)\)|(\w+)\.(real|imag)")
@@ -159,22 +158,6 @@ class Worksheet:
                     return value
                 raise SheetError(f"{self.path}: no cell gives g, as which inputs are read: g = read(..)")
         raise SheetError(f"{self.path} declares no inputs")
-
-
-def evaluate(worksheet: str | Path, want: Iterable[str], **given: Any) -> dict[str, Any]:
-    """Wanted results of a worksheet, by name, in SI.
-
-    ``given`` are inputs by name in their display units, as in a scene, or the whole of them as ``g``.
-    Only the cells that the results depend on are run; most of the time goes into searching again what a Find finds. A
-    result is a name, a part of one as in a table (``P56_S.imag``, ``abs(R56)``), or a check by its own name.
-
-    Raises SheetError for an unknown name, an input outside its limits, or where no solution exists.
-    """
-    sheet, want = load(worksheet), asked(want)
-    g = given.pop("g") if "g" in given else inputs.build(sheet.inputs, given)
-    with values_only():  # what else a verdict tells it computes when it is read: nobody changes these names any more
-        names = sheet.run(want, {"g": g})
-    return {name: value(name, names) for name in want}
 
 
 def asked(want: Iterable[str]) -> tuple[str, ...]:

@@ -3,6 +3,7 @@
 import ast
 import dataclasses
 import difflib
+import operator
 import re
 import sys
 from collections.abc import Callable, Container, Iterable, Iterator, Mapping
@@ -25,7 +26,7 @@ from mechsheet.worksheet.shown import Shown
 T = TypeVar("T")
 _LIMIT = re.compile(r"\s*(<=|>=|<|>)\s*([^\s<>=]+)(?=[\s<>]|$)")
 MOST, LEAST = 1e60, 1e-60  # products of a few inputs of this size are still numbers
-_COMPARE = {"<": np.less, "<=": np.less_equal, ">": np.greater, ">=": np.greater_equal}
+_COMPARE = {"<": operator.lt, "<=": operator.le, ">": operator.gt, ">=": operator.ge}
 
 
 @dataclass_transform(frozen_default=True)
@@ -244,10 +245,9 @@ def _validate(self: Any) -> None:
     pairs = [(field, getattr(self, field.name)) for field in fields if type(field) is Input]
     for table in (field for field in fields if isinstance(field, Rows)):
         pairs += table.leaves(getattr(self, table.name)).values()
-    numbers = [field for field, _ in pairs]
     shown = {field.name: field.display(value) for field, value in pairs}
-    for holds, say in _rules(numbers, shown):
-        if not np.all(holds):
+    for holds, say in _rules((field for field, _ in pairs), shown):
+        if holds is not True and not np.all(holds):  # numpy is slow to say so of single ones
             raise say(int(np.argmin(holds)))
 
 
@@ -264,8 +264,9 @@ def _rules(fields: Iterable[Input], shown: Mapping[str, Any]) -> Iterator[tuple[
 
     fields = tuple(fields)
     for field in fields:  # what is no number is named before what it would be compared with
-        size = np.abs(np.asarray(shown[field.name], dtype=float))
-        yield np.isfinite(size), say(field, "a finite number")
+        value = shown[field.name]
+        size = abs(value) if type(value) in (float, int) else np.abs(np.asarray(value, dtype=float))
+        yield size < np.inf, say(field, "a finite number")
         yield size <= MOST, say(field, f"at most {numbers.significant(MOST, 6)} in size")
     for field in fields:
         value = shown[field.name]
@@ -275,7 +276,7 @@ def _rules(fields: Iterable[Input], shown: Mapping[str, Any]) -> Iterator[tuple[
             must = "positive" if is_length else f"{sign} {other}"
             yield _COMPARE[sign](value, limit), say(field, must, other * is_input)
             if is_length:
-                yield np.abs(value) >= LEAST, say(field, f"at least {numbers.significant(LEAST, 6)}")
+                yield abs(value) >= LEAST, say(field, f"at least {numbers.significant(LEAST, 6)}")
 
 
 def _element(values: Any, i: int) -> Any:

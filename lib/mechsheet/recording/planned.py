@@ -1,0 +1,146 @@
+"""Results of a worksheet as one function of its inputs, by a `plan` of its recording."""
+
+import dis
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from types import CodeType, FunctionType, ModuleType
+from typing import Any
+
+import numpy as np
+
+from mechsheet.recording.node import Node, bottom_up
+from mechsheet.recording.plan import REFUSED, NotPlanned, plan
+from mechsheet.recording.quantity import Quantity
+from mechsheet.recording.record import record
+from mechsheet.units import Constant
+from mechsheet.worksheet import inputs
+from mechsheet.worksheet.cells import Marimo, Worksheet, base, value
+
+_PARTIAL = frozenset(("div", "pow", "sqrt", "exp", "log", "asin", "acos"))  # of which Python refuses single numbers
+_ROOMS = frozenset(("mechsheet", "numpy", "scipy", "math", "cmath", "operator", "itertools", "functools", "builtins"))
+_READING = frozenset(("load", "loadtxt", "genfromtxt", "fromfile", "fromregex", "memmap", "io"))  # of numpy and scipy
+_SHARED = ("LOAD_GLOBAL", "LOAD_NAME")
+_READING |= {"open", "input", "exec", "eval", "compile", "globals", "vars", "setattr", "__import__"}
+
+
+def planned(only: Worksheet, want: Sequence[str], g: Any) -> Callable[[Any], dict[str, Any] | None]:
+    """What gives the wanted results of a worksheet whose cells are all needed for them, from its inputs.
+
+    None where only the worksheet itself can tell, which may refuse the inputs, or have no number. Raises NotPlanned
+    where it could never do other.
+    """
+    if foreign := next(_foreign(only), None):
+        raise NotPlanned(f"{foreign} may give something else at each run")
+    own = only.run(want, {"g": g})
+    recording = record(own, only, whole=True, every=1, bodies=True)
+    roots = {name: base(name) for name in want}
+    wanted = dict[str, list[Node]]()
+    for root in roots.values():
+        quantity = recording.values.get(root)
+        if not isinstance(quantity, Quantity):
+            raise NotPlanned(f"{root} is no recorded number")
+        wanted[root] = [*quantity.parts]
+    seen = [guard.holds for guards in recording.looked.values() for guard in guards]
+    known = (q for q in recording.values.values() if isinstance(q, Quantity))
+    under = bottom_up([part for quantity in known for part in quantity.parts], set())
+    exist = [node for node in under if node.shape == () and node.op in _PARTIAL]
+    parts = [part for each in wanted.values() for part in each]
+    leaves = [*recording.inputs.values()]
+    compute = plan(leaves, parts, [*seen, *recording.guards], exist)
+    names = [*recording.inputs]
+    singles = [node.shape == () for node in leaves]
+
+    def again(g: Any) -> dict[str, Any] | None:
+        given = _leaves(g)
+        numbers = [given[name] for name in names]
+        if not all(isinstance(x, float | int) for x, single in zip(numbers, singles, strict=True) if single):
+            return None  # variants, or numbers of a type of numpy's, which a worksheet may tell apart
+        try:
+            found = iter(compute(numbers))
+        except REFUSED:
+            return None
+        space = dict[str, Any]()
+        for root, nodes in wanted.items():
+            each = [next(found) for _ in nodes]
+            if not all(map(_finite, each)):
+                return None
+            space[root] = _like(own[root], each)
+        return {name: value(name, space) for name in roots}
+
+    return again
+
+
+def _leaves(g: Any) -> dict[str, Any]:
+    found = dict[str, Any]()
+    for field in inputs.declared(type(g)):
+        held = getattr(g, field.name)
+        if field.continuous:
+            found[field.name] = held
+        else:
+            found.update((name, x) for name, (_, x) in field.leaves(held).items())
+    return found
+
+
+def _finite(x: Any) -> bool:
+    return bool(np.isfinite(x).all()) if isinstance(x, np.ndarray) else -np.inf < x < np.inf
+
+
+def _like(own: Any, parts: Sequence[Any]) -> Any:
+    """A number or an array of the type that the worksheet's own is."""
+    if not isinstance(own, np.ndarray):
+        return type(own)(*parts) if len(parts) == 1 else type(own)(complex(*parts))
+    made = np.empty(own.shape, own.dtype)
+    if len(parts) == 1:
+        made[...] = parts[0]
+    else:
+        made.real, made.imag = parts
+    return made
+
+
+def _foreign(only: Worksheet) -> Iterator[str]:
+    """What the cells use that may give something else at each run, such as what a file holds."""
+    seen = set[CodeType]()
+    waiting = [cell.code for cell in only.cells]
+    while waiting:
+        code = waiting.pop()
+        if code in seen:
+            continue
+        seen.add(code)
+        waiting += [inner for inner in code.co_consts if isinstance(inner, CodeType)]
+        module = False
+        for step in dis.get_instructions(code):
+            if step.opname == "IMPORT_NAME" and _room(step.argval) not in _ROOMS:
+                yield step.argval
+            if step.argval in _READING and (module or step.opname in _SHARED):
+                yield step.argval
+            used = only.common.get(step.argval) if step.opname in _SHARED else None
+            module = isinstance(used, ModuleType)
+        for name in code.co_names:
+            used = only.common.get(name)
+            if not _plain(used, only.common):
+                yield name
+            if isinstance(used, FunctionType) and used.__globals__ is only.common:
+                waiting.append(used.__code__)
+
+
+def _room(module: str) -> str:
+    return module.partition(".")[0]
+
+
+def _plain(used: Any, common: Mapping[str, Any]) -> bool:
+    """Whether something gives the same for the same arguments: a number, a function of the library or of numpy's."""
+    match used:
+        case None | bool() | int() | float() | complex() | str() | np.ndarray() | np.generic() | Constant() | Marimo():
+            return True
+        case tuple() | list():
+            return all(_plain(each, common) for each in used)
+        case dict():
+            return all(_plain(each, common) for each in used.values())
+        case ModuleType():
+            return _room(used.__name__) in _ROOMS
+        case FunctionType() if used.__globals__ is common:
+            return True  # its own code is looked at
+        case np.ufunc():
+            return True
+    if hasattr(used, "__inputs__") or hasattr(used, "__properties__"):
+        return True
+    return callable(used) and _room(str(getattr(used, "__module__", ""))) in _ROOMS
