@@ -41,7 +41,7 @@ def test_script_loads_no_writer_of_pages():
 
 def test_slider_rests_where_no_page_is_running_and_its_value_is_within_its_range():
     turn = mechsheet.slider(0, 360, step=2, value=40, label="crank", unit="deg")
-    assert turn.value == 40 and "crank [deg] 40" in turn._mime_()[1]
+    assert turn.value == 40 and "crank [°] 40" in turn._mime_()[1]
     assert mechsheet.slider(1, 3, label="load case").value == 1, "at its start"
     with pytest.raises(mechsheet.SheetError, match=r"slider load case: value = 4 must be 1\.\.3"):
         mechsheet.slider(1, 3, value=4, label="load case")

@@ -6,6 +6,7 @@ from typing import Any, ClassVar, Protocol
 
 import numpy as np
 
+from mechsheet import units
 from mechsheet.worksheet.shown import Charted
 from mechsheet.worksheet.table import Column, Figure
 
@@ -110,7 +111,7 @@ class WorkPrecision(Charted, Figure):
         ]
         x_marks = _decades(self.x.values)
         y_marks = [mark for mark in _decades(self.lines[0].values) if mark <= 1]
-        title = f"{self.x.meaning} [{self.x.unit}]".removesuffix(" [-]")
+        title = f"{self.x.meaning} [{units.shown(self.x.unit)}]".removesuffix(" [-]")
         x = alt.X("x:Q", title=title).axis(values=x_marks, format="~g").scale(**_log(x_marks))
         y = alt.Y("error:Q", title="error").axis(values=y_marks[:: 1 + len(y_marks) // 10], format=".0e")
         y = y.scale(**_log(y_marks))

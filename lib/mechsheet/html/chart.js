@@ -16,7 +16,7 @@ function axisOf(arrays, unit, count = 6) {
     [low, high] = [low - half, high + half];
   }
   const rough = (high - low) / count, power = Math.floor(Math.log10(rough)), ten = Number(`1e${power}`);
-  const steps = unit === "deg" && power === 1 ? STEPS_OF_A_CIRCLE : STEPS;
+  const steps = ["deg", "°"].includes(unit) && power === 1 ? STEPS_OF_A_CIRCLE : STEPS;
   const factor = steps.find(m => m * ten >= 0.999 * rough), step = factor * ten;
   const rounded = i => Number((i * step).toFixed(Math.max(0, Math.min(100, 1 - power))));
   const axis = {low: rounded(Math.floor(low / step + 1e-9)), high: rounded(Math.ceil(high / step - 1e-9)), step};

@@ -9,6 +9,7 @@ import numpy as np
 from mechsheet import units
 from mechsheet.document.markup import as_written, limits
 from mechsheet.units import parse
+from mechsheet.worksheet import numbers
 from mechsheet.worksheet.inputs import LEAST, MOST, declared
 from mechsheet.worksheet.kinds import Choice, Input, Switch, TextLine, number
 from mechsheet.worksheet.lists import MOST_ROWS, Rows
@@ -117,7 +118,7 @@ def _number(field: Input) -> dict[str, Any]:
     return {
         "name": field.name,
         "meaning": field.meaning,
-        "unit": "" if field.unit == "-" else units.shown(field.unit),
+        "unit": "" if field.unit == "-" else numbers.in_text(field.unit),  # of messages
         "factor": parse(field.unit).factor,
         "units": others if field.unit != "-" else {},
         "whole": field.whole,

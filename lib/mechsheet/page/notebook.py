@@ -9,6 +9,8 @@ from typing import Any
 
 import marimo as mo
 
+from mechsheet.worksheet import source
+
 
 class Unlike(Exception):
     """This version of marimo keeps its cells in another way."""
@@ -46,6 +48,31 @@ def running() -> tuple[Callable[[], tuple[Cell, ...]], dict[str, Any]]:
             raise Unlike(str(error)) from None
 
     return cells, namespace
+
+
+def stopped() -> tuple[tuple[source.Cell, ...], tuple[Cell, ...], str]:
+    """Cells of the file of the calling cell's page, those of the page, and the id of that cell.
+
+    Nothing where this version of marimo does not tell.
+    """
+    try:
+        from marimo._runtime.context import get_context  # on use: a version may lack it
+
+        cells, namespace = running()
+        return source.of_file(namespace), cells(), str(get_context().cell_id or "")
+    except (ImportError, AttributeError, Unlike):
+        return (), (), ""
+
+
+def reads(name: str) -> bool:
+    """Whether a cell of the calling cell's page reads a name; no where this version of marimo does not tell."""
+    try:
+        from marimo._runtime.context import get_context  # on use: a version may lack it
+
+        notebook: Any = get_context()
+        return any(name in cell.refs for cell in list(notebook.graph.cells.values()))
+    except (ImportError, AttributeError):
+        return False
 
 
 def texts(namespace: Mapping[str, Any]) -> tuple[tuple[str, str], ...] | None:

@@ -18,11 +18,12 @@ from mechsheet.document.blocks import blocks, fitting
 from mechsheet.document.markup import HTML, as_written, compared, in_words, named
 from mechsheet.document.shortened import foot, shortened, thinned
 from mechsheet.html import index
-from mechsheet.page import fields, switched
+from mechsheet.page import fields, notebook, switched
 from mechsheet.page.headings import heading
 from mechsheet.page.lines import lines
 from mechsheet.page.script import element, script
 from mechsheet.page.smooth import smooth
+from mechsheet.page.waiting import waiting
 from mechsheet.worksheet import numbers, symbol
 from mechsheet.worksheet.check import Check, Summary
 from mechsheet.worksheet.drawing import Drawing
@@ -43,9 +44,19 @@ _TOLD = '<div class="ms-told" style="display:none"><span class="ms-badge ms-FAIL
 
 def written(value: object) -> tuple[str, str]:
     """MIME type and text of a value of the package."""
-    if isinstance(value, Typeset):  # in a bundle: plain HTML is parsed four times a run, in search of headings
-        return "application/vnd.marimo+mimebundle", json.dumps({"text/html": html(value)})
-    return "text/html", html(value)
+    text = html(value)
+    shown = _placed(value) and mo.app_meta().mode == "run" and notebook.reads("title_block")
+    if shown and not _OF_MARIMO.search(text):
+        # Else marimo itself makes each element over and again. HTML is full of double quotes: it stands in single ones.
+        text = f"<ms-shown html='{text.replace('&', '&amp;').replace(_QUOTE, '&#39;')}'></ms-shown>"
+    if shown or isinstance(value, Typeset):  # in a bundle: plain HTML is parsed four times a run, in search of headings
+        return "application/vnd.marimo+mimebundle", json.dumps({"text/html": text})
+    return "text/html", text
+
+
+def _placed(value: object) -> bool:
+    """Whether the title block's script may put a value in its place: no headings, no picture asked for alone."""
+    return not isinstance(value, Title | Index | Drawing)
 
 
 def slider(value: Slider) -> Any:
@@ -69,12 +80,19 @@ def refused(error: Exception, shown: Any) -> None:
             field = re.split(r"[. ]", error.of)[0]
             told += f'td[data-input="{field}"]::after{{{reason}}}'
             told += f'input[data-input="{error.of}"]{{outline:2px solid var(--red-11,#c62828)}}'
+        if mo.app_meta().mode == "run":  # the editor tells it of every cell
+            for of, text in waiting(*notebook.stopped()).items():
+                told += f'.marimo-cell:has([id="{_quoted(of)}"])::after{{content:"{_quoted(text)}"}}'
         mo.stop(True, mo.Html(f"{place}<style>{told}</style>"))
 
 
 def _said(text: str) -> str:
     """A message as HTML, its numbers as the page writes them; its names may be those of lines and stay."""
     return numbers.rewritten(escape(text), HTML)
+
+
+_QUOTE = "'"
+_OF_MARIMO = re.compile("<(?:script|marimo-ui-element)")  # works only where marimo itself puts it
 
 
 @singledispatch
@@ -112,7 +130,12 @@ def _(title: Title) -> str:
     cells = [("Worksheet", escape(title.file)), ("Computed", f"{date.today():%Y-%m-%d}")]
     fields = "".join(f"<span>{label} <b>{value}</b></span>" for label, value in cells)
     switch = '<label class="ms-screen"><input type="checkbox" class="ms-switch"> numbers in the formulas</label>'
-    scripts = script("page.js") + script("units.js") + script("chart.js", "tooltip.js", "format.js", "chart.js")
+    scripts = (
+        script("shown.js")
+        + script("page.js")
+        + script("units.js")
+        + script("chart.js", "tooltip.js", "format.js", "chart.js")
+    )
     scripts += script("symbols.js", "tooltip.js") + script("sections.js")
     return (
         f'{scripts}<div class="ms-title">{text}<div class="ms-row">{fields}{switch}'

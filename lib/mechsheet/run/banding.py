@@ -118,7 +118,7 @@ def _in_all_ways(
     low, high = (x.reshape(-1) / factor for x in bounds)
     beyond = np.maximum(high - values, values - low)
     narrow = np.where(worst > 0, beyond <= _WIDE * worst, np.isfinite(beyond))
-    heads = [f"{name} [{units.shown(line.unit)}]", "worst case", "root of squares", f"{_CASES} random cases"]
+    heads = [f"{name} [{numbers.in_text(line.unit)}]", "worst case", "root of squares", f"{_CASES} random cases"]
     any_narrow = bool(narrow.any())
     rows = [[*heads, *["guaranteed"] * any_narrow]]
     for k, value in enumerate(values):
@@ -148,7 +148,7 @@ def _of_table(table: Table, banded: Sequence[Banded]) -> Iterator[str]:
     columns = [
         (
             each.name,
-            f"[{units.shown(units_of[each.name])}]",
+            f"[{numbers.in_text(units_of[each.name])}]",
             *map(about, each.worst),
         )
         for each in banded

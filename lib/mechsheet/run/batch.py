@@ -13,7 +13,6 @@ from typing import Any
 
 import numpy as np
 
-from mechsheet import units
 from mechsheet.document import parts
 from mechsheet.recording.record import record
 from mechsheet.run import banding, report
@@ -115,7 +114,7 @@ def comparison(sheet: Worksheet, outcomes: Sequence[Outcome]) -> bytes:
     rows: list[tuple[str | float, ...]] = [("Inputs that differ from the worksheet's",)]
     for field in _changed(sheet, outcomes):
         shown = ("" if o.g is None else _written(field, getattr(o.g, field.name)) for o in outcomes)
-        rows.append((field.name, units.shown(field.unit), field.meaning, *shown))
+        rows.append((field.name, numbers.in_text(field.unit), field.meaning, *shown))
     rows.append(("Results",))
     fields = list[Table]()
     for name, quantity in _quantities(outcomes).items():
@@ -127,7 +126,7 @@ def comparison(sheet: Worksheet, outcomes: Sequence[Outcome]) -> bytes:
             fields.append(_field(quantity, {o.name: x for o, x in zip(outcomes, each, strict=True) if x is not None}))
         for head, end in ends.items():
             shown = ("" if x is None else float(end(x)) for x in each)
-            rows.append((head, units.shown(quantity.unit), quantity.meaning, *shown))
+            rows.append((head, numbers.in_text(quantity.unit), quantity.meaning, *shown))
     rows.append(("Checks",))
     for name in dict.fromkeys(check.name for o in outcomes for check in o.checks):
         verdicts = ({c.name: verdict(c) for c in o.checks}.get(name, "") for o in outcomes)
@@ -304,10 +303,10 @@ def _table(sheet: Worksheet, outcomes: Sequence[Outcome]) -> list[list[str]]:
     rows = [["", *(o.name for o in outcomes)]]
     for field in _changed(sheet, outcomes):
         given = ("" if o.g is None else field.brief(getattr(o.g, field.name)) for o in outcomes)
-        rows.append([f"{field.name} [{units.shown(field.unit)}]", *given])
+        rows.append([f"{field.name} [{numbers.in_text(field.unit)}]", *given])
     for name, quantity in _quantities(outcomes).items():
         spans = ({q.name: q.span for q in o.quantities}.get(name, "") for o in outcomes)
-        rows.append([f"{name} [{units.shown(quantity.unit)}]", *spans])
+        rows.append([f"{name} [{numbers.in_text(quantity.unit)}]", *spans])
     passed = (f"{sum(check.passed for check in o.checks)} of {len(o.checks)}" if o.checks else "" for o in outcomes)
     return [*rows, ["checks passed", *passed], ["verdict", *(o.verdict for o in outcomes)]]
 
@@ -327,7 +326,7 @@ def _blocks(rows: Sequence[Sequence[str]], width: int) -> Iterator[list[Sequence
 
 def _printed(table: Table) -> list[list[str]]:
     """A table as it is printed: symbols, units, numbers."""
-    heads = [[c.symbol for c in table.columns], [f"[{units.shown(c.unit)}]" for c in table.columns]]
+    heads = [[c.symbol for c in table.columns], [f"[{numbers.in_text(c.unit)}]" for c in table.columns]]
     columns = [[numbers.fixed(x, c.decimals) for x in c.values] for c in table.columns]
     return heads + [list(row) for row in zip(*columns, strict=True)]
 

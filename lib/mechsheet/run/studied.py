@@ -6,9 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from mechsheet import units
 from mechsheet.run.progress import remaining
-from mechsheet.worksheet import shown
+from mechsheet.worksheet import numbers, shown
 from mechsheet.worksheet.cells import Worksheet
 from mechsheet.worksheet.errors import SheetError, as_given
 from mechsheet.worksheet.inputs import Used
@@ -21,7 +20,7 @@ def results_of(namespace: Mapping[str, Any]) -> dict[str, str]:
     for name, line in registry(namespace).items():
         kind = "" if line.arguments else np.asarray(namespace.get(name)).dtype.kind
         parts = [f"{name}.real", f"{name}.imag", f"abs({name})"] if kind == "c" else [name] if kind in "if" else []
-        found |= dict.fromkeys(parts, "" if line.unit == "-" else units.shown(line.unit))
+        found |= dict.fromkeys(parts, "" if line.unit == "-" else numbers.in_text(line.unit))
     return found
 
 

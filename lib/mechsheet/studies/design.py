@@ -253,7 +253,7 @@ def scene_text(
     """Text of a scene file: remarks, inputs with their units, and limits of results."""
     lines = [*(f"# {remark}" for remark in remarks), "[inputs]"]
     texts = {name: json.dumps(value) if isinstance(value, str) else repr(value) for name, value in inputs.items()}
-    lines += [f"{name} = {text}  # {units.shown(fields[name].unit)}" for name, text in texts.items()]
+    lines += [f"{name} = {text}  # {numbers.in_text(fields[name].unit)}" for name, text in texts.items()]
     lines += ["", "[limits]"]
     for name, limit in limits.items():
         ends = (f"{end} = {value!r}" for end, value in (("min", limit.min), ("max", limit.max)) if value is not None)

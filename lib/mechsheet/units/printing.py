@@ -30,13 +30,13 @@ def raised(power: int) -> str:
     return str(power).translate(_POWERS)
 
 
-def shown(text: str, power: Callable[[int], str] = raised, times: str = "·") -> str:
-    """Unit as a page or a workbook prints it, or a notation with its own powers and sign between units.
+def shown(text: str, power: Callable[[int], str] = raised, times: str = "·", degree: str = "°") -> str:
+    """Unit as a page or a workbook prints it, or a notation with its own powers, sign between units and degree.
 
     A text that is no product of units stands as it is.
 
-    >>> shown("kgf/cm**2"), shown("N*m"), shown("m/s**2", "^{}".format), shown("um"), shown("inch")
-    ('kgf/cm²', 'N·m', 'm/s^2', 'µm', 'in')
+    >>> shown("kgf/cm**2"), shown("N*m"), shown("m/s**2", "^{}".format), shown("um"), shown("inch"), shown("deg/s")
+    ('kgf/cm²', 'N·m', 'm/s^2', 'µm', 'in', '°/s')
     >>> shown("open positions")
     'open positions'
     """
@@ -46,7 +46,9 @@ def shown(text: str, power: Callable[[int], str] = raised, times: str = "·") ->
         except ValueError:
             return text
         text = plain(text)
-    names = re.sub(r"[^\W\d_]+", lambda name: _printed(name[0]), text.replace("**(", "^("))
+    names = re.sub(
+        r"[^\W\d_]+", lambda name: degree if name[0] == "deg" else _printed(name[0]), text.replace("**(", "^(")
+    )
     return re.sub(r"\*\*(-?\d+)", lambda raising: power(int(raising[1])), names).replace("*", times)
 
 

@@ -16,7 +16,6 @@ from typing import Any, Literal, TypeVar, dataclass_transform, get_args, get_ori
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mechsheet import units
 from mechsheet.worksheet import deviation, errors, lines, numbers, source
 from mechsheet.worksheet.errors import SheetError, refuse
 from mechsheet.worksheet.kinds import Choice, Input, Offer, Switch, TextLine, number
@@ -229,7 +228,7 @@ def _comparable(fields: Iterable[Input], places: Mapping[str, str]) -> None:
             said = f"{places[field.name]}: limit {sign} {other} of {field.name}"
             if other in units_of:
                 if units_of[other] != field.unit:
-                    theirs, own = (units.shown(unit) for unit in (units_of[other], field.unit))
+                    theirs, own = (numbers.in_text(unit) for unit in (units_of[other], field.unit))
                     raise SheetError(f"{said}: {other} is in {theirs}, {field.name} in {own}")
                 continue
             try:

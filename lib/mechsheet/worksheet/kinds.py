@@ -71,9 +71,9 @@ class Input:
                 except ValueError as error:
                     raise SheetError(f"{given}: {error}", self.name) from None
                 if theirs.dims != own.dims:
-                    raise SheetError(f"{given}: {other} does not measure {units.shown(self.unit)}", self.name)
+                    raise SheetError(f"{given}: {other} does not measure {numbers.in_text(self.unit)}", self.name)
                 if units.plain(other) != self.unit and "degC" in (units.plain(other), self.unit):
-                    why = f"write it in {units.shown(self.unit)}, for a temperature is not a difference"
+                    why = f"write it in {numbers.in_text(self.unit)}, for a temperature is not a difference"
                     raise SheetError(f"{given}: {why}", self.name)
                 x = float(numbers.significant(x * (theirs.factor / own.factor), 15))
         except SheetError:

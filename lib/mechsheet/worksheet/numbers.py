@@ -151,7 +151,7 @@ def quantity(z: float | complex, unit: str, to: Notation) -> str:
     return _number(z, to) + behind(unit, to)
 
 
-@lru_cache(maxsize=4096, typed=True)  # most numbers stay when an input changes; 0 and 0j are not shown alike
+@lru_cache(maxsize=32768, typed=True)  # most numbers stay when an input changes; 0 and 0j are not shown alike
 def _end(end: float | complex, least: float, unit: str, to: Notation) -> str:
     if isinstance(end, complex):
         return to.pair.format(_end(end.real, least, unit, to), _end(end.imag, least, unit, to))
@@ -169,7 +169,10 @@ def behind(unit: str, to: Notation) -> str:
     special = {"-": "", "deg": to.degrees, "%": to.percent}
     if unit in special:
         return special[unit]
-    return to.unit.format(units.shown(unit, lambda n: to.raised.format(str(n).replace("-", to.minus)), to.times))
+    degree = to.degrees.strip()
+    return to.unit.format(
+        units.shown(unit, lambda n: to.raised.format(str(n).replace("-", to.minus)), to.times, degree)
+    )
 
 
 def _unlimited(x: float, to: Notation) -> str:
@@ -222,12 +225,21 @@ def extent(values: ArrayLike, unit: str) -> str:
 
 
 def suffix(unit: str) -> str:
-    """A unit behind a number, as it is printed; a pure number has none.
+    """A unit behind a number in plain text, as it is printed; a pure number has none.
 
-    >>> suffix("m/s**2"), suffix("-")
-    (' m/s²', '')
+    >>> suffix("m/s**2"), suffix("deg"), suffix("-")
+    (' m/s²', ' deg', '')
     """
-    return "" if unit == "-" else f" {units.shown(unit)}"
+    return "" if unit == "-" else f" {in_text(unit)}"
+
+
+def in_text(unit: str) -> str:
+    """A unit in plain text, such as a head in the terminal: degrees as behind numbers there and as they are typed.
+
+    >>> in_text("deg/s"), in_text("N*m")
+    ('deg/s', 'N·m')
+    """
+    return units.shown(unit, degree=PLAIN.degrees.strip())
 
 
 _POWER = re.compile(r"(?<!\w)(?<!\w\.)(\d+(?:\.\d*)?)e([+-]?\d+)\b")

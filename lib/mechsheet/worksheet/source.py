@@ -52,8 +52,11 @@ def cells(namespace: Mapping[str, Any]) -> tuple[Cell, ...]:
     The same tuple as long as they stay the same.
     """
     texts = shown.cells_in_page(namespace)
-    if texts is not None:
-        return of_texts(texts)
+    return of_file(namespace) if texts is None else of_texts(texts)
+
+
+def of_file(namespace: Mapping[str, Any]) -> tuple[Cell, ...]:
+    """Cells of the file of the worksheet that runs in a namespace, in their order."""
     path = namespace.get("__file__")
     return _in_file(path, os.stat(path).st_mtime_ns) if path else ()
 

@@ -1,0 +1,48 @@
+"""What a served page tells where something waits for a cell that was stopped: marimo leaves it out without a word."""
+
+import ast
+import re
+from collections.abc import Mapping, Sequence
+
+from mechsheet.page.headings import heading
+from mechsheet.page.notebook import Cell
+from mechsheet.worksheet import source
+
+_HEADING = re.compile(r"^\s*#{2,6} +(\S.*?)\s*$", re.MULTILINE)
+
+
+def waiting(file: Sequence[source.Cell], cells: Sequence[Cell], stopped: str) -> Mapping[str, str]:
+    """By the ids of the headings under which something waits: what it waits for.
+
+    The texts of a served page are none of its cells, so the headings are those of the worksheet's ``file``. The section
+    of the stopped cell itself has the reason in it.
+    """
+    own = frozenset[str]().union(*(cell.defs for cell in cells if cell.cell_id == stopped))
+    lost, before = set(own), 0
+    while before < len(lost):
+        before = len(lost)
+        lost |= {name for cell in cells if cell.refs & lost for name in cell.defs}
+    last, at, places = "", "", dict[str, None]()
+    for cell in file:
+        nodes = [node for statement in cell.body for node in source.nodes(statement)]
+        last = next(reversed([found for node in nodes for found in _headings(node)]), last)
+        names = [node for node in nodes if isinstance(node, ast.Name)]
+        if own & {name.id for name in names if isinstance(name.ctx, ast.Store)}:
+            at = last
+        elif lost & {name.id for name in names}:
+            places[last] = None
+    return {heading(place): f"waits for {_named(at)}" for place in places if place not in ("", at)}
+
+
+def _headings(node: ast.AST) -> list[str]:
+    """Headings of a text of the worksheet."""
+    match node:
+        case ast.Call(ast.Attribute(attr="md"), [text]):
+            return _HEADING.findall(source.constant(text))
+    return []
+
+
+def _named(section: str) -> str:
+    """A section by its number, or by its heading where it has none."""
+    number = section.partition(" ")[0]
+    return f"section {number}" if number[:1].isdigit() else f"“{section}”" if section else "what is not computed above"
