@@ -185,6 +185,8 @@ def test_what_a_worksheet_does_with_what_marimo_runs_of_it_is_done(tmp_path):
     end = "    app.run()\n"
     text = HITCH.with_name("slotted_link.py").read_text(encoding="utf-8")
     assert text.endswith(end)
-    sheet.write_text(text.removesuffix(end) + '    _, defs = app.run()\n    print(type(defs["g"]).__name__)\n', encoding="utf-8")
+    sheet.write_text(
+        text.removesuffix(end) + '    _, defs = app.run()\n    print(type(defs["g"]).__name__)\n', encoding="utf-8"
+    )
     done = run(f"--out={tmp_path}", sheet=sheet)
     assert done.stdout.endswith("SlottedLink\n"), done.stdout + done.stderr

@@ -110,7 +110,7 @@ def _of_package(value: Any, room: str) -> Any:
     """A function or class of this package."""
     if value.__name__ in SHOWING and room.startswith("mechsheet.worksheet."):
         return _on_stage(value.__name__)
-    if value is checks.require and current.get().bodies:
+    if value is check.require and current.get().bodies:
         return _requires
     if value.__name__ in _NOWHERE:
         return _NOTHING
