@@ -131,6 +131,30 @@ def test_a_scene_beside_the_worksheet_is_chosen_from_a_list(
     expect(chosen.locator("option:checked")).to_have_text("a scene")
 
 
+LATE = """(() => {
+  const define = customElements.define.bind(customElements);
+  customElements.define = (name, kind, options) =>
+    name === "marimo-text" ? setTimeout(() => define(name, kind, options), 2000) : define(name, kind, options);
+  const bar = () => document.querySelector("ms-states");
+  const again = () => (bar()?.textContent ? bar().replaceWith(bar().cloneNode(true)) : setTimeout(again, 50));
+  again();
+})()"""
+
+
+def test_what_a_link_carries_waits_for_fields_that_are_drawn_late(
+    press: Path, left_open: Callable[[Path, str], Page]
+) -> None:
+    """And for the bar of the states, which may be drawn anew meanwhile."""
+    page = left_open(press, "as in the document")
+    other = page.context.new_page()
+    other.add_init_script(LATE)
+    other.goto(page.url.partition("#")[0] + "#r=51&F=39")
+    states = other.locator("ms-states")
+    expect(states).to_contain_text("r = 51 mm", timeout=WITHIN * 1000)
+    expect(states).to_contain_text("F = 39 kN")
+    other.close()
+
+
 def test_what_differs_from_the_document_is_marked_with_its_own_numbers(
     press: Path, left_open: Callable[[Path, str], Page]
 ) -> None:

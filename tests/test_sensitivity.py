@@ -111,7 +111,7 @@ def test_table_is_sorted_and_names_its_position(found):
     size = frame["relative [-]"].abs().to_numpy()
     assert np.all(np.diff(size) <= 0)
     assert "position 9" in table.note and "29958.8 N" in table.note
-    assert "<td" in table._mime_()[1] and "N/deg" in table._mime_()[1]
+    assert "<td" in table._mime_()[1] and "N/°" in table._mime_()[1]
     over = found.over_positions("2", "All", "GS6").frame()
     assert over.shape[0] == 10 and "P_msha [-]" not in over and "L3 [-]" in over
 

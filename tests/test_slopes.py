@@ -23,7 +23,7 @@ nan, inf = np.nan, np.inf
 
 def test_every_operation_has_a_rule() -> None:
     """But those that rest on nothing, and what is found or a loop ends with, which have passes of their own."""
-    made = {"take", "at", "join", "reduce", "exported"}
+    made = {"take", "at", "join", "reduce", "length", "exported"}
     assert {*ELEMENTWISE, *made} == {*RULES, *SMOOTH}
 
 

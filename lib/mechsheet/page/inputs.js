@@ -6,6 +6,8 @@
   const steps = []; // sets of texts that the page has computed, by the names of the inputs
   let at = -1;
   let wanted = null; // a set on its way through the page
+  let asked = null; // the last one that was asked for
+  let drawn = true; // whether its fields are there to be typed into, which a busy machine draws late
   const QUIET = 500; // ms without a run: what was typed has been computed with
 
   // The element beside the fields tells of all that have changed; of each alone marimo would keep the last, and lose
@@ -16,11 +18,19 @@
   const setter = (kind) => Object.getOwnPropertyDescriptor(kind.prototype, "value").set;
   const same = (a, b) => Object.keys(a).every((name) => a[name] === b[name]);
 
+  const hostOf = (name) => document.querySelector(`td[data-input="${name}"] marimo-ui-element > *`);
+  const fieldOf = (name) => hostOf(name)?.shadowRoot?.querySelector("input, textarea, select, button");
+
+  function typeAll(names, texts, tries = 300) {
+    if (asked !== texts) return; // another set has been asked for since
+    drawn = !tries || names.every(fieldOf);
+    if (drawn) names.filter(fieldOf).forEach((name) => type(name, texts[name]));
+    else setTimeout(() => typeAll(names, texts, tries - 1), 100);
+  }
+
   // A field takes its text as from the hand.
   function type(name, text) {
-    const host = document.querySelector(`td[data-input="${name}"] marimo-ui-element > *`);
-    const field = host?.shadowRoot?.querySelector("input, textarea, select, button");
-    if (!field) return;
+    const [host, field] = [hostOf(name), fieldOf(name)];
     if (field.matches("select")) {
       const option = [...field.options].find((each) => each.text === text || each.value === text);
       setter(HTMLSelectElement).call(field, option?.value ?? text);
@@ -38,7 +48,7 @@
   }
 
   const shown = (name) => {
-    const field = document.querySelector(`td[data-input="${name}"] marimo-ui-element > *`)?.shadowRoot?.querySelector("input");
+    const field = hostOf(name)?.shadowRoot?.querySelector("input");
     return field && field.type !== "checkbox" ? field.value : undefined;
   };
 
@@ -91,18 +101,16 @@
       if (!wanted && (first || !same(steps[at], now))) steps.splice(++at, steps.length, now);
       clearTimeout(this.quiet);
       // What an address says in other words than the page, such as 0,055 m, is never the same.
-      if (wanted) this.quiet = setTimeout(() => (wanted = null, this.follow()), QUIET);
+      if (wanted && drawn) this.quiet = setTimeout(() => (wanted = null, this.follow()), QUIET);
       this.show();
       const given = textsIn(location.hash);
       if (first && given.size) this.open(given);
       else if (!wanted) this.address();
     }
 
-    // What a link carries holds from the beginning, once its fields are there, which a busy machine draws late.
+    // What a link carries holds from the beginning.
     open(given) {
       const known = Object.keys(steps[at]).filter((name) => given.has(name));
-      if (known.some((name) => !document.querySelector(`td[data-input="${name}"] marimo-ui-element > *`)?.shadowRoot))
-        return this.isConnected && setTimeout(() => this.open(given), 100);
       this.to({ ...steps[at], ...Object.fromEntries(known.map((name) => [name, given.get(name)])) });
     }
 
@@ -167,7 +175,8 @@
       if (!same(steps[at], texts)) steps.splice(++at, steps.length, texts);
       const reached = fields.every(({ name, text }) => texts[name] === text);
       wanted = reached ? null : texts;
-      others.forEach((name) => type(name, texts[name]));
+      asked = texts;
+      typeAll(others, texts);
     }
 
     copy() {

@@ -24,7 +24,7 @@ from mechsheet.worksheet.system import Solution
 from mechsheet.worksheet.table import Figure, Table, listed
 from mechsheet.worksheet.verdict import Verdict
 
-_LEFT = 1e-6  # of what an equation is made of may be left by a root
+_LEFT = 1e-7  # of what an equation is made of, up to the next power of ten: what may be left by a root
 V = TypeVar("V", bound=Verdict)
 
 
@@ -120,7 +120,8 @@ class Stage:
         holds = list[Any]()
         for left in found.residual if isinstance(found.residual, tuple) else (found.residual,):
             size = max(_made_of(part, self.recording.made_of) for part in left.parts)
-            holds.append(abs(left) <= Quantity(self.graph, self.graph.constant(_LEFT * size, units.UNKNOWN)))
+            limit = 10.0 ** np.ceil(np.log10(_LEFT * size)) if size else 0.0  # an order, the same for inputs about these
+            holds.append(abs(left) <= Quantity(self.graph, self.graph.constant(limit, units.UNKNOWN)))
         return reduce(and_, holds)
 
     def _closed(self, solved: Solved, found: Any, value: Quantity, tolerance: float) -> None:
