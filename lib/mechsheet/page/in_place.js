@@ -143,13 +143,15 @@
   }
 
   function typing() {
-    of.left = "";
     area.rows = Math.max(area.value.split("\n").length, 1);
     typed.classList.add("ms-former"); // until what stands there is of this text
     clearTimeout(timer);
     timer = setTimeout(() => of && (area.value.trim() || !of.below) && preview(), 200);
   }
-  area.addEventListener("input", typing);
+  area.addEventListener("input", () => {
+    of.left = "";
+    typing();
+  });
 
   // Written is a line once the page holds it: until then, text typed elsewhere would be lost to the file that comes.
   async function write(what, name, then) {
