@@ -120,7 +120,7 @@ class Stage:
         holds = list[Any]()
         for left in found.residual if isinstance(found.residual, tuple) else (found.residual,):
             size = max(_made_of(part, self.recording.made_of) for part in left.parts)
-            limit = 10.0 ** np.ceil(np.log10(_LEFT * size)) if size else 0.0  # an order, the same for inputs about these
+            limit = 10.0 ** np.ceil(np.log10(_LEFT * size)) if size else 0.0  # an order, the same for inputs near
             holds.append(abs(left) <= Quantity(self.graph, self.graph.constant(limit, units.UNKNOWN)))
         return reduce(and_, holds)
 
