@@ -444,3 +444,16 @@ def test_a_marimo_that_keeps_its_cells_otherwise_is_told_of_in_one_line(monkeypa
         assert what in note.text
     monkeypatch.delattr(context, "get_context")
     assert "cannot import name 'get_context'" in told_by.watch(lambda notes: None)[0].text
+
+
+def test_a_line_that_is_drawn_anew_under_the_pointer_is_clicked(editor):
+    page = editor.page
+    editor.expect_last_moment("420")
+    at = page.locator("#line-M_n > span").last
+    at.scroll_into_view_if_needed()
+    at.hover()
+    page.mouse.down()
+    page.evaluate("() => { const line = document.getElementById('line-M_n'); line.replaceWith(line.cloneNode(true)); }")
+    page.mouse.up()
+    expect(page.locator(".ms-box textarea")).to_have_value(re.compile("^M_n = "))
+    page.keyboard.press("Escape")

@@ -686,3 +686,20 @@ def test_a_check_that_is_recorded_compares_what_the_worksheet_s_own_does(given: 
             assert np.allclose([largest / factor, limit / factor], [check.residual, check.limit], 1e-9, 1e-12), check
     told = "pass" if given.get("a", 0.75) <= 0.5 else "not evaluated"
     assert [check.verdict for check in checks[:3]] == ["pass", "pass", told]
+
+
+def test_a_part_that_is_set_knows_nothing_of_the_other_one(tmp_path: Path) -> None:
+    """An array that holds anything, NaN and infinity too, until both its parts are set; as the mechanics make some."""
+    lines = """
+def made():
+    z = np.full(3, complex(math.nan, math.inf))
+    z.real = g.F * np.arange(3.0)
+    z.imag = g.a
+    return z
+
+y = made()  # [-] set"""
+    sheet = own(tmp_path, lines)
+    names, recording = recorded(sheet)
+    assert recording.gaps == [] and np.array_equal(names["y"], 2.5 * np.arange(3.0) + 0.75j)
+    now = numbers([*recording.values["y"].parts], {recording.inputs["F"]: 2.0})
+    assert [now[part].tolist() for part in recording.values["y"].parts] == [[0.0, 2.0, 4.0], [0.75] * 3]

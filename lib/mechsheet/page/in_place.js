@@ -240,17 +240,28 @@
       : document.getElementById(`line-${name}`);
   }
 
-  // A line, or the row of an input but for its field; what is clicked for something else in it does that.
-  document.addEventListener("click", (event) => {
-    const { target } = event;
-    if (event.defaultPrevented || !getSelection().isCollapsed || box.contains(target)) return;
-    if (target.closest?.("a, button, ms-unit, [data-input], marimo-ui-element, .ms-box")) return;
+  // A line, or the row of an input but for its field, by name; what is clicked for something else in it does that.
+  function clicked(target) {
+    if (box.contains(target) || target.closest?.("a, button, ms-unit, [data-input], marimo-ui-element, .ms-box")) return [];
     const row = target.closest?.(".ms-line, .ms-inputs tr");
-    if (!row || !row.closest(".marimo-cell.interactive")) return;
+    if (!row || !row.closest(".marimo-cell.interactive")) return [];
     const input = row.querySelector(":scope > td[data-input]");
     let line = row;
     while (line && !input && !line.id) line = line.previousElementSibling; // further equations of a solve block
-    if (input) open(row, `g.${input.dataset.input}`);
-    else if (line?.id.startsWith("line-")) open(row, line.id.slice("line-".length));
+    if (input) return [row, `g.${input.dataset.input}`];
+    return line?.id.startsWith("line-") ? [row, line.id.slice("line-".length)] : [];
+  }
+
+  document.addEventListener("click", (event) => {
+    const [row, name] = clicked(event.target);
+    if (row && !event.defaultPrevented && getSelection().isCollapsed) open(row, name);
+  });
+
+  // A line that is drawn anew before the button comes up is clicked too; the browser tells of none, or of what holds it.
+  let down;
+  document.addEventListener("mousedown", ({ target }) => (down = { target, name: clicked(target)[1] }), { capture: true });
+  document.addEventListener("mouseup", ({ target }) => {
+    const [row, name] = clicked(target);
+    if (row && name === down?.name && !down.target.isConnected && getSelection().isCollapsed) open(row, name);
   });
 })();

@@ -363,7 +363,12 @@ def part(number: Any, name: str, value: Any) -> Any:
     if not has_quantity([number, value]):
         setattr(number, name, value)
         return number
-    return value + 1j * number.imag if name == "real" else number.real + 1j * value
+    graph = next(iter(quantities([number, value]))).graph
+    old, new = lift(graph, number), lift(graph, value)
+    if new.im is not None:
+        raise NotRecorded(f"a complex number as the {name} part of another")
+    own = graph.like(new.re, old.re)
+    return Quantity(graph, own, old.imag.re) if name == "real" else Quantity(graph, old.re, own)
 
 
 def _extreme(name: str) -> Callable[..., Any]:

@@ -40,7 +40,12 @@ class Quantity(NDArrayOperatorsMixin):
 
     @property
     def value(self) -> Values:
-        return self.re.value if self.im is None else self.re.value + 1j * self.im.value
+        if self.im is None:
+            return self.re.value
+        parts = np.broadcast_arrays(self.re.value, self.im.value)
+        value = np.empty(parts[0].shape, complex)  # a sum with 1j times an infinite number has no real part
+        value.real, value.imag = parts
+        return value
 
     @property
     def parts(self) -> Iterator[Node]:
