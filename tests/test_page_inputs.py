@@ -56,6 +56,7 @@ def test_a_step_back_and_on_the_documents_own_and_a_link(
         states.get_by_role("button", name="save as a scene").click()
     saved.value.save_as(tmp_path / "scene.toml")
     assert tomllib.loads((tmp_path / "scene.toml").read_text(encoding="utf-8")) == {"inputs": {"r": 55}}
+    until(page, lambda: page.url.endswith("#r=55"), "the address has not followed")
     page.reload()  # with the address as it is
     expect(states).to_contain_text("r = 55 mm", timeout=WITHIN * 1000)
     states.get_by_role("button", name="back to the document").click()
