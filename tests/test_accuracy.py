@@ -10,7 +10,7 @@ import test_joint
 import test_kinetostatics_sheet
 import test_slotted_link
 
-from mechsheet.accuracy import claims, conditioning, exact, extreme, jobs, rivals
+from mechsheet.accuracy import claims, conditioning, exact, extreme, jobs, machine, rivals
 from mechsheet.accuracy.arithmetic import mp
 from mechsheet.accuracy.precision import largest_error
 from mechsheet.mechanics import rrr
@@ -167,6 +167,25 @@ def test_printed_reactions_lose_all_digits_with_the_mast_upright_and_the_own_non
     assert errors["printed: elimination"] > 1e-2 and errors["library: rrr_reactions"] < 1e-14
     assert made.check().passed
     assert "fastest setting" in made.summary().note and not made.table().note, "each table says what its rows are"
+
+
+def test_all_ways_to_the_reactions_of_groups_of_all_kinds_are_right():
+    job = machine.machine_job("4.4", load(WORKSHEET.with_name("kinetostatics.py")), 7)
+    assert len(job.truth) == 9 * 7 and len(job.methods) == 4
+    worst = max(abs(complex(force)) for force in job.truth)
+    for method in job.methods:
+        assert largest_error(method.run(), job.truth) < 1e-14, method.family
+    R_A = job.truth[:7]  # by the worksheet's own groups, which take part in no method here
+    own = load(WORKSHEET.with_name("kinetostatics.py"))
+    made = own.run(["R_A"], {"g": own.inputs(), "phi1": 2 * np.pi * np.arange(7) / 7})["R_A"]
+    assert np.array(R_A, complex) == pytest.approx(made, abs=1e-12 * worst)
+
+
+def test_a_ring_all_but_lifted_loses_digits_by_primitives_and_none_by_the_own():
+    errors = {m.family: largest_error(m.run(), job.truth) for job in [machine.ring_job("4.5", 10)] for m in job.methods}
+    assert errors["library: circular_joint"] < 1e-14 and errors["quad, each force"] < 1e-14
+    assert errors["primitives of the arc"] > 1e-13
+    assert 1e-9 < errors["rim in strips"] < 1e-6
 
 
 @pytest.mark.parametrize(

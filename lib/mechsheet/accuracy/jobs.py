@@ -11,6 +11,7 @@ from numpy import linspace, pi
 
 from mechsheet.accuracy import exact, printed, rivals
 from mechsheet.accuracy.arithmetic import Numbers
+from mechsheet.accuracy.machine import machine_job, ring_job
 from mechsheet.accuracy.precision import Job, Measured, Method, Timed, largest_error, time_spread, timed
 from mechsheet.accuracy.rivals import REACTIONS, crank_chain, hitch_chain, hitch_points
 from mechsheet.recording import numbers as computed
@@ -31,11 +32,12 @@ _PINS = ("P23_S", "P45_S", "P67_S")
 _ANALOGUES = tuple(f"dphi{k}" for k in range(3, 8))
 
 
-def accuracy_jobs(hitch: Any, crank: Any, N: int, factors: Sequence[float]) -> dict[str, Job]:
+def accuracy_jobs(hitch: Any, machine: Worksheet, crank: Any, N: int, factors: Sequence[float]) -> dict[str, Job]:
     """The jobs by number: positions, derivatives, Finds and reactions of the hitch, positions of a dyad on a crank.
 
-    ``hitch`` are the inputs of the hitch worksheet, ``crank`` has l_1, l_A, l_B, X_B, Y_B [m]; both are computed at N
-    positions. The factors are those of bad guesses.
+    Reactions of a machine with groups of all kinds and the bolts of a circular joint too. ``hitch`` are the inputs of
+    the hitch worksheet, ``machine`` is the worksheet of kinetostatics, ``crank`` has l_1, l_A, l_B, X_B, Y_B [m]; all
+    are computed at N positions. The factors are those of bad guesses.
     """
     S, q = linspace(hitch.S_min, hitch.S_max, N), linspace(0, 2 * np.pi, N)
     found = exact.finds(hitch)
@@ -78,6 +80,8 @@ def accuracy_jobs(hitch: Any, crank: Any, N: int, factors: Sequence[float]) -> d
         Job("3.2", "Find from bad guesses", truth * len(factors), finds(hitch, factors)),
         reactions("4.1", "Reactions", S, at),
         reactions("4.2", "Reactions, mast upright", np.array([S_p]), upright),
+        machine_job("4.4", machine, N),
+        ring_job("4.5", N),
     )
     return {job.number: job for job in jobs}
 
