@@ -237,6 +237,13 @@ def test_a_claim_of_digits_that_there_are_not_fails(monkeypatch):
     assert [column.values[0] for column in table.columns[1:]] == [2, 12.5, 12.25, 50]
 
 
+def test_every_group_is_timed_at_every_size():
+    table = jobs.group_times("1.4", (1, 50), 1e-6)
+    assert [c.name for c in table.columns] == ["count", *conditioning.GROUPS]
+    one, many = np.array([c.values for c in table.columns[1:]]).T
+    assert (many < one).all() and (many > 0).all(), "checks are shared by all that are computed at once"
+
+
 def test_random_groups_are_measured_in_roundings_and_one_that_loses_digits_fails(monkeypatch):
     table, check = conditioning.random_groups("7.5", 40)
     group, positions, *quantiles = (column.values for column in table.columns)
