@@ -1198,7 +1198,7 @@ def work(
     work_lines = typeset()
     energy = lambda phi1: omega1**2 * J_r(phi1) / 2 + U(phi1)  # [J] energy at the speed of the crank
     driven = M_b - g.eps1 * J_r(phi1) + dot(F_Q, V_E(phi1))  # [N*m] left of the moment for the change of energy
-    _some = slice(None, None, 15)
+    _some = (..., slice(None, None, 15))
     _size = largest * longest
     checks_work = (
         check("virtual work of moment and loads", M_b + W_1 + W_2 + W_3 + W_4 + W_5 + W_6 + W_7, lost, "N*m", of=_size),

@@ -40,13 +40,15 @@ class Part:
 class Job:
     """What is done with each chunk, wherever: ``columns`` are inputs in SI, of shape (variants, 1) if they vary.
 
-    The variants of a chunk are run at once, or one by one as single numbers.
+    The variants of a chunk are run at once, or one by one as single numbers. Of one alone ``numbers`` are the results
+    that are numbers, such as a mean over the positions, which among others has no axis of positions left.
     """
 
     path: str
     digest: str
     want: tuple[str, ...]
     at_once: bool
+    numbers: frozenset[str] = frozenset()
 
     def results(self, columns: Mapping[str, Any]) -> Part:
         if not self.at_once:
@@ -71,7 +73,11 @@ class Job:
                 lacking |= ~_by_variant(found.valued, count).all(1)
         among = count if varied(columns) else None
         one_row = among is None and _has_one_row(g)
-        values = {name: _result(name, _wanted(name, names), among, one_row) for name in self.want}
+        wants = {name: np.asarray(_wanted(name, names)) for name in self.want}
+        for name in self.numbers:
+            if wants[name].shape == (among,):
+                wants[name] = wants[name][:, None]
+        values = {name: _result(name, value, among, one_row) for name, value in wants.items()}
         for value in values.values():
             lacking |= _lacking(value)
         lines = registry(names)
