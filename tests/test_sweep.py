@@ -1,5 +1,6 @@
 """Sweeps: every variant as if it were alone, wherever it is computed, and a reason for each that has no value."""
 
+import gc
 import subprocess
 import sys
 import tracemalloc
@@ -312,6 +313,18 @@ def test_a_worksheet_whose_lines_mix_the_variants_is_run_one_by_one(lever):
     assert list(swept.reasons) == ["", "force F = -1.0 N must be positive", "", ""]
     expected = forces * 0.5 * np.mean(np.sin(np.linspace(0, 1, 5)))
     assert swept["M_mean"] == pytest.approx(np.where(forces > 0, expected, np.nan), rel=1e-15, nan_ok=True)
+
+
+def test_what_a_chunk_computes_is_gone_with_it(lever):
+    """Not when somebody looks for rings, which numpy's arrays do not make happen any sooner."""
+    path = lever("import weakref\nRUNS.append(weakref.ref(phi))")
+    gc.disable()
+    try:
+        sweep(path, ["M_S"], {"F": np.linspace(1, 2, 12)}, chunk=3)
+    finally:
+        gc.enable()
+    arrays = [ran for ran in load(path).common["RUNS"] if callable(ran)]
+    assert len(arrays) >= 4 and all(ran() is None for ran in arrays)
 
 
 @pytest.mark.parametrize("count", [2, 5, 12])  # five are as many as the positions

@@ -190,7 +190,7 @@ def sweep(
     lacking = np.zeros(size, dtype=bool)
     chunks = _split(rows, chunk)
     with on_terminal(len(chunks), "sweep") as done:
-        for i, part in computed(job.results, [given.at(rows) for rows in chunks], executor):
+        for i, part in computed(job.results, given.at, chunks, executor):
             for name, value in part.values.items():
                 if name not in values:
                     values[name] = np.full((size, *value.shape[1:]), np.nan, value.dtype)
@@ -200,7 +200,7 @@ def sweep(
             declared |= part.units
             done()
     chunks = _split(np.flatnonzero(lacking), chunk)
-    for i, texts in computed(job.reasons, [given.at(rows) for rows in chunks], executor):
+    for i, texts in computed(job.reasons, given.at, chunks, executor):
         reasons[chunks[i]] = texts
 
     for name in want:  # no variant at all could be computed
