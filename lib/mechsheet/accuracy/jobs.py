@@ -4,14 +4,13 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy import linspace, pi
 
 from mechsheet.accuracy import exact, printed, rivals
-from mechsheet.accuracy.arithmetic import Numbers
-from mechsheet.accuracy.conditioning import GROUPS, drawn
+from mechsheet.accuracy.arithmetic import Numbers, mp, mpf
 from mechsheet.accuracy.machine import machine_job, ring_job
 from mechsheet.accuracy.precision import Job, Measured, Method, Timed, largest_error, time_spread, timed
 from mechsheet.accuracy.rivals import REACTIONS, crank_chain, hitch_chain, hitch_points
@@ -121,18 +120,6 @@ def batch_times(number: str, hitch: Any, sizes: Sequence[int], seconds: float) -
     return Table(number, title, (Column("count", "-", "computed at once", 0, np.array(sizes, float)), *columns))
 
 
-def group_times(number: str, sizes: Sequence[int], seconds: float) -> Table:
-    """Table of the time for one of n positions of each group computed at once, each of a geometry of its own."""
-    given = [drawn(n) for n in sizes]
-    runs = [partial(group.found, *(x[name] for name in group.given)) for x in given for group in GROUPS.values()]
-    with progress(len(runs), f"{number} Groups") as done:
-        times = timed(runs, seconds, done)
-    each = 1e6 * np.array([time.seconds for time in times]).reshape(len(sizes), -1) / np.array(sizes)[:, None]
-    columns = (Column(name, "µs", "median time of one of them", 3, each[:, k]) for k, name in enumerate(GROUPS))
-    counts = Column("count", "-", "random geometries computed at once", 0, np.array(sizes, float))
-    return Table(number, "Time of a group", (counts, *columns))
-
-
 # Whole worksheets
 
 _STUDY = ("phi3_g", "N_same", "N_other", "N_none", "N_g")  # first approximations of the slotted link
@@ -179,12 +166,32 @@ def _field(stem: str, sheet: Worksheet, n: int) -> dict[str, Any]:
     return {"g": g}
 
 
-# The field of positions, the truth at one of them, and the results that are compared: all, where none are named.
-TRUTHS: dict[str, tuple[str, Callable[[Any, Any], Numbers], Sequence[str]]] = {
-    "hitch": ("S", exact.hitch, ()),
-    "landing_gear": ("l2i", exact.landing_gear, ("Ai", "omega3_l2i", "eps3_l2i", "F_c")),
-    "slotted_link": ("phi1_k", exact.slotted_link, ()),
-    "kinetostatics": ("phi1", exact.kinetostatics, ()),
+class Truth(NamedTuple):
+    """Of a worksheet: its field of positions, the exact one at a part of the way, and the exact results at a position.
+
+    ``compared`` are the results of its run that are: all, where none are named.
+    """
+
+    field: str
+    at: Callable[[Any, mpf], mpf]
+    results: Callable[[Any, Any], Numbers]
+    compared: Sequence[str] = ()
+
+    def from_inputs(self, g: Any, k: int, n: int) -> Numbers:
+        """Exact results at the k-th of n positions, which no float has been before."""
+        return self.results(g, self.at(g, mpf(k) / (n - 1)))
+
+
+def _length(g: Any, t: mpf) -> mpf:
+    made = exact.stroke(g)
+    return made["l20"] + made["H"] * t
+
+
+TRUTHS: dict[str, Truth] = {
+    "hitch": Truth("S", lambda g, t: g.S_min + (mpf(g.S_max) - g.S_min) * t, exact.hitch),
+    "landing_gear": Truth("l2i", _length, exact.landing_gear, ("Ai", "omega3_l2i", "eps3_l2i", "F_c")),
+    "slotted_link": Truth("phi1_k", lambda g, t: g.phi_0 + mp.sign(g.omega1) * 2 * mp.pi * t, exact.slotted_link),
+    "kinetostatics": Truth("phi1", lambda _, t: 2 * mp.pi * t, exact.kinetostatics),
 }
 
 
@@ -194,9 +201,9 @@ def exact_results(stem: str, names: Mapping[str, Any], rows: Iterable[int]) -> N
         g = names["g"]
         cases = ((plane, case) for plane in (1, 2) for case in range(len(g.loads.M)))
         return {"P": [force for at in cases for force in exact.joint(g, exact.factors(g), *at)["P"]]}
-    field, truth, compared = TRUTHS[stem]
-    at = [truth(names["g"], float(names[field][i])) for i in rows]
-    return {name: [p[name] for p in at] for name in compared or at[0].keys() & names.keys()}
+    truth = TRUTHS[stem]
+    at = [truth.results(names["g"], float(names[truth.field][i])) for i in rows]
+    return {name: [p[name] for p in at] for name in truth.compared or at[0].keys() & names.keys()}
 
 
 def _error(stem: str, names: Mapping[str, Any], n: int) -> float:
