@@ -100,10 +100,13 @@ def _roundings(group: Group, x: Mapping[str, Any], found: Any) -> float:
 def random_groups(number: str, count: int) -> tuple[Table, Check]:
     """Quantiles of the errors of so many random positions of each group, in roundings times their condition number."""
     given, errors = _drawn(count), dict[str, Any]()
-    for name, group in GROUPS.items():
-        found = group.found(*(given[key] for key in group.given))
-        each = (_roundings(group, {key: x[k] for key, x in given.items()}, found[k]) for k in range(count))
-        errors[name] = np.array([error for error in each if not np.isnan(error)])
+    with progress(len(GROUPS) * count, f"{number} Random groups") as done:
+        for name, group in GROUPS.items():
+            found, each = group.found(*(given[key] for key in group.given)), list[float]()
+            for k in range(count):
+                each.append(_roundings(group, {key: x[k] for key, x in given.items()}, found[k]))
+                done()
+            errors[name] = np.array([error for error in each if not np.isnan(error)])
     columns = [
         Column("group", "", "", 0, np.array(list(errors), object)),
         Column("positions", "-", "random positions at which it closes", 0, np.array([len(e) for e in errors.values()])),
