@@ -65,6 +65,26 @@ def test_a_step_back_and_on_the_documents_own_and_a_link(
     assert "#" not in page.url
 
 
+DEAF_ONCE = """() => {
+  const own = EventTarget.prototype.dispatchEvent;
+  EventTarget.prototype.dispatchEvent = function (event) {
+    if (!(event instanceof FocusEvent)) return own.call(this, event);
+    EventTarget.prototype.dispatchEvent = own;
+    return true;
+  };
+}"""
+
+
+def test_a_field_that_does_not_listen_yet_is_told_again(press: Path, left_open: Callable[[Path, str], Page]) -> None:
+    page = left_open(press, "as in the document")
+    states = page.locator("ms-states")
+    fill(page, "r", "52")
+    expect(states).to_contain_text("r = 52 mm")
+    page.evaluate(DEAF_ONCE)
+    states.get_by_role("button", name="undo").click()
+    expect(states).to_contain_text("as in the document")
+
+
 AT_ONCE = """(texts) => Object.entries(texts).forEach(([name, text]) => {
   const host = document.querySelector(`td[data-input="${name}"] marimo-ui-element > *`);
   const field = host.shadowRoot.querySelector("input");
