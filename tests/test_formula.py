@@ -479,6 +479,12 @@ def test_a_line_of_several_names_declares_each():
         run(IMPORT + "u, v = 1.0, 2.0  # [m] one\ntypeset()")
 
 
+@pytest.mark.parametrize(("text", "kind"), [("## Bar", "text/html"), ("Bar", "application/vnd.marimo+mimebundle")])
+def test_marimo_lists_the_headings_among_lines(text, kind):
+    """It looks for them in plain HTML alone."""
+    assert run(f'{IMPORT}"""{text}"""\nu = 1.0  # [m] length\nshown = typeset()')["shown"]._mime_()[0] == kind
+
+
 def test_a_function_with_branches_and_names_of_its_own():
     def shown(body):
         return html(run(IMPORT + f"def f(x):\n{body}  # [m] it\nshown = typeset()")["shown"])

@@ -1,5 +1,6 @@
 """The contents of a worksheet as data, against what its page shows."""
 
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -9,9 +10,11 @@ import pytest
 from openpyxl import load_workbook
 
 from mechsheet.document.parts import Control, Line, Section, Text, contents, values
+from mechsheet.html.write import page
 from mechsheet.worksheet.cells import load
 from mechsheet.worksheet.check import Check, Summary
 from mechsheet.worksheet.drawing import Drawing
+from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.find import Found
 from mechsheet.worksheet.inputs import Used
 from mechsheet.worksheet.lines import Given, Typeset
@@ -215,6 +218,66 @@ def test_a_check_that_a_page_shows_failing_makes_the_script_fail(bar, tmp_path):
     assert script.returncode == 1
     rows = load_workbook(tmp_path / "bar.xlsx", read_only=True)["Checks"].iter_rows(min_row=3, max_col=1)
     assert [row[0].value for row in rows][1 : 1 + len(NAMES)] == NAMES  # behind that of the inputs' limits
+
+
+PLATE = '''
+import marimo
+app = marimo.App()
+
+with app.setup:
+    from mechsheet import inputs, typeset
+
+@app.class_definition
+@inputs
+class Plate:
+    a: float = 2.0  # [m] side
+
+@app.cell
+def given():
+    g = Plate()
+    return (g,)
+
+@app.cell
+def areas(g):
+    r"""
+    ## 1 Area
+
+    Of the side $a_1$:
+    """
+    A = g.a**2  # [m**2] area
+    """### 1.1 Half of it"""
+    half = A / 2  # [m**2] half
+    above = typeset()
+    """By another cell."""
+    twice = A * 2  # [m**2] twice
+    below = typeset("Its end.")
+    return above, below
+
+@app.cell
+def areas_shown(above, below):
+    typeset(above, below)
+    return
+'''
+
+
+def test_a_text_stands_between_the_lines_of_its_cell_and_is_as_written_for_every_input(tmp_path):
+    (sheet := tmp_path / "plate.py").write_text(PLATE)
+    names = run(sheet)
+    found = [getattr(part, "formula", part) for part in contents(names)]
+    assert [getattr(part, "name", part) for part in found] == [
+        *(Section(2, "1 Area"), Text("Of the side $a_1$:"), "A", Section(3, "1.1 Half of it"), "half"),
+        *(Text("By another cell."), "twice", Text("Its end.")),
+    ]
+    assert [cell.section for cell in load(sheet).cells] == ["", "1 Area", "1 Area"]
+    assert re.search(
+        r'<h3[^>]*>1\.1 Half of it</h3>.*id="line-half".*<p>By another cell', page(load(sheet), names["g"]), re.S
+    )
+
+
+def test_a_text_between_lines_has_no_values_in_it(tmp_path):
+    (sheet := tmp_path / "plate.py").write_text(PLATE.replace('"""By another', 'f"""By {g.a}'))
+    with pytest.raises(SheetError, match=r"line 29 of .*: a text with values in it belongs to mo.md or to typeset"):
+        run(sheet)
 
 
 def test_of_a_run_for_some_results_it_is_what_its_cells_show(bar):

@@ -3,6 +3,7 @@
 import keyword
 import math
 import pickle
+import pydoc
 import re
 from collections.abc import Iterator
 from fractions import Fraction
@@ -214,6 +215,13 @@ def test_the_stub_tells_every_unit() -> None:
     told = [name.strip() for left in re.findall(r"^(.*) = _floats$", text, re.MULTILINE) for name in left.split(",")]
     assert told == KNOWN
     assert sorted(re.findall(r"import (\w+) as \1$", text, re.MULTILINE)) == sorted(units.__all__)
+
+
+def test_units_are_imported_by_their_names() -> None:
+    """All of them would be g, A and F too, and without a word none of them."""
+    with pytest.raises(ImportError, match="name those that are used"):
+        exec("from mechsheet.units import *")
+    assert "define(" in pydoc.plain(pydoc.render_doc(units))
 
 
 def test_a_unit_of_ones_own(own: None) -> None:

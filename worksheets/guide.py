@@ -99,6 +99,8 @@ def section_2():
     $\varphi_1$, `A_gc` is $A_{gc}$. An input is `g.` and its name. A power is `**`; `pi`, `sqrt`, `sin` come from the
     first cell.
 
+    A text between two lines is a string that stands by itself, in three quotes: it is shown where it stands.
+
     **Try** a click on the formula, and Ctrl-Enter for a new line: `k = g.l / g.r  # [-] rod to crank`.
 
     **Try** to spoil a unit: `[mm]` of the stroke as `[N]`. It is told, with the unit that fits: write units for reading

@@ -15,12 +15,12 @@ with app.setup:
     np.seterr(divide="ignore", invalid="ignore")  # the arm of a force that is zero is shown as none
 
     from mechsheet import (
-        Check, Drawing, DriveMoment, Load, PinReaction, RPRGroup, RRPGroup, RRRGroup, SlideReaction, Used,
-        angle, ask, assembled, balance, caption, check, check_slope, coupling_drive, cross, cut_group, dot,
-        export, figure, gear_drive, index, inertia, inputs, largest_of, link_acceleration, link_velocity,
-        magnitudes, mark, player, polar_diagrams, read, rpr, rpr_acceleration, rpr_velocity, rrp,
-        rrp_acceleration, rrp_transmission_angle, rrp_velocity, rrr, rrr_acceleration, rrr_transmission_angle,
-        rrr_velocity, slider, solve_reactions, summary, table, title_block, typeset,
+        Check, Drawing, DriveMoment, Load, PinReaction, RPRGroup, RRPGroup, RRRGroup, SlideReaction, Used, angle, ask,
+        assembled, balance, caption, check, check_slope, coupling_drive, cross, cut_group, dot, export, figure,
+        gear_drive, index, inertia, inputs, largest_of, link_acceleration, link_velocity, magnitudes, mark, player,
+        polar_diagrams, read, rpr, rpr_acceleration, rpr_velocity, rrp, rrp_acceleration, rrp_transmission_angle,
+        rrp_velocity, rrr, rrr_acceleration, rrr_transmission_angle, rrr_velocity, slider, solve_reactions, summary,
+        table, title_block, typeset,
     )  # fmt: skip
     from mechsheet.units import deg, mm
 
@@ -178,18 +178,13 @@ def base(g):
     return C, H, O1, O5, omega1, phi1, u5
 
 
-@app.cell(hide_code=True)
-def section_21():
-    mo.md(r"""
+@app.cell
+def kinematics(C, H, O1, O5, g, u5):
+    """
     ### 2.1 Crank 1 and group (2, 3)
 
     The last argument of `rrr`, `rrp` and `rpr` names the branch of assembly.
-    """)
-    return
-
-
-@app.cell
-def kinematics_23(C, O1, g):
+    """
     P_A = lambda phi1: O1 + g.l1 * exp(1j * phi1)  # [m] pin of the crank
     V_A = lambda phi1: 1j * (P_A(phi1) - O1)  # [m] velocity analogue of A
     P_B = lambda phi1: rrr(P_A(phi1), C, g.l2, g.l3, +1)  # [m] pin of the rod 2 on the rocker
@@ -200,20 +195,7 @@ def kinematics_23(C, O1, g):
     V_D = lambda phi1: 1j * u3(phi1) * (P_D(phi1) - C)  # [m] velocity analogue of D
     P_K = lambda phi1: C + g.l_CK / g.l3 * (P_B(phi1) - C) * exp(1j * g.delta_K)  # [m] pin of the rod 6 on the rocker
     V_K = lambda phi1: 1j * u3(phi1) * (P_K(phi1) - C)  # [m] velocity analogue of K
-    typeset()
-    return P_A, P_B, P_D, P_K, V_A, V_D, V_K, u2, u3
-
-
-@app.cell(hide_code=True)
-def section_22():
-    mo.md("""
-    ### 2.2 Groups (4, 5) and (6, 7)
-    """)
-    return
-
-
-@app.cell
-def kinematics_45_67(H, O5, P_D, P_K, V_D, V_K, g, u5):
+    """### 2.2 Groups (4, 5) and (6, 7)"""
     P_E = lambda phi1: rrp(P_D(phi1), O5, u5, g.l4, +1)  # [m] pin of the plunger
     motion_45 = lambda phi1: rrp_velocity(P_D(phi1), O5, P_E(phi1), u5, V_D(phi1))
     V_E = lambda phi1: motion_45(phi1).v_C  # [m] velocity analogue of E
@@ -222,7 +204,7 @@ def kinematics_45_67(H, O5, P_D, P_K, V_D, V_K, g, u5):
     motion_67 = lambda phi1: rpr_velocity(P_K(phi1), H, e7(phi1), V_K(phi1))
     u6 = lambda phi1: motion_67(phi1).omega_A  # [-] rod 6 and cylinder 7 to crank
     typeset()
-    return P_E, V_E, e7, motion_45, motion_67, u4, u6
+    return P_A, P_B, P_D, P_E, P_K, V_A, V_D, V_E, V_K, e7, motion_45, motion_67, u2, u3, u4, u6
 
 
 @app.cell(hide_code=True)
@@ -266,24 +248,16 @@ def fields(C, H, O5, P_A, P_B, P_D, P_E, P_K, g, phi1, u5):
 
 
 @app.cell
-def scheme(A, B, C, D, E, H, K, O1, O5, g, s5, u5):
-    frame = np.concatenate([[O1, C, H, O1 - g.l_O1P], A, B, D, E, K])
-    along = s5[isfinite(s5)]
-    paths = Drawing(width=820, height=520, frame=frame).path(A).path(B).path(D).path(K)
-    guided = paths.guide(O5 + (along.min() - 30 * mm) * u5, O5 + (along.max() + 30 * mm) * u5) if along.size else paths
-
-    def scheme(k):
-        bars = guided.link(O1, A[k], "1").link(A[k], B[k], "2").plate([C, B[k], K[k], D[k]], "3").link(D[k], E[k], "4")
-        bodies = bars.slider(E[k], g.phi05, "5").cylinder(H, K[k], "7", g.l7)
-        fixed = bodies.support(O1, "O1").support(C, "C", 0.0).support(H, "H", 0.0)
-        return fixed.hinge(A[k], "A").hinge(B[k], "B").hinge(D[k], "D").hinge(E[k], "E").hinge(K[k], "K")
-
-    return (scheme,)
-
-
-@app.cell
-def drawing_21(phi1, position_lines, scheme, turn):
-    drawing_21 = scheme(turn.value)
+def drawing_21(A, B, C, D, E, H, K, O1, O5, g, phi1, position_lines, s5, turn, u5):
+    _frame = np.concatenate([[O1, C, H, O1 - g.l_O1P], A, B, D, E, K])
+    _paths = Drawing(width=820, height=520, frame=_frame).path(A).path(B).path(D).path(K)
+    _s = s5[isfinite(s5)]
+    _ends = (O5 + (_s.min() - 30 * mm) * u5, O5 + (_s.max() + 30 * mm) * u5) if _s.size else None
+    _a, _b, _d, _e, _k = (_P[turn.value] for _P in (A, B, D, E, K))
+    _bars = (_paths.guide(*_ends) if _ends else _paths).link(O1, _a, "1").link(_a, _b, "2").plate([C, _b, _k, _d], "3")
+    _bodies = _bars.link(_d, _e, "4").slider(_e, g.phi05, "5").cylinder(H, _k, "7", g.l7)
+    _fixed = _bodies.support(O1, "O1").support(C, "C", 0.0).support(H, "H", 0.0)
+    drawing_21 = _fixed.hinge(_a, "A").hinge(_b, "B").hinge(_d, "D").hinge(_e, "E").hinge(_k, "K")
     typeset(
         *(drawing_21, mark(phi1=phi1[turn.value])),
         *(caption("2.1", f"Scheme of the mechanism, φ₁ = {turn.value}°"), position_lines.at(turn.value)),
@@ -292,7 +266,11 @@ def drawing_21(phi1, position_lines, scheme, turn):
 
 
 @app.cell
-def closing(A, B, C, D, E, g, group_23, group_45, group_67, s7):
+def positions(A, B, C, D, E, g, group_23, group_45, group_67, mu23, mu45, phi1, phi2, phi3, phi4, phi6, s5, s7):
+    """
+    The groups must close, and the piston must stay in its cylinder: its stroke is the document's $l_{BC}$, from the
+    open end of the cylinder to the piston.
+    """
     checks_closing = (
         assembled("group (2, 3) closes", B, abs(A - C), (abs(g.l2 - g.l3), g.l2 + g.l3), "distance A C", "m"),
         assembled("group (4, 5) closes", where(isfinite(D), E, 0), g.l4, group_45.reach, "rod l4", "m"),
@@ -301,40 +279,27 @@ def closing(A, B, C, D, E, g, group_23, group_45, group_67, s7):
     # limit of the checks: from positions to forces the digits lost are twice those of the groups' condition numbers
     kappa = [np.max(group.condition) for group in (group_23, group_45, group_67)]
     lost = 32 * ulp * max(kappa) ** 2
-    typeset(
-        """
-        The groups must close, and the piston must stay in its cylinder: its stroke is the document's $l_{BC}$, from
-        the open end of the cylinder to the piston.
-        """,
-        *checks_closing,
-    )
-    return checks_closing, lost
-
-
-@app.cell
-def positions_shown(g, mu23, mu45, phi1, phi2, phi3, phi4, phi6, s5, s7):
     table_21 = table("2.1", "Positions", phi1, phi2, phi3, phi4, phi6, s5, s7, every=g.step)
     figure_22 = figure("2.2", "Transmission angles", phi1, mu23, mu45)
-    typeset(table_21, figure_22)
-    return
+    typeset(*checks_closing, table_21, figure_22)
+    return checks_closing, lost
 
 
 @app.cell(hide_code=True)
 def section_3():
-    mo.md(r"""
-    ## 3 Loads
-
-    ### 3.1 Velocities and accelerations
-
-    The crank turns with $\omega_1$ and $\varepsilon_1$ in every position.
-    """)
+    mo.md("## 3 Loads")
     return
 
 
 @app.cell
-def motion(
+def loads_of_links(
     A, B, C, D, E, H, K, O1, O5, P_A, P_B, P_D, P_E, P_K, e7, g, motion_45, motion_67, omega1, phi1, u2, u3, u4, u5, u6
 ):
+    r"""
+    ### 3.1 Velocities and accelerations
+
+    The crank turns with $\omega_1$ and $\varepsilon_1$ in every position.
+    """
     P_S1 = lambda phi1: O1 + g.l_O1S1 * exp(1j * phi1)  # [m] crank
     P_S2 = lambda phi1: P_B(phi1) + g.l_BS2 / g.l2 * (P_A(phi1) - P_B(phi1))  # [m] rod 2
     P_S3 = lambda phi1: P_B(phi1) + g.l_BS3 / g.l3 * (C - P_B(phi1))  # [m] rocker
@@ -370,32 +335,12 @@ def motion(
     a_S4 = link_acceleration(S4, D, omega4, eps4, a_D)  # [m/s**2] rod 4
     a_S6 = link_acceleration(S6, K, omega6, eps6, a_K)  # [m/s**2] rod with piston
     a_S7 = link_acceleration(S7, H, omega6, eps6)  # [m/s**2] cylinder
-    motion_lines = typeset()
-    return (
-        P_S1, P_S2, P_S3, P_S4, P_S6, P_S7, S1, S2, S3, S4, S6, S7, a_E, a_S1, a_S2, a_S3, a_S4, a_S6, a_S7,
-        centre_lines, eps2, eps3, eps4, eps6, motion_lines,
-    )  # fmt: skip
-
-
-@app.cell
-def motion_shown(centre_lines, motion_lines, turn):
-    typeset(centre_lines, motion_lines.at(turn.value))
-    return
-
-
-@app.cell(hide_code=True)
-def section_32():
-    mo.md(r"""
+    r"""
     ### 3.2 Inertia forces and moments (figure 1.1)
 
     Forces are complex numbers too. The plunger does not turn, so it has no inertia moment; the crank has none while it
     turns evenly.
-    """)
-    return
-
-
-@app.cell
-def inertia_forces(a_E, a_S1, a_S2, a_S3, a_S4, a_S6, a_S7, eps2, eps3, eps4, eps6, g):
+    """
     F_in1 = -g.m1 * a_S1  # [N] (1.1) crank, at S1
     F_in2 = -g.m2 * a_S2  # [N] (1.1) rod 2, at S2
     F_in3 = -g.m3 * a_S3  # [N] (1.1) rocker, at S3
@@ -409,29 +354,12 @@ def inertia_forces(a_E, a_S1, a_S2, a_S3, a_S4, a_S6, a_S7, eps2, eps3, eps4, ep
     M_in4 = -g.J4 * eps4  # [N*m] (1.2) rod 4
     M_in6 = -g.J6 * eps6  # [N*m] (1.2) rod with piston
     M_in7 = -g.J7 * eps6  # [N*m] (1.2) cylinder
-    inertia_lines = typeset()
-    return F_in1, F_in2, F_in3, F_in4, F_in5, F_in6, F_in7, M_in1, M_in2, M_in3, M_in4, M_in6, M_in7, inertia_lines
-
-
-@app.cell
-def inertia_shown(inertia_lines, turn):
-    inertia_lines.at(turn.value)
-    return
-
-
-@app.cell(hide_code=True)
-def section_33():
-    mo.md(r"""
+    r"""
     ### 3.3 Weights, resistance, gas
 
     The resistance $Q_5$ acts in the working stroke, in which the plunger moves in the direction of the guide. The gas
     pushes the piston out of the cylinder and the cylinder the other way.
-    """)
-    return
-
-
-@app.cell
-def weights(e7, g, motion_45, omega1, phi1, u5):
+    """
     G1 = -1j * g.m1 * g.g_n  # [N] crank
     G2 = -1j * g.m2 * g.g_n  # [N] rod 2
     G3 = -1j * g.m3 * g.g_n  # [N] rocker
@@ -444,12 +372,16 @@ def weights(e7, g, motion_45, omega1, phi1, u5):
     F_g = g.p_g * pi * g.D_g**2 / 4  # [N] force of the gas on the piston
     F_gas = F_g * e7(phi1)  # [N] gas on the piston, along the cylinder
     load_lines = typeset()
-    return F_Q, F_g, F_gas, G1, G2, G3, G4, G5, G6, G7, load_lines
+    return (
+        F_Q, F_g, F_gas, F_in1, F_in2, F_in3, F_in4, F_in5, F_in6, F_in7, G1, G2, G3, G4, G5, G6, G7, M_in1, M_in2,
+        M_in3, M_in4, M_in6, M_in7, P_S1, P_S2, P_S3, P_S4, P_S6, P_S7, S1, S2, S3, S4, S6, S7, a_E, a_S1, a_S2, a_S3,
+        a_S4, a_S6, a_S7, centre_lines, eps2, eps3, eps4, eps6, load_lines,
+    )  # fmt: skip
 
 
 @app.cell
-def loads_shown(load_lines, turn):
-    load_lines.at(turn.value)
+def loads_shown(centre_lines, load_lines, turn):
+    typeset(centre_lines, load_lines.at(turn.value))
     return
 
 
@@ -501,7 +433,7 @@ def section_4():
 
 
 @app.cell
-def kind_2(F_Q, F_in4, F_in5, G4, G5, M_in4, g, phi4):
+def kind_2(E, F_Q, F_in4, F_in5, G4, G5, M_in4, S4, a_E, a_S4, eps4, g, group_45, lost, phi4):
     F4_sum = G4 + F_in4  # [N] loads on the rod 4, at S4
     F4 = abs(F4_sum)  # [N] loads on the rod 4
     gamma4 = angle(F4_sum)  # [deg] their direction
@@ -523,14 +455,6 @@ def kind_2(F_Q, F_in4, F_in5, G4, G5, M_in4, g, phi4):
     R45 = hypot(R45_x, R45_y)  # [N] (1.31)
     gamma45 = atan2(R45_y, R45_x) % (2 * pi)  # [deg] (1.32)
     SR2 = typeset()
-    return A_45, B_45, F4_sum, F5_sum, M4, R05, R34, R34_n, R45, SR2, gamma05, gamma34, gamma45
-
-
-@app.cell
-def compared_45(
-    A_45, B_45, E, F_Q, G4, G5, R05, R34, R34_n, R45, S4, a_E, a_S4, eps4, g, gamma05, gamma34, gamma45, group_45, lost,
-    phi4,
-):  # fmt: skip
     found_45 = group_45.reactions(
         [Load(G4, S4), inertia(S4, g.m4, g.J4, a_S4, eps4)], [Load(G5 + F_Q, E), inertia(E, g.m5, 0, a_E)]
     )
@@ -549,7 +473,10 @@ def compared_45(
     R34_n_printed = -(A_45 * cos(g.phi05) - B_45 * sin(g.phi05)) / cos(phi4 + g.phi05)  # [N] (1.26) printed (erratum)
     R05_printed = -(A_45 * sin(phi4) - B_45 * cos(phi4)) / cos(phi4 + g.phi05)  # [N] (1.26) as printed (erratum)
     lines_42 = typeset()
-    return R_05, R_D, R_E, checks_45, lines_42, vectors_45
+    return (
+        F4_sum, F5_sum, M4, R05, R34, R45, R_05, R_D, R_E, SR2, checks_45, gamma05, gamma34, gamma45, lines_42,
+        vectors_45,
+    )  # fmt: skip
 
 
 @app.cell
@@ -611,7 +538,7 @@ def section_5():
 
 
 @app.cell
-def kind_3(F_gas, F_in6, F_in7, G6, G7, H, K, M_in6, M_in7, g, phi6):
+def kind_3(F_gas, F_in6, F_in7, G6, G7, H, K, M_in6, M_in7, S6, S7, a_S6, a_S7, eps6, g, group_67, lost, phi6):
     F6_sum = G6 + F_in6 + F_gas  # [N] loads on the rod with piston 6, at S6
     F6 = abs(F6_sum)  # [N] loads on the rod with piston 6
     gamma6 = angle(F6_sum)  # [deg] their direction
@@ -640,17 +567,6 @@ def kind_3(F_gas, F_in6, F_in7, G6, G7, H, K, M_in6, M_in7, g, phi6):
     gamma07 = atan2(R07_y, R07_x) % (2 * pi)  # [deg] (1.43)
     h76 = -(F6 * g.l_KS6 * sin(gamma6 - phi6) + M6) / (R76 * sin(gamma76 - phi6))  # [m] (1.44)-(1.46) its arm from K
     SR3 = typeset()
-    return (
-        A_67, F6, F6_sum, F7, F7_sum, M6, M7, R07, R36, R36_n, R36_t, R76, SR3, T6, gamma07, gamma36, gamma6,
-        gamma76, h76, l_HK,
-    )  # fmt: skip
-
-
-@app.cell
-def compared_67(
-    A_67, F6, F7, F_gas, G6, G7, M7, R07, R36, R36_n, R36_t, R76, S6, S7, T6, a_S6, a_S7, eps6, g, gamma07, gamma36,
-    gamma6, gamma76, group_67, h76, l_HK, lost, phi6,
-):  # fmt: skip
     found_67 = group_67.reactions(
         [Load(G6 + F_gas, S6), inertia(S6, g.m6, g.J6, a_S6, eps6)],
         [Load(G7 - F_gas, S7), inertia(S7, g.m7, g.J7, a_S7, eps6)],
@@ -679,7 +595,10 @@ def compared_67(
     B_67_printed = R36_t * sin(gamma36_t_UGL2) + F6 * sin(gamma6)  # [N] (1.37) as printed, R36t with its sign (erratum)
     R76_printed = A_67_printed * sin(phi6) - B_67_printed * cos(phi6)  # [N] (1.37) from them (erratum)
     lines_52 = typeset()
-    return R_H, R_K, checks_67, lines_52, vectors_67
+    return (
+        F6_sum, F7_sum, M6, M7, R07, R36, R76, R_H, R_K, SR3, checks_67, gamma07, gamma36, gamma76, h76, lines_52,
+        vectors_67,
+    )  # fmt: skip
 
 
 @app.cell
@@ -743,7 +662,10 @@ def section_6():
 
 
 @app.cell
-def kind_1(D, F_in2, F_in3, G2, G3, K, M_in2, M_in3, R34, R36, S3, g, gamma34, gamma36, phi2, phi3):
+def kind_1(
+    D, F_in2, F_in3, G2, G3, K, M_in2, M_in3, R34, R36, R_05, R_D, R_E, R_H, R_K, S2, S3, a_S2, a_S3, eps2, eps3, g,
+    gamma34, gamma36, group_23, lost, phi2, phi3,
+):  # fmt: skip
     F2_sum = G2 + F_in2  # [N] loads on the rod 2, at S2
     F2 = abs(F2_sum)  # [N] loads on the rod 2
     gamma2 = angle(F2_sum)  # [deg] their direction
@@ -776,17 +698,6 @@ def kind_1(D, F_in2, F_in3, G2, G3, K, M_in2, M_in3, R34, R36, S3, g, gamma34, g
     R23 = hypot(R23_x, R23_y)  # [N] (1.20)
     gamma23 = atan2(R23_y, R23_x) % (2 * pi)  # [deg] (1.21)
     SR1 = typeset()
-    return (
-        F2_sum, F3_own, M2, R03, R03_n, R03_t, R12, R12_n, R12_t, R23, R23_x, R23_y, R43, R63, SR1, gamma03, gamma12,
-        gamma23,
-    )  # fmt: skip
-
-
-@app.cell
-def compared_23(
-    D, G2, G3, K, R03, R12, R23, R_05, R_D, R_E, R_H, R_K, S2, S3, a_S2, a_S3, eps2, eps3, g, gamma03, gamma12, gamma23,
-    group_23, lost,
-):  # fmt: skip
     found_23 = group_23.reactions(
         [Load(G2, S2), inertia(S2, g.m2, g.J2, a_S2, eps2)],
         [Load(G3, S3), inertia(S3, g.m3, g.J3, a_S3, eps3), Load(-R_D, D), Load(-R_K, K)],
@@ -801,7 +712,10 @@ def compared_23(
         check("first kind: R23 is that of the library", R23 * exp(1j * gamma23) - R_B, lost, "N", of=largest),
     )
     vectors_23 = typeset()
-    return R_A, R_B, R_C, checks_23, largest, vectors_23
+    return (
+        F2_sum, F3_own, M2, R03, R03_n, R03_t, R12, R12_n, R12_t, R23, R23_x, R23_y, R43, R63, R_A, R_B, R_C, SR1,
+        checks_23, gamma03, gamma12, gamma23, largest, vectors_23,
+    )  # fmt: skip
 
 
 @app.cell
@@ -822,9 +736,9 @@ def drawing_61(A, B, C, D, F2_sum, F3_own, K, R_A, R_C, R_D, R_K, S2, S3, SR1, c
     return
 
 
-@app.cell(hide_code=True)
-def section_61():
-    mo.md(r"""
+@app.cell
+def directions(R03, R03_n, R03_t, R12, R12_n, R12_t, R23, R23_x, R23_y, gamma03, gamma12, gamma23, phi2, phi3):
+    r"""
     ### 6.1 Directions by cases (programs UGL2, UGL3, UGL4)
 
     The document's subprograms take the arctangent of a quotient and choose the quadrant by signs. Their schemes are
@@ -832,12 +746,7 @@ def section_61():
     UGL3 is (1.21) and UGL4 is (1.13), (1.14). They agree with the two-argument arctangent in every case, but for whole
     turns: UGL3 gives $-90°$ to $270°$, so it is $360°$ less where the force points to the right and down; UGL4 counts
     on from the link. Where both components are zero there is no direction.
-    """)
-    return
-
-
-@app.cell
-def directions(R03, R03_n, R03_t, R12, R12_n, R12_t, R23, R23_x, R23_y, gamma03, gamma12, gamma23, phi2, phi3):
+    """
     gamma12_UGL2 = where(R12_t < 0, phi2 - 0.5 * pi, phi2 + 0.5 * pi)  # [deg] (1.5) of |R12t|
     gamma12_UGL4 = phi2 + where(R12_n < 0, pi, 0) + atan(R12_t / R12_n)  # [deg] (1.13), (1.14)
     gamma03_UGL4 = phi3 + where(R03_n < 0, pi, 0) + atan(R03_t / R03_n)  # [deg] (1.15), (1.16)
@@ -1016,9 +925,7 @@ def drawing_72(A, F1_sum, M_c, O1, R_1c, R_A, S1, checks_drive, coupling_lines, 
 
 @app.cell(hide_code=True)
 def section_8():
-    mo.md("""
-    ## 8 Full turn
-    """)
+    mo.md("## 8 Full turn")
     return
 
 
@@ -1065,20 +972,15 @@ def turn_drawn(F_b, M_b, R03, R05, R07, R12, R23, R34, R36, R45, R76, R_O1c, R_O
     return
 
 
-@app.cell(hide_code=True)
-def section_81():
-    mo.md("""
+@app.cell
+def figure_87(R_1c, R_1g, R_A, R_B, R_C, R_D, R_E, R_H, R_K, turn):
+    """
     ### Polar diagrams
 
     Each curve is the path of the end of a reaction, drawn from one point in the axes x, y of the frame; the crank's
     angle is marked at the quarters of the turn, the arrow is the reaction at the slider's position. Straight pieces are
     jumps, where the resistance begins and ends.
-    """)
-    return
-
-
-@app.cell
-def figure_87(R_1c, R_1g, R_A, R_B, R_C, R_D, R_E, R_H, R_K, turn):
+    """
     _polars = polar_diagrams(
         turn.value, R12=R_A, R23=R_B, R03=R_C, R34=R_D, R45=R_E, R36=R_K, R07=R_H, R_O1g=R_1g, R_O1c=R_1c
     )
@@ -1088,13 +990,7 @@ def figure_87(R_1c, R_1g, R_A, R_B, R_C, R_D, R_E, R_H, R_K, turn):
 
 @app.cell(hide_code=True)
 def section_9():
-    mo.md(r"""
-    ## 9 Checks
-
-    ### 9.1 Equilibrium of every body
-
-    By the reactions of the document's formulas.
-    """)
+    mo.md("## 9 Checks")
     return
 
 
@@ -1104,6 +1000,11 @@ def reactions(
     R03, R05, R07, R12, R23, R43, R45, R63, R76, R_A, R_D, R_K, R_O1c, S1, S2, S3, S4, S6, S7, gamma03, gamma05,
     gamma07, gamma12, gamma23, gamma45, gamma76, gamma_O1c, group_67, h76, largest, lost, u5,
 ):  # fmt: skip
+    """
+    ### 9.1 Equilibrium of every body
+
+    By the reactions of the document's formulas.
+    """
     R12_v = R12 * exp(1j * gamma12)  # [N] crank 1 on the rod 2
     R23_v = R23 * exp(1j * gamma23)  # [N] rod 2 on the rocker 3
     R03_v = R03 * exp(1j * gamma03)  # [N] frame on the rocker 3
@@ -1132,17 +1033,18 @@ def reactions(
     _lost = ~isfinite(R_A + R_D + R_K)
     _first = f"first at phi1 = {np.argmax(_lost)} deg" if np.any(_lost) else ""
     longest = largest_of(A - O1, B - C, A - B, D - E, H - K)
+    M_max = largest * longest
     checks_bodies = (
         Check("no position is a dead centre", np.count_nonzero(_lost), 0, "positions", _first, essential=True),
         *balance("bodies 1..7", loads, reactions, lost, largest, longest),
     )
     typeset(*checks_bodies)
-    return checks_bodies, loads, longest, reactions
+    return checks_bodies, M_max, loads, reactions
 
 
-@app.cell(hide_code=True)
-def section_92():
-    mo.md(r"""
+@app.cell
+def energy(C, F_g, H, P_A, P_D, P_E, P_K, P_S1, P_S2, P_S3, P_S4, P_S6, P_S7, V_A, V_D, V_E, V_K, g, u2, u3, u4, u6):
+    r"""
     ### 9.2 Power and energy
 
     Virtual work: the balancing moment and all loads, each with the velocity analogue of its point, do no work together,
@@ -1152,12 +1054,7 @@ def section_92():
     $M_b = J_r\,\varepsilon_1 + \tfrac{1}{2}\,\omega_1^2\,\mathrm{d}J_r/\mathrm{d}\varphi_1 +
     \mathrm{d}U/\mathrm{d}\varphi_1 - F_Q \cdot V_E$. Here the derivatives are taken numerically, so no formula of
     accelerations, inertia forces or reactions takes part.
-    """)
-    return
-
-
-@app.cell
-def energy(C, F_g, H, P_A, P_D, P_E, P_K, P_S1, P_S2, P_S3, P_S4, P_S6, P_S7, V_A, V_D, V_E, V_K, g, u2, u3, u4, u6):
+    """
     V_S2 = lambda phi1: link_velocity(P_S2(phi1), P_A(phi1), u2(phi1), V_A(phi1))  # [m] velocity analogue of S2
     V_S3 = lambda phi1: link_velocity(P_S3(phi1), C, u3(phi1))  # [m] velocity analogue of S3
     V_S4 = lambda phi1: link_velocity(P_S4(phi1), P_D(phi1), u4(phi1), V_D(phi1))  # [m] velocity analogue of S4
@@ -1185,7 +1082,7 @@ def energy(C, F_g, H, P_A, P_D, P_E, P_K, P_S1, P_S2, P_S3, P_S4, P_S6, P_S7, V_
 @app.cell
 def work(
     F1_sum, F2_sum, F3_own, F4_sum, F5_sum, F6_sum, F7_sum, F_Q, F_w, J_r, M1, M2, M4, M6, M7, M_b, M_in3, O1, P_w, S1,
-    U, V_E, V_S2, V_S3, V_S4, V_S6, V_S7, g, largest, longest, lost, omega1, phi1, u2, u3, u4, u6,
+    U, V_E, V_S2, V_S3, V_S4, V_S6, V_S7, g, M_max, lost, omega1, phi1, u2, u3, u4, u6,
 ):  # fmt: skip
     V_S1 = 1j * (S1 - O1)  # [m] velocity analogue of S1
     W_1 = dot(F1_sum, V_S1) + M1  # [N*m] work of the loads on the crank, for a radian of the crank
@@ -1198,12 +1095,10 @@ def work(
     work_lines = typeset()
     energy = lambda phi1: omega1**2 * J_r(phi1) / 2 + U(phi1)  # [J] energy at the speed of the crank
     driven = M_b - g.eps1 * J_r(phi1) + dot(F_Q, V_E(phi1))  # [N*m] left of the moment for the change of energy
-    _some = slice(None, None, 15)
-    _size = largest * longest
     checks_work = (
-        check("virtual work of moment and loads", M_b + W_1 + W_2 + W_3 + W_4 + W_5 + W_6 + W_7, lost, "N*m", of=_size),
-        check("the gear gives the power of the coupling", dot(F_w, 1j * (P_w - O1)) - M_b, lost, "N*m", of=_size),
-        check_slope("energy: the moment is its slope", driven[_some], energy, phi1[_some], -pi / 2, 5 * pi / 2, "N*m"),
+        check("virtual work of moment and loads", M_b + W_1 + W_2 + W_3 + W_4 + W_5 + W_6 + W_7, lost, "N*m", of=M_max),
+        check("the gear gives the power of the coupling", dot(F_w, 1j * (P_w - O1)) - M_b, lost, "N*m", of=M_max),
+        check_slope("energy: the moment is its slope", driven[::15], energy, phi1[::15], -pi / 2, 5 * pi / 2, "N*m"),
     )
     energy_lines = typeset()
     return checks_work, energy_lines, work_lines
@@ -1215,30 +1110,24 @@ def work_shown(checks_work, energy_lines, turn, work_lines):
     return
 
 
-@app.cell(hide_code=True)
-def section_93():
-    mo.md(r"""
+@app.cell
+def dense(largest, M_max, loads, lost, reactions):
+    r"""
     ### 9.3 One system for the whole mechanism
 
     Three equations of equilibrium for each of the seven bodies, with moments about $O_1$, hold the balancing moment,
     both components of the force in each of the eight hinges, and force and moment in both prismatic pairs: 21
     equations for 21 unknowns, solved at once in every position.
-    """)
-    return
-
-
-@app.cell
-def dense(largest, loads, longest, lost, reactions):
+    """
     dense = solve_reactions(loads, reactions)
     _off = dense - magnitudes(reactions)
     _hinges = _off[..., 1:17:2] + 1j * _off[..., 2:17:2]
-    _moment = largest * longest
     checks_dense = (
-        check("one system: balancing moment", _off[..., 0], lost, "N*m", of=_moment),
+        check("one system: balancing moment", _off[..., 0], lost, "N*m", of=M_max),
         check("one system: forces in the hinges", _hinges, lost, "N", of=largest),
         check("one system: forces in the prismatic pairs", _off[..., [17, 19]], lost, "N", of=largest),
-        check("one system: moment of the guide", _off[..., 18], lost, "N*m", of=_moment),
-        check("one system: moment of the cylinder on the rod", _off[..., 20], lost, "N*m", of=_moment),
+        check("one system: moment of the guide", _off[..., 18], lost, "N*m", of=M_max),
+        check("one system: moment of the cylinder on the rod", _off[..., 20], lost, "N*m", of=M_max),
     )
     typeset(*checks_dense)
     return (checks_dense,)

@@ -1,15 +1,13 @@
 """The digits that a proof claims beside those that there are, by exact results from the inputs to the end."""
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
-from mpmath import mp, mpf
 
-from mechsheet.accuracy import exact
-from mechsheet.accuracy.arithmetic import Numbers
-from mechsheet.accuracy.jobs import exact_results
+from mechsheet.accuracy.arithmetic import mp, mpf
+from mechsheet.accuracy.jobs import TRUTHS, exact_results
 from mechsheet.run.progress import progress
 from mechsheet.run.proving import proof_of_wanted
 from mechsheet.worksheet.cells import Worksheet, load
@@ -40,42 +38,16 @@ class Claim(NamedTuple):
         return self.proved < min(self.right, _ROUNDED) - _FEWER
 
 
-def _hitch(g: Any, k: int) -> Numbers:
-    S_min, S_max = mpf(g.S_min), mpf(g.S_max)
-    return exact.hitch(g, S_min + (S_max - S_min) * k / (g.N_pol - 1))
-
-
-def _landing_gear(g: Any, i: int) -> Numbers:
-    made = exact.stroke(g)
-    return exact.landing_gear(g, made["l20"] + made["H"] * i / mpf(g.R))
-
-
-def _slotted_link(g: Any, k: int) -> Numbers:
-    return exact.slotted_link(g, mpf(g.phi_0) + k * mp.sign(g.omega1) * 2 * mp.pi / g.n)
-
-
-def _kinetostatics(g: Any, k: int) -> Numbers:
-    return exact.kinetostatics(g, 2 * mp.pi * k / 360)
-
-
 _GIVEN = {"kinetostatics": {"step": 1}}  # its recording holds the positions that its tables list
-
-# Exact results at a position from the inputs alone, and the field whose length is the number of positions.
-_EXACT: dict[str, tuple[Callable[[Any, int], Numbers], str]] = {
-    "hitch": (_hitch, "S"),
-    "landing_gear": (_landing_gear, "l2i"),
-    "slotted_link": (_slotted_link, "phi1_k"),
-    "kinetostatics": (_kinetostatics, "phi1"),
-}
 
 
 def _truths(stem: str, names: Mapping[str, Any]) -> dict[str, dict[int, Any]]:
     """Exact results of a worksheet at three of its positions, by name and position; of the joint all its forces."""
     if stem == "joint":
         return {name: dict(enumerate(y)) for name, y in exact_results(stem, names, ()).items()}
-    results, field = _EXACT[stem]
-    n = len(names[field])
-    at = {k: results(names["g"], k) for k in (0, n // 3, n - 1)}
+    truth = TRUTHS[stem]
+    n = len(names[truth.field])
+    at = {k: truth.from_inputs(names["g"], k, n) for k in (0, n // 3, n - 1)}
     shown = [name for name in at[0] if name in names and np.shape(names[name]) == (n,) and not name.startswith(_TURNS)]
     return {name: {k: made[name] for k, made in at.items()} for name in shown}
 
@@ -84,8 +56,7 @@ def claims(path: Path) -> list[Claim]:
     """What is proved of the results of one of the five documents for which there are exact ones."""
     sheet = load(path)
     names = sheet.run(sheet.results, {"g": build(sheet.inputs, _GIVEN.get(path.stem, {}))})
-    with mp.workdps(50):
-        return list(_compared(path.stem, names, _truths(path.stem, names), sheet))
+    return list(_compared(path.stem, names, _truths(path.stem, names), sheet))
 
 
 def _compared(
@@ -105,7 +76,7 @@ def _compared(
 
 def claims_table(number: str, folder: Path) -> tuple[Table, Check]:
     """A row for each of the five documents, and the check that no proof claims digits that there are not."""
-    stems = (*_EXACT, "joint")
+    stems = (*TRUTHS, "joint")
     with progress(len(stems), f"{number} Proof") as done:
         rows = []
         for stem in stems:

@@ -7,8 +7,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from mechsheet.accuracy import arithmetic, exact
+from mechsheet.accuracy import arithmetic
 from mechsheet.accuracy.arithmetic import EPS, Numbers, mpc, mpf
+from mechsheet.accuracy.jobs import TRUTHS
 from mechsheet.accuracy.precision import largest_error
 from mechsheet.mechanics.planar import cross
 from mechsheet.mechanics.prp import prp
@@ -120,8 +121,7 @@ def _end_to_end(number: str, path: Path, _text: bytes) -> tuple[Table, Check]:
     recording, g, n = record(names, sheet), names["g"], len(names["S"])
     inputs = [node for node in recording.inputs.values() if node.size == 1 and node.value.dtype.kind == "f"]
     rows = [0, n // 3, n - 1]
-    span = mpf(g.S_max) - mpf(g.S_min)
-    truth = [exact.hitch(g, mpf(g.S_min) + span * k / (n - 1)) for k in rows]
+    truth = [TRUTHS["hitch"].from_inputs(g, k, n) for k in rows]
     parts = {
         name: [*value.parts]
         for name in truth[0]

@@ -255,12 +255,12 @@ def hitch(worksheets: Path, given: Mapping[str, Any], at: int = -1) -> Case:
 def document(stem: str, worksheets: Path, given: Mapping[str, Any], at: int = -1) -> Case:
     """A worksheet at one of its positions, which counts as an input of what follows."""
     sheet, g = _worksheet(worksheets / f"{stem}.py", given)
-    field, truth, _ = TRUTHS[stem]
-    names = sheet.run([field], {"g": g})
-    position = float(names[field][at])
+    truth = TRUTHS[stem]
+    names = sheet.run([truth.field], {"g": g})
+    position = float(names[truth.field][at])
     return Case(
         words="",
-        true=lambda position, **g: truth(SimpleNamespace(**g), position),
+        true=lambda position, **g: truth.results(SimpleNamespace(**g), position),
         x={"position": position, **exact.numbers(g)},
         product=lambda true: _row(sheet.run(true, names), true, at),
         printed=lambda _: printed.landing_gear(g, position) if stem == "landing_gear" else {},

@@ -45,11 +45,12 @@ _TOLD = '<div class="ms-told" style="display:none"><span class="ms-badge ms-FAIL
 def written(value: object) -> tuple[str, str]:
     """MIME type and text of a value of the package."""
     text = html(value)
-    shown = _placed(value) and mo.app_meta().mode == "run" and notebook.reads("title_block")
+    placed = _placed(value) and not _HEADED.search(text)
+    shown = placed and mo.app_meta().mode == "run" and notebook.reads("title_block")
     if shown and not _OF_MARIMO.search(text):
         # Else marimo itself makes each element over and again. HTML is full of double quotes: it stands in single ones.
         text = f"<ms-shown html='{text.replace('&', '&amp;').replace(_QUOTE, '&#39;')}'></ms-shown>"
-    if shown or isinstance(value, Typeset):  # in a bundle: plain HTML is parsed four times a run, in search of headings
+    if shown or (placed and isinstance(value, Typeset)):  # plain HTML is parsed four times a run, in search of headings
         return "application/vnd.marimo+mimebundle", json.dumps({"text/html": text})
     return "text/html", text
 
@@ -92,6 +93,7 @@ def _said(text: str) -> str:
 
 
 _QUOTE = "'"
+_HEADED = re.compile("<h[1-6][ >]")  # marimo lists the headings of plain HTML beside the page
 _OF_MARIMO = re.compile("<(?:script|marimo-ui-element)")  # works only where marimo itself puts it
 
 

@@ -24,22 +24,15 @@ def waiting(file: Sequence[source.Cell], cells: Sequence[Cell], stopped: str) ->
         lost |= {name for cell in cells if cell.refs & lost for name in cell.defs}
     last, at, places = "", "", dict[str, None]()
     for cell in file:
-        nodes = [node for statement in cell.body for node in source.nodes(statement)]
-        last = next(reversed([found for node in nodes for found in _headings(node)]), last)
+        headings = [found for text in source.texts(cell.body) for found in _HEADING.findall(source.constant(text))]
+        last = [last, *headings][-1]
+        nodes = (node for statement in cell.body for node in source.nodes(statement))
         names = [node for node in nodes if isinstance(node, ast.Name)]
         if own & {name.id for name in names if isinstance(name.ctx, ast.Store)}:
             at = last
         elif lost & {name.id for name in names}:
             places[last] = None
     return {heading(place): f"waits for {_named(at)}" for place in places if place not in ("", at)}
-
-
-def _headings(node: ast.AST) -> list[str]:
-    """Headings of a text of the worksheet."""
-    match node:
-        case ast.Call(ast.Attribute(attr="md"), [text]):
-            return _HEADING.findall(source.constant(text))
-    return []
 
 
 def _named(section: str) -> str:

@@ -9,6 +9,8 @@ type; `define` adds one's own. A display unit is read into that factor and the e
 nothing of the package; the stub beside this file tells the names, which type checkers and editors read.
 """
 
+from typing import Any, NoReturn
+
 from mechsheet.units.definitions import PURE, Constant, Dims, Unit, celsius, constant, define, names, nearest, parse
 from mechsheet.units.printing import alike, raised, shown, si, word
 from mechsheet.units.text import UNKNOWN, plain
@@ -32,6 +34,19 @@ __all__ = [
     "si",
     "word",
 ]
+
+
+class _Named(list[str]):
+    """Names for those who look them up; ``import *``, which takes them one after the other, is refused."""
+
+    def __getitem__(self, _: Any) -> NoReturn:
+        raise ImportError(
+            "from mechsheet.units import * would bring every unit, and g, A or F is something else in a formula: "
+            "name those that are used, such as from mechsheet.units import kN, mm"
+        )
+
+
+__all__ = _Named(__all__)
 
 
 def __getattr__(name: str) -> float:

@@ -19,7 +19,7 @@ import numpy as np
 from mechsheet.worksheet import mistakes, source
 from mechsheet.worksheet.check import Check
 from mechsheet.worksheet.errors import SheetError, as_given, raised
-from mechsheet.worksheet.source import constant, functions, is_app, markdown, parsed
+from mechsheet.worksheet.source import constant, functions, is_app, parsed, texts
 
 _SECTION = re.compile(r"^\s*## +(.*\S)", re.MULTILINE)
 _PART = re.compile(r"abs\((\w+)\)|(\w+)\.(real|imag)")
@@ -324,7 +324,7 @@ def _cells(tree: ast.Module, text: str, path: Path) -> Iterator[Cell]:
     given = frozenset(chain.from_iterable(gives))
     for n, node in enumerate(nodes):
         lines = node.body[:-1] if isinstance(node.body[-1], ast.Return) else node.body
-        section = [section, *_SECTION.findall(constant(markdown(node)))][-1]
+        section = [section, *(found for text in texts(lines) for found in _SECTION.findall(constant(text)))][-1]
         # What a program other than marimo has written may read more than it names as arguments.
         others = given.difference(gives[n])
         needs = frozenset(a.arg for a in node.args.args) | others.intersection(read_outside(scopes[node.lineno]))

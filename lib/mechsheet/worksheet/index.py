@@ -129,12 +129,10 @@ def _titles(node: ast.stmt) -> Iterator[Entry]:
 
 def _headings(node: ast.stmt) -> Iterator[Entry]:
     """Headings of a statement's text that the document has a name for."""
-    for call in source.nodes(node):
-        match call:
-            case ast.Call(ast.Attribute(ast.Name("mo"), "md"), [markdown]):
-                for heading in _HEADING.findall(source.constant(markdown)):
-                    for label in _labels(heading):
-                        yield Entry(label, "heading", "", heading, call.lineno)
+    for markdown in source.texts([node]):
+        for heading in _HEADING.findall(source.constant(markdown)):
+            for label in _labels(heading):
+                yield Entry(label, "heading", "", heading, markdown.lineno)
 
 
 def _title(node: ast.expr) -> str:

@@ -3,9 +3,11 @@
 import ast
 import re
 import sys
+from bisect import bisect
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
+from itertools import pairwise, starmap
 from operator import attrgetter
 from typing import Any, NamedTuple
 
@@ -100,6 +102,8 @@ def _formulas(cell: source.Cell) -> Iterator[Formula | Given]:
             case ast.Assign([ast.Name(name)], ast.Call(ast.Name("find" | "minerr"), [f, *_], keywords)):
                 yield from _given(name, f, next((k.value for k in keywords if k.arg == "equals"), ast.Constant(0)))
                 continue
+            case ast.Expr(ast.JoinedStr()):
+                raise SheetError(f"{cell.at(node.lineno)}: a text with values in it belongs to mo.md or to typeset")
         lines, number = _bound(node), node.end_lineno or node.lineno
         found = _declared_each(cell.comments.get(number, ""), cell.at(number), lines) if lines else ()
         for line, told in zip(lines, found, strict=False):
@@ -315,9 +319,10 @@ def typeset(*shown: Any, display: Mapping[str, str] | None = None) -> "Typeset":
     """Formulas of the calling cell with their values, then whatever else is ``shown``: the last line of a cell.
 
     Where a cell calls it again, each call has the lines above it that no call above it has. Reads the cell's own
-    source, so nothing is typed twice. Nothing is rendered until the page asks. A text is Markdown. ``display``
-    gives another display unit for some of the declared ones, such as ``{"kgf": "N"}``, to tables and figures too: a
-    dictionary as it is written, or a name of the worksheet. A line whose unit is not known is shown in SI, and why.
+    source, so nothing is typed twice. Nothing is rendered until the page asks. A text is Markdown; one that stands by
+    itself among the lines, a string and nothing else, is shown where it stands. ``display`` gives another display unit
+    for some of the declared ones, such as ``{"kgf": "N"}``, to tables and figures too: a dictionary as it is written,
+    or a name of the worksheet. A line whose unit is not known is shown in SI, and why.
 
     Raises SheetError naming the line whose names and units do not match.
     """
@@ -326,6 +331,7 @@ def typeset(*shown: Any, display: Mapping[str, str] | None = None) -> "Typeset":
     above = max((end for end in typeset_lines(cell) if end < here), default=0)
     try:
         lines = [row for row in formulas(cell) if above < row.expression.lineno < here]
+        between = [text for text in source.standing(cell.body) if above < text.lineno < here]
     except SheetError as error:
         refuse(error)
     rows = [_displayed(row, display or {}) if isinstance(row, Formula) else row for row in lines]
@@ -334,7 +340,14 @@ def typeset(*shown: Any, display: Mapping[str, str] | None = None) -> "Typeset":
     for row, value in zip(rows, values, strict=True):
         if isinstance(row, Formula) and (why := no_number(row, value)):
             refuse(SheetError(f"{cell.at(row.expression.lineno)}: {why}"))
-    return Typeset(tuple(rows), values, shown, Numbers(frame.f_globals))
+    known = Numbers(frame.f_globals)
+    if not between:
+        return Typeset(tuple(rows), values, shown, known)
+    parts = list[Any]()
+    begins = [0, *(bisect(rows, text.lineno, key=lambda row: row.expression.lineno) for text in between), len(rows)]
+    for text, some in zip(["", *(text.value for text in between)], starmap(slice, pairwise(begins)), strict=True):
+        parts += [text, Typeset(tuple(rows[some]), values[some], (), known)]
+    return Typeset((), (), (*parts[1:], *shown))
 
 
 def no_number(row: Formula, value: Any) -> str:
@@ -426,4 +439,5 @@ class Typeset(Shown):
     def at(self, position: int) -> "Typeset":
         """The same formulas with the values at one position of their fields."""
         values = (np.asarray(v)[..., position] if np.ndim(v) else v for v in self.values)
-        return replace(self, values=tuple(values), position=position)
+        shown = (part.at(position) if isinstance(part, Typeset) else part for part in self.shown)
+        return replace(self, values=tuple(values), shown=tuple(shown), position=position)

@@ -6,7 +6,7 @@ import linecache
 import os
 import re
 import tokenize
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
@@ -94,6 +94,24 @@ def markdown(node: ast.FunctionDef) -> ast.expr | None:
                 case ast.Call(ast.Attribute(ast.Name("mo"), "md"), [text]):
                     return text
     return None
+
+
+def texts(lines: Iterable[ast.stmt]) -> Iterator[ast.expr]:
+    """Texts that lines of a cell show: those that stand by themselves, and what ``mo.md`` is given."""
+    for line in lines:
+        yield from standing([line])
+        for call in nodes(line):
+            match call:
+                case ast.Call(ast.Attribute(ast.Name("mo"), "md"), [text]):
+                    yield text
+
+
+def standing(lines: Iterable[ast.stmt]) -> Iterator[ast.Constant]:
+    """Texts that stand by themselves among the lines of a cell."""
+    for line in lines:
+        match line:
+            case ast.Expr(ast.Constant(str()) as text):
+                yield text
 
 
 def constant(node: ast.expr | None) -> str:
