@@ -3,14 +3,16 @@
 That of one equation closes in on its only change of sign; of several they are the `stepped` ones.
 """
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
 from typing import Any
 
 import numpy as np
 
 from mechsheet.recording.arithmetic import choice
+from mechsheet.recording.confirmed import confirm
 from mechsheet.recording.graph import Gap, Graph, Label, NotRecorded
-from mechsheet.recording.lines import Recording, leaves_of
+from mechsheet.recording.lines import Recording, Solved, leaves_of
 from mechsheet.recording.node import Block, Node, bottom_up
 from mechsheet.recording.quantity import Quantity, lift
 from mechsheet.recording.stepped import steps
@@ -25,29 +27,53 @@ _LESS = 0.1  # of the residual in the last early look may be left in the end: mo
 
 
 def search(recording: Recording) -> None:
-    """Give found values without a closed form the search for them in its place.
+    """Give found values without a closed form that solves the equations the search for them in its place.
 
     It has no value where that of the worksheet is not sure to be the same: of one equation where its places show no
     change of sign, more than one, or that there may be more. What it doesn't find for the inputs at hand keeps the
     number of the worksheet's own run; `Recording.unsolved` says which found values do so whatever there is, and why.
     """
-    graph, roots = recording.graph, dict[Node, Node]()
-    blocks = {solved.node.args[0]: solved for solved in recording.found.values() if solved.node.op == "found"}
-    for block, last in blocks.items():
-        graph.line = block.nodes[0].line
-        if any(solved.inverse is None for solved in recording.found.values() if solved.node in block.nodes):
-            try:
-                with np.errstate(all="ignore"):  # the equations need not have a value everywhere
-                    found = [_root(graph, block, last.words.unknown_unit)] if block.single else steps(graph, block)
-                    roots |= {n: _at_hand(recording, n, x) for n, x in zip(block.nodes, found, strict=True)}
-            except NotRecorded as reason:
-                recording.unsolved.append(Gap(_named(recording, block), block.nodes[0].line, f"{_KEPT}: {reason}"))
+    blocks = dict[Block, list[Solved]]()
     for solved in recording.found.values():
-        if solved.inverse is None and solved.node in roots:
-            solved.inverse = roots[solved.node]
-            solved.searched = _ONE if solved.node.args[0].single else "Newton's steps from its guess"
-            recording.define_steps("Search", solved)
+        if solved.node.op == "found":
+            blocks.setdefault(solved.node.args[0], []).append(solved)
+    for block, unknowns in blocks.items():
+        recording.graph.line = block.nodes[0].line
+        try:
+            with np.errstate(all="ignore"):  # the equations need not have a value everywhere
+                _know(recording, block, unknowns)
+        except NotRecorded as reason:
+            for solved in unknowns:
+                solved.inverse, solved.searched = None, ""
+            recording.unsolved.append(Gap(_named(recording, block), block.nodes[0].line, f"{_KEPT}: {reason}"))
+        for solved in unknowns:
+            recording.define_steps("Search" if solved.searched else _section(recording, solved.node), solved)
     recording.unsolved += _counted(recording)
+
+
+def _know(recording: Recording, block: Block, unknowns: Sequence[Solved]) -> None:
+    """Let unknowns be known by closed forms that solve the equations, else by the search for them."""
+    if len(unknowns) == len(block.nodes) and all(solved.inverse for solved in unknowns):
+        with suppress(NotRecorded):
+            confirm(recording, block, unknowns)
+            return
+        for solved in unknowns:
+            solved.inverse = None
+    graph = recording.graph
+    found = [_root(graph, block, unknowns[-1].words.unknown_unit)] if block.single else steps(graph, block)
+    roots = {n: _at_hand(recording, n, x) for n, x in zip(block.nodes, found, strict=True)}
+    for solved in unknowns:
+        if solved.inverse is None:
+            solved.inverse = roots[solved.node]
+            solved.searched = _ONE if block.single else "Newton's steps from its guess"
+    if not all(solved.searched for solved in unknowns):
+        confirm(recording, block, unknowns)
+
+
+def _section(recording: Recording, node: Node) -> str:
+    """Where a found value is a line."""
+    with_it = (title for title, lines in recording.lines.items() if any(line.node is node for line in lines))
+    return next(with_it, "Search")
 
 
 def _counted(recording: Recording) -> Iterator[Gap]:
