@@ -3,7 +3,7 @@
 That of one equation closes in on its only change of sign; of several they are the `stepped` ones.
 """
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from typing import Any
 
@@ -14,7 +14,9 @@ from mechsheet.recording.confirmed import confirm
 from mechsheet.recording.graph import Gap, Graph, Label, NotRecorded
 from mechsheet.recording.lines import Recording, Solved, leaves_of
 from mechsheet.recording.node import Block, Node, bottom_up
-from mechsheet.recording.quantity import Quantity, lift
+from mechsheet.recording.operations import ELEMENTWISE, Values
+from mechsheet.recording.quantity import Quantity, lift, moved
+from mechsheet.recording.replaced import replaced
 from mechsheet.recording.stepped import steps
 
 PLACES = 97  # of the first look at the whole interval, dense at its ends
@@ -111,13 +113,60 @@ def _at_hand(recording: Recording, found: Node, root: Any) -> Node:
 
 
 def _root(graph: Graph, block: Block, unit: str) -> Any:
-    if not block.elementwise:
-        raise NotRecorded("its equation rests on sums or on other elements")
+    if not (block.elementwise or _each_of_its_own(block)):
+        raise NotRecorded("its equation for one of the values rests on others of them")
     if not block.starts.keys() >= {"lo", "hi"}:
         raise NotRecorded("its interval has an open end")
     (low,), (high,) = block.starts["lo"], block.starts["hi"]
-    a, b = (Quantity(graph, graph.like(end, low, high, *block.under)) for end in (low, high))
+    a, b = (Quantity(graph, graph.like(end, low, high, *_shaping(graph, block))) for end in (low, high))
+    if a.extent != block.nodes[0].shape:
+        raise NotRecorded("its interval has another shape")
     return _searched(block, a, b, unit)
+
+
+def _shaping(graph: Graph, block: Block) -> tuple[Node, ...]:
+    """What the block rests on that has the shape of its unknown."""
+    shape = block.nodes[0].shape
+    alike = tuple(node for node in block.under if block.elementwise or node.shape == shape)
+    return alike or (graph.constant(np.zeros(shape)),)
+
+
+_NONE, _SEVERAL = -1, -2
+
+
+def _each_of_its_own(block: Block) -> bool:
+    """Whether the equation for each number of the unknown rests on no other number of it."""
+    unknown, residual = block.nodes[0], block.residuals[0]
+    rests = {unknown: np.arange(unknown.size).reshape(unknown.shape)}
+    for node in bottom_up([residual], rests):
+        under = [rests[operand] for operand in node.operands]
+        if node.op == "take":
+            rests[node] = under[0].reshape(-1)[node.args[1]]
+        elif node.op == "join":
+            starts = np.cumsum([0, *(one.size for one in under)])
+            rests[node] = np.concatenate([one.reshape(-1) for one in under])[starts[node.args[1]] + node.args[2]]
+        elif node.op == "reduce":
+            groups = [_of_all(under[0].reshape(-1)[group]) for group in node.args[1]]
+            rests[node] = np.array(groups, int).reshape(node.shape)
+        elif node.op in ELEMENTWISE:
+            rests[node] = _of_both(*under)
+        else:  # of all that it rests on
+            whole = np.concatenate([np.array([_NONE]), *(one.reshape(-1) for one in under)])
+            rests[node] = np.full(node.shape, _of_all(whole))
+    own = rests[residual]
+    return own.shape == unknown.shape and bool(((own == rests[unknown]) | (own == _NONE)).all())
+
+
+def _of_both(*rests: Values) -> Values:
+    one, *others = np.broadcast_arrays(*rests)
+    for other in others:
+        one = np.where((other == _NONE) | (other == one), one, np.where(one == _NONE, other, _SEVERAL))
+    return one
+
+
+def _of_all(rests: Values) -> int:
+    known = set(rests.reshape(-1).tolist()) - {_NONE}
+    return known.pop() if len(known) == 1 else _SEVERAL if known else _NONE
 
 
 def _searched(block: Block, a: Quantity, b: Quantity, unit: str) -> Any:
@@ -163,15 +212,6 @@ def _unseen(left: Quantity) -> Any:
 
 
 def _residual(block: Block, x: Quantity) -> Quantity:
-    """What is left of the equation at other values of its unknown."""
-    graph, new = x.graph, {block.nodes[0]: x.re}
-    for node in bottom_up(block.residuals, new):
-        if any(new.get(operand, operand) is not operand for operand in node.operands):
-            new[node] = graph.node(node.op, *(_at_places(Quantity(graph, n), new).re for n in node.operands))
-    return Quantity(graph, new[block.residuals[0]])
-
-
-def _at_places(operand: Quantity, new: Mapping[Node, Node]) -> Quantity:
-    """An operand at all places, which stand on a last axis of their own."""
-    known = new.get(operand.re)
-    return Quantity(operand.graph, known) if known else operand[..., None] if operand.shape else operand
+    """What is left of the equation at other values of its unknown, which stand on the last axis."""
+    new = replaced(x.graph, block.residuals, {block.nodes[0]: moved(x, -1, 0).re}, x.extent[-1])
+    return moved(Quantity(x.graph, new[block.residuals[0]]), 0, -1)
