@@ -49,7 +49,6 @@ SHEETS = {
 UNTOLD = {"joint": 2}  # lists of states, which are texts of Python's
 NUMBER = re.compile(r"(-?\d+(?:\.\d+)?(?:e[+-]\d+)?)")
 # Evaluations of the equations that are solved.
-COUNTED = {("slotted_link", "table-3"), ("slotted_link", "table-4")}
 COUNTS = {"line-N_F", "line-N_g"}
 # What is told is hidden as the page scrolls, which it does while parts that come into view take their heights.
 SCROLLED = """() => new Promise(done => {
@@ -196,8 +195,7 @@ def test_the_page_shows_for_other_inputs_what_the_worksheet_shows(
         assert text in (None, there["texts"][k])
     assert list(map(without_counts, here["found"])) == list(map(without_counts, there["found"]))
     for caption, rows in there["tables"].items():
-        if (name, caption) not in COUNTED:
-            assert here["tables"][caption] == rows, caption
+        assert here["tables"][caption] == rows, caption
     for k, curve in enumerate(pictures["charts"]):
         mine, own = (re.split(NUMBER, text) for text in (here["charts"][k], curve))
         assert mine[::2] == own[::2], k
