@@ -311,7 +311,7 @@ def test_what_rounding_leaves_of_a_sum_is_no_value(line, nothing):
         + "S, T = np.array([3e-11 - 1e5, -3e5]), np.array([3e-11 - 1e5, 1e-8 - 3e5])\n"
         + f"F = {line}  # [N] left over\nshown = typeset()"
     )
-    assert ("\\approx||)</marimo-tex><span class=\"ms-value\">0 N</span>" in joined(names["shown"])) is nothing
+    assert ('\\approx||)</marimo-tex><span class="ms-value">0 N</span>' in joined(names["shown"])) is nothing
 
 
 @pytest.mark.parametrize(

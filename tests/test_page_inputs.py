@@ -157,7 +157,7 @@ def test_what_a_link_carries_waits_for_fields_that_are_drawn_late(
 
 
 def test_what_the_address_says_of_the_worksheet_stays(press: Path, left_open: Callable[[Path, str], Page]) -> None:
-    """As its file does where a server has several: inputs stand behind it, and a link within the page is none out of it.
+    """As its file where a server has several: inputs stand behind it, and a link within the page leads not out of it.
 
     The page has a base, to which what begins with # alone would lead.
     """
