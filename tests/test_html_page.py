@@ -277,6 +277,17 @@ def test_units_are_read_and_the_changed_input_is_marked_and_kept_in_the_address(
     assert g.P6 == 30e3
 
 
+def test_a_link_within_the_page_leaves_the_inputs(document: Callable[..., Path], offline: Page) -> None:
+    page = opened(offline, document("hitch"))
+    fill(page, "P6", "30000")
+    expect(page).to_have_url(re.compile("#P6=30000$"))
+    link = page.locator("a[href^='#check-']").first
+    link.click()
+    expect(page.locator(link.get_attribute("href") or "")).to_be_in_viewport()
+    expect(page).to_have_url(re.compile("#P6=30000$"))
+    assert page.locator("#input-P6").input_value() == "30000"
+
+
 def test_rows_are_filled_in_put_in_and_taken_away(document: Callable[..., Path], offline: Page) -> None:
     page = opened(offline, document("examples/bolted_joint"))
     first, rows = read(page), page.locator("[data-grid=cases] tbody tr")

@@ -176,6 +176,23 @@ def test_what_a_link_carries_waits_for_fields_that_are_drawn_late(
     other.close()
 
 
+def test_what_the_address_says_of_the_worksheet_stays(press: Path, left_open: Callable[[Path, str], Page]) -> None:
+    """As its file where a server has several: inputs stand behind it, and a link within the page leads not out of it.
+
+    The page has a base, to which what begins with # alone would lead.
+    """
+    page = left_open(press, "as in the document")
+    other = page.context.new_page()
+    other.goto(page.url.partition("#")[0] + "?file=press.py")
+    fill(other, "r", "52")
+    expect(other).to_have_url(re.compile(r"/\?file=press\.py#r=52$"))
+    link = other.locator("#checks a").last
+    link.click()
+    expect(other.locator(link.get_attribute("href") or "")).to_be_in_viewport()
+    expect(other).to_have_url(re.compile(r"/\?file=press\.py#r=52$"))
+    other.close()
+
+
 def test_what_differs_from_the_document_is_marked_with_its_own_numbers(
     press: Path, left_open: Callable[[Path, str], Page]
 ) -> None:

@@ -46,9 +46,9 @@ usage: mechsheet COMMAND              where the package is installed
       such as                         serve hitch --port=8080
   index NAME                          where the worksheet has the formulas, tables and figures of its document
       such as                         index kinetostatics
-  compare NAME OLD NEW [--markdown]   what changed from one scene, workbook or revision of git to another; exit code 1
-                                      where something did
-      such as                         compare hitch HEAD worksheets/scenes/heavy.toml
+  compare NAME OLD NEW [--markdown]   what changed from one scene, workbook, revision of git or worksheet's file to
+                                      another; exit code 1 where something did
+      such as                         compare hitch HEAD worksheets/hitch.py
   rename NAME OLD NEW                 rename a symbol in the worksheet, its comments and texts, and in its scenes
       such as                         rename hitch F_gc F_c
   test [OPTIONS]                      run the project's tests (options of pytest)

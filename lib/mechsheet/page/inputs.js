@@ -139,7 +139,9 @@
 
     address() {
       const text = addressOf(this.given);
-      if (text || location.hash.includes("=")) history.replaceState(history.state, "", text ? `#${text}` : location.pathname + location.search);
+      // Whole: marimo's page has a base, to which a fragment alone would lead from a worksheet that the query names.
+      const page = location.pathname + location.search;
+      if (text || location.hash.includes("=")) history.replaceState(history.state, "", page + (text && `#${text}`));
     }
 
     show() {

@@ -42,15 +42,6 @@
   const bar = document.createElement("div");
   bar.className = "ms-bar";
   bar.role = "status";
-  bar.addEventListener("click", (event) => {
-    const link = event.target.closest("a");
-    const place = link && document.getElementById(decodeURIComponent(link.hash.slice(1)));
-    if (!place) return;
-    event.preventDefault();
-    const lead = () => place.scrollIntoView({ block: "center" });
-    lead();
-    requestAnimationFrame(() => requestAnimationFrame(lead)); // what is laid out on the way there moves it
-  });
 
   class Verdict extends HTMLElement {
     static observedAttributes = ["bar"];
