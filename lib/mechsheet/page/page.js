@@ -78,7 +78,7 @@
       const [failed, verdicts] = ["ms-failed", "ms-verdict"].map((kind) => [...document.querySelectorAll(kind)]);
       const told = [...failed.slice(0, 1), ...verdicts];
       bar.hidden = told.every(({ isSeen }) => isSeen ?? true);
-      bar.innerHTML = told.map((each) => each.getAttribute("bar")).join("");
+      bar.innerHTML = bar.hidden ? "" : told.map((each) => each.getAttribute("bar")).join("");
       if (told.length) document.body.append(bar);
       else bar.remove();
     }
