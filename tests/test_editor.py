@@ -407,7 +407,7 @@ def test_lines_below_the_last_typeset_and_units_that_do_not_match_their_names_ar
     below = "A = 2 * g.D  # [m] twice\ntypeset()\nB = A\n\ndef C(A):\n    return 2 * A * B  # [m**2] other"
     found = bar(below, "D, E = 1, 2  # [m] one\nF = D  # [m] one", "typeset()\n'text'")
     assert found.texts(told_by.unsaid(found.cells, found.names)) == [
-        "c4: line 1 of c4: 2 names need 2 units, such as # [m] one, [s] other; got 1",
+        "c4: c4, line 1: 2 names need 2 units, such as # [m] one, [s] other; got 1",
         "c3: line 5, def C(A): C is not shown: end the cell in typeset()",
         "c3: line 3, B = A: B stands in formulas and is not shown: end its line in # [unit] meaning",
     ]

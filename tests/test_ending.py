@@ -113,7 +113,7 @@ def test_a_declaration_is_told_with_its_line(lever: Callable[..., Path]) -> None
     path = lever("[m] length", "metres, length")
     ends(
         [sys.executable, path],
-        f"error: line 47 of {path}: input L needs a comment with its unit, such as # [m] meaning",
+        f"error: {path.name}, line 47: input L needs a comment with its unit, such as # [m] meaning",
     )
 
 
@@ -121,12 +121,12 @@ def test_a_mark_of_byte_order_is_told(lever: Callable[..., Path]) -> None:
     path = lever("", "")
     path.write_text("\ufeff" + path.read_text(encoding="utf-8"), encoding="utf-8")
     why = "the file begins with a byte order mark (BOM), which Python's editors refuse: save it as UTF-8 without one"
-    ends([*LAUNCHED, path], f"error: worksheet {path}, line 1: {why}")
+    ends([*LAUNCHED, path], f"error: {path.name}, line 1, import marimo: {why}")
 
 
 def test_what_python_cannot_read_is_told_with_its_line(lever: Callable[..., Path]) -> None:
     path = lever("summary(within, strong)", "summary(within, strong")
-    ends([*LAUNCHED, path], f"error: worksheet {path}, line 30: '(' was never closed")
+    ends([*LAUNCHED, path], f"error: {path.name}, line 30, summary(within, strong: '(' was never closed")
 
 
 @pytest.mark.parametrize("start", [[sys.executable], LAUNCHED], ids=["python", "launcher"])
@@ -243,6 +243,6 @@ def test_a_comma_that_could_mean_thousands_and_formulas_that_are_not_shown_are_t
     done = subprocess.run([sys.executable, path, "--F=999,500"], capture_output=True, encoding="utf-8")
     assert done.stdout.count("read with a decimal comma") == done.stdout.count("F = 999.5 N, read with") == 1
     assert [line for line in done.stdout.splitlines() if "not shown" in line] == [
-        "line 126, n = 2 if g.both else 1: n, M_n, sigma are not shown: end the cell in typeset()"
+        "lever.py, line 126, n = 2 if g.both else 1: n, M_n, sigma are not shown: end the cell in typeset()"
     ]
     assert done.returncode == 0

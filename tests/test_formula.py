@@ -345,7 +345,7 @@ def test_a_number_is_typeset_with_its_unit(line, right):
 
 @pytest.mark.parametrize("value", ["None", "'8.8'", "{}", "run", "[[1.0], [2.0, 3.0]]", "['a', 'b']", "typeset"])
 def test_what_is_no_number_has_no_unit(value):
-    text = re.escape(f"line 3 of <cell>: grade = {value} is no number: it has no [unit]")
+    text = re.escape(f"<cell>, line 3: grade = {value} is no number: it has no [unit]")
     with pytest.raises(SheetError, match=text.replace("<cell>", ".*")):
         run(IMPORT + f"run = print\ngrade = {value}  # [-] grade\nshown = typeset()")
     run(IMPORT + f"run = print\ngrade = {value}  # grade\nshown = typeset()")
@@ -500,7 +500,7 @@ def test_a_line_of_several_names_declares_each():
     ]  # fmt: skip
     text = joined(names["shown"])
     assert r"u = {\mathrm{pair}}_{0} = 2 m" in text and r"x = 2\,u = 4 m" in text
-    with pytest.raises(SheetError, match=r"line 2 of <cell \d+>: 2 names need 2 units"):
+    with pytest.raises(SheetError, match=r"<cell \d+>, line 2: 2 names need 2 units"):
         run(IMPORT + "u, v = 1.0, 2.0  # [m] one\ntypeset()")
 
 

@@ -123,11 +123,28 @@ def page(command: str, sheets: "list[str]", options: "list[str]") -> int:
             sheets = [os.path.commonpath([str(Path(path).parent) for path in sheets])]
     if command == "edit":
         return call([interpreter(""), "-m", "marimo", "edit", "--watch", *options, *sheets], settings=settings)
+    mistakes = {sheet: unread(sheet) for sheet in sheets}
+    for told in filter(None, mistakes.values()):
+        print(f"mechsheet: {told}", file=sys.stderr)
+    sheets = [sheet for sheet in sheets if not mistakes[sheet]]
+    if not sheets:
+        return 1
     password = "--password-file"
     options = [re.sub(f"^{password}(?==|$)", "--token-password-file", option) for option in options]
     if any(option.startswith("--token-password-file") for option in options):
         options = ["--token", *options]
     return call([interpreter(""), "-m", "marimo", "run", *options, *sheets], settings=settings)
+
+
+def unread(sheet: str) -> str:
+    """Why Python cannot read a worksheet, of which marimo would serve nothing and no other one beside it."""
+    import ast  # on use: only a page needs it
+
+    try:
+        ast.parse(Path(sheet).read_bytes())
+        return ""
+    except SyntaxError as error:
+        return f"{Path(sheet).name}, line {error.lineno}, {(error.text or '').strip()}: {error.msg}"
 
 
 def grouped() -> "dict[str, dict[str, str]]":

@@ -32,7 +32,8 @@ def waiting(file: Sequence[source.Cell], cells: Sequence[Cell], stopped: str) ->
             at = last
         elif lost & {name.id for name in names}:
             places[last] = None
-    return {heading(place): f"waits for {_named(at)}" for place in places if place not in ("", at)}
+    waits = "waits for the setup" if stopped == "setup" else f"waits for {_named(at)}"
+    return {heading(place): waits for place in places if place not in ("", at)}
 
 
 def _named(section: str) -> str:
