@@ -10,7 +10,7 @@ import test_joint
 import test_kinetostatics_sheet
 import test_slotted_link
 
-from mechsheet.accuracy import claims, conditioning, exact, extreme, jobs, rivals
+from mechsheet.accuracy import claims, conditioning, exact, extreme, jobs, machine, rivals
 from mechsheet.accuracy.arithmetic import mp
 from mechsheet.accuracy.precision import largest_error
 from mechsheet.mechanics import rrr
@@ -169,6 +169,25 @@ def test_printed_reactions_lose_all_digits_with_the_mast_upright_and_the_own_non
     assert "fastest setting" in made.summary().note and not made.table().note, "each table says what its rows are"
 
 
+def test_all_ways_to_the_reactions_of_groups_of_all_kinds_are_right():
+    job = machine.machine_job("4.4", load(WORKSHEET.with_name("kinetostatics.py")), 7)
+    assert len(job.truth) == 9 * 7 and len(job.methods) == 4
+    worst = max(abs(complex(force)) for force in job.truth)
+    for method in job.methods:
+        assert largest_error(method.run(), job.truth) < 1e-14, method.family
+    R_A = job.truth[:7]  # by the worksheet's own groups, which take part in no method here
+    own = load(WORKSHEET.with_name("kinetostatics.py"))
+    made = own.run(["R_A"], {"g": own.inputs(), "phi1": 2 * np.pi * np.arange(7) / 7})["R_A"]
+    assert np.array(R_A, complex) == pytest.approx(made, abs=1e-12 * worst)
+
+
+def test_a_ring_all_but_lifted_loses_digits_by_primitives_and_none_by_the_own():
+    errors = {m.family: largest_error(m.run(), job.truth) for job in [machine.ring_job("4.5", 10)] for m in job.methods}
+    assert errors["library: circular_joint"] < 1e-14 and errors["quad, each force"] < 1e-14
+    assert errors["primitives of the arc"] > 1e-13
+    assert 1e-9 < errors["rim in strips"] < 1e-6
+
+
 @pytest.mark.parametrize(
     ("module", "function", "worse", "job"),
     [
@@ -216,6 +235,13 @@ def test_a_claim_of_digits_that_there_are_not_fails(monkeypatch):
     table, check = claims.claims_table("7.4", WORKSHEET.parent)
     assert not check.passed and check.reason.startswith("hitch F_gc: 14.9 proved of 12.2")
     assert [column.values[0] for column in table.columns[1:]] == [2, 12.5, 12.25, 50]
+
+
+def test_every_group_is_timed_at_every_size():
+    table = jobs.group_times("1.4", (1, 50), 1e-6)
+    assert [c.name for c in table.columns] == ["count", *conditioning.GROUPS]
+    one, many = np.array([c.values for c in table.columns[1:]]).T
+    assert (many < one).all() and (many > 0).all(), "checks are shared by all that are computed at once"
 
 
 def test_random_groups_are_measured_in_roundings_and_one_that_loses_digits_fails(monkeypatch):

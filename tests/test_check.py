@@ -87,6 +87,8 @@ def test_the_worst_comes_first():
 def test_slope_against_differences():
     x = np.linspace(0.5, 1, 5)
     assert check_slope("cube", 3 * x**2, lambda x: x**3, x, 0.5, 1).passed
+    several = check_slope("cubes", 3 * np.array([[1], [2]]) * x**2, lambda x: x**3, x, 0.5, 1)
+    assert not several.passed and "in its own run" in several.reason
     assert not check_slope("cube", 3 * x**2 + 1e-6, lambda x: x**3, x, 0.5, 1).passed
 
 

@@ -16,6 +16,9 @@ from mechsheet import SheetError, evaluate
 from mechsheet.mechanics import roots
 from mechsheet.mechanics.plain_root import NotPlain, plain_root
 from mechsheet.recording import evaluation
+from mechsheet.recording.graph import Graph
+from mechsheet.recording.once import once
+from mechsheet.recording.quantity import Quantity
 from mechsheet.worksheet import cells, inputs
 
 WORKSHEETS = Path(__file__).parents[1] / "worksheets"
@@ -48,6 +51,8 @@ def answer(ask: Callable[[], dict[str, Any]]) -> Any:
         ("hitch.py", ["GS6", "abs(R56)", "L7"], 60, 25),  # three Finds behind one another, a library's checks
         ("examples/bucket.py", ["G_S", "phi_E"], 40, 15),  # a reach that is required
         ("kinetostatics.py", ["mu23", "v5"], 15, 5),
+        ("kinetostatics.py", ["R_D", "gamma45"], 6, 2),  # more single numbers than a workbook has cells for a line
+        ("landing_gear.py", ["t_lim", "eps3_lim"], 30, 10),  # a Find from a guess alone
         ("landing_gear.py", ["omega2_listing"], 15, 5),
     ],
 )
@@ -144,3 +149,21 @@ def test_a_plain_root_is_the_one_that_roots_gives(shape: str) -> None:
         play = 4 * np.spacing(max(abs(equals), 1)) + 8 * steepness * np.spacing(abs(x))
         assert abs(f(np.float64(x)) - equals) <= abs(slow[3][0]) + play, given
     assert told > 20 or shape in ("touching", "jump", "pole"), "it answers what is plain"
+
+
+def test_a_function_is_recorded_once_for_the_same_quantities_and_what_it_sees_is_noted_each_time() -> None:
+    graph, calls = Graph(bodies=True), list[float]()
+    x, y = (Quantity(graph, graph.leaf("input", name, 2.0)) for name in "xy")
+
+    def f(a: Quantity, b: float) -> Quantity:
+        calls.append(b)
+        return a * b if a > 1 else a - b
+
+    first = once(graph, f, [x, 0.0], {})
+    seen, graph.looked = graph.looked, {}
+    again = once(graph, f, [x, 0.0], {})
+    assert len(seen) == 1 and graph.looked == seen and again.re is first.re and calls == [0.0]
+    assert again is not first, "an array of its own, in which a worksheet may put other numbers"
+    once(graph, f, [y, 0.0], {})
+    once(graph, f, [x, -0.0], {})
+    assert len(calls) == 3, "equal numbers are not the same quantity, nor 0.0 the same as -0.0"

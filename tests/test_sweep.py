@@ -1,5 +1,6 @@
 """Sweeps: every variant as if it were alone, wherever it is computed, and a reason for each that has no value."""
 
+import gc
 import subprocess
 import sys
 import tracemalloc
@@ -267,8 +268,9 @@ def results(M, phi, twice):
     M_2 = twice(phi)  # [N*m] two levers
     M_mean = np.mean(M_S)  # [N*m] mean moment
     M_max = np.max(M_S, axis=-1, keepdims=True)  # [N*m] greatest moment
+    W = np.trapezoid(M_S, phi) / 2  # [J] half of the work over the positions
     typeset()
-    return M_2, M_S, M_max, M_mean
+    return M_2, M_S, M_max, M_mean, W
 
 @app.cell
 def chart(M_S):
@@ -311,6 +313,33 @@ def test_a_worksheet_whose_lines_mix_the_variants_is_run_one_by_one(lever):
     assert list(swept.reasons) == ["", "force F = -1.0 N must be positive", "", ""]
     expected = forces * 0.5 * np.mean(np.sin(np.linspace(0, 1, 5)))
     assert swept["M_mean"] == pytest.approx(np.where(forces > 0, expected, np.nan), rel=1e-15, nan_ok=True)
+
+
+def test_what_a_chunk_computes_is_gone_with_it(lever):
+    """Not when somebody looks for rings, which numpy's arrays do not make happen any sooner."""
+    path = lever("import weakref\nRUNS.append(weakref.ref(phi))")
+    gc.disable()
+    try:
+        sweep(path, ["M_S"], {"F": np.linspace(1, 2, 12)}, chunk=3)
+        arrays = [ran() for ran in load(path).common["RUNS"] if callable(ran)]
+    finally:
+        gc.enable()
+    assert len(arrays) >= 4 and set(map(type, arrays)) == {type(None)}
+
+
+@pytest.mark.parametrize("count", [2, 5, 12])  # five are as many as the positions
+def test_a_number_over_the_positions_goes_at_once_without_their_axis(lever, count):
+    path, forces = lever(), np.linspace(1, 2, count)
+    swept = sweep(path, ["W", "M_S"], {"F": forces}, chunk=5)
+    assert swept.at_once and swept["W"].shape == (count,) and swept["M_S"].shape == (count, 5)
+    assert swept["W"] == pytest.approx([by_cells(path, ["W"], F=F)["W"] for F in forces], rel=1e-14)
+
+
+def test_kinetostatics_goes_at_once_with_its_work_and_energy():
+    path = ROOT / "worksheets" / "kinetostatics.py"
+    swept = sweep(path, ["M_mean", "W_1", "driven"], {"l1": [0.09, 0.1]})
+    alone = by_cells(path, swept.names, l1=0.09)
+    assert swept.at_once and all(swept[name][0] == pytest.approx(alone[name], rel=1e-9) for name in swept.names)
 
 
 def test_a_number_of_positions_may_vary_where_the_results_are_numbers(lever):

@@ -10,6 +10,7 @@ from mechsheet.accuracy.jobs import (
     accuracy_jobs as accuracy_jobs,
     asked_costs as asked_costs,
     batch_times as batch_times,
+    group_times as group_times,
     study_costs as study_costs,
     whole_worksheets as whole_worksheets,
 )

@@ -8,8 +8,10 @@ for its ensemble. Where one is missing, a line says so.
 """
 
 import argparse
+import gc
 import sys
 import time
+import tracemalloc
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -119,6 +121,21 @@ def whole_document(sizes: list[int], rounds: int) -> None:
     slope, fixed = np.polyfit(sizes, seconds, 1, w=1 / np.array(seconds))
     off = np.max(np.abs(fixed + slope * np.array(sizes) - seconds) / seconds)
     print(f"line through all sizes: {fixed * 1e3:.1f} ms + {slope * 1e6:.2f} us each, at most {off:.0%} off")
+
+
+def memory(sizes: list[int]) -> None:
+    """Peak of what a sweep holds beside its inputs and results: its chunks, however many variants there are."""
+    print("\nmemory of a sweep of the capacity and the suspension axis, beside the inputs and results that are kept")
+    print("variant-positions   kept, MB   peak beside it, MB")
+    for size in sizes:
+        variants = table(size // POSITIONS)
+        gc.collect()
+        tracemalloc.start()
+        swept = sweep(HITCH, ["GS6", "P56_S"], variants)
+        _, peak = tracemalloc.get_traced_memory()
+        tracemalloc.stop()
+        kept = sum(swept[name].nbytes for name in swept.names) + sum(x.nbytes for x in swept.inputs.values())
+        print(f"{size:17,d} {kept / 1e6:10.1f} {(peak - kept) / 1e6:20.1f}", flush=True)
 
 
 # --- geometry against one solver call a position -----------------------------------------------------------------
@@ -236,4 +253,5 @@ if __name__ == "__main__":
     compared("pylinkage's ensemble", lambda: against_pylinkage(max(options.rounds, 5)))
     against_fsolve(options.rounds)
     whole_document([n for n in (10**3, 10**4, 10**5, 10**6) if n <= options.largest], options.rounds)
+    memory([n for n in (10**5, 10**6, 3 * 10**6) if n <= 3 * options.largest])
     sys.exit()

@@ -61,7 +61,7 @@ GROUPS = {
 }
 
 
-def _drawn(count: int) -> dict[str, Any]:
+def drawn(count: int) -> dict[str, Any]:
     """Random pins A and B of links that meet, their lengths, directions u and w, offsets e from u and f from AC."""
     rng = np.random.default_rng(1)
     r_A, r_B = 10 ** rng.uniform(-0.5, 0.5, (2, count))
@@ -86,10 +86,10 @@ def _roundings(group: Group, x: Mapping[str, Any], found: Any) -> float:
 @lru_cache(maxsize=1)  # a cell runs again where it is recorded
 def random_groups(number: str, count: int) -> tuple[Table, Check]:
     """Quantiles of the errors of so many random positions of each group, in roundings times their condition number."""
-    drawn, errors = _drawn(count), dict[str, Any]()
+    given, errors = drawn(count), dict[str, Any]()
     for name, group in GROUPS.items():
-        found = group.found(*(drawn[key] for key in group.given))
-        each = (_roundings(group, {key: x[k] for key, x in drawn.items()}, found[k]) for k in range(count))
+        found = group.found(*(given[key] for key in group.given))
+        each = (_roundings(group, {key: x[k] for key, x in given.items()}, found[k]) for k in range(count))
         errors[name] = np.array([error for error in each if not np.isnan(error)])
     columns = [
         Column("group", "", "", 0, np.array(list(errors), object)),

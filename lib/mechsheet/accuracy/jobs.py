@@ -11,6 +11,8 @@ from numpy import linspace, pi
 
 from mechsheet.accuracy import exact, printed, rivals
 from mechsheet.accuracy.arithmetic import Numbers, mp, mpf
+from mechsheet.accuracy.conditioning import GROUPS, drawn
+from mechsheet.accuracy.machine import machine_job, ring_job
 from mechsheet.accuracy.precision import Job, Measured, Method, Timed, largest_error, time_spread, timed
 from mechsheet.accuracy.rivals import REACTIONS, crank_chain, hitch_chain, hitch_points
 from mechsheet.recording import numbers as computed
@@ -31,11 +33,12 @@ _PINS = ("P23_S", "P45_S", "P67_S")
 _ANALOGUES = tuple(f"dphi{k}" for k in range(3, 8))
 
 
-def accuracy_jobs(hitch: Any, crank: Any, N: int, factors: Sequence[float]) -> dict[str, Job]:
+def accuracy_jobs(hitch: Any, machine: Worksheet, crank: Any, N: int, factors: Sequence[float]) -> dict[str, Job]:
     """The jobs by number: positions, derivatives, Finds and reactions of the hitch, positions of a dyad on a crank.
 
-    ``hitch`` are the inputs of the hitch worksheet, ``crank`` has l_1, l_A, l_B, X_B, Y_B [m]; both are computed at N
-    positions. The factors are those of bad guesses.
+    Reactions of a machine with groups of all kinds and the bolts of a circular joint too. ``hitch`` are the inputs of
+    the hitch worksheet, ``machine`` is the worksheet of kinetostatics, ``crank`` has l_1, l_A, l_B, X_B, Y_B [m]; all
+    are computed at N positions. The factors are those of bad guesses.
     """
     S, q = linspace(hitch.S_min, hitch.S_max, N), linspace(0, 2 * np.pi, N)
     found = exact.finds(hitch)
@@ -78,6 +81,8 @@ def accuracy_jobs(hitch: Any, crank: Any, N: int, factors: Sequence[float]) -> d
         Job("3.2", "Find from bad guesses", truth * len(factors), finds(hitch, factors)),
         reactions("4.1", "Reactions", S, at),
         reactions("4.2", "Reactions, mast upright", np.array([S_p]), upright),
+        machine_job("4.4", machine, N),
+        ring_job("4.5", N),
     )
     return {job.number: job for job in jobs}
 
@@ -105,13 +110,27 @@ def batch_times(number: str, hitch: Any, sizes: Sequence[int], seconds: float) -
         "4.3": ("Time of the reactions", points, rivals.reaction_ways(hitch)),
     }
     title, cases, ways = batches[number]
-    times = timed([partial(way, given) for given in map(cases, sizes) for way in ways.values()], seconds)
+    runs = [partial(way, given) for given in map(cases, sizes) for way in ways.values()]
+    with progress(len(runs), f"{number} {title}") as done:
+        times = timed(runs, seconds, done)
     taken = np.array([(time.seconds, (time.high - time.low) / 2) for time in times]).reshape(len(sizes), -1, 2)
     each = 1e6 * taken / np.array(sizes)[:, None, None]
     columns = [Column(name, "µs", "median time of one of them", 2, each[:, k, 0]) for k, name in enumerate(ways)]
     half = "half of what lies between the quartiles"
     columns += [Column(f"{name} ±", "µs", half, 2, each[:, k, 1]) for k, name in enumerate(ways)]
     return Table(number, title, (Column("count", "-", "computed at once", 0, np.array(sizes, float)), *columns))
+
+
+def group_times(number: str, sizes: Sequence[int], seconds: float) -> Table:
+    """Table of the time for one of n positions of each group computed at once, each of a geometry of its own."""
+    given = [drawn(n) for n in sizes]
+    runs = [partial(group.found, *(x[name] for name in group.given)) for x in given for group in GROUPS.values()]
+    with progress(len(runs), f"{number} Groups") as done:
+        times = timed(runs, seconds, done)
+    each = 1e6 * np.array([time.seconds for time in times]).reshape(len(sizes), -1) / np.array(sizes)[:, None]
+    columns = (Column(name, "µs", "median time of one of them", 3, each[:, k]) for k, name in enumerate(GROUPS))
+    counts = Column("count", "-", "random geometries computed at once", 0, np.array(sizes, float))
+    return Table(number, "Time of a group", (counts, *columns))
 
 
 # Whole worksheets

@@ -11,7 +11,7 @@ from math import isfinite, ulp
 import numpy as np
 
 from mechsheet.mechanics.brackets import EPS, Array
-from mechsheet.mechanics.roots import _BESIDE, _EXPLAINED, _PASSED, _PLACES, _RISE
+from mechsheet.mechanics.roots import _BESIDE, _EXPLAINED, _PASSED, _PLACES, _RISE, Counted, reachable
 
 Single = Callable[[float], float]
 _HIGH = _PLACES[:, 0].copy()
@@ -25,12 +25,15 @@ class NotPlain(Exception):
 
 
 def plain_root(
-    many: Callable[[Array], Array], f: Single, lo: float, hi: float, guess: float | None, equals: float
+    many: Callable[[Array], Array], f: Single, lo: float | None, hi: float | None, guess: float | None, equals: float
 ) -> float:
     """x in lo..hi with f(x) = equals, nearest the guess; ``many`` is f of an array.
 
-    Raises NotPlain where it cannot tell as surely as `nearest_root`.
+    An end that is not given is that of the reachable interval. Raises NotPlain where it cannot tell as surely as
+    `nearest_root`.
     """
+    if lo is None or hi is None:
+        lo, hi = _reached(many, lo, hi, guess)
     if not (isfinite(lo) and isfinite(hi) and lo < hi and isfinite(equals)):
         raise NotPlain
     x = lo * _LOW + hi * _HIGH
@@ -54,6 +57,17 @@ def plain_root(
     if not isfinite(distance):
         raise NotPlain
     return found
+
+
+def _reached(
+    many: Callable[[Array], Array], lo: float | None, hi: float | None, guess: float | None
+) -> tuple[float, float]:
+    """The reachable interval around the guess."""
+    if guess is None or not 0 < guess < np.inf or not (lo is None or lo < guess) or not (hi is None or guess < hi):
+        raise NotPlain
+    one = (np.array([given]) if given is not None else None for given in (guess, lo, hi))
+    ends = reachable(Counted([many], (1,)), *one)  # type: ignore[arg-type]  # there is a guess
+    return ends[0].item(), ends[1].item()
 
 
 def _refuse_touching(y: Array, equals: float) -> None:

@@ -182,7 +182,7 @@ def _interval(f: Counted, given: dict[str, Array]) -> tuple[Array, Array]:
     """Ends of the interval given, or of the reachable one."""
     if "lo" in given and "hi" in given:
         return given["lo"], given["hi"]
-    return _reachable(f, given["guess"], given.get("lo"), given.get("hi"))
+    return reachable(f, given["guess"], given.get("lo"), given.get("hi"))
 
 
 def _pieces(f: Counted, lo: Array, hi: Array, equals: Array) -> _Pieces:
@@ -224,7 +224,7 @@ def _roots(f: Counted, pieces: _Pieces) -> tuple[Array, Array]:
     return roots[:, order, np.arange(x.shape[1])], jump
 
 
-def _reachable(f: Counted, guess: Array, lo: Array | None, hi: Array | None) -> tuple[Array, Array]:
+def reachable(f: Counted, guess: Array, lo: Array | None, hi: Array | None) -> tuple[Array, Array]:
     """The run of finite f around the finite sample nearest the guess, between the ends that are given."""
     k = _RANGE
     x = np.clip(guess * 2.0**k, lo, hi)

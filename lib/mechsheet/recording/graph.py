@@ -20,7 +20,7 @@ class NotRecorded(BaseException):
 _PARTIAL = frozenset(("div", "pow", "sqrt", "exp", "log", "tan", "asin", "acos", "mod", "sized"))
 _MOVING = frozenset(("input", "rows", "length", "take", "join", "reduce"))
 MOST = 50_000  # numbers that one statement may compute, each a cell of a workbook
-MOST_DRAWN = 2_000_000  # the same in a page in one file, which computes them itself
+MOST_DRAWN = 2_000_000  # the same where no cell holds them: in a page in one file, or a function of the inputs
 
 
 class Guard(NamedTuple):
@@ -73,7 +73,7 @@ class Graph:
         self.positions = 0  # numbers of linspace before any were left out
         self.line = 0
         self.work = 0  # numbers computed since somebody set it to 0
-        self.most = MOST_DRAWN if draws else MOST  # that these may be
+        self.most = MOST_DRAWN if draws or bodies else MOST  # that these may be
         self.fixed = set[Node]()  # which rest on constants alone
         self.counts = set[Node]()  # which rest on numbers of rows, and are these themselves
         self.always = set[Node]()  # which are numbers whatever the inputs are
@@ -85,6 +85,7 @@ class Graph:
         self.looked: dict[Node, Guard] = {}  # by their conditions; since somebody emptied it
         self.numbered: dict[Node, Guard] = {}  # those of numbers of rows and of turns, likewise
         self.gone: list[weakref.ref[Any]] = []  # arrays in whose place another one was put
+        self.called: dict[Any, tuple[Any, ...]] = {}  # what functions gave, see `once`
         self.supposed = 0  # ways that Python does not take and that are recorded beside it, one in another
         self.labels: dict[Node, Label] = {}
 

@@ -121,8 +121,8 @@ class _Writing:
     def found(self, node: Node) -> str:
         """A Find of one number, with its equation as a function of many numbers and as one of a single one."""
         block, _ = node.args
-        if not (block.single and block.elementwise and node.shape == () and {"lo", "hi"} <= block.starts.keys()):
-            raise NotPlanned("a Find that is not of one number in an interval")
+        if not (block.single and block.elementwise and node.shape == ()):
+            raise NotPlanned("a Find that is not of one number")
         starts = [block.starts[end][0] if end in block.starts else None for end in ("lo", "hi", "guess")]
         for given in (*starts, block.sides[1]):
             if given and given.op == "constant":  # which a block does not count among what it rests on

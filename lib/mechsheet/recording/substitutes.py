@@ -22,6 +22,7 @@ from mechsheet import units
 from mechsheet.recording.choices import total
 from mechsheet.recording.graph import NotRecorded, current
 from mechsheet.recording.numpy_rules import arange, filled, linspace, simpson, trapezoid_so_far
+from mechsheet.recording.once import once
 from mechsheet.recording.quantity import FUNCTIONS, Quantity, has_quantity, lift
 from mechsheet.recording.rewritten import NAMES, rebuilt
 from mechsheet.recording.sketch import Sketch, drawing
@@ -234,7 +235,10 @@ def _itself(f: Any) -> Callable[..., Any]:
     def function(*args: Any, **kwargs: Any) -> Any:
         if not (always or has_quantity((args, kwargs))):
             return f(*args, **kwargs)
-        short = None if current.get().bodies else _short().get(f)
+        graph = current.get()
+        if graph.bodies and not always:  # no step of it is shown, so that the line of a later call does not count
+            return once(graph, body(f), args, kwargs)
+        short = None if graph.bodies else _short().get(f)
         return (short or body(f))(*args, **kwargs)
 
     return function

@@ -5,7 +5,7 @@ import warnings
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, wait
-from contextlib import nullcontext
+from contextlib import contextmanager, nullcontext
 from dataclasses import dataclass
 from pathlib import Path
 from types import FunctionType
@@ -40,13 +40,15 @@ class Part:
 class Job:
     """What is done with each chunk, wherever: ``columns`` are inputs in SI, of shape (variants, 1) if they vary.
 
-    The variants of a chunk are run at once, or one by one as single numbers.
+    The variants of a chunk are run at once, or one by one as single numbers. Of one alone ``numbers`` are the results
+    that are numbers, such as a mean over the positions, which among others has no axis of positions left.
     """
 
     path: str
     digest: str
     want: tuple[str, ...]
     at_once: bool
+    numbers: frozenset[str] = frozenset()
 
     def results(self, columns: Mapping[str, Any]) -> Part:
         if not self.at_once:
@@ -62,8 +64,11 @@ class Job:
     @values_only()
     def run(self, columns: Mapping[str, Any]) -> Part:
         """Results of variants all of which run to the end; any error is raised."""
+        with _emptied() as names:
+            return self._run_in(names, columns)
+
+    def _run_in(self, names: dict[str, Any], columns: Mapping[str, Any]) -> Part:
         sheet, count = self._sheet(), _count(columns)
-        names: dict[str, Any] = {}
         lacking = np.zeros(count, dtype=bool)
         g: Any = inputs.instance(sheet.inputs, columns)
         for cell in _run(sheet, sheet.needed(self.want, ["g"]), g, names):
@@ -71,7 +76,11 @@ class Job:
                 lacking |= ~_by_variant(found.valued, count).all(1)
         among = count if varied(columns) else None
         one_row = among is None and _has_one_row(g)
-        values = {name: _result(name, _wanted(name, names), among, one_row) for name in self.want}
+        wants = {name: np.asarray(_wanted(name, names)) for name in self.want}
+        for name in self.numbers:
+            if wants[name].shape == (among,):
+                wants[name] = wants[name][:, None]
+        values = {name: _result(name, value, among, one_row) for name, value in wants.items()}
         for value in values.values():
             lacking |= _lacking(value)
         lines = registry(names)
@@ -87,8 +96,11 @@ class Job:
 
     @np.errstate(all="ignore")
     def _reasons(self, columns: Mapping[str, Any]) -> NDArray[np.object_]:
+        with _emptied() as names:
+            return self._reasons_in(names, columns)
+
+    def _reasons_in(self, names: dict[str, Any], columns: Mapping[str, Any]) -> NDArray[np.object_]:
         sheet, count = self._sheet(), _count(columns)
-        names: dict[str, Any] = {}
         reasons = np.full(count, "", dtype=object)
 
         def add(texts: Any) -> None:
@@ -127,7 +139,8 @@ class Job:
         sheet = self._sheet()
         g = _Read(inputs.instance(sheet.inputs, columns))
         try:
-            deque(_run(sheet, sheet.needed(self.want, ["g"]), g, {}), maxlen=0)
+            with _emptied() as names:
+                deque(_run(sheet, sheet.needed(self.want, ["g"]), g, names), maxlen=0)
         except ValueError:
             return g.read.isdisjoint(varied(columns))
         return False
@@ -153,6 +166,16 @@ def _run(sheet: Worksheet, cells: Iterable[Cell], g: Any, names: dict[str, Any])
             if isinstance(function := names.get(name), FunctionType):  # a branch that was not taken binds nothing
                 names[name] = _remembered(function)
         yield cell
+
+
+@contextmanager
+def _emptied() -> Iterator[dict[str, Any]]:
+    """Names of one run: its functions know them, so that its arrays would stay until somebody looks for such rings."""
+    names: dict[str, Any] = {}
+    try:
+        yield names
+    finally:
+        names.clear()
 
 
 def _remembered(f: FunctionType) -> Callable[..., Any]:
@@ -292,10 +315,11 @@ def digest(path: str) -> str:
 
 def computed(
     work: Callable[[Mapping[str, Any]], Any],
-    chunks: Sequence[Mapping[str, Any]],
+    at: Callable[[NDArray[np.intp]], Mapping[str, Any]],
+    chunks: Sequence[NDArray[np.intp]],
     executor: Executor | Callable[[], Executor] | None,
 ) -> Iterator[tuple[int, Any]]:
-    """Number and result of each chunk, in the order in which they are done."""
+    """Number and result of each chunk of rows, in the order in which they are done; ``at`` gives its inputs."""
     left = deque(range(len(chunks)))
     breaks = 0
     while left and executor is not None:
@@ -304,7 +328,7 @@ def computed(
             try:
                 while left or running:
                     while left and len(running) < _AHEAD:
-                        future = pool.submit(work, chunks[left[0]])
+                        future = pool.submit(work, at(chunks[left[0]]))
                         running[future] = left.popleft()
                     for future in wait(running, return_when=FIRST_COMPLETED).done:
                         result = future.result()
@@ -322,4 +346,4 @@ def computed(
                 for future in running:
                     future.cancel()
     for i in left:
-        yield i, work(chunks[i])
+        yield i, work(at(chunks[i]))

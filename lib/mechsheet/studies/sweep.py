@@ -177,8 +177,11 @@ def sweep(
     given = inputs.variants(sheet.inputs, {str(name): values for name, values in variants.items()})
     rows = np.flatnonzero(given.reasons == "")
     job = Job(sheet.path, digest(sheet.path), want, at_once=True)
-    if not _takes_arrays(job, given, rows):
+    together = _together(job, given, rows)
+    if together is None:
         job, chunk = replace(job, at_once=False), min(chunk, _ONE_BY_ONE)
+    else:
+        job = together
 
     reasons = given.reasons.copy()
     size = reasons.size
@@ -187,7 +190,7 @@ def sweep(
     lacking = np.zeros(size, dtype=bool)
     chunks = _split(rows, chunk)
     with on_terminal(len(chunks), "sweep") as done:
-        for i, part in computed(job.results, [given.at(rows) for rows in chunks], executor):
+        for i, part in computed(job.results, given.at, chunks, executor):
             for name, value in part.values.items():
                 if name not in values:
                     values[name] = np.full((size, *value.shape[1:]), np.nan, value.dtype)
@@ -197,7 +200,7 @@ def sweep(
             declared |= part.units
             done()
     chunks = _split(np.flatnonzero(lacking), chunk)
-    for i, texts in computed(job.reasons, [given.at(rows) for rows in chunks], executor):
+    for i, texts in computed(job.reasons, given.at, chunks, executor):
         reasons[chunks[i]] = texts
 
     for name in want:  # no variant at all could be computed
@@ -213,15 +216,17 @@ def sweep(
     )
 
 
-_taking_arrays: set[Any] = set()  # worksheets, results and inputs that were found to take arrays of variants
+_taking_arrays: dict[Any, Job] = {}  # by worksheets, results and inputs that were found to take arrays of variants
 
 
-def _takes_arrays(job: Job, given: inputs.Variants, rows: NDArray[np.intp]) -> bool:
-    """Whether some variants give the same among each other as alone."""
+def _together(job: Job, given: inputs.Variants, rows: NDArray[np.intp]) -> Job | None:
+    """The job with all variants at once, where some give the same among each other as alone."""
     names = varied(given.at(rows[:1]))
     key = job, names
-    if not names or not rows.size or key in _taking_arrays:
-        return True
+    if not names or not rows.size:
+        return job
+    if key in _taking_arrays:
+        return _taking_arrays[key]
     tried: dict[int, Part | None] = {}
     for row in dict.fromkeys(np.linspace(0, len(rows) - 1, _PROBES).astype(int)[_SPREAD].tolist()):
         try:
@@ -230,20 +235,22 @@ def _takes_arrays(job: Job, given: inputs.Variants, rows: NDArray[np.intp]) -> b
             tried[row] = None
         if sum(part is not None and not part.lacking[0] for part in tried.values()) == 2:
             break
-    ran = [row for row, part in tried.items() if part is not None]
+    ran = {row: part for row, part in tried.items() if part is not None}
     if not ran:
-        return True
-    together = ran if len(ran) > 1 else list(tried)
+        return job
+    numbers = (name for name in job.want if all(part.values[name].ndim == 1 for part in ran.values()))
+    all_at_once = replace(job, numbers=frozenset(numbers))
+    together = [*ran] if len(ran) > 1 else [*tried]
     try:
-        among = job.run(given.at(rows[together]))
+        among = all_at_once.run(given.at(rows[together]))
     except Exception:  # whatever a line does that cannot take an array
-        return False
+        return None
     for i, row in enumerate(together):
         alone = tried[row]
         if alone and not all(_alike(alone.values[name][0], among.values[name][i]) for name in job.want):
-            return False
-    _taking_arrays.add(key)
-    return True
+            return None
+    _taking_arrays[key] = all_at_once
+    return all_at_once
 
 
 def _alike(a: NDArray[Any], b: NDArray[Any]) -> bool:

@@ -200,6 +200,8 @@ def check_slope(
     """
     if not hi > lo or not np.size(x):
         return Check(name, np.nan, 0.0, unit, "there is nothing to check: the range is empty")
+    if np.ndim(slope) > np.ndim(x):
+        return Check(name, np.nan, 0.0, unit, "several variants at once: the slope of each is checked in its own run")
     if not takes_arrays(of_one(f), x[None, [0, -1]], ()):
         f = each_alone(f, ())
     ends = np.where(x == lo, 1, np.where(x == hi, -1, 0))

@@ -1,0 +1,61 @@
+"""Functions of the mechanics, recorded once for the same quantities: a document's chain asks for them many times."""
+
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
+from typing import Any
+
+from mechsheet.recording.graph import Graph
+from mechsheet.recording.quantity import Quantity
+
+_PLAIN = (bool, int, float, complex, str)
+
+
+def once(graph: Graph, f: Callable[..., Any], args: Sequence[Any], kwargs: Mapping[str, Any]) -> Any:
+    """What ``f`` gives; what Python sees of quantities in it is noted at each call."""
+    try:
+        key = f, *map(_known, args), *((name, _known(value)) for name, value in kwargs.items())
+    except _New:
+        return f(*args, **kwargs)
+    if key not in graph.called:
+        looked, numbered = graph.looked, graph.numbered
+        graph.looked, graph.numbered = {}, {}
+        try:
+            given = f(*args, **kwargs)
+        finally:
+            seen, graph.looked, graph.numbered = (graph.looked, graph.numbered), looked, numbered
+            _note(graph, *seen)
+        with suppress(_New):
+            graph.called[key] = _copied(given), *seen
+        return given
+    given, looked, numbered = graph.called[key]
+    _note(graph, looked, numbered)
+    return _copied(given)
+
+
+class _New(Exception):
+    """What nobody knows again, or cannot be copied."""
+
+
+def _note(graph: Graph, looked: Mapping[Any, Any], numbered: Mapping[Any, Any]) -> None:
+    for kept, seen in ((graph.looked, looked), (graph.numbered, numbered)):
+        for holds, guard in seen.items():
+            kept.setdefault(holds, guard)
+
+
+def _known(value: Any) -> Any:
+    if isinstance(value, Quantity):
+        return Quantity, value.re, value.im
+    if isinstance(value, _PLAIN):
+        return type(value), repr(value)  # tells -0.0 from 0.0
+    raise _New
+
+
+def _copied(given: Any) -> Any:
+    """The same quantities in objects of their own, in which a worksheet may put others."""
+    if isinstance(given, Quantity):
+        copied = Quantity(given.graph, given.re, given.im)
+        copied.base = given.base
+        return copied
+    if isinstance(given, tuple) and hasattr(given, "_fields"):
+        return type(given)(*map(_copied, given))
+    raise _New
