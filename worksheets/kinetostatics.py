@@ -1098,7 +1098,7 @@ def work(
     checks_work = (
         check("virtual work of moment and loads", M_b + W_1 + W_2 + W_3 + W_4 + W_5 + W_6 + W_7, lost, "N*m", of=M_max),
         check("the gear gives the power of the coupling", dot(F_w, 1j * (P_w - O1)) - M_b, lost, "N*m", of=M_max),
-        check_slope("energy: the moment is its slope", driven[..., ::15], energy, phi1[::15], -pi / 2, 5 * pi / 2, "N*m"),
+        check_slope("energy: the moment is its slope", driven[..., ::15], energy, phi1[::15], -pi, 3 * pi, "N*m"),
     )
     energy_lines = typeset()
     return checks_work, energy_lines, work_lines
