@@ -25,7 +25,7 @@ def waiting(file: Sequence[source.Cell], cells: Sequence[Cell], stopped: str) ->
     last, at, places = "", "", dict[str, None]()
     for cell in file:
         nodes = [node for statement in cell.body for node in source.nodes(statement)]
-        last = next(reversed([found for node in nodes for found in _headings(node)]), last)
+        last = next(reversed([found for node in nodes for found in headings(node)]), last)
         names = [node for node in nodes if isinstance(node, ast.Name)]
         if own & {name.id for name in names if isinstance(name.ctx, ast.Store)}:
             at = last
@@ -35,7 +35,7 @@ def waiting(file: Sequence[source.Cell], cells: Sequence[Cell], stopped: str) ->
     return {heading(place): waits for place in places if place not in ("", at)}
 
 
-def _headings(node: ast.AST) -> list[str]:
+def headings(node: ast.AST) -> list[str]:
     """Headings of a text of the worksheet."""
     match node:
         case ast.Call(ast.Attribute(attr="md"), [text]):
