@@ -130,7 +130,18 @@ def edit_in_place(editor):
     assert file.read_bytes() == before
     expect(area).to_have_value("M_n = 3 * g.parts")
     area.fill("")
-    box.get_by_text("M_n goes; it is needed for sigma, table_2").wait_for()
+    box.get_by_text("M_n goes, needed in section 2.2, 3 and table 2").first.wait_for()
+    area.press("Enter")
+    box.get_by_text("Enter once more writes it, Esc leaves it as it was").wait_for()
+    assert file.read_bytes() == before, "asked first"
+    area.press("Enter")
+    expect(done).to_have_text(re.compile("^M_n is writtenundo"))
+    assert b"    M_n = " not in file.read_bytes()
+    page.keyboard.press("Control+z")
+    expect(done).to_have_text("M_n is as it was")
+    assert file.read_bytes() == before
+    click_until(page, area)
+    area.fill("")
     area.press("Control+Enter")
     assert file.read_bytes() == before
     area.press("Escape")
