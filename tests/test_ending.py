@@ -203,6 +203,18 @@ def test_ctrl_c_ends_a_run_in_a_line(start: list[str], lever: Callable[..., Path
 
 
 @pytest.mark.skipif(os.name == "nt", reason="Windows has no signals")
+def test_what_a_command_runs_ends_with_it() -> None:
+    """As a server that is ended by the id of its command."""
+    runs = "import sys, time; print('there', flush=True); time.sleep(600)"
+    command = f"import sys; from mechsheet.__main__ import call; sys.exit(call([sys.executable, '-c', {runs!r}]))"
+    with subprocess.Popen([sys.executable, "-c", command], stdout=subprocess.PIPE, text=True) as started:
+        assert started.stdout and started.stdout.readline() == "there\n"
+        started.terminate()
+        assert started.stdout.read() == "", "the pipe is open as long as the program runs"
+    assert started.returncode == 128 + signal.SIGTERM
+
+
+@pytest.mark.skipif(os.name == "nt", reason="Windows has no signals")
 def test_a_program_that_a_signal_ended_has_the_code_of_shells() -> None:
     dies = "import os, signal; os.kill(os.getpid(), signal.SIGTERM)"
     assert launcher.call([sys.executable, "-c", dies]) == 128 + signal.SIGTERM

@@ -12,6 +12,7 @@ if not __package__:  # run as a folder, which heads the path: its modules must n
 
 import os
 import re
+import signal
 import subprocess
 from pathlib import Path
 
@@ -64,7 +65,9 @@ def main(argv: "list[str] | None" = None) -> int:
         needed, found = (".".join(map(str, version[:2])) for version in (MINIMUM, sys.version_info))
         sys.exit(f"mechsheet: Python {needed} or newer is needed, this is Python {found} ({sys.executable})")
     command, *options = (sys.argv[1:] if argv is None else argv) or [""]
-    if command in ("", "-h", "--help"):
+    # What marimo and pytest take, they tell themselves.
+    asked = command not in ("edit", "serve", "test") and not {"-h", "--help"}.isdisjoint((command, *options))
+    if asked or not command:
         say(contents() + HELP)
         return 0 if command else 1
     if command in ("edit", "serve"):
@@ -243,9 +246,11 @@ def call(command: "list[str]", cwd: "Path | None" = None, settings: "dict[str, s
     usual = {"OPENBLAS_NUM_THREADS": "1"}
     always = {"PYTHONUTF8": "1", "_MARIMO_CONFIG_OVERLOAD_RUNTIME_AUTO_INSTANTIATE": "true"}
     with subprocess.Popen(command, cwd=cwd, env={**usual, **os.environ, **always, **(settings or {})}) as process:
+        kept = signal.signal(signal.SIGTERM, lambda *_: process.terminate())  # else a server outlives its command
         while True:
             try:
                 code = process.wait()
+                signal.signal(signal.SIGTERM, kept)
                 return code if code >= 0 else 128 - code  # of a program that a signal ended, as shells have it
             except KeyboardInterrupt:  # Ctrl-C reaches the program too, and how to end is for it to say
                 pass

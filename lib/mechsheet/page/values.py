@@ -296,13 +296,32 @@ def _(used: Used) -> str:
             rows.append(f'<tr><th colspan="4" style="text-align:left">{escape(section)}</th></tr>')
         rows.append(
             f'<tr style="font-weight:{weight}"><td>{name}</td>'
-            f'<td style="text-align:right;padding:0 .5em">{escape(field.brief(value))}</td>'
+            f'<td style="text-align:right;padding:0 .5em">{_printed(field, value)}</td>'
             f'<td style="padding-right:1em">{escape(unit)}</td><td>{escape(field.meaning)}</td></tr>'
         )
         own = field.text(getattr(type(used.g), field.name))
         text = field.text(value) if field.name in changed else own
         told.append({"name": field.name, "head": name, "kind": _kind(field), "text": text, "own": own, "unit": unit})
     return f'{element("ms-used", told=told)}<table class="ms-print" style="display:none">{"".join(rows)}</table>'
+
+
+def _printed(field: Input, value: Any) -> str:
+    """Value of an input on paper: of a list or a table every number, up to as many as a page holds."""
+    if isinstance(field, TextLine | Choice):
+        return escape(field.brief(value))
+    if not isinstance(field, Rows):
+        return _said(field.brief(value))
+    rows = [row.split("; ") for row in field.text(value).split("\n")]
+    if max(len(rows), len(rows[0])) > _ON_PAPER:
+        return _said(field.brief(value))
+    if field.row is None:
+        return _said("; ".join(rows[0]))
+    heads = "".join(f"<td>{fields.head(column)['head']}</td>" for column in field.columns)
+    lines = ("".join(f"<td>{_said(text)}</td>" for text in row) for row in rows)
+    return f"<table><tr>{heads}</tr>{''.join(f'<tr>{line}</tr>' for line in lines)}</table>"
+
+
+_ON_PAPER = 45  # rows of the inputs
 
 
 def _kind(field: Input) -> str:
