@@ -478,6 +478,11 @@ def test_an_unloaded_group_has_no_reactions_and_no_position_of_a_resultant() -> 
     assert np.all(np.isnan(R.h_B))
 
 
+def test_an_unloaded_drive_is_at_rest() -> None:
+    """Without loads, as the groups."""
+    assert coupling_drive(0) == (0, 0) and gear_drive(0, -0.1, 0.3) == (0, 0) and cylinder_drive(0, 1, 0).F == 0
+
+
 @pytest.mark.parametrize(
     ("call", "message"),
     [

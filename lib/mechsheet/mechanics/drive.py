@@ -35,7 +35,7 @@ class CylinderDrive(NamedTuple):
 
 
 @elementwise
-def coupling_drive(O1: ArrayLike, loads: Sequence[Load]) -> CouplingDrive:
+def coupling_drive(O1: ArrayLike, loads: Sequence[Load] = ()) -> CouplingDrive:
     r"""Balancing moment of a crank turned by a coupling (program SRWL2); (1.54) to (1.58).
 
     .. math:: M = -\sum T_{O_1}, \quad R_O1 = -\sum F
@@ -67,7 +67,7 @@ def coupling_drive(O1: ArrayLike, loads: Sequence[Load]) -> CouplingDrive:
 
 
 @elementwise
-def gear_drive(O1: ArrayLike, P: ArrayLike, alpha_w: ArrayLike, loads: Sequence[Load]) -> GearDrive:
+def gear_drive(O1: ArrayLike, P: ArrayLike, alpha_w: ArrayLike, loads: Sequence[Load] = ()) -> GearDrive:
     r"""Balancing force of a crank turned by an external spur gear (program SRWL1); (1.47) to (1.52).
 
     The teeth push: whichever flank works, the force points inwards by the pressure angle from the tangent.

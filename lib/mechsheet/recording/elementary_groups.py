@@ -375,12 +375,12 @@ def rpp_reactions(
     return RPPReactions(-(R_C + F_A), 1j * N_B * u_B, R_C, M_B, -T_A, M_B / N_B, T_A / N)
 
 
-def coupling_drive(O1: Quantity, loads: Sequence[Load]) -> CouplingDrive:
+def coupling_drive(O1: Quantity, loads: Sequence[Load] = ()) -> CouplingDrive:
     F, T = _resultant(loads, O1, "")
     return CouplingDrive(-T, -F)
 
 
-def gear_drive(O1: Quantity, P: Quantity, alpha_w: Quantity, loads: Sequence[Load]) -> GearDrive:
+def gear_drive(O1: Quantity, P: Quantity, alpha_w: Quantity, loads: Sequence[Load] = ()) -> GearDrive:
     F, T = _resultant(loads, O1, "")
     q = P - O1
     F_t = step("Ft", "N", "force along the pitch circle", -T / np.abs(q))
