@@ -95,6 +95,17 @@ def test_a_writer_leaves_the_recording_as_it_was(names: dict[str, Any], recordin
     assert written(names, record(names)) == first
 
 
+def test_a_field_kept_for_its_size_is_none_of_a_statement_s_operations(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Both parts of its numbers are more than a statement may compute, as those of 30,000 rows were."""
+    monkeypatch.setattr(graph, "MOST", 8)
+    lines = 'P = np.exp(1j * x) * x  # [-] field\ntable_2 = table("2", "Two", x, P.real, P.imag)'
+    _, recording = recorded(own(tmp_path, lines))
+    assert [gap.reason for gap in recording.gaps] == ["it takes more than 8 operations on single numbers"] * 2
+    assert "2" in recording.tables
+
+
 def test_what_guards_many_numbers_is_none_of_a_statement_s_operations(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

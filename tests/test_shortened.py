@@ -10,10 +10,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from mechsheet.document import chart, chart_svg
-from mechsheet.document.shortened import ENDS, MOST, thinned
+from mechsheet.document import chart, chart_svg, drawing_svg
+from mechsheet.document.shortened import APART, ENDS, MOST, apart, thinned
 from mechsheet.html import javascript
 from mechsheet.page import values
+from mechsheet.worksheet.drawing import Drawing
 from mechsheet.worksheet.table import Column, Figure, Table
 
 if TYPE_CHECKING:
@@ -77,3 +78,20 @@ def test_the_page_in_one_file_thins_the_same_points(blank: Page) -> None:
     given = [[x if np.isfinite(x) else None for x in values.tolist()] for values in columns]
     at = blank.evaluate(script, given)
     assert np.array_equal(whole.x.values[at], thinned(whole).x.values)
+
+
+def test_a_path_of_many_points_is_nowhere_farther_off_than_one_sees() -> None:
+    """To and fro, round, and at rest: each point left out is within half a pixel of one before it that stays."""
+    t = np.linspace(0, 1, MANY)
+    path = np.concatenate([300 * np.abs(t - 0.5), 200 * np.exp(2j * np.pi * t), np.full(MANY, 7j)]).tolist()
+    few = apart(path)
+    assert few[0] == path[0] and few[-1] == path[-1] and len(few) < len(path) / 3
+    at, kept = -1, iter(few[1:])
+    following, last = next(kept), few[0]
+    for point in path:
+        if point == following:
+            last, following, at = point, next(kept, None), at + 1
+        assert abs(point - last) <= APART
+    assert at == len(few) - 2 and apart(path[:MOST]) == path[:MOST]
+    drawing = Drawing(frame=path[:10]).path(path)
+    assert len(drawing_svg.svg(drawing)) < 30 * len(few)

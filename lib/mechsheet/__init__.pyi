@@ -2,7 +2,11 @@
 
 # isort: skip_file
 from mechsheet.accuracy.claims import claims_table as claims_table
-from mechsheet.accuracy.conditioning import end_to_end as end_to_end, random_groups as random_groups
+from mechsheet.accuracy.conditioning import (
+    end_to_end as end_to_end,
+    group_times as group_times,
+    random_groups as random_groups,
+)
 from mechsheet.accuracy.extreme import (
     measured_scenes as measured_scenes,
 )
@@ -10,7 +14,6 @@ from mechsheet.accuracy.jobs import (
     accuracy_jobs as accuracy_jobs,
     asked_costs as asked_costs,
     batch_times as batch_times,
-    group_times as group_times,
     study_costs as study_costs,
     whole_worksheets as whole_worksheets,
 )

@@ -1,7 +1,7 @@
 """Errors in units of the condition number times a rounding: of random groups, and of a worksheet from end to end."""
 
-from collections.abc import Callable, Mapping
-from functools import lru_cache
+from collections.abc import Callable, Mapping, Sequence
+from functools import lru_cache, partial
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -9,7 +9,7 @@ import numpy as np
 
 from mechsheet.accuracy import arithmetic
 from mechsheet.accuracy.arithmetic import EPS, Numbers, mpc, mpf
-from mechsheet.accuracy.precision import largest_error
+from mechsheet.accuracy.precision import largest_error, timed
 from mechsheet.accuracy.truths import TRUTHS
 from mechsheet.mechanics.planar import cross
 from mechsheet.mechanics.prp import prp
@@ -20,6 +20,7 @@ from mechsheet.mechanics.rrr import rrr
 from mechsheet.recording.quantity import Quantity
 from mechsheet.recording.record import record
 from mechsheet.recording.slopes import slopes
+from mechsheet.run.progress import progress
 from mechsheet.worksheet.cells import load
 from mechsheet.worksheet.check import Check
 from mechsheet.worksheet.table import Column, Table
@@ -61,7 +62,7 @@ GROUPS = {
 }
 
 
-def drawn(count: int) -> dict[str, Any]:
+def _drawn(count: int) -> dict[str, Any]:
     """Random pins A and B of links that meet, their lengths, directions u and w, offsets e from u and f from AC."""
     rng = np.random.default_rng(1)
     r_A, r_B = 10 ** rng.uniform(-0.5, 0.5, (2, count))
@@ -69,6 +70,18 @@ def drawn(count: int) -> dict[str, Any]:
     a, u = np.exp(1j * rng.uniform(0, 2 * np.pi, (2, count)))
     A, B = C + r_A * a, C + r_B * a * np.exp(1j * rng.uniform(0.2, np.pi - 0.2, count))
     return {"A": A, "B": B, "r_A": r_A, "r_B": r_B, "u": u, "w": w, "e": cross(u, C - B), "f": cross(-a, A - B)}
+
+
+def group_times(number: str, sizes: Sequence[int], seconds: float) -> Table:
+    """Table of the time for one of n positions of each group computed at once, each of a geometry of its own."""
+    given = [_drawn(n) for n in sizes]
+    runs = [partial(group.found, *(x[name] for name in group.given)) for x in given for group in GROUPS.values()]
+    with progress(len(runs), f"{number} Groups") as done:
+        times = timed(runs, seconds, done)
+    each = 1e6 * np.array([time.seconds for time in times]).reshape(len(sizes), -1) / np.array(sizes)[:, None]
+    columns = (Column(name, "µs", "median time of one of them", 3, each[:, k]) for k, name in enumerate(GROUPS))
+    counts = Column("count", "-", "random geometries computed at once", 0, np.array(sizes, float))
+    return Table(number, "Time of a group", (counts, *columns))
 
 
 def _roundings(group: Group, x: Mapping[str, Any], found: Any) -> float:
@@ -86,11 +99,14 @@ def _roundings(group: Group, x: Mapping[str, Any], found: Any) -> float:
 @lru_cache(maxsize=1)  # a cell runs again where it is recorded
 def random_groups(number: str, count: int) -> tuple[Table, Check]:
     """Quantiles of the errors of so many random positions of each group, in roundings times their condition number."""
-    given, errors = drawn(count), dict[str, Any]()
-    for name, group in GROUPS.items():
-        found = group.found(*(given[key] for key in group.given))
-        each = (_roundings(group, {key: x[k] for key, x in given.items()}, found[k]) for k in range(count))
-        errors[name] = np.array([error for error in each if not np.isnan(error)])
+    given, errors = _drawn(count), dict[str, Any]()
+    with progress(len(GROUPS) * count, f"{number} Random groups") as done:
+        for name, group in GROUPS.items():
+            found, each = group.found(*(given[key] for key in group.given)), list[float]()
+            for k in range(count):
+                each.append(_roundings(group, {key: x[k] for key, x in given.items()}, found[k]))
+                done()
+            errors[name] = np.array([error for error in each if not np.isnan(error)])
     columns = [
         Column("group", "", "", 0, np.array(list(errors), object)),
         Column("positions", "-", "random positions at which it closes", 0, np.array([len(e) for e in errors.values()])),

@@ -11,7 +11,6 @@ from numpy import linspace, pi
 
 from mechsheet.accuracy import exact, printed, rivals
 from mechsheet.accuracy.arithmetic import Numbers
-from mechsheet.accuracy.conditioning import GROUPS, drawn
 from mechsheet.accuracy.machine import machine_job, ring_job
 from mechsheet.accuracy.precision import Job, Measured, Method, Timed, largest_error, time_spread, timed
 from mechsheet.accuracy.rivals import REACTIONS, crank_chain, hitch_chain, hitch_points
@@ -120,18 +119,6 @@ def batch_times(number: str, hitch: Any, sizes: Sequence[int], seconds: float) -
     half = "half of what lies between the quartiles"
     columns += [Column(f"{name} ±", "µs", half, 2, each[:, k, 1]) for k, name in enumerate(ways)]
     return Table(number, title, (Column("count", "-", "computed at once", 0, np.array(sizes, float)), *columns))
-
-
-def group_times(number: str, sizes: Sequence[int], seconds: float) -> Table:
-    """Table of the time for one of n positions of each group computed at once, each of a geometry of its own."""
-    given = [drawn(n) for n in sizes]
-    runs = [partial(group.found, *(x[name] for name in group.given)) for x in given for group in GROUPS.values()]
-    with progress(len(runs), f"{number} Groups") as done:
-        times = timed(runs, seconds, done)
-    each = 1e6 * np.array([time.seconds for time in times]).reshape(len(sizes), -1) / np.array(sizes)[:, None]
-    columns = (Column(name, "µs", "median time of one of them", 3, each[:, k]) for k, name in enumerate(GROUPS))
-    counts = Column("count", "-", "random geometries computed at once", 0, np.array(sizes, float))
-    return Table(number, "Time of a group", (counts, *columns))
 
 
 # Whole worksheets

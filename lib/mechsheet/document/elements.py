@@ -10,6 +10,7 @@ from math import pi
 
 from mechsheet.document.labels import beside, inside, length, past, plain, unit
 from mechsheet.document.picture import ARROW, BODY, EDGE, THIN, Picture
+from mechsheet.document.shortened import apart
 from mechsheet.worksheet.drawing import Element
 
 # Sizes [px].
@@ -105,7 +106,7 @@ def _polygon(picture: Picture, e: Element, *p: complex) -> None:
 
 
 def _path(picture: Picture, e: Element, *p: complex) -> None:
-    picture.line(*p, colour=e.colour)
+    picture.line(*apart(p), colour=e.colour)
     picture.label(e.name, past, *p[-2:])
 
 

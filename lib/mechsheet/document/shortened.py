@@ -1,4 +1,4 @@
-"""Long tables and curves of many points as a page shows them: the rows at both ends, the points that one can see."""
+"""Long tables and lines of many points as a page shows them: the rows at both ends, the points that one can see."""
 
 from collections.abc import Sequence
 from dataclasses import replace
@@ -10,7 +10,8 @@ from mechsheet.worksheet.table import Column, Figure
 
 ENDS = 100  # rows at either end of a table that has more than twice as many
 PIECES = 400  # of a curve, each of which takes two pixels across: of each its ends, its least and its greatest value
-MOST = 4 * PIECES  # points of a curve that are all drawn
+MOST = 4 * PIECES  # points of a curve or a path that are all drawn
+APART = 0.5  # px along a path of more points, of which one cannot see more
 
 
 def rows(count: int) -> NDArray[np.intp]:
@@ -52,6 +53,18 @@ def thinned(figure: Figure) -> Figure:
         shown[change] = shown[change + 1] = True
     at = np.flatnonzero(shown)
     return replace(figure, x=_taken(figure.x, at), lines=tuple(_taken(line, at) for line in figure.lines), every=1)
+
+
+def apart(path: Sequence[complex]) -> Sequence[complex]:
+    """The points of a path [px] that it needs to look as it is."""
+    if len(path) <= MOST:
+        return path
+    points = np.asarray(path)
+    steps = np.floor(np.concatenate([[0.0], np.abs(np.diff(points)).cumsum()]) / APART)
+    shown = np.concatenate([[True], steps[1:] > steps[:-1]])
+    shown[-1] = True
+    kept: list[complex] = points[shown].tolist()
+    return kept
 
 
 def _taken(column: Column, at: NDArray[np.intp]) -> Column:

@@ -19,7 +19,9 @@ class NotRecorded(BaseException):
 # Operations that may have no finite number where all their operands have one.
 _PARTIAL = frozenset(("div", "pow", "sqrt", "exp", "log", "tan", "asin", "acos", "mod", "sized"))
 _MOVING = frozenset(("input", "rows", "length", "take", "join", "reduce"))
-MOST = 50_000  # numbers that one statement may compute, each a cell of a workbook
+_GIVEN = frozenset(("constant", "input", "exported"))  # of which no number is computed
+MOST = 1_000_000  # numbers that one statement may compute, many of them each a cell of a workbook
+_NODES = 50_000  # operations that it may have, of however few numbers: they take time in Python
 MOST_DRAWN = 2_000_000  # the same where no cell holds them: in a page in one file, or a function of the inputs
 
 
@@ -101,7 +103,8 @@ class Graph:
             if stretches is None:
                 stretches = any(a.stretches for a in args)
             known = self.nodes[key] = Node(op, args, _fixed(value()), self.line, stretches)
-            self.work += max(known.size, self.most // MOST)  # of nodes no more than of numbers, which take less room
+            if op not in _GIVEN:
+                self.work += max(known.size, self.most // _NODES)
             under = known.operands
             if op == "constant" or (under and self.fixed.issuperset(under)):
                 self.fixed.add(known)

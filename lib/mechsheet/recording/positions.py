@@ -37,7 +37,7 @@ class OfPositions(ABC):
         graph = self.graph
         if not self.over_all_positions:
             kept = graph.thin, graph.most, graph.line, graph.looked, graph.numbered, graph.work
-            graph.thin, graph.most = 1, min(graph.most * graph.thin, _MORE)
+            graph.thin, graph.most = 1, _MORE
             labels, graph.labels = graph.labels, {}  # what only this run needs is no named step
             try:
                 self.over_all_positions.append(self.again())
