@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import subprocess
 import sys
 import warnings
@@ -83,6 +84,17 @@ def test_a_scene_and_a_workbook_are_states_too(bolt, monkeypatch, capsys, state:
     assert ["number", "U", f"{old:.6g}", f"{new:.6g}", part] in rows
     assert ["verdict", "use", "PASS", "FAIL", ""] in rows
     assert not [row for row in rows if row[1] in ("A", "n", "k", "x")]
+
+
+def test_the_file_as_it_is_now_is_a_state_and_differences_need_no_power_of_ten(bolt, monkeypatch, capsys) -> None:
+    now = bolt.with_name("now.py")
+    now.write_text(
+        bolt.read_text(encoding="utf-8").replace("F: float = 5 * kN", "F: float = 500 * kN"), encoding="utf-8"
+    )
+    code, told, errors = compared(bolt, monkeypatch, capsys, "HEAD", "now.py")
+    assert (code, errors) == (1, "")
+    assert "  F: 5 kN -> 500 kN" in told
+    assert "(+9900 %)" in told and not re.search(r"[(+-]\d\S*e[+-]\d", told)
 
 
 def test_where_nothing_differs_the_exit_code_is_0(bolt, monkeypatch, capsys) -> None:

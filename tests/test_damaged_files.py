@@ -18,14 +18,14 @@ from mechsheet.worksheet import inputs
 from mechsheet.worksheet.cells import load
 from mechsheet.worksheet.errors import SheetError
 
-SHEET = load(Path(__file__).parents[1] / "worksheets" / "slotted_link.py")
+SHEET = load(Path(__file__).parents[1] / "worksheets" / "guide.py")
 FIELDS = inputs.declared(SHEET.inputs)
 INPUTS = "xl/worksheets/sheet2.xml"  # behind the front sheet
 
 
 @pytest.fixture(scope="module")
 def exported() -> bytes:
-    return report.workbook("Slotted link", SHEET.run(SHEET.results, {"g": SHEET.inputs()}), {})
+    return report.workbook("Guide", SHEET.run(SHEET.results, {"g": SHEET.inputs()}), {})
 
 
 def changed(book: bytes, part: str, change: Callable[[str], str]) -> bytes:
@@ -89,10 +89,10 @@ def test_a_scene_file_that_cannot_be_used_is_one_line(text: str, says: str, tmp_
 
 
 def test_a_number_of_any_length_is_a_number(tmp_path: Path) -> None:
-    with pytest.raises(SheetError, match=r"L1 = inf m must be a finite number"):
-        inputs.build(SHEET.inputs, {"L1": 16**5000})
+    with pytest.raises(SheetError, match=r"l = inf mm must be a finite number"):
+        inputs.build(SHEET.inputs, {"l": 16**5000})
     with pytest.raises(SheetError, match=r"'9{59}.. \(40002 characters\): unit \[x\] is not known"):
-        inputs.build(SHEET.inputs, {"L1": "9" * 39_999 + "x"})
+        inputs.build(SHEET.inputs, {"l": "9" * 39_999 + "x"})
 
 
 def test_a_damaged_workbook_is_one_line_or_what_is_left_of_it(exported: bytes, tmp_path: Path) -> None:

@@ -267,6 +267,9 @@ def test_an_erratum_is_left_alone(told: Callable[..., Dimensions]) -> None:
 def test_what_rests_on_a_mistake_is_not_told(told: Callable[..., Dimensions]) -> None:
     found = told("x = g.F + g.M  # [N] x", "y = x + g.F", "p = y / g.L**2  # [MPa] p", "q = g.F + g.L  # [N] q")
     assert [mistake.part for mistake in found.mistakes] == ["g.F + g.M", "g.F + g.L"]
+    wrong = "v = g.F * g.L  # [N] whose unit is wrong, or whose formula"
+    found = told(wrong, "w = v + g.M  # [N*m] w", "u = v + g.F  # [N] u", "r = sqrt(v / g.M)  # [-] r")
+    assert [mistake.part for mistake in found.mistakes] == ["v"]
 
 
 def test_a_literal_says_once_what_it_is_taken_for(told: Callable[..., Dimensions]) -> None:

@@ -130,7 +130,18 @@ def edit_in_place(editor):
     assert file.read_bytes() == before
     expect(area).to_have_value("M_n = 3 * g.parts")
     area.fill("")
-    box.get_by_text("M_n goes; it is needed for sigma, table_2").wait_for()
+    box.get_by_text("M_n goes, needed in section 2.2, 3 and table 2").first.wait_for()
+    area.press("Enter")
+    box.get_by_text("Enter once more writes it, Esc leaves it as it was").wait_for()
+    assert file.read_bytes() == before, "asked first"
+    area.press("Enter")
+    expect(done).to_have_text(re.compile("^M_n is writtenundo"))
+    assert b"    M_n = " not in file.read_bytes()
+    page.keyboard.press("Control+z")
+    expect(done).to_have_text("M_n is as it was")
+    assert file.read_bytes() == before
+    click_until(page, area)
+    area.fill("")
     area.press("Control+Enter")
     assert file.read_bytes() == before
     area.press("Escape")
@@ -407,7 +418,7 @@ def test_lines_below_the_last_typeset_and_units_that_do_not_match_their_names_ar
     below = "A = 2 * g.D  # [m] twice\ntypeset()\nB = A\n\ndef C(A):\n    return 2 * A * B  # [m**2] other"
     found = bar(below, "D, E = 1, 2  # [m] one\nF = D  # [m] one", "typeset()\n'text'")
     assert found.texts(told_by.unsaid(found.cells, found.names)) == [
-        "c4: line 1 of c4: 2 names need 2 units, such as # [m] one, [s] other; got 1",
+        "c4: c4, line 1: 2 names need 2 units, such as # [m] one, [s] other; got 1",
         "c3: line 5, def C(A): C is not shown: end the cell in typeset()",
         "c3: line 3, B = A: B stands in formulas and is not shown: end its line in # [unit] meaning",
     ]

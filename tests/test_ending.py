@@ -113,7 +113,7 @@ def test_a_declaration_is_told_with_its_line(lever: Callable[..., Path]) -> None
     path = lever("[m] length", "metres, length")
     ends(
         [sys.executable, path],
-        f"error: line 47 of {path}: input L needs a comment with its unit, such as # [m] meaning",
+        f"error: {path.name}, line 47: input L needs a comment with its unit, such as # [m] meaning",
     )
 
 
@@ -121,12 +121,12 @@ def test_a_mark_of_byte_order_is_told(lever: Callable[..., Path]) -> None:
     path = lever("", "")
     path.write_text("\ufeff" + path.read_text(encoding="utf-8"), encoding="utf-8")
     why = "the file begins with a byte order mark (BOM), which Python's editors refuse: save it as UTF-8 without one"
-    ends([*LAUNCHED, path], f"error: worksheet {path}, line 1: {why}")
+    ends([*LAUNCHED, path], f"error: {path.name}, line 1, import marimo: {why}")
 
 
 def test_what_python_cannot_read_is_told_with_its_line(lever: Callable[..., Path]) -> None:
     path = lever("summary(within, strong)", "summary(within, strong")
-    ends([*LAUNCHED, path], f"error: worksheet {path}, line 30: '(' was never closed")
+    ends([*LAUNCHED, path], f"error: {path.name}, line 30, summary(within, strong: '(' was never closed")
 
 
 @pytest.mark.parametrize("start", [[sys.executable], LAUNCHED], ids=["python", "launcher"])
@@ -203,6 +203,18 @@ def test_ctrl_c_ends_a_run_in_a_line(start: list[str], lever: Callable[..., Path
 
 
 @pytest.mark.skipif(os.name == "nt", reason="Windows has no signals")
+def test_what_a_command_runs_ends_with_it() -> None:
+    """As a server that is ended by the id of its command."""
+    runs = "import sys, time; print('there', flush=True); time.sleep(600)"
+    command = f"import sys; from mechsheet.__main__ import call; sys.exit(call([sys.executable, '-c', {runs!r}]))"
+    with subprocess.Popen([sys.executable, "-c", command], stdout=subprocess.PIPE, text=True) as started:
+        assert started.stdout and started.stdout.readline() == "there\n"
+        started.terminate()
+        assert started.stdout.read() == "", "the pipe is open as long as the program runs"
+    assert started.returncode == 128 + signal.SIGTERM
+
+
+@pytest.mark.skipif(os.name == "nt", reason="Windows has no signals")
 def test_a_program_that_a_signal_ended_has_the_code_of_shells() -> None:
     dies = "import os, signal; os.kill(os.getpid(), signal.SIGTERM)"
     assert launcher.call([sys.executable, "-c", dies]) == 128 + signal.SIGTERM
@@ -243,6 +255,6 @@ def test_a_comma_that_could_mean_thousands_and_formulas_that_are_not_shown_are_t
     done = subprocess.run([sys.executable, path, "--F=999,500"], capture_output=True, encoding="utf-8")
     assert done.stdout.count("read with a decimal comma") == done.stdout.count("F = 999.5 N, read with") == 1
     assert [line for line in done.stdout.splitlines() if "not shown" in line] == [
-        "line 126, n = 2 if g.both else 1: n, M_n, sigma are not shown: end the cell in typeset()"
+        "lever.py, line 126, n = 2 if g.both else 1: n, M_n, sigma are not shown: end the cell in typeset()"
     ]
     assert done.returncode == 0

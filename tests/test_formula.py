@@ -290,6 +290,31 @@ def test_page_shows_symbol_formula_value_and_meaning():
 
 
 @pytest.mark.parametrize(
+    ("line", "nothing"),
+    [
+        ("R + S", True),
+        ("-(S + R) / L", True),
+        ("abs(L * R + L * S)", True),
+        ("cross(1j, R + S)", True),
+        ("3e-11 * R", False),
+        ("R + T", False),
+        ("R - R", False),
+        ("dot(np.zeros((3, 1)), np.ones((3, 1))) + 1e-15", False),
+    ],
+)
+def test_what_rounding_leaves_of_a_sum_is_no_value(line, nothing):
+    """By what is added, number by number; a number that is small by itself is a value, and so is one that may be."""
+    names = run(
+        IMPORT
+        + "import numpy as np\nfrom mechsheet import cross, dot\n"
+        + "L, R = 2.0, np.array([1e5, 3e5])\n"
+        + "S, T = np.array([3e-11 - 1e5, -3e5]), np.array([3e-11 - 1e5, 1e-8 - 3e5])\n"
+        + f"F = {line}  # [N] left over\nshown = typeset()"
+    )
+    assert ('\\approx||)</marimo-tex><span class="ms-value">0 N</span>' in joined(names["shown"])) is nothing
+
+
+@pytest.mark.parametrize(
     ("line", "right"),
     [
         ("k = 640*MPa / F  # [1/m**2]", r"k = \frac{640\,\mathrm{MPa}}{F}"),
@@ -320,7 +345,7 @@ def test_a_number_is_typeset_with_its_unit(line, right):
 
 @pytest.mark.parametrize("value", ["None", "'8.8'", "{}", "run", "[[1.0], [2.0, 3.0]]", "['a', 'b']", "typeset"])
 def test_what_is_no_number_has_no_unit(value):
-    text = re.escape(f"line 3 of <cell>: grade = {value} is no number: it has no [unit]")
+    text = re.escape(f"<cell>, line 3: grade = {value} is no number: it has no [unit]")
     with pytest.raises(SheetError, match=text.replace("<cell>", ".*")):
         run(IMPORT + f"run = print\ngrade = {value}  # [-] grade\nshown = typeset()")
     run(IMPORT + f"run = print\ngrade = {value}  # grade\nshown = typeset()")
@@ -475,7 +500,7 @@ def test_a_line_of_several_names_declares_each():
     ]  # fmt: skip
     text = joined(names["shown"])
     assert r"u = {\mathrm{pair}}_{0} = 2 m" in text and r"x = 2\,u = 4 m" in text
-    with pytest.raises(SheetError, match=r"line 2 of <cell \d+>: 2 names need 2 units"):
+    with pytest.raises(SheetError, match=r"<cell \d+>, line 2: 2 names need 2 units"):
         run(IMPORT + "u, v = 1.0, 2.0  # [m] one\ntypeset()")
 
 

@@ -72,6 +72,12 @@ def test_help_shows_each_command_by_an_example_that_it_takes(
     assert len(calls) == len(launcher.COMMANDS)
 
 
+@pytest.mark.parametrize("command", sorted({*launcher.COMMANDS} - {"edit", "serve", "test"}))
+def test_a_command_that_is_asked_for_help_gives_it(command: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert launcher.main([command, "--help"]) == 0
+    assert f"\n  {command} NAME" in capsys.readouterr().out
+
+
 def test_every_worksheet_stands_in_the_help_with_its_title(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:

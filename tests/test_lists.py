@@ -14,6 +14,7 @@ from test_kinds import script
 from test_recalculation import cell_of, disagreements, edit
 
 from mechsheet import evaluate, grid, load, sweep
+from mechsheet.page.values import html
 from mechsheet.recording.dimensions import mismatches
 from mechsheet.recording.record import record
 from mechsheet.run import arguments
@@ -183,6 +184,14 @@ def test_the_default_is_held_to_the_last_bit_and_all_is_read_back(section: Path)
     assert inputs.Used(g).changed == {"F", "stringers"} and g != default and hash(default) == hash(sheet.inputs())
     with pytest.raises(ValueError, match="read-only"):
         default.F[0] = 1.0
+
+
+def test_on_paper_every_number_stands_with_its_minus(section: Path) -> None:
+    sheet = load(section)
+    g = inputs.build(sheet.inputs, {"F": [-x for x in range(14)], "F_max": 50, "stringers": [(1, -2.5, 30)] * 3})
+    paper = html(inputs.Used(g)).partition('<table class="ms-print"')[2]
+    assert "; ".join(f"−{x}" for x in range(14)).replace("−0", "0") in paper
+    assert paper.count("<td>−2.5</td>") == 3 and "<i>y</i> [cm]" in paper and "<td>-" not in paper
 
 
 def test_a_long_list_is_listed_by_its_ends(section: Path) -> None:

@@ -65,6 +65,26 @@ def test_a_step_back_and_on_the_documents_own_and_a_link(
     assert "#" not in page.url
 
 
+DEAF_ONCE = """() => {
+  const own = EventTarget.prototype.dispatchEvent;
+  EventTarget.prototype.dispatchEvent = function (event) {
+    if (!(event instanceof FocusEvent)) return own.call(this, event);
+    EventTarget.prototype.dispatchEvent = own;
+    return true;
+  };
+}"""
+
+
+def test_a_field_that_does_not_listen_yet_is_told_again(press: Path, left_open: Callable[[Path, str], Page]) -> None:
+    page = left_open(press, "as in the document")
+    states = page.locator("ms-states")
+    fill(page, "r", "52")
+    expect(states).to_contain_text("r = 52 mm")
+    page.evaluate(DEAF_ONCE)
+    states.get_by_role("button", name="undo").click()
+    expect(states).to_contain_text("as in the document")
+
+
 AT_ONCE = """(texts) => Object.entries(texts).forEach(([name, text]) => {
   const host = document.querySelector(`td[data-input="${name}"] marimo-ui-element > *`);
   const field = host.shadowRoot.querySelector("input");
@@ -153,6 +173,23 @@ def test_what_a_link_carries_waits_for_fields_that_are_drawn_late(
     states = other.locator("ms-states")
     expect(states).to_contain_text("r = 51 mm", timeout=WITHIN * 1000)
     expect(states).to_contain_text("F = 39 kN")
+    other.close()
+
+
+def test_what_the_address_says_of_the_worksheet_stays(press: Path, left_open: Callable[[Path, str], Page]) -> None:
+    """As its file where a server has several: inputs stand behind it, and a link within the page leads not out of it.
+
+    The page has a base, to which what begins with # alone would lead.
+    """
+    page = left_open(press, "as in the document")
+    other = page.context.new_page()
+    other.goto(page.url.partition("#")[0] + "?file=press.py")
+    fill(other, "r", "52")
+    expect(other).to_have_url(re.compile(r"/\?file=press\.py#r=52$"))
+    link = other.locator("#checks a").last
+    link.click()
+    expect(other.locator(link.get_attribute("href") or "")).to_be_in_viewport()
+    expect(other).to_have_url(re.compile(r"/\?file=press\.py#r=52$"))
     other.close()
 
 

@@ -71,7 +71,7 @@ def test_a_result_is_renamed_where_cells_take_and_give_it(bolt: Path, monkeypatc
 @pytest.mark.parametrize(
     ("names", "message"),
     [
-        (("F", "tau"), "tau stands in line"),
+        (("F", "tau"), "bolt.py, line "),
         (("F", "sum"), "sum is a name of Python's own"),
         (("F", "F b"), "'F b' is no name"),
         (("F", "lambda"), "'lambda' is no name"),

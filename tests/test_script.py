@@ -7,6 +7,8 @@ from pathlib import Path
 import pytest
 from openpyxl import load_workbook
 
+from mechsheet.__main__ import main
+
 HITCH = Path(__file__).parents[1] / "worksheets" / "hitch.py"
 # The program that marimo makes of a worksheet, which is what it was before its cells were run from the file.
 BY_MARIMO = "import runpy, sys; del sys.argv[0]; runpy.run_path(sys.argv[0], run_name='sheet')['app'].run()"
@@ -68,13 +70,13 @@ def test_wanted_results_are_printed_with_their_units_and_nothing_else_is_compute
         ("--phi_P6=1", "error: group (6, 7) closes: no position closes for distance O7 P56 = "),
     ],
 )
-def test_bad_input_is_one_line_and_touches_no_file(tmp_path, argument, message):
+def test_bad_input_is_one_line_and_touches_no_file(tmp_path, argument, message, capfd):
     old = tmp_path / "hitch.xlsx"
     old.write_bytes(b"old")
-    done = run(f"--out={tmp_path}", argument)
-    assert done.returncode == 1
-    assert done.stderr.startswith(message)
-    assert done.stderr.count("\n") == 1
+    assert main(["run", "hitch", f"--out={tmp_path}", argument]) == 1
+    told = capfd.readouterr().err
+    assert told.startswith(message)
+    assert told.count("\n") == 1
     assert [p.name for p in tmp_path.iterdir()] == ["hitch.xlsx"]
     assert old.read_bytes() == b"old"
 

@@ -7,10 +7,11 @@ from typing import Any
 
 import numpy as np
 import pytest
-from own_worksheet import own
+from own_worksheet import own, recorded
 from test_recalculation import edit
 
 from mechsheet import SheetError, evaluate
+from mechsheet.recording.searched import search
 from mechsheet.run import report
 from mechsheet.worksheet import cells
 
@@ -27,15 +28,31 @@ SEARCHED = {  # by the unknown: the equation, its interval and what it must be
     "D": "lambda x: ((x - 0.7) ** 2 + (g.F - 0.625) ** 2) * (1.55 - x), 0.0, 2.0, guess=0.8",
     "C": "lambda x: (x - g.a) * ((x - 1.012) ** 2 + (g.F - 0.625) ** 2 - 1e-5), 0.0, 2.0, guess=1.0",
     "V": "lambda x: np.sqrt(x - 0.1) * (1.2 - x) + (g.F - 0.625) - 1e-4, 0.0, 4.0, guess=0.1",
+    # of a whole field at each place: its least, a sum, an integral, a table, a system, a mask
+    "L": "lambda x: np.min(np.cos(x * p) + g.a * p), 0.0, 1.5, equals=0.6 + g.F / 90",
+    "Q": "lambda x: np.trapezoid(np.exp(-x * p) + g.a, p), 0.0, 9.0, equals=0.6 + g.F / 9 + 2 * g.a",
+    "I": "lambda x: np.interp(x, [0, 1, 2, 4], [0, g.a, 2.5, 9]), 0.0, 4.0, equals=g.F",
+    "M": "lambda x: np.linalg.solve(np.array([[x, 1], [g.a, 3]]), [1, 2])[0], 1.0, 9.0, equals=0.06 + g.F / 50",
+    "Z": "lambda x: np.cumsum(np.where(p > 1, p * x, 0))[-1] + np.max(np.stack([p, x * p])), 0.0, 30.0, equals=g.F + 2",
 }
 CELL = """
 @app.cell
-def cell_NAME(g):
+def cell_NAME(g, p):
     NAME_found = find(EQUATION, unknown="NAME")
     NAME = NAME_found.value  # [-] searched
     return NAME, NAME_found
 """
 FIELDS = """
+@app.cell
+def summed(g):
+    p = np.linspace(0, 2, 6)  # [-] places
+    z = np.array([0.5, 0.8, 1.0])  # [-] factors
+    q_found = find(lambda q: np.sum(np.exp(-q[..., None] * p) * z[:, None], axis=-1), 0.0, 90.0, equals=1.1 + g.F / 9)
+    q = q_found.value  # [-] searched with a sum for each
+    table_3 = table("3", "Sums", z, q)
+    return p, q, q_found
+
+
 @app.cell
 def fields(E, g):
     j = np.linspace(1, 2, g.n)  # [-] number
@@ -81,6 +98,23 @@ def test_cells_find_what_the_worksheet_finds(path: Path, recalculated_all: Any, 
                 assert found[name] == "#N/A", name
             else:
                 assert found[name] == pytest.approx(of_worksheet(path, name, given)[0], rel=1e-12), name
+        sums = [row[1] for row in changed["3 Sums"].iter_rows(min_row=5, max_row=7, values_only=True)]
+        np.testing.assert_allclose(sums, of_worksheet(path, "q", given), 1e-12)
         for n, name in enumerate(("j", "t", "s")):
             column = [row[n] for row in changed["2 Own"].iter_rows(min_row=5, max_row=9, values_only=True)]
             np.testing.assert_allclose(column, of_worksheet(path, name, given), 1e-12)
+
+
+@pytest.mark.parametrize(
+    ("lines", "reason"),
+    [
+        ("u_found = find(lambda u: np.sum(np.exp(-u * np.linspace(0, 1, 999))), 0.0, 9.0, equals=90 * g.F)", "50,000"),
+        ("u_found = find(lambda u: u * x + u.sum() * 1e-9, 0.0, 9.0 / x, equals=g.F)", "rests on others of them"),
+    ],
+)
+def test_a_search_that_cells_do_not_make_is_named(lines: str, reason: str, tmp_path: Path) -> None:
+    sheet = own(tmp_path, f'{lines}\ny = np.atleast_1d(u_found.value) * 2  # [-] found\ntable_2 = table("2", "Two", y)')
+    _, recording = recorded(sheet)
+    search(recording)
+    (gap,) = recording.unsolved
+    assert reason in gap.reason and not recording.gaps

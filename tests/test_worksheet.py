@@ -288,7 +288,7 @@ def test_file_that_cannot_be_read(tmp_path):
         load(tmp_path / "none.py")
     broken = tmp_path / "broken.py"
     broken.write_text("a = (\n")
-    with pytest.raises(SheetError, match=r"broken.py, line 1: '\(' was never closed"):
+    with pytest.raises(SheetError, match=r"broken.py, line 1, a = \(: '\(' was never closed"):
         load(broken)
 
 
@@ -318,7 +318,7 @@ def test_all_cells_run_those_first_that_others_need_and_those_too_that_give_noth
 def test_a_name_that_two_cells_define_is_refused_with_both_places(tmp_path):
     path = tmp_path / "sheet.py"
     path.write_text(cells("a = 1", "b = a", "for a in (1, 2):\n    pass"))
-    with pytest.raises(SheetError, match=r"^a is defined in two cells of .*sheet\.py, lines 6 and 16: one of them"):
+    with pytest.raises(SheetError, match=r"^sheet\.py, lines 6 and 16: a is defined in two cells: rename"):
         load(path)
 
 

@@ -207,21 +207,16 @@ def kinematics(C, H, O1, O5, g, u5):
     return P_A, P_B, P_D, P_E, P_K, V_A, V_D, V_E, V_K, e7, motion_45, motion_67, u2, u3, u4, u6
 
 
-@app.cell(hide_code=True)
-def section_23():
-    mo.md("""
+@app.cell
+def turn():
+    """
     ### 2.3 Positions
 
     Drawn to scale. The slider turns the crank here and in all drawings below; formulas over the turn show their values
     at its position. The blue lines are the paths of the pins.
-    """)
-    return
-
-
-@app.cell
-def turn():
+    """
     turn = slider(0, 360, step=2, value=40, label="crank", unit="deg")
-    player(turn, turning=True)
+    typeset(player(turn, turning=True))
     return (turn,)
 
 
@@ -433,7 +428,7 @@ def section_4():
 
 
 @app.cell
-def kind_2(E, F_Q, F_in4, F_in5, G4, G5, M_in4, S4, a_E, a_S4, eps4, g, group_45, lost, phi4):
+def kind_2(F_Q, F_in4, F_in5, G4, G5, M_in4, g, phi4):
     F4_sum = G4 + F_in4  # [N] loads on the rod 4, at S4
     F4 = abs(F4_sum)  # [N] loads on the rod 4
     gamma4 = angle(F4_sum)  # [deg] their direction
@@ -455,28 +450,7 @@ def kind_2(E, F_Q, F_in4, F_in5, G4, G5, M_in4, S4, a_E, a_S4, eps4, g, group_45
     R45 = hypot(R45_x, R45_y)  # [N] (1.31)
     gamma45 = atan2(R45_y, R45_x) % (2 * pi)  # [deg] (1.32)
     SR2 = typeset()
-    found_45 = group_45.reactions(
-        [Load(G4, S4), inertia(S4, g.m4, g.J4, a_S4, eps4)], [Load(G5 + F_Q, E), inertia(E, g.m5, 0, a_E)]
-    )
-    R_D = found_45.R_A  # [N] rocker 3 on the rod 4, at D
-    R_05 = found_45.R_B  # [N] guide on the plunger 5, at E
-    R_E = -found_45.R_C  # [N] rod 4 on the plunger 5, at E
-    _size = largest_of(R_D, R_05, R_E)
-    checks_45 = (
-        check("second kind: R34 is that of the library", R34 * exp(1j * gamma34) - R_D, lost, "N", of=_size),
-        check("second kind: R05 is that of the library", R05 * exp(1j * gamma05) - R_05, lost, "N", of=_size),
-        check("second kind: R45 is that of the library", R45 * exp(1j * gamma45) - R_E, lost, "N", of=_size),
-    )
-    vectors_45 = typeset()
-    r_45 = R34_n * sin(phi4) + R05 * cos(g.phi05) + B_45  # [N] (1.26) left by the line with the plus
-    r_45_printed = R34_n * sin(phi4) - R05 * cos(g.phi05) + B_45  # [N] (1.26) left by the line as printed (erratum)
-    R34_n_printed = -(A_45 * cos(g.phi05) - B_45 * sin(g.phi05)) / cos(phi4 + g.phi05)  # [N] (1.26) printed (erratum)
-    R05_printed = -(A_45 * sin(phi4) - B_45 * cos(phi4)) / cos(phi4 + g.phi05)  # [N] (1.26) as printed (erratum)
-    lines_42 = typeset()
-    return (
-        F4_sum, F5_sum, M4, R05, R34, R45, R_05, R_D, R_E, SR2, checks_45, gamma05, gamma34, gamma45, lines_42,
-        vectors_45,
-    )  # fmt: skip
+    return A_45, B_45, F4_sum, F5_sum, M4, R05, R34, R34_n, R45, SR2, gamma05, gamma34, gamma45
 
 
 @app.cell
@@ -538,7 +512,7 @@ def section_5():
 
 
 @app.cell
-def kind_3(F_gas, F_in6, F_in7, G6, G7, H, K, M_in6, M_in7, S6, S7, a_S6, a_S7, eps6, g, group_67, lost, phi6):
+def kind_3(F_gas, F_in6, F_in7, G6, G7, H, K, M_in6, M_in7, g, phi6):
     F6_sum = G6 + F_in6 + F_gas  # [N] loads on the rod with piston 6, at S6
     F6 = abs(F6_sum)  # [N] loads on the rod with piston 6
     gamma6 = angle(F6_sum)  # [deg] their direction
@@ -567,37 +541,9 @@ def kind_3(F_gas, F_in6, F_in7, G6, G7, H, K, M_in6, M_in7, S6, S7, a_S6, a_S7, 
     gamma07 = atan2(R07_y, R07_x) % (2 * pi)  # [deg] (1.43)
     h76 = -(F6 * g.l_KS6 * sin(gamma6 - phi6) + M6) / (R76 * sin(gamma76 - phi6))  # [m] (1.44)-(1.46) its arm from K
     SR3 = typeset()
-    found_67 = group_67.reactions(
-        [Load(G6 + F_gas, S6), inertia(S6, g.m6, g.J6, a_S6, eps6)],
-        [Load(G7 - F_gas, S7), inertia(S7, g.m7, g.J7, a_S7, eps6)],
-    )
-    R_K = found_67.R_A  # [N] rocker 3 on the rod 6, at K
-    R_H = found_67.R_B  # [N] frame on the cylinder 7, at H
-    R_76 = found_67.R_C  # [N] cylinder 7 on the rod 6
-    M_76 = found_67.M_C  # [N*m] its moment about K
-    _size = largest_of(R_K, R_H, R_76)
-    _moments = where(R76 == 0, 0, R76 * h76) - M_76
-    checks_67 = (
-        check("third kind: R36 is that of the library", R36 * exp(1j * gamma36) - R_K, lost, "N", of=_size),
-        check("third kind: R76 is that of the library", R76 * exp(1j * gamma76) - R_76, lost, "N", of=_size),
-        check("third kind: R07 is that of the library", R07 * exp(1j * gamma07) - R_H, lost, "N", of=_size),
-        check("third kind: R76 h76 is the library's moment", _moments, lost, "N*m", of=_size * largest_of(l_HK)),
-    )
-    vectors_67 = typeset()
-    T7_printed = F7 * g.l_HS7 * sin(phi6 - gamma6) + M7  # [N*m] (1.35) as printed (erratum)
-    R36_t_printed = (T6 + T7_printed) / l_HK  # [N] (1.35) as printed (erratum)
-    d_134 = cos(phi6 + pi) * sin(phi6 + 0.5 * pi) - sin(phi6 + pi) * cos(phi6 + 0.5 * pi)  # [-] (1.34)
-    d_134_printed = cos(phi6 + pi) * sin(phi6 + 0.5) - sin(phi6 + pi) * cos(phi6 + 0.5 * pi)  # [-] (1.34) (erratum)
-    r_67 = R36_n * cos(phi6) - R76 * sin(phi6) + A_67  # [N] (1.37) left by the first line
-    r_67_printed = R36_n * cos(phi6) - R07 * sin(phi6) + A_67  # [N] (1.37) left as printed (erratum)
-    gamma36_t_UGL2 = where(R36_t < 0, phi6 - 0.5 * pi, phi6 + 0.5 * pi)  # [deg] (1.35) of |R36t|
-    A_67_printed = R36_t * cos(gamma36_t_UGL2) + F6 * cos(gamma6)  # [N] (1.37) as printed, R36t with its sign (erratum)
-    B_67_printed = R36_t * sin(gamma36_t_UGL2) + F6 * sin(gamma6)  # [N] (1.37) as printed, R36t with its sign (erratum)
-    R76_printed = A_67_printed * sin(phi6) - B_67_printed * cos(phi6)  # [N] (1.37) from them (erratum)
-    lines_52 = typeset()
     return (
-        F6_sum, F7_sum, M6, M7, R07, R36, R76, R_H, R_K, SR3, checks_67, gamma07, gamma36, gamma76, h76, lines_52,
-        vectors_67,
+        A_67, F6, F6_sum, F7, F7_sum, M6, M7, R07, R36, R36_n, R36_t, R76, SR3, T6, gamma07, gamma36, gamma6, gamma76,
+        h76, l_HK,
     )  # fmt: skip
 
 
@@ -662,10 +608,7 @@ def section_6():
 
 
 @app.cell
-def kind_1(
-    D, F_in2, F_in3, G2, G3, K, M_in2, M_in3, R34, R36, R_05, R_D, R_E, R_H, R_K, S2, S3, a_S2, a_S3, eps2, eps3, g,
-    gamma34, gamma36, group_23, lost, phi2, phi3,
-):  # fmt: skip
+def kind_1(D, F_in2, F_in3, G2, G3, K, M_in2, M_in3, R34, R36, S3, g, gamma34, gamma36, phi2, phi3):
     F2_sum = G2 + F_in2  # [N] loads on the rod 2, at S2
     F2 = abs(F2_sum)  # [N] loads on the rod 2
     gamma2 = angle(F2_sum)  # [deg] their direction
@@ -698,6 +641,65 @@ def kind_1(
     R23 = hypot(R23_x, R23_y)  # [N] (1.20)
     gamma23 = atan2(R23_y, R23_x) % (2 * pi)  # [deg] (1.21)
     SR1 = typeset()
+    return (
+        F2_sum, F3_own, M2, R03, R03_n, R03_t, R12, R12_n, R12_t, R23, R23_x, R23_y, R43, R63, SR1, gamma03, gamma12,
+        gamma23,
+    )  # fmt: skip
+
+
+@app.cell
+def compared(
+    A_45, A_67, B_45, D, E, F6, F7, F_Q, F_gas, G2, G3, G4, G5, G6, G7, K, M7, R03, R05, R07, R12, R23, R34, R34_n, R36,
+    R36_n, R36_t, R45, R76, S2, S3, S4, S6, S7, T6, a_E, a_S2, a_S3, a_S4, a_S6, a_S7, eps2, eps3, eps4, eps6, g,
+    gamma03, gamma05, gamma07, gamma12, gamma23, gamma34, gamma36, gamma45, gamma6, gamma76, group_23, group_45,
+    group_67, h76, l_HK, lost, phi4, phi6,
+):  # fmt: skip
+    found_45 = group_45.reactions(
+        [Load(G4, S4), inertia(S4, g.m4, g.J4, a_S4, eps4)], [Load(G5 + F_Q, E), inertia(E, g.m5, 0, a_E)]
+    )
+    R_D = found_45.R_A  # [N] rocker 3 on the rod 4, at D
+    R_05 = found_45.R_B  # [N] guide on the plunger 5, at E
+    R_E = -found_45.R_C  # [N] rod 4 on the plunger 5, at E
+    _size = largest_of(R_D, R_05, R_E)
+    checks_45 = (
+        check("second kind: R34 is that of the library", R34 * exp(1j * gamma34) - R_D, lost, "N", of=_size),
+        check("second kind: R05 is that of the library", R05 * exp(1j * gamma05) - R_05, lost, "N", of=_size),
+        check("second kind: R45 is that of the library", R45 * exp(1j * gamma45) - R_E, lost, "N", of=_size),
+    )
+    vectors_45 = typeset()
+    r_45 = R34_n * sin(phi4) + R05 * cos(g.phi05) + B_45  # [N] (1.26) left by the line with the plus
+    r_45_printed = R34_n * sin(phi4) - R05 * cos(g.phi05) + B_45  # [N] (1.26) left by the line as printed (erratum)
+    R34_n_printed = -(A_45 * cos(g.phi05) - B_45 * sin(g.phi05)) / cos(phi4 + g.phi05)  # [N] (1.26) printed (erratum)
+    R05_printed = -(A_45 * sin(phi4) - B_45 * cos(phi4)) / cos(phi4 + g.phi05)  # [N] (1.26) as printed (erratum)
+    lines_42 = typeset()
+    found_67 = group_67.reactions(
+        [Load(G6 + F_gas, S6), inertia(S6, g.m6, g.J6, a_S6, eps6)],
+        [Load(G7 - F_gas, S7), inertia(S7, g.m7, g.J7, a_S7, eps6)],
+    )
+    R_K = found_67.R_A  # [N] rocker 3 on the rod 6, at K
+    R_H = found_67.R_B  # [N] frame on the cylinder 7, at H
+    R_76 = found_67.R_C  # [N] cylinder 7 on the rod 6
+    M_76 = found_67.M_C  # [N*m] its moment about K
+    _size = largest_of(R_K, R_H, R_76)
+    _moments = where(R76 == 0, 0, R76 * h76) - M_76
+    checks_67 = (
+        check("third kind: R36 is that of the library", R36 * exp(1j * gamma36) - R_K, lost, "N", of=_size),
+        check("third kind: R76 is that of the library", R76 * exp(1j * gamma76) - R_76, lost, "N", of=_size),
+        check("third kind: R07 is that of the library", R07 * exp(1j * gamma07) - R_H, lost, "N", of=_size),
+        check("third kind: R76 h76 is the library's moment", _moments, lost, "N*m", of=_size * largest_of(l_HK)),
+    )
+    vectors_67 = typeset()
+    T7_printed = F7 * g.l_HS7 * sin(phi6 - gamma6) + M7  # [N*m] (1.35) as printed (erratum)
+    R36_t_printed = (T6 + T7_printed) / l_HK  # [N] (1.35) as printed (erratum)
+    d_134 = cos(phi6 + pi) * sin(phi6 + 0.5 * pi) - sin(phi6 + pi) * cos(phi6 + 0.5 * pi)  # [-] (1.34)
+    d_134_printed = cos(phi6 + pi) * sin(phi6 + 0.5) - sin(phi6 + pi) * cos(phi6 + 0.5 * pi)  # [-] (1.34) (erratum)
+    r_67 = R36_n * cos(phi6) - R76 * sin(phi6) + A_67  # [N] (1.37) left by the first line
+    r_67_printed = R36_n * cos(phi6) - R07 * sin(phi6) + A_67  # [N] (1.37) left as printed (erratum)
+    gamma36_t_UGL2 = where(R36_t < 0, phi6 - 0.5 * pi, phi6 + 0.5 * pi)  # [deg] (1.35) of |R36t|
+    A_67_printed = R36_t * cos(gamma36_t_UGL2) + F6 * cos(gamma6)  # [N] (1.37) as printed, R36t with its sign (erratum)
+    B_67_printed = R36_t * sin(gamma36_t_UGL2) + F6 * sin(gamma6)  # [N] (1.37) as printed, R36t with its sign (erratum)
+    R76_printed = A_67_printed * sin(phi6) - B_67_printed * cos(phi6)  # [N] (1.37) from them (erratum)
+    lines_52 = typeset()
     found_23 = group_23.reactions(
         [Load(G2, S2), inertia(S2, g.m2, g.J2, a_S2, eps2)],
         [Load(G3, S3), inertia(S3, g.m3, g.J3, a_S3, eps3), Load(-R_D, D), Load(-R_K, K)],
@@ -713,8 +715,8 @@ def kind_1(
     )
     vectors_23 = typeset()
     return (
-        F2_sum, F3_own, M2, R03, R03_n, R03_t, R12, R12_n, R12_t, R23, R23_x, R23_y, R43, R63, R_A, R_B, R_C, SR1,
-        checks_23, gamma03, gamma12, gamma23, largest, vectors_23,
+        R_05, R_A, R_B, R_C, R_D, R_E, R_H, R_K, checks_23, checks_45, checks_67, largest, lines_42, lines_52,
+        vectors_23, vectors_45, vectors_67,
     )  # fmt: skip
 
 
@@ -913,8 +915,7 @@ def coupling(F1, O1, R21, R_A, T1, T2, g, gamma1, gamma21, loads_O1, lost):
 def drawing_72(A, F1_sum, M_c, O1, R_1c, R_A, S1, checks_drive, coupling_lines, turn):
     _a, _M = A[turn.value], M_c[turn.value]
     _forces = {"F1": (S1, F1_sum), "R21": (A, -R_A, O1), "R_O1": (O1, R_1c, A)}
-    _links = group_picture.link(O1, _a, "1").hinge(O1, "O1").hinge(_a, "A")
-    drawing_72 = cut_group(_links, turn.value, _forces, [A, O1])
+    drawing_72 = cut_group(group_picture.link(O1, _a, "1").hinge(O1, "O1").hinge(_a, "A"), turn.value, _forces, [A, O1])
     _says = f"balancing moment {_M:.4g} N·m" if isfinite(_M) else "no balancing moment"
     typeset(
         *(turn, drawing_72, caption("7.2", f"Crank driven by a coupling (figure 1.6), φ₁ = {turn.value}°: {_says}")),
@@ -931,8 +932,8 @@ def section_8():
 
 @app.cell
 def turn_listed(
-    F_b, M_b, R03, R05, R07, R12, R23, R34, R36, R45, R76, R_O1c, R_O1g, g, gamma03, gamma07, gamma12, gamma23,
-    gamma34, gamma36, gamma45, gamma_O1c, gamma_O1g, gamma_b, h76, omega1, phi1, s5,
+    F_b, M_b, R03, R05, R07, R12, R23, R34, R36, R45, R76, R_O1c, R_O1g, g, gamma03, gamma07, gamma12, gamma23, gamma34,
+    gamma36, gamma45, gamma_O1c, gamma_O1g, gamma_b, h76, omega1, phi1, s5,
 ):  # fmt: skip
     P_b = M_b * omega1  # [kW] power of the drive
     W_b = trapezoid(M_b, phi1)  # [J] work of the drive in a turn
@@ -1095,11 +1096,10 @@ def work(
     work_lines = typeset()
     energy = lambda phi1: omega1**2 * J_r(phi1) / 2 + U(phi1)  # [J] energy at the speed of the crank
     driven = M_b - g.eps1 * J_r(phi1) + dot(F_Q, V_E(phi1))  # [N*m] left of the moment for the change of energy
-    _some = (..., slice(None, None, 15))
     checks_work = (
         check("virtual work of moment and loads", M_b + W_1 + W_2 + W_3 + W_4 + W_5 + W_6 + W_7, lost, "N*m", of=M_max),
         check("the gear gives the power of the coupling", dot(F_w, 1j * (P_w - O1)) - M_b, lost, "N*m", of=M_max),
-        check_slope("energy: the moment is its slope", driven[_some], energy, phi1[_some], -pi / 2, 5 * pi / 2, "N*m"),
+        check_slope("energy: the moment is its slope", driven[..., ::15], energy, phi1[::15], -pi, 3 * pi, "N*m"),
     )
     energy_lines = typeset()
     return checks_work, energy_lines, work_lines
@@ -1122,10 +1122,9 @@ def dense(largest, M_max, loads, lost, reactions):
     """
     dense = solve_reactions(loads, reactions)
     _off = dense - magnitudes(reactions)
-    _hinges = _off[..., 1:17:2] + 1j * _off[..., 2:17:2]
     checks_dense = (
         check("one system: balancing moment", _off[..., 0], lost, "N*m", of=M_max),
-        check("one system: forces in the hinges", _hinges, lost, "N", of=largest),
+        check("one system: forces in the hinges", _off[..., 1:17:2] + 1j * _off[..., 2:17:2], lost, "N", of=largest),
         check("one system: forces in the prismatic pairs", _off[..., [17, 19]], lost, "N", of=largest),
         check("one system: moment of the guide", _off[..., 18], lost, "N*m", of=M_max),
         check("one system: moment of the cylinder on the rod", _off[..., 20], lost, "N*m", of=M_max),

@@ -314,8 +314,8 @@ def section_5():
 
 
 @app.cell
-def table_3(N_F, SAB_F, VAB_F, WAB_F, eps3_F, omega3_F, phi1_k, phi3_F):
-    table_3 = table("3", "Find", phi1_k, phi3_F, SAB_F, omega3_F, eps3_F, VAB_F, WAB_F, N_F, decimals=3)
+def table_3(SAB_F, VAB_F, WAB_F, eps3_F, omega3_F, phi1_k, phi3_F):
+    table_3 = table("3", "Find", phi1_k, phi3_F, SAB_F, omega3_F, eps3_F, VAB_F, WAB_F, decimals=3)
     table_3
     return
 
@@ -400,8 +400,8 @@ def others(f1, f2, f3, f4, f5, f6, g, phi1_k, units_f, units_x):
 
 
 @app.cell
-def table_4(N_g, N_none, N_other, N_same, phi3_g):
-    table_4 = table("4", "Find from other angles of the link", phi3_g, N_same, N_other, N_none, N_g)
+def table_4(N_none, N_other, N_same, phi3_g):
+    table_4 = table("4", "Find from other angles of the link", phi3_g, N_same, N_other, N_none)
     table_4
     return
 

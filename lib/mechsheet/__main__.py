@@ -12,6 +12,7 @@ if not __package__:  # run as a folder, which heads the path: its modules must n
 
 import os
 import re
+import signal
 import subprocess
 from pathlib import Path
 
@@ -46,9 +47,9 @@ usage: mechsheet COMMAND              where the package is installed
       such as                         serve hitch --port=8080
   index NAME                          where the worksheet has the formulas, tables and figures of its document
       such as                         index kinetostatics
-  compare NAME OLD NEW [--markdown]   what changed from one scene, workbook or revision of git to another; exit code 1
-                                      where something did
-      such as                         compare hitch HEAD worksheets/scenes/heavy.toml
+  compare NAME OLD NEW [--markdown]   what changed from one scene, workbook, revision of git or worksheet's file to
+                                      another; exit code 1 where something did
+      such as                         compare hitch HEAD worksheets/hitch.py
   rename NAME OLD NEW                 rename a symbol in the worksheet, its comments and texts, and in its scenes
       such as                         rename hitch F_gc F_c
   test [OPTIONS]                      run the project's tests (options of pytest)
@@ -64,7 +65,9 @@ def main(argv: "list[str] | None" = None) -> int:
         needed, found = (".".join(map(str, version[:2])) for version in (MINIMUM, sys.version_info))
         sys.exit(f"mechsheet: Python {needed} or newer is needed, this is Python {found} ({sys.executable})")
     command, *options = (sys.argv[1:] if argv is None else argv) or [""]
-    if command in ("", "-h", "--help"):
+    # What marimo and pytest take, they tell themselves.
+    asked = command not in ("edit", "serve", "test") and not {"-h", "--help"}.isdisjoint((command, *options))
+    if asked or not command:
         say(contents() + HELP)
         return 0 if command else 1
     if command in ("edit", "serve"):
@@ -123,11 +126,28 @@ def page(command: str, sheets: "list[str]", options: "list[str]") -> int:
             sheets = [os.path.commonpath([str(Path(path).parent) for path in sheets])]
     if command == "edit":
         return call([interpreter(""), "-m", "marimo", "edit", "--watch", *options, *sheets], settings=settings)
+    mistakes = {sheet: unread(sheet) for sheet in sheets}
+    for told in filter(None, mistakes.values()):
+        print(f"mechsheet: {told}", file=sys.stderr)
+    sheets = [sheet for sheet in sheets if not mistakes[sheet]]
+    if not sheets:
+        return 1
     password = "--password-file"
     options = [re.sub(f"^{password}(?==|$)", "--token-password-file", option) for option in options]
     if any(option.startswith("--token-password-file") for option in options):
         options = ["--token", *options]
     return call([interpreter(""), "-m", "marimo", "run", *options, *sheets], settings=settings)
+
+
+def unread(sheet: str) -> str:
+    """Why Python cannot read a worksheet, of which marimo would serve nothing and no other one beside it."""
+    import ast  # on use: only a page needs it
+
+    try:
+        ast.parse(Path(sheet).read_bytes())
+        return ""
+    except SyntaxError as error:
+        return f"{Path(sheet).name}, line {error.lineno}, {(error.text or '').strip()}: {error.msg}"
 
 
 def grouped() -> "dict[str, dict[str, str]]":
@@ -226,9 +246,11 @@ def call(command: "list[str]", cwd: "Path | None" = None, settings: "dict[str, s
     usual = {"OPENBLAS_NUM_THREADS": "1"}
     always = {"PYTHONUTF8": "1", "_MARIMO_CONFIG_OVERLOAD_RUNTIME_AUTO_INSTANTIATE": "true"}
     with subprocess.Popen(command, cwd=cwd, env={**usual, **os.environ, **always, **(settings or {})}) as process:
+        kept = signal.signal(signal.SIGTERM, lambda *_: process.terminate())  # else a server outlives its command
         while True:
             try:
                 code = process.wait()
+                signal.signal(signal.SIGTERM, kept)
                 return code if code >= 0 else 128 - code  # of a program that a signal ended, as shells have it
             except KeyboardInterrupt:  # Ctrl-C reaches the program too, and how to end is for it to say
                 pass

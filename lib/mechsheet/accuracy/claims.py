@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from mechsheet.accuracy.arithmetic import mp, mpf
-from mechsheet.accuracy.jobs import TRUTHS, exact_results
+from mechsheet.accuracy.truths import TRUTHS, exact_results
 from mechsheet.run.progress import progress
 from mechsheet.run.proving import proof_of_wanted
 from mechsheet.worksheet.cells import Worksheet, load

@@ -9,8 +9,8 @@ import numpy as np
 
 from mechsheet.accuracy import arithmetic
 from mechsheet.accuracy.arithmetic import EPS, Numbers, mpc, mpf
-from mechsheet.accuracy.jobs import TRUTHS
 from mechsheet.accuracy.precision import largest_error, timed
+from mechsheet.accuracy.truths import TRUTHS
 from mechsheet.mechanics.planar import cross
 from mechsheet.mechanics.prp import prp
 from mechsheet.mechanics.rpp import rpp

@@ -33,7 +33,7 @@ import numpy as np
 from mechsheet.accuracy import arithmetic, exact, printed, rivals
 from mechsheet.accuracy.arithmetic import Numbers, mpc, mpf
 from mechsheet.accuracy.conditioning import GROUPS
-from mechsheet.accuracy.jobs import TRUTHS
+from mechsheet.accuracy.truths import TRUTHS
 from mechsheet.document.error_chart import FULL, SPARE
 from mechsheet.mechanics.joint import circular_joint
 from mechsheet.mechanics.load import Load

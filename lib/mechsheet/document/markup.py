@@ -75,11 +75,13 @@ def where(field: Any, over: Over | None) -> str:
 def limits(field: Input) -> str:
     """Limits of an input, or of one column of a table; other columns by their short names.
 
-    >>> limits(Input("b.x", "m", "", "", False, ((">", "0.5"), ("<=", "b.l_2"))))
-    '&gt;&nbsp;0.5, ≤&nbsp;<i>l</i><sub>2</sub>'
+    >>> limits(Input("b.x", "m", "", "", False, ((">", "-0.5"), ("<=", "b.l_2"))))
+    '&gt;&nbsp;−0.5, ≤&nbsp;<i>l</i><sub>2</sub>'
     """
     return ", ".join(f"{_SIGNS[sign]}&nbsp;{_limit(other)}" for sign, other in field.limits)
 
 
 def _limit(text: str) -> str:
-    return as_written(text.rpartition(".")[2]) if text[0].isalpha() else escape(text)
+    if text[0].isalpha():
+        return as_written(text.rpartition(".")[2])
+    return numbers.rewritten(escape(text), HTML)

@@ -20,7 +20,8 @@ _MODULES = {"np", "numpy", "math", "cmath", "scipy", "sp"}
 _CALLED = {
     "fabs": "abs", "absolute": "abs", "pow": "power", "float_power": "power", "conjugate": "conj", "gamma": "Gamma",
 }  # fmt: skip
-_CONSTANTS: dict[str, Node] = {"pi": Symbol("π"), "e": Symbol("e"), "inf": Number(np.inf)}
+_UNLIMITED: dict[str, Node] = {"inf": Number(np.inf), "nan": Text("none")}
+_CONSTANTS: dict[str, Node] = {"pi": Symbol("π"), "e": Symbol("e"), **_UNLIMITED}
 _LINEAR = {"solve", "inv", "det", "norm"}  # which have a notation of their own
 
 
@@ -75,7 +76,9 @@ def place(key: ast.expr) -> Node | None:
 
 @lru_cache(maxsize=4096)
 def symbol(name: str) -> Node:
-    """Symbol of a name; a field is a function of S."""
+    """Symbol of a name; a field is a function of S, and what is no number has the sign that its value has."""
+    if name in _UNLIMITED:
+        return _UNLIMITED[name]
     symbol = read(stem(name))
     return Apply(symbol, Brackets((Symbol("S"),))) if is_field(name) else symbol
 

@@ -280,7 +280,10 @@ document.addEventListener("input", event => {
   if (event.target.closest(".ms-inputs")) refresh();
 });
 document.addEventListener("submit", event => event.preventDefault());
-addEventListener("hashchange", () => (readAddress(), refresh()));
+addEventListener("hashchange", () => {
+  if (!location.hash || location.hash.includes("=")) readAddress(); // else a link to a place: the inputs stay
+  refresh();
+});
 
 document.querySelector(".ms-back")?.addEventListener("click", () => {
   for (const field of told.inputs.fields) type(field, field.text);

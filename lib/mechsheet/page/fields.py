@@ -32,7 +32,7 @@ def _short(column: Input) -> str:
     return column.name.rpartition(".")[2]
 
 
-def _head(column: Input) -> dict[str, str]:
+def head(column: Input) -> dict[str, str]:
     """A column of a grid: its full name, its heading with the unit, and the same without markup."""
     unit = "" if column.unit == "-" else f" [{units.shown(column.unit)}]"
     head = as_written(_short(column)) + html.escape(unit)
@@ -66,7 +66,7 @@ def _element(field: Input, value: Any) -> Any:
 
 def _grid(field: Rows, value: Any) -> str:
     """The grid that is shown for the text area behind it."""
-    columns = [_head(column) for column in field.columns]
+    columns = [head(column) for column in field.columns]
     grid = element("ms-grid", columns=columns, text=field.text(value), made=uuid4().hex)
     return _in_template(grid)
 

@@ -66,7 +66,7 @@
     number() {
       if (!this.body.lastElementChild || isFilled(this.body.lastElementChild)) this.body.append(this.row());
       let count = 0;
-      const sizes = this.columns.map(() => 7);
+      const sizes = this.columns.map(() => 0);
       for (const row of this.body.rows) {
         const number = isFilled(row) ? ++count : "";
         row.firstElementChild.textContent = number;
@@ -76,7 +76,13 @@
           sizes[i] = Math.max(sizes[i], input.value.length);
         });
       }
-      for (const row of this.body.rows) inputsOf(row).forEach((input, i) => (input.size = sizes[i]));
+      for (const row of this.body.rows) inputsOf(row).forEach((input, i) => this.widen(input, sizes[i]));
+    }
+
+    // A column may be narrower than it would, but cuts no number.
+    widen(input, length) {
+      input.size = Math.max(7, length);
+      input.style.minWidth = `calc(${length}ch + 0.9em)`;
     }
 
     // The text area takes its text as from the hand, and passes it on when it is left.

@@ -150,6 +150,7 @@
   }
   area.addEventListener("input", () => {
     of.left = "";
+    of.sure = false; // of the text that was asked about
     typing();
   });
 
@@ -167,6 +168,10 @@
     const own = what.new?.trim().match(/^(?:def\s+)?([\p{L}\p{N}_]+)/u)?.[1];
     if (own) name = (name.startsWith("g.") ? "g." : "") + own;
     if (answer.why) return tell(answer.why);
+    if (answer.asks) {
+      if (mine && of === mine) of.sure = true;
+      return tell(`${answer.asks}: Enter once more writes it, Esc leaves it as it was`);
+    }
     if (what.do === "undo") written.pop();
     else written.push({ name, ...answer.written });
     if (mine && of === mine) close();
@@ -198,7 +203,7 @@
   const acts = {
     write(then) {
       if (!area.readOnly && (area.value.trim() || !of.below))
-        write({ do: "write", name: of.name, was: of.was, new: area.value, below: of.below }, of.name, then);
+        write({ do: "write", name: of.name, was: of.was, new: area.value, below: of.below, sure: of.sure ?? false }, of.name, then);
     },
     // What is typed is written first; the new line opens beneath it, where it stands then.
     below() {

@@ -23,6 +23,7 @@ import numpy as np
 from mechsheet import units
 from mechsheet.document.markup import as_written
 from mechsheet.page import editor, fields, notebook, values
+from mechsheet.page.needing import needing
 from mechsheet.page.script import element, script
 from mechsheet.workbook.save import save
 from mechsheet.worksheet import inputs, mistakes, source
@@ -67,7 +68,16 @@ class InPlace:
         self.answer = {"number": asked["number"], **found}
         self.redraw()
 
-    def done(self, do: str, name: str = "", was: str = "", new: str = "", below: bool = False, **parts: str) -> Any:
+    def done(
+        self,
+        do: str,
+        name: str = "",
+        was: str = "",
+        new: str = "",
+        below: bool = False,
+        sure: bool = False,
+        **parts: str,
+    ) -> Any:
         """What the page is told of what it asked."""
         text = self.path.read_bytes().decode()
         match do:
@@ -81,6 +91,8 @@ class InPlace:
             raise SheetError(_UNSAVED)
         told = Change(**parts) if do == "undo" else change(text, name, was, new, below)
         made = told.of(text)
+        if do == "write" and not sure and (need := _needing(text, name, was, was if below else new)):
+            return {"asks": need}
         if do == "write" and name.startswith(OF_INPUT):
             self.preview(made, name, was, new, below)  # without inputs there is nothing: a mistake refuses them
         save(made.encode(), self.path)
@@ -98,7 +110,9 @@ class InPlace:
         """HTML of a line: as it is typeset with its value, and its mistakes."""
         cells = notebook.running()[0]()
         if not new.strip():
-            return _gone(cells, name)
+            return escape(
+                _needing(self.path.read_bytes().decode(), name, was, "") or f"{name.removeprefix(OF_INPUT)} goes"
+            )
         if name.startswith(OF_INPUT):
             return _elsewhere(lambda: _input(made, new, dict(self.namespace)))
         return _elsewhere(lambda: _computed(cells, name, was, new.strip(), below, dict(self.namespace)))
@@ -195,13 +209,16 @@ def _input(made: str, new: str, names: dict[str, Any]) -> str:
     return f'<div class="ms-line"><b>{number}</b><span>{fields.said(own)}</span></div>'
 
 
-def _gone(cells: Iterable[notebook.Cell], name: str) -> str:
-    """What is told where a line is to go: what needs it."""
-    plain, need = name.removeprefix(OF_INPUT), dict[str, None]()
-    for node in (node for cell in cells for node in ast.parse(cell.code).body):
-        if any(ast.unparse(part) == name for part in ast.walk(node) if isinstance(part, ast.Name | ast.Attribute)):
-            need |= dict.fromkeys(sorted(declares(node) - {plain}))
-    return f"{escape(plain)} goes" + (f"; it is needed for {escape(', '.join(need))}" if need else "")
+def _needing(text: str, name: str, was: str, new: str) -> str:
+    """What needs the names that a line no longer declares once it is another one; nothing where nothing does."""
+    before = OF_INPUT if name.startswith(OF_INPUT) else ""
+    gone = sorted({before + own for own in _declared(was) - _declared(new)})
+    places = needing(text, gone) if gone else ""
+    return f"{', '.join(own.removeprefix(OF_INPUT) for own in gone)} goes, needed in {places}" if places else ""
+
+
+def _declared(line: str) -> set[str]:
+    return {name for node in ast.parse(line).body for name in declares(node)}
 
 
 def _mistake(text: str) -> str:

@@ -7,25 +7,36 @@
   let at = -1;
   let wanted = null; // a set on its way through the page
   let asked = null; // the last one that was asked for
-  let drawn = true; // whether its fields are there to be typed into, which a busy machine draws late
+  let typed = true; // whether the page has heard all its fields: a busy machine draws them late, and hears them later still
+  const heard = new Set(); // which have told their values since they were typed into
   const QUIET = 500; // ms without a run: what was typed has been computed with
 
   // The element beside the fields tells of all that have changed; of each alone marimo would keep the last, and lose
   // what was typed before it while the page computed.
   const alone = ({ objectId }) => document.querySelector(`td[data-input] marimo-ui-element[object-id="${CSS.escape(objectId)}"]`);
-  window.addEventListener("marimo-value-ready", (event) => alone(event.detail) && event.stopImmediatePropagation(), true);
+  const hear = (event) => {
+    const field = alone(event.detail);
+    if (!field) return;
+    heard.add(field.closest("td").dataset.input);
+    event.stopImmediatePropagation();
+  };
+  window.addEventListener("marimo-value-ready", hear, true);
 
   const setter = (kind) => Object.getOwnPropertyDescriptor(kind.prototype, "value").set;
   const same = (a, b) => Object.keys(a).every((name) => a[name] === b[name]);
 
+  const eachBar = (act) => document.querySelectorAll("ms-states").forEach(act);
   const hostOf = (name) => document.querySelector(`td[data-input="${name}"] marimo-ui-element > *`);
   const fieldOf = (name) => hostOf(name)?.shadowRoot?.querySelector("input, textarea, select, button");
 
+  // Typed into until it is heard: a field that is there may not listen yet.
   function typeAll(names, texts, tries = 300) {
     if (asked !== texts) return; // another set has been asked for since
-    drawn = !tries || names.every(fieldOf);
-    if (drawn) names.filter(fieldOf).forEach((name) => type(name, texts[name]));
-    else setTimeout(() => typeAll(names, texts, tries - 1), 100);
+    const late = names.filter((name) => !heard.has(name));
+    typed = !tries || !late.length;
+    if (typed) return eachBar((bar) => bar.follow());
+    late.filter(fieldOf).forEach((name) => type(name, texts[name]));
+    setTimeout(() => typeAll(late, texts, tries - 1), 100);
   }
 
   // A field takes its text as from the hand.
@@ -39,8 +50,11 @@
       const checked = field.ariaChecked === "true" || field.getAttribute("aria-checked") === "true" || field.checked === true;
       if (checked !== (text === "yes")) field.click();
     } else {
-      setter(field.constructor).call(field, text);
-      field.dispatchEvent(new InputEvent("input", { bubbles: true }));
+      // First another text: one that is there already is no change.
+      for (const each of ["", text]) {
+        setter(field.constructor).call(field, each);
+        field.dispatchEvent(new InputEvent("input", { bubbles: true }));
+      }
       field.dispatchEvent(new FocusEvent("focusout", { bubbles: true }));
       const grid = host.closest("td").querySelector("ms-grid");
       grid?.show(text);
@@ -63,7 +77,7 @@
     }
 
     disconnectedCallback() {
-      queueMicrotask(() => document.querySelectorAll("ms-states").forEach((bar) => bar.show()));
+      queueMicrotask(() => eachBar((bar) => bar.show()));
     }
 
     attributeChangedCallback() {
@@ -72,7 +86,7 @@
 
     tell() {
       fields = JSON.parse(this.getAttribute("told"));
-      document.querySelectorAll("ms-states").forEach((bar) => bar.follow());
+      eachBar((bar) => bar.follow());
     }
   }
   class States extends HTMLElement {
@@ -101,7 +115,7 @@
       if (!wanted && (first || !same(steps[at], now))) steps.splice(++at, steps.length, now);
       clearTimeout(this.quiet);
       // What an address says in other words than the page, such as 0,055 m, is never the same.
-      if (wanted && drawn) this.quiet = setTimeout(() => (wanted = null, this.follow()), QUIET);
+      if (wanted && typed) this.quiet = setTimeout(() => (wanted = null, this.follow()), QUIET);
       this.show();
       const given = textsIn(location.hash);
       if (first && given.size) this.open(given);
@@ -125,7 +139,9 @@
 
     address() {
       const text = addressOf(this.given);
-      if (text || location.hash.includes("=")) history.replaceState(history.state, "", text ? `#${text}` : location.pathname + location.search);
+      // Whole: marimo's page has a base, to which a fragment alone would lead from a worksheet that the query names.
+      const page = location.pathname + location.search;
+      if (text || location.hash.includes("=")) history.replaceState(history.state, "", page + (text && `#${text}`));
     }
 
     show() {
@@ -176,6 +192,7 @@
       const reached = fields.every(({ name, text }) => texts[name] === text);
       wanted = reached ? null : texts;
       asked = texts;
+      heard.clear();
       typeAll(others, texts);
     }
 

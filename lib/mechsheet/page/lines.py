@@ -17,6 +17,7 @@ from mechsheet.page import switched
 from mechsheet.worksheet import numbers, symbol
 from mechsheet.worksheet.lines import Formula, Given, Numbers, Typeset
 from mechsheet.worksheet.over import over
+from mechsheet.worksheet.terms import terms
 
 
 def lines(shown: Typeset) -> str:
@@ -44,17 +45,25 @@ def _formula(line: Formula, value: object, shown: Typeset) -> str:
     if line.arguments:
         return _line(_equation(line, single), "", line.meaning, line.number, mistake=line.mistake, line=line)
     text = "" if shown.numbers is None else _substituted(line, shown.numbers, shown.position)
-    value_text = valued(line, value, shown.numbers.namespace if shown.numbers else None)
+    namespace = shown.numbers.namespace if shown.numbers else None
+    equals = "=" if cleared(line, value, namespace) is value else r"\approx"
     told = line.meaning, line.number, text, line.mistake, line
-    return _line(f"{_equation(line, single)} =", value_text, *told)
+    return _line(f"{_equation(line, single)} {equals}", valued(line, value, namespace), *told)
 
 
 def valued(line: Formula, value: object, namespace: Mapping[str, Any] | None) -> str:
     """The value of a line, of a field also where it is least and greatest, if a namespace tells over what it is one."""
-    text = switched.value(symbol.stem(line.name), line.unit, numbers.in_any_unit(value))
-    if namespace is None or not isinstance(value, np.ndarray):
+    told = cleared(line, value, namespace)
+    text = switched.value(symbol.stem(line.name), line.unit, numbers.in_any_unit(told))
+    if namespace is None or not isinstance(told, np.ndarray):
         return text
-    return text + where(value, over(line.name, namespace))
+    return text + where(told, over(line.name, namespace))
+
+
+def cleared(line: Formula, value: Any, namespace: Mapping[str, Any] | None) -> Any:
+    """The value itself, or 0 of one that is nothing but the rounding of what its line adds."""
+    sizes = 0.0 if namespace is None else terms(line.expression, namespace)
+    return np.asarray(value).dtype.type(0).item() if numbers.is_rounding(value, sizes) else value
 
 
 def _substituted(line: Formula, known: Numbers, position: int) -> str:

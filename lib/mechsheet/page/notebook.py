@@ -3,7 +3,8 @@
 A version of marimo that keeps them otherwise makes `running` raise `Unlike`, and nothing else rests on them.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import AsyncIterator, Callable, Mapping
+from contextlib import asynccontextmanager, suppress
 from dataclasses import dataclass
 from typing import Any
 
@@ -50,18 +51,62 @@ def running() -> tuple[Callable[[], tuple[Cell, ...]], dict[str, Any]]:
     return cells, namespace
 
 
-def stopped() -> tuple[tuple[source.Cell, ...], tuple[Cell, ...], str]:
-    """Cells of the file of the calling cell's page, those of the page, and the id of that cell.
+def stopped(cell_id: str = "") -> tuple[tuple[source.Cell, ...], tuple[Cell, ...], str]:
+    """Cells of the file of the calling cell's page, those of the page, and the id of a cell: of none, of that cell.
 
-    Nothing where this version of marimo does not tell.
+    Nothing where this version of marimo does not tell, or the file cannot be read.
     """
     try:
         from marimo._runtime.context import get_context  # on use: a version may lack it
 
         cells, namespace = running()
-        return source.of_file(namespace), cells(), str(get_context().cell_id or "")
-    except (ImportError, AttributeError, Unlike):
+        return source.of_file(namespace), cells(), cell_id or str(get_context().cell_id or "")
+    except (ImportError, AttributeError, Unlike, SyntaxError, OSError):
         return (), (), ""
+
+
+def tell_of_failures(told: Callable[[object, str, Mapping[str, Any]], str]) -> None:
+    """Let every page that this process serves show in the place of a cell that failed the HTML that is ``told`` of it.
+
+    It is told the exception, or what marimo has for it, the id of the cell and the namespace of the page; where it
+    tells nothing, and where this version of marimo has no such place, all stays as it is.
+    """
+    try:
+        from marimo._messaging.cell_output import CellChannel  # on use, as all of these: a version may lack it
+        from marimo._messaging.notification_utils import CellNotificationUtils  # on use
+        from marimo._runtime.context import get_context  # on use
+        from marimo._runtime.runner.hooks import Priority  # on use
+        from marimo._runtime.runtime import _KERNEL_LIFESPAN_REGISTRY  # on use
+    except ImportError:
+        return
+
+    def show(cell_id: Any, error: object, namespace: dict[str, Any]) -> None:
+        if html := told(error, str(cell_id), namespace):
+            # A cell that waits for its run is no longer one whose output is an error, which the page leaves out.
+            CellNotificationUtils.broadcast_output(CellChannel.OUTPUT, "text/html", html, cell_id, "queued")
+            CellNotificationUtils.broadcast_status(cell_id, "idle")
+
+    @asynccontextmanager
+    async def page(_: None) -> AsyncIterator[None]:
+        notebook: Any = get_context()
+        kernel, seen = notebook._kernel, set[Any]()
+
+        def raised(cell: Any, _: object, result: Any) -> None:
+            if result.exception is not None:
+                show(cell.cell_id, result.exception, notebook.globals)
+
+        def unread(_: object) -> None:  # of cells that cannot even be run
+            for cell_id, (error, *_more) in kernel.errors.items():
+                if cell_id not in seen:
+                    show(cell_id, error, notebook.globals)
+            seen.update(kernel.errors)
+
+        kernel._hooks.add_post_execution(raised, Priority.LATE)
+        kernel._hooks.add_on_finish(unread, Priority.LATE)
+        yield
+
+    with suppress(AttributeError):
+        _KERNEL_LIFESPAN_REGISTRY.register("mechsheet", page)
 
 
 def reads(name: str) -> bool:

@@ -42,35 +42,40 @@
   const bar = document.createElement("div");
   bar.className = "ms-bar";
   bar.role = "status";
-  bar.addEventListener("click", (event) => {
-    const link = event.target.closest("a");
-    const place = link && document.getElementById(decodeURIComponent(link.hash.slice(1)));
-    if (!place) return;
-    event.preventDefault();
-    const lead = () => place.scrollIntoView({ block: "center" });
-    lead();
-    requestAnimationFrame(() => requestAnimationFrame(lead)); // what is laid out on the way there moves it
-  });
 
-  class Verdict extends HTMLElement {
+  class InBar extends HTMLElement {
     static observedAttributes = ["bar"];
 
     connectedCallback() {
-      this.seen = new IntersectionObserver(([{ isIntersecting }]) => (bar.hidden = isIntersecting));
+      this.seen = new IntersectionObserver(([{ isIntersecting }]) => {
+        this.isSeen = isIntersecting;
+        InBar.show();
+      });
       this.seen.observe(this);
-      document.body.append(bar);
+      InBar.show();
     }
 
     disconnectedCallback() {
       this.seen.disconnect();
-      if (!document.querySelector("ms-verdict")) bar.remove(); // another one may have come in its place
+      InBar.show();
     }
 
     attributeChangedCallback() {
-      bar.innerHTML = this.getAttribute("bar");
+      InBar.show();
+    }
+
+    // What failed first; nothing as long as all of it is in sight.
+    static show() {
+      const [failed, verdicts] = ["ms-failed", "ms-verdict"].map((kind) => [...document.querySelectorAll(kind)]);
+      const told = [...failed.slice(0, 1), ...verdicts];
+      bar.hidden = told.every(({ isSeen }) => isSeen ?? true);
+      bar.innerHTML = bar.hidden ? "" : told.map((each) => each.getAttribute("bar")).join("");
+      if (told.length) document.body.append(bar);
+      else bar.remove();
     }
   }
-  customElements.define("ms-verdict", Verdict);
+  customElements.define("ms-verdict", class extends InBar {});
+  customElements.define("ms-failed", class extends InBar {});
 
   document.addEventListener("change", (event) => {
     if (!event.target.matches(".ms-switch")) return;

@@ -13,6 +13,8 @@ from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager, suppress
 from typing import Any
 
+from mechsheet.page import failure
+
 _TRIES = 100  # one in some thousands fails
 _FUTURE = sum({getattr(__future__, name).compiler_flag for name in __future__.all_feature_names})
 _compile = builtins.compile
@@ -40,4 +42,5 @@ def _again(
 async def lifespan(_server: object) -> AsyncIterator[None]:
     """What marimo enters before it serves the first page: an entry point of the package."""
     again()
+    failure.tell()
     yield

@@ -71,9 +71,17 @@
 
   document.addEventListener(
     "click",
-    ({ target }) => {
+    (event) => {
+      const { target } = event;
       const link = target.closest?.('a[href^="#"]');
-      if (link) return open(targetOf(link));
+      const to = link && targetOf(link);
+      if (to) {
+        // The address stays: it carries the inputs, and by the page's base a fragment may lead from the worksheet.
+        event.preventDefault();
+        event.stopPropagation();
+        open(to);
+        return lead(to, 3);
+      }
       const heading = target.closest?.(HEADINGS);
       if (heading) {
         if (getSelection().toString()) return;

@@ -24,7 +24,7 @@ from mechsheet.page.lines import lines
 from mechsheet.page.script import element, script
 from mechsheet.page.smooth import smooth
 from mechsheet.page.waiting import waiting
-from mechsheet.worksheet import numbers, symbol
+from mechsheet.worksheet import mistakes, numbers, symbol
 from mechsheet.worksheet.check import Check, Summary
 from mechsheet.worksheet.drawing import Drawing
 from mechsheet.worksheet.errors import SheetError, Waits
@@ -39,12 +39,16 @@ from mechsheet.worksheet.title import Caption, Mark, Note, Player, SideBySide, S
 from mechsheet.worksheet.verdict import Verdict
 
 # Shown by the style sheet that stands where something was refused.
-_TOLD = '<div class="ms-told" style="display:none"><span class="ms-badge ms-FAIL">not computed to its end</span> </div>'
+_LOST = '<span class="ms-badge ms-FAIL">not computed to its end</span>'
+_TOLD = f'<div class="ms-told" style="display:none">{_LOST} </div>'
 
 
 def written(value: object) -> tuple[str, str]:
     """MIME type and text of a value of the package."""
-    text = html(value)
+    try:
+        text = html(value)
+    except Exception as error:  # which marimo would leave out without a word
+        text = failed(f"this {type(value).__name__} cannot be shown: {mistakes.why(error, ())}", ends=False)
     placed = _placed(value) and not _HEADED.search(text)
     shown = placed and mo.app_meta().mode == "run" and notebook.reads("title_block")
     if shown and not _OF_MARIMO.search(text):
@@ -66,25 +70,31 @@ def slider(value: Slider) -> Any:
 
 
 def refused(error: Exception, shown: Any) -> None:
-    """Stop the running cell with an error in its place, or ``shown``; return where no page is running.
-
-    The title block tells it too: the verdicts of the checks have gone with their cells. What waits for a number leaves
-    the reason to the line that has none.
-    """
+    """Stop the running cell with an error in its place, or ``shown``; return where no page is running."""
     if mo.running_in_notebook():
-        place = mo.as_html(shown if shown is not None else mo.callout(mo.Html(_said(str(error))), kind="danger")).text
-        said = numbers.rewritten(str(error), numbers.ON_PAGE, units.raised)
-        reason = f'content:"{_quoted(said)}"'
-        told = ".ms-told{display:block!important}"
-        told += "" if isinstance(error, Waits) else f".ms-told::after{{{reason}}}"
-        if isinstance(error, SheetError) and error.of:
-            field = re.split(r"[. ]", error.of)[0]
-            told += f'td[data-input="{field}"]::after{{{reason}}}'
-            told += f'input[data-input="{error.of}"]{{outline:2px solid var(--red-11,#c62828)}}'
-        if mo.app_meta().mode == "run":  # the editor tells it of every cell
-            for of, text in waiting(*notebook.stopped()).items():
-                told += f'.marimo-cell:has([id="{_quoted(of)}"])::after{{content:"{_quoted(text)}"}}'
-        mo.stop(True, mo.Html(f"{place}<style>{told}</style>"))
+        of = error.of if isinstance(error, SheetError) else ""
+        mo.stop(True, mo.Html(failed("" if isinstance(error, Waits) else str(error), of, str(error), shown)))
+
+
+def failed(told: str, of: str = "", reason: str = "", shown: Any = None, cell_id: str = "", ends: bool = True) -> str:
+    """HTML of what stands in the place of a cell that failed: its reason, or ``shown``.
+
+    Title block and bar tell it too, for the verdicts of the checks may have gone with their cells, and the field of the
+    input ``of`` that name. What waits for a number leaves what is ``told`` to the line that has none. Sections that
+    wait for the cell, the one that runs unless an id is given, say so where it ``ends`` there.
+    """
+    callout = shown if shown is not None else mo.callout(mo.Html(_said(reason or told)), kind="danger")
+    said = numbers.rewritten(reason or told, numbers.ON_PAGE, units.raised)
+    content = f'content:"{_quoted(said)}"'
+    style = ".ms-told{display:block!important}" + (f".ms-told::after{{{content}}}" if told else "")
+    if of:
+        style += f'td[data-input="{re.split(r"[. ]", of)[0]}"]::after{{{content}}}'
+        style += f'input[data-input="{of}"]{{outline:2px solid var(--red-11,#c62828)}}'
+    if ends and mo.app_meta().mode == "run":  # the editor tells it of every cell
+        for place, text in waiting(*notebook.stopped(cell_id)).items():
+            style += f'.marimo-cell:has([id="{_quoted(place)}"])::after{{content:"{_quoted(text)}"}}'
+    bar = f'<a href="#failed">{_LOST} {_said(told)}</a>'
+    return element("ms-failed", f"{mo.as_html(callout).text}<style>{style}</style>", id="failed", bar=bar)
 
 
 def _said(text: str) -> str:
@@ -286,13 +296,32 @@ def _(used: Used) -> str:
             rows.append(f'<tr><th colspan="4" style="text-align:left">{escape(section)}</th></tr>')
         rows.append(
             f'<tr style="font-weight:{weight}"><td>{name}</td>'
-            f'<td style="text-align:right;padding:0 .5em">{escape(field.brief(value))}</td>'
+            f'<td style="text-align:right;padding:0 .5em">{_printed(field, value)}</td>'
             f'<td style="padding-right:1em">{escape(unit)}</td><td>{escape(field.meaning)}</td></tr>'
         )
         own = field.text(getattr(type(used.g), field.name))
         text = field.text(value) if field.name in changed else own
         told.append({"name": field.name, "head": name, "kind": _kind(field), "text": text, "own": own, "unit": unit})
     return f'{element("ms-used", told=told)}<table class="ms-print" style="display:none">{"".join(rows)}</table>'
+
+
+def _printed(field: Input, value: Any) -> str:
+    """Value of an input on paper: of a list or a table every number, up to as many as a page holds."""
+    if isinstance(field, TextLine | Choice):
+        return escape(field.brief(value))
+    if not isinstance(field, Rows):
+        return _said(field.brief(value))
+    rows = [row.split("; ") for row in field.text(value).split("\n")]
+    if max(len(rows), len(rows[0])) > _ON_PAPER:
+        return _said(field.brief(value))
+    if field.row is None:
+        return _said("; ".join(rows[0]))
+    heads = "".join(f"<td>{fields.head(column)['head']}</td>" for column in field.columns)
+    lines = ("".join(f"<td>{_said(text)}</td>" for text in row) for row in rows)
+    return f"<table><tr>{heads}</tr>{''.join(f'<tr>{line}</tr>' for line in lines)}</table>"
+
+
+_ON_PAPER = 45  # rows of the inputs
 
 
 def _kind(field: Input) -> str:

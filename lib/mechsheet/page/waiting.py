@@ -2,7 +2,7 @@
 
 import ast
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 
 from mechsheet.page.headings import heading
 from mechsheet.page.notebook import Cell
@@ -24,18 +24,31 @@ def waiting(file: Sequence[source.Cell], cells: Sequence[Cell], stopped: str) ->
         lost |= {name for cell in cells if cell.refs & lost for name in cell.defs}
     last, at, places = "", "", dict[str, None]()
     for cell in file:
-        headings = [found for text in source.texts(cell.body) for found in _HEADING.findall(source.constant(text))]
-        last = [last, *headings][-1]
-        nodes = (node for statement in cell.body for node in source.nodes(statement))
+        nodes = [node for statement in cell.body for node in source.nodes(statement)]
+        last = [last, *headings(cell.body)][-1]
         names = [node for node in nodes if isinstance(node, ast.Name)]
         if own & {name.id for name in names if isinstance(name.ctx, ast.Store)}:
             at = last
         elif lost & {name.id for name in names}:
             places[last] = None
-    return {heading(place): f"waits for {_named(at)}" for place in places if place not in ("", at)}
+    waits = "waits for the setup" if stopped == "setup" else f"waits for {_named(at)}"
+    return {heading(place): waits for place in places if place not in ("", at)}
+
+
+def headings(lines: Iterable[ast.stmt]) -> list[str]:
+    """Headings in the texts that lines of a cell show."""
+    return [found for text in source.texts(lines) for found in _HEADING.findall(source.constant(text))]
 
 
 def _named(section: str) -> str:
     """A section by its number, or by its heading where it has none."""
+    if not section:
+        return "what is not computed above"
+    named = short(section)
+    return named if named.startswith("“") else f"section {named}"
+
+
+def short(section: str) -> str:
+    """The number of a section, or its heading where it has none."""
     number = section.partition(" ")[0]
-    return f"section {number}" if number[:1].isdigit() else f"“{section}”" if section else "what is not computed above"
+    return number if number[:1].isdigit() else f"“{section}”"

@@ -137,18 +137,20 @@ class Reader:
         return bool(wrong)
 
     def settle(self, node: Node) -> None:
-        """Compare a value with its declared units; in that of the line which made it, it is taken from here on."""
+        """Compare a value with its declared units; in that of the line which made it, it is taken from here on.
+
+        Where the two do not fit, either may be wrong: what rests on them is not told as well.
+        """
         for line in self.declared[node]:
             if line.mistake:
                 continue
             unit = self.of_unit(line.unit)
             function = self.places.function_called(line.expression)
-            if not (function and self.unfit(function, node)):
-                self.unfit(line, node)
+            wrong = bool(function and self.unfit(function, node)) or self.unfit(line, node)
             if node.op not in ("constant", "rows", "input") and (
                 self.places.lines[line.name] == node.line or _is(self.codes[node], UNKNOWN, LITERAL)
             ):
-                self.codes[node] = unit
+                self.codes[node] = UNKNOWN if wrong and "erratum" not in line.meaning else unit
 
     def check(self, name: str, check: Residual) -> None:
         """Compare the residual and the limit of a check with its unit, or with each other where none is given."""

@@ -56,7 +56,9 @@ class Told(NamedTuple):
 class Solved:
     """A found value: what it leaves of its equation, its interval or guess, its closed form where there is one.
 
-    Of one unknown the ``target`` is what its equation must be. How it is ``searched`` in place of a closed form.
+    Of one unknown the ``target`` is what its equation must be. How it is ``searched`` in place of a closed form, and
+    the check by whose name it is ``compared`` with that. In the cells of a workbook the closed form is the value where
+    the condition ``sure`` holds.
     """
 
     node: Node
@@ -66,6 +68,8 @@ class Solved:
     inverse: Node | None = None
     target: Node | None = None
     searched: str = ""
+    compared: str = ""
+    sure: Node | None = None
 
 
 @dataclass

@@ -3,16 +3,20 @@
 That of one equation closes in on its only change of sign; of several they are the `stepped` ones.
 """
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Sequence
+from contextlib import suppress
 from typing import Any
 
 import numpy as np
 
 from mechsheet.recording.arithmetic import choice
+from mechsheet.recording.confirmed import confirm
 from mechsheet.recording.graph import Gap, Graph, Label, NotRecorded
-from mechsheet.recording.lines import Recording, leaves_of
+from mechsheet.recording.lines import Recording, Solved, leaves_of
 from mechsheet.recording.node import Block, Node, bottom_up
-from mechsheet.recording.quantity import Quantity, lift
+from mechsheet.recording.operations import ELEMENTWISE, Values
+from mechsheet.recording.quantity import Quantity, lift, moved
+from mechsheet.recording.replaced import replaced
 from mechsheet.recording.stepped import steps
 
 PLACES = 97  # of the first look at the whole interval, dense at its ends
@@ -25,29 +29,53 @@ _LESS = 0.1  # of the residual in the last early look may be left in the end: mo
 
 
 def search(recording: Recording) -> None:
-    """Give found values without a closed form the search for them in its place.
+    """Give found values without a closed form that solves the equations the search for them in its place.
 
     It has no value where that of the worksheet is not sure to be the same: of one equation where its places show no
     change of sign, more than one, or that there may be more. What it doesn't find for the inputs at hand keeps the
     number of the worksheet's own run; `Recording.unsolved` says which found values do so whatever there is, and why.
     """
-    graph, roots = recording.graph, dict[Node, Node]()
-    blocks = {solved.node.args[0]: solved for solved in recording.found.values() if solved.node.op == "found"}
-    for block, last in blocks.items():
-        graph.line = block.nodes[0].line
-        if any(solved.inverse is None for solved in recording.found.values() if solved.node in block.nodes):
-            try:
-                with np.errstate(all="ignore"):  # the equations need not have a value everywhere
-                    found = [_root(graph, block, last.words.unknown_unit)] if block.single else steps(graph, block)
-                    roots |= {n: _at_hand(recording, n, x) for n, x in zip(block.nodes, found, strict=True)}
-            except NotRecorded as reason:
-                recording.unsolved.append(Gap(_named(recording, block), block.nodes[0].line, f"{_KEPT}: {reason}"))
+    blocks = dict[Block, list[Solved]]()
     for solved in recording.found.values():
-        if solved.inverse is None and solved.node in roots:
-            solved.inverse = roots[solved.node]
-            solved.searched = _ONE if solved.node.args[0].single else "Newton's steps from its guess"
-            recording.define_steps("Search", solved)
+        if solved.node.op == "found":
+            blocks.setdefault(solved.node.args[0], []).append(solved)
+    for block, unknowns in blocks.items():
+        recording.graph.line = block.nodes[0].line
+        try:
+            with np.errstate(all="ignore"):  # the equations need not have a value everywhere
+                _know(recording, block, unknowns)
+        except NotRecorded as reason:
+            for solved in unknowns:
+                solved.inverse, solved.searched = None, ""
+            recording.unsolved.append(Gap(_named(recording, block), block.nodes[0].line, f"{_KEPT}: {reason}"))
+        for solved in unknowns:
+            recording.define_steps("Search" if solved.searched else _section(recording, solved.node), solved)
     recording.unsolved += _counted(recording)
+
+
+def _know(recording: Recording, block: Block, unknowns: Sequence[Solved]) -> None:
+    """Let unknowns be known by closed forms that solve the equations, else by the search for them."""
+    if len(unknowns) == len(block.nodes) and all(solved.inverse for solved in unknowns):
+        with suppress(NotRecorded):
+            confirm(recording, block, unknowns)
+            return
+        for solved in unknowns:
+            solved.inverse = None
+    graph = recording.graph
+    found = [_root(graph, block, unknowns[-1].words.unknown_unit)] if block.single else steps(graph, block)
+    roots = {n: _at_hand(recording, n, x) for n, x in zip(block.nodes, found, strict=True)}
+    for solved in unknowns:
+        if solved.inverse is None:
+            solved.inverse = roots[solved.node]
+            solved.searched = _ONE if block.single else "Newton's steps from its guess"
+    if not all(solved.searched for solved in unknowns):
+        confirm(recording, block, unknowns)
+
+
+def _section(recording: Recording, node: Node) -> str:
+    """Where a found value is a line."""
+    with_it = (title for title, lines in recording.lines.items() if any(line.node is node for line in lines))
+    return next(with_it, "Search")
 
 
 def _counted(recording: Recording) -> Iterator[Gap]:
@@ -85,13 +113,60 @@ def _at_hand(recording: Recording, found: Node, root: Any) -> Node:
 
 
 def _root(graph: Graph, block: Block, unit: str) -> Any:
-    if not block.elementwise:
-        raise NotRecorded("its equation rests on sums or on other elements")
+    if not (block.elementwise or _each_of_its_own(block)):
+        raise NotRecorded("its equation for one of the values rests on others of them")
     if not block.starts.keys() >= {"lo", "hi"}:
         raise NotRecorded("its interval has an open end")
     (low,), (high,) = block.starts["lo"], block.starts["hi"]
-    a, b = (Quantity(graph, graph.like(end, low, high, *block.under)) for end in (low, high))
+    a, b = (Quantity(graph, graph.like(end, low, high, *_shaping(graph, block))) for end in (low, high))
+    if a.extent != block.nodes[0].shape:
+        raise NotRecorded("its interval has another shape")
     return _searched(block, a, b, unit)
+
+
+def _shaping(graph: Graph, block: Block) -> tuple[Node, ...]:
+    """What the block rests on that has the shape of its unknown."""
+    shape = block.nodes[0].shape
+    alike = tuple(node for node in block.under if block.elementwise or node.shape == shape)
+    return alike or (graph.constant(np.zeros(shape)),)
+
+
+_NONE, _SEVERAL = -1, -2
+
+
+def _each_of_its_own(block: Block) -> bool:
+    """Whether the equation for each number of the unknown rests on no other number of it."""
+    unknown, residual = block.nodes[0], block.residuals[0]
+    rests = {unknown: np.arange(unknown.size).reshape(unknown.shape)}
+    for node in bottom_up([residual], rests):
+        under = [rests[operand] for operand in node.operands]
+        if node.op == "take":
+            rests[node] = under[0].reshape(-1)[node.args[1]]
+        elif node.op == "join":
+            starts = np.cumsum([0, *(one.size for one in under)])
+            rests[node] = np.concatenate([one.reshape(-1) for one in under])[starts[node.args[1]] + node.args[2]]
+        elif node.op == "reduce":
+            groups = [_of_all(under[0].reshape(-1)[group]) for group in node.args[1]]
+            rests[node] = np.array(groups, int).reshape(node.shape)
+        elif node.op in ELEMENTWISE:
+            rests[node] = _of_both(*under)
+        else:  # of all that it rests on
+            whole = np.concatenate([np.array([_NONE]), *(one.reshape(-1) for one in under)])
+            rests[node] = np.full(node.shape, _of_all(whole))
+    own = rests[residual]
+    return own.shape == unknown.shape and bool(((own == rests[unknown]) | (own == _NONE)).all())
+
+
+def _of_both(*rests: Values) -> Values:
+    one, *others = np.broadcast_arrays(*rests)
+    for other in others:
+        one = np.where((other == _NONE) | (other == one), one, np.where(one == _NONE, other, _SEVERAL))
+    return one
+
+
+def _of_all(rests: Values) -> int:
+    known = set(rests.reshape(-1).tolist()) - {_NONE}
+    return known.pop() if len(known) == 1 else _SEVERAL if known else _NONE
 
 
 def _searched(block: Block, a: Quantity, b: Quantity, unit: str) -> Any:
@@ -137,15 +212,6 @@ def _unseen(left: Quantity) -> Any:
 
 
 def _residual(block: Block, x: Quantity) -> Quantity:
-    """What is left of the equation at other values of its unknown."""
-    graph, new = x.graph, {block.nodes[0]: x.re}
-    for node in bottom_up(block.residuals, new):
-        if any(new.get(operand, operand) is not operand for operand in node.operands):
-            new[node] = graph.node(node.op, *(_at_places(Quantity(graph, n), new).re for n in node.operands))
-    return Quantity(graph, new[block.residuals[0]])
-
-
-def _at_places(operand: Quantity, new: Mapping[Node, Node]) -> Quantity:
-    """An operand at all places, which stand on a last axis of their own."""
-    known = new.get(operand.re)
-    return Quantity(operand.graph, known) if known else operand[..., None] if operand.shape else operand
+    """What is left of the equation at other values of its unknown, which stand on the last axis."""
+    new = replaced(x.graph, block.residuals, {block.nodes[0]: moved(x, -1, 0).re}, x.extent[-1])
+    return moved(Quantity(x.graph, new[block.residuals[0]]), 0, -1)

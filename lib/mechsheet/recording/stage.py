@@ -3,8 +3,6 @@
 from collections.abc import Callable, Mapping, Sequence
 from copy import copy
 from dataclasses import fields, is_dataclass, replace
-from functools import reduce
-from operator import and_
 from typing import Any, TypeVar
 
 import numpy as np
@@ -13,9 +11,10 @@ from mechsheet import units
 from mechsheet.recording import solving
 from mechsheet.recording.graph import Guard, NotRecorded
 from mechsheet.recording.lines import Recording, Residual, Solved
-from mechsheet.recording.node import Node, bottom_up
+from mechsheet.recording.node import Node
 from mechsheet.recording.quantity import Quantity, lift
 from mechsheet.recording.substitutes import body, instead
+from mechsheet.recording.terms import made_of
 from mechsheet.worksheet.cells import Cell
 from mechsheet.worksheet.check import Check, closed
 from mechsheet.worksheet.find import Found
@@ -24,7 +23,6 @@ from mechsheet.worksheet.system import Solution
 from mechsheet.worksheet.table import Figure, Table, listed
 from mechsheet.worksheet.verdict import Verdict
 
-_LEFT = 1e-7  # of what an equation is made of, up to the next power of ten: what may be left by a root
 V = TypeVar("V", bound=Verdict)
 
 
@@ -111,18 +109,8 @@ class Stage:
             name = solved.words.unknown
             if not values or name in values:
                 own = getattr(found.value, name) if values else found.value
-                root = np.where(self._solves(found), own, 0.0)  # what is none is compared with nothing
-                self._closed(solved, root, lift(self.graph, values.get(name, value)), tolerance)
+                self._closed(solved, own, lift(self.graph, values.get(name, value)), tolerance)
         return () if values else None
-
-    def _solves(self, found: solving.Solving) -> Any:
-        """Whether the equations hold where readers have closed forms, which may be those of another branch."""
-        holds = list[Any]()
-        for left in found.residual if isinstance(found.residual, tuple) else (found.residual,):
-            size = max(_made_of(part, self.recording.made_of) for part in left.parts)
-            limit = 10.0 ** np.ceil(np.log10(_LEFT * size)) if size else 0.0  # an order, the same for inputs near
-            holds.append(abs(left) <= Quantity(self.graph, self.graph.constant(limit, units.UNKNOWN)))
-        return reduce(and_, holds)
 
     def _closed(self, solved: Solved, found: Any, value: Quantity, tolerance: float) -> None:
         inside: Any = value
@@ -135,6 +123,7 @@ class Stage:
         self.solved_now.append(solved)
         words = solved.words
         instead(closed)(words.unknown, words.unknown_unit, found, value, tolerance)
+        solved.compared = self.shown_now[-1][1]
 
     def judged(self, name: str, residual: Any, limit: Any, unit: str, size: Any = np.inf, tells: Any = True) -> None:
         parts = [lift(self.graph, r) for r in (residual if isinstance(residual, list) else [residual])]
@@ -229,7 +218,7 @@ class Stage:
             off = np.abs(a - b)[np.isfinite(a) | np.isfinite(b)]
         if (off <= 1e-7 * size).all():
             return True
-        terms = max(_made_of(part, self.recording.made_of) for part in value.parts)
+        terms = max(made_of(part, self.recording.made_of) for part in value.parts)
         return bool((off <= 1e-7 * max(size, 1e-6 * terms)).all())
 
     def kept(self, own: Any, rests_on: Sequence[Node]) -> Any:
@@ -291,44 +280,3 @@ def held(own: Any) -> bool:
     return isinstance(own, int | float | complex | np.ndarray | np.generic) or (
         is_dataclass(own) and not isinstance(own, type | Shown)
     )
-
-
-def _made_of(node: Node, known: dict[Node, float]) -> float:
-    """The largest number of which a quantity is a sum or difference, over all that it rests on.
-
-    A function of such a sum has its roundings too, by as much as its slope: the cosine of a right angle is none.
-    """
-    for part in bottom_up([node], known):
-        size, parts = _size(part), part.operands
-        match part.op:
-            case "mul":
-                size = max(size, known[parts[0]] * _size(parts[1]), known[parts[1]] * _size(parts[0]))
-            case "div":
-                least = np.min(np.abs(parts[1].value + 0.0), initial=np.inf)
-                size = max(size, known[parts[0]] / least) if least else size
-            case "pow" | "sqrt":
-                size = max(size, _size(parts[0]))
-            case "exp":
-                size *= max(1.0, known[parts[0]])
-            case "tan":
-                size = max(size, (1 + size**2) * known[parts[0]])
-            case "log":
-                size = max(size, known[parts[0]] / (_size(parts[0]) or 1.0))
-            case "atan2":
-                largest = max(map(_size, parts)) or 1.0
-                size = max(size, *(known[p] / largest for p in parts))
-            case op if op in _AS_LARGE:
-                size = max([size, *(known[p] for p in parts)])
-        known[part] = size
-    return known[node]
-
-
-_AS_LARGE = {  # as what they are made of: moved, chosen and added, and of functions those whose slope is about one
-    "add", "sub", "neg", "abs", "max", "min", "mod", "sin", "cos", "asin", "acos", "take", "join", "reduce", "where",
-    "like", "sized", "at",
-}  # fmt: skip
-
-
-def _size(node: Node) -> float:
-    sizes = np.abs(node.value + 0.0)
-    return float(np.max(sizes, initial=0.0, where=np.isfinite(sizes)))

@@ -1,6 +1,7 @@
 """Two states of a document: ``python -m mechsheet.run.compare WORKSHEET OLD NEW [--markdown]``.
 
-A state is a scene, a workbook, or a revision of git: the worksheet of that revision, run by this library.
+A state is a scene, a workbook, a revision of git - the worksheet of that revision, run by this library - or a
+worksheet's file as it is now.
 """
 
 import ast
@@ -84,6 +85,8 @@ def state(worksheet: Path, name: str, folders: ExitStack) -> State:
     if Path(name).suffix.lower() in (".toml", ".xlsx"):
         sheet = load(worksheet)
         return _of(sheet, arguments.load(Path(name), inputs.declared(sheet.inputs)))
+    if Path(name).suffix.lower() == ".py":
+        return _of(load(Path(name)), Scene())
     folder = Path(folders.enter_context(tempfile.TemporaryDirectory()))
     _check_out(worksheet.resolve(), name, folder)
     return _of(load(folder / worksheet.name), Scene())
@@ -185,7 +188,7 @@ def _changed(name: str, old: Displayed | None, new: Displayed | None, sizes: Map
 
 
 def _signed(x: float, digits: int) -> str:
-    return "+" * (x > 0) + numbers.significant(x, digits)
+    return "+" * (x > 0) + numbers.apart([x], digits=digits)[0]
 
 
 def _text(found: Sequence[Change]) -> Iterator[str]:

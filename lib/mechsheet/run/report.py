@@ -147,7 +147,7 @@ def _left_out(namespace: Mapping[str, Any], worksheet: Path) -> Iterator[str]:
     """What the document leaves out without a word, a line for each."""
     text = worksheet.read_text(encoding="utf-8").splitlines()
     for _, line, why in left_out(source.cells(namespace), namespace):
-        yield why if line is None else f"{mistakes.at(line, text[line - 1])}: {why}"
+        yield why if line is None else f"{mistakes.at(worksheet, line, text[line - 1])}: {why}"
 
 
 def _not_followed(recording: Recording) -> list[str]:

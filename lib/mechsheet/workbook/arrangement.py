@@ -96,7 +96,7 @@ class Arrangement:
         for table in self.tables:
             yield from (node for node in self.columns(table) if node)
         for solved in self.recording.found.values():
-            told = solved.inverse, solved.residual, solved.target
+            told = solved.inverse, solved.residual, solved.target, solved.sure
             yield from (n for n in (solved.node, *told, *(solved.interval or ())) if n)
         for check in self.recording.checks.values():
             yield from check.parts

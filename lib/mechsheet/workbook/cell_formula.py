@@ -45,7 +45,8 @@ class CellFormulas:
 
     ``first`` is the row of the first number of every column, ``counted`` the condition under which there are as many
     rows as columns have: no row has a number of another one's; ``inverse`` are the closed forms of found values, or the
-    searches for the ``searched`` ones. What is no number is #N/A.
+    searches for the ``searched`` ones, ``sure`` the conditions under which those are all that is found. What is no
+    number is #N/A.
     """
 
     def __init__(
@@ -55,8 +56,10 @@ class CellFormulas:
         counted: str = "",
         inverse: Mapping[Node, Node | None] = MappingProxyType({}),
         searched: Container[Node] = (),
+        sure: Mapping[Node, Node] = MappingProxyType({}),
     ) -> None:
         self.places, self.first, self.counted, self.inverse, self.searched = places, first, counted, inverse, searched
+        self.sure = sure
         self._inputs: dict[Node, tuple[Node, ...]] = {}
         self._fixed: dict[Node, frozenset[Node]] = {}
 
@@ -141,7 +144,8 @@ class CellFormulas:
                 self._fixed[part] = frozenset([part])
             else:
                 under = [closed] if closed is not None else part.operands
-                self._fixed[part] = frozenset[Node]().union(*(self._fixed_by(operand) for operand in under))
+                sure = [self.sure[part]] if part in self.sure else []
+                self._fixed[part] = frozenset(sure).union(*(self._fixed_by(operand) for operand in under))
         return self._fixed[node]
 
     def _operation(self, node: Node, at: Index, rows: Rows) -> tuple[str, int]:

@@ -28,7 +28,10 @@ class SheetFormulas:
         self.arrangement, self.recording = arrangement, arrangement.recording
         self._inverse = {solved.node: solved.inverse for solved in self.recording.found.values()}
         searched = {solved.node for solved in self.recording.found.values() if solved.searched}
-        self._cells = CellFormulas(arrangement.places, arrangement.first, inverse=self._inverse, searched=searched)
+        sure = {solved.node: solved.sure for solved in self.recording.found.values() if solved.sure}
+        self._cells = CellFormulas(
+            arrangement.places, arrangement.first, inverse=self._inverse, searched=searched, sure=sure
+        )
         counted = [holds for holds, guard in self.recording.guards.items() if guard.rows]
         texts = sorted({self._cells.reference(holds)[1:] for holds in counted})
         self._cells.counted = f"AND({','.join(texts)})" if len(texts) > 1 else "".join(texts)

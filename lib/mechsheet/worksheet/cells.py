@@ -245,7 +245,7 @@ def load(path: str | Path) -> Worksheet:
     except UnicodeDecodeError as error:
         raise SheetError(f"worksheet {path} is no text in UTF-8: {error}") from None
     except SyntaxError as error:
-        raise SheetError(f"worksheet {path}, line {error.lineno}: {mistakes.unread(error)}") from None
+        raise SheetError(mistakes.told(error, str(path))) from None
 
 
 class Marimo:
@@ -277,7 +277,7 @@ def _load(path: Path, _changed: int) -> Worksheet:
 def read(path: Path) -> Worksheet:
     """Cells of a worksheet file, with shared names of their own."""
     text = path.read_text(encoding="utf-8")
-    tree, _ = parsed(text)
+    tree, _ = parsed(text, str(path))
     common: dict[str, Any] = {"__file__": str(path), "__name__": path.stem}
     lines = list[ast.stmt]()
     for node in _shared(tree):
@@ -345,7 +345,7 @@ def _refuse_unread(tree: ast.Module, path: Path) -> None:
                     why = "it is written as none"
                 except SyntaxError as error:
                     why = f"{(error.text or '').strip()}: {mistakes.unread(error)}"
-                raise SheetError(f"worksheet {path}, line {node.lineno}: a cell there cannot be read: {why}")
+                raise SheetError(f"{mistakes.place(path, node.lineno)}: a cell there cannot be read: {why}")
 
 
 def _refuse_twice(nodes: Iterable[ast.FunctionDef], gives: Iterable[Iterable[str]], path: Path) -> None:
@@ -355,7 +355,7 @@ def _refuse_twice(nodes: Iterable[ast.FunctionDef], gives: Iterable[Iterable[str
         for name in names:
             if first.setdefault(name, node.lineno) != node.lineno:
                 places = f"lines {first[name]} and {node.lineno}"
-                raise SheetError(f"{name} is defined in two cells of {path}, {places}: one of them needs another name")
+                raise SheetError(f"{path.name}, {places}: {name} is defined in two cells: rename it in one of them")
 
 
 def read_outside(scope: SymbolTable) -> Iterator[str]:

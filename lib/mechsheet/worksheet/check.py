@@ -226,7 +226,8 @@ def closed_form(
     """Check that a solve block found what the unknown is in closed form, to a part of its own size.
 
     Of several unknowns those that have one are given by their names. A workbook then computes them by their closed
-    forms, so that they follow changed inputs.
+    forms, so that they follow changed inputs; where a closed form does not solve the equations any more, as on another
+    branch, there is no number.
 
     Raises SheetError naming an unknown that the block does not have.
     """

@@ -326,4 +326,4 @@ def _parsed(text: str) -> ast.Module:
     try:
         return ast.parse(text)
     except SyntaxError as error:
-        raise SheetError(f"line {error.lineno} of the file: {mistakes.unread(error)}") from None
+        raise SheetError(f"the file, line {error.lineno}: {mistakes.unread(error)}") from None

@@ -10,9 +10,14 @@ from traceback import walk_tb
 from mechsheet import units
 
 
-def at(line: int, text: str) -> str:
-    """A line of a worksheet as a mistake names it: its number, and its text without its comment."""
-    return f"line {line}, {text.partition('  #')[0].strip().removesuffix(':')}"
+def place(file: str | Path, line: int) -> str:
+    """A line as every message names it; of a cell of the editor, at which the message stands, its number alone."""
+    return f"line {line}" if "__marimo__cell_" in str(file) else f"{Path(file).name}, line {line}"
+
+
+def at(file: str | Path, line: int, text: str) -> str:
+    """The same with the text of the line, without its comment."""
+    return f"{place(file, line)}, {text.partition('  #')[0].strip().removesuffix(':')}"
 
 
 def undefined(name: str, known: Iterable[str]) -> str:
@@ -29,13 +34,14 @@ def told(error: BaseException, path: str) -> str:
     """One line for an exception, with the line of the worksheet file that raised it where one did."""
     file = Path(path).resolve()
     if isinstance(error, SyntaxError) and error.filename and Path(error.filename).resolve() == file:
-        return f"{file.name}, {at(error.lineno or 0, error.text or '')}: {unread(error)}"
+        text = (error.text or "").lstrip("\ufeff")
+        return f"{at(file, error.lineno or 0, text)}: {unread(error)}"
     places = [(f, line) for f, line in walk_tb(error.__traceback__) if Path(f.f_code.co_filename).resolve() == file]
     known = {*places[-1][0].f_globals, *places[-1][0].f_locals} - {*dir(builtins)} if places else set[str]()
     if not places:
         return why(error, known)
     line, text = places[-1][1], file.read_text(encoding="utf-8")
-    return f"{file.name}, {at(line, text.splitlines()[line - 1])}: {why(error, known, text)}"
+    return f"{at(file, line, text.splitlines()[line - 1])}: {why(error, known, text)}"
 
 
 def why(error: BaseException, known: Iterable[str], text: str = "") -> str:

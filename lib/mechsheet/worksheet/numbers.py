@@ -131,6 +131,19 @@ def rounding(field: NDArray[Any]) -> float:
     return _ROUNDING * float(np.max(np.abs(field), where=np.isfinite(field), initial=0.0))
 
 
+def is_rounding(values: Any, terms: ArrayLike) -> bool:
+    """Whether numbers that are sums of terms, by their magnitudes, are none but 16 roundings of these or less.
+
+    >>> is_rounding([3e-12, 0.0], [1e5, 2e5]), is_rounding([3e-9, 0.0], [1e5, 2e5]), is_rounding(0.0, 1e5)
+    (True, False, False)
+    """
+    field, sizes = np.asarray(values), np.asarray(terms)
+    if field.dtype.kind not in "fc" or not sizes.any() or not field.any():
+        return False
+    alike = sizes.shape in ((), field.shape)
+    return bool((np.abs(field) <= _ROUNDING * (sizes if alike else sizes.min())).all())
+
+
 def _each(values: list[Any], least: float, unit: str, to: Notation) -> str:
     return ", ".join(_end(x, least, unit, to) for x in values)
 

@@ -14,7 +14,7 @@ from itertools import accumulate
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from mechsheet.worksheet import cells, inputs
+from mechsheet.worksheet import cells, inputs, mistakes
 from mechsheet.worksheet.errors import SheetError, as_given
 from mechsheet.worksheet.scene import is_of
 from mechsheet.worksheet.source import functions
@@ -44,7 +44,7 @@ def renamed(path: Path, old: str, new: str, scenes: Mapping[Path, str]) -> dict[
     for token in _tokens(text):
         if token.type == tokenize.NAME and token.string == new:
             line = text.count("\n", 0, token.start) + 1
-            raise SheetError(f"{new} stands in line {line} of {path.name} already")
+            raise SheetError(f"{mistakes.place(path, line)}: {new} stands there already")
     if new in dir(builtins):
         raise SheetError(f"{new} is a name of Python's own")
     made = {path: _in_worksheet(text, old, new, old in declared)}

@@ -13,7 +13,7 @@ from pathlib import Path
 from types import CodeType, FrameType
 from typing import Any
 
-from mechsheet.worksheet import shown
+from mechsheet.worksheet import mistakes, shown
 
 
 @dataclass(frozen=True, eq=False)
@@ -26,7 +26,7 @@ class Cell:
 
     def at(self, line: int) -> str:
         """Place of a line as an error names it."""
-        return f"line {line} of " + ("the cell" if "__marimo__cell_" in self.filename else self.filename)
+        return mistakes.place(self.filename, line)
 
 
 def cell(frame: FrameType) -> Cell:
@@ -75,7 +75,7 @@ def _alone(text: str, filename: str) -> Cell:
 
 @lru_cache(maxsize=32)
 def _in_file(path: str, _changed: int) -> tuple[Cell, ...]:
-    tree, comments = parsed(Path(path).read_text(encoding="utf-8"))
+    tree, comments = parsed(Path(path).read_text(encoding="utf-8"), path)
     return tuple(Cell(tuple(node.body), comments, path) for node in functions(tree))
 
 
@@ -137,7 +137,7 @@ def call(frame: FrameType) -> ast.Call:
             end_column = (node.end_col_offset or 0) - indent
             if position == (node.lineno, node.end_lineno, node.col_offset - indent, end_column):
                 return node
-    raise RuntimeError(f"the source of {frame.f_code.co_filename} line {frame.f_lineno} cannot be read")
+    raise RuntimeError(f"{mistakes.place(frame.f_code.co_filename, frame.f_lineno)}: its source cannot be read")
 
 
 @lru_cache(maxsize=4096)
@@ -156,7 +156,7 @@ def nodes(tree: ast.AST) -> tuple[ast.AST, ...]:
 
 def _file(frame: FrameType) -> tuple[ast.Module, dict[int, str]]:
     linecache.checkcache(frame.f_code.co_filename)
-    return parsed("".join(linecache.getlines(frame.f_code.co_filename)))
+    return parsed("".join(linecache.getlines(frame.f_code.co_filename)), frame.f_code.co_filename)
 
 
 def _body(tree: ast.Module, line: int) -> tuple[ast.stmt, ...]:
@@ -167,12 +167,12 @@ def _body(tree: ast.Module, line: int) -> tuple[ast.stmt, ...]:
 
 
 @lru_cache(maxsize=256)
-def parsed(text: str) -> tuple[ast.Module, dict[int, str]]:
+def parsed(text: str, filename: str = "<unknown>") -> tuple[ast.Module, dict[int, str]]:
     """Tree of a source, which all who ask share and none of them changes, and the comments of its lines.
 
-    Raises SyntaxError where the text is no Python.
+    Raises SyntaxError, which names the file, where the text is no Python.
     """
-    return ast.parse(text), comments(text)
+    return ast.parse(text, filename), comments(text)
 
 
 # Whatever may hold a # stands in a text or in a comment, which begin outside of each other: faster than all tokens.

@@ -1,0 +1,55 @@
+"""What in a worksheet needs a name that is to go: its sections, tables and figures, whatever lies between."""
+
+import ast
+from collections.abc import Iterable
+
+from mechsheet.page.waiting import headings, short
+from mechsheet.worksheet import source
+from mechsheet.worksheet.line_edit import declares
+
+_CAPTIONED = ("table", "figure")
+_LISTED = 5
+
+
+def needing(text: str, gone: Iterable[str]) -> str:
+    """Sections, tables and figures of a worksheet that need names, ``g.NAME`` of an input; nothing where none does."""
+    cells = [node.body for node in source.functions(ast.parse(text))]
+    lines = [line for body in cells for line in body if not isinstance(line, ast.Return)]
+    read = {line: _read(line) for line in lines}
+    lost, before = set(gone), 0
+    while before < len(lost):
+        before = len(lost)
+        lost |= {name for line in lines if read[line] & lost for name in declares(line)}
+    section, sections, others = "", dict[str, None](), dict[str, None]()
+    for line in lines:
+        section = [section, *headings([line])][-1]
+        if read[line] & lost:
+            shown = [caption for node in source.nodes(line) for caption in _captions(node)]
+            others |= dict.fromkeys(shown)
+            sections |= dict.fromkeys([] if shown or not section else [short(section)])
+    *first, last = [*([f"section {', '.join(_some(sections))}"] if sections else []), *_some(others)] or [""]
+    return f"{', '.join(first)} and {last}" if first else last
+
+
+def _some(places: Iterable[str]) -> list[str]:
+    """Places, of many the first."""
+    listed = list(places)
+    if len(listed) <= _LISTED + 1:
+        return listed
+    return [*listed[: _LISTED - 1], f"{listed[_LISTED - 1]} and {len(listed) - _LISTED} more"]
+
+
+def _read(line: ast.stmt) -> set[str]:
+    """Names that a line reads, and inputs; none that a function has as its arguments."""
+    nodes = source.nodes(line)
+    own = {node.arg for node in nodes if isinstance(node, ast.arg)}
+    names = {node.id for node in nodes if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Load)}
+    return (names - own) | {ast.unparse(node) for node in nodes if isinstance(node, ast.Attribute)}
+
+
+def _captions(node: ast.AST) -> list[str]:
+    """A table or figure that a call makes, by its number."""
+    match node:
+        case ast.Call(ast.Name(kind), [ast.Constant(str(number)), *_]) if kind in _CAPTIONED:
+            return [f"{kind} {number}"]
+    return []

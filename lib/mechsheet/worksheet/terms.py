@@ -1,0 +1,72 @@
+"""How large the terms are that a line adds: of a sum that should be nothing, rounding leaves a part of them."""
+
+import ast
+from collections.abc import Mapping
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+_AS_LARGE = ("abs", "conj", "real", "imag")
+
+
+def terms(expression: ast.expr, namespace: Mapping[str, Any]) -> NDArray[np.float64]:
+    """Magnitudes of the largest term of an expression, element by element; 0 where it adds none, or none that is known.
+
+    Names stand for their values in the namespace; what a function of the worksheet's own adds is not known.
+    """
+    if not _adds(expression):
+        return np.zeros(())
+    try:
+        with np.errstate(all="ignore"):
+            found = _largest(expression, namespace)
+    except ValueError:  # of a product that is no element's by an element
+        return np.zeros(())
+    return np.where(np.isfinite(found), found, 0.0)
+
+
+@lru_cache(maxsize=4096)
+def _adds(expression: ast.expr) -> bool:
+    """Whether an expression is a sum, or a product with one in it."""
+    match expression:
+        case ast.BinOp(_, ast.Add() | ast.Sub()) | ast.Call(ast.Name("cross" | "dot")):
+            return True
+        case ast.BinOp(left, ast.Mult() | ast.Div(), right):
+            return _adds(left) or _adds(right)
+        case ast.UnaryOp(operand=of) | ast.Attribute(of, "real" | "imag"):
+            return _adds(of)
+        case ast.Call(ast.Name(name), [of]) if name in _AS_LARGE:
+            return _adds(of)
+    return False
+
+
+def _largest(node: ast.expr, namespace: Mapping[str, Any]) -> Any:
+    match node:
+        case ast.BinOp(left, ast.Add() | ast.Sub(), right):
+            return np.maximum(_largest(left, namespace), _largest(right, namespace))
+        case ast.BinOp(left, ast.Mult(), right) | ast.Call(ast.Name("cross" | "dot"), [left, right]):
+            return _largest(left, namespace) * _largest(right, namespace)
+        case ast.BinOp(left, ast.Div(), right):
+            return _largest(left, namespace) / _size(right, namespace)
+        case ast.UnaryOp(operand=of) | ast.Attribute(of, "real" | "imag"):
+            return _largest(of, namespace)
+        case ast.Call(ast.Name(name), [of]) if name in _AS_LARGE:
+            return _largest(of, namespace)
+        case ast.Call(ast.Name("sin" | "cos"), _):
+            return 1.0
+    return _size(node, namespace)
+
+
+def _size(node: ast.expr, namespace: Mapping[str, Any]) -> Any:
+    """Magnitude of a number or of a name, ``g.L3`` too; 0 of what it would take to compute anew."""
+    value: Any = None
+    match node:
+        case ast.Constant(number):
+            value = number
+        case ast.Name(name):
+            value = namespace.get(name)
+        case ast.Attribute(ast.Name(of), name):
+            value = getattr(namespace.get(of), name, None)
+    field = np.asarray(value)
+    return np.abs(field) if field.dtype.kind in "iufc" else 0.0

@@ -1,0 +1,109 @@
+"""A served page tells, in a real browser, why a cell has failed: marimo leaves its place empty, and tells its log."""
+
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+from conftest import marimo_server
+from playwright.sync_api import Page, expect
+
+from mechsheet import __main__ as launcher
+from mechsheet.page import values
+from mechsheet.worksheet.shown import Charted
+
+LEVER = (Path(launcher.__file__).parent / "run" / "new_worksheet.txt").read_text(encoding="utf-8")
+
+
+@pytest.fixture(scope="module")
+def served(chromium: str, tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[str, Path]]:
+    """Address of a served worksheet, and its file, which every page that is opened reads anew."""
+    folder = tmp_path_factory.mktemp("served")
+    sheet = folder / "lever.py"
+    sheet.write_text(LEVER, encoding="utf-8")
+    with marimo_server("run", sheet, folder) as address:
+        yield address, folder / "worksheets" / "lever.py"
+
+
+@pytest.fixture
+def planted(served: tuple[str, Path], page: Page) -> Callable[..., Page]:
+    """A page of the worksheet with some of its text replaced."""
+
+    def opened(*faults: tuple[str, str]) -> Page:
+        text = LEVER
+        for old, new in faults:
+            assert text.count(old) == 1, old
+            text = text.replace(old, new)
+        served[1].write_text(text, encoding="utf-8")
+        page.goto(served[0])
+        return page
+
+    return opened
+
+
+def expect_told(page: Page, *failures: str) -> None:
+    """Expect that these failures stand on the page, in their order, and no other; their ends are left open."""
+    expect(page.locator("ms-failed")).to_have_count(len(failures))
+    for place, text in zip(page.locator("ms-failed").all(), failures, strict=True):
+        place.get_by_text(f"lever.py, {text}").wait_for()
+
+
+def waiting(page: Page) -> dict[str, str]:
+    """What each section is said to wait for, by the number of its heading."""
+    said = page.locator(".marimo-cell:has(h2, h3)").evaluate_all(
+        'all => all.map(e => [e.innerText.split(/\\s/)[0], getComputedStyle(e, "::after").content])'
+    )
+    return {section: text.strip('"') for section, text in said if text != "none"}
+
+
+def test_a_mistake_in_a_function_is_told_at_the_cell_that_calls_it(planted: Callable[..., Page]) -> None:
+    page = planted(("* sin(phi)  #", "* sin(phi) / g.parts[7]  #"))
+    expect_told(
+        page, "line 88, return g.F * g.L * sin(phi) / g.parts[7]: index 7 is out of bounds for axis 0 with size 3"
+    )
+    assert waiting(page) == {"2.1": "waits for section 2", "3": "waits for section 2"}
+    page.set_viewport_size({"width": 1280, "height": 3000})
+    expect(page.locator(".ms-bar"), "the mistake itself is in sight").to_be_hidden()
+    page.set_viewport_size({"width": 1280, "height": 200})
+    expect(page.locator(".ms-bar")).to_contain_text("not computed to its end lever.py, line 88")
+
+
+def test_of_several_cells_each_tells_its_own(planted: Callable[..., Page]) -> None:
+    page = planted(
+        ("phi, M_S)\n", "phi, M_S[99])\n"), ('    export("TITLE", globals())', '    figure("2", "A", phi, {}["M"])')
+    )
+    expect_told(page, "line 144, table_1 = table(", 'line 153, figure("2", "A", phi, {}["M"]): KeyError: \'M\'')
+    assert waiting(page) == {}
+    page.evaluate("scrollTo(0, 0)")
+    expect(page.locator(".ms-bar")).to_contain_text("2 of 2 checks")
+    expect(page.locator(".ms-bar")).to_contain_text("M_S[99]): index 99 is out of bounds")
+
+
+def test_what_stops_everything_is_told_at_the_top(planted: Callable[..., Page]) -> None:
+    page = planted(("    STEELS = {", '    STEELS = {"x": {}["y"]} | {'))
+    expect_told(page, 'line 19, STEELS = {"x": {}["y"]}')
+    assert waiting(page) == dict.fromkeys(("1", "2", "2.1", "2.2", "3"), "waits for the setup")
+    page = planted(("M_n = g.parts", "M_n = (g.parts"))  # of what cannot be read nobody knows what waits
+    expect_told(page, *["line 127, M_n = (g.parts * g.F * g.L / n: '(' was never closed"] * 2)
+
+
+def test_what_cannot_be_shown_is_told_where_it_stands() -> None:
+    class Broken(Charted):
+        def chart(self) -> object:
+            return [][1]
+
+    kind, text = values.written(Broken())
+    assert kind == "text/html" and "this Broken cannot be shown: list index out of range" in text
+
+
+def test_a_worksheet_that_cannot_be_read_is_named_before_it_is_served(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    good, bad = tmp_path / "good.py", tmp_path / "bad.py"
+    good.write_text("a = 1\n", encoding="utf-8")
+    bad.write_text("a = (1\n", encoding="utf-8")
+    called = list[list[str]]()
+    monkeypatch.setattr(launcher, "call", lambda command, **_: called.append(command) or 0)
+    assert launcher.page("serve", [str(bad)], []) == 1 and not called
+    assert capsys.readouterr().err == "mechsheet: bad.py, line 1, a = (1: '(' was never closed\n"
+    assert launcher.page("serve", [str(bad), str(good)], []) == 0
+    assert called[0][-1] == str(good) and str(bad) not in called[0]
