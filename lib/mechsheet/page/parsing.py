@@ -8,6 +8,7 @@ import __future__
 
 import ast
 import builtins
+import os
 import sys
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager, suppress
@@ -37,7 +38,13 @@ def _again(
 
 
 @asynccontextmanager
-async def lifespan(_server: object) -> AsyncIterator[None]:
-    """What marimo enters before it serves the first page: an entry point of the package."""
+async def lifespan(server: Any) -> AsyncIterator[None]:
+    """What marimo enters before it serves the first page: an entry point of the package.
+
+    A line that is written in place is run by the page that takes it over, whatever settings lie beside the worksheet.
+    """
     again()
+    if "MECHSHEET_EDIT" in os.environ:
+        known = server.state.config_manager
+        known.partials = known.with_overrides({"runtime": {"watcher_on_save": "autorun"}}).partials
     yield
