@@ -299,6 +299,7 @@ def test_page_shows_symbol_formula_value_and_meaning():
         ("3e-11 * R", False),
         ("R + T", False),
         ("R - R", False),
+        ("1.0 / abs(R) - 1.0 / abs(R)", False),
         ("dot(np.zeros((3, 1)), np.ones((3, 1))) + 1e-15", False),
     ],
 )

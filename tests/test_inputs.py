@@ -44,6 +44,7 @@ def test_lines_declare_unit_meaning_section_and_limits(Arm):
     )
     assert (phi.unit, phi.limits) == ("deg", ())
     assert (S_min.section, S_min.limits) == ("1.2 Range", ((">", "0"), ("<", "S_max")))
+    assert tuple(inputs._limits("> 0, <= S_max, < 0.5", "x", "")) == ((">", "0"), ("<=", "S_max"), ("<", "0.5"))
     assert N.whole
 
 

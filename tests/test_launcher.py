@@ -178,7 +178,7 @@ def test_without_a_name_all_worksheets_are_opened_the_own_ones_first_then_those_
     monkeypatch.chdir(sheet.parent)
     assert [launcher.main([command, "--port=1"]) for command in ("edit", "serve")] == [7, 7]
     (edit, settings), (serve, others) = made
-    assert settings == others
+    assert settings == {**others, "MECHSHEET_EDIT": "1"}
     groups = json.loads(settings["MECHSHEET_START"])
     assert [title for title, _ in groups] == ["Here", "To begin with", "Documents"]
     assert groups[0][1] == {str(sheet): "sheet"}
@@ -215,6 +215,28 @@ def test_a_worksheet_runs_as_it_opens_outside_a_clone_too(
     monkeypatch.delenv(setting, raising=False)
     assert launcher.call([sys.executable, "-c", code]) == 0
     assert capfd.readouterr().out.strip() == "True"
+
+
+def test_the_editor_runs_what_is_written_in_place_outside_a_clone_too(
+    capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """As marimo enters the package's entry point; beside the worksheet lie no settings that say so."""
+    code = (
+        "import asyncio\n"
+        "from types import SimpleNamespace\n"
+        "from marimo._config.manager import get_default_config_manager\n"
+        "from mechsheet.page.server import lifespan\n"
+        "async def entered():\n"
+        "    known = get_default_config_manager(current_path='/')\n"
+        "    async with lifespan(SimpleNamespace(state=SimpleNamespace(config_manager=known))):\n"
+        "        print(known.get_config()['runtime']['watcher_on_save'])\n"
+        "asyncio.run(entered())"
+    )
+    monkeypatch.setattr(launcher, "interpreter", lambda _extra: sys.executable)
+    own = launcher.call
+    monkeypatch.setattr(launcher, "call", lambda _, settings: own([sys.executable, "-c", code], settings=settings))
+    assert launcher.page("edit", ["lever.py"], []) == 0
+    assert capfd.readouterr().out.strip() == "autorun"
 
 
 def test_test_hands_its_arguments_to_pytest(calls: list[list[str]]) -> None:

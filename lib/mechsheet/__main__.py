@@ -65,9 +65,8 @@ def main(argv: "list[str] | None" = None) -> int:
         needed, found = (".".join(map(str, version[:2])) for version in (MINIMUM, sys.version_info))
         sys.exit(f"mechsheet: Python {needed} or newer is needed, this is Python {found} ({sys.executable})")
     command, *options = (sys.argv[1:] if argv is None else argv) or [""]
-    # What marimo and pytest take, they tell themselves.
-    asked = command not in ("edit", "serve", "test") and not {"-h", "--help"}.isdisjoint((command, *options))
-    if asked or not command:
+    own = command not in ("edit", "serve", "test")  # what marimo and pytest take, they tell themselves
+    if command in ("", "-h", "--help") or (own and options[:1] in (["-h"], ["--help"])):
         say(contents() + HELP)
         return 0 if command else 1
     if command in ("edit", "serve"):
@@ -125,6 +124,7 @@ def page(command: str, sheets: "list[str]", options: "list[str]") -> int:
         if command == "edit":  # marimo edits one file, or what it is asked for in a folder
             sheets = [os.path.commonpath([str(Path(path).parent) for path in sheets])]
     if command == "edit":
+        settings["MECHSHEET_EDIT"] = "1"
         return call([interpreter(""), "-m", "marimo", "edit", "--watch", *options, *sheets], settings=settings)
     mistakes = {sheet: unread(sheet) for sheet in sheets}
     for told in filter(None, mistakes.values()):

@@ -62,8 +62,13 @@ def valued(line: Formula, value: object, namespace: Mapping[str, Any] | None) ->
 
 def cleared(line: Formula, value: Any, namespace: Mapping[str, Any] | None) -> Any:
     """The value itself, or 0 of one that is nothing but the rounding of what its line adds."""
-    sizes = 0.0 if namespace is None else terms(line.expression, namespace)
-    return np.asarray(value).dtype.type(0).item() if numbers.is_rounding(value, sizes) else value
+    field = np.asarray(value)
+    if namespace is None or field.dtype.kind not in "fc" or not 0 < np.abs(field).max(initial=0.0) < _SMALL:
+        return value
+    return field.dtype.type(0).item() if numbers.is_rounding(field, terms(line.expression, namespace)) else value
+
+
+_SMALL = 1e-2  # more is no rounding of what a line may add, up to 3e12 in SI; to look at that takes time
 
 
 def _substituted(line: Formula, known: Numbers, position: int) -> str:

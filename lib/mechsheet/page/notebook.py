@@ -109,6 +109,16 @@ def tell_of_failures(told: Callable[[object, str, Mapping[str, Any]], str]) -> N
         _KERNEL_LIFESPAN_REGISTRY.register("mechsheet", page)
 
 
+def run_what_is_written(server: Any) -> None:
+    """Let the editor run a line that is written in place, whatever settings lie beside the worksheet.
+
+    Where this version of marimo keeps its settings otherwise, the page says that the line waits to be run.
+    """
+    with suppress(AttributeError):
+        known = server.state.config_manager
+        known.partials = known.with_overrides({"runtime": {"watcher_on_save": "autorun"}}).partials
+
+
 def reads(name: str) -> bool:
     """Whether a cell of the calling cell's page reads a name; no where this version of marimo does not tell."""
     try:

@@ -9,11 +9,8 @@ import __future__
 import ast
 import builtins
 import sys
-from collections.abc import AsyncIterator
-from contextlib import asynccontextmanager, suppress
+from contextlib import suppress
 from typing import Any
-
-from mechsheet.page import failure
 
 _TRIES = 100  # one in some thousands fails
 _FUTURE = sum({getattr(__future__, name).compiler_flag for name in __future__.all_feature_names})
@@ -36,11 +33,3 @@ def _again(
             with suppress(SystemError):
                 return _compile(source, filename, mode, flags, True, optimize, **more)
     return _compile(source, filename, mode, flags, True, optimize, **more)
-
-
-@asynccontextmanager
-async def lifespan(_server: object) -> AsyncIterator[None]:
-    """What marimo enters before it serves the first page: an entry point of the package."""
-    again()
-    failure.tell()
-    yield

@@ -23,7 +23,7 @@ from mechsheet.worksheet.lists import Rows
 from mechsheet.worksheet.shown import Shown
 
 T = TypeVar("T")
-_LIMIT = re.compile(r"\s*(<=|>=|<|>)\s*([^\s<>=]+)(?=[\s<>]|$)")
+_LIMIT = re.compile(r"\s*(<=|>=|<|>)\s*([^\s<>=]+?),?(?=[\s<>]|$)")
 MOST, LEAST = 1e60, 1e-60  # products of a few inputs of this size are still numbers
 _COMPARE = {"<": operator.lt, "<=": operator.le, ">": operator.gt, ">=": operator.ge}
 

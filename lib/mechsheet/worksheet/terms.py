@@ -54,7 +54,7 @@ def _largest(node: ast.expr, namespace: Mapping[str, Any]) -> Any:
         case ast.Call(ast.Name(name), [of]) if name in _AS_LARGE:
             return _largest(of, namespace)
         case ast.Call(ast.Name("sin" | "cos"), _):
-            return 1.0
+            return np.ones(())
     return _size(node, namespace)
 
 
@@ -69,4 +69,4 @@ def _size(node: ast.expr, namespace: Mapping[str, Any]) -> Any:
         case ast.Attribute(ast.Name(of), name):
             value = getattr(namespace.get(of), name, None)
     field = np.asarray(value)
-    return np.abs(field) if field.dtype.kind in "iufc" else 0.0
+    return np.abs(field) if field.dtype.kind in "iufc" else np.zeros(())
