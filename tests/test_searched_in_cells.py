@@ -11,6 +11,7 @@ from own_worksheet import own, recorded
 from test_recalculation import edit
 
 from mechsheet import SheetError, evaluate
+from mechsheet.recording.node import bottom_up
 from mechsheet.recording.searched import search
 from mechsheet.run import report
 from mechsheet.worksheet import cells
@@ -108,7 +109,7 @@ def test_cells_find_what_the_worksheet_finds(path: Path, recalculated_all: Any, 
 @pytest.mark.parametrize(
     ("lines", "reason"),
     [
-        ("u_found = find(lambda u: np.sum(np.exp(-u * np.linspace(0, 1, 999))), 0.0, 9.0, equals=90 * g.F)", "50,000"),
+        ("u_found = find(lambda u: np.sum(np.exp(-u * np.linspace(0, 1, 999))), 0.0, 9.0, equals=90 * g.F)", "500,000"),
         ("u_found = find(lambda u: u * x + u.sum() * 1e-9, 0.0, 9.0 / x, equals=g.F)", "rests on others of them"),
     ],
 )
@@ -118,3 +119,14 @@ def test_a_search_that_cells_do_not_make_is_named(lines: str, reason: str, tmp_p
     search(recording)
     (gap,) = recording.unsolved
     assert reason in gap.reason and not recording.gaps
+
+
+def test_a_search_rests_on_nothing_that_it_finds(tmp_path: Path) -> None:
+    """The number of rows of what rests on the unknown, by which a mean divides, would be a circle of cells."""
+    sheet = own(
+        tmp_path, "u_found = find(lambda u: np.mean(u * x), 0.0, 9.0, equals=g.a)\ny = u_found.value * x  # [-] y"
+    )
+    _, recording = recorded(sheet)
+    search(recording)
+    (solved,) = recording.found.values()
+    assert solved.searched and solved.inverse and solved.node not in set(bottom_up([solved.inverse], ()))

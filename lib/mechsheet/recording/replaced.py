@@ -18,7 +18,7 @@ def replaced(graph: Graph, roots: Iterable[Node], others: Mapping[Node, Node], p
     """
     new, again = dict(others), _Again(graph, places)
     for node in bottom_up(roots, new):
-        if node.op != "length" and any(new.get(operand, operand) is not operand for operand in node.operands):
+        if any(new.get(operand, operand) is not operand for operand in node.operands):
             new[node] = again.made(node, new)
             if not places and node in graph.labels:
                 graph.labels.setdefault(new[node], graph.labels[node])
@@ -34,6 +34,8 @@ class _Again:
     def made(self, node: Node, new: Mapping[Node, Node]) -> Node:
         graph = self.graph
         match node.op:
+            case "length":
+                return graph.length(new[node.args[0]], node.args[1])
             case "reduce":
                 return self.reduced(node, new[node.args[0]])
             case "take":

@@ -24,6 +24,7 @@ _FIRST = (1 - np.cos(np.linspace(0, np.pi, PLACES))) / 2
 _LATER, _LOOKS = np.linspace(0, 1, 17), 15  # of each later one at the part in which the residual changes its sign
 _EARLY = 4  # looks that count changes of sign; later ones may meet rounding
 _NEAR, _AT_END = 0.45, 1e-9  # of the residual beside a place, that there may be a root about without a change of sign
+_MOST = 500_000  # operations on single numbers, of which a third or so have a cell
 _ONE = f"the one change of sign of {PLACES} places"
 _LESS = 0.1  # of the residual in the last early look may be left in the end: more is a jump or a pole
 
@@ -121,7 +122,11 @@ def _root(graph: Graph, block: Block, unit: str) -> Any:
     a, b = (Quantity(graph, graph.like(end, low, high, *_shaping(graph, block))) for end in (low, high))
     if a.extent != block.nodes[0].shape:
         raise NotRecorded("its interval has another shape")
-    return _searched(block, a, b, unit)
+    most, graph.most, graph.work = graph.most, _MOST, 0
+    try:
+        return _searched(block, a, b, unit)
+    finally:
+        graph.most, graph.work = most, 0
 
 
 def _shaping(graph: Graph, block: Block) -> tuple[Node, ...]:
@@ -174,7 +179,6 @@ def _searched(block: Block, a: Quantity, b: Quantity, unit: str) -> Any:
     graph = a.graph
     one: Any = True
     for look in range(_LOOKS):
-        graph.work = 0  # a look may take what a line may
         places = _LATER if look else _FIRST
         x = a[..., None] * (1 - places) + b[..., None] * places
         left = _residual(block, x)

@@ -187,8 +187,8 @@ def _recorded(namespace: Mapping[str, Any]) -> tuple[Recording, Check]:
     """The recording of a run, and the check of its units."""
     sheet = load(namespace["__file__"])
     recording, every_line = record_every_line(namespace, sheet)
-    search(recording)
     fit = dimensions(every_line, sheet, namespace, registry(namespace)).check()
+    search(recording)  # whose steps need no units
     mistakes, none = recording.graph.constant(fit.residual), recording.graph.constant(fit.limit)
     recording.checks[fit.name] = Residual([mistakes], none, "-", signed=True)  # the same for all inputs
     return recording, fit

@@ -143,9 +143,9 @@ class CellFormulas:
             elif part in self.searched:  # whose numbers may be there and not be sure
                 self._fixed[part] = frozenset([part])
             else:
-                under = [closed] if closed is not None else part.operands
+                under = [self._fixed_by(closed)] if closed is not None else [self._fixed[x] for x in part.operands]
                 sure = [self.sure[part]] if part in self.sure else []
-                self._fixed[part] = frozenset(sure).union(*(self._fixed_by(operand) for operand in under))
+                self._fixed[part] = frozenset(sure).union(*under)
         return self._fixed[node]
 
     def _operation(self, node: Node, at: Index, rows: Rows) -> tuple[str, int]:
