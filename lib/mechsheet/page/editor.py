@@ -215,4 +215,4 @@ def _is_of(frame: FrameType, cell: notebook.Cell) -> bool:
 
 
 def _line(cell: notebook.Cell, number: int) -> str:
-    return mistakes.at(cell.filename, number, cell.code.splitlines()[number - 1])
+    return mistakes.at("", number, cell.code.splitlines()[number - 1])

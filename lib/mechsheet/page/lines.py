@@ -2,6 +2,7 @@
 
 import json
 from collections.abc import Mapping
+from dataclasses import dataclass
 from functools import lru_cache
 from html import escape
 from typing import Any
@@ -14,6 +15,7 @@ from mechsheet.document.formula import Measure
 from mechsheet.document.latex import latex
 from mechsheet.document.markup import where
 from mechsheet.page import switched
+from mechsheet.page.unchanged import kept
 from mechsheet.worksheet import numbers, symbol
 from mechsheet.worksheet.lines import Formula, Given, Numbers, Typeset
 from mechsheet.worksheet.over import over
@@ -54,7 +56,7 @@ def _formula(line: Formula, value: object, shown: Typeset) -> str:
 def valued(line: Formula, value: object, namespace: Mapping[str, Any] | None) -> str:
     """The value of a line, of a field also where it is least and greatest, if a namespace tells over what it is one."""
     told = cleared(line, value, namespace)
-    text = switched.value(symbol.stem(line.name), line.unit, numbers.in_any_unit(told))
+    text = _switched(_Value(symbol.stem(line.name), line.unit, told))
     if namespace is None or not isinstance(told, np.ndarray):
         return text
     return text + where(told, over(line.name, namespace))
@@ -69,6 +71,20 @@ def cleared(line: Formula, value: Any, namespace: Mapping[str, Any] | None) -> A
 
 
 _SMALL = 1e-2  # more is no rounding of what a line may add, up to 3e12 in SI; to look at that takes time
+
+
+@dataclass(frozen=True)
+class _Value:
+    """A value as it is shown: of what, in which unit, one or several numbers."""
+
+    of: str
+    unit: str
+    numbers: Any
+
+
+@kept(2048)
+def _switched(value: _Value) -> str:
+    return switched.value(value.of, value.unit, numbers.in_any_unit(value.numbers))
 
 
 def _substituted(line: Formula, known: Numbers, position: int) -> str:

@@ -23,6 +23,7 @@ from mechsheet.page.headings import heading
 from mechsheet.page.lines import lines
 from mechsheet.page.script import element, script
 from mechsheet.page.smooth import smooth
+from mechsheet.page.unchanged import kept
 from mechsheet.page.waiting import waiting
 from mechsheet.worksheet import mistakes, numbers, symbol
 from mechsheet.worksheet.check import Check, Summary
@@ -330,7 +331,11 @@ def _kind(field: Input) -> str:
 
 @html.register
 def _(whole: Figure) -> str:
-    figure = thinned(smooth(whole))
+    return _chart(thinned(smooth(whole)))
+
+
+@kept(128)
+def _chart(figure: Figure) -> str:
     layout = chart.line_chart(figure.x, figure.lines, figure.marks, figure.every)
     picture = switched.chart(figure, layout, chart_svg.svg(layout))
     caption = _caption("Figure", figure.number, figure.title)
@@ -339,6 +344,11 @@ def _(whole: Figure) -> str:
 
 @html.register
 def _(table: Table) -> str:
+    return _table(table)
+
+
+@kept(128)
+def _table(table: Table) -> str:
     caption = _caption("Table", table.number, table.title)
     note = f'<div class="ms-note">{in_words(table.note)}</div>' if table.note else ""
     columns, left_out = shortened(table.columns)

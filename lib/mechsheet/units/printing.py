@@ -118,14 +118,14 @@ def alike(text: str) -> tuple[str, ...]:
     (('kN*m', 'N*m', 'N*mm'), ('kg/s',), ('positions',))
     """
     try:
-        parse(text)
+        return _alike(text, parse(text).dims)
     except ValueError:  # what is counted, in words
         return (text,)
+
+
+@lru_cache(maxsize=1024)  # a unit of one's own may come to measure something else
+def _alike(text: str, dims: Dims) -> tuple[str, ...]:
     groups = [group.split() for group in _USUAL]
-    own = next((g for g in groups if text in g), None) or next((g for g in groups if _fits(text, g)), [])
+    fits = (g for g in groups if any(dims) and dims == parse(g[0]).dims)
+    own = next((g for g in groups if text in g), None) or next(fits, [])
     return (text, *(unit for unit in own if unit != text))
-
-
-def _fits(text: str, group: list[str]) -> bool:
-    dims = parse(text).dims
-    return any(dims) and dims == parse(group[0]).dims

@@ -11,8 +11,8 @@ from mechsheet import units
 
 
 def place(file: str | Path, line: int) -> str:
-    """A line as every message names it; of a cell of the editor, at which the message stands, its number alone."""
-    return f"line {line}" if "__marimo__cell_" in str(file) else f"{Path(file).name}, line {line}"
+    """A line as every message names it; without a file, and of a cell of the editor, its number: the place is known."""
+    return f"line {line}" if not file or "__marimo__cell_" in str(file) else f"{Path(file).name}, line {line}"
 
 
 def at(file: str | Path, line: int, text: str) -> str:
