@@ -123,9 +123,9 @@ def test_a_search_that_cells_do_not_make_is_named(lines: str, reason: str, tmp_p
 
 def test_a_search_rests_on_nothing_that_it_finds(tmp_path: Path) -> None:
     """The number of rows of what rests on the unknown, by which a mean divides, would be a circle of cells."""
-    sheet = own(
-        tmp_path, "u_found = find(lambda u: np.mean(u * x), 0.0, 9.0, equals=g.a)\ny = u_found.value * x  # [-] y"
-    )
+    less = "g.a * np.interp(x, np.array([0.0, 9]), np.array([0.0, 1]))"
+    found = f"u_found = find(lambda u: np.mean(np.maximum(u * x - {less}, 0)), 0.0, 9.0, equals=g.a)"
+    sheet = own(tmp_path, f"{found}\ny = u_found.value * x  # [-] y")
     _, recording = recorded(sheet)
     search(recording)
     (solved,) = recording.found.values()
