@@ -39,23 +39,10 @@ def title():
 
 @app.cell(hide_code=True)
 def verdict(
-    check_11,
-    check_12,
-    check_21,
-    check_22,
-    check_31,
-    check_32,
-    check_41,
-    check_42,
-    check_44,
-    check_45,
-    checks_5,
-    checks_7,
-):
-    summary(
-        check_11, check_12, check_21, check_22, check_31, check_32, check_41, check_42, check_44, check_45, checks_5,
-        checks_7,
-    )  # fmt: skip
+    check_11, check_12, check_21, check_22, check_31, check_32, check_41, check_42, checks_4, checks_5, checks_7,
+):  # fmt: skip
+    _checks = (check_11, check_12, check_21, check_22, check_31, check_32, check_41, check_42)
+    summary(_checks, checks_4, checks_5, checks_7)
     return
 
 
@@ -184,21 +171,16 @@ def job_12(g, jobs, seconds):
     return check_12, figure_12, job_12, table_12
 
 
-@app.cell(hide_code=True)
-def section_13():
-    mo.md("""
+@app.cell
+def job_13(g, hitch, seconds, sizes):
+    """
     ### Cost of a position
 
     The library checks its arguments, which the printed formulas do not: that is what the few positions of a document
     pay for. Over many positions it is lost in the arithmetic. The tables give the time of one of so many that are
     computed at once: positions of the hitch, and random geometries of each group. A million at once no longer fit the
     processor's cache and take longer each: sweeps go through their variants in chunks that do.
-    """)
-    return
-
-
-@app.cell
-def job_13(g, hitch, seconds, sizes):
+    """
     many = (*sizes, 1_000_000) if g.full else sizes
     table_13, table_14 = batch_times("1.3", hitch, many, seconds), group_times("1.4", many, seconds)
     typeset(table_13, table_14)
@@ -280,21 +262,16 @@ def job_32(jobs, seconds):
     return check_32, figure_32, job_32, table_32
 
 
-@app.cell(hide_code=True)
-def section_33():
-    mo.md("""
+@app.cell
+def job_33(hitch, seconds, sizes):
+    """
     ### Many Finds at once
 
     The lifting rod for so many heights of the suspension axis, as a sweep asks for it: `find` takes all of them in one
     call, brentq one after the other.
-    """)
-    return
-
-
-@app.cell
-def job_33(hitch, seconds, sizes):
+    """
     table_33 = batch_times("3.3", hitch, sizes[:3], seconds)
-    table_33
+    typeset(table_33)
     return (table_33,)
 
 
@@ -313,19 +290,12 @@ def section_4():
 
 
 @app.cell
-def job_41(jobs, seconds):
-    job_41 = jobs["4.1"].compare(seconds)
+def reactions(jobs, seconds):
+    job_41, job_42 = jobs["4.1"].compare(seconds), jobs["4.2"].compare(seconds)
     figure_41, table_41, check_41 = job_41.figure(), job_41.table(), job_41.check()
-    typeset(figure_41, job_41.summary(), check_41)
-    return check_41, figure_41, job_41, table_41
-
-
-@app.cell
-def job_42(jobs, seconds):
-    job_42 = jobs["4.2"].compare(seconds)
     figure_42, table_42, check_42 = job_42.figure(), job_42.table(), job_42.check()
-    typeset(figure_42, job_42.summary(), check_42)
-    return check_42, figure_42, job_42, table_42
+    typeset(figure_41, job_41.summary(), check_41, figure_42, job_42.summary(), check_42)
+    return check_41, check_42, figure_41, figure_42, job_41, job_42, table_41, table_42
 
 
 @app.cell
@@ -335,9 +305,9 @@ def job_43(hitch, seconds, sizes):
     return (table_43,)
 
 
-@app.cell(hide_code=True)
-def about_machine():
-    mo.md("""
+@app.cell
+def machine_and_ring(jobs, seconds):
+    """
     ### Groups of all kinds, and the circular joint
 
     The machine of the worksheet `kinetostatics` has a group of each kind, with weights, inertia forces, a resistance
@@ -347,24 +317,12 @@ def about_machine():
     In the circular joint the normal force grows until the rim is all but lifted off: the primitives of its line load
     are differences of almost equal numbers then, and quadratures keep their digits. The library's has fixed places, the
     same for all cases at once; what it takes beyond the others goes to its checks and to the state of each case.
-    """)
-    return
-
-
-@app.cell
-def job_44(jobs, seconds):
-    job_44 = jobs["4.4"].compare(seconds)
-    figure_44, table_44, check_44 = job_44.figure(), job_44.table(), job_44.check()
-    typeset(figure_44, job_44.summary(), check_44)
-    return check_44, figure_44, job_44, table_44
-
-
-@app.cell
-def job_45(jobs, seconds):
-    job_45 = jobs["4.5"].compare(seconds)
-    figure_45, table_45, check_45 = job_45.figure(), job_45.table(), job_45.check()
-    typeset(figure_45, job_45.summary(), check_45)
-    return check_45, figure_45, job_45, table_45
+    """
+    job_44, job_45 = jobs["4.4"].compare(seconds), jobs["4.5"].compare(seconds)
+    figure_44, table_44, figure_45, table_45 = job_44.figure(), job_44.table(), job_45.figure(), job_45.table()
+    checks_4 = job_44.check(), job_45.check()
+    typeset(figure_44, job_44.summary(), checks_4[0], figure_45, job_45.summary(), checks_4[1])
+    return checks_4, figure_44, figure_45, job_44, job_45, table_44, table_45
 
 
 @app.cell(hide_code=True)
@@ -556,40 +514,30 @@ def tables_of_scenes(outcomes_7, scenes_7):
     return table_72, table_73
 
 
-@app.cell(hide_code=True)
-def about_claims():
-    mo.md("""
+@app.cell
+def table_74():
+    """
     ### Digits proved
 
     `--proof` encloses every number in a ball that holds the exact one, and claims the digits that this leaves. Here are
     its claims beside the errors that there are, by 50 digits from the inputs to the end: results of the documents at
     three positions each, the forces in the elements of the joint, all beside the largest number of their column. Angles
     are left out, which may be whole turns apart.
-    """)
-    return
-
-
-@app.cell
-def table_74():
+    """
     table_74, check_74 = claims_table("7.4", folder)
     typeset(table_74, check_74)
     return check_74, table_74
 
 
-@app.cell(hide_code=True)
-def about_condition():
-    mo.md(r"""
+@app.cell
+def table_75(g):
+    r"""
     ### Errors over the condition number
 
     Of random geometries of each group, ordinary ones, the errors in roundings times $\kappa$: a method that is as good
     as any stays at a few. Then the results of the hitch with $\kappa$ from end to end, from the inputs that the user
     gives through the lengths found, by the slopes of the recording: the first and the last position and one between.
-    """)
-    return
-
-
-@app.cell
-def table_75(g):
+    """
     table_75, check_75 = random_groups("7.5", 10_000 if g.full else 100)
     table_76, check_76 = end_to_end("7.6", folder / "hitch.py")
     typeset(table_75, check_75, table_76, check_76)
