@@ -183,13 +183,13 @@ def test_what_the_address_says_of_the_worksheet_stays(press: Path, left_open: Ca
     """
     page = left_open(press, "as in the document")
     other = page.context.new_page()
-    other.goto(page.url.partition("#")[0] + "?file=press.py")
+    other.goto(page.url.partition("#")[0] + "?sheet=press")
     fill(other, "r", "52")
-    expect(other).to_have_url(re.compile(r"/\?file=press\.py#r=52$"))
+    expect(other).to_have_url(re.compile(r"/\?sheet=press#r=52$"))
     link = other.locator("#checks a").last
     link.click()
     expect(other.locator(link.get_attribute("href") or "")).to_be_in_viewport()
-    expect(other).to_have_url(re.compile(r"/\?file=press\.py#r=52$"))
+    expect(other).to_have_url(re.compile(r"/\?sheet=press#r=52$"))
     other.close()
 
 
