@@ -253,10 +253,8 @@ def drawing_21(A, B, C, D, E, H, K, O1, O5, g, phi1, position_lines, s5, turn, u
     _bodies = _bars.link(_d, _e, "4").slider(_e, g.phi05, "5").cylinder(H, _k, "7", g.l7)
     _fixed = _bodies.support(O1, "O1").support(C, "C", 0.0).support(H, "H", 0.0)
     drawing_21 = _fixed.hinge(_a, "A").hinge(_b, "B").hinge(_d, "D").hinge(_e, "E").hinge(_k, "K")
-    typeset(
-        *(drawing_21, mark(phi1=phi1[turn.value])),
-        *(caption("2.1", f"Scheme of the mechanism, φ₁ = {turn.value}°"), position_lines.at(turn.value)),
-    )
+    _title = caption("2.1", f"Scheme of the mechanism, φ₁ = {turn.value}°")
+    typeset(drawing_21, mark(phi1=phi1[turn.value]), _title, position_lines.at(turn.value))
     return
 
 
@@ -282,7 +280,13 @@ def positions(A, B, C, D, E, g, group_23, group_45, group_67, mu23, mu45, phi1, 
 
 @app.cell(hide_code=True)
 def section_3():
-    mo.md("## 3 Loads")
+    mo.md(r"""
+    ## 3 Loads
+
+    ### 3.1 Velocities and accelerations
+
+    The crank turns with $\omega_1$ and $\varepsilon_1$ in every position.
+    """)
     return
 
 
@@ -290,11 +294,6 @@ def section_3():
 def loads_of_links(
     A, B, C, D, E, H, K, O1, O5, P_A, P_B, P_D, P_E, P_K, e7, g, motion_45, motion_67, omega1, phi1, u2, u3, u4, u5, u6
 ):
-    r"""
-    ### 3.1 Velocities and accelerations
-
-    The crank turns with $\omega_1$ and $\varepsilon_1$ in every position.
-    """
     P_S1 = lambda phi1: O1 + g.l_O1S1 * exp(1j * phi1)  # [m] crank
     P_S2 = lambda phi1: P_B(phi1) + g.l_BS2 / g.l2 * (P_A(phi1) - P_B(phi1))  # [m] rod 2
     P_S3 = lambda phi1: P_B(phi1) + g.l_BS3 / g.l3 * (C - P_B(phi1))  # [m] rocker
@@ -863,10 +862,8 @@ def drawing_71(A, F1_sum, F_w, O1, P_w, R_1g, R_A, S1, checks_gear, g, gear_line
     _links = group_picture.wheel(O1, g.l_O1P).link(O1, _a, "1").hinge(O1, "O1").hinge(_a, "A").hinge(P_w, "P")
     _forces = {"F1": (S1, F1_sum), "R21": (A, -R_A, O1), "F_b": (P_w, F_w, O1), "R_O1": (O1, R_1g, A)}
     drawing_71 = cut_group(_links, turn.value, _forces, [A, *_wheel])
-    typeset(
-        *(turn, drawing_71, caption("7.1", f"Crank driven by a gear (figure 1.5), φ₁ = {turn.value}°")),
-        *(gear_lines.at(turn.value), *checks_gear),
-    )
+    _title = caption("7.1", f"Crank driven by a gear (figure 1.5), φ₁ = {turn.value}°")
+    typeset(turn, drawing_71, _title, gear_lines.at(turn.value), *checks_gear)
     return
 
 
@@ -917,16 +914,16 @@ def drawing_72(A, F1_sum, M_c, O1, R_1c, R_A, S1, checks_drive, coupling_lines, 
     _forces = {"F1": (S1, F1_sum), "R21": (A, -R_A, O1), "R_O1": (O1, R_1c, A)}
     drawing_72 = cut_group(group_picture.link(O1, _a, "1").hinge(O1, "O1").hinge(_a, "A"), turn.value, _forces, [A, O1])
     _says = f"balancing moment {_M:.4g} N·m" if isfinite(_M) else "no balancing moment"
-    typeset(
-        *(turn, drawing_72, caption("7.2", f"Crank driven by a coupling (figure 1.6), φ₁ = {turn.value}°: {_says}")),
-        *(coupling_lines.at(turn.value), *checks_drive),
-    )
+    _title = caption("7.2", f"Crank driven by a coupling (figure 1.6), φ₁ = {turn.value}°: {_says}")
+    typeset(turn, drawing_72, _title, coupling_lines.at(turn.value), *checks_drive)
     return
 
 
 @app.cell(hide_code=True)
 def section_8():
-    mo.md("## 8 Full turn")
+    mo.md(r"""
+    ## 8 Full turn
+    """)
     return
 
 
@@ -991,7 +988,13 @@ def figure_87(R_1c, R_1g, R_A, R_B, R_C, R_D, R_E, R_H, R_K, turn):
 
 @app.cell(hide_code=True)
 def section_9():
-    mo.md("## 9 Checks")
+    mo.md(r"""
+    ## 9 Checks
+
+    ### 9.1 Equilibrium of every body
+
+    By the reactions of the document's formulas.
+    """)
     return
 
 
@@ -1001,11 +1004,6 @@ def reactions(
     R03, R05, R07, R12, R23, R43, R45, R63, R76, R_A, R_D, R_K, R_O1c, S1, S2, S3, S4, S6, S7, gamma03, gamma05,
     gamma07, gamma12, gamma23, gamma45, gamma76, gamma_O1c, group_67, h76, largest, lost, u5,
 ):  # fmt: skip
-    """
-    ### 9.1 Equilibrium of every body
-
-    By the reactions of the document's formulas.
-    """
     R12_v = R12 * exp(1j * gamma12)  # [N] crank 1 on the rod 2
     R23_v = R23 * exp(1j * gamma23)  # [N] rod 2 on the rocker 3
     R03_v = R03 * exp(1j * gamma03)  # [N] frame on the rocker 3
