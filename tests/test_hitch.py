@@ -31,8 +31,15 @@ def sheet():
     return hitch.app.run()[1]
 
 
+PRINTED = {"Pgc": ("MPa", 1e6)}  # shown in the unit of its formula, printed in pascals
+
+
 def columns(sheet) -> dict[str, np.ndarray]:
-    return {c.symbol: c.values for table in sheet.values() if isinstance(table, Table) for c in table.columns}
+    every = [c for table in sheet.values() if isinstance(table, Table) for c in table.columns]
+    assert {c.symbol: c.unit for c in every if c.symbol in PRINTED} == {
+        name: unit for name, (unit, _) in PRINTED.items()
+    }
+    return {c.symbol: c.values * PRINTED[c.symbol][1] if c.symbol in PRINTED else c.values for c in every}
 
 
 @pytest.mark.parametrize("name", TABLES)

@@ -128,7 +128,7 @@ def test_what_is_wrong_with_the_command_is_one_line(arguments: tuple[str, ...], 
     ("text", "says"),
     [
         ("import marimo\napp = marimo.App()\n", "has no number of a printed formula, no table, no figure and no err"),
-        ("import marimo\napp = (\n", "line 2: "),
+        ("import marimo\napp = (\n", "line 2, app = (: "),
         ("import marimo\napp = marimo.App()\n\n\n@app.cell\ndef c():\n    a, b = 1, 2  # [m]\n    return\n", "need 2"),
     ],
 )

@@ -276,7 +276,7 @@ def test_a_text_stands_between_the_lines_of_its_cell_and_is_as_written_for_every
 
 def test_a_text_between_lines_has_no_values_in_it(tmp_path):
     (sheet := tmp_path / "plate.py").write_text(PLATE.replace('"""By another', 'f"""By {g.a}'))
-    with pytest.raises(SheetError, match=r"line 29 of .*: a text with values in it belongs to mo.md or to typeset"):
+    with pytest.raises(SheetError, match=r"plate.py, line 29: a text with values in it belongs to mo.md or to typeset"):
         run(sheet)
 
 

@@ -580,10 +580,10 @@ def capacity(I56, IS6, g):
 
 @app.cell
 def results_4(F_gc, G56, GS6, P_gc, S, S_p, dGS65):
-    table_41 = table("4.1", "Lifting capacity", S, F_gc, P_gc, G56, GS6, dGS65, show={"Pgc": "Pa"})
+    table_41 = table("4.1", "Lifting capacity", S, F_gc, P_gc, G56, GS6, dGS65)
     figure_41 = figure("4.1", "Lifting capacity", S, G56, GS6, marks={"S_p": S_p})
     figure_42 = figure("4.2", "Force on the cylinders", S, F_gc, marks={"S_p": S_p})
-    figure_43 = figure("4.3", "Pressure in the cylinders", S, P_gc, marks={"S_p": S_p}, show={"Pgc": "Pa"})
+    figure_43 = figure("4.3", "Pressure in the cylinders", S, P_gc, marks={"S_p": S_p})
     typeset(table_41, figure_41, figure_42, figure_43)
     return
 

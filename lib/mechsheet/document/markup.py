@@ -1,5 +1,6 @@
 """Symbols, numbers and limits in HTML."""
 
+import re
 from html import escape
 from typing import Any
 
@@ -33,6 +34,18 @@ def as_written(name: str) -> str:
     """
     read = symbol.read(name)
     return f"{read.mark}<i>{read.base}</i>" + (f"<sub>{read.index}</sub>" if read.index else "")
+
+
+def meant(meaning: str) -> str:
+    """What a line or an input means, names in it that have an index by an underscore as their symbols.
+
+    >>> meant("abscissa of the pole < 1, times D_p; bolt M8")
+    'abscissa of the pole &lt; 1, times <i>D</i><sub>p</sub>; bolt M8'
+    """
+    return "".join(named(piece) if i % 2 else escape(piece) for i, piece in enumerate(_INDEXED.split(meaning)))
+
+
+_INDEXED = re.compile(r"\b([A-Za-z]+\d*_\w+)\b(?!\.\w)")
 
 
 def in_words(sentence: str) -> str:

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from mechsheet import units
-from mechsheet.document.markup import as_written, limits
+from mechsheet.document.markup import as_written, limits, meant
 from mechsheet.units import parse
 from mechsheet.worksheet import numbers
 from mechsheet.worksheet.inputs import LEAST, MOST, declared
@@ -29,9 +29,7 @@ def fields(g: Any) -> str:
 def _row(field: Input, value: Any) -> str:
     unit = "" if field.unit == "-" or isinstance(field, Rows) else escape(units.shown(field.unit))
     mistake = f' <span class="ms-badge ms-FAIL">mistake</span> {escape(field.mistake)}' if field.mistake else ""
-    told = (
-        f'<span class="ms-meaning" id="meaning-{field.name}">{escape(field.meaning)}{mistake} <i>{_limits(field)}</i>'
-    )
+    told = f'<span class="ms-meaning" id="meaning-{field.name}">{meant(field.meaning)}{mistake} <i>{_limits(field)}</i>'
     return (
         f'<div class="ms-field"><label for="input-{field.name}">{as_written(field.name)}</label>'
         f'{_element(field, value)}<span class="ms-unit">{unit}</span>{told}</span>'

@@ -14,7 +14,7 @@ from mechsheet import units
 from mechsheet.document import chart, chart_svg, drawing_svg
 from mechsheet.document.blocks import blocks, fitting
 from mechsheet.document.expression import equation, fields_by_name
-from mechsheet.document.markup import HTML, as_written, compared, in_words, named, where
+from mechsheet.document.markup import HTML, as_written, compared, in_words, meant, named, where
 from mechsheet.document.parts import Control, Line, Section, Text
 from mechsheet.document.shortened import foot, shortened, thinned
 from mechsheet.html import index, markdown, offered
@@ -127,7 +127,7 @@ def _line(formula: str, value: str = "", told: Formula | None = None, numbers: s
     if not told:
         return f'<div class="ms-line"><span class="ms-formula">{formula}</span></div>'
     mistake = f' <span class="ms-badge ms-FAIL">mistake</span> {escape(told.mistake)}' if told.mistake else ""
-    said = f"<span>{escape(told.meaning)}{mistake}</span>" if told.meaning or mistake else ""
+    said = f"<span>{meant(told.meaning)}{mistake}</span>" if told.meaning or mistake else ""
     said += f'<span class="ms-number">{escape(told.number)}</span>' if told.number else ""
     shown = f'<span class="ms-formula">{formula}{value}</span>{said}{numbers}'
     return f'<div class="ms-line" id="line-{told.name}">{shown}</div>'
@@ -279,7 +279,7 @@ def _(used: Used, page: Follower) -> str:
         number = "" if isinstance(field, Rows) else escape(field.brief(getattr(used.g, field.name)))
         rows.append(
             f'<tr data-used="{field.name}"><td>{as_written(field.name)}</td><td>{number}</td>'
-            f"<td>{unit}</td><td>{escape(field.meaning)}</td></tr>"
+            f"<td>{unit}</td><td>{meant(field.meaning)}</td></tr>"
         )
         rows += ['<tr><td colspan="4"></td></tr>'] if isinstance(field, Rows) else []  # for the page's own table
     return f'<table class="ms-print">{"".join(rows)}</table>'

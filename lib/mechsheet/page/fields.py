@@ -8,7 +8,7 @@ from uuid import uuid4
 import marimo as mo
 
 from mechsheet import units
-from mechsheet.document.markup import as_written, limits
+from mechsheet.document.markup import as_written, limits, meant
 from mechsheet.page.script import element, script
 from mechsheet.worksheet import scene
 from mechsheet.worksheet.errors import SheetError
@@ -122,7 +122,7 @@ def said(field: Input) -> str:
     limits = _limits(field)
     if isinstance(field, Rows) and field.row:
         limits = ", ".join(f"{as_written(_short(c))}&nbsp;{_limits(c)}" for c in field.columns if c.limits)
-    told = f"{html.escape(field.meaning)}{_told(field)}"
+    told = f"{meant(field.meaning)}{_told(field)}"
     return f'{told}<span style="opacity:.5;padding-left:.6em">{limits}</span>'
 
 

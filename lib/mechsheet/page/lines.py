@@ -13,7 +13,7 @@ from mechsheet import units
 from mechsheet.document.expression import equation, fields_by_name, reads, substituted
 from mechsheet.document.formula import Measure
 from mechsheet.document.latex import latex
-from mechsheet.document.markup import where
+from mechsheet.document.markup import meant, where
 from mechsheet.page import switched
 from mechsheet.page.unchanged import kept
 from mechsheet.worksheet import numbers, symbol
@@ -118,7 +118,7 @@ def _line(
     more = f'<ms-numbers tex="{escape("= " + substituted)}"></ms-numbers>' if substituted else ""
     formula = _tex_element(tex) + (f'<span class="ms-value">{value}</span>' if value else "")
     told = f' <span class="ms-badge ms-FAIL">mistake</span> {escape(mistake)}' if mistake else ""
-    said = f"<span>{escape(meaning)}{told}</span>" if meaning or told else ""
+    said = f"<span>{meant(meaning)}{told}</span>" if meaning or told else ""
     said += f'<span class="ms-number">{escape(number)}</span>' if number else ""
     place = f' id="line-{line.name}"' if line else ""
     place += f' data-reads="{escape(_symbols(line))}"' if isinstance(line, Formula) else ""

@@ -113,7 +113,8 @@ class Arrangement:
             for m, part in enumerate(check.parts, 1):
                 if part not in names and part.operands:
                     names[part] = called(stated) + (f"_{m}" if len(check.parts) > 1 else "")
-        named = names.keys() | self.recording.graph.labels.keys()
+        sure = {each.sure: names.get(each.node, "root") for each in self.recording.found.values() if each.sure}
+        named = names.keys() | self.recording.graph.labels.keys() | sure.keys()
         placed = [node for node in needing_place(self._roots(), named, self.places) if node not in self.places]
         waiting = {node: node for node in placed}
         sections: dict[str, list[Line]] = {}
@@ -130,9 +131,12 @@ class Arrangement:
                 own = [line] if waiting.pop(line.node, None) else []
                 sections.setdefault("Residuals", []).extend([*steps, *own])
         for n, node in enumerate(list(waiting.values()), 1):
-            rows = node.op == "rows"
-            line = Line(node, "k" if rows else f"step_{n}", "", "number of the row" if rows else "step of a formula")
-            sections.setdefault("Residuals", []).append(line)
+            symbol, meaning = f"step_{n}", "step of a formula"
+            if node.op == "rows":
+                symbol, meaning = "k", "number of the row"
+            elif node in sure:
+                symbol, meaning = f"{sure[node]}_sure", f"whether the closed form of {sure[node]} is what is found"
+            sections.setdefault("Residuals", []).append(Line(node, symbol, "", meaning))
         known = self.recording.sections
         order = sorted(sections, key=lambda title: known.index(title) if title in known else len(known))
         return [self._section(title, sections[title], name) for title in order]
