@@ -97,7 +97,7 @@ def measure(page: Page, port: str) -> None:
         page.keyboard.press("ArrowRight")
         times.append(settled(page))
     spent = server_seconds(port) - before[0], page_seconds(session) - before[1]
-    report("slider to last change", times, *spent, "wanted: median 70 ms")
+    report("slider to last change", times, *spent, "wanted: 50 ms")
 
     page.evaluate("() => { drawings = 0 }")
     start = time.monotonic()
@@ -125,7 +125,7 @@ def inputs(page: Page, session: CDPSession, port: str, what: str) -> None:
         page.keyboard.press("Enter")
         times.append(settled(page))
     spent = server_seconds(port) - before[0], page_seconds(session) - before[1]
-    report(f"{what}, to everything settled", times, *spent, "wanted: 400 ms")
+    report(f"{what}, to everything settled", times, *spent, "wanted: 200 ms")
 
 
 def main() -> None:
