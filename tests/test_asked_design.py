@@ -11,6 +11,7 @@ from own_worksheet import own
 from playwright.sync_api import expect
 
 from mechsheet import evaluate
+from mechsheet.page.design import Design
 from mechsheet.run import arguments, batch
 from mechsheet.studies import asked_design, refined
 from mechsheet.worksheet import cells
@@ -213,6 +214,17 @@ def test_a_design_may_start_at_a_bound():
     with pytest.raises(SheetError, match=r"no design within the bounds: mu_2 >= 70 deg: best reachable \d"):
         asked_design.best(asked(cells.load(bucket), "--vary=L_DE=0.42..0.5", "--need=mu_2 >= 70 deg", "--best=max F_T"))
     assert np.isfinite(asked(cells.load(bucket), "--vary=L_DE=0.42..0.5", "--best=max F_T").now.goal)
+
+
+def test_a_design_rests_on_inputs_that_are_gone_while_they_change() -> None:
+    """And holds them: others at the same place of the memory are others."""
+    inputs = cells.load(GUIDE).inputs
+    namespace = {"g": inputs(), "__file__": str(GUIDE)}
+    design = Design(None, namespace, lambda: None)
+    g, written = design.rests_on()
+    assert design.rests_on()[0] is g is namespace["g"]
+    del namespace["g"]
+    assert design.rests_on() == (None, written)
 
 
 def test_the_page_finds_what_it_would_take(serve, page, console_errors):

@@ -73,7 +73,7 @@ class Design:
 
     def look(self, number: int, options: Sequence[str]) -> None:
         """Show what is found until it is asked for something else, or the inputs or the file are others."""
-        this, rests_on, shown = mo.current_thread(), self.rests_on(), 0.0
+        this, (g, written), shown = mo.current_thread(), self.rests_on(), 0.0
 
         def over() -> bool:
             return this.should_exit or self.number != number
@@ -96,7 +96,8 @@ class Design:
         except _Superseded:
             return
         while not over():
-            if self.rests_on() != rests_on:
+            now, last_written = self.rests_on()
+            if now is not g or last_written != written:
                 show('<div class="ms-note">The inputs are others by now.</div>')
                 return
             if told:
@@ -104,9 +105,9 @@ class Design:
                 told = ""
             time.sleep(_PERIOD)
 
-    def rests_on(self) -> tuple[int, int]:
-        """What tells that a design is that of other numbers."""
-        return id(self.namespace["g"]), Path(self.namespace["__file__"]).stat().st_mtime_ns
+    def rests_on(self) -> tuple[object, int]:
+        """What tells that a design is that of other numbers: the inputs, none while they change, and their file."""
+        return self.namespace.get("g"), Path(self.namespace["__file__"]).stat().st_mtime_ns
 
     def answer(self, options: Sequence[str], done: Done) -> str:
         """HTML of what it would take, or why it cannot be had."""

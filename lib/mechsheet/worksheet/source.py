@@ -131,7 +131,7 @@ def is_app(node: ast.expr, kinds: tuple[str, ...]) -> bool:
 def call(frame: FrameType) -> ast.Call:
     """Call expression that ``frame`` is making now."""
     position = list(frame.f_code.co_positions())[frame.f_lasti // 2]
-    body = _body(_file(frame)[0], frame.f_lineno)
+    body = cell(frame).body
     for node in (n for statement in body for n in nodes(statement) if isinstance(n, ast.Call)):
         for indent in (0, body[0].col_offset):  # marimo runs a cell without the indentation that it has in the file
             end_column = (node.end_col_offset or 0) - indent
@@ -155,28 +155,8 @@ def nodes(tree: ast.AST) -> tuple[ast.AST, ...]:
 
 
 def _file(frame: FrameType) -> tuple[ast.Module, dict[int, str]]:
-    return _compiled_from(_Itself(frame.f_code))
-
-
-class _Itself:
-    """Code that equals no other, be it alike: that of a cell in which only a comment was changed is another one."""
-
-    def __init__(self, code: CodeType) -> None:
-        self.code = code
-
-    def __hash__(self) -> int:
-        return id(self.code)
-
-    def __eq__(self, other: object) -> bool:
-        return isinstance(other, _Itself) and self.code is other.code
-
-
-@lru_cache(maxsize=1024)
-def _compiled_from(cell: _Itself) -> tuple[ast.Module, dict[int, str]]:
-    """What a file says that was just compiled: to look at it for every call took a tenth of a served input."""
-    filename = cell.code.co_filename
-    linecache.checkcache(filename)
-    return parsed("".join(linecache.getlines(filename)), filename)
+    linecache.checkcache(frame.f_code.co_filename)
+    return parsed("".join(linecache.getlines(frame.f_code.co_filename)), frame.f_code.co_filename)
 
 
 def _body(tree: ast.Module, line: int) -> tuple[ast.stmt, ...]:
