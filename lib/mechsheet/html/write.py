@@ -22,7 +22,7 @@ from mechsheet.html.mathml import symbol
 from mechsheet.recording.memory import names_of
 from mechsheet.recording.record import record
 from mechsheet.worksheet import symbol as symbols
-from mechsheet.worksheet.cells import Worksheet, checks, refuse_open
+from mechsheet.worksheet.cells import Cell, Worksheet, checks, refuse_open
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.inputs import Used, declared
 from mechsheet.worksheet.lines import Numbers, registry
@@ -87,7 +87,9 @@ def _page(sheet: Worksheet, namespace: dict[str, Any], lists: bool) -> str:
     follower = Follower(record(namespace, sheet, whole=True, every=1, draws=True, lists=lists), Numbers(namespace))
     follower.pair(cells)
     moving = frames.moved(sheet, namespace, cells, follower)
-    body = _linked("".join(_cell(n, parts, sheet, follower, moving) for n, parts in cells.items()))
+    among = tuple(cleandoc(constant(text)) for cell in sheet.cells for text in standing(cell.lines))
+    written = (_cell(n, parts, sheet.cells[n], among, follower, moving) for n, parts in cells.items())
+    body = _linked("".join(written))
     if not any(isinstance(part, Title) for part in shown):
         body = _BAR + body
     told = {
@@ -142,11 +144,12 @@ def studies(sheet: Worksheet) -> str:
     return ""
 
 
-def _cell(n: int, parts: Iterable[Any], sheet: Worksheet, follower: Follower, moving: Iterable[Moved]) -> str:
-    """HTML of what a cell shows: texts of its own, and those among lines that may be shown by another cell."""
-    own = (text for line in sheet.cells[n].lines for text in _as_written(line))
-    follower.texts = (*own, *(cleandoc(constant(text)) for cell in sheet.cells for text in standing(cell.lines)))
-    follower.depends = bool(sheet.cells[n].needs)
+def _cell(
+    n: int, parts: Iterable[Any], cell: Cell, among: Iterable[str], follower: Follower, moving: Iterable[Moved]
+) -> str:
+    """HTML of what a cell shows: texts of its own, and those ``among`` lines, which another cell may show."""
+    follower.texts = (*(text for line in cell.lines for text in _as_written(line)), *among)
+    follower.depends = bool(cell.needs)
     return "".join(_part((n, k), part, follower, moving) for k, part in enumerate(parts))
 
 

@@ -142,9 +142,10 @@ def unfit(cells: Iterable[notebook.Cell], names: Mapping[str, Any]) -> Iterator[
     others = {name for cell in ran for name in cell.refs if is_of_studies(names.get(name))}
     known = registry(names, source.of_texts(tuple((cell.code, cell.filename) for cell in ran)))
     measured = {name for name, value in names.items() if isinstance(value, units.Constant) or value is units}
-    setup = _setup(ran, depending(ran, {"g", *_functions(ran)}))
+    setup = _setup(ran, notebook.depending(ran, {"g", *_functions(ran)}))
     of_setup = {name for n in setup for name in ran[n].defs}
-    computed = depending(ran, {"g", *_functions(ran), *measured, *known}) - of_setup - depending(ran, others)
+    by_inputs = notebook.depending(ran, {"g", *_functions(ran), *measured, *known})
+    computed = by_inputs - of_setup - notebook.depending(ran, others)
     common = {name: value for name, value in names.items() if name not in computed}
     recorded = tuple(runnable(n, cell, computed) for n, cell in enumerate(ran) if cell.defs & (computed - {"g"}))
     assigned = tuple(line for n in setup for line in _lines(n, ran[n]) if isinstance(line, ast.Assign | ast.AnnAssign))
@@ -167,14 +168,6 @@ def _functions(cells: Iterable[notebook.Cell]) -> set[str]:
     """Names of cells that define functions alone: in a recording they take quantities."""
     bodies = ((cell, ast.parse(cell.code).body) for cell in cells)
     return {name for cell, body in bodies if all(isinstance(s, ast.FunctionDef) for s in body) for name in cell.defs}
-
-
-def depending(cells: Iterable[notebook.Cell], names: set[str]) -> set[str]:
-    """Names that depend on some names, and these."""
-    found, cells = set(names), list(cells)
-    while more := {name for cell in cells if cell.refs & found for name in cell.defs} - found:
-        found |= more
-    return found
 
 
 def _setup(cells: Iterable[notebook.Cell], by_inputs: set[str]) -> list[int]:

@@ -48,21 +48,25 @@ def _formula(line: Formula, value: object, shown: Typeset) -> str:
         return _line(_equation(line, single), "", line.meaning, line.number, mistake=line.mistake, line=line)
     text = "" if shown.numbers is None else _substituted(line, shown.numbers, shown.position)
     namespace = shown.numbers.namespace if shown.numbers else None
-    equals = "=" if cleared(line, value, namespace) is value else r"\approx"
+    cleared = _cleared(line, value, namespace)
+    equals = "=" if cleared is value else r"\approx"
     told = line.meaning, line.number, text, line.mistake, line
-    return _line(f"{_equation(line, single)} {equals}", valued(line, value, namespace), *told)
+    return _line(f"{_equation(line, single)} {equals}", _valued(line, cleared, namespace), *told)
 
 
 def valued(line: Formula, value: object, namespace: Mapping[str, Any] | None) -> str:
     """The value of a line, of a field also where it is least and greatest, if a namespace tells over what it is one."""
-    told = cleared(line, value, namespace)
-    text = _switched(_Value(symbol.stem(line.name), line.unit, told))
-    if namespace is None or not isinstance(told, np.ndarray):
+    return _valued(line, _cleared(line, value, namespace), namespace)
+
+
+def _valued(line: Formula, cleared: Any, namespace: Mapping[str, Any] | None) -> str:
+    text = _switched(_Value(symbol.stem(line.name), line.unit, cleared))
+    if namespace is None or not isinstance(cleared, np.ndarray):
         return text
-    return text + where(told, over(line.name, namespace))
+    return text + where(cleared, over(line.name, namespace))
 
 
-def cleared(line: Formula, value: Any, namespace: Mapping[str, Any] | None) -> Any:
+def _cleared(line: Formula, value: Any, namespace: Mapping[str, Any] | None) -> Any:
     """The value itself, or 0 of one that is nothing but the rounding of what its line adds."""
     field = np.asarray(value)
     if namespace is None or field.dtype.kind not in "fc" or not 0 < np.abs(field).max(initial=0.0) < _SMALL:

@@ -2,7 +2,9 @@
 
 import ast
 from collections.abc import Iterable
+from typing import NamedTuple
 
+from mechsheet.page.notebook import depending
 from mechsheet.page.waiting import headings, short
 from mechsheet.worksheet import source
 from mechsheet.worksheet.line_edit import declares
@@ -11,20 +13,22 @@ _CAPTIONED = ("table", "figure")
 _LISTED = 5
 
 
+class _Line(NamedTuple):
+    code: ast.stmt
+    refs: set[str]
+    defs: set[str]
+
+
 def needing(text: str, gone: Iterable[str]) -> str:
     """Sections, tables and figures of a worksheet that need names, ``g.NAME`` of an input; nothing where none does."""
-    cells = [node.body for node in source.functions(ast.parse(text))]
-    lines = [line for body in cells for line in body if not isinstance(line, ast.Return)]
-    read = {line: _read(line) for line in lines}
-    lost, before = set(gone), 0
-    while before < len(lost):
-        before = len(lost)
-        lost |= {name for line in lines if read[line] & lost for name in declares(line)}
+    statements = (line for node in source.functions(ast.parse(text)) for line in node.body)
+    lines = [_Line(line, _read(line), declares(line)) for line in statements if not isinstance(line, ast.Return)]
+    lost = depending(lines, gone)
     section, sections, others = "", dict[str, None](), dict[str, None]()
     for line in lines:
-        section = [section, *headings([line])][-1]
-        if read[line] & lost:
-            shown = [caption for node in source.nodes(line) for caption in _captions(node)]
+        section = [section, *headings([line.code])][-1]
+        if line.refs & lost:
+            shown = [caption for node in source.nodes(line.code) for caption in _captions(node)]
             others |= dict.fromkeys(shown)
             sections |= dict.fromkeys([] if shown or not section else [short(section)])
     *first, last = [*([f"section {', '.join(_some(sections))}"] if sections else []), *_some(others)] or [""]

@@ -3,10 +3,10 @@
 A version of marimo that keeps them otherwise makes `running` raise `Unlike`, and nothing else rests on them.
 """
 
-from collections.abc import AsyncIterator, Callable, Mapping
+from collections.abc import AsyncIterator, Callable, Iterable, Mapping, Set
 from contextlib import asynccontextmanager, suppress
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Protocol
 
 import marimo as mo
 
@@ -29,6 +29,24 @@ class Cell:
     status: str | None
     exception: object
     busy: bool
+
+
+class Reading(Protocol):
+    """What reads names and defines others: a cell, or a line of one."""
+
+    @property
+    def refs(self) -> Set[str]: ...
+
+    @property
+    def defs(self) -> Set[str]: ...
+
+
+def depending(parts: Iterable[Reading], names: Iterable[str]) -> set[str]:
+    """Names that depend on some names, and these."""
+    found, parts = set(names), list(parts)
+    while more := {name for part in parts if part.refs & found for name in part.defs} - found:
+        found |= more
+    return found
 
 
 def running() -> tuple[Callable[[], tuple[Cell, ...]], dict[str, Any]]:

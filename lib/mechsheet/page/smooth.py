@@ -64,7 +64,7 @@ def _run(
     """Namespace with the curves of a figure at other positions; None where one of them does not depend on these."""
     across, wanted = figure.x.want, {base(line.want) for line in figure.lines}
     cells = tuple(map(partial(_without, name=across), cells))
-    computed = editor.depending(cells, {across}) - {across}
+    computed = notebook.depending(cells, {across}) - {across}
     if not wanted <= computed:
         return None
     again = [cell for cell in cells if cell.defs & computed]

@@ -5,7 +5,7 @@ import re
 from collections.abc import Iterable, Mapping, Sequence
 
 from mechsheet.page.headings import heading
-from mechsheet.page.notebook import Cell
+from mechsheet.page.notebook import Cell, depending
 from mechsheet.worksheet import source
 
 _HEADING = re.compile(r"^\s*#{2,6} +(\S.*?)\s*$", re.MULTILINE)
@@ -18,10 +18,7 @@ def waiting(file: Sequence[source.Cell], cells: Sequence[Cell], stopped: str) ->
     of the stopped cell itself has the reason in it.
     """
     own = frozenset[str]().union(*(cell.defs for cell in cells if cell.cell_id == stopped))
-    lost, before = set(own), 0
-    while before < len(lost):
-        before = len(lost)
-        lost |= {name for cell in cells if cell.refs & lost for name in cell.defs}
+    lost = depending(cells, own)
     last, at, places = "", "", dict[str, None]()
     for cell in file:
         nodes = [node for statement in cell.body for node in source.nodes(statement)]
