@@ -11,8 +11,22 @@ from random_groups import FAMILIES, numbers, triangles, vectors
 from mechsheet.accuracy import arithmetic as exact
 from mechsheet.accuracy.arithmetic import EPS
 from mechsheet.mechanics.planar import cross
-from mechsheet.mechanics.prp import prp, prp_acceleration, prp_condition, prp_transmission_angle, prp_velocity
-from mechsheet.mechanics.rpp import rpp, rpp_acceleration, rpp_condition, rpp_transmission_angle, rpp_velocity
+from mechsheet.mechanics.prp import (
+    PRPGroup,
+    prp,
+    prp_acceleration,
+    prp_condition,
+    prp_transmission_angle,
+    prp_velocity,
+)
+from mechsheet.mechanics.rpp import (
+    RPPGroup,
+    rpp,
+    rpp_acceleration,
+    rpp_condition,
+    rpp_transmission_angle,
+    rpp_velocity,
+)
 
 families = pytest.mark.parametrize("family", FAMILIES)
 ROUNDINGS = 8  # as in test_dyads
@@ -31,6 +45,20 @@ def test_position_loses_the_digits_of_its_condition_number_only(family: str, gro
     u_A, u_B = C - A, C - B
     true = exact.floats(exact.lines(*x) for x in exact.exact(A, B, u_A, u_B))
     within(group(A, B, u_A, u_B), true, condition(u_A, u_B) * (np.abs(A) + np.abs(B)))
+
+
+@pytest.mark.parametrize("kind", [PRPGroup, RPPGroup])
+def test_two_lines_close_however_far_one_is_displaced_unless_they_are_parallel(kind: Any) -> None:
+    _, A, B, C = triangles("ordinary")
+    u_A, u_B = C - A, np.where(np.arange(A.size) % 2, C - B, A - C)  # every other pair is parallel
+    closes = np.arange(A.size) % 2 == 1
+    group = kind(A, B, u_A, u_B)
+    least, greatest = group.reach
+    assert np.array_equal(greatest == np.inf, closes) and np.array_equal(least == -np.inf, closes)
+    assert np.array_equal(np.isnan(greatest), ~closes) and np.array_equal(np.isnan(least), ~closes)
+    for offset in (0, *np.logspace(-6, 100, 5), *-np.logspace(-6, 100, 5)):
+        for moved in (kind(A + 1j * u_A * offset, B, u_A, u_B), kind(A, B + 1j * u_B * offset, u_A, u_B)):
+            assert np.array_equal(np.isfinite(moved.C), closes)
 
 
 @families

@@ -93,6 +93,13 @@ def rpr_reach(A, B):
     return {"least": -abs(A - B), "greatest": abs(A - B)}
 
 
+def prp_reach(A, B, u_A, u_B):
+    return {"least": -mp.inf, "greatest": mp.inf, "exists": prp_sine(u_A, u_B)}
+
+
+rpp_reach = prp_reach
+
+
 def crank(O1, r, phi):
     return {"": O1 + r * mp.expj(phi)}
 

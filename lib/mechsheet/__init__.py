@@ -31,9 +31,9 @@ Mechanics: numpy arrays in, numpy arrays out
                     rrp_determinant, rrp_reactions, RRPGroup
     group RPR       rpr, rpr_reach, rpr_velocity, rpr_acceleration, rpr_transmission_angle, rpr_condition,
                     rpr_determinant, rpr_reactions, RPRGroup
-    group PRP       prp, prp_velocity, prp_acceleration, prp_transmission_angle, prp_condition,
+    group PRP       prp, prp_reach, prp_velocity, prp_acceleration, prp_transmission_angle, prp_condition,
                     prp_determinant, prp_reactions, PRPGroup
-    group RPP       rpp, rpp_velocity, rpp_acceleration, rpp_transmission_angle, rpp_condition,
+    group RPP       rpp, rpp_reach, rpp_velocity, rpp_acceleration, rpp_transmission_angle, rpp_condition,
                     rpp_determinant, rpp_reactions, RPPGroup
     loads, drives   Load, inertia, coupling_drive, gear_drive, cylinder_drive
     equilibrium     PinReaction, SlideReaction, DriveMoment, left_over, solve_reactions, magnitudes

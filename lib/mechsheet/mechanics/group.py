@@ -61,10 +61,16 @@ ROUNDINGS = 8 * 2.0**-53  # a determinant that eight roundings make zero has no 
 
 
 class Reach(NamedTuple):
-    """Interval of a length in which a group closes, its ends included; NaN where there is none."""
+    """Interval of a length in which a group closes, ends included: infinite without an end, NaN if it never does."""
 
     least: Float  # [m]
     greatest: Float  # [m]
+
+
+def endless(known: Complex | Float) -> Reach:
+    """Every length, where what does not depend on it is ``known``; NaN where that is."""
+    end = np.where(np.isnan(known), np.nan, np.inf)[()]
+    return Reach(-end, end)
 
 
 def solve(a: Complex, b: Complex, w: Complex, D: Float) -> tuple[Float, Float]:

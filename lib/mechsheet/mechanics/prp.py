@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mechsheet.mechanics.arguments import Complex, Float, elementwise, field, scalar_field, unit
-from mechsheet.mechanics.group import condition, crossing, determinant, solve
+from mechsheet.mechanics.group import Reach, condition, crossing, determinant, endless, solve
 from mechsheet.mechanics.load import Load, lever, resultant
 from mechsheet.mechanics.planar import angle_between, cross
 
@@ -82,6 +82,33 @@ def prp(A: ArrayLike, B: ArrayLike, u_A: ArrayLike, u_B: ArrayLike) -> Complex:
     """
     u_A, u_B, D = _guides(u_A, u_B)
     return crossing(field(A, "A"), field(B, "B"), u_A, u_B, D)
+
+
+@elementwise
+def prp_reach(A: ArrayLike, B: ArrayLike, u_A: ArrayLike, u_B: ArrayLike) -> Reach:
+    """Interval of the offset of a guide, square to itself, for which the sliders have a common pin: without ends.
+
+    Parameters
+    ----------
+    A, B, u_A, u_B
+        As in `prp`.
+
+    Returns
+    -------
+    Reach
+        Minus infinity and infinity, shape (...); NaN where the guides are parallel, for they have no pin then.
+
+    Raises
+    ------
+    ValueError
+        As in `prp`.
+
+    Examples
+    --------
+    >>> prp_reach(0, 1 + 2j, 1, [1 + 1j, 2])
+    Reach(least=array([-inf,  nan]), greatest=array([inf, nan]))
+    """
+    return endless(prp(A, B, u_A, u_B))
 
 
 @elementwise
@@ -310,6 +337,11 @@ class PRPGroup:
     def BC(self) -> Complex:
         """Vector from the guide's point B to the pin [m]."""
         return np.subtract(self.C, self.B)
+
+    @property
+    def reach(self) -> Reach:
+        """Interval of the offset of a guide in which the group closes: without ends (`prp_reach`)."""
+        return prp_reach(self.A, self.B, self.u_A, self.u_B)
 
     @property
     def determinant(self) -> Float:

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mechsheet.mechanics.arguments import Complex, Float, elementwise, field, scalar_field, unit
-from mechsheet.mechanics.group import condition, crossing, determinant, solve
+from mechsheet.mechanics.group import Reach, condition, crossing, determinant, endless, solve
 from mechsheet.mechanics.load import Load, lever, resultant
 from mechsheet.mechanics.planar import angle_between, cross
 
@@ -87,6 +87,33 @@ def rpp(A: ArrayLike, B: ArrayLike, u_A: ArrayLike, u_B: ArrayLike) -> Complex:
     """
     u_A, u_B, D = _directions(u_A, u_B)
     return crossing(field(A, "A"), field(B, "B"), u_A, u_B, D)
+
+
+@elementwise
+def rpp_reach(A: ArrayLike, B: ArrayLike, u_A: ArrayLike, u_B: ArrayLike) -> Reach:
+    """Interval of the offset of slot or guide, square to itself, for which the slider has a place: without ends.
+
+    Parameters
+    ----------
+    A, B, u_A, u_B
+        As in `rpp`.
+
+    Returns
+    -------
+    Reach
+        Minus infinity and infinity, shape (...); NaN where slot and guide are parallel, for it has no place then.
+
+    Raises
+    ------
+    ValueError
+        As in `rpp`.
+
+    Examples
+    --------
+    >>> rpp_reach(0.3 + 0.4j, 0, [1j, 2], 1)
+    Reach(least=array([-inf,  nan]), greatest=array([inf, nan]))
+    """
+    return endless(rpp(A, B, u_A, u_B))
 
 
 @elementwise
@@ -314,6 +341,11 @@ class RPPGroup:
     def BC(self) -> Complex:
         """Vector from the guide's point to the slider's [m]."""
         return np.subtract(self.C, self.B)
+
+    @property
+    def reach(self) -> Reach:
+        """Interval of the offset of slot or guide in which the group closes: without ends (`rpp_reach`)."""
+        return rpp_reach(self.A, self.B, self.u_A, self.u_B)
 
     @property
     def determinant(self) -> Float:

@@ -20,7 +20,7 @@ from mechsheet.mechanics.arguments import (
     sign,
     unit,
 )
-from mechsheet.mechanics.group import Reach, carried, condition, determinant, moved, slid
+from mechsheet.mechanics.group import Reach, carried, condition, determinant, endless, moved, slid
 from mechsheet.mechanics.load import Load, lever, resultant
 from mechsheet.mechanics.planar import angle_between, cross, dot, product
 
@@ -132,7 +132,7 @@ def rrp_reach(A: ArrayLike, B: ArrayLike, u: ArrayLike, offset: ArrayLike = 0.0)
     Reach(least=np.float64(2.0), greatest=np.float64(inf))
     """
     h = cross(unit(u, "u"), field(A, "A") - field(B, "B")) - parameter(offset, "offset", "m")
-    return Reach(np.abs(h), np.where(np.isnan(h), np.nan, np.inf)[()])
+    return Reach(np.abs(h), endless(h).greatest)
 
 
 @elementwise

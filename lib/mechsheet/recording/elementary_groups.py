@@ -208,6 +208,10 @@ def prp(A: Quantity, B: Quantity, u_A: Quantity, u_B: Quantity) -> Quantity:
     return whole(A + along_A * u_A, u_A, along_A)
 
 
+def prp_reach(A: Quantity, B: Quantity, u_A: Quantity, u_B: Quantity) -> Reach:
+    return Reach(np.asarray(-np.inf), np.asarray(np.inf))
+
+
 def prp_velocity(
     A: Quantity,
     B: Quantity,
@@ -294,7 +298,7 @@ def rpp_acceleration(
     return RPPAcceleration(a_B + turning * (C - B) + coriolis_B + dds_B * u_B, dds_A, dds_B)
 
 
-rpp, rpp_determinant = prp, prp_determinant  # the same lines, seen from another body
+rpp, rpp_reach, rpp_determinant = prp, prp_reach, prp_determinant  # the same lines, seen from another body
 rpp_transmission_angle, rpp_condition = prp_transmission_angle, prp_condition
 
 
