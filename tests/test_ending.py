@@ -4,16 +4,21 @@ from __future__ import annotations
 
 import os
 import re
+import shlex
 import signal
 import subprocess
 import sys
 from collections.abc import Callable
 from pathlib import Path
+from types import ModuleType
+from unittest.mock import MagicMock
 
 import pytest
 
 from mechsheet import __main__ as launcher
 from mechsheet.recording.evaluation import evaluate
+from mechsheet.run import batch, compare, html, index, rename, script
+from mechsheet.studies import asked_design
 from mechsheet.worksheet.errors import SheetError
 
 TEMPLATE = (Path(launcher.__file__).parent / "run" / "new_worksheet.txt").read_text(encoding="utf-8")
@@ -55,6 +60,91 @@ def lever(tmp_path: Path) -> Callable[..., Path]:
 def ends(command: list[str | Path], says: str, code: int = 1) -> None:
     done = subprocess.run(command, capture_output=True, encoding="utf-8")
     assert done.stderr.rstrip("\n") == says and done.returncode == code, done.stderr
+
+
+@pytest.mark.parametrize(
+    ("program", "given", "says", "code"),
+    [
+        (script, "--FF=5", "input FF is unknown; nearest: F", 2),
+        (script, "--F=much", "F = 'much' N is no number", 2),
+        (script, "'--F=5 apples'", "F = '5 apples': ", 2),
+        (script, "--fast", "argument '--fast' must be --NAME=VALUE", 2),
+        (script, "--proof=99", "must be a number of digits, 1..15", 2),
+        (script, "--scene=none.toml", "scene none.toml cannot be read", 2),
+        (script, "--scene=odd.toml", "input FF is unknown; nearest: F", 2),
+        (script, "--scene=limited.toml", "odd is declared by no line with its unit", 2),
+        (script, "--want=M_SS", "M_SS is defined by no cell of", 2),
+        (script, "--want=M", "M is a function of phi", 2),
+        (script, "'--want=no check'", "no check is named 'no check'", 2),
+        (script, "--F=-5", "F = -5.0 N must be >= 0", 1),
+        (script, "--scene=small.toml", "F = -5.0 N must be >= 0", 1),
+        (script, "--out=odd.toml", "folder odd.toml cannot be made", 1),
+        (batch, "--jobs=0 small.toml", "jobs = 0 must be a number of processes", 2),
+        (batch, "--fast small.toml", "argument '--fast' must be --NAME=VALUE", 2),
+        (batch, "small.toml small.toml", "scene small.toml has the name of small.toml", 2),
+        (html, "--want=M_S", "a page in one file holds the whole worksheet", 2),
+        (html, "--FF=5", "input FF is unknown; nearest: F", 2),
+        (html, "--F=-5", "F = -5.0 N must be >= 0", 1),
+        (index, "(1.26)", "argument '(1.26)': index takes a worksheet and nothing else", 2),
+        (rename, "F", "rename takes a worksheet, a symbol and its new name", 2),
+        (rename, "FF G", "'FF' is no symbol of lever.py; nearest: F", 2),
+        (compare, "small.toml", "compare takes a worksheet, two states and --markdown", 2),
+        (compare, "none.toml none.toml", "scene none.toml cannot be read", 2),
+        (asked_design, "--vary=F=1..2", "design takes one --best=", 2),
+        (asked_design, "'--need=max sigma <= 9'", "nothing is varied", 2),
+        (asked_design, "--vary=F=2..1 --need='max sigma <= 9'", "must be in order", 2),
+        (asked_design, "--vary=FF=1..2 --need='max sigma <= 9'", "input FF is unknown; nearest: F", 2),
+        (asked_design, "--vary=F=1..2 --need='max sigmas <= 9'", "sigmas is defined by no cell of", 2),
+        (asked_design, "--vary=F=1..2 --need='M_S = 9'", "M_S has 7 positions: min or max M_S", 2),
+        (asked_design, "--vary=F=1..2 --need='max sigma <= much'", "= 'much' MPa is no number", 2),
+        (asked_design, "--vary=F=1..2 --need='max sigma = 1'", "is outside", 1),
+    ],
+    ids=lambda x: x.__name__.rpartition(".")[2] if hasattr(x, "__name__") else str(x),
+)
+def test_what_is_given_and_cannot_be_used_ends_in_2_and_what_the_worksheet_refuses_in_1(
+    program: ModuleType,
+    given: str,
+    says: str,
+    code: int,
+    lever: Callable[..., Path],
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    scenes = {"odd": "[inputs]\nFF = 5", "small": "[inputs]\nF = -5", "limited": "[limits]\nodd = {max = 1}"}
+    path = lever()
+    monkeypatch.chdir(path.parent)
+    for name, text in scenes.items():
+        Path(f"{name}.toml").write_text(text, encoding="utf-8")
+    monkeypatch.setattr(sys, "argv", ["mechsheet", str(path), *shlex.split(given)])
+    monkeypatch.setattr(sys, "excepthook", sys.excepthook)
+    monkeypatch.setattr(script, "gc", MagicMock())  # the process goes on
+    with pytest.raises(SystemExit) as end:
+        try:
+            program.main()
+        except Exception as error:  # as Python ends then
+            sys.excepthook(type(error), error, None)
+    told = capsys.readouterr()
+    assert end.value.code == code and says in told.err and told.err.count("\n") == 1, told
+    assert not list(path.parent.glob("*.xlsx"))
+
+
+@pytest.mark.parametrize("start", [[sys.executable], LAUNCHED], ids=["python", "launcher"])
+def test_every_way_to_start_ends_in_the_same_code(start: list[str], lever: Callable[..., Path]) -> None:
+    path = lever()
+    ends([*start, path, "--FF=5"], "error: input FF is unknown; nearest: F", 2)
+
+
+def test_scenes_that_cannot_be_used_end_in_2_when_the_others_are_computed(
+    lever: Callable[..., Path], capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = lever()
+    monkeypatch.chdir(path.parent)
+    texts = {"good": "F = 1000", "odd": "FF = 5", "small": "F = -5"}
+    for name, text in texts.items():
+        Path(f"{name}.toml").write_text(f"[inputs]\n{text}", encoding="utf-8")
+    for names, code in (("good", 0), ("good small", 1), ("good odd", 2), ("good small odd", 2), ("good gone", 2)):
+        assert batch.run(str(path), [f"{name}.toml" for name in names.split()]) == code, names
+        assert f"1 of {len(names.split())} scenes pass" in capsys.readouterr().out
 
 
 @pytest.mark.parametrize("start", [[sys.executable], LAUNCHED], ids=["python", "launcher"])

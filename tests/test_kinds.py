@@ -267,7 +267,7 @@ def test_arguments_give_every_kind_and_bad_ones_one_line(bolt: Path) -> None:
     found = script(bolt, "--grade=12.9", "--threaded=no", "--project=Hall", "--out=.")
     assert found.returncode == 0, found.stderr
     wrong = script(bolt, "--grade=5.6")
-    assert wrong.returncode == 1
+    assert wrong.returncode == 2
     assert wrong.stderr.strip() == "error: grade of the bolt grade = '5.6' must be one of 8.8, 10.9, 12.9"
 
 

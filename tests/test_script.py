@@ -50,30 +50,31 @@ def test_wanted_results_are_printed_with_their_units_and_nothing_else_is_compute
 
 
 @pytest.mark.parametrize(
-    ("argument", "message"),
+    ("argument", "message", "code"),
     [
-        ("--L5=-0.48", "error: lower link, to the lifting rod L5 = -0.48 m must be positive"),
-        ("--S_min=0.7", "error: least length of the cylinder S_min = 0.7 m must be < S_max = 0.67"),
-        ("--L55=1", "error: input L55 is unknown; nearest: L5, L56"),
-        ("--P6=heavy", "error: weight of the implement P6 = 'heavy' N is no number"),
-        ("--P6", "error: argument '--P6' must be --NAME=VALUE"),
-        ("--N_pol=1", "error: number of positions N_pol = 1 must be >= 2"),
-        ("--scene=none.toml", "error: scene none.toml cannot be read"),
-        ("--S_max=0.9", "error: group (2, 3) closes: no position closes for cylinder S = 0.7"),
-        ("--L3=2", "error: no position closes for cylinder S = 0.42 m: it reaches 1.42"),
-        ("--k_gc=1e70", "error: number of cylinders k_gc = "),
-        ("--want=GS66", "error: GS66 is defined by no cell of"),
-        ("--want=F_T0,no check", "error: no check is named 'F_T0,no check'"),
-        ("--out=", "error: argument '--out=' must be --NAME=VALUE"),
-        ("--Y56_min=-2", "error: lifting rod L4"),
-        ("--Y_P56=3", "error: working stroke S_p"),
-        ("--phi_P6=1", "error: group (6, 7) closes: no position closes for distance O7 P56 = "),
+        ("--L5=-0.48", "error: lower link, to the lifting rod L5 = -0.48 m must be positive", 1),
+        ("--S_min=0.7", "error: least length of the cylinder S_min = 0.7 m must be < S_max = 0.67", 1),
+        ("--L55=1", "error: input L55 is unknown; nearest: L5, L56", 2),
+        ("--P6=heavy", "error: weight of the implement P6 = 'heavy' N is no number", 2),
+        ("--P6", "error: argument '--P6' must be --NAME=VALUE", 2),
+        ("--N_pol=1", "error: number of positions N_pol = 1 must be >= 2", 1),
+        ("--scene=none.toml", "error: scene none.toml cannot be read", 2),
+        ("--S_max=0.9", "error: group (2, 3) closes: no position closes for cylinder S = 0.7", 1),
+        ("--L3=2", "error: no position closes for cylinder S = 0.42 m: it reaches 1.42", 1),
+        ("--k_gc=1e70", "error: number of cylinders k_gc = ", 1),
+        ("--want=GS66", "error: GS66 is defined by no cell of", 2),
+        ("--want=F_T0,no check", "error: no check is named 'F_T0,no check'", 2),
+        ("--out=", "error: argument '--out=' must be --NAME=VALUE", 2),
+        ("--Y56_min=-2", "error: lifting rod L4", 1),
+        ("--Y_P56=3", "error: working stroke S_p", 1),
+        ("--phi_P6=1", "error: group (6, 7) closes: no position closes for distance O7 P56 = ", 1),
     ],
 )
-def test_bad_input_is_one_line_and_touches_no_file(tmp_path, argument, message, capfd):
+def test_bad_input_is_one_line_and_touches_no_file(tmp_path, argument, message, code, capfd):
+    """What is given cannot be used, which is 2; or the worksheet refuses the value or does not close with it."""
     old = tmp_path / "hitch.xlsx"
     old.write_bytes(b"old")
-    assert main(["run", "hitch", f"--out={tmp_path}", argument]) == 1
+    assert main(["run", "hitch", f"--out={tmp_path}", argument]) == code
     told = capfd.readouterr().err
     assert told.startswith(message)
     assert told.count("\n") == 1

@@ -279,7 +279,7 @@ def test_script_writes_the_workbook(tmp_path):
 def test_bad_input_is_one_line_and_writes_nothing(tmp_path):
     done = script("--omega1=fast", f"--out={tmp_path}")
     message = "error: angular velocity of the crank, negative clockwise omega1 = 'fast' rad/s is no number\n"
-    assert (done.returncode, done.stderr, list(tmp_path.iterdir())) == (1, message, [])
+    assert (done.returncode, done.stderr, list(tmp_path.iterdir())) == (2, message, [])
 
 
 @pytest.mark.parametrize(

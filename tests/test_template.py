@@ -95,12 +95,14 @@ def test_the_style_comes_without_a_style_sheet_and_the_curve_is_smooth(lever, se
         (["a", "--like=buckt"], "no worksheet buckt: did you mean bucket"),
     ],
 )
-def test_refuses_in_one_line(tmp_path, monkeypatch, options, says):
+def test_refuses_in_one_line(tmp_path, monkeypatch, capsys, options, says):
     (tmp_path / "worksheets").mkdir()
     (tmp_path / "worksheets" / "taken.py").write_text("mine", encoding="utf-8")
     monkeypatch.setattr(launcher, "folders", lambda: [EXAMPLES])
     monkeypatch.setattr(launcher, "ROOT", tmp_path)
-    with pytest.raises(SystemExit, match=says):
+    with pytest.raises(SystemExit, match=r"^2$"):
         launcher.main(["new", *options])
+    told = capsys.readouterr().err
+    assert says in told and told.count("\n") == 1
     assert (tmp_path / "worksheets" / "taken.py").read_text(encoding="utf-8") == "mine"
     assert len(list((tmp_path / "worksheets").iterdir())) == 1

@@ -266,7 +266,8 @@ def section_8():
         python lib/mechsheet run guide --F=40 --r="55 mm"
 
     computes it with other inputs, prints what was found and every check, writes the workbook, and ends with exit code 0
-    only if all checks pass. Put a set of inputs in a file, `stiff.toml`, and it is a scene:
+    only if all checks pass: with 1 where one does not or an input is outside its limits, with 2 where what is given is
+    not understood. Put a set of inputs in a file, `stiff.toml`, and it is a scene:
 
         [inputs]
         F = 40        # kN, the unit of the field

@@ -48,7 +48,7 @@ usage: mechsheet COMMAND              where the package is installed
   index NAME                          where the worksheet has the formulas, tables and figures of its document
       such as                         index kinetostatics
   compare NAME OLD NEW [--markdown]   what changed from one scene, workbook, revision of git or worksheet's file to
-                                      another; exit code 1 where something did
+                                      another
       such as                         compare hitch HEAD worksheets/hitch.py
   rename NAME OLD NEW                 rename a symbol in the worksheet, its comments and texts, and in its scenes
       such as                         rename hitch F_gc F_c
@@ -56,11 +56,15 @@ usage: mechsheet COMMAND              where the package is installed
       such as                         test -k hitch
 
 NAME is a file, or the name of a worksheet in the current folder, in worksheets/ or in worksheets/examples/.
+
+Exit code: 0 where every check passes; 1 where one does not, or the worksheet refuses a value or does not run; 2 where
+what is given on the command line or in a scene cannot be used; 130 after Ctrl-C. Of compare 0 where nothing changed, 1
+where something did, and 2 where that cannot be told.
 """
 
 
 def main(argv: "list[str] | None" = None) -> int:
-    """Exit code of one command; every error of usage or installation ends in one line on stderr."""
+    """Exit code of one command; an error of usage ends in one line on stderr and 2, one of installation in 1."""
     if sys.version_info < MINIMUM:
         needed, found = (".".join(map(str, version[:2])) for version in (MINIMUM, sys.version_info))
         sys.exit(f"mechsheet: Python {needed} or newer is needed, this is Python {found} ({sys.executable})")
@@ -68,13 +72,13 @@ def main(argv: "list[str] | None" = None) -> int:
     own = command not in ("edit", "serve", "test")  # what marimo and pytest take, they tell themselves
     if command in ("", "-h", "--help") or (own and options[:1] in (["-h"], ["--help"])):
         say(contents() + HELP)
-        return 0 if command else 1
+        return 0 if command else 2
     if command in ("edit", "serve"):
         name, *options = options if options and not options[0].startswith("-") else ["", *options]
         return page(command, [known(name)] if name else [], options)
     if command in ("run", "html", "design", "index", "compare", "rename"):
         if not options:
-            sys.exit(f"mechsheet: {command} needs a worksheet: {known_worksheets()}")
+            raise refused(f"{command} needs a worksheet: {known_worksheets()}")
         name, *options = options
         sheet = known(name)
         if command in ("html", "index", "compare", "rename"):
@@ -87,19 +91,25 @@ def main(argv: "list[str] | None" = None) -> int:
         like = [option.partition("=")[2] for option in options if option.startswith("--like=")]
         names = [option for option in options if not option.startswith("-")]
         if len(names) != 1 or len(like) > 1 or len(options) > len(names) + len(like):
-            sys.exit("mechsheet: new needs the name of the worksheet, such as lever, and takes --like=EXAMPLE")
+            raise refused("new needs the name of the worksheet, such as lever, and takes --like=EXAMPLE")
         return new(names[0], *like)
     if command == "test":
         if not (ROOT / "tests").is_dir():
-            sys.exit(f"mechsheet: the tests are in a clone of the project, not beside {Path(__file__).parent}")
+            raise refused(f"the tests are in a clone of the project, not beside {Path(__file__).parent}")
         # One more than there are processors: some wait for a browser. An option that is given again is the last word.
         usual = [f"-n={(os.cpu_count() or 1) + 1}", "--dist=worksteal", "--durations=10"]
         return call([interpreter("dev"), "-m", "pytest", *usual, *options], cwd=ROOT)
     if worksheet(command).endswith(".py"):
-        sys.exit(f"mechsheet: {command} is a worksheet: run {command} computes it, edit {command} opens it")
+        raise refused(f"{command} is a worksheet: run {command} computes it, edit {command} opens it")
     meant = nearest(command, [*COMMANDS, *("run " + name for name in worksheets())])
     there = f"there are {', '.join(COMMANDS[:-1])} and {COMMANDS[-1]}, and --help tells more"
-    sys.exit(f"mechsheet: command {command} is not known: {meant}{there}")
+    raise refused(f"command {command} is not known: {meant}{there}")
+
+
+def refused(why: str) -> SystemExit:
+    """The end of a command line that cannot be carried out."""
+    print(f"mechsheet: {why}", file=sys.stderr)
+    return SystemExit(2)
 
 
 def nearest(given: str, known: "list[str]") -> str:
@@ -118,7 +128,7 @@ def page(command: str, sheets: "list[str]", options: "list[str]") -> int:
     if not sheets:
         groups = [(title, paths) for title, paths in grouped().items() if paths]
         if not groups:
-            sys.exit(f"mechsheet: {command} without a name shows all worksheets, and there is none: new begins one")
+            raise refused(f"{command} without a name shows all worksheets, and there is none: new begins one")
         settings["MECHSHEET_START"] = json.dumps(groups)
         sheets = [path for _, paths in groups for path in paths]
         if command == "edit":  # marimo edits one file, or what it is asked for in a folder
@@ -166,7 +176,7 @@ def known(name: str) -> str:
     """Path of the worksheet of that name; without one the command ends."""
     sheet = worksheet(name)
     if not sheet:
-        sys.exit(f"mechsheet: no worksheet {name}: {nearest(name, list(worksheets()))}{known_worksheets()}")
+        raise refused(f"no worksheet {name}: {nearest(name, list(worksheets()))}{known_worksheets()}")
     return sheet
 
 
@@ -205,11 +215,11 @@ def new(name: str, like: str = "") -> int:
     import shutil  # on use: to compute a worksheet is what nearly every call is for
 
     if not re.match(r"[A-Za-z]\w*$", name):
-        sys.exit(f"mechsheet: name of the worksheet = {name!r} must be a letter, then letters, digits or _")
+        raise refused(f"name of the worksheet = {name!r} must be a letter, then letters, digits or _")
     folder = ROOT / "worksheets" if (ROOT / "worksheets").is_dir() else Path.cwd()
     path, here = folder / f"{name}.py", Path(__file__).resolve().parent
     if path.exists():
-        sys.exit(f"mechsheet: {path} is there already")
+        raise refused(f"{path} is there already")
     title = name.replace("_", " ").capitalize()
     if like:
         source = Path(known(like))

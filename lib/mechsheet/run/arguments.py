@@ -2,7 +2,8 @@
 
 import os
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
 
@@ -10,9 +11,23 @@ from mechsheet.worksheet import scene as scenes
 from mechsheet.worksheet.cells import base
 from mechsheet.worksheet.data_file import ENDINGS
 from mechsheet.worksheet.errors import SheetError, as_given
+from mechsheet.worksheet.inputs import known
 from mechsheet.worksheet.kinds import Input
 from mechsheet.worksheet.lists import Rows
 from mechsheet.worksheet.scene import Scene
+
+
+class UsageError(SheetError):
+    """What is given cannot be used, whatever the worksheet computes: not understood, or no such name."""
+
+
+@contextmanager
+def usage() -> Iterator[None]:
+    """Errors within are of what is given."""
+    try:
+        yield
+    except SheetError as error:
+        raise UsageError(str(error), error.of) from None
 
 
 def is_script(worksheet: str) -> bool:
@@ -26,12 +41,15 @@ def is_script(worksheet: str) -> bool:
     return not mo.running_in_notebook()  # an export to HTML runs in the name of the worksheet too
 
 
+@usage()
 def read(arguments: Sequence[str], declared: Sequence[Input]) -> Scene:
     """Scene from ``--scene=FILE``, ``--out=FOLDER``, ``--want=NAMES``, ``--NAME=VALUE``; the later holds.
 
     ``--tolerances`` stands alone, and ``--proof`` too or as ``--proof=DIGITS``.
 
     Wanted are names with commas between them, or one check by its own; those of all ``--want`` together.
+
+    Raises UsageError for anything else, and for inputs that are not known or cannot be read.
     """
     scene, wanted = Scene(), list[str]()
     for argument in arguments:
@@ -56,6 +74,9 @@ def read(arguments: Sequence[str], declared: Sequence[Input]) -> Scene:
             wanted += names if all(base(part).isidentifier() for part in names) else [value]
         else:
             scene = replace(scene, inputs={**scene.inputs, name: value})
+    fields = {field.name: field for field in declared}
+    for name, text in scene.inputs.items():
+        known(fields, name).read(text)
     return replace(scene, want=tuple(dict.fromkeys(wanted)) or scene.want)
 
 

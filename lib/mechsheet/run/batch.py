@@ -16,8 +16,8 @@ import numpy as np
 from mechsheet.document import parts
 from mechsheet.recording.record import record
 from mechsheet.run import banding, report
-from mechsheet.run.arguments import read
-from mechsheet.run.ending import INTERRUPTED, say, watch
+from mechsheet.run.arguments import UsageError, read, usage
+from mechsheet.run.ending import INTERRUPTED, MISUSED, say, watch
 from mechsheet.run.progress import progress
 from mechsheet.run.proving import proof_of, proof_of_wanted
 from mechsheet.workbook import writing
@@ -39,7 +39,7 @@ _GAP = 2  # characters between columns
 class Outcome:
     """What became of a scene: its inputs, how their texts were read, results, checks, proof and bands, or the error.
 
-    ``unsolved`` tells of each solve block without a value why it has none.
+    ``misused`` tells that the error is of what is given; ``unsolved`` why solve blocks without a value have none.
     """
 
     name: str
@@ -49,6 +49,7 @@ class Outcome:
     checks: tuple[Check, ...] = ()
     readings: tuple[str, ...] = ()
     error: str = ""
+    misused: bool = False
     proof: tuple[str, ...] = ()
     bands: tuple[str, ...] = ()
     unsolved: tuple[str, ...] = ()
@@ -70,12 +71,15 @@ def compute(sheet: Worksheet, name: str, given: Scene) -> tuple[Outcome, dict[st
 
     Without wanted results the whole worksheet is needed, and its found values are the results.
 
-    Raises SheetError where an input, a name or the mechanism cannot be used.
+    Raises UsageError for a name that is not known, SheetError where an input or the mechanism cannot be used.
     """
     g: Any = inputs.build(sheet.inputs, given.inputs)
+    with usage():
+        sheet.needed([*given.want, *given.limits], {"g": g})
     names = sheet.run([*(given.want or sheet.results), *given.limits], {"g": g})
     held = checks(names) if given.want else [value for value in parts.values(names) if isinstance(value, Check)]
-    judged = results.limited(held, given.limits, names)
+    with usage():
+        judged = results.limited(held, given.limits, names)
     refuse_open(judged)
     quantities, tables = dict[str, Displayed](), list[Table]()
     found = (row.symbol for row in report.solved(names))
@@ -84,7 +88,8 @@ def compute(sheet: Worksheet, name: str, given: Scene) -> tuple[Outcome, dict[st
         if isinstance(what, Table):
             tables.append(what)
         elif base(want).isidentifier() and not _is_check(what):
-            quantities |= {quantity.name: quantity for quantity in results.quantities(want, names)}
+            with usage():
+                quantities |= {quantity.name: quantity for quantity in results.quantities(want, names)}
     told, proved = inputs.readings(inputs.declared(sheet.inputs), given.inputs), tuple[str, ...]()
     if given.proof:
         wanted = [*given.want, *given.limits]
@@ -143,22 +148,24 @@ def comparison(sheet: Worksheet, outcomes: Sequence[Outcome]) -> bytes:
 
 
 def run(worksheet: str, arguments: Sequence[str]) -> int:
-    """Exit code of ``mechsheet run WORKSHEET SCENE.. [--out=FOLDER] [--jobs=N] [--NAME=VALUE ..]``: 1 if any failed.
+    """Exit code of ``mechsheet run WORKSHEET SCENE.. [--out=FOLDER] [--jobs=N] [--NAME=VALUE ..]``.
+
+    It is 0 where all pass, 2 where what is given of any cannot be used, else 1.
 
     Prints a table of the scenes. Into ``out`` go a workbook of all of them side by side, and one of each scene that
     wants the whole worksheet; without it nothing is written. Arguments replace inputs of every scene. ``jobs`` are
     processes that compute scenes at the same time.
 
-    Raises SheetError where the worksheet, the folder or the jobs cannot be used, or two scenes have one name.
+    Raises SheetError where the worksheet cannot be used, UsageError for arguments, and for two scenes of one name.
     """
     sheet = load(worksheet)
     files = [Path(name) for argument in arguments if not argument.startswith("-") for name in _expanded(argument)]
-    if not files:
-        raise SheetError("no scene given")
-    jobs, options = _jobs([argument for argument in arguments if argument.startswith("-")])
-    declared = inputs.declared(sheet.inputs)
-    out = read(options, declared).out
-    _distinct(sheet, files, out)
+    with usage():
+        if not files:
+            raise SheetError("no scene given")
+        jobs, options = _jobs([argument for argument in arguments if argument.startswith("-")])
+        out = read(options, inputs.declared(sheet.inputs)).out
+        _distinct(sheet, files, out)
     outcomes = list[Outcome]()
     try:
         names = [file.stem for file in files]
@@ -178,7 +185,7 @@ def run(worksheet: str, arguments: Sequence[str]) -> int:
         say(*(f"{outcome.name}: {text}" for text in (*outcome.readings, *outcome.bands, *outcome.problems)))
     failed = sum(o.verdict != "pass" for o in outcomes)
     say(f"{len(outcomes) - failed} of {len(outcomes)} scenes pass" + (f", written to {out}" if out else ""))
-    return 1 if failed else 0
+    return MISUSED if any(o.misused for o in outcomes) else 1 if failed else 0
 
 
 def _jobs(options: Sequence[str]) -> tuple[int, list[str]]:
@@ -231,7 +238,7 @@ def _attempt(sheet: Worksheet, file: Path, options: Sequence[str], out: Path | N
             report.write(report.workbook(title, names, given.limits), out / _workbook(sheet, file))
         return outcome
     except SheetError as error:
-        return Outcome(file.stem, error=str(error))
+        return Outcome(file.stem, error=str(error), misused=isinstance(error, UsageError))
     except Exception as error:  # of a line of the worksheet, which other scenes may well pass
         return Outcome(file.stem, error=mistakes.told(error, sheet.path))
 

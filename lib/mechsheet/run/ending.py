@@ -10,6 +10,7 @@ from mechsheet.worksheet import mistakes
 from mechsheet.worksheet.errors import SheetError
 
 INTERRUPTED = 130  # the exit code of a program that Ctrl-C ended, as shells have it
+MISUSED = 2  # what was given cannot be used, as most commands have it
 _UNREAD = 141  # of one whose reader has gone, as head does after its last line
 
 
@@ -38,7 +39,7 @@ def _end(worksheet: str, _: type[BaseException], error: BaseException, _trace: T
     elif isinstance(error, BrokenPipeError):
         code = _UNREAD
     else:
-        text = f"error: {_reason(error, worksheet)}"
+        text, code = _told(error, worksheet)
     for stream, last in ((sys.stdout, ""), (sys.stderr, text and text + "\n")):
         try:
             if stream:  # none where it was closed from the beginning
@@ -49,18 +50,19 @@ def _end(worksheet: str, _: type[BaseException], error: BaseException, _trace: T
     sys.exit(code)
 
 
-def _reason(error: BaseException, worksheet: str) -> str:
-    """The line that tells why: that the mechanism does not close, whatever that has led to, or the error's own."""
+def _told(error: BaseException, worksheet: str) -> tuple[str, int]:
+    """The line that tells why, that the mechanism does not close or the error's own, and the exit code."""
     from mechsheet.run import arguments  # on use: what watches a run from its beginning loads nothing that takes long
     from mechsheet.worksheet import cells, inputs
 
     try:
-        if arguments.is_script(worksheet):
+        if arguments.is_script(worksheet) and not isinstance(error, arguments.UsageError):
             sheet = cells.load(worksheet)
             given = arguments.read(sys.argv[1:], inputs.declared(sheet.inputs))
             sheet.close({"g": inputs.build(sheet.inputs, given.inputs)})
     except SheetError as cause:
-        return str(cause)
+        error = cause
     except Exception:  # the mistake that there is has its own line
         pass
-    return str(error) if isinstance(error, SheetError) else mistakes.told(error, worksheet)
+    text = str(error) if isinstance(error, SheetError) else mistakes.told(error, worksheet)
+    return f"error: {text}", MISUSED if isinstance(error, arguments.UsageError) else 1

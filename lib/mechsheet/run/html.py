@@ -6,11 +6,10 @@ from typing import Any
 
 from mechsheet.html import write
 from mechsheet.run import report
-from mechsheet.run.arguments import read
+from mechsheet.run.arguments import UsageError, read
 from mechsheet.run.ending import say, watch
 from mechsheet.worksheet import inputs
 from mechsheet.worksheet.cells import load
-from mechsheet.worksheet.errors import SheetError
 
 
 def main() -> None:
@@ -20,7 +19,7 @@ def main() -> None:
     declared = inputs.declared(sheet.inputs)
     given = read(options, declared)
     if given.want or given.limits or given.proof or given.tolerances:
-        raise SheetError("a page in one file holds the whole worksheet: it takes inputs, --scene of [inputs] and --out")
+        raise UsageError("a page in one file holds the whole worksheet: it takes inputs, --scene of [inputs] and --out")
     g: Any = inputs.build(sheet.inputs, given.inputs)
     text = write.page(sheet, g).encode()
     path = (given.out or report.folder(Path(sheet.path))) / f"{Path(sheet.path).stem}.html"

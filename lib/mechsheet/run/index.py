@@ -4,6 +4,7 @@ import sys
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
+from mechsheet.run.arguments import UsageError
 from mechsheet.run.ending import say, watch
 from mechsheet.worksheet import index
 from mechsheet.worksheet.cells import load
@@ -15,7 +16,7 @@ def main() -> None:
     worksheet, *options = sys.argv[1:]
     watch(worksheet)
     if options:
-        raise SheetError(f"argument {options[0]!r}: index takes a worksheet and nothing else")
+        raise UsageError(f"argument {options[0]!r}: index takes a worksheet and nothing else")
     load(worksheet)  # tells what cannot be read
     made = index.of_worksheet({"__file__": str(Path(worksheet).resolve())})
     if not made.formulas and not made.titles and not made.errata:

@@ -3,9 +3,10 @@
 import sys
 from pathlib import Path
 
+from mechsheet.run.arguments import UsageError, usage
 from mechsheet.run.ending import say, watch
 from mechsheet.workbook.save import save
-from mechsheet.worksheet.errors import SheetError
+from mechsheet.worksheet.cells import load
 from mechsheet.worksheet.renaming import renamed
 from mechsheet.worksheet.scene import beside
 
@@ -14,10 +15,12 @@ def main() -> None:
     worksheet, *names = sys.argv[1:]
     watch(worksheet)
     if len(names) != 2:
-        raise SheetError("rename takes a worksheet, a symbol and its new name, such as hitch F_gc F_c")
+        raise UsageError("rename takes a worksheet, a symbol and its new name, such as hitch F_gc F_c")
     path, (old, new) = Path(worksheet), names
     scenes = {scene: scene.read_text(encoding="utf-8") for scene in beside(path)}
-    made = renamed(path, old, new, scenes)
+    load(path)  # tells what cannot be read
+    with usage():
+        made = renamed(path, old, new, scenes)
     before = {file: file.read_bytes() for file in made}
     try:
         for file, text in made.items():

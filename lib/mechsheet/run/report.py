@@ -117,7 +117,8 @@ def _script(title: str, namespace: Mapping[str, Any], worksheet: Path) -> None:
         raise SheetError(f"some cells did not run: {', '.join(missing)} missing")
     declared = inputs.declared(type(namespace["g"]))
     given = arguments.read(sys.argv[1:], declared)
-    values = limited(parts.values(namespace), given.limits, namespace)
+    with arguments.usage():
+        values = limited(parts.values(namespace), given.limits, namespace)
     refuse_open(_of(Check, values))
     recording, fit = _recorded(namespace)
     checks = [*_of(Check, values), fit]

@@ -74,10 +74,11 @@ class Asked:
         return list(dict.fromkeys([*(need.name for need in self.needs), *([self.best[1]] if self.best else [])]))
 
 
+@arguments.usage()
 def read(options: Sequence[str], declared: Sequence[Input]) -> Asked:
     """What is asked for by arguments of the command.
 
-    Raises SheetError for one of another form, and where nothing is varied or asked for.
+    Raises UsageError for one of another form, and where nothing is varied or asked for.
     """
     vary, needs, best, rest = dict[str, tuple[str, str]](), list[Need](), list[tuple[str, str]](), list[str]()
     for option in _joined(options):
@@ -130,12 +131,14 @@ class Problem:
         shown = {f.name: x if type(f) is Input else f.text(getattr(g, f.name)) for f, x in inputs.Used(g).rows()}
         self.given = {name: shown[name] for name in asked.scene.inputs}  # of a list its text, which is no variants
         self.bounds = dict[str, tuple[float, float]]()
-        for name, ends in asked.vary.items():
-            continuous(self.fields, name, "cannot be had by")
-            low, high = (self.fields[name].read(end) for end in ends)
-            if not low < high:
-                raise SheetError(f"bounds of {self.fields[name].says('..'.join(ends))} must be in order")
-            self.bounds[name] = low, high
+        with arguments.usage():
+            load(worksheet).needed(asked.results, ["g"])
+            for name, ends in asked.vary.items():
+                continuous(self.fields, name, "cannot be had by")
+                low, high = (self.fields[name].read(end) for end in ends)
+                if not low < high:
+                    raise SheetError(f"bounds of {self.fields[name].says('..'.join(ends))} must be in order")
+                self.bounds[name] = low, high
         now = self.swept({name: np.array([self.at[name]]) for name in self.bounds})
         valued = now
         if now.reasons[0]:  # a mechanism may be looked for that closes; the document's own tells the units
@@ -145,9 +148,10 @@ class Problem:
         self.units = {name: valued.units[base(name)] for name in asked.results}
         for name in asked.results:
             if np.iscomplexobj(value(name, {base(name): valued[base(name)]})):
-                raise SheetError(f"{name} is complex; take {name}.real, {name}.imag or abs({name})")
-        self.limits = {need: self._limit(need) for need in asked.needs}
-        self.now = self.judged(now)
+                raise arguments.UsageError(f"{name} is complex; take {name}.real, {name}.imag or abs({name})")
+        with arguments.usage():
+            self.limits = {need: self._limit(need) for need in asked.needs}
+            self.now = self.judged(now)
         self.several = asked.best is not None and self.values(valued, asked.best[1]).size > 1  # positions of the goal
 
     def _limit(self, need: Need) -> float:
