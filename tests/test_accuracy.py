@@ -256,27 +256,64 @@ def test_random_groups_are_measured_in_roundings_and_one_that_loses_digits_fails
     assert not conditioning.random_groups("7.5", 5)[1].passed
 
 
-def test_condition_from_end_to_end_is_that_of_runs_with_other_inputs():
-    table, check = conditioning.end_to_end("7.6", WORKSHEET.with_name("hitch.py"))
-    name, kappa, expected, kept = (column.values for column in table.columns)
-    assert len(name) > 40 and check.passed and np.all(kept > expected - 2)
-    sheet, want, step, rows = load(WORKSHEET.with_name("hitch.py")), ["GS6", "R05", "phi6_S"], 1e-6, [0, 3, 9]
+@pytest.fixture(scope="module")
+def conditions():
+    """Of the documents whose inputs are numbers alone, and few."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(conditioning, "DOCUMENTS", ("hitch", "landing_gear", "slotted_link"))
+        return conditioning.end_to_end("7.6", WORKSHEET.parent)
+
+
+@pytest.mark.parametrize(
+    ("n", "stem", "want"),
+    [
+        (0, "hitch", ["GS6", "R05", "phi6_S", "L7"]),
+        (1, "landing_gear", ["eps3i", "F_c", "H"]),
+        (2, "slotted_link", ["VC_k"]),
+    ],
+)
+def test_condition_from_end_to_end_is_that_of_runs_with_other_inputs(n, stem, want, conditions):
+    name, kappa, *_, most = (column.values for column in conditions[0][n].columns)
+    sheet, step = load(WORKSHEET.with_name(f"{stem}.py")), 1e-6
     g = sheet.inputs()
 
     def results(**changed: float):
         found = sheet.run(want, {"g": replace(g, **changed)})
-        return {key: found[key][rows] for key in want}
+        return {key: np.atleast_1d(found[key]) for key in want}
 
-    moved = {key: np.zeros(3) for key in want}
+    moved = {key: dict[str, np.ndarray]() for key in want}
     for field in declared(sheet.inputs):
         x = getattr(g, field.name)
         if isinstance(x, float) and x:
             ahead, behind = (results(**{field.name: x * (1 + way * step)}) for way in (1, -1))
             for key in want:
-                moved[key] += np.abs(ahead[key] - behind[key]) / (2 * step)
+                moved[key][field.name] = np.abs(ahead[key] - behind[key]) / (2 * step)
     for key, size in results().items():
-        other = moved[key].max() / np.abs(size).max()
-        assert kappa[list(name).index(key)] == pytest.approx(np.log10(other), abs=1e-5), key
+        changes, row = np.array([*moved[key].values()]), list(name).index(key)
+        k = changes.sum(0).argmax()
+        other = max(1.0, changes[:, k].sum() / np.abs(size).max())
+        assert kappa[row] == pytest.approx(np.log10(other), abs=1e-5), key
+        assert most[row] == [*moved[key]][changes[:, k].argmax()], key
+
+
+def test_all_results_of_a_document_have_their_condition_and_keep_the_digits_it_leaves(conditions):
+    tables, check = conditions
+    assert [table.number for table in tables] == ["7.6", "7.7", "7.8"] and check.passed
+    for table, least, known in zip(tables, (140, 80, 40), (40, 15, 5), strict=True):
+        name, kappa, expected, kept, _ = (column.values for column in table.columns)
+        assert len(name) >= least and np.all(np.diff(kappa) <= 0)
+        assert np.count_nonzero(np.isfinite(kept)) >= known and not np.any(kept < expected - 2)
+        assert len(table.head(8).columns[0].values) == 8 and "the workbook holds all" in table.head(8).note
+    assert "F45, F2, F4, F7" in tables[0].note, "weights that are zero have no condition"
+
+
+def test_a_result_that_loses_more_than_its_condition_fails(monkeypatch):
+    path = WORKSHEET.with_name("slotted_link.py")
+    sheet, names, truths = conditioning.from_inputs(path, path.read_bytes())
+    worse = {name: {k: y * (1 + 1e-11) for k, y in truth.items()} for name, truth in truths.items()}
+    monkeypatch.setattr(conditioning, "DOCUMENTS", ("slotted_link",))
+    monkeypatch.setattr(conditioning, "from_inputs", lambda *_: (sheet, names, worse))
+    assert not conditioning.end_to_end("8.1", WORKSHEET.parent)[1].passed
 
 
 def test_every_worksheet_is_measured_at_every_size():

@@ -194,16 +194,18 @@ def exist(y: Any) -> bool:
     return all(map(mp.isfinite, _row(y)))
 
 
-def relative_error(value: Any, true: Any, turn: Any = None) -> float:
-    """|value - true| / |true|, for a float, a complex number or a row of them; ``turn`` is the period of an angle.
-
-    Infinite where a value that is not zero should be.
-    """
+def error(value: Any, true: Any, turn: Any = None) -> mpf:
+    """|value - true|, for a float, a complex number or the greatest of a row; ``turn`` is the period of an angle."""
     errors = [mpc(complex(v)) - y for v, y in zip(np.ravel(value), _row(true), strict=True)]
     if turn:
-        errors = [(error.real + turn / 2) % turn - turn / 2 for error in errors]
-    error, size = _size(errors), _size(_row(true))
-    return float(error / size) if size else float("inf" if error else 0)
+        errors = [(each.real + turn / 2) % turn - turn / 2 for each in errors]
+    return _size(errors)
+
+
+def relative_error(value: Any, true: Any, turn: Any = None) -> float:
+    """`error` over |true|; infinite where a value that is not zero should be."""
+    off, size = error(value, true, turn), _size(_row(true))
+    return float(off / size) if size else float("inf" if off else 0)
 
 
 def _row(y: Any) -> list[Any]:

@@ -7,18 +7,16 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from mechsheet.accuracy.arithmetic import mp, mpf
-from mechsheet.accuracy.truths import TRUTHS, exact_results
+from mechsheet.accuracy.truths import DOCUMENTS, TURNS, from_inputs
 from mechsheet.run.progress import progress
 from mechsheet.run.proving import proof_of_wanted
-from mechsheet.worksheet.cells import Worksheet, load
+from mechsheet.worksheet.cells import Worksheet
 from mechsheet.worksheet.check import Check
-from mechsheet.worksheet.inputs import build
 from mechsheet.worksheet.numbers import fixed
 from mechsheet.worksheet.table import Column, Table
 
 _ROUNDED = 16.0  # digits of a float, which are all that count
 _FEWER = 2.0  # digits less than there are that a proof should seldom claim
-_TURNS = ("phi", "psi", "alpha")  # angles, which the exact results may have in another turn
 
 
 class Claim(NamedTuple):
@@ -38,25 +36,11 @@ class Claim(NamedTuple):
         return self.proved < min(self.right, _ROUNDED) - _FEWER
 
 
-_GIVEN = {"kinetostatics": {"step": 1}}  # its recording holds the positions that its tables list
-
-
-def _truths(stem: str, names: Mapping[str, Any]) -> dict[str, dict[int, Any]]:
-    """Exact results of a worksheet at three of its positions, by name and position; of the joint all its forces."""
-    if stem == "joint":
-        return {name: dict(enumerate(y)) for name, y in exact_results(stem, names, ()).items()}
-    truth = TRUTHS[stem]
-    n = len(names[truth.field])
-    at = {k: truth.from_inputs(names["g"], k, n) for k in (0, n // 3, n - 1)}
-    shown = [name for name in at[0] if name in names and np.shape(names[name]) == (n,) and not name.startswith(_TURNS)]
-    return {name: {k: made[name] for k, made in at.items()} for name in shown}
-
-
 def claims(path: Path) -> list[Claim]:
     """What is proved of the results of one of the five documents for which there are exact ones."""
-    sheet = load(path)
-    names = sheet.run(sheet.results, {"g": build(sheet.inputs, _GIVEN.get(path.stem, {}))})
-    return list(_compared(path.stem, names, _truths(path.stem, names), sheet))
+    sheet, names, truths = from_inputs(path, path.read_bytes())
+    plain = {name: truth for name, truth in truths.items() if not name.startswith(TURNS)}
+    return list(_compared(path.stem, names, plain, sheet))
 
 
 def _compared(
@@ -76,17 +60,16 @@ def _compared(
 
 def claims_table(number: str, folder: Path) -> tuple[Table, Check]:
     """A row for each of the five documents, and the check that no proof claims digits that there are not."""
-    stems = (*TRUTHS, "joint")
-    with progress(len(stems), f"{number} Proof") as done:
+    with progress(len(DOCUMENTS), f"{number} Proof") as done:
         rows = []
-        for stem in stems:
+        for stem in DOCUMENTS:
             rows.append(claims(folder / f"{stem}.py"))
             done()
     more = [claim for row in rows for claim in row if claim.is_more]
     told = "; ".join(f"{c.worksheet} {c.name}: {fixed(c.proved, 1)} proved of {fixed(c.right, 1)}" for c in more[:3])
     fewer = np.array([100 * np.mean([claim.is_fewer for claim in row]) for row in rows])
     columns = (
-        Column("worksheet", "", "", 0, np.array([stem.replace("_", " ") for stem in stems], object)),
+        Column("worksheet", "", "", 0, np.array([stem.replace("_", " ") for stem in DOCUMENTS], object)),
         Column("compared", "-", "numbers of which there are exact ones", 0, np.array([len(row) for row in rows])),
         Column("proved", "-", "fewest digits proved", 1, np.array([min(c.proved for c in row) for row in rows])),
         Column("right", "-", "fewest digits that are right", 1, np.array([min(c.right for c in row) for row in rows])),

@@ -1,4 +1,4 @@
-"""Errors in units of the condition number times a rounding: of random groups, and of a worksheet from end to end."""
+"""Errors in units of the condition number times a rounding: of random groups, and of the documents from end to end."""
 
 from collections.abc import Callable, Mapping, Sequence
 from functools import lru_cache, partial
@@ -9,8 +9,8 @@ import numpy as np
 
 from mechsheet.accuracy import arithmetic
 from mechsheet.accuracy.arithmetic import EPS, Numbers, mpc, mpf
-from mechsheet.accuracy.precision import largest_error, timed
-from mechsheet.accuracy.truths import TRUTHS
+from mechsheet.accuracy.precision import timed
+from mechsheet.accuracy.truths import DOCUMENTS, TURNS, from_inputs
 from mechsheet.mechanics.planar import cross
 from mechsheet.mechanics.prp import prp
 from mechsheet.mechanics.rpp import rpp
@@ -21,8 +21,8 @@ from mechsheet.recording.quantity import Quantity
 from mechsheet.recording.record import record
 from mechsheet.recording.slopes import slopes
 from mechsheet.run.progress import progress
-from mechsheet.worksheet.cells import load
 from mechsheet.worksheet.check import Check
+from mechsheet.worksheet.lines import registry
 from mechsheet.worksheet.table import Column, Table
 
 _WITHIN = 64  # roundings times the condition number that an error may be
@@ -122,43 +122,61 @@ def random_groups(number: str, count: int) -> tuple[Table, Check]:
     )
 
 
-def end_to_end(number: str, path: Path) -> tuple[Table, Check]:
-    """Condition numbers of the hitch's results from its inputs on, through the lengths found, and the digits they keep.
+def end_to_end(number: str, folder: Path) -> tuple[tuple[Table, ...], Check]:
+    """Condition numbers of all results of the five documents from their inputs on, and the digits that they keep.
 
-    The slopes are those of the recording; of three positions the greatest change over the greatest number.
+    A table for each document, the worst conditioned result first. The slopes are those of its recording, through what
+    is found; at a corner the steeper side counts.
     """
-    return _end_to_end(number, path, path.read_bytes())
+    first, rest = number.split(".")
+    with progress(len(DOCUMENTS), f"{number} Conditions") as done:
+        found = []
+        for k, stem in enumerate(DOCUMENTS, int(rest)):
+            path = folder / f"{stem}.py"
+            found.append(_conditions(f"{first}.{k}", path, path.read_bytes()))
+            done()
+    worst = max(float(np.nanmax(errors)) for _, errors in found)
+    name = "errors from end to end, in roundings times their condition"
+    return tuple(table for table, _ in found), Check(name, worst, _WITHIN)
 
 
-@lru_cache(maxsize=1)
-def _end_to_end(number: str, path: Path, _text: bytes) -> tuple[Table, Check]:
-    sheet = load(path)
-    names = sheet.run(sheet.results, {"g": sheet.inputs()}) | {"__file__": str(path)}
-    recording, g, n = record(names, sheet), names["g"], len(names["S"])
-    inputs = [node for node in recording.inputs.values() if node.size == 1 and node.value.dtype.kind == "f"]
-    rows = [0, n // 3, n - 1]
-    truth = [TRUTHS["hitch"].from_inputs(g, k, n) for k in rows]
-    parts = {
-        name: [*value.parts]
-        for name in truth[0]
-        if name in names and isinstance(value := recording.values.get(name), Quantity) and np.shape(names[name]) == (n,)
-    }
-    motion = slopes([part for own in parts.values() for part in own], inputs)
-    sizes = np.array([abs(float(node.value)) for node in inputs])
-    conditions, errors = list[float](), list[float]()
-    for name, own in parts.items():
-        moves = np.sqrt(sum(motion[part].both[:, rows] ** 2 for part in own))
-        of = float(np.max(np.abs(names[name][rows])))
-        conditions.append(max(1.0, float(np.max(sizes @ moves)) / of))
-        errors.append(largest_error(names[name][rows], [at[name] for at in truth]))
-    kappa, error = np.array(conditions), np.array(errors)
+@lru_cache(maxsize=len(DOCUMENTS))
+def _conditions(number: str, path: Path, text: bytes) -> tuple[Table, Any]:
+    """The table of a document, and its errors in roundings times their condition; NaN where no exact result is known.
+
+    The greatest change of a result over its greatest number, wherever these are.
+    """
+    sheet, names, truths = from_inputs(path, text)
+    recording = record(names, sheet, whole=True, every=1)
+    inputs = {name: node for name, node in recording.inputs.items() if node.value.dtype.kind == "f"}
+    each = [name for name, node in inputs.items() for _ in range(node.size)]
+    at = np.concatenate([np.abs(node.value).ravel() for node in inputs.values()])[:, None]
+    lines = (name for name, line in registry(names).items() if not line.arguments)
+    results = {name: value for name in lines if isinstance(value := recording.values.get(name), Quantity)}
+    motion = slopes([part for value in results.values() for part in value.parts], [*inputs.values()])
+    rows, lost = list[tuple[str, float, str, float]](), list[str]()
+    for name, value in results.items():
+        steepest = (np.max(np.abs(motion[part]), axis=0).reshape(len(at), -1) for part in value.parts)
+        moves = at * np.sqrt(sum(side**2 for side in steepest))
+        size, k = float(np.nanmax(np.abs(names[name]))), int(np.argmax(moves.sum(0)))
+        kappa = float(moves[:, k].sum() / size) if size else np.nan
+        if not kappa * EPS < 1:
+            lost.append(name)
+            continue
+        own, turn = np.ravel(names[name]), 2 * np.pi if name.startswith(TURNS) else None
+        off = (arithmetic.error(own[k], true, turn) for k, true in truths.get(name, {}).items())
+        error = float(max(off, default=mpf(np.nan))) / size
+        rows.append((name, max(1.0, kappa), each[int(np.argmax(moves[:, k]))], error))
+    rows.sort(key=lambda row: -row[1])
+    found, conditions, blamed, errors = (np.array(column) for column in zip(*rows, strict=True))
+    errors = np.maximum(errors, EPS)
     columns = (
-        Column("result", "", "", 0, np.array(list(parts), object)),
-        Column("log κ", "-", "logarithm of the condition number", 1, np.log10(kappa)),
-        Column("expected digits", "-", "digits that the rounded inputs leave", 1, -np.log10(kappa * EPS)),
-        Column("kept digits", "-", "digits that are right", 1, -np.log10(error)),
+        Column("result", "", "", 0, found.astype(object)),
+        Column("log κ", "-", "logarithm of the condition number", 1, np.log10(conditions)),
+        Column("expected digits", "-", "digits that the rounded inputs leave", 1, -np.log10(conditions * EPS)),
+        Column("kept digits", "-", "digits that are right", 1, -np.log10(errors)),
+        Column("most by", "", "the input whose rounding costs most", 0, blamed.astype(object)),
     )
-    worst = float(np.max(error / (kappa * EPS)))
-    return Table(number, "Condition from end to end", columns), Check(
-        "errors from end to end, in roundings times their condition", worst, _WITHIN
-    )
+    note = f"Without one, zero but for rounding or with a jump: {', '.join(lost)}." if lost else ""
+    title = f"{path.stem.replace('_', ' ').capitalize()}, end to end"
+    return Table(number, title, columns, note), errors / (conditions * EPS)

@@ -1,10 +1,16 @@
 """The documents' exact results: at 50 digits from their inputs, at any of their positions."""
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from functools import lru_cache
+from pathlib import Path
 from typing import Any, NamedTuple
+
+import numpy as np
 
 from mechsheet.accuracy import exact
 from mechsheet.accuracy.arithmetic import Numbers, mp, mpf
+from mechsheet.worksheet.cells import Worksheet, load
+from mechsheet.worksheet.inputs import build
 
 
 class Truth(NamedTuple):
@@ -18,10 +24,6 @@ class Truth(NamedTuple):
     results: Callable[[Any, Any], Numbers]
     compared: Sequence[str] = ()
 
-    def from_inputs(self, g: Any, k: int, n: int) -> Numbers:
-        """Exact results at the k-th of n positions, which no float has been before."""
-        return self.results(g, self.at(g, mpf(k) / (n - 1)))
-
 
 def _length(g: Any, t: mpf) -> mpf:
     made = exact.stroke(g)
@@ -34,6 +36,28 @@ TRUTHS: dict[str, Truth] = {
     "slotted_link": Truth("phi1_k", lambda g, t: g.phi_0 + mp.sign(g.omega1) * 2 * mp.pi * t, exact.slotted_link),
     "kinetostatics": Truth("phi1", lambda _, t: 2 * mp.pi * t, exact.kinetostatics),
 }
+
+
+TURNS = ("phi", "psi", "alpha")  # angles, which the exact results may have in another turn
+DOCUMENTS = (*TRUTHS, "joint")
+_GIVEN = {"kinetostatics": {"step": 1}}  # its recording holds the positions that its tables list
+
+
+@lru_cache(maxsize=len(DOCUMENTS))
+def from_inputs(path: Path, _text: bytes) -> tuple[Worksheet, dict[str, Any], dict[str, dict[int, Any]]]:
+    """A document, its run, and exact results of it by name and position, which no float has been before.
+
+    They are those at three of its positions, of the joint all its forces. ``_text`` is that of the document.
+    """
+    sheet, stem = load(path), path.stem
+    names = sheet.run(sheet.results, {"g": build(sheet.inputs, _GIVEN.get(stem, {}))})
+    if stem == "joint":
+        return sheet, names, {name: dict(enumerate(y)) for name, y in exact_results(stem, names, ()).items()}
+    truth, g = TRUTHS[stem], names["g"]
+    n = len(names[truth.field])
+    at = {k: truth.results(g, truth.at(g, mpf(k) / (n - 1))) for k in (0, n // 3, n - 1)}
+    shown = [name for name in at[0] if name in names and np.shape(names[name]) == (n,)]
+    return sheet, names, {name: {k: made[name] for k, made in at.items()} for name in shown}
 
 
 def exact_results(stem: str, names: Mapping[str, Any], rows: Iterable[int]) -> Numbers:

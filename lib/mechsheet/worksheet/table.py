@@ -3,7 +3,7 @@
 import ast
 import sys
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from types import FrameType
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -73,6 +73,13 @@ class Table(Shown):
 
     def __post_init__(self) -> None:
         _some_rows(f"table {self.number}", self.columns)
+
+    def head(self, count: int) -> "Table":
+        """The table with its first rows alone, which its note says."""
+        columns = tuple(replace(column, values=column.values[:count]) for column in self.columns)
+        rows = len(self.columns[0].values)
+        cut = f" The first {count} of {rows} rows; the workbook holds all." if rows > count else ""
+        return replace(self, columns=columns, note=f"{self.note}{cut}".strip())
 
     def frame(self) -> "pd.DataFrame":
         """The table as a pandas DataFrame, headings ``symbol [unit]``."""
