@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
+from moving import exact_rows, floats, path, turning
 from random_groups import FAMILIES, numbers, triangles, vectors
 
 from mechsheet.accuracy import arithmetic as exact
@@ -65,9 +66,9 @@ def test_rrr_position_loses_the_digits_of_its_condition_number_only(family: str)
     rng, A, B, C = triangles(family)
     r_A, r_B, branch = np.abs(C - A), np.abs(C - B), rng.choice([-1, 1], len(A))
     found = rrr(A, B, r_A, r_B, branch)
-    true = exact.floats(
+    true = floats(
         exact.rrr(A, B, r_A.real, r_B.real, branch.real)
-        for A, B, r_A, r_B, branch in exact.exact(A, B, r_A, r_B, branch)
+        for A, B, r_A, r_B, branch in exact_rows(A, B, r_A, r_B, branch)
     )
     kappa = np.array([rrr_condition(A, B, found), rrr_condition(A, B, true)])
     ok = reached(found, true, kappa)
@@ -81,9 +82,9 @@ def test_rrp_position_loses_the_digits_of_its_condition_number_only(family: str)
     B, offset = (B, -np.abs(B - C)) if family == "ordinary" else (C, 0.0)
     r_A, branch = np.abs(C - A), rng.choice([-1, 1], len(A))
     found = rrp(A, B, u, r_A, branch, offset)
-    true = exact.floats(
+    true = floats(
         exact.rrp(A, B, u, r.real, branch.real, e.real)
-        for A, B, u, r, branch, e in exact.exact(A, B, u, r_A, branch, offset)
+        for A, B, u, r, branch, e in exact_rows(A, B, u, r_A, branch, offset)
     )
     kappa = np.array([rrp_condition(A, B, found, u), rrp_condition(A, B, true, u)])
     ok = reached(found, true, kappa)
@@ -95,8 +96,8 @@ def test_rpr_direction_loses_the_digits_of_its_condition_number_only(family: str
     rng, A, B, C = triangles(family)
     offset, branch = cross((C - A) / np.abs(C - A), A - B), rng.choice([-1, 1], len(A))
     u, s = rpr(A, B, branch, offset)
-    true = [exact.rpr(A, B, s.real, e.real) for A, B, s, e in exact.exact(A, B, branch, offset)]
-    true_u, true_s = exact.floats(x and x[0] for x in true), exact.floats(x and x[1] for x in true)
+    true = [exact.rpr(A, B, s.real, e.real) for A, B, s, e in exact_rows(A, B, branch, offset)]
+    true_u, true_s = floats(x and x[0] for x in true), floats(x and x[1] for x in true)
     kappa = np.array([rpr_condition(A, B, u), rpr_condition(A, B, true_u)])
     ok = reached(u, true_u, kappa)
     within(u[ok], true_u[ok], kappa[0, ok])
@@ -118,23 +119,23 @@ def test_rrr_velocities_and_accelerations_are_the_differences_of_positions(famil
     a = rrr_acceleration(A, B, C, v.omega_A, v.omega_B, dr_A, dr_B, a_A, a_B, ddr_A, ddr_B)
 
     def motion(A, B, C, v_A, v_B, a_A, a_B, dr_A, dr_B, ddr_A, ddr_B):
-        pin_A, pin_B = exact.path(A, v_A, a_A), exact.path(B, v_B, a_B)
-        r_A, r_B = exact.path(abs(C - A), dr_A, ddr_A), exact.path(abs(C - B), dr_B, ddr_B)
-        branch = exact.sign(exact.cross(B - A, C - A))
+        pin_A, pin_B = path(A, v_A, a_A), path(B, v_B, a_B)
+        r_A, r_B = path(abs(C - A), dr_A, ddr_A), path(abs(C - B), dr_B, ddr_B)
+        branch = exact.mp.sign(exact.cross(B - A, C - A))
         pin_C = lambda t: exact.rrr(pin_A(t), pin_B(t), r_A(t).real, r_B(t).real, branch)  # noqa: E731
         link_A, link_B = (exact.rotation(lambda t, pin=pin: pin_C(t) - pin(t)) for pin in (pin_A, pin_B))
         return exact.derivatives(pin_C), link_A, link_B
 
-    true = [motion(*x) for x in exact.exact(A, B, C, v_A, v_B, a_A, a_B, dr_A, dr_B, ddr_A, ddr_B)]
+    true = [motion(*x) for x in exact_rows(A, B, C, v_A, v_B, a_A, a_B, dr_A, dr_B, ddr_A, ddr_B)]
     r_A, r_B = np.abs(C - A), np.abs(C - B)
     s = np.abs(cross(C - A, C - B)) / (r_A * r_B)
     dr = np.abs(dr_A) + np.abs(dr_B)
     V = (np.abs(v_A) + np.abs(v_B) + dr) / s
     Q = (np.abs(a_A) + np.abs(a_B) + np.abs(ddr_A) + np.abs(ddr_B) + (V + dr) * V / np.minimum(r_A, r_B)) / s
     for i, (found, size) in enumerate(zip(v, (1, r_A, r_B), strict=True)):
-        within(found, exact.floats(x[i][0] for x in true), V / s / size)
+        within(found, floats(x[i][0] for x in true), V / s / size)
     for i, (found, size) in enumerate(zip(a, (1, r_A, r_B), strict=True)):
-        within(found, exact.floats(x[i][1] for x in true), Q / s / size)
+        within(found, floats(x[i][1] for x in true), Q / s / size)
 
 
 @families
@@ -148,23 +149,23 @@ def test_rrp_velocities_and_accelerations_are_the_differences_of_positions_on_a_
     a = rrp_acceleration(A, B, C, u, v.omega_A, v.ds, omega_B, dr_A, a_A, a_B, epsilon_B, ddr_A)
 
     def motion(A, B, C, u, v_A, v_B, a_A, a_B, omega_B, epsilon_B, dr_A, ddr_A):
-        pin_A, pin_B = exact.path(A, v_A, a_A), exact.path(B, v_B, a_B)
-        guide, r = exact.turning(u, omega_B, epsilon_B), exact.path(abs(C - A), dr_A, ddr_A)
-        offset, branch = exact.cross(u, C - B) / abs(u), exact.sign(exact.dot(u, C - A))
+        pin_A, pin_B = path(A, v_A, a_A), path(B, v_B, a_B)
+        guide, r = turning(u, omega_B, epsilon_B), path(abs(C - A), dr_A, ddr_A)
+        offset, branch = exact.cross(u, C - B) / abs(u), exact.mp.sign(exact.dot(u, C - A))
         pin_C = lambda t: exact.rrp(pin_A(t), pin_B(t), guide(t), r(t).real, branch, offset)  # noqa: E731
         slide = exact.derivatives(lambda t: exact.dot(guide(t), pin_C(t) - pin_B(t)))
         return exact.derivatives(pin_C), exact.rotation(lambda t: pin_C(t) - pin_A(t)), slide
 
-    true = [motion(*x) for x in exact.exact(A, B, C, u, v_A, v_B, a_A, a_B, omega_B, epsilon_B, dr_A, ddr_A)]
+    true = [motion(*x) for x in exact_rows(A, B, C, u, v_A, v_B, a_A, a_B, omega_B, epsilon_B, dr_A, ddr_A)]
     r, arm = np.abs(C - A), np.abs(C - B)
     s = np.abs(dot(C - A, u)) / r
     V = (np.abs(v_A) + np.abs(v_B) + np.abs(omega_B) * arm + np.abs(dr_A)) / s
     Q = np.abs(a_A) + np.abs(a_B) + np.abs(ddr_A) + (np.abs(epsilon_B) + omega_B**2) * arm
     Q = (Q + 2 * np.abs(omega_B) * V + (V + np.abs(dr_A)) * V / r) / s
     for i, (found, size) in enumerate(zip(v, (1, r, 1), strict=True)):
-        within(found, exact.floats(x[i][0] for x in true), V / s / size)
+        within(found, floats(x[i][0] for x in true), V / s / size)
     for i, (found, size) in enumerate(zip(a, (1, r, 1), strict=True)):
-        within(found, exact.floats(x[i][1] for x in true), Q / s / size)
+        within(found, floats(x[i][1] for x in true), Q / s / size)
 
 
 @families
@@ -176,20 +177,20 @@ def test_rpr_velocities_and_accelerations_are_the_differences_of_positions(famil
     a = rpr_acceleration(A, B, u, v.omega_A, v.ds, a_A, a_B)
 
     def motion(A, B, u, v_A, v_B, a_A, a_B):
-        pin_A, pin_B = exact.path(A, v_A, a_A), exact.path(B, v_B, a_B)
+        pin_A, pin_B = path(A, v_A, a_A), path(B, v_B, a_B)
         slide = (A - B) / u * abs(u)
-        group = lambda t: exact.rpr(pin_A(t), pin_B(t), exact.sign(slide.real), slide.imag)  # noqa: E731
+        group = lambda t: exact.rpr(pin_A(t), pin_B(t), exact.mp.sign(slide.real), slide.imag)  # noqa: E731
         return exact.rotation(lambda t: group(t)[0]), exact.derivatives(lambda t: group(t)[1])
 
-    true = [motion(*x) for x in exact.exact(A, B, u, v_A, v_B, a_A, a_B)]
+    true = [motion(*x) for x in exact_rows(A, B, u, v_A, v_B, a_A, a_B)]
     L = np.abs(A - B)
     s = np.abs(dot(A - B, u)) / L
     V = (np.abs(v_A) + np.abs(v_B)) / s
     Q = (np.abs(a_A) + np.abs(a_B) + V**2 / L) / s
     for i, (found, size) in enumerate(zip(v, (L, 1), strict=True)):
-        within(found, exact.floats(x[i][0] for x in true), V / s / size)
+        within(found, floats(x[i][0] for x in true), V / s / size)
     for i, (found, size) in enumerate(zip(a, (L, 1), strict=True)):
-        within(found, exact.floats(x[i][1] for x in true), Q / s / size)
+        within(found, floats(x[i][1] for x in true), Q / s / size)
 
 
 @families
@@ -205,15 +206,15 @@ def test_a_chain_from_lengths_to_accelerations_loses_twice_the_digits_of_its_con
     a = rrr_acceleration(A, B, C, v.omega_A, v.omega_B, a_A=a_A, a_B=a_B)
 
     def motion(A, B, r_A, r_B, branch, v_A, v_B, a_A, a_B):
-        pin_A, pin_B = exact.path(A, v_A, a_A), exact.path(B, v_B, a_B)
+        pin_A, pin_B = path(A, v_A, a_A), path(B, v_B, a_B)
         return exact.derivatives(lambda t: exact.rrr(pin_A(t), pin_B(t), r_A.real, r_B.real, branch.real))
 
-    true = [motion(*x) for x in exact.exact(A, B, r_A, r_B, branch, v_A, v_B, a_A, a_B)]
+    true = [motion(*x) for x in exact_rows(A, B, r_A, r_B, branch, v_A, v_B, a_A, a_B)]
     kappa, s = rrr_condition(A, B, C), np.sin(rrr_transmission_angle(A, B, C))
     V = (np.abs(v_A) + np.abs(v_B)) / s
     Q = (np.abs(a_A) + np.abs(a_B) + V**2 / np.minimum(r_A, r_B)) / s
-    within(v.v_C, exact.floats(x[0] for x in true), kappa**2 * V)
-    within(a.a_C, exact.floats(x[1] for x in true), kappa**2 * Q)
+    within(v.v_C, floats(x[0] for x in true), kappa**2 * V)
+    within(a.a_C, floats(x[1] for x in true), kappa**2 * Q)
 
 
 # --- how near a dead centre --------------------------------------------------------------------------------------
@@ -222,8 +223,8 @@ def test_a_chain_from_lengths_to_accelerations_loses_twice_the_digits_of_its_con
 @families
 def test_transmission_angle_keeps_its_digits_near_a_dead_centre(family: str) -> None:
     _, A, B, C = triangles(family)
-    pairs = [(z - x, z - y) for x, y, z in exact.exact(A, B, C)]
-    true = exact.floats(abs(exact.mp.arg(b / a)) for a, b in pairs).real
+    pairs = [(z - x, z - y) for x, y, z in exact_rows(A, B, C)]
+    true = floats(abs(exact.mp.arg(b / a)) for a, b in pairs).real
     for found in (
         rrr_transmission_angle(A, B, C),
         rrp_transmission_angle(A, C, 1j * (B - C)),

@@ -10,7 +10,7 @@ from hypothesis import Phase, assume, given, target
 from hypothesis import strategies as st
 
 from mechsheet.accuracy import exact, extreme, printed
-from mechsheet.accuracy.arithmetic import conditions, equations, pin, reactions, sign, undecided
+from mechsheet.accuracy.arithmetic import conditions, equations, pin, reactions, undecided
 from mechsheet.mechanics.load import Load
 from mechsheet.mechanics.planar import cross
 from mechsheet.mechanics.rrr import RRRReactions, rrr_reactions
@@ -81,7 +81,7 @@ def test_truth_of_the_dyad_is_in_equilibrium_and_moves_with_its_length():
     true = exact.dyad(A, B, 3, 2, -1, P_A, P_B, F_A, F_B)
     C = true["C"]
     assert abs(abs(C - A) - 3) + abs(abs(C - B) - 2) < mp.mpf(10) ** -50
-    assert sign(((mp.conj(B - A)) * (C - A)).imag) == -1
+    assert mp.sign(((mp.conj(B - A)) * (C - A)).imag) == -1
     unknowns = [*pin(A, 0), *pin(B, 1), *pin(C, 0, 1)]
     loads = [(0, F_A, P_A, 0), (1, F_B, P_B, 0)]
     assert len(equations(unknowns, loads, [A, B])[0]) == 6

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from moving import exact_rows
 from random_groups import FAMILIES, numbers, triangles, vectors
 
 from mechsheet.accuracy import arithmetic as exact
@@ -107,7 +108,7 @@ def test_reactions_lose_the_digits_of_the_transmission_angle_only(kind: str, fam
     R, s = solve(kind, g), sine(kind, g)
     force, moment = excitation(kind, g)
     rows = [*(getattr(g, name) for name in names), *(x for load in g.on_A + g.on_B for x in (load.F, load.P, load.M))]
-    for i, row in enumerate(exact.exact(*(x[:30] for x in rows))):
+    for i, row in enumerate(exact_rows(*(x[:30] for x in rows))):
         exactly = SimpleNamespace(**dict(zip(names, row, strict=False)))
         for name in ("u", "u_A", "u_B"):
             setattr(exactly, name, getattr(exactly, name) / abs(getattr(exactly, name)))

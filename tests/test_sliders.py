@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from moving import exact_rows, floats, path, turning
 from random_groups import FAMILIES, numbers, triangles, vectors
 
 from mechsheet.accuracy import arithmetic as exact
@@ -43,7 +44,7 @@ def within(found: Any, true: Any, bound: Any) -> None:
 def test_position_loses_the_digits_of_its_condition_number_only(family: str, group: Any, condition: Any) -> None:
     _, A, B, C = triangles(family)
     u_A, u_B = C - A, C - B
-    true = exact.floats(exact.lines(*x) for x in exact.exact(A, B, u_A, u_B))
+    true = floats(exact.lines(*x) for x in exact_rows(A, B, u_A, u_B))
     within(group(A, B, u_A, u_B), true, condition(u_A, u_B) * (np.abs(A) + np.abs(B)))
 
 
@@ -72,14 +73,14 @@ def test_prp_velocities_and_accelerations_are_the_differences_of_positions_on_mo
     a = prp_acceleration(A, B, C, u_A, u_B, v.ds_A, v.ds_B, omega_A, omega_B, a_A, a_B, epsilon_A, epsilon_B)
 
     def motion(A, B, u_A, u_B, v_A, v_B, a_A, a_B, omega_A, omega_B, epsilon_A, epsilon_B):
-        pin_A, pin_B = exact.path(A, v_A, a_A), exact.path(B, v_B, a_B)
-        guide_A, guide_B = exact.turning(u_A, omega_A, epsilon_A), exact.turning(u_B, omega_B, epsilon_B)
+        pin_A, pin_B = path(A, v_A, a_A), path(B, v_B, a_B)
+        guide_A, guide_B = turning(u_A, omega_A, epsilon_A), turning(u_B, omega_B, epsilon_B)
         pin_C = lambda t: exact.lines(pin_A(t), pin_B(t), guide_A(t), guide_B(t))  # noqa: E731
         slide_A = exact.derivatives(lambda t: exact.dot(guide_A(t), pin_C(t) - pin_A(t)))
         slide_B = exact.derivatives(lambda t: exact.dot(guide_B(t), pin_C(t) - pin_B(t)))
         return exact.derivatives(pin_C), slide_A, slide_B
 
-    true = [motion(*x) for x in exact.exact(A, B, u_A, u_B, v_A, v_B, a_A, a_B, omega_A, omega_B, epsilon_A, epsilon_B)]
+    true = [motion(*x) for x in exact_rows(A, B, u_A, u_B, v_A, v_B, a_A, a_B, omega_A, omega_B, epsilon_A, epsilon_B)]
     s = np.abs(cross(u_A, u_B))
     # C is rounded: its error, EPS (|A| + |B|)/s, counts in place of the arms where these are shorter
     arm_A, arm_B = np.abs(C - A) + (np.abs(A) + np.abs(B)) / s, np.abs(C - B) + (np.abs(A) + np.abs(B)) / s
@@ -87,9 +88,9 @@ def test_prp_velocities_and_accelerations_are_the_differences_of_positions_on_mo
     Q = np.abs(a_A) + np.abs(a_B) + (omega_A**2 + np.abs(epsilon_A)) * arm_A + (omega_B**2 + np.abs(epsilon_B)) * arm_B
     Q = (Q + 2 * (np.abs(omega_A) + np.abs(omega_B)) * V) / s
     for i, found in enumerate(v):
-        within(found, exact.floats(x[i][0] for x in true), V / s)
+        within(found, floats(x[i][0] for x in true), V / s)
     for i, found in enumerate(a):
-        within(found, exact.floats(x[i][1] for x in true), Q / s)
+        within(found, floats(x[i][1] for x in true), Q / s)
 
 
 @families
@@ -103,22 +104,22 @@ def test_rpp_velocities_and_accelerations_are_the_differences_of_positions_on_a_
     a = rpp_acceleration(A, B, C, u_A, u_B, v.ds_A, v.ds_B, omega, a_A, a_B, epsilon)
 
     def motion(A, B, u_A, u_B, v_A, v_B, a_A, a_B, omega, epsilon):
-        pin_A, pin_B = exact.path(A, v_A, a_A), exact.path(B, v_B, a_B)
-        slot, guide = exact.turning(u_A, omega, epsilon), exact.turning(u_B, omega, epsilon)
+        pin_A, pin_B = path(A, v_A, a_A), path(B, v_B, a_B)
+        slot, guide = turning(u_A, omega, epsilon), turning(u_B, omega, epsilon)
         pin_C = lambda t: exact.lines(pin_A(t), pin_B(t), slot(t), guide(t))  # noqa: E731
         slide_A = exact.derivatives(lambda t: exact.dot(slot(t), pin_A(t) - pin_C(t)))
         slide_B = exact.derivatives(lambda t: exact.dot(guide(t), pin_C(t) - pin_B(t)))
         return exact.derivatives(pin_C), slide_A, slide_B
 
-    true = [motion(*x) for x in exact.exact(A, B, u_A, u_B, v_A, v_B, a_A, a_B, omega, epsilon)]
+    true = [motion(*x) for x in exact_rows(A, B, u_A, u_B, v_A, v_B, a_A, a_B, omega, epsilon)]
     s = np.abs(cross(u_A, u_B))
     arm = np.abs(A - B) + np.abs(C - B) + (np.abs(A) + np.abs(B)) / s
     V = (np.abs(v_A) + np.abs(v_B) + np.abs(omega) * arm) / s
     Q = (np.abs(a_A) + np.abs(a_B) + (omega**2 + np.abs(epsilon)) * arm + 2 * np.abs(omega) * V) / s
     for i, found in enumerate(v):
-        within(found, exact.floats(x[i][0] for x in true), V / s)
+        within(found, floats(x[i][0] for x in true), V / s)
     for i, found in enumerate(a):
-        within(found, exact.floats(x[i][1] for x in true), Q / s)
+        within(found, floats(x[i][1] for x in true), Q / s)
 
 
 def test_scotch_yoke_moves_as_the_cosine_of_the_crank_angle() -> None:

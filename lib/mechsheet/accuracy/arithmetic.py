@@ -6,7 +6,7 @@ system of all equations. Numbers are those of a context of mpmath's of its own, 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -28,22 +28,12 @@ SLACK = 8 * mpf(EPS)  # within which an input may be another
 _CHANGE = mpf(10) ** -40  # of an input, relative, for its condition number
 
 
-def exact(*arrays: Any) -> Iterator[list[mpc]]:
-    """The elements of the broadcast arrays, one tuple of exact numbers after the other."""
-    for row in np.broadcast(*arrays):
-        yield [mpc(complex(x)) for x in row]
-
-
 def cross(a: mpc, b: mpc) -> mpf:
     return a.real * b.imag - a.imag * b.real
 
 
 def dot(a: mpc, b: mpc) -> mpf:
     return a.real * b.real + a.imag * b.imag
-
-
-def sign(x: mpf) -> int:
-    return 1 if x > 0 else -1
 
 
 def rrr(A: mpc, B: mpc, r_A: mpf, r_B: mpf, branch: int) -> mpc:
@@ -76,16 +66,6 @@ def lines(A: mpc, B: mpc, u_A: mpc, u_B: mpc) -> mpc:
     return A + u_A * cross(B - A, u_B) / D if D else mpc(nan, nan)
 
 
-def path(x: mpc, v: mpc, a: mpc) -> Callable[[mpf], mpc]:
-    """Quantity with the given value, first and second derivative at t = 0."""
-    return lambda t: x + v * t + a * t**2 / 2
-
-
-def turning(u: mpc, omega: mpc, epsilon: mpc) -> Callable[[mpf], mpc]:
-    """Unit vector along u at t = 0, turning with the angular velocity and acceleration."""
-    return lambda t: u / abs(u) * expj((omega * t + epsilon * t**2 / 2).real)
-
-
 def derivatives(f: Callable[[mpf], mpc]) -> tuple[mpc, mpc]:
     """First and second derivative at t = 0."""
     return _value_and_derivatives(f)[1:]
@@ -101,11 +81,6 @@ def rotation(a: Callable[[mpf], mpc]) -> tuple[mpf, mpf]:
     here, first, second = _value_and_derivatives(a)
     rate = first / here
     return rate.imag, (second / here - rate**2).imag
-
-
-def floats(values: Iterable[Any]) -> np.ndarray[Any, Any]:
-    """Exact numbers, rounded once."""
-    return np.array([complex(z) for z in values])
 
 
 # --- equilibrium -----------------------------------------------------------------------------------------------

@@ -1,7 +1,7 @@
 """Errors in units of the condition number times a rounding: of random groups, and of the documents from end to end."""
 
 from collections.abc import Callable, Mapping, Sequence
-from functools import lru_cache, partial
+from functools import lru_cache
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -9,7 +9,7 @@ import numpy as np
 
 from mechsheet.accuracy import arithmetic
 from mechsheet.accuracy.arithmetic import EPS, Numbers, mpc, mpf
-from mechsheet.accuracy.precision import timed
+from mechsheet.accuracy.precision import times_of_one
 from mechsheet.accuracy.truths import DOCUMENTS, TURNS, from_inputs
 from mechsheet.mechanics.planar import cross
 from mechsheet.mechanics.prp import prp
@@ -74,14 +74,12 @@ def _drawn(count: int) -> dict[str, Any]:
 
 def group_times(number: str, sizes: Sequence[int], seconds: float) -> Table:
     """Table of the time for one of n positions of each group computed at once, each of a geometry of its own."""
-    given = [_drawn(n) for n in sizes]
-    runs = [partial(group.found, *(x[name] for name in group.given)) for x in given for group in GROUPS.values()]
-    with progress(len(runs), f"{number} Groups") as done:
-        times = timed(runs, seconds, done)
-    each = 1e6 * np.array([time.seconds for time in times]).reshape(len(sizes), -1) / np.array(sizes)[:, None]
-    columns = (Column(name, "µs", "median time of one of them", 3, each[:, k]) for k, name in enumerate(GROUPS))
-    counts = Column("count", "-", "random geometries computed at once", 0, np.array(sizes, float))
-    return Table(number, "Time of a group", (counts, *columns))
+
+    def way(group: Group) -> Callable[[dict[str, Any]], Any]:
+        return lambda x: group.found(*(x[name] for name in group.given))
+
+    ways = {name: way(group) for name, group in GROUPS.items()}
+    return times_of_one(number, "Time of a group", sizes, _drawn, ways, seconds)
 
 
 def _roundings(group: Group, x: Mapping[str, Any], found: Any) -> float:

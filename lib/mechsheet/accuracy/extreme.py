@@ -1,11 +1,7 @@
-r"""Stiff and extreme scenes: how many digits a result can keep, and how many it keeps.
+"""Stiff and extreme scenes: how many digits a result can keep, and how many it keeps.
 
-A result y of inputs x has the condition number
-
-.. math:: \kappa = \sum_i \left| x_i \frac{\partial y}{\partial x_i} \right| / |y|
-
-computed with 50 digits (`conditions`). Inputs are rounded to 16 digits, so 16 - log10(kappa) digits of
-y can be expected, whatever the method. A result holds where it keeps them, less at most one.
+Inputs are rounded to 16 digits, so 16 - log10(kappa) digits of a result with the condition number kappa (`conditions`)
+can be expected, whatever the method. A result holds where it keeps them, less at most one.
 
 A scene is a TOML file in the folder ``scenes`` beside this one: ``[inputs]`` in display units, as for a script, and a
 table ``[extreme]``:

@@ -12,7 +12,7 @@ from numpy import linspace, pi
 from mechsheet.accuracy import exact, printed, rivals
 from mechsheet.accuracy.arithmetic import Numbers
 from mechsheet.accuracy.machine import machine_job, ring_job
-from mechsheet.accuracy.precision import Job, Measured, Method, Timed, largest_error, time_spread, timed
+from mechsheet.accuracy.precision import Job, Measured, Method, Timed, largest_error, time_spread, timed, times_of_one
 from mechsheet.accuracy.rivals import REACTIONS, crank_chain, hitch_chain, hitch_points
 from mechsheet.accuracy.truths import TRUTHS, exact_results
 from mechsheet.recording import numbers as computed
@@ -109,16 +109,8 @@ def batch_times(number: str, hitch: Any, sizes: Sequence[int], seconds: float) -
         "3.3": ("Time of a Find", heights, rivals.rod_ways(hitch)),
         "4.3": ("Time of the reactions", points, rivals.reaction_ways(hitch)),
     }
-    title, cases, ways = batches[number]
-    runs = [partial(way, given) for given in map(cases, sizes) for way in ways.values()]
-    with progress(len(runs), f"{number} {title}") as done:
-        times = timed(runs, seconds, done)
-    taken = np.array([(time.seconds, (time.high - time.low) / 2) for time in times]).reshape(len(sizes), -1, 2)
-    each = 1e6 * taken / np.array(sizes)[:, None, None]
-    columns = [Column(name, "µs", "median time of one of them", 2, each[:, k, 0]) for k, name in enumerate(ways)]
-    half = "half of what lies between the quartiles"
-    columns += [Column(f"{name} ±", "µs", half, 2, each[:, k, 1]) for k, name in enumerate(ways)]
-    return Table(number, title, (Column("count", "-", "computed at once", 0, np.array(sizes, float)), *columns))
+    title, given, ways = batches[number]
+    return times_of_one(number, title, sizes, given, ways, seconds)
 
 
 # Whole worksheets

@@ -15,6 +15,7 @@ from scipy.integrate import quad
 
 from mechsheet.accuracy import exact
 from mechsheet.accuracy.arithmetic import mpc, mpf, pin, reactions, slide
+from mechsheet.accuracy.dense import dense
 from mechsheet.accuracy.precision import Job, Method
 from mechsheet.mechanics.equilibrium import PinReaction, Reaction, SlideReaction, solve_reactions
 from mechsheet.mechanics.joint import circular_joint
@@ -47,7 +48,7 @@ def machine_job(number: str, sheet: Worksheet, N: int) -> Job:
         "library: groups": partial(_by_groups, p),
         "library: solve_reactions": partial(_by_bodies, p),
         "printed: elimination": partial(_printed, p.g, p),
-        "dense system": partial(_dense, p),
+        "dense system": lambda: np.array(_forces(dense(6, _pairs(p), _loads(p)), p)),
     }
     settings = {"library: solve_reactions": "18 × 18", "dense system": "18 × 18"}
     methods = [Method(family, settings.get(family, ""), way) for family, way in ways.items()]
@@ -55,14 +56,14 @@ def machine_job(number: str, sheet: Worksheet, N: int) -> Job:
     return Job(number, "Reactions of groups of all kinds", [x for way in zip(*each, strict=True) for x in way], methods)
 
 
-def _unknowns(p: Points) -> list[Any]:
-    """The unknown forces of `pin` and `slide`, of which the bodies 2 to 7 are counted from 0."""
-    hinges = [pin(p.A, 0), pin(p.B, 1, 0), pin(p.C, 1), pin(p.D, 2, 1), pin(p.E, 3, 2), pin(p.K, 4, 1), pin(p.H, 5)]
-    return [unknown for pair in (*hinges, slide(p.E, p.u5, 3), slide(p.K, p.u7, 4, 5)) for unknown in pair]
+def _pairs(p: Points) -> list[tuple[Any, ...]]:
+    """Pins and slides of the bodies 2 to 7, here counted from 1, as `dense` takes them."""
+    pins = [(p.A, 1, 0), (p.B, 2, 1), (p.C, 2, 0), (p.D, 3, 2), (p.E, 4, 3), (p.K, 5, 2), (p.H, 6, 0)]
+    return [*pins, (p.E, p.u5, 4, 0), (p.K, p.u7, 5, 6)]
 
 
 def _loads(p: Points) -> list[tuple[Any, ...]]:
-    rows = enumerate(_LOADS)
+    rows = enumerate(_LOADS, 1)
     return [(k, getattr(p, F), getattr(p, S), getattr(p, M) if M else 0 * p.A.real) for k, (F, S, M) in rows]
 
 
@@ -75,26 +76,10 @@ def _exactly(p: Points, k: int) -> list[Any]:
     """The forces at one position at 50 digits."""
     given = {name: np.broadcast_to(getattr(p, name), p.A.shape)[k] for name in (*_GIVEN, "u7")}
     at = SimpleNamespace(**{name: mpc(x) if np.iscomplexobj(x) else mpf(x) for name, x in given.items()})
-    poles = [at.A, at.C, at.D, at.E, at.K, at.H]
-    return _forces(reactions(_unknowns(at), _loads(at), poles), at)
-
-
-def _dense(p: Points) -> Any:
-    """The 18 equations of the six bodies, moments about the origin, solved at every position."""
-    matrix, right = np.zeros((p.A.size, 18, 18)), np.zeros((p.A.size, 18))
-    for k, terms in enumerate(_unknowns(p)):
-        for body, force, point, couple in terms:
-            matrix[:, 3 * body : 3 * body + 3, k] += _effects(force, point, couple, p.A.size)
-    for body, force, point, couple in _loads(p):
-        right[:, 3 * body : 3 * body + 3] -= _effects(force, point, couple, p.A.size)
-    return np.array(_forces(np.linalg.solve(matrix, right[..., None])[..., 0].T, p))
-
-
-def _effects(F: Any, P: Any, M: Any, count: int) -> Any:
-    """Both components and the moment of a force and a couple, a row for each position."""
-    effects = np.empty((count, 3))
-    effects[:, 0], effects[:, 1], effects[:, 2] = np.real(F), np.imag(F), M + (np.conj(P) * F).imag
-    return effects
+    pairs = [[*place, on - 1, by - 1 if by else None] for *place, on, by in _pairs(at)]
+    unknowns = [unknown for pair in pairs for unknown in (pin(*pair) if len(pair) == 3 else slide(*pair))]
+    loads = [(body - 1, *load) for body, *load in _loads(at)]
+    return _forces(reactions(unknowns, loads, [at.A, at.C, at.D, at.E, at.K, at.H]), at)
 
 
 def _by_groups(p: Points) -> Any:
@@ -108,9 +93,9 @@ def _by_groups(p: Points) -> Any:
 
 def _by_bodies(p: Points) -> Any:
     """The library's system of all bodies; which forces its reactions have is not looked at."""
-    hinges = [(p.A, 1, 0), (p.B, 2, 1), (p.C, 2, 0), (p.D, 3, 2), (p.E, 4, 3), (p.K, 5, 2), (p.H, 6, 0)]
-    pairs: list[Reaction] = [PinReaction(on, by, 0, P) for P, on, by in hinges]
-    pairs += SlideReaction(4, 0, 0, p.E, p.u5), SlideReaction(5, 6, 0, p.K, p.u7)
+    pairs: list[Reaction] = []
+    for *place, on, by in _pairs(p):
+        pairs.append(SlideReaction(on, by, 0, *place) if len(place) == 2 else PinReaction(on, by, 0, *place))
     x = solve_reactions([[Load(F, S, M)] for _, F, S, M in _loads(p)], pairs)
     return np.array(_forces(x.T, p))
 

@@ -2,8 +2,9 @@
 
 import os
 import platform
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from time import perf_counter
 from typing import Any, NamedTuple
 
@@ -209,6 +210,26 @@ def timed(runs: Sequence[Callable[[], Any]], seconds: float, done: Callable[[], 
             once(i)
     quartiles = np.array([np.quantile(taken, (0.5, 0.25, 0.75)) for taken in times]).T.tolist()
     return list(map(Timed, results, *quartiles, map(len, times)))
+
+
+def times_of_one(
+    number: str,
+    title: str,
+    sizes: Sequence[int],
+    given: Callable[[int], Any],
+    ways: Mapping[str, Callable[[Any], Any]],
+    seconds: float,
+) -> Table:
+    """Table of the time for one of n that are computed at once by several ways from what is given for n."""
+    runs = [partial(way, case) for case in map(given, sizes) for way in ways.values()]
+    with progress(len(runs), f"{number} {title}") as done:
+        times = timed(runs, seconds, done)
+    taken = np.array([(time.seconds, (time.high - time.low) / 2) for time in times]).reshape(len(sizes), -1, 2)
+    each = 1e6 * taken / np.array(sizes)[:, None, None]
+    columns = [Column(name, "µs", "median time of one of them", 3, each[:, k, 0]) for k, name in enumerate(ways)]
+    half = "half of what lies between the quartiles"
+    columns += [Column(f"{name} ±", "µs", half, 2, each[:, k, 1]) for k, name in enumerate(ways)]
+    return Table(number, title, (Column("count", "-", "computed at once", 0, np.array(sizes, float)), *columns))
 
 
 def measured_on(number: str) -> Table:

@@ -18,6 +18,7 @@ from scipy.optimize import brentq, fsolve, newton, root
 
 from mechsheet.accuracy import printed
 from mechsheet.accuracy.arithmetic import cross, dot
+from mechsheet.accuracy.dense import dense
 from mechsheet.accuracy.precision import Method
 from mechsheet.mechanics.load import Load
 from mechsheet.mechanics.planar import angle
@@ -406,28 +407,14 @@ def rod_ways(h: Any) -> dict[str, Callable[[Any], Any]]:
 
 
 def _by_equations(h: Any, p: dict[str, Any], whole: bool) -> Any:
-    """Equilibrium of the bodies 2 to 7 solved, (..., 18, 18); by least squares with that of the ``whole`` beside it."""
+    """Equilibrium of the bodies 2 to 7, here counted from 1; with that of the ``whole`` beside it."""
     O1, O3, O5, O7 = hinges(h)
-    pins = (  # the force in each is that of the first body on the second
-        *((p["P56_S"], 5, 6), (O7, 0, 7), (p["P34_S"], 4, 3), (O5, 5, 0), (O1, 0, 2), (O3, 0, 3)),
-        *((p["P23_S"], 2, 3), (p["P45_S"], 5, 4), (p["P67_S"], 6, 7)),
+    hitch = (  # the first six are `REACTIONS`
+        *((p["P56_S"], 5, 4), (O7, 6, 0), (p["P34_S"], 2, 3), (O5, 0, 4), (O1, 1, 0), (O3, 2, 0)),
+        *((p["P23_S"], 2, 1), (p["P45_S"], 3, 4), (p["P67_S"], 6, 5)),
     )
-    shape = p["P67_S"].shape
-    matrix, right = np.zeros((*shape, 18, 18)), np.zeros((*shape, 18))
-    for k, (P, giver, taker) in enumerate(pins):
-        for body, sense in ((taker, 1), (giver, -1)):
-            if body:
-                row = 3 * (body - 2)
-                matrix[..., row, 2 * k] = matrix[..., row + 1, 2 * k + 1] = sense
-                matrix[..., row + 2, 2 * k], matrix[..., row + 2, 2 * k + 1] = -sense * P.imag, sense * P.real
-    right[..., 13], right[..., 14] = h.P6, h.P6 * p["PS6_S"].real
-    if whole:
-        matrix = np.concatenate([matrix, matrix.reshape(*shape, 6, 3, 18).sum(-3)], axis=-2)
-        right = np.concatenate([right, right.reshape(*shape, 6, 3).sum(-2)], axis=-1)
-        x = np.array([np.linalg.lstsq(A, b, rcond=None)[0] for A, b in zip(matrix, right, strict=True)])
-    else:
-        x = np.linalg.solve(matrix, right[..., None])[..., 0]
-    return np.moveaxis(x[..., 0:12:2] + 1j * x[..., 1:12:2], -1, 0)
+    x = dense(6, hitch, [(5, -1j * h.P6, p["PS6_S"], 0)], whole)
+    return x[0:12:2] + 1j * x[1:12:2]
 
 
 def reaction_ways(h: Any) -> dict[str, Callable[[dict[str, Any]], Any]]:
