@@ -130,7 +130,7 @@ KINDS: tuple[tuple[str, str, str, Alike], ...] = (
     (r"7\.1 Digits", r"(printed|product|margin) \[", r"", digits),
     (r"7\.4 Digits", r"(proved|right) \[", r"", digits),
     (r"7\.5 Errors", r".* error \[", r"", error),
-    (r"7\.6 Condition", r"kept digits \[", r"", nearly_singular),  # the worst of three positions
+    (r"7\.\d+ .*, end to end", r"kept digits \[", r"", nearly_singular),  # the worst of three positions
     (r"5 Find against fields", r"r_\d* \[", r"", cancelled),
     (r"", r"(digits|most) \[-\]", r"", digits),
     (r"", r"error \[-?\]", r"", error),
@@ -414,8 +414,9 @@ def test_a_change_of_any_result_is_seen() -> None:
         ("accuracy", "7.1 Digits in stiff and extreme", "D38", {"value": times(1 + 1e-11)}),
         ("accuracy", "7.5 Errors of random groups", "C5", {"value": times(11)}),
         ("slotted_link", "5 Find against fields", "E21", {"value": 2e-12}),
-        ("accuracy", "7.6 Condition from end to end", "B5", {"value": times(1 + 1e-11)}),
-        ("accuracy", "7.6 Condition from end to end", "D7", {"value": lambda x: x - 1.1}),
+        ("accuracy", "7.6 Hitch, end to end", "B5", {"value": times(1 + 1e-11)}),
+        ("accuracy", "7.6 Hitch, end to end", "D5", {"value": lambda x: x - 1.1}),
+        ("accuracy", "7.9 Kinetostatics, end to end", "E5", {"value": "l2"}),
         ("accuracy", "Checks", "E3", {"value": "FAIL"}),
     ],
 )
@@ -438,7 +439,7 @@ def test_a_changed_cell_is_seen(worksheet: str, sheet: str, place: str, change: 
         ("accuracy", "7.1 Digits in stiff and extreme", "G5", {"value": 15.6}),  # both are all that a number holds
         ("accuracy", "7.5 Errors of random groups", "C5", {"value": times(3)}),
         ("slotted_link", "5 Find against fields", "E21", {"value": 9e-16}),
-        ("accuracy", "7.6 Condition from end to end", "D7", {"value": lambda x: x - 0.9}),
+        ("accuracy", "7.6 Hitch, end to end", "D5", {"value": lambda x: x - 0.9}),
     ],
 )
 def test_what_is_rounding_or_time_may_change(worksheet: str, sheet: str, place: str, change: dict) -> None:

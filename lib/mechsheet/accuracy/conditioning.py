@@ -156,7 +156,7 @@ def _conditions(number: str, path: Path, text: bytes) -> tuple[Table, Any]:
     for name, value in results.items():
         steepest = (np.max(np.abs(motion[part]), axis=0).reshape(len(at), -1) for part in value.parts)
         moves = at * np.sqrt(sum(side**2 for side in steepest))
-        size, k = float(np.nanmax(np.abs(names[name]))), int(np.argmax(moves.sum(0)))
+        size, k = float(np.nanmax(np.abs(names[name]))), _greatest(moves.sum(0))
         kappa = float(moves[:, k].sum() / size) if size else np.nan
         if not kappa * EPS < 1:
             lost.append(name)
@@ -164,8 +164,8 @@ def _conditions(number: str, path: Path, text: bytes) -> tuple[Table, Any]:
         own, turn = np.ravel(names[name]), 2 * np.pi if name.startswith(TURNS) else None
         off = (arithmetic.error(own[k], true, turn) for k, true in truths.get(name, {}).items())
         error = float(max(off, default=mpf(np.nan))) / size
-        rows.append((name, max(1.0, kappa), each[int(np.argmax(moves[:, k]))], error))
-    rows.sort(key=lambda row: -row[1])
+        rows.append((name, max(1.0, kappa), each[_greatest(moves[:, k])], error))
+    rows.sort(key=lambda row: -round(np.log10(row[1]), 6))  # those alike as they stand in the document
     found, conditions, blamed, errors = (np.array(column) for column in zip(*rows, strict=True))
     errors = np.maximum(errors, EPS)
     columns = (
@@ -178,3 +178,8 @@ def _conditions(number: str, path: Path, text: bytes) -> tuple[Table, Any]:
     note = f"Without one, zero but for rounding or with a jump: {', '.join(lost)}." if lost else ""
     title = f"{path.stem.replace('_', ' ').capitalize()}, end to end"
     return Table(number, title, columns, note), errors / (conditions * EPS)
+
+
+def _greatest(x: Any) -> int:
+    """Which number is the greatest, of those that are but for rounding the first."""
+    return int(np.argmax((x >= (1 - 1e-9) * np.max(x)) | np.isnan(x)))
