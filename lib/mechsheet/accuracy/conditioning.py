@@ -175,7 +175,7 @@ def _conditions(number: str, path: Path, text: bytes) -> tuple[Table, Any]:
         Column("kept digits", "-", "digits that are right", 1, -np.log10(errors)),
         Column("most by", "", "the input whose rounding costs most", 0, blamed.astype(object)),
     )
-    note = f"Without one, zero but for rounding or with a jump: {', '.join(lost)}." if lost else ""
+    note = f"No condition have {', '.join(lost)}: zero but for rounding, or with a jump." if lost else ""
     title = f"{path.stem.replace('_', ' ').capitalize()}, end to end"
     return Table(number, title, columns, note), errors / (conditions * EPS)
 
