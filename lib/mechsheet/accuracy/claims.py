@@ -1,16 +1,14 @@
 """The digits that a proof claims beside those that there are, by exact results from the inputs to the end."""
 
-from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
-from mechsheet.accuracy.arithmetic import mp, mpf
+from mechsheet.accuracy.arithmetic import error, mp, mpf
 from mechsheet.accuracy.truths import DOCUMENTS, TURNS, from_inputs
 from mechsheet.run.progress import progress
 from mechsheet.run.proving import proof_of_wanted
-from mechsheet.worksheet.cells import Worksheet
 from mechsheet.worksheet.check import Check
 from mechsheet.worksheet.numbers import fixed
 from mechsheet.worksheet.table import Column, Table
@@ -40,22 +38,17 @@ def claims(path: Path) -> list[Claim]:
     """What is proved of the results of one of the five documents for which there are exact ones."""
     sheet, names, truths = from_inputs(path, path.read_bytes())
     plain = {name: truth for name, truth in truths.items() if not name.startswith(TURNS)}
-    return list(_compared(path.stem, names, plain, sheet))
-
-
-def _compared(
-    stem: str, names: Mapping[str, Any], truths: dict[str, dict[int, Any]], sheet: Worksheet
-) -> Iterator[Claim]:
-    proof = proof_of_wanted(names, sheet, truths)
-    for name, truth in truths.items():
+    proof, made = proof_of_wanted(names, sheet, plain), list[Claim]()
+    for name, truth in plain.items():
         columns = [column for column in proof.columns if (column.where, column.name) == ("results", name)]
         own = np.ravel(names[name])
         parts = ("real", "imag") if np.iscomplexobj(own) else ("real",)
         for part, column in zip(parts, columns, strict=True):
             size = mpf(float(np.max(np.abs(getattr(own, part)))))
             for k, true in truth.items():
-                off = abs(mpf(float(getattr(own[k], part))) - getattr(true, part)) / size
-                yield Claim(stem, name, float(column.digits[k]), float(-mp.log10(off)) if off else np.inf)
+                off = error(float(getattr(own[k], part)), getattr(true, part)) / size
+                made.append(Claim(path.stem, name, float(column.digits[k]), float(-mp.log10(off)) if off else np.inf))
+    return made
 
 
 def claims_table(number: str, folder: Path) -> tuple[Table, Check]:
