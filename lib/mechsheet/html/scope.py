@@ -206,7 +206,7 @@ class Scope:
         for node in waiting:
             if self._in_loop(node) and self._key(node) == key and self._ready(node, loop):
                 loop[node] = self.program.name()
-        stored = {node for node in loop if not self._users[node].issubset(loop.keys())}
+        stored = dict.fromkeys(node for node in loop if not self._users[node].issubset(loop.keys()))  # in order
         shape = self.shape(first)
         count = "*".join(shape.strip("[]").split(","))
         count = self.bind(count) if "*" in count else count
