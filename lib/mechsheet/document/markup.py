@@ -24,11 +24,11 @@ def attribute(name: str, value: Any) -> str:
     >>> attribute("told", {"a": "it's < 1"})
     ' told=\'{"a":"it&#39;s &lt; 1"}\''
     """
-    text = json.dumps(value, ensure_ascii=False, separators=(",", ":"))
-    return f" {name}='{escape(text, quote=False).replace(_QUOTE, '&#39;')}'"
+    return f" {name}='{escape(_as_json(value), quote=False).replace(_QUOTE, '&#39;')}'"
 
 
 _QUOTE = "'"
+_as_json = json.JSONEncoder(ensure_ascii=False, separators=(",", ":")).encode
 
 
 def named(name: str) -> str:

@@ -75,7 +75,7 @@ def usual(x: float, to: Notation) -> str:
     if 1e5 <= abs(x) < 1e6:
         return f"{x:.0f}".replace("-", to.minus)
     if is_plain(x):
-        return np.format_float_positional(float(f"{x:.5g}") + 0.0, trim="-").replace("-", to.minus)  # no sign of zero
+        return f"{float(f'{x:.5g}') + 0.0:.15g}".replace("-", to.minus)  # no sign of zero
     mantissa, exponent = f"{x:.4e}".split("e")
     return to.power.format(mantissa.rstrip("0").rstrip("."), int(exponent)).replace("-", to.minus)
 
