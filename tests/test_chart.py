@@ -89,7 +89,7 @@ def test_moving_mark_is_placed_in_si():
 def test_lines_have_a_legend_and_hovering_shows_their_values():
     svg = drawn(Q("G56", "N", np.arange(6.0), 0), Q("dRa", "%", np.array([1, 2, np.nan, 4, 5, 6.25]), 1))
     assert svg.count('stroke-width="2.2"') == 2
-    values = json.loads(unescape(re.search(r'data-values="([^"]*)"', svg)[1]))
+    values = json.loads(unescape(re.search(r"data-values=\'([^\']*)\'", svg)[1]))
     assert values["names"] == ["<i>S</i>", "<i>G</i><sub>56</sub>", "Δ<i>R</i><sub>a</sub>"]
     assert values["units"] == ["m", "N", "%"]
     assert [column[2] for column in values["texts"]] == ["0.520", "2", "–"]

@@ -203,7 +203,7 @@ def assert_column(column: Column, unit: str, names: dict[str, object]) -> None:
 
 
 def assert_used(used: Used) -> int:
-    (told,) = re.findall(r'<ms-used told="(.*?)">', used._mime_()[1])
+    (told,) = re.findall("<ms-used told='(.*?)'>", used._mime_()[1])
     shown = json.loads(html.unescape(told))
     rows = used.rows()
     for each, (field, _) in zip(shown, rows, strict=True):
@@ -216,7 +216,7 @@ def assert_used(used: Used) -> int:
 
 
 def assert_check(check: Check) -> int:
-    text = html.unescape(re.sub("<[^>]*>", "", as_python(re.sub('texts="[^"]*"', "", check._mime_()[1]))))
+    text = html.unescape(re.sub("<[^>]*>", "", as_python(re.sub("texts='[^']*'", "", check._mime_()[1]))))
     if check.agrees:
         within = re.search(r": within (\S+)", text)
         assert within and "PASS" in text
@@ -285,7 +285,7 @@ def test_every_number_shown_is_the_one_computed(worksheet):
 def assert_chart(figure: Figure) -> int:
     """What hovering shows, against the columns."""
     svg = chart_svg.svg(chart.line_chart(figure.x, figure.lines, figure.marks, figure.every))
-    values = json.loads(html.unescape(re.search(r'data-values="(.*?)"', svg)[1]))
+    values = json.loads(html.unescape(re.search("data-values='(.*?)'", svg)[1]))
     columns = [figure.x, *figure.lines]
     for column, texts, unit in zip(columns, values["texts"], values["units"], strict=True):
         for text, value in zip(texts, column.values.tolist(), strict=True):

@@ -105,7 +105,10 @@ def drawn(name: str, given: dict[str, str]) -> dict[str, list[Any]]:
     layouts = [chart.line_chart(figure.x, figure.lines, figure.marks, figure.every) for figure in figures]
     return {
         "drawings": [closed(drawing_svg.svg(part)) for part in showing.drawings(shown)],
-        "charts": [re.sub(r' (?:data-values|style)="[^"]*"', "", closed(chart_svg.svg(layout))) for layout in layouts],
+        "charts": [
+            re.sub(r" (?:data-values='[^']*'|style=\"[^\"]*\")", "", closed(chart_svg.svg(layout)))
+            for layout in layouts
+        ],
         "numbers": [
             (f"line-{p.formula.name}", x) for p in shown if isinstance(p, parts.Line) and (x := put_in(p, known))
         ],

@@ -25,7 +25,7 @@ def charts(page):
     G = Column("G", "N", "force", 0, np.linspace(1e3, 3e3, 9), of="G")
     figure = Figure("1", "Forces", S, (F, G), marks=(("S_p", 0.32),))
     page.set_content(f"<style>{STYLE}</style><body>{values.html(Table('1', 'Forces', (S, F, G)))}{values.html(figure)}")
-    page.add_script_tag(content=base64.b64decode(CALLED.search(script.script("units.js"))[1]).decode())
+    page.add_script_tag(content=base64.b64decode(CALLED.search(script.script("units.js", "format.js"))[1]).decode())
     shared = ("tooltip.js", "format.js", "chart.js")
     page.add_script_tag(content=base64.b64decode(CALLED.search(script.script("chart.js", *shared))[1]).decode())
     return page

@@ -1,6 +1,7 @@
 """Display units that are switched in place on the page, in a real browser."""
 
 import json
+from base64 import b64decode
 from decimal import Decimal
 from math import log10
 from pathlib import Path
@@ -12,13 +13,13 @@ from playwright.sync_api import expect
 from test_page import HITCH, ready
 
 from mechsheet.document.shortened import ENDS
-from mechsheet.page import script, values
+from mechsheet.page import script, switched, values
 from mechsheet.units import parse, shown
 from mechsheet.worksheet import numbers
 from mechsheet.worksheet.check import check
 from mechsheet.worksheet.table import Column, Figure, Table
 
-SCRIPT = (Path(script.__file__).parent / "units.js").read_text(encoding="utf-8")
+SCRIPT = b64decode(script.script("units.js", "format.js").split(",")[1].split('"')[0]).decode()
 STYLE = HITCH.with_name("page.css").read_text(encoding="utf-8")
 HALVES = [0.5, 1.5, 2.5, -0.5, 0.125, 0.375, -2.125, 9.5, 99.5, 0.0625, 1e-300, 1e22, -3e25, 0.0, -0.0, -4e-9]
 NONE = [np.nan, np.inf, -np.inf]
@@ -76,6 +77,31 @@ def test_a_number_is_written_as_the_library_writes_it(
         written = numbers.scientific(x, decimals, numbers.AXIS) if power else numbers.fixed(x, digits, numbers.AXIS)
         assert text == written, repr(x)
     assert {*page.locator(".ms-chosen th ms-unit").all_text_contents()} == {shown(other)}
+
+
+@pytest.mark.parametrize(("unit", "other"), [("m", "mm"), ("N", "kgf"), ("deg", "rad"), ("MPa", "psi")])
+def test_a_value_is_written_as_the_library_writes_it(page, unit: str, other: str) -> None:
+    """Numbers, points, fields and small matrices; what is nothing but rounding, and what does not exist, among them."""
+    random = np.random.default_rng(37)
+    drawn = random.normal(size=(400, 3)) * 10 ** random.uniform(-9, 9, (400, 1)) * parse(unit).factor
+    halves = np.array([x for x in HALVES if abs(x) < 1e15]) * parse(other).factor
+    whole = np.arange(-3, 4)
+    shown_values = [*drawn, *halves, halves[:9], drawn[:4], drawn[:3, :2] * (1 + 1e-17j), whole, 1e9, 3, 2 - 3e-20j]
+    shown_values += [np.array([1.0, np.nan, 2e-17, -np.inf]), np.nan, np.array([[1.0, np.inf], [0.0, -2.0]])]
+    static(page, "".join(switched.quantity(f"x{n}", unit, value) for n, value in enumerate(shown_values)))
+    page.locator("ms-unit").first.click()
+    page.get_by_role("menuitemradio", name=shown(other), exact=True).click()
+    expect(page.locator(".ms-chosen")).to_have_count(1)
+    found = page.evaluate(
+        """label => [...document.querySelectorAll("ms-value")].map(value => {
+            value.setAttribute("of", "x0");
+            value.show();
+            return value.querySelector(".ms-chosen").innerHTML.replace(/<ms-unit[^>]*>/, "<ms-unit>");
+        })""",
+        shown(other),
+    )
+    wanted = [numbers.value(value, other, switched._SWITCHED) for value in shown_values]
+    assert [text.replace("&nbsp;", "\N{NO-BREAK SPACE}") for text in found] == wanted
 
 
 def test_back_in_its_own_unit_a_table_is_as_it_was(page) -> None:

@@ -1,18 +1,18 @@
 """Charts as SVG, in the page's own colours; hovering and moving positions find their data in it."""
 
-import json
 from collections.abc import Iterable
 from functools import lru_cache
 from html import escape
 from itertools import groupby
 from math import isfinite
 from operator import itemgetter
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mechsheet.document.chart import Chart, Curve, Label, Mark, Sample, Stroke, told
-from mechsheet.document.markup import named
+from mechsheet.document.markup import attribute, named
 from mechsheet.worksheet.symbol import Symbol
 
 _FONT = 13
@@ -28,8 +28,8 @@ def svg(chart: Chart) -> str:
     return (
         f'<svg xmlns="http://www.w3.org/2000/svg" class="ms-chart" width="{chart.width}" '
         f'viewBox="0 0 {chart.width} {chart.height}" '
-        f'style="max-width:100%;height:auto" fill="none" stroke="currentColor" stroke-linejoin="round" '
-        f'data-values="{_values(chart)}">'
+        f'style="max-width:100%;height:auto" fill="none" stroke="currentColor" stroke-linejoin="round"'
+        f"{attribute('data-values', _values(chart))}>"
         f'<path stroke-opacity=".6" d="{frame}V{plot.top + plot.height}H{plot.left + plot.width}"/>'
         f'<svg x="{plot.left}" y="{plot.top}" width="{plot.width}" height="{plot.height}" '
         f'viewBox="0 0 {plot.width} {plot.height}">'
@@ -110,14 +110,13 @@ def _symbol(name: Symbol) -> str:
     return text + (index if name.index else "")
 
 
-def _values(chart: Chart) -> str:
+def _values(chart: Chart) -> dict[str, Any]:
     """What the pointer shows: places [px of the picture], texts of the quantities there, and the axes."""
     left = chart.plot.left
-    values = {
+    return {
         "at": [round(left + u, 1) if isfinite(u) else None for u in chart.curves[0].x.tolist()],
         "names": [named(reading.name) for reading in chart.readings],
         "units": [reading.unit for reading in chart.readings],
         "texts": [reading.texts for reading in chart.readings],
         "axes": [told(axis, unit, axis.power) for axis, unit in zip(chart.axes, chart.axis_units, strict=True)],
     }
-    return escape(json.dumps(values, ensure_ascii=False, separators=(",", ":")))

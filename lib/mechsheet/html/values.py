@@ -35,7 +35,7 @@ from mechsheet.worksheet.title import Caption, Mark, SideBySide, Title
 from mechsheet.worksheet.verdict import Verdict
 
 _MARK = re.compile(r' data-n="(\d+)"(>?)')
-_READINGS = re.compile(' data-values="[^"]*"')  # of a chart: the page knows them
+_READINGS = re.compile(" data-values='[^']*'")  # of a chart: the page knows them
 
 
 @singledispatch

@@ -1,6 +1,5 @@
 """Lines of a cell in the page: formula, value, unit, meaning, printed number; the formula with numbers for symbols."""
 
-import json
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import lru_cache
@@ -13,7 +12,7 @@ from mechsheet import units
 from mechsheet.document.expression import equation, fields_by_name, reads, substituted
 from mechsheet.document.formula import Measure
 from mechsheet.document.latex import latex
-from mechsheet.document.markup import meant, where
+from mechsheet.document.markup import attribute, meant, where
 from mechsheet.page import switched
 from mechsheet.page.unchanged import kept
 from mechsheet.worksheet import numbers, symbol
@@ -88,7 +87,7 @@ class _Value:
 
 @kept(2048)
 def _switched(value: _Value) -> str:
-    return switched.value(value.of, value.unit, numbers.in_any_unit(value.numbers))
+    return switched.quantity(value.of, value.unit, value.numbers)
 
 
 def _substituted(line: Formula, known: Numbers, position: int) -> str:
@@ -125,16 +124,16 @@ def _line(
     said = f"<span>{meant(meaning)}{told}</span>" if meaning or told else ""
     said += f'<span class="ms-number">{escape(number)}</span>' if number else ""
     place = f' id="line-{line.name}"' if line else ""
-    place += f' data-reads="{escape(_symbols(line))}"' if isinstance(line, Formula) else ""
+    place += _symbols(line) if isinstance(line, Formula) else ""
     return f'<div class="ms-line"{place}><span class="ms-formula">{formula}</span>{said}{more}</div>'
 
 
 @lru_cache(maxsize=4096)
 def _symbols(line: Formula) -> str:
-    """Names of a line by the letters of their symbols, as JSON; ``g.L3`` of an input."""
+    """Names of a line by the letters of their symbols, in an attribute; ``g.L3`` of an input."""
     names = (line.name, *reads(line))
     read = {name: symbol.read(name[2:] if name.startswith("g.") else symbol.stem(name)) for name in names}
-    return json.dumps({s.base + s.index: name for name, s in reversed(read.items())}, ensure_ascii=False)
+    return attribute("data-reads", {s.base + s.index: name for name, s in reversed(read.items())})
 
 
 def _tex_element(tex: str) -> str:

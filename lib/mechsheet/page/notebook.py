@@ -137,6 +137,13 @@ def run_what_is_written(server: Any) -> None:
         known.partials = known.with_overrides({"runtime": {"watcher_on_save": "autorun"}}).partials
 
 
+def send_as_it_is(server: Any) -> None:
+    """Let a server that only this machine can reach not pack what it sends: that takes longer than sending it."""
+    with suppress(AttributeError):
+        config = server.state.server.config
+        config.ws_per_message_deflate = config.host not in ("127.0.0.1", "localhost", "::1")
+
+
 def reads(name: str) -> bool:
     """Whether a cell of the calling cell's page reads a name; no where this version of marimo does not tell."""
     try:
@@ -161,9 +168,21 @@ def texts(namespace: Mapping[str, Any]) -> tuple[tuple[str, str], ...] | None:
         notebook: Any = get_context()
         if notebook.globals is not namespace:
             return None
-        return tuple([(cell.code, _filename(cell)) for cell in list(notebook.graph.cells.values())])
+        graph = notebook.graph
+        cells = list(graph.cells.values())
+        known = _texts.get(id(graph))
+        if not known or known[0] != cells:  # a cell that is edited is another one
+            if len(_texts) == _PAGES:
+                _texts.clear()
+            known = _texts[id(graph)] = cells, tuple([(cell.code, _filename(cell)) for cell in cells])
+        return known[1]
     except (ImportError, AttributeError):
         return None
+
+
+# Texts of the cells of each page, by the identity of what holds them: they are asked for by every line of an output.
+_texts: dict[int, tuple[list[Any], tuple[tuple[str, str], ...]]] = {}
+_PAGES = 32
 
 
 def _filename(cell: Any) -> str:

@@ -1,20 +1,19 @@
 """The scripts of the page, one for each thing that it does by itself, and the elements that they show."""
 
 import base64
-import json
 from functools import cache
 from html import escape
 from pathlib import Path
 from typing import Any
 
+from mechsheet.document.markup import attribute
 from mechsheet.html.javascript import runtime
 
 
 def element(kind: str, content: str = "", **told: Any) -> str:
     """HTML of an element with what it is told in its attributes: a text, or else JSON."""
-    texts = {name: x if isinstance(x, str) else json.dumps(x, ensure_ascii=False) for name, x in told.items()}
-    attributes = "".join(f' {name}="{escape(text)}"' for name, text in texts.items())
-    return f"<{kind}{attributes}>{content}</{kind}>"
+    texts = (f' {name}="{escape(x)}"' if isinstance(x, str) else attribute(name, x) for name, x in told.items())
+    return f"<{kind}{''.join(texts)}>{content}</{kind}>"
 
 
 @cache

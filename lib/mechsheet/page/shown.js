@@ -16,7 +16,7 @@
   }
 
   // marimo's own elements, such as a formula, read what stands in them once.
-  const stays = (was, now) => was.nodeName === now.nodeName && (!was.nodeName.startsWith("MARIMO-") || was.isEqualNode(now));
+  const stays = (was, now) => was.nodeName === now.nodeName && !was.nodeName.startsWith("MARIMO-");
 
   function follow(was, now) {
     const { shown } = was;
@@ -36,13 +36,17 @@
   }
 
   function followIn(shown, was, now) {
-    let [old, last] = [was.firstChild, null]; // behind the last one is put what is new
-    for (let node = now.firstChild; node; last = node.shown, node = node.nextSibling) {
-      if (old && stays(old, node)) follow(old, node);
+    let [old, node, last] = [was.firstChild, now.firstChild, null]; // behind the last one is put what is new
+    while (node) {
+      const next = old && old.nextSibling;
+      if (old && old.isEqualNode(node)) {
+        node.replaceWith(old); // it knows what stands for it, and all in it does
+        node = old;
+      } else if (old && stays(old, node)) follow(old, node);
       else if (old) old.shown.replaceWith(placed(node));
       else if (last) last.after(placed(node));
       else shown.prepend(placed(node));
-      old = old && old.nextSibling;
+      [last, node, old] = [node.shown, node.nextSibling, next];
     }
     for (; old; old = old.nextSibling) old.shown.remove();
   }

@@ -8,6 +8,8 @@ from functools import cache
 from math import isfinite
 from typing import Any
 
+import numpy as np
+
 from mechsheet import units
 from mechsheet.document.chart import Chart, ticks
 from mechsheet.document.markup import HTML
@@ -36,6 +38,25 @@ def value(of: str, unit: str, text: Callable[[str, Notation], str]) -> str:
     if not texts:
         return text(unit, HTML)
     return element("ms-value", f"<span>{text(unit, _SWITCHED)}</span>", of=of, unit=_printed(unit), texts=texts)
+
+
+def quantity(of: str, unit: str, values: Any) -> str:
+    """HTML of SI values in a unit, which follows the unit that is chosen; few numbers are written anew by the page."""
+    field = np.asarray(values)
+    if not offered(unit) or not numbers.is_listed(field):
+        return value(of, unit, numbers.in_any_unit(field))
+    parts = [field.real, field.imag] if field.dtype.kind == "c" else [field]
+    told = [
+        part.ravel().tolist() if np.isfinite(part).all() else [str(x).replace("inf", "Infinity") for x in part.flat]
+        for part in parts
+    ]
+    text = f"<span>{numbers.value(field, unit, _SWITCHED)}</span>"
+    return element("ms-value", text, of=of, unit=_printed(unit), units=_units(unit), si=told, shape=field.shape)
+
+
+def _units(unit: str) -> dict[str, tuple[float, str]]:
+    """Factors of the other units, and how they stand behind a number."""
+    return {label: (units.parse(o).factor, numbers.behind(o, _SWITCHED)) for label, o in offered(unit).items()}
 
 
 def columns(shown: Sequence[Column], table: str) -> str:

@@ -1,4 +1,5 @@
 // Units under the hand: a click on one offers those that measure the same; what it stands behind is shown in the chosen one.
+// Numbers are written by format.js of the page in one file, which stands before it.
 (() => {
   if (customElements.get("ms-unit")) return;
 
@@ -55,17 +56,30 @@
     }
   }
 
+  // A value: its texts in the other units, or its numbers in SI and what the units are.
   class Value extends Host {
-    static observedAttributes = ["texts", "of"];
+    static observedAttributes = ["texts", "si", "units", "of"];
 
     offered() {
       const unit = this.getAttribute("unit");
-      return { of: this.getAttribute("of"), unit, units: [unit, ...Object.keys(this.told("texts"))] };
+      return { of: this.getAttribute("of"), unit, units: [unit, ...Object.keys(this.told(this.kind))] };
+    }
+
+    get kind() {
+      return this.hasAttribute("texts") ? "texts" : "units";
     }
 
     copied() {
-      const text = chosen.has(this.getAttribute("of")) && this.told("texts")[chosen.get(this.getAttribute("of"))];
-      return text && Object.assign(document.createElement("span"), { innerHTML: text });
+      const other = chosen.get(this.getAttribute("of"));
+      const known = other && this.told(this.kind)[other];
+      if (!known) return null;
+      const innerHTML = typeof known === "string" ? known : this.written(...known);
+      return Object.assign(document.createElement("span"), { innerHTML });
+    }
+
+    written(factor, behind) {
+      const shape = this.told("shape");
+      return valueText(this.told("si").map((part) => Object.assign(part.map(Number), { shape })), factor, behind);
     }
   }
   customElements.define("ms-value", Value);
@@ -166,32 +180,7 @@
     const before = Number(greatest.toExponential().split("e")[1]) + 1;
     const same = decimals + Math.round(Math.log10(units[other] / units[unit]));
     const places = Math.max(0, Math.min(same, 5 - before));
-    return shown.map((y) => (typeof y === "string" ? y : power ? scientific(y, decimals) : fixed(y, places)));
-  }
-
-  // Numbers as the library writes them: of two as near the even one, no sign of a zero, two digits of a power of ten.
-  function fixed(x, decimals) {
-    const size = Math.abs(x);
-    if (size >= 1e21) return signed(x, BigInt(size) + (decimals ? `.${"0".repeat(decimals)}` : ""));
-    return signed(x, even(size.toFixed(decimals), size.toFixed(decimals + MORE)));
-  }
-
-  function scientific(x, decimals) {
-    const [digits, power] = Math.abs(x).toExponential(decimals).split("e");
-    const [longer, same] = Math.abs(x).toExponential(decimals + MORE).split("e");
-    const mantissa = power === same ? even(digits, longer) : digits;
-    return signed(x, `${mantissa}e${power[0].replace("-", "−")}${power.slice(1).padStart(2, "0")}`);
-  }
-
-  const MORE = 20; // digits behind the last one, by which a number half-way between two texts is known
-
-  function even(text, longer) {
-    const isHalf = longer.endsWith(`5${"0".repeat(MORE - 1)}`);
-    return isHalf && text.at(-1) % 2 ? text.slice(0, -1) + (text.at(-1) - 1) : text;
-  }
-
-  function signed(x, text) {
-    return x < 0 && /[1-9]/.test(text.split("e")[0]) ? `−${text}` : text;
+    return shown.map((y) => (typeof y === "string" ? y : cellText(y, { power, decimals: power ? decimals : places })));
   }
 
   const menu = document.createElement("div");

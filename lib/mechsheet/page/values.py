@@ -146,7 +146,7 @@ def _(title: Title) -> str:
     scripts = (
         script("shown.js")
         + script("page.js")
-        + script("units.js")
+        + script("units.js", "format.js")
         + script("chart.js", "tooltip.js", "format.js", "chart.js")
     )
     scripts += script("symbols.js", "tooltip.js") + script("sections.js")

@@ -75,7 +75,7 @@ def usual(x: float, to: Notation) -> str:
     if 1e5 <= abs(x) < 1e6:
         return f"{x:.0f}".replace("-", to.minus)
     if is_plain(x):
-        return np.format_float_positional(float(f"{x:.5g}") + 0.0, trim="-").replace("-", to.minus)  # no sign of zero
+        return f"{float(f'{x:.5g}') + 0.0:.15g}".replace("-", to.minus)  # no sign of zero
     mantissa, exponent = f"{x:.4e}".split("e")
     return to.power.format(mantissa.rstrip("0").rstrip("."), int(exponent)).replace("-", to.minus)
 
@@ -99,7 +99,7 @@ def in_any_unit(values: Any) -> Callable[[str, Notation], str]:
     """What `value` says of the values in a unit and a notation; they are looked at once."""
     field = np.asarray(values)
     least = rounding(field)
-    if field.ndim == 2 and max(field.shape) <= _MOST_ROWS:
+    if _is_matrix(field):
         rows = field.tolist()
         return lambda unit, to: "[" + "; ".join(_each(row, least, unit, to) for row in rows) + "]" + behind(unit, to)
     if in_full(field):
@@ -113,6 +113,15 @@ def in_any_unit(values: Any) -> Callable[[str, Notation], str]:
     return lambda unit, to: (
         to.pair.format(_from_to(x, least, unit, to), _from_to(y, least, unit, to)) + behind(unit, to)
     )
+
+
+def is_listed(field: NDArray[Any]) -> bool:
+    """Whether all numbers of a value stand where it is shown, one after another or in rows."""
+    return _is_matrix(field) or in_full(field)
+
+
+def _is_matrix(field: NDArray[Any]) -> bool:
+    return field.ndim == 2 and max(field.shape) <= _MOST_ROWS
 
 
 def in_full(values: Any) -> bool:

@@ -1,0 +1,125 @@
+"""What a page is told of its cells while they are computed: middleware of marimo, an entry point of the package.
+
+marimo tells of every cell four times beside its output that it waits, runs, has lost its fields and is done, and the
+page draws itself for each. Where the output comes at once, the output and that it is done are enough.
+"""
+
+import asyncio
+import json
+import re
+from typing import NamedTuple
+
+from starlette.middleware import Middleware
+from starlette.types import ASGIApp, Message, Receive, Scope, Send
+
+AT_ONCE = 0.25  # s
+_SHORT = 400  # characters of a message that may be a state, and in which a longer one tells its cell and its kind
+_CELL = re.compile(r'{"op": ?"cell-op", ?"data": ?{"op": ?"cell-op", ?"cell_id": ?"(\w+)"')
+_FIELDS_OF = re.compile(r"object-id=\W{0,6}(\w+)-")
+
+
+class Fewer:
+    """Middleware that keeps back what a served page need not be told; in the editor all is told."""
+
+    def __init__(self, app: ASGIApp) -> None:
+        self._app = app
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        if scope["type"] != "websocket" or not _is_served(scope):
+            await self._app(scope, receive, send)
+            return
+        told = Told(send)
+        try:
+            await self._app(scope, receive, told)
+        finally:
+            told.end()
+
+
+class _Said(NamedTuple):
+    """A message: of which cell, and what."""
+
+    op: str
+    cell: str = ""
+    state: str = ""
+    error: bool = False
+    output: bool = False
+    printed: bool = False
+
+
+class Told:
+    """What one page is told; the states of its cells once they last, unless an output or another state overtakes them.
+
+    An error, and what was printed, are taken back by the states that follow: of such a cell the next ones are told.
+    """
+
+    def __init__(self, send: Send) -> None:
+        self._send = send
+        self._shown, self._printed, self._with_fields = set[str](), set[str](), set[str]()
+        self._held = dict[str, list[Message]]()
+        self._later: asyncio.Task[None] | None = None
+
+    async def __call__(self, message: Message) -> None:
+        text = message.get("text") if message["type"] == "websocket.send" else None
+        said = _read(text) if text else _Said("")
+        self._with_fields.update(_FIELDS_OF.findall(text or ""))
+        if said.op == "remove-ui-elements" and said.cell not in self._with_fields:
+            return
+        if said.op == "cell-op":
+            held = self._held.pop(said.cell, [])
+            if self._waits(said):
+                self._held[said.cell] = [*held, message]
+                if self._later is None or self._later.done():
+                    self._later = asyncio.create_task(self._tell_what_lasts())
+                return
+            if said.printed:
+                for before in held:
+                    await self._send(before)
+        await self._send(message)
+
+    def end(self) -> None:
+        """Tell no more."""
+        if self._later:
+            self._later.cancel()
+
+    def _waits(self, said: _Said) -> bool:
+        """Whether a state is one that its cell's output may overtake; what else is said is taken note of."""
+        if said.output:
+            (self._shown.discard if said.error else self._shown.add)(said.cell)
+        if said.printed:
+            self._printed.add(said.cell)
+        if said.output or said.printed or said.state not in ("queued", "running"):
+            return False
+        if said.cell in self._shown - self._printed:
+            return True
+        if said.state == "running":  # which takes back what was printed
+            self._printed.discard(said.cell)
+        return False
+
+    async def _tell_what_lasts(self) -> None:
+        await asyncio.sleep(AT_ONCE)
+        while self._held:
+            for message in self._held.pop(next(iter(self._held))):
+                await self._send(message)
+
+
+def _read(text: str) -> _Said:
+    if len(text) < _SHORT:
+        told = json.loads(text)
+        data = told.get("data") or {}
+        error = (data.get("output") or {}).get("mimetype", "").endswith("+error")
+        more = bool(data.get("output")), bool(data.get("console"))
+        return _Said(told["op"], data.get("cell_id", ""), data.get("status") or "", error, *more)
+    if cell := _CELL.match(text):
+        head = text[:_SHORT]
+        printed = '"output":null' in head
+        return _Said("cell-op", cell[1], "", "application/vnd.marimo+error" in head, not printed, printed)
+    return _Said("")
+
+
+def _is_served(scope: Scope) -> bool:
+    """Whether a page is read and not edited; no where this version of marimo does not tell."""
+    manager = getattr(scope["app"].state, "session_manager", None)
+    return str(getattr(getattr(manager, "mode", None), "value", "")) == "run"
+
+
+middleware = Middleware(Fewer)
