@@ -44,7 +44,7 @@ class _Parts:
     """Of which parts quantities are put together; those that are ``named``, and all that is not, are one part."""
 
     def __init__(self, graph: Graph, named: Container[Node]) -> None:
-        self.graph, self.named, self.known = graph, named, dict[Node, list[_Part]]()
+        self.graph, self.named, self.known = graph, named, dict[Node, list[_Part] | None]()
 
     def reduced(self, node: Node) -> Node:
         """The largest or least of several parts, by those in each row; anything else as it is."""
@@ -59,7 +59,7 @@ class _Parts:
     def largest(self, kind: str, node: Node) -> list[Node]:
         """Quantities among which the largest or least of a quantity is, one for all parts of a shape."""
         parts = self.of(node)
-        if node.value.dtype == bool:  # no cell with a condition counts as a number
+        if parts is None or node.value.dtype == bool:  # no cell with a condition counts as a number
             return [node]
         alike = dict[Any, list[Node]]()
         for part in parts:
@@ -78,25 +78,24 @@ class _Parts:
         """The shape, as quantities where it follows a number of rows."""
         return self.graph.size(node) if node.stretches else node.shape
 
-    def of(self, node: Node) -> list[_Part]:
-        """The parts of a quantity, their positions in ascending order."""
+    def of(self, node: Node) -> list[_Part] | None:
+        """The parts of a quantity, their positions in ascending order; None of what is one."""
         for each in bottom_up([node], self.known):
-            whole = each.op != "join" and all(self.known[operand][0].node is operand for operand in each.operands)
             self.graph.work = 0
-            apart = None if whole or each in self.named else self._apart(each)
-            self.known[each] = apart or [_Part(np.arange(each.size), each)]
+            whole = each.op != "join" and all(self.known[operand] is None for operand in each.operands)
+            self.known[each] = None if whole or each in self.named else self._apart(each)
         return self.known[node]
 
     def _apart(self, node: Node) -> list[_Part] | None:
         """The parts of a quantity by those of what it is made of; None where nobody tells."""
         match node.op:
             case "take":
-                return self._picked(self.of(node.args[0]), node.args[1].reshape(-1))
+                return self._picked(node.args[0], node.args[1].reshape(-1))
             case "join":
                 found = list[_Part]()
                 for k, source in enumerate(node.args[0]):
                     at = np.flatnonzero(node.args[1] == k)
-                    picked = self._picked(self.of(source), node.args[2].reshape(-1)[at])
+                    picked = self._picked(source, node.args[2].reshape(-1)[at])
                     if picked is None:
                         return None
                     found += [_Part(at[part.at], part.node) for part in picked]
@@ -105,12 +104,11 @@ class _Parts:
                 return self._elementwise(node)
         return None
 
-    def _picked(self, parts: Sequence[_Part], index: Values) -> list[_Part] | None:
+    def _picked(self, source: Node, index: Values) -> list[_Part] | None:
         """The parts of what takes elements of a quantity; None where some of a number of rows are taken."""
         found = list[_Part]()
-        size = sum(len(part.at) for part in parts)
-        for part in parts:
-            place = np.full(size, -1)
+        for part in self.of(source) or [_Part(np.arange(source.size), source)]:
+            place = np.full(source.size, -1)
             place[part.at] = np.arange(len(part.at))
             at = np.flatnonzero(place[index] >= 0)
             inside = place[index[at]]
@@ -120,16 +118,15 @@ class _Parts:
                 return None
             elif len(at):
                 found.append(_Part(at, self.graph.take(part.node, inside)))
-        return found
+        return found or None
 
     def _elementwise(self, node: Node) -> list[_Part] | None:
-        several = [self.of(operand) for operand in node.args]
         rows = np.arange(node.size)
         which = list[Values]()  # of each operand, the part in which each element stands
         spread = list[list[_Part] | None]()
-        for operand, parts in zip(node.args, several, strict=True):
+        for operand in node.args:
             index = np.broadcast_to(np.arange(operand.size).reshape(operand.shape), node.shape).reshape(-1)
-            picked = None if operand.size == 1 else self._picked(parts, index)
+            picked = None if operand.size == 1 else self._picked(operand, index)
             if picked is None and operand.size > 1:
                 return None
             spread.append(picked)

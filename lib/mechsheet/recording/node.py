@@ -141,17 +141,17 @@ _OPERANDS: dict[str, Callable[[tuple[Any, ...]], tuple[Node, ...]]] = {  # of op
 
 def bottom_up(roots: Iterable["Node"], known: Container["Node"]) -> Iterator["Node"]:
     """Nodes under ``roots`` that are not ``known`` yet, each once and after its operands."""
-    stack, done = [(root, False) for root in roots], set[Node]()
+    stack, begun, done = [*roots], set[Node](), set[Node]()
     while stack:
-        node, ready = stack.pop()
-        if node in done or node in known:
-            continue
-        if ready:
-            done.add(node)
-            yield node
+        node = stack[-1]
+        if node in begun or node in known:
+            stack.pop()
+            if node not in done and node not in known:
+                done.add(node)
+                yield node
         else:
-            stack.append((node, True))
-            stack.extend((operand, False) for operand in node.operands if operand not in done)
+            begun.add(node)
+            stack += [operand for operand in node.operands if operand not in begun]
 
 
 def has_equation(found: Node) -> bool:

@@ -193,7 +193,8 @@ def _sheet_class() -> Any:
                 super()._write_cell(row, col, cell)
 
         def _escape_attributes(self, attribute: Any) -> Any:
-            return super()._escape_attributes(attribute) if type(attribute) is str else attribute
+            plain = type(attribute) is not str or attribute.isalnum()
+            return attribute if plain else super()._escape_attributes(attribute)
 
         def _escape_data(self, data: Any) -> Any:
             return super()._escape_data(data) if type(data) is str else data
