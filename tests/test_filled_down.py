@@ -27,11 +27,6 @@ _KEPT = re.compile(r",-?[\d.E+-]+,NA\(\)\)")
 OF_SEVERAL = {
     "hitch": {"largest_1": 6, "largest_2": 6},  # reactions
     "landing_gear": {"scale_1": 3, "largest_1": 3, "largest_2": 3},  # accelerations, reactions
-    "kinetostatics": {  # reactions of which the largest is looked for
-        "second_kind_R34_is_that_of_the_library_limit_12": 3,
-        "third_kind_R36_is_that_of_the_library_limit_3": 3,
-        "first_kind_R12_is_that_of_the_library_limit_2": 8,
-    },
     "joint": {
         **dict.fromkeys(("y", "A_t", "A_c"), 2),  # beams and stringers
         **dict.fromkeys(("y_b_1", "y_s_1"), 2),  # levels in the two planes, of two columns of the input
@@ -46,8 +41,6 @@ OF_SEVERAL = {
     "engine": {
         "E_3": 2,  # the first one is none, behind it sums so far
         "size_13": 3,  # reactions
-        **{f"equilibrium_of_forces_crank_rod_piston_{n}": 3 for n in (2, 4)},
-        "equilibrium_of_moments_crank_rod_piston_1": 3,
     },
     "slotted_link": {
         **dict.fromkeys(("guess_1", "size_1", "closed", "r_1", "slopes_14", "own_1"), 6),  # unknowns, equations

@@ -10,12 +10,14 @@ import numpy as np
 import pytest
 from own_worksheet import own, recorded
 
+from mechsheet.mechanics.rrr import rrr
 from mechsheet.recording import graph
 from mechsheet.recording.graph import Graph
 from mechsheet.recording.lines import Recording
 from mechsheet.recording.node import Node
-from mechsheet.recording.quantity import Quantity, lift
+from mechsheet.recording.quantity import UFUNCS, Quantity, lift
 from mechsheet.recording.record import record
+from mechsheet.recording.substitutes import instead
 from mechsheet.workbook import inputs_sheet, writing
 from mechsheet.worksheet import cells
 from mechsheet.worksheet.table import Table
@@ -115,3 +117,29 @@ def test_what_guards_many_numbers_is_none_of_a_statement_s_operations(
     shown = f'if y1.sum() > 0:\n    table_2 = table("2", "Two", {", ".join(f"y{k}" for k in range(10))})'
     _, recording = recorded(own(tmp_path, "\n".join([*lines, shown])))
     assert recording.gaps == [] and all(c is not None and c.re.op == "where" for c in recording.tables["2"])
+
+
+def test_what_is_asked_for_again_is_not_made_again(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Each time in an object of its own, in which a worksheet may set elements."""
+    made = []
+    rule = UFUNCS[np.sin]
+    monkeypatch.setitem(UFUNCS, np.sin, lambda x: made.append(x) or rule(x))
+    x = Quantity(new := Graph(), new.leaf("input", "x", np.array([1.0, 2.0])))
+    first, second = np.sin(x), np.sin(x)
+    assert len(made) == 1 and first is not second
+    assert first.re is second.re and np.sin(x + 1).re is not first.re
+
+
+def test_steps_without_names_have_them_where_the_function_is_called_again() -> None:
+    """As on the other branch of an equation, whose steps no line shows, and then by the worksheet."""
+    token = graph.current.set(new := Graph())
+    try:
+        found, L = instead(rrr), Quantity(new, new.leaf("input", "L", np.array(2.0)))
+        with new.labelled({**new.labels}):
+            apart = found(0j, 3 + 0j, L, L, 1)
+            assert new.labels
+        assert not new.labels
+        again = found(0j, 3 + 0j, L, L, 1)
+        assert again.re is apart.re and {label.symbol for label in new.labels.values()} >= {"q", "h"}
+    finally:
+        graph.current.reset(token)

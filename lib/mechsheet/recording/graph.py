@@ -2,7 +2,8 @@
 
 import math
 import weakref
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from contextvars import ContextVar
 from typing import Any, NamedTuple
 
@@ -87,22 +88,32 @@ class Graph:
         self.looked: dict[Node, Guard] = {}  # by their conditions; since somebody emptied it
         self.numbered: dict[Node, Guard] = {}  # those of numbers of rows and of turns, likewise
         self.gone: list[weakref.ref[Any]] = []  # arrays in whose place another one was put
-        self.called: dict[Any, tuple[Any, ...]] = {}  # what functions gave, see `once`
+        self.called: dict[Any, Any] = {}  # what functions gave, see `once`, and what numpy's elementwise ones did
         self.supposed = 0  # ways that Python does not take and that are recorded beside it, one in another
         self.labels: dict[Node, Label] = {}
 
+    @contextmanager
+    def labelled(self, labels: dict[Node, Label]) -> Iterator[None]:
+        """Other ``labels`` for a while, so that no step keeps a name that it gets meanwhile."""
+        kept = self.labels, self.called
+        self.labels, self.called = labels, {}  # functions run again, and name their steps
+        try:
+            yield
+        finally:
+            self.labels, self.called = kept
+
     def node(self, op: str, *args: Node) -> Node:
         """An operation, element by element, on operands that are broadcast to each other."""
-        return self._kept((op, *args), op, args, lambda: ELEMENTWISE[op](*[a.value for a in args]))
+        key = op, *args
+        return self.nodes.get(key) or self._kept(key, op, args, lambda: ELEMENTWISE[op](*[a.value for a in args]))
 
     def _kept(
         self, key: Any, op: str, args: tuple[Any, ...], value: Callable[[], Any], stretches: bool | None = None
     ) -> Node:
         known = self.nodes.get(key)
         if known is None:
-            if stretches is None:
-                stretches = any(a.stretches for a in args)
-            known = self.nodes[key] = Node(op, args, _fixed(value()), self.line, stretches)
+            along = any(a.stretches for a in args) if stretches is None else stretches
+            known = self.nodes[key] = Node(op, args, _fixed(value()), self.line, along)
             if op not in _GIVEN:
                 self.work += max(known.size, self.most // _NODES)
             under = known.operands
@@ -407,8 +418,8 @@ class Graph:
 
     def fold(self, op: str, *args: Node) -> Node:
         """An operation; of constants without a unit the constant that it gives, in their shape."""
-        plain = [a.args[0] if a.op == "like" else a for a in args]
-        if all(a.op == "constant" and not a.args for a in plain):
+        plain = [a.args[0] if a.op == "like" else a for a in args if a.op in ("constant", "like")]
+        if len(plain) == len(args) and all(a.op == "constant" and not a.args for a in plain):
             return self.like(self.constant(ELEMENTWISE[op](*[a.value for a in plain])), *args)
         return self.node(op, *args)
 

@@ -4,8 +4,9 @@ import dis
 import sys
 import weakref
 from collections import deque
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Mapping
 from functools import lru_cache
+from itertools import chain
 from types import (
     BuiltinFunctionType,
     CellType,
@@ -117,12 +118,11 @@ def _as_it_was(value: Any, parts: list[Any] | None) -> bool:
     return all(a is b or (isinstance(a, bytes) and a == b) for a, b in zip(parts, now, strict=True))
 
 
-def names_of(code: CodeType) -> Iterator[str]:
+@lru_cache(maxsize=4096)
+def names_of(code: CodeType) -> tuple[str, ...]:
     """Names that a piece of code reads, but for those of its own."""
-    yield from code.co_names
-    for constant in code.co_consts:
-        if isinstance(constant, CodeType):
-            yield from names_of(constant)
+    inside = (names_of(constant) for constant in code.co_consts if isinstance(constant, CodeType))
+    return tuple(dict.fromkeys(chain(code.co_names, *inside)))
 
 
 def operations(code: CodeType) -> set[str]:

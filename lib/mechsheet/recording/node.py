@@ -1,6 +1,6 @@
 """One quantity of a recording: an operation on others, with its values."""
 
-from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Container, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -127,30 +127,31 @@ class Node:
 
     @property
     def operands(self) -> tuple["Node", ...]:
-        if self.op in LEAVES:
-            return ()
-        if self.op in ("found", "iterated"):
-            under: tuple[Node, ...] = self.args[0].under
-            return under
-        return self.args[0] if self.op == "join" else self.args[:1] if self.op in _OF_ONE else self.args
+        found = _OPERANDS.get(self.op)
+        return self.args if found is None else found(self.args)
 
 
-_OF_ONE = ("take", "reduce", "length")  # whose other arguments are no quantities
+_OPERANDS: dict[str, Callable[[tuple[Any, ...]], tuple[Node, ...]]] = {  # of operations that have other arguments too
+    **dict.fromkeys(LEAVES, lambda args: ()),
+    **dict.fromkeys(("found", "iterated"), lambda args: args[0].under),  # not known yet when the node is made
+    **dict.fromkeys(("take", "reduce", "length"), lambda args: args[:1]),
+    "join": lambda args: args[0],
+}
 
 
 def bottom_up(roots: Iterable["Node"], known: Container["Node"]) -> Iterator["Node"]:
     """Nodes under ``roots`` that are not ``known`` yet, each once and after its operands."""
-    stack, done = [(root, False) for root in roots], set[Node]()
+    stack, begun, done = [*roots], set[Node](), set[Node]()
     while stack:
-        node, ready = stack.pop()
-        if node in done or node in known:
-            continue
-        if ready:
-            done.add(node)
-            yield node
+        node = stack[-1]
+        if node in begun or node in known:
+            stack.pop()
+            if node not in done and node not in known:
+                done.add(node)
+                yield node
         else:
-            stack.append((node, True))
-            stack.extend((operand, False) for operand in node.operands if operand not in done)
+            begun.add(node)
+            stack += [operand for operand in node.operands if operand not in begun]
 
 
 def has_equation(found: Node) -> bool:

@@ -269,6 +269,14 @@ def _broadcast(graph: Graph, x: Any, shape: Any) -> Any:
     return lift(graph, x).broadcast(plain(shape if isinstance(shape, tuple) else (shape,)))
 
 
+def _broadcast_arrays(graph: Graph, *x: Any) -> list[Quantity]:
+    arrays = [lift(graph, a) for a in x]
+    shapes = dict[Any, Quantity]()
+    for part in (part for array in arrays for part in array.parts):
+        shapes.setdefault(graph.size(part) if part.stretches else part.shape, Quantity(graph, part))
+    return [array.like(*shapes.values()) for array in arrays]
+
+
 def _real(graph: Graph, x: Any) -> Any:
     return lift(graph, x).real
 
@@ -318,7 +326,7 @@ _OF_FUNCTIONS: dict[Any, Callable[..., Any]] = {
     np.nan_to_num: lambda graph, x, nan=0.0: choice(graph, finite(lift(graph, x)), x, nan),
     np.zeros_like: _like(0.0), np.ones_like: _like(1.0), np.full_like: _like(np.nan), np.empty_like: _like(0.0),
     np.broadcast_to: _broadcast,
-    np.broadcast_arrays: lambda graph, *x: [lift(graph, a).like(*(lift(graph, b) for b in x)) for a in x],
+    np.broadcast_arrays: _broadcast_arrays,
     np.meshgrid: lambda graph, *x, **rest: [
         lift(graph, a)[where] for a, where in zip(x, np.meshgrid(*(np.arange(len(a)) for a in x), **rest), strict=True)
     ],

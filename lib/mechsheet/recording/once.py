@@ -2,6 +2,8 @@
 
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
+from copy import copy
+from dataclasses import fields, is_dataclass
 from typing import Any
 
 from mechsheet.recording.graph import Graph
@@ -39,7 +41,7 @@ class _New(Exception):
 def _note(graph: Graph, looked: Mapping[Any, Any], numbered: Mapping[Any, Any]) -> None:
     for kept, seen in ((graph.looked, looked), (graph.numbered, numbered)):
         for holds, guard in seen.items():
-            kept.setdefault(holds, guard)
+            kept.setdefault(holds, guard._replace(line=graph.line))
 
 
 def _known(value: Any) -> Any:
@@ -52,10 +54,17 @@ def _known(value: Any) -> Any:
 
 def _copied(given: Any) -> Any:
     """The same quantities in objects of their own, in which a worksheet may put others."""
+    if isinstance(given, _PLAIN):
+        return given
     if isinstance(given, Quantity):
         copied = Quantity(given.graph, given.re, given.im)
         copied.base = given.base
         return copied
     if isinstance(given, tuple) and hasattr(given, "_fields"):
         return type(given)(*map(_copied, given))
+    if is_dataclass(given) and not isinstance(given, type):
+        group = copy(given)
+        for field in fields(given):
+            object.__setattr__(group, field.name, _copied(getattr(given, field.name)))
+        return group
     raise _New

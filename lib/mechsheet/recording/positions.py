@@ -38,12 +38,11 @@ class OfPositions(ABC):
         if not self.over_all_positions:
             kept = graph.thin, graph.most, graph.line, graph.looked, graph.numbered, graph.work
             graph.thin, graph.most = 1, _MORE
-            labels, graph.labels = graph.labels, {}  # what only this run needs is no named step
             try:
-                self.over_all_positions.append(self.again())
+                with graph.labelled({}):  # what only this run needs is no named step
+                    self.over_all_positions.append(self.again())
             finally:
                 graph.thin, graph.most, graph.line, graph.looked, graph.numbered, graph.work = kept
-                graph.labels = labels
         return self.over_all_positions[0]
 
     def over_all(self, names: Sequence[str]) -> None:

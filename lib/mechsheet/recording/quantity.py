@@ -274,7 +274,7 @@ class Quantity(NDArrayOperatorsMixin):
     def __array_ufunc__(self, ufunc: Any, method: str, *inputs: Any, **kwargs: Any) -> Any:
         if method in ("reduce", "accumulate") and ufunc in REDUCTIONS:
             return FUNCTIONS[ufunc, method](self.graph, *inputs, **kwargs)
-        if not np.ndim(inputs[0]) and len(kwargs.get("out", ())) == 1 and kwargs["out"][0] is inputs[0]:
+        if kwargs and len(kwargs.get("out", ())) == 1 and kwargs["out"][0] is inputs[0] and not np.ndim(inputs[0]):
             kwargs.pop("out")  # of x += y, which binds a number anew
         operation = UFUNCS.get(ufunc)
         if operation and method == "outer" and not kwargs:
@@ -283,7 +283,14 @@ class Quantity(NDArrayOperatorsMixin):
         if operation is None or method != "__call__" or kwargs:
             given = f" with {', '.join(kwargs)}" if kwargs else ""
             raise NotRecorded((f"{ufunc.__name__}.{method}" if method != "__call__" else ufunc.__name__) + given)
-        return operation(*[lift(self.graph, x) for x in inputs])
+        operands = [x if type(x) is Quantity else lift(self.graph, x) for x in inputs]
+        if ufunc.signature or ufunc.nout > 1:
+            return operation(*operands)
+        key = ufunc, *[(x.re, x.im) for x in operands]
+        known = self.graph.called.get(key)
+        if known is None:
+            known = self.graph.called[key] = operation(*operands)
+        return known.__copy__()
 
     def __array_function__(self, func: Any, types: Any, args: Any, kwargs: Any) -> Any:
         operation = FUNCTIONS.get(func)

@@ -227,8 +227,8 @@ class _Run(OfPositions):
         touched = dict.fromkeys(name for name in changed if not isinstance(self.names.get(name), Module))
         final = {name for name in touched if name not in later and not name.startswith("_")}
         rests, shown = (
-            {guard.holds: guard for name in sorted(names) for guard in self.looked.get(name, ())}
-            for names in (reads, self.read(facts.heard))
+{guard.holds: guard for name in sorted(names) for guard in self.looked.get(name, ())}
+            for names in (reads, reads if facts.heard == facts.loaded else self.read(facts.heard))
         )
         before = Memory((self.names.get(name) for name in reads - {"g"}), self.names)
         may_change = any(map(changes, codes))
@@ -293,7 +293,8 @@ class _Run(OfPositions):
 
         The unit of what Python made a number of, out of what it reads, is not known.
         """
-        made = any(has_quantity(self.names.get(name)) for name in reads)
+        numbers = any(type(value) is float or _is_array(value) for value in map(self.names.get, touched))
+        made = numbers and any(has_quantity(self.names.get(name)) for name in reads)
         for name in touched:
             value, line = self.names.get(name), self.lines.get(name)
             if isinstance(value, Constant) or value is units:
@@ -389,15 +390,14 @@ class _Run(OfPositions):
 
     def read(self, loaded: Iterable[str]) -> frozenset[str]:
         """Names that a statement reads, and those that the functions of the worksheet read which it names."""
-        found, waiting = set[str](), set(loaded)
+        waiting = [*loaded]
+        found = {*waiting}
         while waiting:
-            name = waiting.pop()
-            if name in found:
-                continue
-            found.add(name)
-            value = self.names.get(name)
+            value = self.names.get(waiting.pop())
             if isinstance(value, FunctionType) and value.__globals__ is self.names:
-                waiting |= set(names_of(value.__code__))
+                new = {*names_of(value.__code__)} - found
+                found |= new
+                waiting += new
         return frozenset(found)
 
     def leaves(

@@ -50,9 +50,9 @@ def one(
     left = value - target
     block.residuals, block.sides = (left.re,), (value.re, target.re)
     if branch is not None:
-        block.branch, labels = lift(graph, branch).re, dict(graph.labels)
-        block.branches = {s: lift(graph, f(x, s)).re for s in branches}
-        graph.labels = labels  # only the wanted branch has steps with names
+        block.branch = lift(graph, branch).re
+        with graph.labelled({**graph.labels}):  # only the wanted branch has steps with names
+            block.branches = {s: lift(graph, f(x, s)).re for s in branches}
     block.rest()
     words = found.words
     told = Told(words.unknown, words.quantity, words.unit, words.unknown_unit)

@@ -209,6 +209,8 @@ class Stage:
         value = lift(self.graph, value)
         if kept.shape != value.extent:
             kept = solving.listed(self.graph, kept)
+        if np.array_equal(value.value, kept):
+            return True
         try:
             a, b = np.broadcast_arrays(value.value + 0, kept)
         except ValueError:

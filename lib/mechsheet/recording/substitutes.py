@@ -236,10 +236,8 @@ def _itself(f: Any) -> Callable[..., Any]:
         if not (always or has_quantity((args, kwargs))):
             return f(*args, **kwargs)
         graph = current.get()
-        if graph.bodies and not always:  # no step of it is shown, so that the line of a later call does not count
-            return once(graph, body(f), args, kwargs)
         short = None if graph.bodies else _short().get(f)
-        return (short or body(f))(*args, **kwargs)
+        return once(graph, short or body(f), args, kwargs) if not always else body(f)(*args, **kwargs)
 
     return function
 

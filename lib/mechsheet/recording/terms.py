@@ -1,5 +1,6 @@
 """How large the numbers are of which a quantity is made: what its rounding, and what is left of it, is measured by."""
 
+import math
 from collections.abc import Container
 from typing import Any
 
@@ -49,6 +50,8 @@ _AS_LARGE = {  # as what they are made of: moved, chosen and added, and of funct
 
 def size_of(node: Node) -> float:
     sizes = np.abs(node.value + 0.0)
+    if sizes.size and math.isfinite(largest := sizes.max()):
+        return float(largest)
     return float(np.max(sizes, initial=0.0, where=np.isfinite(sizes)))
 
 

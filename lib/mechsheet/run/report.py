@@ -15,6 +15,7 @@ from mechsheet import units
 from mechsheet.document import parts
 from mechsheet.document.left_out import left_out
 from mechsheet.recording.dimensions import dimensions
+from mechsheet.recording.largest import narrow
 from mechsheet.recording.lines import Recording, Residual
 from mechsheet.recording.record import record, record_every_line
 from mechsheet.recording.searched import search
@@ -190,6 +191,7 @@ def _recorded(namespace: Mapping[str, Any]) -> tuple[Recording, Check]:
     recording, every_line = record_every_line(namespace, sheet)
     fit = dimensions(every_line, sheet, namespace, registry(namespace)).check()
     search(recording)  # whose steps need no units
+    narrow(recording)
     mistakes, none = recording.graph.constant(fit.residual), recording.graph.constant(fit.limit)
     recording.checks[fit.name] = Residual([mistakes], none, "-", signed=True)  # the same for all inputs
     return recording, fit

@@ -10,6 +10,7 @@ from typing import Any
 
 from mechsheet.workbook import looks
 from mechsheet.workbook.content import Content, Live, allowed, cut, put
+from mechsheet.workbook.place import letters
 
 _PROPERTIES = {"author": "mechsheet", "created": datetime(2000, 1, 1)}
 _SHEETS = ("Front", "Inputs", "Input tables", "Find", "Checks", "Index", "Marks", "Scenes")
@@ -33,7 +34,7 @@ class Book:
         self.file = xlsxwriter.Workbook(self._buffer, _OPTIONS)
         self.file.set_properties({**_PROPERTIES, "title": self.title})
         self._names = {name.lower() for name in _SHEETS}
-        self._styles: dict[str, Any] = {}
+        self._styles: dict[Any, Any] = {}
         self.contents: list[tuple[str, str]] = []  # sheets and their titles
 
     def close(self) -> bytes:
@@ -46,7 +47,7 @@ class Book:
         look: dict[str, object] = {"valign": "vcenter"}
         for part in layers:
             look |= part
-        key = repr(look)
+        key = (*look.items(),)
         if key not in self._styles:
             self._styles[key] = self.file.add_format(look)
         return self._styles[key]
@@ -117,8 +118,9 @@ class Book:
 
         Only so many of the fields are ``printed``, all of them by default.
         """
-        texts = [[head for head, _ in fields], *(row for row in rows if len(row) > 1)]
-        longest = [max(map(_length, column)) for column in zip(*texts, strict=True)]
+        lengths = [[*map(_length, row)] for row in rows]
+        listed = [[len(head) for head, _ in fields], *(each for each in lengths if len(each) > 1)]
+        longest = [*map(max, zip(*listed, strict=True))]
         widths = [looks.CHAR * min(looks.WIDEST, length) + 2 * looks.PAD for length in longest]
         sheet = self.sheet(name, heading, widths, 2, (sum(widths[:printed]), looks.ROW * (len(rows) + 3)), behind)
         if printed:
@@ -127,12 +129,12 @@ class Book:
             put(sheet, 1, col, head, self.style(looks.HEAD, looks.TOP, looks.BOTTOM, looks.side(look)))
         styles = [self.style(looks.CELL, look) for _, look in fields]
         apart = [self.style(looks.CELL, look, looks.EXPORTED) for _, look in fields]
-        for n, row in enumerate(rows, 2):
+        for n, (row, long) in enumerate(zip(rows, lengths, strict=True), 2):
             if len(row) == 1:
                 sheet.set_row_pixels(n, looks.ROW + 10)
                 put(sheet, n, 0, row[0], self.style(looks.SECTION))
                 continue
-            lines = math.ceil(max(map(_length, row)) / looks.WRAP)
+            lines = math.ceil(max(long) / looks.WRAP)
             sheet.set_row_pixels(n, looks.ROW + (lines - 1) * (looks.ROW - 5))
             for col, (value, style) in enumerate(zip(row, apart if n - 2 in grey else styles, strict=True)):
                 put(sheet, n, col, value, style)
@@ -141,27 +143,61 @@ class Book:
 
 @cache
 def _sheet_class() -> Any:
-    """XlsxWriter's worksheet, which otherwise looks for 150 new functions in each formula: ours have their names there.
+    """XlsxWriter's worksheet, without what our cells do not need.
 
-    A formula and its number are written without a look for what else a cell may be.
+    It looks for 150 new functions in each formula, where ours have their names, for what else a cell may be, and for
+    the first and the last cell of each row.
     """
-    from xlsxwriter.utility import xl_rowcol_to_cell_fast  # type: ignore[import-untyped]  # on use: as above
-    from xlsxwriter.worksheet import CellFormulaTuple, Worksheet  # type: ignore[import-untyped]  # on use: as above
+    from xlsxwriter.worksheet import (  # type: ignore[import-untyped]  # on use: as above
+        CellFormulaTuple,
+        CellNumberTuple,
+        CellStringTuple,
+        Worksheet,
+    )
 
     class Sheet(Worksheet):  # type: ignore[misc]
+        write_text, write_empty = Worksheet._write_string, Worksheet._write_blank
+
         def write_live(self, row: int, col: int, formula: str, style: Any, value: float | str) -> None:
             self._check_dimensions(row, col)  # which also notes how far the sheet goes
             self.table[row][col] = CellFormulaTuple(formula.removeprefix("="), style, value)
 
+        def write_exact(self, row: int, col: int, value: float, style: Any) -> None:
+            self._check_dimensions(row, col)
+            self.table[row][col] = CellNumberTuple(value, style)
+
         def _prepare_formula(self, formula: str, _expand: bool = False) -> str:
             return formula.removeprefix("=")
 
+        def _write_rows(self) -> None:
+            for row in range(self.dim_rowmin, self.dim_rowmax + 1):
+                cells, info = self.table.get(row), self.row_info.get(row)
+                if cells:
+                    self._write_row(row, None, info)
+                    for col in sorted(cells):
+                        self._write_cell(row, col, cells[col])
+                    self._xml_end_tag("row")
+                elif info or row in self.comments:
+                    self._write_empty_row(row, None, info)
+
         def _write_cell(self, row: int, col: int, cell: Any) -> None:
-            if type(cell) is not CellFormulaTuple or type(cell.value) is not float:
+            kind = type(cell)
+            place = ("r", f"{letters(col)}{row + 1}"), ("s", cell.format._get_xf_index())
+            if kind is CellFormulaTuple and type(cell.value) is float:
+                self._xml_formula_element(cell.formula, cell.value, place)
+            elif kind is CellStringTuple:
+                self._xml_string_element(cell.string, place)
+            elif kind is CellNumberTuple:
+                self._xml_number_element(cell.number, place)
+            else:
                 super()._write_cell(row, col, cell)
-                return
-            place = ("r", xl_rowcol_to_cell_fast(row, col)), ("s", cell.format._get_xf_index())
-            self._xml_formula_element(cell.formula, cell.value, place)
+
+        def _escape_attributes(self, attribute: Any) -> Any:
+            plain = type(attribute) is not str or attribute.isalnum()
+            return attribute if plain else super()._escape_attributes(attribute)
+
+        def _escape_data(self, data: Any) -> Any:
+            return super()._escape_data(data) if type(data) is str else data
 
     return Sheet
 

@@ -40,11 +40,11 @@ def put(sheet: Any, row: int, col: int, value: Content, style: Any) -> None:
             known = "#N/A"
         sheet.write_live(row, col, value.formula, style, known)
     elif value == "":
-        sheet.write_blank(row, col, None, style)
+        sheet.write_empty(row, col, None, style)
     elif isinstance(value, str):
-        sheet.write_string(row, col, allowed(value), style)
+        sheet.write_text(row, col, allowed(value), style)
     elif fits(value):
-        sheet.write_number(row, col, value if isinstance(value, int) else _Exact(value), style)
+        sheet.write_exact(row, col, value if isinstance(value, int) else _Exact(value), style)
     else:
         # XlsxWriter has no cell of an error alone; the formula that is this error keeps it as its value.
         error = "#N/A" if math.isnan(value) else "#NUM!"

@@ -73,7 +73,7 @@ class SheetFormulas:
 
     def kept(self, node: Node) -> bool:
         """Whether a quantity rests on numbers of the worksheet's own run."""
-        for part in bottom_up([node], self._known):
+        for part in bottom_up([node], self._known) if node not in self._known else ():
             own = part.op == "exported" or (part.op == "found" and self._inverse.get(part) is None)
             self._known[part] = own or any(self._known[operand] for operand in part.operands)
         return self._known[node]
