@@ -78,11 +78,8 @@ def compared(check: Check, unit: str, to: Notation = HTML) -> str:
 
 def where(field: Any, over: Over | None) -> str:
     """Where a field is least and where it is greatest, if its numbers do not stand in full."""
-    ends = over.ends(field) if over and not numbers.in_full(field) else None
-    if not over or not ends:
-        return ""
-    least, greatest = (f"{named(over.line.name)} = {numbers.value(x, over.line.unit, HTML)}" for x in ends)
-    return f' <span class="ms-where">least at {least}, greatest at {greatest}</span>'
+    places = over.places(field, HTML, named) if over else None
+    return f' <span class="ms-where">least at {places[0]}, greatest at {places[1]}</span>' if places else ""
 
 
 def limits(field: Input) -> str:

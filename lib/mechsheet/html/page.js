@@ -21,7 +21,7 @@ const show = {
   value(spec, element, results) {
     const parts = spec.keys?.map(key => along(results.values[key], positionOf(spec)));
     const known = parts && parts.every(part => part !== undefined);
-    const where = known && spec.over ? whereText(parts, results.values[spec.over.key], spec.over) : "";
+    const where = known && spec.over ? whereText(parts, spec.over, results.values) : "";
     set(element, known ? valueText(parts, ...unitNow(spec).slice(1)) + where : "");
     return Boolean(known);
   },

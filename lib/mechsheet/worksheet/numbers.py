@@ -99,7 +99,7 @@ def in_any_unit(values: Any) -> Callable[[str, Notation], str]:
     """What `value` says of the values in a unit and a notation; they are looked at once."""
     field = np.asarray(values)
     least = rounding(field)
-    if field.ndim == 2 and max(field.shape) <= _MOST_ROWS:
+    if _in_rows(field):
         rows = field.tolist()
         return lambda unit, to: "[" + "; ".join(_each(row, least, unit, to) for row in rows) + "]" + behind(unit, to)
     if in_full(field):
@@ -116,8 +116,13 @@ def in_any_unit(values: Any) -> Callable[[str, Notation], str]:
 
 
 def in_full(values: Any) -> bool:
-    """Whether all numbers of a row stand where it is shown."""
-    return bool(np.size(values) <= (_MOST_POINTS if np.asarray(values).dtype.kind == "c" else _MOST_NUMBERS))
+    """Whether all numbers of a field stand where it is shown."""
+    field = np.asarray(values)
+    return _in_rows(field) or field.size <= (_MOST_POINTS if field.dtype.kind == "c" else _MOST_NUMBERS)
+
+
+def _in_rows(field: NDArray[Any]) -> bool:
+    return field.ndim == 2 and max(field.shape) <= _MOST_ROWS
 
 
 _MOST_NUMBERS, _MOST_POINTS, _MOST_ROWS = 10, 4, 4  # that stand in full
