@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from datetime import date
 from functools import lru_cache, partial, singledispatch
-from html import escape
+from html import escape, unescape
 from typing import Any
 
 import marimo as mo
@@ -41,6 +41,7 @@ from mechsheet.worksheet.verdict import Verdict
 
 # Shown by the style sheet that stands where something was refused.
 _LOST = '<span class="ms-badge ms-FAIL">not computed to its end</span>'
+_FAILED = "ms-failed"
 _TOLD = f'<div class="ms-told" style="display:none">{_LOST} </div>'
 
 
@@ -95,7 +96,18 @@ def failed(told: str, of: str = "", reason: str = "", shown: Any = None, cell_id
         for place, text in waiting(*notebook.stopped(cell_id)).items():
             style += f'.marimo-cell:has([id="{_quoted(place)}"])::after{{content:"{_quoted(text)}"}}'
     bar = f'<a href="#failed">{_LOST} {_said(told)}</a>'
-    return element("ms-failed", f"{mo.as_html(callout).text}<style>{style}</style>", id="failed", bar=bar)
+    return element(_FAILED, f"{mo.as_html(callout).text}<style>{style}</style>", id="failed", bar=bar)
+
+
+def stopped(output: object, cell_id: str) -> str:
+    """HTML of what stands in the place of a cell that ``mo.stop`` has ended; nothing where the cell was `refused`."""
+    if output is None:
+        return failed("stopped here by mo.stop, which says nothing", cell_id=cell_id)
+    shown = mo.as_html(output)
+    if _FAILED in shown.text:
+        return ""
+    words = " ".join(unescape(_TAG.sub(" ", shown.text)).split())
+    return failed(words or "stopped here by mo.stop", shown=shown, cell_id=cell_id)
 
 
 def _said(text: str) -> str:
@@ -104,6 +116,7 @@ def _said(text: str) -> str:
 
 
 _QUOTE = "'"
+_TAG = re.compile(r"<(style|script)\b.*?</\1>|<[^>]*>", re.DOTALL)
 _HEADED = re.compile("<h[1-6][ >]")  # marimo lists the headings of plain HTML beside the page
 _OF_MARIMO = re.compile("<(?:script|marimo-ui-element)")  # works only where marimo itself puts it
 
