@@ -1,4 +1,4 @@
-"""What a served page tells of a cell that failed or was stopped: marimo itself leaves the place empty, or its sections."""
+"""What a served page tells of a cell that failed or was stopped: marimo leaves its place empty, or its sections."""
 
 from collections.abc import Mapping
 from pathlib import Path
