@@ -239,6 +239,34 @@
   };
   document.addEventListener("keydown", pressed, { capture: true }); // before the editor, which has uses of its own for it
 
+  // What others need goes with its cell only when that is deleted once more.
+  let sure = ""; // the cells that were asked about
+  function going(event) {
+    if (event.type === "click") {
+      const button = event.target.closest?.('[data-testid="delete-button"], [role="menuitem"]');
+      if (button?.role !== "menuitem") return [button?.closest(".marimo-cell")];
+      return button.textContent === "Delete" ? [document.querySelector('[data-state="open"] > .marimo-cell')] : [];
+    }
+    if (event.key !== "Backspace" || !event.shiftKey || isTyped(event)) return [];
+    const chosen = [...document.querySelectorAll('.marimo-cell[data-selected="true"]')];
+    return chosen.length ? chosen : [event.target.closest?.(".marimo-cell")];
+  }
+
+  function deleting(event) {
+    const cells = going(event).filter(Boolean).map((cell) => cell.dataset.cellId).join(" ");
+    const again = cells && cells === sure;
+    sure = again ? "" : cells;
+    if (!cells || again) return;
+    event.preventDefault();
+    event.stopImmediatePropagation();
+    ask({ do: "cells", name: cells }).then(({ asks }) => {
+      if (sure !== cells) return;
+      if (asks) say(`${asks}: delete once more to let it go`);
+      else event.target.dispatchEvent(new event.constructor(event.type, event));
+    });
+  }
+  for (const kind of ["click", "keydown"]) document.addEventListener(kind, deleting, { capture: true });
+
   function placeOf(name) {
     return name.startsWith("g.")
       ? document.querySelector(`td[data-input="${name.slice(2)}"]`)?.parentElement
