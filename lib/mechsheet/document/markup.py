@@ -60,6 +60,15 @@ def in_words(sentence: str) -> str:
     return "".join(named(piece) if i % 2 else numbers.rewritten(escape(piece), HTML) for i, piece in pieces)
 
 
+def message(text: str) -> str:
+    """A message, its numbers and signs as the page writes them; its names may be those of lines and stay.
+
+    >>> message("n = -0.5 must be >= 0, not 'a<b'")
+    'n = −0.5 must be ≥ 0, not &#x27;a&lt;b&#x27;'
+    """
+    return numbers.rewritten(escape(text), HTML)
+
+
 def compared(check: Check, unit: str, to: Notation = HTML) -> str:
     r"""Residual and limit of an evaluated check in a unit, what part of its limit it takes; or how well it agrees.
 
@@ -94,4 +103,4 @@ def limits(field: Input) -> str:
 def _limit(text: str) -> str:
     if text[0].isalpha():
         return as_written(text.rpartition(".")[2])
-    return numbers.rewritten(escape(text), HTML)
+    return message(text)

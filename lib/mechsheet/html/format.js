@@ -180,12 +180,18 @@ function bare(mantissa, power) {
 
 const cellText = (x, column) => (column.power ? scientific : fixed)(x, column.decimals, AXIS);
 
-// Numbers and degrees of a sentence as the page writes them.
-const inWords = text =>
-  String(text)
+// Numbers, degrees and comparisons of a sentence as the page writes them; what stands between quotes is as it was typed.
+const QUOTED = /((?<![\p{L}\p{N}_])(?:'[^']*'|&#x27;.*?&#x27;)(?![\p{L}\p{N}_]))/u;
+const inWords = text => String(text).split(QUOTED).map((part, n) => (n % 2 ? part : rewritten(part))).join("");
+
+const POWER = /(?<![\p{L}\p{N}_])(?<![\p{L}\p{N}_]\.)(\d+(?:\.\d*)?)e([+-]?)0*(\d+)\b/gu;
+const rewritten = text =>
+  text
     .replace(/(\d) deg\b/g, "$1°")
-    .replace(/(\d)e([+-]?)0*(\d+)\b/g, (_, digit, sign, power) => `${digit}\u202f·\u202f10<sup>${sign === "-" ? "−" : ""}${power}</sup>`)
-    .replace(/(^|\.\.|[^\w.)])-(?=[\d.∞])/g, "$1−");
+    .replace(POWER, (_, x, sign, power) => `${x}\u202f·\u202f10<sup>${sign === "-" ? "−" : ""}${power}</sup>`)
+    .replace(/(?<![\p{L}\p{N}_.)])-(?=[\d.∞])|(?<=\.\.)-|(?<= )-(?= )/gu, "−")
+    .replace(/(?:>|&gt;)=/g, "≥")
+    .replace(/(?:<|&lt;)=/g, "≤");
 
 // What a check compares: told apart, with two digits where the residual is only rounding.
 function compared(residual, limit, agrees) {

@@ -30,6 +30,7 @@ from mechsheet.worksheet import inputs, mistakes, source
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.line_edit import OF_INPUT, Change, asked_for, change, declares, line, same_cells
 from mechsheet.worksheet.lines import Formula, Numbers, Typeset, formulas, no_number
+from mechsheet.worksheet.numbers import on_page
 from mechsheet.worksheet.shown import Shown
 
 _FILE = "__marimo__cell_in_place"  # under which a line is compiled
@@ -62,7 +63,7 @@ class InPlace:
         try:
             found = self.done(**{key: value for key, value in asked.items() if key != "number"})
         except SheetError as error:
-            found = {"why": str(error)}
+            found = {"why": on_page(str(error))}
         except Exception as error:  # of the library: the page is told, which waits for an answer
             found = {"why": mistakes.why(error, ())}
         self.answer = {"number": asked["number"], **found}
