@@ -32,7 +32,8 @@ from mechsheet.document.markup import HTML
 from mechsheet.page.values import html
 from mechsheet.worksheet import numbers
 from mechsheet.worksheet.errors import SheetError
-from mechsheet.worksheet.lines import registry
+from mechsheet.worksheet.lines import formulas, registry
+from mechsheet.worksheet.source import of_texts
 from mechsheet.worksheet.symbol import Symbol
 
 IMPORT = "from mechsheet import typeset\n"
@@ -453,6 +454,19 @@ def test_edited_unit_alone_is_seen():
     """Cells whose code is equal but for a comment are told apart."""
     shown = [run(IMPORT + f"a = 0.5  # [{unit}] length\nshown = typeset()")["shown"] for unit in ("m", "mm")]
     assert [s.rows[0].unit for s in shown] == ["m", "mm"]
+
+
+def test_a_call_leaves_out_the_branch_that_its_function_takes_anyway():
+    lines = (
+        "P = lambda S, L7, branch=s: rrr(S, L7, branch)  # [m] pin\n"
+        "Q = lambda S, L7, branch=s: P(S, L7, branch) - P(S, L7, t) + rrr(S, branch)  # [m] other\n"
+        "def R(S):\n    q = Q(S, 1, s)\n    return q + P(S, s)  # [m] third\n"
+    )
+    rows = {row.name: row for row in formulas(of_texts(((lines, "own.py"),))[0])}
+    assert ast.unparse(rows["P"].expression) == "rrr(S, L7, s)"
+    assert ast.unparse(rows["Q"].expression) == "P(S, L7) - P(S, L7, t) + rrr(S, s)"
+    assert [ast.unparse(value) for _, value in rows["R"].where] == ["Q(S, 1)"]
+    assert ast.unparse(rows["R"].expression) == "q + P(S, s)", "of another number of arguments"
 
 
 def test_branch_that_is_meant_stands_in_the_definition():

@@ -249,13 +249,13 @@
     }
     if (event.key !== "Backspace" || !event.shiftKey || isTyped(event)) return [];
     const chosen = [...document.querySelectorAll('.marimo-cell[data-selected="true"]')];
-    return chosen.length ? chosen : [event.target.closest?.(".marimo-cell")];
+    return chosen.length > 1 ? chosen : [event.target.closest?.(".marimo-cell")];
   }
 
   function deleting(event) {
     const cells = going(event).filter(Boolean).map((cell) => cell.dataset.cellId).join(" ");
     const again = cells && cells === sure;
-    sure = again ? "" : cells;
+    if (cells || event.type === "click") sure = again ? "" : cells;
     if (!cells || again) return;
     event.preventDefault();
     event.stopImmediatePropagation();
