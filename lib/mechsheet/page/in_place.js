@@ -239,33 +239,27 @@
   };
   document.addEventListener("keydown", pressed, { capture: true }); // before the editor, which has uses of its own for it
 
-  // What others need goes with its cell only when that is deleted once more.
-  let sure = ""; // the cells that were asked about
-  function going(event) {
-    if (event.type === "click") {
-      const button = event.target.closest?.('[data-testid="delete-button"], [role="menuitem"]');
-      if (button?.role !== "menuitem") return [button?.closest(".marimo-cell")];
-      return button.textContent === "Delete" ? [document.querySelector('[data-state="open"] > .marimo-cell')] : [];
-    }
-    if (event.key !== "Backspace" || !event.shiftKey || isTyped(event)) return [];
-    const chosen = [...document.querySelectorAll('.marimo-cell[data-selected="true"]')];
-    return chosen.length > 1 ? chosen : [event.target.closest?.(".marimo-cell")];
+  // What others need goes with its cell only when that is deleted once more; for its key the editor asks itself.
+  let sure; // the cell that was asked about
+  function going({ target }) {
+    const button = target.closest?.('[data-testid="delete-button"], [role="menuitem"]');
+    if (button?.role !== "menuitem") return button?.closest(".marimo-cell");
+    return button.textContent === "Delete" ? document.querySelector('[data-state="open"] > .marimo-cell') : undefined;
   }
 
-  function deleting(event) {
-    const cells = going(event).filter(Boolean).map((cell) => cell.dataset.cellId).join(" ");
-    const again = cells && cells === sure;
-    if (cells || event.type === "click") sure = again ? "" : cells;
-    if (!cells || again) return;
+  const deleting = (event) => {
+    const cell = going(event) ?? undefined;
+    const again = cell === sure;
+    sure = again ? undefined : cell;
+    if (!cell || again) return;
     event.preventDefault();
     event.stopImmediatePropagation();
-    ask({ do: "cells", name: cells }).then(({ asks }) => {
-      if (sure !== cells) return;
+    ask({ do: "cell", name: cell.dataset.cellId }).then(({ asks }) => {
       if (asks) say(`${asks}: delete once more to let it go`);
-      else event.target.dispatchEvent(new event.constructor(event.type, event));
+      else if (cell === sure) event.target.dispatchEvent(new MouseEvent("click", event));
     });
-  }
-  for (const kind of ["click", "keydown"]) document.addEventListener(kind, deleting, { capture: true });
+  };
+  document.addEventListener("click", deleting, { capture: true });
 
   function placeOf(name) {
     return name.startsWith("g.")

@@ -58,7 +58,7 @@ class InPlace:
         )
 
     def asked(self, text: str) -> None:
-        """Answer what the page asks: a line as it stands, what a text would be, to write it, what needs some cells."""
+        """Answer what the page asks: a line as it stands, what a text would be, to write it, what needs a cell."""
         asked = json.loads(text)
         try:
             found = self.done(**{key: value for key, value in asked.items() if key != "number"})
@@ -88,8 +88,8 @@ class InPlace:
                 return {"shown": self.preview(change(text, name, was, new, below).of(text), name, was, new, below)}
             case "taken":
                 return {"taken": self.is_taken(text)}
-            case "cells":
-                return {"asks": _needed(text, {*name.split()})}
+            case "cell":
+                return {"asks": _needed(text, name)}
         if not self.is_taken(text):
             raise SheetError(_UNSAVED)
         told = Change(**parts) if do == "undo" else change(text, name, was, new, below)
@@ -220,11 +220,11 @@ def _needing(text: str, name: str, was: str, new: str) -> str:
     return _go([own.removeprefix(OF_INPUT) for own in gone], places) if places else ""
 
 
-def _needed(text: str, ids: set[str]) -> str:
-    """What needs names that cells of the page define; nothing where nothing else does."""
+def _needed(text: str, cell_id: str) -> str:
+    """What needs names that a cell of the page defines; nothing where nothing else does."""
     cells = notebook.running()[0]()
-    gone = {name for cell in cells if cell.cell_id in ids for name in cell.defs}
-    others = [cell for cell in cells if cell.cell_id not in ids]
+    gone = {name for cell in cells if cell.cell_id == cell_id for name in cell.defs}
+    others = [cell for cell in cells if cell.cell_id != cell_id]
     lost = sorted(name for name in gone if any(name in cell.refs for cell in others))
     places = needing(text, gone, whole=True) if lost else ""
     return _go(lost, places or "another cell") if lost else ""
