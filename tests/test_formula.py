@@ -297,6 +297,8 @@ def test_page_shows_symbol_formula_value_and_meaning():
         ("-(S + R) / L", True),
         ("abs(L * R + L * S)", True),
         ("cross(1j, R + S)", True),
+        ("2 * trapezoid(R + S, W)", True),
+        ("trapezoid(R + T, W)", False),
         ("3e-11 * R", False),
         ("R + T", False),
         ("R - R", False),
@@ -309,7 +311,7 @@ def test_what_rounding_leaves_of_a_sum_is_no_value(line, nothing):
     names = run(
         IMPORT
         + "import numpy as np\nfrom mechsheet import cross, dot\n"
-        + "L, R = 2.0, np.array([1e5, 3e5])\n"
+        + "from numpy import trapezoid\nL, W, R = 2.0, np.array([0.0, 0.5]), np.array([1e5, 3e5])\n"
         + "S, T = np.array([3e-11 - 1e5, -3e5]), np.array([3e-11 - 1e5, 1e-8 - 3e5])\n"
         + f"F = {line}  # [N] left over\nshown = typeset()"
     )

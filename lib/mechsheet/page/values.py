@@ -137,7 +137,23 @@ def _set(markdown: str) -> str:
 
 @html.register
 def _(value: Charted) -> str:
-    return mo.as_html(value.chart()).text
+    return _altair(value.chart())
+
+
+def _altair(chart: Any) -> str:
+    """HTML of an altair chart in the face of the page's own: on its ground, in its letters, the title as a caption."""
+    drawn, told = chart.to_dict(), chart.usermeta
+    drawn.pop("usermeta", None)
+    place, _, title = str(drawn.pop("title", "")).partition(" – ")
+    config = drawn.setdefault("config", {})
+    config |= {"background": "transparent", "font": _LETTERS, "view": {**config.get("view", {}), "stroke": _FAINT}}
+    faint = dict.fromkeys(("gridColor", "domainColor", "tickColor"), _FAINT)
+    config["axis"] = {**config.get("axis", {}), **faint, "titleFontWeight": "normal"}
+    shown = mo.as_html(type(chart).from_dict(drawn).properties(usermeta=told)).text
+    return f"{shown}{_caption('Figure', place.removeprefix('Figure '), title)}" if title else shown
+
+
+_LETTERS, _FAINT = "PT Sans, sans-serif", "#88888860"
 
 
 @html.register
@@ -385,7 +401,7 @@ def cells(column: Column) -> list[str]:
     """Texts of a column of a table."""
     if column.power:
         return [numbers.on_page(text) for text in column.texts()]
-    return column.texts(numbers.AXIS) if column.unit else column.texts()
+    return column.texts(numbers.AXIS) if column.unit else [numbers.on_page(text) for text in column.texts()]
 
 
 def _unit(column: Column) -> str:
