@@ -93,7 +93,8 @@ def same(text: str, value: float, unit: str, digits: int = 0) -> bool:
 
 
 VALUE = r"(?:−?[\d.]+(?:\s·\s10<sup>−?\d+</sup>)?|none|−?∞|≈ 0)"
-WHERE = rf' <span class="ms-where">least at (.*?) = ({VALUE})(.*?), greatest at .*? = ({VALUE}).*?</span>'
+WHERE = r' <span class="ms-where">least at (.*?), greatest at (.*?)</span>'
+PLACE = rf"(?:^|, )(\S*?<i>.*?) = ({VALUE})(.*?)(?=, \S*<i>|$)"
 
 
 def numbers_in(text: str) -> tuple[list[str], str]:
@@ -117,12 +118,30 @@ def shown_of(field: np.ndarray) -> list[complex]:
     return list(dict.fromkeys([known.min(), known.max()])) if known.size else [np.nan]
 
 
-def assert_where(field: np.ndarray, shown: tuple[str, str, str, str], names: dict[str, object]) -> None:
-    """The place of an end of a field is one where the quantity that is named has that value."""
-    name, least, unit, greatest = shown
-    (axis,) = (np.asarray(value) for key, value in names.items() if named(key) == name and np.size(value) == field.size)
-    assert field[[same(least, x, unit.strip(), digits=5) for x in axis]].min() == np.nanmin(field)
-    assert field[[same(greatest, x, unit.strip(), digits=5) for x in axis]].max() == np.nanmax(field)
+def assert_where(field: np.ndarray, shown: tuple[str, str], names: dict[str, object]) -> None:
+    """Where the quantities that are named have those values, and the elements these numbers, is an end of a field."""
+    least, greatest = (field[at(field, place, names)] for place in shown)
+    assert least.min() == np.nanmin(field) and greatest.max() == np.nanmax(field)
+
+
+def at(field: np.ndarray, place: str, names: dict[str, object]) -> np.ndarray:
+    told, _, elements = place.partition("element ")
+    holds, free = np.ones(field.shape, bool), [k for k, n in enumerate(field.shape) if n > 1]
+    for name, value, unit in re.findall(PLACE, told.removesuffix(", ")):
+        arrays = (np.asarray(x) for key, x in names.items() if named(key) == name)
+        (axis,) = (x for x in arrays if x.size > 1 and x.size == max(x.shape) and lies(x, field))
+        holds &= np.array([same(value, x, unit.strip(), digits=5) for x in axis.ravel()]).reshape(axis.shape)
+        free.remove(field.ndim - axis.ndim + axis.shape.index(axis.size))
+    if elements:
+        numbers, of = (ast.literal_eval(f"({text.strip('()')},)") for text in elements.split(" of "))
+        assert [field.shape[k] for k in free] == [*of]
+        for k, number in zip(free, numbers, strict=True):
+            holds &= np.moveaxis((np.arange(field.shape[k]) == number - 1)[(...,) + (None,) * (field.ndim - 1)], 0, k)
+    return holds
+
+
+def lies(axis: np.ndarray, field: np.ndarray) -> bool:
+    return axis.ndim <= field.ndim and np.broadcast_shapes(axis.shape, field.shape) == field.shape
 
 
 def product_of_two(row: Formula, names: dict[str, object]) -> float:

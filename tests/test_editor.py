@@ -479,3 +479,31 @@ def test_a_line_that_is_drawn_anew_under_the_pointer_is_clicked(editor):
     page.mouse.up()
     expect(page.locator(".ms-box textarea")).to_have_value(re.compile("^M_n = "))
     page.keyboard.press("Escape")
+
+
+def test_a_cell_that_others_need_goes_when_it_is_deleted_once_more(editor):
+    page, told = editor.page, editor.page.locator(".ms-written")
+    cells = page.locator(".marimo-cell")
+    count, needed = cells.count(), cells.filter(has=page.locator("#line-M_S"))
+    needed.hover()
+    needed.get_by_test_id("delete-button").click()
+    words = "M, M_S, phi go, needed in section 2.1, 3, table 1 and figure 1: delete once more to let it go"
+    expect(told).to_have_text(words)
+    expect(cells).to_have_count(count)
+    page.locator(".ms-title b").first.click()  # it was not meant
+    needed.click(button="right", position={"x": 300, "y": 10})
+    page.get_by_role("menuitem", name="Delete", exact=True).click()
+    drawn(page)
+    page.wait_for_timeout(500)
+    expect(cells).to_have_count(count)
+    page.keyboard.press("Escape")
+    text = cells.filter(has=page.get_by_role("heading", name="2.2 Load cases"))
+    text.click(button="right")
+    page.get_by_role("menuitem", name="Delete", exact=True).click()
+    expect(cells).to_have_count(count - 1)  # nothing needs a text
+    needed.hover()
+    needed.get_by_test_id("delete-button").click()
+    page.wait_for_timeout(1000)
+    expect(cells).to_have_count(count - 1)
+    needed.get_by_test_id("delete-button").click()
+    expect(cells).to_have_count(count - 2)

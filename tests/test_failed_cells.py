@@ -3,6 +3,7 @@
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
+import marimo as mo
 import pytest
 from conftest import marimo_server
 from playwright.sync_api import Page, expect
@@ -84,6 +85,34 @@ def test_what_stops_everything_is_told_at_the_top(planted: Callable[..., Page]) 
     assert waiting(page) == dict.fromkeys(("1", "2", "2.1", "2.2", "3"), "waits for the setup")
     page = planted(("M_n = g.parts", "M_n = (g.parts"))  # of what cannot be read nobody knows what waits
     expect_told(page, *["line 127, M_n = (g.parts * g.F * g.L / n: '(' was never closed"] * 2)
+
+
+STOPS = {
+    "words": ('mo.stop(g.F > 0, mo.md("**Weigh** the _load_ first"))', "Weigh the load first"),
+    "button": ('mo.stop(g.F > 0, mo.ui.button(label="go on"))', "stopped here by mo.stop"),
+}
+
+
+@pytest.mark.parametrize("stop", STOPS)
+def test_what_the_author_stops_is_told_at_its_cell_and_elsewhere_what_waits_for_it(
+    planted: Callable[..., Page], stop: str
+) -> None:
+    call, told = STOPS[stop]
+    page = planted(("    phi = ", f"    {call}\n    phi = "))
+    expect(page.locator("ms-failed")).to_have_count(1)
+    if stop == "button":
+        expect(page.locator("ms-failed").get_by_role("button", name="go on")).to_be_visible()
+    else:
+        expect(page.locator("ms-failed")).to_contain_text(told)
+    assert waiting(page) == {"2.1": "waits for section 2", "3": "waits for section 2"}
+    page.set_viewport_size({"width": 1280, "height": 200})
+    expect(page.locator(".ms-bar")).to_contain_text(f"not computed to its end {told}")
+    assert "ancestor" not in page.locator("body").inner_text()
+
+
+def test_a_stop_without_a_word_says_that_it_is_one_and_a_refusal_is_told_once() -> None:
+    assert "stopped here by mo.stop, which says nothing" in values.stopped(None, "1")
+    assert values.stopped(mo.Html(values.failed("F must be > 0")), "1") == ""
 
 
 def test_what_cannot_be_shown_is_told_where_it_stands() -> None:

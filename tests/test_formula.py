@@ -32,7 +32,8 @@ from mechsheet.document.markup import HTML
 from mechsheet.page.values import html
 from mechsheet.worksheet import numbers
 from mechsheet.worksheet.errors import SheetError
-from mechsheet.worksheet.lines import registry
+from mechsheet.worksheet.lines import formulas, registry
+from mechsheet.worksheet.source import of_texts
 from mechsheet.worksheet.symbol import Symbol
 
 IMPORT = "from mechsheet import typeset\n"
@@ -296,6 +297,8 @@ def test_page_shows_symbol_formula_value_and_meaning():
         ("-(S + R) / L", True),
         ("abs(L * R + L * S)", True),
         ("cross(1j, R + S)", True),
+        ("2 * trapezoid(R + S, W)", True),
+        ("trapezoid(R + T, W)", False),
         ("3e-11 * R", False),
         ("R + T", False),
         ("R - R", False),
@@ -308,7 +311,7 @@ def test_what_rounding_leaves_of_a_sum_is_no_value(line, nothing):
     names = run(
         IMPORT
         + "import numpy as np\nfrom mechsheet import cross, dot\n"
-        + "L, R = 2.0, np.array([1e5, 3e5])\n"
+        + "from numpy import trapezoid\nL, W, R = 2.0, np.array([0.0, 0.5]), np.array([1e5, 3e5])\n"
         + "S, T = np.array([3e-11 - 1e5, -3e5]), np.array([3e-11 - 1e5, 1e-8 - 3e5])\n"
         + f"F = {line}  # [N] left over\nshown = typeset()"
     )
@@ -453,6 +456,19 @@ def test_edited_unit_alone_is_seen():
     """Cells whose code is equal but for a comment are told apart."""
     shown = [run(IMPORT + f"a = 0.5  # [{unit}] length\nshown = typeset()")["shown"] for unit in ("m", "mm")]
     assert [s.rows[0].unit for s in shown] == ["m", "mm"]
+
+
+def test_a_call_leaves_out_the_branch_that_its_function_takes_anyway():
+    lines = (
+        "P = lambda S, L7, branch=s: rrr(S, L7, branch)  # [m] pin\n"
+        "Q = lambda S, L7, branch=s: P(S, L7, branch) - P(S, L7, t) + rrr(S, branch)  # [m] other\n"
+        "def R(S):\n    q = Q(S, 1, s)\n    return q + P(S, s)  # [m] third\n"
+    )
+    rows = {row.name: row for row in formulas(of_texts(((lines, "own.py"),))[0])}
+    assert ast.unparse(rows["P"].expression) == "rrr(S, L7, s)"
+    assert ast.unparse(rows["Q"].expression) == "P(S, L7) - P(S, L7, t) + rrr(S, s)"
+    assert [ast.unparse(value) for _, value in rows["R"].where] == ["Q(S, 1)"]
+    assert ast.unparse(rows["R"].expression) == "q + P(S, s)", "of another number of arguments"
 
 
 def test_branch_that_is_meant_stands_in_the_definition():

@@ -14,6 +14,7 @@ from in_browser import evaluated
 from own_worksheet import ELSEWHERE, OTHER, own, recorded
 
 from mechsheet import evaluate
+from mechsheet.document import markup
 from mechsheet.html import javascript
 from mechsheet.html.elementwise import ELEMENTWISE
 from mechsheet.recording import operations
@@ -132,3 +133,14 @@ FORMATS = ("r", ".4g", ".1g", ".2f", ".0f", ".3e")
 
 def power(x: float) -> str:
     return numbers.usual(x, numbers.AXIS._replace(power="{}e{}"))
+
+
+def test_a_sentence_is_written_as_on_the_page_of_marimo(blank: Page) -> None:
+    said = [
+        "n = -0.5 must be >= 0, x <= -1e-05 m, at 90 deg",
+        "S = -2..-1 m, a - b, x2e3, h-1, '-2e5 >= 3' stays, it's -3",
+        "reached &lt;= 2, &gt;= -∞",
+    ]
+    told = blank.evaluate(f"all => {{{javascript.runtime('format.js')}\nreturn all.map(inWords)}}", said)
+    assert told == [numbers.rewritten(text, markup.HTML) for text in said]
+    assert told[0].startswith("n = −0.5 must be ≥ 0, x ≤ −1")

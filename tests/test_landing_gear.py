@@ -14,7 +14,9 @@ from hypothesis import strategies as st
 from openpyxl import load_workbook
 
 from mechsheet.accuracy import exact
+from mechsheet.document import parts
 from mechsheet.worksheet.check import Check
+from mechsheet.worksheet.drawing import Drawing
 from mechsheet.worksheet.errors import SheetError
 from worksheets import landing_gear
 
@@ -38,6 +40,14 @@ def checks(sheet) -> list[Check]:
 def test_every_check_passes(sheet):
     assert len(checks(sheet)) >= 20
     assert [str(c) for c in checks(sheet) if not c.passed] == []
+
+
+def test_the_flow_chart_tells_the_least_and_the_greatest_with_their_positions(sheet):
+    shown = parts.contents({**sheet, "__file__": str(SHEET)})
+    texts = [text.name for value in shown if isinstance(value, Drawing) for text in value.elements]
+    omega2 = sheet["omega2_l2i"]  # falls, unlike beta2, which is greatest within
+    assert f"8  dφ₂/dl₂ = −0.5901 … {omega2[0]:.4g} rad/m at i = 6, 0, by (21)" in texts
+    assert f"5  Δβ = 9.661 … {np.degrees(sheet['beta2i'][3]):.4g}° at i = 0, 3, by (27)" in texts
 
 
 # The method at 50 digits, by other formulas: the tangent drawn, A on two circles, everything else differentiated

@@ -25,6 +25,11 @@ def test_what_needs_a_name_is_named_in_the_order_of_the_document(gone: Iterable[
     assert needing(LEVER, gone) == places
 
 
+def test_what_a_cell_needs_of_itself_goes_with_it() -> None:
+    assert needing(LEVER, ["M", "M_S", "phi"], whole=True) == "section 2.1, 3, table 1 and figure 1"
+    assert needing(LEVER, ["table_1", "table_2", "figure_1"], whole=True) == ""
+
+
 def test_a_functions_own_argument_is_no_name_of_the_worksheet() -> None:
     cell = "@app.cell\ndef one():\n    def f(phi):\n        return phi\n    return (f,)\n"
     assert needing(cell, ["phi"]) == ""

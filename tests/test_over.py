@@ -1,15 +1,22 @@
 """Of a field of many numbers a line says the least and the greatest, and where along which quantity they are."""
 
+from __future__ import annotations
+
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
 from own_worksheet import own
 
-from mechsheet.document.markup import HTML, where
+from mechsheet.document.markup import HTML, named, where
+from mechsheet.html import javascript
 from mechsheet.worksheet import numbers
 from mechsheet.worksheet.over import over
+from mechsheet.worksheet.results import quantities
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Page
 
 
 def run(tmp_path: Path, lines: str, n: int = 21) -> dict[str, Any]:
@@ -36,7 +43,6 @@ def test_a_field_says_where_it_is_least_and_greatest(tmp_path: Path) -> None:
         "y = 0 * x",
         "y = 1 + x * 1e-16",
         "y = x + 1j",
-        "y = np.outer(x, x)",
         "y = x[:15] * 1",
     ],
     ids=[
@@ -45,7 +51,6 @@ def test_a_field_says_where_it_is_least_and_greatest(tmp_path: Path) -> None:
         "level",
         "level but for rounding",
         "points",
-        "two axes",
         "of another length",
     ],
 )
@@ -72,3 +77,73 @@ def test_roundings_beside_large_numbers_are_about_nothing() -> None:
     assert numbers.value(np.array([0.0, 1e-9]), "m", HTML).startswith("0, 1"), "small, but large beside the others"
     assert numbers.value(np.linspace(0, 1e5, 20) - 1e-11, "N", HTML) == "≈ 0 … 100000 N"
     assert numbers.value(np.exp(1j * np.linspace(0, np.pi / 2, 20)), "m", HTML) == "(≈ 0 … 1, 0 … 1) m"
+
+
+AXES = """case = np.arange(1, 4)[:, None]  # [-] load case
+P = (case - 2.2) ** 2 * np.sin(x)  # [-] over both
+Q = 3 * P  # [-] tabulated beside them
+table_2 = table("2", "Cases", case, x, Q)"""
+
+
+@pytest.mark.parametrize(
+    ("line", "expected"),
+    [
+        ("y = Q * 1", "least at case = 2, x = 0.1, greatest at case = 1, x = 1.525"),
+        ("y = np.outer(x[:15], x**2)", "least at x = 0.1, element 1 of 15, greatest at x = 2, element 15 of 15"),
+        ("y = np.arange(30).reshape(5, 6)", "least at element (1, 1) of (5, 6), greatest at element (5, 6) of (5, 6)"),
+        (
+            "y = np.arange(63.0).reshape(3, 21)",
+            "least at element (1, 1) of (3, 21), greatest at element (3, 21) of (3, 21)",
+        ),
+        ("y = np.arange(12).reshape(3, 4)", ""),
+    ],
+    ids=["both known", "one known", "none known", "none that it has to do with", "in full, in rows"],
+)
+def test_of_a_field_over_several_axes_the_place_is_told_along_each(line: str, expected: str, tmp_path: Path) -> None:
+    assert shown(run(tmp_path, f"{AXES}\n{line}  # [-] line"), "y") == expected
+
+
+def test_rows_are_named_by_what_counts_them_if_only_one_does(tmp_path: Path) -> None:
+    lines = """M = np.array([0.6, 0.1, 0.3])[:, None]  # [-] moments
+case = np.arange(1, 4)[:, None]  # [-] load case
+load = np.arange(2, 5)[:, None]  # [-] other
+P = M * x  # [-] force
+Q = M * x * 2  # [-] force
+R = M * x * 3  # [-] what nothing is computed from
+P_2 = 2 * P  # [-] tabulated once
+Q_2 = 2 * Q  # [-] tabulated twice
+table_2 = table("2", "Cases", case, x, P_2, Q_2)
+table_3 = table("3", "Others", load, x, Q_2)"""
+    names = run(tmp_path, lines)
+    assert shown(names, "P") == "least at case = 2, x = 0.1, greatest at case = 1, x = 2"
+    assert (
+        shown(names, "Q") == shown(names, "R") == "least at x = 0.1, element 2 of 3, greatest at x = 2, element 1 of 3"
+    )
+
+
+def test_the_terminal_tells_the_places(tmp_path: Path) -> None:
+    names = run(tmp_path, AXES)
+    (told,) = quantities("Q", names)
+    assert str(told).endswith(", least at case = 2, x = 0.1, greatest at case = 1, x = 1.525, tabulated beside them")
+    (told,) = quantities("case", names)
+    assert "least" not in str(told), "a few numbers"
+
+
+def test_a_page_in_one_file_tells_the_same_places(blank: Page, tmp_path: Path) -> None:
+    lines = "y = np.outer(x[:15], x**2)  # [-] one known\nz = 2 * P[:, :1] * np.ones(7)  # [-] one axis lost"
+    names = run(tmp_path, f"{AXES}\n{lines}")
+    for name in ("P", "y", "z"):
+        field, known = names[name], over(name, names)
+        assert known is not None
+        specs = [axis and {"key": axis.line.name, "named": named(axis.line.name)} for axis in known.axes]
+        told = blank.evaluate(
+            f"""([field, shape, over, values]) => {{{javascript.runtime("format.js")}
+            return whereText([Object.assign(field, {{shape}})], over, values)}}""",
+            [
+                field.ravel().tolist(),
+                field.shape,
+                [spec and {**spec, "factor": 1, "behind": ""} for spec in specs],
+                {axis.line.name: axis.values.tolist() for axis in known.axes if axis},
+            ],
+        )
+        assert told == where(field, known) != ""

@@ -9,6 +9,7 @@ import pytest
 from by_cells import by_cells
 
 from mechsheet import units
+from mechsheet.page.values import html
 from mechsheet.recording.evaluation import evaluate
 from mechsheet.studies.sensitivity import sensitivity
 from mechsheet.studies.tolerance import tolerance
@@ -129,6 +130,9 @@ def test_tornado_shows_the_largest_on_top(found):
     spec = tornado.chart().to_dict()
     assert spec["encoding"]["y"]["sort"][1] == "Dgc" or spec["encoding"]["y"]["sort"][1].startswith("D")
     assert "P_msha" not in [x for x, *_ in tornado.bars]
+    shown = html(tornado)
+    assert "<b>Figure 1</b> – Tornado</div>" in shown and "transparent" in shown, "in the page's face"
+    assert "Figure 1 \u2013" not in shown.replace("<b>", "").partition('class="ms-caption"')[0]
 
 
 def test_inputs_at_a_limit_and_at_zero():

@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 from cells import run
 
+from mechsheet.page.values import html
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.results import quantities
-from mechsheet.worksheet.table import figure, table
+from mechsheet.worksheet.table import Column, Table, figure, table
 
 CELL = """
 import numpy as np
@@ -200,3 +201,9 @@ def test_what_a_table_cannot_take_is_named(given, told):
     known = {"table": table, "figure": figure, "x": np.array([1.0, 2.0]), "y": np.array([3.0, 4.0])}
     with pytest.raises(SheetError, match=re.escape(told)):
         eval(given, known)
+
+
+def test_texts_of_a_table_have_the_signs_of_the_page() -> None:
+    texts = [Column(head, "", "", 0, [text]) for head, text in (("name", "a_b"), ("error", "-3e-09"), ("grade", "S-2"))]
+    shown = html(Table("1", "Sensitivity", tuple(texts)))
+    assert "".join(f'<td class="ms-text">{cell}</td>' for cell in ("a_b", "−3·10⁻⁹", "S-2")) in shown

@@ -449,7 +449,7 @@ def scene_check(design, g, hitch, scene):
 @app.cell
 def workbook(scene):
     _book = export("Design of a tractor hitch", globals())
-    mo.hstack([save_scene(scene, "designed.toml", globals()), _book], justify="start")
+    mo.vstack([save_scene(scene, "designed.toml", globals()), _book])
     return
 
 

@@ -638,7 +638,7 @@ def section_algorithm():
     mo.md("""
     ### The algorithm with its numbers
 
-    What the loop computes is told from its first position to its last.
+    Of what the loop computes the least and the greatest are told, each with its position i.
     """)
     return
 
@@ -648,25 +648,31 @@ def drawing_35(
     H, V21, beta2i, eps2_l2i, eps2i, eps3_l2i, eps3i, g, l20, l2i, l2n, mu, omega2_l2i, omega2i, omega3_l2i, omega3i,
     phi2i, phi32i, phi3i, psi,
 ):  # fmt: skip
-    _ends = lambda x, unit=1.0: f"{x[0] / unit:.4g} … {x[-1] / unit:.4g}".replace("-", "−")
+    _least = lambda x, unit: f"{np.min(x) / unit:.4g} … {np.max(x) / unit:.4g}".replace("-", "−")
+    _ends = lambda x, shown, unit=1.0: f"{_least(x, unit)}{shown} at i = {np.argmin(x)}, {np.argmax(x)}"
     _steps = (
         ("data", f"a = {g.a:.4g} m, b = {g.b:.4g} m, l₃ = {g.l3:.4g} m, θ = {g.theta / deg:.4g}°, t = {g.t_r:.4g} s"),
         ("1", f"μ = {mu / deg:.4g}° by (4)"),
         ("2", f"ψ = {psi / deg:.4g}° by (5)"),
         ("3", f"l₂₀ = {l20:.4g} m, l₂ₙ = {l2n:.4g} m, H = {H:.4g} m by (7), (8), (6)"),
         ("10", f"V₂₁ = {V21:.4g} m/s by (1)"),
-        ("4", f"for i = 0 … {g.R}: l₂ = {_ends(l2i)} m by (9)"),
-        ("5", f"Δβ = {_ends(beta2i, deg)}° by (27)"),
-        ("6", f"φ₂ = {_ends(phi2i, deg)}°, φ₃ = {_ends(phi3i, deg)}° by (26), (17)"),
-        ("7", f"Δφ = {_ends(phi32i, deg)}°"),
-        ("8", f"dφ₃/dl₂ = {_ends(omega3_l2i)}, dφ₂/dl₂ = {_ends(omega2_l2i)} rad/m by (20), (21)"),
-        ("9", f"d²φ₃/dl₂² = {_ends(eps3_l2i)}, d²φ₂/dl₂² = {_ends(eps2_l2i)} rad/m² by (24), (25)"),
-        ("11", f"ω₃ = {_ends(omega3i)}, ω₂ = {_ends(omega2i)} rad/s by (11), (13)"),
-        ("11", f"ε₃ = {_ends(eps3i)}, ε₂ = {_ends(eps2i)} rad/s² by (12), (14)"),
+        ("4", f"for i = 0 … {g.R}: l₂ = {_ends(l2i, ' m')}, by (9)"),
+        ("5", f"Δβ = {_ends(beta2i, '°', deg)}, by (27)"),
+        ("6", f"φ₂ = {_ends(phi2i, '°', deg)}, by (26)"),
+        ("6", f"φ₃ = {_ends(phi3i, '°', deg)}, by (17)"),
+        ("7", f"Δφ = {_ends(phi32i, '°', deg)}"),
+        ("8", f"dφ₃/dl₂ = {_ends(omega3_l2i, ' rad/m')}, by (20)"),
+        ("8", f"dφ₂/dl₂ = {_ends(omega2_l2i, ' rad/m')}, by (21)"),
+        ("9", f"d²φ₃/dl₂² = {_ends(eps3_l2i, ' rad/m²')}, by (24)"),
+        ("9", f"d²φ₂/dl₂² = {_ends(eps2_l2i, ' rad/m²')}, by (25)"),
+        ("11", f"ω₃ = {_ends(omega3i, ' rad/s')}, by (11)"),
+        ("11", f"ω₂ = {_ends(omega2i, ' rad/s')}, by (13)"),
+        ("11", f"ε₃ = {_ends(eps3i, ' rad/s²')}, by (12)"),
+        ("11", f"ε₂ = {_ends(eps2i, ' rad/s²')}, by (14)"),
         ("", f"i = {g.R}?"),
         ("12", "print, and compare with other methods"),
     )
-    chart = Drawing(width=860, height=800, frame=[-6.1 + 0.3j, 6.5 - 1j * len(_steps) + 0.6j], unit="")
+    chart = Drawing(width=860, height=1000, frame=[-6.1 + 0.3j, 6.5 - 1j * len(_steps) + 0.6j], unit="")
     for _n, (_step, _says) in enumerate(_steps):
         _at, _w, _h = -1j * _n, (6.0 if _step else 1.2), 0.32
         _box = [_at + _w * _x + 1j * _h * _y for _x, _y in ((-1, -1), (-1, 1), (1, 1), (1, -1))]

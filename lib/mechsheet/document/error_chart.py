@@ -7,6 +7,7 @@ from typing import Any, ClassVar, Protocol
 import numpy as np
 
 from mechsheet import units
+from mechsheet.document.chart import COLOURS
 from mechsheet.worksheet.shown import Charted
 from mechsheet.worksheet.table import Column, Figure
 
@@ -68,7 +69,7 @@ class DigitsKept(Charted):
         base = alt.Chart(alt.InlineData(points)).encode(
             x=alt.X("expected:Q", title="digits expected, 16 - log κ", scale=alt.Scale(domain=[0, FULL])),
             y=alt.Y("kept:Q", title="digits kept", scale=alt.Scale(domain=[0, FULL])),
-            color=colour.scale(domain=[*ways], range=["#d55e00", "#0072b2"]),
+            color=colour.scale(domain=[*ways], range=[COLOURS[3], COLOURS[0]]),
             tooltip=["scene:N", "case:N", "result:N", alt.Tooltip("expected:Q", format=".1f"), "kept:Q"],
         )
         ends = [{"x": 0.0, "y": 0.0, "spared": -SPARE}, {"x": FULL, "y": FULL, "spared": FULL - SPARE}]
@@ -139,10 +140,8 @@ class WorkPrecision(Charted, Figure):
         title = f"Figure {self.number} – {self.title}"
         sharp = {"embedOptions": {"renderer": "svg"}}  # on paper too
         chart = alt.layer(*layers).properties(title=title, width=560, height=360, usermeta=sharp)
-        return (
-            chart.configure_axis(labelFontSize=12, titleFontSize=12, titleFontWeight="normal", gridColor="#E4E4E4")
-            .configure_legend(labelFontSize=13)
-            .configure_title(fontSize=14, anchor="start", offset=12)
+        return chart.configure_axis(labelFontSize=12, titleFontSize=12, titleFontWeight="normal").configure_legend(
+            labelFontSize=13
         )
 
     def _behind(self, own: Plotted, x_ends: tuple[float, float], y_ends: tuple[float, float]) -> list[Any]:
@@ -172,10 +171,8 @@ class WorkPrecision(Charted, Figure):
 
 _OWN = ("#D1495B", "diamond")
 _GREY = "#6B7280"
-_OTHERS = (
-    *(("#1F4E79", "circle"), ("#2E8B8B", "square"), ("#EDAE49", "triangle-up"), ("#7030A0", "triangle-down")),
-    *(("#548235", "cross"), ("#8C564B", "triangle-right"), (_GREY, "triangle-left"), ("#3D9BE9", "circle")),
-)
+_SHAPES = ("circle", "square", "triangle-up", "triangle-down", "cross", "triangle-right", "triangle-left", "stroke")
+_OTHERS = tuple(zip((c for c in COLOURS if c != "#e0483c"), _SHAPES, strict=False))  # none of the product's own red
 
 
 def families(rows: Sequence[Plotted]) -> list[tuple[str, slice]]:

@@ -74,6 +74,15 @@ def in_words(sentence: str) -> str:
     return "".join(named(piece) if i % 2 else numbers.rewritten(escape(piece), HTML) for i, piece in pieces)
 
 
+def message(text: str) -> str:
+    """A message, its numbers and signs as the page writes them; its names may be those of lines and stay.
+
+    >>> message("n = -0.5 must be >= 0, not 'a<b'")
+    'n = −0.5 must be ≥ 0, not &#x27;a&lt;b&#x27;'
+    """
+    return numbers.rewritten(escape(text), HTML)
+
+
 def compared(check: Check, unit: str, to: Notation = HTML) -> str:
     r"""Residual and limit of an evaluated check in a unit, what part of its limit it takes; or how well it agrees.
 
@@ -92,11 +101,8 @@ def compared(check: Check, unit: str, to: Notation = HTML) -> str:
 
 def where(field: Any, over: Over | None) -> str:
     """Where a field is least and where it is greatest, if its numbers do not stand in full."""
-    ends = over.ends(field) if over and not numbers.in_full(field) else None
-    if not over or not ends:
-        return ""
-    least, greatest = (f"{named(over.line.name)} = {numbers.value(x, over.line.unit, HTML)}" for x in ends)
-    return f' <span class="ms-where">least at {least}, greatest at {greatest}</span>'
+    places = over.places(field, HTML, named) if over else None
+    return f' <span class="ms-where">least at {places[0]}, greatest at {places[1]}</span>' if places else ""
 
 
 def limits(field: Input) -> str:
@@ -111,4 +117,4 @@ def limits(field: Input) -> str:
 def _limit(text: str) -> str:
     if text[0].isalpha():
         return as_written(text.rpartition(".")[2])
-    return numbers.rewritten(escape(text), HTML)
+    return message(text)

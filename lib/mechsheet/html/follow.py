@@ -28,6 +28,7 @@ from mechsheet.worksheet.check import Check
 from mechsheet.worksheet.drawing import Drawing
 from mechsheet.worksheet.find import Found
 from mechsheet.worksheet.lines import Numbers
+from mechsheet.worksheet.over import Axis
 from mechsheet.worksheet.symbol import read, stem
 from mechsheet.worksheet.system import Solution
 from mechsheet.worksheet.table import Column, Figure, Table
@@ -180,13 +181,18 @@ class Follower:
             return self.mark("value", keys=None, fixed=known, **spec, **guards) if guards or not known else ""
         if held.extent != shape:
             spec["at"] = line.position
-        elif line.over and isinstance(axis := self.recording.values.get(line.over.line.name), Quantity):
-            unit = line.over.line.unit
-            factor, behind = units.parse(unit).factor, numbers.behind(unit, HTML)
-            named_over = {"key": self.key(axis.re), "named": named(line.over.line.name)}
-            spec["over"] = named_over | {"factor": factor, "behind": behind}
+        elif line.over:
+            spec["over"] = [self._axis(axis) for axis in line.over.axes]
         same = held.extent == shape or held.extent[:-1] == shape
         return self.mark("value", keys=[self.key(part) for part in held.parts] if same else None, **spec, **guards)
+
+    def _axis(self, axis: Axis | None) -> Spec | None:
+        """The quantity along an axis of a field; None of one that is not known, or not for other inputs."""
+        held = self.recording.values.get(axis.line.name) if axis else None
+        if not axis or not isinstance(held, Quantity):
+            return None
+        factor, behind = units.parse(axis.line.unit).factor, numbers.behind(axis.line.unit, HTML)
+        return {"key": self.key(held.re), "named": named(axis.line.name), "factor": factor, "behind": behind}
 
     def put_in(self, line: Line, **moved: Any) -> str:
         """Attribute of the formula of a line with numbers for its symbols; "" where it has none."""

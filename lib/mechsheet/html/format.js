@@ -116,7 +116,7 @@ function valueText(parts, factor, behind) {
   const end = i => (im ? `(${shown(at(re, i))}, ${shown(at(im, i))})` : shown(at(re, i)));
   const each = Array.from({length: Math.min(size, 16)}, (_, i) => i);
   const shape = parts.find(part => part.shape)?.shape ?? [];
-  if (shape.length === 2 && Math.max(...shape) <= 4) {
+  if (isInRows(shape)) {
     const rows = Array.from({length: shape[0]}, (_, r) => each.slice(r * shape[1], (r + 1) * shape[1]).map(end).join(", "));
     return `[${rows.join("; ")}]${behind}`;
   }
@@ -125,6 +125,8 @@ function valueText(parts, factor, behind) {
   const lost = re.reduce((n, x) => n + (x !== x), 0);
   return span(re, shown) + behind + (lost && lost < size ? ` (${lost} of ${size} ${HTML.none})` : "");
 }
+
+const isInRows = shape => shape.length === 2 && Math.max(...shape) <= 4;
 
 function span(numbers, shown) {
   return [...new Set(leastAndGreatest(numbers).map(shown))].join(" … ");
@@ -137,14 +139,28 @@ function leastAndGreatest(numbers) {
   return known ? [low, high] : [numbers[0]];
 }
 
-// Where a field is least and greatest along the quantity over which it runs, as the page of marimo says it.
-function whereText(parts, along, over) {
-  if (parts.length > 1 || typeof parts[0] === "number" || parts[0].length <= 10 || along?.length !== parts[0].length) return "";
-  const [low, high] = leastAndGreatest(parts[0]);
-  const most = parts[0].reduce((x, y) => (Number.isFinite(y) ? Math.max(x, Math.abs(y)) : x), 0);
-  if (!(high - low > ROUNDING * most)) return "";
-  const at = x => `${over.named} = ${usual(along[parts[0].indexOf(x)] / over.factor, HTML)}${over.behind}`;
+// Where a field is least and greatest along the quantities over which it runs, as the page of marimo says it.
+function whereText(parts, over, values) {
+  const [field] = parts, shape = field.shape ?? [field.length];
+  if (parts.length > 1 || typeof field === "number" || field.length <= 10 || isInRows(shape)) return "";
+  const [low, high] = leastAndGreatest(field), several = shape.filter(n => n > 1).length > 1;
+  const most = field.reduce((x, y) => (Number.isFinite(y) ? Math.max(x, Math.abs(y)) : x), 0);
+  const axes = shape.map((n, k) => (over[k] && values[over[k].key]?.length === n ? over[k] : null));
+  if (!(high - low > ROUNDING * most) || !(several || axes.some(Boolean))) return "";
+  const at = x => placeText(field.indexOf(x), shape, axes, values);
   return ` <span class="ms-where">least at ${at(low)}, greatest at ${at(high)}</span>`;
+}
+
+function placeText(index, shape, axes, values) {
+  const told = [], elements = [];
+  shape.forEach((n, k) => {
+    const at = Math.floor(index / shape.slice(k + 1).reduce((x, y) => x * y, 1)) % n, axis = axes[k];
+    if (axis) told.push(`${axis.named} = ${usual(values[axis.key][at] / axis.factor, HTML)}${axis.behind}`);
+    else if (n > 1) elements.push([at + 1, n]);
+  });
+  const [element, of] = [0, 1].map(n => elements.map(each => each[n]).join(", "));
+  if (elements.length) told.push(elements.length > 1 ? `element (${element}) of (${of})` : `element ${element} of ${of}`);
+  return told.join(", ");
 }
 
 // Numbers with as many digits as tell unequal ones apart; 17 always do.
@@ -164,12 +180,18 @@ function bare(mantissa, power) {
 
 const cellText = (x, column) => (column.power ? scientific : fixed)(x, column.decimals, AXIS);
 
-// Numbers and degrees of a sentence as the page writes them.
-const inWords = text =>
-  String(text)
+// Numbers, degrees and comparisons of a sentence as the page writes them; what stands between quotes is as it was typed.
+const QUOTED = /((?<![\p{L}\p{N}_])(?:'[^']*'|&#x27;.*?&#x27;)(?![\p{L}\p{N}_]))/u;
+const inWords = text => String(text).split(QUOTED).map((part, n) => (n % 2 ? part : rewritten(part))).join("");
+
+const POWER = /(?<![\p{L}\p{N}_])(?<![\p{L}\p{N}_]\.)(\d+(?:\.\d*)?)e([+-]?)0*(\d+)\b/gu;
+const rewritten = text =>
+  text
     .replace(/(\d) deg\b/g, "$1°")
-    .replace(/(\d)e([+-]?)0*(\d+)\b/g, (_, digit, sign, power) => `${digit}\u202f·\u202f10<sup>${sign === "-" ? "−" : ""}${power}</sup>`)
-    .replace(/(^|\.\.|[^\w.)])-(?=[\d.∞])/g, "$1−");
+    .replace(POWER, (_, x, sign, power) => `${x}\u202f·\u202f10<sup>${sign === "-" ? "−" : ""}${power}</sup>`)
+    .replace(/(?<![\p{L}\p{N}_.)])-(?=[\d.∞])|(?<=\.\.)-|(?<= )-(?= )/gu, "−")
+    .replace(/(?:>|&gt;)=/g, "≥")
+    .replace(/(?:<|&lt;)=/g, "≤");
 
 // What a check compares: told apart, with two digits where the residual is only rounding.
 function compared(residual, limit, agrees) {

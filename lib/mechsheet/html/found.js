@@ -110,6 +110,6 @@ function foundHTML(words, found) {
   if (!waits) rows.push(["computed", `${verdicts.reduce((n, v) => n + v.evaluations, 0)} times`]);
   const head = inWords(headOf(words, verdicts, reasons, isAlone));
   return `<div><span class="ms-badge ms-${kind}">${word}</span> <b>${head}</b></div>` +
-    failures.map(text => `<div>${text}</div>`).join("") +
+    failures.map(text => `<div>${inWords(text)}</div>`).join("") +
     `<table>${rows.map(([what, text]) => `<tr><th>${what}</th><td>${inWords(text)}</td></tr>`).join("")}</table>`;
 }

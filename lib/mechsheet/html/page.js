@@ -21,7 +21,7 @@ const show = {
   value(spec, element, results) {
     const parts = spec.keys?.map(key => along(results.values[key], positionOf(spec)));
     const known = parts && parts.every(part => part !== undefined);
-    const where = known && spec.over ? whereText(parts, results.values[spec.over.key], spec.over) : "";
+    const where = known && spec.over ? whereText(parts, spec.over, results.values) : "";
     set(element, known ? valueText(parts, ...unitNow(spec).slice(1)) + where : "");
     return Boolean(known);
   },
@@ -131,7 +131,7 @@ function tell(element, {kind, word, compared, reason, part = NaN}) {
   const place = element.querySelector(".ms-compared");
   place.innerHTML = compared;
   place.dataset.part = part;
-  element.querySelector(".ms-note").textContent = reason;
+  element.querySelector(".ms-note").innerHTML = inWords(escaped(reason));
   inside.delete(element);
 }
 
@@ -221,7 +221,7 @@ function mark(field, changed, error) {
   row.classList.toggle("ms-changed", changed);
   row.title = changed ? `the document's own: ${field.text}${unitOf(field)}` : "";
   input.setAttribute("aria-invalid", Boolean(error));
-  document.getElementById(`error-${field.name}`).textContent = error;
+  document.getElementById(`error-${field.name}`).innerHTML = inWords(escaped(error));
   const used = document.querySelector(`[data-used="${field.name}"]`);
   used.classList.toggle("ms-changed", changed);
   if (field.kind === "rows") set(used.nextElementSibling.cells[0], onPaper(field));

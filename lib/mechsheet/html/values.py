@@ -14,7 +14,7 @@ from mechsheet import units
 from mechsheet.document import chart, chart_svg, drawing_svg
 from mechsheet.document.blocks import blocks, fitting
 from mechsheet.document.expression import equation, fields_by_name
-from mechsheet.document.markup import HTML, as_written, compared, in_words, meant, named, where
+from mechsheet.document.markup import as_written, compared, in_words, meant, message, named, where
 from mechsheet.document.parts import Control, Line, Section, Text
 from mechsheet.document.shortened import foot, shortened, thinned
 from mechsheet.html import index, markdown, offered
@@ -233,7 +233,7 @@ def _(check: Check, page: Follower) -> str:
         f'<div class="ms-check" id="{_anchor(check)}"{page.check(check)}>'
         f'<span class="ms-badge ms-{kind}">{verdict}</span> '
         f'{in_words(check.name)}<span class="ms-compared" data-part="{float(check.utilisation)}">{told}</span> '
-        f'<span class="ms-note">{numbers.rewritten(escape(check.reason), HTML)}</span></div>'
+        f'<span class="ms-note">{message(check.reason)}</span></div>'
     )
 
 
@@ -254,7 +254,7 @@ def _(summary: Summary, page: Follower) -> str:
 @html.register
 def _(found: Verdict, page: Follower) -> str:
     colour = "FAIL" if found.failures() else "PASS" if np.any(found.solved) else "OPEN"
-    lines = "".join(f"<div>{escape(text)}</div>" for text in found.failures())
+    lines = "".join(f"<div>{message(text)}</div>" for text in found.failures())
     rows = "".join(f"<tr><th>{escape(k)}</th><td>{in_words(v)}</td></tr>" for k, v in found.details())
     return (
         f'<div class="ms-found"{page.found(found)}><div>'

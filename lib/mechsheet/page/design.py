@@ -14,6 +14,7 @@ from urllib.parse import quote
 import marimo as mo
 
 from mechsheet import units
+from mechsheet.document.markup import message
 from mechsheet.page.script import element, script
 from mechsheet.worksheet import mistakes, numbers
 from mechsheet.worksheet.errors import SheetError
@@ -117,7 +118,7 @@ class Design:
             raise
         except Exception as error:  # of the library or of the worksheet's own lines: the page goes on without
             why = str(error) if isinstance(error, SheetError) else mistakes.told(error, self.namespace["__file__"])
-            return f'<div class="ms-note"><span class="ms-badge ms-FAIL">not found</span> {escape(why)}</div>'
+            return f'<div class="ms-note"><span class="ms-badge ms-FAIL">not found</span> {message(why)}</div>'
         name = f"{Path(self.namespace['__file__']).stem}_designed.toml"
         address = f"data:text/plain;charset=utf-8,{quote(found.scene)}"
         link = f'<a download="{escape(name)}" href="{address}">Scene of the design</a>'
@@ -125,7 +126,7 @@ class Design:
 
 
 def _lines(kind: str, lines: Iterable[str]) -> str:
-    return "".join(f'<div class="ms-note"><{kind}>{escape(line)}</{kind}></div>' for line in lines)
+    return "".join(f'<div class="ms-note"><{kind}>{message(line)}</{kind}></div>' for line in lines)
 
 
 def _offered(g: Any) -> Iterable[dict[str, str]]:

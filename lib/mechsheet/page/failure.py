@@ -1,4 +1,4 @@
-"""What a served page tells of a cell that Python could not compute or read: marimo itself leaves its place empty."""
+"""What a served page tells of a cell that failed or was stopped: marimo leaves its place empty, or its sections."""
 
 from collections.abc import Mapping
 from pathlib import Path
@@ -19,8 +19,10 @@ def told(error: object, cell_id: str, namespace: Mapping[str, Any]) -> str:
     from mechsheet.page import values  # on use: as above
 
     path = Path(namespace.get("__file__") or "")
-    if mo.app_meta().mode != "run" or isinstance(error, mo.MarimoStopError) or not _is_worksheet(path):
+    if mo.app_meta().mode != "run" or not _is_worksheet(path):
         return ""
+    if isinstance(error, mo.MarimoStopError):
+        return values.stopped(error.output, cell_id)
     reason = _reason(error, path)
     return values.failed(reason, cell_id=cell_id) if reason else ""
 

@@ -15,6 +15,7 @@ from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.inputs import build, declared
 from mechsheet.worksheet.kinds import Choice, Input, Switch
 from mechsheet.worksheet.lists import Rows
+from mechsheet.worksheet.numbers import on_page
 from mechsheet.worksheet.title import Slider
 
 
@@ -113,7 +114,7 @@ def _scenes(cls: type) -> list[dict[str, Any]]:
                 g: Any = build(cls, given)
                 found.append({"name": path.stem, "texts": {name: own[name].text(getattr(g, name)) for name in given}})
             except SheetError as error:
-                found.append({"name": path.stem, "why": str(error)})
+                found.append({"name": path.stem, "why": on_page(str(error))})
     return found
 
 

@@ -239,6 +239,28 @@
   };
   document.addEventListener("keydown", pressed, { capture: true }); // before the editor, which has uses of its own for it
 
+  // What others need goes with its cell only when that is deleted once more; for its key the editor asks itself.
+  let sure; // the cell that was asked about
+  function going({ target }) {
+    const button = target.closest?.('[data-testid="delete-button"], [role="menuitem"]');
+    if (button?.role !== "menuitem") return button?.closest(".marimo-cell");
+    return button.textContent === "Delete" ? document.querySelector('[data-state="open"] > .marimo-cell') : undefined;
+  }
+
+  const deleting = (event) => {
+    const cell = going(event) ?? undefined;
+    const again = cell === sure;
+    sure = again ? undefined : cell;
+    if (!cell || again) return;
+    event.preventDefault();
+    event.stopImmediatePropagation();
+    ask({ do: "cell", name: cell.dataset.cellId }).then(({ asks }) => {
+      if (asks) say(`${asks}: delete once more to let it go`);
+      else if (cell === sure) event.target.dispatchEvent(new MouseEvent("click", event));
+    });
+  };
+  document.addEventListener("click", deleting, { capture: true });
+
   function placeOf(name) {
     return name.startsWith("g.")
       ? document.querySelector(`td[data-input="${name.slice(2)}"]`)?.parentElement

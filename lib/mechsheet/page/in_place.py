@@ -7,7 +7,7 @@ import ast
 import json
 import linecache
 import re
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import Future
 from copy import deepcopy
 from ctypes import c_ulong, py_object, pythonapi
@@ -23,13 +23,14 @@ import numpy as np
 from mechsheet import units
 from mechsheet.document.markup import as_written
 from mechsheet.page import editor, fields, notebook, values
-from mechsheet.page.needing import needing
+from mechsheet.page.needing import needing, some
 from mechsheet.page.script import element, script
 from mechsheet.workbook.save import save
 from mechsheet.worksheet import inputs, mistakes, source
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.line_edit import OF_INPUT, Change, asked_for, change, declares, line, same_cells
 from mechsheet.worksheet.lines import Formula, Numbers, Typeset, formulas, no_number
+from mechsheet.worksheet.numbers import on_page
 from mechsheet.worksheet.shown import Shown
 
 _FILE = "__marimo__cell_in_place"  # under which a line is compiled
@@ -57,12 +58,12 @@ class InPlace:
         )
 
     def asked(self, text: str) -> None:
-        """Answer what the page asks: a line as it stands, what a text would be, or to write it."""
+        """Answer what the page asks: a line as it stands, what a text would be, to write it, what needs a cell."""
         asked = json.loads(text)
         try:
             found = self.done(**{key: value for key, value in asked.items() if key != "number"})
         except SheetError as error:
-            found = {"why": str(error)}
+            found = {"why": on_page(str(error))}
         except Exception as error:  # of the library: the page is told, which waits for an answer
             found = {"why": mistakes.why(error, ())}
         self.answer = {"number": asked["number"], **found}
@@ -87,6 +88,8 @@ class InPlace:
                 return {"shown": self.preview(change(text, name, was, new, below).of(text), name, was, new, below)}
             case "taken":
                 return {"taken": self.is_taken(text)}
+            case "cell":
+                return {"asks": _needed(text, name)}
         if not self.is_taken(text):
             raise SheetError(_UNSAVED)
         told = Change(**parts) if do == "undo" else change(text, name, was, new, below)
@@ -214,7 +217,21 @@ def _needing(text: str, name: str, was: str, new: str) -> str:
     before = OF_INPUT if name.startswith(OF_INPUT) else ""
     gone = sorted({before + own for own in _declared(was) - _declared(new)})
     places = needing(text, gone) if gone else ""
-    return f"{', '.join(own.removeprefix(OF_INPUT) for own in gone)} goes, needed in {places}" if places else ""
+    return _go([own.removeprefix(OF_INPUT) for own in gone], places) if places else ""
+
+
+def _needed(text: str, cell_id: str) -> str:
+    """What needs names that a cell of the page defines; nothing where nothing else does."""
+    cells = notebook.running()[0]()
+    gone = {name for cell in cells if cell.cell_id == cell_id for name in cell.defs}
+    others = [cell for cell in cells if cell.cell_id != cell_id]
+    lost = sorted(name for name in gone if any(name in cell.refs for cell in others))
+    places = needing(text, gone, whole=True) if lost else ""
+    return _go(lost, places or "another cell") if lost else ""
+
+
+def _go(names: Sequence[str], places: str) -> str:
+    return f"{', '.join(some(names))} {'goes' if len(names) == 1 else 'go'}, needed in {places}"
 
 
 def _declared(line: str) -> set[str]:

@@ -1,7 +1,7 @@
 """What in a worksheet needs a name that is to go: its sections, tables and figures, whatever lies between."""
 
 import ast
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from typing import NamedTuple
 
 from mechsheet.page.notebook import depending
@@ -19,10 +19,19 @@ class _Line(NamedTuple):
     defs: set[str]
 
 
-def needing(text: str, gone: Iterable[str]) -> str:
-    """Sections, tables and figures of a worksheet that need names, ``g.NAME`` of an input; nothing where none does."""
-    statements = (line for node in source.functions(ast.parse(text)) for line in node.body)
-    lines = [_Line(line, _read(line), declares(line)) for line in statements if not isinstance(line, ast.Return)]
+def needing(text: str, gone: Collection[str], whole: bool = False) -> str:
+    """Sections, tables and figures of a worksheet that need names, ``g.NAME`` of an input; nothing where none does.
+
+    Where the names go with their ``whole`` cells, what these need themselves goes too.
+    """
+    cells = [
+        [_Line(line, _read(line), declares(line)) for line in node.body if not isinstance(line, ast.Return)]
+        for node in source.functions(ast.parse(text))
+    ]
+    for cell in cells if whole else ():
+        if any(line.defs.intersection(gone) for line in cell):
+            cell[:] = [line._replace(refs=set[str]()) for line in cell]
+    lines = [line for cell in cells for line in cell]
     lost = depending(lines, gone)
     section, sections, others = "", dict[str, None](), dict[str, None]()
     for line in lines:
@@ -31,12 +40,12 @@ def needing(text: str, gone: Iterable[str]) -> str:
             shown = [caption for node in source.nodes(line.code) for caption in _captions(node)]
             others |= dict.fromkeys(shown)
             sections |= dict.fromkeys([] if shown or not section else [short(section)])
-    *first, last = [*([f"section {', '.join(_some(sections))}"] if sections else []), *_some(others)] or [""]
+    *first, last = [*([f"section {', '.join(some(sections))}"] if sections else []), *some(others)] or [""]
     return f"{', '.join(first)} and {last}" if first else last
 
 
-def _some(places: Iterable[str]) -> list[str]:
-    """Places, of many the first."""
+def some(places: Iterable[str]) -> list[str]:
+    """Places or names, of many the first."""
     listed = list(places)
     if len(listed) <= _LISTED + 1:
         return listed

@@ -5,12 +5,12 @@
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
-from html import escape
 from math import isfinite
 from uuid import uuid4
 
 from mechsheet import units
 from mechsheet.document.blocks import blocks
+from mechsheet.document.markup import message
 from mechsheet.document.shortened import rows, shortened
 from mechsheet.page import values
 from mechsheet.page.script import element, script
@@ -23,7 +23,7 @@ from mechsheet.worksheet.table import Table
 def html(proof: Proof, tables: Sequence[Table], known: Mapping[str, Formula]) -> str:
     """A proof of the numbers that the tables and the lines ``known`` have now."""
     lines = [*map(str, proof.below(PROVED)[1:]), *proof.apart, *map(str, proof.roots), proof.table().note]
-    said = values.html(proof.check()) + "".join(f'<div class="ms-note">{escape(line)}</div>' for line in lines)
+    said = values.html(proof.check()) + "".join(f'<div class="ms-note">{message(line)}</div>' for line in lines)
     columns = {(column.where, column.name): column for column in proof.columns}
     unproved = [place for table in tables for place in _unproved(table, columns)]
     told = {"unproved": unproved, "lines": _lines(proof, known), "made": uuid4().hex}

@@ -18,6 +18,7 @@ import numpy as np
 from mechsheet import units
 from mechsheet.document.blocks import blocks
 from mechsheet.document.chart import line_chart
+from mechsheet.document.markup import message
 from mechsheet.document.shortened import rows, shortened
 from mechsheet.page import notebook, own, values
 from mechsheet.page.script import element, script
@@ -136,7 +137,7 @@ class Study:
                 parts += [f'<div class="ms-matters">{values.html(each)}</div>' for each in found]
         except Exception as error:  # of the library or of the worksheet's own lines: the page goes on without
             why = str(error) if isinstance(error, SheetError) else mistakes.told(error, self.namespace["__file__"])
-            parts.append(f'<div class="ms-note"><span class="ms-badge ms-FAIL">not shown</span> {escape(why)}</div>')
+            parts.append(f'<div class="ms-note"><span class="ms-badge ms-FAIL">not shown</span> {message(why)}</div>')
         return "".join(parts)
 
 

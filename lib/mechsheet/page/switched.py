@@ -43,7 +43,7 @@ def value(of: str, unit: str, text: Callable[[str, Notation], str]) -> str:
 def quantity(of: str, unit: str, values: Any) -> str:
     """HTML of SI values in a unit, which follows the unit that is chosen; few numbers are written anew by the page."""
     field = np.asarray(values)
-    if not offered(unit) or not numbers.is_listed(field):
+    if not offered(unit) or not numbers.in_full(field):
         return value(of, unit, numbers.in_any_unit(field))
     parts = [field.real, field.imag] if field.dtype.kind == "c" else [field]
     told = [

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from datetime import date
 from functools import lru_cache, partial, singledispatch
-from html import escape
+from html import escape, unescape
 from typing import Any
 
 import marimo as mo
@@ -15,7 +15,7 @@ import numpy as np
 from mechsheet import units
 from mechsheet.document import chart, chart_svg, drawing_svg
 from mechsheet.document.blocks import blocks, fitting
-from mechsheet.document.markup import HTML, as_written, compared, in_words, meant, named
+from mechsheet.document.markup import as_written, compared, in_words, meant, message, named
 from mechsheet.document.shortened import foot, shortened, thinned
 from mechsheet.html import index
 from mechsheet.page import fields, notebook, switched
@@ -41,6 +41,7 @@ from mechsheet.worksheet.verdict import Verdict
 
 # Shown by the style sheet that stands where something was refused.
 _LOST = '<span class="ms-badge ms-FAIL">not computed to its end</span>'
+_FAILED = "ms-failed"
 _TOLD = f'<div class="ms-told" style="display:none">{_LOST} </div>'
 
 
@@ -84,8 +85,8 @@ def failed(told: str, of: str = "", reason: str = "", shown: Any = None, cell_id
     input ``of`` that name. What waits for a number leaves what is ``told`` to the line that has none. Sections that
     wait for the cell, the one that runs unless an id is given, say so where it ``ends`` there.
     """
-    callout = shown if shown is not None else mo.callout(mo.Html(_said(reason or told)), kind="danger")
-    said = numbers.rewritten(reason or told, numbers.ON_PAGE, units.raised)
+    callout = shown if shown is not None else mo.callout(mo.Html(message(reason or told)), kind="danger")
+    said = numbers.on_page(reason or told)
     content = f'content:"{_quoted(said)}"'
     style = ".ms-told{display:block!important}" + (f".ms-told::after{{{content}}}" if told else "")
     if of:
@@ -94,16 +95,23 @@ def failed(told: str, of: str = "", reason: str = "", shown: Any = None, cell_id
     if ends and mo.app_meta().mode == "run":  # the editor tells it of every cell
         for place, text in waiting(*notebook.stopped(cell_id)).items():
             style += f'.marimo-cell:has([id="{_quoted(place)}"])::after{{content:"{_quoted(text)}"}}'
-    bar = f'<a href="#failed">{_LOST} {_said(told)}</a>'
-    return element("ms-failed", f"{mo.as_html(callout).text}<style>{style}</style>", id="failed", bar=bar)
+    bar = f'<a href="#failed">{_LOST} {message(told)}</a>'
+    return element(_FAILED, f"{mo.as_html(callout).text}<style>{style}</style>", id="failed", bar=bar)
 
 
-def _said(text: str) -> str:
-    """A message as HTML, its numbers as the page writes them; its names may be those of lines and stay."""
-    return numbers.rewritten(escape(text), HTML)
+def stopped(output: object, cell_id: str) -> str:
+    """HTML of what stands in the place of a cell that ``mo.stop`` has ended; nothing where the cell was `refused`."""
+    if output is None:
+        return failed("stopped here by mo.stop, which says nothing", cell_id=cell_id)
+    shown = mo.as_html(output)
+    if _FAILED in shown.text:
+        return ""
+    words = " ".join(unescape(_TAG.sub(" ", shown.text)).split())
+    return failed(words or "stopped here by mo.stop", shown=shown, cell_id=cell_id)
 
 
 _QUOTE = "'"
+_TAG = re.compile(r"<(style|script)\b.*?</\1>|<[^>]*>", re.DOTALL)
 _HEADED = re.compile("<h[1-6][ >]")  # marimo lists the headings of plain HTML beside the page
 _OF_MARIMO = re.compile("<(?:script|marimo-ui-element)")  # works only where marimo itself puts it
 
@@ -129,7 +137,23 @@ def _set(markdown: str) -> str:
 
 @html.register
 def _(value: Charted) -> str:
-    return mo.as_html(value.chart()).text
+    return _altair(value.chart())
+
+
+def _altair(chart: Any) -> str:
+    """HTML of an altair chart in the face of the page's own: on its ground, in its letters, the title as a caption."""
+    drawn, told = chart.to_dict(), chart.usermeta
+    drawn.pop("usermeta", None)
+    place, _, title = str(drawn.pop("title", "")).partition(" – ")
+    config = drawn.setdefault("config", {})
+    config |= {"background": "transparent", "font": _LETTERS, "view": {**config.get("view", {}), "stroke": _FAINT}}
+    faint = dict.fromkeys(("gridColor", "domainColor", "tickColor"), _FAINT)
+    config["axis"] = {**config.get("axis", {}), **faint, "titleFontWeight": "normal"}
+    shown = mo.as_html(type(chart).from_dict(drawn).properties(usermeta=told)).text
+    return f"{shown}{_caption('Figure', place.removeprefix('Figure '), title)}" if title else shown
+
+
+_LETTERS, _FAINT = "PT Sans, sans-serif", "#88888860"
 
 
 @html.register
@@ -219,7 +243,7 @@ def _(check: Check) -> str:
     told = ": " + switched.value(anchor(check.name), check.unit, partial(compared, check)) if check.evaluated else ""
     return (
         f'<div id="{anchor(check.name)}">{_badge(check)} {in_words(check.name)}{told}'
-        f'<span style="opacity:.7"> {_said(check.reason)}</span></div>'
+        f'<span style="opacity:.7"> {message(check.reason)}</span></div>'
     )
 
 
@@ -237,7 +261,7 @@ def anchor(name: str) -> str:
 def _(summary: Summary) -> str:
     passed = sum(check.passed for check in summary.checks)
     items = "".join(
-        f"<span>{_badge(check)} {_link(check, in_words(check.name))} {check.utilised} {_said(check.reason)}</span>"
+        f"<span>{_badge(check)} {_link(check, in_words(check.name))} {check.utilised} {message(check.reason)}</span>"
         for check in summary.worst_first
     )
     worst = "".join(map(_in_bar, summary.worst_first[:1]))
@@ -272,7 +296,7 @@ def _(found: Verdict) -> str:
         f'<span style="background:{colour};color:#fff;border-radius:.3em;padding:.1em .5em;margin-right:.6em">'
         f"{found.word()}</span>"
     )
-    lines = "".join(f"<div>{_said(text)}</div>" for text in failures)
+    lines = "".join(f"<div>{message(text)}</div>" for text in failures)
     rows = "".join(
         f'<tr><td style="opacity:.65;padding:0 1em 0 0">{escape(k)}</td>'
         f'<td style="padding:0;font-variant-numeric:tabular-nums">{in_words(v)}</td></tr>'
@@ -311,14 +335,14 @@ def _printed(field: Input, value: Any) -> str:
     if isinstance(field, TextLine | Choice):
         return escape(field.brief(value))
     if not isinstance(field, Rows):
-        return _said(field.brief(value))
+        return message(field.brief(value))
     rows = [row.split("; ") for row in field.text(value).split("\n")]
     if max(len(rows), len(rows[0])) > _ON_PAPER:
-        return _said(field.brief(value))
+        return message(field.brief(value))
     if field.row is None:
-        return _said("; ".join(rows[0]))
+        return message("; ".join(rows[0]))
     heads = "".join(f"<td>{fields.head(column)['head']}</td>" for column in field.columns)
-    lines = ("".join(f"<td>{_said(text)}</td>" for text in row) for row in rows)
+    lines = ("".join(f"<td>{message(text)}</td>" for text in row) for row in rows)
     return f"<table><tr>{heads}</tr>{''.join(f'<tr>{line}</tr>' for line in lines)}</table>"
 
 
@@ -376,8 +400,8 @@ def _block(columns: Sequence[Column], left_out: int) -> str:
 def cells(column: Column) -> list[str]:
     """Texts of a column of a table."""
     if column.power:
-        return [numbers.rewritten(text, numbers.ON_PAGE, units.raised) for text in column.texts()]
-    return column.texts(numbers.AXIS) if column.unit else column.texts()
+        return [numbers.on_page(text) for text in column.texts()]
+    return column.texts(numbers.AXIS) if column.unit else [numbers.on_page(text) for text in column.texts()]
 
 
 def _unit(column: Column) -> str:

@@ -227,7 +227,7 @@ class _Run(OfPositions):
         touched = dict.fromkeys(name for name in changed if not isinstance(self.names.get(name), Module))
         final = {name for name in touched if name not in later and not name.startswith("_")}
         rests, shown = (
-{guard.holds: guard for name in sorted(names) for guard in self.looked.get(name, ())}
+            {guard.holds: guard for name in sorted(names) for guard in self.looked.get(name, ())}
             for names in (reads, reads if facts.heard == facts.loaded else self.read(facts.heard))
         )
         before = Memory((self.names.get(name) for name in reads - {"g"}), self.names)

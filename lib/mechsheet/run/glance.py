@@ -24,6 +24,7 @@ from mechsheet.worksheet.cells import load
 from mechsheet.worksheet.check import Check, Summary
 from mechsheet.worksheet.drawing import Drawing
 from mechsheet.worksheet.errors import SheetError
+from mechsheet.worksheet.numbers import on_page
 from mechsheet.worksheet.table import Figure
 
 _PACKAGE = Path(__file__).parents[1]
@@ -90,7 +91,7 @@ def computed(worksheet: Path) -> Glance:
         return Glance(*_verdict(shown), "".join(map(_picture, drawn[:1])), when, of)
     except Exception as error:
         told = str(error) if isinstance(error, SheetError) else mistakes.told(error, str(worksheet))
-        return Glance("FAIL", f"it does not run: {told}", "", when, of)
+        return Glance("FAIL", on_page(f"it does not run: {told}"), "", when, of)
 
 
 def _verdict(shown: list[Any]) -> tuple[str, str]:
@@ -100,7 +101,7 @@ def _verdict(shown: list[Any]) -> tuple[str, str]:
     worst = found.worst_first[0]
     failed = any(not check.passed and check.evaluated for check in found.checks)
     kind = "PASS" if worst.passed else "FAIL" if failed else "OPEN"
-    return kind, found.count + ("" if worst.passed else f": {worst.name}")
+    return kind, found.count + ("" if worst.passed else f": {on_page(worst.name)}")
 
 
 def _picture(value: Drawing | Figure) -> str:

@@ -156,7 +156,7 @@ class Tornado(Charted):
             .encode(
                 x=alt.X("relative:Q", title=title),
                 y=alt.Y("input:N", title=None, sort=order),
-                color=alt.condition(alt.datum.relative > 0, alt.value("#1f77b4"), alt.value("#d62728")),
+                color=alt.condition(alt.datum.relative > 0, alt.value("#3b82d0"), alt.value("#e0483c")),
                 tooltip=["input:N", "meaning:N", alt.Tooltip("relative:Q", format="+.4f")],
             )
             .properties(

@@ -15,6 +15,7 @@ import numpy as np
 
 from mechsheet import units
 from mechsheet.worksheet import source
+from mechsheet.worksheet.branch import branches, on_its_branch, untold
 from mechsheet.worksheet.errors import SheetError, refuse
 from mechsheet.worksheet.shown import Shown
 
@@ -97,6 +98,7 @@ def formulas(cell: source.Cell) -> tuple[Formula | Given, ...]:
 
 
 def _formulas(cell: source.Cell) -> Iterator[Formula | Given]:
+    known = branches(cell.body)
     for node in cell.body:
         match node:
             case ast.Assign([ast.Name(name)], ast.Call(ast.Name("find" | "minerr"), [f, *_], keywords)):
@@ -115,7 +117,9 @@ def _formulas(cell: source.Cell) -> Iterator[Formula | Given]:
             if not line.name.startswith("_"):
                 printed = match[0] if (match := _NUMBER.match(told.meaning)) else ""
                 meaning = told.meaning.removeprefix(printed).lstrip()
-                yield replace(line, unit=told.unit, number=printed, meaning=meaning, mistake=told.mistake)
+                line = replace(line, unit=told.unit, number=printed, meaning=meaning, mistake=told.mistake)
+                own = tuple((name, untold(value, known)) for name, value in line.where)
+                yield replace(line, expression=untold(line.expression, known), where=own)
 
 
 def _several(expression: ast.expr) -> str:
@@ -161,10 +165,10 @@ def _bound(node: ast.stmt) -> list[Formula]:
     match node:
         case ast.FunctionDef(name, args, body):
             where, given = _body(body)
-            expression = _on_its_branch(args, given) if given else ast.copy_location(ast.Constant(...), node)
+            expression = on_its_branch(args, given) if given else ast.copy_location(ast.Constant(...), node)
             return [Formula(name, expression, "", "", _named(args), where)]
         case ast.Assign([ast.Name(name)], ast.Lambda(args, value)):
-            return [Formula(name, _on_its_branch(args, value), "", "", _named(args))]
+            return [Formula(name, on_its_branch(args, value), "", "", _named(args))]
         case ast.Assign([ast.Name(name)], expression) | ast.AnnAssign(ast.Name(name), _, ast.expr() as expression):
             return [Formula(name, expression, "", "")]
         case ast.Assign([ast.Tuple(targets)], expression):
@@ -212,15 +216,6 @@ def _body(body: Sequence[ast.stmt]) -> tuple[tuple[tuple[str, ast.expr], ...], a
             if chosen and other and not own and not others:
                 return (), ast.copy_location(ast.IfExp(test, chosen, other), test)
     return (), None
-
-
-def _on_its_branch(args: ast.arguments, expression: ast.expr) -> ast.expr:
-    """The expression with the assembly branch that the function takes unless it is told another."""
-    if not (args.args and args.args[-1].arg == "branch" and args.defaults):
-        return expression
-    default = ast.unparse(args.defaults[-1])
-    text = re.sub(r"\bbranch\b", default, ast.unparse(expression))
-    return ast.copy_location(ast.parse(text, mode="eval").body, expression)
 
 
 def _given(name: str, f: ast.expr, target: ast.expr) -> Iterator[Given]:

@@ -99,7 +99,7 @@ def in_any_unit(values: Any) -> Callable[[str, Notation], str]:
     """What `value` says of the values in a unit and a notation; they are looked at once."""
     field = np.asarray(values)
     least = rounding(field)
-    if _is_matrix(field):
+if _in_rows(field):
         rows = field.tolist()
         return lambda unit, to: "[" + "; ".join(_each(row, least, unit, to) for row in rows) + "]" + behind(unit, to)
     if in_full(field):
@@ -115,18 +115,14 @@ def in_any_unit(values: Any) -> Callable[[str, Notation], str]:
     )
 
 
-def is_listed(field: NDArray[Any]) -> bool:
-    """Whether all numbers of a value stand where it is shown, one after another or in rows."""
-    return _is_matrix(field) or in_full(field)
-
-
-def _is_matrix(field: NDArray[Any]) -> bool:
-    return field.ndim == 2 and max(field.shape) <= _MOST_ROWS
-
-
 def in_full(values: Any) -> bool:
-    """Whether all numbers of a row stand where it is shown."""
-    return bool(np.size(values) <= (_MOST_POINTS if np.asarray(values).dtype.kind == "c" else _MOST_NUMBERS))
+    """Whether all numbers of a field stand where it is shown."""
+    field = np.asarray(values)
+    return _in_rows(field) or field.size <= (_MOST_POINTS if field.dtype.kind == "c" else _MOST_NUMBERS)
+
+
+def _in_rows(field: NDArray[Any]) -> bool:
+    return field.ndim == 2 and max(field.shape) <= _MOST_ROWS
 
 
 _MOST_NUMBERS, _MOST_POINTS, _MOST_ROWS = 10, 4, 4  # that stand in full
@@ -266,16 +262,18 @@ def in_text(unit: str) -> str:
 
 _POWER = re.compile(r"(?<!\w)(?<!\w\.)(\d+(?:\.\d*)?)e([+-]?\d+)\b")
 _QUOTED = re.compile(r"((?<!\w)'[^']*'(?!\w)|(?<!\w)&#x27;.*?&#x27;(?!\w))")
+_COMPARED = re.compile("(>|<|&gt;|&lt;)=")
+_SIGNS = {">": "≥", "<": "≤", "&gt;": "≥", "&lt;": "≤"}
 _HYPHEN = re.compile(r"(?<![\w.)])-(?=[\d.∞])|(?<=\.\.)-|(?<= )-(?= )")
 
 
 def rewritten(text: str, to: Notation, raised: Callable[[int], str] = str) -> str:
-    """The plain numbers and degrees of a text as a notation writes them, their powers of ten ``raised``.
+    """Numbers, degrees and comparisons of a plain text as a notation writes them, powers of ten ``raised``.
 
     What stands between quotes is as it was typed.
 
-    >>> rewritten("-2e-05..3.5e+30 deg, x2e3, '-2e5'", AXIS._replace(power="{}·10{}", degrees="°"), units.raised)
-    "−2·10⁻⁵..3.5·10³⁰°, x2e3, '-2e5'"
+    >>> rewritten("-2e-05..3.5e+30 deg, x2e3, '-2e5' must be >= -1", ON_PAGE, units.raised)
+    "−2·10⁻⁵..3.5·10³⁰°, x2e3, '-2e5' must be ≥ −1"
     """
     parts = enumerate(_QUOTED.split(text))
     return "".join(part if n % 2 else _rewritten(part, to, raised) for n, part in parts)
@@ -283,10 +281,16 @@ def rewritten(text: str, to: Notation, raised: Callable[[int], str] = str) -> st
 
 def _rewritten(text: str, to: Notation, raised: Callable[[int], str]) -> str:
     text = _HYPHEN.sub(to.minus, re.sub(r"(?<=\d) deg\b", to.degrees, text))
+    text = _COMPARED.sub(lambda sign: _SIGNS[sign[1]], text)
     return _POWER.sub(lambda e: to.power.format(e[1], raised(int(e[2])).replace("-", to.minus)), text)
 
 
 ON_PAGE = AXIS._replace(power="{}·10{}", degrees="°")  # where nothing can be raised but by signs of their own
+
+
+def on_page(text: str) -> str:
+    """A plain text as the page writes it where it takes no HTML."""
+    return rewritten(text, ON_PAGE, units.raised)
 
 
 def aligned(rows: Sequence[Sequence[str]]) -> list[str]:

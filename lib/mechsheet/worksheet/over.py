@@ -1,7 +1,8 @@
-"""Over which quantity a field runs, and where along it the field is least and greatest."""
+"""Over which quantities a field runs, and where along them the field is least and greatest."""
 
 import ast
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass, field
 from functools import lru_cache
 from typing import Any, NamedTuple, TypeGuard
 
@@ -13,66 +14,138 @@ from mechsheet.worksheet.cells import bound
 from mechsheet.worksheet.lines import Formula, registry
 
 
-class Over(NamedTuple):
-    """The quantity over which a field runs: the line that declares it, and its SI values, shape (n,)."""
+class Axis(NamedTuple):
+    """The quantity along one axis of a field: the line that declares it, and its SI values, shape (n,)."""
 
     line: Formula
-    values: Any
+    values: NDArray[Any]
 
-    def ends(self, field: Any) -> tuple[float, float] | None:
-        """Its SI values where a field of shape (n,) is least and greatest; None where that is nowhere or everywhere.
 
-        Where it differs by no more than rounding, its place means nothing.
+class Over(NamedTuple):
+    """What a field of some shape runs over: along each of its axes a quantity, where one is known."""
+
+    shape: tuple[int, ...]
+    axes: tuple[Axis | None, ...]
+
+    def places(self, of: Any, to: numbers.Notation, named: Callable[[str], str]) -> tuple[str, str] | None:
+        """Where a field is least and where it is greatest, its quantities as they are ``named``.
+
+        Along axes of which no quantity is known the elements are counted from 1. None where the field stands in full,
+        and where it is nowhere or everywhere: where it differs by no more than rounding, its place means nothing.
         """
-        field = np.asarray(field)
-        known = field[~np.isnan(field)]
+        values = np.asarray(of)
+        if values.shape != self.shape or numbers.in_full(values):
+            return None
+        known = values[~np.isnan(values)]
         if not known.size or known.max() - known.min() <= numbers.rounding(known):
             return None
-        least, greatest = (np.flatnonzero(field == end)[0] for end in (known.min(), known.max()))
-        return float(self.values[least]), float(self.values[greatest])
+        least, greatest = (np.argwhere(values == end)[0].tolist() for end in (known.min(), known.max()))
+        return self._place(least, to, named), self._place(greatest, to, named)
+
+    def _place(self, at: Iterable[int], to: numbers.Notation, named: Callable[[str], str]) -> str:
+        told, elements = list[str](), list[tuple[str, str]]()
+        for axis, k, n in zip(self.axes, at, self.shape, strict=True):
+            if axis:
+                told.append(f"{named(axis.line.name)} = {numbers.value(axis.values[k], axis.line.unit, to)}")
+            elif n > 1:
+                elements.append((str(k + 1), str(n)))
+        if elements:
+            bare = "{}" if len(elements) == 1 else "({})"
+            told.append("element " + " of ".join(bare.format(", ".join(each)) for each in zip(*elements, strict=True)))
+        return ", ".join(told)
 
 
 def over(name: str, namespace: Mapping[str, Any]) -> Over | None:
-    """What the field of a line runs over: a quantity that it is computed from and that has as many numbers.
+    """What the field of a line runs over: along each axis a quantity that has as many numbers and lies along it.
 
-    Such quantities are those over which the worksheet draws its figures and by which its tables begin: of several the
-    one beside which the name stands there, else the first. None where the line is no field of real numbers, shape (n,).
+    Such quantities are those over which the worksheet draws its figures, and those by which its tables begin: the
+    first, and the whole numbers behind it. Of several it is the one beside which the name stands there, else the first
+    that the field is computed from. Of a field over several axes it may be the only whole numbers, too, that name the
+    rows of what the field is computed from, or of what is computed from it.
+    None where the line is no field of real numbers, or one along a single axis of which nothing is known.
     """
-    field = namespace.get(name)
-    if not _is_row(field):
+    values = namespace.get(name)
+    if not _is_field(values):
         return None
-    written = _written(source.cells(namespace))
-    beside = (axis for axis, names in written.shown if name in names)
-    for axis in dict.fromkeys((*beside, *(axis for axis, _ in written.shown))):
-        values = namespace.get(axis)
-        if _is_row(values) and len(values) == len(field) and axis in written.sources(name):
-            line = registry(namespace).get(axis)
-            return Over(line, values) if line else None
-    return None
+    written, lines = _written(source.cells(namespace)), registry(namespace)
+    several, axes = sum(n > 1 for n in values.shape) > 1, list[Axis | None]()
+    for back, n in zip(range(values.ndim, 0, -1), values.shape, strict=True):
+        found = written.along(name, namespace, (back, n), several) if n > 1 else ""
+        axes.append(Axis(lines[found], namespace[found].ravel()) if found in lines else None)
+    return Over(values.shape, tuple(axes)) if several or any(axes) else None
 
 
-def _is_row(value: Any) -> TypeGuard[NDArray[Any]]:
-    return isinstance(value, np.ndarray) and value.ndim == 1 and value.dtype.kind in "iuf"
+def _is_field(value: Any) -> TypeGuard[NDArray[Any]]:
+    return isinstance(value, np.ndarray) and value.size > 1 and value.dtype.kind in "iuf"
 
 
-class _Written(NamedTuple):
-    """What figures and tables show, the first quantity with all of them, and the names that each name is bound by."""
+def _runs(values: Any, axis: tuple[int, int]) -> bool:
+    """Whether a field has along an axis, so many from the last, as many numbers."""
+    back, n = axis
+    return _is_field(values) and values.ndim >= back and values.shape[-back] == n
 
-    shown: tuple[tuple[str, frozenset[str]], ...]
+
+class _Shown(NamedTuple):
+    """Columns of a figure or a table, "" for one that is no name; all names in it; how many columns may head it."""
+
+    columns: tuple[str, ...]
+    names: frozenset[str]
+    most: int
+
+    def heads(self, namespace: Mapping[str, Any]) -> Iterator[str]:
+        """The first column, and in a table those of whole numbers behind it."""
+        for k, name in enumerate(self.columns[: self.most]):
+            values = namespace.get(name)
+            if k and not (isinstance(values, np.ndarray) and values.dtype.kind in "iu"):
+                return
+            if _is_field(values):
+                yield name
+
+
+@dataclass(frozen=True)
+class _Written:
+    """What figures and tables show, and the names that each name is bound by."""
+
+    shown: tuple[_Shown, ...]
     reads: Mapping[str, frozenset[str]]
+    known: dict[str, set[str]] = field(default_factory=dict)
+
+    def along(self, name: str, namespace: Mapping[str, Any], axis: tuple[int, int], several: bool) -> str:
+        """The quantity along an axis of a field, which may have several of them; nothing where none is certain."""
+        lying = [
+            (head, each)
+            for each in self.shown
+            for head in each.heads(namespace)
+            if head != name and _runs(namespace[head], axis) and namespace[head].size == axis[1]
+        ]
+        beside = [head for head, each in lying if name in each.names]
+        if found := beside or [head for head, _ in lying if head in self.sources(name)]:
+            return found[0]
+        counts = {
+            head
+            for head, each in lying
+            if several and namespace[head].dtype.kind in "iu"
+            if any(self.belong(name, c) for c in each.columns if c != head and _runs(namespace.get(c), axis))
+        }
+        return counts.pop() if len(counts) == 1 else ""
+
+    def belong(self, name: str, other: str) -> bool:
+        return other in self.sources(name) or name in self.sources(other)
 
     def sources(self, name: str) -> set[str]:
         """All names that a name is computed from, without itself."""
-        found, more = set[str](), {name}
-        while more:
-            more = {read for each in more for read in self.reads.get(each, ())} - found
-            found |= more
-        return found - {name}
+        if name not in self.known:
+            found, more = set[str](), {name}
+            while more:
+                more = {read for each in more for read in self.reads.get(each, ())} - found
+                found |= more
+            self.known[name] = found - {name}
+        return self.known[name]
 
 
 @lru_cache(maxsize=32)
 def _written(cells: tuple[source.Cell, ...]) -> _Written:
-    shown, reads = list[tuple[str, frozenset[str]]](), dict[str, frozenset[str]]()
+    shown, reads = list[_Shown](), dict[str, frozenset[str]]()
     for node in (node for cell in cells for node in cell.body):
         shown += _shown(node)
         read = frozenset(_read(node))
@@ -89,9 +162,11 @@ def _read(node: ast.AST) -> set[str]:
     return found - {a.arg for a in node.args.args} if isinstance(node, ast.Lambda | ast.FunctionDef) else found
 
 
-def _shown(node: ast.stmt) -> Iterator[tuple[str, frozenset[str]]]:
+def _shown(node: ast.stmt) -> Iterator[_Shown]:
     for call in source.nodes(node):
         match call:
-            case ast.Call(ast.Name("figure" | "table"), [_, _, ast.Starred(ast.Tuple([first, *_])) | first, *_]):
-                if isinstance(first, ast.Name):
-                    yield first.id, frozenset(name for each in call.args[2:] for name in _read(each))
+            case ast.Call(ast.Name("figure" | "table" as kind), [_, _, *given]):
+                columns = source.listed(given)
+                names = frozenset(name for column in columns for name in _read(column))
+                plain = tuple(column.id if isinstance(column, ast.Name) else "" for column in columns)
+                yield _Shown(plain, names, 1 if kind == "figure" else len(plain))

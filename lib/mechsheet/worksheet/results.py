@@ -13,17 +13,19 @@ from mechsheet.worksheet.cells import base, value
 from mechsheet.worksheet.check import Check
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.lines import registry
+from mechsheet.worksheet.over import over
 from mechsheet.worksheet.scene import Limit
 
 
 @dataclass(frozen=True)
 class Displayed:
-    """A number or a field of numbers in its display unit."""
+    """A number or a field of numbers in its display unit; of a longer field ``places`` are where its ends are."""
 
     name: str
     unit: str
     meaning: str
     values: NDArray[np.float64]
+    places: tuple[str, str] | None = None
 
     @property
     def span(self) -> str:
@@ -37,7 +39,8 @@ class Displayed:
         return f"{self.name} does not exist at {missing} of {size} positions" if missing else ""
 
     def __str__(self) -> str:
-        return f"{self.name} = {self.span}{numbers.suffix(self.unit)}, {self.meaning}"
+        where = ", least at {}, greatest at {}".format(*self.places) if self.places else ""
+        return f"{self.name} = {self.span}{numbers.suffix(self.unit)}{where}, {self.meaning}"
 
 
 def quantities(name: str, namespace: Mapping[str, Any]) -> list[Displayed]:
@@ -49,13 +52,16 @@ def quantities(name: str, namespace: Mapping[str, Any]) -> list[Displayed]:
     if line is None or line.arguments:
         what = f"is a function of {', '.join(line.arguments)}" if line else "is declared by no line with its unit"
         raise SheetError(f"{name} {what}; numbers with a unit, checks and tables can be asked for")
-    numbers = np.asarray(value(name, namespace)) / units.parse(line.unit).factor
-    if not numbers.size:
+    values = np.asarray(value(name, namespace))
+    shown = values / units.parse(line.unit).factor
+    if not values.size:
         raise SheetError(f"{name} has no values")
-    if np.iscomplexobj(numbers):
-        parts = {f"{name}.real": numbers.real, f"{name}.imag": numbers.imag}
+    if np.iscomplexobj(shown):
+        parts = {f"{name}.real": shown.real, f"{name}.imag": shown.imag}
         return [Displayed(part, line.unit, line.meaning, x) for part, x in parts.items()]
-    return [Displayed(name, line.unit, line.meaning, numbers)]
+    field = over(name, namespace)
+    places = field.places(values, numbers.PLAIN, str) if field else None
+    return [Displayed(name, line.unit, line.meaning, shown, places)]
 
 
 def limited(values: Iterable[Any], limits: Mapping[str, Limit], namespace: Mapping[str, Any]) -> list[Any]:

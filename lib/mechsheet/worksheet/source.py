@@ -46,6 +46,15 @@ _read: dict[int, tuple[CodeType, Cell]] = {}
 _KEPT = 1000
 
 
+def listed(arguments: Iterable[ast.expr]) -> list[ast.expr]:
+    """Arguments of a call, those of a group ``*(a, b)`` one by one."""
+    found = list[ast.expr]()
+    for node in arguments:
+        group = node.value if isinstance(node, ast.Starred) else None
+        found += group.elts if isinstance(group, ast.Tuple) else [node]
+    return found
+
+
 def cells(namespace: Mapping[str, Any]) -> tuple[Cell, ...]:
     """Cells of the worksheet that runs in a namespace: those of its page, elsewhere those of its file, in their order.
 

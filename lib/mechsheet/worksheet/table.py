@@ -213,7 +213,7 @@ def _columns(
     every: int = 1,
 ) -> tuple[Column, ...]:
     known, columns = lines.registry(frame.f_globals), []
-    nodes = [n for node in nodes for n in (node.value.elts if _is_group(node) else [node])]  # type: ignore[attr-defined]
+    nodes = source.listed(nodes)
     rows = _as_long_as_each_other(nodes, values, every)
     for node, value, row in zip(nodes, values, rows, strict=True):
         given = _input(frame.f_globals, node)
@@ -268,10 +268,6 @@ def _some_rows(what: str, columns: tuple[Column, ...], least: int = 1) -> None:
         refuse(SheetError(f"{what} needs at least {least} column{'s' * (least > 1)}"))
     if not all(len(column.values) for column in columns):
         refuse(SheetError(f"{what} has no rows"))
-
-
-def _is_group(node: ast.expr) -> bool:
-    return isinstance(node, ast.Starred) and isinstance(node.value, ast.Tuple)
 
 
 def _input(namespace: Mapping[str, Any], node: ast.expr) -> Input | None:

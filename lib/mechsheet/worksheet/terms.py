@@ -28,7 +28,7 @@ def terms(expression: ast.expr, namespace: Mapping[str, Any]) -> NDArray[np.floa
 
 @lru_cache(maxsize=4096)
 def _adds(expression: ast.expr) -> bool:
-    """Whether an expression is a sum, or a product with one in it."""
+    """Whether an expression is a sum, or a product with one in it, or the integral of one."""
     match expression:
         case ast.BinOp(_, ast.Add() | ast.Sub()) | ast.Call(ast.Name("cross" | "dot")):
             return True
@@ -37,6 +37,8 @@ def _adds(expression: ast.expr) -> bool:
         case ast.UnaryOp(operand=of) | ast.Attribute(of, "real" | "imag"):
             return _adds(of)
         case ast.Call(ast.Name(name), [of]) if name in _AS_LARGE:
+            return _adds(of)
+        case ast.Call(ast.Name("trapezoid"), [of, ast.Name()]):
             return _adds(of)
     return False
 
@@ -53,6 +55,8 @@ def _largest(node: ast.expr, namespace: Mapping[str, Any]) -> Any:
             return _largest(of, namespace)
         case ast.Call(ast.Name(name), [of]) if name in _AS_LARGE:
             return _largest(of, namespace)
+        case ast.Call(ast.Name("trapezoid"), [of, ast.Name(over)]):
+            return np.abs(np.trapezoid(_largest(of, namespace), namespace[over]))
         case ast.Call(ast.Name("sin" | "cos"), _):
             return np.ones(())
     return _size(node, namespace)
