@@ -477,7 +477,7 @@ def test_stored_names_are_accepted() -> None:
     from openpyxl.formula import Tokenizer
 
     for path in sorted((ROOT / "exports").glob("*.xlsx")):
-        for name in load_workbook(path).defined_names:
+        for name in load_workbook(path, read_only=True).defined_names:
             (token,) = Tokenizer(f"={name}").items
             assert token.subtype == "RANGE" and not re.fullmatch(r"\$?[A-Z]{1,3}\$?\d+", name, re.IGNORECASE)
 
