@@ -107,21 +107,27 @@ def soffice() -> str:
 
 
 @pytest.fixture(scope="module")
-def recalculated_all(soffice: str, tmp_path_factory: pytest.TempPathFactory) -> Callable[[list[Path]], list[Any]]:
-    """Workbooks as LibreOffice computes them, started once, whatever values are stored in them."""
+def recalculated_files(soffice: str, tmp_path_factory: pytest.TempPathFactory) -> Callable[[list[Path]], list[Path]]:
+    """Workbooks as LibreOffice saves them, started once, whatever values are stored in them."""
     profile = tmp_path_factory.mktemp("profile")
     (profile / "user").mkdir()
     (profile / "user" / "registrymodifications.xcu").write_text(ALWAYS, encoding="utf-8")
 
-    def recalculate(paths: list[Path]) -> list[Any]:
+    def recalculate(paths: list[Path]) -> list[Path]:
         out = tmp_path_factory.mktemp("recalculated")
         kind = "xlsx:Calc MS Excel 2007 XML"
         command = [soffice, f"-env:UserInstallation={profile.as_uri()}", "--headless", "--convert-to", kind]
         command += ["--outdir", str(out), *map(str, paths)]
         subprocess.run(command, check=True, capture_output=True, timeout=WITHIN * len(paths))
-        return [load_workbook(out / path.name, data_only=True) for path in paths]
+        return [out / path.name for path in paths]
 
     return recalculate
+
+
+@pytest.fixture(scope="module")
+def recalculated_all(recalculated_files: Callable[[list[Path]], list[Path]]) -> Callable[[list[Path]], list[Any]]:
+    """Workbooks as LibreOffice computes them."""
+    return lambda paths: [load_workbook(path, data_only=True) for path in recalculated_files(paths)]
 
 
 @pytest.fixture(scope="module")
