@@ -9,7 +9,7 @@ import subprocess
 import sys
 import time
 import tomllib
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager
 from functools import cache
 from pathlib import Path
@@ -107,21 +107,27 @@ def soffice() -> str:
 
 
 @pytest.fixture(scope="module")
-def recalculated_all(soffice: str, tmp_path_factory: pytest.TempPathFactory) -> Callable[[list[Path]], list[Any]]:
-    """Workbooks as LibreOffice computes them, started once, whatever values are stored in them."""
+def recalculated_files(soffice: str, tmp_path_factory: pytest.TempPathFactory) -> Callable[[list[Path]], list[Path]]:
+    """Workbooks as LibreOffice saves them, started once, whatever values are stored in them."""
     profile = tmp_path_factory.mktemp("profile")
     (profile / "user").mkdir()
     (profile / "user" / "registrymodifications.xcu").write_text(ALWAYS, encoding="utf-8")
 
-    def recalculate(paths: list[Path]) -> list[Any]:
+    def recalculate(paths: list[Path]) -> list[Path]:
         out = tmp_path_factory.mktemp("recalculated")
         kind = "xlsx:Calc MS Excel 2007 XML"
         command = [soffice, f"-env:UserInstallation={profile.as_uri()}", "--headless", "--convert-to", kind]
         command += ["--outdir", str(out), *map(str, paths)]
         subprocess.run(command, check=True, capture_output=True, timeout=WITHIN * len(paths))
-        return [load_workbook(out / path.name, data_only=True) for path in paths]
+        return [out / path.name for path in paths]
 
     return recalculate
+
+
+@pytest.fixture(scope="module")
+def recalculated_all(recalculated_files: Callable[[list[Path]], list[Path]]) -> Callable[[list[Path]], list[Any]]:
+    """Workbooks as LibreOffice computes them."""
+    return lambda paths: [load_workbook(path, data_only=True) for path in recalculated_files(paths)]
 
 
 @pytest.fixture(scope="module")
@@ -138,22 +144,40 @@ def errors_of_numpy() -> Iterator[None]:
 
 
 @pytest.fixture
-def brief_accuracy(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
-    """The accuracy worksheet measures some of the extreme scenes and times each method once or twice.
+def timed_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The accuracy worksheet runs each method once: its time is another one in every run anyway."""
+    from mechsheet.accuracy import conditioning, jobs
+    from mechsheet.accuracy.precision import Timed
+    from mechsheet.recording.unrepeatable import clock_read
+
+    def timed(runs: Sequence[Callable[[], Any]], _: float, done: Callable[[], object]) -> list[Timed]:
+        clock_read()
+
+        def once(run: Callable[[], Any]) -> Timed:
+            result = run()
+            done()
+            return Timed(result, 1.0, 1.0, 1.0, 1)
+
+        return list(map(once, runs))
+
+    for module in (jobs, conditioning):
+        monkeypatch.setattr(module, "timed", timed)
+
+
+@pytest.fixture
+def brief_accuracy(monkeypatch: pytest.MonkeyPatch, timed_once: None) -> Iterator[None]:
+    """The accuracy worksheet measures some of the extreme scenes, too.
 
     For what does not ask how they come out: that is the script's, whose workbook is compared, and the test of the
     scenes.
     """
-    from mechsheet.accuracy import extreme, jobs, precision
+    from mechsheet.accuracy import extreme
 
-    some, timed = extreme.scenes()[::9], precision.timed
+    some = extreme.scenes()[::9]
     assert {bool(scene.says) for scene in some} == {True, False}
-    with monkeypatch.context() as patched:
-        patched.setattr(extreme, "scenes", lambda: some)
-        for module in (jobs, precision):
-            patched.setattr(module, "timed", lambda runs, _seconds, *done: timed(runs, 1e-6, *done))
-        extreme._measured_scenes.cache_clear()
-        yield
+    monkeypatch.setattr(extreme, "scenes", lambda: some)
+    extreme._measured_scenes.cache_clear()
+    yield
     extreme._measured_scenes.cache_clear()
 
 

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from as_script import as_script
 from by_cells import by_cells
 from openpyxl import load_workbook
 from test_exports import differences
@@ -27,10 +28,6 @@ def scene(folder: Path, name: str, text: str) -> str:
     file = folder / f"{name}.toml"
     file.write_text(text, encoding="utf-8")
     return str(file)
-
-
-def script(*arguments: str) -> subprocess.CompletedProcess[str]:
-    return subprocess.run([sys.executable, str(HITCH), *arguments], capture_output=True, encoding="utf-8")
 
 
 def row(printed: str, head: str) -> list[str]:
@@ -131,7 +128,7 @@ def test_a_result_that_rests_on_no_solution_says_which_equation_resists(tmp_path
 def test_workbook_of_a_scene_is_that_of_the_script(tmp_path):
     file = scene(tmp_path, "own", "[inputs]\nP6 = 20e3\n")
     assert batch.run(str(HITCH), [file, f"--out={tmp_path}"]) == 0
-    assert script(f"--scene={file}", f"--out={tmp_path}").returncode == 0
+    assert as_script(HITCH, f"--scene={file}", f"--out={tmp_path}").returncode == 0
     different = list(differences(workbook(tmp_path / "hitch.xlsx"), workbook(tmp_path / "hitch_own.xlsx")))
     assert {text.partition(",")[0] for text in different} == {"Front", "Inputs"}
     for text in different:
@@ -267,7 +264,7 @@ def test_files_that_would_overwrite_one_another_are_refused(tmp_path):
 
 
 def test_an_edited_workbook_is_a_scene_like_another(tmp_path, capsys):
-    assert script(f"--out={tmp_path}").returncode == 0
+    assert as_script(HITCH, f"--out={tmp_path}").returncode == 0
     book = load_workbook(tmp_path / "hitch.xlsx")
     cell = next(line[1] for line in book["Inputs"].iter_rows() if line[0].value == "P6")
     cell.value = "20000,5"
@@ -275,7 +272,7 @@ def test_an_edited_workbook_is_a_scene_like_another(tmp_path, capsys):
     book.save(edited)
     assert batch.run(str(HITCH), [str(edited), str(tmp_path / "hitch.xlsx"), f"--out={tmp_path / 'out'}"]) == 0
     assert row(capsys.readouterr().out, "P6 [N]") == ["20000.5", "27500"]
-    done = script(f"--scene={edited}", f"--out={tmp_path}")
+    done = as_script(HITCH, f"--scene={edited}", f"--out={tmp_path}")
     assert (done.returncode, done.stderr) == (0, "")
     used = {line[0]: line[1] for line in load_workbook(tmp_path / "hitch.xlsx")["Inputs"].iter_rows(values_only=True)}
     assert used["P6"] == 20000.5
@@ -283,24 +280,24 @@ def test_an_edited_workbook_is_a_scene_like_another(tmp_path, capsys):
 
 def test_script_of_a_scene_that_wants_some_results_answers_those(tmp_path):
     file = scene(tmp_path, "a", 'want = ["GS6", "table_41"]\n[limits]\nGS6 = {min = 29e3}\nPS6_S.imag = {}\n')
-    assert script(f"--scene={file}").stderr.startswith("error: scene ")
+    assert as_script(HITCH, f"--scene={file}").stderr.startswith("error: scene ")
     scene(tmp_path, "a", 'want = ["GS6", "table_41"]\n[limits]\nGS6 = {min = 29e3}\n')
     exported = (ROOT / "exports" / "hitch.xlsx").stat().st_mtime_ns
-    done = script(f"--scene={file}")
+    done = as_script(HITCH, f"--scene={file}")
     assert (done.returncode, done.stderr) == (0, "")
     lines = done.stdout.splitlines()
     assert lines[:2] == ["GS6 = 29958.8..33441.2 N, capacity at the centre of mass", "Table 4.1 - Lifting capacity"]
     assert lines[2].split() == ["S", "Fgc", "Pgc", "G56", "GS6", "dGS65"] and lines[4].split()[0] == "0.420"
     assert lines[-1].startswith("pass  GS6 >= 29000 N: ") and len(lines) == 4 + 10 + 3 + 1
     assert (ROOT / "exports" / "hitch.xlsx").stat().st_mtime_ns == exported, "nothing is written without --out"
-    done = script(f"--scene={file}", "--X6=1.2", f"--out={tmp_path / 'out'}")
+    done = as_script(HITCH, f"--scene={file}", "--X6=1.2", f"--out={tmp_path / 'out'}")
     assert done.returncode == 1 and "FAIL  GS6 >= 29000 N: " in done.stdout and done.stderr == ""
     assert [path.name for path in (tmp_path / "out").iterdir()] == ["hitch_scenes.xlsx"]
 
 
 def test_script_of_the_whole_worksheet_keeps_the_limits_of_its_scene(tmp_path):
     file = scene(tmp_path, "a", '[limits]\ndRa = {min = 30}\n"loop of group (2, 3)" = {max = 1e-30}\n')
-    done = script(f"--scene={file}", f"--out={tmp_path}")
+    done = as_script(HITCH, f"--scene={file}", f"--out={tmp_path}")
     assert done.returncode == 1 and done.stderr == ""
     failed = [line for line in done.stdout.splitlines() if line.startswith("FAIL")]
     assert [line.split(":")[0] for line in failed] == ["FAIL  loop of group (2, 3)", "FAIL  dRa >= 30 %"]

@@ -14,6 +14,7 @@ from types import ModuleType
 from unittest.mock import MagicMock
 
 import pytest
+from as_script import as_script
 
 from mechsheet import __main__ as launcher
 from mechsheet.recording.evaluation import evaluate
@@ -194,7 +195,7 @@ def test_a_mistake_is_told_with_its_line_in_the_words_of_the_editor(
     ],
 )
 def test_what_mathcad_took_is_told_in_words(old: str, new: str, says: str, lever: Callable[..., Path]) -> None:
-    done = subprocess.run([*LAUNCHED, lever(old, new)], capture_output=True, encoding="utf-8")
+    done = as_script(lever(old, new))
     assert done.returncode == 1 and says in done.stderr and done.stderr.count("\n") == 1, done.stderr
     assert re.search(r"line 9[01]\b", done.stderr)
 
@@ -211,12 +212,12 @@ def test_a_mark_of_byte_order_is_told(lever: Callable[..., Path]) -> None:
     path = lever("", "")
     path.write_text("\ufeff" + path.read_text(encoding="utf-8"), encoding="utf-8")
     why = "the file begins with a byte order mark (BOM), which Python's editors refuse: save it as UTF-8 without one"
-    ends([*LAUNCHED, path], f"error: {path.name}, line 1, import marimo: {why}")
+    assert as_script(path).stderr == f"error: {path.name}, line 1, import marimo: {why}\n"
 
 
 def test_what_python_cannot_read_is_told_with_its_line(lever: Callable[..., Path]) -> None:
     path = lever("summary(within, strong)", "summary(within, strong")
-    ends([*LAUNCHED, path], f"error: {path.name}, line 30, summary(within, strong: '(' was never closed")
+    assert as_script(path).stderr == f"error: {path.name}, line 30, summary(within, strong: '(' was never closed\n"
 
 
 @pytest.mark.parametrize("start", [[sys.executable], LAUNCHED], ids=["python", "launcher"])

@@ -14,8 +14,9 @@ from pathlib import Path
 from typing import NamedTuple
 
 import pytest
-from openpyxl import load_workbook
+import written_cells
 from openpyxl.utils.cell import coordinate_to_tuple
+from written_cells import Content
 
 from mechsheet.run import report
 from mechsheet.studies.design import Design, search
@@ -30,15 +31,32 @@ SMALL = 0.1  # of their limit: residuals below are rounding, and may become any 
 FULL = -math.log10(sys.float_info.epsilon)  # digits of a number that is rounded once
 
 
-@pytest.mark.parametrize("worksheet", WORKSHEETS, ids=lambda path: path.stem)
-def test_export_is_current(worksheet: Path, tmp_path: Path) -> None:
+LONG = ("accuracy", "hitch_design")  # runs of half a minute, which are compared where they are made anyway
+
+
+@pytest.mark.parametrize("name", sorted({path.stem for path in WORKSHEETS}.difference(LONG)))
+def test_export_is_current(name: str, tmp_path: Path) -> None:
+    worksheet = ROOT / "worksheets" / f"{name}.py"
     run = subprocess.run(
         [sys.executable, "-X", "utf8", worksheet, f"--out={tmp_path}"], capture_output=True, encoding="utf-8"
     )
     assert run.returncode == 0, run.stdout + run.stderr
+    assert_current(worksheet, tmp_path)
+
+
+@pytest.mark.usefixtures("timed_once")
+def test_export_of_what_takes_times_is_current(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """As a script, in this process."""
+    worksheet = ROOT / "worksheets" / "accuracy.py"
+    monkeypatch.setattr(sys, "argv", [str(worksheet), f"--out={tmp_path}"])
+    load(worksheet).run_whole()
+    assert_current(worksheet, tmp_path)
+
+
+def assert_current(worksheet: Path, folder: Path) -> None:
     book = f"{worksheet.stem}.xlsx"
-    assert [path.name for path in tmp_path.iterdir() if path.suffix != ".toml"] == [book]  # a design writes its scene
-    found = list(stale(worksheet, read(EXPORTS / book), read(tmp_path / book)))
+    assert [path.name for path in folder.iterdir() if path.suffix != ".toml"] == [book]  # a design writes its scene
+    found = list(stale(worksheet, exported(worksheet.stem), read(folder / book)))
     assert not found, f"exports/{book} is not current:\n" + "\n".join(found[:20])
 
 
@@ -49,11 +67,8 @@ def test_every_export_has_its_worksheet() -> None:
 def test_checks_of_the_documents_look_at_all_positions() -> None:
     """Tables list some; a check of these alone may pass where the worksheet's own fails; its name says so."""
     for path in EXPORTS.glob("*.xlsx"):
-        rows = load_workbook(path, read_only=True)["Checks"].iter_rows(min_row=3, values_only=True)
-        assert not [row[0] for row in rows if "listed" in str(row[0])], path.name
-
-
-Content = str | float | None
+        names = (cell.value for (_, column), cell in exported(path.stem)["Checks"].items() if column == 1)
+        assert not [name for name in names if "listed" in str(name)], path.name
 
 
 class Cell(NamedTuple):
@@ -145,24 +160,20 @@ def exported(worksheet: str) -> Book:
 
 
 def read(file: Path | io.BytesIO) -> Book:
-    written, values = (load_workbook(file, read_only=True, data_only=of_values) for of_values in (False, True))
     return {
-        sheet.title: {
-            (cell.row, cell.column): _cell(cell.value, shown.value)
-            for line, lines in zip(sheet.iter_rows(), values[sheet.title].iter_rows(), strict=True)
-            for cell, shown in zip(line, lines, strict=True)
-            if cell.value is not None
-        }
-        for sheet in written.worksheets
+        title: {at: _cell(*cell) for at, cell in cells.items()} for title, cells in written_cells.read(file).items()
     }
 
 
-def _cell(written: Content, value: Content) -> Cell:
+def _cell(formula: str, value: Content) -> Cell:
     """A cell; one that shows its value for the exported inputs alone is compared by that."""
-    match = re.fullmatch(r"=IF\(inputs_changed=0,(.*),(?:NA\(\)|\"\")\)", str(written))
+    if not formula:
+        return Cell(value, value)
+    written = formula
+    match = re.fullmatch(r"=IF\(inputs_changed=0,(.*),(?:NA\(\)|\"\")\)", written)
     if match and (match[1].strip('"') == str(value) or _number(match[1]) == value):
         written = "=IF(inputs_changed=0,..,NA())"
-    guarded = re.fullmatch(r"=IF\((AND\(.*\)|\w+=[^,()]*),([^,()]*),NA\(\)\)", str(written))
+    guarded = re.fullmatch(r"=IF\((AND\(.*\)|\w+=[^,()]*),([^,()]*),NA\(\)\)", written)
     if guarded and _number(guarded[2]) == value:
         written = f"=IF({guarded[1]},..,NA())"
     return Cell(written, value)

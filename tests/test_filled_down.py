@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 import re
+from collections import defaultdict
 from collections.abc import Callable, Iterator
 from functools import cache
 from io import BytesIO
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
+from zipfile import ZipFile
 
 import pytest
-from openpyxl import load_workbook
-from openpyxl.utils import column_index_from_string
+import written_cells
+from openpyxl.utils import column_index_from_string, get_column_letter
 from test_recalculation import CHANGED, whole
 
 from mechsheet.run import report
@@ -54,28 +56,48 @@ def name(request: pytest.FixtureRequest) -> str:
     return str(request.param)
 
 
+class Book(NamedTuple):
+    """What is written in the cells of each sheet, and all that stands in the file beside them and their widths."""
+
+    cells: dict[str, dict[tuple[int, int], Any]]
+    beside: dict[str, str]
+
+
 @pytest.fixture(scope="module")
-def book(name: str) -> Callable[..., Any]:
+def book(name: str) -> Callable[..., Book]:
     """The workbook of a worksheet, made once; with other inputs where these are changed."""
 
     @cache
-    def made(changed: bool = False) -> Any:
+    def made(changed: bool = False) -> Book:
         sheet = cells.load(next((ROOT / "worksheets").rglob(f"{name}.py")))
         g = inputs.build(sheet.inputs, whole(sheet.inputs, CHANGED[name]) if changed else {})
         names = {**sheet.run(sheet.results, {"g": g}), "__file__": sheet.path}
-        return load_workbook(BytesIO(report.workbook(sheet.title, names, {})))
+        file = BytesIO(report.workbook(sheet.title, names, {}))
+        held = {
+            title: {at: formula or value for at, (formula, value) in sheet.items() if formula or value is not None}
+            for title, sheet in written_cells.read(file).items()
+        }
+        with ZipFile(file) as parts:
+            stored = written_cells.sheets(parts)
+            beside = {title: re.sub("<cols>.*</sheetData>", "", text) for title, text in stored}
+            for where in parts.namelist():
+                if re.match("xl/(charts/|comments|workbook.xml)", where):
+                    text = parts.read(where).decode()
+                    beside[where] = re.sub("<c:(num|str)Cache>.*?</c:(num|str)Cache>", "", text)  # of numbers of cells
+        return Book(held, beside)
 
     return made
 
 
-def columns(book: Any) -> Iterator[tuple[str, str, list[tuple[int, Any]]]]:
+def columns(book: Book) -> Iterator[tuple[str, str, list[tuple[int, Any]]]]:
     """Columns of tables and of what stands behind them: sheet, symbol, and rows with what stands there."""
-    for sheet in book:
-        if (re.match(r"\d|Fig", sheet.title) and not sheet.title.endswith("lines")) or sheet.title.endswith("fields"):
-            for column in sheet.iter_cols(min_row=FIRST):
-                held = [(cell.row, cell.value) for cell in column if cell.value is not None]
-                if held and sheet.cell(3, column[0].column).value:
-                    yield sheet.title, sheet.cell(3, column[0].column).value, held
+    for title, sheet in book.cells.items():
+        if (re.match(r"\d|Fig", title) and not title.endswith("lines")) or title.endswith("fields"):
+            held = defaultdict[int, list[tuple[int, Any]]](list)
+            for (row, column), value in sheet.items():
+                if row >= FIRST:
+                    held[column].append((row, value))
+            yield from ((title, sheet[3, column], values) for column, values in held.items() if sheet.get((3, column)))
 
 
 def seen_from(formula: str, row: int) -> str:
@@ -95,7 +117,7 @@ def seen_from(formula: str, row: int) -> str:
     )
 
 
-def test_a_column_has_one_formula(name: str, book: Callable[..., Any]) -> None:
+def test_a_column_has_one_formula(name: str, book: Callable[..., Book]) -> None:
     """Filled down, seen from its cells; or plain numbers alone."""
     found = {}
     for _, symbol, held in columns(book()):
@@ -108,40 +130,25 @@ def test_a_column_has_one_formula(name: str, book: Callable[..., Any]) -> None:
     assert found.keys() == known.keys(), "one that has one formula now is listed"
 
 
-def test_no_formula_is_nested_deeper_than_eight(book: Callable[..., Any]) -> None:
-    for sheet in book():
-        for row in sheet.iter_rows():
-            for cell in row:
-                if isinstance(cell.value, str) and cell.value.startswith("=") and not sheet.title.startswith("Input"):
-                    deepest = inside = 0
-                    for letter in re.sub("'[^']*'|\"[^\"]*\"|[^()'\"]+", "", cell.value):
-                        inside += (letter == "(") - (letter == ")")
-                        deepest = max(deepest, inside)
-                    assert deepest <= 8, (sheet.title, cell.coordinate, cell.value)
+def test_no_formula_is_nested_deeper_than_eight(book: Callable[..., Book]) -> None:
+    for title, sheet in book().cells.items():
+        for place, text in sheet.items():
+            if isinstance(text, str) and text.startswith("=") and not title.startswith("Input"):
+                deepest = inside = 0
+                for letter in re.sub("'[^']*'|\"[^\"]*\"|[^()'\"]+", "", text):
+                    inside += (letter == "(") - (letter == ")")
+                    deepest = max(deepest, inside)
+                assert deepest <= 8, (title, place, text)
 
 
-def written(book: Any) -> Iterator[tuple[str, str, Any]]:
+def written(book: Book) -> Iterator[tuple[str, str, Any]]:
     """All that is written in a workbook: where, under which heading, and what."""
-    yield from (("defined names", name, meaning.value) for name, meaning in book.defined_names.items())
-    for sheet in book:
-        name = sheet.title
-        heads = {cell.column: cell.value for cell in sheet[3 if name.endswith("fields") else 2]}
-        for row in sheet.iter_rows():
-            for cell in row:
-                if cell.value is None and not cell.comment:
-                    continue
-                head = heads[cell.column]
-                yield f"{name}!{cell.coordinate}", str(head), cell.value
-                yield f"{name}!{cell.coordinate}", "comment", cell.comment and cell.comment.text
-        for n, chart in enumerate(sheet._charts):
-            for axis in (chart.x_axis, chart.y_axis):
-                ends = axis.scaling.min, axis.scaling.max, axis.majorUnit, axis.numFmt.formatCode
-                yield f"{name}, chart {n}", "axis", ends
-            titles = chart.title, chart.x_axis.title, chart.y_axis.title
-            yield f"{name}, chart {n}", "titles", ["".join(run.t for p in t.tx.rich.p for run in p.r) for t in titles]
-        rules = [(str(group.sqref), rule.formula) for group in sheet.conditional_formatting for rule in group.rules]
-        yield name, "rules", rules
-        yield name, "validations", [(str(v.sqref), v.formula1, v.prompt) for v in sheet.data_validations.dataValidation]
+    for title, sheet in book.cells.items():
+        heads = 3 if title.endswith("fields") else 2
+        for (row, column), value in sheet.items():
+            yield f"{title}!{get_column_letter(column)}{row}", str(sheet.get((heads, column))), value
+    # Names, comments, charts, rules, limits of fields.
+    yield from ((part, "beside the cells", text) for part, text in book.beside.items())
 
 
 def told(where: str, head: str, text: Any) -> bool:
@@ -171,14 +178,14 @@ def guarded(head: str, formulas: list[str], asking: set[str]) -> bool:
     )
 
 
-def test_what_is_written_is_the_same_for_other_inputs(name: str, book: Callable[..., Any]) -> None:
+def test_what_is_written_is_the_same_for_other_inputs(name: str, book: Callable[..., Book]) -> None:
     """Titles, notes, limits, other roots, comments, names, axes: a formula, or what does not depend on the inputs."""
     one, other = list(written(book())), list(written(book(True)))
     assert [place[:2] for place in one] == [place[:2] for place in other]
     differ = [(a, b[2]) for a, b in zip(one, other, strict=True) if a[2] != b[2]]
     assert len(differ) >= 2 * len(CHANGED[name]), "each changed input is written, and as exported"
     formulas = [text for *_, text in one if isinstance(text, str) and text.startswith("=")]
-    rows = {where: text for where, head, text in one if head != "comment"}
+    rows = {where: text for where, _, text in one}
     asking = {rows[where.replace("!B", "!A")] for where, _, text in one if UNCHANGED.match(str(text))}
     left = [pair for pair in differ if not (told(*pair[0]) and told(*pair[0][:2], pair[1]))]
     kept = {head for head in {head for (_, head, _), _ in left} if guarded(head, formulas, asking)}

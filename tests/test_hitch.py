@@ -7,8 +7,6 @@ from pathlib import Path
 import mpmath as mp
 import numpy as np
 import pytest
-from hypothesis import assume, given
-from hypothesis import strategies as st
 from printed import agrees, rows
 
 from mechsheet import units
@@ -156,38 +154,54 @@ def test_cylinder_upright_where_the_printed_formulas_divide_by_zero(sheet):
 # Angles in all quadrants
 
 
-places = st.complex_numbers(min_magnitude=0.05, max_magnitude=2, allow_nan=False)
+COUNT = 10_000
 
 
-@given(places, places, st.floats(0.4, 2))
-def test_first_group_angles_in_all_quadrants(O1, O3, part):
-    assume(abs(O1 - O3) > 0.1)
-    g = replace(hitch.Hitch(), X01=O1.real, Y01=O1.imag, X03=O3.real, Y03=O3.imag, L3=part * abs(O1 - O3))
-    names = hitch.group_1.run(O1=O1, O3=O3, g=g)[1]
-    L13, S = abs(O1 - O3), g.L3 + 0.3 * abs(O1 - O3)
-    assert np.isclose(L13 * np.exp(1j * names["phi13"]), np.conj(O1 - O3), rtol=0, atol=1e-14 * L13)
+def places(seed):
+    """Points within 2 m of the origin, a quarter of them on a grid: some lie from others exactly along an axis."""
+    rng = np.random.default_rng(seed)
+    points = rng.uniform(0.05, 2, COUNT) * np.exp(1j * rng.uniform(-np.pi, np.pi, COUNT))
+    points[::4] = np.round(points[::4] * 4) / 4
+    return points
+
+
+def apart(*points):
+    """Two points each, more than 0.1 m apart, one from the other in all quadrants and along all axes."""
+    A, B = (each[abs(points[0] - points[1]) > 0.1] for each in points)
+    signs = np.sign((A - B).real) + 1j * np.sign((A - B).imag)
+    assert len(A) > 0.95 * COUNT and len(np.unique(signs)) == 8
+    return A, B
+
+
+def test_first_group_angles_in_all_quadrants():
+    O1, O3 = apart(places(1), places(2))
+    L13 = abs(O1 - O3)
+    L3 = L13 * np.random.default_rng(3).uniform(0.4, 2, len(L13))
+    g = replace(hitch.Hitch(), X01=O1.real, Y01=O1.imag, X03=O3.real, Y03=O3.imag, L3=L3)
+    names = load(hitch.__file__).run(["phi13", "phi12", "P23"], {"O1": O1, "O3": O3, "g": g})
+    S = L3 + 0.3 * L13
+    assert np.allclose(np.exp(1j * names["phi13"]), np.conj(O1 - O3) / L13, rtol=0, atol=1e-14)
     pin = O1 + S * np.exp(1j * names["phi12"](S))
-    assert np.isclose(pin, names["P23"](S), rtol=0, atol=1e-13)
-    assert np.isclose(abs(pin - O3), g.L3, rtol=0, atol=1e-13)
+    assert np.allclose(pin, names["P23"](S), rtol=0, atol=1e-13)
+    assert np.allclose(abs(pin - O3), L3, rtol=0, atol=1e-13)
 
 
-@given(places, places)
-def test_slopes_of_the_frame_in_all_quadrants(A, B):
-    assume(abs(A - B) > 0.1)
-    delta1 = hitch.group_2.run(O3=A, O5=B, P34=None, g=hitch.Hitch())[1]["delta1"]
-    delta2 = hitch.group_3.run(O7=A, O5=B, P56=None, L4=None, g=hitch.Hitch())[1]["delta2"]
-    assert delta1 == delta2
-    assert np.isclose(-np.conj(A - B), abs(A - B) * np.exp(1j * delta1), rtol=0, atol=1e-14)
+def test_slopes_of_the_frame_in_all_quadrants():
+    A, B = apart(places(1), places(2))
+    sheet, g = load(hitch.__file__), hitch.Hitch()
+    delta1 = sheet.run(["L35"], {"O3": A, "O5": B, "P34": None, "g": g})["delta1"]
+    delta2 = sheet.run(["L57"], {"O7": A, "O5": B, "P56": None, "L4": None, "g": g})["delta2"]
+    assert np.array_equal(delta1, delta2)
+    assert np.allclose(-np.conj(A - B) / abs(A - B), np.exp(1j * delta1), rtol=0, atol=1e-14)
 
 
-@given(places, st.floats(0.1, 3.1))
-def test_centre_of_mass_in_all_quadrants(Z, phi6):
+def test_centre_of_mass_in_all_quadrants():
+    Z, phi6 = places(1), np.random.default_rng(2).uniform(0.1, 3.1, COUNT)
+    points = {"P56": lambda *_: 3 + 4j, "P67": lambda *_: 0j, "phi6": lambda *_: phi6}
     g = replace(hitch.Hitch(), X6=Z.real, Y6=Z.imag, phi_P6=phi6)
-    names = hitch.centre_of_mass.run(
-        L4=1, L7=1, P56=lambda *_: 3 + 4j, P67=lambda *_: 0j, S_p=0.5, g=g, phi6=lambda *_: phi6
-    )[1]
-    assert 0 <= names["phiS6"] <= 2 * math.pi
-    assert np.isclose(names["PS6"](0.5), 3 + 4j + Z, rtol=0, atol=1e-14)
+    names = load(hitch.__file__).run(["PS6"], {"L4": 1, "L7": 1, "S": 0.5, "S_p": 0.5, "g": g, **points})
+    assert np.all((names["phiS6"] >= 0) & (names["phiS6"] <= 2 * math.pi))
+    assert np.allclose(names["PS6"](0.5), 3 + 4j + Z, rtol=0, atol=1e-14)
 
 
 def test_weightless_implement_and_one_position_less(sheet):

@@ -9,9 +9,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from as_script import as_script
 from hypothesis import given
 from hypothesis import strategies as st
 from openpyxl import load_workbook
+from test_exports import assert_current
 
 from mechsheet.recording.evaluation import evaluate
 from mechsheet.run.batch import compute
@@ -175,6 +177,10 @@ def test_script_writes_workbook_and_scene(run):
     ]  # fmt: skip
 
 
+def test_export_is_current(run):
+    assert_current(DESIGN, run[0])
+
+
 def promised(scene: Path) -> tuple[str, dict, float]:
     """Text of a scene, what it holds, and the least reserve that it promises, in percent."""
     text = scene.read_text(encoding="utf-8")
@@ -206,9 +212,7 @@ def test_hitch_opens_the_scene_with_the_promised_reserves(run):
 
 
 def test_hitch_as_a_script_takes_the_scene(tmp_path):
-    done = subprocess.run(
-        [sys.executable, str(HITCH), f"--scene={SCENE}", f"--out={tmp_path}"], capture_output=True, encoding="utf-8"
-    )
+    done = as_script(HITCH, f"--scene={SCENE}", f"--out={tmp_path}")
     assert (done.returncode, done.stderr) == (0, "")
     assert "pass  dGS65 >= 10 %" in done.stdout and "pass  phi6_S <= 115 deg" in done.stdout
 

@@ -11,6 +11,7 @@ from pathlib import Path
 import mpmath as mp
 import numpy as np
 import pytest
+from as_script import as_script
 from conftest import examples
 from hypothesis import assume, given
 from hypothesis import strategies as st
@@ -642,8 +643,7 @@ def test_si_changes_the_units_and_nothing_else(sheet):
     ],
 )
 def test_bad_input_is_one_line_and_writes_nothing(tmp_path, arguments, message):
-    command = [sys.executable, "-m", "mechsheet.run.script", SHEET, *arguments, f"--out={tmp_path}"]
-    done = subprocess.run(command, capture_output=True, encoding="utf-8")
+    done = as_script(SHEET, *arguments, f"--out={tmp_path}")
     assert (done.returncode, done.stderr.strip(), list(tmp_path.iterdir())) == (1, message, [])
 
 

@@ -1,8 +1,6 @@
 """The kinetostatics worksheet against one dense system at 50 digits: the document prints no numbers."""
 
 import re
-import subprocess
-import sys
 from dataclasses import replace
 from itertools import chain
 from pathlib import Path
@@ -11,10 +9,11 @@ from types import SimpleNamespace
 import mpmath as mp
 import numpy as np
 import pytest
+import written_cells
+from as_script import as_script
 from conftest import examples
 from hypothesis import Phase, given
 from hypothesis import strategies as st
-from openpyxl import load_workbook
 from printed import agrees, rows
 
 from mechsheet import cross as cross_of
@@ -302,19 +301,13 @@ def test_reactions_of_the_later_groups_keep_their_moments_on_the_rocker(sheet):
 # As a script
 
 
-def script(*arguments: str) -> subprocess.CompletedProcess[str]:
-    command = [sys.executable, "-m", "mechsheet.run.script", str(SHEET), *arguments]
-    return subprocess.run(command, capture_output=True, encoding="utf-8")
-
-
 def test_script_writes_the_workbook(tmp_path):
-    done = script("--step=30", f"--out={tmp_path}")
+    done = as_script(SHEET, "--step=30", f"--out={tmp_path}")
     assert (done.returncode, done.stderr) == (0, "")
     told = [line for line in done.stdout.splitlines() if not line.startswith("not followed there: ")]
     assert told[-1].startswith("written ") and all(line.startswith("pass  ") for line in told[:-1]) and len(told) > 20
-    book = load_workbook(tmp_path / "kinetostatics.xlsx", data_only=True)
-    first = [row[0] for row in book["8.3 Reactions, first kind"].iter_rows(min_row=5, max_row=17, values_only=True)]
-    assert first == pytest.approx(range(0, 361, 30))
+    reactions = written_cells.read(tmp_path / "kinetostatics.xlsx")["8.3 Reactions, first kind"]
+    assert [reactions[row, 1][1] for row in range(5, 18)] == pytest.approx(range(0, 361, 30))
 
 
 @pytest.mark.parametrize(
@@ -328,14 +321,14 @@ def test_script_writes_the_workbook(tmp_path):
     ids=["length", "does not turn round", "out of the guide's reach", "parallelogram"],
 )
 def test_bad_input_is_one_line_and_writes_nothing(tmp_path, arguments, message):
-    done = script(*arguments, f"--out={tmp_path}")
+    done = as_script(SHEET, *arguments, f"--out={tmp_path}")
     assert (done.returncode, done.stderr.count("\n")) == (1, 1)
     assert done.stderr.startswith(message)
     assert list(tmp_path.iterdir()) == []
 
 
 def test_piston_out_of_its_cylinder_is_no_success(tmp_path):
-    done = script("--l6=0.2", f"--out={tmp_path}")
+    done = as_script(SHEET, "--l6=0.2", f"--out={tmp_path}")
     assert done.returncode == 1
     assert "FAIL  the piston stays in its cylinder: 0.02129" in done.stdout
 

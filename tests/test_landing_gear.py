@@ -1,13 +1,12 @@
 """The landing gear worksheet against the document's method at 50 digits: the document prints no numbers."""
 
-import subprocess
-import sys
 from dataclasses import replace
 from pathlib import Path
 
 import mpmath as mp
 import numpy as np
 import pytest
+from as_script import as_script
 from conftest import examples
 from hypothesis import Phase, example, given
 from hypothesis import strategies as st
@@ -289,11 +288,6 @@ def test_scheme_has_three_wheels_and_moves(sheet):
 # Script
 
 
-def script(*arguments):
-    command = [sys.executable, "-m", "mechsheet.run.script", str(SHEET), *arguments]
-    return subprocess.run(command, capture_output=True, encoding="utf-8")
-
-
 @pytest.mark.parametrize(
     ("argument", "message"),
     [
@@ -305,14 +299,14 @@ def script(*arguments):
     ],
 )
 def test_bad_input_is_one_line_and_writes_nothing(tmp_path, argument, message):
-    done = script(argument, f"--out={tmp_path}")
+    done = as_script(SHEET, argument, f"--out={tmp_path}")
     assert done.returncode == 1
     assert done.stderr.startswith(message) and done.stderr.count("\n") == 1
     assert list(tmp_path.iterdir()) == []
 
 
 def test_time_beyond_the_limit_is_written_but_no_success(tmp_path):
-    done = script("--t_r=5", f"--out={tmp_path}")
+    done = as_script(SHEET, "--t_r=5", f"--out={tmp_path}")
     assert (done.returncode, done.stderr) == (1, "")
     assert f"FAIL  {REQUIREMENT}: 0.2069 <= 0.1 rad/s²" in done.stdout
     headings = [

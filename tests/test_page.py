@@ -47,7 +47,8 @@ def edited(serve, browser):
 
 
 @pytest.fixture(params=["page", "edited"])
-def opened(request):
+def opened(request, chromium):
+    """Both need the browser, which only a name among the arguments tells the marks."""
     return request.getfixturevalue(request.param)
 
 

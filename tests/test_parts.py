@@ -1,12 +1,11 @@
 """The contents of a worksheet as data, against what its page shows."""
 
 import re
-import subprocess
-import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
+from as_script import as_script
 from openpyxl import load_workbook
 
 from mechsheet.document.parts import Control, Line, Section, Text, contents, values
@@ -209,9 +208,7 @@ def test_values_are_what_cells_give_or_show_each_once(bar):
 
 
 def test_a_check_that_a_page_shows_failing_makes_the_script_fail(bar, tmp_path):
-    script = subprocess.run(
-        [sys.executable, "-X", "utf8", bar, f"--out={tmp_path}"], capture_output=True, encoding="utf-8"
-    )
+    script = as_script(bar, f"--out={tmp_path}")
     told = [line for line in script.stdout.splitlines() if line.startswith(("pass", "FAIL"))]
     assert [line[6:].partition(":")[0] for line in told] == [*NAMES, "units"]
     assert [line[6:].partition(":")[0] for line in told if line.startswith("FAIL")] == ["under no name"]

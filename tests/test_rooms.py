@@ -9,7 +9,8 @@ import pydoc
 import re
 import subprocess
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator
+from functools import cache
 from importlib import import_module
 from pathlib import Path
 
@@ -25,8 +26,16 @@ LONGEST = 450
 PUBLIC = sorted(set(mechsheet.__all__) - {"__version__"})
 
 
-def place(path: Path) -> str:
-    return path.relative_to(PACKAGE).as_posix()
+@cache
+def trees() -> dict[str, ast.Module]:
+    """The library's files, by their places in it."""
+    return {path.relative_to(PACKAGE).as_posix(): ast.parse(path.read_text(encoding="utf-8")) for path in FILES}
+
+
+def wrong(look: Callable[[str, ast.Module], Iterable[object]]) -> dict[str, list[object]]:
+    """What is wrong in each file, where something is."""
+    found = {place: [*look(place, tree)] for place, tree in trees().items()}
+    return {place: each for place, each in found.items() if each}
 
 
 def imports(tree: ast.AST) -> Iterator[ast.Import | ast.ImportFrom]:
@@ -38,12 +47,12 @@ def imports(tree: ast.AST) -> Iterator[ast.Import | ast.ImportFrom]:
 
 @pytest.mark.parametrize("room", ROOMS)
 def test_a_room_says_what_lives_there(room: str) -> None:
-    assert ast.get_docstring(ast.parse((PACKAGE / room / "__init__.py").read_text(encoding="utf-8")))
+    assert ast.get_docstring(trees()[f"{room}/__init__.py"])
 
 
-@pytest.mark.parametrize("path", FILES, ids=place)
-def test_a_file_can_be_read_in_one_go(path: Path) -> None:
-    assert len(path.read_text(encoding="utf-8").splitlines()) <= LONGEST
+def test_a_file_can_be_read_in_one_go() -> None:
+    lines = {path: len(path.read_text(encoding="utf-8").splitlines()) for path in FILES}
+    assert {path: count for path, count in lines.items() if count > LONGEST} == {}
 
 
 def test_no_two_names_differ_by_an_s() -> None:
@@ -53,49 +62,60 @@ def test_no_two_names_differ_by_an_s() -> None:
     assert {name for name in names if f"{name}s" in names} == set()
 
 
-@pytest.mark.parametrize("path", FILES, ids=place)
-def test_an_import_on_use_says_why(path: Path) -> None:
+def test_an_import_on_use_says_why() -> None:
     """Inside a function, where start-up needs it, and with a comment on its line or above it."""
-    text = path.read_text(encoding="utf-8")
-    lines = text.splitlines()
-    functions = (node for node in ast.walk(ast.parse(text)) if isinstance(node, ast.FunctionDef))
-    deferred = {node.lineno for function in functions for node in imports(function)}
-    unsaid = [lines[n - 1] for n in sorted(deferred) if "#" not in lines[n - 1] + lines[n - 2]]
-    assert unsaid == []
+
+    def unsaid(place: str, tree: ast.Module) -> list[str]:
+        lines = (PACKAGE / place).read_text(encoding="utf-8").splitlines()
+        functions = (node for node in ast.walk(tree) if isinstance(node, ast.FunctionDef))
+        deferred = {node.lineno for function in functions for node in imports(function)}
+        return [lines[n - 1] for n in sorted(deferred) if "#" not in lines[n - 1] + lines[n - 2]]
+
+    assert wrong(unsaid) == {}
 
 
-@pytest.mark.parametrize("path", FILES, ids=place)
-def test_the_library_imports_from_where_a_name_is_defined(path: Path) -> None:
+def test_the_library_imports_from_where_a_name_is_defined() -> None:
     """A name taken from the package itself would hide from the order of the rooms."""
-    found = list(imports(ast.parse(path.read_text(encoding="utf-8"))))
-    taken = [node for node in found if isinstance(node, ast.ImportFrom) and node.module == "mechsheet"]
-    assert {name.name for node in taken for name in node.names} <= {"units"}
-    assert not any(isinstance(node, ast.Import) and name.name == "mechsheet" for node in found for name in node.names)
+
+    def taken(_: str, tree: ast.Module) -> Iterator[str]:
+        for node in imports(tree):
+            names = {name.name for name in node.names}
+            if isinstance(node, ast.Import):
+                yield from names & {"mechsheet"}
+            elif node.module == "mechsheet":
+                yield from names - {"units"}
+
+    assert wrong(taken) == {}
 
 
 # Coordinates of pictures are no numbers for a reader.
 _FORMATTING = {"worksheet/numbers.py", "document/chart_svg.py", "document/drawing_svg.py"}
 
 
-@pytest.mark.parametrize("path", [p for p in FILES if place(p) not in _FORMATTING], ids=place)
-def test_numbers_are_formatted_in_one_place(path: Path) -> None:
-    nodes = list(ast.walk(ast.parse(path.read_text(encoding="utf-8"))))
-    specs = (node.format_spec for node in nodes if isinstance(node, ast.FormattedValue) and node.format_spec)
-    assert [text for text in map(ast.unparse, specs) if re.search(r"[efgEFG%]'$", text)] == []
-    called = [node.func for node in nodes if isinstance(node, ast.Call)]
-    assert not any(isinstance(node, ast.Name) and node.id == "format" for node in called)
+def test_numbers_are_formatted_in_one_place() -> None:
+    def formats(place: str, tree: ast.Module) -> Iterator[str]:
+        for node in ast.walk(tree) if place not in _FORMATTING else ():
+            if isinstance(node, ast.FormattedValue) and node.format_spec:
+                yield from re.findall(r"^.*[efgEFG%]'$", ast.unparse(node.format_spec))
+            elif isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == "format":
+                yield ast.unparse(node)
+
+    assert wrong(formats) == {}
 
 
 _MARKUP = re.compile(r"</\w|<(a|b|i|div|span|su[bp]|svg|t[dhr])\b|\\(cdot|frac|left|math|text|varphi)")
 
 
-@pytest.mark.parametrize("path", [p for p in FILES if p.parent.name not in ("document", "html", "page")], ids=place)
-def test_below_the_writers_nothing_is_marked_up(path: Path) -> None:
+def test_below_the_writers_nothing_is_marked_up() -> None:
     """Values are data: HTML, LaTeX and SVG are made by the rooms of document, html and page."""
-    nodes = list(ast.walk(ast.parse(path.read_text(encoding="utf-8"))))
-    told = {id(node.value) for node in nodes if isinstance(node, ast.Expr)}  # docstrings
-    texts = [node.value for node in nodes if isinstance(node, ast.Constant) and id(node) not in told]
-    assert [text for text in texts if isinstance(text, str) and _MARKUP.search(text)] == []
+
+    def marked(place: str, tree: ast.Module) -> list[str]:
+        nodes = [] if place.startswith(("document/", "html/", "page/")) else list(ast.walk(tree))
+        told = {id(node.value) for node in nodes if isinstance(node, ast.Expr)}  # docstrings
+        texts = [node.value for node in nodes if isinstance(node, ast.Constant) and id(node) not in told]
+        return [text for text in texts if isinstance(text, str) and _MARKUP.search(text)]
+
+    assert wrong(marked) == {}
 
 
 # --- what is loaded ----------------------------------------------------------------------------------------------
@@ -149,11 +169,12 @@ def test_the_stub_lists_the_public_names_where_they_are_defined() -> None:
     assert re.match(r"\d+\.\d+", mechsheet.__version__)
 
 
-@pytest.mark.parametrize("name", PUBLIC)
-def test_a_public_name_says_what_it_is(name: str) -> None:
-    value = getattr(mechsheet, name)
-    assert inspect.isclass(value) or callable(value)
-    assert value.__doc__ and not value.__doc__.startswith(f"{name}("), "not the signature that a dataclass makes"
+def test_a_public_name_says_what_it_is() -> None:
+    values = {name: getattr(mechsheet, name) for name in PUBLIC}
+    assert [name for name, value in values.items() if not (inspect.isclass(value) or callable(value))] == []
+    unsaid = {name: value.__doc__ for name, value in values.items() if not value.__doc__}
+    signatures = {name: value.__doc__ for name, value in values.items() if str(value.__doc__).startswith(f"{name}(")}
+    assert unsaid | signatures == {}, "not the signature that a dataclass makes"
 
 
 def test_names_are_completed_and_told_apart() -> None:

@@ -141,9 +141,20 @@ class Edited:
         return reading.inputs(self.path, FIELDS)
 
 
+@pytest.fixture(scope="module")
+def sheet_of_inputs(exported: Path) -> Path:
+    """The exported workbook without its other sheets, which take nine tenths of the time to be read and saved."""
+    book = load_workbook(exported)
+    for sheet in book.sheetnames:
+        if sheet != "Inputs":
+            del book[sheet]
+    book.save(path := exported.with_name("inputs.xlsx"))
+    return path
+
+
 @pytest.fixture
-def edit(exported: Path, tmp_path: Path) -> Edited:
-    return Edited(exported, tmp_path / "edited.xlsx")
+def edit(sheet_of_inputs: Path, tmp_path: Path) -> Edited:
+    return Edited(sheet_of_inputs, tmp_path / "edited.xlsx")
 
 
 @pytest.mark.parametrize(("typed", "value"), [(30e3, 30e3), ("30000,5", 30000.5), (" 3e4 ", 3e4), (31000, 31000)])

@@ -2,9 +2,11 @@
 
 import subprocess
 import sys
+from collections.abc import Sequence
 from pathlib import Path
 
 import pytest
+from as_script import as_script
 from openpyxl import load_workbook
 
 from mechsheet.__main__ import main
@@ -14,12 +16,15 @@ HITCH = Path(__file__).parents[1] / "worksheets" / "hitch.py"
 BY_MARIMO = "import runpy, sys; del sys.argv[0]; runpy.run_path(sys.argv[0], run_name='sheet')['app'].run()"
 
 
-def run(*arguments: str, sheet: Path = HITCH, flags: tuple[str, ...] = ()) -> subprocess.CompletedProcess[str]:
+def run(*arguments: str, sheet: Path = HITCH, flags: Sequence[str] | None = None) -> subprocess.CompletedProcess[str]:
+    """By its command; with flags by a Python of its own."""
+    if flags is None:
+        return as_script(sheet, *arguments)
     return subprocess.run([sys.executable, *flags, str(sheet), *arguments], capture_output=True, encoding="utf-8")
 
 
 def test_writes_the_workbook_and_reports(tmp_path):
-    done = run(f"--out={tmp_path}")
+    done = run(f"--out={tmp_path}", flags=())
     assert (done.returncode, done.stderr) == (0, "")
     lines = done.stdout.splitlines()
     assert [line.split(" = ")[1][:8] for line in lines[:3]] == ["0.661283", "0.469357", "0.75217 "[:8]]
@@ -159,12 +164,17 @@ def test_implement_beyond_the_machine_fails_but_is_written(tmp_path):
     assert (tmp_path / "hitch.xlsx").exists()
 
 
+@pytest.fixture(scope="module")
+def by_marimo(tmp_path_factory):
+    """What marimo's own program of the file prints and writes."""
+    out = tmp_path_factory.mktemp("marimo")
+    return run(f"--out={out}", sheet=HITCH.with_name("joint.py"), flags=("-X", "importtime", "-c", BY_MARIMO)), out
+
+
 @pytest.mark.parametrize("flags", [(), ("-m", "mechsheet.run.script")], ids=["itself", "command"])
-def test_cells_are_run_from_the_file_to_the_same_report_and_workbook_as_by_marimo(tmp_path, flags):
-    """What marimo's own program of the file prints and writes is the measure."""
-    sheet, other, own = HITCH.with_name("joint.py"), tmp_path / "marimo", tmp_path / "own"
-    by_marimo = run(f"--out={other}", sheet=sheet, flags=("-X", "importtime", "-c", BY_MARIMO))
-    done = run(f"--out={own}", sheet=sheet, flags=("-X", "importtime", *flags))
+def test_cells_are_run_from_the_file_to_the_same_report_and_workbook_as_by_marimo(tmp_path, flags, by_marimo):
+    (by_marimo, other), own = by_marimo, tmp_path / "own"
+    done = run(f"--out={own}", sheet=HITCH.with_name("joint.py"), flags=("-X", "importtime", *flags))
     assert (by_marimo.returncode, done.returncode) == (0, 0)
     assert ("| marimo\n" in done.stderr) == (not flags) and "xlsxwriter" in done.stderr
     running = "marimo._output.formatters.formatters"  # which marimo loads as it runs an app
@@ -180,16 +190,16 @@ def test_a_worksheet_that_imports_in_a_cell_is_run_once_by_marimo(tmp_path):
         "@app.cell\ndef one():\n    print('begun')\n    from mechsheet import dot\n    print(dot(2, 3))\n    return\n"
     )
     sheet.write_text(f"import marimo\napp = marimo.App()\n\n{cell}\nif __name__ == '__main__':\n    app.run()\n")
-    assert run(sheet=sheet).stdout.splitlines() == ["begun", "6.0"]
+    assert run(sheet=sheet, flags=()).stdout.splitlines() == ["begun", "6.0"]
 
 
 def test_what_a_worksheet_does_with_what_marimo_runs_of_it_is_done(tmp_path):
     sheet = tmp_path / "own.py"
     end = "    app.run()\n"
-    text = HITCH.with_name("slotted_link.py").read_text(encoding="utf-8")
+    text = HITCH.with_name("guide.py").read_text(encoding="utf-8")
     assert text.endswith(end)
     sheet.write_text(
         text.removesuffix(end) + '    _, defs = app.run()\n    print(type(defs["g"]).__name__)\n', encoding="utf-8"
     )
-    done = run(f"--out={tmp_path}", sheet=sheet)
-    assert done.stdout.endswith("SlottedLink\n"), done.stdout + done.stderr
+    done = run(f"--out={tmp_path}", sheet=sheet, flags=())
+    assert done.stdout.endswith("Press\n"), done.stdout + done.stderr

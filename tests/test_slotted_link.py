@@ -2,8 +2,6 @@
 
 import ast
 import re
-import subprocess
-import sys
 from dataclasses import replace
 from math import pi
 from pathlib import Path
@@ -11,6 +9,7 @@ from pathlib import Path
 import mpmath as mp
 import numpy as np
 import pytest
+from as_script import as_script
 from conftest import examples
 from hypothesis import assume, example, given
 from hypothesis import strategies as st
@@ -262,13 +261,8 @@ def test_checks_hold_for_any_dimensions(L1, L0, omega1, n, phi_0):
 RESULTS = "1 Results (table of page 39)"
 
 
-def script(*arguments: str) -> subprocess.CompletedProcess[str]:
-    command = [sys.executable, "-m", "mechsheet.run.script", str(SHEET), *arguments]
-    return subprocess.run(command, capture_output=True, encoding="utf-8")
-
-
 def test_script_writes_the_workbook(tmp_path):
-    done = script(f"--out={tmp_path}")
+    done = as_script(SHEET, f"--out={tmp_path}")
     assert (done.returncode, done.stderr) == (0, "")
     book = load_workbook(tmp_path / "slotted_link.xlsx", data_only=True)
     first = [cell.value for cell in book[RESULTS][6]]
@@ -277,7 +271,7 @@ def test_script_writes_the_workbook(tmp_path):
 
 
 def test_bad_input_is_one_line_and_writes_nothing(tmp_path):
-    done = script("--omega1=fast", f"--out={tmp_path}")
+    done = as_script(SHEET, "--omega1=fast", f"--out={tmp_path}")
     message = "error: angular velocity of the crank, negative clockwise omega1 = 'fast' rad/s is no number\n"
     assert (done.returncode, done.stderr, list(tmp_path.iterdir())) == (2, message, [])
 
@@ -298,7 +292,7 @@ def test_input_outside_its_limits_is_named(name, value, message):
 
 
 def test_position_without_numbers_fails_the_script_and_is_written(tmp_path):
-    done = script("--L1=2.4", "--n=12", f"--out={tmp_path}")
+    done = as_script(SHEET, "--L1=2.4", "--n=12", f"--out={tmp_path}")
     assert done.returncode == 1 and done.stderr == ""
     assert (
         "FAIL  the link has a direction: 1 <= 0 positions; the slider is at the hinge B at phi1 = 270 deg"

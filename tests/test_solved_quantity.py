@@ -1,12 +1,11 @@
 """Found values while a worksheet is recorded: solved again for other inputs, and never shown for inputs not theirs."""
 
-import subprocess
-import sys
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+from as_script import as_script
 from openpyxl import load_workbook
 from test_recalculation import edit
 from test_recorded_worksheet import own, recorded, value_of
@@ -111,9 +110,7 @@ def exported(tmp_path: Path, lines: str) -> Path:
     path = Path(sheet.path)
     cell = '\n@app.cell\ndef workbook():\n    export("Own", globals())\n    return\n\nif __name__'
     path.write_text(path.read_text().replace("\nif __name__", cell))
-    run = subprocess.run(
-        [sys.executable, "-X", "utf8", path, f"--out={tmp_path}"], capture_output=True, encoding="utf-8"
-    )
+    run = as_script(path, f"--out={tmp_path}")
     assert (tmp_path / "own.xlsx").exists(), run.stdout + run.stderr
     return tmp_path / "own.xlsx"
 

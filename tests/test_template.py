@@ -5,6 +5,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from as_script import as_script
 from openpyxl import load_workbook
 from playwright.sync_api import expect
 
@@ -33,7 +34,7 @@ def test_runs_and_writes_its_workbook(lever):
     book = load_workbook(lever.parent / "gear_lever.xlsx")
     assert book.sheetnames[:6] == ["Front", "Inputs", "Input tables", "Find", "1 Moment of the lever", "2 Load cases"]
     assert len(book["1 Moment of the lever"]._charts) == 1
-    changed = subprocess.run([sys.executable, str(lever), "--F=-5"], capture_output=True, encoding="utf-8")
+    changed = as_script(lever, "--F=-5")
     assert changed.returncode == 1 and "F = -5.0 N must be >= 0" in changed.stderr
 
 
@@ -50,7 +51,7 @@ def test_begins_like_an_example(example, lever, monkeypatch):
     monkeypatch.setattr(launcher, "folders", lambda: [EXAMPLES])
     assert launcher.main(["new", "my_own", f"--like={example.stem}"]) == 0
     path = lever.parent / "my_own.py"
-    done = subprocess.run([sys.executable, str(path)], capture_output=True, encoding="utf-8")
+    done = as_script(path)
     assert (done.returncode, done.stderr) == (0, "")
     assert "units: 0 <= 0" in done.stdout and "not followed" not in done.stdout
     assert load_workbook(path.with_suffix(".xlsx"))["Front"]["A1"].value == "My own"

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import subprocess
-import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import pytest
+from as_script import as_script
 from openpyxl import load_workbook
 
 from mechsheet import evaluate
@@ -90,8 +89,7 @@ def script(folder: Path, *given: str, change: tuple[str, str] = ("", "")) -> Any
     path = folder / "bolt.py"
     assert change[0] in BOLT
     path.write_text(BOLT.replace(*change), encoding="utf-8")
-    command = [sys.executable, str(path), f"--out={folder}", *given]
-    return subprocess.run(command, capture_output=True, encoding="utf-8", timeout=120)
+    return as_script(path, f"--out={folder}", *given)
 
 
 @pytest.mark.office

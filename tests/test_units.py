@@ -244,10 +244,10 @@ def test_a_unit_that_cannot_be_ones_own(own: None, name: str, unit: str, why: st
         define(name, 2, unit)
 
 
-@pytest.mark.parametrize("name", units.names())
-def test_the_coherent_unit_measures_the_same(name: str) -> None:
-    assert parse(si(name)).dims == parse(name).dims
-    assert parse(si(name)).factor == 1
+def test_the_coherent_unit_measures_the_same() -> None:
+    coherent = {name: parse(si(name)) for name in units.names()}
+    assert len(coherent) > 700
+    assert [name for name, unit in coherent.items() if unit.dims != parse(name).dims or unit.factor != 1] == []
 
 
 def test_units_to_show_instead_measure_the_same() -> None:

@@ -99,30 +99,32 @@ def newton(
             slopes[:, :, k] = np.where(fresh[k], new, slopes[:, :, k])
             evaluations += 2 * n * fresh
             moving &= ~fresh | np.isfinite(slopes).all((0, 1))
-        k = np.flatnonzero(moving.any(1))
-        if not k.size:
+        if not moving.any():
             break
-        size = sizes[:, k]
-        scale = _scale(slopes[:, :, k], size) if unit is None else np.broadcast_to(unit, r[:, k].shape)
-        largest[:, k] = np.fmax(largest[:, k], scale)
-        jacobian = _turned(slopes[:, :, k] * size[None] / scale[:, None])
-        own = np.moveaxis(r[:, k] / scale, 0, -1)
-        step, length, whole, slopes_there = _step(jacobian, own, x[:, k], size, lo, hi, radius[k])
-        stop = (whole <= _SMALL) & ~sank[k] & (whole > _LINEAR * before[k])
-        target = np.clip(x[:, k] + np.moveaxis(step, -1, 0) * size, lo, hi)
-        stop |= (target == x[:, k]).all(0) | (own == 0).all(-1) | (radius[k] < _STUCK)
+        i, j = np.nonzero(moving)  # of many problems most have ended when a few still go on
+        at, own_size, slopes_at, low, high = x[:, i, j], sizes[:, i, j], slopes[:, :, i, j], lo[:, 0, j], hi[:, 0, j]
+        scale = _scale(slopes_at, own_size) if unit is None else np.broadcast_to(unit[:, 0], (len(r), i.size))
+        largest[:, i, j] = np.fmax(largest[:, i, j], scale)
+        jacobian = _turned(slopes_at * own_size / scale[:, None])
+        own = (r[:, i, j] / scale).T
+        step, length, whole, slopes_there = _step(jacobian, own, at, low, high, radius[i, j])
+        stop = (whole <= _SMALL) & ~sank[i, j] & (whole > _LINEAR * before[i, j])
+        target = np.clip(at + step.T * own_size, low, high)
+        stop |= (target == at).all(0) | (own == 0).all(-1) | (radius[i, j] < _STUCK)
         stop |= _lowest(jacobian, own)
-        moving[k] &= ~stop
+        moving[i, j] = active = ~stop
         fresh[:] = False
-        active = moving[k]
         if not active.any():
             continue
-        target = np.where(active, target, x[:, k])
-        there = f(target)
-        evaluations[k] += active
-        gone = np.moveaxis((target - x[:, k]) / size, 0, -1)
+        target = np.where(active, target, at)
+        k, row = np.unique(i, return_inverse=True)
+        tried = x[:, k]
+        tried[:, row, j] = target
+        there = f(tried)[:, row, j]
+        evaluations[i, j] += active
+        gone = ((target - at) / own_size).T
         expected = _square(own) - _square(own + _applied(jacobian, gone))
-        left = np.moveaxis(there / scale, 0, -1)
+        left = (there / scale).T
         fallen = _square(own) - _square(left)
         gain = np.where(fallen > 0, fallen / np.maximum(expected, np.finfo(float).tiny), -1)
         if unit is None:  # what is left to go by the same slopes may have become less where the residuals have not
@@ -131,12 +133,13 @@ def newton(
             gain = np.where(nearer, np.maximum(gain, 0.5), gain)
         sinks = active & (gain > 1e-4)
         taken = active & (sinks | (whole <= _SMALL) | (free > 0)) & np.isfinite(there).all(0)
-        shrunk = np.where(gain < 0.25, length / 4, np.where(gain > 0.75, np.maximum(radius[k], 3 * length), radius[k]))
-        radius[k] = np.where(active & (free == 0), shrunk, radius[k])
-        moving[k] &= taken | (free == 0)
-        before[k], sank[k] = np.where(taken, whole, before[k]), np.where(active, sinks, sank[k])
-        x[:, k], r[:, k] = np.where(taken, target, x[:, k]), np.where(taken, there, r[:, k])
-        fresh[k] = taken
+        longest = radius[i, j]
+        shrunk = np.where(gain < 0.25, length / 4, np.where(gain > 0.75, np.maximum(longest, 3 * length), longest))
+        radius[i, j] = np.where(active & (free == 0), shrunk, longest)
+        moving[i, j] &= taken | (free == 0)
+        before[i, j], sank[i, j] = np.where(taken, whole, before[i, j]), np.where(active, sinks, sank[i, j])
+        x[:, i, j], r[:, i, j] = np.where(taken, target, at), np.where(taken, there, r[:, i, j])
+        fresh[i, j] = taken
     return Ended(x, r, slopes, largest, evaluations)
 
 
@@ -177,19 +180,21 @@ def _beside(f: Equations, x: Array, step: Array, lo: Array, hi: Array) -> tuple[
 
 
 def _step(
-    jacobian: Array, r: Array, x: Array, size: Array, lo: Array, hi: Array, radius: Array
+    jacobian: Array, r: Array, x: Array, lo: Array, hi: Array, radius: Array
 ) -> tuple[Array, Array, Array, tuple[Array, Array, Array]]:
-    """The step within the radius, shape (s, p, n), its length, that of Newton's own step, and the slopes decomposed.
+    """The step within the radius, shape (q, n), its length, that of Newton's own step, and the slopes decomposed.
 
     Unknowns at an end do not leave it.
     """
     decomposed = np.linalg.svd(_known(jacobian), full_matrices=False)
     step, whole = _within(decomposed, r, radius)
-    low, high = (np.moveaxis(side, 0, -1) for side in (x <= lo, x >= hi))
-    held = (low & (step < 0)) | (high & (step > 0))
-    if held.any():
-        decomposed = np.linalg.svd(_known(np.where(held[..., None, :], 0.0, jacobian)), full_matrices=False)
-        step, whole = _within(decomposed, r, radius)
+    held = ((x <= lo).T & (step < 0)) | ((x >= hi).T & (step > 0))
+    q = np.flatnonzero(held.any(1))
+    if q.size:
+        again = np.linalg.svd(_known(np.where(held[q, None], 0.0, jacobian[q])), full_matrices=False)
+        for every, new in zip(decomposed, again, strict=True):
+            every[q] = new
+        step[q], whole[q] = _within(again, r[q], radius[q])
         step = np.where(held, 0.0, step)
     return step, np.sqrt(_square(step)), whole, decomposed
 
@@ -199,20 +204,28 @@ def _within(decomposed: tuple[Array, Array, Array], r: Array, radius: Array) -> 
     u, values, v = decomposed
     along = -np.einsum("...mk,...m->...k", u, _known(r))
     least = max(u.shape[-2], v.shape[-1]) * EPS * values[..., :1]
-    whole = np.where(values > least, along / np.where(values > least, values, 1.0), 0.0)
-    damping = np.zeros(radius.shape)
-    length = np.sqrt(_square(whole))
-    long = length > radius
-    parts = whole
-    for _ in range(12 if long.any() else 0):  # of Newton's method for the damping that gives the step this length
-        denominator = values**2 + damping[..., None]
+    parts = np.where(values > least, along / np.where(values > least, values, 1.0), 0.0)
+    length = np.sqrt(_square(parts))
+    q = np.flatnonzero(length > radius)
+    if q.size:
+        parts[q] = _shortened(values[q], along[q], radius[q])
+    return np.einsum("...kn,...k->...n", v, parts), length
+
+
+def _shortened(values: Array, along: Array, radius: Array) -> Array:
+    """Steps that are damped until they are as long as the radius."""
+    parts, damping = along, np.zeros(radius.shape)
+    for _ in range(12):  # of Newton's method for the damping
+        denominator = values**2 + damping[:, None]
         parts = np.where(denominator > 0, values * along / denominator, 0.0)
         slope = -_square(np.where(denominator > 0, parts / np.sqrt(denominator), 0.0))
         norm = np.sqrt(_square(parts))
-        change = np.where(long & (slope < 0), norm**2 / slope * (1 - norm / radius), 0.0)
-        damping = np.maximum(damping + change, 0.0)
-    parts = np.where(long[..., None], parts * (radius / np.maximum(np.sqrt(_square(parts)), 1e-300))[..., None], whole)
-    return np.einsum("...kn,...k->...n", v, parts), length
+        change = np.where(slope < 0, norm**2 / slope * (1 - norm / radius), 0.0)
+        before, damping = damping, np.maximum(damping + change, 0.0)
+        if (damping == before).all():
+            break
+    shortened: Array = parts * (radius / np.maximum(np.sqrt(_square(parts)), 1e-300))[:, None]
+    return shortened
 
 
 def _lowest(jacobian: Array, r: Array) -> Mask:

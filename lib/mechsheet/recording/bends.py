@@ -48,22 +48,20 @@ def _of_power(y: Values, a: Values, b: Values, da: Values, db: Values) -> Values
 def bends(wanted: Iterable[Node], by: Sequence[Node], directions: Values) -> dict[Node, Values]:
     """Second derivatives of quantities along directions of the elements of others, shape (directions, ...)."""
     wanted, ends = list(wanted), np.cumsum([0, *(node.size for node in by)])
-    units = {n: directions[:, a : a + n.size].reshape(-1, *n.shape) for n, a in zip(by, ends, strict=False)}
-    seen = list[dict[Node, tuple[Values, Values]]]()
-    for way in (1.0, -1.0):
-        forward = Forward(len(directions), None)
-        moving = forward.through(wanted, {node: Motion(way * unit, unit != 0) for node, unit in units.items()})
-        second = _Second(forward).through(wanted, moving, {node: np.zeros(unit.shape) for node, unit in units.items()})
-        rest = np.zeros(())
-        each = ((way * moving[n].ahead, second[n]) if n in second else (rest, rest) for n in wanted)
-        seen.append(dict(zip(wanted, each, strict=True)))
-    return {node: _both(*seen[0][node], *seen[1][node], (len(directions), *node.shape)) for node in wanted}
+    sides = np.concatenate((directions, -directions))
+    units = {n: sides[:, a : a + n.size].reshape(-1, *n.shape) for n, a in zip(by, ends, strict=False)}
+    forward = Forward(len(sides), None)
+    moving = forward.through(wanted, {node: Motion(unit, unit != 0) for node, unit in units.items()})
+    second = _Second(forward).through(wanted, moving, {node: np.zeros(unit.shape) for node, unit in units.items()})
+    bent = {node: _both(moving[node].ahead, second[node]) for node in wanted if node in second}
+    return {node: bent.get(node, np.zeros((len(directions), *node.shape))) for node in wanted}
 
 
-def _both(ahead: Values, bent: Values, behind: Values, bent_behind: Values, shape: tuple[int, ...]) -> Values:
-    """The second term, where it and the first one are the same from both sides."""
-    smooth_there = ~np.isnan(Slope(ahead, behind).both)
-    return np.broadcast_to(np.where(smooth_there, Slope(bent, bent_behind).both, np.nan), shape)
+def _both(first: Values, second: Values) -> Values:
+    """The second term where both sides have the same: the latter half of the directions are the former reversed."""
+    ahead, behind = np.split(first, 2)
+    smooth_there = ~np.isnan(Slope(ahead, -behind).both)
+    return np.where(smooth_there, Slope(*np.split(second, 2)).both, np.nan)
 
 
 class _Second:

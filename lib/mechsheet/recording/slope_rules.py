@@ -4,6 +4,7 @@ A rule takes the node, its number and those of its operands, and their motions i
 """
 
 from collections.abc import Callable, Sequence
+from functools import reduce
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -53,9 +54,9 @@ def shaped(motion: Motion, node: Node) -> Motion:
 
 def _sum(parts: Sequence[Any], operands: Sequence[Motion]) -> Motion:
     """What partial derivatives make of the motions of operands; what does not move adds nothing."""
-    moves = np.logical_or.reduce(np.broadcast_arrays(*(m.moves for m in operands)))
-    ahead = sum(np.where(m.moves, part * m.ahead, 0.0) for part, m in zip(parts, operands, strict=True))
-    return Motion(np.broadcast_to(ahead, moves.shape), moves)
+    moves = reduce(np.logical_or, [m.moves for m in operands])
+    ahead = reduce(np.add, [np.where(m.moves, part * m.ahead, 0.0) for part, m in zip(parts, operands, strict=True)])
+    return Motion(ahead if ahead.shape == moves.shape else np.broadcast_to(ahead, moves.shape), moves)
 
 
 def smooth(node: Node, y: Values, values: Sequence[Values], operands: Sequence[Motion]) -> Motion:

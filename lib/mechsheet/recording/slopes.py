@@ -54,12 +54,11 @@ def _seen(
 ) -> dict[Node, Slope]:
     """Slopes in some directions, shape (directions, ...) each, from both sides."""
     count = max(map(len, units.values()), default=0)
-    each = list[dict[Node, Values]]()
-    for way in (1.0, -1.0):
-        forward = Forward(count, known)
-        moving = forward.through(wanted, {node: Motion(way * unit, unit != 0) for node, unit in units.items()})
-        each.append({node: way * number(moving.get(node) or forward.rest(node)).ahead for node in wanted})
-    return {node: Slope(each[0][node], each[1][node]) for node in wanted}
+    forward = Forward(2 * count, known)  # in all directions, then in all the other way: most of a pass is its calls
+    sides = {node: np.concatenate((unit, -unit)) for node, unit in units.items()}
+    moving = forward.through(wanted, {node: Motion(side, side != 0) for node, side in sides.items()})
+    seen = {node: number(moving.get(node) or forward.rest(node)).ahead for node in wanted}
+    return {node: Slope(ahead[:count], -ahead[count:]) for node, ahead in seen.items()}
 
 
 def unfollowed(wanted: Iterable[Node], by: Iterable[Node]) -> Node | None:
