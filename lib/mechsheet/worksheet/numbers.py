@@ -99,7 +99,7 @@ def in_any_unit(values: Any) -> Callable[[str, Notation], str]:
     """What `value` says of the values in a unit and a notation; they are looked at once."""
     field = np.asarray(values)
     least = rounding(field)
-if _in_rows(field):
+    if _in_rows(field):
         rows = field.tolist()
         return lambda unit, to: "[" + "; ".join(_each(row, least, unit, to) for row in rows) + "]" + behind(unit, to)
     if in_full(field):
