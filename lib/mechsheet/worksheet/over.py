@@ -59,9 +59,9 @@ def over(name: str, namespace: Mapping[str, Any]) -> Over | None:
     """What the field of a line runs over: along each axis a quantity that has as many numbers and lies along it.
 
     Such quantities are those over which the worksheet draws its figures, and those by which its tables begin: the
-    first, and the whole numbers behind it. Of several it is the one beside which the name stands there, else the first
-    that the field is computed from. Of a field over several axes it may be the only whole numbers, too, that name the
-    rows of what the field is computed from, or of what is computed from it.
+    first, and the whole numbers behind it. It is one that the field is computed from, the first beside which its name
+    stands there or else the first of all; along one of several axes it may be whole numbers, too, beside which it
+    stands, or the only ones beside which there stands what it is computed from, or what is computed from it.
     None where the line is no field of real numbers, or one along a single axis of which nothing is known.
     """
     values = namespace.get(name)
@@ -118,16 +118,18 @@ class _Written:
             for head in each.heads(namespace)
             if head != name and _runs(namespace[head], axis) and namespace[head].size == axis[1]
         ]
-        beside = [head for head, each in lying if name in each.names]
-        if found := beside or [head for head, _ in lying if head in self.sources(name)]:
+        # What the field is not computed from may be that of the last run: of counts, as many are the same.
+        counts = {head for head, _ in lying if namespace[head].dtype.kind in "iu"}
+        known = [(head, each) for head, each in lying if head in self.sources(name) or (several and head in counts)]
+        beside = [head for head, each in known if name in each.names]
+        if found := beside or [head for head, _ in known if head in self.sources(name)]:
             return found[0]
-        counts = {
+        others = {
             head
-            for head, each in lying
-            if several and namespace[head].dtype.kind in "iu"
+            for head, each in known
             if any(self.belong(name, c) for c in each.columns if c != head and _runs(namespace.get(c), axis))
         }
-        return counts.pop() if len(counts) == 1 else ""
+        return others.pop() if len(others) == 1 else ""
 
     def belong(self, name: str, other: str) -> bool:
         return other in self.sources(name) or name in self.sources(other)
