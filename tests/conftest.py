@@ -146,7 +146,7 @@ def errors_of_numpy() -> Iterator[None]:
 @pytest.fixture
 def timed_once(monkeypatch: pytest.MonkeyPatch) -> None:
     """The accuracy worksheet runs each method once: its time is another one in every run anyway."""
-    from mechsheet.accuracy import conditioning, jobs
+    from mechsheet.accuracy import jobs, precision
     from mechsheet.accuracy.precision import Timed
     from mechsheet.recording.unrepeatable import clock_read
 
@@ -160,7 +160,7 @@ def timed_once(monkeypatch: pytest.MonkeyPatch) -> None:
 
         return list(map(once, runs))
 
-    for module in (jobs, conditioning):
+    for module in (jobs, precision):
         monkeypatch.setattr(module, "timed", timed)
 
 

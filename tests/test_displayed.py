@@ -23,6 +23,7 @@ from mechsheet.worksheet.check import Check, Summary
 from mechsheet.worksheet.find import Found
 from mechsheet.worksheet.inputs import Used
 from mechsheet.worksheet.lines import Formula, Typeset
+from mechsheet.worksheet.numbers import on_page
 from mechsheet.worksheet.symbol import plain
 from mechsheet.worksheet.table import Column, Figure, Table
 
@@ -207,7 +208,8 @@ def assert_table(table: Table, names: dict[str, object]) -> int:
             assert_column(column, unit, names)
             assert abs(factor(unit) / factor(column.unit.replace("**", "^").replace("*", "·")) - 1) < 1e-12
             for row, value in zip(rows, column.values.tolist(), strict=True):
-                said = row[i] == value if isinstance(value, str) else same(row[i], value * factor(unit), unit)
+                is_text = isinstance(value, str)
+                said = row[i] == on_page(value) if is_text else same(row[i], value * factor(unit), unit)
                 assert said, f"table {table.number}, {name}: {row[i]} is not {value}"
                 count += 1
     return count
