@@ -24,7 +24,7 @@ from mechsheet.worksheet.find import Found
 from mechsheet.worksheet.inputs import Used
 from mechsheet.worksheet.lines import Formula, Typeset
 from mechsheet.worksheet.numbers import on_page
-from mechsheet.worksheet.symbol import plain
+from mechsheet.worksheet.symbol import plain, read
 from mechsheet.worksheet.table import Column, Figure, Table
 
 WORKSHEETS = sorted((Path(__file__).parents[1] / "worksheets").rglob("*.py"))
@@ -208,8 +208,13 @@ def assert_table(table: Table, names: dict[str, object]) -> int:
             assert_column(column, unit, names)
             assert abs(factor(unit) / factor(column.unit.replace("**", "^").replace("*", "·")) - 1) < 1e-12
             for row, value in zip(rows, column.values.tolist(), strict=True):
-                is_text = isinstance(value, str)
-                said = row[i] == on_page(value) if is_text else same(row[i], value * factor(unit), unit)
+                if column.names:
+                    symbol = read(value)
+                    said = row[i] == symbol.mark + symbol.base + symbol.index
+                elif isinstance(value, str):
+                    said = row[i] == on_page(value)
+                else:
+                    said = same(row[i], value * factor(unit), unit)
                 assert said, f"table {table.number}, {name}: {row[i]} is not {value}"
                 count += 1
     return count

@@ -91,7 +91,7 @@ IMPORT = "from mechsheet import typeset\n"
         ("F[0, 1]", r"{F}_{(0,\ 1)}"),
         ("P[..., :n_b] + P[..., n_b:]", r"{P}_{k < n_{\mathrm{b}}} + {P}_{k \ge n_{\mathrm{b}}}"),
         ("alpha[:, None, None] - a[0, :]", r"\alpha - {a}_{0}"),
-        ("y.min(-1)", r"{\min}_{\text{axis -1}}(y)"),
+        ("y.min(-1)", r"{\min}_{\text{last axis}}(y)"),
         ("sin(phi)*L", r"\sin(\varphi)\,L"),
         ("L*sin(phi)", r"L\,\sin \varphi"),
         ("sin(phi)", r"\sin \varphi"),
@@ -499,7 +499,8 @@ def test_the_number_of_the_printed_formula(comment, number, meaning):
     shown = run(IMPORT + f"a = 2.0  # [m] {comment}\nshown = typeset()")["shown"]
     (line,) = shown.rows
     assert (line.number, line.meaning, line.unit) == (number, meaning, "m")
-    assert re.findall('<span class="ms-number">(.*?)</span>', html(shown)) == [number][: bool(number)]
+    printed = number.replace(")-(", ")–(")  # from which to which
+    assert re.findall('<span class="ms-number">(.*?)</span>', html(shown)) == [printed][: bool(number)]
 
 
 def test_numbers_of_printed_formulas_in_a_line_of_several_names():

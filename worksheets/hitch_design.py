@@ -42,7 +42,7 @@ with app.setup:
         tolerance,
         typeset,
     )
-    from mechsheet.units import deg
+    from mechsheet.units import deg, shown
 
 
 @app.cell(hide_code=True)
@@ -248,8 +248,8 @@ def table_31(bounds, design, fields, hitch):
         "3.1",
         "Chosen inputs",
         (
-            Column("input", "", "", 0, np.array(list(design.inputs), dtype=object)),
-            Column("unit", "", "", 0, np.array([fields[x].unit for x in design.inputs], dtype=object)),
+            Column("input", "", "", 0, list(design.inputs), names=True),
+            Column("unit", "", "", 0, [shown(fields[x].unit) for x in design.inputs]),
             column("chosen", list(design.inputs.values()), "value of the design"),
             column("present", [fields[x].display(getattr(present, x)) for x in design.inputs], "value in the hitch"),
             column("least", [bounds[x][0] for x in design.inputs], "lower bound"),

@@ -169,11 +169,11 @@ def _conditions(number: str, path: Path, text: bytes) -> tuple[Table, Any]:
     found, conditions, blamed, errors = (np.array(column) for column in zip(*rows, strict=True))
     errors = np.maximum(errors, EPS)
     columns = (
-        Column("result", "", "", 0, found.astype(object)),
+        Column("result", "", "", 0, found.astype(object), names=True),
         Column("log κ", "-", "logarithm of the condition number", 1, np.log10(conditions)),
         Column("expected digits", "-", "digits that the rounded inputs leave", 1, -np.log10(conditions * EPS)),
         Column("kept digits", "-", "digits that are right", 1, -np.log10(errors)),
-        Column("most by", "", "the input whose rounding costs most", 0, blamed.astype(object)),
+        Column("most by", "", "the input whose rounding costs most", 0, blamed.astype(object), names=True),
     )
     note = f"No condition have {', '.join(lost)}: zero but for rounding, or with a jump." if lost else ""
     title = f"{path.stem.replace('_', ' ').capitalize()}, end to end"

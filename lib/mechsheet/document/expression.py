@@ -299,7 +299,7 @@ class _Reader:
                 return self.sum(terms)
             case ast.Call(ast.Name(name), [x], [ast.keyword("axis", axis)]):
                 if name in _OVER:
-                    over = Element(Function(names.FUNCTIONS.get(name, name)), Text(f"axis {ast.unparse(axis)}"))
+                    over = Element(Function(names.FUNCTIONS.get(name, name)), Text(_axis(ast.unparse(axis))))
                     return Apply(over, self.brackets([x]))
                 return self.function(name, [x])
             case ast.Call(ast.Name(name), args, keywords):
@@ -392,6 +392,10 @@ _RULES: dict[type[ast.expr], Callable[[_Reader, Any], Node | None]] = {
     ast.ListComp: _Reader.each, ast.GeneratorExp: _Reader.each, ast.Tuple: _Reader.listed,
     ast.IfExp: _Reader.choice, ast.BoolOp: _Reader.boolean,
 }  # fmt: skip
+
+
+def _axis(text: str) -> str:
+    return "last axis" if text == "-1" else f"axis {text}"
 
 
 def _applied(function: Node, arguments: Brackets) -> Node:

@@ -21,8 +21,8 @@ _SIGNS = {"<": "&lt;", ">": "&gt;", "<=": "≤", ">=": "≥"}
 def attribute(name: str, value: Any) -> str:
     """An attribute that holds JSON, whose double quotes need no escape in it: text is longer by each of them.
 
-    >>> attribute("told", {"a": "it's < 1"})
-    ' told=\'{"a":"it&#39;s &lt; 1"}\''
+    >>> print(attribute("told", {"a": "it's < 1"}))
+     told='{"a":"it&#39;s &lt; 1"}'
     """
     return f" {name}='{escape(_as_json(value), quote=False).replace(_QUOTE, '&#39;')}'"
 
@@ -60,6 +60,15 @@ def meant(meaning: str) -> str:
 
 
 _INDEXED = re.compile(r"\b([A-Za-z]+\d*_\w+)\b(?!\.\w)")
+
+
+def printed(number: str) -> str:
+    """Number of a printed formula, or from which to which.
+
+    >>> printed("(1.54)-(1.56)")
+    '(1.54)–(1.56)'
+    """
+    return escape(number).replace(")-(", ")–(")
 
 
 def in_words(sentence: str) -> str:

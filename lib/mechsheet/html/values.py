@@ -14,7 +14,7 @@ from mechsheet import units
 from mechsheet.document import chart, chart_svg, drawing_svg
 from mechsheet.document.blocks import blocks, fitting
 from mechsheet.document.expression import equation, fields_by_name
-from mechsheet.document.markup import as_written, compared, in_words, meant, message, named, where
+from mechsheet.document.markup import as_written, compared, in_words, meant, message, named, printed, where
 from mechsheet.document.parts import Control, Line, Section, Text
 from mechsheet.document.shortened import foot, shortened, thinned
 from mechsheet.html import index, markdown, offered
@@ -128,7 +128,7 @@ def _line(formula: str, value: str = "", told: Formula | None = None, numbers: s
         return f'<div class="ms-line"><span class="ms-formula">{formula}</span></div>'
     mistake = f' <span class="ms-badge ms-FAIL">mistake</span> {escape(told.mistake)}' if told.mistake else ""
     said = f"<span>{meant(told.meaning)}{mistake}</span>" if told.meaning or mistake else ""
-    said += f'<span class="ms-number">{escape(told.number)}</span>' if told.number else ""
+    said += f'<span class="ms-number">{printed(told.number)}</span>' if told.number else ""
     shown = f'<span class="ms-formula">{formula}{value}</span>{said}{numbers}'
     return f'<div class="ms-line" id="line-{told.name}">{shown}</div>'
 
@@ -151,7 +151,7 @@ def _block(whole: Sequence[Column], follows: str, told: str) -> str:
     under = "".join(f"<th>{offered.head(c.unit) if c.unit else ''}</th>" for c in columns)
     rows = "".join(
         "<tr>" + "".join(f"<td{kind}>{t}</td>" for t, kind in zip(row, kinds, strict=True)) + "</tr>"
-        for row in zip(*(map(escape, c.texts(numbers.AXIS)) for c in columns), strict=True)
+        for row in zip(*(map(as_written if c.names else escape, c.texts(numbers.AXIS)) for c in columns), strict=True)
     )
     head = f'<tr>{heads}</tr><tr class="ms-units">{under}</tr>'
     fit = fitting(whole)

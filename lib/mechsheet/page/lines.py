@@ -12,7 +12,7 @@ from mechsheet import units
 from mechsheet.document.expression import equation, fields_by_name, reads, substituted
 from mechsheet.document.formula import Measure
 from mechsheet.document.latex import latex
-from mechsheet.document.markup import attribute, meant, where
+from mechsheet.document.markup import attribute, meant, printed, where
 from mechsheet.page import switched
 from mechsheet.page.unchanged import kept
 from mechsheet.worksheet import numbers, symbol
@@ -122,7 +122,7 @@ def _line(
     formula = _tex_element(tex) + (f'<span class="ms-value">{value}</span>' if value else "")
     told = f' <span class="ms-badge ms-FAIL">mistake</span> {escape(mistake)}' if mistake else ""
     said = f"<span>{meant(meaning)}{told}</span>" if meaning or told else ""
-    said += f'<span class="ms-number">{escape(number)}</span>' if number else ""
+    said += f'<span class="ms-number">{printed(number)}</span>' if number else ""
     place = f' id="line-{line.name}"' if line else ""
     place += _symbols(line) if isinstance(line, Formula) else ""
     return f'<div class="ms-line"{place}><span class="ms-formula">{formula}</span>{said}{more}</div>'

@@ -388,7 +388,7 @@ def _block(columns: Sequence[Column], left_out: int) -> str:
     unit_row = "".join(f"<th>{f'[{_unit(c)}]' if c.unit else ''}</th>" for c in columns)
     rows = "".join(
         "<tr>" + "".join(f"<td{kind}>{t}</td>" for t, kind in zip(row, kinds, strict=True)) + "</tr>"
-        for row in zip(*(map(escape, cells(c)) for c in columns), strict=True)
+        for row in zip(*(map(as_written if c.names else escape, cells(c)) for c in columns), strict=True)
     )
     head = f'<tr>{heads}</tr><tr class="ms-units">{unit_row}</tr>'
     fit = fitting(columns)

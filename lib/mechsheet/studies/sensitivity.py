@@ -97,7 +97,7 @@ class Sensitivity:
         here = _at(self.inputs, by)
         where = numbers.significant(np.atleast_1d(self.values[name])[k], 6) + numbers.suffix(self.units[name])
         columns = (
-            _texts("input", by),
+            _texts("input", by, names=True),
             Column("value", "", "where the derivative is taken, in the input's unit", 4, here, _has_small(here)),
             _texts("unit", [units.shown(self.units[x]) for x in by]),
             Column("relative", "-", f"d ln {name} / d ln input", 4, relative),
@@ -375,8 +375,8 @@ def _has_small(values: Array) -> bool:
     return bool(np.any((values != 0) & (np.abs(values) < 1e-3)))
 
 
-def _texts(heading: str, texts: Sequence[str]) -> Column:
-    return Column(heading, "", "", 0, np.array(texts, dtype=object))
+def _texts(heading: str, texts: Sequence[str], names: bool = False) -> Column:
+    return Column(heading, "", "", 0, np.array(texts, dtype=object), names=names)
 
 
 def _one(unit: str) -> str:

@@ -33,7 +33,7 @@ class Column:
 
     Values may be a list, which becomes an array, and texts, of unit "". ``power`` shows numbers as 1.2e-15. ``of`` is
     the name that the line declares, of a field without its ``_S``; ``want`` is what stands in the worksheet, a name or
-    a part of one.
+    a part of one. Texts that are ``names`` of quantities stand on the page as their symbols.
     """
 
     symbol: str
@@ -44,6 +44,7 @@ class Column:
     power: bool = False
     of: str = ""
     want: str = ""
+    names: bool = False
 
     def __post_init__(self) -> None:
         if isinstance(self.values, list):
