@@ -59,7 +59,7 @@ def _is_module(node: ast.expr) -> bool:
 
 
 def place(key: ast.expr) -> Node | None:
-    """Elements of a list in words, which Python counts from either end; None where they are told as they are."""
+    """Elements in words, which Python counts from either end, or by symbols; None where they are told as they are."""
     match key:
         case ast.Slice(None, None, ast.Constant(int(step))):
             return Text(f"every {step}")
@@ -71,7 +71,12 @@ def place(key: ast.expr) -> Node | None:
             return Binary(Binary(Number(start), "≤", Symbol("k")), "<", Number(stop))
         case ast.UnaryOp(ast.USub(), ast.Constant(int(n))):
             return Text("last" if n == 1 else f"last but {n - 1}")
+        case ast.Constant(str(name)) if _OF_QUANTITY.fullmatch(name):
+            return read(stem(name))
     return None
+
+
+_OF_QUANTITY = re.compile(r"[A-Za-z]+\d*_\w+")  # a word alone may be anything
 
 
 @lru_cache(maxsize=4096)
