@@ -362,7 +362,7 @@ def test_a_scene_may_ask_for_digits(tmp_path: Path, capsys: pytest.CaptureFixtur
     of_field = proof_of_wanted(names, load(WORKSHEETS / "hitch.py"), ["GS6"]).columns
     assert {c.name: c.digits.size for c in of_field}["GS6"] == g.N_pol
     assert "pass  every number proved to 12 digits" in shown and "not that the formulas are right" in shown
-    assert batch.run(str(WORKSHEETS / "landing_gear.py"), [str(path), "--proof=15", "--t_r=8"]) == 1
+    assert batch.run(str(WORKSHEETS / "landing_gear.py"), [str(path), "--proof=15", "--t_r=8"]) == 2
 
 
 @pytest.mark.parametrize("proof", ["0", "16", '"many"', "true", "[9]"])
