@@ -10,7 +10,6 @@ from typing import Any
 
 from mechsheet.workbook import looks
 from mechsheet.workbook.content import Content, Live, allowed, cut, put
-from mechsheet.workbook.place import letters
 
 _PROPERTIES = {"author": "mechsheet", "created": datetime(2000, 1, 1)}
 _SHEETS = ("Front", "Inputs", "Input tables", "Find", "Checks", "Index", "Marks", "Scenes")
@@ -143,15 +142,14 @@ class Book:
 
 @cache
 def _sheet_class() -> Any:
-    """XlsxWriter's worksheet, without what our cells do not need.
+    """XlsxWriter's worksheet with cells that are written as they are.
 
-    It looks for 150 new functions in each formula, where ours have their names, for what else a cell may be, and for
-    the first and the last cell of each row.
+    Its own functions look in each formula for 150 new functions, where ours have their names, and for what else a cell
+    may be: ten times as long for a workbook of long formulas.
     """
     from xlsxwriter.worksheet import (  # type: ignore[import-untyped]  # on use: as above
         CellFormulaTuple,
         CellNumberTuple,
-        CellStringTuple,
         Worksheet,
     )
 
@@ -165,39 +163,6 @@ def _sheet_class() -> Any:
         def write_exact(self, row: int, col: int, value: float, style: Any) -> None:
             self._check_dimensions(row, col)
             self.table[row][col] = CellNumberTuple(value, style)
-
-        def _prepare_formula(self, formula: str, _expand: bool = False) -> str:
-            return formula.removeprefix("=")
-
-        def _write_rows(self) -> None:
-            for row in range(self.dim_rowmin, self.dim_rowmax + 1):
-                cells, info = self.table.get(row), self.row_info.get(row)
-                if cells:
-                    self._write_row(row, None, info)
-                    for col in sorted(cells):
-                        self._write_cell(row, col, cells[col])
-                    self._xml_end_tag("row")
-                elif info or row in self.comments:
-                    self._write_empty_row(row, None, info)
-
-        def _write_cell(self, row: int, col: int, cell: Any) -> None:
-            kind = type(cell)
-            place = ("r", f"{letters(col)}{row + 1}"), ("s", cell.format._get_xf_index())
-            if kind is CellFormulaTuple and type(cell.value) is float:
-                self._xml_formula_element(cell.formula, cell.value, place)
-            elif kind is CellStringTuple:
-                self._xml_string_element(cell.string, place)
-            elif kind is CellNumberTuple:
-                self._xml_number_element(cell.number, place)
-            else:
-                super()._write_cell(row, col, cell)
-
-        def _escape_attributes(self, attribute: Any) -> Any:
-            plain = type(attribute) is not str or attribute.isalnum()
-            return attribute if plain else super()._escape_attributes(attribute)
-
-        def _escape_data(self, data: Any) -> Any:
-            return super()._escape_data(data) if type(data) is str else data
 
     return Sheet
 
