@@ -43,7 +43,7 @@ def test_a_step_back_and_on_the_documents_own_and_a_link(
     own = field.input_value()
     fill(page, "r", "52")
     expect(states).to_contain_text(re.compile(rf"r = 52 mm \({own} in the document\)"))
-    assert page.url.endswith("#r=52")
+    until(page, lambda: page.url.endswith("#r=52"), "the address has not followed")
     fill(page, "r", "0,055 m")
     expect(states).to_contain_text("r = 55 mm")
     fill(page, "r", "-1")
@@ -62,7 +62,7 @@ def test_a_step_back_and_on_the_documents_own_and_a_link(
     states.get_by_role("button", name="back to the document").click()
     expect(states).to_contain_text("as in the document")
     expect(field).to_have_value(own)
-    assert "#" not in page.url
+    until(page, lambda: "#" not in page.url, "the address has not followed")
 
 
 DEAF_ONCE = """() => {

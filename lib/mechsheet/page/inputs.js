@@ -89,6 +89,9 @@
       eachBar((bar) => bar.follow());
     }
   }
+
+  const whenIdle = (act) => (window.requestIdleCallback ?? setTimeout)(act);
+
   class States extends HTMLElement {
     constructor() {
       super();
@@ -119,7 +122,7 @@
       this.show();
       const given = textsIn(location.hash);
       if (first && given.size) this.open(given);
-      else if (!wanted) this.address();
+      else if (!wanted) whenIdle(() => this.address()); // which takes longer than all else here
     }
 
     // What a link carries holds from the beginning.

@@ -12,6 +12,8 @@ from typing import NamedTuple
 from starlette.middleware import Middleware
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
+from mechsheet.page import notebook
+
 AT_ONCE = 0.25  # s
 _SHORT = 400  # characters of a message that may be a state, and in which a longer one tells its cell and its kind
 _CELL = re.compile(r'{"op": ?"cell-op", ?"data": ?{"op": ?"cell-op", ?"cell_id": ?"(\w+)"')
@@ -25,7 +27,7 @@ class Fewer:
         self._app = app
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        if scope["type"] != "websocket" or not _is_served(scope):
+        if scope["type"] != "websocket" or not notebook.is_served(scope["app"]):
             await self._app(scope, receive, send)
             return
         told = Told(send)
@@ -114,12 +116,6 @@ def _read(text: str) -> _Said:
         printed = '"output":null' in head
         return _Said("cell-op", cell[1], "", "application/vnd.marimo+error" in head, not printed, printed)
     return _Said("")
-
-
-def _is_served(scope: Scope) -> bool:
-    """Whether a page is read and not edited; no where this version of marimo does not tell."""
-    manager = getattr(scope["app"].state, "session_manager", None)
-    return str(getattr(getattr(manager, "mode", None), "value", "")) == "run"
 
 
 middleware = Middleware(Fewer)

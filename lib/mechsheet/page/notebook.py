@@ -137,6 +137,14 @@ def run_what_is_written(server: Any) -> None:
         known.partials = known.with_overrides({"runtime": {"watcher_on_save": "autorun"}}).partials
 
 
+def is_served(server: Any) -> bool:
+    """Whether the pages of a server are read and not edited; no where this version of marimo does not tell."""
+    try:
+        return bool(server.state.session_manager.mode == "run")
+    except AttributeError:
+        return False
+
+
 def send_as_it_is(server: Any) -> None:
     """Let a server that only this machine can reach not pack what it sends: that takes longer than sending it."""
     with suppress(AttributeError):
