@@ -183,7 +183,7 @@ def test_search_and_index_lead_to_the_places_of_the_page(left_open) -> None:
         return box is not None and -10 <= box["y"] <= page.viewport_size["height"]
 
     until(page, in_sight, "the line is not in sight")
-    assert "(1.44)-(1.46)" in (place.text_content() or "")
+    assert "(1.44)–(1.46)" in (place.text_content() or "")
 
 
 # --- the documents' own lists ------------------------------------------------------------------------------------
