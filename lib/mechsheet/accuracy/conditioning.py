@@ -21,9 +21,11 @@ from mechsheet.recording.quantity import Quantity
 from mechsheet.recording.record import record
 from mechsheet.recording.slopes import slopes
 from mechsheet.run.progress import progress
+from mechsheet.worksheet import numbers
 from mechsheet.worksheet.check import Check
 from mechsheet.worksheet.lines import registry
 from mechsheet.worksheet.table import Column, Table
+from mechsheet.worksheet.terms import terms
 
 _WITHIN = 64  # roundings times the condition number that an error may be
 _QUANTILES = {"median": 0.5, "of 90 %": 0.9, "of 99 %": 0.99, "greatest": 1.0}
@@ -149,7 +151,7 @@ def _conditions(number: str, path: Path, text: bytes) -> tuple[Table, Any]:
     inputs = {name: node for name, node in recording.inputs.items() if node.value.dtype.kind == "f"}
     each = [name for name, node in inputs.items() for _ in range(node.size)]
     at = np.concatenate([np.abs(node.value).ravel() for node in inputs.values()])[:, None]
-    lines = (name for name, line in registry(names).items() if not line.arguments)
+    lines = {name: line for name, line in registry(names).items() if not line.arguments}
     results = {name: value for name in lines if isinstance(value := recording.values.get(name), Quantity)}
     motion = slopes([part for value in results.values() for part in value.parts], [*inputs.values()])
     rows, lost = list[tuple[str, float, str, float]](), list[str]()
@@ -158,7 +160,7 @@ def _conditions(number: str, path: Path, text: bytes) -> tuple[Table, Any]:
         moves = at * np.sqrt(sum(side**2 for side in steepest))
         size, k = float(np.nanmax(np.abs(names[name]))), _greatest(moves.sum(0))
         kappa = float(moves[:, k].sum() / size) if size else np.nan
-        if not kappa * EPS < 1:
+        if not kappa * EPS < 1 or numbers.is_rounding(names[name], terms(lines[name].expression, names)):
             lost.append(name)
             continue
         own, turn = np.ravel(names[name]), 2 * np.pi if name.startswith(TURNS) else None
