@@ -59,7 +59,7 @@ def meant(meaning: str) -> str:
     return "".join(named(piece) if i % 2 else escape(piece) for i, piece in enumerate(_INDEXED.split(meaning)))
 
 
-_INDEXED = re.compile(r"\b([A-Za-z]+\d*_\w+)\b(?!\.\w)")
+_INDEXED = re.compile(rf"\b({symbol.INDEXED})\b(?!\.\w)")
 
 
 def printed(number: str) -> str:

@@ -7,7 +7,7 @@ from functools import lru_cache
 import numpy as np
 
 from mechsheet.document.formula import Apply, Binary, Brackets, Function, Node, Number, Text
-from mechsheet.worksheet.symbol import GREEK, Symbol, is_field, read, stem
+from mechsheet.worksheet.symbol import GREEK, INDEXED, Symbol, is_field, read, stem
 
 FUNCTIONS = {
     "asin": "arcsin", "acos": "arccos", "atan": "arctan", "angle": "arg", "log": "ln", "maximum": "max",
@@ -76,7 +76,7 @@ def place(key: ast.expr) -> Node | None:
     return None
 
 
-_OF_QUANTITY = re.compile(r"[A-Za-z]+\d*_\w+")  # a word alone may be anything
+_OF_QUANTITY = re.compile(INDEXED)
 
 
 @lru_cache(maxsize=4096)

@@ -399,9 +399,9 @@ def _block(columns: Sequence[Column], left_out: int) -> str:
 
 def cells(column: Column) -> list[str]:
     """Texts of a column of a table."""
-    if column.power:
-        return [numbers.on_page(text) for text in column.texts()]
-    return column.texts(numbers.AXIS) if column.unit else [numbers.on_page(text) for text in column.texts()]
+    if column.unit and not column.power:
+        return column.texts(numbers.AXIS)
+    return [numbers.on_page(text) for text in column.texts()]
 
 
 def _unit(column: Column) -> str:

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mechsheet import units
+from mechsheet.document.chart import COLOURS
 from mechsheet.recording.bands import untold
 from mechsheet.recording.numbers import numbers as recomputed
 from mechsheet.recording.record import record
@@ -156,7 +157,7 @@ class Tornado(Charted):
             .encode(
                 x=alt.X("relative:Q", title=title),
                 y=alt.Y("input:N", title=None, sort=order),
-                color=alt.condition(alt.datum.relative > 0, alt.value("#3b82d0"), alt.value("#e0483c")),
+                color=alt.condition(alt.datum.relative > 0, alt.value(COLOURS[0]), alt.value(COLOURS[1])),
                 tooltip=["input:N", "meaning:N", alt.Tooltip("relative:Q", format="+.4f")],
             )
             .properties(

@@ -10,6 +10,7 @@ GREEK = {
     "phi": "φ", "chi": "χ", "psi": "ψ", "omega": "ω", "Gamma": "Γ", "Delta": "Δ", "Theta": "Θ", "Sigma": "Σ",
     "Phi": "Φ", "Psi": "Ψ", "Omega": "Ω",
 }  # fmt: skip
+INDEXED = r"[A-Za-z]+\d*_\w+"  # a name that tells itself from a word: its index stands behind an underscore
 _WORDS = "|".join(sorted(GREEK, key=len, reverse=True))
 _NAME = re.compile(rf"(d(?=[A-Z]|{_WORDS}))?({_WORDS}|[A-Za-z])_?(\w*)")
 
