@@ -1,7 +1,10 @@
 """Statements of a function in JavaScript for the nodes of a recording: names, numbers alone, loops over fields."""
 
+from bisect import insort
 from collections import Counter, defaultdict
 from collections.abc import Callable, Iterable, Iterator, Mapping
+from heapq import heapify, heappop, heappush
+from operator import itemgetter
 
 from mechsheet.html.elementwise import ELEMENTWISE, Text, array, literal, names, operation
 from mechsheet.recording.graph import Graph
@@ -67,6 +70,10 @@ class Scope:
         self._spread: dict[tuple[Node, str], str] = {}
         self._inside = set[Node]()  # which stand in the expression of another one
         self._users = defaultdict[Node, set[Node | None]](set)
+        self._place: dict[Node, int] = {}  # in the order of what is written here
+        self._missing: dict[Node, int] = {}  # how many others it still waits for
+        self._fields = list[tuple[int, Node]]()  # that wait for nothing but their loop, by their place
+        self._keys: dict[Node, Size | Node] = {}
 
     def inner(self, known: Mapping[Node, str], each: bool = False) -> "Scope":
         """A function in this one, where some nodes have other names."""
@@ -120,25 +127,44 @@ class Scope:
     def write(self, roots: Iterable[Node]) -> None:
         """Write all that these nodes need, in an order in which each loop computes as many fields as it can."""
         roots = list(roots)
-        waiting = self._needed(roots)
-        self._put_inside(waiting, set(roots))
-        waiting = [node for node in waiting if node not in self._inside]
-        for node in waiting:
-            for operand in self._operands(node):
+        needed = self._needed(roots)
+        self._put_inside(needed, set(roots))
+        self._place = {node: k for k, node in enumerate(node for node in needed if node not in self._inside)}
+        for node in self._place:
+            before = set(self._operands(node))
+            self._missing[node] = len(before - self.names.keys())
+            for operand in before:
                 self._users[operand].add(node)
         for node in roots:
             self._users[node].add(None)
-        while waiting:
-            left = []
-            for node in waiting:
-                if self._in_loop(node) or not self._ready(node):
-                    left.append(node)
-                else:
-                    own = node.op in ELEMENTWISE
-                    self.names[node] = self.bind(
-                        self._operation(node).text if own else self.program.rules[node.op](self, node)
-                    )
-            waiting = self._without_loop(left) if len(left) == len(waiting) else left
+        turns = [(0, k, node) for node, k in self._place.items() if not self._missing[node]]
+        while turns or self._fields:
+            while turns:
+                turn, k, node = heappop(turns)
+                if self._in_loop(node):
+                    insort(self._fields, (k, node), key=itemgetter(0))
+                    continue
+                text = self._operation(node).text if node.op in ELEMENTWISE else self.program.rules[node.op](self, node)
+                self.names[node] = self.bind(text)
+                for later in self._released(node):
+                    heappush(turns, (turn + (self._place[later] < k), self._place[later], later))
+            if self._fields:
+                turns = [(0, self._place[node], node) for node in self._loop()]
+                heapify(turns)
+        left = [node for node, missing in self._missing.items() if missing]
+        if left:
+            place = f"line {left[0].line}"
+            raise SheetError(f"{place}: how many values are found there is not known before: no page can follow that")
+
+    def _released(self, node: Node) -> list[Node]:
+        """What waited for nothing but this node."""
+        released = list[Node]()
+        for user in self._users[node]:
+            if user is not None:
+                self._missing[user] -= 1
+                if not self._missing[user]:
+                    released.append(user)
+        return released
 
     def _needed(self, roots: list[Node]) -> list[Node]:
         order, found = list[Node](), set(self.names)
@@ -179,8 +205,10 @@ class Scope:
 
     def _key(self, node: Node) -> "Size | Node":
         """What fields of one loop have in common: their size; where only its operands tell that, a field is alone."""
-        size = self.program.size(node)
-        return node if any(self.program.tells(node, n) for n in size) else size
+        if node not in self._keys:
+            size = self.program.size(node)
+            self._keys[node] = node if any(self.program.tells(node, n) for n in size) else size
+        return self._keys[node]
 
     def _operands(self, node: Node) -> Iterator[Node]:
         """What must be known before a node, through those in its expression."""
@@ -190,22 +218,24 @@ class Scope:
             elif operand.op != "constant":
                 yield operand
 
-    def _ready(self, node: Node, loop: Iterable[Node] = ()) -> bool:
-        return all(operand in self.names or operand in loop for operand in self._operands(node))
-
-    def _without_loop(self, waiting: list[Node]) -> list[Node]:
-        """Write the next loop; what is still waiting then."""
-        first = next((node for node in waiting if self._in_loop(node) and self._ready(node)), None)
-        if first is None:
-            place = f"line {waiting[0].line}"
-            raise SheetError(f"{place}: how many values are found there is not known before: no page can follow that")
-        key, loop = self._key(first), dict[Node, str]()
+    def _loop(self) -> list[Node]:
+        """Write the next loop; what waited for nothing else."""
+        first = self._fields[0][1]
+        key, loop, released = self._key(first), dict[Node, str](), list[Node]()
         if key is first:
+            self._fields.pop(0)
             self.names[first] = self.bind(self._alone(first))
-            return [node for node in waiting if node is not first]
-        for node in waiting:
-            if self._in_loop(node) and self._key(node) == key and self._ready(node, loop):
-                loop[node] = self.program.name()
+            return self._released(first)
+        turns = [field for field in self._fields if self._key(field[1]) == key]
+        self._fields = [field for field in self._fields if self._key(field[1]) != key]
+        while turns:
+            k, node = heappop(turns)
+            loop[node] = self.program.name()
+            for later in self._released(node):
+                if self._in_loop(later) and self._key(later) == key and self._place[later] > k:
+                    heappush(turns, (self._place[later], later))
+                else:
+                    released.append(later)
         stored = dict.fromkeys(node for node in loop if not self._users[node].issubset(loop.keys()))  # in order
         shape = self.shape(first)
         count = "*".join(shape.strip("[]").split(","))
@@ -218,7 +248,7 @@ class Scope:
         self.lines += [f"const {loop[node]}=field({count});" for node in stored]
         self.lines.append(f"(()=>{{for(let i=0;i<{count};i++){{{''.join(body)}}}}})();")
         self.names |= {node: loop[node] for node in stored}
-        return [node for node in waiting if node not in loop]
+        return released
 
     def _alone(self, node: Node) -> str:
         """A field whose shape only its operands tell."""
