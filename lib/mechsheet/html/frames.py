@@ -54,8 +54,8 @@ def _moved(
         cells |= more
         names |= {name for n in more for name in sheet.cells[n].gives}
     resting = {name: value for name, value in namespace.items() if name not in names}
-    left = {n: parts for n in cells if (parts := [p for p in shown.get(n, ()) if not page.follows(p)])}
-    drawn = any(any(showing.drawings(part)) for parts in left.values() for part in parts)
+    left = {(n, k): part for n in cells for k, part in enumerate(shown.get(n, ())) if not page.follows(part)}
+    drawn = any(any(showing.drawings(part)) for part in left.values())
     want = sorted(names - {control.name})
     found = Moved(control, _positions(control, _MOST_PICTURES if drawn else _MOST))
     if not left:
@@ -66,7 +66,7 @@ def _moved(
         at = sheet.run(want, {**resting, control.name: slider})
         for n, parts in by_cell(at, cells).items():
             for k, part in enumerate(parts):
-                if page.follows(shown[n][k]):
+                if (n, k) not in left:
                     continue
                 if isinstance(part, Mark):
                     for name, position in part.positions:

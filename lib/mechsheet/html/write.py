@@ -54,7 +54,7 @@ _CHOICES = (
     *(ast.If, ast.For, ast.While, ast.Match, ast.Try, ast.FunctionDef, ast.Lambda),
 )
 _STUDIES = ("mechsheet.accuracy.", "mechsheet.studies.")
-_MOST = 590_000  # letters of a page; one that is longer has its lists at their own length
+_MOST = 600_000  # bytes of a page; one that is larger has its lists at their own length
 # The page asks for nothing: what it shows and runs stands in it.
 _POLICY = (
     "default-src 'none'; script-src {}; style-src 'unsafe-inline'; font-src data:; base-uri 'none'; form-action 'none'"
@@ -77,7 +77,7 @@ def page(sheet: Worksheet, g: Any) -> str:
         text = _page(sheet, namespace, lists=True)
     except SheetError:  # how many values are found is not known before the list is
         text = ""
-    return text if 0 < len(text) < _MOST else _page(sheet, namespace, lists=False)
+    return text if 0 < len(text.encode()) < _MOST else _page(sheet, namespace, lists=False)
 
 
 def _page(sheet: Worksheet, namespace: dict[str, Any], lists: bool) -> str:
