@@ -43,12 +43,13 @@ def put_in(line: Formula, read: Mapping[str, Read]) -> PutIn | None:
     plain = _tree(line, read, ["plain"] * len(read))
     if plain is None:
         return None
-    others = list[_Other]()
-    for n, known in enumerate(kinds):
-        for kind in known:
-            other = _tree(line, read, ["plain"] * n + [kind] + ["plain"] * (len(read) - n - 1))
-            if other is not None:
-                others.append(_Other(n, kind, other))
+    others = [
+        _Other(n, kind, other)
+        for n, known in enumerate(kinds)
+        for kind in known
+        if kind != "plain"
+        and (other := _tree(line, read, ["plain"] * n + [kind] + ["plain"] * (len(read) - n - 1))) is not None
+    ]
     merged = _Merged()
     return PutIn(inner(merged.node(plain, others)), merged.signs)
 
