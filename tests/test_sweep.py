@@ -435,12 +435,12 @@ def test_processes_give_the_same_and_are_left_to_their_owner(serial):
         assert executor.submit(abs, -1).result() == 1
 
 
-KILL_ONCE = """if np.ndim(g.F) and np.any(g.F == 17):
+KILL_ONCE = """if np.ndim(g.F) and np.any(g.F == 5):
     mark = Path(FOLDER) / "killed"
     if not mark.exists():
         mark.touch()
         os.kill(os.getpid(), getattr(signal, "SIGKILL", signal.SIGTERM))"""
-FORCES = np.arange(1.0, 41)
+FORCES = np.arange(1.0, 41)  # 5 is none of those that are tried before
 
 
 def test_the_chunk_of_a_killed_worker_is_computed_again_by_a_new_pool(lever, tmp_path):
@@ -459,13 +459,13 @@ def test_without_a_new_pool_the_chunks_left_are_computed_here_with_a_warning(lev
 
 
 def test_a_chunk_that_kills_every_worker_ends_the_sweep(lever):
-    path = lever("if np.ndim(g.F) and np.any(g.F == 17): os.kill(os.getpid(), signal.SIGTERM)")
+    path = lever("if np.ndim(g.F) and np.any(g.F == 5): os.kill(os.getpid(), signal.SIGTERM)")
     with pytest.raises(RuntimeError, match="the executor broke 3 times without one chunk done"):
         sweep(path, ["M_S"], {"F": FORCES}, chunk=40, executor=processes)
 
 
 def test_a_worksheet_that_changes_during_the_sweep_is_noticed(lever):
-    path = lever("if np.ndim(g.F) and np.any(g.F == 17): Path(FOLDER, 'lever.py').write_text('changed')")
+    path = lever("if np.ndim(g.F) and np.any(g.F == 5): Path(FOLDER, 'lever.py').write_text('changed')")
     with pytest.raises(RuntimeError, match="has changed during the sweep"):
         sweep(path, ["M_S"], {"F": FORCES}, chunk=4)
 
@@ -485,7 +485,7 @@ class Interrupted(Executor):
 
 
 def test_an_interrupt_here_ends_the_sweep(lever):
-    path = lever("if np.ndim(g.F) and np.any(g.F == 17): raise KeyboardInterrupt")
+    path = lever("if np.ndim(g.F) and np.any(g.F == 5): raise KeyboardInterrupt")
     with pytest.raises(KeyboardInterrupt):
         sweep(path, ["M_S"], {"F": FORCES}, chunk=4)
 

@@ -8,13 +8,13 @@ tells what a statement has changed in place, under whatever name. A drawing is r
 in `showing` it, and a text with numbers in it as it is `written`.
 
 `numbers` reads a recording for other inputs; in the `evaluation` of a worksheet as a function, what is asked for again
-is `planned`, a `plan` being such numbers as one function. `dimensions` checks units, by the rules of `dimension_rules`;
-`pinpoint` finds where in the worksheet a part is written; `slopes` are derivatives of quantities by others, by the
-rules of `slope_rules`; `gradients` have all of one number in one pass backwards, `bends` are second ones along
-directions. `bands` tell how far quantities are off within tolerances, `banded` what of a run has them, and `enclosed`
-guarantees bounds by balls. `proof` tells how many digits of a worksheet's numbers are right, by its quantities in
-`balls` under the `ball_rules`, and by a `lone_root` of its equations. What is found is `searched` by cells of a
-workbook, or `stepped` to by equations `derived` there; a closed form is `confirmed` by the equations with it `replaced`
-in them, whose `terms` tell what is nothing. The `largest` of what a check puts together is found row by row. Stands on
-the worksheet room and those below.
+is `planned`, a `plan` being such numbers as one function, `variants` many at once. `dimensions` checks units, by the
+rules of `dimension_rules`; `pinpoint` finds where in the worksheet a part is written; `slopes` are derivatives of
+quantities by others, by the rules of `slope_rules`; `gradients` have all of one number in one pass backwards, `bends`
+are second ones along directions. `bands` tell how far quantities are off within tolerances, `banded` what of a run has
+them, and `enclosed` guarantees bounds by balls. `proof` tells how many digits of a worksheet's numbers are right, by
+its quantities in `balls` under the `ball_rules`, and by a `lone_root` of its equations. What is found is `searched` by
+cells of a workbook, or `stepped` to by equations `derived` there; a closed form is `confirmed` by the equations with it
+`replaced` in them, whose `terms` tell what is nothing. The `largest` of what a check puts together is found row by row.
+Stands on the worksheet room and those below.
 """

@@ -2,6 +2,7 @@
 
 import dis
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from types import CodeType, FunctionType, ModuleType
 from typing import Any
 
@@ -9,7 +10,7 @@ import numpy as np
 
 from mechsheet.recording.node import Node, bottom_up
 from mechsheet.recording.plan import REFUSED, NotPlanned, plan
-from mechsheet.recording.quantity import Quantity
+from mechsheet.recording.quantity import Quantity, lift
 from mechsheet.recording.record import record
 from mechsheet.units import Constant
 from mechsheet.worksheet import inputs
@@ -22,31 +23,63 @@ _SHARED = ("LOAD_GLOBAL", "LOAD_NAME")
 _READING |= {"open", "input", "exec", "eval", "compile", "globals", "vars", "setattr", "__import__"}
 
 
-def planned(only: Worksheet, want: Sequence[str], g: Any) -> Callable[[Any], dict[str, Any] | None]:
-    """What gives the wanted results of a worksheet whose cells are all needed for them, from its inputs.
+@dataclass(frozen=True)
+class Results:
+    """Wanted results of a worksheet in the recording of one run.
 
-    None where only the worksheet itself can tell, which may refuse the inputs, or have no number. Raises NotPlanned
-    where it could never do other.
+    ``inputs`` by their names; ``roots`` are the names in the worksheet, by what is wanted of them, ``parts`` their
+    quantities and ``own`` the values of that run. The worksheet has the same for other inputs while all of ``same``
+    hold and all of ``exist`` are numbers; ``found`` are the values that a Find of it gives.
+    """
+
+    inputs: Mapping[str, Node]
+    roots: Mapping[str, str]
+    parts: Mapping[str, Sequence[Node]]
+    own: Mapping[str, Any]
+    same: Sequence[Node]
+    exist: Sequence[Node]
+    found: Sequence[Node]
+
+    @property
+    def wanted(self) -> list[Node]:
+        """All quantities that are wanted."""
+        return [part for parts in self.parts.values() for part in parts]
+
+
+def results(only: Worksheet, want: Sequence[str], g: Any) -> Results:
+    """The recording of a worksheet whose cells are all needed for what is wanted of it.
+
+    Raises NotPlanned where the worksheet may give something else at each run, or where something is not recorded.
     """
     if foreign := next(_foreign(only), None):
         raise NotPlanned(f"{foreign} may give something else at each run")
     own = only.run(want, {"g": g})
     recording = record(own, only, whole=True, every=1, bodies=True)
     roots = {name: base(name) for name in want}
-    wanted = dict[str, list[Node]]()
+    parts = dict[str, Sequence[Node]]()
     for root in roots.values():
-        quantity = recording.values.get(root)
-        if not isinstance(quantity, Quantity):
+        known = recording.values.get(root)
+        if not isinstance(known, Quantity) and np.asarray(known).dtype.kind not in "biufc":
             raise NotPlanned(f"{root} is no recorded number")
-        wanted[root] = [*quantity.parts]
+        parts[root] = [*lift(recording.graph, known).parts]
     seen = [guard.holds for guards in recording.looked.values() for guard in guards]
-    known = (q for q in recording.values.values() if isinstance(q, Quantity))
-    under = bottom_up([part for quantity in known for part in quantity.parts], set())
+    followed = (q for q in recording.values.values() if isinstance(q, Quantity))
+    under = bottom_up([part for quantity in followed for part in quantity.parts], set())
     exist = [node for node in under if node.shape == () and node.op in _PARTIAL]
-    parts = [part for each in wanted.values() for part in each]
-    leaves = [*recording.inputs.values()]
-    compute = plan(leaves, parts, [*seen, *recording.guards], exist)
-    names = [*recording.inputs]
+    found = [solved.node for solved in recording.found.values()]
+    own = {root: own[root] for root in parts}
+    return Results(recording.inputs, roots, parts, own, [*seen, *recording.guards], exist, found)
+
+
+def planned(only: Worksheet, want: Sequence[str], g: Any) -> Callable[[Any], dict[str, Any] | None]:
+    """What gives the wanted results of a worksheet whose cells are all needed for them, from its inputs.
+
+    None where only the worksheet itself can tell, which may refuse the inputs, or have no number. Raises NotPlanned
+    where it could never do other.
+    """
+    of = results(only, want, g)
+    names, leaves = [*of.inputs], [*of.inputs.values()]
+    compute = plan(leaves, of.wanted, of.same, of.exist)
     singles = [node.shape == () for node in leaves]
 
     def again(g: Any) -> dict[str, Any] | None:
@@ -59,12 +92,12 @@ def planned(only: Worksheet, want: Sequence[str], g: Any) -> Callable[[Any], dic
         except REFUSED:
             return None
         space = dict[str, Any]()
-        for root, nodes in wanted.items():
+        for root, nodes in of.parts.items():
             each = [next(found) for _ in nodes]
             if not all(map(_finite, each)):
                 return None
-            space[root] = _like(own[root], each)
-        return {name: value(name, space) for name in roots}
+            space[root] = _like(of.own[root], each)
+        return {name: value(name, space) for name in of.roots}
 
     return again
 

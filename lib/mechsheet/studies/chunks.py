@@ -6,10 +6,10 @@ from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, wait
 from contextlib import contextmanager, nullcontext
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from types import FunctionType
-from typing import Any
+from typing import TYPE_CHECKING, Any
 from weakref import ref
 
 import numpy as np
@@ -23,7 +23,12 @@ from mechsheet.worksheet.lines import registry
 from mechsheet.worksheet.lists import Rows
 from mechsheet.worksheet.verdict import Verdict, values_only
 
+if TYPE_CHECKING:
+    from mechsheet.recording.variants import Known
+
 _AHEAD = 256  # chunks handed to an executor and not yet taken back: bounds the memory of results that wait
+_WAYS = 8  # recordings that are kept
+_ALIKE = 1e-9  # of the greatest value: a variant among others and alone differ by rounding
 _BREAKS = 3  # times that an executor may break in a row without one chunk done
 
 
@@ -40,8 +45,9 @@ class Part:
 class Job:
     """What is done with each chunk, wherever: ``columns`` are inputs in SI, of shape (variants, 1) if they vary.
 
-    The variants of a chunk are run at once, or one by one as single numbers. Of one alone ``numbers`` are the results
-    that are numbers, such as a mean over the positions, which among others has no axis of positions left.
+    The variants of a chunk are run at once, or one by one as single numbers. Then what recordings of a few of them know
+    is computed by these: ``recorded`` has for each the values of the inputs that vary. Of one alone ``numbers`` are the
+    results that are numbers, such as a mean over the positions, which among others has no axis of positions left.
     """
 
     path: str
@@ -49,8 +55,11 @@ class Job:
     want: tuple[str, ...]
     at_once: bool
     numbers: frozenset[str] = frozenset()
+    recorded: tuple[tuple[float, ...], ...] = ()
 
     def results(self, columns: Mapping[str, Any]) -> Part:
+        if self.recorded:
+            return self._by_recording(columns)
         if not self.at_once:
             return _joined([self._tried(one) for one in one_by_one(columns)])
         return self._tried(columns)
@@ -93,6 +102,50 @@ class Job:
             if _count(columns) == 1 or self._in_common(columns):
                 return Part({}, np.ones(_count(columns), dtype=bool), {})
             return _joined([self._tried(half) for half in _halves(columns)])
+
+    def _by_recording(self, columns: Mapping[str, Any]) -> Part:
+        """What recordings of a few variants know of these; those that none knows run alone."""
+        names, left = varied(columns), np.arange(_count(columns))
+        parts, order = list[Part](), list[NDArray[np.intp]]()
+        for values in self.recorded:
+            if left.size and (way := self.way(values, columns)):
+                part, known = way.results({name: columns[name][left, 0] for name in names})
+                parts.append(part)
+                order.append(left[known])
+                left = left[~known]
+        joined = _joined([*parts, *map(self._tried, one_by_one(_rows(columns, left)))])
+        back = np.argsort(np.concatenate([*order, left]))
+        return Part({name: x[back] for name, x in joined.values.items()}, joined.lacking[back], joined.units)
+
+    def way(self, values: tuple[float, ...], columns: Mapping[str, Any]) -> "Way | None":
+        """How the recording of the variant with these values computes others; None of one that has no results.
+
+        Raises NotPlanned or NotRecorded where it cannot.
+        """
+        fixed = tuple((name, repr(x)) for name, x in columns.items() if not np.ndim(x))
+        key = self.path, self.digest, self.want, varied(columns), fixed, values
+        if key not in _ways:
+            while len(_ways) >= _WAYS:
+                _ways.pop(next(iter(_ways)), None)
+            _ways[key] = self._way({**columns, **dict(zip(varied(columns), values, strict=True))}, varied(columns))
+        return _ways.get(key)
+
+    def _way(self, one: Mapping[str, Any], names: Sequence[str]) -> "Way | None":
+        from mechsheet.recording.plan import NotPlanned  # on use: most worksheets take arrays of variants
+        from mechsheet.recording.variants import variants  # likewise
+
+        alone = self._tried(one)
+        if alone.lacking[0]:
+            return None
+        sheet = self._sheet()
+        only = replace(sheet, cells=tuple(sheet.needed(map(base, self.want), ["g"])))
+        g: Any = inputs.instance(sheet.inputs, one)
+        with values_only():
+            way = Way(variants(only, self.want, g, names), alone.units, _has_one_row(g))
+        again, known = way.results({name: np.array([one[name]]) for name in names})
+        if not known[0] or not all(alike(alone.values[name], again.values[name]) for name in self.want):
+            raise NotPlanned("its own numbers are others")
+        return way
 
     @np.errstate(all="ignore")
     def _reasons(self, columns: Mapping[str, Any]) -> NDArray[np.object_]:
@@ -144,6 +197,31 @@ class Job:
         except ValueError:
             return g.read.isdisjoint(varied(columns))
         return False
+
+
+@dataclass(frozen=True)
+class Way:
+    """How the recording of one variant computes others, and what of its run holds for these."""
+
+    again: "Callable[[Mapping[str, NDArray[np.float64]]], Known]"
+    units: dict[str, str]
+    one_row: bool
+
+    def results(self, given: Mapping[str, NDArray[np.float64]]) -> tuple[Part, NDArray[np.bool_]]:
+        """Results of those variants that are known, and which these are."""
+        count = len(next(iter(given.values())))
+        try:
+            values, known = self.again(given)
+        except ValueError:  # of one of them, as of a Find with no interval
+            if count == 1:
+                return Part({}, np.zeros(0, dtype=bool), {}), np.zeros(1, dtype=bool)
+            halves = [self.results(half) for half in _halves(given)]
+            return _joined([part for part, _ in halves]), np.concatenate([known for _, known in halves])
+        results = {name: _of_each(x[known], self.one_row) for name, x in values.items()}
+        return Part(results, np.zeros(known.sum(), dtype=bool), self.units), known
+
+
+_ways: dict[Any, Way | None] = {}
 
 
 class _Read:
@@ -226,8 +304,12 @@ def _count(columns: Mapping[str, Any]) -> int:
 
 def _halves(columns: Mapping[str, Any]) -> Iterator[dict[str, Any]]:
     middle = _count(columns) // 2
-    for part in (slice(middle), slice(middle, None)):
-        yield {name: v[part] if np.ndim(v) else v for name, v in columns.items()}
+    yield _rows(columns, slice(middle))
+    yield _rows(columns, slice(middle, None))
+
+
+def _rows(columns: Mapping[str, Any], which: Any) -> dict[str, Any]:
+    return {name: v[which] if np.ndim(v) else v for name, v in columns.items()}
 
 
 def one_by_one(columns: Mapping[str, Any]) -> Iterator[dict[str, Any]]:
@@ -274,11 +356,15 @@ def _result(name: str, value: Any, among: int | None, one_row: bool = False) -> 
     found: NDArray[Any] = np.asarray(value)
     found = found.astype(complex if found.dtype.kind == "c" else float, copy=False)
     if among is None:
-        return found.reshape(1) if found.shape == (1,) and not one_row else found[None]
+        return _of_each(found[None], one_row)
     if not _fits(found, among):
         raise TypeError(f"{name} of shape {found.shape} has no axis of {among} variants")
     rows = _by_variant(found, among)
     return rows[:, 0] if found.ndim == 0 or found.shape[1:] == (1,) else rows
+
+
+def _of_each(values: NDArray[Any], one_row: bool) -> NDArray[Any]:
+    return values[:, 0] if values.shape[1:] == (1,) and not one_row else values
 
 
 def _has_one_row(g: Any) -> bool:
@@ -302,6 +388,13 @@ def _lacking(value: NDArray[Any]) -> NDArray[np.bool_]:
     if np.isfinite(value.sum()):  # a fifth of the time of looking at every element
         return np.zeros(len(value), dtype=bool)
     return np.asarray(np.isnan(value).reshape(len(value), -1).any(1), dtype=bool)
+
+
+def alike(a: NDArray[Any], b: NDArray[Any]) -> bool:
+    """Whether all variants have the same but for rounding."""
+    own = tuple(range(1, a.ndim))
+    size = np.max(np.abs(a), axis=own, keepdims=True, initial=0.0, where=np.isfinite(a))
+    return a.shape == b.shape and np.allclose(b, a, rtol=0, atol=_ALIKE * size, equal_nan=True)
 
 
 def same_shape(name: str, a: NDArray[Any], b: NDArray[Any]) -> None:

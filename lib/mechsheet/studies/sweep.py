@@ -3,10 +3,11 @@
 Variants stand on a leading axis, positions on the last one, so that a cell computes a thousand variants as it computes
 one. They are taken in chunks that stay in the processor's cache: memory is what the results need and no more. Those
 that lack a value are run once more, among themselves, for the reason. A worksheet whose lines mix the variants, such as
-by a mean over everything, is found out before and run for one variant after the other.
+by a mean over everything, is found out before: then many of them are computed by the recording of one, and those that
+it does not know, one after the other.
 """
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from concurrent.futures import Executor
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -17,7 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from mechsheet import units
 from mechsheet.run.progress import on_terminal
-from mechsheet.studies.chunks import Job, Part, computed, digest, one_by_one, same_shape, varied
+from mechsheet.studies.chunks import Job, Part, alike, computed, digest, one_by_one, same_shape, varied
 from mechsheet.worksheet import inputs
 from mechsheet.worksheet.cells import asked, load, split
 from mechsheet.worksheet.errors import SheetError, as_given
@@ -27,10 +28,11 @@ if TYPE_CHECKING:
     import pandas as pd
 
 _CHUNK = 1000  # variants: their fields of some tens of positions fit a processor's cache, see tests/benchmarks
+_RECORDINGS = 4  # variants that are recorded at most
+_PAYS = 100  # variants that take as long alone as a recording and its check, and more
 _ONE_BY_ONE = 50  # variants of a chunk that are run one by one
 _PROBES = 32  # variants tried alone until two of them are solved
 _SPREAD = np.argsort([int(f"{i:05b}"[::-1], 2) for i in range(_PROBES)])  # first, middle, quarters..
-_ALIKE = 1e-9  # of the greatest value: a variant among others and alone differ by rounding
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,7 +55,8 @@ class Sweep:
     units : dict of str to str
         Display units of the inputs given and of the results.
     at_once : bool
-        Whether the worksheet takes arrays of variants; otherwise they were run one by one, which takes longer.
+        Whether the worksheet takes arrays of variants, or its recording does; otherwise they were run one by one,
+        which takes longer.
     """
 
     shape: tuple[int, ...]
@@ -179,7 +182,8 @@ def sweep(
     job = Job(sheet.path, digest(sheet.path), want, at_once=True)
     together = _together(job, given, rows)
     if together is None:
-        job, chunk = replace(job, at_once=False), min(chunk, _ONE_BY_ONE)
+        job = _recorded(replace(job, at_once=False), given, rows)
+        chunk = chunk if job.recorded else min(chunk, _ONE_BY_ONE)
     else:
         job = together
 
@@ -211,7 +215,7 @@ def sweep(
         inputs=given.shown,
         reasons=reasons.reshape(given.shape),
         units={**{name: declared.get(name, "-") for name in want}, **given.units},
-        at_once=job.at_once,
+        at_once=job.at_once or bool(job.recorded),
         _values={name: v.reshape((*given.shape, *v.shape[1:])) for name, v in values.items()},
     )
 
@@ -225,12 +229,13 @@ def _together(job: Job, given: inputs.Variants, rows: NDArray[np.intp]) -> Job |
     key = job, names
     if not names or not rows.size:
         return job
-    if key in _taking_arrays:
+    if key in _taking_arrays and rows.size < _CHUNK:  # with more it takes little to look at these
         return _taking_arrays[key]
+    probes = rows[np.linspace(0, len(rows) - 1, _PROBES).astype(int)]
     tried: dict[int, Part | None] = {}
-    for row in dict.fromkeys(np.linspace(0, len(rows) - 1, _PROBES).astype(int)[_SPREAD].tolist()):
+    for row in dict.fromkeys(probes[_SPREAD].tolist()):
         try:
-            tried[row] = job.run(next(one_by_one(given.at(rows[[row]]))))
+            tried[row] = job.run(next(one_by_one(given.at(np.array([row])))))
         except ValueError:
             tried[row] = None
         if sum(part is not None and not part.lacking[0] for part in tried.values()) == 2:
@@ -242,20 +247,58 @@ def _together(job: Job, given: inputs.Variants, rows: NDArray[np.intp]) -> Job |
     all_at_once = replace(job, numbers=frozenset(numbers))
     together = [*ran] if len(ran) > 1 else [*tried]
     try:
-        among = all_at_once.run(given.at(rows[together]))
+        among = all_at_once.run(given.at(np.array(together)))
+        if not _apart(all_at_once, given, np.unique([*probes, *_outermost(given, rows)])):
+            return None
     except Exception:  # whatever a line does that cannot take an array
         return None
     for i, row in enumerate(together):
         alone = tried[row]
-        if alone and not all(_alike(alone.values[name][0], among.values[name][i]) for name in job.want):
+        if alone and not all(alike(alone.values[name], among.values[name][[i]]) for name in job.want):
             return None
     _taking_arrays[key] = all_at_once
     return all_at_once
 
 
-def _alike(a: NDArray[Any], b: NDArray[Any]) -> bool:
-    size = np.max(np.abs(a), initial=0.0, where=np.isfinite(a))
-    return a.shape == b.shape and np.allclose(a, b, rtol=0, atol=_ALIKE * size, equal_nan=True)
+def _outermost(given: inputs.Variants, rows: NDArray[np.intp]) -> Iterator[int]:
+    """The variants with the two least and the two greatest numbers of each input: there lines go other ways."""
+    for x in given.at(rows).values():
+        if np.ndim(x) and x.dtype.kind in "iuf":
+            yield from rows[np.argpartition(x[:, 0], [0, 1, -2, -1])[[0, 1, -2, -1]]] if len(rows) > 1 else rows
+
+
+def _apart(job: Job, given: inputs.Variants, rows: NDArray[np.intp]) -> bool:
+    """Whether variants have the same results among others as among half of these, for two ways to part them."""
+    whole, places = job.results(given.at(rows)), np.arange(len(rows))
+    for k in range(min(2, (len(rows) - 1).bit_length())):
+        for half in (places[places >> k & 1 == 0], places[places >> k & 1 == 1]):
+            among = job.results(given.at(rows[half]))
+            same = all(alike(x, whole.values[name][half]) for name, x in among.values.items())
+            if not same or not np.array_equal(whole.lacking[half], among.lacking):
+                return False
+    return True
+
+
+def _recorded(job: Job, given: inputs.Variants, rows: NDArray[np.intp]) -> Job:
+    """The job by the recordings of some variants that know others, as many as pay for themselves."""
+    from mechsheet.recording.graph import NotRecorded  # on use: most worksheets take arrays of variants
+    from mechsheet.recording.plan import NotPlanned  # likewise
+
+    most = min(_RECORDINGS, rows.size // _PAYS)
+    few = given.at(rows[np.linspace(0, len(rows) - 1, _PROBES).astype(int)[_SPREAD]])
+    names, known, ways = varied(few), np.zeros(_PROBES, dtype=bool), list[tuple[float, ...]]()
+    for k in range(_PROBES if all(few[name].dtype.kind == "f" for name in names) else 0):
+        if len(ways) == most:
+            break
+        values = tuple(few[name][k, 0].item() for name in names)
+        try:
+            way = None if known[k] else job.way(values, few)
+        except (NotPlanned, NotRecorded):
+            break
+        if way:
+            known |= way.results({name: few[name][:, 0] for name in names})[1]
+            ways.append(values)
+    return replace(job, recorded=tuple(ways))
 
 
 def _split(rows: NDArray[np.intp], chunk: int) -> list[NDArray[np.intp]]:
