@@ -4,6 +4,7 @@ import ast
 from collections.abc import Iterable, Mapping, Sequence
 from copy import copy
 from dataclasses import fields
+from functools import partial
 from itertools import chain
 from pathlib import Path
 from types import CodeType, FunctionType
@@ -270,7 +271,14 @@ class _Run(OfPositions):
                 self.names[name] = showing.slid(self.recording, name, own) if graph.draws else own
             self.looked[name] = tuple(rests.values())
             self.hold(name, rests.values())
-        stage.finish(lambda x: self.while_same(x, shown.values()))
+        each = [
+            {guard.holds: guard for name in sorted(self.read(names)) for guard in self.looked.get(name, ())}
+            | graph.looked
+            for names in facts.columns
+        ]
+        stage.finish(
+            lambda x: self.while_same(x, shown.values()), [partial(self.while_same, rests=own.values()) for own in each]
+        )
 
     def decide(self, stage: Stage, names: Iterable[str]) -> None:
         """Let what a cell gives and shows rest on what Python saw for statements that bind nothing, and may end it."""
@@ -336,7 +344,8 @@ class _Run(OfPositions):
             if not (isinstance(reason, Unrepeatable) and reason in self.lost.values()):  # what rests on that is known
                 public = tuple(name for name in touched if not name.startswith("_"))
                 self.recording.gaps.append(Gap(public, graph.line, str(reason)))
-            self.recording.guards |= {guard.holds: guard for guard in guards}
+            for guard in guards:
+                self.note(guard)
         known = [name for name in touched if name in final and name in self.namespace]
         if isinstance(reason, Unrepeatable):
             self.passing |= {n: stage.kept(self.namespace[n], rests_on) for n in known if n in self.lines}
@@ -383,10 +392,15 @@ class _Run(OfPositions):
                 if guard.lengths:
                     x = sized(x, guard.holds)
                 else:
-                    self.recording.guards[guard.holds] = guard
+                    self.note(guard)
                     self.graph.work = 0  # what guards a statement's numbers is none of its own operations
                     x = where(self.graph, Quantity(self.graph, guard.holds), x, np.nan)
         return x
+
+    def note(self, guard: Guard) -> None:
+        """Note a guard, at the first line that saw the same."""
+        known = self.recording.guards.get(guard.holds, guard)
+        self.recording.guards[guard.holds] = known if known._replace(line=guard.line) == guard else guard
 
     def read(self, loaded: Iterable[str]) -> frozenset[str]:
         """Names that a statement reads, and those that the functions of the worksheet read which it names."""

@@ -3,6 +3,7 @@
 from collections.abc import Callable, Mapping, Sequence
 from copy import copy
 from dataclasses import fields, is_dataclass, replace
+from itertools import repeat
 from typing import Any, TypeVar
 
 import numpy as np
@@ -166,8 +167,10 @@ class Stage:
         self.shown_now.clear()
         self.solved_now.clear()
 
-    def finish(self, f: Callable[[Quantity], Quantity]) -> None:
-        """End the present statement, with a function of every quantity that it has shown."""
+    def finish(
+        self, f: Callable[[Quantity], Quantity], of_columns: Sequence[Callable[[Quantity], Quantity]] = ()
+    ) -> None:
+        """End the present statement, with a function of every quantity that it has shown, of columns one for each."""
 
         def of(node: Node) -> Node:
             return f(Quantity(self.graph, node)).re
@@ -175,7 +178,8 @@ class Stage:
         recording = self.recording
         for place, key in self.shown_now:
             if place is recording.tables:
-                columns = [None if c is None else f(c) for c in recording.tables[key]]
+                each = of_columns if len(of_columns) == len(recording.tables[key]) else repeat(f)
+                columns = [None if c is None else own(c) for c, own in zip(recording.tables[key], each, strict=False)]
                 recording.tables[key] = tuple(None if c is None or c.re.op == "constant" else c for c in columns)
             elif place is recording.checks:
                 check = recording.checks[key]
