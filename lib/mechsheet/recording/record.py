@@ -31,7 +31,7 @@ from mechsheet.recording.written import Said, Written
 from mechsheet.units import Constant
 from mechsheet.worksheet.cells import Cell, Worksheet, load
 from mechsheet.worksheet.drawing import Drawing
-from mechsheet.worksheet.lines import Formula, registry
+from mechsheet.worksheet.lines import Formula, of_setup, registry
 from mechsheet.worksheet.table import Table
 from mechsheet.worksheet.title import Mark, Slider
 
@@ -110,6 +110,7 @@ class _Run(OfPositions):
         self.lost: dict[str, NotRecorded] = {}  # names that have no value here, and why
         self.passing: dict[str, Any] = {}  # of these, lines whose numbers are others at the next run
         self.want, self.lines = want, lines
+        self.constants = of_setup(sheet)  # its lines that end in a unit
         for line in sheet.setup:
             self.set_up(line, sheet.path)
         self.needed = sheet.needed(want, {"g": g})
@@ -304,7 +305,7 @@ class _Run(OfPositions):
         numbers = any(type(value) is float or _is_array(value) for value in map(self.names.get, touched))
         made = numbers and any(has_quantity(self.names.get(name)) for name in reads)
         for name in touched:
-            value, line = self.names.get(name), self.lines.get(name)
+            value, line = self.names.get(name), self.lines.get(name) or self.constants.get(name)
             if isinstance(value, Constant) or value is units:
                 self.names[name] = instead(value)
                 continue
@@ -318,7 +319,8 @@ class _Run(OfPositions):
     def set_up(self, line: ast.stmt, path: str) -> None:
         """Run a statement of the setup again where it computes with units or declares one; else its numbers stay."""
         facts = statement.facts(line, path)
-        measured = "units" in facts.loaded or not self.lines.keys().isdisjoint(facts.touched)
+        declared = self.lines.keys() | self.constants.keys()
+        measured = "units" in facts.loaded or not declared.isdisjoint(facts.touched)
         if measured or any(has_quantity(self.names.get(name)) for name in self.read(facts.loaded)):
             try:
                 exec(facts.code, self.names)
