@@ -10,12 +10,14 @@ import numpy as np
 from mechsheet.recording import polynomial_rules
 from mechsheet.recording.arithmetic import absolute, angle, choice, conjugate, rounded, trunc
 from mechsheet.recording.array_rules import (
+    blocks,
     cross,
     digitized,
     interpolated,
     least_squares,
     order,
     ordered,
+    place_of,
     polynomial_fit,
     searched,
     summed,
@@ -333,7 +335,8 @@ _OF_FUNCTIONS: dict[Any, Callable[..., Any]] = {
     np.append: lambda graph, x, y, axis=None: _joined(np.concatenate)(
         graph, [lift(graph, p).reshape(-1) if axis is None else p for p in (x, y)], axis=axis or 0
     ),
-    **{f: _joined(f) for f in (np.concatenate, np.stack, np.vstack, np.hstack, np.dstack, np.column_stack, np.block)},
+    **{f: _joined(f) for f in (np.concatenate, np.stack, np.vstack, np.hstack, np.dstack, np.column_stack)},
+    np.block: blocks, np.unravel_index: place_of,
     **{f: _seen(f) for f in (np.argwhere, np.nonzero, np.flatnonzero, np.unique, np.isin)},
     **{f: _rearranged(f) for f in (
         np.ravel, np.reshape, np.transpose, np.squeeze, np.expand_dims, np.moveaxis, np.swapaxes, np.roll, np.flip,
