@@ -7,7 +7,9 @@ import pytest
 from own_worksheet import ELSEWHERE, own, recorded, value_of
 
 from mechsheet import evaluate
+from mechsheet.recording.dimensions import dimensions
 from mechsheet.recording.slopes import slopes
+from mechsheet.worksheet.lines import registry
 
 ROOT = "from scipy.optimize import brentq, bisect\n"
 LINE = "from scipy.interpolate import interp1d\n"
@@ -45,6 +47,7 @@ def test_it_is_followed(lines: str, tmp_path: Path) -> None:
     sheet = own(tmp_path, f"{lines}\nresult = np.atleast_1d(y) * 1  # [-] line")
     _, recording = recorded(sheet)
     assert not recording.gaps and not [guard for guard in recording.guards.values() if not guard.rows]
+    assert bool(recording.found) is lines.startswith(ROOT), "a workbook searches what is found"
     for given in ELSEWHERE:
         own_value = evaluate(sheet.path, ["result"], **given)["result"]
         np.testing.assert_allclose(value_of(recording, "result", given), own_value, rtol=1e-11, err_msg=str(given))
@@ -64,3 +67,15 @@ def test_a_root_has_the_slopes_of_its_equation(tmp_path: Path) -> None:
     v = node.value[0]
     for side in slopes([node], [recording.inputs["F"]])[node]:
         np.testing.assert_allclose(side.ravel(), 1 / (3 * v**2 + 0.75), rtol=1e-13)
+
+
+def test_a_root_has_the_unit_of_its_interval(tmp_path: Path) -> None:
+    """What the solver itself put into the function has any unit."""
+    lines = (
+        "from scipy.optimize import brentq\na = 2.0  # [m] arm\nb = 9.0  # [m] end\n"
+        "part = brentq(lambda v: np.arcsin(v / b) - a / b, a - a, b) / b  # [UNIT] part"
+    )
+    for unit, passed in (("-", True), ("N", False)):
+        sheet = own(tmp_path, lines.replace("UNIT", unit))
+        names, recording = recorded(sheet)
+        assert dimensions(recording, sheet, names, registry({**names, "__file__": sheet.path})).check().passed is passed

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from mechsheet import units
 from mechsheet.recording import solving
 from mechsheet.recording.graph import Graph, NotRecorded, current
 from mechsheet.recording.quantity import Quantity, has_quantity, lift
@@ -18,8 +19,11 @@ _TABLES = frozenset({"interp1d", "RegularGridInterpolator"})
 
 
 @cache
-def root(f: Callable[..., Any]) -> Callable[..., Any] | None:
-    """What takes the place of a function of scipy that finds a root between two ends; None for any other function."""
+def root(f: Callable[..., Any], note: Callable[[solving.Solving], Any]) -> Callable[..., Any] | None:
+    """What takes the place of a function of scipy that finds a root between two ends; None for any other function.
+
+    What is solved is given to ``note``.
+    """
     if f.__name__ not in _ROOTS:
         return None
 
@@ -27,19 +31,23 @@ def root(f: Callable[..., Any]) -> Callable[..., Any] | None:
         graph, more = current.get(), args if isinstance(args, tuple) else (args,)
         if options.keys() - {"xtol", "rtol", "maxiter"}:
             raise NotRecorded(f"scipy's {f.__name__}")
+        sharp = {"xtol": 1e-300, "rtol": 4 * np.finfo(float).eps, "maxiter": 2000}  # as it will be solved again
+        ends = [float(lift(graph, end).re.value) for end in (a, b)]
         looked, work = dict(graph.looked), graph.work
-        value = f(
-            lambda x: float(lift(graph, g(x, *more)).re.value),
-            *(float(lift(graph, end).re.value) for end in (a, b)),
-            **options,
-        )
+
+        def at(x: float) -> float:
+            place = Quantity(graph, graph.constant(x, units.UNKNOWN))
+            return float(lift(graph, g(place, *more)).re.value)
+
+        value = f(at, *ends, **sharp)
         graph.looked, graph.work = looked, work  # where it looked on the way there is of no use to others
         number = sum(key[0] == "found" for key in graph.nodes)
         words = SimpleNamespace(unknown=f"root {number + 1}", quantity="f(x)", unit="-", unknown_unit="-")
         found: Any = SimpleNamespace(words=words, _value=value)
-        return solving.one(
-            graph, found, lambda x: g(x, *more), {"lo": a, "hi": b, "guess": None}, 0.0, None, None
-        ).value
+        given = {"lo": a, "hi": b, "guess": None}
+        solved = solving.one(graph, found, lambda x: g(x, *more), given, 0.0, None, None)
+        note(solved)
+        return solved.value
 
     return function
 

@@ -48,6 +48,7 @@ class Stage:
             "figure": self.figure,
             "sought": self.sought,
             "solve": self.solve,
+            "rooted": self.rooted,
             "closed_form": self.closed_form,
             "judged": self.judged,
             "check_slope": self.check_slope,
@@ -82,6 +83,14 @@ class Stage:
     ) -> solving.Solving:
         found = self._own(Solution, lambda own: list(own.words.names) == list(unknowns) and own.least is least)
         return self._solved(found, solving.several(self.graph, found, f, equals, unknowns))
+
+    def rooted(self, new: solving.Solving) -> None:
+        """Note a root that another package has found, of which the worksheet has no verdict."""
+        self.solved += new.solved
+        for solved in new.solved:
+            self.shown_now.append((self.recording.found, solved.words.unknown))
+            self.recording.found[solved.words.unknown] = solved
+            self.solved_now.append(solved)
 
     def _own(self, kind: type[V], meant: Callable[[V], bool]) -> V:
         """The verdict of the worksheet's own run; the next one that is meant is another."""

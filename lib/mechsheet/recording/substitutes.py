@@ -89,7 +89,7 @@ def instead(value: Any) -> Any:
     if scipy_rules.is_table(value):
         return scipy_rules.table(value)
     if isinstance(value, FunctionType) and room.startswith("scipy."):
-        return scipy_rules.root(value) or _of_scipy(value)
+        return scipy_rules.root(value, _on_stage("rooted")) or _of_scipy(value)
     return value
 
 
