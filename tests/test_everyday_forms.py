@@ -1,4 +1,5 @@
-"""Forms of Python in which engineers write a choice: standard sizes, rows of a table, elements set in loops by cases.
+"""Forms of Python in which engineers write a choice: standard sizes, rows of a table, elements set in loops by cases,
+and of those that meet a condition.
 
 All are followed for other inputs, without a guard: the next size of a list, the law that was chosen, a matrix filled.
 """
@@ -9,8 +10,10 @@ from typing import Any
 import numpy as np
 import pytest
 from own_worksheet import ELSEWHERE, own, recorded, value_of
+from test_recalculation import edit
 
 from mechsheet import evaluate
+from mechsheet.run import report
 from mechsheet.worksheet import cells
 
 SIZES = "D = np.array([6.0, 8, 10, 12, 16, 20])\n"
@@ -77,17 +80,35 @@ SET = [
     ),
     "d = {'x': 2.0}\nif g.F > 3:\n    d['x'] = g.a\ny = d['x'] * 2",
 ]
+SELECTED = [
+    "y = x[x > 0.6 * g.F].min() * len(x[x > g.F])",
+    "y = np.max(x[x < g.F]) + max(x[x < g.F]) + sum(x[x < g.F])",
+    "y = x[x > g.F].sum() + np.mean(x[x > g.F / 2] ** 2) ** 0.5",
+    "y = x[x > 3].max(initial=0.0) + x[x > 3].sum(initial=g.a) + np.any(x[x > g.a] > 3)",
+    "i = np.flatnonzero(x > g.F / 2)\ny = x[i[0]] + g.a * i[-1] + (x**2)[i][1] + x[i].sum()",
+    "i = np.flatnonzero(x > 50)\ny = x[i[0]] if len(i) else -1.0",
+    "i = np.where(x > g.F)[0]\nif i.size > 0:\n    y = x[i[0]]\nelse:\n    y = g.a",
+    "sel = x > g.F / 2\nz = x[sel] ** 2 / x[sel].max()\ny = np.ptp(z) + z[0]",
+    "z = np.exp(1j * x)[~(x > g.F) & (x > g.a / 9)]\ny = z[0] + z.sum() * z[-1]",
+    "i = np.nonzero(np.diff(np.sign(x - g.F)))[0]\ny = x[i[0]] + (g.F - x[i[0]]) * g.a / (x[i[0] + 1] - x[i[0]])",
+    SIZES + "b = D * np.array([1.0, 2, 3, 4, 5, 6])\ny = b[D >= 3 * g.F][0] * D[D >= 3 * g.F].min()",
+    "y = x[x > g.a][x[x > g.a] < 3].max() + np.extract(x > g.a, x)[0]",
+    "v = np.where(x > g.F, np.nan, x)\ny = np.nanmax(v[x > g.a / 9]) + np.isnan(v[x > 1]).sum()",
+]
 GUARDED = [  # where other inputs change what there is
     "d = {}\nif g.F > 3:\n    d['x'] = g.a\ny = len(d) + g.F",
     "v = np.array([g.F, g.a])\nif v[0] > 3:\n    v[0] = 3.0\n    v[1] = v[0]\ny = v * 2",
     "v = np.zeros(2)\nw = v\nif g.F > 3:\n    v[0] = g.a\ny = w + v + g.F",
     "row = [1.0, 2.0] if g.F > 3 else [g.a]\ny = len(row) * g.F",
+    "y = np.cumsum(x[x > g.F])[-1]",
+    "y = np.zeros(len(x[x > g.F])) + x[x > g.F] + g.a",
+    "y = x[x > g.F][1:].sum() + g.a",
     "row = {'R': g.F, 'n': 'x'} if g.F > 3 else {'R': 2.0, 'n': 'yy'}\ny = row['R'] * len(row['n'])",
 ]
 
 
 @pytest.mark.filterwarnings("ignore")
-@pytest.mark.parametrize("lines", [*KEPT, *CHOSEN, *SET, *GUARDED])
+@pytest.mark.parametrize("lines", [*KEPT, *CHOSEN, *SET, *SELECTED, *GUARDED])
 def test_an_everyday_form_is_followed(lines: str, tmp_path: Path) -> None:
     sheet = own(tmp_path, f"{lines}\nresult = np.atleast_1d(y) * 1  # [-] line")
     _, recording = recorded(sheet)
@@ -98,6 +119,28 @@ def test_an_everyday_form_is_followed(lines: str, tmp_path: Path) -> None:
         value = value_of(recording, "result", given)
         if not (told and np.isnan(value).all()):
             np.testing.assert_allclose(value, own_value, rtol=1e-12, err_msg=str(given))
+
+
+@pytest.mark.office
+def test_cells_select_as_the_worksheet_does(recalculated_all: Any, tmp_path: Path) -> None:
+    """What nothing is left for has no number."""
+    lines = [f"{line}\nr_{k} = abs(y) * 1  # [-] line" for k, line in enumerate(SELECTED)]
+    lines += [f"every = np.array([{', '.join(f'r_{k}' for k in range(len(SELECTED)))}])  # [-] all"]
+    lines += ['last = x[x > g.a * g.F].max()  # [-] greatest\ntable_2 = table("2", "All", every, last)']
+    sheet = own(tmp_path, "\n".join(lines))
+    names = sheet.run(sheet.results, {"g": sheet.inputs()})
+    book = tmp_path / "own.xlsx"
+    book.write_bytes(report.workbook("Own", {**names, "__file__": sheet.path}, {}))
+    changes: list[dict[str, Any]] = [{"F": 4.0, "a": 0.9}, {"a": 0.2}, {"a": 2.5}]
+    edited = [edit(book, given, tmp_path / f"changed{n}.xlsx") for n, given in enumerate(changes)]
+    for given, changed in zip(changes, recalculated_all(edited), strict=True):
+        rows = [*changed["2 All"].iter_rows(min_row=5, values_only=True)]
+        if given["a"] > 2:
+            assert rows[0][1] == "#N/A"
+            continue
+        expected = evaluate(sheet.path, ["every", "last"], **given)
+        np.testing.assert_allclose([row[0] for row in rows], expected["every"], rtol=1e-12)
+        assert rows[0][1] == pytest.approx(expected["last"], rel=1e-12)
 
 
 TABLES: dict[str, Any] = {

@@ -17,6 +17,7 @@ from mechsheet.recording.memory import Memory, may_change, names_of
 from mechsheet.recording.node import Loop, Node
 from mechsheet.recording.options import parted
 from mechsheet.recording.quantity import Quantity, has_quantity, is_any_length, lift
+from mechsheet.recording.selected import Selected
 from mechsheet.recording.sketch import Sketch
 from mechsheet.recording.sketch import merged as merged_sketch
 from mechsheet.recording.written import Written, either, text
@@ -363,11 +364,16 @@ def handled(error: BaseException) -> None:
     raise NotRecorded(f"it handles an error ({error!r})")
 
 
+def _is_whole(values: Any) -> bool:
+    """Whether there is no telling how many numbers these are for other inputs."""
+    return isinstance(values, Selected) or is_any_length(values)
+
+
 def _extreme(name: str) -> Callable[..., Any]:
     fold = {"max": np.maximum, "min": np.minimum}[name]
 
     def function(*args: Any, **kwargs: Any) -> Any:
-        if len(args) == 1 and not kwargs and is_any_length(args[0]):
+        if len(args) == 1 and not kwargs and _is_whole(args[0]):
             return args[0].reduced(name)
         values = list(args[0]) if len(args) == 1 and isinstance(args[0], Iterable) else list(args)
         if kwargs or not has_quantity(values):
@@ -382,7 +388,7 @@ def _extreme(name: str) -> Callable[..., Any]:
 
 def total(values: Any, start: Any = 0) -> Any:
     """Python's sum."""
-    return values.reduced("sum") + start if is_any_length(values) else sum(values, start)
+    return values.reduced("sum") + start if _is_whole(values) else sum(values, start)
 
 
 CALLS: dict[str, Any] = {

@@ -45,7 +45,7 @@ class Memory:
         while waiting:
             value = waiting.pop()
             if isinstance(value, Quantity):
-                self.nodes.extend(value.parts)
+                self.nodes.extend(value.nodes)
             elif not (isinstance(value, _LEAVES) or id(value) in self.held or _foreign(value, own)):
                 value = owner(value)
                 parts = _parts(value)

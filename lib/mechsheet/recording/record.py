@@ -23,6 +23,7 @@ from mechsheet.recording.memory import Memory, changes, names_of
 from mechsheet.recording.node import Node, conditions
 from mechsheet.recording.positions import OfPositions
 from mechsheet.recording.quantity import Quantity, has_quantity, is_literal, lift
+from mechsheet.recording.selected import Selected
 from mechsheet.recording.sketch import Drawn, Sketch
 from mechsheet.recording.stage import Stage, held, shown
 from mechsheet.recording.substitutes import BUILTINS, Module, instead, shared, staged
@@ -272,6 +273,8 @@ class _Run(OfPositions):
                 self.names[name] = showing.slid(self.recording, name, own) if graph.draws else own
             self.looked[name] = tuple(rests.values())
             self.hold(name, rests.values())
+            if isinstance(value := self.names.get(name), Selected) and name in self.lines:  # which shows those now
+                self.note(Guard(value.same, graph.line))
         each = [
             {guard.holds: guard for name in sorted(self.read(names)) for guard in self.looked.get(name, ())}
             | graph.looked
@@ -294,7 +297,9 @@ class _Run(OfPositions):
     def hold(self, name: str, guards: Iterable[Guard]) -> None:
         """Let the number of a name be none unless Python sees the same."""
         value = self.names.get(name)
-        if isinstance(value, Quantity) and value.dtype != bool and any(p.op != "constant" for p in value.parts):
+        if isinstance(value, Selected):
+            self.names[name] = Selected(self.while_same(value.of, guards), value.holds)
+        elif isinstance(value, Quantity) and value.dtype != bool and any(p.op != "constant" for p in value.parts):
             self.names[name] = self.while_same(value, guards)
 
     def measure(self, touched: Iterable[str], reads: frozenset[str]) -> None:
@@ -308,6 +313,7 @@ class _Run(OfPositions):
             value, line = self.names.get(name), self.lines.get(name) or self.constants.get(name)
             if isinstance(value, Constant) or value is units:
                 self.names[name] = instead(value)
+            if isinstance(value, Constant | Selected) or value is units:
                 continue
             unit = line.unit if line and not line.arguments else "-"
             number = value.re.value if isinstance(value, Quantity) and is_literal(value) else value
@@ -390,11 +396,12 @@ class _Run(OfPositions):
     def while_same(self, x: Quantity, rests: Iterable[Guard]) -> Quantity:
         """A quantity while Python sees the same, else no number."""
         for guard in rests:
+            if not guard.lengths:
+                self.note(guard)
             if any(guard.holds not in conditions(part, self.chosen) for part in x.parts):
                 if guard.lengths:
                     x = sized(x, guard.holds)
                 else:
-                    self.note(guard)
                     self.graph.work = 0  # what guards a statement's numbers is none of its own operations
                     x = where(self.graph, Quantity(self.graph, guard.holds), x, np.nan)
         return x

@@ -233,7 +233,7 @@ class Stage:
             off = np.abs(a - b)[np.isfinite(a) | np.isfinite(b)]
         if (off <= 1e-7 * size).all():
             return True
-        terms = max(made_of(part, self.recording.made_of) for part in value.parts)
+        terms = max(made_of(part, self.recording.made_of) for part in value.nodes)
         return bool((off <= 1e-7 * max(size, 1e-6 * terms)).all())
 
     def kept(self, own: Any, rests_on: Sequence[Node]) -> Any:
