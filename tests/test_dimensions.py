@@ -36,6 +36,9 @@ with app.setup:
     STRENGTH = 640 * MPa
     SIZES = {"M8": 8 * mm, "M10": 10 * mm}
     LEAST = min(SIZES.values())
+    G_N = 9.80665  # [m/s**2] gravity
+    WIRES = np.array([0.002, 0.004])  # [mm] diameters
+    SHARE = 0.5  # of the load, no unit
 @app.class_definition
 @inputs
 class Bar:
@@ -137,6 +140,10 @@ RIGHT = {
     "a unit of the module": ["k = 640 * units.MPa / g.S  # [-] reserve", "d = 3 * units.inch + g.D"],
     "a unit by another name": ["from mechsheet.units import kN as force", "x = 2 * force + g.F  # [N] x"],
     "constants of the setup": ["k = STRENGTH / g.S  # [-] reserve", "x = SIZES['M10'] + g.D  # [m] x", "y = LEAST + x"],
+    "what a line of the setup declares of a number": [
+        "G = G_N * g.W * SHARE  # [N] weight",
+        "x = WIRES + g.D  # [mm] x",
+    ],
     "temperature": ["dT = celsius(120) - celsius(20) + 5 * degC  # [K] rise", "q = dT / (1 * degC)  # [-] q"],
     "positions with a unit": ["x = linspace(0 * m, 2 * m, 5)", "T = g.F * x  # [N*m] moment", "y = x + g.L  # [m] y"],
     "positions in a declared unit": ["x = linspace(0, 2, 5)  # [m] x", "T = g.F * x  # [N*m] moment"],
@@ -166,6 +173,8 @@ WRONG = {
     "logarithm": (["a = log(g.L)"], 1, "log(g.L): log of a quantity in m"),
     "constant": (["k = 640 * MPa / g.F  # [-] k"], 1, "k: unit [-] does not fit; the value is in 1/m²"),
     "constant of the setup": (["k = STRENGTH + g.F  # [Pa] k"], 1, "STRENGTH + g.F: adds Pa and N"),
+    "declared in the setup": (["G = G_N * g.L  # [N] weight"], 1, "G: unit [N] does not fit; the value is in m²/s²"),
+    "array declared in the setup": (["x = WIRES + g.F  # [N] x"], 1, "WIRES + g.F: adds m and N"),
     "sum of constants": (["k = 3 * mm + 2 * N"], 1, "3 * mm + 2 * N: adds m and N"),
     "a number that should have a unit": (
         ["k = 640e6 / g.S  # [-] reserve", "q = k + 1  # [-] q"],

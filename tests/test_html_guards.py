@@ -13,7 +13,7 @@ from mechsheet.worksheet.errors import SheetError
 
 MASK = """y = x**2  # [-] squares
 big = y[y > 5.0]  # [-] some of them
-s = big.sum()  # [-] rests on them
+s = np.diff(big).sum()  # [-] rests on them
 z = y.sum() + len("ab" if g.a < 1 else "a")  # [-] rests on a
 v = 2.0 * g.F  # [-] rests on neither
 table_2 = table("2", "Some", big)

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
+import test_everyday_forms
 import test_recorded_worksheet
 import test_rows_followed
 from in_browser import evaluated
@@ -41,6 +42,11 @@ def test_a_line_is_computed(expression: str, blank: Page, tmp_path: Path) -> Non
 def test_a_line_is_computed_for_any_number_of_rows(expression: str, blank: Page, tmp_path: Path) -> None:
     sheet = own(tmp_path, f"y = {expression}  # [-] line\nresult = y * 1  # [-] line")
     assert_computed(blank, sheet, [*ELSEWHERE, {"n": 2}, {"n": 12, "a": 0.4}])
+
+
+@pytest.mark.parametrize("lines", test_everyday_forms.SELECTED)
+def test_what_meets_a_condition_is_selected(lines: str, blank: Page, tmp_path: Path) -> None:
+    assert_computed(blank, own(tmp_path, f"{lines}\nresult = y * 1  # [-] line"), ELSEWHERE)
 
 
 LOOPS = {

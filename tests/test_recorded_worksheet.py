@@ -211,7 +211,6 @@ def test_what_stands_behind_an_integral_over_all_positions_is_recorded_too(tmp_p
 
 def test_what_grows_over_all_positions_is_recorded_where_tables_list_some(tmp_path: Path) -> None:
     lines = """from scipy.integrate import cumulative_trapezoid
-from mechsheet import table
 W = cumulative_trapezoid(x**2, x, initial=0)  # [-] work so far
 off = W - (W.max() + W.min()) / 2  # [-] from its middle
 table_2 = table("2", "Work", x, off, every=2)"""
@@ -656,7 +655,7 @@ check_2 = check("greatest", np.max(y), 9.0)
 
 
 CHECKS = """
-from mechsheet import assembled, check, closed_form, find
+from mechsheet import assembled, check, closed_form
 xs = linspace(2.05, 6.05, 9)  # [m] distance
 C = rrr(0j, xs, g.F, 3.0, +1)  # [m] pin
 found = find(lambda x: x**2, 0.0, 9.0, equals=g.F, unknown="x_0")

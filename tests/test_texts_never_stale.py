@@ -185,3 +185,17 @@ def test_a_position_that_is_marked_rests_on_what_was_seen(tmp_path: Path) -> Non
     at = recording.positions["F"]
     there = [float(numbers([at], {recording.inputs["F"]: F})[at]) for F in (2.75, 4.0)]
     np.testing.assert_equal(there, [2.75, np.nan])
+
+
+def test_a_column_rests_on_what_was_seen_for_it_alone(tmp_path: Path) -> None:
+    """Beside one that holds for the exported inputs alone the others follow; a title is that of all."""
+    lines = (
+        "from scipy.optimize import minimize_scalar\nwide = np.linspace(0.0, g.F, 3)  # [-] follows\n"
+        "least = minimize_scalar(lambda v: (v - g.F) ** 2)\nfar = wide * least.x  # [-] does not\n"
+        "table_2 = table('2', 'Beside', wide, far)\ntable_3 = table('3', f'Least {least.x}', wide)"
+    )
+    _, recording = recorded(own(tmp_path, lines))
+    columns = [column for number in "23" for column in recording.tables[number] if column is not None]
+    known = numbers([column.re for column in columns], {recording.inputs["F"]: 3.25})
+    numbered = [bool(np.isfinite(known[column.re]).all()) for column in columns]
+    assert numbered == [True, False, False]

@@ -322,6 +322,20 @@ def test_a_name_that_two_cells_define_is_refused_with_both_places(tmp_path):
         load(path)
 
 
+def test_a_name_of_the_setup_that_a_cell_defines_is_refused_as_the_page_does(tmp_path):
+    """A unit that is imported, a constant, a class: the page would not open, so a script does not run either."""
+    path = tmp_path / "sheet.py"
+    setup = "with app.setup:\n    from mechsheet.units import N\n    a = 1\n\n@app.function\ndef f():\n    return 1\n"
+    for line, name in (("N = 2", "N"), ("a = 2", "a"), ("f = 2", "f")):
+        path.write_text(cells("b = 1", line).replace("@app.cell", f"{setup}\n@app.cell", 1))
+        with pytest.raises(SheetError, match=rf"^sheet\.py, lines \d+ and \d+: {name} is of the setup"):
+            load(path)
+    path.write_text(
+        cells("b = a", "def g():\n    a = 2\n    _a = a\n    return a").replace("@app.cell", f"{setup}\n@app.cell", 1)
+    )
+    load(path)
+
+
 def test_a_cell_that_the_editor_keeps_as_a_text_is_refused(tmp_path):
     path = tmp_path / "sheet.py"
     unread = 'app._unparsable_cell(\n    r"""\n    L = 2 g.F\n    """,\n    name="_"\n)\n'

@@ -132,7 +132,9 @@ def _reason(recording: Recording, scope: Scope, node: Node) -> tuple[str, str] |
     if node.op == "sized":
         return scope.text(node.args[1]), f"line {node.line}: {_COUNTED}"
     if _is_guarded(recording, node):
-        return scope.text(node.args[0]), otherwise(recording.guards[node.args[0]].line)
+        line = recording.guards[node.args[0]].line
+        gap = next((gap.reason for gap in recording.gaps if gap.line == line), "")
+        return scope.text(node.args[0]), f"line {line}: {gap}" if gap else otherwise(line)
     return None
 
 

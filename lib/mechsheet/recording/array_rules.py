@@ -1,6 +1,7 @@
 """Fits by least squares, orders, places in them and products of arrays, by rules that run on recorded quantities."""
 
 import string
+from collections.abc import Iterator
 from functools import reduce
 from operator import mul
 from typing import Any
@@ -9,7 +10,7 @@ import numpy as np
 
 from mechsheet.recording.arithmetic import choice
 from mechsheet.recording.graph import Graph, NotRecorded
-from mechsheet.recording.quantity import Quantity, is_any_length, lift, moved
+from mechsheet.recording.quantity import Quantity, is_any_length, joined, lift, moved
 
 SORTED = 64  # so many numbers are put in order by comparisons; the order of more is that of the present ones
 _MOST = 8  # unknowns of a fit
@@ -215,3 +216,38 @@ def ordered(graph: Graph, x: Any, axis: Any = -1) -> Any:
             low, high = parts[k], parts[k + 1]
             parts[k], parts[k + 1] = np.minimum(low, high), np.maximum(low, high)
     return moved(lift(graph, parts), 0, axis)
+
+
+def blocks(graph: Graph, arrays: Any) -> Any:
+    """numpy's block: parts of the innermost lists beside each other, those of the lists around under each other."""
+
+    def leaves(part: Any, depth: int) -> Iterator[tuple[Quantity, int]]:
+        if isinstance(part, list):
+            for inner in part:
+                yield from leaves(inner, depth + 1)
+        else:
+            yield lift(graph, part), depth
+
+    found = list(leaves(arrays, 0))
+    deep = max(depth for _, depth in found)
+    axes = max(deep, *(part.ndim for part, _ in found))
+
+    def put(part: Any, axis: int) -> Quantity:
+        if isinstance(part, list):
+            return joined([put(inner, axis + 1) for inner in part], np.concatenate, axis=axis)
+        whole = lift(graph, part)
+        return whole[(None,) * (axes - whole.ndim)] if whole.ndim < axes else whole
+
+    return put(arrays, -deep)
+
+
+def place_of(graph: Graph, place: Any, shape: Any, order: str = "C") -> tuple[Any, ...]:
+    """numpy's unravel_index: the places along each axis of one among all elements."""
+    if order != "C":
+        raise NotRecorded("unravel_index in the order of columns")
+    places = list[Any]()
+    left = lift(graph, place)
+    for size in reversed(shape if isinstance(shape, tuple | list) else (shape,)):
+        places.append(left % size)
+        left = left // size
+    return tuple(reversed(places))

@@ -2,9 +2,8 @@
 
 import builtins
 import operator
-import weakref
 from collections.abc import Callable, Iterable, Mapping
-from functools import reduce
+from functools import partial, reduce
 from itertools import repeat
 from types import FunctionType
 from typing import Any
@@ -16,8 +15,11 @@ from mechsheet.recording.arithmetic import elementwise, imaginary, trunc
 from mechsheet.recording.graph import Graph, Guard, NotRecorded, current
 from mechsheet.recording.memory import Memory, may_change, names_of
 from mechsheet.recording.node import Loop, Node
-from mechsheet.recording.quantity import Quantity, has_quantity, is_any_length, joined, lift, owner, plain, quantities
-from mechsheet.recording.sketch import Sketch, merged
+from mechsheet.recording.options import parted
+from mechsheet.recording.quantity import Quantity, has_quantity, is_any_length, lift
+from mechsheet.recording.selected import Selected
+from mechsheet.recording.sketch import Sketch
+from mechsheet.recording.sketch import merged as merged_sketch
 from mechsheet.recording.written import Written, either, text
 from mechsheet.worksheet.drawing import COLOURS
 from mechsheet.worksheet.kinds import Chosen, cases
@@ -34,7 +36,7 @@ class _Unbound:
 UNBOUND = _Unbound()
 
 
-def _condition(value: Any) -> bool:
+def is_condition(value: Any) -> bool:
     """Whether a single recorded condition or number."""
     return isinstance(value, Quantity) and value.single and value.im is None and value.re.op != "constant"
 
@@ -44,17 +46,22 @@ def choice(condition: Any, x: FunctionType, y: FunctionType, *given: Any) -> Any
 
     The way that is not taken is run too, where it changes nothing; it need not exist with these numbers.
     """
-    if not _condition(condition):
-        return (x if condition else y)(*given)
+    return _chosen(condition, x, y, *given)
+
+
+def _chosen(condition: Any, x: Callable[..., Any], y: Callable[..., Any], *given: Any, **named: Any) -> Any:
+    if not is_condition(condition):
+        return (x if condition else y)(*given, **named)
     graph, (now, later) = condition.graph, (x, y) if condition.value else (y, x)
-    before = Memory([*_reached(now), *_reached(later), *given], now.__globals__)
-    value, both = now(*given), None
+    own = next((f.__globals__ for f in (now, later) if isinstance(f, FunctionType)), {})
+    before = Memory([*_reached(now), *_reached(later), *given, *named.values()], own)
+    value, both = now(*given, **named), None
     looked = dict(graph.looked)
-    if graph.supposed < _DEEPEST and not before.changed() and not _may_change(later):
+    if graph.supposed < _DEEPEST and not before.changed() and not way_may_change(later):
         graph.supposed += 1
         try:
-            other = later(*given)
-            both = _merged(condition, *((value, other) if condition.value else (other, value)))
+            other = later(*given, **named)
+            both = merged(condition, *((value, other) if condition.value else (other, value)))
         except (Exception, NotRecorded):
             both = None
         finally:
@@ -68,23 +75,36 @@ def choice(condition: Any, x: FunctionType, y: FunctionType, *given: Any) -> Any
     return both
 
 
-def _merged(condition: Quantity, x: Any, y: Any) -> Any:
+def merged(condition: Quantity, x: Any, y: Any) -> Any:
     """``x`` where the condition holds, else ``y``; None where these are not of one kind."""
     if x is y:
         return x
     if (x if condition.value else y) is UNBOUND:
         return UNBOUND
     x, y = _missing(y) if x is UNBOUND else x, _missing(x) if y is UNBOUND else y
-    if isinstance(x, tuple) and type(x) is type(y) is tuple and len(x) == len(y):
-        parts = [_merged(condition, a, b) for a, b in zip(x, y, strict=True)]
-        return None if any(part is None for part in parts) else tuple(parts)
+    if type(x) is type(y) and isinstance(x, tuple | list) and len(x) == len(y):
+        parts = [merged(condition, a, b) for a, b in zip(x, y, strict=True)]
+        return None if any(part is None for part in parts) else _made_like(x, parts)
     if isinstance(x, Sketch) and isinstance(y, Sketch):
-        return merged(condition, x, y)
+        return merged_sketch(condition, x, y)
     if condition.graph.draws and _are_written(x, y):
         return either(condition, x, y)
     if isinstance(x, _ARRAYS) and isinstance(y, _ARRAYS) and _lengths(x) == _lengths(y):
         return where(condition.graph, condition.reshape(()), x, y)
-    return None
+    if isinstance(x, FunctionType | np.poly1d) and isinstance(y, FunctionType | np.poly1d):
+        return lambda *given, **named: _chosen(condition, x, y, *given, **named)
+    return parted(partial(_part_of, condition), x, y)
+
+
+def _part_of(condition: Quantity, x: Any, y: Any) -> Any:
+    """A part of ``x`` or else the same of ``y``: of what is no number that which is meant now."""
+    both = merged(condition, x, y)
+    return both if both is not None else x if condition else y
+
+
+def _made_like(row: tuple[Any, ...] | list[Any], parts: Iterable[Any]) -> Any:
+    """A tuple, a named one or a list of other parts."""
+    return getattr(type(row), "_make", type(row))(parts)
 
 
 def _are_written(x: Any, y: Any) -> bool:
@@ -104,17 +124,24 @@ def _missing(value: Any) -> Any:
     """What stands for a number on a way where the worksheet has none; for a text, which is of no use there, itself."""
     if isinstance(value, str | Written):
         return value
+    if isinstance(value, tuple | list):
+        return _made_like(value, map(_missing, value))
     if isinstance(value, Quantity):
         return lift(value.graph, np.nan).like(value)
     return np.full(np.shape(value), np.nan) if isinstance(value, _ARRAYS) else UNBOUND
 
 
-def _reached(f: FunctionType) -> list[Any]:
+def _reached(f: Callable[..., Any]) -> list[Any]:
     """What a function reads, but for its arguments."""
+    if not isinstance(f, FunctionType):
+        return [f]
     return [f.__closure__, *(f.__globals__.get(name) for name in names_of(f.__code__))]
 
 
-def _may_change(f: FunctionType) -> bool:
+def way_may_change(f: Callable[..., Any]) -> bool:
+    """Whether a way that is not taken may change something in place."""
+    if not isinstance(f, FunctionType):
+        return False
     inner = [c.cell_contents for c in f.__closure__ or () if isinstance(c.cell_contents, FunctionType)]
     return may_change([f.__code__, *(g.__code__ for g in inner)], f.__globals__)
 
@@ -130,7 +157,7 @@ def iterated(turn: FunctionType, items: Any, item: int | None, *state: Any) -> A
         if item is not None:
             state = (*state[:item], value, *state[item + 1 :])
         ends, *after = turn(*state)
-        if begun is None and _condition(ends):
+        if begun is None and is_condition(ends):
             begun = number, state, dict(ends.graph.looked)
         state = tuple(after)
         if ends:
@@ -173,7 +200,7 @@ def _repeated(
             state[item] = lift(graph, items)[number]
         ends, *after = turn(*state)
         made = [lift(graph, x) for x in (*after, number + 1)]
-        followed = met and not graph.looked and _condition(ends)
+        followed = met and not graph.looked and is_condition(ends)
     except (Exception, NotRecorded):
         followed = False
     finally:
@@ -254,7 +281,7 @@ def any_of(*parts: FunctionType) -> Any:
 def _all(parts: tuple[FunctionType, ...], wanted: bool) -> Any:
     value = parts[0]()
     for part in parts[1:]:
-        if _condition(value):
+        if is_condition(value):
             value = choice(value, part, _given(value)) if wanted else choice(value, _given(value), part)
         elif bool(value) is wanted:
             value = part()
@@ -268,14 +295,16 @@ def _given(value: Any) -> Any:
 
 
 def negated(value: Any) -> Any:
-    return elementwise("not")(value != 0 if value.re.value.dtype != bool else value) if _condition(value) else not value
+    return (
+        elementwise("not")(value != 0 if value.re.value.dtype != bool else value) if is_condition(value) else not value
+    )
 
 
 def matched(value: Any) -> Any:
     """A value that is compared with True and False themselves, which no quantity is."""
     if isinstance(value, tuple | list) and has_quantity(value):
         return type(value)(map(matched, value))
-    return bool(value) if _condition(value) and value.re.value.dtype == bool else value
+    return bool(value) if is_condition(value) and value.re.value.dtype == bool else value
 
 
 def element(container: Any, key: Any) -> Any:
@@ -292,65 +321,42 @@ def element(container: Any, key: Any) -> Any:
         return container[seen.item() if seen.size == 1 else seen]
     if not any(key.value == known for known in values):
         raise KeyError(key.value.item()) if isinstance(container, dict) else IndexError(f"no element {key.value}")
-    result: Any = np.nan
+    return _at_key(values, key, np.nan)
+
+
+def _at_key(values: dict[Any, Any], key: Quantity, otherwise: Any) -> Any:
+    result = otherwise
     for known, value in values.items():
         result = where(key.graph, key == known, value, result)
     return result
 
 
+def got(container: Any, key: Any, *otherwise: Any) -> Any:
+    """``container.get(key, otherwise)``, where the key may be a quantity or a chosen option."""
+    if isinstance(container, dict) and isinstance(key, Chosen):
+        is_it = cases(key)
+        return _of_option({option: container.get(option, *otherwise) for option in is_it}, key, is_it)
+    known = isinstance(container, dict) and isinstance(key, Quantity) and key.single and otherwise
+    if known and all(isinstance(v, _NUMBERS) for v in (*container, *container.values(), *otherwise)):
+        return _at_key(container, key, *otherwise)
+    return container.get(key.seen().item() if isinstance(key, Quantity) else key, *otherwise)
+
+
 def _of_option(container: dict[Any, Any], key: Chosen, is_it: dict[str, Any]) -> Any:
-    """``container[key]`` of a chosen option: numbers or tuples of them of all options, else of the one chosen now."""
+    """``container[key]`` of a chosen option: numbers, rows of them and functions of all options, else what is now."""
     rows = {option: container[option] for option in is_it if option in container}
     if any(condition.value and option not in rows for option, condition in is_it.items()):
         return container[key]
-    if all(isinstance(row, _NUMBERS) for row in rows.values()):
-        result: Any = np.nan
-        for option, value in rows.items():
-            result = where(is_it[option].graph, is_it[option], value, result)
-        return result
-    if all(isinstance(row, tuple) for row in rows.values()) and len(set(map(len, rows.values()))) == 1:
-        count = range(len(next(iter(rows.values()))))
-        return tuple(_of_option({option: row[n] for option, row in rows.items()}, key, is_it) for n in count)
-    return container[key]
-
-
-def put(array: Any, key: Any, value: Any) -> Any:
-    """The array after ``array[key] = value``."""
-    if not isinstance(array, np.ndarray | Quantity) or not has_quantity([array, key, value]):
-        array[key] = value
-        return array
-    graph = next(quantities([array, key, value])).graph
-    graph.gone.append(weakref.ref(owner(array)))
-    old, new = lift(graph, array), lift(graph, value)
-    return joined([old, new.astype(int) if old.dtype.kind in "iu" else new], _placed, plain(key))
-
-
-def _placed(old_and_new: Any, key: Any) -> Any:
-    """An array with some elements set to others."""
-    old, new = old_and_new
-    both = np.array(old, np.result_type(old, new))
-    both[key] = new
-    return both
-
-
-def changed(old: Any, operation: str, value: Any) -> Any:
-    """``old`` after ``old += value`` or another such operation."""
-    if not (isinstance(old, np.ndarray | Quantity) and old.ndim and has_quantity([old, value])):
-        return getattr(operator, f"i{operation.rstrip('_')}")(old, value)
-    graph = next(quantities([old, value])).graph
-    graph.gone.append(weakref.ref(owner(old)))
-    new = lift(graph, getattr(operator, operation)(old, value))
-    if new.extent != lift(graph, old).extent:
-        raise ValueError(f"an array of shape {lift(graph, old).extent} cannot hold one of shape {new.extent}")
-    return new
-
-
-def settled(new: Any) -> None:
-    """End the change of an array for which another one has been put: nobody else may know the old one."""
-    if isinstance(new, Quantity):
-        gone, new.graph.gone = new.graph.gone, []
-        if any(array() is not None for array in gone):
-            raise NotRecorded("an array is changed that has another name too")
+    of_some, *others = rows
+    result = rows[of_some]
+    for option in others:
+        result = merged(is_it[option], rows[option], result)
+        if result is None:
+            return container[key]
+    if len(rows) < len(is_it):  # there is no number for the others
+        holds = reduce(operator.or_, (is_it[option] for option in rows))
+        result = merged(holds, result, _missing(result))
+    return container[key] if result is None else result
 
 
 def handled(error: BaseException) -> None:
@@ -358,24 +364,16 @@ def handled(error: BaseException) -> None:
     raise NotRecorded(f"it handles an error ({error!r})")
 
 
-def part(number: Any, name: str, value: Any) -> Any:
-    """The number after ``number.real = value`` or ``number.imag = value``."""
-    if not has_quantity([number, value]):
-        setattr(number, name, value)
-        return number
-    graph = next(iter(quantities([number, value]))).graph
-    old, new = lift(graph, number), lift(graph, value)
-    if new.im is not None:
-        raise NotRecorded(f"a complex number as the {name} part of another")
-    own = graph.like(new.re, old.re)
-    return Quantity(graph, own, old.imag.re) if name == "real" else Quantity(graph, old.re, own)
+def _is_whole(values: Any) -> bool:
+    """Whether there is no telling how many numbers these are for other inputs."""
+    return isinstance(values, Selected) or is_any_length(values)
 
 
 def _extreme(name: str) -> Callable[..., Any]:
     fold = {"max": np.maximum, "min": np.minimum}[name]
 
     def function(*args: Any, **kwargs: Any) -> Any:
-        if len(args) == 1 and not kwargs and is_any_length(args[0]):
+        if len(args) == 1 and not kwargs and _is_whole(args[0]):
             return args[0].reduced(name)
         values = list(args[0]) if len(args) == 1 and isinstance(args[0], Iterable) else list(args)
         if kwargs or not has_quantity(values):
@@ -390,12 +388,12 @@ def _extreme(name: str) -> Callable[..., Any]:
 
 def total(values: Any, start: Any = 0) -> Any:
     """Python's sum."""
-    return values.reduced("sum") + start if is_any_length(values) else sum(values, start)
+    return values.reduced("sum") + start if _is_whole(values) else sum(values, start)
 
 
 CALLS: dict[str, Any] = {
-    "choice": choice, "and": both, "or": any_of, "not": negated, "matched": matched, "element": element, "put": put,
-    "part": part, "changed": changed, "settled": settled, "handled": handled,
+    "choice": choice, "and": both, "or": any_of, "not": negated, "matched": matched, "element": element, "get": got,
+    "handled": handled,
     "len": lambda x: x.count(0) if isinstance(x, Quantity) and x.ndim else len(x), "known": known,
     "iterated": iterated, "unbound": UNBOUND, "text": text,
     "max": _extreme("max"), "min": _extreme("min"), "round": round,

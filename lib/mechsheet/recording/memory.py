@@ -13,10 +13,11 @@ from types import (
     CodeType,
     FunctionType,
     GetSetDescriptorType,
+    MappingProxyType,
     MemberDescriptorType,
     ModuleType,
 )
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -25,9 +26,10 @@ from mechsheet.recording.quantity import Quantity, owner
 
 _SETS = {"STORE_SUBSCR", "STORE_ATTR", "STORE_SLICE", "DELETE_SUBSCR", "DELETE_ATTR"}
 _MAY_CHANGE = {*_SETS, "POP_TOP", "STORE_DEREF"}
+_FIELD = type(vars(NamedTuple("_Named", [("field", int)]))["field"])
 _LEAVES = (
     int, float, complex, str, bytes, np.generic, np.ufunc, ModuleType, BuiltinFunctionType, range, slice, type(None),
-    GetSetDescriptorType, MemberDescriptorType, property, staticmethod, classmethod,
+    GetSetDescriptorType, MemberDescriptorType, property, staticmethod, classmethod, _FIELD,
 )  # fmt: skip
 _UNCHANGED = (tuple, frozenset, FunctionType)  # though what they hold may change
 
@@ -43,7 +45,7 @@ class Memory:
         while waiting:
             value = waiting.pop()
             if isinstance(value, Quantity):
-                self.nodes.extend(value.parts)
+                self.nodes.extend(value.nodes)
             elif not (isinstance(value, _LEAVES) or id(value) in self.held or _foreign(value, own)):
                 value = owner(value)
                 parts = _parts(value)
@@ -85,7 +87,7 @@ def _parts(value: Any) -> list[Any] | None:
     match value:
         case list() | tuple() | deque() | set() | frozenset():
             return list(value)
-        case dict():
+        case dict() | MappingProxyType():
             return [*value, *value.values()]
         case np.ndarray():
             return (
@@ -97,7 +99,10 @@ def _parts(value: Any) -> list[Any] | None:
             return _content(value)
         case FunctionType():
             return [*(value.__closure__ or ()), *(value.__defaults__ or ()), *(value.__kwdefaults__ or {}).values()]
-    return list(vars(value).values()) if hasattr(value, "__dict__") and not hasattr(value, "__next__") else None
+    slots = getattr(type(value), "__slots__", None)
+    if hasattr(value, "__next__") or not (slots or hasattr(value, "__dict__")):
+        return None
+    return [*getattr(value, "__dict__", {}).values(), *(getattr(value, name, None) for name in slots or ())]
 
 
 def _content(cell: CellType) -> list[Any]:

@@ -10,12 +10,14 @@ import numpy as np
 from mechsheet.recording import polynomial_rules
 from mechsheet.recording.arithmetic import absolute, angle, choice, conjugate, rounded, trunc
 from mechsheet.recording.array_rules import (
+    blocks,
     cross,
     digitized,
     interpolated,
     least_squares,
     order,
     ordered,
+    place_of,
     polynomial_fit,
     searched,
     summed,
@@ -37,6 +39,7 @@ from mechsheet.recording.linear_rules import (
 )
 from mechsheet.recording.operations import REDUCE_SO_FAR
 from mechsheet.recording.quantity import FUNCTIONS, REDUCTIONS, Quantity, has_quantity, joined, lift, moved, plain
+from mechsheet.recording.selected import Selected
 from mechsheet.recording.statistics_rules import (
     average,
     correlation,
@@ -71,8 +74,10 @@ def _reduction(kind: str) -> Callable[..., Any]:
         x = lift(graph, x)
         if where is not None and where is not True:
             x = choice(graph, where, x, neutral.get(kind) if initial is None else initial)
+        if initial is not None and isinstance(x, Selected):
+            x = x.filled(kind)
         result = x.reduced(kind, axis, keepdims)
-        if kind == "max" and x.re.op == "abs" and initial == 0.0:  # the least that a magnitude is
+        if initial is not None and kind == "max" and x.re.op == "abs" and initial == 0.0:  # the least
             return result
         return result if initial is None else lift(graph, combine[kind.removeprefix("nan")](result, initial))
 
@@ -333,12 +338,13 @@ _OF_FUNCTIONS: dict[Any, Callable[..., Any]] = {
     np.append: lambda graph, x, y, axis=None: _joined(np.concatenate)(
         graph, [lift(graph, p).reshape(-1) if axis is None else p for p in (x, y)], axis=axis or 0
     ),
-    **{f: _joined(f) for f in (np.concatenate, np.stack, np.vstack, np.hstack, np.dstack, np.column_stack, np.block)},
-    **{f: _seen(f) for f in (np.argwhere, np.nonzero, np.flatnonzero, np.unique, np.isin)},
+    **{f: _joined(f) for f in (np.concatenate, np.stack, np.vstack, np.hstack, np.dstack, np.column_stack)},
+    np.block: blocks, np.unravel_index: place_of,
+    **{f: _seen(f) for f in (np.argwhere, np.unique, np.isin)},
     **{f: _rearranged(f) for f in (
         np.ravel, np.reshape, np.transpose, np.squeeze, np.expand_dims, np.moveaxis, np.swapaxes, np.roll, np.flip,
         np.fliplr, np.flipud, np.rot90, np.repeat, np.tile, np.resize, np.delete, np.split, np.array_split,
-        np.atleast_1d, np.atleast_2d, np.diagonal, np.take_along_axis, np.take, np.compress, np.extract,
+        np.atleast_1d, np.atleast_2d, np.diagonal, np.take_along_axis, np.take,
     )},
 }  # fmt: skip
 FUNCTIONS.update(_OF_FUNCTIONS)

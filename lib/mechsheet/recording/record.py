@@ -4,6 +4,7 @@ import ast
 from collections.abc import Iterable, Mapping, Sequence
 from copy import copy
 from dataclasses import fields
+from functools import partial
 from itertools import chain
 from pathlib import Path
 from types import CodeType, FunctionType
@@ -22,6 +23,7 @@ from mechsheet.recording.memory import Memory, changes, names_of
 from mechsheet.recording.node import Node, conditions
 from mechsheet.recording.positions import OfPositions
 from mechsheet.recording.quantity import Quantity, has_quantity, is_literal, lift
+from mechsheet.recording.selected import Selected
 from mechsheet.recording.sketch import Drawn, Sketch
 from mechsheet.recording.stage import Stage, held, shown
 from mechsheet.recording.substitutes import BUILTINS, Module, instead, shared, staged
@@ -30,7 +32,7 @@ from mechsheet.recording.written import Said, Written
 from mechsheet.units import Constant
 from mechsheet.worksheet.cells import Cell, Worksheet, load
 from mechsheet.worksheet.drawing import Drawing
-from mechsheet.worksheet.lines import Formula, registry
+from mechsheet.worksheet.lines import Formula, of_setup, registry
 from mechsheet.worksheet.table import Table
 from mechsheet.worksheet.title import Mark, Slider
 
@@ -109,6 +111,7 @@ class _Run(OfPositions):
         self.lost: dict[str, NotRecorded] = {}  # names that have no value here, and why
         self.passing: dict[str, Any] = {}  # of these, lines whose numbers are others at the next run
         self.want, self.lines = want, lines
+        self.constants = of_setup(sheet)  # its lines that end in a unit
         for line in sheet.setup:
             self.set_up(line, sheet.path)
         self.needed = sheet.needed(want, {"g": g})
@@ -270,7 +273,16 @@ class _Run(OfPositions):
                 self.names[name] = showing.slid(self.recording, name, own) if graph.draws else own
             self.looked[name] = tuple(rests.values())
             self.hold(name, rests.values())
-        stage.finish(lambda x: self.while_same(x, shown.values()))
+            if isinstance(value := self.names.get(name), Selected) and name in self.lines:  # which shows those now
+                self.note(Guard(value.same, graph.line))
+        each = [
+            {guard.holds: guard for name in sorted(self.read(names)) for guard in self.looked.get(name, ())}
+            | graph.looked
+            for names in facts.columns
+        ]
+        stage.finish(
+            lambda x: self.while_same(x, shown.values()), [partial(self.while_same, rests=own.values()) for own in each]
+        )
 
     def decide(self, stage: Stage, names: Iterable[str]) -> None:
         """Let what a cell gives and shows rest on what Python saw for statements that bind nothing, and may end it."""
@@ -285,7 +297,9 @@ class _Run(OfPositions):
     def hold(self, name: str, guards: Iterable[Guard]) -> None:
         """Let the number of a name be none unless Python sees the same."""
         value = self.names.get(name)
-        if isinstance(value, Quantity) and value.dtype != bool and any(p.op != "constant" for p in value.parts):
+        if isinstance(value, Selected):
+            self.names[name] = Selected(self.while_same(value.of, guards), value.holds)
+        elif isinstance(value, Quantity) and value.dtype != bool and any(p.op != "constant" for p in value.parts):
             self.names[name] = self.while_same(value, guards)
 
     def measure(self, touched: Iterable[str], reads: frozenset[str]) -> None:
@@ -296,9 +310,10 @@ class _Run(OfPositions):
         numbers = any(type(value) is float or _is_array(value) for value in map(self.names.get, touched))
         made = numbers and any(has_quantity(self.names.get(name)) for name in reads)
         for name in touched:
-            value, line = self.names.get(name), self.lines.get(name)
+            value, line = self.names.get(name), self.lines.get(name) or self.constants.get(name)
             if isinstance(value, Constant) or value is units:
                 self.names[name] = instead(value)
+            if isinstance(value, Constant | Selected) or value is units:
                 continue
             unit = line.unit if line and not line.arguments else "-"
             number = value.re.value if isinstance(value, Quantity) and is_literal(value) else value
@@ -310,7 +325,8 @@ class _Run(OfPositions):
     def set_up(self, line: ast.stmt, path: str) -> None:
         """Run a statement of the setup again where it computes with units or declares one; else its numbers stay."""
         facts = statement.facts(line, path)
-        measured = "units" in facts.loaded or not self.lines.keys().isdisjoint(facts.touched)
+        declared = self.lines.keys() | self.constants.keys()
+        measured = "units" in facts.loaded or not declared.isdisjoint(facts.touched)
         if measured or any(has_quantity(self.names.get(name)) for name in self.read(facts.loaded)):
             try:
                 exec(facts.code, self.names)
@@ -336,7 +352,8 @@ class _Run(OfPositions):
             if not (isinstance(reason, Unrepeatable) and reason in self.lost.values()):  # what rests on that is known
                 public = tuple(name for name in touched if not name.startswith("_"))
                 self.recording.gaps.append(Gap(public, graph.line, str(reason)))
-            self.recording.guards |= {guard.holds: guard for guard in guards}
+            for guard in guards:
+                self.note(guard)
         known = [name for name in touched if name in final and name in self.namespace]
         if isinstance(reason, Unrepeatable):
             self.passing |= {n: stage.kept(self.namespace[n], rests_on) for n in known if n in self.lines}
@@ -379,14 +396,20 @@ class _Run(OfPositions):
     def while_same(self, x: Quantity, rests: Iterable[Guard]) -> Quantity:
         """A quantity while Python sees the same, else no number."""
         for guard in rests:
+            if not guard.lengths:
+                self.note(guard)
             if any(guard.holds not in conditions(part, self.chosen) for part in x.parts):
                 if guard.lengths:
                     x = sized(x, guard.holds)
                 else:
-                    self.recording.guards[guard.holds] = guard
                     self.graph.work = 0  # what guards a statement's numbers is none of its own operations
                     x = where(self.graph, Quantity(self.graph, guard.holds), x, np.nan)
         return x
+
+    def note(self, guard: Guard) -> None:
+        """Note a guard, at the first line that saw the same."""
+        known = self.recording.guards.get(guard.holds, guard)
+        self.recording.guards[guard.holds] = known if known._replace(line=guard.line) == guard else guard
 
     def read(self, loaded: Iterable[str]) -> frozenset[str]:
         """Names that a statement reads, and those that the functions of the worksheet read which it names."""

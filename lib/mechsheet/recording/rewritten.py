@@ -12,16 +12,17 @@ import textwrap
 from types import CodeType, FunctionType
 from typing import Any
 
-from mechsheet.recording.choices import CALLS
+from mechsheet.recording import choices, in_place, kept
+from mechsheet.recording.forms import OF_KEPT, SCOPED, call, index, keeps, of_kept, one_by_one, set_parts, sets_beside
 from mechsheet.worksheet import source
 from mechsheet.worksheet.cells import bound
 
+CALLS = choices.CALLS | in_place.CALLS | kept.CALLS
 _NAMES = {"float", "int", "complex", "len", "max", "min", "pow", "round"}
 _KINDS = (
     *(ast.Import, ast.ImportFrom, ast.JoinedStr, ast.Subscript, ast.IfExp, ast.BoolOp, ast.Compare, ast.Match, ast.Not),
     *(ast.AugAssign, ast.If, ast.While, ast.For, ast.FunctionDef, ast.ExceptHandler),
 )
-_SCOPED = ast.NamedExpr, ast.Yield, ast.YieldFrom, ast.Await  # are not what they are inside a lambda
 
 
 class _Rewriting(ast.NodeTransformer):
@@ -29,7 +30,7 @@ class _Rewriting(ast.NodeTransformer):
         """What an import statement binds is exchanged at once."""
         names = [name for name in bound(node) if name != "*"]
         exchanged = [
-            ast.Assign([ast.Name(name, ast.Store())], _call("imported", node, ast.Name(name, ast.Load())))
+            ast.Assign([ast.Name(name, ast.Store())], call("imported", node, ast.Name(name, ast.Load())))
             for name in names
         ]
         return [node, *(ast.copy_location(line, node) for line in exchanged)]
@@ -43,9 +44,16 @@ class _Rewriting(ast.NodeTransformer):
                 node.args = [name, residual, limit, unit, ast.Constant(""), *rest]
             case ast.Call(ast.Name("Check"), _, keywords):
                 node.keywords = [keyword for keyword in keywords if keyword.arg != "reason"]
+            case ast.Call(ast.Name(name), [ast.ListComp() | ast.GeneratorExp() as some, *rest], keywords):
+                rest += [keyword.value for keyword in keywords if keyword.arg == "default" and name in ("min", "max")]
+                if name in OF_KEPT and keeps(some) and len(rest) == len(node.args) - 1 + len(keywords):
+                    return self.generic_visit(of_kept(node, OF_KEPT[name], some, *rest))
         self.generic_visit(node)
         if isinstance(node.func, ast.Name) and node.func.id in _NAMES:
             node.func = ast.copy_location(ast.Name(f"recorded {node.func.id}", ast.Load()), node.func)
+        match node:
+            case ast.Call(ast.Attribute(container, "get"), [_, *_], []):
+                return call("get", node, container, *node.args)
         return node
 
     def visit_JoinedStr(self, node: ast.JoinedStr) -> ast.AST:
@@ -53,7 +61,7 @@ class _Rewriting(ast.NodeTransformer):
         if any(isinstance(part, ast.FormattedValue) and part.conversion != -1 for part in node.values):
             self.generic_visit(node)
             return node
-        return _call("text", node, *map(self._piece, node.values))
+        return call("text", node, *map(self._piece, node.values))
 
     def _piece(self, part: ast.expr) -> ast.expr:
         if not isinstance(part, ast.FormattedValue):
@@ -62,44 +70,53 @@ class _Rewriting(ast.NodeTransformer):
         return ast.copy_location(ast.Tuple([self.visit(part.value), spec], ast.Load()), part)
 
     def visit_Subscript(self, node: ast.Subscript) -> ast.AST:
+        match node:
+            case ast.Subscript(ast.ListComp() as some, ast.Constant(0)) if keeps(some):
+                return self.generic_visit(of_kept(node, "first", some))
+            case ast.Subscript(ast.ListComp() as some, ast.UnaryOp(ast.USub(), ast.Constant(1))) if keeps(some):
+                return self.generic_visit(of_kept(node, "last", some))
         self.generic_visit(node)
         if not isinstance(node.ctx, ast.Load) or isinstance(node.slice, ast.Slice | ast.Tuple | ast.Constant):
             return node
-        return _call("element", node, node.value, node.slice)
+        return call("element", node, node.value, node.slice)
 
     def visit_IfExp(self, node: ast.IfExp) -> ast.AST:
         self.generic_visit(node)
-        if any(isinstance(n, _SCOPED) for n in ast.walk(node)):
+        if any(isinstance(n, SCOPED) for n in ast.walk(node)):
             return node
-        return _call("choice", node, node.test, _later(node.body), _later(node.orelse))
+        return call("choice", node, node.test, _later(node.body), _later(node.orelse))
 
     def visit_BoolOp(self, node: ast.BoolOp) -> ast.AST:
         self.generic_visit(node)
-        if any(isinstance(n, _SCOPED) for n in ast.walk(node)):
+        if any(isinstance(n, SCOPED) for n in ast.walk(node)):
             return node
-        return _call("and" if isinstance(node.op, ast.And) else "or", node, *map(_later, node.values))
+        return call("and" if isinstance(node.op, ast.And) else "or", node, *map(_later, node.values))
 
     def visit_Compare(self, node: ast.Compare) -> ast.AST:
         self.generic_visit(node)
         if len(node.ops) == 1:
             if isinstance(node.ops[0], ast.Is | ast.IsNot):
-                node.left = _call("matched", node, node.left)
+                node.left = call("matched", node, node.left)
             return node
         sides = [node.left, *node.comparators]
         pairs = zip(sides, node.ops, sides[1:], strict=False)
         parts = [ast.copy_location(ast.Compare(a, [op], [b]), node) for a, op, b in pairs]
-        return _call("and", node, *map(_later, parts))
+        return call("and", node, *map(_later, parts))
 
     def visit_Match(self, node: ast.Match) -> ast.AST:
         self.generic_visit(node)
-        node.subject = _call("matched", node, node.subject)
+        node.subject = call("matched", node, node.subject)
         return node
 
     def visit_UnaryOp(self, node: ast.UnaryOp) -> ast.AST:
         self.generic_visit(node)
-        return _call("not", node, node.operand) if isinstance(node.op, ast.Not) else node
+        return call("not", node, node.operand) if isinstance(node.op, ast.Not) else node
 
     def visit_Assign(self, node: ast.Assign) -> Any:
+        if sets_beside(node):
+            lines = [ast.copy_location(line, node) for line in one_by_one(node.targets, node.value)]
+            new = [self.visit(line) for line in lines]
+            return [line for one in new for line in (one if isinstance(one, tuple | list) else (one,))]
         self.generic_visit(node)
         match node.targets:
             case [ast.Subscript(ast.Name(name), key)]:
@@ -112,7 +129,7 @@ class _Rewriting(ast.NodeTransformer):
         self.generic_visit(node)
         match node.target:
             case ast.Subscript(ast.Name(name), key):
-                old = _call("element", node, ast.Name(name, ast.Load()), key)
+                old = call("element", node, ast.Name(name, ast.Load()), key)
                 return _put(node, name, key, ast.BinOp(old, node.op, node.value))
             case ast.Name(name):
                 bind, end = _bound_anew(node, name, "changed", ast.Constant(_OPERATIONS[type(node.op)]), node.value)
@@ -122,18 +139,21 @@ class _Rewriting(ast.NodeTransformer):
 
     def visit_If(self, node: ast.If) -> Any:
         """A statement whose ways only bind names gives the names the values of both ways."""
+        if parts := set_parts(node):
+            each = [ast.copy_location(ast.Assign([target], value), node) for target, value in parts]
+            return [line for one in map(self.visit, each) for line in one]
         ways = node.body, node.orelse
         if not all(_only_binds(line) for way in ways for line in way):
             self.generic_visit(node)
             return node
-        each = [{name for line in way for name in bound(line)} for way in ways]
-        names = sorted(each[0] | each[1])
+        then, otherwise = ({name for line in way for name in bound(line)} for way in ways)
+        names = sorted(then | otherwise)
         targets: list[ast.expr] = [ast.Name(name, ast.Store()) for name in names]
         result = ast.Return(ast.Tuple([ast.Name(name, ast.Load()) for name in names], ast.Load()))
         defined, chosen = _both_ways(node, [*node.body, result], [*node.orelse, result], names)
         lines = [*defined, ast.copy_location(ast.Assign([ast.Tuple(targets, ast.Store())], chosen), node)]
         lines = [self.visit(line) for line in lines]
-        for name in sorted(each[0] ^ each[1]):
+        for name in sorted(then ^ otherwise):
             lines.append(_unbound(name, node))
         return lines
 
@@ -158,13 +178,13 @@ class _Rewriting(ast.NodeTransformer):
         given = ast.arguments([], [ast.arg(name) for name in names], None, [], [], None, [])
         ways = [way for line in turn for way in _returning(line, names)]
         function = ast.copy_location(ast.FunctionDef("recorded turn", given, ways, []), node)
-        known = _call("known", node, _call_of("locals"), *map(ast.Constant, names))
+        known = call("known", node, _call_of("locals"), *map(ast.Constant, names))
         place = ast.Constant(names.index(item) if item else None)
-        call = _call(
+        ended = call(
             "iterated", node, ast.Name("recorded turn", ast.Load()), items, place, ast.Starred(known, ast.Load())
         )
         targets: list[ast.expr] = [ast.Name(name, ast.Store()) for name in names]
-        bind = ast.copy_location(ast.Assign([ast.Tuple(targets, ast.Store())], call), node)
+        bind = ast.copy_location(ast.Assign([ast.Tuple(targets, ast.Store())], ended), node)
         lines = [self.visit(function), self.visit(bind)]
         return [*lines, *(_unbound(name, node) for name in names)]
 
@@ -186,7 +206,7 @@ class _Rewriting(ast.NodeTransformer):
     def visit_ExceptHandler(self, node: ast.ExceptHandler) -> ast.AST:
         self.generic_visit(node)
         node.name = node.name or "_error"
-        node.body.insert(0, ast.Expr(_call("handled", node, ast.Name(node.name, ast.Load()))))
+        node.body.insert(0, ast.Expr(call("handled", node, ast.Name(node.name, ast.Load()))))
         return node
 
 
@@ -237,13 +257,18 @@ def _unbound(name: str, node: ast.stmt) -> ast.stmt:
 def _may_be_rewritten(part: ast.AST) -> bool:
     """Whether a part of a statement is of a kind that is rewritten, as it is in few formulas."""
     if isinstance(part, ast.Call):
-        return isinstance(part.func, ast.Name) and (part.func.id in _NAMES or part.func.id == "Check")
+        match part.func:
+            case ast.Attribute(attr="get"):
+                return True
+            case ast.Name(name):
+                return name in _NAMES or name in OF_KEPT or name == "Check"
+        return False
     return isinstance(part, _KINDS) or (isinstance(part, ast.Attribute) and isinstance(part.ctx, ast.Store))
 
 
 def _is_of_the_whole(part: ast.AST) -> bool:
     """Whether a part of a function is not what it is in a function of its own."""
-    return isinstance(part, (*_SCOPED, ast.Global, ast.Nonlocal)) or (
+    return isinstance(part, (*SCOPED, ast.Global, ast.Nonlocal)) or (
         isinstance(part, ast.Name) and part.id in ("super", "locals", "__class__")
     )
 
@@ -266,9 +291,9 @@ def _both_ways(
     for way, body in zip(ways, (then, otherwise), strict=True):
         given = ast.arguments([], [ast.arg(name) for name in names], None, [], [], None, [])
         defined.append(ast.copy_location(ast.FunctionDef(way, given, body, []), node))
-    now = _call("known", node, _call_of("locals"), *map(ast.Constant, names))
+    now = call("known", node, _call_of("locals"), *map(ast.Constant, names))
     functions = [ast.Name(way, ast.Load()) for way in ways]
-    return defined, _call("choice", node, node.test, *functions, ast.Starred(now, ast.Load()))
+    return defined, call("choice", node, node.test, *functions, ast.Starred(now, ast.Load()))
 
 
 def _call_of(name: str) -> ast.Call:
@@ -283,32 +308,19 @@ _OPERATIONS = {
 
 
 def _put(node: ast.stmt, name: str, key: ast.expr, value: ast.expr) -> tuple[ast.stmt, ast.Expr]:
-    return _bound_anew(node, name, "put", _index(key), value)
+    return _bound_anew(node, name, "put", index(key), value)
 
 
 def _bound_anew(node: ast.stmt, name: str, change: str, *args: ast.expr) -> tuple[ast.stmt, ast.Expr]:
     """A change in place as a new value of the name, of which nobody knows the old one."""
     known = ast.Name(name, ast.Load())
-    bind = ast.Assign([ast.Name(name, ast.Store())], _call(change, node, known, *args))
-    return ast.copy_location(bind, node), ast.copy_location(ast.Expr(_call("settled", node, known)), node)
-
-
-def _index(key: ast.expr) -> ast.expr:
-    """An index as a value: slices are calls of ``slice`` outside of brackets."""
-    if isinstance(key, ast.Slice):
-        ends = [end or ast.Constant(None) for end in (key.lower, key.upper, key.step)]
-        return ast.Call(ast.Name("slice", ast.Load()), ends, [])
-    return ast.Tuple([_index(k) for k in key.elts], ast.Load()) if isinstance(key, ast.Tuple) else key
+    bind = ast.Assign([ast.Name(name, ast.Store())], call(change, node, known, *args))
+    return ast.copy_location(bind, node), ast.copy_location(ast.Expr(call("settled", node, known)), node)
 
 
 def _later(value: ast.expr) -> ast.expr:
     nothing = ast.arguments([], [], None, [], [], None, [])
     return ast.copy_location(ast.Lambda(nothing, value), value)
-
-
-def _call(name: str, at: ast.AST, *args: ast.expr) -> ast.Call:
-    call = ast.Call(ast.Name(f"recorded {name}", ast.Load()), list(args), [])
-    return ast.copy_location(call, at)
 
 
 def compiled(statement: ast.stmt, path: str) -> CodeType:

@@ -3,6 +3,7 @@
 from collections.abc import Callable, Mapping, Sequence
 from copy import copy
 from dataclasses import fields, is_dataclass, replace
+from itertools import repeat
 from typing import Any, TypeVar
 
 import numpy as np
@@ -47,6 +48,7 @@ class Stage:
             "figure": self.figure,
             "sought": self.sought,
             "solve": self.solve,
+            "rooted": self.rooted,
             "closed_form": self.closed_form,
             "judged": self.judged,
             "check_slope": self.check_slope,
@@ -81,6 +83,14 @@ class Stage:
     ) -> solving.Solving:
         found = self._own(Solution, lambda own: list(own.words.names) == list(unknowns) and own.least is least)
         return self._solved(found, solving.several(self.graph, found, f, equals, unknowns))
+
+    def rooted(self, new: solving.Solving) -> None:
+        """Note a root that another package has found, of which the worksheet has no verdict."""
+        self.solved += new.solved
+        for solved in new.solved:
+            self.shown_now.append((self.recording.found, solved.words.unknown))
+            self.recording.found[solved.words.unknown] = solved
+            self.solved_now.append(solved)
 
     def _own(self, kind: type[V], meant: Callable[[V], bool]) -> V:
         """The verdict of the worksheet's own run; the next one that is meant is another."""
@@ -166,8 +176,10 @@ class Stage:
         self.shown_now.clear()
         self.solved_now.clear()
 
-    def finish(self, f: Callable[[Quantity], Quantity]) -> None:
-        """End the present statement, with a function of every quantity that it has shown."""
+    def finish(
+        self, f: Callable[[Quantity], Quantity], of_columns: Sequence[Callable[[Quantity], Quantity]] = ()
+    ) -> None:
+        """End the present statement, with a function of every quantity that it has shown, of columns one for each."""
 
         def of(node: Node) -> Node:
             return f(Quantity(self.graph, node)).re
@@ -175,7 +187,8 @@ class Stage:
         recording = self.recording
         for place, key in self.shown_now:
             if place is recording.tables:
-                columns = [None if c is None else f(c) for c in recording.tables[key]]
+                each = of_columns if len(of_columns) == len(recording.tables[key]) else repeat(f)
+                columns = [None if c is None else own(c) for c, own in zip(recording.tables[key], each, strict=False)]
                 recording.tables[key] = tuple(None if c is None or c.re.op == "constant" else c for c in columns)
             elif place is recording.checks:
                 check = recording.checks[key]
@@ -220,7 +233,7 @@ class Stage:
             off = np.abs(a - b)[np.isfinite(a) | np.isfinite(b)]
         if (off <= 1e-7 * size).all():
             return True
-        terms = max(made_of(part, self.recording.made_of) for part in value.parts)
+        terms = max(made_of(part, self.recording.made_of) for part in value.nodes)
         return bool((off <= 1e-7 * max(size, 1e-6 * terms)).all())
 
     def kept(self, own: Any, rests_on: Sequence[Node]) -> Any:

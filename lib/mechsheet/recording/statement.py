@@ -36,6 +36,7 @@ class Statement(NamedTuple):
     heard: frozenset[str]  # of these what it takes for more than the units and the reasons of what it shows
     parts: frozenset[str]  # attributes that it reads, of whatever
     whole: bool  # whether it hands on the inputs as a whole
+    columns: tuple[frozenset[str], ...]  # of each column of a table or a figure, what it takes of ``heard``
 
 
 @lru_cache(maxsize=4096)
@@ -52,7 +53,21 @@ def facts(statement: ast.stmt, path: str) -> Statement:
         frozenset(n.id for n in names if id(n) not in beside),
         frozenset(n.attr for n in attributes),
         any(n.id == "g" and id(n) not in of_parts for n in names),
+        tuple(_columns(statement)),
     )
+
+
+def _columns(statement: ast.stmt) -> Iterator[frozenset[str]]:
+    """Names that each column of a table or a figure reads, with those that all of it reads."""
+    match statement:
+        case ast.Assign([ast.Name()], ast.Call(ast.Name("table" | "figure"), [number, title, *columns], keywords)):
+            common = _names(number).union(_names(title), *(_names(k.value) for k in keywords if k.arg not in _BESIDE))
+            if not any(isinstance(column, ast.Starred) for column in columns):
+                yield from (common | _names(column) for column in columns)
+
+
+def _names(node: ast.expr) -> frozenset[str]:
+    return frozenset(n.id for n in source.nodes(node) if isinstance(n, ast.Name))
 
 
 @lru_cache(maxsize=4096)

@@ -19,6 +19,7 @@ from typing import Any
 import numpy as np
 
 from mechsheet import units
+from mechsheet.recording import scipy_rules
 from mechsheet.recording.choices import total
 from mechsheet.recording.graph import NotRecorded, current
 from mechsheet.recording.numpy_rules import arange, filled, linspace, simpson, trapezoid_so_far
@@ -85,9 +86,14 @@ def instead(value: Any) -> Any:
     room = str(getattr(value, "__module__", ""))
     if isinstance(value, FunctionType | type) and room.startswith("mechsheet."):
         return _of_package(value, room)
+    if scipy_rules.is_table(value):
+        return scipy_rules.table(value)
     if isinstance(value, FunctionType) and room.startswith("scipy."):
-        return _of_scipy(value)
+        return scipy_rules.root(value, _on_stage("rooted")) or _of_scipy(value)
     return value
+
+
+_PRINTING = frozenset({"fsolve", "leastsq", "curve_fit", "root"})  # what a function of the worksheet raises in them
 
 
 @cache
@@ -98,8 +104,13 @@ def _of_scipy(f: Callable[..., Any]) -> Callable[..., Any]:
     rule = FUNCTIONS.get(alike) or rules.get(f.__name__)
 
     def function(*args: Any, **kwargs: Any) -> Any:
+        if f.__name__ in _PRINTING and args and isinstance(args[0], FunctionType):
+            raise NotRecorded(f"scipy's {f.__name__}")
         if not has_quantity([*args, *kwargs.values()]):
-            return f(*args, **kwargs)
+            try:
+                return f(*args, **kwargs)
+            except Exception as error:  # of a function of the worksheet, which may give quantities
+                raise NotRecorded(f"scipy's {f.__name__}") from error
         if rule is None:
             raise NotRecorded(f"scipy's {f.__name__}")
         return rule(current.get(), *args, **kwargs)

@@ -320,7 +320,8 @@ def _cells(tree: ast.Module, text: str, path: Path) -> Iterator[Cell]:
     _refuse_unread(tree, path)
     nodes, scopes = list(functions(tree)), {t.get_lineno(): t for t in symtable(text, str(path), "exec").get_children()}
     gives, section = [defines(node.body) for node in nodes], ""
-    _refuse_twice(nodes, gives, path)
+    shared = {name: node.lineno for node in _shared(tree) for name in bound(node)}
+    _refuse_twice(nodes, gives, shared, path)
     given = frozenset(chain.from_iterable(gives))
     for n, node in enumerate(nodes):
         lines = node.body[:-1] if isinstance(node.body[-1], ast.Return) else node.body
@@ -348,11 +349,18 @@ def _refuse_unread(tree: ast.Module, path: Path) -> None:
                 raise SheetError(f"{mistakes.place(path, node.lineno)}: a cell there cannot be read: {why}")
 
 
-def _refuse_twice(nodes: Iterable[ast.FunctionDef], gives: Iterable[Iterable[str]], path: Path) -> None:
-    """Raise SheetError for the first name that two cells define."""
+def _refuse_twice(
+    nodes: Iterable[ast.FunctionDef], gives: Iterable[Iterable[str]], shared: Mapping[str, int], path: Path
+) -> None:
+    """Raise SheetError for the first name that two cells define, or a cell and what stands before the cells."""
     first = dict[str, int]()
     for node, names in zip(nodes, gives, strict=True):
         for name in names:
+            if name in shared:
+                places = f"lines {shared[name]} and {node.lineno}"
+                raise SheetError(
+                    f"{path.name}, {places}: {name} is of the setup: a cell must call its own another name"
+                )
             if first.setdefault(name, node.lineno) != node.lineno:
                 places = f"lines {first[name]} and {node.lineno}"
                 raise SheetError(f"{path.name}, {places}: {name} is defined in two cells: rename it in one of them")

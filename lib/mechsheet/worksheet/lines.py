@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 from itertools import pairwise, starmap
 from operator import attrgetter
+from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -16,6 +17,7 @@ import numpy as np
 from mechsheet import units
 from mechsheet.worksheet import source
 from mechsheet.worksheet.branch import branches, on_its_branch, untold
+from mechsheet.worksheet.cells import Worksheet
 from mechsheet.worksheet.errors import SheetError, refuse
 from mechsheet.worksheet.shown import Shown
 
@@ -235,6 +237,16 @@ def registry(namespace: Mapping[str, Any], cells: tuple[source.Cell, ...] | None
     Raises SheetError where a line is asked for in whose cell names and units do not match.
     """
     return _Registry(_lines(source.cells(namespace) if cells is None else cells), namespace)
+
+
+def of_setup(sheet: Worksheet) -> Mapping[str, Formula]:
+    """Lines of the setup that end in a unit, which typeset shows nowhere: constants of all cells."""
+    _, comments = source.parsed(Path(sheet.path).read_text(encoding="utf-8"), sheet.path)
+    try:
+        found = formulas(source.Cell(sheet.setup, comments, sheet.path))
+    except SheetError:  # no line of a cell, so that nothing keeps it from being a comment only
+        return {}
+    return {line.name: line for line in found if isinstance(line, Formula)}
 
 
 class _Registry(Mapping[str, Formula]):

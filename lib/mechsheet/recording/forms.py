@@ -1,0 +1,118 @@
+"""Forms of statements and expressions in others that are recorded: elements set one by one, elements that are kept."""
+
+import ast
+from collections.abc import Iterator, Sequence
+
+SCOPED = ast.NamedExpr, ast.Yield, ast.YieldFrom, ast.Await  # are not what they are inside a lambda
+
+
+def set_parts(node: ast.If) -> Sequence[tuple[ast.Subscript, ast.expr]]:
+    """Elements that a statement sets, and their values by its conditions; none where it does anything else.
+
+    Of several elements the conditions and values must not read what is set.
+    """
+    ways = [_parts_of_way(way) for way in (node.body, node.orelse)]
+    if any(way is None for way in ways) or any(isinstance(part, SCOPED) for part in ast.walk(node)):
+        return []
+    then, otherwise = (dict(way or ()) for way in ways)
+    targets = {key: target for way in (then, otherwise) for key, (target, _) in way.items()}
+    if len(targets) > 1:
+        arrays = {target.value.id for target in targets.values() if isinstance(target.value, ast.Name)}
+        read = [part for part in ast.walk(node) if isinstance(part, ast.Name) and isinstance(part.ctx, ast.Load)]
+        if sum(part.id in arrays for part in read) > sum(len(way) for way in (then, otherwise)):
+            return []
+    values = []
+    for key, target in targets.items():
+        a, b = (
+            way[key][1] if key in way else call("part_of", target, target.value, index(target.slice))
+            for way in (then, otherwise)
+        )
+        values.append((target, ast.copy_location(ast.IfExp(node.test, a, b), node)))
+    return values
+
+
+def _parts_of_way(way: list[ast.stmt]) -> dict[str, tuple[ast.Subscript, ast.expr]] | None:
+    """The elements that a way of a statement sets, each once, with their values."""
+    known: dict[str, tuple[ast.Subscript, ast.expr]] = {}
+    for line in way:
+        match line:
+            case ast.Assign([ast.Subscript(ast.Name()) as target], value):
+                new: Sequence[tuple[ast.Subscript, ast.expr]] = [(target, value)]
+            case ast.AugAssign(ast.Subscript(ast.Name()) as target, operation, value):
+                old = ast.Subscript(target.value, target.slice, ast.Load())
+                new = [(target, ast.copy_location(ast.BinOp(ast.copy_location(old, line), operation, value), line))]
+            case ast.If():
+                new = set_parts(line)
+            case ast.Pass():
+                continue
+            case _:
+                return None
+        if not new or any(ast.dump(target) in known for target, _ in new):
+            return None
+        known |= {ast.dump(target): (target, value) for target, value in new}
+    return known
+
+
+def sets_beside(node: ast.Assign) -> bool:
+    """Whether an element is set beside other targets: ``K[i, j] = K[j, i] = k`` or ``K[0], r[0] = k, F``."""
+    several = len(node.targets) > 1 or isinstance(node.targets[0], ast.Tuple | ast.List)
+    stored = [part for target in node.targets for part in ast.walk(target) if isinstance(part, _STORED)]
+    set_parts = any(isinstance(part.ctx, ast.Store) and not isinstance(part, ast.Name) for part in stored)
+    return several and set_parts and not any(isinstance(part, ast.Starred) for part in stored)
+
+
+_STORED = ast.Name, ast.Subscript, ast.Attribute, ast.Starred
+
+
+def one_by_one(targets: list[ast.expr], value: ast.expr, depth: int = 0) -> Iterator[ast.stmt]:
+    """Each target of an assignment by itself, in Python's order; the value has a name meanwhile."""
+    own = f"recorded value {depth}"
+    yield ast.Assign([ast.Name(own, ast.Store())], value)
+    for target in targets:
+        if isinstance(target, ast.Tuple | ast.List):
+            names = [f"{own}.{n}" for n in range(len(target.elts))]
+            yield ast.Assign(
+                [ast.Tuple([ast.Name(n, ast.Store()) for n in names], ast.Store())], ast.Name(own, ast.Load())
+            )
+            for part, name in zip(target.elts, names, strict=True):
+                yield from one_by_one([part], ast.Name(name, ast.Load()), depth + 1)
+            yield ast.Delete([ast.Name(name, ast.Del()) for name in names])
+        else:
+            yield ast.Assign([target], ast.Name(own, ast.Load()))
+    yield ast.Delete([ast.Name(own, ast.Del())])
+
+
+OF_KEPT = {"next": "first", "min": "min", "max": "max", "sum": "sum", "len": "len"}
+
+
+def keeps(some: ast.ListComp | ast.GeneratorExp) -> bool:
+    """Whether a comprehension keeps some of the elements of its innermost loop, and says so there alone."""
+    *outer, inner = some.generators
+    whole = any(isinstance(part, SCOPED) for part in ast.walk(some)) or any(each.is_async for each in some.generators)
+    return bool(inner.ifs) and not any(each.ifs for each in outer) and not whole
+
+
+def of_kept(node: ast.expr, kind: str, some: ast.ListComp | ast.GeneratorExp, *rest: ast.expr) -> ast.Call:
+    """A call with all elements, each with the condition under which it is kept and a function that gives its value."""
+    inner = some.generators[-1]
+    names = dict.fromkeys(n.id for each in some.generators for n in ast.walk(each.target) if isinstance(n, ast.Name))
+    given = ast.arguments(
+        [], [ast.arg(name) for name in names], None, [], [], None, [ast.Name(n, ast.Load()) for n in names]
+    )
+    holds = ast.BoolOp(ast.And(), inner.ifs) if len(inner.ifs) > 1 else inner.ifs[0]
+    pair = ast.Tuple([holds, ast.Lambda(given, some.elt)], ast.Load())
+    every = [*some.generators[:-1], ast.comprehension(inner.target, inner.iter, [], 0)]
+    return call("of_kept", node, ast.Constant(kind), ast.copy_location(ast.GeneratorExp(pair, every), some), *rest)
+
+
+def index(key: ast.expr) -> ast.expr:
+    """An index as a value: slices are calls of ``slice`` outside of brackets."""
+    if isinstance(key, ast.Slice):
+        ends = [end or ast.Constant(None) for end in (key.lower, key.upper, key.step)]
+        return ast.Call(ast.Name("slice", ast.Load()), ends, [])
+    return ast.Tuple([index(k) for k in key.elts], ast.Load()) if isinstance(key, ast.Tuple) else key
+
+
+def call(name: str, at: ast.AST, *args: ast.expr) -> ast.Call:
+    call = ast.Call(ast.Name(f"recorded {name}", ast.Load()), list(args), [])
+    return ast.copy_location(call, at)

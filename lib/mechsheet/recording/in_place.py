@@ -1,0 +1,75 @@
+"""What is changed in place, for recorded quantities: elements that are set, parts of numbers, ``+=`` of an array."""
+
+import operator
+import weakref
+from typing import Any
+
+import numpy as np
+
+from mechsheet.recording.choices import element
+from mechsheet.recording.graph import NotRecorded
+from mechsheet.recording.quantity import Quantity, has_quantity, joined, lift, owner, plain, quantities
+
+_NOT_SET = object()  # an element that a dictionary does not have
+
+
+def put(array: Any, key: Any, value: Any) -> Any:
+    """The array after ``array[key] = value``."""
+    if value is _NOT_SET:
+        return array
+    if not isinstance(array, np.ndarray | Quantity) or not has_quantity([array, key, value]):
+        array[key] = value
+        return array
+    graph = next(quantities([array, key, value])).graph
+    graph.gone.append(weakref.ref(owner(array)))
+    old, new = lift(graph, array), lift(graph, value)
+    return joined([old, new.astype(int) if old.dtype.kind in "iu" else new], _placed, plain(key))
+
+
+def part_of(array: Any, key: Any) -> Any:
+    """``array[key]``, where a way does not set it; a dictionary may have none."""
+    return _NOT_SET if isinstance(array, dict) and key not in array else element(array, key)
+
+
+def _placed(old_and_new: Any, key: Any) -> Any:
+    """An array with some elements set to others."""
+    old, new = old_and_new
+    both = np.array(old, np.result_type(old, new))
+    both[key] = new
+    return both
+
+
+def changed(old: Any, operation: str, value: Any) -> Any:
+    """``old`` after ``old += value`` or another such operation."""
+    if not (isinstance(old, np.ndarray | Quantity) and old.ndim and has_quantity([old, value])):
+        return getattr(operator, f"i{operation.rstrip('_')}")(old, value)
+    graph = next(quantities([old, value])).graph
+    graph.gone.append(weakref.ref(owner(old)))
+    new = lift(graph, getattr(operator, operation)(old, value))
+    if new.extent != lift(graph, old).extent:
+        raise ValueError(f"an array of shape {lift(graph, old).extent} cannot hold one of shape {new.extent}")
+    return new
+
+
+def settled(new: Any) -> None:
+    """End the change of an array for which another one has been put: nobody else may know the old one."""
+    if isinstance(new, Quantity):
+        gone, new.graph.gone = new.graph.gone, []
+        if any(array() is not None for array in gone):
+            raise NotRecorded("an array is changed that has another name too")
+
+
+def part(number: Any, name: str, value: Any) -> Any:
+    """The number after ``number.real = value`` or ``number.imag = value``."""
+    if not has_quantity([number, value]):
+        setattr(number, name, value)
+        return number
+    graph = next(iter(quantities([number, value]))).graph
+    old, new = lift(graph, number), lift(graph, value)
+    if new.im is not None:
+        raise NotRecorded(f"a complex number as the {name} part of another")
+    own = graph.like(new.re, old.re)
+    return Quantity(graph, own, old.imag.re) if name == "real" else Quantity(graph, old.re, own)
+
+
+CALLS: dict[str, Any] = {"put": put, "part_of": part_of, "changed": changed, "settled": settled, "part": part}

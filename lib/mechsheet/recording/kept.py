@@ -1,0 +1,121 @@
+"""What Python takes of those elements for which a condition holds: the first, the least, their sum, how many."""
+
+import builtins
+import operator
+from collections.abc import Callable, Iterable
+from functools import reduce
+from itertools import islice
+from types import FunctionType
+from typing import Any
+
+import numpy as np
+
+from mechsheet.recording.arithmetic import choice as where
+from mechsheet.recording.choices import UNBOUND, is_condition, merged, way_may_change
+from mechsheet.recording.graph import NotRecorded, current
+from mechsheet.recording.quantity import lift
+
+_FURTHER = 200  # elements behind the first one that is kept now: an iterator may have no end
+_Pair = tuple[Any, FunctionType]  # whether an element is kept, and what gives its value
+
+
+def of_kept(kind: str, pairs: Iterable[_Pair], *otherwise: Any) -> Any:
+    """What ``min``, ``max``, ``sum``, ``len`` or ``next`` gives for the elements of the ``pairs`` that are kept."""
+    if kind != "first":
+        return _of_all(kind, list(pairs), otherwise)
+    source, met = iter(pairs), list[_Pair]()
+    for holds, value in source:
+        met.append((holds, value))
+        if bool(holds.value) if is_condition(holds) else holds:
+            break
+    if not any(is_condition(holds) for holds, _ in met):
+        return _plainly(kind, met, otherwise)
+    further = [] if not is_condition(met[-1][0]) and met[-1][0] else [*islice(source, _FURTHER)]
+    if len(further) == _FURTHER:  # what follows is not known
+        return _of_all(kind, [*met, *further], otherwise, ends=False)
+    return _of_all(kind, [*met, *further], otherwise)
+
+
+def _of_all(kind: str, pairs: list[_Pair], otherwise: tuple[Any, ...], ends: bool = True) -> Any:
+    if not any(is_condition(holds) for holds, _ in pairs):
+        return _plainly(kind, pairs, otherwise)
+    graph = current.get()
+    looked, found = dict(graph.looked), None
+    try:
+        kept = [(holds, value()) for holds, value in _decided(pairs)]
+        found = _KINDS[kind](kept, otherwise if ends else (UNBOUND,))
+    except (Exception, NotRecorded):
+        found = None
+    if found is None or found is UNBOUND:
+        graph.looked = looked
+        return _plainly(kind, pairs, otherwise)
+    return found
+
+
+def _decided(pairs: Iterable[_Pair]) -> Iterable[_Pair]:
+    for holds, value in pairs:
+        if is_condition(holds):
+            if way_may_change(value):
+                raise NotRecorded("what is kept changes something")
+            yield holds, value
+        elif holds:
+            yield True, value
+
+
+def _plainly(kind: str, pairs: Iterable[_Pair], otherwise: tuple[Any, ...]) -> Any:
+    """What Python gives, who sees of each element whether it is kept."""
+    values = (value() for holds, value in pairs if holds)
+    match kind:
+        case "first":
+            return next(values, *otherwise)
+        case "last":
+            return list(values)[-1]
+        case "len":
+            return len(list(values))
+        case "sum":
+            return sum(values, *otherwise)
+    named = {"default": otherwise[0]} if otherwise else {}
+    return getattr(builtins, kind)(values, **named)
+
+
+def _first(kept: Iterable[tuple[Any, Any]], otherwise: tuple[Any, ...]) -> Any:
+    result = otherwise[0] if otherwise else UNBOUND
+    for holds, value in reversed([*kept]):
+        result = value if holds is True else merged(holds, value, result)
+        if result is None:
+            return None
+    return result
+
+
+def _last(kept: Iterable[tuple[Any, Any]], otherwise: tuple[Any, ...]) -> Any:
+    return _first(reversed([*kept]), otherwise)
+
+
+def _least(fold: Callable[[Any, Any], Any]) -> Callable[..., Any]:
+    def function(kept: Iterable[tuple[Any, Any]], otherwise: tuple[Any, ...]) -> Any:
+        graph, some, result = current.get(), lift(current.get(), False), lift(current.get(), np.nan)
+        for holds, value in kept:
+            result = where(graph, holds, where(graph, some, fold(result, value), value), result)
+            some = some | holds
+        if otherwise:
+            return where(graph, some, result, otherwise[0])
+        return result if some.value else None
+
+    return function
+
+
+def _sum(kept: Iterable[tuple[Any, Any]], otherwise: tuple[Any, ...]) -> Any:
+    graph = current.get()
+    return reduce(operator.add, (where(graph, holds, value, 0.0) for holds, value in kept), *(otherwise or (0,)))
+
+
+def _count(kept: Iterable[tuple[Any, Any]], _: tuple[Any, ...]) -> Any:
+    return _sum(((holds, 1) for holds, _ in kept), ())
+
+
+_KINDS: dict[str, Callable[..., Any]] = {
+    "first": _first, "last": _last, "min": _least(np.minimum), "max": _least(np.maximum), "sum": _sum, "len": _count,
+}  # fmt: skip
+
+
+CALLS: dict[str, Any] = {"of_kept": of_kept}

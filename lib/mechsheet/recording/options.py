@@ -1,0 +1,55 @@
+"""Rows and objects of a worksheet's own table, of which a condition tells which one is meant: part by part."""
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import is_dataclass
+from types import FunctionType, MethodType, SimpleNamespace
+from typing import Any
+
+Merge = Callable[[Any, Any], Any]  # of what both have as a part, the one that is meant
+
+
+class Row(Mapping[Any, Any]):
+    """One of two dictionaries with the same keys."""
+
+    def __init__(self, merge: Merge, x: Mapping[Any, Any], y: Mapping[Any, Any]) -> None:
+        self._merge, self._rows = merge, (x, y)
+
+    def __getitem__(self, key: Any) -> Any:
+        x, y = self._rows
+        return self._merge(x[key], y[key])
+
+    def __iter__(self) -> Iterator[Any]:
+        return iter(self._rows[0])
+
+    def __len__(self) -> int:
+        return len(self._rows[0])
+
+
+class Thing:
+    """One of two objects of a class."""
+
+    def __init__(self, merge: Merge, x: Any, y: Any) -> None:
+        self._merge, self._things = merge, (x, y)
+
+    def __getattr__(self, name: str) -> Any:
+        if name.startswith("_"):
+            raise AttributeError(name)
+        x, y = self._things
+        if isinstance(method := getattr(_kind(x), name, None), FunctionType):
+            return MethodType(method, self)
+        return self._merge(getattr(x, name), getattr(y, name))
+
+
+def parted(merge: Merge, x: Any, y: Any) -> Any:
+    """One of two rows or objects, by its parts; None where these are not of one kind."""
+    if isinstance(x, dict | Row) and isinstance(y, dict | Row):
+        return Row(merge, x, y) if {*x} == {*y} else None
+    return Thing(merge, x, y) if _kind(x) is _kind(y) is not None else None
+
+
+def _kind(value: Any) -> type | None:
+    """The class of an object that holds its parts under names, of the worksheet's own."""
+    while isinstance(value, Thing):
+        value = value._things[0]
+    of_own = is_dataclass(value) and not type(value).__module__.startswith("mechsheet.")
+    return type(value) if isinstance(value, SimpleNamespace) or of_own else None

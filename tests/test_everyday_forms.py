@@ -1,0 +1,166 @@
+"""Forms of Python in which engineers write a choice: standard sizes, rows of a table, elements set in loops by cases,
+and of those that meet a condition.
+
+All are followed for other inputs, without a guard: the next size of a list, the law that was chosen, a matrix filled.
+"""
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from own_worksheet import ELSEWHERE, own, recorded, value_of
+from test_recalculation import edit
+
+from mechsheet import evaluate
+from mechsheet.run import report
+from mechsheet.worksheet import cells
+
+SIZES = "D = np.array([6.0, 8, 10, 12, 16, 20])\n"
+THREADS = "T = [(6.0, 1.0), (8.0, 1.25), (10.0, 1.5)]\n"
+KEPT = [
+    SIZES + "y = min(d for d in D if d >= 3 * g.F) * g.a",
+    SIZES + "y = min([d for d in D if d >= 5 * g.F], default=33.0) * g.a",
+    SIZES + "y = max([1 / (d - 3 * g.F) for d in D if d > 3 * g.F])",
+    SIZES + "y = [d for d in D if d >= 3 * g.F][0] * g.a",
+    SIZES + "y = [d for d in D if d <= 5 * g.F][-1] * g.a",
+    SIZES + "y = next((d for d in D if d >= 7 * g.F), 99.0) * g.a",
+    SIZES + "y = sum(d for d in D if d >= 3 * g.F) + len([d for d in D if d < 3 * g.F if d > g.a])",
+    "import itertools\ny = next(n for n in itertools.count(1) if n * n > 4 * g.F) * g.a",
+    "y = next((b for a, b in ((1.0, g.a), (3.0, 2.0)) if g.F <= a), 5.0) * 2.0",
+    "y = max(v * w for v in (1.0, g.a) for w in (g.F, 2.0) if w > 1.5 * v)",
+    THREADS + "d, P = next((d, P) for d, P in T if d > 2 * g.F)\ny = d * P * g.a",
+    THREADS + "row = next(r for r in T if r[0] > 2 * g.F)\ny = row[0] * row[1] * g.a",
+    "T = {'M6': (6.0, 1.0), 'M8': (9.0, 1.25)}\ny = next(v for v in T.values() if v[0] > 2 * g.F)[1] * g.a",
+]
+CHOSEN = [
+    "y = {0: 1.0, 2: 2.0}.get(g.k, g.F) * g.a",
+    "y = {0: 1.0, 2: 2.0}.get(round(g.F), 7.0) * g.a + {'a': 1.0}.get('b', g.F)",
+    "law = (lambda v: v**2) if g.F > 3 else (lambda v: 3 * v)\ny = law(x[0]) * g.a",
+    (
+        "def f(v):\n    return v**2\ndef h(v):\n    return 3 * v\nif g.F > 3:\n    law = f\nelse:\n    law = h\n"
+        "y = law(g.F) * g.a"
+    ),
+    (
+        "row = {'R': 1.0, 'E': 3.0, 'n': 'x'} if g.F > 3 else {'R': 2.0, 'E': g.a, 'n': 'y'}\n"
+        "y = row['R'] * row['E'] * len(row)"
+    ),
+    "row = [1.0, 2.0] if g.F > 3 else [g.a, 5.0]\ny = np.array(row) * 2",
+    (
+        "from dataclasses import dataclass\n@dataclass\nclass Bolt:\n    d: float\n    def area(self):\n"
+        "        return np.pi * self.d**2 / 4\nb = Bolt(3.0) if g.F > 3 else Bolt(g.a)\ny = b.area() + b.d"
+    ),
+    (
+        "from collections import namedtuple\nCase = namedtuple('Case', 'F M')\n"
+        "c = Case(1.0, 2.0) if g.F > 3 else Case(g.a, g.F)\ny = c.F + c.M"
+    ),
+]
+SET = [
+    (
+        "B = np.zeros((2, 2))\nr = np.zeros(2)\nB[0, 0], r[0] = 1.0, g.F\n"
+        "B[1, 0], B[1, 1], r[1] = 3.0, g.a, 1.0\ny = np.linalg.solve(B, r)"
+    ),
+    "K = np.zeros((2, 2))\nK[0, 1] = K[1, 0] = -g.F\nK[0, 0] = K[1, 1] = g.F + g.a\ny = np.linalg.solve(K, [1.0, 2.0])",
+    "v = np.zeros(3)\n(v[0], (v[1], v[2])), w = (g.F, (g.a, 2.0)), 3.0\nv[0], v[1] = v[1], v[0]\ny = v * w",
+    (
+        "M = np.zeros(3)\nX = np.array([1.0, 2.0, 3.0])\nfor i in range(3):\n    if X[i] < g.F:\n"
+        "        M[i] = g.a * X[i]\n    else:\n        M[i] = g.a * X[i] - 3 * (X[i] - g.F)\ny = M * 1.0"
+    ),
+    (
+        "M = np.zeros(4)\nfor F, p in ((1.0, 1.0), (g.a, 3.0), (2.0, g.F)):\n    for i in range(4):\n"
+        "        if i > p:\n            M[i] += F * (i - p)\ny = M * 1.0"
+    ),
+    (
+        "M = [0.0, 0.0, 0.0]\nfor i, v in enumerate((0.5, 2.7, 4.0)):\n    if v < g.a:\n        M[i] = v\n"
+        "    elif v < g.F:\n        M[i] = v**2\ny = np.array(M)"
+    ),
+    (
+        "M, T = np.zeros(3), np.zeros(3)\nfor i in range(3):\n    if i < g.F:\n        M[i] = i\n        T[i] = g.a\n"
+        "    else:\n        T[i] = 2 * g.a\ny = M + T"
+    ),
+    "d = {'x': 2.0}\nif g.F > 3:\n    d['x'] = g.a\ny = d['x'] * 2",
+]
+SELECTED = [
+    "y = x[x > 0.6 * g.F].min() * len(x[x > g.F])",
+    "y = np.max(x[x < g.F]) + max(x[x < g.F]) + sum(x[x < g.F])",
+    "y = x[x > g.F].sum() + np.mean(x[x > g.F / 2] ** 2) ** 0.5",
+    "y = x[x > 3].max(initial=0.0) + x[x > 3].sum(initial=g.a) + np.any(x[x > g.a] > 3)",
+    "i = np.flatnonzero(x > g.F / 2)\ny = x[i[0]] + g.a * i[-1] + (x**2)[i][1] + x[i].sum()",
+    "i = np.flatnonzero(x > 50)\ny = x[i[0]] if len(i) else -1.0",
+    "i = np.where(x > g.F)[0]\nif i.size > 0:\n    y = x[i[0]]\nelse:\n    y = g.a",
+    "sel = x > g.F / 2\nz = x[sel] ** 2 / x[sel].max()\ny = np.ptp(z) + z[0]",
+    "z = np.exp(1j * x)[~(x > g.F) & (x > g.a / 9)]\ny = z[0] + z.sum() * z[-1]",
+    "i = np.nonzero(np.diff(np.sign(x - g.F)))[0]\ny = x[i[0]] + (g.F - x[i[0]]) * g.a / (x[i[0] + 1] - x[i[0]])",
+    SIZES + "b = D * np.array([1.0, 2, 3, 4, 5, 6])\ny = b[D >= 3 * g.F][0] * D[D >= 3 * g.F].min()",
+    "y = x[x > g.a][x[x > g.a] < 3].max() + np.extract(x > g.a, x)[0]",
+    "v = np.where(x > g.F, np.nan, x)\ny = np.nanmax(v[x > g.a / 9]) + np.isnan(v[x > 1]).sum()",
+]
+GUARDED = [  # where other inputs change what there is
+    "d = {}\nif g.F > 3:\n    d['x'] = g.a\ny = len(d) + g.F",
+    "v = np.array([g.F, g.a])\nif v[0] > 3:\n    v[0] = 3.0\n    v[1] = v[0]\ny = v * 2",
+    "v = np.zeros(2)\nw = v\nif g.F > 3:\n    v[0] = g.a\ny = w + v + g.F",
+    "row = [1.0, 2.0] if g.F > 3 else [g.a]\ny = len(row) * g.F",
+    "y = np.cumsum(x[x > g.F])[-1]",
+    "y = np.zeros(len(x[x > g.F])) + x[x > g.F] + g.a",
+    "y = x[x > g.F][1:].sum() + g.a",
+    "row = {'R': g.F, 'n': 'x'} if g.F > 3 else {'R': 2.0, 'n': 'yy'}\ny = row['R'] * len(row['n'])",
+]
+
+
+@pytest.mark.filterwarnings("ignore")
+@pytest.mark.parametrize("lines", [*KEPT, *CHOSEN, *SET, *SELECTED, *GUARDED])
+def test_an_everyday_form_is_followed(lines: str, tmp_path: Path) -> None:
+    sheet = own(tmp_path, f"{lines}\nresult = np.atleast_1d(y) * 1  # [-] line")
+    _, recording = recorded(sheet)
+    told = recording.gaps or [guard for guard in recording.guards.values() if not guard.rows]
+    assert bool(told) is (lines in GUARDED)
+    for given in ELSEWHERE:
+        own_value = evaluate(sheet.path, ["result"], **given)["result"]
+        value = value_of(recording, "result", given)
+        if not (told and np.isnan(value).all()):
+            np.testing.assert_allclose(value, own_value, rtol=1e-12, err_msg=str(given))
+
+
+@pytest.mark.office
+def test_cells_select_as_the_worksheet_does(recalculated_all: Any, tmp_path: Path) -> None:
+    """What nothing is left for has no number."""
+    lines = [f"{line}\nr_{k} = abs(y) * 1  # [-] line" for k, line in enumerate(SELECTED)]
+    lines += [f"every = np.array([{', '.join(f'r_{k}' for k in range(len(SELECTED)))}])  # [-] all"]
+    lines += ['last = x[x > g.a * g.F].max()  # [-] greatest\ntable_2 = table("2", "All", every, last)']
+    sheet = own(tmp_path, "\n".join(lines))
+    names = sheet.run(sheet.results, {"g": sheet.inputs()})
+    book = tmp_path / "own.xlsx"
+    book.write_bytes(report.workbook("Own", {**names, "__file__": sheet.path}, {}))
+    changes: list[dict[str, Any]] = [{"F": 4.0, "a": 0.9}, {"a": 0.2}, {"a": 2.5}]
+    edited = [edit(book, given, tmp_path / f"changed{n}.xlsx") for n, given in enumerate(changes)]
+    for given, changed in zip(changes, recalculated_all(edited), strict=True):
+        rows = [*changed["2 All"].iter_rows(min_row=5, values_only=True)]
+        if given["a"] > 2:
+            assert rows[0][1] == "#N/A"
+            continue
+        expected = evaluate(sheet.path, ["every", "last"], **given)
+        np.testing.assert_allclose([row[0] for row in rows], expected["every"], rtol=1e-12)
+        assert rows[0][1] == pytest.approx(expected["last"], rel=1e-12)
+
+
+TABLES: dict[str, Any] = {
+    "{'a': {'R': 1.0, 'f': (2.0, 3.0)}, 'b': {'R': 4.0, 'f': (g.F, 6.0)}}": "row['R'] * row['f'][0] + row['f'][1]",
+    "{'a': [1.0, 2.0], 'b': [3.0, g.F]}": "np.array(row)",
+    "{'a': lambda v: v**2, 'b': lambda v: 3 * v}": "row(g.F)",
+    "{'a': np.array([1.0, 2.0]), 'b': np.array([3.0, 4.0])}": "row * g.F",
+    "{'a': np.poly1d([1.0, 2.0]), 'b': np.poly1d([2.0, 3.0, 1.0])}": "row(g.F)",
+}
+
+
+@pytest.mark.parametrize("table", TABLES)
+def test_a_row_of_the_worksheets_own_table_follows_the_option(table: str, tmp_path: Path) -> None:
+    lines = f"row = {table}[g.kind]\nresult = np.atleast_1d({TABLES[table]}) * 1  # [-] line"
+    path = Path(own(tmp_path, lines).path)
+    text = path.read_text().replace("import math\n", "import math\n    from typing import Literal\n", 1)
+    path.write_text(text.replace('\n\n    """Inputs', '\n    kind: Literal["a", "b"] = "a"  # row\n\n    """Inputs', 1))
+    sheet = cells.load(path)
+    _, recording = recorded(sheet)
+    assert not recording.gaps and not [guard for guard in recording.guards.values() if not guard.rows]
+    for number, kind in enumerate("ab"):
+        own_value = evaluate(sheet.path, ["result"], kind=kind, F=3.25)["result"]
+        np.testing.assert_allclose(value_of(recording, "result", {"kind": number, "F": 3.25}), own_value, rtol=1e-12)
