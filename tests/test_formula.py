@@ -60,6 +60,8 @@ IMPORT = "from mechsheet import typeset\n"
         ("x[1:] - x[:-1]", r"{x}_{k \ge 1} - {x}_{\text{all but last}}"),
         ("x[-1] + x[2:5] + x[-3:]", r"{x}_{\text{last}} + {x}_{2 \le k < 5} + {x}_{\text{last 3}}"),
         ("np.array([width(v) for v in x])", r"\left[\operatorname{width}(v) \text{ for each } v \text{ of } x\right]"),
+        ("np.array([d for d, _ in x])", r"\left[d \text{ for each } d \text{ of } x\right]"),
+        ("sum(F * r for F, r in x)", r"\sum_{(F,\ r) \in x} F\,r"),
         ("log2(x) + expm1(x)", r"\operatorname{log2}(x) + \operatorname{expm1}(x)"),
         ("a - (b - c)", r"a - (b - c)"),
         ("a - (b + c)", r"a - (b + c)"),

@@ -90,8 +90,13 @@ def pieces(sentence: str) -> list[str]:
 
     >>> pieces("omega3 < 1, theta/2")
     ['', 'omega3', ' < 1, ', 'theta', '/2']
+    >>> pieces("Pole: Imp = I56, l20 = H")  # what an equation makes equal, too
+    ['Pole: ', 'Imp', ' = ', 'I56', ', ', 'l20', ' = ', 'H', '']
     """
-    return re.split(rf"\b((?:{_WORDS})\b|[A-Za-z]+[_\d]\w*)", sentence)
+    return _NAMES.split(sentence)
+
+
+_NAMES = re.compile(rf"\b((?:{_WORDS})\b|[A-Za-z]+[_\d]\w*|[A-Z][a-z]{{0,3}}(?= = )|(?<= = )[A-Z](?![\w.]))")
 
 
 def text(name: str) -> str:
