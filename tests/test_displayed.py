@@ -62,8 +62,8 @@ RAISED = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789")
 
 
 def as_python(text: str) -> str:
-    """A text whose powers of ten are as Python reads them."""
-    text = re.sub(r"\s·\s10<sup>(.*?)</sup>", r"e\1", text.strip().replace("−", "-"))
+    """A text whose powers of ten are as Python reads them, and the spaces before units as any others."""
+    text = re.sub(r"\s·\s10<sup>(.*?)</sup>", r"e\1", text.strip().replace("−", "-").replace("\u00a0", " "))
     return re.sub(r"·10([⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+)", lambda match: f"e{match[1].translate(RAISED)}", text)
 
 

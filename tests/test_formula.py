@@ -269,10 +269,13 @@ def test_value_in_the_page(value, unit, text):
 
 
 def joined(shown):
-    """HTML with the elements of a line, formula and value, as one, without its place and what switches its unit."""
+    """HTML with the elements of a line, formula and value, as one, without its place and what switches its unit.
+
+    Between a number and its unit stands a space that does not break, here as any other.
+    """
     text = re.sub("<ms-value [^>]*><span>(.*?)</span></ms-value>", r"\1", html(shown))
     text = re.sub("</?ms-unit>", "", re.sub(' id="line-\\w+"', "", text))
-    return text.replace('=||)</marimo-tex><span class="ms-value">', "= ")
+    return text.replace('=||)</marimo-tex><span class="ms-value">', "= ").replace("\u00a0", " ")
 
 
 def test_one_position_of_the_fields():

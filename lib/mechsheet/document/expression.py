@@ -168,7 +168,7 @@ class _Reader:
             case ast.Attribute(ast.Name(name), "T") if re.fullmatch(r"[A-Z](_\w+)?", name):  # a matrix
                 return Power(names.symbol(name), Function("T"))
             case ast.Attribute(ast.Name(name), part):  # a result of several parts
-                return Apply(names.part(part), Brackets((Text(name.replace("_", " ")),)))
+                return Apply(names.part(part), Brackets((names.whole(name),)))
             case ast.Attribute(ast.Call() as inner, part):
                 return Apply(names.part(part), Brackets((self.read(inner),), "[]", high=True))
         return None

@@ -102,6 +102,11 @@ def function(name: str) -> Node:
     return symbol(name) if is_symbol else Function(name.replace("_", " "))
 
 
+def whole(name: str) -> Node:
+    """A result of several parts: its name in words, or its symbol where it begins as no word does."""
+    return Text(name.replace("_", " ")) if re.match("[a-z]{3,}", name) else symbol(name)
+
+
 def part(name: str) -> Node:
     """Part of a result: its symbol, or its name in words."""
     words = re.fullmatch(r"[a-z]{3,}(_[a-z]{3,})*", name) and not re.match("|".join(GREEK), name)
