@@ -62,6 +62,7 @@ IMPORT = "from mechsheet import typeset\n"
         ("np.array([width(v) for v in x])", r"\left[\operatorname{width}(v) \text{ for each } v \text{ of } x\right]"),
         ("np.array([d for d, _ in x])", r"\left[d \text{ for each } d \text{ of } x\right]"),
         ("sum(F * r for F, r in x)", r"\sum_{(F,\ r) \in x} F\,r"),
+        ("len(x) - np.ptp(y)", r"\operatorname{count}(x) - \operatorname{range}(y)"),
         ("log2(x) + expm1(x)", r"\operatorname{log2}(x) + \operatorname{expm1}(x)"),
         ("a - (b - c)", r"a - (b - c)"),
         ("a - (b + c)", r"a - (b + c)"),
@@ -89,6 +90,7 @@ IMPORT = "from mechsheet import typeset\n"
         ("cross(A - B, F)", r"(A - B) \times F"),
         ("x % (2*pi)", r"x \bmod 2\,\pi"),
         ("group_67.R_A", r"R_{\mathrm{A}}(\text{group 67})"),
+        ("I3i.F + on_bucket.R_B", r"F(I_{\mathrm{3i}}) + R_{\mathrm{B}}(\text{on bucket})"),
         ("[0.5, -1]", r"\left[0.5,\ -1\right]"),
         ("phi3[k]", r"{\varphi_{3}}_{k}"),
         ("F[0, 1]", r"{F}_{(0,\ 1)}"),
@@ -395,7 +397,7 @@ def test_solve_block_of_several_unknowns_is_typeset_equation_by_equation():
     assert r"x = \operatorname{Find}(x) = 1.4142 m</span>" in text
     assert r"k = \operatorname{Minerr}(k) = 2.4 m" in text
     assert ">found</span>" in text and ">least squares</span>" in text
-    assert "solutions seen by 128 starts" in text and "x in 0..3; y in 0..3" in text
+    assert "solutions seen by 128 starts" in text and "<i>x</i> in 0..3; <i>y</i> in 0..3" in text
 
 
 @pytest.mark.parametrize(

@@ -48,10 +48,10 @@ def _formula(line: Formula, value: object, shown: Typeset) -> str:
     text = "" if shown.numbers is None else _substituted(line, shown.numbers, shown.position)
     namespace = shown.numbers.namespace if shown.numbers else None
     cleared = _cleared(line, value, namespace)
-    shown = _valued(line, cleared, namespace)
-    equals = r"\approx" if cleared is not value else "" if _is_about(shown) else "="
+    found = _valued(line, cleared, namespace)
+    equals = r"\approx" if cleared is not value else "" if _is_about(found) else "="
     told = line.meaning, line.number, text, line.mistake, line
-    return _line(f"{_equation(line, single)} {equals}".rstrip(), shown, *told)
+    return _line(f"{_equation(line, single)} {equals}".rstrip(), found, *told)
 
 
 def valued(line: Formula, value: object, namespace: Mapping[str, Any] | None) -> str:

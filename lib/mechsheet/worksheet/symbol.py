@@ -2,7 +2,7 @@
 
 import re
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, lru_cache
 
 GREEK = {
     "alpha": "α", "beta": "β", "gamma": "γ", "delta": "δ", "eps": "ε", "epsilon": "ε", "zeta": "ζ", "eta": "η",
@@ -85,20 +85,24 @@ def plain(name: str) -> str:
     return stem(name).replace("_", "")
 
 
-def pieces(sentence: str) -> list[str]:
-    """A sentence in pieces: every second one is the name of a quantity.
+def pieces(sentence: str, names: tuple[str, ...] = ()) -> list[str]:
+    """A sentence in pieces: every second one is the name of a quantity, one of the ``names`` or what looks like one.
 
     >>> pieces("omega3 < 1, theta/2")
     ['', 'omega3', ' < 1, ', 'theta', '/2']
     >>> pieces("UGL2: Imp = I56, l20 = H")  # what an equation makes equal, too; a program is no quantity
     ['UGL2: ', 'Imp', ' = ', 'I56', ', ', 'l20', ' = ', 'H', '']
+    >>> pieces("m in 0..3 m, SAB = 2 mm/m", ("m", "SAB"))  # a unit is no name
+    ['', 'm', ' in 0..3 m, ', 'SAB', ' = 2 mm/m']
     """
-    return _NAMES.split(sentence)
+    return _looks_like_a_name(names).split(sentence)
 
 
-_NAMES = re.compile(
-    rf"\b((?:{_WORDS})\b|(?![A-Z]{{3,}}\d+\b)[A-Za-z]+[_\d]\w*|[A-Z][a-z]{{0,3}}(?= = )|(?<= = )[A-Z](?![\w.]))"
-)
+@lru_cache(maxsize=64)
+def _looks_like_a_name(names: tuple[str, ...]) -> re.Pattern[str]:
+    given = "".join(rf"(?<!\d )(?<![*/·]){re.escape(name)}\b|" for name in names)
+    indexed = r"(?![A-Z]{3,}\d+\b)[A-Za-z]+[_\d]\w*"
+    return re.compile(rf"\b({given}(?:{_WORDS})\b|{indexed}|[A-Z][a-z]{{0,3}}(?= = )|(?<= = )[A-Z](?![\w.]))")
 
 
 def text(name: str) -> str:
