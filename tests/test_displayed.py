@@ -62,8 +62,8 @@ RAISED = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789")
 
 
 def as_python(text: str) -> str:
-    """A text whose powers of ten are as Python reads them."""
-    text = re.sub(r"\s·\s10<sup>(.*?)</sup>", r"e\1", text.strip().replace("−", "-"))
+    """A text whose powers of ten are as Python reads them, and the spaces before units as any others."""
+    text = re.sub(r"\s·\s10<sup>(.*?)</sup>", r"e\1", text.strip().replace("−", "-").replace("\u00a0", " "))
     return re.sub(r"·10([⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+)", lambda match: f"e{match[1].translate(RAISED)}", text)
 
 
@@ -102,7 +102,7 @@ def numbers_in(text: str) -> tuple[list[str], str]:
     """Numbers of the value that ends a formula, all of a few or the ends of many, and their unit."""
     part = rf"{VALUE}(?: … {VALUE})?"
     item = rf"(?:{VALUE}|\({part}, {part}\))"
-    match = re.fullmatch(rf"(\[?{item}(?:(?: … |, |; ){item})*\]?)((?:°| .*?)?)(?: \(\d+ of \d+ none\))?", text)
+    match = re.fullmatch(rf"(\[?{item}(?:(?: … |, |; ){item})*\]?)((?:°|\s.*?)?)(?: \(\d+ of \d+ none\))?", text)
     assert match, text
     return re.findall(VALUE, match[1]), match[2].strip()
 
@@ -248,7 +248,7 @@ def assert_check(check: Check) -> int:
         assert within and "PASS" in text
         assert float(within[1].rstrip("°")) == pytest.approx(check.limit, rel=0.051, abs=1e-300)
         return 1
-    match = re.search(r": (\S+) [≤>] (\S+?),?(?: |$)", text)
+    match = re.search(r": (\S+) [≤>] (\S+?)[,;]?(?: |$)", text)
     if not check.evaluated:
         assert "not evaluated" in text
         return 0
@@ -260,7 +260,7 @@ def assert_check(check: Check) -> int:
 
 def assert_found(found: Found) -> int:
     text = html.unescape(re.sub("<[^>]*>", "", as_python(found._mime_()[1])))
-    unknown = html.unescape(re.sub("<[^>]*>", "", in_words(found.words.unknown)))
+    unknown = html.unescape(re.sub("<[^>]*>", "", in_words(found.words.unknown, found.names)))
     match = re.search(rf"{re.escape(unknown)} = ([^\s°]+)((?: [^\d\s]+?|°)?)condition", text)
     assert match, text
     digits = match[1].rstrip("0").lstrip("-0.").replace(".", "")

@@ -98,13 +98,15 @@ def test_what_the_author_stops_is_told_at_its_cell_and_elsewhere_what_waits_for_
     planted: Callable[..., Page], stop: str
 ) -> None:
     call, told = STOPS[stop]
-    page = planted(("    phi = ", f"    {call}\n    phi = "))
+    shown = "    typeset(table_1, figure_1, table_2)\n"
+    page = planted(("    phi = ", f"    {call}\n    phi = "), (shown, f'    "Of **any** load."\n{shown}'))
     expect(page.locator("ms-failed")).to_have_count(1)
     if stop == "button":
         expect(page.locator("ms-failed").get_by_role("button", name="go on")).to_be_visible()
     else:
         expect(page.locator("ms-failed")).to_contain_text(told)
     assert waiting(page) == {"2.1": "waits for section 2", "3": "waits for section 2"}
+    expect(page.get_by_text("Of any load."), "needs no number").to_be_visible()
     page.set_viewport_size({"width": 1280, "height": 200})
     expect(page.locator(".ms-bar")).to_contain_text(f"not computed to its end {told}")
     assert "ancestor" not in page.locator("body").inner_text()

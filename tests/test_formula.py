@@ -60,6 +60,9 @@ IMPORT = "from mechsheet import typeset\n"
         ("x[1:] - x[:-1]", r"{x}_{k \ge 1} - {x}_{\text{all but last}}"),
         ("x[-1] + x[2:5] + x[-3:]", r"{x}_{\text{last}} + {x}_{2 \le k < 5} + {x}_{\text{last 3}}"),
         ("np.array([width(v) for v in x])", r"\left[\operatorname{width}(v) \text{ for each } v \text{ of } x\right]"),
+        ("np.array([d for d, _ in x])", r"\left[d \text{ for each } d \text{ of } x\right]"),
+        ("sum(F * r for F, r in x)", r"\sum_{(F,\ r) \in x} F\,r"),
+        ("len(x) - np.ptp(y)", r"\operatorname{count}(x) - \operatorname{range}(y)"),
         ("log2(x) + expm1(x)", r"\operatorname{log2}(x) + \operatorname{expm1}(x)"),
         ("a - (b - c)", r"a - (b - c)"),
         ("a - (b + c)", r"a - (b + c)"),
@@ -87,6 +90,7 @@ IMPORT = "from mechsheet import typeset\n"
         ("cross(A - B, F)", r"(A - B) \times F"),
         ("x % (2*pi)", r"x \bmod 2\,\pi"),
         ("group_67.R_A", r"R_{\mathrm{A}}(\text{group 67})"),
+        ("I3i.F + on_bucket.R_B", r"F(I_{\mathrm{3i}}) + R_{\mathrm{B}}(\text{on bucket})"),
         ("[0.5, -1]", r"\left[0.5,\ -1\right]"),
         ("phi3[k]", r"{\varphi_{3}}_{k}"),
         ("F[0, 1]", r"{F}_{(0,\ 1)}"),
@@ -267,10 +271,13 @@ def test_value_in_the_page(value, unit, text):
 
 
 def joined(shown):
-    """HTML with the elements of a line, formula and value, as one, without its place and what switches its unit."""
+    """HTML with the elements of a line, formula and value, as one, without its place and what switches its unit.
+
+    Between a number and its unit stands a space that does not break, here as any other.
+    """
     text = re.sub("<ms-value [^>]*><span>(.*?)</span></ms-value>", r"\1", html(shown))
     text = re.sub("</?ms-unit>", "", re.sub(' id="line-\\w+"', "", text))
-    return text.replace('=||)</marimo-tex><span class="ms-value">', "= ")
+    return text.replace('=||)</marimo-tex><span class="ms-value">', "= ").replace("\u00a0", " ")
 
 
 def test_one_position_of_the_fields():
@@ -390,7 +397,7 @@ def test_solve_block_of_several_unknowns_is_typeset_equation_by_equation():
     assert r"x = \operatorname{Find}(x) = 1.4142 m</span>" in text
     assert r"k = \operatorname{Minerr}(k) = 2.4 m" in text
     assert ">found</span>" in text and ">least squares</span>" in text
-    assert "solutions seen by 128 starts" in text and "x in 0..3; y in 0..3" in text
+    assert "solutions seen by 128 starts" in text and "<i>x</i> in 0..3; <i>y</i> in 0..3" in text
 
 
 @pytest.mark.parametrize(

@@ -472,6 +472,7 @@ NOT_FOLLOWED = [
     ("np.roots([1.0, g.F, 2.0, -0.5])[2].real", "whose order"),
     ("np.array([np.float64(v) for v in x.tolist()])", "an array made of a quantity"),
     ("np.vectorize(math.gamma)(x)", ""),
+    ("table('9', 'F', g.F).columns[0].values[0]", "it goes on with the columns of a table"),
 ]
 
 

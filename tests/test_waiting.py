@@ -5,7 +5,7 @@ import ast
 import pytest
 
 from mechsheet.page.notebook import Cell
-from mechsheet.page.waiting import waiting
+from mechsheet.page.waiting import own_texts, waiting
 from mechsheet.worksheet import source
 
 TEXTS = (
@@ -44,3 +44,16 @@ def test_a_section_says_what_it_waits_for(stopped: str, told: dict[str, str]) ->
         if "mo.md" not in text
     ]
     assert waiting(file, run, stopped) == told
+
+
+def test_texts_that_need_no_number_stay_where_a_cell_waits() -> None:
+    cell = """
+mo.stop(R > 9, mo.md("Only then."))
+"The load."
+R = P  # [N] load
+typeset(mo.md("It is"), mo.md(f"{R} N"), "**known**")
+"Shown by no typeset."
+mo.md("Its end.")
+"""
+    assert own_texts(ast.parse(cell).body) == ["The load.", "It is", "**known**", "Its end."]
+    assert own_texts(ast.parse("class Own:\n    'Inputs.'\n'What the cell does.'\nR = 1").body) == []

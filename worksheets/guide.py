@@ -288,6 +288,7 @@ def section_8():
         sweep("worksheets/guide.py", ["M"], grid(r=[50, 55, 60], F=[40, 50])).frame()
 
     What a scene does not ask for is not computed.
+
         python lib/mechsheet design guide --vary="r=50..70" --vary="h=10..40" --need="M <= 2700" --best="max H"
         python lib/mechsheet design guide --vary="h=10..60" --need="M_work = 2000"
 

@@ -208,7 +208,7 @@ def scheme(A, B, C, L_BE, T_S, g):
 def drawing_21(g, part, scheme, still):
     S_t = g.S_min * (1 - part.value) + g.S_max * part.value  # [m] cylinder as drawn
     drawing_21 = scheme(S_t) + still
-    typeset(drawing_21, mark(S=S_t), caption("2.1", "Arm's end with bucket, in the axes of the arm"))
+    typeset(drawing_21, mark(S=S_t), caption("2.2", "Arm's end with bucket, in the axes of the arm"))
     return
 
 

@@ -168,7 +168,7 @@ class _Reader:
             case ast.Attribute(ast.Name(name), "T") if re.fullmatch(r"[A-Z](_\w+)?", name):  # a matrix
                 return Power(names.symbol(name), Function("T"))
             case ast.Attribute(ast.Name(name), part):  # a result of several parts
-                return Apply(names.part(part), Brackets((Text(name.replace("_", " ")),)))
+                return Apply(names.part(part), Brackets((names.whole(name),)))
             case ast.Attribute(ast.Call() as inner, part):
                 return Apply(names.part(part), Brackets((self.read(inner),), "[]", high=True))
         return None
@@ -285,10 +285,15 @@ class _Reader:
     def each(self, node: ast.ListComp | ast.GeneratorExp) -> Node | None:
         """What is computed for each element of something."""
         match node.generators:
-            case [ast.comprehension(ast.Name() as index, source, [])]:
-                of = Prefix(self.read(index), Prefix(Text(" of "), self.read(source)), RELATION)
+            case [ast.comprehension(index, source, [])]:
+                of = Prefix(self.index(index), Prefix(Text(" of "), self.read(source)), RELATION)
                 return Brackets((Prefix(self.read(node.elt), Prefix(Text(" for each "), of)),), "[]", high=True)
         return None
+
+    def index(self, node: ast.expr) -> Node:
+        """What stands for an element, or for its parts, but those that nothing reads."""
+        named = [part for part in getattr(node, "elts", [node]) if ast.unparse(part) != "_"]
+        return self.read(named[0]) if len(named) == 1 else self.brackets(named)
 
     def brackets(self, args: list[ast.expr]) -> Brackets:
         return Brackets(tuple(map(self.read, args)))
@@ -323,8 +328,8 @@ class _Reader:
             case [ast.comprehension(ast.Name() as index, ast.Call(ast.Name("range"), [*start, stop]), [])]:
                 first = self.read(start[0]) if start else Number(0)
                 return Sum(self.least(terms.elt, PRODUCT), self.read(index), first, self.before(stop))
-            case [ast.comprehension(ast.Name() as index, source, [])]:
-                return Sum(self.least(terms.elt, PRODUCT), self.read(index), self.read(source))
+            case [ast.comprehension(index, source, [])]:
+                return Sum(self.least(terms.elt, PRODUCT), self.index(index), self.read(source))
         return None
 
     def function(self, name: str, args: list[ast.expr]) -> Node:

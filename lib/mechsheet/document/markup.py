@@ -71,15 +71,15 @@ def printed(number: str) -> str:
     return escape(number).replace(")-(", ")–(")
 
 
-def in_words(sentence: str) -> str:
-    r"""A sentence, the names of quantities in it as their symbols, its numbers and degrees as the page writes them.
+def in_words(sentence: str, names: tuple[str, ...] = ()) -> str:
+    r"""A sentence, the ``names`` of quantities in it and what looks like one as symbols, its numbers as on the page.
 
     >>> in_words("omega3 - 1 < 0, theta/2")
     '<i>ω</i><sub>3</sub> − 1 &lt; 0, <i>θ</i>/2'
     >>> in_words("phi3 = -1.5e-7..90 deg, -2..-1 m")
     '<i>φ</i><sub>3</sub> = −1.5\u202f·\u202f10<sup>−7</sup>..90°, −2..−1 m'
     """
-    pieces = enumerate(symbol.pieces(sentence))
+    pieces = enumerate(symbol.pieces(sentence, names))
     return "".join(named(piece) if i % 2 else numbers.rewritten(escape(piece), HTML) for i, piece in pieces)
 
 

@@ -12,6 +12,7 @@ from mechsheet.worksheet.symbol import GREEK, INDEXED, Symbol, is_field, read, s
 FUNCTIONS = {
     "asin": "arcsin", "acos": "arccos", "atan": "arctan", "angle": "arg", "log": "ln", "maximum": "max",
     "nanmax": "max", "minimum": "min", "nanmin": "min", "arctan2": "atan2", "log10": "lg",
+    "len": "count", "ptp": "range",
 }  # fmt: skip
 _KNOWN = {"sin", "cos", "tan", "exp", "max", "min", "sum", "log2", "log1p", "expm1", *FUNCTIONS}
 _RATES = {"ds": Symbol("s", mark="."), "dds": Symbol("s", mark="..")}  # which the rule for names does not know
@@ -100,6 +101,11 @@ def function(name: str) -> Node:
         len(name) == 1 or re.fullmatch("d[a-z]", name) or (not word and (re.search(r"\d", name) or _SYMBOL.match(name)))
     )
     return symbol(name) if is_symbol else Function(name.replace("_", " "))
+
+
+def whole(name: str) -> Node:
+    """A result of several parts: its name in words, or its symbol where it is a capital with an index."""
+    return symbol(name) if re.fullmatch(r"[A-Z]\d\w*", name) else Text(name.replace("_", " "))
 
 
 def part(name: str) -> Node:

@@ -298,7 +298,7 @@ class Follower:
 def _of_one(found: Found) -> Spec:
     words = found.words
     return {
-        "unknown": in_words(words.unknown),
+        "unknown": in_words(words.unknown, found.names),
         "quantity": in_words(words.quantity),
         "plain": {"unknown": escape(words.unknown), "quantity": escape(words.quantity)},
         "unit": _measured(words.unit),
@@ -309,8 +309,8 @@ def _of_one(found: Found) -> Spec:
 def _of_several(found: Solution) -> Spec:
     words = found.words
     return {
-        "names": [in_words(name) for name in words.names],
-        "plain": {"names": [escape(name) for name in words.names]},
+        "names": [named(name) for name in found.names],
+        "plain": {"names": [escape(name) for name in found.names]},
         "units": [_measured(unit) for unit in words.units],
         "equations": words.equations,
         "equation_units": [_measured(unit) for unit in words.equation_units],

@@ -255,11 +255,11 @@ def _(summary: Summary, page: Follower) -> str:
 def _(found: Verdict, page: Follower) -> str:
     colour = "FAIL" if found.failures() else "PASS" if np.any(found.solved) else "OPEN"
     lines = "".join(f"<div>{message(text)}</div>" for text in found.failures())
-    rows = "".join(f"<tr><th>{escape(k)}</th><td>{in_words(v)}</td></tr>" for k, v in found.details())
+    rows = "".join(f"<tr><th>{escape(k)}</th><td>{in_words(v, found.names)}</td></tr>" for k, v in found.details())
     return (
         f'<div class="ms-found"{page.found(found)}><div>'
         f'<span class="ms-badge ms-{colour}">{found.word()}</span> '
-        f"<b>{in_words(found.headline())}</b></div>{lines}<table>{rows}</table></div>"
+        f"<b>{in_words(found.headline(), found.names)}</b></div>{lines}<table>{rows}</table></div>"
     )
 
 

@@ -9,7 +9,7 @@ def tell() -> None:
     """Let every page that this process serves tell why a cell of a worksheet has failed, in its place."""
     from mechsheet.page import notebook  # on use: a server is up sooner without
 
-    notebook.tell_of_failures(told)
+    notebook.tell_of_failures(told, kept)
 
 
 def told(error: object, cell_id: str, namespace: Mapping[str, Any]) -> str:
@@ -25,6 +25,18 @@ def told(error: object, cell_id: str, namespace: Mapping[str, Any]) -> str:
         return values.stopped(error.output, cell_id)
     reason = _reason(error, path)
     return values.failed(reason, cell_id=cell_id) if reason else ""
+
+
+def kept(code: str, namespace: Mapping[str, Any]) -> str:
+    """HTML of the texts without numbers in a cell that waits for another one; nothing where it has none."""
+    import marimo as mo  # on use: as above
+
+    from mechsheet.page import values, waiting  # on use: as above
+    from mechsheet.worksheet import source  # on use: as above
+
+    if mo.app_meta().mode != "run" or not _is_worksheet(Path(namespace.get("__file__") or "")):
+        return ""
+    return "".join(map(values.html, waiting.own_texts(source.parsed(code)[0].body)))
 
 
 def _reason(error: object, path: Path) -> str:

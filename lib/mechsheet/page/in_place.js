@@ -241,8 +241,12 @@
 
   // What others need goes with its cell only when that is deleted once more; for its key the editor asks itself.
   let sure; // the cell that was asked about
+  let entered; // the cell in which the keyboard was, which the palette (Ctrl+K) deletes
+  document.addEventListener("focusin", ({ target }) => (entered = target.closest?.(".marimo-cell") ?? entered));
+
   function going({ target }) {
-    const button = target.closest?.('[data-testid="delete-button"], [role="menuitem"]');
+    const button = target.closest?.('[data-testid="delete-button"], [role="menuitem"], [cmdk-item]');
+    if (button?.matches("[cmdk-item]")) return button.textContent === "Cell > Delete" ? entered : undefined;
     if (button?.role !== "menuitem") return button?.closest(".marimo-cell");
     return button.textContent === "Delete" ? document.querySelector('[data-state="open"] > .marimo-cell') : undefined;
   }
@@ -256,10 +260,11 @@
     event.stopImmediatePropagation();
     ask({ do: "cell", name: cell.dataset.cellId }).then(({ asks }) => {
       if (asks) say(`${asks}: delete once more to let it go`);
-      else if (cell === sure) event.target.dispatchEvent(new MouseEvent("click", event));
+      else if (cell === sure) event.target.dispatchEvent(new event.constructor(event.type, event));
     });
   };
   document.addEventListener("click", deleting, { capture: true });
+  document.addEventListener("cmdk-item-select", deleting, { capture: true }); // Enter in the palette
 
   function placeOf(name) {
     return name.startsWith("g.")

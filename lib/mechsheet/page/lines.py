@@ -48,9 +48,10 @@ def _formula(line: Formula, value: object, shown: Typeset) -> str:
     text = "" if shown.numbers is None else _substituted(line, shown.numbers, shown.position)
     namespace = shown.numbers.namespace if shown.numbers else None
     cleared = _cleared(line, value, namespace)
-    equals = "=" if cleared is value else r"\approx"
+    found = _valued(line, cleared, namespace)
+    equals = r"\approx" if cleared is not value else "" if _is_about(found) else "="
     told = line.meaning, line.number, text, line.mistake, line
-    return _line(f"{_equation(line, single)} {equals}", _valued(line, cleared, namespace), *told)
+    return _line(f"{_equation(line, single)} {equals}".rstrip(), found, *told)
 
 
 def valued(line: Formula, value: object, namespace: Mapping[str, Any] | None) -> str:
@@ -63,6 +64,11 @@ def _valued(line: Formula, cleared: Any, namespace: Mapping[str, Any] | None) ->
     if namespace is None or not isinstance(cleared, np.ndarray):
         return text
     return text + where(cleared, over(line.name, namespace))
+
+
+def _is_about(shown: str) -> bool:
+    """Whether a value says itself that it, or the first of its numbers, is about 0."""
+    return shown.startswith("≈") or "<span>≈" in shown
 
 
 def _cleared(line: Formula, value: Any, namespace: Mapping[str, Any] | None) -> Any:

@@ -83,11 +83,14 @@ def stopped(cell_id: str = "") -> tuple[tuple[source.Cell, ...], tuple[Cell, ...
         return (), (), ""
 
 
-def tell_of_failures(told: Callable[[object, str, Mapping[str, Any]], str]) -> None:
+def tell_of_failures(
+    told: Callable[[object, str, Mapping[str, Any]], str], kept: Callable[[str, Mapping[str, Any]], str]
+) -> None:
     """Let every page that this process serves show in the place of a cell that failed the HTML that is ``told`` of it.
 
-    It is told the exception, or what marimo has for it, the id of the cell and the namespace of the page; where it
-    tells nothing, and where this version of marimo has no such place, all stays as it is.
+    It is told the exception, or what marimo has for it, the id of the cell and the namespace of the page. In the place
+    of a cell that waits for the failed one stands what is ``kept`` of its code. Where they tell nothing, and where this
+    version of marimo has no such place, all stays as it is.
     """
     try:
         from marimo._messaging.cell_output import CellChannel  # on use, as all of these: a version may lack it
@@ -98,9 +101,10 @@ def tell_of_failures(told: Callable[[object, str, Mapping[str, Any]], str]) -> N
     except ImportError:
         return
 
-    def show(cell_id: Any, error: object, namespace: dict[str, Any]) -> None:
-        if html := told(error, str(cell_id), namespace):
-            # A cell that waits for its run is no longer one whose output is an error, which the page leaves out.
+    def show(cell_id: Any, html: str) -> None:
+        if html:
+            # The page leaves out what was stopped until it runs, and an error until its cell waits for its next run.
+            CellNotificationUtils.broadcast_status(cell_id, "running")
             CellNotificationUtils.broadcast_output(CellChannel.OUTPUT, "text/html", html, cell_id, "queued")
             CellNotificationUtils.broadcast_status(cell_id, "idle")
 
@@ -111,13 +115,16 @@ def tell_of_failures(told: Callable[[object, str, Mapping[str, Any]], str]) -> N
 
         def raised(cell: Any, _: object, result: Any) -> None:
             if result.exception is not None:
-                show(cell.cell_id, result.exception, notebook.globals)
+                show(cell.cell_id, told(result.exception, str(cell.cell_id), notebook.globals))
 
-        def unread(_: object) -> None:  # of cells that cannot even be run
+        def unread(ended: Any) -> None:  # of cells that cannot even be run, and of those that were not run
             for cell_id, (error, *_more) in kernel.errors.items():
                 if cell_id not in seen:
-                    show(cell_id, error, notebook.globals)
+                    show(cell_id, told(error, str(cell_id), notebook.globals))
             seen.update(kernel.errors)
+            waiting = ended.cancelled_cells
+            for cell_id in {each for failed in waiting for each in waiting[failed]}:
+                show(cell_id, kept(notebook.graph.cells[cell_id].code, notebook.globals))
 
         kernel._hooks.add_post_execution(raised, Priority.LATE)
         kernel._hooks.add_on_finish(unread, Priority.LATE)

@@ -19,7 +19,8 @@ from mechsheet.worksheet.numbers import Notation
 from mechsheet.worksheet.table import Column, Figure
 
 UNIT = "<ms-unit>{}</ms-unit>"  # on which one clicks
-_SWITCHED = HTML._replace(degrees=UNIT.format(HTML.degrees), unit=f" {UNIT}")
+_ALONE = HTML._replace(unit="\u00a0{}", percent="\u00a0%")  # a unit stands in the line of its number
+_SWITCHED = _ALONE._replace(degrees=UNIT.format(HTML.degrees), unit=_ALONE.unit.format(UNIT))
 
 
 def offered(unit: str) -> dict[str, str]:
@@ -36,7 +37,7 @@ def value(of: str, unit: str, text: Callable[[str, Notation], str]) -> str:
     """HTML that ``text`` gives in a unit and a notation; it follows the unit that is chosen for what it shows."""
     texts = {label: text(other, _SWITCHED) for label, other in offered(unit).items()}
     if not texts:
-        return text(unit, HTML)
+        return text(unit, _ALONE)
     return element("ms-value", f"<span>{text(unit, _SWITCHED)}</span>", of=of, unit=_printed(unit), texts=texts)
 
 

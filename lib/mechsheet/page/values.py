@@ -243,7 +243,7 @@ def _(check: Check) -> str:
     told = ": " + switched.value(anchor(check.name), check.unit, partial(compared, check)) if check.evaluated else ""
     return (
         f'<div id="{anchor(check.name)}">{_badge(check)} {in_words(check.name)}{told}'
-        f'<span style="opacity:.7"> {message(check.reason)}</span></div>'
+        f'<span style="opacity:.7">{_why(check)}</span></div>'
     )
 
 
@@ -261,13 +261,22 @@ def anchor(name: str) -> str:
 def _(summary: Summary) -> str:
     passed = sum(check.passed for check in summary.checks)
     items = "".join(
-        f"<span>{_badge(check)} {_link(check, in_words(check.name))} {check.utilised} {message(check.reason)}</span>"
+        f"<span>{_badge(check)} {_link(check, in_words(check.name))}{_in_short(check)}</span>"
         for check in summary.worst_first
     )
     worst = "".join(map(_in_bar, summary.worst_first[:1]))
     bar = f'<a href="#checks"><b>{passed} of {len(summary.checks)} checks</b></a>{worst}'
     whole = f'<div class="ms-summary" id="checks"><b>{summary.count}</b><div class="ms-row">{items}</div></div>'
     return element("ms-verdict", whole, bar=bar)
+
+
+def _why(check: Check) -> str:
+    return f"{';' if check.evaluated else ':'} {message(check.reason)}" if check.reason else ""
+
+
+def _in_short(check: Check) -> str:
+    """What stands behind the name of a check in the summary: what part of its limit it takes, or why it is as it is."""
+    return f": {message(check.reason)}" if check.reason else f" {check.utilised}"
 
 
 def _in_bar(check: Check) -> str:
@@ -299,12 +308,12 @@ def _(found: Verdict) -> str:
     lines = "".join(f"<div>{message(text)}</div>" for text in failures)
     rows = "".join(
         f'<tr><td style="opacity:.65;padding:0 1em 0 0">{escape(k)}</td>'
-        f'<td style="padding:0;font-variant-numeric:tabular-nums">{in_words(v)}</td></tr>'
+        f'<td style="padding:0;font-variant-numeric:tabular-nums">{in_words(v, found.names)}</td></tr>'
         for k, v in found.details()
     )
     return (
         '<div style="border-left:3px solid currentColor;padding:.2em .8em;margin:.4em 0">'
-        f"<div>{badge}<b>{in_words(found.headline())}</b></div>{lines}"
+        f"<div>{badge}<b>{in_words(found.headline(), found.names)}</b></div>{lines}"
         f'<table style="border-collapse:collapse;font-size:.9em;margin-top:.3em">{rows}</table></div>'
     )
 

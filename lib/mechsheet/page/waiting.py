@@ -1,4 +1,4 @@
-"""What a served page tells where something waits for a cell that was stopped: marimo leaves it out without a word."""
+"""What a served page has where something waits for a cell that was stopped: marimo leaves it out without a word."""
 
 import ast
 import re
@@ -35,6 +35,29 @@ def waiting(file: Sequence[source.Cell], cells: Sequence[Cell], stopped: str) ->
 def headings(lines: Iterable[ast.stmt]) -> list[str]:
     """Headings in the texts that lines of a cell show."""
     return [found for text in source.texts(lines) for found in _HEADING.findall(source.constant(text))]
+
+
+def own_texts(lines: Iterable[ast.stmt]) -> list[str]:
+    """Texts that lines of a cell show whatever it computes: without values, and on no condition."""
+    found, standing = list[str](), list[str]()
+    for line in lines:
+        match line:
+            case ast.Expr(ast.Constant(str(text))):
+                standing.append(text)
+            case ast.Expr(ast.Call(ast.Name("typeset"), arguments)):
+                found += [*standing, *map(_text, arguments)]
+                standing.clear()
+            case ast.Expr(shown):
+                found.append(_text(shown))
+    return [text for text in found if text]
+
+
+def _text(shown: ast.expr) -> str:
+    """A text as it stands in the source, plain or in ``mo.md``; nothing of one with values, and of anything else."""
+    match shown:
+        case ast.Constant(str(text)) | ast.Call(ast.Attribute(ast.Name("mo"), "md"), [ast.Constant(str(text))]):
+            return text
+    return ""
 
 
 def _named(section: str) -> str:

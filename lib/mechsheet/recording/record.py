@@ -386,6 +386,8 @@ class _Run(OfPositions):
         if isinstance(error, NotRecorded):
             taker = "" if isinstance(error, Unrepeatable) else statement.taker(error)
             return NotRecorded(taker) if taker else error.with_traceback(None)
+        if isinstance(error, AttributeError) and error.obj is None:  # which what shows gives here
+            return NotRecorded(f"it goes on with the {error.name} of a table, figure or check that it shows")
         said = str(error).splitlines()[0] if str(error) else repr(error)
         return NotRecorded(f"it does not run with recorded quantities ({said})")
 

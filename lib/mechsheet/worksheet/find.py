@@ -130,6 +130,10 @@ class Found(Verdict):
     def _everything(self) -> "_Everything":
         return self._compute()
 
+    @property
+    def names(self) -> tuple[str, ...]:
+        return (self.words.unknown,) if self.words.unknown.isidentifier() else ()
+
     def headline(self) -> str:
         unknown, unit = self.words.unknown, self.words.unknown_unit
         if isinstance(self.reason, str):

@@ -2,7 +2,7 @@
 
 import re
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, lru_cache
 
 GREEK = {
     "alpha": "α", "beta": "β", "gamma": "γ", "delta": "δ", "eps": "ε", "epsilon": "ε", "zeta": "ζ", "eta": "η",
@@ -36,8 +36,8 @@ def read(name: str) -> Symbol:
 
     >>> read("phi34"), read("GS6_max")
     (Symbol(base='φ', index='34', mark=''), Symbol(base='G', index='S6,max', mark=''))
-    >>> read("group_23"), read("h_phi6")
-    (Symbol(base='group', index='23', mark=''), Symbol(base='h', index='φ6', mark=''))
+    >>> read("group_23"), read("h_phi6"), read("GS6max").index
+    (Symbol(base='group', index='23', mark=''), Symbol(base='h', index='φ6', mark=''), 'S6,max')
     >>> read("dphi3"), read("dRa"), read("gap").base
     (Symbol(base='φ', index='3', mark='d'), Symbol(base='R', index='a', mark='Δ'), 'gap')
     >>> read("ds")
@@ -58,9 +58,9 @@ def read(name: str) -> Symbol:
 
 
 def _index(text: str) -> str:
-    """Underscores of an index as commas, and its Greek words that stand by themselves as letters."""
+    """Underscores of an index as commas, as before a word behind a digit; Greek words by themselves as letters."""
     letters = re.sub(rf"(?<![A-Za-z])({_WORDS})(?![a-z])", lambda m: GREEK[m[0]], text.strip("_"))
-    return letters.replace("_", ",")
+    return re.sub(r"(?<=\d)(?=[a-z]{3,}$)", ",", letters.replace("_", ","))
 
 
 _LETTERS = frozenset(GREEK.values())
@@ -85,13 +85,24 @@ def plain(name: str) -> str:
     return stem(name).replace("_", "")
 
 
-def pieces(sentence: str) -> list[str]:
-    """A sentence in pieces: every second one is the name of a quantity.
+def pieces(sentence: str, names: tuple[str, ...] = ()) -> list[str]:
+    """A sentence in pieces: every second one is the name of a quantity, one of the ``names`` or what looks like one.
 
     >>> pieces("omega3 < 1, theta/2")
     ['', 'omega3', ' < 1, ', 'theta', '/2']
+    >>> pieces("UGL2: Imp = I56, l20 = H")  # what an equation makes equal, too; a program is no quantity
+    ['UGL2: ', 'Imp', ' = ', 'I56', ', ', 'l20', ' = ', 'H', '']
+    >>> pieces("m in 0..3 m, SAB = 2 mm/m", ("m", "SAB"))  # a unit is no name
+    ['', 'm', ' in 0..3 m, ', 'SAB', ' = 2 mm/m']
     """
-    return re.split(rf"\b((?:{_WORDS})\b|[A-Za-z]+[_\d]\w*)", sentence)
+    return _looks_like_a_name(names).split(sentence)
+
+
+@lru_cache(maxsize=64)
+def _looks_like_a_name(names: tuple[str, ...]) -> re.Pattern[str]:
+    given = "".join(rf"(?<!\d )(?<![*/·]){re.escape(name)}\b|" for name in names)
+    indexed = r"(?![A-Z]{3,}\d+\b)[A-Za-z]+[_\d]\w*"
+    return re.compile(rf"\b({given}(?:{_WORDS})\b|{indexed}|[A-Z][a-z]{{0,3}}(?= = )|(?<= = )[A-Z](?![\w.]))")
 
 
 def text(name: str) -> str:

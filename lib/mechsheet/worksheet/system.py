@@ -99,6 +99,10 @@ class Solution(Verdict):
     def _others(self) -> "_Others":
         return self._compute()
 
+    @property
+    def names(self) -> tuple[str, ...]:
+        return self.words.names
+
     def word(self) -> str:
         return "least squares" if self.least and not self.failures() else super().word()
 

@@ -54,6 +54,11 @@ class Verdict(Shown):
         """Stop where a value is read that is none."""
         refuse((Waits if self.waits else SheetError)(self.reason), self)
 
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of unknowns that stand in headline and details."""
+        raise NotImplementedError
+
     def headline(self) -> str:
         """The unknowns and their values, or how many problems are solved."""
         raise NotImplementedError
