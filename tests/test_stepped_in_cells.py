@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -32,7 +33,17 @@ STEPPED = {  # equations, guesses, and how many of 10 inputs have a value at lea
         "(abs(u) * u + np.maximum(v, g.a) - g.F, np.where(u > 1, v**g.a, v) + np.hypot(u, v) - x)", "u=1.2, v=2.0", 3
     ),
     "at a corner": ("(abs(u - 1) - g.a + v / 9, v - g.F)", "u=1.000001, v=2.0", 0),
-    "a jump": ("(u + np.sign(v - 2) - g.a, v - g.F)", "u=0.5, v=2.0", 0),
+    "a jump": ("(u + np.sign(v - 2) - g.a, v - g.F)", "u=0.5, v=2.0", 10),
+    "angles": (
+        "np.exp(1j * u) + g.a * np.exp(1j * v) - 0.2 * x", "u=1.0, v=-1.0, unknown_unit=('deg', 'rad')", 2
+    ),
+    "a link": ("v * np.exp(1j * u) - g.F * np.exp(1j * x)", "u=0.3, v=1.0, unknown_unit=('deg', 'm')", 10),
+    "a link, linear before": (
+        "(v * np.cos(u) - g.F, v - 3 * g.F - g.a)", "u=4.0, v=1e-3, unknown_unit=('deg', 'm')", 10
+    ),
+    "linear behind": ("(u**2 - g.F, v * u - g.a * np.exp(u) - x)", "u=0.2, v=1e9", 10),
+    "a jump behind": ("(u**3 - g.F, v - np.sign(v - 2) - g.a * u)", "u=1.0, v=1.0", 5),
+    "singular": ("(u + v - g.F, u + np.where(g.a < 0.8, 0.5, 1 + 4e-16 * g.a) * v - 1)", "u=1.0, v=1.0", 3),
     "ratio": ("(np.pi * np.arctan2(v, u) - g.a, np.sqrt(u) * np.log(v + 3) - g.F + np.tan(v / 4))", "u=2.0, v=1.0", 6),
     "linear": ("(g.F * u - v - 1, u + 1e3 * g.a * v - 5)", "u=1.0, v=1e-5", 10),
 }  # fmt: skip
@@ -73,6 +84,25 @@ def test_steps_end_where_the_worksheet_does(name: str, tmp_path: Path) -> None:
 
 def test_steps_of_three_unknowns(tmp_path: Path) -> None:
     assert_the_same_or_none(sheet_with(tmp_path, THREE), "uvw_found", 3)
+
+
+def test_a_root_of_the_slotted_link_is_found_from_any_guess_that_leads_the_worksheet_to_one() -> None:
+    """All six unknowns of both its Finds, from all angles of the link, at inputs within a tenth of the given ones."""
+    sheet = cells.load(Path(__file__).parents[1] / "worksheets" / "slotted_link.py")
+    _, recording = recorded(sheet)
+    search(recording)
+    default, random = sheet.inputs(), np.random.default_rng(2026)
+    names = [name for name, node in recording.inputs.items() if node.value.dtype.kind == "f"]
+    for _ in range(12):
+        given = {name: getattr(default, name) * random.uniform(0.9, 1.1) for name in names}
+        own = sheet.run(["F_found", "G_found"], {"g": replace(default, **given)})
+        for found in recording.found.values():
+            assert found.inverse is not None
+            block, number = found.node.args
+            values = own["F_found" if found.node.value.ndim == 1 else "G_found"]._values[number]
+            known = numbers([found.inverse], {recording.inputs[name]: x for name, x in given.items()})
+            size = 1e-10 * np.max(np.abs(values))
+            np.testing.assert_allclose(known[found.inverse], values, 1e-10, size, err_msg=f"{block.starts} {given}")
 
 
 def unsolved(tmp_path: Path, lines: str) -> tuple[Recording, str]:
