@@ -63,7 +63,7 @@ def steps(graph: Graph, block: Block) -> list[Quantity]:
             step, clear = _step(graph, block, stepped, x, sizes)
             if longest:
                 part = 1 / np.maximum(_greatest([abs(step[k]) / most for k, most in longest.items()]), 1)
-                graph.labels[part.re] = Label(f"part_{number}", "", f"part of step {number} that is gone")
+                graph.labels[part.re] = Label(f"part_{number}", "", f"part of step {number} that is taken")
                 step = {k: part * whole for k, whole in step.items()}
             x = _gone(graph, block, x, step, number, f"after step {number} from its guess")
             sure = sure & clear
