@@ -14,7 +14,8 @@ from mechsheet.recording.confirmed import confirm
 from mechsheet.recording.graph import Gap, Graph, Label, NotRecorded
 from mechsheet.recording.lines import Recording, Solved, leaves_of
 from mechsheet.recording.node import Block, Node, bottom_up
-from mechsheet.recording.operations import ELEMENTWISE, Values
+from mechsheet.recording.operations import Values
+from mechsheet.recording.problems import alike, bounded, numbers_under
 from mechsheet.recording.quantity import Quantity, lift, moved
 from mechsheet.recording.replaced import replaced
 from mechsheet.recording.stepped import steps
@@ -24,7 +25,6 @@ _FIRST = (1 - np.cos(np.linspace(0, np.pi, PLACES))) / 2
 _LATER, _LOOKS = np.linspace(0, 1, 17), 15  # of each later one at the part in which the residual changes its sign
 _EARLY = 4  # looks that count changes of sign; later ones may meet rounding
 _NEAR, _AT_END = 0.45, 1e-9  # of the residual beside a place, that there may be a root about without a change of sign
-_MOST = 500_000  # operations on single numbers, of which a third or so have a cell
 _NEAREST = f"the nearest change of sign of {PLACES} places"
 _NOWHERE = 1e300  # how far away a change of sign is that there is not
 _LESS = 0.1  # of the residual in the last early look may be left in the end: more is a jump or a pole
@@ -116,65 +116,16 @@ def _at_hand(recording: Recording, found: Node, root: Any) -> Node:
 
 
 def _root(graph: Graph, block: Block, unit: str) -> Any:
-    if not (block.elementwise or _each_of_its_own(block)):
-        raise NotRecorded("its equation for one of the values rests on others of them")
+    numbers_under(block)
     if not block.starts.keys() >= {"lo", "hi"}:
         raise NotRecorded("its interval has an open end")
     given = [start for starts in block.starts.values() for start in starts]
-    shaping = (*given, *_shaping(graph, block))
+    shaping = (*given, *alike(graph, block))
     a, b, *guess = (Quantity(graph, graph.like(start, *shaping)) for start in given)
     if a.extent != block.nodes[0].shape:
         raise NotRecorded("its interval has another shape")
-    most, graph.most, graph.work = graph.most, _MOST, 0
-    try:
+    with bounded(graph):
         return _searched(block, a, b, guess[0] if guess else a / 2 + b / 2, unit)
-    finally:
-        graph.most, graph.work = most, 0
-
-
-def _shaping(graph: Graph, block: Block) -> tuple[Node, ...]:
-    """What the block rests on that has the shape of its unknown."""
-    shape = block.nodes[0].shape
-    alike = tuple(node for node in block.under if block.elementwise or node.shape == shape)
-    return alike or (graph.constant(np.zeros(shape)),)
-
-
-_NONE, _SEVERAL = -1, -2
-
-
-def _each_of_its_own(block: Block) -> bool:
-    """Whether the equation for each number of the unknown rests on no other number of it."""
-    unknown, residual = block.nodes[0], block.residuals[0]
-    rests = {unknown: np.arange(unknown.size).reshape(unknown.shape)}
-    for node in bottom_up([residual], rests):
-        under = [rests[operand] for operand in node.operands]
-        if node.op == "take":
-            rests[node] = under[0].reshape(-1)[node.args[1]]
-        elif node.op == "join":
-            starts = np.cumsum([0, *(one.size for one in under)])
-            rests[node] = np.concatenate([one.reshape(-1) for one in under])[starts[node.args[1]] + node.args[2]]
-        elif node.op == "reduce":
-            groups = [_of_all(under[0].reshape(-1)[group]) for group in node.args[1]]
-            rests[node] = np.array(groups, int).reshape(node.shape)
-        elif node.op in ELEMENTWISE:
-            rests[node] = _of_both(*under)
-        else:  # of all that it rests on
-            whole = np.concatenate([np.array([_NONE]), *(one.reshape(-1) for one in under)])
-            rests[node] = np.full(node.shape, _of_all(whole))
-    own = rests[residual]
-    return own.shape == unknown.shape and bool(((own == rests[unknown]) | (own == _NONE)).all())
-
-
-def _of_both(*rests: Values) -> Values:
-    one, *others = np.broadcast_arrays(*rests)
-    for other in others:
-        one = np.where((other == _NONE) | (other == one), one, np.where(one == _NONE, other, _SEVERAL))
-    return one
-
-
-def _of_all(rests: Values) -> int:
-    known = set(rests.reshape(-1).tolist()) - {_NONE}
-    return known.pop() if len(known) == 1 else _SEVERAL if known else _NONE
 
 
 class _Part(NamedTuple):

@@ -6,7 +6,7 @@ two differ by so much, that their ways might part, there is no value. Unknowns o
 which their own equations are linear, need no way: they are what these equations make them in the end.
 """
 
-from collections.abc import Collection, Container, Iterable, Sequence
+from collections.abc import Collection, Container, Iterable, Mapping, Sequence
 from itertools import combinations, pairwise
 from typing import Any, NamedTuple
 
@@ -14,10 +14,12 @@ import numpy as np
 
 from mechsheet import units
 from mechsheet.recording.arithmetic import choice
-from mechsheet.recording.derived import Sloped, at
+from mechsheet.recording.derived import Sloped, Slopes, at
 from mechsheet.recording.graph import Graph, Label, NotRecorded
 from mechsheet.recording.linear_rules import solved_rows
-from mechsheet.recording.node import Block, bottom_up
+from mechsheet.recording.node import Block, Node, bottom_up
+from mechsheet.recording.operations import Values
+from mechsheet.recording.problems import alike, bounded, numbers_under, of_each
 from mechsheet.recording.quantity import Quantity, lift
 from mechsheet.worksheet.equations import longest_step
 
@@ -40,6 +42,19 @@ class _Group(NamedTuple):
     curved: bool  # in its own ones
 
 
+class _Asked(NamedTuple):
+    """A block by groups of its equations.
+
+    Where not all of it is elementwise, ``rests`` tells which number of the unknowns elements rest on. What ``even``
+    operations compare is linear in the unknowns: it stays 0 where it has no slopes.
+    """
+
+    block: Block
+    groups: list[_Group]
+    rests: Mapping[Node, Values]
+    even: frozenset[Node]
+
+
 def steps(graph: Graph, block: Block) -> list[Quantity]:
     """The unknowns of a block, from their guess; NaN where they may not be the worksheet's own.
 
@@ -49,18 +64,23 @@ def steps(graph: Graph, block: Block) -> list[Quantity]:
         raise NotRecorded("the squares of its equations are made least")
     if any(len(ends) > 1 for ends in block.starts.values()):
         raise NotRecorded("it is looked for in intervals, from starts all over them")
-    if not block.elementwise:
-        raise NotRecorded("its equations rest on sums or on other elements")
+    with bounded(graph):
+        return _stepped(graph, block)
+
+
+def _stepped(graph: Graph, block: Block) -> list[Quantity]:
     guesses = [guess for (guess,) in block.starts.values()]
-    x = dict(enumerate(Quantity(graph, graph.like(guess, *guesses, *block.under)) for guess in guesses))
+    shaping = (*guesses, *alike(graph, block))
+    x = dict(enumerate(Quantity(graph, graph.like(guess, *shaping)) for guess in guesses))
     sizes = [_size(graph, x[k].re, unit) for k, unit in enumerate(block.unknown_unit)]
     longest = {k: most for k, unit in enumerate(block.unknown_unit) if np.isfinite(most := longest_step(unit))}
-    stepped, straight = _apart(_groups(graph, block), longest)
+    asked = _asked(graph, block)
+    stepped, straight = _apart(asked.groups, longest)
     sure: Any = True
     if stepped:
         ways, moves = [x], list[_Some]()
         for number in range(1, _STEPS + 1):
-            step, clear = _step(graph, block, stepped, x, sizes)
+            step, clear = _step(graph, asked, stepped, x, sizes)
             if longest:
                 part = 1 / np.maximum(_greatest([abs(step[k]) / most for k, most in longest.items()]), 1)
                 graph.labels[part.re] = Label(f"part_{number}", "", f"part of step {number} that is taken")
@@ -73,13 +93,12 @@ def steps(graph: Graph, block: Block) -> list[Quantity]:
     for group in straight:
         x = x | dict.fromkeys(group.own, lift(graph, 0.0))
         for number in (1, 2):
-            step, clear = _step(graph, block, [group], x, sizes)
+            step, clear = _step(graph, asked, [group], x, sizes)
             x = _gone(graph, block, x, step, number, "by linear equations" + ", corrected" * (number - 1))
             sure = sure & clear
         for k, last in step.items():
             sure = sure & (abs(last) <= _ENDED * np.maximum(sizes[k], abs(x[k])))
-    graph.work = 0
-    whole = [graph.like(x[k].re, *guesses, *block.under) for k in range(len(guesses))]
+    whole = [graph.like(x[k].re, *shaping) for k in range(len(guesses))]
     return [choice(graph, sure, Quantity(graph, one), np.nan) for one in whole]
 
 
@@ -91,16 +110,27 @@ def _size(graph: Graph, guess: Any, unit: str) -> Any:
     return choice(graph, known == 0, Quantity(graph, graph.constant(units.parse(unit).factor, unit)), known)
 
 
-def _groups(graph: Graph, block: Block) -> list[_Group]:
-    """The equations by groups that can be solved one after the other, the smallest first."""
+def _asked(graph: Graph, block: Block) -> _Asked:
+    rests = {} if block.elementwise else numbers_under(block)
     x = [Quantity(graph, node) for node in block.nodes]
     equations, corners = at(dict(zip(block.nodes, x, strict=True)), block.residuals)
+    moving = [node for node, (_, slopes) in corners.items() if _rest(slopes.values(), block.nodes)]
+    groups = _groups(block, equations, [slopes for _, slopes in corners.values()])
+    return _Asked(block, groups, rests, frozenset(corners.keys() - moving))
+
+
+def _rest(slopes: Iterable[Quantity], unknowns: Iterable[Node]) -> bool:
+    """Whether slopes rest on some unknowns."""
+    return not set(unknowns).isdisjoint(bottom_up((slope.re for slope in slopes), ()))
+
+
+def _groups(block: Block, equations: Sequence[Sloped], corners: Sequence[Slopes]) -> list[_Group]:
+    """The equations by groups that can be solved one after the other, the smallest first."""
     known, left, groups = set[int](), list(range(len(equations))), list[_Group]()
     while left:
         chosen, own = _fewest(equations, left, known)
-        slopes = (slope.re for i in chosen for k, slope in equations[i][1].items() if k in own)
-        bent = not {block.nodes[k] for k in own}.isdisjoint(bottom_up(slopes, ()))
-        curved = bent or any(k in own for _, moves in corners for k in moves)
+        slopes = [slope for i in chosen for k, slope in equations[i][1].items() if k in own]
+        curved = _rest(slopes, [block.nodes[k] for k in own]) or any(k in own for moves in corners for k in moves)
         groups.append(_Group(chosen, own, frozenset(k for i in chosen for k in equations[i][1]), curved))
         known.update(own)
         left = [i for i in left if i not in chosen]
@@ -134,9 +164,9 @@ def _apart(groups: Sequence[_Group], angles: Iterable[int]) -> tuple[list[_Group
     return stepped, straight
 
 
-def _step(graph: Graph, block: Block, groups: Sequence[_Group], x: _Some, sizes: Sequence[Any]) -> tuple[_Some, Any]:
+def _step(graph: Graph, asked: _Asked, groups: Sequence[_Group], x: _Some, sizes: Sequence[Any]) -> tuple[_Some, Any]:
     """Newton's step of groups, which is taken away from their unknowns, and whether no corner is near."""
-    graph.work = 0  # a step may take what a line may
+    block = asked.block
     wanted = [i for group in groups for i in group.equations]
     unknowns = {node: x[k] for k, node in enumerate(block.nodes)}
     known, corners = at(unknowns, [block.residuals[i] for i in wanted])
@@ -150,9 +180,10 @@ def _step(graph: Graph, block: Block, groups: Sequence[_Group], x: _Some, sizes:
             rows.append([*(slopes.get(k, none) for k in group.own), value])
         step |= zip(group.own, _solved(graph, rows), strict=True)
     clear: Any = True
-    for off, slopes in corners:
-        near = sum(abs(slope) * np.maximum(sizes[k], abs(x[k])) for k, slope in slopes.items())
-        clear = clear & (abs(off) > _BESIDE * near)
+    for node, (off, slopes) in corners.items():
+        near = _BESIDE * sum(abs(slope) * np.maximum(sizes[k], abs(x[k])) for k, slope in slopes.items())
+        own = abs(off) >= near if node in asked.even else abs(off) > near
+        clear = clear & (of_each(own, asked.rests[node], block.nodes[0].shape) if node in asked.rests else own)
     return step, clear
 
 
