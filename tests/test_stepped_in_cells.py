@@ -131,7 +131,7 @@ def unsolved(tmp_path: Path, lines: str) -> tuple[Recording, str]:
         ("(u**2 + v - 9, v - u)", "u=(0, 9), v=(0, 9)", "intervals"),
         ("(u * u.sum() - x, v - u)", "u=x, v=1.0", "rests on others of them"),
         ("((2 * np.stack([abs(np.sum(u)) + v, u]))[1] - g.F, v - u)", "u=x, v=1.0", "is not that of each value"),
-        ("(np.exp(u[..., None] * np.linspace(0, 1, 3000)).sum(-1) - 2e4, v - u)", "u=x, v=1.0", "more than 500,000"),
+        ("(np.exp(u[..., None] * np.linspace(0, 1, 50000)).sum(-1) - 2e5, v - u)", "u=x, v=1.0", "more than 8,000,000"),
         ("(np.max(u[..., None] * x, -1) - g.F, v - u)", "u=1.0, v=1.0", "the slope of max"),
         ("(u % 3 - g.a, v - g.F)", "u=2.0, v=1.0", "the slope of mod"),
         ("(u - g.F, v - 1, u)", "u=1.0, v=1.0", "squares"),

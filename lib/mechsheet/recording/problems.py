@@ -13,17 +13,15 @@ from mechsheet.recording.quantity import Quantity
 
 NONE, SEVERAL = -1, -2
 
-_MOST = 500_000  # operations on single numbers, of which a third or so have a cell
-
 
 @contextmanager
-def bounded(graph: Graph) -> Iterator[None]:
-    """What is made of a graph's quantities here are as many operations as the cells for a block may be."""
-    most, graph.most, graph.work = graph.most, _MOST, 0
+def bounded(graph: Graph, most: int) -> Iterator[None]:
+    """What the cells for a block may take: so many operations on single numbers, of which a third or so have a cell."""
+    before, graph.most, graph.work = graph.most, most, 0
     try:
         yield
     finally:
-        graph.most, graph.work = most, 0
+        graph.most, graph.work = before, 0
 
 
 def alike(graph: Graph, block: Block) -> tuple[Node, ...]:

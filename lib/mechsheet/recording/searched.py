@@ -25,6 +25,7 @@ _FIRST = (1 - np.cos(np.linspace(0, np.pi, PLACES))) / 2
 _LATER, _LOOKS = np.linspace(0, 1, 17), 15  # of each later one at the part in which the residual changes its sign
 _EARLY = 4  # looks that count changes of sign; later ones may meet rounding
 _NEAR, _AT_END = 0.45, 1e-9  # of the residual beside a place, that there may be a root about without a change of sign
+_MOST = 500_000  # operations on single numbers: it tries many places of which one is the root
 _NEAREST = f"the nearest change of sign of {PLACES} places"
 _NOWHERE = 1e300  # how far away a change of sign is that there is not
 _LESS = 0.1  # of the residual in the last early look may be left in the end: more is a jump or a pole
@@ -124,7 +125,7 @@ def _root(graph: Graph, block: Block, unit: str) -> Any:
     a, b, *guess = (Quantity(graph, graph.like(start, *shaping)) for start in given)
     if a.extent != block.nodes[0].shape:
         raise NotRecorded("its interval has another shape")
-    with bounded(graph):
+    with bounded(graph, _MOST):
         return _searched(block, a, b, guess[0] if guess else a / 2 + b / 2, unit)
 
 

@@ -30,6 +30,7 @@ _ENDED = 1e-9  # sizes that the last step moves an unknown at most
 _WIDER = 1e5  # times as much may two ways differ at a later step, times the square of how many sizes they lead away
 _LINEAR_FAR = 1e6  # sizes that an unknown is at most in which its own equations are linear
 _NEAR = 1e-6  # sizes of a step behind which they come nearer to each other
+_MOST = 8_000_000  # operations on single numbers: six unknowns at 361 positions from 13 guesses take most of them
 _BESIDE = 1e-4  # of the unknowns: within so much of them there is no corner at which differences see no slope
 
 
@@ -64,7 +65,7 @@ def steps(graph: Graph, block: Block) -> list[Quantity]:
         raise NotRecorded("the squares of its equations are made least")
     if any(len(ends) > 1 for ends in block.starts.values()):
         raise NotRecorded("it is looked for in intervals, from starts all over them")
-    with bounded(graph):
+    with bounded(graph, _MOST):
         return _stepped(graph, block)
 
 
