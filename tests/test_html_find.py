@@ -119,6 +119,9 @@ SEVERAL = {
     "sizes far apart": "lambda u, v: (u * 1e-9 - g.a, v * 1e9 - u * 1e-9), u=(0, 1e10), v=(0, 1e-8)",
     "no number beside it": "lambda u, v: (np.sqrt(u - g.a), v - u), u=(0, 4), v=(0, 4)",
     "complex": "lambda p, q: np.exp(1j * p) + g.a * np.exp(1j * q) - 0.4 * g.F, p=1.0, q=-1.0",
+    "an angle far off": "lambda p, q: q * np.exp(1j * p) - g.F * np.exp(2j), p=0.3, q=1.0, unknown_unit=('rad', 'm')",
+    "rounded to one number": "lambda p, q: np.exp(1j * p) + 0.7114300409213384 * np.exp(1j * q)"
+    " - 0.2 * 8.347208449245823, p=1.0, q=-1.0",
     "three": "lambda u, v, w: (u + v + w - 6, u * v * w - 6 * g.a, u - w), u=(0, 4), v=(0, 6), w=(0, 4)",
     "no target": "lambda u, v: (u + v, v - g.a * u), equals=(np.where(g.F > 2, g.F, np.nan), 0), u=(0, 9), v=(0, 9)",
     "targets of some": "lambda u, v: (u + v, v - g.a * u), equals=(np.where(x > 2, x, np.nan), 0), u=1.0, v=1.0",

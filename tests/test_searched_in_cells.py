@@ -12,6 +12,7 @@ from test_recalculation import edit
 
 from mechsheet import SheetError, evaluate
 from mechsheet.recording.node import bottom_up
+from mechsheet.recording.numbers import numbers
 from mechsheet.recording.searched import search
 from mechsheet.run import report
 from mechsheet.worksheet import cells
@@ -66,7 +67,7 @@ def fields(E, g):
 CHANGES: list[tuple[dict[str, Any], str]] = [  # with those that have no value in the cells
     # the sign changes at a pole, where it jumps, nowhere; there are other roots: at an end, touching, close, beside NaN
     ({"F": 0.625, "a": 0.25}, "PJWBDCV"),
-    ({"F": 8.5}, "WNPUV"),  # W has several roots, the others none
+    ({"F": 8.5}, "NPUV"),  # they have no root; W has several
 ]
 
 
@@ -104,6 +105,41 @@ def test_cells_find_what_the_worksheet_finds(path: Path, recalculated_all: Any, 
         for n, name in enumerate(("j", "t", "s")):
             column = [row[n] for row in changed["2 Own"].iter_rows(min_row=5, max_row=9, values_only=True)]
             np.testing.assert_allclose(column, of_worksheet(path, name, given), 1e-12)
+
+
+SEVERAL = {  # equations with several roots, and how many of 20 inputs have a value at least, in each element
+    "middle": ("lambda t: np.sin(g.F * t), 0.5, 4.0", 20),
+    "guess": ("lambda t: np.sin(g.F * t), 0.5, 4.0, guess=g.a + 0.5", 20),
+    "outside": ("lambda t: np.cos(t * g.F), 0.5, 4.0, guess=-9.0", 20),
+    "crank": ("lambda t: np.cos(t) + np.sqrt(9 - np.sin(t) ** 2), 0.0, 6.28, equals=3 + g.a / 4, guess=5.0", 20),
+    "all about": ("lambda t: np.sin(50 * t) + g.a / 9, 0.5, 1.5", 20),
+    "poles": ("lambda t: np.tan(t), 0.0, 6.0, equals=g.a, guess=g.F / 3", 6),
+    "three": ("lambda t: t * (t - 1e-3 * g.a) * (t - 0.1) * (t - g.F), -1.0, 9.0, guess=0.3", 12),
+    "field": ("lambda t: np.sin(t * x), 0.5, 4.0, equals=0.1 * g.a, guess=2.2", 15),
+}
+
+
+@pytest.mark.parametrize("name", SEVERAL)
+def test_of_several_roots_cells_find_the_nearest(name: str, tmp_path: Path) -> None:
+    """Or nothing, never another one."""
+    equation, count = SEVERAL[name]
+    lines = (
+        f'u_found = find({equation})\ny = np.atleast_1d(u_found.value) * 1  # [-] root\ntable_2 = table("2", "Y", y)'
+    )
+    sheet = own(tmp_path, lines)
+    _, recording = recorded(sheet, F=2.2)
+    search(recording)
+    (solved,) = recording.found.values()
+    assert solved.inverse is not None
+    random, shown = np.random.default_rng(5), 0.0
+    for F, a in zip(random.uniform(1, 6, 20), random.uniform(0.05, 2, 20), strict=True):
+        value = numbers([solved.inverse], {recording.inputs["F"]: F, recording.inputs["a"]: a})[solved.inverse]
+        there = np.isfinite(value)
+        if there.any():
+            expected = np.reshape(of_worksheet(Path(sheet.path), "y", {"F": F, "a": a}), value.shape)
+            np.testing.assert_allclose(value[there], expected[there], 1e-12, 1e-14, err_msg=str((F, a)))
+        shown += there.mean()
+    assert shown >= count
 
 
 @pytest.mark.parametrize(

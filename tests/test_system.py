@@ -217,6 +217,25 @@ def test_arrays_broadcast_over_unknowns_targets_and_what_the_equations_read():
     assert found.value.x.shape == (2, 3) and np.allclose(found.value.x, b / (1 + a), rtol=1e-15)
 
 
+def test_from_a_guess_an_angle_ends_in_the_turn_that_it_starts_in():
+    """Of 400 sliders on a link: where it lies across the wanted direction Newton's own step turns it many times."""
+    rng = np.random.default_rng(4)
+    reach, start, far = rng.uniform(0.5, 4, 400), rng.uniform(-pi, pi, 400), rng.uniform(0.5, 3, 400)
+    found = find(lambda turn, s: s * exp(1j * turn) - reach, unknown_unit=("deg", "m"), turn=start, s=far)
+
+    assert np.all(found.solved) and abs(found.value.turn).max() <= pi + 1e-15
+    assert np.allclose(found.value.s, reach * cos(found.value.turn), rtol=1e-14)
+    assert found.evaluations.max() == 1 + 20 * (2 * 2 + 1), "never in a trust region"
+
+
+def test_what_is_rounded_to_the_same_number_all_around_is_a_solution():
+    """The real part is -2e-16 at all of the next floats: its slopes are a sixth of what it adds."""
+    turned = 0.2 * 8.347208449245823
+    found = find(lambda u, v: exp(1j * u) + 0.7114300409213384 * exp(1j * v), equals=turned, u=1.0, v=-1.0)
+
+    assert found.solved and np.allclose(found.value, (0.18663192327807, -0.26386448915273), rtol=1e-13)
+
+
 def test_values_only_gives_the_same_value():
     def asked():
         return find(himmelblau, x=3.5, y=-1.5), find(himmelblau, x=(-6, 6), y=(-6, 6))

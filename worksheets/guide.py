@@ -318,10 +318,10 @@ def section_9():
       `X56` and `Y56`, a force `R56x` and `R56y`. A name that would be the address of a cell, or that differs from
       another in capitals only, gets a line behind it: `L3_`.
     - What is found is computed by its closed form where there is one, while that solves the equations. Else the cells
-      search the interval of an equation of one unknown: where 97 places of it show one change of sign, there is a
-      value. Of several unknowns with guesses they take the worksheet's own first twelve steps, with a value where these
-      surely end in the same root. All else that is found holds for the exported inputs alone, and the front sheet says
-      why.
+      search the interval of an equation of one unknown: where 97 places of it show a change of sign that is surely the
+      one nearest the guess, or else the middle, there is a value. Of several unknowns with guesses they take the
+      worksheet's own first eighteen steps, with a value where these surely end in the same root. All else that is found
+      holds for the exported inputs alone, and the front sheet says why.
     - Where there is no number, a mechanism that does not close, an input outside its limits, cells say `#N/A`.
     - What the cells cannot follow is grey, holds for the exported inputs and says `#N/A` for others; the front sheet
       and the run name its line and the reason.

@@ -148,9 +148,9 @@ def section_3():
     mo.md(r"""
     ## 3 Find (program of page 39)
 
-    One Find solves all six equations for every position, from the same first approximations: by Newton's own steps, and
-    in a trust region where twenty of them end in no root. An evaluation is one value of all six equations; their slopes
-    take twelve of them a step.
+    One Find solves all six equations for every position, from the same first approximations: by Newton's own steps,
+    shortened to those that turn the link by no more than 45°, and in a trust region where twenty of them end in no
+    root. An evaluation is one value of all six equations; their slopes take twelve of them a step.
     """)
     return
 

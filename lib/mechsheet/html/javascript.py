@@ -15,6 +15,7 @@ from mechsheet.html.scope import Program, Rule, Scope
 from mechsheet.recording.lines import Recording
 from mechsheet.recording.node import Block, Node, bottom_up
 from mechsheet.units import parse
+from mechsheet.worksheet.equations import longest_step
 
 _NUMBERS, _FIND, _SOLVE = "numbers.js", "find.js", "solve.js"
 _COUNTED = "its elements are not known for this number of rows"
@@ -272,7 +273,8 @@ def _solved(scope: Scope, block: Block) -> str:
         factors = ",".join(literal(parse(unit).factor).text for unit in block.unknown_unit)
         weights = ",".join(literal(parse(unit).factor).text for unit in block.unit) if block.least else ""
         equals = ",".join(_of_problem(scope, n, node, shape) for n in block.targets)
-        call = f"solve({function},[{at}],[{factors}],[{equals}]{f',[{weights}]' if weights else ''})"
+        most = ",".join(literal(longest_step(unit)).text for unit in block.unknown_unit)
+        call = f"solve({function},[{at}],[{factors}],[{most}],[{equals}]{f',[{weights}]' if weights else ''})"
     return f"each(count({shape}),p=>{call})" if node.shape else call
 
 

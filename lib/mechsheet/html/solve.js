@@ -149,7 +149,7 @@ function newton(f, x, size, lo, hi, reach, unit, free) {
   const n = x.length;
   let r = f(x), slopes = r.map(() => x.map(() => NaN)), scale = r.map(() => 0), evaluations = 1;
   let moving = all_finite(r), fresh = moving, sank = moving, radius = reach, before = Infinity;
-  for (let turn = 0; turn < (free || 100) && moving; turn++) {
+  for (let turn = 0; turn < (free ? 20 : 100) && moving; turn++) {
     if (fresh) {
       slopes = differences(f, x, r, size, lo, hi);
       evaluations += 2 * n;
@@ -166,6 +166,8 @@ function newton(f, x, size, lo, hi, reach, unit, free) {
       [step, whole] = step_within(parts, own, radius);
       step = step.map((v, k) => (held[k] ? 0 : v));
     }
+    const part = free ? 1 / max(1, ...step.map((v, k) => abs(v * size[k]) / free[k])) : 1;
+    step = step.map(v => v * part);
     const length = sqrt(dot(step, step)), target = x.map((v, k) => clip(v + step[k] * size[k], lo[k], hi[k]));
     const downhill = x.map(() => 0);
     jacobian.forEach((row, m) => row.forEach((v, k) => (downhill[k] += v * own[m])));
@@ -178,7 +180,7 @@ function newton(f, x, size, lo, hi, reach, unit, free) {
     const expected = dot(own, own) - dot(ahead, ahead), fallen = dot(own, own) - dot(left, left);
     let gain = fallen > 0 ? fallen / max(expected, 2 ** -1022) : -1;
     if (!unit && all_finite(left) && step_within(parts, left, Infinity)[1] < whole - length / 4) gain = max(gain, 0.5);
-    const sinks = gain > 1e-4, taken = (sinks || whole <= 1e-6 || free > 0) && all_finite(there);
+    const sinks = gain > 1e-4, taken = (sinks || whole <= 1e-6 || free) && all_finite(there);
     if (!free) radius = gain < 0.25 ? length / 4 : gain > 0.75 ? max(radius, 3 * length) : radius;
     moving = taken || !free;
     sank = sinks;
@@ -190,20 +192,22 @@ function newton(f, x, size, lo, hi, reach, unit, free) {
 
 // Whether all residuals are no more than rounding: what f varies by over the next floats.
 function vanishing(f, {x, r, slopes}, size, lo, hi) {
-  const around = beside(f, x, x.map((v, k) => EPS * max(8 * abs(v), size[k])), lo, hi).flat().map(side => side[1]);
+  const step = x.map((v, k) => EPS * max(8 * abs(v), size[k]));
+  const around = beside(f, x, step, lo, hi).flat().map(side => side[1]);
   return r.every((own, m) => {
     const values = [own, ...around.map(y => y[m])], varied = largest(values) - least(values);
-    return abs(own) <= 8 * varied && !(varied == 0 && slopes[m].every(v => v == 0));
+    const by_slopes = known_or_0(dot(slopes[m].map(abs), step));
+    return abs(own) <= 8 * max(varied, by_slopes) && !(varied == 0 && slopes[m].every(v => v == 0));
   });
 }
 
 // Where starts end, and whether in a solution.
-function led(f, starts, at, reach, unit, free = 0) {
+function led(f, starts, at, reach, unit, free) {
   return starts.map(start => {
     let ended = newton(f, start, at.size, at.lo, at.hi, reach, unit, free);
     const fine = () => ended.x.map((v, k) => max(abs(v), at.least[k]));
     if (!unit && fine().some((v, k) => v < 2 ** -10 * at.size[k])) {
-      const again = newton(f, ended.x, fine(), at.lo, at.hi, Infinity, null, 20);
+      const again = newton(f, ended.x, fine(), at.lo, at.hi, Infinity, null, at.size.map(() => Infinity));
       ended = {...again, evaluations: ended.evaluations + again.evaluations};
     }
     return {...ended, held: !unit && vanishing(f, ended, fine(), at.lo, at.hi)};
@@ -245,7 +249,7 @@ function distinct(ends, size) {
 
 function from_guess(f, at, unit) {
   if (unit) return distinct(led(f, [at.first], at, 100, unit), at.size);
-  let [end] = led(f, [at.first], at, Infinity, null, 20);
+  let [end] = led(f, [at.first], at, Infinity, null, at.most);
   if (!end.held) {
     const [more] = led(f, [at.first], at, 100, null);
     end = {...more, evaluations: end.evaluations + more.evaluations};
@@ -266,15 +270,15 @@ function between(f, at, unit) {
 // The verdict on equations f(x) = 0: x and residual (NaN where there is none), condition, evaluations, solutions,
 // starts, the nearest place where none is a solution, and the reason: "" where solved, else "nothing" or "unsolved".
 // `asked` has of each unknown its guess or the two ends of its interval, `equals` the targets; with `unit` squares are
-// made least.
-function solve(f, asked, factors, equals, unit) {
+// made least. From a guess a step of Newton's own moves an unknown by no more than is in `most`.
+function solve(f, asked, factors, most, equals, unit) {
   const none = {x: asked.map(() => NaN), residual: [], condition: NaN, evaluations: 0, solutions: [], starts: 0, asked};
   if ([...asked.flat(), ...equals].some(v => v != v)) return {...none, reason: "nothing"};
   const wrong = asked.findIndex(ends => !all_finite(ends) || ends[0] >= ends[1]);
   if (wrong >= 0) return {...none, reason: `the ends of unknown ${wrong + 1} must be finite and in order`};
   const size = asked.map(([a, b], k) => (b === undefined ? (a == 0 ? factors[k] : abs(a)) : b - a));
   const at = {
-    first: asked.map(ends => ends[0]), last: asked.map(ends => ends[ends.length - 1]), size,
+    first: asked.map(ends => ends[0]), last: asked.map(ends => ends[ends.length - 1]), size, most,
     least: size.map((v, k) => min(v, factors[k])), lo: asked.map(ends => (ends.length > 1 ? ends[0] : -Infinity)),
     hi: asked.map(ends => ends[1] ?? Infinity),
   };

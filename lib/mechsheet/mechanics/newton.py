@@ -22,6 +22,7 @@ _SMALL = 1e-6  # a step from which on only rounding can keep the residuals from 
 _LINEAR = 0.75  # and where it is shorter than so much of the one before, they still fall, if out of sight
 _STUCK = 1e-12
 _MOST = 100  # steps
+_FREE = 20  # of Newton's own, whatever they lead to
 _LEVEL = 1e-9  # cosine between the residuals and what any step changes, from which on none makes them less
 _VARIED = 8  # floats by which an unknown is varied to see what rounding does
 _ROUNDED = 8  # times that variation: what a residual may be
@@ -77,13 +78,20 @@ def joined(several: list[Ended]) -> Ended:
 
 @np.errstate(all="ignore")
 def newton(
-    f: Equations, x: Array, size: Array, lo: Array, hi: Array, reach: float, unit: Array | None = None, free: int = 0
+    f: Equations,
+    x: Array,
+    size: Array,
+    lo: Array,
+    hi: Array,
+    reach: float,
+    unit: Array | None = None,
+    free: Array | None = None,
 ) -> Ended:
     """Where f leads from the starts x, shape (n, s, p); without a number it stays.
 
     ``size`` (n, s, p) of the unknowns, ``lo`` and ``hi`` (n, 1, p) their ends, where steps end too; ``reach`` is how
     many sizes the first step goes at most. ``unit`` (m, 1, 1) weighs the residuals where their squares shall be least.
-    With ``free`` all of so many steps are Newton's own, whatever they lead to.
+    With ``free`` a few steps are Newton's own, whatever they lead to, but move no unknown by more than that (n, 1, p).
     """
     n, x, r, sizes = len(x), x.copy(), f(x), np.broadcast_to(size, x.shape)
     moving: Mask = np.logical_and.reduce(np.isfinite(r))
@@ -92,7 +100,7 @@ def newton(
     largest = np.zeros(r.shape)
     radius, before = np.full(moving.shape, reach), np.full(moving.shape, np.inf)
     fresh, sank = moving.copy(), moving.copy()
-    for _ in range(free or _MOST):
+    for _ in range(_MOST if free is None else _FREE):
         k = np.flatnonzero(fresh.any(1))
         if k.size:
             new = differences(f, x[:, k], r[:, k], sizes[:, k], lo, hi)
@@ -108,6 +116,9 @@ def newton(
         jacobian = _turned(slopes_at * own_size / scale[:, None])
         own = (r[:, i, j] / scale).T
         step, length, whole, slopes_there = _step(jacobian, own, at, low, high, radius[i, j])
+        if free is not None:
+            part = 1 / np.maximum(np.abs(step.T * own_size / free[:, 0, j]).max(0), 1)
+            step, length = step * part[:, None], length * part
         stop = (whole <= _SMALL) & ~sank[i, j] & (whole > _LINEAR * before[i, j])
         target = np.clip(at + step.T * own_size, low, high)
         stop |= (target == at).all(0) | (own == 0).all(-1) | (radius[i, j] < _STUCK)
@@ -132,11 +143,11 @@ def newton(
             nearer = np.isfinite(left).all(-1) & (onward < whole - length / 4)
             gain = np.where(nearer, np.maximum(gain, 0.5), gain)
         sinks = active & (gain > 1e-4)
-        taken = active & (sinks | (whole <= _SMALL) | (free > 0)) & np.isfinite(there).all(0)
+        taken = active & (sinks | (whole <= _SMALL) | (free is not None)) & np.isfinite(there).all(0)
         longest = radius[i, j]
         shrunk = np.where(gain < 0.25, length / 4, np.where(gain > 0.75, np.maximum(longest, 3 * length), longest))
-        radius[i, j] = np.where(active & (free == 0), shrunk, longest)
-        moving[i, j] &= taken | (free == 0)
+        radius[i, j] = np.where(active & (free is None), shrunk, longest)
+        moving[i, j] &= taken | (free is None)
         before[i, j], sank[i, j] = np.where(taken, whole, before[i, j]), np.where(active, sinks, sank[i, j])
         x[:, i, j], r[:, i, j] = np.where(taken, target, at), np.where(taken, there, r[:, i, j])
         fresh[i, j] = taken
@@ -158,12 +169,14 @@ def differences(f: Equations, x: Array, r: Array, size: Array, lo: Array, hi: Ar
 def vanishing(f: Equations, ended: Ended, size: Array, lo: Array, hi: Array) -> Mask:
     """Which residuals, shape (m, s, p), are no more than rounding: what f varies by over the next floats.
 
-    These are as far apart as those of the unknown, or of an eighth of its size. What is 0 all around is not solved.
+    These are as far apart as those of the unknown, or of an eighth of its size; by its slopes f also varies where it is
+    rounded to the same number at all of them. What is 0 all around is not solved.
     """
     step = EPS * np.maximum(_VARIED * np.abs(ended.x), size)
     y = _beside(f, ended.x, step, lo, hi)[0].reshape(len(ended.r), -1, *ended.r.shape[1:])
     varied = np.fmax(np.fmax.reduce(y, axis=1), ended.r) - np.fmin(np.fmin.reduce(y, axis=1), ended.r)
     level = (varied == 0) & (ended.slopes == 0).all(1)
+    varied = np.fmax(varied, (np.abs(ended.slopes) * step).sum(1))
     small: Mask = (np.abs(ended.r) <= _ROUNDED * varied) & ~level
     return small
 

@@ -16,7 +16,6 @@ _STARTS = 32  # for each unknown, before it is asked whether more are needed
 _MOST = 16  # times as many
 _APART = 64  # roundings, times the condition, high at a double solution: ends nearer to each other are one solution
 _FARTHEST = 2.0**-10  # and never farther apart than so many sizes of the unknowns
-_FREE = 20  # steps of Newton's own from a guess
 _FINE = 2.0**-10  # of its size: an unknown that small is looked for anew
 _REACH = 100.0  # sizes that the first step from a guess goes at most
 
@@ -45,12 +44,14 @@ class Place(NamedTuple):
     """Where unknowns are looked for, all of shape (n, p): first and last start, size, the least one, and ends.
 
     An unknown is taken to be as large as its size until it is found, then as itself, but no smaller than the least.
+    ``most`` is how far a step of Newton's own from a guess moves it at most.
     """
 
     first: Array
     last: Array
     size: Array
     least: Array
+    most: Array
     lo: Array
     hi: Array
 
@@ -58,13 +59,13 @@ class Place(NamedTuple):
 def from_guess(f: Equations, at: Place, unit: Array | None) -> Seen:
     """Where the first start itself leads; with a ``unit`` to where the residuals' squares are least.
 
-    These are Newton's own steps where a few of them lead to a solution, else those in a trust region.
+    These are Newton's own steps where a few of them, none too long, lead to a solution, else those in a trust region.
     """
     guess = at.first[:, None]
     if unit is not None:
         ended, held = _led(f, guess, at, _REACH, unit)
         return _distinct([ended], [held], at.size)
-    ended, held = _led(f, guess, at, np.inf, None, _FREE)
+    ended, held = _led(f, guess, at, np.inf, None, at.most[:, None])
     if not held.all():
         more, held_then = _led(f, guess, at, _REACH, None)
         ended, held = first_or_second(ended, more, held), held | held_then
@@ -101,14 +102,16 @@ def _batch(f: Equations, at: Place, number: int, unit: Array | None) -> tuple[En
     return _led(f, at.first[:, None] * (1 - share) + at.last[:, None] * share, at, 1.0, unit)
 
 
-def _led(f: Equations, x: Array, at: Place, reach: float, unit: Array | None, free: int = 0) -> tuple[Ended, Mask]:
+def _led(
+    f: Equations, x: Array, at: Place, reach: float, unit: Array | None, free: Array | None = None
+) -> tuple[Ended, Mask]:
     """Where starts end, and which of them in a solution, shape (s, p)."""
-    size, least, lo, hi = (a[:, None] for a in at[2:])
+    size, least, lo, hi = (a[:, None] for a in (at.size, at.least, at.lo, at.hi))
     ended = newton(f, x, size, lo, hi, reach, unit, free)
     small: Mask = np.logical_or.reduce(np.maximum(np.abs(ended.x), least) < _FINE * size)
     if small.any() and unit is None:  # steps were too coarse for it
         finer = np.maximum(np.abs(ended.x), least)
-        ended = first_or_second(ended, newton(f, ended.x, finer, lo, hi, np.inf, free=_FREE), ~small)
+        ended = first_or_second(ended, newton(f, ended.x, finer, lo, hi, np.inf, free=np.full_like(hi, np.inf)), ~small)
     held: Mask = np.logical_and.reduce(vanishing(f, ended, np.maximum(np.abs(ended.x), least), lo, hi))
     return ended, held & (unit is None)
 

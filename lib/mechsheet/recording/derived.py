@@ -8,8 +8,9 @@ import numpy as np
 from mechsheet.recording.arithmetic import choice
 from mechsheet.recording.graph import NotRecorded
 from mechsheet.recording.node import Node, bottom_up, is_number
-from mechsheet.recording.operations import SHAPED
+from mechsheet.recording.operations import ELEMENTWISE, SHAPED
 from mechsheet.recording.quantity import Quantity
+from mechsheet.recording.replaced import on_others
 from mechsheet.recording.slope_rules import SMOOTH
 
 Slopes = dict[int, Quantity]  # by the number of an unknown; none of what does not move
@@ -19,26 +20,53 @@ _COMPARED = frozenset(("lt", "le", "gt", "ge", "eq", "ne", "max", "min"))
 _LEVEL = _COMPARED - {"max", "min"} | {"sign", "and", "or", "not", "finite"}
 
 
-def at(unknowns: Mapping[Node, Quantity], equations: Sequence[Node]) -> tuple[list[Sloped], list[Sloped]]:
-    """What elementwise equations are at other values of their unknowns, with their slopes by each of these.
+def at(unknowns: Mapping[Node, Quantity], equations: Sequence[Node]) -> tuple[list[Sloped], dict[Node, Sloped]]:
+    """What equations are at other values of their unknowns, with their slopes by each of these.
 
-    And what is 0 where they have a corner or jump, such as the difference of two numbers that they compare. Raises
-    NotRecorded for an operation whose slope is not known.
+    And what is 0 where an operation has a corner or jump, such as the difference of two numbers that it compares. The
+    equations for each number of the unknowns rest on that number of them alone. Raises NotRecorded for an operation
+    whose slope is not known.
     """
     graph = next(iter(unknowns.values())).graph
-    new, slopes, corners = dict(unknowns), dict[Node, Slopes](), list[Sloped]()
+    new, slopes, corners = dict(unknowns), dict[Node, Slopes](), dict[Node, Sloped]()
     for k, node in enumerate(unknowns):
         slopes[node] = {k: Quantity(graph, graph.constant(1.0))}
     for node in bottom_up(equations, new):
         if any(operand in new for operand in node.operands):
             operands = [new[o] if o in new else Quantity(graph, o) for o in node.operands]
             moves = [slopes.get(operand, {}) for operand in node.operands]
-            new[node] = Quantity(graph, graph.fold(node.op, *(x.re for x in operands)))
-            slopes[node] = _slopes(node.op, new[node], operands, moves)
+            if node.op in ELEMENTWISE:
+                new[node] = Quantity(graph, graph.fold(node.op, *(x.re for x in operands)))
+                slopes[node] = _slopes(node.op, new[node], operands, moves)
+            else:
+                new[node] = _put_together(node, operands)
+                slopes[node] = _put_together_slopes(node, operands, moves)
             if any(moves) and (node.op in _COMPARED or node.op in ("abs", "sign")):
-                corners.append(_corner(operands, moves))
+                corners[node] = _corner(operands, moves)
     known = [(new[node] if node in new else Quantity(graph, node), slopes.get(node, {})) for node in equations]
     return known, corners
+
+
+def _put_together(node: Node, operands: Sequence[Quantity]) -> Quantity:
+    """Elements or sums of other operands, which are as many as they were."""
+    graph = operands[0].graph
+    others = zip(node.operands, operands, strict=True)
+    return Quantity(graph, on_others(node, graph, {o: x.like(Quantity(graph, o)).re for o, x in others}))
+
+
+def _put_together_slopes(node: Node, operands: Sequence[Quantity], moves: Sequence[Slopes]) -> Slopes:
+    """How elements or sums move with each unknown: as what they are taken from does."""
+    if not any(moves):
+        return {}
+    kind = node.args[2] if node.op == "reduce" else node.op
+    sources = moves[:1] if kind == "at" else moves
+    if kind not in ("sum", "take", "at", "join") or any(moves[len(sources) :]):
+        raise NotRecorded(f"the slope of {kind}")
+    zero = Quantity(operands[0].graph, operands[0].graph.constant(0.0))
+    return {
+        k: _put_together(node, [*(own.get(k, zero) for own in sources), *operands[len(sources) :]])
+        for k in sorted({k for own in sources for k in own})
+    }
 
 
 def _corner(operands: Sequence[Quantity], moves: Sequence[Slopes]) -> Sloped:

@@ -25,6 +25,11 @@ def replaced(graph: Graph, roots: Iterable[Node], others: Mapping[Node, Node], p
     return new
 
 
+def on_others(node: Node, graph: Graph, others: Mapping[Node, Node]) -> Node:
+    """An operation with others of the same shapes in place of some of its operands."""
+    return _Again(graph, 0).made(node, others)
+
+
 class _Again:
     """Operations on other operands."""
 

@@ -1,11 +1,11 @@
 """A found value without a closed form as a search for it, in operations that a cell of a workbook has as well.
 
-That of one equation closes in on its only change of sign; of several they are the `stepped` ones.
+That of one equation closes in on its change of sign nearest the guess; of several they are the `stepped` ones.
 """
 
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -14,7 +14,8 @@ from mechsheet.recording.confirmed import confirm
 from mechsheet.recording.graph import Gap, Graph, Label, NotRecorded
 from mechsheet.recording.lines import Recording, Solved, leaves_of
 from mechsheet.recording.node import Block, Node, bottom_up
-from mechsheet.recording.operations import ELEMENTWISE, Values
+from mechsheet.recording.operations import Values
+from mechsheet.recording.problems import alike, bounded, numbers_under
 from mechsheet.recording.quantity import Quantity, lift, moved
 from mechsheet.recording.replaced import replaced
 from mechsheet.recording.stepped import steps
@@ -24,8 +25,9 @@ _FIRST = (1 - np.cos(np.linspace(0, np.pi, PLACES))) / 2
 _LATER, _LOOKS = np.linspace(0, 1, 17), 15  # of each later one at the part in which the residual changes its sign
 _EARLY = 4  # looks that count changes of sign; later ones may meet rounding
 _NEAR, _AT_END = 0.45, 1e-9  # of the residual beside a place, that there may be a root about without a change of sign
-_MOST = 500_000  # operations on single numbers, of which a third or so have a cell
-_ONE = f"the one change of sign of {PLACES} places"
+_MOST = 500_000  # operations on single numbers: it tries many places of which one is the root
+_NEAREST = f"the nearest change of sign of {PLACES} places"
+_NOWHERE = 1e300  # how far away a change of sign is that there is not
 _LESS = 0.1  # of the residual in the last early look may be left in the end: more is a jump or a pole
 
 
@@ -33,8 +35,9 @@ def search(recording: Recording) -> None:
     """Give found values without a closed form that solves the equations the search for them in its place.
 
     It has no value where that of the worksheet is not sure to be the same: of one equation where its places show no
-    change of sign, more than one, or that there may be more. What it doesn't find for the inputs at hand keeps the
-    number of the worksheet's own run; `Recording.unsolved` says which found values do so whatever there is, and why.
+    change of sign, none that is surely nearest, or that there may be more. What it doesn't find for the inputs at hand
+    keeps the number of the worksheet's own run; `Recording.unsolved` says which found values do so whatever there is,
+    and why.
     """
     blocks = dict[Block, list[Solved]]()
     for solved in recording.found.values():
@@ -68,7 +71,7 @@ def _know(recording: Recording, block: Block, unknowns: Sequence[Solved]) -> Non
     for solved in unknowns:
         if solved.inverse is None:
             solved.inverse = roots[solved.node]
-            solved.searched = _ONE if block.single else "Newton's steps from its guess"
+            solved.searched = _NEAREST if block.single else "Newton's steps from its guess"
     if not all(solved.searched for solved in unknowns):
         confirm(recording, block, unknowns)
 
@@ -114,87 +117,91 @@ def _at_hand(recording: Recording, found: Node, root: Any) -> Node:
 
 
 def _root(graph: Graph, block: Block, unit: str) -> Any:
-    if not (block.elementwise or _each_of_its_own(block)):
-        raise NotRecorded("its equation for one of the values rests on others of them")
+    numbers_under(block)
     if not block.starts.keys() >= {"lo", "hi"}:
         raise NotRecorded("its interval has an open end")
-    (low,), (high,) = block.starts["lo"], block.starts["hi"]
-    a, b = (Quantity(graph, graph.like(end, low, high, *_shaping(graph, block))) for end in (low, high))
+    given = [start for starts in block.starts.values() for start in starts]
+    shaping = (*given, *alike(graph, block))
+    a, b, *guess = (Quantity(graph, graph.like(start, *shaping)) for start in given)
     if a.extent != block.nodes[0].shape:
         raise NotRecorded("its interval has another shape")
-    most, graph.most, graph.work = graph.most, _MOST, 0
-    try:
-        return _searched(block, a, b, unit)
-    finally:
-        graph.most, graph.work = most, 0
+    with bounded(graph, _MOST):
+        return _searched(block, a, b, guess[0] if guess else a / 2 + b / 2, unit)
 
 
-def _shaping(graph: Graph, block: Block) -> tuple[Node, ...]:
-    """What the block rests on that has the shape of its unknown."""
-    shape = block.nodes[0].shape
-    alike = tuple(node for node in block.under if block.elementwise or node.shape == shape)
-    return alike or (graph.constant(np.zeros(shape)),)
+class _Part(NamedTuple):
+    """A part in which a residual changes its sign: its ends, and the most of the residual at them."""
+
+    start: Any
+    end: Any
+    most: Any
 
 
-_NONE, _SEVERAL = -1, -2
-
-
-def _each_of_its_own(block: Block) -> bool:
-    """Whether the equation for each number of the unknown rests on no other number of it."""
-    unknown, residual = block.nodes[0], block.residuals[0]
-    rests = {unknown: np.arange(unknown.size).reshape(unknown.shape)}
-    for node in bottom_up([residual], rests):
-        under = [rests[operand] for operand in node.operands]
-        if node.op == "take":
-            rests[node] = under[0].reshape(-1)[node.args[1]]
-        elif node.op == "join":
-            starts = np.cumsum([0, *(one.size for one in under)])
-            rests[node] = np.concatenate([one.reshape(-1) for one in under])[starts[node.args[1]] + node.args[2]]
-        elif node.op == "reduce":
-            groups = [_of_all(under[0].reshape(-1)[group]) for group in node.args[1]]
-            rests[node] = np.array(groups, int).reshape(node.shape)
-        elif node.op in ELEMENTWISE:
-            rests[node] = _of_both(*under)
-        else:  # of all that it rests on
-            whole = np.concatenate([np.array([_NONE]), *(one.reshape(-1) for one in under)])
-            rests[node] = np.full(node.shape, _of_all(whole))
-    own = rests[residual]
-    return own.shape == unknown.shape and bool(((own == rests[unknown]) | (own == _NONE)).all())
-
-
-def _of_both(*rests: Values) -> Values:
-    one, *others = np.broadcast_arrays(*rests)
-    for other in others:
-        one = np.where((other == _NONE) | (other == one), one, np.where(one == _NONE, other, _SEVERAL))
-    return one
-
-
-def _of_all(rests: Values) -> int:
-    known = set(rests.reshape(-1).tolist()) - {_NONE}
-    return known.pop() if len(known) == 1 else _SEVERAL if known else _NONE
-
-
-def _searched(block: Block, a: Quantity, b: Quantity, unit: str) -> Any:
-    """The root between a and b, which closes in on it look by look; none where it isn't sure to be the only one."""
+def _searched(block: Block, a: Quantity, b: Quantity, guess: Quantity, unit: str) -> Any:
+    """The root between a and b nearest the guess, which closes in on it look by look; none where it isn't sure."""
     graph = a.graph
-    one: Any = True
-    for look in range(_LOOKS):
-        places = _LATER if look else _FIRST
-        x = a[..., None] * (1 - places) + b[..., None] * places
-        left = _residual(block, x)
-        graph.labels[x.re] = Label(f"tried_{look + 1}", unit, "places tried")
-        graph.labels[left.re] = Label(f"left_{look + 1}", "", "what is left of the equation there")
-        changed = _changed(left)
-        first = np.arange(len(places) - 1) == np.argmax(changed, axis=-1)[..., None]
-        a, b, f, g = (np.sum(np.where(first, q, 0.0), axis=-1) for y in (x, left) for q in (y[..., :-1], y[..., 1:]))
-        graph.labels[a.re] = Label(f"from_{look + 1}", unit, "lower end of the part in which the sign changes")
-        graph.labels[b.re] = Label(f"to_{look + 1}", unit, "upper end of it")
-        most = np.maximum(abs(f), abs(g))
-        if look < _EARLY:
-            one, early = one & (np.sum(changed * 1.0, axis=-1) == 1), most
-        if look == 0:
-            one = one & (_unseen(left) == 0)
-    return np.where(one & (most <= _LESS * early), a, np.nan)
+    x, left = _tried(block, a, b, _FIRST, "1", unit)
+    changed, above = _changed(left), x[..., :-1] > guess[..., None]
+    number = np.arange(len(_FIRST) - 1)
+    sides = np.argmax(np.where(changed & ~above, number, -1), axis=-1), np.argmax(changed & above, axis=-1)
+    known = np.any(changed & ~above, axis=-1), np.any(changed & above, axis=-1)
+    parts = [_part(x, left, side) for side in sides]
+    sure = _unseen(left) == 0
+    for look in range(2, _EARLY + 1):
+        closer = [_closer(block, *pair, unit) for pair in zip(parts, (f"{look}", f"{look}_above"), strict=True)]
+        parts = [part for part, _ in closer]
+        for there, (_, once) in zip(known, closer, strict=True):
+            sure = sure & (~there | once)
+    farther, nearer = (
+        [choice(graph, there, off(part, guess), _NOWHERE) for there, part in zip(known, parts, strict=True)]
+        for off in (_farther, _nearer)
+    )
+    upper = farther[1] < farther[0]
+    taken = np.where(above, number == sides[1][..., None], number == sides[0][..., None])
+    off = np.minimum(abs(x[..., :-1] - guess[..., None]), abs(x[..., 1:] - guess[..., None]))
+    others = np.min(np.where(changed & ~taken, off, _NOWHERE), axis=-1)
+    sure = sure & (np.minimum(*farther) < np.minimum(choice(graph, upper, *nearer), others))
+    part = _Part(*(choice(graph, upper, high, low) for low, high in zip(*parts, strict=True)))
+    early = part.most
+    for look in range(_EARLY + 1, _LOOKS + 1):
+        part, _ = _closer(block, part, f"{look}", unit)
+    return np.where(sure & (part.most <= _LESS * early), part.start, np.nan)
+
+
+def _farther(part: _Part, guess: Quantity) -> Any:
+    """How far a part is from the guess at most."""
+    return np.maximum(abs(part.start - guess), abs(part.end - guess))
+
+
+def _nearer(part: _Part, guess: Quantity) -> Any:
+    """How far it is at least."""
+    return np.maximum(np.maximum(part.start - guess, guess - part.end), 0)
+
+
+def _tried(block: Block, a: Quantity, b: Quantity, places: Values, name: str, unit: str) -> tuple[Quantity, Quantity]:
+    """Places between a and b, and what is left of the equation there."""
+    x = a[..., None] * (1 - places) + b[..., None] * places
+    left = _residual(block, x)
+    x.graph.labels[x.re] = Label(f"tried_{name}", unit, "places tried")
+    x.graph.labels[left.re] = Label(f"left_{name}", "", "what is left of the equation there")
+    return x, left
+
+
+def _part(x: Quantity, left: Quantity, number: Any) -> _Part:
+    """The part between a place and the next one."""
+    own = np.arange(x.extent[-1] - 1) == number[..., None]
+    a, b, f, g = (np.sum(np.where(own, q, 0.0), axis=-1) for y in (x, left) for q in (y[..., :-1], y[..., 1:]))
+    return _Part(a, b, np.maximum(abs(f), abs(g)))
+
+
+def _closer(block: Block, part: _Part, name: str, unit: str) -> tuple[_Part, Any]:
+    """The first part of a part in which the residual changes its sign, and whether it is the only one."""
+    x, left = _tried(block, part.start, part.end, _LATER, name, unit)
+    changed = _changed(left)
+    closer, labels = _part(x, left, np.argmax(changed, axis=-1)), x.graph.labels
+    labels[closer.start.re] = Label(f"from_{name}", unit, "lower end of the part in which the sign changes")
+    labels[closer.end.re] = Label(f"to_{name}", unit, "upper end of it")
+    return closer, np.sum(changed * 1.0, axis=-1) == 1
 
 
 def _changed(left: Quantity) -> Any:

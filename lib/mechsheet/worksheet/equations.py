@@ -177,12 +177,18 @@ def _place(name: str, value: Start, unit: str) -> Place:
     if not interval:
         size = np.where(ends[0] == 0, factor, np.abs(ends[0]))
         endless = np.full(ends[0].shape, np.inf)
-        return Place(ends[0], ends[0], size, np.minimum(size, factor), -endless, endless)
+        most = np.full(ends[0].shape, longest_step(unit))
+        return Place(ends[0], ends[0], size, np.minimum(size, factor), most, -endless, endless)
     low, high = np.broadcast_arrays(*ends)
     for a, b in zip(low[low >= high], high[low >= high], strict=True):
         small, large = (numbers.amount(v, unit) for v in (a, b))
         raise SheetError(f"{name} from {small} must end above that, not at {large}")
-    return Place(low, high, high - low, np.minimum(high - low, factor), low, high)
+    return Place(low, high, high - low, np.minimum(high - low, factor), np.full(low.shape, np.inf), low, high)
+
+
+def longest_step(unit: str) -> float:
+    """How far a step of Newton's own from a guess moves an unknown at most: an angle by an eighth of a turn."""
+    return np.pi / 4 if units.si(unit) == "rad" else np.inf
 
 
 def _each(unit: str | Sequence[str], count: int, what: str, of: str) -> tuple[str, ...]:

@@ -270,9 +270,10 @@ def find(  # type: ignore[misc]
     f varies over the next eight floats, counts as a root that touches: so dead centres and double roots are kept.
     A sign change at a jump or a pole is no root. What f does within 1/60 of the interval can be missed.
 
-    Several unknowns are found by Newton's method in a trust region: from guesses the solution is that to which they
-    lead, in intervals that nearest the middle of all that were seen by starts all over them, 32 for each unknown and
-    as many again as long as that shows new ones. Each equation then leaves no more than it varies by over the next
+    Several unknowns are found by Newton's method: from guesses the solution is that to which its own steps lead, which
+    turn no unknown in a unit of angle by more than 45 degrees, or where twenty do not, those in a trust region; in
+    intervals that nearest the middle of all that were seen by starts all over them, 32 for each unknown and as many
+    again as long as that shows new ones. Each equation then leaves no more than it varies by over the next
     eight floats of the unknowns, or of an eighth of the guess or interval. What no start leads to is not seen.
 
     >>> find(lambda x: x**2, 0.0, 2.0, equals=2.0).value
