@@ -43,6 +43,11 @@ class Block:
         """What vanishes at the unknowns."""
         return self.level if self.least else self.residuals
 
+    @property
+    def asked(self) -> tuple[Any, ...]:
+        """What tells it from other blocks of the same unknowns."""
+        return self.starts, self.residuals, self.sides, self.targets, self.branch, self.branches
+
     def rest(self) -> None:
         """Find out what the block rests on, once its residuals are known."""
         given = [n for nodes in self.starts.values() for n in nodes]

@@ -3,6 +3,7 @@
 from collections import namedtuple
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from itertools import count
 from typing import Any
 
 import numpy as np
@@ -41,9 +42,32 @@ def one(
     graph: Graph, found: Found, f: Callable[..., Any], given: dict[str, Any], equals: Any, branch: Any, branches: Any
 ) -> Solving:
     """A value of one equation, as it was found from what is ``given`` of its interval and its guess."""
+    return _first(lambda n: _one(graph, found, f, given, equals, branch, branches, n))
+
+
+def _first(solved: Callable[[int], tuple[Block, Solving]]) -> Solving:
+    """The solve block of this line that asks the same, else a new one: a line may ask several things, one by one."""
+    for n in count():
+        block, new = solved(n)
+        known = block.nodes[0].args[0]
+        if known is block or known.asked == block.asked:
+            return new
+    raise AssertionError
+
+
+def _one(
+    graph: Graph,
+    found: Found,
+    f: Callable[..., Any],
+    given: dict[str, Any],
+    equals: Any,
+    branch: Any,
+    branches: Any,
+    n: int,
+) -> tuple[Block, Solving]:
     starts = {k: (lift(graph, x).re,) for k, x in given.items() if x is not None}
     block = Block(starts, single=True)
-    name = f"{found.words.unknown}, line {graph.line}"
+    name = f"{found.words.unknown}, line {graph.line}, {n}"
     block.nodes = (graph.found(block, 0, name, listed(graph, found._value)),)
     x, target = Quantity(graph, block.nodes[0]), lift(graph, equals)
     value = lift(graph, f(x, branch) if branch is not None else f(x))
@@ -58,16 +82,23 @@ def one(
     told = Told(words.unknown, words.quantity, words.unit, words.unknown_unit)
     ends = (starts["lo"][0], starts["hi"][0]) if starts.keys() >= {"lo", "hi"} else None
     alone = target.re if target.single else None
-    return Solving(x, left, (Solved(block.nodes[0], left.re if left.single else None, ends, told, target=alone),))
+    solved = Solved(block.nodes[0], left.re if left.single else None, ends, told, target=alone)
+    return block, Solving(x, left, (solved,))
 
 
 def several(graph: Graph, found: Solution, f: Callable[..., Any], equals: Any, unknowns: Mapping[str, Any]) -> Solving:
     """Values of several equations, as they were found."""
+    return _first(lambda n: _several(graph, found, f, equals, unknowns, n))
+
+
+def _several(
+    graph: Graph, found: Solution, f: Callable[..., Any], equals: Any, unknowns: Mapping[str, Any], n: int
+) -> tuple[Block, Solving]:
     words = found.words
     given = {name: x if isinstance(x, tuple) else (x,) for name, x in unknowns.items()}
     starts = {name: tuple(lift(graph, v).re for v in values) for name, values in given.items()}
     block = Block(starts, False, found.least, words.equation_units, words.units)
-    name = f"{words.unknowns}, line {graph.line}"
+    name = f"{words.unknowns}, line {graph.line}, {n}"
     values = [listed(graph, v) for v in (*found._values, found.evaluations)]
     *block_nodes, evaluations = (graph.found(block, k, name, value) for k, value in enumerate(values))
     block.nodes = tuple(block_nodes)
@@ -90,7 +121,7 @@ def several(graph: Graph, found: Solution, f: Callable[..., Any], equals: Any, u
         ends = starts[unknown]
         solved.append(Solved(node, residual, (ends[0], ends[-1]), told))
     value = namedtuple("Values", words.names)(*x)
-    return Solving(value, tuple(left), tuple(solved), Quantity(graph, evaluations))
+    return block, Solving(value, tuple(left), tuple(solved), Quantity(graph, evaluations))
 
 
 def _level(block: Block) -> tuple[Node, ...]:

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Mapping, Sequence
 from copy import copy
 from dataclasses import fields, is_dataclass, replace
-from itertools import repeat
+from itertools import chain, count, repeat
 from typing import Any, TypeVar
 
 import numpy as np
@@ -16,6 +16,7 @@ from mechsheet.recording.node import Node
 from mechsheet.recording.quantity import Quantity, lift
 from mechsheet.recording.substitutes import body, instead
 from mechsheet.recording.terms import made_of
+from mechsheet.worksheet import find, system
 from mechsheet.worksheet.cells import Cell
 from mechsheet.worksheet.check import Check, closed
 from mechsheet.worksheet.find import Found
@@ -75,13 +76,19 @@ class Stage:
         self, f: Any, words: Any, lo: Any, hi: Any, equals: Any, guess: Any, branch: Any, branches: Any
     ) -> solving.Solving:
         found = self._own(Found, lambda own: own.words.unknown == words.unknown)
+        if found is None:
+            low, high, wanted, start = (self._now(x) for x in (lo, hi, equals, guess))
+            found = self._again(lambda of: find.sought(of(f), words, low, high, wanted, start, branch, branches))
         given = {"lo": lo, "hi": hi, "guess": guess}
         return self._solved(found, solving.one(self.graph, found, f, given, equals, branch, branches))
 
     def solve(
-        self, f: Any, equals: Any, _unit: Any, _unknown_unit: Any, unknowns: Mapping[str, Any], least: bool = False
+        self, f: Any, equals: Any, unit: Any, unknown_unit: Any, unknowns: Mapping[str, Any], least: bool = False
     ) -> solving.Solving:
         found = self._own(Solution, lambda own: list(own.words.names) == list(unknowns) and own.least is least)
+        if found is None:
+            wanted, starts = self._now(equals), {name: self._now(x) for name, x in unknowns.items()}
+            found = self._again(lambda of: system.solve(of(f), wanted, unit, unknown_unit, starts, least))
         return self._solved(found, solving.several(self.graph, found, f, equals, unknowns))
 
     def rooted(self, new: solving.Solving) -> None:
@@ -92,13 +99,37 @@ class Stage:
             self.recording.found[solved.words.unknown] = solved
             self.solved_now.append(solved)
 
-    def _own(self, kind: type[V], meant: Callable[[V], bool]) -> V:
-        """The verdict of the worksheet's own run; the next one that is meant is another."""
+    def _own(self, kind: type[V], meant: Callable[[V], bool]) -> V | None:
+        """The verdict of the worksheet's own run, where a name holds it; the next one that is meant is another."""
         for n, value in enumerate(self.real):
             if isinstance(value, kind) and meant(value):
                 del self.real[n]
                 return value
-        raise NotRecorded("its verdict is not given by the cell under a name of its own")
+        return None
+
+    def _again(self, ask: Callable[[Callable[..., Any]], V]) -> V:
+        """The verdict of the worksheet's own run, which no name holds, by its equations at present numbers."""
+
+        def place(x: Any) -> Quantity:
+            return Quantity(self.graph, self.graph.constant(x, units.UNKNOWN))
+
+        def of(f: Callable[..., Any]) -> Callable[..., Any]:
+            def at(*x: Any, **unknowns: Any) -> Any:
+                return self._now(f(*map(place, x[:1]), *x[1:], **{name: place(y) for name, y in unknowns.items()}))
+
+            return at
+
+        looked, work = dict(self.graph.looked), self.graph.work
+        try:
+            return ask(of)
+        finally:
+            self.graph.looked, self.graph.work = looked, work  # where it looked on the way is of no use to others
+
+    def _now(self, x: Any) -> Any:
+        """Present numbers."""
+        if isinstance(x, tuple | list):
+            return type(x)(map(self._now, x))
+        return x.value if isinstance(x, Quantity) else x
 
     def _solved(self, own: Verdict, new: solving.Solving) -> solving.Solving:
         self.solved += new.solved
@@ -107,11 +138,17 @@ class Stage:
 
     def _note(self, new: solving.Solving, own: Verdict) -> None:
         """Note found values by what the worksheet calls them."""
+        known = self.recording.found
         name = next((f"{name}." for name, value in self.namespace.items() if value is own), "")
         for solved in new.solved:
-            key = (name if isinstance(own, Solution) else "") + solved.words.unknown
-            self.shown_now.append((self.recording.found, key))
-            self.recording.found[key] = solved
+            unknown = solved.words.unknown
+            keys = chain(
+                [f"{name}{unknown}"] if isinstance(own, Solution) else [unknown, f"{name}{unknown}"],
+                (f"{unknown} {n}" for n in count(2)),  # of a loop, or a function that is called again
+            )
+            key = next(key for key in keys if key not in known or known[key].node is solved.node)
+            self.shown_now.append((known, key))
+            known[key] = solved
             self.solved_now.append(solved)
 
     def closed_form(self, found: solving.Solving, value: Any = None, tolerance: float = 1e-10, **values: Any) -> Any:

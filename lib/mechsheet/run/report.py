@@ -231,7 +231,7 @@ def solved(namespace: Mapping[str, Any]) -> Iterator[FoundRow]:
             case ast.Attribute(ast.Name(source), "value"):
                 found = namespace.get(source)
                 if isinstance(found, Found) and np.ndim(found.value) == 0:
-                    yield _found(line, found)
+                    yield _found(line, source, found)
             case ast.Attribute(ast.Attribute(ast.Name(source), "value"), unknown):
                 solution = namespace.get(source)
                 if isinstance(solution, Solution) and np.ndim(solution.condition) == 0:
@@ -254,12 +254,13 @@ def _one_of_several(line: Formula, source: str, solution: Solution, unknown: str
         lower / unit,
         upper / unit,
         ", ".join(numbers.significant(x / unit, 6) for x in others),
-        f"{source}.{unknown}",
+        source,
+        unknown,
         kind="least squares" if solution.least else "found",
     )
 
 
-def _found(line: Formula, found: Found) -> FoundRow:
+def _found(line: Formula, source: str, found: Found) -> FoundRow:
     unit, target = units.parse(line.unit).factor, units.parse(found.words.unit).factor
     others = [r for r in found.roots if (r.value, r.branch) != (found.value, found.branch or 0)]
     return FoundRow(
@@ -274,6 +275,7 @@ def _found(line: Formula, found: Found) -> FoundRow:
         ", ".join(
             numbers.significant(r.value / unit, 6) + (f" (branch {r.branch:+d})" if r.branch else "") for r in others
         ),
+        source,
         found.words.unknown,
         found.equals / target,
     )
