@@ -167,7 +167,23 @@ def iterated(turn: FunctionType, items: Any, item: int | None, *state: Any) -> A
     number, first, looked = begun
     if item is not None and not isinstance(items, range | list | tuple | np.ndarray | Quantity):
         return state
-    return _repeated(turn, items if item is None else items[number:], item, first, state, looked) or state
+    rest = items if item is None else items[number:]
+    if item is not None and rest and all(isinstance(row, tuple | list) for row in rest):
+        rest, first, last = _rows(rest), _with_row(first, item), _with_row(state, item)
+        return _repeated(turn, rest, item, first, last, looked) or state
+    return _repeated(turn, rest, item, first, state, looked) or state
+
+
+def _with_row(state: tuple[Any, ...], item: int) -> tuple[Any, ...]:
+    return tuple(_rows(x) if n == item else x for n, x in enumerate(state))
+
+
+def _rows(rows: Any) -> Any:
+    """Rows of numbers as an array, which any of them can be taken of; others as they are."""
+    numbers = (int, float)
+    each = rows if isinstance(rows[0], tuple | list) else [rows]
+    alike = all(len(row) == len(each[0]) and all(isinstance(x, numbers) for x in row) for row in each)
+    return np.array(rows) if alike else rows
 
 
 def _repeated(
@@ -311,6 +327,8 @@ def element(container: Any, key: Any) -> Any:
     """``container[key]``: where the key is a quantity, the one of several numbers that it points at."""
     if isinstance(key, Chosen) and isinstance(container, dict):
         return _of_option(container, key, cases(key))
+    if isinstance(key, tuple) and isinstance(container, np.ndarray) and has_quantity(key):
+        return lift(current.get(), container)[key]
     if not isinstance(key, Quantity) or isinstance(container, Quantity):
         return container[key]
     if isinstance(container, np.ndarray) and container.dtype.kind in "biufc":
@@ -386,6 +404,15 @@ def _extreme(name: str) -> Callable[..., Any]:
     return function
 
 
+def ranked(values: Iterable[Any], *, reverse: Any = False, **given: Any) -> Any:
+    """Python's sorted."""
+    each = list(values)
+    if given or not has_quantity(each) or not all(isinstance(v, _NUMBERS) for v in each):
+        return sorted(each, reverse=reverse, **given)
+    found: Any = np.sort(lift(current.get(), each))
+    return list(found)[::-1] if reverse else list(found)
+
+
 def total(values: Any, start: Any = 0) -> Any:
     """Python's sum."""
     return values.reduced("sum") + start if _is_whole(values) else sum(values, start)
@@ -396,7 +423,7 @@ CALLS: dict[str, Any] = {
     "handled": handled,
     "len": lambda x: x.count(0) if isinstance(x, Quantity) and x.ndim else len(x), "known": known,
     "iterated": iterated, "unbound": UNBOUND, "text": text,
-    "max": _extreme("max"), "min": _extreme("min"), "round": round,
+    "max": _extreme("max"), "min": _extreme("min"), "round": round, "sorted": ranked,
     "float": lambda *x: x[0] if has_quantity(x) else float(*x),
     "int": lambda *x: trunc(x[0]) if has_quantity(x) else int(*x),
     "complex": lambda *x: sum(a * b for a, b in zip(x, (1, 1j), strict=False)) if has_quantity(x) else complex(*x),

@@ -9,6 +9,7 @@ import ast
 import inspect
 import pickle
 import textwrap
+from collections.abc import Iterator
 from types import CodeType, FunctionType
 from typing import Any
 
@@ -18,7 +19,7 @@ from mechsheet.worksheet import source
 from mechsheet.worksheet.cells import bound
 
 CALLS = choices.CALLS | in_place.CALLS | kept.CALLS
-_NAMES = {"float", "int", "complex", "len", "max", "min", "pow", "round"}
+_NAMES = {"float", "int", "complex", "len", "max", "min", "pow", "round", "sorted"}
 _KINDS = (
     *(ast.Import, ast.ImportFrom, ast.JoinedStr, ast.Subscript, ast.IfExp, ast.BoolOp, ast.Compare, ast.Match, ast.Not),
     *(ast.AugAssign, ast.If, ast.While, ast.For, ast.FunctionDef, ast.ExceptHandler),
@@ -76,9 +77,11 @@ class _Rewriting(ast.NodeTransformer):
             case ast.Subscript(ast.ListComp() as some, ast.UnaryOp(ast.USub(), ast.Constant(1))) if keeps(some):
                 return self.generic_visit(of_kept(node, "last", some))
         self.generic_visit(node)
-        if not isinstance(node.ctx, ast.Load) or isinstance(node.slice, ast.Slice | ast.Tuple | ast.Constant):
+        keys = node.slice.elts if isinstance(node.slice, ast.Tuple) else [node.slice]
+        known = (ast.Slice, ast.Constant, ast.Starred)
+        if not isinstance(node.ctx, ast.Load) or all(isinstance(key, known) for key in keys):
             return node
-        return call("element", node, node.value, node.slice)
+        return call("element", node, node.value, index(node.slice))
 
     def visit_IfExp(self, node: ast.IfExp) -> ast.AST:
         self.generic_visit(node)
@@ -163,9 +166,16 @@ class _Rewriting(ast.NodeTransformer):
 
     def visit_For(self, node: ast.For) -> Any:
         ends = any(isinstance(part, ast.Break) for line in node.body for part in ast.walk(line))
+        if ends and isinstance(node.target, ast.Tuple):
+            row = f"recorded row {node.lineno}"
+            parts = ast.copy_location(ast.Assign([node.target], ast.Name(row, ast.Load())), node)
+            if all(map(_only_binds_or_ends, body := [parts, *node.body])):
+                node.target, node.body = ast.Name(row, ast.Store()), body
         if not (ends and isinstance(node.target, ast.Name)):
             self.generic_visit(node)
             return node
+        if node.orelse and all(map(_only_binds_or_ends, node.body)):
+            return [line for one in map(self.visit, _found(node)) for line in (one if isinstance(one, list) else [one])]
         return self._repeated(node, node.target.id, node.iter, node.body)
 
     def _repeated(self, node: ast.While | ast.For, item: str | None, items: ast.expr, body: list[ast.stmt]) -> Any:
@@ -234,6 +244,27 @@ def _only_binds_or_ends(line: ast.stmt) -> bool:
         case ast.Break() | ast.Continue():
             return True
     return _only_binds(line)
+
+
+def _found(node: ast.For) -> Iterator[ast.stmt]:
+    """A loop with an ``else``, as one that tells whether it was left, and what is done where it was not."""
+    left = f"recorded left {node.lineno}"
+    yield ast.copy_location(ast.Assign([ast.Name(left, ast.Store())], ast.Constant(0.0)), node)
+    body = [each for line in node.body for each in _telling(line, left)]
+    yield ast.copy_location(ast.For(node.target, node.iter, body, []), node)
+    never = ast.Compare(ast.Name(left, ast.Load()), [ast.Eq()], [ast.Constant(0.0)])
+    yield ast.copy_location(ast.If(never, node.orelse, []), node)
+    yield ast.copy_location(ast.Delete([ast.Name(left, ast.Del())]), node)
+
+
+def _telling(line: ast.stmt, left: str) -> Iterator[ast.stmt]:
+    if isinstance(line, ast.Break):
+        yield ast.copy_location(ast.Assign([ast.Name(left, ast.Store())], ast.Constant(1.0)), line)
+    if isinstance(line, ast.If):
+        line.body, line.orelse = (
+            [new for one in way for new in _telling(one, left)] for way in (line.body, line.orelse)
+        )
+    yield line
 
 
 def _returning(line: ast.stmt, names: list[str]) -> list[ast.stmt]:
