@@ -13,12 +13,23 @@ from collections.abc import Iterator
 from types import CodeType, FunctionType
 from typing import Any
 
-from mechsheet.recording import choices, in_place, kept
-from mechsheet.recording.forms import OF_KEPT, SCOPED, call, index, keeps, of_kept, one_by_one, set_parts, sets_beside
+from mechsheet.recording import choices, in_place, kept, loops
+from mechsheet.recording.forms import (
+    OF_KEPT,
+    SCOPED,
+    as_choice,
+    call,
+    index,
+    keeps,
+    of_kept,
+    one_by_one,
+    set_parts,
+    sets_beside,
+)
 from mechsheet.worksheet import source
 from mechsheet.worksheet.cells import bound
 
-CALLS = choices.CALLS | in_place.CALLS | kept.CALLS
+CALLS = choices.CALLS | in_place.CALLS | kept.CALLS | loops.CALLS
 _NAMES = {"float", "int", "complex", "len", "max", "min", "pow", "round", "sorted"}
 _KINDS = (
     *(ast.Import, ast.ImportFrom, ast.JoinedStr, ast.Subscript, ast.IfExp, ast.BoolOp, ast.Compare, ast.Match, ast.Not),
@@ -55,6 +66,8 @@ class _Rewriting(ast.NodeTransformer):
         match node:
             case ast.Call(ast.Attribute(container, "get"), [_, *_], []):
                 return call("get", node, container, *node.args)
+            case ast.Call(ast.Attribute(values, "index"), [value], []):
+                return call("place", node, values, value)
         return node
 
     def visit_JoinedStr(self, node: ast.JoinedStr) -> ast.AST:
@@ -106,7 +119,9 @@ class _Rewriting(ast.NodeTransformer):
         parts = [ast.copy_location(ast.Compare(a, [op], [b]), node) for a, op, b in pairs]
         return call("and", node, *map(_later, parts))
 
-    def visit_Match(self, node: ast.Match) -> ast.AST:
+    def visit_Match(self, node: ast.Match) -> Any:
+        if (choice := as_choice(node)) is not None:
+            return self.visit_If(choice)
         self.generic_visit(node)
         node.subject = call("matched", node, node.subject)
         return node
@@ -190,9 +205,11 @@ class _Rewriting(ast.NodeTransformer):
         function = ast.copy_location(ast.FunctionDef("recorded turn", given, ways, []), node)
         known = call("known", node, _call_of("locals"), *map(ast.Constant, names))
         place = ast.Constant(names.index(item) if item else None)
-        ended = call(
-            "iterated", node, ast.Name("recorded turn", ast.Load()), items, place, ast.Starred(known, ast.Load())
-        )
+        loaded = (part for line in body for part in ast.walk(line) if isinstance(part, ast.Name))
+        read = {part.id for part in loaded if isinstance(part.ctx, ast.Load)}
+        unread = ast.Constant(" ".join(str(n) for n, name in enumerate(names) if name not in read))
+        now: list[ast.expr] = [ast.Name("recorded turn", ast.Load()), items, place, unread]
+        ended = call("iterated", node, *now, ast.Starred(known, ast.Load()))
         targets: list[ast.expr] = [ast.Name(name, ast.Store()) for name in names]
         bind = ast.copy_location(ast.Assign([ast.Tuple(targets, ast.Store())], ended), node)
         lines = [self.visit(function), self.visit(bind)]
@@ -201,6 +218,7 @@ class _Rewriting(ast.NodeTransformer):
     def visit_FunctionDef(self, node: ast.FunctionDef) -> ast.AST:
         """Where a way of a function ends early, the rest of the function is the other way."""
         if not any(_is_of_the_whole(part) for part in ast.walk(node)):
+            node.body = [as_choice(line) or line if isinstance(line, ast.Match) else line for line in node.body]
             for n, line in enumerate(node.body):
                 if isinstance(line, ast.If) and any(isinstance(part, ast.Return) for part in ast.walk(line)):
                     rest = node.body[n + 1 :]
@@ -289,7 +307,7 @@ def _may_be_rewritten(part: ast.AST) -> bool:
     """Whether a part of a statement is of a kind that is rewritten, as it is in few formulas."""
     if isinstance(part, ast.Call):
         match part.func:
-            case ast.Attribute(attr="get"):
+            case ast.Attribute(attr="get" | "index"):
                 return True
             case ast.Name(name):
                 return name in _NAMES or name in OF_KEPT or name == "Check"

@@ -10,6 +10,7 @@ from traceback import walk_tb
 from types import CodeType
 from typing import NamedTuple
 
+from mechsheet.recording.forms import as_choice
 from mechsheet.recording.memory import operations
 from mechsheet.recording.rewritten import compiled
 from mechsheet.worksheet import source
@@ -108,6 +109,8 @@ def apart(statement: ast.stmt) -> tuple[ast.stmt, ...]:
 def texts_apart(statement: ast.stmt) -> tuple[ast.stmt, ...]:
     """A choice that binds texts beside numbers as one of each: of the texts Python sees which."""
     values = dict[str, list[ast.expr]]()
+    if isinstance(statement, ast.Match):
+        statement = as_choice(statement) or statement
     if not isinstance(statement, ast.If) or not _assigned(statement, values):
         return (statement,)
     texts = {n for n, each in values.items() if all(isinstance(v, ast.Constant) and type(v.value) is str for v in each)}
@@ -122,6 +125,9 @@ def _assigned(line: ast.stmt, values: dict[str, list[ast.expr]]) -> bool:
     match line:
         case ast.If(_, body, orelse):
             return all([_assigned(each, values) for each in (*body, *orelse)])
+        case ast.Assign([ast.Tuple(targets)], ast.Tuple(each)) if len(targets) == len(each):
+            lines = (ast.Assign([target], value) for target, value in zip(targets, each, strict=True))
+            return all([_assigned(one, values) for one in lines])
         case ast.Assign([ast.Name(name)], value) | ast.AugAssign(ast.Name(name), _, value):
             values.setdefault(name, []).append(value)
             return True
@@ -134,6 +140,11 @@ def _of_names(line: ast.stmt, names: Set[str]) -> ast.stmt:
         case ast.If(test, body, orelse):
             then, otherwise = ([_of_names(each, names) for each in way] for way in (body, orelse))
             return ast.copy_location(ast.If(test, then, otherwise), line)
+        case ast.Assign([ast.Tuple(targets)], ast.Tuple(each)):
+            kept = [(t, v) for t, v in zip(targets, each, strict=True) if isinstance(t, ast.Name) and t.id in names]
+            names_kept = ast.Tuple([t for t, _ in kept], ast.Store())
+            values_kept = ast.Tuple([v for _, v in kept], ast.Load())
+            return ast.fix_missing_locations(ast.copy_location(ast.Assign([names_kept], values_kept), line))
         case ast.Assign([ast.Name(name)]) | ast.AugAssign(ast.Name(name)) if name in names:
             return line
     return ast.copy_location(ast.Pass(), line)
