@@ -84,6 +84,8 @@ class Scope:
         """A number, or a field as a whole."""
         if node in self.names:
             return self.names[node]
+        if node not in self.program.graph.fixed:
+            raise SheetError(f"line {node.line}: what is computed there is used before it: no page can follow that")
         return self.program.constant(array(node.value)) if node.shape else literal(node.value.item()).text
 
     def shape(self, node: Node) -> str:
@@ -191,6 +193,8 @@ class Scope:
                 yield operand
 
     def _ready(self, node: Node, loop: Iterable[Node] = ()) -> bool:
+        if node.op == "at" and node.args[0] in loop:  # any element of which may be taken: it must be whole
+            return False
         return all(operand in self.names or operand in loop for operand in self._operands(node))
 
     def _without_loop(self, waiting: list[Node]) -> list[Node]:
