@@ -18,6 +18,7 @@ from mechsheet.worksheet import cells
 
 SIZES = "D = np.array([6.0, 8, 10, 12, 16, 20])\n"
 THREADS = "T = [(6.0, 1.0), (8.0, 1.25), (10.0, 1.5)]\n"
+TABLE = "T = np.array([[1, 2.0], [2, 3.0], [3, 4.0]])\n"
 KEPT = [
     SIZES + "y = min(d for d in D if d >= 3 * g.F) * g.a",
     SIZES + "y = min([d for d in D if d >= 5 * g.F], default=33.0) * g.a",
@@ -80,6 +81,34 @@ SET = [
     ),
     "d = {'x': 2.0}\nif g.F > 3:\n    d['x'] = g.a\ny = d['x'] * 2",
 ]
+SEARCHED = [
+    "from bisect import bisect_left\nS = [1, 2, 3, 4, 8]\ny = S[bisect_left(S, g.F)] * g.a",
+    "import bisect\nS = [1, 2, 3, 4, 8]\ny = S[bisect.bisect(S, g.F)] * S[S.index(round(g.F)) + 1]",
+    "v = [g.F, g.a, 2.6]\ny = v.index(max(v)) * g.a + v.index(2.6)",
+    "k = max(range(5), key=lambda i: np.sin(i * g.F))\ny = k * g.a",
+    "w = min([(g.F, 2.0), (g.a * 3, 3.0), (g.a * 3, 1.0)])\ny = w[1]",
+    "T = [(6, 1.0), (8, 1.25), (10, 1.5)]\nrow = min(T, key=lambda r: abs(r[0] - 3 * g.F))\ny = row[0] * row[1]",
+    (
+        "match g.k:\n    case 2:\n        y, t = g.F, 'a'\n    case 3 | 1:\n        y, t = g.a, 'b'\n"
+        "    case _:\n        y, t = 7.0, 'c'"
+    ),
+    (
+        "def f(k):\n    match k:\n        case 2:\n            return g.F\n        case 3:\n            return g.a\n"
+        "    return 5.0\ny = f(g.k)"
+    ),
+    "s, p, q, l = sorted([g.F, g.a, 1.0, 2.2])\ny = s + l - p * q",
+    "y = sorted([g.F, g.a, 3.0], reverse=True)[0] + sorted((g.F, 1.0))[-1]",
+    "for d in (6.0, 8.0, 10.0):\n    if d > 3 * g.F:\n        break\nelse:\n    d = 33.0\ny = d * g.a",
+    (
+        "for d, P in [(6, 1.0), (8, 1.25), (10, 1.5)]:\n    A = d - P\n    if A > 3 * g.F:\n        d = 2 * d\n"
+        "        break\nelse:\n    A = 0.5\ny = d * A * g.a"
+    ),
+    (
+        "if g.F > 3:\n    v = g.F\n    kind = 'much'\nelif g.F > 2:\n    v = g.a\n    kind = 'some'\n"
+        "else:\n    v = 0.0\n    kind = 'none'\ny = v * 2"
+    ),
+    "v = g.F\nif v > 3:\n    v = 3.0\n    kind = 'much'\nelse:\n    kind = 'some'\ny = v * 2",
+]
 SELECTED = [
     "y = x[x > 0.6 * g.F].min() * len(x[x > g.F])",
     "y = np.max(x[x < g.F]) + max(x[x < g.F]) + sum(x[x < g.F])",
@@ -93,9 +122,19 @@ SELECTED = [
     "i = np.nonzero(np.diff(np.sign(x - g.F)))[0]\ny = x[i[0]] + (g.F - x[i[0]]) * g.a / (x[i[0] + 1] - x[i[0]])",
     SIZES + "b = D * np.array([1.0, 2, 3, 4, 5, 6])\ny = b[D >= 3 * g.F][0] * D[D >= 3 * g.F].min()",
     "y = x[x > g.a][x[x > g.a] < 3].max() + np.extract(x > g.a, x)[0]",
+    TABLE + "row = T[T[:, 0] > g.F / 1.5][0]\ny = row[1] * g.a + T[T[:, 0] > g.F / 1.5, 1][0]",
+    TABLE + "y = T[T[:, 0] > g.F / 1.5][:, 1].min() * g.a + T[T[:, 0] == g.k - 1][0, 1]",
     "v = np.where(x > g.F, np.nan, x)\ny = np.nanmax(v[x > g.a / 9]) + np.isnan(v[x > 1]).sum()",
 ]
+FOUND = (
+    "found = None\nfor d in (0.5, 1.0, 2.0, 3.0):\n    w = g.F / d\n    if w > 4 or w < 0.1:\n        continue\n"
+    "    if w < 1.2:\n        found = d\n        break\n"
+)
 GUARDED = [  # where other inputs change what there is
+    FOUND + "y = found * g.a if found is not None else -1.0",
+    FOUND.replace("1.2", "0.9") + "y = found * g.a if found is not None else -1.0",
+    "for d in (6.0, 8.0, 16.0):\n    if d > 3 * g.F:\n        break\nelse:\n    raise ValueError('none')\ny = d * g.a",
+    "if g.F > 3:\n    v = g.F\n    kind = 'much'\nelse:\n    v = g.a\n    kind = 'some'\ny = v * len(kind)",
     "d = {}\nif g.F > 3:\n    d['x'] = g.a\ny = len(d) + g.F",
     "v = np.array([g.F, g.a])\nif v[0] > 3:\n    v[0] = 3.0\n    v[1] = v[0]\ny = v * 2",
     "v = np.zeros(2)\nw = v\nif g.F > 3:\n    v[0] = g.a\ny = w + v + g.F",
@@ -108,7 +147,7 @@ GUARDED = [  # where other inputs change what there is
 
 
 @pytest.mark.filterwarnings("ignore")
-@pytest.mark.parametrize("lines", [*KEPT, *CHOSEN, *SET, *SELECTED, *GUARDED])
+@pytest.mark.parametrize("lines", [*KEPT, *CHOSEN, *SET, *SEARCHED, *SELECTED, *GUARDED])
 def test_an_everyday_form_is_followed(lines: str, tmp_path: Path) -> None:
     sheet = own(tmp_path, f"{lines}\nresult = np.atleast_1d(y) * 1  # [-] line")
     _, recording = recorded(sheet)

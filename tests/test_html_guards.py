@@ -59,6 +59,19 @@ def test_only_what_rests_on_a_way_that_python_took_is_empty(blank: Page, tmp_pat
     assert {n for n, (_, why) in shown(blank, tmp_path / "a.html", sheet, "a=1.5").items() if why} == {"z"}
 
 
+def test_a_field_tells_where_it_is_least_along_positions_that_no_input_changes(blank: Page, tmp_path: Path) -> None:
+    """In each of the forms in which engineers write them: only one of them is a quantity in the recording."""
+    lines = """p = np.arange(2.5, 360, 25) * math.pi / 180  # [deg] positions
+q = np.radians(np.arange(0, 360, 20))  # [deg] others
+u = np.array([v + g.F * np.sin(3 * v) for v in p])  # [-] field
+w = np.cos(q) * g.F  # [-] field
+table_2, table_3 = table("2", "One", p, u), table("3", "Other", q, w)"""
+    sheet = own(tmp_path, lines)
+    here = shown(blank, tmp_path / "a.html", sheet, "F=4")
+    assert here == shown(blank, tmp_path / "b.html", sheet, F=4.0)
+    assert "least at p = " in here["u"][0] and "least at q = " in here["w"][0]
+
+
 @pytest.mark.parametrize("end", ENDED)
 def test_a_cell_that_ends_shows_and_gives_nothing(end: str, blank: Page, tmp_path: Path) -> None:
     sheet = own(tmp_path, f"v = 2.0 * g.F  # [-] before\n{ENDED[end]}\nw = 3.0 * g.F  # [-] behind")

@@ -49,6 +49,15 @@ def test_what_meets_a_condition_is_selected(lines: str, blank: Page, tmp_path: P
     assert_computed(blank, own(tmp_path, f"{lines}\nresult = y * 1  # [-] line"), ELSEWHERE)
 
 
+def test_elements_are_taken_of_a_field_that_is_whole(blank: Page, tmp_path: Path) -> None:
+    """Where the field and what is taken of it are as long, one loop could compute both: it had the exported numbers."""
+    lines = (
+        "u = np.array([k / 5 * g.F for k in range(6)])\nm = np.array([g.a + np.sin(k * g.a) for k in range(6)]) * g.F"
+    )
+    lines += "\ny = np.interp(u * np.array([0.0, 0.1, 0.3, 0.5, 0.9, 1.0]), u, m + np.cos(u))"
+    assert_computed(blank, own(tmp_path, f"{lines}\nresult = y * 1  # [-] line"), OTHER)
+
+
 LOOPS = {
     "while": "v, k = g.F, 0\nwhile v > 0.1 * g.a:\n    v = v / 2 - 0.01\n    k = k + 1\ny = v + k",
     "break": "v = g.F\nfor k in range(50):\n    v = v - (v**3 - g.a) / (3 * v**2)\n"

@@ -599,7 +599,7 @@ def test_recording_leaves_the_worksheet_alone(tmp_path: Path) -> None:
     "lines",
     [
         "y = np.random.default_rng(g.k).normal(size=3)  # [-] plain numbers that rest on an input",
-        'k = 3.0\nif g.F > 2:\n    k, kind = 5.0, "b"\ny = np.arange(3.0) + k  # [-] that rest on a way taken',
+        'k = 3.0\nif g.F > 2:\n    k, kind = 5.0, str("b")\ny = np.arange(3.0) + k  # [-] that rest on a way taken',
     ],
 )
 def test_plain_numbers_that_rest_on_what_python_saw_are_never_stale(lines: str, tmp_path: Path) -> None:

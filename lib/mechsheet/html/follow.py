@@ -20,7 +20,7 @@ from mechsheet.recording import showing
 from mechsheet.recording.graph import Guard
 from mechsheet.recording.lines import SLIDER, Recording
 from mechsheet.recording.node import Node, bottom_up
-from mechsheet.recording.quantity import Quantity
+from mechsheet.recording.quantity import Quantity, lift
 from mechsheet.recording.sketch import Drawn
 from mechsheet.recording.written import Said
 from mechsheet.worksheet import numbers
@@ -189,6 +189,8 @@ class Follower:
     def _axis(self, axis: Axis | None) -> Spec | None:
         """The quantity along an axis of a field; None of one that is not known, or not for other inputs."""
         held = self.recording.values.get(axis.line.name) if axis else None
+        if axis and isinstance(held, np.ndarray) and not self._named(axis.line.name):  # the same for all inputs
+            held = lift(self.recording.graph, held)
         if not axis or not isinstance(held, Quantity):
             return None
         factor, behind = units.parse(axis.line.unit).factor, numbers.behind(axis.line.unit, HTML)

@@ -91,6 +91,8 @@ class Scope:
         """A number, or a field as a whole."""
         if node in self.names:
             return self.names[node]
+        if node not in self.program.graph.fixed:
+            raise SheetError(f"line {node.line}: what is computed there is used before it: no page can follow that")
         return self.program.constant(array(node.value)) if node.shape else literal(node.value.item()).text
 
     def shape(self, node: Node) -> str:
@@ -232,7 +234,8 @@ class Scope:
             k, node = heappop(turns)
             loop[node] = self.program.name()
             for later in self._released(node):
-                if self._in_loop(later) and self._key(later) == key and self._place[later] > k:
+                whole = later.op == "at" and later.args[0] in loop  # any element may be taken: of all of them
+                if not whole and self._in_loop(later) and self._key(later) == key and self._place[later] > k:
                     heappush(turns, (self._place[later], later))
                 else:
                     released.append(later)

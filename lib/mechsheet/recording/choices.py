@@ -2,19 +2,17 @@
 
 import builtins
 import operator
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable
 from functools import partial, reduce
-from itertools import repeat
 from types import FunctionType
 from typing import Any
 
 import numpy as np
 
 from mechsheet.recording.arithmetic import choice as where
-from mechsheet.recording.arithmetic import elementwise, imaginary, trunc
-from mechsheet.recording.graph import Graph, Guard, NotRecorded, current
+from mechsheet.recording.arithmetic import elementwise, trunc
+from mechsheet.recording.graph import NotRecorded, current
 from mechsheet.recording.memory import Memory, may_change, names_of
-from mechsheet.recording.node import Loop, Node
 from mechsheet.recording.options import parted
 from mechsheet.recording.quantity import Quantity, has_quantity, is_any_length, lift
 from mechsheet.recording.selected import Selected
@@ -25,7 +23,7 @@ from mechsheet.worksheet.drawing import COLOURS
 from mechsheet.worksheet.kinds import Chosen, cases
 
 _NUMBERS = int | float | complex | np.number | Quantity
-_ARRAYS = _NUMBERS | np.bool_ | np.ndarray
+ARRAYS = _NUMBERS | np.bool_ | np.ndarray
 _DEEPEST = 8  # ways in one another that are recorded though Python does not take them
 
 
@@ -89,7 +87,7 @@ def merged(condition: Quantity, x: Any, y: Any) -> Any:
         return merged_sketch(condition, x, y)
     if condition.graph.draws and _are_written(x, y):
         return either(condition, x, y)
-    if isinstance(x, _ARRAYS) and isinstance(y, _ARRAYS) and _lengths(x) == _lengths(y):
+    if isinstance(x, ARRAYS) and isinstance(y, ARRAYS) and _lengths(x) == _lengths(y):
         return where(condition.graph, condition.reshape(()), x, y)
     if isinstance(x, FunctionType | np.poly1d) and isinstance(y, FunctionType | np.poly1d):
         return lambda *given, **named: _chosen(condition, x, y, *given, **named)
@@ -128,7 +126,7 @@ def _missing(value: Any) -> Any:
         return _made_like(value, map(_missing, value))
     if isinstance(value, Quantity):
         return lift(value.graph, np.nan).like(value)
-    return np.full(np.shape(value), np.nan) if isinstance(value, _ARRAYS) else UNBOUND
+    return np.full(np.shape(value), np.nan) if isinstance(value, ARRAYS) else UNBOUND
 
 
 def _reached(f: Callable[..., Any]) -> list[Any]:
@@ -144,128 +142,6 @@ def way_may_change(f: Callable[..., Any]) -> bool:
         return False
     inner = [c.cell_contents for c in f.__closure__ or () if isinstance(c.cell_contents, FunctionType)]
     return may_change([f.__code__, *(g.__code__ for g in inner)], f.__globals__)
-
-
-def iterated(turn: FunctionType, items: Any, item: int | None, *state: Any) -> Any:
-    """What the names of a loop are in the end; ``turn`` tells whether it ends, and what they are after it.
-
-    The name number ``item`` is the next one of the ``items``. Where a quantity decides about the end, readers repeat
-    the turns for the inputs that they have.
-    """
-    begun: tuple[int, tuple[Any, ...], dict[Node, Guard]] | None = None
-    for number, value in enumerate(repeat(None) if item is None else items):
-        if item is not None:
-            state = (*state[:item], value, *state[item + 1 :])
-        ends, *after = turn(*state)
-        if begun is None and is_condition(ends):
-            begun = number, state, dict(ends.graph.looked)
-        state = tuple(after)
-        if ends:
-            break
-    if begun is None:
-        return state
-    number, first, looked = begun
-    if item is not None and not isinstance(items, range | list | tuple | np.ndarray | Quantity):
-        return state
-    return _repeated(turn, items if item is None else items[number:], item, first, state, looked) or state
-
-
-def _repeated(
-    turn: FunctionType,
-    items: Any,
-    item: int | None,
-    first: tuple[Any, ...],
-    last: tuple[Any, ...],
-    looked: dict[Node, Guard],
-) -> tuple[Any, ...] | None:
-    """What a loop gives however many turns it takes, by one from whatever state; None where that has no such form.
-
-    ``looked`` are the guards before any that tell how many turns it takes now.
-    """
-    if not all(isinstance(x, _ARRAYS) or x is UNBOUND for x in first) or not all(isinstance(x, _ARRAYS) for x in last):
-        return None
-    graph = current.get()
-    met = {holds: guard for holds, guard in graph.looked.items() if holds not in looked}
-    end = [lift(graph, x) for x in (*last, 0)]
-    begin = [
-        lift(graph, np.nan).like(b) if a is UNBOUND else lift(graph, a) for a, b in zip((*first, 0), end, strict=True)
-    ]
-    like = [a + 0j if b.im is not None else a for a, b in zip(begin, end, strict=True)]
-    initial = _parts(begin, like)
-    nodes = [graph.state(node) for node in initial]
-    *state, number = _whole(graph, nodes, like)
-    now, graph.looked = graph.looked, {}
-    try:
-        if item is not None:
-            state[item] = lift(graph, items)[number]
-        ends, *after = turn(*state)
-        made = [lift(graph, x) for x in (*after, number + 1)]
-        followed = met and not graph.looked and is_condition(ends)
-    except (Exception, NotRecorded):
-        followed = False
-    finally:
-        graph.looked = now
-    if not followed or [x.extent for x in made] != [x.extent for x in like]:
-        return None
-    if any(a.im is not None and b.im is None for a, b in zip(made, like, strict=True)):
-        return None
-    graph.looked = looked
-    most = None if item is None else len(items)
-    loop = Loop(nodes, initial, _parts(made, like), ends.re, most)
-    same = reduce(operator.and_, (Quantity(graph, holds) for holds in met))
-    ended, state = _in_turns(turn, items, item, _whole(graph, initial, like)[:-1], most) or (same, end[:-1])
-    graph.see(lift(graph, ended).re, turns=True)
-    turns = [where(graph, ended, Quantity(graph, node), np.nan).re for node in _parts(state, like[:-1])]
-    found = [graph.iterated(loop, k, node) for k, node in enumerate(turns)]
-    return tuple(_whole(graph, found, like[:-1]))
-
-
-def _in_turns(
-    turn: FunctionType, items: Any, item: int | None, begin: list[Quantity], most: int | None
-) -> tuple[Any, list[Quantity]] | None:
-    """Whether a loop has ended after twice as many turns as it takes now and some more, and its state then.
-
-    A turn behind its end changes nothing. None where that would take too many operations.
-    """
-    graph, state = begin[0].graph, begin
-    now, work, graph.looked = graph.looked, graph.work, {}
-    ended, number, count = lift(graph, False), 0, None
-    try:
-        while number not in (most, count):
-            if item is not None:
-                state[item] = where(graph, ended, state[item], lift(graph, items)[number])
-            ends, *after = turn(*state)
-            state = [where(graph, ended, a, b) for a, b in zip(state, after, strict=True)]
-            ended, number = ended | ends, number + 1
-            if count is None and ended.value:
-                count = 2 * number + _FURTHER
-        looked = bool(graph.looked)
-    except (Exception, NotRecorded):
-        looked = True
-    finally:
-        graph.looked, graph.work = now, work
-    if looked:
-        return None
-    return (True if number == most else ended), state
-
-
-_FURTHER = 8  # turns
-
-
-def _parts(values: list[Quantity], like: list[Quantity]) -> list[Node]:
-    """Real parts, and imaginary ones where others have them."""
-    pairs = zip(values, like, strict=True)
-    return [part for x, y in pairs for part in ((x.re,) if y.im is None else (x.re, imaginary(x)))]
-
-
-def _whole(graph: Graph, parts: list[Node], like: list[Quantity]) -> list[Quantity]:
-    rest = iter(parts)
-    return [Quantity(graph, next(rest), None if x.im is None else next(rest)) for x in like]
-
-
-def known(names: Mapping[str, Any], *wanted: str) -> list[Any]:
-    """What some names are bound to."""
-    return [names.get(name, UNBOUND) for name in wanted]
 
 
 def both(*parts: FunctionType) -> Any:
@@ -311,6 +187,8 @@ def element(container: Any, key: Any) -> Any:
     """``container[key]``: where the key is a quantity, the one of several numbers that it points at."""
     if isinstance(key, Chosen) and isinstance(container, dict):
         return _of_option(container, key, cases(key))
+    if isinstance(key, tuple) and isinstance(container, np.ndarray) and has_quantity(key):
+        return lift(current.get(), container)[key]
     if not isinstance(key, Quantity) or isinstance(container, Quantity):
         return container[key]
     if isinstance(container, np.ndarray) and container.dtype.kind in "biufc":
@@ -376,14 +254,54 @@ def _extreme(name: str) -> Callable[..., Any]:
         if len(args) == 1 and not kwargs and _is_whole(args[0]):
             return args[0].reduced(name)
         values = list(args[0]) if len(args) == 1 and isinstance(args[0], Iterable) else list(args)
-        if kwargs or not has_quantity(values):
+        key = kwargs.get("key") or (lambda value: value)
+        keys = [key(value) for value in values]
+        if kwargs.keys() - {"key"} or not has_quantity(keys):
             return getattr(builtins, name)(*args if len(args) > 1 else [values], **kwargs)
-        result = values[0]
-        for value in values[1:]:
-            result = fold(result, value)
+        if not kwargs and not any(isinstance(value, tuple | list) for value in values):
+            return reduce(fold, values)
+        result, best = values[0], keys[0]
+        for value, own in zip(values[1:], keys[1:], strict=True):
+            wins = _is_above(own, best) if name == "max" else _is_above(best, own)
+            result, best = merged(wins, value, result), merged(wins, own, best)
+            if result is None or best is None:
+                return getattr(builtins, name)(values, **kwargs)
         return result
 
     return function
+
+
+def _is_above(x: Any, y: Any) -> Any:
+    """``x > y``, of rows of numbers by the first one that differs."""
+    if not isinstance(x, tuple | list):
+        return lift(current.get(), x) > y
+    if not x:
+        return lift(current.get(), False)
+    first = lift(current.get(), x[0])
+    return (first > y[0]) | ((first == y[0]) & _is_above(x[1:], y[1:]))
+
+
+def placed(values: Any, value: Any) -> Any:
+    """``values.index(value)``: the first place of a number in a list."""
+    if not isinstance(values, list | tuple) or not has_quantity([values, value]):
+        return values.index(value)
+    if not all(isinstance(v, _NUMBERS) for v in (*values, value)):
+        return values.index(value)
+    hit = lift(current.get(), values) == value
+    some = hit.reduced("any")
+    if not some.value:
+        raise ValueError("it is not in the list")
+    place: Quantity = where(current.get(), some, np.argmax(hit), np.nan)
+    return place
+
+
+def ranked(values: Iterable[Any], *, reverse: Any = False, **given: Any) -> Any:
+    """Python's sorted."""
+    each = list(values)
+    if given or not has_quantity(each) or not all(isinstance(v, _NUMBERS) for v in each):
+        return sorted(each, reverse=reverse, **given)
+    found: Any = np.sort(lift(current.get(), each))
+    return list(found)[::-1] if reverse else list(found)
 
 
 def total(values: Any, start: Any = 0) -> Any:
@@ -394,9 +312,9 @@ def total(values: Any, start: Any = 0) -> Any:
 CALLS: dict[str, Any] = {
     "choice": choice, "and": both, "or": any_of, "not": negated, "matched": matched, "element": element, "get": got,
     "handled": handled,
-    "len": lambda x: x.count(0) if isinstance(x, Quantity) and x.ndim else len(x), "known": known,
-    "iterated": iterated, "unbound": UNBOUND, "text": text,
-    "max": _extreme("max"), "min": _extreme("min"), "round": round,
+    "len": lambda x: x.count(0) if isinstance(x, Quantity) and x.ndim else len(x),
+    "unbound": UNBOUND, "text": text,
+    "max": _extreme("max"), "min": _extreme("min"), "round": round, "sorted": ranked, "place": placed,
     "float": lambda *x: x[0] if has_quantity(x) else float(*x),
     "int": lambda *x: trunc(x[0]) if has_quantity(x) else int(*x),
     "complex": lambda *x: sum(a * b for a, b in zip(x, (1, 1j), strict=False)) if has_quantity(x) else complex(*x),

@@ -82,6 +82,30 @@ def one_by_one(targets: list[ast.expr], value: ast.expr, depth: int = 0) -> Iter
     yield ast.Delete([ast.Name(own, ast.Del())])
 
 
+def as_choice(node: ast.Match) -> ast.If | None:
+    """A ``match`` that compares a name with values as the choice that it is; None of any other."""
+    rest: list[ast.stmt] = []
+    if not isinstance(node.subject, ast.Name | ast.Attribute):
+        return None
+    for case in reversed(node.cases):
+        match case.pattern:
+            case ast.MatchValue(value):
+                tests = [value]
+            case ast.MatchOr(patterns) if all(isinstance(p, ast.MatchValue) for p in patterns):
+                tests = [p.value for p in patterns if isinstance(p, ast.MatchValue)]
+            case ast.MatchAs(None, None) if not case.guard:
+                rest = case.body
+                continue
+            case _:
+                return None
+        if case.guard:
+            return None
+        each: list[ast.expr] = [ast.Compare(node.subject, [ast.Eq()], [test]) for test in tests]
+        rest = [ast.If(ast.BoolOp(ast.Or(), each) if len(each) > 1 else each[0], case.body, rest)]
+    (choice,) = rest if len(rest) == 1 else [None]
+    return ast.fix_missing_locations(ast.copy_location(choice, node)) if isinstance(choice, ast.If) else None
+
+
 OF_KEPT = {"next": "first", "min": "min", "max": "max", "sum": "sum", "len": "len"}
 
 

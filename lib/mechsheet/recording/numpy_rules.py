@@ -1,6 +1,7 @@
 """What numpy's functions make of recorded quantities: a rule for each of those that a recording knows."""
 
 import math
+from bisect import bisect_left, bisect_right
 from collections.abc import Callable
 from copy import copy
 from typing import Any
@@ -326,7 +327,7 @@ _OF_FUNCTIONS: dict[Any, Callable[..., Any]] = {
     np.nancumsum: lambda graph, x, axis=None: _so_far("sum")(graph, filled_up(graph, x, 0.0), axis),
     np.nanvar: known_variance, np.nanstd: lambda graph, *args, **rest: np.sqrt(known_variance(graph, *args, **rest)),
     np.select: _selected, np.piecewise: _piecewise, np.clip: _clipped, np.isclose: _close,
-    math.isclose: _near,
+    math.isclose: _near, bisect_left: searched, bisect_right: lambda graph, a, x: searched(graph, a, x, "right"),
     np.allclose: lambda graph, *args, **rest: _close(graph, *args, **rest).reduced("all"),
     np.nan_to_num: lambda graph, x, nan=0.0: choice(graph, finite(lift(graph, x)), x, nan),
     np.zeros_like: _like(0.0), np.ones_like: _like(1.0), np.full_like: _like(np.nan), np.empty_like: _like(0.0),

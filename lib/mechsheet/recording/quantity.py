@@ -211,9 +211,9 @@ class Quantity(NDArrayOperatorsMixin):
         return self if self.single and not shape else self.rearranged(np.broadcast_to, shape)
 
     def __getitem__(self, key: Any) -> "Quantity":
-        some = FUNCTIONS[np.ndarray.__getitem__](self.graph, self, key) if isinstance(key, Quantity) else None
+        some: Quantity | None = FUNCTIONS[np.ndarray.__getitem__](self.graph, self, key)
         if some is not None:
-            return some  # type: ignore[no-any-return]
+            return some
         first, *rest = key if isinstance(key, tuple) and key else (key,)
         if isinstance(first, Quantity) and first.re.value.dtype != bool and first.im is None and self.ndim:
             return self._at(first)[(slice(None),) * first.ndim + tuple(rest)] if rest else self._at(first)

@@ -124,9 +124,10 @@ class _Run(OfPositions):
     def run(self, cell: Cell, draws: bool = True) -> None:
         """Run the statements of a cell, those that only draw where it ``draws``, and name what they give."""
         stage = Stage(self.recording, self.namespace, cell)
-        facts = [statement.facts(line, self.sheet.path) for line in cell.lines]
+        lines = [part for line in cell.lines for part in statement.texts_apart(line)]
+        facts = [statement.facts(line, self.sheet.path) for line in lines]
         last = {name: n for n, fact in enumerate(facts) for name in fact.touched}
-        for n, (line, fact) in enumerate(zip(cell.lines, facts, strict=True)):
+        for n, (line, fact) in enumerate(zip(lines, facts, strict=True)):
             later = {name for name, end in last.items() if end > n}
             if not draws and fact.touched and all(isinstance(self.namespace.get(x), Drawing) for x in fact.touched):
                 continue

@@ -9,16 +9,28 @@ import ast
 import inspect
 import pickle
 import textwrap
+from collections.abc import Iterator
 from types import CodeType, FunctionType
 from typing import Any
 
-from mechsheet.recording import choices, in_place, kept
-from mechsheet.recording.forms import OF_KEPT, SCOPED, call, index, keeps, of_kept, one_by_one, set_parts, sets_beside
+from mechsheet.recording import choices, in_place, kept, loops
+from mechsheet.recording.forms import (
+    OF_KEPT,
+    SCOPED,
+    as_choice,
+    call,
+    index,
+    keeps,
+    of_kept,
+    one_by_one,
+    set_parts,
+    sets_beside,
+)
 from mechsheet.worksheet import source
 from mechsheet.worksheet.cells import bound
 
-CALLS = choices.CALLS | in_place.CALLS | kept.CALLS
-_NAMES = {"float", "int", "complex", "len", "max", "min", "pow", "round"}
+CALLS = choices.CALLS | in_place.CALLS | kept.CALLS | loops.CALLS
+_NAMES = {"float", "int", "complex", "len", "max", "min", "pow", "round", "sorted"}
 _KINDS = (
     *(ast.Import, ast.ImportFrom, ast.JoinedStr, ast.Subscript, ast.IfExp, ast.BoolOp, ast.Compare, ast.Match, ast.Not),
     *(ast.AugAssign, ast.If, ast.While, ast.For, ast.FunctionDef, ast.ExceptHandler),
@@ -54,6 +66,8 @@ class _Rewriting(ast.NodeTransformer):
         match node:
             case ast.Call(ast.Attribute(container, "get"), [_, *_], []):
                 return call("get", node, container, *node.args)
+            case ast.Call(ast.Attribute(values, "index"), [value], []):
+                return call("place", node, values, value)
         return node
 
     def visit_JoinedStr(self, node: ast.JoinedStr) -> ast.AST:
@@ -76,9 +90,11 @@ class _Rewriting(ast.NodeTransformer):
             case ast.Subscript(ast.ListComp() as some, ast.UnaryOp(ast.USub(), ast.Constant(1))) if keeps(some):
                 return self.generic_visit(of_kept(node, "last", some))
         self.generic_visit(node)
-        if not isinstance(node.ctx, ast.Load) or isinstance(node.slice, ast.Slice | ast.Tuple | ast.Constant):
+        keys = node.slice.elts if isinstance(node.slice, ast.Tuple) else [node.slice]
+        known = (ast.Slice, ast.Constant, ast.Starred)
+        if not isinstance(node.ctx, ast.Load) or all(isinstance(key, known) for key in keys):
             return node
-        return call("element", node, node.value, node.slice)
+        return call("element", node, node.value, index(node.slice))
 
     def visit_IfExp(self, node: ast.IfExp) -> ast.AST:
         self.generic_visit(node)
@@ -103,7 +119,9 @@ class _Rewriting(ast.NodeTransformer):
         parts = [ast.copy_location(ast.Compare(a, [op], [b]), node) for a, op, b in pairs]
         return call("and", node, *map(_later, parts))
 
-    def visit_Match(self, node: ast.Match) -> ast.AST:
+    def visit_Match(self, node: ast.Match) -> Any:
+        if (choice := as_choice(node)) is not None:
+            return self.visit_If(choice)
         self.generic_visit(node)
         node.subject = call("matched", node, node.subject)
         return node
@@ -163,9 +181,16 @@ class _Rewriting(ast.NodeTransformer):
 
     def visit_For(self, node: ast.For) -> Any:
         ends = any(isinstance(part, ast.Break) for line in node.body for part in ast.walk(line))
+        if ends and isinstance(node.target, ast.Tuple):
+            row = f"recorded row {node.lineno}"
+            parts = ast.copy_location(ast.Assign([node.target], ast.Name(row, ast.Load())), node)
+            if all(map(_only_binds_or_ends, body := [parts, *node.body])):
+                node.target, node.body = ast.Name(row, ast.Store()), body
         if not (ends and isinstance(node.target, ast.Name)):
             self.generic_visit(node)
             return node
+        if node.orelse and all(map(_only_binds_or_ends, node.body)):
+            return [line for one in map(self.visit, _found(node)) for line in (one if isinstance(one, list) else [one])]
         return self._repeated(node, node.target.id, node.iter, node.body)
 
     def _repeated(self, node: ast.While | ast.For, item: str | None, items: ast.expr, body: list[ast.stmt]) -> Any:
@@ -180,9 +205,11 @@ class _Rewriting(ast.NodeTransformer):
         function = ast.copy_location(ast.FunctionDef("recorded turn", given, ways, []), node)
         known = call("known", node, _call_of("locals"), *map(ast.Constant, names))
         place = ast.Constant(names.index(item) if item else None)
-        ended = call(
-            "iterated", node, ast.Name("recorded turn", ast.Load()), items, place, ast.Starred(known, ast.Load())
-        )
+        loaded = (part for line in body for part in ast.walk(line) if isinstance(part, ast.Name))
+        read = {part.id for part in loaded if isinstance(part.ctx, ast.Load)}
+        unread = ast.Constant(" ".join(str(n) for n, name in enumerate(names) if name not in read))
+        now: list[ast.expr] = [ast.Name("recorded turn", ast.Load()), items, place, unread]
+        ended = call("iterated", node, *now, ast.Starred(known, ast.Load()))
         targets: list[ast.expr] = [ast.Name(name, ast.Store()) for name in names]
         bind = ast.copy_location(ast.Assign([ast.Tuple(targets, ast.Store())], ended), node)
         lines = [self.visit(function), self.visit(bind)]
@@ -191,6 +218,7 @@ class _Rewriting(ast.NodeTransformer):
     def visit_FunctionDef(self, node: ast.FunctionDef) -> ast.AST:
         """Where a way of a function ends early, the rest of the function is the other way."""
         if not any(_is_of_the_whole(part) for part in ast.walk(node)):
+            node.body = [as_choice(line) or line if isinstance(line, ast.Match) else line for line in node.body]
             for n, line in enumerate(node.body):
                 if isinstance(line, ast.If) and any(isinstance(part, ast.Return) for part in ast.walk(line)):
                     rest = node.body[n + 1 :]
@@ -236,6 +264,27 @@ def _only_binds_or_ends(line: ast.stmt) -> bool:
     return _only_binds(line)
 
 
+def _found(node: ast.For) -> Iterator[ast.stmt]:
+    """A loop with an ``else``, as one that tells whether it was left, and what is done where it was not."""
+    left = f"recorded left {node.lineno}"
+    yield ast.copy_location(ast.Assign([ast.Name(left, ast.Store())], ast.Constant(0.0)), node)
+    body = [each for line in node.body for each in _telling(line, left)]
+    yield ast.copy_location(ast.For(node.target, node.iter, body, []), node)
+    never = ast.Compare(ast.Name(left, ast.Load()), [ast.Eq()], [ast.Constant(0.0)])
+    yield ast.copy_location(ast.If(never, node.orelse, []), node)
+    yield ast.copy_location(ast.Delete([ast.Name(left, ast.Del())]), node)
+
+
+def _telling(line: ast.stmt, left: str) -> Iterator[ast.stmt]:
+    if isinstance(line, ast.Break):
+        yield ast.copy_location(ast.Assign([ast.Name(left, ast.Store())], ast.Constant(1.0)), line)
+    if isinstance(line, ast.If):
+        line.body, line.orelse = (
+            [new for one in way for new in _telling(one, left)] for way in (line.body, line.orelse)
+        )
+    yield line
+
+
 def _returning(line: ast.stmt, names: list[str]) -> list[ast.stmt]:
     """A statement of a turn, which returns whether the loop ends, and what the names are."""
     match line:
@@ -258,7 +307,7 @@ def _may_be_rewritten(part: ast.AST) -> bool:
     """Whether a part of a statement is of a kind that is rewritten, as it is in few formulas."""
     if isinstance(part, ast.Call):
         match part.func:
-            case ast.Attribute(attr="get"):
+            case ast.Attribute(attr="get" | "index"):
                 return True
             case ast.Name(name):
                 return name in _NAMES or name in OF_KEPT or name == "Check"

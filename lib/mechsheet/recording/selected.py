@@ -1,4 +1,4 @@
-"""Elements of a list for which a condition holds, such as ``x[x > a]``, and their places, however many these are."""
+"""Elements of a list, or rows of a table, for which a condition holds, such as ``x[x > a]``, however many these are."""
 
 from math import inf, nan
 from typing import Any
@@ -17,7 +17,7 @@ _NUMBERS = int | float | complex | np.number
 
 
 class Selected(Quantity):
-    """Those elements ``of`` a list for which a condition ``holds``.
+    """Those elements ``of`` a list, or rows of a table, for which a condition ``holds``.
 
     What they are as a whole, such as the greatest, and one of them by its number is followed. Anything else is of
     those for which it holds now, and is no number where it holds for others.
@@ -49,16 +49,22 @@ class Selected(Quantity):
 
     @property
     def extent(self) -> tuple[int, ...]:
-        return (int(np.count_nonzero(self.holds.value)),)
+        return (int(np.count_nonzero(self.holds.value)), *self.of.extent[1:])
 
     @property
     def single(self) -> bool:
         return False
 
     def count(self, axis: Any = None) -> Any:
+        if axis != 0 and self.ndim > 1:
+            return super().count(axis)
         return choice(self.graph, self.holds, 1, 0).reduced("sum")
 
     def __getitem__(self, key: Any) -> Quantity:
+        if isinstance(key, tuple) and isinstance(key[0], int | np.integer):
+            return self[key[0]][key[1:]]
+        if isinstance(key, tuple) and key[0] == slice(None):
+            return Selected(self.of[key], self.holds)
         if not isinstance(key, int | np.integer) or isinstance(key, bool):
             return super().__getitem__(key)
         number: Any = choice(self.graph, self.holds, 1, 0).cumsum()
@@ -70,7 +76,7 @@ class Selected(Quantity):
 
     def filled(self, kind: str) -> Quantity:
         """All elements, those for which it does not hold as ones that change nothing."""
-        if kind not in _OF_NONE or (self.of.im is not None and kind != "sum"):
+        if self.ndim > 1 or kind not in _OF_NONE or (self.of.im is not None and kind != "sum"):
             return Quantity(self.graph, self.re, self.im)
         every: Quantity = choice(self.graph, self.holds, self.of, _OF_NONE[kind])
         return every
@@ -93,21 +99,25 @@ class Selected(Quantity):
     def _is_beside(self, x: Any) -> bool:
         """Whether one number, or of the same elements."""
         if isinstance(x, Selected):
-            return x.holds.re is self.holds.re
+            return x.holds.re is self.holds.re and x.ndim == self.ndim
         return isinstance(x, _NUMBERS) or (isinstance(x, Quantity) and x.single)
 
 
-def selected(graph: Graph, x: Quantity, key: Quantity) -> Quantity | None:
+def selected(graph: Graph, x: Quantity, key: Any) -> Quantity | None:
     """``x[key]`` where the key is a condition, or places of what one holds for; None of anything else."""
-    if graph.thin > 1 or x.ndim != 1 or key.ndim != 1:
+    if isinstance(key, tuple):
+        some = selected(graph, x, key[0]) if key and isinstance(key[0], Quantity) else None
+        return None if some is None else some[(slice(None), *key[1:])]
+    if graph.thin > 1 or not isinstance(key, Quantity) or not x.ndim or key.ndim != 1:
         return None
     if isinstance(x, Selected):
         further = isinstance(key, Selected) and key.of.dtype == bool and key.holds.re is x.holds.re
         return Selected(x.of, x.holds & key.of) if isinstance(key, Selected) and further else None
     if isinstance(key, Selected):
         return None if key.of.dtype == bool or key.of.im is not None else Selected(x[key.of], key.holds)
-    alike = key.extent == x.extent and graph.size(key.re) == graph.size(x.whole().re)
-    return Selected(x, key) if key.dtype == bool and alike and key.re not in graph.fixed else None
+    if key.dtype != bool or key.re in graph.fixed or key.extent != x.extent[:1]:
+        return None
+    return Selected(x, key) if graph.size(key.re) == graph.size(x.whole().re)[:1] else None
 
 
 def places(graph: Graph, x: Any) -> Any:

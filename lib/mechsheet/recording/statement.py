@@ -3,13 +3,14 @@
 import ast
 import dis
 import sys
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Set
 from functools import lru_cache
 from inspect import signature
 from traceback import walk_tb
 from types import CodeType
 from typing import NamedTuple
 
+from mechsheet.recording.forms import as_choice
 from mechsheet.recording.memory import operations
 from mechsheet.recording.rewritten import compiled
 from mechsheet.worksheet import source
@@ -102,6 +103,51 @@ def apart(statement: ast.stmt) -> tuple[ast.stmt, ...]:
             made = (ast.copy_location(line, statement) for line in (*lines, ast.Assign([target], together)))
             return tuple(map(ast.fix_missing_locations, made))
     return ()
+
+
+@lru_cache(maxsize=4096)
+def texts_apart(statement: ast.stmt) -> tuple[ast.stmt, ...]:
+    """A choice that binds texts beside numbers as one of each: of the texts Python sees which."""
+    values = dict[str, list[ast.expr]]()
+    if isinstance(statement, ast.Match):
+        statement = as_choice(statement) or statement
+    if not isinstance(statement, ast.If) or not _assigned(statement, values):
+        return (statement,)
+    texts = {n for n, each in values.items() if all(isinstance(v, ast.Constant) and type(v.value) is str for v in each)}
+    read = {n.id for n in source.nodes(statement) if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Load)}
+    if not texts or texts == values.keys() or not texts.isdisjoint(read):
+        return (statement,)
+    return _of_names(statement, texts), _of_names(statement, values.keys() - texts)
+
+
+def _assigned(line: ast.stmt, values: dict[str, list[ast.expr]]) -> bool:
+    """Whether a statement does nothing but give single names values, which are added to those known."""
+    match line:
+        case ast.If(_, body, orelse):
+            return all([_assigned(each, values) for each in (*body, *orelse)])
+        case ast.Assign([ast.Tuple(targets)], ast.Tuple(each)) if len(targets) == len(each):
+            lines = (ast.Assign([target], value) for target, value in zip(targets, each, strict=True))
+            return all([_assigned(one, values) for one in lines])
+        case ast.Assign([ast.Name(name)], value) | ast.AugAssign(ast.Name(name), _, value):
+            values.setdefault(name, []).append(value)
+            return True
+    return isinstance(line, ast.Pass)
+
+
+def _of_names(line: ast.stmt, names: Set[str]) -> ast.stmt:
+    """A choice that binds some of its names alone."""
+    match line:
+        case ast.If(test, body, orelse):
+            then, otherwise = ([_of_names(each, names) for each in way] for way in (body, orelse))
+            return ast.copy_location(ast.If(test, then, otherwise), line)
+        case ast.Assign([ast.Tuple(targets)], ast.Tuple(each)):
+            kept = [(t, v) for t, v in zip(targets, each, strict=True) if isinstance(t, ast.Name) and t.id in names]
+            names_kept = ast.Tuple([t for t, _ in kept], ast.Store())
+            values_kept = ast.Tuple([v for _, v in kept], ast.Load())
+            return ast.fix_missing_locations(ast.copy_location(ast.Assign([names_kept], values_kept), line))
+        case ast.Assign([ast.Name(name)]) | ast.AugAssign(ast.Name(name)) if name in names:
+            return line
+    return ast.copy_location(ast.Pass(), line)
 
 
 def _beside(nodes: Iterable[ast.AST]) -> Iterator[ast.expr]:

@@ -8,6 +8,7 @@ Nothing of the running program is exchanged: pages that are served at the same t
 import builtins
 import math
 import sys
+from bisect import bisect_left, bisect_right
 from collections.abc import Callable, Mapping
 from contextvars import ContextVar
 from copy import copy
@@ -60,7 +61,7 @@ _SAME = (
 _OTHER = {"asin": "arcsin", "acos": "arccos", "atan": "arctan", "atan2": "arctan2", "asinh": "arcsinh"}
 _OTHER |= {"acosh": "arccosh", "atanh": "arctanh", "fabs": "abs", "pow": "power", "fsum": "sum"}
 _MATH: dict[Any, Any] = {getattr(math, name): getattr(np, _OTHER.get(name, name)) for name in [*_SAME, *_OTHER]}
-_MATH[math.isclose] = math.isclose  # whose tolerances are not those of numpy's
+_MATH |= {f: f for f in (math.isclose, bisect_left, bisect_right)}  # which are not those of numpy
 
 
 def instead(value: Any) -> Any:

@@ -1,0 +1,172 @@
+"""Loops that end by what they compute, for recorded quantities: readers repeat the turns for the inputs they have."""
+
+import operator
+from collections.abc import Mapping
+from functools import reduce
+from itertools import repeat
+from types import FunctionType
+from typing import Any
+
+import numpy as np
+
+from mechsheet.recording.arithmetic import choice as where
+from mechsheet.recording.arithmetic import imaginary
+from mechsheet.recording.choices import ARRAYS, UNBOUND, is_condition
+from mechsheet.recording.graph import Graph, Guard, NotRecorded, current
+from mechsheet.recording.node import Loop, Node
+from mechsheet.recording.quantity import Quantity, lift
+
+
+def iterated(turn: FunctionType, items: Any, item: int | None, unread: str, *state: Any) -> Any:
+    """What the names of a loop are in the end; ``turn`` tells whether it ends, and what they are after it.
+
+    The name number ``item`` is the next one of the ``items``. What is None at first, and no turn looks at, as the
+    numbers of the ``unread`` ones tell, is a number in the end, or the loop is none that readers repeat.
+    """
+    none = [n for n in map(int, unread.split()) if state[n] is None]
+    if none and not hasattr(items, "__next__"):
+        graph = current.get()
+        looked = dict(graph.looked)
+        found = _iterated(turn, items, item, *(UNBOUND if n in none else x for n, x in enumerate(state)))
+        if all(isinstance(found[n], Quantity) and np.isfinite(found[n].value).all() for n in none):
+            for n in none:
+                graph.see(np.isfinite(found[n]).reduced("all").re)
+            return found
+        graph.looked = looked
+    return _iterated(turn, items, item, *state)
+
+
+def _iterated(turn: FunctionType, items: Any, item: int | None, *state: Any) -> Any:
+    """The same. Where a quantity decides about the end, readers repeat the turns for the inputs that they have."""
+    begun: tuple[int, tuple[Any, ...], dict[Node, Guard]] | None = None
+    for number, value in enumerate(repeat(None) if item is None else items):
+        if item is not None:
+            state = (*state[:item], value, *state[item + 1 :])
+        ends, *after = turn(*state)
+        if begun is None and is_condition(ends):
+            begun = number, state, dict(ends.graph.looked)
+        state = tuple(after)
+        if ends:
+            break
+    if begun is None:
+        return state
+    number, first, looked = begun
+    if item is not None and not isinstance(items, range | list | tuple | np.ndarray | Quantity):
+        return state
+    rest, last = items if item is None else items[number:], state
+    if item is not None and isinstance(rest, list | tuple) and all(isinstance(row, tuple | list) for row in rest):
+        rest, first, last = _rows(rest), _with_row(first, item), _with_row(state, item)
+    return _repeated(turn, rest, item, first, last, looked) or state
+
+
+def _with_row(state: tuple[Any, ...], item: int) -> tuple[Any, ...]:
+    return tuple(_rows(x) if n == item else x for n, x in enumerate(state))
+
+
+def _rows(rows: Any) -> Any:
+    """Rows of numbers as an array, which any of them can be taken of; others as they are."""
+    numbers = (int, float)
+    each = rows if isinstance(rows[0], tuple | list) else [rows]
+    alike = all(len(row) == len(each[0]) and all(isinstance(x, numbers) for x in row) for row in each)
+    return np.array(rows) if alike else rows
+
+
+def _repeated(
+    turn: FunctionType,
+    items: Any,
+    item: int | None,
+    first: tuple[Any, ...],
+    last: tuple[Any, ...],
+    looked: dict[Node, Guard],
+) -> tuple[Any, ...] | None:
+    """What a loop gives however many turns it takes, by one from whatever state; None where that has no such form.
+
+    ``looked`` are the guards before any that tell how many turns it takes now.
+    """
+    if not all(isinstance(x, ARRAYS) or x is UNBOUND for x in first) or not all(isinstance(x, ARRAYS) for x in last):
+        return None
+    graph = current.get()
+    met = {holds: guard for holds, guard in graph.looked.items() if holds not in looked}
+    end = [lift(graph, x) for x in (*last, 0)]
+    begin = [
+        lift(graph, np.nan).like(b) if a is UNBOUND else lift(graph, a) for a, b in zip((*first, 0), end, strict=True)
+    ]
+    like = [a + 0j if b.im is not None else a for a, b in zip(begin, end, strict=True)]
+    initial = _parts(begin, like)
+    nodes = [graph.state(node) for node in initial]
+    *state, number = _whole(graph, nodes, like)
+    now, graph.looked = graph.looked, {}
+    try:
+        if item is not None:
+            state[item] = lift(graph, items)[number]
+        ends, *after = turn(*state)
+        made = [lift(graph, x) for x in (*after, number + 1)]
+        followed = met and not graph.looked and is_condition(ends)
+    except (Exception, NotRecorded):
+        followed = False
+    finally:
+        graph.looked = now
+    if not followed or [x.extent for x in made] != [x.extent for x in like]:
+        return None
+    if any(a.im is not None and b.im is None for a, b in zip(made, like, strict=True)):
+        return None
+    graph.looked = looked
+    most = None if item is None else len(items)
+    loop = Loop(nodes, initial, _parts(made, like), ends.re, most)
+    same = reduce(operator.and_, (Quantity(graph, holds) for holds in met))
+    ended, state = _in_turns(turn, items, item, _whole(graph, initial, like)[:-1], most) or (same, end[:-1])
+    graph.see(lift(graph, ended).re, turns=True)
+    turns = [where(graph, ended, Quantity(graph, node), np.nan).re for node in _parts(state, like[:-1])]
+    found = [graph.iterated(loop, k, node) for k, node in enumerate(turns)]
+    return tuple(_whole(graph, found, like[:-1]))
+
+
+def _in_turns(
+    turn: FunctionType, items: Any, item: int | None, begin: list[Quantity], most: int | None
+) -> tuple[Any, list[Quantity]] | None:
+    """Whether a loop has ended after twice as many turns as it takes now and some more, and its state then.
+
+    A turn behind its end changes nothing. None where that would take too many operations.
+    """
+    graph, state = begin[0].graph, begin
+    now, work, graph.looked = graph.looked, graph.work, {}
+    ended, number, count = lift(graph, False), 0, None
+    try:
+        while number not in (most, count):
+            if item is not None:
+                state[item] = where(graph, ended, state[item], lift(graph, items)[number])
+            ends, *after = turn(*state)
+            state = [where(graph, ended, a, b) for a, b in zip(state, after, strict=True)]
+            ended, number = ended | ends, number + 1
+            if count is None and ended.value:
+                count = 2 * number + _FURTHER
+        looked = bool(graph.looked)
+    except (Exception, NotRecorded):
+        looked = True
+    finally:
+        graph.looked, graph.work = now, work
+    if looked:
+        return None
+    return (True if number == most else ended), state
+
+
+_FURTHER = 8  # turns
+
+
+def _parts(values: list[Quantity], like: list[Quantity]) -> list[Node]:
+    """Real parts, and imaginary ones where others have them."""
+    pairs = zip(values, like, strict=True)
+    return [part for x, y in pairs for part in ((x.re,) if y.im is None else (x.re, imaginary(x)))]
+
+
+def _whole(graph: Graph, parts: list[Node], like: list[Quantity]) -> list[Quantity]:
+    rest = iter(parts)
+    return [Quantity(graph, next(rest), None if x.im is None else next(rest)) for x in like]
+
+
+def known(names: Mapping[str, Any], *wanted: str) -> list[Any]:
+    """What some names are bound to."""
+    return [names.get(name, UNBOUND) for name in wanted]
+
+
+CALLS: dict[str, Any] = {"known": known, "iterated": iterated}
