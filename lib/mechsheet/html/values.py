@@ -211,6 +211,11 @@ def _(value: SideBySide, page: Follower) -> str:
 
 
 @html.register
+def _(value: str, page: Follower) -> str:
+    return f'<div class="ms-between">{page.own(markdown.html(value), value)}</div>'
+
+
+@html.register
 def _(value: Mark, page: Follower) -> str:
     return ""
 
