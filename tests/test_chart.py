@@ -111,6 +111,14 @@ def test_an_axis_in_degrees_is_divided_as_a_circle_is(last, step):
     assert [n for _, n in ticks(svg, "middle")] == list(range(0, last + step, step))[: -(-last // step) + 1]
 
 
+@pytest.mark.parametrize("last", [3e4, 28308.25, 0.01, 1.0])
+def test_the_last_tick_is_within_the_picture(last):
+    """It stands under the end of the axis, half of it beyond: a digit is about half as wide as high."""
+    layout = chart.line_chart(Q("F", "lbf", np.array([0.0, last])), [Q("x", "-", np.arange(2.0))])
+    tick = layout.texts[len(layout.columns) - 1]
+    assert tick.x + 0.56 * 13 * len(tick.parts[0]) / 2 <= layout.width
+
+
 def test_a_layout_is_data_that_another_writer_can_draw():
     """Curves inside the plot, ticks under it, every text in the picture."""
     layout = chart.line_chart(S, [Q("F", "N", np.arange(6.0)), Q("G", "N", np.array([0, 1, np.nan, 3, 4, 5.0]))])

@@ -10,11 +10,13 @@ from playwright.sync_api import Browser, Page, expect
 from test_html_page import SCROLLED, SETTLED, fill, opened, written
 
 from mechsheet.document import formula, parts
-from mechsheet.html import javascript, markdown
+from mechsheet.html import javascript, markdown, values
 from mechsheet.html.mathml import mathml
 from mechsheet.worksheet import inputs
 from mechsheet.worksheet.cells import load
 from mechsheet.worksheet.check import Summary
+from mechsheet.worksheet.drawing import Drawing
+from mechsheet.worksheet.title import side_by_side
 
 ROOT = Path(__file__).parents[1]
 
@@ -27,6 +29,12 @@ def hitch(browser: Browser, tmp_path_factory: pytest.TempPathFactory) -> Iterato
     context.set_default_timeout(WITHIN * 1000)
     yield opened(context.new_page(), path)
     context.close()
+
+
+def test_words_below_drawings_that_stand_side_by_side_are_shown() -> None:
+    shown = side_by_side((Drawing().hinge(0j, "A"), "to the *left*, $x < 0$"), (Drawing().hinge(0j, "B"), "right"))
+    first, second = values.still(shown).split("</div></div><div>")
+    assert "</svg>" in first and "to the <em>left</em>, <math>" in first and "right" in second
 
 
 @pytest.mark.parametrize("weight", ["27500", "29000", "26000,5"])
@@ -120,6 +128,8 @@ def test_many_numbers_of_a_line_go_on_in_the_next_and_none_is_cut(hitch: Page) -
       range.setEnd(before, before.length - 1);
       return range.getBoundingClientRect().bottom < unit.getBoundingClientRect().top;
     }).length"""
+    fill(hitch, "P6", "2.75e9")  # of forces so large
+    hitch.evaluate(SETTLED)
     hitch.set_viewport_size({"width": 390, "height": 1000})
     try:
         assert hitch.evaluate(cut) == 0
@@ -127,6 +137,7 @@ def test_many_numbers_of_a_line_go_on_in_the_next_and_none_is_cut(hitch: Page) -
         counts = hitch.evaluate(lines)
         assert len(counts) > 10 and set(counts) == {1}
     finally:
+        fill(hitch, "P6", "27500")
         hitch.set_viewport_size({"width": 1280, "height": 1000})
 
 

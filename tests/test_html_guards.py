@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 from own_worksheet import own
-from playwright.sync_api import Page
+from playwright.sync_api import Page, expect
 
 from mechsheet.html import write
 from mechsheet.worksheet import inputs
@@ -117,3 +117,20 @@ def test_a_study_that_is_imported_and_not_used_leaves_a_page(tmp_path: Path) -> 
     assert not write.studies(load(path))
     path.write_text(path.read_text().replace("y = 2 * g.F", "y = 2 * len(sweep.__name__)"))
     assert write.studies(load(path)) == "sweep"
+
+
+def test_what_rounding_leaves_is_about_nothing_also_for_other_inputs(blank: Page, tmp_path: Path) -> None:
+    """A sum that is nothing but the rounding of its terms, until another input makes it more."""
+    lines = (
+        "u = 0.1 * g.F  # [m] first\nv = (u + 0.1) - 0.1 - u + (g.a - 0.75)  # [m] rest\n"
+        "w = (1 + 1j) * ((u + 0.1) - 0.1 - u)  # [m] of a point"
+    )
+    sheet = own(tmp_path, lines)
+    for address, rest in (("", "≈ 0"), ("F=1.9", "≈ 0"), ("F=1.9&a=1", "0.25")):
+        here = shown(blank, tmp_path / "a.html", sheet, address)
+        assert (here["v"][0], here["w"][0]) == (f"{rest}\u00a0m", "≈ (0, 0)\u00a0m"), address
+        equals = [blank.locator(f"#line-{name} .ms-equals").text_content() for name in ("u", "v")]
+        assert equals == ["=", "" if "≈" in rest else "="]
+    blank.locator("#input-F").fill("2.5")
+    blank.locator("#input-a").fill("0.75")
+    expect(blank.locator("#line-v :is(.ms-equals, .ms-value)")).to_have_text(["", "≈ 0 m"])

@@ -202,7 +202,7 @@ def test_what_differs_from_the_document_is_marked_with_its_own_numbers(
     page.locator("ms-own").wait_for(state="attached")
     expect(marked).to_have_count(0)
     fill(page, "r", "52")
-    expect(page.locator("#line-H .ms-value")).to_have_attribute("data-own", "120 mm")
+    expect(page.locator("#line-H .ms-value")).to_have_attribute("data-own", "120\u00a0mm")
     expect(page.locator("tr:has(> .ms-changed)")).to_have_count(1)
     rows = page.locator(".ms-table:has(#table-1) tbody tr")
     until(page, lambda: rows.first.locator("[data-own]").count() == 1, "the table is not marked")

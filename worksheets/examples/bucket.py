@@ -196,8 +196,9 @@ def scheme(A, B, C, L_BE, T_S, g):
         b = B(S)
         e = rrr(b, 0, L_BE, g.L_DE, +1)
         t, s = g.L_DT * exp(1j * (angle(e) - g.delta_T)), g.L_DS * exp(1j * (angle(e) - g.delta_S))
-        links = Drawing(frame=[A, C, b, *T_S]).cylinder(A, b, "S", 0.9 * g.S_min).link(C, b, "rocker").link(b, e, "BE")
-        bucket = links.plate([0, e, t], "bucket").hinge(b, "B").hinge(e, "E").mass(s, "G").text(t, "T")
+        links = Drawing(frame=[A, C, b, *T_S]).cylinder(A, b, "S", 0.9 * g.S_min)
+        arms = links.link(C, b, "rocker").link(b, e, "link").plate([0, e, t], "bucket")
+        bucket = arms.hinge(b, "B").hinge(e, "E").mass(s, "G").text(t, "T")
         return bucket.support(A, "A").support(C, "C").support(0, "D", pi)
 
     still = scheme(g.S_min).faint() + scheme(g.S_max).faint() + Drawing().path(T_S)

@@ -19,7 +19,7 @@ from mechsheet.worksheet.table import MARKED
 COLOURS = ("#3b82d0", "#e0483c", "#2c9c5c", "#cf7a17", "#8b6fd6", "#1aa3a8", "#c2528b", "#8a8a3a")
 _DASHES = ((), (9, 3), (3, 3), (9, 3, 2, 3))
 WIDTH, HEIGHT = 660, 330  # of the picture [px]
-_LEFT, _RIGHT, _TOP, _BOTTOM = 74, 16, 34, 46  # from its edges to the axes
+_LEFT, _RIGHT, _TOP, _BOTTOM = 74, 24, 34, 46  # from its edges to the axes
 _SAMPLE, _LETTER = 26, 9  # of the legend: a piece of the line, about a letter
 
 

@@ -115,12 +115,16 @@ def where(field: Any, over: Over | None) -> str:
 
 
 def limits(field: Input) -> str:
-    """Limits of an input, or of one column of a table; other columns by their short names.
+    """Limits and tolerance of an input, or of one column of a table; other columns by their short names.
 
     >>> limits(Input("b.x", "m", "", "", False, ((">", "-0.5"), ("<=", "b.l_2"))))
     '&gt;&nbsp;−0.5, ≤&nbsp;<i>l</i><sub>2</sub>'
+    >>> from mechsheet.worksheet.deviation import Deviation
+    >>> limits(Input("b", "m", "", "", False, (), tolerance=Deviation(0.001)))
+    '±&nbsp;0.001&nbsp;m'
     """
-    return ", ".join(f"{_SIGNS[sign]}&nbsp;{_limit(other)}" for sign, other in field.limits)
+    parts = [f"{_SIGNS[sign]}&nbsp;{_limit(other)}" for sign, other in field.limits]
+    return ", ".join(parts + [escape(t.text(field.unit)).replace(" ", "&nbsp;") for t in [field.tolerance] if t])
 
 
 def _limit(text: str) -> str:

@@ -1,7 +1,7 @@
 // Line charts as the worksheet lays them out: axes in round numbers, curves, marks, legend, and what hovering tells.
 const COLOURS = ["#3b82d0", "#e0483c", "#2c9c5c", "#cf7a17", "#8b6fd6", "#1aa3a8", "#c2528b", "#8a8a3a"];
 const DASHES = ["", "9 3", "3 3", "9 3 2 3"];
-const [WIDTH, HEIGHT, LEFT, RIGHT, TOP, BOTTOM, MARKED] = [660, 330, 74, 16, 34, 46, 60];
+const [WIDTH, HEIGHT, LEFT, RIGHT, TOP, BOTTOM, MARKED] = [660, 330, 74, 24, 34, 46, 60];
 const PLOT = {width: WIDTH - LEFT - RIGHT, height: HEIGHT - TOP - BOTTOM};
 const STEPS = [1, 2, 2.5, 5, 10], STEPS_OF_A_CIRCLE = [1.5, 3, 4.5, 6, 9, 18];
 

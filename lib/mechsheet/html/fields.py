@@ -39,11 +39,8 @@ def _row(field: Input, value: Any) -> str:
 
 def _limits(field: Input) -> str:
     columns = field.columns if isinstance(field, Rows) and field.row else (field,)
-    parts = list[str]()
-    for column in columns:
-        own = limits(column)
-        parts += [f"{as_written(_short(column))}&nbsp;{own}" if column is not field else own] if own else []
-    return ", ".join(parts + ([escape(field.tolerance.text(field.unit))] if field.tolerance else []))
+    told = {column: limits(column) for column in columns}
+    return ", ".join(own if c is field else f"{as_written(_short(c))}&nbsp;{own}" for c, own in told.items() if own)
 
 
 def _short(column: Input) -> str:

@@ -32,6 +32,7 @@ from mechsheet.worksheet.over import Axis
 from mechsheet.worksheet.symbol import read, stem
 from mechsheet.worksheet.system import Solution
 from mechsheet.worksheet.table import Column, Figure, Table
+from mechsheet.worksheet.terms import is_rounding, terms
 from mechsheet.worksheet.title import Caption, Mark
 from mechsheet.worksheet.verdict import Verdict
 
@@ -181,10 +182,21 @@ class Follower:
             return self.mark("value", keys=None, fixed=known, **spec, **guards) if guards or not known else ""
         if held.extent != shape:
             spec["at"] = line.position
+        elif self.about_nothing(line):
+            added: Any = terms(line.formula.expression, self.recording.values)
+            spec |= {"terms": self.key(added.re)} if isinstance(added, Quantity) else {}
         elif line.over:
             spec["over"] = [self._axis(axis) for axis in line.over.axes]
         same = held.extent == shape or held.extent[:-1] == shape
         return self.mark("value", keys=[self.key(part) for part in held.parts] if same else None, **spec, **guards)
+
+    def about_nothing(self, line: Line) -> str:
+        """What stands for a value that is nothing but the rounding of what its line adds; "" for any other."""
+        namespace = self.numbers.namespace if self.numbers else {}
+        if not is_rounding(line.value, line.formula.expression, namespace):
+            return ""
+        unit = line.formula.unit
+        return f"≈ {numbers.value(np.asarray(line.value).dtype.type(0).item(), unit, offered.notation(unit))}"
 
     def _axis(self, axis: Axis | None) -> Spec | None:
         """The quantity along an axis of a field; None of one that is not known, or not for other inputs."""

@@ -102,9 +102,18 @@ function usual(x, to) {
 
 const ROUNDING = 2 ** -48; // of the largest number of a field: what is less may be nothing but roundings
 
+const elements = part => (typeof part === "number" ? [part] : part);
+
+// Whether numbers that are sums of terms, by their magnitudes, are none but roundings of these.
+function isRounding(parts, terms) {
+  const sizes = elements(terms), [re, im] = parts.map(elements);
+  const least = i => ROUNDING * (sizes.length === re.length ? sizes[i] : Math.min(...sizes));
+  return re.every((x, i) => Math.hypot(x, im ? im[i] : 0) <= least(i));
+}
+
 // A value in SI, a field or a point of two parts, in its display unit: what stands between the equals sign and the meaning.
 function valueText(parts, factor, behind) {
-  const arrays = parts.map(part => (typeof part === "number" ? [part] : part));
+  const arrays = parts.map(elements);
   const [re, im] = arrays, size = Math.max(...arrays.map(a => a.length));
   const at = (a, i) => a[a.length === 1 ? 0 : i];
   let most = 0;

@@ -21,8 +21,9 @@ _SIGN = re.compile(  # of what begins there: with blanks at both sides it would 
     r"(<mo>&#x0(?:003D|003C|003E|2264|2265|002C|2192|2208|22C5);</mo>|<mo [^>]*>(?:&#x00028;|\[)</mo>)"
     r"<mo>(?=&#x02212;</mo>)"
 )
+_FORMULA = r"<math>(?:(?!</math>).)*</math>"
 _AT_A_FORMULA = re.compile(  # what stands in one line with it
-    r"[(\[]<math>.*?</math>[.,;:!?)\]]*|<math>.*?</math>[.,;:!?)\]]+", re.DOTALL
+    rf"[(\[]{_FORMULA}[.,;:!?)\]]*|{_FORMULA}[.,;:!?)\]]+", re.DOTALL
 )
 _SLASH = "<mo>&#x0002F;</mo>"
 _THIN = '<mspace width=".17em"/>'
@@ -35,8 +36,8 @@ def html(text: str) -> str:
 
     >>> html("the *rod* $L_4$ <b>")
     '<p>the <em>rod</em> <math><msub><mi>L</mi><mn>4</mn></msub></math> &lt;b&gt;</p>'
-    >>> html("of $q$, too")
-    '<p>of <span class="ms-together"><math><mi>q</mi></math>,</span> too</p>'
+    >>> html("of $p$ and $q$, too")
+    '<p>of <math><mi>p</mi></math> and <span class="ms-together"><math><mi>q</mi></math>,</span> too</p>'
     """
     return _AT_A_FORMULA.sub(r'<span class="ms-together">\g<0></span>', str(_converter().convert(text)))
 

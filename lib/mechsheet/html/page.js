@@ -22,7 +22,9 @@ const show = {
     const parts = spec.keys?.map(key => along(results.values[key], positionOf(spec)));
     const known = parts && parts.every(part => part !== undefined);
     const where = known && spec.over ? whereText(parts, spec.over, results.values) : "";
-    set(element, known ? valueText(parts, ...unitNow(spec).slice(1)) + where : "");
+    const isNothing = known && spec.terms && isRounding(parts, results.values[spec.terms]);
+    const text = known && (isNothing ? "≈ " : "") + valueText(isNothing ? parts.map(() => 0) : parts, ...unitNow(spec).slice(1));
+    set(element, known ? text + where : "");
     return Boolean(known);
   },
   table(spec, element, results) {
@@ -197,6 +199,8 @@ function set(element, html) {
   const before = inside.get(element) ?? element.innerHTML;
   inside.set(element, html);
   if (before === html) return;
+  const equals = element.previousElementSibling;
+  if (equals?.className === "ms-equals") equals.textContent = html.startsWith("≈") ? "" : "="; // ≈ is sign enough
   const [old, now] = [before, html].map(text => text.split("<", 1)[0]), {firstChild} = element;
   const isText = old && now && !/[&\r]/.test(now) && before.slice(old.length) === html.slice(now.length);
   if (isText && firstChild?.data === old) firstChild.data = now; // a number before its unit

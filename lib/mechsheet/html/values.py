@@ -86,7 +86,9 @@ def _(line: Line, page: Follower) -> str:
 
 def _valued(line: Line, follows: str, put_in: str, page: Follower) -> str:
     """A line with its value, and room for its formula with numbers."""
-    shown = f'<span class="ms-equals">=</span><span class="ms-value"{follows}>{value(line)}</span>'
+    text = page.about_nothing(line) or value(line)
+    equals = "" if text.startswith("≈") else "="
+    shown = f'<span class="ms-equals">{equals}</span><span class="ms-value"{follows}>{text}</span>'
     numbers = f'<span class="ms-numbers"{put_in}></span>' if put_in else ""
     return _line(_equation(line.formula, page), shown, line.formula, numbers)
 
@@ -206,6 +208,11 @@ def _(value: SideBySide, page: Follower) -> str:
     columns = ("".join(html(each, page) for each in column) for column in value.columns)
     row = f' data-row="{value.row}"' if value.row else ""
     return f'<div class="ms-beside"{row}>{"".join(f"<div>{each}</div>" for each in columns)}</div>'
+
+
+@html.register
+def _(value: str, page: Follower) -> str:
+    return f'<div class="ms-between">{page.own(markdown.html(value), value)}</div>'
 
 
 @html.register

@@ -24,6 +24,7 @@ from mechsheet.recording.record import record
 from mechsheet.worksheet import symbol as symbols
 from mechsheet.worksheet.cells import Cell, Worksheet, checks, refuse_open
 from mechsheet.worksheet.errors import SheetError
+from mechsheet.worksheet.force_diagram import polar_diagrams
 from mechsheet.worksheet.inputs import Used, declared
 from mechsheet.worksheet.lines import Numbers, registry
 from mechsheet.worksheet.source import constant, standing
@@ -48,7 +49,15 @@ _SCRIPTS = (
     "tip.js",
     "start.js",
 )
-_SHOWING = {"md", "title_block", "table", "figure", "caption", "typeset"}  # calls whose texts a page shows
+_SHOWING = {
+    "md",
+    "title_block",
+    "table",
+    "figure",
+    "caption",
+    "typeset",
+    "side_by_side",
+}  # calls whose texts a page shows
 _CHOICES = (
     *(ast.IfExp, ast.BoolOp, ast.Subscript, ast.Dict, ast.ListComp, ast.SetComp, ast.DictComp, ast.GeneratorExp),
     *(ast.If, ast.For, ast.While, ast.Match, ast.Try, ast.FunctionDef, ast.Lambda),
@@ -88,7 +97,11 @@ def _page(sheet: Worksheet, namespace: dict[str, Any], lists: bool) -> str:
     follower.pair(cells)
     moving = frames.moved(sheet, namespace, cells, follower)
     among = tuple(cleandoc(constant(text)) for cell in sheet.cells for text in standing(cell.lines))
-    written = (_cell(n, parts, sheet.cells[n], among, follower, moving) for n, parts in cells.items())
+    meant = tuple(line.meaning for line in registry(namespace).values())
+    written = (
+        _cell(n, parts, sheet.cells[n], among + meant * _polar(sheet.cells[n]), follower, moving)
+        for n, parts in cells.items()
+    )
     body = _linked("".join(written))
     if not any(isinstance(part, Title) for part in shown):
         body = _BAR + body
@@ -166,13 +179,20 @@ def _linked(body: str) -> str:
     return re.sub('<a href="#([^"]*)"[^>]*>(.*?)</a>', lambda link: link[0 if link[1] in places else 2], body)
 
 
+def _polar(cell: Cell) -> bool:
+    """Whether a cell shows what lines mean, below the diagrams of their forces."""
+    nodes = (node for line in cell.lines for node in ast.walk(line))
+    return any(isinstance(node, ast.Name) and node.id == polar_diagrams.__name__ for node in nodes)
+
+
 def _as_written(node: ast.AST) -> Iterator[str]:
     """Texts that stand in a cell as they are shown, whatever the inputs are."""
     if isinstance(node, _CHOICES):
         return
     match node:
         case ast.Call(ast.Name(name) | ast.Attribute(attr=name), args, keywords) if name in _SHOWING:
-            values = (*args, *(keyword.value for keyword in keywords))
+            given = (*args, *(keyword.value for keyword in keywords))
+            values = (v for each in given for v in (each.elts if isinstance(each, ast.Tuple) else [each]))
             yield from (cleandoc(v.value) for v in values if isinstance(v, ast.Constant) and isinstance(v.value, str))
     for part in ast.iter_child_nodes(node):
         yield from _as_written(part)

@@ -19,11 +19,6 @@ from mechsheet.worksheet.numbers import on_page
 from mechsheet.worksheet.title import Slider
 
 
-def _limits(field: Input) -> str:
-    tolerance = [html.escape(field.tolerance.text(field.unit))] if field.tolerance else []
-    return ", ".join([limits(field)] * bool(field.limits) + tolerance)
-
-
 def _told(field: Input) -> str:
     """Why the unit of a field is not known."""
     return f' <span class="ms-badge ms-FAIL">mistake</span> {html.escape(field.mistake)}' if field.mistake else ""
@@ -83,13 +78,13 @@ def fields(g: Any) -> "mo.ui.batch":
     texts = {}
     for field in declared(type(g)):
         value = getattr(g, field.name)
-        unit, grid = "" if field.unit == "-" else units.shown(field.unit), ""
+        unit, grid = "" if field.unit == "-" else html.escape(units.shown(field.unit)), ""
+        measured = f'</td><td style="padding-left:.4em">{unit}'
         if isinstance(field, Rows):
-            unit, grid = "", _grid(field, value)
+            grid, measured = _grid(field, value), ""
         sections.setdefault(_in_template(html.escape(field.section)), []).append(
             f'<tr><td style="padding-right:.5em">{as_written(field.name)}</td>'
-            f'<td data-input="{field.name}">{grid}{{{field.name}}}</td>'
-            f'<td style="padding-left:.4em">{html.escape(unit)}</td>'
+            f'<td data-input="{field.name}"{" colspan=2" * bool(grid)}>{grid}{{{field.name}}}{measured}</td>'
             f'<td style="padding-left:.7em;line-height:1.2">{_in_template(said(field))}</td></tr>'
         )
         texts[field.name] = _element(field, value)
@@ -120,11 +115,10 @@ def _scenes(cls: type) -> list[dict[str, Any]]:
 
 def said(field: Input) -> str:
     """Meaning of an input, a mistake in its unit, and its limits."""
-    limits = _limits(field)
+    told = limits(field)
     if isinstance(field, Rows) and field.row:
-        limits = ", ".join(f"{as_written(_short(c))}&nbsp;{_limits(c)}" for c in field.columns if c.limits)
-    told = f"{meant(field.meaning)}{_told(field)}"
-    return f'{told}<span style="opacity:.5;padding-left:.6em">{limits}</span>'
+        told = ", ".join(f"{as_written(_short(c))}&nbsp;{limits(c)}" for c in field.columns if c.limits)
+    return f'{meant(field.meaning)}{_told(field)}<span style="opacity:.5;padding-left:.6em">{told}</span>'
 
 
 def slider(value: Slider) -> "mo.ui.slider":

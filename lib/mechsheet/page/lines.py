@@ -15,10 +15,10 @@ from mechsheet.document.latex import latex
 from mechsheet.document.markup import attribute, meant, printed, where
 from mechsheet.page import switched
 from mechsheet.page.unchanged import kept
-from mechsheet.worksheet import numbers, symbol
+from mechsheet.worksheet import symbol
 from mechsheet.worksheet.lines import Formula, Given, Numbers, Typeset
 from mechsheet.worksheet.over import over
-from mechsheet.worksheet.terms import terms
+from mechsheet.worksheet.terms import is_rounding
 
 
 def lines(shown: Typeset) -> str:
@@ -73,13 +73,9 @@ def _is_about(shown: str) -> bool:
 
 def _cleared(line: Formula, value: Any, namespace: Mapping[str, Any] | None) -> Any:
     """The value itself, or 0 of one that is nothing but the rounding of what its line adds."""
-    field = np.asarray(value)
-    if namespace is None or field.dtype.kind not in "fc" or not 0 < np.abs(field).max(initial=0.0) < _SMALL:
+    if namespace is None or not is_rounding(value, line.expression, namespace):
         return value
-    return field.dtype.type(0).item() if numbers.is_rounding(field, terms(line.expression, namespace)) else value
-
-
-_SMALL = 1e-2  # more is no rounding of what a line may add, up to 3e12 in SI; to look at that takes time
+    return np.asarray(value).dtype.type(0).item()
 
 
 @dataclass(frozen=True)

@@ -92,6 +92,8 @@ def pieces(sentence: str, names: tuple[str, ...] = ()) -> list[str]:
     ['', 'omega3', ' < 1, ', 'theta', '/2']
     >>> pieces("UGL2: Imp = I56, l20 = H")  # what an equation makes equal, too; a program is no quantity
     ['UGL2: ', 'Imp', ' = ', 'I56', ', ', 'l20', ' = ', 'H', '']
+    >>> pieces("Find = closed form at S = 0.6 m")  # nor is a word
+    ['Find = closed form at ', 'S', ' = 0.6 m']
     >>> pieces("m in 0..3 m, SAB = 2 mm/m", ("m", "SAB"))  # a unit is no name
     ['', 'm', ' in 0..3 m, ', 'SAB', ' = 2 mm/m']
     """
@@ -102,7 +104,8 @@ def pieces(sentence: str, names: tuple[str, ...] = ()) -> list[str]:
 def _looks_like_a_name(names: tuple[str, ...]) -> re.Pattern[str]:
     given = "".join(rf"(?<!\d )(?<![*/·]){re.escape(name)}\b|" for name in names)
     indexed = r"(?![A-Z]{3,}\d+\b)[A-Za-z]+[_\d]\w*"
-    return re.compile(rf"\b({given}(?:{_WORDS})\b|{indexed}|[A-Z][a-z]{{0,3}}(?= = )|(?<= = )[A-Z](?![\w.]))")
+    equal = rf"[A-Z][a-z]{{0,3}}(?= = (?:[-\d]|{indexed}))|(?<= = )[A-Z](?![\w.])"
+    return re.compile(rf"\b({given}(?:{_WORDS})\b|{indexed}|{equal})")
 
 
 def text(name: str) -> str:

@@ -6,15 +6,26 @@ from functools import lru_cache
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+
+from mechsheet.worksheet import numbers
 
 _AS_LARGE = ("abs", "conj", "real", "imag")
+_SMALL = 1e-2  # more is no rounding of what a line may add, up to 3e12 in SI; to look at that takes time
 
 
-def terms(expression: ast.expr, namespace: Mapping[str, Any]) -> NDArray[np.float64]:
+def is_rounding(value: Any, expression: ast.expr, namespace: Mapping[str, Any]) -> bool:
+    """Whether the value of an expression is nothing but the rounding of what it adds."""
+    field = np.asarray(value)
+    if field.dtype.kind not in "fc" or not 0 < np.abs(field).max(initial=0.0) < _SMALL:
+        return False
+    return numbers.is_rounding(field, terms(expression, namespace))
+
+
+def terms(expression: ast.expr, namespace: Mapping[str, Any]) -> Any:
     """Magnitudes of the largest term of an expression, element by element; 0 where it adds none, or none that is known.
 
-    Names stand for their values in the namespace; what a function of the worksheet's own adds is not known.
+    Names stand for their values in the namespace, numbers or what computes as they do; what a function of the
+    worksheet's own adds is not known.
     """
     if not _adds(expression):
         return np.zeros(())
@@ -72,5 +83,5 @@ def _size(node: ast.expr, namespace: Mapping[str, Any]) -> Any:
             value = namespace.get(name)
         case ast.Attribute(ast.Name(of), name):
             value = getattr(namespace.get(of), name, None)
-    field = np.asarray(value)
+    field = value if hasattr(value, "dtype") else np.asarray(value)
     return np.abs(field) if field.dtype.kind in "iufc" else np.zeros(())
