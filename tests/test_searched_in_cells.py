@@ -115,6 +115,8 @@ SEVERAL = {  # equations with several roots, and how many of 20 inputs have a va
     "all about": ("lambda t: np.sin(50 * t) + g.a / 9, 0.5, 1.5", 20),
     "poles": ("lambda t: np.tan(t), 0.0, 6.0, equals=g.a, guess=g.F / 3", 6),
     "three": ("lambda t: t * (t - 1e-3 * g.a) * (t - 0.1) * (t - g.F), -1.0, 9.0, guess=0.3", 12),
+    "tables": ("lambda t: np.interp(t, [0, 1, 2, 4, 9], [0, g.a, 2.5, 9, 20]), 0.0, 9.0, equals=x", 20),
+    "means": ("lambda t: np.mean(np.maximum(t[..., None] * x - g.a * x**2 / 9, 0), -1), 0.0, 9.0, equals=x", 20),
     "field": ("lambda t: np.sin(t * x), 0.5, 4.0, equals=0.1 * g.a, guess=2.2", 15),
 }
 
