@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from io import BytesIO
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+from openpyxl import load_workbook
 from own_worksheet import own, recorded
 from test_recalculation import edit
 
@@ -158,6 +160,19 @@ def test_a_search_that_cells_do_not_make_is_named(lines: str, reason: str, tmp_p
     search(recording)
     (gap,) = recording.unsolved
     assert reason in gap.reason and not recording.gaps
+
+
+def test_finds_that_call_their_unknown_the_same_are_searched_each(tmp_path: Path) -> None:
+    finds = [f"{name}_found = find(lambda t: t**{power} - g.F, 0.0, 9.0)" for name, power in (("p", 2), ("q", 3))]
+    values = ["p = p_found.value  # [-] root", "again = q_found", "q = again.value  # [-] other root"]
+    sheet = own(tmp_path, "\n".join([*finds, *values, "y = x * 1.0  # [-] y"]))
+    _, recording = recorded(sheet)
+    search(recording)
+    known = [name for name, solved in recording.found.items() if solved.inverse]
+    assert known == ["p_found.unknown x", "q_found.unknown x"]
+    book = load_workbook(BytesIO(report.workbook("Own", cells.load(sheet.path).run_whole(), {})))
+    lines = [row[:2] + row[4:5] for row in book["Find"].iter_rows(min_row=3, values_only=True)]
+    assert [left for _, _, left in lines] == ["=p^2-F", "=q^3-F"] and len({value for _, value, _ in lines}) == 2
 
 
 def test_a_search_rests_on_nothing_that_it_finds(tmp_path: Path) -> None:

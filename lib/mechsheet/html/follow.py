@@ -285,7 +285,7 @@ class Follower:
         name = next((name for name, value in names.items() if value is found), "")
         match found:
             case Found(words=words):
-                key, told, own = words.unknown, _of_one(found), found._value
+                key, told, own = f"{name}.{words.unknown}", _of_one(found), found._value
             case Solution(words=words):
                 key, told, own = f"{name}.{words.names[0]}", _of_several(found), found._values[0]
             case _:

@@ -99,7 +99,7 @@ class Stage:
         """Note found values by what the worksheet calls them."""
         name = next((f"{name}." for name, value in self.namespace.items() if value is own), "")
         for solved in new.solved:
-            key = (name if isinstance(own, Solution) else "") + solved.words.unknown
+            key = name + solved.words.unknown
             self.shown_now.append((self.recording.found, key))
             self.recording.found[key] = solved
             self.solved_now.append(solved)

@@ -231,7 +231,8 @@ def solved(namespace: Mapping[str, Any]) -> Iterator[FoundRow]:
             case ast.Attribute(ast.Name(source), "value"):
                 found = namespace.get(source)
                 if isinstance(found, Found) and np.ndim(found.value) == 0:
-                    yield _found(line, found)
+                    first = next(name for name, value in namespace.items() if value is found)
+                    yield _found(line, first, found)
             case ast.Attribute(ast.Attribute(ast.Name(source), "value"), unknown):
                 solution = namespace.get(source)
                 if isinstance(solution, Solution) and np.ndim(solution.condition) == 0:
@@ -259,7 +260,7 @@ def _one_of_several(line: Formula, source: str, solution: Solution, unknown: str
     )
 
 
-def _found(line: Formula, found: Found) -> FoundRow:
+def _found(line: Formula, source: str, found: Found) -> FoundRow:
     unit, target = units.parse(line.unit).factor, units.parse(found.words.unit).factor
     others = [r for r in found.roots if (r.value, r.branch) != (found.value, found.branch or 0)]
     return FoundRow(
@@ -274,6 +275,6 @@ def _found(line: Formula, found: Found) -> FoundRow:
         ", ".join(
             numbers.significant(r.value / unit, 6) + (f" (branch {r.branch:+d})" if r.branch else "") for r in others
         ),
-        found.words.unknown,
+        f"{source}.{found.words.unknown}",
         found.equals / target,
     )
