@@ -90,7 +90,7 @@ def test_one_unknown_has_the_same_verdict(case: str, blank: Page, tmp_path: Path
     for inputs, each in zip(given, solved(blank, sheet, recording, given), strict=True):
         expected = sheet.run(["y_found"], {"g": sheet.inputs(**inputs)})["y_found"]
         assert_same_words(each["text"], expected, case in ROUGH or "pole" in case)
-        verdicts = each["found"]["t"]
+        verdicts = each["found"]["y_found.t"]
         many = verdicts if isinstance(verdicts, list) else [verdicts]
         for k, found in enumerate(many):
             at = (lambda v, k=k: np.ravel(v)[k]) if verdicts is many else (lambda v: v)

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from io import BytesIO
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+from openpyxl import load_workbook
 from own_worksheet import own, recorded
 from test_recalculation import edit
 
@@ -115,6 +117,8 @@ SEVERAL = {  # equations with several roots, and how many of 20 inputs have a va
     "all about": ("lambda t: np.sin(50 * t) + g.a / 9, 0.5, 1.5", 20),
     "poles": ("lambda t: np.tan(t), 0.0, 6.0, equals=g.a, guess=g.F / 3", 6),
     "three": ("lambda t: t * (t - 1e-3 * g.a) * (t - 0.1) * (t - g.F), -1.0, 9.0, guess=0.3", 12),
+    "tables": ("lambda t: np.interp(t, [0, 1, 2, 4, 9], [0, g.a, 2.5, 9, 20]), 0.0, 9.0, equals=x", 20),
+    "means": ("lambda t: np.mean(np.maximum(t[..., None] * x - g.a * x**2 / 9, 0), -1), 0.0, 9.0, equals=x", 20),
     "field": ("lambda t: np.sin(t * x), 0.5, 4.0, equals=0.1 * g.a, guess=2.2", 15),
 }
 
@@ -147,6 +151,7 @@ def test_of_several_roots_cells_find_the_nearest(name: str, tmp_path: Path) -> N
     [
         ("u_found = find(lambda u: np.sum(np.exp(-u * np.linspace(0, 1, 999))), 0.0, 9.0, equals=90 * g.F)", "500,000"),
         ("u_found = find(lambda u: u * x + u.sum() * 1e-9, 0.0, 9.0 / x, equals=g.F)", "rests on others of them"),
+        ("u_found = find(lambda u: np.sum((x * u)[x > u / 9]), 0.0, 9.0, equals=g.F)", "Python looks at what is found"),
     ],
 )
 def test_a_search_that_cells_do_not_make_is_named(lines: str, reason: str, tmp_path: Path) -> None:
@@ -155,6 +160,19 @@ def test_a_search_that_cells_do_not_make_is_named(lines: str, reason: str, tmp_p
     search(recording)
     (gap,) = recording.unsolved
     assert reason in gap.reason and not recording.gaps
+
+
+def test_finds_that_call_their_unknown_the_same_are_searched_each(tmp_path: Path) -> None:
+    finds = [f"{name}_found = find(lambda t: t**{power} - g.F, 0.0, 9.0)" for name, power in (("p", 2), ("q", 3))]
+    values = ["p = p_found.value  # [-] root", "again = q_found", "q = again.value  # [-] other root"]
+    sheet = own(tmp_path, "\n".join([*finds, *values, "y = x * 1.0  # [-] y"]))
+    _, recording = recorded(sheet)
+    search(recording)
+    known = [name for name, solved in recording.found.items() if solved.inverse]
+    assert known == ["p_found.unknown x", "q_found.unknown x"]
+    book = load_workbook(BytesIO(report.workbook("Own", cells.load(sheet.path).run_whole(), {})))
+    lines = [row[:2] + row[4:5] for row in book["Find"].iter_rows(min_row=3, values_only=True)]
+    assert [left for _, _, left in lines] == ["=p^2-F", "=q^3-F"] and len({value for _, value, _ in lines}) == 2
 
 
 def test_a_search_rests_on_nothing_that_it_finds(tmp_path: Path) -> None:

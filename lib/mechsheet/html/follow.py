@@ -299,12 +299,11 @@ class Follower:
         name = next((name for name, value in names.items() if value is found), "")
         match found:
             case Found(words=words):
-                unknown, told, own = words.unknown, _of_one(found), found._value
+                key, told, own = f"{name}.{words.unknown}", _of_one(found), found._value
             case Solution(words=words):
-                unknown, told, own = words.names[0], _of_several(found), found._values[0]
+                key, told, own = f"{name}.{words.names[0]}", _of_several(found), found._values[0]
             case _:
                 return self.mark("found", words=None)
-        key = self.recording.found_as(name, unknown)
         solved = self.recording.found.get(key)
         again = solved and solved.node.op == "found" and np.array_equal(solved.node.value, own, equal_nan=True)
         return self.mark("found", key=key, words=told if again else None, **self._named(name))

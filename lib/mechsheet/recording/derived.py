@@ -49,14 +49,16 @@ def at(unknowns: Mapping[Node, Quantity], equations: Sequence[Node]) -> tuple[li
 
 def _put_together(node: Node, operands: Sequence[Quantity]) -> Quantity:
     """Elements or sums of other operands, which are as many as they were."""
-    graph = operands[0].graph
-    others = zip(node.operands, operands, strict=True)
-    return Quantity(graph, on_others(node, graph, {o: x.like(Quantity(graph, o)).re for o, x in others}))
+    graph, others = operands[0].graph, dict[Node, Node]()
+    for old, new in zip(node.operands, operands, strict=True):
+        shape = Quantity(graph, graph.constant(np.zeros(old.shape)))  # the old one rests on what is looked for
+        others[old] = (new if new.extent == old.shape else new.like(shape)).re
+    return Quantity(graph, on_others(node, graph, others))
 
 
 def _put_together_slopes(node: Node, operands: Sequence[Quantity], moves: Sequence[Slopes]) -> Slopes:
     """How elements or sums move with each unknown: as what they are taken from does."""
-    if not any(moves):
+    if node.op == "length" or not any(moves):
         return {}
     kind = node.args[2] if node.op == "reduce" else node.op
     sources = moves[:1] if kind == "at" else moves

@@ -107,11 +107,6 @@ class Recording:
     sections: list[str] = field(default_factory=list)
     names: dict[Node, str] = field(default_factory=dict)
 
-    def found_as(self, verdict: str, unknown: str) -> str:
-        """The key in ``found`` of an unknown of the verdict with this name."""
-        key = f"{verdict}.{unknown}"
-        return key if key in self.found else unknown
-
     def define(self, section: str, name: str, value: Any, known: Mapping[str, Formula]) -> None:
         """Give the quantities of a line its name, and the steps behind it theirs."""
         if not isinstance(value, Quantity):

@@ -21,6 +21,7 @@ class Block:
     is the difference of two ``sides``: the quantity and what it shall equal; those of several have ``targets``. On the
     assembly ``branches`` the quantity is another one; that of the first side is on the ``branch`` that is wanted.
     Where squares are made ``least``, the slopes of their sum by the unknowns are ``level``: none where not known.
+    Where Python has ``seen`` something of the unknowns, residuals are those of the worksheet while that is the same.
     """
 
     starts: Mapping[str, tuple["Node", ...]]
@@ -37,6 +38,7 @@ class Block:
     targets: tuple["Node", ...] = ()
     branch: "Node | None" = None
     branches: Mapping[int, "Node"] = field(default_factory=dict)
+    seen: bool = False
 
     @property
     def equations(self) -> tuple["Node", ...]:

@@ -52,6 +52,8 @@ def numbers_under(block: Block) -> dict[Node, Values]:
             rests[node] = _of_both(*under)
         elif node.op == "at" and (under[0] == NONE).all():
             rests[node] = under[1]
+        elif node.op == "length":
+            rests[node] = np.full(node.shape, NONE)
         else:  # of all that it rests on
             whole = np.concatenate([np.array([NONE]), *(one.reshape(-1) for one in under)])
             rests[node] = np.full(node.shape, _of_all(whole))

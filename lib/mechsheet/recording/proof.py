@@ -195,8 +195,9 @@ def prove(
         columns.append(digits.proved(each))
         step()
     with precision(_BITS[0]):
-        for name, solved in recording.found.items():
-            roots.append(_root(digits.first, name, solved))
+        for key, solved in recording.found.items():
+            alone = solved.node.op == "found" and solved.node.args[0].single
+            roots.append(_root(digits.first, solved.words.unknown if alone else key, solved))
             step()
     return Proof(tuple(columns), tuple(roots))
 

@@ -68,7 +68,7 @@ class _Again:
         known = Quantity(self.graph, new.get(node, node))
         if not self.places:
             return known
-        if node in new:
+        if node in new and known.ndim:  # a number of rows is the same at all places
             more = max(axes - len(node.shape), 0)
             return known[(slice(None), *[None] * more)] if more else known
         if not whole:
@@ -77,7 +77,7 @@ class _Again:
 
     def moved(self, source: Quantity, moves: Iterable[Moved]) -> Quantity:
         for move in moves:
-            if self.places:
+            if self.places and source.ndim:
                 source = source.rearranged(_at_places, move)
             else:
                 source = source.rearranged(move.f, *move.args, **dict(move.named))

@@ -65,6 +65,8 @@ def _know(recording: Recording, block: Block, unknowns: Sequence[Solved]) -> Non
             return
         for solved in unknowns:
             solved.inverse = None
+    if block.seen:
+        raise NotRecorded("in its equations Python looks at what is found")
     graph = recording.graph
     found = [_root(graph, block, unknowns[-1].words.unknown_unit)] if block.single else steps(graph, block)
     roots = {n: _at_hand(recording, n, x) for n, x in zip(block.nodes, found, strict=True)}

@@ -12,7 +12,7 @@ from mechsheet import units
 from mechsheet.recording import derived
 from mechsheet.recording.graph import Graph, NotRecorded
 from mechsheet.recording.lines import Solved, Told
-from mechsheet.recording.node import Block, Node
+from mechsheet.recording.node import Block, Node, bottom_up
 from mechsheet.recording.quantity import Quantity, lift
 from mechsheet.worksheet.find import Found
 from mechsheet.worksheet.system import Solution
@@ -78,6 +78,7 @@ def _one(
         with graph.labelled({**graph.labels}):  # only the wanted branch has steps with names
             block.branches = {s: lift(graph, f(x, s)).re for s in branches}
     block.rest()
+    block.seen = _seen(graph, block)
     words = found.words
     told = Told(words.unknown, words.quantity, words.unit, words.unknown_unit)
     ends = (starts["lo"][0], starts["hi"][0]) if starts.keys() >= {"lo", "hi"} else None
@@ -114,6 +115,7 @@ def _several(
         block.level = _level(block)
     block.targets = tuple(dict.fromkeys(n for w in wanted for n in lift(graph, w).parts if n.op != "constant"))
     block.rest()
+    block.seen = _seen(graph, block)
     solved = []
     for k, (node, unknown, unit) in enumerate(zip(block.nodes, words.names, words.units, strict=True)):
         told = Told(unknown, words.equations[k], words.equation_units[k], unit)
@@ -122,6 +124,12 @@ def _several(
         solved.append(Solved(node, residual, (ends[0], ends[-1]), told))
     value = namedtuple("Values", words.names)(*x)
     return block, Solving(value, tuple(left), tuple(solved), Quantity(graph, evaluations))
+
+
+def _seen(graph: Graph, block: Block) -> bool:
+    """Whether Python looks at the unknowns of a block, of which only its equations know yet, but for their numbers."""
+    conditions = (condition for condition in graph.looked if condition not in graph.counts)
+    return not set(block.nodes).isdisjoint(bottom_up(conditions, ()))
 
 
 def _level(block: Block) -> tuple[Node, ...]:

@@ -142,10 +142,7 @@ class Stage:
         name = next((f"{name}." for name, value in self.namespace.items() if value is own), "")
         for solved in new.solved:
             unknown = solved.words.unknown
-            keys = chain(
-                [f"{name}{unknown}"] if isinstance(own, Solution) else [unknown, f"{name}{unknown}"],
-                (f"{unknown} {n}" for n in count(2)),  # of a loop, or a function that is called again
-            )
+            keys = chain([f"{name}{unknown}"], (f"{unknown} {n}" for n in count(2)))  # of a loop, or called again
             key = next(key for key in keys if key not in known or known[key].node is solved.node)
             self.shown_now.append((known, key))
             known[key] = solved

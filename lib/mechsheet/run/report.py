@@ -231,7 +231,8 @@ def solved(namespace: Mapping[str, Any]) -> Iterator[FoundRow]:
             case ast.Attribute(ast.Name(source), "value"):
                 found = namespace.get(source)
                 if isinstance(found, Found) and np.ndim(found.value) == 0:
-                    yield _found(line, source, found)
+                    first = next(name for name, value in namespace.items() if value is found)
+                    yield _found(line, first, found)
             case ast.Attribute(ast.Attribute(ast.Name(source), "value"), unknown):
                 solution = namespace.get(source)
                 if isinstance(solution, Solution) and np.ndim(solution.condition) == 0:
@@ -254,8 +255,7 @@ def _one_of_several(line: Formula, source: str, solution: Solution, unknown: str
         lower / unit,
         upper / unit,
         ", ".join(numbers.significant(x / unit, 6) for x in others),
-        source,
-        unknown,
+        f"{source}.{unknown}",
         kind="least squares" if solution.least else "found",
     )
 
@@ -275,7 +275,6 @@ def _found(line: Formula, source: str, found: Found) -> FoundRow:
         ", ".join(
             numbers.significant(r.value / unit, 6) + (f" (branch {r.branch:+d})" if r.branch else "") for r in others
         ),
-        source,
-        found.words.unknown,
+        f"{source}.{found.words.unknown}",
         found.equals / target,
     )

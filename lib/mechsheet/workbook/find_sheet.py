@@ -14,8 +14,8 @@ from mechsheet.workbook.sheet_formulas import SheetFormulas
 class FoundRow:
     """One solved value in ``unit``, searched for in ``lower..upper``, and the ``residual`` that it leaves.
 
-    ``unknown`` is what the solve block of the name ``verdict`` calls it, ``kind`` what it is, ``target`` the value that
-    the equation of one unknown must have.
+    ``unknown`` is what the solve block calls it, behind the name of its verdict, ``kind`` what it is, ``target`` the
+    value that the equation of one unknown must have.
     """
 
     symbol: str
@@ -27,7 +27,6 @@ class FoundRow:
     lower: float
     upper: float
     other_roots: str = ""
-    verdict: str = ""
     unknown: str = ""
     target: float | None = None
     kind: str = "found"
@@ -43,12 +42,11 @@ def write(book: Book, rows: Sequence[FoundRow], formulas: SheetFormulas | None) 
     listed: list[tuple[Content, ...]] = []
     for row in rows:
         numbers = (row.value, row.residual, row.lower, row.upper)
-        key = formulas.recording.found_as(row.verdict, row.unknown) if formulas else ""
-        *texts, must = formulas.found(key, row.unit, row.residual_unit) if formulas else (None,) * 5
+        *texts, must = formulas.found(row.unknown, row.unit, row.residual_unit) if formulas else (None,) * 5
         value, residual, lower, upper = (_known(f, x, formulas) for f, x in zip(texts, numbers, strict=True))
         target: Content = "" if row.target is None else _known(must, row.target, formulas)
         others: Content = formulas.as_exported(row.other_roots) if formulas and row.other_roots else row.other_roots
-        kind = formulas.kind(key, row.kind) if formulas else row.kind
+        kind = formulas.kind(row.unknown, row.kind) if formulas else row.kind
         line = (row.symbol, value, shown(row.unit), row.meaning, residual, shown(row.residual_unit), lower, upper)
         listed.append((*line, others, kind, target))
     title = "Found values, the residuals that they leave and the intervals searched"
