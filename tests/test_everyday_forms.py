@@ -18,6 +18,7 @@ from mechsheet.worksheet import cells
 
 SIZES = "D = np.array([6.0, 8, 10, 12, 16, 20])\n"
 THREADS = "T = [(6.0, 1.0), (8.0, 1.25), (10.0, 1.5)]\n"
+NAMED = "T = [('M6', 6, 1.0), ('M8', 8, 1.25), ('M10', 10, 1.5)]\n"
 TABLE = "T = np.array([[1, 2.0], [2, 3.0], [3, 4.0]])\n"
 KEPT = [
     SIZES + "y = min(d for d in D if d >= 3 * g.F) * g.a",
@@ -30,6 +31,12 @@ KEPT = [
     "import itertools\ny = next(n for n in itertools.count(1) if n * n > 4 * g.F) * g.a",
     "y = next((b for a, b in ((1.0, g.a), (3.0, 2.0)) if g.F <= a), 5.0) * 2.0",
     "y = max(v * w for v in (1.0, g.a) for w in (g.F, 2.0) if w > 1.5 * v)",
+    NAMED + "row = next(r for r in T if r[1] > 2 * g.F)\ny = row[1] * row[2]",
+    (
+        "from collections import namedtuple\nThread = namedtuple('Thread', 'name d P')\n"
+        "T = [Thread('M6', 6, 1.0), Thread('M8', 8, 1.25), Thread('M10', 10, 1.5)]\n"
+        "t = [t for t in T if t.d > 2 * g.F][0]\ny = t.d * t.P * g.a"
+    ),
     THREADS + "d, P = next((d, P) for d, P in T if d > 2 * g.F)\ny = d * P * g.a",
     THREADS + "row = next(r for r in T if r[0] > 2 * g.F)\ny = row[0] * row[1] * g.a",
     "T = {'M6': (6.0, 1.0), 'M8': (9.0, 1.25)}\ny = next(v for v in T.values() if v[0] > 2 * g.F)[1] * g.a",
@@ -131,6 +138,8 @@ FOUND = (
     "    if w < 1.2:\n        found = d\n        break\n"
 )
 GUARDED = [  # where other inputs change what there is
+    "T = [('M6', 6), ('M10', 10)]\nname, d = next(r for r in T if r[1] > 2 * g.F)\ny = d * len(name)",
+    "T = [('M6', 6), ('M10', 10)]\nrow = next(r for r in T if r[1] > 2 * g.F)\ny = row[1] * len(row[0])",
     FOUND + "y = found * g.a if found is not None else -1.0",
     FOUND.replace("1.2", "0.9") + "y = found * g.a if found is not None else -1.0",
     "for d in (6.0, 8.0, 16.0):\n    if d > 3 * g.F:\n        break\nelse:\n    raise ValueError('none')\ny = d * g.a",

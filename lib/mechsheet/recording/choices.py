@@ -82,7 +82,8 @@ def merged(condition: Quantity, x: Any, y: Any) -> Any:
     x, y = _missing(y) if x is UNBOUND else x, _missing(x) if y is UNBOUND else y
     if type(x) is type(y) and isinstance(x, tuple | list) and len(x) == len(y):
         parts = [merged(condition, a, b) for a, b in zip(x, y, strict=True)]
-        return None if any(part is None for part in parts) else _made_like(x, parts)
+        if all(part is not None for part in parts):
+            return _made_like(x, parts)
     if isinstance(x, Sketch) and isinstance(y, Sketch):
         return merged_sketch(condition, x, y)
     if condition.graph.draws and _are_written(x, y):

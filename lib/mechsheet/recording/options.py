@@ -1,6 +1,6 @@
 """Rows and objects of a worksheet's own table, of which a condition tells which one is meant: part by part."""
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import is_dataclass
 from types import FunctionType, MethodType, SimpleNamespace
 from typing import Any
@@ -25,6 +25,26 @@ class Row(Mapping[Any, Any]):
         return len(self._rows[0])
 
 
+class Fields(Sequence[Any]):
+    """One of two tuples or lists of a length, of which not all parts are numbers."""
+
+    def __init__(self, merge: Merge, x: Sequence[Any], y: Sequence[Any]) -> None:
+        self._merge, self._rows = merge, (x, y)
+
+    def __getitem__(self, key: Any) -> Any:
+        x, y = self._rows
+        return tuple(map(self._merge, x[key], y[key])) if isinstance(key, slice) else self._merge(x[key], y[key])
+
+    def __len__(self) -> int:
+        return len(self._rows[0])
+
+    def __getattr__(self, name: str) -> Any:
+        """A part of a named tuple."""
+        if name.startswith("_"):
+            raise AttributeError(name)
+        return self._merge(*(getattr(row, name) for row in self._rows))
+
+
 class Thing:
     """One of two objects of a class."""
 
@@ -44,6 +64,8 @@ def parted(merge: Merge, x: Any, y: Any) -> Any:
     """One of two rows or objects, by its parts; None where these are not of one kind."""
     if isinstance(x, dict | Row) and isinstance(y, dict | Row):
         return Row(merge, x, y) if {*x} == {*y} else None
+    if isinstance(x, tuple | list | Fields) and isinstance(y, tuple | list | Fields):
+        return Fields(merge, x, y) if len(x) == len(y) else None
     return Thing(merge, x, y) if _kind(x) is _kind(y) is not None else None
 
 
