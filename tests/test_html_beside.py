@@ -240,3 +240,24 @@ def test_a_browser_of_two_years_ago_shows_the_page(hitch: Page, browser: Browser
     expect(page.locator("#line-A_gc .ms-numbers math")).to_be_visible()
     assert errors == []
     context.close()
+
+
+def test_a_long_and_narrow_table_of_inputs_is_printed_in_columns(blank: Page) -> None:
+    """It took three sheets with one number in a line; one of more columns, and a short one, stay as they are."""
+
+    def height(rows: int, columns: int) -> float:
+        row = "<tr><th>1</th>" + "<td>4.5</td>" * columns + "</tr>"
+        table = f"<table><thead>{row.replace('td', 'th')}</thead><tbody>{row * rows}</tbody></table>"
+        style = (ROOT / "lib/mechsheet/html/page.css").read_text(encoding="utf-8")
+        told = '<tr><td>p</td><td></td><td></td><td style="width:60em">pressure</td></tr>'
+        inside = f'{told}<tr><td colspan="4">{table}</td></tr>'
+        blank.set_content(f'<style>{style}</style><table class="ms-print"><tbody>{inside}</tbody></table>')
+        blank.emulate_media(media="print")
+        found = blank.locator("td[colspan]").bounding_box()
+        assert found
+        return found["height"]
+
+    line = height(2, 2) / 3
+    assert height(60, 2) < 35 * line
+    assert height(60, 3) > 55 * line
+    assert height(9, 2) > 9 * line
