@@ -138,7 +138,7 @@ def test_slider_moves_the_scheme(page):
     for _ in range(5):
         slider.press("ArrowRight")
     until(page, lambda: scheme.inner_html() != before, "the scheme rests")
-    shift = 0.05 * 0.25 / 0.3 * 570  # of the mark in the charts: 0.05 of the stroke on an axis from 0.4 to 0.7 m
+    shift = 0.05 * 0.25 / 0.3 * 562  # of the mark in the charts: 0.05 of the stroke on an axis from 0.4 to 0.7 m
     page.wait_for_function(
         """([from, shift]) => {
           const x = (transform) => Number(transform.split(", ")[4]);
