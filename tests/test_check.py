@@ -125,7 +125,7 @@ def test_a_unit_that_is_not_known_is_told_in_a_line(asked):
 
 
 def test_a_check_of_what_is_counted_is_shown_in_its_words():
-    assert "1 &gt; 0 open positions" in html(Check("closes", 1, 0, "open positions"))
+    assert "1 &gt; 0\u00a0open positions" in html(Check("closes", 1, 0, "open positions"))
 
 
 def test_open_position_is_named_with_its_reach():

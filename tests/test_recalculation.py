@@ -263,7 +263,7 @@ def test_number_of_positions_is_that_of_the_workbook(
 
 def test_of_another_number_of_rows_no_cell_has_a_number(recalculated: Callable[[Path], Any], tmp_path: Path) -> None:
     """Of the position, of one number in all rows, of what passes over gaps, of ends and lengths."""
-    lines = """from mechsheet import check, figure
+    lines = """from mechsheet import check
 gaps = np.where(x > 2, x, np.nan)  # [-] gaps
 one = g.F + 0 * np.ones(g.n)  # [-] the same in all rows
 same = np.full(g.n, 3.0)  # [-] constant

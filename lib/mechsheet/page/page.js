@@ -2,7 +2,8 @@
 (() => {
   if (customElements.get("ms-numbers")) return;
 
-  const withNumbers = () => document.documentElement.classList.contains("ms-with-numbers");
+  // The switch may be set before this script is there.
+  const withNumbers = () => document.querySelector(".ms-switch")?.checked;
 
   // The formula once more with numbers for its symbols; typeset only while the reader asks for them.
   class Numbers extends HTMLElement {
@@ -79,7 +80,6 @@
 
   document.addEventListener("change", (event) => {
     if (!event.target.matches(".ms-switch")) return;
-    document.documentElement.classList.toggle("ms-with-numbers", event.target.checked);
     document.querySelectorAll("ms-numbers").forEach((line) => line.show());
   });
 

@@ -29,7 +29,7 @@ _MAY_CHANGE = {*_SETS, "POP_TOP", "STORE_DEREF"}
 _FIELD = type(vars(NamedTuple("_Named", [("field", int)]))["field"])
 _LEAVES = (
     int, float, complex, str, bytes, np.generic, np.ufunc, ModuleType, BuiltinFunctionType, range, slice, type(None),
-    GetSetDescriptorType, MemberDescriptorType, property, staticmethod, classmethod, _FIELD,
+    GetSetDescriptorType, MemberDescriptorType, property, staticmethod, classmethod, _FIELD, Node,
 )  # fmt: skip
 _UNCHANGED = (tuple, frozenset, FunctionType)  # though what they hold may change
 

@@ -50,6 +50,7 @@ class Worksheet:
     title: str
     setup: tuple[ast.stmt, ...] = ()  # statements that bind shared names to values
     errors: Mapping[str, Any] = field(default_factory=dict)  # what its setup has numpy do about errors
+    comments: dict[int, str] = field(default_factory=dict)  # of the lines of its file
 
     def run(self, want: Iterable[str], given: Mapping[str, Any]) -> dict[str, Any]:
         """Namespace after running the cells that ``want`` depends on, where the names ``given`` are known already.
@@ -277,7 +278,7 @@ def _load(path: Path, _changed: int) -> Worksheet:
 def read(path: Path) -> Worksheet:
     """Cells of a worksheet file, with shared names of their own."""
     text = path.read_text(encoding="utf-8")
-    tree, _ = parsed(text, str(path))
+    tree, comments = parsed(text, str(path))
     common: dict[str, Any] = {"__file__": str(path), "__name__": path.stem}
     lines = list[ast.stmt]()
     for node in _shared(tree):
@@ -290,7 +291,8 @@ def read(path: Path) -> Worksheet:
         exec(compile(ast.Module(lines, []), path, "exec"), common)
         errors = np.geterr()
     setup = tuple(node for node in lines if isinstance(node, ast.Assign | ast.AnnAssign))
-    return Worksheet(str(path), tuple(_cells(tree, text, path)), common, _title(tree) or path.stem, setup, errors)
+    title = _title(tree) or path.stem
+    return Worksheet(str(path), tuple(_cells(tree, text, path)), common, title, setup, errors, comments)
 
 
 def _title(tree: ast.Module) -> str | None:

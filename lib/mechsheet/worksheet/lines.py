@@ -9,7 +9,6 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 from itertools import pairwise, starmap
 from operator import attrgetter
-from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -241,9 +240,8 @@ def registry(namespace: Mapping[str, Any], cells: tuple[source.Cell, ...] | None
 
 def of_setup(sheet: Worksheet) -> Mapping[str, Formula]:
     """Lines of the setup that end in a unit, which typeset shows nowhere: constants of all cells."""
-    _, comments = source.parsed(Path(sheet.path).read_text(encoding="utf-8"), sheet.path)
     try:
-        found = formulas(source.Cell(sheet.setup, comments, sheet.path))
+        found = formulas(source.Cell(sheet.setup, sheet.comments, sheet.path))
     except SheetError:  # no line of a cell, so that nothing keeps it from being a comment only
         return {}
     return {line.name: line for line in found if isinstance(line, Formula)}
