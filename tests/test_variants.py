@@ -13,6 +13,7 @@ from own_worksheet import own
 from test_recorded_worksheet import FOLLOWED, ROOT
 
 from mechsheet import evaluate
+from mechsheet.recording.evaluation import by_cells
 from mechsheet.recording.variants import Known, variants
 from mechsheet.studies import chunks
 from mechsheet.studies.sweep import Sweep, sweep
@@ -37,7 +38,8 @@ def recorded(sheet: Worksheet, want: list[str], varied: list[str]) -> Again:
 def test_every_line_that_is_followed_is_so_for_many_variants(tmp_path: Path) -> None:
     names = [f"y{n}_" for n in range(len(FOLLOWED))]
     whole = own(tmp_path, "\n".join(f"{name} = {line}" for name, line in zip(names, FOLLOWED, strict=True)))
-    alone = [evaluate(whole.path, names, F=f, a=a) for f, a in zip([2.5, *F], [0.75, *A], strict=True)]
+    machines = (inputs.build(whole.inputs, {"F": f, "a": a}) for f, a in zip([2.5, *F], [0.75, *A], strict=True))
+    alone = [by_cells(whole, names, g) for g in machines]
     wrong = []
     for name, line in zip(names, FOLLOWED, strict=True):
         again = recorded(own(tmp_path, f"y = {line}"), ["y"], ["F", "a"])
@@ -96,13 +98,14 @@ def assert_those_of_each_alone(sheet: Worksheet, want: list[str], **given: Any) 
     swept = sweep(sheet.path, want, given)
     for k in range(0, swept.solved.size, 9):
         one = {name: x[k] for name, x in given.items()}
+        g = inputs.build(sheet.inputs, one)
         if swept.solved[k]:
-            alone = evaluate(sheet.path, want, **one)
+            alone = by_cells(sheet, want, g)
             for name in want:
                 assert swept[name][k] == pytest.approx(alone[name], rel=1e-12)
         else:
             with pytest.raises(ValueError):
-                evaluate(sheet.path, want, **one)
+                by_cells(sheet, want, g)
     return swept
 
 
@@ -126,6 +129,23 @@ def test_lines_that_mix_variants_cost_a_few_runs_whatever_way_they_go(tmp_path: 
 def test_that_variants_mix_is_seen_where_one_of_them_alone_hides_it(lines: str, tmp_path: Path) -> None:
     given = {"k": np.arange(400) % 4, "F": MANY["F"]}  # two of them hide it: a factor is zero, neither reaches 11
     assert_those_of_each_alone(own(tmp_path, lines), ["y"], **given)
+
+
+KINDS = [
+    "1 if g.F > 3 else g.a / q", "2 if g.F > 3 else q * 1j", "x > g.a if g.F > 3 else x", "(1, 2.5, q)[int(g.F) % 3]",
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("falling", [False, True])
+@pytest.mark.parametrize("line", KINDS)
+def test_another_way_may_give_a_number_of_another_kind(line: str, falling: bool, tmp_path: Path) -> None:
+    """Whole, true or real where the recorded one is not, or the other way round."""
+    given = {"F": np.sort(MANY["F"])[:: -1 if falling else 1], "a": MANY["a"]}
+    sheet = own(tmp_path, f"q = float(x.max())\ny = ({line}) * 1")
+    assert assert_those_of_each_alone(sheet, ["y"], **given).solved.all()
+    for f, a in zip(given["F"][::50], given["a"][::50], strict=True):
+        once = by_cells(sheet, ["y"], inputs.build(sheet.inputs, {"F": f, "a": a}))["y"]
+        assert evaluate(sheet.path, ["y"], F=f, a=a)["y"] == pytest.approx(once, rel=1e-12)
 
 
 def test_what_the_worksheet_refuses_has_its_reason_and_costs_the_others_nothing(tmp_path: Path) -> None:

@@ -49,15 +49,8 @@ _SCRIPTS = (
     "tip.js",
     "start.js",
 )
-_SHOWING = {
-    "md",
-    "title_block",
-    "table",
-    "figure",
-    "caption",
-    "typeset",
-    "side_by_side",
-}  # calls whose texts a page shows
+# Calls whose texts a page shows.
+_SHOWING = {"md", "title_block", "table", "figure", "caption", "typeset", "side_by_side"}
 _CHOICES = (
     *(ast.IfExp, ast.BoolOp, ast.Subscript, ast.Dict, ast.ListComp, ast.SetComp, ast.DictComp, ast.GeneratorExp),
     *(ast.If, ast.For, ast.While, ast.Match, ast.Try, ast.FunctionDef, ast.Lambda),

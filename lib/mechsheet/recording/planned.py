@@ -94,7 +94,7 @@ def planned(only: Worksheet, want: Sequence[str], g: Any) -> Callable[[Any], dic
         space = dict[str, Any]()
         for root, nodes in of.parts.items():
             each = [next(found) for _ in nodes]
-            if not all(map(_finite, each)):
+            if not all(map(_finite, each)) or not _is_kind(of.own[root], each):
                 return None
             space[root] = _like(of.own[root], each)
         return {name: value(name, space) for name in of.roots}
@@ -115,6 +115,14 @@ def _leaves(g: Any) -> dict[str, Any]:
 
 def _finite(x: Any) -> bool:
     return bool(np.isfinite(x).all()) if isinstance(x, np.ndarray) else -np.inf < x < np.inf
+
+
+def _is_kind(own: Any, parts: Sequence[Any]) -> bool:
+    """Whether numbers are of the kind that the worksheet's own are, where whole or real ones may become others."""
+    held = np.asarray(own).dtype
+    if held.kind in "fc":
+        return held.kind == "c" or len(parts) == 1
+    return len(parts) == 1 and np.array_equal(np.asarray(parts[0]).astype(held), parts[0])
 
 
 def _like(own: Any, parts: Sequence[Any]) -> Any:

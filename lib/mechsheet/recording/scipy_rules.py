@@ -9,7 +9,6 @@ from typing import Any
 
 import numpy as np
 
-from mechsheet import units
 from mechsheet.recording import solving
 from mechsheet.recording.graph import Graph, NotRecorded, current
 from mechsheet.recording.quantity import Quantity, has_quantity, lift
@@ -32,15 +31,8 @@ def root(f: Callable[..., Any], note: Callable[[solving.Solving], Any]) -> Calla
         if options.keys() - {"xtol", "rtol", "maxiter"}:
             raise NotRecorded(f"scipy's {f.__name__}")
         sharp = {"xtol": 1e-300, "rtol": 4 * np.finfo(float).eps, "maxiter": 2000}  # as it will be solved again
-        ends = [float(lift(graph, end).re.value) for end in (a, b)]
-        looked, work = dict(graph.looked), graph.work
-
-        def at(x: float) -> float:
-            place = Quantity(graph, graph.constant(x, units.UNKNOWN))
-            return float(lift(graph, g(place, *more)).re.value)
-
-        value = f(at, *ends, **sharp)
-        graph.looked, graph.work = looked, work  # where it looked on the way there is of no use to others
+        with solving.tried(graph) as of:
+            value = f(of(lambda x: g(x, *more)), solving.now(a), solving.now(b), **sharp)
         number = sum(key[0] == "found" for key in graph.nodes)
         words = SimpleNamespace(unknown=f"root {number + 1}", quantity="f(x)", unit="-", unknown_unit="-")
         found: Any = SimpleNamespace(words=words, _value=value)
@@ -66,17 +58,10 @@ def table(value: Any) -> Callable[..., Any]:
     def made(*args: Any, **named: Any) -> Callable[..., Any]:
         given = inspect.signature(value).bind(*args, **named)
         given.apply_defaults()
-        now = [_now(part) for part in given.args], {name: _now(part) for name, part in given.kwargs.items()}
-        return _looked_up(value(*now[0], **now[1]), given.arguments)
+        own = value(*map(solving.now, given.args), **{name: solving.now(x) for name, x in given.kwargs.items()})
+        return _looked_up(own, given.arguments)
 
     return made
-
-
-def _now(value: Any) -> Any:
-    """A value with the present numbers, from which nothing but the kind of a table is taken."""
-    if isinstance(value, Quantity):
-        return value.value
-    return type(value)(map(_now, value)) if isinstance(value, tuple | list) and has_quantity(value) else value
 
 
 def _known(own: Any) -> dict[str, Any]:
@@ -102,7 +87,7 @@ def _looked_up(own: Any, given: dict[str, Any]) -> Callable[..., Any]:
         if not has_quantity([*at, *points, values]):
             return own(*at)
         graph = current.get()
-        if told != "linear" or np.ndim(_now(values)) != len(points):
+        if told != "linear" or np.ndim(solving.now(values)) != len(points):
             raise NotRecorded(f"scipy's {kind} but for a linear one")
         places = at[0] if len(at) == 1 and isinstance(at[0], tuple | list) and not single else at
         places = [lift(graph, place) for place in places]

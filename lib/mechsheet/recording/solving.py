@@ -1,7 +1,8 @@
 """Find while a worksheet is recorded: values that its equations determine, as quantities that can be solved again."""
 
 from collections import namedtuple
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass
 from itertools import count
 from typing import Any
@@ -13,7 +14,7 @@ from mechsheet.recording import derived
 from mechsheet.recording.graph import Graph, NotRecorded
 from mechsheet.recording.lines import Solved, Told
 from mechsheet.recording.node import Block, Node, bottom_up
-from mechsheet.recording.quantity import Quantity, lift
+from mechsheet.recording.quantity import Quantity, has_quantity, lift
 from mechsheet.worksheet.find import Found
 from mechsheet.worksheet.system import Solution
 from mechsheet.worksheet.verdict import Verdict
@@ -27,6 +28,33 @@ class Solving:
     residual: Any
     solved: tuple[Solved, ...]
     evaluations: Any = None
+
+
+@contextmanager
+def tried(graph: Graph) -> Iterator[Callable[[Callable[..., Any]], Callable[..., Any]]]:
+    """What lets a function of the worksheet be tried at plain numbers; what is looked at meanwhile is of no use."""
+
+    def place(x: Any) -> Quantity:
+        return Quantity(graph, graph.constant(x, units.UNKNOWN))
+
+    def of(f: Callable[..., Any]) -> Callable[..., Any]:
+        def at(*x: Any, **unknowns: Any) -> Any:
+            return now(f(*map(place, x[:1]), *x[1:], **{name: place(y) for name, y in unknowns.items()}))
+
+        return at
+
+    looked, work = dict(graph.looked), graph.work
+    try:
+        yield of
+    finally:
+        graph.looked, graph.work = looked, work
+
+
+def now(x: Any) -> Any:
+    """Present numbers."""
+    if isinstance(x, Quantity):
+        return x.value
+    return type(x)(map(now, x)) if isinstance(x, tuple | list) and has_quantity(x) else x
 
 
 def listed(graph: Graph, values: Any) -> Any:

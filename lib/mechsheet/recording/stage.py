@@ -3,6 +3,7 @@
 from collections.abc import Callable, Mapping, Sequence
 from copy import copy
 from dataclasses import fields, is_dataclass, replace
+from functools import partial
 from itertools import chain, count, repeat
 from typing import Any, TypeVar
 
@@ -49,7 +50,7 @@ class Stage:
             "figure": self.figure,
             "sought": self.sought,
             "solve": self.solve,
-            "rooted": self.rooted,
+            "rooted": partial(self._solved, None),  # by another package: there is no verdict
             "closed_form": self.closed_form,
             "judged": self.judged,
             "check_slope": self.check_slope,
@@ -77,8 +78,9 @@ class Stage:
     ) -> solving.Solving:
         found = self._own(Found, lambda own: own.words.unknown == words.unknown)
         if found is None:
-            low, high, wanted, start = (self._now(x) for x in (lo, hi, equals, guess))
-            found = self._again(lambda of: find.sought(of(f), words, low, high, wanted, start, branch, branches))
+            low, high, wanted, start = map(solving.now, (lo, hi, equals, guess))
+            with solving.tried(self.graph) as of:
+                found = find.sought(of(f), words, low, high, wanted, start, branch, branches)
         given = {"lo": lo, "hi": hi, "guess": guess}
         return self._solved(found, solving.one(self.graph, found, f, given, equals, branch, branches))
 
@@ -87,17 +89,10 @@ class Stage:
     ) -> solving.Solving:
         found = self._own(Solution, lambda own: list(own.words.names) == list(unknowns) and own.least is least)
         if found is None:
-            wanted, starts = self._now(equals), {name: self._now(x) for name, x in unknowns.items()}
-            found = self._again(lambda of: system.solve(of(f), wanted, unit, unknown_unit, starts, least))
+            wanted, starts = solving.now(equals), {name: solving.now(x) for name, x in unknowns.items()}
+            with solving.tried(self.graph) as of:
+                found = system.solve(of(f), wanted, unit, unknown_unit, starts, least)
         return self._solved(found, solving.several(self.graph, found, f, equals, unknowns))
-
-    def rooted(self, new: solving.Solving) -> None:
-        """Note a root that another package has found, of which the worksheet has no verdict."""
-        self.solved += new.solved
-        for solved in new.solved:
-            self.shown_now.append((self.recording.found, solved.words.unknown))
-            self.recording.found[solved.words.unknown] = solved
-            self.solved_now.append(solved)
 
     def _own(self, kind: type[V], meant: Callable[[V], bool]) -> V | None:
         """The verdict of the worksheet's own run, where a name holds it; the next one that is meant is another."""
@@ -107,39 +102,15 @@ class Stage:
                 return value
         return None
 
-    def _again(self, ask: Callable[[Callable[..., Any]], V]) -> V:
-        """The verdict of the worksheet's own run, which no name holds, by its equations at present numbers."""
-
-        def place(x: Any) -> Quantity:
-            return Quantity(self.graph, self.graph.constant(x, units.UNKNOWN))
-
-        def of(f: Callable[..., Any]) -> Callable[..., Any]:
-            def at(*x: Any, **unknowns: Any) -> Any:
-                return self._now(f(*map(place, x[:1]), *x[1:], **{name: place(y) for name, y in unknowns.items()}))
-
-            return at
-
-        looked, work = dict(self.graph.looked), self.graph.work
-        try:
-            return ask(of)
-        finally:
-            self.graph.looked, self.graph.work = looked, work  # where it looked on the way is of no use to others
-
-    def _now(self, x: Any) -> Any:
-        """Present numbers."""
-        if isinstance(x, tuple | list):
-            return type(x)(map(self._now, x))
-        return x.value if isinstance(x, Quantity) else x
-
-    def _solved(self, own: Verdict, new: solving.Solving) -> solving.Solving:
+    def _solved(self, own: Verdict | None, new: solving.Solving) -> solving.Solving:
         self.solved += new.solved
         self._note(new, own)
         return new
 
-    def _note(self, new: solving.Solving, own: Verdict) -> None:
+    def _note(self, new: solving.Solving, own: Verdict | None) -> None:
         """Note found values by what the worksheet calls them."""
         known = self.recording.found
-        name = next((f"{name}." for name, value in self.namespace.items() if value is own), "")
+        name = next((f"{name}." for name, value in self.namespace.items() if own is not None and value is own), "")
         for solved in new.solved:
             unknown = solved.words.unknown
             keys = chain([f"{name}{unknown}"], (f"{unknown} {n}" for n in count(2)))  # of a loop, or called again

@@ -76,7 +76,8 @@ def variants(
             known &= every(np.isfinite(whole(node)))
         space = dict[str, Any]()
         for root, parts in of.parts.items():
-            made = np.empty((count, *np.shape(of.own[root])), np.asarray(of.own[root]).dtype)
+            own = np.asarray(of.own[root])
+            made = np.empty((count, *own.shape), complex if len(parts) > 1 or own.dtype.kind == "c" else float)
             each = [_under(whole(part), len(part.shape), made.ndim - 1) for part in parts]
             if len(each) == 1:
                 made[...] = each[0]

@@ -199,6 +199,7 @@ def sweep(
                 if name not in values:
                     values[name] = np.full((size, *value.shape[1:]), np.nan, value.dtype)
                 same_shape(name, values[name], value)
+                values[name] = values[name].astype(np.result_type(values[name], value), copy=False)
                 values[name][chunks[i]] = value
             lacking[chunks[i]] = part.lacking
             declared |= part.units
