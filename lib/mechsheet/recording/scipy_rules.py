@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from mechsheet.recording import solving
+from mechsheet.recording import solving, spline_rules
 from mechsheet.recording.graph import Graph, NotRecorded, current
 from mechsheet.recording.quantity import Quantity, has_quantity, lift
 
@@ -87,14 +87,16 @@ def _looked_up(own: Any, given: dict[str, Any]) -> Callable[..., Any]:
         if not has_quantity([*at, *points, values]):
             return own(*at)
         graph = current.get()
-        if told != "linear" or np.ndim(solving.now(values)) != len(points):
-            raise NotRecorded(f"scipy's {kind} but for a linear one")
+        curved = single and told == "cubic"
+        if not (curved or told == "linear") or np.ndim(solving.now(values)) != len(points):
+            raise NotRecorded(f"scipy's {kind} but for a linear{' or cubic' * single} one")
         places = at[0] if len(at) == 1 and isinstance(at[0], tuple | list) and not single else at
         places = [lift(graph, place) for place in places]
         if not single and len(places) == 1 and len(points) > 1:
             places = [places[0][..., k] for k in range(len(points))]
         axes = [lift(graph, axis) for axis in points]
-        result = _linear(graph, places, axes, lift(graph, values))
+        on = lift(graph, values)
+        result = spline_rules.cubic(axes[0], on)(places[0]) if curved else _linear(graph, places, axes, on)
         if extrapolates:
             return result
         for x, axis in zip(places, axes, strict=True):

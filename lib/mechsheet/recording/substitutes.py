@@ -20,7 +20,7 @@ from typing import Any
 import numpy as np
 
 from mechsheet import units
-from mechsheet.recording import scipy_rules
+from mechsheet.recording import scipy_rules, spline_rules
 from mechsheet.recording.choices import total
 from mechsheet.recording.graph import NotRecorded, current
 from mechsheet.recording.numpy_rules import arange, filled, linspace, simpson, trapezoid_so_far
@@ -87,6 +87,8 @@ def instead(value: Any) -> Any:
     room = str(getattr(value, "__module__", ""))
     if isinstance(value, FunctionType | type) and room.startswith("mechsheet."):
         return _of_package(value, room)
+    if spline_rules.is_spline(value):
+        return spline_rules.spline(value)
     if scipy_rules.is_table(value):
         return scipy_rules.table(value)
     if isinstance(value, FunctionType) and room.startswith("scipy."):
