@@ -12,7 +12,7 @@ from bisect import bisect_left, bisect_right
 from collections.abc import Callable, Mapping
 from contextvars import ContextVar
 from copy import copy
-from functools import cache
+from functools import cache, partial, reduce
 from inspect import unwrap
 from types import BuiltinFunctionType, FunctionType, GenericAlias, ModuleType
 from typing import Any
@@ -62,6 +62,22 @@ _OTHER = {"asin": "arcsin", "acos": "arccos", "atan": "arctan", "atan2": "arctan
 _OTHER |= {"acosh": "arccosh", "atanh": "arctanh", "fabs": "abs", "pow": "power", "fsum": "sum"}
 _MATH: dict[Any, Any] = {getattr(math, name): getattr(np, _OTHER.get(name, name)) for name in [*_SAME, *_OTHER]}
 _MATH |= {f: f for f in (math.isclose, bisect_left, bisect_right)}  # which are not those of numpy
+_STATISTICS: dict[str, Callable[..., Any]] = {
+    **{"mean": np.mean, "fmean": np.mean, "median": np.median, "pstdev": np.std, "pvariance": np.var},
+    **{"stdev": partial(np.std, ddof=1), "variance": partial(np.var, ddof=1)},
+}
+
+
+def _hypot(*parts: Any) -> Any:
+    return reduce(np.hypot, parts) if len(parts) > 1 else np.abs(parts[0])
+
+
+def _distance(p: Any, q: Any) -> Any:
+    graph = current.get()
+    return _hypot(*(lift(graph, p) - lift(graph, q)))
+
+
+_MATH |= {math.hypot: _hypot, math.dist: _distance}  # of any number of coordinates
 
 
 def instead(value: Any) -> Any:
@@ -87,6 +103,8 @@ def instead(value: Any) -> Any:
     room = str(getattr(value, "__module__", ""))
     if isinstance(value, FunctionType | type) and room.startswith("mechsheet."):
         return _of_package(value, room)
+    if room == "statistics" and value.__name__ in _STATISTICS:
+        return _takes(_STATISTICS[value.__name__])
     if spline_rules.is_spline(value):
         return spline_rules.spline(value)
     if scipy_rules.is_table(value):
