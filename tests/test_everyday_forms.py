@@ -88,7 +88,7 @@ SET = [
     ),
     "d = {'x': 2.0}\nif g.F > 3:\n    d['x'] = g.a\ny = d['x'] * 2",
     "y = math.hypot(g.F, g.a, 3.0) + math.hypot(-g.F) + math.dist((g.F, 1.0, 0.0), [0.0, g.a, 2.0])",
-    "import statistics as st\nv = [g.F, g.a, 2.0]\ny = st.mean(v) + st.fmean(v) * st.stdev(v) + st.median(v) - st.pstdev(v)",
+    "import statistics as s\nv = [g.F, g.a, 2]\ny = s.mean(v) + s.fmean(v) * s.stdev(v) + s.median(v) - s.pstdev(v)",
 ]
 SEARCHED = [
     "from bisect import bisect_left\nS = [1, 2, 3, 4, 8]\ny = S[bisect_left(S, g.F)] * g.a",

@@ -12,7 +12,7 @@ from bisect import bisect_left, bisect_right
 from collections.abc import Callable, Mapping
 from contextvars import ContextVar
 from copy import copy
-from functools import cache, partial, reduce
+from functools import cache, reduce
 from inspect import unwrap
 from types import BuiltinFunctionType, FunctionType, GenericAlias, ModuleType
 from typing import Any
@@ -63,9 +63,9 @@ _OTHER |= {"acosh": "arccosh", "atanh": "arctanh", "fabs": "abs", "pow": "power"
 _MATH: dict[Any, Any] = {getattr(math, name): getattr(np, _OTHER.get(name, name)) for name in [*_SAME, *_OTHER]}
 _MATH |= {f: f for f in (math.isclose, bisect_left, bisect_right)}  # which are not those of numpy
 _STATISTICS: dict[str, Callable[..., Any]] = {
-    **{"mean": np.mean, "fmean": np.mean, "median": np.median, "pstdev": np.std, "pvariance": np.var},
-    **{"stdev": partial(np.std, ddof=1), "variance": partial(np.var, ddof=1)},
-}
+    "mean": np.mean, "fmean": np.mean, "median": np.median, "pstdev": np.std, "pvariance": np.var,
+    "stdev": lambda x: _takes(np.std)(x, ddof=1), "variance": lambda x: _takes(np.var)(x, ddof=1),
+}  # fmt: skip
 
 
 def _hypot(*parts: Any) -> Any:
