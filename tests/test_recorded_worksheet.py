@@ -81,6 +81,9 @@ FOLLOWED = [
     "np.convolve(x, [1.0, g.F], mode='same')", "np.convolve(x, [1.0, g.F], mode='valid')", "np.cumulative_sum(x)",
     "np.polymul([g.F, 1.0], [g.a, 2.0])", "np.polysub([1.0, g.F, 2], [g.a, 2.0])", "np.fmod(-x, g.a + 0.01)",
     "np.modf(-x)[0] + np.divmod(x, g.a + 0.01)[0]", "np.logaddexp(x, g.F)", "np.subtract.outer(x, [1.0, g.F])[:, 1]",
+    "np.linalg.multi_dot([[[1.0, g.F]], [[g.a, 2.0], [1.0, 3.0]], [1.0, g.F]])",
+    "np.abs(np.fft.rfft([g.F, g.a, 1.0, -g.F, 0.3]))", "np.fft.fft([g.F, 1j * g.a, 1.0]).imag",
+    "np.fft.irfft([g.F, g.a + 1j * g.F, 1.0]) + np.fft.ifft([g.F, 2 * g.a, 1.0, 0]).real",
     "np.ones_like(x) * g.F", "np.radians(g.F) + np.degrees(g.a)", "x.T + x.real + x.imag",
 ]  # fmt: skip
 
@@ -538,14 +541,14 @@ def test_what_another_package_is_handed_is_told_by_its_name(tmp_path: Path) -> N
     """A solution that has its keys as attributes is read as in the worksheet: what rests on it is no gap of its own."""
     lines = """
 from scipy.integrate import solve_ivp
-from scipy.interpolate import CubicSpline
+from scipy.interpolate import KroghInterpolator
 solution = solve_ivp(lambda t, y: -g.a * y, (0, 1), [g.F], t_eval=[0.0, 0.5, 1.0])
 y = solution.y[0]  # [-] line
-k = CubicSpline([0.0, 5.0, 9.0], [0.0, 25.0, 81.0])(g.F)  # [-] line
+k = KroghInterpolator([0.0, 5.0, 9.0], [0.0, 25.0, 81.0])(g.F)  # [-] line
 """
     names, recording = recorded(own(tmp_path, lines.strip()))
     told = {gap.names: gap.reason for gap in recording.gaps}
-    assert told == {("solution",): "scipy's solve_ivp", ("k",): "scipy's CubicSpline"}
+    assert told == {("solution",): "scipy's solve_ivp", ("k",): "scipy's KroghInterpolator"}
     np.testing.assert_array_equal(value_of(recording, "y", {}), names["y"])
     assert np.isnan(value_of(recording, "y", {"F": 5.0})).all()
 

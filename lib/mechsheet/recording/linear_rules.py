@@ -1,5 +1,7 @@
 """Matrix products and small systems of linear equations of recorded quantities."""
 
+from collections.abc import Callable
+from functools import partial, reduce
 from itertools import combinations
 from typing import Any
 
@@ -7,7 +9,7 @@ import numpy as np
 
 from mechsheet.recording.arithmetic import absolute, choice
 from mechsheet.recording.graph import Graph, NotRecorded
-from mechsheet.recording.quantity import lift, moved
+from mechsheet.recording.quantity import Quantity, lift, moved
 
 _MOST = 6  # equations
 _OF_STRESS = 3  # rows of a symmetric matrix whose eigenvalues are recorded
@@ -76,6 +78,24 @@ def matrix_power(graph: Graph, A: Any, n: Any) -> Any:
     for _ in range(count - 1):
         result = product(graph, result, A)
     return result
+
+
+def products(graph: Graph, arrays: Any) -> Any:
+    """numpy's multi_dot."""
+    return reduce(partial(product, graph), arrays)
+
+
+def transformed(f: Callable[..., Any]) -> Callable[..., Any]:
+    """One of numpy's Fourier transforms, of as many numbers as there are: sums with fixed factors."""
+
+    def rule(graph: Graph, x: Any, *options: Any, **named: Any) -> Any:
+        x = lift(graph, x)
+        if options or named or x.ndim != 1 or any(part.stretches for part in x.parts):
+            raise NotRecorded(f"numpy's {f.__name__} but of one row of so many numbers, without options")
+        parts = zip((1, 1j), x.parts, strict=False)
+        return sum(product(graph, f(unit * np.eye(x.extent[0])).T, Quantity(graph, part)) for unit, part in parts)
+
+    return rule
 
 
 def _rows(graph: Graph, A: Any) -> list[list[Any]]:

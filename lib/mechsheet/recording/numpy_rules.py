@@ -35,7 +35,9 @@ from mechsheet.recording.linear_rules import (
     matrix_power,
     outer,
     product,
+    products,
     solution,
+    transformed,
     upper,
 )
 from mechsheet.recording.operations import REDUCE_SO_FAR
@@ -321,6 +323,8 @@ _OF_FUNCTIONS: dict[Any, Callable[..., Any]] = {
     np.polyadd: polynomial_rules.added, np.polysub: lambda graph, p, q: np.polyadd(p, -lift(graph, q)),
     np.roots: polynomial_rules.roots,
     np.diag: diagonal, np.triu: upper, np.tril: lower, np.linalg.matrix_power: matrix_power,
+    np.linalg.multi_dot: products,
+    **{f: transformed(f) for f in (np.fft.fft, np.fft.ifft, np.fft.rfft, np.fft.irfft)},
     np.logspace: lambda graph, *ends: 10.0 ** linspace(graph, *ends),
     np.geomspace: lambda graph, start, stop, *count: start * (stop / start) ** linspace(graph, 0.0, 1.0, *count),
     np.nanprod: lambda graph, x, axis=None: filled_up(graph, x, 1.0).reduced("prod", axis),

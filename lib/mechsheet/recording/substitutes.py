@@ -12,7 +12,7 @@ from bisect import bisect_left, bisect_right
 from collections.abc import Callable, Mapping
 from contextvars import ContextVar
 from copy import copy
-from functools import cache, reduce
+from functools import cache, partial, reduce
 from inspect import unwrap
 from types import BuiltinFunctionType, FunctionType, GenericAlias, ModuleType
 from typing import Any
@@ -62,9 +62,9 @@ _OTHER = {"asin": "arcsin", "acos": "arccos", "atan": "arctan", "atan2": "arctan
 _OTHER |= {"acosh": "arccosh", "atanh": "arctanh", "fabs": "abs", "pow": "power", "fsum": "sum"}
 _MATH: dict[Any, Any] = {getattr(math, name): getattr(np, _OTHER.get(name, name)) for name in [*_SAME, *_OTHER]}
 _MATH |= {f: f for f in (math.isclose, bisect_left, bisect_right)}  # which are not those of numpy
-_STATISTICS: dict[str, Callable[..., Any]] = {
-    "mean": np.mean, "fmean": np.mean, "median": np.median, "pstdev": np.std, "pvariance": np.var,
-    "stdev": lambda x: _takes(np.std)(x, ddof=1), "variance": lambda x: _takes(np.var)(x, ddof=1),
+_STATISTICS: dict[str, tuple[Any, dict[str, int]]] = {
+    "mean": (np.mean, {}), "fmean": (np.mean, {}), "median": (np.median, {}), "pstdev": (np.std, {}),
+    "pvariance": (np.var, {}), "stdev": (np.std, {"ddof": 1}), "variance": (np.var, {"ddof": 1}),
 }  # fmt: skip
 
 
@@ -104,7 +104,8 @@ def instead(value: Any) -> Any:
     if isinstance(value, FunctionType | type) and room.startswith("mechsheet."):
         return _of_package(value, room)
     if room == "statistics" and value.__name__ in _STATISTICS:
-        return _takes(_STATISTICS[value.__name__])
+        function, options = _STATISTICS[value.__name__]
+        return partial(_takes(function), **options)
     if spline_rules.is_spline(value):
         return spline_rules.spline(value)
     if scipy_rules.is_table(value):
