@@ -327,7 +327,8 @@ def test_the_button_of_the_workbook_tells_what_the_workbook_does_not_follow(left
     expect(page.locator("ms-in-place, ms-folded, [data-ms-folded]")).to_have_count(0)  # of the editor alone
     told = page.locator(UNDER_THE_BUTTON)
     expect(told).to_have_text("")
-    number = next(n for n, line in enumerate(sheet.read_text(encoding="utf-8").splitlines(), 1) if "np.sort_complex" in line)
+    written = sheet.read_text(encoding="utf-8").splitlines()
+    number = next(n for n, line in enumerate(written, 1) if "np.sort_complex" in line)
     for _ in range(2):
         with page.expect_download():
             page.get_by_text("Excel workbook").click()
