@@ -73,6 +73,7 @@ class Graph:
         self.bodies = bodies
         self.draws = draws  # drawings are recorded too
         self.lists = lists  # those among the inputs may have any length
+        self.listed = frozenset[int]()  # how many rows the tables have that list every so many
         self.positions = 0  # numbers of linspace before any were left out
         self.line = 0
         self.work = 0  # numbers computed since somebody set it to 0
@@ -270,8 +271,7 @@ class Graph:
 
     def state(self, initial: Node) -> Node:
         """A number that a loop changes, at any of its turns."""
-        key = ("state", len(self.nodes))
-        return self._kept(key, "state", (initial,), lambda: initial.value.copy(), initial.stretches)
+        return self._kept(("state", len(self.nodes)), "state", (initial,), initial.value.copy, initial.stretches)
 
     def iterated(self, loop: Loop, number: int, turns: Node) -> Node:
         """What a loop makes of one of its numbers; the ``turns`` one after the other give it too, while they do."""

@@ -388,7 +388,7 @@ def linspace(graph: Graph, start: Any, stop: Any, count: Any = 50, endpoint: boo
     """numpy's linspace, of the positions alone that tables list."""
     pieces = count - bool(endpoint)
     present = int(lift(graph, pieces).value)
-    thin = graph.thin if endpoint and present % graph.thin == 0 else 1
+    thin = graph.thin if endpoint and present // graph.thin + 1 in graph.listed else 1
     if thin > 1:
         graph.positions = present + 1
     rows = counted(graph, pieces // thin + 1 if thin > 1 else count)

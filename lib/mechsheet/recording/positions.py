@@ -1,17 +1,46 @@
 """Runs over the positions that tables list: what of them rests on all positions, as a sum or a check does."""
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
-from typing import Any, Self
+from typing import Any, Self, TypeVar
 
 from mechsheet.recording.graph import Graph
 from mechsheet.recording.lines import Recording
 from mechsheet.recording.node import Node, bottom_up
 from mechsheet.recording.quantity import Quantity
 from mechsheet.worksheet.lines import Formula
+from mechsheet.worksheet.table import Figure, Table
 
+T = TypeVar("T")
 _MORE = 1_000_000  # operations on single numbers that checks over all positions take at most, beside those of tables
+
+
+def step_of(namespace: Mapping[str, Any]) -> int:
+    """Every how many positions all tables of a run list; 1 where some list others."""
+    steps = {table.every for table in _shown(namespace, Table)}
+    return steps.pop() if len(steps) == 1 else 1
+
+
+def rows_of(namespace: Mapping[str, Any]) -> frozenset[int]:
+    """How many rows the tables of a run have."""
+    return frozenset(len(table.columns[0].values) for table in _shown(namespace, Table))
+
+
+def lacking(recording: Recording, namespace: Mapping[str, Any]) -> tuple[bool, int]:
+    """Whether a recording has other rows than the tables and figures of the run, and how many gaps.
+
+    It has where some fields are of other positions than those that tables list, or given and not made by `linspace`.
+    """
+    own = {table.number: len(table.columns[0].values) for table in _shown(namespace, Table)}
+    own |= {f"Fig {figure.number}": len(figure.x.values[:: recording.every]) for figure in _shown(namespace, Figure)}
+    columns = ((own.get(number), c) for number, of in recording.tables.items() for c in of if c is not None)
+    return any(count not in (None, column.extent[-1]) for count, column in columns), len(recording.gaps)
+
+
+def _shown(namespace: Mapping[str, Any], kind: type[T]) -> Iterator[T]:
+    groups = (value if isinstance(value, tuple | list) else [value] for value in namespace.values())
+    yield from (value for group in groups for value in group if isinstance(value, kind))
 
 
 class OfPositions(ABC):

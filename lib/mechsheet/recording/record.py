@@ -21,7 +21,7 @@ from mechsheet.recording.graph import Gap, Graph, Guard, NotRecorded, current
 from mechsheet.recording.lines import Recording, leaves_of
 from mechsheet.recording.memory import Memory, changes, names_of
 from mechsheet.recording.node import Node, conditions
-from mechsheet.recording.positions import OfPositions
+from mechsheet.recording.positions import OfPositions, lacking, rows_of, step_of
 from mechsheet.recording.quantity import Quantity, has_quantity, is_literal, lift
 from mechsheet.recording.selected import Selected
 from mechsheet.recording.sketch import Drawn, Sketch
@@ -33,7 +33,6 @@ from mechsheet.units import Constant
 from mechsheet.worksheet.cells import Cell, Worksheet, load
 from mechsheet.worksheet.drawing import Drawing
 from mechsheet.worksheet.lines import Formula, of_setup, registry
-from mechsheet.worksheet.table import Table
 from mechsheet.worksheet.title import Mark, Slider
 
 
@@ -78,14 +77,19 @@ def _recorded(
     further: bool = False,
 ) -> tuple[Recording, Recording]:
     sheet = load(Path(namespace["__file__"])) if sheet is None else sheet
-    steps = {value.every for value in namespace.values() if isinstance(value, Table)}
     want = sheet.results if whole else [name for name in sheet.results if shown(namespace.get(name))]
-    graph = Graph(every or (steps.pop() if len(steps) == 1 else 1), draws, lists, bodies)
-    token = current.set(graph)
+    token, runs = current.set(Graph()), list[_Run]()
     try:
-        run = _Run(sheet, graph, namespace, want, registry(namespace) if known is None else known)
-        recording = run.recording
-        return recording, run.with_every_line() if further else recording
+        for thin in dict.fromkeys((every or step_of(namespace), 1)):
+            graph = Graph(thin, draws, lists, bodies)
+            graph.listed = rows_of(namespace)
+            current.set(graph)
+            runs.append(_Run(sheet, graph, namespace, want, registry(namespace) if known is None else known))
+            if not any(lacking(runs[0].recording, namespace)):  # else all positions may tell more
+                break
+        run = min(runs, key=lambda run: lacking(run.recording, namespace))
+        current.set(run.graph)
+        return run.recording, run.with_every_line() if further else run.recording
     finally:
         current.reset(token)
 
@@ -326,8 +330,7 @@ class _Run(OfPositions):
     def set_up(self, line: ast.stmt, path: str) -> None:
         """Run a statement of the setup again where it computes with units or declares one; else its numbers stay."""
         facts = statement.facts(line, path)
-        declared = self.lines.keys() | self.constants.keys()
-        measured = "units" in facts.loaded or not declared.isdisjoint(facts.touched)
+        measured = "units" in facts.loaded or any(x in self.lines or x in self.constants for x in facts.touched)
         if measured or any(has_quantity(self.names.get(name)) for name in self.read(facts.loaded)):
             try:
                 exec(facts.code, self.names)

@@ -1,0 +1,71 @@
+"""Tables that list every so many positions, of whatever field: all workbooks have the rows and numbers of the sheet."""
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from own_worksheet import own, recorded
+
+from mechsheet import units
+from mechsheet.recording.numbers import numbers
+from mechsheet.run import report
+from mechsheet.worksheet import cells
+from mechsheet.worksheet.table import Figure, Table
+
+FIELD = "phi = linspace(0, 1, COUNT)  # [-] place\ny = phi * g.F + g.a  # [-] line\n"
+LISTED = 'table_2 = table("2", "Listed", phi, y, every=5)\n'
+LINES = {
+    "the last place is not listed": FIELD.replace("COUNT", "13") + LISTED + 'figure_1 = figure("1", "All", phi, y)',
+    "sums over all of them": FIELD.replace("COUNT", "13")
+    + LISTED
+    + 'q = y / y.max() - y.sum()  # [-] part\ntable_3 = table("3", "Parts", q, every=5)',
+    "arange": FIELD.replace("linspace(0, 1, COUNT)", "np.arange(23) * 0.1") + LISTED,
+    "an array as it is": FIELD.replace("linspace(0, 1, COUNT)", "np.array([0.1 * k for k in range(13)])") + LISTED,
+    "without its end": FIELD.replace("COUNT", "11, endpoint=False") + LISTED + 'figure_1 = figure("1", "All", phi, y)',
+    "a group with other steps": FIELD.replace("COUNT", "11")
+    + LISTED
+    + 'both = (table("3", "All", phi, y), table("4", "Some", phi, y, every=2))',
+    "a chart over another field": FIELD.replace("COUNT", "11")
+    + LISTED
+    + 't = linspace(0, 1, 26)  # [-] time\nz = t * g.a  # [-] way\nfigure_1 = figure("1", "Other", t, z)',
+    "two fields": FIELD.replace("COUNT", "11")
+    + LISTED
+    + 't = linspace(0, 1, 7)  # [-] time\nz = t * y.max()  # [-] way\ntable_3 = table("3", "Other", t, z, every=5)',
+    "one field made in two ways": FIELD.replace("COUNT", "11")
+    + LISTED
+    + 'z = y * np.arange(11) * 0.1  # [-] way\ntable_3 = table("3", "Other", z, every=5)',
+    "parts of a field": FIELD.replace("COUNT", "11")
+    + LISTED
+    + "d = np.diff(y)  # [-] step\nk = y[3:]  # [-] end\nh = y[::2]  # [-] half\n"
+    + "\n".join(f'table_{n} = table("{n}", "Part {name}", {name}, every=5)' for n, name in enumerate("dkh", 3)),
+    "a step that is an input": FIELD.replace("COUNT", "12") + LISTED.replace("every=5", "every=g.k + 1"),
+}
+
+
+@pytest.mark.parametrize("case", LINES)
+def test_its_rows_are_recorded(case: str, tmp_path: Path) -> None:
+    """A field that is not thinned out gave as many formulas as it has places: there was no workbook then."""
+    path = Path(own(tmp_path, LINES[case]).path)
+    text = path.read_text().replace('    table_1 = table("1", "All", x)\n', "")
+    path.write_text(text.replace("    x = linspace(0.1, 2, g.n) * g.F  # [-] field\n", ""))
+    sheet = cells.load(path)
+    names, recording = recorded(sheet)
+    assert not recording.gaps
+    assert len(report.workbook("Own", {**names, "__file__": sheet.path}, {})) > 9_000
+    for given in ({}, {"F": 3.25}, {"a": 1.5}):
+        run = sheet.run(sheet.results, {"g": sheet.inputs(**given)})
+        for value in run.values():
+            for table in value if isinstance(value, tuple) else (value,):
+                if isinstance(table, Table | Figure):
+                    _same(table, recording, given)
+
+
+def _same(shown: Table | Figure, recording: Any, given: dict[str, float]) -> None:
+    number, every = (shown.number, 1) if isinstance(shown, Table) else (f"Fig {shown.number}", recording.every)
+    columns = shown.columns if isinstance(shown, Table) else (shown.x, *shown.lines)
+    for column, quantity in zip(columns, recording.tables[number], strict=True):
+        if quantity is not None:  # else it is the same for all inputs
+            known = numbers([quantity.re], {recording.inputs[name]: x for name, x in given.items()})[quantity.re]
+            expected = column.values[::every] * units.parse(column.unit).factor
+            np.testing.assert_allclose(known, expected, rtol=1e-13, atol=1e-15, err_msg=f"{number} {column.symbol}")
