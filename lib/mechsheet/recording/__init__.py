@@ -2,10 +2,10 @@
 
 `node` is one of them, `operations` what they mean in numpy, `graph` how they are made. `quantity` computes as numbers
 do and makes nodes meanwhile, by the rules of `arithmetic`; `numpy_rules` are what numpy's functions make of it, and
-`elementary` what functions of the mechanics do. `record` runs the cells of a worksheet: with the names of
-`substitutes`, each cell as a `stage`, into the `lines` of a recording, over the `positions` that tables list; `memory`
-tells what a statement has changed in place, under whatever name. A drawing is recorded as a `sketch`, where a cell ends
-in `showing` it, and a text with numbers in it as it is `written`.
+`elementary` what functions of the mechanics do. `record` has the cells of a worksheet run, each a `recorded_run`: with
+the names of `substitutes`, each cell as a `stage`, into the `lines` of a recording, over the `positions` that tables
+list; `memory` tells what a statement has changed in place, under whatever name. A drawing is recorded as a `sketch`,
+where a cell ends in `showing` it, and a text with numbers in it as it is `written`.
 
 `numbers` reads a recording for other inputs; in the `evaluation` of a worksheet as a function, what is asked for again
 is `planned`, a `plan` being such numbers as one function, `variants` many at once. `dimensions` checks units, by the

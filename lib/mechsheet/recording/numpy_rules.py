@@ -386,7 +386,7 @@ def arange(graph: Graph, *ends: Any, dtype: Any = None) -> Any:
 
 def linspace(graph: Graph, start: Any, stop: Any, count: Any = 50, endpoint: bool = True) -> Any:
     """numpy's linspace, of the positions alone that tables list."""
-    pieces = count - bool(endpoint)
+    pieces = count - int(endpoint)
     present = int(lift(graph, pieces).value)
     thin = graph.thin if endpoint and present // graph.thin + 1 in graph.listed else 1
     if thin > 1:

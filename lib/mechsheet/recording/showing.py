@@ -1,12 +1,17 @@
 """What a cell draws at its end: the expressions that give what it shows, and the drawings in a value."""
 
 import ast
-from collections.abc import Iterator, Sequence
+import re
+import sys
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
+from functools import lru_cache
 from itertools import chain
+from types import FunctionType
 from typing import Any
 
 from mechsheet.recording.lines import SLIDER, Recording
+from mechsheet.recording.memory import names_of
 from mechsheet.recording.quantity import Quantity
 from mechsheet.worksheet import source
 from mechsheet.worksheet.cells import Cell, Worksheet
@@ -15,6 +20,7 @@ from mechsheet.worksheet.title import SideBySide, Slider
 
 HERE = "shown here"  # name of what an expression gives
 _ARRANGED = {"typeset", "side_by_side"}  # calls that show their arguments
+_NUMBERS = re.compile(r"\b(Table|Figure|Check)\b")  # in what a function says that it gives
 _WRITTEN = {"caption", "check", "figure", "player", "slider", "summary", "table"}  # calls that show no drawing
 
 
@@ -34,6 +40,51 @@ def expressions(cell: Cell) -> list[ast.expr]:
         case [ast.Expr(shown)]:
             return list(_singly(shown))
     return []
+
+
+def functions(sheet: Worksheet) -> frozenset[str]:
+    """Names of functions that give a table, a figure or a check: by what they say, or by those that they call."""
+    lines = [line for cell in sheet.cells for line in cell.lines]
+    given = (
+        alias
+        for line in lines
+        if isinstance(line, ast.ImportFrom) and line.module == "mechsheet"
+        for alias in line.names
+    )
+    common = {each.asname or each.name: getattr(sys.modules["mechsheet"], each.name, None) for each in given}
+    own = {name: f for name, f in {**common, **sheet.common}.items() if isinstance(f, FunctionType)}
+    found = {name for name, f in own.items() if _NUMBERS.search(str(f.__annotations__.get("return", "")))}
+    named = {name: {*names_of(f.__code__)} for name, f in own.items() if f.__globals__ is sheet.common}
+    for line in lines:
+        if isinstance(line, ast.FunctionDef):
+            named[line.name] = {node.id for node in source.nodes(line) if isinstance(node, ast.Name)}
+    while new := {name for name, of in named.items() if found & of} - found:
+        found |= new
+    return frozenset(found)
+
+
+def without_name(sheet: Worksheet, known: Iterable[str], showing: frozenset[str]) -> list[Cell]:
+    """Cells that give nothing that is shown, but show a table, a figure or a check under no name, of what is known."""
+    at_hand = {*known}
+    return [c for c in sheet.cells if c.needs <= at_hand and any(_calls(line, showing) for line in c.lines)]
+
+
+@lru_cache(maxsize=4096)
+def on_the_page(statement: ast.stmt, showing: frozenset[str]) -> tuple[ast.stmt, ...]:
+    """Statements of their own for the tables, figures and checks that a statement shows under no name."""
+    return tuple(ast.fix_missing_locations(ast.Expr(call)) for call in _calls(statement, showing))
+
+
+def _calls(node: ast.AST, showing: frozenset[str]) -> list[ast.expr]:
+    match node:
+        case ast.Call(ast.Name(name)) if name in showing:
+            return [node]
+        case ast.ListComp() | ast.SetComp() | ast.DictComp() | ast.GeneratorExp():
+            some = any(_calls(part, showing) for part in ast.iter_child_nodes(node))
+            return [ast.copy_location(ast.Call(ast.Name("list", ast.Load()), [node], []), node)] if some else []
+        case ast.Lambda() | ast.FunctionDef() | ast.ClassDef():
+            return []
+    return [call for part in ast.iter_child_nodes(node) for call in _calls(part, showing)]
 
 
 def text(cell: Cell) -> ast.expr | None:

@@ -15,6 +15,7 @@ from mechsheet import units
 from mechsheet.document import parts
 from mechsheet.document.left_out import left_out
 from mechsheet.recording.dimensions import dimensions
+from mechsheet.recording.graph import Gap
 from mechsheet.recording.largest import narrow
 from mechsheet.recording.lines import Recording, Residual
 from mechsheet.recording.record import record, record_every_line
@@ -76,8 +77,9 @@ def export(title: str, namespace: Mapping[str, Any]) -> Any:
     from mechsheet.run import banding, studied  # on use: only a page and tolerances need it
 
     def book() -> tuple[bytes, list[str]]:
-        recording, fit = _recorded(namespace)
-        return _workbook(title, namespace, [*parts.values(namespace), fit], recording), _not_followed(recording)
+        values = parts.values(namespace)
+        recording, fit = _recorded(namespace, values)
+        return _workbook(title, namespace, [*values, fit], recording), _not_followed(recording, values)
 
     def page() -> tuple[bytes, list[str]]:
         return html.page(sheet, namespace["g"]).encode(), []
@@ -121,7 +123,7 @@ def _script(title: str, namespace: Mapping[str, Any], worksheet: Path) -> None:
     with arguments.usage():
         values = limited(parts.values(namespace), given.limits, namespace)
     refuse_open(_of(Check, values))
-    recording, fit = _recorded(namespace)
+    recording, fit = _recorded(namespace, values)
     checks = [*_of(Check, values), fit]
     bands = None
     if given.tolerances:
@@ -140,7 +142,7 @@ def _script(title: str, namespace: Mapping[str, Any], worksheet: Path) -> None:
         say(*proof.lines(), checks[-1])
     path = (given.out or folder(worksheet.resolve())) / f"{worksheet.stem}.xlsx"
     write(_workbook(title, namespace, [*values, fit, *proved], recording, proved), path)
-    say(f"written {path}", *_not_followed(recording), *_left_out(namespace, worksheet))
+    say(f"written {path}", *_not_followed(recording, values), *_left_out(namespace, worksheet))
     if not all(check.passed for check in checks):
         sys.exit(1)
 
@@ -152,9 +154,13 @@ def _left_out(namespace: Mapping[str, Any], worksheet: Path) -> Iterator[str]:
         yield why if line is None else f"{mistakes.at(worksheet, line, text[line - 1])}: {why}"
 
 
-def _not_followed(recording: Recording) -> list[str]:
-    """What the workbook does not follow, a line for each."""
-    return [f"not followed there: {gap}" for gap in (*recording.gaps, *recording.unsolved)]
+def _not_followed(recording: Recording, values: Iterable[Any]) -> list[str]:
+    """What the workbook does not follow, and what of the recorded tables and figures it has not, a line for each."""
+    lacking = _recorded_ones(recording) - {*map(_called, values)}
+    return [
+        *(f"not followed there: {gap}" for gap in (*recording.gaps, *recording.unsolved)),
+        *(f"not there: {name}, which has no name" for name in sorted(lacking) if not name.startswith("check ")),
+    ]
 
 
 def folder(worksheet: Path) -> Path:
@@ -180,21 +186,46 @@ def write(data: bytes, path: Path) -> None:
 def workbook(title: str, namespace: Mapping[str, Any], limits: Mapping[str, Limit]) -> bytes:
     """Workbook of a whole run of a worksheet, its checks under the limits of a scene."""
     values = limited(parts.values(namespace), limits, namespace)
-    recording, fit = _recorded(namespace)
+    recording, fit = _recorded(namespace, values)
     return _workbook(title, namespace, [*values, fit], recording)
 
 
 @_uncollected()
-def _recorded(namespace: Mapping[str, Any]) -> tuple[Recording, Check]:
-    """The recording of a run, and the check of its units."""
+def _recorded(namespace: Mapping[str, Any], values: Iterable[Any]) -> tuple[Recording, Check]:
+    """The recording of a run that shows some values, and the check of its units."""
     sheet = load(namespace["__file__"])
     recording, every_line = record_every_line(namespace, sheet)
+    groups = (value if isinstance(value, tuple | list) else [value] for value in namespace.values())
+    named = {_called(value) for group in groups for value in group}
+    if unknown := {*map(_called, values)} - named - _recorded_ones(recording):
+        shown = ((sheet.cells[n].lines[-1].lineno, each) for n, each in parts.by_cell(namespace).items())
+        told = ((line, _called(value)) for line, each in shown for value in each)
+        why = "it is shown under no name, by what is not recorded"
+        recording.gaps += (Gap((name,), line, why) for line, name in told if name in unknown)
     fit = dimensions(every_line, sheet, namespace, registry(namespace)).check()
     search(recording)  # whose steps need no units
     narrow(recording)
     mistakes, none = recording.graph.constant(fit.residual), recording.graph.constant(fit.limit)
     recording.checks[fit.name] = Residual([mistakes], none, "-", signed=True)  # the same for all inputs
     return recording, fit
+
+
+def _called(value: Any) -> str:
+    """What a table, figure or check is called; "" for anything else."""
+    match value:
+        case Table(number=number):
+            return f"table {number}"
+        case Figure(number=number):
+            return f"figure {number}"
+        case Check(name=name):
+            return f"check {name}"
+    return ""
+
+
+def _recorded_ones(recording: Recording) -> set[str]:
+    """What the tables, figures and checks of a recording are called."""
+    tables = {f"figure {number[4:]}" if number.startswith("Fig ") else f"table {number}" for number in recording.tables}
+    return tables | {f"check {name}" for name in recording.checks}
 
 
 @_uncollected()

@@ -1,0 +1,400 @@
+"""One run of a worksheet's cells with quantities, statement by statement."""
+
+import ast
+from collections.abc import Iterable, Mapping, Sequence
+from copy import copy
+from dataclasses import fields
+from functools import partial
+from itertools import chain
+from types import CodeType, FunctionType
+from typing import Any
+
+import numpy as np
+
+from mechsheet import units
+from mechsheet.recording import showing, statement
+from mechsheet.recording.arithmetic import choice as where
+from mechsheet.recording.arithmetic import sized
+from mechsheet.recording.given import given
+from mechsheet.recording.graph import Gap, Graph, Guard, NotRecorded
+from mechsheet.recording.lines import Recording, leaves_of
+from mechsheet.recording.memory import Memory, changes, names_of
+from mechsheet.recording.node import Node, conditions
+from mechsheet.recording.positions import OfPositions
+from mechsheet.recording.quantity import Quantity, has_quantity, is_literal, lift
+from mechsheet.recording.selected import Selected
+from mechsheet.recording.sketch import Drawn, Sketch
+from mechsheet.recording.stage import Stage, held
+from mechsheet.recording.substitutes import BUILTINS, Module, instead, shared, staged
+from mechsheet.recording.unrepeatable import Unrepeatable
+from mechsheet.recording.written import Said, Written
+from mechsheet.units import Constant
+from mechsheet.worksheet.cells import Cell, Worksheet
+from mechsheet.worksheet.drawing import Drawing
+from mechsheet.worksheet.lines import Formula, of_setup
+from mechsheet.worksheet.title import Mark, Slider
+
+
+class Run(OfPositions):
+    """One run of a worksheet's cells, statement by statement."""
+
+    def __init__(
+        self,
+        sheet: Worksheet,
+        graph: Graph,
+        namespace: Mapping[str, Any],
+        want: Sequence[str],
+        lines: Mapping[str, Formula],
+    ) -> None:
+        g, known = given(graph, namespace["g"])
+        super().__init__(Recording(graph, known, every=graph.thin))
+        self.sheet, self.namespace = sheet, namespace
+        self.recording.sections = list(dict.fromkeys(cell.section for cell in sheet.cells))
+        self.names: dict[str, Any] = shared(sheet.common) | {"__builtins__": BUILTINS, "g": g}
+        self.looked: dict[str, tuple[Guard, ...]] = {}  # by name: the guards that its value rests on
+        self.chosen: dict[Node, frozenset[Node]] = {}
+        self.lost: dict[str, NotRecorded] = {}  # names that have no value here, and why
+        self.passing: dict[str, Any] = {}  # of these, lines whose numbers are others at the next run
+        self.want, self.lines = want, lines
+        self.constants = of_setup(sheet)  # its lines that end in a unit
+        for line in sheet.setup:
+            self.set_up(line, sheet.path)
+        self.showing = showing.functions(sheet)
+        unnamed = () if graph.bodies else showing.without_name(sheet, {"g", *namespace}, self.showing)
+        needs = chain.from_iterable(sorted(cell.needs) for cell in unnamed)
+        self.needed = [*sheet.needed([*want, *needs], {"g": g})]
+        self.needed += (cell for cell in unnamed if cell not in self.needed)
+        for cell in [*self.needed, *(showing.cells(sheet, self.needed) if graph.draws else ())]:
+            self.run(cell)
+        self.recording.values, self.recording.looked = self.names, self.looked
+        if graph.thin > 1:
+            self.check_everywhere()
+
+    def run(self, cell: Cell, draws: bool = True) -> None:
+        """Run the statements of a cell, those that only draw where it ``draws``, and name what they give."""
+        stage = Stage(self.recording, self.namespace, cell)
+        lines = [part for line in cell.lines for part in self.parts(line)]
+        facts = [statement.facts(line, self.sheet.path) for line in lines]
+        last = {name: n for n, fact in enumerate(facts) for name in fact.touched}
+        for n, (line, fact) in enumerate(zip(lines, facts, strict=True)):
+            later = {name for name, end in last.items() if end > n}
+            if not draws and fact.touched and all(isinstance(self.namespace.get(x), Drawing) for x in fact.touched):
+                continue
+            if not self.apart(stage, line, later):
+                self.step(stage, line.lineno, fact, later)
+        self.decide(stage, last)
+        for name in dict.fromkeys([*(n for n in cell.code.co_names if n in self.lines), *cell.gives]):
+            self.recording.define(cell.section, name, self.names.get(name, self.passing.get(name)), self.lines)
+        for solved in stage.solved:
+            self.recording.define_steps(cell.section, solved)
+        if self.graph.draws:
+            self.show(stage, cell)
+
+    def parts(self, line: ast.stmt) -> tuple[ast.stmt, ...]:
+        """What of a statement is run."""
+        on_page = statement.on_the_page(line)
+        return showing.on_the_page(line, self.showing) if on_page else statement.texts_apart(line)
+
+    def again(self) -> "Run":
+        return Run(self.sheet, self.graph, self.namespace, self.want, self.lines)
+
+    def with_every_line(self) -> Recording:
+        """The recording with the lines on which nothing rests that is shown; itself stays as it is."""
+        own, labels = self.recording, self.graph.labels
+        known = {"g", *(name for cell in self.needed for name in cell.gives)}
+        every = {field.name: copy(getattr(own, field.name)) for field in fields(own) if field.name != "graph"}
+        every["lines"] = {section: [*lines] for section, lines in own.lines.items()}
+        self.recording, own.values = Recording(self.graph, **every), {**self.names}
+        self.graph.labels = {**labels}
+        for cell in self.sheet.cells:
+            binds = {name for line in cell.lines for name in statement.touched(line)}
+            if cell not in self.needed and any(name in self.lines for name in binds):
+                for each in [*self.sheet.needed(sorted(cell.needs), known), cell]:
+                    self.run(each, draws=False)
+                    known.update(each.gives)
+        gaps = self.recording.gaps
+        gaps[len(own.gaps) :] = [gap for gap in gaps[len(own.gaps) :] if any(x in self.lines for x in gap.names)]
+        self.recording.values, self.graph.labels = self.names, labels
+        return self.recording
+
+    def apart(self, stage: Stage, line: ast.stmt, later: set[str]) -> bool:
+        """Run a statement part by part; whether it has such parts, and all of them can be recorded."""
+        parts = [statement.facts(part, self.sheet.path) for part in statement.apart(line)]
+        gaps, own = len(self.recording.gaps), {name for part in parts[:-1] for name in part.touched}
+        for part in parts:
+            self.step(stage, line.lineno, part, later)
+            if not own.isdisjoint(self.lost):
+                break
+        whole = bool(parts) and own.isdisjoint(self.lost)
+        if not whole:
+            del self.recording.gaps[gaps:]
+        for name in own:
+            self.names.pop(name, None)
+            self.lost.pop(name, None)
+        return whole
+
+    def show(self, stage: Stage, cell: Cell) -> None:
+        """Record the drawings and the marked positions that a cell shows; of the drawings all or none are known."""
+        found = list[Drawn | None]()
+        for part in showing.expressions(cell):
+            name = part.id if isinstance(part, ast.Name) else showing.HERE
+            if name is showing.HERE:
+                self.step(stage, part.lineno, statement.facts(showing.bound(part), self.sheet.path), set())
+                if name not in self.names:
+                    self.lost.pop(name, None)
+                    return
+            value, own = self.names.get(name), [*showing.drawings(self.namespace.get(name))]
+            guards = *self.looked.get(name, ()), *stage.guards.values()
+            drawn = [*showing.drawings(value)]
+            for k, x in value.positions if isinstance(value, Mark) else ():
+                at = lift(self.graph, x)
+                for guard in guards:
+                    at = where(self.graph, Quantity(self.graph, guard.holds), at, np.nan)
+                self.recording.positions[k] = at.re
+            sketches = (Drawn(each, guards) if isinstance(each, Sketch) else None for each in drawn)
+            found += [None] * len(own) if own and len(own) != len(drawn) else sketches
+        for number, title in showing.captions(cell).items():
+            if told := self.told(stage, title):
+                self.recording.captions[number] = told
+        if (text := showing.text(cell)) and (told := self.told(stage, text)):
+            self.recording.texts[self.sheet.cells.index(cell)] = told
+        self.names.pop(showing.HERE, None)
+        self.recording.drawings[self.sheet.cells.index(cell)] = found
+
+    def told(self, stage: Stage, text: ast.expr) -> Said | None:
+        """A text with recorded numbers in it."""
+        self.step(stage, text.lineno, statement.facts(showing.bound(text), self.sheet.path), set())
+        self.lost.pop(showing.HERE, None)
+        value = self.names.pop(showing.HERE, None)
+        guards = *self.looked.get(showing.HERE, ()), *stage.guards.values()
+        return Said(value, guards) if isinstance(value, Written) else None
+
+    def step(self, stage: Stage, line: int, facts: statement.Statement, later: set[str]) -> None:
+        """Run one statement; where it cannot be recorded, its names keep the numbers of the worksheet's own run.
+
+        Those are not known of names that ``later`` statements of the cell bind or change again.
+        """
+        graph = self.graph
+        graph.line, graph.looked, graph.numbered, graph.work = line, {}, {}, 0
+        graph.gone.clear()
+        staged.set(stage.shows)
+        reads = self.read(facts.loaded)
+        functions = (f for f in map(self.names.get, reads) if isinstance(f, FunctionType))
+        codes = [facts.code, *(f.__code__ for f in functions if f.__globals__ is self.names)]
+        changed = [*facts.touched, *chain.from_iterable(map(statement.shared_names, codes))]
+        touched = dict.fromkeys(name for name in changed if not isinstance(self.names.get(name), Module))
+        final = {name for name in touched if name not in later and not name.startswith("_")}
+        rests, shown = (
+            {guard.holds: guard for name in sorted(names) for guard in self.looked.get(name, ())}
+            for names in (reads, reads if facts.heard == facts.loaded else self.read(facts.heard))
+        )
+        before = Memory((self.names.get(name) for name in reads - {"g"}), self.names)
+        may_change = any(map(changes, codes))
+        differs: list[str] = []
+        try:
+            with np.errstate(all="ignore"):  # the worksheet's own run has warned
+                exec(facts.code, self.names)
+            self.measure(touched, reads)
+            differs = self.differing(stage, final)
+            if graph.thin > 1:
+                others = {name for name in differs if not self.of_listed(name)}
+                self.over_all([name for name in touched if name in others or self.over_listed(name)])
+                differs = self.differing(stage, final)
+            if not all(map(self.of_listed, differs)):
+                of_all = " is of all positions, and only those that tables list are recorded"
+                differ = of_all if graph.thin > 1 else " would differ from the worksheet"
+                raise NotRecorded(", ".join(differs) + differ)
+        except (Exception, NotRecorded) as error:
+            rests_on = [*self.recording.inputs.values()] if differs else self.leaves(facts, reads, codes, before)
+            self.keep(stage, touched, final, self.why(error, reads), rests_on)
+            beside = before.named(self.names, before.changed() | (before.mutable() if may_change else set()))
+            self.lose(stage, beside.difference(touched), later, self.why(error, reads))
+            stage.finish(lambda x: x)
+            return
+        ways = may_change and bool(graph.looked)  # of which others change more
+        beside = before.named(self.names, before.changed() | (before.mutable() if ways else set())).difference(touched)
+        everywhere = not touched and not beside
+        noted = {holds: guard for holds, guard in graph.looked.items() if everywhere and not guard.lengths}
+        stage.guards |= noted
+        self.recording.guards |= graph.numbered | noted
+        rests, shown = rests | graph.looked, shown | graph.looked
+        for name in beside:
+            self.looked[name] = tuple(
+                {guard.holds: guard for guard in (*self.looked.get(name, ()), *rests.values())}.values()
+            )
+        for name in touched:
+            if isinstance(self.names.get(name), Slider):  # it rests where the worksheet has it
+                own = self.namespace.get(name, self.names[name])
+                self.names[name] = showing.slid(self.recording, name, own) if graph.draws else own
+            self.looked[name] = tuple(rests.values())
+            self.hold(name, rests.values())
+            if isinstance(value := self.names.get(name), Selected) and name in self.lines:  # which shows those now
+                self.note(Guard(value.same, graph.line))
+        each = [
+            {guard.holds: guard for name in sorted(self.read(names)) for guard in self.looked.get(name, ())}
+            | graph.looked
+            for names in facts.columns
+        ]
+        stage.finish(
+            lambda x: self.while_same(x, shown.values()), [partial(self.while_same, rests=own.values()) for own in each]
+        )
+
+    def decide(self, stage: Stage, names: Iterable[str]) -> None:
+        """Let what a cell gives and shows rest on what Python saw for statements that bind nothing, and may end it."""
+        guards = stage.guards
+        if not guards:
+            return
+        for name in names:
+            self.looked[name] = tuple(({guard.holds: guard for guard in self.looked.get(name, ())} | guards).values())
+            self.hold(name, guards.values())
+        stage.end(lambda x: self.while_same(x, guards.values()))
+
+    def hold(self, name: str, guards: Iterable[Guard]) -> None:
+        """Let the number of a name be none unless Python sees the same."""
+        value = self.names.get(name)
+        if isinstance(value, Selected):
+            self.names[name] = Selected(self.while_same(value.of, guards), value.holds)
+        elif isinstance(value, Quantity) and value.dtype != bool and any(p.op != "constant" for p in value.parts):
+            self.names[name] = self.while_same(value, guards)
+
+    def measure(self, touched: Iterable[str], reads: frozenset[str]) -> None:
+        """Let unit constants that a statement binds be quantities, and numbers that a line declares in a unit.
+
+        The unit of what Python made a number of, out of what it reads, is not known.
+        """
+        numbers = any(type(value) is float or _is_array(value) for value in map(self.names.get, touched))
+        made = numbers and any(has_quantity(self.names.get(name)) for name in reads)
+        for name in touched:
+            value, line = self.names.get(name), self.lines.get(name) or self.constants.get(name)
+            if isinstance(value, Constant) or value is units:
+                self.names[name] = instead(value)
+            if isinstance(value, Constant | Selected) or value is units:
+                continue
+            unit = line.unit if line and not line.arguments else "-"
+            number = value.re.value if isinstance(value, Quantity) and is_literal(value) else value
+            if any(units.parse(unit).dims) and (type(number) in (int, float) or _is_array(number)):
+                self.names[name] = Quantity(self.graph, self.graph.constant(number, unit))
+            elif made and (type(value) is float or _is_array(value)):
+                self.names[name] = Quantity(self.graph, self.graph.constant(value, units.UNKNOWN))
+
+    def set_up(self, line: ast.stmt, path: str) -> None:
+        """Run a statement of the setup again where it computes with units or declares one; else its numbers stay."""
+        facts = statement.facts(line, path)
+        measured = "units" in facts.loaded or any(x in self.lines or x in self.constants for x in facts.touched)
+        if measured or any(has_quantity(self.names.get(name)) for name in self.read(facts.loaded)):
+            try:
+                exec(facts.code, self.names)
+            except (Exception, NotRecorded):  # its numbers stay, of no known dimension
+                return
+            self.measure(facts.touched, frozenset())
+
+    def keep(
+        self, stage: Stage, touched: Iterable[str], final: set[str], reason: NotRecorded, rests_on: list[Node]
+    ) -> None:
+        """The numbers of the worksheet's own run in place of a recording."""
+        graph = self.graph
+        graph.work = 0
+        stage.forget()
+        own = [self.namespace.get(name) for name in touched]
+        lasting = graph.thin == 1 and final.issuperset(touched) and not isinstance(reason, Unrepeatable)
+        if lasting and not rests_on and all(map(_is_number, own)):
+            for name, number in zip(touched, own, strict=True):  # the same for all inputs
+                self.names[name], self.looked[name] = Quantity(graph, graph.constant(number, units.UNKNOWN)), ()
+            return
+        guards = tuple(Guard(graph.same(leaf), graph.line) for leaf in rests_on)
+        if not touched or any(held(self.namespace.get(name)) for name in final) or not final.issuperset(touched):
+            if not (isinstance(reason, Unrepeatable) and reason in self.lost.values()):  # what rests on that is known
+                public = tuple(name for name in touched if not name.startswith("_"))
+                self.recording.gaps.append(Gap(public, graph.line, str(reason)))
+            for guard in guards:
+                self.note(guard)
+        known = [name for name in touched if name in final and name in self.namespace]
+        if isinstance(reason, Unrepeatable):
+            self.passing |= {n: stage.kept(self.namespace[n], rests_on) for n in known if n in self.lines}
+            known = []
+        kept = {name: stage.kept(self.namespace[name], rests_on) for name in known}
+        for name in touched:
+            self.looked[name] = () if isinstance(kept.get(name), Quantity) else guards
+            if name in kept:
+                self.names[name] = kept[name]
+            else:
+                self.names.pop(name, None)
+                self.lost[name] = reason
+
+    def lose(self, stage: Stage, names: Iterable[str], later: set[str], reason: NotRecorded) -> None:
+        """Names whose values a statement has changed, or may have changed, nobody knows how."""
+        every = [*self.recording.inputs.values()]
+        for name in names:
+            self.looked[name] = tuple(Guard(self.graph.same(leaf), self.graph.line) for leaf in every)
+            if name in self.namespace and name not in later:
+                self.names[name] = stage.kept(self.namespace[name], every)
+            else:
+                self.names.pop(name)
+                self.lost[name] = reason
+
+    def why(self, error: BaseException, reads: frozenset[str]) -> NotRecorded:
+        """Why a statement cannot be recorded."""
+        known = [self.lost[name] for name in sorted(reads) if name in self.lost]
+        if known and isinstance(error, NameError):
+            return next((reason for reason in known if isinstance(reason, Unrepeatable)), known[0])
+        if isinstance(error, NotRecorded):
+            taker = "" if isinstance(error, Unrepeatable) else statement.taker(error)
+            return NotRecorded(taker) if taker else error.with_traceback(None)
+        if isinstance(error, AttributeError) and error.obj is None:  # which what shows gives here
+            return NotRecorded(f"it goes on with the {error.name} of a table, figure or check that it shows")
+        said = str(error).splitlines()[0] if str(error) else repr(error)
+        return NotRecorded(f"it does not run with recorded quantities ({said})")
+
+    def differing(self, stage: Stage, names: Iterable[str]) -> list[str]:
+        """Names whose recorded numbers are not the worksheet's own."""
+        return [name for name in names if not stage.same(self.names.get(name), self.namespace.get(name))]
+
+    def while_same(self, x: Quantity, rests: Iterable[Guard]) -> Quantity:
+        """A quantity while Python sees the same, else no number."""
+        for guard in rests:
+            if not guard.lengths:
+                self.note(guard)
+            if any(guard.holds not in conditions(part, self.chosen) for part in x.parts):
+                if guard.lengths:
+                    x = sized(x, guard.holds)
+                else:
+                    self.graph.work = 0  # what guards a statement's numbers is none of its own operations
+                    x = where(self.graph, Quantity(self.graph, guard.holds), x, np.nan)
+        return x
+
+    def note(self, guard: Guard) -> None:
+        """Note a guard, at the first line that saw the same."""
+        known = self.recording.guards.get(guard.holds, guard)
+        self.recording.guards[guard.holds] = known if known._replace(line=guard.line) == guard else guard
+
+    def read(self, loaded: Iterable[str]) -> frozenset[str]:
+        """Names that a statement reads, and those that the functions of the worksheet read which it names."""
+        waiting = [*loaded]
+        found = {*waiting}
+        while waiting:
+            value = self.names.get(waiting.pop())
+            if isinstance(value, FunctionType) and value.__globals__ is self.names:
+                new = {*names_of(value.__code__)} - found
+                found |= new
+                waiting += new
+        return frozenset(found)
+
+    def leaves(
+        self, facts: statement.Statement, reads: frozenset[str], codes: Iterable[CodeType], before: Memory
+    ) -> list[Node]:
+        """Inputs under what a statement reads, and under what Python saw for it."""
+        roots = [guard.holds for name in sorted(reads) for guard in self.looked.get(name, ())]
+        roots += before.nodes
+        if "g" in reads:
+            parts = facts.parts.union(*map(names_of, codes))
+            used = [name for name in self.recording.inputs if name.partition(".")[0] in parts]
+            roots += [self.recording.inputs[name] for name in (self.recording.inputs if facts.whole else used)]
+        return leaves_of(roots, self.recording)
+
+
+def _is_array(value: Any) -> bool:
+    return isinstance(value, np.ndarray) and value.dtype.kind in "iuf"
+
+
+def _is_number(value: Any) -> bool:
+    return isinstance(value, float | np.floating) or _is_array(value)
