@@ -2,7 +2,7 @@
 
 import inspect
 from collections.abc import Callable
-from functools import cache
+from functools import cache, partial
 from itertools import product
 from types import SimpleNamespace
 from typing import Any
@@ -11,10 +11,21 @@ import numpy as np
 
 from mechsheet.recording import solving
 from mechsheet.recording.graph import Graph, NotRecorded, current
+from mechsheet.recording.integral import Note, integral
 from mechsheet.recording.quantity import Quantity, has_quantity, lift
 
 _ROOTS = frozenset({"brentq", "brenth", "bisect", "ridder", "toms748"})
 _TABLES = frozenset({"interp1d", "RegularGridInterpolator"})
+
+
+def solved(
+    f: Callable[..., Any], note: Callable[[solving.Solving], Any], note_integral: Note
+) -> Callable[..., Any] | None:
+    """What takes the place of a function of scipy that solves or integrates another one; None for any other.
+
+    What is found is given to one that notes it.
+    """
+    return partial(integral, f, note_integral) if f.__name__ == "quad" else root(f, note)
 
 
 @cache

@@ -23,6 +23,7 @@ from mechsheet import units
 from mechsheet.recording import scipy_rules
 from mechsheet.recording.choices import total
 from mechsheet.recording.graph import NotRecorded, current
+from mechsheet.recording.node import Node
 from mechsheet.recording.numpy_rules import arange, filled, linspace, simpson, trapezoid_so_far
 from mechsheet.recording.once import once
 from mechsheet.recording.quantity import FUNCTIONS, Quantity, has_quantity, lift
@@ -90,7 +91,7 @@ def instead(value: Any) -> Any:
     if scipy_rules.is_table(value):
         return scipy_rules.table(value)
     if isinstance(value, FunctionType) and room.startswith("scipy."):
-        return scipy_rules.root(value, _on_stage("rooted")) or _of_scipy(value)
+        return scipy_rules.solved(value, _on_stage("rooted"), _integrated) or _of_scipy(value)
     return value
 
 
@@ -138,6 +139,10 @@ def _requires(point: Any, *_: Any) -> None:
     """What `require` does where the group closes somewhere; otherwise it is the worksheet that refuses."""
     if np.isnan(lift(current.get(), point)).all():
         raise NotRecorded("the cell stops here")
+
+
+def _integrated(whole: Node, error: Node) -> None:
+    staged.get()["integrated"](whole, error)
 
 
 @cache
