@@ -33,7 +33,6 @@ FOLLOWED = [
     "i, j = np.unravel_index(np.argmax([[g.F, 3.0], [g.a, 3.1]]), (2, 2))\ny = 10 * i + j + g.F",
 ]
 NAMED = {
-    "from scipy.optimize import fsolve\ny = fsolve(lambda v: v**2 - g.F, 1.0)[0]": "scipy's fsolve",
     ROOT + "y, told = brentq(lambda v: v**2 - g.F, 0.0, 9.0, full_output=True)": "scipy's brentq",
     LINE
     + "y = interp1d([0.0, 1.0, 4.0, 9.0], [0.0, 3.0, 5.0, 7.0], kind='cubic')(g.F)": "interp1d but for a linear one",

@@ -11,6 +11,7 @@ import numpy as np
 
 from mechsheet.recording import solving
 from mechsheet.recording.graph import Graph, NotRecorded, current
+from mechsheet.recording.guessed import GUESSED, guessed
 from mechsheet.recording.integral import Note, integral
 from mechsheet.recording.quantity import Quantity, has_quantity, lift
 
@@ -25,7 +26,20 @@ def solved(
 
     What is found is given to one that notes it.
     """
-    return partial(integral, f, note_integral) if f.__name__ == "quad" else root(f, note)
+    if f.__name__ == "quad":
+        return partial(integral, f, note_integral)
+    return partial(guessed, f, note, _between(note)) if f.__name__ in GUESSED else root(f, note)
+
+
+def _between(note: Callable[[solving.Solving], Any]) -> Callable[..., Any]:
+    def function(*args: Any, **named: Any) -> Any:
+        from scipy.optimize import brentq  # on use: the worksheet has it
+
+        function = root(brentq, note)
+        assert function
+        return function(*args, **named)
+
+    return function
 
 
 @cache

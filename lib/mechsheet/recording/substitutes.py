@@ -95,7 +95,7 @@ def instead(value: Any) -> Any:
     return value
 
 
-_PRINTING = frozenset({"fsolve", "leastsq", "curve_fit", "root"})  # what a function of the worksheet raises in them
+_PRINTING = frozenset({"leastsq", "curve_fit"})  # what a function of the worksheet raises in them
 
 
 @cache
