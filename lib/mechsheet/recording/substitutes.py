@@ -30,6 +30,7 @@ from mechsheet.recording.quantity import FUNCTIONS, Quantity, has_quantity, lift
 from mechsheet.recording.rewritten import NAMES, rebuilt
 from mechsheet.recording.sketch import Sketch, drawing
 from mechsheet.recording.unrepeatable import instead_of_chance
+from mechsheet.recording.written import looked_at
 from mechsheet.worksheet import check, find, system
 from mechsheet.worksheet.cells import Marimo
 from mechsheet.worksheet.drawing import Drawing
@@ -42,6 +43,7 @@ _ARRAYS = (np.array, np.asarray, np.asanyarray, np.ascontiguousarray)
 
 staged: ContextVar[Mapping[str, Any]] = ContextVar("staged")  # what those of `SHOWING` do in the cell that is run
 SHOWING = frozenset({"table", "figure", "sought", "solve", "closed_form", "check_slope", "judged", "Check", "meanings"})
+_UNSAID = {"table": ("show",), "figure": ("show",), "Check": (3, 4, "unit", "reason")}  # names of no number
 _NOWHERE = frozenset({"require", "refuse", "summary", "export", "typeset"})  # of no use in a workbook
 
 
@@ -150,7 +152,9 @@ def _on_stage(name: str) -> Callable[..., Any]:
     def function(*args: Any, **kwargs: Any) -> Any:
         if current.get().supposed:
             raise NotRecorded("it is shown on a way that is not taken")
-        return staged.get()[name](*args, **kwargs)
+        beside = _UNSAID.get(name, ())
+        kwargs = {key: value if key in beside else looked_at(value) for key, value in kwargs.items()}
+        return staged.get()[name](*(x if n in beside else looked_at(x) for n, x in enumerate(args)), **kwargs)
 
     return function
 
@@ -252,6 +256,8 @@ def _itself(f: Any) -> Callable[..., Any]:
     def function(*args: Any, **kwargs: Any) -> Any:
         if not (always or has_quantity((args, kwargs))):
             return f(*args, **kwargs)
+        if always:
+            args, kwargs = tuple(map(looked_at, args)), {key: looked_at(value) for key, value in kwargs.items()}
         graph = current.get()
         short = None if graph.bodies else _short().get(f)
         return once(graph, short or body(f), args, kwargs) if not always else body(f)(*args, **kwargs)
