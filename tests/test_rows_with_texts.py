@@ -9,6 +9,9 @@ from own_worksheet import ELSEWHERE, own, recorded, value_of
 from test_recalculation import edit
 
 from mechsheet import evaluate
+from mechsheet.recording.lines import Recording
+from mechsheet.recording.numbers import numbers
+from mechsheet.recording.written import Either, Written
 from mechsheet.run import report
 
 ROWS = "T = [('M6', 6, 1.0), ('M8', 8, 1.25), ('M10', 10, 1.5), ('M16', 16, 2.0)]\n"
@@ -24,6 +27,7 @@ FOLLOWED = [
     "kind = 'low'\nif g.F > 3:\n    kind = 'high'\ny = {'low': g.a, 'high': 1.0}[kind]",
     "D = [{'d': d, 'n': n} for n, d, P in T]\nrow = next(r for r in D if r['d'] > 2 * g.F)\ny = row['d'] * g.a",
 ]
+FOLLOWED += ["name, d, P = next((r for r in T if r[1] > 2 * g.F), ('-', 20, 2.5))\ny = d * P * g.a"]
 WITH_A_CONDITION = [  # that there is such a row
     "best = None\nfor row in T:\n    if row[1] > 2 * g.F:\n        best = row\n        break\ny = best[1] * g.a",
     "for row in T:\n    if row[1] > 2 * g.F:\n        break\nelse:\n    raise ValueError('x')\nname, y, P = row",
@@ -58,9 +62,29 @@ def test_the_numbers_follow(lines: str, tmp_path: Path) -> None:
 
 
 def test_where_no_row_fits_there_is_no_number(tmp_path: Path) -> None:
-    for lines in (FOLLOWED[0], FOLLOWED[1], WITH_A_CONDITION[2]):
+    for lines in (*FOLLOWED[:3], FOLLOWED[5], FOLLOWED[7], FOLLOWED[9], *WITH_A_CONDITION[:3]):
         _, recording = recorded(own(tmp_path, f"{ROWS}{lines}\nresult = np.atleast_1d(y) * 1  # [-] line"))
         assert np.isnan(value_of(recording, "result", {"F": 8.5}))
+
+
+def said(text: Written, F: float, recording: Recording) -> str:
+    """What a text says for another input."""
+    (part,) = text.parts or ("",)
+    if not isinstance(part, Either):
+        return str(part)
+    holds = numbers([part.holds.re], {recording.inputs["F"]: F})[part.holds.re]
+    return said(part.then if holds else part.otherwise, F, recording)
+
+
+@pytest.mark.parametrize("lines", [*FOLLOWED[:4], *FOLLOWED[5:8], WITH_A_CONDITION[2]])
+def test_the_text_is_that_of_the_row_and_none_where_no_row_fits(lines: str, tmp_path: Path) -> None:
+    """As a page in one file says it."""
+    _, recording = recorded(own(tmp_path, f"{ROWS}{lines}\nresult = np.atleast_1d(y) * 1  # [-] line"))
+    name = recording.values["name"]
+    nearest, last = "min(T" in lines, "for name" in lines and "def" not in lines
+    assert isinstance(name, Written) and said(name, 2.5, recording) == "M6"
+    assert said(name, 3.5, recording) == ("M6" if nearest else "M8")
+    assert said(name, 8.5, recording) == ("M16" if nearest or last else "")
 
 
 @pytest.mark.office

@@ -33,6 +33,7 @@ class _Unbound:
 
 
 UNBOUND = _Unbound()
+_NOTHING = Written(())  # what is said where there is no text
 
 
 def is_condition(value: Any) -> bool:
@@ -80,9 +81,7 @@ def merged(condition: Quantity, x: Any, y: Any) -> Any:
         return x
     if (x if condition.value else y) is UNBOUND:
         return UNBOUND
-    x, y = _missing(y) if x is UNBOUND else x, _missing(x) if y is UNBOUND else y
-    if x is y:
-        return x
+    x, y = _bound(x, y), _bound(y, x)
     if type(x) is type(y) and isinstance(x, tuple | list) and len(x) == len(y):
         parts = [part_of(condition, a, b) for a, b in zip(x, y, strict=True)]
         if all(part is not None for part in parts):
@@ -107,8 +106,15 @@ def _part_of(condition: Quantity, x: Any, y: Any) -> Any:
 def part_of(condition: Quantity, x: Any, y: Any) -> Any:
     """The same; None where Python has to look now."""
     both = merged(condition, x, y)
-    texts = both is None and isinstance(x, str | Written) and isinstance(y, str | Written)
-    return either(condition, x, y) if texts else both
+    if both is not None:
+        return both
+    x, y = _bound(x, y), _bound(y, x)
+    return either(condition, x, y) if isinstance(x, str | Written) and isinstance(y, str | Written) else None
+
+
+def _bound(value: Any, other: Any) -> Any:
+    """A value, or what stands for one on a way that has none."""
+    return _missing(other) if value is UNBOUND else value
 
 
 def _made_like(row: tuple[Any, ...] | list[Any], parts: Iterable[Any]) -> Any:
@@ -130,9 +136,9 @@ def _lengths(value: Any) -> tuple[Any, ...]:
 
 
 def _missing(value: Any) -> Any:
-    """What stands for a number on a way where the worksheet has none; for a text, which is of no use there, itself."""
+    """What stands for a number on a way where the worksheet has none, or for a text."""
     if isinstance(value, str | Written):
-        return value
+        return _NOTHING
     if isinstance(value, tuple | list):
         return _made_like(value, map(_missing, value))
     if isinstance(value, dict):
@@ -240,7 +246,8 @@ def _of_text(container: dict[Any, Any], key: Written) -> Any:
     """``container[key]`` of a text that is one of several."""
     match key.parts:
         case (Either(holds, then, otherwise),):
-            return _part_of(holds, _of_text(container, then), _of_text(container, otherwise))
+            ways = (_of_text(container, way) if way.parts else UNBOUND for way in (then, otherwise))
+            return _part_of(holds, *ways)
     return container[str(key)]
 
 
