@@ -9,8 +9,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pytest
 import test_everyday_forms
+import test_guessed
+import test_integral
 import test_recorded_worksheet
 import test_rows_followed
+import test_rows_with_texts
 from in_browser import evaluated
 from own_worksheet import ELSEWHERE, OTHER, own, recorded
 
@@ -47,6 +50,18 @@ def test_a_line_is_computed_for_any_number_of_rows(expression: str, blank: Page,
 @pytest.mark.parametrize("lines", test_everyday_forms.SELECTED)
 def test_what_meets_a_condition_is_selected(lines: str, blank: Page, tmp_path: Path) -> None:
     assert_computed(blank, own(tmp_path, f"{lines}\nresult = y * 1  # [-] line"), ELSEWHERE)
+
+
+@pytest.mark.parametrize(
+    "lines",
+    [
+        *(test_integral.IMPORT + lines for lines in test_integral.FOLLOWED[:4]),
+        *(test_guessed.IMPORT + lines for lines in test_guessed.FOLLOWED[1:3]),
+        *(test_rows_with_texts.ROWS + lines for lines in test_rows_with_texts.FOLLOWED[3:5]),
+    ],
+)
+def test_integrals_roots_and_rows_follow(lines: str, blank: Page, tmp_path: Path) -> None:
+    assert_computed(blank, own(tmp_path, f"{lines}\nresult = np.atleast_1d(y) * 1  # [-] line"), ELSEWHERE)
 
 
 def test_elements_are_taken_of_a_field_that_is_whole(blank: Page, tmp_path: Path) -> None:

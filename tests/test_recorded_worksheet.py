@@ -178,7 +178,7 @@ def test_ways_that_only_bind_names_or_end_a_function_are_a_choice(lines: str, tm
         "def f(v):\n    if v > 3:\n        raise ValueError('too much')\n    return v\ny = f(g.F)",
         "if g.F > 3:\n    y = [g.a, g.F, 1.0]\nelse:\n    y = [g.a, g.F]\ny = sum(y)",
         "if g.F > 3:\n    y = x[:2]\nelse:\n    y = x\ny = y.sum()",
-        "kind = 'low'\nif g.F > 3:\n    kind = 'high'\ny = {'low': g.a, 'high': 1.0}[kind]",
+        "kind = 'low'\nif g.F > 3:\n    kind = 'high'\ny = {'low': g.a, 'high': 1.0}[kind.lower()]",
         "if g.F > 3:\n    ok = check('one', g.F, 9.0)\nelse:\n    ok = check('other', g.F, 9.0)\n"
         "y = g.a if g.F < 3 else [][0]",
         "def f(v):\n    return 0.0 if v < 0.5 else f(v - 1)\ny = g.a + f(g.F * 8)",
@@ -602,7 +602,7 @@ def test_recording_leaves_the_worksheet_alone(tmp_path: Path) -> None:
     "lines",
     [
         "y = np.random.default_rng(g.k).normal(size=3)  # [-] plain numbers that rest on an input",
-        'k = 3.0\nif g.F > 2:\n    k, kind = 5.0, str("b")\ny = np.arange(3.0) + k  # [-] that rest on a way taken',
+        'k = 3.0\nif g.F > 2:\n    k, kind = 5.0, {"b"}\ny = np.arange(3.0) + k  # [-] that rest on a way taken',
     ],
 )
 def test_plain_numbers_that_rest_on_what_python_saw_are_never_stale(lines: str, tmp_path: Path) -> None:

@@ -58,7 +58,6 @@ FOLLOWED = [
     *(f"{KNOTS}y = {line}" for line in SPLINES),
 ]
 NAMED = {
-    "from scipy.optimize import fsolve\ny = fsolve(lambda v: v**2 - g.F, 1.0)[0]": "scipy's fsolve",
     ROOT + "y, told = brentq(lambda v: v**2 - g.F, 0.0, 9.0, full_output=True)": "scipy's brentq",
     LINE
     + "y = interp1d([0.0, 1.0, 4.0, 9.0], [0.0, 3.0, 5.0, 7.0], kind='quadratic')(g.F)": "interp1d but for a linear",

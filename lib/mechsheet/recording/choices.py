@@ -18,12 +18,13 @@ from mechsheet.recording.quantity import Quantity, has_quantity, is_any_length, 
 from mechsheet.recording.selected import Selected
 from mechsheet.recording.sketch import Sketch
 from mechsheet.recording.sketch import merged as merged_sketch
-from mechsheet.recording.written import Written, either, text
+from mechsheet.recording.written import Either, Written, either, text
 from mechsheet.worksheet.drawing import COLOURS
 from mechsheet.worksheet.kinds import Chosen, cases
 
 _NUMBERS = int | float | complex | np.number | Quantity
 ARRAYS = _NUMBERS | np.bool_ | np.ndarray
+_ROWS = 200  # of a table at which a quantity points
 _DEEPEST = 8  # ways in one another that are recorded though Python does not take them
 
 
@@ -32,6 +33,7 @@ class _Unbound:
 
 
 UNBOUND = _Unbound()
+_NOTHING = Written(())  # what is said where there is no text
 
 
 def is_condition(value: Any) -> bool:
@@ -79,9 +81,9 @@ def merged(condition: Quantity, x: Any, y: Any) -> Any:
         return x
     if (x if condition.value else y) is UNBOUND:
         return UNBOUND
-    x, y = _missing(y) if x is UNBOUND else x, _missing(x) if y is UNBOUND else y
+    x, y = _bound(x, y), _bound(y, x)
     if type(x) is type(y) and isinstance(x, tuple | list) and len(x) == len(y):
-        parts = [merged(condition, a, b) for a, b in zip(x, y, strict=True)]
+        parts = [part_of(condition, a, b) for a, b in zip(x, y, strict=True)]
         if all(part is not None for part in parts):
             return _made_like(x, parts)
     if isinstance(x, Sketch) and isinstance(y, Sketch):
@@ -96,9 +98,23 @@ def merged(condition: Quantity, x: Any, y: Any) -> Any:
 
 
 def _part_of(condition: Quantity, x: Any, y: Any) -> Any:
-    """A part of ``x`` or else the same of ``y``: of what is no number that which is meant now."""
-    both = merged(condition, x, y)
+    """A part of ``x`` or else the same of ``y``: of texts which one once Python looks, of all else which one now."""
+    both = part_of(condition, x, y)
     return both if both is not None else x if condition else y
+
+
+def part_of(condition: Quantity, x: Any, y: Any) -> Any:
+    """The same; None where Python has to look now."""
+    both = merged(condition, x, y)
+    if both is not None:
+        return both
+    x, y = _bound(x, y), _bound(y, x)
+    return either(condition, x, y) if isinstance(x, str | Written) and isinstance(y, str | Written) else None
+
+
+def _bound(value: Any, other: Any) -> Any:
+    """A value, or what stands for one on a way that has none."""
+    return _missing(other) if value is UNBOUND else value
 
 
 def _made_like(row: tuple[Any, ...] | list[Any], parts: Iterable[Any]) -> Any:
@@ -120,11 +136,13 @@ def _lengths(value: Any) -> tuple[Any, ...]:
 
 
 def _missing(value: Any) -> Any:
-    """What stands for a number on a way where the worksheet has none; for a text, which is of no use there, itself."""
+    """What stands for a number on a way where the worksheet has none, or for a text."""
     if isinstance(value, str | Written):
-        return value
+        return _NOTHING
     if isinstance(value, tuple | list):
         return _made_like(value, map(_missing, value))
+    if isinstance(value, dict):
+        return {key: _missing(part) for key, part in value.items()}
     if isinstance(value, Quantity):
         return lift(value.graph, np.nan).like(value)
     return np.full(np.shape(value), np.nan) if isinstance(value, ARRAYS) else UNBOUND
@@ -188,6 +206,8 @@ def element(container: Any, key: Any) -> Any:
     """``container[key]``: where the key is a quantity, the one of several numbers that it points at."""
     if isinstance(key, Chosen) and isinstance(container, dict):
         return _of_option(container, key, cases(key))
+    if isinstance(key, Written) and isinstance(container, dict):
+        return _of_text(container, key)
     if isinstance(key, tuple) and isinstance(container, np.ndarray) and has_quantity(key):
         return lift(current.get(), container)[key]
     if not isinstance(key, Quantity) or isinstance(container, Quantity):
@@ -195,12 +215,40 @@ def element(container: Any, key: Any) -> Any:
     if isinstance(container, np.ndarray) and container.dtype.kind in "biufc":
         return lift(key.graph, container)[key]
     values = container if isinstance(container, dict) else dict(enumerate(container))
-    if not key.single or not all(isinstance(v, _NUMBERS) for v in (*values, *values.values())):
-        seen = key.seen()
-        return container[seen.item() if seen.size == 1 else seen]
-    if not any(key.value == known for known in values):
-        raise KeyError(key.value.item()) if isinstance(container, dict) else IndexError(f"no element {key.value}")
-    return _at_key(values, key, np.nan)
+    row = None
+    if key.single and key.value >= 0 and all(isinstance(known, _NUMBERS) for known in values):
+        if not any(key.value == known for known in values):
+            raise KeyError(key.value.item()) if isinstance(container, dict) else IndexError(f"no element {key.value}")
+        if all(isinstance(value, _NUMBERS) for value in values.values()):
+            return _at_key(values, key, np.nan)
+        row = _row_at(values, key)
+    if row is not None:
+        return row
+    seen = key.seen()
+    if seen.size != 1:
+        return container[seen]
+    return container[int(seen.item()) if isinstance(container, list | tuple) else seen.item()]
+
+
+def _row_at(values: dict[Any, Any], key: Quantity) -> Any:
+    """The row at a key that is one of several now; None of what is no row."""
+    (row,) = (value for known, value in values.items() if key.value == known)
+    if len(values) <= _ROWS:
+        for known, value in values.items():
+            row = None if row is None else part_of(key == known, value, row)
+        if row is not None:
+            key.graph.see(reduce(operator.or_, (key == known for known in values)).re)
+            return row
+    return None
+
+
+def _of_text(container: dict[Any, Any], key: Written) -> Any:
+    """``container[key]`` of a text that is one of several."""
+    match key.parts:
+        case (Either(holds, then, otherwise),):
+            ways = (_of_text(container, way) if way.parts else UNBOUND for way in (then, otherwise))
+            return _part_of(holds, *ways)
+    return container[str(key)]
 
 
 def _at_key(values: dict[Any, Any], key: Quantity, otherwise: Any) -> Any:

@@ -118,7 +118,7 @@ class Graph:
             if op not in _GIVEN:
                 self.work += max(known.size, self.most // _NODES)
             under = known.operands
-            if op == "constant" or (under and self.fixed.issuperset(under)):
+            if op == "constant" or (under and op != "state" and self.fixed.issuperset(under)):
                 self.fixed.add(known)
             elif op == "length" or (
                 op in ELEMENTWISE

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from mechsheet.recording.arithmetic import choice as where
-from mechsheet.recording.choices import UNBOUND, is_condition, merged, way_may_change
+from mechsheet.recording.choices import UNBOUND, is_condition, part_of, way_may_change
 from mechsheet.recording.graph import NotRecorded, current
 from mechsheet.recording.quantity import lift
 
@@ -81,7 +81,7 @@ def _plainly(kind: str, pairs: Iterable[_Pair], otherwise: tuple[Any, ...]) -> A
 def _first(kept: Iterable[tuple[Any, Any]], otherwise: tuple[Any, ...]) -> Any:
     result = otherwise[0] if otherwise else UNBOUND
     for holds, value in reversed([*kept]):
-        result = value if holds is True else merged(holds, value, result)
+        result = value if holds is True else part_of(holds, value, result)
         if result is None:
             return None
     return result

@@ -1,8 +1,8 @@
 """Loops that end by what they compute, for recorded quantities: readers repeat the turns for the inputs they have."""
 
 import operator
-from collections.abc import Mapping
-from functools import reduce
+from collections.abc import Mapping, Sequence
+from functools import partial, reduce
 from itertools import repeat
 from types import FunctionType
 from typing import Any
@@ -11,10 +11,10 @@ import numpy as np
 
 from mechsheet.recording.arithmetic import choice as where
 from mechsheet.recording.arithmetic import imaginary
-from mechsheet.recording.choices import ARRAYS, UNBOUND, is_condition
+from mechsheet.recording.choices import ARRAYS, UNBOUND, is_condition, part_of
 from mechsheet.recording.graph import Graph, Guard, NotRecorded, current
 from mechsheet.recording.node import Loop, Node
-from mechsheet.recording.quantity import Quantity, lift
+from mechsheet.recording.quantity import Quantity, lift, quantities
 
 
 def iterated(turn: FunctionType, items: Any, item: int | None, unread: str, *state: Any) -> Any:
@@ -28,9 +28,10 @@ def iterated(turn: FunctionType, items: Any, item: int | None, unread: str, *sta
         graph = current.get()
         looked = dict(graph.looked)
         found = _iterated(turn, items, item, *(UNBOUND if n in none else x for n, x in enumerate(state)))
-        if all(isinstance(found[n], Quantity) and np.isfinite(found[n].value).all() for n in none):
-            for n in none:
-                graph.see(np.isfinite(found[n]).reduced("all").re)
+        numbers = [[*quantities(found[n])] for n in none]
+        if all(numbers) and all(np.isfinite(x.value).all() for own in numbers for x in own):
+            known = [np.isfinite(x).all() for own in numbers for x in own]
+            graph.see(reduce(operator.and_, map(partial(lift, graph), known)).re)
             return found
         graph.looked = looked
     return _iterated(turn, items, item, *state)
@@ -56,7 +57,35 @@ def _iterated(turn: FunctionType, items: Any, item: int | None, *state: Any) -> 
     rest, last = items if item is None else items[number:], state
     if item is not None and isinstance(rest, list | tuple) and all(isinstance(row, tuple | list) for row in rest):
         rest, first, last = _rows(rest), _with_row(first, item), _with_row(state, item)
-    return _repeated(turn, rest, item, first, last, looked) or state
+    repeated = _repeated(turn, rest, item, first, last, looked)
+    if repeated is None and item is not None and isinstance(rest, list | tuple):
+        repeated = _one_by_one(turn, rest, item, first, looked)
+    return repeated or state
+
+
+def _one_by_one(
+    turn: FunctionType, items: Sequence[Any], item: int, first: tuple[Any, ...], looked: dict[Node, Guard]
+) -> tuple[Any, ...] | None:
+    """What a loop over a list gives, by all its turns, of which one behind the end changes nothing.
+
+    Its state may be rows with texts in them. None where Python has to look.
+    """
+    graph, state, ended = current.get(), first, lift(current.get(), False)
+    now, work, graph.looked = graph.looked, graph.work, dict(looked)
+    try:
+        for n, value in enumerate(items):
+            ends, *after = turn(*state[:item], value, *state[item + 1 :])
+            state = tuple(after) if not n else tuple(part_of(ended, a, b) for a, b in zip(state, after, strict=True))
+            if any(part is None for part in state):
+                raise NotRecorded("a part of it is of another kind")
+            ended = ended | ends
+        followed = graph.looked.keys() == looked.keys()
+    except (Exception, NotRecorded):
+        followed = False
+    if followed:
+        return state
+    graph.looked, graph.work = now, work
+    return None
 
 
 def _with_row(state: tuple[Any, ...], item: int) -> tuple[Any, ...]:

@@ -190,7 +190,8 @@ class _Rewriting(ast.NodeTransformer):
             self.generic_visit(node)
             return node
         if node.orelse and all(map(_only_binds_or_ends, node.body)):
-            return [line for one in map(self.visit, _found(node)) for line in (one if isinstance(one, list) else [one])]
+            left = [*_found(node, node.orelse), _unbound_left(node)]
+            return [line for one in map(self.visit, left) for line in (one if isinstance(one, list) else [one])]
         return self._repeated(node, node.target.id, node.iter, node.body)
 
     def _repeated(self, node: ast.While | ast.For, item: str | None, items: ast.expr, body: list[ast.stmt]) -> Any:
@@ -219,6 +220,10 @@ class _Rewriting(ast.NodeTransformer):
         """Where a way of a function ends early, the rest of the function is the other way."""
         if not any(_is_of_the_whole(part) for part in ast.walk(node)):
             node.body = [as_choice(line) or line if isinstance(line, ast.Match) else line for line in node.body]
+            for n, line in enumerate(node.body):
+                if isinstance(line, ast.For) and _ends(node.body[n + 1 :]) and (left := _left_for(line)):
+                    node.body[n:] = [*_found(line, node.body[n + 1 :]), left]
+                    break
             for n, line in enumerate(node.body):
                 if isinstance(line, ast.If) and any(isinstance(part, ast.Return) for part in ast.walk(line)):
                     rest = node.body[n + 1 :]
@@ -264,15 +269,42 @@ def _only_binds_or_ends(line: ast.stmt) -> bool:
     return _only_binds(line)
 
 
-def _found(node: ast.For) -> Iterator[ast.stmt]:
-    """A loop with an ``else``, as one that tells whether it was left, and what is done where it was not."""
+def _left_for(node: ast.For) -> ast.stmt | None:
+    """Let a loop that only looks for what the function returns be left with it; what returns it then. Else None."""
+    ends = [part for line in node.body for part in ast.walk(line) if isinstance(part, ast.Return | ast.Break)]
+    whole = any(
+        isinstance(part, ast.For | ast.While | ast.FunctionDef) for line in node.body for part in ast.walk(line)
+    )
+    if node.orelse or whole or not ends or not all(isinstance(end, ast.Return) and end.value for end in ends):
+        return None
+    found = f"recorded found {node.lineno}"
+    node.body = [each for line in node.body for each in _leaving(line, found)]
+    return ast.copy_location(ast.Return(ast.Name(found, ast.Load())), node)
+
+
+def _leaving(line: ast.stmt, found: str) -> Iterator[ast.stmt]:
+    if isinstance(line, ast.Return) and line.value:
+        yield ast.copy_location(ast.Assign([ast.Name(found, ast.Store())], line.value), line)
+        line = ast.copy_location(ast.Break(), line)
+    if isinstance(line, ast.If):
+        line.body, line.orelse = (
+            [new for one in way for new in _leaving(one, found)] for way in (line.body, line.orelse)
+        )
+    yield line
+
+
+def _unbound_left(node: ast.For) -> ast.stmt:
+    return ast.copy_location(ast.Delete([ast.Name(f"recorded left {node.lineno}", ast.Del())]), node)
+
+
+def _found(node: ast.For, otherwise: list[ast.stmt]) -> Iterator[ast.stmt]:
+    """A loop that may be left, as one that tells whether it was, and what is done ``otherwise``."""
     left = f"recorded left {node.lineno}"
     yield ast.copy_location(ast.Assign([ast.Name(left, ast.Store())], ast.Constant(0.0)), node)
     body = [each for line in node.body for each in _telling(line, left)]
     yield ast.copy_location(ast.For(node.target, node.iter, body, []), node)
     never = ast.Compare(ast.Name(left, ast.Load()), [ast.Eq()], [ast.Constant(0.0)])
-    yield ast.copy_location(ast.If(never, node.orelse, []), node)
-    yield ast.copy_location(ast.Delete([ast.Name(left, ast.Del())]), node)
+    yield ast.copy_location(ast.If(never, otherwise, []), node)
 
 
 def _telling(line: ast.stmt, left: str) -> Iterator[ast.stmt]:

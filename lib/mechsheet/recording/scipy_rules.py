@@ -2,7 +2,7 @@
 
 import inspect
 from collections.abc import Callable
-from functools import cache
+from functools import cache, partial
 from itertools import product
 from types import SimpleNamespace
 from typing import Any
@@ -11,10 +11,35 @@ import numpy as np
 
 from mechsheet.recording import solving, spline_rules
 from mechsheet.recording.graph import Graph, NotRecorded, current
+from mechsheet.recording.guessed import GUESSED, guessed
+from mechsheet.recording.integral import Note, integral
 from mechsheet.recording.quantity import Quantity, has_quantity, lift
 
 _ROOTS = frozenset({"brentq", "brenth", "bisect", "ridder", "toms748"})
 _TABLES = frozenset({"interp1d", "RegularGridInterpolator"})
+
+
+def solved(
+    f: Callable[..., Any], note: Callable[[solving.Solving], Any], note_integral: Note
+) -> Callable[..., Any] | None:
+    """What takes the place of a function of scipy that solves or integrates another one; None for any other.
+
+    What is found is given to one that notes it.
+    """
+    if f.__name__ == "quad":
+        return partial(integral, f, note_integral)
+    return partial(guessed, f, note, _between(note)) if f.__name__ in GUESSED else root(f, note)
+
+
+def _between(note: Callable[[solving.Solving], Any]) -> Callable[..., Any]:
+    def function(*args: Any, **named: Any) -> Any:
+        from scipy.optimize import brentq  # on use: the worksheet has it
+
+        function = root(brentq, note)
+        assert function
+        return function(*args, **named)
+
+    return function
 
 
 @cache

@@ -85,13 +85,16 @@ def _section(recording: Recording, node: Node) -> str:
 
 
 def _counted(recording: Recording) -> Iterator[Gap]:
-    """Counts of evaluations that are shown: they hang on the last bits of the worksheet's own search."""
+    """Counts of evaluations and estimates of errors that are shown: they hang on the worksheet's own search or rule."""
     columns = (part for table in recording.tables.values() for c in table if c is not None for part in c.parts)
+    estimates = {*recording.integrals.values()}
     judged = (part for check in recording.checks.values() for part in check.parts)
     for node in bottom_up([*columns, *judged], ()):
-        if node.op == "found" and node.args[1] == len(node.args[0].nodes):
+        count = node.op == "found" and node.args[1] == len(node.args[0].nodes)
+        if count or node in estimates:
             names = tuple(name for known, name in recording.names.items() if node in (known, *known.operands))
-            yield Gap(names, node.line, f"{_KEPT}: how often the equations are evaluated")
+            what = "how often the equations are evaluated" if count else "scipy's estimate of the error of an integral"
+            yield Gap(names, node.line, f"{_KEPT}: {what}")
 
 
 _KEPT = "the workbook has this of the exported inputs"

@@ -23,12 +23,14 @@ from mechsheet import units
 from mechsheet.recording import scipy_rules, spline_rules
 from mechsheet.recording.choices import total
 from mechsheet.recording.graph import NotRecorded, current
+from mechsheet.recording.node import Node
 from mechsheet.recording.numpy_rules import arange, filled, linspace, simpson, trapezoid_so_far
 from mechsheet.recording.once import once
 from mechsheet.recording.quantity import FUNCTIONS, Quantity, has_quantity, lift
 from mechsheet.recording.rewritten import NAMES, rebuilt
 from mechsheet.recording.sketch import Sketch, drawing
 from mechsheet.recording.unrepeatable import instead_of_chance
+from mechsheet.recording.written import looked_at
 from mechsheet.worksheet import check, find, system
 from mechsheet.worksheet.cells import Marimo
 from mechsheet.worksheet.drawing import Drawing
@@ -41,6 +43,7 @@ _ARRAYS = (np.array, np.asarray, np.asanyarray, np.ascontiguousarray)
 
 staged: ContextVar[Mapping[str, Any]] = ContextVar("staged")  # what those of `SHOWING` do in the cell that is run
 SHOWING = frozenset({"table", "figure", "sought", "solve", "closed_form", "check_slope", "judged", "Check", "meanings"})
+_UNSAID = {"table": ("show",), "figure": ("show",), "Check": (3, 4, "unit", "reason")}  # names of no number
 _NOWHERE = frozenset({"require", "refuse", "summary", "export", "typeset"})  # of no use in a workbook
 
 
@@ -111,11 +114,11 @@ def instead(value: Any) -> Any:
     if scipy_rules.is_table(value):
         return scipy_rules.table(value)
     if isinstance(value, FunctionType) and room.startswith("scipy."):
-        return scipy_rules.root(value, _on_stage("rooted")) or _of_scipy(value)
+        return scipy_rules.solved(value, _on_stage("rooted"), _integrated) or _of_scipy(value)
     return value
 
 
-_PRINTING = frozenset({"fsolve", "leastsq", "curve_fit", "root"})  # what a function of the worksheet raises in them
+_PRINTING = frozenset({"leastsq", "curve_fit"})  # what a function of the worksheet raises in them
 
 
 @cache
@@ -161,12 +164,18 @@ def _requires(point: Any, *_: Any) -> None:
         raise NotRecorded("the cell stops here")
 
 
+def _integrated(whole: Node, error: Node) -> None:
+    staged.get()["integrated"](whole, error)
+
+
 @cache
 def _on_stage(name: str) -> Callable[..., Any]:
     def function(*args: Any, **kwargs: Any) -> Any:
         if current.get().supposed:
             raise NotRecorded("it is shown on a way that is not taken")
-        return staged.get()[name](*args, **kwargs)
+        beside = _UNSAID.get(name, ())
+        kwargs = {key: value if key in beside else looked_at(value) for key, value in kwargs.items()}
+        return staged.get()[name](*(x if n in beside else looked_at(x) for n, x in enumerate(args)), **kwargs)
 
     return function
 
@@ -268,6 +277,8 @@ def _itself(f: Any) -> Callable[..., Any]:
     def function(*args: Any, **kwargs: Any) -> Any:
         if not (always or has_quantity((args, kwargs))):
             return f(*args, **kwargs)
+        if always:
+            args, kwargs = tuple(map(looked_at, args)), {key: looked_at(value) for key, value in kwargs.items()}
         graph = current.get()
         short = None if graph.bodies else _short().get(f)
         return once(graph, short or body(f), args, kwargs) if not always else body(f)(*args, **kwargs)

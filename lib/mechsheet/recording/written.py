@@ -145,6 +145,15 @@ def either(holds: Quantity, then: "str | Written", otherwise: "str | Written") -
     return Written((Either(holds, *(Written(tuple(_pieces([side]))) for side in (then, otherwise))),))
 
 
+def looked_at(value: Any) -> Any:
+    """A value for what shows it, which is of the texts in it that are said now."""
+    if isinstance(value, Written) and not current.get().draws:
+        return str(value)
+    if isinstance(value, tuple | list) and any(isinstance(part, Written) for part in value):
+        return type(value)(map(looked_at, value))
+    return value
+
+
 def _is_followed(value: Any, spec: str) -> bool:
     if not current.get().draws:
         return False

@@ -15,10 +15,10 @@ from weakref import ref
 import numpy as np
 from numpy.typing import NDArray
 
-from mechsheet.worksheet import check, inputs
+from mechsheet.worksheet import check, inputs, mistakes
 from mechsheet.worksheet.cells import Cell, Worksheet, base, load
 from mechsheet.worksheet.cells import value as wanted
-from mechsheet.worksheet.errors import SheetError
+from mechsheet.worksheet.errors import OF_NUMBERS, SheetError
 from mechsheet.worksheet.lines import registry
 from mechsheet.worksheet.lists import Rows
 from mechsheet.worksheet.verdict import Verdict, values_only
@@ -98,7 +98,9 @@ class Job:
     def _tried(self, columns: Mapping[str, Any]) -> Part:
         try:
             return self.run(columns)
-        except ValueError:
+        except _Changed:
+            raise
+        except OF_NUMBERS:
             if _count(columns) == 1 or self._in_common(columns):
                 return Part({}, np.ones(_count(columns), dtype=bool), {})
             return _joined([self._tried(half) for half in _halves(columns)])
@@ -169,10 +171,10 @@ class Job:
                         add(told.pop(0))
                     for found in _founds(cell, names):
                         add(found.reason)
-        except ValueError as error:
+        except OF_NUMBERS as error:
             if count > 1 and not self._in_common(columns):
                 return np.concatenate([self._reasons(half) for half in _halves(columns)])
-            add(str(error))
+            add(str(error) if isinstance(error, ValueError) else mistakes.told(error, self.path))
         among = count if varied(columns) else None
         for name in (name for cell in cells for name in cell.gives):
             held = names.get(name)
@@ -184,7 +186,7 @@ class Job:
 
     def _sheet(self) -> Worksheet:
         if digest(self.path) != self.digest:
-            raise RuntimeError(f"worksheet {self.path} has changed during the sweep")
+            raise _Changed(f"worksheet {self.path} has changed during the sweep")
         return load(self.path)
 
     def _in_common(self, columns: Mapping[str, Any]) -> bool:
@@ -194,7 +196,7 @@ class Job:
         try:
             with _emptied() as names:
                 deque(_run(sheet, sheet.needed(self.want, ["g"]), g, names), maxlen=0)
-        except ValueError:
+        except OF_NUMBERS:
             return g.read.isdisjoint(varied(columns))
         return False
 
@@ -212,7 +214,7 @@ class Way:
         count = len(next(iter(given.values())))
         try:
             values, known = self.again(given)
-        except ValueError:  # of one of them, as of a Find with no interval
+        except OF_NUMBERS:  # of one of them, as of a Find with no interval
             if count == 1:
                 return Part({}, np.zeros(0, dtype=bool), {}), np.zeros(1, dtype=bool)
             halves = [self.results(half) for half in _halves(given)]
@@ -222,6 +224,10 @@ class Way:
 
 
 _ways: dict[Any, Way | None] = {}
+
+
+class _Changed(RuntimeError):
+    """The worksheet is another one by now."""
 
 
 class _Read:

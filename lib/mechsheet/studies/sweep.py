@@ -21,7 +21,7 @@ from mechsheet.run.progress import on_terminal
 from mechsheet.studies.chunks import Job, Part, alike, computed, digest, one_by_one, same_shape, varied
 from mechsheet.worksheet import inputs
 from mechsheet.worksheet.cells import asked, load, split
-from mechsheet.worksheet.errors import SheetError, as_given
+from mechsheet.worksheet.errors import OF_NUMBERS, SheetError, as_given
 from mechsheet.worksheet.table import heading
 
 if TYPE_CHECKING:
@@ -237,7 +237,7 @@ def _together(job: Job, given: inputs.Variants, rows: NDArray[np.intp]) -> Job |
     for row in dict.fromkeys(probes[_SPREAD].tolist()):
         try:
             tried[row] = job.run(next(one_by_one(given.at(np.array([row])))))
-        except ValueError:
+        except OF_NUMBERS:
             tried[row] = None
         if sum(part is not None and not part.lacking[0] for part in tried.values()) == 2:
             break
@@ -249,6 +249,9 @@ def _together(job: Job, given: inputs.Variants, rows: NDArray[np.intp]) -> Job |
     together = [*ran] if len(ran) > 1 else [*tried]
     try:
         among = all_at_once.run(given.at(np.array(together)))
+        refused = np.array([row for row, part in tried.items() if part is None], dtype=int)
+        if refused.size and not all_at_once.results(given.at(refused)).lacking.all():
+            return None  # such as 1 / 0, which is infinite among others
         if not _apart(all_at_once, given, np.unique([*probes, *_outermost(given, rows)])):
             return None
     except Exception:  # whatever a line does that cannot take an array

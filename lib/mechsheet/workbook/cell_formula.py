@@ -181,7 +181,9 @@ class CellFormulas:
                 return self._element(source, index.reshape(-1)[at], rows)
             case "join":
                 sources, which, index, _ = node.args
-                return self._element(sources[_only(which.reshape(-1)[at])], index.reshape(-1)[at], rows)
+                source = sources[_only(which.reshape(-1)[at])]
+                part = self._element(source, index.reshape(-1)[at], rows)
+                return self._while_counted(*part) if node.stretches and not source.stretches else part
             case "reduce":
                 return self._reduced(node, at, rows)
             case "at":

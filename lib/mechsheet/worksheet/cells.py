@@ -80,6 +80,8 @@ class Worksheet:
                 except BaseException as error:
                     if isinstance(error, Exception):
                         self.close(given)
+                    if isinstance(error, StopIteration):  # which would end a loop of who calls
+                        raise SheetError(mistakes.told(error, self.path)) from error
                     if not _is_stop(error):
                         raise
                     raise SheetError(f"cell {cell.name} stopped before its end") from None

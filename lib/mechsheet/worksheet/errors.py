@@ -27,6 +27,9 @@ class Waits(SheetError):
     """A number is to be computed from one that is NaN: why it is, another line tells."""
 
 
+# What a line of a worksheet raises for some numbers; anything else is a mistake in it, whatever they are.
+OF_NUMBERS = (ValueError, ArithmeticError, LookupError, AssertionError, StopIteration, RuntimeError)
+
 _LONG = 60  # characters of what was given that an error shows
 
 

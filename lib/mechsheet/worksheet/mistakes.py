@@ -33,6 +33,8 @@ def no_input(name: str, known: Iterable[str]) -> str:
 def told(error: BaseException, path: str) -> str:
     """One line for an exception, with the line of the worksheet file that raised it where one did."""
     file = Path(path).resolve()
+    if isinstance(error.__cause__, StopIteration):  # in a generator, which Python says in other words
+        error = error.__cause__
     if isinstance(error, SyntaxError) and error.filename and Path(error.filename).resolve() == file:
         text = (error.text or "").lstrip("\ufeff")
         return f"{at(file, error.lineno or 0, text)}: {unread(error)}"
@@ -82,6 +84,7 @@ _HINTS = {
         "a table of inputs is read by its columns, each an array: g.bolts.x"
     ),
     r"'(Found|Solution)'|type (Found|Solution)\b": "what a Find has found is its .value",
+    r"^StopIteration$": "next has found nothing for which its condition holds",
     r"unhashable type": "an array, a list or a table can be no key, and no member of a set",
 }
 _TYPED = re.compile(r"^[ \t]*\w+(:\s*\w+)?\s*=[^#=\"'({\[\n]*?\d,\d[^#\n]*", re.MULTILINE)

@@ -1,0 +1,67 @@
+"""What a line of a worksheet raises for some numbers is the reason of these variants, and none for the others."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from own_worksheet import own
+
+from mechsheet import SheetError, evaluate, sweep
+from mechsheet.worksheet import mistakes
+
+NONE = "StopIteration (next has found nothing for which its condition holds)"
+LINES = {  # that have no number for F = 4
+    "y = next(v for v in (6.0, 8.0, 10.0) if v >= 3 * g.F)": NONE,
+    "y = [next(v for v in (6.0, 8.0, 10.0) if v >= 3 * F) for F in (g.F, 1.0)][0]": NONE,
+    "y = sum(next(v for v in (6.0, 8.0, 10.0) if v >= 3 * F) for F in (g.F, 1.0))": NONE,
+    "y = [6.0, 8.0, 10.0, 12.0][int(g.F)]": "list index out of range",
+    "y = {1: 2.0, 2: 3.0, 3: 4.0}[int(g.F)]": "KeyError: 4",
+    "y = math.pow(g.F - 4.0, -1)": "math domain error",
+    "y = math.exp(200 * g.F)": "math range error",
+    "assert g.F < 4\ny = g.F": "AssertionError",
+    "from scipy.optimize import newton\ny = newton(lambda v: v**2 + g.F - 3.1, 1.0)": "Failed to converge",
+}
+
+
+@pytest.mark.filterwarnings("ignore")
+@pytest.mark.parametrize("lines", LINES)
+def test_an_error_of_some_numbers_is_the_reason_of_their_variant(lines: str, tmp_path: Path) -> None:
+    sheet = own(tmp_path, f"{lines}\nresult = y * 1.0  # [-] line")
+    at = np.array([1.0, 2.5, 3.0, 4.0])
+    for given in (at, np.concatenate([np.linspace(1.0, 3.0, 90), [4.0]])):
+        swept = sweep(sheet.path, ["result"], {"F": given})
+        assert swept.solved[:-1].all() and np.isnan(swept["result"][-1])
+        assert LINES[lines] in swept.reasons[-1]
+        for k in (0, 1):
+            assert swept["result"][k] == pytest.approx(
+                evaluate(sheet.path, ["result"], F=given[k])["result"], rel=1e-12
+            )
+
+
+def test_what_python_refuses_of_a_number_alone_is_not_infinite_among_others(tmp_path: Path) -> None:
+    """As far as it is one of those that are tried alone."""
+    sheet = own(tmp_path, "y = 1.0 / (g.F - 4.0)\nresult = y * 1.0  # [-] line")
+    swept = sweep(sheet.path, ["result"], {"F": [4.0, 1.0, 2.5, 3.0]})
+    assert list(swept.solved) == [False, True, True, True] and "float division by zero" in swept.reasons[0]
+
+
+def test_a_mistake_whatever_the_numbers_are_ends_the_sweep(tmp_path: Path) -> None:
+    sheet = own(tmp_path, "y = g.F + nothing\nresult = y * 1.0  # [-] line")
+    with pytest.raises(NameError, match="nothing"):
+        sweep(sheet.path, ["result"], {"F": [1.0, 2.0]})
+
+
+def test_who_asks_in_a_loop_is_not_ended_by_what_a_line_has_not_found(tmp_path: Path) -> None:
+    """StopIteration would end it without a word."""
+    sheet = own(tmp_path, "d = next(v for v in (6.0, 8.0) if v >= 3 * g.F)\nresult = d * 1.0  # [-] line")
+    with pytest.raises(SheetError, match=r"own.py, line 37, d = next.*has found nothing"):
+        [*(evaluate(sheet.path, ["result"], F=F) for F in (1.0, 4.0))]
+
+
+def test_an_error_in_a_generator_is_told_as_outside_of_one() -> None:
+    def found() -> object:
+        yield next(iter(()))
+
+    with pytest.raises(RuntimeError) as raised:
+        [*found()]  # type: ignore[call-overload]
+    assert mistakes.told(raised.value, "own.py") == NONE
