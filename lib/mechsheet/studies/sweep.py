@@ -230,7 +230,7 @@ def _together(job: Job, given: inputs.Variants, rows: NDArray[np.intp]) -> Job |
     key = job, names
     if not names or not rows.size:
         return job
-    if key in _taking_arrays and rows.size < _CHUNK:  # with more it takes little to look at these
+    if key in _taking_arrays and rows.size < 10 * _CHUNK:  # of more a tenth of the time is for looking at these
         return _taking_arrays[key]
     probes = rows[np.linspace(0, len(rows) - 1, _PROBES).astype(int)]
     tried: dict[int, Part | None] = {}
