@@ -66,7 +66,12 @@ def functions(sheet: Worksheet) -> frozenset[str]:
 def without_name(sheet: Worksheet, known: Iterable[str], showing: frozenset[str]) -> list[Cell]:
     """Cells that give nothing that is shown, but show a table, a figure or a check under no name, of what is known."""
     at_hand = {*known}
-    return [c for c in sheet.cells if c.needs <= at_hand and any(_calls(line, showing) for line in c.lines)]
+    return [cell for cell in sheet.cells if cell.needs <= at_hand and _shows_some(cell.lines, showing)]
+
+
+@lru_cache(maxsize=4096)
+def _shows_some(lines: Sequence[ast.stmt], showing: frozenset[str]) -> bool:
+    return any(_calls(line, showing) for line in lines)
 
 
 @lru_cache(maxsize=4096)
