@@ -39,7 +39,7 @@ def guessed(f: Callable[..., Any], note: Note, between: Callable[..., Any], *arg
     given = signature.bind(*args, **named).arguments
     g, x0, more = given.pop(next(iter(signature.parameters))), given.pop("x0", None), given.pop("args", ())
     more = more if isinstance(more, tuple) else (more,)
-    bracket = given.pop("bracket", None)
+    bracket, told_all = given.pop("bracket", None), name == "fsolve" and given.pop("full_output", False)
     others = {key for key, value in given.items() if key not in _BESIDE or value is True}
     if told := [key for key in sorted(others - {"disp"}) if given[key] != signature.parameters[key].default]:
         raise NotRecorded(f"scipy's {name} with {', '.join(told)}")
@@ -49,6 +49,8 @@ def guessed(f: Callable[..., Any], note: Note, between: Callable[..., Any], *arg
     if guess.im is not None or guess.re.stretches or guess.ndim > (0 if alone else 1):
         raise NotRecorded(f"scipy's {name} from such a guess")
     roots = _found(graph, name, note, (lambda x: g(x[0], *more)) if alone else (lambda x: g(x, *more)), guess)
+    if told_all:  # but for counts and slopes
+        return roots, {}, int(_Result("x", roots).success), "The solution converged."
     if name in ("fsolve", "newton"):
         return roots[0] if alone else roots
     return _Result("root", roots[0]) if alone else _Result("x", roots)
