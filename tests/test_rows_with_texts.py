@@ -27,7 +27,14 @@ FOLLOWED = [
     "kind = 'low'\nif g.F > 3:\n    kind = 'high'\ny = {'low': g.a, 'high': 1.0}[kind]",
     "D = [{'d': d, 'n': n} for n, d, P in T]\nrow = next(r for r in D if r['d'] > 2 * g.F)\ny = row['d'] * g.a",
 ]
-FOLLOWED += ["name, d, P = next((r for r in T if r[1] > 2 * g.F), ('-', 20, 2.5))\ny = d * P * g.a"]
+FOLLOWED += [
+    "name, d, P = next((r for r in T if r[1] > 2 * g.F), ('-', 20, 2.5))\ny = d * P * g.a",
+    "name, d = min(((n, d) for n, d, P in T if d > 2 * g.F), key=lambda r: r[1])\ny = d * g.a",
+    "name, d, P = max((r for r in T if r[1] < 5 * g.F), key=lambda r: r[1])\ny = d * P",
+    "y = min((d for n, d, P in T if d >= 2 * g.F), key=lambda d: abs(d - 9 * g.a))",
+    "y = next(r for r in T if 2 * g.F < r[1] < 12)[1] * g.a",
+    "n = next(n for n, d, P in T if 2 * g.F < d < 12)\ny = {n: P for n, d, P in T}[n] * g.a",
+]
 WITH_A_CONDITION = [  # that there is such a row
     "best = None\nfor row in T:\n    if row[1] > 2 * g.F:\n        best = row\n        break\ny = best[1] * g.a",
     "for row in T:\n    if row[1] > 2 * g.F:\n        break\nelse:\n    raise ValueError('x')\nname, y, P = row",
@@ -97,7 +104,7 @@ def test_cells_choose_the_row_and_hold_what_uses_its_text(recalculated_all: Any,
     names = sheet.run(sheet.results, {"g": sheet.inputs()})
     book = tmp_path / "own.xlsx"
     book.write_bytes(report.workbook("Own", {**names, "__file__": sheet.path}, {}))
-    changes: list[dict[str, Any]] = [{"F": 3.5}, {"F": 4.5, "a": 0.9}, {"F": 7.0, "k": 3}]
+    changes: list[dict[str, Any]] = [{"F": 4.5, "a": 0.9}, {"F": 3.5, "k": 3}]
     edited = [edit(book, given, tmp_path / f"changed{n}.xlsx") for n, given in enumerate(changes)]
     for given, changed in zip(changes, recalculated_all(edited), strict=True):
         rows = [row[0] for row in changed["2 All"].iter_rows(min_row=5, values_only=True)]

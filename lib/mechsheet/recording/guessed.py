@@ -17,6 +17,7 @@ from mechsheet.recording.arithmetic import choice
 from mechsheet.recording.graph import Graph, Label, NotRecorded, current
 from mechsheet.recording.node import Block
 from mechsheet.recording.quantity import Quantity, lift, stack
+from mechsheet.recording.replaced import replaced
 
 Note = Callable[[solving.Solving], Any]
 
@@ -38,7 +39,7 @@ def guessed(f: Callable[..., Any], note: Note, between: Callable[..., Any], *arg
     given = signature.bind(*args, **named).arguments
     g, x0, more = given.pop(next(iter(signature.parameters))), given.pop("x0", None), given.pop("args", ())
     more = more if isinstance(more, tuple) else (more,)
-    bracket = given.pop("bracket", None)
+    bracket, told_all = given.pop("bracket", None), name == "fsolve" and given.pop("full_output", False)
     others = {key for key, value in given.items() if key not in _BESIDE or value is True}
     if told := [key for key in sorted(others - {"disp"}) if given[key] != signature.parameters[key].default]:
         raise NotRecorded(f"scipy's {name} with {', '.join(told)}")
@@ -48,6 +49,8 @@ def guessed(f: Callable[..., Any], note: Note, between: Callable[..., Any], *arg
     if guess.im is not None or guess.re.stretches or guess.ndim > (0 if alone else 1):
         raise NotRecorded(f"scipy's {name} from such a guess")
     roots = _found(graph, name, note, (lambda x: g(x[0], *more)) if alone else (lambda x: g(x, *more)), guess)
+    if told_all:  # but for counts and slopes
+        return roots, {}, int(_Result("x", roots).success), "The solution converged."
     if name in ("fsolve", "newton"):
         return roots[0] if alone else roots
     return _Result("root", roots[0]) if alone else _Result("x", roots)
@@ -71,8 +74,8 @@ def _found(graph: Graph, name: str, note: Note, g: Callable[[Any], Any], guess: 
     starts, count = [*guess.reshape(-1)], guess.re.size
     with solving.tried(graph) as of:
         own = _plainly(name, of(g), np.atleast_1d(guess.value))
-    number = sum(node.op == "found" and node.args[1] < len(node.args[0].nodes) for node in graph.nodes.values())
-    names = tuple(f"root_{number + k}" for k in range(1, count + 1))
+    number = 1 + sum(label.symbol.startswith("near_") for label in graph.labels.values())
+    names = tuple(f"root_{number}_{k}" if count > 1 else f"root_{number}" for k in range(1, count + 1))
     texts, units = tuple(f"equation {k}" for k in range(1, count + 1)), ("-",) * count
     words = SimpleNamespace(names=names, unknowns=", ".join(names), units=units, equations=texts, equation_units=units)
     found: Any = SimpleNamespace(words=words, least=False, _values=own, evaluations=0)
@@ -85,7 +88,7 @@ def _found(graph: Graph, name: str, note: Note, g: Callable[[Any], Any], guess: 
     led = _led(graph, block, starts, [*solved.value])
     if not led.value:
         raise NotRecorded(f"scipy's {name} from a guess from which it is not sure to which root it leads")
-    graph.labels[led.re] = Label(f"near_{number + 1}", "", "whether the root is the only one near the guess")
+    graph.labels[led.re] = Label(f"near_{number}", "", "whether the root is the only one near the guess")
     note(solved)
     return stack([choice(graph, led, x, np.nan) for x in solved.value])
 
@@ -113,12 +116,16 @@ def _led(graph: Graph, block: Block, starts: Sequence[Quantity], found: Sequence
     one, alone = length(first), len(starts) == 1
     sure: Any = True
     for part in _PARTS:
-        left, own = _at(block, [a - part * s for a, s in zip(starts, first, strict=True)])
+        there = [a - part * s for a, s in zip(starts, first, strict=True)]
         if alone:
+            _, own = _at(block, there)
             sure = sure & ((own[0].get(0, 0.0) > 0) == (slopes[0].get(0, 0.0) > 0))
         else:
-            bent = [x - (1 - part) * s for x, s in zip(_solved(graph, slopes, left), first, strict=True)]
+            new = replaced(graph, block.residuals, {n: x.re for n, x in zip(block.nodes, there, strict=True)})
+            off = _solved(graph, slopes, [Quantity(graph, new.get(node, node)) for node in block.residuals])
+            bent = [x - (1 - part) * s for x, s in zip(off, first, strict=True)]
             sure = sure & (length(bent) <= np.maximum(_BENT * one, _ROUNDED))
+    left, own = _at(block, there)
     two = np.maximum(length(_solved(graph, own, left)), _ROUNDED)
     sure = sure & (two <= np.maximum((0.5 if alone else 0.25) * one, _ROUNDED))
     return sure & (length([x - a + s for x, a, s in zip(found, starts, first, strict=True)]) <= 2 * two)

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Sequence
 from contextlib import suppress
+from functools import cache
 from itertools import pairwise, product
 from typing import Any, NamedTuple
 
@@ -32,7 +33,7 @@ _HALVED = 5  # times at most are parts between two corners
 _CLOSE = 1e-10  # of the integral of the magnitude: Kronrod's rule is off by far less than the two differ
 _CORNERS = 24
 
-Note = Callable[[Node, Node], None]
+Note = Callable[[Node, Node | None], None]
 
 
 def integral(
@@ -40,7 +41,7 @@ def integral(
 ) -> Any:
     """What scipy's quad ``f`` gives for a function ``g``: its integral, and scipy's own estimate of the error.
 
-    Both are given to ``note``.
+    They are given to ``note``, the estimate once it is taken.
 
     With the inputs at hand parts twice as long would do; with others it is no number where two rules differ. Parts end
     at corners, such as where the function compares its variable with a number.
@@ -65,13 +66,31 @@ def integral(
         raise NotRecorded(f"scipy's quad of what rules at {len(_AT) * 2**_HALVED} places differ about")
     whole, close = made.sum(way[0], 2 * way[1], labelled=True)
     result = choice(graph, close, whole, np.nan)
-    with solving.tried(graph) as of:
-        plainly = of(lambda x: g(x, *more))
-        _, near, *_ = f(plainly, *map(solving.now, (first, last, ())), 1, points=solving.now(points), **options)
-    under = [node for node in bottom_up(result.parts, ()) if node.op == "input"]
-    error = Quantity(graph, graph.exported(under, near))
-    note(result.re, error.re)
-    return result, error
+    note(result.re, None)
+
+    def error() -> Quantity:
+        with solving.tried(graph) as of:
+            plainly = of(lambda x: g(x, *more))
+            _, near, *_ = f(plainly, *map(solving.now, (first, last, ())), 1, points=solving.now(points), **options)
+        under = [node for node in bottom_up(result.parts, ()) if node.op == "input"]
+        own = Quantity(graph, graph.exported(under, near))
+        note(result.re, own.re)
+        return own
+
+    return _Estimated(result, error)
+
+
+class _Estimated(Sequence[Any]):
+    """An integral and the estimate of its error, which is looked for once somebody takes it."""
+
+    def __init__(self, whole: Any, error: Callable[[], Any]) -> None:
+        self._whole, self._error = whole, cache(error)
+
+    def __len__(self) -> int:
+        return 2
+
+    def __getitem__(self, key: Any) -> Any:
+        return self._whole if key == 0 else (self._whole, self._error())[key]
 
 
 def _of(graph: Graph, variable: Node, g: Callable[[Quantity], Any]) -> Node:

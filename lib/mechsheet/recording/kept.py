@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from mechsheet.recording.arithmetic import choice as where
-from mechsheet.recording.choices import UNBOUND, is_condition, part_of, way_may_change
+from mechsheet.recording.choices import UNBOUND, _missing, is_condition, part_of, way_may_change
 from mechsheet.recording.graph import NotRecorded, current
 from mechsheet.recording.quantity import lift
 
@@ -74,13 +74,17 @@ def _plainly(kind: str, pairs: Iterable[_Pair], otherwise: tuple[Any, ...]) -> A
             return len(list(values))
         case "sum":
             return sum(values, *otherwise)
-    named = {"default": otherwise[0]} if otherwise else {}
+    kind, _, by = kind.partition(" ")
+    named = {"key" if by else "default": otherwise[0]} if otherwise else {}
     return getattr(builtins, kind)(values, **named)
 
 
 def _first(kept: Iterable[tuple[Any, Any]], otherwise: tuple[Any, ...]) -> Any:
-    result = otherwise[0] if otherwise else UNBOUND
-    for holds, value in reversed([*kept]):
+    every = [*kept]
+    if not otherwise and not any(holds if holds is True else holds.value for holds, _ in every):
+        return UNBOUND
+    result = otherwise[0] if otherwise else _missing(every[-1][1])
+    for holds, value in reversed(every):
         result = value if holds is True else part_of(holds, value, result)
         if result is None:
             return None
@@ -104,6 +108,23 @@ def _least(fold: Callable[[Any, Any], Any]) -> Callable[..., Any]:
     return function
 
 
+def _least_by(wins: Callable[[Any, Any], Any]) -> Callable[..., Any]:
+    """The first of those whose keys are the least or the greatest."""
+
+    def function(kept: Iterable[tuple[Any, Any]], given: tuple[Any, ...]) -> Any:
+        (key,), every = given, [*kept]
+        some, best = lift(current.get(), False), lift(current.get(), 0.0)  # no NaN: a cell could not compare it
+        result = _missing(every[0][1])
+        for holds, value in every:
+            own = key(value)
+            taken = holds & (~some | wins(own, best))
+            result, best = part_of(taken, value, result), where(current.get(), taken, own, best)
+            some = some | holds
+        return result if some.value else None
+
+    return function
+
+
 def _sum(kept: Iterable[tuple[Any, Any]], otherwise: tuple[Any, ...]) -> Any:
     graph = current.get()
     return reduce(operator.add, (where(graph, holds, value, 0.0) for holds, value in kept), *(otherwise or (0,)))
@@ -115,6 +136,7 @@ def _count(kept: Iterable[tuple[Any, Any]], _: tuple[Any, ...]) -> Any:
 
 _KINDS: dict[str, Callable[..., Any]] = {
     "first": _first, "last": _last, "min": _least(np.minimum), "max": _least(np.maximum), "sum": _sum, "len": _count,
+    "min by": _least_by(operator.lt), "max by": _least_by(operator.gt),
 }  # fmt: skip
 
 

@@ -80,11 +80,11 @@ class Recording:
     its number and their labels; ``lines`` those of a section; ``names`` the name that each node has in the worksheet.
     ``gaps`` are what keeps the numbers of the worksheet's own run, with the reasons, ``unsolved`` the found values that
     do so in the cells of a workbook alone; ``guards`` the conditions under which all is recorded as the worksheet has
-    it; ``integrals`` what a rule of places gives, with scipy's estimates of the errors; ``drawings`` those that a cell
-    shows, by its number, or None for one that is not recorded; ``captions`` and ``texts`` what captions, by their
-    numbers, and cells that are texts say with recorded numbers in it; ``positions`` what is marked along charts, by the
-    name of its quantity; ``values`` what the names are in the recording, ``looked`` the guards that these rest on. Only
-    every ``every``-th position is recorded.
+    it; ``integrals`` what a rule of places gives, with scipy's estimates of the errors where these are taken;
+    ``drawings`` those that a cell shows, by its number, or None for one that is not recorded; ``captions`` and
+    ``texts`` what captions, by their numbers, and cells that are texts say with recorded numbers in it; ``positions``
+    what is marked along charts, by the name of its quantity; ``values`` what the names are in the recording, ``looked``
+    the guards that these rest on. Only every ``every``-th position is recorded.
     """
 
     graph: Graph
@@ -101,7 +101,7 @@ class Recording:
     gaps: list[Gap] = field(default_factory=list)
     unsolved: list[Gap] = field(default_factory=list)
     guards: dict[Node, Guard] = field(default_factory=dict)  # by their conditions
-    integrals: dict[Node, Node] = field(default_factory=dict)
+    integrals: dict[Node, Node | None] = field(default_factory=dict)
     made_of: dict[Node, float] = field(default_factory=dict)  # the largest terms of sums, as far as looked at
     values: dict[str, Any] = field(default_factory=dict)
     looked: dict[str, tuple[Guard, ...]] = field(default_factory=dict)

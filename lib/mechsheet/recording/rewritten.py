@@ -57,6 +57,8 @@ class _Rewriting(ast.NodeTransformer):
             case ast.Call(ast.Name("Check"), _, keywords):
                 node.keywords = [keyword for keyword in keywords if keyword.arg != "reason"]
             case ast.Call(ast.Name(name), [ast.ListComp() | ast.GeneratorExp() as some, *rest], keywords):
+                if name in ("min", "max") and [keyword.arg for keyword in keywords] == ["key"] and keeps(some):
+                    return self.generic_visit(of_kept(node, f"{name} by", some, keywords[0].value))
                 rest += [keyword.value for keyword in keywords if keyword.arg == "default" and name in ("min", "max")]
                 if name in OF_KEPT and keeps(some) and len(rest) == len(node.args) - 1 + len(keywords):
                     return self.generic_visit(of_kept(node, OF_KEPT[name], some, *rest))

@@ -164,7 +164,7 @@ def _requires(point: Any, *_: Any) -> None:
         raise NotRecorded("the cell stops here")
 
 
-def _integrated(whole: Node, error: Node) -> None:
+def _integrated(whole: Node, error: Node | None) -> None:
     staged.get()["integrated"](whole, error)
 
 
