@@ -18,7 +18,7 @@ from mechsheet.page.unchanged import kept
 from mechsheet.worksheet import symbol
 from mechsheet.worksheet.lines import Formula, Given, Numbers, Typeset
 from mechsheet.worksheet.over import over
-from mechsheet.worksheet.terms import is_rounding
+from mechsheet.worksheet.terms import is_rounding, may_be_rounding
 
 
 def lines(shown: Typeset) -> str:
@@ -72,10 +72,20 @@ def _is_about(shown: str) -> bool:
 
 
 def _cleared(line: Formula, value: Any, namespace: Mapping[str, Any] | None) -> Any:
-    """The value itself, or 0 of one that is nothing but the rounding of what its line adds."""
-    if namespace is None or not is_rounding(value, line.expression, namespace):
+    """The value itself, or 0 of one that is nothing but the rounding of what its line, or a function, adds."""
+    if namespace is None:
         return value
-    return np.asarray(value).dtype.type(0).item()
+    if is_rounding(value, line.expression, namespace) or _is_left_over(value, line, namespace):
+        return np.asarray(value).dtype.type(0).item()
+    return value
+
+
+def _is_left_over(value: Any, line: Formula, namespace: Mapping[str, Any]) -> bool:
+    if not may_be_rounding(value, line.unit) or "__file__" not in namespace:
+        return False
+    from mechsheet.recording.left_over import is_left_over  # on use: few lines ask for a recording
+
+    return is_left_over(value, line, namespace)
 
 
 @dataclass(frozen=True)

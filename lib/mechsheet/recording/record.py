@@ -46,11 +46,12 @@ def record(
     draws: bool = False,
     lists: bool = False,
     bodies: bool = False,
+    want: Sequence[str] = (),
 ) -> Recording:
     """Run the cells behind the tables, found values and checks of ``namespace`` with recorded quantities.
 
     ``sheet`` has the cells where they are not those of the file, and ``known`` the lines that declare a unit where the
-    namespace does not tell; with ``whole`` all cells are run. What a recording
+    namespace does not tell; with ``whole`` all cells are run, with ``want`` those behind these names. What a recording
     does not hold keeps the numbers of the worksheet's own run, as nodes ``exported`` that know what they rest on;
     `Recording.gaps` says where and why. Where all tables list every so many positions, or ``every`` so many are asked
     for, only those are recorded, and all of them only for numbers that rest on all, such as an integral, and for checks
@@ -58,7 +59,7 @@ def record(
     ``slider part``, and the drawings that cells show are recorded. With ``lists`` those among the inputs may have any
     length, with ``bodies`` the functions of the mechanics are in all their steps.
     """
-    return _recorded(namespace, sheet, whole, known, every, draws, lists, bodies)[0]
+    return _recorded(namespace, sheet, whole, known, every, draws, lists, bodies, want=want)[0]
 
 
 def record_every_line(namespace: Mapping[str, Any], sheet: Worksheet) -> tuple[Recording, Recording]:
@@ -76,10 +77,11 @@ def _recorded(
     lists: bool = False,
     bodies: bool = False,
     further: bool = False,
+    want: Sequence[str] = (),
 ) -> tuple[Recording, Recording]:
     sheet = load(Path(namespace["__file__"])) if sheet is None else sheet
     steps = {value.every for value in namespace.values() if isinstance(value, Table)}
-    want = sheet.results if whole else [name for name in sheet.results if shown(namespace.get(name))]
+    want = want or [name for name in sheet.results if whole or shown(namespace.get(name))]
     graph = Graph(every or (steps.pop() if len(steps) == 1 else 1), draws, lists, bodies)
     token = current.set(graph)
     try:
