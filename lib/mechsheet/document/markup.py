@@ -51,15 +51,17 @@ def as_written(name: str) -> str:
 
 
 def meant(meaning: str) -> str:
-    """What a line or an input means, names in it that have an index by an underscore as their symbols.
+    """What a line or an input means, Greek words in it and names that have an index by an underscore as symbols.
 
     >>> meant("abscissa of the pole < 1, times D_p; bolt M8")
     'abscissa of the pole &lt; 1, times <i>D</i><sub>p</sub>; bolt M8'
+    >>> meant("sum of cos(phi) + c, below 40 psi")
+    'sum of cos(<i>φ</i>) + c, below 40 psi'
     """
-    return "".join(named(piece) if i % 2 else escape(piece) for i, piece in enumerate(_INDEXED.split(meaning)))
+    return "".join(named(piece) if i % 2 else escape(piece) for i, piece in enumerate(_IN_PROSE.split(meaning)))
 
 
-_INDEXED = re.compile(rf"\b({symbol.INDEXED})\b(?!\.\w)")
+_IN_PROSE = re.compile(f"({symbol.IN_PROSE})")
 
 
 def printed(number: str) -> str:

@@ -22,7 +22,7 @@ from mechsheet.html.follow import Follower
 from mechsheet.html.mathml import mathml
 from mechsheet.recording.graph import Graph
 from mechsheet.recording.lines import Recording
-from mechsheet.worksheet import numbers
+from mechsheet.worksheet import numbers, symbol
 from mechsheet.worksheet.check import Check, Summary
 from mechsheet.worksheet.drawing import Drawing
 from mechsheet.worksheet.index import Index
@@ -147,7 +147,7 @@ def _block(whole: Sequence[Column], follows: str, told: str) -> str:
     columns, left_out = shortened(whole)
     kinds = ["" if c.unit else ' class="ms-text"' for c in columns]
     heads = "".join(
-        f'<th{kind} scope="col" title="{escape(c.meaning)}">{named(c.name)}</th>'
+        f'<th{kind} scope="col" title="{escape(symbol.prose(c.meaning))}">{named(c.name)}</th>'
         for c, kind in zip(columns, kinds, strict=True)
     )
     under = "".join(f"<th>{offered.head(c.unit) if c.unit else ''}</th>" for c in columns)

@@ -392,7 +392,8 @@ def _table(table: Table) -> str:
 def _block(columns: Sequence[Column], left_out: int) -> str:
     kinds = ["" if c.unit else ' class="ms-text"' for c in columns]
     heads = "".join(
-        f'<th{kind} title="{escape(c.meaning)}">{named(c.name)}</th>' for c, kind in zip(columns, kinds, strict=True)
+        f'<th{kind} title="{escape(symbol.prose(c.meaning))}">{named(c.name)}</th>'
+        for c, kind in zip(columns, kinds, strict=True)
     )
     unit_row = "".join(f"<th>{f'[{_unit(c)}]' if c.unit else ''}</th>" for c in columns)
     rows = "".join(

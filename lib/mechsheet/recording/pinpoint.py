@@ -119,8 +119,8 @@ class Places:
         statement = self.statements.get(line)
         able = [n for n in source.nodes(statement) if _does(n, op)] if statement else []
         if likest or len(able) == 1:
-            part = likest or able[0]
-            return part.lineno, _short(ast.unparse(part))
+            does = likest or able[0]
+            return does.lineno, _short(ast.unparse(does))
         match statement:
             case ast.Assign(value=value) | ast.AugAssign(value=value) | ast.Expr(value):
                 return line, _short(ast.unparse(value))
