@@ -167,3 +167,13 @@ def test_what_a_function_leaves_is_about_nothing_and_a_small_number_is_itself(bl
 def first_number(text: str) -> str:
     found = re.search(r"(≈ )?\d+(\.\d+)?", re.sub("<[^>]*>", "", text))
     return found[0] if found else text
+
+
+def test_names_of_lines_and_inputs_are_symbols_in_what_lines_mean(tmp_path: Path) -> None:
+    """On both pages alike; what is no name of the worksheet stays as it is."""
+    text = "u1 = g.F  # [m] first\nv = u1 - 1  # [m] u1 - 1 with phi, bolt M8"
+    says = "<span><i>u</i><sub>1</sub> − 1 with <i>φ</i>, bolt M8</span>"
+    sheet = own(tmp_path, f"{text}\nt = typeset()")
+    assert says in lines.lines(sheet.run_whole()["t"])
+    sheet = own(tmp_path, text)
+    assert says in write.page(sheet, inputs.build(sheet.inputs, {}))

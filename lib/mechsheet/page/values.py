@@ -312,7 +312,7 @@ def _(found: Verdict) -> str:
         for k, v in found.details()
     )
     return (
-        '<div style="border-left:3px solid currentColor;padding:.2em .8em;margin:.4em 0">'
+        '<div class="ms-found" style="border-left:3px solid currentColor;padding:.2em .8em;margin:.4em 0">'
         f"<div>{badge}<b>{in_words(found.headline(), found.names)}</b></div>{lines}"
         f'<table style="border-collapse:collapse;font-size:.9em;margin-top:.3em">{rows}</table></div>'
     )
