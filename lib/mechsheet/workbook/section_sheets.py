@@ -13,7 +13,6 @@ from mechsheet.workbook.book import Book
 from mechsheet.workbook.content import Content, computed
 from mechsheet.workbook.place import letters
 from mechsheet.workbook.sheet_formulas import SheetFormulas
-from mechsheet.worksheet.symbol import prose
 from mechsheet.worksheet.table import Column
 
 
@@ -50,7 +49,7 @@ def write(book: Book, section: Section, formulas: SheetFormulas) -> None:
 def _told(line: Line) -> tuple[str, str, str]:
     """Unit, the meaning behind the number of the printed formula, and the line of the worksheet or its number."""
     source = line.text or (f"line {line.node.line}" if line.node.line else "")
-    return shown(si(line.unit)), f"{line.number} {prose(line.meaning)}".strip(), source
+    return shown(si(line.unit)), f"{line.number} {line.meaning}".strip(), source
 
 
 def _contents(line: Line, formulas: SheetFormulas) -> Sequence[Content]:
