@@ -13,6 +13,7 @@ from conftest import examples
 from hypothesis import assume, example, given
 from hypothesis import strategies as st
 
+from mechsheet.worksheet import numbers
 from mechsheet.worksheet.errors import SheetError, Waits
 from mechsheet.worksheet.find import find
 from mechsheet.worksheet.verdict import values_only
@@ -616,9 +617,9 @@ def test_a_solved_block_says_its_value_residual_bracket_roots_and_evaluations(ro
     assert mime == "text/html"
     assert "\n" not in text
     for words in (
-        "lifting rod L4 = 0.661283 m",
+        "lifting rod L4 = 0.66128 m",
         "0.2 m on branch -1",
-        "0.661283 m (branch -1); 1.10473 m (branch +1)",
+        "0.66128 m (branch -1); 1.1047 m (branch +1)",
         f"roots seen by {rod.samples} samples",
         f"{rod.evaluations} times",
     ):
@@ -626,6 +627,18 @@ def test_a_solved_block_says_its_value_residual_bracket_roots_and_evaluations(ro
         assert words.replace("-1", "−1") in re.sub("<[^>]*>", "", page)
     assert re.search(r"missed by [\d.]+e-1[67] m, value within [\d.]+e-1[67] m,", text)
     assert ">found<" in page
+
+
+@pytest.mark.parametrize("x", [0.0001234567, 0.05242194, 12.345678, 129.61376])
+def test_a_verdict_shows_the_digits_of_its_line(x):
+    """Of one problem and of several, with its roots and its condition; five digits or all before the point."""
+    many = np.linspace(x / 3, x, 12)
+    one, several = (find(lambda u: u, 0.0, 2 * x, equals=e, unit="mm", unknown_unit="mm") for e in (x, many))
+    line = numbers.value(float(one.value), "mm", numbers.PLAIN)
+    assert (
+        f" = {line}: condition" in str(one) and f" = {line}, missed by" in str(one) and f"samples {line}," in str(one)
+    )
+    assert f" = {numbers.value(several.value, 'mm', numbers.PLAIN)}, 12 of 12" in several.headline()
 
 
 def test_an_unsolved_block_shows_itself_without_its_value():

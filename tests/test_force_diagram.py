@@ -1,9 +1,12 @@
 """Groups cut free and polar diagrams, read back from the elements of their drawings."""
 
+from itertools import combinations
+
 import numpy as np
 import pytest
 from cells import run
 
+from mechsheet.document.layout import lay_out
 from mechsheet.worksheet.drawing import Drawing, Element
 from mechsheet.worksheet.force_diagram import cut_group, largest_of, polar
 
@@ -77,6 +80,20 @@ def test_polar_diagram_marks_the_quarters_of_the_turn() -> None:
     assert drawing.unit == "N", "arrows have the scale of the curve"
     half = polar(R[::2], 45, "R12", turn=180)
     assert [e.points[0] for e in half.elements if e.kind == "hinge"] == [R[k] for k in (0, 90, 180, 270)]
+
+
+@pytest.mark.parametrize("place", [1.0, 5.0, -2.0 + 3.0j])
+@pytest.mark.parametrize("size", [0.02, 0.1, 0.4])
+def test_names_of_a_polar_diagram_do_not_meet_where_its_quarters_are_close(size: float, place: complex) -> None:
+    """As those of a bearing are, where the force is small but for the stroke in which the gas works."""
+    stroke = np.exp(-(((PHI - 3.6) / 0.3) ** 2)) * (-30 + 12j * np.sin(2 * PHI))
+    R = place + size * abs(place) * np.exp(3j * PHI) * (1 + 0.3 * np.cos(PHI)) + stroke
+    for at in range(0, len(R), 24):
+        names = lay_out(polar(R, at, "QA")).texts[:7]
+        boxes = [(t.centre, t.half) for t in names]
+        for (p, a), (q, b) in combinations(boxes, 2):
+            apart, touch = p - q, a + b
+            assert abs(apart.real) > touch.real or abs(apart.imag) > 0.75 * touch.imag, [t.name for t in names]
 
 
 def test_polar_diagram_of_a_cycle_of_two_turns_marks_its_quarters() -> None:

@@ -1,5 +1,6 @@
 """A page where Python took one way of several: only what rests on that way is empty for inputs that go another one."""
 
+import re
 from pathlib import Path
 
 import pytest
@@ -7,9 +8,11 @@ from own_worksheet import own
 from playwright.sync_api import Page, expect
 
 from mechsheet.html import write
+from mechsheet.page import lines
 from mechsheet.worksheet import inputs
 from mechsheet.worksheet.cells import Worksheet, load
 from mechsheet.worksheet.errors import SheetError
+from mechsheet.worksheet.lines import registry
 
 MASK = """y = x**2  # [-] squares
 big = y[y > 5.0]  # [-] some of them
@@ -134,3 +137,43 @@ def test_what_rounding_leaves_is_about_nothing_also_for_other_inputs(blank: Page
     blank.locator("#input-F").fill("2.5")
     blank.locator("#input-a").fill("0.75")
     expect(blank.locator("#line-v :is(.ms-equals, .ms-value)")).to_have_text(["", "≈ 0 m"])
+
+
+LEFT = """f = lambda u, a: (u + 0.1) - 0.1 - u + (a - 0.75)
+u = 0.1 * g.F  # [m] first
+v = f(u, g.a)  # [m] rest, by a function
+w = np.array([f(u, 0.75), f(3 * u, g.a)]).sum()  # [m] of several
+s = sin(np.pi * g.k) * u  # [m] by the rounding of pi
+t = 1e-12 * f(u, 2.0)  # [m] small, and no rounding
+p = [f(1e-9 * u, 0.75 + 1e-9)][0]  # [m] the tenth digit of what it adds
+q = 3e-13 * u  # [m] small, and no sum"""
+NOTHING = {"u": "0.25", "v": "≈ 0", "w": "≈ 0", "s": "≈ 0", "t": "1.25", "p": "1", "q": "7.5"}
+
+
+def test_what_a_function_leaves_is_about_nothing_and_a_small_number_is_itself(blank: Page, tmp_path: Path) -> None:
+    """On the page of the worksheet, which records for it the cells behind a line, and in one file for other inputs."""
+    sheet = own(tmp_path, LEFT)
+    names = {**sheet.run_whole(), "__file__": sheet.path}
+    declared = registry(names)
+    own_page = {name: first_number(lines.valued(declared[name], names[name], names)) for name in NOTHING}
+    assert own_page == {name: text.removeprefix("≈ ") for name, text in NOTHING.items()}
+    assert all(names[name] != 0 for name in NOTHING)
+    for address in ("", "F=2.5", "a=0.75"):
+        here = shown(blank, tmp_path / "a.html", sheet, address)
+        assert {name: first_number(here[name][0]) for name in NOTHING} == NOTHING, address
+    assert shown(blank, tmp_path / "a.html", sheet, "a=1")["v"][0] == "0.25\u00a0m"
+
+
+def first_number(text: str) -> str:
+    found = re.search(r"(≈ )?\d+(\.\d+)?", re.sub("<[^>]*>", "", text))
+    return found[0] if found else text
+
+
+def test_names_of_lines_and_inputs_are_symbols_in_what_lines_mean(tmp_path: Path) -> None:
+    """On both pages alike; what is no name of the worksheet stays as it is."""
+    text = "u1 = g.F  # [m] first\nv = u1 - 1  # [m] u1 - 1 with phi, bolt M8"
+    says = "<span><i>u</i><sub>1</sub> − 1 with <i>φ</i>, bolt M8</span>"
+    sheet = own(tmp_path, f"{text}\nt = typeset()")
+    assert says in lines.lines(sheet.run_whole()["t"])
+    sheet = own(tmp_path, text)
+    assert says in write.page(sheet, inputs.build(sheet.inputs, {}))

@@ -36,6 +36,16 @@ def tables(page) -> str:
     return "\n".join(page.locator(".ms-table").all_text_contents())
 
 
+def assert_fits_on_paper(page) -> None:
+    """What is wider than a sheet widens the whole page, which is cut at its edge."""
+    size = page.viewport_size
+    page.emulate_media(media="print")
+    page.set_viewport_size({"width": 718, "height": 1000})
+    assert page.evaluate("document.getElementById('App').getBoundingClientRect().right - innerWidth") <= 0
+    page.set_viewport_size(size)
+    page.emulate_media(media="null")
+
+
 @pytest.mark.parametrize("name", sorted(CHANGED))
 def test_opens_and_reacts(name, left_open):
     meaning, value = CHANGED[name]
@@ -45,6 +55,7 @@ def test_opens_and_reacts(name, left_open):
     passed, checks = re.findall(r"\d+", count.text_content())
     assert passed == checks
     assert page.evaluate(CUT) == []
+    assert_fits_on_paper(page)
     before = tables(page)
     field = page.locator(f".ms-inputs tr:has-text('{meaning}') input").first
     field.fill(value)

@@ -27,7 +27,7 @@ def test_writes_the_workbook_and_reports(tmp_path):
     done = run(f"--out={tmp_path}", flags=())
     assert (done.returncode, done.stderr) == (0, "")
     lines = done.stdout.splitlines()
-    assert [line.split(" = ")[1][:8] for line in lines[:3]] == ["0.661283", "0.469357", "0.75217 "[:8]]
+    assert [line.split(" = ")[1][:8] for line in lines[:3]] == ["0.66128 ", "0.46936 ", "0.75217 "]
     assert sum(line.startswith("pass  ") for line in lines) >= 15
     assert lines[-1] == f"written {tmp_path / 'hitch.xlsx'}"
     assert [p.name for p in tmp_path.iterdir()] == ["hitch.xlsx"]

@@ -695,8 +695,12 @@ def compared(
     r_67 = R36_n * cos(phi6) - R76 * sin(phi6) + A_67  # [N] (1.37) left by the first line
     r_67_printed = R36_n * cos(phi6) - R07 * sin(phi6) + A_67  # [N] (1.37) left as printed (erratum)
     gamma36_t_UGL2 = where(R36_t < 0, phi6 - 0.5 * pi, phi6 + 0.5 * pi)  # [deg] (1.35) of |R36_t|
-    A_67_printed = R36_t * cos(gamma36_t_UGL2) + F6 * cos(gamma6)  # [N] (1.37) as printed, R36t with its sign (erratum)
-    B_67_printed = R36_t * sin(gamma36_t_UGL2) + F6 * sin(gamma6)  # [N] (1.37) as printed, R36t with its sign (erratum)
+    A_67_printed = R36_t * cos(gamma36_t_UGL2) + F6 * cos(
+        gamma6
+    )  # [N] (1.37) as printed, R36_t with its sign (erratum)
+    B_67_printed = R36_t * sin(gamma36_t_UGL2) + F6 * sin(
+        gamma6
+    )  # [N] (1.37) as printed, R36_t with its sign (erratum)
     R76_printed = A_67_printed * sin(phi6) - B_67_printed * cos(phi6)  # [N] (1.37) from them (erratum)
     lines_52 = typeset()
     found_23 = group_23.reactions(
@@ -748,7 +752,7 @@ def directions(R03, R03_n, R03_t, R12, R12_n, R12_t, R23, R23_x, R23_y, gamma03,
     turns: UGL3 gives $-90°$ to $270°$, so it is $360°$ less where the force points to the right and down; UGL4 counts
     on from the link. Where both components are zero there is no direction.
     """
-    gamma12_UGL2 = where(R12_t < 0, phi2 - 0.5 * pi, phi2 + 0.5 * pi)  # [deg] (1.5) of |R12t|
+    gamma12_UGL2 = where(R12_t < 0, phi2 - 0.5 * pi, phi2 + 0.5 * pi)  # [deg] (1.5) of |R12_t|
     gamma12_UGL4 = phi2 + where(R12_n < 0, pi, 0) + atan(R12_t / R12_n)  # [deg] (1.13), (1.14)
     gamma03_UGL4 = phi3 + where(R03_n < 0, pi, 0) + atan(R03_t / R03_n)  # [deg] (1.15), (1.16)
     gamma23_UGL3 = where(R23_x < 0, pi, 0) + atan(R23_y / R23_x)  # [deg] (1.21)

@@ -601,10 +601,11 @@ def here(K, g, omega_far, omega_near, psi):
         says = f"the link goes round, stroke ratio of its half turns {K:.4g}"
     else:
         says = "the crank's circle goes through the hinge"
-    near = f"{omega_near:.4g} rad/s" if isfinite(omega_near) else "none"
+    near = f"{omega_near:.4g} rad/s".replace("-", "−") if isfinite(omega_near) else "none"
+    far = f"{omega_far:.4g} rad/s".replace("-", "−")
     mo.md(
         f"**Here** L₁ = {g.L1:.6g} m, L₀ = {g.L0:.6g} m: {says}. "
-        f"Angular velocity of the link near the hinge: {near}; far from it: {omega_far:.4g} rad/s."
+        f"Angular velocity of the link near the hinge: {near}; far from it: {far}."
     )
     return
 

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from mechsheet.worksheet import numbers
 
 _STEPS = (1, 2, 2.5, 5, 10)
-_STEPS_OF_A_CIRCLE = (1.5, 3, 4.5, 6, 9, 18)  # tens of degrees
+_STEPS_OF_A_CIRCLE = {1: (1.5, 3, 4.5, 6, 9, 18), 2: (1.8, 3.6, 7.2, 10.8)}  # tens and hundreds of degrees
 _LEAST = 1e-300  # length of an axis
 
 
@@ -46,6 +46,8 @@ def axis(values: Iterable[ArrayLike], unit: str = "-", count: int = 6) -> Axis:
     Axis(low=0.4, high=0.7, step=0.05, places=2)
     >>> axis([[0, 360]], "deg").ticks
     [0.0, 60.0, 120.0, 180.0, 240.0, 300.0, 360.0]
+    >>> axis([[0, 720]], "deg").ticks
+    [0.0, 180.0, 360.0, 540.0, 720.0]
     """
     every = np.concatenate([np.ravel(np.asarray(v, dtype=float)) for v in values])
     every = every[np.isfinite(every)]
@@ -55,7 +57,7 @@ def axis(values: Iterable[ArrayLike], unit: str = "-", count: int = 6) -> Axis:
         low, high = low - half, high + half
     rough = (high - low) / count
     exponent = floor(log10(rough))
-    steps = _STEPS_OF_A_CIRCLE if unit == "deg" and exponent == 1 else _STEPS
+    steps = _STEPS_OF_A_CIRCLE.get(exponent, _STEPS) if unit == "deg" else _STEPS
     factor = next(m for m in steps if m * 10.0**exponent >= 0.999 * rough)
     step = factor * 10.0**exponent
     ends = floor(low / step + 1e-9), ceil(high / step - 1e-9)

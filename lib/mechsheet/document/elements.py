@@ -107,7 +107,7 @@ def _polygon(picture: Picture, e: Element, *p: complex) -> None:
 
 def _path(picture: Picture, e: Element, *p: complex) -> None:
     picture.line(*apart(p), colour=e.colour)
-    picture.label(e.name, past, *p[-2:])
+    picture.label_end(e.name, *p[-2:])
 
 
 def _arrow(picture: Picture, e: Element, p: complex, q: complex) -> None:

@@ -3,10 +3,11 @@
 All in px, y down.
 """
 
+from cmath import rect
 from collections.abc import Iterable, Iterator
 from functools import lru_cache
 from itertools import pairwise
-from math import hypot, inf
+from math import hypot, inf, pi
 from typing import NamedTuple, TypeAlias
 
 import numpy as np
@@ -111,13 +112,13 @@ def inside(half: complex, *points: complex) -> Iterator[complex]:
 
 
 def past(half: complex, a: complex, b: complex) -> Iterator[complex]:
-    """At the end b of the arrow ab: beyond it or on its sides."""
-    u = unit(b - a)
-    gaps = [GAP, 2 * GAP]
-    if length(b - a) < 4 * GAP:  # a short arrow is crowded by what stands at its foot
-        gaps.append(4 * GAP)
-    for gap in gaps:
-        for back, n in ((0, u), (5, 1j * u), (5, -1j * u), (20, 1j * u), (20, -1j * u)):
+    """At the end b of the arrow ab: beyond it or on its sides; then beside it, and round its end."""
+    u, size = unit(b - a), length(b - a)
+    ends = ((0, u), (5, 1j * u), (5, -1j * u), (20, 1j * u), (20, -1j * u))
+    along = ((t * size, n) for t in (0.35, 0.6) for n in (1j * u, -1j * u) if size > 4 * GAP)
+    farther = [(0, u * rect(1, turn)) for turn in (0, 0.8, -0.8, 1.6, -1.6, 2.4, -2.4, pi)]
+    for gap, places in ((GAP, ends), (2 * GAP, ends), (GAP, along), (4 * GAP, farther), (7 * GAP, farther)):
+        for back, n in places:
             yield b - back * u + n * (gap + reach(half, n))
 
 

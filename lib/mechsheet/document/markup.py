@@ -2,6 +2,7 @@
 
 import json
 import re
+from collections.abc import Container
 from html import escape
 from typing import Any
 
@@ -50,16 +51,27 @@ def as_written(name: str) -> str:
     return f"{read.mark}<i>{read.base}</i>" + (f"<sub>{read.index}</sub>" if read.index else "")
 
 
-def meant(meaning: str) -> str:
-    """What a line or an input means, names in it that have an index by an underscore as their symbols.
+def meant(meaning: str, known: Container[str] = ()) -> str:
+    """What a line or an input means, its numbers as on the page and names in it as symbols.
+
+    Names are Greek words, what has an index by an underscore, and of those with digits the ``known`` ones.
 
     >>> meant("abscissa of the pole < 1, times D_p; bolt M8")
     'abscissa of the pole &lt; 1, times <i>D</i><sub>p</sub>; bolt M8'
+    >>> meant("sum of cos(phi) + c, below 40 psi")
+    'sum of cos(<i>φ</i>) + c, below 40 psi'
+    >>> meant("l2 - l1 on the branch -1, bolt M8", {"l1", "l2"})
+    '<i>l</i><sub>2</sub> − <i>l</i><sub>1</sub> on the branch −1, bolt M8'
     """
-    return "".join(named(piece) if i % 2 else escape(piece) for i, piece in enumerate(_INDEXED.split(meaning)))
+    pieces = enumerate(_IN_PROSE.split(meaning))
+    return "".join(
+        named(piece) if i % 2 and (piece in known or not _DIGITS.fullmatch(piece)) else message(piece)
+        for i, piece in pieces
+    )
 
 
-_INDEXED = re.compile(rf"\b({symbol.INDEXED})\b(?!\.\w)")
+_DIGITS = re.compile(rf"(?!{symbol.IN_PROSE})[A-Za-z]+\d\w*")
+_IN_PROSE = re.compile(rf"({symbol.IN_PROSE}|\b{_DIGITS.pattern})")
 
 
 def printed(number: str) -> str:
@@ -80,7 +92,7 @@ def in_words(sentence: str, names: tuple[str, ...] = ()) -> str:
     '<i>φ</i><sub>3</sub> = −1.5\u202f·\u202f10<sup>−7</sup>..90°, −2..−1 m'
     """
     pieces = enumerate(symbol.pieces(sentence, names))
-    return "".join(named(piece) if i % 2 else numbers.rewritten(escape(piece), HTML) for i, piece in pieces)
+    return "".join(named(piece) if i % 2 else message(piece) for i, piece in pieces)
 
 
 def message(text: str) -> str:

@@ -55,7 +55,8 @@ class Picture:
         self.texts: list[Text] = []
         self._faint = False
         self._marks: list[Mark] = []
-        self._point_labels: list[Label] = []  # they have the first choice of places
+        self._end_labels: list[Label] = []  # they have the first choice of places, those of points the second
+        self._point_labels: list[Label] = []
         self._labels: list[Label] = []
         self._pins: dict[tuple[int, int], float] = {}
         self._arms: dict[tuple[int, int], list[complex]] = {}
@@ -117,6 +118,12 @@ class Picture:
             printed, half = labels.as_printed(name)
             self._labels.append(Label(printed, half, places(half, *where)))
 
+    def label_end(self, name: str, a: complex, b: complex) -> None:
+        """A name at the end b of a path that comes from a: nowhere else it says what it names."""
+        if name and not self._faint:
+            printed, half = labels.as_printed(name)
+            self._end_labels.append(Label(printed, half, labels.past(half, a, b)))
+
     def label_round(self, name: str, p: complex, r: float) -> None:
         """A name round a circle, first in the widest gap between the bars that end there."""
         if name and not self._faint:
@@ -131,7 +138,7 @@ class Picture:
             best = start + gap / 2
         else:
             best = -pi / 4
-        for distance in (r + 4, r + 12):
+        for distance in (r + 4, r + 12, r + 22, r + 34):
             for turn in (0, 0.5, -0.5, 1, -1, 1.6, -1.6, 2.3, -2.3, pi):
                 n = rect(1, best + turn)
                 yield p + n * (distance + reach(half, n))
@@ -141,7 +148,7 @@ class Picture:
 
     def place_labels(self, lines: Segments, low: complex, high: complex) -> None:
         """Write the names, clear of lines and of each other, inside the box between two corners."""
-        labels.place((*self._point_labels, *self._labels), self.texts, lines, low, high)
+        labels.place((*self._end_labels, *self._point_labels, *self._labels), self.texts, lines, low, high)
 
     # The whole
 

@@ -3,7 +3,7 @@ const COLOURS = ["#3b82d0", "#e0483c", "#2c9c5c", "#cf7a17", "#8b6fd6", "#1aa3a8
 const DASHES = ["", "9 3", "3 3", "9 3 2 3"];
 const [WIDTH, HEIGHT, LEFT, RIGHT, TOP, BOTTOM, MARKED] = [660, 330, 74, 24, 34, 46, 60];
 const PLOT = {width: WIDTH - LEFT - RIGHT, height: HEIGHT - TOP - BOTTOM};
-const STEPS = [1, 2, 2.5, 5, 10], STEPS_OF_A_CIRCLE = [1.5, 3, 4.5, 6, 9, 18];
+const STEPS = [1, 2, 2.5, 5, 10], STEPS_OF_A_CIRCLE = {1: [1.5, 3, 4.5, 6, 9, 18], 2: [1.8, 3.6, 7.2, 10.8]};
 
 
 // Ends, step and last decimal of an axis that holds all finite values.
@@ -16,7 +16,7 @@ function axisOf(arrays, unit, count = 6) {
     [low, high] = [low - half, high + half];
   }
   const rough = (high - low) / count, power = Math.floor(Math.log10(rough)), ten = Number(`1e${power}`);
-  const steps = ["deg", "°"].includes(unit) && power === 1 ? STEPS_OF_A_CIRCLE : STEPS;
+  const steps = (["deg", "°"].includes(unit) && STEPS_OF_A_CIRCLE[power]) || STEPS;
   const factor = steps.find(m => m * ten >= 0.999 * rough), step = factor * ten;
   const rounded = i => Number((i * step).toFixed(Math.max(0, Math.min(100, 1 - power))));
   const axis = {low: rounded(Math.floor(low / step + 1e-9)), high: rounded(Math.ceil(high / step - 1e-9)), step};

@@ -21,7 +21,7 @@ const reach = (half, n) => Math.abs(half[0] * n[0]) + Math.abs(half[1] * n[1]);
 
 // Marks [points, width, radius, colour, opacity, trimmed] of one element after the other, and names with their places.
 function newPicture() {
-  const picture = {groups: [], texts: [], pointLabels: [], labels: [], pins: new Map(), arms: new Map(), faint: false, marks: []};
+  const picture = {groups: [], texts: [], endLabels: [], pointLabels: [], labels: [], pins: new Map(), arms: new Map(), faint: false, marks: []};
   const arm = (p, q) => {
     const key = keyOf(p);
     picture.arms.has(key) ? picture.arms.get(key).push(q) : picture.arms.set(key, [q]);
@@ -65,6 +65,9 @@ function newPicture() {
     label(name, places, ...where) {
       if (name && !picture.faint) picture.labels.push([name, half => places(half, ...where)]);
     },
+    labelEnd(name, a, b) {
+      if (name && !picture.faint) picture.endLabels.push([name, half => past(half, a, b)]);
+    },
     labelRound(name, p, r) {
       if (name && !picture.faint) picture.pointLabels.push([name, half => around(picture, half, p, r)]);
     },
@@ -78,7 +81,7 @@ function* around(picture, half, p, r) {
     const gap = Math.round(1e6 * ((i + 1 < arms.length ? arms[i + 1] : arms[0] + 2 * Math.PI) - start)) / 1e6;
     if (gap >= widest) (widest = gap), (best = start + gap / 2);
   });
-  for (const distance of [r + 4, r + 12]) {
+  for (const distance of [r + 4, r + 12, r + 22, r + 34]) {
     for (const turn of [0, 0.5, -0.5, 1, -1, 1.6, -1.6, 2.3, -2.3, Math.PI]) {
       const n = direction(best + turn);
       yield plus(p, scaled(distance + reach(half, n), n));
@@ -107,9 +110,12 @@ function* within(half, ...points) {
 }
 
 function* past(half, a, b) {
-  const u = unitAlong(minus(b, a)), v = across(u);
-  for (const gap of [GAP, 2 * GAP, ...(sizeOf(minus(b, a)) < 4 * GAP ? [4 * GAP] : [])]) {
-    for (const [back, n] of [[0, u], [5, v], [5, scaled(-1, v)], [20, v], [20, scaled(-1, v)]]) {
+  const u = unitAlong(minus(b, a)), size = sizeOf(minus(b, a)), v = across(u), w = scaled(-1, v);
+  const ends = [[0, u], [5, v], [5, w], [20, v], [20, w]];
+  const along = size > 4 * GAP ? [0.35, 0.6].flatMap(t => [[t * size, v], [t * size, w]]) : [];
+  const farther = [0, 0.8, -0.8, 1.6, -1.6, 2.4, -2.4, Math.PI].map(turn => [0, rotated(direction(turn), u)]);
+  for (const [gap, places] of [[GAP, ends], [2 * GAP, ends], [GAP, along], [4 * GAP, farther], [7 * GAP, farther]]) {
+    for (const [back, n] of places) {
       yield plus(minus(b, scaled(back, u)), scaled(gap + reach(half, n), n));
     }
   }
@@ -235,7 +241,7 @@ function placeNames(picture, lines, low, high) {
     }
     return 0.3 * ink + 50 * clashes + 100 * outside;
   };
-  for (const [name, places] of [...picture.pointLabels, ...picture.labels]) {
+  for (const [name, places] of [...picture.endLabels, ...picture.pointLabels, ...picture.labels]) {
     const half = halfOf(name);
     let best = [0, 0], least = Infinity, rank = 0;
     for (const at of places(half)) {

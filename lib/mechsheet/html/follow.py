@@ -22,6 +22,7 @@ from mechsheet.recording.lines import SLIDER, Recording
 from mechsheet.recording.node import Node, bottom_up
 from mechsheet.recording.quantity import Quantity, lift
 from mechsheet.recording.sketch import Drawn
+from mechsheet.recording.terms import terms_of
 from mechsheet.recording.written import Said
 from mechsheet.worksheet import numbers
 from mechsheet.worksheet.check import Check
@@ -32,7 +33,7 @@ from mechsheet.worksheet.over import Axis
 from mechsheet.worksheet.symbol import read, stem
 from mechsheet.worksheet.system import Solution
 from mechsheet.worksheet.table import Column, Figure, Table
-from mechsheet.worksheet.terms import is_rounding, terms
+from mechsheet.worksheet.terms import is_rounding, may_be_rounding, terms
 from mechsheet.worksheet.title import Caption, Mark
 from mechsheet.worksheet.verdict import Verdict
 
@@ -184,6 +185,8 @@ class Follower:
             spec["at"] = line.position
         elif self.about_nothing(line):
             added: Any = terms(line.formula.expression, self.recording.values)
+            if not isinstance(added, Quantity) and self._left_over(line):
+                added = terms_of(held, self.recording.names)
             spec |= {"terms": self.key(added.re)} if isinstance(added, Quantity) else {}
         elif line.over:
             spec["over"] = [self._axis(axis) for axis in line.over.axes]
@@ -191,12 +194,18 @@ class Follower:
         return self.mark("value", keys=[self.key(part) for part in held.parts] if same else None, **spec, **guards)
 
     def about_nothing(self, line: Line) -> str:
-        """What stands for a value that is nothing but the rounding of what its line adds; "" for any other."""
+        """What stands for a value that is nothing but the rounding of what its line, or a function, adds; else ""."""
         namespace = self.numbers.namespace if self.numbers else {}
-        if not is_rounding(line.value, line.formula.expression, namespace):
+        if not is_rounding(line.value, line.formula.expression, namespace) and not self._left_over(line):
             return ""
         unit = line.formula.unit
         return f"≈ {numbers.value(np.asarray(line.value).dtype.type(0).item(), unit, offered.notation(unit))}"
+
+    def _left_over(self, line: Line) -> bool:
+        held = self.recording.values.get(line.formula.name)
+        if not isinstance(held, Quantity) or not may_be_rounding(line.value, line.formula.unit):
+            return False
+        return numbers.is_rounding(line.value, terms_of(held, self.recording.names).value)
 
     def _axis(self, axis: Axis | None) -> Spec | None:
         """The quantity along an axis of a field; None of one that is not known, or not for other inputs."""

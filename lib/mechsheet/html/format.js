@@ -202,8 +202,14 @@ const rewritten = text =>
     .replace(/(?:>|&gt;)=/g, "≥")
     .replace(/(?:<|&lt;)=/g, "≤");
 
-// What a check compares: told apart, with two digits where the residual is only rounding.
+// Numbers with the digits of a line, or with as many more as tell unequal ones apart.
+function inLine(values) {
+  const texts = values.map(x => usual(x, HTML));
+  return new Set(texts).size === new Set(values).size ? texts : apart(values, 6);
+}
+
+// What a check compares: as in lines and told apart, with two digits where the residual is only rounding.
 function compared(residual, limit, agrees) {
   if (!Number.isFinite(residual) || !Number.isFinite(limit)) return [residual, limit].map(x => significant(x, 4));
-  return apart([residual, limit], agrees || Math.abs(residual) < 1e-3 * limit ? 2 : 4);
+  return agrees || Math.abs(residual) < 1e-3 * limit ? apart([residual, limit], 2) : inLine([residual, limit]);
 }

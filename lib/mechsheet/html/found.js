@@ -8,7 +8,7 @@ const largestOf = values => Math.max(...values.filter(x => x === x).map(Math.abs
 // Least..greatest, one number where they are equal but for rounding.
 const extent = (values, unit) => {
   const ends = leastAndGreatest(values.filter(x => x === x)), isOne = ends[1] - ends[0] <= 2 ** -48 * largestOf(ends);
-  return spanOf(amounts(isOne ? ends.slice(0, 1) : ends, unit)) + unit[1];
+  return spanOf(inLine((isOne ? ends.slice(0, 1) : ends).map(x => x / unit[0]))) + unit[1];
 };
 
 const signed = branch => `${branch < 0 ? "" : "+"}${branch}`;
@@ -33,7 +33,7 @@ function reasonOnBranch(words, {reason, reached, interval, jump, samples, equals
   return `${reach} but jumps over ${target}${behind}${jump === jump ? ` at ${withUnit(jump, words.unknown_unit)}` : ""}`;
 }
 
-const pointOf = ({names, units}, x, digits = 6) => names.map((name, k) => `${name} = ${withUnit(x[k], units[k], digits)}`).join(", ");
+const pointOf = ({names, units}, x) => names.map((name, k) => `${name} = ${extent([x[k]], units[k])}`).join(", ");
 
 function reasonForSeveral(words, verdict, isAlone) {
   const {reason, nearest} = verdict, unknowns = words.names.join(", ");
@@ -45,7 +45,7 @@ function reasonForSeveral(words, verdict, isAlone) {
   const worst = nearest.left.indexOf(Math.max(...nearest.left));
   const left = withUnit(nearest.residual[worst], words.equation_units[worst]);
   const others = words.guessed && isAlone ? verdict.solutions.slice(0, LISTED).map(x => pointOf(words, x)) : [];
-  return `${how}: ${words.equations[worst]} leaves ${left} at the nearest, ${pointOf(words, nearest.x, 4)}` +
+  return `${how}: ${words.equations[worst]} leaves ${left} at the nearest, ${pointOf(words, nearest.x)}` +
     (others.length ? `; starts around it see ${others.join("; ")}` : "");
 }
 
@@ -53,7 +53,7 @@ function reasonForSeveral(words, verdict, isAlone) {
 function headOf(words, verdicts, reasons, isAlone) {
   const several = words.names, unknowns = several?.join(", ") ?? words.unknown, valued = verdicts.filter((_, k) => !reasons[k]);
   if (isAlone && reasons[0]) return unknowns;
-  if (isAlone) return several ? pointOf(words, valued[0].x) : `${unknowns} = ${withUnit(valued[0].value, words.unknown_unit, 6)}`;
+  if (isAlone) return several ? pointOf(words, valued[0].x) : `${unknowns} = ${extent([valued[0].value], words.unknown_unit)}`;
   const count = `${valued.length} of ${verdicts.length} problems ${words.least ? "fitted" : "solved"}`;
   if (!valued.length) return `${unknowns}, ${count}`;
   const spans = several?.map((name, k) => `${name} = ${extent(valued.map(v => v.x[k]), words.units[k])}`);
@@ -69,7 +69,8 @@ function rowsOfOne(words, verdicts, reasons, isAlone) {
   if (isAlone) {
     const every = branches ?? [[null, first]], samples = every.reduce((n, [, v]) => n + v.samples, 0);
     const roots = every.flatMap(([s, v]) => v.roots.map(({value}) => [value, s])).sort(([a], [b]) => a - b);
-    const shown = roots.map(([x, s]) => withUnit(x, words.unknown_unit, 6) + (branches ? ` (branch ${signed(s)})` : ""));
+    const [factor, behind] = words.unknown_unit, texts = inLine(roots.map(([x]) => x / factor));
+    const shown = roots.map(([, s], k) => texts[k] + behind + (branches ? ` (branch ${signed(s)})` : ""));
     rows.push([`roots seen by ${samples} samples`, shown.join("; ") || "none"]);
   }
   if (all("interval").every(Number.isFinite)) rows.push(["searched", extent(all("interval"), words.unknown_unit)]);

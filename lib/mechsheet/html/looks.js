@@ -72,7 +72,7 @@ const LOOKS = {
   },
   path(picture, e, ...p) {
     picture.line(p, EDGE, e.colour);
-    picture.label(e.name, past, ...p.slice(-2));
+    picture.labelEnd(e.name, ...p.slice(-2));
   },
   arrow(picture, e, p, q) {
     if (p[0] === q[0] && p[1] === q[1]) return;

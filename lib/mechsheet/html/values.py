@@ -1,7 +1,7 @@
 """What the page shows of each value: its writer by its kind, from the data to HTML."""
 
 import re
-from collections.abc import Sequence
+from collections.abc import Container, Sequence
 from datetime import date
 from functools import singledispatch
 from html import escape
@@ -22,7 +22,7 @@ from mechsheet.html.follow import Follower
 from mechsheet.html.mathml import mathml
 from mechsheet.recording.graph import Graph
 from mechsheet.recording.lines import Recording
-from mechsheet.worksheet import numbers
+from mechsheet.worksheet import numbers, symbol
 from mechsheet.worksheet.check import Check, Summary
 from mechsheet.worksheet.drawing import Drawing
 from mechsheet.worksheet.index import Index
@@ -80,7 +80,7 @@ def _(given: Given, page: Follower) -> str:
 def _(line: Line, page: Follower) -> str:
     formula = line.formula
     if formula.arguments:
-        return _line(_equation(formula, page), "", formula)
+        return _line(_equation(formula, page), "", formula, known=page.numbers or ())
     return _valued(line, page.value(line), page.put_in(line), page)
 
 
@@ -90,7 +90,7 @@ def _valued(line: Line, follows: str, put_in: str, page: Follower) -> str:
     equals = "" if text.startswith("≈") else "="
     shown = f'<span class="ms-equals">{equals}</span><span class="ms-value"{follows}>{text}</span>'
     numbers = f'<span class="ms-numbers"{put_in}></span>' if put_in else ""
-    return _line(_equation(line.formula, page), shown, line.formula, numbers)
+    return _line(_equation(line.formula, page), shown, line.formula, numbers, page.numbers or ())
 
 
 def _equation(line: Formula | Given, page: Follower) -> str:
@@ -124,14 +124,16 @@ def value(line: Line) -> str:
     return numbers.value(line.value, unit, offered.notation(unit)) + where(line.value, line.over)
 
 
-def _line(formula: str, value: str = "", told: Formula | None = None, numbers: str = "") -> str:
+def _line(
+    formula: str, value: str = "", told: Formula | None = None, put_in: str = "", known: Container[str] = ()
+) -> str:
     """A typeset line, the printed formula's number at its end; the index leads to it by its name."""
     if not told:
         return f'<div class="ms-line"><span class="ms-formula">{formula}</span></div>'
     mistake = f' <span class="ms-badge ms-FAIL">mistake</span> {escape(told.mistake)}' if told.mistake else ""
-    said = f"<span>{meant(told.meaning)}{mistake}</span>" if told.meaning or mistake else ""
+    said = f"<span>{meant(told.meaning, known)}{mistake}</span>" if told.meaning or mistake else ""
     said += f'<span class="ms-number">{printed(told.number)}</span>' if told.number else ""
-    shown = f'<span class="ms-formula">{formula}{value}</span>{said}{numbers}'
+    shown = f'<span class="ms-formula">{formula}{value}</span>{said}{put_in}'
     return f'<div class="ms-line" id="line-{told.name}">{shown}</div>'
 
 
@@ -147,7 +149,7 @@ def _block(whole: Sequence[Column], follows: str, told: str) -> str:
     columns, left_out = shortened(whole)
     kinds = ["" if c.unit else ' class="ms-text"' for c in columns]
     heads = "".join(
-        f'<th{kind} scope="col" title="{escape(c.meaning)}">{named(c.name)}</th>'
+        f'<th{kind} scope="col" title="{escape(symbol.prose(c.meaning))}">{named(c.name)}</th>'
         for c, kind in zip(columns, kinds, strict=True)
     )
     under = "".join(f"<th>{offered.head(c.unit) if c.unit else ''}</th>" for c in columns)

@@ -237,7 +237,7 @@ def _symbols(namespace: Mapping[str, Any], shown: Iterable[Any]) -> dict[str, di
     found = dict[str, dict[str, str]]()
     for field in declared(type(namespace["g"])):
         found[symbol(symbols.read(field.name))] = {
-            "meaning": field.meaning,
+            "meaning": symbols.prose(field.meaning),
             "unit": "" if field.unit == "-" else units.shown(field.unit),
             "to": f"input-{field.name}",
         }
@@ -245,7 +245,7 @@ def _symbols(namespace: Mapping[str, Any], shown: Iterable[Any]) -> dict[str, di
     for name, line in registry(namespace).items():
         if name in lines:
             read = symbol(symbols.read(symbols.stem(name)))
-            found.setdefault(read, {"meaning": line.meaning, "unit": "", "to": f"line-{name}"})
+            found.setdefault(read, {"meaning": symbols.prose(line.meaning), "unit": "", "to": f"line-{name}"})
     return found
 
 

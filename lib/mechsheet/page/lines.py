@@ -18,7 +18,7 @@ from mechsheet.page.unchanged import kept
 from mechsheet.worksheet import symbol
 from mechsheet.worksheet.lines import Formula, Given, Numbers, Typeset
 from mechsheet.worksheet.over import over
-from mechsheet.worksheet.terms import is_rounding
+from mechsheet.worksheet.terms import is_rounding, may_be_rounding
 
 
 def lines(shown: Typeset) -> str:
@@ -43,14 +43,15 @@ def _single(line: Formula | Given, shown: Typeset) -> frozenset[str]:
 
 def _formula(line: Formula, value: object, shown: Typeset) -> str:
     single = _single(line, shown)
+    meaning = meant(line.meaning, shown.numbers or ())
     if line.arguments:
-        return _line(_equation(line, single), "", line.meaning, line.number, mistake=line.mistake, line=line)
+        return _line(_equation(line, single), "", meaning, line.number, mistake=line.mistake, line=line)
     text = "" if shown.numbers is None else _substituted(line, shown.numbers, shown.position)
     namespace = shown.numbers.namespace if shown.numbers else None
     cleared = _cleared(line, value, namespace)
     found = _valued(line, cleared, namespace)
     equals = r"\approx" if cleared is not value else "" if _is_about(found) else "="
-    told = line.meaning, line.number, text, line.mistake, line
+    told = meaning, line.number, text, line.mistake, line
     return _line(f"{_equation(line, single)} {equals}".rstrip(), found, *told)
 
 
@@ -72,10 +73,20 @@ def _is_about(shown: str) -> bool:
 
 
 def _cleared(line: Formula, value: Any, namespace: Mapping[str, Any] | None) -> Any:
-    """The value itself, or 0 of one that is nothing but the rounding of what its line adds."""
-    if namespace is None or not is_rounding(value, line.expression, namespace):
+    """The value itself, or 0 of one that is nothing but the rounding of what its line, or a function, adds."""
+    if namespace is None:
         return value
-    return np.asarray(value).dtype.type(0).item()
+    if is_rounding(value, line.expression, namespace) or _is_left_over(value, line, namespace):
+        return np.asarray(value).dtype.type(0).item()
+    return value
+
+
+def _is_left_over(value: Any, line: Formula, namespace: Mapping[str, Any]) -> bool:
+    if not may_be_rounding(value, line.unit) or "__file__" not in namespace:
+        return False
+    from mechsheet.recording.left_over import is_left_over  # on use: few lines ask for a recording
+
+    return is_left_over(value, line, namespace)
 
 
 @dataclass(frozen=True)
@@ -123,7 +134,7 @@ def _line(
     more = f'<ms-numbers tex="{escape("= " + substituted)}"></ms-numbers>' if substituted else ""
     formula = _tex_element(tex) + (f'<span class="ms-value">{value}</span>' if value else "")
     told = f' <span class="ms-badge ms-FAIL">mistake</span> {escape(mistake)}' if mistake else ""
-    said = f"<span>{meant(meaning)}{told}</span>" if meaning or told else ""
+    said = f"<span>{meaning}{told}</span>" if meaning or told else ""
     said += f'<span class="ms-number">{printed(number)}</span>' if number else ""
     place = f' id="line-{line.name}"' if line else ""
     place += _symbols(line) if isinstance(line, Formula) else ""

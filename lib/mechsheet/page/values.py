@@ -312,7 +312,7 @@ def _(found: Verdict) -> str:
         for k, v in found.details()
     )
     return (
-        '<div style="border-left:3px solid currentColor;padding:.2em .8em;margin:.4em 0">'
+        '<div class="ms-found" style="border-left:3px solid currentColor;padding:.2em .8em;margin:.4em 0">'
         f"<div>{badge}<b>{in_words(found.headline(), found.names)}</b></div>{lines}"
         f'<table style="border-collapse:collapse;font-size:.9em;margin-top:.3em">{rows}</table></div>'
     )
@@ -392,7 +392,8 @@ def _table(table: Table) -> str:
 def _block(columns: Sequence[Column], left_out: int) -> str:
     kinds = ["" if c.unit else ' class="ms-text"' for c in columns]
     heads = "".join(
-        f'<th{kind} title="{escape(c.meaning)}">{named(c.name)}</th>' for c, kind in zip(columns, kinds, strict=True)
+        f'<th{kind} title="{escape(symbol.prose(c.meaning))}">{named(c.name)}</th>'
+        for c, kind in zip(columns, kinds, strict=True)
     )
     unit_row = "".join(f"<th>{f'[{_unit(c)}]' if c.unit else ''}</th>" for c in columns)
     rows = "".join(

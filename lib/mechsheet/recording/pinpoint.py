@@ -3,7 +3,8 @@
 import ast
 from collections.abc import Iterable, Iterator, Mapping
 from functools import cached_property
-from typing import NamedTuple
+from itertools import pairwise
+from typing import NamedTuple, TypeGuard
 
 from mechsheet.recording.statement import binds
 from mechsheet.worksheet import source
@@ -115,16 +116,29 @@ class Places:
             for node in source.nodes(part):
                 if isinstance(node, ast.expr) and (likeness := _likeness(node, op, operands, own)) > best:
                     best, likest = likeness, node
-        if likest:
-            return likest.lineno, _short(ast.unparse(likest))
-        match self.statements.get(line):
+        statement = self.statements.get(line)
+        able = [n for n in source.nodes(statement) if _does(n, op)] if statement else []
+        if likest or len(able) == 1:
+            does = likest or able[0]
+            return does.lineno, _short(ast.unparse(does))
+        match statement:
             case ast.Assign(value=value) | ast.AugAssign(value=value) | ast.Expr(value):
                 return line, _short(ast.unparse(value))
-        return line, "it"
+            case ast.stmt():
+                return line, _short(ast.unparse(statement).partition("\n")[0].removesuffix(":"))
+        return line, "its statement"
 
 
 def _short(text: str) -> str:
     return text if len(text) <= _LONGEST else text[: _LONGEST - 2] + " …"
+
+
+def _does(node: ast.AST, op: str) -> TypeGuard[ast.expr]:
+    """Whether an expression is written with the sign of an operation."""
+    match node:
+        case ast.BinOp(op=sign) | ast.Compare(ops=[sign, *_]):
+            return isinstance(sign, _SIGNS.get(op, ()))
+    return False
 
 
 def _likeness(node: ast.expr, op: str, operands: list[set[str]], own: set[str]) -> float:
@@ -132,8 +146,9 @@ def _likeness(node: ast.expr, op: str, operands: list[set[str]], own: set[str]) 
     match node:
         case ast.BinOp(left, sign, right) if isinstance(sign, _SIGNS.get(op, ())):
             return _alike([left], operands[0], own) / 2 + _alike([right], operands[1], own) / 2
-        case ast.Compare(left, [sign], [right]) if isinstance(sign, _SIGNS.get(op, ())):
-            return _alike([left], operands[0], own) / 2 + _alike([right], operands[1], own) / 2
+        case ast.Compare(left, _, others) if _does(node, op):
+            pairs = pairwise([left, *others])
+            return max(_alike([a], operands[0], own) / 2 + _alike([b], operands[1], own) / 2 for a, b in pairs)
         case ast.Call(f, args, keywords):
             if (name := next(_names(f), "")) in _OWN and op not in _OWN[name]:
                 return 0.0

@@ -1,6 +1,6 @@
 """A worksheet recorded: its statements run one by one with quantities that remember what is done with them."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -22,11 +22,12 @@ def record(
     draws: bool = False,
     lists: bool = False,
     bodies: bool = False,
+    want: Sequence[str] = (),
 ) -> Recording:
     """Run the cells behind the tables, found values and checks of ``namespace`` with recorded quantities.
 
     ``sheet`` has the cells where they are not those of the file, and ``known`` the lines that declare a unit where the
-    namespace does not tell; with ``whole`` all cells are run. What a recording
+    namespace does not tell; with ``whole`` all cells are run, with ``want`` those behind these names. What a recording
     does not hold keeps the numbers of the worksheet's own run, as nodes ``exported`` that know what they rest on;
     `Recording.gaps` says where and why. Where all tables list every so many positions, or ``every`` so many are asked
     for, only those are recorded, and all of them only for numbers that rest on all, such as an integral, and for checks
@@ -34,7 +35,7 @@ def record(
     ``slider part``, and the drawings that cells show are recorded. With ``lists`` those among the inputs may have any
     length, with ``bodies`` the functions of the mechanics are in all their steps.
     """
-    return _recorded(namespace, sheet, whole, known, every, draws, lists, bodies)[0]
+    return _recorded(namespace, sheet, whole, known, every, draws, lists, bodies, want=want)[0]
 
 
 def record_every_line(namespace: Mapping[str, Any], sheet: Worksheet) -> tuple[Recording, Recording]:
@@ -52,16 +53,18 @@ def _recorded(
     lists: bool = False,
     bodies: bool = False,
     further: bool = False,
+    want: Sequence[str] = (),
 ) -> tuple[Recording, Recording]:
     sheet = load(Path(namespace["__file__"])) if sheet is None else sheet
-    want = sheet.results if whole else [name for name in sheet.results if shown(namespace.get(name))]
+    asked = want or [name for name in sheet.results if whole or shown(namespace.get(name))]
     token, runs = current.set(Graph()), list[Run]()
     try:
         for thin in dict.fromkeys((every or step_of(namespace), 1)):
             graph = Graph(thin, draws, lists, bodies)
             graph.listed = rows_of(namespace)
             current.set(graph)
-            runs.append(Run(sheet, graph, namespace, want, registry(namespace) if known is None else known))
+            lines = registry(namespace) if known is None else known
+            runs.append(Run(sheet, graph, namespace, asked, lines, unnamed=not (want or bodies)))
             if not any(lacking(runs[0].recording, namespace)):  # else all positions may tell more
                 break
         run = min(runs, key=lambda run: lacking(run.recording, namespace))

@@ -45,7 +45,9 @@ class Run(OfPositions):
         namespace: Mapping[str, Any],
         want: Sequence[str],
         lines: Mapping[str, Formula],
+        unnamed: bool = False,
     ) -> None:
+        """Of what ``want`` needs, and with what cells show under no name where ``unnamed`` asks for it."""
         g, known = given(graph, namespace["g"])
         super().__init__(Recording(graph, known, every=graph.thin))
         self.sheet, self.namespace = sheet, namespace
@@ -55,15 +57,15 @@ class Run(OfPositions):
         self.chosen: dict[Node, frozenset[Node]] = {}
         self.lost: dict[str, NotRecorded] = {}  # names that have no value here, and why
         self.passing: dict[str, Any] = {}  # of these, lines whose numbers are others at the next run
-        self.want, self.lines = want, lines
+        self.want, self.lines, self.unnamed = want, lines, unnamed
         self.constants = of_setup(sheet)  # its lines that end in a unit
         for line in sheet.setup:
             self.set_up(line, sheet.path)
         self.showing = showing.functions(sheet)
-        unnamed = () if graph.bodies else showing.without_name(sheet, {"g", *namespace}, self.showing)
-        needs = chain.from_iterable(sorted(cell.needs) for cell in unnamed)
+        more = showing.without_name(sheet, {"g", *namespace}, self.showing) if unnamed else []
+        needs = chain.from_iterable(sorted(cell.needs) for cell in more)
         self.needed = [*sheet.needed([*want, *needs], {"g": g})]
-        self.needed += (cell for cell in unnamed if cell not in self.needed)
+        self.needed += (cell for cell in more if cell not in self.needed)
         for cell in [*self.needed, *(showing.cells(sheet, self.needed) if graph.draws else ())]:
             self.run(cell)
         self.recording.values, self.recording.looked = self.names, self.looked
@@ -96,7 +98,7 @@ class Run(OfPositions):
         return showing.on_the_page(line, self.showing) if on_page else statement.texts_apart(line)
 
     def again(self) -> "Run":
-        return Run(self.sheet, self.graph, self.namespace, self.want, self.lines)
+        return Run(self.sheet, self.graph, self.namespace, self.want, self.lines, self.unnamed)
 
     def with_every_line(self) -> Recording:
         """The recording with the lines on which nothing rests that is shown; itself stays as it is."""

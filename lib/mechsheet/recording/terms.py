@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Container
+from functools import reduce
 from typing import Any
 
 import numpy as np
@@ -9,6 +10,7 @@ import numpy as np
 from mechsheet.recording.arithmetic import choice
 from mechsheet.recording.graph import Graph
 from mechsheet.recording.node import Node, bottom_up, is_number
+from mechsheet.recording.operations import Moved
 from mechsheet.recording.quantity import Quantity, lift
 
 
@@ -64,6 +66,12 @@ def measure(graph: Graph, node: Node, named: Container[Node]) -> Quantity:
     return _Measured(graph, named).of(node)
 
 
+def terms_of(value: Quantity, named: Container[Node]) -> Quantity:
+    """What its elements are measured by; of a point or a vector the larger of its parts' terms."""
+    real, *imaginary = (measure(value.graph, part, named) for part in value.parts)
+    return reduce(lambda a, b: Quantity(value.graph, value.graph.fold("max", a.re, b.re)), imaginary, real)
+
+
 class _Measured:
     """The measures of some quantities."""
 
@@ -104,8 +112,26 @@ class _Measured:
             case "tan":
                 measured = 1 + itself**2
             case "reduce" if node.args[2] == "sum" and not node.args[3].so_far:
-                measured = self.of(args[0]).reduced("sum", node.args[3].axis, node.args[3].keepdims)
+                measured = self.whole(args[0]).reduced("sum", node.args[3].axis, node.args[3].keepdims)
+            case "take":
+                source, index, moves = node.args
+                measured = self.whole(source)
+                for move in moves or (Moved(np.take, (index,)),):
+                    measured = measured.rearranged(move.f, *move.args, **dict(move.named))
+            case "join":
+                measured = self.joined(node)
         return None if measured is None else lift(self.graph, measured)
+
+    def joined(self, node: Node) -> Quantity:
+        sources, which, inside, moved = node.args
+        starts = np.cumsum([0, *(source.size for source in sources)])
+        each = [self.whole(source).re for source in sources]
+        return Quantity(self.graph, self.graph.join(each, starts[which] + inside, moved))
+
+    def whole(self, node: Node) -> Quantity:
+        """The measure of each element, where it is one of all too."""
+        measured = self.of(node)
+        return measured if measured.shape == node.shape else measured.like(Quantity(self.graph, node))
 
     def largest(self, one: Quantity, other: Quantity) -> Quantity:
         return Quantity(self.graph, self.graph.fold("max", one.re, other.re))

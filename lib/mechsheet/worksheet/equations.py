@@ -34,9 +34,9 @@ class Words:
     def unknowns(self) -> str:
         return ", ".join(self.names)
 
-    def point(self, x: Sequence[float], digits: int = 6) -> str:
-        shown = (numbers.amount(v, unit, digits) for v, unit in zip(x, self.units, strict=True))
-        return ", ".join(f"{name} = {text}" for name, text in zip(self.names, shown, strict=True))
+    def point(self, x: Sequence[float]) -> str:
+        shown = (f"{name} = {numbers.extent(v, unit)}" for name, v, unit in zip(self.names, x, self.units, strict=True))
+        return ", ".join(shown)
 
 
 @dataclass(frozen=True)

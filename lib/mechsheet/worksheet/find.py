@@ -137,7 +137,7 @@ class Found(Verdict):
     def headline(self) -> str:
         unknown, unit = self.words.unknown, self.words.unknown_unit
         if isinstance(self.reason, str):
-            return unknown if self.reason else f"{unknown} = {numbers.amount(self._value, unit, 6)}"
+            return unknown if self.reason else f"{unknown} = {numbers.extent(self._value, unit)}"
         count = f"{np.count_nonzero(self.solved)} of {self.reason.size} problems solved"
         return (
             f"{unknown} = {numbers.extent(self._value, unit)}, {count}"
@@ -158,10 +158,9 @@ class Found(Verdict):
             low, high = self.bracket
             rows.append(("value within", numbers.amount(high - low, words.unknown_unit, 2)))
         if single:
-            roots = [
-                numbers.amount(root.value, words.unknown_unit, 6) + (on and f" (branch {root.branch:+d})")
-                for root in self.roots
-            ]
+            unit, texts = words.unknown_unit, numbers.in_line([root.value for root in self.roots], words.unknown_unit)
+            behind = [numbers.suffix(unit) + (on and f" (branch {root.branch:+d})") for root in self.roots]
+            roots = [text + more for text, more in zip(texts, behind, strict=True)]
             rows.append((f"roots seen by {self.samples} samples", "; ".join(roots) or "none"))
         rows.append(("searched", numbers.extent(self.interval, words.unknown_unit)))
         return [*rows, ("computed", f"{self.evaluations} times")]

@@ -406,6 +406,10 @@ class Numbers:
         self.namespace = namespace
         self.known = registry(namespace)
 
+    def __contains__(self, name: object) -> bool:
+        """Whether something is the name of a line or an input of the worksheet."""
+        return name in self.known or name in getattr(type(self.namespace.get("g")), "__units__", {})
+
     def at(self, name: str, position: int) -> tuple[float | complex, str] | None:
         """SI value of a name at one position of its field, and its unit; None where that is not known."""
         head, dot, part = name.partition(".")

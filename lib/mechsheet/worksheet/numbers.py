@@ -222,6 +222,19 @@ def apart(values: Sequence[float], unit: str = "-", digits: int = 4) -> list[str
         digits += 1
 
 
+def in_line(values: Sequence[float], unit: str) -> list[str]:
+    """The SI numbers in a display unit with the digits of a line, or with as many more as tell unequal ones apart.
+
+    >>> in_line([0.0524219], "mm"), in_line([12345.6], "N"), in_line([1.000001, 1.0], "-")
+    (['52.422'], ['12346'], ['1.000001', '1'])
+    >>> in_line([1.5e-9, 7.71384e6], "-")
+    ['1.5e-9', '7.7138e6']
+    """
+    factor = units.parse(unit).factor
+    texts = [usual(v / factor, PLAIN._replace(power="{}e{:d}")) for v in values]
+    return texts if len(set(texts)) == len(set(values)) else apart(values, unit, 6)
+
+
 def amount(x: float, unit: str, digits: int = 4) -> str:
     """An SI number in its display unit, which is written behind it.
 
@@ -232,14 +245,14 @@ def amount(x: float, unit: str, digits: int = 4) -> str:
 
 
 def extent(values: ArrayLike, unit: str) -> str:
-    """Least..greatest of SI numbers in a display unit, one number where they are equal but for rounding.
+    """Least..greatest of SI numbers as in a line, one number where they are equal but for rounding.
 
     >>> extent([0.5, 1.0], "mm"), extent([0.1 + 0.2, 0.3], "mm")
     ('500..1000 mm', '300 mm')
     """
     ends = np.array([np.nanmin(values), np.nanmax(values)], float)
     known = ends[:1] if ends[1] - ends[0] <= rounding(ends) else ends
-    return span(apart(list(known), unit)) + suffix(unit)
+    return span(in_line(known.tolist(), unit)) + suffix(unit)
 
 
 def suffix(unit: str) -> str:

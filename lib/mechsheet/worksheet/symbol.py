@@ -12,6 +12,7 @@ GREEK = {
 }  # fmt: skip
 INDEXED = r"[A-Za-z]+\d*_\w+"  # a name that tells itself from a word: its index stands behind an underscore
 _WORDS = "|".join(sorted(GREEK, key=len, reverse=True))
+IN_PROSE = rf"(?<!\d )\b(?:{INDEXED}|(?:{_WORDS})\d*)\b(?!\.\w)"  # names that no word of a sentence is
 _NAME = re.compile(rf"(d(?=[A-Z]|{_WORDS}))?({_WORDS}|[A-Za-z])_?(\w*)")
 
 
@@ -106,6 +107,15 @@ def _looks_like_a_name(names: tuple[str, ...]) -> re.Pattern[str]:
     indexed = r"(?![A-Z]{3,}\d+\b)[A-Za-z]+[_\d]\w*"
     equal = rf"[A-Z][a-z]{{0,3}}(?= = (?:[-\d]|{indexed}))|(?<= = )[A-Z](?![\w.])"
     return re.compile(rf"\b({given}(?:{_WORDS})\b|{indexed}|{equal})")
+
+
+def prose(sentence: str) -> str:
+    """A sentence in plain characters, Greek words in it as letters.
+
+    >>> prose("half the arc, for cos(phi) + c = 1; 40 psi, delta_F")
+    'half the arc, for cos(φ) + c = 1; 40 psi, delta_F'
+    """
+    return re.sub(IN_PROSE, lambda m: m[0] if "_" in m[0] else text(m[0]), sentence)
 
 
 def text(name: str) -> str:

@@ -234,7 +234,7 @@ def _reason(words: Words, seen: Seen, every: Seen, i: int) -> str:
         return f"{how}: {words.equations[int(np.isnan(r).argmax())]} has no number there"
     worst = int(np.argmax(seen.left[:, i]))
     left = numbers.amount(r[worst], words.equation_units[worst])
-    reason = f"{how}: {words.equations[worst]} leaves {left} at the nearest, {words.point(x, 4)}"
+    reason = f"{how}: {words.equations[worst]} leaves {left} at the nearest, {words.point(x)}"
     others = [words.point(s) for s in every.x[:, :, i].T.tolist() if not np.isnan(s).any()] if words.guessed else []
     return f"{reason}; starts around it see {'; '.join(others[:_LISTED])}" if others else reason
 

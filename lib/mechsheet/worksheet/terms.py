@@ -7,10 +7,12 @@ from typing import Any
 
 import numpy as np
 
+from mechsheet import units
 from mechsheet.worksheet import numbers
 
 _AS_LARGE = ("abs", "conj", "real", "imag")
 _SMALL = 1e-2  # more is no rounding of what a line may add, up to 3e12 in SI; to look at that takes time
+_LEAST = 1e-6  # in the unit of a line: what rounding leaves of 1e8 is less
 
 
 def is_rounding(value: Any, expression: ast.expr, namespace: Mapping[str, Any]) -> bool:
@@ -19,6 +21,12 @@ def is_rounding(value: Any, expression: ast.expr, namespace: Mapping[str, Any]) 
     if field.dtype.kind not in "fc" or not 0 < np.abs(field).max(initial=0.0) < _SMALL:
         return False
     return numbers.is_rounding(field, terms(expression, namespace))
+
+
+def may_be_rounding(value: Any, unit: str) -> bool:
+    """Whether numbers are so small in the unit of their line, where nobody wants such, that they may be rounding."""
+    field = np.asarray(value)
+    return field.dtype.kind in "fc" and 0 < np.abs(field).max(initial=0.0) < _LEAST * units.parse(unit).factor
 
 
 def terms(expression: ast.expr, namespace: Mapping[str, Any]) -> Any:
