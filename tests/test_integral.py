@@ -12,6 +12,7 @@ from mechsheet import evaluate, sweep
 from mechsheet.recording import integral
 from mechsheet.recording.dimensions import dimensions
 from mechsheet.recording.proof import prove
+from mechsheet.recording.searched import search
 from mechsheet.recording.slopes import slopes
 from mechsheet.run import report
 from mechsheet.worksheet.lines import registry
@@ -73,6 +74,16 @@ def test_a_function_that_becomes_too_sharp_for_the_places_has_no_number(tmp_path
     expected = [evaluate(sheet.path, ["result"], F=F)["result"][0] for F in (1.0, 5.0)]
     np.testing.assert_allclose(sharper[:2], expected, rtol=1e-12)
     assert np.isnan(sharper[-4:-1]).all() and sharper[-1] == 0, "no place of scipy's own meets the last one either"
+
+
+def test_what_rests_on_the_estimate_of_the_error_has_no_number_for_others(tmp_path: Path) -> None:
+    """Only scipy's own places give it."""
+    lines = "w = quad(lambda v: v * g.F, 0, 1)\ny = w[0] if w[1] < 1e-8 else 0.0"
+    table = 'table_2 = table("2", "Two", result)'
+    _, recording = recorded(own(tmp_path, f"{IMPORT}{lines}\nresult = y * 1  # [-] line\n{table}"))
+    assert value_of(recording, "result", {}) == 1.25 and np.isnan(value_of(recording, "result", {"F": 3.0}))
+    search(recording)
+    assert ["estimate of the error" in str(gap) for gap in recording.unsolved] == [True]
 
 
 def test_evaluate_and_sweep_have_the_numbers_of_the_worksheet(tmp_path: Path) -> None:
