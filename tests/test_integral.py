@@ -30,7 +30,7 @@ FOLLOWED = [
     "def f(v):\n    if v < g.a:\n        return g.F\n    return g.F * (v**2 + 1 - g.a**2)\ny = quad(f, 0, g.F)[0]",
     "y = quad(lambda v: max(v - g.a, 0) * g.F + max(v - g.F / 2, 0), 0, 3)[0]",
     "y = quad(lambda v: np.interp(v, [0.0, 1.0, 3.0], [g.F, 3.0, g.a]) * v**2, 0, 3)[0]",
-    "from scipy import integrate\ny = integrate.quad(lambda v: np.sum([v, g.F, v**2]), 0, g.a)[0]",
+    "from scipy import integrate\ny = integrate.quad(lambda v: np.sum([v, g.F, v**2]), a=0, b=g.a)[0]",
 ]
 NAMED = {
     "y = quad(lambda v: exp(-v * g.F), 0, np.inf)[0]": "scipy's quad to infinity",
@@ -57,6 +57,17 @@ def test_it_is_followed(lines: str, tmp_path: Path) -> None:
 def test_what_is_not_followed_is_named(lines: str, tmp_path: Path) -> None:
     _, recording = recorded(own(tmp_path, f"{IMPORT}{lines}\nresult = np.atleast_1d(y) * 1  # [-] line"))
     assert any(NAMED[lines] in str(gap) for gap in recording.gaps)
+
+
+def test_a_field_of_points_is_integrated_between_them(tmp_path: Path) -> None:
+    """The parts end at its points, of which there are as many as there were."""
+    lines = "y = quad(lambda v: interp(v, x, x**2), x[0], x[-1])[0] * 1  # [-] line"
+    sheet = own(tmp_path, IMPORT + lines)
+    _, recording = recorded(sheet)
+    assert not recording.gaps
+    for F in (2.5, 3.5):
+        assert value_of(recording, "y", {"F": F}) == pytest.approx(evaluate(sheet.path, ["y"], F=F)["y"], rel=1e-9)
+    assert np.isnan(value_of(recording, "y", {"n": 3}))
 
 
 def test_the_rule_is_exact_for_polynomials_up_to_its_degree() -> None:
