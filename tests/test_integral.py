@@ -12,6 +12,7 @@ from mechsheet import evaluate, sweep
 from mechsheet.recording import integral
 from mechsheet.recording.dimensions import dimensions
 from mechsheet.recording.proof import prove
+from mechsheet.recording.searched import search
 from mechsheet.recording.slopes import slopes
 from mechsheet.run import report
 from mechsheet.worksheet.lines import registry
@@ -29,7 +30,7 @@ FOLLOWED = [
     "def f(v):\n    if v < g.a:\n        return g.F\n    return g.F * (v**2 + 1 - g.a**2)\ny = quad(f, 0, g.F)[0]",
     "y = quad(lambda v: max(v - g.a, 0) * g.F + max(v - g.F / 2, 0), 0, 3)[0]",
     "y = quad(lambda v: np.interp(v, [0.0, 1.0, 3.0], [g.F, 3.0, g.a]) * v**2, 0, 3)[0]",
-    "from scipy import integrate\ny = integrate.quad(lambda v: np.sum([v, g.F, v**2]), 0, g.a)[0]",
+    "from scipy import integrate\ny = integrate.quad(lambda v: np.sum([v, g.F, v**2]), a=0, b=g.a)[0]",
 ]
 NAMED = {
     "y = quad(lambda v: exp(-v * g.F), 0, np.inf)[0]": "scipy's quad to infinity",
@@ -58,6 +59,17 @@ def test_what_is_not_followed_is_named(lines: str, tmp_path: Path) -> None:
     assert any(NAMED[lines] in str(gap) for gap in recording.gaps)
 
 
+def test_a_field_of_points_is_integrated_between_them(tmp_path: Path) -> None:
+    """The parts end at its points, of which there are as many as there were."""
+    lines = "y = quad(lambda v: interp(v, x, x**2), x[0], x[-1])[0] * 1  # [-] line"
+    sheet = own(tmp_path, IMPORT + lines)
+    _, recording = recorded(sheet)
+    assert not recording.gaps
+    for F in (2.5, 3.5):
+        assert value_of(recording, "y", {"F": F}) == pytest.approx(evaluate(sheet.path, ["y"], F=F)["y"], rel=1e-9)
+    assert np.isnan(value_of(recording, "y", {"n": 3}))
+
+
 def test_the_rule_is_exact_for_polynomials_up_to_its_degree() -> None:
     for power in range(32):
         assert integral._PART @ integral._AT**power == pytest.approx(1 / (power + 1), rel=1e-15)
@@ -73,6 +85,16 @@ def test_a_function_that_becomes_too_sharp_for_the_places_has_no_number(tmp_path
     expected = [evaluate(sheet.path, ["result"], F=F)["result"][0] for F in (1.0, 5.0)]
     np.testing.assert_allclose(sharper[:2], expected, rtol=1e-12)
     assert np.isnan(sharper[-4:-1]).all() and sharper[-1] == 0, "no place of scipy's own meets the last one either"
+
+
+def test_what_rests_on_the_estimate_of_the_error_has_no_number_for_others(tmp_path: Path) -> None:
+    """Only scipy's own places give it."""
+    lines = "w = quad(lambda v: v * g.F, 0, 1)\ny = w[0] if w[1] < 1e-8 else 0.0"
+    table = 'table_2 = table("2", "Two", result)'
+    _, recording = recorded(own(tmp_path, f"{IMPORT}{lines}\nresult = y * 1  # [-] line\n{table}"))
+    assert value_of(recording, "result", {}) == 1.25 and np.isnan(value_of(recording, "result", {"F": 3.0}))
+    search(recording)
+    assert ["estimate of the error" in str(gap) for gap in recording.unsolved] == [True]
 
 
 def test_evaluate_and_sweep_have_the_numbers_of_the_worksheet(tmp_path: Path) -> None:

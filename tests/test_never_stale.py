@@ -91,6 +91,8 @@ CONSTRUCTS = [
     "from scipy.integrate import quad\ny = quad(lambda v: v**2 * g.F, 0, 1)[0] * g.a",
     "from scipy.integrate import solve_ivp\ny = solve_ivp(lambda t, v: -g.F * v, (0, 1), [1.0]).y[0, -1] * g.a",
     "from scipy.special import gamma\ny = gamma(g.F) * g.a",
+    "from scipy.special import gamma\nw = gamma(g.F)\ny = 5.0 if g.a > w else 3.0",
+    "from scipy.special import gamma\nw = gamma(g.F)\ny = np.sum(x < w) * g.a",
     "from scipy.integrate import simpson\ny = simpson(x, x=x) * g.a",
     "from scipy.linalg import solve\ny = solve(np.array([[g.F, 1.0], [g.a, 3.0]]), np.array([1.0, 2.0]))",
     "from decimal import Decimal\ny = float(Decimal(g.F)) * g.a",

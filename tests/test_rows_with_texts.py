@@ -33,6 +33,10 @@ FOLLOWED += [
     "name, d, P = max((r for r in T if r[1] < 5 * g.F), key=lambda r: r[1])\ny = d * P",
     "y = min((d for n, d, P in T if d >= 2 * g.F), key=lambda d: abs(d - 9 * g.a))",
     "y = next(r for r in T if 2 * g.F < r[1] < 12)[1] * g.a",
+    (
+        "from dataclasses import dataclass\n@dataclass(frozen=True)\nclass Bolt:\n    name: str\n    d: float\n"
+        "B = [Bolt('M6', 6.0), Bolt('M10', 10.0)]\nb = next(b for b in B if b.d > 2 * g.F)\ny = b.d * g.a"
+    ),
     "n = next(n for n, d, P in T if 2 * g.F < d < 12)\ny = {n: P for n, d, P in T}[n] * g.a",
 ]
 WITH_A_CONDITION = [  # that there is such a row

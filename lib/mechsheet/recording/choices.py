@@ -3,6 +3,7 @@
 import builtins
 import operator
 from collections.abc import Callable, Iterable
+from copy import copy
 from functools import partial, reduce
 from types import FunctionType
 from typing import Any
@@ -13,7 +14,7 @@ from mechsheet.recording.arithmetic import choice as where
 from mechsheet.recording.arithmetic import elementwise, trunc
 from mechsheet.recording.graph import NotRecorded, current
 from mechsheet.recording.memory import Memory, may_change, names_of
-from mechsheet.recording.options import parted
+from mechsheet.recording.options import is_object, parted
 from mechsheet.recording.quantity import Quantity, has_quantity, is_any_length, lift
 from mechsheet.recording.selected import Selected
 from mechsheet.recording.sketch import Sketch
@@ -143,6 +144,10 @@ def _missing(value: Any) -> Any:
         return _made_like(value, map(_missing, value))
     if isinstance(value, dict):
         return {key: _missing(part) for key, part in value.items()}
+    if is_object(value):
+        new = copy(value)
+        vars(new).update((name, _missing(part)) for name, part in vars(value).items())
+        return new
     if isinstance(value, Quantity):
         return lift(value.graph, np.nan).like(value)
     return np.full(np.shape(value), np.nan) if isinstance(value, ARRAYS) else UNBOUND

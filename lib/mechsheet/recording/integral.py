@@ -1,5 +1,6 @@
 """scipy's integral of a function between two ends, by Gauss and Kronrod's rule at places that cells have as well."""
 
+import inspect
 from collections.abc import Callable, Sequence
 from contextlib import suppress
 from functools import cache
@@ -36,18 +37,17 @@ _CORNERS = 24
 Note = Callable[[Node, Node | None], None]
 
 
-def integral(
-    f: Callable[..., Any], note: Note, g: Callable[..., Any], a: Any, b: Any, args: Any = (), **options: Any
-) -> Any:
-    """What scipy's quad ``f`` gives for a function ``g``: its integral, and scipy's own estimate of the error.
+def integral(f: Callable[..., Any], note: Note, *args: Any, **named: Any) -> Any:
+    """What scipy's quad ``f`` gives for a function: its integral, and scipy's own estimate of the error.
 
     They are given to ``note``, the estimate once it is taken.
 
     With the inputs at hand parts twice as long would do; with others it is no number where two rules differ. Parts end
     at corners, such as where the function compares its variable with a number.
     """
-    graph, more = current.get(), args if isinstance(args, tuple) else (args,)
-    points = options.pop("points", None)
+    options = inspect.signature(f).bind(*args, **named).arguments
+    g, a, b, more, points = (options.pop(name, None) for name in ("func", "a", "b", "args", "points"))
+    graph, more = current.get(), more if isinstance(more, tuple) else () if more is None else (more,)
     if told := options.keys() - {"epsabs", "epsrel", "limit"}:
         raise NotRecorded(f"scipy's quad with {', '.join(sorted(told))}")
     ends = lift(graph, a), lift(graph, b)
@@ -100,7 +100,7 @@ def _of(graph: Graph, variable: Node, g: Callable[[Quantity], Any]) -> Node:
     seen = [holds for holds in graph.looked if holds not in looked]
     if variable in bottom_up(seen, ()):
         raise NotRecorded("in what scipy's quad takes the integral of Python looks at its variable")
-    if value.im is not None or not value.single:
+    if value.im is not None or value.extent not in ((), (1,)):
         raise NotRecorded("scipy's quad of what is not one real number")
     return value.reshape(()).re
 

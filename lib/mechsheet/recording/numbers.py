@@ -1,6 +1,6 @@
 """Numbers of a recording for other inputs: numpy as one reader, and the reference for the others."""
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Container, Iterable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -84,7 +84,7 @@ def numbers(wanted: Iterable[Node], given: Mapping[Node, Any]) -> dict[Node, Val
             node.operands
         ):
             lost.add(node)
-        if not none.isdisjoint(node.operands) or (node in lost and passes_over(node)):
+        if not none.isdisjoint(node.operands) or (node in lost and (passes_over(node) or _decided(node, lost))):
             none.add(node)
         elif node.op == "input":
             known[node] = node.value
@@ -97,8 +97,13 @@ def numbers(wanted: Iterable[Node], given: Mapping[Node, Any]) -> dict[Node, Val
                 if not (node.stretches or any(operand.stretches for operand in node.operands)):
                     raise
                 none.add(node)
-        known[node] = np.full(node.shape, np.nan)
+        known[node] = np.full(node.shape, False if node.value.dtype == bool else np.nan)
     return known
+
+
+def _decided(node: Node, lost: Container[Node]) -> bool:
+    """Whether a number is chosen by conditions of which nobody knows whether they hold."""
+    return node.value.dtype != bool and any(part in lost and part.value.dtype == bool for part in node.operands)
 
 
 def _number(node: Node, known: Mapping[Node, Values], solved: dict[Block | Loop, list[Values]]) -> Values:

@@ -69,6 +69,11 @@ def parted(merge: Merge, x: Any, y: Any) -> Any:
     return Thing(merge, x, y) if _kind(x) is _kind(y) is not None else None
 
 
+def is_object(value: Any) -> bool:
+    """Whether an object of the worksheet's own that holds its parts under names, and no one of two."""
+    return not isinstance(value, Thing) and _kind(value) is not None and hasattr(value, "__dict__")
+
+
 def _kind(value: Any) -> type | None:
     """The class of an object that holds its parts under names, of the worksheet's own."""
     while isinstance(value, Thing):
