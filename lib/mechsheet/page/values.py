@@ -229,7 +229,7 @@ def _caption(what: str, number: str, title: str) -> str:
 @html.register
 def _(value: SideBySide) -> str:
     columns = ("".join(map(html, column)) for column in value.columns)
-    rows = f' style="display:grid;grid-template-columns:repeat({value.row},1fr)"' if value.row else ""
+    rows = f' style="--row:{value.row}"' if value.row else ""
     return f'<div class="ms-beside"{rows}>{"".join(f"<div>{each}</div>" for each in columns)}</div>'
 
 

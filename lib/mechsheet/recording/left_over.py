@@ -15,10 +15,10 @@ from mechsheet.worksheet.lines import Formula
 def is_left_over(value: Any, line: Formula, namespace: Mapping[str, Any]) -> bool:
     """Whether the value of a line is none but roundings of what it and all functions behind it add.
 
-    The cells behind it are recorded for that, which takes some hundredths of a second.
+    The cells behind it are recorded for that, which takes one or some hundredths of a second.
     """
     try:
-        found = record(namespace, every=1, bodies=True, want=[line.name]).values.get(line.name)
+        found = record(namespace, every=1, want=[line.name]).values.get(line.name)
     except (SheetError, NotRecorded):
         return False
     return isinstance(found, Quantity) and numbers.is_rounding(value, terms_of(found, ()).value)

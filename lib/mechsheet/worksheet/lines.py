@@ -403,8 +403,7 @@ class Numbers:
     """Values in their units by the names that formulas read, ``g.L3`` too, as they are when the page asks."""
 
     def __init__(self, namespace: Mapping[str, Any]) -> None:
-        self.namespace = namespace
-        self.known = registry(namespace)
+        self.namespace, self.known = namespace, registry(namespace)
 
     def __contains__(self, name: object) -> bool:
         """Whether something is the name of a line or an input of the worksheet."""
@@ -431,8 +430,7 @@ class Numbers:
         S = np.asarray(self.namespace.get("S", 0))
         if S.ndim == 0 or S.dtype.kind not in "iuf":  # no stroke; a point may have that name too
             return frozenset(names)
-        known = self.namespace
-        return frozenset(name for name in names if name in known and np.ndim(known[name]) == 0)
+        return frozenset(name for name in names if np.ndim(self.namespace.get(name, ())) == 0)
 
 
 @dataclass(frozen=True)
