@@ -280,7 +280,7 @@ def line_of(path: str, text: str) -> int:
 
 def test_what_cannot_be_proved_is_told_with_its_line(tmp_path: Path) -> None:
     lines = """
-y = float(np.fft.fft([g.F, 2.0])[0].real)  # [-] not recorded
+y = float(np.sort_complex([g.F, 2.0])[0].real)  # [-] not recorded
 z = np.where(np.sqrt(g.a) ** 2 <= g.a, 1.0, 2.0) * g.F  # [-] decided by rounding
 n = np.sqrt(-g.F) * 1  # [-] no number"""
     with np.errstate(all="ignore"):
