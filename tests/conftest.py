@@ -148,7 +148,7 @@ def timed_once(monkeypatch: pytest.MonkeyPatch) -> None:
     """The accuracy worksheet runs each method once: its time is another one in every run anyway."""
     from mechsheet.accuracy import jobs, precision
     from mechsheet.accuracy.precision import Timed
-    from mechsheet.recording.unrepeatable import clock_read
+    from mechsheet.quantities.unrepeatable import clock_read
 
     def timed(runs: Sequence[Callable[[], Any]], _: float, done: Callable[[], object]) -> list[Timed]:
         clock_read()

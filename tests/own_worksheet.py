@@ -6,8 +6,8 @@ from typing import Any
 import numpy as np
 
 from mechsheet import evaluate
-from mechsheet.recording.lines import Recording
-from mechsheet.recording.numbers import numbers
+from mechsheet.quantities.lines import Recording
+from mechsheet.readers.numbers import numbers
 from mechsheet.recording.record import record
 from mechsheet.worksheet import cells
 

@@ -11,9 +11,9 @@ import pytest
 from openpyxl import load_workbook
 from own_worksheet import own
 
-from mechsheet.recording.graph import Graph
-from mechsheet.recording.node import Node
-from mechsheet.recording.operations import Moved
+from mechsheet.quantities.graph import Graph
+from mechsheet.quantities.node import Node
+from mechsheet.quantities.operations import Moved
 from mechsheet.run import report
 from mechsheet.workbook.arrangement import needing_place
 from mechsheet.workbook.cell_formula import CellFormulas

@@ -10,9 +10,9 @@ from own_worksheet import own
 from playwright.sync_api import expect
 
 from mechsheet.document import parts
-from mechsheet.recording.banded import run_bands
-from mechsheet.recording.bands import Bands, tolerances
-from mechsheet.recording.enclosed import enclosed
+from mechsheet.readers.banded import run_bands
+from mechsheet.readers.bands import Bands, tolerances
+from mechsheet.readers.enclosed import enclosed
 from mechsheet.recording.record import record
 from mechsheet.run import arguments, banding, batch, studied
 from mechsheet.studies.sweep import sweep

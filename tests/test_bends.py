@@ -10,9 +10,9 @@ import pytest
 from own_worksheet import own
 
 from mechsheet.accuracy.arithmetic import mp, mpf
-from mechsheet.recording.bends import BENT, bends
+from mechsheet.readers.bends import BENT, bends
+from mechsheet.readers.slope_rules import SMOOTH
 from mechsheet.recording.record import record
-from mechsheet.recording.slope_rules import SMOOTH
 
 
 def test_every_smooth_operation_has_a_rule() -> None:

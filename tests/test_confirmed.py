@@ -11,9 +11,9 @@ from own_worksheet import own, recorded
 from test_recalculation import edit
 
 from mechsheet import evaluate
-from mechsheet.recording.lines import Recording
-from mechsheet.recording.numbers import numbers
-from mechsheet.recording.searched import search
+from mechsheet.quantities.lines import Recording
+from mechsheet.readers.numbers import numbers
+from mechsheet.readers.searched import search
 from mechsheet.run import report
 from mechsheet.worksheet import cells
 

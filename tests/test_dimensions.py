@@ -11,10 +11,10 @@ import pytest
 from openpyxl import load_workbook
 from own_worksheet import own
 
+from mechsheet.quantities.node import LEAVES
+from mechsheet.quantities.operations import ELEMENTWISE
 from mechsheet.recording.dimension_rules import RULES
 from mechsheet.recording.dimensions import Dimensions, mismatches, of_every_line
-from mechsheet.recording.node import LEAVES
-from mechsheet.recording.operations import ELEMENTWISE
 from mechsheet.run import report
 from mechsheet.worksheet.cells import load
 from mechsheet.worksheet.lines import registry

@@ -11,14 +11,14 @@ import pytest
 from flint import arb
 
 from mechsheet.accuracy import extreme
-from mechsheet.recording.ball_rules import NONE
-from mechsheet.recording.balls import Balls, precision
-from mechsheet.recording.bends import bends
-from mechsheet.recording.lines import Recording
-from mechsheet.recording.node import Node
-from mechsheet.recording.numbers import numbers
+from mechsheet.quantities.lines import Recording
+from mechsheet.quantities.node import Node
+from mechsheet.readers.ball_rules import NONE
+from mechsheet.readers.balls import Balls, precision
+from mechsheet.readers.bends import bends
+from mechsheet.readers.numbers import numbers
+from mechsheet.readers.slopes import Slope, slopes, solved_under, unfollowed
 from mechsheet.recording.record import record
-from mechsheet.recording.slopes import Slope, slopes, solved_under, unfollowed
 from mechsheet.worksheet import inputs
 from mechsheet.worksheet.cells import load
 from mechsheet.worksheet.errors import SheetError

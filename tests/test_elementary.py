@@ -12,12 +12,12 @@ import pytest
 import mechsheet
 from mechsheet.mechanics import crank, drive, equilibrium, joint, load, planar, prp, rpp, rpr, rrp, rrr
 from mechsheet.mechanics.load import Load
-from mechsheet.recording import elementary_joint
-from mechsheet.recording.elementary import GROUPS, STEPS
-from mechsheet.recording.graph import Graph
-from mechsheet.recording.node import Node
-from mechsheet.recording.numbers import numbers as read
-from mechsheet.recording.quantity import Quantity
+from mechsheet.quantities import elementary_joint
+from mechsheet.quantities.elementary import GROUPS, STEPS
+from mechsheet.quantities.graph import Graph
+from mechsheet.quantities.node import Node
+from mechsheet.quantities.quantity import Quantity
+from mechsheet.readers.numbers import numbers as read
 from mechsheet.recording.substitutes import body, current, instead
 
 COUNT = 40  # random cases

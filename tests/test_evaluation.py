@@ -15,10 +15,10 @@ from test_random_scenes import scene
 from mechsheet import SheetError, evaluate
 from mechsheet.mechanics import roots
 from mechsheet.mechanics.plain_root import NotPlain, plain_root
+from mechsheet.quantities.graph import Graph
+from mechsheet.quantities.once import once
+from mechsheet.quantities.quantity import Quantity
 from mechsheet.recording import evaluation
-from mechsheet.recording.graph import Graph
-from mechsheet.recording.once import once
-from mechsheet.recording.quantity import Quantity
 from mechsheet.worksheet import cells, inputs
 
 WORKSHEETS = Path(__file__).parents[1] / "worksheets"

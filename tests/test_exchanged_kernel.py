@@ -13,8 +13,8 @@ from own_worksheet import own
 import mechsheet
 from mechsheet.accuracy.arithmetic import mp, mpc, mpf
 from mechsheet.mechanics.rrr import rrr
-from mechsheet.recording.elementary import STEPS
-from mechsheet.recording.proof import Proved
+from mechsheet.quantities.elementary import STEPS
+from mechsheet.readers.proof import Proved
 from mechsheet.recording.record import record
 from mechsheet.run.proving import proof_of
 

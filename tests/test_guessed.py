@@ -9,8 +9,8 @@ from own_worksheet import ELSEWHERE, own, recorded, value_of
 from test_recalculation import edit
 
 from mechsheet import evaluate
+from mechsheet.readers.slopes import slopes
 from mechsheet.recording.dimensions import dimensions
-from mechsheet.recording.slopes import slopes
 from mechsheet.run import report
 from mechsheet.worksheet.lines import registry
 

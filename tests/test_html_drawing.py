@@ -11,7 +11,7 @@ import pytest
 
 from mechsheet.document import drawing_svg
 from mechsheet.html import javascript, sketched
-from mechsheet.recording.sketch import Drawn, Sketch
+from mechsheet.quantities.sketch import Drawn, Sketch
 from mechsheet.worksheet.drawing import COLOURS, Drawing
 
 if TYPE_CHECKING:

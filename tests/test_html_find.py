@@ -14,8 +14,8 @@ from own_worksheet import own, recorded
 from mechsheet.html import javascript, values
 from mechsheet.html import write as html
 from mechsheet.html.follow import Follower
-from mechsheet.recording.graph import Graph
-from mechsheet.recording.lines import Recording
+from mechsheet.quantities.graph import Graph
+from mechsheet.quantities.lines import Recording
 from mechsheet.worksheet import cells
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.lines import Numbers

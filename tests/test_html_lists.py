@@ -10,8 +10,8 @@ import numpy as np
 from in_browser import evaluated
 
 from mechsheet.html import javascript
-from mechsheet.recording.lines import Recording
-from mechsheet.recording.node import Node
+from mechsheet.quantities.lines import Recording
+from mechsheet.quantities.node import Node
 from mechsheet.recording.record import record
 from mechsheet.worksheet import cells, inputs
 

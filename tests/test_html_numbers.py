@@ -21,7 +21,7 @@ from mechsheet import evaluate
 from mechsheet.document import markup
 from mechsheet.html import javascript
 from mechsheet.html.elementwise import ELEMENTWISE
-from mechsheet.recording import operations
+from mechsheet.quantities import operations
 from mechsheet.worksheet import cells, numbers
 
 if TYPE_CHECKING:

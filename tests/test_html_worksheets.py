@@ -16,10 +16,10 @@ from test_recalculation import whole
 
 from mechsheet import units
 from mechsheet.html import javascript
-from mechsheet.recording.lines import Recording
-from mechsheet.recording.node import Node, bottom_up
-from mechsheet.recording.numbers import numbers
-from mechsheet.recording.quantity import Quantity
+from mechsheet.quantities.lines import Recording
+from mechsheet.quantities.node import Node, bottom_up
+from mechsheet.quantities.quantity import Quantity
+from mechsheet.readers.numbers import numbers
 from mechsheet.recording.record import record
 from mechsheet.recording.solving import listed
 from mechsheet.worksheet import cells, inputs

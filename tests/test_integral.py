@@ -9,11 +9,11 @@ from own_worksheet import ELSEWHERE, own, recorded, value_of
 from test_recalculation import edit
 
 from mechsheet import evaluate, sweep
+from mechsheet.readers.proof import prove
+from mechsheet.readers.searched import search
+from mechsheet.readers.slopes import slopes
 from mechsheet.recording import integral
 from mechsheet.recording.dimensions import dimensions
-from mechsheet.recording.proof import prove
-from mechsheet.recording.searched import search
-from mechsheet.recording.slopes import slopes
 from mechsheet.run import report
 from mechsheet.worksheet.lines import registry
 

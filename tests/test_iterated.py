@@ -10,13 +10,13 @@ import pytest
 from own_worksheet import own
 
 from mechsheet.accuracy.arithmetic import mp, mpf
-from mechsheet.recording.bends import bends
-from mechsheet.recording.gradients import gradient
-from mechsheet.recording.lines import Recording
-from mechsheet.recording.numbers import numbers
-from mechsheet.recording.proof import Proof
+from mechsheet.quantities.lines import Recording
+from mechsheet.readers.bends import bends
+from mechsheet.readers.gradients import gradient
+from mechsheet.readers.numbers import numbers
+from mechsheet.readers.proof import Proof
+from mechsheet.readers.slopes import slopes, solved_under, unfollowed
 from mechsheet.recording.record import record
-from mechsheet.recording.slopes import slopes, solved_under, unfollowed
 from mechsheet.run.proving import proof_of
 
 LOOPS = {

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 from own_worksheet import OTHER, own, recorded
 
-from mechsheet.recording.largest import narrow
-from mechsheet.recording.lines import Recording
-from mechsheet.recording.node import bottom_up
-from mechsheet.recording.numbers import numbers
+from mechsheet.quantities.lines import Recording
+from mechsheet.quantities.node import bottom_up
+from mechsheet.readers.largest import narrow
+from mechsheet.readers.numbers import numbers
 
 LINES = """from mechsheet import check
 _y = np.stack([x - g.a, g.a * x**2, np.sin(x) / (g.a - 0.2), x * 0 + 1])

@@ -10,11 +10,11 @@ import pytest
 from own_worksheet import own
 
 from mechsheet.accuracy.arithmetic import mp, mpf
-from mechsheet.recording.gradients import gradient
-from mechsheet.recording.lines import Recording
-from mechsheet.recording.proof import Proof
+from mechsheet.quantities.lines import Recording
+from mechsheet.readers.gradients import gradient
+from mechsheet.readers.proof import Proof
+from mechsheet.readers.slopes import slopes, unfollowed
 from mechsheet.recording.record import record
-from mechsheet.recording.slopes import slopes, unfollowed
 from mechsheet.run.proving import proof_of
 
 LINES = """

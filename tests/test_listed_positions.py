@@ -8,7 +8,7 @@ import pytest
 from own_worksheet import own, recorded
 
 from mechsheet import units
-from mechsheet.recording.numbers import numbers
+from mechsheet.readers.numbers import numbers
 from mechsheet.run import report
 from mechsheet.worksheet import cells
 from mechsheet.worksheet.table import Figure, Table

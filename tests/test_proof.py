@@ -13,10 +13,10 @@ from flint import arb
 from mechsheet.accuracy import exact, extreme
 from mechsheet.accuracy.arithmetic import mp, mpc, mpf
 from mechsheet.document import parts
-from mechsheet.recording.ball_rules import MADE, NONE, SINGLE, UNDECIDED
-from mechsheet.recording.balls import krawczyk
-from mechsheet.recording.operations import ELEMENTWISE
-from mechsheet.recording.proof import Proof
+from mechsheet.quantities.operations import ELEMENTWISE
+from mechsheet.readers.ball_rules import MADE, NONE, SINGLE, UNDECIDED
+from mechsheet.readers.balls import krawczyk
+from mechsheet.readers.proof import Proof
 from mechsheet.recording.record import record
 from mechsheet.run import batch
 from mechsheet.run.proving import proof_of, proof_of_wanted

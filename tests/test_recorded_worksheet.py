@@ -13,10 +13,10 @@ from openpyxl import load_workbook
 from own_worksheet import OTHER, own, recorded, value_of
 
 from mechsheet import evaluate, units
+from mechsheet.quantities.quantity import Quantity
+from mechsheet.readers.numbers import numbers
 from mechsheet.recording import positions
 from mechsheet.recording.dimensions import dimensions
-from mechsheet.recording.numbers import numbers
-from mechsheet.recording.quantity import Quantity
 from mechsheet.recording.record import record
 from mechsheet.run import report
 from mechsheet.worksheet import cells

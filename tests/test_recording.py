@@ -11,11 +11,11 @@ import pytest
 from own_worksheet import own, recorded
 
 from mechsheet.mechanics.rrr import rrr
-from mechsheet.recording import graph
-from mechsheet.recording.graph import Graph
-from mechsheet.recording.lines import Recording
-from mechsheet.recording.node import Node
-from mechsheet.recording.quantity import UFUNCS, Quantity, lift
+from mechsheet.quantities import graph
+from mechsheet.quantities.graph import Graph
+from mechsheet.quantities.lines import Recording
+from mechsheet.quantities.node import Node
+from mechsheet.quantities.quantity import UFUNCS, Quantity, lift
 from mechsheet.recording.record import record
 from mechsheet.recording.substitutes import instead
 from mechsheet.workbook import inputs_sheet, writing

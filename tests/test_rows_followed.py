@@ -8,7 +8,7 @@ import pytest
 from own_worksheet import own, recorded, value_of
 
 from mechsheet import evaluate
-from mechsheet.recording.numbers import numbers
+from mechsheet.readers.numbers import numbers
 
 FOLLOWED = [
     "x * g.F",

@@ -9,9 +9,9 @@ from own_worksheet import ELSEWHERE, own, recorded, value_of
 from test_recalculation import edit
 
 from mechsheet import evaluate
-from mechsheet.recording.lines import Recording
-from mechsheet.recording.numbers import numbers
-from mechsheet.recording.written import Either, Written
+from mechsheet.quantities.lines import Recording
+from mechsheet.quantities.written import Either, Written
+from mechsheet.readers.numbers import numbers
 from mechsheet.run import report
 
 ROWS = "T = [('M6', 6, 1.0), ('M8', 8, 1.25), ('M10', 10, 1.5), ('M16', 16, 2.0)]\n"

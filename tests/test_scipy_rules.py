@@ -7,8 +7,8 @@ import pytest
 from own_worksheet import ELSEWHERE, own, recorded, value_of
 
 from mechsheet import evaluate
+from mechsheet.readers.slopes import slopes
 from mechsheet.recording.dimensions import dimensions
-from mechsheet.recording.slopes import slopes
 from mechsheet.worksheet.lines import registry
 
 ROOT = "from scipy.optimize import brentq, bisect\n"

@@ -13,9 +13,9 @@ from own_worksheet import own, recorded
 from test_recalculation import edit
 
 from mechsheet import SheetError, evaluate
-from mechsheet.recording.node import bottom_up
-from mechsheet.recording.numbers import numbers
-from mechsheet.recording.searched import search
+from mechsheet.quantities.node import bottom_up
+from mechsheet.readers.numbers import numbers
+from mechsheet.readers.searched import search
 from mechsheet.run import report
 from mechsheet.worksheet import cells
 

@@ -9,13 +9,13 @@ from typing import Any
 import numpy as np
 import pytest
 
-from mechsheet.recording.gradients import gradient
-from mechsheet.recording.graph import Graph, current
-from mechsheet.recording.node import Block
-from mechsheet.recording.operations import ELEMENTWISE
-from mechsheet.recording.quantity import Quantity
-from mechsheet.recording.slope_rules import RULES, SMOOTH
-from mechsheet.recording.slopes import Slope, jacobian, slopes, unfollowed
+from mechsheet.quantities.graph import Graph, current
+from mechsheet.quantities.node import Block
+from mechsheet.quantities.operations import ELEMENTWISE
+from mechsheet.quantities.quantity import Quantity
+from mechsheet.readers.gradients import gradient
+from mechsheet.readers.slope_rules import RULES, SMOOTH
+from mechsheet.readers.slopes import Slope, jacobian, slopes, unfollowed
 from tests.own_worksheet import own, recorded
 
 nan, inf = np.nan, np.inf

@@ -13,10 +13,10 @@ from test_recalculation import edit
 from test_solved_quantity import sheet_with
 
 from mechsheet import evaluate
-from mechsheet.recording.lines import Recording
-from mechsheet.recording.node import bottom_up
-from mechsheet.recording.numbers import numbers
-from mechsheet.recording.searched import search
+from mechsheet.quantities.lines import Recording
+from mechsheet.quantities.node import bottom_up
+from mechsheet.readers.numbers import numbers
+from mechsheet.readers.searched import search
 from mechsheet.run import report
 from mechsheet.worksheet import cells
 from mechsheet.worksheet.errors import SheetError

@@ -9,9 +9,9 @@ from own_worksheet import own, recorded
 
 from mechsheet import evaluate
 from mechsheet.html import write
-from mechsheet.recording.lines import Recording
-from mechsheet.recording.node import Node
-from mechsheet.recording.numbers import numbers
+from mechsheet.quantities.lines import Recording
+from mechsheet.quantities.node import Node
+from mechsheet.readers.numbers import numbers
 from mechsheet.recording.record import record
 from mechsheet.worksheet import cells
 

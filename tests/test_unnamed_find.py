@@ -7,8 +7,8 @@ import pytest
 from own_worksheet import OTHER, own, recorded, value_of
 
 from mechsheet import evaluate
-from mechsheet.recording.numbers import numbers
-from mechsheet.recording.searched import search
+from mechsheet.readers.numbers import numbers
+from mechsheet.readers.searched import search
 
 CUBE = "find(lambda v: v**3 - {}, 0, 3)"
 LINES = {

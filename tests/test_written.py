@@ -10,11 +10,11 @@ import pytest
 
 import mechsheet.recording.record  # noqa: F401  # knows what numpy does with quantities
 from mechsheet.html import markdown, wording
+from mechsheet.quantities.graph import Graph, current
+from mechsheet.quantities.quantity import Quantity
+from mechsheet.quantities.sketch import Sketch
+from mechsheet.quantities.written import Number, Written, text
 from mechsheet.recording.choices import choice
-from mechsheet.recording.graph import Graph, current
-from mechsheet.recording.quantity import Quantity
-from mechsheet.recording.sketch import Sketch
-from mechsheet.recording.written import Number, Written, text
 from mechsheet.worksheet.drawing import Drawing
 
 

@@ -12,8 +12,8 @@ from shutil import which
 from playwright.sync_api import sync_playwright
 
 from mechsheet.html import javascript
-from mechsheet.recording.lines import Recording
-from mechsheet.recording.node import Node
+from mechsheet.quantities.lines import Recording
+from mechsheet.quantities.node import Node
 from mechsheet.recording.record import record
 from mechsheet.worksheet import cells
 

@@ -10,10 +10,10 @@ import time
 from collections.abc import Callable, Iterable
 from pathlib import Path
 
-from mechsheet.recording.gradients import gradient
-from mechsheet.recording.node import Node
+from mechsheet.quantities.node import Node
+from mechsheet.readers.gradients import gradient
+from mechsheet.readers.slopes import slopes, unfollowed
 from mechsheet.recording.record import record
-from mechsheet.recording.slopes import slopes, unfollowed
 from mechsheet.run.proving import proof_of
 from mechsheet.worksheet.cells import load
 

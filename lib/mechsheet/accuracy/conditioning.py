@@ -17,9 +17,9 @@ from mechsheet.mechanics.rpp import rpp
 from mechsheet.mechanics.rpr import rpr
 from mechsheet.mechanics.rrp import rrp
 from mechsheet.mechanics.rrr import rrr
-from mechsheet.recording.quantity import Quantity
+from mechsheet.quantities.quantity import Quantity
+from mechsheet.readers.slopes import slopes
 from mechsheet.recording.record import record
-from mechsheet.recording.slopes import slopes
 from mechsheet.run.progress import progress
 from mechsheet.worksheet import numbers
 from mechsheet.worksheet.check import Check

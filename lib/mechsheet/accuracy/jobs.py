@@ -15,11 +15,11 @@ from mechsheet.accuracy.machine import machine_job, ring_job
 from mechsheet.accuracy.precision import Job, Measured, Method, Timed, largest_error, time_spread, timed, times_of_one
 from mechsheet.accuracy.rivals import REACTIONS, crank_chain, hitch_chain, hitch_points
 from mechsheet.accuracy.truths import TRUTHS, exact_results
-from mechsheet.recording import numbers as computed
+from mechsheet.readers import numbers as computed
+from mechsheet.readers.gradients import gradient
+from mechsheet.readers.slopes import slopes
 from mechsheet.recording.evaluation import evaluate
-from mechsheet.recording.gradients import gradient
 from mechsheet.recording.record import record
-from mechsheet.recording.slopes import slopes
 from mechsheet.run import report
 from mechsheet.run.progress import progress
 from mechsheet.run.proving import proof_of

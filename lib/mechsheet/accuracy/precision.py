@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 
 from mechsheet.accuracy.arithmetic import EPS, relative_error
 from mechsheet.document.error_chart import WorkPrecision, families
-from mechsheet.recording.unrepeatable import clock_read
+from mechsheet.quantities.unrepeatable import clock_read
 from mechsheet.run.progress import progress
 from mechsheet.worksheet.check import Check
 from mechsheet.worksheet.table import Column, Table

@@ -16,14 +16,14 @@ from mechsheet.document.parts import Line, Text
 from mechsheet.html import mathml, offered, sketched, wording
 from mechsheet.html.javascript import otherwise
 from mechsheet.html.put_in import Read, put_in
+from mechsheet.quantities.graph import Guard
+from mechsheet.quantities.lines import SLIDER, Recording
+from mechsheet.quantities.node import Node, bottom_up
+from mechsheet.quantities.quantity import Quantity, lift
+from mechsheet.quantities.sketch import Drawn
+from mechsheet.quantities.written import Said
+from mechsheet.readers.terms import terms_of
 from mechsheet.recording import showing
-from mechsheet.recording.graph import Guard
-from mechsheet.recording.lines import SLIDER, Recording
-from mechsheet.recording.node import Node, bottom_up
-from mechsheet.recording.quantity import Quantity, lift
-from mechsheet.recording.sketch import Drawn
-from mechsheet.recording.terms import terms_of
-from mechsheet.recording.written import Said
 from mechsheet.worksheet import numbers
 from mechsheet.worksheet.check import Check
 from mechsheet.worksheet.drawing import Drawing

@@ -12,8 +12,8 @@ import numpy as np
 from mechsheet.html import moves
 from mechsheet.html.elementwise import array, literal, places
 from mechsheet.html.scope import Program, Rule, Scope
-from mechsheet.recording.lines import Recording
-from mechsheet.recording.node import Block, Node, bottom_up
+from mechsheet.quantities.lines import Recording
+from mechsheet.quantities.node import Block, Node, bottom_up
 from mechsheet.units import parse
 from mechsheet.worksheet.equations import longest_step
 

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from mechsheet.recording.operations import Moved
+from mechsheet.quantities.operations import Moved
 
 _AXES = (np.transpose, np.moveaxis, np.swapaxes)
 _SAME_ORDER = (np.ravel, np.expand_dims, np.squeeze, np.atleast_1d, np.atleast_2d)

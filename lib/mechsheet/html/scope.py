@@ -7,8 +7,8 @@ from heapq import heapify, heappop, heappush
 from operator import itemgetter
 
 from mechsheet.html.elementwise import ELEMENTWISE, Text, array, literal, names, operation
-from mechsheet.recording.graph import Graph
-from mechsheet.recording.node import Block, Node, bottom_up
+from mechsheet.quantities.graph import Graph
+from mechsheet.quantities.node import Block, Node, bottom_up
 from mechsheet.worksheet.errors import SheetError
 
 Size = tuple["int | Node", ...]  # lengths of all axes: numbers, and quantities of those that follow the inputs

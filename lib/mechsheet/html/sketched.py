@@ -6,10 +6,10 @@ from typing import Any
 
 from mechsheet.document.labels import as_printed, plain
 from mechsheet.html import wording
-from mechsheet.recording.node import Node
-from mechsheet.recording.quantity import Quantity
-from mechsheet.recording.sketch import Drawn
-from mechsheet.recording.written import Either, Number, Written
+from mechsheet.quantities.node import Node
+from mechsheet.quantities.quantity import Quantity
+from mechsheet.quantities.sketch import Drawn
+from mechsheet.quantities.written import Either, Number, Written
 from mechsheet.worksheet.drawing import Drawing, Element
 
 Spec = dict[str, Any]

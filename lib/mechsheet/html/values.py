@@ -20,8 +20,8 @@ from mechsheet.document.shortened import foot, shortened, thinned
 from mechsheet.html import index, markdown, offered
 from mechsheet.html.follow import Follower
 from mechsheet.html.mathml import mathml
-from mechsheet.recording.graph import Graph
-from mechsheet.recording.lines import Recording
+from mechsheet.quantities.graph import Graph
+from mechsheet.quantities.lines import Recording
 from mechsheet.worksheet import numbers, symbol
 from mechsheet.worksheet.check import Check, Summary
 from mechsheet.worksheet.drawing import Drawing

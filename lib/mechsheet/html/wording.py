@@ -5,8 +5,8 @@ from collections.abc import Callable
 from html import unescape
 from typing import Any
 
-from mechsheet.recording.node import Node
-from mechsheet.recording.written import Either, Number, Written
+from mechsheet.quantities.node import Node
+from mechsheet.quantities.written import Either, Number, Written
 
 Key = Callable[[Node], str]
 _PLACE, _HELD = "\ue000", re.compile("\ue000(\\d+)\ue001")

@@ -14,7 +14,7 @@ from mechsheet.document.markup import message
 from mechsheet.document.shortened import rows, shortened
 from mechsheet.page import values
 from mechsheet.page.script import element, script
-from mechsheet.recording.proof import Proof, Proved
+from mechsheet.readers.proof import Proof, Proved
 from mechsheet.worksheet.lines import Formula
 from mechsheet.worksheet.scene import PROVED
 from mechsheet.worksheet.table import Table

@@ -23,7 +23,7 @@ from mechsheet.document.shortened import rows, shortened
 from mechsheet.page import notebook, own, values
 from mechsheet.page.script import element, script
 from mechsheet.page.smooth import smooth
-from mechsheet.recording.banded import NOTE, Banded, RunBands, about, off
+from mechsheet.readers.banded import NOTE, Banded, RunBands, about, off
 from mechsheet.worksheet import mistakes, numbers
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.table import Column, Figure, Table

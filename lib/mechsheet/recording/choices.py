@@ -10,16 +10,16 @@ from typing import Any
 
 import numpy as np
 
-from mechsheet.recording.arithmetic import choice as where
-from mechsheet.recording.arithmetic import elementwise, trunc
-from mechsheet.recording.graph import NotRecorded, current
+from mechsheet.quantities.arithmetic import choice as where
+from mechsheet.quantities.arithmetic import elementwise, trunc
+from mechsheet.quantities.graph import NotRecorded, current
+from mechsheet.quantities.options import is_object, parted
+from mechsheet.quantities.quantity import Quantity, has_quantity, is_any_length, lift
+from mechsheet.quantities.selected import Selected
+from mechsheet.quantities.sketch import Sketch
+from mechsheet.quantities.sketch import merged as merged_sketch
+from mechsheet.quantities.written import Either, Written, either, text
 from mechsheet.recording.memory import Memory, may_change, names_of
-from mechsheet.recording.options import is_object, parted
-from mechsheet.recording.quantity import Quantity, has_quantity, is_any_length, lift
-from mechsheet.recording.selected import Selected
-from mechsheet.recording.sketch import Sketch
-from mechsheet.recording.sketch import merged as merged_sketch
-from mechsheet.recording.written import Either, Written, either, text
 from mechsheet.worksheet.drawing import COLOURS
 from mechsheet.worksheet.kinds import Chosen, cases
 

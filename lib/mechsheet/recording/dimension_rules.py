@@ -12,10 +12,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mechsheet import units
-from mechsheet.recording.lines import Recording, Residual, Solved
-from mechsheet.recording.node import Node
+from mechsheet.quantities.lines import Recording, Residual, Solved
+from mechsheet.quantities.node import Node
+from mechsheet.quantities.quantity import Quantity
 from mechsheet.recording.pinpoint import Mistake, Places
-from mechsheet.recording.quantity import Quantity
 from mechsheet.units import PURE, Dims
 from mechsheet.worksheet import inputs
 from mechsheet.worksheet import numbers as shown_numbers

@@ -5,8 +5,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from mechsheet.quantities.lines import Recording
 from mechsheet.recording.dimension_rules import Reader
-from mechsheet.recording.lines import Recording
 from mechsheet.recording.pinpoint import Mistake, Places
 from mechsheet.recording.record import record
 from mechsheet.worksheet.cells import Worksheet, load

@@ -84,8 +84,8 @@ def _ways(g: Any) -> tuple[Any, ...]:
 
 def _again(sheet: Worksheet, names: Sequence[str], g: Any) -> Again:
     """What computes results from inputs, and gives None where only the worksheet itself can."""
-    from mechsheet.recording.graph import NotRecorded  # on use: nobody who asks once waits for it
-    from mechsheet.recording.plan import NotPlanned  # likewise
+    from mechsheet.quantities.graph import NotRecorded  # on use: nobody who asks once waits for it
+    from mechsheet.readers.plan import NotPlanned  # likewise
     from mechsheet.recording.planned import planned  # likewise
 
     only = replace(sheet, cells=tuple(sheet.needed(map(base, names), ["g"])))

@@ -2,9 +2,9 @@
 
 from typing import Any
 
-from mechsheet.recording.graph import Graph
-from mechsheet.recording.node import Node
-from mechsheet.recording.quantity import Quantity
+from mechsheet.quantities.graph import Graph
+from mechsheet.quantities.node import Node
+from mechsheet.quantities.quantity import Quantity
 from mechsheet.worksheet.inputs import declared
 from mechsheet.worksheet.kinds import Choice, TextLine
 from mechsheet.worksheet.lists import Rows

@@ -12,12 +12,13 @@ from typing import Any
 
 import numpy as np
 
-from mechsheet.recording import derived, solving, stepped
-from mechsheet.recording.arithmetic import choice
-from mechsheet.recording.graph import Graph, Label, NotRecorded, current
-from mechsheet.recording.node import Block
-from mechsheet.recording.quantity import Quantity, lift, stack
-from mechsheet.recording.replaced import replaced
+from mechsheet.quantities.arithmetic import choice
+from mechsheet.quantities.graph import Graph, Label, NotRecorded, current
+from mechsheet.quantities.node import Block
+from mechsheet.quantities.quantity import Quantity, lift, stack
+from mechsheet.readers import derived, stepped
+from mechsheet.readers.replaced import replaced
+from mechsheet.recording import solving
 
 Note = Callable[[solving.Solving], Any]
 

@@ -6,9 +6,9 @@ from typing import Any
 
 import numpy as np
 
+from mechsheet.quantities.graph import NotRecorded
+from mechsheet.quantities.quantity import Quantity, has_quantity, joined, lift, owner, plain, quantities
 from mechsheet.recording.choices import element
-from mechsheet.recording.graph import NotRecorded
-from mechsheet.recording.quantity import Quantity, has_quantity, joined, lift, owner, plain, quantities
 
 _NOT_SET = object()  # an element that a dictionary does not have
 

@@ -9,12 +9,13 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from mechsheet.recording import derived, solving
-from mechsheet.recording.arithmetic import choice
-from mechsheet.recording.graph import Graph, Label, NotRecorded, current
-from mechsheet.recording.node import Node, bottom_up
-from mechsheet.recording.quantity import Quantity, lift
-from mechsheet.recording.replaced import replaced
+from mechsheet.quantities.arithmetic import choice
+from mechsheet.quantities.graph import Graph, Label, NotRecorded, current
+from mechsheet.quantities.node import Node, bottom_up
+from mechsheet.quantities.quantity import Quantity, lift
+from mechsheet.readers import derived
+from mechsheet.readers.replaced import replaced
+from mechsheet.recording import solving
 
 # Kronrod's places in the half of a part from its middle on, with their weights; Gauss's are every second one of them.
 _PLACES = (

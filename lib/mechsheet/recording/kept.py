@@ -10,10 +10,10 @@ from typing import Any
 
 import numpy as np
 
-from mechsheet.recording.arithmetic import choice as where
+from mechsheet.quantities.arithmetic import choice as where
+from mechsheet.quantities.graph import NotRecorded, current
+from mechsheet.quantities.quantity import lift
 from mechsheet.recording.choices import UNBOUND, _missing, is_condition, part_of, way_may_change
-from mechsheet.recording.graph import NotRecorded, current
-from mechsheet.recording.quantity import lift
 
 _FURTHER = 200  # elements behind the first one that is kept now: an iterator may have no end
 _Pair = tuple[Any, FunctionType]  # whether an element is kept, and what gives its value

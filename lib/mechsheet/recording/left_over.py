@@ -3,10 +3,10 @@
 from collections.abc import Mapping
 from typing import Any
 
-from mechsheet.recording.graph import NotRecorded
-from mechsheet.recording.quantity import Quantity
+from mechsheet.quantities.graph import NotRecorded
+from mechsheet.quantities.quantity import Quantity
+from mechsheet.readers.terms import terms_of
 from mechsheet.recording.record import record
-from mechsheet.recording.terms import terms_of
 from mechsheet.worksheet import numbers
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.lines import Formula

@@ -9,12 +9,12 @@ from typing import Any
 
 import numpy as np
 
-from mechsheet.recording.arithmetic import choice as where
-from mechsheet.recording.arithmetic import imaginary
+from mechsheet.quantities.arithmetic import choice as where
+from mechsheet.quantities.arithmetic import imaginary
+from mechsheet.quantities.graph import Graph, Guard, NotRecorded, current
+from mechsheet.quantities.node import Loop, Node
+from mechsheet.quantities.quantity import Quantity, lift, quantities
 from mechsheet.recording.choices import ARRAYS, UNBOUND, is_condition, part_of
-from mechsheet.recording.graph import Graph, Guard, NotRecorded, current
-from mechsheet.recording.node import Loop, Node
-from mechsheet.recording.quantity import Quantity, lift, quantities
 
 
 def iterated(turn: FunctionType, items: Any, item: int | None, unread: str, *state: Any) -> Any:

@@ -21,8 +21,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from mechsheet.recording.node import Node
-from mechsheet.recording.quantity import Quantity, owner
+from mechsheet.quantities.node import Node
+from mechsheet.quantities.quantity import Quantity, owner
 
 _SETS = {"STORE_SUBSCR", "STORE_ATTR", "STORE_SLICE", "DELETE_SUBSCR", "DELETE_ATTR"}
 _MAY_CHANGE = {*_SETS, "POP_TOP", "STORE_DEREF"}

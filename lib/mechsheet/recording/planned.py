@@ -8,9 +8,9 @@ from typing import Any
 
 import numpy as np
 
-from mechsheet.recording.node import Node, bottom_up
-from mechsheet.recording.plan import REFUSED, NotPlanned, plan
-from mechsheet.recording.quantity import Quantity, lift
+from mechsheet.quantities.node import Node, bottom_up
+from mechsheet.quantities.quantity import Quantity, lift
+from mechsheet.readers.plan import REFUSED, NotPlanned, plan
 from mechsheet.recording.record import record
 from mechsheet.units import Constant
 from mechsheet.worksheet import inputs

@@ -5,10 +5,10 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import Any, Self, TypeVar
 
-from mechsheet.recording.graph import Graph
-from mechsheet.recording.lines import Recording
-from mechsheet.recording.node import Node, bottom_up
-from mechsheet.recording.quantity import Quantity
+from mechsheet.quantities.graph import Graph
+from mechsheet.quantities.lines import Recording
+from mechsheet.quantities.node import Node, bottom_up
+from mechsheet.quantities.quantity import Quantity
 from mechsheet.worksheet.lines import Formula
 from mechsheet.worksheet.table import Figure, Table
 

@@ -4,8 +4,8 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from mechsheet.recording.graph import Graph, current
-from mechsheet.recording.lines import Recording
+from mechsheet.quantities.graph import Graph, current
+from mechsheet.quantities.lines import Recording
 from mechsheet.recording.positions import lacking, rows_of, step_of
 from mechsheet.recording.recorded_run import Run
 from mechsheet.recording.stage import shown

@@ -12,22 +12,22 @@ from typing import Any
 import numpy as np
 
 from mechsheet import units
+from mechsheet.quantities.arithmetic import choice as where
+from mechsheet.quantities.arithmetic import sized
+from mechsheet.quantities.graph import Gap, Graph, Guard, NotRecorded
+from mechsheet.quantities.lines import Recording, leaves_of
+from mechsheet.quantities.node import Node, conditions
+from mechsheet.quantities.quantity import Quantity, has_quantity, is_literal, lift
+from mechsheet.quantities.selected import Selected
+from mechsheet.quantities.sketch import Drawn, Sketch
+from mechsheet.quantities.unrepeatable import Unrepeatable
+from mechsheet.quantities.written import Said, Written
 from mechsheet.recording import showing, statement
-from mechsheet.recording.arithmetic import choice as where
-from mechsheet.recording.arithmetic import sized
 from mechsheet.recording.given import given
-from mechsheet.recording.graph import Gap, Graph, Guard, NotRecorded
-from mechsheet.recording.lines import Recording, leaves_of
 from mechsheet.recording.memory import Memory, changes, names_of
-from mechsheet.recording.node import Node, conditions
 from mechsheet.recording.positions import OfPositions
-from mechsheet.recording.quantity import Quantity, has_quantity, is_literal, lift
-from mechsheet.recording.selected import Selected
-from mechsheet.recording.sketch import Drawn, Sketch
 from mechsheet.recording.stage import Stage, held
 from mechsheet.recording.substitutes import BUILTINS, Module, instead, shared, staged
-from mechsheet.recording.unrepeatable import Unrepeatable
-from mechsheet.recording.written import Said, Written
 from mechsheet.units import Constant
 from mechsheet.worksheet.cells import Cell, Worksheet
 from mechsheet.worksheet.drawing import Drawing

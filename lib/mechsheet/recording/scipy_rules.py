@@ -9,11 +9,11 @@ from typing import Any
 
 import numpy as np
 
+from mechsheet.quantities.graph import Graph, NotRecorded, current
+from mechsheet.quantities.quantity import Quantity, has_quantity, lift
 from mechsheet.recording import solving, spline_rules
-from mechsheet.recording.graph import Graph, NotRecorded, current
 from mechsheet.recording.guessed import GUESSED, guessed
 from mechsheet.recording.integral import Note, integral
-from mechsheet.recording.quantity import Quantity, has_quantity, lift
 
 _ROOTS = frozenset({"brentq", "brenth", "bisect", "ridder", "toms748"})
 _TABLES = frozenset({"interp1d", "RegularGridInterpolator"})

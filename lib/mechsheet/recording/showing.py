@@ -10,9 +10,9 @@ from itertools import chain
 from types import FunctionType
 from typing import Any
 
-from mechsheet.recording.lines import SLIDER, Recording
+from mechsheet.quantities.lines import SLIDER, Recording
+from mechsheet.quantities.quantity import Quantity
 from mechsheet.recording.memory import names_of
-from mechsheet.recording.quantity import Quantity
 from mechsheet.worksheet import source
 from mechsheet.worksheet.cells import Cell, Worksheet
 from mechsheet.worksheet.drawing import Drawing

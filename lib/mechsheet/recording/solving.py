@@ -10,11 +10,11 @@ from typing import Any
 import numpy as np
 
 from mechsheet import units
-from mechsheet.recording import derived
-from mechsheet.recording.graph import Graph, NotRecorded
-from mechsheet.recording.lines import Solved, Told
-from mechsheet.recording.node import Block, Node, bottom_up
-from mechsheet.recording.quantity import Quantity, has_quantity, lift
+from mechsheet.quantities.graph import Graph, NotRecorded
+from mechsheet.quantities.lines import Solved, Told
+from mechsheet.quantities.node import Block, Node, bottom_up
+from mechsheet.quantities.quantity import Quantity, has_quantity, lift
+from mechsheet.readers import derived
 from mechsheet.worksheet.find import Found
 from mechsheet.worksheet.system import Solution
 from mechsheet.worksheet.verdict import Verdict

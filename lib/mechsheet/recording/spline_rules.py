@@ -8,9 +8,9 @@ from typing import Any
 
 import numpy as np
 
+from mechsheet.quantities.graph import NotRecorded, current
+from mechsheet.quantities.quantity import Quantity, has_quantity, lift
 from mechsheet.recording import solving
-from mechsheet.recording.graph import NotRecorded, current
-from mechsheet.recording.quantity import Quantity, has_quantity, lift
 
 _CURVES = frozenset({"PPoly", "CubicSpline", "PchipInterpolator", "Akima1DInterpolator", "BSpline"})
 _MADE = frozenset({"CubicSpline", "PchipInterpolator", "Akima1DInterpolator", "make_interp_spline"})

@@ -10,13 +10,13 @@ from typing import Any, TypeVar
 import numpy as np
 
 from mechsheet import units
+from mechsheet.quantities.graph import Guard, NotRecorded
+from mechsheet.quantities.lines import Recording, Residual, Solved
+from mechsheet.quantities.node import Node
+from mechsheet.quantities.quantity import Quantity, lift
+from mechsheet.readers.terms import made_of
 from mechsheet.recording import solving
-from mechsheet.recording.graph import Guard, NotRecorded
-from mechsheet.recording.lines import Recording, Residual, Solved
-from mechsheet.recording.node import Node
-from mechsheet.recording.quantity import Quantity, lift
 from mechsheet.recording.substitutes import body, instead
-from mechsheet.recording.terms import made_of
 from mechsheet.worksheet import find, system
 from mechsheet.worksheet.cells import Cell
 from mechsheet.worksheet.check import Check, closed

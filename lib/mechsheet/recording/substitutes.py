@@ -20,17 +20,17 @@ from typing import Any
 import numpy as np
 
 from mechsheet import units
+from mechsheet.quantities.graph import NotRecorded, current
+from mechsheet.quantities.node import Node
+from mechsheet.quantities.numpy_rules import arange, filled, linspace, simpson, trapezoid_so_far
+from mechsheet.quantities.once import once
+from mechsheet.quantities.quantity import FUNCTIONS, Quantity, has_quantity, lift
+from mechsheet.quantities.sketch import Sketch, drawing
+from mechsheet.quantities.unrepeatable import instead_of_chance
+from mechsheet.quantities.written import looked_at
 from mechsheet.recording import scipy_rules, spline_rules
 from mechsheet.recording.choices import total
-from mechsheet.recording.graph import NotRecorded, current
-from mechsheet.recording.node import Node
-from mechsheet.recording.numpy_rules import arange, filled, linspace, simpson, trapezoid_so_far
-from mechsheet.recording.once import once
-from mechsheet.recording.quantity import FUNCTIONS, Quantity, has_quantity, lift
 from mechsheet.recording.rewritten import NAMES, rebuilt
-from mechsheet.recording.sketch import Sketch, drawing
-from mechsheet.recording.unrepeatable import instead_of_chance
-from mechsheet.recording.written import looked_at
 from mechsheet.worksheet import check, find, system
 from mechsheet.worksheet.cells import Marimo
 from mechsheet.worksheet.drawing import Drawing
@@ -257,7 +257,7 @@ def _array(values: Any, dtype: Any = None, *, copy: Any = None, ndmin: int = 0) 
 
 @cache
 def _short() -> Mapping[Any, Callable[..., Any]]:
-    from mechsheet.recording.elementary import STEPS  # on use: needs all of the mechanics
+    from mechsheet.quantities.elementary import STEPS  # on use: needs all of the mechanics
 
     return STEPS
 

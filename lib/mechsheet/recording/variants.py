@@ -11,9 +11,9 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from mechsheet.recording.node import Block, Node, bottom_up
-from mechsheet.recording.operations import ELEMENTWISE, REDUCE, REDUCE_SO_FAR, Values
-from mechsheet.recording.plan import NotPlanned
+from mechsheet.quantities.node import Block, Node, bottom_up
+from mechsheet.quantities.operations import ELEMENTWISE, REDUCE, REDUCE_SO_FAR, Values
+from mechsheet.readers.plan import NotPlanned
 from mechsheet.recording.planned import results
 from mechsheet.worksheet.cells import Worksheet, value
 from mechsheet.worksheet.find import find

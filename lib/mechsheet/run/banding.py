@@ -8,10 +8,10 @@ import numpy as np
 
 from mechsheet import units
 from mechsheet.document import parts
-from mechsheet.recording.banded import Banded, RunBands, about, off, run_bands
-from mechsheet.recording.bands import Band, Bands, Tolerance, tolerances
-from mechsheet.recording.node import Node
-from mechsheet.recording.quantity import Quantity
+from mechsheet.quantities.node import Node
+from mechsheet.quantities.quantity import Quantity
+from mechsheet.readers.banded import Banded, RunBands, about, off, run_bands
+from mechsheet.readers.bands import Band, Bands, Tolerance, tolerances
 from mechsheet.recording.record import record
 from mechsheet.worksheet import numbers, shown
 from mechsheet.worksheet.cells import Worksheet, base, split
@@ -94,7 +94,7 @@ def part_of(name: str, values: Mapping[str, Any]) -> Node | None:
 def _bounds(
     nodes: Iterable[Node], inputs: Mapping[str, Node], by: Mapping[str, Tolerance]
 ) -> dict[Node, tuple[Any, Any]]:
-    from mechsheet.recording.enclosed import enclosed  # on use: only bounds need balls
+    from mechsheet.readers.enclosed import enclosed  # on use: only bounds need balls
 
     return enclosed(nodes, {inputs[name]: tolerance.size for name, tolerance in by.items()})
 

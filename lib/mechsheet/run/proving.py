@@ -5,7 +5,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from mechsheet.document import parts
-from mechsheet.recording.lines import Recording
+from mechsheet.quantities.lines import Recording
 from mechsheet.recording.pinpoint import Places
 from mechsheet.recording.record import record
 from mechsheet.run.progress import if_long
@@ -14,7 +14,7 @@ from mechsheet.worksheet.lines import registry
 from mechsheet.worksheet.table import Table
 
 if TYPE_CHECKING:
-    from mechsheet.recording.proof import Proof
+    from mechsheet.readers.proof import Proof
 
 
 def proof_of(
@@ -29,7 +29,7 @@ def proof_of(
     Also of ``fields``, which are results over several positions. ``done`` is called with how many of how many steps
     are behind; without it a bar on the terminal shows them.
     """
-    from mechsheet.recording.proof import prove  # on use: only a proof needs balls
+    from mechsheet.readers.proof import prove  # on use: only a proof needs balls
 
     known = registry(namespace)
     tables = [value for value in parts.values(namespace) if isinstance(value, Table)]

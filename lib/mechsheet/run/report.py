@@ -14,12 +14,12 @@ import numpy as np
 from mechsheet import units
 from mechsheet.document import parts
 from mechsheet.document.left_out import left_out
+from mechsheet.quantities.graph import Gap
+from mechsheet.quantities.lines import Recording, Residual
+from mechsheet.readers.largest import narrow
+from mechsheet.readers.searched import search
 from mechsheet.recording.dimensions import dimensions
-from mechsheet.recording.graph import Gap
-from mechsheet.recording.largest import narrow
-from mechsheet.recording.lines import Recording, Residual
 from mechsheet.recording.record import record, record_every_line
-from mechsheet.recording.searched import search
 from mechsheet.run import arguments
 from mechsheet.run.ending import say
 from mechsheet.run.proving import proof_of

@@ -133,7 +133,7 @@ class Job:
         return _ways.get(key)
 
     def _way(self, one: Mapping[str, Any], names: Sequence[str]) -> "Way | None":
-        from mechsheet.recording.plan import NotPlanned  # on use: most worksheets take arrays of variants
+        from mechsheet.readers.plan import NotPlanned  # on use: most worksheets take arrays of variants
         from mechsheet.recording.variants import variants  # likewise
 
         alone = self._tried(one)

@@ -12,10 +12,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mechsheet import units
-from mechsheet.recording.bends import bends
-from mechsheet.recording.node import Node
+from mechsheet.quantities.node import Node
+from mechsheet.readers.bends import bends
+from mechsheet.readers.slopes import slopes
 from mechsheet.recording.record import record
-from mechsheet.recording.slopes import slopes
 from mechsheet.run.banding import part_of
 from mechsheet.studies.optimum import At, conditions
 from mechsheet.studies.sensitivity import quiet

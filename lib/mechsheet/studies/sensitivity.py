@@ -10,10 +10,10 @@ from numpy.typing import NDArray
 
 from mechsheet import units
 from mechsheet.document.chart import COLOURS
-from mechsheet.recording.bands import untold
-from mechsheet.recording.numbers import numbers as recomputed
+from mechsheet.readers.bands import untold
+from mechsheet.readers.numbers import numbers as recomputed
+from mechsheet.readers.slopes import Slope, seen, slopes, solved_under, unfollowed
 from mechsheet.recording.record import record
-from mechsheet.recording.slopes import Slope, seen, slopes, solved_under, unfollowed
 from mechsheet.run.banding import part_of
 from mechsheet.studies.sweep import Sweep, sweep
 from mechsheet.worksheet import inputs as declarations

@@ -285,8 +285,8 @@ def _apart(job: Job, given: inputs.Variants, rows: NDArray[np.intp]) -> bool:
 
 def _recorded(job: Job, given: inputs.Variants, rows: NDArray[np.intp]) -> Job:
     """The job by the recordings of some variants that know others, as many as pay for themselves."""
-    from mechsheet.recording.graph import NotRecorded  # on use: most worksheets take arrays of variants
-    from mechsheet.recording.plan import NotPlanned  # likewise
+    from mechsheet.quantities.graph import NotRecorded  # on use: most worksheets take arrays of variants
+    from mechsheet.readers.plan import NotPlanned  # likewise
 
     most = min(_RECORDINGS, rows.size // _PAYS)
     few = given.at(rows[np.linspace(0, len(rows) - 1, _PROBES).astype(int)[_SPREAD]])

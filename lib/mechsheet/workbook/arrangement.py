@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mechsheet import units
-from mechsheet.recording.lines import Line, Recording
-from mechsheet.recording.node import LEAVES, Node, bottom_up
+from mechsheet.quantities.lines import Line, Recording
+from mechsheet.quantities.node import LEAVES, Node, bottom_up
 from mechsheet.workbook.cell_formula import nesting, written_of
 from mechsheet.workbook.place import DefinedNames, Place, called
 from mechsheet.worksheet.table import Table

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from mechsheet.recording.node import Node, bottom_up, is_number, passes_over
+from mechsheet.quantities.node import Node, bottom_up, is_number, passes_over
 from mechsheet.workbook.column_rows import COUNTED, Index, Rows, Unlike
 from mechsheet.workbook.place import Place
 

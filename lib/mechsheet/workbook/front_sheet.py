@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from mechsheet import units
-from mechsheet.recording.lines import Recording
+from mechsheet.quantities.lines import Recording
 from mechsheet.workbook import looks
 from mechsheet.workbook.book import Book
 from mechsheet.workbook.cell_formula import AGGREGATE

@@ -5,7 +5,7 @@ from itertools import chain
 
 import numpy as np
 
-from mechsheet.recording.lines import Line
+from mechsheet.quantities.lines import Line
 from mechsheet.units import shown, si
 from mechsheet.workbook import looks, table_sheet
 from mechsheet.workbook.arrangement import Section

@@ -3,9 +3,9 @@
 from typing import NamedTuple
 
 from mechsheet import units
-from mechsheet.recording.lines import Line, leaves_of
-from mechsheet.recording.node import Node, bottom_up
-from mechsheet.recording.quantity import Quantity
+from mechsheet.quantities.lines import Line, leaves_of
+from mechsheet.quantities.node import Node, bottom_up
+from mechsheet.quantities.quantity import Quantity
 from mechsheet.workbook.arrangement import Arrangement
 from mechsheet.workbook.cell_formula import CellFormulas, written
 from mechsheet.workbook.content import Live, quoted

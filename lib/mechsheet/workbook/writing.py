@@ -3,7 +3,7 @@
 from collections.abc import Container, Mapping, Sequence
 from dataclasses import replace
 
-from mechsheet.recording.lines import Recording
+from mechsheet.quantities.lines import Recording
 from mechsheet.workbook import (
     checks_sheet,
     find_sheet,

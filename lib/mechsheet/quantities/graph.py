@@ -1,0 +1,450 @@
+"""The graph of a recording: quantities as operations on other quantities, and how they are made."""
+
+import math
+import weakref
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from contextvars import ContextVar
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from mechsheet.quantities.node import Block, Loop, Node, is_number
+from mechsheet.quantities.operations import ELEMENTWISE, REDUCE, REDUCE_SO_FAR, Along, Moved, Values
+
+
+class NotRecorded(BaseException):
+    """Something that a recording does not hold, in words; no code of a worksheet handles it."""
+
+
+# Operations that may have no finite number where all their operands have one.
+_PARTIAL = frozenset(("div", "pow", "sqrt", "exp", "log", "tan", "asin", "acos", "mod", "sized"))
+_MOVING = frozenset(("input", "rows", "length", "take", "join", "reduce"))
+_GIVEN = frozenset(("constant", "input", "exported"))  # of which no number is computed
+MOST = 1_000_000  # numbers that one statement may compute, many of them each a cell of a workbook
+_NODES = 50_000  # operations that it may have, of however few numbers: they take time in Python
+MOST_DRAWN = 2_000_000  # the same where no cell holds them: in a page in one file, or a function of the inputs
+
+
+class Guard(NamedTuple):
+    """What Python saw of a quantity: it took one way of several, which the recorded formulas follow."""
+
+    holds: Node  # true while Python would see the same
+    line: int  # of the worksheet
+    rows: bool = False  # it is the number of rows, which a writer with a fixed number of them knows
+    lengths: bool = False  # it follows from that number
+    turns: bool = False  # a loop ends within the turns that a writer has which does not repeat it
+
+
+class Gap(NamedTuple):
+    """Names whose numbers are those of the worksheet's own run, since what gives them is not recorded."""
+
+    names: tuple[str, ...]
+    line: int  # of the worksheet
+    reason: str
+
+    def __str__(self) -> str:
+        return f"line {self.line}, {', '.join(self.names) or 'what it changes'}: {self.reason}"
+
+
+class Label(NamedTuple):
+    """What a step inside a library function is called."""
+
+    symbol: str
+    unit: str
+    meaning: str
+
+
+class Graph:
+    """All nodes of one recording; equal operations on equal operands are one node.
+
+    With ``thin`` only every so many of the numbers that ``linspace`` gives are taken: what a worksheet computes from
+    position to position it then computes for the positions that its tables list. With ``bodies`` the functions of the
+    mechanics run themselves, in the steps that keep most digits and with what they refuse, and not in the shorter ones
+    of a workbook.
+
+    ``looked`` are guards, what the Python code saw of quantities: where one of them no longer holds, what rests on it
+    is no longer what the worksheet has. ``labels`` are the names of steps inside library functions. ``line`` is the
+    line of the worksheet that is run.
+    """
+
+    def __init__(self, thin: int = 1, draws: bool = False, lists: bool = False, bodies: bool = False) -> None:
+        self.thin = thin
+        self.bodies = bodies
+        self.draws = draws  # drawings are recorded too
+        self.lists = lists  # those among the inputs may have any length
+        self.listed = frozenset[int]()  # how many rows the tables have that list every so many
+        self.positions = 0  # numbers of linspace before any were left out
+        self.line = 0
+        self.work = 0  # numbers computed since somebody set it to 0
+        self.most = MOST_DRAWN if draws or bodies else MOST  # that these may be
+        self.fixed = set[Node]()  # which rest on constants alone
+        self.counts = set[Node]()  # which rest on numbers of rows, and are these themselves
+        self.always = set[Node]()  # which are numbers whatever the inputs are
+        self.lengths: dict[tuple[Node, int], Node] = {}
+        self.sizes: dict[Node, tuple[Node, ...]] = {}
+        self.pivots = set[Node]()  # conditions that put the rows of linear equations in order, which may be unlike
+        self.nodes: dict[Any, Node] = {}
+        self.alike: dict[Any, list[tuple[float, Node]]] = {}  # exported, by what they rest on and shape
+        self.looked: dict[Node, Guard] = {}  # by their conditions; since somebody emptied it
+        self.numbered: dict[Node, Guard] = {}  # those of numbers of rows and of turns, likewise
+        self.gone: list[weakref.ref[Any]] = []  # arrays in whose place another one was put
+        self.called: dict[Any, Any] = {}  # what functions gave, see `once`, and what numpy's elementwise ones did
+        self.supposed = 0  # ways that Python does not take and that are recorded beside it, one in another
+        self.labels: dict[Node, Label] = {}
+
+    @contextmanager
+    def labelled(self, labels: dict[Node, Label]) -> Iterator[None]:
+        """Other ``labels`` for a while, so that no step keeps a name that it gets meanwhile."""
+        kept = self.labels, self.called
+        self.labels, self.called = labels, {}  # functions run again, and name their steps
+        try:
+            yield
+        finally:
+            self.labels, self.called = kept
+
+    def node(self, op: str, *args: Node) -> Node:
+        """An operation, element by element, on operands that are broadcast to each other."""
+        key = op, *args
+        return self.nodes.get(key) or self._kept(key, op, args, lambda: ELEMENTWISE[op](*[a.value for a in args]))
+
+    def _kept(
+        self, key: Any, op: str, args: tuple[Any, ...], value: Callable[[], Any], stretches: bool | None = None
+    ) -> Node:
+        known = self.nodes.get(key)
+        if known is None:
+            along = any(a.stretches for a in args) if stretches is None else stretches
+            known = self.nodes[key] = Node(op, args, _fixed(value()), self.line, along)
+            if op not in _GIVEN:
+                self.work += max(known.size, self.most // _NODES)
+            under = known.operands
+            if op == "constant" or (under and op != "state" and self.fixed.issuperset(under)):
+                self.fixed.add(known)
+            elif op == "length" or (
+                op in ELEMENTWISE
+                and not self.counts.isdisjoint(under)
+                and all(a in self.fixed or a in self.counts for a in under)
+            ):
+                self.counts.add(known)
+            if self.always.issuperset(under) and _exists(known):
+                self.always.add(known)
+            if self.work > self.most:
+                raise NotRecorded(f"it takes more than {self.most:,} operations on single numbers")
+        return known
+
+    def see(self, seen: Node, rows: bool = False, turns: bool = False) -> None:
+        """Note that Python looks at a condition, which holds now."""
+        if seen not in self.fixed:
+            kept = self.numbered if rows or turns else self.looked
+            kept.setdefault(seen, Guard(seen, self.line, rows, not rows and seen in self.counts, turns))
+
+    def measure(self, node: Node) -> None:
+        """Note that Python looks at the shape of a quantity."""
+        for axis in range(-len(node.shape), 0) if node.stretches else ():
+            self.see(self.same(self.length(node, axis)))
+
+    def length(self, node: Node, axis: int) -> Node:
+        """How many elements a quantity has along an axis, which is counted from the last one."""
+        if not node.stretches:
+            return self.constant(node.shape[axis])
+        if node.op == "rows":
+            count: Node = node.args[0]
+            return count
+        if node.op == "found":  # all unknowns of a block have one shape
+            node = node.args[0].nodes[0]
+        known = self.lengths.get((node, axis))
+        if known is None and node.op == "found" and not node.args[0].residuals:
+            return self._own_length(node, axis)
+        if known is None:
+            if node.op == "found":  # on which its residuals rest
+                self.lengths[node, axis] = self._own_length(node, axis)
+            known = self.lengths[node, axis] = self._length_under(node, axis) or self._own_length(node, axis)
+        return known
+
+    def _own_length(self, node: Node, axis: int) -> Node:
+        return self._kept(("length", node, axis), "length", (node, axis), lambda: np.array(node.shape[axis]), False)
+
+    def _length_under(self, node: Node, axis: int) -> Node | None:
+        """The length of what a quantity is made of, where both are as long whatever the number of rows is."""
+        parts = list[tuple[Node, int]]()
+        if node.op in ELEMENTWISE:
+            parts = [(part, axis) for part in node.args if len(part.shape) >= -axis]
+        elif node.op in ("state", "iterated"):  # which is as it was at first
+            parts = [(node.args[0] if node.op == "state" else node.args[2], axis)]
+        elif node.op == "found":
+            parts = [(part, axis) for part in node.args[0].residuals if part.shape == node.shape]
+        elif node.op == "join":
+            sources, joined = node.args[0], node.args[3].along(len(node.shape))
+            if joined is not None and joined[0] != axis:
+                parts = [(source, axis + (joined[1] and axis < joined[0])) for source in sources]
+            elif joined is not None and (joined[1] or not any(self.stretch(source, axis) for source in sources)):
+                return self.constant(node.shape[axis])
+        elif node.op == "take" and len(node.args[2]) == 1:
+            source, _, (moved,) = node.args
+            origin = moved.origin(axis, len(source.shape))
+            if origin and (origin.whole or origin.axis is None or not self.stretch(source, origin.axis)):
+                return self.length(source, origin.axis) if origin.whole else self.constant(node.shape[axis])
+        found = {self.length(part, k) for part, k in parts if part.stretches}
+        if len(found) > 1:  # what is found for the rows has as many
+            found = {n for n in found if n.op != "length" or n.args[0].op != "found"}
+        fixed = all(part.stretches or part.shape[k] == 1 for part, k in parts)
+        return found.pop() if fixed and len(found) == 1 else None
+
+    def stretch(self, node: Node, axis: int) -> bool:
+        """Whether a quantity stretches along an axis, which is counted from the last one."""
+        return node.stretches and self.length(node, axis) not in self.fixed
+
+    def size(self, node: Node) -> tuple[Node, ...]:
+        """The lengths of all axes."""
+        known = self.sizes.get(node)
+        if known is None:
+            known = tuple(self.length(node, axis) for axis in range(-len(node.shape), 0))
+            if node.op != "found":  # whose residuals tell, once they are known
+                self.sizes[node] = known
+        return known
+
+    def like(self, node: Node, *others: Node) -> Node:
+        """A quantity in the shape that it has together with others."""
+        for other in others:
+            if not other.shape:
+                continue
+            shape = node.shape if node.shape == other.shape else np.broadcast_shapes(node.shape, other.shape)
+            if not (node.stretches or other.stretches):
+                if shape != node.shape:
+                    index = np.broadcast_to(np.arange(node.size).reshape(node.shape), shape)
+                    node = self.take(node, np.ascontiguousarray(index))
+            elif shape != node.shape or (other.stretches and self.size(node) != self.size(other)):
+                node = self.node("like", node, self._basis(other))
+        return node
+
+    def _basis(self, node: Node) -> Node:
+        """What gives a quantity its shape, as far as that is one of what it is made of."""
+        while node.op in ELEMENTWISE and (
+            parts := [a for a in node.args if a.stretches and self.size(a) == self.size(node)]
+        ):
+            node = parts[-1] if node.op == "like" else parts[0]
+        return node
+
+    def same(self, node: Node) -> Node:
+        """The condition that a quantity is what it is now, in all its elements."""
+        finite = np.isfinite(node.value)
+        now = self.fold("eq", node, self.constant(np.where(finite, node.value, 0)))
+        if not finite.all():
+            now = self.fold("where", self.constant(finite), now, self.fold("not", self.fold("finite", node)))
+        return self.reduce("all", now, None, False)
+
+    def exported(self, rests_on: Sequence[Node], value: Any) -> Node:
+        """Numbers of the worksheet's own run, and the quantities that they rest on, nobody knows how.
+
+        The same node for what differs by the rounding of a unit, such as a result and its column of a table.
+        """
+        array = _fixed(np.array(value))
+        alike = self.alike.setdefault((tuple(rests_on), array.dtype.char, array.shape), [])
+        size = float(np.nansum(np.abs(array)))
+        for other, node in alike:
+            if math.isclose(other, size) and np.allclose(node.value, array, 4 * np.finfo(float).eps, 0, equal_nan=True):
+                return node
+        key = ("exported", tuple(rests_on), array.dtype.char, array.shape, array.tobytes())
+        new = self._kept(key, "exported", tuple(rests_on), lambda: array, False)
+        alike.append((size, new))
+        return new
+
+    def constant(self, value: Any, *unit: str) -> Node:
+        """A number or an array of numbers; in SI where a unit says what it measures."""
+        array = np.asarray(value)
+        key = ("constant", array.dtype.char, array.shape, array.tobytes(), *unit)
+        return self._kept(key, "constant", unit, array.copy, False)
+
+    def leaf(self, op: str, name: str, value: Any) -> Node:
+        """An input."""
+        return self._kept((op, name), op, (), lambda: np.array(value), self.lists and np.ndim(value) > 0)
+
+    def columns(self, nodes: Sequence[Node]) -> None:
+        """Let lists that are inputs be of one length."""
+        for node in nodes[1:]:
+            self.lengths[node, -1] = self.length(nodes[0], -1)
+
+    def found(self, block: Block, number: int, name: str, value: Any) -> Node:
+        """One of the values that a solve block finds."""
+        array = np.array(value)
+        return self._kept(("found", name, number), "found", (block, number), lambda: array, array.ndim > 0)
+
+    def state(self, initial: Node) -> Node:
+        """A number that a loop changes, at any of its turns."""
+        return self._kept(("state", len(self.nodes)), "state", (initial,), initial.value.copy, initial.stretches)
+
+    def iterated(self, loop: Loop, number: int, turns: Node) -> Node:
+        """What a loop makes of one of its numbers; the ``turns`` one after the other give it too, while they do."""
+        key = ("iterated", loop, number)
+        return self._kept(key, "iterated", (loop, number, turns), lambda: turns.value, turns.stretches)
+
+    def rows(self, count: Node) -> Node:
+        """The numbers 0, 1, 2 .. of so many rows."""
+        stretches = count not in self.fixed
+        if stretches:
+            self.counts.add(count)
+        return self._kept(("rows", count), "rows", (count,), lambda: np.arange(int(count.value)), stretches)
+
+    def take(self, source: Node, index: Values, *moved: Moved) -> Node:
+        """Elements of a quantity by their flat positions; by what has ``moved`` them, where it stretches."""
+        if source.stretches:
+            return self._taken(source, index, moved)
+        if source.op in ("constant", "rows"):
+            return self.constant(source.value.reshape(-1)[index], *(source.args if source.op == "constant" else ()))
+        if source.shape == index.shape and np.array_equal(index.reshape(-1), np.arange(source.size)):
+            return source
+        if source.op == "take" and not source.args[2]:
+            return self.take(source.args[0], source.args[1].reshape(-1)[index])
+        if source.op == "join" and index.size:
+            sources, which, inside, _ = source.args
+            chosen = set(which.reshape(-1)[index].flat)
+            if len(chosen) == 1:
+                return self.take(sources[chosen.pop()], inside.reshape(-1)[index])
+        key = ("take", source, index.shape, index.tobytes())
+        return self._kept(key, "take", (source, _fixed(index), ()), lambda: source.value.reshape(-1)[index], False)
+
+    def _taken(self, source: Node, index: Values, moved: tuple[Moved, ...]) -> Node:
+        *before, last = moved
+        if last.keeps(len(source.shape)) and not before:
+            return source
+        if source.op == "take":
+            first, inner, earlier = source.args
+            return self._kept_take(first, inner.reshape(-1)[index], (*earlier, *moved))
+        if source.op == "join" and not before and (picked := last.picked(source.args[3], len(source.shape))):
+            number, rest = picked
+            if len({self.size(one) for one in source.args[0]}) == 1:
+                part = source.args[0][number]
+                return self.take(part, source.args[2].reshape(-1)[index], *rest) if rest else part
+        return self._kept_take(source, index, moved)
+
+    def _kept_take(self, source: Node, index: Values, moved: tuple[Moved, ...]) -> Node:
+        key = ("take", source, index.shape, index.tobytes(), *(m.key for m in moved))
+        return self._kept(
+            key, "take", (source, _fixed(index), moved), lambda: source.value.reshape(-1)[index], index.ndim > 0
+        )
+
+    def at(self, source: Node, position: Node) -> Node:
+        """Elements of a quantity at flat positions that are a quantity themselves; NaN where there is none."""
+        where = position.value.astype(float)
+        inside = (where >= 0) & (where < source.size)
+        if position.op == "constant" and inside.all():
+            fixed = position.value.astype(np.intp)
+            return self.take(source, fixed, Moved(np.take, (fixed,)))
+        index = np.where(inside, where, 0).astype(np.intp)
+        value = lambda: np.where(inside, source.value.reshape(-1)[index] + 0.0, np.nan)  # noqa: E731
+        return self._kept(("at", source, position), "at", (source, position), value, position.stretches)
+
+    def join(self, sources: Sequence[Node], where: Values, moved: Moved) -> Node:
+        """Elements of several quantities as one: ``where`` numbers the elements of all of them, one after the other.
+
+        ``moved`` has put them together.
+        """
+        ends = np.cumsum([source.size for source in sources])
+        which = np.searchsorted(ends, where, side="right")
+        stretches = any(source.stretches for source in sources)
+        inside = where - np.concatenate([[0], ends])[which]
+        args = tuple(sources), _fixed(which), _fixed(inside), moved if stretches else None
+        flat = np.concatenate([source.value.reshape(-1) for source in sources])
+        key = ("join", *sources, where.shape, where.tobytes(), *([moved.key] if stretches else []))
+        return self._kept(key, "join", args, lambda: flat[where], stretches)
+
+    def reduce(self, kind: str, source: Node, axis: int | None, keepdims: bool) -> Node:
+        """What the kind says of the elements along an axis, or of all."""
+        if source.op == "join" and axis is None and kind in ("max", "min") and not keepdims and _whole(source):
+            greatest, *others = [self.reduce(kind, part, None, False) for part in dict.fromkeys(source.args[0])]
+            for other in others:
+                greatest = self.fold(kind, greatest, other)
+            return greatest
+        value = REDUCE[kind](source.value, axis=axis, keepdims=keepdims)
+        if source.op == "constant":
+            return self.constant(value)
+        if source.size == 1 and not kind.startswith("arg") and not source.stretches:
+            return self.take(source, np.zeros(np.shape(value), int))
+        flat = np.arange(source.size).reshape(source.shape)
+        groups = flat.reshape(1, -1) if axis is None else np.moveaxis(flat, axis, -1).reshape(-1, flat.shape[axis])
+        key = ("reduce", source, kind, axis, keepdims)
+        args = source, _fixed(groups), kind, Along(axis, keepdims)
+        return self._kept(key, "reduce", args, lambda: value, source.stretches and axis is not None)
+
+    def scan(self, kind: str, source: Node, axis: int) -> Node:
+        """What the kind says of the elements along an axis up to each one."""
+        lines = np.moveaxis(np.arange(source.size).reshape(source.shape), axis, -1).reshape(-1, source.shape[axis])
+        lines.flags.writeable = False
+        groups: list[Any] = [None] * source.size
+        for line in lines:
+            for n, k in enumerate(line, 1):
+                groups[k] = line[:n]  # a view: copies of all would be as many numbers as half the square of a line's
+        value = lambda: REDUCE_SO_FAR[kind].accumulate(source.value, axis=axis)  # noqa: E731
+        args = source, tuple(groups), kind, Along(axis, so_far=True)
+        return self._kept(("scan", source, kind, axis), "reduce", args, value, source.stretches)
+
+    # The operations below leave out what adds nothing: a reader looks for none of it.
+
+    def add(self, a: Node, b: Node) -> Node:
+        if is_number(a, 0):
+            return b
+        if is_number(b, 0):
+            return a
+        if b.op == "neg":
+            return self.sub(a, b.args[0])
+        return self.fold("add", a, b)
+
+    def sub(self, a: Node, b: Node) -> Node:
+        if is_number(b, 0):
+            return a
+        if is_number(a, 0):
+            return self.neg(b)
+        return self.add(a, b.args[0]) if b.op == "neg" else self.fold("sub", a, b)
+
+    def neg(self, a: Node) -> Node:
+        return a.args[0] if a.op == "neg" else self.fold("neg", a)
+
+    def mul(self, a: Node, b: Node) -> Node:
+        for x, y in ((a, b), (b, a)):
+            if is_number(x, 0):
+                return x
+            if is_number(x, 1):
+                return y
+            if is_number(x, -1):
+                return self.neg(y)
+            if x.op == "neg":
+                return self.neg(self.mul(x.args[0], y))
+        return self.fold("mul", a, b)
+
+    def div(self, a: Node, b: Node) -> Node:
+        if is_number(b, 1) or is_number(a, 0):
+            return a
+        return self.neg(self.div(a.args[0], b)) if a.op == "neg" else self.fold("div", a, b)
+
+    def fold(self, op: str, *args: Node) -> Node:
+        """An operation; of constants without a unit the constant that it gives, in their shape."""
+        plain = [a.args[0] if a.op == "like" else a for a in args if a.op in ("constant", "like")]
+        if len(plain) == len(args) and all(a.op == "constant" and not a.args for a in plain):
+            return self.like(self.constant(ELEMENTWISE[op](*[a.value for a in plain])), *args)
+        return self.node(op, *args)
+
+
+current: ContextVar[Graph] = ContextVar("current")  # the graph of the recording that is made here
+
+
+def _exists(node: Node) -> bool:
+    """Whether an operation gives finite numbers wherever its operands are finite, whatever they are."""
+    if node.op == "constant":
+        return bool(np.all(np.isfinite(node.value)))
+    if node.op == "div":
+        return node.args[1].op == "constant" and bool(np.all(node.args[1].value))
+    return node.op in _MOVING or (node.op in ELEMENTWISE and node.op not in _PARTIAL)
+
+
+def _whole(join: Node) -> bool:
+    """Whether all elements of what is joined are in it."""
+    sources, which, inside, _ = join.args
+    starts = np.cumsum([0, *(source.size for source in sources)])
+    return len(set((starts[which] + inside).flat)) == int(starts[-1])
+
+
+def _fixed(value: Any) -> Values:
+    """Values that nobody can change any more."""
+    array = np.asarray(value)
+    array.flags.writeable = False
+    return array

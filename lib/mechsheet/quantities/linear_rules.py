@@ -1,0 +1,188 @@
+"""Matrix products and small systems of linear equations of recorded quantities."""
+
+from collections.abc import Callable
+from functools import partial, reduce
+from itertools import combinations
+from typing import Any
+
+import numpy as np
+
+from mechsheet.quantities.arithmetic import absolute, choice
+from mechsheet.quantities.graph import Graph, NotRecorded
+from mechsheet.quantities.quantity import Quantity, lift, moved
+
+_MOST = 6  # equations
+_OF_STRESS = 3  # rows of a symmetric matrix whose eigenvalues are recorded
+_SWEEPS = 5  # of Jacobi's rotations: the third one reaches the last digits
+_TOO_MANY = f"a system of more than {_MOST} linear equations"
+
+
+def product(graph: Graph, x: Any, y: Any) -> Any:
+    """The matrix product, as numpy's matmul and dot have it for one and two axes."""
+    x, y = lift(graph, x), lift(graph, y)
+    if not x.ndim or not y.ndim:
+        return x * y
+    if y.ndim == 1:
+        return (x * y).reduced("sum", -1)
+    if x.ndim == 1:
+        return (x[:, None] * y).reduced("sum", -2)
+    return (x[..., :, :, None] * y[..., None, :, :]).reduced("sum", -2)
+
+
+def outer(graph: Graph, x: Any, y: Any) -> Any:
+    return lift(graph, x).reshape(-1, 1) * lift(graph, y).reshape(-1)
+
+
+def kron(graph: Graph, x: Any, y: Any) -> Any:
+    x, y = lift(graph, x), lift(graph, y)
+    if x.ndim != y.ndim or x.ndim not in (1, 2):
+        raise NotRecorded("numpy's kron of other than two vectors or two matrices")
+    if x.ndim == 1:
+        return (x[:, None] * y).reshape(-1)
+    rows, columns = len(x) * len(y), len(x[0]) * len(y[0])
+    return (x[:, None, :, None] * y[None, :, None, :]).reshape(rows, columns)
+
+
+def inverse(graph: Graph, A: Any) -> Any:
+    A = lift(graph, A)
+    return solution(graph, A, np.eye(A.shape[-1]))
+
+
+def diagonal(graph: Graph, x: Any, k: int = 0) -> Any:
+    """numpy's diag: that of a matrix, or a matrix of it."""
+    x = lift(graph, x)
+    if x.ndim > 1:
+        return np.diagonal(x, k)
+    if k:
+        raise NotRecorded("numpy's diag beside the diagonal")
+    return choice(graph, np.eye(len(x), dtype=bool), x[:, None], 0.0)
+
+
+def upper(graph: Graph, x: Any, k: int = 0) -> Any:
+    """numpy's triu."""
+    x = lift(graph, x)
+    return choice(graph, np.tri(len(x), len(x[0]), k - 1, dtype=bool), 0.0, x)
+
+
+def lower(graph: Graph, x: Any, k: int = 0) -> Any:
+    """numpy's tril."""
+    x = lift(graph, x)
+    return choice(graph, np.tri(len(x), len(x[0]), k, dtype=bool), x, 0.0)
+
+
+def matrix_power(graph: Graph, A: Any, n: Any) -> Any:
+    A, count = lift(graph, A), int(n)
+    if count < 1:
+        raise NotRecorded("a power of a matrix that is less than 1")
+    result = A
+    for _ in range(count - 1):
+        result = product(graph, result, A)
+    return result
+
+
+def products(graph: Graph, arrays: Any) -> Any:
+    """numpy's multi_dot."""
+    return reduce(partial(product, graph), arrays)
+
+
+def transformed(f: Callable[..., Any]) -> Callable[..., Any]:
+    """One of numpy's Fourier transforms, of as many numbers as there are: sums with fixed factors."""
+
+    def rule(graph: Graph, x: Any, *options: Any, **named: Any) -> Any:
+        x = lift(graph, x)
+        if options or named or x.ndim != 1 or any(part.stretches for part in x.parts):
+            raise NotRecorded(f"numpy's {f.__name__} but of one row of so many numbers, without options")
+        parts = zip((1, 1j), x.parts, strict=False)
+        return sum(product(graph, f(unit * np.eye(x.extent[0])).T, Quantity(graph, part)) for unit, part in parts)
+
+    return rule
+
+
+def _rows(graph: Graph, A: Any) -> list[list[Any]]:
+    """The elements of square matrices on the last axes, by rows."""
+    A = lift(graph, A)
+    size = A.shape[-1]
+    if A.ndim < 2 or A.shape[-2] != size or size > _MOST:
+        raise NotRecorded(_TOO_MANY)
+    return [[A[..., i, j] for j in range(size)] for i in range(size)]
+
+
+def _eliminated(graph: Graph, rows: list[list[Any]]) -> tuple[list[list[Any]], Any]:
+    """Upper triangles of square matrices, and the signs of their rows' orders, greatest pivots first.
+
+    Right sides that stand behind the matrices in their rows are changed with them.
+    """
+    size = len(rows)
+    if size > _MOST:
+        raise NotRecorded(_TOO_MANY)
+    sign = lift(graph, 1.0)
+    for j in range(size):
+        for i in range(j + 1, size):
+            greater = absolute(rows[i][j]) > absolute(rows[j][j])
+            graph.pivots.update(greater.parts)
+            sign = choice(graph, greater, -sign, sign)
+            pairs = list(zip(rows[j], rows[i], strict=True))
+            rows[j], rows[i] = (
+                [choice(graph, greater, q, p) for p, q in pairs], [choice(graph, greater, p, q) for p, q in pairs]
+            )  # fmt: skip
+        for i in range(j + 1, size):
+            part = rows[i][j] / rows[j][j]
+            rows[i] = [p - part * q if k > j else p for k, (p, q) in enumerate(zip(rows[i], rows[j], strict=True))]
+    return rows, sign
+
+
+def solved_rows(graph: Graph, rows: list[list[Any]]) -> list[list[Any]]:
+    """The unknowns of square linear equations for each of the right sides that stand behind them in their rows."""
+    size = len(rows)
+    rows, _ = _eliminated(graph, rows)
+    solved = list[list[Any]]()
+    for k in range(size, len(rows[0])):
+        x: list[Any] = [None] * size
+        for i in reversed(range(size)):
+            rest = rows[i][k]
+            for j in range(i + 1, size):
+                rest = rest - rows[i][j] * x[j]
+            x[i] = rest / rows[i][i]
+        solved.append(x)
+    return solved
+
+
+def solution(graph: Graph, A: Any, b: Any) -> Any:
+    b = lift(graph, b)
+    vector = b.ndim == 1
+    columns = [b] if vector else [b[..., k] for k in range(b.shape[-1])]
+    solved = solved_rows(graph, [[*row, *(c[..., i] for c in columns)] for i, row in enumerate(_rows(graph, A))])
+    if vector:
+        return moved(lift(graph, solved[0]), 0, -1)
+    return moved(lift(graph, [lift(graph, list(row)) for row in zip(*solved, strict=True)]), (0, 1), (-2, -1))
+
+
+def determinant(graph: Graph, A: Any) -> Any:
+    rows, sign = _eliminated(graph, _rows(graph, A))
+    for i, row in enumerate(rows):
+        sign = sign * row[i]
+    return lift(graph, sign)
+
+
+def eigenvalues(graph: Graph, A: Any, UPLO: str = "L") -> list[Any]:
+    """Eigenvalues of symmetric matrices of two or three rows, in no order, by Jacobi's rotations: right to rounding.
+
+    The closed form of three loses half of the digits where two are nearly the same.
+    """
+    a = _rows(graph, A)
+    if len(a) > _OF_STRESS or any(x.im is not None for row in a for x in row):
+        raise NotRecorded(f"eigenvalues of a matrix of more than {_OF_STRESS} rows, or of a complex one")
+    if UPLO == "L":
+        a = [[a[max(i, j)][min(i, j)] for j in range(len(a))] for i in range(len(a))]
+    pairs = list(combinations(range(len(a)), 2))
+    for p, q in pairs * (_SWEEPS if len(a) > 2 else 1):
+        off, apart = a[p][q], a[q][q] - a[p][p]
+        way = choice(graph, apart < 0, -2.0, 2.0) * off
+        turn = choice(graph, off == 0, 0.0, way / (absolute(apart) + np.hypot(apart, 2 * off)))
+        c = 1 / np.sqrt(1 + turn**2)
+        a[p][p], a[q][q] = a[p][p] - turn * off, a[q][q] + turn * off
+        for r in {*range(len(a))} - {p, q}:
+            x, y = a[min(r, p)][max(r, p)], a[min(r, q)][max(r, q)]
+            a[min(r, p)][max(r, p)], a[min(r, q)][max(r, q)] = c * (x - turn * y), c * (turn * x + y)
+        a[p][q] = lift(graph, 0.0)
+    return [a[k][k] for k in range(len(a))]

@@ -1,0 +1,167 @@
+"""What a recording holds: lines and steps by their names, columns of tables, checks, found values and marks."""
+
+import ast
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from functools import lru_cache
+from typing import Any, NamedTuple
+
+from mechsheet.quantities.graph import Gap, Graph, Guard
+from mechsheet.quantities.node import Node
+from mechsheet.quantities.quantity import Quantity
+from mechsheet.quantities.sketch import Drawn
+from mechsheet.quantities.written import Said
+from mechsheet.worksheet import symbol
+from mechsheet.worksheet.lines import Formula
+
+SLIDER = "slider "  # before the name of one among the inputs
+
+
+@dataclass
+class Line:
+    """One quantity behind the tables: where it is defined, the number of its printed formula, where it stands."""
+
+    node: Node
+    symbol: str
+    unit: str
+    meaning: str
+    text: str = ""
+    number: str = ""
+
+
+@dataclass
+class Residual:
+    """What a check compares, in SI: the largest of some magnitudes, or one signed number, with its limit.
+
+    Where it is ``listed`` it looks only at the positions that tables list, and the worksheet at all of them.
+    """
+
+    parts: list[Node]
+    limit: Node
+    unit: str
+    signed: bool = False
+    listed: bool = False
+
+
+class Told(NamedTuple):
+    """What a solve block says of an unknown and of the equation that stands beside it: words and display units."""
+
+    unknown: str
+    quantity: str
+    unit: str
+    unknown_unit: str
+
+
+@dataclass
+class Solved:
+    """A found value: what it leaves of its equation, its interval or guess, its closed form where there is one.
+
+    Of one unknown the ``target`` is what its equation must be. How it is ``searched`` in place of a closed form, and
+    the check by whose name it is ``compared`` with that. In the cells of a workbook the closed form is the value where
+    the condition ``sure`` holds.
+    """
+
+    node: Node
+    residual: Node | None
+    interval: tuple[Node, Node] | None
+    words: Told
+    inverse: Node | None = None
+    target: Node | None = None
+    searched: str = ""
+    compared: str = ""
+    sure: Node | None = None
+
+
+@dataclass
+class Recording:
+    """The quantities of a worksheet, cell by cell, and what it shows of them.
+
+    ``tables`` are the columns by the number of a table, of a figure under ``Fig 1``; ``marks`` the marks of a figure by
+    its number and their labels; ``lines`` those of a section; ``names`` the name that each node has in the worksheet.
+    ``gaps`` are what keeps the numbers of the worksheet's own run, with the reasons, ``unsolved`` the found values that
+    do so in the cells of a workbook alone; ``guards`` the conditions under which all is recorded as the worksheet has
+    it; ``integrals`` what a rule of places gives, with scipy's estimates of the errors where these are taken;
+    ``drawings`` those that a cell shows, by its number, or None for one that is not recorded; ``captions`` and
+    ``texts`` what captions, by their numbers, and cells that are texts say with recorded numbers in it; ``positions``
+    what is marked along charts, by the name of its quantity; ``values`` what the names are in the recording, ``looked``
+    the guards that these rest on. Only every ``every``-th position is recorded.
+    """
+
+    graph: Graph
+    inputs: dict[str, Node]
+    tables: dict[str, tuple[Quantity | None, ...]] = field(default_factory=dict)
+    checks: dict[str, Residual] = field(default_factory=dict)
+    found: dict[str, Solved] = field(default_factory=dict)
+    lines: dict[str, list[Line]] = field(default_factory=dict)
+    marks: dict[str, dict[str, Node]] = field(default_factory=dict)
+    drawings: dict[int, list[Drawn | None]] = field(default_factory=dict)
+    positions: dict[str, Node] = field(default_factory=dict)
+    captions: dict[str, Said] = field(default_factory=dict)
+    texts: dict[int, Said] = field(default_factory=dict)
+    gaps: list[Gap] = field(default_factory=list)
+    unsolved: list[Gap] = field(default_factory=list)
+    guards: dict[Node, Guard] = field(default_factory=dict)  # by their conditions
+    integrals: dict[Node, Node | None] = field(default_factory=dict)
+    made_of: dict[Node, float] = field(default_factory=dict)  # the largest terms of sums, as far as looked at
+    values: dict[str, Any] = field(default_factory=dict)
+    looked: dict[str, tuple[Guard, ...]] = field(default_factory=dict)
+    every: int = 1
+    sections: list[str] = field(default_factory=list)
+    names: dict[Node, str] = field(default_factory=dict)
+
+    def define(self, section: str, name: str, value: Any, known: Mapping[str, Formula]) -> None:
+        """Give the quantities of a line its name, and the steps behind it theirs."""
+        if not isinstance(value, Quantity):
+            return
+        lines = self.lines.setdefault(section, [])
+        line = known.get(name)
+        unit, meaning, number = (line.unit, line.meaning, line.number) if line else ("", "", "")
+        text = _source(line.expression) if line else ""
+        stem = name.removesuffix("_S") if symbol.is_field(name) else name
+        ends = ("real", "imag") if value.im is not None else ("",)
+        for node, part in zip(value.parts, ends, strict=True):
+            if node.op in ("constant", "input") or node in self.names:
+                continue
+            self.names[node] = _coordinate(stem, part)
+            self._steps_of(node, stem, lines, set())
+            lines.append(Line(node, self.names[node], unit, meaning, text, number))
+
+    def define_steps(self, section: str, solved: Solved) -> None:
+        """Give the steps of a found value's closed form and residual their names."""
+        lines = self.lines.setdefault(section, [])
+        for node in (solved.inverse, solved.residual):
+            if node and node not in self.names:
+                self._steps_of(node, self.names.get(solved.node, ""), lines, set())
+
+    def _steps_of(self, node: Node, stem: str, lines: list[Line], seen: set[Node]) -> None:
+        for operand in node.operands:
+            if operand not in self.names and operand.op != "constant" and operand not in seen:
+                seen.add(operand)
+                self._steps_of(operand, stem, lines, seen)
+                if label := self.graph.labels.get(operand):
+                    self.names[operand] = f"{stem}_{label.symbol}"
+                    lines.append(Line(operand, self.names[operand], label.unit, label.meaning))
+
+
+def _coordinate(name: str, part: str) -> str:
+    axis = {"real": "x", "imag": "y"}.get(part, "")
+    return axis.upper() + name[1:] if axis and name.startswith("P") else name + axis
+
+
+_source = lru_cache(maxsize=4096)(ast.unparse)
+
+
+def leaves_of(roots: Iterable[Node], recording: Recording) -> list[Node]:
+    """Inputs that quantities rest on; of found values those of their equations."""
+    found: dict[Node, None] = {}
+    waiting, visited = list(roots), set[Node]()
+    while waiting:
+        node = waiting.pop()
+        if node in visited:
+            continue
+        visited.add(node)
+        if node.op == "input":
+            found[node] = None
+        waiting.extend(node.operands)
+    order = {node: n for n, node in enumerate(recording.inputs.values())}
+    return sorted(found, key=order.__getitem__)

@@ -1,0 +1,143 @@
+"""Elements of a list, or rows of a table, for which a condition holds, such as ``x[x > a]``, however many these are."""
+
+from math import inf, nan
+from typing import Any
+
+import numpy as np
+
+from mechsheet.quantities.arithmetic import choice
+from mechsheet.quantities.graph import Graph
+from mechsheet.quantities.node import Node
+from mechsheet.quantities.quantity import FUNCTIONS, Quantity, has_quantity, lift
+
+_OF_NONE: dict[str, float] = {
+    "sum": 0, "nansum": 0, "max": -inf, "min": inf, "nanmax": nan, "nanmin": nan, "any": False, "all": True,
+}  # fmt: skip
+_NUMBERS = int | float | complex | np.number
+
+
+class Selected(Quantity):
+    """Those elements ``of`` a list, or rows of a table, for which a condition ``holds``.
+
+    What they are as a whole, such as the greatest, and one of them by its number is followed. Anything else is of
+    those for which it holds now, and is no number where it holds for others.
+    """
+
+    __slots__ = ("holds", "of")
+
+    def __init__(self, of: Quantity, holds: Quantity) -> None:
+        self.graph, self.of, self.holds, self.base = of.graph, of, holds, None
+
+    def __getattr__(self, name: str) -> Any:
+        if name not in ("re", "im"):
+            return super().__getattr__(name)
+        held = self.of.rearranged(np.ndarray.__getitem__, self.holds.seen())
+        return getattr(choice(self.graph, Quantity(self.graph, self.same), held, nan), name)
+
+    @property
+    def same(self) -> Node:
+        """Whether the condition holds for those for which it holds now."""
+        return self.graph.same(self.holds.re)
+
+    @property
+    def nodes(self) -> list[Node]:
+        return [*self.of.parts, *self.holds.parts]
+
+    @property
+    def value(self) -> Any:
+        return self.of.value[self.holds.value]
+
+    @property
+    def extent(self) -> tuple[int, ...]:
+        return (int(np.count_nonzero(self.holds.value)), *self.of.extent[1:])
+
+    @property
+    def single(self) -> bool:
+        return False
+
+    def count(self, axis: Any = None) -> Any:
+        if axis != 0 and self.ndim > 1:
+            return super().count(axis)
+        return choice(self.graph, self.holds, 1, 0).reduced("sum")
+
+    def __getitem__(self, key: Any) -> Quantity:
+        if isinstance(key, tuple) and isinstance(key[0], int | np.integer):
+            return self[key[0]][key[1:]]
+        if isinstance(key, tuple) and key[0] == slice(None):
+            return Selected(self.of[key], self.holds)
+        if not isinstance(key, int | np.integer) or isinstance(key, bool):
+            return super().__getitem__(key)
+        number: Any = choice(self.graph, self.holds, 1, 0).cumsum()
+        hit = self.holds & (number == (key + 1 if key >= 0 else number[-1] + key + 1))
+        if not (exists := hit.reduced("any")).value and not self.graph.supposed:
+            raise IndexError(f"no element {key} of {self.extent[0]}")
+        one: Quantity = choice(self.graph, exists, self.of[np.argmax(hit)], nan)
+        return one
+
+    def filled(self, kind: str) -> Quantity:
+        """All elements, those for which it does not hold as ones that change nothing."""
+        if self.ndim > 1 or kind not in _OF_NONE or (self.of.im is not None and kind != "sum"):
+            return Quantity(self.graph, self.re, self.im)
+        every: Quantity = choice(self.graph, self.holds, self.of, _OF_NONE[kind])
+        return every
+
+    def reduced(self, kind: str, axis: Any = None, keepdims: bool = False) -> Quantity:
+        result = self.filled(kind).reduced(kind, axis, keepdims)
+        if kind not in ("max", "min"):
+            return result
+        some = self.holds.reduced("any")
+        if not some.value and not self.graph.supposed:
+            raise ValueError(f"no element to take the {kind} of")
+        known: Quantity = choice(self.graph, some, result, nan)
+        return known
+
+    def __array_ufunc__(self, ufunc: Any, method: str, *inputs: Any, **kwargs: Any) -> Any:
+        if method != "__call__" or kwargs or ufunc.signature or ufunc.nout > 1 or not all(map(self._is_beside, inputs)):
+            return super().__array_ufunc__(ufunc, method, *inputs, **kwargs)
+        return Selected(ufunc(*(x.of if isinstance(x, Selected) else x for x in inputs)), self.holds)
+
+    def _is_beside(self, x: Any) -> bool:
+        """Whether one number, or of the same elements."""
+        if isinstance(x, Selected):
+            return x.holds.re is self.holds.re and x.ndim == self.ndim
+        return isinstance(x, _NUMBERS) or (isinstance(x, Quantity) and x.single)
+
+
+def selected(graph: Graph, x: Quantity, key: Any) -> Quantity | None:
+    """``x[key]`` where the key is a condition, or places of what one holds for; None of anything else."""
+    if isinstance(key, tuple):
+        some = selected(graph, x, key[0]) if key and isinstance(key[0], Quantity) else None
+        return None if some is None else some[(slice(None), *key[1:])]
+    if graph.thin > 1 or not isinstance(key, Quantity) or not x.ndim or key.ndim != 1:
+        return None
+    if isinstance(x, Selected):
+        further = isinstance(key, Selected) and key.of.dtype == bool and key.holds.re is x.holds.re
+        return Selected(x.of, x.holds & key.of) if isinstance(key, Selected) and further else None
+    if isinstance(key, Selected):
+        return None if key.of.dtype == bool or key.of.im is not None else Selected(x[key.of], key.holds)
+    if key.dtype != bool or key.re in graph.fixed or key.extent != x.extent[:1]:
+        return None
+    return Selected(x, key) if graph.size(key.re) == graph.size(x.whole().re)[:1] else None
+
+
+def places(graph: Graph, x: Any) -> Any:
+    """numpy's flatnonzero."""
+    x = lift(graph, x)
+    if graph.thin > 1 or x.ndim != 1 or isinstance(x, Selected) or x.re in graph.fixed:
+        return np.flatnonzero(x.seen())
+    count = x.count(0)
+    number: Any = Quantity(graph, graph.rows(count.re)) if has_quantity([count]) else np.arange(count)
+    return Selected(lift(graph, number), x if x.dtype == bool else x != 0)
+
+
+def _all_places(graph: Graph, x: Any) -> Any:
+    """numpy's nonzero."""
+    x = lift(graph, x)
+    return (places(graph, x),) if x.ndim == 1 else np.nonzero(x.seen())
+
+
+FUNCTIONS.update({
+    np.ndarray.__getitem__: selected, np.flatnonzero: places, np.nonzero: _all_places,
+    np.compress: lambda graph, holds, x: lift(graph, x)[lift(graph, holds)],
+    np.extract: lambda graph, holds, x: lift(graph, x)[lift(graph, holds)],
+})  # fmt: skip

@@ -1,0 +1,189 @@
+"""A text with recorded numbers in it, which is written where these are known; Python sees it as the text of now."""
+
+import re
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import reduce
+from typing import Any, NamedTuple
+
+from mechsheet.quantities.graph import Guard, current
+from mechsheet.quantities.quantity import Quantity
+
+_FORMAT = re.compile(r"\.\d{1,2}[efg]|")  # which a reader writes too
+
+
+class Number(NamedTuple):
+    """A number in its format; of its text some signs are then replaced by others."""
+
+    value: Quantity
+    spec: str
+    instead: tuple[tuple[str, str], ...] = ()
+
+    def now(self) -> str:
+        text: str = self.value.re.value.item().__format__(self.spec)
+        return reduce(lambda told, pair: told.replace(*pair), self.instead, text)
+
+
+class Either(NamedTuple):
+    """One of two texts, by a condition."""
+
+    holds: Quantity
+    then: "Written"
+    otherwise: "Written"
+
+
+@dataclass(frozen=True, eq=False)
+class Written:
+    """Pieces of a text one after the other; nothing is noted of them until Python looks at the text as a whole."""
+
+    parts: tuple[str | Number | Either, ...]
+
+    @property
+    def now(self) -> str:
+        """The text with the present numbers."""
+        chosen = (part.then if part.holds.value else part.otherwise for part in self.parts if isinstance(part, Either))
+        return "".join(
+            part if isinstance(part, str) else part.now() if isinstance(part, Number) else next(chosen).now
+            for part in self.parts
+        )
+
+    def __str__(self) -> str:
+        for part in self.parts:
+            if isinstance(part, Either):
+                str(part.then if part.holds else part.otherwise)
+            elif isinstance(part, Number):
+                part.value.seen()
+        return self.now
+
+    def __format__(self, spec: str) -> str:
+        return str(self).__format__(spec)
+
+    def __bool__(self) -> bool:
+        return any(part and isinstance(part, str | Number) for part in self.parts) or bool(str(self))
+
+    def __eq__(self, other: object) -> bool:
+        return str(self) == (str(other) if isinstance(other, Written) else other)
+
+    def __hash__(self) -> int:
+        return hash(str(self))
+
+    def __len__(self) -> int:
+        return len(str(self))
+
+    def __getitem__(self, key: Any) -> str:
+        return str(self)[key]
+
+    def __contains__(self, text: str) -> bool:
+        return text in str(self)
+
+    def __add__(self, other: "str | Written") -> "Written":
+        return Written(tuple(_pieces([self, other])))
+
+    def __radd__(self, other: str) -> "Written":
+        return Written(tuple(_pieces([other, self])))
+
+    def __getattr__(self, name: str) -> Any:
+        """Methods of texts."""
+        if not hasattr(str, name):
+            raise AttributeError(f"{name} of a text")
+        return getattr(str(self), name)
+
+    def replace(self, old: str, new: str, count: int = -1) -> "str | Written":
+        """With one sign in place of another one; anything longer may lie across pieces."""
+        if len(old) != 1 or count != -1:
+            return str(self).replace(old, new, count)
+        return Written(tuple(_replaced(part, old, new) for part in self.parts))
+
+    def head(self) -> "tuple[str | Number, Written] | None":
+        """What stands before the first space, where it is a text or a number alone, and the rest."""
+        match self.parts:
+            case (str(first), *rest) if " " in first:
+                begin, space, more = first.partition(" ")
+                return begin, Written((space + more, *rest))
+            case (Number() as first, *rest) if not rest or (isinstance(rest[0], str) and rest[0][0] == " "):
+                return first, Written(tuple(rest))
+        return None
+
+    def is_name(self) -> bool:
+        """Whether a reader can tell its `head`, whichever of two texts it is."""
+        match self.parts:
+            case (Either(_, then, otherwise),):
+                return then.is_name() and otherwise.is_name()
+        return not self.parts or self.head() is not None
+
+    def strip(self, signs: str | None = None) -> "str | Written":
+        """Without white space at its ends."""
+        if signs is not None or not self.parts or any(isinstance(part, Either) for part in self.parts):
+            return str(self).strip(signs)
+        first, *rest = self.parts
+        parts = [first.lstrip() if isinstance(first, str) else first, *rest]
+        last = parts.pop()
+        return Written(tuple(_pieces([*parts, last.rstrip() if isinstance(last, str) else last])))
+
+
+class Said(NamedTuple):
+    """A text that a cell shows, and the guards under which it is the worksheet's own."""
+
+    text: Written
+    guards: Sequence[Guard]
+
+
+def text(*parts: Any) -> Any:
+    """What an f-string gives: its texts, and its values each with its format."""
+    pieces = list[Any]()
+    for part in parts:
+        value, spec = part if isinstance(part, tuple) else (part, "")
+        followed = _is_followed(value, spec)
+        pieces.append(Number(value, spec) if followed and isinstance(value, Quantity) else
+                      value if followed else f"{value:{spec}}")  # fmt: skip
+    return "".join(pieces) if all(isinstance(part, str) for part in pieces) else Written(tuple(_pieces(pieces)))
+
+
+def either(holds: Quantity, then: "str | Written", otherwise: "str | Written") -> Written:
+    """One text where a condition holds, else the other one."""
+    holds = holds if holds.dtype == bool else holds != 0
+    return Written((Either(holds, *(Written(tuple(_pieces([side]))) for side in (then, otherwise))),))
+
+
+def looked_at(value: Any) -> Any:
+    """A value for what shows it, which is of the texts in it that are said now."""
+    if isinstance(value, Written) and not current.get().draws:
+        return str(value)
+    if isinstance(value, tuple | list) and any(isinstance(part, Written) for part in value):
+        return type(value)(map(looked_at, value))
+    return value
+
+
+def _is_followed(value: Any, spec: str) -> bool:
+    if not current.get().draws:
+        return False
+    if isinstance(value, Written):
+        return not spec
+    if not isinstance(value, Quantity) or value.re.op == "constant" or not _FORMAT.fullmatch(spec):
+        return False
+    return value.im is None and value.single and value.dtype.kind in "iuf"
+
+
+def _pieces(parts: list[Any]) -> Iterator[str | Number | Either]:
+    """Pieces in a row, texts that meet as one."""
+    waiting = ""
+    for part in [piece for whole in parts for piece in (whole.parts if isinstance(whole, Written) else (whole,))]:
+        if isinstance(part, str):
+            waiting += part
+            continue
+        if waiting:
+            yield waiting
+        waiting = ""
+        yield part
+    if waiting:
+        yield waiting
+
+
+def _replaced(part: str | Number | Either, old: str, new: str) -> str | Number | Either:
+    match part:
+        case Number():
+            return part._replace(instead=(*part.instead, (old, new)))
+        case Either(holds, then, otherwise):
+            ways = (Written(tuple(_replaced(piece, old, new) for piece in way.parts)) for way in (then, otherwise))
+            return Either(holds, *ways)
+    return part.replace(old, new)

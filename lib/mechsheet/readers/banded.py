@@ -1,0 +1,157 @@
+"""What of a run of a worksheet has a band where inputs lie within their tolerances: results, columns, checks."""
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from mechsheet import units
+from mechsheet.quantities.lines import Recording
+from mechsheet.quantities.node import LEAVES, Node
+from mechsheet.quantities.operations import Values
+from mechsheet.quantities.quantity import Quantity
+from mechsheet.readers.bands import Band, Bands, Tolerance
+from mechsheet.worksheet import numbers
+from mechsheet.worksheet.check import Check
+from mechsheet.worksheet.lines import Formula
+from mechsheet.worksheet.symbol import stem
+from mechsheet.worksheet.table import Table
+
+_RESULTS = "results"
+
+
+@dataclass(frozen=True, eq=False)
+class Banded:
+    """Numbers that are shown, in ``unit``, with their band: a result, or a column of a table."""
+
+    where: str
+    name: str
+    unit: str
+    values: Values
+    band: Band
+    listed: bool = False  # a result that is the column of a table too
+
+    @property
+    def worst(self) -> Values:
+        """Greatest deviations, in the unit; NaN where there is no number."""
+        return self._of_numbers(self.band.worst)
+
+    @property
+    def squares(self) -> Values:
+        """Deviations by the root of squares, in the unit; NaN likewise."""
+        return self._of_numbers(self.band.squares)
+
+    @property
+    def most(self) -> float:
+        """The greatest deviation of any number."""
+        return float(np.max(self.worst, initial=0.0, where=~np.isnan(self.worst)))
+
+    def _of_numbers(self, deviations: Values) -> Values:
+        own = deviations.reshape(-1) / units.parse(self.unit).factor
+        return np.where(np.isnan(self.values.reshape(-1)), np.nan, own)
+
+    def cells(self) -> list[str]:
+        """Where, name, value, worst case, root of squares: of several numbers those whose worst case is greatest."""
+        after, values = numbers.suffix(self.unit), self.values.reshape(-1)
+        known = values[~np.isnan(values)]
+        if not known.size:
+            return [self.where, self.name, numbers.CELL.none, "not known", "there is none at any position"]
+        span = numbers.span(numbers.significant(end, 6) for end in (np.min(known), np.max(known))) + after
+        if self.band.why:
+            return [self.where, self.name, span, "not known", self.band.why]
+        k = int(np.argmax(np.nan_to_num(self.worst)))
+        gaps = values.size - known.size
+        at = f"in row {k + 1}" if values.size > 1 else ""
+        at += f"; there is none at {gaps} of {values.size} positions" if gaps else ""
+        return [self.where, self.name, span, *(f"{about(x[k])}{after}" for x in (self.worst, self.squares)), at]
+
+
+@dataclass(frozen=True, eq=False)
+class RunBands:
+    """Bands of a run: its inputs with tolerances, what has a band, and how sure each check is, by its name."""
+
+    by: Mapping[str, Tolerance]
+    banded: tuple[Banded, ...]
+    sure: Mapping[str, str]
+
+    def lines(self) -> list[str]:
+        """All of it as texts, the checks left out: they stand beside their verdicts."""
+        heads = ["", "", "", "worst case", "root of squares", ""]
+        rows = [
+            heads,
+            *(row + [""] * (len(heads) - len(row)) for row in (b.cells() for b in self.banded if not b.listed)),
+        ]
+        shown = numbers.aligned(rows)
+        return [
+            f"within {', '.join(map(str, self.by.values()))}",
+            *shown,
+            f"{NOTE}; --tolerances --want=RESULT shows by how much one does.",
+        ]
+
+    def told(self, check: Check) -> str:
+        """A check with how sure it is."""
+        return f"{check}; {self.sure[check.name]}" if check.name in self.sure else str(check)
+
+
+NOTE = "By the slopes: right for tolerances in which no result bends"
+
+
+def run_bands(
+    recording: Recording,
+    tables: Iterable[Table],
+    checks: Iterable[Check],
+    known: Mapping[str, Formula],
+    by: Mapping[str, Tolerance],
+) -> RunBands:
+    """Bands of results and of columns of tables; ``known`` are lines with a unit."""
+    bands = Bands(recording, by)
+    tables = list(tables)
+    shown = [*_of_lines(recording, known, {column.of for table in tables for column in table.columns})]
+    shown += _of_tables(recording, tables)
+    judged = {
+        check.name: (recording.checks[check.name], check.passed)
+        for check in checks
+        if check.evaluated and check.name in recording.checks
+    }
+    found = bands.of(
+        [node for *_, node, _ in shown] + [n for check, _ in judged.values() for n in bands.compared(check)]
+    )
+    banded = (Banded(where, name, unit, x, found[node], listed) for where, name, unit, x, node, listed in shown)
+    moved = tuple(each for each in banded if each.band.why or np.any(each.band.moves))
+    return RunBands(by, moved, {name: bands.sure(check, passed) for name, (check, passed) in judged.items()})
+
+
+_Shown = tuple[str, str, str, Values, Node, bool]
+
+
+def _of_lines(recording: Recording, known: Mapping[str, Formula], listed: set[str]) -> Iterator[_Shown]:
+    for name, line in known.items():
+        quantity = recording.values.get(name)
+        if line.arguments or not isinstance(quantity, Quantity):
+            continue
+        ends = ("real", "imag") if quantity.im is not None else ("",)
+        for node, part in zip(quantity.whole().parts, ends, strict=True):
+            if node.op not in LEAVES and node.value.dtype.kind in "if" and node.size:
+                values, column = (
+                    node.value / units.parse(line.unit).factor,
+                    not quantity.single and stem(name) in listed,
+                )
+                yield _RESULTS, f"{name}.{part}" if part else name, line.unit, values, node, column
+
+
+def _of_tables(recording: Recording, tables: Iterable[Table]) -> Iterator[_Shown]:
+    for table in tables:
+        recorded = recording.tables.get(table.number, (None,) * len(table.columns))
+        for column, quantity in zip(table.columns, recorded, strict=True):
+            if quantity is not None and column.values.dtype.kind in "biuf" and quantity.re.size == column.values.size:
+                yield f"table {table.number}", column.name, column.unit, column.values, quantity.re, False
+
+
+def about(x: float) -> str:
+    """A deviation behind the sign of one; nothing in place of none."""
+    return f"± {off(x)}" if np.isfinite(x) else off(x)
+
+
+def off(x: float) -> str:
+    """A deviation as it is shown, with two digits."""
+    return numbers.apart([x], digits=2)[0] if np.isfinite(x) else numbers.CELL.none

@@ -1,0 +1,217 @@
+"""Bands of a recording: how far its quantities are off where inputs lie within their tolerances, by the slopes.
+
+To the first order: where a quantity bends within the tolerances its band does not tell, Monte Carlo and balls do. At a
+corner it is the steeper side that counts.
+"""
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from mechsheet import units
+from mechsheet.quantities.graph import Gap
+from mechsheet.quantities.lines import Recording, Residual
+from mechsheet.quantities.node import Node, bottom_up
+from mechsheet.quantities.operations import Values
+from mechsheet.readers.numbers import numbers as recomputed
+from mechsheet.readers.slopes import seen, slopes, unfollowed
+from mechsheet.worksheet import inputs, numbers
+from mechsheet.worksheet.deviation import LIKE, SIGMAS
+from mechsheet.worksheet.errors import SheetError
+from mechsheet.worksheet.kinds import Input
+
+_CASES = 20_000  # random ones by which a check is judged
+_CRITICAL = 100  # elements of a check that are judged at a time
+_SURE = 0.999  # a greater part of the cases is more than they can tell
+_EPS = float(np.finfo(float).eps)
+
+
+class Tolerance(NamedTuple):
+    """An input with its tolerance: its declaration, its value and greatest deviation in SI."""
+
+    field: Input
+    value: float
+    size: float
+
+    @property
+    def normal(self) -> bool:
+        return self.field.tolerance is not None and self.field.tolerance.normal
+
+    @property
+    def deviation(self) -> float:
+        """Standard deviation, in SI."""
+        return self.size / (SIGMAS if self.normal else np.sqrt(3.0))
+
+    def __str__(self) -> str:
+        f = self.field
+        return f"{f.name} = {f.brief(self.value)}{numbers.suffix(f.unit)} {f.tolerance and f.tolerance.text(f.unit)}"
+
+
+def tolerances(g: Any) -> dict[str, Tolerance]:
+    """Inputs of a worksheet that have a tolerance, by name.
+
+    Raises SheetError where none has one, and where a value at the end of its tolerance breaks a limit.
+    """
+    cls, found = type(g), dict[str, Tolerance]()
+    own = {field.name: shown for field, shown in inputs.Used(g).rows() if type(field) is Input}
+    for field in inputs.declared(cls):
+        if field.tolerance:
+            value, size = own[field.name], field.tolerance.of(own[field.name])
+            ends = inputs.variants(cls, {**own, field.name: [value - size, value + size]})
+            for reason in filter(None, ends.reasons):
+                raise SheetError(f"tolerance {field.tolerance.text(field.unit)}: {reason}", field.name)
+            found[field.name] = Tolerance(field, getattr(g, field.name), size * units.parse(field.unit).factor)
+    if not found:
+        raise SheetError(f"no input has a tolerance: behind the limits of one write ; {LIKE}")
+    return found
+
+
+@dataclass(frozen=True, eq=False)
+class Band:
+    """How far a quantity is off, in SI: by each input alone, shape (inputs, ...); ``why`` where that is not known."""
+
+    moves: Values
+    deviations: Values
+    why: str = ""
+
+    @property
+    def worst(self) -> Values:
+        """Greatest deviation, where all inputs are at their worst."""
+        return np.asarray(np.abs(self.moves).sum(0))
+
+    @property
+    def squares(self) -> Values:
+        """Root of the squares of what each input alone does."""
+        return np.asarray(np.sqrt((self.moves**2).sum(0)))
+
+    @property
+    def deviation(self) -> Values:
+        """Standard deviation."""
+        return np.asarray(np.sqrt((self.deviations**2).sum(0)))
+
+
+class Bands:
+    """Bands of quantities of one recording, for inputs with tolerances."""
+
+    def __init__(self, recording: Recording, by: Mapping[str, Tolerance]) -> None:
+        self.recording, self.by = recording, list(by.values())
+        self.inputs = [recording.inputs[name] for name in by]
+        self.known = dict[Node, Band]()
+
+    def of(self, nodes: Iterable[Node]) -> dict[Node, Band]:
+        """Bands of some quantities, each in its shape; best all at once, for they share what they rest on."""
+        nodes = list(dict.fromkeys(nodes))
+        new = [node for node in nodes if node not in self.known]
+        lacking = {node: unfollowed([node], self.inputs) for node in new} if unfollowed(new, self.inputs) else {}
+        moved = slopes([node for node in new if not lacking.get(node)], self.inputs)
+        for node in new:
+            lost = lacking.get(node)
+            self.known[node] = (
+                self._none(node, untold(lost, self.recording.gaps)) if lost else self._band(node, *moved[node])
+            )
+        return {node: self.known[node] for node in nodes}
+
+    def _band(self, node: Node, ahead: Values, behind: Values) -> Band:
+        """The band of a quantity with slopes, seen from ahead and from behind."""
+        steeper = np.where(np.isnan(behind) | (np.abs(ahead) < np.abs(behind)), behind, ahead)
+        if np.isnan(steeper[:, np.isfinite(node.value)]).any():
+            lost = seen([node], self.inputs)
+            jumps = f"it jumps or ends there by {self._jumping(steeper)}"
+            return self._none(node, untold(lost, self.recording.gaps) if lost else jumps)
+        sizes, sigmas = (
+            np.reshape(x, (-1, *[1] * len(node.shape)))
+            for x in ([t.size for t in self.by], [t.deviation for t in self.by])
+        )
+        size = float(np.max(np.abs(node.value[np.isfinite(node.value)]), initial=0))
+        steeper = np.where(np.abs(steeper * sizes) <= _EPS * size, 0.0, steeper)  # what cancels but for rounding
+        return Band(steeper * sizes, steeper * sigmas)
+
+    def _none(self, node: Node, why: str) -> Band:
+        nothing = np.full((len(self.by), *node.shape), np.nan)
+        return Band(nothing, nothing, why)
+
+    def _jumping(self, slope: Values) -> str:
+        rows = [bool(np.isnan(each).any()) for each in slope]
+        return ", ".join(t.field.name for t, lost in zip(self.by, rows, strict=True) if lost)
+
+    def compared(self, residual: Residual) -> list[Node]:
+        """What a check compares with its limit, and that limit, whose bands tell how sure it is."""
+        return [*(_bare(part, residual.signed) for part in residual.parts), residual.limit]
+
+    def sure(self, residual: Residual, passed: bool) -> str:
+        """How sure the verdict of a check is: in all the tolerances, or in how many of the cases."""
+        *parts, _ = compared = self.compared(residual)
+        if set(self.inputs).isdisjoint(bottom_up(compared, ())):
+            return "whatever the tolerances"
+        bands = self.of(compared)
+        if why := next((band.why for band in bands.values() if band.why), ""):
+            return f"how sure is not known: {why}"
+        if all(_is_step(part) for part in parts):
+            return self._at_ends(residual, passed)
+        spread, limit = list[Values](), residual.limit.value
+        for part in parts:
+            for sign in (1.0,) if residual.signed else (1.0, -1.0):
+                reserve = np.broadcast_to(limit - sign * part.value, part.shape).reshape(1, -1)
+                moves = (_flat(bands[residual.limit].moves) - sign * _flat(bands[part].moves)) + 0.0 * reserve
+                spread.append(np.concatenate([reserve, moves]))
+        return self._judged(np.concatenate(spread, axis=1), passed)
+
+    def _judged(self, reserves: Values, passed: bool) -> str:
+        """By the reserve of each element, in the first row, and how each input moves it."""
+        most = np.abs(reserves[1:]).sum(0)
+        if np.all(reserves[0] >= most) or np.any(reserves[0] < -most):
+            return "in all the tolerances"
+        share = self._share(reserves[:, reserves[0] < most])
+        percent = f"{numbers.significant(100 * share, 3 if share > 0.9 else 2)} %"
+        if not 1 - _SURE <= share <= _SURE:
+            end = 100 * (_SURE if share > _SURE else 1 - _SURE)
+            percent = f"{'more' if share > _SURE else 'less'} than {numbers.fixed(end, 1)} %"
+        return f"in {percent} of cases, fails at worst" if passed else f"holds in {percent} of cases"
+
+    def _share(self, reserves: Values) -> float:
+        """Part of random cases in which all elements have a reserve."""
+        rng = np.random.default_rng(0)
+        drawn = [rng.normal(0, 1 / SIGMAS, _CASES) if t.normal else rng.uniform(-1, 1, _CASES) for t in self.by]
+        cases, holds = np.array(drawn).T, np.ones(_CASES, dtype=bool)
+        for start in range(0, reserves.shape[1], _CRITICAL):
+            some = reserves[:, start : start + _CRITICAL]
+            holds &= (some[0] + cases @ some[1:] >= 0).all(1)
+        return float(holds.mean())
+
+    def _at_ends(self, residual: Residual, passed: bool) -> str:
+        """Of a check that holds or not, such as that a group closes: at both ends of each input."""
+        for node, t in zip(self.inputs, self.by, strict=True):
+            for end in (t.value - t.size, t.value + t.size):
+                there = recomputed([*residual.parts, residual.limit], {node: end})
+                holds = all((there[part] <= there[residual.limit]).all() for part in residual.parts)
+                if holds != passed:
+                    word = "fails" if passed else "holds"
+                    f = t.field
+                    return f"{word} for {f.name} = {numbers.significant(f.display(end), 6)}{numbers.suffix(f.unit)}"
+        return "at both ends of each tolerance"
+
+
+def _flat(moves: Values) -> Values:
+    return moves.reshape(len(moves), -1)
+
+
+def _bare(node: Node, signed: bool) -> Node:
+    """What a check takes the size of, without the condition under which it is recorded as the worksheet has it."""
+    while node.op == "where" and node.args[2].op == "constant" and np.isnan(node.args[2].value).all():
+        node = node.args[1]
+    return node.args[0] if node.op == "abs" and not signed else node
+
+
+def _is_step(node: Node) -> bool:
+    """Whether a quantity is 0 or 1 by a condition, or a count of such."""
+    if node.op == "reduce" and node.args[2] == "sum":
+        node = node.args[0]
+    return node.op == "where" and all(part.op == "constant" for part in node.args[1:])
+
+
+def untold(lost: Node, gaps: Sequence[Gap]) -> str:
+    """Why nothing is known of a quantity that is not recorded."""
+    told = (str(gap) for gap in gaps if gap.line == lost.line)
+    return next(told, f"what line {lost.line} does is not followed")

@@ -1,0 +1,442 @@
+"""How many digits of what a worksheet shows are proved: its own numbers against balls that enclose the exact ones.
+
+Exact is what the worksheet's formulas have for the inputs at hand, which are the floats as which they are held; 0.2 in
+a formula is a fifth, and pi is pi. A proof shows that the numbers are those of the formulas, not that the formulas are
+right.
+"""
+
+import itertools
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from math import floor, log10
+from typing import Any, NamedTuple
+
+import numpy as np
+from flint import arb
+
+from mechsheet import units
+from mechsheet.quantities.lines import Recording, Solved
+from mechsheet.quantities.node import LEAVES, Node, bottom_up
+from mechsheet.quantities.operations import SHAPED, Values
+from mechsheet.quantities.quantity import Quantity
+from mechsheet.readers import lone_root
+from mechsheet.readers.ball_rules import NONE, UNDECIDED, constant
+from mechsheet.readers.balls import Balls, is_least, precision, unfollowed
+from mechsheet.readers.gradients import adjoints
+from mechsheet.worksheet import numbers
+from mechsheet.worksheet.check import Check
+from mechsheet.worksheet.lines import Formula
+from mechsheet.worksheet.scene import PROVED
+from mechsheet.worksheet.table import Column, Table
+
+_ALL = 16.0  # digits of a float, claimed where a number is exact
+_BITS = (128, 256, 512, 1024)
+_SMALL = 2.0**-60  # a ball beside the largest number of its column
+_ZERO = 2.0**-500  # of what a number is made of: all that the highest precision leaves of one that is 0
+_HELD = 2.0**-51  # of an input: by how much it is off that is held as a float, in another unit than it is written
+
+
+@dataclass(frozen=True)
+class Proved:
+    """Digits proved of each number of a column, relative to the largest one; 0 where nothing is, NaN where none can be.
+
+    ``where`` is the table, ``name`` the column or result, ``why`` what keeps digits from being proved, with its line.
+    One that is an ``exception`` has no digits, for the reason given, or those beside what it is made of. ``size`` is
+    the number beside which they are, in the unit of the table's column, of results in SI.
+    """
+
+    where: str
+    name: str
+    digits: Values
+    why: str = ""
+    exception: bool = False
+    size: float = np.inf
+
+    @property
+    def off(self) -> Values:
+        """By how much each number may be off, in the unit of ``size``; infinite where nobody knows."""
+        return np.where(self.digits > 0, self.size * 10.0**-self.digits, np.where(np.isnan(self.digits), 0.0, np.inf))
+
+    @property
+    def least(self) -> float:
+        return float(np.min(self.digits))
+
+    @property
+    def title(self) -> str:
+        return f"{self.where}, {self.name}"
+
+    def __str__(self) -> str:
+        digits = [] if np.isnan(self.least) else [f"{_shown(self.least)} digits"]
+        return f"{self.title}: " + "; ".join([*digits, *([self.why] if self.why else [])])
+
+
+@dataclass(frozen=True)
+class ProvedRoot:
+    """What is proved of a found value: that there is one, of which kind, and where another is not excluded."""
+
+    name: str
+    exists: bool
+    interval: tuple[float, float] | None
+    others: tuple[lone_root.Part, ...] | None
+    unit: str
+    kind: str = "solution"
+
+    def __str__(self) -> str:
+        if not self.exists:
+            return f"{self.name}: not proved"
+        if self.interval is None or self.others is None:
+            return f"{self.name}: proved, one {self.kind} there; others are not looked for"
+        alone = f"the only root of its equation in {numbers.extent(self.interval, self.unit)}"
+        if not self.others:
+            return f"{self.name}: proved, {alone}"
+        size = sum(part.high - part.low for part in self.others) / (self.interval[1] - self.interval[0])
+        places = ", ".join(numbers.amount(part.low, self.unit, 6) for part in self.others)
+        where = f"but for {numbers.significant(size, 1)} of it beside {places}, which is not excluded"
+        return f"{self.name}: proved, {alone} {where}"
+
+
+@dataclass(frozen=True)
+class Proof:
+    """What is proved of a run of a worksheet."""
+
+    columns: tuple[Proved, ...]
+    roots: tuple[ProvedRoot, ...]
+
+    @cached_property
+    def least(self) -> dict[str, Proved]:
+        """Of each table, and of the single results, the column with the fewest digits."""
+        found = dict[str, Proved]()
+        for column in sorted(self.columns, key=lambda c: np.nan_to_num(c.least, nan=np.inf)):
+            found.setdefault(column.where, column)
+        return {column.where: found[column.where] for column in self.columns}
+
+    @property
+    def exceptions(self) -> list[Proved]:
+        """Columns that are no numbers of the formulas, or 0 but for rounding."""
+        return [column for column in self.columns if column.exception]
+
+    @property
+    def apart(self) -> list[str]:
+        """The exceptions, a line each."""
+        return [f"exception: {column}" for column in self.exceptions]
+
+    def below(self, digits: float) -> list[Proved]:
+        """Columns of which not every number is proved to so many digits."""
+        return [column for column in self.columns if column.least < digits]
+
+    def check(self, digits: float = PROVED) -> Check:
+        """The check that every number is proved to so many digits, which names the first that is not."""
+        least = [column.least for column in self.columns if not np.isnan(column.least)]
+        missing = max((max(digits - own, 0.0) for own in least), default=np.nan)
+        told = [str(column) for column in self.below(digits)[:1]]
+        told += [str(root) for root in self.roots if not root.exists][:1]
+        apart = [column.title for column in self.exceptions]
+        told += [f"but for exceptions: {'; '.join(apart)}"] if apart else []
+        name = f"every number proved to {numbers.significant(digits, 4)} digits"
+        return Check(name, missing, 0.0, "digits missing", "; ".join(told))
+
+    def checks(self, digits: float = PROVED) -> list[tuple[Check, float]]:
+        """The same of each table and of the single results, with the digits that are proved."""
+        found = list[tuple[Check, float]]()
+        for where, least in self.least.items():
+            own = Proof(tuple(column for column in self.columns if column.where == where), ()).check(digits)
+            found.append((replace(own, name=f"{where}: {own.name}"), _down(least.least)))
+        return found
+
+    def table(self) -> Table:
+        """A row for each table: how many numbers it has, the fewest digits proved, and of which column."""
+        rows = [(where, column, [c for c in self.columns if c.where == where]) for where, column in self.least.items()]
+        columns = (
+            _texts("where", "", [where for where, _, _ in rows]),
+            Column(
+                "numbers", "-", "how many it shows", 0, np.array([sum(c.digits.size for c in cs) for *_, cs in rows])
+            ),
+            Column("digits", "-", "fewest that are proved", 1, np.array([_down(c.least) for _, c, _ in rows])),
+            _texts("least", "column with the fewest", [c.name for _, c, _ in rows]),
+            _texts("why", "what keeps them from being proved", [c.why for _, c, _ in rows]),
+        )
+        return Table(
+            "proof", "Digits proved", columns, "Of the formulas' own numbers: not that the formulas are right."
+        )
+
+    def lines(self) -> list[str]:
+        """The table, its exceptions and what is proved of found values, as texts."""
+        rows = list(zip(*(column.texts() for column in self.table().columns), strict=True))
+        heads = [("", "numbers", "digits proved", "least in", "")]
+        return [*numbers.aligned([*heads, *rows]), *self.apart, *map(str, self.roots), self.table().note]
+
+
+def prove(
+    recording: Recording,
+    namespace: Mapping[str, Any],
+    tables: Iterable[Table],
+    known: Mapping[str, Formula],
+    lines: Mapping[str, int],
+    fields: Collection[str] = (),
+    done: Callable[[int, int], object] = lambda behind, count: None,
+) -> Proof:
+    """Digits proved of tables and single results of a run, and of found values what roots there are.
+
+    ``known`` are the worksheet's lines that declare a unit, ``lines`` where the names of the worksheet are bound.
+    Results over several positions are proved in their tables, and by themselves those of the ``fields``. ``done`` is
+    called with how many of how many steps are behind.
+    """
+    shown = [*_of_tables(recording, tables, lines), *_of_lines(recording, namespace, known, lines, fields)]
+    digits = _Digits(recording)
+    steps, count = itertools.count(1), 2 * len(shown) + len(recording.found)
+
+    def step() -> None:
+        done(next(steps), count)
+
+    digits.enclose(shown, step)
+    columns, roots = list[Proved](), list[ProvedRoot]()
+    for each in shown:
+        columns.append(digits.proved(each))
+        step()
+    with precision(_BITS[0]):
+        for key, solved in recording.found.items():
+            alone = solved.node.op == "found" and solved.node.args[0].single
+            roots.append(_root(digits.first, solved.words.unknown if alone else key, solved))
+            step()
+    return Proof(tuple(columns), tuple(roots))
+
+
+class _Shown(NamedTuple):
+    """Numbers that are shown, in a unit, the line where they are defined, and the quantity that they are."""
+
+    where: str
+    name: str
+    line: int
+    node: Node | None
+    factor: float
+    own: Values
+
+    @property
+    def size(self) -> float:
+        """Largest magnitude, in the unit."""
+        return float(np.max(np.abs(self.own), initial=0.0, where=np.isfinite(self.own)))
+
+
+def _of_tables(recording: Recording, tables: Iterable[Table], lines: Mapping[str, int]) -> Iterator[_Shown]:
+    for table in tables:
+        recorded = recording.tables.get(table.number, (None,) * len(table.columns))
+        for column, quantity in zip(table.columns, recorded, strict=True):
+            if column.values.dtype.kind in "biuf":
+                line = lines.get(column.of) or lines.get(f"{column.of}_S", 0)
+                node, factor = None if quantity is None else quantity.re, units.parse(column.unit).factor
+                yield _Shown(f"table {table.number}", column.symbol, line, node, factor, column.values)
+
+
+def _of_lines(
+    recording: Recording,
+    namespace: Mapping[str, Any],
+    known: Mapping[str, Formula],
+    lines: Mapping[str, int],
+    fields: Collection[str],
+) -> Iterator[_Shown]:
+    for name, line in known.items():
+        quantity, own = recording.values.get(name), np.asarray(namespace.get(name))
+        if line.arguments or not isinstance(quantity, Quantity) or own.dtype.kind not in "biufc":
+            continue
+        if name in fields or (quantity.single and own.size == 1):
+            for node, part in zip(quantity.whole().parts, (own.real, own.imag), strict=False):
+                if node.op not in LEAVES:
+                    yield _Shown("results", name, lines.get(name, 0), node, 1.0, part.reshape(-1))
+
+
+class _Digits:
+    """Balls of what is shown, each as small as the precisions that are tried make it."""
+
+    def __init__(self, recording: Recording) -> None:
+        self.recording = recording
+        self.found = dict[Node, Values]()
+        self.first = self.last = Balls()
+        self.finest = Balls()
+
+    def enclose(self, shown: Iterable[_Shown], step: Callable[[], object]) -> None:
+        """Find the balls; ``step`` is called as soon as each has one."""
+        sizes = dict[Node, float]()
+        for each in shown:
+            if each.node:
+                sizes[each.node] = min(each.size * each.factor, sizes.get(each.node, np.inf))
+                with precision(_BITS[0]):
+                    self.first.of([each.node])
+            step()
+        for bits in _BITS:
+            with precision(bits):
+                self.last = self.first if bits == _BITS[0] else Balls()
+                self.found |= zip(sizes, self.last.of(sizes), strict=True)
+            hopeless = unfollowed(sizes)
+            sizes = {
+                node: size
+                for node, size in sizes.items()
+                if node not in hopeless and not all(_small(x, size) for x in self.found[node].flat)
+            }
+            if not sizes:
+                break
+
+    def proved(self, shown: _Shown) -> Proved:
+        def nothing(why: str) -> Proved:
+            return Proved(shown.where, shown.name, np.zeros(shown.own.shape), f"line {shown.line}: {why}")
+
+        if shown.node is None:
+            return nothing("it is not recorded")
+        if near := next((n for n in bottom_up([shown.node], ()) if n in self.recording.integrals), None):
+            return nothing(f"the integral of line {near.line} is the sum of a rule, of whose error there is no bound")
+        balls = self.found[shown.node].reshape(-1)
+        if balls.size != shown.own.size:
+            return nothing("it is recorded with another number of rows")
+        with precision(_BITS[0]):
+            digits = _digits(balls, shown.own, shown.factor, shown.size)
+        if digits.min() >= PROVED:
+            return Proved(shown.where, shown.name, digits, size=shown.size)
+        if _is_count(shown.node):
+            why = f"line {shown.line}: a count of evaluations, which is none of the formulas' numbers"
+            return Proved(shown.where, shown.name, np.full(shown.own.shape, np.nan), why, exception=True)
+        lost = Proved(shown.where, shown.name, digits, self.why(shown), size=shown.size)
+        return self.zero(shown, shown.node) or lost
+
+    def zero(self, shown: _Shown, node: Node) -> Proved | None:
+        """Digits of numbers that are 0 but for rounding, beside what they are made of; None of others.
+
+        They are 0 to hundreds of digits, or less than what the inputs move them by that are held as floats.
+        """
+        with precision(_BITS[-1]):
+            (found,) = self.finest.of([node])
+        largest = int(np.argmax(np.abs(shown.own)))
+        moves = {part: np.abs(share * part.value) for part, share in adjoints(node, largest).items()}
+        parts = [*moves.values(), *(np.abs(part.value) for part in _addends(node))]  # those that cancel move nothing
+        made = max(float(np.max(m, initial=0.0, where=np.isfinite(m))) for m in parts)
+        held = _HELD * sum(float(np.nansum(m)) for part, m in moves.items() if part.op == "input")
+        if not all(x is not NONE and x.is_finite() and abs(x) <= max(held, made * _ZERO) for x in found.flat):
+            return None
+        digits = _digits(found, shown.own, shown.factor, made / shown.factor)
+        part = numbers.significant(shown.size * shown.factor / made, 1)
+        why = f"line {shown.line}: 0 but for rounding, {part} of what it is made of, beside which its digits are"
+        return Proved(shown.where, shown.name, digits, why, exception=True, size=made / shown.factor)
+
+    def why(self, shown: _Shown) -> str:
+        """What keeps digits from being proved: the first operation that leaves something open, or their rounding."""
+        known = self.last.known if shown.node in self.last.known else self.first.known
+        for part in bottom_up([shown.node] if shown.node else (), ()):
+            if part in known and _open(known[part]) and not any(_open(known[o]) for o in part.operands):
+                gap = next((str(gap) for gap in self.recording.gaps if gap.line == part.line), "")
+                if part.op == "exported" and gap:
+                    return gap
+                if part.op == "found":
+                    root = "least sum of squares" if part.args[0].least else "root"
+                    what = f"no {root} is proved there"
+                    return f"line {part.line}: {'a count of evaluations is no formula' if _is_count(part) else what}"
+                return f"line {part.line}: {_WHY.get(part.op, 'it')} is not decided"
+            if (
+                part in known
+                and _no_longer(part, known[part])
+                and not any(_no_longer(o, known[o]) for o in part.operands if o in known)
+            ):
+                return f"line {part.line}: in exact arithmetic {_EXACTLY.get(part.op, 'it is no number')}"
+        least = (p for p in bottom_up([shown.node] if shown.node else (), ()) if p.op == "found" and p.args[0].least)
+        if found := next(least, None):
+            return f"line {found.line}: the search for the least sum of squares ends there"
+        return f"line {shown.line}: the rest is lost to rounding"
+
+
+# What of an operation nobody knows where its ball says nothing.
+_WHY = {
+    "exported": "what is not recorded", "iterated": "what a loop ends with",
+    "sqrt": "whether the root is of a negative number",
+    "div": "whether the divisor is 0", "at": "which element is taken", "where": "a choice",
+    "atan2": "the side of a full turn", "asin": "whether there is such an angle",
+    "acos": "whether there is such an angle", "floor": "a whole number", "round": "a whole number",
+    "mod": "a whole turn",
+    **dict.fromkeys(("lt", "le", "gt", "ge", "eq", "ne"), "a comparison"),
+}  # fmt: skip
+
+# What has a number by rounding alone.
+_EXACTLY = {"iterated": "a loop takes other turns", "where": "another way is taken"}
+
+
+def _addends(node: Node) -> Iterator[Node]:
+    """What a sum is made of; nothing of a quantity that is none."""
+    if node.op in ("add", "sub"):
+        for part in node.operands:
+            yield part
+            yield from _addends(part)
+
+
+def _is_count(node: Node) -> bool:
+    """Whether a quantity is made of counts of evaluations and of nothing else."""
+    counts = set[Node]()
+    for part in bottom_up([node], ()):
+        if part.op == "found":
+            counts |= {part} if part.args[1] >= len(part.args[0].nodes) else set()
+            continue
+        made_of = part.operands[:1] if part.op in SHAPED else part.operands
+        if own := [operand for operand in made_of if operand.op != "constant"]:
+            counts |= {part} if counts.issuperset(own) else set()
+    return node in counts
+
+
+def _small(x: Any, size: float) -> bool:
+    if x is NONE or isinstance(x, float):
+        return x is NONE or x != UNDECIDED
+    return bool(x.is_finite() and x.rad() <= _SMALL * size)
+
+
+def _open(balls: Values) -> bool:
+    return any(x == UNDECIDED if isinstance(x, float) else x is not NONE and not x.is_finite() for x in balls.flat)
+
+
+def _no_longer(node: Node, balls: Values) -> bool:
+    """Whether exact arithmetic has no number where the worksheet has one."""
+    return any(x is NONE and v == v for x, v in zip(balls.flat, node.value.flat, strict=False))
+
+
+def _digits(balls: Values, own: Values, factor: float, size: float) -> Values:
+    """Digits of numbers that their balls prove beside a size, in a unit; also that there is no number."""
+    unit = constant(factor)
+    return np.array([_digits_of(x, v, unit, size) for x, v in zip(balls.flat, own.astype(float).flat, strict=True)])
+
+
+def _digits_of(x: Any, own: float, unit: Any, size: float) -> float:
+    if x is NONE or np.isnan(own):
+        return _ALL if x is NONE and np.isnan(own) else 0.0
+    if isinstance(x, float):
+        x = arb(x) if x != UNDECIDED else arb.nan()
+    off = abs(x / unit - own).upper()
+    if not off.is_finite() or off.is_zero() or not size:
+        return _ALL if off.is_zero() else 0.0
+    part = float(off / size)
+    return min(max(-log10(part), 0.0), _ALL) if part else _ALL
+
+
+def _root(balls: Balls, name: str, solved: Solved) -> ProvedRoot:
+    node, unit = solved.node, solved.words.unknown_unit
+    if node.op != "found":
+        return ProvedRoot(name, False, None, None, unit)
+    block = node.args[0]
+    (found,) = balls.of([node])
+    exists = all(x is not NONE and x.is_finite() for x in found.flat)
+    if block.least:
+        kind = "least sum of squares" if exists and is_least(balls, block) else "level sum of squares"
+        return ProvedRoot(name, exists, None, None, unit, kind)
+    if not (exists and block.single and block.elementwise and not node.shape and solved.interval):
+        return ProvedRoot(name, exists, None, None, unit)
+    low, high = balls.of(solved.interval)
+    under = {n: balls.known[n] for n in block.under}
+    others = lone_root.others(block, under, found[()], low[()], high[()])
+    ends = float(low[()]), float(high[()])
+    return ProvedRoot(name, exists, ends, None if others is None else tuple(others), unit)
+
+
+def _down(digits: float) -> float:
+    """Rounded to the tenth below: never more than there are."""
+    return floor(10 * digits) / 10 if digits == digits else digits
+
+
+def _shown(digits: float) -> str:
+    return numbers.fixed(_down(digits), 1)
+
+
+def _texts(heading: str, meaning: str, texts: Sequence[str]) -> Column:
+    return Column(heading, "", meaning, 0, np.array(texts, dtype=object))

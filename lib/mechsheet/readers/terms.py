@@ -1,0 +1,143 @@
+"""How large the numbers are of which a quantity is made: what its rounding, and what is left of it, is measured by."""
+
+import math
+from collections.abc import Container
+from functools import reduce
+from typing import Any
+
+import numpy as np
+
+from mechsheet.quantities.arithmetic import choice
+from mechsheet.quantities.graph import Graph
+from mechsheet.quantities.node import Node, bottom_up, is_number
+from mechsheet.quantities.operations import Moved
+from mechsheet.quantities.quantity import Quantity, lift
+
+
+def made_of(node: Node, known: dict[Node, float]) -> float:
+    """The largest number of which a quantity is a sum or difference, over all that it rests on.
+
+    A function of such a sum has its roundings too, by as much as its slope: the cosine of a right angle is none.
+    """
+    for part in bottom_up([node], known):
+        size, parts = size_of(part), part.operands
+        match part.op:
+            case "mul":
+                size = max(size, known[parts[0]] * size_of(parts[1]), known[parts[1]] * size_of(parts[0]))
+            case "div":
+                least = np.min(np.abs(parts[1].value + 0.0), initial=np.inf)
+                size = max(size, known[parts[0]] / least) if least else size
+            case "pow" | "sqrt":
+                size = max(size, size_of(parts[0]))
+            case "exp":
+                size *= max(1.0, known[parts[0]])
+            case "tan":
+                size = max(size, (1 + size**2) * known[parts[0]])
+            case "log":
+                size = max(size, known[parts[0]] / (size_of(parts[0]) or 1.0))
+            case "atan2":
+                largest = max(map(size_of, parts)) or 1.0
+                size = max(size, *(known[p] / largest for p in parts))
+            case op if op in _AS_LARGE:
+                size = max([size, *(known[p] for p in parts)])
+        known[part] = size
+    return known[node]
+
+
+_AS_LARGE = {  # as what they are made of: moved, chosen and added, and of functions those whose slope is about one
+    "add", "sub", "neg", "abs", "max", "min", "mod", "sin", "cos", "asin", "acos", "take", "join", "reduce", "where",
+    "like", "sized", "at",
+}  # fmt: skip
+
+
+def size_of(node: Node) -> float:
+    sizes = np.abs(node.value + 0.0)
+    if sizes.size and math.isfinite(largest := sizes.max()):
+        return float(largest)
+    return float(np.max(sizes, initial=0.0, where=np.isfinite(sizes)))
+
+
+def measure(graph: Graph, node: Node, named: Container[Node]) -> Quantity:
+    """How large the terms are of which each element is a sum or difference, as a quantity.
+
+    They are looked for down to ``named`` quantities and steps of which they are no small difference for the inputs at
+    hand: that all of these are nothing at once, and what they are made of is not, nobody expects.
+    """
+    return _Measured(graph, named).of(node)
+
+
+def terms_of(value: Quantity, named: Container[Node]) -> Quantity:
+    """What its elements are measured by; of a point or a vector the larger of its parts' terms."""
+    real, *imaginary = (measure(value.graph, part, named) for part in value.parts)
+    return reduce(lambda a, b: Quantity(value.graph, value.graph.fold("max", a.re, b.re)), imaginary, real)
+
+
+class _Measured:
+    """The measures of some quantities."""
+
+    def __init__(self, graph: Graph, named: Container[Node]) -> None:
+        self.graph, self.named, self.known, self.made = graph, named, dict[Node, Quantity](), dict[Node, float]()
+
+    def of(self, node: Node) -> Quantity:
+        if node not in self.known:
+            ends = node in self.named or node in self.graph.labels or node.op not in _LOOKED_INTO
+            whole = ends and made_of(node, self.made) <= _ALIKE * size_of(node)
+            inside = None if whole else self.inside(node)
+            self.known[node] = abs(Quantity(self.graph, node)) if inside is None else inside
+        return self.known[node]
+
+    def inside(self, node: Node) -> Quantity | None:
+        """By the measures of the operands; None where it is measured by itself."""
+        args, itself = node.operands, Quantity(self.graph, node)
+        measured: Any = None
+        match node.op:
+            case "neg" | "abs" | "like" | "sized":
+                measured = self.of(args[0])
+            case "add" | "sub" | "max" | "min" | "mod":
+                measured = self.largest(*map(self.of, args[:2]))
+            case "where":
+                measured = choice(self.graph, Quantity(self.graph, args[0]), *map(self.of, args[1:]))
+            case "mul":
+                measured = self.of(args[0]) * self.of(args[1])
+            case "div":
+                measured = self.of(args[0]) / abs(Quantity(self.graph, args[1]))
+            case "pow" if is_number(args[1], 2):
+                measured = self.of(args[0]) ** 2
+            case "sqrt":
+                measured = np.sqrt(self.of(args[0]))
+            case "sin" | "cos" | "asin" | "acos" | "atan2":
+                measured = lift(self.graph, 1.0)
+            case "log":
+                measured = self.largest(abs(itself), lift(self.graph, 1.0))
+            case "tan":
+                measured = 1 + itself**2
+            case "reduce" if node.args[2] == "sum" and not node.args[3].so_far:
+                measured = self.whole(args[0]).reduced("sum", node.args[3].axis, node.args[3].keepdims)
+            case "take":
+                source, index, moves = node.args
+                measured = self.whole(source)
+                for move in moves or (Moved(np.take, (index,)),):
+                    measured = measured.rearranged(move.f, *move.args, **dict(move.named))
+            case "join":
+                measured = self.joined(node)
+        return None if measured is None else lift(self.graph, measured)
+
+    def joined(self, node: Node) -> Quantity:
+        sources, which, inside, moved = node.args
+        starts = np.cumsum([0, *(source.size for source in sources)])
+        each = [self.whole(source).re for source in sources]
+        return Quantity(self.graph, self.graph.join(each, starts[which] + inside, moved))
+
+    def whole(self, node: Node) -> Quantity:
+        """The measure of each element, where it is one of all too."""
+        measured = self.of(node)
+        return measured if measured.shape == node.shape else measured.like(Quantity(self.graph, node))
+
+    def largest(self, one: Quantity, other: Quantity) -> Quantity:
+        return Quantity(self.graph, self.graph.fold("max", one.re, other.re))
+
+
+_ALIKE = 1e3  # times as large as a quantity itself is what it is made of at most where it is no small difference
+_LOOKED_INTO = frozenset((
+    "neg", "abs", "add", "sub", "max", "min", "where", "mul", "div", "sin", "cos", "asin", "acos", "atan2", "log",
+))  # fmt: skip
