@@ -170,7 +170,7 @@ def test_edited_number_formula_and_unit_change_everything(editor, tmp_path):
     )
     editor.expect_last_moment("420")  # sine of a right angle
     editor.expect("2 of 2 checks pass")
-    editor.expect(f"{degrees(asin((310 / 420) ** (1 / 3))):.4f}°")
+    editor.expect(f"{degrees(asin((310 / 420) ** (1 / 3))):.3f}°")
     editor.edit("M_S = M(phi)  # [N*m]", "M_S = M(phi)  # [kN*m]")
     page.locator(".ms-table", has_text="kN·m").wait_for()
     editor.expect_last_moment("0.420")

@@ -192,6 +192,7 @@ def test_a_unit_is_switched_wherever_the_quantity_is_shown(serve, page, console_
     page.goto(serve(mode, HITCH))
     ready(page)
     line, cell = force(page)
+    line.locator(".katex").first.wait_for()  # its formula comes after it, and the line once more with it
     unit = line.locator("ms-unit")
     unit.focus()
     unit.press("Enter")
