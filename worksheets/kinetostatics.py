@@ -695,12 +695,8 @@ def compared(
     r_67 = R36_n * cos(phi6) - R76 * sin(phi6) + A_67  # [N] (1.37) left by the first line
     r_67_printed = R36_n * cos(phi6) - R07 * sin(phi6) + A_67  # [N] (1.37) left as printed (erratum)
     gamma36_t_UGL2 = where(R36_t < 0, phi6 - 0.5 * pi, phi6 + 0.5 * pi)  # [deg] (1.35) of |R36_t|
-    A_67_printed = R36_t * cos(gamma36_t_UGL2) + F6 * cos(
-        gamma6
-    )  # [N] (1.37) as printed, R36_t with its sign (erratum)
-    B_67_printed = R36_t * sin(gamma36_t_UGL2) + F6 * sin(
-        gamma6
-    )  # [N] (1.37) as printed, R36_t with its sign (erratum)
+    A_67_printed = R36_t * cos(gamma36_t_UGL2) + F6 * cos(gamma6)  # [N] (1.37) as printed, R36_t with sign (erratum)
+    B_67_printed = R36_t * sin(gamma36_t_UGL2) + F6 * sin(gamma6)  # [N] (1.37) as printed, R36_t with sign (erratum)
     R76_printed = A_67_printed * sin(phi6) - B_67_printed * cos(phi6)  # [N] (1.37) from them (erratum)
     lines_52 = typeset()
     found_23 = group_23.reactions(
