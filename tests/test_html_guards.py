@@ -9,6 +9,8 @@ from playwright.sync_api import Page, expect
 
 from mechsheet.html import write
 from mechsheet.page import lines
+from mechsheet.recording import left_over
+from mechsheet.recording.record import record
 from mechsheet.worksheet import inputs
 from mechsheet.worksheet.cells import Worksheet, load
 from mechsheet.worksheet.errors import SheetError
@@ -162,6 +164,19 @@ def test_what_a_function_leaves_is_about_nothing_and_a_small_number_is_itself(bl
         here = shown(blank, tmp_path / "a.html", sheet, address)
         assert {name: first_number(here[name][0]) for name in NOTHING} == NOTHING, address
     assert shown(blank, tmp_path / "a.html", sheet, "a=1")["v"][0] == "0.25\u00a0m"
+
+
+def test_for_a_product_of_what_is_no_rounding_nothing_is_recorded(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A page of compliances would be recorded line by line at every input."""
+    names = {**(sheet := own(tmp_path, LEFT)).run_whole(), "__file__": sheet.path}
+    asked = list[str]()
+    monkeypatch.setattr(left_over, "record", lambda *_, want, **__: asked.extend(want) or record(names, want=want))
+    for name, line in registry(names).items():
+        if name in NOTHING:
+            lines.valued(line, names[name], names)
+    assert "q" not in asked and {"t", "w", "s"} <= {*asked}
 
 
 def first_number(text: str) -> str:
