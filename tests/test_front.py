@@ -233,3 +233,13 @@ def test_proved_digits_are_those_of_the_exported_inputs(
         assert all(row[4] == ("PASS" if digits else "not evaluated") for row in proved)
         assert all(row[6] > 9 if digits else row[6] == "#N/A" for row in proved)
         assert not any(row[6] for row in listed if row not in proved)
+
+
+def test_lines_under_no_heading_stand_under_no_dash(tmp_path: Path) -> None:
+    """The workbook of a worksheet without sections had ' - lines behind the tables' among its contents."""
+    sheet = own(tmp_path, "y = x * g.a  # [-] line\nr = y.max()  # [-] greatest")
+    path = tmp_path / "own.xlsx"
+    path.write_bytes(report.workbook("Own", {**sheet.run_whole(), "__file__": sheet.path}, {}))
+    book = load_workbook(path)
+    heads = [book[name]["A1"].value for name in ("Table lines", "Table fields")]
+    assert heads == ["lines behind the tables, in SI units", "fields, in SI units"]

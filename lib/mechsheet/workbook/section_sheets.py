@@ -30,11 +30,12 @@ def write(book: Book, section: Section, formulas: SheetFormulas) -> None:
         listed += [
             (formulas.name(line.node), f"column {letters(n)}{of_sheet}", *_told(line)) for n, line in enumerate(fields)
         ]
-    title = f"{section.title} - lines behind the tables, in SI units"
+    own_lines, own_fields = (f"{section.title} - {what}" if section.title else what for what in ("lines", "fields"))
+    title = f"{own_lines} behind the tables, in SI units"
     every = [*section.single, *chain.from_iterable(section.fields.values())]
     grey = {n for n, line in enumerate(every) if formulas.kept(line.node)}
     book.listing(section.listing, title, heads, listed, behind=True, grey=grey)
-    heading = f"{section.title} - fields, in SI units"
+    heading = f"{own_fields}, in SI units"
     for sheet, fields in section.fields.items():
         columns: list[tuple[Column, Sequence[Content]]] = []
         for line in fields:
