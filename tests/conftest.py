@@ -13,8 +13,10 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager
 from functools import cache
 from pathlib import Path
+from tempfile import mkdtemp
 from types import ModuleType
 from typing import TYPE_CHECKING, Any
+from urllib.parse import quote
 
 import mpmath
 import numpy as np
@@ -23,7 +25,7 @@ from hypothesis import settings
 from openpyxl import load_workbook
 
 if TYPE_CHECKING:
-    from playwright.sync_api import Browser, ConsoleMessage, Page, ViewportSize
+    from playwright.sync_api import Browser, BrowserContext, ConsoleMessage, Page, ViewportSize
 
 ROOT = Path(__file__).resolve().parents[1]
 collect_ignore = ["benchmarks"]  # nothing there is a test, and it needs numba
@@ -186,31 +188,36 @@ def examples(count: int, **others: Any) -> settings:
     return settings(max_examples=count * settings.default.max_examples // 100, **others)
 
 
-@contextmanager
-def marimo_server(mode: str, worksheet: Path, folder: Path) -> Iterator[str]:
-    """Address of ``marimo run`` or ``marimo edit`` of a copy of the worksheet, under the project's settings.
+def placed(worksheet: Path, folder: Path) -> Path:
+    """A copy of the worksheet in a folder with the project's settings: what the editor saves stays out of the project.
 
-    The copy keeps what the editor saves out of the project; those beside it are there for one that reads them.
+    Those beside it are there for one that reads them.
     """
     shutil.copytree(ROOT / "worksheets", folder / "worksheets", ignore=shutil.ignore_patterns("__*__"))
-    if worksheet.is_relative_to(ROOT / "worksheets"):
-        sheet = folder / worksheet.relative_to(ROOT)
-    else:
-        sheet = Path(shutil.copy(worksheet, folder / "worksheets"))
-        for beside in (*worksheet.parent.glob("*.csv"), *worksheet.parent.glob("*.toml")):
-            shutil.copy(beside, folder / "worksheets")
     shutil.copy(ROOT / "pyproject.toml", folder)
+    if worksheet.is_relative_to(ROOT / "worksheets"):
+        return folder / worksheet.relative_to(ROOT)
+    for beside in (*worksheet.parent.glob("*.csv"), *worksheet.parent.glob("*.toml")):
+        shutil.copy(beside, folder / "worksheets")
+    return Path(shutil.copy(worksheet, folder / "worksheets"))
+
+
+@contextmanager
+def marimo_server(mode: str, shown: Path, folder: Path) -> Iterator[str]:
+    """Address of ``marimo run`` or ``marimo edit`` of a worksheet, or of a folder of them, run in a folder."""
     with socket.socket() as free:
         free.bind(("127.0.0.1", 0))
         port = free.getsockname()[1]
     options = ["--headless", "--no-token", "--host=127.0.0.1", f"--port={port}"]
     if mode == "edit":
-        options += ["--skip-update-check", "--watch"]  # as ``mechsheet edit`` does
+        options += ["--skip-update-check"]
+    if mode == "edit" or shown.is_dir():  # as ``mechsheet edit`` does, and to see what comes into a folder later
+        options += ["--watch"]
     # A configuration folder of its own: the settings of whoever runs the tests must not change the page.
     environment = {**os.environ, "XDG_CONFIG_HOME": str(folder), "PYTHONUTF8": "1"}
     with (folder / "server.log").open("w+", encoding="utf-8") as log:
         server = subprocess.Popen(
-            [sys.executable, "-m", "marimo", mode, *options, sheet],
+            [sys.executable, "-m", "marimo", mode, *options, shown],
             cwd=folder,
             env=environment,
             stdin=subprocess.DEVNULL,
@@ -222,7 +229,7 @@ def marimo_server(mode: str, worksheet: Path, folder: Path) -> Iterator[str]:
             while not answers(port):
                 if server.poll() is not None or time.monotonic() > deadline:
                     log.seek(0)
-                    pytest.fail(f"marimo {mode} {worksheet.name} did not start:\n{log.read()}")
+                    pytest.fail(f"marimo {mode} {shown.name} did not start:\n{log.read()}")
                 time.sleep(0.1)
             yield f"http://127.0.0.1:{port}"
         finally:
@@ -253,12 +260,24 @@ def answers(port: int) -> bool:
 
 @pytest.fixture(scope="session")
 def serve(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Callable[[str, Path], str]]:
-    """``serve("run" or "edit", worksheet)``: address of a marimo server, started once and kept for the session."""
+    """``serve("run" or "edit", worksheet)``: its address at a marimo server, one for all that are only shown."""
     with ExitStack() as servers:
+
+        def served(mode: str, shown: Path, folder: Path) -> str:
+            return servers.enter_context(marimo_server(mode, shown, folder))
+
+        @cache
+        def shown() -> tuple[Path, str]:
+            folder = tmp_path_factory.mktemp("run")
+            return folder, served("run", folder, folder)
 
         @cache
         def address(mode: str, worksheet: Path) -> str:
-            return servers.enter_context(marimo_server(mode, worksheet, tmp_path_factory.mktemp(mode)))
+            if mode == "edit":
+                folder = tmp_path_factory.mktemp(mode)
+                return served(mode, placed(worksheet, folder), folder)
+            folder, at = shown()
+            return f"{at}/?file={quote(str(placed(worksheet, Path(mkdtemp(dir=folder)))))}"
 
         yield address
 
@@ -275,18 +294,26 @@ def browser(chromium: str) -> Iterator[Browser]:
         started.close()
 
 
-def new_page(browser: Browser) -> Page:
-    """A page without cookies or history, wide enough for a worksheet; closed with its context."""
+@cache
+def profile(browser: Browser) -> BrowserContext:
+    """Where all pages of worksheets are: what is compiled for one need not be for the next, a third of its opening."""
     context = browser.new_context(viewport=SIZE, locale="en-US")
     context.set_default_timeout(WITHIN * 1000)
-    return context.new_page()
+    return context
+
+
+@contextmanager
+def new_page(browser: Browser) -> Iterator[Page]:
+    """A page without history, wide enough for a worksheet."""
+    page = profile(browser).new_page()
+    yield page
+    page.close()
 
 
 @pytest.fixture
 def page(browser: Browser) -> Iterator[Page]:
     """A page of the test's own."""
-    page = new_page(browser)
-    with page.context:
+    with new_page(browser) as page:
         yield page
 
 
@@ -296,6 +323,7 @@ def pages(
 ) -> Iterator[tuple[Callable[[Path, str], Page], list[str]]]:
     """Pages that many tests use in turn, and what they report as errors."""
     known: dict[Path, Page] = {}
+    in_the_end = ExitStack()
     fresh: dict[Path, object] = {}
     errors: list[str] = []
 
@@ -305,7 +333,7 @@ def pages(
 
     def opened(worksheet: Path, text: str) -> Page:
         if worksheet not in known:
-            known[worksheet] = new_page(browser)
+            known[worksheet] = in_the_end.enter_context(new_page(browser))
             report_errors(known[worksheet], errors)
         page = known[worksheet]
         page.bring_to_front()  # one that is behind others may draw nothing
@@ -316,9 +344,8 @@ def pages(
         page.evaluate("scrollTo(0, 0)")
         return page
 
-    yield opened, errors
-    for page in known.values():
-        page.context.close()
+    with in_the_end:
+        yield opened, errors
 
 
 @pytest.fixture
@@ -337,10 +364,9 @@ def left_open(pages: tuple[Callable[[Path, str], Page], list[str]]) -> Iterator[
 @pytest.fixture(scope="module")
 def blank(browser: Browser) -> Iterator[Page]:
     """A page with nothing on it, and no network."""
-    page = new_page(browser)
-    page.context.set_offline(True)
-    with page.context:
-        yield page
+    with browser.new_context(viewport=SIZE, offline=True) as context:
+        context.set_default_timeout(WITHIN * 1000)
+        yield context.new_page()
 
 
 def until(page: Page, holds: Callable[[], bool], otherwise: str) -> None:

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import marimo as mo
 import pytest
-from conftest import marimo_server
+from conftest import marimo_server, placed
 from playwright.sync_api import Page, expect
 
 from mechsheet import __main__ as launcher
@@ -21,8 +21,9 @@ def served(chromium: str, tmp_path_factory: pytest.TempPathFactory) -> Iterator[
     folder = tmp_path_factory.mktemp("served")
     sheet = folder / "lever.py"
     sheet.write_text(LEVER, encoding="utf-8")
-    with marimo_server("run", sheet, folder) as address:
-        yield address, folder / "worksheets" / "lever.py"
+    copy = placed(sheet, folder)
+    with marimo_server("run", copy, folder) as address:
+        yield address, copy
 
 
 @pytest.fixture

@@ -37,9 +37,9 @@ def page(left_open):
 @pytest.fixture(scope="module")
 def edited(serve, browser):
     """The hitch in the editor, to be read."""
-    page, errors = new_page(browser), list[str]()
-    report_errors(page, errors)
-    with page.context:
+    errors = list[str]()
+    with new_page(browser) as page:
+        report_errors(page, errors)
         page.goto(serve("edit", HITCH))
         ready(page)
         yield page
@@ -202,8 +202,7 @@ def test_hovering_a_chart_shows_its_values(page):
 
 
 def test_every_session_has_its_own_inputs(serve, browser, page):
-    other = new_page(browser)
-    with other.context:
+    with new_page(browser) as other:
         other.goto(serve("run", HITCH))
         ready(other)
         weights = {page: "20000", other: "30000"}
@@ -287,21 +286,20 @@ def test_on_a_narrow_screen_no_number_of_a_list_is_cut_off(edited):
 
 def test_a_mark_on_every_output_styles_the_outputs_and_not_what_stands_in_them(serve, browser):
     """marimo marks an output while its cell runs; formulas and tables in it must not be styled again for that."""
-    page = new_page(browser)  # so high that it may be of no use to others
-    page.goto(serve("run", HITCH))
-    ready(page)
-    page.wait_for_function("() => 'measured' in document.documentElement.dataset")
-    page.set_viewport_size({"width": 1280, "height": 14_000})  # cells out of sight are not styled at all
-    drawn(page)
-    mark = "() => { document.querySelectorAll('.output-area').forEach((e) => e.classList.add('x')); }"
-    elements = page.evaluate("() => document.querySelectorAll('.output-area *').length")
-    browser.start_tracing(page=page, categories=["devtools.timeline"])
-    page.evaluate(mark)
-    drawn(page)
-    events = json.loads(browser.stop_tracing())["traceEvents"]
-    styled = sum(e["args"].get("elementCount", 0) for e in events if e["name"] == "UpdateLayoutTree")
-    assert 0 < styled < elements / 20
-    page.context.close()
+    with new_page(browser) as page:  # so high that it may be of no use to others
+        page.goto(serve("run", HITCH))
+        ready(page)
+        page.wait_for_function("() => 'measured' in document.documentElement.dataset")
+        page.set_viewport_size({"width": 1280, "height": 14_000})  # cells out of sight are not styled at all
+        drawn(page)
+        mark = "() => { document.querySelectorAll('.output-area').forEach((e) => e.classList.add('x')); }"
+        elements = page.evaluate("() => document.querySelectorAll('.output-area *').length")
+        browser.start_tracing(page=page, categories=["devtools.timeline"])
+        page.evaluate(mark)
+        drawn(page)
+        events = json.loads(browser.stop_tracing())["traceEvents"]
+        styled = sum(e["args"].get("elementCount", 0) for e in events if e["name"] == "UpdateLayoutTree")
+        assert 0 < styled < elements / 20
 
 
 def test_download_is_the_workbook(page, tmp_path):

@@ -182,15 +182,13 @@ def test_what_the_address_says_of_the_worksheet_stays(press: Path, left_open: Ca
     The page has a base, to which what begins with # alone would lead.
     """
     page = left_open(press, "as in the document")
-    other = page.context.new_page()
-    other.goto(page.url.partition("#")[0] + "?sheet=press")
-    fill(other, "r", "52")
-    expect(other).to_have_url(re.compile(r"/\?sheet=press#r=52$"))
-    link = other.locator("#checks a").last
+    fill(page, "r", "52")
+    there = re.compile(r"/\?file=[^#]*press\.py#r=52$")
+    expect(page).to_have_url(there)
+    link = page.locator("#checks a").last
     link.click()
-    expect(other.locator(link.get_attribute("href") or "")).to_be_in_viewport()
-    expect(other).to_have_url(re.compile(r"/\?sheet=press#r=52$"))
-    other.close()
+    expect(page.locator(link.get_attribute("href") or "")).to_be_in_viewport()
+    expect(page).to_have_url(there)
 
 
 def test_what_differs_from_the_document_is_marked_with_its_own_numbers(
