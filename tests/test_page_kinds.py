@@ -29,6 +29,56 @@ def bolt(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return path
 
 
+BARE = """\
+import marimo
+
+app = marimo.App()
+
+with app.setup:
+    import marimo as mo
+
+    from mechsheet import check, table, typeset
+
+
+@app.cell
+def _():
+    mo.md("## 1 Beam")
+    return
+
+
+@app.cell
+def _():
+    F = 8829.0  # [N] force
+    M = F * 2.5 / 4  # [N*m] moment
+    typeset()
+    return (M,)
+
+
+@app.cell
+def _(M):
+    mo.vstack([check("moment", M, 1e4, "N*m"), check("again", M, 1e4, "N*m")])
+    return
+
+
+if __name__ == "__main__":
+    app.run()
+"""
+
+
+@pytest.mark.parametrize("mode", ["run", "edit"])
+def test_a_page_without_title_block_has_style_and_scripts(serve, page, tmp_path, console_errors, mode):
+    """They come with the first value that is shown, once: two checks in one cell bring them one time."""
+    path = tmp_path / "bare.py"
+    path.write_text(BARE, encoding="utf-8")
+    page.goto(serve(mode, path))
+    expect(page.locator(".ms-badge.ms-PASS")).to_have_count(2)
+    page.wait_for_function("customElements.get('ms-numbers') && document.querySelector('style.ms-style')")
+    colour = "getComputedStyle(document.querySelector('.ms-badge.ms-PASS')).backgroundColor"
+    assert page.evaluate(colour) not in ("rgba(0, 0, 0, 0)", "transparent")
+    assert page.locator("ms-style").count() == 1
+    assert console_errors == []
+
+
 def shown(page, number: float) -> None:
     """The use at the whole force, in the last row of table 1."""
     cell = page.locator(".ms-table:has-text('Table 1 ') tbody tr:nth-child(3) td").nth(1)

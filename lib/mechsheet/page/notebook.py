@@ -6,6 +6,7 @@ A version of marimo that keeps them otherwise makes `running` raise `Unlike`, an
 from collections.abc import AsyncIterator, Callable, Iterable, Mapping, Set
 from contextlib import asynccontextmanager, suppress
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any, Protocol
 
 import marimo as mo
@@ -159,6 +160,14 @@ def send_as_it_is(server: Any) -> None:
         config.ws_per_message_deflate = config.host not in ("127.0.0.1", "localhost", "::1")
 
 
+def file() -> Path:
+    """The file of the page that runs; none where this version of marimo does not tell."""
+    try:
+        return Path(running()[1].get("__file__", ""))
+    except Unlike:
+        return Path()
+
+
 def reads(name: str) -> bool:
     """Whether a cell of the calling cell's page reads a name; no where this version of marimo does not tell."""
     try:
@@ -168,6 +177,29 @@ def reads(name: str) -> bool:
         return any(name in cell.refs for cell in list(notebook.graph.cells.values()))
     except (ImportError, AttributeError):
         return False
+
+
+def is_first() -> bool:
+    """Whether the calling cell, in this run of it, is the page's first to ask; it is again until it is edited or gone.
+
+    No where this version of marimo does not tell.
+    """
+    try:
+        from marimo._runtime.context import get_context  # on use: a version may lack it
+
+        notebook: Any = get_context()
+        graph, run = notebook.graph, notebook.execution_context
+        cell = graph.cells[notebook.cell_id]
+    except (ImportError, AttributeError, KeyError):
+        return False
+    known = _first.get(id(graph))
+    if known and known[0] is graph and graph.cells.get(known[1].cell_id) is known[1]:
+        if known[1] is not cell or known[2] is run:
+            return False
+    elif len(_first) == _PAGES:
+        _first.clear()
+    _first[id(graph)] = graph, cell, run
+    return True
 
 
 def texts(namespace: Mapping[str, Any]) -> tuple[tuple[str, str], ...] | None:
@@ -198,6 +230,8 @@ def texts(namespace: Mapping[str, Any]) -> tuple[tuple[str, str], ...] | None:
 # Texts of the cells of each page, by the identity of what holds them: they are asked for by every line of an output.
 _texts: dict[int, tuple[list[Any], tuple[tuple[str, str], ...]]] = {}
 _PAGES = 32
+# Of each page, by the same, the cell that was its first to ask, and that run of it.
+_first: dict[int, tuple[Any, Any, object]] = {}
 
 
 def _filename(cell: Any) -> str:

@@ -1,9 +1,5 @@
-"""The title block of a worksheet, which tells its mistakes and has the tools of the editor while it is edited.
+"""The title block of a worksheet, which tells its mistakes and has the tools of the editor while it is edited."""
 
-It brings the style of the page along where the worksheet's ``css_file`` does not.
-"""
-
-import re
 import sys
 from collections.abc import Iterable
 from dataclasses import replace
@@ -21,8 +17,6 @@ def title_block(name: str, text: str = "") -> Title:
     if "marimo" in sys.modules:
         import marimo as mo  # on use: a worksheet called as a function needs it not
 
-        if mo.running_in_notebook() and not _is_styled(file):
-            title = replace(title, tools=(mo.Html(element("ms-style", css=_style())),))
         if mo.app_meta().mode == "edit" and mo.running_in_notebook():
             from mechsheet.page import editor, in_place  # on use: only the editor needs them
 
@@ -43,21 +37,3 @@ def title_block(name: str, text: str = "") -> Title:
             told[:] = editor.watch(tell)
             return edited()
     return title
-
-
-_CSS_FILE = re.compile(r"""css_file\s*=\s*["']([^"']+)["']""")
-
-
-def _is_styled(worksheet: Path) -> bool:
-    """Whether the style sheet that a worksheet names is the package's, or has it in it."""
-    try:
-        named = _CSS_FILE.search(worksheet.read_text(encoding="utf-8"))
-        return named is not None and ".ms-line" in (worksheet.parent / named[1]).read_text(encoding="utf-8")
-    except OSError:
-        return False
-
-
-def _style() -> str:
-    """The style of the page: it lies beside this file in the installed package, beside the worksheets in a clone."""
-    places = Path(__file__).with_name("page.css"), Path(__file__).parents[3] / "worksheets" / "page.css"
-    return next((place.read_text(encoding="utf-8") for place in places if place.exists()), "")

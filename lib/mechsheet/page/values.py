@@ -21,7 +21,8 @@ from mechsheet.html import index
 from mechsheet.page import fields, notebook, switched
 from mechsheet.page.headings import heading
 from mechsheet.page.lines import lines
-from mechsheet.page.script import element, script
+from mechsheet.page.needed import needed
+from mechsheet.page.script import element
 from mechsheet.page.smooth import smooth
 from mechsheet.page.unchanged import kept
 from mechsheet.page.waiting import waiting
@@ -51,8 +52,11 @@ def written(value: object) -> tuple[str, str]:
         text = html(value)
     except Exception as error:  # which marimo would leave out without a word
         text = failed(f"this {type(value).__name__} cannot be shown: {mistakes.why(error, ())}", ends=False)
+    titled = mo.running_in_notebook() and notebook.reads("title_block")
+    if mo.running_in_notebook() and (isinstance(value, Title) or (not titled and notebook.is_first())):
+        return "text/html", needed(notebook.file()) + text
     placed = _placed(value) and not _HEADED.search(text)
-    shown = placed and mo.app_meta().mode == "run" and notebook.reads("title_block")
+    shown = placed and mo.app_meta().mode == "run" and titled
     if shown and not _OF_MARIMO.search(text):
         # Else marimo itself makes each element over and again. HTML is full of double quotes: it stands in single ones.
         text = f"<ms-shown html='{text.replace('&', '&amp;').replace(_QUOTE, '&#39;')}'></ms-shown>"
@@ -62,7 +66,7 @@ def written(value: object) -> tuple[str, str]:
 
 
 def _placed(value: object) -> bool:
-    """Whether the title block's script may put a value in its place: no headings, no picture asked for alone."""
+    """Whether a script of the page may put a value in its place: no headings, no picture asked for alone."""
     return not isinstance(value, Title | Index | Drawing)
 
 
@@ -167,15 +171,8 @@ def _(title: Title) -> str:
     cells = [("Worksheet", escape(title.file)), ("Computed", f"{date.today():%Y-%m-%d}")]
     fields = "".join(f"<span>{label} <b>{value}</b></span>" for label, value in cells)
     switch = '<label class="ms-screen"><input type="checkbox" class="ms-switch"> numbers in the formulas</label>'
-    scripts = (
-        script("shown.js")
-        + script("page.js")
-        + script("units.js", "format.js")
-        + script("chart.js", "tooltip.js", "format.js", "chart.js")
-    )
-    scripts += script("symbols.js", "tooltip.js") + script("sections.js")
     return (
-        f'{scripts}<div class="ms-title">{text}<div class="ms-row">{fields}{switch}'
+        f'<div class="ms-title">{text}<div class="ms-row">{fields}{switch}'
         f"{''.join(map(html, title.tools))}</div>{_TOLD}{_noted(title.notes)}</div>"
     )
 
