@@ -3,6 +3,7 @@
 import json
 from base64 import b64decode
 from decimal import Decimal
+from itertools import pairwise
 from math import log10
 from pathlib import Path
 
@@ -13,6 +14,7 @@ from playwright.sync_api import expect
 from test_page import HITCH, ready
 
 from mechsheet.document.shortened import ENDS
+from mechsheet.html.javascript import runtime
 from mechsheet.page import script, switched, values
 from mechsheet.units import parse, shown
 from mechsheet.worksheet import numbers
@@ -20,6 +22,7 @@ from mechsheet.worksheet.check import check
 from mechsheet.worksheet.table import Column, Figure, Table
 
 SCRIPT = b64decode(script.script("units.js", "format.js").split(",")[1].split('"')[0]).decode()
+ROWS = runtime("rows.js")
 STYLE = HITCH.with_name("page.css").read_text(encoding="utf-8")
 HALVES = [0.5, 1.5, 2.5, -0.5, 0.125, 0.375, -2.125, 9.5, 99.5, 0.0625, 1e-300, 1e22, -3e25, 0.0, -0.0, -4e-9]
 NONE = [np.nan, np.inf, -np.inf]
@@ -161,6 +164,39 @@ def test_a_check_is_shown_in_another_unit_with_the_same_verdict(page) -> None:
     choose(page, page.locator("ms-unit").first, "kPa")
     assert "17500 > 17499.99998\u00a0kPa" in page.locator("body").inner_text()
     assert page.locator("ms-unit:visible").count() == 1
+
+
+@pytest.mark.parametrize("width", [1280, 800])
+def test_heads_of_a_long_table_stay_in_sight(page, width: int) -> None:
+    """Where it is moved under the hand within the page, and where the page alone is."""
+    lengths = [Column(f"x{n}", "m", "length", 3, np.linspace(0, 1, 90), of=f"x{n}") for n in range(16)]
+    page.set_viewport_size({"width": width, "height": 600})
+    static(page, values.html(Table("1", "Lengths", tuple(lengths))))
+    last = page.locator("tbody tr:last-child td:first-child").first
+    last.scroll_into_view_if_needed()
+    assert page.locator("thead th").first.is_visible()
+    head, row = page.locator("thead th").first.bounding_box(), last.bounding_box()
+    assert 0 <= head["y"] < row["y"] < 600
+
+
+def test_rows_side_by_side_have_room_whatever_unit_is_chosen(page) -> None:
+    """In pascals each number is longer: then fewer parts stand beside one another, and none covers the next."""
+    stress = Column("sigma", "MPa", "stress", 2, np.linspace(1e3, 9e3, 40), of="sigma")
+    static(page, values.html(Table("1", "Stresses", (stress, stress))))
+    page.add_script_tag(content=ROWS)
+    ends = """[...document.querySelectorAll("tbody tr")].filter(row => row.offsetWidth).map(
+        row => [row.getBoundingClientRect().left, row.offsetWidth])"""
+
+    def parts() -> int:
+        places = dict(page.evaluate(ends))
+        at = sorted(places)
+        assert all(a + places[a] <= b for a, b in pairwise(at)), "parts cover one another"
+        return len(places)
+
+    page.set_viewport_size({"width": 420, "height": 900})
+    until(page, lambda: parts() == 2, "not side by side")
+    choose(page, page.locator("ms-unit").first, "Pa")
+    until(page, lambda: parts() == 1, "no room")
 
 
 def test_a_table_is_copied_as_a_spreadsheet_reads_it(page) -> None:

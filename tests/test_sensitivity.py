@@ -225,3 +225,15 @@ def test_variants_without_a_value_leave_no_band():
 def test_what_cannot_be_asked_is_said(ask, message):
     with pytest.raises(SheetError, match=message):
         ask()
+
+
+def test_numbers_of_unlike_units_have_digits_of_their_own():
+    """A force of 10 kN stands beside lengths of parts of a metre: four decimals are too many for one of them."""
+    rows = sensitivity(HITCH, ["GS6"]).table("1", "T", "GS6")
+    for heading in ("value", "derivative"):
+        column = next(c for c in rows.columns if c.symbol == heading)
+        sizes = np.abs(column.values[column.values != 0])
+        assert sizes.max() > 1000 * sizes.min(), "they are alike: nothing is tested"
+        for text, x in zip(column.texts(), column.values, strict=True):
+            assert float(text) == pytest.approx(x, rel=1e-4)
+            assert len(text.lstrip("-").replace(".", "").lstrip("0")) <= max(5, len(f"{abs(x):.0f}")), text

@@ -12,7 +12,7 @@ import numpy as np
 
 from mechsheet import units
 from mechsheet.document import chart, chart_svg, drawing_svg
-from mechsheet.document.blocks import blocks, fitting
+from mechsheet.document.blocks import beside, blocks, fitting
 from mechsheet.document.expression import equation, fields_by_name
 from mechsheet.document.markup import as_written, compared, in_words, meant, message, named, printed, where
 from mechsheet.document.parts import Control, Line, Section, Text
@@ -161,7 +161,7 @@ def _block(whole: Sequence[Column], follows: str, told: str) -> str:
     fit = fitting(whole)
     style = f' style="--fit:{numbers.fixed(fit, 2)}"' if fit < 1 else ""
     made = f"<table{follows}{style}><thead>{head}</thead><tbody>{rows}</tbody>{foot(left_out, len(columns))}</table>"
-    return f'<div class="ms-wide" tabindex="0" {told}>{made}</div>'
+    return f'<div class="ms-wide" tabindex="0" {told}>{beside(columns, made)}</div>'
 
 
 @html.register

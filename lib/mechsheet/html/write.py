@@ -40,6 +40,7 @@ _SCRIPTS = (
     "found.js",
     "put_in.js",
     "page.js",
+    "rows.js",
     "grid.js",
     "view.js",
     "units.js",

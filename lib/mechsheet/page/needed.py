@@ -16,7 +16,7 @@ def needed(worksheet: Path) -> str:
 def _scripts() -> str:
     return (
         script("shown.js")
-        + script("page.js")
+        + script("page.js", "rows.js")
         + script("units.js", "format.js")
         + script("chart.js", "tooltip.js", "format.js", "chart.js")
         + script("symbols.js", "tooltip.js")

@@ -14,7 +14,7 @@ import numpy as np
 
 from mechsheet import units
 from mechsheet.document import chart, chart_svg, drawing_svg
-from mechsheet.document.blocks import blocks, fitting
+from mechsheet.document.blocks import beside, blocks, fitting
 from mechsheet.document.markup import as_written, compared, in_words, meant, message, named
 from mechsheet.document.shortened import foot, shortened, thinned
 from mechsheet.html import index
@@ -401,7 +401,8 @@ def _block(columns: Sequence[Column], left_out: int) -> str:
     fit = fitting(columns)
     style = f' style="--fit:{numbers.fixed(fit, 2)}"' if fit < 1 else ""
     below = foot(left_out, len(columns))
-    return switched.columns(columns, f"<table{style}><thead>{head}</thead><tbody>{rows}</tbody>{below}</table>")
+    table = f"<table{style}><thead>{head}</thead><tbody>{rows}</tbody>{below}</table>"
+    return beside(columns, switched.columns(columns, table))
 
 
 def cells(column: Column) -> list[str]:

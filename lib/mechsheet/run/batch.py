@@ -334,7 +334,7 @@ def _blocks(rows: Sequence[Sequence[str]], width: int) -> Iterator[list[Sequence
 def _printed(table: Table) -> list[list[str]]:
     """A table as it is printed: symbols, units, numbers."""
     heads = [[c.symbol for c in table.columns], [f"[{numbers.in_text(c.unit)}]" for c in table.columns]]
-    columns = [[numbers.fixed(x, c.decimals) for x in c.values] for c in table.columns]
+    columns = [c.texts(numbers.PLAIN) for c in table.columns]
     return heads + [list(row) for row in zip(*columns, strict=True)]
 
 

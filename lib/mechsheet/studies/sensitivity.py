@@ -99,10 +99,10 @@ class Sensitivity:
         where = numbers.significant(np.atleast_1d(self.values[name])[k], 6) + numbers.suffix(self.units[name])
         columns = (
             _texts("input", by, names=True),
-            Column("value", "", "where the derivative is taken, in the input's unit", 4, here, _has_small(here)),
+            Column("value", "", "where the derivative is taken, in the input's unit", 4, here, unlike=True),
             _texts("unit", [units.shown(self.units[x]) for x in by]),
             Column("relative", "-", f"d ln {name} / d ln input", 4, relative),
-            Column("derivative", "", f"d {name} / d input", 4, slopes, _has_small(slopes)),
+            Column("derivative", "", f"d {name} / d input", 4, slopes, unlike=True),
             _texts("derivative's unit", [units.shown(self.unit(name, x)) for x in by]),
             _texts("error", [numbers.significant(x, 1) for x in errors]),
         )
@@ -369,11 +369,6 @@ def real(swept: Sweep, name: str) -> Array:
 
 def _at(values: Mapping[str, float], names: Sequence[str]) -> Array:
     return np.array([values[name] for name in names])
-
-
-def _has_small(values: Array) -> bool:
-    """Whether four decimals would leave no digit of a number that others of its column are far above."""
-    return bool(np.any((values != 0) & (np.abs(values) < 1e-3)))
 
 
 def _texts(heading: str, texts: Sequence[str], names: bool = False) -> Column:

@@ -16,7 +16,6 @@ from mechsheet.workbook.find_sheet import FoundRow
 from mechsheet.workbook.place import Place, quoted
 from mechsheet.workbook.sheet_formulas import SheetFormulas
 from mechsheet.worksheet.check import Check
-from mechsheet.worksheet.numbers import fixed
 
 _NAME = "Front"
 _WIDTHS = (200, 95, 95, 60, 230)
@@ -117,7 +116,7 @@ def _shown(drawn: Sequence[Listed]) -> Iterator[Result]:
                 )
                 for code, end in ((5, min), (4, max))
             ]
-            look = {**looks.NUMBER, "num_format": fixed(0, column.decimals) + ("E+00" if column.power else "")}
+            look = {**looks.NUMBER, "num_format": column.number_format}
             meaning = f"{column.meaning}, {source}" if column.meaning else source
             yield Result(column.symbol, tuple(ends), column.unit, meaning, look, at.column in grey)
 

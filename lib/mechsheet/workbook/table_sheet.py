@@ -10,7 +10,6 @@ from mechsheet.workbook.book import Book, page_of
 from mechsheet.workbook.content import Content, allowed, computed, put
 from mechsheet.workbook.looks import CHAR, EMPTY, FIRST, GAP, LONG, PAD, ROW
 from mechsheet.workbook.sheet_formulas import SheetFormulas
-from mechsheet.worksheet.numbers import fixed
 from mechsheet.worksheet.table import Column, Table
 
 Contents = Sequence[tuple[Column, Sequence[Content]]]
@@ -62,8 +61,7 @@ def write(
         put(sheet, 3, col, shown(column.unit), book.style(looks.HEAD, side, looks.BOTTOM, {"bold": False}))
         if column.meaning:
             sheet.write_comment(2, col, allowed(column.meaning), {"font_name": "Arial", "font_size": 9})
-        digits = fixed(0, column.decimals) + ("E+00" if column.power else "")
-        look = {**side, **({} if col else looks.KEY), "num_format": digits, **(numbers or {})}
+        look = {**side, **({} if col else looks.KEY), "num_format": column.number_format, **(numbers or {})}
         look |= looks.EXPORTED if col in grey else {}
         style, last = book.style(look, looks.CELL), book.style(look, looks.BOTTOM)
         for row, value in enumerate(cells, FIRST):

@@ -31,9 +31,10 @@ MARKED = 60  # points of a curve that are marked one by one; more of them hide t
 class Column:
     """One quantity over the rows of a table: its symbol, display unit, meaning and values in that unit.
 
-    Values may be a list, which becomes an array, and texts, of unit "". ``power`` shows numbers as 1.2e-15. ``of`` is
-    the name that the line declares, of a field without its ``_S``; ``want`` is what stands in the worksheet, a name or
-    a part of one. Texts that are ``names`` of quantities stand on the page as their symbols.
+    Values may be a list, which becomes an array, and texts, of unit "". ``power`` shows numbers as 1.2e-15; those of
+    ``unlike`` quantities, in one column, have each digits of their own. ``of`` is the name that the line declares, of a
+    field without its ``_S``; ``want`` is what stands in the worksheet, a name or a part of one. Texts that are
+    ``names`` of quantities stand on the page as their symbols.
     """
 
     symbol: str
@@ -45,6 +46,7 @@ class Column:
     of: str = ""
     want: str = ""
     names: bool = False
+    unlike: bool = False
 
     def __post_init__(self) -> None:
         if isinstance(self.values, list):
@@ -58,8 +60,15 @@ class Column:
 
     def texts(self, to: numbers.Notation = numbers.CELL) -> list[str]:
         """The values as they are shown."""
+        if self.unlike:
+            return [numbers.usual(v, to) for v in self.values.tolist()]
         written = numbers.scientific if self.power else numbers.fixed
         return [v if isinstance(v, str) else written(v, self.decimals, to) for v in self.values.tolist()]
+
+    @property
+    def number_format(self) -> str:
+        """How a spreadsheet program shows its numbers."""
+        return "General" if self.unlike else numbers.fixed(0, self.decimals) + ("E+00" if self.power else "")
 
 
 @dataclass(frozen=True)
