@@ -18,6 +18,7 @@ from mechsheet.run import arguments, batch
 from mechsheet.workbook import save
 from mechsheet.worksheet.cells import load
 from mechsheet.worksheet.errors import SheetError
+from tests.own_worksheet import own
 
 ROOT = Path(__file__).resolve().parents[1]
 HITCH = ROOT / "worksheets" / "hitch.py"
@@ -327,3 +328,14 @@ def test_command_line_in_a_process_of_its_own(tmp_path):
     assert (done.returncode, done.stdout, done.stderr) == (2, "", "error: input P66 is unknown; nearest: P6, Y_P56\n")
     done = subprocess.run([*command, f"--out={tmp_path / 'a.toml'}"], capture_output=True, encoding="utf-8")
     assert done.returncode == 1 and done.stderr.startswith("error: folder ") and done.stderr.count("\n") == 1
+
+
+def test_a_wanted_table_is_printed_with_its_texts_and_powers(tmp_path, capsys):
+    """A text has no decimals, and an error of 2e-15 is no 0.0."""
+    lines = """from mechsheet import Column, Table
+name = Column("way", "", "", 0, ["a", "b"])
+table_2 = Table("2", "Two", (name, Column("error", "-", "", 1, np.array([2e-15, g.F]), power=True)))"""
+    sheet = own(tmp_path, lines)
+    assert batch.answer(str(sheet.path), arguments.load(Path(scene(tmp_path, "one", 'want = ["table_2"]\n')), ())) == 0
+    printed = capsys.readouterr().out
+    assert re.search(r"way +error\n.*\na +2\.0e-15\nb +2\.5e\+00", printed), printed

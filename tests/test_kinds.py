@@ -14,7 +14,11 @@ from cells import run
 from openpyxl import load_workbook
 from test_recalculation import disagreements, edit
 
-from mechsheet import evaluate, load, sensitivity, sweep
+from mechsheet import Used, evaluate, load, sensitivity, sweep
+from mechsheet.html import fields as html_fields
+from mechsheet.html import values as html_values
+from mechsheet.page import fields as page_fields
+from mechsheet.page import values as page_values
 from mechsheet.recording.dimensions import mismatches
 from mechsheet.recording.record import record
 from mechsheet.run import arguments
@@ -333,3 +337,18 @@ def test_the_workbook_has_no_number_for_what_is_no_option_and_under_a_text_that_
     if "project" not in changes:
         with pytest.raises(SheetError, match="must be"):
             reading.inputs(path, inputs.declared(load(bolt).inputs))
+
+
+def test_inputs_in_the_meanings_of_inputs_are_symbols(tmp_path):
+    """On the page and in the page in one file, where they are edited and where they are printed; M8 is no input."""
+    path = tmp_path / "lengths.py"
+    own = "L1: float = 2 * mm  # [mm] lever\n    F: float = 5 * kN  # [kN] force beside L1, bolt M8\n"
+    path.write_text(SHEET.replace("F: float = 5 * kN  # [kN] force\n", own), encoding="utf-8")
+    g = load(path).inputs()
+    for shown in (
+        page_fields.fields(g).text,
+        page_values.html(Used(g)),
+        html_fields.fields(g),
+        html_values.still(Used(g)),
+    ):
+        assert "beside <i>L</i><sub>1</sub>, bolt M8" in shown

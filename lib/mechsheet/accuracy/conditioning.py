@@ -80,7 +80,7 @@ def group_times(number: str, sizes: Sequence[int], seconds: float) -> Table:
     def way(group: Group) -> Callable[[dict[str, Any]], Any]:
         return lambda x: group.found(*(x[name] for name in group.given))
 
-    ways = {name: way(group) for name, group in GROUPS.items()}
+    ways = {f"group {name}": way(group) for name, group in GROUPS.items()}
     return times_of_one(number, "Time of a group", sizes, _drawn, ways, seconds)
 
 

@@ -1,6 +1,6 @@
 """The inputs of a worksheet as fields of the page, and what the page must know to read them."""
 
-from collections.abc import Iterator
+from collections.abc import Container, Iterator
 from html import escape
 from typing import Any
 
@@ -18,18 +18,20 @@ from mechsheet.worksheet.lists import MOST_ROWS, Rows
 def fields(g: Any) -> str:
     """Fields with the values of the inputs ``g``, section by section; every value is text, and escaped."""
     sections: dict[str, list[str]] = {}
+    known = {field.name for field in declared(type(g))}
     for field in declared(type(g)):
-        sections.setdefault(field.section, []).append(_row(field, getattr(g, field.name)))
+        sections.setdefault(field.section, []).append(_row(field, getattr(g, field.name), known))
     blocks = "".join(
         f"<fieldset><legend>{escape(section)}</legend>{''.join(rows)}</fieldset>" for section, rows in sections.items()
     )
     return f'<form class="ms-inputs" autocomplete="off">{blocks}</form>'
 
 
-def _row(field: Input, value: Any) -> str:
+def _row(field: Input, value: Any, known: Container[str]) -> str:
     unit = "" if field.unit == "-" or isinstance(field, Rows) else escape(units.shown(field.unit))
     mistake = f' <span class="ms-badge ms-FAIL">mistake</span> {escape(field.mistake)}' if field.mistake else ""
-    told = f'<span class="ms-meaning" id="meaning-{field.name}">{meant(field.meaning)}{mistake} <i>{_limits(field)}</i>'
+    meaning = f"{meant(field.meaning, known)}{mistake} <i>{_limits(field)}</i>"
+    told = f'<span class="ms-meaning" id="meaning-{field.name}">{meaning}'
     return (
         f'<div class="ms-field"><label for="input-{field.name}">{as_written(field.name)}</label>'
         f'{_element(field, value)}<span class="ms-unit">{unit}</span>{told}</span>'

@@ -280,6 +280,7 @@ def _(made: Index, page: Follower) -> str:
 @html.register
 def _(used: Used, page: Follower) -> str:
     rows, section = list[str](), ""
+    known = {field.name for field, _ in used.rows()}
     for field, _ in used.rows():
         if field.section != section:
             section = field.section
@@ -288,7 +289,7 @@ def _(used: Used, page: Follower) -> str:
         number = "" if isinstance(field, Rows) else escape(field.brief(getattr(used.g, field.name)))
         rows.append(
             f'<tr data-used="{field.name}"><td>{as_written(field.name)}</td><td>{number}</td>'
-            f"<td>{unit}</td><td>{meant(field.meaning)}</td></tr>"
+            f"<td>{unit}</td><td>{meant(field.meaning, known)}</td></tr>"
         )
         rows += ['<tr><td colspan="4"></td></tr>'] if isinstance(field, Rows) else []  # for the page's own table
     return f'<table class="ms-print">{"".join(rows)}</table>'

@@ -1,6 +1,7 @@
 """The inputs of a worksheet as fields of the page, and its sliders."""
 
 import html
+from collections.abc import Container
 from pathlib import Path
 from typing import Any
 from uuid import uuid4
@@ -75,7 +76,7 @@ def _in_template(text: str) -> str:
 def fields(g: Any) -> "mo.ui.batch":
     """Fields with the values of the inputs ``g``, section by section."""
     sections: dict[str, list[str]] = {}
-    texts = {}
+    texts, known = {}, {field.name for field in declared(type(g))}
     for field in declared(type(g)):
         value = getattr(g, field.name)
         unit, grid = "" if field.unit == "-" else html.escape(units.shown(field.unit)), ""
@@ -85,7 +86,7 @@ def fields(g: Any) -> "mo.ui.batch":
         sections.setdefault(_in_template(html.escape(field.section)), []).append(
             f'<tr><td style="padding-right:.5em">{as_written(field.name)}</td>'
             f'<td data-input="{field.name}"{" colspan=2" * bool(grid)}>{grid}{{{field.name}}}{measured}</td>'
-            f'<td style="padding-left:.7em;line-height:1.2">{_in_template(said(field))}</td></tr>'
+            f'<td style="padding-left:.7em;line-height:1.2">{_in_template(said(field, known))}</td></tr>'
         )
         texts[field.name] = _element(field, value)
     blocks = "".join(
@@ -113,12 +114,12 @@ def _scenes(cls: type) -> list[dict[str, Any]]:
     return found
 
 
-def said(field: Input) -> str:
-    """Meaning of an input, a mistake in its unit, and its limits."""
+def said(field: Input, known: Container[str] = ()) -> str:
+    """Meaning of an input, with the ``known`` names in it as symbols, a mistake in its unit, and its limits."""
     told = limits(field)
     if isinstance(field, Rows) and field.row:
         told = ", ".join(f"{as_written(_short(c))}&nbsp;{limits(c)}" for c in field.columns if c.limits)
-    return f'{meant(field.meaning)}{_told(field)}<span style="opacity:.5;padding-left:.6em">{told}</span>'
+    return f'{meant(field.meaning, known)}{_told(field)}<span style="opacity:.5;padding-left:.6em">{told}</span>'
 
 
 def slider(value: Slider) -> "mo.ui.slider":

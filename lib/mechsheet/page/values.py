@@ -318,6 +318,7 @@ def _(found: Verdict) -> str:
 @html.register
 def _(used: Used) -> str:
     changed, rows, told, section = used.changed, [], [], ""
+    known = {field.name for field, _ in used.rows()}
     for field, _ in used.rows():
         unit = "" if field.unit == "-" else units.shown(field.unit)
         weight = "bold" if field.name in changed else "normal"
@@ -328,7 +329,7 @@ def _(used: Used) -> str:
         rows.append(
             f'<tr style="font-weight:{weight}"><td>{name}</td>'
             f'<td style="text-align:right;padding:0 .5em">{_printed(field, value)}</td>'
-            f'<td style="padding-right:1em">{escape(unit)}</td><td>{meant(field.meaning)}</td></tr>'
+            f'<td style="padding-right:1em">{escape(unit)}</td><td>{meant(field.meaning, known)}</td></tr>'
         )
         own = field.text(getattr(type(used.g), field.name))
         text = field.text(value) if field.name in changed else own
