@@ -240,7 +240,7 @@ def test_a_claim_of_digits_that_there_are_not_fails(monkeypatch):
 
 def test_every_group_is_timed_at_every_size():
     table = conditioning.group_times("1.4", (1, 50), 1e-6)
-    groups = [*conditioning.GROUPS]
+    groups = [f"group {name}" for name in conditioning.GROUPS]
     assert [c.name for c in table.columns] == ["count", *groups, *(f"{name} ±" for name in groups)]
     one, many = np.array([c.values for c in table.columns[1:6]]).T
     assert (many < one).all() and (many > 0).all(), "checks are shared by all that are computed at once"
