@@ -33,6 +33,14 @@ EXPRESSIONS = {
     "omega3**2": "𝜔_3^2",
     "floor(x)": "⌊𝑥⌋",
     "a & (b | c)": "𝑎and(𝑏or𝑐)",
+    "quad(f, 0, b)[0]": "∫_0^𝑏𝑓(𝑥)d𝑥",
+    "np.linalg.norm(a, ord=1)": "‖𝑎‖_1",
+    "x not in (1, 2)": "𝑥∉{1,2}",
+    "np.prod([f(x) for x in u])": "∏𝑥∈𝑢𝑓(𝑥)",
+    "np.prod(a)": "∏(𝑎)",
+    "max(a, key=lambda x: x)": "max(𝑎,key=(𝑥↦𝑥))",
+    "x[1::2]": "𝑥_(𝑘≥1,every2)",
+    "WIDTH_2": "WIDTH_2",
 }
 
 
@@ -106,7 +114,8 @@ PUT_IN = (
     "exp(-a)", "a % b", "a < b", "where(a < b, a, c)", "max(a, b)", "np.array([a, b])", "a[b]", "conj(p)*a", "p + q",
     "p*a", "a*p", "p - q", "abs(p)", "cross(p, q)", "dot(p, q)", "p.imag", "1j*a*p", "arctan2(a, b)", "a*(-b)",
     "a*(b/c)", "g.k*a", "g.k*g.k*p", "f(a)*b", "sum(a*x for x in c)", "a*b**2*c", "a and b or c", "-(a + b)",
-    "a*b @ c", "a // b",
+    "a*b @ c", "a // b", "quad(lambda x: a*x, 0, b)[0]", "np.linalg.norm(c, ord=a)", "np.round(a, decimals=2)",
+    "np.cbrt(a*b)", "a in (b, c)", "f(lambda b: b*c, b)", "np.prod([a*x for x in c])", "np.linspace(a, b, 5)",
 )  # fmt: skip
 UNITS = {"a": "-", "b": "deg", "c": "kN", "p": "mm", "q": "-", "g.k": "m/s**2"}
 REALS = (0.0, -0.0, 0.5, 2.0, -3.25, 1e-7, -4e-7, 9e5, 2.5e8, -1e12, float("nan"), float("inf"), -float("inf"))

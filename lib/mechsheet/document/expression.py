@@ -2,11 +2,11 @@
 
 import ast
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from functools import lru_cache
 from typing import Any
 
-from mechsheet.document import names
+from mechsheet.document import comprehension, functions, names
 from mechsheet.document.constant import measured
 from mechsheet.document.formula import (
     POWER,
@@ -28,12 +28,9 @@ from mechsheet.document.formula import (
     Measure,
     Node,
     Number,
-    Overline,
     Power,
     Prefix,
     Product,
-    Range,
-    Root,
     Row,
     Signed,
     Sum,
@@ -109,9 +106,10 @@ def tree(node: ast.expr, numbers: Mapping[str, Measure] | None = None, single: f
     return _Reader(numbers or {}, single).read(node)
 
 
-_ANGULAR = ("sin", "cos", "tan")
-_COMPARISONS = {ast.Lt: "<", ast.LtE: "≤", ast.Gt: ">", ast.GtE: "≥", ast.Eq: "=", ast.NotEq: "≠"}
-_OVER = ("max", "min", "sum", "amax", "amin", "nanmax", "nanmin")  # with an axis
+_COMPARISONS = {
+    ast.Lt: "<", ast.LtE: "≤", ast.Gt: ">", ast.GtE: "≥", ast.Eq: "=", ast.NotEq: "≠",
+    ast.In: "∈", ast.NotIn: "∉", ast.Is: "=", ast.IsNot: "≠",
+}  # fmt: skip
 
 
 class _Reader:
@@ -128,6 +126,10 @@ class _Reader:
         rule = _RULES.get(kind)
         return (rule(self, node) if rule else None) or Code(ast.unparse(node))
 
+    def without(self, bound: Iterable[str]) -> "_Reader":
+        """One for which these names stand for nothing but themselves."""
+        return _Reader({name: x for name, x in self.numbers.items() if name not in bound}, self.single)
+
     def least(self, node: ast.expr, least: int) -> Node:
         """The expression, in brackets where it holds together less than its place asks for."""
         part = self.read(node)
@@ -138,6 +140,8 @@ class _Reader:
 
     def constant(self, node: ast.Constant) -> Node:
         match node.value:
+            case bool(value):
+                return Text("true" if value else "false")
             case complex(imag=1):
                 return Symbol("i")
             case complex(imag=size):
@@ -165,8 +169,12 @@ class _Reader:
                 return Apply(Function(_SOLVED[ending]), Brackets((names.symbol(unknown),))) if ending else None
             case ast.Attribute(ast.Name(name), "value"):  # of a slider or field of the page
                 return names.symbol(name)
-            case ast.Attribute(ast.Name(name), "T") if re.fullmatch(r"[A-Z](_\w+)?", name):  # a matrix
+            case ast.Attribute(ast.Name(name), "T") if re.fullmatch(r"[A-Za-z](_\w+)?", name):  # a matrix
                 return Power(names.symbol(name), Function("T"))
+            case ast.Attribute(ast.BinOp() | ast.Subscript() | ast.Call(ast.Attribute(ast.Name("np"))) as inner, "T"):
+                return Power(self.least(inner, WHOLE), Function("T"))
+            case ast.Attribute(of, name) if names.is_module(of):
+                return Code(name) if name.endswith("_") else names.function(name)
             case ast.Attribute(ast.Name(name), part):  # a result of several parts
                 return Apply(names.part(part), Brackets((names.whole(name),)))
             case ast.Attribute(ast.Call() as inner, part):
@@ -200,7 +208,11 @@ class _Reader:
                 return Binary(self.least(left, PRODUCT), "mod", self.least(right, PRODUCT))
             case ast.Add():
                 second = self.least(right, SUM)
-                return Binary(self.least(left, SUM), "+", Brackets((second,)) if begins_negative(second) else second)
+                return Binary(
+                    self.least(left, SUM),
+                    "+",
+                    Brackets((second,)) if begins_negative(second) or _is_rest(second) else second,
+                )
             case ast.Sub():
                 return Binary(self.least(left, SUM), "-", self.least(right, PRODUCT))
             case ast.MatMult():
@@ -228,11 +240,12 @@ class _Reader:
         return Cases(self.read(node.body), self.read(node.test), self.read(node.orelse))
 
     def power(self, base: ast.expr, exponent: ast.expr) -> Node:
-        match base:
-            case ast.Call(ast.Name(name), args) if name in _ANGULAR:
+        match names.bare(base):
+            case ast.Call(ast.Name(name), args, []) if name in functions.ANGULAR:
                 return Prefix(Power(Function(name), self.read(exponent)), self.brackets(args), POWER)
         part = self.least(base, WHOLE)
-        return Power(Brackets((part,)) if isinstance(part, Fraction) else part, self.read(exponent))
+        closed = isinstance(part, Fraction) or _is_of_many(part)
+        return Power(Brackets((part,)) if closed else part, self.read(exponent))
 
     def product(self, left: ast.expr, right: ast.expr) -> Node:
         match right:
@@ -249,29 +262,63 @@ class _Reader:
             return None
         part = self.least(node.left, SUM)
         for op, right in zip(node.ops, node.comparators, strict=True):
-            part = Binary(part, _COMPARISONS[type(op)], self.least(right, SUM))
+            among = isinstance(op, ast.In | ast.NotIn) and isinstance(right, ast.List | ast.Tuple | ast.Set)
+            part = Binary(part, _COMPARISONS[type(op)], self.among(right) if among else self.least(right, SUM))
         return part
+
+    def among(self, node: ast.expr) -> Node:
+        """Elements of a set."""
+        return Brackets(tuple(map(self.read, getattr(node, "elts", [node]))), "{}")
 
     def subscript(self, node: ast.Subscript) -> Node:
         """An element, or those whose number k is in a slice; what only arranges axes is not shown."""
-        value, keys = (
-            self.least(node.value, WHOLE),
-            node.slice.elts if isinstance(node.slice, ast.Tuple) else [node.slice],
-        )
-        picked = [self.place(key) for key in keys if ast.unparse(key) not in (":", "...", "None")]
-        if not picked:
+        match node.slice:
+            case ast.Constant(0) if integral := functions.quad(self, node.value):
+                return integral
+            case ast.Tuple(elts):
+                keys = elts
+            case key:
+                keys = [key]
+        value = self.least(node.value, WHOLE)
+        if isinstance(value, Integral):
+            value = Brackets((value,))
+        shown = [key for key in keys if ast.unparse(key) not in _ARRANGING]
+        while shown and ast.unparse(shown[-1]) == ":":
+            shown.pop()
+        if not shown:
             return value
-        return Element(value, picked[0] if len(picked) == 1 else Brackets(tuple(picked)))
+        picked = tuple(map(self.place, shown))
+        return Element(value, picked[0] if len(picked) == 1 else Brackets(picked))
 
     def place(self, key: ast.expr) -> Node:
         if words := names.place(key):
             return words
-        match key:
-            case ast.Slice(None, ast.expr() as stop, None) if not isinstance(stop, ast.UnaryOp):
-                return Binary(Symbol("k"), "<", self.least(stop, SUM))
-            case ast.Slice(ast.expr() as start, None, None) if not isinstance(start, ast.UnaryOp):
-                return Binary(Symbol("k"), "≥", self.least(start, SUM))
-        return self.read(key)
+        if not isinstance(key, ast.Slice):
+            return self.read(key)
+        match key.lower, key.upper:
+            case ast.expr() as start, ast.expr() as stop if not _is_minus(start) and not _is_minus(stop):
+                first = Binary(self.least(start, SUM), "≤", Symbol("k"))
+                parts: list[Node] = [Binary(first, "<", self.least(stop, SUM))]
+            case start, stop:
+                parts = [self.beyond(start, "≥", "last ")] if start else []
+                parts += [self.beyond(stop, "<", "all but last ")] if stop else []
+        match key.step:
+            case None:
+                pass
+            case ast.UnaryOp(ast.USub(), ast.Constant(1)):
+                parts.append(Text("reversed"))
+            case step:
+                parts.append(Prefix(Text("every "), self.least(step, SUM)))
+        whole, *more = parts or [Text(":")]
+        for part in more:
+            whole = Binary(whole, ",", part)
+        return whole
+
+    def beyond(self, end: ast.expr, sign: str, counted: str) -> Node:
+        """Elements on one side of an end, which may be counted from the last one."""
+        if not isinstance(end, ast.UnaryOp) or not _is_minus(end):
+            return Binary(Symbol("k"), sign, self.least(end, SUM))
+        return Text(counted.strip()) if names.number(end) == -1 else Prefix(Text(counted), self.least(end.operand, SUM))
 
     def starred(self, node: ast.Starred) -> Node:
         return self.read(node.value)
@@ -282,112 +329,17 @@ class _Reader:
             return Matrix(tuple(Row(tuple(map(self.read, row))) for row in rows))
         return Brackets(tuple(map(self.read, node.elts)), "[]" if isinstance(node, ast.List) else "()", high=True)
 
-    def each(self, node: ast.ListComp | ast.GeneratorExp) -> Node | None:
-        """What is computed for each element of something."""
-        match node.generators:
-            case [ast.comprehension(index, source, [])]:
-                of = Prefix(self.index(index), Prefix(Text(" of "), self.read(source)), RELATION)
-                return Brackets((Prefix(self.read(node.elt), Prefix(Text(" for each "), of)),), "[]", high=True)
-        return None
-
-    def index(self, node: ast.expr) -> Node:
-        """What stands for an element, or for its parts, but those that nothing reads."""
-        named = [part for part in getattr(node, "elts", [node]) if ast.unparse(part) != "_"]
-        return self.read(named[0]) if len(named) == 1 else self.brackets(named)
-
     def brackets(self, args: list[ast.expr]) -> Brackets:
         return Brackets(tuple(map(self.read, args)))
 
-    def call(self, node: ast.Call) -> Node | None:
-        match node:
-            case ast.Call(ast.Name("sum") | ast.Attribute(_, "sum"), [ast.GeneratorExp() | ast.ListComp() as terms]):
-                return self.sum(terms)
-            case ast.Call(ast.Name(name), [x], [ast.keyword("axis", axis)]):
-                if name in _OVER:
-                    over = Element(Function(names.FUNCTIONS.get(name, name)), Text(_axis(ast.unparse(axis))))
-                    return Apply(over, self.brackets([x]))
-                return self.function(name, [x])
-            case ast.Call(ast.Name(name), args, keywords):
-                given = [*args, *(k.value for k in keywords)]
-                return self.function(name, [a for a in given if not (isinstance(a, ast.Name) and a.id == "branch")])
-            case ast.Call(ast.Attribute(ast.Attribute(ast.Name("np"), "linalg"), "solve"), [A, b]):
-                return Product(Power(self.least(A, WHOLE), Number(-1)), self.least(b, PRODUCT))
-            case ast.Call(ast.Attribute(ast.Attribute(ast.Name("np"), "linalg"), "inv"), [A]):
-                return Power(self.least(A, WHOLE), Number(-1))
-            case ast.Call(ast.Attribute(ast.Attribute(ast.Name("np"), "linalg"), ("det" | "norm") as name), [x]):
-                return self.function("abs" if name == "norm" else name, [x])
-            case ast.Call(ast.Attribute(x, ("max" | "min" | "sum" | "mean") as name), args, keywords):
-                if len(args) + len(keywords) < 2:
-                    along = [ast.keyword("axis", arg) for arg in args]
-                    return self.call(ast.Call(ast.Name(name), [x], [*along, *keywords]))
-        return None
+    def call(self, node: ast.Call) -> Node:
+        return comprehension.over_each(self, node) or functions.call(self, node)
 
-    def sum(self, terms: ast.GeneratorExp | ast.ListComp) -> Node | None:
-        """Sum over the elements of something, or over whole numbers."""
-        match terms.generators:
-            case [ast.comprehension(ast.Name() as index, ast.Call(ast.Name("range"), [*start, stop]), [])]:
-                first = self.read(start[0]) if start else Number(0)
-                return Sum(self.least(terms.elt, PRODUCT), self.read(index), first, self.before(stop))
-            case [ast.comprehension(index, source, [])]:
-                return Sum(self.least(terms.elt, PRODUCT), self.index(index), self.read(source))
-        return None
+    def each(self, node: comprehension.Each) -> Node:
+        return comprehension.listed(self, node)
 
-    def function(self, name: str, args: list[ast.expr]) -> Node:
-        match name, args:
-            case "sqrt", [x]:
-                return Root(self.read(x))
-            case "hypot", [_, *_]:
-                first, *more = (self.power(a, ast.Constant(2)) for a in args)
-                for square in more:
-                    first = Binary(first, "+", square)
-                return Root(first)
-            case "abs", [x]:
-                return Brackets((self.read(x),), "||", high=True)
-            case "log", [x, base]:
-                return Apply(Element(Function("log"), self.read(base)), self.brackets([x]))
-            case "conj", [x]:
-                return Overline(self.read(x))
-            case "exp", [x]:
-                return Power(Symbol("e"), self.read(x))
-            case "cross", [a, b]:
-                return Binary(self.least(a, PRODUCT), "×", self.least(b, PRODUCT))
-            case "dot", [a, b]:
-                return Product(self.least(a, PRODUCT), self.least(b, PRODUCT), dot=True)
-            case "arange", [stop]:
-                return Range((Number(0), Number(1)), self.before(stop))
-            case "arange", [start, stop]:
-                return Range((self.read(start),), self.before(stop))
-            case "linspace", [start, stop, *_]:
-                return Range((self.read(start),), self.read(stop))
-            case "trapezoid", [y, x]:
-                return Integral(self.least(y, PRODUCT), self.least(x, WHOLE))
-            case "cumulative_trapezoid", [y, x, *_]:
-                return Integral(self.least(y, PRODUCT), self.least(x, WHOLE), so_far=True)
-            case "ceil" | "floor", [x]:
-                return Brackets((self.read(x),), "⌈⌉" if name == "ceil" else "⌊⌋")
-            case "where", [condition, a, b]:
-                return Cases(self.read(a), self.read(condition), self.read(b))
-            case "celsius", [ast.Constant(int() | float() as degrees)]:
-                return Measure(degrees, "degC")
-            case "select", [ast.List(conditions), ast.List(values), *default] if len(conditions) == len(values):
-                chosen = self.read(default[0]) if default else Number(0)
-                for condition, x in zip(reversed(conditions), reversed(values), strict=True):
-                    chosen = Cases(self.read(x), self.read(condition), chosen)
-                return chosen
-            case "array" | "asarray", [ast.List() | ast.Tuple() | ast.ListComp() as rows]:
-                return self.read(rows)
-            case "atan2", [y, x]:
-                return Apply(Function(name), self.brackets([y, x]))
-        return _applied(names.function(name), self.brackets(args))
-
-    def before(self, stop: ast.expr) -> Node:
-        """The last whole number before ``stop``."""
-        match stop:
-            case ast.Constant(int(value) | float(value)):
-                return Number(value - 1)
-            case ast.BinOp(last, ast.Add(), ast.Constant(1)):
-                return self.read(last)
-        return self.read(ast.BinOp(stop, ast.Sub(), ast.Constant(1)))
+    def function(self, node: ast.Lambda) -> Node | None:
+        return comprehension.function(self, node)
 
 
 _RULES: dict[type[ast.expr], Callable[[_Reader, Any], Node | None]] = {
@@ -395,21 +347,28 @@ _RULES: dict[type[ast.expr], Callable[[_Reader, Any], Node | None]] = {
     ast.UnaryOp: _Reader.unary, ast.BinOp: _Reader.binary, ast.Compare: _Reader.compare, ast.Call: _Reader.call,
     ast.Subscript: _Reader.subscript, ast.Starred: _Reader.starred, ast.List: _Reader.listed,
     ast.ListComp: _Reader.each, ast.GeneratorExp: _Reader.each, ast.Tuple: _Reader.listed,
-    ast.IfExp: _Reader.choice, ast.BoolOp: _Reader.boolean,
+    ast.IfExp: _Reader.choice, ast.BoolOp: _Reader.boolean, ast.Lambda: _Reader.function,
+    ast.Set: _Reader.among,
 }  # fmt: skip
 
 
-def _axis(text: str) -> str:
-    return "last axis" if text == "-1" else f"axis {text}"
+_ARRANGING = ("...", "None", "np.newaxis", "numpy.newaxis", "newaxis")  # axes
 
 
-def _applied(function: Node, arguments: Brackets) -> Node:
-    """A function of its arguments; an angle that is one symbol or number follows without brackets."""
-    if isinstance(function, Function) and function.name in _ANGULAR and len(arguments.items) == 1:
-        angle = arguments.items[0]
-        if isinstance(angle, Symbol) or (isinstance(angle, Measure) and strength(angle) == WHOLE):
-            return Prefix(function, angle)
-    return Apply(function, arguments)
+def _is_minus(node: ast.expr) -> bool:
+    return isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub)
+
+
+def _is_rest(node: Node) -> bool:
+    """Whether a part is what a division leaves: behind a sum it would be what the whole sum leaves."""
+    return isinstance(node, Binary) and node.sign == "mod"
+
+
+def _is_of_many(node: Node) -> bool:
+    """Whether a part begins with the sign of a sum, which an exponent behind it would not be of."""
+    function = node.function if isinstance(node, Apply) else None
+    function = function.of if isinstance(function, Element) else function
+    return isinstance(function, Function) and function.name in ("sum", "prod")
 
 
 def _closed(factor: Node) -> Node:
@@ -419,6 +378,8 @@ def _closed(factor: Node) -> Node:
             return Apply(function, Brackets((of,)))
         case Product(left, right, dot):
             return Product(left, _closed(right), dot)
+        case Integral() | Sum():
+            return Brackets((factor,))
     return factor
 
 

@@ -61,7 +61,7 @@ class Signed:
 
 @dataclass(frozen=True, slots=True)
 class Binary:
-    """Two parts round a sign: ``+ - × mod < ≤ > ≥ = ≠ and or``."""
+    """Two parts round a sign: ``+ - × mod < ≤ > ≥ = ≠ ∈ ∉ ↦ , and or``."""
 
     left: "Node"
     sign: str
@@ -87,9 +87,10 @@ class Fraction:
 
 @dataclass(frozen=True, slots=True)
 class Root:
-    """Square root."""
+    """Square root, or one of another degree."""
 
     of: "Node"
+    degree: "Node | None" = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -117,7 +118,7 @@ class Overline:
 
 @dataclass(frozen=True, slots=True)
 class Brackets:
-    """Parts in brackets ``()``, ``[]``, ``||``, ``⌊⌋``, ``⌈⌉``, as high as what they hold, or ``high``."""
+    """Parts in brackets ``() [] {} || ‖‖ ⌊⌋ ⌈⌉``, as high as what they hold, or ``high``."""
 
     items: "tuple[Node, ...]"
     kind: str = "()"
@@ -152,11 +153,13 @@ class Range:
 
 @dataclass(frozen=True, slots=True)
 class Integral:
-    """Integral of one part over another, of all of it or up to each value of that."""
+    """Integral of one part over another, of all of it, up to each value of that, or from ``start`` to ``end``."""
 
     of: "Node"
     over: "Node"
     so_far: bool = False
+    start: "Node | None" = None
+    end: "Node | None" = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -170,12 +173,13 @@ class Cases:
 
 @dataclass(frozen=True, slots=True)
 class Sum:
-    """Sum of one part for all values of an index: ``start`` to ``end``, or each one of ``start``."""
+    """Sum or product of one part for all values of an index: ``start`` to ``end``, or each one of ``start``."""
 
     of: "Node"
     index: "Node"
     start: "Node"
     end: "Node | None" = None
+    sign: str = "∑"
 
 
 @dataclass(frozen=True, slots=True)
@@ -213,12 +217,12 @@ def is_high(node: Node) -> bool:
     match node:
         case Symbol() | Text() | Code() | Function():
             return False
-        case Fraction() | Power() | Sum() | Matrix() | Cases():
+        case Fraction() | Power() | Sum() | Integral() | Matrix() | Cases():
             return True
         case Brackets(items, high=high):
             return high or any(map(is_high, items))
         case Number(value):
-            return not is_plain(value)
+            return isfinite(value) and not is_plain(value)
         case Measure(value, unit):
             numbers = (value.real, value.imag) if isinstance(value, complex) else (value,)
             return "**" in unit or any(isfinite(x) and not is_plain(x) for x in numbers)
@@ -244,7 +248,7 @@ def strength(node: Node) -> int:
         case Prefix(strength=own):
             return own
         case Number(value):
-            return WHOLE if is_plain(value) else PRODUCT
+            return WHOLE if is_plain(value) or not isfinite(value) else PRODUCT
         case Measure(value, unit):
             if _is_negative(value):
                 return SUM

@@ -46,6 +46,7 @@ _NAMED = {
     **{name: rf"\{name}" for name in ("sin", "cos", "tan", "arcsin", "arccos", "arctan", "arg", "exp", "ln", "max")},
     "min": r"\min",
     "sum": r"\textstyle\sum ",
+    "prod": r"\textstyle\prod ",
 }
 _SIGNS = {
     "×": r"\times",
@@ -53,10 +54,21 @@ _SIGNS = {
     "≤": r"\le",
     "≥": r"\ge",
     "≠": r"\ne",
+    "∈": r"\in",
+    "∉": r"\notin",
+    "↦": r"\mapsto",
     "and": r"\text{ and }",
     "or": r"\text{ or }",
 }
-_BRACKETS = {"⌊": r"\lfloor ", "⌋": r"\rfloor ", "⌈": r"\lceil ", "⌉": r"\rceil "}
+_BRACKETS = {
+    "{": r"\{",
+    "}": r"\}",
+    "‖": r"\Vert ",
+    "⌊": r"\lfloor ",
+    "⌋": r"\rfloor ",
+    "⌈": r"\lceil ",
+    "⌉": r"\rceil ",
+}
 _SPECIAL = re.compile(r"([_#%&$])")
 _SPECIAL_IN_CODE = re.compile(r"([#$%&_{}])")
 
@@ -95,6 +107,11 @@ def _code(node: Code) -> str:
     return r"\texttt{" + _SPECIAL_IN_CODE.sub(r"\\\1", node.text) + "}"
 
 
+def _binary(node: Binary) -> str:
+    sign = r",\ " if node.sign == "," else f" {_SIGNS.get(node.sign, node.sign)} "
+    return latex(node.left) + sign + latex(node.right)
+
+
 def _product(node: Product) -> str:
     return latex(node.left) + (r" \cdot " if node.dot else r"\,") + latex(node.right)
 
@@ -118,14 +135,18 @@ def _cases(node: Cases) -> str:
 
 
 def _sum(node: Sum) -> str:
+    sign = r"\sum" if node.sign == "∑" else r"\prod"
     if node.end is None:
-        return rf"\sum_{{{latex(node.index)} \in {latex(node.start)}}} {latex(node.of)}"
-    return rf"\sum_{{{latex(node.index)} = {latex(node.start)}}}^{{{latex(node.end)}}} {latex(node.of)}"
+        return rf"{sign}_{{{latex(node.index)} \in {latex(node.start)}}} {latex(node.of)}"
+    return rf"{sign}_{{{latex(node.index)} = {latex(node.start)}}}^{{{latex(node.end)}}} {latex(node.of)}"
 
 
 def _integral(node: Integral) -> str:
     over = latex(node.over)
-    return rf"\int{f'^{{{over}}}' if node.so_far else ''} {latex(node.of)}\,\mathrm{{d}}{over}"
+    limits = f"^{{{over}}}" if node.so_far else ""
+    if node.start and node.end:
+        limits = f"_{{{latex(node.start)}}}^{{{latex(node.end)}}}"
+    return rf"\int{limits} {latex(node.of)}\,\mathrm{{d}}{over}"
 
 
 def _matrix(node: Matrix) -> str:
@@ -145,10 +166,10 @@ RULES: dict[type[Any], Callable[[Any], str]] = {
     Code: _code,
     Function: _function,
     Signed: lambda node: node.sign + latex(node.of),
-    Binary: lambda node: f"{latex(node.left)} {_SIGNS.get(node.sign, node.sign)} {latex(node.right)}",
+    Binary: _binary,
     Product: _product,
     Fraction: lambda node: rf"\frac{{{latex(node.over)}}}{{{latex(node.under)}}}",
-    Root: lambda node: rf"\sqrt{{{latex(node.of)}}}",
+    Root: lambda node: rf"\sqrt{f'[{latex(node.degree)}]' if node.degree else ''}{{{latex(node.of)}}}",
     Power: lambda node: f"{latex(node.base)}^{{{latex(node.exponent)}}}",
     Element: lambda node: f"{{{latex(node.of)}}}_{{{latex(node.index)}}}",
     Overline: lambda node: rf"\overline{{{latex(node.of)}}}",

@@ -3,6 +3,7 @@
 import ast
 import re
 from functools import lru_cache
+from inspect import Parameter, signature
 
 import numpy as np
 
@@ -12,29 +13,44 @@ from mechsheet.worksheet.symbol import GREEK, INDEXED, Symbol, is_field, read, s
 FUNCTIONS = {
     "asin": "arcsin", "acos": "arccos", "atan": "arctan", "angle": "arg", "log": "ln", "maximum": "max",
     "nanmax": "max", "minimum": "min", "nanmin": "min", "arctan2": "atan2", "log10": "lg",
-    "len": "count", "ptp": "range",
+    "len": "count", "ptp": "range", "amax": "max", "amin": "min",
 }  # fmt: skip
-_KNOWN = {"sin", "cos", "tan", "exp", "max", "min", "sum", "log2", "log1p", "expm1", *FUNCTIONS}
+_KNOWN = {"sin", "cos", "tan", "exp", "max", "min", "sum", "prod", "log2", "log1p", "expm1", *FUNCTIONS}
 _RATES = {"ds": Symbol("s", mark="."), "dds": Symbol("s", mark="..")}  # which the rule for names does not know
 _SYMBOL = re.compile(rf"([A-Z]+|d?({'|'.join(GREEK)}))(_|$)")  # VC, eps_BC, dbeta
-_MODULES = {"np", "numpy", "math", "cmath", "scipy", "sp"}
+_MODULES = {"np", "numpy", "math", "cmath", "scipy", "sp", "statistics"}
+_IMPORTED = {"integrate", "interpolate", "linalg", "optimize", "special", "stats"}  # by their own names
+_PARTS = {"fft", "polynomial", "random", "signal", *_IMPORTED}
 _CALLED = {
-    "fabs": "abs", "absolute": "abs", "pow": "power", "float_power": "power", "conjugate": "conj", "gamma": "Gamma",
+    "fabs": "abs", "absolute": "abs", "float_power": "power", "conjugate": "conj", "gamma": "Gamma", "around": "round",
 }  # fmt: skip
 _UNLIMITED: dict[str, Node] = {"inf": Number(np.inf), "nan": Text("none")}
 _CONSTANTS: dict[str, Node] = {"pi": Symbol("π"), "e": Symbol("e"), **_UNLIMITED}
-_LINEAR = {"solve", "inv", "det", "norm"}  # which have a notation of their own
+_LINEAR = {"solve", "inv", "norm", "matrix_power"}  # which have a notation of their own
+_OPERATORS: dict[str, type[ast.operator]] = {
+    "add": ast.Add, "subtract": ast.Sub, "multiply": ast.Mult, "divide": ast.Div, "true_divide": ast.Div,
+    "floor_divide": ast.FloorDiv, "mod": ast.Mod, "remainder": ast.Mod, "power": ast.Pow, "matmul": ast.MatMult,
+    "logical_and": ast.BitAnd, "logical_or": ast.BitOr,
+}  # fmt: skip
+_RELATIONS: dict[str, type[ast.cmpop]] = {
+    "less": ast.Lt, "less_equal": ast.LtE, "greater": ast.Gt, "greater_equal": ast.GtE, "equal": ast.Eq,
+    "not_equal": ast.NotEq,
+}  # fmt: skip
+_SIGNS: dict[str, type[ast.unaryop]] = {"negative": ast.USub, "positive": ast.UAdd, "logical_not": ast.Not}
 
 
 def bare(node: ast.expr) -> ast.expr:
     """An expression without the module that a function of it comes from; what algebra is left of is its parts."""
     match node:
-        case ast.Call(ast.Attribute(ast.Attribute(_, "linalg"), name)) if name in _LINEAR:
-            return node
-        case ast.Call(ast.Attribute(of, name), args, keywords) if _is_module(of):
-            said = [k for k in keywords if k.arg in ("axis", "x")]
-            return bare(ast.Call(ast.Name(_CALLED.get(name, name)), args, said))
-        case ast.Call(ast.Name("power"), [x, n], []):
+        case ast.Call(ast.Attribute(of, name), args, keywords) if is_module(of):
+            known = _CALLED.get(name, name)
+            if operation := _operation(known, args, keywords):
+                return operation
+            path = f"linalg.{name}" if name in _LINEAR and ast.unparse(of).endswith("linalg") else known
+            return bare(ast.Call(ast.Name(path), *_with_axis(name, args, keywords)))
+        case ast.Call(ast.Attribute(x, name), args, keywords) if not is_module(x) and hasattr(np.ndarray, name):
+            return bare(ast.Call(ast.Name(_CALLED.get(name, name)), *_with_axis(name, [x, *args], keywords)))
+        case ast.Call(ast.Name("power" | "pow"), [x, n], []):
             return ast.BinOp(x, ast.Pow(), n)
         case ast.Call(ast.Name("square"), [x], []):
             return ast.BinOp(x, ast.Pow(), ast.Constant(2))
@@ -45,17 +61,85 @@ def bare(node: ast.expr) -> ast.expr:
     return node
 
 
-def constant(node: ast.Attribute) -> Node | None:
-    """A number that a module has a name for."""
-    return _CONSTANTS.get(node.attr) if _is_module(node.value) else None
+def _operation(name: str, args: list[ast.expr], keywords: list[ast.keyword]) -> ast.expr | None:
+    """What a function of numpy does, where Python has a sign for it."""
+    match args:
+        case _ if keywords or any(isinstance(a, ast.Starred) for a in args):
+            return None
+        case [x, y] if name in _OPERATORS:
+            return ast.BinOp(x, _OPERATORS[name](), y)
+        case [x, y] if name in _RELATIONS:
+            return ast.Compare(x, [_RELATIONS[name]()], [y])
+        case [x] if name in _SIGNS:
+            return ast.UnaryOp(_SIGNS[name](), x)
+    return None
 
 
-def _is_module(node: ast.expr) -> bool:
+def _with_axis(
+    name: str, args: list[ast.expr], keywords: list[ast.keyword]
+) -> tuple[list[ast.expr], list[ast.keyword]]:
+    """Arguments of a function of numpy, its axis by that name where it stands among the others."""
+    place = _place_of_axis(name)
+    if place is None or len(args) <= place or any(isinstance(a, ast.Starred) for a in args):
+        return args, keywords
+    return [*args[:place], *args[place + 1 :]], [ast.keyword("axis", args[place]), *keywords]
+
+
+@lru_cache(maxsize=256)
+def _place_of_axis(name: str) -> int | None:
+    """Where numpy's function of that name has its axis; None where it has none, or as no other argument has."""
+    try:
+        parameters = signature(getattr(np, name)).parameters
+    except (AttributeError, TypeError, ValueError):
+        return None
+    known = [p for p, told in parameters.items() if told.kind <= Parameter.POSITIONAL_OR_KEYWORD]
+    return known.index("axis") if "axis" in known else None
+
+
+def path_of(node: ast.expr) -> list[str]:
+    """Names that lead to a value, without that of a module; none where another expression does."""
     match node:
         case ast.Name(name):
-            return name in _MODULES
+            return [name]
+        case ast.Attribute(of, name) if is_module(of):
+            return [name]
+        case ast.Attribute(of, name) if before := path_of(of):
+            return [*before, name]
+    return []
+
+
+def path(node: ast.Attribute) -> str:
+    """Full name of a function that a value has, without that of a module; "" where it is not of names alone."""
+    return ".".join(path_of(node))
+
+
+def number(node: ast.expr) -> float | None:
+    """The number that an expression is; None for any other."""
+    match node:
+        case ast.Constant(int() | float() as value) if not isinstance(value, bool):
+            return value
+        case ast.UnaryOp(ast.USub(), ast.Constant(int() | float() as value)):
+            return -value
+    return None
+
+
+def is_fixed(node: ast.expr) -> bool:
+    """Whether an expression is a number, or some of them."""
+    return all(number(part) is not None for part in getattr(node, "elts", [node]))
+
+
+def constant(node: ast.Attribute) -> Node | None:
+    """A number that a module has a name for."""
+    return _CONSTANTS.get(node.attr) if is_module(node.value) else None
+
+
+def is_module(node: ast.expr) -> bool:
+    """Whether an expression is a module of functions."""
+    match node:
+        case ast.Name(name):
+            return name in _MODULES or name in _IMPORTED
         case ast.Attribute(of, name):
-            return name.islower() and _is_module(of)
+            return name in _PARTS and is_module(of)
     return False
 
 
@@ -95,8 +179,10 @@ def function(name: str) -> Node:
     if name in _KNOWN:
         return Function(FUNCTIONS.get(name, name))
     if len(name) > 2 and callable(vars(np).get(name)):
-        return Function(name)
-    word = re.fullmatch(r"[a-z]{3,}(_\w*)?", name) and not re.match(f"d?({'|'.join(GREEK)})", name)
+        return Function(name.replace("_", " "))
+    word = re.fullmatch(r"[a-z]{3,}(\d[a-z]+)?(_\w*)?|[A-Z][a-z]{3,}\w*[A-Z]\w*", name) and not re.match(
+        f"d?({'|'.join(GREEK)})", name
+    )
     is_symbol = (
         len(name) == 1 or re.fullmatch("d[a-z]", name) or (not word and (re.search(r"\d", name) or _SYMBOL.match(name)))
     )

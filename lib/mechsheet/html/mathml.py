@@ -122,12 +122,13 @@ def _digits(text: str) -> str:
 def _sign(sign: str) -> str:
     if sign in _WORDS:
         return f"<mtext>\u2002{sign}\u2002</mtext>"
-    return f"<mo>{escape(sign.replace('-', '−'))}</mo>"
+    separator = ' separator="true"' if sign == "," else ""
+    return f"<mo{separator}>{escape(sign.replace('-', '−'))}</mo>"
 
 
 def _function(node: Function) -> str:
-    if node.name == "sum":
-        return '<mo largeop="false">∑</mo>'
+    if sign := {"sum": "∑", "prod": "∏"}.get(node.name):
+        return f'<mo largeop="false">{sign}</mo>'
     return f"<mi>{escape(node.name)}</mi>" if len(node.name) > 1 else _upright(node.name)
 
 
@@ -161,7 +162,7 @@ def _fenced(left: str, inside: str, right: str, high: bool = True) -> str:
     """What stands between two signs, which are as high as it is where it is ``high``; the last one may be none."""
     flat = "" if high else ' stretchy="false"'
     first, last = (
-        f"<mo{_FORM.format(form) if sign == '|' else ''}{flat}>{sign}</mo>" if sign else ""
+        f"<mo{_FORM.format(form) if sign in '|‖' else ''}{flat}>{sign}</mo>" if sign else ""
         for form, sign in (("prefix", left), ("postfix", right))
     )
     return f"<mrow>{first}<mrow>{inside}</mrow>{last}</mrow>"
@@ -194,17 +195,23 @@ def _table_row(cells: Iterable[str]) -> str:
 
 def _sum(node: Sum) -> str:
     if node.end is None:
-        sign = f"<munder><mo>∑</mo><mrow>{inner(node.index)}<mo>∈</mo>{inner(node.start)}</mrow></munder>"
+        sign = f"<munder><mo>{node.sign}</mo><mrow>{inner(node.index)}<mo>∈</mo>{inner(node.start)}</mrow></munder>"
     else:
         start = f"<mrow>{inner(node.index)}<mo>=</mo>{inner(node.start)}</mrow>"
-        sign = f"<munderover><mo>∑</mo>{start}{inner(node.end)}</munderover>"
+        sign = f"<munderover><mo>{node.sign}</mo>{start}{inner(node.end)}</munderover>"
     return f"<mrow>{sign}{inner(node.of)}</mrow>"
 
 
 def _integral(node: Integral) -> str:
     over = inner(node.over)
     sign = f"<msup><mo>∫</mo>{over}</msup>" if node.so_far else "<mo>∫</mo>"
+    if node.start and node.end:
+        sign = f"<msubsup><mo>∫</mo>{inner(node.start)}{inner(node.end)}</msubsup>"
     return f"<mrow>{sign}{inner(node.of)}{_THIN}{_upright('d')}{over}</mrow>"
+
+
+def _root(node: Root) -> str:
+    return f"<mroot>{inner(node.of)}{inner(node.degree)}</mroot>" if node.degree else f"<msqrt>{inner(node.of)}</msqrt>"
 
 
 def _matrix(node: Matrix) -> str:
@@ -223,7 +230,7 @@ RULES: dict[type[Any], Callable[[Any], str]] = {
     Binary: lambda node: f"<mrow>{inner(node.left)}{_sign(node.sign)}{inner(node.right)}</mrow>",
     Product: _product,
     Fraction: lambda node: f"<mfrac>{inner(node.over)}{inner(node.under)}</mfrac>",
-    Root: lambda node: f"<msqrt>{inner(node.of)}</msqrt>",
+    Root: _root,
     Power: _power,
     Element: lambda node: f"<msub>{inner(node.of)}{inner(node.index)}</msub>",
     Overline: lambda node: f'<mover accent="true">{inner(node.of)}<mo stretchy="true">‾</mo></mover>',

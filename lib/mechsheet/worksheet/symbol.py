@@ -30,7 +30,7 @@ class Symbol:
 
 @cache
 def read(name: str) -> Symbol:
-    """Symbol of a name; one word of small letters stays whole.
+    """Symbol of a name; one word of small letters stays whole, as does one of five capitals or more.
 
     The rule: a leading ``d`` before a Greek word, a capital letter or the only letter is a difference or derivative;
     the base is one Greek word or one letter, or a word of small letters before an underscore; the rest is the index.
@@ -41,12 +41,16 @@ def read(name: str) -> Symbol:
     (Symbol(base='group', index='23', mark=''), Symbol(base='h', index='φ6', mark=''), 'S6,max')
     >>> read("dphi3"), read("dRa"), read("gap").base
     (Symbol(base='φ', index='3', mark='d'), Symbol(base='R', index='a', mark='Δ'), 'gap')
+    >>> read("WIDTH"), read("LENGTH_2")
+    (Symbol(base='WIDTH', index='', mark=''), Symbol(base='LENGTH', index='2', mark=''))
     >>> read("ds")
     Symbol(base='s', index='', mark='d')
     """
     greek = re.match(_WORDS, name)
     if re.fullmatch("d[a-z]", name):
         return Symbol(name[1], mark="d")
+    if title := re.fullmatch(r"([A-Z]{5,})(\d*)(?:_(\w+))?", name):
+        return Symbol(title[1], ",".join(filter(None, (title[2], _index(title[3] or "")))))
     word = re.fullmatch(r"([a-z]{3,})(?:_(\w*))?", name)
     if word and not greek and not re.match(f"d({_WORDS})", name):
         return Symbol(word[1], _index(word[2] or ""))
