@@ -127,7 +127,7 @@ def test_integrals_matrices_and_functions_of_scipy(source: str, tex: str) -> Non
         ("np.select([x < 0], [a], default=c)",
          r"\begin{cases} a & \text{if } x < 0 \\ c & \text{otherwise} \end{cases}"),
         ("np.piecewise(x, [x < 0, x < 1], [a, lambda x: x**2, f])",
-         r"\begin{cases} a(x) & \text{if } x < 0 \\ x^{2} & \text{if } x < 1 \\ f(x) & \text{otherwise} \end{cases}"),
+         r"\begin{cases} x^{2} & \text{if } x < 1 \\ a(x) & \text{if } x < 0 \\ f(x) & \text{otherwise} \end{cases}"),
         ("np.piecewise(x, [x < 0], [lambda t: -t])",
          r"\operatorname{piecewise}\left(x,\ \left[x < 0\right],\ \left[t \mapsto -t\right]\right)"),
         ("WIDTH*LENGTH_MAX + SAB", r"\mathrm{WIDTH}\,\mathrm{LENGTH}_{\mathrm{MAX}} + S_{\mathrm{AB}}"),

@@ -82,6 +82,20 @@ def test_a_text_is_no_markup() -> None:
     assert told == "<b>&<i><u>2mm2"
 
 
+def test_a_sign_between_words_has_its_space(blank: Page) -> None:
+    """Where nothing but words stands beside it, too."""
+    gaps = []
+    for expression in ("sorted(a, reverse=True)", "sorted(a, reverse=b)"):
+        blank.set_content(mathml.mathml(tree(ast.parse(expression, mode="eval").body)))
+        gaps.append(
+            blank.evaluate("""() => {
+          const sign = [...document.querySelectorAll("mo")].find(e => e.textContent === "=");
+          return sign.getBoundingClientRect().width;
+        }""")
+        )
+    assert gaps[0] == gaps[1]
+
+
 def test_numbers_have_their_signs_and_units() -> None:
     def told(node: Node) -> str:
         return read_out(ElementTree.fromstring(mathml.mathml(node)))

@@ -302,11 +302,11 @@ def _select(r: Reader, condlist: ast.expr, choicelist: ast.expr, default: ast.ex
 def _piecewise(r: Reader, x: ast.expr, condlist: ast.expr, funclist: ast.expr) -> Node | None:
     match condlist, funclist:
         case ast.List(conditions), ast.List(functions) if 0 <= len(functions) - len(conditions) <= 1:
-            values = [_at(f, x) for f in functions]
-            if all(values):
-                known = [value for value in values if value]
-                rest = r.read(known[-1]) if len(known) > len(conditions) else Number(0)
-                return _cases(r, conditions, known[: len(conditions)], rest)
+            values = [value for f in functions if (value := _at(f, x))]
+            if len(values) == len(functions):
+                count = len(conditions)
+                rest = r.read(values[-1]) if len(values) > count else Number(0)
+                return _cases(r, conditions[::-1], values[:count][::-1], rest)  # the last one that holds is taken
     return None
 
 

@@ -149,6 +149,14 @@ def _power(node: Power) -> str:
     return f"<msup>{base}{exponent}</msup>"
 
 
+def _binary(node: Binary) -> str:
+    """Between words alone a sign would have no space: they count as letters, as one beside them would."""
+    match node:
+        case Binary(Text(first), sign, Text(last)) if first[:1].isalpha() and last[:1].isalpha():
+            return f"<mrow>{_upright(first)}{_sign(sign)}{_upright(last)}</mrow>"
+    return f"<mrow>{inner(node.left)}{_sign(node.sign)}{inner(node.right)}</mrow>"
+
+
 def _product(node: Product) -> str:
     return f"<mrow>{inner(node.left)}{'<mo>⋅</mo>' if node.dot else _THIN}{inner(node.right)}</mrow>"
 
@@ -227,7 +235,7 @@ RULES: dict[type[Any], Callable[[Any], str]] = {
     Code: lambda node: f'<mtext class="code">{escape(node.text)}</mtext>',
     Function: _function,
     Signed: _signed,
-    Binary: lambda node: f"<mrow>{inner(node.left)}{_sign(node.sign)}{inner(node.right)}</mrow>",
+    Binary: _binary,
     Product: _product,
     Fraction: lambda node: f"<mfrac>{inner(node.over)}{inner(node.under)}</mfrac>",
     Root: _root,
