@@ -185,6 +185,22 @@ def test_numbers_stand_for_symbols_but_not_for_bound_ones() -> None:
     assert typeset("np.round(x, decimals=2)", told) == r"\operatorname{round}(2\,\mathrm{m},\ \text{decimals} = 2)"
 
 
+def test_what_is_of_all_elements_has_its_symbols() -> None:
+    """The number that is shown for a field is that of one position: an integral of it would be another one."""
+    told = {name: Measure(2.0, "m") for name in "xyabc"}
+    for source in (
+        "np.trapezoid(y, x)", "np.max(x, axis=0)", "x.max()", "np.sum(x*y)", "np.linalg.norm(x)", "x[1:]", "x[0]",
+        "np.diff(x)", "A @ x", "np.linalg.solve(a, b)", "len(x)", "max(x, key=f)", "cumulative_trapezoid(y, x)",
+    ):  # fmt: skip
+        assert typeset(source, told) == typeset(source), source
+    assert typeset("max(a, b)", told) == r"\max(2\,\mathrm{m},\ 2\,\mathrm{m})"
+    assert typeset("a*np.max(x)", told) == r"2\,\mathrm{m}\,\max(x)"
+    assert typeset("np.interp(a, x, y)", told) == r"\operatorname{interp}(2\,\mathrm{m},\ x,\ y)"
+    assert typeset("CubicSpline(x, y)(a)", told) == r"\operatorname{CubicSpline}(x,\ y)(2\,\mathrm{m})"
+    assert typeset("x[:, None]*a", told) == r"(2\,\mathrm{m}) \cdot 2\,\mathrm{m}"
+    assert typeset("own(a)", told) == r"\operatorname{own}(2\,\mathrm{m})"
+
+
 def test_an_argument_in_its_place_needs_no_name() -> None:
     """Of the mechanics, whose arguments are known."""
     assert typeset("rpr_acceleration(K, H, u, o, v, a_A=a)").endswith(r"v,\ a)")

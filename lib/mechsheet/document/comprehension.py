@@ -68,7 +68,7 @@ def _bound(loops: list[ast.comprehension]) -> list[str]:
 
 
 def _of(reader: Reader, loop: ast.comprehension) -> Node:
-    of = Prefix(_index(reader, loop.target), Prefix(Text(" of "), reader.read(loop.iter)), RELATION)
+    of = Prefix(_index(reader, loop.target), Prefix(Text(" of "), _elements(reader, loop.iter)), RELATION)
     for condition in loop.ifs:
         of = Prefix(of, Prefix(Text(" with "), reader.read(condition)), RELATION)
     return of
@@ -80,9 +80,15 @@ def _index(reader: Reader, node: ast.expr) -> Node:
     return reader.read(named[0]) if len(named) == 1 else Brackets(tuple(map(reader.read, named)))
 
 
+def _elements(reader: Reader, node: ast.expr) -> Node:
+    """What has elements; numbers stand for symbols where it is numbers from one to another."""
+    is_range = isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == "range"
+    return (reader if is_range else reader.symbols()).read(node)
+
+
 def _source(reader: Reader, node: ast.expr) -> Node:
     """What elements are of; numbers from one to another in brackets of a set."""
-    part = reader.read(node)
+    part = _elements(reader, node)
     return Brackets((part,), "{}") if isinstance(part, Range) else part
 
 

@@ -80,7 +80,11 @@ def equation(line: Formula | Given, single: frozenset[str] = frozenset()) -> Nod
 
 def substituted(line: Formula, numbers: Mapping[str, Measure]) -> Node | None:
     """Right side of a line with numbers for its symbols; None where it has none."""
-    return tree(measured(line.expression, line.constants), numbers) if numbers and right(line) else None
+    if not numbers or not right(line):
+        return None
+    expression = measured(line.expression, line.constants)
+    node = tree(expression, numbers)
+    return None if node == tree(expression) else node
 
 
 @lru_cache(maxsize=4096)
@@ -129,6 +133,10 @@ class _Reader:
     def without(self, bound: Iterable[str]) -> "_Reader":
         """One for which these names stand for nothing but themselves."""
         return _Reader({name: x for name, x in self.numbers.items() if name not in bound}, self.single)
+
+    def symbols(self) -> "_Reader":
+        """One that puts no numbers for symbols: for what is of all elements, not of the one that is shown."""
+        return _Reader({}, self.single)
 
     def least(self, node: ast.expr, least: int) -> Node:
         """The expression, in brackets where it holds together less than its place asks for."""
@@ -216,7 +224,7 @@ class _Reader:
             case ast.Sub():
                 return Binary(self.least(left, SUM), "-", self.least(right, PRODUCT))
             case ast.MatMult():
-                return self.product(left, right)
+                return self.symbols().product(left, right)
             case ast.BitAnd() | ast.BitOr():
                 return self.joined("and" if isinstance(node.op, ast.BitAnd) else "or", [left, right])
         return None
@@ -279,12 +287,11 @@ class _Reader:
                 keys = elts
             case key:
                 keys = [key]
-        value = self.least(node.value, WHOLE)
-        if isinstance(value, Integral):
-            value = Brackets((value,))
         shown = [key for key in keys if ast.unparse(key) not in _ARRANGING]
         while shown and ast.unparse(shown[-1]) == ":":
             shown.pop()
+        whole = self.symbols() if shown and isinstance(node.value, ast.Name | ast.Attribute) else self
+        value = whole.least(node.value, WHOLE)
         if not shown:
             return value
         picked = tuple(map(self.place, shown))

@@ -57,6 +57,9 @@ class Reader(Protocol):
     def without(self, bound: Iterable[str]) -> "Reader":
         """One for which these names stand for nothing but themselves."""
 
+    def symbols(self) -> "Reader":
+        """One that puts no numbers for symbols: for what is of all elements, not of the one that is shown."""
+
 
 Rule: TypeAlias = Callable[..., Node | None]
 
@@ -65,12 +68,15 @@ def call(reader: Reader, node: ast.Call) -> Node:
     """A function of what it is told, but for the branch that it takes anyway."""
     args = [a for a in node.args if not _is_branch(a)]
     keywords = [k for k in node.keywords if not _is_branch(k.value) and not _is_implied(k)]
+    of = reader.symbols()
     if not isinstance(node.func, ast.Name):
-        function = (
-            _method(reader, node.func) if isinstance(node.func, ast.Attribute) else reader.least(node.func, WHOLE)
-        )
+        function = _method(of, node.func) if isinstance(node.func, ast.Attribute) else of.least(node.func, WHOLE)
         return Apply(function, _told(reader, args, keywords))
     name = node.func.id
+    if name == "interp" and args:  # at one place among all those of a table
+        return Apply(names.function(name), Brackets((reader.read(args[0]), *_told(of, args[1:], keywords).items)))
+    if names.is_of_all(name, len(args)):
+        reader = reader.symbols()
     return _ruled(reader, name, args, keywords) or _plain(reader, name, args, keywords)
 
 

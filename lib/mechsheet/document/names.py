@@ -128,6 +128,24 @@ def is_fixed(node: ast.expr) -> bool:
     return all(number(part) is not None for part in getattr(node, "elts", [node]))
 
 
+_OF_ALL = {
+    "all", "any", "amax", "amin", "argmax", "argmin", "argsort", "average", "cond", "concatenate", "convolve",
+    "corrcoef", "count_nonzero", "cov", "cumprod", "cumsum", "cumulative_simpson", "cumulative_trapezoid", "det",
+    "diag", "diff", "eig", "eigh", "eigvals", "eigvalsh", "einsum", "fft", "flip", "fsum", "gradient", "histogram",
+    "hstack", "ifft", "inner", "inv", "irfft", "kron", "len", "linalg.inv", "linalg.matrix_power", "linalg.norm",
+    "linalg.solve", "lstsq", "matrix_rank", "mean", "median", "nanargmax", "nanargmin", "nanmax", "nanmean",
+    "nanmedian", "nanmin", "nanpercentile", "nanquantile", "nanstd", "nansum", "nanvar", "norm", "outer",
+    "percentile", "pinv", "polyfit", "polyval", "prod", "ptp", "pvariance", "quantile", "rfft", "roll", "roots",
+    "searchsorted", "simpson", "sort", "sorted", "stack", "std", "stdev", "sum", "svd", "tensordot", "trace",
+    "transpose", "trapezoid", "unique", "var", "variance", "vdot", "vstack",
+}  # fmt: skip
+
+
+def is_of_all(name: str, count: int) -> bool:
+    """Whether a function of so many arguments takes all elements of an array at once, not one after the other."""
+    return name in _OF_ALL or (name in ("max", "min") and count == 1)
+
+
 def constant(node: ast.Attribute) -> Node | None:
     """A number that a module has a name for."""
     return _CONSTANTS.get(node.attr) if is_module(node.value) else None
