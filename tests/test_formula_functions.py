@@ -87,6 +87,8 @@ def test_a_function_with_what_it_is_told(source: str, tex: str) -> None:
         ("interp1d(x, y)(t)", r"\operatorname{interp1d}(x,\ y)(t)"),
         ("spline.derivative(2)(t)", r"\operatorname{spline.derivative}(2)(t)"),
         ("scipy.stats.norm.cdf(x, scale=s)", r"\operatorname{norm.cdf}(x,\ \text{scale} = s)"),
+        ("np.linalg.inv(A).T", r"\left(A^{-1}\right)^{\operatorname{T}}"),
+        ("g.F_K(x) + g.table.value(x)", r"F_{\mathrm{K}}(x) + \operatorname{table.value}(x)"),
         ("special.erf(x)", r"\operatorname{erf}(x)"),
         ("brentq(lambda x: x**2 - c, 0, 2)", r"\operatorname{brentq}\left(x \mapsto x^{2} - c,\ 0,\ 2\right)"),
         ("root_scalar(f, bracket=b).root",
@@ -123,6 +125,7 @@ def test_integrals_matrices_and_functions_of_scipy(source: str, tex: str) -> Non
          r"{x}_{k \ge 1,\ \text{every } 2} + {x}_{k \ge 2,\ \text{all but last}} + {x}_{i \le k < i + 2}"
          r" + {x}_{\text{reversed}}"),
         ("x[:-n] + x[-n:]", r"{x}_{\text{all but last } n} + {x}_{\text{last } n}"),
+        ("x[-n] + x[-1]", r"{x}_{\text{from the end } n} + {x}_{\text{last}}"),
         ("x[:, 1] + x[1, :] + x[np.newaxis, :]", r"{x}_{(\text{:},\ 1)} + {x}_{1} + x"),
         ("np.select([x < 0], [a], default=c)",
          r"\begin{cases} a & \text{if } x < 0 \\ c & \text{otherwise} \end{cases}"),
@@ -130,7 +133,8 @@ def test_integrals_matrices_and_functions_of_scipy(source: str, tex: str) -> Non
          r"\begin{cases} x^{2} & \text{if } x < 1 \\ a(x) & \text{if } x < 0 \\ f(x) & \text{otherwise} \end{cases}"),
         ("np.piecewise(x, [x < 0], [lambda t: -t])",
          r"\operatorname{piecewise}\left(x,\ \left[x < 0\right],\ \left[t \mapsto -t\right]\right)"),
-        ("WIDTH*LENGTH_MAX + SAB", r"\mathrm{WIDTH}\,\mathrm{LENGTH}_{\mathrm{MAX}} + S_{\mathrm{AB}}"),
+        ("dWIDTH + WIDTH_2*LENGTH_MAX + SAB",
+         r"\Delta \mathrm{WIDTH} + \mathrm{WIDTH}_{2}\,\mathrm{LENGTH}_{\mathrm{MAX}} + S_{\mathrm{AB}}"),
     ],
 )  # fmt: skip
 def test_ranges_elements_conditions_and_words(source: str, tex: str) -> None:

@@ -179,7 +179,9 @@ class _Reader:
                 return names.symbol(name)
             case ast.Attribute(ast.Name(name), "T") if re.fullmatch(r"[A-Za-z](_\w+)?", name):  # a matrix
                 return Power(names.symbol(name), Function("T"))
-            case ast.Attribute(ast.BinOp() | ast.Subscript() | ast.Call(ast.Attribute(ast.Name("np"))) as inner, "T"):
+            case ast.Attribute(ast.BinOp() | ast.Subscript() as inner, "T"):
+                return Power(self.least(inner, WHOLE), Function("T"))
+            case ast.Attribute(ast.Call(ast.Attribute(of)) as inner, "T") if names.is_module(of):
                 return Power(self.least(inner, WHOLE), Function("T"))
             case ast.Attribute(of, name) if names.is_module(of):
                 return Code(name) if name.endswith("_") else names.function(name)
@@ -300,8 +302,11 @@ class _Reader:
     def place(self, key: ast.expr) -> Node:
         if words := names.place(key):
             return words
-        if not isinstance(key, ast.Slice):
-            return self.read(key)
+        match key:
+            case ast.UnaryOp(ast.USub(), counted):
+                return Prefix(Text("from the end "), self.least(counted, SUM))
+            case ast.expr() if not isinstance(key, ast.Slice):
+                return self.read(key)
         match key.lower, key.upper:
             case ast.expr() as start, ast.expr() as stop if not _is_minus(start) and not _is_minus(stop):
                 first = Binary(self.least(start, SUM), "≤", Symbol("k"))

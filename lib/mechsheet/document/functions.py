@@ -83,7 +83,7 @@ def call(reader: Reader, node: ast.Call) -> Node:
 def _method(reader: Reader, node: ast.Attribute) -> Node:
     """A function that a value has: by its full name where that is one of words."""
     if path := names.path(node):
-        return Function(path)
+        return Function(path) if "." in path else names.function(path)
     return Prefix(reader.least(node.value, WHOLE), Function(f".{node.attr}"))
 
 

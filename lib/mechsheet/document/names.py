@@ -109,8 +109,9 @@ def path_of(node: ast.expr) -> list[str]:
 
 
 def path(node: ast.Attribute) -> str:
-    """Full name of a function that a value has, without that of a module; "" where it is not of names alone."""
-    return ".".join(path_of(node))
+    """Full name of a function that a value has, without those of a module and of the inputs; "" where it has none."""
+    parts = path_of(node)
+    return ".".join(parts[1:] if parts[:1] == ["g"] else parts)
 
 
 def number(node: ast.expr) -> float | None:

@@ -49,8 +49,8 @@ def read(name: str) -> Symbol:
     greek = re.match(_WORDS, name)
     if re.fullmatch("d[a-z]", name):
         return Symbol(name[1], mark="d")
-    if title := re.fullmatch(r"([A-Z]{5,})(\d*)(?:_(\w+))?", name):
-        return Symbol(title[1], ",".join(filter(None, (title[2], _index(title[3] or "")))))
+    if title := re.fullmatch(r"(d?)([A-Z]{5,})(\d*)(?:_(\w+))?", name):
+        return Symbol(title[2], ",".join(filter(None, (title[3], _index(title[4] or "")))), "Δ" if title[1] else "")
     word = re.fullmatch(r"([a-z]{3,})(?:_(\w*))?", name)
     if word and not greek and not re.match(f"d({_WORDS})", name):
         return Symbol(word[1], _index(word[2] or ""))
