@@ -364,6 +364,22 @@ def test_units_of_a_cell_without_inputs_are_followed(cells, told):
     assert [note.partition(", ")[2].partition("; 640")[0] for note in notes] == told
 
 
+@pytest.mark.parametrize(
+    ("unit", "told"), [("m/s**2", []), ("mm", ["g: unit [mm] does not fit; the value is in m/s²"])]
+)
+def test_units_of_a_worksheet_without_inputs_are_checked(unit, told):
+    """There g is a name like any other."""
+    lines = f"g = 9.81 * m / s**2  # [{unit}] gravity\nv = 2 * s * g  # [m/s] speed\ntypeset()"
+    found = Cells(IMPORTS, "from mechsheet.units import m, s", lines)
+    notes = found.texts(told_by.unfit(found.cells, found.names))
+    assert [note.partition(", ")[2] for note in notes] == told
+
+
+def test_units_are_not_checked_while_the_inputs_are_not_there():
+    found = Cells(IMPORTS, GIVEN, "g = Bar(L=1 / 0)", "A = 2 * g.L  # [N] twice\ntypeset()")
+    assert list(told_by.unfit(found.cells, found.names)) == []
+
+
 def test_lines_that_follow_from_a_wrong_one_are_not_told():
     found = bar("A = g.D**2 + g.L  # [m**2] area\ntypeset()", "p = g.F / A  # [Pa] pressure\ntypeset()")
     assert [note.cell for note in told_by.unfit(found.cells, found.names)] == ["c3"]

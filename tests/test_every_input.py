@@ -19,7 +19,7 @@ import pytest
 from mechsheet.page import values
 from mechsheet.run import report
 from mechsheet.worksheet import cells, inputs
-from mechsheet.worksheet.check import Check
+from mechsheet.worksheet.check import Check, checks_of
 from mechsheet.worksheet.errors import SheetError, Waits, raised
 from mechsheet.worksheet.kinds import Choice, Input, Switch, TextLine
 from mechsheet.worksheet.lists import Rows
@@ -84,11 +84,11 @@ class Run:
 
     @property
     def open(self) -> list[Check]:
-        return [check for check in cells.checks(self.names) if check.essential and not check.passed]
+        return [check for check in checks_of(self.names) if check.essential and not check.passed]
 
     @property
     def verdict(self) -> str:
-        judged = cells.checks(self.names)
+        judged = checks_of(self.names)
         if self.open:
             return "does not close"
         if self.refusals or self.waits:
@@ -156,11 +156,11 @@ def what_is_wrong(run: Run) -> str:
     if run.open and run.refusals:
         return f"{run.open[0].name} fails, and behind it speaks: {run.refusals[0]}"
     if run.waits and not (run.open or run.refusals):
-        judged = [check for check in cells.checks(run.names) if not check.evaluated]
+        judged = [check for check in checks_of(run.names) if not check.evaluated]
         if not any(check.reason for check in judged):
             return f"nothing tells why it waits: {run.waits[0]}"
     if run.verdict == "not evaluated":  # with the reason, which the check's own words give
-        return "; ".join(str(check) for check in cells.checks(run.names) if not check.evaluated and not check.reason)
+        return "; ".join(str(check) for check in checks_of(run.names) if not check.evaluated and not check.reason)
     return next((f"not one line: {text!r}" for text in run.refusals if "\n" in text), "")
 
 

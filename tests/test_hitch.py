@@ -12,9 +12,8 @@ from printed import agrees, rows
 from mechsheet import units
 from mechsheet.accuracy import exact
 from mechsheet.accuracy.arithmetic import reactions
-from mechsheet.worksheet import cells
 from mechsheet.worksheet.cells import load
-from mechsheet.worksheet.check import Check
+from mechsheet.worksheet.check import Check, checks_of
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.inputs import build
 from mechsheet.worksheet.lines import registry
@@ -238,7 +237,7 @@ def test_a_machine_seen_from_its_other_side_has_the_mirrored_results():
     for name in ("dphi3", "dphi4", "dphi5", "dphi6", "dphi7"):
         assert np.allclose(other[name], -own[name], rtol=1e-9, atol=1e-9), name
     assert np.allclose(other["X_p"], -own["X_p"], rtol=1e-9)
-    assert [check.name for check in cells.checks(other) if not check.passed] == []
+    assert [check.name for check in checks_of(other) if not check.passed] == []
 
 
 @pytest.mark.parametrize(

@@ -19,8 +19,8 @@ from printed import agrees, half_last_digit, rows
 
 from mechsheet import units
 from mechsheet.mechanics.joint import circular_joint, neutral_axis
-from mechsheet.worksheet.cells import load, refuse_open
-from mechsheet.worksheet.check import Check
+from mechsheet.worksheet.cells import load
+from mechsheet.worksheet.check import Check, refuse_open
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.inputs import build, declared
 from mechsheet.worksheet.table import Table

@@ -20,6 +20,7 @@ from test_recalculation import ROOT, disagreements, edit, whole
 
 from mechsheet.run import report
 from mechsheet.worksheet import cells, inputs
+from mechsheet.worksheet.check import checks_of, refuse_open
 from mechsheet.worksheet.errors import SheetError
 
 SCENES, SEED = int(os.environ.get("SCENES", "0")), os.environ.get("SEED", "")
@@ -57,7 +58,7 @@ def own(sheet: cells.Worksheet, changes: dict[str, Any]) -> Any:
     try:
         g = inputs.build(sheet.inputs, whole(sheet.inputs, changes))
         names = {**sheet.run(sheet.results, {"g": g}), "__file__": sheet.path}
-        cells.refuse_open(cells.checks(names))
+        refuse_open(checks_of(names))
     except SheetError:
         return None
     return load_workbook(BytesIO(report.workbook(sheet.title, names, {})), data_only=True)

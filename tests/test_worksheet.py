@@ -15,7 +15,8 @@ import pytest
 
 from mechsheet.recording.evaluation import evaluate
 from mechsheet.worksheet import source
-from mechsheet.worksheet.cells import checks, load, results
+from mechsheet.worksheet.cells import load, results
+from mechsheet.worksheet.check import checks_of
 from mechsheet.worksheet.errors import SheetError
 from worksheets import hitch
 
@@ -168,7 +169,9 @@ def test_parts_of_results_and_checks_by_their_names():
 
 def test_a_check_whose_name_is_composed_is_found():
     slotted = HITCH.with_name("slotted_link.py")
-    name = next(check.name for check in checks(load(slotted).run(load(slotted).results, {})) if "Find = " in check.name)
+    name = next(
+        check.name for check in checks_of(load(slotted).run(load(slotted).results, {})) if "Find = " in check.name
+    )
     needed = load(slotted).needed([name])
     assert len(needed) < len(load(slotted).cells) / 2
     assert evaluate(slotted, [name])[name].passed

@@ -139,6 +139,11 @@ def __getattr__(name: str) -> Any:
     if name in _HOMES:
         if _worksheet and _asked_by_the_worksheet():
             import_module("mechsheet.run.script").start(_started["__file__"])
+        main = vars(sys.modules.get("__main__", sys))
+        if (
+            "marimo" in sys.modules and main.get("__file__") and main.get("__loader__", main) is None
+        ):  # marimo runs its cells
+            import_module("mechsheet.run.script").report_at_exit(main)
         value = getattr(import_module(_HOMES[name]), name)
     elif name == "__version__":
         from importlib.metadata import version  # on use: takes longer than the rest of the package

@@ -22,11 +22,13 @@ from mechsheet.html.mathml import symbol
 from mechsheet.recording.memory import names_of
 from mechsheet.recording.record import record
 from mechsheet.worksheet import symbol as symbols
-from mechsheet.worksheet.cells import Cell, Worksheet, checks, refuse_open
+from mechsheet.worksheet.cells import Cell, Worksheet
+from mechsheet.worksheet.check import checks_of, refuse_open
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.force_diagram import polar_diagrams
 from mechsheet.worksheet.inputs import Used, declared
 from mechsheet.worksheet.lines import Numbers, registry
+from mechsheet.worksheet.no_inputs import NoInputs, beforehand, inputs_of
 from mechsheet.worksheet.source import constant, standing
 from mechsheet.worksheet.title import Title
 
@@ -74,8 +76,8 @@ def page(sheet: Worksheet, g: Any) -> str:
     """
     if name := studies(sheet):
         raise SheetError(f"{Path(sheet.path).stem} computes by {name}, over many runs: a page cannot follow that")
-    namespace = sheet.run(sheet.results, {"g": g})
-    refuse_open(checks(namespace))
+    namespace = sheet.run(sheet.results, beforehand(g))
+    refuse_open(checks_of(namespace))
     try:
         text = _page(sheet, namespace, lists=True)
     except SheetError:  # how many values are found is not known before the list is
@@ -85,7 +87,7 @@ def page(sheet: Worksheet, g: Any) -> str:
 
 def _page(sheet: Worksheet, namespace: dict[str, Any], lists: bool) -> str:
     """The file of a run; what rests on ``lists`` among the inputs follows them at any length, or at their own."""
-    cells = _with_fields(by_cell(namespace), sheet, namespace["g"])
+    cells = _with_fields(by_cell(namespace), sheet, inputs_of(namespace))
     shown = [part for parts in cells.values() for part in parts]
     follower = Follower(record(namespace, sheet, whole=True, every=1, draws=True, lists=lists), Numbers(namespace))
     follower.pair(cells)
@@ -101,7 +103,7 @@ def _page(sheet: Worksheet, namespace: dict[str, Any], lists: bool) -> str:
         body = _BAR + body
     told = {
         "name": Path(sheet.path).stem,
-        "inputs": fields.told(namespace["g"]),
+        "inputs": fields.told(inputs_of(namespace)),
         "shown": follower.specs,
         "symbols": _symbols(namespace, shown),
         "pictures": follower.pictures,
@@ -131,7 +133,7 @@ def _page(sheet: Worksheet, namespace: dict[str, Any], lists: bool) -> str:
 
 def _with_fields(cells: dict[int, list[Any]], sheet: Worksheet, g: Any) -> dict[int, list[Any]]:
     """What the cells show, with the inputs; where none shows those, at the cell that gives them."""
-    if any(isinstance(part, Used) for parts in cells.values() for part in parts):
+    if isinstance(g, NoInputs) or any(isinstance(part, Used) for parts in cells.values() for part in parts):
         return cells
     at = next((n for n, cell in enumerate(sheet.cells) if "g" in cell.gives), 0)
     return dict(sorted({**cells, at: [*cells.get(at, ()), Used(g)]}.items()))
@@ -236,7 +238,7 @@ def _signs(body: str) -> set[str]:
 def _symbols(namespace: Mapping[str, Any], shown: Iterable[Any]) -> dict[str, dict[str, str]]:
     """What a symbol means, by its MathML: an input, or a line that is shown."""
     found = dict[str, dict[str, str]]()
-    for field in declared(type(namespace["g"])):
+    for field in declared(type(inputs_of(namespace))):
         found[symbol(symbols.read(field.name))] = {
             "meaning": symbols.prose(field.meaning),
             "unit": "" if field.unit == "-" else units.shown(field.unit),

@@ -20,6 +20,7 @@ from mechsheet.worksheet import mistakes, numbers
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.inputs import Used
 from mechsheet.worksheet.kinds import Input
+from mechsheet.worksheet.no_inputs import declared_in, inputs_of
 
 _PERIOD = 0.25  # s between two looks at the inputs, and at least between two steps that are shown
 _SPREAD = 0.5  # of an input's value: bounds about it that stand there to be changed
@@ -59,8 +60,10 @@ class Design:
 
     @property
     def text(self) -> str:
-        """HTML of all of it."""
-        inputs = list(_offered(self.namespace["g"]))
+        """HTML of all of it; of a worksheet without inputs there is nothing to ask for."""
+        if not declared_in(self.namespace):
+            return ""
+        inputs = list(_offered(inputs_of(self.namespace)))
         results = [{"name": name, "unit": unit} for name, unit in self.designing.results.items()]
         form = element("ms-design", inputs=inputs, results=results)
         told = f'<div class="ms-designed" role="status">{self.told}</div>'

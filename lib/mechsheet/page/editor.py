@@ -17,6 +17,7 @@ from mechsheet.recording import dimensions
 from mechsheet.worksheet import mistakes, source
 from mechsheet.worksheet.cells import Cell, Worksheet, compiled
 from mechsheet.worksheet.lines import registry
+from mechsheet.worksheet.no_inputs import beforehand, declared_in, inputs_of
 from mechsheet.worksheet.title import Note
 
 _PERIOD = 0.25  # s between two looks at the cells
@@ -135,19 +136,21 @@ def unfit(cells: Iterable[notebook.Cell], names: Mapping[str, Any]) -> Iterator[
 
     What depends on the inputs is recorded, and what declares a unit or is computed with one; of cells that import or
     define classes beside it the assignments, as of a setup. A line whose meaning calls it an erratum is left as it is.
+    While inputs are declared and not there, nothing is told.
     """
-    if not hasattr(type(names.get("g")), "__inputs__"):
+    given = beforehand(inputs_of(names))
+    if not given and declared_in(names):
         return
     ran = [cell for cell in cells if cell.status == "success"]
     others = {name for cell in ran for name in cell.refs if is_of_studies(names.get(name))}
     known = registry(names, source.of_texts(tuple((cell.code, cell.filename) for cell in ran)))
     measured = {name for name, value in names.items() if isinstance(value, units.Constant) or value is units}
-    setup = _setup(ran, notebook.depending(ran, {"g", *_functions(ran)}))
+    setup = _setup(ran, notebook.depending(ran, {*given, *_functions(ran)}))
     of_setup = {name for n in setup for name in ran[n].defs}
-    by_inputs = notebook.depending(ran, {"g", *_functions(ran), *measured, *known})
+    by_inputs = notebook.depending(ran, {*given, *_functions(ran), *measured, *known})
     computed = by_inputs - of_setup - notebook.depending(ran, others)
     common = {name: value for name, value in names.items() if name not in computed}
-    recorded = tuple(runnable(n, cell, computed) for n, cell in enumerate(ran) if cell.defs & (computed - {"g"}))
+    recorded = tuple(runnable(n, cell, computed) for n, cell in enumerate(ran) if cell.defs & (computed - {*given}))
     assigned = tuple(line for n in setup for line in _lines(n, ran[n]) if isinstance(line, ast.Assign | ast.AnnAssign))
     try:
         found = dimensions.of_every_line(Worksheet("", recorded, common, "", assigned), names, known)

@@ -26,6 +26,7 @@ from mechsheet.page.smooth import smooth
 from mechsheet.readers.banded import NOTE, Banded, RunBands, about, off
 from mechsheet.worksheet import mistakes, numbers
 from mechsheet.worksheet.errors import SheetError
+from mechsheet.worksheet.no_inputs import declared_in
 from mechsheet.worksheet.table import Column, Figure, Table
 
 T = TypeVar("T")
@@ -63,8 +64,9 @@ class Study:
 
     @property
     def text(self) -> str:
-        """HTML of all of it."""
-        switches = "".join(each.text for each in (self.bands, self.result, self.position, self.own, self.proof))
+        """HTML of all of it; where there are no inputs a proof alone."""
+        of_inputs = (self.bands, self.result, self.position, self.own) if declared_in(self.namespace) else ()
+        switches = "".join(each.text for each in (*of_inputs, self.proof))
         scripts = script("bands.js") + script("own.js")
         return f'{scripts}<div class="ms-row ms-screen ms-study">{switches}</div><div>{self.told}</div>'
 

@@ -55,6 +55,8 @@ def tolerances(g: Any) -> dict[str, Tolerance]:
     Raises SheetError where none has one, and where a value at the end of its tolerance breaks a limit.
     """
     cls, found = type(g), dict[str, Tolerance]()
+    if not inputs.declared(cls):
+        raise SheetError("the worksheet has no inputs that could have tolerances")
     own = {field.name: shown for field, shown in inputs.Used(g).rows() if type(field) is Input}
     for field in inputs.declared(cls):
         if field.tolerance:

@@ -20,6 +20,7 @@ from mechsheet.units import PURE, Dims
 from mechsheet.worksheet import inputs
 from mechsheet.worksheet import numbers as shown_numbers
 from mechsheet.worksheet.lines import Formula
+from mechsheet.worksheet.no_inputs import inputs_of
 
 Codes = int | NDArray[np.intp]  # of all elements, or of each
 
@@ -49,7 +50,7 @@ class Reader:
         self.pivots = recording.graph.pivots
         self.wrong: set[Node] = set()
         self.told: set[tuple[int, str]] = set()
-        self.unit_of = inputs.units_of(type(namespace["g"]))
+        self.unit_of = inputs.units_of(type(inputs_of(namespace)))
         self.names = {node: name for name, node in recording.inputs.items()}
         self.declared: dict[Node, list[Formula]] = {}
         for line in lines:

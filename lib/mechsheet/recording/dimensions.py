@@ -13,6 +13,7 @@ from mechsheet.worksheet.cells import Worksheet, load
 from mechsheet.worksheet.check import Check
 from mechsheet.worksheet.inputs import declared
 from mechsheet.worksheet.lines import Formula, registry
+from mechsheet.worksheet.no_inputs import beforehand, inputs_of
 
 
 @dataclass(frozen=True)
@@ -47,8 +48,9 @@ def dimensions(
     lines = [line for line in known.values() if not line.arguments]
     places = Places(sheet, known)
     reader = Reader(recording, values, namespace, lines, places)
-    for field in declared(type(namespace["g"])):
-        for leaf, _ in field.leaves(getattr(namespace["g"], field.name)).values():
+    g = inputs_of(namespace)
+    for field in declared(type(g)):
+        for leaf, _ in field.leaves(getattr(g, field.name)).values():
             if leaf.mistake:
                 reader.add(Mistake(leaf.line, leaf.name, leaf.mistake))
     for line in known.values():
@@ -70,5 +72,5 @@ def of_every_line(sheet: Worksheet, namespace: Mapping[str, Any], known: Mapping
 def mismatches(worksheet: str | Path) -> list[Mistake]:
     """Mistakes in the units of a worksheet, in the order of its lines; each where it arises, and once."""
     sheet = load(worksheet)
-    namespace = sheet.run(sheet.results, {"g": sheet.inputs()})
+    namespace = sheet.run(sheet.results, beforehand(sheet.inputs()))
     return list(of_every_line(sheet, namespace, registry(namespace)).mistakes)

@@ -9,6 +9,7 @@ import numpy as np
 
 from mechsheet.worksheet import inputs
 from mechsheet.worksheet.cells import Worksheet, asked, base, load, value
+from mechsheet.worksheet.no_inputs import NoInputs, beforehand
 from mechsheet.worksheet.verdict import values_only
 
 _KEPT = 64  # plans
@@ -28,8 +29,9 @@ def evaluate(worksheet: str | Path, want: Iterable[str], **given: Any) -> dict[s
     Raises SheetError for an unknown name, an input outside its limits, or where no solution exists.
     """
     sheet, names = load(worksheet), asked(want)
-    g = given.pop("g") if "g" in given else inputs.build(sheet.inputs, given)
-    if not hasattr(type(g), "__inputs__"):
+    whole = "g" in given and sheet.inputs is not NoInputs
+    g = given.pop("g") if whole else inputs.build(sheet.inputs, given)
+    if not getattr(type(g), "__inputs__", ()):
         return by_cells(sheet, names, g)
     key, ways = (sheet.path, names), _ways(g)
     known = _known.get(key)
@@ -49,7 +51,7 @@ def evaluate(worksheet: str | Path, want: Iterable[str], **given: Any) -> dict[s
 def by_cells(sheet: Worksheet, names: Sequence[str], g: Any) -> dict[str, Any]:
     """Results of a run of the cells that they need."""
     with values_only():  # what else a verdict tells it computes when it is read: nobody changes these names any more
-        space = sheet.run(names, {"g": g})
+        space = sheet.run(names, beforehand(g))
     return {name: value(name, space) for name in names}
 
 

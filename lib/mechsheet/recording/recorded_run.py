@@ -32,6 +32,7 @@ from mechsheet.units import Constant
 from mechsheet.worksheet.cells import Cell, Worksheet
 from mechsheet.worksheet.drawing import Drawing
 from mechsheet.worksheet.lines import Formula, of_setup
+from mechsheet.worksheet.no_inputs import beforehand, inputs_of
 from mechsheet.worksheet.title import Mark, Slider
 
 
@@ -48,11 +49,11 @@ class Run(OfPositions):
         unnamed: bool = False,
     ) -> None:
         """Of what ``want`` needs, and with what cells show under no name where ``unnamed`` asks for it."""
-        g, known = given(graph, namespace["g"])
+        g, known = given(graph, inputs_of(namespace))
         super().__init__(Recording(graph, known, every=graph.thin))
-        self.sheet, self.namespace = sheet, namespace
+        self.sheet, self.namespace, self.asked = sheet, namespace, beforehand(g)
         self.recording.sections = list(dict.fromkeys(cell.section for cell in sheet.cells))
-        self.names: dict[str, Any] = shared(sheet.common) | {"__builtins__": BUILTINS, "g": g}
+        self.names: dict[str, Any] = shared(sheet.common) | {"__builtins__": BUILTINS, **self.asked}
         self.looked: dict[str, tuple[Guard, ...]] = {}  # by name: the guards that its value rests on
         self.chosen: dict[Node, frozenset[Node]] = {}
         self.lost: dict[str, NotRecorded] = {}  # names that have no value here, and why
@@ -64,7 +65,7 @@ class Run(OfPositions):
         self.showing = showing.functions(sheet)
         more = showing.without_name(sheet, {"g", *namespace}, self.showing) if unnamed else []
         needs = chain.from_iterable(sorted(cell.needs) for cell in more)
-        self.needed = [*sheet.needed([*want, *needs], {"g": g})]
+        self.needed = [*sheet.needed([*want, *needs], self.asked)]
         self.needed += (cell for cell in more if cell not in self.needed)
         for cell in [*self.needed, *(showing.cells(sheet, self.needed) if graph.draws else ())]:
             self.run(cell)
@@ -103,7 +104,7 @@ class Run(OfPositions):
     def with_every_line(self) -> Recording:
         """The recording with the lines on which nothing rests that is shown; itself stays as it is."""
         own, labels = self.recording, self.graph.labels
-        known = {"g", *(name for cell in self.needed for name in cell.gives)}
+        known = {*self.asked, *(name for cell in self.needed for name in cell.gives)}
         every = {field.name: copy(getattr(own, field.name)) for field in fields(own) if field.name != "graph"}
         every["lines"] = {section: [*lines] for section, lines in own.lines.items()}
         self.recording, own.values = Recording(self.graph, **every), {**self.names}
@@ -190,7 +191,7 @@ class Run(OfPositions):
             {guard.holds: guard for name in sorted(names) for guard in self.looked.get(name, ())}
             for names in (reads, reads if facts.heard == facts.loaded else self.read(facts.heard))
         )
-        before = Memory((self.names.get(name) for name in reads - {"g"}), self.names)
+        before = Memory((self.names.get(name) for name in reads - {*self.asked}), self.names)
         may_change = any(map(changes, codes))
         differs: list[str] = []
         try:
@@ -387,7 +388,7 @@ class Run(OfPositions):
         """Inputs under what a statement reads, and under what Python saw for it."""
         roots = [guard.holds for name in sorted(reads) for guard in self.looked.get(name, ())]
         roots += before.nodes
-        if "g" in reads:
+        if not self.asked.keys().isdisjoint(reads):
             parts = facts.parts.union(*map(names_of, codes))
             used = [name for name in self.recording.inputs if name.partition(".")[0] in parts]
             roots += [self.recording.inputs[name] for name in (self.recording.inputs if facts.whole else used)]

@@ -1,12 +1,16 @@
 """The beginning of a worksheet: its inputs asked for in the page, or taken from the arguments of a script."""
 
 import sys
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from mechsheet.run import arguments
+from mechsheet.recording.memory import names_of
+from mechsheet.run import arguments, ending
+from mechsheet.worksheet.cells import Worksheet
 from mechsheet.worksheet.errors import SheetError, refuse
 from mechsheet.worksheet.inputs import build, declared
+from mechsheet.worksheet.kinds import Input
 from mechsheet.worksheet.scene import Scene
 
 if TYPE_CHECKING:
@@ -34,21 +38,38 @@ def ask(cls: type) -> "mo.ui.batch | Given":
     return fields(g)
 
 
+def unasked(sheet: Worksheet) -> None:
+    """Take the arguments of a script in which no cell asks for inputs.
+
+    Raises UsageError for an input among them, and as `arguments.read`.
+    """
+    reads = {name for cell in sheet.cells for name in names_of(cell.code)}
+    if "ask" not in reads and ask not in map(sheet.common.get, reads):
+        scene = _of_script(sheet.path, declared(sheet.inputs))
+        if scene.inputs:
+            given = ", ".join(scene.inputs)
+            raise arguments.UsageError(f"no cell of {sheet.path} asks for inputs, as ask(..) does: given is {given}")
+
+
+def _of_script(worksheet: str, known: Sequence[Input]) -> Scene:
+    """Scene from the arguments; one that wants only some results is answered here and now, and the script ends."""
+    scene = arguments.read(sys.argv[1:], known)
+    if scene.want:
+        from mechsheet.run import batch  # on use: brings the writer of workbooks
+
+        ending.over()
+        sys.exit(batch.answer(worksheet, scene))
+    return scene
+
+
 def _given(cls: type) -> Scene:
     """Scene from the arguments of ``python worksheet.py --NAME=VALUE ..`` or behind ``marimo run worksheet.py --``.
-
-    In a script a scene that wants only some results is answered here and now, and the script ends.
 
     Raises SheetError for an argument of another form or an unreadable scene file.
     """
     worksheet: str = cls.__worksheet__  # type: ignore[attr-defined]
     if arguments.is_script(worksheet):
-        scene = arguments.read(sys.argv[1:], declared(cls))
-        if scene.want:
-            from mechsheet.run import batch  # on use: brings the writer of workbooks
-
-            sys.exit(batch.answer(worksheet, scene))
-        return scene
+        return _of_script(worksheet, declared(cls))
     if "marimo" not in sys.modules:
         return Scene()
     import marimo as mo  # on use: a worksheet called as a function needs it not

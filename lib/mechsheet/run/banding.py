@@ -18,6 +18,7 @@ from mechsheet.worksheet.cells import Worksheet, base, split
 from mechsheet.worksheet.check import Check
 from mechsheet.worksheet.inputs import Used
 from mechsheet.worksheet.lines import Formula, registry
+from mechsheet.worksheet.no_inputs import inputs_of
 from mechsheet.worksheet.scene import Scene
 from mechsheet.worksheet.table import Table
 
@@ -31,7 +32,7 @@ def bands_of(namespace: Mapping[str, Any], sheet: Worksheet, checks: Iterable[Ch
 
     Raises SheetError where no input has a tolerance, or one breaks a limit of its input.
     """
-    by = tolerances(namespace["g"])
+    by = tolerances(inputs_of(namespace))
     recording = record(namespace, sheet, whole=True)
     return run_bands(recording, tables_of(namespace), _own(checks, namespace), registry(namespace), by)
 
@@ -56,7 +57,7 @@ def lines(
         yield from whole.lines()
         yield from (f"{name}: {sure}" for name, sure in whole.sure.items())
         return
-    by = tolerances(namespace["g"])
+    by = tolerances(inputs_of(namespace))
     needed = replace(sheet, cells=tuple(sheet.needed([*given.want, *given.limits], ["g"])))
     recording = record(namespace, needed, whole=True, every=1)
     bands, known = Bands(recording, by), registry(namespace)

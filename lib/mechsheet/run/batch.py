@@ -23,10 +23,11 @@ from mechsheet.run.proving import proof_of, proof_of_wanted
 from mechsheet.workbook import writing
 from mechsheet.workbook.checks_sheet import verdict
 from mechsheet.worksheet import inputs, mistakes, numbers, results
-from mechsheet.worksheet.cells import Worksheet, base, checks, load, refuse_open
-from mechsheet.worksheet.check import Check
+from mechsheet.worksheet.cells import Worksheet, base, load
+from mechsheet.worksheet.check import Check, checks_of, refuse_open
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.kinds import Input
+from mechsheet.worksheet.no_inputs import beforehand
 from mechsheet.worksheet.results import Displayed
 from mechsheet.worksheet.scene import Scene
 from mechsheet.worksheet.table import Column, Table
@@ -75,9 +76,9 @@ def compute(sheet: Worksheet, name: str, given: Scene) -> tuple[Outcome, dict[st
     """
     g: Any = inputs.build(sheet.inputs, given.inputs)
     with usage():
-        sheet.needed([*given.want, *given.limits], {"g": g})
-    names = sheet.run([*(given.want or sheet.results), *given.limits], {"g": g})
-    held = checks(names) if given.want else [value for value in parts.values(names) if isinstance(value, Check)]
+        sheet.needed([*given.want, *given.limits], beforehand(g))
+    names = sheet.run([*(given.want or sheet.results), *given.limits], beforehand(g))
+    held = checks_of(names) if given.want else [value for value in parts.values(names) if isinstance(value, Check)]
     with usage():
         judged = results.limited(held, given.limits, names)
     refuse_open(judged)

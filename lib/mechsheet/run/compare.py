@@ -29,6 +29,7 @@ from mechsheet.worksheet.check import Check
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.kinds import Input
 from mechsheet.worksheet.lines import registry
+from mechsheet.worksheet.no_inputs import beforehand
 from mechsheet.worksheet.results import Displayed
 from mechsheet.worksheet.scene import Scene
 
@@ -110,7 +111,7 @@ def _check_out(worksheet: Path, revision: str, folder: Path) -> None:
 
 def _of(sheet: Worksheet, scene: Scene) -> State:
     g: Any = inputs.build(sheet.inputs, scene.inputs)
-    names = sheet.run(sheet.results, {"g": g})
+    names = sheet.run(sheet.results, beforehand(g))
     lines = registry(names)
     values = [value for value in parts.values(names) if isinstance(value, Check)]
     judged = results.limited(values, scene.limits, names)

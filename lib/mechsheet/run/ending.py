@@ -11,12 +11,22 @@ from mechsheet.worksheet.errors import SheetError
 
 INTERRUPTED = 130  # the exit code of a program that Ctrl-C ended, as shells have it
 MISUSED = 2  # what was given cannot be used, as most commands have it
+_over = list[bool]()
 _UNREAD = 141  # of one whose reader has gone, as head does after its last line
 
 
 def watch(worksheet: str) -> None:
     """Let whatever a run of the worksheet raises end in one line on stderr and the exit code."""
     sys.excepthook = partial(_end, worksheet)
+
+
+def over() -> None:
+    """Note that the run has told its end: nothing more is to be said of it."""
+    _over.append(True)
+
+
+def is_over() -> bool:
+    return bool(_over)
 
 
 def say(*lines: object) -> None:
@@ -33,6 +43,7 @@ def say(*lines: object) -> None:
 
 
 def _end(worksheet: str, _: type[BaseException], error: BaseException, _trace: TracebackType | None) -> NoReturn:
+    over()
     text, code = "", 1
     if isinstance(error, KeyboardInterrupt):
         text, code = "interrupted", INTERRUPTED
@@ -53,13 +64,13 @@ def _end(worksheet: str, _: type[BaseException], error: BaseException, _trace: T
 def _told(error: BaseException, worksheet: str) -> tuple[str, int]:
     """The line that tells why, that the mechanism does not close or the error's own, and the exit code."""
     from mechsheet.run import arguments  # on use: what watches a run from its beginning loads nothing that takes long
-    from mechsheet.worksheet import cells, inputs
+    from mechsheet.worksheet import cells, inputs, no_inputs
 
     try:
         if arguments.is_script(worksheet) and not isinstance(error, arguments.UsageError):
             sheet = cells.load(worksheet)
             given = arguments.read(sys.argv[1:], inputs.declared(sheet.inputs))
-            sheet.close({"g": inputs.build(sheet.inputs, given.inputs)})
+            sheet.close(no_inputs.beforehand(inputs.build(sheet.inputs, given.inputs)))
     except SheetError as cause:
         error = cause
     except Exception:  # the mistake that there is has its own line

@@ -24,6 +24,7 @@ from mechsheet.worksheet.cells import load
 from mechsheet.worksheet.check import Check, Summary
 from mechsheet.worksheet.drawing import Drawing
 from mechsheet.worksheet.errors import SheetError
+from mechsheet.worksheet.no_inputs import beforehand
 from mechsheet.worksheet.numbers import on_page
 from mechsheet.worksheet.table import Figure
 
@@ -81,9 +82,8 @@ def computed(worksheet: Path) -> Glance:
     of, when = digest(worksheet), time.strftime("%Y-%m-%d %H:%M")
     try:
         sheet = load(worksheet)
-        asks = any("g" in cell.gives for cell in sheet.cells)
-        given: dict[str, Any] = {"g": inputs.build(sheet.inputs, {})} if asks else {}
-        shown = parts.values(sheet.run(sheet.results, given))
+        g: Any = inputs.build(sheet.inputs, {})
+        shown = parts.values(sheet.run(sheet.results, beforehand(g)))
         drawings = [value for value in shown if isinstance(value, Drawing)]
         fullest = max((len(drawing.elements) for drawing in drawings), default=0)  # others are parts that they share
         drawings = [drawing for drawing in drawings if len(drawing.elements) > fullest / 2]

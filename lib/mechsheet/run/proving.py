@@ -11,6 +11,7 @@ from mechsheet.recording.record import record
 from mechsheet.run.progress import if_long
 from mechsheet.worksheet.cells import Worksheet, base
 from mechsheet.worksheet.lines import registry
+from mechsheet.worksheet.no_inputs import beforehand, inputs_of
 from mechsheet.worksheet.table import Table
 
 if TYPE_CHECKING:
@@ -40,5 +41,5 @@ def proof_of(
 def proof_of_wanted(namespace: Mapping[str, Any], sheet: Worksheet, want: Iterable[str]) -> "Proof":
     """What is proved of the cells that some results need, which have been run."""
     want = list(want)
-    needed = replace(sheet, cells=tuple(sheet.needed(want, ["g"])))
+    needed = replace(sheet, cells=tuple(sheet.needed(want, beforehand(inputs_of(namespace)))))
     return proof_of(namespace, sheet, record(namespace, needed, whole=True), {base(name) for name in want})

@@ -20,18 +20,19 @@ from mechsheet.readers.largest import narrow
 from mechsheet.readers.searched import search
 from mechsheet.recording.dimensions import dimensions
 from mechsheet.recording.record import record, record_every_line
-from mechsheet.run import arguments
+from mechsheet.run import arguments, ending
 from mechsheet.run.ending import say
 from mechsheet.run.proving import proof_of
 from mechsheet.workbook import inputs_sheet, writing
 from mechsheet.workbook.find_sheet import FoundRow
 from mechsheet.workbook.save import save
 from mechsheet.worksheet import index, inputs, mistakes, numbers, source
-from mechsheet.worksheet.cells import load, refuse_open, results
-from mechsheet.worksheet.check import Check
+from mechsheet.worksheet.cells import load, results
+from mechsheet.worksheet.check import Check, refuse_open
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.find import Found
 from mechsheet.worksheet.lines import Formula, registry
+from mechsheet.worksheet.no_inputs import beforehand, inputs_of
 from mechsheet.worksheet.results import limited
 from mechsheet.worksheet.scene import Limit
 from mechsheet.worksheet.system import Solution
@@ -69,7 +70,7 @@ def export(title: str, namespace: Mapping[str, Any]) -> Any:
     """
     worksheet = Path(namespace["__file__"])
     if arguments.is_script(str(worksheet)):
-        _script(title, namespace, worksheet)
+        _script(namespace, worksheet, title)
         return None
     from mechsheet.html import write as html  # on use: a worksheet called as a function needs no page
     from mechsheet.page import design, study  # on use: as above
@@ -82,7 +83,7 @@ def export(title: str, namespace: Mapping[str, Any]) -> Any:
         return _workbook(title, namespace, [*values, fit], recording), _not_followed(recording, values)
 
     def page() -> tuple[bytes, list[str]]:
-        return html.page(sheet, namespace["g"]).encode(), []
+        return html.page(sheet, inputs_of(namespace)).encode(), []
 
     sheet = load(worksheet)
 
@@ -111,20 +112,30 @@ def export(title: str, namespace: Mapping[str, Any]) -> Any:
 def _own(worksheet: Path) -> dict[str, Any]:
     """Namespace of a run of the worksheet as it stands, with its own inputs."""
     sheet = load(worksheet)
-    return sheet.run(sheet.results, {"g": inputs.build(sheet.inputs, {})})
+    return sheet.run(sheet.results, beforehand(inputs.build(sheet.inputs, {})))
 
 
-def _script(title: str, namespace: Mapping[str, Any], worksheet: Path) -> None:
+def end(namespace: Mapping[str, Any]) -> None:
+    """The end of a script in which no cell has called `export`: the same report, and no workbook."""
+    if not ending.is_over():
+        _script(namespace, Path(namespace["__file__"]))
+
+
+def _script(namespace: Mapping[str, Any], worksheet: Path, title: str | None = None) -> None:
+    """Report a run, write its workbook where it has a title, and exit with 1 where a check fails."""
+    ending.over()
     missing = [name for name in results(worksheet, certain=True) if name not in namespace]
     if missing:
         raise SheetError(f"some cells did not run: {', '.join(missing)} missing")
-    declared = inputs.declared(type(namespace["g"]))
+    declared = inputs.declared(type(inputs_of(namespace)))
     given = arguments.read(sys.argv[1:], declared)
     with arguments.usage():
         values = limited(parts.values(namespace), given.limits, namespace)
     refuse_open(_of(Check, values))
     recording, fit = _recorded(namespace, values)
-    checks = [*_of(Check, values), fit]
+    checks = _of(Check, values)
+    if checks or declared or registry(namespace):  # else units are compared with nothing
+        checks.append(fit)
     bands = None
     if given.tolerances:
         from mechsheet.run import banding  # on use: as on the page
@@ -140,9 +151,15 @@ def _script(title: str, namespace: Mapping[str, Any], worksheet: Path) -> None:
         checks.append(proof.check(given.proof))
         proved = dict(proof.checks(given.proof))
         say(*proof.lines(), checks[-1])
-    path = (given.out or folder(worksheet.resolve())) / f"{worksheet.stem}.xlsx"
-    write(_workbook(title, namespace, [*values, fit, *proved], recording, proved), path)
-    say(f"written {path}", *_not_followed(recording, values), *_left_out(namespace, worksheet))
+    if title is None:
+        why = f'no workbook is written: no cell calls export("{load(worksheet).title}", globals())'
+        if given.out:
+            raise arguments.UsageError(f"--out={given.out}: {why}")
+        say(why, *_left_out(namespace, worksheet))
+    else:
+        path = (given.out or folder(worksheet.resolve())) / f"{worksheet.stem}.xlsx"
+        write(_workbook(title, namespace, [*values, fit, *proved], recording, proved), path)
+        say(f"written {path}", *_not_followed(recording, values), *_left_out(namespace, worksheet))
     if not all(check.passed for check in checks):
         sys.exit(1)
 
@@ -239,7 +256,7 @@ def _workbook(
     own = {check.name: check.limit for check in _of(Check, parts.values(namespace))}
     return writing.workbook(
         title,
-        inputs=inputs_sheet.rows(namespace["g"]),
+        inputs=inputs_sheet.rows(inputs_of(namespace)),
         found=list(solved(namespace)),
         tables=_of(Table, values),
         figures=_of(Figure, values),

@@ -4,14 +4,19 @@ Its cells are run from the file: marimo is not needed where nobody looks at a pa
 where the file itself is started, which has loaded it, as long again to register and run the cells.
 """
 
+import atexit
 import gc
+import os
 import sys
+from collections.abc import Mapping
 from io import StringIO
 from pathlib import Path
+from typing import Any
 
-from mechsheet.run.ending import watch
+from mechsheet.run.ending import is_over, watch
 
 _END = 'if __name__ == "__main__":\n    app.run()'  # of a worksheet, as marimo writes it
+_reporting = list[str]()  # the worksheet that is to be reported at the exit
 _OBJECTS = 100_000  # made between two searches for circles among them, which take a tenth of a run if done as usual
 
 
@@ -31,17 +36,54 @@ def start(worksheet: str) -> None:
     """
     from mechsheet.run.arguments import is_script  # on use: as below
 
-    if is_script(worksheet) and Path(worksheet).read_text(encoding="utf-8").rstrip().endswith(_END):
+    if is_script(worksheet) and _only_runs(worksheet):
         _run(worksheet)
         sys.exit()
 
 
-def _run(worksheet: str) -> None:
-    gc.set_threshold(_OBJECTS, *gc.get_threshold()[1:])
-    from mechsheet.worksheet.cells import load  # on use: an interruption while this loads is told as any other
+def _only_runs(worksheet: str) -> bool:
+    return Path(worksheet).read_text(encoding="utf-8").rstrip().endswith(_END)
+
+
+def report_at_exit(names: Mapping[str, Any]) -> None:
+    """Let a started worksheet end in a report as others do whose cells marimo runs, as they import the package.
+
+    ``names`` are those of its cells.
+    """
+    from mechsheet.run.arguments import is_script  # on use: as below
+
+    if not _reporting and is_script(names["__file__"]) and _only_runs(names["__file__"]):
+        _reporting.append(names["__file__"])
+        watch(names["__file__"])
+        atexit.register(_report, names)
+
+
+def _report(names: Mapping[str, Any]) -> None:
+    if is_over():
+        return
+    from mechsheet.run import ask, report  # on use: nothing else of it is needed so late
+    from mechsheet.worksheet.cells import load  # on use: as above
 
     try:
-        load(worksheet).run_whole()
+        try:
+            ask.unasked(load(names["__file__"]))
+            report.end(names)
+        except Exception as error:
+            sys.excepthook(type(error), error, error.__traceback__)
+    except SystemExit as ended:  # which at an exit changes nothing
+        sys.stdout.flush()
+        os._exit(ended.code if isinstance(ended.code, int) else 0)
+
+
+def _run(worksheet: str) -> None:
+    gc.set_threshold(_OBJECTS, *gc.get_threshold()[1:])
+    from mechsheet.run import ask, report  # on use: an interruption while this loads is told as any other
+    from mechsheet.worksheet.cells import load  # on use: as above
+
+    try:
+        sheet = load(worksheet)
+        ask.unasked(sheet)
+        report.end(sheet.run_whole())
     finally:
         gc.freeze()  # the process ends: to look through all that is left takes a sixth of a run, for nothing
 

@@ -12,6 +12,7 @@ from mechsheet.worksheet.cells import Worksheet
 from mechsheet.worksheet.errors import SheetError, as_given
 from mechsheet.worksheet.inputs import Used
 from mechsheet.worksheet.lines import registry
+from mechsheet.worksheet.no_inputs import inputs_of
 
 
 def results_of(namespace: Mapping[str, Any]) -> dict[str, str]:
@@ -32,7 +33,7 @@ def matters(sheet: Worksheet, namespace: Mapping[str, Any], name: str, position:
     at: Any = int(position) if position.isdecimal() else position
     if not isinstance(at, int) and at not in ("least", "greatest"):
         raise SheetError(f"position {as_given(position)} must be least, greatest or a number from 0")
-    given = Used(namespace["g"]).given()
+    given = Used(inputs_of(namespace)).given()
     found = shown.study("sensitivity")(sheet.path, [name], **given)
     title = f"What matters for {name}"
     return found.tornado("", title, name, at), found.table("", title, name, at)
@@ -46,7 +47,7 @@ def designed(
     ``done`` is called with the part of a search that is behind it and the time that is left, in words. Raises
     SheetError where it cannot be asked or reached.
     """
-    used, begun = Used(namespace["g"]), time.monotonic()
+    used, begun = Used(inputs_of(namespace)), time.monotonic()
     given = {name: value for name, value in used.given().items() if name in used.changed}
 
     def generation(count: int, total: int) -> None:

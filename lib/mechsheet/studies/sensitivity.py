@@ -333,8 +333,10 @@ def quiet(sheet: Worksheet) -> Worksheet:
 
 
 def point(worksheet: str | Path, given: Mapping[str, Any]) -> tuple[dict[str, Input], dict[str, float]]:
-    """Declared inputs and their values in display units."""
+    """Declared inputs and their values in display units; SheetError where there are none."""
     cls = load(worksheet).inputs
+    if not declarations.declared(cls):
+        raise SheetError(f"{worksheet} has no inputs by which its results could differ")
     g: Any = declarations.build(cls, given)
     rows = declarations.Used(g).rows()
     numbers = {field.name: float(shown) for field, shown in rows if field.continuous}

@@ -17,8 +17,9 @@ from typing import Any
 import numpy as np
 
 from mechsheet.worksheet import mistakes, source
-from mechsheet.worksheet.check import Check
+from mechsheet.worksheet.check import checks_of, refuse_open
 from mechsheet.worksheet.errors import SheetError, as_given, raised
+from mechsheet.worksheet.no_inputs import NoInputs, declared_in, in_a_cell
 from mechsheet.worksheet.source import constant, functions, is_app, parsed, texts
 
 _SECTION = re.compile(r"^\s*## +(.*\S)", re.MULTILINE)
@@ -105,7 +106,7 @@ class Worksheet:
                     if not (isinstance(error, Exception) or _is_stop(error)):
                         raise
                 lost.update(cell.gives)
-        refuse_open(checks(names))
+        refuse_open(checks_of(names))
 
     def needed(self, want: Iterable[str], given: Iterable[str] = ()) -> list[Cell]:
         """Cells that ``want`` depends on, in an order in which they can run.
@@ -150,17 +151,24 @@ class Worksheet:
     @property
     def results(self) -> list[str]:
         """Names that the cells define, but for the inputs."""
-        return [name for cell in self.cells for name in cell.gives if name != "g"]
+        return [name for cell in self.cells for name in cell.gives if name != "g" or not declared_in(self.common)]
 
     @property
     def inputs(self) -> type:
-        """Class of the inputs."""
-        for value in self.common.values():
-            if isinstance(value, type) and hasattr(value, "__inputs__"):
-                if any("g" in {*cell.gives, *cell.needs} for cell in self.cells):
-                    return value
-                raise SheetError(f"{self.path}: no cell gives g, as which inputs are read: g = read(..)")
-        raise SheetError(f"{self.path} declares no inputs")
+        """Class of the inputs, `NoInputs` where there is none.
+
+        Raises SheetError where there is one that cannot be used.
+        """
+        declared = declared_in(self.common)
+        if declared is None:
+            for cell in self.cells:
+                if name := in_a_cell(cell.lines):
+                    why = "where it cannot be set: move it, and what it needs, to the setup"
+                    raise SheetError(f"{self.path} declares its inputs, {name}, in cell {cell.name}, {why}")
+            return NoInputs
+        if any("g" in {*cell.gives, *cell.needs} for cell in self.cells):
+            return declared
+        raise SheetError(f"{self.path}: no cell gives g, as which inputs are read: g = read(..)")
 
 
 def asked(want: Iterable[str]) -> tuple[str, ...]:
@@ -175,7 +183,7 @@ def value(want: str, names: Mapping[str, Any]) -> Any:
     """A wanted result in the namespace of a run: a name, a part of one, or the check of that name."""
     root, part = split(want)
     if not root.isidentifier():
-        found = {check.name: check for check in checks(names)}
+        found = {check.name: check for check in checks_of(names)}
         if want not in found:
             raise _no_check(want, found)
         return found[want]
@@ -184,19 +192,6 @@ def value(want: str, names: Mapping[str, Any]) -> Any:
     if np.asarray(names[root]).dtype.kind not in "iufc":
         raise SheetError(f"{want}: {root} is no number")
     return np.abs(names[root]) if part == "abs" else getattr(np.asarray(names[root]), part)
-
-
-def checks(names: Mapping[str, Any]) -> list[Check]:
-    """Checks in the namespace of a run, alone or in groups, in the order in which they were made."""
-    groups = (group if isinstance(group, tuple | list) else (group,) for group in names.values())
-    return [check for group in groups for check in group if isinstance(check, Check)]
-
-
-def refuse_open(judged: Iterable[Check]) -> None:
-    """Raise SheetError for the first essential check that fails."""
-    for check in judged:
-        if check.essential and not check.passed:
-            raise SheetError(f"{check.name}: {check.reason}" if check.reason else str(check))
 
 
 def base(want: str) -> str:

@@ -1,6 +1,6 @@
 """Checks as values: a residual against its limit, with a verdict: pass, FAIL or not evaluated."""
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass, replace
@@ -96,6 +96,19 @@ class Check(Shown):
         compared = f": {said}{numbers.suffix(self.unit)}" if self.evaluated else ""
         part = f", {self.utilised}" if self.utilised else ""
         return f"{self.verdict}  {self.name}{compared}{part}" + (f"; {self.reason}" if self.reason else "")
+
+
+def checks_of(names: Mapping[str, Any]) -> list[Check]:
+    """Checks in the namespace of a run, alone or in groups, in the order in which they were made."""
+    groups = (group if isinstance(group, tuple | list) else (group,) for group in names.values())
+    return [check for group in groups for check in group if isinstance(check, Check)]
+
+
+def refuse_open(judged: Iterable[Check]) -> None:
+    """Raise SheetError for the first essential check that fails."""
+    for check in judged:
+        if check.essential and not check.passed:
+            raise SheetError(f"{check.name}: {check.reason}" if check.reason else str(check))
 
 
 @dataclass(frozen=True)

@@ -85,7 +85,7 @@ _LOST = '; the editor loses one that ends the setup cell, so end the class with 
 
 def declared(cls: type) -> tuple[Input, ...]:
     """Inputs of a class made by `inputs`, or the properties of one without values, in their order."""
-    fields: tuple[Input, ...] = getattr(cls, "__inputs__", None) or cls.__properties__  # type: ignore[attr-defined]
+    fields: tuple[Input, ...] = getattr(cls, "__inputs__" if hasattr(cls, "__inputs__") else "__properties__")
     return fields
 
 
@@ -391,7 +391,8 @@ def known(fields: Mapping[str, Input], name: str) -> Input:
     """The input of that name; SheetError with the nearest names where there is none."""
     if name not in fields:
         near = difflib.get_close_matches(name, fields, n=3, cutoff=0.5)
-        raise SheetError(f"input {errors.cut(name)} is unknown; nearest: {', '.join(near or fields)}")
+        which = f"nearest: {', '.join(near or fields)}" if fields else "the worksheet has none"
+        raise SheetError(f"input {errors.cut(name)} is unknown; {which}")
     return fields[name]
 
 
