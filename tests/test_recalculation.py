@@ -7,6 +7,7 @@ import re
 from collections import defaultdict
 from collections.abc import Callable, Iterator, Mapping
 from functools import cache
+from io import BytesIO
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any
@@ -90,7 +91,7 @@ def kept(made: Callable[[str], Path]) -> Callable[[str], Path]:
 
 def edit(path: Path, changes: dict[str, Any], to: Path, units: Mapping[str, str] = MappingProxyType({})) -> Path:
     """The workbook with other values and units of inputs, as somebody types them; ``bolts.x (2)`` is of a table."""
-    book = load_workbook(path, read_only=True)  # all of it would take seconds
+    book = load_workbook(held(path), read_only=True)  # all of it would take seconds
     left, contents = dict(changes), dict[tuple[str, str], object]()
     for name in [name for name in left if "Input tables" in book and name.endswith(")")]:
         column, _, k = name[:-1].partition(" (")
@@ -113,7 +114,12 @@ def cell_of(book: Any, column: str, k: int) -> Any:
 
 def seen(path: Path) -> Any:
     """A workbook of which no sheet is read before it is looked at: most of the large ones hold lines and fields."""
-    return load_workbook(path, data_only=True, read_only=True)
+    return load_workbook(held(path), data_only=True, read_only=True)
+
+
+def held(path: Path) -> BytesIO:
+    """A file in memory: what reads a file sheet by sheet leaves it open."""
+    return BytesIO(path.read_bytes())
 
 
 def numbers(book: Any, titles: str = r"\d") -> Iterator[tuple[str, str, float | str]]:
@@ -485,7 +491,7 @@ def test_stored_names_are_accepted() -> None:
     from openpyxl.formula import Tokenizer
 
     for path in sorted((ROOT / "exports").glob("*.xlsx")):
-        for name in load_workbook(path, read_only=True).defined_names:
+        for name in load_workbook(held(path), read_only=True).defined_names:
             (token,) = Tokenizer(f"={name}").items
             assert token.subtype == "RANGE" and not re.fullmatch(r"\$?[A-Z]{1,3}\$?\d+", name, re.IGNORECASE)
 
@@ -527,5 +533,5 @@ def test_what_a_worksheet_of_ones_own_does_is_followed_by_its_cells(
 @pytest.mark.parametrize("name", ["hitch", "landing_gear", "joint", "kinetostatics", "slotted_link"])
 def test_nothing_of_a_document_is_left_out(name: str) -> None:
     """Its front sheet would name it."""
-    front = [row[0] for row in load_workbook(exported(name), read_only=True)["Front"].iter_rows(values_only=True)]
+    front = [row[0] for row in load_workbook(held(exported(name)), read_only=True)["Front"].iter_rows(values_only=True)]
     assert "Contents" in front and "Not followed" not in front
