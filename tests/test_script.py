@@ -9,8 +9,6 @@ import pytest
 from as_script import as_script
 from openpyxl import load_workbook
 
-from mechsheet.__main__ import main
-
 HITCH = Path(__file__).parents[1] / "worksheets" / "hitch.py"
 # The program that marimo makes of a worksheet, which is what it was before its cells were run from the file.
 BY_MARIMO = "import runpy, sys; del sys.argv[0]; runpy.run_path(sys.argv[0], run_name='sheet')['app'].run()"
@@ -75,14 +73,14 @@ def test_wanted_results_are_printed_with_their_units_and_nothing_else_is_compute
         ("--phi_P6=1", "error: group (6, 7) closes: no position closes for distance O7 P56 = ", 1),
     ],
 )
-def test_bad_input_is_one_line_and_touches_no_file(tmp_path, argument, message, code, capfd):
+def test_bad_input_is_one_line_and_touches_no_file(tmp_path, argument, message, code):
     """What is given cannot be used, which is 2; or the worksheet refuses the value or does not close with it."""
     old = tmp_path / "hitch.xlsx"
     old.write_bytes(b"old")
-    assert main(["run", "hitch", f"--out={tmp_path}", argument]) == code
-    told = capfd.readouterr().err
-    assert told.startswith(message)
-    assert told.count("\n") == 1
+    done = run(f"--out={tmp_path}", argument)
+    assert done.returncode == code
+    assert done.stderr.startswith(message)
+    assert done.stderr.count("\n") == 1
     assert [p.name for p in tmp_path.iterdir()] == ["hitch.xlsx"]
     assert old.read_bytes() == b"old"
 
