@@ -202,10 +202,9 @@ def test_what_mathcad_took_is_told_in_words(old: str, new: str, says: str, lever
 
 def test_a_declaration_is_told_with_its_line(lever: Callable[..., Path]) -> None:
     path = lever("[m] length", "metres, length")
-    ends(
-        [sys.executable, path],
-        f"error: {path.name}, line 47: input L needs a comment with its unit, such as # [m] meaning",
-    )
+    done = as_script(path)
+    says = f"error: {path.name}, line 47: input L needs a comment with its unit, such as # [m] meaning\n"
+    assert (done.stderr, done.returncode) == (says, 1)
 
 
 def test_a_mark_of_byte_order_is_told(lever: Callable[..., Path]) -> None:
@@ -335,7 +334,7 @@ def test_a_worksheet_of_a_clone_writes_into_its_exports(
     home.parent.mkdir(parents=True)
     (tmp_path / "lib" / "mechsheet").mkdir(parents=True)
     lever().rename(home)
-    assert subprocess.run([sys.executable, home], capture_output=True).returncode == 0
+    assert as_script(home).returncode == 0
     assert [path.name for path in (tmp_path / "exports").iterdir()] == ["lever.xlsx"]
 
 
@@ -343,7 +342,7 @@ def test_a_comma_that_could_mean_thousands_and_formulas_that_are_not_shown_are_t
     lever: Callable[..., Path],
 ) -> None:
     path = lever("    typeset(strong)\n", "    strong\n")
-    done = subprocess.run([sys.executable, path, "--F=999,500"], capture_output=True, encoding="utf-8")
+    done = as_script(path, "--F=999,500")
     assert done.stdout.count("read with a decimal comma") == done.stdout.count("F = 999.5 N, read with") == 1
     assert [line for line in done.stdout.splitlines() if "not shown" in line] == [
         "lever.py, line 126, n = 2 if g.both else 1: n, M_n, sigma are not shown: end the cell in typeset()"

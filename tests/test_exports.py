@@ -5,7 +5,6 @@ from __future__ import annotations
 import io
 import math
 import re
-import subprocess
 import sys
 from collections.abc import Callable, Iterator
 from dataclasses import replace
@@ -15,6 +14,7 @@ from typing import NamedTuple
 
 import pytest
 import written_cells
+from as_script import as_script
 from openpyxl.utils.cell import coordinate_to_tuple
 from written_cells import Content
 
@@ -37,9 +37,7 @@ LONG = ("accuracy", "hitch_design")  # runs of half a minute, which are compared
 @pytest.mark.parametrize("name", sorted({path.stem for path in WORKSHEETS}.difference(LONG)))
 def test_export_is_current(name: str, tmp_path: Path) -> None:
     worksheet = ROOT / "worksheets" / f"{name}.py"
-    run = subprocess.run(
-        [sys.executable, "-X", "utf8", worksheet, f"--out={tmp_path}"], capture_output=True, encoding="utf-8"
-    )
+    run = as_script(worksheet, f"--out={tmp_path}")
     assert run.returncode == 0, run.stdout + run.stderr
     assert_current(worksheet, tmp_path)
 
