@@ -102,7 +102,8 @@ def _parts(value: Any) -> list[Any] | None:
     slots = getattr(type(value), "__slots__", None)
     if hasattr(value, "__next__") or not (slots or hasattr(value, "__dict__")):
         return None
-    return [*getattr(value, "__dict__", {}).values(), *(getattr(value, name, None) for name in slots or ())]
+    held = (name for name in slots or () if isinstance(getattr(type(value), name, None), MemberDescriptorType))
+    return [*getattr(value, "__dict__", {}).values(), *(getattr(value, name, None) for name in held)]  # not computed
 
 
 def _content(cell: CellType) -> list[Any]:
