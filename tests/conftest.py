@@ -169,7 +169,7 @@ def timed_once(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @pytest.fixture
-def brief_accuracy(monkeypatch: pytest.MonkeyPatch, timed_once: None) -> Iterator[None]:
+def brief_accuracy(monkeypatch: pytest.MonkeyPatch, timed_once: None) -> None:
     """The accuracy worksheet measures some of the extreme scenes, too.
 
     For what does not ask how they come out: that is the script's, whose workbook is compared, and the test of the
@@ -180,9 +180,6 @@ def brief_accuracy(monkeypatch: pytest.MonkeyPatch, timed_once: None) -> Iterato
     some = extreme.scenes()[::9]
     assert {bool(scene.says) for scene in some} == {True, False}
     monkeypatch.setattr(extreme, "scenes", lambda: some)
-    extreme._measured_scenes.cache_clear()
-    yield
-    extreme._measured_scenes.cache_clear()
 
 
 def examples(count: int, **others: Any) -> settings:

@@ -1,5 +1,6 @@
 """The digits that a proof claims beside those that there are, by exact results from the inputs to the end."""
 
+from functools import lru_cache
 from pathlib import Path
 from typing import NamedTuple
 
@@ -36,7 +37,12 @@ class Claim(NamedTuple):
 
 def claims(path: Path) -> list[Claim]:
     """What is proved of the results of one of the five documents for which there are exact ones."""
-    sheet, names, truths = from_inputs(path, path.read_bytes())
+    return [*_claims(path, path.read_bytes())]
+
+
+@lru_cache(maxsize=len(DOCUMENTS))  # a cell runs again where it is recorded
+def _claims(path: Path, text: bytes) -> list[Claim]:
+    sheet, names, truths = from_inputs(path, text)
     plain = {name: truth for name, truth in truths.items() if not name.startswith(TURNS)}
     proof, made = proof_of_wanted(names, sheet, plain), list[Claim]()
     for name, truth in plain.items():

@@ -40,6 +40,8 @@ from mechsheet.worksheet import inputs, numbers
 from mechsheet.worksheet.cells import Worksheet, load
 from mechsheet.worksheet.check import Check, assembled
 
+SCENES = Path(__file__).parent / "scenes"
+
 
 @dataclass(frozen=True)
 class Scene:
@@ -125,7 +127,7 @@ class MeasuredScene(Scene):
 
 def scenes() -> list[Scene]:
     """The listed scenes: files that come with the package."""
-    return [read(path) for path in sorted((Path(__file__).parent / "scenes").glob("*.toml"))]
+    return [read(path) for path in sorted(SCENES.glob("*.toml"))]
 
 
 def read(path: Path) -> Scene:
@@ -136,22 +138,24 @@ def read(path: Path) -> Scene:
 
 
 def measured_scenes(worksheets: Path, short: bool) -> list[MeasuredScene]:
-    """Every listed scene with all results of its cases; see `measure`.
-
-    The same worksheets are measured once: a cell runs again where it is recorded.
-    """
-    texts = tuple(path.read_bytes() for path in sorted(worksheets.glob("*.py")))
-    return [*_measured_scenes(worksheets, texts, short)]
-
-
-@lru_cache(maxsize=1)
-def _measured_scenes(worksheets: Path, texts: tuple[bytes, ...], short: bool) -> tuple[MeasuredScene, ...]:
-    listed, found = scenes(), []
+    """Every listed scene with all results of its cases; see `measure`."""
+    listed, found = scenes(), list[MeasuredScene]()
     with progress(len(listed), "scenes") as done:
         for scene in listed:
-            found.append(MeasuredScene(**vars(scene), outcomes=measure(scene, worksheets, short)))
+            found.append(MeasuredScene(**vars(scene), outcomes=measured(scene.name, worksheets, short)))
             done()
-    return tuple(found)
+    return found
+
+
+def measured(name: str, worksheets: Path, short: bool) -> Sequence[Outcome]:
+    """Every result of every case of a listed scene; the same worksheets are measured once."""
+    texts = tuple(path.read_bytes() for path in sorted(worksheets.glob("*.py")))
+    return _measured(name, worksheets, texts, short)
+
+
+@lru_cache(maxsize=256)  # a cell runs again where it is recorded
+def _measured(name: str, worksheets: Path, texts: tuple[bytes, ...], short: bool) -> tuple[Outcome, ...]:
+    return tuple(measure(read(SCENES / f"{name}.toml"), worksheets, short))
 
 
 def measure(scene: Scene, worksheets: Path, short: bool = False) -> list[Outcome]:
