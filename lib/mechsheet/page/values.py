@@ -146,14 +146,17 @@ def _(value: Charted) -> str:
 
 def _altair(chart: Any) -> str:
     """HTML of an altair chart in the face of the page's own: on its ground, in its letters, the title as a caption."""
-    drawn, told = chart.to_dict(), chart.usermeta
-    drawn.pop("usermeta", None)
-    place, _, title = str(drawn.pop("title", "")).partition(" – ")
-    config = drawn.setdefault("config", {})
+    from altair import Undefined  # on use: only such a chart needs it
+
+    chart, place, title = chart.copy(deep=False), "", ""
+    if isinstance(chart.title, str):
+        place, _, title = chart.title.partition(" – ")
+        chart.title = Undefined
+    config = {} if chart.config is Undefined else chart.config.to_dict()
     config |= {"background": "transparent", "font": _LETTERS, "view": {**config.get("view", {}), "stroke": _FAINT}}
     faint = dict.fromkeys(("gridColor", "domainColor", "tickColor"), _FAINT)
-    config["axis"] = {**config.get("axis", {}), **faint, "titleFontWeight": "normal"}
-    shown = mo.as_html(type(chart).from_dict(drawn).properties(usermeta=told)).text
+    chart.config = {**config, "axis": {**config.get("axis", {}), **faint, "titleFontWeight": "normal"}}
+    shown = mo.as_html(chart).text  # as a whole once: altair looks all through what it is given as a dictionary
     return f"{shown}{_caption('Figure', place.removeprefix('Figure '), title)}" if title else shown
 
 
