@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-import subprocess
-import sys
 from collections.abc import Callable
+from contextlib import chdir
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+from as_script import as_script
 from openpyxl import Workbook
 from playwright.sync_api import expect
 
@@ -97,8 +97,8 @@ def test_the_file_is_found_from_any_folder(engine: Path, tmp_path: Path, folder:
     (tmp_path / "gas.csv").write_text(
         "V [cm**3], p [bar]\n1,1\n2,1\n", encoding="utf-8"
     )  # of the folder, not the worksheet
-    command = [sys.executable, "-X", "utf8", str(engine), "--out=."]
-    done = subprocess.run(command, capture_output=True, encoding="utf-8", cwd=tmp_path / folder)
+    with chdir(tmp_path / folder):
+        done = as_script(engine, "--out=.")
     assert done.returncode == 0, done.stderr
     assert (tmp_path / folder / "engine.xlsx").exists()
 
@@ -162,7 +162,7 @@ def test_a_file_that_cannot_be_read_is_named(engine: Path, name: str, data: byte
 
 def test_a_missing_file_of_the_worksheet_itself_is_one_line(engine: Path) -> None:
     (engine.parent / "gas.csv").unlink()
-    done = subprocess.run([sys.executable, str(engine)], capture_output=True, encoding="utf-8", cwd=engine.parent)
+    done = as_script(engine)
     assert done.returncode == 1
     assert "gas.csv cannot be read" in done.stderr and "Traceback" not in done.stderr
 

@@ -2,7 +2,6 @@
 
 import re
 import shutil
-import subprocess
 import sys
 import tomllib
 from pathlib import Path
@@ -159,7 +158,7 @@ def test_pareto_set_is_what_no_other_beats(pairs):
 def run(tmp_path_factory):
     """A run of the worksheet as a script with its own inputs: its folder and what it printed."""
     out = tmp_path_factory.mktemp("out")
-    done = subprocess.run([sys.executable, str(DESIGN), f"--out={out}"], capture_output=True, encoding="utf-8")
+    done = as_script(DESIGN, f"--out={out}")
     assert (done.returncode, done.stderr) == (0, "")
     return out, done.stdout
 

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import subprocess
-import sys
 from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
@@ -648,6 +646,6 @@ def test_bad_input_is_one_line_and_writes_nothing(tmp_path, arguments, message):
 
 
 def test_script_writes_the_workbook(tmp_path):
-    done = subprocess.run([sys.executable, SHEET, "--SI=1", f"--out={tmp_path}"], capture_output=True, encoding="utf-8")
+    done = as_script(SHEET, "--SI=1", f"--out={tmp_path}")
     assert (done.returncode, done.stderr) == (0, "")
     assert [p.name for p in tmp_path.iterdir()] == ["joint.xlsx"]

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import subprocess
-import sys
 from collections.abc import Callable
+from contextlib import chdir
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+from as_script import as_script
 from cells import run
 from openpyxl import load_workbook
 from test_recalculation import disagreements, edit
@@ -126,8 +127,8 @@ def bolt(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def script(path: Path, *given: str) -> subprocess.CompletedProcess[str]:
-    command = [sys.executable, "-X", "utf8", str(path), *given]
-    return subprocess.run(command, capture_output=True, encoding="utf-8", cwd=path.parent)
+    with chdir(path.parent):
+        return as_script(path, *given)
 
 
 @pytest.mark.parametrize(
