@@ -182,7 +182,9 @@ def test_a_table_is_one_block_where_the_page_is_wide_enough(names):
         assert ("--fit" in text) == (max(blocks) > 13)
 
 
-@pytest.mark.parametrize(("rows", "columns", "parts"), [(19, 2, 0), (30, 2, 3), (200, 2, 4), (30, 6, 2), (30, 9, 0), (9, 0, 0)])
+@pytest.mark.parametrize(
+    ("rows", "columns", "parts"), [(19, 2, 0), (30, 2, 3), (200, 2, 4), (30, 6, 2), (30, 9, 0), (9, 0, 0)]
+)
 def test_many_rows_of_a_few_columns_stand_side_by_side(rows, columns, parts):
     """As many times as they have room, none of them with fewer than ten rows."""
     numbers = Column("x", "m", "length", 3, np.linspace(0, 1, rows))
