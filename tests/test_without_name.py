@@ -26,6 +26,8 @@ SHOWN = {
     "by a choice": (f'typeset({TABLE} if g.F > 2 else "none")', ["3"]),
     "in a dictionary": (f'shown = {{"a": {TABLE}}}\ntypeset(*shown.values())', ["3"]),
     "private ones": (f'_t = {TABLE}\n_c = check("ok", y.max(), 3.0)\ntypeset(_t, _c)', ["3"]),
+    "arranged by marimo": (f'mo.vstack([mo.hstack([{TABLE}]), check("ok", y.max(), 3.0)])', ["3"]),
+    "arranged under a name": (f"both = mo.hstack([{TABLE}])\nboth", ["3"]),
     "a summary": ('summary(check("ok", y.max(), 3.0))', []),
 }
 BY_A_METHOD = """class Shown:
@@ -71,14 +73,32 @@ def test_what_no_name_tells_is_grey_and_named(tmp_path: Path) -> None:
     assert told == ["it is shown under no name, by what is not recorded"]
 
 
-def test_a_table_that_the_workbook_has_not_is_told(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """What marimo has arranged is a text of the page; a table in it needs a name."""
-    sheet, _, _ = made(tmp_path, f"mo.vstack([{TABLE}])")
+def script(sheet: Any, tmp_path: Path) -> int:
+    """Exit code of the worksheet as a script that exports."""
     path = Path(sheet.path)
     text = path.read_text()
     export = '@app.cell\ndef workbook():\n    export("Own", globals())\n    return\n\nif __name__'
     path.write_text(text.replace("if __name__", export, 1))
     with pytest.MonkeyPatch.context() as patched:
         patched.setattr("sys.argv", [str(path), f"--out={tmp_path / 'out'}"])
-        report._script("Own", {**sheet.run_whole(), "__file__": str(path)}, path)
-    assert "not there: table 3, which has no name" in capsys.readouterr().out
+        try:
+            report._script({**sheet.run_whole(), "__file__": str(path)}, path, "Own")
+        except SystemExit as ended:
+            return int(ended.code or 0)
+    return 0
+
+
+def test_a_check_that_marimo_has_arranged_fails_the_script(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """It failed on the page while the script passed: all that was left of it is a text of the page."""
+    sheet, _, _ = made(tmp_path, 'mo.accordion({"more": check("ok", y.max(), 2.0)})')
+    assert script(sheet, tmp_path) == 1
+    assert "FAIL  ok" in capsys.readouterr().out
+
+
+def test_what_the_workbook_has_not_is_told(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Tabs of marimo that have a name are an element of the page; a table or a check in them needs a name too."""
+    sheet, _, _ = made(tmp_path, f'tabs = mo.ui.tabs({{"a": {TABLE}, "b": check("ok", y.max(), 3.0)}})\ntabs')
+    assert script(sheet, tmp_path) == 0
+    told = capsys.readouterr().out
+    assert "not there: table 3, which has no name" in told
+    assert "not there: check ok, which has no name" in told

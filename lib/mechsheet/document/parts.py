@@ -16,7 +16,7 @@ from mechsheet.worksheet.check import Summary
 from mechsheet.worksheet.errors import raised
 from mechsheet.worksheet.lines import Formula, Given, Typeset
 from mechsheet.worksheet.over import Over, over
-from mechsheet.worksheet.shown import Shown
+from mechsheet.worksheet.shown import Shown, arranged
 from mechsheet.worksheet.table import Figure, Table
 from mechsheet.worksheet.title import Player, SideBySide, Slider, Title
 
@@ -156,8 +156,9 @@ def _cells(names: dict[str, Any], only: Container[int] | None = None) -> Iterato
             if cell.shown and cell.reads <= names.keys():
                 if cell.before:
                     exec(cell.before, names)
-                value = eval(cell.shown, names)
-                value = str(value) if cell.is_text else value
+                with arranged() as held:  # of what marimo has arranged nothing but its text is left
+                    value = eval(cell.shown, names)
+                value = str(value) if cell.is_text else [*held, value] if held else value
             yield value, [names[name] for name in cell.gives if name in names]
 
 
@@ -195,6 +196,14 @@ def _before(lines: list[ast.stmt], shown: ast.expr) -> list[ast.stmt]:
         kept = [line for line in lines if not private.isdisjoint(_names(line))]
         private |= {name for line in kept for name in _names(line) if name.startswith("_")}
     return kept
+
+
+def _arranging(line: ast.stmt) -> str:
+    """Name that a line gives to what marimo arranges; "" of any other."""
+    match line:
+        case ast.Assign([ast.Name(name)], ast.Call(ast.Attribute(ast.Name("mo")))):
+            return name
+    return ""
 
 
 def _names(node: ast.AST) -> Iterator[str]:

@@ -80,7 +80,7 @@ def export(title: str, namespace: Mapping[str, Any]) -> Any:
     def book() -> tuple[bytes, list[str]]:
         values = parts.values(namespace)
         recording, fit = _recorded(namespace, values)
-        return _workbook(title, namespace, [*values, fit], recording), _not_followed(recording, values)
+        return _workbook(title, namespace, [*values, fit], recording), _not_followed(recording, [*values, fit])
 
     def page() -> tuple[bytes, list[str]]:
         return html.page(sheet, inputs_of(namespace)).encode(), []
@@ -155,11 +155,11 @@ def _script(namespace: Mapping[str, Any], worksheet: Path, title: str | None = N
         why = f'no workbook is written: no cell calls export("{load(worksheet).title}", globals())'
         if given.out:
             raise arguments.UsageError(f"--out={given.out}: {why}")
-        say(why, *_left_out(namespace, worksheet))
+        say(why, *_not_there(recording, [*values, fit]), *_left_out(namespace, worksheet))
     else:
         path = (given.out or folder(worksheet.resolve())) / f"{worksheet.stem}.xlsx"
         write(_workbook(title, namespace, [*values, fit, *proved], recording, proved), path)
-        say(f"written {path}", *_not_followed(recording, values), *_left_out(namespace, worksheet))
+        say(f"written {path}", *_not_followed(recording, [*values, fit]), *_left_out(namespace, worksheet))
     if not all(check.passed for check in checks):
         sys.exit(1)
 
@@ -172,12 +172,15 @@ def _left_out(namespace: Mapping[str, Any], worksheet: Path) -> Iterator[str]:
 
 
 def _not_followed(recording: Recording, values: Iterable[Any]) -> list[str]:
-    """What the workbook does not follow, and what of the recorded tables and figures it has not, a line for each."""
+    """What the workbook does not follow, and what it has not, a line for each."""
+    gaps = (f"not followed there: {gap}" for gap in (*recording.gaps, *recording.unsolved))
+    return [*gaps, *_not_there(recording, values)]
+
+
+def _not_there(recording: Recording, values: Iterable[Any]) -> list[str]:
+    """The recorded tables, figures and checks that are not among the values, a line for each."""
     lacking = _recorded_ones(recording) - {*map(_called, values)}
-    return [
-        *(f"not followed there: {gap}" for gap in (*recording.gaps, *recording.unsolved)),
-        *(f"not there: {name}, which has no name" for name in sorted(lacking) if not name.startswith("check ")),
-    ]
+    return [f"not there: {name}, which has no name" for name in sorted(lacking)]
 
 
 def folder(worksheet: Path) -> Path:

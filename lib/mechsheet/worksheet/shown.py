@@ -3,7 +3,9 @@
 The package itself loads this file: nothing else is imported here.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from contextvars import ContextVar
 from typing import Any, Protocol
 
 Texts = tuple[tuple[str, str], ...]  # of cells: each with the name under which it is compiled
@@ -44,11 +46,28 @@ def _no_page(_namespace: Mapping[str, Any]) -> Texts | None:
 cells_in_page: Callable[[Mapping[str, Any]], Texts | None] = _no_page
 
 
+_asked: ContextVar["list[Shown] | None"] = ContextVar("_asked", default=None)
+
+
+@contextmanager
+def arranged() -> Iterator["list[Shown]"]:
+    """List of the values whose texts marimo asks for within it, to arrange them, in that order; it is given none."""
+    asked = list[Shown]()
+    token = _asked.set(asked)
+    try:
+        yield asked
+    finally:
+        _asked.reset(token)
+
+
 class Shown:
     """A value that a cell can show: marimo asks it for its text, and the writer for its kind answers."""
 
     def _mime_(self) -> tuple[str, str]:
-        return page().written(self)
+        if (asked := _asked.get()) is None:
+            return page().written(self)
+        asked.append(self)
+        return "text/html", ""
 
 
 class Charted(Shown):
