@@ -365,7 +365,11 @@ def test_units_of_a_cell_without_inputs_are_followed(cells, told):
 
 
 @pytest.mark.parametrize(
-    ("unit", "told"), [("m/s**2", []), ("mm", ["g: unit [mm] does not fit; the value is in m/s²"])]
+    ("unit", "told"),
+    [
+        ("m/s**2", []),
+        ("mm", ["g: unit [mm] does not fit; the value is in m/s²; 9.81 has no unit, and would fit with s²"]),
+    ],
 )
 def test_units_of_a_worksheet_without_inputs_are_checked(unit, told):
     """There g is a name like any other."""

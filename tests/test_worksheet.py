@@ -316,7 +316,7 @@ def test_all_cells_run_those_first_that_others_need_and_those_too_that_give_noth
     path.write_text(cells("print(c)", "c = f()", "def f():\n    return 2 * b", "b = 21", "print('end')"))
     names = load(path).run_whole()
     assert (names["c"], capsys.readouterr().out) == (42, "42\nend\n")
-    assert evaluate(path, ["c"], g=None) == {"c": 42}
+    assert evaluate(path, ["c"]) == {"c": 42}
 
 
 def test_a_name_that_two_cells_define_is_refused_with_both_places(tmp_path):

@@ -70,7 +70,7 @@ def export(title: str, namespace: Mapping[str, Any]) -> Any:
     """
     worksheet = Path(namespace["__file__"])
     if arguments.is_script(str(worksheet)):
-        _script(namespace, worksheet, title)
+        _script(title, namespace, worksheet)
         return None
     from mechsheet.html import write as html  # on use: a worksheet called as a function needs no page
     from mechsheet.page import design, study  # on use: as above
@@ -118,10 +118,10 @@ def _own(worksheet: Path) -> dict[str, Any]:
 def end(namespace: Mapping[str, Any]) -> None:
     """The end of a script in which no cell has called `export`: the same report, and no workbook."""
     if not ending.is_over():
-        _script(namespace, Path(namespace["__file__"]))
+        _script(None, namespace, Path(namespace["__file__"]))
 
 
-def _script(namespace: Mapping[str, Any], worksheet: Path, title: str | None = None) -> None:
+def _script(title: str | None, namespace: Mapping[str, Any], worksheet: Path) -> None:
     """Report a run, write its workbook where it has a title, and exit with 1 where a check fails."""
     ending.over()
     missing = [name for name in results(worksheet, certain=True) if name not in namespace]

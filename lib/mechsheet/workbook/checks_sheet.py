@@ -38,7 +38,7 @@ def write(
         title: Content = _title(sum(check.passed for check in checks), len(checks))
     else:
         within = Check(_WITHIN, 0.0, 0.0, "inputs")
-        rows = [(within, Live(formulas.outside(), 0.0), 0.0)]
+        rows = [(within, Live(formulas.outside(), 0.0), 0.0)] if formulas.recording.inputs else []
         rows += [(c, *_compared(c, formulas, c.name in fixed)) for c in checks]
         if guard := formulas.guard():
             rows.append((Check(_MADE, 0.0, 0.0), Live(guard, 0.0), 0.0))
