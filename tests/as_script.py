@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import os
 import subprocess
 import sys
@@ -34,6 +35,7 @@ def _run(command: list[str], out: IO[str], err: IO[str]) -> NoReturn:
     code: object = 99  # of a fault in here
     try:
         warnings.resetwarnings()
+        gc.freeze()  # what the tests hold is not looked through for waste again
         sys.argv, sys.stdout, sys.stderr = ["script", *command], out, err
         try:
             script.main()
