@@ -140,6 +140,15 @@ def test_the_started_file_tells_the_same_as_the_command(tmp_path: Path, parts: t
         assert (own.returncode, own.stdout, own.stderr) == (command.returncode, command.stdout, command.stderr)
 
 
+def test_cells_that_marimo_runs_are_run_once(tmp_path: Path) -> None:
+    """They have begun before the package is there: the report is made of what they have given."""
+    setup = "with app.setup:\n    import mechsheet\n    from mechsheet.units import N\n"
+    cell = "@app.cell\ndef _():\n    print('begun')\n    c = mechsheet.check('force', 2 * N, 1 * N, 'N')\n    return\n"
+    done = started(sheet(tmp_path, setup, cell))
+    assert done.returncode == 1 and done.stdout.count("begun\n") == 1
+    assert "FAIL  force: 2 <= 1 N" in done.stdout and done.stdout.endswith(NOTHING + "\n")
+
+
 @pytest.mark.parametrize(
     ("old", "new", "told"),
     [

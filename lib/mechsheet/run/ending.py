@@ -16,7 +16,7 @@ _UNREAD = 141  # of one whose reader has gone, as head does after its last line
 
 
 def watch(worksheet: str) -> None:
-    """Let whatever a run of the worksheet raises end in one line on stderr and the exit code."""
+    """Begin a run of the worksheet: whatever it raises ends in one line on stderr and the exit code."""
     _over.clear()
     sys.excepthook = partial(_end, worksheet)
 
