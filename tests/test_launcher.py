@@ -38,10 +38,10 @@ def calls(monkeypatch: pytest.MonkeyPatch) -> list[list[str]]:
 
 @pytest.fixture
 def sheet(tmp_path: Path) -> Path:
-    """A worksheet that prints its arguments and exits with 3."""
+    """A worksheet that prints its arguments, which only one that may ask for inputs can take, and exits with 3."""
     path = tmp_path / "sheet.py"
     lines = ("import marimo", "", "app = marimo.App()", "", "@app.cell", "def told():", "    import sys")
-    ends = ("    print(*sys.argv[1:], 'φ')", "    sys.exit(3)", "    return", "")
+    ends = ("    from mechsheet import ask", "    print(*sys.argv[1:], 'φ')", "    sys.exit(3)", "    return", "")
     path.write_text("\n".join((*lines, *ends)), encoding="utf-8")
     return path
 
