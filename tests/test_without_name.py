@@ -82,7 +82,7 @@ def script(sheet: Any, tmp_path: Path) -> int:
     with pytest.MonkeyPatch.context() as patched:
         patched.setattr("sys.argv", [str(path), f"--out={tmp_path / 'out'}"])
         try:
-            report._script({**sheet.run_whole(), "__file__": str(path)}, path, "Own")
+            report._script("Own", {**sheet.run_whole(), "__file__": str(path)}, path)
         except SystemExit as ended:
             return int(ended.code or 0)
     return 0
