@@ -13,6 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 import pytest
 import vector_equations
+from hypothesis import settings
 from vector_equations import mp, mpc, mpf
 
 import mechsheet
@@ -110,7 +111,7 @@ FAMILIES = {
     "1e-150 of the length": Family(size=1e-150),
     "1e150 of the length": Family(size=1e150),
 }
-COUNT = 16  # of each family
+COUNT = 8 * settings.default.max_examples // 100  # of each family, and ten times as many in a search
 
 
 class Draw:
