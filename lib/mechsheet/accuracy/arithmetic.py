@@ -76,6 +76,16 @@ def _value_and_derivatives(f: Callable[[mpf], mpc]) -> tuple[mpc, mpc, mpc]:
     return here, (ahead - behind) / (2 * STEP), (ahead - 2 * here + behind) / STEP**2
 
 
+def slope(f: Callable[[mpf], mpc]) -> mpc:
+    """First derivative at t = 0."""
+    return (f(STEP) - f(-STEP)) / (2 * STEP)
+
+
+def turning(a: Callable[[mpf], mpc]) -> mpf:
+    """Angular velocity of the vector a(t) at t = 0."""
+    return (slope(a) / a(mpf(0))).imag
+
+
 def rotation(a: Callable[[mpf], mpc]) -> tuple[mpf, mpf]:
     """Angular velocity and acceleration of the vector a(t) at t = 0."""
     here, first, second = _value_and_derivatives(a)

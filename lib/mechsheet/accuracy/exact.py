@@ -15,7 +15,21 @@ from typing import Any
 
 import numpy as np
 
-from mechsheet.accuracy.arithmetic import DIGITS, SLACK, Numbers, cross, derivatives, mp, mpc, mpf, rotation, rrp, rrr
+from mechsheet.accuracy.arithmetic import (
+    DIGITS,
+    SLACK,
+    Numbers,
+    cross,
+    derivatives,
+    mp,
+    mpc,
+    mpf,
+    rotation,
+    rrp,
+    rrr,
+    slope,
+    turning,
+)
 from mechsheet.worksheet.inputs import declared
 from mechsheet.worksheet.kinds import Chosen
 
@@ -59,8 +73,8 @@ def hitch(g: Any, S: Any = None, **lengths: Any) -> Numbers:
 
 def second_analogues(g: Any, S: Any, L4: Any, L7: Any) -> list[mpf]:
     """Second derivatives of the angles of the links 3 to 7 with respect to S."""
-    x = _exact(g)
-    return [second for _, second in _analogues(cache(lambda t: _pins(x, mpf(S) + t, mpf(L4), mpf(L7))))]
+    pins, stroke = _pins(_exact(g), mpf(L4), mpf(L7)), mpf(S)
+    return [rotation(_link(lambda t: pins(stroke + t), *ends))[1] for ends in _LINKS.values()]
 
 
 def stroke(g: Any) -> Numbers:
@@ -324,31 +338,38 @@ def _arm(x: Any) -> mpc:
     return x.L34 / x.L3 * mp.expj(x.phi_BD)
 
 
-def _pins(x: Any, S: mpf, L4: mpf, L7: mpf) -> Numbers:
+def _pins(x: Any, L4: mpf, L7: mpf) -> Callable[[mpf], Numbers]:
+    """Where the pins are as a function of the stroke."""
     O1, O3, O5, O7 = _hinges(x)
-    P23 = rrr(O1, O3, S, x.L3, -1)
-    P34 = O3 + (P23 - O3) * _arm(x)
-    P45 = rrr(P34, O5, L4, x.L5, +1)
-    P56 = O5 + (P45 - O5) * (x.L56 / x.L5)
-    P67 = rrr(P56, O7, x.L6, L7, -1)
-    frame = {"O1": O1, "O3": O3, "O5": O5, "O7": O7}
-    return frame | {"P23_S": P23, "P34_S": P34, "P45_S": P45, "P56_S": P56, "P67_S": P67}
+    arm, frame = _arm(x), {"O1": O1, "O3": O3, "O5": O5, "O7": O7}
+
+    @cache
+    def at(S: mpf) -> Numbers:
+        P23 = rrr(O1, O3, S, x.L3, -1)
+        P34 = O3 + (P23 - O3) * arm
+        P45 = rrr(P34, O5, L4, x.L5, +1)
+        P56 = O5 + (P45 - O5) * (x.L56 / x.L5)
+        P67 = rrr(P56, O7, x.L6, L7, -1)
+        return frame | {"P23_S": P23, "P34_S": P34, "P45_S": P45, "P56_S": P56, "P67_S": P67}
+
+    return at
 
 
 @lru_cache(maxsize=1)  # while the loads alone change
 def _motion(S: mpf, L4: mpf, S_p: mpf, L7: mpf, **unloaded: mpf) -> Numbers:
     """Positions, and derivatives with respect to S; the implement is fixed to the mast where it stands at S_p."""
     x = SimpleNamespace(**unloaded)
-    Z, work = mpc(x.X6, x.Y6), _pins(x, S_p, L4, L7)
-    mast = work["P67_S"] - work["P56_S"]
+    Z, at = mpc(x.X6, x.Y6), _pins(x, L4, L7)
+    mast = at(S_p)["P67_S"] - at(S_p)["P56_S"]
+    turned = Z / mast
 
     @cache
     def pins(t: mpf) -> Numbers:
-        p = _pins(x, S + t, L4, L7)
-        return p | {"PS6_S": p["P56_S"] + Z / mast * (p["P67_S"] - p["P56_S"])}
+        p = at(S + t)
+        return p | {"PS6_S": p["P56_S"] + turned * (p["P67_S"] - p["P56_S"])}
 
-    dphi3, dphi4, dphi5, dphi6, dphi7 = (first for first, _ in _analogues(pins))
-    I56, IS6 = (derivatives(lambda t, P=P: pins(t)[P])[0].imag for P in ("P56_S", "PS6_S"))  # type: ignore[misc]
+    dphi3, dphi4, dphi5, dphi6, dphi7 = (turning(_link(pins, *ends)) for ends in _LINKS.values())
+    I56, IS6 = (slope(lambda t, P=P: pins(t)[P]).imag for P in ("P56_S", "PS6_S"))  # type: ignore[misc]
     results = pins(mpf(0)) | {"L4": L4, "S_p": S_p, "L7": L7}
     results |= {f"phi{k}_S": mp.arg(results[end] - results[start]) for k, (start, end) in _LINKS.items()}
     results |= {"phi12_S": mp.arg(results["P23_S"] - results["O1"]), "phi34_S": results["phi3_S"] + x.phi_BD}
@@ -358,9 +379,9 @@ def _motion(S: mpf, L4: mpf, S_p: mpf, L7: mpf, **unloaded: mpf) -> Numbers:
     return results | {"I56": I56, "IS6": IS6, "Imp": I56, "Isp": IS6}
 
 
-def _analogues(pins: Callable[[mpf], Numbers]) -> list[tuple[mpf, mpf]]:
-    """First and second derivatives of the angles of the links 3 to 7, where the pins depend on a small change of S."""
-    return [rotation(lambda t, a=a, b=b: pins(t)[b] - pins(t)[a]) for a, b in _LINKS.values()]  # type: ignore[misc]
+def _link(pins: Callable[[mpf], Numbers], start: str, end: str) -> Callable[[mpf], mpc]:
+    """A link's vector, where the pins depend on a small change of S."""
+    return lambda t: pins(t)[end] - pins(t)[start]
 
 
 def _over(a: mpf, b: mpf) -> mpf:
