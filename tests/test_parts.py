@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from as_script import as_script
 from openpyxl import load_workbook
+from own_worksheet import own
 
 from mechsheet.document.parts import Control, Line, Section, Text, contents, values
 from mechsheet.html.write import page
@@ -283,3 +284,22 @@ def test_of_a_run_for_some_results_it_is_what_its_cells_show(bar):
     del asked["table_2"]  # as if the cell had not come to its end
     assert [check.name for check in of(values(asked), Check)][:2] == ["named", "under no name"]
     assert all(check.name != "of a private name" for check in of(values(asked), Check))
+
+
+@pytest.mark.parametrize(
+    ("shown", "told"),
+    [
+        ("np.zeros(2)", "ndarray: shown in the worksheet alone"),
+        ("2.5 * 2", "float: shown in the worksheet alone"),
+        ('mo.callout("Mind the bolts")', "what marimo shows: shown in the worksheet alone"),
+        ('mo.vstack([mo.md("so it is"), table("2", "Two", x)])', "what marimo shows: shown in the worksheet alone"),
+        ('mo.vstack([table("2", "Two", x)])', ""),
+    ],
+)
+def test_what_a_page_in_one_file_cannot_show_is_named(tmp_path, shown, told):
+    """An array, a number, a text that marimo shows: all of it was left out without a word."""
+    path = Path(own(tmp_path, "import marimo as mo").path)
+    path.write_text(path.read_text().replace("    typeset()\n", f"    {shown}\n"))
+    text = page(load(path), load(path).inputs())
+    assert text.count("shown in the worksheet alone") == bool(told) and told in text
+    assert ('id="table-2"' in text) is ("table(" in shown)

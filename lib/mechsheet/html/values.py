@@ -29,7 +29,6 @@ from mechsheet.worksheet.index import Index
 from mechsheet.worksheet.inputs import Used
 from mechsheet.worksheet.lines import Formula, Given
 from mechsheet.worksheet.lists import Rows
-from mechsheet.worksheet.shown import Shown
 from mechsheet.worksheet.table import Column, Figure, Table
 from mechsheet.worksheet.title import Caption, Mark, SideBySide, Title
 from mechsheet.worksheet.verdict import Verdict
@@ -41,8 +40,15 @@ _READINGS = re.compile(" data-values='[^']*'")  # of a chart: the page knows the
 @singledispatch
 def html(value: Any, page: Follower) -> str:
     """HTML of a value, which `Follower` marks where it follows the inputs."""
-    what = escape(type(value).__name__)
-    return f'<p class="ms-note">{what}: shown in the worksheet alone</p>' if isinstance(value, Shown) else ""
+    text = getattr(value, "text", None)
+    if isinstance(text, str) and not _SEEN.search(text):  # what marimo has arranged, without its parts
+        return ""
+    kind = type(value)
+    what = "what marimo shows" if kind.__module__.startswith("marimo.") else escape(kind.__name__)
+    return f'<p class="ms-note">{what}: shown in the worksheet alone</p>'
+
+
+_SEEN = re.compile(r"<(?:img|svg|iframe|marimo-|table)|(?:^|>)[^<]*[^\s<]")
 
 
 @html.register
