@@ -55,6 +55,8 @@ def test_it_is_recorded(case: str, tmp_path: Path) -> None:
     assert not recording.gaps and [*recording.tables] == tables
     assert bool(recording.checks) is ("check(" in lines)
     book = load_workbook(BytesIO(report.workbook("Own", names, {})))
+    titles = {sheet.title.partition(" ")[0] for sheet in book}
+    assert titles.issuperset(number for number in tables if number.isdecimal())
     for sheet in book:
         if sheet.title.partition(" ")[0] in tables:
             assert str(sheet["B6"].value).startswith("="), sheet.title
@@ -88,11 +90,28 @@ def script(sheet: Any, tmp_path: Path) -> int:
     return 0
 
 
-def test_a_check_that_marimo_has_arranged_fails_the_script(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+FAILS = "check('ok', y.max(), 2.0)"
+LATER = "@app.cell\ndef later(box):\n    box\n    return\n\n\n"
+
+
+@pytest.mark.parametrize(
+    ("lines", "later"),
+    [
+        (f'mo.accordion({{"more": {FAILS}}})', ""),
+        (f'mo.md(f"so it is: {{mo.as_html({FAILS})}}")', ""),
+        (f"both = mo.hstack([{FAILS}])\nboth", ""),
+        (f"box = mo.vstack([{FAILS}])", LATER),
+    ],
+)
+def test_a_check_that_marimo_has_arranged_fails_the_script(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], lines: str, later: str
+) -> None:
     """It failed on the page while the script passed: all that was left of it is a text of the page."""
-    sheet, _, _ = made(tmp_path, 'mo.accordion({"more": check("ok", y.max(), 2.0)})')
-    assert script(sheet, tmp_path) == 1
-    assert "FAIL  ok" in capsys.readouterr().out
+    sheet, _, _ = made(tmp_path, lines)
+    path = Path(sheet.path)
+    path.write_text(path.read_text().replace("if __name__", f"{later}if __name__", 1))
+    assert script(cells.load(path), tmp_path) == 1
+    assert capsys.readouterr().out.count("FAIL  ok") == 1
 
 
 def test_what_the_workbook_has_not_is_told(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -154,11 +154,12 @@ def _cells(names: dict[str, Any], only: Container[int] | None = None) -> Iterato
                 continue
             value = None
             if cell.shown and cell.reads <= names.keys():
-                if cell.before:
-                    exec(cell.before, names)
                 with arranged() as held:  # of what marimo has arranged nothing but its text is left
+                    if cell.before:
+                        exec(cell.before, names)
                     value = eval(cell.shown, names)
-                value = str(value) if cell.is_text else [*held, value] if held else value
+                value = str(value) if cell.is_text else value
+                value = [*held, value] if held else value
             yield value, [names[name] for name in cell.gives if name in names]
 
 
@@ -168,41 +169,46 @@ def _read(path: Path, _changed: int) -> tuple[_Written, ...]:
     nodes = list(source.functions(source.parsed(path.read_text(encoding="utf-8"))[0]))
     given = [cell.gives for cell in load(path).cells]
     certain, every = frozenset(results(path, certain=True)), frozenset(results(path))
+    arranging = {name: line for node in nodes for line in node.body if (name := _arranging(line))}
     return tuple(
-        _Written(gives, certain & {*gives}, *_ending(node, every, str(path)))
+        _Written(gives, certain & {*gives}, *_ending(node, every, str(path), arranging))
         for node, gives in zip(nodes, given, strict=True)
     )
 
 
 def _ending(
-    node: ast.FunctionDef, every: frozenset[str], path: str
+    node: ast.FunctionDef, every: frozenset[str], path: str, arranging: Mapping[str, ast.stmt]
 ) -> tuple[frozenset[str], CodeType | None, CodeType | None, bool]:
     """What a cell shows: the names that this reads of all cells, its code, and whether it is a text."""
     text, body = source.markdown(node), node.body[:-1] if isinstance(node.body[-1], ast.Return) else node.body
     match body[-1:]:
         case [ast.Expr(shown)] if not _asks(node):
-            before = _before(body[:-1], shown)
+            before = _before(body[:-1], shown, arranging)
             reads = every.intersection(name for part in (*before, shown) for name in _names(part))
             code = compile(ast.Module(before, []), path, "exec") if before else None
             return reads, code, compile(ast.Expression(text or shown), path, "eval"), text is not None
     return frozenset(), None, None, False
 
 
-def _before(lines: list[ast.stmt], shown: ast.expr) -> list[ast.stmt]:
-    """Lines of a cell that have to do with the names with ``_`` in what it shows, and with those in these lines."""
-    private, size = {name for name in _names(shown) if name.startswith("_")}, -1
+def _before(lines: list[ast.stmt], shown: ast.expr, arranging: Mapping[str, ast.stmt]) -> list[ast.stmt]:
+    """Lines of a cell that have to do with the names with ``_`` in what it shows, and with those in these lines.
+
+    So do those by which marimo arranges what is shown, in whatever cell: of that nothing but its text is left.
+    """
+    elsewhere = [line for name, line in arranging.items() if line not in lines and name in _names(shown)]
+    private, size = {name for name in _names(shown) if name.startswith("_") or name in arranging}, -1
     while len(private) > size:
         size = len(private)
         kept = [line for line in lines if not private.isdisjoint(_names(line))]
         private |= {name for line in kept for name in _names(line) if name.startswith("_")}
-    return kept
+    return elsewhere + kept
 
 
 def _arranging(line: ast.stmt) -> str:
     """Name that a line gives to what marimo arranges; "" of any other."""
     match line:
-        case ast.Assign([ast.Name(name)], ast.Call(ast.Attribute(ast.Name("mo")))):
-            return name
+        case ast.Assign([ast.Name(name)], ast.Call(ast.Attribute(ast.Name("mo"))) as arranged):
+            return "" if any(part.startswith("_") for part in _names(arranged)) else name
     return ""
 
 

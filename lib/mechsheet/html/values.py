@@ -40,11 +40,12 @@ _READINGS = re.compile(" data-values='[^']*'")  # of a chart: the page knows the
 @singledispatch
 def html(value: Any, page: Follower) -> str:
     """HTML of a value, which `Follower` marks where it follows the inputs."""
-    text = getattr(value, "text", None)
-    if isinstance(text, str) and not _SEEN.search(text):  # what marimo has arranged, without its parts
-        return ""
     kind = type(value)
-    what = "what marimo shows" if kind.__module__.startswith("marimo.") else escape(kind.__name__)
+    what = escape(kind.__name__)
+    if kind.__module__.startswith("marimo."):
+        what = "what marimo shows"
+        if not _SEEN.search(str(getattr(value, "text", "?"))):  # it has arranged parts, and adds nothing to them
+            return ""
     return f'<p class="ms-note">{what}: shown in the worksheet alone</p>'
 
 
