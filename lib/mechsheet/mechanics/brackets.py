@@ -20,7 +20,10 @@ EPS = float(np.finfo(float).eps)
 _COARSE = np.linspace(0, 1, 9)[1:-1, None, None]
 _FINE = np.concatenate([-(8.0 ** -np.arange(2, 6)), [0], 8.0 ** -np.arange(2, 6)])[:, None, None]
 _BACK = np.array([-3, -2, -1])[:, None, None]
-_EVEN = np.array([-1, 0, 1])[:, None, None]
+_EIGHTHS = np.arange(1, 8)[:, None, None] / 8
+_SIDES = np.array([-1, -1, -1, 0, 1, 1, 1])[:, None, None]
+_NEARER = 2.0 ** np.array([0, -5, -10, 0, -10, -5, 0])[:, None, None]  # parts of a distance
+_LEAST = np.array([32, 8, 2, 0, 2, 8, 32])[:, None, None]  # floats
 _MANY = np.arange(1, 16)[:, None, None] / 16
 
 
@@ -88,16 +91,15 @@ def _closer(f: Function, x: Array, y: Array, low: Array, high: Array, near: Arra
 def bracketed(g: Function, x: Array, r: Array, active: Mask, floor: Array) -> tuple[Array, Array]:
     """The final brackets of the roots between x[0] and x[1], whose residuals r have opposite signs.
 
-    The next points are the zero of the parabola x(r) through the bracket and the point x[2] beside it, and one on
-    either side: as far off as half way to the zero of the line, and farther where that has not narrowed the bracket to
-    an eighth, which evenly spaced ones would not either. Where it has not three times, and at the end, where f is
-    rounding, the points are evenly spaced. Where it has not there are more of them: a jump must be closed in to the
-    last float to be told from a root.
+    The next points stand around the zero of the parabola x(r) through the bracket and the point x[2] beside it: as far
+    off as half way to the zero of the line, and ever nearer, down to two floats. Where they have not narrowed the
+    bracket to an eighth three times, and at the end, where f is rounding, the points are evenly spaced; where they have
+    not there are more of them: a jump must be closed in to the last float to be told from a root.
     """
     poor = np.zeros(active.shape)
     while True:
         (a, b, c), (r_a, r_b, r_c) = x, r
-        width, half, unit = b - a, b / 2 - a / 2, ulp(b, floor)  # the width itself may overflow
+        width, unit = b - a, ulp(b, floor)  # the width may overflow
         active = active & (width > 4 * unit) & (r_a != 0) & (r_b != 0)
         if not active.any():
             return x[:2], r[:2]
@@ -106,10 +108,11 @@ def bracketed(g: Function, x: Array, r: Array, active: Mask, floor: Array) -> tu
         parabola = a + width * along * (r_c / (r_b - r_c)) + (c - a) * (r_a / (r_c - r_a)) * (r_b / (r_c - r_b))
         zero = np.where((a < parabola) & (parabola < b), parabola, line)
         off = np.abs(parabola - line) / 2
-        off = np.maximum(np.where(off < width, off, width / 4), 8 ** (1 + poor) * unit)
-        even = ~((a < zero) & (zero < b)) | (width <= 64 * unit) | (poor > 2)
-        new = np.where(even, a + half, zero) + _EVEN * np.where(even, half / 2, off)
-        many = active & (poor > 2) & (width > 64 * unit)
+        off = np.where(off < width, off, width / 4)
+        even = ~((a < zero) & (zero < b)) | (width <= 32 * unit) | (poor > 2)
+        nearer = np.maximum(off * _NEARER, unit * _LEAST)
+        new = np.where(even, a * (1 - _EIGHTHS) + b * _EIGHTHS, zero + _SIDES * nearer)
+        many = active & (poor > 2) & (width > 32 * unit)
         if many.any():  # the others stay as they would be alone: what they do not need stands at their end b
             rest = np.broadcast_to(b, (len(_MANY) - len(new), *b.shape))
             new = np.where(many, a * (1 - _MANY) + b * _MANY, np.concatenate([new, rest]))

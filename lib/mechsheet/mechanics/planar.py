@@ -69,7 +69,8 @@ def angle(z: ArrayLike) -> Float:
     >>> angle([1j, -1])
     array([1.57079633, 3.14159265])
     """
-    return np.angle(np.asarray(z, np.complex128) + 0.0)  # + 0.0: the angle of -1 - 0.0j would be -pi
+    z = np.asarray(z, np.complex128)
+    return np.arctan2(z.imag + 0.0, z.real + 0.0)  # + 0.0: the angle of -1 - 0.0j would be -pi
 
 
 @broadcasting

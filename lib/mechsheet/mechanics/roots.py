@@ -69,7 +69,7 @@ class Counted:
         self.count += x.size
         columns = x.reshape(-1, len(self.functions), *self.shape)
         y = np.empty_like(columns)
-        block = max(1, _BLOCK * len(columns) * len(self.functions) // x.size)
+        block = -(-len(columns) // max(1, round(x.size / len(self.functions) / _BLOCK)))
         for k, f in enumerate(self.functions):
             for i in range(0, len(columns), block):
                 y[i : i + block, k] = real_values(f, columns[i : i + block, k])
