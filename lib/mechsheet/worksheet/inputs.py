@@ -322,8 +322,9 @@ def variants(cls: type, given: Mapping[str, ArrayLike]) -> Variants:
     flat = {name: column.ravel() for name, column in shown.items()}
     plain = {name: field for name, field in fields.items() if type(field) is Input}
     every = {name: flat.get(name, field.display(getattr(cls, name))) for name, field in plain.items()}
-    for holds, say in _rules(plain.values(), every):
-        if not np.all(holds):
+    touched = [f for f in plain.values() if f.name in flat or any(other in flat for _, other in f.limits)]
+    for holds, say in _rules(touched, every):
+        if holds is not True and not np.all(holds):
             for i in np.flatnonzero(np.broadcast_to(~np.asarray(holds), reasons.shape) & (reasons == "")):
                 reasons[i] = str(say(int(i)))
     si = {name: _shared(fields[name].leaf(column, getattr(cls, name))) for name, column in flat.items()}

@@ -19,6 +19,7 @@ from mechsheet.worksheet.branch import branches, on_its_branch, untold
 from mechsheet.worksheet.cells import Worksheet
 from mechsheet.worksheet.errors import SheetError, refuse
 from mechsheet.worksheet.shown import Shown
+from mechsheet.worksheet.verdict import asks_values_only
 
 _DECLARED = re.compile(r"\[([^\]]*)\]\s*(.*)")
 _ONE_NUMBER = r"\(\d{1,3}(?:\.\d+)*[a-z]?\)"
@@ -340,11 +341,13 @@ def typeset(*shown: Any, display: Mapping[str, str] | None = None) -> "Typeset":
     except SheetError as error:
         refuse(error)
     rows = [_displayed(row, display or {}) if isinstance(row, Formula) else row for row in lines]
-    rows = [_with_constants(row, frame.f_globals) for row in rows]
     values = tuple(frame.f_globals[row.name] if isinstance(row, Formula) else None for row in rows)
     for row, value in zip(rows, values, strict=True):
         if isinstance(row, Formula) and (why := no_number(row, value)):
             refuse(SheetError(f"{cell.at(row.expression.lineno)}: {why}"))
+    if asks_values_only():
+        return Typeset((), (), shown)
+    rows = [_with_constants(row, frame.f_globals) for row in rows]
     known = Numbers(frame.f_globals)
     if not between:
         return Typeset(tuple(rows), values, shown, known)
