@@ -168,20 +168,6 @@ def timed_once(monkeypatch: pytest.MonkeyPatch) -> None:
         monkeypatch.setattr(module, "timed", timed)
 
 
-@pytest.fixture
-def brief_accuracy(monkeypatch: pytest.MonkeyPatch, timed_once: None) -> None:
-    """The accuracy worksheet measures some of the extreme scenes, too.
-
-    For what does not ask how they come out: that is the script's, whose workbook is compared, and the test of the
-    scenes.
-    """
-    from mechsheet.accuracy import extreme
-
-    some = extreme.scenes()[::9]
-    assert {bool(scene.says) for scene in some} == {True, False}
-    monkeypatch.setattr(extreme, "scenes", lambda: some)
-
-
 def examples(count: int, **others: Any) -> settings:
     """Settings of a test that takes so many examples, not the usual 100, and as many times more in a search."""
     return settings(max_examples=count * settings.default.max_examples // 100, **others)

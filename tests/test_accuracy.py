@@ -2,6 +2,7 @@
 
 import re
 import shutil
+import sys
 from dataclasses import replace
 from pathlib import Path
 
@@ -10,6 +11,8 @@ import pytest
 import test_joint
 import test_kinetostatics_sheet
 import test_slotted_link
+from test_displayed import assert_shown, outputs
+from test_exports import assert_current
 
 from mechsheet.accuracy import claims, conditioning, exact, extreme, jobs, machine, rivals
 from mechsheet.accuracy.arithmetic import mp
@@ -24,6 +27,14 @@ SHEET = load(WORKSHEET)
 
 def run(*want: str):
     return SHEET.run(want, {"g": SHEET.inputs(), "seconds": 1e-6, "sizes": (3,)})
+
+
+def test_what_is_measured_is_shown_and_exported(tmp_path, monkeypatch, timed_once):
+    """As a script, in this process, by one run of all that there is."""
+    monkeypatch.setattr(sys, "argv", [str(WORKSHEET), f"--out={tmp_path}"])
+    shown, names = outputs(WORKSHEET, {})
+    assert_current(WORKSHEET, tmp_path)
+    assert_shown(WORKSHEET, shown, names)
 
 
 def settings(methods, family: str) -> list[float]:
