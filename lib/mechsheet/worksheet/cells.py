@@ -402,23 +402,35 @@ def defines(lines: Iterable[ast.stmt]) -> tuple[str, ...]:
     return tuple(name for name in names if not name.startswith("_"))
 
 
+_SCOPES = (ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef)
+_INNER = (ast.Lambda, ast.ListComp, ast.SetComp, ast.DictComp, ast.GeneratorExp)
+
+
 def bound(node: ast.AST) -> Iterator[str]:
     """Names that a statement binds where it stands, in the order of its text; what has a scope of its own keeps its."""
-    match node:
-        case ast.FunctionDef(name=name) | ast.AsyncFunctionDef(name=name) | ast.ClassDef(name=name):
-            yield name
-            return
-        case ast.Lambda() | ast.ListComp() | ast.SetComp() | ast.DictComp() | ast.GeneratorExp():
-            yield from (n.target.id for n in ast.walk(node) if isinstance(n, ast.NamedExpr))
-            return
-        case ast.Name(name, ast.Store()):
-            yield name
-        case ast.alias(name, alias):
-            yield alias or name.partition(".")[0]
-        case ast.MatchAs(name=str(name)) | ast.MatchStar(name=str(name)):
-            yield name
-    for part in ast.iter_child_nodes(node):
-        yield from bound(part)
+    waiting = [node]
+    while waiting:
+        part = waiting.pop()
+        if isinstance(part, ast.Name):  # nearly all of them: every statement of a worksheet is looked through
+            if isinstance(part.ctx, ast.Store):
+                yield part.id
+            continue
+        if isinstance(part, _SCOPES):
+            yield part.name
+            continue
+        if isinstance(part, _INNER):
+            yield from (n.target.id for n in ast.walk(part) if isinstance(n, ast.NamedExpr))
+            continue
+        if isinstance(part, ast.alias):
+            yield part.asname or part.name.partition(".")[0]
+        elif isinstance(part, ast.MatchAs | ast.MatchStar) and part.name:
+            yield part.name
+        for name in reversed(part._fields):
+            inner = getattr(part, name, None)
+            if isinstance(inner, list):
+                waiting += [each for each in reversed(inner) if isinstance(each, ast.AST)]
+            elif isinstance(inner, ast.AST):
+                waiting.append(inner)
 
 
 def _is_closing(node: ast.FunctionDef) -> bool:
