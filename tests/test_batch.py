@@ -123,7 +123,7 @@ def test_a_result_that_rests_on_no_solution_says_which_equation_resists(tmp_path
     assert batch.run(str(sheet), files) == 1
     printed = capsys.readouterr().out
     assert row(printed, "verdict") == ["FAIL", "pass"] and "a: FAIL  u does not exist at 1 of 2 positions" in printed
-    assert "problem 0: no solution for u, v from the guess: equation 1 leaves 3 at the nearest" in printed
+    assert "problem 1: no solution for u, v from the guess: equation 1 leaves 3 at the nearest" in printed
 
 
 def test_workbook_of_a_scene_is_that_of_the_script(tmp_path):

@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 
 from mechsheet.page.values import html
-from mechsheet.worksheet.check import Check, assembled, check, check_slope, listen, require, summary
+from mechsheet.worksheet.check import Check, assembled, check, check_slope, require, summary
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.find import find
+from mechsheet.worksheet.verdict import listen
 
 
 @pytest.mark.parametrize(("residual", "passed"), [(1e-12, True), ([0, -2e-12], False), (np.nan, False), (1e-12j, True)])

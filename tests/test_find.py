@@ -654,7 +654,7 @@ def test_a_block_of_many_problems_tells_how_many_are_solved_and_why_not_the_othe
 
     page = found._mime_()[1]
     assert "unknown x = 1, 1 of 6 problems solved" in str(found)
-    assert "problem 1: unknown x: f(x) reaches 0..4 by 97 samples, 5 is outside" in page
+    assert "problem 2: unknown x: f(x) reaches 0..4 by 97 samples, 5 is outside" in page
     assert "and 2 more" in page
 
 

@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 from by_cells import by_cells
 
-from mechsheet.studies.sweep import sweep
+from mechsheet.studies.sweep import grid, sweep
 from mechsheet.worksheet.errors import SheetError
+from tests.own_worksheet import own
 
 HITCH = Path(__file__).parents[1] / "worksheets" / "hitch.py"
 
@@ -52,3 +53,34 @@ def test_parts_of_results_are_swept_as_they_are_evaluated():
     assert list(swept.frame())[3:-1] == ["R56 [N]", "YS6 [m]", "XS6 [m]", "R56x [N]", "R56y [N]"]
     with pytest.raises(TypeError, match="instant centre: Imp = I56 is no number and cannot be swept"):
         sweep(HITCH, ["instant centre: Imp = I56"], {"P6": [20e3, 30e3]})
+
+
+@pytest.mark.parametrize(
+    "values", [[True, False], [False], (True,), np.array([False, True]), [1, 0], [2.5], "left", ["left", "right"], 3]
+)
+def test_a_grid_has_every_value_of_each_input_in_its_order(values):
+    """Truth values too, which numpy takes for a choice among the others."""
+    axes = grid(first=values, second=[1.0, 2.0, 3.0], third=values)
+    shape = np.broadcast_shapes(*(axis.shape for axis in axes.values()))
+    assert shape == (np.size(values), 3, np.size(values))
+    for name, k in (("first", 0), ("third", 2)):
+        along = np.moveaxis(np.broadcast_to(axes[name], shape), k, 0)
+        assert along.reshape(len(along), -1)[:, 0].tolist() == np.atleast_1d(values).tolist()
+
+
+def test_a_grid_of_a_matrix_is_refused():
+    with pytest.raises(SheetError, match=r"P6 of a grid has shape \(2, 2\): give its values along one axis"):
+        grid(P6=np.eye(2))
+
+
+LINES = "s = np.gradient(g.a * t**2, t)", "s = t if g.a > 0 else -t", "s = t * float(g.a)", "s = np.roll(t, int(g.a))"
+
+
+@pytest.mark.parametrize("line", LINES)
+def test_where_no_variant_has_a_solution_each_has_its_reason(tmp_path, line):
+    """Beside a line that takes no arrays of variants, which nothing shows as long as none is solved."""
+    find = "r = find(lambda r: g.a * r**2, 0, 1, equals=9.0).value"
+    sheet = own(tmp_path, f"t = np.linspace(0, 1, 5)\n{line}\n{find}\ny = s + r")
+    swept = sweep(sheet.path, ["y", "r"], {"a": [0.5, 1.0, 2.0]})
+    assert [reason.startswith("unknown x: f(x) reaches 0..") for reason in swept.reasons] == [True] * 3
+    assert np.isnan(swept["r"]).all()

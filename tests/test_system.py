@@ -205,7 +205,7 @@ def test_each_problem_of_an_array_has_its_own_verdict():
     assert found.reason[0] == "" and "no solution for x, y by 64 starts: equation" in found.reason[1]
     assert found.headline().endswith("3 of 5 problems solved")
     resists, waits = str(found).split("; problem ")[1:]
-    assert resists.startswith("1: no solution for x, y by 64 starts: equation 2 leaves") and "is NaN" in waits
+    assert resists.startswith("2: no solution for x, y by 64 starts: equation 2 leaves") and "is NaN" in waits
     one = find(lambda x, y: (x**2 + y**2, y), equals=(1, 0.5), x=(0, 2), y=(-2, 2))
     assert one.value.x == found.value.x[0]
 

@@ -57,9 +57,9 @@ usage: mechsheet COMMAND              where the package is installed
 
 NAME is a file, or the name of a worksheet in the current folder, in worksheets/ or in worksheets/examples/.
 
-Exit code: 0 where every check passes; 1 where one does not, or the worksheet refuses a value or does not run; 2 where
-what is given on the command line or in a scene cannot be used; 130 after Ctrl-C. Of compare 0 where nothing changed, 1
-where something did, and 2 where that cannot be told.
+Exit code: 0 where every check passes; 1 where one does not, a Find has no solution, or the worksheet refuses a value or
+does not run; 2 where what is given on the command line or in a scene cannot be used; 130 after Ctrl-C. Of compare 0
+where nothing changed, 1 where something did, and 2 where that cannot be told.
 """
 
 

@@ -102,7 +102,7 @@ function foundHTML(words, found) {
   const isAlone = !Array.isArray(found), verdicts = isAlone ? [found] : found;
   const why = words.names ? reasonForSeveral : reasonForOne, plain = {...words, ...words.plain};
   const reasons = verdicts.map(verdict => verdict.reason && why(plain, verdict, isAlone));
-  const failed = reasons.flatMap((reason, k) => (reason ? [isAlone ? reason : `problem ${k}: ${reason}`] : []));
+  const failed = reasons.flatMap((reason, k) => (reason ? [isAlone ? reason : `problem ${k + 1}: ${reason}`] : []));
   const failures = failed.length > 3 ? [...failed.slice(0, 3), `and ${failed.length - 3} more`] : failed;
   const waits = verdicts.every(v => v.reason === "nothing"), isLeast = words.least && !failures.length;
   const word = isLeast ? "least squares" : waits ? "not evaluated" : failures.length ? "not found" : "found";

@@ -31,7 +31,7 @@ from mechsheet.worksheet.no_inputs import beforehand
 from mechsheet.worksheet.results import Displayed
 from mechsheet.worksheet.scene import Scene
 from mechsheet.worksheet.table import Column, Table
-from mechsheet.worksheet.verdict import Verdict
+from mechsheet.worksheet.verdict import lacking, listen
 
 _GAP = 2  # characters between columns
 
@@ -60,7 +60,7 @@ class Outcome:
         """Why the scene did not pass, a line each."""
         failed = [str(check) for check in self.checks if not check.passed]
         gaps = [f"FAIL  {quantity.gaps}" for quantity in self.quantities if quantity.gaps]
-        return [self.error] if self.error else [*failed, *gaps, *(self.unsolved if failed or gaps else ())]
+        return [self.error] if self.error else [*failed, *gaps, *self.unsolved]
 
     @property
     def verdict(self) -> str:
@@ -77,7 +77,9 @@ def compute(sheet: Worksheet, name: str, given: Scene) -> tuple[Outcome, dict[st
     g: Any = inputs.build(sheet.inputs, given.inputs)
     with usage():
         sheet.needed([*given.want, *given.limits], beforehand(g))
-    names = sheet.run([*(given.want or sheet.results), *given.limits], beforehand(g))
+    with listen():
+        names = sheet.run([*(given.want or sheet.results), *given.limits], beforehand(g))
+        unsolved = lacking(names.values())
     held = checks_of(names) if given.want else [value for value in parts.values(names) if isinstance(value, Check)]
     with usage():
         judged = results.limited(held, given.limits, names)
@@ -98,8 +100,7 @@ def compute(sheet: Worksheet, name: str, given: Scene) -> tuple[Outcome, dict[st
         judged, proved = [*judged, proof.check(given.proof)], tuple(proof.lines())
     bands = tuple(banding.lines(names, sheet, given, [*quantities], judged)) if given.tolerances else ()
     shown = tuple(quantities.values()), tuple(tables), tuple(judged), tuple(told)
-    unsolved = tuple(str(value) for value in names.values() if isinstance(value, Verdict) and value.failures())
-    return Outcome(name, g, *shown, proof=proved, bands=bands, unsolved=unsolved), names
+    return Outcome(name, g, *shown, proof=proved, bands=bands, unsolved=tuple(map(str, unsolved))), names
 
 
 def answer(worksheet: str, given: Scene) -> int:

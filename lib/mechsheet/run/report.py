@@ -37,7 +37,7 @@ from mechsheet.worksheet.results import limited
 from mechsheet.worksheet.scene import Limit
 from mechsheet.worksheet.system import Solution
 from mechsheet.worksheet.table import Figure, Table
-from mechsheet.worksheet.verdict import Verdict
+from mechsheet.worksheet.verdict import Verdict, lacking
 
 T = TypeVar("T")
 
@@ -122,7 +122,7 @@ def end(namespace: Mapping[str, Any]) -> None:
 
 
 def _script(title: str | None, namespace: Mapping[str, Any], worksheet: Path) -> None:
-    """Report a run, write its workbook where it has a title, and exit with 1 where a check fails."""
+    """Report a run, write its workbook where it has a title, and exit with 1 where a check or a Find fails."""
     ending.over()
     missing = [name for name in results(worksheet, certain=True) if name not in namespace]
     if missing:
@@ -132,6 +132,7 @@ def _script(title: str | None, namespace: Mapping[str, Any], worksheet: Path) ->
     with arguments.usage():
         values = limited(parts.values(namespace), given.limits, namespace)
     refuse_open(_of(Check, values))
+    unsolved = lacking(values)
     recording, fit = _recorded(namespace, values)
     checks = _of(Check, values)
     if checks or declared or registry(namespace):  # else units are compared with nothing
@@ -142,7 +143,9 @@ def _script(title: str | None, namespace: Mapping[str, Any], worksheet: Path) ->
 
         bands = banding.bands_of(namespace, load(worksheet), checks)
     told = map(bands.told, checks) if bands else checks
-    say(*inputs.readings(declared, given.inputs), *_of(Verdict, values), *told)
+    found = _of(Verdict, values)
+    unnamed = (text for verdict in unsolved if verdict not in found for text in verdict.failures())
+    say(*inputs.readings(declared, given.inputs), *found, *unnamed, *told)
     if bands:
         say(*bands.lines())
     proved = dict[Check, float]()
@@ -160,7 +163,7 @@ def _script(title: str | None, namespace: Mapping[str, Any], worksheet: Path) ->
         path = (given.out or folder(worksheet.resolve())) / f"{worksheet.stem}.xlsx"
         write(_workbook(title, namespace, [*values, fit, *proved], recording, proved), path)
         say(f"written {path}", *_not_followed(recording, [*values, fit]), *_left_out(namespace, worksheet))
-    if not all(check.passed for check in checks):
+    if unsolved or not all(check.passed for check in checks):
         sys.exit(1)
 
 

@@ -79,11 +79,13 @@ def _run(worksheet: str) -> None:
     gc.set_threshold(_OBJECTS, *gc.get_threshold()[1:])
     from mechsheet.run import ask, report  # on use: an interruption while this loads is told as any other
     from mechsheet.worksheet.cells import load  # on use: as above
+    from mechsheet.worksheet.verdict import listen  # on use: as above
 
     try:
         sheet = load(worksheet)
         ask.unasked(sheet)
-        report.end(sheet.run_whole())
+        with listen():
+            report.end(sheet.run_whole())
     finally:
         gc.freeze()  # the process ends: to look through all that is left takes a sixth of a run, for nothing
 

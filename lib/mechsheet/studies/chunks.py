@@ -21,7 +21,7 @@ from mechsheet.worksheet.cells import value as wanted
 from mechsheet.worksheet.errors import OF_NUMBERS, SheetError
 from mechsheet.worksheet.lines import registry
 from mechsheet.worksheet.lists import Rows
-from mechsheet.worksheet.verdict import Verdict, values_only
+from mechsheet.worksheet.verdict import Verdict, listen, values_only
 
 if TYPE_CHECKING:
     from mechsheet.recording.variants import Known
@@ -165,12 +165,11 @@ class Job:
         cells = sheet.needed(self.want, ["g"])
         g: Any = inputs.instance(sheet.inputs, columns)
         try:
-            with check.listen() as told:
+            with listen() as told:
                 for cell in _run(sheet, [*cells, *_telling(sheet, cells)], g, names):
-                    while told:
-                        add(told.pop(0))
-                    for found in _founds(cell, names):
-                        add(found.reason)
+                    for lacking in (*told, *_founds(cell, names)):
+                        add(lacking.reason if isinstance(lacking, Verdict) else lacking)
+                    told.clear()
         except OF_NUMBERS as error:
             if count > 1 and not self._in_common(columns):
                 return np.concatenate([self._reasons(half) for half in _halves(columns)])

@@ -117,13 +117,19 @@ def grid(**axes: ArrayLike) -> dict[str, NDArray[Any]]:
     >>> {name: values.shape for name, values in grid(P6=[20e3, 25e3, 30e3], S_max=[0.65, 0.67]).items()}
     {'P6': (3, 1), 'S_max': (1, 2)}
     """
-    return dict(zip(axes, np.ix_(*map(_along, axes.values())), strict=True))
+    columns = [_along(name, values) for name, values in axes.items()]
+    return {
+        name: x.reshape(-1, *[1] * (len(axes) - 1 - k)) for k, (name, x) in enumerate(zip(axes, columns, strict=True))
+    }
 
 
-def _along(values: Any) -> NDArray[Any]:
+def _along(name: str, values: Any) -> NDArray[Any]:
     """Values of an input along an axis; each list or table among them is one."""
     several = isinstance(values, list | tuple) and any(np.iterable(x) and not isinstance(x, str) for x in values)
-    return inputs.each(values) if several else np.atleast_1d(values)
+    column: NDArray[Any] = inputs.each(values) if several else np.atleast_1d(values)
+    if column.ndim > 1:
+        raise SheetError(f"{name} of a grid has shape {column.shape}: give its values along one axis")
+    return column
 
 
 def sweep(
@@ -242,16 +248,16 @@ def _together(job: Job, given: inputs.Variants, rows: NDArray[np.intp]) -> Job |
         if sum(part is not None and not part.lacking[0] for part in tried.values()) == 2:
             break
     ran = {row: part for row, part in tried.items() if part is not None}
+    refused = np.array([row for row, part in tried.items() if part is None], dtype=int)
     if not ran:
-        return job
+        return job if _is_refused(job, given, refused) else None
     numbers = (name for name in job.want if all(part.values[name].ndim == 1 for part in ran.values()))
     all_at_once = replace(job, numbers=frozenset(numbers))
     together = [*ran] if len(ran) > 1 else [*tried]
     try:
         among = all_at_once.run(given.at(np.array(together)))
-        refused = np.array([row for row, part in tried.items() if part is None], dtype=int)
-        if refused.size and not all_at_once.results(given.at(refused)).lacking.all():
-            return None  # such as 1 / 0, which is infinite among others
+        if refused.size and not _is_refused(all_at_once, given, refused):
+            return None
         if not _apart(all_at_once, given, np.unique([*probes, *_outermost(given, rows)])):
             return None
     except Exception:  # whatever a line does that cannot take an array
@@ -262,6 +268,14 @@ def _together(job: Job, given: inputs.Variants, rows: NDArray[np.intp]) -> Job |
             return None
     _taking_arrays[key] = all_at_once
     return all_at_once
+
+
+def _is_refused(job: Job, given: inputs.Variants, rows: NDArray[np.intp]) -> bool:
+    """Whether variants that are refused alone are so among others too, where 1 / 0, say, is infinite."""
+    try:
+        return bool(job.results(given.at(rows)).lacking.all())
+    except Exception:  # whatever a line does that cannot take an array
+        return False
 
 
 def _outermost(given: inputs.Variants, rows: NDArray[np.intp]) -> Iterator[int]:

@@ -1,8 +1,6 @@
 """Checks as values: a residual against its limit, with a verdict: pass, FAIL or not evaluated."""
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
-from contextvars import ContextVar
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import isnan
 from typing import Any, overload
@@ -20,9 +18,9 @@ from mechsheet.worksheet.errors import SheetError, as_given, measured, refuse, t
 from mechsheet.worksheet.find import Found
 from mechsheet.worksheet.shown import Shown
 from mechsheet.worksheet.system import Solution
+from mechsheet.worksheet.verdict import is_heard, tell
 
 _AGREED = 1e-3  # of a quantity: what may differ by more has not been compared
-_told = ContextVar[list[NDArray[np.object_]] | None]("_told", default=None)
 
 
 @dataclass(frozen=True)
@@ -284,27 +282,15 @@ def require(point: ArrayLike, over: ArrayLike, reaches: tuple[Any, Any], what: s
     _tell(lost, over, reaches, what, unit)
 
 
-@contextmanager
-def listen() -> Iterator[list[NDArray[np.object_]]]:
-    """List to which `assembled` and `require` add, for each variant, why it does not close; "" where it does."""
-    told = list[NDArray[np.object_]]()
-    token = _told.set(told)
-    try:
-        yield told
-    finally:
-        _told.reset(token)
-
-
 def _tell(lost: Any, over: ArrayLike, reaches: tuple[Any, Any], what: str, unit: str) -> None:
-    told = _told.get()
-    if told is None:
+    if not is_heard():
         return
     lost = np.atleast_2d(lost)
     reasons = np.full(len(lost), "", dtype=object)
     over, low, high = (np.broadcast_to(x, lost.shape) for x in (over, *reaches))
     for i in np.flatnonzero(lost.any(1)):
         reasons[i] = _unreached(lost[i], over[i], (low[i], high[i]), what, unit)
-    told.append(reasons[:, None])
+    tell(reasons[:, None])
 
 
 def _open(lost: Any, over: ArrayLike, reaches: tuple[Any, Any], what: str, unit: str) -> str:

@@ -92,8 +92,7 @@ class Found(Verdict):
 
     @property
     def value(self) -> Any:
-        if np.ndim(self._value) == 0 and not self.solved:
-            self.refuse()
+        self.give()
         return self._value
 
     @property

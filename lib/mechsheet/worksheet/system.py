@@ -66,8 +66,7 @@ class Solution(Verdict):
 
     @property
     def value(self) -> Any:
-        if np.ndim(self._values[0]) == 0 and not self.valued:
-            self.refuse()
+        self.give()
         return _named(self.words.names)(*self._values)
 
     @property
