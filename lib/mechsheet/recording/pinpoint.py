@@ -30,7 +30,7 @@ class Mistake(NamedTuple):
     why: str
 
     def __str__(self) -> str:
-        return f"line {self.line}, {self.part}: {self.why}"
+        return f"line {self.line}, {self.part}: {self.why}" if self.line else f"{self.part}: {self.why}"
 
 
 class Places:
@@ -86,9 +86,9 @@ class Places:
         return any("erratum" in self.known[name].meaning for name in names if name in self.known)
 
     def of_check(self, name: str, lines: Iterable[int]) -> int:
-        """The line where a check of this name is made, by a statement of one of some lines."""
+        """The line where a check of this name is made, by a statement of one of some lines, else by any."""
         lines = [line for line in lines if line in self.statements]
-        for line in lines:
+        for line in (*lines, *self.statements):  # what compares inputs alone has no line of its own
             for node in source.nodes(self.statements[line]):
                 if isinstance(node, ast.Constant) and node.value == name:
                     return node.lineno

@@ -76,5 +76,5 @@ def _told(error: BaseException, worksheet: str) -> tuple[str, int]:
         error = cause
     except Exception:  # the mistake that there is has its own line
         pass
-    text = str(error) if isinstance(error, SheetError) else mistakes.told(error, worksheet)
+    text = mistakes.refused(error, worksheet) if isinstance(error, SheetError) else mistakes.told(error, worksheet)
     return f"error: {text}", MISUSED if isinstance(error, arguments.UsageError) else 1

@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterable
 from pathlib import Path
 from traceback import walk_tb
+from types import FrameType
 
 from mechsheet import units
 
@@ -30,6 +31,27 @@ def no_input(name: str, known: Iterable[str]) -> str:
     return f"there is no input {name}{_near(name, known)}"
 
 
+def refused(error: ValueError, path: str) -> str:
+    """What a worksheet refuses, and behind it the line that asks for it, such as that of a Find without a solution.
+
+    What is read or written, inputs and a report, has no place there.
+    """
+    places = _places(error, Path(path).resolve())
+    through = {frame.f_globals.get("__name__") for frame, _ in walk_tb(error.__traceback__)}
+    if not places or not through.isdisjoint(_READ_OR_WRITTEN) or Path(path).name in str(error):
+        return str(error)
+    return f"{error} ({place(path, places[-1][1])})"
+
+
+_READ_OR_WRITTEN = {f"mechsheet.worksheet.{name}" for name in ("data_file", "inputs", "kinds", "lists")}
+_READ_OR_WRITTEN |= {"mechsheet.run.arguments", "mechsheet.run.report"}
+
+
+def _places(error: BaseException, file: Path) -> list[tuple[FrameType, int]]:
+    """The lines of a file that an exception went through."""
+    return [(f, line) for f, line in walk_tb(error.__traceback__) if Path(f.f_code.co_filename).resolve() == file]
+
+
 def told(error: BaseException, path: str) -> str:
     """One line for an exception, with the line of the worksheet file that raised it where one did."""
     file = Path(path).resolve()
@@ -38,7 +60,7 @@ def told(error: BaseException, path: str) -> str:
     if isinstance(error, SyntaxError) and error.filename and Path(error.filename).resolve() == file:
         text = (error.text or "").lstrip("\ufeff")
         return f"{at(file, error.lineno or 0, text)}: {unread(error)}"
-    places = [(f, line) for f, line in walk_tb(error.__traceback__) if Path(f.f_code.co_filename).resolve() == file]
+    places = _places(error, file)
     known = {*places[-1][0].f_globals, *places[-1][0].f_locals} - {*dir(builtins)} if places else set[str]()
     if not places:
         return why(error, known)
