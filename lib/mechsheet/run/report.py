@@ -14,6 +14,7 @@ import numpy as np
 from mechsheet import units
 from mechsheet.document import parts
 from mechsheet.document.left_out import left_out
+from mechsheet.document.numberless import numberless
 from mechsheet.quantities.graph import Gap
 from mechsheet.quantities.lines import Recording, Residual
 from mechsheet.readers.largest import narrow
@@ -145,7 +146,7 @@ def _script(title: str | None, namespace: Mapping[str, Any], worksheet: Path) ->
     told = map(bands.told, checks) if bands else checks
     found = _of(Verdict, values)
     unnamed = (text for verdict in unsolved if verdict not in found for text in verdict.failures())
-    say(*inputs.readings(declared, given.inputs), *found, *unnamed, *told)
+    say(*inputs.readings(declared, given.inputs), *found, *unnamed, *told, *_numberless(namespace, worksheet))
     if bands:
         say(*bands.lines())
     proved = dict[Check, float]()
@@ -165,6 +166,14 @@ def _script(title: str | None, namespace: Mapping[str, Any], worksheet: Path) ->
         say(f"written {path}", *_not_followed(recording, [*values, fit]), *_left_out(namespace, worksheet))
     if unsolved or not all(check.passed for check in checks):
         sys.exit(1)
+
+
+def _numberless(namespace: Mapping[str, Any], worksheet: Path) -> Iterator[str]:
+    """Where numbers get lost, a line for each."""
+    text = worksheet.read_text(encoding="utf-8").splitlines()
+    for line, where in numberless(namespace):
+        number = line.expression.lineno
+        yield f"{mistakes.at(worksheet, number, text[number - 1])}: {where}"
 
 
 def _left_out(namespace: Mapping[str, Any], worksheet: Path) -> Iterator[str]:

@@ -8,7 +8,9 @@ import atexit
 import gc
 import os
 import sys
-from collections.abc import Mapping
+import warnings
+from collections.abc import Callable, Mapping
+from functools import partial
 from io import StringIO
 from pathlib import Path
 from typing import Any
@@ -84,10 +86,24 @@ def _run(worksheet: str) -> None:
     try:
         sheet = load(worksheet)
         ask.unasked(sheet)
+        warnings.showwarning = partial(_warn, Path(worksheet).resolve(), warnings.showwarning)
         with listen():
             report.end(sheet.run_whole())
     finally:
         gc.freeze()  # the process ends: to look through all that is left takes a sixth of a run, for nothing
+
+
+def _warn(
+    worksheet: Path, otherwise: Callable[..., None], message: Warning, kind: Any, file: str, line: int, *more: Any
+) -> None:
+    """Tell a warning about a line of the worksheet in one line as a mistake in it is told."""
+    if Path(file).resolve() != worksheet:
+        otherwise(message, kind, file, line, *more)
+        return
+    from mechsheet.worksheet import mistakes  # on use: most runs warn of nothing
+
+    text = worksheet.read_text(encoding="utf-8").splitlines()
+    print(f"{mistakes.at(worksheet, line, text[line - 1])}: {message}", file=sys.stderr)
 
 
 if __name__ == "__main__":
