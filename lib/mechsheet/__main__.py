@@ -211,12 +211,13 @@ def contents() -> str:
 
 
 def new(name: str, like: str = "") -> int:
-    """Write a worksheet from the template or like another one, with what it needs, into worksheets/ or else here."""
+    """Write a worksheet from the template or like another one, with what it needs: within a clone into worksheets/."""
     import shutil  # on use: to compute a worksheet is what nearly every call is for
 
     if not re.match(r"[A-Za-z]\w*$", name):
         raise refused(f"name of the worksheet = {name!r} must be a letter, then letters, digits or _")
-    folder = ROOT / "worksheets" if (ROOT / "worksheets").is_dir() else Path.cwd()
+    ours, current = ROOT / "worksheets", Path.cwd()
+    folder = ours if ours.is_dir() and ROOT in (current, *current.parents) else current
     path, here = folder / f"{name}.py", Path(__file__).resolve().parent
     if path.exists():
         raise refused(f"{path} is there already")

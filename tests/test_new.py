@@ -1,0 +1,30 @@
+"""Where a new worksheet is written: among those of the clone that one stands in, else where one stands."""
+
+from pathlib import Path
+
+import pytest
+
+from mechsheet import __main__ as launcher
+
+
+@pytest.mark.parametrize("stands", [".", "worksheets", "exports/light", "../elsewhere"])
+def test_a_new_worksheet_is_where_one_stands_or_in_the_clone_around(tmp_path, monkeypatch, capsys, stands):
+    clone = tmp_path / "clone"
+    where = clone / stands
+    for folder in (clone / "worksheets", where):
+        folder.mkdir(parents=True, exist_ok=True)
+    monkeypatch.setattr(launcher, "ROOT", clone)
+    monkeypatch.chdir(where)
+    assert launcher.new("lever") == 0
+    written = (where if ".." in stands else clone / "worksheets").resolve() / "lever.py"
+    assert capsys.readouterr().out.startswith(f"written {written};")
+    assert sorted(path.name for path in written.parent.iterdir()) == ["lever.py", "page.css"]
+    assert not [path for path in tmp_path.rglob("lever.py") if path != written]
+
+
+def test_one_that_is_there_stays(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    Path("lever.py").write_text("mine")
+    with pytest.raises(SystemExit):
+        launcher.new("lever")
+    assert "is there already" in capsys.readouterr().err and Path("lever.py").read_text() == "mine"
