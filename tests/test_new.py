@@ -13,6 +13,7 @@ def test_a_new_worksheet_is_where_one_stands_or_in_the_clone_around(tmp_path, mo
     where = clone / stands
     for folder in (clone / "worksheets", where):
         folder.mkdir(parents=True, exist_ok=True)
+    (clone / "worksheets" / "page.css").write_text("/* of the clone */")
     monkeypatch.setattr(launcher, "ROOT", clone)
     monkeypatch.chdir(where)
     assert launcher.new("lever") == 0
@@ -23,6 +24,7 @@ def test_a_new_worksheet_is_where_one_stands_or_in_the_clone_around(tmp_path, mo
 
 
 def test_one_that_is_there_stays(tmp_path, monkeypatch, capsys):
+    monkeypatch.setattr(launcher, "ROOT", tmp_path / "nowhere")
     monkeypatch.chdir(tmp_path)
     Path("lever.py").write_text("mine")
     with pytest.raises(SystemExit):

@@ -22,6 +22,7 @@ def lever(tmp_path, monkeypatch, capsys):
     css = Path(launcher.__file__).parents[2] / "worksheets" / "page.css"
     (tmp_path / "worksheets" / "page.css").write_text(css.read_text(encoding="utf-8"), encoding="utf-8")
     monkeypatch.setattr(launcher, "ROOT", tmp_path)
+    monkeypatch.chdir(tmp_path)
     assert launcher.main(["new", "gear_lever"]) == 0
     path = tmp_path / "worksheets" / "gear_lever.py"
     assert str(path) in capsys.readouterr().out
@@ -101,6 +102,7 @@ def test_refuses_in_one_line(tmp_path, monkeypatch, capsys, options, says):
     (tmp_path / "worksheets" / "taken.py").write_text("mine", encoding="utf-8")
     monkeypatch.setattr(launcher, "folders", lambda: [EXAMPLES])
     monkeypatch.setattr(launcher, "ROOT", tmp_path)
+    monkeypatch.chdir(tmp_path)
     with pytest.raises(SystemExit, match=r"^2$"):
         launcher.main(["new", *options])
     told = capsys.readouterr().err

@@ -233,7 +233,9 @@ def new(name: str, like: str = "") -> int:
                 shutil.copy(str(file), str(folder))
     else:
         text = (here / "run" / "new_worksheet.txt").read_text(encoding="utf-8").replace("TITLE", title)
-    style = next(style for style in (folder / "page.css", here / "page" / "page.css") if style.exists())
+    style = next(
+        style for style in (folder / "page.css", ours / "page.css", here / "page" / "page.css") if style.exists()
+    )
     if style.parent != folder:
         shutil.copy(str(style), str(folder))
     path.write_text(text, encoding="utf-8")
