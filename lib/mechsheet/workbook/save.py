@@ -2,11 +2,9 @@
 
 import os
 import re
-import socket
 import stat
 from contextlib import suppress
 from pathlib import Path
-from uuid import uuid4
 
 from mechsheet.worksheet.errors import SheetError
 
@@ -29,9 +27,9 @@ def _write(data: bytes, path: Path) -> None:
     mode = stat.S_IMODE(path.stat().st_mode) if path.exists() else None
     if mode is not None and not (mode & 0o222 and os.access(path, os.W_OK)):  # root may write whatever the mode says
         raise PermissionError(None, "the file is read-only")
-    beside = f".{path.name}.{socket.gethostname()}."
+    beside = f".{path.name}.{_machine()}."
     _remove_left_over(path.parent, beside)
-    temporary = path.with_name(f"{beside}{os.getpid()}.{uuid4().hex}")
+    temporary = path.with_name(f"{beside}{os.getpid()}.{os.urandom(16).hex()}")
     try:
         with temporary.open("xb") as file:
             file.write(data)
@@ -51,6 +49,11 @@ def _remove_left_over(folder: Path, beside: str) -> None:
         if owner and not _runs(int(owner[1])):
             with suppress(OSError):
                 os.unlink(folder / name)
+
+
+def _machine() -> str:
+    """Name of this machine, without what `socket` and `platform` load for it."""
+    return os.uname().nodename if hasattr(os, "uname") else os.environ.get("COMPUTERNAME", "")
 
 
 def _runs(process: int) -> bool:
