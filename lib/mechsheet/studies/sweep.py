@@ -118,8 +118,9 @@ def grid(**axes: ArrayLike) -> dict[str, NDArray[Any]]:
     {'P6': (3, 1), 'S_max': (1, 2)}
     """
     columns = [_along(name, values) for name, values in axes.items()]
+    last = len(axes) - 1
     return {
-        name: x.reshape(-1, *[1] * (len(axes) - 1 - k)) for k, (name, x) in enumerate(zip(axes, columns, strict=True))
+        name: x.reshape(*[1] * k, -1, *[1] * (last - k)) for k, (name, x) in enumerate(zip(axes, columns, strict=True))
     }
 
 
