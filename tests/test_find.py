@@ -19,7 +19,7 @@ from mechsheet.worksheet.find import find
 from mechsheet.worksheet.verdict import values_only
 
 EPS = float(np.finfo(float).eps)
-some = examples(60)
+some = examples(30)
 
 
 def real(low, high):
@@ -52,6 +52,14 @@ def test_a_polynomial_gives_all_its_roots_and_no_others(places, lo, width):
     for root, r in zip(found.roots, true, strict=True):
         assert abs(root.value - r) <= 4 * EPS * abs(r) + 1e-30 * width
         assert root.bracket[0] <= root.value <= root.bracket[1] <= root.bracket[0] + 8 * EPS * abs(r) + 1e-30 * width
+
+
+@pytest.mark.parametrize("f", [lambda x: x * (x + 5), np.sin, lambda x: np.expm1(x) * 1e-9, lambda x: x**3 - x])
+def test_a_root_at_zero_is_zero(f):
+    """And not what rounding leaves of the ends: of a Find alone, of one among many and of all roots."""
+    plain, many = find(f, -0.4, 0.7), find(f, [-0.4, -0.9], 0.7)
+    assert plain.value == 0 and many.value.tolist() == [0, 0]
+    assert [root.value for root in find(f, -0.4, 0.7).roots] == [0]
 
 
 @some

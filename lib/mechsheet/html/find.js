@@ -75,6 +75,7 @@ function extreme(f, rows, floor) {
 
 // The final bracket of a root between the first two rows [x, residual], whose signs differ; the third stands beside it.
 function bracketed(g, rows, floor) {
+  if (rows[0][0] < 0 && rows[1][0] > 0) rows = narrowed(g, rows, [0]);
   for (let poor = 0; ; ) {
     const [[a, ra], [b, rb], [c, rc]] = rows;
     const width = b - a, half = b / 2 - a / 2, unit = EPS * abs(b) + floor;
@@ -87,11 +88,16 @@ function bracketed(g, rows, floor) {
     const places = poor > 2 && width > 64 * unit
       ? comb(15, k => a * (1 - (k + 1) / 16) + b * ((k + 1) / 16))
       : [-1, 0, 1].map(k => (even ? a + half + (k * half) / 2 : zero + k * off));
-    const all = [[a, ra], ...places.map(u => clip(u, a, b)).map(u => [u, g(u)]), [b, rb]];
-    const k = max(all.findIndex((row, n) => n + 1 < all.length && sign(row[1]) != sign(all[n + 1][1])), 0);
-    rows = [all[k], all[k + 1], all[k > 0 ? k - 1 : k + 2]];
+    rows = narrowed(g, rows, places.map(u => clip(u, a, b)));
     poor = rows[1][0] - rows[0][0] > width / 4 ? poor + 1 : even && poor > 2 ? poor : 0;
   }
+}
+
+// The first change of sign between two ends and places between them, and the point beside it.
+function narrowed(g, [low, high], places) {
+  const all = [low, ...places.map(u => [u, g(u)]), high];
+  const k = max(all.findIndex((row, n) => n + 1 < all.length && sign(row[1]) != sign(all[n + 1][1])), 0);
+  return [all[k], all[k + 1], all[k > 0 ? k - 1 : k + 2]];
 }
 
 // The run of finite f around the finite sample nearest the guess, between the ends that are given.

@@ -94,8 +94,12 @@ def bracketed(g: Function, x: Array, r: Array, active: Mask, floor: Array) -> tu
     The next points stand around the zero of the parabola x(r) through the bracket and the point x[2] beside it: as far
     off as half way to the zero of the line, and ever nearer, down to two floats. Where they have not narrowed the
     bracket to an eighth three times, and at the end, where f is rounding, the points are evenly spaced; where they have
-    not there are more of them: a jump must be closed in to the last float to be told from a root.
+    not there are more of them: a jump must be closed in to the last float to be told from a root. Zero, about which
+    floats are ever nearer, is looked at first.
     """
+    across = active & (x[0] < 0) & (x[1] > 0)
+    if across.any():
+        x, r = _narrowed(g, x, r, np.zeros_like(x[:1]), across)
     poor = np.zeros(active.shape)
     while True:
         (a, b, c), (r_a, r_b, r_c) = x, r

@@ -106,7 +106,13 @@ def _root(
 def _bracketed(
     g: Single, a: float, b: float, r_a: float, r_b: float, floor: float
 ) -> tuple[float, float, float, float]:
-    """The last bracket, four floats wide, by Brent's method; its lower end first."""
+    """The last bracket, four floats wide, by Brent's method; its lower end first. Zero is looked at first."""
+    if a < 0 < b:
+        r = g(0.0)
+        if r == 0 or (r > 0) == (r_b > 0):
+            b, r_b = 0.0, r
+        else:
+            a, r_a = 0.0, r
     c, r_c, step = a, r_a, b - a
     before = step
     for _ in range(_MOST):
