@@ -13,8 +13,8 @@ from typing import Any, NamedTuple
 import numpy as np
 import pytest
 import vector_equations
+from flint import acb, arb, ctx
 from hypothesis import settings
-from vector_equations import mp, mpc, mpf
 
 import mechsheet
 from mechsheet import (
@@ -88,7 +88,7 @@ TRIED = {n: f for n, f in FUNCTIONS.items() if n not in EXEMPT} | {"solve_reacti
 ROUNDING = 2.0**-53
 ALLOWED = 64 * ROUNDING
 UNDECIDED = 32  # roundings of the inputs within which a dead centre or an end of reach may go either way
-CHANGE = mpf(10) ** -25  # of an input, relative, for the effect of a rounding
+CHANGE = arb(1e-25)  # of an input, relative, for the effect of a rounding
 
 
 class Family(NamedTuple):
@@ -230,10 +230,10 @@ def exact(x: Any, i: int) -> Any:
         return tuple(exact(part, i) for part in x)
     one = np.broadcast_to(x, (COUNT, *np.shape(x)[1:]))[i]
     if one.ndim:
-        return [mpf(float(v)) for v in one]
+        return [arb(float(v)) for v in one]
     if one.dtype.kind == "i":
         return int(one)
-    return mpc(complex(one)) if one.dtype.kind == "c" else mpf(float(one))
+    return acb(complex(one)) if one.dtype.kind == "c" else arb(float(one))
 
 
 def changes(x: Any) -> Any:
@@ -242,9 +242,9 @@ def changes(x: Any) -> Any:
         yield from (x | {name: new} for name, value in x.items() for new in changes(value))
     elif isinstance(x, list | tuple):
         yield from (type(x)([*x[:i], new, *x[i + 1 :]]) for i, value in enumerate(x) for new in changes(value))
-    elif isinstance(x, mpc):
-        yield from (x + way * abs(x) * CHANGE for way in (1, mpc(0, 1)) if x)
-    elif x and not isinstance(x, int):
+    elif isinstance(x, acb):
+        yield from (x + way * abs(x) * CHANGE for way in (1, vector_equations.i) if x != 0)
+    elif x != 0 and not isinstance(x, int):
         yield x * (1 + CHANGE)
 
 
@@ -264,9 +264,10 @@ def difference(x: Any, y: Any) -> Any:
 
 def numbers_of(found: Any, i: int) -> Any:
     one = np.asarray(found)[i] if np.ndim(found) else np.asarray(found)
-    return [mpf(float(v)) for v in one] if one.ndim else mpc(complex(one))
+    return [arb(float(v)) for v in one] if one.ndim else acb(complex(one))
 
 
+@ctx.workprec(vector_equations.BITS)
 def lost(name: str, family: str) -> list[tuple[float, str]]:
     """For every result its error over what is allowed, infinite where a number is missing or should be."""
     given = inputs(name, FAMILIES[family])
@@ -276,23 +277,23 @@ def lost(name: str, family: str) -> list[tuple[float, str]]:
     for i in range(COUNT):
         x = {argument: exact(value, i) for argument, value in given.items()}
         y = truth(**x)
-        effect = dict.fromkeys(y, mpf(0))
+        effect = dict.fromkeys(y, arb(0))
         for changed in changes(x):
             for result, value in truth(**changed).items():
                 step = size(difference(value, y[result]))
-                effect[result] += step / CHANGE if mp.isfinite(step) else 0
-        exists = y.pop("exists", mpf(1))
+                effect[result] += step / CHANGE if step.is_finite() else 0
+        exists = y.pop("exists", arb(1))
         undecided = abs(exists) <= UNDECIDED * ROUNDING * effect.get("exists", 0)
         for result, value in y.items():
             if undecided and result != "axis":
                 continue
             got = numbers_of(found[result], i)
             off, limit = size(difference(got, value)), ALLOWED * (effect[result] + size(value))
-            there = all(map(mp.isfinite, got)) if isinstance(got, list) else mp.isfinite(got)
-            if ((exists > 0 or result == "axis") and mp.isfinite(size(value))) != there:
+            there = size(got).is_finite()
+            if ((exists > 0 or result == "axis") and size(value).is_finite()) != there:
                 ratio = np.inf
             else:
-                ratio = float(off / limit) if limit and there else 0.0 if not there or not off else np.inf
+                ratio = float(off / limit) if limit != 0 and there else 0.0 if not there or off == 0 else np.inf
             rows.append((ratio, f"{name}[{i}].{result} of {family}"))
     return rows
 

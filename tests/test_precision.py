@@ -3,7 +3,6 @@
 import re
 import sys
 from io import BytesIO
-from itertools import count
 from pathlib import Path
 from zipfile import ZipFile
 
@@ -13,9 +12,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mechsheet.accuracy import precision
+from mechsheet.accuracy import timing
 from mechsheet.accuracy.arithmetic import EPS
-from mechsheet.accuracy.precision import Comparison, Job, Measured, Method, largest_error, timed
+from mechsheet.accuracy.precision import Comparison, Job, Measured, Method, largest_error
+from mechsheet.accuracy.timing import TURNS, Timed, measured_on, time_spread, timed, times_of_one
 from mechsheet.run.progress import progress
 from mechsheet.studies.sweep import sweep
 from mechsheet.workbook import writing
@@ -58,7 +58,11 @@ def test_error_is_relative_to_the_largest_number_and_ends_at_one():
         (1e-10, 9.0, "slower, fewer digits"),
         (9e-16, 0.1, "faster, the same digits"),  # a few units in the last place are no more digits, nor fewer
         (1.2e-16, 0.1, "faster, the same digits"),
-        (1.2e-16, 0.95, "slower, the same digits"),
+        (1.2e-16, 0.89, "faster, the same digits"),  # beyond a tenth the sign of the difference decides
+        (1.2e-16, 0.91, "no difference"),
+        (1.2e-16, 1.09, "no difference"),
+        (1.2e-16, 1.11, "slower, the same digits"),
+        (1e-10, 0.95, "the same time, fewer digits"),
     ],
 )
 def test_place_beside_the_own_method(error, seconds, place):
@@ -66,20 +70,41 @@ def test_place_beside_the_own_method(error, seconds, place):
 
 
 @pytest.mark.parametrize(
-    ("error", "low", "high", "place"),
+    ("error", "seconds", "low", "high", "runs", "place"),
     [
-        (3e-16, 0.5, 0.8, "faster, the same digits"),
-        (3e-16, 0.5, 0.9, "no difference"),
-        (1e-10, 0.5, 1.0, "the same time, fewer digits"),
-        (1e-18, 0.5, 1.0, "no difference"),  # both are rounding
+        (3e-16, 0.7, 0.5, 0.8, 9, "faster, the same digits"),
+        (3e-16, 0.7, 0.5, 0.9, 9, "no difference"),
+        (3e-16, 0.7, 0.5, 0.9, 4, "faster, the same digits"),  # quartiles of a few runs say nothing
+        (3e-16, 1.4, 1.2, 1.6, 9, "slower, the same digits"),
+        (3e-16, 1.4, 1.1, 1.6, 9, "no difference"),
+        (3e-16, 1.4, 1.1, 1.6, 4, "slower, the same digits"),
+        (1e-10, 0.7, 0.5, 1.0, 9, "the same time, fewer digits"),
+        (1e-18, 0.7, 0.5, 1.0, 9, "no difference"),  # both are rounding
     ],
 )
-def test_times_whose_quartiles_overlap_are_no_difference(error, low, high, place):
+def test_times_whose_quartiles_overlap_are_no_difference(error, seconds, low, high, runs, place):
     own = Measured("own", "", 3e-16, 1.0, 0.9, 1.1, 9)
-    found = Comparison("1", "Job", (own, row := Measured("other", "", error, 0.7, low, high, 9)))
+    found = Comparison("1", "Job", (own, row := Measured("other", "", error, seconds, low, high, runs)))
     assert found.place(row) == place and found.better == ()
     accurate = Comparison("1", "Job", (Measured("own", "", 1e-9, 1.0, 0.9, 1.1, 9), row))
-    assert bool(accurate.better) == (high < 0.9)
+    assert bool(accurate.better) == place.startswith("faster")
+
+
+def test_a_table_says_why_a_method_is_not_used_where_it_is_faster_at_no_fewer_digits():
+    rows = [Measured("quick", "", 3e-16, 0.5, why="checks nothing"), Measured("rough", "", 1e-3, 0.1, why="rough")]
+    rows += [Measured("better", "", 1e-20, 0.6, why="new"), Measured("slow", "", 3e-16, 9.0, why="slow")]
+    columns = {column.symbol: column.values.tolist() for column in job(*rows).table().columns}
+    assert columns["not used"] == ["", "checks nothing", "", "new", ""]
+    worse = Comparison("1", "", (Measured("own", "", 1e-9, 1.0), *rows))
+    assert worse.why(rows[2]) == "new" and worse.fastest is rows[0]
+
+
+def test_errors_are_told_in_roundings_times_the_condition_number():
+    found = Comparison("1", "", (OWN, Measured("other", "", 1e-10, 1.0)), condition=50.0).table().columns
+    (column,) = (column for column in found if column.symbol == "roundings")
+    assert column.values == pytest.approx([3e-16 / 50 / 2**-53, 1e-10 / 50 / 2**-53])
+    (column,) = (column for column in job().table().columns if column.symbol == "roundings")
+    assert np.isnan(column.values).all(), "a dash where nobody knows"
 
 
 def test_a_method_that_is_faster_and_more_accurate_is_named_and_the_check_fails():
@@ -122,37 +147,84 @@ def test_summary_takes_the_fastest_setting_of_the_most_digits_of_each_family():
 # Timing
 
 
-def test_methods_run_turn_about_and_medians_are_taken(monkeypatch):
-    """A clock of its own: 'long' takes 3 s, then 5 and 4; 'short' 1 s."""
-    now, calls, lengths = [0.0], [], iter([3.0, 5.0, 4.0])
-    monkeypatch.setattr(precision, "perf_counter", lambda: now[0])
+class Clock:
+    """One that goes on only in runs, each of which takes the next of its times."""
 
-    def run(name, seconds):
+    def __init__(self, monkeypatch):
+        self.now, self.calls = 0.0, []
+        monkeypatch.setattr(timing, "perf_counter", lambda: self.now)
+
+    def run(self, name, *times):
+        left = iter(times)
+
         def once():
-            calls.append(name)
-            now[0] += seconds if name == "short" else next(lengths)
+            self.calls.append(name)
+            self.now += next(left, times[-1])
             return name
 
         return once
 
-    done = count()
-    found = timed([run("long", None), run("short", 1.0)], 6.0, lambda: next(done))
-    assert [(time.result, time.seconds) for time in found] == [("long", 4.0), ("short", 1.0)]
-    assert [(time.low, time.high, time.runs) for time in found] == [(3.5, 4.5, 3), (1.0, 1.0, 6)]
-    assert calls == ["long", "short"] * 3 + ["short"] * 4, "the first run of the short one is not counted"
-    assert next(done) == 2
+
+def test_methods_run_turn_about_warmed_up_and_medians_are_taken(monkeypatch):
+    """Turns of a quarter: 'cold' takes half a second the first time and then an eighth, 'slow' more than its turn."""
+    clock = Clock(monkeypatch)
+    cold, slow = clock.run("cold", 0.5, 0.125), clock.run("slow", 0.9, 0.3, 0.5, 0.4)
+    found = timed([cold, slow, clock.run("fast", 0.0625)], 1.25)
+    assert [time.result for time in found] == ["cold", "slow", "fast"]
+    assert [time.runs for time in found] == [10, TURNS, 20]
+    assert [time.seconds for time in found] == pytest.approx([0.125, 0.4, 0.0625]), "the first times do not count"
+    assert (found[1].low, found[1].high) == pytest.approx((0.4, 0.4))
+    turn = ["cold"] * 2 + ["slow"] + ["fast"] * 4
+    assert clock.calls == ["cold", "slow", "fast", *turn * TURNS]
 
 
-def test_a_very_long_method_runs_once(monkeypatch):
+def test_a_bar_counts_turns_whose_time_is_the_same(monkeypatch):
+    """After the first round the time that is left is told from that which is behind: a fifth of it after each turn."""
+    clock, steps = Clock(monkeypatch), []
+    runs = [clock.run("short", 2.0**-8), clock.run("long", 0.5)]
+    timed(runs, 1.25, lambda: steps.append(clock.now))
+    assert len(steps) == timing.STEPS * len(runs)
+    rounds = np.diff([steps[k] for k in range(1, len(steps), 2)])
+    assert rounds.tolist() == [0.75] * TURNS, "a quarter of a second of the short one, and one run of the long one"
+
+
+def test_what_takes_a_second_runs_once(monkeypatch):
+    clock = Clock(monkeypatch)
+    assert timed([clock.run("long", 100.0)], 6.0) == [("long", 100.0, 100.0, 100.0, 1)] and clock.calls == ["long"]
+
+
+def test_the_spread_of_a_few_times_is_a_dash():
+    spread, runs = time_spread([Timed(None, 2.0, 1.0, 4.0, n) for n in (1, 2, 3, 9)])
+    assert spread.texts() == ["–", "–", "75", "75"] and runs.values.tolist() == [1, 2, 3, 9]
+
+
+def test_times_of_one_have_the_slope_of_their_growth(monkeypatch):
+    """'each' takes a time for every one of them, 'all' the same for as many; 'square' stops at 10."""
     now = [0.0]
-    monkeypatch.setattr(precision, "perf_counter", lambda: now[0])
-    runs = count()
+    monkeypatch.setattr(timing, "perf_counter", lambda: now[0])
 
-    def long():
-        next(runs)
-        now[0] += 100.0
+    def way(of):
+        def once(n):
+            now[0] += of(n)
 
-    assert timed([long], 6.0) == [(None, 100.0, 100.0, 100.0, 1)] and next(runs) == 1
+        return once
+
+    ways = {"each": way(lambda n: 0.001 * n), "all": way(lambda n: 0.02), "square": way(lambda n: 1e-4 * n**2)}
+    table = times_of_one("1", "Time", (1, 10, 100), int, ways, 0.01, {"square": 10})
+    columns = {column.symbol: column.values for column in table.columns}
+    assert list(columns) == ["way", "1", "10", "100", "slope", "spread", "runs"]
+    assert columns["slope"] == pytest.approx([1, 0, 2])
+    assert columns["100"][:2] == pytest.approx([1000, 200]) and np.isnan(columns["100"][2])
+    assert columns["1"] == pytest.approx([1000, 20000, 100]) and np.all(columns["runs"] >= TURNS)
+
+
+def test_the_machine_is_told_by_its_model_its_software_and_its_load():
+    told = {column.symbol: column.values[0] for column in measured_on("0.1").columns}
+    assert told["scipy"][0].isdigit() and told["numpy"] == np.__version__ and told["cores"] >= 1
+    assert told["processor"] and told["load before"] >= 0 and told["load after"] >= 0
+    facts = Path("/proc/cpuinfo")
+    if facts.exists() and "model name" in (text := facts.read_text()):
+        assert f": {told['processor']}\n" in text
 
 
 def test_compare_returns_errors_and_times_in_order():
@@ -172,8 +244,8 @@ def test_table_shows_texts_powers_and_the_workbook_keeps_them():
     assert "4.2·10⁻¹²" in page and "Newton &lt;5&gt;" in page and "slower, fewer digits" in page
     assert "[]" not in page
     assert list(table.frame().columns) == [
-        *("method", "setting", "error [-]", "digits [-]", "time [ms]", "ratio [-]", "place"),
-        *("spread [%]", "runs [-]"),
+        *("method", "setting", "error [-]", "digits [-]", "time [ms]", "ratio [-]", "place", "not used"),
+        *("roundings [-]", "spread [%]", "runs [-]"),
     ]
 
 

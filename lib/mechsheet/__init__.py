@@ -17,8 +17,9 @@ A worksheet as a function
     one run         evaluate, load, results
     many runs       sweep, grid, Sweep, sensitivity, tolerance
     design          search, Requirement, Judged, pareto, Limit, scene_text, save_scene
-    methods         accuracy_jobs, batch_times, group_times, whole_worksheets, asked_costs, study_costs, claims_table,
-                    random_groups, end_to_end, time_spread, measured_on, WorkPrecision
+    methods         accuracy_jobs, batch_times, group_times, cost_of_checks, integration_steps, whole_worksheets,
+                    asked_costs, study_jobs, study_costs, claims_table, random_groups, end_to_end, time_spread,
+                    measured_on, WorkPrecision
     extreme scenes  measured_scenes, DigitsKept
 
 Mechanics: numpy arrays in, numpy arrays out

@@ -2,8 +2,8 @@
 
 # isort: skip_file
 from mechsheet.accuracy.claims import claims_table as claims_table
-from mechsheet.accuracy.conditioning import (
-    end_to_end as end_to_end,
+from mechsheet.accuracy.conditioning import end_to_end as end_to_end
+from mechsheet.accuracy.drawn import (
     group_times as group_times,
     random_groups as random_groups,
 )
@@ -12,14 +12,21 @@ from mechsheet.accuracy.extreme import (
 )
 from mechsheet.accuracy.jobs import (
     accuracy_jobs as accuracy_jobs,
-    asked_costs as asked_costs,
     batch_times as batch_times,
-    study_costs as study_costs,
-    whole_worksheets as whole_worksheets,
+    cost_of_checks as cost_of_checks,
 )
-from mechsheet.accuracy.precision import (
+from mechsheet.accuracy.responses import integration_steps as integration_steps
+from mechsheet.accuracy.studied import (
+    study_costs as study_costs,
+    study_jobs as study_jobs,
+)
+from mechsheet.accuracy.timing import (
     measured_on as measured_on,
     time_spread as time_spread,
+)
+from mechsheet.accuracy.whole import (
+    asked_costs as asked_costs,
+    whole_worksheets as whole_worksheets,
 )
 from mechsheet.document.error_chart import (
     DigitsKept as DigitsKept,
@@ -207,7 +214,6 @@ from mechsheet.worksheet.inputs import (
 )
 from mechsheet.worksheet.lines import (
     registry as registry,
-    typeset as typeset,
 )
 from mechsheet.worksheet.scene import (
     Limit as Limit,
@@ -225,6 +231,9 @@ from mechsheet.worksheet.title import (
     player as player,
     side_by_side as side_by_side,
     slider as slider,
+)
+from mechsheet.worksheet.typeset import (
+    typeset as typeset,
 )
 
 __version__: str

@@ -1,16 +1,22 @@
 """Arithmetic of 50 digits, the groups in it and condition numbers: what the library is measured against.
 
 Positions come straight from the loop equations, derivatives from differences of the positions, reactions from the
-system of all equations. Numbers are those of a context of mpmath's of its own, whose precision nothing else changes.
+system of all equations. The groups take numbers of any kind that knows `root` and `point`: mpmath's, of a context of
+its own, whose precision nothing else changes, balls of as many bits, which are ten times faster, and others.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from contextvars import ContextVar
+from functools import singledispatch, wraps
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from flint import acb, arb, arb_mat
 from mpmath import MPContext
+
+from mechsheet.readers.balls import precision
 
 DIGITS = 50
 mp = MPContext()
@@ -26,44 +32,104 @@ STEP = mpf(10) ** -45  # for differences from both sides; its square for those f
 EPS = 2.0**-53  # relative error of one rounding
 SLACK = 8 * mpf(EPS)  # within which an input may be another
 _CHANGE = mpf(10) ** -40  # of an input, relative, for its condition number
+_RIGHT = 4 + DIGITS * 10 // 3  # bits of a ball that make its digits
+_WIDTH = arb(10) ** -DIGITS  # of a ball about zero
 
 
-def cross(a: mpc, b: mpc) -> mpf:
+@singledispatch
+def root(x: Any) -> Any:
+    """The root of a number; NaN of one below zero."""
+    return sqrt(x) if x >= 0 else nan
+
+
+@singledispatch
+def point(x: Any, y: Any) -> Any:
+    """The complex number of two real ones."""
+    return mpc(x, y)
+
+
+root.register(arb, arb.sqrt)
+point.register(arb, acb)
+
+
+_in_balls: ContextVar[bool] = ContextVar("_in_balls", default=False)  # whether results are to stay in balls
+
+
+def in_balls(f: Callable[..., Numbers]) -> Callable[..., Numbers]:
+    """``f``, which computes in balls, with its results as mpmath's numbers, right to `DIGITS` digits.
+
+    A ball that holds zero is zero. Raises ArithmeticError where one is too wide.
+    """
+
+    @wraps(f)
+    def found(*args: Any, **named: Any) -> Numbers:
+        with precision(mp.prec):
+            made = f(*args, **named)
+            return made if _in_balls.get() else {name: _centre(y) for name, y in made.items()}
+
+    return found
+
+
+def _centre(y: Any) -> Any:
+    if isinstance(y, list):
+        return [_centre(each) for each in y]
+    if isinstance(y, acb):
+        return mp.make_mpc((_middle(y.real), _middle(y.imag)))
+    return mp.make_mpf(_middle(y))
+
+
+def _middle(y: arb) -> Any:
+    """The number in the midst of a ball, as mpmath holds it."""
+    if y.rel_accuracy_bits() >= _RIGHT:
+        return y._mpf_
+    if not y.is_finite():
+        return nan._mpf_
+    if not abs(y) < _WIDTH:
+        raise ArithmeticError(f"{y} is not known to {DIGITS} digits")
+    return mp.zero._mpf_
+
+
+def cross(a: Any, b: Any) -> Any:
     return a.real * b.imag - a.imag * b.real
 
 
-def dot(a: mpc, b: mpc) -> mpf:
+def dot(a: Any, b: Any) -> Any:
     return a.real * b.real + a.imag * b.imag
 
 
-def rrr(A: mpc, B: mpc, r_A: mpf, r_B: mpf, branch: int) -> mpc:
+def over(a: Any, b: Any) -> Any:
+    """a / b; NaN where b is zero."""
+    try:
+        return a / b
+    except ZeroDivisionError:  # of mpmath's numbers alone
+        return a * nan
+
+
+def rrr(A: Any, B: Any, r_A: Any, r_B: Any, branch: int) -> Any:
     """C with |C - A| = r_A and |C - B| = r_B, to the left (+1) of the line from A to B; NaN where none is."""
     d = B - A
-    L2 = d.real**2 + d.imag**2
+    L2 = dot(d, d)
     along = (L2 + r_A**2 - r_B**2) / 2
-    square = r_A**2 * L2 - along**2
-    return A + mpc(along, branch * sqrt(square)) * d / L2 if square >= 0 and L2 else mpc(nan, nan)
+    return A + point(along, root(r_A**2 * L2 - along**2) * branch) * over(d, L2)
 
 
-def rrp(A: mpc, B: mpc, u: mpc, r_A: mpf, branch: int, e: mpf) -> mpc:
+def rrp(A: Any, B: Any, u: Any, r_A: Any, branch: int, e: Any) -> Any:
     """C with |C - A| = r_A at the distance e to the left of the line through B along u; NaN where none is."""
-    u = u / abs(u)
+    u = u / root(dot(u, u))
     z = (A - B) / u
-    x2 = r_A**2 - (z.imag - e) ** 2
-    return B + mpc(z.real + branch * sqrt(x2), e) * u if x2 >= 0 else mpc(nan, nan)
+    return B + point(z.real + root(r_A**2 - (z.imag - e) ** 2) * branch, e) * u
 
 
-def rpr(A: mpc, B: mpc, branch: int, e: mpf) -> tuple[mpc, mpf]:
+def rpr(A: Any, B: Any, branch: int, e: Any) -> tuple[Any, Any]:
     """u and s with A - B = (s + i e) u; NaN where none is."""
-    s2 = abs(A - B) ** 2 - e**2
-    s = branch * sqrt(s2) if s2 >= 0 else nan
-    return (A - B) / mpc(s, e), s
+    d = A - B
+    s = root(dot(d, d) - e**2) * branch
+    return over(d, point(s, e)), s
 
 
-def lines(A: mpc, B: mpc, u_A: mpc, u_B: mpc) -> mpc:
+def lines(A: Any, B: Any, u_A: Any, u_B: Any) -> Any:
     """Crossing of the line through A along u_A with the line through B along u_B; NaN of parallel ones."""
-    D = cross(u_A, u_B)
-    return A + u_A * cross(B - A, u_B) / D if D else mpc(nan, nan)
+    return A + over(u_A * cross(B - A, u_B), cross(u_A, u_B))
 
 
 def derivatives(f: Callable[[mpf], mpc]) -> tuple[mpc, mpc]:
@@ -74,16 +140,6 @@ def derivatives(f: Callable[[mpf], mpc]) -> tuple[mpc, mpc]:
 def _value_and_derivatives(f: Callable[[mpf], mpc]) -> tuple[mpc, mpc, mpc]:
     ahead, here, behind = f(STEP), f(mpf(0)), f(-STEP)
     return here, (ahead - behind) / (2 * STEP), (ahead - 2 * here + behind) / STEP**2
-
-
-def slope(f: Callable[[mpf], mpc]) -> mpc:
-    """First derivative at t = 0."""
-    return (f(STEP) - f(-STEP)) / (2 * STEP)
-
-
-def turning(a: Callable[[mpf], mpc]) -> mpf:
-    """Angular velocity of the vector a(t) at t = 0."""
-    return (slope(a) / a(mpf(0))).imag
 
 
 def rotation(a: Callable[[mpf], mpc]) -> tuple[mpf, mpf]:
@@ -131,8 +187,17 @@ def _pair(force: Any, P: Any, couple: Any, on: int, by: int | None) -> list[tupl
 
 def reactions(unknowns: Any, loads: Any, poles: Any) -> list[mpf]:
     """The unknowns at 50 digits."""
+    with precision(mp.prec):
+        return [_centre(x) for x in solved(unknowns, loads, poles)]
+
+
+def solved(unknowns: Any, loads: Any, poles: Any) -> list[arb]:
+    """The unknowns in balls; NaN where nothing but rounding parts the bodies from moving."""
     columns, right = equations(unknowns, loads, poles)
-    return list(mp.lu_solve(mp.matrix(columns).T, mp.matrix(right)))
+    try:
+        return list(arb_mat(columns).transpose().solve(arb_mat([[x] for x in right])).entries())
+    except ZeroDivisionError:
+        return [arb.nan()] * len(right)
 
 
 # --- how many digits a result can keep, and how many a number keeps of it ------------------------------------------
@@ -148,15 +213,25 @@ def conditions(f: Callable[..., Numbers], inputs: Mapping[str, Any]) -> Numbers:
     0/0 is 0: a result that is zero and stays so. Whole numbers count something and stay.
     """
     x = {name: mpf(value) for name, value in inputs.items()}
-    y = f(**x)
-    sums = dict.fromkeys(y, mpf(0))
-    for name, value in x.items():
-        if value and not isinstance(inputs[name], int):
-            changed = f(**{**x, name: value * (1 + _CHANGE)})
-            for result in y:
-                sums[result] += _size(map(mp.fsub, _row(changed[result]), _row(y[result]))) / _CHANGE
-    sizes = {name: _size(_row(value)) for name, value in y.items()}
-    return {name: sums[name] / size if size else mpf("inf" if sums[name] else 0) for name, size in sizes.items()}
+    token = _in_balls.set(True)  # what is subtracted need not be a number of mpmath's, which takes longer
+    try:
+        with precision(mp.prec):
+            y = f(**x)
+            sums = dict.fromkeys(y, 0.0)
+            for name, value in x.items():
+                if value and not isinstance(inputs[name], int):
+                    changed = f(**{**x, name: value * (1 + _CHANGE)})
+                    for result in y:
+                        sums[result] += _change(changed[result], y[result])
+            sizes = {name: max(abs(complex(part)) for part in _row(value)) for name, value in y.items()}
+    finally:
+        _in_balls.reset(token)
+    return {name: sums[name] / size if size else float("inf" if sums[name] else 0) for name, size in sizes.items()}
+
+
+def _change(there: Any, here: Any) -> float:
+    """The greatest change of a row for a relative one of an input: a float, once it is subtracted."""
+    return max(abs(complex(a - b)) for a, b in zip(_row(there), _row(here), strict=True)) / float(_CHANGE)
 
 
 def undecided(f: Callable[..., Numbers], inputs: Mapping[str, Any]) -> set[str]:

@@ -1,22 +1,15 @@
-"""Errors in units of the condition number times a rounding: of random groups, and of the documents from end to end."""
+"""Condition numbers: of a function by its own differences, and of the documents' results from end to end."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from functools import lru_cache
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
 from mechsheet.accuracy import arithmetic
-from mechsheet.accuracy.arithmetic import EPS, Numbers, mpc, mpf
-from mechsheet.accuracy.precision import times_of_one
+from mechsheet.accuracy.arithmetic import EPS, mpf
 from mechsheet.accuracy.truths import DOCUMENTS, TURNS, from_inputs
-from mechsheet.mechanics.planar import cross
-from mechsheet.mechanics.prp import prp
-from mechsheet.mechanics.rpp import rpp
-from mechsheet.mechanics.rpr import rpr
-from mechsheet.mechanics.rrp import rrp
-from mechsheet.mechanics.rrr import rrr
 from mechsheet.quantities.quantity import Quantity
 from mechsheet.readers.slopes import slopes
 from mechsheet.recording.record import record
@@ -27,99 +20,28 @@ from mechsheet.worksheet.lines import registry
 from mechsheet.worksheet.table import Column, Table
 from mechsheet.worksheet.terms import terms
 
-_WITHIN = 64  # roundings times the condition number that an error may be
-_QUANTILES = {"median": 0.5, "of 90 %": 0.9, "of 99 %": 0.99, "greatest": 1.0}
+WITHIN = 64  # roundings times the condition number that an error may be
+_STEP = 2.0**-30  # relative change of an input; what a result has lost makes no more of it than a ten millionth
 
 
-class Group(NamedTuple):
-    """What a group is given; its position, and the exact one."""
+def changes(f: Callable[[dict[str, Any]], Any], x: Mapping[str, Any]) -> tuple[Any, Any]:
+    """f of numbers or arrays by name, and by how much it changes where each real number in them does so relatively.
 
-    given: tuple[str, ...]
-    found: Callable[..., Any]
-    true: Callable[..., Any]
-
-    def exactly(self, **parts: Any) -> Numbers:
-        """The exact position C for real numbers: of a point or direction A its components A and Ay."""
-        return {"C": self.true(*self.arguments(mpc, {name: mpf(part) for name, part in parts.items()}))}
-
-    def arguments(self, complex_of: Callable[[Any, Any], Any], parts: Mapping[str, Any]) -> list[Any]:
-        """What is given, from its components."""
-        return [complex_of(parts[x], parts[f"{x}y"]) if f"{x}y" in parts else parts[x] for x in self.given]
+    The changes of all are added up. An array counts as one input: f takes its elements each by itself.
+    """
+    here = np.asarray(f(dict(x)))
+    total = np.zeros(here.shape)
+    for name, value in x.items():
+        for part in (np.real(value), 1j * np.imag(value)) if np.iscomplexobj(value) else (value,):
+            if np.any(part):
+                total += np.abs(np.asarray(f({**x, name: value + _STEP * part})) - here) / _STEP
+    return here, total
 
 
-GROUPS = {
-    "RRR": Group(
-        ("A", "B", "r_A", "r_B"),
-        lambda A, B, r_A, r_B: rrr(A, B, r_A, r_B, 1),
-        lambda A, B, r_A, r_B: arithmetic.rrr(A, B, r_A, r_B, 1),
-    ),
-    "RRP": Group(
-        ("A", "B", "u", "r_A", "e"),
-        lambda A, B, u, r, e: rrp(A, B, u, r, 1, e),
-        lambda A, B, u, r, e: arithmetic.rrp(A, B, u, r, 1, e),
-    ),
-    "RPR": Group(("A", "B", "f"), lambda A, B, f: rpr(A, B, 1, f).u, lambda A, B, f: arithmetic.rpr(A, B, 1, f)[0]),
-    "PRP": Group(("A", "B", "u", "w"), prp, arithmetic.lines),
-    "RPP": Group(("A", "B", "w", "u"), rpp, arithmetic.lines),
-}
-
-
-def _drawn(count: int) -> dict[str, Any]:
-    """Random pins A and B of links that meet, their lengths, directions u and w, offsets e from u and f from AC."""
-    rng = np.random.default_rng(1)
-    r_A, r_B = 10 ** rng.uniform(-0.5, 0.5, (2, count))
-    C, w = rng.normal(size=(2, count)) + 1j * rng.normal(size=(2, count))
-    a, u = np.exp(1j * rng.uniform(0, 2 * np.pi, (2, count)))
-    A, B = C + r_A * a, C + r_B * a * np.exp(1j * rng.uniform(0.2, np.pi - 0.2, count))
-    return {"A": A, "B": B, "r_A": r_A, "r_B": r_B, "u": u, "w": w, "e": cross(u, C - B), "f": cross(-a, A - B)}
-
-
-def group_times(number: str, sizes: Sequence[int], seconds: float) -> Table:
-    """Table of the time for one of n positions of each group computed at once, each of a geometry of its own."""
-
-    def way(group: Group) -> Callable[[dict[str, Any]], Any]:
-        return lambda x: group.found(*(x[name] for name in group.given))
-
-    ways = {f"group {name}": way(group) for name, group in GROUPS.items()}
-    return times_of_one(number, "Time of a group", sizes, _drawn, ways, seconds)
-
-
-def _roundings(group: Group, x: Mapping[str, Any], found: Any) -> float:
-    """The error of one position in roundings times its condition number; NaN where the group does not close."""
-
-    parts = {name: float(np.real(x[name])) for name in group.given}
-    parts |= {f"{name}y": float(np.imag(x[name])) for name in group.given if np.iscomplexobj(x[name])}
-    exactly = group.exactly(**parts)["C"]
-    if not arithmetic.exist(exactly):
-        return np.nan
-    condition = max(1.0, float(arithmetic.conditions(group.exactly, parts)["C"]))
-    return arithmetic.relative_error(found, exactly) / (condition * EPS)
-
-
-@lru_cache(maxsize=1)  # a cell runs again where it is recorded
-def random_groups(number: str, count: int) -> tuple[Table, Check]:
-    """Quantiles of the errors of so many random positions of each group, in roundings times their condition number."""
-    given, errors = _drawn(count), dict[str, Any]()
-    with progress(len(GROUPS) * count, f"{number} Random groups") as done:
-        for name, group in GROUPS.items():
-            found, each = group.found(*(given[key] for key in group.given)), list[float]()
-            for k in range(count):
-                each.append(_roundings(group, {key: x[k] for key, x in given.items()}, found[k]))
-                done()
-            errors[name] = np.array([error for error in each if not np.isnan(error)])
-    columns = [
-        Column("group", "", "", 0, np.array(list(errors), object)),
-        Column("positions", "-", "random positions at which it closes", 0, np.array([len(e) for e in errors.values()])),
-    ]
-    for name, part in _QUANTILES.items():
-        meaning = f"{name}, in roundings times the condition number"
-        columns.append(
-            Column(f"{name} error", "-", meaning, 2, np.array([np.quantile(e, part) for e in errors.values()]))
-        )
-    worst = max(float(e.max()) for e in errors.values())
-    return Table(number, "Errors of random groups", tuple(columns)), Check(
-        "errors of random groups, in roundings times their condition", worst, _WITHIN
-    )
+def condition(f: Callable[[dict[str, Any]], Any], x: Mapping[str, Any]) -> float:
+    """Condition number of f as a whole: the greatest of the `changes` over the greatest number."""
+    here, total = changes(f, x)
+    return float(np.max(total) / np.max(np.abs(here)))
 
 
 def end_to_end(number: str, folder: Path) -> tuple[tuple[Table, ...], Check]:
@@ -136,8 +58,13 @@ def end_to_end(number: str, folder: Path) -> tuple[tuple[Table, ...], Check]:
             found.append(_conditions(f"{first}.{k}", path, path.read_bytes()))
             done()
     worst = max(float(np.nanmax(errors)) for _, errors in found)
-    name = "errors from end to end, in roundings times their condition"
-    return tuple(table for table, _ in found), Check(name, worst, _WITHIN)
+    known, count = sum(_known(errors) for _, errors in found), sum(len(errors) for _, errors in found)
+    name = f"errors from end to end of {known} of {count} results, in roundings times their condition"
+    return tuple(table for table, _ in found), Check(name, worst, WITHIN)
+
+
+def _known(errors: Any) -> int:
+    return int(np.count_nonzero(np.isfinite(errors)))
 
 
 @lru_cache(maxsize=len(DOCUMENTS))
@@ -177,7 +104,8 @@ def _conditions(number: str, path: Path, text: bytes) -> tuple[Table, Any]:
         Column("kept digits", "-", "digits that are right", 1, -np.log10(errors)),
         Column("most by", "", "the input whose rounding costs most", 0, blamed.astype(object), names=True),
     )
-    note = f"No condition have {', '.join(lost)}: zero but for rounding, or with a jump." if lost else ""
+    note = f"{_known(errors)} of {len(rows)} results are compared with 50 digits."
+    note += f" No condition have {', '.join(lost)}: zero but for rounding, or with a jump." if lost else ""
     title = f"{path.stem.replace('_', ' ').capitalize()}, end to end"
     return Table(number, title, columns, note), errors / (conditions * EPS)
 

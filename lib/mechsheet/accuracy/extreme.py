@@ -9,8 +9,8 @@ table ``[extreme]``:
 ===========  ======================================================================================================
 ``about``    what the scene is, in words
 ``job``      which job of `JOBS` it is run through: a worksheet's name, a group's, ``ring`` or ``through_dead_centre``
-``over``     the inputs that take one ``values`` after the other, all the same; left out where there is one case
-``values``   these values, in display units
+``over``     the inputs that take one of the ``values`` after the other; left out where there is one case
+``values``   these values, in display units: one for all of these inputs, or a list with one for each
 ``at``       the position of the table that is measured: 0 is the first, -1 the last
 ``says``     words that must be said, of what cannot exist; then no digits are measured
 ===========  ======================================================================================================
@@ -20,25 +20,27 @@ import tomllib
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache, partial
+from itertools import chain
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
 
-from mechsheet.accuracy import arithmetic, exact, printed, rivals
-from mechsheet.accuracy.arithmetic import Numbers, mpc, mpf
-from mechsheet.accuracy.conditioning import GROUPS
+from mechsheet.accuracy import arithmetic, exact, printed, rivals, sections
+from mechsheet.accuracy.arithmetic import Numbers, mpf
+from mechsheet.accuracy.assur import KINDS
+from mechsheet.accuracy.chains import crank_chain
+from mechsheet.accuracy.pump import FORCES
 from mechsheet.accuracy.truths import TRUTHS
 from mechsheet.document.error_chart import FULL, SPARE
 from mechsheet.mechanics.joint import circular_joint
-from mechsheet.mechanics.load import Load
 from mechsheet.mechanics.planar import angle
-from mechsheet.mechanics.rrr import RRRGroup, rrr_reach
 from mechsheet.run.progress import progress
-from mechsheet.worksheet import inputs, numbers
+from mechsheet.worksheet import inputs
 from mechsheet.worksheet.cells import Worksheet, load
 from mechsheet.worksheet.check import Check, assembled
+from mechsheet.worksheet.verdict import listen
 
 SCENES = Path(__file__).parent / "scenes"
 
@@ -58,7 +60,8 @@ class Scene:
 
     def cases(self) -> list[dict[str, Any]]:
         """Inputs in display units, case by case."""
-        return [{**self.inputs, **dict.fromkeys(self.over, value)} for value in self.values]
+        each = (value if isinstance(value, list) else [value] * len(self.over) for value in self.values)
+        return [{**self.inputs, **dict(zip(self.over, values, strict=True))} for values in each]
 
 
 @dataclass(frozen=True)
@@ -91,7 +94,8 @@ class Case:
     """One case: what the product said, and how its results, the true and the printed ones of inputs x are computed.
 
     ``product`` and ``printed`` get the true results, whose names they need. The true results are those of x with the
-    factors of ``rounding`` in it, of numbers found that are rounded before they are used.
+    factors of ``rounding`` in it, of numbers found that are rounded before they are used. ``changes`` are those of
+    results by relative changes of other such numbers.
     """
 
     words: str
@@ -99,6 +103,7 @@ class Case:
     x: Mapping[str, Any]
     product: Callable[[Numbers], Mapping[str, Any]]
     printed: Callable[[Numbers], Mapping[str, Any]]
+    changes: Mapping[str, Any] = field(default_factory=dict)
     rounding: Mapping[str, Any] = field(default_factory=dict)
 
 
@@ -155,7 +160,8 @@ def measured(name: str, worksheets: Path, short: bool) -> Sequence[Outcome]:
 
 @lru_cache(maxsize=256)  # a cell runs again where it is recorded
 def _measured(name: str, worksheets: Path, texts: tuple[bytes, ...], short: bool) -> tuple[Outcome, ...]:
-    return tuple(measure(read(SCENES / f"{name}.toml"), worksheets, short))
+    with listen():  # what a scene's worksheet does not find is no news of the run that measures it
+        return tuple(measure(read(SCENES / f"{name}.toml"), worksheets, short))
 
 
 def measure(scene: Scene, worksheets: Path, short: bool = False) -> list[Outcome]:
@@ -167,7 +173,7 @@ def measure(scene: Scene, worksheets: Path, short: bool = False) -> list[Outcome
     last, cases = len(scene.values) - 1, scene.cases()
     for k in sorted({0, last // 2, last}) if short else range(last + 1):
         given, value = cases[k], scene.values[k]
-        case = "" if value is None else numbers.significant(value, 17) if isinstance(value, float) else str(value)
+        case = ", ".join(map(_written, value)) if isinstance(value, list) else _written(value)
         run = partial(JOBS[scene.job], worksheets, given, scene.at)
         if scene.says:
             found.append(Outcome(scene.name, case, "", np.nan, np.nan, np.nan, np.nan, _words(run), scene.says))
@@ -176,6 +182,11 @@ def measure(scene: Scene, worksheets: Path, short: bool = False) -> list[Outcome
     return found
 
 
+def _written(value: Any) -> str:
+    return "" if value is None else str(value)
+
+
+@np.errstate(over="ignore")  # beside a result that is next to nothing any change is infinite
 def outcomes(job: Case, scene: str = "", case: str = "") -> list[Outcome]:
     """Digits of all results of a case.
 
@@ -190,7 +201,8 @@ def outcomes(job: Case, scene: str = "", case: str = "") -> list[Outcome]:
         exists, given = exist[name], told[name]
         kappa, kept, by_formula = 1.0, 0.0 if given else FULL, np.nan
         if exists:
-            kappa, kept = max(1.0, float(conditions[name])), digits(name, product[name], y)
+            more = float(np.nan_to_num(job.changes.get(name, 0.0)) / abs(complex(y))) if job.changes and y else 0.0
+            kappa, kept = max(1.0, float(conditions[name] + more)), digits(name, product[name], y)
             by_formula = digits(name, formulas[name], y) if name in formulas else np.nan
         if exists != given and name in undecided:
             kappa = np.inf
@@ -258,13 +270,54 @@ def document(stem: str, worksheets: Path, given: Mapping[str, Any], at: int = -1
     truth = TRUTHS[stem]
     names = sheet.run([truth.field], {"g": g})
     position = float(names[truth.field][at])
+
+    def true(position: Any, **g: Any) -> Numbers:
+        found = truth.results(SimpleNamespace(**g), position)
+        return {name: found[name] for name in _OF_SCENES.get(stem, found)}
+
+    def as_printed(true: Numbers) -> Mapping[str, Any]:
+        if stem == "landing_gear":
+            return printed.landing_gear(g, position)
+        made = _row(sheet.run(chain(*_AS_PRINTED[stem].values()), names), chain(*_AS_PRINTED[stem].values()), at)
+        return {name: _polar(*map(made.__getitem__, of)) for name, of in _AS_PRINTED[stem].items()}
+
     return Case(
         words="",
-        true=lambda position, **g: truth.results(SimpleNamespace(**g), position),
+        true=true,
         x={"position": position, **exact.numbers(g)},
         product=lambda true: _row(sheet.run(true, names), true, at),
-        printed=lambda _: printed.landing_gear(g, position) if stem == "landing_gear" else {},
+        printed=as_printed,
     )
+
+
+# What scenes look at of a document with many results: all reactions, and the motion that they come from.
+_OF_SCENES = {
+    "kinetostatics": (
+        *("B", "E", "K", "omega3", "omega4", "omega6", "v5", "v6", "eps2", "eps3", "eps4", "eps6", "a_E"),
+        *(*FORCES, "M_76", "M_b"),
+    ),
+}
+# Which lines of a worksheet are the printed way to a result: a root that Find has, magnitude and angle of a force.
+_AS_PRINTED: Mapping[str, Mapping[str, Sequence[str]]] = {
+    "slotted_link": {"SAB_k": ("SAB_F",), "VAB_k": ("VAB_F",), "WAB_k": ("WAB_F",), "phi3_k": ("phi3_F",)}
+    | {"omega_BC_k": ("omega3_F",), "eps_BC_k": ("eps3_F",)},
+    "kinetostatics": {
+        "R_A": ("R12", "gamma12"),
+        "R_B": ("R23", "gamma23"),
+        "R_C": ("R03", "gamma03"),
+        "R_D": ("R34", "gamma34"),
+        "R_E": ("R45", "gamma45"),
+        "R_05": ("R05", "gamma05"),
+        "R_K": ("R36", "gamma36"),
+        "R_H": ("R07", "gamma07"),
+        "R_76": ("R76", "gamma76"),
+        "M_b": ("M_b",),
+    },
+}
+
+
+def _polar(size: Any, direction: Any = None) -> Any:
+    return size if direction is None else size * np.exp(1j * direction)
 
 
 def joint(worksheets: Path, given: Mapping[str, Any], at: int = -1) -> Case:
@@ -279,47 +332,43 @@ def joint(worksheets: Path, given: Mapping[str, Any], at: int = -1) -> Case:
     formulas = {"y_0": names["axes"][step - 1, p, 0, 0] if step else np.nan}
     return Case(
         words=_reasons(names["checks_joint"]),
-        true=lambda **x: exact.joint(g, x, p + 1),
-        x=exact.factors(g),
+        true=lambda **x: sections.joint(g, x, p + 1),
+        x=sections.factors(g),
         product=lambda _: product | {"y_0": names["y_0"][p, 0, 0]},
         printed=lambda _: formulas,
     )
 
 
-_POINTS = ("A", "B", "P_A", "P_B", "F_A", "F_B")  # of a dyad and of its loads
-
-
-def dyad(_worksheets: Path, given: Mapping[str, Any], _at: int = -1) -> Case:
-    """Position, analogues and reactions of a group of two links by the library.
-
-    Inputs: branch, lengths r_A, r_B, and components X, Y of the pins A, B, of the force FA on the link AC at the point
-    PA, and of FB on BC at PB. What is left out is 0.
-    """
-    ends = {name: [f"{axis}_{name.replace('_', '')}" for axis in "XY"] for name in _POINTS}
-    x = {name: float(given.get(name, 0.0)) for name in ("r_A", "r_B", *(xy for pair in ends.values() for xy in pair))}
-
-    def group(number: Callable[[Any, Any], Any], x: Mapping[str, Any]) -> dict[str, Any]:
-        points = {name: number(x[real], x[imaginary]) for name, (real, imaginary) in ends.items()}
-        return points | {"r_A": x["r_A"], "r_B": x["r_B"], "branch": int(given["branch"])}
-
-    z = group(complex, x)
-    found = RRRGroup(z["A"], z["B"], z["r_A"], z["r_B"], z["branch"])
-    v, R = found.velocity(dr_A=1), found.reactions([Load(z["F_A"], z["P_A"])], [Load(z["F_B"], z["P_B"])])
-    reach = rrr_reach(z["B"], z["A"], z["r_B"])
-    return Case(
-        words=_reasons([assembled("dyad closes", found.C, z["r_A"], reach, "length r_A", "m")]),
-        true=lambda X_C, Y_C, **x: exact.dyad(**group(mpc, x), X_C=X_C, Y_C=Y_C),
-        x={"X_C": 1.0, "Y_C": 1.0, **x},  # the pin is rounded before it is used
-        product=lambda _: {"C": found.C, "omega_A": v.omega_A, "omega_B": v.omega_B, **R._asdict()},
-        printed=lambda _: printed.dyad(**z),
-    )
+_LENGTHS = {"RRR": "r_B", "RRP": "r_A", "RPR": "e"}  # whose reach a group of the library tells
 
 
 def group(name: str, _worksheets: Path, given: Mapping[str, Any], _at: int = -1) -> Case:
-    """Position of one of the groups of `GROUPS` by the library; the inputs are what it is given, by components."""
-    own, x = GROUPS[name], {part: float(value) for part, value in given.items()}
-    found = own.found(*own.arguments(complex, x))
-    return Case("", own.exactly, x, lambda _: {"C": found}, lambda _: {})
+    """Position, velocities, accelerations and reactions of one of the `KINDS` of groups by the library.
+
+    Inputs are the real numbers that it is given (`Kind.numbers`); what is left out is 0.
+    """
+    kind = KINDS[name]
+    x = {part: float(value) for part, value in given.items()}
+    z = kind.joined(x, float, complex)
+    found, group = kind.by_library(z), kind.group(z)
+    checks = []
+    if name in _LENGTHS:
+        length = _LENGTHS[name]
+        at = next(iter(found.values()))
+        checks = [assembled(f"{name} closes", at, z[length], group.reach, f"length {length}", "m")]
+    formulas = (
+        printed.dyad(branch=1, **{key: z[key] for key in _PRINTED}) if name == "RRR" and _lengthens_alone(x) else {}
+    )
+    moved = kind.changes_by_rounding(z)
+    return Case(_reasons(checks), kind.exact_of, x, lambda _: found, lambda _: formulas, moved)
+
+
+_PRINTED = ("A", "B", "r_A", "r_B", "P_A", "P_B", "F_A", "F_B")
+
+
+def _lengthens_alone(x: Mapping[str, float]) -> bool:
+    """Whether a group moves as the cylinder of the printed formulas does: by the length of AC, 1 m for each second."""
+    return x.get("dr_A") == 1 and not any(name.startswith(("v_", "a_", "dr_B", "ddr_", "T_")) for name in x)
 
 
 def ring(_worksheets: Path, given: Mapping[str, Any], _at: int = -1) -> Case:
@@ -328,28 +377,27 @@ def ring(_worksheets: Path, given: Mapping[str, Any], _at: int = -1) -> Case:
     found = circular_joint(phi=phi, **given)
     return Case(
         words="",
-        true=lambda **x: exact.ring(phi.tolist(), **x),
+        true=lambda **x: sections.ring(phi.tolist(), **x),
         x=given,
         product=lambda true: {name: getattr(found, name) for name in true},
-        printed=lambda _: {},
+        printed=lambda _: printed.ring(phi=phi, **given),
     )
 
 
 def through_dead_centre(_worksheets: Path, given: Mapping[str, Any], _at: int = -1) -> Case:
     """Four-bar linkage whose crank passes a near-dead centre of coupler and rocker.
 
-    The product assembles it at the end; the ``printed`` way integrates the velocity equations from start to end by
-    Radau's implicit method, for they are stiff. Inputs: links a (crank), b, c, frame b + c - a - gap, angles of the
-    crank theta_0, theta_1.
+    The product assembles it at the end; in the place of ``printed`` formulas the velocity equations are integrated from
+    start to end by DOP853. Inputs: links a (crank), b, c, frame b + c - a - gap, angles of the crank theta_0, theta_1.
     """
     a, b, c, gap, *turn = (float(given[name]) for name in ("a", "b", "c", "gap", "theta_0", "theta_1"))
     d = b + c - a - gap
-    chain = rivals.crank_chain(a, d, b, c)
-    (start,), (end,) = map(chain.groups, turn)
+    linkage = crank_chain(a, d, b, c)
+    (start,), (end,) = map(linkage.groups, turn)
 
     def integrated(_: Numbers) -> Mapping[str, Any]:
         first = angle([start.AC, start.BC])
-        phi2, phi3 = rivals.integrated(chain, turn, first, "Radau", 1e-10, 1e-12)[:, -1]
+        phi2, phi3 = rivals.integrated(linkage, turn, first, "DOP853", 1e-12, 1e-12)[:, -1]
         return {"C": d + c * np.exp(1j * phi3), "phi2": phi2, "phi3": phi3}
 
     return Case(
@@ -366,7 +414,6 @@ JOBS: Mapping[str, Callable[[Path, Mapping[str, Any], int], Case]] = {
     **{stem: partial(document, stem) for stem in ("landing_gear", "slotted_link", "kinetostatics")},
     "joint": joint,
     "ring": ring,
-    "dyad": dyad,
-    **{name: partial(group, name) for name in GROUPS},
+    **{name: partial(group, name) for name in KINDS},
     "through_dead_centre": through_dead_centre,
 }

@@ -1,33 +1,34 @@
-"""What is timed: jobs in which the product's methods stand beside the others, batches of them, whole worksheets."""
+"""The jobs in which the product's methods stand beside the others, and the times of many of them at once."""
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
 from functools import partial
-from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
-from numpy import linspace, pi
+from numpy import linspace
 
 from mechsheet.accuracy import exact, printed, rivals
 from mechsheet.accuracy.arithmetic import Numbers
+from mechsheet.accuracy.chains import (
+    REACTIONS,
+    crank_chain,
+    hitch_chain,
+    hitch_points,
+    hitch_reactions,
+    plain_hitch_reactions,
+)
+from mechsheet.accuracy.conditioning import condition
+from mechsheet.accuracy.finding import by_inverse, find_methods, rod_ways
 from mechsheet.accuracy.machine import machine_job, ring_job
-from mechsheet.accuracy.precision import Job, Measured, Method, Timed, largest_error, time_spread, timed, times_of_one
-from mechsheet.accuracy.rivals import REACTIONS, crank_chain, hitch_chain, hitch_points
-from mechsheet.accuracy.truths import TRUTHS, exact_results
-from mechsheet.readers import numbers as computed
-from mechsheet.readers.gradients import gradient
-from mechsheet.readers.slopes import slopes
-from mechsheet.recording.evaluation import evaluate
-from mechsheet.recording.record import record
-from mechsheet.run import report
+from mechsheet.accuracy.precision import Job
+from mechsheet.accuracy.responses import response_jobs
+from mechsheet.accuracy.timing import STEPS, time_spread, timed, times_of_one
+from mechsheet.quantities.unrepeatable import clock_read
 from mechsheet.run.progress import progress
-from mechsheet.run.proving import proof_of
-from mechsheet.worksheet import shown
-from mechsheet.worksheet.cells import Worksheet, load, results
-from mechsheet.worksheet.lines import registry
+from mechsheet.worksheet.cells import Worksheet
+from mechsheet.worksheet.inputs import declared
 from mechsheet.worksheet.table import Column, Table
-from mechsheet.worksheet.title import Slider
 
 _PINS = ("P23_S", "P45_S", "P67_S")
 _ANALOGUES = tuple(f"dphi{k}" for k in range(3, 8))
@@ -36,9 +37,9 @@ _ANALOGUES = tuple(f"dphi{k}" for k in range(3, 8))
 def accuracy_jobs(hitch: Any, machine: Worksheet, crank: Any, N: int, factors: Sequence[float]) -> dict[str, Job]:
     """The jobs by number: positions, derivatives, Finds and reactions of the hitch, positions of a dyad on a crank.
 
-    Reactions of a machine with groups of all kinds and the bolts of a circular joint too. ``hitch`` are the inputs of
-    the hitch worksheet, ``machine`` is the worksheet of kinetostatics, ``crank`` has l_1, l_A, l_B, X_B, Y_B [m]; all
-    are computed at N positions. The factors are those of bad guesses.
+    Two drives over time, reactions of a machine with groups of all kinds and the bolts of a circular joint too.
+    ``hitch`` are the inputs of the hitch worksheet, ``machine`` is the worksheet of kinetostatics, ``crank`` has l_1,
+    l_A, l_B, X_B, Y_B [m]; all are computed at N positions. The factors are those of bad guesses.
     """
     S, q = linspace(hitch.S_min, hitch.S_max, N), linspace(0, 2 * np.pi, N)
     found = exact.finds(hitch)
@@ -62,23 +63,50 @@ def accuracy_jobs(hitch: Any, machine: Worksheet, crank: Any, N: int, factors: S
         r = printed.hitch_ratios(hitch, S, L4, L7, printed.hitch_pins(hitch, S, L4, L7))
         return np.array([r[name] for name in _ANALOGUES])
 
-    def derivatives(order: int, as_printed: Callable[[], Any] | None = None) -> list[Method]:
-        return rivals.derivative_methods(chain, S, hitch.S_max - hitch.S_min, order, as_printed)
-
     def reactions(number: str, title: str, strokes: Any, positions: Sequence[Numbers]) -> Job:
         S6 = np.array([complex(p["PS6_S"]) for p in positions])
-        return Job(number, title, of(REACTIONS, positions), rivals.reaction_methods(hitch, strokes, L4, L7, S6))
+        p = hitch_points(hitch, strokes, L4, L7, S6)
+        kappa = condition(lambda x: hitch_reactions(SimpleNamespace(**x), x), inputs_of(hitch) | p)
+        methods = rivals.reaction_methods(hitch, strokes, L4, L7, S6)
+        return Job(number, title, of(REACTIONS, positions), methods, kappa)
 
-    second = zip(*(exact.second_analogues(hitch, s, L4, L7) for s in S), strict=True)
+    second = zip(*(exact.second_analogues(hitch, s, L4, L7).values() for s in S), strict=True)
     pins = [exact.four_bar(crank.l_1, crank.l_A, crank.l_B, B, t)["C"] for t in q.tolist()]
-    truth, finds, positions = list(found.values()), rivals.find_methods, rivals.position_methods
+    given = inputs_of(hitch)
+    moved = given | {"S": S, "L4": L4, "L7": L7}
+
+    def of_chain(f: Callable[[Any, Any], Any]) -> float:
+        return condition(lambda x: f(hitch_chain(SimpleNamespace(**x), x["L4"], x["L7"]), x["S"]), moved)
+
+    of_dyad = condition(
+        lambda x: crank_chain(x["l_1"], x["B"], x["l_A"], x["l_B"]).pins(x["q"]),
+        {"l_1": crank.l_1, "B": B, "l_A": crank.l_A, "l_B": crank.l_B, "q": q},
+    )
+    of_finds = condition(lambda x: by_inverse(SimpleNamespace(**x)), given)
+    truth, stroke = list(found.values()), hitch.S_max - hitch.S_min
+    first_order = rivals.derivative_methods(chain, S, stroke, 1, printed_analogues)
+    second_order = rivals.derivative_methods(chain, S, stroke, 2)
+    positions = rivals.position_methods
     jobs = (
-        Job("1.1", "Position of the hitch", of(_PINS), positions(chain, S, printed_pins)),
-        Job("1.2", "Position of a dyad", pins, positions(dyad, q, printed_dyad)),
-        Job("2.1", "Velocity analogues", of(_ANALOGUES), derivatives(1, printed_analogues)),
-        Job("2.2", "Acceleration analogues", [x for row in second for x in row], derivatives(2)),
-        Job("3.1", "Find from the document's guesses", truth, finds(hitch, [1.0])),
-        Job("3.2", "Find from bad guesses", truth * len(factors), finds(hitch, factors)),
+        Job(
+            "1.1",
+            "Position of the hitch",
+            of(_PINS),
+            positions(chain, S, printed_pins),
+            of_chain(lambda c, S: c.pins(S)),
+        ),
+        Job("1.2", "Position of a dyad", pins, positions(dyad, q, printed_dyad), of_dyad),
+        *response_jobs(("1.6", "1.7"), hitch),
+        Job("2.1", "Velocity analogues", of(_ANALOGUES), first_order, of_chain(lambda c, S: c.analogues(1, S))),
+        Job(
+            "2.2",
+            "Acceleration analogues",
+            [x for row in second for x in row],
+            second_order,
+            of_chain(lambda c, S: c.analogues(2, S)),
+        ),
+        Job("3.1", "Find from the document's guesses", truth, find_methods(hitch, [1.0]), of_finds),
+        Job("3.2", "Find from bad guesses", truth * len(factors), find_methods(hitch, factors), of_finds),
         reactions("4.1", "Reactions", S, at),
         reactions("4.2", "Reactions, mast upright", np.array([S_p]), upright),
         machine_job("4.4", machine, N),
@@ -87,9 +115,73 @@ def accuracy_jobs(hitch: Any, machine: Worksheet, crank: Any, N: int, factors: S
     return {job.number: job for job in jobs}
 
 
-def batch_times(number: str, hitch: Any, sizes: Sequence[int], seconds: float) -> Table:
-    """Table of the time for one of n positions or Finds computed at once: 1.3, 3.3 or 4.3."""
+def inputs_of(g: Any) -> dict[str, Any]:
+    """The inputs of a worksheet that are real numbers, by name."""
+    fields = (field for field in declared(type(g)) if isinstance(getattr(g, field.name), float | int))
+    return {field.name: float(getattr(g, field.name)) for field in fields if not field.whole}
+
+
+# What takes one after the other, or much for each: the largest number that is waited for.
+_MOST = {"find": 1000, "find_root": 1000, "find_root, no checks": 1000, "brentq": 10, "brentq, no checks": 1000}
+_MOST |= {"dense system": 1000, "least squares": 10}
+
+
+def batch_times(number: str, hitch: Any, sizes: Sequence[int], seconds: float, patience: int = 1) -> Table:
+    """Table of the time for one of n positions, Finds or reactions computed at once: 1.3, 3.3 or 4.3.
+
+    Slow ways take no more than a number of their own, times the ``patience``.
+    """
+    clock_read()  # before anything is run for it
     L4, _, L7 = map(float, exact.finds(hitch).values())
+    strokes, heights, points = _given(hitch, L4, L7)
+    positions = {
+        "library": (chain := hitch_chain(hitch, L4, L7)).groups,
+        "closed form, no checks": chain.plain_pins,
+        "printed": lambda S: printed.hitch_pins(hitch, S, L4, L7),
+    }
+    batches: dict[str, tuple[str, Callable[[int], Any], Mapping[str, Callable[[Any], Any]]]] = {
+        "1.3": ("Time of a position", strokes, positions),
+        "3.3": ("Time of a Find", heights, rod_ways(hitch)),
+        "4.3": ("Time of the reactions", points, rivals.reaction_ways(hitch)),
+    }
+    title, given, ways = batches[number]
+    return times_of_one(number, title, sizes, given, ways, seconds, {way: n * patience for way, n in _MOST.items()})
+
+
+def cost_of_checks(number: str, hitch: Any, sizes: Sequence[int], seconds: float) -> Table:
+    """Table of the time for one of n, by the library and by its closed forms without checks."""
+    clock_read()  # before anything is run for it
+    L4, _, L7 = map(float, exact.finds(hitch).values())
+    chain, (strokes, _, points) = hitch_chain(hitch, L4, L7), _given(hitch, L4, L7)
+    work: dict[str, tuple[Callable[[int], Any], Callable[[Any], Any], Callable[[Any], Any]]] = {
+        "positions": (strokes, chain.pins, chain.plain_pins),
+        "velocity analogues": (strokes, lambda S: chain.analogues(1, S), lambda S: chain.plain_analogues(1, S)),
+        "acceleration analogues": (strokes, lambda S: chain.analogues(2, S), lambda S: chain.plain_analogues(2, S)),
+        "reactions": (points, lambda p: hitch_reactions(hitch, p), lambda p: plain_hitch_reactions(hitch, p)),
+    }
+    cases = [(name, n) for name in work for n in sizes]
+    runs = list[Callable[[], Any]]()
+    for name, n in cases:
+        given, *ways = work[name]
+        runs += [partial(way, given(n)) for way in ways]
+    with progress(STEPS * len(runs), f"{number} Checks") as done:
+        taken = timed(runs, seconds, done)
+    library, plain = taken[::2], taken[1::2]
+    counts = np.array([n for _, n in cases], float)
+    of_library, of_plain = (1e6 * np.array([time.seconds for time in times]) / counts for times in (library, plain))
+    columns = (
+        Column("work", "", "", 0, np.array([name for name, _ in cases], object)),
+        Column("count", "-", "computed at once", 0, counts),
+        Column("library", "µs", "median time of one of them", 3, of_library),
+        Column("arithmetic", "µs", "the same by closed forms without checks", 3, of_plain),
+        Column("checks", "%", "what is left of the library's time", 0, 100 * (1 - of_plain / of_library)),
+        *time_spread(library),
+    )
+    return Table(number, "Cost of checks", columns)
+
+
+def _given(hitch: Any, L4: float, L7: float) -> tuple[Callable[[int], Any], ...]:
+    """Strokes, heights of the suspension axis and points of the hitch, n of each."""
 
     def strokes(n: int) -> Any:
         return linspace(hitch.S_min, hitch.S_max, n)
@@ -100,156 +192,4 @@ def batch_times(number: str, hitch: Any, sizes: Sequence[int], seconds: float) -
     def points(n: int) -> Any:
         return hitch_points(hitch, strokes(n), L4, L7, np.full(n, 2 + 0.5j))
 
-    positions = {
-        "library": hitch_chain(hitch, L4, L7).groups,
-        "printed": lambda S: printed.hitch_pins(hitch, S, L4, L7),
-    }
-    batches: dict[str, tuple[str, Callable[[int], Any], Mapping[str, Callable[[Any], Any]]]] = {
-        "1.3": ("Time of a position", strokes, positions),
-        "3.3": ("Time of a Find", heights, rivals.rod_ways(hitch)),
-        "4.3": ("Time of the reactions", points, rivals.reaction_ways(hitch)),
-    }
-    title, given, ways = batches[number]
-    return times_of_one(number, title, sizes, given, ways, seconds)
-
-
-# Whole worksheets
-
-_STUDY = ("phi3_g", "N_same", "N_other", "N_none", "N_g")  # first approximations of the slotted link
-
-
-@dataclass(frozen=True, kw_only=True)
-class Whole(Measured):
-    """All numbers and checks of a worksheet over so many positions."""
-
-    positions: int
-    names: int
-    cells: int
-
-
-def _numbers_of(sheet: Worksheet) -> list[str]:
-    """Names of a worksheet's numbers and checks: lines with a unit, without tables and what follows a slider."""
-    names = [name for name in results(sheet.path) if name not in ("form", "g")]
-    found = sheet.run(names, {"g": sheet.inputs()})
-    declared, sliders = registry(found), {name for name in names if isinstance(found[name], Slider)}
-
-    def moves(name: str) -> bool:
-        return any(sliders & set(cell.gives) for cell in sheet.needed([name], ["g"]))
-
-    numbers = [name for name in names if name in declared and name not in _STUDY]
-    return [name for name in (*numbers, *(name for name in names if name.startswith("check"))) if not moves(name)]
-
-
-def _field(stem: str, sheet: Worksheet, n: int) -> dict[str, Any]:
-    """The inputs, and a field of n positions that takes the place of the worksheet's own one."""
-    g = sheet.inputs()
-    t = linspace(0, 1, n) if n > 1 else np.array([0.5])
-    if stem == "hitch":
-        S = g.S_min * (1 - t) + g.S_max * t
-        return {"g": g, "k": np.arange(n), "t": t, "S": S, "dS": (g.S_max - g.S_min) / max(n - 1, 1)}
-    if stem == "landing_gear":
-        made = sheet.run(["l20", "H"], {"g": g})
-        return {"g": g, "i": np.arange(n), "l2i": made["l20"] + t * made["H"]}
-    if stem == "slotted_link":
-        return {"g": g, "k": np.arange(n), "dphi1": 2 * pi / max(n - 1, 1), "phi1_k": 2 * pi * t}
-    if stem == "kinetostatics":
-        base = ("C", "H", "O1", "O5", "omega1", "u5")
-        made = sheet.run(base, {"g": g})
-        return {"g": g, "phi1": 2 * pi * t} | {name: made[name] for name in base}
-    return {"g": g}
-
-
-def _error(stem: str, names: Mapping[str, Any], n: int) -> float:
-    """Largest error of the results of a worksheet at three of its n positions."""
-    rows = sorted({0, n // 3, n - 1})
-    errors = []
-    for name, numbers in exact_results(stem, names, rows).items():
-        found = np.asarray(names[name])
-        at = found.ravel() if len(numbers) == found.size else np.broadcast_to(found, (n,))[rows]
-        errors.append(largest_error(at, numbers))
-    return max(errors)
-
-
-def whole_worksheets(folder: Path, sizes: Sequence[int], seconds: float) -> list[Whole]:
-    """The worksheets of a folder with all their numbers and checks, each at several numbers of positions."""
-    sheets = {stem: load(folder / f"{stem}.py") for stem in (*TRUTHS, "joint")}
-    wanted = {stem: _numbers_of(sheet) for stem, sheet in sheets.items()}
-    cases = [(stem, n) for stem in sheets for n in (sizes if stem in TRUTHS else (1,))]
-    given = [_field(stem, sheets[stem], n) for stem, n in cases]
-    runs = [lambda s=s, g=g: sheets[s].run(wanted[s], g) for (s, _), g in zip(cases, given, strict=True)]
-    with progress(len(cases), "5 Whole worksheets") as done:
-        made = timed(runs, seconds, done)
-
-    def whole(stem: str, n: int, t: Timed) -> Whole:
-        setting, cells = str(n) if stem in TRUTHS else "load cases", sheets[stem].needed(wanted[stem], ["g"])
-        taken = t.seconds, t.low, t.high, t.runs
-        counts = {"positions": n, "names": len(wanted[stem]), "cells": len(cells)}
-        return Whole(stem, setting, _error(stem, t.result, n), *taken, **counts)
-
-    return [whole(*case, t) for case, t in zip(cases, made, strict=True)]
-
-
-def asked_costs(number: str, path: Path, asked: Mapping[str, Sequence[str]], seconds: float) -> Table:
-    """Table of the cells run and the run times for results asked for; no names ask for the whole document, at last."""
-    sheet, title = load(path), "Cost of what is asked for"
-    given = {"g": sheet.inputs()}
-    wants = [list(names) or [name for name in sheet.results if name != "form"] for names in asked.values()]
-    again = [partial(evaluate, path, want, **given) for want in wants]
-    for ask in again:
-        ask(), ask()  # the second time it is recorded
-    runs = [partial(sheet.run, want, given) for want in wants]
-    both = _run_times(f"{number} {title}", [*runs, *again], seconds)
-    time, *apart = (replace(column, values=column.values[: len(runs)]) for column in both)
-    cells = np.array([len(sheet.needed(want, given)) for want in wants], float)
-    columns = (
-        Column("asked for", "", "", 0, np.array(list(asked), object)),
-        Column("cells", "-", "cells run", 0, cells),
-        Column("of all", "%", "cells run over those of the whole document", 0, 100 * cells / cells[-1]),
-        time,
-        Column("of whole", "%", "time over that of the whole document", 0, 100 * time.values / time.values[-1]),
-        Column("again", "ms", "median time where it was asked for before", 2, both[0].values[len(runs) :]),
-    )
-    return Table(number, title, (*columns, *apart))
-
-
-def study_costs(number: str, path: Path, studies: Mapping[str, Callable[[], Any]], seconds: float) -> Table:
-    """Table of the run times of studies and of the readers of a worksheet's recording, as multiples of one run, too."""
-    sheet, title = load(path), "Cost of studies"
-    given = {"g": sheet.inputs()}
-    names = sheet.run(sheet.results, given) | {"__file__": str(path)}
-    recording = record(names, sheet)
-    inputs = [node for node in recording.inputs.values() if node.size == 1 and node.value.dtype.kind == "f"]
-    columns = [part for table in recording.tables.values() for c in table if c is not None for part in c.parts]
-
-    def refreshed() -> list[tuple[str, str]]:
-        values = sheet.run(sheet.results, given).values()
-        return [shown.page().written(value) for value in values if isinstance(value, shown.Shown)]
-
-    ways: dict[str, Callable[[], Any]] = {
-        "a run of the worksheet's cells": partial(sheet.run, sheet.results, given),
-        "the run recorded": partial(record, names, sheet),
-        "its tables computed by the recording": partial(
-            computed.numbers, columns, {node: node.value for node in inputs}
-        ),
-        "their slopes by one input": partial(slopes, columns, inputs[:1]),
-        f"their slopes by all {len(inputs)} inputs": partial(slopes, columns, inputs),
-        f"one number's slopes by all {len(inputs)} inputs": partial(gradient, columns[-1], 0, inputs),
-        "all their digits proved": partial(proof_of, names, sheet, recording),
-        "its workbook written": partial(report.workbook, path.stem, names, {}),
-        "its page refreshed: a run, and all that it shows drawn": refreshed,
-        **studies,
-    }
-    study = Column("study", "", "", 0, np.array(list(ways), object))
-    time, *spread = _run_times(f"{number} {title}", list(ways.values()), seconds)
-    of_run = Column(
-        "of a run", "-", "time over that of a run of the worksheet's cells", 2, time.values / time.values[0]
-    )
-    return Table(number, title, (study, time, of_run, *spread))
-
-
-def _run_times(job: str, runs: Sequence[Callable[[], Any]], seconds: float) -> tuple[Column, ...]:
-    """Columns of the medians of run times, of their spread and of their number."""
-    with progress(len(runs), job) as done:
-        taken = timed(runs, seconds, done)
-    ms = 1e3 * np.array([time.seconds for time in taken])
-    return Column("time", "ms", "median of the run times", 1, ms), *time_spread(taken)
+    return strokes, heights, points

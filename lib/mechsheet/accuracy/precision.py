@@ -1,25 +1,21 @@
 """Error against run time: the methods of one job, timed turn about in one run, against the truth at 50 digits."""
 
-import os
-import platform
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
-from functools import partial
-from time import perf_counter
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from mechsheet.accuracy.arithmetic import EPS, relative_error
+from mechsheet.accuracy.timing import STEPS, TURNS, time_spread, timed
 from mechsheet.document.error_chart import WorkPrecision, families
-from mechsheet.quantities.unrepeatable import clock_read
 from mechsheet.run.progress import progress
 from mechsheet.worksheet.check import Check
 from mechsheet.worksheet.table import Column, Table
 
 _NOISE = 8 * EPS  # four units in the last place, within which errors count as equal
-_FASTER = 0.9  # part of a time that counts as less of it
+_SAME = 0.1  # part by which a time may be another one and count as the same
 
 
 def largest_error(found: ArrayLike, truth: Iterable[Any]) -> float:
@@ -37,21 +33,15 @@ def largest_error(found: ArrayLike, truth: Iterable[Any]) -> float:
 
 @dataclass(frozen=True)
 class Method:
-    """One way to do a job, with its tolerance, step or size in words."""
+    """One way to do a job, with its tolerance, step or size in words.
+
+    ``why`` says in a few words why the product does not use it, should it be faster at the same digits.
+    """
 
     family: str
     setting: str
     run: Callable[[], Any]
-
-
-class Timed(NamedTuple):
-    """What a run returns, and of its run times the median, the quartiles [s] and the number."""
-
-    result: Any
-    seconds: float
-    low: float
-    high: float
-    runs: int
+    why: str = ""
 
 
 @dataclass(frozen=True)
@@ -65,6 +55,7 @@ class Measured:
     low: float = np.nan
     high: float = np.nan
     runs: int = 1
+    why: str = ""
 
     @property
     def digits(self) -> float:
@@ -72,43 +63,54 @@ class Measured:
         return float(-np.log10(self.error))
 
 
-def time_spread(times: Sequence[Timed | Measured]) -> tuple[Column, ...]:
-    """Columns of how far run times lie apart, and of how many were taken."""
-    seconds, low, high, runs = np.array([(t.seconds, t.low, t.high, t.runs) for t in times]).T
-    apart = "half of what lies between the quartiles of the run times, over their median"
-    return Column("spread", "%", apart, 0, 50 * (high - low) / seconds), Column("runs", "-", "run times taken", 0, runs)
-
-
 @dataclass(frozen=True)
 class Comparison:
-    """The methods of one job; the first row is the product's own one, the rows of a family are neighbours."""
+    """The methods of one job; the first row is the product's own one, the rows of a family are neighbours.
+
+    ``condition`` is the job's condition number: an error of so many roundings no method could avoid.
+    """
 
     number: str
     title: str
     rows: tuple[Measured, ...]
+    condition: float = np.nan
 
     @property
     def own(self) -> Measured:
         return self.rows[0]
 
-    def place(self, row: Measured) -> str:
-        """A method beside the product's own, in words; its time is the same where the quartiles overlap."""
+    def time(self, row: Measured) -> str:
+        """A time beside the own one, in words: the same within a tenth, and where the quartiles of enough runs meet."""
         own = self.own
-        if row is own:
+        meet = row.low <= own.high and own.low <= row.high and min(row.runs, own.runs) >= TURNS
+        if meet or 1 - _SAME <= row.seconds / own.seconds <= 1 + _SAME:
+            return "the same time"
+        return "faster" if row.seconds < own.seconds else "slower"
+
+    def place(self, row: Measured) -> str:
+        """A method beside the product's own, in words."""
+        if row is self.own:
             return "the product's own"
-        time = "faster" if row.seconds < _FASTER * own.seconds else "slower"
-        if row.low <= own.high and own.low <= row.high:
-            time = "the same time"
-        if _better(row.error, own.error):
+        time = self.time(row)
+        if _better(row.error, self.own.error):
             return f"{time}, more digits"
-        if _better(own.error, row.error):
+        if _better(self.own.error, row.error):
             return f"{time}, fewer digits"
         return "no difference" if time == "the same time" else f"{time}, the same digits"
+
+    def why(self, row: Measured) -> str:
+        """Why a method that is faster at no fewer digits is not used; "" of all others."""
+        return row.why if self.place(row) in ("faster, the same digits", "faster, more digits") else ""
 
     @property
     def better(self) -> tuple[Measured, ...]:
         """Methods that are both faster and more accurate than the product's own: none, if that is on the front."""
         return tuple(row for row in self.rows if self.place(row) == "faster, more digits")
+
+    @property
+    def fastest(self) -> Measured:
+        """The fastest of the methods of no fewer digits."""
+        return min((row for row in self.rows if "fewer" not in self.place(row)), key=lambda row: row.seconds)
 
     @property
     def front(self) -> tuple[Measured, ...]:
@@ -147,6 +149,8 @@ class Comparison:
             Column("time", "ms", "median of the run times", 3, 1e3 * seconds),
             Column("ratio", "-", "run time, times that of the product's own method", 3, seconds / self.own.seconds),
             Column("place", "", "beside the product's own method", 0, np.array([*map(self.place, rows)], object)),
+            Column("not used", "", "why not, where it is faster", 0, np.array([*map(self.why, rows)], object)),
+            Column("roundings", "-", _ROUNDINGS, 1, error / (np.maximum(1.0, self.condition) * EPS), power=True),
             *time_spread(rows),
         )
         return Table(self.number, self.title, columns, note)
@@ -159,86 +163,32 @@ class Comparison:
 
 
 _ERROR = "largest error over the largest number, at least one rounding, at most 1"
+_ROUNDINGS = "the error in roundings times the condition number of the job"
 
 
 @dataclass(frozen=True)
 class Job:
     """What is to be computed: its numbers at 50 digits, and all methods.
 
-    The product's own method is the first; those of a family are next to each other.
+    The product's own method is the first; those of a family are next to each other. ``condition`` is the job's
+    condition number: the greatest change of a number over the largest, for relative changes of what is given.
     """
 
     number: str
     title: str
     truth: Sequence[Any]
     methods: Sequence[Method]
+    condition: float = np.nan
 
     def compare(self, seconds: float) -> Comparison:
         """Run the methods turn about, and compare the medians of their run times and their errors; see `timed`."""
-        with progress(len(self.methods), f"{self.number} {self.title}") as done:
+        with progress(STEPS * len(self.methods), f"{self.number} {self.title}") as done:
             found = timed([method.run for method in self.methods], seconds, done)
         rows = (
-            Measured(m.family, m.setting, largest_error(t.result, self.truth), t.seconds, t.low, t.high, t.runs)
+            Measured(m.family, m.setting, largest_error(t.result, self.truth), *t[1:], m.why)
             for m, t in zip(self.methods, found, strict=True)
         )
-        return Comparison(self.number, self.title, tuple(rows))
-
-
-def timed(runs: Sequence[Callable[[], Any]], seconds: float, done: Callable[[], object] = lambda: None) -> list[Timed]:
-    """What each run returns, and its times, all taken turn about.
-
-    A run that was made three times and takes ``seconds`` in all, or ten times as long, is left out of further turns.
-    ``done`` is called when a run has its turn the first time.
-    """
-    clock_read()
-    results, times = [], [list[float]() for _ in runs]
-
-    def once(i: int) -> Any:
-        start = perf_counter()
-        result = runs[i]()
-        times[i].append(perf_counter() - start)
-        return result
-
-    for i in range(len(runs)):
-        results.append(once(i))
-        done()
-    for taken in times:
-        if taken[0] < seconds / 3:  # the first run of a fast method is spent on caches
-            taken.clear()
-    while waiting := [i for i, taken in enumerate(times) if sum(taken) < (seconds if len(taken) > 2 else 10 * seconds)]:
-        for i in waiting:
-            once(i)
-    quartiles = np.array([np.quantile(taken, (0.5, 0.25, 0.75)) for taken in times]).T.tolist()
-    return list(map(Timed, results, *quartiles, map(len, times)))
-
-
-def times_of_one(
-    number: str,
-    title: str,
-    sizes: Sequence[int],
-    given: Callable[[int], Any],
-    ways: Mapping[str, Callable[[Any], Any]],
-    seconds: float,
-) -> Table:
-    """Table of the time for one of n that are computed at once by several ways from what is given for n."""
-    runs = [partial(way, case) for case in map(given, sizes) for way in ways.values()]
-    with progress(len(runs), f"{number} {title}") as done:
-        times = timed(runs, seconds, done)
-    taken = np.array([(time.seconds, (time.high - time.low) / 2) for time in times]).reshape(len(sizes), -1, 2)
-    each = 1e6 * taken / np.array(sizes)[:, None, None]
-    columns = [Column(name, "µs", "median time of one of them", 3, each[:, k, 0]) for k, name in enumerate(ways)]
-    half = "half of what lies between the quartiles"
-    columns += [Column(f"{name} ±", "µs", half, 2, each[:, k, 1]) for k, name in enumerate(ways)]
-    return Table(number, title, (Column("count", "-", "computed at once", 0, np.array(sizes, float)), *columns))
-
-
-def measured_on(number: str) -> Table:
-    """Table of what the run times were measured on."""
-    cores = np.array([os.cpu_count() or 1])
-    facts = {"processor": platform.processor() or platform.machine(), "system": platform.system()}
-    facts |= {"software": f"Python {platform.python_version()}, numpy {np.__version__}"}
-    columns = (Column(name, "", "", 0, np.array([fact], object)) for name, fact in facts.items())
-    return Table(number, "Machine of the run times", (Column("cores", "-", "of the machine", 0, cores), *columns))
+        return Comparison(self.number, self.title, tuple(rows), self.condition)
 
 
 def _better(a: float, b: float) -> bool:

@@ -5,6 +5,7 @@ elimination with divisions by differences of coordinates. Errata that only mispr
 and quadrants that the documents take for granted. Names are those of the worksheets; SI and radians.
 """
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -173,3 +174,59 @@ def dyad(
     R_Ax = (K * a.real + H_A * b.real) / (a.real * b.imag - b.real * a.imag)
     R_A = R_Ax + 1j * ((R_Ax * a.imag - H_A) / a.real)
     return {"C": C, "omega_A": omega_A, "omega_B": omega_B, "R_A": R_A, "R_B": -F - R_A, "R_C": -F_A - R_A}
+
+
+@np.errstate(all="ignore")
+def machine_forces(g: Any, p: Any) -> Results:
+    """Programs SR2, SR3 and SR1 of kinetostatics for the pins and loads ``p``, by the names of `pump.FORCES`.
+
+    Forces across the links by moments, those along them by elimination.
+    """
+
+    def across(F: Any, arm: Any, phi: Any, M: Any, length: Any) -> Any:
+        return (np.abs(F) * arm * sin(phi - np.angle(F)) + M) / length
+
+    def sums(turned: Sequence[tuple[Any, Any]], *others: Any) -> tuple[Any, Any]:
+        polar = [*turned, *((np.abs(F), np.angle(F)) for F in others)]
+        return sum(F * cos(a) for F, a in polar), sum(F * sin(a) for F, a in polar)
+
+    def joined(along: Any, over: Any, phi: Any) -> Any:
+        return np.hypot(along, over) * exp(1j * (phi + np.arctan2(over, along)))
+
+    phi2, phi3, phi4, phi6 = np.angle(p.B - p.A), np.angle(p.B - p.C), np.angle(p.E - p.D), np.angle(p.H - p.K)
+    R34_t = across(p.F4_sum, g.l_ES4, phi4, p.M_in4, g.l4)
+    A, B = sums([(R34_t, phi4 + pi / 2)], p.F4_sum, p.F5_sum)
+    R_D = joined(-(A * cos(g.phi05) + B * sin(g.phi05)) / cos(phi4 - g.phi05), R34_t, phi4)
+    R_05 = (A * sin(phi4) - B * cos(phi4)) / cos(phi4 - g.phi05) * exp(1j * (g.phi05 + pi / 2))
+    l_HK = np.abs(p.H - p.K)
+    T6 = across(p.F6_sum, l_HK - g.l_KS6, phi6, p.M_in6, 1)
+    R36_t = (T6 + across(p.F7_sum, g.l_HS7, phi6, p.M_in7, 1)) / l_HK
+    A, B = sums([(R36_t, phi6 + pi / 2)], p.F6_sum)
+    R_K = joined(-(A * cos(phi6) + B * sin(phi6)), R36_t, phi6)
+    R_76 = (A * sin(phi6) - B * cos(phi6)) * exp(1j * (phi6 + pi / 2))
+    F3 = p.F3_own - R_D - R_K
+    M3 = p.M_in3 - ((np.conj(p.D - p.S3) * R_D).imag + (np.conj(p.K - p.S3) * R_K).imag)
+    R12_t, R03_t = across(p.F2_sum, g.l_BS2, phi2, p.M_in2, g.l2), across(F3, g.l_BS3, phi3, M3, g.l3)
+    A, B = sums([(R12_t, phi2 + pi / 2), (R03_t, phi3 + pi / 2)], p.F2_sum, F3)
+    R_A = joined(-(A * sin(phi3) - B * cos(phi3)) / sin(phi3 - phi2), R12_t, phi2)
+    R_C = joined(-(A * sin(phi2) - B * cos(phi2)) / sin(phi2 - phi3), R03_t, phi3)
+    group_45 = {"R_D": R_D, "R_E": -(R_05 + p.F5_sum), "R_05": R_05}
+    group_67 = {"R_K": R_K, "R_H": R_76 - p.F7_sum, "R_76": R_76}
+    return {"R_A": R_A, "R_B": -(R_C + F3), "R_C": R_C} | group_45 | group_67
+
+
+@np.errstate(all="ignore")
+def ring(r: Any, phi: Any, M: Any, N: Any) -> Results:
+    """Appendix 2 of the joint's document, with the signs that the scan has lost: a ring that is pressed in part."""
+    c = np.asarray(N * r / (2 * M))[..., None]
+    edge = pi / 2 + np.arcsin(c)
+    k_0 = c * (pi - edge) - sin(edge)
+    k_1 = ((pi - edge) / 2 - sin(2 * edge) / 4 - c * sin(edge)) / k_0
+    k_2 = (1 - c) / (2 * k_0)
+    pulled = np.maximum(cos(phi) + c, 0)
+    S_1, S_2 = pulled.sum(-1, keepdims=True), (pulled * cos(phi)).sum(-1, keepdims=True)
+    normal, moment = np.asarray(N)[..., None], np.asarray(M)[..., None]
+    P_1 = (moment / r - k_1 * normal) / (S_2 - k_1 * S_1)
+    pressed = normal - S_1 * P_1
+    forces = {"P": P_1 * pulled, "R": pressed[..., 0], "p_0": (-k_2 * pressed / r)[..., 0]}
+    return forces | {"y_0": -np.asarray(N * r**2 / (2 * M))}

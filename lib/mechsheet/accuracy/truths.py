@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from mechsheet.accuracy import exact
+from mechsheet.accuracy import exact, pump, sections
 from mechsheet.accuracy.arithmetic import Numbers, mp, mpf
 from mechsheet.worksheet.cells import Worksheet, load
 from mechsheet.worksheet.inputs import build
@@ -34,7 +34,7 @@ TRUTHS: dict[str, Truth] = {
     "hitch": Truth("S", lambda g, t: g.S_min + (mpf(g.S_max) - g.S_min) * t, exact.hitch),
     "landing_gear": Truth("l2i", _length, exact.landing_gear, ("Ai", "omega3_l2i", "eps3_l2i", "F_c")),
     "slotted_link": Truth("phi1_k", lambda g, t: g.phi_0 + mp.sign(g.omega1) * 2 * mp.pi * t, exact.slotted_link),
-    "kinetostatics": Truth("phi1", lambda _, t: 2 * mp.pi * t, exact.kinetostatics),
+    "kinetostatics": Truth("phi1", lambda _, t: 2 * mp.pi * t, pump.kinetostatics),
 }
 
 
@@ -47,7 +47,7 @@ _GIVEN = {"kinetostatics": {"step": 1}}  # its recording holds the positions tha
 def from_inputs(path: Path, _text: bytes) -> tuple[Worksheet, dict[str, Any], dict[str, dict[int, Any]]]:
     """A document, its run, and exact results of it by name and position, which no float has been before.
 
-    They are those at three of its positions, of the joint all its forces. ``_text`` is that of the document.
+    They are those at three of its positions, of the joint those of all load cases. ``_text`` is that of the document.
     """
     sheet, stem = load(path), path.stem
     names = sheet.run(sheet.results, {"g": build(sheet.inputs, _GIVEN.get(stem, {}))})
@@ -63,9 +63,7 @@ def from_inputs(path: Path, _text: bytes) -> tuple[Worksheet, dict[str, Any], di
 def exact_results(stem: str, names: Mapping[str, Any], rows: Iterable[int]) -> Numbers:
     """Results of a worksheet at 50 digits at some of its positions, by name; of the joint, which has none, all."""
     if stem == "joint":
-        g = names["g"]
-        cases = ((plane, case) for plane in (1, 2) for case in range(len(g.loads.M)))
-        return {"P": [force for at in cases for force in exact.joint(g, exact.factors(g), *at)["P"]]}
+        return sections.joint_document(names["g"])
     truth = TRUTHS[stem]
     at = [truth.results(names["g"], float(names[truth.field][i])) for i in rows]
     return {name: [p[name] for p in at] for name in truth.compared or at[0].keys() & names.keys()}

@@ -252,13 +252,21 @@ def scene_text(
 ) -> str:
     """Text of a scene file: remarks, inputs with their units, and limits of results."""
     lines = [*(f"# {remark}" for remark in remarks), "[inputs]"]
-    texts = {name: json.dumps(value) if isinstance(value, str) else repr(value) for name, value in inputs.items()}
-    lines += [f"{name} = {text}  # {numbers.in_text(fields[name].unit)}" for name, text in texts.items()]
+    texts = {name: _quoted(value) if isinstance(value, str) else repr(value) for name, value in inputs.items()}
+    lines += [f"{_key(name)} = {text}  # {numbers.in_text(fields[name].unit)}" for name, text in texts.items()]
     lines += ["", "[limits]"]
     for name, limit in limits.items():
         ends = (f"{end} = {value!r}" for end, value in (("min", limit.min), ("max", limit.max)) if value is not None)
-        lines.append(f'"{name}" = {{{", ".join(ends)}}}')
+        lines.append(f"{_quoted(name)} = {{{', '.join(ends)}}}")
     return "\n".join(lines) + "\n"
+
+
+def _key(name: str) -> str:
+    return name if name.isascii() and name.isidentifier() else _quoted(name)
+
+
+def _quoted(text: str) -> str:
+    return json.dumps(text, ensure_ascii=False)  # TOML knows no halves of a letter
 
 
 def save_scene(text: str, name: str, namespace: Mapping[str, Any]) -> Any:

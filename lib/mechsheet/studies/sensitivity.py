@@ -108,7 +108,7 @@ class Sensitivity:
         )
         note = f"{name} = {where}, position {k}; derivatives in the units beside them"
         by_differences = f", by differences: {self.differences[name]}" if name in self.differences else ""
-        return Table(number, title, columns, f"{note}{by_differences}.")
+        return Table(number, title, columns, f"{note}{by_differences}.", said=(name,))
 
     def over_positions(self, number: str, title: str, name: str) -> Table:
         """Elasticities of a result at every position, a column for each input that has any influence."""
@@ -117,7 +117,9 @@ class Sensitivity:
         k = Column("k", "-", "number of the position", 0, np.arange(relative.shape[1], dtype=float))
         names = list(self.inputs)
         parts = [Column(names[i], "-", f"d ln {name} / d ln {names[i]}", 3, relative[i]) for i in moving]
-        return Table(number, title, (k, *parts), f"Relative: percent of {name} for one percent of the input.")
+        return Table(
+            number, title, (k, *parts), f"Relative: percent of {name} for one percent of the input.", said=(name,)
+        )
 
     def tornado(self, number: str, title: str, name: str, at: Position = "least") -> "Tornado":
         """Chart of the elasticities at one position, the largest on top; inputs without influence are left out."""

@@ -78,9 +78,8 @@ class Tolerance:
         units_of = {x: numbers.suffix(self.units[x]) for x in self.tolerances}
         each = (f"{x} ± {numbers.significant(t, 6)}{units_of[x]}" for x, t in self.tolerances.items())
         lost = f" {self.lost} have no value: {self.reason}." if self.lost else ""
-        return Table(
-            number, title, (k, *columns), f"{self.count} variants by {self.method} of {', '.join(each)}.{lost}"
-        )
+        note = f"{self.count} variants by {self.method} of {', '.join(each)}.{lost}"
+        return Table(number, title, (k, *columns), note, said=tuple(self.tolerances))
 
 
 def tolerance(
