@@ -17,7 +17,7 @@ from mechsheet import typeset
 S = np.array([0.42, 0.67])  # [m] stroke
 P23_S = S * (1 + 2j)  # [m] pin
 R56 = S * (3000 + 4000j)  # [kN] reaction
-dRa = 0.2381  # [%] share
+dRa = 1 * 0.2381  # [%] share
 typeset()
 """
 
@@ -139,14 +139,14 @@ g = Given()
 
 def test_inputs_are_columns_with_their_declarations(names):
     run(INPUTS, names)
-    run('t = table("1", "T", g.bolts.x, g.bolts.F, g.places, g.k, g.grade.R_m, show={"xbolts": "m"})', names)
+    run('t = table("1", "T", g.bolts.x, g.bolts.F, g.places, g.k, g.grade.R_m, show={"x_bolts": "m"})', names)
     columns = names["t"].columns
     assert [(c.symbol, c.unit, c.meaning) for c in columns] == [
-        ("xbolts", "m", "place"),
-        ("Fbolts", "kN", "force"),
+        ("x_bolts", "m", "place"),
+        ("F_bolts", "kN", "force"),
         ("places", "mm", "places"),
         ("k", "-", "factor"),
-        ("Rmgrade", "MPa", "strength"),
+        ("R_m_grade", "MPa", "strength"),
     ]
     assert np.allclose([c.values for c in columns], [[0.1, 0.2], [5, 7], [10, 20], [1.5, 1.5], [800, 800]])
     with pytest.raises(SheetError, match=r"column g.bolts: a column is a name, an input"):

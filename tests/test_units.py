@@ -14,7 +14,7 @@ import pytest
 from scipy import constants
 
 from mechsheet import units
-from mechsheet.units import alike, define, definitions, parse, plain, shown, si
+from mechsheet.units import alike, define, definitions, exchange, parse, plain, shown, si
 from mechsheet.worksheet.check import require
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.find import find
@@ -168,6 +168,15 @@ def test_nobody_knows_what_is_divided():
         ("kp/mm**2", "kp; nearest: kgf"),
         ("N/mm2", ": N/mm**2"),
         ("cm3/s", ": cm**3/s"),
+        ("psig", ": psi"),
+        ("barg", ": bar"),
+        ("kPaa", ": kPa"),
+        ("lbm", ": lb"),
+        ("lbft", ": lbf*ft"),
+        ("KN", ": kN"),
+        ("Kg/m", "Kg; nearest: kg"),
+        ("U/min", "U; nearest: rev"),
+        ("min-1", ": min**-1"),
     ],
 )
 def test_an_unknown_unit_is_told_with_the_nearest(text, near):
@@ -251,7 +260,7 @@ def test_the_coherent_unit_measures_the_same() -> None:
 
 
 def test_units_to_show_instead_measure_the_same() -> None:
-    for group in units.printing._USUAL:
+    for group in exchange._USUAL:
         first, *others = group.split()
         assert alike(first) == (first, *others)
         assert {parse(unit).dims for unit in others} == {parse(first).dims}

@@ -56,8 +56,8 @@ class _Measuring(ast.NodeTransformer):
         match node:
             case ast.Name() | ast.Attribute():
                 return self.known.get(ast.unparse(node), "")
-            case ast.BinOp(base, ast.Pow(), ast.Constant(int(power))) if unit := self.unit(base):
-                return f"{unit}**{power}" if isinstance(base, ast.Name | ast.Attribute) else ""
+            case ast.BinOp(base, ast.Pow(), power) if (unit := self.unit(base)) and (raised := _power(power)):
+                return f"{unit}**{raised}" if isinstance(base, ast.Name | ast.Attribute) else ""
             case ast.BinOp(left, ast.Mult() | ast.Div() as op, right):
                 first, second = self.unit(left), self.closed(right)
                 return f"{first}{'*' if isinstance(op, ast.Mult) else '/'}{second}" if first and second else ""
@@ -77,6 +77,16 @@ def _chain(node: ast.expr) -> Iterator[Part]:
             yield type(op), right
         case _:
             yield ast.Mult, node
+
+
+def _power(node: ast.expr) -> str:
+    """A power of a unit, such as ``2``, ``0.5`` or ``(1/2)``; "" of anything else."""
+    match node:
+        case ast.Constant(int() | float()):
+            return ast.unparse(node)
+        case ast.BinOp(ast.Constant(int()), ast.Div(), ast.Constant(int())):
+            return f"({ast.unparse(node)})"
+    return ""
 
 
 def _number(node: ast.expr) -> float | None:

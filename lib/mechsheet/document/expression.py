@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Mapping
 from functools import lru_cache
 from typing import Any
 
-from mechsheet.document import comprehension, functions, names
+from mechsheet.document import comprehension, functions, names, solved
 from mechsheet.document.constant import measured
 from mechsheet.document.formula import (
     POWER,
@@ -55,7 +55,7 @@ def right(line: Formula, single: frozenset[str] = frozenset()) -> Node | None:
     """Right side of a line; None where it is a number or says the same as the left."""
     node = None
     if not isinstance(line.expression, ast.Constant):
-        node = tree(measured(line.expression, line.constants), single=single)
+        node = tree(_written(line.expression, line), single=single)
     if isinstance(node, Measure) and node.unit == line.unit:
         return None
     return None if node == left(line, single) else node
@@ -72,7 +72,7 @@ def equation(line: Formula | Given, single: frozenset[str] = frozenset()) -> Nod
     node = right(line, single)
     if node is None:
         return left(line, single)
-    own = (tree(measured(value, line.constants), single=single) for _, value in line.where)
+    own = (tree(_written(value, line), single=single) for _, value in line.where)
     where = tuple(Binary(names.symbol(name), "=", value) for (name, _), value in zip(line.where, own, strict=True))
     whole = Binary(left(line, single), "=", node)
     return Row((whole, Text("where"), *where)) if where else whole
@@ -82,15 +82,21 @@ def substituted(line: Formula, numbers: Mapping[str, Measure]) -> Node | None:
     """Right side of a line with numbers for its symbols; None where it has none."""
     if not numbers or not right(line):
         return None
-    expression = measured(line.expression, line.constants)
+    expression = _written(line.expression, line)
     node = tree(expression, numbers)
     return None if node == tree(expression) else node
 
 
+def _written(part: ast.expr, line: Formula) -> ast.expr:
+    """A part of a line with its units as such, and solve blocks by their unknowns."""
+    return measured(solved.by_unknowns(part, line.solved) if line.solved else part, line.constants)
+
+
 @lru_cache(maxsize=4096)
 def reads(line: Formula) -> tuple[str, ...]:
-    """Names that the right side of a line reads, as they are written: ``g.L3`` too."""
-    return tuple(dict.fromkeys(filter(None, map(_read_as, ast.walk(line.expression)))))
+    """Names that the right side of a line reads, as they are written: ``g.L3`` too; none that has another value now."""
+    read = dict.fromkeys(filter(None, map(_read_as, ast.walk(line.expression))))
+    return tuple(name for name in read if name not in line.others)
 
 
 @lru_cache(maxsize=4096)
@@ -175,6 +181,8 @@ class _Reader:
             case ast.Attribute(ast.Attribute(ast.Name(name), "value"), unknown):  # one of several
                 ending = next((end for end in _SOLVED if name.endswith(end)), None)
                 return Apply(Function(_SOLVED[ending]), Brackets((names.symbol(unknown),))) if ending else None
+            case ast.Attribute(ast.Call(ast.Name("find"), [f, *_], keywords), "value"):
+                return solved.found(self, f, next((k.value for k in keywords if k.arg == "equals"), ast.Constant(0)))
             case ast.Attribute(ast.Name(name), "value"):  # of a slider or field of the page
                 return names.symbol(name)
             case ast.Attribute(ast.Name(name), "T") if re.fullmatch(r"[A-Za-z](_\w+)?", name):  # a matrix
@@ -282,6 +290,8 @@ class _Reader:
 
     def subscript(self, node: ast.Subscript) -> Node:
         """An element, or those whose number k is in a slice; what only arranges axes is not shown."""
+        if isinstance(node.value, ast.Dict) and (chosen := self.chosen(node.value, node.slice)):
+            return chosen
         match node.slice:
             case ast.Constant(0) if integral := functions.quad(self, node.value):
                 return integral
@@ -296,8 +306,24 @@ class _Reader:
         value = whole.least(node.value, WHOLE)
         if not shown:
             return value
-        picked = tuple(map(self.place, shown))
+        if isinstance(value, Element) and isinstance(value.index, Binary):  # of those that a condition picks
+            value = Brackets((value,))
+        inside = self.without([_read_as(node.value)])  # of which a condition is of all elements, not of the one shown
+        picked = tuple(map(inside.place, shown))
         return Element(value, picked[0] if len(picked) == 1 else Brackets(picked))
+
+    def chosen(self, among: ast.Dict, key: ast.expr) -> Node | None:
+        """One of several values by a key, as a choice; None of what is no such dictionary."""
+        options = [option.value for option in among.keys if isinstance(option, ast.Constant)]
+        if not options or len(options) < len(among.keys):
+            return None
+        if isinstance(key, ast.Constant):
+            return self.read(among.values[options.index(key.value)]) if key.value in options else None
+        *others, last = map(self.read, among.values)
+        for option, value in reversed([*zip(options, others, strict=False)]):
+            of = Text(option) if isinstance(option, str) else self.read(ast.Constant(option))
+            last = Cases(value, Binary(self.least(key, SUM), "=", of), last)
+        return last
 
     def place(self, key: ast.expr) -> Node:
         if words := names.place(key):

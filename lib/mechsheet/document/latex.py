@@ -33,14 +33,18 @@ from mechsheet.document.formula import (
 )
 from mechsheet.worksheet import numbers
 from mechsheet.worksheet.numbers import Notation
-from mechsheet.worksheet.symbol import GREEK, Symbol
+from mechsheet.worksheet.symbol import GREEK, LETTERS, Symbol
 
 LATEX = Notation(
     "-", r"\text{none}", r"\infty", r"{} \cdot 10^{{{}}}", r"({},\ {})", r" \,\ldots\, ", r"^\circ", r"\,\%",
     r"\,\mathrm{{{}}}", r"^{{{}}}", r"\cdot ",
 )  # fmt: skip
-_LETTERS = {letter: rf"\{word}" for word, letter in GREEK.items()} | {"ε": r"\varepsilon", "φ": r"\varphi"}
-_GREEK = re.compile(f"([{''.join(GREEK.values())}])")
+_LETTERS = {letter: rf"\{word}" for word, letter in GREEK.items()}
+_LETTERS |= {
+    "ε": r"\varepsilon", "φ": r"\varphi", "λ": r"\lambda", "Λ": r"\Lambda",
+    "ι": r"\iota", "υ": r"\upsilon", "Ξ": r"\Xi", "Π": r"\Pi", "Υ": r"\Upsilon",
+}  # fmt: skip
+_GREEK = re.compile(f"([{LETTERS}])")
 _MARKS = {"": "{}", "Δ": r"\Delta {}", "d": r"\mathrm{{d}}{}", ".": r"\dot{{{}}}", "..": r"\ddot{{{}}}"}
 _NAMED = {
     **{name: rf"\{name}" for name in ("sin", "cos", "tan", "arcsin", "arccos", "arctan", "arg", "exp", "ln", "max")},
@@ -86,9 +90,10 @@ def symbol(s: Symbol) -> str:
     >>> symbol(read("phi34")), symbol(read("dRa"))
     ('\\varphi_{34}', '\\Delta R_{\\mathrm{a}}')
     """
-    base = _LETTERS.get(s.base) or (s.base if len(s.base) == 1 else rf"\mathrm{{{_escaped(s.base)}}}")
+    known = len(s.base) == 1 and (s.base.isascii() or not s.base.isalpha())  # to who sets a formula
+    base = _LETTERS.get(s.base) or (s.base if known else rf"\mathrm{{{_escaped(s.base)}}}")
     index = "".join(
-        _LETTERS.get(part) or (rf"\mathrm{{{part}}}" if re.search("[A-Za-z]", part) else part)
+        _LETTERS.get(part) or (rf"\mathrm{{{part}}}" if re.search(r"[^\W\d_]", part) else part)
         for part in _GREEK.split(s.index)
         if part
     )

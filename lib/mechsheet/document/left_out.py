@@ -7,9 +7,10 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from mechsheet.worksheet import source
-from mechsheet.worksheet.cells import bound
 from mechsheet.worksheet.errors import SheetError
-from mechsheet.worksheet.lines import Formula, formulas, names_read, typeset_lines, undeclaring
+from mechsheet.worksheet.lines import Formula, formulas, names_read, undeclaring
+from mechsheet.worksheet.source import bound
+from mechsheet.worksheet.typeset import typeset_lines
 
 
 class LeftOut(NamedTuple):

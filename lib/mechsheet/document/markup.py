@@ -2,13 +2,14 @@
 
 import json
 import re
-from collections.abc import Container
+from collections.abc import Container, Iterable
 from html import escape
 from typing import Any
 
 from mechsheet.worksheet import numbers, symbol
 from mechsheet.worksheet.check import Check
 from mechsheet.worksheet.kinds import Input
+from mechsheet.worksheet.lines import Formula
 from mechsheet.worksheet.numbers import Notation
 from mechsheet.worksheet.over import Over
 
@@ -63,15 +64,21 @@ def meant(meaning: str, known: Container[str] = ()) -> str:
     >>> meant("l2 - l1 on the branch -1, bolt M8", {"l1", "l2"})
     '<i>l</i><sub>2</sub> − <i>l</i><sub>1</sub> on the branch −1, bolt M8'
     """
-    pieces = enumerate(_IN_PROSE.split(meaning))
-    return "".join(
-        named(piece) if i % 2 and (piece in known or not _DIGITS.fullmatch(piece)) else message(piece)
-        for i, piece in pieces
-    )
+    return _with_symbols(_IN_PROSE.split(meaning), known)
 
 
-_DIGITS = re.compile(rf"(?!{symbol.IN_PROSE})[A-Za-z]+\d\w*")
-_IN_PROSE = re.compile(rf"({symbol.IN_PROSE}|\b{_DIGITS.pattern})")
+def _with_symbols(pieces: Iterable[str], known: Container[str]) -> str:
+    """Pieces of a sentence, every second one as a symbol unless it is one of a known name alone."""
+    shown, text = "", ""
+    for i, piece in enumerate(pieces):
+        if i % 2 and (piece in known or not symbol.is_doubtful(piece)):
+            shown, text = shown + message(text) + named(piece), ""
+        else:
+            text += piece
+    return shown + message(text)
+
+
+_IN_PROSE = re.compile(rf"({symbol.IN_PROSE}|\b{symbol.DOUBTFUL})")
 
 
 def printed(number: str) -> str:
@@ -83,16 +90,20 @@ def printed(number: str) -> str:
     return escape(number).replace(")-(", ")–(")
 
 
-def in_words(sentence: str, names: tuple[str, ...] = ()) -> str:
+def in_words(sentence: str, names: tuple[str, ...] = (), known: Iterable[str] | None = None) -> str:
     r"""A sentence, the ``names`` of quantities in it and what looks like one as symbols, its numbers as on the page.
+
+    What may be a grade, a fit or a unit as well is a symbol where it is among the ``known``; where none are given, too.
 
     >>> in_words("omega3 - 1 < 0, theta/2")
     '<i>ω</i><sub>3</sub> − 1 &lt; 0, <i>θ</i>/2'
     >>> in_words("phi3 = -1.5e-7..90 deg, -2..-1 m")
     '<i>φ</i><sub>3</sub> = −1.5\u202f·\u202f10<sup>−7</sup>..90°, −2..−1 m'
+    >>> in_words("bolt M12 under F12, in psi", known={"F12"})
+    'bolt M12 under <i>F</i><sub>12</sub>, in psi'
     """
-    pieces = enumerate(symbol.pieces(sentence, names))
-    return "".join(named(piece) if i % 2 else message(piece) for i, piece in pieces)
+    pieces = symbol.pieces(sentence, names)
+    return _with_symbols(pieces, {*names, *(pieces if known is None else known)})
 
 
 def message(text: str) -> str:
@@ -126,17 +137,22 @@ def where(field: Any, over: Over | None) -> str:
     return f' <span class="ms-where">least at {places[0]}, greatest at {places[1]}</span>' if places else ""
 
 
+def once(line: Formula) -> str:
+    """What stands for the value of a line whose name has another one further down."""
+    return f' <span class="ms-where">{escape(line.name)} has another value from line {line.again} on</span>'
+
+
 def limits(field: Input) -> str:
     """Limits and tolerance of an input, or of one column of a table; other columns by their short names.
 
     >>> limits(Input("b.x", "m", "", "", False, ((">", "-0.5"), ("<=", "b.l_2"))))
     '&gt;&nbsp;−0.5, ≤&nbsp;<i>l</i><sub>2</sub>'
     >>> from mechsheet.worksheet.deviation import Deviation
-    >>> limits(Input("b", "m", "", "", False, (), tolerance=Deviation(0.001)))
-    '±&nbsp;0.001&nbsp;m'
+    >>> limits(Input("b", "deg", "", "", False, (), tolerance=Deviation(0.5)))
+    '±&nbsp;0.5°'
     """
     parts = [f"{_SIGNS[sign]}&nbsp;{_limit(other)}" for sign, other in field.limits]
-    return ", ".join(parts + [escape(t.text(field.unit)).replace(" ", "&nbsp;") for t in [field.tolerance] if t])
+    return ", ".join(parts + [t.text(field.unit, HTML).replace(" ", "&nbsp;") for t in [field.tolerance] if t])
 
 
 def _limit(text: str) -> str:

@@ -8,7 +8,7 @@ from inspect import Parameter, signature
 import numpy as np
 
 from mechsheet.document.formula import Apply, Binary, Brackets, Function, Node, Number, Text
-from mechsheet.worksheet.symbol import GREEK, INDEXED, Symbol, is_field, read, stem
+from mechsheet.worksheet.symbol import DIFFERENCE, GREEK, INDEXED, LETTER, LETTERS, Symbol, is_field, read, stem
 
 FUNCTIONS = {
     "asin": "arcsin", "acos": "arccos", "atan": "arctan", "angle": "arg", "log": "ln", "maximum": "max",
@@ -17,7 +17,7 @@ FUNCTIONS = {
 }  # fmt: skip
 _KNOWN = {"sin", "cos", "tan", "exp", "max", "min", "sum", "prod", "log2", "log1p", "expm1", *FUNCTIONS}
 _RATES = {"ds": Symbol("s", mark="."), "dds": Symbol("s", mark="..")}  # which the rule for names does not know
-_SYMBOL = re.compile(rf"([A-Z]+|d?({'|'.join(GREEK)}))(_|$)")  # VC, eps_BC, dbeta
+_SYMBOL = re.compile(rf"([A-Z]+|d?({'|'.join(GREEK)}|[{LETTERS}]))(_|$)")  # VC, eps_BC, dbeta
 _MODULES = {"np", "numpy", "math", "cmath", "scipy", "sp", "statistics"}
 _IMPORTED = {"integrate", "interpolate", "linalg", "optimize", "special", "stats"}  # by their own names
 _PARTS = {"fft", "polynomial", "random", "signal", *_IMPORTED}
@@ -200,7 +200,7 @@ def function(name: str) -> Node:
     if len(name) > 2 and callable(vars(np).get(name)):
         return Function(name.replace("_", " "))
     word = re.fullmatch(r"[a-z]{3,}(\d[a-z]+)?(_\w*)?|[A-Z][a-z]{3,}\w*[A-Z]\w*", name) and not re.match(
-        f"d?({'|'.join(GREEK)})", name
+        f"{LETTER}|{DIFFERENCE}", name
     )
     is_symbol = (
         len(name) == 1 or re.fullmatch("d[a-z]", name) or (not word and (re.search(r"\d", name) or _SYMBOL.match(name)))
@@ -215,5 +215,5 @@ def whole(name: str) -> Node:
 
 def part(name: str) -> Node:
     """Part of a result: its symbol, or its name in words."""
-    words = re.fullmatch(r"[a-z]{3,}(_[a-z]{3,})*", name) and not re.match("|".join(GREEK), name)
+    words = re.fullmatch(r"[a-z]{3,}(_[a-z]{3,})*", name) and not re.match(LETTER, name)
     return _RATES.get(name) or (Function(name.replace("_", " ")) if words else symbol(name))

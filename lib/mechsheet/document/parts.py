@@ -14,11 +14,12 @@ from mechsheet.worksheet import source
 from mechsheet.worksheet.cells import load, results
 from mechsheet.worksheet.check import Summary
 from mechsheet.worksheet.errors import raised
-from mechsheet.worksheet.lines import Formula, Given, Typeset
+from mechsheet.worksheet.lines import Formula, Given
 from mechsheet.worksheet.over import Over, over
 from mechsheet.worksheet.shown import Shown, arranged
 from mechsheet.worksheet.table import Figure, Table
 from mechsheet.worksheet.title import Player, SideBySide, Slider, Title
+from mechsheet.worksheet.typeset import Typeset
 
 _HEADING = re.compile(r"^(#+) +(.*\S)\s*$", re.MULTILINE)
 _OF_PAGE = {"ask", "export", "save_scene"}  # what they show is there to be pressed or filled in
@@ -257,7 +258,7 @@ def _parts(value: Any, names: Mapping[str, Any]) -> Iterator[Any]:
 
 
 def _line(row: Formula, value: Any, at: int, names: Mapping[str, Any]) -> Line:
-    if row.arguments:
+    if not row.has_value:
         return Line(row, None, at)
     return Line(row, value, at, over(row.name, names) if getattr(value, "ndim", 0) else None)
 

@@ -70,10 +70,10 @@ def read(arguments: Sequence[str], declared: Sequence[Input]) -> Scene:
         elif name == "out":
             scene = replace(scene, out=_path(value))
         elif name == "want":
-            names = [part.strip() for part in value.split(",")]
+            names = [scenes.as_read(part.strip()) for part in value.split(",")]
             wanted += names if all(base(part).isidentifier() for part in names) else [value]
         else:
-            scene = replace(scene, inputs={**scene.inputs, name: value})
+            scene = replace(scene, inputs={**scene.inputs, scenes.as_read(name): value})
     fields = {field.name: field for field in declared}
     for name, text in scene.inputs.items():
         known(fields, name).read(text)

@@ -12,10 +12,14 @@ nothing of the package; the stub beside this file tells the names, which type ch
 from typing import Any, NoReturn
 
 from mechsheet.units.definitions import PURE, Constant, Dims, Unit, celsius, constant, define, names, nearest, parse
-from mechsheet.units.printing import alike, raised, shown, si, word
+from mechsheet.units.exchange import ANGLE, BARE, CYCLES, alike, conversion, convertible, kind, turned
+from mechsheet.units.printing import raised, shown, si, word
 from mechsheet.units.text import UNKNOWN, plain
 
 __all__ = [
+    "ANGLE",
+    "BARE",
+    "CYCLES",
     "PURE",
     "UNKNOWN",
     "Constant",
@@ -24,7 +28,10 @@ __all__ = [
     "alike",
     "celsius",
     "constant",
+    "conversion",
+    "convertible",
     "define",
+    "kind",
     "names",
     "nearest",
     "parse",
@@ -32,6 +39,7 @@ __all__ = [
     "raised",
     "shown",
     "si",
+    "turned",
     "word",
 ]
 

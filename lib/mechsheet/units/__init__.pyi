@@ -9,7 +9,14 @@ from mechsheet.units.definitions import define as define
 from mechsheet.units.definitions import names as names
 from mechsheet.units.definitions import nearest as nearest
 from mechsheet.units.definitions import parse as parse
-from mechsheet.units.printing import alike as alike
+from mechsheet.units.exchange import ANGLE as ANGLE
+from mechsheet.units.exchange import BARE as BARE
+from mechsheet.units.exchange import CYCLES as CYCLES
+from mechsheet.units.exchange import alike as alike
+from mechsheet.units.exchange import conversion as conversion
+from mechsheet.units.exchange import convertible as convertible
+from mechsheet.units.exchange import kind as kind
+from mechsheet.units.exchange import turned as turned
 from mechsheet.units.printing import raised as raised
 from mechsheet.units.printing import shown as shown
 from mechsheet.units.printing import si as si

@@ -63,6 +63,8 @@ _MEANT = {
     "cSt": "mm**2/s", "cP": "mPa*s", "meter": "m", "metre": "m", "second": "s", "minute": "min", "degree": "deg",
     "radian": "rad", "gram": "g", "kilogram": "kg", "newton": "N", "pascal": "Pa", "joule": "J", "watt": "W",
     "kelvin": "K", "millimeter": "mm", "millimetre": "mm", "centimeter": "cm", "centimetre": "cm",
+    "lbm": "lb", "ozf": "lbf", "lbft": "lbf*ft", "ftlb": "lbf*ft", "inlb": "lbf*inch", "lbin": "lbf*inch",
+    "U": "rev", "upm": "rpm", "rps": "rev/s", "cps": "Hz", "torr": "mmHg", "gal": "L", "var": "V*A",
 }  # fmt: skip
 _LIKE = "write units as m, kN*m, rad/s**2 or 1/m"
 
@@ -73,7 +75,8 @@ def _defined() -> dict[str, str]:
 
 
 DEFINED = _defined()
-_own: dict[str, tuple[tuple[Fraction | float, Dims], str]] = {}  # units of one's own, with the file that defines each
+# Units of one's own, with the file that defines each and the unit that it is made of.
+_own: dict[str, tuple[tuple[Fraction | float, Dims], str, str]] = {}
 
 
 def names() -> list[str]:
@@ -102,7 +105,7 @@ def _known(text: str) -> Unit | str:
     try:
         factor, dims = _product(text)
     except Unreadable:
-        raised = re.sub(r"(?<=[^\W\d_])([2-9])", r"**\1", text)  # mm2
+        raised = re.sub(r"(?<=[^\W\d_])(-[1-9]|[2-9])", r"**\1", text)  # mm2
         known = raised != text and not isinstance(_known(raised), str)
         return f"unit [{text}] is not known; " + (f"nearest: {raised}" if known else _LIKE)
     except KeyError as error:
@@ -150,11 +153,21 @@ def single(name: str) -> tuple[Fraction | float, Dims]:
     raise KeyError(name)
 
 
+def counted(text: str) -> set[str]:
+    """Names of the units in a text, instead of one of one's own those that it is made of."""
+    names = {factor.name for factor in factors(text)}
+    return names.union(*(counted(_own[name][2]) for name in names & _own.keys()))
+
+
 def nearest(name: str) -> list[str]:
     """Units that are written much like another name, best first; of two that run together their product."""
     if meant := _MEANT.get(name) or _MEANT.get(name.lower()) or _MEANT.get(name.lower().removesuffix("s")):
         return [meant]
     known = names()
+    if name[-1:] in ("g", "a") and name[:-1] in known and single(name[:-1])[1] == single("Pa")[1]:
+        return [name[:-1]]  # a pressure over that of the air, or over none
+    if name[:1] == "K" and f"k{name[1:]}" in known:
+        return [f"k{name[1:]}"]
     halves = ((name[:n], name[n:]) for n in range(1, len(name)))
     if together := [f"{a}*{b}" for a, b in halves if a in known and b in (*BASE, *DEFINED)]:
         return together
@@ -192,14 +205,14 @@ def define(name: str, number: float, unit: str) -> float:
     parse(unit)
     size, dims = _product(unit)
     new, file = (Fraction(repr(float(number))) * size, dims), str(sys._getframe(1).f_globals.get("__file__", ""))
-    known, owner = _own.get(name, (None, ""))
+    known, owner, _ = _own.get(name, (None, "", ""))
     if known is None and not isinstance(_known(name), str):
         known = single(name)
     if known == new:
         return constant(name)
     if known and owner != file:
         raise ValueError(f"unit {name} is {parse(name).factor!r} in SI units already, not {float(new[0])!r}")
-    _own[name] = new, file
+    _own[name] = new, file, unit
     _known.cache_clear()
     single.cache_clear()
     return constant(name)

@@ -6,10 +6,10 @@ from fractions import Fraction
 from functools import lru_cache
 from typing import NamedTuple
 
-_RAISED = str.maketrans("⁻⁺⁰¹²³⁴⁵⁶⁷⁸⁹", "-+0123456789")
+_RAISED = str.maketrans("⁻⁺⁄⁰¹²³⁴⁵⁶⁷⁸⁹", "-+/0123456789")
 _TOKEN = re.compile(
     r"(?P<gap>\s*)(?:(?P<name>°C|°|%|[^\W\d_⁰¹²³⁴⁵⁶⁷⁸⁹]+)|(?P<number>\d+(?:\.\d+)?)"
-    r"|(?P<sign>\*\*|[\^*·⋅×/()+-])|(?P<raised>[⁻⁺]?[⁰¹²³⁴⁵⁶⁷⁸⁹]+))"
+    r"|(?P<sign>\*\*|[\^*·⋅×/()+-])|(?P<raised>[⁻⁺]?[⁰¹²³⁴⁵⁶⁷⁸⁹]+(?:⁄[⁰¹²³⁴⁵⁶⁷⁸⁹]+)?))"
 )
 _SIGNS = {"^": "**", "·": "*", "⋅": "*", "×": "*"}
 # What stands for a name that Python takes; micro and ohm have two signs each.
@@ -75,7 +75,9 @@ def _tokens(text: str) -> list[_Token]:
                 raise Unreadable(text)
             found.append(_Token("sign", "*"))
         if kind == "raised":
-            found += [_Token("sign", "**"), _Token("number", token.translate(_RAISED))]
+            over, _, under = token.translate(_RAISED).partition("/")
+            power = ["(", over, "/", under, ")"] if under else [over]
+            found += [_Token("sign", "**"), *(_Token("number" if p[-1].isdigit() else "sign", p) for p in power)]
             continue
         depth += {"(": 1, ")": -1}.get(token, 0)
         divided = {level for level in divided if level <= depth} | ({depth} if token == "/" else set())

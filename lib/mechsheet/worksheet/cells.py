@@ -20,7 +20,7 @@ from mechsheet.worksheet import mistakes, source
 from mechsheet.worksheet.check import checks_of, refuse_open
 from mechsheet.worksheet.errors import SheetError, as_given, raised
 from mechsheet.worksheet.no_inputs import NoInputs, declared_in, in_a_cell
-from mechsheet.worksheet.source import constant, functions, is_app, parsed, texts
+from mechsheet.worksheet.source import bound, constant, functions, is_app, parsed, texts
 
 _SECTION = re.compile(r"^\s*## +(.*\S)", re.MULTILINE)
 _PART = re.compile(r"abs\((\w+)\)|(\w+)\.(real|imag)")
@@ -120,6 +120,9 @@ class Worksheet:
             if name in known:
                 return
             if name not in givers:
+                if hasattr(declared_in(self.common), name):
+                    line = f"{name}_1 = g.{name} in a line is one"
+                    raise SheetError(f"{name} is an input of {self.path}, not a result: {line}")
                 near = difflib.get_close_matches(name, givers, n=3)
                 hint = f"; nearest: {', '.join(near)}" if near else ""
                 raise SheetError(f"{name} is defined by no cell of {self.path}{hint}")
@@ -324,6 +327,7 @@ def _cells(tree: ast.Module, text: str, path: Path) -> Iterator[Cell]:
     given = frozenset(chain.from_iterable(gives))
     for n, node in enumerate(nodes):
         lines = node.body[:-1] if isinstance(node.body[-1], ast.Return) else node.body
+        _refuse_deep(lines, path)
         section = [section, *(found for text in texts(lines) for found in _SECTION.findall(constant(text)))][-1]
         # What a program other than marimo has written may read more than it names as arguments.
         others = given.difference(gives[n])
@@ -346,6 +350,17 @@ def _refuse_unread(tree: ast.Module, path: Path) -> None:
                 except SyntaxError as error:
                     why = f"{(error.text or '').strip()}: {mistakes.unread(error)}"
                 raise SheetError(f"{mistakes.place(path, node.lineno)}: a cell there cannot be read: {why}")
+
+
+def _refuse_deep(lines: Iterable[ast.stmt], path: Path) -> None:
+    """Raise SheetError for a line that is too deep for whoever reads it by calling itself, as Python's own compiler."""
+    for line in lines:
+        level, depth = [line] if len(source.nodes(line)) > _DEEPEST else list[ast.AST](), 0
+        while level:
+            level, depth = [part for node in level for part in ast.iter_child_nodes(node)], depth + 1
+        if depth > _DEEPEST:
+            why = f"{depth} operations in one another, and {_DEEPEST} are read: give its parts names"
+            raise SheetError(f"{mistakes.place(path, line.lineno)}: {why}")
 
 
 def _refuse_twice(
@@ -390,6 +405,7 @@ def compiled(lines: list[ast.stmt], path: str, own: str) -> tuple[list[ast.stmt]
     return lines, compile(ast.Module(lines, []), path, "exec")
 
 
+_DEEPEST = 300  # levels of a statement: each takes some of Python's thousand calls in one another
 _OPEN = (ast.If, ast.For, ast.While, ast.Try, ast.TryStar, ast.Match)
 
 
@@ -400,37 +416,6 @@ def defines(lines: Iterable[ast.stmt]) -> tuple[str, ...]:
     """
     names = dict.fromkeys(name for line in lines for name in bound(line))
     return tuple(name for name in names if not name.startswith("_"))
-
-
-_SCOPES = (ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef)
-_INNER = (ast.Lambda, ast.ListComp, ast.SetComp, ast.DictComp, ast.GeneratorExp)
-
-
-def bound(node: ast.AST) -> Iterator[str]:
-    """Names that a statement binds where it stands, in the order of its text; what has a scope of its own keeps its."""
-    waiting = [node]
-    while waiting:
-        part = waiting.pop()
-        if isinstance(part, ast.Name):  # nearly all of them: every statement of a worksheet is looked through
-            if isinstance(part.ctx, ast.Store):
-                yield part.id
-            continue
-        if isinstance(part, _SCOPES):
-            yield part.name
-            continue
-        if isinstance(part, _INNER):
-            yield from (n.target.id for n in ast.walk(part) if isinstance(n, ast.NamedExpr))
-            continue
-        if isinstance(part, ast.alias):
-            yield part.asname or part.name.partition(".")[0]
-        elif isinstance(part, ast.MatchAs | ast.MatchStar) and part.name:
-            yield part.name
-        for name in reversed(part._fields):
-            inner = getattr(part, name, None)
-            if isinstance(inner, list):
-                waiting += [each for each in reversed(inner) if isinstance(each, ast.AST)]
-            elif isinstance(inner, ast.AST):
-                waiting.append(inner)
 
 
 def _is_closing(node: ast.FunctionDef) -> bool:

@@ -39,13 +39,13 @@ class Deviation:
         """Greatest deviation from a value, both in the display unit."""
         return abs(value) * self.amount / 100 if self.percent else self.amount
 
-    def text(self, unit: str) -> str:
-        """The tolerance of an input with that unit, as it is written.
+    def text(self, unit: str, to: numbers.Notation | None = None) -> str:
+        """The tolerance of an input with that unit, as it is written, or as a notation writes its unit.
 
         >>> Deviation(0.001).text("m"), Deviation(1.0, percent=True, normal=True).text("m")
         ('± 0.001 m', '± 1 % normal')
         """
-        behind = " %" if self.percent else numbers.suffix(unit)
+        behind = " %" if self.percent else numbers.behind(unit, to) if to else numbers.suffix(unit)
         return f"± {numbers.significant(self.amount, 10)}{behind}" + " normal" * self.normal
 
 

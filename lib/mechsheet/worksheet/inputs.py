@@ -32,10 +32,10 @@ _COMPARE = {"<": operator.lt, "<=": operator.le, ">": operator.gt, ">=": operato
 def inputs(cls: type[T]) -> type[T]:
     """Make a class of lines ``X01: float = 0.415  # [m] meaning; > 0`` the frozen, validated inputs of a worksheet.
 
-    Comments alone on a line are section headings; after ``;`` stand limits, against numbers in the
-    display unit or other inputs, and after another one a tolerance, ``± 0.001`` or ``± 1 %``: all values within are
-    equally likely, unless ``normal`` behind it makes it three standard deviations. Values are SI and radians. Arrays
-    serve as variants.
+    Comments alone on a line are section headings; after ``;`` stand limits, against numbers in the display unit or
+    other inputs, and after another one a tolerance, ``± 0.001`` or ``± 1 %``: all values within are equally likely,
+    unless ``normal`` behind it makes it three standard deviations. Values are SI and radians; alone an ``int`` counts
+    in its display unit, as in ``n: int = 1450  # [rpm] speed``. Arrays serve as variants.
 
     The kind of an input is its type: ``float``, ``int``, ``bool`` (a switch), ``str`` (a text),
     ``Literal["single", "double"]`` (a choice of names), what `one_of` gives (options with properties), ``list[float]``
@@ -142,8 +142,8 @@ def _declared(cls: type, cell: source.Cell, names: Mapping[str, Any]) -> tuple[I
             raise SheetError(
                 f"{places[without[0]]}: input {without[0]} needs a value, such as {without[0]}: float = 1.0"
             )
-        if other := [f.name for f in found if not f.continuous]:
-            raise SheetError(f"{places[other[0]]}: property {other[0]} of an option must be a float")
+        if other := next((f.name for f in found if not (f.continuous or (type(f) is Input and f.counted))), ""):
+            raise SheetError(f"{places[other]}: {other} of an option or row must be a float or an int without unit")
     unknown = {field.name for field in found if field.mistake}
     found = [_without(field, unknown) for field in found] if unknown else found
     _comparable(found, places)
@@ -267,6 +267,8 @@ def _rules(fields: Iterable[Input], shown: Mapping[str, Any]) -> Iterator[tuple[
         size = abs(value) if type(value) in (float, int) else np.abs(np.asarray(value, dtype=float))
         yield size < np.inf, say(field, "a finite number")
         yield size <= MOST, say(field, f"at most {numbers.significant(MOST, 6)} in size")
+        if field.whole:
+            yield np.rint(value) == value, say(field, "a whole number")
     for field in fields:
         value = shown[field.name]
         for sign, other in field.limits:
@@ -363,9 +365,6 @@ def _column(field: Input, given: ArrayLike) -> tuple[NDArray[Any], NDArray[np.ob
                 shown[i] = field.read(value)
             except SheetError as error:
                 texts[i] = str(error)
-    if field.whole:
-        parts = np.isfinite(shown) & (shown != np.rint(shown))
-        texts[parts] = [f"{field.says(value)} must be a whole number" for value in shown[parts]]
     return shown, texts
 
 

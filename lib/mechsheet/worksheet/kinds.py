@@ -50,12 +50,20 @@ class Input:
         """Whether it is a number that may be varied a little."""
         return type(self) is Input and not self.whole
 
+    @property
+    def counted(self) -> bool:
+        """Whether it is a whole number in SI too: teeth are, turns a minute are not."""
+        return self.whole and units.parse(self.unit).factor == 1
+
     def display(self, value: Any) -> Any:
         """Value in the display unit, the rounding of the conversion taken back."""
-        if self.whole:
+        if self.counted:
             return value
         shown = value / units.parse(self.unit).factor
-        return shown if np.ndim(shown) else float(numbers.significant(shown, 15))
+        if np.ndim(shown):
+            return shown
+        rounded = float(numbers.significant(shown, 15))
+        return int(rounded) if self.whole and rounded.is_integer() else rounded
 
     def read(self, value: object) -> Any:
         """Number in the display unit, from a number or a text, behind which another unit may stand.
@@ -67,15 +75,13 @@ class Input:
             if other:
                 given = f"{self.meaning} {self.name} = {errors.as_given(value)}"
                 try:
-                    theirs, own = units.parse(other), units.parse(self.unit)
+                    ratio = units.conversion(other, self.unit)
                 except ValueError as error:
                     raise SheetError(f"{given}: {error}", self.name) from None
-                if theirs.dims != own.dims:
-                    raise SheetError(f"{given}: {other} does not measure {numbers.in_text(self.unit)}", self.name)
                 if units.plain(other) != self.unit and "degC" in (units.plain(other), self.unit):
                     why = f"write it in {numbers.in_text(self.unit)}, for a temperature is not a difference"
                     raise SheetError(f"{given}: {why}", self.name)
-                x = float(numbers.significant(x * (theirs.factor / own.factor), 15))
+                x = float(numbers.significant(x * ratio, 15))
         except SheetError:
             raise
         except ValueError:
@@ -90,12 +96,12 @@ class Input:
             return np.where(value == self.display(default), default, value * units.parse(self.unit).factor)
         if value == self.display(default):
             return default
-        return int(value) if self.whole else float(value * units.parse(self.unit).factor)
+        return int(value) if self.counted else float(value * units.parse(self.unit).factor)
 
     def written(self, value: Any, default: Any) -> Any:
         """Value in the display unit that is read back as the very same value, where there is one."""
         shown = self.display(value)
-        if self.whole or np.ndim(value) or value == default or self.si(shown, default) == value:
+        if self.counted or np.ndim(value) or value == default or self.si(shown, default) == value:
             return shown
         x = value / units.parse(self.unit).factor
         near = (x, *(float(np.nextafter(x, end)) for end in (-np.inf, np.inf)))
@@ -134,9 +140,13 @@ class Input:
             raise SheetError(f"{given} is several values: a decimal number has a point, not a comma")
         if isinstance(value, bool | np.bool_) or not isinstance(value, int | float | np.integer | np.floating):
             raise SheetError(f"{given} is no number")
-        if self.whole and not isinstance(value, int | np.integer) and not float(value).is_integer():
-            raise SheetError(f"{given} must be a whole number")
-        return int(value) if self.whole else value
+        if not self.whole:
+            return value
+        # 1450 of [rpm] are turns a minute, 1450 * rpm is in SI as whatever is computed
+        shown = value if isinstance(value, int | np.integer) else self.display(value)
+        if not float(shown).is_integer():
+            raise SheetError(f"{self.name} = {shown}{numbers.suffix(self.unit)} must be a whole number")
+        return self.si(int(shown), np.nan)
 
     def leaves(self, value: Any) -> "dict[str, tuple[Input, Any]]":
         """Numbers of which a value is made, by name, each with its declaration."""
@@ -149,15 +159,15 @@ class Input:
     def held(self, leaves: Mapping[str, Any]) -> Any:
         """The value made of its leaves, which may be arrays of variants or quantities of a recording."""
         value = leaves[self.name]
-        return int(value) if self.whole and isinstance(value, int | float | np.number) else value
+        return int(value) if self.counted and isinstance(value, int | float | np.number) else value
 
 
 class Chosen:
-    """One of several named options: equal to its name, with its properties as attributes.
+    """One of several named options: equal to its name and used as that text is, with its properties as attributes.
 
     >>> shear = Chosen(("single", "double"), 1, {"planes": 2})
-    >>> shear == "double", f"{shear} shear", shear.planes
-    (True, 'double shear', 2)
+    >>> shear == "double", f"{shear} shear", "in " + shear, shear.upper(), shear.planes
+    (True, 'double shear', 'in double', 'DOUBLE', 2)
     """
 
     def __init__(self, options: tuple[str, ...], at: Any, properties: Mapping[str, Any]) -> None:
@@ -190,9 +200,17 @@ class Chosen:
     def __repr__(self) -> str:
         return repr(str(self))
 
+    def __add__(self, other: object) -> Any:
+        return str(self) + str(other) if isinstance(other, str | Chosen) else NotImplemented
+
+    def __radd__(self, other: object) -> Any:
+        return other + str(self) if isinstance(other, str) else NotImplemented
+
     def __getattr__(self, name: str) -> Any:
         if name.startswith("_"):
             raise AttributeError(name)
+        if name not in self._properties and hasattr(str, name):
+            return getattr(str(self), name)
         if name not in self._properties:
             has = ", ".join(self._properties)
             raise AttributeError(f"an option has no property {name}" + (f"; it has {has}" if has else ""))

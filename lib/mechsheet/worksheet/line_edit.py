@@ -16,9 +16,9 @@ from symtable import symtable
 from typing import NamedTuple, TypeAlias
 
 from mechsheet.worksheet import mistakes
-from mechsheet.worksheet.cells import bound, defines, read_outside
+from mechsheet.worksheet.cells import defines, read_outside
 from mechsheet.worksheet.errors import SheetError
-from mechsheet.worksheet.source import functions, is_app
+from mechsheet.worksheet.source import bound, functions, is_app
 
 _WIDE = 120  # characters of a line of the file
 OF_INPUT = "g."  # before the name of an input, as formulas read it

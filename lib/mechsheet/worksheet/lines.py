@@ -2,24 +2,18 @@
 
 import ast
 import re
-import sys
-from bisect import bisect
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from itertools import pairwise, starmap
-from operator import attrgetter
 from typing import Any, NamedTuple
-
-import numpy as np
 
 from mechsheet import units
 from mechsheet.worksheet import source
 from mechsheet.worksheet.branch import branches, on_its_branch, untold
 from mechsheet.worksheet.cells import Worksheet
-from mechsheet.worksheet.errors import SheetError, refuse
-from mechsheet.worksheet.shown import Shown
-from mechsheet.worksheet.verdict import asks_values_only
+from mechsheet.worksheet.errors import SheetError
+from mechsheet.worksheet.misread import misread
+from mechsheet.worksheet.source import bound
 
 _DECLARED = re.compile(r"\[([^\]]*)\]\s*(.*)")
 _ONE_NUMBER = r"\(\d{1,3}(?:\.\d+)*[a-z]?\)"
@@ -34,7 +28,9 @@ class Formula:
     ``arguments`` are those of a function, by lambda or def; ``where`` its own names with what they stand for. The
     expression of a function with more than branches and such names in it is ``...``. ``constants`` are the names of
     units in it, as they are written, with the units. ``mistake`` tells why the unit is not known, and the value shown
-    in SI.
+    in SI. ``solved`` are the names of solve blocks in it, each with one that tells the unknown, such as ``beta_found``.
+    From the line ``again`` on its name has another value, which is not the line's; ``others`` are the names that
+    it reads and that have other values once the cell has run.
     """
 
     name: str
@@ -46,6 +42,14 @@ class Formula:
     number: str = ""
     constants: tuple[tuple[str, str], ...] = ()
     mistake: str = ""
+    solved: tuple[tuple[str, str], ...] = ()
+    again: int = 0
+    others: frozenset[str] = frozenset()
+
+    @property
+    def has_value(self) -> bool:
+        """Whether the value of its name is what the line gives; a function has none."""
+        return not (self.arguments or self.again)
 
 
 @dataclass(frozen=True)
@@ -73,14 +77,14 @@ class Declared(NamedTuple):
 def declared(comment: str, expression: ast.expr | None = None) -> Declared | None:
     """Unit, in signs that Python reads, and meaning of a comment behind an expression; None where it declares nothing.
 
-    Of a temperature no unit is known but K, for °C is that of a difference.
+    One that cannot be meant of the expression is as good as unknown.
     """
     match = _DECLARED.match(comment)
     if not match:
         return None
     unit, mistake = _read(match[1])
-    if unit == "degC" and expression and _temperatures(expression) == 1:
-        unit, mistake = units.UNKNOWN, f"unit [{match[1]}] is of a difference: write a temperature in [K]"
+    if expression and not mistake and (mistake := misread(unit, match[1], expression)):
+        unit = units.UNKNOWN
     return Declared(unit, match[2], mistake)
 
 
@@ -100,17 +104,18 @@ def formulas(cell: source.Cell) -> tuple[Formula | Given, ...]:
 
 
 def _formulas(cell: source.Cell) -> Iterator[Formula | Given]:
-    known = branches(cell.body)
-    for node in cell.body:
+    known, binds = branches(cell.body), [frozenset(bound(node)) for node in cell.body]
+    earlier = dict[str, Declared]()
+    for k, node in enumerate(cell.body):
         match node:
             case ast.Assign([ast.Name(name)], ast.Call(ast.Name("find" | "minerr"), [f, *_], keywords)):
                 yield from _given(name, f, next((k.value for k in keywords if k.arg == "equals"), ast.Constant(0)))
                 continue
             case ast.Expr(ast.JoinedStr()):
                 raise SheetError(f"{cell.at(node.lineno)}: a text with values in it belongs to mo.md or to typeset")
-        lines, number = _bound(node), node.end_lineno or node.lineno
-        found = _declared_each(cell.comments.get(number, ""), cell.at(number), lines) if lines else ()
-        for line, told in zip(lines, found, strict=False):
+        number = node.end_lineno or node.lineno
+        for line, told in _told(cell, node, earlier):
+            earlier[line.name] = told
             if several := _several(line.expression):
                 raise SheetError(
                     f"{cell.at(number)}: {line.name} = {several} is several values: "
@@ -120,8 +125,75 @@ def _formulas(cell: source.Cell) -> Iterator[Formula | Given]:
                 printed = match[0] if (match := _NUMBER.match(told.meaning)) else ""
                 meaning = told.meaning.removeprefix(printed).lstrip()
                 line = replace(line, unit=told.unit, number=printed, meaning=meaning, mistake=told.mistake)
+                line = _in_its_place(line, k, [(each, n.lineno) for each, n in zip(binds, cell.body, strict=True)])
                 own = tuple((name, untold(value, known)) for name, value in line.where)
                 yield replace(line, expression=untold(line.expression, known), where=own)
+
+
+def _told(cell: source.Cell, node: ast.stmt, earlier: Mapping[str, Declared]) -> Iterator[tuple[Formula, Declared]]:
+    """What a statement binds names to, with what it declares of them."""
+    if isinstance(node, ast.If):
+        yield from ((chosen.line, chosen.told) for chosen in _chosen(cell, node, earlier))
+    elif lines := _bound(node):
+        number = node.end_lineno or node.lineno
+        yield from zip(lines, _declared_each(cell.comments.get(number, ""), cell.at(number), lines), strict=False)
+
+
+def _in_its_place(line: Formula, k: int, binds: Sequence[tuple[frozenset[str], int]]) -> Formula:
+    """A line with what the k-th statement of its cell and those below it bind anew."""
+    again = next((number for names, number in binds[k + 1 :] if line.name in names), 0)
+    anew = frozenset[str]().union(*(names for names, _ in binds[k:]))
+    return replace(line, again=again, others=frozenset() if line.arguments else anew.intersection(names_read(line)))
+
+
+class _Chosen(NamedTuple):
+    """A name to which each way of a choice gives a value, what is declared of it, and in which lines."""
+
+    line: Formula
+    told: Declared
+    numbers: tuple[int, ...]
+
+
+def _chosen(cell: source.Cell, node: ast.If, earlier: Mapping[str, Declared]) -> list[_Chosen]:
+    """Names that a choice declares: each way gives them a value and the same unit, or leaves them what they were.
+
+    Raises SheetError where the units are unlike.
+    """
+    yes, no = _way(cell, node.body, earlier), _way(cell, node.orelse, earlier)
+    found = list[_Chosen]()
+    for name in dict.fromkeys([*yes, *no]):
+        ways = [way[name] for way in (yes, no) if name in way]
+        before = [earlier[name]] if len(ways) < 2 and name in earlier else []
+        told = [*(each.told for each in ways), *before]
+        if len(told) < 2:
+            continue
+        here = ways[-1]
+        if others := {each.unit for each in told} - {here.told.unit}:
+            why = f"{name} is [{here.told.unit}] here and [{others.pop()}] elsewhere: one name has one unit"
+            raise SheetError(f"{cell.at(here.numbers[-1])}: {why}")
+        stays = ast.copy_location(ast.Name(name, ast.Load()), node)
+        expressions = [way[name].line.expression if name in way else stays for way in (yes, no)]
+        choice = ast.copy_location(ast.IfExp(node.test, *expressions), node)
+        meant = next((each for each in told if each.meaning), told[0])
+        found.append(_Chosen(Formula(name, choice, "", ""), meant, tuple(n for each in ways for n in each.numbers)))
+    return found
+
+
+def _way(cell: source.Cell, body: Sequence[ast.stmt], earlier: Mapping[str, Declared]) -> dict[str, _Chosen]:
+    """What one way of a choice declares, by name."""
+    found = dict[str, _Chosen]()
+    for node in body:
+        new = list[_Chosen]()
+        if isinstance(node, ast.If):
+            new = _chosen(cell, node, earlier)
+        elif lines := _bound(node):
+            number = node.end_lineno or node.lineno
+            told = _declared_each(cell.comments.get(number, ""), cell.at(number), lines)
+            new = [_Chosen(*each, (number,)) for each in zip(lines, told, strict=False) if not each[0].arguments]
+        for name in bound(node):
+            found.pop(name, None)
+        found |= {each.line.name: each for each in new}
+    return found
 
 
 def _several(expression: ast.expr) -> str:
@@ -136,18 +208,6 @@ def _several(expression: ast.expr) -> str:
     return ""
 
 
-def _temperatures(expression: ast.expr) -> int:
-    """How many temperatures an expression adds, less those that it subtracts: one where it is a temperature itself."""
-    match expression:
-        case ast.Call(ast.Name("celsius") | ast.Attribute(attr="celsius")):
-            return 1
-        case ast.BinOp(left, ast.Add(), right):
-            return _temperatures(left) + _temperatures(right)
-        case ast.BinOp(left, ast.Sub(), right):
-            return _temperatures(left) - _temperatures(right)
-    return 0
-
-
 def undeclaring(cell: source.Cell, node: ast.stmt) -> Iterator[int]:
     """Lines of a statement whose comment is a unit that declares nothing, where its last line declares nothing either.
 
@@ -156,10 +216,24 @@ def undeclaring(cell: source.Cell, node: ast.stmt) -> Iterator[int]:
     last = node.end_lineno or node.lineno
     if isinstance(node, ast.ClassDef) or (_bound(node) and declared(cell.comments.get(last, ""))):
         return
+    earlier = {line.name: Declared(line.unit, line.meaning, "") for line in formulas(cell) if isinstance(line, Formula)}
+    chosen = _chosen(cell, node, earlier) if isinstance(node, ast.If) else ()
+    declaring = {line for each in chosen for line in each.numbers}
     for line in range(node.lineno, last + 1):
         told = declared(cell.comments.get(line, ""))
-        if told and not told.mistake:
+        if told and not told.mistake and line not in declaring:
             yield line
+
+
+def on_one_way(namespace: Mapping[str, Any], name: str) -> str:
+    """Place of a unit behind a name that declares nothing there, as in one way of a choice alone; "" for none."""
+    for cell in source.cells(namespace):
+        for node in cell.body:
+            numbers = {*undeclaring(cell, node)} if name in bound(node) else set[int]()
+            for part in source.nodes(node):
+                if isinstance(part, ast.stmt) and part.end_lineno in numbers and name in bound(part):
+                    return cell.at(part.end_lineno or 0)
+    return ""
 
 
 def _bound(node: ast.stmt) -> list[Formula]:
@@ -173,6 +247,9 @@ def _bound(node: ast.stmt) -> list[Formula]:
             return [Formula(name, on_its_branch(args, value), "", "", _named(args))]
         case ast.Assign([ast.Name(name)], expression) | ast.AnnAssign(ast.Name(name), _, ast.expr() as expression):
             return [Formula(name, expression, "", "")]
+        case ast.AugAssign(ast.Name(name), op, value):
+            before = ast.copy_location(ast.Name(name, ast.Load()), node)
+            return [Formula(name, ast.copy_location(ast.BinOp(before, op, value), node), "", "")]
         case ast.Assign([ast.Tuple(targets)], expression):
             names = [target.id for target in targets if isinstance(target, ast.Name)]
             if len(names) == len(targets):
@@ -241,11 +318,21 @@ def registry(namespace: Mapping[str, Any], cells: tuple[source.Cell, ...] | None
 
 def of_setup(sheet: Worksheet) -> Mapping[str, Formula]:
     """Lines of the setup that end in a unit, which typeset shows nowhere: constants of all cells."""
+    return {line.name: line for line in _of(sheet, sheet.setup)}
+
+
+def rebound(sheet: Worksheet, body: tuple[ast.stmt, ...]) -> list[Formula]:
+    """Lines among some statements of a worksheet whose names others bind anew."""
+    return [line for line in _of(sheet, body) if line.again]
+
+
+def _of(sheet: Worksheet, body: tuple[ast.stmt, ...]) -> list[Formula]:
+    """Lines of some statements of a worksheet; none where they cannot be read, which their own cell tells."""
     try:
-        found = formulas(source.Cell(sheet.setup, sheet.comments, sheet.path))
-    except SheetError:  # no line of a cell, so that nothing keeps it from being a comment only
-        return {}
-    return {line.name: line for line in found if isinstance(line, Formula)}
+        found = formulas(source.Cell(body, sheet.comments, sheet.path))
+    except SheetError:  # in the setup nothing keeps it from being a comment only
+        return []
+    return [line for line in found if isinstance(line, Formula)]
 
 
 class _Registry(Mapping[str, Formula]):
@@ -289,13 +376,16 @@ class _Line:
                 raise SheetError(
                     f"typeset(display={ast.unparse(other)}) must be a dictionary as it is written, or a name"
                 )
-        return _displayed(self.formula, display)
+        return displayed(self.formula, display)
 
 
-def _displayed(line: Formula, display: Mapping[str, str]) -> Formula:
+def displayed(line: Formula, display: Mapping[str, str]) -> Formula:
+    """A line in the unit in which its cell shows what has its own."""
     if line.unit not in display:
         return line
     unit, mistake = _read(display[line.unit])
+    if not mistake and (units.parse(unit).dims != units.parse(line.unit).dims or units.turned(unit, line.unit)):
+        unit, mistake = units.UNKNOWN, f"unit [{display[line.unit]}] does not measure {line.unit}"
     return replace(line, unit=unit, mistake=mistake)
 
 
@@ -308,7 +398,7 @@ def _lines(cells: tuple[source.Cell, ...]) -> dict[str, _Line | SheetError]:
         try:
             found |= {row.name: _Line(row, display) for row in formulas(cell) if isinstance(row, Formula)}
         except SheetError as error:
-            found |= {line.name: error for node in cell.body for line in _bound(node)}
+            found |= dict.fromkeys((name for node in cell.body for name in bound(node)), error)
     return found
 
 
@@ -321,68 +411,6 @@ def _display(node: ast.stmt) -> ast.expr | None:
     return None
 
 
-def typeset(*shown: Any, display: Mapping[str, str] | None = None) -> "Typeset":
-    """Formulas of the calling cell with their values, then whatever else is ``shown``: the last line of a cell.
-
-    Where a cell calls it again, each call has the lines above it that no call above it has. Reads the cell's own
-    source, so nothing is typed twice. Nothing is rendered until the page asks. A text is Markdown; one that stands by
-    itself among the lines, a string and nothing else, is shown where it stands. ``display`` gives another display unit
-    for some of the declared ones, such as ``{"kgf": "N"}``, to tables and figures too: a dictionary as it is written,
-    or a name of the worksheet. A line whose unit is not known is shown in SI, and why.
-
-    Raises SheetError naming the line whose names and units do not match.
-    """
-    frame = sys._getframe(1)
-    cell, here = source.cell(frame), frame.f_lineno
-    above = max((end for end in typeset_lines(cell) if end < here), default=0)
-    try:
-        lines = [row for row in formulas(cell) if above < row.expression.lineno < here]
-        between = [text for text in source.standing(cell.body) if above < text.lineno < here]
-    except SheetError as error:
-        refuse(error)
-    rows = [_displayed(row, display or {}) if isinstance(row, Formula) else row for row in lines]
-    values = tuple(frame.f_globals[row.name] if isinstance(row, Formula) else None for row in rows)
-    for row, value in zip(rows, values, strict=True):
-        if isinstance(row, Formula) and (why := no_number(row, value)):
-            refuse(SheetError(f"{cell.at(row.expression.lineno)}: {why}"))
-    if asks_values_only():
-        return Typeset((), (), shown)
-    rows = [_with_constants(row, frame.f_globals) for row in rows]
-    known = Numbers(frame.f_globals)
-    if not between:
-        return Typeset(tuple(rows), values, shown, known)
-    parts = list[Any]()
-    begins = [0, *(bisect(rows, text.lineno, key=lambda row: row.expression.lineno) for text in between), len(rows)]
-    for text, some in zip(["", *(text.value for text in between)], starmap(slice, pairwise(begins)), strict=True):
-        parts += [text, Typeset(tuple(rows[some]), values[some], (), known)]
-    return Typeset((), (), (*parts[1:], *shown))
-
-
-def no_number(row: Formula, value: Any) -> str:
-    """Why the value of a line cannot have its unit: it is neither a number, nor an array of them, nor a function."""
-    computes = hasattr(value, "__array_ufunc__") and not isinstance(value, np.ndarray | np.generic)
-    if row.arguments or computes or isinstance(value, int | float | complex):
-        return ""
-    try:
-        kind = np.asarray(value).dtype.kind
-    except ValueError:  # of rows that differ in length
-        kind = "O"
-    return "" if kind in "biufc" else f"{row.name} = {ast.unparse(row.expression)} is no number: it has no [unit]"
-
-
-def _with_constants(row: Formula | Given, namespace: Mapping[str, Any]) -> Formula | Given:
-    """A line with the units among the names that it reads."""
-    found = ((name, _of_unit(name, namespace)) for name in names_read(row))
-    constants = tuple((name, value.unit) for name, value in found if isinstance(value, units.Constant))
-    return replace(row, constants=constants) if constants else row
-
-
-def _of_unit(name: str, namespace: Mapping[str, Any]) -> Any:
-    head, dot, part = name.partition(".")
-    value = namespace.get(head)
-    return value if not dot else getattr(units, part, None) if value is units else None
-
-
 @lru_cache(maxsize=4096)
 def names_read(row: Formula | Given) -> tuple[str, ...]:
     """Names that a line reads, parts of modules too, without its arguments."""
@@ -392,62 +420,3 @@ def names_read(row: Formula | Given) -> tuple[str, ...]:
     read = (node.id if isinstance(node, ast.Name) else ast.unparse(node) for node in named)
     own = () if isinstance(row, Given) else (*row.arguments, *(name for name, _ in row.where))
     return tuple(name for name in dict.fromkeys(read) if name not in own)
-
-
-@lru_cache(maxsize=1000)
-def typeset_lines(cell: source.Cell) -> tuple[int, ...]:
-    """Lines in which the statements of a cell end that call typeset."""
-    calls = ((node, call) for node in cell.body for call in source.nodes(node) if isinstance(call, ast.Call))
-    named = (node for node, call in calls if isinstance(call.func, ast.Name) and call.func.id == "typeset")
-    return tuple(node.end_lineno or node.lineno for node in named)
-
-
-class Numbers:
-    """Values in their units by the names that formulas read, ``g.L3`` too, as they are when the page asks."""
-
-    def __init__(self, namespace: Mapping[str, Any]) -> None:
-        self.namespace, self.known = namespace, registry(namespace)
-
-    def __contains__(self, name: object) -> bool:
-        """Whether something is the name of a line or an input of the worksheet."""
-        return name in self.known or name in getattr(type(self.namespace.get("g")), "__units__", {})
-
-    def at(self, name: str, position: int) -> tuple[float | complex, str] | None:
-        """SI value of a name at one position of its field, and its unit; None where that is not known."""
-        head, dot, part = name.partition(".")
-        value: Any = self.namespace.get(head)
-        if dot:
-            unit = getattr(type(value), "__units__", {}).get(part)
-            value = attrgetter(part)(value) if unit else None
-        else:
-            line = self.known.get(name)
-            unit = line.unit if line and not line.arguments else None
-        if unit is None or not isinstance(value, int | float | complex | np.ndarray | np.generic) or not np.size(value):
-            return None
-        field = np.asarray(value)
-        inside = field.shape and field.shape[-1] > position
-        return (field[..., position].flat[0] if inside else field.flat[0]).item(), unit
-
-    def single(self, names: Iterable[str]) -> frozenset[str]:
-        """Of names that end as that of a field over S does those that have no positions."""
-        S = np.asarray(self.namespace.get("S", 0))
-        if S.ndim == 0 or S.dtype.kind not in "iuf":  # no stroke; a point may have that name too
-            return frozenset(names)
-        return frozenset(name for name in names if np.ndim(self.namespace.get(name, ())) == 0)
-
-
-@dataclass(frozen=True)
-class Typeset(Shown):
-    """Lines of a cell and their values, shown as symbol = formula = value, unit, meaning."""
-
-    rows: tuple[Formula | Given, ...]
-    values: tuple[Any, ...]
-    shown: tuple[Any, ...] = ()
-    numbers: Numbers | None = None
-    position: int = 0
-
-    def at(self, position: int) -> "Typeset":
-        """The same formulas with the values at one position of their fields."""
-        values = (np.asarray(v)[..., position] if np.ndim(v) else v for v in self.values)
-        shown = (part.at(position) if isinstance(part, Typeset) else part for part in self.shown)
-        return replace(self, values=tuple(values), shown=tuple(shown), position=position)

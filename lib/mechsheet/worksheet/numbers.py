@@ -3,6 +3,7 @@
 import re
 from collections.abc import Callable, Iterable, Sequence
 from decimal import Decimal
+from fractions import Fraction
 from functools import cache, lru_cache
 from math import inf, isfinite, isnan
 from typing import Any, NamedTuple
@@ -55,6 +56,19 @@ def fixed(x: float, decimals: int, to: Notation = PLAIN) -> str:
     return text if to.minus == "-" else text.replace("-", to.minus)
 
 
+def as_typed(values: Iterable[float], decimals: int) -> int:
+    """So many decimals, or one or two more where these show numbers as they were typed: none has any behind them.
+
+    >>> as_typed([1.0, 1.25], 1), as_typed([1.0, 1.5], 1), as_typed([1.0, 4 / 3], 1)
+    (2, 1, 1)
+    """
+    known = np.array([x for x in values if isfinite(x)])
+    for more in (decimals, decimals + 1, decimals + 2):
+        if (np.abs(known - np.round(known, more)) <= 1e-6 * 10.0**-more).all():
+            return more
+    return decimals
+
+
 def scientific(x: float, decimals: int, to: Notation = PLAIN) -> str:
     """A number as a power of ten.
 
@@ -65,18 +79,19 @@ def scientific(x: float, decimals: int, to: Notation = PLAIN) -> str:
 
 
 def usual(x: float, to: Notation) -> str:
-    """Five significant digits or all before the point; a power of ten outside 1e-3..1e6.
+    """Five significant digits or all before the point, six of what has no more; a power of ten outside 1e-3..1e6.
 
-    >>> usual(0.4150004, AXIS), usual(129613.7, AXIS), usual(-1.5e-7, AXIS)
-    ('0.415', '129614', '−1.5e−07')
+    >>> usual(0.4150004, AXIS), usual(129613.7, AXIS), usual(-1.5e-7, AXIS), usual(9.80665, AXIS)
+    ('0.415', '129614', '−1.5e−07', '9.80665')
     """
     if not isfinite(x):
         return _unlimited(x, to)
     if 1e5 <= abs(x) < 1e6:
         return f"{x:.0f}".replace("-", to.minus)
+    digits = 6 if f"{x:.6g}" == f"{x:.12g}" else 5  # as it was typed
     if is_plain(x):
-        return f"{float(f'{x:.5g}') + 0.0:.15g}".replace("-", to.minus)  # no sign of zero
-    mantissa, exponent = f"{x:.4e}".split("e")
+        return f"{float(f'{x:.{digits}g}') + 0.0:.15g}".replace("-", to.minus)  # no sign of zero
+    mantissa, exponent = f"{x:.{digits - 1}e}".split("e")
     return to.power.format(mantissa.rstrip("0").rstrip("."), int(exponent)).replace("-", to.minus)
 
 
@@ -126,14 +141,14 @@ def _in_rows(field: NDArray[Any]) -> bool:
 
 
 _MOST_NUMBERS, _MOST_POINTS, _MOST_ROWS = 10, 4, 4  # that stand in full
-_ROUNDING = 2.0**-48
+ROUNDING = 2.0**-48
 
 
 def rounding(field: NDArray[Any]) -> float:
     """16 roundings of the largest finite number of a field: what is less may be nothing but these."""
     if field.dtype.kind not in "fc":
         return 0.0
-    return _ROUNDING * float(np.max(np.abs(field), where=np.isfinite(field), initial=0.0))
+    return ROUNDING * float(np.max(np.abs(field), where=np.isfinite(field), initial=0.0))
 
 
 def is_rounding(values: Any, terms: ArrayLike) -> bool:
@@ -146,7 +161,7 @@ def is_rounding(values: Any, terms: ArrayLike) -> bool:
     if field.dtype.kind not in "fc" or not sizes.any() or not field.any():
         return False
     alike = sizes.shape in ((), field.shape)
-    return bool((np.abs(field) <= _ROUNDING * (sizes if alike else sizes.min())).all())
+    return bool((np.abs(field) <= ROUNDING * (sizes if alike else sizes.min())).all())
 
 
 def _each(values: list[Any], least: float, unit: str, to: Notation) -> str:
@@ -188,9 +203,12 @@ def behind(unit: str, to: Notation) -> str:
     if unit in special:
         return special[unit]
     degree = to.degrees.strip()
-    return to.unit.format(
-        units.shown(unit, lambda n: to.raised.format(str(n).replace("-", to.minus)), to.times, degree)
-    )
+    return to.unit.format(units.shown(unit, lambda power: _raised(power, to), to.times, degree))
+
+
+def _raised(power: Fraction, to: Notation) -> str:
+    text = str(power) if power.denominator == 1 or to.raised != PLAIN.raised else f"({power})"
+    return to.raised.format(text.replace("-", to.minus))
 
 
 def _unlimited(x: float, to: Notation) -> str:
@@ -225,9 +243,9 @@ def apart(values: Sequence[float], unit: str = "-", digits: int = 4) -> list[str
 def in_line(values: Sequence[float], unit: str) -> list[str]:
     """The SI numbers in a display unit with the digits of a line, or with as many more as tell unequal ones apart.
 
-    >>> in_line([0.0524219], "mm"), in_line([12345.6], "N"), in_line([1.000001, 1.0], "-")
+    >>> in_line([0.05242193], "mm"), in_line([12345.67], "N"), in_line([1.000001, 1.0], "-")
     (['52.422'], ['12346'], ['1.000001', '1'])
-    >>> in_line([1.5e-9, 7.71384e6], "-")
+    >>> in_line([1.5e-9, 7.713842e6], "-")
     ['1.5e-9', '7.7138e6']
     """
     factor = units.parse(unit).factor
@@ -265,12 +283,14 @@ def suffix(unit: str) -> str:
 
 
 def in_text(unit: str) -> str:
-    """A unit in plain text, such as a head in the terminal: degrees as behind numbers there and as they are typed.
+    """A unit in plain text, such as a head in the terminal: degrees and broken powers as they are typed.
 
-    >>> in_text("deg/s"), in_text("N*m")
-    ('deg/s', 'N·m')
+    >>> in_text("deg/s"), in_text("N*m"), in_text("MPa*m**0.5")
+    ('deg/s', 'N·m', 'MPa·m^(1/2)')
     """
-    return units.shown(unit, degree=PLAIN.degrees.strip())
+    return units.shown(
+        unit, lambda n: units.raised(n) if n.denominator == 1 else f"^({n})", degree=PLAIN.degrees.strip()
+    )
 
 
 _POWER = re.compile(r"(?<!\w)(?<!\w\.)(\d+(?:\.\d*)?)e([+-]?\d+)\b")

@@ -1,17 +1,18 @@
 """Over which quantities a field runs, and where along them the field is least and greatest."""
 
 import ast
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Container, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import lru_cache
+from math import inf
 from typing import Any, NamedTuple, TypeGuard
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mechsheet.worksheet import numbers, source
-from mechsheet.worksheet.cells import bound
 from mechsheet.worksheet.lines import Formula, registry
+from mechsheet.worksheet.source import bound
 
 
 class Axis(NamedTuple):
@@ -61,7 +62,8 @@ def over(name: str, namespace: Mapping[str, Any]) -> Over | None:
     Such quantities are those over which the worksheet draws its figures, and those by which its tables begin: the
     first, and the whole numbers behind it. It is one that the field is computed from, the first beside which its name
     stands there or else the first of all; along one of several axes it may be whole numbers, too, beside which it
-    stands, or the only ones beside which there stands what it is computed from, or what is computed from it.
+    stands, or the only ones beside which there stands what it is computed from, or what is computed from it. A line
+    between the two that puts elements elsewhere, such as one that sorts them, leaves no place certain.
     None where the line is no field of real numbers, or one along a single axis of which nothing is known.
     """
     values = namespace.get(name)
@@ -104,10 +106,15 @@ class _Shown(NamedTuple):
 
 @dataclass(frozen=True)
 class _Written:
-    """What figures and tables show, and the names that each name is bound by."""
+    """What figures and tables show, and the names that each name is bound by.
+
+    ``moved`` are names to which elements are put elsewhere than they stood, ``picked`` those by which they are taken.
+    """
 
     shown: tuple[_Shown, ...]
     reads: Mapping[str, frozenset[str]]
+    moved: frozenset[str]
+    picked: Mapping[str, frozenset[str]]
     known: dict[str, set[str]] = field(default_factory=dict)
 
     def along(self, name: str, namespace: Mapping[str, Any], axis: tuple[int, int], several: bool) -> str:
@@ -117,6 +124,7 @@ class _Written:
             for each in self.shown
             for head in each.heads(namespace)
             if head != name and _runs(namespace[head], axis) and namespace[head].size == axis[1]
+            if not self.moves(name, head, namespace, axis)
         ]
         # What the field is not computed from may be that of the last run: of counts, as many are the same.
         counts = {head for head, _ in lying if namespace[head].dtype.kind in "iu"}
@@ -130,6 +138,23 @@ class _Written:
             if any(self.belong(name, c) for c in each.columns if c != head and _runs(namespace.get(c), axis))
         }
         return others.pop() if len(others) == 1 else ""
+
+    def moves(self, name: str, head: str, namespace: Mapping[str, Any], axis: tuple[int, int]) -> bool:
+        """Whether an element of a field may stand elsewhere along an axis than what it is computed from.
+
+        It may by the lines between the two: by functions, and by what has the axis too or is not there any more.
+        """
+        between, waiting = set[str](), [name]
+        while waiting:
+            each = waiting.pop()
+            x = namespace.get(each)
+            if each not in {*between, head} and (each not in namespace or callable(x) or _runs(x, axis)):
+                between.add(each)
+                waiting += self.reads.get(each, ())
+        if head in self.sources(name):
+            between = {each for each in between if head in self.sources(each) or not _is_field(namespace.get(each))}
+        picked = frozenset[str]().union(*(self.picked.get(each, ()) for each in between))
+        return not self.moved.isdisjoint(between) or any(_is_field(namespace.get(each)) for each in picked)
 
     def belong(self, name: str, other: str) -> bool:
         return other in self.sources(name) or name in self.sources(other)
@@ -147,13 +172,75 @@ class _Written:
 
 @lru_cache(maxsize=32)
 def _written(cells: tuple[source.Cell, ...]) -> _Written:
-    shown, reads = list[_Shown](), dict[str, frozenset[str]]()
-    for node in (node for cell in cells for node in cell.body):
+    shown, moved = list[_Shown](), set[str]()
+    reads, picked = dict[str, frozenset[str]](), dict[str, frozenset[str]]()
+    lines = [node for cell in cells for node in cell.body]
+    own = {name for node in lines if not isinstance(node, ast.Import | ast.ImportFrom) for name in bound(node)}
+    for node in lines:
         shown += _shown(node)
-        read = frozenset(_read(node))
-        for name in bound(node):
+        read, by = frozenset(_read(node)), frozenset(_picked(node))
+        names = set(bound(node))
+        for name in names:
             reads[name] = reads.get(name, frozenset()) | read
-    return _Written(tuple(shown), reads)
+            picked[name] = picked.get(name, frozenset()) | by
+        in_place = set(_in_place(node))
+        moved |= in_place | (names if in_place or any(_moves(part, own) for part in source.nodes(node)) else set())
+    return _Written(tuple(shown), reads, frozenset(moved), picked)
+
+
+# Functions and methods whose results stand elsewhere than their arguments, or nowhere that one could tell.
+_MOVING = frozenset({
+    "sort", "sorted", "argsort", "lexsort", "partition", "argpartition", "searchsorted", "unique", "flip", "flipud",
+    "fliplr", "reversed", "reverse", "roll", "rot90", "concatenate", "hstack", "delete", "block", "tile", "repeat",
+    "resize", "take", "choose", "compress", "extract", "permutation", "shuffle", "choice",
+    "fft", "ifft", "rfft", "irfft", "correlate", "convolve", "histogram", "bincount", "linspace", "arange", "logspace",
+    "geomspace", "fromiter",
+})  # fmt: skip
+_ADDING = {"append": 2, "insert": 3}  # numpy's functions by how many arguments they have, unlike the methods of lists
+
+
+def _moves(node: ast.AST, own: Container[str]) -> bool:
+    """Whether a part of a statement puts elements elsewhere, and is no function of the worksheet's ``own``."""
+    match node:
+        case ast.Call(ast.Name(name)) if name in own:
+            return False
+        case ast.Call(ast.Name(name) | ast.Attribute(attr=name), args):
+            return name in _MOVING or len(args) >= _ADDING.get(name, inf)
+        case ast.Subscript(ast.Attribute(attr="r_" | "c_")):
+            return True
+        case ast.Subscript():
+            return any(map(_counts_back, _indices(node)))
+    return False
+
+
+def _indices(node: ast.Subscript) -> list[ast.expr]:
+    return node.slice.elts if isinstance(node.slice, ast.Tuple) else [node.slice]
+
+
+def _counts_back(index: ast.expr) -> bool:
+    """Whether an index runs from the end, or is one of several elements by itself."""
+    match index:
+        case ast.Slice(step=ast.UnaryOp(ast.USub())) | ast.List() | ast.Compare():
+            return True
+        case ast.UnaryOp(ast.USub() | ast.Invert(), of) | ast.BinOp(_, ast.Sub(), of):
+            return not isinstance(of, ast.Constant)
+    return False
+
+
+def _picked(node: ast.stmt) -> Iterator[str]:
+    """Names by which a statement takes elements."""
+    for part in source.nodes(node):
+        if isinstance(part, ast.Subscript):
+            yield from (index.id for index in _indices(part) if isinstance(index, ast.Name))
+
+
+def _in_place(statement: ast.stmt) -> Iterator[str]:
+    """Names of what a statement puts in another order itself."""
+    match statement:
+        case ast.Expr(ast.Call(ast.Attribute(ast.Name(name), "sort" | "reverse"))):
+            yield name
+        case ast.Expr(ast.Call(ast.Attribute(attr="shuffle"), [ast.Name(name)])):
+            yield name
 
 
 def _read(node: ast.AST) -> set[str]:

@@ -16,6 +16,7 @@ A wanted or limited name is that of a result, a part of one as in a table (``PS6
 """
 
 import re
+import unicodedata
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -62,7 +63,7 @@ def is_of(text: str, declared: Iterable[str]) -> bool:
         given = tomllib.loads(text).get("inputs", {})
     except tomllib.TOMLDecodeError:
         return False
-    return bool(given) and set(given) <= set(declared)
+    return bool(given) and set(map(as_read, given)) <= set(declared)
 
 
 def load(path: Path) -> Scene:
@@ -81,12 +82,21 @@ def load(path: Path) -> Scene:
     except RecursionError:
         raise SheetError(f"scene {path} is no valid TOML: its brackets are nested too deep") from None
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        comma = re.search(r"=\s*([+-]?\d+,\d+)", text)
-        hint = f'; a number with a comma stands in quotes: "{comma[1]}"' if comma else ""
-        raise SheetError(f"scene {path} is no valid TOML: {error}{hint}") from None
+        raise SheetError(f"scene {path} is no valid TOML: {error}{_unquoted(text, str(error))}") from None
     except ValueError:
         raise SheetError(f"scene {path}: a whole number of thousands of digits cannot be used") from None
     return _scene(path, content)
+
+
+def _unquoted(text: str, error: str) -> str:
+    """What a scene needs quotes for, where that may be what is wrong."""
+    at = re.search(r"at line (\d+)", error)
+    line = text.splitlines()[int(at[1]) - 1] if at else ""
+    bare = re.match(r"\s*([^\W\d]\w*)\s*=", line)
+    if bare and not bare[1].isascii():
+        return f'; a name with other letters than a..z stands in quotes: "{bare[1]}"'
+    comma = re.search(r"=\s*([+-]?\d+,\d+)", text)
+    return f'; a number with a comma stands in quotes: "{comma[1]}"' if comma else ""
 
 
 def _scene(path: Path, content: dict[str, Any]) -> Scene:
@@ -103,8 +113,14 @@ def _scene(path: Path, content: dict[str, Any]) -> Scene:
     proof = (
         digits(f"scene {path}: proof = {as_given(content['proof'])}", content["proof"]) if "proof" in content else None
     )
-    limited = {name: _limit(path, name, x) for name, x in limits.items()}
-    return Scene(inputs, None, tuple(dict.fromkeys(want or ())), limited, proof)
+    limited = {as_read(name): _limit(path, name, x) for name, x in limits.items()}
+    named = {as_read(name): value for name, value in inputs.items()}
+    return Scene(named, None, tuple(dict.fromkeys(map(as_read, want or ()))), limited, proof)
+
+
+def as_read(name: str) -> str:
+    """A name in the letters in which Python reads it: the sign of the key µ is another one than the Greek letter."""
+    return unicodedata.normalize("NFKC", name) if name.isidentifier() else name
 
 
 def digits(says: str, given: object) -> float:

@@ -163,6 +163,37 @@ def nodes(tree: ast.AST) -> tuple[ast.AST, ...]:
     return tuple(found)
 
 
+_SCOPES = (ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef)
+_INNER = (ast.Lambda, ast.ListComp, ast.SetComp, ast.DictComp, ast.GeneratorExp)
+
+
+def bound(node: ast.AST) -> Iterator[str]:
+    """Names that a statement binds where it stands, in the order of its text; what has a scope of its own keeps its."""
+    waiting = [node]
+    while waiting:
+        part = waiting.pop()
+        if isinstance(part, ast.Name):  # nearly all of them: every statement of a worksheet is looked through
+            if isinstance(part.ctx, ast.Store):
+                yield part.id
+            continue
+        if isinstance(part, _SCOPES):
+            yield part.name
+            continue
+        if isinstance(part, _INNER):
+            yield from (n.target.id for n in ast.walk(part) if isinstance(n, ast.NamedExpr))
+            continue
+        if isinstance(part, ast.alias):
+            yield part.asname or part.name.partition(".")[0]
+        elif isinstance(part, ast.MatchAs | ast.MatchStar) and part.name:
+            yield part.name
+        for name in reversed(part._fields):
+            inner = getattr(part, name, None)
+            if isinstance(inner, list):
+                waiting += [each for each in reversed(inner) if isinstance(each, ast.AST)]
+            elif isinstance(inner, ast.AST):
+                waiting.append(inner)
+
+
 def _file(frame: FrameType) -> tuple[ast.Module, dict[int, str]]:
     linecache.checkcache(frame.f_code.co_filename)
     return parsed("".join(linecache.getlines(frame.f_code.co_filename)), frame.f_code.co_filename)

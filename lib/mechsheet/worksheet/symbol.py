@@ -6,14 +6,22 @@ from functools import cache, lru_cache
 
 GREEK = {
     "alpha": "α", "beta": "β", "gamma": "γ", "delta": "δ", "eps": "ε", "epsilon": "ε", "zeta": "ζ", "eta": "η",
-    "theta": "θ", "kappa": "κ", "mu": "μ", "nu": "ν", "xi": "ξ", "pi": "π", "rho": "ρ", "sigma": "σ", "tau": "τ",
-    "phi": "φ", "chi": "χ", "psi": "ψ", "omega": "ω", "Gamma": "Γ", "Delta": "Δ", "Theta": "Θ", "Sigma": "Σ",
-    "Phi": "Φ", "Psi": "Ψ", "Omega": "Ω",
+    "theta": "θ", "kappa": "κ", "lam": "λ", "lamda": "λ", "mu": "μ", "nu": "ν", "xi": "ξ", "pi": "π", "rho": "ρ",
+    "sigma": "σ", "tau": "τ", "phi": "φ", "chi": "χ", "psi": "ψ", "omega": "ω", "Gamma": "Γ", "Delta": "Δ",
+    "Theta": "Θ", "Lamda": "Λ", "Lambda": "Λ", "Sigma": "Σ", "Phi": "Φ", "Psi": "Ψ", "Omega": "Ω",
 }  # fmt: skip
-INDEXED = r"[A-Za-z]+\d*_\w+"  # a name that tells itself from a word: its index stands behind an underscore
+INDEXED = r"[^\W\d_]+\d*_\w+"  # a name that tells itself from a word: its index stands behind an underscore
+LETTERS = "".join(map(chr, range(ord("Α"), ord("ω") + 1)))  # Greek ones, as they may stand in a name themselves
 _WORDS = "|".join(sorted(GREEK, key=len, reverse=True))
-IN_PROSE = rf"(?<!\d )\b(?:{INDEXED}|(?:{_WORDS})\d*)\b(?!\.\w)"  # names that no word of a sentence is
-_NAME = re.compile(rf"(d(?=[A-Z]|{_WORDS}))?({_WORDS}|[A-Za-z])_?(\w*)")
+_OF_UNIT = "psi"  # which is in a sentence a unit, unless a quantity of the worksheet is called so
+IN_PROSE = rf"(?<!\d )\b(?:{INDEXED}|(?!{_OF_UNIT}\b)(?:{_WORDS})\d*)\b(?!\.\w)"  # names that no word of a sentence is
+DOUBTFUL = rf"(?:(?!{IN_PROSE})[A-Za-z]+\d\w*|(?<!\d ){_OF_UNIT}\b)"  # what may be a grade, a fit or a unit as well
+_ENDS = "(?=$|[^a-z]|min|max)"  # where an index may begin, not the rest of a word
+# Many words begin as the short ones do, such as pin, nut, multiple and chip; sigmav is a stress.
+LETTER = rf"(?:(?:pi|nu|mu|chi|lam){_ENDS}|(?!pi|nu|mu|chi|lam(?!da))(?:{_WORDS})|[{LETTERS}])"
+DIFFERENCE = rf"d(?=[{LETTERS}]|(?:{_WORDS}){_ENDS})"  # that of detail is none
+_SMALL, _CAPITAL = r"a-zß-öø-ÿ\u0100-\u017fа-яё", "A-ZÀ-ÖØ-ÞА-ЯЁ"
+_NAME = re.compile(rf"(d(?=[A-Z])|{DIFFERENCE}|Δ(?=[^\W\d_]))?({LETTER}|[^\W\d_])_?(\w*)")
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,7 +41,8 @@ def read(name: str) -> Symbol:
     """Symbol of a name; one word of small letters stays whole, as does one of five capitals or more.
 
     The rule: a leading ``d`` before a Greek word, a capital letter or the only letter is a difference or derivative;
-    the base is one Greek word or one letter, or a word of small letters before an underscore; the rest is the index.
+    the base is one Greek word or one letter, or a word of small letters before a number or an underscore; the rest is
+    the index.
 
     >>> read("phi34"), read("GS6_max")
     (Symbol(base='φ', index='34', mark=''), Symbol(base='G', index='S6,max', mark=''))
@@ -43,22 +52,21 @@ def read(name: str) -> Symbol:
     (Symbol(base='φ', index='3', mark='d'), Symbol(base='R', index='a', mark='Δ'), 'gap')
     >>> read("WIDTH"), read("LENGTH_2")
     (Symbol(base='WIDTH', index='', mark=''), Symbol(base='LENGTH', index='2', mark=''))
-    >>> read("ds")
-    Symbol(base='s', index='', mark='d')
+    >>> read("ds"), read("λ_max"), read("pins23").base
+    (Symbol(base='s', index='', mark='d'), Symbol(base='λ', index='max', mark=''), 'pins')
     """
-    greek = re.match(_WORDS, name)
     if re.fullmatch("d[a-z]", name):
         return Symbol(name[1], mark="d")
-    if title := re.fullmatch(r"(d?)([A-Z]{5,})(\d*)(?:_(\w+))?", name):
+    if title := re.fullmatch(rf"(d?)([{_CAPITAL}]{{5,}})(\d*)(?:_(\w+))?", name):
         return Symbol(title[2], ",".join(filter(None, (title[3], _index(title[4] or "")))), "Δ" if title[1] else "")
-    word = re.fullmatch(r"([a-z]{3,})(?:_(\w*))?", name)
-    if word and not greek and not re.match(f"d({_WORDS})", name):
-        return Symbol(word[1], _index(word[2] or ""))
-    match = (re.fullmatch(rf"()({_WORDS})_?(\w*)", name) if greek else None) or _NAME.fullmatch(name)
+    word = re.fullmatch(rf"([{_SMALL}]{{3,}})(\d*(?:_\w*)?)", name)
+    if word and not re.match(f"{LETTER}|{DIFFERENCE}", name):
+        return Symbol(word[1], _index(word[2]))
+    match = _NAME.fullmatch(name)
     if not match:
         return Symbol(name)
     base = GREEK.get(match[2], match[2])
-    mark = match[1] and ("d" if base in _LETTERS else "Δ")
+    mark = match[1] and ("d" if match[1] == "d" and base in LETTERS else "Δ")
     return Symbol(base, _index(match[3]), mark or "")
 
 
@@ -66,9 +74,6 @@ def _index(text: str) -> str:
     """Underscores of an index as commas, as before a word behind a digit; Greek words by themselves as letters."""
     letters = re.sub(rf"(?<![A-Za-z])({_WORDS})(?![a-z])", lambda m: GREEK[m[0]], text.strip("_"))
     return re.sub(r"(?<=\d)(?=[a-z]{3,}$)", ",", letters.replace("_", ","))
-
-
-_LETTERS = frozenset(GREEK.values())
 
 
 def is_field(name: str) -> bool:
@@ -90,6 +95,15 @@ def plain(name: str) -> str:
     return stem(name).replace("_", "")
 
 
+def is_doubtful(piece: str) -> bool:
+    """Whether what looks like a name in a sentence may be something else, as in "bolt M12, pressure in psi".
+
+    >>> is_doubtful("M12"), is_doubtful("psi"), is_doubtful("omega3"), is_doubtful("F_max")
+    (True, True, False, False)
+    """
+    return re.fullmatch(DOUBTFUL, piece) is not None
+
+
 def pieces(sentence: str, names: tuple[str, ...] = ()) -> list[str]:
     """A sentence in pieces: every second one is the name of a quantity, one of the ``names`` or what looks like one.
 
@@ -108,7 +122,7 @@ def pieces(sentence: str, names: tuple[str, ...] = ()) -> list[str]:
 @lru_cache(maxsize=64)
 def _looks_like_a_name(names: tuple[str, ...]) -> re.Pattern[str]:
     given = "".join(rf"(?<!\d )(?<![*/·]){re.escape(name)}\b|" for name in names)
-    indexed = r"(?![A-Z]{3,}\d+\b)[A-Za-z]+[_\d]\w*"
+    indexed = rf"(?![A-Z]{{3,}}\d+\b)[A-Za-z{LETTERS}]+[_\d]\w*"
     equal = rf"[A-Z][a-z]{{0,3}}(?= = (?:[-\d]|{indexed}))|(?<= = )[A-Z](?![\w.])"
     return re.compile(rf"\b({given}(?:{_WORDS})\b|{indexed}|{equal})")
 

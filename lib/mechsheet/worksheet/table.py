@@ -1,6 +1,7 @@
 """Tables and figures as values, one description for the page, the workbook and pandas."""
 
 import ast
+import difflib
 import sys
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -12,7 +13,7 @@ from numpy.typing import NDArray
 
 from mechsheet import units
 from mechsheet.worksheet import lines, numbers, source, symbol
-from mechsheet.worksheet.errors import SheetError, as_given, refuse, texts
+from mechsheet.worksheet.errors import SheetError, as_given, measured, refuse, texts
 from mechsheet.worksheet.kinds import Input
 from mechsheet.worksheet.shown import Shown
 
@@ -22,7 +23,8 @@ if TYPE_CHECKING:
 _DECIMALS = {
     "m": 3, "cm": 2, "mm": 1, "deg": 1, "N": 0, "kgf": 0, "kN": 2, "Pa": 0, "MPa": 2, "kgf/cm**2": 0, "%": 1,
     "lbf": 0, "ksi": 2, "psi": 0, "bar": 2, "kgf*cm": 0, "kgf/cm": 1, "N*m": 0, "N/mm": 1, "mm**2": 1,
-    "cm**4": 1, "mm**4": 0, "mm**3": 0,
+    "cm**4": 1, "mm**4": 0, "mm**3": 0, "ms": 1, "us": 1, "um": 1, "W": 1, "kPa": 1, "GPa": 2, "g": 1, "km/h": 1,
+    "mm/s": 1, "deg/s": 1, "N*mm": 0, "daN": 1, "L/min": 2, "Hz": 2,
 }  # fmt: skip
 MARKED = 60  # points of a curve that are marked one by one; more of them hide the line
 
@@ -34,7 +36,7 @@ class Column:
     Values may be a list, which becomes an array, and texts, of unit "". ``power`` shows numbers as 1.2e-15; those of
     ``unlike`` quantities, in one column, have each digits of their own. ``of`` is the name that the line declares, of a
     field without its ``_S``; ``want`` is what stands in the worksheet, a name or a part of one. Texts that are
-    ``names`` of quantities stand on the page as their symbols.
+    ``names`` of quantities stand on the page as their symbols. Numbers that were ``typed`` may have more decimals.
     """
 
     symbol: str
@@ -47,6 +49,7 @@ class Column:
     want: str = ""
     names: bool = False
     unlike: bool = False
+    typed: bool = False
 
     def __post_init__(self) -> None:
         if isinstance(self.values, list):
@@ -73,13 +76,17 @@ class Column:
 
 @dataclass(frozen=True)
 class Table(Shown):
-    """A numbered table; all columns have the same length, the first ones of whole numbers name the rows."""
+    """A numbered table; all columns have the same length, the first ones of whole numbers name the rows.
+
+    What its note says is the name of a quantity where the worksheet has it, or it is one of those ``said``.
+    """
 
     number: str
     title: str
     columns: tuple[Column, ...]
     note: str = ""
     every: int = 1  # only every so many positions are listed
+    said: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         _some_rows(f"table {self.number}", self.columns)
@@ -122,7 +129,7 @@ class Figure(Shown):
         """The figure as an altair chart, to be changed, combined or saved; the page draws its own, which is faster."""
         import altair as alt  # on use: the page draws its own
 
-        names = [symbol.text(c.symbol) for c in self.lines]
+        names = [symbol.text(c.name) for c in self.lines]
         curves = [
             [
                 {"x": float(x), "y": float(y) if np.isfinite(y) else None, "line": name}  # None is a gap
@@ -134,7 +141,7 @@ class Figure(Shown):
         base = alt.Chart(alt.InlineData([row for curve in curves for row in curve])).encode(
             x=alt.X(
                 "x:Q",
-                title=f"{symbol.text(self.x.symbol)} [{units.shown(self.x.unit)}]",
+                title=f"{symbol.text(self.x.name)} [{units.shown(self.x.unit)}]",
                 scale=alt.Scale(zero=False, nice=False),
             ),
             y=alt.Y("y:Q", title=y_title, scale=alt.Scale(zero=False)),
@@ -143,7 +150,7 @@ class Figure(Shown):
             ),
             tooltip=[
                 alt.Tooltip("line:N", title="quantity"),
-                alt.Tooltip("x:Q", title=symbol.text(self.x.symbol), format=f".{self.x.decimals}f"),
+                alt.Tooltip("x:Q", title=symbol.text(self.x.name), format=f".{self.x.decimals}f"),
                 alt.Tooltip("y:Q", title="value", format=f",.{self.lines[0].decimals}f"),
             ],
         )
@@ -175,14 +182,15 @@ def table(
 
     An argument is a name, an input such as ``g.F`` or ``g.bolts.x``, ``P23_S.real`` or ``.imag`` (columns X23, Y23 of
     a point, R56x, R56y of a force) or ``abs(R56)`` (column R56). Quantities over several axes are listed with the last
-    one running fastest. ``show`` gives another display unit for some symbols.
-    ``note`` stands below the table. ``decimals`` are printed in all columns, by default as many as the unit
+    one running fastest. ``show`` gives another display unit for some columns, by heading or as the argument is
+    written. ``note`` stands below the table. ``decimals`` are printed in all columns, by default as many as the unit
     asks for; whole numbers have none. ``every`` lists only every so many positions, from the first.
     """
     _named("table", number, title, every)
     frame = sys._getframe(1)
     nodes = source.call(frame).args[2:]
-    return Table(number, title, _columns(frame, nodes, columns, show or {}, decimals, every), note, every)
+    found = _columns(f"table {number}", frame, nodes, columns, show or {}, decimals, every)
+    return Table(number, title, found, note, every)
 
 
 def figure(
@@ -200,7 +208,7 @@ def figure(
     """
     _named("figure", number, title, every)
     frame = sys._getframe(1)
-    first, *rest = _columns(frame, source.call(frame).args[2:], (x, *lines), show or {})
+    first, *rest = _columns(f"figure {number}", frame, source.call(frame).args[2:], (x, *lines), show or {})
     factor = units.parse(first.unit).factor
     return Figure(number, title, first, tuple(rest), tuple((k, v / factor) for k, v in (marks or {}).items()), every)
 
@@ -215,6 +223,7 @@ def _named(kind: str, number: object, title: object, every: object) -> None:
 
 
 def _columns(
+    of: str,
     frame: FrameType,
     nodes: list[ast.expr],
     values: tuple[Any, ...],
@@ -225,6 +234,7 @@ def _columns(
     known, columns = lines.registry(frame.f_globals), []
     nodes = source.listed(nodes)
     rows = _as_long_as_each_other(nodes, values, every)
+    called = dict[str, str]()  # columns by what they may be called in ``show``
     for node, value, row in zip(nodes, values, rows, strict=True):
         given = _input(frame.f_globals, node)
         name, part = (_of_table(node), "") if given else _name(node)
@@ -236,20 +246,65 @@ def _columns(
         try:
             line = given or known[name]
         except KeyError:
-            refuse(
-                SheetError(f"column {ast.unparse(node)}: no line declares {name} with its unit, such as # [m] meaning")
-            )
+            place = lines.on_one_way(frame.f_globals, name)
+            within = f"that at {place} stands within a loop, or not on all ways of a choice"
+            why = within if place else "such as # [m] meaning"
+            refuse(SheetError(f"column {ast.unparse(node)}: no line declares {name} with its unit, {why}"))
         except SheetError as error:
             refuse(error)
         label = heading(name, part)
-        unit = show.get(label, line.unit)
+        of_table = given and isinstance(node, ast.Attribute) and isinstance(node.value, ast.Attribute)
+        if of_table or (
+            given and symbol.read(name).base in symbol.LETTERS and symbol.read(label).base not in symbol.LETTERS
+        ):
+            label = name  # mu_k is μ with an index, muk is a word; so is the m of the parts, m_parts
+        own, names = "" if given else symbol.stem(name), (label, ast.unparse(node), *([] if part else [name]))
+        called |= dict.fromkeys(names, label)
+        unit = next((_shown_in(of, label, line.unit, show[n]) for n in names if n in show), line.unit)
         shown = row / units.parse(unit).factor
-        whole = kind in "iu"
-        own = "" if given else symbol.stem(name)
+        typed = (
+            decimals is None
+            and kind == "f"
+            and (isinstance(line, Input) or _is_typed(line.expression, frame.f_globals))
+        )
         places = usual_decimals(unit) if decimals is None else decimals
+        places = 0 if kind in "iu" else numbers.as_typed(shown, places) if typed else places
         want = "" if given else ast.unparse(node)
-        columns.append(Column(label, unit, line.meaning, 0 if whole else places, shown, of=own, want=want))
+        columns.append(Column(label, unit, line.meaning, places, shown, of=own, want=want, typed=typed))
+    for name in show:
+        if name not in called:
+            near = difflib.get_close_matches(name, called, n=1, cutoff=0.5)
+            nearest = f"nearest: {', '.join(near or dict.fromkeys(called.values()))}"
+            refuse(SheetError(f"{of}: show has {as_given(name)}, which is no column; {nearest}"))
     return tuple(columns)
+
+
+def _is_typed(expression: ast.expr, namespace: Mapping[str, Any]) -> bool:
+    """Whether numbers stand in an expression as they were typed, such as ``np.array([1, 1.25]) * mm``."""
+    match expression:
+        case ast.BinOp(left, ast.Mult() | ast.Div(), ast.Name(unit)):
+            return isinstance(namespace.get(unit), units.Constant) and _is_typed(left, namespace)
+        case ast.Call(ast.Name("array") | ast.Attribute(attr="array"), [argument]):
+            return _is_typed(argument, namespace)
+        case ast.List(elements) | ast.Tuple(elements):
+            return all(_is_typed(element, namespace) for element in elements)
+        case ast.UnaryOp(ast.USub(), ast.Constant()) | ast.Constant():
+            return True
+    return False
+
+
+def _shown_in(of: str, label: str, own: str, unit: str) -> str:
+    """The other unit in which a column is shown, in signs that Python reads; its own where that is not known."""
+    says = f"{of}: show of {label} = {as_given(unit)}"
+    texts(says, unit=unit)
+    if own == units.UNKNOWN:
+        return own
+    if measured(unit, says).dims != units.parse(own).dims:
+        refuse(SheetError(f"{says}: {unit} does not measure {numbers.in_text(own)}"))
+    other = units.plain(unit)
+    if units.turned(other, own) or other == "degC" != own:
+        refuse(SheetError(f"{says}: a column in {numbers.in_text(own)} is another number there"))
+    return other
 
 
 def _as_long_as_each_other(nodes: list[ast.expr], values: tuple[Any, ...], every: int) -> list[NDArray[Any]]:

@@ -1,0 +1,82 @@
+"""A factor of 2 pi that is missing between an angle and cycles in time, which have the same dimensions."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from math import isclose, pi
+
+import numpy as np
+
+from mechsheet import units
+from mechsheet.quantities.node import Node
+from mechsheet.recording.dimension_rules import Reader
+from mechsheet.recording.pinpoint import Mistake
+from mechsheet.worksheet import numbers
+from mechsheet.worksheet.lines import Formula
+
+# Of these the result counts what the first operand that counts does.
+_SAME = ("neg", "abs", "add", "sub", "max", "min", "where", "take", "at", "join", "reduce", "round", "floor", "like")
+_OF_NUMBERS = ("neg", "abs", "add", "sub", "mul", "div", "max", "min")
+_TURNS = (2 * pi, 2 * pi * 60, 2 * pi / 60)
+_DEEPEST = 8  # operations between a line and what it is a multiple of
+_TYPED = 1e-3  # how far a rounded one of these is off: 9.55 for 60/(2*pi)
+
+
+def turned(reader: Reader) -> Iterator[Mistake]:
+    """The lines whose unit counts cycles where the value counts an angle, or the other way round."""
+    for node, lines in reader.declared.items():
+        for line in lines:
+            if not units.kind(line.unit):
+                continue
+            own = _Counted(reader, line).unit(node, _DEEPEST)
+            if own and units.turned(own, line.unit) and "erratum" not in line.meaning:
+                angle = units.kind(own) == units.ANGLE
+                is_in, by = ("an angle in time", "divided") if angle else ("cycles in time", "multiplied")
+                why = f"unit [{line.unit}] does not fit; the value is {is_in}, as in [{own}], until it is {by} by 2*pi"
+                yield Mistake(reader.places.line_of(line), line.name, why)
+
+
+@dataclass(frozen=True)
+class _Counted:
+    """What the value of a line is a multiple of, by the units that other lines and inputs declare."""
+
+    reader: Reader
+    line: Formula
+
+    def told(self, node: Node) -> str:
+        """The unit of an input, of a constant, or of what another line makes; "" of anything else."""
+        if node.op in ("input", "constant"):
+            return self.reader.unit_of[self.reader.names[node]] if node.op == "input" else "".join(node.args)
+        lines = (line for line in self.reader.declared.get(node, ()) if line is not self.line and not line.mistake)
+        return next((line.unit for line in lines if self.reader.places.lines.get(line.name) == node.line), "")
+
+    def unit(self, node: Node, deep: int) -> str:
+        """The unit of what a value is a multiple of, without a factor of pi; "" where there is none."""
+        if unit := self.told(node):
+            return unit
+        of: tuple[Node, ...] = ()
+        if deep and node.op in _SAME and not (node.op == "reduce" and node.args[2] not in ("sum", "max", "min")):
+            of = node.operands
+        elif deep and node.op in ("mul", "div"):
+            a, b = node.args
+            of = (a,) if self.plain(b, deep) else (b,) if node.op == "mul" and self.plain(a, deep) else ()
+        return next(filter(None, (self.unit(operand, deep - 1) for operand in of)), "")
+
+    def plain(self, node: Node, deep: int) -> bool:
+        """Whether a node is a pure number in which no turn is hidden."""
+        if unit := self.told(node):
+            return units.parse(unit).dims == units.PURE and units.kind(unit) == units.BARE
+        if node.op == "constant":
+            return not any(map(_holds_pi, np.abs(node.value).flat))
+        if node.op in ("rows", "length"):
+            return True
+        return deep > 0 and node.op in _OF_NUMBERS and all(self.plain(operand, deep - 1) for operand in node.operands)
+
+
+def _holds_pi(x: float) -> bool:
+    """Whether a number looks like a short one times or over pi."""
+    if not 0 < x < np.inf:
+        return False
+    short = (
+        y for y in (x / pi, x * pi, pi / x, 1 / (x * pi)) if isclose(y, float(numbers.significant(y, 4)), rel_tol=1e-12)
+    )
+    return any(short) or any(isclose(y, z, rel_tol=_TYPED) for y in (x, 1 / x) for z in _TURNS)

@@ -1,0 +1,160 @@
+"""Lines of a cell as they are shown: formulas with their values, texts between them, and whatever else is given."""
+
+import ast
+import sys
+from bisect import bisect
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from itertools import pairwise, starmap
+from operator import attrgetter
+from typing import Any
+
+import numpy as np
+
+from mechsheet import units
+from mechsheet.worksheet import source
+from mechsheet.worksheet.errors import SheetError, refuse
+from mechsheet.worksheet.lines import Formula, Given, displayed, formulas, names_read, registry
+from mechsheet.worksheet.shown import Shown
+from mechsheet.worksheet.verdict import asks_values_only
+
+
+def typeset(*shown: Any, display: Mapping[str, str] | None = None) -> "Typeset":
+    """Formulas of the calling cell with their values, then whatever else is ``shown``: the last line of a cell.
+
+    Where a cell calls it again, each call has the lines above it that no call above it has. Reads the cell's own
+    source, so nothing is typed twice. Nothing is rendered until the page asks. A text is Markdown; one that stands by
+    itself among the lines, a string and nothing else, is shown where it stands. ``display`` gives another display unit
+    for some of the declared ones, such as ``{"kgf": "N"}``, to tables and figures too: a dictionary as it is written,
+    or a name of the worksheet. A line whose unit is not known is shown in SI, and why. A choice by ``if`` is a line of
+    each name to which all of its ways give the same unit. Of a name that is bound twice the last line has the value.
+
+    Raises SheetError naming the line whose names and units do not match.
+    """
+    frame = sys._getframe(1)
+    cell, here = source.cell(frame), frame.f_lineno
+    above = max((end for end in typeset_lines(cell) if end < here), default=0)
+    try:
+        lines = [row for row in formulas(cell) if above < row.expression.lineno < here]
+        between = [text for text in source.standing(cell.body) if above < text.lineno < here]
+    except SheetError as error:
+        refuse(error)
+    rows = [displayed(row, display or {}) if isinstance(row, Formula) else row for row in lines]
+    values = tuple(frame.f_globals[row.name] if isinstance(row, Formula) and not row.again else None for row in rows)
+    for row, value in zip(rows, values, strict=True):
+        if isinstance(row, Formula) and not row.again and (why := no_number(row, value)):
+            refuse(SheetError(f"{cell.at(row.expression.lineno)}: {why}"))
+    if asks_values_only():
+        return Typeset((), (), shown)
+    rows = [_with_constants(row, frame.f_globals) for row in rows]
+    known = Numbers(frame.f_globals)
+    if not between:
+        return Typeset(tuple(rows), values, shown, known)
+    parts = list[Any]()
+    begins = [0, *(bisect(rows, text.lineno, key=lambda row: row.expression.lineno) for text in between), len(rows)]
+    for text, some in zip(["", *(text.value for text in between)], starmap(slice, pairwise(begins)), strict=True):
+        parts += [text, Typeset(tuple(rows[some]), values[some], (), known)]
+    return Typeset((), (), (*parts[1:], *shown))
+
+
+def no_number(row: Formula, value: Any) -> str:
+    """Why the value of a line cannot have its unit: it is neither a number, nor an array of them, nor a function."""
+    computes = hasattr(value, "__array_ufunc__") and not isinstance(value, np.ndarray | np.generic)
+    if row.arguments or computes or isinstance(value, int | float | complex):
+        return ""
+    try:
+        kind = np.asarray(value).dtype.kind
+    except ValueError:  # of rows that differ in length
+        kind = "O"
+    return "" if kind in "biufc" else f"{row.name} = {ast.unparse(row.expression)} is no number: it has no [unit]"
+
+
+def _with_constants(row: Formula | Given, namespace: Mapping[str, Any]) -> Formula | Given:
+    """A line with the units among the names that it reads, and with the unknowns of solve blocks."""
+    found = ((name, _of_unit(name, namespace)) for name in names_read(row))
+    constants = tuple((name, value.unit) for name, value in found if isinstance(value, units.Constant))
+    row = replace(row, constants=constants) if constants else row
+    blocks = _unknowns(source.cells(namespace)) if isinstance(row, Formula) else {}
+    solved = tuple((name, blocks[name]) for name in names_read(row) if name in blocks)
+    return replace(row, solved=solved) if solved and isinstance(row, Formula) else row
+
+
+@lru_cache(maxsize=32)
+def _unknowns(cells: tuple[source.Cell, ...]) -> dict[str, str]:
+    """Names of solve blocks that do not end as such do, with those that tell the unknown and do."""
+    found = dict[str, str]()
+    for node in (node for cell in cells for node in cell.body):
+        match node:
+            case ast.Assign([ast.Name(name)], ast.Call(ast.Name("find" | "minerr" as kind), [f, *_])):
+                unknown = f.args.args[0].arg if isinstance(f, ast.Lambda) and f.args.args else name
+                ending = "_found" if kind == "find" else "_least"
+                found |= {} if name.endswith(("_found", "_least")) else {name: f"{unknown}{ending}"}
+    return found
+
+
+def _of_unit(name: str, namespace: Mapping[str, Any]) -> Any:
+    head, dot, part = name.partition(".")
+    value = namespace.get(head)
+    return value if not dot else getattr(units, part, None) if value is units else None
+
+
+@lru_cache(maxsize=1000)
+def typeset_lines(cell: source.Cell) -> tuple[int, ...]:
+    """Lines in which the statements of a cell end that call typeset."""
+    calls = ((node, call) for node in cell.body for call in source.nodes(node) if isinstance(call, ast.Call))
+    named = (node for node, call in calls if isinstance(call.func, ast.Name) and call.func.id == "typeset")
+    return tuple(node.end_lineno or node.lineno for node in named)
+
+
+class Numbers:
+    """Values in their units by the names that formulas read, ``g.L3`` too, as they are when the page asks."""
+
+    def __init__(self, namespace: Mapping[str, Any]) -> None:
+        self.namespace, self.known = namespace, registry(namespace)
+
+    def __contains__(self, name: object) -> bool:
+        """Whether something is the name of a line or an input of the worksheet."""
+        return name in self.known or name in getattr(type(self.namespace.get("g")), "__units__", {})
+
+    def at(self, name: str, position: int) -> tuple[float | complex, str] | None:
+        """SI value of a name at one position of its field, and its unit; None where that is not known."""
+        head, dot, part = name.partition(".")
+        value: Any = self.namespace.get(head)
+        if dot:
+            unit = getattr(type(value), "__units__", {}).get(part)
+            value = attrgetter(part)(value) if unit else None
+        else:
+            line = self.known.get(name)
+            unit = line.unit if line and line.has_value else None
+        if isinstance(value, bool | np.bool_):  # a condition is no number
+            return None
+        if unit is None or not isinstance(value, int | float | complex | np.ndarray | np.generic) or not np.size(value):
+            return None
+        field = np.asarray(value)
+        inside = field.shape and field.shape[-1] > position
+        return (field[..., position].flat[0] if inside else field.flat[0]).item(), unit
+
+    def single(self, names: Iterable[str]) -> frozenset[str]:
+        """Of names that end as that of a field over S does those that have no positions."""
+        S = np.asarray(self.namespace.get("S", 0))
+        if S.ndim == 0 or S.dtype.kind not in "iuf":  # no stroke; a point may have that name too
+            return frozenset(names)
+        return frozenset(name for name in names if np.ndim(self.namespace.get(name, ())) == 0)
+
+
+@dataclass(frozen=True)
+class Typeset(Shown):
+    """Lines of a cell and their values, shown as symbol = formula = value, unit, meaning."""
+
+    rows: tuple[Formula | Given, ...]
+    values: tuple[Any, ...]
+    shown: tuple[Any, ...] = ()
+    numbers: Numbers | None = None
+    position: int = 0
+
+    def at(self, position: int) -> "Typeset":
+        """The same formulas with the values at one position of their fields."""
+        values = (np.asarray(v)[..., position] if np.ndim(v) else v for v in self.values)
+        shown = (part.at(position) if isinstance(part, Typeset) else part for part in self.shown)
+        return replace(self, values=tuple(values), shown=tuple(shown), position=position)

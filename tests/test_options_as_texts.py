@@ -1,0 +1,140 @@
+"""A choice of names where a text is expected, whole numbers of options and rows, and an input asked for as a result."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+import written_cells
+from as_script import as_script
+from cells import run
+
+from mechsheet import evaluate, load, sweep
+from mechsheet.html import fields as html_fields
+from mechsheet.recording.record import record
+from mechsheet.run import arguments
+from mechsheet.studies import asked_design
+from mechsheet.worksheet import inputs
+from mechsheet.worksheet.check import checks_of
+from mechsheet.worksheet.errors import SheetError
+
+SHEET = '''import marimo
+
+app = marimo.App()
+
+with app.setup:
+    from typing import Literal
+
+    from mechsheet import ask, check, export, inputs, one_of, read, table, typeset
+
+    @inputs
+    class Gear:
+        z: int  # [-] teeth; > 0
+        m: float  # [kg] mass
+
+    GEARS = {"small": Gear(17, 0.5), "large": Gear(43, 2.0)}
+
+
+@app.class_definition
+@inputs
+class Given:
+    mode: Literal["low", "high"] = "low"  # mode
+    gear: Gear = one_of(GEARS, "small")  # gear
+    gears: list[Gear] = [Gear(17, 1.0), Gear(20, 1.5)]  # gears
+    h: float = 2.0  # [-] height
+
+    """Inputs."""
+
+
+@app.cell
+def form():
+    form = ask(Given)
+    return (form,)
+
+
+@app.cell
+def given(form):
+    g = read(Given, form)
+    return (g,)
+
+
+@app.cell
+def lines(g):
+    z_all = g.gear.z + sum(g.gears.z)  # [-] teeth
+    check_1 = check("stress, " + g.mode, z_all, 100)
+    check_2 = check(g.mode + " stress" if g.mode.startswith("l") else g.mode.upper(), g.h, 3)
+    typeset(check_1, check_2)
+    return check_1, check_2, z_all
+
+
+@app.cell
+def workbook():
+    export("Gears", globals())
+    return
+
+
+if __name__ == "__main__":
+    app.run()
+'''
+
+
+@pytest.fixture(scope="module")
+def gears(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    path = tmp_path_factory.mktemp("sheet") / "gears.py"
+    path.write_text(SHEET, encoding="utf-8")
+    return path
+
+
+@pytest.mark.parametrize(
+    ("mode", "names"), [("low", ["stress, low", "low stress"]), ("high", ["stress, high", "HIGH"])]
+)
+def test_the_chosen_name_is_used_as_a_text(gears: Path, mode: str, names: list[str]) -> None:
+    sheet = load(gears)
+    found = sheet.run(sheet.results, {"g": inputs.build(sheet.inputs, {"mode": mode})})
+    assert [check.name for check in checks_of(found)] == names
+    recording = record({**found, "__file__": sheet.path})
+    assert [*recording.checks] == names and recording.gaps == []
+    assert recording.guards, "of another choice it is another name"
+
+
+def test_whole_numbers_of_options_and_rows_are_counted(gears: Path, tmp_path: Path) -> None:
+    assert evaluate(gears, ["z_all"])["z_all"] == 17 + 37
+    g: Any = load(gears).inputs()
+    assert isinstance(g.gear.z, int)
+    assert evaluate(gears, ["z_all"], gear="large", gears="18; 1 | 21; 2 | 25; 3")["z_all"] == 43 + 64
+    with pytest.raises(SheetError, match=r"teeth gears.z \(2\) = 20\.5 must be a whole number"):
+        evaluate(gears, ["z_all"], gears="17; 1 | 20,5; 2")
+    swept = sweep(gears, ["z_all"], {"gears": ["17; 1", "17.5; 1"]})
+    assert swept["z_all"][0] == 34 and "z (1) = 17.5 must be a whole number" in swept.reasons[1]
+    assert [column["whole"] for column in html_fields.told(g)["fields"][2]["columns"]] == [True, False]
+    assert as_script(gears, f"--out={tmp_path}").returncode == 0
+    cells = written_cells.read(tmp_path / "gears.xlsx")["Input tables"]
+    assert any(value == "whole number, > 0" for _, value in cells.values())
+    assert sum("=INT(" in formula for formula, _ in cells.values()) == 2
+
+
+def test_code_gives_whole_numbers_too(gears: Path) -> None:
+    cls: Any = load(gears).inputs
+    with pytest.raises(SheetError, match=r"teeth gears.z \(1\) = 17\.5 must be a whole number"):
+        cls(gears=[SimpleNamespace(z=17.5, m=1.0)])
+
+
+@pytest.mark.parametrize("line", ["name: str  # name", "z: int  # [mm] teeth", "is_new: bool  # new"])
+def test_what_an_option_or_a_row_cannot_have_is_told(line: str) -> None:
+    name = line.partition(":")[0]
+    must = f"line 4: {name} of an option or row must be a float or an int without unit"
+    with pytest.raises(SheetError, match=must):
+        run(f"from mechsheet import inputs\n@inputs\nclass Part:\n    {line}\n    m: float  # [kg] mass")
+
+
+def test_an_input_is_no_result_and_told_as_one(gears: Path) -> None:
+    said = rf"h is an input of {gears}, not a result: h_1 = g.h in a line is one"
+    asked = asked_design.read(["--vary=h=1..2", "--best=max h"], inputs.declared(load(gears).inputs))
+    with pytest.raises(arguments.UsageError, match=said):
+        asked_design.Problem(gears, asked)
+    for ask in (lambda: evaluate(gears, ["h"]), lambda: sweep(gears, ["h"], {"h": np.array([1.0])})):
+        with pytest.raises(SheetError, match=said):
+            ask()

@@ -1,0 +1,135 @@
+"""What is a Greek letter in a name and what a word; what is a name in a sentence and what a grade, a fit or a unit."""
+
+from __future__ import annotations
+
+import re
+from html import unescape
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from cells import run
+
+from mechsheet.document.latex import symbol as latex
+from mechsheet.document.markup import as_written, in_words, limits, meant
+from mechsheet.document.names import function
+from mechsheet.html.follow import Follower
+from mechsheet.html.mathml import symbol as mathml
+from mechsheet.html.values import html
+from mechsheet.quantities.graph import Graph
+from mechsheet.quantities.lines import Recording
+from mechsheet.worksheet import symbol
+from mechsheet.worksheet.check import Check
+from mechsheet.worksheet.deviation import Deviation
+from mechsheet.worksheet.kinds import Input
+from mechsheet.worksheet.said import said
+from mechsheet.worksheet.symbol import Symbol, read
+from mechsheet.worksheet.table import Column, Table
+from mechsheet.worksheet.typeset import Numbers
+
+WORDS = [
+    "pin",
+    "pins",
+    "pitch",
+    "pinion",
+    "pivot",
+    "piston",
+    "pipe",
+    "number",
+    "nut",
+    "null",
+    "multiple",
+    "chip",
+    "chisel",
+    "lamella",
+    "detail",
+    "detent",
+    "details",
+]
+
+
+@pytest.mark.parametrize("word", WORDS)
+def test_a_word_that_begins_as_a_greek_one_stays_whole(word: str) -> None:
+    assert read(word) == Symbol(word) and symbol.text(word) == word
+    assert read(f"{word}_1") == read(f"{word}1") == Symbol(word, "1")
+    assert read(f"d_{word}").index == word
+    assert function(f"{word}_of") == function("group_of").__class__(f"{word} of"), "a function of that name too"
+
+
+LETTERS = {
+    "pi_1": ("π", "1"), "nu12": ("ν", "12"), "mu": ("μ", ""), "mu_k": ("μ", "k"), "mumax": ("μ", "max"),
+    "sigmav": ("σ", "v"), "phiAB": ("φ", "AB"), "etaV": ("η", "V"), "epsmin": ("ε", "min"), "lam": ("λ", ""),
+    "lam_1": ("λ", "1"), "lamda": ("λ", ""), "lamda2": ("λ", "2"), "Lamda": ("Λ", ""), "Lambda_k": ("Λ", "k"),
+    "φ_1": ("φ", "1"), "β1": ("β", "1"), "δ_max": ("δ", "max"), "σmax": ("σ", "max"), "λ": ("λ", ""), "Ω_0": ("Ω", "0"),
+    "φ_34_max": ("φ", "34,max"), "Р_1": ("Р", "1"), "Рмакс": ("Р", "макс"), "угол": ("угол", ""),
+    "угол_1": ("угол", "1"), "größe": ("größe", ""), "länge_1": ("länge", "1"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", LETTERS)
+def test_a_letter_has_its_index(name: str) -> None:
+    base, index = LETTERS[name]
+    assert read(name) == Symbol(base, index)
+    shown = f"<i>{base}</i>" + (f"<sub>{index}</sub>" if index else "")
+    assert as_written(name) == shown
+    for written in (latex(read(name)), mathml(read(name))):
+        assert "_1" not in written.replace("_{1}", "") and "\\_" not in written
+
+
+def test_differences_of_greek_letters() -> None:
+    assert [read(name) for name in ("dφ_1", "ΔT_1", "Δφ", "Δ_1", "dphi3", "dmax")] == [
+        Symbol("φ", "1", "d"), Symbol("T", "1", "Δ"), Symbol("φ", "", "Δ"), Symbol("Δ", "1"), Symbol("φ", "3", "d"),
+        Symbol("dmax"),
+    ]  # fmt: skip
+    assert latex(read("λ_1")) == r"\lambda_{1}" and latex(read("Lamda")) == r"\Lambda"
+    assert latex(read("Р_макс")) == r"\mathrm{Р}_{\mathrm{макс}}"
+
+
+@pytest.mark.parametrize(
+    ("sentence", "shown"),
+    [
+        ("bolt M12 of S235 with H7", "bolt M12 of S235 with H7"),
+        ("pressure in psi", "pressure in psi"),
+        ("for S235 and H7/g6, M12x1.75", "for S235 and H7/g6, M12x1.75"),
+        ("bolt M12 under F12 and omega3", "bolt M12 under <i>F</i><sub>12</sub> and <i>ω</i><sub>3</sub>"),
+        ("F_max of M8 -2 m", "<i>F</i><sub>max</sub> of M8 −2 m"),
+        ("slope of Y23", "slope of <i>Y</i><sub>23</sub>"),
+        ("σ_1 under φ2", "<i>σ</i><sub>1</sub> under <i>φ</i><sub>2</sub>"),
+    ],
+)
+def test_in_a_sentence_only_a_name_of_the_worksheet_is_a_symbol(sentence: str, shown: str, tmp_path: Path) -> None:
+    path = tmp_path / "bolt.py"
+    path.write_text("import marimo\napp = marimo.App()\n@app.cell\ndef a():\n    F12 = 1\n    P23 = 2j\n    return\n")
+    namespace: dict[str, Any] = {"__file__": str(path), "F12": 1, "P23": 2j}
+    assert in_words(sentence, known=said(namespace)) == shown
+    page = Follower(Recording(Graph(), {}), Numbers(namespace))
+    assert shown in html(Check(sentence, 1.0, 2.0), page)
+    assert shown in html(Table("1", "Bolt", (Column("x", "m", "", 1, np.ones(2)),), sentence), page)
+
+
+def test_a_unit_in_what_a_line_means_is_none_of_its_letters() -> None:
+    assert meant("pressure in psi, 40 psi at psi_1") == "pressure in psi, 40 psi at <i>ψ</i><sub>1</sub>"
+    assert meant("half of psi", {"psi"}) == "half of <i>ψ</i>"
+    assert symbol.prose("pressure in psi, phi3") == "pressure in psi, φ3"
+
+
+def test_a_column_of_an_input_keeps_its_letter() -> None:
+    cell = "from mechsheet import inputs\n@inputs\nclass A:\n    mu_k: list[float] = [0.1, 0.2]  # [-] friction\n"
+    names = run(cell)
+    names |= {"g": names["A"]()}
+    run("from mechsheet import table\nt = table('1', 'T', g.mu_k)", names)
+    assert read(names["t"].columns[0].name) == Symbol("μ", "k")
+
+
+def test_a_tolerance_has_the_degrees_of_its_field() -> None:
+    told = {
+        unit: unescape(re.sub("<.*?>", "", limits(Input("b", unit, "", "", False, (), tolerance=Deviation(0.5)))))
+        for unit in ("deg", "deg/s", "mm", "m/s**2")
+    }
+    assert told == {
+        "deg": "±\xa00.5°",
+        "deg/s": "±\xa00.5\xa0°/s",
+        "mm": "±\xa00.5\xa0mm",
+        "m/s**2": "±\xa00.5\xa0m/s2",
+    }
