@@ -116,6 +116,16 @@ def duration(x: float, y: float, scale: Scale) -> bool:
     return True
 
 
+def sometimes(x: float, y: float, scale: Scale) -> bool:
+    """What a run time has or has not, as it happens: a spread where it was taken often, words where it is shorter."""
+    return True
+
+
+def counted(x: float, y: float, scale: Scale) -> bool:
+    """Steps that an integrator takes, which rounding moves a little."""
+    return abs(x - y) <= max(2, 0.1 * max(x, y))
+
+
 KINDS: tuple[tuple[str, str, str, Alike], ...] = (
     # Numbers that are no results, by the beginning of the sheet's name and of the column's head, and by the row's name,
     # in a list of lines by the row's meaning.
@@ -132,15 +142,21 @@ KINDS: tuple[tuple[str, str, str, Alike], ...] = (
     # Rounding chooses which of its results is the worst: the steps of an integrator end elsewhere.
     (r"7\.1 Digits", r"", r"^through dead centre$", duration),
     (r"7\.1 Digits", r"(printed|product|margin) \[", r"^rod in line$", nearly_singular),
+    (r"7\.1 Digits", r"(log κ|expected) \[", r"^(rrr|rrp|rpr|prp|rpp) ", digits),  # in part by differences of floats
     (r"7\.1 Digits", r"(printed|product|margin) \[", r"", digits),
-    (r"7\.4 Digits", r"(proved|right) \[", r"", digits),
-    (r"7\.5 Errors", r".* error \[", r"", error),
-    (r"7\.\d+ .*, end to end", r"kept digits \[", r"", nearly_singular),  # the worst of three positions
+    (r"Table 7\.4", r"(proved|right) \[", r"", digits),
+    (r"Table 7\.5", r".* error \[", r"", error),
+    (r"Table 7\.5", r"results \[", r"", counted),  # but for those at the end of their reach
+    (r"Table 7\.([6-9]|10)", r"kept digits \[", r"", nearly_singular),  # the worst of three positions
     (r"5 Find against fields", r"r_\d* \[", r"", cancelled),
     (r"", r"(digits|most) \[-\]", r"", digits),
     (r"", r"error \[-?\]", r"", error),
-    (r"", r"(time|again|ratio|place|least time|of whole|of a run|spread|runs) \[|.* \[µs\]", r"", duration),
-    (r"0\.1 Machine", r"", r"", duration),
+    (r"1\.8 Steps", r".* \[-\]", r"", counted),
+    (r"", r"roundings \[-\]", r"", error),
+    (r"", r"(again )?spread \[|not used\b", r"", sometimes),
+    (r"", r"(time|again|ratio|place|least time|fastest|better|of whole|of a run) \[", r"", duration),
+    (r"", r"((again )?runs|slope|checks) \[|.* \[µs\]", r"", duration),
+    (r"0\.2 Machine", r"", r"", duration),
 )
 
 
@@ -189,6 +205,8 @@ def differences(old: Book, new: Book) -> Iterator[str]:
             if x == y:
                 continue
             alike, limit = _compared(title, cells, at, limits)
+            if alike is sometimes:
+                continue
             scale = Scale(sizes.get(at, 0.0), limit)
             if not (x and y and _same_formula(x.written, y.written) and _same_value(x.value, y.value, alike, scale)):
                 yield f"{title}, row {at[0]}, column {at[1]}: {x} became {y}"
@@ -417,13 +435,15 @@ def test_a_change_of_any_result_is_seen() -> None:
         ("accuracy", "1.1 Position of the hitch", "C6", {"written": times(11), "value": times(11)}),
         ("accuracy", "1.1 Position of the hitch", "D7", {"value": lambda x: x - 0.6}),
         ("accuracy", "1.1 Position of the hitch", "E6", {"written": None, "value": None}),
-        ("accuracy", "7.1 Digits in stiff and extreme", "G29", {"value": 15.1}),
-        ("accuracy", "7.1 Digits in stiff and extreme", "D38", {"value": times(1 + 1e-11)}),
-        ("accuracy", "7.5 Errors of random groups", "C5", {"value": times(11)}),
+        ("accuracy", "7.1 Digits in stiff and extreme", "G28", {"value": 15.1}),
+        ("accuracy", "7.1 Digits in stiff and extreme", "D33", {"value": times(1 + 1e-11)}),
+        ("accuracy", "Table 7.5", "E5", {"value": times(11)}),
+        ("accuracy", "1.8 Steps of the integrators", "E5", {"value": times(1.2)}),
+        ("accuracy", "3.1 Find from the document's", "I6", {"value": times(11)}),
         ("slotted_link", "5 Find against fields", "E21", {"value": 2e-12}),
-        ("accuracy", "7.6 Hitch, end to end", "B5", {"value": times(1 + 1e-11)}),
-        ("accuracy", "7.6 Hitch, end to end", "D5", {"value": lambda x: x - 1.1}),
-        ("accuracy", "7.9 Kinetostatics, end to end", "E5", {"value": "l2"}),
+        ("accuracy", "Table 7.6", "B5", {"value": times(1 + 1e-11)}),
+        ("accuracy", "Table 7.6", "D5", {"value": lambda x: x - 1.1}),
+        ("accuracy", "Table 7.9", "E5", {"value": "l2"}),
         ("accuracy", "Checks", "E3", {"value": "FAIL"}),
     ],
 )
@@ -444,9 +464,12 @@ def test_a_changed_cell_is_seen(worksheet: str, sheet: str, place: str, change: 
         ("accuracy", "1.1 Position of the hitch", "E6", {"value": times(9)}),
         ("accuracy", "1.1 Position of the hitch", "G6", {"value": "slower, the same digits"}),
         ("accuracy", "7.1 Digits in stiff and extreme", "G5", {"value": 15.6}),  # both are all that a number holds
-        ("accuracy", "7.5 Errors of random groups", "C5", {"value": times(3)}),
+        ("accuracy", "Table 7.5", "E5", {"value": times(3)}),
+        ("accuracy", "1.8 Steps of the integrators", "E5", {"value": times(1.05)}),
+        ("accuracy", "3.1 Find from the document's", "H6", {"value": None}),
+        ("accuracy", "3.1 Find from the document's", "J6", {"value": "#N/A"}),
         ("slotted_link", "5 Find against fields", "E21", {"value": 9e-16}),
-        ("accuracy", "7.6 Hitch, end to end", "D5", {"value": lambda x: x - 0.9}),
+        ("accuracy", "Table 7.6", "D5", {"value": lambda x: x - 0.9}),
     ],
 )
 def test_what_is_rounding_or_time_may_change(worksheet: str, sheet: str, place: str, change: dict) -> None:

@@ -64,6 +64,33 @@ def test_only_what_rests_on_a_way_that_python_took_is_empty(blank: Page, tmp_pat
     assert {n for n, (_, why) in shown(blank, tmp_path / "a.html", sheet, "a=1.5").items() if why} == {"z"}
 
 
+COUNTED = """k = len("ab" if g.a < 1 else "a")  # [-] counted by Python
+z = 3 - k  # [-] of it alone
+w = x * k + z  # [-] field with it
+picture = Drawing().path([0j, 1, 1j * k], "L")"""
+SAID = ['caption("1", f"of {k}")', 'mo.md(f"of {k} and {z:.1f}")', "picture"]
+EVERYTHING = """() => {
+  document.querySelector(".ms-switch").click();
+  dispatchEvent(new Event("beforeprint"));
+  return [...document.querySelectorAll("[data-n]")].map(e => [e.innerHTML, e.dataset.reason ?? ""]);
+}"""
+
+
+def test_no_number_stands_where_a_guard_is_broken(blank: Page, tmp_path: Path) -> None:
+    """Neither in formulas and texts nor in drawings: also those have none that are plain numbers to Python."""
+    sheet = own(tmp_path, COUNTED, further=['title_block("Own", "of numbers")', *SAID])
+    path, page = Path(sheet.path), tmp_path / "a.html"
+    imports = "from mechsheet import Drawing, caption, title_block, "
+    path.write_text(path.read_text().replace("from mechsheet import ", f"import marimo as mo\n    {imports}", 1))
+    shown(blank, page, load(path), "a=1.5")
+    here = blank.evaluate(EVERYTHING)
+    shown(blank, page, load(path), a=1.5)
+    there = blank.evaluate(EVERYTHING)
+    grey = [text for text, why in here if why]
+    assert len(grey) == 8 and not any(grey)
+    assert all(each == fresh for each, fresh in zip(here, there, strict=True) if not each[1])
+
+
 def test_a_field_tells_where_it_is_least_along_positions_that_no_input_changes(blank: Page, tmp_path: Path) -> None:
     """In each of the forms in which engineers write them: only one of them is a quantity in the recording."""
     lines = """p = np.arange(2.5, 360, 25) * math.pi / 180  # [deg] positions

@@ -15,6 +15,7 @@ from urllib.parse import quote
 import numpy as np
 import pytest
 import test_html_find
+from as_script import as_command
 from conftest import WITHIN, until
 from in_browser import faults
 from playwright.sync_api import Browser, Page, expect
@@ -27,11 +28,11 @@ from mechsheet.document.shortened import ENDS
 from mechsheet.html import write
 from mechsheet.html.mathml import mathml
 from mechsheet.recording import showing
-from mechsheet.run import arguments
+from mechsheet.run import arguments, html
 from mechsheet.worksheet import inputs
 from mechsheet.worksheet.cells import load
-from mechsheet.worksheet.lines import Numbers
 from mechsheet.worksheet.table import Figure
+from mechsheet.worksheet.typeset import Numbers
 
 ROOT = Path(__file__).parents[1]
 CASES = "500;200|700;100|2500;400|3.5 kN;100|4;0"
@@ -227,7 +228,7 @@ def without_rounding(text: str) -> tuple[str, ...]:
 
 
 def test_nothing_is_asked_for_and_only_its_own_script_runs(document: Callable[..., Path]) -> None:
-    text = document("hitch").read_text(encoding="utf-8")
+    text = document("slotted_link", **SHEETS["slotted_link"]).read_text(encoding="utf-8")
     policy = re.search('Content-Security-Policy" content="([^"]*)"', text)
     assert policy and policy[1].startswith("default-src 'none'; ")
     script = text[text.rindex("<script>") + 8 : text.rindex("</script>")]
@@ -498,32 +499,25 @@ def test_texts_of_inputs_are_no_markup(tmp_path: Path, offline: Page) -> None:
 
 @pytest.mark.parametrize("name", ["hitch_design", "accuracy"])
 def test_a_worksheet_of_searches_or_measurements_is_refused_in_a_line(name: str, tmp_path: Path) -> None:
-    command = [sys.executable, "-m", "mechsheet", "html", str(ROOT / "worksheets" / f"{name}.py"), f"--out={tmp_path}"]
-    done = subprocess.run(command, capture_output=True, encoding="utf-8", timeout=WITHIN)
+    done = as_command(html, ROOT / "worksheets" / f"{name}.py", f"--out={tmp_path}")
     assert done.returncode == 1
     assert re.fullmatch(rf"error: {name} computes by \w+, over many runs: a page cannot follow that\n", done.stderr)
     assert list(tmp_path.iterdir()) == []
 
 
-def test_the_command_writes_the_page_with_the_inputs_given(tmp_path: Path) -> None:
-    sheet = str(ROOT / "worksheets" / "examples" / "bucket.py")
+def test_the_command_writes_the_page_with_the_inputs_given(document: Callable[..., Path], tmp_path: Path) -> None:
+    """The same in two runs, whatever order they have for what is in no order: it is kept in versions."""
+    sheet, given = str(ROOT / "worksheets" / "slotted_link.py"), SHEETS["slotted_link"]
     command = [sys.executable, "-m", "mechsheet", "html", sheet, f"--out={tmp_path}"]
-    done = subprocess.run(command, capture_output=True, encoding="utf-8", timeout=WITHIN)
+    command += [f"--{name}={value}" for name, value in given.items()]
+    seed = "2" if os.environ.get("PYTHONHASHSEED") == "1" else "1"
+    environment = {**os.environ, "PYTHONHASHSEED": seed}
+    done = subprocess.run(command, env=environment, capture_output=True, encoding="utf-8", timeout=WITHIN)
     assert done.returncode == 0, done.stderr
-    text = (tmp_path / "bucket.html").read_text(encoding="utf-8")
-    assert done.stdout == f"written {tmp_path / 'bucket.html'}, {round(len(text.encode()) / 1000)} kB\n"
-
-
-def test_two_runs_write_the_same_page(tmp_path: Path) -> None:
-    """Whatever order a run has for what is in no order: a page that is kept in versions changes only where it does."""
-    pages = []
-    for seed in ("1", "2"):
-        sheet = str(ROOT / "worksheets" / "slotted_link.py")
-        command = [sys.executable, "-m", "mechsheet", "html", sheet, f"--out={tmp_path / seed}"]
-        environment = {**os.environ, "PYTHONHASHSEED": seed}
-        subprocess.run(command, check=True, capture_output=True, env=environment, timeout=WITHIN)
-        pages.append((tmp_path / seed / "slotted_link.html").read_text(encoding="utf-8"))
-    assert pages[0] == pages[1]
+    path = tmp_path / "slotted_link.html"
+    text = path.read_text(encoding="utf-8")
+    assert done.stdout == f"written {path}, {round(len(text.encode()) / 1000)} kB\n"
+    assert text == document("slotted_link", **given).read_text(encoding="utf-8")
 
 
 def test_the_button_of_the_page_writes_it_with_the_inputs_there(serve: Any, page: Page, offline: Page) -> None:

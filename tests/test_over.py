@@ -58,6 +58,51 @@ def test_what_has_no_place_says_none(line: str, tmp_path: Path) -> None:
     assert shown(run(tmp_path, f"{line}  # [-] line"), "y") == ""
 
 
+MOVED = [
+    "y = np.sort(v)",
+    "y = np.array(sorted(v, reverse=True))",
+    "y = v[::-1]",
+    "y = v[np.argsort(v)]",
+    "order = np.argsort(v)\ny = v[order]",
+    "y = np.flip(v) * 2",
+    "y = np.roll(v, 5)",
+    "y = np.concatenate([v[5:], v[:5]])",
+    "y = np.append(v[5:], v[:5])",
+    "y = np.r_[v[5:], v[:5]]",
+    "y = np.unique(v)",
+    "y = linspace(v.min(), v.max(), 21)",
+    "y = v * 1  # [-] line\ny.sort()",
+    "y = 2 * v\nw = np.sort(y)\ny = w + 1",
+    "y = np.array([v[20 - i] for i in range(21)])",
+    "y = np.array([v[-i] for i in range(21)])",
+    "def turned(field):\n    return field[::-1]\ny = turned(v)",
+    "def turned():\n    return np.sort(v)\ny = 2 * turned()",
+    "w = np.sort(v)\nz = 2 * w\ny = z**2",
+]
+STAYS = [
+    "y = np.cumsum(v)",
+    "y = np.maximum.accumulate(v)",
+    "y = np.gradient(v, x)",
+    "w = np.sort(v)\nm = w[3]\ny = v - m",
+    "y = np.array([v[i] * 2 for i in range(21)])",
+]
+
+
+@pytest.mark.parametrize("line", MOVED)
+def test_elements_that_are_put_elsewhere_have_no_place(line: str, tmp_path: Path) -> None:
+    """As many numbers do not make the axis that of another field."""
+    names = run(
+        tmp_path, f'v = (x - 1.05) ** 2 + x / 9  # [-] not in order\n{line}  # [-] line\ntable_2 = table("2", "", x, y)'
+    )
+    assert np.size(names["y"]) == 21 and shown(names, "y") == "" and "least at x" in shown(names, "v")
+
+
+@pytest.mark.parametrize("line", STAYS)
+def test_elements_that_stay_have_their_places(line: str, tmp_path: Path) -> None:
+    names = run(tmp_path, f"v = (x - 1.05) ** 2 + x / 9  # [-] not in order\n{line}  # [-] line")
+    assert "least at x" in shown(names, "y")
+
+
 def test_a_few_numbers_stand_in_full_and_say_no_place(tmp_path: Path) -> None:
     assert shown(run(tmp_path, "y = x**2  # [-] line", n=10), "y") == ""
 

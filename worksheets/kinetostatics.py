@@ -648,8 +648,8 @@ def kind_1(D, F_in2, F_in3, G2, G3, K, M_in2, M_in3, R34, R36, S3, g, gamma34, g
 
 @app.cell
 def compared(
-    A_45, A_67, B_45, D, E, F6, F7, F_Q, F_gas, G2, G3, G4, G5, G6, G7, K, M7, R03, R05, R07, R12, R23, R34, R34_n, R36,
-    R36_n, R36_t, R45, R76, S2, S3, S4, S6, S7, T6, a_E, a_S2, a_S3, a_S4, a_S6, a_S7, eps2, eps3, eps4, eps6, g,
+    A_45, A_67, B_45, D, E, F6, F7, F_Q, F_gas, G2, G3, G4, G5, G6, G7, H, K, M7, R03, R05, R07, R12, R23, R34, R34_n,
+    R36, R36_n, R36_t, R45, R76, S2, S3, S4, S6, S7, T6, a_E, a_S2, a_S3, a_S4, a_S6, a_S7, eps2, eps3, eps4, eps6, g,
     gamma03, gamma05, gamma07, gamma12, gamma23, gamma34, gamma36, gamma45, gamma6, gamma76, group_23, group_45,
     group_67, h76, l_HK, lost, phi4, phi6,
 ):  # fmt: skip
@@ -672,8 +672,8 @@ def compared(
     R05_printed = -(A_45 * sin(phi4) - B_45 * cos(phi4)) / cos(phi4 + g.phi05)  # [N] (1.26) as printed (erratum)
     lines_42 = typeset()
     found_67 = group_67.reactions(
-        [Load(G6 + F_gas, S6), inertia(S6, g.m6, g.J6, a_S6, eps6)],
-        [Load(G7 - F_gas, S7), inertia(S7, g.m7, g.J7, a_S7, eps6)],
+        [Load(G6, S6), Load(F_gas, K), inertia(S6, g.m6, g.J6, a_S6, eps6)],
+        [Load(G7, S7), Load(-F_gas, H), inertia(S7, g.m7, g.J7, a_S7, eps6)],
     )
     R_K = found_67.R_A  # [N] rocker 3 on the rod 6, at K
     R_H = found_67.R_B  # [N] frame on the cylinder 7, at H

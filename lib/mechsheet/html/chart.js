@@ -103,7 +103,7 @@ function legendSVG(lines) {
 
 function chartSVG(spec, whole, results) {
   const at = pointsShown(whole), columns = at ? whole.map(values => at.map(i => values[i])) : whole;
-  const [x, ...lines] = spec.columns, [xs, ...ys] = columns, every = at ? 1 : spec.every;
+  const [x, ...lines] = spec.columns, [xs, ...ys] = columns, every = at ? 1 : argument(spec.every, results);
   const marks = spec.marks.map(mark => ({...mark, x: mark.key === undefined ? mark.x : results.values[mark.key] / x.factor}));
   const across = axisOf([xs, ...marks.map(mark => [mark.x])], x.unit), up = axisOf(ys, lines[0].unit);
   const kx = PLOT.width / (across.high - across.low), ky = -PLOT.height / (up.high - up.low);

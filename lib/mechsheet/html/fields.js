@@ -19,7 +19,7 @@ function readNumber(field, text) {
   const unit = match[2].trim();
   if (unit && unit !== field.unit) {
     if (!(unit in field.units)) refuse(field, `'${text.slice(0, 60)}'`, `has a unit that is none of ${Object.keys(field.units).join(", ") || "them"}`);
-    x = Number(significant(x * (field.units[unit] / field.factor), 15));
+    x = Number(significant(x * field.units[unit], 15));
   }
   if (field.whole && !Number.isInteger(x)) refuse(field, x, "must be a whole number");
   if (!Number.isFinite(x)) refuse(field, x, "must be a finite number");

@@ -111,13 +111,12 @@ def _told(g: Any) -> Iterator[dict[str, Any]]:
 def _number(field: Input) -> dict[str, Any]:
     """How a number is read: its unit, its limits, whether it is whole."""
     limits = [[sign, other if other[0].isalpha() else number(other)] for sign, other in field.limits]
-    others = {name: parse(unit).factor for unit in units.alike(field.unit) for name in (unit, units.shown(unit))}
     return {
         "name": field.name,
         "meaning": field.meaning,
         "unit": "" if field.unit == "-" else numbers.in_text(field.unit),  # of messages
         "factor": parse(field.unit).factor,
-        "units": others if field.unit != "-" else {},
+        "units": units.convertible(field.unit) if field.unit != "-" else {},  # by what a number in each is multiplied
         "whole": field.whole,
         "limits": limits,
     }

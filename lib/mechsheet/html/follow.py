@@ -28,13 +28,14 @@ from mechsheet.worksheet import numbers
 from mechsheet.worksheet.check import Check
 from mechsheet.worksheet.drawing import Drawing
 from mechsheet.worksheet.find import Found
-from mechsheet.worksheet.lines import Numbers
 from mechsheet.worksheet.over import Axis
+from mechsheet.worksheet.said import said
 from mechsheet.worksheet.symbol import read, stem
 from mechsheet.worksheet.system import Solution
-from mechsheet.worksheet.table import Column, Figure, Table
+from mechsheet.worksheet.table import Column, Figure, Table, usual_decimals
 from mechsheet.worksheet.terms import is_rounding, may_be_rounding, terms
 from mechsheet.worksheet.title import Caption, Mark
+from mechsheet.worksheet.typeset import Numbers
 from mechsheet.worksheet.verdict import Verdict
 
 Spec = dict[str, Any]  # one element of the page, as JSON
@@ -49,6 +50,7 @@ class Follower:
     def __init__(self, recording: Recording, numbers: Numbers | None = None) -> None:
         self.recording = recording
         self.numbers = numbers  # of the run, by the names that formulas read
+        self._said = said(numbers.namespace) if numbers else None
         self.keys: dict[Node, str] = {}
         self.specs: list[Spec] = []
         self.drawn: dict[int, Drawn] = {}  # recorded drawings by the identity of what is shown
@@ -106,7 +108,7 @@ class Follower:
 
     def _guards(self, guards: Iterable[Guard]) -> Spec:
         """Keys of the conditions under which something is known, where there are any, and why not otherwise."""
-        told = [[self.key(guard.holds), otherwise(guard.line)] for guard in guards]
+        told = [[self.key(guard.holds), otherwise(guard)] for guard in guards]
         return {"guards": told} if told else {}
 
     def _named(self, *names: str) -> Spec:
@@ -120,6 +122,11 @@ class Follower:
         if text and any(text in constant for constant in self.texts):
             return shown
         return f"<span{self.mark('own')}>{shown}</span>" if self.depends else shown
+
+    def while_same(self, name: str, shown: str) -> str:
+        """What is shown of a name while Python sees the same for it."""
+        guards = self._guards(self.recording.looked.get(name, ()))
+        return f"<div{self.mark('own', fixed=True, of=name, **guards)}>{shown}</div>" if guards else shown
 
     @property
     def wanted(self) -> dict[str, Node]:
@@ -183,13 +190,9 @@ class Follower:
             return self.mark("value", keys=None, fixed=known, **spec, **guards) if guards or not known else ""
         if held.extent != shape:
             spec["at"] = line.position
-        elif self.about_nothing(line):
-            added: Any = terms(line.formula.expression, self.recording.values)
-            if not isinstance(added, Quantity) and self._left_over(line):
-                added = terms_of(held, self.recording.names)
-            spec |= {"terms": self.key(added.re)} if isinstance(added, Quantity) else {}
-        elif line.over:
-            spec["over"] = [self._axis(axis) for axis in line.over.axes]
+        else:
+            spec |= self._terms(line, held)
+            spec |= {"over": [self._axis(axis) for axis in line.over.axes]} if line.over else {}
         same = held.extent == shape or held.extent[:-1] == shape
         return self.mark("value", keys=[self.key(part) for part in held.parts] if same else None, **spec, **guards)
 
@@ -205,7 +208,17 @@ class Follower:
         held = self.recording.values.get(line.formula.name)
         if not isinstance(held, Quantity) or not may_be_rounding(line.value, line.formula.unit):
             return False
-        return numbers.is_rounding(line.value, terms_of(held, self.recording.names).value)
+        return numbers.is_rounding(line.value, terms_of(held).value)
+
+    def _terms(self, line: Line, held: Quantity) -> Spec:
+        """Keys of what a line adds, and of what it and all behind it add: for other inputs rounding may be left."""
+        if held.dtype.kind not in "fc":
+            return {}
+        added, behind = terms(line.formula.expression, self.recording.values), terms_of(held)
+        own = [abs(part).re for part in (held.real, held.imag)]
+        told = {"terms": added.re} if isinstance(added, Quantity) else {}
+        told |= {} if behind.re.op == "constant" or behind.re in own else {"left": behind.re}
+        return {name: self.key(node) for name, node in told.items()}
 
     def _axis(self, axis: Axis | None) -> Spec | None:
         """The quantity along an axis of a field; None of one that is not known, or not for other inputs."""
@@ -250,7 +263,15 @@ class Follower:
         """Attribute of a block of columns of a table."""
         nodes = self._columns(table.number, table.columns)
         at = {id(column): n for n, column in enumerate(table.columns)}
-        return self.mark("table", columns=[self._column(c, nodes[at[id(c)]]) for c in shown])
+        decimals = self.argument(f"table {table.number} decimals")
+        others = {} if decimals is None else {"decimals": decimals}
+        each = (self._column(c, nodes[at[id(c)]]) for c in shown)
+        return self.mark("table", columns=[c | others if c["decimals"] else c for c in each])
+
+    def argument(self, name: str, own: Any = None) -> Any:
+        """The key of a recorded argument of what is shown, or the run's own."""
+        node = self.recording.arguments.get(name)
+        return own if node is None else self.key(node)
 
     def figure(self, figure: Figure) -> list[Spec]:
         """Columns of a figure, x first."""
@@ -277,6 +298,7 @@ class Follower:
     def _column(self, column: Column, node: Node | bool) -> Spec:
         own: Spec = {"decimals": column.decimals, "power": column.power}
         own |= {"unit": self.unit(column.unit), "of": column.of}
+        own |= {"typed": usual_decimals(column.unit)} if column.typed else {}
         own |= {"factor": units.parse(column.unit).factor if column.unit else 1.0, "rows": len(column.values)}
         if isinstance(node, bool):
             return own | {"key": None, "fixed": node, "texts": column.texts(numbers.AXIS), "values": _listed(column)}
@@ -308,7 +330,7 @@ class Follower:
         name = next((name for name, value in names.items() if value is found), "")
         match found:
             case Found(words=words):
-                key, told, own = f"{name}.{words.unknown}", _of_one(found), found._value
+                key, told, own = f"{name}.{words.unknown}", self._of_one(found), found._value
             case Solution(words=words):
                 key, told, own = f"{name}.{words.names[0]}", _of_several(found), found._values[0]
             case _:
@@ -317,16 +339,19 @@ class Follower:
         again = solved and solved.node.op == "found" and np.array_equal(solved.node.value, own, equal_nan=True)
         return self.mark("found", key=key, words=told if again else None, **self._named(name))
 
+    def _of_one(self, found: Found) -> Spec:
+        words = found.words
+        return {
+            "unknown": self.in_words(words.unknown, found.names),
+            "quantity": self.in_words(words.quantity),
+            "plain": {"unknown": escape(words.unknown), "quantity": escape(words.quantity)},
+            "unit": _measured(words.unit),
+            "unknown_unit": _measured(words.unknown_unit),
+        }
 
-def _of_one(found: Found) -> Spec:
-    words = found.words
-    return {
-        "unknown": in_words(words.unknown, found.names),
-        "quantity": in_words(words.quantity),
-        "plain": {"unknown": escape(words.unknown), "quantity": escape(words.quantity)},
-        "unit": _measured(words.unit),
-        "unknown_unit": _measured(words.unknown_unit),
-    }
+    def in_words(self, sentence: str, names: tuple[str, ...] = ()) -> str:
+        """HTML of a sentence, names of the worksheet as symbols."""
+        return in_words(sentence, names, self._said)
 
 
 def _of_several(found: Solution) -> Spec:

@@ -40,6 +40,13 @@ function plainFixed(x, decimals) {
   return rounded.slice(0, -1) + (rounded.at(-1) - 1);
 }
 
+// So many decimals, or one or two more where these show numbers as they were typed.
+function asTyped(values, decimals) {
+  const known = Array.from(values).filter(Number.isFinite);
+  const tell = more => known.every(x => Math.abs(x - Math.round(x * 10 ** more) / 10 ** more) <= 1e-6 * 10 ** -more);
+  return [decimals, decimals + 1, decimals + 2].find(tell) ?? decimals;
+}
+
 function fixed(x, decimals, to) {
   if (!Number.isFinite(x)) return unlimited(x, to);
   const text = plainFixed(x, decimals);
@@ -87,13 +94,13 @@ function piece(part, read) {
   return instead.reduce((told, [old, now]) => told.replaceAll(old, () => now), formatted(typeof x === "number" ? x : x[0], spec));
 }
 
-// Five significant digits or all before the point; a power of ten outside 1e-3..1e6.
+// Five significant digits or all before the point, six of what has no more; a power of ten outside 1e-3..1e6.
 function usual(x, to) {
   if (!Number.isFinite(x)) return unlimited(x, to);
   if (x === 0) return "0";
   const size = Math.abs(x), sign = x < 0 ? to.minus : "";
   if (size >= 1e5 && size < 1e6) return sign + plainFixed(x, 0);
-  const [mantissa, power] = digitsOf(x, 5);
+  const isShort = significant(x, 6) === significant(x, 12), [mantissa, power] = digitsOf(x, isShort ? 6 : 5);
   if (size >= 1e-3 && size < 1e6) return sign + trimmed(positional(mantissa, power));
   const shown = trimmed(`${mantissa[0]}.${mantissa.slice(1)}`);
   const raised = (power < 0 ? to.minus : "") + Math.abs(power);
@@ -104,11 +111,13 @@ const ROUNDING = 2 ** -48; // of the largest number of a field: what is less may
 
 const elements = part => (typeof part === "number" ? [part] : part);
 
-// Whether numbers that are sums of terms, by their magnitudes, are none but roundings of these.
-function isRounding(parts, terms) {
-  const sizes = elements(terms), [re, im] = parts.map(elements);
-  const least = i => ROUNDING * (sizes.length === re.length ? sizes[i] : Math.min(...sizes));
-  return re.every((x, i) => Math.hypot(x, im ? im[i] : 0) <= least(i));
+// Whether numbers that are sums of terms, by their magnitudes, are less than the most, and none but roundings of these.
+function isRounding(parts, terms, most) {
+  if (terms === undefined) return false;
+  const sizes = elements(terms), [re, im] = parts.map(elements), least = Math.min(...sizes);
+  const magnitudes = Array.from(re, (x, i) => Math.hypot(x, im ? im[i] : 0)), greatest = Math.max(...magnitudes);
+  const isSum = greatest > 0 && greatest < most && sizes.some(x => x !== 0);
+  return isSum && magnitudes.every((x, i) => x <= ROUNDING * (sizes.length === re.length ? sizes[i] : least));
 }
 
 // A value in SI, a field or a point of two parts, in its display unit: what stands between the equals sign and the meaning.

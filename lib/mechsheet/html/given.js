@@ -1,15 +1,18 @@
 // Inputs that differ from the document's own as texts: in an address, and as a scene file.
-const addressOf = given => given.map(({name, text}) => `${name}=${encodeURIComponent(text)}`).join("&");
+const addressOf = given => given.map(({name, text}) => [name, text].map(encodeURIComponent).join("=")).join("&");
 
 function textsIn(hash) {
+  const decoded = text => {
+    try {
+      return decodeURIComponent(text);
+    } catch {
+      return text; // a percent sign as it stands
+    }
+  };
   const parts = hash.slice(1).split("&").filter(part => part.includes("="));
   return new Map(parts.map(part => {
     const at = part.indexOf("=");
-    try {
-      return [part.slice(0, at), decodeURIComponent(part.slice(at + 1))];
-    } catch {
-      return [part.slice(0, at), part.slice(at + 1)]; // a percent sign as it stands
-    }
+    return [decoded(part.slice(0, at)).normalize("NFKC"), decoded(part.slice(at + 1))]; // as Python reads a name
   }));
 }
 
@@ -18,8 +21,8 @@ function sceneText(given) {
   const quoted = text => JSON.stringify(text).replaceAll("\u007f", "\\u007f");
   const lines = given.map(({name, kind, text}) => {
     const number = kind === "number" && /^[+-]?\d+(\.\d+)?([eE][+-]?\d+)?$/.test(text);
-    if (kind === "switch") return `${name} = ${text === "yes"}`;
-    return `${name} = ${number ? text : quoted(text)}`;
+    const value = kind === "switch" ? text === "yes" : number ? text : quoted(text);
+    return `${/^\w+$/.test(name) ? name : quoted(name)} = ${value}`;
   });
   return `[inputs]\n${lines.join("\n")}\n`;
 }

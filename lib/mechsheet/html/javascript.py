@@ -12,6 +12,7 @@ import numpy as np
 from mechsheet.html import moves
 from mechsheet.html.elementwise import array, literal, places
 from mechsheet.html.scope import Program, Rule, Scope
+from mechsheet.quantities.graph import Guard
 from mechsheet.quantities.lines import Recording
 from mechsheet.quantities.node import Block, Node, bottom_up
 from mechsheet.units import parse
@@ -48,7 +49,7 @@ def module(recording: Recording, wanted: Mapping[str, Node]) -> str:
     conditions += [node.args[1] for node in every if node.op == "sized"]
     gaps = {gap.line for gap in recording.gaps}
     looked = {
-        holds: guard.line
+        holds: otherwise(guard)
         for holds, guard in recording.guards.items()
         if not (guard.rows or guard.turns or guard.line in gaps)
     }
@@ -65,7 +66,7 @@ def module(recording: Recording, wanted: Mapping[str, Node]) -> str:
         *scope.lines,
         f"const out={{values:{{{values}}},gaps:{{}},guards:[],found:{{{verdicts}}}}};",
         *_told(recording, scope, wanted, found),
-        *(f"{scope.text(holds)}||out.guards.push({json.dumps(otherwise(line))});" for holds, line in looked.items()),
+        *(f"{scope.text(holds)}||out.guards.push({json.dumps(why)});" for holds, why in looked.items()),
         "return out}",
     ]
     return "\n".join(["const evaluate=(()=>{", functions, *lines, "return evaluate})();"])
@@ -133,15 +134,16 @@ def _reason(recording: Recording, scope: Scope, node: Node) -> tuple[str, str] |
     if node.op == "sized":
         return scope.text(node.args[1]), f"line {node.line}: {_COUNTED}"
     if _is_guarded(recording, node):
-        line = recording.guards[node.args[0]].line
-        gap = next((gap.reason for gap in recording.gaps if gap.line == line), "")
-        return scope.text(node.args[0]), f"line {line}: {gap}" if gap else otherwise(line)
+        guard = recording.guards[node.args[0]]
+        gap = next((gap.reason for gap in recording.gaps if gap.line == guard.line), "")
+        return scope.text(node.args[0]), f"line {guard.line}: {gap}" if gap else otherwise(guard)
     return None
 
 
-def otherwise(line: int) -> str:
+def otherwise(guard: Guard) -> str:
     """Why something is not known where Python takes another way than it took."""
-    return f"line {line}: for these inputs the worksheet's code goes another way"
+    why = guard.why or "for these inputs the worksheet's code goes another way"
+    return f"line {guard.line}: {why}"
 
 
 def _taken(scope: Scope, node: Node) -> str:

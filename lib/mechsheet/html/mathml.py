@@ -34,7 +34,7 @@ from mechsheet.document.formula import (
 )
 from mechsheet.worksheet import numbers
 from mechsheet.worksheet.numbers import Notation
-from mechsheet.worksheet.symbol import GREEK, Symbol
+from mechsheet.worksheet.symbol import LETTERS, Symbol
 
 # What is no digit stands outside the element of a number, which it ends and begins again.
 NUMBER = Notation(
@@ -54,7 +54,7 @@ _ENDING, _BLANK = re.compile("^ | $"), "\u00a0"  # a plain blank at the end of a
 _EMPTY = re.compile("<(mn|mtext)></\\1>")
 _THIN, _COMMA, _QUAD = '<mspace width=".17em"/>', '<mo separator="true">,</mo>', '<mspace width="1em"/>'
 _FORM = ' form="{}"'  # of a bar, which may begin or end
-_GREEK = re.compile(f"([{''.join(GREEK.values())}])")
+_GREEK = re.compile(f"([{LETTERS}])")
 _UPRIGHT = re.compile("[A-ZΓΔΘΛΞΠΣΥΦΨΩ]")  # Greek capitals, and letters of an index
 _WORDS = ("mod", "and", "or")
 _DOTS = {".": "˙", "..": "¨"}
@@ -92,10 +92,7 @@ def symbol(s: Symbol) -> str:
 
 def _letters(text: str) -> str:
     """A letter, slanted unless it is a Greek capital, or a word."""
-    return _upright(text) if text in _LETTERS and _UPRIGHT.fullmatch(text) else f"<mi>{escape(text)}</mi>"
-
-
-_LETTERS = frozenset(GREEK.values())
+    return _upright(text) if text in LETTERS and _UPRIGHT.fullmatch(text) else f"<mi>{escape(text)}</mi>"
 
 
 def _upright(text: str) -> str:
@@ -103,9 +100,9 @@ def _upright(text: str) -> str:
 
 
 def _index(text: str) -> str:
-    if text in _LETTERS:
+    if text in LETTERS:
         return _letters(text)
-    return _upright(text) if re.search("[A-Za-z]", text) else f"<mn>{escape(text)}</mn>"
+    return _upright(text) if re.search(r"[^\W\d_]", text) else f"<mn>{escape(text)}</mn>"
 
 
 def _row(parts: Iterable[str]) -> str:

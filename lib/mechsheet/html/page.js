@@ -21,14 +21,14 @@ const show = {
   value(spec, element, results) {
     const parts = spec.keys?.map(key => along(results.values[key], positionOf(spec)));
     const known = parts && parts.every(part => part !== undefined);
-    const where = known && spec.over ? whereText(parts, spec.over, results.values) : "";
-    const isNothing = known && spec.terms && isRounding(parts, results.values[spec.terms]);
+    const isNothing = known && isNothingBut(parts, spec, results.values);
+    const where = known && spec.over && !isNothing ? whereText(parts, spec.over, results.values) : "";
     const text = known && (isNothing ? "≈ " : "") + valueText(isNothing ? parts.map(() => 0) : parts, ...unitNow(spec).slice(1));
     set(element, known ? text + where : "");
     return Boolean(known);
   },
   table(spec, element, results) {
-    const columns = spec.columns.map(column => columnTexts(inUnit(column, results), results));
+    const columns = spec.columns.map(column => columnTexts(inUnit(withDecimals(column, results), results), results));
     const rows = Math.max(...columns.map(texts => texts?.length ?? 0));
     const kinds = spec.columns.map(column => (column.unit ? "" : ' class="ms-text"'));
     const cells = k => columns.map((texts, n) => `<td${kinds[n]}>${texts ? escaped(texts[k] ?? "") : ""}</td>`).join("");
@@ -46,7 +46,7 @@ const show = {
   },
   chart(spec, element, results) {
     const switched = chartInUnits(spec, results), columns = switched.columns.map(column => columnValues(column, results));
-    const known = columns.every(Boolean);
+    const known = columns.every(Boolean) && argument(spec.every, results) !== undefined;
     set(element, known ? chartSVG(switched, columns, results) : "");
     return known;
   },
@@ -81,6 +81,12 @@ const show = {
   },
 };
 
+// Whether a value is nothing but the rounding of what its line adds, or, where it is small in its unit, of all behind it.
+function isNothingBut(parts, {terms, left, unit}, values) {
+  const [, factor] = offersOf({unit})[0];
+  return isRounding(parts, values[terms], 1e-2) || isRounding(parts, values[left], 1e-6 * factor);
+}
+
 // The part of a field at one position of its last axis; all of it where none is meant.
 function along(field, at) {
   if (at === undefined || field === undefined || typeof field === "number") return field;
@@ -97,7 +103,17 @@ function columnValues(column, results) {
   return values === undefined ? null : Float64Array.from(typeof values === "number" ? [values] : values, x => x / column.factor);
 }
 
+// An argument of what is shown, which may be the key of a quantity.
+const argument = (own, {values}) => (typeof own === "string" ? values[own] : own);
+
+// A column with as many decimals as it has for these inputs.
+function withDecimals(column, results) {
+  if (typeof column.decimals === "string") return {...column, decimals: argument(column.decimals, results), own: column.factor};
+  return "typed" in column ? {...column, decimals: asTyped(columnValues(column, results) ?? [], column.typed)} : column;
+}
+
 function columnTexts(column, results) {
+  if (!(column.decimals >= 0 && column.decimals <= 100)) return null; // nobody knows how many, or can write as many
   if (column.key === null && (!column.fixed || !column.own)) return column.fixed ? column.texts : null;
   const values = columnValues(column, results);
   return values && Array.from(values, x => cellText(x, column));
@@ -173,8 +189,9 @@ function showFirst(n) {
 const showOne = (spec, n) => (spec.fixed && !broken(spec, state.results) ? showFirst(n) : showNow(spec, shownBy[n]));
 
 function showNow(spec, element) {
-  const results = state.results, known = show[spec.kind](spec, element, broken(spec, results) ? NOTHING : results);
-  grey(element, known ? "" : reasonOf(spec, results));
+  const results = state.results, why = broken(spec, results);
+  if (why) return empty(spec, element, why);
+  grey(element, show[spec.kind](spec, element, results) ? "" : gapOf(spec, results) ?? UNKNOWN);
 }
 
 // Why the worksheet would show something else; undefined where it would not.
@@ -182,10 +199,6 @@ const broken = (spec, results) => spec.guards?.filter(([key]) => !results.values
 
 // What the page computes for its inputs and the positions of its sliders.
 const computed = () => evaluate({...state.si, ...slid()});
-
-function reasonOf(spec, results) {
-  return broken(spec, results) ?? gapOf(spec, results) ?? UNKNOWN;
-}
 
 function gapOf(spec, results) {
   const keys = [...(spec.keys ?? []), ...(spec.columns ?? []).map(column => column.key), `found ${spec.key}`, spec.limit];
@@ -215,8 +228,10 @@ function grey(element, reason) {
 
 const NOTHING = {values: {}, gaps: {}, guards: [], found: {}};
 
+// Of what has a frame of its own that stays; from all else every number goes, also one that no key stands for.
 function empty(spec, element, reason) {
-  show[spec.kind](spec, element, NOTHING);
+  if (["table", "check"].includes(spec.kind)) show[spec.kind](spec, element, NOTHING);
+  else set(element, "");
   grey(element, reason);
 }
 

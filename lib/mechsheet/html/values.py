@@ -14,7 +14,7 @@ from mechsheet import units
 from mechsheet.document import chart, chart_svg, drawing_svg
 from mechsheet.document.blocks import beside, blocks, fitting
 from mechsheet.document.expression import equation, fields_by_name
-from mechsheet.document.markup import as_written, compared, in_words, meant, message, named, printed, where
+from mechsheet.document.markup import as_written, compared, meant, message, named, once, printed, where
 from mechsheet.document.parts import Control, Line, Section, Text
 from mechsheet.document.shortened import foot, shortened, thinned
 from mechsheet.html import index, markdown, offered
@@ -86,8 +86,9 @@ def _(given: Given, page: Follower) -> str:
 @html.register
 def _(line: Line, page: Follower) -> str:
     formula = line.formula
-    if formula.arguments:
-        return _line(_equation(formula, page), "", formula, known=page.numbers or ())
+    if not formula.has_value:
+        text = once(formula) if formula.again else ""
+        return _line(_equation(formula, page), text, formula, known=page.numbers or ())
     return _valued(line, page.value(line), page.put_in(line), page)
 
 
@@ -107,6 +108,8 @@ def _equation(line: Formula | Given, page: Follower) -> str:
 
 def moving(part: Any, page: Follower, **moved: Any) -> str:
     """A part with the place of what a control moves in it: of a line its value."""
+    if isinstance(part, Line) and not part.formula.has_value:
+        return html(part, page)
     if isinstance(part, Line) and page.along(part):
         return _valued(part, page.value(part, **moved), page.put_in(part, **moved), page)
     place = page.mark("moved", **moved)
@@ -124,8 +127,8 @@ def still(part: Any) -> str:
 
 
 def value(line: Line) -> str:
-    """Value of a line in its display unit; nothing of a line that is a function."""
-    if line.formula.arguments:
+    """Value of a line in its display unit; nothing of a line that has none of its own."""
+    if not line.formula.has_value:
         return ""
     unit = line.formula.unit
     return numbers.value(line.value, unit, offered.notation(unit)) + where(line.value, line.over)
@@ -141,14 +144,19 @@ def _line(
     said = f"<span>{meant(told.meaning, known)}{mistake}</span>" if told.meaning or mistake else ""
     said += f'<span class="ms-number">{printed(told.number)}</span>' if told.number else ""
     shown = f'<span class="ms-formula">{formula}{value}</span>{said}{put_in}'
-    return f'<div class="ms-line" id="line-{told.name}">{shown}</div>'
+    place = "" if told.again else f' id="line-{told.name}"'
+    return f'<div class="ms-line"{place}>{shown}</div>'
 
 
 @html.register
 def _(table: Table, page: Follower) -> str:
     named = f'role="group" aria-labelledby="{_place("Table", table.number)}"'
     parts = "".join(_block(columns, page.columns(table, columns), named) for columns in blocks(table))
-    note = f'<div class="ms-note">{page.own(in_words(table.note), table.note)}</div>' if table.note else ""
+    note = (
+        f'<div class="ms-note">{page.own(page.in_words(table.note, table.said), table.note)}</div>'
+        if table.note
+        else ""
+    )
     return f'<div class="ms-table">{_caption("Table", table.number, table.title, page)}{parts}{note}</div>'
 
 
@@ -175,7 +183,8 @@ def _block(whole: Sequence[Column], follows: str, told: str) -> str:
 def _(figure: Figure, page: Follower) -> str:
     columns = page.figure(figure)
     named = f' role="img" aria-labelledby="{_place("Figure", figure.number)}"'
-    follows = named + page.mark("chart", columns=columns, marks=page.marks(figure), every=figure.every)
+    every = page.argument(f"figure {figure.number} every", figure.every)
+    follows = named + page.mark("chart", columns=columns, marks=page.marks(figure), every=every)
     caption = _caption("Figure", figure.number, figure.title, page)
     known = all(column["key"] is not None or column["fixed"] for column in columns)
     shown = f"<div{follows}></div>" if known else page.picture(follows, _READINGS.sub("", _chart(figure)))
@@ -233,12 +242,13 @@ def _(value: Mark, page: Follower) -> str:
 def _(control: Control, page: Follower) -> str:
     label = control.label if control.unit == "-" else f"{control.label} [{units.shown(control.unit)}]"
     step = control.step or (control.stop - control.start) / 100
-    return (
+    made = (
         f'<div class="ms-player"><label>{escape(label)} <input type="range" data-control="{escape(control.name)}" '
         f'min="{control.start}" max="{control.stop}" step="{step}" value="{control.value}"></label>'
         f"<output>{numbers.significant(control.value, 6)}</output>"
         f'<button type="button" class="ms-play" aria-label="play"{" data-turning" * control.turning}>▶</button></div>'
     )
+    return page.while_same(control.name, made)
 
 
 @html.register
@@ -248,7 +258,7 @@ def _(check: Check, page: Follower) -> str:
     return (
         f'<div class="ms-check" id="{_anchor(check)}"{page.check(check)}>'
         f'<span class="ms-badge ms-{kind}">{verdict}</span> '
-        f'{in_words(check.name)}<span class="ms-compared" data-part="{float(check.utilisation)}">{told}</span> '
+        f'{page.in_words(check.name)}<span class="ms-compared" data-part="{float(check.utilisation)}">{told}</span> '
         f'<span class="ms-note">{message(check.reason)}</span></div>'
     )
 
@@ -261,7 +271,7 @@ def _anchor(check: Check) -> str:
 def _(summary: Summary, page: Follower) -> str:
     items = "".join(
         f'<span data-of="{_anchor(check)}"><span class="ms-badge"></span> '
-        f'<a href="#{_anchor(check)}">{in_words(check.name)}</a> <span class="ms-note"></span></span>'
+        f'<a href="#{_anchor(check)}">{page.in_words(check.name)}</a> <span class="ms-note"></span></span>'
         for check in summary.checks
     )
     return f'<div class="ms-summary" role="status"><b></b><div class="ms-row">{items}</div></div>'
@@ -271,11 +281,11 @@ def _(summary: Summary, page: Follower) -> str:
 def _(found: Verdict, page: Follower) -> str:
     colour = "FAIL" if found.failures() else "PASS" if np.any(found.solved) else "OPEN"
     lines = "".join(f"<div>{message(text)}</div>" for text in found.failures())
-    rows = "".join(f"<tr><th>{escape(k)}</th><td>{in_words(v, found.names)}</td></tr>" for k, v in found.details())
+    rows = "".join(f"<tr><th>{escape(k)}</th><td>{page.in_words(v, found.names)}</td></tr>" for k, v in found.details())
     return (
         f'<div class="ms-found"{page.found(found)}><div>'
         f'<span class="ms-badge ms-{colour}">{found.word()}</span> '
-        f"<b>{in_words(found.headline(), found.names)}</b></div>{lines}<table>{rows}</table></div>"
+        f"<b>{page.in_words(found.headline(), found.names)}</b></div>{lines}<table>{rows}</table></div>"
     )
 
 

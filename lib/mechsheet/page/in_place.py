@@ -29,9 +29,10 @@ from mechsheet.workbook.save import save
 from mechsheet.worksheet import inputs, mistakes, source
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.line_edit import OF_INPUT, Change, asked_for, change, declares, line, same_cells
-from mechsheet.worksheet.lines import Formula, Numbers, Typeset, formulas, no_number
+from mechsheet.worksheet.lines import Formula, formulas
 from mechsheet.worksheet.numbers import on_page
 from mechsheet.worksheet.shown import Shown
+from mechsheet.worksheet.typeset import Numbers, Typeset, no_number
 
 _FILE = "__marimo__cell_in_place"  # under which a line is compiled
 _LINE = re.compile(r"line (\d+), ")

@@ -12,13 +12,14 @@ from mechsheet import units
 from mechsheet.document.expression import equation, fields_by_name, reads, substituted
 from mechsheet.document.formula import Measure
 from mechsheet.document.latex import latex
-from mechsheet.document.markup import attribute, meant, printed, where
+from mechsheet.document.markup import attribute, meant, once, printed, where
 from mechsheet.page import switched
 from mechsheet.page.unchanged import kept
 from mechsheet.worksheet import symbol
-from mechsheet.worksheet.lines import Formula, Given, Numbers, Typeset
+from mechsheet.worksheet.lines import Formula, Given
 from mechsheet.worksheet.over import over
 from mechsheet.worksheet.terms import is_rounding, may_be_rounding
+from mechsheet.worksheet.typeset import Numbers, Typeset
 
 
 def lines(shown: Typeset) -> str:
@@ -44,8 +45,9 @@ def _single(line: Formula | Given, shown: Typeset) -> frozenset[str]:
 def _formula(line: Formula, value: object, shown: Typeset) -> str:
     single = _single(line, shown)
     meaning = meant(line.meaning, shown.numbers or ())
-    if line.arguments:
-        return _line(_equation(line, single), "", meaning, line.number, mistake=line.mistake, line=line)
+    if not line.has_value:
+        text = once(line) if line.again else ""
+        return _line(_equation(line, single), text, meaning, line.number, mistake=line.mistake, line=line)
     text = "" if shown.numbers is None else _substituted(line, shown.numbers, shown.position)
     namespace = shown.numbers.namespace if shown.numbers else None
     cleared = _cleared(line, value, namespace)
@@ -136,7 +138,7 @@ def _line(
     told = f' <span class="ms-badge ms-FAIL">mistake</span> {escape(mistake)}' if mistake else ""
     said = f"<span>{meaning}{told}</span>" if meaning or told else ""
     said += f'<span class="ms-number">{printed(number)}</span>' if number else ""
-    place = f' id="line-{line.name}"' if line else ""
+    place = f' id="line-{line.name}"' if line and not (isinstance(line, Formula) and line.again) else ""
     place += _symbols(line) if isinstance(line, Formula) else ""
     return f'<div class="ms-line"{place}><span class="ms-formula">{formula}</span>{said}{more}</div>'
 

@@ -25,7 +25,7 @@ def html(own: Mapping[str, Any]) -> str:
     checks = [value for value in shown if isinstance(value, Check)]
     # Of a check the whole is compared, and its verdict shown.
     told = {
-        "lines": {name: valued(line, own[name], own) for name, line in registry(own).items() if not line.arguments},
+        "lines": {name: valued(line, own[name], own) for name, line in registry(own).items() if line.has_value},
         "tables": {table.number: _table(table) for table in shown if isinstance(table, Table)},
         "checks": {values.anchor(check.name): [values.html(check), _verdict(check)] for check in checks},
     }

@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 from mechsheet import units
 from mechsheet.page import editor, notebook
 from mechsheet.worksheet.cells import Cell, Worksheet, base, value
-from mechsheet.worksheet.lines import typeset
 from mechsheet.worksheet.table import MARKED, Column, Figure
+from mechsheet.worksheet.typeset import typeset
 from mechsheet.worksheet.verdict import values_only
 
 _PIECES = 120  # of a curve: one takes five pixels

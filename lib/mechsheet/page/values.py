@@ -33,11 +33,12 @@ from mechsheet.worksheet.errors import SheetError, Waits
 from mechsheet.worksheet.index import Index
 from mechsheet.worksheet.inputs import Used
 from mechsheet.worksheet.kinds import Choice, Input, Switch, TextLine
-from mechsheet.worksheet.lines import Typeset
 from mechsheet.worksheet.lists import Rows
+from mechsheet.worksheet.said import said
 from mechsheet.worksheet.shown import Charted, Shown
 from mechsheet.worksheet.table import Column, Figure, Table
 from mechsheet.worksheet.title import Caption, Mark, Note, Player, SideBySide, Slider, Title
+from mechsheet.worksheet.typeset import Typeset
 from mechsheet.worksheet.verdict import Verdict
 
 # Shown by the style sheet that stands where something was refused.
@@ -242,7 +243,7 @@ def _(value: Typeset) -> str:
 def _(check: Check) -> str:
     told = ": " + switched.value(anchor(check.name), check.unit, partial(compared, check)) if check.evaluated else ""
     return (
-        f'<div id="{anchor(check.name)}">{_badge(check)} {in_words(check.name)}{told}'
+        f'<div id="{anchor(check.name)}">{_badge(check)} {_in_words(check.name)}{told}'
         f'<span style="opacity:.7">{_why(check)}</span></div>'
     )
 
@@ -261,7 +262,7 @@ def anchor(name: str) -> str:
 def _(summary: Summary) -> str:
     passed = sum(check.passed for check in summary.checks)
     items = "".join(
-        f"<span>{_badge(check)} {_link(check, in_words(check.name))}{_in_short(check)}</span>"
+        f"<span>{_badge(check)} {_link(check, _in_words(check.name))}{_in_short(check)}</span>"
         for check in summary.worst_first
     )
     worst = "".join(map(_in_bar, summary.worst_first[:1]))
@@ -282,9 +283,19 @@ def _in_short(check: Check) -> str:
 def _in_bar(check: Check) -> str:
     """The worst check: why it fails, or how near to its limit it comes; nothing of one that has no such part."""
     if check.passed:
-        return _link(check, f"{in_words(check.name)} {check.utilised}") if check.utilised else ""
+        return _link(check, f"{_in_words(check.name)} {check.utilised}") if check.utilised else ""
     told = f": {compared(check, check.unit)}" if check.evaluated else ""
-    return _link(check, f"{_badge(check)} {in_words(check.name)}{told}")
+    return _link(check, f"{_badge(check)} {_in_words(check.name)}{told}")
+
+
+def _in_words(sentence: str, names: tuple[str, ...] = ()) -> str:
+    """A sentence, names of the worksheet that is shown as symbols."""
+    if not mo.running_in_notebook():
+        return in_words(sentence, names)
+    try:
+        return in_words(sentence, names, said(notebook.running()[1]))
+    except notebook.Unlike:
+        return in_words(sentence, names)
 
 
 def _link(check: Check, text: str) -> str:
@@ -308,12 +319,12 @@ def _(found: Verdict) -> str:
     lines = "".join(f"<div>{message(text)}</div>" for text in failures)
     rows = "".join(
         f'<tr><td style="opacity:.65;padding:0 1em 0 0">{escape(k)}</td>'
-        f'<td style="padding:0;font-variant-numeric:tabular-nums">{in_words(v, found.names)}</td></tr>'
+        f'<td style="padding:0;font-variant-numeric:tabular-nums">{_in_words(v, found.names)}</td></tr>'
         for k, v in found.details()
     )
     return (
         '<div class="ms-found" style="border-left:3px solid currentColor;padding:.2em .8em;margin:.4em 0">'
-        f"<div>{badge}<b>{in_words(found.headline(), found.names)}</b></div>{lines}"
+        f"<div>{badge}<b>{_in_words(found.headline(), found.names)}</b></div>{lines}"
         f'<table style="border-collapse:collapse;font-size:.9em;margin-top:.3em">{rows}</table></div>'
     )
 
@@ -378,16 +389,15 @@ def _chart(figure: Figure) -> str:
 
 @html.register
 def _(table: Table) -> str:
-    return _table(table)
+    note = f'<div class="ms-note">{_in_words(table.note, table.said)}</div>' if table.note else ""
+    return f'<div class="ms-table">{_table(replace(table, note=""))}{note}</div>'
 
 
 @kept(128)
 def _table(table: Table) -> str:
     caption = _caption("Table", table.number, table.title)
-    note = f'<div class="ms-note">{in_words(table.note)}</div>' if table.note else ""
     columns, left_out = shortened(table.columns)
-    parts = "".join(_block(part, left_out) for part in blocks(replace(table, columns=columns)))
-    return f'<div class="ms-table">{caption}{parts}{note}</div>'
+    return caption + "".join(_block(part, left_out) for part in blocks(replace(table, columns=columns)))
 
 
 def _block(columns: Sequence[Column], left_out: int) -> str:

@@ -5,11 +5,13 @@ import weakref
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
+from functools import partial, reduce
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from mechsheet.quantities.node import Block, Loop, Node, is_number
+from mechsheet.quantities.lengths import Lengths
+from mechsheet.quantities.node import Block, Loop, Node, is_number, steps_of
 from mechsheet.quantities.operations import ELEMENTWISE, REDUCE, REDUCE_SO_FAR, Along, Moved, Values
 
 
@@ -34,6 +36,7 @@ class Guard(NamedTuple):
     rows: bool = False  # it is the number of rows, which a writer with a fixed number of them knows
     lengths: bool = False  # it follows from that number
     turns: bool = False  # a loop ends within the turns that a writer has which does not repeat it
+    why: str = ""  # in other words than that the code goes another way
 
 
 class Gap(NamedTuple):
@@ -55,7 +58,7 @@ class Label(NamedTuple):
     meaning: str
 
 
-class Graph:
+class Graph(Lengths):
     """All nodes of one recording; equal operations on equal operands are one node.
 
     With ``thin`` only every so many of the numbers that ``linspace`` gives are taken: what a worksheet computes from
@@ -69,6 +72,7 @@ class Graph:
     """
 
     def __init__(self, thin: int = 1, draws: bool = False, lists: bool = False, bodies: bool = False) -> None:
+        super().__init__()
         self.thin = thin
         self.bodies = bodies
         self.draws = draws  # drawings are recorded too
@@ -78,11 +82,8 @@ class Graph:
         self.line = 0
         self.work = 0  # numbers computed since somebody set it to 0
         self.most = MOST_DRAWN if draws or bodies else MOST  # that these may be
-        self.fixed = set[Node]()  # which rest on constants alone
         self.counts = set[Node]()  # which rest on numbers of rows, and are these themselves
         self.always = set[Node]()  # which are numbers whatever the inputs are
-        self.lengths: dict[tuple[Node, int], Node] = {}
-        self.sizes: dict[Node, tuple[Node, ...]] = {}
         self.pivots = set[Node]()  # conditions that put the rows of linear equations in order, which may be unlike
         self.nodes: dict[Any, Node] = {}
         self.alike: dict[Any, list[tuple[float, Node]]] = {}  # exported, by what they rest on and shape
@@ -92,6 +93,7 @@ class Graph:
         self.called: dict[Any, Any] = {}  # what functions gave, see `once`, and what numpy's elementwise ones did
         self.supposed = 0  # ways that Python does not take and that are recorded beside it, one in another
         self.labels: dict[Node, Label] = {}
+        self.chosen = list[tuple[Any, Any]]()  # quantities of which places were taken by size, and along which axis
 
     @contextmanager
     def labelled(self, labels: dict[Node, Label]) -> Iterator[None]:
@@ -132,76 +134,19 @@ class Graph:
                 raise NotRecorded(f"it takes more than {self.most:,} operations on single numbers")
         return known
 
-    def see(self, seen: Node, rows: bool = False, turns: bool = False) -> None:
-        """Note that Python looks at a condition, which holds now."""
+    def see(self, seen: Node, rows: bool = False, turns: bool = False, why: str = "") -> None:
+        """Note that Python looks at a condition, which holds now; ``why`` it goes another way where it does not."""
         if seen not in self.fixed:
             kept = self.numbered if rows or turns else self.looked
-            kept.setdefault(seen, Guard(seen, self.line, rows, not rows and seen in self.counts, turns))
+            kept.setdefault(seen, Guard(seen, self.line, rows, not rows and seen in self.counts, turns, why))
 
     def measure(self, node: Node) -> None:
         """Note that Python looks at the shape of a quantity."""
         for axis in range(-len(node.shape), 0) if node.stretches else ():
             self.see(self.same(self.length(node, axis)))
 
-    def length(self, node: Node, axis: int) -> Node:
-        """How many elements a quantity has along an axis, which is counted from the last one."""
-        if not node.stretches:
-            return self.constant(node.shape[axis])
-        if node.op == "rows":
-            count: Node = node.args[0]
-            return count
-        if node.op == "found":  # all unknowns of a block have one shape
-            node = node.args[0].nodes[0]
-        known = self.lengths.get((node, axis))
-        if known is None and node.op == "found" and not node.args[0].residuals:
-            return self._own_length(node, axis)
-        if known is None:
-            if node.op == "found":  # on which its residuals rest
-                self.lengths[node, axis] = self._own_length(node, axis)
-            known = self.lengths[node, axis] = self._length_under(node, axis) or self._own_length(node, axis)
-        return known
-
-    def _own_length(self, node: Node, axis: int) -> Node:
+    def own_length(self, node: Node, axis: int) -> Node:
         return self._kept(("length", node, axis), "length", (node, axis), lambda: np.array(node.shape[axis]), False)
-
-    def _length_under(self, node: Node, axis: int) -> Node | None:
-        """The length of what a quantity is made of, where both are as long whatever the number of rows is."""
-        parts = list[tuple[Node, int]]()
-        if node.op in ELEMENTWISE:
-            parts = [(part, axis) for part in node.args if len(part.shape) >= -axis]
-        elif node.op in ("state", "iterated"):  # which is as it was at first
-            parts = [(node.args[0] if node.op == "state" else node.args[2], axis)]
-        elif node.op == "found":
-            parts = [(part, axis) for part in node.args[0].residuals if part.shape == node.shape]
-        elif node.op == "join":
-            sources, joined = node.args[0], node.args[3].along(len(node.shape))
-            if joined is not None and joined[0] != axis:
-                parts = [(source, axis + (joined[1] and axis < joined[0])) for source in sources]
-            elif joined is not None and (joined[1] or not any(self.stretch(source, axis) for source in sources)):
-                return self.constant(node.shape[axis])
-        elif node.op == "take" and len(node.args[2]) == 1:
-            source, _, (moved,) = node.args
-            origin = moved.origin(axis, len(source.shape))
-            if origin and (origin.whole or origin.axis is None or not self.stretch(source, origin.axis)):
-                return self.length(source, origin.axis) if origin.whole else self.constant(node.shape[axis])
-        found = {self.length(part, k) for part, k in parts if part.stretches}
-        if len(found) > 1:  # what is found for the rows has as many
-            found = {n for n in found if n.op != "length" or n.args[0].op != "found"}
-        fixed = all(part.stretches or part.shape[k] == 1 for part, k in parts)
-        return found.pop() if fixed and len(found) == 1 else None
-
-    def stretch(self, node: Node, axis: int) -> bool:
-        """Whether a quantity stretches along an axis, which is counted from the last one."""
-        return node.stretches and self.length(node, axis) not in self.fixed
-
-    def size(self, node: Node) -> tuple[Node, ...]:
-        """The lengths of all axes."""
-        known = self.sizes.get(node)
-        if known is None:
-            known = tuple(self.length(node, axis) for axis in range(-len(node.shape), 0))
-            if node.op != "found":  # whose residuals tell, once they are known
-                self.sizes[node] = known
-        return known
 
     def like(self, node: Node, *others: Node) -> Node:
         """A quantity in the shape that it has together with others."""
@@ -350,11 +295,15 @@ class Graph:
 
     def reduce(self, kind: str, source: Node, axis: int | None, keepdims: bool) -> Node:
         """What the kind says of the elements along an axis, or of all."""
-        if source.op == "join" and axis is None and kind in ("max", "min") and not keepdims and _whole(source):
-            greatest, *others = [self.reduce(kind, part, None, False) for part in dict.fromkeys(source.args[0])]
-            for other in others:
-                greatest = self.fold(kind, greatest, other)
-            return greatest
+        if axis is None and kind in ("max", "min") and not keepdims and _joined(source):
+            greatest = dict[Node, Node]()
+            for part in (*steps_of(source, _joined, ()), source):
+                each = [greatest[one] for one in _joined(part)] or [self._reduce(kind, part, None, False)]
+                greatest[part] = reduce(partial(self.fold, kind), each)
+            return greatest[source]
+        return self._reduce(kind, source, axis, keepdims)
+
+    def _reduce(self, kind: str, source: Node, axis: int | None, keepdims: bool) -> Node:
         value = REDUCE[kind](source.value, axis=axis, keepdims=keepdims)
         if source.op == "constant":
             return self.constant(value)
@@ -436,11 +385,14 @@ def _exists(node: Node) -> bool:
     return node.op in _MOVING or (node.op in ELEMENTWISE and node.op not in _PARTIAL)
 
 
-def _whole(join: Node) -> bool:
-    """Whether all elements of what is joined are in it."""
-    sources, which, inside, _ = join.args
+def _joined(node: Node) -> tuple[Node, ...]:
+    """The quantities that are joined, each once, where all of their elements are in what is joined."""
+    if node.op != "join":
+        return ()
+    sources, which, inside, _ = node.args
     starts = np.cumsum([0, *(source.size for source in sources)])
-    return len(set((starts[which] + inside).flat)) == int(starts[-1])
+    whole = len(set((starts[which] + inside).flat)) == int(starts[-1])
+    return tuple(dict.fromkeys(sources)) if whole else ()
 
 
 def _fixed(value: Any) -> Values:

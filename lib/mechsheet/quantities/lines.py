@@ -4,10 +4,11 @@ import ast
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import lru_cache
+from operator import attrgetter
 from typing import Any, NamedTuple
 
 from mechsheet.quantities.graph import Gap, Graph, Guard
-from mechsheet.quantities.node import Node
+from mechsheet.quantities.node import Node, steps_of
 from mechsheet.quantities.quantity import Quantity
 from mechsheet.quantities.sketch import Drawn
 from mechsheet.quantities.written import Said
@@ -76,15 +77,18 @@ class Solved:
 class Recording:
     """The quantities of a worksheet, cell by cell, and what it shows of them.
 
-    ``tables`` are the columns by the number of a table, of a figure under ``Fig 1``; ``marks`` the marks of a figure by
-    its number and their labels; ``lines`` those of a section; ``names`` the name that each node has in the worksheet.
-    ``gaps`` are what keeps the numbers of the worksheet's own run, with the reasons, ``unsolved`` the found values that
-    do so in the cells of a workbook alone; ``guards`` the conditions under which all is recorded as the worksheet has
-    it; ``integrals`` what a rule of places gives, with scipy's estimates of the errors where these are taken;
-    ``drawings`` those that a cell shows, by its number, or None for one that is not recorded; ``captions`` and
-    ``texts`` what captions, by their numbers, and cells that are texts say with recorded numbers in it; ``positions``
-    what is marked along charts, by the name of its quantity; ``values`` what the names are in the recording, ``looked``
-    the guards that these rest on. Only every ``every``-th position is recorded.
+    ``tables`` are the columns by the number of a table, of a figure under ``Fig 1``, ``constants`` those of them
+    that hold the same numbers for all inputs; ``arguments`` others that are recorded, by names such as ``table 1
+    decimals``, ``worded`` what is a number while a ``table 1 title`` or note that inputs change is that of the run;
+    ``marks`` the marks of a figure by its number and their labels; ``lines`` those of a section; ``names`` the name
+    that each node has in the worksheet. ``gaps`` are what keeps the numbers of the worksheet's own run, with the
+    reasons, ``unsolved`` the found values that do so in the cells of a workbook alone; ``guards`` the conditions
+    under which all is recorded as the worksheet has it; ``integrals`` what a rule of places gives, with scipy's
+    estimates of the errors where these are taken; ``drawings`` those that a cell shows, by its number, or None for
+    one that is not recorded; ``captions`` and ``texts`` what captions, by their numbers, and cells that are texts
+    say with recorded numbers in it; ``positions`` what is marked along charts, by the name of its quantity;
+    ``values`` what the names are in the recording, ``looked`` the guards that these rest on. Only every
+    ``every``-th position is recorded.
     """
 
     graph: Graph
@@ -93,6 +97,9 @@ class Recording:
     checks: dict[str, Residual] = field(default_factory=dict)
     found: dict[str, Solved] = field(default_factory=dict)
     lines: dict[str, list[Line]] = field(default_factory=dict)
+    constants: set[tuple[str, int]] = field(default_factory=set)
+    arguments: dict[str, Node] = field(default_factory=dict)
+    worded: dict[str, Node] = field(default_factory=dict)
     marks: dict[str, dict[str, Node]] = field(default_factory=dict)
     drawings: dict[int, list[Drawn | None]] = field(default_factory=dict)
     positions: dict[str, Node] = field(default_factory=dict)
@@ -116,14 +123,14 @@ class Recording:
         lines = self.lines.setdefault(section, [])
         line = known.get(name)
         unit, meaning, number = (line.unit, line.meaning, line.number) if line else ("", "", "")
-        text = _source(line.expression) if line else ""
+        text = _source(line.expression) if line and not line.again else ""
         stem = name.removesuffix("_S") if symbol.is_field(name) else name
         ends = ("real", "imag") if value.im is not None else ("",)
         for node, part in zip(value.parts, ends, strict=True):
             if node.op in ("constant", "input") or node in self.names:
                 continue
             self.names[node] = _coordinate(stem, part)
-            self._steps_of(node, stem, lines, set())
+            self._name_steps(node, stem, lines)
             lines.append(Line(node, self.names[node], unit, meaning, text, number))
 
     def define_steps(self, section: str, solved: Solved) -> None:
@@ -131,16 +138,13 @@ class Recording:
         lines = self.lines.setdefault(section, [])
         for node in (solved.inverse, solved.residual):
             if node and node not in self.names:
-                self._steps_of(node, self.names.get(solved.node, ""), lines, set())
+                self._name_steps(node, self.names.get(solved.node, ""), lines)
 
-    def _steps_of(self, node: Node, stem: str, lines: list[Line], seen: set[Node]) -> None:
-        for operand in node.operands:
-            if operand not in self.names and operand.op != "constant" and operand not in seen:
-                seen.add(operand)
-                self._steps_of(operand, stem, lines, seen)
-                if label := self.graph.labels.get(operand):
-                    self.names[operand] = f"{stem}_{label.symbol}"
-                    lines.append(Line(operand, self.names[operand], label.unit, label.meaning))
+    def _name_steps(self, node: Node, stem: str, lines: list[Line]) -> None:
+        for step in steps_of(node, attrgetter("operands"), self.names):
+            if step.op != "constant" and (label := self.graph.labels.get(step)):
+                self.names[step] = f"{stem}_{label.symbol}"
+                lines.append(Line(step, self.names[step], label.unit, label.meaning))
 
 
 def _coordinate(name: str, part: str) -> str:

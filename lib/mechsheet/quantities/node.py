@@ -161,6 +161,21 @@ def bottom_up(roots: Iterable["Node"], known: Container["Node"]) -> Iterator["No
             stack += [operand for operand in node.operands if operand not in begun]
 
 
+def steps_of(node: Node, parts: Callable[[Node], Iterable[Node]], known: Container[Node]) -> Iterator[Node]:
+    """What a quantity is made of by its ``parts``, but for what is ``known``: each once, after its own parts."""
+    seen, stack = set[Node](), [(node, iter(parts(node)))]
+    while stack:
+        whole, rest = stack[-1]
+        part = next((part for part in rest if part not in seen and part not in known), None)
+        if part is not None:
+            seen.add(part)
+            stack.append((part, iter(parts(part))))
+        else:
+            stack.pop()
+            if stack:
+                yield whole
+
+
 def has_equation(found: Node) -> bool:
     """Whether a quantity that is found is one of as many unknowns as its block has equations, which it solves."""
     block, number = found.args

@@ -267,7 +267,9 @@ def _like(value: Any) -> Callable[..., Any]:
 def _first(kind: str) -> Callable[..., Any]:
     def operation(graph: Graph, x: Any, axis: Any = None, keepdims: bool = False) -> Any:
         x = lift(graph, x)
-        x = choice(graph, x, 1.0, 0.0) if x.re.value.dtype == bool else x
+        if x.re.value.dtype == bool:
+            return choice(graph, x, 1.0, 0.0).reduced(kind, axis, keepdims)
+        graph.chosen.append((x, axis))
         return x.reduced(kind, axis, keepdims)
 
     return operation

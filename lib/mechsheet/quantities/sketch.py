@@ -9,8 +9,10 @@ import numpy as np
 from mechsheet.quantities.arithmetic import choice as where
 from mechsheet.quantities.graph import Guard, NotRecorded, current
 from mechsheet.quantities.quantity import Quantity, lift
-from mechsheet.quantities.written import Written
+from mechsheet.quantities.written import Written, seen
 from mechsheet.worksheet.drawing import Drawing
+
+_SEEN = ("width", "height", "unit")  # of a drawing, which are what they are now
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,6 +72,8 @@ class Sketch(Drawing):
     def _with(self, kind: str, points: Any, name: str = "", *_: Any, **others: Any) -> "Drawing":
         for looked in ("measure", "least", "tip"):
             others.pop(looked, None)
+        if "unit" in others:
+            others["unit"] = seen(others["unit"])
         graph = current.get()
         if isinstance(name, Written) and kind != "text" and not name.is_name():
             name = str(name)
@@ -89,6 +93,7 @@ class Drawn:
 
 def drawing(*args: Any, **kwargs: Any) -> Drawing:
     """A new drawing, of recorded quantities where drawings are recorded."""
+    args, kwargs = tuple(map(seen, args[:2])) + args[2:], {k: seen(x) if k in _SEEN else x for k, x in kwargs.items()}
     return (Sketch if current.get().draws else Drawing)(*args, **kwargs)
 
 

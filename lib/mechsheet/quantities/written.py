@@ -145,6 +145,13 @@ def either(holds: Quantity, then: "str | Written", otherwise: "str | Written") -
     return Written((Either(holds, *(Written(tuple(_pieces([side]))) for side in (then, otherwise))),))
 
 
+def seen(value: Any) -> Any:
+    """A number or a text for Python to look at, as it is now; a guard tells while it is the same."""
+    if isinstance(value, Quantity):
+        return value.seen().item() if value.single else value.seen()
+    return str(value) if isinstance(value, Written) else value
+
+
 def looked_at(value: Any) -> Any:
     """A value for what shows it, which is of the texts in it that are said now."""
     if isinstance(value, Written) and not current.get().draws:

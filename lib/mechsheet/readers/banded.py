@@ -127,7 +127,7 @@ _Shown = tuple[str, str, str, Values, Node, bool]
 def _of_lines(recording: Recording, known: Mapping[str, Formula], listed: set[str]) -> Iterator[_Shown]:
     for name, line in known.items():
         quantity = recording.values.get(name)
-        if line.arguments or not isinstance(quantity, Quantity):
+        if not line.has_value or not isinstance(quantity, Quantity):
             continue
         ends = ("real", "imag") if quantity.im is not None else ("",)
         for node, part in zip(quantity.whole().parts, ends, strict=True):

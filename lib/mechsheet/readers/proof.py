@@ -17,7 +17,7 @@ from flint import arb
 
 from mechsheet import units
 from mechsheet.quantities.lines import Recording, Solved
-from mechsheet.quantities.node import LEAVES, Node, bottom_up
+from mechsheet.quantities.node import LEAVES, Node, bottom_up, steps_of
 from mechsheet.quantities.operations import SHAPED, Values
 from mechsheet.quantities.quantity import Quantity
 from mechsheet.readers import lone_root
@@ -221,8 +221,8 @@ class _Shown(NamedTuple):
 def _of_tables(recording: Recording, tables: Iterable[Table], lines: Mapping[str, int]) -> Iterator[_Shown]:
     for table in tables:
         recorded = recording.tables.get(table.number, (None,) * len(table.columns))
-        for column, quantity in zip(table.columns, recorded, strict=True):
-            if column.values.dtype.kind in "biuf":
+        for n, (column, quantity) in enumerate(zip(table.columns, recorded, strict=True)):
+            if column.values.dtype.kind in "biuf" and (table.number, n) not in recording.constants:  # which is given
                 line = lines.get(column.of) or lines.get(f"{column.of}_S", 0)
                 node, factor = None if quantity is None else quantity.re, units.parse(column.unit).factor
                 yield _Shown(f"table {table.number}", column.symbol, line, node, factor, column.values)
@@ -237,7 +237,7 @@ def _of_lines(
 ) -> Iterator[_Shown]:
     for name, line in known.items():
         quantity, own = recording.values.get(name), np.asarray(namespace.get(name))
-        if line.arguments or not isinstance(quantity, Quantity) or own.dtype.kind not in "biufc":
+        if not line.has_value or not isinstance(quantity, Quantity) or own.dtype.kind not in "biufc":
             continue
         if name in fields or (quantity.single and own.size == 1):
             for node, part in zip(quantity.whole().parts, (own.real, own.imag), strict=False):
@@ -358,10 +358,7 @@ _EXACTLY = {"iterated": "a loop takes other turns", "where": "another way is tak
 
 def _addends(node: Node) -> Iterator[Node]:
     """What a sum is made of; nothing of a quantity that is none."""
-    if node.op in ("add", "sub"):
-        for part in node.operands:
-            yield part
-            yield from _addends(part)
+    return steps_of(node, lambda part: part.operands if part.op in ("add", "sub") else (), ())
 
 
 def _is_count(node: Node) -> bool:

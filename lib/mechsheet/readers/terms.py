@@ -3,13 +3,13 @@
 import math
 from collections.abc import Container
 from functools import reduce
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
 from mechsheet.quantities.arithmetic import choice
 from mechsheet.quantities.graph import Graph
-from mechsheet.quantities.node import Node, bottom_up, is_number
+from mechsheet.quantities.node import Node, bottom_up, is_number, steps_of
 from mechsheet.quantities.operations import Moved
 from mechsheet.quantities.quantity import Quantity, lift
 
@@ -66,25 +66,43 @@ def measure(graph: Graph, node: Node, named: Container[Node]) -> Quantity:
     return _Measured(graph, named).of(node)
 
 
-def terms_of(value: Quantity, named: Container[Node]) -> Quantity:
-    """What its elements are measured by; of a point or a vector the larger of its parts' terms."""
-    real, *imaginary = (measure(value.graph, part, named) for part in value.parts)
+def terms_of(value: Quantity, deep: bool = True) -> Quantity:
+    """The largest terms of its elements, of all that these are made of, as much as they move them; of a point its own.
+
+    Where it is not ``deep`` only those of the last sums, which take a tenth of the operations.
+    """
+    measured = (_MeasuredToTheEnd if deep else _MeasuredBySums)(value.graph, ())
+    real, *imaginary = map(measured.of, value.parts)
     return reduce(lambda a, b: Quantity(value.graph, value.graph.fold("max", a.re, b.re)), imaginary, real)
 
 
 class _Measured:
-    """The measures of some quantities."""
+    """The measures of some quantities, by those of what they are made of, down to ``named`` ones."""
+
+    MEASURING: ClassVar = {  # by the operation: which of its operands are measured for it
+        **dict.fromkeys(("neg", "abs", "like", "sized", "div", "pow", "sqrt", "reduce", "take"), slice(1)),
+        **dict.fromkeys(("add", "sub", "max", "min", "mod", "mul"), slice(2)),
+        "where": slice(1, None),
+        "join": slice(None),
+    }
 
     def __init__(self, graph: Graph, named: Container[Node]) -> None:
         self.graph, self.named, self.known, self.made = graph, named, dict[Node, Quantity](), dict[Node, float]()
 
     def of(self, node: Node) -> Quantity:
-        if node not in self.known:
-            ends = node in self.named or node in self.graph.labels or node.op not in _LOOKED_INTO
-            whole = ends and made_of(node, self.made) <= _ALIKE * size_of(node)
-            inside = None if whole else self.inside(node)
-            self.known[node] = abs(Quantity(self.graph, node)) if inside is None else inside
+        for part in () if node in self.known else (*steps_of(node, self.parts, self.known), node):
+            inside = None if self.ends(part) else self.inside(part)
+            self.known[part] = abs(Quantity(self.graph, part)) if inside is None else inside
         return self.known[node]
+
+    def ends(self, node: Node) -> bool:
+        """Whether a quantity is measured by itself, whatever it is made of."""
+        ends = node in self.named or node in self.graph.labels or node.op not in _LOOKED_INTO
+        return ends and made_of(node, self.made) <= _ALIKE * size_of(node)
+
+    def parts(self, node: Node) -> tuple[Node, ...]:
+        """The operands by whose measures it is measured."""
+        return () if self.ends(node) else node.operands[self.MEASURING.get(node.op, slice(0))]
 
     def inside(self, node: Node) -> Quantity | None:
         """By the measures of the operands; None where it is measured by itself."""
@@ -137,6 +155,53 @@ class _Measured:
         return Quantity(self.graph, self.graph.fold("max", one.re, other.re))
 
 
+class _MeasuredToTheEnd(_Measured):
+    """Measures by all that quantities are made of: of a product what its factors are each moves it by the other one."""
+
+    MEASURING: ClassVar = {**_Measured.MEASURING, "div": slice(2), "at": slice(1)}
+
+    def ends(self, node: Node) -> bool:
+        return False
+
+    def inside(self, node: Node) -> Quantity | None:
+        args, sizes = node.operands, [abs(Quantity(self.graph, operand)) for operand in node.operands[:2]]
+        measured: Any = None
+        match node.op:
+            case "mul":
+                a, b = args
+                measured = self.largest(self.of(a) * sizes[1], self.of(b) * sizes[0])
+            case "div":
+                a, b = args
+                measured = self.largest(self.of(a), self.of(b) * sizes[0] / sizes[1]) / sizes[1]
+            case "pow" if is_number(args[1], 2):
+                measured = self.of(args[0]) * sizes[0]
+            case "sqrt":
+                root = Quantity(self.graph, node)
+                measured = choice(self.graph, root > 0, self.of(args[0]) / root, 0.0)
+            case "reduce" if node.args[2] in ("max", "min") and not node.args[3].so_far:
+                measured = self.whole(args[0]).reduced("max", node.args[3].axis, node.args[3].keepdims)
+            case "at":
+                measured = Quantity(self.graph, self.graph.at(self.whole(args[0]).re, args[1]))
+            case _:
+                return super().inside(node)
+        return lift(self.graph, measured)
+
+
+class _MeasuredBySums(_MeasuredToTheEnd):
+    """The same, but for what the terms of a sum are made of, where they are no sums."""
+
+    MEASURING: ClassVar = {**_MeasuredToTheEnd.MEASURING, "add": slice(0), "sub": slice(0)}
+
+    def inside(self, node: Node) -> Quantity | None:
+        if node.op not in ("add", "sub"):
+            return super().inside(node)
+        parts = steps_of(node, lambda part: part.operands if part.op in _SUMS else (), ())
+        first, *others = (abs(Quantity(self.graph, part)) for part in parts if part.op not in _SUMS)
+        largest: Quantity = reduce(self.largest, others, first)
+        return largest
+
+
+_SUMS = ("add", "sub", "neg")
 _ALIKE = 1e3  # times as large as a quantity itself is what it is made of at most where it is no small difference
 _LOOKED_INTO = frozenset((
     "neg", "abs", "add", "sub", "max", "min", "where", "mul", "div", "sin", "cos", "asin", "acos", "atan2", "log",

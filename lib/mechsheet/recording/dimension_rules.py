@@ -238,7 +238,7 @@ class Reader:
         if dims is None or dims == PURE:
             return "- (a number)"
         used = [units.si(unit) for unit in self.used if units.parse(unit).dims == dims]
-        return units.shown(min(used, key=len, default=units.word(dims)))
+        return shown_numbers.in_text(min(used, key=len, default=units.word(dims)))
 
 
 def _equations(solved: Solved) -> Iterator[tuple[Node, str, str]]:

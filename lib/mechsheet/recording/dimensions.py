@@ -9,6 +9,7 @@ from mechsheet.quantities.lines import Recording
 from mechsheet.recording.dimension_rules import Reader
 from mechsheet.recording.pinpoint import Mistake, Places
 from mechsheet.recording.record import record
+from mechsheet.recording.turned import turned
 from mechsheet.worksheet.cells import Worksheet, load
 from mechsheet.worksheet.check import Check
 from mechsheet.worksheet.inputs import declared
@@ -45,9 +46,11 @@ def dimensions(
     ``namespace`` is that of the worksheet's own run, ``known`` its lines that declare a unit.
     """
     values = recording.values
-    lines = [line for line in known.values() if not line.arguments]
+    lines = [line for line in known.values() if line.has_value]
     places = Places(sheet, known)
     reader = Reader(recording, values, namespace, lines, places)
+    for mistake in turned(reader):
+        reader.add(mistake)
     g = inputs_of(namespace)
     for field in declared(type(g)):
         for leaf, _ in field.leaves(getattr(g, field.name)).values():

@@ -26,7 +26,7 @@ def is_left_over(value: Any, line: Formula, namespace: Mapping[str, Any]) -> boo
         found = record(namespace, every=1, want=[line.name]).values.get(line.name)
     except (SheetError, NotRecorded):
         return False
-    return isinstance(found, Quantity) and numbers.is_rounding(value, terms_of(found, ()).value)
+    return isinstance(found, Quantity) and numbers.is_rounding(value, terms_of(found).value)
 
 
 def _multiplies(part: ast.expr, namespace: Mapping[str, Any], lines: Mapping[str, Formula]) -> bool:

@@ -8,9 +8,10 @@ from typing import NamedTuple, TypeGuard
 
 from mechsheet.recording.statement import binds
 from mechsheet.worksheet import source
-from mechsheet.worksheet.cells import Worksheet, bound
+from mechsheet.worksheet.cells import Worksheet
 from mechsheet.worksheet.lines import Formula
 from mechsheet.worksheet.numbers import scientific
+from mechsheet.worksheet.source import bound
 
 _SIGNS: dict[str, tuple[type[ast.AST], ...]] = {
     "add": (ast.Add, ast.Sub), "sub": (ast.Add, ast.Sub), "pow": (ast.Pow,), "mod": (ast.Mod,),

@@ -1,7 +1,7 @@
 """One run of a worksheet's cells with quantities, statement by statement."""
 
 import ast
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from copy import copy
 from dataclasses import fields
 from functools import partial
@@ -22,6 +22,7 @@ from mechsheet.quantities.selected import Selected
 from mechsheet.quantities.sketch import Drawn, Sketch
 from mechsheet.quantities.unrepeatable import Unrepeatable
 from mechsheet.quantities.written import Said, Written
+from mechsheet.readers.terms import terms_of
 from mechsheet.recording import showing, statement
 from mechsheet.recording.given import given
 from mechsheet.recording.memory import Memory, changes, names_of
@@ -29,11 +30,16 @@ from mechsheet.recording.positions import OfPositions
 from mechsheet.recording.stage import Stage, held
 from mechsheet.recording.substitutes import BUILTINS, Module, instead, shared, staged
 from mechsheet.units import Constant
+from mechsheet.worksheet import numbers
 from mechsheet.worksheet.cells import Cell, Worksheet
 from mechsheet.worksheet.drawing import Drawing
-from mechsheet.worksheet.lines import Formula, of_setup
+from mechsheet.worksheet.lines import Formula, of_setup, rebound
 from mechsheet.worksheet.no_inputs import beforehand, inputs_of
+from mechsheet.worksheet.table import Figure, Table
 from mechsheet.worksheet.title import Mark, Slider
+
+_PLACES = {"argmax", "argmin", "argsort"}
+_BY_ROUNDING = "the numbers differ by rounding alone, which tells no place"
 
 
 class Run(OfPositions):
@@ -59,6 +65,7 @@ class Run(OfPositions):
         self.lost: dict[str, NotRecorded] = {}  # names that have no value here, and why
         self.passing: dict[str, Any] = {}  # of these, lines whose numbers are others at the next run
         self.want, self.lines, self.unnamed = want, lines, unnamed
+        self.rebound: Sequence[Formula] = ()  # lines of the present cell whose names others bind anew
         self.constants = of_setup(sheet)  # its lines that end in a unit
         for line in sheet.setup:
             self.set_up(line, sheet.path)
@@ -79,6 +86,8 @@ class Run(OfPositions):
         lines = [part for line in cell.lines for part in self.parts(line)]
         facts = [statement.facts(line, self.sheet.path) for line in lines]
         last = {name: n for n, fact in enumerate(facts) for name in fact.touched}
+        twice = len(last) < sum(len(fact.touched) for fact in facts)
+        self.rebound = rebound(self.sheet, cell.lines) if twice else []
         for n, (line, fact) in enumerate(zip(lines, facts, strict=True)):
             later = {name for name, end in last.items() if end > n}
             if not draws and fact.touched and all(isinstance(self.namespace.get(x), Drawing) for x in fact.touched):
@@ -180,6 +189,7 @@ class Run(OfPositions):
         graph = self.graph
         graph.line, graph.looked, graph.numbered, graph.work = line, {}, {}, 0
         graph.gone.clear()
+        graph.chosen.clear()
         staged.set(stage.shows)
         reads = self.read(facts.loaded)
         functions = (f for f in map(self.names.get, reads) if isinstance(f, FunctionType))
@@ -207,6 +217,10 @@ class Run(OfPositions):
                 of_all = " is of all positions, and only those that tables list are recorded"
                 differ = of_all if graph.thin > 1 else " would differ from the worksheet"
                 raise NotRecorded(", ".join(differs) + differ)
+            if any(not _PLACES.isdisjoint(names_of(code)) for code in codes):
+                self.decided()
+            if any(self.built(final)) and self.leaves(facts, reads, codes, before):
+                raise NotRecorded("its columns are built without table or figure")
         except (Exception, NotRecorded) as error:
             rests_on = [*self.recording.inputs.values()] if differs else self.leaves(facts, reads, codes, before)
             self.keep(stage, touched, final, self.why(error, reads), rests_on)
@@ -217,7 +231,8 @@ class Run(OfPositions):
         ways = may_change and bool(graph.looked)  # of which others change more
         beside = before.named(self.names, before.changed() | (before.mutable() if ways else set())).difference(touched)
         everywhere = not touched and not beside
-        noted = {holds: guard for holds, guard in graph.looked.items() if everywhere and not guard.lengths}
+        known = {k: guard for k, guard in graph.looked.items() if not guard.lengths and (graph.draws or not guard.why)}
+        noted = known if everywhere else {}
         stage.guards |= noted
         self.recording.guards |= graph.numbered | noted
         rests, shown = rests | graph.looked, shown | graph.looked
@@ -268,7 +283,7 @@ class Run(OfPositions):
         numbers = any(type(value) is float or _is_array(value) for value in map(self.names.get, touched))
         made = numbers and any(has_quantity(self.names.get(name)) for name in reads)
         for name in touched:
-            value, line = self.names.get(name), self.lines.get(name) or self.constants.get(name)
+            value, line = self.names.get(name), self.declared(name) or self.constants.get(name)
             if isinstance(value, Constant) or value is units:
                 self.names[name] = instead(value)
             if isinstance(value, Constant | Selected) or value is units:
@@ -279,6 +294,11 @@ class Run(OfPositions):
                 self.names[name] = Quantity(self.graph, self.graph.constant(number, unit))
             elif made and (type(value) is float or _is_array(value)):
                 self.names[name] = Quantity(self.graph, self.graph.constant(value, units.UNKNOWN))
+
+    def declared(self, name: str) -> Formula | None:
+        """The line that declares what the present statement binds a name to, which another one may bind anew."""
+        here = (row for row in self.rebound if row.name == name and row.expression.lineno >= self.graph.line)
+        return next(here, None) or self.lines.get(name)
 
     def set_up(self, line: ast.stmt, path: str) -> None:
         """Run a statement of the setup again where it computes with units or declares one; else its numbers stay."""
@@ -352,6 +372,29 @@ class Run(OfPositions):
         """Names whose recorded numbers are not the worksheet's own."""
         return [name for name in names if not stage.same(self.names.get(name), self.namespace.get(name))]
 
+    def decided(self) -> None:
+        """See that no place was taken by the size of numbers that differ by nothing but the rounding of their terms."""
+        for x, axis in tuple(self.graph.chosen):
+            x = lift(self.graph, x)
+            along = axis if x.ndim > 1 else None
+            low, high = (x.reduced(kind, along) for kind in ("min", "max"))
+            terms = terms_of(x, deep=self.graph.draws).reduced("max", along)
+            nothing = (low == 0) & (high == 0)  # as a spreadsheet program has it where next to nothing is left
+            rounding = (high - low <= numbers.ROUNDING * terms) & ((high > low) | nothing) & (terms > 0)
+            holds = (~rounding).reduced("all")
+            if not holds.value:
+                raise NotRecorded(_BY_ROUNDING)
+            self.graph.see(holds.re, why=_BY_ROUNDING)
+
+    def built(self, names: Iterable[str]) -> Iterator[str]:
+        """Names of tables and figures that no call of `table` or `figure` has made."""
+        for name in names:
+            own = self.namespace.get(name)
+            for each in own if isinstance(own, tuple | list) else [own]:
+                if isinstance(each, Table | Figure):
+                    number = each.number if isinstance(each, Table) else f"Fig {each.number}"
+                    yield from [] if number in self.recording.tables else [name]
+
     def while_same(self, x: Quantity, rests: Iterable[Guard]) -> Quantity:
         """A quantity while Python sees the same, else no number."""
         for guard in rests:
@@ -367,6 +410,8 @@ class Run(OfPositions):
 
     def note(self, guard: Guard) -> None:
         """Note a guard, at the first line that saw the same."""
+        if guard.why and not self.graph.draws:  # cells of a workbook follow all other inputs
+            return
         known = self.recording.guards.get(guard.holds, guard)
         self.recording.guards[guard.holds] = known if known._replace(line=guard.line) == guard else guard
 

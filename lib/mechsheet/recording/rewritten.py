@@ -27,7 +27,7 @@ from mechsheet.recording.forms import (
     sets_beside,
 )
 from mechsheet.worksheet import source
-from mechsheet.worksheet.cells import bound
+from mechsheet.worksheet.source import bound
 
 CALLS = choices.CALLS | in_place.CALLS | kept.CALLS | loops.CALLS
 _NAMES = {"float", "int", "complex", "len", "max", "min", "pow", "round", "sorted"}

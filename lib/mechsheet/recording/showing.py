@@ -110,6 +110,15 @@ def captions(cell: Cell) -> dict[str, ast.expr]:
     return found
 
 
+def stands(cell: Cell, text: Any) -> bool:
+    """Whether a text stands in a cell as an argument, whatever the inputs are, or is none."""
+    if not isinstance(text, str):  # but one with recorded numbers in it, which nobody looks at here
+        return False
+    calls = (node for line in cell.lines for node in source.nodes(line) if isinstance(node, ast.Call))
+    given = (part for call in calls for part in (*call.args, *(keyword.value for keyword in call.keywords)))
+    return not text or any(isinstance(part, ast.Constant) and part.value == text for part in given)
+
+
 def _singly(shown: ast.expr) -> Iterator[ast.expr]:
     match shown:
         case ast.Call(ast.Name(name), args) if name in _ARRANGED:

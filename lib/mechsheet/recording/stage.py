@@ -13,9 +13,11 @@ from mechsheet import units
 from mechsheet.quantities.graph import Guard, NotRecorded
 from mechsheet.quantities.lines import Recording, Residual, Solved
 from mechsheet.quantities.node import Node
+from mechsheet.quantities.numpy_rules import arange
 from mechsheet.quantities.quantity import Quantity, lift
+from mechsheet.quantities.written import seen
 from mechsheet.readers.terms import made_of
-from mechsheet.recording import solving
+from mechsheet.recording import showing, solving
 from mechsheet.recording.substitutes import body, instead
 from mechsheet.worksheet import find, system
 from mechsheet.worksheet.cells import Cell
@@ -59,17 +61,49 @@ class Stage:
             "meanings": self.meanings,
         }
 
-    def table(self, number: str, title: str, *columns: Any, every: Any = 1, **_: Any) -> None:
-        step = int(np.asarray(getattr(every, "value", every)))
-        self._show(number, columns, 1 if self.graph.thin > 1 else step)
+    def table(
+        self, number: str, title: Any, *columns: Any, note: Any = "", every: Any = 1, decimals: Any = None, **_: Any
+    ) -> None:
+        self._argue(f"table {number} decimals", decimals)
+        self._word(f"table {number} title", title)
+        self._word(f"table {number} note", note)
+        self._show(number, columns, every if self.graph.thin == 1 else seen(every) and 1)
 
-    def _show(self, number: str, columns: tuple[Any, ...], every: int) -> None:
-        """Note the columns of a table or a figure."""
+    def _argue(self, name: str, value: Any) -> None:
+        """Note an argument that a page follows; for any other writer it is what it is now."""
+        if self.graph.draws and isinstance(value, Quantity):
+            self.shown_now.append((self.recording.arguments, name))
+            self.recording.arguments[name] = value.re
+        else:
+            seen(value)
+
+    def _word(self, what: str, text: Any) -> None:
+        """Note words that do not stand in the cell."""
+        if not showing.stands(self.cell, text):
+            self.shown_now.append((self.recording.worded, what))
+            self.recording.worded[what] = self.graph.constant(1.0)
+
+    def _show(self, number: str, columns: tuple[Any, ...], every: Any) -> None:
+        """Note the columns of a table or a figure; where rows are of a fixed number, Python sees which it lists."""
         self.shown_now.append((self.recording.tables, number))
-        rows = (lift(self.graph, column) for column in body(listed)(columns, every))
+        follows = self.graph.draws and isinstance(every, Quantity) and max(map(np.ndim, columns), default=0) == 1
+        rows = [lift(self.graph, column) for column in body(listed)(columns, 1 if follows else seen(every))]
+        if follows:
+            at = arange(self.graph, 0, rows[0].count(0), every)
+            rows = [column[at] for column in rows]
         self.recording.tables[number] = tuple(map(copy, rows))  # which later lines may set elements of
 
-    def figure(self, number: str, title: str, *columns: Any, marks: Mapping[str, Any] | None = None, **_: Any) -> None:
+    def figure(
+        self,
+        number: str,
+        title: str,
+        *columns: Any,
+        marks: Mapping[str, Any] | None = None,
+        every: Any = 1,
+        **_: Any,
+    ) -> None:
+        self._argue(f"figure {number} every", every)
+        self._word(f"figure {number} title", title)
         self._show(f"Fig {number}", columns, 1)
         self.shown_now.append((self.recording.marks, number))
         self.recording.marks[number] = {k: lift(self.graph, v).re for k, v in (marks or {}).items()}
@@ -146,7 +180,11 @@ class Stage:
         bound = limit if tells is True else np.where(lift(self.graph, tells), limit, np.nan)
         self._check(name, [abs(p).re for p in parts], bound, unit)
 
-    def stated(self, name: str, residual: Any, limit: Any, unit: str = "-", *_: Any, **__: Any) -> None:
+    def stated(
+        self, name: str, residual: Any, limit: Any, unit: str = "-", reason: str = "", *kind: Any, **named: Any
+    ) -> None:
+        for each in (*kind, *named.values()):
+            seen(each)
         self._check(name, [lift(self.graph, residual).re], limit, "-", signed=True)
 
     def check_slope(
@@ -195,11 +233,15 @@ class Stage:
             if place is recording.tables:
                 each = of_columns if len(of_columns) == len(recording.tables[key]) else repeat(f)
                 columns = [None if c is None else own(c) for c, own in zip(recording.tables[key], each, strict=False)]
-                recording.tables[key] = tuple(None if c is None or c.re.op == "constant" else c for c in columns)
+                constant = {n for n, c in enumerate(columns) if c is not None and c.re.op == "constant"}
+                recording.constants |= {(key, n) for n in constant}
+                recording.tables[key] = tuple(None if n in constant else c for n, c in enumerate(columns))
             elif place is recording.checks:
                 check = recording.checks[key]
                 limit = check.limit if check.limit.op == "constant" else of(check.limit)
                 recording.checks[key] = replace(check, parts=[of(p) for p in check.parts], limit=limit)
+            elif place is recording.worded or place is recording.arguments:
+                place[key] = of(place[key])
             elif place is recording.marks:
                 recording.marks[key] = {name: of(node) for name, node in recording.marks[key].items()}
         for solved in self.solved_now:
@@ -255,6 +297,9 @@ class Stage:
             case bool() | int() | float() | complex() | np.generic() | np.ndarray():
                 return exported(own) if np.asarray(own).dtype.kind in "biufc" else own
             case Table(number=number, columns=columns):
+                for part in ("title", "note"):
+                    if not showing.stands(self.cell, getattr(own, part)):
+                        recording.worded[f"table {number} {part}"] = graph.exported(rests_on, 1.0)
                 self.shown.append((recording.tables, number))
                 recording.tables[number] = tuple(
                     Quantity(graph, graph.exported(rests_on, c.values * units.parse(c.unit).factor)) if c.unit else None

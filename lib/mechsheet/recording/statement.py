@@ -14,9 +14,9 @@ from mechsheet.recording.forms import as_choice
 from mechsheet.recording.memory import operations
 from mechsheet.recording.rewritten import compiled
 from mechsheet.worksheet import source
-from mechsheet.worksheet.cells import bound
 from mechsheet.worksheet.check import Check, check, check_slope
 from mechsheet.worksheet.find import find
+from mechsheet.worksheet.source import bound
 from mechsheet.worksheet.system import minerr
 from mechsheet.worksheet.table import figure, table
 
@@ -62,9 +62,17 @@ def _columns(statement: ast.stmt) -> Iterator[frozenset[str]]:
     """Names that each column of a table or a figure reads, with those that all of it reads."""
     match statement:
         case ast.Assign([ast.Name()], ast.Call(ast.Name("table" | "figure"), [number, title, *columns], keywords)):
-            common = _names(number).union(_names(title), *(_names(k.value) for k in keywords if k.arg not in _BESIDE))
+            others = (_heard(keyword) for keyword in keywords if keyword.arg not in _BESIDE)
+            common = _names(number).union(_names(title), *others)
             if not any(isinstance(column, ast.Starred) for column in columns):
                 yield from (common | _names(column) for column in columns)
+
+
+def _heard(keyword: ast.keyword) -> frozenset[str]:
+    """Names on which all columns rest for an argument; on the positions of marks none does."""
+    if keyword.arg == "marks" and isinstance(keyword.value, ast.Dict):
+        return frozenset[str]().union(*(_names(key) for key in keyword.value.keys if key is not None))
+    return _names(keyword.value)
 
 
 def _names(node: ast.expr) -> frozenset[str]:

@@ -27,11 +27,11 @@ from mechsheet.quantities.once import once
 from mechsheet.quantities.quantity import FUNCTIONS, Quantity, has_quantity, lift
 from mechsheet.quantities.sketch import Sketch, drawing
 from mechsheet.quantities.unrepeatable import instead_of_chance
-from mechsheet.quantities.written import looked_at
+from mechsheet.quantities.written import looked_at, seen
 from mechsheet.recording import scipy_rules, spline_rules
 from mechsheet.recording.choices import total
 from mechsheet.recording.rewritten import NAMES, rebuilt
-from mechsheet.worksheet import check, find, system
+from mechsheet.worksheet import check, find, system, title
 from mechsheet.worksheet.cells import Marimo
 from mechsheet.worksheet.drawing import Drawing
 
@@ -151,11 +151,18 @@ def _of_package(value: Any, room: str) -> Any:
         return _requires
     if value.__name__ in _NOWHERE:
         return _NOTHING
+    if value is title.slider:
+        return _laid_out
     if isinstance(value, type):
         return _group(value) if room.startswith(_ROOMS) and hasattr(value, "__dataclass_fields__") else value
     if room.startswith((*_ROOMS, *_ASKING)):
         return _itself(value)
     return _refused(value.__name__) if room.startswith("mechsheet.studies.") else value
+
+
+def _laid_out(*args: Any, **kwargs: Any) -> Any:
+    """A slider where the worksheet has it: what of it rests on inputs is what it is now."""
+    return title.slider(*map(seen, args), **{key: seen(value) for key, value in kwargs.items()})
 
 
 def _requires(point: Any, *_: Any) -> None:

@@ -1,6 +1,6 @@
 """Where the recorded quantities stand in a workbook: which of them need a cell or a column, and on which sheet."""
 
-from collections import Counter
+from collections import ChainMap, Counter
 from collections.abc import Callable, Container, Iterable, Iterator, Mapping, Sequence, Set
 from dataclasses import dataclass, replace
 
@@ -8,7 +8,7 @@ import numpy as np
 
 from mechsheet import units
 from mechsheet.quantities.lines import Line, Recording
-from mechsheet.quantities.node import LEAVES, Node, bottom_up
+from mechsheet.quantities.node import LEAVES, Node, bottom_up, steps_of
 from mechsheet.workbook.cell_formula import nesting, written_of
 from mechsheet.workbook.place import DefinedNames, Place, called
 from mechsheet.worksheet.table import Table
@@ -103,6 +103,7 @@ class Arrangement:
             yield check.limit
         for marks in self.recording.marks.values():
             yield from marks.values()
+        yield from self.recording.worded.values()
         yield from self.recording.guards
         yield from (line.node for line in self.last)
 
@@ -143,21 +144,10 @@ class Arrangement:
 
     def _parts_of(self, line: Line, waiting: dict[Node, Node]) -> list[Line]:
         """Steps of a line's formula that get a place, in the order of their calculation."""
-        found: list[Line] = []
-        seen: set[Node] = set()
-
-        def walk(node: Node) -> None:
-            for operand in written_of(node):
-                if operand in seen or operand in self.lines or operand in self.places:
-                    continue
-                seen.add(operand)
-                walk(operand)
-                if waiting.pop(operand, None):
-                    step = f"step of {line.symbol if line.text else line.meaning}"
-                    found.append(Line(operand, f"{line.symbol}_{len(found) + 1}", "", step))
-
-        walk(line.node)
-        return found
+        known = ChainMap[Node, object](self.lines, self.places)  # type: ignore[arg-type]
+        steps = [step for step in steps_of(line.node, written_of, known) if waiting.pop(step, None)]
+        meaning = f"step of {line.symbol if line.text else line.meaning}"
+        return [Line(step, f"{line.symbol}_{n}", "", meaning) for n, step in enumerate(steps, 1)]
 
     def _section(self, title: str, lines: Sequence[Line], name: Callable[[str, str], str]) -> Section:
         single, fields = ([line for line in lines if (line.node.size > 1) == many] for many in (False, True))

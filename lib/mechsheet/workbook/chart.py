@@ -67,7 +67,7 @@ class Charts:
         y = scale(np.concatenate([line.values for line in figure.lines]))
         for label, at in figure.marks:
             chart.add_series(self._mark(figure, label, at, (y["min"], y["max"]), place))
-        title = {"name": _label(caption("Figure", figure)), "name_font": {**looks.CHART, "size": 11, "bold": True}}
+        title = {"name": self._title(figure), "name_font": {**looks.CHART, "size": 11, "bold": True}}
         chart.set_title(title)
         if self._formulas:  # written ends would cut what other inputs give
             x, y = _following(x) if self._formulas.moves_along(figure) else x, _following(y)
@@ -79,6 +79,15 @@ class Charts:
         chart.set_chartarea({"border": {"color": "#BFBFBF"}})
         chart.show_na_as_empty_cell()
         return chart
+
+    def _title(self, figure: Figure) -> str:
+        """A text, or a reference to one on the sheet Marks that inputs change."""
+        own = caption("Figure", figure)
+        said = self._formulas and self._formulas.words(f"figure {figure.number} title", own, f"Figure {figure.number}")
+        if not isinstance(said, Live):
+            return _label(own)
+        self._marked.append((said, "title", "", "", "", ""))
+        return f"=Marks!$A${len(self._marked) + 2}"
 
     def _mark(
         self, figure: Figure, label: str, at: float, ends: tuple[float, float], place: Callable[[Column], Place]

@@ -32,7 +32,8 @@ def write(book: Book, index: Index, sheets: Mapping[tuple[str, str], str], formu
             col, shown = (1, name) if name else (0, entry.label)
             if at := _place(entry, sheets, formulas):
                 links.append((len(rows), col, at, shown))
-            rows.append((entry.label, name, entry.text))
+            text = formulas.words(f"{entry.kind} {entry.name} title", entry.text) if formulas else entry.text
+            rows.append((entry.label, name, text))
     sheet = book.listing("Index", "Formulas, tables and figures of the document, and its errata", _FIELDS, rows)
     style = book.style(looks.CELL, looks.LINK)
     for row, col, at, shown in links:

@@ -31,13 +31,13 @@ class GridColumn:
     unit: str
     meaning: str
     limits: tuple[tuple[str, str], ...] = ()
+    whole: bool = False
 
     @property
     def allowed(self) -> str:
         """The limits in words, columns of the same table by their own name."""
-        return ", ".join(
-            f"{sign} {other.rpartition('.')[2] if '.' in self.symbol else other}" for sign, other in self.limits
-        )
+        own = (f"{sign} {other.rpartition('.')[2] if '.' in self.symbol else other}" for sign, other in self.limits)
+        return ", ".join(["whole number"] * self.whole + [*own])
 
 
 @dataclass(frozen=True)
@@ -178,7 +178,10 @@ def _held(
     for k, value in enumerate(column.values):
         row, limiting = first + k, dict(others)
         limiting |= {name: other.cell(row, 1) for name, other in by_symbol.items()}
-        rules = [*input_formulas.limits(column.limits, False, spot.cell(row, 1), limiting), f"{counted}={node.size}"]
+        rules = [
+            *input_formulas.limits(column.limits, column.whole, spot.cell(row, 1), limiting),
+            f"{counted}={node.size}",
+        ]
         unit = f"${letters(spot.edited)}${first}"
         read, exported = spot.cell(row, 1), node.value.reshape(-1)[k].item()
         cells: tuple[Content, ...] = (
@@ -195,7 +198,7 @@ def _held(
 def _validation(spot: _Spot, by_symbol: Mapping[str, _Spot], others: Mapping[str, str]) -> dict[str, object]:
     """What a spreadsheet program takes into the cells of a column; a text is judged by its value in SI units."""
     column, cell = spot.column, spot.cell(_FIRST)
-    rules = [f"ISNUMBER({cell})"]
+    rules = [f"ISNUMBER({cell})", *input_formulas.limits([], column.whole, cell, {})]
     for pair in column.limits:
         beside = by_symbol.get(pair[1])
         limiting = {**others, **({pair[1]: beside.cell(_FIRST)} if beside else {})}

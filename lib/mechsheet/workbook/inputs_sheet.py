@@ -69,7 +69,7 @@ def rows(g: Any) -> list[Item]:
                 shown += _properties(field)
             case Rows():
                 columns = (
-                    GridColumn(c.name, tuple(written[c.name].tolist()), c.unit, c.meaning, c.limits)
+                    GridColumn(c.name, tuple(written[c.name].tolist()), c.unit, c.meaning, c.limits, c.whole)
                     for c in field.columns
                 )
                 asked.append(Grid(field.name, field.meaning, field.section, tuple(columns)))

@@ -8,7 +8,7 @@ from mechsheet.quantities.node import Node, bottom_up
 from mechsheet.quantities.quantity import Quantity
 from mechsheet.workbook.arrangement import Arrangement
 from mechsheet.workbook.cell_formula import CellFormulas, written
-from mechsheet.workbook.content import Live, quoted
+from mechsheet.workbook.content import Content, Live, quoted
 from mechsheet.workbook.place import Place
 from mechsheet.worksheet.table import Figure, Table
 
@@ -52,7 +52,7 @@ class SheetFormulas:
         node = self.arrangement.columns(table)[n]
         if node is None:
             values = table.columns[n].values.tolist()
-            return [self.as_exported(x).formula for x in values] if self.recording.gaps else None
+            return [self.as_exported(x).formula for x in values] if self._may_differ(table, n) else None
         if (table.number, n) in self.arrangement.own:
             return self._formulas(node)
         factor = units.parse(table.columns[n].unit).factor
@@ -69,7 +69,11 @@ class SheetFormulas:
     def exported(self, table: Table) -> tuple[int, ...]:
         """Columns of a table that rest on numbers of the worksheet's own run, and so do not follow other inputs."""
         columns = enumerate(self.arrangement.columns(table))
-        return tuple(n for n, node in columns if (self.kept(node) if node else self.recording.gaps))
+        return tuple(n for n, node in columns if (self.kept(node) if node else self._may_differ(table, n)))
+
+    def _may_differ(self, table: Table, n: int) -> bool:
+        """Whether nobody knows that a column of plain numbers or texts is the same for all inputs."""
+        return bool(self.recording.gaps) and (table.number, n) not in self.recording.constants
 
     def kept(self, node: Node) -> bool:
         """Whether a quantity rests on numbers of the worksheet's own run."""
@@ -107,6 +111,13 @@ class SheetFormulas:
         left = reference(solved.residual, target) if solved.residual else None
         low, high = (reference(end, factor) for end in solved.interval) if solved.interval else (None, None)
         return value, left, low, high, reference(solved.target, target) if solved.target else None
+
+    def words(self, key: str, text: str, otherwise: str = "") -> Content:
+        """A title or a note: where inputs change it, what stands there ``otherwise`` for others."""
+        holds = self.recording.worded.get(key)
+        if not text or holds is None or holds.op == "constant":
+            return text
+        return Live(f"=IF(ISNUMBER({self._cells.reference(holds)[1:]}),{quoted(text)},{quoted(otherwise)})", text)
 
     def as_exported(self, value: float | str) -> Live:
         """What is known for the exported inputs alone: for others no number, no text."""

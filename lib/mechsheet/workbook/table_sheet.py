@@ -41,8 +41,8 @@ def not_followed(columns: Sequence[Column], grey: Sequence[int]) -> str:
 def write(
     book: Book,
     name: str,
-    heading: str,
-    note: str,
+    heading: Content,
+    note: Content,
     columns: Contents,
     charts: int = 0,
     numbers: looks.Look | None = None,
@@ -73,7 +73,7 @@ def write(
 
 
 def _short(
-    book: Book, name: str, heading: str, widths: Sequence[int], rows: int, charts: int, behind: bool
+    book: Book, name: str, heading: Content, widths: Sequence[int], rows: int, charts: int, behind: bool
 ) -> tuple[Any, list[Spot]]:
     """An empty sheet with its charts below the numbers, two side by side."""
     width, height = looks.ONE if charts == 1 else looks.MANY
@@ -85,7 +85,7 @@ def _short(
 
 
 def _long(
-    book: Book, name: str, heading: str, widths: Sequence[int], rows: int, charts: int, behind: bool
+    book: Book, name: str, heading: Content, widths: Sequence[int], rows: int, charts: int, behind: bool
 ) -> tuple[Any, list[Spot]]:
     """An empty sheet with its charts beside the numbers, as many to a page as go into its height."""
     width, height = looks.ONE if charts == 1 else looks.MANY

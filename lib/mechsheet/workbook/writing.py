@@ -63,7 +63,7 @@ def workbook(
     holders = [_holder(figure, tables) for figure in figures]
     alone = [figure for figure, holder in zip(figures, holders, strict=True) if holder is None]
     data = [Table(f"Fig {f.number}", f"Data of {caption('figure', f)}", (f.x, *f.lines)) for f in alone]
-    names = [book.name(f"{table.number} {table.title}") for table in tables]
+    names = [book.name(_tab(table, recording)) for table in tables]
     names_of_data = [book.name(f"{table.number} data") for table in data]
     formulas = None
     if recording:
@@ -77,8 +77,11 @@ def workbook(
     for table, name, grey in zip(tables, names, greys, strict=True):
         held = [figure for figure, holder in zip(figures, holders, strict=True) if holder is table]
         columns = table_sheet.contents(table, formulas)
-        note = f"{table.note} {table_sheet.not_followed(table.columns, grey)}".strip()
-        sheet, spots = table_sheet.write(book, name, caption("Table", table), note, columns, len(held), grey=grey)
+        of_columns = table_sheet.not_followed(table.columns, grey)
+        words = formulas.words if formulas else lambda _, text, __: text
+        heading = words(f"table {table.number} title", caption("Table", table), f"Table {table.number}")
+        note = words(f"table {table.number} note", f"{table.note} {of_columns}".strip(), of_columns)
+        sheet, spots = table_sheet.write(book, name, heading, note, columns, len(held), grey=grey)
         for figure, spot in zip(held, spots, strict=True):
             charts.insert(sheet, spot, figure, name, table.columns, grey)
     for figure, table, name in zip(alone, data, names_of_data, strict=True):
@@ -102,6 +105,12 @@ def workbook(
     results = front_sheet.results(found, listed, formulas)
     front_sheet.write(book, front, checks, results, recording)
     return book.close()
+
+
+def _tab(table: Table, recording: Recording | None) -> str:
+    """What a table's sheet is called, whose name cannot follow a title that inputs change."""
+    said = recording.worded.get(f"table {table.number} title") if recording else None
+    return f"{table.number} {table.title}" if said is None or said.op == "constant" else f"Table {table.number}"
 
 
 def _listed(table: Table, sheet: str, grey: Sequence[int]) -> Listed:

@@ -1,0 +1,114 @@
+"""How many elements quantities have along their axes, where these follow a number of rows."""
+
+from abc import ABC, abstractmethod
+from collections.abc import Generator, Sequence
+from typing import Any, TypeVar
+
+from mechsheet.quantities.node import Node
+from mechsheet.quantities.operations import ELEMENTWISE
+
+_T = TypeVar("_T")
+_Asking = Generator[tuple[Node, int], Any, _T]  # of something that needs lengths: of which quantities, along which axes
+
+
+class Lengths(ABC):
+    """The lengths of the axes of quantities, as quantities; ``fixed`` ones rest on constants alone."""
+
+    def __init__(self) -> None:
+        self.fixed = set[Node]()
+        self.lengths: dict[tuple[Node, int], Node] = {}
+        self.sizes: dict[Node, tuple[Node, ...]] = {}
+
+    @abstractmethod
+    def constant(self, value: Any, *unit: str) -> Node:
+        """A number or an array of numbers; in SI where a unit says what it measures."""
+
+    @abstractmethod
+    def own_length(self, node: Node, axis: int) -> Node:
+        """The length of a quantity along an axis that nothing else has."""
+
+    def length(self, node: Node, axis: int) -> Node:
+        """How many elements a quantity has along an axis, which is counted from the last one."""
+        known = self.lengths.get((node, axis))
+        waiting = [self._length_of(node, axis)] if known is None else []
+        while waiting:  # it does not call itself: of a loop's turns each rests on the one before
+            try:
+                part = waiting[-1].send(known)
+            except StopIteration as end:
+                known = end.value
+                waiting.pop()
+            else:
+                known = None
+                waiting.append(self._length_of(*part))
+        assert known is not None
+        return known
+
+    def _length_of(self, node: Node, axis: int) -> _Asking[Node]:
+        """The length along an axis, which asks for those of other quantities."""
+        if not node.stretches:
+            return self.constant(node.shape[axis])
+        if node.op == "rows":
+            count: Node = node.args[0]
+            return count
+        if node.op == "found":  # all unknowns of a block have one shape
+            node = node.args[0].nodes[0]
+        known = self.lengths.get((node, axis))
+        if known is None and node.op == "found" and not node.args[0].residuals:
+            return self.own_length(node, axis)
+        if known is None:
+            if node.op == "found":  # on which its residuals rest
+                self.lengths[node, axis] = self.own_length(node, axis)
+            under = yield from self._length_under(node, axis)
+            known = self.lengths[node, axis] = under or self.own_length(node, axis)
+        return known
+
+    def _length_under(self, node: Node, axis: int) -> _Asking[Node | None]:
+        """The length of what a quantity is made of, where both are as long whatever the number of rows is."""
+        parts = list[tuple[Node, int]]()
+        if node.op in ELEMENTWISE:
+            parts = [(part, axis) for part in node.args if len(part.shape) >= -axis]
+        elif node.op in ("state", "iterated"):  # which is as it was at first
+            parts = [(node.args[0] if node.op == "state" else node.args[2], axis)]
+        elif node.op == "found":
+            parts = [(part, axis) for part in node.args[0].residuals if part.shape == node.shape]
+        elif node.op == "join":
+            sources, joined = node.args[0], node.args[3].along(len(node.shape))
+            if joined is not None and joined[0] != axis:
+                parts = [(source, axis + (joined[1] and axis < joined[0])) for source in sources]
+            elif joined is not None and (joined[1] or not (yield from self._any_stretches(sources, axis))):
+                return self.constant(node.shape[axis])
+        elif node.op == "take" and len(node.args[2]) == 1:
+            source, _, (moved,) = node.args
+            origin = moved.origin(axis, len(source.shape))
+            if origin and origin.whole:
+                known: Node = yield source, origin.axis
+                return known
+            if origin and (origin.axis is None or not (yield from self._any_stretches([source], origin.axis))):
+                return self.constant(node.shape[axis])
+        found = set[Node]()
+        for part, k in parts:
+            if part.stretches:
+                found.add((yield part, k))
+        if len(found) > 1:  # what is found for the rows has as many
+            found = {n for n in found if n.op != "length" or n.args[0].op != "found"}
+        fixed = all(part.stretches or part.shape[k] == 1 for part, k in parts)
+        return found.pop() if fixed and len(found) == 1 else None
+
+    def _any_stretches(self, nodes: Sequence[Node], axis: int) -> _Asking[bool]:
+        for node in nodes:
+            if node.stretches and (yield node, axis) not in self.fixed:
+                return True
+        return False
+
+    def stretch(self, node: Node, axis: int) -> bool:
+        """Whether a quantity stretches along an axis, which is counted from the last one."""
+        return node.stretches and self.length(node, axis) not in self.fixed
+
+    def size(self, node: Node) -> tuple[Node, ...]:
+        """The lengths of all axes."""
+        known = self.sizes.get(node)
+        if known is None:
+            known = tuple(self.length(node, axis) for axis in range(-len(node.shape), 0))
+            if node.op != "found":  # whose residuals tell, once they are known
+                self.sizes[node] = known
+        return known

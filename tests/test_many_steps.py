@@ -1,0 +1,69 @@
+"""Loops of more steps than Python's calls may stand in one another: whoever follows their numbers does it without."""
+
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+from as_script import as_script
+from own_worksheet import own, recorded
+
+from mechsheet import evaluate
+from mechsheet.html import write
+from mechsheet.readers.numbers import numbers
+from mechsheet.worksheet.errors import SheetError
+
+STEPS, CALLS = 300, 260  # of calls in one another Python takes 1000: with fewer, fewer steps tell as much
+LINES = f"""
+from mechsheet import closed_form
+N = {STEPS}
+v, y, w, n, far, u = 0.0, g.F, x, x, g.F * 1e-320, np.array([g.F])
+q = find(lambda q: q * g.a, 0, 10, equals=g.F)
+again = g.F / g.a
+for _ in range(N):
+    v = v - g.a * y * 1e-3
+    y = y + v * 1e-3
+    w = w - g.a * w * 1e-3
+    n = n - x / N
+    again = again + g.a - g.a
+for _ in range(60):
+    far = far + far
+for _ in range(N):
+    u = np.append(u, [u[-1] * 1.0001])
+closed_form(q, again)
+ends = np.array([y, u.max(), q.value])  # [-] a motion, the greatest of a list, and what is found
+field = w * 1  # [-] a motion of each position
+left = n * 1  # [-] nothing but rounding
+none = np.array([far - g.F * 1e-320 * 2.0**60])  # [-] the same, of what doubles
+table_2, table_3 = table("2", "Ends", ends), table("3", "Fields", field, left)
+table_4 = table("4", "Nothing", none)"""
+
+
+@pytest.fixture
+def few_calls() -> Iterator[None]:
+    most = sys.getrecursionlimit()
+    sys.setrecursionlimit(CALLS)
+    yield
+    sys.setrecursionlimit(most)
+
+
+def test_loop_of_many_steps_is_followed_by_every_reader(few_calls: None, tmp_path: Path) -> None:
+    """The recording, the workbook, the dimensions, the proof and the page in one file."""
+    sheet = own(tmp_path, LINES, further=['export("Own", globals())'])
+    _, recording = recorded(sheet)
+    assert not recording.gaps
+    columns = [column.re for number in ("2", "3") for column in recording.tables[number] if column is not None]
+    known = numbers(columns, {recording.inputs["F"]: 3.25})
+    expected = evaluate(sheet.path, ["ends", "field"], F=3.25)
+    for column, name in zip(columns, expected, strict=False):
+        np.testing.assert_allclose(known[column], expected[name], rtol=1e-12)
+    run = as_script(sheet.path, "--proof=9", f"--out={tmp_path}")
+    assert not run.stderr and "not followed" not in run.stdout and (tmp_path / "own.xlsx").exists(), run
+    assert 'id="line-left"' in write.page(sheet, sheet.inputs())
+
+
+def test_formula_that_is_too_deep_to_be_read_is_refused_at_its_line(tmp_path: Path) -> None:
+    deep = " + ".join(f"{n} * g.F" for n in range(600))
+    with pytest.raises(SheetError, match=r"own.py, line 38: 60\d operations in one another, and 300 are read"):
+        own(tmp_path, f"y = g.a\nz = {deep}")
