@@ -10,7 +10,7 @@ import subprocess
 import sys
 import time
 import tomllib
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
 from functools import cache
 from pathlib import Path
@@ -71,6 +71,13 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
         module = getattr(item, "module", None)
         if module is None or computes(module):  # a doctest has none
             item.add_marker("numeric")
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_sessionfinish() -> None:
+    """What the tests hold ends with the process: to look through it five times, as pytest does, takes seconds."""
+    gc.collect()
+    gc.freeze()
 
 
 @cache
@@ -141,31 +148,12 @@ def recalculated(recalculated_all: Callable[[list[Path]], list[Any]]) -> Callabl
 
 
 @pytest.fixture(autouse=True)
-def errors_of_numpy() -> Iterator[None]:
-    """What a worksheet sets numpy to do about errors holds for no other test."""
-    with np.errstate():
+def errors_of_numpy(request: pytest.FixtureRequest) -> Iterator[None]:
+    """What a worksheet sets numpy to do about errors holds for the tests of a file that imports it, and no others."""
+    imported = any(getattr(value, "__package__", "") == "worksheets" for value in vars(request.module).values())
+    of_division = "ignore" if imported else "warn"
+    with np.errstate(divide=of_division, over="warn", under="ignore", invalid=of_division):
         yield
-
-
-@pytest.fixture
-def timed_once(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The accuracy worksheet runs each method once: its time is another one in every run anyway."""
-    from mechsheet.accuracy import jobs, precision
-    from mechsheet.accuracy.precision import Timed
-    from mechsheet.quantities.unrepeatable import clock_read
-
-    def timed(runs: Sequence[Callable[[], Any]], _: float, done: Callable[[], object]) -> list[Timed]:
-        clock_read()
-
-        def once(run: Callable[[], Any]) -> Timed:
-            result = run()
-            done()
-            return Timed(result, 1.0, 1.0, 1.0, 1)
-
-        return list(map(once, runs))
-
-    for module in (jobs, precision):
-        monkeypatch.setattr(module, "timed", timed)
 
 
 def examples(count: int, **others: Any) -> settings:

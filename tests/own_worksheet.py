@@ -1,11 +1,9 @@
 """Worksheets with some lines of one's own, recorded, and what is read from the recording for other inputs."""
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
-from mechsheet import evaluate
 from mechsheet.quantities.lines import Recording
 from mechsheet.readers.numbers import numbers
 from mechsheet.recording.record import record
@@ -59,12 +57,17 @@ if __name__ == "__main__":
 OTHER: list[dict[str, Any]] = [{"F": 3.25}, {"F": 1.75, "a": 1.5}, {"a": 0.2, "k": 3}]
 
 
-def own(tmp_path: Path, lines: str, inside: bool = False) -> cells.Worksheet:
-    """A worksheet with some lines in a cell, which imports what they need itself where it is ``inside``."""
+def own(tmp_path: Path, lines: str, inside: bool = False, further: Sequence[str] = ()) -> cells.Worksheet:
+    """A worksheet with some lines in a cell, which imports what they need itself where it is ``inside``.
+
+    The ``further`` ones are cells of their own behind it.
+    """
     path = tmp_path / "own.py"
     setup, cell = ("", IMPORTS) if inside else (IMPORTS, "")
     text = SHEET.replace("IMPORTS", setup, 1).replace("IMPORTS", cell, 1)
-    path.write_text(text.replace("LINES", lines.replace("\n", "\n    ")))
+    text = text.replace("LINES", lines.replace("\n", "\n    "))
+    others = (f"@app.cell\ndef _():\n    {each.replace(chr(10), chr(10) + '    ')}\n    return\n\n" for each in further)
+    path.write_text(text.replace("if __name__", "".join([*others, "if __name__"])))
     return cells.load(path)
 
 
@@ -84,30 +87,3 @@ def value_of(recording: Recording, name: str, given: dict[str, Any]) -> Any:
 
 
 ELSEWHERE: list[dict[str, Any]] = [{}, *OTHER, {"F": 4.0, "a": 1.0}, {"F": 2.5000001}, {"n": 3}, {"n": 8, "F": 3.25}]
-
-
-def assert_never_stale(lines: str, tmp_path: Path) -> None:
-    """What lines of a cell make of inputs is read rightly for others, or is no number, and something says why."""
-    sheet = own(tmp_path, f'{lines}\nresult = np.atleast_1d(y) * 1  # [-] line\ntable_2 = table("2", "Two", result)')
-    names, recording = recorded(sheet)
-    if "2" not in recording.tables:  # it has other numbers at each run, so it holds for the exported inputs alone
-        assert any("random" in lines and gap.line for gap in recording.gaps)
-        return
-    (column,) = recording.tables["2"]
-    followed = 0
-    for given in ELSEWHERE:
-        told = recording.gaps or [guard for guard in recording.guards.values() if guard.rows <= ("n" in given)]
-        try:
-            expected = evaluate(sheet.path, ["result"], **given)["result"]
-        except Exception:  # the worksheet itself has no number for these inputs
-            expected = np.array(np.nan)
-        values = names["table_2"].columns[0].values
-        if column is not None:
-            known = numbers([column.re], {recording.inputs[name]: float(x) for name, x in given.items()})
-            values = known[column.re]
-        if np.isnan(values).all() and (told or np.isnan(expected).all()):
-            continue
-        assert values.shape == expected.shape, given
-        np.testing.assert_allclose(values, expected, rtol=1e-12, atol=1e-13, err_msg=str(given))
-        followed += 1
-    assert followed, "not even for the inputs that it was recorded with"

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 import pytest
-from own_worksheet import assert_never_stale
+from never_stale import assert_never_stale
 
 CONSTRUCTS = [
     "y = np.log(g.F - 2.0) * 0 + x * g.a",

@@ -98,16 +98,15 @@ def test_a_number_of_any_length_is_a_number(tmp_path: Path) -> None:
 def test_a_damaged_workbook_is_one_line_or_what_is_left_of_it(exported: bytes, tmp_path: Path) -> None:
     """Cut short anywhere, bytes overwritten anywhere, in the archive and in each part of it."""
     chance, answers = random.Random(1), []
-    damaged = [exported[: len(exported) * k // 12] for k in range(12)]
-    for _ in range(60):
+    damaged = [exported[: len(exported) * k // 8] for k in range(8)]
+    for _ in range(24):
         data, at = bytearray(exported), chance.randrange(len(exported))
         data[at : at + 20] = chance.randbytes(20)
         damaged.append(bytes(data))
-    for part in parts(exported):
-        middle = f"{part}: cut"
-        damaged.append(changed(exported, part, lambda text: text[: len(text) // 2]))
-        damaged.append(changed(exported, part, lambda text, middle=middle: middle))
-        damaged.append(changed(exported, part, lambda text: text.replace('="', '="x')))
+    ways = (lambda text: text[: len(text) // 2], lambda text: "cut", lambda text: text.replace('="', '="x'))
+    for n, part in enumerate(parts(exported)):
+        looked_at = part == INPUTS or not re.search("worksheets/|charts/", part)
+        damaged += [changed(exported, part, way) for way in (ways if looked_at else [ways[n % 3]])]
     answers = [answer(data, tmp_path / "scene.xlsx") for data in damaged]
     assert sum(map(bool, answers)) > len(answers) / 4
 

@@ -24,10 +24,11 @@ from mechsheet.worksheet.check import Check, Summary
 from mechsheet.worksheet.errors import raised
 from mechsheet.worksheet.find import Found
 from mechsheet.worksheet.inputs import Used
-from mechsheet.worksheet.lines import Formula, Typeset
+from mechsheet.worksheet.lines import Formula
 from mechsheet.worksheet.numbers import on_page
 from mechsheet.worksheet.symbol import plain, read
 from mechsheet.worksheet.table import Column, Figure, Table
+from mechsheet.worksheet.typeset import Typeset
 
 WORKSHEETS = sorted(p for p in (Path(__file__).parents[1] / "worksheets").rglob("*.py") if p.stem != "accuracy")
 THROUGH_OTHERS = {"accuracy", "hitch_design"}  # they compute through other worksheets and declare few formulas

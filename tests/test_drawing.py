@@ -421,7 +421,7 @@ MOVES = st.one_of(
 )
 
 
-@examples(150)
+@examples(100)
 @given(st.lists(MOVES, max_size=8), st.integers(0, 8))
 def test_any_finite_input_gives_well_formed_svg_inside_its_view(moves: list[tuple[Any, ...]], cut: int) -> None:
     def drawn(some: list[tuple[Any, ...]]) -> Drawing:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -119,10 +120,10 @@ def test_rrr_velocities_and_accelerations_are_the_differences_of_positions(famil
     a = rrr_acceleration(A, B, C, v.omega_A, v.omega_B, dr_A, dr_B, a_A, a_B, ddr_A, ddr_B)
 
     def motion(A, B, C, v_A, v_B, a_A, a_B, dr_A, dr_B, ddr_A, ddr_B):
-        pin_A, pin_B = path(A, v_A, a_A), path(B, v_B, a_B)
+        pin_A, pin_B = cache(path(A, v_A, a_A)), cache(path(B, v_B, a_B))
         r_A, r_B = path(abs(C - A), dr_A, ddr_A), path(abs(C - B), dr_B, ddr_B)
         branch = exact.mp.sign(exact.cross(B - A, C - A))
-        pin_C = lambda t: exact.rrr(pin_A(t), pin_B(t), r_A(t).real, r_B(t).real, branch)  # noqa: E731
+        pin_C = cache(lambda t: exact.rrr(pin_A(t), pin_B(t), r_A(t).real, r_B(t).real, branch))
         link_A, link_B = (exact.rotation(lambda t, pin=pin: pin_C(t) - pin(t)) for pin in (pin_A, pin_B))
         return exact.derivatives(pin_C), link_A, link_B
 
@@ -149,10 +150,10 @@ def test_rrp_velocities_and_accelerations_are_the_differences_of_positions_on_a_
     a = rrp_acceleration(A, B, C, u, v.omega_A, v.ds, omega_B, dr_A, a_A, a_B, epsilon_B, ddr_A)
 
     def motion(A, B, C, u, v_A, v_B, a_A, a_B, omega_B, epsilon_B, dr_A, ddr_A):
-        pin_A, pin_B = path(A, v_A, a_A), path(B, v_B, a_B)
-        guide, r = turning(u, omega_B, epsilon_B), path(abs(C - A), dr_A, ddr_A)
+        pin_A, pin_B = cache(path(A, v_A, a_A)), cache(path(B, v_B, a_B))
+        guide, r = cache(turning(u, omega_B, epsilon_B)), path(abs(C - A), dr_A, ddr_A)
         offset, branch = exact.cross(u, C - B) / abs(u), exact.mp.sign(exact.dot(u, C - A))
-        pin_C = lambda t: exact.rrp(pin_A(t), pin_B(t), guide(t), r(t).real, branch, offset)  # noqa: E731
+        pin_C = cache(lambda t: exact.rrp(pin_A(t), pin_B(t), guide(t), r(t).real, branch, offset))
         slide = exact.derivatives(lambda t: exact.dot(guide(t), pin_C(t) - pin_B(t)))
         return exact.derivatives(pin_C), exact.rotation(lambda t: pin_C(t) - pin_A(t)), slide
 
@@ -177,9 +178,9 @@ def test_rpr_velocities_and_accelerations_are_the_differences_of_positions(famil
     a = rpr_acceleration(A, B, u, v.omega_A, v.ds, a_A, a_B)
 
     def motion(A, B, u, v_A, v_B, a_A, a_B):
-        pin_A, pin_B = path(A, v_A, a_A), path(B, v_B, a_B)
+        pin_A, pin_B = cache(path(A, v_A, a_A)), cache(path(B, v_B, a_B))
         slide = (A - B) / u * abs(u)
-        group = lambda t: exact.rpr(pin_A(t), pin_B(t), exact.mp.sign(slide.real), slide.imag)  # noqa: E731
+        group = cache(lambda t: exact.rpr(pin_A(t), pin_B(t), exact.mp.sign(slide.real), slide.imag))
         return exact.rotation(lambda t: group(t)[0]), exact.derivatives(lambda t: group(t)[1])
 
     true = [motion(*x) for x in exact_rows(A, B, u, v_A, v_B, a_A, a_B)]
@@ -206,7 +207,7 @@ def test_a_chain_from_lengths_to_accelerations_loses_twice_the_digits_of_its_con
     a = rrr_acceleration(A, B, C, v.omega_A, v.omega_B, a_A=a_A, a_B=a_B)
 
     def motion(A, B, r_A, r_B, branch, v_A, v_B, a_A, a_B):
-        pin_A, pin_B = path(A, v_A, a_A), path(B, v_B, a_B)
+        pin_A, pin_B = cache(path(A, v_A, a_A)), cache(path(B, v_B, a_B))
         return exact.derivatives(lambda t: exact.rrr(pin_A(t), pin_B(t), r_A.real, r_B.real, branch.real))
 
     true = [motion(*x) for x in exact_rows(A, B, r_A, r_B, branch, v_A, v_B, a_A, a_B)]

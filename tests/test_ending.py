@@ -8,13 +8,16 @@ import shlex
 import signal
 import subprocess
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import suppress
+from functools import partial
 from pathlib import Path
 from types import ModuleType
+from typing import IO
 from unittest.mock import MagicMock
 
 import pytest
-from as_script import as_script
+from as_script import as_file, as_launched, as_script
 
 from mechsheet import __main__ as launcher
 from mechsheet.recording.evaluation import evaluate
@@ -58,8 +61,15 @@ def lever(tmp_path: Path) -> Callable[..., Path]:
     return written
 
 
-def ends(command: list[str | Path], says: str, code: int = 1) -> None:
-    done = subprocess.run(command, capture_output=True, encoding="utf-8")
+Start = Callable[..., subprocess.CompletedProcess[str]]
+Opened = Callable[[], IO[str]]
+
+
+launched = partial(as_launched, "run")
+ways = pytest.mark.parametrize("start", [as_file, launched], ids=["python", "launcher"])
+
+
+def ends(done: subprocess.CompletedProcess[str], says: str, code: int = 1) -> None:
     assert done.stderr.rstrip("\n") == says and done.returncode == code, done.stderr
 
 
@@ -129,10 +139,9 @@ def test_what_is_given_and_cannot_be_used_ends_in_2_and_what_the_worksheet_refus
     assert not list(path.parent.glob("*.xlsx"))
 
 
-@pytest.mark.parametrize("start", [[sys.executable], LAUNCHED], ids=["python", "launcher"])
-def test_every_way_to_start_ends_in_the_same_code(start: list[str], lever: Callable[..., Path]) -> None:
-    path = lever()
-    ends([*start, path, "--FF=5"], "error: input FF is unknown; nearest: F", 2)
+@ways
+def test_every_way_to_start_ends_in_the_same_code(start: Start, lever: Callable[..., Path]) -> None:
+    ends(start(lever(), "--FF=5"), "error: input FF is unknown; nearest: F", 2)
 
 
 def test_scenes_that_cannot_be_used_end_in_2_when_the_others_are_computed(
@@ -148,7 +157,7 @@ def test_scenes_that_cannot_be_used_end_in_2_when_the_others_are_computed(
         assert f"1 of {len(names.split())} scenes pass" in capsys.readouterr().out
 
 
-@pytest.mark.parametrize("start", [[sys.executable], LAUNCHED], ids=["python", "launcher"])
+@ways
 @pytest.mark.parametrize(
     ("old", "new", "says"),
     [
@@ -164,9 +173,9 @@ def test_scenes_that_cannot_be_used_end_in_2_when_the_others_are_computed(
     ids=["name", "input", "number", "name in the inputs"],
 )
 def test_a_mistake_is_told_with_its_line_in_the_words_of_the_editor(
-    start: list[str], old: str, new: str, says: str, lever: Callable[..., Path]
+    start: Start, old: str, new: str, says: str, lever: Callable[..., Path]
 ) -> None:
-    ends([*start, lever(old, new)], f"error: lever.py, {says}")
+    ends(start(lever(old, new)), f"error: lever.py, {says}")
 
 
 @pytest.mark.parametrize(
@@ -219,11 +228,11 @@ def test_what_python_cannot_read_is_told_with_its_line(lever: Callable[..., Path
     assert as_script(path).stderr == f"error: {path.name}, line 30, summary(within, strong: '(' was never closed\n"
 
 
-@pytest.mark.parametrize("start", [[sys.executable], LAUNCHED], ids=["python", "launcher"])
-def test_where_it_does_not_close_nothing_behind_it_speaks(start: list[str], lever: Callable[..., Path]) -> None:
+@ways
+def test_where_it_does_not_close_nothing_behind_it_speaks(start: Start, lever: Callable[..., Path]) -> None:
     path = lever(text=OPEN)
     says = "links meet: no position closes for angle phi = 0 deg: it reaches 20.05352..20.05352 deg"
-    ends([*start, path], f"error: {says}")
+    ends(start(path), f"error: {says}")
     with pytest.raises(SheetError, match=says):
         evaluate(path, ["reached"])
     assert not path.with_suffix(".xlsx").exists()
@@ -234,23 +243,44 @@ def test_an_exception_that_no_check_explains_stays_what_it_is(lever: Callable[..
         evaluate(lever(', phi, (g.L, g.L), "', ', phi, (g.L, g.L), "', OPEN.replace('* float("nan")', "")), ["reached"])
 
 
-@pytest.mark.skipif(os.name == "nt", reason="a shell of Unix")
-@pytest.mark.parametrize("start", [sys.executable, " ".join(LAUNCHED)], ids=["python", "launcher"])
+def unread() -> IO[str]:
+    """A pipe whose reader has gone."""
+    end, into = os.pipe()
+    os.close(end)
+    return open(into, "w", encoding="utf-8")
+
+
+def full() -> IO[str]:
+    return open("/dev/full", "w", encoding="utf-8")
+
+
+@ways
+@pytest.mark.skipif(os.name == "nt", reason="files of Unix")
 @pytest.mark.parametrize(
-    ("shell", "says", "code"),
+    ("streams", "given", "says", "code"),
     [
-        ("{} | true; exit ${{PIPESTATUS[0]}}", "", 141),
-        ("{} > /dev/full", "error: standard output cannot be written: No space left on device\n", 1),
-        ("{} --F=-5 > /dev/full 2> /dev/full", "", 1),
+        ({"out": unread}, [], "", 141),
+        ({"out": full}, [], "error: standard output cannot be written: No space left on device\n", 1),
+        ({"out": full, "err": full}, ["--F=-5"], "", 1),
     ],
     ids=["no reader", "full", "all full"],
 )
 def test_standard_output_that_takes_nothing(
-    start: str, shell: str, says: str, code: int, lever: Callable[..., Path]
+    start: Start, streams: dict[str, Opened], given: list[str], says: str, code: int, lever: Callable[..., Path]
 ) -> None:
-    command = shell.format(f"{start} {lever()}")
-    done = subprocess.run(["bash", "-c", command], capture_output=True, encoding="utf-8")
+    opened = {name: made() for name, made in streams.items()}
+    done = start(lever(), *given, **opened)
     assert (done.returncode, done.stderr) == (code, says)
+    for stream in opened.values():
+        with suppress(OSError):  # of what the tests themselves have left in it, which is nothing
+            stream.close()
+
+
+@pytest.mark.skipif(os.name == "nt", reason="a shell of Unix")
+def test_a_process_whose_reader_has_gone_ends_in_silence(lever: Callable[..., Path]) -> None:
+    command = f"{' '.join(LAUNCHED)} {lever()} | true; exit ${{PIPESTATUS[0]}}"
+    done = subprocess.run(["bash", "-c", command], capture_output=True, encoding="utf-8")
+    assert (done.returncode, done.stderr) == (141, "")
 
 
 @pytest.mark.skipif(os.name == "nt", reason="a shell of Unix")
@@ -275,21 +305,32 @@ def test_closed_standard_output_is_no_error(lever: Callable[..., Path]) -> None:
     assert (done.returncode, done.stderr) == (0, "") and path.with_suffix(".xlsx").exists()
 
 
+@pytest.fixture
+def interrupted() -> Iterator[None]:
+    """Ctrl-C interrupts, which tests in the background of a shell ignore."""
+    kept = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, kept)
+
+
 @pytest.mark.skipif(os.name == "nt", reason="Windows has no signals")
-@pytest.mark.parametrize("start", [[sys.executable], LAUNCHED], ids=["python", "launcher"])
-def test_ctrl_c_ends_a_run_in_a_line(start: list[str], lever: Callable[..., Path]) -> None:
+def test_ctrl_c_ends_a_run_in_a_line(interrupted: None, lever: Callable[..., Path]) -> None:
     path = lever(
         "    M_S = M(phi)", "    print('waits', flush=True)\n    __import__('time').sleep(600)\n    M_S = M(phi)"
     )
-    kept = signal.signal(signal.SIGINT, signal.default_int_handler)  # tests in the background of a shell ignore it
     run = subprocess.Popen(
-        [*start, path], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True
+        [*LAUNCHED, path], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True
     )
-    signal.signal(signal.SIGINT, kept)
     with run:
         assert run.stdout and run.stderr and run.stdout.readline() == "waits\n"
         os.killpg(run.pid, signal.SIGINT)  # as a terminal does
         assert (run.wait(), run.stderr.read()) == (130, "interrupted\n")
+
+
+@pytest.mark.skipif(os.name == "nt", reason="Windows has no signals")
+def test_ctrl_c_ends_a_started_worksheet_in_a_line(interrupted: None, lever: Callable[..., Path]) -> None:
+    done = as_file(lever("    M_S = M(phi)", "    __import__('signal').raise_signal(2)\n    M_S = M(phi)"))
+    assert (done.returncode, done.stdout, done.stderr) == (130, "", "interrupted\n")
 
 
 @pytest.mark.skipif(os.name == "nt", reason="Windows has no signals")
@@ -311,17 +352,14 @@ def test_a_program_that_a_signal_ended_has_the_code_of_shells() -> None:
 
 
 def test_a_worksheet_of_ones_own_writes_beside_itself_and_at_home_where_asked(
-    lever: Callable[..., Path], tmp_path: Path
+    lever: Callable[..., Path], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     path, home = lever(), tmp_path / "home"
+    monkeypatch.chdir(tmp_path)
+    for variable in ("HOME", "USERPROFILE"):
+        monkeypatch.setenv(variable, str(home))
     for option, out in (([], tmp_path), (["--out=~/books"], home / "books")):
-        done = subprocess.run(
-            [*LAUNCHED, path.stem, *option],
-            cwd=tmp_path,
-            env={**os.environ, "HOME": str(home), "USERPROFILE": str(home)},
-            capture_output=True,
-            encoding="utf-8",
-        )
+        done = launched(path.stem, *option)
         assert done.returncode == 0 and f"written {out / 'lever.xlsx'}" in done.stdout, done.stderr
         assert (out / "lever.xlsx").exists()
 

@@ -48,12 +48,12 @@ def answer(ask: Callable[[], dict[str, Any]]) -> Any:
 @pytest.mark.parametrize(
     ("name", "want", "count", "least"),
     [
-        ("hitch.py", ["GS6", "abs(R56)", "L7"], 60, 25),  # three Finds behind one another, a library's checks
-        ("examples/bucket.py", ["G_S", "phi_E"], 40, 15),  # a reach that is required
+        ("hitch.py", ["GS6", "abs(R56)", "L7"], 30, 12),  # three Finds behind one another, a library's checks
+        ("examples/bucket.py", ["G_S", "phi_E"], 24, 9),  # a reach that is required
         ("kinetostatics.py", ["mu23", "v5"], 15, 5),
         ("kinetostatics.py", ["R_D", "gamma45"], 6, 2),  # more single numbers than a workbook has cells for a line
-        ("landing_gear.py", ["t_lim", "eps3_lim"], 30, 10),  # a Find from a guess alone
-        ("landing_gear.py", ["omega2_listing"], 15, 5),
+        ("landing_gear.py", ["t_lim", "eps3_lim"], 15, 5),  # a Find from a guess alone
+        ("landing_gear.py", ["omega2_listing"], 10, 3),
     ],
 )
 @pytest.mark.filterwarnings("ignore")
@@ -132,7 +132,7 @@ SHAPES: dict[str, Callable[[Any], Any]] = {
 def test_a_plain_root_is_the_one_that_roots_gives(shape: str) -> None:
     """Where it answers at all, for targets and guesses all over the interval: a jump or a pole it takes for none."""
     f, random, told = SHAPES[shape], Random(1), 0
-    for _ in range(150):
+    for _ in range(75):
         lo, hi = sorted((random.uniform(-1, 1), random.uniform(-1, 1)))
         guess, x = random.uniform(lo, hi), random.uniform(lo, hi)
         equals = random.choice([0.0, random.uniform(-1, 1), float(f(np.float64(x))), float(f(np.float64(x)))])
@@ -148,7 +148,7 @@ def test_a_plain_root_is_the_one_that_roots_gives(shape: str) -> None:
         steepness = abs(f(x + 1e-9) - f(x - 1e-9)) / 2e-9
         play = 4 * np.spacing(max(abs(equals), 1)) + 8 * steepness * np.spacing(abs(x))
         assert abs(f(np.float64(x)) - equals) <= abs(slow[3][0]) + play, given
-    assert told > 20 or shape in ("touching", "jump", "pole"), "it answers what is plain"
+    assert told > 10 or shape in ("touching", "jump", "pole"), "it answers what is plain"
 
 
 def test_a_function_is_recorded_once_for_the_same_quantities_and_what_it_sees_is_noted_each_time() -> None:

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from by_cells import by_cells
 from own_worksheet import ELSEWHERE, own, recorded, value_of
 from test_recalculation import edit
 
@@ -166,7 +167,7 @@ def test_an_everyday_form_is_followed(lines: str, tmp_path: Path) -> None:
     told = recording.gaps or [guard for guard in recording.guards.values() if not guard.rows]
     assert bool(told) is (lines in GUARDED)
     for given in ELSEWHERE:
-        own_value = evaluate(sheet.path, ["result"], **given)["result"]
+        own_value = by_cells(sheet.path, ["result"], **given)["result"]
         value = value_of(recording, "result", given)
         if not (told and np.isnan(value).all()):
             np.testing.assert_allclose(value, own_value, rtol=1e-12, err_msg=str(given))
@@ -213,5 +214,5 @@ def test_a_row_of_the_worksheets_own_table_follows_the_option(table: str, tmp_pa
     _, recording = recorded(sheet)
     assert not recording.gaps and not [guard for guard in recording.guards.values() if not guard.rows]
     for number, kind in enumerate("ab"):
-        own_value = evaluate(sheet.path, ["result"], kind=kind, F=3.25)["result"]
+        own_value = by_cells(sheet.path, ["result"], kind=kind, F=3.25)["result"]
         np.testing.assert_allclose(value_of(recording, "result", {"kind": number, "F": 3.25}), own_value, rtol=1e-12)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import shutil
 from collections import defaultdict
 from collections.abc import Callable, Iterator
 from functools import cache
@@ -21,6 +22,11 @@ from mechsheet.worksheet import cells, inputs
 
 ROOT = Path(__file__).resolve().parents[1]
 BOOKS = ("hitch", "landing_gear", "slotted_link", "kinetostatics", "joint", "bucket", "engine", "bolted_joint")
+FEWER = {  # positions: a fifth of the cells, or half, with the same formulas
+    "slotted_link": {"n: int = 6 ": "n: int = 3 "},
+    "kinetostatics": {", 361)": ", 61)", "turn.value, R12=": "turn.value, 60, R12="},
+    "engine": {", 361)": ", 61)", "turn.value // 2": "turn.value // 12", "turn=180": "turn=30"},
+}
 FIRST = 5  # row of the first number of a column
 _ADDRESS = re.compile(r"(?<![A-Za-z_.\d])(\$?)([A-Z]{1,3})(\$?)(\d+)(?![\w(])")
 _KEPT = re.compile(r",-?[\d.E+-]+,NA\(\)\)")
@@ -64,15 +70,27 @@ class Book(NamedTuple):
 
 
 @pytest.fixture(scope="module")
-def book(name: str) -> Callable[..., Book]:
+def worksheet(name: str, tmp_path_factory: pytest.TempPathFactory) -> cells.Worksheet:
+    path = next((ROOT / "worksheets").rglob(f"{name}.py"))
+    if name in FEWER:
+        text = path.read_text(encoding="utf-8")
+        for old, new in FEWER[name].items():
+            assert old in text
+            text = text.replace(old, new)
+        path = Path(shutil.copytree(path.parent, tmp_path_factory.mktemp("fewer") / path.parent.name)) / path.name
+        path.write_text(text, encoding="utf-8")
+    return cells.load(path)
+
+
+@pytest.fixture(scope="module")
+def book(worksheet: cells.Worksheet, name: str) -> Callable[..., Book]:
     """The workbook of a worksheet, made once; with other inputs where these are changed."""
 
     @cache
     def made(changed: bool = False) -> Book:
-        sheet = cells.load(next((ROOT / "worksheets").rglob(f"{name}.py")))
-        g = inputs.build(sheet.inputs, whole(sheet.inputs, CHANGED[name]) if changed else {})
-        names = {**sheet.run(sheet.results, {"g": g}), "__file__": sheet.path}
-        file = BytesIO(report.workbook(sheet.title, names, {}))
+        g = inputs.build(worksheet.inputs, whole(worksheet.inputs, CHANGED[name]) if changed else {})
+        names = {**worksheet.run(worksheet.results, {"g": g}), "__file__": worksheet.path}
+        file = BytesIO(report.workbook(worksheet.title, names, {}))
         held = {
             title: {at: formula or value for at, (formula, value) in sheet.items() if formula or value is not None}
             for title, sheet in written_cells.read(file).items()
@@ -178,6 +196,7 @@ def guarded(head: str, formulas: list[str], asking: set[str]) -> bool:
     )
 
 
+@pytest.mark.parametrize("name", [name for name in BOOKS if name != "kinetostatics"], indirect=True)
 def test_what_is_written_is_the_same_for_other_inputs(name: str, book: Callable[..., Book]) -> None:
     """Titles, notes, limits, other roots, comments, names, axes: a formula, or what does not depend on the inputs."""
     one, other = list(written(book())), list(written(book(True)))

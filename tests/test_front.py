@@ -6,6 +6,7 @@ import re
 import subprocess
 import sys
 from collections.abc import Callable
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -41,9 +42,15 @@ def kept(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder / "own.xlsx"
 
 
-def blocks(path: Path | Any, values: bool = True) -> dict[str, list[Any]]:
+@cache
+def opened(path: Path, values: bool = True) -> Any:
+    """A workbook that no test changes."""
+    return load_workbook(path, data_only=values)
+
+
+def blocks(path: Path | Any) -> dict[str, list[Any]]:
     """Rows of cells of the front sheet under the heading of their block."""
-    book = load_workbook(path, data_only=values) if isinstance(path, Path) else path
+    book = opened(path) if isinstance(path, Path) else path
     heads, found = ("Key results", "Contents", "Not followed"), dict[str, list[Any]]()
     for row in book["Front"].iter_rows(min_row=3):
         if row[0].value in heads:
@@ -64,13 +71,13 @@ def column(sheet: Any, symbol: str) -> list[Any]:
 
 
 def test_front_sheet_is_the_first_and_tells_the_verdict(hitch: Path) -> None:
-    book = load_workbook(hitch, data_only=True)
+    book = opened(hitch)
     assert book.sheetnames[:2] == ["Front", "Inputs"]
     assert [book["Front"][cell].value for cell in ("A1", "A2")] == ["Tractor hitch", "all checks PASS"]
 
 
 def test_key_results_are_found_values_then_what_figures_show(hitch: Path) -> None:
-    book = load_workbook(hitch, data_only=True)
+    book = opened(hitch)
     results = {row[0]: row[1:] for row in front(hitch)["Key results"]}
     assert list(results)[:3] == ["L4", "S_p", "L7"]
     assert [results[row[0].value][0] for row in book["Find"].iter_rows(min_row=3)] == [
@@ -86,7 +93,7 @@ def test_key_results_are_found_values_then_what_figures_show(hitch: Path) -> Non
 
 
 def test_contents_link_to_every_sheet_under_its_title(hitch: Path) -> None:
-    book = load_workbook(hitch, data_only=True)
+    book = opened(hitch)
     rows = blocks(hitch)["Contents"]
     assert [row[0].value for row in rows] == book.sheetnames[1:]
     for row in rows:
@@ -119,7 +126,7 @@ def test_unchanged_the_front_sheet_is_recalculated_to_the_same(
 
 
 def test_sheets_behind_the_tables_are_the_last_and_have_grey_tabs(hitch: Path) -> None:
-    book = load_workbook(hitch)
+    book = opened(hitch, values=False)
     grey = [sheet.title for sheet in book if sheet.sheet_properties.tabColor]
     assert grey == book.sheetnames[-len(grey) :] and book.sheetnames[-len(grey) - 2 : -len(grey)] == ["Checks", "Index"]
     assert all(name == "Marks" or name.endswith((" lines", " fields")) for name in grey)
@@ -134,13 +141,13 @@ def test_only_sheets_of_the_document_are_printed(hitch: Path, soffice: str, tmp_
     command = [soffice, f"-env:UserInstallation={profile}", "--headless", "--convert-to", "pdf"]
     subprocess.run([*command, "--outdir", tmp_path, hitch], check=True, capture_output=True, timeout=WITHIN)
     pages = len(re.findall(rb"/Type\s*/Page\b", (tmp_path / "hitch.pdf").read_bytes()))
-    behind = sum(sheet.sheet_properties.tabColor is not None for sheet in load_workbook(hitch))
-    assert len(load_workbook(hitch).sheetnames) - behind <= pages <= 16
+    behind = sum(sheet.sheet_properties.tabColor is not None for sheet in opened(hitch))
+    assert len(opened(hitch).sheetnames) - behind <= pages <= 16
 
 
 def test_steps_tell_the_line_of_the_worksheet(hitch: Path) -> None:
     source = (Path(__file__).parents[1] / "worksheets" / "hitch.py").read_text(encoding="utf-8").splitlines()
-    book = load_workbook(hitch, data_only=True)
+    book = opened(hitch)
     seen = 0
     for name in book.sheetnames:
         if name.endswith(" lines"):
@@ -154,7 +161,7 @@ def test_steps_tell_the_line_of_the_worksheet(hitch: Path) -> None:
 
 def test_axes_follow_what_inputs_move(hitch: Path) -> None:
     """The lengths of the cylinder are inputs: written ends would cut the curves of others."""
-    (chart, *_) = load_workbook(hitch)["4.1 Lifting capacity"]._charts
+    (chart, *_) = opened(hitch)["4.1 Lifting capacity"]._charts
     assert [(a.scaling.min, a.scaling.max, a.majorUnit) for a in (chart.x_axis, chart.y_axis)] == [(None,) * 3] * 2
 
 
@@ -172,7 +179,7 @@ figure_2 = figure("2", "Along what one moves", x, y)"""
 
 
 def test_what_is_not_followed_is_named_on_the_front_sheet(kept: Path, hitch: Path) -> None:
-    book = load_workbook(kept, data_only=True)
+    book = opened(kept)
     row, note = front(kept)["Not followed"]
     line = (kept.parent / "own.py").read_text().splitlines().index("    y = np.fft.fft(x).real  # [-] spectrum") + 1
     assert row[0] == f"line {line}: y" and "fft" in row[1]
@@ -186,7 +193,7 @@ def test_without_found_values_the_last_lines_are_the_key_results(kept: Path) -> 
     assert list(results) == ["z", "w", "u"]
     grey = {name: row[1].fill.fgColor.rgb == GREY for name, row in results.items()}
     assert grey == {"z": True, "w": False, "u": False}
-    book = load_workbook(kept, data_only=True)
+    book = opened(kept)
     assert results["w"][1].value == 7.5 and results["z"][1].value / 100 == 2 * max(
         row[1].value for row in book["2 Spectrum"].iter_rows(min_row=5)
     )
@@ -196,7 +203,7 @@ def test_grey_is_what_rests_on_the_line_and_it_is_not_available_for_other_inputs
     kept: Path, recalculated: Callable[[Path], Any], tmp_path: Path
 ) -> None:
     """On every sheet: what is grey has no number after a change under it, and what is white has one."""
-    book, changed = load_workbook(kept), recalculated(edit(kept, {"F": 4.0}, tmp_path / "edited.xlsx"))
+    book, changed = opened(kept, values=False), recalculated(edit(kept, {"F": 4.0}, tmp_path / "edited.xlsx"))
     grey = white = 0
     for sheet in book:
         for row in sheet.iter_rows():
@@ -213,7 +220,7 @@ def test_grey_is_what_rests_on_the_line_and_it_is_not_available_for_other_inputs
 
 
 def test_the_number_of_a_printed_formula_stands_before_the_meaning_where_lines_are_listed(kept: Path) -> None:
-    sheets = [sheet for sheet in load_workbook(kept) if sheet.title != "Index"]
+    sheets = [sheet for sheet in opened(kept) if sheet.title != "Index"]
     texts = [cell.value for sheet in sheets for row in sheet for cell in row]
     assert texts.count("(2.4) does not") == 1, "in the list of lines"
     assert texts.count("does not") <= 1, "and not in the results"

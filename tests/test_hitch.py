@@ -11,7 +11,7 @@ from printed import agrees, rows
 
 from mechsheet import units
 from mechsheet.accuracy import exact
-from mechsheet.accuracy.arithmetic import reactions
+from mechsheet.accuracy.arithmetic import DIGITS, reactions
 from mechsheet.worksheet.cells import load
 from mechsheet.worksheet.check import Check, checks_of
 from mechsheet.worksheet.errors import SheetError
@@ -126,7 +126,7 @@ def test_truth_solves_the_three_finds():
     found = exact.finds(g)
     low, work = (exact.hitch(g, S, **found) for S in (g.S_min, found["S_p"]))
     for value, wanted in ((low["P56_S"].imag, g.Y56_min), (work["P56_S"].imag, g.Y_P56), (work["phi6_S"], g.phi_P6)):
-        assert abs(value - wanted) < mp.mpf(10) ** -exact.DIGITS
+        assert abs(value - wanted) < mp.mpf(10) ** -DIGITS
 
 
 @pytest.mark.parametrize("row", range(10))

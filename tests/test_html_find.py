@@ -18,7 +18,7 @@ from mechsheet.quantities.graph import Graph
 from mechsheet.quantities.lines import Recording
 from mechsheet.worksheet import cells
 from mechsheet.worksheet.errors import SheetError
-from mechsheet.worksheet.lines import Numbers
+from mechsheet.worksheet.typeset import Numbers
 from mechsheet.worksheet.verdict import Verdict
 
 if TYPE_CHECKING:

@@ -55,7 +55,8 @@ def ring(g, alpha, M, N):
     q = np.maximum(np.cos(phi) + c, 0)
     k = int(P.argmax())
     found = {"c_n": c, "phi_n": edge, "phi_no": edge, "k_0": arc, "k_1": lever / arc, "k_2": (1 - c) / 2 / arc}
-    found |= {"S_1": q.sum(), "S_2": (q * np.cos(phi)).sum(), "P_1": P[k] / q[k], "P_n": P[k], "P_max": P[k]}
+    P_1 = P[k] / q[k] if M > 0 else np.nan
+    found |= {"S_1": q.sum(), "S_2": (q * np.cos(phi)).sum(), "P_1": P_1, "P_n": P[k], "P_max": P[k]}
     found |= {} if M > 0 else dict.fromkeys(PRINTED, np.nan) | {"S_1": 0, "S_2": 0}
     return found | {
         "P_k": P,

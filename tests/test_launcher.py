@@ -16,6 +16,8 @@ from contextlib import redirect_stderr
 from pathlib import Path
 
 import pytest
+from as_script import copied
+from marimo._config.manager import get_default_config_manager
 
 from mechsheet import __main__ as launcher
 
@@ -210,18 +212,13 @@ def test_a_worksheet_runs_as_it_opens_outside_a_clone_too(
     capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     setting = "_MARIMO_CONFIG_OVERLOAD_RUNTIME_AUTO_INSTANTIATE"
-    code = (
-        "from marimo._config.manager import get_default_config_manager as config\n"
-        "print(config(current_path='/').get_config()['runtime']['auto_instantiate'])"
-    )
     monkeypatch.delenv(setting, raising=False)
-    assert launcher.call([sys.executable, "-c", code]) == 0
-    assert capfd.readouterr().out.strip() == "True"
+    assert launcher.call([sys.executable, "-c", f"import os; print(os.environ['{setting}'])"]) == 0
+    monkeypatch.setenv(setting, capfd.readouterr().out.strip())
+    assert get_default_config_manager(current_path="/").get_config()["runtime"]["auto_instantiate"] is True
 
 
-def test_the_editor_runs_what_is_written_in_place_outside_a_clone_too(
-    capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_the_editor_runs_what_is_written_in_place_outside_a_clone_too(monkeypatch: pytest.MonkeyPatch) -> None:
     """As marimo enters the package's entry point; beside the worksheet lie no settings that say so."""
     code = (
         "import asyncio\n"
@@ -235,10 +232,13 @@ def test_the_editor_runs_what_is_written_in_place_outside_a_clone_too(
         "asyncio.run(entered())"
     )
     monkeypatch.setattr(launcher, "interpreter", lambda _extra: sys.executable)
-    own = launcher.call
-    monkeypatch.setattr(launcher, "call", lambda _, settings: own([sys.executable, "-c", code], settings=settings))
-    assert launcher.page("edit", ["lever.py"], []) == 0
-    assert capfd.readouterr().out.strip() == "autorun"
+    started = list[dict[str, str]]()
+    monkeypatch.setattr(launcher, "call", lambda _, settings: started.append(settings) or 7)
+    assert launcher.page("edit", ["lever.py"], []) == 7
+    for name, value in started[0].items():
+        monkeypatch.setenv(name, value)
+    done = copied(lambda: exec(code, {}), ["-c", code])
+    assert (done.returncode, done.stdout.strip()) == (0, "autorun"), done.stderr
 
 
 def test_test_hands_its_arguments_to_pytest(calls: list[list[str]]) -> None:

@@ -63,6 +63,7 @@ def test_least_squares_are_proved_with_the_digits_that_there_are(tmp_path: Path)
         assert column.least > 8 and abs(column.least - min(16.0, float(-mp.log10(off)))) < 0.2, column
 
 
+@mp.workdps(40)
 def test_slopes_of_least_squares_are_exact(tmp_path: Path) -> None:
     _, recording, _ = run(tmp_path, LINES.strip())
     by = [recording.inputs["F"], recording.inputs["a"]]

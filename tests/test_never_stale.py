@@ -5,7 +5,7 @@ rightly, or is no number where what was seen of it is not so any more, and a gap
 from pathlib import Path
 
 import pytest
-from own_worksheet import assert_never_stale
+from never_stale import assert_never_stale
 
 CONSTRUCTS = [
     "y = np.lexsort((np.sin(x), np.cos(x))) * 1.0",

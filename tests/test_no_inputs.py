@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-import subprocess
-import sys
 from pathlib import Path
+from typing import Any
 
 import pytest
-from as_script import as_script
+from as_script import as_command, as_file, as_script
 from openpyxl import load_workbook
 
 from mechsheet import SheetError, evaluate, results, sensitivity, sweep
 from mechsheet.html import write
-from mechsheet.run import glance
+from mechsheet.run import compare, glance, html
+from mechsheet.studies import asked_design
 from mechsheet.worksheet import cells
 from mechsheet.worksheet.no_inputs import NoInputs
 
@@ -103,11 +103,6 @@ def rod(tmp_path: Path) -> Path:
     return sheet(tmp_path, SETUP, ROD)
 
 
-def started(path: Path, *arguments: str) -> subprocess.CompletedProcess[str]:
-    """``python WORKSHEET ..``, a process of its own."""
-    return subprocess.run([sys.executable, "-X", "utf8", path, *arguments], capture_output=True, encoding="utf-8")
-
-
 # --- as a script -------------------------------------------------------------------------------------------------
 
 
@@ -132,11 +127,11 @@ def test_a_check_that_fails_is_no_success(tmp_path: Path) -> None:
 def test_the_started_file_tells_the_same_as_the_command(tmp_path: Path, parts: tuple[str, ...]) -> None:
     """Where its cells import the package, marimo runs them, and the report comes at the end of the process."""
     path = sheet(tmp_path, *parts, old="200 * MPa", new="100 * MPa")
-    own, command = started(path), as_script(path)
+    own, command = as_file(path), as_script(path)
     assert own.returncode == command.returncode == 1
     assert own.stdout == command.stdout and "FAIL  stress" in own.stdout
     for argument in ("--want=sigma", "--F=3"):
-        own, command = started(path, argument), as_script(path, argument)
+        own, command = as_file(path, argument), as_script(path, argument)
         assert (own.returncode, own.stdout, own.stderr) == (command.returncode, command.stdout, command.stderr)
 
 
@@ -144,7 +139,7 @@ def test_cells_that_marimo_runs_are_run_once(tmp_path: Path) -> None:
     """They have begun before the package is there: the report is made of what they have given."""
     setup = "with app.setup:\n    import mechsheet\n    from mechsheet.units import N\n"
     cell = "@app.cell\ndef _():\n    print('begun')\n    c = mechsheet.check('force', 2 * N, 1 * N, 'N')\n    return\n"
-    done = started(sheet(tmp_path, setup, cell))
+    done = as_file(sheet(tmp_path, setup, cell))
     assert done.returncode == 1 and done.stdout.count("begun\n") == 1
     assert "FAIL  force: 2 <= 1 N" in done.stdout and done.stdout.endswith(NOTHING + "\n")
 
@@ -280,17 +275,19 @@ def test_what_needs_inputs_is_refused(rod: Path) -> None:
 @pytest.mark.parametrize(
     ("command", "told", "code"),
     [
-        (("asked_design", "--vary=F=1..2", "--best=max sigma"), "has no inputs by which its results could differ", 1),
-        (("compare", "rod.py", "scene.toml"), "input F is unknown; the worksheet has none", 2),
-        (("html", "--F=3"), "input F is unknown; the worksheet has none", 2),
+        ((asked_design, "--vary=F=1..2", "--best=max sigma"), "has no inputs by which its results could differ", 1),
+        ((compare, "rod.py", "scene.toml"), "input F is unknown; the worksheet has none", 2),
+        ((html, "--F=3"), "input F is unknown; the worksheet has none", 2),
     ],
+    ids=["design", "compare", "html"],
 )
-def test_commands_that_are_given_inputs_refuse_them(rod: Path, command: tuple[str, ...], told: str, code: int) -> None:
+def test_commands_that_are_given_inputs_refuse_them(
+    rod: Path, command: tuple[Any, ...], told: str, code: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
     rod.with_name("scene.toml").write_text("[inputs]\nF = 3\n")
-    name, *options = command
-    module = f"mechsheet.{'studies' if name == 'asked_design' else 'run'}.{name}"
-    call = [sys.executable, "-m", module, rod.name, *options]
-    done = subprocess.run(call, cwd=rod.parent, capture_output=True, encoding="utf-8")
+    monkeypatch.chdir(rod.parent)
+    program, *options = command
+    done = as_command(program, rod.name, *options)
     assert done.returncode == code and done.stdout == ""
     assert done.stderr.count("\n") == 1 and told in done.stderr
 
@@ -298,8 +295,7 @@ def test_commands_that_are_given_inputs_refuse_them(rod: Path, command: tuple[st
 def test_two_states_are_compared(rod: Path) -> None:
     other = rod.with_name("other.py")
     other.write_text(rod.read_text(encoding="utf-8").replace("12 * kN", "13 * kN"), encoding="utf-8")
-    call = [sys.executable, "-m", "mechsheet.run.compare", str(rod), str(rod), str(other)]
-    done = subprocess.run(call, capture_output=True, encoding="utf-8")
+    done = as_command(compare, rod, rod, other)
     assert done.returncode == 1 and "F: 12 kN -> 13 kN  +1 kN" in done.stdout
 
 

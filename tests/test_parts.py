@@ -1,6 +1,7 @@
 """The contents of a worksheet as data, against what its page shows."""
 
 import re
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -17,10 +18,11 @@ from mechsheet.worksheet.drawing import Drawing
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.find import Found
 from mechsheet.worksheet.inputs import Used
-from mechsheet.worksheet.lines import Given, Typeset
+from mechsheet.worksheet.lines import Given
 from mechsheet.worksheet.shown import Shown
 from mechsheet.worksheet.table import Figure, Table
 from mechsheet.worksheet.title import Caption, Player, Slider, Title
+from mechsheet.worksheet.typeset import Typeset
 from worksheets import hitch, joint, kinetostatics, landing_gear, slotted_link
 
 SHEETS = {Path(sheet.__file__).stem: sheet for sheet in (hitch, joint, kinetostatics, landing_gear, slotted_link)}
@@ -30,6 +32,12 @@ def run(worksheet, g=None):
     """Namespace of a run of the whole worksheet."""
     sheet = load(worksheet)
     return sheet.run(sheet.results, {"g": sheet.inputs() if g is None else g})
+
+
+@cache
+def document_of(name):
+    """The contents of a document with its own inputs."""
+    return contents(run(SHEETS[name].__file__))
 
 
 def parts(value):
@@ -45,15 +53,14 @@ def parts(value):
 def test_contents_are_what_the_page_shows_in_its_order(name):
     outputs, _ = SHEETS[name].app.run()
     page = [kind for output in outputs for kind in parts(output)]
-    found = contents(run(SHEETS[name].__file__))
     kinds = {Line: "Formula", Given: "Given"}
-    shown = [kinds.get(type(part), type(part).__name__) for part in found if not isinstance(part, Section | Text)]
-    assert shown == [kind.__name__ for kind in page]
+    found = [part for part in document_of(name) if not isinstance(part, Section | Text)]
+    assert [kinds.get(type(part), type(part).__name__) for part in found] == [kind.__name__ for kind in page]
 
 
 @pytest.fixture(scope="module")
 def document():
-    return contents(run(hitch.__file__))
+    return document_of("hitch")
 
 
 def of(document, kind):
@@ -97,7 +104,7 @@ def test_lines_hold_values_and_controls_what_they_set(document):
 
 
 def test_texts_stand_between_what_a_cell_shows():
-    document = contents(run(kinetostatics.__file__))
+    document = document_of("kinetostatics")
     at = document.index(Text("The same vectors by the library:"))
     assert isinstance(document[at - 1], Line) and document[at - 1].formula.name == "gamma23"
     assert isinstance(document[at + 1], Line) and document[at + 1].formula.name == "R_A"
@@ -106,15 +113,12 @@ def test_texts_stand_between_what_a_cell_shows():
 def test_every_part_is_data():
     """What a cell shows by marimo's own names, a text or a column, a writer could only skip."""
     known = Section | Text | Line | Given | Control | Shown
-    assert {
-        name: [part for part in contents(run(sheet.__file__)) if not isinstance(part, known)]
-        for name, sheet in SHEETS.items()
-    } == {name: [] for name in SHEETS}
+    assert [(name, part) for name in SHEETS for part in document_of(name) if not isinstance(part, known)] == []
 
 
 def test_other_inputs_give_other_contents():
     heavy = {part.formula.name: part.value for part in of(contents(run(hitch.__file__, hitch.Hitch(P6=30e3))), Line)}
-    light = {part.formula.name: part.value for part in of(contents(run(hitch.__file__)), Line)}
+    light = {part.formula.name: part.value for part in of(document_of("hitch"), Line)}
     assert heavy["L4"] == light["L4"] and heavy.keys() == light.keys()
     assert np.all(abs(heavy["R56"]) > abs(light["R56"]))
 

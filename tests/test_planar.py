@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from conftest import examples
 from hypothesis import assume, example, given
 from hypothesis import strategies as st
 from mpmath import acos, mp, mpf, sqrt
@@ -67,6 +68,7 @@ def exact_angle(a: mpf, b: mpf, c: mpf) -> mpf:
     return acos((b**2 + c**2 - a**2) / (2 * b * c))
 
 
+@examples(40)
 @given(st.lists(st.tuples(sides, sides, st.floats(0, 1), st.floats(-15, 0)), min_size=1, max_size=20))
 @example([(1.0, 1.0, 0.0, -15.0), (1.0, 1.0, 1.0, -15.0), (1e6, 1e-6, 0.5, 0.0)])
 def test_angles_and_areas_keep_all_digits_of_needle_shaped_triangles(rows: Any) -> None:

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from functools import cache
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 from flint import arb
+from run_once import DOCUMENTS, WORKSHEETS, recorded
 
 from mechsheet.accuracy import exact, extreme
 from mechsheet.accuracy.arithmetic import mp, mpc, mpf
@@ -27,10 +29,6 @@ from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.table import Table, heading
 from tests.own_worksheet import own
 
-WORKSHEETS = Path(__file__).parents[1] / "worksheets"
-DOCUMENTS = ("hitch", "landing_gear", "kinetostatics", "slotted_link", "joint")
-
-
 # --- rules -------------------------------------------------------------------------------------------------------
 
 
@@ -48,14 +46,17 @@ REAL = {
 
 
 @pytest.mark.parametrize("op", sorted(REAL))
+@mp.workdps(40)
 def test_a_ball_holds_the_number_of_every_point(op: str) -> None:
     rng = np.random.default_rng(7)
     count = 2 if op in ("add", "sub", "mul", "div", "atan2", "mod", "max", "min") else 1
     held = 0
-    for _ in range(300):
+    for _ in range(120):
         middle, radius = rng.uniform(-3, 3, count) * rng.choice([1, 0.2], count), 10.0 ** rng.uniform(-3, 0, count)
         balls = [arb(m, r) for m, r in zip(middle, radius, strict=True)]
         found = SINGLE[op](*balls)
+        known = found is not NONE and found.is_finite()
+        low, high = (mpf(str(end.str(40, radius=False))) for end in (found.lower(), found.upper())) if known else (0, 0)
         for _ in range(5):
             point = [
                 mpf(m) + mpf(r) * mpf(t) for m, r, t in zip(middle, radius, rng.uniform(-1, 1, count), strict=True)
@@ -65,9 +66,8 @@ def test_a_ball_holds_the_number_of_every_point(op: str) -> None:
             true = REAL[op](*point)
             if found is NONE:
                 assert isinstance(true, mpc) or (op == "log" and point[0] < 0)
-            elif found.is_finite() and not isinstance(true, mpc):
+            elif known and not isinstance(true, mpc):
                 held += 1
-                low, high = (mpf(str(end.str(40, radius=False))) for end in (found.lower(), found.upper()))
                 assert low - abs(low) * mpf("1e-15") <= true <= high + abs(high) * mpf("1e-15"), (op, point)
     assert held > 100
 
@@ -192,10 +192,17 @@ w = w_found.value  # [-] root"""
 # --- never more digits than there are ----------------------------------------------------------------------------
 
 
-def proved(sheet: Any, given: Mapping[str, Any]) -> tuple[Any, dict[str, Any], Proof]:
+def proved(stem: str, given: Mapping[str, Any]) -> tuple[Any, dict[str, Any], Proof]:
+    sheet = load(WORKSHEETS / f"{stem}.py")
     g = inputs.build(sheet.inputs, given)
     names = sheet.run(sheet.results, {"g": g})
     return g, names, proof_of(names, sheet, record(names, sheet))
+
+
+@cache
+def document(stem: str) -> tuple[Any, dict[str, Any], Proof]:
+    sheet, names, recording = recorded(stem)
+    return names["g"], names, proof_of(names, sheet, recording)
 
 
 def compared(
@@ -233,14 +240,17 @@ def assert_honest(pairs: list[tuple[str, float, float]], least: int) -> None:
     assert not more and len(fewer) <= 0.05 * len(pairs), (more[:3], fewer[:3])
 
 
-HITCH = [scene for scene in extreme.scenes() if scene.job == "hitch" and not scene.says]
+# Those in which others, or the document itself, lose the same digits for the same reason.
+ALIKE = {
+    "away_1e9", "cylinder_upright", "dead_centre_folded", "loads", "lower_link_level", "mast_in_line", "mast_upright",
+    "millimetres", "rod_in_line",
+}  # fmt: skip
+HITCH = [s for s in extreme.scenes() if s.job == "hitch" and not s.says and s.name not in ALIKE]
 
 
 @pytest.mark.parametrize("of", [None, *HITCH], ids=lambda s: s.name if s else "document")
 def test_no_more_digits_than_the_exact_chain_has_of_the_hitch(of: extreme.Scene | None) -> None:
-    sheet = load(WORKSHEETS / "hitch.py")
-    given = of.cases()[len(of.values) // 2] if of else {}
-    g, names, proof = proved(sheet, given)
+    g, names, proof = proved("hitch", of.cases()[len(of.values) // 2]) if of else document("hitch")
     lengths = exact.finds(g)
     S_min, S_max = mpf(float(g.S_min)), mpf(float(g.S_max))
     rows = [0, 4, g.N_pol - 1] if of is None else [of.at % g.N_pol]
@@ -302,7 +312,7 @@ EXCEPTIONS = {
 
 @pytest.mark.parametrize("stem", DOCUMENTS)
 def test_nine_digits_of_all_tables_are_proved_but_for_listed_exceptions(stem: str) -> None:
-    _, names, proof = proved(load(WORKSHEETS / f"{stem}.py"), {})
+    _, names, proof = document(stem)
     assert proof.check(9).passed and not proof.below(9)
     assert {(c.where, c.name) for c in proof.exceptions} == EXCEPTIONS.get(stem, set())
     for column in proof.exceptions:
@@ -358,7 +368,7 @@ def test_a_scene_may_ask_for_digits(tmp_path: Path, capsys: pytest.CaptureFixtur
     path.write_text('want = ["GS6"]\nproof = 12\n')
     assert batch.answer(str(WORKSHEETS / "hitch.py"), scene.load(path)) == 0
     shown = capsys.readouterr().out
-    g, names, _ = proved(load(WORKSHEETS / "hitch.py"), {})
+    g, names, _ = document("hitch")
     of_field = proof_of_wanted(names, load(WORKSHEETS / "hitch.py"), ["GS6"]).columns
     assert {c.name: c.digits.size for c in of_field}["GS6"] == g.N_pol
     assert "pass  every number proved to 12 digits" in shown and "not that the formulas are right" in shown

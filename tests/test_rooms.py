@@ -32,14 +32,20 @@ def trees() -> dict[str, ast.Module]:
     return {path.relative_to(PACKAGE).as_posix(): ast.parse(path.read_text(encoding="utf-8")) for path in FILES}
 
 
-def wrong(look: Callable[[str, ast.Module], Iterable[object]]) -> dict[str, list[object]]:
+@cache
+def nodes() -> dict[str, list[ast.AST]]:
+    """All nodes of each file: to walk through them takes as long as to read them."""
+    return {place: list(ast.walk(tree)) for place, tree in trees().items()}
+
+
+def wrong(look: Callable[[str, list[ast.AST]], Iterable[object]]) -> dict[str, list[object]]:
     """What is wrong in each file, where something is."""
-    found = {place: [*look(place, tree)] for place, tree in trees().items()}
+    found = {place: [*look(place, known)] for place, known in nodes().items()}
     return {place: each for place, each in found.items() if each}
 
 
-def imports(tree: ast.AST) -> Iterator[ast.Import | ast.ImportFrom]:
-    return (node for node in ast.walk(tree) if isinstance(node, ast.Import | ast.ImportFrom))
+def imports(known: Iterable[ast.AST]) -> Iterator[ast.Import | ast.ImportFrom]:
+    return (node for node in known if isinstance(node, ast.Import | ast.ImportFrom))
 
 
 # --- rooms and files ---------------------------------------------------------------------------------------------
@@ -65,10 +71,10 @@ def test_no_two_names_differ_by_an_s() -> None:
 def test_an_import_on_use_says_why() -> None:
     """Inside a function, where start-up needs it, and with a comment on its line or above it."""
 
-    def unsaid(place: str, tree: ast.Module) -> list[str]:
+    def unsaid(place: str, known: list[ast.AST]) -> list[str]:
         lines = (PACKAGE / place).read_text(encoding="utf-8").splitlines()
-        functions = (node for node in ast.walk(tree) if isinstance(node, ast.FunctionDef))
-        deferred = {node.lineno for function in functions for node in imports(function)}
+        inside = [range(f.lineno, f.end_lineno + 1) for f in known if isinstance(f, ast.FunctionDef) and f.end_lineno]
+        deferred = {node.lineno for node in imports(known) if any(node.lineno in rows for rows in inside)}
         return [lines[n - 1] for n in sorted(deferred) if "#" not in lines[n - 1] + lines[n - 2]]
 
     assert wrong(unsaid) == {}
@@ -77,8 +83,8 @@ def test_an_import_on_use_says_why() -> None:
 def test_the_library_imports_from_where_a_name_is_defined() -> None:
     """A name taken from the package itself would hide from the order of the rooms."""
 
-    def taken(_: str, tree: ast.Module) -> Iterator[str]:
-        for node in imports(tree):
+    def taken(_: str, known: list[ast.AST]) -> Iterator[str]:
+        for node in imports(known):
             names = {name.name for name in node.names}
             if isinstance(node, ast.Import):
                 yield from names & {"mechsheet"}
@@ -93,8 +99,8 @@ _FORMATTING = {"worksheet/numbers.py", "document/chart_svg.py", "document/drawin
 
 
 def test_numbers_are_formatted_in_one_place() -> None:
-    def formats(place: str, tree: ast.Module) -> Iterator[str]:
-        for node in ast.walk(tree) if place not in _FORMATTING else ():
+    def formats(place: str, known: list[ast.AST]) -> Iterator[str]:
+        for node in known if place not in _FORMATTING else ():
             if isinstance(node, ast.FormattedValue) and node.format_spec:
                 yield from re.findall(r"^.*[efgEFG%]'$", ast.unparse(node.format_spec))
             elif isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == "format":
@@ -109,10 +115,10 @@ _MARKUP = re.compile(r"</\w|<(a|b|i|div|span|su[bp]|svg|t[dhr])\b|\\(cdot|frac|l
 def test_below_the_writers_nothing_is_marked_up() -> None:
     """Values are data: HTML, LaTeX and SVG are made by the rooms of document, html and page."""
 
-    def marked(place: str, tree: ast.Module) -> list[str]:
-        nodes = [] if place.startswith(("document/", "html/", "page/")) else list(ast.walk(tree))
-        told = {id(node.value) for node in nodes if isinstance(node, ast.Expr)}  # docstrings
-        texts = [node.value for node in nodes if isinstance(node, ast.Constant) and id(node) not in told]
+    def marked(place: str, known: list[ast.AST]) -> list[str]:
+        below = [] if place.startswith(("document/", "html/", "page/")) else known
+        told = {id(node.value) for node in below if isinstance(node, ast.Expr)}  # docstrings
+        texts = [node.value for node in below if isinstance(node, ast.Constant) and id(node) not in told]
         return [text for text in texts if isinstance(text, str) and _MARKUP.search(text)]
 
     assert wrong(marked) == {}
@@ -121,6 +127,7 @@ def test_below_the_writers_nothing_is_marked_up() -> None:
 # --- what is loaded ----------------------------------------------------------------------------------------------
 
 
+@cache
 def loaded(statement: str) -> set[str]:
     """Packages that a fresh process has loaded after a statement."""
     code = f"import sys\n{statement}\nprint(*{{name.partition('.')[0] for name in sys.modules}})"
@@ -140,17 +147,19 @@ def test_the_package_itself_loads_nothing() -> None:
 def test_mechanics_load_numpy_alone() -> None:
     files = (PACKAGE / "mechanics").glob("[a-z]*.py")
     mechanics = "; ".join(f"import mechsheet.mechanics.{path.stem}" for path in files)
-    for statement in ("from mechsheet import rrr, rrr_reactions", mechanics):
-        assert loaded(statement) - loaded("import mechsheet") - sys.stdlib_module_names == {"numpy"}
+    others = loaded(f"from mechsheet import rrr, rrr_reactions; {mechanics}") - loaded("import mechsheet")
+    assert others - sys.stdlib_module_names == {"numpy"}
 
 
-def test_a_run_of_a_document_loads_what_it_computes_and_writes_with(tmp_path: Path) -> None:
-    sheet = ROOT / "worksheets" / "hitch.py"
+def test_a_run_of_a_worksheet_loads_what_it_computes_and_writes_with(tmp_path: Path) -> None:
+    sheet = tmp_path / "lever.py"
+    template = (PACKAGE / "run" / "new_worksheet.txt").read_text(encoding="utf-8")
+    sheet.write_text(template.replace("TITLE", "Lever"), encoding="utf-8")
     run = f"sys.argv = ['', {str(sheet)!r}, {f'--out={tmp_path}'!r}]; from mechsheet.run.script import main; main()"
     others = loaded(run) - loaded("import mechsheet") - sys.stdlib_module_names - {"mechsheet"}
     assert others >= {"numpy", "xlsxwriter"}
     assert not others & {"marimo", "scipy", "pandas", "altair", "openpyxl", "flint", "mpmath"}
-    assert (tmp_path / "hitch.xlsx").exists()
+    assert (tmp_path / "lever.xlsx").exists()
 
 
 # --- public names ------------------------------------------------------------------------------------------------
@@ -207,6 +216,6 @@ def test_worksheets_and_readme_take_everything_from_the_package_itself() -> None
     readme = (ROOT / "README.md").read_text(encoding="utf-8")
     texts |= {f"README {i}": block for i, block in enumerate(re.findall(r"```python\n(.*?)```", readme, re.DOTALL))}
     for name, text in texts.items():
-        modules = {str(node.module) for node in imports(ast.parse(text)) if isinstance(node, ast.ImportFrom)}
+        modules = {str(node.module) for node in imports(ast.walk(ast.parse(text))) if isinstance(node, ast.ImportFrom)}
         inner = {module for module in modules if module.startswith("mechsheet.")}
         assert inner <= {"mechsheet.units"}, name

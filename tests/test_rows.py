@@ -30,8 +30,10 @@ REDUCED = {
 }
 
 
-@pytest.mark.parametrize("count", POSITIONS)
-@pytest.mark.parametrize("name", REDUCED)
+CASES = [(name, count) for name in REDUCED for count in (POSITIONS if name.startswith("largest") else (2, 16, 97))]
+
+
+@pytest.mark.parametrize(("name", "count"), CASES)
 def test_what_reduces_a_field_of_positions_is_solved(name, count):
     f, slope = REDUCED[name]
     s = np.linspace(0.4, 1.3, count)

@@ -126,7 +126,7 @@ SEVERAL = {  # equations with several roots, and how many of 20 inputs have a va
 @pytest.mark.parametrize("name", SEVERAL)
 def test_of_several_roots_cells_find_the_nearest(name: str, tmp_path: Path) -> None:
     """Or nothing, never another one."""
-    equation, count = SEVERAL[name]
+    equation, of_20 = SEVERAL[name]
     lines = (
         f'u_found = find({equation})\ny = np.atleast_1d(u_found.value) * 1  # [-] root\ntable_2 = table("2", "Y", y)'
     )
@@ -135,15 +135,15 @@ def test_of_several_roots_cells_find_the_nearest(name: str, tmp_path: Path) -> N
     search(recording)
     (solved,) = recording.found.values()
     assert solved.inverse is not None
-    random, shown = np.random.default_rng(5), 0.0
-    for F, a in zip(random.uniform(1, 6, 20), random.uniform(0.05, 2, 20), strict=True):
+    random, shown, count = np.random.default_rng(5), 0.0, 8
+    for F, a in zip(random.uniform(1, 6, count), random.uniform(0.05, 2, count), strict=True):
         value = numbers([solved.inverse], {recording.inputs["F"]: F, recording.inputs["a"]: a})[solved.inverse]
         there = np.isfinite(value)
         if there.any():
             expected = np.reshape(of_worksheet(Path(sheet.path), "y", {"F": F, "a": a}), value.shape)
             np.testing.assert_allclose(value[there], expected[there], 1e-12, 1e-14, err_msg=str((F, a)))
         shown += there.mean()
-    assert shown >= count
+    assert shown >= count * of_20 / 20
 
 
 @pytest.mark.parametrize(

@@ -74,7 +74,7 @@ def test_a_found_value_is_solved_again(lines: str, tmp_path: Path) -> None:
     _, recording = recorded(sheet)
 
     assert not recording.gaps
-    for given in ({}, *OTHER):
+    for given in OTHER[1:]:
         value = value_of(recording, "y", given)
         expected = np.asarray(evaluate(sheet.path, ["y"], **given)["y"])
         assert value.shape == expected.shape
@@ -175,15 +175,13 @@ def test_a_closed_form_of_no_unknown_is_refused() -> None:
 
 
 def test_a_sweep_has_nan_with_the_reason(tmp_path: Path) -> None:
-    lines = (
-        "u_found = find(lambda u, v: (u**2 + v**2 - g.F, u + v - 1), u=(0, 9), v=(-9, 9))\ny = u_found.value.u  # [-] u"
-    )
-    swept = sweep(own(tmp_path, lines).path, ["y"], {"F": [2.5, 0.6, 0.4, 1.0]})
+    lines = "u_found = find(lambda u, v: (u**2 + v**2 - g.F, u + v - 1), u=1.2, v=-0.2)\ny = u_found.value.u  # [-] u"
+    swept = sweep(own(tmp_path, lines).path, ["y"], {"F": [2.5, 0.4, 1.0]})
 
     assert swept.at_once
-    assert np.isnan(swept["y"]).tolist() == [False, False, True, False]
-    assert swept["y"][[0, 1, 3]] == pytest.approx([0.5 + np.sqrt(F / 2 - 0.25) for F in (2.5, 0.6, 1.0)], rel=1e-12)
-    assert swept.reasons[2].startswith("no solution for u, v by 64 starts: equation ")
+    assert np.isnan(swept["y"]).tolist() == [False, True, False]
+    assert swept["y"][[0, 2]] == pytest.approx([0.5 + np.sqrt(F / 2 - 0.25) for F in (2.5, 1.0)], rel=1e-12)
+    assert swept.reasons[1].startswith("no solution for u, v from the guess: equation ")
 
 
 def test_a_sweep_of_least_squares_has_all_its_values(tmp_path: Path) -> None:

@@ -2,10 +2,12 @@
 
 import subprocess
 import sys
+from io import BytesIO
 from pathlib import Path
 
 import pytest
-from as_script import as_script
+from as_script import as_file, as_script, copied
+from marimo._cli.cli import main as marimo
 from openpyxl import load_workbook
 from playwright.sync_api import expect
 
@@ -30,7 +32,7 @@ def lever(tmp_path, monkeypatch, capsys):
 
 
 def test_runs_and_writes_its_workbook(lever):
-    done = subprocess.run([sys.executable, str(lever)], capture_output=True, encoding="utf-8")
+    done = as_file(lever)
     assert (done.returncode, done.stderr) == (0, "")
     book = load_workbook(lever.parent / "gear_lever.xlsx")
     assert book.sheetnames[:6] == ["Front", "Inputs", "Input tables", "Find", "1 Moment of the lever", "2 Load cases"]
@@ -40,8 +42,11 @@ def test_runs_and_writes_its_workbook(lever):
 
 
 def test_passes_the_checks_of_a_worksheet(lever):
-    for tool in (["marimo", "check", "--strict"], ["ruff", "check", "--select", "F,F821"]):
-        done = subprocess.run([sys.executable, "-m", *tool, str(lever)], capture_output=True, encoding="utf-8")
+    ruff = [sys.executable, "-m", "ruff", "check", "--select", "F,F821", str(lever)]
+    for done in (
+        copied(marimo, ["-m", "marimo"], "check", "--strict", lever),
+        subprocess.run(ruff, capture_output=True, encoding="utf-8"),
+    ):
         assert done.returncode == 0, done.stdout + done.stderr
     assert mismatches(lever) == []
 
@@ -55,7 +60,8 @@ def test_begins_like_an_example(example, lever, monkeypatch):
     done = as_script(path)
     assert (done.returncode, done.stderr) == (0, "")
     assert "units: 0 <= 0" in done.stdout and "not followed" not in done.stdout
-    assert load_workbook(path.with_suffix(".xlsx"))["Front"]["A1"].value == "My own"
+    book = load_workbook(BytesIO(path.with_suffix(".xlsx").read_bytes()), read_only=True)  # not all of its cells
+    assert book["Front"]["A1"].value == "My own"
     assert "../page.css" not in path.read_text(encoding="utf-8")
 
 

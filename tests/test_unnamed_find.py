@@ -4,9 +4,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from by_cells import by_cells
 from own_worksheet import OTHER, own, recorded, value_of
 
-from mechsheet import evaluate
 from mechsheet.readers.numbers import numbers
 from mechsheet.readers.searched import search
 
@@ -36,7 +36,7 @@ def test_what_no_name_holds_the_verdict_of_is_found_again(lines: str, tmp_path: 
     blocks = {solved.node.args[0] for solved in recording.found.values()}
     assert len(blocks) == (3 if "2.5)" in lines else 1 + (lines.count("find(") > 1 or "2 *" in lines))
     for given in OTHER:
-        own_value = evaluate(sheet.path, ["y"], **given)["y"]
+        own_value = by_cells(sheet.path, ["y"], **given)["y"]
         np.testing.assert_allclose(value_of(recording, "y", given), own_value, rtol=1e-12, atol=1e-13)
         inputs = {recording.inputs[name]: x for name, x in given.items()}
         for solved in recording.found.values():  # as the cells find it

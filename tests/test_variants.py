@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 from own_worksheet import own
+from run_once import run
 from test_recorded_worksheet import FOLLOWED, ROOT
 
 from mechsheet import evaluate
@@ -36,18 +37,22 @@ def recorded(sheet: Worksheet, want: list[str], varied: list[str]) -> Again:
 
 
 def test_every_line_that_is_followed_is_so_for_many_variants(tmp_path: Path) -> None:
-    names = [f"y{n}_" for n in range(len(FOLLOWED))]
-    whole = own(tmp_path, "\n".join(f"{name} = {line}" for name, line in zip(names, FOLLOWED, strict=True)))
+    """Each in a cell of its own: one that is not followed costs the others nothing."""
+    lines = {f"y{n}_": line for n, line in enumerate(FOLLOWED)}
+    cells = "".join(f"@app.cell\ndef _(g, x):\n    {name} = {line}\n    return\n\n" for name, line in lines.items())
+    path = Path(own(tmp_path, "pass").path)
+    path.write_text(path.read_text().replace("if __name__", f"{cells}if __name__"))
+    whole = load(path)
     machines = (inputs.build(whole.inputs, {"F": f, "a": a}) for f, a in zip([2.5, *F], [0.75, *A], strict=True))
-    alone = [by_cells(whole, names, g) for g in machines]
+    alone = [by_cells(whole, [*lines], g) for g in machines]
     wrong = []
-    for name, line in zip(names, FOLLOWED, strict=True):
-        again = recorded(own(tmp_path, f"y = {line}"), ["y"], ["F", "a"])
+    for name, line in lines.items():
+        again = recorded(whole, [name], ["F", "a"])
         found = again({"F": np.array([2.5, *F]), "a": np.array([0.75, *A])})
         values = [np.asarray(one[name]) + 0 for one in alone]
         same = [
             x.shape == y.shape and np.allclose(x, y, rtol=1e-12, atol=1e-13, equal_nan=True)
-            for x, y, known in zip(found.values["y"], values, found.known, strict=True)
+            for x, y, known in zip(found.values[name], values, found.known, strict=True)
             if known
         ]
         if not all(same) or bool(found.known[0]) != bool(np.isfinite(values[0]).all()):
@@ -57,15 +62,14 @@ def test_every_line_that_is_followed_is_so_for_many_variants(tmp_path: Path) -> 
 
 @pytest.mark.parametrize("path", DOCUMENTS, ids=[path.stem for path in DOCUMENTS])
 def test_all_numbers_of_a_document_are_those_of_each_variant_alone(path: Path) -> None:
-    sheet = load(path)
-    space = sheet.run(sheet.results, {"g": sheet.inputs()})
+    sheet, space = run(path)
     lines = registry(space)
     cells = [cell for cell in sheet.cells if not any(isinstance(space.get(name), Drawing) for name in cell.gives)]
     given = (name for cell in cells for name in cell.gives if name in lines)
     numbers = {name: np.asarray(space[name]) for name in given if np.asarray(space[name]).dtype.kind in "fc"}
     want = [n for n, value in numbers.items() if np.isfinite(value).all() and (path.stem, n) not in BALANCES]
     fields = [field for field in inputs.declared(sheet.inputs) if field.continuous and type(field) is inputs.Input]
-    near = np.random.default_rng(5).uniform(0.999, 1.001, (len(fields), 4))
+    near = np.random.default_rng(5).uniform(0.999, 1.001, (len(fields), 2))
     given = {field.name: getattr(sheet.inputs, field.name) * x for field, x in zip(fields, near, strict=True)}
 
     found = recorded(sheet, want, list(given))(given)
@@ -75,7 +79,7 @@ def test_all_numbers_of_a_document_are_those_of_each_variant_alone(path: Path) -
         unit = lines[name].unit
         largest[unit] = max(np.max(np.abs(numbers[name]), initial=0), largest.get(unit, 0))
     wrong = []
-    for k in range(4):
+    for k in range(2):
         alone = sheet.run(want, {"g": inputs.instance(sheet.inputs, {name: x[k].item() for name, x in given.items()})})
         for name in want:
             own, x = np.asarray(alone[name]), found.values[name][k]
@@ -96,7 +100,7 @@ MANY = {"F": np.random.default_rng(8).uniform(0.5, 6, 400), "a": np.linspace(0.2
 
 def assert_those_of_each_alone(sheet: Worksheet, want: list[str], **given: Any) -> Sweep:
     swept = sweep(sheet.path, want, given)
-    for k in range(0, swept.solved.size, 9):
+    for k in range(0, swept.solved.size, 15):
         one = {name: x[k] for name, x in given.items()}
         g = inputs.build(sheet.inputs, one)
         if swept.solved[k]:
@@ -155,9 +159,10 @@ r = sqrt(g.a - 0.25) + s.value  # [-] number
 if g.F > 3.7 and g.a < 0.4:
     raise ValueError("F is too large")
 """
-    swept = assert_those_of_each_alone(own(tmp_path, lines), ["y", "r"], **MANY)
+    given = {name: x[::2] for name, x in MANY.items()}
+    swept = assert_those_of_each_alone(own(tmp_path, lines), ["y", "r"], **given)
     told = "\n".join(swept.reasons)
-    assert swept.at_once and 100 < swept.solved.sum() < 300
+    assert swept.at_once and 50 < swept.solved.sum() < 150
     assert "hi = " in told and "is outside" in told and "math domain error" in told and "F is too large" in told
 
 
@@ -177,7 +182,7 @@ def test_what_no_recording_knows_runs_alone(lines: str, given: Any, tmp_path: Pa
 def test_nothing_changes_with_chunks_threads_and_processes(tmp_path: Path) -> None:
     sheet, want = own(tmp_path, MIXED), ["y", "m", "z"]
     ways: list[dict[str, Any]] = [{}, {"chunk": 7}, {"executor": ThreadPoolExecutor(2), "chunk": 60}]
-    with ProcessPoolExecutor(2, get_context("spawn")) as pool:
+    with ProcessPoolExecutor(1, get_context("spawn")) as pool:
         several = [sweep(sheet.path, want, MANY, **way) for way in (*ways, {"executor": pool, "chunk": 150})]
     for other in several[1:]:
         assert all(np.array_equal(several[0][name], other[name]) for name in want)

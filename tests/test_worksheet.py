@@ -12,6 +12,7 @@ from textwrap import indent
 
 import numpy as np
 import pytest
+from hypothesis import settings
 from marimo._convert.converters import MarimoConvert
 
 from mechsheet.recording.evaluation import evaluate
@@ -22,6 +23,7 @@ from mechsheet.worksheet.errors import SheetError
 from worksheets import hitch
 
 HITCH = Path(__file__).resolve().parents[1] / "worksheets" / "hitch.py"
+EVERY = 500 // settings.default.max_examples or 1  # one file in so many, all of them in a search
 
 
 def test_capacity_runs_only_what_it_depends_on():
@@ -34,9 +36,9 @@ def test_capacity_runs_only_what_it_depends_on():
 
 
 def test_comments_are_those_of_pythons_own_tokens():
-    """In every way in which texts and comments may hold each other, and in the files of the project."""
-    files = (path for folder in ("tests", "worksheets") for path in HITCH.parents[1].glob(f"{folder}/**/*.py"))
-    texts = [path.read_text(encoding="utf-8") for path in files]
+    """In every way in which texts and comments may hold each other, and in files of the project."""
+    files = [*HITCH.parent.rglob("*.py"), *sorted(Path(__file__).parent.glob("*.py"))]
+    texts = [path.read_text(encoding="utf-8") for path in files[::EVERY]]
     texts += [
         """x = '#' "\\"#" r'\\'  # a '#' b\ny = \'\'\'# " \n'' #\'\'\'; z = f"{x:#}"  #: c\n#d""",
         "a = 'b\\\n#c'  # d",
@@ -51,7 +53,7 @@ def test_comments_are_those_of_pythons_own_tokens():
 
 def test_what_marimos_editor_saves_is_the_same_worksheet(tmp_path):
     """The editor writes behind ``return`` only what other cells read: tables and found values are not there."""
-    documents = [path for path in HITCH.parent.rglob("*.py") if path.stem not in ("accuracy", "hitch_design", "guide")]
+    documents = [HITCH, *HITCH.parent.glob("examples/*.py")]
     shutil.copy(HITCH.parent / "examples" / "engine.csv", tmp_path)
     for old in documents:
         new = tmp_path / old.name
@@ -101,44 +103,48 @@ def count(frame, event, argument):
     code = frame.f_code
     ran += event == "call" and code.co_name == "<module>" and code.co_filename == {path!r}
 
-sys.setprofile(count)
-{run}
-sys.setprofile(None)
-print(ran, *sorted(name for name in sys.modules if "." not in name))
+for run in {runs!r}:
+    ran = 0
+    sys.setprofile(count)
+    exec(run, {{}})
+    sys.setprofile(None)
+    print("ran", ran, *sorted(name for name in sys.modules if "." not in name))
 """
+RUNS = {
+    "evaluate": "from mechsheet import evaluate; evaluate({path!r}, want=['GS6'], P6=30e3)",
+    "scene": "from mechsheet.run.batch import run; run({path!r}, [{scene!r}])",
+    "figure": "from mechsheet import evaluate; evaluate({path!r}, ['figure_54'])",
+}
 
 
-def ran(run: str) -> tuple[int, set[str]]:
-    """How many blocks of the hitch worksheet a fresh process runs, setup among them, and the packages it loads."""
-    code = COUNT.format(path=str(HITCH), run=run)
+@pytest.fixture(scope="module")
+def ran(tmp_path_factory):
+    """How many blocks of the hitch worksheet a fresh process runs one after the other, and the packages it has loaded.
+
+    The setup is one of the first.
+    """
+    scene = tmp_path_factory.mktemp("scene") / "capacity.toml"
+    scene.write_text('want = ["GS6"]\n[inputs]\nP6 = 30e3\n[limits]\nGS6 = {min = 20e3}\n')
+    runs = [run.format(path=str(HITCH), scene=str(scene)) for run in RUNS.values()]
+    code = COUNT.format(path=str(HITCH), runs=runs)
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, encoding="utf-8")
     assert done.returncode == 0, done.stderr
-    blocks, *packages = done.stdout.splitlines()[-1].split()
-    return int(blocks), set(packages)
+    told = [line.split()[1:] for line in done.stdout.splitlines() if line.startswith("ran ")]
+    return {name: (int(blocks), set(packages)) for name, (blocks, *packages) in zip(RUNS, told, strict=True)}
 
 
 HEAVY = {"marimo", "altair", "pandas", "scipy", "openpyxl", "xlsxwriter", "matplotlib"}
 
 
-@pytest.mark.parametrize(
-    "run",
-    [
-        "from mechsheet import evaluate; evaluate({path!r}, want=['GS6'], P6=30e3)",
-        "from mechsheet.run.batch import run; run({path!r}, [{scene!r}])",
-    ],
-    ids=["evaluate", "scene"],
-)
-def test_capacity_runs_its_thirteen_cells_and_loads_no_page_chart_or_workbook(run, tmp_path):
-    scene = tmp_path / "capacity.toml"
-    scene.write_text('want = ["GS6"]\n[inputs]\nP6 = 30e3\n[limits]\nGS6 = {min = 20e3}\n')
-    blocks, packages = ran(run.format(path=str(HITCH), scene=str(scene)))
-    assert blocks == 1 + 13
-    assert not HEAVY & packages
+@pytest.mark.parametrize(("run", "blocks"), [("evaluate", 1 + 13), ("scene", 13)])
+def test_capacity_runs_its_thirteen_cells_and_loads_no_page_chart_or_workbook(run, blocks, ran):
+    assert ran[run][0] == blocks
+    assert not HEAVY & ran[run][1]
 
 
-def test_reactions_and_charts_are_counted_where_they_are_asked_for():
-    blocks, packages = ran(f"from mechsheet import evaluate; evaluate({str(HITCH)!r}, ['figure_54'])")
-    assert blocks == 1 + len(load(HITCH).needed(["figure_54"], ["g"])) > 1 + 13
+def test_reactions_and_charts_are_counted_where_they_are_asked_for(ran):
+    blocks, packages = ran["figure"]
+    assert blocks == len(load(HITCH).needed(["figure_54"], ["g"])) > 13
     assert "altair" not in packages, "a figure is drawn by the page"
 
 
