@@ -97,7 +97,7 @@ def _run(main: Callable[[], object], command: list[str], out: IO[str], err: IO[s
         warnings.resetwarnings()
         gc.freeze()  # what the tests hold is not looked through for waste again
         atexit._clear()  # what the tests do at their end
-        sys.argv, sys.stdout, sys.stderr = command, out, err
+        sys.argv, sys.stdout, sys.stderr, sys.excepthook = command, out, err, sys.__excepthook__
         try:
             main()
             code = 0

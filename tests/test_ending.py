@@ -346,6 +346,20 @@ def test_what_a_command_runs_ends_with_it() -> None:
 
 
 @pytest.mark.skipif(os.name == "nt", reason="Windows has no signals")
+def test_ctrl_c_as_a_program_ends_keeps_its_code(interrupted: None, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Between the system's word that it has ended and whoever waits for that."""
+    waitpid = os.waitpid
+
+    def late(*args: int) -> tuple[int, int]:
+        ended = waitpid(*args)
+        signal.raise_signal(signal.SIGINT)
+        return ended
+
+    monkeypatch.setattr(os, "waitpid", late)
+    assert launcher.call([sys.executable, "-c", "raise SystemExit(7)"]) == 7
+
+
+@pytest.mark.skipif(os.name == "nt", reason="Windows has no signals")
 def test_a_program_that_a_signal_ended_has_the_code_of_shells() -> None:
     dies = "import os, signal; os.kill(os.getpid(), signal.SIGTERM)"
     assert launcher.call([sys.executable, "-c", dies]) == 128 + signal.SIGTERM

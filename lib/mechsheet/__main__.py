@@ -259,14 +259,18 @@ def call(command: "list[str]", cwd: "Path | None" = None, settings: "dict[str, s
     usual = {"OPENBLAS_NUM_THREADS": "1"}
     always = {"PYTHONUTF8": "1", "_MARIMO_CONFIG_OVERLOAD_RUNTIME_AUTO_INSTANTIATE": "true"}
     with subprocess.Popen(command, cwd=cwd, env={**usual, **os.environ, **always, **(settings or {})}) as process:
-        kept = signal.signal(signal.SIGTERM, lambda *_: process.terminate())  # else a server outlives its command
-        while True:
-            try:
-                code = process.wait()
-                signal.signal(signal.SIGTERM, kept)
-                return code if code >= 0 else 128 - code  # of a program that a signal ended, as shells have it
-            except KeyboardInterrupt:  # Ctrl-C reaches the program too, and how to end is for it to say
-                pass
+        ends = {
+            signal.SIGTERM: lambda *_: process.terminate(),  # else a server outlives its command
+            # Ctrl-C reaches the program too, and how to end is for it to say; an interruption here could lose its code.
+            signal.SIGINT: lambda *_: None,
+        }
+        kept = {number: signal.signal(number, end) for number, end in ends.items()}
+        try:
+            code = process.wait()
+        finally:
+            for number, handler in kept.items():
+                signal.signal(number, handler)
+    return code if code >= 0 else 128 - code  # of a program that a signal ended, as shells have it
 
 
 def say(text: str) -> None:
