@@ -83,6 +83,7 @@ READ = (
     verdicts: Object.fromEntries(each(".ms-check", e => [e.id, text(e.querySelector(".ms-badge"))])),
     charts: each(".ms-figure svg.ms-chart", e => e.outerHTML.replace(/ (data-values|style)="[^"]*"/g, "")),
     drawings: each("[data-n] > svg:not(.ms-chart)", e => e.outerHTML),
+    sliders: each("[data-control]", e => [e.min, e.max, e.value]),
     texts: each(".ms-between, .ms-caption", e => (e.querySelector(".ms-grey") ? null : text(e))),
     found: each(".ms-found", e => (e.matches(".ms-grey") ? null : e.innerHTML)),
     state: text(document.querySelector(".ms-state")),
@@ -182,7 +183,7 @@ def test_the_page_shows_for_other_inputs_what_the_worksheet_shows(
     How often an equation was evaluated is no property of the document.
     """
     given = SHEETS[name]
-    assert document(name).stat().st_size < 600_000
+    assert document(name).stat().st_size < 650_000
     there = read(opened(offline, document(name, **given)))
     pictures = drawn(name, given)
     changed = opened(offline, document(name), "&".join(f"{k}={quote(v)}" for k, v in given.items()))
@@ -190,7 +191,7 @@ def test_the_page_shows_for_other_inputs_what_the_worksheet_shows(
     here = read(changed)
     assert faults(changed) == []
     assert here["state"].startswith("changed: ")
-    assert here["verdicts"] == there["verdicts"]
+    assert here["verdicts"] == there["verdicts"] and here["sliders"] == there["sliders"]
     for shown in (here, there):
         assert len(shown["drawings"]) == len(pictures["drawings"])
         for own, drawing in zip(pictures["drawings"], shown["drawings"], strict=True):

@@ -746,7 +746,7 @@ def ring_scheme(M_r, N_r, P_k, g, p_o, phi, phi_no, y_r0):
             value = p_o[p, k, 0]
             text = f"{value / 1e3:.4g} N/mm" if g.SI else f"{value / (kgf / cm):.4g} kgf/cm"
             picture = picture.text(out(middle, 0.5 * g.r), text.replace("-", "−"))
-        greatest_at = np.argmax(P_k[p, k])
+        greatest_at = np.argmax(P_k[p, k] > (1 - 1e-9) * np.max(P_k[p, k]))  # the first of bolts that are alike
         for i, (angle, force) in enumerate(zip(phi[p, 0], P_k[p, k], strict=True)):
             picture = picture.hinge(out(angle, g.r))
             end = out(angle, g.r * (1 + 0.35 * force / np.max(P_k)))

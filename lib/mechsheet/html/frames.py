@@ -97,8 +97,8 @@ def _positions(control: Control, most: int) -> list[float]:
     return [control.start + i * step for i in at]  # whole numbers may be indices
 
 
-def told(found: Moved) -> dict[str, Any]:
-    """The pictures and marks of a control as JSON has them, pictures that are alike once."""
+def told(found: Moved, page: Follower) -> dict[str, Any]:
+    """The pictures and marks of a control as JSON has them, pictures that are alike once, and what its end is."""
     pictures = [json.dumps(_pieces(each)) for each in found.pictures.values()]
     known = list(dict.fromkeys(pictures))
     return {
@@ -106,6 +106,7 @@ def told(found: Moved) -> dict[str, Any]:
         "pictures": [json.loads(each) for each in known],
         "which": [known.index(each) for each in pictures],
         "marks": found.marks,
+        "stop": page.argument(f"slider {found.control.name} stop"),
     }
 
 

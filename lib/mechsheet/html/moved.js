@@ -1,5 +1,6 @@
 // Sliders and play buttons: what they move, and the marks that they set in charts.
 const PASS = 3000; // ms from one end to the other while it plays
+const POSITIONS = 400; // positions of a slider
 
 // A text with the numbers of one position in its holes.
 function filled(text, numbers) {
@@ -18,13 +19,20 @@ const nearest = (positions, x) => positions.reduce((best, at, k) => (Math.abs(at
 const isSlid = name => moving.get(name) && moving.get(name).at !== moving.get(name).first;
 const slid = () => Object.fromEntries([...moving].map(([name, control]) => [`slider ${name}`, control.positions[control.at]]));
 
+// Show where a control is, and how far it goes.
+function showControl(name) {
+  const {positions, at} = moving.get(name);
+  document.querySelectorAll(`[data-control="${name}"]`).forEach(input => {
+    input.max = positions.at(-1);
+    input.value = positions[at];
+    input.closest(".ms-player").querySelector("output").textContent = significant(positions[at], 6);
+  });
+}
+
 // Show what a control moves: from an evaluation, or one of the pictures that the document has.
 function showMoved(name) {
   const control = moving.get(name), own = !state.changed.size;
-  document.querySelectorAll(`[data-control="${name}"]`).forEach(input => {
-    input.value = control.positions[control.at];
-    input.closest(".ms-player").querySelector("output").textContent = significant(control.positions[control.at], 6);
-  });
+  showControl(name);
   if (state.refused) return;
   control.elements.forEach(([spec, element, n]) => {
     if (spec.kind !== "moved") return soon(n, () => showNow(spec, element));
@@ -42,6 +50,22 @@ const setMark = (symbol, at) => figures.forEach(figure => figure.style.setProper
 
 function showPositions() {
   for (const [symbol, key] of Object.entries(told.positions)) setMark(symbol, state.results?.values[key]);
+}
+
+// Let sliders end where they do for these inputs; whether one had to leave its place.
+function ended() {
+  let left = false;
+  for (const [name, control] of moving) {
+    const stop = state.results.values[control.stop];
+    if (!(stop >= control.own[0])) continue;
+    const {own, at} = control, there = control.positions[at], step = own[1] - own[0] || 1;
+    const before = own.filter(x => x <= stop), last = before[before.length - 1];
+    const more = Array.from({length: Math.min(Math.floor((stop - last) / step + 1e-9), POSITIONS)}, (_, k) => last + (k + 1) * step);
+    control.positions = [...before, ...more];
+    control.at = nearest(control.positions, there);
+    left ||= control.positions[control.at] !== there;
+  }
+  return left;
 }
 
 // Move a control: what rests on it is computed anew.
@@ -91,10 +115,10 @@ function play(button) {
   control.timer = requestAnimationFrame(advance);
 }
 
-for (const [name, {positions, pictures, which, marks}] of Object.entries(told.moved)) {
+for (const [name, {positions, pictures, which, marks, stop}] of Object.entries(told.moved)) {
   const elements = told.shown.flatMap((spec, n) => (spec.control === name ? [[spec, shownBy[n], n]] : []));
   const at = nearest(positions, Number(document.querySelector(`[data-control="${name}"]`).value));
-  moving.set(name, {positions, pictures: which.map(n => picturesOf(pictures[n])), marks, elements, at, first: at});
+  moving.set(name, {positions, own: positions, stop, pictures: which.map(n => picturesOf(pictures[n])), marks, elements, at, first: at});
 }
 
 // The last position of a slider in each frame.

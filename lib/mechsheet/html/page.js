@@ -160,6 +160,7 @@ function refresh() {
   const own = !changed.size && !errors.size;
   state.si = si;
   state.results = errors.size ? null : computed();
+  if (state.results && ended()) state.results = computed();
   told.shown.forEach((spec, n) => {
     const at = spec.kind === "check" ? (_, f) => f() : soon; // the checks are summed up
     if (own && !spec.control && spec.kind !== "moved" && !spec.slid?.some(isSlid)) at(n, () => showFirst(n));
@@ -184,6 +185,7 @@ function showFirst(n) {
   if (isSwitched(told.shown[n]) || (!first[n] && DRAWN.has(told.shown[n].kind))) return showOne(told.shown[n], n);
   set(contentOf(shownBy[n]), first[n]);
   grey(shownBy[n], "");
+  if (moving.has(told.shown[n].of)) showControl(told.shown[n].of);
 }
 
 const showOne = (spec, n) => (spec.fixed && !broken(spec, state.results) ? showFirst(n) : showNow(spec, shownBy[n]));

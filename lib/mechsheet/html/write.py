@@ -110,7 +110,7 @@ def _page(sheet: Worksheet, namespace: dict[str, Any], lists: bool) -> str:
         "pictures": follower.pictures,
         "units": follower.units,
         "positions": follower.positions(),
-        "moved": {each.control.name: frames.told(each) for each in moving},
+        "moved": {each.control.name: frames.told(each, follower) for each in moving},
     }
     data = json.dumps(told, ensure_ascii=False, separators=(",", ":")).encode()
     packed = base64.b64encode(zlib.compress(data, 9)).decode()

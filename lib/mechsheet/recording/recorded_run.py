@@ -241,9 +241,9 @@ class Run(OfPositions):
                 {guard.holds: guard for guard in (*self.looked.get(name, ()), *rests.values())}.values()
             )
         for name in touched:
-            if isinstance(self.names.get(name), Slider):  # it rests where the worksheet has it
-                own = self.namespace.get(name, self.names[name])
-                self.names[name] = showing.slid(self.recording, name, own) if graph.draws else own
+            if isinstance(made := self.names.get(name), Slider):  # it rests where the worksheet has it
+                own = self.namespace.get(name, made)
+                self.names[name] = showing.slid(self.recording, name, made, own) if graph.draws else own
             self.looked[name] = tuple(rests.values())
             self.hold(name, rests.values())
             if isinstance(value := self.names.get(name), Selected) and name in self.lines:  # which shows those now

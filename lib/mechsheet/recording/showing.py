@@ -155,8 +155,10 @@ def drawings(shown: Any) -> Iterator[Drawing]:
                 yield from drawings(part)
 
 
-def slid(recording: Recording, name: str, own: Slider) -> Slider:
-    """A slider whose position is an input of the recording."""
+def slid(recording: Recording, name: str, made: Slider, own: Slider) -> Slider:
+    """A slider whose position is an input of the recording, and its end an argument where that rests on others."""
     leaf = recording.inputs[SLIDER + name] = recording.graph.leaf("input", SLIDER + name, own.value)
     position: Any = Quantity(recording.graph, leaf)
+    if isinstance(made.stop, Quantity):
+        recording.arguments[f"slider {name} stop"] = made.stop.re
     return replace(own, value=position)

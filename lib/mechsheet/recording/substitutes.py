@@ -160,9 +160,10 @@ def _of_package(value: Any, room: str) -> Any:
     return _refused(value.__name__) if room.startswith("mechsheet.studies.") else value
 
 
-def _laid_out(*args: Any, **kwargs: Any) -> Any:
-    """A slider where the worksheet has it: what of it rests on inputs is what it is now."""
-    return title.slider(*map(seen, args), **{key: seen(value) for key, value in kwargs.items()})
+def _laid_out(start: Any, stop: Any, *args: Any, **kwargs: Any) -> Any:
+    """A slider where the worksheet has it: what of it rests on inputs is what it is now, its end where none follows."""
+    end = stop if current.get().draws else seen(stop)
+    return title.slider(seen(start), end, *map(seen, args), **{key: seen(value) for key, value in kwargs.items()})
 
 
 def _requires(point: Any, *_: Any) -> None:
