@@ -10,7 +10,7 @@ from playwright.sync_api import expect
 WORKSHEETS = Path(__file__).parents[1] / "worksheets"
 # an input of each sheet by its meaning, and a new value for it
 CHANGED = {
-    "accuracy": ("positions of the hitch", "12"),
+    "accuracy": ("positions of the hitch", "1"),  # which is refused: another number would be measured for a minute
     "guide": ("force on the ram", "40"),
     "hitch": ("weight of the implement", "30000"),
     "hitch_design": ("weight of the implement", "26500"),

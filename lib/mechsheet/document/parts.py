@@ -167,7 +167,7 @@ def _cells(names: dict[str, Any], only: Container[int] | None = None) -> Iterato
 @lru_cache(maxsize=32)
 def _read(path: Path, _changed: int) -> tuple[_Written, ...]:
     """The cells of a file in their order."""
-    nodes = list(source.functions(source.parsed(path.read_text(encoding="utf-8"))[0]))
+    nodes = list(source.functions(source.parsed(path.read_text(encoding="utf-8"), str(path))[0]))
     given = [cell.gives for cell in load(path).cells]
     certain, every = frozenset(results(path, certain=True)), frozenset(results(path))
     arranging = {name: line for node in nodes for line in node.body if (name := _arranging(line))}

@@ -6,7 +6,6 @@ from functools import cached_property
 from itertools import pairwise
 from typing import NamedTuple, TypeGuard
 
-from mechsheet.recording.statement import binds
 from mechsheet.worksheet import source
 from mechsheet.worksheet.cells import Worksheet
 from mechsheet.worksheet.lines import Formula
@@ -54,7 +53,7 @@ class Places:
     @cached_property
     def lines(self) -> dict[str, int]:
         """Lines of the statements that bind names."""
-        return {name: number for number, line in self.statements.items() for name in binds(line)}
+        return {name: number for number, line in self.statements.items() for name in bound(line)}
 
     def line_of(self, formula: Formula) -> int:
         """The line of a formula; of a function that of what it returns."""
@@ -83,7 +82,7 @@ class Places:
     def is_erratum(self, line: int) -> bool:
         """Whether the statement of a line is marked as one that the document prints and that is wrong."""
         around = (s for s in self.statements.values() if s.lineno <= line <= (s.end_lineno or s.lineno))
-        names = (name for statement in around for name in binds(statement))
+        names = (name for statement in around for name in bound(statement))
         return any("erratum" in self.known[name].meaning for name in names if name in self.known)
 
     def of_check(self, name: str, lines: Iterable[int]) -> int:

@@ -82,13 +82,7 @@ def _names(node: ast.expr) -> frozenset[str]:
 @lru_cache(maxsize=4096)
 def touched(statement: ast.stmt) -> tuple[str, ...]:
     """Names that a statement binds, or whose value it changes."""
-    return tuple(dict.fromkeys([*binds(statement), *_changed(source.nodes(statement))]))
-
-
-@lru_cache(maxsize=4096)
-def binds(statement: ast.stmt) -> tuple[str, ...]:
-    """Names that a statement binds."""
-    return tuple(bound(statement))
+    return tuple(dict.fromkeys([*bound(statement), *_changed(source.nodes(statement))]))
 
 
 @lru_cache(maxsize=4096)

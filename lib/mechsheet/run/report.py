@@ -81,7 +81,7 @@ def export(title: str, namespace: Mapping[str, Any]) -> Any:
     def book() -> tuple[bytes, list[str]]:
         values = parts.values(namespace)
         recording, fit = _recorded(namespace, values)
-        return _workbook(title, namespace, [*values, fit], recording), _not_followed(recording, [*values, fit])
+        return _workbook(title, namespace, [*values, fit], values, recording), _not_followed(recording, [*values, fit])
 
     def page() -> tuple[bytes, list[str]]:
         return html.page(sheet, inputs_of(namespace)).encode(), []
@@ -131,7 +131,8 @@ def _script(title: str | None, namespace: Mapping[str, Any], worksheet: Path) ->
     declared = inputs.declared(type(inputs_of(namespace)))
     given = arguments.read(sys.argv[1:], declared)
     with arguments.usage():
-        values = limited(parts.values(namespace), given.limits, namespace)
+        own = parts.values(namespace)
+        values = limited(own, given.limits, namespace)
     refuse_open(_of(Check, values))
     unsolved = lacking(values)
     recording, fit = _recorded(namespace, values)
@@ -162,7 +163,7 @@ def _script(title: str | None, namespace: Mapping[str, Any], worksheet: Path) ->
         say(why, *_not_there(recording, [*values, fit]), *_left_out(namespace, worksheet))
     else:
         path = (given.out or folder(worksheet.resolve())) / f"{worksheet.stem}.xlsx"
-        write(_workbook(title, namespace, [*values, fit, *proved], recording, proved), path)
+        write(_workbook(title, namespace, [*values, fit, *proved], own, recording, proved), path)
         say(f"written {path}", *_not_followed(recording, [*values, fit]), *_left_out(namespace, worksheet))
     if unsolved or not all(check.passed for check in checks):
         sys.exit(1)
@@ -217,9 +218,10 @@ def write(data: bytes, path: Path) -> None:
 
 def workbook(title: str, namespace: Mapping[str, Any], limits: Mapping[str, Limit]) -> bytes:
     """Workbook of a whole run of a worksheet, its checks under the limits of a scene."""
-    values = limited(parts.values(namespace), limits, namespace)
+    own = parts.values(namespace)
+    values = limited(own, limits, namespace)
     recording, fit = _recorded(namespace, values)
-    return _workbook(title, namespace, [*values, fit], recording)
+    return _workbook(title, namespace, [*values, fit], own, recording)
 
 
 @_uncollected()
@@ -265,10 +267,12 @@ def _workbook(
     title: str,
     namespace: Mapping[str, Any],
     values: list[Any],
+    own: list[Any],
     recording: Recording,
     proved: Mapping[Check, float] | None = None,
 ) -> bytes:
-    own = {check.name: check.limit for check in _of(Check, parts.values(namespace))}
+    """The workbook of a run with the ``values`` that it shows, with the limits of a scene instead of their ``own``."""
+    limits = {check.name: check.limit for check in _of(Check, own)}
     return writing.workbook(
         title,
         inputs=inputs_sheet.rows(inputs_of(namespace)),
@@ -278,7 +282,7 @@ def _workbook(
         checks=_of(Check, values),
         recording=recording,
         index=index.of_worksheet(namespace),
-        fixed={check.name for check in _of(Check, values) if own.get(check.name, check.limit) != check.limit},
+        fixed={check.name for check in _of(Check, values) if limits.get(check.name, check.limit) != check.limit},
         proved={check.name: digits for check, digits in (proved or {}).items()},
     )
 

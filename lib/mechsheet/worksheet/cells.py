@@ -392,8 +392,8 @@ def compiled(lines: list[ast.stmt], path: str, own: str) -> tuple[list[ast.stmt]
     code = compile(ast.Module(lines, []), path, "exec")
     if not any(name.startswith("_") for name in code.co_names):  # as of most cells
         return lines, code
-    lines = deepcopy(lines)
     private = {name for line in lines for name in bound(line) if name.startswith("_")}
+    lines = deepcopy(lines)
     for node in (node for line in lines for node in ast.walk(line)):
         if isinstance(node, ast.alias):
             if (name := node.asname or node.name) in private:

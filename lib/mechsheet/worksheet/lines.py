@@ -104,8 +104,11 @@ def formulas(cell: source.Cell) -> tuple[Formula | Given, ...]:
 
 
 def _formulas(cell: source.Cell) -> Iterator[Formula | Given]:
-    known, binds = branches(cell.body), [frozenset(bound(node)) for node in cell.body]
-    earlier = dict[str, Declared]()
+    known, earlier = branches(cell.body), dict[str, Declared]()
+    binding = dict[str, list[int]]()  # statements by the names that they bind
+    for k, node in enumerate(cell.body):
+        for name in bound(node):
+            binding.setdefault(name, []).append(k)
     for k, node in enumerate(cell.body):
         match node:
             case ast.Assign([ast.Name(name)], ast.Call(ast.Name("find" | "minerr"), [f, *_], keywords)):
@@ -124,10 +127,19 @@ def _formulas(cell: source.Cell) -> Iterator[Formula | Given]:
             if not line.name.startswith("_"):
                 printed = match[0] if (match := _NUMBER.match(told.meaning)) else ""
                 meaning = told.meaning.removeprefix(printed).lstrip()
-                line = replace(line, unit=told.unit, number=printed, meaning=meaning, mistake=told.mistake)
-                line = _in_its_place(line, k, [(each, n.lineno) for each, n in zip(binds, cell.body, strict=True)])
-                own = tuple((name, untold(value, known)) for name, value in line.where)
-                yield replace(line, expression=untold(line.expression, known), where=own)
+                again = next((cell.body[n].lineno for n in binding.get(line.name, ()) if n > k), 0)
+                anew = () if line.arguments else (name for name in names_read(line) if binding.get(name, [-1])[-1] >= k)
+                yield replace(
+                    line,
+                    unit=told.unit,
+                    number=printed,
+                    meaning=meaning,
+                    mistake=told.mistake,
+                    expression=untold(line.expression, known),
+                    where=tuple((name, untold(value, known)) for name, value in line.where),
+                    again=again,
+                    others=frozenset(anew),
+                )
 
 
 def _told(cell: source.Cell, node: ast.stmt, earlier: Mapping[str, Declared]) -> Iterator[tuple[Formula, Declared]]:
@@ -137,13 +149,6 @@ def _told(cell: source.Cell, node: ast.stmt, earlier: Mapping[str, Declared]) ->
     elif lines := _bound(node):
         number = node.end_lineno or node.lineno
         yield from zip(lines, _declared_each(cell.comments.get(number, ""), cell.at(number), lines), strict=False)
-
-
-def _in_its_place(line: Formula, k: int, binds: Sequence[tuple[frozenset[str], int]]) -> Formula:
-    """A line with what the k-th statement of its cell and those below it bind anew."""
-    again = next((number for names, number in binds[k + 1 :] if line.name in names), 0)
-    anew = frozenset[str]().union(*(names for names, _ in binds[k:]))
-    return replace(line, again=again, others=frozenset() if line.arguments else anew.intersection(names_read(line)))
 
 
 class _Chosen(NamedTuple):

@@ -7,7 +7,7 @@ import os
 import re
 import tokenize
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import lru_cache
 from pathlib import Path
 from types import CodeType, FrameType
@@ -16,12 +16,12 @@ from typing import Any
 from mechsheet.worksheet import mistakes, shown
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True)
 class Cell:
-    """Statements of a cell, with the comment of each line and where the cell stands."""
+    """Statements of a cell, with the comment of each line and where the cell stands; the same for the same ones."""
 
     body: tuple[ast.stmt, ...]
-    comments: dict[int, str]
+    comments: dict[int, str] = field(compare=False)
     filename: str
 
     def at(self, line: int) -> str:
@@ -167,8 +167,13 @@ _SCOPES = (ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef)
 _INNER = (ast.Lambda, ast.ListComp, ast.SetComp, ast.DictComp, ast.GeneratorExp)
 
 
-def bound(node: ast.AST) -> Iterator[str]:
+@lru_cache(maxsize=4096)
+def bound(node: ast.AST) -> tuple[str, ...]:
     """Names that a statement binds where it stands, in the order of its text; what has a scope of its own keeps its."""
+    return tuple(_bound(node))
+
+
+def _bound(node: ast.AST) -> Iterator[str]:
     waiting = [node]
     while waiting:
         part = waiting.pop()
