@@ -1,7 +1,9 @@
 """Worksheets with some lines of one's own, recorded, and what is read from the recording for other inputs."""
 
+import re
 from collections.abc import Sequence
 from pathlib import Path
+from textwrap import indent
 from typing import Any
 
 from mechsheet.quantities.lines import Recording
@@ -87,3 +89,47 @@ def value_of(recording: Recording, name: str, given: dict[str, Any]) -> Any:
 
 
 ELSEWHERE: list[dict[str, Any]] = [{}, *OTHER, {"F": 4.0, "a": 1.0}, {"F": 2.5000001}, {"n": 3}, {"n": 8, "F": 3.25}]
+
+
+def written(setup: str, given: str, lines: str, title: str = "") -> str:
+    """A worksheet by the lines of its setup, of its inputs and of its cell; it is exported where it has a title."""
+    names = [line.split(" = ")[0] for line in lines.splitlines() if re.match(r"\w+ = ", line)]
+    gives = f"({names[0]},)" if len(names) == 1 else ", ".join(names)
+    end = f'@app.cell\ndef workbook():\n    export("{title}", globals())\n    return\n\n\n' if title else ""
+    return f"""import marimo
+
+app = marimo.App()
+
+with app.setup:
+{indent(setup.strip(), "    ")}
+
+
+@app.class_definition
+@inputs
+class Given:
+{indent(given.strip(), "    ")}
+
+    \"\"\"Inputs.\"\"\"
+
+
+@app.cell
+def form():
+    form = ask(Given)
+    return (form,)
+
+
+@app.cell
+def given(form):
+    g = read(Given, form)
+    return (g,)
+
+
+@app.cell
+def lines(g):
+{indent(lines.strip(), "    ")}
+    return {gives}
+
+
+{end}if __name__ == "__main__":
+    app.run()
+"""

@@ -19,54 +19,24 @@ from mechsheet.units import parse, plain, shown, si
 from mechsheet.workbook import reading
 from mechsheet.worksheet import numbers
 from mechsheet.worksheet.inputs import declared
+from tests.own_worksheet import written
 
-SHEET = """import marimo
+SHEET = written(
+    """
+from numpy import pi
 
-app = marimo.App()
-
-with app.setup:
-    from numpy import pi
-
-    from mechsheet import ask, export, inputs, read, typeset
-    from mechsheet.units import MPa, m
-
-
-@app.class_definition
-@inputs
-class Crack:
-    K: float = 50 * MPa * m**0.5  # [MPa*m**0.5] toughness
-
-    \"\"\"Inputs.\"\"\"
-
-
-@app.cell
-def form():
-    form = ask(Crack)
-    return (form,)
-
-
-@app.cell
-def given(form):
-    g = read(Crack, form)
-    return (g,)
-
-
-@app.cell
-def lines(g):
-    K_2 = 2 * g.K + 3 * MPa * m ** (1 / 2)  # [MPa*m**(1/2)] toughness
-    typeset()
-    return (K_2,)
-
-
-@app.cell
-def workbook():
-    export("Crack", globals())
-    return
-
-
-if __name__ == "__main__":
-    app.run()
-"""
+from mechsheet import ask, export, inputs, read, typeset
+from mechsheet.units import MPa, m
+""",
+    """
+K: float = 50 * MPa * m**0.5  # [MPa*m**0.5] toughness
+""",
+    """
+K_2 = 2 * g.K + 3 * MPa * m ** (1 / 2)  # [MPa*m**(1/2)] toughness
+typeset()
+""",
+    "Crack",
+)
 
 
 @pytest.mark.parametrize("typed", ["MPa*m**0.5", "MPa*m**(1/2)", "MPa·m^(1/2)", "MPa m¹⁄²", "MPa*m**(0.5)"])

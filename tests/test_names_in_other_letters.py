@@ -21,50 +21,25 @@ from mechsheet.worksheet.scene import Limit
 
 if TYPE_CHECKING:
     from playwright.sync_api import Page
+from tests.own_worksheet import written
 
-SHEET = """import marimo
-
-app = marimo.App()
-
-with app.setup:
-    from mechsheet import ask, inputs, read
-    from mechsheet.units import deg
-
-
-@app.class_definition
-@inputs
-class Given:
-    β_1: float = 20 * deg  # [deg] угол; >= 0
-    μ: float = 0.1  # [-] friction
-    угол: float = 5 * deg  # [deg] угол
-    единый: bool = True  # сварка
-    марка: str = "09Г2С"  # сталь
-
-    \"\"\"Inputs.\"\"\"
-
-
-@app.cell
-def form():
-    form = ask(Given)
-    return (form,)
-
-
-@app.cell
-def given(form):
-    g = read(Given, form)
-    return (g,)
-
-
-@app.cell
-def lines(g):
-    γ_1 = 2 * g.β_1 + g.угол  # [deg] угол
-    q = g.μ * g.единый  # [-] friction
-    return (q, γ_1)
-
-
-if __name__ == "__main__":
-    app.run()
-"""
+SHEET = written(
+    """
+from mechsheet import ask, inputs, read
+from mechsheet.units import deg
+""",
+    """
+β_1: float = 20 * deg  # [deg] угол; >= 0
+μ: float = 0.1  # [-] friction
+угол: float = 5 * deg  # [deg] угол
+единый: bool = True  # сварка
+марка: str = "09Г2С"  # сталь
+""",
+    """
+γ_1 = 2 * g.β_1 + g.угол  # [deg] угол
+q = g.μ * g.единый  # [-] friction
+""",
+)
 GIVEN = {"β_1": "18", "μ": "0.25", "угол": "7,5", "единый": "no", "марка": 'Ст"3 🙂'}
 MICRO = "\u00b5"  # of the keyboard, which Python reads as the Greek letter
 

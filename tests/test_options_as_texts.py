@@ -20,65 +20,35 @@ from mechsheet.studies import asked_design
 from mechsheet.worksheet import inputs
 from mechsheet.worksheet.check import checks_of
 from mechsheet.worksheet.errors import SheetError
+from tests.own_worksheet import written
 
-SHEET = '''import marimo
+SHEET = written(
+    """
+from typing import Literal
 
-app = marimo.App()
+from mechsheet import ask, check, export, inputs, one_of, read, table, typeset
 
-with app.setup:
-    from typing import Literal
-
-    from mechsheet import ask, check, export, inputs, one_of, read, table, typeset
-
-    @inputs
-    class Gear:
-        z: int  # [-] teeth; > 0
-        m: float  # [kg] mass
-
-    GEARS = {"small": Gear(17, 0.5), "large": Gear(43, 2.0)}
-
-
-@app.class_definition
 @inputs
-class Given:
-    mode: Literal["low", "high"] = "low"  # mode
-    gear: Gear = one_of(GEARS, "small")  # gear
-    gears: list[Gear] = [Gear(17, 1.0), Gear(20, 1.5)]  # gears
-    h: float = 2.0  # [-] height
+class Gear:
+    z: int  # [-] teeth; > 0
+    m: float  # [kg] mass
 
-    """Inputs."""
-
-
-@app.cell
-def form():
-    form = ask(Given)
-    return (form,)
-
-
-@app.cell
-def given(form):
-    g = read(Given, form)
-    return (g,)
-
-
-@app.cell
-def lines(g):
-    z_all = g.gear.z + sum(g.gears.z)  # [-] teeth
-    check_1 = check("stress, " + g.mode, z_all, 100)
-    check_2 = check(g.mode + " stress" if g.mode.startswith("l") else g.mode.upper(), g.h, 3)
-    typeset(check_1, check_2)
-    return check_1, check_2, z_all
-
-
-@app.cell
-def workbook():
-    export("Gears", globals())
-    return
-
-
-if __name__ == "__main__":
-    app.run()
-'''
+GEARS = {"small": Gear(17, 0.5), "large": Gear(43, 2.0)}
+""",
+    """
+mode: Literal["low", "high"] = "low"  # mode
+gear: Gear = one_of(GEARS, "small")  # gear
+gears: list[Gear] = [Gear(17, 1.0), Gear(20, 1.5)]  # gears
+h: float = 2.0  # [-] height
+""",
+    """
+z_all = g.gear.z + sum(g.gears.z)  # [-] teeth
+check_1 = check("stress, " + g.mode, z_all, 100)
+check_2 = check(g.mode + " stress" if g.mode.startswith("l") else g.mode.upper(), g.h, 3)
+typeset(check_1, check_2)
+""",
+    "Gears",
+)
 
 
 @pytest.fixture(scope="module")

@@ -16,53 +16,28 @@ from mechsheet.recording.dimensions import mismatches
 from mechsheet.units import alike
 from mechsheet.worksheet import inputs
 from mechsheet.worksheet.errors import SheetError
+from tests.own_worksheet import written
 
-SHEET = """import marimo
+SHEET = written(
+    """
+from numpy import linspace, maximum, pi
 
-app = marimo.App()
-
-with app.setup:
-    from numpy import linspace, maximum, pi
-
-    from mechsheet import ask, inputs, read
-    from mechsheet.units import Hz, deg, min, rpm, s
-
-
-@app.class_definition
-@inputs
-class Given:
-    n: float = 1200 * rpm  # [rpm] speed; > 0
-    omega: float = 40.0  # [rad/s] angular velocity
-    f: float = 20 * Hz  # [Hz] frequency
-    k: float = 3 / s  # [1/s] rate
-    z: float = 3.5  # [-] ratio
-    phi: float = 30 * deg  # [deg] angle
-
-    \"\"\"Inputs.\"\"\"
-
-
-@app.cell
-def form():
-    form = ask(Given)
-    return (form,)
-
-
-@app.cell
-def given(form):
-    g = read(Given, form)
-    return (g,)
-
-
-@app.cell
-def lines(g):
-    n_1 = 1 * g.n  # [rpm] speed
-    LINES
-    return (n_1,)
-
-
-if __name__ == "__main__":
-    app.run()
-"""
+from mechsheet import ask, inputs, read
+from mechsheet.units import Hz, deg, min, rpm, s
+""",
+    """
+n: float = 1200 * rpm  # [rpm] speed; > 0
+omega: float = 40.0  # [rad/s] angular velocity
+f: float = 20 * Hz  # [Hz] frequency
+k: float = 3 / s  # [1/s] rate
+z: float = 3.5  # [-] ratio
+phi: float = 30 * deg  # [deg] angle
+""",
+    """
+n_1 = 1 * g.n  # [rpm] speed
+LINES
+""",
+)
 RPM = 2 * pi / 60
 
 

@@ -19,54 +19,24 @@ from mechsheet.html import fields as html_fields
 from mechsheet.page import fields as page_fields
 from mechsheet.worksheet import inputs
 from mechsheet.worksheet.errors import SheetError
+from tests.own_worksheet import written
 
-SHEET = """import marimo
-
-app = marimo.App()
-
-with app.setup:
-    from mechsheet import ask, export, inputs, read, typeset
-
-
-@app.class_definition
-@inputs
-class Given:
-    n: int = 1450  # [rpm] speed; > 0 <= 3000
-    L: int = 25  # [mm] length
-    z: int = 17  # [-] teeth
-    t: int = 3  # [s] time
-
-    \"\"\"Inputs.\"\"\"
-
-
-@app.cell
-def form():
-    form = ask(Given)
-    return (form,)
-
-
-@app.cell
-def given(form):
-    g = read(Given, form)
-    return (g,)
-
-
-@app.cell
-def lines(g):
-    v = g.n * g.L * g.z  # [m/s] speed
-    typeset()
-    return (v,)
-
-
-@app.cell
-def workbook():
-    export("Shaft", globals())
-    return
-
-
-if __name__ == "__main__":
-    app.run()
-"""
+SHEET = written(
+    """
+from mechsheet import ask, export, inputs, read, typeset
+""",
+    """
+n: int = 1450  # [rpm] speed; > 0 <= 3000
+L: int = 25  # [mm] length
+z: int = 17  # [-] teeth
+t: int = 3  # [s] time
+""",
+    """
+v = g.n * g.L * g.z  # [m/s] speed
+typeset()
+""",
+    "Shaft",
+)
 RPM = 2 * pi / 60
 
 
