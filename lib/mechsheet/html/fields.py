@@ -30,7 +30,7 @@ def fields(g: Any) -> str:
 def _row(field: Input, value: Any, known: Container[str]) -> str:
     unit = "" if field.unit == "-" or isinstance(field, Rows) else escape(units.shown(field.unit))
     mistake = f' <span class="ms-badge ms-FAIL">mistake</span> {escape(field.mistake)}' if field.mistake else ""
-    meaning = f"{meant(field.meaning, known)}{mistake} <i>{_limits(field)}</i>"
+    meaning = f'{meant(field.meaning, known)}{mistake} <span class="ms-limits">{_limits(field)}</span>'
     told = f'<span class="ms-meaning" id="meaning-{field.name}">{meaning}'
     return (
         f'<div class="ms-field"><label for="input-{field.name}">{as_written(field.name)}</label>'
