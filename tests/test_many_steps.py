@@ -67,3 +67,11 @@ def test_formula_that_is_too_deep_to_be_read_is_refused_at_its_line(tmp_path: Pa
     deep = " + ".join(f"{n} * g.F" for n in range(600))
     with pytest.raises(SheetError, match=r"own.py, line 38: 60\d operations in one another, and 300 are read"):
         own(tmp_path, f"y = g.a\nz = {deep}")
+
+
+def test_the_page_of_many_lines_over_many_positions_is_written(tmp_path: Path) -> None:
+    """What is said of the rounding of one takes as many operations as the line itself; a limit is that of one line."""
+    lines = [f"x_{k} = 0.5 * x_{k - 1} + g.F * np.sin(x) + x - 1  # [-] line {k}" for k in range(1, 12)]
+    sheet = own(tmp_path, "x_0 = x * 1  # [-] first\n" + "\n".join(lines))
+    page = write.page(sheet, sheet.inputs(n=40_000))
+    assert all(f"line {k}" in page for k in range(1, 12))

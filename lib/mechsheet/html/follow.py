@@ -214,6 +214,7 @@ class Follower:
         """Keys of what a line adds, and of what it and all behind it add: for other inputs rounding may be left."""
         if held.dtype.kind not in "fc":
             return {}
+        self.recording.graph.work = 0  # which limits a statement of the worksheet, and here what is said of each line
         added, behind = terms(line.formula.expression, self.recording.values), terms_of(held)
         own = [abs(part).re for part in (held.real, held.imag)]
         told = {"terms": added.re} if isinstance(added, Quantity) else {}
