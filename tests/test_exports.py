@@ -153,9 +153,9 @@ KINDS: tuple[tuple[str, str, str, Alike], ...] = (
     (r"", r"error \[-?\]", r"", error),
     (r"1\.8 Steps", r".* \[-\]", r"", counted),
     (r"", r"roundings \[-\]", r"", error),
-    (r"", r"(again )?spread \[|not used\b", r"", sometimes),
+    (r"", r"(again |arithmetic )?spread \[|not used\b", r"", sometimes),
     (r"", r"(time|again|ratio|place|least time|fastest|better|of whole|of a run) \[", r"", duration),
-    (r"", r"((again )?runs|slope|checks) \[|.* \[µs\]", r"", duration),
+    (r"", r"((again |arithmetic )?runs|slope|checks) \[|.* \[µs\]", r"", duration),
     (r"0\.2 Machine", r"", r"", duration),
 )
 

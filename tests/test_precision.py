@@ -249,6 +249,11 @@ def test_table_shows_texts_powers_and_the_workbook_keeps_them():
     ]
 
 
+def test_the_least_time_is_not_shown_as_nothing():
+    assert "0.00004" in job(Measured("other", "", 4e-16, 4.1e-5)).table()._mime_()[1]
+    assert "2.000<" in job(Measured("other", "", 4e-16, 2.0)).table()._mime_()[1]
+
+
 def test_chart_of_the_workbook_is_logarithmic_with_a_series_for_each_family():
     found = job(*(Measured("Newton", f"{k}", 10.0**-k, 1 + k) for k in (3, 8, 15)))
     data = writing.workbook("T", inputs=[], found=[], tables=[found.table()], figures=[found.figure()], checks=[])

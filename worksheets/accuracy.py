@@ -25,10 +25,11 @@ def title():
     title_block(
         "Error against run time",
         """
-    Every method with which the product computes stands here beside the others that could do the same job. Errors are
-    measured against arithmetic of 50 digits; all methods of a job run turn about in one process, and times are medians,
-    given as multiples of the product's own. Times within a tenth of each other, and times of five runs or more whose
-    quartiles overlap, are the same. Where a method is faster at the same digits, a few words say why it is not used.
+    The product's ways to positions, derivatives, unknown lengths, reactions and studies stand here beside others that
+    could do the same jobs. Errors are measured against arithmetic of 50 digits; all methods of a job run turn about in
+    one process, and times are medians, given as multiples of the product's own. Times within a tenth of each other, and
+    times of five runs or more whose quartiles overlap, are the same. Where a method is faster at the same digits, a few
+    words say why it is not used.
 
     In a figure the product's own method is the large diamond. Whatever is both faster and more accurate would lie in
     the red field beside it. Errors in the grey band are a few roundings: there one method is as good as another, and
@@ -40,11 +41,11 @@ def title():
 
 @app.cell(hide_code=True)
 def verdict(
-    check_11, check_12, check_21, check_22, check_31, check_32, check_41, check_42, checks_16, checks_4, checks_5,
-    checks_7, checks_8,
+    check_11, check_12, check_21, check_22, check_31, check_32, check_41, check_42, check_74, check_75, check_76,
+    checks_16, checks_4, checks_5, checks_7, checks_8,
 ):  # fmt: skip
     _checks = (check_11, check_12, *checks_16, check_21, check_22, check_31, check_32, check_41, check_42)
-    summary(_checks, checks_4, checks_5, checks_7, checks_8)
+    summary(_checks, checks_4, checks_5, (*checks_7, check_74, check_75, check_76), checks_8)
     return
 
 
@@ -73,7 +74,7 @@ def front(job_11, job_12, job_21, job_22, job_31, job_32, job_41, job_42, job_44
             Column("job", "", "", 0, [job.number for job in compared]),
             Column("own method", "", "", 0, [job.own.family for job in compared]),
             Column("fastest", "", "of the methods of no fewer digits", 0, [row.family for row in fastest]),
-            Column("least time", "-", "its time, times the product's own", 3, ratios),
+            Column("least time", "-", "its time, times the product's own", 5, ratios),
             *time_spread(fastest),
             Column("better", "", "methods that leave the product's behind: faster and more accurate", 0, better),
         ),
@@ -100,7 +101,7 @@ def section_0():
 @inputs
 class Accuracy:
     # 1 Extent
-    full: int = 0  # [-] 1 for long runs and 100 000 positions, which take minutes; >= 0 <= 1
+    full: int = 0  # [-] 1 for long runs and up to 1 000 000 positions, which take minutes; >= 0 <= 1
     N: int = 10  # [-] positions of the hitch and of the crank; >= 2 <= 1000
 
     # 2 General dyad
@@ -201,8 +202,8 @@ def job_13(g, hitch, seconds, sizes):
 
     The tables give the time of one of so many that are computed at once: positions of the hitch, and random geometries
     of each group. The slope is that of the time for all over their number: 0 where all cost what one does, 1 where each
-    costs the same. A million at once no longer fit the processor's cache and take longer each: sweeps go through their
-    variants in chunks that do.
+    costs the same. Beyond a thousand at once little is gained. A million, which are timed in the long runs, no longer
+    fit the processor's cache and take longer each: sweeps go through their variants in chunks that do.
     """
     many = (*sizes, 1_000_000) if g.full else sizes
     table_13, table_14 = batch_times("1.3", hitch, many, seconds), group_times("1.4", many, seconds)
@@ -216,8 +217,8 @@ def job_15(g, hitch, seconds, sizes):
     ### Cost of the checks
 
     The library looks at every argument, tells a dead centre from a number and adds in the order that keeps digits; the
-    same closed forms in plain numpy do neither. What they leave of the library's time is what that costs: half of it
-    and more at the few positions of a document, and no small part where many are computed at once. It is paid for an
+    same closed forms in plain numpy do neither. What they leave of the library's time is what that costs: some half of
+    it or more at the few positions of a document, and no small part where many are computed at once. It is paid for an
     error that names the argument, for NaN where a group does not close, and for the digits of section 7.
     """
     table_15 = cost_of_checks("1.5", hitch, sizes if g.full else sizes[:3], seconds)
@@ -234,12 +235,12 @@ def time_responses(hitch, jobs, seconds):
     integrate the velocity equations. They are stiff where something in the drive is much faster than the motion: here
     the valve of the hitch's cylinder, which follows its command within milliseconds while the lift takes a second. Its
     mode decays hundreds of times on the way (table 1.8), so explicit methods are held to small steps whatever the
-    tolerance, and implicit ones, with the Jacobian in closed form, are not: they take a tenth of the steps where the
-    tolerance is loose, and more and more of theirs where it is tight.
+    tolerance, and implicit ones, with the Jacobian in closed form, are not: they take less than half of the steps where
+    the tolerance is loose, and more and more of theirs where it is tight.
 
     A crank that passes a dead centre of its coupler and rocker within a millionth of its length makes the equations
-    steep, but not stiff: their fastest mode grows and decays a few times in all, and explicit methods take no more
-    evaluations than implicit ones.
+    steep, but not stiff: their fastest mode grows and decays some ten times in all, and RK45, an explicit method, takes
+    fewer evaluations than any implicit one.
     """
     jobs_16 = jobs["1.6"].compare(seconds), jobs["1.7"].compare(seconds)
     table_16, table_17 = jobs_16[0].table(), jobs_16[1].table()
@@ -256,8 +257,9 @@ def section_2():
     ## 2 Velocity and acceleration analogues
 
     First and second derivatives of the angles of the links 3 to 7 of the hitch with respect to $S$, each way with the
-    positions that it needs. Central differences take the library's positions at both sides, at steps that are parts of
-    the stroke; the interpolation is a cubic spline through a table of so many positions.
+    positions that it needs. Differences take the positions at both sides, at steps that are parts of the stroke, those
+    of five points at twice the step too; the interpolation is a cubic spline through a table of so many positions. All
+    take closed forms without checks, so that central differences are sooner than the library, with fewer digits.
     """)
     return
 
@@ -284,7 +286,8 @@ def section_3():
     ## 3 Find
 
     The three unknown lengths of the hitch, one after the other: $L_4$, $S_p$, $L_7$. All iterations solve the same
-    equations, written with the library's dyads; the last one those of the document, as a port from Mathcad has it.
+    equations: `find` has them by the library's dyads, the others by closed forms without checks, with the slopes in
+    closed form too, and the last one by the formulas of the document, as a port from Mathcad has it.
     In closed form the mechanism is taken from the other end: the wanted point is known, and the unknown length is its
     distance from another known point; that must be thought out anew for every unknown.
 
@@ -371,16 +374,16 @@ def job_43(g, hitch, seconds, sizes):
 @app.cell
 def machine_and_ring(jobs, seconds):
     """
-    ### Groups of all kinds, and the circular joint
+    ### Other groups, and the circular joint
 
-    The machine of the worksheet `kinetostatics` has a group of each kind, with weights, inertia forces, a resistance
-    and a gas. All ways start from its pins and loads. The printed programs SR1, SR2 and SR3 keep the digits here,
-    and say nothing at a dead centre.
+    The machine of the worksheet `kinetostatics` has a group RRR, RRP and RPR each, with weights, inertia forces, a
+    resistance and a gas. All ways start from its pins and loads. The printed programs SR1, SR2 and SR3 keep the digits
+    here, and say nothing at a dead centre.
 
     In the circular joint the normal force grows until the rim is all but lifted off: the printed primitives of its line
     load are differences of almost equal numbers then, and quadratures keep their digits. The library's has fixed
-    places, the same for all cases at once; what it takes beyond the others goes to its checks and to the state of each
-    case.
+    places, the same for all cases at once; what it takes beyond the same without checks goes to them and to the state
+    of each case.
     """
     job_44, job_45 = jobs["4.4"].compare(seconds), jobs["4.5"].compare(seconds)
     figure_44, table_44, figure_45, table_45 = job_44.figure(), job_44.table(), job_45.figure(), job_45.table()
@@ -604,7 +607,7 @@ def table_75(g):
     have 32 digits here.
 
     Then all results of the five documents with $\kappa$ from end to end, from the user's inputs on through whatever is
-    found, by the slopes of the recording: of each document the results that lose most, over all positions, and the
+    found, by the slopes of the recording: of each document the worst conditioned ones, over all positions, and the
     input to blame. A dash: no exact result is at hand to compare with.
     """
     table_75, check_75 = random_groups("7.5", 100_000 if g.full else 10_000)
@@ -619,10 +622,11 @@ def section_8():
     ## 8 Studies
 
     Two unknowns are the angles of the general dyad's links, every solution in a full turn of both: `find` samples the
-    whole square and says what it saw; fsolve from a few starts, with the slopes in closed form, finds the same two much
-    sooner, and would not know of others. The neutral axis is that of 24 elements; the document's iteration is as fast,
-    and may not end. A sweep runs the hitch's worksheet for all variants at once; a sensitivity follows its recording,
-    through what is found, with all the digits that differences lose.
+    whole square and says what it saw; fsolve from a grid of starts, with the slopes in closed form, finds the same two
+    much sooner, and would not know of others; the closed form is that of a dyad alone. The neutral axis is that of 24
+    elements; the document's iteration takes no longer, and nobody has shown that it must end. A sweep runs the hitch's
+    worksheet for all variants at once; a sensitivity follows its recording, through what is found, with all the digits
+    that differences lose.
     """)
     return
 
@@ -646,8 +650,8 @@ def job_85(g):
     """
     ### What studies cost
 
-    What reads the recording of a run of the hitch, tables, slopes, proof and workbook, and what runs over its worksheet
-    many times.
+    What reads the recording of a run of the hitch, tables, slopes, proof and workbook, what shows it as a page anew,
+    and what runs over its worksheet many times; at last a circular joint.
     """
     sheet_8 = folder / "hitch.py"
     tolerances, moments = {"L3": 1e-3, "L5": 1e-3}, np.linspace(1e3, 1e5, 1000)

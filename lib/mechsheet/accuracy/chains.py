@@ -85,6 +85,10 @@ class Chain:
         """As `pins`."""
         return np.array([A + a for A, a, _ in self.plain_links(q)])
 
+    def plain_angles(self, q: Any) -> Any:
+        """As `angles`."""
+        return np.array([np.angle(link) for _, *links in self.plain_links(q) for link in links])
+
     def plain_analogues(self, order: int, q: Any) -> Any:
         """As `analogues`."""
         dA, found = self.dA(q), list[Any]()

@@ -31,4 +31,5 @@ def dense(bodies: int, pairs: Sequence[tuple[Any, ...]], loads: Sequence[tuple[A
         return np.moveaxis(np.linalg.solve(matrix, right[..., None])[..., 0], -1, 0)
     matrix = np.concatenate([matrix, matrix.reshape(*shape, bodies, 3, n).sum(-3)], axis=-2)
     right = np.concatenate([right, right.reshape(*shape, bodies, 3).sum(-2)], axis=-1)
-    return np.array([np.linalg.lstsq(A, b, rcond=None)[0] for A, b in zip(matrix, right, strict=True)]).T
+    Q, R = np.linalg.qr(matrix)  # of all positions at once, as lstsq cannot
+    return np.moveaxis(np.linalg.solve(R, Q.mT @ right[..., None])[..., 0], -1, 0)

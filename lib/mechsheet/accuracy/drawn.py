@@ -65,7 +65,8 @@ def roundings(kind: Kind, x: dict[str, Any]) -> dict[str, Any]:
 
     Position and rates are rounded before anything is computed from them, and count as given.
 
-    NaN where the change of an input that tells the condition number is more than the group can follow.
+    NaN where the change of an input that tells the condition number is more than the group can follow, infinite where
+    the library has no number.
     """
     exact = kind.exact({name: _exactly(value) for name, value in x.items()})
     names = list(exact)
@@ -79,7 +80,10 @@ def roundings(kind: Kind, x: dict[str, Any]) -> dict[str, Any]:
     for name, change in kind.changes_by_rounding(x).items():
         moved[names.index(name)] += change
     kappa = np.maximum(1.0, moved / np.abs(sizes))
-    return {name: _off(found[name], exact[name]) / (kappa[k] * EPS) for k, name in enumerate(names)}
+    return {
+        name: np.where(np.isfinite(found[name]), _off(found[name], exact[name]) / (kappa[k] * EPS), np.inf)
+        for k, name in enumerate(names)
+    }
 
 
 def _exactly(x: Any) -> Any:
@@ -107,7 +111,7 @@ def random_groups(number: str, count: int) -> tuple[Table, Check]:
             errors = roundings(kind, drawn(kind, count, kind.names))
             for of, results in _OF.items():
                 told = np.concatenate([errors[y] for y in results if y in errors])
-                rows.append((name, of, told[np.isfinite(told)]))
+                rows.append((name, of, told[~np.isnan(told)]))
             done()
     columns = [
         Column("group", "", "", 0, np.array([name for name, *_ in rows], object)),
@@ -116,7 +120,7 @@ def random_groups(number: str, count: int) -> tuple[Table, Check]:
         Column("results", "-", "compared", 0, np.array([len(errors) for *_, errors in rows], float)),
     ]
     for name, part in _QUANTILES.items():
-        errors_at = np.array([np.quantile(errors, part) for *_, errors in rows])
+        errors_at = np.array([np.quantile(errors, part, method="higher") for *_, errors in rows])
         columns.append(Column(f"{name} error", "-", f"{name}, in roundings times the condition number", 2, errors_at))
     worst = float(columns[-1].values.max())
     name = "errors of random groups, in roundings times their condition"

@@ -13,7 +13,7 @@ from scipy.optimize import brentq, elementwise, newton, root
 from mechsheet.accuracy import plain, printed
 from mechsheet.accuracy.chains import arm, arm_pin, hinges
 from mechsheet.accuracy.precision import Method
-from mechsheet.accuracy.rivals import family, powers
+from mechsheet.accuracy.rivals import UNCHECKED, family, powers
 from mechsheet.mechanics.planar import angle
 from mechsheet.mechanics.rrr import RRRGroup, rrr, rrr_reach
 from mechsheet.worksheet.find import find
@@ -26,7 +26,7 @@ class Unknown:
     f: Callable[..., Any]
     plain: Callable[[Any], Any]  # f by the library's closed form without checks
     printed: Callable[[float], Any]  # and by the formulas of the document, as a port from Mathcad has it
-    slope: Callable[[float], Any]
+    slope: Callable[[float], Any]  # of the closed form
     ends: tuple[Any, Any]
     guess: float
     equals: float
@@ -35,11 +35,13 @@ class Unknown:
     def gap(self, x: Any) -> Any:
         return self.f(x) - self.equals
 
-    def positive(self) -> "Unknown":
-        """The same, without a value for lengths that are not positive."""
+    def unchecked(self) -> "Unknown":
+        """The same by closed forms without checks, without a value for lengths that are not positive."""
         if not self.branch:
-            return self
-        return replace(self, f=lambda x: self.f(x) if x > 0 else nan, slope=lambda x: self.slope(x) if x > 0 else nan)
+            return replace(self, f=self.plain)
+        return replace(
+            self, f=lambda x: self.plain(x) if x > 0 else nan, slope=lambda x: self.slope(x) if x > 0 else nan
+        )
 
 
 def unknown(h: Any, factor: float, *known: float) -> Unknown:
@@ -59,6 +61,12 @@ def unknown(h: Any, factor: float, *known: float) -> Unknown:
     def plain_P34(S: Any) -> Any:
         return O3 + arm(h) * (plain.rrr(O1, O3, S, h.L3, -1) - O3)
 
+    def rise(P34: Any, L4: Any, dP34: Any, dL4: float) -> Any:
+        """Derivative of the height of P56 where P34 and L4 change."""
+        b = plain.rrr(P34, O5, L4, h.L5, +1) - O5
+        a = O5 + b - P34
+        return (lever * 1j * plain.rrr_turns(a, b, -dP34 - dL4 * a / abs(a))[1] * b).imag
+
     def plain_P56(P34: Any, L4: Any) -> Any:
         return O5 + lever * (plain.rrr(P34, O5, L4, h.L5, +1) - O5)
 
@@ -71,7 +79,7 @@ def unknown(h: Any, factor: float, *known: float) -> Unknown:
             lambda L4, s=+1: P56(h.S_min, L4, s).imag,
             lambda L4: plain_P56(P34, L4).imag,
             lambda L4: as_printed(h.S_min, L4),
-            lambda L4: (lever * lower(h.S_min, L4).velocity(dr_A=1).v_C).imag,
+            lambda L4: rise(P34, L4, 0, 1),
             rrr_reach(arm_pin(h, h.S_min), O5, h.L5),
             *(0.8 * h.L4_0 * factor, h.Y56_min, +1),
         )
@@ -79,8 +87,9 @@ def unknown(h: Any, factor: float, *known: float) -> Unknown:
     if len(known) == 1:
 
         def slope(S: float) -> Any:
-            v = RRRGroup(O1, O3, S, h.L3, -1).velocity(dr_A=1).v_C
-            return (lever * lower(S, L4).velocity(arm(h) * v).v_C).imag
+            P23 = plain.rrr(O1, O3, S, h.L3, -1)
+            a, b = P23 - O1, P23 - O3
+            return rise(plain_P34(S), L4, arm(h) * 1j * plain.rrr_turns(a, b, -a / abs(a))[1] * b, 0)
 
         part = 0.5 if factor == 1 else float(factor > 1)
         ends, guess = (h.S_min, h.S_max), h.S_min + part * (h.S_max - h.S_min)
@@ -91,11 +100,17 @@ def unknown(h: Any, factor: float, *known: float) -> Unknown:
             *(slope, ends, guess, h.Y_P56),
         )
     P = P56(known[1], L4)
+
+    def turns(L7: float) -> Any:
+        C = plain.rrr(P, O7, h.L6, L7, -1)
+        a, b = C - P, C - O7
+        return plain.rrr_turns(a, b, b / abs(b))[0]
+
     return Unknown(
         lambda L7, s=-1: angle(rrr(P, O7, h.L6, L7, s) - P),
         lambda L7: np.angle(plain.rrr(P, O7, h.L6, L7, -1) - P),
         lambda L7: printed.hitch_pins(h, known[1], L4, L7)["phi6_S"],
-        lambda L7: RRRGroup(P, O7, h.L6, L7, -1).velocity(dr_B=1).omega_A,
+        turns,
         rrr_reach(P, O7, h.L6),
         *(0.8 * h.L7_0 * factor, h.phi_P6, -1),
     )
@@ -138,11 +153,12 @@ def _newton(u: Unknown, tolerance: float, slope: Callable[[float], Any] | None =
     return float(x) if r.converged else nan
 
 
-def _hybr(u: Unknown, tolerance: float) -> float:
+def _hybr(u: Unknown, tolerance: float, slope: Callable[[float], Any] | None = None) -> float:
     def gap(x: NDArray[np.float64]) -> float:
         return float(u.gap(x.item()))
 
-    result = root(gap, [u.guess], method="hybr", tol=tolerance)
+    jacobian: Any = None if slope is None else lambda x: [[slope(x.item())]]
+    result = root(gap, [u.guess], method="hybr", jac=jacobian, tol=tolerance)
     return float(result.x.item()) if result.success else nan
 
 
@@ -162,34 +178,38 @@ def by_inverse(h: Any) -> Any:
 
 
 def find_methods(h: Any, factors: Sequence[float]) -> list[Method]:
-    """All ways to the three unknowns L4, S_p, L7, each from all guesses."""
+    """All ways to the three unknowns L4, S_p, L7, each from all guesses; all but `find` by closed forms alone."""
 
     @np.errstate(all="ignore")
     def each(solve: Callable[[Unknown], float]) -> Any:
         return np.array([_in_turn(lambda *known, k=k: solve(unknown(h, k, *known))) for k in factors])
 
     def iteration(name: str, solve: Callable[[Unknown, float], float], why: str) -> list[Method]:
-        return family(name, powers(4, 12, 4), lambda tolerance: each(lambda u: solve(u.positive(), tolerance)), why)
+        return family(name, powers(4, 12, 4), lambda tolerance: each(lambda u: solve(u, tolerance)), why)
 
-    def bracketing_plain(u: Unknown, tolerance: float) -> float:
-        return _bracketing(replace(u, f=u.plain, ends=_inner(u.ends)), tolerance)
+    def unchecked(solve: Callable[..., float]) -> Callable[[Unknown, float], float]:
+        return lambda u, tolerance: solve(u.unchecked(), tolerance)
 
+    def by_slope(solve: Callable[..., float]) -> Callable[[Unknown, float], float]:
+        return unchecked(lambda u, tolerance: solve(u, tolerance, u.slope))
+
+    def inside(u: Unknown) -> Unknown:
+        return replace(u, f=u.plain, ends=_inner(u.ends))
+
+    elementwise_root = Method("find_root", "", lambda: each(lambda u: _elementwise(inside(u))), ONE_ROOT)
     return [
         Method("find", "", partial(each, _by_find)),
         Method("inverse mechanism", "", lambda: np.array([by_inverse(h) for _ in factors]), "thought out for each"),
-        *(
-            [Method("find_root", "", partial(each, _elementwise), ONE_ROOT)] if len(factors) == 1 else []
-        ),  # has no guess
-        *iteration("brentq on the reach", _bracketing, ONE_ROOT),
-        *iteration("brentq, no checks", bracketing_plain, f"{ONE_ROOT}, checks nothing"),
-        *iteration("Newton", lambda u, tolerance: _newton(u, tolerance, u.slope), BY_GUESS),
-        *iteration("secant", _newton, BY_GUESS),
-        *iteration("hybr", _hybr, BY_GUESS),
+        *([elementwise_root] if len(factors) == 1 else []),  # it has no guess
+        *iteration("brentq", lambda u, tolerance: _bracketing(inside(u), tolerance), ONE_ROOT),
+        *iteration("Newton", by_slope(_newton), BY_GUESS),
+        *iteration("secant", unchecked(_newton), BY_GUESS),
+        *iteration("hybr", by_slope(_hybr), BY_GUESS),
         *iteration("hybr, printed formulas", lambda u, tolerance: _hybr(replace(u, f=u.printed), tolerance), BY_GUESS),
     ]
 
 
-ONE_ROOT = "one root, on one branch"
+ONE_ROOT = f"one root, on one branch, {UNCHECKED}"
 BY_GUESS = "the root that the guess leads to"
 
 

@@ -37,7 +37,7 @@ _ANALOGUES = tuple(f"dphi{k}" for k in range(3, 8))
 def accuracy_jobs(hitch: Any, machine: Worksheet, crank: Any, N: int, factors: Sequence[float]) -> dict[str, Job]:
     """The jobs by number: positions, derivatives, Finds and reactions of the hitch, positions of a dyad on a crank.
 
-    Two drives over time, reactions of a machine with groups of all kinds and the bolts of a circular joint too.
+    Two drives over time, reactions of a machine with groups of three kinds and the bolts of a circular joint too.
     ``hitch`` are the inputs of the hitch worksheet, ``machine`` is the worksheet of kinetostatics, ``crank`` has l_1,
     l_A, l_B, X_B, Y_B [m]; all are computed at N positions. The factors are those of bad guesses.
     """
@@ -123,7 +123,7 @@ def inputs_of(g: Any) -> dict[str, Any]:
 
 # What takes one after the other, or much for each: the largest number that is waited for.
 _MOST = {"find": 1000, "find_root": 1000, "find_root, no checks": 1000, "brentq": 10, "brentq, no checks": 1000}
-_MOST |= {"dense system": 1000, "least squares": 10}
+_MOST |= {"dense system": 1000, "least squares": 1000}
 
 
 def batch_times(number: str, hitch: Any, sizes: Sequence[int], seconds: float, patience: int = 1) -> Table:
@@ -176,6 +176,7 @@ def cost_of_checks(number: str, hitch: Any, sizes: Sequence[int], seconds: float
         Column("arithmetic", "µs", "the same by closed forms without checks", 3, of_plain),
         Column("checks", "%", "what is left of the library's time", 0, 100 * (1 - of_plain / of_library)),
         *time_spread(library),
+        *time_spread(plain, "arithmetic"),
     )
     return Table(number, "Cost of checks", columns)
 

@@ -1,4 +1,4 @@
-"""Two more jobs: reactions of a machine with groups of all three kinds, and the bolts of a circular joint.
+"""Two more jobs: reactions of a machine with groups RRR, RRP and RPR, and the bolts of a circular joint.
 
 The reactions start from the pins and loads that the worksheet ``kinetostatics`` computes: these floats are the exact
 numbers of the job, whose truth is the equilibrium of the six bodies at 50 digits.
@@ -46,7 +46,7 @@ def machine_job(number: str, sheet: Worksheet, N: int) -> Job:
     given = {name: getattr(p, name) for name in (*_GIVEN, "u7")}
     kappa = condition(lambda x: _by_groups(SimpleNamespace(**x)), given)
     truth = [at[name] for name in FORCES for at in each]
-    return Job(number, "Reactions of groups of all kinds", truth, methods, kappa)
+    return Job(number, "Kinetostatic reactions", truth, methods, kappa)
 
 
 _GIVEN = ("A", "B", "C", "D", "E", "K", "H", "u5", *(x for row in LOADS for x in row if x))
@@ -111,6 +111,8 @@ def _by_bodies(p: Points) -> Any:
 
 _BOLTS, _RADIUS, _MOMENT = 24, 0.6, 1e5  # the joint: number, m, N m
 _STRIPS = 30, 100, 300, 1000
+_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(16)
+_GAUSS = (1 + _NODES) / 2, _WEIGHTS / 2  # on an arc of the length 1
 _CLOSES = "loses digits as the arc closes"
 
 
@@ -123,7 +125,8 @@ def ring_job(number: str, count: int) -> Job:
         Method("library: circular_joint", "", lambda: circular_joint(_RADIUS, phi, _MOMENT, N).P),
         Method("printed: primitives of the arc", "", lambda: printed.ring(_RADIUS, phi, _MOMENT, N)["P"], _CLOSES),
         Method("quad, each force", "", partial(_bolts, phi, N, np.vectorize(_quadrature)), "one after the other"),
-        *(Method("rim in strips", str(n), partial(_bolts, phi, N, partial(_strips, n))) for n in _STRIPS),
+        Method("fixed places, no checks", "", partial(_bolts, phi, N, partial(_fixed, *_GAUSS)), UNCHECKED),
+        *(Method("rim in strips", str(n), partial(_bolts, phi, N, partial(_fixed, *_strips(n)))) for n in _STRIPS),
     ]
     kappa = condition(lambda x: circular_joint(x["r"], phi, x["M"], x["N"]).P, {"r": _RADIUS, "M": _MOMENT, "N": N})
     return Job(number, "Bolts of a circular joint", truth, methods, kappa)
@@ -144,7 +147,13 @@ def _quadrature(c: float, edge: float) -> tuple[float, float]:
     return total, quad(lambda t: (cos(t) + c) * cos(t), edge, pi, epsabs=0)[0]
 
 
-def _strips(n: int, c: Any, edge: Any) -> Any:
-    t = edge[:, None] + (pi - edge)[:, None] * (np.arange(n) + 0.5) / n
-    load = (cos(t) + c[:, None]) * ((pi - edge) / n)[:, None]
-    return load.sum(-1), (load * cos(t)).sum(-1)
+def _strips(n: int) -> tuple[Any, Any]:
+    """Places on an arc of the length 1, and their weights."""
+    return (np.arange(n) + 0.5) / n, np.full(n, 1 / n)
+
+
+def _fixed(places: Any, weights: Any, c: Any, edge: Any) -> Any:
+    arc = (pi - edge)[:, None]
+    cosines = cos(edge[:, None] + arc * places)
+    load = (cosines + c[:, None]) * (arc * weights)
+    return load.sum(-1), (load * cosines).sum(-1)

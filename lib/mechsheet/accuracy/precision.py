@@ -141,13 +141,15 @@ class Comparison:
 
     def _table(self, rows: Sequence[Measured], note: str = "") -> Table:
         error, digits, seconds = np.array([(row.error, row.digits, row.seconds) for row in rows]).T
+        ratio = seconds / self.own.seconds
+        decimals = 3 if np.min(ratio) >= 1e-3 else 5  # so that no time is nothing
         columns = (
             Column("method", "", "", 0, np.array([row.family for row in rows], object)),
             Column("setting", "", "tolerance, step or size", 0, np.array([row.setting for row in rows], object)),
             Column("error", "-", _ERROR, 1, error, power=True),
             Column("digits", "-", "digits that are right", 1, digits),
             Column("time", "ms", "median of the run times", 3, 1e3 * seconds),
-            Column("ratio", "-", "run time, times that of the product's own method", 3, seconds / self.own.seconds),
+            Column("ratio", "-", "run time, times that of the product's own method", decimals, ratio),
             Column("place", "", "beside the product's own method", 0, np.array([*map(self.place, rows)], object)),
             Column("not used", "", "why not, where it is faster", 0, np.array([*map(self.why, rows)], object)),
             Column("roundings", "-", _ROUNDINGS, 1, error / (np.maximum(1.0, self.condition) * EPS), power=True),

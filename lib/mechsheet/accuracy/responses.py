@@ -23,7 +23,6 @@ from mechsheet.accuracy.plain import rrr_turns
 from mechsheet.accuracy.precision import Job, Method
 from mechsheet.accuracy.rivals import family, powers
 from mechsheet.mechanics.rrr import rrr
-from mechsheet.worksheet import numbers
 from mechsheet.worksheet.table import Column, Table
 
 SOLVERS = ("RK45", "DOP853", "LSODA", "BDF", "Radau")
@@ -154,12 +153,13 @@ def _methods(drive: Drive, tolerances: Sequence[float]) -> list[Method]:
     return ways
 
 
-def integration_steps(number: str, h: Any, tolerance: float = 1e-7) -> Table:
+def integration_steps(number: str, h: Any, tolerances: Sequence[float] = (1e-3, 1e-7)) -> Table:
     """Table of the steps, evaluations, Jacobians and decompositions of each solver on both drives."""
     drives = {"cylinder behind a fast valve": lift(h), "crank past a dead centre": crank_past_dead_centre()}
     rows = [
-        (name, solver, drive, drive.integrated(solver, tolerance))
+        (name, tolerance, solver, drive.integrated(solver, tolerance))
         for name, drive in drives.items()
+        for tolerance in tolerances
         for solver in SOLVERS
     ]
     decays = {name: drive.decays for name, drive in drives.items()}
@@ -174,9 +174,8 @@ def integration_steps(number: str, h: Any, tolerance: float = 1e-7) -> Table:
             0,
             np.array([decays[r[0]] for r in rows]),
         ),
-        Column("method", "", "of solve_ivp", 0, np.array([solver for _, solver, *_ in rows], object)),
+        Column("tolerance", "-", "relative and absolute", 0, np.array([row[1] for row in rows]), power=True),
+        Column("method", "", "of solve_ivp", 0, np.array([row[2] for row in rows], object)),
         *(Column(name, "-", "", 0, np.array(values, float)) for name, values in counts.items()),
     )
-    return Table(
-        number, "Steps of the integrators", columns, f"All to a tolerance of {numbers.scientific(tolerance, 0)}."
-    )
+    return Table(number, "Steps of the integrators", columns)

@@ -150,16 +150,29 @@ def position_methods(chain: Chain, q: Any, as_printed: Callable[[], Any]) -> lis
 def derivative_methods(
     chain: Chain, q: Any, stroke: float, order: int, as_printed: Callable[[], Any] | None = None
 ) -> list[Method]:
-    """All ways to the first or second derivatives of the angles of the links but the cylinder."""
+    """All ways to the first or second derivatives of the angles of the links but the cylinder.
+
+    Differences and splines take angles by closed forms without checks, the fastest that there are.
+    """
+
+    def angles(q: Any) -> Any:
+        return chain.plain_angles(q)[1:]
 
     def differences(part: float) -> Any:
         h = part * stroke
-        behind, ahead = chain.angles(q - h)[1:], chain.angles(q + h)[1:]
-        return (ahead - behind) / (2 * h) if order == 1 else (ahead - 2 * chain.angles(q)[1:] + behind) / h**2
+        behind, ahead = angles(q - h), angles(q + h)
+        return (ahead - behind) / (2 * h) if order == 1 else (ahead - 2 * angles(q) + behind) / h**2
+
+    def five_points(part: float) -> Any:
+        h = part * stroke
+        (p, r), (s, t) = ((angles(q - k * h), angles(q + k * h)) for k in (1, 2))
+        if order == 1:
+            return (8 * (r - p) - (t - s)) / (12 * h)
+        return (16 * (p + r) - (s + t) - 30 * angles(q)) / (12 * h**2)
 
     def spline(n: int) -> Any:
         table = linspace(q[0], q[-1], n)
-        return CubicSpline(table, chain.angles(table)[1:], axis=1)(q, order)
+        return CubicSpline(table, angles(table), axis=1)(q, order)
 
     return [
         Method(f"library: rrr_{('velocity', 'acceleration')[order - 1]}", "", partial(chain.analogues, order, q)),
@@ -170,6 +183,7 @@ def derivative_methods(
             else []
         ),
         *family("central differences", powers(1, 10), differences),
+        *family("differences of five points", powers(2, 5), five_points),
         *family("spline of the table", [10 * 2**k for k in range(8)], spline),
     ]
 

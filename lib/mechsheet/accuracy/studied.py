@@ -12,10 +12,11 @@ from flint import acb, arb
 from numpy import exp, pi
 from scipy.optimize import fsolve
 
-from mechsheet.accuracy import arithmetic, exact, sections
+from mechsheet.accuracy import arithmetic, exact, plain, sections
 from mechsheet.accuracy.arithmetic import Numbers, in_balls, mpf
 from mechsheet.accuracy.chains import hitch_chain
 from mechsheet.accuracy.conditioning import condition
+from mechsheet.accuracy.finding import by_inverse
 from mechsheet.accuracy.jobs import inputs_of
 from mechsheet.accuracy.precision import Job, Method
 from mechsheet.accuracy.rivals import UNCHECKED, family, powers
@@ -92,7 +93,12 @@ def two_unknowns(crank: Any) -> Job:
         pins = [rrr(0j, x["B"], x["l_A"], x["l_B"], side) for side in (-1, +1)]
         return np.array([np.angle(link) for C in pins for link in (C, C - x["B"])])
 
-    truth, ways = solutions()["x"], [Method("find", "", by_find), starts]
+    def closed() -> Any:
+        pins = [plain.rrr(0j, B, l_A, l_B, side) for side in (-1, +1)]
+        return np.array([np.angle(link) for C in pins for link in (C, C - B)])
+
+    form = Method("closed form, no checks", "", closed, f"thought out for each, {UNCHECKED}")
+    truth, ways = solutions()["x"], [Method("find", "", by_find), form, starts]
     return Job("8.1", "Two unknowns, every solution", truth, ways, condition(angles, given))
 
 
@@ -158,22 +164,27 @@ def _sweep(path: Path, hitch: Any, sweep: Callable[..., Any]) -> Job:
     def one_by_one() -> Any:
         return [evaluate(path, ["GS6"], X6=x)["GS6"][ends] for x in _CENTRES.tolist()]
 
+    given = inputs_of(hitch) | known | {"X6": _CENTRES[:, None]}
+
+    def written_out(x: Mapping[str, Any]) -> Any:
+        g = SimpleNamespace(**vars(hitch) | x)
+        return _capacity(g, _strokes(g), x)
+
     ways = [
         Method("sweep", "", lambda: sweep(path, ["GS6"], {"X6": _CENTRES})["GS6"][:, ends]),
         Method("evaluate, one by one", "", one_by_one),
-        Method("closed form, no checks", "", lambda: _capacity(hitch, known, _CENTRES[:, None])[:, ends], UNCHECKED),
+        Method("closed form, no checks", "", lambda: written_out(given)[:, ends], f"thought out for each, {UNCHECKED}"),
     ]
-    given = inputs_of(hitch) | known | {"X6": _CENTRES[:, None]}
-    kappa = condition(lambda x: _capacity(SimpleNamespace(**vars(hitch) | x), x, x["X6"]), given)
+    kappa = condition(written_out, given)
     return Job("8.3", "Sweep of 40 centres of mass", truth, ways, kappa)
 
 
-def _capacity(g: Any, known: Mapping[str, float], X6: Any) -> Any:
-    """GS6 of the hitch over its strokes for centres of mass, by closed forms alone."""
+def _capacity(g: Any, S: Any, known: Mapping[str, Any]) -> Any:
+    """GS6 of the hitch at the strokes S with its lengths known, by closed forms alone."""
     chain = hitch_chain(g, known["L4"], known["L7"])
-    (P6, a, _), (_, a_w, _) = (chain.plain_links(S)[2] for S in (_strokes(g), np.array([known["S_p"]])))
-    _, _, dphi5, dphi6, _ = chain.plain_analogues(1, _strokes(g))
-    height = dphi5 * (P6 - chain.dyads[1].B).real + dphi6 * ((X6 + 1j * g.Y6) / a_w * a).real
+    (P6, a, _), (_, a_w, _) = (chain.plain_links(S)[2] for S in (S, np.array([known["S_p"]])))
+    _, _, dphi5, dphi6, _ = chain.plain_analogues(1, S)
+    height = dphi5 * (P6 - chain.dyads[1].B).real + dphi6 * ((g.X6 + 1j * g.Y6) / a_w * a).real
     return g.k_gc * g.P_gc_max * g.eta * pi * g.D_gc**2 / 4 / height
 
 
@@ -201,12 +212,23 @@ def _sensitivity(path: Path, hitch: Any, sweep: Callable[..., Any], sensitivity:
         ahead, behind = values["GS6"][:, at].reshape(2, len(names), -1)
         return (ahead - behind) / (2 * step) / ((ahead + behind) / 2)
 
+    def elasticities(x: Mapping[str, Any]) -> Any:
+        """By closed forms, of differences so wide that theirs tell the condition number."""
+        ways = 1e-3 * np.concatenate([np.eye(len(names)), -np.eye(len(names))])
+        moved = {name: x[name] * (1 + ways[:, [i]]) for i, name in enumerate(names)}
+        g = SimpleNamespace(**vars(hitch) | moved)
+        known = dict(zip(("L4", "S_p", "L7"), by_inverse(g), strict=True))
+        S = g.S_min + (g.S_max - g.S_min) * np.array(at) / (hitch.N_pol - 1)
+        ahead, behind = np.log(_capacity(g, S, known)).reshape(2, len(names), -1)
+        return (ahead - behind) / 2e-3
+
     truth = [exactly(name, k) for name in names for k in at]
+    kappa = condition(elasticities, {name: x for name, x in inputs_of(hitch).items() if name in names})
     ways = [
         Method("sensitivity", "", lambda: sensitivity(path, ["GS6"]).relative("GS6")[rows][:, at]),
         *family("differences by a sweep", powers(4, 8, 2), differences),
     ]
-    return Job("8.4", "Sensitivity of the capacity to every input", truth, ways)
+    return Job("8.4", "Sensitivity of the capacity to every input", truth, ways, kappa)
 
 
 # --- costs ----------------------------------------------------------------------------------------------------------
