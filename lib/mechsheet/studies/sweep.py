@@ -27,7 +27,7 @@ from mechsheet.worksheet.table import heading
 if TYPE_CHECKING:
     import pandas as pd
 
-_CHUNK = 1000  # variants: their fields of some tens of positions fit a processor's cache, see tests/benchmarks
+_CHUNK = 2000  # variants: their fields of some tens of positions fit a processor's cache, see tests/benchmarks
 _RECORDINGS = 4  # variants that are recorded at most
 _PAYS = 100  # variants that take as long alone as a recording and its check, and more
 _ONE_BY_ONE = 50  # variants of a chunk that are run one by one
