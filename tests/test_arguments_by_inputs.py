@@ -137,3 +137,25 @@ def test_all_that_a_page_shows_is_of_its_inputs_or_gone(blank: Page, tmp_path: P
         texts.append(blank.evaluate("which => emptied(which)", grey[0]))
     assert texts[0] == texts[1]
     assert any(grey[0]) and not all(grey[0]) and not any(grey[1])
+
+
+ENDS = {  # slider, changed inputs, its end, where it rests
+    "of many steps": ("slider(0, 400 * g.k, step=1, value=20, label='turn')", "k=3", "1200", "20"),
+    "between two steps": ("slider(0, 50 * g.k + 7, step=10, value=2, label='turn')", "F=3", "100", "2"),
+    "without a step": ("slider(0, 40 * g.F, value=31, label='turn')", "F=3.26", "130.4", "31"),
+}
+
+
+@pytest.mark.parametrize("made", ENDS)
+def test_a_slider_ends_at_its_last_step_and_rests_at_its_own_place(made: str, blank: Page, tmp_path: Path) -> None:
+    """Also where there are too many steps for all, and where its place is none of them."""
+    line, address, end, rests = ENDS[made]
+    sheet = sheet_of(tmp_path, "", f"turn = {line}\nturn", "z = 1 * turn.value  # [-] turned\ntypeset()")
+    page = tmp_path / "page.html"
+    page.write_text(write.page(sheet, sheet.inputs()), encoding="utf-8")
+    blank.goto("about:blank")
+    blank.goto(f"{page.as_uri()}#{address}")
+    blank.wait_for_selector("body[data-ready]")
+    blank.evaluate("dispatchEvent(new Event('beforeprint'))")
+    assert blank.locator("#line-z .ms-value").inner_text() == rests
+    assert blank.locator("[data-control]").get_attribute("max") == end

@@ -1,11 +1,15 @@
 """The units in which a table or a figure shows its columns: of the same quantity, for columns that it has."""
 
 import re
+from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+from as_script import as_script
 from cells import run
+from own_worksheet import own
 
 from mechsheet.worksheet.errors import SheetError
 
@@ -77,3 +81,15 @@ def test_another_quantity_and_no_column_are_refused(kind: str, show: str, says: 
     """They were shown with the wrong unit, or as if nothing had been asked."""
     with pytest.raises(SheetError, match=f"^{kind} 1: {re.escape(says)}"):
         run(f't = {kind}("1", "T", y_1, n, T, show={show})', names)
+
+
+def test_a_workbook_divides_by_a_whole_turn(recalculated: Callable[[Path], Any], tmp_path: Path) -> None:
+    """By two pi, and not by two times pi."""
+    table, figure = (f"{kind}, show={{'n': 'rev/s'}})" for kind in ("table('2', 'Two', n", "figure('2', 'Two', n, x"))
+    lines = f"n = 10 * x  # [rpm] speed\ntable_2 = {table}\nfigure_2 = {figure}"
+    sheet = own(tmp_path, lines, further=['export("Own", globals())'])
+    as_script(sheet.path, f"--out={tmp_path}")
+    book, turns = recalculated(tmp_path / "own.xlsx"), 10 * np.linspace(0.1, 2, 5) * 2.5 / (2 * np.pi)
+    for title in ("2 Two", "Fig 2 data"):
+        found = [row[0] for row in book[title].iter_rows(min_row=5, max_row=9, values_only=True)]
+        np.testing.assert_allclose(found, turns, rtol=1e-12)

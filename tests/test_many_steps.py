@@ -11,7 +11,9 @@ from own_worksheet import own, recorded
 
 from mechsheet import evaluate
 from mechsheet.html import write
+from mechsheet.quantities import graph
 from mechsheet.readers.numbers import numbers
+from mechsheet.readers.terms import recorded_terms, terms_of
 from mechsheet.worksheet.errors import SheetError
 
 STEPS, CALLS = 300, 260  # of calls in one another Python takes 1000: with fewer, fewer steps tell as much
@@ -75,3 +77,21 @@ def test_the_page_of_many_lines_over_many_positions_is_written(tmp_path: Path) -
     sheet = own(tmp_path, "x_0 = x * 1  # [-] first\n" + "\n".join(lines))
     page = write.page(sheet, sheet.inputs(n=40_000))
     assert all(f"line {k}" in page for k in range(1, 12))
+
+
+def test_page_is_written_of_steps_whose_terms_are_more_than_are_recorded(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """What a motion adds is told to the end, else by its last sums, else by itself."""
+    steps = "p, q = g.F, g.a\nfor _ in range(100):\n    p = p - g.a * q * 1e-3\n    q = q + g.F * p * 1e-3"
+    factors = "r = g.F\nfor _ in range(500):\n    r = r * (1 - 1e-3 * g.a)"
+    sheet = own(tmp_path, f"{steps}\ny = (p - q) * 1  # [-] two motions\n{factors}\nz = r * 1  # [-] factors")
+    monkeypatch.setattr(graph, "_NODES", 1500)  # fewer tell as much
+    assert 'id="line-y"' in write.page(sheet, sheet.inputs())
+    for name, deep in (("y", True), ("z", True), ("z", False)):
+        value = recorded(sheet)[1].values[name]
+        value.graph.work = 0
+        with pytest.raises(graph.NotRecorded):
+            terms_of(value, deep)
+    y, z = (recorded(sheet)[1].values[name] for name in "yz")
+    assert recorded_terms(y).value > abs(y.value) and recorded_terms(z).value == abs(z.value)

@@ -206,6 +206,8 @@ def test_names_in_a_note_are_symbols(names):
         ("figure('2', None, x, y)", "figure 2: its title must be a text between quotes, not None"),
         ("table('1', 'Shaft', x, every=0)", "table 1: every must be a whole number from 1 on, not 0"),
         ("figure('1', 'Shaft', x, y, every=1.5)", "figure 1: every must be a whole number from 1 on, not 1.5"),
+        ("table('1', 'Shaft', x, decimals=0.003)", "table 1: decimals must be a whole number from 0 on, not 0.003"),
+        ("table('1', 'Shaft', x, decimals=-1)", "table 1: decimals must be a whole number from 0 on, not -1"),
     ],
 )
 def test_what_a_table_cannot_take_is_named(given, told):

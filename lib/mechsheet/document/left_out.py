@@ -21,6 +21,9 @@ class LeftOut(NamedTuple):
     why: str
 
 
+_STANDS = "it stands behind the end of what a line of a cell binds, in a choice on all its ways"
+
+
 def left_out(cells: Iterable[source.Cell], names: Mapping[str, Any]) -> Iterator[LeftOut]:
     """What the cells of a worksheet leave out, from the namespace ``names`` of its run."""
     cells, declared = list(cells), dict[int, list[Formula]]()
@@ -40,9 +43,7 @@ def left_out(cells: Iterable[source.Cell], names: Mapping[str, Any]) -> Iterator
         shown = [node for node in cells[n].body if not isinstance(node, ast.Return)][:-1]
         for node in cells[n].body:
             for line in undeclaring(cells[n], node):
-                yield LeftOut(
-                    n, line, "the unit says nothing here: it stands behind the end of what a line of a cell binds"
-                )
+                yield LeftOut(n, line, f"the unit says nothing here: {_STANDS}")
             if node in shown and (name := _bare(node)):
                 yield LeftOut(
                     n, node.lineno, f"{name} is not shown: a cell shows its last line, so give it to typeset()"

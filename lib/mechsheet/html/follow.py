@@ -22,7 +22,7 @@ from mechsheet.quantities.node import Node, bottom_up
 from mechsheet.quantities.quantity import Quantity, lift
 from mechsheet.quantities.sketch import Drawn
 from mechsheet.quantities.written import Said
-from mechsheet.readers.terms import terms_of
+from mechsheet.readers.terms import recorded_terms
 from mechsheet.recording import showing
 from mechsheet.worksheet import numbers
 from mechsheet.worksheet.check import Check
@@ -208,14 +208,14 @@ class Follower:
         held = self.recording.values.get(line.formula.name)
         if not isinstance(held, Quantity) or not may_be_rounding(line.value, line.formula.unit):
             return False
-        return numbers.is_rounding(line.value, terms_of(held).value)
+        return numbers.is_rounding(line.value, recorded_terms(held).value)
 
     def _terms(self, line: Line, held: Quantity) -> Spec:
         """Keys of what a line adds, and of what it and all behind it add: for other inputs rounding may be left."""
         if held.dtype.kind not in "fc":
             return {}
-        self.recording.graph.work = 0  # which limits a statement of the worksheet, and here what is said of each line
-        added, behind = terms(line.formula.expression, self.recording.values), terms_of(held)
+        behind = recorded_terms(held)
+        added = terms(line.formula.expression, self.recording.values)
         own = [abs(part).re for part in (held.real, held.imag)]
         told = {"terms": added.re} if isinstance(added, Quantity) else {}
         told |= {} if behind.re.op == "constant" or behind.re in own else {"left": behind.re}

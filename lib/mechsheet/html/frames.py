@@ -4,6 +4,7 @@ Pictures of one slider have most of their pieces in common: each is kept once, a
 """
 
 import json
+import math
 import re
 from collections import Counter
 from collections.abc import Mapping, Sequence
@@ -89,12 +90,14 @@ def _picture(part: Any, page: Follower) -> str:
 def _positions(control: Control, most: int) -> list[float]:
     """At most so many positions of a slider, of its own step or a multiple, its ends and the present one among them."""
     step = control.step or (control.stop - control.start) / 100
-    count = round((control.stop - control.start) / step)
-    every = -(-count // (most - 1))
-    at = sorted({*range(0, count + 1, every), count, round((control.value - control.start) / step)})
+    count = math.floor((control.stop - control.start) / step + 1e-9)
+    at = sorted({*range(0, count + 1, -(-count // (most - 1)) or 1), count})
     if any(isinstance(x, float) for x in (control.start, step)):
-        return [round(control.start + i * step, 12) for i in at]
-    return [control.start + i * step for i in at]  # whole numbers may be indices
+        places = [round(control.start + i * step, 12) for i in at]
+    else:
+        places = [control.start + i * step for i in at]  # whole numbers may be indices
+    near = any(abs(x - control.value) <= 1e-9 * step for x in places)
+    return places if near else sorted([*places, control.value])
 
 
 def told(found: Moved, page: Follower) -> dict[str, Any]:
@@ -107,6 +110,7 @@ def told(found: Moved, page: Follower) -> dict[str, Any]:
         "which": [known.index(each) for each in pictures],
         "marks": found.marks,
         "stop": page.argument(f"slider {found.control.name} stop"),
+        "stepped": bool(found.control.step),
     }
 
 

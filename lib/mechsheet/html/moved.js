@@ -58,10 +58,13 @@ function ended() {
   for (const [name, control] of moving) {
     const stop = state.results.values[control.stop];
     if (!(stop >= control.own[0])) continue;
-    const {own, at} = control, there = control.positions[at], step = own[1] - own[0] || 1;
+    const {own, at, unit, stepped} = control, there = control.positions[at], [start] = own;
+    const every = Math.max(unit, ...own.slice(1).map((x, k) => x - own[k]));
     const before = own.filter(x => x <= stop), last = before[before.length - 1];
-    const more = Array.from({length: Math.min(Math.floor((stop - last) / step + 1e-9), POSITIONS)}, (_, k) => last + (k + 1) * step);
-    control.positions = [...before, ...more];
+    const end = stepped ? Math.floor((stop - start) / unit + 1e-9) * unit : stop - start;
+    const more = Array.from({length: Math.min(Math.floor(end / every + 1e-9), POSITIONS)}, (_, k) => (k + 1) * every);
+    const places = [...more.filter(x => end - x > 1e-6 * unit), end].map(x => Number((start + x).toFixed(12)));
+    control.positions = [...before, ...places.filter(x => x - last > 1e-6 * unit)];
     control.at = nearest(control.positions, there);
     left ||= control.positions[control.at] !== there;
   }
@@ -115,10 +118,11 @@ function play(button) {
   control.timer = requestAnimationFrame(advance);
 }
 
-for (const [name, {positions, pictures, which, marks, stop}] of Object.entries(told.moved)) {
+for (const [name, {positions, pictures, which, marks, stop, stepped}] of Object.entries(told.moved)) {
   const elements = told.shown.flatMap((spec, n) => (spec.control === name ? [[spec, shownBy[n], n]] : []));
-  const at = nearest(positions, Number(document.querySelector(`[data-control="${name}"]`).value));
-  moving.set(name, {positions, own: positions, stop, pictures: which.map(n => picturesOf(pictures[n])), marks, elements, at, first: at});
+  const input = document.querySelector(`[data-control="${name}"]`);
+  const at = nearest(positions, Number(input.getAttribute("value"))); // its own one may be between two steps
+  moving.set(name, {positions, own: positions, unit: Number(input.step), stepped, stop, pictures: which.map(n => picturesOf(pictures[n])), marks, elements, at, first: at});
 }
 
 // The last position of a slider in each frame.

@@ -8,7 +8,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from mechsheet.quantities.arithmetic import choice
-from mechsheet.quantities.graph import Graph
+from mechsheet.quantities.graph import Graph, NotRecorded
 from mechsheet.quantities.node import Node, bottom_up, is_number, steps_of
 from mechsheet.quantities.operations import Moved
 from mechsheet.quantities.quantity import Quantity, lift
@@ -74,6 +74,19 @@ def terms_of(value: Quantity, deep: bool = True) -> Quantity:
     measured = (_MeasuredToTheEnd if deep else _MeasuredBySums)(value.graph, ())
     real, *imaginary = map(measured.of, value.parts)
     return reduce(lambda a, b: Quantity(value.graph, value.graph.fold("max", a.re, b.re)), imaginary, real)
+
+
+def recorded_terms(value: Quantity) -> Quantity:
+    """The same by as much as a recording holds, as of many steps: at last by itself, beside which nothing is small."""
+    for deep in (True, False):
+        value.graph.work = 0  # which limits a statement of the worksheet, and here what is said of one quantity
+        try:
+            return terms_of(value, deep)
+        except NotRecorded:
+            pass
+        finally:
+            value.graph.work = 0
+    return lift(value.graph, abs(value))
 
 
 class _Measured:

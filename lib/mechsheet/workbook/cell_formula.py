@@ -316,7 +316,10 @@ def _is_one(node: Node) -> bool:
 def _scaled(text: str, factor: float) -> str:
     if factor == math.pi / 180:
         return f"DEGREES({text})"
-    return f"{text}/{written(factor)}" if factor >= 1 else f"{text}*{written(1 / factor)}"
+    if factor < 1:
+        return f"{text}*{written(1 / factor)}"
+    known = written(factor)
+    return f"{text}/({known})" if "*" in known else f"{text}/{known}"  # of a turn, 2*PI()
 
 
 def _position(shape: tuple[int, ...], whole: tuple[int, ...], at: Index) -> Index:

@@ -187,6 +187,9 @@ def table(
     asks for; whole numbers have none. ``every`` lists only every so many positions, from the first.
     """
     _named("table", number, title, every)
+    if not (decimals is None or (isinstance(decimals, int | np.integer) and decimals >= 0)):
+        must = "must be a whole number from 0 on"
+        refuse(SheetError(f"table {number}: decimals {must}, not {as_given(decimals)}"))
     frame = sys._getframe(1)
     nodes = source.call(frame).args[2:]
     found = _columns(f"table {number}", frame, nodes, columns, show or {}, decimals, every)
