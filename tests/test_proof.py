@@ -350,6 +350,17 @@ def test_zero_but_for_rounding_is_an_exception_and_what_lost_all_digits_is_none(
         assert (column.least > 9) == exception
 
 
+@pytest.mark.parametrize("spec", [".0f", ".1f", ".3e", ".6g"])
+def test_a_number_in_a_title_is_another_one_only_where_its_text_is(spec: str, tmp_path: Path) -> None:
+    """2 * 0.0025 / 0.001 is 5 in floats alone, and what the title tells of it is the same."""
+    sheet = own(
+        tmp_path, f"a = g.k * 0.0025 / 0.001\ny = a * x  # [-] line\ntable_2 = table('2', f'At {{a:{spec}}}', y)"
+    )
+    names = sheet.run(sheet.results, {"g": sheet.inputs()})
+    proof = proof_of(names, sheet, record(names, sheet))
+    assert proof.check(12).passed, proof.check(12).reason
+
+
 def test_a_count_is_an_exception_and_what_is_made_with_it_is_not(tmp_path: Path) -> None:
     lines = """
 r = find(lambda p, q: (p**2 + q**2 - 4, q - p**2 + 1), p=(0, 2), q=(0, 2))

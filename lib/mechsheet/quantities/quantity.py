@@ -4,6 +4,7 @@ A cell of a worksheet is run with quantities of this kind in place of its number
 gives the formula of a cell. What numpy's functions make of them is registered by `numpy_rules`.
 """
 
+import math
 from collections.abc import Callable, Iterator, Sequence
 from functools import reduce
 from math import prod
@@ -22,6 +23,7 @@ from mechsheet.units import Constant
 UFUNCS: dict[Any, Callable[..., "Quantity"]] = {}  # of quantities
 FUNCTIONS: dict[Any, Callable[..., Any]] = {}  # of the graph and whatever numpy's function takes
 REDUCTIONS: dict[Any, str] = {}  # kinds that the reduce and accumulate of a ufunc stand for
+_ROUNDING = 2.0**-46  # of a number, which its text does not show
 METHODS = frozenset({
     "all", "any", "argmax", "argmin", "argsort", "clip", "conj", "conjugate", "copy", "cumprod", "cumsum", "diagonal",
     "dot", "max", "mean", "min", "nonzero", "prod", "ptp", "ravel", "repeat", "round", "sort", "squeeze", "std", "sum",
@@ -150,8 +152,16 @@ class Quantity(NDArrayOperatorsMixin):
         return np.round(self, digits or 0)
 
     def __format__(self, spec: str) -> str:
-        value = self.seen()
-        return (value.item() if value.size == 1 else value).__format__(spec)
+        """Its text, for Python to look at; of a number the same while nothing but rounding changes it."""
+        value = self.value.item() if self.value.size == 1 else self.value
+        text: str = value.__format__(spec)
+        off = abs(value) * _ROUNDING if isinstance(value, float) else 0.0
+        if 0 < off < math.inf and all(x.__format__(spec) == text for x in (value - off, value + off)):
+            self.graph.measure(self.re)
+            self.graph.see((abs(self - value) <= off).re)
+        else:
+            self.seen()
+        return text
 
     def __str__(self) -> str:
         return self.__format__("")

@@ -52,7 +52,7 @@ class Written:
             if isinstance(part, Either):
                 str(part.then if part.holds else part.otherwise)
             elif isinstance(part, Number):
-                part.value.seen()
+                part.value.__format__(part.spec)
         return self.now
 
     def __format__(self, spec: str) -> str:
