@@ -18,13 +18,14 @@ from numpy.typing import ArrayLike, NDArray
 
 from mechsheet.worksheet import deviation, errors, lines, numbers, source
 from mechsheet.worksheet.errors import SheetError, refuse
-from mechsheet.worksheet.kinds import Choice, Input, Offer, Switch, TextLine, number
+from mechsheet.worksheet.kinds import Choice, Input, Offer, Switch, TextLine, limit_of, number
 from mechsheet.worksheet.lists import Rows
 from mechsheet.worksheet.shown import Shown
 
 T = TypeVar("T")
 _LIMIT = re.compile(r"\s*(<=|>=|<|>)\s*([^\s<>=]+?),?(?=[\s<>]|$)")
 MOST, LEAST = 1e60, 1e-60  # products of a few inputs of this size are still numbers
+_AT_MOST, _AT_LEAST = f"at most {numbers.significant(MOST, 6)} in size", f"at least {numbers.significant(LEAST, 6)}"
 _COMPARE = {"<": operator.lt, "<=": operator.le, ">": operator.gt, ">=": operator.ge}
 
 
@@ -261,23 +262,23 @@ def _rules(fields: Iterable[Input], shown: Mapping[str, Any]) -> Iterator[tuple[
 
         return refusal
 
-    fields = tuple(fields)
-    for field in fields:  # what is no number is named before what it would be compared with
+    for field in (fields := tuple(fields)):  # what is no number is named before what it would be compared with
         value = shown[field.name]
         size = abs(value) if type(value) in (float, int) else np.abs(np.asarray(value, dtype=float))
-        yield size < np.inf, say(field, "a finite number")
-        yield size <= MOST, say(field, f"at most {numbers.significant(MOST, 6)} in size")
+        if type(size) not in (float, int) or not size <= MOST:  # of a single number, as most are, one look will do
+            yield size < np.inf, say(field, "a finite number")
+            yield size <= MOST, say(field, _AT_MOST)
         if field.whole:
             yield np.rint(value) == value, say(field, "a whole number")
     for field in fields:
         value = shown[field.name]
         for sign, other in field.limits:
             is_input, is_length = other in shown, (sign, other) == (">", "0")
-            limit = shown[other] if is_input else number(other)
+            limit = shown[other] if is_input else limit_of(other)
             must = "positive" if is_length else f"{sign} {other}"
             yield _COMPARE[sign](value, limit), say(field, must, other * is_input)
             if is_length:
-                yield abs(value) >= LEAST, say(field, f"at least {numbers.significant(LEAST, 6)}")
+                yield abs(value) >= LEAST, say(field, _AT_LEAST)
 
 
 def _element(values: Any, i: int) -> Any:
@@ -320,8 +321,7 @@ def variants(cls: type, given: Mapping[str, ArrayLike]) -> Variants:
     texts: NDArray[Any] = np.full(shape, "", dtype=object)
     for _, more in columns.values():
         texts = np.where(texts == "", more, texts)
-    reasons = texts.ravel()
-    flat = {name: column.ravel() for name, column in shown.items()}
+    reasons, flat = texts.ravel(), {name: column.ravel() for name, column in shown.items()}
     plain = {name: field for name, field in fields.items() if type(field) is Input}
     every = {name: flat.get(name, field.display(getattr(cls, name))) for name, field in plain.items()}
     touched = [f for f in plain.values() if f.name in flat or any(other in flat for _, other in f.limits)]
