@@ -297,6 +297,12 @@ def test_a_literal_says_once_what_it_is_taken_for(told: Callable[..., Dimensions
     assert [str(note) for note in found.notes] == [f"line {FIRST}, 0.3: taken in m"]
 
 
+def test_a_number_in_a_text_is_no_literal(told: Callable[..., Dimensions]) -> None:
+    """Which nobody has typed, and which is compared with itself while the text stays the same."""
+    found = told("M = 0.003 * g.F * g.L  # [N*m] M", 'table_9 = table("9", f"Under {M:.5g}", M)')
+    assert not found.notes and not found.mistakes
+
+
 def test_what_is_not_followed_is_said_and_passes(told: Callable[..., Dimensions]) -> None:
     check = told("f = float(np.linalg.eigvals(np.array([[g.L, 1], [1, g.L]]))[0])", "x = f + g.F  # [N] x").check()
     assert check.passed and check.reason == f"not followed at line {FIRST}"

@@ -24,14 +24,8 @@ from mechsheet.mechanics.rrp import RRPGroup
 from mechsheet.mechanics.rrr import RRRGroup
 
 Given = Mapping[str, Any]  # numbers, or arrays of them, by name
-_LOADS = (
-    "F_A",
-    "P_A",
-    "T_A",
-    "F_B",
-    "P_B",
-    "T_B",
-)  # force, point, couple on the body next to A, and on the one next to B
+# Force, point and couple on the body next to A, and on the one next to B.
+_LOADS = ("F_A", "P_A", "T_A", "F_B", "P_B", "T_B")
 _COMPLEX = {"A", "B", "u", "w", "v_A", "v_B", "a_A", "a_B", "F_A", "P_A", "F_B", "P_B"}
 
 

@@ -18,12 +18,12 @@ from numpy.lib.mixins import NDArrayOperatorsMixin
 from mechsheet.quantities.graph import Graph, Label, NotRecorded
 from mechsheet.quantities.node import Node
 from mechsheet.quantities.operations import Moved, Values
-from mechsheet.units import Constant
+from mechsheet.units import UNKNOWN, Constant
+from mechsheet.worksheet import numbers
 
 UFUNCS: dict[Any, Callable[..., "Quantity"]] = {}  # of quantities
 FUNCTIONS: dict[Any, Callable[..., Any]] = {}  # of the graph and whatever numpy's function takes
 REDUCTIONS: dict[Any, str] = {}  # kinds that the reduce and accumulate of a ufunc stand for
-_ROUNDING = 2.0**-46  # of a number, which its text does not show
 METHODS = frozenset({
     "all", "any", "argmax", "argmin", "argsort", "clip", "conj", "conjugate", "copy", "cumprod", "cumsum", "diagonal",
     "dot", "max", "mean", "min", "nonzero", "prod", "ptp", "ravel", "repeat", "round", "sort", "squeeze", "std", "sum",
@@ -155,10 +155,11 @@ class Quantity(NDArrayOperatorsMixin):
         """Its text, for Python to look at; of a number the same while nothing but rounding changes it."""
         value = self.value.item() if self.value.size == 1 else self.value
         text: str = value.__format__(spec)
-        off = abs(value) * _ROUNDING if isinstance(value, float) else 0.0
+        off = abs(value) * numbers.ROUNDING if isinstance(value, float) else 0.0
         if 0 < off < math.inf and all(x.__format__(spec) == text for x in (value - off, value + off)):
             self.graph.measure(self.re)
-            self.graph.see((abs(self - value) <= off).re)
+            near, least = (Quantity(self.graph, self.graph.constant(x, UNKNOWN)) for x in (value, off))
+            self.graph.see((abs(self - near) <= least).re)
         else:
             self.seen()
         return text

@@ -176,18 +176,21 @@ class _MeasuredToTheEnd(_Measured):
     def ends(self, node: Node) -> bool:
         return False
 
+    def size(self, node: Node) -> Any:
+        return abs(Quantity(self.graph, node))
+
     def inside(self, node: Node) -> Quantity | None:
-        args, sizes = node.operands, [abs(Quantity(self.graph, operand)) for operand in node.operands[:2]]
+        args = node.operands
         measured: Any = None
         match node.op:
             case "mul":
                 a, b = args
-                measured = self.largest(self.of(a) * sizes[1], self.of(b) * sizes[0])
+                measured = self.largest(self.of(a) * self.size(b), self.of(b) * self.size(a))
             case "div":
                 a, b = args
-                measured = self.largest(self.of(a), self.of(b) * sizes[0] / sizes[1]) / sizes[1]
+                measured = self.largest(self.of(a), self.of(b) * self.size(a) / self.size(b)) / self.size(b)
             case "pow" if is_number(args[1], 2):
-                measured = self.of(args[0]) * sizes[0]
+                measured = self.of(args[0]) * self.size(args[0])
             case "sqrt":
                 root = Quantity(self.graph, node)
                 measured = choice(self.graph, root > 0, self.of(args[0]) / root, 0.0)

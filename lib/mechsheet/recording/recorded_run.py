@@ -393,7 +393,8 @@ class Run(OfPositions):
             for each in own if isinstance(own, tuple | list) else [own]:
                 if isinstance(each, Table | Figure):
                     number = each.number if isinstance(each, Table) else f"Fig {each.number}"
-                    yield from [] if number in self.recording.tables else [name]
+                    if number not in self.recording.tables:
+                        yield name
 
     def while_same(self, x: Quantity, rests: Iterable[Guard]) -> Quantity:
         """A quantity while Python sees the same, else no number."""

@@ -117,7 +117,7 @@ def _formulas(cell: source.Cell) -> Iterator[Formula | Given]:
             case ast.Expr(ast.JoinedStr()):
                 raise SheetError(f"{cell.at(node.lineno)}: a text with values in it belongs to mo.md or to typeset")
         number = node.end_lineno or node.lineno
-        for line, told in _told(cell, node, earlier):
+        for line, told, _ in _told(cell, node, earlier):
             earlier[line.name] = told
             if several := _several(line.expression):
                 raise SheetError(
@@ -142,30 +142,29 @@ def _formulas(cell: source.Cell) -> Iterator[Formula | Given]:
                 )
 
 
-def _told(cell: source.Cell, node: ast.stmt, earlier: Mapping[str, Declared]) -> Iterator[tuple[Formula, Declared]]:
-    """What a statement binds names to, with what it declares of them."""
-    if isinstance(node, ast.If):
-        yield from ((chosen.line, chosen.told) for chosen in _chosen(cell, node, earlier))
-    elif lines := _bound(node):
-        number = node.end_lineno or node.lineno
-        yield from zip(lines, _declared_each(cell.comments.get(number, ""), cell.at(number), lines), strict=False)
-
-
-class _Chosen(NamedTuple):
-    """A name to which each way of a choice gives a value, what is declared of it, and in which lines."""
+class _Told(NamedTuple):
+    """What a statement binds a name to, with what it declares of that, and in which lines; a choice on each way."""
 
     line: Formula
     told: Declared
     numbers: tuple[int, ...]
 
 
-def _chosen(cell: source.Cell, node: ast.If, earlier: Mapping[str, Declared]) -> list[_Chosen]:
+def _told(cell: source.Cell, node: ast.stmt, earlier: Mapping[str, Declared]) -> list[_Told]:
+    if isinstance(node, ast.If):
+        return _chosen(cell, node, earlier)
+    lines, number = _bound(node), node.end_lineno or node.lineno
+    told = _declared_each(cell.comments.get(number, ""), cell.at(number), lines) if lines else ()
+    return [_Told(*each, (number,)) for each in zip(lines, told, strict=False)]
+
+
+def _chosen(cell: source.Cell, node: ast.If, earlier: Mapping[str, Declared]) -> list[_Told]:
     """Names that a choice declares: each way gives them a value and the same unit, or leaves them what they were.
 
     Raises SheetError where the units are unlike.
     """
     yes, no = _way(cell, node.body, earlier), _way(cell, node.orelse, earlier)
-    found = list[_Chosen]()
+    found = list[_Told]()
     for name in dict.fromkeys([*yes, *no]):
         ways = [way[name] for way in (yes, no) if name in way]
         before = [earlier[name]] if len(ways) < 2 and name in earlier else []
@@ -180,24 +179,18 @@ def _chosen(cell: source.Cell, node: ast.If, earlier: Mapping[str, Declared]) ->
         expressions = [way[name].line.expression if name in way else stays for way in (yes, no)]
         choice = ast.copy_location(ast.IfExp(node.test, *expressions), node)
         meant = next((each for each in told if each.meaning), told[0])
-        found.append(_Chosen(Formula(name, choice, "", ""), meant, tuple(n for each in ways for n in each.numbers)))
+        found.append(_Told(Formula(name, choice, "", ""), meant, tuple(n for each in ways for n in each.numbers)))
     return found
 
 
-def _way(cell: source.Cell, body: Sequence[ast.stmt], earlier: Mapping[str, Declared]) -> dict[str, _Chosen]:
+def _way(cell: source.Cell, body: Sequence[ast.stmt], earlier: Mapping[str, Declared]) -> dict[str, _Told]:
     """What one way of a choice declares, by name."""
-    found = dict[str, _Chosen]()
+    found = dict[str, _Told]()
     for node in body:
-        new = list[_Chosen]()
-        if isinstance(node, ast.If):
-            new = _chosen(cell, node, earlier)
-        elif lines := _bound(node):
-            number = node.end_lineno or node.lineno
-            told = _declared_each(cell.comments.get(number, ""), cell.at(number), lines)
-            new = [_Chosen(*each, (number,)) for each in zip(lines, told, strict=False) if not each[0].arguments]
+        new = _told(cell, node, earlier)
         for name in bound(node):
             found.pop(name, None)
-        found |= {each.line.name: each for each in new}
+        found |= {each.line.name: each for each in new if not each.line.arguments}
     return found
 
 
