@@ -173,12 +173,13 @@ def test_switch_shows_the_numbers_in_the_formulas(page):
     area = page.locator("ms-numbers[tex*='80']", has=page.locator("marimo-tex")).first
     area.wait_for()
     capacity = page.locator(".ms-line", has_text="piston area").locator("ms-numbers marimo-tex")
-    page.wait_for_function("() => document.querySelector('ms-numbers marimo-tex').shadowRoot?.querySelector('.katex')")
     expect(capacity).to_contain_text(r"\frac{\pi\,(0.08\,\mathrm{m})^{2}}{4}")
-    clear = """() => [...document.querySelectorAll(".ms-line:has(ms-numbers marimo-tex)")].every((line) =>
-        line.querySelector("ms-numbers marimo-tex").getBoundingClientRect().top >=
-        line.querySelector(".ms-formula").getBoundingClientRect().bottom)"""
-    assert page.evaluate(clear), "numbers overlap the denominators above them"
+    clear = """() => [...document.querySelectorAll(".ms-line:has(ms-numbers marimo-tex)")].every((line) => {
+        const [numbers, formula] = ["ms-numbers marimo-tex", ".ms-formula"].map((name) => line.querySelector(name));
+        const above = () => numbers.getBoundingClientRect().top - formula.getBoundingClientRect().bottom;
+        return numbers.shadowRoot?.querySelector(".katex") && above() >= 0;
+      })"""
+    page.wait_for_function(clear)  # the page may scroll between two of its readings while others are typeset
     field = page.locator(".ms-inputs tr:has-text('piston diameter') input")
     field.fill("0.09")
     field.press("Enter")
