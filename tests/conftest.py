@@ -233,7 +233,7 @@ def answers(port: int) -> bool:
 
 @pytest.fixture(scope="session")
 def serve(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Callable[[str, Path], str]]:
-    """``serve("run" or "edit", worksheet)``: its address at a marimo server, one for all that are only shown."""
+    """``serve("run" or "edit", worksheet)``: its address, at one marimo server for all that are run, else at its own."""
     with ExitStack() as servers:
 
         def served(mode: str, shown: Path, folder: Path) -> str:
@@ -245,14 +245,17 @@ def serve(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Callable[[str, P
             return folder, served("run", folder, folder)
 
         @cache
-        def address(mode: str, worksheet: Path) -> str:
-            if mode == "edit":
-                folder = tmp_path_factory.mktemp(mode)
-                return served(mode, placed(worksheet, folder), folder)
+        def address(worksheet: Path) -> str:
             folder, at = shown()
             return f"{at}/?file={quote(str(placed(worksheet, Path(mkdtemp(dir=folder)))))}"
 
-        yield address
+        def at(mode: str, worksheet: Path) -> str:
+            if mode == "run":
+                return address(worksheet)
+            folder = tmp_path_factory.mktemp(mode)  # all who open an editor see what one of them has typed
+            return served(mode, placed(worksheet, folder), folder)
+
+        yield at
 
 
 @pytest.fixture(scope="session")
