@@ -233,7 +233,7 @@ def answers(port: int) -> bool:
 
 @pytest.fixture(scope="session")
 def serve(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Callable[[str, Path], str]]:
-    """``serve("run" or "edit", worksheet)``: its address, at one marimo server for all that are run, else at its own."""
+    """``serve("run" or "edit", worksheet)``: its address, at one marimo server for all that run, else at its own."""
     with ExitStack() as servers:
 
         def served(mode: str, shown: Path, folder: Path) -> str:
