@@ -316,6 +316,7 @@ def pages(
         if worksheet not in fresh or state(page) != fresh[worksheet]:
             page.goto(serve("run", worksheet))
             page.get_by_text(text).first.wait_for()
+            alive(page)
             fresh[worksheet] = state(page)
         page.evaluate("scrollTo(0, 0)")
         return page
@@ -359,6 +360,12 @@ def drawn(page: Page) -> None:
     page.wait_for_function(
         "() => new Promise(done => requestIdleCallback(() => requestAnimationFrame(() => setTimeout(done, 0, true))))"
     )
+
+
+def alive(page: Page) -> None:
+    """Wait until a page of a worksheet answers: its texts are seen before its scripts are there."""
+    page.wait_for_function("() => customElements.get('ms-numbers')")
+    drawn(page)
 
 
 @pytest.fixture

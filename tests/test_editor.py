@@ -10,7 +10,7 @@ from types import SimpleNamespace
 
 import marimo
 import pytest
-from conftest import drawn, until
+from conftest import alive, drawn, until
 from playwright.sync_api import expect
 
 from mechsheet import __main__ as launcher
@@ -36,6 +36,7 @@ class Editor:
         page.set_viewport_size({"width": 1280, "height": 3000})
         page.goto(address)
         self.expect("2 of 2 checks pass")
+        alive(page)
         expect(page.locator(".cm-content:visible")).to_have_count(0)  # it opens for reading, even the setup folded
         page.get_by_label("code of all cells").check()
 

@@ -6,7 +6,7 @@ from math import inf
 from pathlib import Path
 
 import pytest
-from conftest import SIZE, drawn, new_page, report_errors, until
+from conftest import SIZE, alive, drawn, new_page, report_errors, until
 from playwright.sync_api import expect
 
 HITCH = Path(__file__).parents[1] / "worksheets" / "hitch.py"
@@ -26,6 +26,7 @@ def cell(page, table: str, row: int, column: int):
 def ready(page) -> None:
     for last in ("Table 7 ", READY):
         page.get_by_text(last).first.wait_for()
+    alive(page)
 
 
 @pytest.fixture
