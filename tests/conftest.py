@@ -164,10 +164,12 @@ def examples(count: int, **others: Any) -> settings:
 def placed(worksheet: Path, folder: Path) -> Path:
     """A copy of the worksheet in a folder with the project's settings: what the editor saves stays out of the project.
 
-    Those beside it are there for one that reads them.
+    Those beside it are there for one that reads them. The library stays as it is meanwhile: for each editor it takes six
+    seconds of a processor to find out what would have to be loaded again.
     """
     shutil.copytree(ROOT / "worksheets", folder / "worksheets", ignore=shutil.ignore_patterns("__*__"))
-    shutil.copy(ROOT / "pyproject.toml", folder)
+    settings = (ROOT / "pyproject.toml").read_text("utf-8")
+    (folder / "pyproject.toml").write_text(settings.replace('auto_reload = "autorun"', ""), "utf-8")
     if worksheet.is_relative_to(ROOT / "worksheets"):
         return folder / worksheet.relative_to(ROOT)
     for beside in (*worksheet.parent.glob("*.csv"), *worksheet.parent.glob("*.toml")):
