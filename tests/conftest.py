@@ -164,8 +164,8 @@ def examples(count: int, **others: Any) -> settings:
 def placed(worksheet: Path, folder: Path) -> Path:
     """A copy of the worksheet in a folder with the project's settings: what the editor saves stays out of the project.
 
-    Those beside it are there for one that reads them. The library stays as it is meanwhile: for each editor it takes six
-    seconds of a processor to find out what would have to be loaded again.
+    Those beside it are there for one that reads them. The library stays as it is meanwhile: each editor would take six
+    seconds of a processor to find out what to look at for changes.
     """
     shutil.copytree(ROOT / "worksheets", folder / "worksheets", ignore=shutil.ignore_patterns("__*__"))
     settings = (ROOT / "pyproject.toml").read_text("utf-8")

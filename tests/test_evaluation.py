@@ -115,6 +115,32 @@ def test_a_line_that_divides_by_zero_refuses_though_nothing_rests_on_it(tmp_path
     assert ask(F=2)[0] is ZeroDivisionError
 
 
+@pytest.mark.parametrize(
+    "line",
+    [
+        "np.where(g.F > 2, x, 7.5)",
+        "np.where(g.F > 2, x, np.nan)",
+        "np.where(g.F > 2, 2, x)",
+        "np.where(g.F > 2, np.arange(4), x)",
+        "np.where(g.F > 2, np.arange(4), 7)",
+        "np.where(g.F > 2, x > 1, x > 2)",
+        "np.where(g.F > 2, x[:1], x)",
+        "np.where(g.F > 2, 1j * x, x)",
+    ],
+)
+def test_what_one_truth_chooses_is_of_its_own_type_and_shape_and_nobody_elses(tmp_path: Path, line: str) -> None:
+    ask = asked(tmp_path, f"x = g.F * np.arange(4)  # [-] of four\ny = {line}  # [-] one or the other", "y")
+    for F in (2.5, 2.5, 2.5, 1.5, 1.5, 1.5, 3.0):
+        x, y = F * np.arange(4), ask(F=F)["y"]
+        expected = eval(line, {"np": np, "x": x, "g": type("G", (), {"F": F})})
+        assert (y.dtype, y.shape, y.tolist()) == (
+            expected.dtype,
+            expected.shape,
+            pytest.approx(expected.tolist(), nan_ok=True),
+        )
+        y[...] = 9  # of whoever asked
+
+
 SHAPES: dict[str, Callable[[Any], Any]] = {
     "wave": lambda x: np.sin(7 * x) * np.exp(x),
     "cubic": lambda x: (x - 0.3) ** 3,

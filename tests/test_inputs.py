@@ -10,8 +10,9 @@ from cells import run
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mechsheet.worksheet import inputs
+from mechsheet.worksheet import inputs, limits
 from mechsheet.worksheet.errors import SheetError
+from mechsheet.worksheet.kinds import number
 
 CELL = """
 from math import pi
@@ -44,7 +45,7 @@ def test_lines_declare_unit_meaning_section_and_limits(Arm):
     )
     assert (phi.unit, phi.limits) == ("deg", ())
     assert (S_min.section, S_min.limits) == ("1.2 Range", ((">", "0"), ("<", "S_max")))
-    assert tuple(inputs._limits("> 0, <= S_max, < 0.5", "x", "")) == ((">", "0"), ("<=", "S_max"), ("<", "0.5"))
+    assert tuple(limits.read("> 0, <= S_max, < 0.5", "x", "")) == ((">", "0"), ("<=", "S_max"), ("<", "0.5"))
     assert N.whole
 
 
@@ -80,6 +81,21 @@ def test_replaced_inputs_are_checked_too(Arm):
         replace(Arm(), L5=np.array([0.1, -0.1]))
 
 
+@pytest.mark.parametrize("order", [(0, 1, 2, 3), (3, 2, 1, 0), (2, 0, 3, 1)])
+def test_inputs_of_which_the_declared_ones_break_a_limit_are_refused_until_they_are_replaced(order):
+    """Whatever is built first: what is known of a class's own values is no reason to look away."""
+    Arm = run(CELL.replace("S_max: float = 0.67", "S_max: float = 0.40"))["Arm"]
+    unmet = "least stroke S_min = 0.42 m must be < S_max = 0.4"
+    for k in order:
+        values, says = [({}, unmet), ({"L5": 0.5}, unmet), ({"S_max": 0.5}, ""), ({"S_min": 0.3}, "")][k]
+        if not says:
+            inputs.build(Arm, values)
+            continue
+        with pytest.raises(SheetError) as error:
+            inputs.build(Arm, values)
+        assert str(error.value) == says
+
+
 def test_display_units_at_the_edge(Arm):
     assert inputs.build(Arm, {"phi": "90"}).phi == pytest.approx(pi / 2, rel=1e-15)
     assert inputs.build(Arm, {"phi": "22,0"}) == Arm(), "the default's own text gives the default, to the last bit"
@@ -95,13 +111,13 @@ def test_display_units_at_the_edge(Arm):
 @given(st.floats(allow_nan=False, allow_infinity=False), st.booleans())
 def test_number_reads_what_python_writes_with_point_or_comma(x, comma):
     text = repr(x).replace(".", ",") if comma else repr(x)
-    assert inputs.number(f" {text} ") == x
+    assert number(f" {text} ") == x
 
 
 @given(st.text(max_size=8))
 def test_number_takes_all_or_rejects(text):
     try:
-        value = inputs.number(text)
+        value = number(text)
     except ValueError:
         return
     assert float(text.strip().replace(",", ".")) == value

@@ -10,8 +10,9 @@ from mechsheet import units
 from mechsheet.document.markup import as_written, limits, meant
 from mechsheet.units import parse
 from mechsheet.worksheet import numbers
-from mechsheet.worksheet.inputs import LEAST, MOST, declared
+from mechsheet.worksheet.inputs import declared
 from mechsheet.worksheet.kinds import Choice, Input, Switch, TextLine, number
+from mechsheet.worksheet.limits import LEAST, MOST
 from mechsheet.worksheet.lists import MOST_ROWS, Rows
 
 

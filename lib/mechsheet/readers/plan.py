@@ -106,8 +106,20 @@ class _Writing:
         truths = any(operand.value.dtype == bool for operand in under)
         if node.op in _MANY and not truths:
             return _MANY[node.op].format(*names)
+        if node.op == "where" and not arrays[0]:
+            either = [self.filled(operand, node) for operand in under[1:]]
+            if all(either):
+                return f"({either[0]} if {names[0]} else {either[1]})"
         put = [name if is_array else f"array({name})" for name, is_array in zip(names, arrays, strict=True)]
         return f"{self.keep(ELEMENTWISE[node.op])}({', '.join(put if truths else names)})"
+
+    def filled(self, operand: Node, node: Node) -> str:
+        """An operand with the type and shape of a node, of which it may be all; "" where it has others."""
+        if self.many or operand.value.dtype != node.value.dtype:
+            return ""
+        if operand.op == "constant":
+            return self.keep(np.broadcast_to(operand.value, node.shape))
+        return self.names[operand] if operand.shape == node.shape else ""
 
     def whole(self, node: Node, names: Sequence[str]) -> str:
         """The expression of what is no arithmetic of elements."""

@@ -6,8 +6,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from mechsheet.units import parse, shown
 from mechsheet.workbook.cell_formula import written
 from mechsheet.workbook.content import quoted
-from mechsheet.worksheet.inputs import LEAST, MOST
 from mechsheet.worksheet.kinds import number
+from mechsheet.worksheet.limits import LEAST, MOST
 
 _LETTERS = '"0123456789.,+-−eE"'  # of a number as text
 

@@ -3,10 +3,8 @@
 import ast
 import dataclasses
 import difflib
-import operator
-import re
 import sys
-from collections.abc import Callable, Container, Iterable, Iterator, Mapping
+from collections.abc import Container, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -16,17 +14,13 @@ from typing import Any, Literal, TypeVar, dataclass_transform, get_args, get_ori
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mechsheet.worksheet import deviation, errors, lines, numbers, source
+from mechsheet.worksheet import deviation, errors, limits, lines, source
 from mechsheet.worksheet.errors import SheetError, refuse
-from mechsheet.worksheet.kinds import Choice, Input, Offer, Switch, TextLine, limit_of, number
+from mechsheet.worksheet.kinds import Choice, Input, Offer, Switch, TextLine
 from mechsheet.worksheet.lists import Rows
 from mechsheet.worksheet.shown import Shown
 
 T = TypeVar("T")
-_LIMIT = re.compile(r"\s*(<=|>=|<|>)\s*([^\s<>=]+?),?(?=[\s<>]|$)")
-MOST, LEAST = 1e60, 1e-60  # products of a few inputs of this size are still numbers
-_AT_MOST, _AT_LEAST = f"at most {numbers.significant(MOST, 6)} in size", f"at least {numbers.significant(LEAST, 6)}"
-_COMPARE = {"<": operator.lt, "<=": operator.le, ">": operator.gt, ">=": operator.ge}
 
 
 @dataclass_transform(frozen_default=True)
@@ -118,18 +112,18 @@ def _declared(cls: type, cell: source.Cell, names: Mapping[str, Any]) -> tuple[I
             last = "" if comment or node is not body.body[-1] else _LOST
             raise SheetError(f"{place}: input {name} needs a comment with its unit, such as # [m] meaning{last}")
         unit, (meaning, *parts) = text.unit if text else "-", (text.meaning if text else comment).split(";")
-        limits, deviations = (";".join(p for p in parts if deviation.is_meant(p) is meant) for meant in (False, True))
-        if kind is float and any(map(deviation.is_misplaced, (meaning, limits))):
+        allowed, deviations = (";".join(p for p in parts if deviation.is_meant(p) is meant) for meant in (False, True))
+        if kind is float and any(map(deviation.is_misplaced, (meaning, allowed))):
             raise SheetError(f"{place}: tolerance of {name} must stand behind a semicolon of its own, as in ; ± 0.001")
-        allowed, mistake = tuple(_limits(limits, name, place)), text.mistake if text else ""
-        plain = Input(name, unit, meaning.strip(), section, kind is int, allowed, mistake=mistake, line=line)
+        within, mistake = tuple(limits.read(allowed, name, place)), text.mistake if text else ""
+        plain = Input(name, unit, meaning.strip(), section, kind is int, within, mistake=mistake, line=line)
         if deviations:
             plain = _with_tolerance(plain, deviations, kind is float and name in vars(cls), place)
         own = _of_kind(plain, kind, default, place, folder)
         if isinstance(own, Rows):
-            if own.row and limits:
+            if own.row and allowed:
                 raise SheetError(f"{place}: limits of the table {name} stand in the class of its rows")
-        elif own is not plain and (unit != "-" or limits):
+        elif own is not plain and (unit != "-" or allowed):
             raise SheetError(f"{place}: {name} is no number and has neither unit nor limits")
         if name in vars(cls):
             try:
@@ -147,7 +141,7 @@ def _declared(cls: type, cell: source.Cell, names: Mapping[str, Any]) -> tuple[I
             raise SheetError(f"{places[other]}: {other} of an option or row must be a float or an int without unit")
     unknown = {field.name for field in found if field.mistake}
     found = [_without(field, unknown) for field in found] if unknown else found
-    _comparable(found, places)
+    limits.comparable(found, places)
     return tuple(found)
 
 
@@ -200,90 +194,37 @@ def _of_kind(plain: Input, kind: Any, default: Any, place: str, folder: str) -> 
 def _column_of(table: str, column: Input, others: Iterable[Input]) -> Input:
     """A column of a table under its full name, which its limits have too."""
     names = {other.name: f"{table}.{other.name}" for other in others}
-    limits = tuple((sign, names.get(other, other)) for sign, other in column.limits)
-    return dataclasses.replace(column, name=names[column.name], limits=limits, many=True)
+    own = tuple((sign, names.get(other, other)) for sign, other in column.limits)
+    return dataclasses.replace(column, name=names[column.name], limits=own, many=True)
 
 
 _KINDS = "float, int, bool, str, Literal of texts, list[float], list of a class of rows, or what one_of(..) gives"
 
 
-def _limits(text: str, field: str, place: str) -> Iterator[tuple[str, str]]:
-    """The limits of a line, all of its text; SheetError naming the place and what cannot be read."""
-    at = 0
-    while text[at:].strip():
-        match = _LIMIT.match(text, at)
-        if not match:
-            like = "> 0, <= 3 or < S_max"
-            raise SheetError(
-                f"{place}: limit {text[at:].strip()!r} of {field} cannot be read; limits are such as {like}"
-            )
-        yield match[1], match[2]
-        at = match.end()
-
-
-def _comparable(fields: Iterable[Input], places: Mapping[str, str]) -> None:
-    """SheetError where a limit is neither a number nor an input in the same unit."""
-    units_of = {field.name: field.unit for field in fields}
-    for field in fields:
-        for sign, other in field.limits:
-            said = f"{places[field.name]}: limit {sign} {other} of {field.name}"
-            if other in units_of:
-                if units_of[other] != field.unit:
-                    theirs, own = (numbers.in_text(unit) for unit in (units_of[other], field.unit))
-                    raise SheetError(f"{said}: {other} is in {theirs}, {field.name} in {own}")
-                continue
-            try:
-                number(other)
-            except ValueError:
-                raise SheetError(f"{said}: {other} is neither a number nor an input") from None
-
-
 def _validate(self: Any) -> None:
-    fields = declared(type(self))
-    for field in fields:
+    """See that the values are within their limits: of a class whose own are, those that are others."""
+    cls, fields = type(self), declared(type(self))
+    if "__within__" not in vars(cls):
+        cls.__within__ = hasattr(cls, "__inputs__") and not any(_refusals(cls, fields, fields))
+    given = [field for field in fields if getattr(self, field.name) is not vars(cls).get(field.name)]
+    for field in given:
         object.__setattr__(self, field.name, field.taken(getattr(self, field.name)))
-    pairs = [(field, getattr(self, field.name)) for field in fields if type(field) is Input]
+    for refusal in _refusals(self, fields, given if cls.__within__ else fields):
+        raise refusal
+
+
+def _refusals(g: Any, fields: Iterable[Input], given: Iterable[Input]) -> Iterator[SheetError]:
+    """Why values cannot be used, of those that are given and those whose limits name them."""
+    pairs = [(field, getattr(g, field.name)) for field in fields if type(field) is Input]
     for table in (field for field in fields if isinstance(field, Rows)):
-        pairs += table.leaves(getattr(self, table.name)).values()
-    shown = {field.name: field.display(value) for field, value in pairs}
-    for holds, say in _rules((field for field, _ in pairs), shown):
+        pairs += table.leaves(getattr(g, table.name)).values()
+    names = {each.name for field in given for each in (field.columns if isinstance(field, Rows) else [field])}
+    near = limits.touched((field for field, _ in pairs), names)
+    compared = {name for field in near for name in (field.name, *(other for _, other in field.limits))}
+    shown = {field.name: field.display(value) for field, value in pairs if field.name in compared}
+    for holds, say in limits.rules(near, shown):
         if holds is not True and not np.all(holds):  # numpy is slow to say so of single ones
-            raise say(int(np.argmin(holds)))
-
-
-def _rules(fields: Iterable[Input], shown: Mapping[str, Any]) -> Iterator[tuple[Any, Callable[[int], SheetError]]]:
-    """The rules for inputs in display units, one by one: where each holds, and what to say of a variant where not."""
-
-    def say(field: Input, must: str, other: str = "") -> Callable[[int], SheetError]:
-        def refusal(i: int) -> SheetError:
-            limit = f" = {_element(shown[other], i)}" if other else ""
-            named = dataclasses.replace(field, name=f"{field.name} ({i + 1})") if field.many else field
-            return SheetError(f"{named.says(_element(shown[field.name], i))} must be {must}{limit}", named.name)
-
-        return refusal
-
-    for field in (fields := tuple(fields)):  # what is no number is named before what it would be compared with
-        value = shown[field.name]
-        size = abs(value) if type(value) in (float, int) else np.abs(np.asarray(value, dtype=float))
-        if type(size) not in (float, int) or not size <= MOST:  # of a single number, as most are, one look will do
-            yield size < np.inf, say(field, "a finite number")
-            yield size <= MOST, say(field, _AT_MOST)
-        if field.whole:
-            yield np.rint(value) == value, say(field, "a whole number")
-    for field in fields:
-        value = shown[field.name]
-        for sign, other in field.limits:
-            is_input, is_length = other in shown, (sign, other) == (">", "0")
-            limit = shown[other] if is_input else limit_of(other)
-            must = "positive" if is_length else f"{sign} {other}"
-            yield _COMPARE[sign](value, limit), say(field, must, other * is_input)
-            if is_length:
-                yield abs(value) >= LEAST, say(field, _AT_LEAST)
-
-
-def _element(values: Any, i: int) -> Any:
-    """One of the values, or the value of all."""
-    return np.ravel(values)[i] if np.ndim(values) else values
+            yield say(int(np.argmin(holds)))
 
 
 @dataclass(frozen=True, eq=False)
@@ -324,15 +265,14 @@ def variants(cls: type, given: Mapping[str, ArrayLike]) -> Variants:
     reasons, flat = texts.ravel(), {name: column.ravel() for name, column in shown.items()}
     plain = {name: field for name, field in fields.items() if type(field) is Input}
     every = {name: flat.get(name, field.display(getattr(cls, name))) for name, field in plain.items()}
-    touched = [f for f in plain.values() if f.name in flat or any(other in flat for _, other in f.limits)]
-    for holds, say in _rules(touched, every):
+    for holds, say in limits.rules(limits.touched(plain.values(), flat.keys()), every):
         if holds is not True and not np.all(holds):
             for i in np.flatnonzero(np.broadcast_to(~np.asarray(holds), reasons.shape) & (reasons == "")):
                 reasons[i] = str(say(int(i)))
     si = {name: _shared(fields[name].leaf(column, getattr(cls, name))) for name, column in flat.items()}
     lists = [field for field in fields.values() if isinstance(field, Rows)]
-    limits = {other for field in lists for column in field.columns for _, other in column.limits}
-    if limits & columns.keys() or any(field.name in columns for field in lists):
+    compared = {other for field in lists for column in field.columns for _, other in column.limits}
+    if compared & columns.keys() or any(field.name in columns for field in lists):
         for i in np.flatnonzero(reasons == ""):
             try:
                 build(cls, {name: column[i] for name, column in flat.items()})
