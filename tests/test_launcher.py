@@ -146,9 +146,25 @@ def test_a_name_is_looked_for_here_then_among_the_worksheets_and_examples(
     assert launcher.worksheet("worksheets/lever.py") == str(folders[1] / "lever.py"), "a file is that file"
 
 
-def test_run_passes_the_rest_on_and_the_exit_code_back(sheet: Path, capfd: pytest.CaptureFixture[str]) -> None:
-    assert launcher.main(["run", str(sheet), "--P6=30e3", "--phi_BD=-3.5", "--help"]) == 3
-    assert capfd.readouterr().out.split() == ["--P6=30e3", "--phi_BD=-3.5", "--help", "φ"]
+@pytest.mark.parametrize("environment", [{}, {"LC_ALL": "C", "PYTHONCOERCECLOCALE": "0", "PYTHONUTF8": "0"}])
+def test_run_passes_the_rest_on_and_the_exit_code_back(sheet: Path, environment: dict[str, str]) -> None:
+    """In the process of the command, and in one of its own where that writes no UTF-8."""
+    command = [sys.executable, "-m", "mechsheet", "run", sheet, "--P6=30e3", "--phi_BD=-3.5", "--help"]
+    done = subprocess.run(command, capture_output=True, encoding="utf-8", env={**os.environ, **environment})
+    assert (done.returncode, done.stderr) == (3, "")
+    assert done.stdout.split() == ["--P6=30e3", "--phi_BD=-3.5", "--help", "φ"]
+
+
+def test_in_the_process_of_the_command_modules_of_the_current_folder_are_found(tmp_path: Path) -> None:
+    """As ``python -m`` finds them, though the command is a program in another folder."""
+    (tmp_path / "beside.py").write_text("F = 3")
+    text = "import marimo\napp = marimo.App()\n@app.cell\ndef told():\n    import beside, os, sys\n"
+    (tmp_path / "sheet.py").write_text(text + "    print(beside.F, len(sys.argv), os.environ['PYTHONUTF8'])\n")
+    start = "import sys; del sys.path[0]; from mechsheet.__main__ import main; sys.exit(main())"
+    command = [sys.executable, "-c", start, "run", "sheet"]
+    done = subprocess.run(command, capture_output=True, text=True, cwd=tmp_path)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert done.stdout.startswith("3 1 1\n")
 
 
 def test_a_name_stands_for_the_worksheet_of_the_project(
