@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 from as_script import as_file, as_script, copied
 from openpyxl import load_workbook
+from own_worksheet import written
 
 from mechsheet import __main__ as launcher
 from mechsheet.worksheet.cells import load
@@ -211,3 +212,28 @@ def test_what_a_worksheet_does_with_what_marimo_runs_of_it_is_done(tmp_path):
     sheet = changed(tmp_path, end, '    _, defs = app.run()\n    print(type(defs["g"]).__name__)\n')
     done = as_file(sheet, f"--out={tmp_path}")
     assert done.stdout.endswith("Given\n"), done.stdout + done.stderr
+
+
+SAID = """
+M = 2 * g.F  # [N·m] moment
+for k in range(2):
+    print("in a loop", k, M)
+N = told(M)  # [N·m] more
+print("in a call", [print("inside") for _ in range(1)])
+typeset(M, N)
+print("last", M) if M > 0 else None
+"""
+
+
+@pytest.mark.parametrize("title", ["Said", ""], ids=["exported", "not exported"])
+def test_what_a_cell_prints_is_said_once(tmp_path, title):
+    """Though its lines are run once more to be followed by the cells, and the last one to be shown."""
+    setup = "from mechsheet import ask, export, inputs, read, typeset"
+    text = written(setup, "F: float = 2.5  # [N·m] load", SAID.strip(), title)
+    function = '@app.function\ndef told(M):\n    print("in a function")\n    return M + M\n\n\n'
+    path = tmp_path / "said.py"
+    path.write_text(text.replace("@app.cell\n", function + "@app.cell\n", 1), encoding="utf-8")
+    done = run(sheet=path)
+    said = ["in a loop 0 5.0", "in a loop 1 5.0", "in a function", "inside", "in a call [None]", "last 5.0"]
+    lines = [line for line in done.stdout.splitlines() if line.partition(" ")[0] in ("in", "inside", "last")]
+    assert (done.returncode, done.stderr, lines) == (0, "", said)

@@ -28,7 +28,7 @@ from mechsheet.recording.given import given
 from mechsheet.recording.memory import Memory, changes, names_of
 from mechsheet.recording.positions import OfPositions
 from mechsheet.recording.stage import Stage, held
-from mechsheet.recording.substitutes import BUILTINS, Module, instead, shared, staged
+from mechsheet.recording.substitutes import Module, instead, shared, staged
 from mechsheet.units import Constant
 from mechsheet.worksheet import numbers
 from mechsheet.worksheet.cells import Cell, Worksheet
@@ -59,7 +59,7 @@ class Run(OfPositions):
         super().__init__(Recording(graph, known, every=graph.thin))
         self.sheet, self.namespace, self.asked = sheet, namespace, beforehand(g)
         self.recording.sections = list(dict.fromkeys(cell.section for cell in sheet.cells))
-        self.names: dict[str, Any] = shared(sheet.common) | {"__builtins__": BUILTINS, **self.asked}
+        self.names: dict[str, Any] = shared(sheet.common) | self.asked
         self.looked: dict[str, tuple[Guard, ...]] = {}  # by name: the guards that its value rests on
         self.chosen: dict[Node, frozenset[Node]] = {}
         self.lost: dict[str, NotRecorded] = {}  # names that have no value here, and why

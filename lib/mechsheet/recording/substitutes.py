@@ -49,8 +49,10 @@ _NOWHERE = frozenset({"require", "refuse", "summary", "export", "typeset"})  # o
 
 def shared(common: Mapping[str, Any]) -> dict[str, Any]:
     """The shared names of a worksheet, with what takes recorded quantities in place of what does not."""
-    own: dict[str, Any] = {**_NAMES}
+    own: dict[str, Any] = {**_NAMES, "__builtins__": BUILTINS}
     for name, value in common.items():
+        if name == "__builtins__":
+            continue
         of_sheet = isinstance(value, FunctionType) and value.__globals__ is common
         own[name] = rebuilt(value, own) if of_sheet else instead(value)
     return own
@@ -217,8 +219,12 @@ def _imported(name: str, *args: Any, **kwargs: Any) -> Any:
     return instead(__import__(name, *args, **kwargs))
 
 
+def _unsaid(*_: Any, **__: Any) -> None:
+    """In place of ``print``: the worksheet has said it already."""
+
+
 # An import inside a cell is one of what takes quantities too.
-BUILTINS = {**vars(builtins), "__import__": _imported, "sum": total}
+BUILTINS = {**vars(builtins), "__import__": _imported, "sum": total, "print": _unsaid}
 
 
 @cache
