@@ -11,6 +11,7 @@ from own_worksheet import own, recorded
 from mechsheet.html import write
 from mechsheet.quantities.lines import Recording
 from mechsheet.quantities.node import Node
+from mechsheet.quantities.quantity import Quantity
 from mechsheet.readers.numbers import numbers
 from mechsheet.recording.record import record
 from mechsheet.worksheet import cells
@@ -199,3 +200,37 @@ def test_a_column_rests_on_what_was_seen_for_it_alone(tmp_path: Path) -> None:
     known = numbers([column.re for column in columns], {recording.inputs["F"]: 3.25})
     numbered = [bool(np.isfinite(known[column.re]).all()) for column in columns]
     assert numbered == [True, False, False]
+
+
+@pytest.mark.parametrize(
+    "read",
+    [
+        "float(f'{g.F:.0f}') + 1",
+        "float(f'{g.F}')",
+        "float(f'{g.F:.0f}' + '5')",
+        "float(f'{g.F:.0f}'.replace('2', '1'))",
+        "int(f'{g.F:.0f}') + 1.0",
+        "complex(f'{g.F:.1f}').real",
+        "np.float64(f'{g.F:.1f}') * 1",
+        "np.array([f'{g.F:.1f}']).astype(float)[0]",
+        "sum(float(sign) for sign in f'{10 * g.F:.0f}')",
+        "len(f'{10**g.F:.0f}') * 1.0",
+        "eval(f'{g.F:.1f} + 1')",
+        "{'2.5': 4.0}.get(f'{g.F:.1f}', 3.0)",
+        "float(f'{g.F:.1f}'.split('.')[0])",
+        "float(('%.1f' % g.F))",
+    ],
+)
+def test_a_number_read_out_of_a_text_holds_while_the_text_is_the_same(read: str, tmp_path: Path) -> None:
+    """On the page too, which writes texts anew for other inputs, but reads none."""
+    sheet = own(tmp_path, f"q = {read}  # [-] read")
+    names = sheet.run(["q", "table_1"], {"g": sheet.inputs()})
+    assert isinstance(names["q"], float)
+    recording = record(names, sheet, whole=True, every=1, draws=True)
+    value, guards = recording.values["q"], [guard.holds for guard in recording.looked["q"]]
+    parts = [*value.parts] if isinstance(value, Quantity) else []
+    assert parts or isinstance(value, int | float)
+    for F, same in ((2.5, True), (3.5, False), (1.25, False)):
+        known = numbers([*parts, *guards], {recording.inputs["F"]: F})
+        shown = all(known[guard] for guard in guards) and not any(np.isnan(known[part]).any() for part in parts)
+        assert shown is same, F

@@ -77,10 +77,10 @@ class Written:
         return text in str(self)
 
     def __add__(self, other: "str | Written") -> "Written":
-        return Written(tuple(_pieces([self, other])))
+        return Written(tuple(_pieces([self, other]))) if isinstance(other, str | Written) else NotImplemented
 
     def __radd__(self, other: str) -> "Written":
-        return Written(tuple(_pieces([other, self])))
+        return Written(tuple(_pieces([other, self]))) if isinstance(other, str) else NotImplemented
 
     def __getattr__(self, name: str) -> Any:
         """Methods of texts."""

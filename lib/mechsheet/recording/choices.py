@@ -363,14 +363,23 @@ def total(values: Any, start: Any = 0) -> Any:
     return values.reduced("sum") + start if _is_whole(values) else sum(values, start)
 
 
+def _number(kind: type, followed: Callable[..., Any]) -> Callable[..., Any]:
+    """A number of Python's made of a quantity, or read out of a text, which Python looks at for it."""
+
+    def made(*given: Any) -> Any:
+        given = tuple(str(x) if isinstance(x, Written) else x for x in given)
+        return followed(*given) if has_quantity(given) else kind(*given)
+
+    return made
+
+
 CALLS: dict[str, Any] = {
     "choice": choice, "and": both, "or": any_of, "not": negated, "matched": matched, "element": element, "get": got,
     "handled": handled,
     "len": lambda x: x.count(0) if isinstance(x, Quantity) and x.ndim else len(x),
     "unbound": UNBOUND, "text": text,
     "max": _extreme("max"), "min": _extreme("min"), "round": round, "sorted": ranked, "place": placed,
-    "float": lambda *x: x[0] if has_quantity(x) else float(*x),
-    "int": lambda *x: trunc(x[0]) if has_quantity(x) else int(*x),
-    "complex": lambda *x: sum(a * b for a, b in zip(x, (1, 1j), strict=False)) if has_quantity(x) else complex(*x),
+    "float": _number(float, lambda x: x), "int": _number(int, trunc),
+    "complex": _number(complex, lambda *x: sum(a * b for a, b in zip(x, (1, 1j), strict=False))),
     "pow": lambda *x: x[0] ** x[1] if has_quantity(x) else pow(*x),
 }  # fmt: skip

@@ -15,7 +15,7 @@ from mechsheet.quantities.lines import Recording, Residual, Solved
 from mechsheet.quantities.node import Node
 from mechsheet.quantities.numpy_rules import arange
 from mechsheet.quantities.quantity import Quantity, lift
-from mechsheet.quantities.written import seen
+from mechsheet.quantities.written import Written, seen
 from mechsheet.readers.terms import made_of
 from mechsheet.recording import showing, solving
 from mechsheet.recording.substitutes import body, instead
@@ -262,6 +262,8 @@ class Stage:
     def same(self, value: Any, own: Any) -> bool:
         """Whether a recorded value has the worksheet's own numbers, but for the rounding of what it is made of."""
         numbers = int | float | complex | np.ndarray | np.generic
+        if isinstance(value, Written) and isinstance(own, numbers):
+            return False
         if not (isinstance(value, Quantity | numbers) and isinstance(own, numbers)):
             return True
         kept = np.asarray(own) + 0 if np.asarray(own).dtype.kind in "biufc" else np.asarray(own)
