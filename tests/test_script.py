@@ -220,6 +220,13 @@ for k in range(2):
     print("in a loop", k, M)
 N = told(M)  # [N·m] more
 print("in a call", [print("inside") for _ in range(1)])
+sys.stdout.write("in a stream\\n")
+with open(Path(__file__).with_name("kept.txt"), "a") as kept:
+    kept.write("line ")
+logging.getLogger("told").error("logged")
+log.error("logged too")
+sys.stderr.write("in errors\\n")
+warnings.warn("warned")
 typeset(M, N)
 print("last", M) if M > 0 else None
 """
@@ -228,12 +235,20 @@ print("last", M) if M > 0 else None
 @pytest.mark.parametrize("title", ["Said", ""], ids=["exported", "not exported"])
 def test_what_a_cell_prints_is_said_once(tmp_path, title):
     """Though its lines are run once more to be followed by the cells, and the last one to be shown."""
-    setup = "from mechsheet import ask, export, inputs, read, typeset"
+    setup = "import logging, sys, warnings\nfrom pathlib import Path\n"
+    setup += 'log = logging.getLogger("own")\nfrom mechsheet import ask, export, inputs, read, typeset'
     text = written(setup, "F: float = 2.5  # [N·m] load", SAID.strip(), title)
     function = '@app.function\ndef told(M):\n    print("in a function")\n    return M + M\n\n\n'
     path = tmp_path / "said.py"
     path.write_text(text.replace("@app.cell\n", function + "@app.cell\n", 1), encoding="utf-8")
-    done = run(sheet=path)
-    said = ["in a loop 0 5.0", "in a loop 1 5.0", "in a function", "inside", "in a call [None]", "last 5.0"]
+    command = [sys.executable, "-m", "mechsheet", "run", path]
+    done = subprocess.run(
+        command, capture_output=True, encoding="utf-8"
+    )  # what a copy of this process logs is pytest's
+    said = ["in a loop 0 5.0", "in a loop 1 5.0", "in a function", "inside", "in a call [None]", "in a stream"]
+    said.append("last 5.0")
     lines = [line for line in done.stdout.splitlines() if line.partition(" ")[0] in ("in", "inside", "last")]
-    assert (done.returncode, done.stderr, lines) == (0, "", said)
+    assert (done.returncode, lines) == (0, said)
+    told = ["logged", "logged too", "in errors", 'said.py, line 51, warnings.warn("warned"): warned']
+    assert done.stderr.splitlines() == told
+    assert (tmp_path / "kept.txt").read_text() == "line "

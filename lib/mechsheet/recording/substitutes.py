@@ -7,13 +7,16 @@ Nothing of the running program is exchanged: pages that are served at the same t
 
 import builtins
 import math
+import os
 import sys
+import warnings
 from bisect import bisect_left, bisect_right
 from collections.abc import Callable, Mapping
 from contextvars import ContextVar
 from copy import copy
 from functools import cache, partial, reduce
 from inspect import unwrap
+from io import StringIO
 from types import BuiltinFunctionType, FunctionType, GenericAlias, ModuleType
 from typing import Any
 
@@ -106,6 +109,8 @@ def instead(value: Any) -> Any:
     if isinstance(value, Drawing) and current.get().draws:
         return Sketch.of(value)
     room = str(getattr(value, "__module__", ""))
+    if (unspoken := _unspoken(value, room)) is not None:
+        return unspoken
     if isinstance(value, FunctionType | type) and room.startswith("mechsheet."):
         return _of_package(value, room)
     if room == "statistics" and value.__name__ in _STATISTICS:
@@ -220,11 +225,31 @@ def _imported(name: str, *args: Any, **kwargs: Any) -> Any:
 
 
 def _unsaid(*_: Any, **__: Any) -> None:
-    """In place of ``print``: the worksheet has said it already."""
+    """In place of what says something: the worksheet has said it already."""
+
+
+def _unspoken(value: Any, room: str) -> Any:
+    """In place of a stream, of a log or of what warns one that keeps it to itself; None in place of anything else."""
+    if value is sys.stdout or value is sys.stderr:
+        return StringIO()
+    if room != "logging":
+        return _unsaid if value is warnings.warn else None
+    logging = sys.modules["logging"]
+    quiet = logging.Logger("", level=1000)  # above all that is told
+    if isinstance(value, logging.Logger):
+        return quiet
+    name = getattr(value, "__name__", "")
+    telling = ("debug", "info", "warning", "error", "exception", "critical", "log")
+    return _unsaid if name in telling else (lambda *_: quiet) if name == "getLogger" else None
+
+
+def _opened(file: Any, mode: str = "r", *args: Any, **kwargs: Any) -> Any:
+    """A file, which is read; what the worksheet writes it has written already."""
+    return open(*(file, mode) if {*mode}.isdisjoint("wax+") else (os.devnull, mode.replace("x", "w")), *args, **kwargs)
 
 
 # An import inside a cell is one of what takes quantities too.
-BUILTINS = {**vars(builtins), "__import__": _imported, "sum": total, "print": _unsaid}
+BUILTINS = {**vars(builtins), "__import__": _imported, "sum": total, "print": _unsaid, "open": _opened}
 
 
 @cache
