@@ -307,3 +307,41 @@ def test_what_a_page_in_one_file_cannot_show_is_named(tmp_path, shown, told):
     text = page(load(path), load(path).inputs())
     assert text.count("shown in the worksheet alone") == bool(told) and told in text
     assert ('id="table-2"' in text) is ("table(" in shown)
+
+
+@pytest.mark.parametrize(
+    ("lines", "says"),
+    [
+        (
+            'check_2 = check("load", g.F, 9.0)\ncheck_3 = check("load", g.a, 9.0)',
+            "two checks are called 'load': give each a name of its own",
+        ),
+        (
+            'several = [check("load", q, 9.0) for q in (g.F, g.F)]',
+            "two checks are called 'load': give each a name of its own",
+        ),
+        (
+            'table_2 = table("2", "Forces", x)\ntable_3 = table("2", "Parts", x)',
+            "two tables have the number 2: give each a number of its own",
+        ),
+        (
+            "\n".join(f'figure_{n} = figure("4", "{n}", x, x)' for n in (2, 3)),
+            "two figures have the number 4: give each a number of its own",
+        ),
+        ('check_2 = check("load", g.F, 9.0)\ncheck_3 = check_2\npair = (check_2, check_3)', ""),
+        ('table_2 = table("2", "Forces", x)\nfigure_2 = figure("2", "Forces", x, x)', ""),
+    ],
+)
+def test_what_is_told_by_its_name_has_one_of_its_own(lines, says, tmp_path):
+    """Else the formulas of one would stand under both, in the workbook and on the page in one file."""
+    sheet = own(tmp_path, lines)
+    path = Path(sheet.path)
+    path.write_text(path.read_text().replace("import ask, find", "import ask, check, find", 1))
+    sheet = load(path)
+    for of in (lambda: values(sheet.run_whole()), lambda: page(sheet, sheet.inputs())):
+        if not says:
+            of()
+            continue
+        with pytest.raises(SheetError) as error:
+            of()
+        assert str(error.value) == says

@@ -12,8 +12,8 @@ from typing import Any
 
 from mechsheet.worksheet import source
 from mechsheet.worksheet.cells import load, results
-from mechsheet.worksheet.check import Summary
-from mechsheet.worksheet.errors import raised
+from mechsheet.worksheet.check import Check, Summary
+from mechsheet.worksheet.errors import SheetError, raised
 from mechsheet.worksheet.lines import Formula, Given
 from mechsheet.worksheet.over import Over, over
 from mechsheet.worksheet.shown import Shown, arranged
@@ -120,7 +120,27 @@ def values(namespace: Mapping[str, Any]) -> list[Any]:
             found.setdefault(id(value), value)
     for check in (check for each in sums for check in each.checks):  # the one at the top must not decide the order
         found.setdefault(id(check), check)
+    _told_apart(found.values())
     return list(found.values())
+
+
+def _told_apart(values: Iterable[Any]) -> None:
+    """SheetError where two checks, tables or figures go by one name: for other inputs one would stand for both."""
+    known = set[tuple[str, str, str]]()
+    for value in values:
+        match value:
+            case Check(name=name):
+                key = "checks are called", repr(name), "name"
+            case Table(number=number):
+                key = "tables have the number", number, "number"
+            case Figure(number=number):
+                key = "figures have the number", number, "number"
+            case _:
+                continue
+        if key in known:
+            which, name, own = key
+            raise SheetError(f"two {which} {name}: give each a {own} of its own")
+        known.add(key)
 
 
 def _number(value: Any) -> tuple[type, str] | None:

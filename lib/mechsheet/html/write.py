@@ -14,6 +14,7 @@ from types import FunctionType
 from typing import Any
 
 from mechsheet import units
+from mechsheet.document import parts
 from mechsheet.document.parts import Line, Section, by_cell
 from mechsheet.html import fields, font, frames, javascript, values
 from mechsheet.html.follow import Follower
@@ -88,6 +89,7 @@ def page(sheet: Worksheet, g: Any) -> str:
 
 def _page(sheet: Worksheet, namespace: dict[str, Any], lists: bool) -> str:
     """The file of a run; what rests on ``lists`` among the inputs follows them at any length, or at their own."""
+    parts.values(namespace)  # which tells of what goes by one name
     cells = _with_fields(by_cell(namespace), sheet, inputs_of(namespace))
     shown = [part for parts in cells.values() for part in parts]
     follower = Follower(record(namespace, sheet, whole=True, every=1, draws=True, lists=lists), Numbers(namespace))
