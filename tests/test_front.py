@@ -11,8 +11,10 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from as_script import as_script
 from conftest import WITHIN
 from openpyxl import load_workbook
+from own_worksheet import written
 from test_recalculation import edit, export
 from test_recorded_worksheet import own
 
@@ -102,12 +104,29 @@ def test_contents_link_to_every_sheet_under_its_title(hitch: Path) -> None:
         assert row[1].value == book[sheet[1]]["A1"].value
 
 
+def test_a_find_without_a_solution_is_no_pass_though_no_check_rests_on_it(
+    recalculated: Callable[[Path], Any], tmp_path: Path
+) -> None:
+    setup = "from mechsheet import ask, check, export, find, inputs, read, typeset"
+    lines = "r_found = find(lambda r: r**2, 0, 2, equals=g.F)\nr = r_found.value  # [-] root\n"
+    lines += "heavy = check('load', g.F, 90.0)\ntypeset(r_found)"
+    path = tmp_path / "root.py"
+    path.write_text(written(setup, "F: float = 2.5  # [-] load", lines, "Root"), encoding="utf-8")
+    assert as_script(path).returncode == 0
+    exported = path.with_suffix(".xlsx")
+    said = {F: recalculated(edit(exported, {"F": F}, tmp_path / f"{F}.xlsx"))["Front"]["A2"].value for F in (3.5, 9)}
+    assert said == {3.5: "all checks PASS", 9: "0 FAIL, 0 not evaluated, 1 not found"}
+    refused = as_script(path, "--F=9")
+    assert refused.returncode == 1 and "9 is outside" in refused.stderr
+
+
 def test_front_sheet_follows_the_inputs(hitch: Path, recalculated: Callable[[Path], Any], tmp_path: Path) -> None:
     book = recalculated(edit(hitch, {"P6": 26e3, "S_max": 0.9}, tmp_path / "edited.xlsx"))
     said = book["Front"]["A2"].value
     verdicts = [row[4].value for row in book["Checks"].iter_rows(min_row=3)]
-    assert said == f"{verdicts.count('FAIL')} FAIL, {verdicts.count('not evaluated')} not evaluated"
-    assert not said.startswith("0 FAIL, 0")
+    lost = [row[1].value for row in book["Find"].iter_rows(min_row=3)].count("#N/A")
+    counts = f"{verdicts.count('FAIL')} FAIL, {verdicts.count('not evaluated')} not evaluated, {lost} not found"
+    assert said == counts and not said.startswith("0 FAIL, 0")
     results = {row[0]: row[1:] for row in front(book)["Key results"]}
     capacity = column(book["4.1 Lifting capacity"], "GS6")
     numbers = [x for x in capacity if isinstance(x, float)]

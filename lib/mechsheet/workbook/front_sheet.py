@@ -42,9 +42,16 @@ def add(book: Book) -> Any:
     return book.sheet(_NAME, book.title, _WIDTHS, 2, looks.UPRIGHT)
 
 
-def write(book: Book, sheet: Any, checks: Sequence[Check], results: Sequence[Result], known: Recording | None) -> None:
+def write(
+    book: Book,
+    sheet: Any,
+    checks: Sequence[Check],
+    found: Sequence[FoundRow],
+    results: Sequence[Result],
+    known: Recording | None,
+) -> None:
     """Fill the sheet, when all others are there; the recording ``known`` says what is not followed."""
-    put(sheet, 1, 0, _verdict(checks), book.style({"bold": True, "align": "left"}))
+    put(sheet, 1, 0, _verdict(checks, found), book.style({"bold": True, "align": "left"}))
     for criterion, look in (("==", looks.PASS), ("!=", looks.FAIL)):
         rule = {"type": "cell", "criteria": criterion, "value": f'"{_ALL}"', "format": book.file.add_format(look)}
         sheet.conditional_format(1, 0, 1, 0, rule)
@@ -84,13 +91,19 @@ def results(found: Sequence[FoundRow], drawn: Sequence[Listed], formulas: SheetF
     return [*(first or (_last(formulas) if formulas else ())), *_shown(drawn)]
 
 
-def _verdict(checks: Sequence[Check]) -> Live:
-    """What the sheet Checks says, for it may say another thing when inputs are changed."""
-    failed, open_ = (f'COUNTIF({_VERDICT},"{verdict}")' for verdict in ("FAIL", "not evaluated"))
-    formula = f'=IF({failed}+{open_}=0,"{_ALL}",{failed}&" FAIL, "&{open_}&" not evaluated")'
+def _verdict(checks: Sequence[Check], found: Sequence[FoundRow]) -> Live:
+    """What the sheets Checks and Find say, for they may say another thing when inputs are changed."""
     said = [check.verdict for check in checks]
-    counts = f"{said.count('FAIL')} FAIL, {said.count('not evaluated')} not evaluated"
-    return Live(formula, _ALL if all(check.passed for check in checks) else counts)
+    counts = [
+        (f'COUNTIF({_VERDICT},"{verdict}")', said.count(verdict), verdict) for verdict in ("FAIL", "not evaluated")
+    ]
+    if found:
+        cells = f"SUMPRODUCT(--ISERROR(Find!$B$3:$B${len(found) + 2}))"
+        counts.append((cells, sum(math.isnan(row.value) for row in found), "not found"))
+    text = '&", "&'.join(f'{cells}&" {verdict}"' for cells, _, verdict in counts)
+    formula = f'=IF({"+".join(cells for cells, _, _ in counts)}=0,"{_ALL}",{text})'
+    own = ", ".join(f"{count} {verdict}" for _, count, verdict in counts)
+    return Live(formula, own if any(count for _, count, _ in counts) else _ALL)
 
 
 def _last(formulas: SheetFormulas) -> Iterator[Result]:

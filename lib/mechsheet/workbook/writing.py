@@ -103,7 +103,7 @@ def workbook(
     charts.marks()
     listed = charts.drawn or [_listed(*each) for each in zip(tables, names, greys, strict=True)]
     results = front_sheet.results(found, listed, formulas)
-    front_sheet.write(book, front, checks, results, recording)
+    front_sheet.write(book, front, checks, found, results, recording)
     return book.close()
 
 
