@@ -252,3 +252,21 @@ def test_what_a_cell_prints_is_said_once(tmp_path, title):
     told = ["logged", "logged too", "in errors", 'said.py, line 51, warnings.warn("warned"): warned']
     assert done.stderr.splitlines() == told
     assert (tmp_path / "kept.txt").read_text() == "line "
+
+
+def test_a_division_by_zero_is_told_as_the_worksheets_own_and_a_place_among_infinite_numbers_is_grey(tmp_path):
+    """Python's own words name a file of the library; and no cell of a spreadsheet holds an infinite number."""
+    setup = "import numpy as np\nfrom mechsheet import ask, check, export, inputs, read, table, typeset"
+    lines = "phi = np.linspace(1, 0, 4)  # [rad] angle\nQ = np.minimum(g.F / np.tan(phi), 9.0)  # [N] press\n"
+    lines += (
+        "phi_Q = phi[Q.argmax()]  # [rad] where\nt = table('1', 'Press', phi, Q)\nlast = check('at', phi_Q, 2, 'rad')\n"
+    )
+    path = tmp_path / "press.py"
+    text = written(setup, "F: float = 2.5  # [N] force", f"{lines}typeset(t, last)", "Press")
+    path.write_text(text, encoding="utf-8")
+    done = run(sheet=path)
+    assert done.returncode == 0
+    (told,) = done.stderr.splitlines()
+    assert told.startswith("press.py, line ") and told.endswith("divide by zero encountered in divide")
+    assert "phi_Q: an infinite number is among those compared, which no cell of a spreadsheet holds" in done.stdout
+    assert "RuntimeWarning" not in run("--proof", sheet=path).stderr

@@ -297,6 +297,7 @@ class _Digits:
         lost = Proved(shown.where, shown.name, digits, self.why(shown), size=shown.size)
         return self.zero(shown, shown.node) or lost
 
+    @np.errstate(all="ignore")
     def zero(self, shown: _Shown, node: Node) -> Proved | None:
         """Digits of numbers that are 0 but for rounding, beside what they are made of; None of others.
 

@@ -4,6 +4,8 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from mechsheet.quantities.graph import Graph, current
 from mechsheet.quantities.lines import Recording
 from mechsheet.recording.positions import lacking, rows_of, step_of
@@ -43,6 +45,7 @@ def record_every_line(namespace: Mapping[str, Any], sheet: Worksheet) -> tuple[R
     return _recorded(namespace, sheet, further=True)
 
 
+@np.errstate(all="ignore")  # the worksheet's own run has warned
 def _recorded(
     namespace: Mapping[str, Any],
     sheet: Worksheet | None,

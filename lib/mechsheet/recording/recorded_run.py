@@ -20,6 +20,7 @@ from mechsheet.quantities.node import Node, conditions
 from mechsheet.quantities.quantity import Quantity, has_quantity, is_literal, lift
 from mechsheet.quantities.selected import Selected
 from mechsheet.quantities.sketch import Drawn, Sketch
+from mechsheet.quantities.ufunc_rules import finite
 from mechsheet.quantities.unrepeatable import Unrepeatable
 from mechsheet.quantities.written import Said, Written
 from mechsheet.readers.terms import terms_of
@@ -205,8 +206,7 @@ class Run(OfPositions):
         may_change = any(map(changes, codes))
         differs: list[str] = []
         try:
-            with np.errstate(all="ignore"):  # the worksheet's own run has warned
-                exec(facts.code, self.names)
+            exec(facts.code, self.names)
             self.measure(touched, reads)
             differs = self.differing(stage, final)
             if graph.thin > 1:
@@ -375,12 +375,13 @@ class Run(OfPositions):
     def decided(self) -> None:
         """See that no place was taken by the size of numbers that differ by nothing but the rounding of their terms."""
         for x, axis in tuple(self.graph.chosen):
-            x = lift(self.graph, x)
-            along = axis if x.ndim > 1 else None
+            along = axis if (x := lift(self.graph, x)).ndim > 1 else None
             low, high = (x.reduced(kind, along) for kind in ("min", "max"))
             terms = terms_of(x, deep=self.graph.draws).reduced("max", along)
+            if np.isinf(terms.value).any() and not self.graph.draws:
+                raise NotRecorded("an infinite number is among those compared, which no cell of a spreadsheet holds")
             nothing = (low == 0) & (high == 0)  # as a spreadsheet program has it where next to nothing is left
-            rounding = (high - low <= numbers.ROUNDING * terms) & ((high > low) | nothing) & (terms > 0)
+            rounding = (high - low <= numbers.ROUNDING * terms) & ((high > low) | nothing) & (terms > 0) & finite(terms)
             holds = (~rounding).reduced("all")
             if not holds.value:
                 raise NotRecorded(_BY_ROUNDING)
