@@ -146,6 +146,27 @@ def test_a_check_says_how_sure_it_is(limit, F, a, said, tmp_path):
     assert found.told(names["c"]) == f"{names['c']}; {found.sure['below']}"
 
 
+OVER = {
+    "over": "np.maximum(y - LIMIT, 0)",
+    "the other way round": "np.maximum(0.0, y - LIMIT)",
+    "by Python": "max(y - LIMIT, 0)",
+    "of many": "np.maximum(np.array([y - LIMIT, -1.0, y - 2 * LIMIT]), 0)",
+    "greatest of many": "np.maximum(np.array([y - LIMIT, -1.0]), 0).max()",
+    "size": "abs(np.maximum(y - LIMIT, 0))",
+    "twice": "np.maximum(np.maximum(y - LIMIT, -3), 0)",
+}
+
+
+@pytest.mark.parametrize(
+    ("limit", "F"), [(9.0, "± 1"), (6.75, "± 1"), (6.75, "± 1 normal"), (4.75, "± 1"), (3.0, "± 1")]
+)
+def test_what_is_over_a_limit_is_as_sure_as_the_limit_itself(limit, F, tmp_path):
+    """Its slope is that of one side alone: 0 where it is kept, though it fails within the tolerances."""
+    more = "".join(f'\ncheck_{n} = check("{name}", {text}, 0.0)' for n, (name, text) in enumerate(OVER.items()))
+    found, _ = bands(off(tmp_path, limit, F, "", more.replace("LIMIT", str(limit))))
+    assert {name: found.sure[name] for name in OVER} == dict.fromkeys(OVER, found.sure["below"])
+
+
 def test_whether_a_group_closes_is_looked_at_at_the_ends(tmp_path):
     lines = """
 from mechsheet import assembled

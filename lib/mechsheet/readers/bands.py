@@ -140,27 +140,27 @@ class Bands:
 
     def compared(self, residual: Residual) -> list[Node]:
         """What a check compares with its limit, and that limit, whose bands tell how sure it is."""
-        return [*(_bare(part, residual.signed) for part in residual.parts), residual.limit]
+        return [*(part for part, _ in _judged(residual)), residual.limit]
 
     def sure(self, residual: Residual, passed: bool) -> str:
         """How sure the verdict of a check is: in all the tolerances, or in how many of the cases."""
-        *parts, _ = compared = self.compared(residual)
+        parts, compared = _judged(residual), self.compared(residual)
         if set(self.inputs).isdisjoint(bottom_up(compared, ())):
             return "whatever the tolerances"
         bands = self.of(compared)
         if why := next((band.why for band in bands.values() if band.why), ""):
             return f"how sure is not known: {why}"
-        if all(_is_step(part) for part in parts):
+        if all(_is_step(part) for part, _ in parts):
             return self._at_ends(residual, passed)
         spread, limit = list[Values](), residual.limit.value
-        for part in parts:
-            for sign in (1.0,) if residual.signed else (1.0, -1.0):
-                reserve = np.broadcast_to(limit - sign * part.value, part.shape).reshape(1, -1)
+        for part, signed in parts:
+            for sign in (1.0,) if signed else (1.0, -1.0):
+                reserve = np.asarray(limit - sign * part.value).reshape(1, -1)
                 moves = (_flat(bands[residual.limit].moves) - sign * _flat(bands[part].moves)) + 0.0 * reserve
                 spread.append(np.concatenate([reserve, moves]))
-        return self._judged(np.concatenate(spread, axis=1), passed)
+        return self._by_reserves(np.concatenate(spread, axis=1), passed)
 
-    def _judged(self, reserves: Values, passed: bool) -> str:
+    def _by_reserves(self, reserves: Values, passed: bool) -> str:
         """By the reserve of each element, in the first row, and how each input moves it."""
         most = np.abs(reserves[1:]).sum(0)
         if np.all(reserves[0] >= most) or np.any(reserves[0] < -most):
@@ -199,11 +199,45 @@ def _flat(moves: Values) -> Values:
     return moves.reshape(len(moves), -1)
 
 
+def _judged(residual: Residual) -> list[tuple[Node, bool]]:
+    """What a check compares with its limit, each with whether by its sign: of the greater of two numbers both.
+
+    The slopes of the greater one are those of one alone, which may be another within the tolerances.
+    """
+    found, left = list[tuple[Node, bool]](), [(part, residual.signed) for part in reversed(residual.parts)]
+    while left:
+        part, signed = left.pop()
+        node = _bare(part, signed)
+        of, signed = node.operands, signed or _is_no_less_than_0(node)
+        if node.op == "max" and signed and all(x.shape in ((), node.shape) for x in of):
+            left += [(x, True) for x in reversed(of)]
+        elif node.op == "reduce" and node.args[2] == "max" and node.args[3].axis is None and signed:
+            left.append((of[0], True))
+        else:
+            found.append((node, signed))
+    return found
+
+
+def _is_no_less_than_0(node: Node) -> bool:
+    """Whether a quantity is that whatever the inputs are, as far as its last operations tell."""
+    node = _bare(node, True)
+    match node.op:
+        case "constant":
+            return bool(np.all(node.value >= 0))
+        case "max":
+            return any(map(_is_no_less_than_0, node.operands))
+        case "reduce":
+            return node.args[2] in ("max", "min", "sum") and _is_no_less_than_0(node.operands[0])
+        case "join":
+            return all(map(_is_no_less_than_0, node.operands))
+    return node.op == "abs"
+
+
 def _bare(node: Node, signed: bool) -> Node:
     """What a check takes the size of, without the condition under which it is recorded as the worksheet has it."""
     while node.op == "where" and node.args[2].op == "constant" and np.isnan(node.args[2].value).all():
         node = node.args[1]
-    return node.args[0] if node.op == "abs" and not signed else node
+    return _bare(node.args[0], signed) if node.op == "abs" and not signed else node
 
 
 def _is_step(node: Node) -> bool:
