@@ -45,7 +45,7 @@ def write(book: Book, rows: Sequence[FoundRow], formulas: SheetFormulas | None) 
         *texts, must = formulas.found(row.unknown, row.unit, row.residual_unit) if formulas else (None,) * 5
         value, residual, lower, upper = (_known(f, x, formulas) for f, x in zip(texts, numbers, strict=True))
         target: Content = "" if row.target is None else _known(must, row.target, formulas)
-        others: Content = formulas.as_exported(row.other_roots) if formulas and row.other_roots else row.other_roots
+        others: Content = formulas.as_exported(row.other_roots, "not followed") if formulas else row.other_roots
         kind = formulas.kind(row.unknown, row.kind) if formulas else row.kind
         line = (row.symbol, value, shown(row.unit), row.meaning, residual, shown(row.residual_unit), lower, upper)
         listed.append((*line, others, kind, target))

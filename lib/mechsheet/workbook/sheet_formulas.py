@@ -119,9 +119,9 @@ class SheetFormulas:
             return text
         return Live(f"=IF(ISNUMBER({self._cells.reference(holds)[1:]}),{quoted(text)},{quoted(otherwise)})", text)
 
-    def as_exported(self, value: float | str) -> Live:
-        """What is known for the exported inputs alone: for others no number, no text."""
-        known, else_ = (quoted(value), '""') if isinstance(value, str) else (written(value), "NA()")
+    def as_exported(self, value: float | str, otherwise: str = "") -> Live:
+        """What is known for the exported inputs alone: for others no number, and no text or another one."""
+        known, else_ = (quoted(value), quoted(otherwise)) if isinstance(value, str) else (written(value), "NA()")
         return Live(f"=IF({self.arrangement.changed.name}=0,{known},{else_})", value)
 
     def outside(self) -> str:
