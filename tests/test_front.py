@@ -118,9 +118,7 @@ def test_a_find_without_a_solution_is_no_pass_though_no_check_rests_on_it(
     said = {F: book["Front"]["A2"].value for F, book in books.items()}
     assert said == {2.5: "all checks PASS", 3.5: "all checks PASS", 9: "0 FAIL, 0 not evaluated, 1 not found"}
     others = [book["Find"]["I3"].value for book in books.values()]
-    assert others == [None, "not followed", "not followed"], (
-        "nothing there would say that there is none"
-    )
+    assert others == [None, "not followed", "not followed"], "nothing there would say that there is none"
     refused = as_script(path, "--F=9")
     assert refused.returncode == 1 and "9 is outside" in refused.stderr
 
