@@ -248,8 +248,8 @@ def serve(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Callable[[str, P
 
         @cache
         def address(worksheet: Path) -> str:
-            folder, at = shown()
-            return f"{at}/?file={quote(str(placed(worksheet, Path(mkdtemp(dir=folder)))))}"
+            folder, server = shown()
+            return f"{server}/?file={quote(str(placed(worksheet, Path(mkdtemp(dir=folder)))))}"
 
         def at(mode: str, worksheet: Path) -> str:
             if mode == "run":

@@ -124,23 +124,27 @@ def values(namespace: Mapping[str, Any]) -> list[Any]:
     return list(found.values())
 
 
+def called(value: Any) -> str:
+    """What a table, figure or check is called; "" for anything else."""
+    match value:
+        case Table(number=number):
+            return f"table {number}"
+        case Figure(number=number):
+            return f"figure {number}"
+        case Check(name=name):
+            return f"check {name}"
+    return ""
+
+
 def _told_apart(values: Iterable[Any]) -> None:
     """SheetError where two checks, tables or figures go by one name: for other inputs one would stand for both."""
-    known = set[tuple[str, str, str]]()
-    for value in values:
-        match value:
-            case Check(name=name):
-                key = "checks are called", repr(name), "name"
-            case Table(number=number):
-                key = "tables have the number", number, "number"
-            case Figure(number=number):
-                key = "figures have the number", number, "number"
-            case _:
-                continue
-        if key in known:
-            which, name, own = key
-            raise SheetError(f"two {which} {name}: give each a {own} of its own")
-        known.add(key)
+    known = set[str]()
+    for name in filter(None, map(called, values)):
+        if name in known:
+            kind, _, own = name.partition(" ")
+            told, by = (f"are called {own!r}", "name") if kind == "check" else (f"have the number {own}", "number")
+            raise SheetError(f"two {kind}s {told}: give each a {by} of its own")
+        known.add(name)
 
 
 def _number(value: Any) -> tuple[type, str] | None:
@@ -168,7 +172,7 @@ def _cells(names: dict[str, Any], only: Container[int] | None = None) -> Iterato
     path = Path(names["__file__"]).resolve()
     cells = _read(path, path.stat().st_mtime_ns)
     names["title_block"] = lambda name, text="": Title(name, text, path.name)  # that of a page watches its cells too
-    names["print"] = lambda *_, **__: None  # the cells have said it already
+    names.setdefault("print", lambda *_, **__: None)  # the cells have said it already
     with raised():
         for n, cell in enumerate(cells):
             if not cell.certain <= names.keys() or (only is not None and n not in only):

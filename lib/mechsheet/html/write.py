@@ -80,6 +80,7 @@ def page(sheet: Worksheet, g: Any) -> str:
         raise SheetError(f"{Path(sheet.path).stem} computes by {name}, over many runs: a page cannot follow that")
     namespace = sheet.run(sheet.results, beforehand(g))
     refuse_open(checks_of(namespace))
+    parts.values(namespace)  # which tells of what goes by one name
     try:
         text = _page(sheet, namespace, lists=True)
     except SheetError:  # how many values are found is not known before the list is
@@ -89,9 +90,8 @@ def page(sheet: Worksheet, g: Any) -> str:
 
 def _page(sheet: Worksheet, namespace: dict[str, Any], lists: bool) -> str:
     """The file of a run; what rests on ``lists`` among the inputs follows them at any length, or at their own."""
-    parts.values(namespace)  # which tells of what goes by one name
     cells = _with_fields(by_cell(namespace), sheet, inputs_of(namespace))
-    shown = [part for parts in cells.values() for part in parts]
+    shown = [part for each in cells.values() for part in each]
     follower = Follower(record(namespace, sheet, whole=True, every=1, draws=True, lists=lists), Numbers(namespace))
     follower.pair(cells)
     moving = frames.moved(sheet, namespace, cells, follower)
@@ -136,7 +136,7 @@ def _page(sheet: Worksheet, namespace: dict[str, Any], lists: bool) -> str:
 
 def _with_fields(cells: dict[int, list[Any]], sheet: Worksheet, g: Any) -> dict[int, list[Any]]:
     """What the cells show, with the inputs; where none shows those, at the cell that gives them."""
-    if isinstance(g, NoInputs) or any(isinstance(part, Used) for parts in cells.values() for part in parts):
+    if isinstance(g, NoInputs) or any(isinstance(part, Used) for each in cells.values() for part in each):
         return cells
     at = next((n for n, cell in enumerate(sheet.cells) if "g" in cell.gives), 0)
     return dict(sorted({**cells, at: [*cells.get(at, ()), Used(g)]}.items()))

@@ -192,7 +192,7 @@ def _not_followed(recording: Recording, values: Iterable[Any]) -> list[str]:
 
 def _not_there(recording: Recording, values: Iterable[Any]) -> list[str]:
     """The recorded tables, figures and checks that are not among the values, a line for each."""
-    lacking = _recorded_ones(recording) - {*map(_called, values)}
+    lacking = _recorded_ones(recording) - {*map(parts.called, values)}
     return [f"not there: {name}, which has no name" for name in sorted(lacking)]
 
 
@@ -230,10 +230,10 @@ def _recorded(namespace: Mapping[str, Any], values: Iterable[Any]) -> tuple[Reco
     sheet = load(namespace["__file__"])
     recording, every_line = record_every_line(namespace, sheet)
     groups = (value if isinstance(value, tuple | list) else [value] for value in namespace.values())
-    named = {_called(value) for group in groups for value in group}
-    if unknown := {*map(_called, values)} - named - _recorded_ones(recording):
+    named = {parts.called(value) for group in groups for value in group}
+    if unknown := {*map(parts.called, values)} - named - _recorded_ones(recording):
         shown = ((sheet.cells[n].lines[-1].lineno, each) for n, each in parts.by_cell(namespace).items())
-        told = ((line, _called(value)) for line, each in shown for value in each)
+        told = ((line, parts.called(value)) for line, each in shown for value in each)
         why = "it is shown under no name, by what is not recorded"
         recording.gaps += (Gap((name,), line, why) for line, name in told if name in unknown)
     fit = dimensions(every_line, sheet, namespace, registry(namespace)).check()
@@ -242,18 +242,6 @@ def _recorded(namespace: Mapping[str, Any], values: Iterable[Any]) -> tuple[Reco
     mistakes, none = recording.graph.constant(fit.residual), recording.graph.constant(fit.limit)
     recording.checks[fit.name] = Residual([mistakes], none, "-", signed=True)  # the same for all inputs
     return recording, fit
-
-
-def _called(value: Any) -> str:
-    """What a table, figure or check is called; "" for anything else."""
-    match value:
-        case Table(number=number):
-            return f"table {number}"
-        case Figure(number=number):
-            return f"figure {number}"
-        case Check(name=name):
-            return f"check {name}"
-    return ""
 
 
 def _recorded_ones(recording: Recording) -> set[str]:

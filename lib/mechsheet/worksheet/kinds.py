@@ -8,7 +8,6 @@ import difflib
 import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from functools import lru_cache
 from math import inf
 from operator import index
 from typing import Any, TypeVar
@@ -401,12 +400,6 @@ def number(text: object) -> float:
     if unit:
         raise ValueError(f"{errors.as_given(text)} is no number")
     return x
-
-
-@lru_cache(maxsize=1000)
-def limit_of(text: str) -> float:
-    """The number of a limit, which every new value is compared with."""
-    return number(text)
 
 
 def _split(value: object) -> tuple[float, str]:

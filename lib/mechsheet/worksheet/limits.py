@@ -4,13 +4,14 @@ import dataclasses
 import operator
 import re
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
 
 from mechsheet.worksheet import numbers
 from mechsheet.worksheet.errors import SheetError
-from mechsheet.worksheet.kinds import Input, limit_of, number
+from mechsheet.worksheet.kinds import Input, number
 
 MOST, LEAST = 1e60, 1e-60  # products of a few inputs of this size are still numbers
 _AT_MOST, _AT_LEAST = f"at most {numbers.significant(MOST, 6)} in size", f"at least {numbers.significant(LEAST, 6)}"
@@ -80,11 +81,17 @@ def rules(fields: Iterable[Input], shown: Mapping[str, Any]) -> Iterator[tuple[A
         value = shown[field.name]
         for sign, other in field.limits:
             is_input, is_length = other in shown, (sign, other) == (">", "0")
-            limit = shown[other] if is_input else limit_of(other)
+            limit = shown[other] if is_input else _number(other)
             must = "positive" if is_length else f"{sign} {other}"
             yield _COMPARE[sign](value, limit), say(field, must, other * is_input)
             if is_length:
                 yield abs(value) >= LEAST, say(field, _AT_LEAST)
+
+
+@lru_cache(maxsize=1000)
+def _number(text: str) -> float:
+    """The number of a limit, which every new value is compared with."""
+    return number(text)
 
 
 def _element(values: Any, i: int) -> Any:
