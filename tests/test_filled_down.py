@@ -36,8 +36,8 @@ OF_SEVERAL = {
     "hitch": {"largest_1": 6, "largest_2": 6},  # reactions
     "landing_gear": {"scale_1": 3, "largest_1": 3, "largest_2": 3},  # accelerations, reactions
     "joint": {
-        **dict.fromkeys(("y", "A_t", "A_c"), 2),  # beams and stringers
-        **dict.fromkeys(("y_b_1", "y_s_1"), 2),  # levels in the two planes, of two columns of the input
+        **dict.fromkeys(("y", "z", "A_t", "A_c"), 2),  # beams and stringers
+        **dict.fromkeys(("y_b_1", "y_s_1", "z_b_1", "z_s_1"), 2),  # places in the two planes, of two columns
         "l_be": 2,
         "w_he": 3,
         "F_e": 2,

@@ -271,4 +271,4 @@ def test_lines_under_no_heading_stand_under_no_dash(tmp_path: Path) -> None:
     path.write_bytes(report.workbook("Own", {**sheet.run_whole(), "__file__": sheet.path}, {}))
     book = load_workbook(path)
     heads = [book[name]["A1"].value for name in ("Table lines", "Table fields")]
-    assert heads == ["lines behind the tables, in SI units", "fields, in SI units"]
+    assert heads == ["lines, in SI units", "fields, in SI units"]

@@ -151,6 +151,43 @@ def disagreements(live: Any, own: Any, titles: str = r"\d") -> Iterator[str]:
             yield f"{sheet}!{cell}: {other!r} instead of {value!r}"
 
 
+SEARCHES = {"N_F", "N_g"}  # lines of how often a Find evaluates, which cells do not follow
+
+
+def lines(book: Any) -> dict[tuple[str, str], tuple[str, list[Any]]]:
+    """Units and numbers of the lines that declare a unit, by the titles of their sheets and their names."""
+    rows = {s.title: [*s.iter_rows(min_row=3, values_only=True)] for s in book.worksheets if "fields" in s.title}
+    found = dict[tuple[str, str], tuple[str, list[Any]]]()
+    for sheet in (sheet for sheet in book.worksheets if sheet.title.endswith("lines")):
+        own = sheet.title.removesuffix("lines") + "fields"
+        for name, value, unit, _, text in sheet.iter_rows(min_row=3, values_only=True):
+            if not unit or re.fullmatch(r"line \d+", str(text)):
+                continue
+            if at := re.fullmatch(r"column [A-Z]+(?: of (.*))?", str(value)):
+                heads, _, *values = rows.get(at[1] or own, [(), ()])
+                column = [row[heads.index(name)] for row in values] if name in heads else []
+                found[sheet.title, name] = unit, [x for x in column if x is not None]
+            else:
+                found[sheet.title, name] = unit, [value]
+    return found
+
+
+def lines_apart(live: Any, own: Any) -> Iterator[str]:
+    """Lines that differ by more than 1e-10 of what the workbook has in that unit."""
+    there, here = lines(live), lines(own)
+    assert len(here) > 10 and there.keys() == here.keys()
+    size: dict[str, float] = defaultdict(float)
+    for unit, values in here.values():
+        size[unit] = max([size[unit], *(abs(x) for x in values if not isinstance(x, str))])
+    for key, (unit, values) in here.items():
+        for value, other in zip(values, there[key][1], strict=True):
+            if isinstance(value, str) or isinstance(other, str):
+                if value != other and key[1] not in SEARCHES:
+                    yield f"{key}: {other!r} instead of {value!r}"
+            elif abs(value - other) > 1e-10 * size[unit]:
+                yield f"{key}: {other!r} instead of {value!r}"
+
+
 MADE = "made for these inputs: where this fails, export the worksheet again"
 
 
@@ -168,6 +205,7 @@ def test_unchanged_every_cell_agrees(
     (file,) = recalculated_files([path])
     live, own = seen(file), seen(path)
     assert not list(disagreements(live, own))
+    assert not list(lines_apart(live, own))
     told, there = ([row[4] for row in book["Checks"].iter_rows(min_row=3, values_only=True)] for book in (live, own))
     assert told == there and "FAIL" not in told
     with ZipFile(file) as parts:
@@ -183,6 +221,7 @@ def test_changed_inputs_are_followed(
     path = edit(kept(name), changes, tmp_path / f"edited_{name}.xlsx")
     live, own = map(seen, [*recalculated_files([path]), export(name, tmp_path, changes)])
     assert not list(disagreements(live, own))
+    assert not list(lines_apart(live, own))
     there, here = verdicts(own), verdicts(live)
     told = {check: verdict for check, verdict in here.items() if verdict != "not evaluated" and check != MADE}
     assert told == {check: there.get(check) for check in told}

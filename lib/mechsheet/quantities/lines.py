@@ -1,7 +1,7 @@
 """What a recording holds: lines and steps by their names, columns of tables, checks, found values and marks."""
 
 import ast
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import lru_cache
 from operator import attrgetter
@@ -20,7 +20,7 @@ SLIDER = "slider "  # before the name of one among the inputs
 
 @dataclass
 class Line:
-    """One quantity behind the tables: where it is defined, the number of its printed formula, where it stands."""
+    """One quantity by its name: where it is defined, the number of its printed formula, where it stands."""
 
     node: Node
     symbol: str
@@ -80,8 +80,9 @@ class Recording:
     ``tables`` are the columns by the number of a table, of a figure under ``Fig 1``, ``constants`` those of them
     that hold the same numbers for all inputs; ``arguments`` others that are recorded, by names such as ``table 1
     decimals``, ``worded`` what is a number while a ``table 1 title`` or note that inputs change is that of the run;
-    ``marks`` the marks of a figure by its number and their labels; ``lines`` those of a section; ``names`` the name
-    that each node has in the worksheet. ``gaps`` are what keeps the numbers of the worksheet's own run, with the
+    ``marks`` the marks of a figure by its number and their labels; ``lines`` those of a section, ``others`` such
+    as are the same for all inputs or but another name for a quantity; ``names`` the name that each node has in the
+    worksheet. ``gaps`` are what keeps the numbers of the worksheet's own run, with the
     reasons, ``unsolved`` the found values that do so in the cells of a workbook alone; ``guards`` the conditions
     under which all is recorded as the worksheet has it; ``integrals`` what a rule of places gives, with scipy's
     estimates of the errors where these are taken; ``drawings`` those that a cell shows, by its number, or None for
@@ -97,6 +98,7 @@ class Recording:
     checks: dict[str, Residual] = field(default_factory=dict)
     found: dict[str, Solved] = field(default_factory=dict)
     lines: dict[str, list[Line]] = field(default_factory=dict)
+    others: dict[str, list[Line]] = field(default_factory=dict)
     constants: set[tuple[str, int]] = field(default_factory=set)
     arguments: dict[str, Node] = field(default_factory=dict)
     worded: dict[str, Node] = field(default_factory=dict)
@@ -121,17 +123,20 @@ class Recording:
         if not isinstance(value, Quantity):
             return
         lines = self.lines.setdefault(section, [])
-        line = known.get(name)
-        unit, meaning, number = (line.unit, line.meaning, line.number) if line else ("", "", "")
-        text = _source(line.expression) if line and not line.again else ""
-        stem = name.removesuffix("_S") if symbol.is_field(name) else name
-        ends = ("real", "imag") if value.im is not None else ("",)
-        for node, part in zip(value.parts, ends, strict=True):
-            if node.op in ("constant", "input") or node in self.names:
+        stem = _stem(name)
+        for line in _parts_of(name, value, known.get(name)):
+            one = line.node.op == "constant" and line.node.size == 1
+            if one or line.node.op == "input" or line.node in self.names:
                 continue
-            self.names[node] = _coordinate(stem, part)
-            self._name_steps(node, stem, lines)
-            lines.append(Line(node, self.names[node], unit, meaning, text, number))
+            self.names[line.node] = line.symbol
+            self._name_steps(line.node, stem, lines)
+            lines.append(line)
+
+    def also(self, section: str, name: str, value: Quantity, line: Formula) -> None:
+        """Note the quantities of a line that have no name of their own, for they have another one or need none."""
+        for part in _parts_of(name, value, line):
+            if self.names.get(part.node) != part.symbol:
+                self.others.setdefault(section, []).append(part)
 
     def define_steps(self, section: str, solved: Solved) -> None:
         """Give the steps of a found value's closed form and residual their names."""
@@ -145,6 +150,19 @@ class Recording:
             if step.op != "constant" and (label := self.graph.labels.get(step)):
                 self.names[step] = f"{stem}_{label.symbol}"
                 lines.append(Line(step, self.names[step], label.unit, label.meaning))
+
+
+def _stem(name: str) -> str:
+    return name.removesuffix("_S") if symbol.is_field(name) else name
+
+
+def _parts_of(name: str, value: Quantity, line: Formula | None) -> Iterator[Line]:
+    """What a name stands for, a complex quantity in two parts, with what its line says of it."""
+    unit, meaning, number = (line.unit, line.meaning, line.number) if line else ("", "", "")
+    text = _source(line.expression) if line and not line.again else ""
+    ends = ("real", "imag") if value.im is not None else ("",)
+    for node, part in zip(value.parts, ends, strict=True):
+        yield Line(node, _coordinate(_stem(name), part), unit, meaning, text, number)
 
 
 def _coordinate(name: str, part: str) -> str:

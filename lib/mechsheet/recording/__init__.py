@@ -5,7 +5,7 @@
 all ways are known (`choices`, `loops`, `forms`, elements that are `kept` or set `in_place`). `memory` tells what has
 changed, under whatever name. What a worksheet finds is `solving`, an `integral` is a sum over fixed places, a root of
 scipy's `guessed` is Newton's, others and tables follow the `scipy_rules`, splines the `spline_rules`. Where a cell ends
-in `showing` a drawing, or a table under no name, that is recorded too.
+in `showing` a drawing, or a table under no name, that is recorded too; `every_line` is, where all are asked for.
 
 In the `evaluation` of a worksheet as a function, what is asked for again is `planned`, `variants` are many at once.
 `dimensions` checks units, by the rules of `dimension_rules`; `pinpoint` finds where in the worksheet a part is written;

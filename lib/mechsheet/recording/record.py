@@ -8,6 +8,7 @@ import numpy as np
 
 from mechsheet.quantities.graph import Graph, current
 from mechsheet.quantities.lines import Recording
+from mechsheet.recording.every_line import add_lines
 from mechsheet.recording.positions import lacking, rows_of, step_of
 from mechsheet.recording.recorded_run import Run
 from mechsheet.recording.stage import shown
@@ -37,16 +38,22 @@ def record(
     ``slider part``, and the drawings that cells show are recorded. With ``lists`` those among the inputs may have any
     length, with ``bodies`` the functions of the mechanics are in all their steps.
     """
-    return _recorded(namespace, sheet, whole, known, every, draws, lists, bodies, want=want)[0]
+    return _run(namespace, sheet, whole, known, every, draws, lists, bodies, want).recording
 
 
-def record_every_line(namespace: Mapping[str, Any], sheet: Worksheet) -> tuple[Recording, Recording]:
-    """The recording of what is shown, and one that has the lines on which nothing of that rests too."""
-    return _recorded(namespace, sheet, further=True)
+def record_every_line(namespace: Mapping[str, Any], sheet: Worksheet) -> Recording:
+    """The recording of what is shown, and of the lines on which nothing of that rests too."""
+    run = _run(namespace, sheet)
+    token = current.set(run.graph)
+    try:
+        add_lines(run)
+    finally:
+        current.reset(token)
+    return run.recording
 
 
 @np.errstate(all="ignore")  # the worksheet's own run has warned
-def _recorded(
+def _run(
     namespace: Mapping[str, Any],
     sheet: Worksheet | None,
     whole: bool = False,
@@ -55,9 +62,8 @@ def _recorded(
     draws: bool = False,
     lists: bool = False,
     bodies: bool = False,
-    further: bool = False,
     want: Sequence[str] = (),
-) -> tuple[Recording, Recording]:
+) -> Run:
     sheet = load(Path(namespace["__file__"])) if sheet is None else sheet
     asked = want or [name for name in sheet.results if whole or shown(namespace.get(name))]
     token, runs = current.set(Graph()), list[Run]()
@@ -70,8 +76,6 @@ def _recorded(
             runs.append(Run(sheet, graph, namespace, asked, lines, unnamed=not (want or bodies)))
             if not any(lacking(runs[0].recording, namespace)):  # else all positions may tell more
                 break
-        run = min(runs, key=lambda run: lacking(run.recording, namespace))
-        current.set(run.graph)
-        return run.recording, run.with_every_line() if further else run.recording
+        return min(runs, key=lambda run: lacking(run.recording, namespace))
     finally:
         current.reset(token)

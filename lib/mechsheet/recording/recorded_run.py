@@ -2,8 +2,6 @@
 
 import ast
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from copy import copy
-from dataclasses import fields
 from functools import partial
 from itertools import chain
 from types import CodeType, FunctionType
@@ -110,25 +108,6 @@ class Run(OfPositions):
 
     def again(self) -> "Run":
         return Run(self.sheet, self.graph, self.namespace, self.want, self.lines, self.unnamed)
-
-    def with_every_line(self) -> Recording:
-        """The recording with the lines on which nothing rests that is shown; itself stays as it is."""
-        own, labels = self.recording, self.graph.labels
-        known = {*self.asked, *(name for cell in self.needed for name in cell.gives)}
-        every = {field.name: copy(getattr(own, field.name)) for field in fields(own) if field.name != "graph"}
-        every["lines"] = {section: [*lines] for section, lines in own.lines.items()}
-        self.recording, own.values = Recording(self.graph, **every), {**self.names}
-        self.graph.labels = {**labels}
-        for cell in self.sheet.cells:
-            binds = {name for line in cell.lines for name in statement.touched(line)}
-            if cell not in self.needed and any(name in self.lines for name in binds):
-                for each in [*self.sheet.needed(sorted(cell.needs), known), cell]:
-                    self.run(each, draws=False)
-                    known.update(each.gives)
-        gaps = self.recording.gaps
-        gaps[len(own.gaps) :] = [gap for gap in gaps[len(own.gaps) :] if any(x in self.lines for x in gap.names)]
-        self.recording.values, self.graph.labels = self.names, labels
-        return self.recording
 
     def apart(self, stage: Stage, line: ast.stmt, later: set[str]) -> bool:
         """Run a statement part by part; whether it has such parts, and all of them can be recorded."""

@@ -25,6 +25,7 @@ from mechsheet.run import arguments, ending
 from mechsheet.run.ending import say
 from mechsheet.run.proving import proof_of
 from mechsheet.workbook import inputs_sheet, writing
+from mechsheet.workbook.arrangement import left_out as too_long
 from mechsheet.workbook.find_sheet import FoundRow
 from mechsheet.workbook.save import save
 from mechsheet.worksheet import index, inputs, mistakes, numbers, source
@@ -193,7 +194,8 @@ def _not_followed(recording: Recording, values: Iterable[Any]) -> list[str]:
 def _not_there(recording: Recording, values: Iterable[Any]) -> list[str]:
     """The recorded tables, figures and checks that are not among the values, a line for each."""
     lacking = _recorded_ones(recording) - {*map(parts.called, values)}
-    return [f"not there: {name}, which has no name" for name in sorted(lacking)]
+    long = (f"not there: {line.symbol}, a line of {line.node.size} numbers" for line in too_long(recording))
+    return [*(f"not there: {name}, which has no name" for name in sorted(lacking)), *long]
 
 
 def folder(worksheet: Path) -> Path:
@@ -228,7 +230,7 @@ def workbook(title: str, namespace: Mapping[str, Any], limits: Mapping[str, Limi
 def _recorded(namespace: Mapping[str, Any], values: Iterable[Any]) -> tuple[Recording, Check]:
     """The recording of a run that shows some values, and the check of its units."""
     sheet = load(namespace["__file__"])
-    recording, every_line = record_every_line(namespace, sheet)
+    recording = record_every_line(namespace, sheet)
     groups = (value if isinstance(value, tuple | list) else [value] for value in namespace.values())
     named = {parts.called(value) for group in groups for value in group}
     if unknown := {*map(parts.called, values)} - named - _recorded_ones(recording):
@@ -236,7 +238,7 @@ def _recorded(namespace: Mapping[str, Any], values: Iterable[Any]) -> tuple[Reco
         told = ((line, parts.called(value)) for line, each in shown for value in each)
         why = "it is shown under no name, by what is not recorded"
         recording.gaps += (Gap((name,), line, why) for line, name in told if name in unknown)
-    fit = dimensions(every_line, sheet, namespace, registry(namespace)).check()
+    fit = dimensions(recording, sheet, namespace, registry(namespace)).check()
     search(recording)  # whose steps need no units
     narrow(recording)
     mistakes, none = recording.graph.constant(fit.residual), recording.graph.constant(fit.limit)

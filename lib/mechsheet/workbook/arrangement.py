@@ -3,6 +3,7 @@
 from collections import ChainMap, Counter
 from collections.abc import Callable, Container, Iterable, Iterator, Mapping, Sequence, Set
 from dataclasses import dataclass, replace
+from itertools import chain
 
 import numpy as np
 
@@ -16,17 +17,19 @@ from mechsheet.worksheet.table import Table
 _LIGHT = 6  # operations that a formula repeats rather than give them a cell
 _HEAVY = 60  # operations that one formula holds at most
 _WIDE = 64  # columns on one sheet: in a file with wider rows their repetitions are out of the compression's sight
+_LONG = 10_000  # numbers of a line on which nothing rests that is shown: of more it has no column
 _DEEP = 6  # parentheses inside each other in one formula, to which what a sheet puts around it adds two
 
 
 @dataclass
 class Section:
-    """Quantities behind the tables of one section: a list of all, those with many values in columns of sheets."""
+    """Quantities of one section: a list of all, those with many values in columns of sheets."""
 
     title: str
     listing: str
     single: list[Line]
     fields: dict[str, list[Line]]  # by the sheet on which they stand
+    others: list[Line]  # which stand elsewhere, or are single numbers that nothing changes
 
 
 class Arrangement:
@@ -105,7 +108,7 @@ class Arrangement:
             yield from marks.values()
         yield from self.recording.worded.values()
         yield from self.recording.guards
-        yield from (line.node for line in self.last)
+        yield from (line.node for line in declared(self.recording) if line.node.size <= _LONG)
 
     def _place_others(self, name: Callable[[str, str], str]) -> list[Section]:
         """Sheets for all that stands neither on a table's sheet nor among inputs and found values."""
@@ -130,7 +133,8 @@ class Arrangement:
             for line in [*parts, bound]:
                 steps = self._parts_of(line, waiting)
                 own = [line] if waiting.pop(line.node, None) else []
-                sections.setdefault("Residuals", []).extend([*steps, *own])
+                if steps or own:
+                    sections.setdefault("Residuals", []).extend([*steps, *own])
         for n, node in enumerate(list(waiting.values()), 1):
             symbol, meaning = f"step_{n}", "step of a formula"
             if node.op == "rows":
@@ -139,8 +143,9 @@ class Arrangement:
                 symbol, meaning = f"{sure[node]}_sure", f"whether the closed form of {sure[node]} is what is found"
             sections.setdefault("Residuals", []).append(Line(node, symbol, "", meaning))
         known = self.recording.sections
-        order = sorted(sections, key=lambda title: known.index(title) if title in known else len(known))
-        return [self._section(title, sections[title], name) for title in order]
+        titles = sections.keys() | self.recording.others.keys()
+        order = sorted(titles, key=lambda title: (known.index(title) if title in known else len(known), title))
+        return [self._section(title, sections.get(title, []), name) for title in order]
 
     def _parts_of(self, line: Line, waiting: dict[Node, Node]) -> list[Line]:
         """Steps of a line's formula that get a place, in the order of their calculation."""
@@ -151,7 +156,9 @@ class Arrangement:
 
     def _section(self, title: str, lines: Sequence[Line], name: Callable[[str, str], str]) -> Section:
         single, fields = ([line for line in lines if (line.node.size > 1) == many] for many in (False, True))
-        section = Section(title, name(title, " lines"), single, {})
+        others = self.recording.others.get(title, [])
+        others = [line for line in others if line.node.size == 1 or line.node in self.places]
+        section = Section(title, name(title, " lines"), single, {}, others)
         for n, line in enumerate(single):
             self._settle(line.node, line.symbol, section.listing, 2 + n, 1)
         for start in range(0, len(fields), _WIDE):
@@ -162,11 +169,30 @@ class Arrangement:
         return section
 
 
+def declared(recording: Recording) -> list[Line]:
+    """Lines that declare a unit."""
+    return [line for lines in recording.lines.values() for line in lines if line.text and line.unit]
+
+
 def last_lines(recording: Recording) -> list[Line]:
     """Lines of single numbers on which no other line rests."""
-    lines = [line for lines in recording.lines.values() for line in lines]
-    under = set(bottom_up((operand for line in lines for operand in line.node.operands), ()))
-    return [line for line in lines if line.text and line.unit and line.node.size == 1 and line.node not in under]
+    every = chain.from_iterable(recording.lines.values())
+    under = set(bottom_up((operand for line in every for operand in line.node.operands), ()))
+    return [line for line in declared(recording) if line.node.size == 1 and line.node not in under]
+
+
+def left_out(recording: Recording) -> list[Line]:
+    """Lines of too many numbers, on which nothing rests that is shown."""
+    long = [line for line in declared(recording) if line.node.size > _LONG]
+    if not long:
+        return []
+    columns = [column for columns in recording.tables.values() for column in columns if column is not None]
+    compared = [node for check in recording.checks.values() for node in (*check.parts, check.limit)]
+    short = [line.node for line in declared(recording) if line.node.size <= _LONG]
+    found = [solved.node for solved in recording.found.values()]
+    parts = [part for column in columns for part in column.parts]
+    under = set(bottom_up([*parts, *compared, *short, *found], ()))
+    return [line for line in long if line.node not in under]
 
 
 def needing_place(roots: Iterable[Node], named: Set[Node], places: Container[Node]) -> list[Node]:

@@ -1,4 +1,4 @@
-"""The sheets of what stands behind the tables of a section, in SI units."""
+"""The sheets of the lines of a section, in SI units."""
 
 from collections.abc import Sequence
 from itertools import chain
@@ -17,7 +17,7 @@ from mechsheet.worksheet.table import Column
 
 
 def write(book: Book, section: Section, formulas: SheetFormulas) -> None:
-    """Sheets of one section: a list of its lines, and columns of those with many values."""
+    """Sheets of one section: a list of its lines, and columns of those with many values; none without any."""
     heads = (
         *(("Name", looks.TEXT), ("Value", looks.SI), ("Unit", looks.TEXT)),
         *(("Meaning", looks.TEXT), ("Line", looks.TEXT)),
@@ -30,9 +30,12 @@ def write(book: Book, section: Section, formulas: SheetFormulas) -> None:
         listed += [
             (formulas.name(line.node), f"column {letters(n)}{of_sheet}", *_told(line)) for n, line in enumerate(fields)
         ]
+    listed += [(line.symbol, *_elsewhere(line, formulas), *_told(line)) for line in section.others]
+    if not listed:
+        return
     own_lines, own_fields = (f"{section.title} - {what}" if section.title else what for what in ("lines", "fields"))
-    title = f"{own_lines} behind the tables, in SI units"
-    every = [*section.single, *chain.from_iterable(section.fields.values())]
+    title = f"{own_lines}, in SI units"
+    every = [*section.single, *chain.from_iterable(section.fields.values()), *section.others]
     grey = {n for n, line in enumerate(every) if formulas.kept(line.node)}
     book.listing(section.listing, title, heads, listed, behind=True, grey=grey)
     heading = f"{own_fields}, in SI units"
@@ -45,6 +48,14 @@ def write(book: Book, section: Section, formulas: SheetFormulas) -> None:
         apart = [n for n, line in enumerate(fields) if formulas.kept(line.node)]
         note = table_sheet.not_followed([column for column, _ in columns], apart)
         table_sheet.write(book, sheet, heading, note, columns, numbers=looks.SI, grey=apart, behind=True)
+
+
+def _elsewhere(line: Line, formulas: SheetFormulas) -> Sequence[Content]:
+    """Where the column of a line stands, or its number."""
+    place = formulas.arrangement.places.get(line.node)
+    if place and line.node.size > 1:
+        return (f"column {letters(place.column)} of {place.sheet}",)
+    return computed([formulas.reference(line.node)] if place else None, [float(line.node.value) + 0.0])  # no -0
 
 
 def _told(line: Line) -> tuple[str, str, str]:

@@ -87,6 +87,10 @@ class SheetFormulas:
         plain = line.node.op == "constant" and line.node.value.dtype != bool  # 1 is not TRUE to a spreadsheet
         return None if plain else self._formulas(line.node)
 
+    def reference(self, node: Node) -> str:
+        """Formula of a single number that stands elsewhere, in SI."""
+        return self._cells.reference(node)
+
     def _formulas(self, node: Node) -> list[str]:
         """Formulas in SI: of a found value its closed form, or the number while its equations are the same."""
         inverse = self._inverse.get(node)

@@ -47,9 +47,9 @@ def workbook(
     Sheets: Front, Inputs, Input tables where there are lists or tables among them, Find where there are found values,
     one for each table named by its number and title, Checks, Index where the ``index`` has numbers of printed formulas
     or errata.
-    With a ``recording`` of the worksheet the cells hold formulas beside their values, and what stands behind the tables
-    is listed by sections on sheets of its own at the end, in SI units, which are not printed; of the ``fixed`` checks a
-    scene has set the limit, and those of a proof have the digits ``proved``, by their names.
+    With a ``recording`` of the worksheet the cells hold formulas beside their values, and its lines, with the steps
+    that need a cell, are listed by sections on sheets of their own at the end, in SI units, which are not printed; of
+    the ``fixed`` checks a scene has set the limit, and those of a proof have the digits ``proved``, by their names.
     A table's sheet has its title in row 1, its note in row 2, symbols in row 3, units in row 4, then the numbers
     to their last bit; pandas reads it by ``read_excel(file, sheet_name=name, header=2, skiprows=[3])``. NaN is
     the error value #N/A and an infinite number #NUM!: pandas reads both as NaN, charts leave a gap.
