@@ -80,15 +80,15 @@ class Recording:
     ``tables`` are the columns by the number of a table, of a figure under ``Fig 1``, ``constants`` those of them
     that hold the same numbers for all inputs; ``arguments`` others that are recorded, by names such as ``table 1
     decimals``, ``worded`` what is a number while a ``table 1 title`` or note that inputs change is that of the run;
-    ``marks`` the marks of a figure by its number and their labels; ``lines`` those of a section, ``others`` such
-    as are the same for all inputs or but another name for a quantity; ``names`` the name that each node has in the
-    worksheet. ``gaps`` are what keeps the numbers of the worksheet's own run, with the
-    reasons, ``unsolved`` the found values that do so in the cells of a workbook alone; ``guards`` the conditions
-    under which all is recorded as the worksheet has it; ``integrals`` what a rule of places gives, with scipy's
-    estimates of the errors where these are taken; ``drawings`` those that a cell shows, by its number, or None for
-    one that is not recorded; ``captions`` and ``texts`` what captions, by their numbers, and cells that are texts
-    say with recorded numbers in it; ``positions`` what is marked along charts, by the name of its quantity;
-    ``values`` what the names are in the recording, ``looked`` the guards that these rest on. Only every
+    ``marks`` the marks of a figure by its number and their labels; ``lines`` those of a section, ``others`` such as
+    are the same for all inputs or but another name for a quantity; ``names`` the name that each node has in the
+    worksheet. ``gaps`` are what keeps the numbers of the worksheet's own run, with the reasons, ``unsolved`` what
+    does so in the cells of a workbook alone: found values, and numbers that are ``lost`` there; ``guards`` the
+    conditions under which all is recorded as the worksheet has it; ``integrals`` what a rule of places gives, with
+    scipy's estimates of the errors where these are taken; ``drawings`` those that a cell shows, by its number, or
+    None for one that is not recorded; ``captions`` and ``texts`` what captions, by their numbers, and cells that
+    are texts say with recorded numbers in it; ``positions`` what is marked along charts, by the name of its
+    quantity; ``values`` what the names are in the recording, ``looked`` the guards that these rest on. Only every
     ``every``-th position is recorded.
     """
 
@@ -109,6 +109,7 @@ class Recording:
     texts: dict[int, Said] = field(default_factory=dict)
     gaps: list[Gap] = field(default_factory=list)
     unsolved: list[Gap] = field(default_factory=list)
+    lost: set[Node] = field(default_factory=set)
     guards: dict[Node, Guard] = field(default_factory=dict)  # by their conditions
     integrals: dict[Node, Node | None] = field(default_factory=dict)
     made_of: dict[Node, float] = field(default_factory=dict)  # the largest terms of sums, as far as looked at

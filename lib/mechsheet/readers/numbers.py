@@ -55,6 +55,11 @@ _RULES: dict[str, Callable[..., Any]] = {
 }
 
 
+def moved_elements(node: Node, sources: Sequence[Values]) -> Values:
+    """What an operation that moves elements, or puts them together, makes of others in their places."""
+    return np.asarray(_RULES[node.op](node, *sources))
+
+
 def _joined(node: Node, sources: tuple[Values, ...]) -> Any:
     _, which, inside, moved = node.args
     if moved:

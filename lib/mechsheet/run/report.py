@@ -17,6 +17,7 @@ from mechsheet.document.left_out import left_out
 from mechsheet.document.numberless import numberless
 from mechsheet.quantities.graph import Gap
 from mechsheet.quantities.lines import Recording, Residual
+from mechsheet.readers.infinite import lose
 from mechsheet.readers.largest import narrow
 from mechsheet.readers.searched import search
 from mechsheet.recording.dimensions import dimensions
@@ -241,6 +242,7 @@ def _recorded(namespace: Mapping[str, Any], values: Iterable[Any]) -> tuple[Reco
     fit = dimensions(recording, sheet, namespace, registry(namespace)).check()
     search(recording)  # whose steps need no units
     narrow(recording)
+    lose(recording)
     mistakes, none = recording.graph.constant(fit.residual), recording.graph.constant(fit.limit)
     recording.checks[fit.name] = Residual([mistakes], none, "-", signed=True)  # the same for all inputs
     return recording, fit

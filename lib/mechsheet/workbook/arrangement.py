@@ -118,7 +118,7 @@ class Arrangement:
                 if part not in names and part.operands:
                     names[part] = called(stated) + (f"_{m}" if len(check.parts) > 1 else "")
         sure = {each.sure: names.get(each.node, "root") for each in self.recording.found.values() if each.sure}
-        named = names.keys() | self.recording.graph.labels.keys() | sure.keys()
+        named = names.keys() | self.recording.graph.labels.keys() | sure.keys() | self.recording.lost
         placed = [node for node in needing_place(self._roots(), named, self.places) if node not in self.places]
         waiting = {node: node for node in placed}
         sections: dict[str, list[Line]] = {}

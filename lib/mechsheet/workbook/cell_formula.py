@@ -2,7 +2,7 @@
 
 import math
 import re
-from collections.abc import Container, Mapping
+from collections.abc import Container, Iterable, Mapping
 from dataclasses import replace
 from functools import lru_cache
 from types import MappingProxyType
@@ -45,8 +45,8 @@ class CellFormulas:
 
     ``first`` is the row of the first number of every column, ``counted`` the condition under which there are as many
     rows as columns have: no row has a number of another one's; ``inverse`` are the closed forms of found values, or the
-    searches for the ``searched`` ones, ``sure`` the conditions under which those are all that is found. What is no
-    number is #N/A.
+    searches for the ``searched`` ones, ``sure`` the conditions under which those are all that is found. Where one that
+    is ``lost`` has an error value, it has the exported number. What is no number is #N/A.
     """
 
     def __init__(
@@ -57,9 +57,10 @@ class CellFormulas:
         inverse: Mapping[Node, Node | None] = MappingProxyType({}),
         searched: Container[Node] = (),
         sure: Mapping[Node, Node] = MappingProxyType({}),
+        lost: Container[Node] = (),
     ) -> None:
         self.places, self.first, self.counted, self.inverse, self.searched = places, first, counted, inverse, searched
-        self.sure = sure
+        self.sure, self.lost = sure, lost
         self._inputs: dict[Node, tuple[Node, ...]] = {}
         self._fixed: dict[Node, frozenset[Node]] = {}
 
@@ -138,7 +139,7 @@ class CellFormulas:
         """What must be as it was for the numbers of the worksheet's own run under a quantity, or must be found."""
         for part in bottom_up([node], self._fixed):
             closed = self.inverse.get(part)
-            if part.op in ("exported", "found") and closed is None:
+            if (part.op in ("exported", "found") and closed is None) or part in self.lost:
                 self._fixed[part] = frozenset(part.args if part.op == "exported" else self._inputs_under(part))
             elif part in self.searched:  # whose numbers may be there and not be sure
                 self._fixed[part] = frozenset([part])
@@ -149,6 +150,9 @@ class CellFormulas:
         return self._fixed[node]
 
     def _operation(self, node: Node, at: Index, rows: Rows) -> tuple[str, int]:
+        if node in self.lost:
+            kept = self._as_exported(node, self._inputs_under(node), at, rows)
+            return kept if passes_over(node) else (f"IFERROR({self._of_known(node, at, rows)[0]},{kept[0]})", 5)
         if passes_over(node) and (same := self.while_fixed(node)):
             return f"IF({same},{self._of_known(node, at, rows)[0]},NA())", 5
         return self._of_known(node, at, rows)
@@ -190,11 +194,10 @@ class CellFormulas:
                 source, position = node.args
                 where = self._element(position, _position(position.shape, node.shape, at), rows)[0]
                 return f"INDEX({self.places[source].range(0, source.size - 1)},{where}+1)", 5
-            case "exported" | "found":
-                known = written(_only(node.value.reshape(-1)[at if node.size > 1 else 0]))
-                under = node.args if node.op == "exported" else self._inputs_under(node)
-                same = [self._unchanged(x, rows) for x in under]
-                return f"IF(AND({','.join(same)}),{known},NA())" if same else known, 5
+            case "exported":
+                return self._as_exported(node, node.args, at, rows)
+            case "found":
+                return self._as_exported(node, self._inputs_under(node), at, rows)
         form, binding, needs = _TEXT[node.op]
         shape, texts = node.shape, []
         for operand, need in zip(node.args, needs, strict=True):
@@ -203,6 +206,13 @@ class CellFormulas:
         if node.op == "neg" and "^" in texts[0] and tight < 5:  # -x^2 is (-x)^2 to a spreadsheet
             return f"-({texts[0]})", binding
         return form.format(*texts), binding
+
+    def _as_exported(self, node: Node, under: Iterable[Node], at: Index, rows: Rows) -> tuple[str, int]:
+        """The numbers of the worksheet's own run while what is under them is unchanged."""
+        value = _only(node.value.reshape(-1)[at if node.size > 1 else 0])
+        known = "NA()" if node in self.lost and np.isinf(value) else written(value)
+        same = [self._unchanged(x, rows) for x in under]
+        return f"IF(AND({','.join(same)}),{known},NA())" if same else known, 5
 
     def _reduced(self, node: Node, at: Index, rows: Rows) -> tuple[str, int]:
         source, groups, kind, _ = node.args

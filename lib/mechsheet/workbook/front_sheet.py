@@ -11,7 +11,8 @@ from mechsheet.workbook import looks
 from mechsheet.workbook.book import Book
 from mechsheet.workbook.cell_formula import AGGREGATE
 from mechsheet.workbook.chart import Listed
-from mechsheet.workbook.content import LARGEST, Content, Live, put
+from mechsheet.workbook.content import LARGEST, Content, Live, allowed, put
+from mechsheet.workbook.content import quoted as quoted_text
 from mechsheet.workbook.find_sheet import FoundRow
 from mechsheet.workbook.place import Place, quoted
 from mechsheet.workbook.sheet_formulas import SheetFormulas
@@ -32,7 +33,7 @@ class Result:
     symbol: str
     values: tuple[Content, ...]
     unit: str
-    meaning: str
+    meaning: Content
     look: looks.Look
     grey: bool = False  # holds for the exported inputs only
 
@@ -131,7 +132,15 @@ def _shown(drawn: Sequence[Listed]) -> Iterator[Result]:
             ]
             look = {**looks.NUMBER, "num_format": column.number_format}
             meaning = f"{column.meaning}, {source}" if column.meaning else source
-            yield Result(column.symbol, tuple(ends), column.unit, meaning, look, at.column in grey)
+            told = _lacking(meaning, cells, len(column.values), len(numbers))
+            yield Result(column.symbol, tuple(ends), column.unit, told, look, at.column in grey)
+
+
+def _lacking(meaning: str, cells: str, rows: int, count: int) -> Live:
+    """What a column means, and in how many of its rows it has no number, over which its least and greatest pass."""
+    text, count_of = f"{allowed(meaning)}; no number in ", f"COUNT({cells})"
+    formula = f'=IF({count_of}<{rows},{quoted_text(text)}&{rows}-{count_of}&" of {rows}",{quoted_text(meaning)})'
+    return Live(formula, allowed(meaning) if count == rows else f"{text}{rows - count} of {rows}")
 
 
 def _block(book: Book, sheet: Any, row: int, heads: Sequence[str]) -> int:

@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 from mechsheet import units
 from mechsheet.quantities.lines import Line, leaves_of
-from mechsheet.quantities.node import Node, bottom_up
+from mechsheet.quantities.node import Node, bottom_up, passes_over
 from mechsheet.quantities.quantity import Quantity
 from mechsheet.workbook.arrangement import Arrangement
 from mechsheet.workbook.cell_formula import CellFormulas, written
@@ -30,7 +30,12 @@ class SheetFormulas:
         searched = {solved.node for solved in self.recording.found.values() if solved.searched}
         sure = {solved.node: solved.sure for solved in self.recording.found.values() if solved.sure}
         self._cells = CellFormulas(
-            arrangement.places, arrangement.first, inverse=self._inverse, searched=searched, sure=sure
+            arrangement.places,
+            arrangement.first,
+            inverse=self._inverse,
+            searched=searched,
+            sure=sure,
+            lost=self.recording.lost,
         )
         counted = [holds for holds, guard in self.recording.guards.items() if guard.rows]
         texts = sorted({self._cells.reference(holds)[1:] for holds in counted})
@@ -78,7 +83,8 @@ class SheetFormulas:
     def kept(self, node: Node) -> bool:
         """Whether a quantity rests on numbers of the worksheet's own run."""
         for part in bottom_up([node], self._known) if node not in self._known else ():
-            own = part.op == "exported" or (part.op == "found" and self._inverse.get(part) is None)
+            own = part.op == "exported" or (part in self.recording.lost and passes_over(part))
+            own |= part.op == "found" and self._inverse.get(part) is None
             self._known[part] = own or any(self._known[operand] for operand in part.operands)
         return self._known[node]
 

@@ -1,0 +1,100 @@
+"""Numbers on whose way an infinite one stands: a cell of a spreadsheet holds none and has an error value there."""
+
+from collections.abc import Iterable, Iterator, Mapping
+from typing import Any
+
+import numpy as np
+
+from mechsheet.quantities.graph import Gap
+from mechsheet.quantities.lines import Recording
+from mechsheet.quantities.node import LEAVES, Node, bottom_up, passes_over
+from mechsheet.quantities.operations import ELEMENTWISE, SHAPED, Values
+from mechsheet.readers.numbers import moved_elements
+
+_KEEPING = ("neg", "abs", "max", "min", "where")  # give an infinite number of infinite ones alone
+_WHY = "where an infinite number stands on its way, which no cell holds, the workbook has this of the exported inputs"
+
+
+def lose(recording: Recording) -> None:
+    """Let what cells would miss for an infinite number on its way keep the numbers of the worksheet's own run.
+
+    `Recording.lost` are these quantities, `Recording.unsolved` says where they stand.
+    """
+    recording.lost = {*lost(_shown(recording))}
+    lines = {node.line: dict.fromkeys(_named(recording, node)) for node in recording.lost}
+    recording.unsolved += (Gap((*names,) or ("a step",), line, _WHY) for line, names in sorted(lines.items()))
+
+
+def _shown(recording: Recording) -> Iterator[Node]:
+    for line in (line for lines in recording.lines.values() for line in lines):
+        yield line.node
+    for columns in recording.tables.values():
+        yield from (part for column in columns if column is not None for part in column.parts)
+    for check in recording.checks.values():
+        yield from (*check.parts, check.limit)
+    for solved in recording.found.values():
+        yield from (node for node in (solved.inverse, solved.residual) if node)
+    for marks in recording.marks.values():
+        yield from marks.values()
+
+
+def _named(recording: Recording, node: Node) -> Iterator[str]:
+    """The lines of a quantity's line of the worksheet, else those that rest on it at once."""
+    lines = [line for lines in recording.lines.values() for line in lines if line.text]
+    own = [line.symbol for line in lines if line.node.line == node.line]
+    yield from own or (line.symbol for line in lines if node in line.node.operands)
+
+
+def lost(roots: Iterable[Node]) -> Iterator[Node]:
+    """Quantities with elements that are numbers or truths though an infinite number stands on their way.
+
+    One that is chosen by a condition, moved, or compared with a constant that is infinite is not among them.
+    """
+    errors = dict[Node, Values]()  # elements that a cell would have as an error value
+    for node in bottom_up(roots, ()):
+        wrong = _errors(node, errors)
+        if wrong is None:
+            continue
+        known = True if node.value.dtype == bool else np.isfinite(node.value)
+        if np.any(wrong & known) or (passes_over(node) and node.op == "reduce"):
+            yield node
+        else:
+            errors[node] = wrong
+
+
+def _errors(node: Node, errors: Mapping[Node, Values]) -> Values | None:
+    """The elements of a quantity that a cell would have as an error value; None for none."""
+    if node.op in (*LEAVES, "finite", "rows", "length", "exported", "found", "state"):
+        return None
+    under = [errors.get(operand) for operand in _read(node)]
+    if all(part is None for part in under):
+        new = node.op in ELEMENTWISE and node.op not in (*_KEEPING, *SHAPED) and np.isinf(node.value)
+        return np.asarray(new) if np.any(new) else None
+    masks = [np.zeros(x.shape, bool) if part is None else part for x, part in zip(_read(node), under, strict=True)]
+    wrong = _over(node, masks)
+    return wrong if wrong.any() else None
+
+
+def _read(node: Node) -> tuple[Node, ...]:
+    """The operands whose elements an operation reads."""
+    if node.op == "iterated":
+        return node.args[2:]
+    return node.operands[:1] if node.op in SHAPED else node.operands
+
+
+def _over(node: Node, masks: list[Values]) -> Values:
+    match node.op:
+        case "where":
+            chosen, first, second = masks
+            return np.asarray(chosen | np.where(node.args[0].value, first, second))
+        case "take" | "join":
+            return moved_elements(node, masks)
+        case "at":
+            source, position = masks
+            place = np.clip(node.args[1].value, 0, source.size - 1).astype(np.intp)
+            return np.asarray(position | source.reshape(-1)[place])
+        case "reduce":
+            groups: Any = node.args[1]
+            return np.array([masks[0].reshape(-1)[group].any() for group in groups]).reshape(node.shape)
+    new = np.isinf(node.value) if node.op in ELEMENTWISE and node.op not in (*_KEEPING, *SHAPED) else False
+    return np.broadcast_to(np.logical_or.reduce(np.broadcast_arrays(*masks)) | new, node.shape)

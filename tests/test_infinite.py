@@ -1,0 +1,69 @@
+"""Infinite numbers on the way to finite ones: cells hold none, so they have the exported number there, or none."""
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+from as_script import as_script
+from openpyxl import load_workbook
+from own_worksheet import written
+from test_recalculation import computed, disagreements, edit, lines_apart
+
+SETUP = """import numpy as np
+from numpy import arctan, exp, isfinite, linspace, minimum, tan, where
+from mechsheet import ask, export, figure, inputs, read, table"""
+GIVEN = """k: float = 2.0  # [-] limit; >= 0
+z: float = 0.0  # [-] where it is infinite"""
+LINES = """th = linspace(0, 1, 6)  # [-] angle
+cot = 1 / tan(th - g.z)  # [-] infinite at one place
+a = minimum(cot, g.k)  # [-] limited
+b = arctan(g.k / (th - g.z))  # [-] angle from a ratio
+c = 1 / (1 / (th - g.z) + 1 / g.k)  # [-] in series
+d = exp(-g.k / abs(th - g.z))  # [-] decay
+e = where(th > g.z, g.k / where(th > g.z, th, 1.0), 0.0)  # [-] never infinite
+p = where(cot > g.k, 1.0, cot)  # [-] by a comparison
+q = isfinite(cot) * 1.0  # [-] which are finite
+turned = a[::-1] + 1.0  # [-] from what is limited
+least = cot.min()  # [-] least
+beyond = where(th > 0.3, th, np.inf).min()  # [-] least beyond, from infinity
+after = np.nanmax(a)  # [-] greatest of what is limited
+table_1 = table("1", "All", th, a, b, c, d, e, p, q, turned)
+figure_1 = figure("1", "Limited", th, a)"""
+LOST = {"a", "b", "c", "d", "p", "least"}
+
+
+@pytest.fixture
+def worksheet(tmp_path: Path) -> Path:
+    path = tmp_path / "infinite.py"
+    path.write_text(written(SETUP, GIVEN, LINES, "Infinite"))
+    return path
+
+
+def test_a_run_tells_where(worksheet: Path) -> None:
+    run = as_script(worksheet)
+    told = {line.split(":")[1].rpartition(" ")[2] for line in run.stdout.splitlines() if "infinite number" in line}
+    assert told == LOST, run.stdout
+
+
+@pytest.mark.office
+@pytest.mark.filterwarnings("ignore:divide by zero")  # as the worksheet does
+def test_cells_have_the_exported_number_or_none(
+    worksheet: Path, recalculated_all: Callable[[list[Path]], list[Any]], tmp_path: Path
+) -> None:
+    """They had none where the worksheet has one, and the greatest on the front passed over it in silence."""
+    path = computed(worksheet, tmp_path, {})
+    changes: list[dict[str, Any]] = [{"k": 3.0}, {"z": 0.1}, {"z": 0.2, "k": 1.5}]
+    edited = [edit(path, change, tmp_path / f"{n}.xlsx") for n, change in enumerate(changes)]
+    same, *others = recalculated_all([path, *edited])
+    own = load_workbook(path, data_only=True)
+    assert not [*disagreements(same, own, r"\d|Front")] and not [*lines_apart(same, own)]
+    for n, (change, there) in enumerate(zip(changes, others, strict=True)):
+        (tmp_path / f"{n}").mkdir()
+        here = load_workbook(computed(worksheet, tmp_path / f"{n}", change), data_only=True)
+        apart = [*disagreements(there, here, r"\d"), *lines_apart(there, here)]
+        assert all("'#N/A' instead of" in text for text in apart), "what it does not follow is no number"
+        apart = [text for text in apart if "'after'" not in text]  # nobody knows what it passes over
+        assert bool(apart) == (change != {"z": 0.1}), "where nothing is infinite all else is followed"
+        front = {row[0]: row[4] for row in there["Front"].iter_rows(values_only=True) if row[0] == "a"}
+        assert ("no number in 1 of 6" in front["a"]) == (change != {"z": 0.1})
