@@ -72,3 +72,23 @@ def test_what_is_too_long_is_told(tmp_path: Path) -> None:
     assert "not there: other, a line of 20000 numbers" in run.stdout and "long" not in run.stdout.split("written")[0]
     found = {name for _, name in lines(load_workbook(tmp_path / "long.xlsx", data_only=True))}
     assert found == {"long", "most"}
+
+
+def test_what_no_line_takes_is_found_too(tmp_path: Path) -> None:
+    """A found value that stands in a formula alone was on no sheet; one of two unknowns likewise."""
+    path = tmp_path / "found.py"
+    path.write_text(written(SETUP.replace("ask,", "ask, find,"), GIVEN, FOUND, "Found"))
+    rows = load_workbook(computed(path, tmp_path, {}), data_only=True)["Find"].iter_rows(min_row=3, values_only=True)
+    found = {row[0]: (row[1], row[2], row[9] != "found") for row in rows}
+    assert found == {
+        "x_1": (pytest.approx(1.5), "-", False),
+        "phi_found.value": (pytest.approx(60), "°", True),
+        "xy.value.y": (pytest.approx(1.5), "-", False),
+    }
+
+
+FOUND = """phi_found = find(np.cos, 0, np.pi, equals=0.5 + 0 * g.F, unknown="angle", unknown_unit="deg")
+twice = 2 * np.sin(phi_found.value)  # [-] twice
+xy = find(lambda x, y: (x + y - g.n, x - y), x=(-4, 4), y=(-3, 3))
+x_1 = xy.value.x  # [-] first
+s = xy.value.x + xy.value.y  # [-] sum"""

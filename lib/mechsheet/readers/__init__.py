@@ -7,5 +7,6 @@ one pass backwards, `bends` are second ones along directions. `bands` tell how f
 worksheet's numbers are right, by its quantities in `balls` under the `ball_rules`, and by a `lone_root` of its
 equations. What is found is `searched` by cells of a workbook, or `stepped` to by equations `derived` there, of many
 `problems` for each by itself; a closed form is `confirmed` by the equations with it `replaced` in them, whose `terms`
-tell what is nothing. The `largest` of what a check puts together is found row by row. Stands on the quantities.
+tell what is nothing. The `largest` of what a check puts together is found row by row; what stands behind an `infinite`
+number, cells have not. Stands on the quantities.
 """

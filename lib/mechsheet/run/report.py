@@ -34,7 +34,7 @@ from mechsheet.worksheet.cells import load, results
 from mechsheet.worksheet.check import Check, refuse_open
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.find import Found
-from mechsheet.worksheet.lines import Formula, registry
+from mechsheet.worksheet.lines import registry
 from mechsheet.worksheet.no_inputs import beforehand, inputs_of
 from mechsheet.worksheet.results import limited
 from mechsheet.worksheet.scene import Limit
@@ -284,31 +284,57 @@ def _of(kind: type[T], values: Iterable[Any]) -> list[T]:
 
 
 def solved(namespace: Mapping[str, Any]) -> Iterator[FoundRow]:
-    """Single numbers that are found, by the lines that take them: ``L4 = L4_found.value``, ``x = xy_found.value.x``."""
+    """Single numbers that are found, by the lines that take them: ``L4 = L4_found.value``, ``x = xy_found.value.x``.
+
+    One that no such line takes has the name of its solve block.
+    """
+    blocks = dict[int, str]()  # the first name of each
+    for name, value in namespace.items():
+        if isinstance(value, Found | Solution):
+            blocks.setdefault(id(value), name)
+    taken = set[tuple[str, str]]()
     for line in registry(namespace).values():
         match line.expression:
-            case ast.Attribute(ast.Name(source), "value"):
-                found = namespace.get(source)
-                if isinstance(found, Found) and np.ndim(found.value) == 0:
-                    first = next(name for name, value in namespace.items() if value is found)
-                    yield _found(line, first, found)
+            case ast.Attribute(ast.Name(source), "value") if isinstance(namespace.get(source), Found):
+                unknown = ""
             case ast.Attribute(ast.Attribute(ast.Name(source), "value"), unknown):
-                solution = namespace.get(source)
-                if isinstance(solution, Solution) and np.ndim(solution.condition) == 0:
-                    yield _one_of_several(line, source, solution, unknown)
+                pass
+            case _:
+                continue
+        block: Any = namespace.get(source)
+        first = blocks.get(id(block))
+        if first and _is_single(block):
+            taken.add((first, unknown))
+            yield _row(line.name, line.unit, line.meaning, source if unknown else first, block, unknown)
+    for name in blocks.values():
+        block = namespace[name]
+        for unknown in ("",) if isinstance(block, Found) else block.words.names:
+            if (name, unknown) not in taken and _is_single(block):
+                own = f"{name}.value.{unknown}" if unknown else f"{name}.value"
+                yield _row(own, block.words.unit_of(unknown), unknown or block.words.unknown, name, block, unknown)
 
 
-def _one_of_several(line: Formula, source: str, solution: Solution, unknown: str) -> FoundRow:
+def _is_single(block: Found | Solution) -> bool:
+    return np.ndim(block.value if isinstance(block, Found) else block.condition) == 0
+
+
+def _row(symbol: str, unit: str, meaning: str, source: str, block: Found | Solution, unknown: str) -> FoundRow:
+    if isinstance(block, Found):
+        return _found(symbol, unit, meaning, source, block)
+    return _one_of_several(symbol, unit, meaning, source, block, unknown)
+
+
+def _one_of_several(name: str, own: str, meaning: str, source: str, solution: Solution, unknown: str) -> FoundRow:
     """One of several unknowns, beside it the equation of the same number."""
     k = solution.words.names.index(unknown)
-    unit, target = units.parse(line.unit).factor, solution.words.equation_units[k]
+    unit, target = units.parse(own).factor, solution.words.equation_units[k]
     lower, upper = solution.interval[unknown]
     others = [s[k] for s in solution.solutions if s != solution.value]
     return FoundRow(
-        line.name,
+        name,
         solution.value[k] / unit,
-        line.unit,
-        line.meaning,
+        own,
+        meaning,
         solution.residual[k] / units.parse(target).factor,
         target,
         lower / unit,
@@ -319,14 +345,14 @@ def _one_of_several(line: Formula, source: str, solution: Solution, unknown: str
     )
 
 
-def _found(line: Formula, source: str, found: Found) -> FoundRow:
-    unit, target = units.parse(line.unit).factor, units.parse(found.words.unit).factor
+def _found(name: str, own: str, meaning: str, source: str, found: Found) -> FoundRow:
+    unit, target = units.parse(own).factor, units.parse(found.words.unit).factor
     others = [r for r in found.roots if (r.value, r.branch) != (found.value, found.branch or 0)]
     return FoundRow(
-        line.name,
+        name,
         found.value / unit,
-        line.unit,
-        line.meaning,
+        own,
+        meaning,
         found.residual / target,
         found.words.unit,
         found.interval[0] / unit,

@@ -34,6 +34,9 @@ class Words:
     def unknowns(self) -> str:
         return ", ".join(self.names)
 
+    def unit_of(self, unknown: str) -> str:
+        return self.units[self.names.index(unknown)]
+
     def point(self, x: Sequence[float]) -> str:
         shown = (f"{name} = {numbers.extent(v, unit)}" for name, v, unit in zip(self.names, x, self.units, strict=True))
         return ", ".join(shown)

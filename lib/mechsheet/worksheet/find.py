@@ -34,6 +34,9 @@ class _Words:
     unit: str
     unknown_unit: str
 
+    def unit_of(self, _: str) -> str:
+        return self.unknown_unit
+
 
 @dataclass(frozen=True, eq=False)
 class Root:
