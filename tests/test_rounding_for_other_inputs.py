@@ -50,6 +50,34 @@ def test_numbers_that_are_the_same_by_what_they_are_keep_their_places(field: str
     assert np.isfinite(value_of(recording, "y", {"F": 3.25}))
 
 
+PEAKS = "p = np.array([0.1 * g.a + 0.2 * g.a, 0.05, 0.3 * g.a])"  # the two greatest are apart by rounding
+TIED = {
+    "function": "y = np.argmax(p) + g.a",
+    "least": "y = np.argmin(-p) + g.a",
+    "order": "y = np.argsort(p) * g.a",
+    "of rows": "y = np.argmax(np.stack([p, p]), axis=1) + g.a",
+}
+
+
+@pytest.mark.parametrize("place", TIED)
+def test_two_that_rounding_tells_apart_tell_no_place(place: str, tmp_path: Path) -> None:
+    """Cells compute with other last bits: where the first of several peaks stood, they had another one."""
+    end = "result = np.atleast_1d(y) * 1  # [-] line\ntable_2 = table('2', 'Two', result)"
+    sheet = own(tmp_path, f"{PEAKS}\n{TIED[place]}\n{end}")
+    _, recording = recorded(sheet)
+    assert "two of the numbers differ by rounding alone" in recording.gaps[0].reason
+    if place != "order":  # which here has others that come near
+        _, recording = recorded(sheet, a=0.1)
+        assert not recording.gaps, "another one is the greatest"
+
+
+def test_of_equal_numbers_the_first_is_taken_everywhere(tmp_path: Path) -> None:
+    """Those that a limit makes equal have one place, and so have numbers that are given."""
+    lines = "y = np.argmax(np.minimum(np.sin(x), g.a)) + np.argmax([g.F, g.a, g.F])  # [-] line"
+    _, recording = recorded(own(tmp_path, f"{lines}\ntable_2 = table('2', 'Two', x)"))
+    assert not recording.gaps
+
+
 def test_a_page_tells_rounding_of_other_inputs_as_the_worksheet_does(blank: Page, tmp_path: Path) -> None:
     """Also what a function of several sums leaves, and a root of its squares; a place is grey."""
     lines = f"""{LEFT}m = np.polyfit(x, d, 1)[0]  # [-] slope

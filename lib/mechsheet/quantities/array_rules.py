@@ -87,7 +87,7 @@ def is_ranked(x: Quantity) -> bool:
 
 def order(graph: Graph, x: Any, axis: Any = -1, kind: Any = None, stable: Any = None) -> Any:
     """numpy's argsort, equal numbers in the order that they have: where the rank of each one points."""
-    graph.chosen.append((x, axis))
+    graph.chosen.append((x, axis, "argsort"))
     if is_ranked(x := lift(graph, x)):
         number: Any = Quantity(graph, graph.rows(graph.length(x.re, -1)))
     else:

@@ -93,7 +93,7 @@ class Graph(Lengths):
         self.called: dict[Any, Any] = {}  # what functions gave, see `once`, and what numpy's elementwise ones did
         self.supposed = 0  # ways that Python does not take and that are recorded beside it, one in another
         self.labels: dict[Node, Label] = {}
-        self.chosen = list[tuple[Any, Any]]()  # quantities of which places were taken by size, and along which axis
+        self.chosen = list[tuple[Any, Any, str]]()  # quantities of which places were taken by size, the axis, and how
 
     @contextmanager
     def labelled(self, labels: dict[Node, Label]) -> Iterator[None]:

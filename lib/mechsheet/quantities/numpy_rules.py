@@ -269,7 +269,7 @@ def _first(kind: str) -> Callable[..., Any]:
         x = lift(graph, x)
         if x.re.value.dtype == bool:
             return choice(graph, x, 1.0, 0.0).reduced(kind, axis, keepdims)
-        graph.chosen.append((x, axis))
+        graph.chosen.append((x, axis, kind))
         return x.reduced(kind, axis, keepdims)
 
     return operation

@@ -9,5 +9,5 @@ in `showing` a drawing, or a table under no name, that is recorded too; `every_l
 
 In the `evaluation` of a worksheet as a function, what is asked for again is `planned`, `variants` are many at once.
 `dimensions` checks units, by the rules of `dimension_rules`; `pinpoint` finds where in the worksheet a part is written;
-a number may be `left_over` by rounding alone. Stands on the readers.
+a number may be `left_over` by rounding alone, and a place be taken `by_size` of none else. Stands on the readers.
 """

@@ -18,18 +18,16 @@ from mechsheet.quantities.node import Node, conditions
 from mechsheet.quantities.quantity import Quantity, has_quantity, is_literal, lift
 from mechsheet.quantities.selected import Selected
 from mechsheet.quantities.sketch import Drawn, Sketch
-from mechsheet.quantities.ufunc_rules import finite
 from mechsheet.quantities.unrepeatable import Unrepeatable
 from mechsheet.quantities.written import Said, Written
-from mechsheet.readers.terms import terms_of
 from mechsheet.recording import showing, statement
+from mechsheet.recording.by_size import decided
 from mechsheet.recording.given import given
 from mechsheet.recording.memory import Memory, changes, names_of
 from mechsheet.recording.positions import OfPositions
 from mechsheet.recording.stage import Stage, held
 from mechsheet.recording.substitutes import Module, instead, shared, staged
 from mechsheet.units import Constant
-from mechsheet.worksheet import numbers
 from mechsheet.worksheet.cells import Cell, Worksheet
 from mechsheet.worksheet.drawing import Drawing
 from mechsheet.worksheet.lines import Formula, of_setup, rebound
@@ -38,7 +36,6 @@ from mechsheet.worksheet.table import Figure, Table
 from mechsheet.worksheet.title import Mark, Slider
 
 _PLACES = {"argmax", "argmin", "argsort"}
-_BY_ROUNDING = "the numbers differ by rounding alone, which tells no place"
 
 
 class Run(OfPositions):
@@ -197,7 +194,7 @@ class Run(OfPositions):
                 differ = of_all if graph.thin > 1 else " would differ from the worksheet"
                 raise NotRecorded(", ".join(differs) + differ)
             if any(not _PLACES.isdisjoint(names_of(code)) for code in codes):
-                self.decided()
+                decided(graph)
             if any(self.built(final)) and self.leaves(facts, reads, codes, before):
                 raise NotRecorded("its columns are built without table or figure")
         except (Exception, NotRecorded) as error:
@@ -350,21 +347,6 @@ class Run(OfPositions):
     def differing(self, stage: Stage, names: Iterable[str]) -> list[str]:
         """Names whose recorded numbers are not the worksheet's own."""
         return [name for name in names if not stage.same(self.names.get(name), self.namespace.get(name))]
-
-    def decided(self) -> None:
-        """See that no place was taken by the size of numbers that differ by nothing but the rounding of their terms."""
-        for x, axis in tuple(self.graph.chosen):
-            along = axis if (x := lift(self.graph, x)).ndim > 1 else None
-            low, high = (x.reduced(kind, along) for kind in ("min", "max"))
-            terms = terms_of(x, deep=self.graph.draws).reduced("max", along)
-            if np.isinf(terms.value).any() and not self.graph.draws:
-                raise NotRecorded("an infinite number is among those compared, which no cell of a spreadsheet holds")
-            nothing = (low == 0) & (high == 0)  # as a spreadsheet program has it where next to nothing is left
-            rounding = (high - low <= numbers.ROUNDING * terms) & ((high > low) | nothing) & (terms > 0) & finite(terms)
-            holds = (~rounding).reduced("all")
-            if not holds.value:
-                raise NotRecorded(_BY_ROUNDING)
-            self.graph.see(holds.re, why=_BY_ROUNDING)
 
     def built(self, names: Iterable[str]) -> Iterator[str]:
         """Names of tables and figures that no call of `table` or `figure` has made."""
