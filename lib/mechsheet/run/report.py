@@ -195,7 +195,7 @@ def _not_followed(recording: Recording, values: Iterable[Any]) -> list[str]:
 def _not_there(recording: Recording, values: Iterable[Any]) -> list[str]:
     """The recorded tables, figures and checks that are not among the values, a line for each."""
     lacking = _recorded_ones(recording) - {*map(parts.called, values)}
-    long = (f"not there: {line.symbol}, a line of {line.node.size} numbers" for line in too_long(recording))
+    long = (f"not there: {line.symbol}, a line of too many numbers" for line in too_long(recording))
     return [*(f"not there: {name}, which has no name" for name in sorted(lacking)), *long]
 
 

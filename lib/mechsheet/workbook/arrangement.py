@@ -17,7 +17,7 @@ from mechsheet.worksheet.table import Table
 _LIGHT = 6  # operations that a formula repeats rather than give them a cell
 _HEAVY = 60  # operations that one formula holds at most
 _WIDE = 64  # columns on one sheet: in a file with wider rows their repetitions are out of the compression's sight
-_LONG = 10_000  # numbers of a line on which nothing rests that is shown: of more it has no column
+_LONG = 10_000  # numbers of a column on which nothing rests that is shown
 _DEEP = 6  # parentheses inside each other in one formula, to which what a sheet puts around it adds two
 
 
@@ -57,7 +57,9 @@ class Arrangement:
         self.own: set[tuple[str, int]] = set()  # columns of tables that are the place of their quantity
         self.places: dict[Node, Place] = {}
         self.lines = {line.node: line for lines in recording.lines.values() for line in lines}
-        self.last = [] if found else last_lines(recording)
+        long = left_out(recording)
+        self.own_lines = [line for line in declared(recording) if line not in long]
+        self.last = [] if found else last_lines(recording, self.own_lines)
         self._names = DefinedNames()
         self.changed = self._defined(changed, changed.name, 1)
         for symbol, node in recording.inputs.items():
@@ -108,7 +110,7 @@ class Arrangement:
             yield from marks.values()
         yield from self.recording.worded.values()
         yield from self.recording.guards
-        yield from (line.node for line in declared(self.recording) if line.node.size <= _LONG)
+        yield from (line.node for line in self.own_lines)
 
     def _place_others(self, name: Callable[[str, str], str]) -> list[Section]:
         """Sheets for all that stands neither on a table's sheet nor among inputs and found values."""
@@ -174,25 +176,26 @@ def declared(recording: Recording) -> list[Line]:
     return [line for lines in recording.lines.values() for line in lines if line.text and line.unit]
 
 
-def last_lines(recording: Recording) -> list[Line]:
-    """Lines of single numbers on which no other line rests."""
+def last_lines(recording: Recording, lines: Sequence[Line]) -> list[Line]:
+    """Those of some lines that are single numbers on which no other line rests."""
     every = chain.from_iterable(recording.lines.values())
     under = set(bottom_up((operand for line in every for operand in line.node.operands), ()))
-    return [line for line in declared(recording) if line.node.size == 1 and line.node not in under]
+    return [line for line in lines if line.node.size == 1 and line.node not in under]
 
 
 def left_out(recording: Recording) -> list[Line]:
-    """Lines of too many numbers, on which nothing rests that is shown."""
-    long = [line for line in declared(recording) if line.node.size > _LONG]
-    if not long:
-        return []
+    """Lines that rest on more numbers than a column shall have, of which nothing is needed for what is shown."""
     columns = [column for columns in recording.tables.values() for column in columns if column is not None]
     compared = [node for check in recording.checks.values() for node in (*check.parts, check.limit)]
-    short = [line.node for line in declared(recording) if line.node.size <= _LONG]
-    found = [solved.node for solved in recording.found.values()]
-    parts = [part for column in columns for part in column.parts]
-    under = set(bottom_up([*parts, *compared, *short, *found], ()))
-    return [line for line in long if line.node not in under]
+    told = [node for solved in recording.found.values() for node in (solved.node, solved.inverse, solved.residual)]
+    marked = chain.from_iterable(marks.values() for marks in recording.marks.values())
+    parts = chain.from_iterable(column.parts for column in columns)
+    shown = set(bottom_up([*parts, *compared, *filter(None, told), *marked], ()))
+    lines, long = declared(recording), set[Node]()
+    for node in bottom_up([line.node for line in lines], shown):
+        if node.size > _LONG or not long.isdisjoint(node.operands):
+            long.add(node)
+    return [line for line in lines if line.node in long]
 
 
 def needing_place(roots: Iterable[Node], named: Set[Node], places: Container[Node]) -> list[Node]:
