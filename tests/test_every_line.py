@@ -8,7 +8,7 @@ import pytest
 from as_script import as_script
 from openpyxl import load_workbook
 from own_worksheet import written
-from test_recalculation import computed, edit, lines, lines_apart
+from test_recalculation import MADE, computed, edit, lines, lines_apart
 
 SETUP = """import numpy as np
 from numpy import linspace
@@ -91,3 +91,117 @@ twice = 2 * np.sin(phi_found.value)  # [-] twice
 xy = find(lambda x, y: (x + y - g.n, x - y), x=(-4, 4), y=(-3, 3))
 x_1 = xy.value.x  # [-] first
 s = xy.value.x + xy.value.y  # [-] sum"""
+
+
+LENGTHS = """x = linspace(0, g.L, g.n)  # [m] places
+x_s = x.sum()  # [m] their sum
+x_e = x[-1]  # [m] last
+i_e = np.arange(g.n)[-1]  # [-] last number
+long = bool(g.n > 3)  # [-] whether many
+f_v = float(np.prod(range(1, g.n + 1)))  # [-] orders
+v_n = np.array([float(i) for i in range(g.n)])  # [-] counted up
+v_f = np.full(g.n, 2.5)  # [-] full
+v_g = np.geomspace(1, 100, g.n)  # [-] geometric
+v_i = np.arange(g.n) * 2  # [-] even
+v_e = np.array([10.0, 20.0, 30.0])[: g.n]  # [-] part of constants
+v_d = np.array([1.0, 2.0] if g.n < 4 else [5.0, 6.0, 7.0])  # [-] of a length by choice
+v_2 = v_f  # [-] another name
+two = [0.01, 0.02]  # [m] a list
+huge = 10**20  # [-] huge"""
+
+
+@pytest.mark.office
+def test_lines_of_another_number_of_rows_have_no_number(
+    recalculated_all: Callable[[list[Path]], list[Any]], tmp_path: Path
+) -> None:
+    """They kept the numbers of as many rows as were exported, and those that are too many had numbers too."""
+    path = tmp_path / "lengths.py"
+    path.write_text(written(SETUP, GIVEN, LENGTHS, "Lengths"))
+    book = computed(path, tmp_path, {})
+    edited = [edit(book, {"n": n}, tmp_path / f"{n}.xlsx") for n in (2, 5)]
+    same, *others = recalculated_all([book, *edited])
+    own = load_workbook(book, data_only=True)
+    assert not [*lines_apart(same, own)]
+    assert {name for _, name in lines(own)} >= {"v_2", "two", "huge", "v_d", "v_f"} and len(lines(own)) == 15
+    for there in others:
+        shown = {name: values for (_, name), (_, values) in lines(there).items()}
+        assert shown.pop("two") == [0.01, 0.02] and shown.pop("huge") == [1e20]
+        numbers = {name: x for name, values in shown.items() for x in values if x != "#N/A"}
+        assert not numbers.keys() - {"long", "v_d"}, numbers
+        assert MADE in {row[0] for row in there["Checks"].iter_rows(values_only=True) if row[4] == "FAIL"}
+
+
+EMPTY = """F_i = g.F * np.array([1.0, 2.0, 3.0])  # [N] forces
+over = F_i[F_i > 9000.0]  # [N] those above
+sum_of = np.sum(over)  # [N] their sum
+twice = 2 * over  # [N] twice
+none = linspace(0, g.F, 0)  # [N] of no places
+ok = check("over", over, 100, "N"), check("none", none, 100, "N")"""
+
+
+@pytest.mark.office
+def test_lines_without_values_say_so(recalculated: Callable[[Path], Any], tmp_path: Path) -> None:
+    """An empty selection ended the export with a text of numpy's."""
+    path = tmp_path / "empty.py"
+    path.write_text(written(SETUP, GIVEN, EMPTY, "Empty"))
+    run = as_script(path)
+    assert run.returncode == 1 and "not evaluated  over; there is nothing to check" in run.stdout, run.stderr
+    for book, none in ((load_workbook(tmp_path / "empty.xlsx", data_only=True), "no values"),):
+        assert {
+            name: values for (_, name), (_, values) in lines(book).items() if name in ("over", "twice", "none")
+        } == {name: [none] for name in ("over", "twice", "none")}
+    there = recalculated(edit(tmp_path / "empty.xlsx", {"F": 4000.0}, tmp_path / "edited.xlsx"))
+    shown = {name: values for (_, name), (_, values) in lines(there).items()}
+    assert shown["over"] == shown["twice"] == ["not followed"] and shown["sum_of"] == [12000]
+    assert not [
+        row for row in there["Checks"].iter_rows(values_only=True) if row[0] in ("over", "none") and row[4] == "PASS"
+    ]
+
+
+ROUNDED = """v = 0.29 * g.L / 0.35  # [-] speed
+cents = int(v * 100)  # [-] whole ones
+down = 45 * mm * g.L / 0.35 // (5 * mm) * 5  # [-] rounded down
+same = g.L * 0.3 == g.L * 0.1 * 3  # [-] whether they are equal
+up = np.ceil(g.F / 500)  # [-] rounded up"""
+
+
+@pytest.mark.office
+def test_what_rounding_makes_whole_is_that_of_the_worksheet(
+    recalculated_all: Callable[[list[Path]], list[Any]], tmp_path: Path
+) -> None:
+    """28.999999999999996 is 29 to LibreOffice, and verdicts turned where nothing was changed."""
+    path = tmp_path / "rounded.py"
+    path.write_text(written(f"{SETUP}\nfrom mechsheet.units import mm", GIVEN, ROUNDED, "Rounded"))
+    run = as_script(path)
+    told = {line.split(":")[1].partition(", ")[2] for line in run.stdout.splitlines() if "by rounding alone" in line}
+    assert {"cents", "same"} <= told and "up" not in told, run.stdout
+    book = tmp_path / "rounded.xlsx"
+    same, other = recalculated_all([book, edit(book, {"L": 0.36, "F": 1700.0}, tmp_path / "edited.xlsx")])
+    assert not [*lines_apart(same, load_workbook(book, data_only=True))]
+    shown = {name: values for (_, name), (_, values) in lines(other).items()}
+    assert shown["cents"] == ["#N/A"] and shown["up"] == [4]
+
+
+ENDLESS = """N_1 = 2e6 * (300.0 / g.F) ** 5 if g.F > 300.0 else np.inf  # [-] turns
+N_2 = 3e6 * (300.0 / g.F) ** 5 if g.F > 300.0 else np.inf  # [-] turns
+least = min(N_1, N_2, 1e9)  # [-] fewest
+ratio = N_1 / N_2  # [-] ratio
+apart = N_2 - N_1  # [-] difference
+some = np.array([N_1, 5.0]).sum()  # [-] sum
+ok = check("ratio", ratio, 2), check("difference", apart, 1e9), check("fewest", least, 1e10)"""
+
+
+@pytest.mark.office
+def test_an_infinite_number_that_is_chosen_is_none_to_compute_with(
+    recalculated: Callable[[Path], Any], tmp_path: Path
+) -> None:
+    """1E+307 stood for it: their ratio was 1 and their difference 0, and the checks passed."""
+    path = tmp_path / "endless.py"
+    path.write_text(written(SETUP, GIVEN, ENDLESS, "Endless"))
+    there = recalculated(edit(computed(path, tmp_path, {}), {"F": 200.0}, tmp_path / "edited.xlsx"))
+    shown = {name: values for (_, name), (_, values) in lines(there).items()}
+    assert shown["ratio"] == shown["apart"] == shown["some"] == ["#N/A"] and shown["least"] == [1e9]
+    front = {row[0]: row[1] for row in there["Front"].iter_rows(values_only=True)}
+    assert front["ratio"] == "#N/A"
+    said = {row[0]: row[4] for row in there["Checks"].iter_rows(values_only=True)}
+    assert (said["ratio"], said["difference"], said["fewest"]) == ("not evaluated", "not evaluated", "PASS")

@@ -124,6 +124,12 @@ def page(command: str, sheets: "list[str]", options: "list[str]") -> int:
     """Exit code of marimo's server of a worksheet, or of the start page and all worksheets."""
     import json  # on use: only a page needs it
 
+    port, host = setting(options, "--port"), setting(options, "--host")
+    if port and not (port.isdecimal() and 0 < int(port) < 65536):
+        raise refused(f"port = {port} must be a number from 1 to 65535")
+    guarded = any(option.startswith(("--password-file", "--token", "--no-token")) for option in options)
+    if command == "serve" and host not in ("", "localhost", "127.0.0.1", "::1") and not guarded:
+        raise refused(f"--host={host} shows the pages to whoever is on the network: give --password-file=FILE")
     settings = {}
     if not sheets:
         groups = [(title, paths) for title, paths in grouped().items() if paths]
@@ -147,6 +153,13 @@ def page(command: str, sheets: "list[str]", options: "list[str]") -> int:
     if any(option.startswith("--token-password-file") for option in options):
         options = ["--token", *options]
     return call([interpreter(""), "-m", "marimo", "run", *options, *sheets], settings=settings)
+
+
+def setting(options: "list[str]", name: str) -> str:
+    """What an option is given, behind = or as the next word; "" where it is not."""
+    given = [text.partition("=")[2] for text in options if text.startswith(f"{name}=")]
+    following = [options[n + 1] for n, text in enumerate(options[:-1]) if text == name]
+    return [*given, *following, ""][0]
 
 
 def unread(sheet: str) -> str:
@@ -216,6 +229,13 @@ def new(name: str, like: str = "") -> int:
 
     if not re.match(r"[A-Za-z]\w*$", name):
         raise refused(f"name of the worksheet = {name!r} must be a letter, then letters, digits or _")
+    import keyword  # on use: as above
+
+    others = ["mechsheet", "marimo", "numpy", "scipy", "pandas", "altair", "openpyxl", "xlsxwriter", "mpmath", "flint"]
+    if name in (*others, *getattr(sys, "stdlib_module_names", ())) or keyword.iskeyword(name):
+        raise refused(
+            f"name of the worksheet = {name!r} is one of Python's, for which others there would take the file"
+        )
     ours, current = ROOT / "worksheets", Path.cwd()
     folder = ours if ours.is_dir() and ROOT in (current, *current.parents) else current
     path, here = folder / f"{name}.py", Path(__file__).resolve().parent

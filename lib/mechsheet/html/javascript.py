@@ -154,7 +154,7 @@ def _taken(scope: Scope, node: Node) -> str:
             return f"{scope.text(source)}[{at[0]}]" if source.shape else scope.text(source)
         if source.size == 1:
             return f"spread({scope.text(source)},[],{list(node.shape)})"
-        if np.array_equal(at, np.arange(at[0], at[0] + at.size)):
+        if at.size and np.array_equal(at, np.arange(at[0], at[0] + at.size)):
             return f"{scope.text(source)}.slice({at[0]},{at[0] + at.size})"
         return f"gather({scope.text(source)},{scope.program.constant(places(index))})"
     lengths = scope.program.size(source)

@@ -83,13 +83,13 @@ class Recording:
     ``marks`` the marks of a figure by its number and their labels; ``lines`` those of a section, ``others`` such as
     are the same for all inputs or but another name for a quantity; ``names`` the name that each node has in the
     worksheet. ``gaps`` are what keeps the numbers of the worksheet's own run, with the reasons, ``unsolved`` what
-    does so in the cells of a workbook alone: found values, and numbers that are ``lost`` there; ``guards`` the
-    conditions under which all is recorded as the worksheet has it; ``integrals`` what a rule of places gives, with
-    scipy's estimates of the errors where these are taken; ``drawings`` those that a cell shows, by its number, or
-    None for one that is not recorded; ``captions`` and ``texts`` what captions, by their numbers, and cells that
-    are texts say with recorded numbers in it; ``positions`` what is marked along charts, by the name of its
-    quantity; ``values`` what the names are in the recording, ``looked`` the guards that these rest on. Only every
-    ``every``-th position is recorded.
+    does so in the cells of a workbook alone: found values, and numbers that are ``lost`` there, or would be others;
+    ``guards`` the conditions under which all is recorded as the worksheet has it; ``integrals`` what a rule of
+    places gives, with scipy's estimates of the errors where these are taken; ``drawings`` those that a cell shows,
+    by its number, or None for one that is not recorded; ``captions`` and ``texts`` what captions, by their numbers,
+    and cells that are texts say with recorded numbers in it; ``positions`` what is marked along charts, by the name
+    of its quantity; ``values`` what the names are in the recording, ``looked`` the guards that these rest on. Only
+    every ``every``-th position is recorded.
     """
 
     graph: Graph
@@ -109,7 +109,7 @@ class Recording:
     texts: dict[int, Said] = field(default_factory=dict)
     gaps: list[Gap] = field(default_factory=list)
     unsolved: list[Gap] = field(default_factory=list)
-    lost: set[Node] = field(default_factory=set)
+    lost: dict[Node, bool] = field(default_factory=dict)
     guards: dict[Node, Guard] = field(default_factory=dict)  # by their conditions
     integrals: dict[Node, Node | None] = field(default_factory=dict)
     made_of: dict[Node, float] = field(default_factory=dict)  # the largest terms of sums, as far as looked at
@@ -119,15 +119,15 @@ class Recording:
     sections: list[str] = field(default_factory=list)
     names: dict[Node, str] = field(default_factory=dict)
 
-    def define(self, section: str, name: str, value: Any, known: Mapping[str, Formula]) -> None:
-        """Give the quantities of a line its name, and the steps behind it theirs."""
+    def define(self, section: str, name: str, value: Any, known: Mapping[str, Formula], arrays: bool = False) -> None:
+        """Give the quantities of a line its name, and the steps behind it theirs; those of constants if ``arrays``."""
         if not isinstance(value, Quantity):
             return
         lines = self.lines.setdefault(section, [])
         stem = _stem(name)
         for line in _parts_of(name, value, known.get(name)):
-            one = line.node.op == "constant" and line.node.size == 1
-            if one or line.node.op == "input" or line.node in self.names:
+            given = line.node.op == "constant" and not (arrays and line.node.size > 1)
+            if given or line.node.op == "input" or line.node in self.names:
                 continue
             self.names[line.node] = line.symbol
             self._name_steps(line.node, stem, lines)

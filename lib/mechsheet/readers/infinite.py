@@ -1,4 +1,7 @@
-"""Numbers on whose way an infinite one stands: a cell of a spreadsheet holds none and has an error value there."""
+"""Numbers that cells of a spreadsheet would not have: behind an infinite one, and where rounding decides a whole one.
+
+A cell holds no infinite number and has an error value there. What is next to a whole number is that to LibreOffice.
+"""
 
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
@@ -10,19 +13,42 @@ from mechsheet.quantities.lines import Recording
 from mechsheet.quantities.node import LEAVES, Node, bottom_up, passes_over
 from mechsheet.quantities.operations import ELEMENTWISE, SHAPED, Values
 from mechsheet.readers.numbers import moved_elements
+from mechsheet.worksheet import numbers
 
 _KEEPING = ("neg", "abs", "max", "min", "where")  # give an infinite number of infinite ones alone
 _WHY = "where an infinite number stands on its way, which no cell holds, the workbook has this of the exported inputs"
+_BESIDE = "the workbook has this of the exported inputs: a whole number, or the one below, by rounding alone"
 
 
 def lose(recording: Recording) -> None:
-    """Let what cells would miss for an infinite number on its way keep the numbers of the worksheet's own run.
+    """Let what cells would miss, or have otherwise, keep the numbers of the worksheet's own run.
 
     `Recording.lost` are these quantities, `Recording.unsolved` says where they stand.
     """
-    recording.lost = {*lost(_shown(recording))}
-    lines = {node.line: dict.fromkeys(_named(recording, node)) for node in recording.lost}
-    recording.unsolved += (Gap((*names,) or ("a step",), line, _WHY) for line, names in sorted(lines.items()))
+    shown = [*_shown(recording)]
+    beside = {node for node in bottom_up(shown, ()) if _is_beside(node)}
+    recording.lost = {node: passes_over(node) for node in lost(shown)} | dict.fromkeys(beside, True)
+    for nodes, why in ((recording.lost.keys() - beside, _WHY), (beside, _BESIDE)):
+        lines = {node.line: dict.fromkeys(_named(recording, node)) for node in nodes}
+        recording.unsolved += (Gap((*names,) or ("a step",), line, why) for line, names in sorted(lines.items()))
+
+
+@np.errstate(all="ignore")
+def _is_beside(node: Node) -> bool:
+    """Whether it is by the rounding of its operands alone that a number is whole, or two compare as they do."""
+    if node.op not in ("floor", "round", "mod", *_COMPARED):
+        return False
+    x, *others = (np.asarray(part.value, float) for part in node.args)
+    if node.op in _COMPARED:
+        size = np.maximum(np.abs(x), np.abs(others[0]))
+        return bool(((np.abs(x - others[0]) <= numbers.ROUNDING * size) & (x != others[0])).any())
+    x = x / others[0] if others else x
+    off = x - np.rint(x) if node.op != "round" else x - np.floor(x) - 0.5
+    near = np.abs(off) <= numbers.ROUNDING * np.maximum(np.abs(x), 1.0)
+    return bool((near & (node.value != 0 if node.op == "mod" else off != 0)).any())
+
+
+_COMPARED = ("eq", "ne")  # pieces that others part are mostly alike where they meet
 
 
 def _shown(recording: Recording) -> Iterator[Node]:

@@ -43,7 +43,8 @@ class Proved:
 
     ``where`` is the table, ``name`` the column or result, ``why`` what keeps digits from being proved, with its line.
     One that is an ``exception`` has no digits, for the reason given, or those beside what it is made of. ``size`` is
-    the number beside which they are, in the unit of the table's column, of results in SI.
+    the number beside which they are, in the unit of the table's column, of results in SI; ``none`` of the numbers
+    do not exist, which is proved as digits are.
     """
 
     where: str
@@ -52,6 +53,7 @@ class Proved:
     why: str = ""
     exception: bool = False
     size: float = np.inf
+    none: int = 0
 
     @property
     def off(self) -> Values:
@@ -61,6 +63,10 @@ class Proved:
     @property
     def least(self) -> float:
         return float(np.min(self.digits))
+
+    @property
+    def count(self) -> int:
+        return self.digits.size - self.none
 
     @property
     def title(self) -> str:
@@ -131,6 +137,10 @@ class Proof:
         missing = max((max(digits - own, 0.0) for own in least), default=np.nan)
         told = [str(column) for column in self.below(digits)[:1]]
         told += [str(root) for root in self.roots if not root.exists][:1]
+        if none := sum(column.none for column in self.columns):
+            own = sum(column.count for column in self.columns)
+            told.append(f"{none} of {none + own} do not exist")
+            missing = missing if own else np.nan
         apart = [column.title for column in self.exceptions]
         told += [f"but for exceptions: {'; '.join(apart)}"] if apart else []
         name = f"every number proved to {numbers.significant(digits, 4)} digits"
@@ -149,9 +159,7 @@ class Proof:
         rows = [(where, column, [c for c in self.columns if c.where == where]) for where, column in self.least.items()]
         columns = (
             _texts("where", "", [where for where, _, _ in rows]),
-            Column(
-                "numbers", "-", "how many it shows", 0, np.array([sum(c.digits.size for c in cs) for *_, cs in rows])
-            ),
+            Column("numbers", "-", "how many it shows", 0, np.array([sum(c.count for c in cs) for *_, cs in rows])),
             Column("digits", "-", "fewest that are proved", 1, np.array([_down(c.least) for _, c, _ in rows])),
             _texts("least", "column with the fewest", [c.name for _, c, _ in rows]),
             _texts("why", "what keeps them from being proved", [c.why for _, c, _ in rows]),
@@ -289,12 +297,13 @@ class _Digits:
             return nothing("it is recorded with another number of rows")
         with precision(_BITS[0]):
             digits = _digits(balls, shown.own, shown.factor, shown.size)
+        none = int(np.count_nonzero(np.isnan(shown.own)))
         if digits.min() >= PROVED:
-            return Proved(shown.where, shown.name, digits, size=shown.size)
+            return Proved(shown.where, shown.name, digits, size=shown.size, none=none)
         if _is_count(shown.node):
             why = f"line {shown.line}: a count of evaluations, which is none of the formulas' numbers"
             return Proved(shown.where, shown.name, np.full(shown.own.shape, np.nan), why, exception=True)
-        lost = Proved(shown.where, shown.name, digits, self.why(shown), size=shown.size)
+        lost = Proved(shown.where, shown.name, digits, self.why(shown), size=shown.size, none=none)
         return self.zero(shown, shown.node) or lost
 
     @np.errstate(all="ignore")
@@ -428,7 +437,7 @@ def _root(balls: Balls, name: str, solved: Solved) -> ProvedRoot:
 
 
 def _down(digits: float) -> float:
-    """Rounded to the tenth below: never more than there are."""
+    # Never more than there are.
     return floor(10 * digits) / 10 if digits == digits else digits
 
 

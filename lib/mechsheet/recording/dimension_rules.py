@@ -238,7 +238,11 @@ class Reader:
         if dims is None or dims == PURE:
             return "- (a number)"
         used = [units.si(unit) for unit in self.used if units.parse(unit).dims == dims]
-        return shown_numbers.in_text(min(used, key=len, default=units.word(dims)))
+        usual = (unit for unit in _USUAL if units.parse(unit).dims == dims)
+        return shown_numbers.in_text(min(used, key=len, default=next(usual, units.word(dims))))
+
+
+_USUAL = ("N", "N*m", "Pa", "W", "N/m", "N*m**2", "N*s", "N*m*s", "N*s/m")  # units of mechanics, before those of SI
 
 
 def _equations(solved: Solved) -> Iterator[tuple[Node, str, str]]:

@@ -16,6 +16,8 @@ from mechsheet.worksheet.inputs import declared
 from mechsheet.worksheet.lines import Formula, registry
 from mechsheet.worksheet.no_inputs import beforehand, inputs_of
 
+_TOLD = 3  # mistakes
+
 
 @dataclass(frozen=True)
 class Dimensions:
@@ -32,7 +34,9 @@ class Dimensions:
 
     def check(self) -> Check:
         """The check named units, which fails by the first mistake."""
-        told = [str(mistake) for mistake in self.mistakes[:1]] or [str(note) for note in self.notes[:1]]
+        told = [str(mistake) for mistake in self.mistakes[:_TOLD]] or [str(note) for note in self.notes[:1]]
+        if len(self.mistakes) > _TOLD:
+            told.append(f"and {len(self.mistakes) - _TOLD} more")
         if self.gaps:
             told.append(f"not followed at line{'s' * (len(self.gaps) > 1)} {', '.join(map(str, self.gaps))}")
         return Check("units", len(self.mistakes), 0, "mistakes", "; ".join(told))

@@ -33,7 +33,8 @@ def add_lines(run: Run) -> None:
             _note(run, cell, name)
     every = (line.node for lines in recording.lines.values() for line in lines if line.text)
     guards = guards.union(*(conditions(node, run.chosen) for node in every))  # not those of what cells draw
-    recording.guards = {holds: guard for holds, guard in recording.guards.items() if holds in guards}
+    kept = {h: guard for h, guard in recording.guards.items() if h in guards or guard.rows or guard.lengths}
+    recording.guards = kept
 
 
 def _bound(cell: Cell) -> dict[str, None]:
@@ -54,14 +55,15 @@ def _note(run: Run, cell: Cell, name: str) -> None:
             return
         if all(part.op == "constant" for part in number.parts):  # it may be so only while Python sees the same
             number = run.while_same(number, run.looked.get(name, ()))
-            recording.define(cell.section, name, number, run.lines)
+            recording.define(cell.section, name, number, run.lines, arrays=True)
         recording.also(cell.section, name, number, line)
 
 
 def _plain(run: Run, value: Any) -> Quantity | None:
     """Plain numbers as a quantity."""
-    if isinstance(value, bool | int | float | complex | np.number | np.ndarray | np.bool_):
+    if isinstance(value, bool | int | float | complex | np.number | np.ndarray | np.bool_ | list | tuple):
         numbers = np.asarray(value)
+        numbers = numbers.astype(float) if isinstance(value, int) and numbers.dtype.kind == "O" else numbers
         if numbers.dtype.kind in "buif":
             return Quantity(run.graph, run.graph.constant(numbers))
         if numbers.dtype.kind == "c":

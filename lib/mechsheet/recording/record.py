@@ -13,6 +13,7 @@ from mechsheet.recording.positions import lacking, rows_of, step_of
 from mechsheet.recording.recorded_run import Run
 from mechsheet.recording.stage import shown
 from mechsheet.worksheet.cells import Worksheet, load
+from mechsheet.worksheet.check import stating
 from mechsheet.worksheet.lines import Formula, registry
 
 
@@ -53,6 +54,7 @@ def record_every_line(namespace: Mapping[str, Any], sheet: Worksheet) -> Recordi
 
 
 @np.errstate(all="ignore")  # the worksheet's own run has warned
+@stating()  # and has stated its checks
 def _run(
     namespace: Mapping[str, Any],
     sheet: Worksheet | None,

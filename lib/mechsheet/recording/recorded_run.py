@@ -376,7 +376,8 @@ class Run(OfPositions):
         if guard.why and not self.graph.draws:  # cells of a workbook follow all other inputs
             return
         known = self.recording.guards.get(guard.holds, guard)
-        self.recording.guards[guard.holds] = known if known._replace(line=guard.line) == guard else guard
+        same = known.rows or known._replace(line=guard.line) == guard  # a number of rows stays one whatever looks at it
+        self.recording.guards[guard.holds] = known if same else guard
 
     def read(self, loaded: Iterable[str]) -> frozenset[str]:
         """Names that a statement reads, and those that the functions of the worksheet read which it names."""

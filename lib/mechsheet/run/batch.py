@@ -24,7 +24,7 @@ from mechsheet.workbook import writing
 from mechsheet.workbook.checks_sheet import verdict
 from mechsheet.worksheet import inputs, mistakes, numbers, results
 from mechsheet.worksheet.cells import Worksheet, base, load
-from mechsheet.worksheet.check import Check, checks_of, refuse_open
+from mechsheet.worksheet.check import Check, checks_of, refuse_open, unkept
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.kinds import Input
 from mechsheet.worksheet.no_inputs import beforehand
@@ -81,13 +81,14 @@ def compute(sheet: Worksheet, name: str, given: Scene) -> tuple[Outcome, dict[st
         names = sheet.run([*(given.want or sheet.results), *given.limits], beforehand(g))
         unsolved = lacking(names.values())
     held = checks_of(names) if given.want else [value for value in parts.values(names) if isinstance(value, Check)]
+    held += unkept(names, held)
     with usage():
         judged = results.limited(held, given.limits, names)
     refuse_open(judged)
     quantities, tables = dict[str, Displayed](), list[Table]()
     found = (row.symbol for row in report.solved(names))
     for want in dict.fromkeys([*(given.want or found), *given.limits]):
-        what = names.get(want)
+        what = names.get(want, next((check for check in judged if check.name == want), None))
         if isinstance(what, Table):
             tables.append(what)
         elif base(want).isidentifier() and not _is_check(what):

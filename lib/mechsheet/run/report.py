@@ -31,7 +31,7 @@ from mechsheet.workbook.find_sheet import FoundRow
 from mechsheet.workbook.save import save
 from mechsheet.worksheet import index, inputs, mistakes, numbers, source
 from mechsheet.worksheet.cells import load, results
-from mechsheet.worksheet.check import Check, refuse_open
+from mechsheet.worksheet.check import Check, refuse_open, unkept
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.find import Found
 from mechsheet.worksheet.lines import registry
@@ -134,6 +134,7 @@ def _script(title: str | None, namespace: Mapping[str, Any], worksheet: Path) ->
     given = arguments.read(sys.argv[1:], declared)
     with arguments.usage():
         own = parts.values(namespace)
+        own += unkept(namespace, own)
         values = limited(own, given.limits, namespace)
     refuse_open(_of(Check, values))
     unsolved = lacking(values)
@@ -222,6 +223,7 @@ def write(data: bytes, path: Path) -> None:
 def workbook(title: str, namespace: Mapping[str, Any], limits: Mapping[str, Limit]) -> bytes:
     """Workbook of a whole run of a worksheet, its checks under the limits of a scene."""
     own = parts.values(namespace)
+    own += unkept(namespace, own)
     values = limited(own, limits, namespace)
     recording, fit = _recorded(namespace, values)
     return _workbook(title, namespace, [*values, fit], own, recording)

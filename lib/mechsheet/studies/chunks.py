@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from mechsheet.worksheet import check, inputs, mistakes
 from mechsheet.worksheet.cells import Cell, Worksheet, base, load
 from mechsheet.worksheet.cells import value as wanted
+from mechsheet.worksheet.check import stating
 from mechsheet.worksheet.errors import OF_NUMBERS, SheetError
 from mechsheet.worksheet.lines import registry
 from mechsheet.worksheet.lists import Rows
@@ -244,7 +245,8 @@ def _run(sheet: Worksheet, cells: Iterable[Cell], g: Any, names: dict[str, Any])
     """Run the cells one by one, their names in ``names``."""
     names |= {**sheet.common, "g": g}
     for cell in cells:
-        exec(cell.code, names)
+        with stating():  # nothing to the run of a worksheet that asks for this one
+            exec(cell.code, names)
         for name in cell.gives:
             if isinstance(function := names.get(name), FunctionType):  # a branch that was not taken binds nothing
                 names[name] = _remembered(function)

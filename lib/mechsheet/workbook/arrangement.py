@@ -10,7 +10,7 @@ import numpy as np
 from mechsheet import units
 from mechsheet.quantities.lines import Line, Recording
 from mechsheet.quantities.node import LEAVES, Node, bottom_up, steps_of
-from mechsheet.workbook.cell_formula import nesting, written_of
+from mechsheet.workbook.cell_formula import CellFormulas, nesting, written_of
 from mechsheet.workbook.place import DefinedNames, Place, called
 from mechsheet.worksheet.table import Table
 
@@ -58,7 +58,7 @@ class Arrangement:
         self.places: dict[Node, Place] = {}
         self.lines = {line.node: line for lines in recording.lines.values() for line in lines}
         long = left_out(recording)
-        self.own_lines = [line for line in declared(recording) if line not in long]
+        self.own_lines = [line for line in declared(recording) if line.node.size and line not in long]
         self.last = [] if found else last_lines(recording, self.own_lines)
         self._names = DefinedNames()
         self.changed = self._defined(changed, changed.name, 1)
@@ -71,12 +71,14 @@ class Arrangement:
             line = self.lines.get(solved.node)
             if line and line.symbol in found and units.parse(line.unit).factor == 1:
                 self._settle(solved.node, line.symbol, "Find", found[line.symbol], 1)
+        endless = CellFormulas({}).endless
         for table, sheet in zip(tables, sheets, strict=True):
             for n, column in enumerate(self.columns(table)):
                 line = self.lines.get(column) if column else None
                 if column is None or line is None or column in self.places or column.size == 1:
                     continue
-                if units.parse(table.columns[n].unit).factor == 1 and column.op not in ("take", "join"):
+                plain = units.parse(table.columns[n].unit).factor == 1 and column.op not in ("take", "join")
+                if plain and not endless(column):
                     self._settle(column, line.symbol, sheet, first, n)
                     self.own.add((table.number, n))
         self.sections = self._place_others(name)
@@ -120,7 +122,7 @@ class Arrangement:
                 if part not in names and part.operands:
                     names[part] = called(stated) + (f"_{m}" if len(check.parts) > 1 else "")
         sure = {each.sure: names.get(each.node, "root") for each in self.recording.found.values() if each.sure}
-        named = names.keys() | self.recording.graph.labels.keys() | sure.keys() | self.recording.lost
+        named = names.keys() | self.recording.graph.labels.keys() | sure.keys() | self.recording.lost.keys()
         placed = [node for node in needing_place(self._roots(), named, self.places) if node not in self.places]
         waiting = {node: node for node in placed}
         sections: dict[str, list[Line]] = {}
@@ -158,8 +160,10 @@ class Arrangement:
 
     def _section(self, title: str, lines: Sequence[Line], name: Callable[[str, str], str]) -> Section:
         single, fields = ([line for line in lines if (line.node.size > 1) == many] for many in (False, True))
-        others = self.recording.others.get(title, [])
-        others = [line for line in others if line.node.size == 1 or line.node in self.places]
+        others = [
+            *self.recording.others.get(title, []),
+            *(line for line in self.recording.lines.get(title, []) if not line.node.size),
+        ]
         section = Section(title, name(title, " lines"), single, {}, others)
         for n, line in enumerate(single):
             self._settle(line.node, line.symbol, section.listing, 2 + n, 1)
@@ -239,4 +243,4 @@ def needing_place(roots: Iterable[Node], named: Set[Node], places: Container[Nod
         if node.op in ("reduce", "at") and node.args[0].op != "input":
             placed.setdefault(node.args[0])
         weight[node], depth[node] = own, deep
-    return list(placed)
+    return [node for node in placed if node.size]

@@ -37,6 +37,24 @@ _OF_RANGE = {
 }  # fmt: skip
 _FIRST = np.zeros(1, np.intp)
 _ALONE = Rows(_FIRST, (), 0, alone=True)
+_INFINITE = "1E+307"  # stands for an infinite number, which is compared and chosen, and is else none
+_ENDLESS = ("max", "min", "neg", "abs", "where", "take", "join", "like", "sized", "at")  # may have it of their operands
+_COMPARING = {
+    "max",
+    "min",
+    "neg",
+    "abs",
+    "where",
+    "lt",
+    "le",
+    "gt",
+    "ge",
+    "eq",
+    "ne",
+    "and",
+    "or",
+    "not",
+}  # may take it
 _FAILS = {"sqrt", "asin", "acos", "atan2", "log", "div", "pow", "mod", "tan", "at"}  # may give an error value
 
 
@@ -46,7 +64,8 @@ class CellFormulas:
     ``first`` is the row of the first number of every column, ``counted`` the condition under which there are as many
     rows as columns have: no row has a number of another one's; ``inverse`` are the closed forms of found values, or the
     searches for the ``searched`` ones, ``sure`` the conditions under which those are all that is found. Where one that
-    is ``lost`` has an error value, it has the exported number. What is no number is #N/A.
+    is ``lost`` has an error value, or wherever it would be another number, it has the exported one. What is no number
+    is #N/A.
     """
 
     def __init__(
@@ -57,11 +76,12 @@ class CellFormulas:
         inverse: Mapping[Node, Node | None] = MappingProxyType({}),
         searched: Container[Node] = (),
         sure: Mapping[Node, Node] = MappingProxyType({}),
-        lost: Container[Node] = (),
+        lost: Mapping[Node, bool] = MappingProxyType({}),
     ) -> None:
         self.places, self.first, self.counted, self.inverse, self.searched = places, first, counted, inverse, searched
         self.sure, self.lost = sure, lost
         self._inputs: dict[Node, tuple[Node, ...]] = {}
+        self._endless: dict[Node, bool] = {}
         self._fixed: dict[Node, frozenset[Node]] = {}
 
     def formula(self, node: Node, factor: float = 1.0) -> str:
@@ -72,7 +92,7 @@ class CellFormulas:
         """Formula that shows a single number over ``factor``."""
         if node not in self.places:
             return self.formula(node, factor)
-        name = self.places[node].name
+        name = self._finite(node, self.places[node].name)
         return f"={_scaled(name, factor) if factor != 1.0 else name}"
 
     def formulas(self, node: Node, factor: float = 1.0) -> list[str]:
@@ -92,8 +112,24 @@ class CellFormulas:
         """Formulas that show all elements of a quantity over ``factor``."""
         place = self.places.get(node)
         if place and not place.aligned:
-            return [f"={_scaled(place.at(k), factor) if factor != 1.0 else place.at(k)}" for k in range(node.size)]
+            cells = [self._finite(node, place.at(k)) for k in range(node.size)]
+            return [f"={_scaled(cell, factor) if factor != 1.0 else cell}" for cell in cells]
         return [self.reference(node, factor)] * node.size if node in self.places else self.formulas(node, factor)
+
+    def endless(self, node: Node) -> bool:
+        """Whether the cells of a quantity may have the number that stands for an infinite one."""
+        for part in bottom_up([node], self._endless) if node not in self._endless else ():
+            ends = part.op == "reduce" and part.args[2] in ("max", "min", "nanmax", "nanmin")
+            if part.op in ("constant", "exported"):
+                self._endless[part] = bool(part.value.dtype.kind == "f" and np.isinf(part.value).any())
+            else:
+                over = written_of(part)[1:] if part.op == "where" else written_of(part)
+                self._endless[part] = (ends or part.op in _ENDLESS) and any(self._endless.get(x, False) for x in over)
+        return self._endless[node]
+
+    def _finite(self, node: Node, text: str) -> str:
+        """The text of a quantity as it is shown and computed with: none of an infinite number."""
+        return f"IF(ABS({text})<{_INFINITE},{text},NA())" if self.endless(node) else text
 
     def _fill(self, texts: list[str], node: Node, rows: Index, factor: float) -> None:
         rows_alike = Rows(rows, node.shape, self.first)
@@ -152,7 +188,7 @@ class CellFormulas:
     def _operation(self, node: Node, at: Index, rows: Rows) -> tuple[str, int]:
         if node in self.lost:
             kept = self._as_exported(node, self._inputs_under(node), at, rows)
-            return kept if passes_over(node) else (f"IFERROR({self._of_known(node, at, rows)[0]},{kept[0]})", 5)
+            return kept if self.lost[node] else (f"IFERROR({self._of_known(node, at, rows)[0]},{kept[0]})", 5)
         if passes_over(node) and (same := self.while_fixed(node)):
             return f"IF({same},{self._of_known(node, at, rows)[0]},NA())", 5
         return self._of_known(node, at, rows)
@@ -192,6 +228,8 @@ class CellFormulas:
                 return self._reduced(node, at, rows)
             case "at":
                 source, position = node.args
+                if not source.size:
+                    return "NA()", 5
                 where = self._element(position, _position(position.shape, node.shape, at), rows)[0]
                 return f"INDEX({self.places[source].range(0, source.size - 1)},{where}+1)", 5
             case "exported":
@@ -202,6 +240,10 @@ class CellFormulas:
         shape, texts = node.shape, []
         for operand, need in zip(node.args, needs, strict=True):
             text, tight = self._element(operand, _position(operand.shape, shape, at), rows)
+            if node.op == "finite" and self.endless(operand):
+                return f"IFERROR(ABS({text})<{_INFINITE},FALSE)", 5
+            if node.op not in _COMPARING and self.endless(operand):
+                text, tight = self._finite(operand, text), 5
             texts.append(f"({text})" if tight < need else text)
         if node.op == "neg" and "^" in texts[0] and tight < 5:  # -x^2 is (-x)^2 to a spreadsheet
             return f"-({texts[0]})", binding
@@ -216,6 +258,8 @@ class CellFormulas:
 
     def _reduced(self, node: Node, at: Index, rows: Rows) -> tuple[str, int]:
         source, groups, kind, _ = node.args
+        if not source.size:
+            return written(node.value.reshape(-1)[0]), 2
         place, chosen = self.places[source], [groups[k] for k in at.tolist()]
         if max(map(len, chosen)) > 1 and all((np.diff(group) == 1).all() for group in chosen):
             ends = [np.array([group[n] for group in chosen]) for n in (0, -1)]
@@ -226,6 +270,8 @@ class CellFormulas:
             cells = ",".join(members)
             one = f"CHOOSE({{{','.join(str(n + 1) for n in range(length))}}},{cells})"
         text, binding = _OF_RANGE[kind].format(cells, one), 2 if kind.startswith("arg") else 5
+        if kind in ("sum", "prod", "nansum") and self.endless(source):
+            text = f"IF(AND(MAX({cells})<{_INFINITE},MIN({cells})>-{_INFINITE}),{text},NA())"
         return self._while_counted(text, binding) if source.stretches and kind.startswith("nan") else (text, binding)
 
     def _while_counted(self, text: str, binding: int) -> tuple[str, int]:
@@ -350,7 +396,7 @@ def written(value: Any) -> str:
         return "TRUE" if value else "FALSE"
     x = float(value)
     if not math.isfinite(x):
-        return "NA()" if math.isnan(x) else f"{'-' if x < 0 else ''}1E+307"
+        return "NA()" if math.isnan(x) else f"{'-' if x < 0 else ''}{_INFINITE}"
     for text, known in _KNOWN.items():
         if x == known:
             return text

@@ -53,8 +53,9 @@ def write(book: Book, section: Section, formulas: SheetFormulas) -> None:
 def _elsewhere(line: Line, formulas: SheetFormulas) -> Sequence[Content]:
     """Where the column of a line stands, or its number."""
     place = formulas.arrangement.places.get(line.node)
-    if place and line.node.size > 1:
-        return (f"column {letters(place.column)} of {place.sheet}",)
+    if line.node.size != 1:
+        none = formulas.as_exported("no values", "not followed")
+        return (f"column {letters(place.column)} of {place.sheet}" if place else none,)
     return computed([formulas.reference(line.node)] if place else None, [float(line.node.value) + 0.0])  # no -0
 
 

@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 from mechsheet import units
 from mechsheet.quantities.lines import Line, leaves_of
-from mechsheet.quantities.node import Node, bottom_up, passes_over
+from mechsheet.quantities.node import Node, bottom_up
 from mechsheet.quantities.quantity import Quantity
 from mechsheet.workbook.arrangement import Arrangement
 from mechsheet.workbook.cell_formula import CellFormulas, written
@@ -83,7 +83,7 @@ class SheetFormulas:
     def kept(self, node: Node) -> bool:
         """Whether a quantity rests on numbers of the worksheet's own run."""
         for part in bottom_up([node], self._known) if node not in self._known else ():
-            own = part.op == "exported" or (part in self.recording.lost and passes_over(part))
+            own = part.op == "exported" or self.recording.lost.get(part, False)
             own |= part.op == "found" and self._inverse.get(part) is None
             self._known[part] = own or any(self._known[operand] for operand in part.operands)
         return self._known[node]
@@ -158,7 +158,10 @@ class SheetFormulas:
         if check is None:
             return None
         places, reference = self.arrangement.places, self._cells.reference
-        parts = [places[p].range(0, p.size - 1) if p.size > 1 else reference(p)[1:] for p in check.parts]
+        parts = [
+            places[p].range(0, p.size - 1) if p.size > 1 else reference(p)[1:] if p.size else "NA()"
+            for p in check.parts
+        ]
         largest = parts[0] if check.signed else f"MAX({','.join(parts)})"
         factor = units.parse(check.unit).factor
         residual = f"={largest}" + (f"/{factor!r}" if factor != 1 else "")

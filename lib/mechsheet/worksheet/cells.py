@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 
 from mechsheet.worksheet import mistakes, source
-from mechsheet.worksheet.check import checks_of, refuse_open
+from mechsheet.worksheet.check import STATED, checks_of, refuse_open, stating
 from mechsheet.worksheet.errors import SheetError, as_given, raised
 from mechsheet.worksheet.no_inputs import NoInputs, declared_in, in_a_cell
 from mechsheet.worksheet.source import bound, constant, functions, is_app, parsed, texts
@@ -73,7 +73,7 @@ class Worksheet:
 
     def _run(self, cells: Iterable[Cell], given: Mapping[str, Any]) -> dict[str, Any]:
         names = {**self.common, **given}
-        with raised(), np.errstate(**self.errors):
+        with raised(), np.errstate(**self.errors), stating() as names[STATED]:
             for cell in cells:
                 try:
                     exec(cell.code, names)
@@ -83,9 +83,11 @@ class Worksheet:
                         self.close(given)
                     if isinstance(error, StopIteration):  # which would end a loop of who calls
                         raise SheetError(mistakes.told(error, self.path)) from error
-                    if not _is_stop(error):
-                        raise
-                    raise SheetError(f"cell {cell.name} stopped before its end") from None
+                    if _is_stop(error):
+                        raise SheetError(f"cell {cell.name} stopped before its end") from None
+                    if isinstance(error, SystemExit) and not error.code and (line := mistakes.left(error, self.path)):
+                        raise SheetError(f"{line}: the worksheet ends there, before its checks and workbook") from None
+                    raise
         return names
 
     def close(self, given: Mapping[str, Any]) -> None:
@@ -140,11 +142,13 @@ class Worksheet:
             order.append(cell)
 
         for name in want:
-            if (root := base(name)).isidentifier():
+            if (root := base(name)) in known or root in givers:
                 ask(root)
                 continue
             checking = [cell for cell in self.cells if any(re.fullmatch(check, name) for check in cell.checks)]
-            if not checking:
+            if not checking and root.isidentifier():
+                ask(root)
+            elif not checking:
                 raise _no_check(name, (check.replace("\\", "") for c in self.cells for check in c.checks))
             for cell in checking:
                 if cell not in order:
@@ -185,7 +189,7 @@ def asked(want: Iterable[str]) -> tuple[str, ...]:
 def value(want: str, names: Mapping[str, Any]) -> Any:
     """A wanted result in the namespace of a run: a name, a part of one, or the check of that name."""
     root, part = split(want)
-    if not root.isidentifier():
+    if not root.isidentifier() or (isinstance(names, dict) and root not in names):
         found = {check.name: check for check in checks_of(names)}
         if want not in found:
             raise _no_check(want, found)
@@ -339,10 +343,17 @@ def _cells(tree: ast.Module, text: str, path: Path) -> Iterator[Cell]:
         yield Cell(node.name, needs, gives[n], checks, tuple(lines), code, certain, section, closing)
 
 
+_MARKS = ("cell", "function", "class_definition")  # what stands above what marimo reads
+
+
 def _refuse_unread(tree: ast.Module, path: Path) -> None:
-    """Raise SheetError for a cell that the editor keeps as a text, because it is no Python."""
+    """Raise SheetError for a cell that the editor keeps as a text, because it is no Python, and one without a mark."""
     for node in tree.body:
         match node:
+            case ast.FunctionDef() | ast.ClassDef() if not any(is_app(d, _MARKS) for d in node.decorator_list):
+                mark = "@app.class_definition" if isinstance(node, ast.ClassDef) else "@app.cell"
+                place = mistakes.place(path, node.lineno)
+                raise SheetError(f"{place}: {node.name} belongs to no cell: write {mark} in a line of its own above it")
             case ast.Expr(ast.Call(ast.Attribute(attr="_unparsable_cell"), [ast.Constant(str(text)), *_])):
                 try:
                     ast.parse(dedent(text))

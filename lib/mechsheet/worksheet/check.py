@@ -1,6 +1,8 @@
 """Checks as values: a residual against its limit, with a verdict: pass, FAIL or not evaluated."""
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from contextvars import ContextVar
 from dataclasses import dataclass, replace
 from math import isnan
 from typing import Any, overload
@@ -42,6 +44,8 @@ class Check(Shown):
 
     @property
     def passed(self) -> bool:
+        if (stated := _stated.get()) is not None:
+            stated.pop(id(self), None)  # who reads a verdict uses it: it is no statement that is forgotten
         return self.residual <= self.limit
 
     @property
@@ -94,6 +98,38 @@ class Check(Shown):
         compared = f": {said}{numbers.suffix(self.unit)}" if self.evaluated else ""
         part = f", {self.utilised}" if self.utilised else ""
         return f"{self.verdict}  {self.name}{compared}{part}" + (f"; {self.reason}" if self.reason else "")
+
+
+STATED = "_stated"  # name in the namespace of a run of the checks that it has stated
+_stated: ContextVar[dict[int, Check] | None] = ContextVar("stated", default=None)
+
+
+@contextmanager
+def stating() -> Iterator[dict[int, Check]]:
+    """Checks that are stated within, by whatever number, but for those whose verdict is read there."""
+    token = _stated.set(made := dict[int, Check]())
+    try:
+        yield made
+    finally:
+        _stated.reset(token)
+
+
+def _state(check: Check) -> Check:
+    if (stated := _stated.get()) is not None:
+        stated[id(check)] = check
+    return check
+
+
+def unkept(names: Mapping[str, Any], kept: Iterable[Any]) -> list[Check]:
+    """Checks that a run has stated and that are not among what its cells give and show; ``names`` are its namespace.
+
+    Raises SheetError where several that differ have one name.
+    """
+    own, found = {check.name for check in kept if isinstance(check, Check)}, dict[str, Check]()
+    for check in names.get(STATED, {}).values():
+        if found.setdefault(check.name, check) != check and not isnan(check.residual):
+            raise SheetError(f"two checks are called {check.name!r}: give each a name of its own")
+    return [check for name, check in found.items() if name not in own]
 
 
 def checks_of(names: Mapping[str, Any]) -> list[Check]:
@@ -150,6 +186,8 @@ def check(name: str, residual: ArrayLike, limit: float, unit: str = "-", of: Arr
     """
     if of is None:
         return judged(name, residual, limit, unit)
+    if isinstance(of, np.ndarray | list | tuple) and not np.size(of):
+        return judged(name, (), limit, unit)
     size = float(np.max(np.abs(of), initial=0.0))
     return judged(name, residual, limit * size, unit, size, limit <= _AGREED)
 
@@ -158,7 +196,10 @@ def judged(name: str, residual: ArrayLike, limit: float, unit: str, size: float 
     """Check of a residual, of two computations of a quantity of that size; all in SI. Whether its limit ``tells``."""
     of = f"check {name if isinstance(name, str) else as_given(name)}"
     texts(of, name=name, unit=unit)
-    if np.asarray(residual).dtype.kind not in "biufc":
+    if np.asarray(residual).dtype.kind == "b" or isinstance(limit, bool | np.bool_):
+        told = "a condition, which is no number: give what must be at most the limit"
+        refuse(SheetError(f"{of}: its {'limit' if isinstance(limit, bool | np.bool_) else 'residual'} is {told}"))
+    if np.asarray(residual).dtype.kind not in "iufc":
         refuse(SheetError(f"{of}: its residual must be numbers, not {as_given(residual)}"))
     if np.ndim(limit) or np.asarray(limit).dtype.kind not in "biuf":
         refuse(SheetError(f"{of}: its limit must be one number, not {as_given(limit)}"))
@@ -171,8 +212,10 @@ def judged(name: str, residual: ArrayLike, limit: float, unit: str, size: float 
     elif not tells:
         compared, least = (numbers.significant(x / factor, 2) for x in (size, limit))
         reason = f"the limit, {least}, is more than a thousandth of what is compared, {compared}{numbers.suffix(unit)}"
+    elif np.isinf(limit):
+        reason = "its limit is infinite"
     residual = np.nan if reason else float(np.max(sizes)) / factor
-    return Check(name, residual, limit / factor, unit, reason, agreement=bool(np.isfinite(size)))
+    return _state(Check(name, residual, limit / factor, unit, reason, agreement=bool(np.isfinite(size))))
 
 
 def balance(
@@ -211,9 +254,11 @@ def check_slope(
     of the slope it would tell nothing.
     """
     if not hi > lo or not np.size(x):
-        return Check(name, np.nan, 0.0, unit, "there is nothing to check: the range is empty")
+        return _state(Check(name, np.nan, 0.0, unit, "there is nothing to check: the range is empty"))
     if np.ndim(slope) > np.ndim(x):
-        return Check(name, np.nan, 0.0, unit, "several variants at once: the slope of each is checked in its own run")
+        return _state(
+            Check(name, np.nan, 0.0, unit, "several variants at once: the slope of each is checked in its own run")
+        )
     if not takes_arrays(of_one(f), x[None, [0, -1]], ()):
         f = each_alone(f, ())
     ends = np.where(x == lo, 1, np.where(x == hi, -1, 0))
@@ -267,7 +312,9 @@ def assembled(name: str, point: ArrayLike, over: ArrayLike, reaches: tuple[Any, 
     measured(unit, f"check {name}")
     lost = np.isnan(point)
     count = np.count_nonzero(lost) if lost.size else np.nan
-    return Check(name, float(count), 0, "open positions", _open(lost, over, reaches, what, unit), essential=True)
+    return _state(
+        Check(name, float(count), 0, "open positions", _open(lost, over, reaches, what, unit), essential=True)
+    )
 
 
 def require(point: ArrayLike, over: ArrayLike, reaches: tuple[Any, Any], what: str, unit: str) -> None:

@@ -40,6 +40,8 @@ def renamed(path: Path, old: str, new: str, scenes: Mapping[Path, str]) -> dict[
         raise SheetError(f"{as_given(old)} is no symbol of {path.name}" + (f"; nearest: {near[0]}" if near else ""))
     if not new.isidentifier() or keyword.iskeyword(new):
         raise SheetError(f"{as_given(new)} is no name: it must be letters, digits and _, first a letter")
+    if new.startswith("_"):
+        raise SheetError(f"{new} begins with _: such a name stays within its cell")
     text = path.read_text(encoding="utf-8")
     for token in _tokens(text):
         if token.type == tokenize.NAME and token.string == new:

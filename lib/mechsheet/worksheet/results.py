@@ -72,7 +72,7 @@ def limited(values: Iterable[Any], limits: Mapping[str, Limit], namespace: Mappi
     judged, more = list(values), list[Check]()
     held = {check.name: check for check in judged if isinstance(check, Check)}
     for name, limit in limits.items():
-        if base(name).isidentifier():
+        if base(name).isidentifier() and (name not in held or name in namespace):
             more += _checks(name, limit, namespace)
             continue
         check = held[name] if name in held else value(name, namespace)
