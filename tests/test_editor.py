@@ -452,8 +452,7 @@ def test_a_unit_that_declares_nothing_and_what_only_a_last_line_would_show_are_t
     called = "check('own', 1.0, 2.0)\ntypeset()"
     shown = "'a text alone'\nE = 1  # [m] one\ntypeset()\ntable_1"
     cells = source.of_texts(tuple((text, "") for text in (inside, looped, bare, called, shown)))
-    stands = "it stands behind the end of what a line of a cell binds, in a choice on all its ways"
-    nothing = f"the unit says nothing here: {stands}"
+    nothing = "this [unit] is read by nobody: it is read behind NAME = FORMULA, in a line of its own, not in a block"
     given = "is not shown: a cell shows its last line, so give it to typeset()"
     assert [tuple(told) for told in left_out(cells, {})] == [
         (0, 2, nothing),

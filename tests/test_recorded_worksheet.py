@@ -265,8 +265,8 @@ scaled = check("scaled", y - y.max(), 1e-9, of=y)"""
     sheet = cells.read(Path(sheet.path))
     names, recording = recorded(sheet)
     assert not recording.gaps
-    assert {name: check.listed for name, check in recording.checks.items()} == {
-        "within": False, "least": False, "sum": True, "scaled": False
+    assert {name: check.where for name, check in recording.checks.items()} == {
+        "within": "", "least": "", "sum": "at the listed positions", "scaled": ""
     }  # fmt: skip
     for given in ({}, {"a": 1.3}, {"F": 4.0, "a": 1.1}):
         own_checks = by_cells(sheet.path, ["within", "scaled"], **given)

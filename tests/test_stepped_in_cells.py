@@ -193,4 +193,4 @@ def test_cells_step_to_what_the_worksheet_finds(recalculated_all: Any, tmp_path:
     front = [row[0] for row in changed["Front"].iter_rows(values_only=True)]
     assert any("not sure that the worksheet finds the same" in str(text) for text in front)
     kinds = [row[9] for row in changed["Find"].iter_rows(min_row=3, values_only=True)]
-    assert kinds == ["Newton's steps from its guess"] * 2
+    assert kinds == ["Newton's steps from its guess"] * 3  # also of the unknown that no line takes

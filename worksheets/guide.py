@@ -317,6 +317,8 @@ def section_9():
     - A name means the cell of its own row. It is that of the worksheet without the `_S` of a field; a point has two,
       `X56` and `Y56`, a force `R56x` and `R56y`. A name that would be the address of a cell, or that differs from
       another in capitals only, gets a line behind it: `L3_`.
+    - All lines stand on sheets at the end, by sections and in SI units, with the steps that a cell of their own holds;
+      what a slider moves is that of its place at rest. A check that the cells look at in fewer places says where.
     - What is found is computed by its closed form where there is one, while that solves the equations. Else the cells
       search the interval of an equation of one unknown: where 97 places of it show a change of sign that is surely the
       one nearest the guess, or else the middle, there is a value. Of several unknowns with guesses they take the

@@ -233,9 +233,7 @@ def new(name: str, like: str = "") -> int:
 
     others = ["mechsheet", "marimo", "numpy", "scipy", "pandas", "altair", "openpyxl", "xlsxwriter", "mpmath", "flint"]
     if name in (*others, *getattr(sys, "stdlib_module_names", ())) or keyword.iskeyword(name):
-        raise refused(
-            f"name of the worksheet = {name!r} is one of Python's, for which others there would take the file"
-        )
+        raise refused(f"name of the worksheet = {name!r} is one of Python's: others there would take the file for it")
     ours, current = ROOT / "worksheets", Path.cwd()
     folder = ours if ours.is_dir() and ROOT in (current, *current.parents) else current
     path, here = folder / f"{name}.py", Path(__file__).resolve().parent

@@ -21,7 +21,7 @@ class LeftOut(NamedTuple):
     why: str
 
 
-_STANDS = "it stands behind the end of what a line of a cell binds, in a choice on all its ways"
+_UNREAD = "this [unit] is read by nobody: it is read behind NAME = FORMULA, in a line of its own, not in a block"
 
 
 def left_out(cells: Iterable[source.Cell], names: Mapping[str, Any]) -> Iterator[LeftOut]:
@@ -43,7 +43,7 @@ def left_out(cells: Iterable[source.Cell], names: Mapping[str, Any]) -> Iterator
         shown = [node for node in cells[n].body if not isinstance(node, ast.Return)][:-1]
         for node in cells[n].body:
             for line in undeclaring(cells[n], node):
-                yield LeftOut(n, line, f"the unit says nothing here: {_STANDS}")
+                yield LeftOut(n, line, _UNREAD)
             if node in shown and (name := _bare(node)):
                 yield LeftOut(
                     n, node.lineno, f"{name} is not shown: a cell shows its last line, so give it to typeset()"

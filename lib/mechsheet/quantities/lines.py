@@ -34,14 +34,14 @@ class Line:
 class Residual:
     """What a check compares, in SI: the largest of some magnitudes, or one signed number, with its limit.
 
-    Where it is ``listed`` it looks only at the positions that tables list, and the worksheet at all of them.
+    ``where`` it looks, if at some positions alone: those that tables list, where the worksheet looks at all of them.
     """
 
     parts: list[Node]
     limit: Node
     unit: str
     signed: bool = False
-    listed: bool = False
+    where: str = ""
 
 
 class Told(NamedTuple):

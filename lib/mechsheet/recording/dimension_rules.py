@@ -149,7 +149,7 @@ class Reader:
             function = self.places.function_called(line.expression)
             wrong = bool(function and self.unfit(function, node)) or self.unfit(line, node)
             if node.op not in ("constant", "rows", "input") and (
-                self.places.lines[line.name] == node.line or _is(self.codes[node], UNKNOWN, LITERAL)
+                self.places.lines.get(line.name) == node.line or _is(self.codes[node], UNKNOWN, LITERAL)
             ):
                 self.codes[node] = UNKNOWN if wrong and "erratum" not in line.meaning else unit
 
@@ -262,7 +262,7 @@ def _each(f: Callable[..., int], *codes: Codes) -> Codes:
     """A rule for each combination of the operands' dimensions."""
     if all(isinstance(c, int) for c in codes):
         return f(*codes)
-    base = 1 + max(int(np.max(c)) for c in codes)
+    base = 1 + max((int(np.max(c)) for c in codes if np.size(c)), default=0)
     key: Any = 0
     for c in codes:
         key = key * base + c

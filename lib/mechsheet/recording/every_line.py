@@ -61,7 +61,8 @@ def _note(run: Run, cell: Cell, name: str) -> None:
 
 def _plain(run: Run, value: Any) -> Quantity | None:
     """Plain numbers as a quantity."""
-    if isinstance(value, bool | int | float | complex | np.number | np.ndarray | np.bool_ | list | tuple):
+    several = isinstance(value, list | tuple) and all(isinstance(x, int | float | complex | np.number) for x in value)
+    if several or isinstance(value, bool | int | float | complex | np.number | np.ndarray | np.bool_):
         numbers = np.asarray(value)
         numbers = numbers.astype(float) if isinstance(value, int) and numbers.dtype.kind == "O" else numbers
         if numbers.dtype.kind in "buif":

@@ -60,7 +60,7 @@ class Places:
         match self.functions.get(formula.name):
             case ast.FunctionDef(body=[*_, last]) if formula.arguments:
                 return last.lineno
-        return self.lines[formula.name]
+        return self.lines.get(formula.name, formula.expression.lineno)
 
     def function_called(self, expression: ast.expr) -> Formula | None:
         """The function with a unit that an expression calls and is no more than that."""

@@ -107,7 +107,7 @@ class OfPositions(ABC):
             more = list(bottom_up(nodes, known))
             takes = sum(node.size for node in more if node.size > 1)
             if takes > left or any(node.op == "exported" for node in more):
-                recording.checks[name] = replace(own, listed=True)
+                recording.checks[name] = replace(own, where=own.where or "at the listed positions")
             else:
                 recording.checks[name], left = whole, left - takes
                 known.update(more)

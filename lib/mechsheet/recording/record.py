@@ -35,13 +35,15 @@ def record(
     does not hold keeps the numbers of the worksheet's own run, as nodes ``exported`` that know what they rest on;
     `Recording.gaps` says where and why. Where all tables list every so many positions, or ``every`` so many are asked
     for, only those are recorded, and all of them only for numbers that rest on all, such as an integral, and for checks
-    that take little more for it; the others are `Residual.listed`. Where it ``draws``, sliders are inputs too, named
+    that take little more for it; the others are `Residual.where`. Where it ``draws``, sliders are inputs too, named
     ``slider part``, and the drawings that cells show are recorded. With ``lists`` those among the inputs may have any
     length, with ``bodies`` the functions of the mechanics are in all their steps.
     """
     return _run(namespace, sheet, whole, known, every, draws, lists, bodies, want).recording
 
 
+@np.errstate(all="ignore")  # the worksheet's own run has warned
+@stating()  # and has stated its checks
 def record_every_line(namespace: Mapping[str, Any], sheet: Worksheet) -> Recording:
     """The recording of what is shown, and of the lines on which nothing of that rests too."""
     run = _run(namespace, sheet)
@@ -53,8 +55,8 @@ def record_every_line(namespace: Mapping[str, Any], sheet: Worksheet) -> Recordi
     return run.recording
 
 
-@np.errstate(all="ignore")  # the worksheet's own run has warned
-@stating()  # and has stated its checks
+@np.errstate(all="ignore")  # as above
+@stating()
 def _run(
     namespace: Mapping[str, Any],
     sheet: Worksheet | None,

@@ -205,7 +205,7 @@ def _attempts(
 ) -> Iterator[Outcome]:
     """Outcomes of the scenes in their order, computed here or by several processes."""
     if jobs == 1:
-        yield from (_attempt(sheet, file, options, out) for file in files)
+        yield from (attempt(sheet, file, options, out) for file in files)
         return
     from concurrent.futures import ProcessPoolExecutor  # on use: one process needs nothing of it
     from multiprocessing import get_context  # on use: as above
@@ -221,7 +221,7 @@ def _attempts(
 
 def _elsewhere(path: str, file: Path, options: Sequence[str], out: Path | None) -> tuple[Outcome, bool]:
     """Outcome of a scene without its inputs, whose class no other process knows, and whether they could be built."""
-    outcome = _attempt(load(path), file, options, out)
+    outcome = attempt(load(path), file, options, out)
     return replace(outcome, g=None), outcome.g is not None
 
 
@@ -231,7 +231,7 @@ def _inputs(sheet: Worksheet, file: Path, options: Sequence[str]) -> Any:
     return inputs.build(sheet.inputs, given.inputs)
 
 
-def _attempt(sheet: Worksheet, file: Path, options: Sequence[str], out: Path | None) -> Outcome:
+def attempt(sheet: Worksheet, file: Path, options: Sequence[str], out: Path | None) -> Outcome:
     """Outcome of the scene of a file; whatever goes wrong stays its own."""
     try:
         given = read([f"--scene={file}", *options], inputs.declared(sheet.inputs))

@@ -17,7 +17,7 @@ def main() -> None:
     if len(names) != 2:
         raise UsageError("rename takes a worksheet, a symbol and its new name, such as hitch F_gc F_c")
     path, (old, new) = Path(worksheet), names
-    scenes = {scene: scene.read_text(encoding="utf-8") for scene in beside(path)}
+    scenes = {scene: text for scene in beside(path) if (text := _read(scene)) is not None}
     load(path)  # tells what cannot be read
     with usage():
         made = renamed(path, old, new, scenes)
@@ -31,6 +31,14 @@ def main() -> None:
                 save(held, file)
         raise
     say(*(f"written {file}" for file in made))
+
+
+def _read(scene: Path) -> str | None:
+    """The text of a file that may be a scene; None of one that is no text, and so none."""
+    try:
+        return scene.read_text(encoding="utf-8")
+    except UnicodeDecodeError:
+        return None
 
 
 if __name__ == "__main__":

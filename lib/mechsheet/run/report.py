@@ -71,6 +71,8 @@ def export(title: str, namespace: Mapping[str, Any]) -> Any:
     project whose worksheet it is, elsewhere beside the worksheet (or into ``--out``), and exits with 1 where a name
     that some cell returns does not exist or a check fails. Where a group does not close, nothing is written.
     """
+    if not (isinstance(title, str) and isinstance(namespace, dict) and "__file__" in namespace):
+        raise SheetError('export takes the title and the worksheet\'s names: export("Title", globals())')
     worksheet = Path(namespace["__file__"])
     if arguments.is_script(str(worksheet)):
         _script(title, namespace, worksheet)

@@ -96,10 +96,15 @@ def _run(worksheet: str) -> None:
 def _warn(
     worksheet: Path, otherwise: Callable[..., None], message: Warning, kind: Any, file: str, line: int, *more: Any
 ) -> None:
-    """Tell a warning about a line of the worksheet in one line as a mistake in it is told."""
+    """Tell a warning about a line of the worksheet, or of what that calls, in one line as a mistake in it is told."""
     if Path(file).resolve() != worksheet:
-        otherwise(message, kind, file, line, *more)
-        return
+        frame = sys._getframe(1)
+        while frame and Path(frame.f_code.co_filename).resolve() != worksheet:
+            frame = frame.f_back  # type: ignore[assignment]
+        if not frame:
+            otherwise(message, kind, file, line, *more)
+            return
+        line = frame.f_lineno
     from mechsheet.worksheet import mistakes  # on use: most runs warn of nothing
 
     text = worksheet.read_text(encoding="utf-8").splitlines()

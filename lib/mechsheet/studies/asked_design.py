@@ -15,14 +15,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mechsheet import units
-from mechsheet.run import arguments, report
+from mechsheet.run import arguments, batch, report
 from mechsheet.run.ending import say, watch
 from mechsheet.run.progress import progress
 from mechsheet.studies import design, refined
 from mechsheet.studies.sensitivity import continuous, point, solved
 from mechsheet.studies.sweep import Sweep, sweep
 from mechsheet.worksheet import inputs, numbers
-from mechsheet.worksheet.cells import base, load, value
+from mechsheet.worksheet.cells import Worksheet, base, load, value
 from mechsheet.worksheet.errors import SheetError, as_given
 from mechsheet.worksheet.find import find
 from mechsheet.worksheet.kinds import Input
@@ -320,6 +320,11 @@ def asked_design(
     return answer(worksheet, asked, generation)
 
 
+def _with_it(sheet: Worksheet, scene: Path) -> list[str]:
+    """Where the worksheet does not pass with the scene that is written: the search saw what it was asked for."""
+    return [f"with it: {problem}" for problem in batch.attempt(sheet, scene, [], None).problems]
+
+
 def main() -> None:
     """``python -m mechsheet.studies.asked_design WORKSHEET ..``"""
     worksheet, *options = sys.argv[1:]
@@ -331,7 +336,7 @@ def main() -> None:
     say(*found.inputs, *found.told)
     path = (asked.scene.out or report.folder(Path(sheet.path))) / f"{Path(sheet.path).stem}_designed.toml"
     report.write(found.scene.encode(), path)
-    say(f"written {path}")
+    say(f"written {path}", *_with_it(sheet, path))
 
 
 if __name__ == "__main__":

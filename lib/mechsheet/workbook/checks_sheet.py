@@ -41,7 +41,7 @@ def write(
         rows = [(within, Live(formulas.outside(), 0.0), 0.0)] if formulas.recording.inputs else []
         rows += [(c, *_compared(c, formulas, c.name in fixed)) for c in checks]
         if guard := formulas.guard():
-            rows.append((Check(_MADE, 0.0, 0.0), Live(guard, 0.0), 0.0))
+            rows.append((Check(_MADE, 0.0, 0.0, reason=formulas.looked()), Live(guard, 0.0), 0.0))
         listed += [
             (
                 _name(c, formulas),
@@ -86,7 +86,7 @@ def _title(passed: int, count: int) -> str:
 def _name(check: Check, formulas: SheetFormulas) -> str:
     """The name of a check, and whether it looks at fewer positions than that of the worksheet."""
     known = formulas.recording.checks.get(check.name)
-    return f"{check.name}, at the listed positions" if known and known.listed else check.name
+    return f"{check.name}, {known.where}" if known and known.where else check.name
 
 
 def _compared(check: Check, formulas: SheetFormulas, fixed: bool) -> tuple[Content, Content]:
@@ -98,6 +98,8 @@ def _compared(check: Check, formulas: SheetFormulas, fixed: bool) -> tuple[Conte
 
 
 def _reason(check: Check, formulas: SheetFormulas) -> Content:
+    if check.name == _MADE:  # which is of all inputs
+        return check.reason
     return formulas.as_exported(check.reason) if check.reason else ""
 
 

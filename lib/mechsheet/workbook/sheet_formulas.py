@@ -178,6 +178,11 @@ class SheetFormulas:
         texts = [f"IF({text},0,1)" for text in holds]
         return "=" + "+".join(sorted(texts)) if texts else ""
 
+    def looked(self) -> str:
+        """The lines of the worksheet whose code goes another way, or has other rows, where such a condition changes."""
+        lines = sorted({guard.line for guard in self.recording.guards.values() if guard.line})
+        return f"looked at in line{'s' * (len(lines) > 1)} {', '.join(map(str, lines))}" if lines else ""
+
     def mark(self, figure: str, label: str, unit: str) -> str | None:
         """Formula of the position that a figure marks; None where it is a plain number."""
         node = self.recording.marks.get(figure, {}).get(label)

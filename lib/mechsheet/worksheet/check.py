@@ -22,7 +22,7 @@ from mechsheet.worksheet.shown import Shown
 from mechsheet.worksheet.system import Solution
 from mechsheet.worksheet.verdict import is_heard, tell
 
-_AGREED = 1e-3  # of a quantity: what may differ by more has not been compared
+AGREED = 1e-3  # of a quantity: what may differ by more has not been compared
 
 
 @dataclass(frozen=True)
@@ -189,7 +189,7 @@ def check(name: str, residual: ArrayLike, limit: float, unit: str = "-", of: Arr
     if isinstance(of, np.ndarray | list | tuple) and not np.size(of):
         return judged(name, (), limit, unit)
     size = float(np.max(np.abs(of), initial=0.0))
-    return judged(name, residual, limit * size, unit, size, limit <= _AGREED)
+    return judged(name, residual, limit * size, unit, size, limit <= AGREED)
 
 
 def judged(name: str, residual: ArrayLike, limit: float, unit: str, size: float = np.inf, tells: bool = True) -> Check:
@@ -270,7 +270,7 @@ def check_slope(
     differences, error = derivative(f, x, step, ends, enough)
     rounding = 100 * float(np.finfo(float).eps * np.max(np.abs(f(x)))) / step
     limit = max(least, 10 * float(np.max(error)), rounding)
-    return judged(name, np.asarray(slope) - differences, limit, unit, size, limit <= _AGREED * size)
+    return judged(name, np.asarray(slope) - differences, limit, unit, size, limit <= AGREED * size)
 
 
 @overload

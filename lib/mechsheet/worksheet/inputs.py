@@ -3,6 +3,7 @@
 import ast
 import dataclasses
 import difflib
+import re
 import sys
 from collections.abc import Container, Iterable, Iterator, Mapping
 from dataclasses import dataclass
@@ -75,6 +76,7 @@ def _hash(self: Any) -> int:
     return hash(tuple(np.asarray(value).tobytes() for value in values))
 
 
+_LIMIT = re.compile(r",\s*([<>]=?\s*[\w.+-]+)\s*$")
 _LOST = '; the editor loses one that ends the setup cell, so end the class with a line such as """Rows."""'
 
 
@@ -104,6 +106,8 @@ def _declared(cls: type, cell: source.Cell, names: Mapping[str, Any]) -> tuple[I
         if not isinstance(node, ast.AnnAssign):
             continue
         name, place = ast.unparse(node.target), cell.at(line)
+        if name in places:
+            raise SheetError(f"{place}: input {name} stands in the class twice")
         kind, default = cls.__annotations__[name], vars(cls).get(name)
         kind = eval(kind, dict(names)) if isinstance(kind, str) else kind
         comment = cell.comments.get(line, "")
@@ -113,6 +117,8 @@ def _declared(cls: type, cell: source.Cell, names: Mapping[str, Any]) -> tuple[I
             raise SheetError(f"{place}: input {name} needs a comment with its unit, such as # [m] meaning{last}")
         unit, (meaning, *parts) = text.unit if text else "-", (text.meaning if text else comment).split(";")
         allowed, deviations = (";".join(p for p in parts if deviation.is_meant(p) is meant) for meant in (False, True))
+        if (misplaced := _LIMIT.search(meaning)) and text:
+            raise SheetError(f"{place}: {misplaced[1]} stands in the meaning of {name}: limits stand behind a ;")
         if kind is float and any(map(deviation.is_misplaced, (meaning, allowed))):
             raise SheetError(f"{place}: tolerance of {name} must stand behind a semicolon of its own, as in ; ± 0.001")
         within, mistake = tuple(limits.read(allowed, name, place)), text.mistake if text else ""

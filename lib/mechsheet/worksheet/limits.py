@@ -14,6 +14,7 @@ from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.kinds import Input, number
 
 MOST, LEAST = 1e60, 1e-60  # products of a few inputs of this size are still numbers
+_EXACT = 2**53  # up to it all whole numbers are floats
 _AT_MOST, _AT_LEAST = f"at most {numbers.significant(MOST, 6)} in size", f"at least {numbers.significant(LEAST, 6)}"
 _COMPARE = {"<": operator.lt, "<=": operator.le, ">": operator.gt, ">=": operator.ge}
 _LIMIT = re.compile(r"\s*(<=|>=|<|>)\s*([^\s<>=]+?),?(?=[\s<>]|$)")
@@ -76,7 +77,8 @@ def rules(fields: Iterable[Input], shown: Mapping[str, Any]) -> Iterator[tuple[A
             yield size < np.inf, say(field, "a finite number")
             yield size <= MOST, say(field, _AT_MOST)
         if field.whole:
-            yield np.rint(value) == value, say(field, "a whole number")
+            yield np.rint(np.asarray(value, float)) == value, say(field, "a whole number")
+            yield size <= _EXACT, say(field, f"at most {_EXACT} in size")
     for field in fields:
         value = shown[field.name]
         for sign, other in field.limits:

@@ -102,6 +102,8 @@ def unread(error: SyntaxError) -> str:
             "the file begins with a byte order mark (BOM), which Python's editors refuse: save it as UTF-8 without one"
         )
     text = (error.text or "").partition("#")[0]
+    if error.msg.startswith(("expected", "unexpected indent", "unindent")):  # which say enough
+        return error.msg
     return error.msg + next((f" ({hint})" for pattern, hint in _MEANT.items() if re.search(pattern, text)), "")
 
 

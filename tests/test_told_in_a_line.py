@@ -1,0 +1,109 @@
+"""Mistakes of who begins: each is one line that names what is wrong, and where; none passes without a word."""
+
+from pathlib import Path
+
+import pytest
+from as_script import as_command, as_script
+from openpyxl import load_workbook
+from own_worksheet import written
+from test_launcher import refusal
+
+from mechsheet.run import rename
+from mechsheet.studies import asked_design
+
+SETUP = "import numpy as np\nfrom mechsheet import ask, check, check_slope, export, find, inputs, read"
+GIVEN = "F: float = 1200.0  # [N] force; > 0\nL: float = 0.35  # [m] length; > 0\nn: int = 3  # [-] number; > 0"
+
+
+def worksheet(folder: Path, lines: str, given: str = GIVEN, end: str = "") -> Path:
+    path = folder / "told.py"
+    text = written(SETUP, given, lines, "Told")
+    path.write_text(text.replace('export("Told", globals())', end or 'export("Told", globals())'))
+    return path
+
+
+Y = "y = g.F  # [N] y"
+REFUSED = {
+    "export without the names": (Y, GIVEN, 'export("Told", {})', "export takes the title"),
+    "export the other way round": (Y, GIVEN, 'export(globals(), "Told")', "export takes the title"),
+    "an input twice": (Y, f"{GIVEN}\nF: float = 2.0  # [N] again", "", "input F stands in the class twice"),
+    "a limit behind a comma": (Y, "F: float = 5.0  # [N] force, > 10", "", "> 10 stands in the meaning of F"),
+    "no colon": ("def f(x)\n    return x", GIVEN, "", "def f(x): expected ':'"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("what", REFUSED)
+def test_what_is_refused(what: str, tmp_path: Path) -> None:
+    lines, given, end, said = REFUSED[what]
+    run = as_script(worksheet(tmp_path, lines, given, end))
+    assert run.returncode == 1 and len(run.stderr.splitlines()) == 1 and said in run.stderr, run.stderr
+    assert "is a * missing" not in run.stderr and not (tmp_path / "told.xlsx").exists()
+
+
+def test_a_whole_number_that_no_float_is_has_a_limit(tmp_path: Path) -> None:
+    run = as_script(worksheet(tmp_path, "y = g.n * g.F  # [N] y"), "--n=1e30")
+    assert "must be at most 9007199254740992 in size" in run.stderr, run.stderr
+
+
+def test_several_lines_behind_one_another_are_computed(tmp_path: Path) -> None:
+    run = as_script(worksheet(tmp_path, "y = g.F * g.L; z = 3  # [N*m] moment"))
+    assert run.returncode == 0, run.stderr
+
+
+def test_warnings_of_what_a_line_calls_are_told_at_the_line(tmp_path: Path) -> None:
+    """They named a file of numpy's, with a line of its source."""
+    run = as_script(worksheet(tmp_path, "x = g.L * np.arange(3)  # [m] x\ny = x[x > 99].mean()  # [m] mean"))
+    assert len(run.stderr.splitlines()) == 2, run.stderr
+    assert all("told.py, line 35, y = x[x > 99].mean(): " in line for line in run.stderr.splitlines()), run.stderr
+
+
+def test_units_that_do_not_fit_are_told_three_at_a_time_in_units_of_mechanics(tmp_path: Path) -> None:
+    lines = "\n".join(f"y_{k} = {k} * g.F * g.L  # [N] moment" for k in range(1, 6))
+    run = as_script(worksheet(tmp_path, lines))
+    assert run.stdout.count("does not fit; the value is in N·m") == 3 and "and 2 more" in run.stdout, run.stdout
+
+
+def test_a_proof_tells_what_does_not_exist(tmp_path: Path) -> None:
+    run = as_script(worksheet(tmp_path, "y = np.sqrt(g.L - 1)  # [-] none\nz = 2 * g.F  # [N] twice"), "--proof")
+    assert "1 of 2 do not exist" in run.stdout and "pass  every number proved" in run.stdout, run.stdout
+    run = as_script(worksheet(tmp_path, "y = np.sqrt(g.L - 1)  # [-] none"), "--proof")
+    assert run.returncode == 1 and "not evaluated  every number proved" in run.stdout, run.stdout
+
+
+def test_a_slope_is_looked_at_in_several_places(tmp_path: Path) -> None:
+    """A workbook looked at the middle position alone, and passed what is wrong beside it."""
+    lines = """x = np.linspace(0, 2 * g.L, 21)  # [m] places
+ok = check_slope("slope", 2 * g.F * x, lambda x: g.F * x**2, x, 0, 2 * g.L, "N*m")"""
+    assert as_script(worksheet(tmp_path, lines)).returncode == 0
+    names = [row[0] for row in load_workbook(tmp_path / "told.xlsx")["Checks"].iter_rows(values_only=True)]
+    assert "slope, at five of the positions" in names
+
+
+def test_a_condition_of_the_workbook_names_its_lines(tmp_path: Path) -> None:
+    lines = "w = 'many' if g.n > 2 else 'few'\ny = len(w) * g.F  # [N] by a text"
+    as_script(worksheet(tmp_path, lines))
+    rows = load_workbook(tmp_path / "told.xlsx")["Checks"].iter_rows(values_only=True)
+    assert any(str(row[0]).startswith("made for these inputs") and row[5] == "looked at in line 34" for row in rows)
+
+
+def test_a_file_that_is_no_text_is_no_scene_to_rename_in(tmp_path: Path) -> None:
+    path = worksheet(tmp_path, "y = g.F  # [N] y")
+    (tmp_path / "other.toml").write_bytes(b"\xff\xfe")
+    assert as_command(rename, path, "y", "w").returncode == 0 and "w = g.F" in path.read_text()
+
+
+def test_a_design_that_the_worksheet_refuses_is_told(tmp_path: Path) -> None:
+    """The scene was written without a word, and its run failed."""
+    path = worksheet(tmp_path, 'y = 2 * g.F  # [N] twice\nok = check("y", y, 2500, "N")')
+    run = as_command(asked_design, path, "--vary=F=500..2000", "--best=max y")
+    assert run.returncode == 0 and "with it: FAIL  y: 4000 <= 2500 N" in run.stdout, run.stdout + run.stderr
+
+
+def test_commands_that_would_harm_are_refused() -> None:
+    """A worksheet named as a module breaks all others beside it; a page without a password is everybody's."""
+    for name in ("platform", "numpy", "marimo", "random", "class"):
+        assert refusal("new", name).endswith("is one of Python's: others there would take the file for it")
+    told = "--host=0.0.0.0 shows the pages to whoever is on the network: give --password-file=FILE"
+    assert told in refusal("serve", "guide", "--host=0.0.0.0") and told in refusal("serve", "--host", "0.0.0.0")
+    for port in ("99999", "-1", "x"):
+        assert f"port = {port} must be a number from 1 to 65535" in refusal("edit", "guide", f"--port={port}")
