@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import pytest
 import written_cells
@@ -27,6 +27,7 @@ WORKSHEETS = sorted((ROOT / "worksheets").glob("*.py"))
 EXPORTS = ROOT / "exports"
 
 ROUNDING = 1e-12  # of the largest number of its column: by so much a result may differ between processors
+LEFT = 1e-9  # of the largest number of its unit on a sheet: what is less is left of others
 SMALL = 0.1  # of their limit: residuals below are rounding, and may become any others that are as small
 FULL = -math.log10(sys.float_info.epsilon)  # digits of a number that is rounded once
 
@@ -144,6 +145,7 @@ KINDS: tuple[tuple[str, str, str, Alike], ...] = (
     (r"Residuals fields", r".*_but_for_whole_turns\b", r"", rounding),
     (r"Residuals fields", r"", r"", residual),  # a result where the column is no residual, and so has no limit
     (r".* fields\b", r"[FM]\d+[xy_]? \[", r"", residual),  # what is left of the forces or moments on a body
+    (r".* fields\b", r"N_[Fg](_\d+)? \[-?\]", r"", duration),  # evaluations that a Find takes
     (r"Front", r"", r"^error$", error),
     # Rounding chooses which of its results is the worst: the steps of an integrator end elsewhere.
     (r"7\.1 Digits", r"", r"^through dead centre$", duration),
@@ -204,7 +206,7 @@ def differences(old: Book, new: Book) -> Iterator[str]:
         return
     limits = _limits(old)
     for title, cells in old.items():
-        sizes = _sizes(cells)
+        sizes = _of_units(title, cells, _sizes(cells))
         for at in sorted({*cells, *new[title]}):
             x, y = cells.get(at), new[title].get(at)
             if x == y:
@@ -231,6 +233,22 @@ def _sizes(cells: Cells) -> dict[tuple[int, int], float]:
     for (_, column), size in own.items():
         largest[column] = max(size, largest.get(column, 0.0))
     return {at: largest[at[1]] for at in own}
+
+
+def _of_units(title: str, cells: Cells, sizes: dict[tuple[int, int], float]) -> dict[tuple[int, int], float]:
+    """The same on a sheet of lines, but of what is left of a sum that of the largest which measures the same."""
+    if title.startswith("Residuals") or not re.search(r" (lines|fields)\b", title):
+        return sizes
+    listing = _listing(cells)
+    units = {
+        at: cells[at[0], 3] if listing else cells.get((4, at[1])) for at in sizes if not listing or (at[0], 3) in cells
+    }
+    largest: dict[Any, float] = {}
+    for at, unit in units.items():
+        largest[unit] = max(sizes[at], largest.get(unit, 0.0))
+    return {
+        at: large if size < LEFT * (large := largest.get(units.get(at), size)) else size for at, size in sizes.items()
+    }
 
 
 def _compared(title: str, cells: Cells, at: tuple[int, int], limits: dict[str, float]) -> tuple[Alike, float]:
@@ -276,7 +294,8 @@ def _limits(book: Book) -> dict[str, float]:
             limits[of] = max(limits.get(of, 0.0), in_si[f"residual: {name}"])
     listed = book.get("Residuals lines", {})
     for (row, column), cell in listed.items():
-        if column == 4 and (of := str(cell.value).removeprefix("step of ")) in in_si:
+        of = str(cell.value).removeprefix("step of ").replace("limit: ", "residual: ", 1)
+        if column == 4 and of in in_si:
             limits[str(cell.value)] = limits[str(listed[row, 1].value)] = in_si[of]
     return limits
 

@@ -28,6 +28,8 @@ REFUSED = {
     "export the other way round": (Y, GIVEN, 'export(globals(), "Told")', "export takes the title"),
     "an input twice": (Y, f"{GIVEN}\nF: float = 2.0  # [N] again", "", "input F stands in the class twice"),
     "a limit behind a comma": (Y, "F: float = 5.0  # [N] force, > 10", "", "> 10 stands in the meaning of F"),
+    "an input in other letters": ("y = g.f  # [N] y", GIVEN, "", "there is no input f (did you mean F?)"),
+    "an input without g": ("y = 2 * L  # [m] y", GIVEN, "", "name L is not defined in any cell (did you mean g.L?"),
     "no colon": ("def f(x)\n    return x", GIVEN, "", "def f(x): expected ':'"),
 }  # fmt: skip
 
@@ -61,6 +63,12 @@ def test_units_that_do_not_fit_are_told_three_at_a_time_in_units_of_mechanics(tm
     lines = "\n".join(f"y_{k} = {k} * g.F * g.L  # [N] moment" for k in range(1, 6))
     run = as_script(worksheet(tmp_path, lines))
     assert run.stdout.count("does not fit; the value is in N·m") == 3 and "and 2 more" in run.stdout, run.stdout
+
+
+@pytest.mark.parametrize(("typed", "meant"), [("Nmm", "N*mm"), ("kNm", "kN*m"), ("Nm", "N*m"), ("KN", "kN")])
+def test_units_that_run_together_are_told_apart(typed: str, meant: str, tmp_path: Path) -> None:
+    run = as_script(worksheet(tmp_path, f"y = g.F * g.L  # [{typed}] moment"))
+    assert f"unit [{typed}] is not known; nearest: {meant}" in run.stdout, run.stdout
 
 
 def test_a_proof_tells_what_does_not_exist(tmp_path: Path) -> None:

@@ -169,7 +169,8 @@ def nearest(name: str) -> list[str]:
     if name[:1] == "K" and f"k{name[1:]}" in known:
         return [f"k{name[1:]}"]
     halves = ((name[:n], name[n:]) for n in range(1, len(name)))
-    if together := [f"{a}*{b}" for a, b in halves if a in known and b in (*BASE, *DEFINED)]:
+    plain = {*BASE, *DEFINED}
+    if together := [f"{a}*{b}" for a, b in halves if a in known and (b in plain or (b in known and a[-1].isupper()))]:
         return together
     alike = [n for n in known if n.lower() == name.lower()]
     common = [n for n in known if n in DEFINED or n in BASE or n[:1] in "umckMG"]

@@ -3,7 +3,7 @@
 import builtins
 import difflib
 import re
-from collections.abc import Iterable
+from collections.abc import Container, Iterable
 from pathlib import Path
 from traceback import walk_tb
 from types import FrameType
@@ -74,12 +74,15 @@ def told(error: BaseException, path: str) -> str:
     if not places:
         return why(error, known)
     line, text = places[-1][1], file.read_text(encoding="utf-8")
-    return f"{at(file, line, text.splitlines()[line - 1])}: {why(error, known, text)}"
+    given = {field.name for field in getattr(type(places[-1][0].f_globals.get("g")), "__inputs__", ())}
+    return f"{at(file, line, text.splitlines()[line - 1])}: {why(error, known, text, given)}"
 
 
-def why(error: BaseException, known: Iterable[str], text: str = "") -> str:
-    """An exception in words, with the ``known`` names; ``text`` is that of the worksheet or cell."""
+def why(error: BaseException, known: Iterable[str], text: str = "", inputs: Container[str] = ()) -> str:
+    """An exception in words, with the ``known`` names and those of the ``inputs``; ``text`` is that of the cell."""
     if isinstance(error, NameError) and error.name:
+        if error.name in inputs:
+            return f"the name {error.name} is not defined in any cell (did you mean g.{error.name}?)"
         if re.search(rf"^\s*(def {error.name}\(|{error.name}\s*(=[^=]|,[^(]*=))", text, re.MULTILINE):
             return f"{error.name} is defined below its use: move its line up"
         return undefined(error.name, (name for name in known if not name.startswith("_")))
@@ -129,5 +132,6 @@ _MEANT = {  # by the line that cannot be read
 
 
 def _near(name: str, known: Iterable[str]) -> str:
-    near = difflib.get_close_matches(name, list(known), n=1)
+    every = list(known)
+    near = [other for other in every if other.lower() == name.lower()] or difflib.get_close_matches(name, every, n=1)
     return f" (did you mean {near[0]}?)" if near else ""
