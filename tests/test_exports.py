@@ -284,7 +284,7 @@ def _limits(book: Book) -> dict[str, float]:
     in_si = {}
     checks = book["Checks"]
     for row in range(3, 1 + max(row for row, _ in checks)):
-        name = re.sub(", at (the listed|the middle|five of the) positions?$", "", str(checks[row, 1].value))
+        name = re.sub(", at (the listed|the middle|three of the) positions?$", "", str(checks[row, 1].value))
         limit = checks[row, 3].value
         limits[str(checks[row, 1].value)] = limits[name] = float(limit or 0)
         unit = re.search(r"/(\d[\d.E-]*)$", str(checks[row, 2].written))

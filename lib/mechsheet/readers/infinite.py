@@ -3,6 +3,7 @@
 A cell holds no infinite number and has an error value there. What is next to a whole number is that to LibreOffice.
 """
 
+import math
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
@@ -26,18 +27,25 @@ def lose(recording: Recording) -> None:
     `Recording.lost` are these quantities, `Recording.unsolved` says where they stand.
     """
     shown = [*_shown(recording)]
-    beside = {node for node in bottom_up(shown, ()) if _is_beside(node)}
-    recording.lost = {node: passes_over(node) for node in lost(shown)} | dict.fromkeys(beside, True)
-    for nodes, why in ((recording.lost.keys() - beside, _WHY), (beside, _BESIDE)):
-        lines = {node.line: dict.fromkeys(_named(recording, node)) for node in nodes}
+    nodes = [*bottom_up(shown, ())]
+    beside = {node for node in nodes if node.op in _WHOLE and _is_beside(node)}
+    behind = lost(shown) if any(map(_is_infinite, nodes)) else ()
+    recording.lost = {node: passes_over(node) for node in behind} | dict.fromkeys(beside, True)
+    for told, why in ((recording.lost.keys() - beside, _WHY), (beside, _BESIDE)):
+        lines = {node.line: dict.fromkeys(_named(recording, node)) for node in told}
         recording.unsolved += (Gap((*names,) or ("a step",), line, why) for line, names in sorted(lines.items()))
+
+
+def _is_infinite(node: Node) -> bool:
+    values = node.value
+    if values.dtype.kind != "f":
+        return False
+    return math.isinf(values.item()) if values.size == 1 else not np.isfinite(values).all()
 
 
 @np.errstate(all="ignore")
 def _is_beside(node: Node) -> bool:
     """Whether it is by the rounding of its operands alone that a number is whole, or two compare as they do."""
-    if node.op not in ("floor", "round", "mod", *_COMPARED):
-        return False
     x, *others = (np.asarray(part.value, float) for part in node.args)
     if node.op in _COMPARED:
         size = np.maximum(np.abs(x), np.abs(others[0]))
@@ -49,6 +57,7 @@ def _is_beside(node: Node) -> bool:
 
 
 _COMPARED = ("eq", "ne")  # pieces that others part are mostly alike where they meet
+_WHOLE = {"floor", "round", "mod", *_COMPARED}
 
 
 def _shown(recording: Recording) -> Iterator[Node]:

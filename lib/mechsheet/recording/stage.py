@@ -196,14 +196,14 @@ class Stage:
         """
         graph, slope, x = self.graph, lift(self.graph, slope), lift(self.graph, x)
         count, step, size = x.count(0), 0.002 * (hi - lo), abs(slope).max()
-        middle, some = count // 2, lift(graph, np.arange(1, 6)) * (count - 1) // 6
+        middle, some = count // 2, lift(graph, np.arange(1, 4)) * (count - 1) // 4
         seen_before = dict(graph.looked), dict(graph.numbered)
         try:
-            if x.extent[0] < 7:
+            if x.extent[0] < 5:
                 raise NotRecorded("few positions")
             fine, coarse = _differences(f, x[some], step)
-            own, where = slope[some] if slope.ndim else slope, "at five of the positions"
-        except (Exception, NotRecorded):
+            own, where = slope[some] if slope.ndim else slope, "at three of the positions"
+        except (Exception, NotRecorded):  # of whatever cannot take an array
             graph.looked, graph.numbered = seen_before
             fine, coarse = _differences(f, x[middle], step)
             own, where = slope[middle] if slope.ndim else slope, "at the middle position"

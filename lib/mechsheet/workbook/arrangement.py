@@ -71,7 +71,8 @@ class Arrangement:
             line = self.lines.get(solved.node)
             if line and line.symbol in found and units.parse(line.unit).factor == 1:
                 self._settle(solved.node, line.symbol, "Find", found[line.symbol], 1)
-        endless = CellFormulas({}).endless
+        self.finite = not any(n.op in ("constant", "exported") and np.isinf(n.value + 0.0).any() for n in under)
+        endless = CellFormulas({}, finite=self.finite).endless
         for table, sheet in zip(tables, sheets, strict=True):
             for n, column in enumerate(self.columns(table)):
                 line = self.lines.get(column) if column else None

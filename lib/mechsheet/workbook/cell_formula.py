@@ -65,7 +65,7 @@ class CellFormulas:
     rows as columns have: no row has a number of another one's; ``inverse`` are the closed forms of found values, or the
     searches for the ``searched`` ones, ``sure`` the conditions under which those are all that is found. Where one that
     is ``lost`` has an error value, or wherever it would be another number, it has the exported one. What is no number
-    is #N/A.
+    is #N/A. Of ``finite`` ones no number is infinite.
     """
 
     def __init__(
@@ -77,9 +77,10 @@ class CellFormulas:
         searched: Container[Node] = (),
         sure: Mapping[Node, Node] = MappingProxyType({}),
         lost: Mapping[Node, bool] = MappingProxyType({}),
+        finite: bool = False,
     ) -> None:
         self.places, self.first, self.counted, self.inverse, self.searched = places, first, counted, inverse, searched
-        self.sure, self.lost = sure, lost
+        self.sure, self.lost, self.finite = sure, lost, finite
         self._inputs: dict[Node, tuple[Node, ...]] = {}
         self._endless: dict[Node, bool] = {}
         self._fixed: dict[Node, frozenset[Node]] = {}
@@ -118,6 +119,8 @@ class CellFormulas:
 
     def endless(self, node: Node) -> bool:
         """Whether the cells of a quantity may have the number that stands for an infinite one."""
+        if self.finite:
+            return False
         for part in bottom_up([node], self._endless) if node not in self._endless else ():
             ends = part.op == "reduce" and part.args[2] in ("max", "min", "nanmax", "nanmin")
             if part.op in ("constant", "exported"):

@@ -36,6 +36,7 @@ class SheetFormulas:
             searched=searched,
             sure=sure,
             lost=self.recording.lost,
+            finite=arrangement.finite,
         )
         counted = [holds for holds, guard in self.recording.guards.items() if guard.rows]
         texts = sorted({self._cells.reference(holds)[1:] for holds in counted})
