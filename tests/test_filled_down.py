@@ -50,10 +50,6 @@ OF_SEVERAL = {
         "E_3": 2,  # the first one is none, behind it sums so far
         "size_13": 3,  # reactions
     },
-    "bolted_joint": {  # five of ten positions
-        f"Phi_is_the_slope_of_the_bolt_force{end}": 3
-        for end in ("", *(f"_{n}" for n in range(1, 9)), *(f"_limit_{n}" for n in (2, 3, 4)))
-    },
     "slotted_link": {
         **dict.fromkeys(("guess_1", "size_1", "closed", "r_1", "slopes_14", "own_1"), 6),  # unknowns, equations
         "rates": 2,  # as the worksheet joins them
