@@ -4,6 +4,7 @@ import ast
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import lru_cache
+from itertools import chain
 from operator import attrgetter
 from typing import Any, NamedTuple
 
@@ -138,6 +139,17 @@ class Recording:
         for part in _parts_of(name, value, line):
             if self.names.get(part.node) != part.symbol:
                 self.others.setdefault(section, []).append(part)
+
+    def shown(self) -> Iterator[Node]:
+        """What the tables, figures, checks, found values and marks are made of."""
+        columns = chain.from_iterable(self.tables.values())
+        yield from chain.from_iterable(column.parts for column in columns if column is not None)
+        for check in self.checks.values():
+            yield from (*check.parts, check.limit)
+        for solved in self.found.values():
+            yield from filter(None, (solved.node, solved.inverse, solved.residual))
+        for marks in self.marks.values():
+            yield from marks.values()
 
     def define_steps(self, section: str, solved: Solved) -> None:
         """Give the steps of a found value's closed form and residual their names."""

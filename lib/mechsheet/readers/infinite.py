@@ -26,14 +26,15 @@ def lose(recording: Recording) -> None:
 
     `Recording.lost` are these quantities, `Recording.unsolved` says where they stand.
     """
-    shown = [*_shown(recording)]
+    lines = (line.node for lines in recording.lines.values() for line in lines)
+    shown = [*lines, *recording.shown()]
     nodes = [*bottom_up(shown, ())]
     beside = {node for node in nodes if node.op in _WHOLE and _is_beside(node)}
     behind = lost(shown) if any(map(_is_infinite, nodes)) else ()
     recording.lost = {node: passes_over(node) for node in behind} | dict.fromkeys(beside, True)
     for told, why in ((recording.lost.keys() - beside, _WHY), (beside, _BESIDE)):
-        lines = {node.line: dict.fromkeys(_named(recording, node)) for node in told}
-        recording.unsolved += (Gap((*names,) or ("a step",), line, why) for line, names in sorted(lines.items()))
+        places = {node.line: dict.fromkeys(_named(recording, node)) for node in told}
+        recording.unsolved += (Gap((*names,) or ("a step",), line, why) for line, names in sorted(places.items()))
 
 
 def _is_infinite(node: Node) -> bool:
@@ -58,19 +59,6 @@ def _is_beside(node: Node) -> bool:
 
 _COMPARED = ("eq", "ne")  # pieces that others part are mostly alike where they meet
 _WHOLE = {"floor", "round", "mod", *_COMPARED}
-
-
-def _shown(recording: Recording) -> Iterator[Node]:
-    for line in (line for lines in recording.lines.values() for line in lines):
-        yield line.node
-    for columns in recording.tables.values():
-        yield from (part for column in columns if column is not None for part in column.parts)
-    for check in recording.checks.values():
-        yield from (*check.parts, check.limit)
-    for solved in recording.found.values():
-        yield from (node for node in (solved.inverse, solved.residual) if node)
-    for marks in recording.marks.values():
-        yield from marks.values()
 
 
 def _named(recording: Recording, node: Node) -> Iterator[str]:
@@ -103,8 +91,8 @@ def _errors(node: Node, errors: Mapping[Node, Values]) -> Values | None:
         return None
     under = [errors.get(operand) for operand in _read(node)]
     if all(part is None for part in under):
-        new = node.op in ELEMENTWISE and node.op not in (*_KEEPING, *SHAPED) and np.isinf(node.value)
-        return np.asarray(new) if np.any(new) else None
+        new = np.asarray(_made(node))
+        return new if new.any() else None
     masks = [np.zeros(x.shape, bool) if part is None else part for x, part in zip(_read(node), under, strict=True)]
     wrong = _over(node, masks)
     return wrong if wrong.any() else None
@@ -131,5 +119,9 @@ def _over(node: Node, masks: list[Values]) -> Values:
         case "reduce":
             groups: Any = node.args[1]
             return np.array([masks[0].reshape(-1)[group].any() for group in groups]).reshape(node.shape)
-    new = np.isinf(node.value) if node.op in ELEMENTWISE and node.op not in (*_KEEPING, *SHAPED) else False
-    return np.broadcast_to(np.logical_or.reduce(np.broadcast_arrays(*masks)) | new, node.shape)
+    return np.broadcast_to(np.logical_or.reduce(np.broadcast_arrays(*masks)) | _made(node), node.shape)
+
+
+def _made(node: Node) -> Any:
+    """The elements in which an operation itself may make an infinite number."""
+    return node.op in ELEMENTWISE and node.op not in (*_KEEPING, *SHAPED) and np.isinf(node.value)

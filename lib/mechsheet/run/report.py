@@ -26,7 +26,7 @@ from mechsheet.run import arguments, ending
 from mechsheet.run.ending import say
 from mechsheet.run.proving import proof_of
 from mechsheet.workbook import inputs_sheet, writing
-from mechsheet.workbook.arrangement import left_out as too_long
+from mechsheet.workbook.arrangement import too_long
 from mechsheet.workbook.find_sheet import FoundRow
 from mechsheet.workbook.save import save
 from mechsheet.worksheet import index, inputs, mistakes, numbers, source

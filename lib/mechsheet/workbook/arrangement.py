@@ -57,7 +57,7 @@ class Arrangement:
         self.own: set[tuple[str, int]] = set()  # columns of tables that are the place of their quantity
         self.places: dict[Node, Place] = {}
         self.lines = {line.node: line for lines in recording.lines.values() for line in lines}
-        long = left_out(recording)
+        long = too_long(recording)
         self.own_lines = [line for line in declared(recording) if line.node.size and line not in long]
         self.last = [] if found else last_lines(recording, self.own_lines)
         self._names = DefinedNames()
@@ -188,16 +188,12 @@ def last_lines(recording: Recording, lines: Sequence[Line]) -> list[Line]:
     return [line for line in lines if line.node.size == 1 and line.node not in under]
 
 
-def left_out(recording: Recording) -> list[Line]:
+def too_long(recording: Recording) -> list[Line]:
     """Lines that rest on more numbers than a column shall have, of which nothing is needed for what is shown."""
-    columns = [column for columns in recording.tables.values() for column in columns if column is not None]
-    compared = [node for check in recording.checks.values() for node in (*check.parts, check.limit)]
-    told = [node for solved in recording.found.values() for node in (solved.node, solved.inverse, solved.residual)]
-    marked = chain.from_iterable(marks.values() for marks in recording.marks.values())
-    parts = chain.from_iterable(column.parts for column in columns)
-    shown = set(bottom_up([*parts, *compared, *filter(None, told), *marked], ()))
+    if not any(node.size > _LONG for node in recording.graph.nodes.values()):
+        return []
     lines, long = declared(recording), set[Node]()
-    for node in bottom_up([line.node for line in lines], shown):
+    for node in bottom_up([line.node for line in lines], set(bottom_up(recording.shown(), ()))):
         if node.size > _LONG or not long.isdisjoint(node.operands):
             long.add(node)
     return [line for line in lines if line.node in long]

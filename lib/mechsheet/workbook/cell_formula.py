@@ -40,21 +40,8 @@ _ALONE = Rows(_FIRST, (), 0, alone=True)
 _INFINITE = "1E+307"  # stands for an infinite number, which is compared and chosen, and is else none
 _ENDLESS = ("max", "min", "neg", "abs", "where", "take", "join", "like", "sized", "at")  # may have it of their operands
 _COMPARING = {
-    "max",
-    "min",
-    "neg",
-    "abs",
-    "where",
-    "lt",
-    "le",
-    "gt",
-    "ge",
-    "eq",
-    "ne",
-    "and",
-    "or",
-    "not",
-}  # may take it
+    *("max", "min", "neg", "abs", "where", "lt", "le", "gt", "ge", "eq", "ne", "and", "or", "not"),
+}  # which may take it
 _FAILS = {"sqrt", "asin", "acos", "atan2", "log", "div", "pow", "mod", "tan", "at"}  # may give an error value
 
 

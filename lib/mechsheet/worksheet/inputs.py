@@ -3,7 +3,6 @@
 import ast
 import dataclasses
 import difflib
-import re
 import sys
 from collections.abc import Container, Iterable, Iterator, Mapping
 from dataclasses import dataclass
@@ -76,7 +75,6 @@ def _hash(self: Any) -> int:
     return hash(tuple(np.asarray(value).tobytes() for value in values))
 
 
-_LIMIT = re.compile(r",\s*([<>]=?\s*[\w.+-]+)\s*$")
 _LOST = '; the editor loses one that ends the setup cell, so end the class with a line such as """Rows."""'
 
 
@@ -117,8 +115,8 @@ def _declared(cls: type, cell: source.Cell, names: Mapping[str, Any]) -> tuple[I
             raise SheetError(f"{place}: input {name} needs a comment with its unit, such as # [m] meaning{last}")
         unit, (meaning, *parts) = text.unit if text else "-", (text.meaning if text else comment).split(";")
         allowed, deviations = (";".join(p for p in parts if deviation.is_meant(p) is meant) for meant in (False, True))
-        if (misplaced := _LIMIT.search(meaning)) and text:
-            raise SheetError(f"{place}: {misplaced[1]} stands in the meaning of {name}: limits stand behind a ;")
+        if text and (misplaced := limits.misplaced(meaning)):
+            raise SheetError(f"{place}: {misplaced} stands in the meaning of {name}: limits stand behind a ;")
         if kind is float and any(map(deviation.is_misplaced, (meaning, allowed))):
             raise SheetError(f"{place}: tolerance of {name} must stand behind a semicolon of its own, as in ; ± 0.001")
         within, mistake = tuple(limits.read(allowed, name, place)), text.mistake if text else ""

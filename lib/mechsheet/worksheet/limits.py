@@ -17,7 +17,14 @@ MOST, LEAST = 1e60, 1e-60  # products of a few inputs of this size are still num
 _EXACT = 2**53  # up to it all whole numbers are floats
 _AT_MOST, _AT_LEAST = f"at most {numbers.significant(MOST, 6)} in size", f"at least {numbers.significant(LEAST, 6)}"
 _COMPARE = {"<": operator.lt, "<=": operator.le, ">": operator.gt, ">=": operator.ge}
+_BEHIND_A_COMMA = re.compile(r",\s*([<>]=?\s*[\w.+-]+)\s*$")
 _LIMIT = re.compile(r"\s*(<=|>=|<|>)\s*([^\s<>=]+?),?(?=[\s<>]|$)")
+
+
+def misplaced(meaning: str) -> str:
+    """A limit that stands at the end of a meaning, behind a comma; "" without one."""
+    found = _BEHIND_A_COMMA.search(meaning)
+    return found[1] if found else ""
 
 
 def read(text: str, field: str, place: str) -> Iterator[tuple[str, str]]:

@@ -55,7 +55,8 @@ def _places(error: BaseException, file: Path) -> list[tuple[FrameType, int]]:
 def left(error: SystemExit, path: str) -> str:
     """The line of a worksheet file by which its code ends the process; "" where something else does."""
     *_, frame = (frame for frame, _ in walk_tb(error.__traceback__))
-    file, places = Path(path).resolve(), _places(error, Path(path).resolve())
+    file = Path(path).resolve()
+    places = _places(error, file)
     if not places or frame.f_globals.get("__name__") not in ("_sitebuiltins", places[-1][0].f_globals.get("__name__")):
         return ""
     return at(file, places[-1][1], file.read_text(encoding="utf-8").splitlines()[places[-1][1] - 1])
