@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from conftest import until
+from conftest import drawn, until
 from playwright.sync_api import expect
 from test_page import HITCH, ready
 
@@ -188,6 +188,7 @@ def test_rows_side_by_side_have_room_whatever_unit_is_chosen(page) -> None:
         row => [row.getBoundingClientRect().left, row.offsetWidth])"""
 
     def parts() -> int:
+        drawn(page)  # the room that a part takes is measured on the way to each picture
         places = dict(page.evaluate(ends))
         at = sorted(places)
         assert all(a + places[a] <= b for a, b in pairwise(at)), "parts cover one another"
