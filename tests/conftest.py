@@ -23,6 +23,7 @@ import mpmath
 import numpy as np
 import pytest
 from hypothesis import settings
+from office import Office
 from openpyxl import load_workbook
 
 if TYPE_CHECKING:
@@ -44,10 +45,6 @@ settings.register_profile("search", max_examples=1000, derandomize=False, deadli
 settings.load_profile("repeatable")
 
 COMPUTING = ("numpy.", "mpmath.", "mechsheet.mechanics.", "mechsheet.studies.", "mechsheet.accuracy.")
-ALWAYS = """<?xml version="1.0" encoding="UTF-8"?>
-<oor:items xmlns:oor="http://openoffice.org/2001/registry">
-<item oor:path="/org.openoffice.Office.Calc/Formula/Load"><prop oor:name="OOXMLRecalcMode" oor:op="fuse">
-<value>0</value></prop></item></oor:items>"""
 SIZE: ViewportSize = {"width": 1280, "height": 1600}
 CHROMIUM_FLAGS = [
     "--no-sandbox",
@@ -117,31 +114,29 @@ def soffice() -> str:
     return program("LibreOffice", "soffice", "libreoffice")
 
 
-@pytest.fixture(scope="module")
-def recalculated_files(soffice: str, tmp_path_factory: pytest.TempPathFactory) -> Callable[[list[Path]], list[Path]]:
-    """Workbooks as LibreOffice saves them, started once, whatever values are stored in them."""
-    profile = tmp_path_factory.mktemp("profile")
-    (profile / "user").mkdir()
-    (profile / "user" / "registrymodifications.xcu").write_text(ALWAYS, encoding="utf-8")
-
-    def recalculate(paths: list[Path]) -> list[Path]:
-        out = tmp_path_factory.mktemp("recalculated")
-        kind = "xlsx:Calc MS Excel 2007 XML"
-        command = [soffice, f"-env:UserInstallation={profile.as_uri()}", "--headless", "--convert-to", kind]
-        command += ["--outdir", str(out), *map(str, paths)]
-        subprocess.run(command, check=True, capture_output=True, timeout=WITHIN * len(paths))
-        return [out / path.name for path in paths]
-
-    return recalculate
+@pytest.fixture(scope="session")
+def office(soffice: str, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Office]:
+    """A LibreOffice for all workbooks of this process."""
+    opened = Office(soffice, tmp_path_factory.mktemp("office"), WITHIN)
+    yield opened
+    opened.close()
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture
+def recalculated_files(office: Office, tmp_path: Path) -> Callable[[list[Path]], list[Path]]:
+    """Workbooks as LibreOffice saves them, whatever values are stored in them."""
+    out = tmp_path / "recalculated"
+    out.mkdir()
+    return lambda paths: office.computed(paths, out)
+
+
+@pytest.fixture
 def recalculated_all(recalculated_files: Callable[[list[Path]], list[Path]]) -> Callable[[list[Path]], list[Any]]:
     """Workbooks as LibreOffice computes them."""
     return lambda paths: [load_workbook(path, data_only=True) for path in recalculated_files(paths)]
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture
 def recalculated(recalculated_all: Callable[[list[Path]], list[Any]]) -> Callable[[Path], Any]:
     """Workbook as LibreOffice computes it, whatever values are stored in it."""
     return lambda path: recalculated_all([path])[0]

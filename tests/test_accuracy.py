@@ -645,14 +645,20 @@ def test_condition_from_end_to_end_is_that_of_runs_with_other_inputs(n, stem, wa
 def test_all_results_of_a_document_have_their_condition_and_keep_the_digits_it_leaves(conditions):
     tables, check = conditions
     assert [table.number for table in tables] == ["7.6", "7.7", "7.8"] and check.passed
-    for table, least, known in zip(tables, (130, 80, 40), (40, 15, 5), strict=True):
-        name, kappa, expected, kept, _ = (column.values for column in table.columns)
+    all_of = compared = 0
+    for table, least, derived, inputs in zip(tables, (130, 80, 40), (40, 15, 5), (4, 1, 1), strict=True):
+        name, kappa, expected, kept, against, _ = (column.values for column in table.columns)
         assert len(name) >= least and np.all(np.diff(kappa) <= 1e-6)
-        assert np.count_nonzero(np.isfinite(kept)) >= known and not np.any(kept < expected - 2)
+        assert np.count_nonzero(against == "50 digits") >= derived and np.count_nonzero(against == "") == inputs
+        assert np.array_equal(np.isnan(kept), against == "") and not np.any(kept < expected - 2)
+        own_forms = np.array([not re.search("_(printed|listing)$", each) for each in name])
+        all_of, compared = all_of + own_forms.sum(), compared + np.count_nonzero(own_forms & (against != ""))
         assert len(table.head(8).columns[0].values) == 8 and "the workbook holds all" in table.head(8).note
-    counts = [re.match(r"(\d+) of (\d+) results are compared with 50 digits", table.note) for table in tables]
-    compared, all_of = np.array([match.groups() for match in counts], int).sum(0)
-    assert f"of {compared} of {all_of} results" in check.name and compared >= 55
+        told = re.match(r"(\d+) of (\d+) results are compared with 50 digits by .*, (\d+) with what", table.note)
+        assert [int(n) for n in told.groups()] == [
+            np.count_nonzero(against == "50 digits"), len(name), np.count_nonzero(against == "balls")
+        ]  # fmt: skip
+    assert f"of {compared} of {all_of} results" in check.name and compared >= 240
     balance = {"F2", "F3", "F4", "F5", "F6", "F7", "F23", "F45", "F67", "M2", "M3", "M4", "M5", "M6", "M7"}
     none = set(re.findall(r"\w+", tables[0].note))
     assert balance <= none and none.isdisjoint(tables[0].columns[0].values), (

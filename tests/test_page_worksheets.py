@@ -46,10 +46,22 @@ def assert_fits_on_paper(page) -> None:
     page.emulate_media(media="null")
 
 
+def measured_once(folder: Path) -> Path:
+    """The accuracy worksheet without repeats and large sizes: a page shows any times as it shows these."""
+    text = (WORKSHEETS / "accuracy.py").read_text("utf-8")
+    for own, less in (("return 0.01", "return 1e-6"), ("sizes = (1, 10, 1000, 100_000)", "sizes = (1, 2, 3)")):
+        assert text.count(own) == 1, own
+        text = text.replace(own, less)
+    path = folder / "accuracy.py"
+    path.write_text(text, "utf-8")
+    return path
+
+
 @pytest.mark.parametrize("name", sorted(CHANGED))
-def test_opens_and_reacts(name, left_open):
+def test_opens_and_reacts(name, left_open, tmp_path):
     meaning, value = CHANGED[name]
-    page = left_open(next(WORKSHEETS.rglob(f"{name}.py")), "Excel workbook")
+    path = measured_once(tmp_path) if name == "accuracy" else next(WORKSHEETS.rglob(f"{name}.py"))
+    page = left_open(path, "Excel workbook")
     count = page.get_by_text(re.compile(r"^\d+ of \d+ checks pass$")).first
     count.wait_for()
     passed, checks = re.findall(r"\d+", count.text_content())
