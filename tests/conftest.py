@@ -45,7 +45,7 @@ settings.register_profile("search", max_examples=1000, derandomize=False, deadli
 settings.load_profile("repeatable")
 
 COMPUTING = ("numpy.", "mpmath.", "mechsheet.mechanics.", "mechsheet.studies.", "mechsheet.accuracy.")
-SIZE: ViewportSize = {"width": 1280, "height": 1600}
+SIZE: ViewportSize = {"width": 1280, "height": 1000}
 CHROMIUM_FLAGS = [
     "--no-sandbox",
     "--disable-gpu",
@@ -105,7 +105,15 @@ def program(what: str, *names: str) -> str:
 @pytest.fixture(scope="session")
 def chromium() -> str:
     """Path of a Chromium or Chrome."""
-    return program("Chromium", "chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome")
+    return program(
+        "Chromium",
+        "chromium-headless-shell",
+        "chromium",
+        "chromium-browser",
+        "google-chrome",
+        "google-chrome-stable",
+        "chrome",
+    )
 
 
 @pytest.fixture(scope="session")
