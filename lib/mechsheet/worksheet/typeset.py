@@ -34,13 +34,11 @@ def typeset(*shown: Any, display: Mapping[str, str] | None = None) -> "Typeset":
     """
     frame = sys._getframe(1)
     cell, here = source.cell(frame), frame.f_lineno
-    above = max((end for end in typeset_lines(cell) if end < here), default=0)
     try:
-        lines = [row for row in formulas(cell) if above < row.expression.lineno < here]
-        between = [text for text in source.standing(cell.body) if above < text.lineno < here]
+        lines, between = _above(cell, here)
     except SheetError as error:
         refuse(error)
-    rows = [displayed(row, display or {}) if isinstance(row, Formula) else row for row in lines]
+    rows = [displayed(row, display) if display and isinstance(row, Formula) else row for row in lines]
     values = tuple(frame.f_globals[row.name] if isinstance(row, Formula) and not row.again else None for row in rows)
     for row, value in zip(rows, values, strict=True):
         if isinstance(row, Formula) and not row.again and (why := no_number(row, value)):
@@ -58,10 +56,19 @@ def typeset(*shown: Any, display: Mapping[str, str] | None = None) -> "Typeset":
     return Typeset((), (), (*parts[1:], *shown))
 
 
+@lru_cache(maxsize=1000)
+def _above(cell: source.Cell, here: int) -> tuple[list[Formula | Given], list[ast.Constant]]:
+    """Lines and texts of a cell above a line, behind the typeset above that; SheetError of one that is not right."""
+    above = max((end for end in typeset_lines(cell) if end < here), default=0)
+    lines = [row for row in formulas(cell) if above < row.expression.lineno < here]
+    return lines, [text for text in source.standing(cell.body) if above < text.lineno < here]
+
+
 def no_number(row: Formula, value: Any) -> str:
     """Why the value of a line cannot have its unit: it is neither a number, nor an array of them, nor a function."""
-    computes = hasattr(value, "__array_ufunc__") and not isinstance(value, np.ndarray | np.generic)
-    if row.arguments or computes or isinstance(value, int | float | complex):
+    if row.arguments or isinstance(value, int | float | complex):
+        return ""
+    if hasattr(value, "__array_ufunc__") and not isinstance(value, np.ndarray | np.generic):  # computes
         return ""
     try:
         kind = np.asarray(value).dtype.kind
