@@ -11,7 +11,11 @@ from test_launcher import refusal
 from mechsheet.run import rename
 from mechsheet.studies import asked_design
 
-SETUP = "import numpy as np\nfrom mechsheet import ask, check, check_slope, export, find, inputs, read"
+HITCH = Path(__file__).parents[1] / "worksheets" / "hitch.py"
+SETUP = (
+    "import numpy as np\nfrom mechsheet import "
+    "ask, check, check_slope, export, find, inputs, largest_of, minerr, one_of, read, sweep"
+)
 GIVEN = "F: float = 1200.0  # [N] force; > 0\nL: float = 0.35  # [m] length; > 0\nn: int = 3  # [-] number; > 0"
 
 
@@ -23,6 +27,7 @@ def worksheet(folder: Path, lines: str, given: str = GIVEN, end: str = "") -> Pa
 
 
 Y = "y = g.F  # [N] y"
+SWEPT = f"y = sweep({str(HITCH)!r}, ['GS6', 'L4'], {{'P6': [25e3]}})['z']  # [-] y"
 REFUSED = {
     "export without the names": (Y, GIVEN, 'export("Told", {})', "export takes the title"),
     "export the other way round": (Y, GIVEN, 'export(globals(), "Told")', "export takes the title"),
@@ -30,6 +35,12 @@ REFUSED = {
     "a limit behind a comma": (Y, "F: float = 5.0  # [N] force, > 10", "", "> 10 stands in the meaning of F"),
     "an input in other letters": ("y = g.f  # [N] y", GIVEN, "", "there is no input f (did you mean F?)"),
     "an input without g": ("y = 2 * L  # [m] y", GIVEN, "", "name L is not defined in any cell (did you mean g.L?"),
+    "options that are names": (Y, 'side: str = one_of("push", "pull")', "", 'type is Literal["push", "pull"]'),
+    "options that are a list": (Y, 'side: str = one_of(["push", "pull"], "pull")', "", "one_of(options by their names"),
+    "a number for a function": ("y = find(g.F, 0.0, 1.0).value  # [-] y", GIVEN, "", "find takes a function of"),
+    "no function to make least": ("y = minerr(3, a=1.0).a  # [-] y", GIVEN, "", "minerr takes a function of what is"),
+    "no result of a sweep": (SWEPT, GIVEN, "", "'z' is no result of this sweep: it has GS6, L4"),
+    "largest of nothing": ("y = largest_of()  # [-] y", GIVEN, "", "largest_of() missing 1 required"),
     "no colon": ("def f(x)\n    return x", GIVEN, "", "def f(x): expected ':'"),
 }  # fmt: skip
 

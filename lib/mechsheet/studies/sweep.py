@@ -68,6 +68,8 @@ class Sweep:
     _values: dict[str, NDArray[Any]]
 
     def __getitem__(self, name: str) -> NDArray[Any]:
+        if name not in self._values:
+            raise SheetError(f"{as_given(name)} is no result of this sweep: it has {', '.join(self.names)}")
         return self._values[name]
 
     @property

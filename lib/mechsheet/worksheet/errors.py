@@ -76,6 +76,12 @@ def texts(of: str, **given: object) -> None:
             refuse(SheetError(f"{of}: its {name} must be a text between quotes, not {as_given(value)}"))
 
 
+def function(f: object, of: str) -> None:
+    """Refuse what is no function where one of the unknowns is asked for."""
+    if not callable(f):
+        raise SheetError(f"{of} takes a function of what is unknown, such as lambda x: x**2 - 2, not {as_given(f)}")
+
+
 @contextmanager
 def raised() -> Iterator[None]:
     """Let refusals raise, in a page too: a worksheet that is called as a function must not stop the cell that calls."""

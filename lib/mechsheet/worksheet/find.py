@@ -18,7 +18,7 @@ from mechsheet.mechanics.roots import Counted, Roots, all_roots, nearest_root, r
 from mechsheet.mechanics.rows import each_alone, of_one, takes_arrays
 from mechsheet.worksheet import numbers
 from mechsheet.worksheet.equations import Start
-from mechsheet.worksheet.errors import SheetError, measured
+from mechsheet.worksheet.errors import SheetError, function, measured
 from mechsheet.worksheet.system import Solution, solve
 from mechsheet.worksheet.verdict import Verdict, asks_values_only
 
@@ -283,6 +283,7 @@ def find(  # type: ignore[misc]
     >>> len(circle_and_parabola.solutions)
     2
     """
+    function(f, "find")
     if unknowns:
         if any(given is not None for given in (lo, hi, guess, branch, branches)):
             raise SheetError(f"find takes either an interval and a guess, or the unknowns {', '.join(unknowns)}")

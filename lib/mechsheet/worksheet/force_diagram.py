@@ -14,9 +14,9 @@ from mechsheet.worksheet.lines import registry
 from mechsheet.worksheet.title import SideBySide, side_by_side
 
 
-def largest_of(*fields: ArrayLike) -> Any:
+def largest_of(field: ArrayLike, *others: ArrayLike) -> Any:
     """Largest magnitude of the finite elements, 1 where there is none but zero: what a rounding error is a part of."""
-    sizes = np.concatenate([np.ravel(np.abs(field)) for field in fields])
+    sizes = np.concatenate([np.ravel(np.abs(each)) for each in (field, *others)])
     return np.max(sizes, initial=0, where=np.isfinite(sizes)) or 1.0
 
 
@@ -53,7 +53,7 @@ def cut_group(
     size = max((high - low).real, (high - low).imag)
     if not size > 0:
         return drawn
-    scale = part * size / largest_of(*(F for _, F, *_ in forces.values()))
+    scale = part * size / largest_of(0.0, *(F for _, F, *_ in forces.values()))
     room = [ends]
     for P, F, *other in forces.values():
         room += [np.ravel(P + sign * scale * np.asarray(F)) for sign in ((1, -1) if other else (1,))]

@@ -170,6 +170,10 @@ def _of_kind(plain: Input, kind: Any, default: Any, place: str, folder: str) -> 
     """The declaration of an input for the kind that its type says."""
     known = {field.name: getattr(plain, field.name) for field in dataclasses.fields(plain)}
     if isinstance(default, Offer):
+        if not isinstance(default.options, Mapping):
+            names = f'"{default.options}", "{default.name}"' if isinstance(default.options, str) else ".."
+            alone = f"of names alone the type is Literal[{names}]"
+            raise SheetError(f"{place}: {plain.name} is one_of(options by their names, one of these); {alone}")
         rows = list(default.options.values())
         if not rows or len({type(row) for row in rows}) > 1 or not hasattr(rows[0], "__properties__"):
             raise SheetError(f"{place}: options of {plain.name} must be objects of one class of inputs without values")

@@ -18,6 +18,7 @@ from mechsheet.mechanics.brackets import Array
 from mechsheet.mechanics.starts import Place, Seen, around, between, from_guess
 from mechsheet.worksheet import numbers
 from mechsheet.worksheet.equations import Asked, Start, Words, asked
+from mechsheet.worksheet.errors import function
 from mechsheet.worksheet.verdict import Verdict, asks_values_only
 
 _LISTED = 8  # solutions that the verdict lists
@@ -169,6 +170,7 @@ def minerr(
     >>> minerr(lambda a, b: (a + b, a + 2 * b, a + 3 * b), equals=(1, 2, 2), a=1.0, b=1.0).solved
     False
     """
+    function(f, "minerr")
     return solve(f, equals, unit, unknown_unit, unknowns, least=True)
 
 
