@@ -91,6 +91,32 @@ def test_no_number_stands_where_a_guard_is_broken(blank: Page, tmp_path: Path) -
     assert all(each == fresh for each, fresh in zip(here, there, strict=True) if not each[1])
 
 
+WORDED = """word = "much" if g.F > 3 else "little"
+letters = len(word)  # [-] counted by Python
+y = x * g.a  # [-] field
+table_2 = table("2", f"Forces, {word}", y)
+figure_2 = figure("2", f"Forces of {letters} letters", x, y)
+picture = caption("3", f"of {letters} letters")"""
+TEXTS = """() => [...document.querySelectorAll(".ms-caption, .ms-between")].map(
+  e => [e.textContent, e.querySelector("[data-reason]")?.dataset.reason ?? ""])"""
+
+
+def test_a_text_by_a_choice_stands_while_the_choice_is_the_same(blank: Page, tmp_path: Path) -> None:
+    """Titles, captions and texts between lines: any other input had emptied them."""
+    path = Path(own(tmp_path, WORDED).path)
+    text = path.read_text().replace("from mechsheet import ", "from mechsheet import caption, ", 1)
+    path.write_text(text.replace(" typeset()", ' typeset(f"A text of {letters} letters.", picture, table_2, figure_2)'))
+    sheet = load(path)
+    shown(blank, tmp_path / "a.html", sheet)
+    own_texts = blank.evaluate(TEXTS)
+    assert len(own_texts) == 4 and all("6 letters" in text or "little" in text for text, _ in own_texts)
+    shown(blank, tmp_path / "a.html", sheet, "a=1.5")
+    assert blank.evaluate(TEXTS) == own_texts
+    shown(blank, tmp_path / "a.html", sheet, "F=4")
+    for text, why in blank.evaluate(TEXTS):
+        assert "letters" not in text and "little" not in text and "another way" in why, text
+
+
 def test_a_field_tells_where_it_is_least_along_positions_that_no_input_changes(blank: Page, tmp_path: Path) -> None:
     """In each of the forms in which engineers write them: only one of them is a quantity in the recording."""
     lines = """p = np.arange(2.5, 360, 25) * math.pi / 180  # [deg] positions

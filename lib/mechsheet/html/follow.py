@@ -73,13 +73,14 @@ class Follower:
             for part in parts:
                 match part:
                     case Caption(number, title):
-                        told = self.recording.captions.get(number)
-                    case Text(title):
-                        told = self.recording.texts.get(n)
+                        told = [self.recording.captions.get(number)]
+                    case Text(title) | str(title):
+                        told = [*self.recording.texts.get(n, ())]
                     case _:
                         continue
-                if told and told.text.now == title and not self._sliders([guard.holds for guard in told.guards]):
-                    self.told[id(part)] = told
+                for each in filter(None, told):
+                    if each.text.now == title and not self._sliders([guard.holds for guard in each.guards]):
+                        self.told[id(part)] = each
 
     def follows(self, part: Any) -> bool:
         """Whether all that a control moves in a part is recorded."""
@@ -95,9 +96,10 @@ class Follower:
         own = list(showing.drawings(part))
         return bool(own) and all(id(drawing) in self.drawn for drawing in own)
 
-    def text(self, part: Text | Caption, shown: Callable[[str], str]) -> str:
+    def text(self, part: Text | Caption | str, shown: Callable[[str], str]) -> str:
         """HTML of a text, by what ``shown`` makes of one; what is recorded of it follows."""
-        told, own = self.told.get(id(part)), part.markdown if isinstance(part, Text) else part.title
+        own = part if isinstance(part, str) else part.markdown if isinstance(part, Text) else part.title
+        told = self.told.get(id(part))
         pieces = told and wording.pieces(told.text, shown, self.key)
         if not pieces:
             self._asked = []
@@ -119,14 +121,27 @@ class Follower:
 
     def own(self, shown: str, text: str = "") -> str:
         """What is shown for the run's inputs alone, unless it is a ``text`` as it stands in its cell."""
-        if text and any(text in constant for constant in self.texts):
+        if self._stands(text):
             return shown
         return f"<span{self.mark('own')}>{shown}</span>" if self.depends else shown
+
+    def _stands(self, text: str) -> bool:
+        """Whether the cell has a text as it is."""
+        return bool(text) and any(text in constant for constant in self.texts)
 
     def while_same(self, name: str, shown: str) -> str:
         """What is shown of a name while Python sees the same for it."""
         guards = self._guards(self.recording.looked.get(name, ()))
         return f"<div{self.mark('own', fixed=True, of=name, **guards)}>{shown}</div>" if guards else shown
+
+    def title(self, of: str, title: str) -> str:
+        """HTML of the title of a table or a figure, which holds while all its columns are known."""
+        nodes = dict.fromkeys(c.re for c in self.recording.tables.get(of, ()) if c is not None)
+        moving = [node for node in nodes if node.op != "constant"]
+        if self._stands(title) or not self.depends or not moving:
+            return self.own(escape(title), title)
+        guards = [[self.key(node), "", True] for node in moving]
+        return f"<span{self.mark('own', fixed=True, guards=guards)}>{escape(title)}</span>"
 
     @property
     def wanted(self) -> dict[str, Node]:

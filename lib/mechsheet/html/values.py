@@ -202,7 +202,7 @@ def _(value: Caption, page: Follower) -> str:
 
 
 def _caption(what: str, number: str, title: str, page: Follower) -> str:
-    return _titled(what, number, page.own(escape(title), title))
+    return _titled(what, number, page.title(number if what == "Table" else f"Fig {number}", title))
 
 
 def _titled(what: str, number: str, words: str) -> str:
@@ -230,7 +230,7 @@ def _(value: SideBySide, page: Follower) -> str:
 
 @html.register
 def _(value: str, page: Follower) -> str:
-    return f'<div class="ms-between">{page.own(markdown.html(value), value)}</div>'
+    return f'<div class="ms-between">{page.text(value, markdown.html)}</div>'
 
 
 @html.register

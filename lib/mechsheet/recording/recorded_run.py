@@ -145,18 +145,18 @@ class Run(OfPositions):
         for number, title in showing.captions(cell).items():
             if told := self.told(stage, title):
                 self.recording.captions[number] = told
-        if (text := showing.text(cell)) and (told := self.told(stage, text)):
-            self.recording.texts[self.sheet.cells.index(cell)] = told
+        said = (self.told(stage, text) for text in showing.texts(cell))
+        self.recording.texts[self.sheet.cells.index(cell)] = [*filter(None, said)]
         self.names.pop(showing.HERE, None)
         self.recording.drawings[self.sheet.cells.index(cell)] = found
 
     def told(self, stage: Stage, text: ast.expr) -> Said | None:
-        """A text with recorded numbers in it."""
+        """A text, with the recorded numbers in it; None of one that is not known."""
         self.step(stage, text.lineno, statement.facts(showing.bound(text), self.sheet.path), set())
-        self.lost.pop(showing.HERE, None)
-        value = self.names.pop(showing.HERE, None)
+        lost, value = self.lost.pop(showing.HERE, None), self.names.pop(showing.HERE, None)
         guards = *self.looked.get(showing.HERE, ()), *stage.guards.values()
-        return Said(value, guards) if isinstance(value, Written) else None
+        known = value if isinstance(value, Written) else Written((value,)) if isinstance(value, str) else None
+        return Said(known, guards) if known and not lost else None
 
     def step(self, stage: Stage, line: int, facts: statement.Statement, later: set[str]) -> None:
         """Run one statement; where it cannot be recorded, its names keep the numbers of the worksheet's own run.

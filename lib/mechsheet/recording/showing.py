@@ -31,7 +31,7 @@ def cells(sheet: Worksheet, needed: Sequence[Cell]) -> list[Cell]:
 
 
 def _shows(cell: Cell) -> bool:
-    return bool(expressions(cell) or text(cell) or captions(cell))
+    return bool(expressions(cell) or texts(cell) or captions(cell))
 
 
 def expressions(cell: Cell) -> list[ast.expr]:
@@ -92,12 +92,16 @@ def _calls(node: ast.AST, showing: frozenset[str]) -> list[ast.expr]:
     return [call for part in ast.iter_child_nodes(node) for call in _calls(part, showing)]
 
 
-def text(cell: Cell) -> ast.expr | None:
-    """The text in which a cell ends, where it is one with numbers in it."""
+def texts(cell: Cell) -> list[ast.expr]:
+    """The text in which a cell ends, and those between what it shows, where they are others for other inputs."""
+    calls = (node for line in cell.lines for node in source.nodes(line) if isinstance(node, ast.Call))
+    shown = [
+        part for call in calls if isinstance(call.func, ast.Name) and call.func.id == "typeset" for part in call.args
+    ]
     match cell.lines[-1:]:
-        case [ast.Expr(ast.Call(ast.Attribute(ast.Name("mo"), "md"), [ast.JoinedStr() as shown]))]:
-            return shown
-    return None
+        case [ast.Expr(ast.Call(ast.Attribute(ast.Name("mo"), "md"), [text]))]:
+            shown.append(text)
+    return [text for text in shown if isinstance(text, ast.JoinedStr)]
 
 
 def captions(cell: Cell) -> dict[str, ast.expr]:
