@@ -21,7 +21,7 @@ from mechsheet.quantities.lines import SLIDER, Recording
 from mechsheet.quantities.node import Node, bottom_up
 from mechsheet.quantities.quantity import Quantity, lift
 from mechsheet.quantities.sketch import Drawn
-from mechsheet.quantities.written import Said
+from mechsheet.quantities.written import Said, Written
 from mechsheet.readers.terms import recorded_terms
 from mechsheet.recording import showing
 from mechsheet.worksheet import numbers
@@ -100,13 +100,15 @@ class Follower:
         """HTML of a text, by what ``shown`` makes of one; what is recorded of it follows."""
         own = part if isinstance(part, str) else part.markdown if isinstance(part, Text) else part.title
         told = self.told.get(id(part))
-        pieces = told and wording.pieces(told.text, shown, self.key)
+        return self._written(told.text, shown, self._guards(told.guards)) if told else self.own(shown(own), own)
+
+    def _written(self, text: Written, shown: Callable[[str], str], guards: Spec) -> str:
+        pieces, now = wording.pieces(text, shown, self.key), text.now
+        keys = [self.keys[node] for node in dict.fromkeys(self._asked)]
         if not pieces:
             self._asked = []
-            return self.own(shown(own), own)
-        keys = [self.keys[node] for node in dict.fromkeys(self._asked)]
-        guards = self._guards(told.guards) if told else {}
-        return f"<span{self.mark('text', keys=keys, pieces=pieces, **guards)}>{shown(own)}</span>"
+            return self.own(shown(now), now)
+        return f"<span{self.mark('text', keys=keys, pieces=pieces, **guards)}>{shown(now)}</span>"
 
     def _guards(self, guards: Iterable[Guard]) -> Spec:
         """Keys of the conditions under which something is known, where there are any, and why not otherwise."""
@@ -135,13 +137,12 @@ class Follower:
         return f"<div{self.mark('own', fixed=True, of=name, **guards)}>{shown}</div>" if guards else shown
 
     def title(self, of: str, title: str) -> str:
-        """HTML of the title of a table or a figure, which holds while all its columns are known."""
-        nodes = dict.fromkeys(c.re for c in self.recording.tables.get(of, ()) if c is not None)
-        moving = [node for node in nodes if node.op != "constant"]
-        if self._stands(title) or not self.depends or not moving:
+        """HTML of the title of a table or a figure, which follows as far as it is recorded."""
+        holds = self.recording.worded.get(f"{of} title")
+        if holds is None:
             return self.own(escape(title), title)
-        guards = [[self.key(node), "", True] for node in moving]
-        return f"<span{self.mark('own', fixed=True, guards=guards)}>{escape(title)}</span>"
+        guards = {} if holds.op == "constant" else {"guards": [[self.key(holds), ""]]}
+        return self._written(self.recording.titles.get(of) or Written((title,)), escape, guards)
 
     @property
     def wanted(self) -> dict[str, Node]:

@@ -197,8 +197,7 @@ function showNow(spec, element) {
 }
 
 // Why the worksheet would show something else; undefined where it would not.
-const holds = ([key, , isAny], {values}) => (isAny ? values[key] !== undefined : values[key]);
-const broken = (spec, results) => spec.guards?.filter(guard => !holds(guard, results)).map(([key, why]) => results.gaps[key] ?? why)[0];
+const broken = (spec, results) => spec.guards?.filter(([key]) => !results.values[key]).map(([key, why]) => results.gaps[key] ?? why)[0];
 
 // What the page computes for its inputs and the positions of its sliders.
 const computed = () => evaluate({...state.si, ...slid()});

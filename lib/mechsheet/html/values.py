@@ -202,7 +202,7 @@ def _(value: Caption, page: Follower) -> str:
 
 
 def _caption(what: str, number: str, title: str, page: Follower) -> str:
-    return _titled(what, number, page.title(number if what == "Table" else f"Fig {number}", title))
+    return _titled(what, number, page.title(f"{what.lower()} {number}", title))
 
 
 def _titled(what: str, number: str, words: str) -> str:

@@ -12,7 +12,7 @@ from mechsheet.quantities.graph import Gap, Graph, Guard
 from mechsheet.quantities.node import Node, steps_of
 from mechsheet.quantities.quantity import Quantity
 from mechsheet.quantities.sketch import Drawn
-from mechsheet.quantities.written import Said
+from mechsheet.quantities.written import Said, Written
 from mechsheet.worksheet import symbol
 from mechsheet.worksheet.lines import Formula
 
@@ -78,19 +78,19 @@ class Solved:
 class Recording:
     """The quantities of a worksheet, cell by cell, and what it shows of them.
 
-    ``tables`` are the columns by the number of a table, of a figure under ``Fig 1``, ``constants`` those of them
-    that hold the same numbers for all inputs; ``arguments`` others that are recorded, by names such as ``table 1
-    decimals``, ``worded`` what is a number while a ``table 1 title`` or note that inputs change is that of the run;
-    ``marks`` the marks of a figure by its number and their labels; ``lines`` those of a section, ``others`` such as
-    are the same for all inputs or but another name for a quantity; ``names`` the name that each node has in the
-    worksheet. ``gaps`` are what keeps the numbers of the worksheet's own run, with the reasons, ``unsolved`` what
-    does so in the cells of a workbook alone: found values, and numbers that are ``lost`` there, or would be others;
-    ``guards`` the conditions under which all is recorded as the worksheet has it; ``integrals`` what a rule of
-    places gives, with scipy's estimates of the errors where these are taken; ``drawings`` those that a cell shows,
-    by its number, or None for one that is not recorded; ``captions`` and ``texts`` what captions, by their numbers,
-    and cells say in texts that are others for other inputs; ``positions`` what is marked along charts, by the name
-    of its quantity; ``values`` what the names are in the recording, ``looked`` the guards that these rest on. Only
-    every ``every``-th position is recorded.
+    ``tables`` are the columns by the number of a table, of a figure under ``Fig 1``, ``constants`` those of them that
+    hold the same numbers for all inputs; ``arguments`` others that are recorded, by names such as ``table 1 decimals``,
+    ``worded`` what is a number while a ``table 1 title`` or note that inputs change is that of the run, ``titles``
+    those of ``table 1`` or ``figure 1`` with recorded numbers in them; ``marks`` the marks of a figure by its number
+    and their labels; ``lines`` those of a section, ``others`` such as are the same for all inputs or but another name
+    for a quantity; ``names`` the name that each node has in the worksheet. ``gaps`` are what keeps the numbers of the
+    worksheet's own run, with the reasons, ``unsolved`` what does so in the cells of a workbook alone: found values, and
+    numbers that are ``lost`` there, or would be others; ``guards`` the conditions under which all is recorded as the
+    worksheet has it; ``integrals`` what a rule of places gives, with scipy's estimates of the errors where these are
+    taken; ``drawings`` those that a cell shows, by its number, or None for one that is not recorded; ``captions`` and
+    ``texts`` what captions, by their numbers, and cells say in texts that are others for other inputs; ``positions``
+    what is marked along charts, by the name of its quantity; ``values`` what the names are in the recording, ``looked``
+    the guards that these rest on. Only every ``every``-th position is recorded.
     """
 
     graph: Graph
@@ -106,6 +106,7 @@ class Recording:
     marks: dict[str, dict[str, Node]] = field(default_factory=dict)
     drawings: dict[int, list[Drawn | None]] = field(default_factory=dict)
     positions: dict[str, Node] = field(default_factory=dict)
+    titles: dict[str, Written] = field(default_factory=dict)
     captions: dict[str, Said] = field(default_factory=dict)
     texts: dict[int, list[Said]] = field(default_factory=dict)
     gaps: list[Gap] = field(default_factory=list)

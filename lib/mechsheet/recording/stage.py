@@ -65,8 +65,8 @@ class Stage:
         self, number: str, title: Any, *columns: Any, note: Any = "", every: Any = 1, decimals: Any = None, **_: Any
     ) -> None:
         self._argue(f"table {number} decimals", decimals)
-        self._word(f"table {number} title", title)
-        self._word(f"table {number} note", note)
+        self._word(f"table {number}", title)
+        self._word(f"table {number}", note, "note")
         self._show(number, columns, every if self.graph.thin == 1 else seen(every) and 1)
 
     def _argue(self, name: str, value: Any) -> None:
@@ -77,11 +77,13 @@ class Stage:
         else:
             seen(value)
 
-    def _word(self, what: str, text: Any) -> None:
+    def _word(self, of: str, text: Any, what: str = "title") -> None:
         """Note words that do not stand in the cell."""
         if not showing.stands(self.cell, text):
-            self.shown_now.append((self.recording.worded, what))
-            self.recording.worded[what] = self.graph.constant(1.0)
+            self.shown_now.append((self.recording.worded, f"{of} {what}"))
+            self.recording.worded[f"{of} {what}"] = self.graph.constant(1.0)
+        if what == "title" and isinstance(text, Written):
+            self.recording.titles[of] = text
 
     def _show(self, number: str, columns: tuple[Any, ...], every: Any) -> None:
         """Note the columns of a table or a figure; where rows are of a fixed number, Python sees which it lists."""
@@ -103,7 +105,7 @@ class Stage:
         **_: Any,
     ) -> None:
         self._argue(f"figure {number} every", every)
-        self._word(f"figure {number} title", title)
+        self._word(f"figure {number}", title)
         self._show(f"Fig {number}", columns, 1)
         self.shown_now.append((self.recording.marks, number))
         self.recording.marks[number] = {k: lift(self.graph, v).re for k, v in (marks or {}).items()}
