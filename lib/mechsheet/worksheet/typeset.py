@@ -5,7 +5,7 @@ import sys
 from bisect import bisect
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from itertools import pairwise, starmap
 from operator import attrgetter
 from typing import Any
@@ -45,7 +45,6 @@ def typeset(*shown: Any, display: Mapping[str, str] | None = None) -> "Typeset":
             refuse(SheetError(f"{cell.at(row.expression.lineno)}: {why}"))
     if asks_values_only():
         return Typeset((), (), shown)
-    rows = [_with_constants(row, frame.f_globals) for row in rows]
     known = Numbers(frame.f_globals)
     if not between:
         return Typeset(tuple(rows), values, shown, known)
@@ -118,7 +117,12 @@ class Numbers:
     """Values in their units by the names that formulas read, ``g.L3`` too, as they are when the page asks."""
 
     def __init__(self, namespace: Mapping[str, Any]) -> None:
-        self.namespace, self.known = namespace, registry(namespace)
+        self.namespace = namespace
+
+    @cached_property
+    def known(self) -> Mapping[str, Formula]:
+        """Lines of the worksheet, by their names."""
+        return registry(self.namespace)
 
     def __contains__(self, name: object) -> bool:
         """Whether something is the name of a line or an input of the worksheet."""
@@ -154,11 +158,17 @@ class Numbers:
 class Typeset(Shown):
     """Lines of a cell and their values, shown as symbol = formula = value, unit, meaning."""
 
-    rows: tuple[Formula | Given, ...]
+    lines: tuple[Formula | Given, ...]
     values: tuple[Any, ...]
     shown: tuple[Any, ...] = ()
     numbers: Numbers | None = None
     position: int = 0
+
+    @cached_property
+    def rows(self) -> tuple[Formula | Given, ...]:
+        """The lines with what the worksheet calls by the names that they read; a workbook does not ask."""
+        namespace = self.numbers.namespace if self.numbers else {}
+        return tuple(_with_constants(line, namespace) for line in self.lines)
 
     def at(self, position: int) -> "Typeset":
         """The same formulas with the values at one position of their fields."""
