@@ -170,7 +170,7 @@ def tried(path: Path, run_too: bool) -> tuple[Counter[str], list[str]]:
     """How the worksheet answers each text in each of its inputs, counted, and the answers that are none."""
     counts, wrong = Counter[str](), list[str]()
     sheet = cells.read(path)
-    drawn, written = set[tuple[str, str]](), set[str]()
+    drawn, written = set[tuple[str, str]](), set[str]() if is_search() else {"pass"}  # those stand in exports/
     for turn, (name, texts, given) in enumerate(typed(sheet)):
         accepted = dict[str, tuple[str, str, Any]]()
         for text, number in texts.items():
@@ -204,9 +204,13 @@ def tried(path: Path, run_too: bool) -> tuple[Counter[str], list[str]]:
     return counts, wrong
 
 
+def is_search() -> bool:
+    return settings.default.max_examples > 100
+
+
 def some(cases: list[T], turn: int | None) -> list[T]:
     """Two of the numbers that an input takes, others for each next one; all in a search, and of what is no number."""
-    if turn is None or settings.default.max_examples > 100:
+    if turn is None or is_search():
         return cases
     return [cases[(turn + k) % len(cases)] for k in range(min(2, len(cases)))]
 

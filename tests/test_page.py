@@ -29,6 +29,18 @@ def ready(page) -> None:
     alive(page)
 
 
+def choose(page, unit, other: str) -> None:
+    """Again where the page moved under the click, as while its formulas are still being set."""
+    item = page.get_by_role("menuitemradio", name=other, exact=True)
+
+    def offered() -> bool:
+        unit.click()
+        return item.is_visible()
+
+    until(page, offered, "no unit is offered")
+    item.click()
+
+
 @pytest.fixture
 def page(left_open):
     """The hitch in ``run`` with the document's own inputs."""
@@ -390,3 +402,39 @@ def test_printed_page_is_a_document(page, tmp_path):
     assert not any(len(p.images) for p in pages), "charts are drawn, not photographed"
     headings = [text.rstrip().splitlines()[-2:] for text in texts]
     assert not any(line.startswith("Table ") for lines in headings for line in lines), "a caption torn from its table"
+
+
+def test_a_unit_is_switched_wherever_the_quantity_is_shown(opened):
+    """By the keys alone; it stays while the inputs change, and is printed as it is seen."""
+    page = opened
+    table = page.locator(".ms-table:has-text('Table 4.1 ') table >> visible=true")
+    line, force = (
+        page.locator(".ms-line", has_text="force on the hydraulic cylinders"),
+        table.locator("td:nth-child(2)").first,
+    )
+    line.locator(".katex").first.wait_for()  # its formula comes after it, and the line once more with it
+    unit = line.locator("ms-unit")
+    unit.focus()
+    unit.press("Enter")
+    page.keyboard.press("ArrowDown")
+    page.keyboard.press("Enter")
+    expect(line).to_contain_text("129.61, 123.28, ")
+    expect(force).to_have_text("129.61")
+    assert page.evaluate("document.activeElement.textContent") == "kN", "the focus stays at the unit"
+    choose(page, page.locator(".ms-table:has-text('Table 2.2 ') th ms-unit").first, "mm")
+    expect(page.locator(".ms-table:has-text('Table 4.1 ') td >> visible=true").first).to_have_text("420")
+    field = page.locator(".ms-inputs tr:has-text('weight of the implement') input")
+    field.fill("30000,5")
+    field.press("Enter")
+    expect(force, "129.614 kN * 30000.5 / 27500").to_have_text("141.40")
+    expect(line.locator("ms-value .ms-chosen")).to_contain_text("141.4, ")
+    page.emulate_media(media="print")
+    expect(force).to_have_text("141.40")
+    page.emulate_media(media="null")
+    choose(page, page.locator(".ms-table:has-text('Table 4.1 ') th:nth-child(2) ms-unit >> visible=true").first, "N")
+    expect(line.locator(".ms-chosen")).to_have_count(0)
+    expect(line).to_contain_text("141399, ")
+    field.fill("27500")
+    field.press("Enter")
+    choose(page, page.locator(".ms-table:has-text('Table 2.2 ') th ms-unit").first, "m")
+    expect(line).to_contain_text("129614, ")

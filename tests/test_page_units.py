@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from conftest import drawn, until
 from playwright.sync_api import expect
-from test_page import HITCH, ready
+from test_page import HITCH, choose
 
 from mechsheet.document.shortened import ENDS
 from mechsheet.html.javascript import runtime
@@ -32,18 +32,6 @@ def static(page, html: str) -> None:
     """A page of this alone, with the script of the units."""
     page.set_content(f"<style>{STYLE}</style><body>{html}</body>")
     page.add_script_tag(content=SCRIPT)
-
-
-def choose(page, unit, other: str) -> None:
-    """Again where the page moved under the click, as while its formulas are still being set."""
-    item = page.get_by_role("menuitemradio", name=other, exact=True)
-
-    def offered() -> bool:
-        unit.click()
-        return item.is_visible()
-
-    until(page, offered, "no unit is offered")
-    item.click()
 
 
 @pytest.mark.parametrize("top", [3, 25])  # of the greatest number hangs how many decimals there are
@@ -215,40 +203,3 @@ def test_a_table_is_copied_as_a_spreadsheet_reads_it(page) -> None:
     text, html = page.evaluate(copied, "tbody")
     assert text.split() == ["-2500", "12"] and "<td>-2500</td>" in html
     assert page.evaluate(copied, "#text") == ["", ""]
-
-
-def force(page):
-    """The line of the force on the cylinders, and its column in table 4.1 as it is seen."""
-    table = page.locator(".ms-table:has-text('Table 4.1 ') table >> visible=true")
-    return page.locator(".ms-line", has_text="force on the hydraulic cylinders"), table.locator("td:nth-child(2)").first
-
-
-@pytest.mark.parametrize("mode", ["run", "edit"])
-def test_a_unit_is_switched_wherever_the_quantity_is_shown(serve, page, console_errors, mode) -> None:
-    """By the keys alone; it stays while the inputs change, and is printed as it is seen."""
-    page.goto(serve(mode, HITCH))
-    ready(page)
-    line, cell = force(page)
-    line.locator(".katex").first.wait_for()  # its formula comes after it, and the line once more with it
-    unit = line.locator("ms-unit")
-    unit.focus()
-    unit.press("Enter")
-    page.keyboard.press("ArrowDown")
-    page.keyboard.press("Enter")
-    expect(line).to_contain_text("129.61, 123.28, ")
-    expect(cell).to_have_text("129.61")
-    assert page.evaluate("document.activeElement.textContent") == "kN", "the focus stays at the unit"
-    choose(page, page.locator(".ms-table:has-text('Table 2.2 ') th ms-unit").first, "mm")
-    expect(page.locator(".ms-table:has-text('Table 4.1 ') td >> visible=true").first).to_have_text("420")
-    field = page.locator(".ms-inputs tr:has-text('weight of the implement') input")
-    field.fill("30000,5")
-    field.press("Enter")
-    expect(cell, "129.614 kN * 30000.5 / 27500").to_have_text("141.40")
-    expect(line.locator("ms-value .ms-chosen")).to_contain_text("141.4, ")
-    page.emulate_media(media="print")
-    expect(cell).to_have_text("141.40")
-    page.emulate_media(media="null")
-    choose(page, page.locator(".ms-table:has-text('Table 4.1 ') th:nth-child(2) ms-unit >> visible=true").first, "N")
-    expect(line.locator(".ms-chosen")).to_have_count(0)
-    expect(line).to_contain_text("141399, ")
-    assert console_errors == []

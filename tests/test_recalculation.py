@@ -383,9 +383,9 @@ def test_found_value_without_a_closed_form_is_searched_or_that_of_its_own_inputs
 @pytest.mark.parametrize(
     ("name", "symbol", "typed", "unit", "legal"),
     [
-        ("hitch", "eta", 1.4, "", 0.7),
+        ("bucket", "phi_open", 95, "", 8),
         ("hitch", "k_gc", 2.5, "", 3),
-        ("hitch", "P6", -9000, "", 2e4),
+        ("bucket", "S_min", 2.4, "", 1.5),
         ("hitch", "P6", 27.5, "kN", 2e4),
         ("landing_gear", "theta", -70, "", 80),
     ],

@@ -189,6 +189,9 @@ def _of_kind(plain: Input, kind: Any, default: Any, place: str, folder: str) -> 
         if hasattr(of, "__properties__"):
             own = tuple(_column_of(plain.name, each, declared(of)) for each in declared(of))
             return Rows(**known, columns=own, row=of, folder=folder)
+        if hasattr(of, "__inputs__"):
+            first = of.__inputs__[0].name
+            raise SheetError(f"{place}: class {of.__name__} of its rows has values: write {first}: float without one")
     if kind is bool:
         return Switch(**known)
     if kind is str:
