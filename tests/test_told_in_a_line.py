@@ -53,6 +53,15 @@ def test_what_is_refused(what: str, tmp_path: Path) -> None:
     assert "is a * missing" not in run.stderr and not (tmp_path / "told.xlsx").exists()
 
 
+def test_a_class_of_rows_with_values_of_its_own_is_told(tmp_path: Path) -> None:
+    path = worksheet(tmp_path, Y, f"{GIVEN}\ncases: list[Case] = []  # load cases")
+    begin = "@app.class_definition\n@inputs\nclass"
+    rows = f"{begin} Case:\n    P: float = 1.0  # [N] load\n\n\n"
+    path.write_text(path.read_text().replace(f"{begin} Given", f"{rows}{begin} Given", 1))
+    run = as_script(path)
+    assert "class Case of its rows has values: write P: float without one" in run.stderr, run.stderr
+
+
 def test_a_whole_number_that_no_float_is_has_a_limit(tmp_path: Path) -> None:
     run = as_script(worksheet(tmp_path, "y = g.n * g.F  # [N] y"), "--n=1e30")
     assert "must be at most 9007199254740992 in size" in run.stderr, run.stderr
