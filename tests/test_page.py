@@ -436,5 +436,5 @@ def test_a_unit_is_switched_wherever_the_quantity_is_shown(opened):
     expect(line).to_contain_text("141399, ")
     field.fill("27500")
     field.press("Enter")
-    choose(page, page.locator(".ms-table:has-text('Table 2.2 ') th ms-unit").first, "m")
+    choose(page, page.locator(".ms-table:has-text('Table 2.2 ') th ms-unit >> visible=true").first, "m")
     expect(line).to_contain_text("129614, ")
