@@ -237,28 +237,35 @@ def answers(port: int) -> bool:
 
 
 @pytest.fixture(scope="session")
-def serve(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Callable[[str, Path], str]]:
-    """``serve("run" or "edit", worksheet)``: its address, at one marimo server for all that run, else at its own."""
+def running(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Callable[[Path], str]]:
+    """Address of a worksheet at one marimo server for all that run."""
     with ExitStack() as servers:
-
-        def served(mode: str, shown: Path, folder: Path) -> str:
-            return servers.enter_context(marimo_server(mode, shown, folder))
 
         @cache
         def shown() -> tuple[Path, str]:
             folder = tmp_path_factory.mktemp("run")
-            return folder, served("run", folder, folder)
+            return folder, servers.enter_context(marimo_server("run", folder, folder))
 
         @cache
         def address(worksheet: Path) -> str:
             folder, server = shown()
             return f"{server}/?file={quote(str(placed(worksheet, Path(mkdtemp(dir=folder)))))}"
 
+        yield address
+
+
+@pytest.fixture
+def serve(
+    running: Callable[[Path], str], tmp_path_factory: pytest.TempPathFactory
+) -> Iterator[Callable[[str, Path], str]]:
+    """``serve("run" or "edit", worksheet)``: its address, at one marimo server for all that run, else at its own."""
+    with ExitStack() as servers:  # an editor's own looks for changes all the time
+
         def at(mode: str, worksheet: Path) -> str:
             if mode == "run":
-                return address(worksheet)
+                return running(worksheet)
             folder = tmp_path_factory.mktemp(mode)  # all who open an editor see what one of them has typed
-            return served(mode, placed(worksheet, folder), folder)
+            return servers.enter_context(marimo_server(mode, placed(worksheet, folder), folder))
 
         yield at
 
@@ -299,9 +306,7 @@ def page(browser: Browser) -> Iterator[Page]:
 
 
 @pytest.fixture(scope="session")
-def pages(
-    browser: Browser, serve: Callable[[str, Path], str]
-) -> Iterator[tuple[Callable[[Path, str], Page], list[str]]]:
+def pages(browser: Browser, running: Callable[[Path], str]) -> Iterator[tuple[Callable[[Path, str], Page], list[str]]]:
     """Pages that many tests use in turn, and what they report as errors."""
     known: dict[Path, Page] = {}
     in_the_end = ExitStack()
@@ -319,7 +324,7 @@ def pages(
         page = known[worksheet]
         page.bring_to_front()  # one that is behind others may draw nothing
         if worksheet not in fresh or state(page) != fresh[worksheet]:
-            page.goto(serve("run", worksheet))
+            page.goto(running(worksheet))
             page.get_by_text(text).first.wait_for()
             alive(page)
             fresh[worksheet] = state(page)
