@@ -1,7 +1,7 @@
 """A LibreOffice that stays open for all workbooks of a process: to start one takes longer than most of them.
 
 A macro in a profile of its own watches a folder for jobs, each a file with two lines: where a workbook is, and where it
-goes as LibreOffice has computed it. A job is done once its file is gone; of one that failed the words are left.
+goes as LibreOffice has computed it. A job is done once its file is gone; one that failed has another name then.
 """
 
 from __future__ import annotations
