@@ -85,6 +85,7 @@ class Office:
         made = [out / path.name for path in paths]
         for path, to in zip(paths, made, strict=True):
             self._start()
+            to.unlink(missing_ok=True)
             written, job = self.folder / "next", self.folder / "workbook.job"
             written.write_text(f"{path.as_uri()}\n{to.as_uri()}\n", encoding="utf-8")
             written.rename(job)
