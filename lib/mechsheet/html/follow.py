@@ -141,8 +141,9 @@ class Follower:
         holds = self.recording.worded.get(f"{of} title")
         if holds is None:
             return self.own(escape(title), title)
-        guards = {} if holds.op == "constant" else {"guards": [[self.key(holds), ""]]}
-        return self._written(self.recording.titles.get(of) or Written((title,)), escape, guards)
+        if holds.op != "constant":
+            self.key(holds)  # where it is not known, the title is not
+        return self._written(self.recording.titles.get(of) or Written((title,)), escape, {})
 
     @property
     def wanted(self) -> dict[str, Node]:

@@ -56,11 +56,11 @@ def typeset(*shown: Any, display: Mapping[str, str] | None = None) -> "Typeset":
 
 
 @lru_cache(maxsize=1000)
-def _above(cell: source.Cell, here: int) -> tuple[list[Formula | Given], list[ast.Constant]]:
+def _above(cell: source.Cell, here: int) -> tuple[tuple[Formula | Given, ...], tuple[ast.Constant, ...]]:
     """Lines and texts of a cell above a line, behind the typeset above that; SheetError of one that is not right."""
     above = max((end for end in typeset_lines(cell) if end < here), default=0)
-    lines = [row for row in formulas(cell) if above < row.expression.lineno < here]
-    return lines, [text for text in source.standing(cell.body) if above < text.lineno < here]
+    lines = tuple(row for row in formulas(cell) if above < row.expression.lineno < here)
+    return lines, tuple(text for text in source.standing(cell.body) if above < text.lineno < here)
 
 
 def no_number(row: Formula, value: Any) -> str:
