@@ -26,6 +26,8 @@ from hypothesis import settings
 from office import Office
 from openpyxl import load_workbook
 
+from mechsheet.units import definitions
+
 if TYPE_CHECKING:
     from playwright.sync_api import Browser, BrowserContext, ConsoleMessage, Page, ViewportSize
 
@@ -234,6 +236,17 @@ def installed(folder: Path) -> str:
 def answers(port: int) -> bool:
     with socket.socket() as connection:
         return connection.connect_ex(("127.0.0.1", port)) == 0
+
+
+@pytest.fixture
+def own_units() -> Iterator[None]:
+    """Units that the test defines are forgotten behind it, and not those of worksheets that are loaded already."""
+    before = dict(definitions._own)
+    yield
+    definitions._own.clear()
+    definitions._own.update(before)
+    definitions._known.cache_clear()
+    definitions.single.cache_clear()
 
 
 @pytest.fixture(scope="session")

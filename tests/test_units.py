@@ -5,7 +5,6 @@ import math
 import pickle
 import pydoc
 import re
-from collections.abc import Iterator
 from fractions import Fraction
 from pathlib import Path
 
@@ -22,15 +21,6 @@ from mechsheet.worksheet.kinds import Input
 
 M, KG, S, A, K, MOL, CD = np.eye(7, dtype=int)
 KNOWN = [name for name in units.names() if name.isidentifier() and not keyword.iskeyword(name)]
-
-
-@pytest.fixture
-def own() -> Iterator[None]:
-    """Units of one's own that are forgotten behind the test."""
-    yield
-    definitions._own.clear()
-    definitions._known.cache_clear()
-    definitions.single.cache_clear()
 
 
 @pytest.mark.parametrize(
@@ -233,7 +223,7 @@ def test_units_are_imported_by_their_names() -> None:
     assert "define(" in pydoc.plain(pydoc.render_doc(units))
 
 
-def test_a_unit_of_ones_own(own: None) -> None:
+def test_a_unit_of_ones_own(own_units: None) -> None:
     sheet = define("sheet", 0.6, "mm")
     assert (sheet, parse("sheet**2").factor, parse("N/sheet").dims) == (6e-4, 3.6e-7, parse("N/m").dims)
     assert (units.sheet, si("N/sheet"), shown("sheet**2")) == (6e-4, "N/m", "sheet²")
@@ -248,7 +238,7 @@ def test_a_unit_of_ones_own(own: None) -> None:
     ("name", "unit", "why"),
     [("kN", "N", "unit kN is 1000.0 in SI units already"), ("a b", "m", "a word of letters"), ("x", "foo", "[foo]")],
 )
-def test_a_unit_that_cannot_be_ones_own(own: None, name: str, unit: str, why: str) -> None:
+def test_a_unit_that_cannot_be_ones_own(own_units: None, name: str, unit: str, why: str) -> None:
     with pytest.raises(ValueError, match=re.escape(why)):
         define(name, 2, unit)
 
