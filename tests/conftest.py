@@ -11,7 +11,7 @@ import sys
 import time
 import tomllib
 from collections.abc import Callable, Iterator
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack, contextmanager, suppress
 from functools import cache
 from pathlib import Path
 from tempfile import mkdtemp
@@ -378,11 +378,24 @@ def until(page: Page, holds: Callable[[], bool], otherwise: str) -> None:
 
 
 def drawn(page: Page) -> None:
-    """Wait until the page has nothing left to do and has drawn what was done."""
-    page.bring_to_front()
-    page.wait_for_function(
-        "() => new Promise(done => requestIdleCallback(() => requestAnimationFrame(() => setTimeout(done, 0, true))))"
-    )
+    """Wait until the page has nothing left to do and has drawn what was done.
+
+    Now and then Chromium asks a page for no more pictures until it is brought to the front once more.
+    """
+    from playwright.sync_api import TimeoutError
+
+    def asked() -> bool:
+        page.bring_to_front()
+        with suppress(TimeoutError):
+            page.wait_for_function(
+                "() => new Promise(done =>"
+                " requestIdleCallback(() => requestAnimationFrame(() => setTimeout(done, 0, true))))",
+                timeout=WITHIN * 100,
+            )
+            return True
+        return False
+
+    until(page, asked, "nothing is drawn")
 
 
 def alive(page: Page) -> None:

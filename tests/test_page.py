@@ -131,7 +131,7 @@ def test_bad_input_is_told_at_its_place_and_the_inputs_stay(page):
     field = page.locator(".ms-inputs tr:has-text('weight of the implement') input")
     field.fill("heavy")
     field.press("Enter")
-    page.get_by_text("P6 = 'heavy' N is no number").first.wait_for()
+    page.get_by_text("P6 = 'heavy' N is no number").first.scroll_into_view_if_needed()
     expect(page.locator(".ms-bar"), "there are no verdicts, and the mistake is in sight").to_be_hidden()
     page.wait_for_function("""() =>  // told where the verdicts of the checks were
         getComputedStyle(document.querySelector(".ms-told"), "::after").content.includes("P6 = 'heavy' N is no number")
