@@ -199,6 +199,21 @@ def test_a_jump_over_the_target_is_named_with_its_place():
     assert found.reason == "notch x: step reaches 0..9 by 97 samples but jumps over 4.5 at 5000 mm"
 
 
+@pytest.mark.parametrize("f", [lambda x: 0 * x + 3, lambda x: 3 * (np.sin(x) ** 2 + np.cos(x) ** 2)])
+@pytest.mark.parametrize("guess", [None, 1.5])
+def test_where_every_value_solves_none_is_chosen(f, guess):
+    """As of an equation in which the unknown is cancelled, or that was left out of it by mistake."""
+    found = find(f, 0.2, 9.7, equals=3, guess=guess, unknown="ratio x", quantity="sum", unit="m")
+
+    assert not found.roots and not found.solved
+    assert found.reason == "ratio x: sum is 3 m at each of 97 samples in 0.2..9.7: any value would do"
+    with values_only():
+        assert not find(f, 0.2, 9.7, equals=3, guess=guess).solved
+    assert "reaches 3 m by 97 samples, 2 m is outside" in find(lambda x: 0 * x + 3, 0, 1, equals=2, unit="m").reason
+    several = find(lambda x: f(x) + np.array([0, 1e-9]), 0.2, 9.7, equals=3)
+    assert not several.solved.any() and "any value" in several.reason[0] and "outside" in several.reason[1]
+
+
 def test_a_jump_that_passes_the_target_costs_few_calls():
     calls = []
 
@@ -215,14 +230,6 @@ def test_a_jump_that_passes_the_target_costs_few_calls():
 def test_the_peak_of_a_sawtooth_does_not_reach_above_itself_through_its_jump():
     assert not find(lambda x: x % 1, 0.0, 5.0, equals=1.2).roots
     assert not find(lambda x: -1 / (x - 1.234) ** 2, 0.0, 5.0, equals=1.2).roots
-
-
-def test_a_constant_is_one_root_or_none():
-    assert len(find(lambda x: 3.0 + 0 * x, 0.0, 1.0, equals=3.0).roots) == 1
-    assert (
-        find(lambda x: 3.0 + 0 * x, 0.0, 1.0, equals=2.0).reason
-        == "unknown x: f(x) reaches 3 by 97 samples, 2 is outside"
-    )
 
 
 # --- edges between finite and NaN --------------------------------------------------------------------------------

@@ -44,6 +44,7 @@ ONE = {
     "kink that touches": "lambda t: abs(t - g.a), 0, 2",
     "level at the target": "lambda t: np.maximum(t - g.a, 0), 0, 2",
     "level everywhere": "lambda t: 0 * t + g.a, 0, 2, equals=g.a",
+    "level everywhere but for rounding": "lambda t: np.sin(t)**2 + np.cos(t)**2, 0, 2, equals=1",
     "dead centre": "lambda t: np.sqrt(g.a**2 - t**2), 0, 2, equals=0.1",
     "end of what closes": "lambda t: np.sqrt(g.a**2 - t**2), 0, 2",
     "closes in the middle": "lambda t: np.arccos(3 * (t - g.a)), 0, 2, equals=1",
@@ -202,6 +203,7 @@ def without_rounding(text: str) -> str:
 def kind(reason: str) -> str:
     """The reason in one word, as the page's Find gives it."""
     words = {"nothing to solve": "nothing", "is NaN at each": "closes", "jumps over": "jumps", "is outside": "outside"}
+    words |= {"any value would do": "level"}
     return next((word for text, word in words.items() if text in reason), reason)
 
 

@@ -195,7 +195,7 @@ function crossing(f, rows, equals, i, floor) {
 }
 
 // The verdict on f(x) = equals: value (NaN where there is none), residual, bracket, interval, reached, roots, samples,
-// jump, evaluations, and the reason: "" where solved, else "nothing", "closes", "outside", "jumps" or what is wrong
+// jump, evaluations, and the reason: "" where solved, else "nothing", "closes", "outside", "level", "jumps" or what is wrong
 // with the numbers given.
 function find(f, lo, hi, guess, equals = 0) {
   let evaluations = 0;
@@ -231,17 +231,18 @@ function find(f, lo, hi, guess, equals = 0) {
   const order = comb(rows.length, k => k).sort((a, b) => turned_rows[a][0] - turned_rows[b][0]);
   rows = order.map(k => turned_rows[k]);
   const [touch, end] = touching(at, rows, equals, order.map(k => turns[k]), floor);
-  const inner = touch.map((hit, k) => hit && !end[k]);
+  const inner = touch.map((hit, k) => hit && !end[k]), known = rows.filter(([, y]) => y == y);
+  const level = known.length > 2 && known.every(([, y]) => abs(y - equals) <= 4 * spacing(equals)); // any x would do
 
   const found = [];
-  for (let i = 0; i + 1 < rows.length; i++)
+  for (let i = 0; i + 1 < rows.length && !level; i++)
     if (signs_differ(rows[i][1] - equals, rows[i + 1][1] - equals) && !inner[i] && !inner[i + 1])
       found.push(crossing(at, rows, equals, i, floor));
   const jump = least(found.filter(root => !root.sound).map(root => root.value));
   const roots = found.filter(root => root.sound);
   rows.forEach(([x, y], k) => {
     const again = found.some(root => root.sound && abs(root.value - x) <= 2 ** 12 * (EPS * abs(x) + floor));
-    if (touch[k] && !again) roots.push({value: x, residual: y - equals, bracket: [x, x]});
+    if (touch[k] && !again && !level) roots.push({value: x, residual: y - equals, bracket: [x, x]});
   });
   roots.sort((a, b) => a.value - b.value);
   const nearest = roots[first_least(roots.map(root => abs(root.value - near)))];
@@ -255,7 +256,8 @@ function find(f, lo, hi, guess, equals = 0) {
     },
     get reason() {
       const [bottom, top] = this.reached;
-      return nearest ? "" : bottom != bottom ? "closes" : bottom <= equals && equals <= top ? "jumps" : "outside";
+      if (nearest || level) return nearest ? "" : "level";
+      return bottom != bottom ? "closes" : bottom <= equals && equals <= top ? "jumps" : "outside";
     },
   };
 }

@@ -26,8 +26,12 @@ function reasonOnBranch(words, {reason, reached, interval, jump, samples, equals
     const nowhere = `is NaN at each of ${samples} samples in ${extent(interval, words.unknown_unit)}`;
     return `${words.unknown}: ${words.quantity} ${nowhere}, as of a group that does not close, or a square root of a negative number`;
   }
-  if (reason !== "outside" && reason !== "jumps") return reason;
+  if (!["outside", "jumps", "level"].includes(reason)) return reason;
   const [low, high, target] = amounts([...reached, equals], words.unit), [, behind] = words.unit;
+  if (reason === "level") {
+    const everywhere = `is ${target}${behind} at each of ${samples} samples in ${extent(interval, words.unknown_unit)}`;
+    return `${words.unknown}: ${words.quantity} ${everywhere}: any value would do`;
+  }
   const reach = `${words.unknown}: ${words.quantity} reaches ${spanOf([low, high])}${behind}${by}`;
   if (reason === "outside") return `${reach}, ${target}${behind} is outside`;
   return `${reach} but jumps over ${target}${behind}${jump === jump ? ` at ${withUnit(jump, words.unknown_unit)}` : ""}`;

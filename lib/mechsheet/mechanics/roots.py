@@ -44,6 +44,7 @@ _SCALES = np.linspace(0, 1, 16)[:, None, None]  # from the width of a bracket to
 _FARTHEST = 2.0**33, 2.0**-20  # floats, or part of the interval
 _AFTER = 1.25 ** np.arange(-2, 18)[:, None, None]  # times the place where the slope has made up for a rise
 _EXPLAINED = 8  # times what slope and rounding tell: a cubic root is as steep as that
+_LEVEL = 4  # units in the last place: f that is nowhere farther off than that is the target everywhere
 _ROUNDING = 2.0**-16  # of the range of f: what steps by more is not rounded
 
 
@@ -116,7 +117,8 @@ class Roots:
 class _Pieces:
     """Monotone pieces of f in all columns: rows of x with f and the residual, some of which touch the target.
 
-    ``cross`` marks the pieces, from each row to the next one, whose ends differ in sign.
+    ``cross`` marks the pieces, from each row to the next one, whose ends differ in sign, ``level`` the columns in which
+    f is the target at all of three samples or more: there any x would do, and none is a root.
     """
 
     x: Array
@@ -124,6 +126,7 @@ class _Pieces:
     r: Array
     touch: Mask
     cross: Mask
+    level: Mask
     equals: Array
     floor: Array
     samples: Index
@@ -208,7 +211,11 @@ def _pieces(f: Counted, lo: Array, hi: Array, equals: Array) -> _Pieces:
     cross = (below[:-1] & above[1:]) | (above[:-1] & below[1:])
     inner = touch & ~end
     cross &= ~(inner[:-1] | inner[1:])  # beside a touching root the sign is rounding
-    return _Pieces(x, y, r, touch, cross, equals, floor, samples)
+    level = np.fmax.reduce(np.abs(r)) <= _LEVEL * np.spacing(np.abs(equals))
+    if level.any():
+        level &= np.count_nonzero(~np.isnan(y), axis=0) > 2
+        touch, cross = touch & ~level, cross & ~level
+    return _Pieces(x, y, r, touch, cross, level, equals, floor, samples)
 
 
 def _roots(f: Counted, pieces: _Pieces) -> tuple[Array, Array]:

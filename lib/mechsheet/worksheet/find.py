@@ -269,7 +269,8 @@ def find(  # type: ignore[misc]
     x is exact to about two floats of the root of f as computed, near zero to 1e-31 of the interval. At a local
     extreme or an end of the interval, a value within one unit in the last place of the target, or nearer to it than
     f varies over the next eight floats, counts as a root that touches: so dead centres and double roots are kept.
-    A sign change at a jump or a pole is no root. What f does within 1/60 of the interval can be missed.
+    A sign change at a jump or a pole is no root, and where every value solves the equation none is chosen. What f does
+    within 1/60 of the interval can be missed.
 
     Several unknowns are found by Newton's method: from guesses the solution is that to which its own steps lead, which
     turn no unknown in a unit of angle by more than 45 degrees, or where twenty do not, those in a trust region; in
@@ -435,6 +436,9 @@ def _reason(words: _Words, equals: float, search: Roots, c: int) -> str:
     reach, after = numbers.span(ends), numbers.suffix(unit)
     if not least <= equals <= greatest:
         return f"{words.unknown}: {words.quantity} reaches {reach}{after}{by}, {target}{after} is outside"
+    if search.pieces.level[c]:
+        everywhere = f"at each of {search.samples[c]} samples in {numbers.extent(search.interval[:, c], at)}"
+        return f"{words.unknown}: {words.quantity} is {target}{after} {everywhere}: any value would do"
     where = "" if np.isnan(search.jump[c]) else f" at {numbers.amount(search.jump[c], at)}"
     verdict = f"reaches {reach}{after}{by} but jumps over {target}{after}{where}"
     return f"{words.unknown}: {words.quantity} {verdict}"
