@@ -6,6 +6,7 @@ import re
 import subprocess
 import sys
 import warnings
+from dataclasses import replace
 from math import inf, nan
 from pathlib import Path
 
@@ -133,6 +134,17 @@ def test_a_number_that_is_no_more_finite_differs(other: float) -> None:
         assert said == f"1 of {len(a)} values differ by no finite number"
     assert numbers_that_differ({"x": [1.0, other]}, {"x": [1.0, other]}) == {}
     assert numbers_that_differ({"x": [other, 1.0]}, {"x": [other, 2.0]}) == {"x": "+1 (+100 %)"}
+
+
+@pytest.mark.parametrize(
+    ("values", "said"),
+    [([3.0, nan, 1.0], "1..3 mm, 1 of 3 missing"), ([nan, 2.0], "2 mm, 1 of 2 missing"), ([nan, nan], "nan mm")],
+)
+def test_of_a_field_with_gaps_the_numbers_that_there_are_are_told(values: list[float], said: str) -> None:
+    field = Displayed("x", "mm", "length", np.array(values))
+    assert str(field) == f"x = {said}, length"
+    states = [compare.State({}, {}, {"x": shown}, {}) for shown in (field, replace(field, values=2 * field.values))]
+    assert {change.old for change in compare.changes(*states)} <= {said}
 
 
 def test_infinities_of_other_signs_differ_and_so_do_numbers_whose_difference_is_infinite() -> None:

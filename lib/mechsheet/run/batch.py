@@ -315,7 +315,7 @@ def _table(sheet: Worksheet, outcomes: Sequence[Outcome]) -> list[list[str]]:
         given = ("" if o.g is None else field.brief(getattr(o.g, field.name)) for o in outcomes)
         rows.append([f"{field.name} [{numbers.in_text(field.unit)}]", *given])
     for name, quantity in _quantities(outcomes).items():
-        spans = ({q.name: q.span for q in o.quantities}.get(name, "") for o in outcomes)
+        spans = ({q.name: q.span + q.partly for q in o.quantities}.get(name, "") for o in outcomes)
         rows.append([f"{name} [{numbers.in_text(quantity.unit)}]", *spans])
     passed = (f"{sum(check.passed for check in o.checks)} of {len(o.checks)}" if o.checks else "" for o in outcomes)
     return [*rows, ["checks passed", *passed], ["verdict", *(o.verdict for o in outcomes)]]

@@ -164,7 +164,7 @@ def _greatest(values: NDArray[np.float64]) -> float:
 
 def _changed(name: str, old: Displayed | None, new: Displayed | None, sizes: Mapping[Any, float]) -> Iterator[Change]:
     """A number that differs: by the greatest difference, in the new unit, and its part of the old greatest value."""
-    said = ["" if q is None else f"{q.span}{numbers.suffix(q.unit)}" for q in (old, new)]
+    said = ["" if q is None else f"{q.span}{numbers.suffix(q.unit)}{q.partly}" for q in (old, new)]
     if old is None or new is None:
         yield Change("number", name, said[0], said[1])
         return

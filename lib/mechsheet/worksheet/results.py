@@ -29,18 +29,27 @@ class Displayed:
 
     @property
     def span(self) -> str:
-        """Least..greatest of the values, NaN where one is missing; one number where they are equal."""
-        return numbers.span(numbers.significant(end, 6) for end in (np.min(self.values), np.max(self.values)))
+        """Least..greatest of the values that there are, one number where they are equal, "nan" where there is none."""
+        known = self.values[~np.isnan(self.values)] if self._missing < self.values.size else self.values
+        return numbers.span(numbers.significant(end, 6) for end in (np.min(known), np.max(known)))
+
+    @property
+    def _missing(self) -> int:
+        return int(np.count_nonzero(np.isnan(self.values)))
+
+    @property
+    def partly(self) -> str:
+        """How many of several values are missing, as behind a span; nothing where all are there, or none."""
+        return f", {self._missing} of {self.values.size} missing" if 0 < self._missing < self.values.size else ""
 
     @property
     def gaps(self) -> str:
         """What is missing, in words; nothing where all is there."""
-        missing, size = int(np.count_nonzero(np.isnan(self.values))), self.values.size
-        return f"{self.name} does not exist at {missing} of {size} positions" if missing else ""
+        return f"{self.name} does not exist at {self._missing} of {self.values.size} positions" if self._missing else ""
 
     def __str__(self) -> str:
         where = ", least at {}, greatest at {}".format(*self.places) if self.places else ""
-        return f"{self.name} = {self.span}{numbers.suffix(self.unit)}{where}, {self.meaning}"
+        return f"{self.name} = {self.span}{numbers.suffix(self.unit)}{self.partly}{where}, {self.meaning}"
 
 
 def quantities(name: str, namespace: Mapping[str, Any]) -> list[Displayed]:
