@@ -1,6 +1,7 @@
 """Find of several unknowns: what share of known solutions is seen, how well each holds, and the reason for none."""
 
 import math
+import re
 from math import e, pi
 
 import mpmath
@@ -186,6 +187,57 @@ def test_a_double_solution_has_no_condition_and_half_the_digits():
 
 
 # --- guesses, arrays, sweeps -----------------------------------------------------------------------------------------
+
+
+DEPENDENT = {
+    "a line": lambda u, v: (u + v - 1, 2 * u + 2 * v - 2),
+    "a circle": lambda u, v: (u**2 + v**2 - 1, 5 - 5 * u**2 - 5 * v**2),
+    "moments about three points of a line": lambda u, v: (u * 2 - v * 3 - 1, u * 4 - v * 6 - 2),
+    "sizes far apart": lambda u, v: (u * 1e6 + v - 1, u * 1e-3 + v * 1e-9 - 1e-9),
+    "a complex one": lambda u, v: np.exp(1j * (u + v)) - np.exp(0.3j),
+}
+
+
+@pytest.mark.parametrize("places", [{"u": 0.4, "v": 0.7}, {"u": (-2, 3), "v": (-2, 3)}], ids=["guess", "intervals"])
+@pytest.mark.parametrize("name", DEPENDENT)
+def test_equations_that_depend_on_each_other_have_no_single_solution(name, places):
+    """Newton's steps end in one of them, and nothing tells why in that one."""
+    found = find(DEPENDENT[name], **places)
+    assert not found.solved and np.isnan(found._values).all()
+    assert found.reason.startswith("no single solution for u, v: the equations depend on each other, u = ")
+    pair = re.findall(r"u = (\S+), v = (\S+)(?: solves|$)", found.reason)
+    assert len(pair) == 2 and pair[0] != pair[1]
+    with values_only():
+        assert not find(DEPENDENT[name], **places).solved
+
+
+def test_in_an_array_only_the_problems_that_depend_have_no_solution():
+    found = find(lambda u, v: (u + v - 1, np.array([2.0, 3.0, 2.0]) * u + 2 * v - 2), u=0.4, v=0.7)
+    assert found.solved.tolist() == [False, True, False] and found.value.v[1] == pytest.approx(1, abs=1e-14)
+    assert ["depend" in reason for reason in found.reason] == [True, False, True]
+
+
+@pytest.mark.parametrize(
+    "f",
+    [
+        lambda u, v: (u**2 + v**2 - 1, v - 1),  # a line that touches a circle
+        lambda u, v: (u**2 + v**2 - 1, (u - 3) ** 2 + v**2 - 4),  # circles that touch
+        lambda u, v: ((u - 0.5) ** 2, (v - 0.5) ** 2),
+        lambda u, v: (u * 1e-9 - 1, v * 1e9 - 1),
+    ],
+)
+def test_a_double_solution_alone_is_one(f):
+    for places in ({"u": 0.6, "v": 0.7}, {"u": (-2, 3), "v": (-2, 3)}):
+        found = find(f, **places)
+        assert found.solved or "depend" not in found.reason
+    assert find(f, u=0.6, v=0.7).solved
+
+
+def test_an_equation_without_an_unknown_is_named():
+    found = find(lambda u, v: (v - u, 0 * u + 3), equals=(0, 3), u=0.2, v=0.9)
+    assert found.reason.startswith("no single solution for u, v: equation 2 rests on none of them near u = ")
+    u, v = re.findall(r"= ([\d.]+)", found.reason)
+    assert u == v
 
 
 def test_from_a_guess_the_value_is_where_it_leads_and_the_others_around_it_are_listed():

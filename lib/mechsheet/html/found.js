@@ -42,10 +42,20 @@ const pointOf = ({names, units}, x) => names.map((name, k) => `${name} = ${exten
 function reasonForSeveral(words, verdict, isAlone) {
   const {reason, nearest} = verdict, unknowns = words.names.join(", ");
   if (reason === "nothing") return `nothing to solve for ${unknowns}: an interval, a guess or a target is NaN`;
+  if (reason === "depend") {
+    const [one, other] = verdict.pair.map(x => pointOf(words, x));
+    const solved = `${one} solves them, and so does ${other}`;
+    return `no single solution for ${unknowns}: the equations depend on each other, ${solved}`;
+  }
   if (reason !== "unsolved") return reason;
   const how = `no solution for ${unknowns} ${words.guessed ? "from the guess" : `by ${verdict.starts} starts`}`;
   const lost = nearest.residual.findIndex(x => x !== x);
   if (lost >= 0) return `${how}: ${words.equations[lost]} has no number there`;
+  const rests = nearest.slopes.findIndex(row => row.every(x => x === 0));
+  if (rests >= 0 && nearest.residual.every(x => x === 0)) {
+    const same = `${words.equations[rests]} rests on none of them near ${pointOf(words, nearest.x)}`;
+    return `no single solution for ${unknowns}: ${same}`;
+  }
   const worst = nearest.left.indexOf(Math.max(...nearest.left));
   const left = withUnit(nearest.residual[worst], words.equation_units[worst]);
   const others = words.guessed && isAlone ? verdict.solutions.slice(0, LISTED).map(x => pointOf(words, x)) : [];

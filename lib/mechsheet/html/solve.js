@@ -191,13 +191,14 @@ function newton(f, x, size, lo, hi, reach, unit, free) {
 }
 
 // Whether all residuals are no more than rounding: what f varies by over the next floats.
-function vanishing(f, {x, r, slopes}, size, lo, hi) {
+function vanishing(f, {x, r, slopes, scale}, size, lo, hi) {
   const step = x.map((v, k) => EPS * max(8 * abs(v), size[k]));
   const around = beside(f, x, step, lo, hi).flat().map(side => side[1]);
   return r.every((own, m) => {
     const values = [own, ...around.map(y => y[m])], varied = largest(values) - least(values);
     const by_slopes = known_or_0(dot(slopes[m].map(abs), step));
-    return abs(own) <= 8 * max(varied, by_slopes) && !(varied == 0 && slopes[m].every(v => v == 0));
+    const noise = varied > 8 * by_slopes && varied > 2 ** -6 * scale[m], level = varied == 0 && slopes[m].every(v => v == 0);
+    return abs(own) <= 8 * max(varied, by_slopes) && !level && !noise;
   });
 }
 
@@ -242,9 +243,9 @@ function distinct(ends, size) {
   seen.sort((a, b) => a.x[0] - b.x[0]);
   const left = ends.map(end => end.r.map((v, m) => abs(v) / scale[m]));
   const nearest = first_least(left.map(a => (all_finite(a) ? dot(a, a) : Infinity)));
-  const {x, r} = ends[nearest];
+  const {x, r, slopes} = ends[nearest];
   return {seen, evaluations: ends.reduce((sum, end) => sum + end.evaluations, 0), starts: ends.length,
-    nearest: {x, residual: r, left: left[nearest]}, lowest: () => ({x, residual: r, condition: condition(ends[nearest])})};
+    nearest: {x, residual: r, slopes, left: left[nearest]}, lowest: () => ({x, residual: r, condition: condition(ends[nearest])})};
 }
 
 function from_guess(f, at, unit) {
@@ -267,8 +268,21 @@ function between(f, at, unit) {
   return known;
 }
 
+// Another solution right beside one at which slopes are singular, as of equations that depend on each other; or none.
+function aside(f, at, {x, condition}) {
+  if (!(condition > 2 ** 22)) return undefined;
+  const [{slopes, scale}] = led(f, [x], at, 1, null), size = at.size.map((v, k) => max(v, abs(x[k]) / 16));
+  const {v} = decomposed(slopes.map((row, m) => row.map((w, k) => (w * size[k]) / scale[m]))), way = v[v.length - 1];
+  const ends = led(f, [-1, 1].map(side => x.map((w, k) => w + side * 2 ** -7 * size[k] * way[k])), at, 1, null);
+  return ends.find(end => {
+    const off = max(...end.x.map((w, k) => abs(w - x[k]) / size[k]));
+    return end.held && off > 2 ** -9 && off < 2 ** -5;
+  })?.x;
+}
+
 // The verdict on equations f(x) = 0: x and residual (NaN where there is none), condition, evaluations, solutions,
-// starts, the nearest place where none is a solution, and the reason: "" where solved, else "nothing" or "unsolved".
+// starts, the nearest place where none is a solution, a pair that is where there is a line of them, and the reason: ""
+// where solved, else "nothing", "unsolved" or "depend".
 // `asked` has of each unknown its guess or the two ends of its interval, `equals` the targets; with `unit` squares are
 // made least. From a guess a step of Newton's own moves an unknown by no more than is in `most`.
 function solve(f, asked, factors, most, equals, unit) {
@@ -286,14 +300,15 @@ function solve(f, asked, factors, most, equals, unit) {
   const guessed = at.first.every((a, k) => a == at.last[k]);
   const known = (guessed ? from_guess : between)(real, at, unit);
   const off = ({x}) => max(...x.map((v, k) => abs(v - (at.first[k] / 2 + at.last[k] / 2)) / size[k]));
-  const chosen = unit ? known.lowest() : known.seen[first_least(known.seen.map(off))];
+  const best = unit ? known.lowest() : known.seen[first_least(known.seen.map(off))];
+  const beside = unit || !best ? undefined : aside(real, at, best), chosen = beside ? undefined : best;
   const around = {...at, first: at.first.map((a, k) => a - size[k]), last: at.last.map((b, k) => b + size[k])};
   let others;
   const every = () => (others ??= guessed && !unit ? distinct(lot(real, around, 0, null), size) : known);
-  const {evaluations, nearest} = known, reason = chosen && all_finite(chosen.x) ? "" : "unsolved";
+  const {evaluations, nearest} = known, is_known = chosen && all_finite(chosen.x);
   return {
     ...none, x: chosen?.x ?? none.x, residual: chosen?.residual ?? nearest.residual.map(() => NaN),
-    evaluations, nearest, guessed, reason,
+    evaluations, nearest, guessed, reason: is_known ? "" : beside ? "depend" : "unsolved", pair: [best?.x, beside],
     get condition() { return chosen?.condition ?? NaN; },
     get solutions() { return unit ? [] : every().seen.map(solution => solution.x); },
     get starts() { return every().starts; },

@@ -26,6 +26,9 @@ _FREE = 20  # of Newton's own, whatever they lead to
 _LEVEL = 1e-9  # cosine between the residuals and what any step changes, from which on none makes them less
 _VARIED = 8  # floats by which an unknown is varied to see what rounding does
 _ROUNDED = 8  # times that variation: what a residual may be
+_NOISE = (
+    2.0**-6
+)  # of what an equation changes over the sizes: if it varies by more than this, there is nothing to solve
 
 
 @dataclass(frozen=True)
@@ -48,10 +51,19 @@ class Ended:
 
         Infinite where the slopes are singular.
         """
-        largest = np.fmax.reduce(self.scale, axis=1)[:, None, None]
-        values = np.linalg.svd(_known(_turned(self.slopes * size[:, None] / largest)), compute_uv=False)
+        values = np.linalg.svd(self._over(size), compute_uv=False)
         condition: Array = values[..., 0] / values[..., -1]
         return np.where(condition < 1 / EPS, condition, np.inf)
+
+    @np.errstate(all="ignore")
+    def least_moving(self, size: Array) -> Array:
+        """The way in sizes of the unknowns, shape (n, s, p), on which the slopes change the equations least."""
+        way: Array = np.moveaxis(np.linalg.svd(self._over(size))[2][..., -1, :], -1, 0)
+        return way
+
+    def _over(self, size: Array) -> Array:
+        largest = np.fmax.reduce(self.scale, axis=1)[:, None, None]
+        return _known(_turned(self.slopes * size[:, None] / largest))
 
     def rows(self, chosen: NDArray[np.intp]) -> "Ended":
         """One start of each problem, shape (.., p); ``chosen`` (p) says which."""
@@ -170,14 +182,16 @@ def vanishing(f: Equations, ended: Ended, size: Array, lo: Array, hi: Array) -> 
     """Which residuals, shape (m, s, p), are no more than rounding: what f varies by over the next floats.
 
     These are as far apart as those of the unknown, or of an eighth of its size; by its slopes f also varies where it is
-    rounded to the same number at all of them. What is 0 all around is not solved.
+    rounded to the same number at all of them. What is 0 all around is not solved, nor where from one float to the next
+    f is nearly all that it is anywhere, as a sine of 1e20.
     """
     step = EPS * np.maximum(_VARIED * np.abs(ended.x), size)
     y = _beside(f, ended.x, step, lo, hi)[0].reshape(len(ended.r), -1, *ended.r.shape[1:])
     varied = np.fmax(np.fmax.reduce(y, axis=1), ended.r) - np.fmin(np.fmin.reduce(y, axis=1), ended.r)
     level = (varied == 0) & (ended.slopes == 0).all(1)
-    varied = np.fmax(varied, (np.abs(ended.slopes) * step).sum(1))
-    small: Mask = (np.abs(ended.r) <= _ROUNDED * varied) & ~level
+    by_slopes = (np.abs(ended.slopes) * step).sum(1)
+    noise = (varied > _ROUNDED * by_slopes) & (varied > _NOISE * ended.scale)
+    small: Mask = (np.abs(ended.r) <= _ROUNDED * np.fmax(varied, by_slopes)) & ~level & ~noise
     return small
 
 

@@ -17,6 +17,9 @@ _MOST = 16  # times as many
 _APART = 64  # roundings, times the condition, high at a double solution: ends nearer to each other are one solution
 _FARTHEST = 2.0**-10  # and never farther apart than so many sizes of the unknowns
 _FINE = 2.0**-10  # of its size: an unknown that small is looked for anew
+_SINGULAR = 2.0**22  # condition from which on slopes may be singular but for the rounding of differences
+_ASIDE = 2.0**-7  # of the sizes: how far off a solution another one is looked for then
+_SEEN = 2.0**-4  # of an unknown is its size then at least: the two differ in the digits that are shown
 _REACH = 100.0  # sizes that the first step from a guess goes at most
 
 
@@ -93,6 +96,24 @@ def between(f: Equations, at: Place, unit: Array | None) -> Seen:
         searching = searching & (found > seen)
         seen = found
     return replace(known, starts=starts)
+
+
+def aside(f: Equations, at: Place, x: Array, condition: Array) -> Array:
+    """Another solution right beside each of these, shape (n, p), NaN where there is none.
+
+    Where there is one, equations depend on each other: all along a line the unknowns solve them. At a double solution
+    slopes are singular too, but what starts beside it comes back.
+    """
+    singular = condition > _SINGULAR
+    if not singular.any():
+        return np.full_like(x, np.nan)
+    own, unit = np.where(singular, x, at.first)[:, None], np.fmax(at.size, _SEEN * np.abs(x))[:, None]
+    way = _led(f, own, at, 1.0, None)[0].least_moving(unit[:, 0])
+    ended, held = _led(f, own + np.array([-1, 1])[:, None] * _ASIDE * unit * way, at, 1.0, None)
+    off = np.abs((ended.x - own) / unit).max(0)
+    held &= singular & (off > _ASIDE / 4) & (off < 4 * _ASIDE)
+    other: Array = ended.x[:, held.argmax(0), np.arange(singular.size)]
+    return np.where(held.any(0), other, np.nan)
 
 
 def _batch(f: Equations, at: Place, number: int, unit: Array | None) -> tuple[Ended, Mask]:

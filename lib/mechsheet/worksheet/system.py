@@ -15,13 +15,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mechsheet.mechanics.brackets import Array
-from mechsheet.mechanics.starts import Place, Seen, around, between, from_guess
+from mechsheet.mechanics.starts import Place, Seen, around, aside, between, from_guess
 from mechsheet.worksheet import numbers
 from mechsheet.worksheet.equations import Asked, Start, Words, asked
 from mechsheet.worksheet.errors import function
 from mechsheet.worksheet.verdict import Verdict, asks_values_only
 
 _LISTED = 8  # solutions that the verdict lists
+_DEPEND = "no single solution for {}: the equations depend on each other, {} solves them, and so does {}"
 _VOID = "nothing to solve for {}: an interval, a guess or a target is NaN"
 
 
@@ -190,7 +191,9 @@ def solve(
     weights = problem.weights if least else None
     seen = (from_guess if words.guessed else between)(equations, place, weights)
     chosen = seen.lowest if least else _nearest(seen, place)
-    x, residual, condition = (np.where(problem.void | np.isnan(chosen[0][0]), np.nan, a) for a in chosen)
+    beside = np.full_like(chosen[0], np.nan) if least else aside(equations, place, chosen[0], chosen[2])
+    none = problem.void | np.isnan(chosen[0][0]) | ~np.isnan(beside[0])
+    x, residual, condition = (np.where(none, np.nan, a) for a in chosen)
 
     def shaped(a: NDArray[Any]) -> Any:
         return a.reshape(shape) if shape else a.item()
@@ -199,7 +202,13 @@ def solve(
         every = around(equations, place) if words.guessed and not (least or shape) else seen
         reasons = np.full(problem.void.size, "", dtype=object)
         for i in np.flatnonzero(np.isnan(x[0])).tolist():
-            reasons[i] = _VOID.format(words.unknowns) if problem.void[i] else _reason(words, seen, every, i)
+            if problem.void[i]:
+                reasons[i] = _VOID.format(words.unknowns)
+            elif np.isnan(beside[0, i]):
+                reasons[i] = _reason(words, seen, every, i)
+            else:
+                own, other = (words.point(a[:, i].tolist()) for a in (chosen[0], beside))
+                reasons[i] = _DEPEND.format(words.unknowns, own, other)
         points = () if least else np.moveaxis(np.where(problem.void, np.nan, every.x), 1, 0)
         solutions = tuple(_named(words.names)(*map(shaped, s)) for s in points if not np.isnan(s).all())
         return _Others(solutions, shaped(every.starts), shaped(reasons))
@@ -233,6 +242,10 @@ def _reason(words: Words, seen: Seen, every: Seen, i: int) -> str:
     x, r = seen.nearest.x[:, i].tolist(), seen.nearest.r[:, i]
     if np.isnan(r).any():
         return f"{how}: {words.equations[int(np.isnan(r).argmax())]} has no number there"
+    rests = (seen.nearest.slopes[:, :, i] == 0).all(1)
+    if not r.any() and rests.any():
+        same = f"{words.equations[int(rests.argmax())]} rests on none of them near {words.point(x)}"
+        return f"no single solution for {words.unknowns}: {same}"
     worst = int(np.argmax(seen.left[:, i]))
     left = numbers.amount(r[worst], words.equation_units[worst])
     reason = f"{how}: {words.equations[worst]} leaves {left} at the nearest, {words.point(x)}"
