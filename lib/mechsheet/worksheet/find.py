@@ -277,6 +277,7 @@ def find(  # type: ignore[misc]
     intervals that nearest the middle of all that were seen by starts all over them, 32 for each unknown and as many
     again as long as that shows new ones. Each equation then leaves no more than it varies by over the next
     eight floats of the unknowns, or of an eighth of the guess or interval. What no start leads to is not seen.
+    Where equations depend on each other all of a line solves them, and none is chosen.
 
     >>> find(lambda x: x**2, 0.0, 2.0, equals=2.0).value
     1.4142135623730951
