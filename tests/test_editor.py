@@ -3,7 +3,7 @@
 import ast
 import linecache
 import re
-from contextlib import nullcontext
+from contextlib import nullcontext, suppress
 from math import asin, degrees
 from pathlib import Path
 from types import SimpleNamespace
@@ -11,7 +11,7 @@ from types import SimpleNamespace
 import marimo
 import pytest
 from conftest import alive, drawn, until
-from playwright.sync_api import expect
+from playwright.sync_api import TimeoutError, expect
 
 from mechsheet import __main__ as launcher
 from mechsheet.document.left_out import left_out
@@ -80,7 +80,8 @@ def click_until(page, shown):
 
     def seen():
         formula.click()
-        page.wait_for_timeout(1000)
+        with suppress(TimeoutError):
+            shown.wait_for(timeout=1000)
         return shown.is_visible()
 
     until(page, seen, "a click on a formula opens nothing")
