@@ -13,6 +13,8 @@ from pathlib import Path
 from types import FunctionType
 from typing import Any
 
+import numpy as np
+
 from mechsheet import units
 from mechsheet.document import parts
 from mechsheet.document.parts import Line, Section, by_cell
@@ -88,6 +90,7 @@ def page(sheet: Worksheet, g: Any) -> str:
     return text if 0 < len(text.encode()) < _MOST else _page(sheet, namespace, lists=False)
 
 
+@np.errstate(all="ignore")  # of ways that the worksheet does not go, as while it is recorded
 def _page(sheet: Worksheet, namespace: dict[str, Any], lists: bool) -> str:
     """The file of a run; what rests on ``lists`` among the inputs follows them at any length, or at their own."""
     cells = _with_fields(by_cell(namespace), sheet, inputs_of(namespace))

@@ -68,8 +68,8 @@ def export(title: str, namespace: Mapping[str, Any]) -> Any:
     the document as a page in one file, and above them switches for what differs from the document's own inputs, for
     bands within tolerances, for what a result depends on, and for a proof of the digits of all numbers. In
     ``python worksheet.py``: prints the found values and the checks, writes ``NAME.xlsx`` into ``exports/`` of the
-    project whose worksheet it is, elsewhere beside the worksheet (or into ``--out``), and exits with 1 where a name
-    that some cell returns does not exist or a check fails. Where a group does not close, nothing is written.
+    project whose worksheet it is, elsewhere beside the worksheet (or into ``--out``), and exits with 1 where a check
+    fails. Where a group does not close, nothing is written.
     """
     if not (isinstance(title, str) and isinstance(namespace, dict) and "__file__" in namespace):
         raise SheetError('export takes the title and the worksheet\'s names: export("Title", globals())')
