@@ -20,7 +20,7 @@ class NotRecorded(BaseException):
 
 
 # Operations that may have no finite number where all their operands have one.
-_PARTIAL = frozenset(("div", "pow", "sqrt", "exp", "log", "tan", "asin", "acos", "mod", "sized"))
+PARTIAL = frozenset(("div", "pow", "sqrt", "exp", "log", "tan", "asin", "acos", "mod", "sized"))
 _MOVING = frozenset(("input", "rows", "length", "take", "join", "reduce"))
 _GIVEN = frozenset(("constant", "input", "exported"))  # of which no number is computed
 MOST = 1_000_000  # numbers that one statement may compute, many of them each a cell of a workbook
@@ -382,7 +382,7 @@ def _exists(node: Node) -> bool:
         return bool(np.all(np.isfinite(node.value)))
     if node.op == "div":
         return node.args[1].op == "constant" and bool(np.all(node.args[1].value))
-    return node.op in _MOVING or (node.op in ELEMENTWISE and node.op not in _PARTIAL)
+    return node.op in _MOVING or (node.op in ELEMENTWISE and node.op not in PARTIAL)
 
 
 def _joined(node: Node) -> tuple[Node, ...]:

@@ -12,9 +12,10 @@ import numpy as np
 
 from mechsheet.quantities.arithmetic import choice as where
 from mechsheet.quantities.arithmetic import elementwise, trunc
-from mechsheet.quantities.graph import NotRecorded, current
+from mechsheet.quantities.graph import PARTIAL, NotRecorded, current
+from mechsheet.quantities.node import bottom_up
 from mechsheet.quantities.options import is_object, parted
-from mechsheet.quantities.quantity import Quantity, has_quantity, is_any_length, lift
+from mechsheet.quantities.quantity import Quantity, has_quantity, is_any_length, lift, quantities
 from mechsheet.quantities.selected import Selected
 from mechsheet.quantities.sketch import Sketch
 from mechsheet.quantities.sketch import merged as merged_sketch
@@ -296,6 +297,16 @@ def handled(error: BaseException) -> None:
     raise NotRecorded(f"it handles an error ({error!r})")
 
 
+def tried(*values: Any) -> Any:
+    """What a worksheet makes where it handles errors: of what is no number Python may have made one."""
+    graph = current.get()
+    for node in bottom_up((node for value in quantities(values) for node in value.nodes), ()):
+        finite: Any = np.isfinite(Quantity(graph, node))
+        if node.op in PARTIAL and not finite.reduced("all"):
+            raise NotRecorded("it may handle an error")
+    return values[0] if values else None
+
+
 def _is_whole(values: Any) -> bool:
     """Whether there is no telling how many numbers these are for other inputs."""
     return isinstance(values, Selected) or is_any_length(values)
@@ -375,7 +386,7 @@ def _number(kind: type, followed: Callable[..., Any]) -> Callable[..., Any]:
 
 CALLS: dict[str, Any] = {
     "choice": choice, "and": both, "or": any_of, "not": negated, "matched": matched, "element": element, "get": got,
-    "handled": handled,
+    "handled": handled, "tried": tried,
     "len": lambda x: x.count(0) if isinstance(x, Quantity) and x.ndim else len(x),
     "unbound": UNBOUND, "text": text,
     "max": _extreme("max"), "min": _extreme("min"), "round": round, "sorted": ranked, "place": placed,

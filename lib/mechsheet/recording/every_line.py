@@ -1,5 +1,6 @@
 """The lines on which nothing rests that a worksheet shows in tables, figures and checks."""
 
+from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
@@ -27,7 +28,8 @@ def add_lines(run: Run) -> None:
                 run.run(each, draws=False)
                 behind.append(each)
                 known.update(each.gives)
-    recording.gaps[gaps:] = [gap for gap in recording.gaps[gaps:] if any(name in run.lines for name in gap.names)]
+    at, behind_lines = _behind_lines(run, behind)
+    recording.gaps[gaps:] = [gap for gap in recording.gaps[gaps:] if not behind_lines.isdisjoint(at.get(gap.line, ()))]
     for cell in sorted(behind, key=run.sheet.cells.index):
         for name in _bound(cell):
             _note(run, cell, name)
@@ -35,6 +37,23 @@ def add_lines(run: Run) -> None:
     guards = guards.union(*(conditions(node, run.chosen) for node in every))  # not those of what cells draw
     kept = {h: guard for h, guard in recording.guards.items() if h in guards or guard.rows or guard.lengths}
     recording.guards = kept
+
+
+def _behind_lines(run: Run, cells: Iterable[Cell]) -> tuple[dict[int, set[str]], set[str]]:
+    """What statements bind or change, by their places in the file, and all names on which lines rest."""
+    at, waiting, found = dict[int, set[str]](), [*run.lines], set[str]()
+    reads = dict[str, set[str]]()
+    for line in (line for cell in cells for line in cell.lines):
+        facts = statement.facts(line, run.sheet.path)
+        at.setdefault(line.lineno, set()).update(facts.touched)
+        for name in facts.touched:
+            reads.setdefault(name, set()).update(run.read(facts.loaded))
+    while waiting:
+        name = waiting.pop()
+        if name not in found:
+            found.add(name)
+            waiting += reads.get(name, ())
+    return at, found
 
 
 def _bound(cell: Cell) -> dict[str, None]:

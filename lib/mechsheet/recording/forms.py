@@ -3,6 +3,8 @@
 import ast
 from collections.abc import Iterator, Sequence
 
+from mechsheet.worksheet.source import bound
+
 SCOPED = ast.NamedExpr, ast.Yield, ast.YieldFrom, ast.Await  # are not what they are inside a lambda
 
 
@@ -135,6 +137,31 @@ def index(key: ast.expr) -> ast.expr:
         ends = [end or ast.Constant(None) for end in (key.lower, key.upper, key.step)]
         return ast.Call(ast.Name("slice", ast.Load()), ends, [])
     return ast.Tuple([index(k) for k in key.elts], ast.Load()) if isinstance(key, ast.Tuple) else key
+
+
+def tried(node: ast.Try | ast.With) -> None:
+    """Let lines in which errors are handled say what they make, and that one is handled: of recorded quantities alone.
+
+    Where something in them is no number Python may have gone another way.
+    """
+    if isinstance(node, ast.With):
+        named = {n.attr if isinstance(n, ast.Attribute) else getattr(n, "id", "") for n in _called(node)}
+        if "suppress" not in named:
+            return
+    for handler in node.handlers if isinstance(node, ast.Try) else ():
+        handler.name = handler.name or "_error"
+        handler.body.insert(0, ast.Expr(call("handled", handler, ast.Name(handler.name, ast.Load()))))
+    for part in (part for line in node.body for part in ast.walk(line)):
+        if isinstance(part, ast.Return) and part.value:
+            part.value = call("tried", part, part.value)
+    names = dict.fromkeys(name for line in node.body for name in bound(line))
+    if not isinstance(last := node.body[-1], ast.Return):
+        made = call("tried", last, *(ast.Name(name, ast.Load()) for name in names))
+        node.body.append(ast.copy_location(ast.Expr(made), last))
+
+
+def _called(node: ast.With) -> Iterator[ast.expr]:
+    return (item.context_expr.func for item in node.items if isinstance(item.context_expr, ast.Call))
 
 
 def call(name: str, at: ast.AST, *args: ast.expr) -> ast.Call:

@@ -131,6 +131,14 @@ def names_of(code: CodeType) -> tuple[str, ...]:
     return tuple(dict.fromkeys(chain(code.co_names, *inside)))
 
 
+@lru_cache(maxsize=4096)
+def shared_by(code: CodeType) -> frozenset[str]:
+    """Names of the worksheet that a function reads: neither its own nor attributes of something that are called so."""
+    inside = (shared_by(constant) for constant in code.co_consts if isinstance(constant, CodeType))
+    own = {i.argval for i in dis.get_instructions(code) if i.opname in ("LOAD_GLOBAL", "LOAD_NAME")}
+    return frozenset(own.union(*inside))
+
+
 def operations(code: CodeType) -> set[str]:
     """Operations of a piece of code by name, without those of functions in it: quicker than to take it apart."""
     return {dis.opname[each] for each in set(code.co_code[::2])}

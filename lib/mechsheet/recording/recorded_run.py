@@ -23,7 +23,7 @@ from mechsheet.quantities.written import Said, Written
 from mechsheet.recording import showing, statement
 from mechsheet.recording.by_size import decided
 from mechsheet.recording.given import given
-from mechsheet.recording.memory import Memory, changes, names_of
+from mechsheet.recording.memory import Memory, changes, names_of, shared_by
 from mechsheet.recording.positions import OfPositions
 from mechsheet.recording.stage import Stage, held
 from mechsheet.recording.substitutes import Module, instead, shared, staged
@@ -386,7 +386,7 @@ class Run(OfPositions):
         while waiting:
             value = self.names.get(waiting.pop())
             if isinstance(value, FunctionType) and value.__globals__ is self.names:
-                new = {*names_of(value.__code__)} - found
+                new = shared_by(value.__code__) - found
                 found |= new
                 waiting += new
         return frozenset(found)

@@ -25,6 +25,7 @@ from mechsheet.recording.forms import (
     one_by_one,
     set_parts,
     sets_beside,
+    tried,
 )
 from mechsheet.worksheet import source
 from mechsheet.worksheet.source import bound
@@ -33,7 +34,7 @@ CALLS = choices.CALLS | in_place.CALLS | kept.CALLS | loops.CALLS
 _NAMES = {"float", "int", "complex", "len", "max", "min", "pow", "round", "sorted"}
 _KINDS = (
     *(ast.Import, ast.ImportFrom, ast.JoinedStr, ast.Subscript, ast.IfExp, ast.BoolOp, ast.Compare, ast.Match, ast.Not),
-    *(ast.AugAssign, ast.If, ast.While, ast.For, ast.FunctionDef, ast.ExceptHandler),
+    *(ast.AugAssign, ast.If, ast.While, ast.For, ast.FunctionDef, ast.Try, ast.With),
 )
 
 
@@ -238,11 +239,12 @@ class _Rewriting(ast.NodeTransformer):
         self.generic_visit(node)
         return node
 
-    def visit_ExceptHandler(self, node: ast.ExceptHandler) -> ast.AST:
+    def visit_Try(self, node: ast.Try | ast.With) -> ast.AST:
         self.generic_visit(node)
-        node.name = node.name or "_error"
-        node.body.insert(0, ast.Expr(call("handled", node, ast.Name(node.name, ast.Load()))))
+        tried(node)
         return node
+
+    visit_With = visit_Try
 
 
 def _only_binds(line: ast.stmt) -> bool:

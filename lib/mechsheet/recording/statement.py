@@ -44,7 +44,7 @@ class Statement(NamedTuple):
 def facts(statement: ast.stmt, path: str) -> Statement:
     nodes = source.nodes(statement)
     attributes = [n for n in nodes if isinstance(n, ast.Attribute)]
-    names = [n for n in nodes if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Load)]
+    names = [*_read(statement, frozenset())]
     of_parts = {id(n.value) for n in attributes}
     beside = {id(n) for argument in _beside(nodes) for n in source.nodes(argument)}
     return Statement(
@@ -56,6 +56,29 @@ def facts(statement: ast.stmt, path: str) -> Statement:
         any(n.id == "g" and id(n) not in of_parts for n in names),
         tuple(_columns(statement)),
     )
+
+
+def _read(node: ast.AST, own: frozenset[str]) -> Iterator[ast.Name]:
+    """Names that are read of the worksheet: not the parameters and the others of functions and comprehensions."""
+    outside: list[ast.AST] = []
+    inner = own
+    match node:
+        case ast.Name(name, ast.Load()) if name not in own:
+            yield node
+        case ast.Lambda(args) | ast.FunctionDef(args=args):
+            outside = [*args.defaults, *filter(None, args.kw_defaults), *getattr(node, "decorator_list", ())]
+            body = node.body if isinstance(node, ast.FunctionDef) else []
+            shared = {
+                name for part in body for n in source.nodes(part) if isinstance(n, ast.Global) for name in n.names
+            }
+            inner |= {n.arg for n in ast.walk(args) if isinstance(n, ast.arg)}.union(*map(bound, body)) - shared
+        case ast.ListComp() | ast.SetComp() | ast.DictComp() | ast.GeneratorExp():
+            outside = [node.generators[0].iter]
+            inner |= {name for each in node.generators for name in bound(each.target)}
+    for part in outside:
+        yield from _read(part, own)
+    for part in ast.iter_child_nodes(node):
+        yield from _read(part, inner)
 
 
 def _columns(statement: ast.stmt) -> Iterator[frozenset[str]]:

@@ -76,7 +76,8 @@ class Worksheet:
         with raised(), np.errstate(**self.errors), stating() as names[STATED]:
             for cell in cells:
                 try:
-                    exec(cell.code, names)
+                    with mistakes.unbound({*cell.gives}.difference(cell.certain), self.path):
+                        exec(cell.code, names)
                     names.update(given)  # a cell that is needed for something else must not replace what is given
                 except BaseException as error:
                     if isinstance(error, Exception):

@@ -3,12 +3,14 @@
 import builtins
 import difflib
 import re
-from collections.abc import Container, Iterable
+from collections.abc import Collection, Container, Iterable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from traceback import walk_tb
 from types import FrameType
 
 from mechsheet import units
+from mechsheet.worksheet.errors import SheetError
 
 
 def place(file: str | Path, line: int) -> str:
@@ -79,12 +81,28 @@ def told(error: BaseException, path: str) -> str:
     return f"{at(file, line, text.splitlines()[line - 1])}: {why(error, known, text, given)}"
 
 
+@contextmanager
+def unbound(of_some: Collection[str], path: str) -> Iterator[None]:
+    """SheetError where a name has no value that only ``of_some`` ways bind: of other inputs it may have one."""
+    try:
+        yield
+    except NameError as error:
+        if error.name in of_some:
+            raise SheetError(told(error, path)) from None
+        raise
+
+
 def why(error: BaseException, known: Iterable[str], text: str = "", inputs: Container[str] = ()) -> str:
     """An exception in words, with the ``known`` names and those of the ``inputs``; ``text`` is that of the cell."""
     if isinstance(error, NameError) and error.name:
         if error.name in inputs:
             return f"the name {error.name} is not defined in any cell (did you mean g.{error.name}?)"
-        if re.search(rf"^\s*(def {error.name}\(|{error.name}\s*(=[^=]|,[^(]*=))", text, re.MULTILINE):
+        lines, binds = text.splitlines(), rf"\s*(def {error.name}\(|{error.name}\s*(=[^=]|,[^(]*=))"
+        if places := [n for n, line in enumerate(lines, 1) if re.match(binds, line)]:
+            through = [line for _, line in walk_tb(error.__traceback__) if line <= len(lines)]
+            read = [n for n in through if re.search(rf"\b{error.name}\b", lines[n - 1])]
+            if read and places[0] < read[-1]:
+                return f"{error.name} has no value there: none of the ways that the lines above it went gives it one"
             return f"{error.name} is defined below its use: move its line up"
         return undefined(error.name, (name for name in known if not name.startswith("_")))
     fields = getattr(type(error.obj), "__inputs__", ()) if isinstance(error, AttributeError) else ()
