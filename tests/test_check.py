@@ -47,6 +47,12 @@ def test_agreement_within_more_than_a_thousandth_is_none(part, size, off):
         assert "more than a thousandth of what is compared" in str(c) and str(c).startswith("not evaluated  R12")
 
 
+def test_a_part_of_nothing_says_why_it_lets_nothing_through():
+    c = check("balance", [0.0, 9e-13], 1e-9, "N", of=[0.0, 0.0])
+    assert not c.passed and "what is compared is 0, and so is any part of it" in str(c)
+    assert check("balance", 0.0, 1e-9, "N", of=0.0).passed
+
+
 def test_slope_whose_differences_know_nothing_is_not_evaluated():
     x = np.linspace(0.0, 1.0, 5)
     c = check_slope("wild", np.ones(5), lambda x: np.sin(1e6 * x), x, 0.0, 1.0)

@@ -192,6 +192,7 @@ def test_a_mistake_is_told_with_its_line_in_the_words_of_the_editor(
         ("M_S = M(phi)", "M_S = M(sin(0,5))", "a decimal number has a point, not a comma"),
         ("M_S = M(phi)", "M_S = 2 * (1,5)  # [N] wrong\n    typeset()", "M_S = 2 * (1, 5) is several values"),
         ("M_S = M(phi)", "M_S := M(phi)", "a definition is written =, not :="),
+        ("M_S = M(phi)", "if g.F < 0: j = 1\n    M_S = j", "j has no value there: none of the ways"),
         ("M_S = M(phi)", "M_S = 2 M(phi)", "is a * missing?"),
         ("M_S = M(phi)", "M_S = 2M(phi)", "is a * missing?"),
         ("M_S = M(phi)", "M_S = {phi: 1}", "an array, a list or a table can be no key"),
@@ -207,6 +208,13 @@ def test_what_mathcad_took_is_told_in_words(old: str, new: str, says: str, lever
     done = as_script(lever(old, new))
     assert done.returncode == 1 and says in done.stderr and done.stderr.count("\n") == 1, done.stderr
     assert re.search(r"line 9[01]\b", done.stderr)
+
+
+def test_a_class_that_is_not_marked_and_an_argument_twice_are_told_in_words(lever: Callable[..., Path]) -> None:
+    done = as_script(lever("@inputs\nclass Given:", "class Given:"))
+    assert done.returncode == 1 and "ask takes a class of inputs: write @inputs above Given" in done.stderr
+    done = as_script(lever("def M(phi):", "def M(phi, phi):"))
+    assert done.returncode == 1 and "duplicate argument 'phi' in function definition\n" in done.stderr, done.stderr
 
 
 def test_a_declaration_is_told_with_its_line(lever: Callable[..., Path]) -> None:

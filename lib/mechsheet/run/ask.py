@@ -27,6 +27,8 @@ class Given:
 def ask(cls: type) -> "mo.ui.batch | Given":
     """Text fields for all inputs, section by section, with the defaults or what arguments and scenes give."""
     try:
+        if not hasattr(cls, "__worksheet__"):
+            raise SheetError(f"ask takes a class of inputs: write @inputs above {getattr(cls, '__name__', cls)}")
         given = _given(cls).inputs
         if "marimo" not in sys.modules:
             return Given(given)

@@ -215,6 +215,8 @@ def judged(name: str, residual: ArrayLike, limit: float, unit: str, size: float 
     elif np.isinf(limit):
         reason = "its limit is infinite"
     residual = np.nan if reason else float(np.max(sizes)) / factor
+    if size == 0 and residual > 0:
+        reason = "what is compared is 0, and so is any part of it: without of= the limit is a number of its own"
     return _state(Check(name, residual, limit / factor, unit, reason, agreement=bool(np.isfinite(size))))
 
 

@@ -97,8 +97,10 @@ def why(error: BaseException, known: Iterable[str], text: str = "", inputs: Cont
     if isinstance(error, NameError) and error.name:
         if error.name in inputs:
             return f"the name {error.name} is not defined in any cell (did you mean g.{error.name}?)"
-        lines, binds = text.splitlines(), rf"\s*(def {error.name}\(|{error.name}\s*(=[^=]|,[^(]*=))"
-        if places := [n for n, line in enumerate(lines, 1) if re.match(binds, line)]:
+        name = rf"{error.name}\b"
+        binds = rf"(^|[:;])\s*(def {name}|{name}\s*(=[^=]|,[^(]*=)|for\b[^:]*\b{name}[^:]* in )"
+        lines = text.splitlines()
+        if places := [n for n, line in enumerate(lines, 1) if re.search(binds, line)]:
             through = [line for _, line in walk_tb(error.__traceback__) if line <= len(lines)]
             read = [n for n in through if re.search(rf"\b{error.name}\b", lines[n - 1])]
             if read and places[0] < read[-1]:
@@ -124,7 +126,7 @@ def unread(error: SyntaxError) -> str:
             "the file begins with a byte order mark (BOM), which Python's editors refuse: save it as UTF-8 without one"
         )
     text = (error.text or "").partition("#")[0]
-    if error.msg.startswith(("expected", "unexpected indent", "unindent")):  # which say enough
+    if error.msg.startswith(("expected", "unexpected indent", "unindent", "duplicate argument")):  # which say enough
         return error.msg
     return error.msg + next((f" ({hint})" for pattern, hint in _MEANT.items() if re.search(pattern, text)), "")
 
