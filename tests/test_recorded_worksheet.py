@@ -52,7 +52,7 @@ FOLLOWED = [
     "np.exp(1j * x) * g.F", "np.sqrt(g.F + 1j * x)", "abs(g.F + 1j * x)", "np.angle(g.a + 1j * x)", "(g.F + 1j * x)**3",
     "np.sin(g.F + 1j * g.a)", "np.log(g.F + 1j * x)", "g.a if g.F > 2.6 else 3 * g.a", "(1.0, 2, 4, 8)[g.k] * g.F",
     "[3.0, g.F, g.a, 1.0][g.k]", "{0: 1.0, 2: 5.0, 3: g.F}[g.k]", "np.array([3.0, 4.0, 5.0, 6.0])[g.k] * g.F", "x[g.k]",
-    "float(g.F) * int(g.a * 10)", "round(g.F, 1)", "np.concatenate([x, [g.F], x[:2]])", "np.stack([x, x**2])[1]",
+    "float(g.F) * int(g.a * 10)", "np.round(g.F, 1)", "np.concatenate([x, [g.F], x[:2]])", "np.stack([x, x**2])[1]",
     "2 * np.column_stack([x, x])[:, 1]", "np.array([F * g.a for F in (1.0, g.F, 3.0)])", "np.sum([F**2 for F in x])",
     "np.einsum('i,i', [1.0, 2.0], [3.0, 4.0]) * g.F", "np.vstack([x, x]).sum(axis=0)", "np.meshgrid(x, [1.0, g.F])[1]",
     "np.searchsorted([1.0, 2.0, 3.0], x)", "np.maximum.accumulate(np.sin(x))", "np.add.reduce(x)", "x.max() + x.mean()",
@@ -441,6 +441,8 @@ GUARDED = [  # what the numbers are decides about lengths and ways: other number
     ("[1, 2, 3][int(g.F)] * g.a", {"a": 1.2}, None),
     ("np.arange(int(3.7 * g.a)) + g.F", {"F": 1.0}, None),
     ('{"2": 3.0, "3": 4.0}[f"{g.k}"] * g.F', {"F": 3.0}, {"k": 3}),
+    ("round(g.F, 1)", {"F": 3.14159}, None),
+    ("round(g.F + 1.1, 1)", {"F": 3.14159}, {"F": 3.25}),  # 4.35 is a little less in binary: Python gives 4.3
 ]
 
 

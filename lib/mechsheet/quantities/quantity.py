@@ -149,6 +149,11 @@ class Quantity(NDArrayOperatorsMixin):
         return operator_index(np.trunc(self))
 
     def __round__(self, digits: int | None = None) -> Any:
+        """Python's round, which knows on which side of a half in decimals the binary number is: numpy's does not."""
+        if digits and digits > 0:
+            size = abs(self) * 10.0**digits
+            if not abs(size - np.floor(size) - 0.5) > numbers.ROUNDING * np.maximum(size, 1):
+                raise NotRecorded("which way a half is rounded")
         return np.round(self, digits or 0)
 
     def __format__(self, spec: str) -> str:
