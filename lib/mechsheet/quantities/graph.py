@@ -25,6 +25,7 @@ _MOVING = frozenset(("input", "rows", "length", "take", "join", "reduce"))
 _GIVEN = frozenset(("constant", "input", "exported"))  # of which no number is computed
 MOST = 1_000_000  # numbers that one statement may compute, many of them each a cell of a workbook
 _NODES = 50_000  # operations that it may have, of however few numbers: they take time in Python
+_SET = "an array whose elements are set one by one is a new one each time, a list that is appended to is not"
 MOST_DRAWN = 2_000_000  # the same where no cell holds them: in a page in one file, or a function of the inputs
 
 
@@ -131,7 +132,8 @@ class Graph(Lengths):
             if self.always.issuperset(under) and _exists(known):
                 self.always.add(known)
             if self.work > self.most:
-                raise NotRecorded(f"it takes more than {self.most:,} operations on single numbers")
+                why = f"it takes more than {self.most:,} operations on single numbers"
+                raise NotRecorded(f"{why}: {_SET}" if op == "join" else why)
         return known
 
     def see(self, seen: Node, rows: bool = False, turns: bool = False, why: str = "") -> None:
