@@ -26,9 +26,7 @@ _FREE = 20  # of Newton's own, whatever they lead to
 _LEVEL = 1e-9  # cosine between the residuals and what any step changes, from which on none makes them less
 _VARIED = 8  # floats by which an unknown is varied to see what rounding does
 _ROUNDED = 8  # times that variation: what a residual may be
-_NOISE = (
-    2.0**-6
-)  # of what an equation changes over the sizes: if it varies by more than this, there is nothing to solve
+_NOISE = 2.0**-6  # of what an equation changes over the sizes: where it varies by more, there is nothing to solve
 
 
 @dataclass(frozen=True)

@@ -301,9 +301,10 @@ def tried(*values: Any) -> Any:
     """What a worksheet makes where it handles errors: of what is no number Python may have made one."""
     graph = current.get()
     for node in bottom_up((node for value in quantities(values) for node in value.nodes), ()):
-        finite: Any = np.isfinite(Quantity(graph, node))
-        if node.op in PARTIAL and not finite.reduced("all"):
-            raise NotRecorded("it may handle an error")
+        if node.op in PARTIAL and node not in graph.always:
+            finite: Any = np.isfinite(Quantity(graph, node))
+            if not finite.reduced("all"):
+                raise NotRecorded("it may handle an error")
     return values[0] if values else None
 
 

@@ -68,10 +68,9 @@ def _read(node: ast.AST, own: frozenset[str]) -> Iterator[ast.Name]:
         case ast.Lambda(args) | ast.FunctionDef(args=args):
             outside = [*args.defaults, *filter(None, args.kw_defaults), *getattr(node, "decorator_list", ())]
             body = node.body if isinstance(node, ast.FunctionDef) else []
-            shared = {
-                name for part in body for n in source.nodes(part) if isinstance(n, ast.Global) for name in n.names
-            }
-            inner |= {n.arg for n in ast.walk(args) if isinstance(n, ast.arg)}.union(*map(bound, body)) - shared
+            given = {n.arg for n in ast.walk(args) if isinstance(n, ast.arg)}
+            shared = (n for part in body for n in source.nodes(part) if isinstance(n, ast.Global))
+            inner |= given.union(*map(bound, body)).difference(*(n.names for n in shared))
         case ast.ListComp() | ast.SetComp() | ast.DictComp() | ast.GeneratorExp():
             outside = [node.generators[0].iter]
             inner |= {name for each in node.generators for name in bound(each.target)}

@@ -142,9 +142,8 @@ def _declared(cls: type, cell: source.Cell, names: Mapping[str, Any]) -> tuple[I
                 f"{places[without[0]]}: input {without[0]} needs a value, such as {without[0]}: float = 1.0"
             )
         if other := next((f.name for f in found if not (f.continuous or (type(f) is Input and f.counted))), ""):
-            raise SheetError(
-                f"{places[other]}: {other}: the fields of options and rows are floats, or ints without unit"
-            )
+            kinds = "the fields of options and rows are floats, or ints without unit"
+            raise SheetError(f"{places[other]}: {other}: {kinds}")
     unknown = {field.name for field in found if field.mistake}
     found = [_without(field, unknown) for field in found] if unknown else found
     limits.comparable(found, places)
