@@ -24,6 +24,7 @@ _TEXTS = {"typeset", "print"}  # calls whose result stands on the page alone
 _ARGUMENTS = {
     f.__name__: list(signature(f).parameters) for f in (Check, check, check_slope, find, minerr, table, figure)
 }
+_SCOPES = ast.Lambda, ast.FunctionDef, ast.ListComp, ast.SetComp, ast.DictComp, ast.GeneratorExp
 _BINDING = {"STORE_GLOBAL", "DELETE_GLOBAL"}
 _BESIDE = {"unit", "unknown_unit", "show", "reason"}  # arguments that no writer shows beside numbers of other inputs
 
@@ -44,7 +45,9 @@ class Statement(NamedTuple):
 def facts(statement: ast.stmt, path: str) -> Statement:
     nodes = source.nodes(statement)
     attributes = [n for n in nodes if isinstance(n, ast.Attribute)]
-    names = [*_read(statement, frozenset())]
+    names = [n for n in nodes if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Load)]
+    if any(isinstance(n, _SCOPES) for n in nodes):  # else all of them are the worksheet's
+        names = [*_read(statement, frozenset())]
     of_parts = {id(n.value) for n in attributes}
     beside = {id(n) for argument in _beside(nodes) for n in source.nodes(argument)}
     return Statement(
