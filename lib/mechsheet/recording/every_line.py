@@ -28,8 +28,9 @@ def add_lines(run: Run) -> None:
                 run.run(each, draws=False)
                 behind.append(each)
                 known.update(each.gives)
-    at, behind_lines = _behind_lines(run, behind)
-    recording.gaps[gaps:] = [gap for gap in recording.gaps[gaps:] if not behind_lines.isdisjoint(at.get(gap.line, ()))]
+    if further := recording.gaps[gaps:]:
+        at, names = _behind_lines(run, behind)
+        recording.gaps[gaps:] = [gap for gap in further if not names.isdisjoint(at.get(gap.line, ()))]
     for cell in sorted(behind, key=run.sheet.cells.index):
         for name in _bound(cell):
             _note(run, cell, name)
