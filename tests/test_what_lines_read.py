@@ -12,6 +12,7 @@ from own_worksheet import own
 from mechsheet import evaluate, sweep
 from mechsheet.html import write as html
 from mechsheet.quantities.lines import Recording
+from mechsheet.quantities.node import bottom_up
 from mechsheet.readers.numbers import numbers
 from mechsheet.recording import statement
 from mechsheet.recording.record import record_every_line
@@ -121,3 +122,11 @@ def test_of_an_array_that_takes_too_much_to_be_filled_the_list_is_told(fills: st
     lines = f"{first}\nfor k in range(1000):\n    w = v[k] - 1e-3 * g.a * v[k]\n    {fills}\ny = v[-1]  # [-] last"
     recording = recording_of(own(tmp_path, "pass", further=[lines]))
     assert ["a list that is appended to is not" in gap.reason for gap in recording.gaps] == [True] * told
+
+
+def test_errors_that_the_library_handles_are_no_ways_of_the_worksheet(tmp_path: Path) -> None:
+    lines = "P = rrr(0j, 2 + 0j, g.F, 3.0, 1)  # [m] pin\ny = abs(P) / g.a  # [m] from the first hinge"
+    guards = recording_of(own(tmp_path, "pass", further=[lines])).guards
+    assert not any(node.op == "finite" for node in bottom_up(guards, ()))
+    handled = "try:\n    y = sqrt(g.a) * 1  # [-] line\nexcept ValueError:\n    y = 7.0"
+    assert any(node.op == "finite" for node in bottom_up(recording_of(own(tmp_path, handled)).guards, ()))
