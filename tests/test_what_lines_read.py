@@ -8,14 +8,13 @@ from typing import Any
 
 import numpy as np
 import pytest
-from own_worksheet import own
+from own_worksheet import own, value_of
 
 from mechsheet import evaluate, sweep
 from mechsheet.html import write as html
 from mechsheet.quantities.graph import Graph, current
 from mechsheet.quantities.lines import Recording
 from mechsheet.quantities.quantity import Quantity
-from mechsheet.readers.numbers import numbers
 from mechsheet.recording import choices, statement
 from mechsheet.recording.record import record_every_line
 from mechsheet.worksheet import cells
@@ -63,11 +62,9 @@ def test_a_parameter_of_one_cell_is_no_loop_variable_of_another(lines: str, tmp_
     """The loop goes another way for other inputs; the lines that use its name for something of their own do not."""
     sheet = own(tmp_path, "pass", further=[LOOP, lines])
     recording = recording_of(sheet)
-    known = {name: node for node, name in recording.names.items()}
-    found = numbers([known["r"], known["q"]], {recording.inputs["F"]: np.array(4.0)})
-    assert np.isnan(found[known["q"]]), "which goes another way"
+    assert np.isnan(value_of(recording, "q", {"F": 4.0})), "which goes another way"
     expected = sheet.run(["r"], {"g": sheet.inputs(F=4.0)})["r"]
-    np.testing.assert_allclose(found[known["r"]], expected, rtol=1e-13)
+    np.testing.assert_allclose(value_of(recording, "r", {"F": 4.0}), expected, rtol=1e-13)
 
 
 BEHIND = {

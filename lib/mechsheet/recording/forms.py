@@ -139,7 +139,7 @@ def index(key: ast.expr) -> ast.expr:
     return ast.Tuple([index(k) for k in key.elts], ast.Load()) if isinstance(key, ast.Tuple) else key
 
 
-def tried(node: ast.Try | ast.With) -> None:
+def tried(node: ast.Try | ast.TryStar | ast.With) -> None:
     """Let lines in which errors are handled say what they make, and that one is handled: of recorded quantities alone.
 
     Where something in them is no number Python may have gone another way.
@@ -148,7 +148,7 @@ def tried(node: ast.Try | ast.With) -> None:
         named = {n.attr if isinstance(n, ast.Attribute) else getattr(n, "id", "") for n in _called(node)}
         if "suppress" not in named:
             return
-    for handler in node.handlers if isinstance(node, ast.Try) else ():
+    for handler in () if isinstance(node, ast.With) else node.handlers:
         handler.name = handler.name or "_error"
         handler.body.insert(0, ast.Expr(call("handled", handler, ast.Name(handler.name, ast.Load()))))
     for part in (part for line in node.body for part in ast.walk(line)):

@@ -34,7 +34,7 @@ CALLS = choices.CALLS | in_place.CALLS | kept.CALLS | loops.CALLS
 _NAMES = {"float", "int", "complex", "len", "max", "min", "pow", "round", "sorted"}
 _KINDS = (
     *(ast.Import, ast.ImportFrom, ast.JoinedStr, ast.Subscript, ast.IfExp, ast.BoolOp, ast.Compare, ast.Match, ast.Not),
-    *(ast.AugAssign, ast.If, ast.While, ast.For, ast.FunctionDef, ast.Try, ast.With),
+    *(ast.AugAssign, ast.If, ast.While, ast.For, ast.FunctionDef, ast.Try, ast.TryStar, ast.With),
 )
 
 
@@ -239,12 +239,12 @@ class _Rewriting(ast.NodeTransformer):
         self.generic_visit(node)
         return node
 
-    def visit_Try(self, node: ast.Try | ast.With) -> ast.AST:
+    def visit_Try(self, node: ast.Try | ast.TryStar | ast.With) -> ast.AST:
         self.generic_visit(node)
         tried(node)
         return node
 
-    visit_With = visit_Try
+    visit_TryStar = visit_With = visit_Try
 
 
 def _only_binds(line: ast.stmt) -> bool:

@@ -245,8 +245,8 @@ def _run(sheet: Worksheet, cells: Iterable[Cell], g: Any, names: dict[str, Any])
     """Run the cells one by one, their names in ``names``."""
     names |= {**sheet.common, "g": g}
     for cell in cells:
-        of_some = {*cell.gives}.difference(cell.certain)
-        with stating(), mistakes.unbound(of_some, sheet.path):  # nothing stated is of the run that asks for this one
+        # Nothing stated is of the run of a worksheet that asks for this one.
+        with stating(), mistakes.unbound(cell.gives, cell.certain, sheet.path):
             exec(cell.code, names)
         for name in cell.gives:
             if isinstance(function := names.get(name), FunctionType):  # a branch that was not taken binds nothing

@@ -76,7 +76,7 @@ class Worksheet:
         with raised(), np.errstate(**self.errors), stating() as names[STATED]:
             for cell in cells:
                 try:
-                    with mistakes.unbound({*cell.gives}.difference(cell.certain), self.path):
+                    with mistakes.unbound(cell.gives, cell.certain, self.path):
                         exec(cell.code, names)
                     names.update(given)  # a cell that is needed for something else must not replace what is given
                 except BaseException as error:

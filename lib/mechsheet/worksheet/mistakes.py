@@ -3,7 +3,7 @@
 import builtins
 import difflib
 import re
-from collections.abc import Collection, Container, Iterable, Iterator
+from collections.abc import Container, Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from traceback import walk_tb
@@ -82,12 +82,12 @@ def told(error: BaseException, path: str) -> str:
 
 
 @contextmanager
-def unbound(of_some: Collection[str], path: str) -> Iterator[None]:
-    """SheetError where a name has no value that only ``of_some`` ways bind: of other inputs it may have one."""
+def unbound(gives: Container[str], certain: Container[str], path: str) -> Iterator[None]:
+    """SheetError where a name has no value that only some ways of a cell bind: of other inputs it may have one."""
     try:
         yield
     except NameError as error:
-        if error.name in of_some:
+        if error.name in gives and error.name not in certain:
             raise SheetError(told(error, path)) from None
         raise
 
