@@ -1,5 +1,6 @@
 """A served page tells, in a real browser, why a cell has failed: marimo leaves its place empty, and tells its log."""
 
+import re
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
@@ -9,7 +10,9 @@ from conftest import marimo_server, placed
 from playwright.sync_api import Page, expect
 
 from mechsheet import __main__ as launcher
+from mechsheet.html import write
 from mechsheet.page import values
+from mechsheet.worksheet import cells
 from mechsheet.worksheet.shown import Charted
 
 LEVER = (Path(launcher.__file__).parent / "run" / "new_worksheet.txt").read_text(encoding="utf-8")
@@ -111,6 +114,38 @@ def test_what_the_author_stops_is_told_at_its_cell_and_elsewhere_what_waits_for_
     page.set_viewport_size({"width": 1280, "height": 200})
     expect(page.locator(".ms-bar")).to_contain_text(f"not computed to its end {told}")
     assert "ancestor" not in page.locator("body").inner_text()
+
+
+# Nothing but the verdict of the solve block tells that there is no such angle: no check and no number rests on it.
+UNFOUND = [
+    ("M_max: float = 300.0", "M_max: float = 500.0"),
+    ("phi_max = phi_found.value", "phi_max = pi / 2"),
+    ("M(phi_max) - g.M_max, 1e-12", "M_S, 500"),
+    (', "N*m", of=g.M_max)', ', "N*m")'),
+]
+
+
+def test_what_is_not_found_is_told_beside_checks_that_pass(planted: Callable[..., Page]) -> None:
+    page = planted(*UNFOUND)
+    expect(page.locator(".ms-summary")).to_contain_text("2 of 2 checks pass")
+    page.set_viewport_size({"width": 1280, "height": 200})
+    expect(page.locator(".ms-bar")).to_contain_text(re.compile("not found *angle φ"))
+    page.set_viewport_size({"width": 1280, "height": 6000})
+    expect(page.locator(".ms-bar"), "it is in sight").to_be_hidden()
+
+
+def test_what_is_not_found_is_told_beside_checks_that_pass_in_one_file(tmp_path: Path, page: Page) -> None:
+    text = LEVER
+    for old, new in UNFOUND:
+        assert text.count(old) == 1, old
+        text = text.replace(old, new)
+    (tmp_path / "lever.py").write_text(text, encoding="utf-8")
+    sheet = cells.load(tmp_path / "lever.py")
+    (tmp_path / "lever.html").write_text(write.page(sheet, sheet.inputs()), encoding="utf-8")
+    page.goto((tmp_path / "lever.html").as_uri())
+    expect(page.locator(".ms-summary b")).to_have_text("2 of 2 checks pass; 1 not found")
+    page.locator("#input-M_max").fill("300")
+    expect(page.locator(".ms-summary b")).to_have_text("2 of 2 checks pass")
 
 
 def test_a_stop_without_a_word_says_that_it_is_one_and_a_refusal_is_told_once() -> None:

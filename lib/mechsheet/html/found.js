@@ -120,7 +120,7 @@ function foundHTML(words, found) {
   const failures = failed.length > 3 ? [...failed.slice(0, 3), `and ${failed.length - 3} more`] : failed;
   const waits = verdicts.every(v => v.reason === "nothing"), isLeast = words.least && !failures.length;
   const word = isLeast ? "least squares" : waits ? "not evaluated" : failures.length ? "not found" : "found";
-  const kind = isLeast ? "OPEN" : failures.length ? "FAIL" : "PASS";
+  const kind = isLeast || waits ? "OPEN" : failures.length ? "FAIL" : "PASS";
   const rows = waits ? [] : (words.names ? rowsOfSeveral : rowsOfOne)(words, verdicts, reasons, isAlone);
   if (!waits) rows.push(["computed", `${verdicts.reduce((n, v) => n + v.evaluations, 0)} times`]);
   const head = inWords(headOf(words, verdicts, reasons, isAlone));

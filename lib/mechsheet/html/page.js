@@ -249,7 +249,7 @@ function mark(field, changed, error) {
   else used.cells[1].textContent = typed(field);
 }
 
-// The verdicts of all checks where they are summed up, the worst first.
+// The verdicts of all checks where they are summed up, the worst first, and how many solve blocks found nothing.
 function sum() {
   for (const summary of document.querySelectorAll(".ms-summary")) {
     const row = summary.querySelector(".ms-row"), counts = {PASS: 0, FAIL: 0, OPEN: 0};
@@ -266,9 +266,9 @@ function sum() {
     const worse = (a, b) => (a.part === b.part ? 0 : b.part - a.part);
     const sorted = ["FAIL", "OPEN", "PASS"].flatMap(kind => items.filter(each => each.kind === kind).sort(worse).map(({item}) => item));
     if (sorted.some((item, k) => item !== row.children[k])) row.append(...sorted);
-    const total = items.length;
-    summary.querySelector("b").textContent = `${counts.PASS} of ${total} checks pass` +
-      (counts.FAIL ? `, ${counts.FAIL} fail` : "") + (counts.OPEN ? `, ${counts.OPEN} not evaluated` : "");
+    const total = items.length, unfound = document.querySelectorAll(".ms-found .ms-FAIL").length;
+    summary.querySelector("b").textContent = `${counts.PASS} of ${total} checks pass` + (counts.FAIL ? `, ${counts.FAIL} fail` : "") +
+      (counts.OPEN ? `, ${counts.OPEN} not evaluated` : "") + (unfound ? `; ${unfound} not found` : "");
   }
 }
 

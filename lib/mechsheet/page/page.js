@@ -65,10 +65,11 @@
       InBar.show();
     }
 
-    // What failed first; nothing as long as all of it is in sight.
+    // What failed first, then what was not found; nothing as long as all of it is in sight.
     static show() {
-      const [failed, verdicts] = ["ms-failed", "ms-verdict"].map((kind) => [...document.querySelectorAll(kind)]);
-      const told = [...failed.slice(0, 1), ...verdicts];
+      const all = ["ms-failed", "ms-unfound", "ms-verdict"].map((kind) => [...document.querySelectorAll(kind)]);
+      const [failed, unfound, verdicts] = all;
+      const told = [...failed.slice(0, 1), ...unfound.slice(0, 1), ...verdicts];
       bar.hidden = told.every(({ isSeen }) => isSeen ?? true);
       bar.innerHTML = bar.hidden ? "" : told.map((each) => each.getAttribute("bar")).join("");
       if (told.length) document.body.append(bar);
@@ -77,6 +78,7 @@
   }
   customElements.define("ms-verdict", class extends InBar {});
   customElements.define("ms-failed", class extends InBar {});
+  customElements.define("ms-unfound", class extends InBar {});
 
   document.addEventListener("change", (event) => {
     if (!event.target.matches(".ms-switch")) return;

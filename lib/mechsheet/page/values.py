@@ -322,11 +322,13 @@ def _(found: Verdict) -> str:
         f'<td style="padding:0;font-variant-numeric:tabular-nums">{_in_words(v, found.names)}</td></tr>'
         for k, v in found.details()
     )
-    return (
+    head = f"{badge}<b>{_in_words(found.headline(), found.names)}</b>"
+    whole = (
         '<div class="ms-found" style="border-left:3px solid currentColor;padding:.2em .8em;margin:.4em 0">'
-        f"<div>{badge}<b>{_in_words(found.headline(), found.names)}</b></div>{lines}"
+        f"<div>{head}</div>{lines}"
         f'<table style="border-collapse:collapse;font-size:.9em;margin-top:.3em">{rows}</table></div>'
     )
+    return element("ms-unfound", whole, id="unfound", bar=f'<a href="#unfound">{head}</a>') if lost else whole
 
 
 @html.register
