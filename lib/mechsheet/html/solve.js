@@ -1,6 +1,6 @@
 // Several equations in several unknowns, as the mechanics' newton and starts solve them; here one start of one problem
 // after the other.
-const STEP = EPS ** (1 / 3);
+const STEP = EPS ** (1 / 3), SINGULAR = 2 ** 22;
 function dot(a, b) {
   let sum = 0;
   for (let k = 0; k < a.length; k++) sum += a[k] * b[k];
@@ -259,18 +259,20 @@ function from_guess(f, at, unit) {
 }
 
 function between(f, at, unit) {
-  let ends = [], known = {seen: []}, before = -1;
-  for (let number = 0; number < 16 && known.seen.length > before; number++) {
-    before = number ? known.seen.length : 0;
+  let ends = [], known, before = -1, found = 0;
+  for (let number = 0; number < 16 && found > before; number++) {
+    before = found;
     ends = [...ends, ...lot(f, at, number, unit)];
     known = distinct(ends, at.size);
+    const singular = known.seen.filter(({condition}) => condition > SINGULAR).length;
+    found = known.seen.length - singular + min(singular, 1);
   }
   return known;
 }
 
 // Another solution right beside one at which slopes are singular, as of equations that depend on each other; or none.
 function aside(f, at, {x, condition}) {
-  if (!(condition > 2 ** 22)) return undefined;
+  if (!(condition > SINGULAR)) return undefined;
   const [{slopes, scale}] = led(f, [x], at, 1, null), size = at.size.map((v, k) => max(v, abs(x[k]) / 16));
   const {v} = decomposed(slopes.map((row, m) => row.map((w, k) => (w * size[k]) / scale[m]))), way = v[v.length - 1];
   const ends = led(f, [-1, 1].map(side => x.map((w, k) => w + side * 2 ** -7 * size[k] * way[k])), at, 1, null);

@@ -1,7 +1,8 @@
 """Seen of several equations in several unknowns, looked for from many starts, for whole arrays of problems at once.
 
 The starts fill the intervals evenly, the same ones for all problems. As long as the last ones have led to a new
-solution there are more of them; what lies where no start leads is not found, and nobody knows of it.
+solution there are more of them; what lies where no start leads is not found, and nobody knows of it. Solutions at which
+slopes are singular may be as many as there are starts, where equations depend on each other: they count as one.
 """
 
 from dataclasses import dataclass, replace
@@ -92,7 +93,8 @@ def between(f: Equations, at: Place, unit: Array | None) -> Seen:
         holding.append(held & searching)
         starts = starts + len(held) * searching
         known = _distinct(batches, holding, at.size)
-        found = (~np.isnan(known.x[0])).sum(0)
+        singular = known.condition > _SINGULAR
+        found = (~np.isnan(known.x[0]) & ~singular).sum(0) + singular.any(0)
         searching = searching & (found > seen)
         seen = found
     return replace(known, starts=starts)
