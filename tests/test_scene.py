@@ -16,6 +16,7 @@ from mechsheet.workbook import reading
 from mechsheet.worksheet import inputs
 from mechsheet.worksheet.cells import load
 from mechsheet.worksheet.errors import SheetError
+from mechsheet.worksheet.kinds import TextLine
 from mechsheet.worksheet.scene import Limit, Scene
 from worksheets.hitch import Hitch
 
@@ -48,6 +49,13 @@ def test_other_forms_are_refused(argument):
     with pytest.raises(SheetError, match="must be --NAME=VALUE") as error:
         arguments.read([argument], FIELDS)
     assert all(form in str(error.value) for form in ("--proof", "--proof=DIGITS", "--tolerances"))
+
+
+def test_what_is_empty_is_read_as_the_input_it_is_given_to():
+    with pytest.raises(SheetError, match="P6 = '' N is no number"):
+        arguments.read(["--P6="], FIELDS)
+    note = TextLine("note", "-", "who asked for it", "", False, ())
+    assert arguments.read(["--note="], [note]).inputs == {"note": ""}
 
 
 def test_all_parts_of_a_scene_file(tmp_path):

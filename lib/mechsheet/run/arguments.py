@@ -41,6 +41,9 @@ def is_script(worksheet: str) -> bool:
     return not mo.running_in_notebook()  # an export to HTML runs in the name of the worksheet too
 
 
+_OF_A_RUN = ("scene", "out", "want", "tolerances")  # none of which may be empty, as the text of an input may
+
+
 @usage()
 def read(arguments: Sequence[str], declared: Sequence[Input]) -> Scene:
     """Scene from ``--scene=FILE``, ``--out=FOLDER``, ``--want=NAMES``, ``--NAME=VALUE``; the later holds.
@@ -60,7 +63,7 @@ def read(arguments: Sequence[str], declared: Sequence[Input]) -> Scene:
         if argument == "--tolerances":
             scene = replace(scene, tolerances=True)
             continue
-        if not (argument.startswith("--") and name and equals and value):
+        if not (argument.startswith("--") and name and equals) or (name in _OF_A_RUN and not value):
             forms = "--NAME=VALUE, --want=NAMES, --scene=FILE, --out=FOLDER, --proof, --proof=DIGITS or --tolerances"
             raise SheetError(f"argument {argument!r} must be {forms}")
         if name == "scene":

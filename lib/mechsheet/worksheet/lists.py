@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mechsheet.worksheet import data_file, errors
+from mechsheet.worksheet import data_file, errors, limits
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.kinds import Input
 
@@ -72,7 +72,11 @@ class Rows(Input):
                 except SheetError as error:
                     place = f"file {file.path}, row {file.rows[k]}, column {name}"
                     raise SheetError(f"{place}: {error}", self.name) from None
-            found[column.name] = np.array([column.read(cell) for cell in file.cells[name]])
+            found[column.name] = xs = np.array([column.read(cell) for cell in file.cells[name]])
+            own = tuple(limit for limit in column.limits if not re.match(r"[^\W\d]", limit[1]))
+            for holds, refusal in limits.rules([replace(column, limits=own)], {column.name: xs}):
+                for k in np.flatnonzero(~np.broadcast_to(holds, xs.shape))[:1]:
+                    raise SheetError(f"file {file.path}, row {file.rows[k]}, column {name}: {refusal(k)}", self.name)
         return self.read(found)
 
     def si(self, value: Any, default: Any) -> Any:
