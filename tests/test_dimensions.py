@@ -168,10 +168,11 @@ def test_what_is_right_is_not_told(told: Callable[..., Dimensions], lines: list[
 WRONG = {
     "sum": (["x = g.F + g.M"], 1, "g.F + g.M: adds N and N·m"),
     "difference": (["x = 2 * (g.L - g.D * g.F)"], 1, "g.L - g.D * g.F: subtracts N·m from m"),
-    "sine": (["a = sin(g.L)"], 1, "sin(g.L): sin of a quantity in m, not of a number"),
+    "sine": (["a = sin(g.L)"], 1, "sin(g.L): a quantity in m where a number belongs"),
     "angle of unlike": (["a = atan2(g.L, g.F)"], 1, "atan2(g.L, g.F): atan2 of m and N"),
     "hypot": (["a = hypot(g.L, g.F)"], 1, "hypot(g.L, g.F): adds m² and "),
-    "logarithm": (["a = log(g.L)"], 1, "log(g.L): log of a quantity in m"),
+    "logarithm": (["a = log(g.L)"], 1, "log(g.L): a quantity in m where a number belongs"),
+    "made of another function": (["a = np.tanh(g.L)"], 1, "np.tanh(g.L): a quantity in m where a number belongs"),
     "constant": (["k = 640 * MPa / g.F  # [-] k"], 1, "k: unit [-] does not fit; the value is in 1/m²"),
     "constant of the setup": (["k = STRENGTH + g.F  # [Pa] k"], 1, "STRENGTH + g.F: adds Pa and N"),
     "declared in the setup": (["G = G_N * g.L  # [N] weight"], 1, "G: unit [N] does not fit; the value is in m²/s²"),
@@ -197,6 +198,14 @@ WRONG = {
     "condition of three parts": (["b = 0 * m < g.L < g.F"], 1, "0 * m < g.L < g.F: compares m with N"),
     "condition of a loop": (["a = 2 * g.L", "while a < 3 * N:", "    a = 2 * a"], 2, "a < 3 * N: compares m with N"),
     "in a loop": (["a = 2 * g.L", "for _ in range(3):", "    a = a + 3 * N"], 3, "a + 3 * N: adds m and N"),
+    "in a loop on what rests on it": (
+        [
+            *("h, x, v = 0.002, g.L, 0 * m / second", "for _ in range(200):"),
+            *("    v = v - x / second**2 * h", "    x = x + v * h", "x_end = x  # [mm] place"),
+        ],
+        4,
+        "x + v * h: adds m and m/s²",
+    ),
     "assertion": (["a = 2 * g.L", "assert a < 300 * N"], 2, "a < 300 * N: compares m with N"),
     "choice": (["a = where(g.n > 2, g.L, g.F)"], 1, "where(g.n > 2, g.L, g.F): chooses between m and N"),
     "greatest": (["a = max(g.L, g.F)"], 1, "max(g.L, g.F): compares m with N"),

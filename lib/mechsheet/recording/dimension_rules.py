@@ -2,7 +2,8 @@
 
 A table from operation to rule. Where the elements of a quantity are unlike, each has its own. Three kinds of numbers
 stand beside the exponents: 0, infinite ones and NaN fit any dimension; a literal without a unit is a pure number where
-it is multiplied and takes the other's dimension where it is added or compared; of what is unknown nothing is told.
+it is multiplied and takes the other's dimension where it is added or compared; of what is unknown, or rests on a
+mistake that is told, nothing is told.
 """
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
@@ -24,7 +25,7 @@ from mechsheet.worksheet.no_inputs import inputs_of
 
 Codes = int | NDArray[np.intp]  # of all elements, or of each
 
-NUMBER, UNKNOWN, ANY, LITERAL = range(4)  # codes; those of other exponents follow
+NUMBER, UNKNOWN, ANY, LITERAL, WRONG = range(5)  # codes; those of other exponents follow
 TOLERANCE = 1e-6  # a literal below it is a tolerance, which has the unit of what it is compared with
 VANISHING = 1e-50  # a literal below it, such as a complex step, is as good as 0
 
@@ -40,7 +41,7 @@ class Reader:
         lines: Iterable[Formula],
         places: Places,
     ) -> None:
-        self.exponents: list[Dims | None] = [PURE, None, None, None]
+        self.exponents: list[Dims | None] = [PURE, None, None, None, None]
         self.known: dict[Dims, int] = {PURE: NUMBER}
         self.products: dict[tuple[int, int, float], int] = {}
         self.places, self.values = places, values
@@ -86,10 +87,8 @@ class Reader:
         if known is not None:
             return known
         first, second = self.exponents[a], self.exponents[b]
-        if ANY in (a, b):
-            result = ANY
-        elif UNKNOWN in (a, b):
-            result = UNKNOWN
+        if free := {a, b} & {WRONG, ANY, UNKNOWN}:
+            result = next(code for code in (WRONG, ANY, UNKNOWN) if code in free)
         elif first is None and second is None:
             result = LITERAL
         else:
@@ -98,10 +97,12 @@ class Reader:
         return result
 
     def power(self, a: int, power: float) -> int:
-        return a if a in (ANY, LITERAL, UNKNOWN) else self.product(NUMBER, a, power)
+        return a if self.exponents[a] is None else self.product(NUMBER, a, power)
 
     def alike(self, node: Node, a: int, b: int) -> int:
         """Code of two quantities that must be alike; a mistake or a note where they are not."""
+        if WRONG in (a, b):
+            return WRONG
         for free in (ANY, UNKNOWN):
             if free in (a, b):
                 return b if a == free else a
@@ -113,18 +114,17 @@ class Reader:
                 self.taken(node, taken)
             return taken
         self.tell(node, _SAID[node.op].format(self.word(a), self.word(b)), node.operands)
-        return UNKNOWN
+        return WRONG
 
     def number(self, node: Node, a: int) -> int:
         if self.exponents[a] is not None and a != NUMBER:
-            self.tell(node, f"{node.op} of a quantity in {self.word(a)}, not of a number", node.operands)
+            self.tell(node, f"a quantity in {self.word(a)} where a number belongs", node.operands)
         return NUMBER
 
     def unfit(self, line: Formula, node: Node) -> bool:
         """Whether a value does not fit the unit that a line declares, of a function too."""
         unit = self.of_unit(line.unit)
-        wrong = [code for code in _kinds(self.codes[node]) if not self.fits(code, unit)]
-        if wrong:
+        if wrong := [code for code in _kinds(self.codes[node]) if not self.fits(code, unit)]:
             self.wrong.add(node)
         if wrong and "erratum" not in line.meaning:
             why = f"unit [{line.unit}] does not fit; the value is in {self.word(wrong[0])}"
@@ -149,9 +149,9 @@ class Reader:
             function = self.places.function_called(line.expression)
             wrong = bool(function and self.unfit(function, node)) or self.unfit(line, node)
             if node.op not in ("constant", "rows", "input") and (
-                self.places.lines.get(line.name) == node.line or _is(self.codes[node], UNKNOWN, LITERAL)
+                self.places.lines.get(line.name) == node.line or _is(self.codes[node], UNKNOWN, LITERAL, WRONG)
             ):
-                self.codes[node] = UNKNOWN if wrong and "erratum" not in line.meaning else unit
+                self.codes[node] = WRONG if wrong and "erratum" not in line.meaning else unit
 
     def check(self, name: str, check: Residual) -> None:
         """Compare the residual and the limit of a check with its unit, or with each other where none is given."""
@@ -184,7 +184,7 @@ class Reader:
 
     @staticmethod
     def fits(code: int, other: int) -> bool:
-        return code == other or bool({code, other} & {UNKNOWN, ANY, LITERAL})
+        return code == other or bool({code, other} & {UNKNOWN, ANY, LITERAL, WRONG})
 
     def one(self, node: Node) -> int:
         """The code of all elements; unknown where they are unlike."""
@@ -355,7 +355,7 @@ def _pow(reader: Reader, node: Node) -> Codes:
         _each(lambda code: _exponent(reader, node, code), reader.codes[exponent])
     if powers.size == 1:
         return _each(lambda code: reader.power(code, float(powers.item())), reader.codes[base])
-    if _is(reader.codes[base], NUMBER, LITERAL, ANY, UNKNOWN):
+    if _is(reader.codes[base], NUMBER, LITERAL, ANY, UNKNOWN, WRONG):
         return reader.codes[base]
     several, where = np.unique(powers, return_inverse=True)
     return _each(lambda code, k: reader.power(code, float(several[k])), reader.codes[base], where.reshape(powers.shape))

@@ -17,7 +17,10 @@ _SIGNS: dict[str, tuple[type[ast.AST], ...]] = {
     **dict.fromkeys(("lt", "le", "gt", "ge", "eq", "ne"), (ast.cmpop,)),
 }  # fmt: skip
 # The functions that do one operation each, but for those that may do any.
-_OWN = {"sin": ("sin",), "cos": ("cos",), "tan": ("tan",), "exp": ("exp", "sin", "cos"), "log": ("log",), "sqrt": ()}
+_OWN: dict[str, tuple[str, ...]] = {
+    "sin": ("sin",), "cos": ("cos",), "tan": ("tan",), "exp": ("exp", "sin", "cos"), "log": ("log",),
+    **dict.fromkeys(("sqrt", "range", "len", "enumerate", "zip"), ()),
+}  # fmt: skip
 _LIKE = 0.5  # more than this part of the names are the same
 _LONGEST = 60  # characters of a part that is told
 
@@ -118,9 +121,11 @@ class Places:
                     best, likest = likeness, node
         statement = self.statements.get(line)
         able = [n for n in source.nodes(statement) if _does(n, op)] if statement else []
-        if likest or len(able) == 1:
-            does = likest or able[0]
-            return does.lineno, _short(ast.unparse(does))
+        if not likest and able and (len(able) == 1 or isinstance(statement, ast.For | ast.While)):
+            own = _locals(self.statements[line])
+            likest = max(able, key=lambda n: (_is_sign(n, op), _likeness(n, op, operands, own)))
+        if likest:
+            return likest.lineno, _short(ast.unparse(likest))
         match statement:
             case ast.Assign(value=value) | ast.AugAssign(value=value) | ast.Expr(value):
                 return line, _short(ast.unparse(value))
@@ -139,6 +144,11 @@ def _does(node: ast.AST, op: str) -> TypeGuard[ast.expr]:
         case ast.BinOp(op=sign) | ast.Compare(ops=[sign, *_]):
             return isinstance(sign, _SIGNS.get(op, ()))
     return False
+
+
+def _is_sign(node: ast.expr, op: str) -> bool:
+    """Whether an expression has the very sign of an operation: another one may be recorded as it."""
+    return isinstance(node, ast.BinOp) and type(node.op).__name__.lower() == op
 
 
 def _likeness(node: ast.expr, op: str, operands: list[set[str]], own: set[str]) -> float:
@@ -166,10 +176,11 @@ def _alike(parts: list[ast.expr], names: set[str], own: set[str]) -> float:
 
 
 def _locals(part: ast.stmt) -> set[str]:
-    """Names that functions in a statement call their own."""
+    """Names that functions in a statement call their own, and those that its loops bind."""
     functions = [f for f in source.nodes(part) if isinstance(f, ast.FunctionDef | ast.Lambda)]
     arguments = {a.arg for f in functions for a in source.nodes(f.args) if isinstance(a, ast.arg)}
-    return arguments.union(*(bound(s) for f in functions if isinstance(f, ast.FunctionDef) for s in f.body))
+    loops = [part, *functions] if isinstance(part, ast.For | ast.While) else functions
+    return arguments.union(*(bound(s) for f in loops if not isinstance(f, ast.Lambda) for s in f.body))
 
 
 _CALLED = frozenset(["g", "np", "pi", "abs", "sqrt", "sin", "cos", "tan", "exp", "real", "imag"])

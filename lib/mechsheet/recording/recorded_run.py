@@ -101,7 +101,9 @@ class Run(OfPositions):
     def parts(self, line: ast.stmt) -> tuple[ast.stmt, ...]:
         """What of a statement is run."""
         on_page = statement.on_the_page(line)
-        return showing.on_the_page(line, self.showing) if on_page else statement.texts_apart(line)
+        if on_page:
+            return showing.on_the_page(line, self.showing)
+        return statement.names_apart(line) or statement.texts_apart(line)
 
     def again(self) -> "Run":
         return Run(self.sheet, self.graph, self.namespace, self.want, self.lines, self.unnamed)

@@ -133,6 +133,19 @@ def apart(statement: ast.stmt) -> tuple[ast.stmt, ...]:
 
 
 @lru_cache(maxsize=4096)
+def names_apart(statement: ast.stmt) -> tuple[ast.stmt, ...]:
+    """A statement that gives several names a value each as one for each, where no value reads these names."""
+    match statement:
+        case ast.Assign([ast.Tuple(targets)], ast.Tuple(values)) if len(targets) == len(values):
+            names = {target.id for target in targets if isinstance(target, ast.Name)}
+            alone = len(names) == len(values) and not any(isinstance(value, ast.Starred) for value in values)
+            if alone and names.isdisjoint(frozenset[str]().union(*map(_names, values))):
+                made = (ast.Assign([target], value) for target, value in zip(targets, values, strict=True))
+                return tuple(ast.fix_missing_locations(ast.copy_location(line, statement)) for line in made)
+    return ()
+
+
+@lru_cache(maxsize=4096)
 def texts_apart(statement: ast.stmt) -> tuple[ast.stmt, ...]:
     """A choice that binds texts beside numbers as one of each: of the texts Python sees which."""
     values = dict[str, list[ast.expr]]()
