@@ -109,7 +109,9 @@ const argument = (own, {values}) => (typeof own === "string" ? values[own] : own
 // A column with as many decimals as it has for these inputs.
 function withDecimals(column, results) {
   if (typeof column.decimals === "string") return {...column, decimals: argument(column.decimals, results), own: column.factor};
-  return "typed" in column ? {...column, decimals: asTyped(columnValues(column, results) ?? [], column.typed)} : column;
+  if (!("usual" in column)) return column;
+  const values = columnValues(column, results) ?? [];
+  return {...column, decimals: enough(values, column.typed ? asTyped(values, column.usual) : column.usual)};
 }
 
 function columnTexts(column, results) {

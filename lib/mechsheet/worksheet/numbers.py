@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterable, Sequence
 from decimal import Decimal
 from fractions import Fraction
 from functools import cache, lru_cache
-from math import inf, isfinite, isnan
+from math import floor, inf, isfinite, isnan, log10
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -33,6 +33,8 @@ class Notation(NamedTuple):
 PLAIN = Notation("-", "nan", "inf", "{}e{:+03d}", "({}, {})", "..", " deg", " %", " {}", "**{}", "*")
 CELL = PLAIN._replace(none="–", infinite="∞")  # of a table
 AXIS = CELL._replace(minus="−")
+
+_SMALLEST = 1e-6  # in the unit of a column: what is smaller may be nothing but rounding
 
 
 def significant(x: float, digits: int) -> str:
@@ -67,6 +69,16 @@ def as_typed(values: Iterable[float], decimals: int) -> int:
         if (np.abs(known - np.round(known, more)) <= 1e-6 * 10.0**-more).all():
             return more
     return decimals
+
+
+def enough(values: Iterable[float], decimals: int) -> int:
+    """So many decimals, or more where these would leave less than two digits of the largest number: then three.
+
+    >>> enough([0, 2.3e-4], 1), enough([0.2, 1.3], 1), enough([1e-12], 1)
+    (6, 1, 1)
+    """
+    largest = max((abs(x) for x in values if isfinite(x)), default=0.0)
+    return decimals if largest >= 10.0 ** (1 - decimals) or largest < _SMALLEST else 2 - floor(log10(largest))
 
 
 def scientific(x: float, decimals: int, to: Notation = PLAIN) -> str:

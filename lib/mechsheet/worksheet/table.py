@@ -36,7 +36,8 @@ class Column:
     Values may be a list, which becomes an array, and texts, of unit "". ``power`` shows numbers as 1.2e-15; those of
     ``unlike`` quantities, in one column, have each digits of their own. ``of`` is the name that the line declares, of a
     field without its ``_S``; ``want`` is what stands in the worksheet, a name or a part of one. Texts that are
-    ``names`` of quantities stand on the page as their symbols. Numbers that were ``typed`` may have more decimals.
+    ``names`` of quantities stand on the page as their symbols. Decimals that are ``usual`` are more where all numbers
+    are small, and where they were ``typed``.
     """
 
     symbol: str
@@ -49,6 +50,7 @@ class Column:
     want: str = ""
     names: bool = False
     unlike: bool = False
+    usual: bool = False
     typed: bool = False
 
     def __post_init__(self) -> None:
@@ -265,15 +267,13 @@ def _columns(
         called |= dict.fromkeys(names, label)
         unit = next((_shown_in(of, label, line.unit, show[n]) for n in names if n in show), line.unit)
         shown = row / units.parse(unit).factor
-        typed = (
-            decimals is None
-            and kind == "f"
-            and (isinstance(line, Input) or _is_typed(line.expression, frame.f_globals))
-        )
-        places = usual_decimals(unit) if decimals is None else decimals
-        places = 0 if kind in "iu" else numbers.as_typed(shown, places) if typed else places
+        usual = decimals is None and kind == "f"
+        typed = usual and (isinstance(line, Input) or _is_typed(line.expression, frame.f_globals))
+        places = 0 if kind in "iu" else usual_decimals(unit) if decimals is None else decimals
+        places = numbers.as_typed(shown, places) if typed else places
+        places = numbers.enough(shown, places) if usual else places
         want = "" if given else ast.unparse(node)
-        columns.append(Column(label, unit, line.meaning, places, shown, of=own, want=want, typed=typed))
+        columns.append(Column(label, unit, line.meaning, places, shown, of=own, want=want, usual=usual, typed=typed))
     for name in show:
         if name not in called:
             near = difflib.get_close_matches(name, called, n=1, cutoff=0.5)
