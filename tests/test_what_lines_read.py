@@ -133,3 +133,13 @@ def test_errors_that_the_library_handles_are_no_ways_of_the_worksheet(file: str,
         assert names["made"](choices.tried, x) is x and len(graph.looked) == looked
     finally:
         current.reset(token)
+
+
+def test_of_names_that_a_line_binds_at_once_each_is_followed_alone(tmp_path: Path) -> None:
+    """Unless they change places: then what the line reads is what was there before it."""
+    lost = "np.sort_complex([g.F, g.a]).real[0]"
+    recording = recording_of(own(tmp_path, "pass", further=[f"q, v, w = {lost}, g.F * 2, {lost}\nr = v  # [-] line"]))
+    assert value_of(recording, "r", {"F": 4.0}) == 8
+    assert [gap.names for gap in recording.gaps] == [("q", "w")]
+    recording = recording_of(own(tmp_path, "pass", further=["v, w = g.F, g.a\nv, w = w, v\nr = v - w  # [-] line"]))
+    assert value_of(recording, "r", {"F": 4.0}) == 0.75 - 4

@@ -305,8 +305,10 @@ class Run(OfPositions):
         guards = tuple(Guard(graph.same(leaf), graph.line) for leaf in rests_on)
         if not touched or any(held(self.namespace.get(name)) for name in final) or not final.issuperset(touched):
             if not (isinstance(reason, Unrepeatable) and reason in self.lost.values()):  # what rests on that is known
-                public = tuple(name for name in touched if not name.startswith("_"))
-                self.recording.gaps.append(Gap(public, graph.line, str(reason)))
+                public, gaps = tuple(name for name in touched if not name.startswith("_")), self.recording.gaps
+                if gaps and gaps[-1][1:] == (graph.line, str(reason)):  # of another name that the line binds
+                    public = gaps.pop().names + public
+                gaps.append(Gap(public, graph.line, str(reason)))
             for guard in guards:
                 self.note(guard)
         known = [name for name in touched if name in final and name in self.namespace]
