@@ -198,10 +198,10 @@ def test_a_mistake_is_told_with_its_line_in_the_words_of_the_editor(
         ("M_S = M(phi)", "M_S = {phi: 1}", "an array, a list or a table can be no key"),
         ("M_S = M(phi)", "k = find(sin, 0, 1); M_S = k * M(phi)", "what a Find has found is its .value"),
         ("M_S = M(phi)", "k = find(sin, 0, 1); M_S = sin(k)", "what a Find has found is its .value"),
-        ("M_S = M(phi)", "M_S = sum(g)", "a table of inputs is read by its columns"),
-        ("M_S = M(phi)", "M_S = g[0]", "a table of inputs is read by its columns"),
-        ("M_S = M(phi)", "M_S = len(g)", "a table of inputs is read by its columns"),
-        ("M_S = M(phi)", "M_S, k = g", "a table of inputs is read by its columns"),
+        ("M_S = M(phi)", "M_S = sum(g)", "inputs are read by their names"),
+        ("M_S = M(phi)", "M_S = g[0]", "inputs are read by their names"),
+        ("M_S = M(phi)", "M_S = len(g)", "inputs are read by their names"),
+        ("M_S = M(phi)", "M_S, k = g", "inputs are read by their names"),
     ],
 )
 def test_what_mathcad_took_is_told_in_words(old: str, new: str, says: str, lever: Callable[..., Path]) -> None:

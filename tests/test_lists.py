@@ -236,6 +236,27 @@ def test_a_list_of_one_element_keeps_its_axis_in_sweeps(section: Path) -> None:
     assert both["share"].shape == (2, 3, 1) and (both["share"] == 1).all()
 
 
+def test_rows_of_a_table_are_gone_through(section: Path) -> None:
+    rows = load(section).inputs(F=np.array([1.0])).stringers
+    assert len(rows) == 2 and [row.y for row in rows] == rows.y.tolist() == [0.25, -0.25]
+    first, last = rows
+    assert (first, last) == (rows[0], rows[-1]) and last.A == 0.5e-4
+    assert rows[::-1].y.tolist() == rows[np.array([1, 0])].y.tolist() == [-0.25, 0.25]
+    assert [len(rows[1:]), len(rows[rows.y > 0]), len(rows[5:])] == [1, 1, 0]
+    with pytest.raises(IndexError, match="index 2 is out of bounds"):
+        rows[2]
+
+
+def test_sweeps_go_through_rows_of_each_variant(section: Path, tmp_path: Path) -> None:
+    text = section.read_text(encoding="utf-8")
+    line = "    A = sum(s.A)"
+    assert text.count(line) == 1
+    gone = tmp_path / "gone.py"
+    gone.write_text(text.replace(line, "    A = sum([each.A for each in s])"), encoding="utf-8")
+    for varied in ({"stringers": ["1; 2; 30", [[1, 2, 30], [3, 4, 30]]]}, {"F_max": [50, 60]}):
+        np.testing.assert_array_equal(sweep(gone, ["A"], varied)["A"], sweep(section, ["A"], varied)["A"])
+
+
 def test_units_are_followed_and_nothing_is_left_out(section: Path) -> None:
     assert mismatches(section) == []
     sheet = load(section)

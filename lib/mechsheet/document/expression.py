@@ -193,6 +193,8 @@ class _Reader:
                 return Power(self.least(inner, WHOLE), Function("T"))
             case ast.Attribute(of, name) if names.is_module(of):
                 return Code(name) if name.endswith("_") else names.function(name)
+            case ast.Attribute(ast.Subscript(ast.Attribute(ast.Name("g")) as table, row), part):  # of one row
+                return self.read(ast.Subscript(ast.Attribute(table, part), row))
             case ast.Attribute(ast.Name(name), part):  # a result of several parts
                 return Apply(names.part(part), Brackets((names.whole(name),)))
             case ast.Attribute(ast.Call() as inner, part):

@@ -25,6 +25,7 @@ from mechsheet.quantities.written import Either, Written, either, text
 from mechsheet.recording.memory import Memory, may_change, names_of
 from mechsheet.worksheet.drawing import COLOURS
 from mechsheet.worksheet.kinds import Chosen, cases
+from mechsheet.worksheet.lists import Whole
 
 _NUMBERS = int | float | complex | np.number | Quantity
 ARRAYS = _NUMBERS | np.bool_ | np.ndarray
@@ -219,7 +220,7 @@ def element(container: Any, key: Any) -> Any:
         return _of_text(container, key)
     if isinstance(key, tuple) and isinstance(container, np.ndarray) and has_quantity(key):
         return lift(current.get(), container)[key]
-    if not isinstance(key, Quantity) or isinstance(container, Quantity):
+    if not isinstance(key, Quantity) or isinstance(container, Quantity | Whole):
         return container[key]
     if isinstance(container, np.ndarray) and container.dtype.kind in "biufc":
         return lift(key.graph, container)[key]
@@ -390,10 +391,16 @@ def _number(kind: type, followed: Callable[..., Any]) -> Callable[..., Any]:
     return made
 
 
+def length(x: Any) -> Any:
+    """``len`` of anything; of a quantity over rows, and of a table of them, it is one."""
+    first = x.first if isinstance(x, Whole) else x
+    return first.count(0) if isinstance(first, Quantity) and first.ndim else len(x)
+
+
 CALLS: dict[str, Any] = {
     "choice": choice, "and": both, "or": any_of, "not": negated, "matched": matched, "element": element, "get": got,
     "handled": handled, "tried": tried,
-    "len": lambda x: x.count(0) if isinstance(x, Quantity) and x.ndim else len(x),
+    "len": length,
     "unbound": UNBOUND, "text": text,
     "max": _extreme("max"), "min": _extreme("min"), "round": round, "sorted": ranked, "place": placed,
     "float": _number(float, lambda x: x), "int": _number(int, trunc),

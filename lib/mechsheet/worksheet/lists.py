@@ -5,7 +5,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,8 +22,8 @@ _BRIEF = 12  # rows that stand in full where all inputs are listed
 class Rows(Input):
     """A list, whose one column has its name, or a table of columns such as ``bolts.x``, which ``row`` declares.
 
-    It is held as an array, or as an object of the class ``row`` whose attributes are arrays; shown it is a dictionary
-    of arrays by column.
+    It is held as an array, or as an object of the class ``row`` whose attributes are arrays, and whose rows can be gone
+    through: `Whole`. Shown it is a dictionary of arrays by column.
     """
 
     columns: tuple[Input, ...] = ()
@@ -239,7 +239,35 @@ def _fixed(array: NDArray[np.float64]) -> NDArray[np.float64]:
     return array
 
 
+class Whole:
+    """All rows of a table: its columns by their names, ``bolts.x``, and its rows, ``for bolt in bolts`` or ``bolts[0]``.
+
+    A slice, or whatever else takes several rows of an array, gives a table of these.
+    """
+
+    row: ClassVar[type]
+
+    @property
+    def first(self) -> Any:
+        """The first column."""
+        return next(iter(vars(self).values()))
+
+    def __len__(self) -> int:
+        return len(self.first)
+
+    def __getitem__(self, key: Any) -> Any:
+        parts = {name: column[key] for name, column in vars(self).items()}
+        alone = not any(part.ndim for part in parts.values())
+        found: Any = object.__new__(self.row if alone else type(self))
+        for name, part in parts.items():
+            object.__setattr__(found, name, part)
+        return found
+
+    def __iter__(self) -> Iterator[Any]:
+        return (self[k] for k in range(len(self)))
+
+
 @cache
 def _unchecked(row: type) -> type:
     """The class of the rows for whole columns, whose numbers are checked with those of the other inputs."""
-    return type(row.__name__, (row,), {"__post_init__": lambda _: None})
+    return type(row.__name__, (Whole, row), {"__post_init__": lambda _: None, "row": row})

@@ -138,7 +138,7 @@ _HINTS = {
     r"can't multiply sequence|'tuple' and|and 'tuple'|'list' and|and 'list'": _SEVERAL,
     r"for unary .: 'tuple'|return arrays must be of ArrayType|positional arguments? but \d+ were given": _SEVERAL,
     r"'[A-Z]\w*' object (is not (iterable|subscriptable)|has no len)|type '[A-Z]\w*' has no len|non-iterable [A-Z]": (
-        "a table of inputs is read by its columns, each an array: g.bolts.x"
+        "inputs are read by their names: g.L, and a table's as g.bolts.x, or for bolt in g.bolts"
     ),
     r"'(Found|Solution)'|type (Found|Solution)\b": "what a Find has found is its .value",
     r"^StopIteration$": "next has found nothing for which its condition holds",
