@@ -85,7 +85,8 @@ FOLLOWED = [
     "np.polyval([1.0, g.a], F)", "F.clip(0, 2)", "np.round(F * g.a)", "F[1:].sum() + F[0]", "np.flip(F)", "max(F)",
     "sum(F)", "sum(F, g.a)", "np.quantile(F, 0.3)", "np.percentile(y, [10, 90])", "x[np.argsort(y)]", "min(x)",
     "g.points[0].x * g.points[-1].y", "g.points[1:].y.sum()", "len(g.points) * g.a", "g.points[::-1].x - g.points.x",
-    "g.points[x > 1].y.sum()", "g.points[np.argmax(y)].x", "F[F > 0].sum() + len(F[F > 0])", "F[F > 0][-1]", "x[np.flatnonzero(y > 2)].max() * g.a",
+    "g.points[x > 1].y.sum()", "g.points[np.argmax(y)].x",
+    "F[F > 0].sum() + len(F[F > 0])", "F[F > 0][-1]", "x[np.flatnonzero(y > 2)].max() * g.a",
 ]  # fmt: skip
 COUNTED_BY_PYTHON = {  # lines, and the list whose rows are counted
     "sum(v * w for v, w in zip(x, y))": "points", "np.array([v * g.a for v in F])": "F", "np.cumsum(F[F > 0])": "F",

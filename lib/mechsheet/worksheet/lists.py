@@ -240,7 +240,7 @@ def _fixed(array: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 class Whole:
-    """All rows of a table: its columns by their names, ``bolts.x``, and its rows, ``for bolt in bolts`` or ``bolts[0]``.
+    """All rows of a table: its columns by their names, ``bolts.x``, its rows as ``bolts[0]`` or ``for bolt in bolts``.
 
     A slice, or whatever else takes several rows of an array, gives a table of these.
     """
