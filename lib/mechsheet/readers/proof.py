@@ -359,7 +359,7 @@ _WHY = {
     "atan2": "the side of a full turn", "asin": "whether there is such an angle",
     "acos": "whether there is such an angle", "floor": "a whole number", "round": "a whole number",
     "mod": "a whole turn",
-    **dict.fromkeys(("lt", "le", "gt", "ge", "eq", "ne"), "a comparison"),
+    **dict.fromkeys(("lt", "le", "gt", "ge", "eq", "ne"), "which of two numbers is greater"),
 }  # fmt: skip
 
 # What has a number by rounding alone.
