@@ -1,12 +1,15 @@
 """Whether lines of a cell give numbers that belong to other inputs than those that they stand under."""
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from by_cells import by_cells
 from own_worksheet import ELSEWHERE, own, recorded
 
 from mechsheet import evaluate
+from mechsheet.quantities.lines import Recording
+from mechsheet.quantities.quantity import Quantity
 from mechsheet.readers.numbers import numbers
 
 
@@ -15,7 +18,8 @@ def assert_never_stale(lines: str, tmp_path: Path) -> None:
 
     What is asked for again, recorded another time, is read rightly too where Python sees something of what is followed.
     """
-    sheet = own(tmp_path, f'{lines}\nresult = np.atleast_1d(y) * 1  # [-] line\ntable_2 = table("2", "Two", result)')
+    more = 'result = np.atleast_1d(y) * 1  # [-] line\ntable_2 = table("2", "Two", result)\nalone = y  # [-] line'
+    sheet = own(tmp_path, f"{lines}\n{more}")
     names, recording = recorded(sheet)
     if "2" not in recording.tables:  # it has other numbers at each run, so it holds for the exported inputs alone
         assert any("random" in lines and gap.line for gap in recording.gaps)
@@ -42,6 +46,21 @@ def assert_never_stale(lines: str, tmp_path: Path) -> None:
         if np.isnan(values).all() and (told or np.isnan(expected).all()):
             continue
         assert values.shape == expected.shape, given
+        assert_shown_alone(recording, given, expected)
         np.testing.assert_allclose(values, expected, rtol=1e-12, atol=1e-13, err_msg=str(given))
         followed += 1
     assert followed, "not even for the inputs that it was recorded with"
+
+
+def assert_shown_alone(recording: Recording, given: dict[str, Any], expected: Any) -> None:
+    """A line that is no table's has these numbers too, or none, whatever Python makes of them: a list, a tuple."""
+    value = recording.values.get("alone")
+    if isinstance(value, Quantity):
+        known = numbers(value.parts, {recording.inputs[name]: float(x) for name, x in given.items()})
+        found = known[value.re]
+    elif value is None or recording.looked.get("alone"):  # it is not known for other inputs
+        return
+    else:
+        found = np.asarray(value)
+    if not np.isnan(found).all():
+        np.testing.assert_allclose(np.atleast_1d(found), expected, rtol=1e-12, atol=1e-13, err_msg=f"alone {given}")

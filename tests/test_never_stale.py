@@ -8,6 +8,16 @@ import pytest
 from never_stale import assert_never_stale
 
 CONSTRUCTS = [
+    "y = [g.F * k / g.a for k in (1.0, 1.5)]",
+    "y = (g.F / g.a, 2 * g.F)",
+    "y = sorted([g.F, g.a, 2.0]) + [g.a]",
+    "y = (x * g.a).tolist()",
+    "y = [g.F]",
+    "y = [[g.F, g.a], [g.a, 2 * g.F]][0]",
+    "y = [v for v in (g.F, g.a, 2.0) if v > 1]",
+    "y = [g.F, g.a] if g.k > 2 else [g.a, g.F, 1.0]",
+    "y = [g.F, g.a]\ny[1] = 2 * g.F\ny.append(g.a)",
+    "y = tuple(np.sort_complex([g.F, g.a]).real)",
     "y = np.lexsort((np.sin(x), np.cos(x))) * 1.0",
     "y = np.bincount(np.floor(x).astype(int)) * 1.0",
     "y = np.digitize(x, [3.0, 2.0, 1.0]) * 1.0",

@@ -19,7 +19,7 @@ from mechsheet.html.put_in import Read, put_in
 from mechsheet.quantities.graph import Guard
 from mechsheet.quantities.lines import SLIDER, Recording
 from mechsheet.quantities.node import Node, bottom_up
-from mechsheet.quantities.quantity import Quantity, lift
+from mechsheet.quantities.quantity import Quantity, has_quantity, lift
 from mechsheet.quantities.sketch import Drawn
 from mechsheet.quantities.written import Said, Written
 from mechsheet.readers.terms import recorded_terms
@@ -203,7 +203,7 @@ class Follower:
         spec: Spec = {"unit": self.unit(unit), "of": name, **moved}
         guards = self._named(name)
         if not isinstance(held, Quantity):
-            known = name in self.recording.values
+            known = name in self.recording.values and not has_quantity(held)
             return self.mark("value", keys=None, fixed=known, **spec, **guards) if guards or not known else ""
         if held.extent != shape:
             spec["at"] = line.position

@@ -115,7 +115,7 @@ class Recording:
     guards: dict[Node, Guard] = field(default_factory=dict)  # by their conditions
     integrals: dict[Node, Node | None] = field(default_factory=dict)
     made_of: dict[Node, float] = field(default_factory=dict)  # the largest terms of sums, as far as looked at
-    values: dict[str, Any] = field(default_factory=dict)
+    values: Mapping[str, Any] = field(default_factory=dict)
     looked: dict[str, tuple[Guard, ...]] = field(default_factory=dict)
     every: int = 1
     sections: list[str] = field(default_factory=list)

@@ -64,7 +64,7 @@ def _bound(cell: Cell) -> dict[str, None]:
 
 def _note(run: Run, cell: Cell, name: str) -> None:
     """Note a line or a slider whose number stands elsewhere, or is the same for all inputs."""
-    recording, line, value = run.recording, run.lines.get(name), run.names.get(name)
+    recording, line, value = run.recording, run.lines.get(name), run.shown(name)
     if isinstance(value, Slider):
         at = run.graph.constant(value.value * units.parse(value.unit).factor)
         at_rest = Line(at, name, value.unit, f"{value.label}: slider at rest".lstrip(": "))

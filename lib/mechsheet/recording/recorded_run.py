@@ -1,7 +1,9 @@
 """One run of a worksheet's cells with quantities, statement by statement."""
 
 import ast
+from collections import ChainMap
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from functools import partial
 from itertools import chain
 from types import CodeType, FunctionType
@@ -56,6 +58,7 @@ class Run(OfPositions):
         self.sheet, self.namespace, self.asked = sheet, namespace, beforehand(g)
         self.recording.sections = list(dict.fromkeys(cell.section for cell in sheet.cells))
         self.names: dict[str, Any] = shared(sheet.common) | self.asked
+        self.listed: dict[str, Any] = {}  # lists of lines, each as one quantity
         self.looked: dict[str, tuple[Guard, ...]] = {}  # by name: the guards that its value rests on
         self.chosen: dict[Node, frozenset[Node]] = {}
         self.lost: dict[str, NotRecorded] = {}  # names that have no value here, and why
@@ -72,7 +75,7 @@ class Run(OfPositions):
         self.needed += (cell for cell in more if cell not in self.needed)
         for cell in [*self.needed, *(showing.cells(sheet, self.needed) if graph.draws else ())]:
             self.run(cell)
-        self.recording.values, self.recording.looked = self.names, self.looked
+        self.recording.values, self.recording.looked = ChainMap(self.listed, self.names), self.looked
         if graph.thin > 1:
             self.check_everywhere()
 
@@ -92,11 +95,20 @@ class Run(OfPositions):
                 self.step(stage, line.lineno, fact, later)
         self.decide(stage, last)
         for name in dict.fromkeys([*(n for n in cell.code.co_names if n in self.lines), *cell.gives]):
-            self.recording.define(cell.section, name, self.names.get(name, self.passing.get(name)), self.lines)
+            self.recording.define(cell.section, name, self.shown(name), self.lines)
         for solved in stage.solved:
             self.recording.define_steps(cell.section, solved)
         if self.graph.draws:
             self.show(stage, cell)
+
+    def shown(self, name: str) -> Any:
+        """What a name is; the list or the tuple of a line as the one quantity that it is shown as."""
+        value = self.names.get(name, self.passing.get(name))
+        self.listed.pop(name, None)
+        if name in self.lines and isinstance(value, list | tuple) and has_quantity(value):
+            with suppress(NotRecorded, ValueError):  # of rows that are not as long as each other, or texts among them
+                self.listed[name] = value = self.while_same(lift(self.graph, value), self.looked.get(name, ()))
+        return value
 
     def parts(self, line: ast.stmt) -> tuple[ast.stmt, ...]:
         """What of a statement is run."""
