@@ -175,6 +175,13 @@ def test_summary_counts_and_leads_to_each_check():
         assert f'href="#{anchor}"' in text
 
 
+def test_a_summary_takes_checks_alone_and_in_groups():
+    a, b = check("a", 0, 1), check("b", 2, 1)
+    assert summary(a, [b]) == summary((a,), b) == summary([a, b])
+    with pytest.raises(SheetError, match="summary takes checks and groups of them, not 3"):
+        summary(a, 3)
+
+
 def test_what_has_no_number_is_not_evaluated_and_no_pass():
     open_one = check("moments of R01", [1e-15, np.nan], 1e-12, "N*m")
     assert not open_one.passed and not open_one.evaluated

@@ -174,3 +174,16 @@ def test_a_worksheet_that_cannot_be_read_is_named_before_it_is_served(
     assert capsys.readouterr().err == "mechsheet: bad.py, line 1, a = (1: '(' was never closed\n"
     assert launcher.page("serve", [str(bad), str(good)], []) == 0
     assert called[0][-1] == str(good) and str(bad) not in called[0]
+
+
+def test_a_check_that_only_the_summary_shows_is_judged_in_one_file(tmp_path: Path, page: Page) -> None:
+    """Checks in a list too: without a place of its own the page's script stopped, and everything stayed as it was."""
+    text = LEVER.replace("summary(within, strong)", "summary(within, [strong])").replace("typeset(strong)", "typeset()")
+    (tmp_path / "lever.py").write_text(text, encoding="utf-8")
+    sheet = cells.load(tmp_path / "lever.py")
+    (tmp_path / "lever.html").write_text(write.page(sheet, sheet.inputs()), encoding="utf-8")
+    page.goto((tmp_path / "lever.html").as_uri())
+    page.locator("#input-F").fill("5000")
+    expect(page.locator(".ms-summary b")).to_have_text("1 of 2 checks pass, 1 fail")
+    expect(page.locator("#check-stress")).to_contain_text("FAIL stress: 875 > 235 MPa")
+    expect(page.locator(".ms-state")).to_have_text("changed: F")

@@ -26,14 +26,14 @@ from mechsheet.recording.memory import names_of
 from mechsheet.recording.record import record
 from mechsheet.worksheet import symbol as symbols
 from mechsheet.worksheet.cells import Cell, Worksheet
-from mechsheet.worksheet.check import checks_of, refuse_open
+from mechsheet.worksheet.check import Check, Summary, checks_of, refuse_open
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.force_diagram import polar_diagrams
 from mechsheet.worksheet.inputs import Used, declared
 from mechsheet.worksheet.lines import registry
 from mechsheet.worksheet.no_inputs import NoInputs, beforehand, inputs_of
 from mechsheet.worksheet.source import constant, standing
-from mechsheet.worksheet.title import Title
+from mechsheet.worksheet.title import SideBySide, Title
 from mechsheet.worksheet.typeset import Numbers
 
 _SCRIPTS = (
@@ -93,7 +93,7 @@ def page(sheet: Worksheet, g: Any) -> str:
 @np.errstate(all="ignore")  # of ways that the worksheet does not go, as while it is recorded
 def _page(sheet: Worksheet, namespace: dict[str, Any], lists: bool) -> str:
     """The file of a run; what rests on ``lists`` among the inputs follows them at any length, or at their own."""
-    cells = _with_fields(by_cell(namespace), sheet, inputs_of(namespace))
+    cells = _with_checks(_with_fields(by_cell(namespace), sheet, inputs_of(namespace)))
     shown = [part for each in cells.values() for part in each]
     follower = Follower(record(namespace, sheet, whole=True, every=1, draws=True, lists=lists), Numbers(namespace))
     follower.pair(cells)
@@ -143,6 +143,27 @@ def _with_fields(cells: dict[int, list[Any]], sheet: Worksheet, g: Any) -> dict[
         return cells
     at = next((n for n, cell in enumerate(sheet.cells) if "g" in cell.gives), 0)
     return dict(sorted({**cells, at: [*cells.get(at, ()), Used(g)]}.items()))
+
+
+def _with_checks(cells: dict[int, list[Any]]) -> dict[int, list[Any]]:
+    """What the cells show; behind a summary the checks that none of them does: it takes their verdicts from there."""
+    shown = {check.name for each in cells.values() for check in _checks(each)}
+    found = dict[int, list[Any]]()
+    for n, each in cells.items():
+        found[n] = []
+        for part in each:
+            more = [c for c in part.checks if c.name not in shown] if isinstance(part, Summary) else []
+            shown.update(check.name for check in more)
+            found[n] += [part, *more]
+    return found
+
+
+def _checks(parts: Iterable[Any]) -> Iterator[Check]:
+    for part in parts:
+        if isinstance(part, Check):
+            yield part
+        elif isinstance(part, SideBySide):
+            yield from _checks(each for column in part.columns for each in column)
 
 
 def studies(sheet: Worksheet) -> str:

@@ -170,9 +170,12 @@ class Summary(Shown):
         return tuple(sorted(self.checks, key=place))
 
 
-def summary(*checks: Check | tuple[Check, ...]) -> Summary:
+def summary(*checks: Check | Sequence[Check]) -> Summary:
     """Verdicts of checks and groups of checks, the worst first."""
-    return Summary(tuple(c for group in checks for c in (group if isinstance(group, tuple) else (group,))))
+    every = [c for group in checks for c in (group if isinstance(group, tuple | list) else (group,))]
+    for other in (c for c in every if not isinstance(c, Check)):
+        raise SheetError(f"summary takes checks and groups of them, not {as_given(other)}")
+    return Summary(tuple(every))
 
 
 def check(name: str, residual: ArrayLike, limit: float, unit: str = "-", of: ArrayLike | None = None) -> Check:
