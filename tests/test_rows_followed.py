@@ -9,6 +9,7 @@ from own_worksheet import own, recorded, value_of
 
 from mechsheet import evaluate
 from mechsheet.readers.numbers import numbers
+from mechsheet.recording.record import record
 
 FOLLOWED = [
     "x * g.F",
@@ -90,6 +91,17 @@ def test_what_is_made_of_rows_is_read_for_any_number_of_them(expression: str, tm
         value = value_of(recording, "y", given)
         assert np.shape(value) == expected.shape, given
         np.testing.assert_allclose(value, expected + 0, rtol=1e-12, atol=1e-13, err_msg=str(given))
+
+
+@pytest.mark.parametrize("ends", ["g.a, g.F, g.n", "0, 2 * np.pi, g.n + 1", "0, g.F, 8 * g.n, endpoint=False"])
+def test_a_page_has_positions_to_the_last_bit(ends: str, tmp_path: Path) -> None:
+    """So that a limit at one of them lies on the side where the worksheet has it."""
+    sheet = own(tmp_path, f"y = np.linspace({ends})  # [-] line")
+    names = sheet.run(sheet.results, {"g": sheet.inputs()})
+    recording = record({**names, "__file__": sheet.path}, draws=True, lists=True)
+    for given in ({"n": n, "F": F, "a": a} for n in (2, 3, 8, 50, 100, 211) for F, a in ((1.0, 0.0), (0.7, -1 / 3))):
+        expected = evaluate(sheet.path, ["y"], **given)["y"]
+        np.testing.assert_array_equal(value_of(recording, "y", given), expected, err_msg=str(given))
 
 
 @pytest.mark.parametrize(

@@ -387,11 +387,21 @@ def arange(graph: Graph, *ends: Any, dtype: Any = None) -> Any:
 
 
 def linspace(graph: Graph, start: Any, stop: Any, count: Any = 50, endpoint: bool = True) -> Any:
-    """numpy's linspace, of the positions alone that tables list."""
+    """numpy's linspace, of the positions alone that tables list.
+
+    A page, which compares as numpy does, has it to the last bit: a limit may stand at one of the positions. Cells, which
+    take what differs by rounding for equal, have it as it is written.
+    """
     pieces = count - int(endpoint)
     present = int(lift(graph, pieces).value)
     thin = graph.thin if endpoint and present // graph.thin + 1 in graph.listed else 1
     if thin > 1:
         graph.positions = present + 1
-    rows = counted(graph, pieces // thin + 1 if thin > 1 else count)
-    return start + (stop - start) * (rows * thin / pieces)
+    rows = counted(graph, pieces // thin + 1 if thin > 1 else count) * thin
+    if not graph.draws:
+        return start + (stop - start) * (rows / pieces)
+    places = start + rows * ((stop - start) / pieces)
+    if not endpoint:
+        return places
+    last = choice(graph, pieces > 0, stop, start) if isinstance(pieces, Quantity) else stop if pieces > 0 else start
+    return choice(graph, rows < pieces, places, last)
