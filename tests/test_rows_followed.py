@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from by_cells import by_cells
 from own_worksheet import own, recorded, value_of
 
 from mechsheet import evaluate
@@ -100,8 +101,9 @@ def test_a_page_has_positions_to_the_last_bit(ends: str, tmp_path: Path) -> None
     names = sheet.run(sheet.results, {"g": sheet.inputs()})
     recording = record({**names, "__file__": sheet.path}, draws=True, lists=True)
     for given in ({"n": n, "F": F, "a": a} for n in (2, 3, 8, 50, 100, 211) for F, a in ((1.0, 0.0), (0.7, -1 / 3))):
-        expected = evaluate(sheet.path, ["y"], **given)["y"]
+        expected = by_cells(sheet.path, ["y"], **given)["y"]
         np.testing.assert_array_equal(value_of(recording, "y", given), expected, err_msg=str(given))
+        np.testing.assert_array_equal(evaluate(sheet.path, ["y"], **given)["y"], expected, err_msg=str(given))
 
 
 @pytest.mark.parametrize(

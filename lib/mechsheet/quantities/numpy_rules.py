@@ -389,8 +389,8 @@ def arange(graph: Graph, *ends: Any, dtype: Any = None) -> Any:
 def linspace(graph: Graph, start: Any, stop: Any, count: Any = 50, endpoint: bool = True) -> Any:
     """numpy's linspace, of the positions alone that tables list.
 
-    A page, which compares as numpy does, has it to the last bit: a limit may stand at one of the positions. Cells, which
-    take what differs by rounding for equal, have it as it is written.
+    What compares as numpy does has it to the last bit: a limit may stand at one of the positions. The cells of a
+    workbook, which take what differs by rounding for equal, have it as it is usually written.
     """
     pieces = count - int(endpoint)
     present = int(lift(graph, pieces).value)
@@ -398,7 +398,7 @@ def linspace(graph: Graph, start: Any, stop: Any, count: Any = 50, endpoint: boo
     if thin > 1:
         graph.positions = present + 1
     rows = counted(graph, pieces // thin + 1 if thin > 1 else count) * thin
-    if not graph.draws:
+    if not (graph.draws or graph.bodies):
         return start + (stop - start) * (rows / pieces)
     places = start + rows * ((stop - start) / pieces)
     if not endpoint:
