@@ -59,6 +59,8 @@ def blocks(path: Path | Any) -> dict[str, list[Any]]:
             rows = found[row[0].value] = []
         elif row[0].value:
             rows.append(row)
+        else:
+            rows = []  # below stand notes
     return found
 
 
@@ -272,3 +274,17 @@ def test_lines_under_no_heading_stand_under_no_dash(tmp_path: Path) -> None:
     book = load_workbook(path)
     heads = [book[name]["A1"].value for name in ("Table lines", "Table fields")]
     assert heads == ["lines, in SI units", "fields, in SI units"]
+
+
+def test_where_cells_compare_what_they_compute_it_says_how(tmp_path: Path) -> None:
+    """Of two numbers that differ in the last digits a spreadsheet program tells another one the greater."""
+    for line, told in {
+        "y = np.where(x * g.a > 1, x, 0.0)": 1,
+        "y = x * g.a": 0,
+        "y = x * (2 if g.F > 3 else 1)": 0,
+    }.items():
+        sheet = own(tmp_path, f"{line}  # [-] line")
+        path = tmp_path / "own.xlsx"
+        path.write_bytes(report.workbook("Own", {**sheet.run_whole(), "__file__": sheet.path}, {}))
+        cells = [cell.value for (cell, *_) in load_workbook(path)["Front"].iter_rows()]
+        assert sum("differ in their last digits" in str(text) for text in cells) == told, line

@@ -7,6 +7,7 @@ from typing import Any
 
 from mechsheet import units
 from mechsheet.quantities.lines import Recording
+from mechsheet.quantities.node import LEAVES, bottom_up
 from mechsheet.workbook import looks
 from mechsheet.workbook.book import Book
 from mechsheet.workbook.cell_formula import AGGREGATE
@@ -22,6 +23,10 @@ _NAME = "Front"
 _WIDTHS = (200, 95, 95, 60, 230)
 _GREY = "Grey cells hold for the exported inputs only, and show #N/A otherwise."
 _SEARCHED = "Found values are searched by their cells: #N/A where it is not sure that the worksheet finds the same."
+_COMPARED = (
+    "Spreadsheet programs take numbers that differ in their last digits for equal, where they compare or cut them."
+)
+_COMPARING = {"lt", "le", "gt", "ge", "eq", "ne", "floor", "sign", "mod"}
 _ALL = "all checks PASS"
 _VERDICT = "Checks!$E:$E"
 
@@ -77,10 +82,17 @@ def write(
             names = f"line {gap.line}" + (f": {', '.join(gap.names)}" if gap.names else "")
             put(sheet, row, 0, names, book.style(looks.CELL, looks.TEXT))
             row = _text(book, sheet, row, 1, gap.reason)
-        put(sheet, row, 0, _GREY, book.style(looks.NOTE))
-        row += 1
-    if known and any(solved.searched for solved in known.found.values()):
-        put(sheet, row, 0, _SEARCHED, book.style(looks.NOTE))
+    searches = known and any(solved.searched for solved in known.found.values())
+    told = {_GREY: gaps, _SEARCHED: searches, _COMPARED: known and _compares(known)}
+    for n, note in enumerate((note for note, holds in told.items() if holds), row if gaps else row + 1):
+        put(sheet, n, 0, note, book.style(looks.NOTE))
+
+
+def _compares(known: Recording) -> bool:
+    """Whether cells compare what they compute, or cut it: at a limit the worksheet may go the other way."""
+    lines = (line.node for lines in known.lines.values() for line in lines)
+    deciding = (node for node in bottom_up([*lines, *known.shown()], ()) if node.op in _COMPARING)
+    return any(operand.op not in LEAVES for node in deciding for operand in node.operands)
 
 
 def results(found: Sequence[FoundRow], drawn: Sequence[Listed], formulas: SheetFormulas | None) -> list[Result]:
