@@ -216,3 +216,24 @@ def test_a_row_of_the_worksheets_own_table_follows_the_option(table: str, tmp_pa
     for number, kind in enumerate("ab"):
         own_value = by_cells(sheet.path, ["result"], kind=kind, F=3.25)["result"]
         np.testing.assert_allclose(value_of(recording, "result", {"kind": number, "F": 3.25}), own_value, rtol=1e-12)
+
+
+BANDED = """K = np.zeros((g.n, g.n))
+for i in range(g.n):
+    K[i, i] = 4 * g.F
+    if i < g.n - 1:
+        K[i, i + 1] = g.a
+    if i > 0:
+        K[i, i - 1] = g.a
+y = np.linalg.solve(K, np.ones(g.n))"""
+
+
+def test_a_matrix_is_assembled_of_rows_with_neighbours(tmp_path: Path) -> None:
+    """The last row has none behind it: there is no element to leave as it is."""
+    sheet = own(tmp_path, f"{BANDED}  # [-] line")
+    _, recording = recorded(sheet)
+    assert not recording.gaps
+    for given in ({}, {"F": 4.0, "a": -0.5}):
+        expected = by_cells(sheet.path, ["y"], **given)["y"]
+        np.testing.assert_allclose(value_of(recording, "y", given), expected, rtol=1e-13)
+    assert np.isnan(value_of(recording, "y", {"n": 4})).all()

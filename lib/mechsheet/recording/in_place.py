@@ -10,7 +10,7 @@ from mechsheet.quantities.graph import NotRecorded
 from mechsheet.quantities.quantity import Quantity, has_quantity, joined, lift, owner, plain, quantities
 from mechsheet.recording.choices import element
 
-_NOT_SET = object()  # an element that a dictionary does not have
+_NOT_SET = object()  # an element that there is not
 
 
 def put(array: Any, key: Any, value: Any) -> Any:
@@ -27,8 +27,11 @@ def put(array: Any, key: Any, value: Any) -> Any:
 
 
 def part_of(array: Any, key: Any) -> Any:
-    """``array[key]``, where a way does not set it; a dictionary may have none."""
-    return _NOT_SET if isinstance(array, dict) and key not in array else element(array, key)
+    """``array[key]``, where a way does not set it; there may be none, as behind the last row."""
+    try:
+        return element(array, key)
+    except (IndexError, KeyError):
+        return _NOT_SET
 
 
 def _placed(old_and_new: Any, key: Any) -> Any:
