@@ -63,7 +63,7 @@ def test_columns_of_points_and_forces(names):
     )
     t = names["t"]
     assert [(c.symbol, c.unit, c.decimals) for c in t.columns] == [
-        ("S", "m", 3), ("X23", "m", 3), ("Y23", "m", 3), ("R56x", "kN", 2), ("R56", "N", 0), ("dRa", "%", 1),
+        ("S", "m", 3), ("X23", "m", 3), ("Y23", "m", 3), ("R56x", "kN", 2), ("R56", "N", 0), ("dRa", "%", 2),
     ]  # fmt: skip
     assert np.allclose([c.values for c in t.columns], [
         [0.42, 0.67], [0.42, 0.67], [0.84, 1.34], [1.26, 2.01], [2100, 3350], [23.81, 23.81],
@@ -175,7 +175,7 @@ def test_figure_marks_are_in_the_unit_of_the_axis(names):
 def test_a_table_is_one_block_where_the_page_is_wide_enough(names):
     """Else in blocks that are as good as equal, each with the column that names its rows; on paper it shrinks."""
     for columns, blocks in ((6, [6]), (11, [11]), (13, [13]), (16, [16]), (25, [13, 12]), (40, [14, 14, 12])):
-        run(f't = table("1", "T", S, *({"dRa, " * columns}))', names)
+        run(f't = table("1", "T", S, *({"dRa, " * columns}), decimals=1)', names)
         text = names["t"]._mime_()[1]
         assert [block.count("<th") // 2 - 1 for block in text.split("<thead>")[1:]] == blocks
         assert text.count("<table") == len(blocks)

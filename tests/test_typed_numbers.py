@@ -31,6 +31,8 @@ m = np.array([1, 1.25, 2.125]) * mm  # [mm] modules
 d = 17 * m  # [mm] diameters
 t = np.arange(3) * 20e-3  # [ms] time
 E = np.array([210e9, 70.5e9])  # [GPa] modulus
+wires = np.array([3.15, 6.3, 0.25]) * 1e-3  # [mm] wires
+force = wires * 1e3  # [N] force
 third = np.array([1 / 3, 1.25]) * mm  # [mm] computed
 far = np.array([1.23456, 1.5]) * mm  # [mm] too fine
 k = np.array([1, 2])  # [-] number
@@ -48,7 +50,9 @@ def names() -> dict[str, Any]:
         ("m", ["1.000", "1.250", "2.125"]),
         ("g.modules", ["1.00", "1.25", "1.50"]),
         ("k, g.F", ["2.5", "2.5"]),
-        ("d", ["17.0", "21.2", "36.1"]),  # as a document prints it: of what is computed the unit tells how many
+        ("d", ["17.000", "21.250", "36.125"]),
+        ("wires", ["3.15", "6.30", "0.25"]),  # with one decimal the last of them was 0.2, and its force 0
+        ("force", ["3.15", "6.30", "0.25"]),
         ("g.L", ["123.5"]),
         ("t", ["0.0", "20.0", "40.0"]),
         ("E", ["210.00", "70.50"]),
@@ -57,7 +61,7 @@ def names() -> dict[str, Any]:
         ("k", ["1", "2"]),
     ],
 )
-def test_a_column_shows_what_was_typed(columns: str, texts: list[str], names: dict[str, Any]) -> None:
+def test_a_column_shows_in_full_what_has_few_decimals(columns: str, texts: list[str], names: dict[str, Any]) -> None:
     found = run(f'shown = table("1", "T", {columns})', dict(names))["shown"].columns[-1]
     assert found.texts() == texts
     given = run(f'shown = table("1", "T", {columns}, decimals=1)', dict(names))["shown"].columns[-1]
@@ -90,5 +94,5 @@ def test_the_page_in_one_file_shows_the_same(blank: Page) -> None:
     assert of_page == [numbers.usual(x, numbers.AXIS._replace(power="{}|{}")) for x in some]
     columns = [[1.0, 1.25], [1.0, 4 / 3], [2.5], [1.23456], [21.125, float("nan")], [1e9 + 0.5], [-0.0625]]
     told = [[[None if x != x else x for x in column], d] for column in columns for d in (0, 1, 3)]
-    of_page = blank.evaluate("all => all.map(([xs, d]) => asTyped(xs.map(x => x ?? NaN), d))", told)
-    assert of_page == [numbers.as_typed(np.array(column), d) for column in columns for d in (0, 1, 3)]
+    of_page = blank.evaluate("all => all.map(([xs, d]) => enough(xs.map(x => x ?? NaN), d))", told)
+    assert of_page == [numbers.enough(np.array(column), d) for column in columns for d in (0, 1, 3)]

@@ -42,15 +42,16 @@ function plainFixed(x, decimals) {
 
 const SMALLEST = 1e-6; // in the unit of a column: what is smaller may be nothing but rounding
 
-// So many decimals, or one or two more where these show numbers as they were typed.
-function asTyped(values, decimals) {
+// So many decimals, or one or two more where no number has any behind them.
+function inFull(values, decimals) {
   const known = Array.from(values).filter(Number.isFinite);
   const tell = more => known.every(x => Math.abs(x - Math.round(x * 10 ** more) / 10 ** more) <= 1e-6 * 10 ** -more);
   return [decimals, decimals + 1, decimals + 2].find(tell) ?? decimals;
 }
 
-// So many decimals, or more where these would leave less than two digits of the largest number: then three.
-function enough(values, decimals) {
+// So many decimals, or more where these show numbers in full, or left less than two digits of the largest: then three.
+function enough(values, usual) {
+  const decimals = inFull(values, usual);
   const largest = Math.max(0, ...Array.from(values, Math.abs).filter(Number.isFinite));
   return largest >= 10 ** (1 - decimals) || largest < SMALLEST ? decimals : 2 - Math.floor(Math.log10(largest));
 }

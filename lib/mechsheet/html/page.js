@@ -111,7 +111,7 @@ function withDecimals(column, results) {
   if (typeof column.decimals === "string") return {...column, decimals: argument(column.decimals, results), own: column.factor};
   if (!("usual" in column)) return column;
   const values = columnValues(column, results) ?? [];
-  return {...column, decimals: enough(values, column.typed ? asTyped(values, column.usual) : column.usual)};
+  return {...column, decimals: enough(values, column.usual)};
 }
 
 function columnTexts(column, results) {

@@ -1,7 +1,7 @@
 """Numbers as texts: how many digits are shown, and how a notation writes them, with their unit."""
 
 import re
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Collection, Iterable, Sequence
 from decimal import Decimal
 from fractions import Fraction
 from functools import cache, lru_cache
@@ -58,10 +58,10 @@ def fixed(x: float, decimals: int, to: Notation = PLAIN) -> str:
     return text if to.minus == "-" else text.replace("-", to.minus)
 
 
-def as_typed(values: Iterable[float], decimals: int) -> int:
-    """So many decimals, or one or two more where these show numbers as they were typed: none has any behind them.
+def _in_full(values: Iterable[float], decimals: int) -> int:
+    """So many decimals, or one or two more where no number has any behind them.
 
-    >>> as_typed([1.0, 1.25], 1), as_typed([1.0, 1.5], 1), as_typed([1.0, 4 / 3], 1)
+    >>> _in_full([1.0, 1.25], 1), _in_full([1.0, 1.5], 1), _in_full([1.0, 4 / 3], 1)
     (2, 1, 1)
     """
     known = np.array([x for x in values if isfinite(x)])
@@ -71,12 +71,13 @@ def as_typed(values: Iterable[float], decimals: int) -> int:
     return decimals
 
 
-def enough(values: Iterable[float], decimals: int) -> int:
-    """So many decimals, or more where these would leave less than two digits of the largest number: then three.
+def enough(values: Collection[float], decimals: int) -> int:
+    """So many decimals, or more where these show numbers in full, or left less than two digits of the largest: three.
 
-    >>> enough([0, 2.3e-4], 1), enough([0.2, 1.3], 1), enough([1e-12], 1)
-    (6, 1, 1)
+    >>> enough([0, 2.3e-4], 1), enough([0.2, 1.3], 1), enough([3.15, 12.5], 1), enough([1e-12], 1)
+    (6, 1, 2, 1)
     """
+    decimals = _in_full(values, decimals)
     largest = max((abs(x) for x in values if isfinite(x)), default=0.0)
     return decimals if largest >= 10.0 ** (1 - decimals) or largest < _SMALLEST else 2 - floor(log10(largest))
 

@@ -36,8 +36,8 @@ class Column:
     Values may be a list, which becomes an array, and texts, of unit "". ``power`` shows numbers as 1.2e-15; those of
     ``unlike`` quantities, in one column, have each digits of their own. ``of`` is the name that the line declares, of a
     field without its ``_S``; ``want`` is what stands in the worksheet, a name or a part of one. Texts that are
-    ``names`` of quantities stand on the page as their symbols. Decimals that are ``usual`` are more where all numbers
-    are small, and where they were ``typed``.
+    ``names`` of quantities stand on the page as their symbols. Decimals that are ``usual`` are as many as
+    its numbers ask for.
     """
 
     symbol: str
@@ -51,7 +51,6 @@ class Column:
     names: bool = False
     unlike: bool = False
     usual: bool = False
-    typed: bool = False
 
     def __post_init__(self) -> None:
         if isinstance(self.values, list):
@@ -268,32 +267,16 @@ def _columns(
         unit = next((_shown_in(of, label, line.unit, show[n]) for n in names if n in show), line.unit)
         shown = row / units.parse(unit).factor
         usual = decimals is None and kind == "f"
-        typed = usual and (isinstance(line, Input) or _is_typed(line.expression, frame.f_globals))
         places = 0 if kind in "iu" else usual_decimals(unit) if decimals is None else decimals
-        places = numbers.as_typed(shown, places) if typed else places
         places = numbers.enough(shown, places) if usual else places
         want = "" if given else ast.unparse(node)
-        columns.append(Column(label, unit, line.meaning, places, shown, of=own, want=want, usual=usual, typed=typed))
+        columns.append(Column(label, unit, line.meaning, places, shown, of=own, want=want, usual=usual))
     for name in show:
         if name not in called:
             near = difflib.get_close_matches(name, called, n=1, cutoff=0.5)
             nearest = f"nearest: {', '.join(near or dict.fromkeys(called.values()))}"
             refuse(SheetError(f"{of}: show has {as_given(name)}, which is no column; {nearest}"))
     return tuple(columns)
-
-
-def _is_typed(expression: ast.expr, namespace: Mapping[str, Any]) -> bool:
-    """Whether numbers stand in an expression as they were typed, such as ``np.array([1, 1.25]) * mm``."""
-    match expression:
-        case ast.BinOp(left, ast.Mult() | ast.Div(), ast.Name(unit)):
-            return isinstance(namespace.get(unit), units.Constant) and _is_typed(left, namespace)
-        case ast.Call(ast.Name("array") | ast.Attribute(attr="array"), [argument]):
-            return _is_typed(argument, namespace)
-        case ast.List(elements) | ast.Tuple(elements):
-            return all(_is_typed(element, namespace) for element in elements)
-        case ast.UnaryOp(ast.USub(), ast.Constant()) | ast.Constant():
-            return True
-    return False
 
 
 def _shown_in(of: str, label: str, own: str, unit: str) -> str:
