@@ -245,3 +245,30 @@ def test_names_of_lines_and_inputs_are_symbols_in_what_lines_mean(tmp_path: Path
     assert says in lines.lines(sheet.run_whole()["t"])
     sheet = own(tmp_path, text)
     assert says in write.page(sheet, inputs.build(sheet.inputs, {}))
+
+
+WORDS = '''import marimo as mo
+mo.md(f"""
+## 2 Friction
+
+At a force of {g.F:.2f} it is {"small" if g.F < 3 else "large"}.
+
+### 2.1 Case {g.k}
+""")'''
+TOLD = [  # what is typed, the text and the last heading then
+    ("a", "2", "At a force of 2.50 it is small.", "2.1 Case 2"),
+    ("F", "2.75", "At a force of 2.75 it is small.", "2.1 Case 2"),
+    ("k", "1", "At a force of 2.75 it is small.", "2.1 Case 1"),
+    ("F", "4", "", ""),
+]
+
+
+def test_headings_and_texts_of_one_text_follow_each_by_itself(page: Page, tmp_path: Path) -> None:
+    """All of it was gone as soon as any input was changed: a text with headings is shown in pieces."""
+    sheet = own(tmp_path, "y = g.F * x  # [-] result", further=[WORDS])
+    (tmp_path / "own.html").write_text(write.page(sheet, sheet.inputs()), encoding="utf-8")
+    page.goto((tmp_path / "own.html").as_uri())
+    for name, number, text, case in TOLD:
+        page.locator(f"#input-{name}").fill(number)
+        expect(page.locator("main :is(h2, h3)")).to_have_text(["2 Friction", case])
+        expect(page.locator(".ms-between")).to_have_text([text])

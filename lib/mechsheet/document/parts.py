@@ -248,7 +248,7 @@ def _asks(node: ast.FunctionDef) -> bool:
     return any(isinstance(called, ast.Name) and called.id in _OF_PAGE for called in calls)
 
 
-def _texts(markdown: str) -> Iterator[Section | Text]:
+def texts(markdown: str) -> Iterator[Section | Text]:
     """Headings of a text and what stands between them."""
     pieces = _HEADING.split(cleandoc(markdown))
     if pieces[0].strip():
@@ -274,7 +274,7 @@ def _parts(value: Any, names: Mapping[str, Any]) -> Iterator[Any]:
         case Slider():
             yield _control(value, False, names)
         case str():
-            yield from _texts(value)
+            yield from texts(value)
         case tuple() | list():
             for each in value:
                 yield from _parts(each, names)

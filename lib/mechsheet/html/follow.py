@@ -1,6 +1,7 @@
 """What of a shown value follows the inputs: the recorded quantities by their keys, and what the page makes of them."""
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+import re
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from html import escape
 from math import isfinite
 from operator import attrgetter
@@ -12,7 +13,7 @@ from mechsheet import units
 from mechsheet.document import chart_svg
 from mechsheet.document.expression import reads
 from mechsheet.document.markup import HTML, in_words, named
-from mechsheet.document.parts import Line, Text
+from mechsheet.document.parts import Line, Section, Text, texts
 from mechsheet.html import mathml, offered, sketched, wording
 from mechsheet.html.javascript import otherwise
 from mechsheet.html.put_in import Read, put_in
@@ -60,6 +61,7 @@ class Follower:
         self._asked: list[Node] = []  # for the next element
         self._slid: dict[Node, frozenset[str]] = {}
         self.texts: tuple[str, ...] = ()  # of the cell whose parts are written
+        self.headings = frozenset[str]()  # of its texts with numbers those that have none
         self.depends = False  # whether that cell reads what others compute
 
     def pair(self, shown: Mapping[int, Sequence[Any]]) -> None:
@@ -70,12 +72,13 @@ class Follower:
                 if b is not None and not self._sliders([guard.holds for guard in b.guards]):
                     self.drawn[id(a)] = b
         for n, parts in shown.items():
+            every = [one for each in self.recording.texts.get(n, ()) for one in (each, *_pieces(each))]
             for part in parts:
                 match part:
                     case Caption(number, title):
-                        told = [self.recording.captions.get(number)]
-                    case Text(title) | str(title):
-                        told = [*self.recording.texts.get(n, ())]
+                        told: list[Said | None] = [self.recording.captions.get(number)]
+                    case Section(_, title) | Text(title) | str(title):
+                        told = [*every]
                     case _:
                         continue
                 for each in filter(None, told):
@@ -96,9 +99,11 @@ class Follower:
         own = list(showing.drawings(part))
         return bool(own) and all(id(drawing) in self.drawn for drawing in own)
 
-    def text(self, part: Text | Caption | str, shown: Callable[[str], str]) -> str:
+    def text(self, part: Section | Text | Caption | str, shown: Callable[[str], str]) -> str:
         """HTML of a text, by what ``shown`` makes of one; what is recorded of it follows."""
         own = part if isinstance(part, str) else part.markdown if isinstance(part, Text) else part.title
+        if isinstance(part, Section) and own in self.headings:
+            return shown(own)
         told = self.told.get(id(part))
         return self._written(told.text, shown, self._guards(told.guards)) if told else self.own(shown(own), own)
 
@@ -383,6 +388,20 @@ def _of_several(found: Solution) -> Spec:
         "guessed": words.guessed,
         "least": found.least,
     }
+
+
+_PLACE = 0xE000  # signs of no script, each in place of what a text says otherwise for other inputs
+
+
+def _pieces(said: Said) -> Iterator[Said]:
+    """The headings of a text and what stands between them, each by itself."""
+    others = [part for part in said.text.parts if not isinstance(part, str)]
+    held = {chr(_PLACE + n): part for n, part in enumerate(others)}
+    signs = iter(held)
+    for piece in texts("".join(part if isinstance(part, str) else next(signs) for part in said.text.parts)):
+        text = piece.title if isinstance(piece, Section) else piece.markdown
+        parts = re.split(f"([{chr(_PLACE)}-{chr(_PLACE + len(held))}])", text)
+        yield Said(Written(tuple(held.get(part, part) for part in parts if part)), said.guards)
 
 
 def _measured(unit: str) -> tuple[float, str]:

@@ -64,8 +64,8 @@ def _(title: Title, page: Follower) -> str:
 @html.register
 def _(section: Section, page: Follower) -> str:
     level = min(section.level, 6)
-    title = markdown.html(section.title).removeprefix("<p>").removesuffix("</p>")
-    return f'<h{level} id="{anchor(section.title)}">{page.own(title, section.title)}</h{level}>'
+    title = page.text(section, lambda text: markdown.html(text).removeprefix("<p>").removesuffix("</p>"))
+    return f'<h{level} id="{anchor(section.title)}">{title}</h{level}>'
 
 
 def anchor(title: str) -> str:

@@ -185,6 +185,7 @@ def _cell(
 ) -> str:
     """HTML of what a cell shows: texts of its own, and those ``among`` lines, which another cell may show."""
     follower.texts = (*(text for line in cell.lines for text in _as_written(line)), *among)
+    follower.headings = frozenset(title for line in cell.lines for title in _headings(line))
     follower.depends = bool(cell.needs)
     return "".join(_part((n, k), part, follower, moving) for k, part in enumerate(parts))
 
@@ -219,6 +220,14 @@ def _as_written(node: ast.AST) -> Iterator[str]:
             yield from (cleandoc(v.value) for v in values if isinstance(v, ast.Constant) and isinstance(v.value, str))
     for part in ast.iter_child_nodes(node):
         yield from _as_written(part)
+
+
+def _headings(line: ast.stmt) -> Iterator[str]:
+    """Headings that stand in texts with numbers, in lines that have none."""
+    for text in (node for node in ast.walk(line) if isinstance(node, ast.JoinedStr)):
+        pieces = (p.value if isinstance(p, ast.Constant) else "{}" for p in text.values)
+        lines = (each.strip() for each in "".join(map(str, pieces)).splitlines())
+        yield from (each.lstrip("#").strip() for each in lines if each.startswith("#") and "{}" not in each)
 
 
 def _part(at: tuple[int, int], part: Any, follower: Follower, moving: Iterable[Moved]) -> str:
