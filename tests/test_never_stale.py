@@ -17,6 +17,8 @@ CONSTRUCTS = [
     "y = [v for v in (g.F, g.a, 2.0) if v > 1]",
     "y = [g.F, g.a] if g.k > 2 else [g.a, g.F, 1.0]",
     "y = [g.F, g.a]\ny[1] = 2 * g.F\ny.append(g.a)",
+    "y = np.array([np.trapezoid(x[: i + 1] * g.a, dx=0.25) for i in range(3)])",
+    "y = np.sum(x[:0] * g.a) + np.cumsum(x[:0]).sum() + np.trapezoid(x[:1], x[:1]) + g.a",
     "y = tuple(np.sort_complex([g.F, g.a]).real)",
     "y = np.lexsort((np.sin(x), np.cos(x))) * 1.0",
     "y = np.bincount(np.floor(x).astype(int)) * 1.0",

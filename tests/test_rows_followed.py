@@ -76,6 +76,9 @@ FOLLOWED = [
     "find(lambda t: t**3 + t - x, 0, 9, unknown='t').value",
     "np.split(np.arange(2.0 * g.n), 2)[1]",
     "x.shape[0] * g.a",
+    "np.cumsum(x[4:]).sum() + g.a",
+    "np.trapezoid(x[4:], dx=g.a) + g.a",
+    "np.cumsum(np.linspace(0, 1, g.n)[5:]).sum() + g.a",
 ]
 ROWS: list[dict[str, Any]] = [{}, {"n": 3}, {"n": 4, "F": 3.25}, {"n": 12, "a": 0.3}, {"n": 40, "F": -1.0}]
 

@@ -307,19 +307,22 @@ class Graph(Lengths):
 
     def _reduce(self, kind: str, source: Node, axis: int | None, keepdims: bool) -> Node:
         value = REDUCE[kind](source.value, axis=axis, keepdims=keepdims)
-        if source.op == "constant":
+        if source.op == "constant" or not (source.size or source.stretches):
             return self.constant(value)
         if source.size == 1 and not kind.startswith("arg") and not source.stretches:
             return self.take(source, np.zeros(np.shape(value), int))
         flat = np.arange(source.size).reshape(source.shape)
-        groups = flat.reshape(1, -1) if axis is None else np.moveaxis(flat, axis, -1).reshape(-1, flat.shape[axis])
+        count = flat.size if axis is None else flat.shape[axis]  # of which there may be none
+        groups = (flat if axis is None else np.moveaxis(flat, axis, -1)).reshape(np.size(value), count)
         key = ("reduce", source, kind, axis, keepdims)
         args = source, _fixed(groups), kind, Along(axis, keepdims)
         return self._kept(key, "reduce", args, lambda: value, source.stretches and axis is not None)
 
     def scan(self, kind: str, source: Node, axis: int) -> Node:
         """What the kind says of the elements along an axis up to each one."""
-        lines = np.moveaxis(np.arange(source.size).reshape(source.shape), axis, -1).reshape(-1, source.shape[axis])
+        length = source.shape[axis]  # which may be none
+        lines = np.moveaxis(np.arange(source.size).reshape(source.shape), axis, -1)
+        lines = lines.reshape(source.size // max(length, 1), length)
         lines.flags.writeable = False
         groups: list[Any] = [None] * source.size
         for line in lines:
