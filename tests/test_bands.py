@@ -1,6 +1,7 @@
 """Bands of results within the tolerances of inputs: against random cases, by hand, and what is said of checks."""
 
 import re
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -15,6 +16,7 @@ from mechsheet.readers.bands import Bands, tolerances
 from mechsheet.readers.enclosed import enclosed
 from mechsheet.recording.record import record
 from mechsheet.run import arguments, banding, batch, studied
+from mechsheet.run.within import cases
 from mechsheet.studies.sweep import sweep
 from mechsheet.studies.tolerance import tolerance
 from mechsheet.worksheet import cells
@@ -47,7 +49,9 @@ def bands(sheet: cells.Worksheet):
     shown = parts.values(names)
     tables, checks = ([v for v in shown if isinstance(v, kind)] for kind in (Table, Check))
     by = tolerances(names["g"])
-    return run_bands(record(names, sheet, whole=True, every=1), tables, checks, registry(names), by), names
+    known = registry(names)
+    run = partial(cases, names["g"], sheet, sheet.results, known, by)
+    return run_bands(record(names, sheet, whole=True, every=1), tables, checks, known, by, run), names
 
 
 @pytest.mark.parametrize("name", ["bucket", "engine", "bolted_joint"])
@@ -167,6 +171,85 @@ def test_what_is_over_a_limit_is_as_sure_as_the_limit_itself(limit, F, tmp_path)
     assert {name: found.sure[name] for name in OVER} == dict.fromkeys(OVER, found.sure["below"])
 
 
+JUMPS = {
+    "whole number": "math.ceil(g.F / 3.4)",
+    "rounded": "round(g.F)",
+    "floored": "np.floor(g.F)",
+    "sign": "np.sign(g.F - 3)",
+    "remainder": "g.F % 2.6",
+    "standard size": "next(size for size in (1, 2, 3, 4, 6) if g.F <= size)",
+    "branch of Python": "1.0 if g.F < 3 else 4.0",
+    "choice": "np.where(g.F < 3, g.F, 2 * g.F)",
+    "place in a list": "np.searchsorted([1.0, 2, 3, 4], g.F)",
+    "first of the greatest": "np.argmax(np.array([1.2 * g.F, 3.3]))",
+    "loop": "first_over(g.F)",
+    "of a Find": "find(lambda x: x - np.where(g.F < 3, 1.0, 2.0), 0.0, 9.0).value",
+}
+FIRST_OVER = """
+SIZES = np.array([1.0, 2.0, 3.0, 4.0])
+def first_over(x):
+    for size in SIZES:
+        if x <= size:
+            return size
+    raise ValueError("too large")
+"""
+
+
+@pytest.mark.parametrize("text", JUMPS.values(), ids=JUMPS)
+def test_what_jumps_within_the_tolerances_is_told_by_cases(text, tmp_path):
+    """By slopes it rests, or moves on: F = 2.5 ± 1 is on both sides of 3."""
+    more = f"""{FIRST_OVER}
+j = {text}  # [-] jumps
+r = 4 + 2 * j + g.a  # [-] rests on it
+check_2 = check("jumping", r, R_LIMIT)"""
+    alone = off(tmp_path, 9, "", "", more.replace("R_LIMIT", "0"))
+    there = [sweep(alone.path, ["r"], {"F": [F]})["r"].item() for F in np.linspace(1.5, 3.5, 201)]
+    own = there[100]
+    other = max(there, key=lambda x: abs(x - own))
+    limit = own + 0.25 * abs(other - own) if other > own else own - 0.25 * abs(other - own)
+    found, names = bands(off(tmp_path, 9, "± 1", "", more.replace("R_LIMIT", str(limit))))
+    by_name = {b.name: b for b in found.banded}
+    assert "it jumps" in by_name["j"].cells()[-1] and "goes another way by F" in by_name["r"].cells()[-1]
+    ends = [float(end) for end in re.search(r"it jumps: (\S+)\.\.(\S+) in", by_name["r"].cells()[-1]).groups()]
+    assert np.allclose(ends, [min(there), max(there)], atol=0.05), "the span of all cases"
+    holds = np.mean(np.array(there) <= limit)
+    told = re.match(r"(?:holds )?in (\S+) % of cases", found.sure["jumping"])
+    assert names["check_2"].passed == (other > own) and float(told[1]) / 100 == pytest.approx(holds, abs=0.06)
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["np.interp(g.F, [0.0, 3.0, 9.0], [0.0, 3.0, 9.5])", "max(g.F, 2.0)", "g.F if g.F < 3 else 3 + 1.01 * (g.F - 3)"],
+)
+def test_what_only_goes_on_in_another_way_keeps_its_band(text, tmp_path):
+    found, _ = bands(off(tmp_path, 9, "± 1", "", f"\nk = {text}  # [-] bends"))
+    assert np.allclose(next(b for b in found.banded if b.name == "k").worst, 1.0)
+
+
+def test_a_verdict_that_rests_on_a_jump_and_is_the_same_in_all_cases_says_so(tmp_path, capsys):
+    more = "\nj = np.floor(g.F)  # [-] jumps\ncheck_2 = check('jumping', j, 9)\ncheck_3 = check('failing', j, 0.5)"
+    sheet = off(tmp_path, 9, "± 1", "", more)
+    found, _ = bands(sheet)
+    for name in ("jumping", "failing"):
+        assert re.fullmatch(r"in all of 1000 random cases \(line 42 goes another way by F\)", found.sure[name])
+    asked = arguments.read(["--tolerances", "--want=j,jumping"], declared(sheet.inputs))
+    assert batch.answer(sheet.path, asked) == 1, "one fails"
+    out = capsys.readouterr().out
+    assert "j: no slopes, it jumps (line 42 goes another way by F)" in out
+    assert re.search(r"^2 +– +– +1\.\.3", out, re.MULTILINE) and "jumping: pass in all of 1000 random cases" in out
+
+
+def test_cases_without_numbers_are_told(tmp_path):
+    more = """
+j = math.floor(g.F)  # [-] jumps
+if j > 2:
+    raise ValueError(f"no size for {j}")
+check_2 = check("jumping", j, 9)"""
+    found, _ = bands(off(tmp_path, 9, "± 1", "", more))
+    assert any(re.match(r"\d+ cases .* have no numbers: no size for 3", line) for line in found.lines())
+    assert re.match(r"in 7\d(\.\d)? % of cases, fails at worst", found.sure["jumping"])
+
+
 def test_whether_a_group_closes_is_looked_at_at_the_ends(tmp_path):
     lines = """
 from mechsheet import assembled
@@ -197,7 +280,7 @@ def test_guaranteed_bounds_hold_all_cases(tmp_path):
     node = recording.values["y"].re
     low, high = enclosed([node], {recording.inputs[x]: t.size for x, t in by.items()})[node]
     assert low <= 3.25 and high >= 8.25 and high - low < 5 + 1e-6
-    assert Bands(recording, by).of([node])[node].worst == 2.5
+    assert Bands(recording, by, lambda: pytest.fail("nothing jumps")).of([node])[node].worst == 2.5
 
 
 def test_a_run_shows_bands_only_where_it_is_asked_for_them(tmp_path, capsys):

@@ -1,7 +1,7 @@
 """What of a run of a worksheet has a band where inputs lie within their tolerances: results, columns, checks."""
 
-from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -9,15 +9,16 @@ from mechsheet import units
 from mechsheet.quantities.lines import Recording
 from mechsheet.quantities.node import LEAVES, Node
 from mechsheet.quantities.operations import Values
-from mechsheet.quantities.quantity import Quantity
+from mechsheet.quantities.quantity import Quantity, lift
 from mechsheet.readers.bands import Band, Bands, Tolerance
+from mechsheet.readers.cases import RESULTS, Cases
 from mechsheet.worksheet import numbers
 from mechsheet.worksheet.check import Check
 from mechsheet.worksheet.lines import Formula
 from mechsheet.worksheet.symbol import stem
 from mechsheet.worksheet.table import Table
 
-_RESULTS = "results"
+_Shown = tuple[str, str, str, Values, Node, bool]
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,15 +51,21 @@ class Banded:
         own = deviations.reshape(-1) / units.parse(self.unit).factor
         return np.where(np.isnan(self.values.reshape(-1)), np.nan, own)
 
+    def jumping(self, cases: Cases, turns: str) -> "Banded":
+        """The same with what cases tell in place of a band that they are outside of, for ``turns`` goes another way."""
+        if not (outside := cases.outside((self.where, self.name), self.values, self.worst, self.unit)):
+            return self
+        return replace(self, band=self.band.none(f"it jumps: {outside} ({turns})"))
+
     def cells(self) -> list[str]:
         """Where, name, value, worst case, root of squares: of several numbers those whose worst case is greatest."""
         after, values = numbers.suffix(self.unit), self.values.reshape(-1)
         known = values[~np.isnan(values)]
         if not known.size:
-            return [self.where, self.name, numbers.CELL.none, "not known", "there is none at any position"]
+            return [self.where, self.name, numbers.CELL.none, "not known", "", "there is none at any position"]
         span = numbers.span(numbers.significant(end, 6) for end in (np.min(known), np.max(known))) + after
         if self.band.why:
-            return [self.where, self.name, span, "not known", self.band.why]
+            return [self.where, self.name, span, "not known", "", self.band.why]
         k = int(np.argmax(np.nan_to_num(self.worst)))
         gaps = values.size - known.size
         at = f"in row {k + 1}" if values.size > 1 else ""
@@ -68,11 +75,12 @@ class Banded:
 
 @dataclass(frozen=True, eq=False)
 class RunBands:
-    """Bands of a run: its inputs with tolerances, what has a band, and how sure each check is, by its name."""
+    """Bands of a run: its inputs with tolerances, what has a band, how sure checks are by their names, lost cases."""
 
     by: Mapping[str, Tolerance]
     banded: tuple[Banded, ...]
     sure: Mapping[str, str]
+    lost: tuple[str, ...] = ()
 
     def lines(self) -> list[str]:
         """All of it as texts, the checks left out: they stand beside their verdicts."""
@@ -85,6 +93,7 @@ class RunBands:
         return [
             f"within {', '.join(map(str, self.by.values()))}",
             *shown,
+            *self.lost,
             f"{NOTE}; --tolerances --want=RESULT shows by how much one does.",
         ]
 
@@ -102,9 +111,10 @@ def run_bands(
     checks: Iterable[Check],
     known: Mapping[str, Formula],
     by: Mapping[str, Tolerance],
+    run: Callable[[], Cases],
 ) -> RunBands:
-    """Bands of results and of columns of tables; ``known`` are lines with a unit."""
-    bands = Bands(recording, by)
+    """Bands of results and of columns of tables; ``known`` are lines with a unit, ``run`` gives cases within ``by``."""
+    bands = Bands(recording, by, run)
     tables = list(tables)
     shown = [*_of_lines(recording, known, {column.of for table in tables for column in table.columns})]
     shown += _of_tables(recording, tables)
@@ -116,27 +126,33 @@ def run_bands(
     found = bands.of(
         [node for *_, node, _ in shown] + [n for check, _ in judged.values() for n in bands.compared(check)]
     )
-    banded = (Banded(where, name, unit, x, found[node], listed) for where, name, unit, x, node, listed in shown)
+    banded = [Banded(where, name, unit, x, found[node], listed) for where, name, unit, x, node, listed in shown]
+    seen = [[node, *(guard.holds for guard in recording.looked.get(name, ()))] for _, name, *_, node, _ in shown]
+    jumping = bands.jumps(node for nodes in seen for node in nodes)
+    for k, nodes in enumerate(seen):
+        if jump := next((jumping[node] for node in nodes if node in jumping), None):
+            banded[k] = banded[k].jumping(bands.cases, bands.turns(jump))
     moved = tuple(each for each in banded if each.band.why or np.any(each.band.moves))
-    return RunBands(by, moved, {name: bands.sure(check, passed) for name, (check, passed) in judged.items()})
-
-
-_Shown = tuple[str, str, str, Values, Node, bool]
+    sure = {name: bands.sure(name, passed) for name, (_, passed) in judged.items()}
+    return RunBands(by, moved, sure, tuple(bands.cases.told()) if jumping else ())
 
 
 def _of_lines(recording: Recording, known: Mapping[str, Formula], listed: set[str]) -> Iterator[_Shown]:
     for name, line in known.items():
-        quantity = recording.values.get(name)
-        if not line.has_value or not isinstance(quantity, Quantity):
+        value = recording.values.get(name)
+        if line.has_value and recording.looked.get(name) and isinstance(value, int | float):
+            value = lift(recording.graph, value)  # a number that Python chose
+        if not line.has_value or not isinstance(value, Quantity):
             continue
-        ends = ("real", "imag") if quantity.im is not None else ("",)
-        for node, part in zip(quantity.whole().parts, ends, strict=True):
-            if node.op not in LEAVES and node.value.dtype.kind in "if" and node.size:
+        ends = ("real", "imag") if value.im is not None else ("",)
+        for node, part in zip(value.whole().parts, ends, strict=True):
+            may_move = node.op not in LEAVES or (node.op == "constant" and recording.looked.get(name))
+            if may_move and node.value.dtype.kind in "if" and node.size:
                 values, column = (
                     node.value / units.parse(line.unit).factor,
-                    not quantity.single and stem(name) in listed,
+                    not value.single and stem(name) in listed,
                 )
-                yield _RESULTS, f"{name}.{part}" if part else name, line.unit, values, node, column
+                yield RESULTS, f"{name}.{part}" if part else name, line.unit, values, node, column
 
 
 def _of_tables(recording: Recording, tables: Iterable[Table]) -> Iterator[_Shown]:

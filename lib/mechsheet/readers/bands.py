@@ -4,8 +4,9 @@ To the first order: where a quantity bends within the tolerances its band does n
 corner it is the steeper side that counts.
 """
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -15,6 +16,8 @@ from mechsheet.quantities.graph import Gap
 from mechsheet.quantities.lines import Recording, Residual
 from mechsheet.quantities.node import Node, bottom_up
 from mechsheet.quantities.operations import Values
+from mechsheet.readers.cases import Cases, in_cases
+from mechsheet.readers.jumps import Jump, jumps
 from mechsheet.readers.numbers import numbers as recomputed
 from mechsheet.readers.slopes import seen, slopes, unfollowed
 from mechsheet.worksheet import inputs, numbers
@@ -24,7 +27,6 @@ from mechsheet.worksheet.kinds import Input
 
 _CASES = 20_000  # random ones by which a check is judged
 _CRITICAL = 100  # elements of a check that are judged at a time
-_SURE = 0.999  # a greater part of the cases is more than they can tell
 _EPS = float(np.finfo(float).eps)
 
 
@@ -78,6 +80,10 @@ class Band:
     deviations: Values
     why: str = ""
 
+    def none(self, why: str) -> "Band":
+        """That nothing is known of the same quantity, and why."""
+        return Band(np.full(self.moves.shape, np.nan), np.full(self.moves.shape, np.nan), why)
+
     @property
     def worst(self) -> Values:
         """Greatest deviation, where all inputs are at their worst."""
@@ -95,12 +101,17 @@ class Band:
 
 
 class Bands:
-    """Bands of quantities of one recording, for inputs with tolerances."""
+    """Bands of quantities of one recording, for inputs with tolerances; ``run`` runs the worksheet within these."""
 
-    def __init__(self, recording: Recording, by: Mapping[str, Tolerance]) -> None:
-        self.recording, self.by = recording, list(by.values())
+    def __init__(self, recording: Recording, by: Mapping[str, Tolerance], run: Callable[[], Cases]) -> None:
+        self.recording, self.by, self.run = recording, list(by.values()), run
         self.inputs = [recording.inputs[name] for name in by]
         self.known = dict[Node, Band]()
+
+    @cached_property
+    def cases(self) -> Cases:
+        """Cases within the tolerances, which only what jumps there needs."""
+        return self.run()
 
     def of(self, nodes: Iterable[Node]) -> dict[Node, Band]:
         """Bands of some quantities, each in its shape; best all at once, for they share what they rest on."""
@@ -138,15 +149,26 @@ class Bands:
         rows = [bool(np.isnan(each).any()) for each in slope]
         return ", ".join(t.field.name for t, lost in zip(self.by, rows, strict=True) if lost)
 
+    def jumps(self, nodes: Iterable[Node]) -> dict[Node, Jump]:
+        """Those of some quantities that rest on what goes another way within the tolerances."""
+        return jumps(nodes, self.inputs, [t.size for t in self.by])
+
+    def turns(self, jump: Jump) -> str:
+        """What goes another way, and by which inputs."""
+        return f"line {jump.line} goes another way by {', '.join(self.by[k].field.name for k in jump.by)}"
+
     def compared(self, residual: Residual) -> list[Node]:
         """What a check compares with its limit, and that limit, whose bands tell how sure it is."""
         return [*(part for part, _ in _judged(residual)), residual.limit]
 
-    def sure(self, residual: Residual, passed: bool) -> str:
+    def sure(self, name: str, passed: bool) -> str:
         """How sure the verdict of a check is: in all the tolerances, or in how many of the cases."""
+        residual = self.recording.checks[name]
         parts, compared = _judged(residual), self.compared(residual)
         if set(self.inputs).isdisjoint(bottom_up(compared, ())):
             return "whatever the tolerances"
+        if not all(_is_step(part) for part, _ in parts) and (found := self.jumps([*residual.parts, residual.limit])):
+            return f"{self.cases.sure(name, passed)} ({self.turns(next(iter(found.values())))})"
         bands = self.of(compared)
         if why := next((band.why for band in bands.values() if band.why), ""):
             return f"how sure is not known: {why}"
@@ -165,12 +187,7 @@ class Bands:
         most = np.abs(reserves[1:]).sum(0)
         if np.all(reserves[0] >= most) or np.any(reserves[0] < -most):
             return "in all the tolerances"
-        share = self._share(reserves[:, reserves[0] < most])
-        percent = f"{numbers.significant(100 * share, 3 if share > 0.9 else 2)} %"
-        if not 1 - _SURE <= share <= _SURE:
-            end = 100 * (_SURE if share > _SURE else 1 - _SURE)
-            percent = f"{'more' if share > _SURE else 'less'} than {numbers.fixed(end, 1)} %"
-        return f"in {percent} of cases, fails at worst" if passed else f"holds in {percent} of cases"
+        return in_cases(self._share(reserves[:, reserves[0] < most]), passed)
 
     def _share(self, reserves: Values) -> float:
         """Part of random cases in which all elements have a reserve."""

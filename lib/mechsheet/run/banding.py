@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
+from functools import cache, partial
 from typing import Any
 
 import numpy as np
@@ -12,7 +13,9 @@ from mechsheet.quantities.node import Node
 from mechsheet.quantities.quantity import Quantity
 from mechsheet.readers.banded import Banded, RunBands, about, off, run_bands
 from mechsheet.readers.bands import Band, Bands, Tolerance, tolerances
+from mechsheet.readers.cases import is_outside
 from mechsheet.recording.record import record
+from mechsheet.run.within import cases
 from mechsheet.worksheet import numbers, shown
 from mechsheet.worksheet.cells import Worksheet, base, split
 from mechsheet.worksheet.check import Check
@@ -34,7 +37,9 @@ def bands_of(namespace: Mapping[str, Any], sheet: Worksheet, checks: Iterable[Ch
     """
     by = tolerances(inputs_of(namespace))
     recording = record(namespace, sheet, whole=True)
-    return run_bands(recording, tables_of(namespace), _own(checks, namespace), registry(namespace), by)
+    known = registry(namespace)
+    run = partial(cases, inputs_of(namespace), sheet, sheet.results, known, by)
+    return run_bands(recording, tables_of(namespace), _own(checks, namespace), known, by, run)
 
 
 def _own(checks: Iterable[Check], namespace: Mapping[str, Any]) -> list[Check]:
@@ -60,7 +65,9 @@ def lines(
     by = tolerances(inputs_of(namespace))
     needed = replace(sheet, cells=tuple(sheet.needed([*given.want, *given.limits], ["g"])))
     recording = record(namespace, needed, whole=True, every=1)
-    bands, known = Bands(recording, by), registry(namespace)
+    known = registry(namespace)
+    run = cache(partial(cases, inputs_of(namespace), sheet, [*given.want, *given.limits], known, by))
+    bands = Bands(recording, by, run)
     nodes = {name: node for name in quantities if (node := part_of(name, recording.values))}
     yield f"within {', '.join(map(str, by.values()))}"
     gaps = {name: np.count_nonzero(np.isnan(node.value)) for name, node in nodes.items()}
@@ -72,13 +79,18 @@ def lines(
         drawn = {name: here[name] for name in given.inputs}
         sampled = shown.study("tolerance")(sheet.path, [*nodes], None, "monte carlo", seed=1, count=_CASES, **drawn)
         bounds = _bounds(nodes.values(), recording.inputs, by)
+        jumping = bands.jumps(nodes.values())
         for name, node in nodes.items():
-            yield from _in_all_ways(name, node, known[base(name)], found[node], sampled, bounds[node], by)
+            band, factor = found[node], units.parse(known[base(name)].unit).factor
+            ends, worst = (sampled[name].least, sampled[name].greatest), band.worst / factor
+            if node in jumping and is_outside(node.value / factor, *ends, worst):
+                band = band.none(f"it jumps ({bands.turns(jumping[node])})")
+            yield from _in_all_ways(name, node, known[base(name)], band, sampled, bounds[node], by)
     for table in (value for name in given.want if isinstance(value := namespace.get(name), Table)):
-        yield from _of_table(table, run_bands(recording, [table], (), {}, by).banded)
+        yield from _of_table(table, run_bands(recording, [table], (), {}, by, run).banded)
     for check in _own(checks, namespace):
         if check.evaluated and check.name in recording.checks:
-            yield f"{check.name}: {check.verdict} {bands.sure(recording.checks[check.name], check.passed)}"
+            yield f"{check.name}: {check.verdict} {bands.sure(check.name, check.passed)}"
 
 
 def part_of(name: str, values: Mapping[str, Any]) -> Node | None:
