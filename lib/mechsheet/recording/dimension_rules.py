@@ -44,7 +44,7 @@ class Reader:
         self.exponents: list[Dims | None] = [PURE, None, None, None, None]
         self.known: dict[Dims, int] = {PURE: NUMBER}
         self.products: dict[tuple[int, int, float], int] = {}
-        self.places, self.values = places, values
+        self.recording, self.places, self.values = recording, places, values
         self.mistakes: dict[int, Mistake] = {}
         self.notes: dict[int, Mistake] = {}
         self.codes: dict[Node, Codes] = {}

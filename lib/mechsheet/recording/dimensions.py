@@ -6,9 +6,11 @@ from pathlib import Path
 from typing import Any
 
 from mechsheet.quantities.lines import Recording
+from mechsheet.recording.converted import converted
 from mechsheet.recording.dimension_rules import Reader
 from mechsheet.recording.pinpoint import Mistake, Places
 from mechsheet.recording.record import record
+from mechsheet.recording.temperatures import misread
 from mechsheet.recording.turned import turned
 from mechsheet.worksheet.cells import Worksheet, load
 from mechsheet.worksheet.check import Check
@@ -53,7 +55,7 @@ def dimensions(
     lines = [line for line in known.values() if line.has_value]
     places = Places(sheet, known)
     reader = Reader(recording, values, namespace, lines, places)
-    for mistake in turned(reader):
+    for mistake in (*turned(reader), *converted(reader), *misread(reader)):
         reader.add(mistake)
     g = inputs_of(namespace)
     for field in declared(type(g)):
