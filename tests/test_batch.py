@@ -94,6 +94,29 @@ def test_one_bad_scene_does_not_stop_the_others(tmp_path, monkeypatch, capsys):
     assert [path.name for path in out.iterdir()] == ["hitch_scenes.xlsx"]
 
 
+@pytest.mark.parametrize("jobs", ["1", "2"])
+def test_inputs_of_a_scene_that_fails_are_shown_as_they_are_given(jobs, tmp_path, capsys, monkeypatch):
+    """Where the worksheet refuses them, where a line fails, where nobody can read them; others keep the worksheet's."""
+    monkeypatch.setenv("COLUMNS", "200")
+    sheet = own(tmp_path, 'y = next(size for size in (1, 2, 3) if g.F <= size)  # [-] size\nc = check("c", y, 3)')
+    path = Path(sheet.path)
+    path.write_text(path.read_text().replace("import export", "import check, export"), encoding="utf-8")
+    texts = {"good": "F = 2.75", "none": "F = 3.5", "low": "n = -4", "word": 'F = "much"', "unknown": "G = 1\nF = 2"}
+    files = [scene(tmp_path, name, f"[inputs]\n{text}\n") for name, text in texts.items()]
+    files.append(scene(tmp_path, "typing", "[inputs\n"))
+    out = tmp_path / "out"
+    assert batch.run(str(path), [*files, "--a=1.5", f"--jobs={jobs}", f"--out={out}"]) == 2
+    printed = capsys.readouterr().out
+    assert row(printed, "verdict") == ["pass", *5 * ["error"]]
+    assert row(printed, "F [-]") == ["2.75", "3.5", "2.5", "much", "2"]
+    assert row(printed, "n [-]") == ["5", "5", "-4", "5", "5"]
+    assert row(printed, "a [-]") == 5 * ["1.5"]
+    (line,) = (
+        r for r in load_workbook(out / "own_scenes.xlsx").worksheets[0].iter_rows(values_only=True) if r[0] == "F"
+    )
+    assert line[3:] == (2.75, 3.5, 2.5, "much", 2, None)
+
+
 def test_an_exception_of_one_scene_is_its_one_line(tmp_path, capsys):
     sheet = tmp_path / "sheet.py"
     sheet.write_text(
@@ -167,8 +190,8 @@ def test_summary_workbook(tmp_path):
     assert book.sheetnames == ["Scenes", "GS6", "a 4.1 Lifting capacity", "b 4.1 Lifting capacity"]
     cells = {line[0]: line[1:] for line in book["Scenes"].iter_rows(min_row=2, values_only=True)}
     assert cells["Symbol"] == ("Unit", "Meaning", "a", "b", "c")
-    assert cells["P6"] == ("N", "weight of the implement", 20000, 27500, None)
-    assert cells["N_pol"][2:] == (3, 10, None) and "L5" not in cells
+    assert cells["P6"] == ("N", "weight of the implement", 20000, 27500, -1)
+    assert cells["N_pol"][2:] == (3, 10, 10) and "L5" not in cells
     GS6 = by_cells(HITCH, ["GS6"], P6=20e3, N_pol=3)["GS6"], by_cells(HITCH, ["GS6"])["GS6"]
     assert cells["GS6 least"] == ("N", "capacity at the centre of mass", *(x.min() for x in GS6), None)
     assert cells["GS6 greatest"][2:4] == tuple(x.max() for x in GS6)

@@ -4,7 +4,7 @@ import glob
 import shutil
 import signal
 import sys
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from itertools import chain
@@ -17,6 +17,7 @@ from mechsheet.document import parts
 from mechsheet.recording.record import record
 from mechsheet.run import banding, report
 from mechsheet.run.arguments import UsageError, read, usage
+from mechsheet.run.arguments import load as load_scene
 from mechsheet.run.ending import INTERRUPTED, MISUSED, say, watch
 from mechsheet.run.progress import progress
 from mechsheet.run.proving import proof_of, proof_of_wanted
@@ -25,7 +26,7 @@ from mechsheet.workbook.checks_sheet import verdict
 from mechsheet.worksheet import inputs, mistakes, numbers, results
 from mechsheet.worksheet.cells import Worksheet, base, load
 from mechsheet.worksheet.check import Check, checks_of, refuse_open, unkept
-from mechsheet.worksheet.errors import SheetError
+from mechsheet.worksheet.errors import SheetError, cut
 from mechsheet.worksheet.kinds import Input
 from mechsheet.worksheet.no_inputs import beforehand
 from mechsheet.worksheet.results import Displayed
@@ -40,11 +41,13 @@ _GAP = 2  # characters between columns
 class Outcome:
     """What became of a scene: its inputs, how their texts were read, results, checks, proof and bands, or the error.
 
+    ``given`` is what it gives for inputs, None where that cannot be read; where it is refused there is no ``g``.
     ``misused`` tells that the error is of what is given; ``unsolved`` why solve blocks without a value have none.
     """
 
     name: str
     g: Any = None
+    given: Mapping[str, Any] | None = None
     quantities: tuple[Displayed, ...] = ()
     tables: tuple[Table, ...] = ()
     checks: tuple[Check, ...] = ()
@@ -101,7 +104,7 @@ def compute(sheet: Worksheet, name: str, given: Scene) -> tuple[Outcome, dict[st
         judged, proved = [*judged, proof.check(given.proof)], tuple(proof.lines())
     bands = tuple(banding.lines(names, sheet, given, [*quantities], judged)) if given.tolerances else ()
     shown = tuple(quantities.values()), tuple(tables), tuple(judged), tuple(told)
-    return Outcome(name, g, *shown, proof=proved, bands=bands, unsolved=tuple(map(str, unsolved))), names
+    return Outcome(name, g, given.inputs, *shown, proof=proved, bands=bands, unsolved=tuple(map(str, unsolved))), names
 
 
 def answer(worksheet: str, given: Scene) -> int:
@@ -120,8 +123,9 @@ def answer(worksheet: str, given: Scene) -> int:
 def comparison(sheet: Worksheet, outcomes: Sequence[Outcome]) -> bytes:
     """Workbook of all outcomes side by side: inputs that differ from the document's, results, checks and verdicts."""
     rows: list[tuple[str | float, ...]] = [("Inputs that differ from the worksheet's",)]
-    for field in _changed(sheet, outcomes):
-        shown = ("" if o.g is None else _written(field, getattr(o.g, field.name)) for o in outcomes)
+    default = sheet.inputs()
+    for field in _changed(default, outcomes):
+        shown = (_written(field, o, default) for o in outcomes)
         rows.append((field.name, numbers.in_text(field.unit), field.meaning, *shown))
     rows.append(("Results",))
     fields = list[Table]()
@@ -241,9 +245,22 @@ def attempt(sheet: Worksheet, file: Path, options: Sequence[str], out: Path | No
             report.write(report.workbook(title, names, given.limits), out / _workbook(sheet, file))
         return outcome
     except SheetError as error:
-        return Outcome(file.stem, error=str(error), misused=isinstance(error, UsageError))
+        return replace(_failed(sheet, file, options), error=str(error), misused=isinstance(error, UsageError))
     except Exception as error:  # of a line of the worksheet, which other scenes may well pass
-        return Outcome(file.stem, error=mistakes.told(error, sheet.path))
+        return replace(_failed(sheet, file, options), error=mistakes.told(error, sheet.path))
+
+
+def _failed(sheet: Worksheet, file: Path, options: Sequence[str]) -> Outcome:
+    """Outcome of a scene that goes no further than to its inputs, be they refused."""
+    declared = inputs.declared(sheet.inputs)
+    try:
+        given = load_scene(file, declared).inputs | read(options, declared).inputs
+    except SheetError:
+        return Outcome(file.stem)
+    try:
+        return Outcome(file.stem, inputs.build(sheet.inputs, given), given)
+    except SheetError:
+        return Outcome(file.stem, None, given)
 
 
 def _expanded(argument: str) -> list[str]:
@@ -278,18 +295,30 @@ def _is_check(what: Any) -> bool:
     return isinstance(what, Check) or (isinstance(what, tuple) and all(isinstance(part, Check) for part in what))
 
 
-def _changed(sheet: Worksheet, outcomes: Iterable[Outcome]) -> list[Input]:
+def _changed(default: Any, outcomes: Sequence[Outcome]) -> list[Input]:
+    """Inputs that are not those of the worksheet in some scene, be they refused there."""
     used = [o.g for o in outcomes if o.g is not None]
-    default = sheet.inputs()
+    refused = {name for o in outcomes if o.g is None for name in o.given or ()}
     return [
         field
-        for field in inputs.declared(sheet.inputs)
-        if not all(field.same(getattr(g, field.name), getattr(default, field.name)) for g in used)
+        for field in inputs.declared(type(default))
+        if field.name in refused
+        or not all(field.same(getattr(g, field.name), getattr(default, field.name)) for g in used)
     ]
 
 
-def _written(field: Input, value: Any) -> str | float:
-    """A value as a cell has it: a number, or the text of another kind."""
+def _written(field: Input, outcome: Outcome, default: Any) -> str | float:
+    """An input of a scene as a cell has it: a number, or the text of another kind; what is refused as it is given."""
+    if outcome.g is None:
+        if outcome.given is None:
+            return ""
+        if field.name in outcome.given:
+            given = outcome.given[field.name]
+            try:
+                return field.read(given) if type(field) is Input else cut(str(given))
+            except SheetError:
+                return cut(str(given))
+    value = getattr(default if outcome.g is None else outcome.g, field.name)
     return field.display(value) if type(field) is Input else field.brief(value)
 
 
@@ -311,9 +340,11 @@ def _field(quantity: Displayed, each: dict[str, Any]) -> Table:
 def _table(sheet: Worksheet, outcomes: Sequence[Outcome]) -> list[list[str]]:
     """The summary in words: a row a quantity, a column a scene."""
     rows = [["", *(o.name for o in outcomes)]]
-    for field in _changed(sheet, outcomes):
-        given = ("" if o.g is None else field.brief(getattr(o.g, field.name)) for o in outcomes)
-        rows.append([f"{field.name} [{numbers.in_text(field.unit)}]", *given])
+    default = sheet.inputs()
+    for field in _changed(default, outcomes):
+        given = (_written(field, o, default) for o in outcomes)
+        texts = (x if isinstance(x, str) else numbers.significant(x, 10) for x in given)
+        rows.append([f"{field.name} [{numbers.in_text(field.unit)}]", *texts])
     for name, quantity in _quantities(outcomes).items():
         spans = ({q.name: q.span + q.partly for q in o.quantities}.get(name, "") for o in outcomes)
         rows.append([f"{name} [{numbers.in_text(quantity.unit)}]", *spans])
