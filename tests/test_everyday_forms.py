@@ -237,3 +237,22 @@ def test_a_matrix_is_assembled_of_rows_with_neighbours(tmp_path: Path) -> None:
         expected = by_cells(sheet.path, ["y"], **given)["y"]
         np.testing.assert_allclose(value_of(recording, "y", given), expected, rtol=1e-13)
     assert np.isnan(value_of(recording, "y", {"n": 4})).all()
+
+
+@pytest.mark.parametrize("inside", [False, True])
+@pytest.mark.parametrize("keeps", ["functools.cache", "functools.lru_cache", "functools.lru_cache(maxsize=8)"])
+def test_a_function_that_keeps_its_values_is_followed(keeps: str, inside: bool, tmp_path: Path) -> None:
+    """In each recording anew: what it kept of another one is none of it."""
+    helpers = f"import functools\n@{keeps}\ndef square(v):\n    return v**2\n"
+    helpers += f"@{keeps}\ndef cube(v):\n    return v * square(v)"
+    lines = "p = 2 / square(g.F)  # [-] line\nq = 3 / cube(g.a)  # [-] line"
+    sheet = own(tmp_path, f"{helpers}\n{lines}" if inside else lines)
+    if not inside:
+        path, indented = Path(sheet.path), helpers.replace("\n", "\n    ")
+        path.write_text(path.read_text().replace("import math\n", f"import math\n    {indented}\n", 1))
+        sheet = cells.load(path)
+    for _ in range(2):
+        _, recording = recorded(sheet)
+        assert not recording.gaps and not [guard for guard in recording.guards.values() if not guard.rows]
+        assert value_of(recording, "p", {"F": 4.0}) == 2 / 4.0**2
+        assert value_of(recording, "q", {"a": 3.0}) == 3 / 3.0**3

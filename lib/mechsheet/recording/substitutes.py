@@ -14,7 +14,7 @@ from bisect import bisect_left, bisect_right
 from collections.abc import Callable, Mapping
 from contextvars import ContextVar
 from copy import copy
-from functools import cache, partial, reduce
+from functools import _lru_cache_wrapper, cache, lru_cache, partial, reduce
 from inspect import unwrap
 from io import StringIO
 from types import BuiltinFunctionType, FunctionType, GenericAlias, ModuleType
@@ -56,8 +56,9 @@ def shared(common: Mapping[str, Any]) -> dict[str, Any]:
     for name, value in common.items():
         if name == "__builtins__":
             continue
-        of_sheet = isinstance(value, FunctionType) and value.__globals__ is common
-        own[name] = rebuilt(value, own) if of_sheet else instead(value)
+        f: Any = value.__wrapped__ if isinstance(value, _lru_cache_wrapper) else value
+        of_sheet = isinstance(f, FunctionType) and f.__globals__ is common
+        own[name] = rebuilt(f, own) if of_sheet else instead(value)
     return own
 
 
@@ -94,6 +95,8 @@ def instead(value: Any) -> Any:
         return _PAGE
     if isinstance(value, ModuleType):
         return _module(value)
+    if value is cache or value is lru_cache:
+        return _uncached
     if isinstance(value, units.Constant):
         return lift(current.get(), value)
     if value is units.celsius:
@@ -122,6 +125,8 @@ def instead(value: Any) -> Any:
         return scipy_rules.table(value)
     if isinstance(value, FunctionType) and room.startswith("scipy."):
         return scipy_rules.solved(value, _on_stage("rooted"), _integrated) or _of_scipy(value)
+    if isinstance(value, _lru_cache_wrapper) and not room.startswith("mechsheet."):
+        return instead(value.__wrapped__)  # the cache would give one recording what it kept of another
     return value
 
 
@@ -165,6 +170,11 @@ def _of_package(value: Any, room: str) -> Any:
     if room.startswith((*_ROOMS, *_ASKING)):
         return _itself(value)
     return _refused(value.__name__) if room.startswith("mechsheet.studies.") else value
+
+
+def _uncached(f: Any = None, *_: Any, **__: Any) -> Any:
+    """In place of what lets a function keep its values: the function itself."""
+    return f if callable(f) else _uncached
 
 
 def _laid_out(start: Any, stop: Any, *args: Any, **kwargs: Any) -> Any:
