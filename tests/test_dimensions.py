@@ -206,6 +206,7 @@ WRONG = {
         4,
         "x + v * h: adds m and m/s²",
     ),
+    "of a name of its cell alone": (["_a = 2 * g.L", "b = _a + 3 * N"], 2, "34, _a + 3 * N: adds m and N"),
     "assertion": (["a = 2 * g.L", "assert a < 300 * N"], 2, "a < 300 * N: compares m with N"),
     "choice": (["a = where(g.n > 2, g.L, g.F)"], 1, "where(g.n > 2, g.L, g.F): chooses between m and N"),
     "greatest": (["a = max(g.L, g.F)"], 1, "max(g.L, g.F): compares m with N"),

@@ -731,3 +731,10 @@ y = made()  # [-] set"""
     assert recording.gaps == [] and np.array_equal(names["y"], 2.5 * np.arange(3.0) + 0.75j)
     now = numbers([*recording.values["y"].parts], {recording.inputs["F"]: 2.0})
     assert [now[part].tolist() for part in recording.values["y"].parts] == [[0.0, 2.0, 4.0], [0.75] * 3]
+
+
+def test_the_reason_of_a_gap_has_the_names_as_they_are_written(tmp_path: Path) -> None:
+    """Those of one cell alone are called by their cell where they are run."""
+    given = "def _f(v):\n    return v\ny = _f(*([g.F] if isinstance(g.F, float) else []))  # [-] line"
+    (gap,) = recorded(own(tmp_path, given))[1].gaps
+    assert "(_f() missing 1 required positional argument" in gap.reason

@@ -190,7 +190,7 @@ def _lines(n: int, cell: notebook.Cell) -> list[ast.stmt]:
 
 def runnable(n: int, cell: notebook.Cell, computed: set[str]) -> Cell:
     """A cell that can be run by itself, its lines counted behind those of the cells before it."""
-    lines, code = compiled(_lines(n, cell), cell.filename, f"_{cell.cell_id}")
+    lines, code = compiled(_lines(n, cell), cell.filename, f"_cell{n}")
     return Cell(cell.cell_id, frozenset(cell.refs & computed), tuple(cell.defs), (), tuple(lines), code)
 
 

@@ -9,6 +9,7 @@ from typing import NamedTuple, TypeGuard
 from mechsheet.worksheet import source
 from mechsheet.worksheet.cells import Worksheet
 from mechsheet.worksheet.lines import Formula
+from mechsheet.worksheet.mistakes import as_written
 from mechsheet.worksheet.numbers import scientific
 from mechsheet.worksheet.source import bound
 
@@ -135,6 +136,7 @@ class Places:
 
 
 def _short(text: str) -> str:
+    text = as_written(text)
     return text if len(text) <= _LONGEST else text[: _LONGEST - 2] + " …"
 
 

@@ -33,6 +33,7 @@ from mechsheet.units import Constant
 from mechsheet.worksheet.cells import Cell, Worksheet
 from mechsheet.worksheet.drawing import Drawing
 from mechsheet.worksheet.lines import Formula, of_setup, rebound
+from mechsheet.worksheet.mistakes import as_written
 from mechsheet.worksheet.no_inputs import beforehand, inputs_of
 from mechsheet.worksheet.table import Figure, Table
 from mechsheet.worksheet.title import Mark, Slider
@@ -358,7 +359,7 @@ class Run(OfPositions):
         if isinstance(error, AttributeError) and error.obj is None:  # which what shows gives here
             return NotRecorded(f"it goes on with the {error.name} of a table, figure or check that it shows")
         said = str(error).splitlines()[0] if str(error) else repr(error)
-        return NotRecorded(f"it does not run with recorded quantities ({said})")
+        return NotRecorded(f"it does not run with recorded quantities ({as_written(said)})")
 
     def differing(self, stage: Stage, names: Iterable[str]) -> list[str]:
         """Names whose recorded numbers are not the worksheet's own."""

@@ -23,6 +23,18 @@ def at(file: str | Path, line: int, text: str) -> str:
     return f"{place(file, line)}, {text.partition('  #')[0].strip().removesuffix(':')}"
 
 
+def as_written(text: str) -> str:
+    """A text with the names that begin with _ as the worksheet has them: those that are run are called by their cell.
+
+    >>> as_written("_cell3_k + _cell_Hbol_k + k")
+    '_k + _k + k'
+    """
+    return _BY_CELL.sub("", text)
+
+
+_BY_CELL = re.compile(r"(?<!\w)_cell(\d+|_[^\W_]+)(?=_)")
+
+
 def undefined(name: str, known: Iterable[str]) -> str:
     is_unit = len(name) > 1 and name in units.names()  # a letter is as often a quantity
     hint = f" (for the unit: from mechsheet.units import {name})" if is_unit else _near(name, known)
@@ -95,22 +107,23 @@ def unbound(gives: Container[str], certain: Container[str], path: str) -> Iterat
 def why(error: BaseException, known: Iterable[str], text: str = "", inputs: Container[str] = ()) -> str:
     """An exception in words, with the ``known`` names and those of the ``inputs``; ``text`` is that of the cell."""
     if isinstance(error, NameError) and error.name:
-        if error.name in inputs:
-            return f"the name {error.name} is not defined in any cell (did you mean g.{error.name}?)"
-        name = rf"{error.name}\b"
+        called = as_written(error.name)
+        if called in inputs:
+            return f"the name {called} is not defined in any cell (did you mean g.{called}?)"
+        name = rf"{called}\b"
         binds = rf"(^|[:;])\s*(def {name}|{name}\s*(=[^=]|,[^(]*=)|for\b[^:]*\b{name}[^:]* in )"
         lines = text.splitlines()
         if places := [n for n, line in enumerate(lines, 1) if re.search(binds, line)]:
             through = [line for _, line in walk_tb(error.__traceback__) if line <= len(lines)]
-            read = [n for n in through if re.search(rf"\b{error.name}\b", lines[n - 1])]
+            read = [n for n in through if re.search(rf"\b{called}\b", lines[n - 1])]
             if read and places[0] < read[-1]:
-                return f"{error.name} has no value there: none of the ways that the lines above it went gives it one"
-            return f"{error.name} is defined below its use: move its line up"
-        return undefined(error.name, (name for name in known if not name.startswith("_")))
+                return f"{called} has no value there: none of the ways that the lines above it went gives it one"
+            return f"{called} is defined below its use: move its line up"
+        return undefined(called, (name for name in known if not name.startswith("_")))
     fields = getattr(type(error.obj), "__inputs__", ()) if isinstance(error, AttributeError) else ()
     if fields:
         return no_input(str(getattr(error, "name", "")), (field.name for field in fields))
-    said = " ".join(str(error).split())
+    said = " ".join(as_written(str(error)).split())
     if " " not in said:  # the bare name of a key, or nothing
         said = f"{type(error).__name__}: {said}".removesuffix(": ")
     hint = next((hint for pattern, hint in _HINTS.items() if re.search(pattern, said)), "")
