@@ -10,12 +10,12 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mechsheet import units
 from mechsheet.quantities.lines import Recording, Residual, Solved
 from mechsheet.quantities.node import Node
 from mechsheet.quantities.quantity import Quantity
+from mechsheet.recording.codes import ANY, LITERAL, NUMBER, UNKNOWN, WRONG, Codes, each, kinds, only, simple
 from mechsheet.recording.pinpoint import Mistake, Places
 from mechsheet.units import PURE, Dims
 from mechsheet.worksheet import inputs
@@ -23,9 +23,6 @@ from mechsheet.worksheet import numbers as shown_numbers
 from mechsheet.worksheet.lines import Formula
 from mechsheet.worksheet.no_inputs import inputs_of
 
-Codes = int | NDArray[np.intp]  # of all elements, or of each
-
-NUMBER, UNKNOWN, ANY, LITERAL, WRONG = range(5)  # codes; those of other exponents follow
 TOLERANCE = 1e-6  # a literal below it is a tolerance, which has the unit of what it is compared with
 VANISHING = 1e-50  # a literal below it, such as a complex step, is as good as 0
 
@@ -124,7 +121,7 @@ class Reader:
     def unfit(self, line: Formula, node: Node) -> bool:
         """Whether a value does not fit the unit that a line declares, of a function too."""
         unit = self.of_unit(line.unit)
-        if wrong := [code for code in _kinds(self.codes[node]) if not self.fits(code, unit)]:
+        if wrong := [code for code in kinds(self.codes[node]) if not self.fits(code, unit)]:
             self.wrong.add(node)
         if wrong and "erratum" not in line.meaning:
             why = f"unit [{line.unit}] does not fit; the value is in {self.word(wrong[0])}"
@@ -149,7 +146,7 @@ class Reader:
             function = self.places.function_called(line.expression)
             wrong = bool(function and self.unfit(function, node)) or self.unfit(line, node)
             if node.op not in ("constant", "rows", "input") and (
-                self.places.lines.get(line.name) == node.line or _is(self.codes[node], UNKNOWN, LITERAL, WRONG)
+                self.places.lines.get(line.name) == node.line or only(self.codes[node], UNKNOWN, LITERAL, WRONG)
             ):
                 self.codes[node] = WRONG if wrong and "erratum" not in line.meaning else unit
 
@@ -210,7 +207,7 @@ class Reader:
 
     def taken(self, node: Node, code: int) -> None:
         """Note a literal that takes the dimension of what it is added to or compared with."""
-        literal = next((n for n in node.operands if n.op == "constant" and _is(self.codes[n], LITERAL)), None)
+        literal = next((n for n in node.operands if n.op == "constant" and only(self.codes[n], LITERAL)), None)
         if literal is not None and node.op != "eq" and np.max(np.abs(literal.value)) >= TOLERANCE:
             part = shown_numbers.significant(literal.value.item(), 6) if literal.size == 1 else "numbers"
             self.notes.setdefault(node.line, Mistake(node.line, part, f"taken in {self.word(code)}"))
@@ -258,32 +255,6 @@ def _equations(solved: Solved) -> Iterator[tuple[Node, str, str]]:
 # --- rules -------------------------------------------------------------------------------------------------------
 
 
-def _each(f: Callable[..., int], *codes: Codes) -> Codes:
-    """A rule for each combination of the operands' dimensions."""
-    if all(isinstance(c, int) for c in codes):
-        return f(*codes)
-    base = 1 + max((int(np.max(c)) for c in codes if np.size(c)), default=0)
-    key: Any = 0
-    for c in codes:
-        key = key * base + c
-    table = np.zeros(base ** len(codes), np.intp)
-    for k in np.flatnonzero(np.bincount(key.reshape(-1))).tolist():
-        table[k] = f(*(k // base**n % base for n in reversed(range(len(codes)))))
-    return _simple(table[key])
-
-
-def _is(codes: Codes, *several: int) -> bool:
-    return isinstance(codes, int) and codes in several
-
-
-def _kinds(codes: Codes) -> list[int]:
-    return [codes] if isinstance(codes, int) else np.flatnonzero(np.bincount(codes.reshape(-1))).tolist()
-
-
-def _simple(codes: NDArray[np.intp]) -> Codes:
-    return int(codes.flat[0]) if codes.size and (codes == codes.flat[0]).all() else codes
-
-
 def _constant(reader: Reader, node: Node) -> Codes:
     if node.args:
         return reader.of_unit(*node.args)
@@ -312,7 +283,7 @@ def _found(reader: Reader, node: Node) -> Codes:
 
 def _state(reader: Reader, node: Node) -> Codes:
     codes = reader.codes[node.args[0]]
-    return UNKNOWN if _is(codes, LITERAL, ANY) else codes  # a number to begin with may have any unit
+    return UNKNOWN if only(codes, LITERAL, ANY) else codes  # a number to begin with may have any unit
 
 
 def _iterated(reader: Reader, node: Node) -> Codes:
@@ -322,17 +293,17 @@ def _iterated(reader: Reader, node: Node) -> Codes:
 
 def _mul(reader: Reader, node: Node) -> Codes:
     a, b = node.args
-    return _each(reader.product, reader.codes[a], reader.codes[b])
+    return each(reader.product, reader.codes[a], reader.codes[b])
 
 
 def _div(reader: Reader, node: Node) -> Codes:
     a, b = node.args
-    return _each(lambda p, q: reader.product(p, q, -1.0), reader.codes[a], reader.codes[b])
+    return each(lambda p, q: reader.product(p, q, -1.0), reader.codes[a], reader.codes[b])
 
 
 def _alike(reader: Reader, node: Node) -> Codes:
     a, b = node.args
-    return _each(lambda p, q: reader.alike(node, p, q), reader.codes[a], reader.codes[b])
+    return each(lambda p, q: reader.alike(node, p, q), reader.codes[a], reader.codes[b])
 
 
 def _compared(reader: Reader, node: Node) -> Codes:
@@ -344,21 +315,21 @@ def _compared(reader: Reader, node: Node) -> Codes:
 def _where(reader: Reader, node: Node) -> Codes:
     condition, a, b = node.args
     if condition.op == "constant" or condition in reader.pivots:  # one order of the rows is as good as another
-        return _simple(np.where(condition.value, reader.codes[a], reader.codes[b]))
-    return _each(lambda p, q: reader.alike(node, p, q), reader.codes[a], reader.codes[b])
+        return simple(np.where(condition.value, reader.codes[a], reader.codes[b]))
+    return each(lambda p, q: reader.alike(node, p, q), reader.codes[a], reader.codes[b])
 
 
 def _pow(reader: Reader, node: Node) -> Codes:
     base, exponent = node.args
     powers = exponent.value
     if exponent.op != "constant":
-        _each(lambda code: _exponent(reader, node, code), reader.codes[exponent])
+        each(lambda code: _exponent(reader, node, code), reader.codes[exponent])
     if powers.size == 1:
-        return _each(lambda code: reader.power(code, float(powers.item())), reader.codes[base])
-    if _is(reader.codes[base], NUMBER, LITERAL, ANY, UNKNOWN, WRONG):
+        return each(lambda code: reader.power(code, float(powers.item())), reader.codes[base])
+    if only(reader.codes[base], NUMBER, LITERAL, ANY, UNKNOWN, WRONG):
         return reader.codes[base]
     several, where = np.unique(powers, return_inverse=True)
-    return _each(lambda code, k: reader.power(code, float(several[k])), reader.codes[base], where.reshape(powers.shape))
+    return each(lambda code, k: reader.power(code, float(several[k])), reader.codes[base], where.reshape(powers.shape))
 
 
 def _exponent(reader: Reader, node: Node, code: int) -> int:
@@ -368,7 +339,7 @@ def _exponent(reader: Reader, node: Node, code: int) -> int:
 
 
 def _number(reader: Reader, node: Node) -> Codes:
-    _each(lambda code: reader.number(node, code), reader.codes[node.args[0]])
+    each(lambda code: reader.number(node, code), reader.codes[node.args[0]])
     return NUMBER
 
 
@@ -388,7 +359,7 @@ def _same(reader: Reader, node: Node) -> Codes:
 def _take(reader: Reader, node: Node) -> Codes:
     source, index, _ = node.args
     codes = reader.codes[source]
-    return codes if isinstance(codes, int) else _simple(np.broadcast_to(codes, source.shape).reshape(-1)[index])
+    return codes if isinstance(codes, int) else simple(np.broadcast_to(codes, source.shape).reshape(-1)[index])
 
 
 def _at(reader: Reader, node: Node) -> Codes:
@@ -400,12 +371,12 @@ def _join(reader: Reader, node: Node) -> Codes:
     sources, which, inside, _ = node.args
     codes = [reader.codes[source] for source in sources]
     if all(isinstance(c, int) for c in codes):
-        return _simple(np.array(codes)[which])
+        return simple(np.array(codes)[which])
     starts = np.cumsum([0, *(source.size for source in sources)])
     flat = np.concatenate(
         [np.broadcast_to(c, source.shape).reshape(-1) for c, source in zip(codes, sources, strict=True)]
     )
-    return _simple(flat[starts[which] + inside])
+    return simple(flat[starts[which] + inside])
 
 
 def _reduce(reader: Reader, node: Node) -> Codes:
@@ -417,7 +388,7 @@ def _reduce(reader: Reader, node: Node) -> Codes:
         return codes
     flat = np.broadcast_to(codes, source.shape).reshape(-1)
     result = [_folded(reader, node, kind, flat[group].tolist()) for group in groups]
-    return _simple(np.array(result).reshape(node.shape)) if result else UNKNOWN
+    return simple(np.array(result).reshape(node.shape)) if result else UNKNOWN
 
 
 def _folded(reader: Reader, node: Node, kind: str, codes: list[int]) -> int:
@@ -441,7 +412,7 @@ RULES: dict[str, Callable[[Reader, Node], Codes]] = {
     "state": _state, "iterated": _iterated,
     "exported": lambda reader, node: UNKNOWN, "take": _take, "at": _at, "join": _join, "reduce": _reduce,
     "mul": _mul, "div": _div, "pow": _pow, "where": _where, "atan2": _atan2,
-    "sqrt": lambda reader, node: _each(lambda code: reader.power(code, 0.5), reader.codes[node.args[0]]),
+    "sqrt": lambda reader, node: each(lambda code: reader.power(code, 0.5), reader.codes[node.args[0]]),
     **dict.fromkeys(("add", "sub", "max", "min", "mod"), _alike),
     **dict.fromkeys(("lt", "le", "gt", "ge", "eq", "ne"), _compared),
     **dict.fromkeys(("neg", "abs", "floor", "round", "like", "sized"), _same),
