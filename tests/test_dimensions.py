@@ -206,6 +206,49 @@ WRONG = {
         4,
         "x + v * h: adds m and m/s²",
     ),
+    "in a loop over lists": (
+        [*("h = 0.01", "x, v = [g.L], [g.L / g.t]", "for _ in range(50):"), "    v.append(v[-1] - h * x[-1] / g.t**2)"],
+        4,
+        "v[-1] - h * x[-1] / g.t ** 2: subtracts m/s² from m/s; h has no unit, and would fit with s",
+    ),
+    "in a loop that adds in place": (
+        [*("h = 0.01", "x, v = g.L, g.L / g.t", "for _ in range(5):", "    v -= h * x / g.t**2"), "    x += h * v"],
+        4,
+        "v -= h * x / g.t ** 2: subtracts m/s² from m/s; h has no unit, and would fit with s",
+    ),
+    "in a loop that calls a function": (
+        [
+            *("def a(x, v):", "    return -x / g.t**2 - v / g.t", "h, x, v = 0.01, g.L, g.L / g.t"),
+            *("for _ in range(5):", "    v = v + h * a(x, v)", "    x = x + h * v"),
+        ],
+        5,
+        "v + h * a(x, v): adds m/s and m/s²",
+    ),
+    "of what a loop goes over": (
+        ["s = []", "for k in [g.L, g.D]:", "    s.append(max(k, g.F))"],
+        3,
+        "max(k, g.F): comp",
+    ),
+    "in a way of a choice": (
+        ["if g.n > 1:", "    a = g.L + 2 * g.D", "    b = a + g.F", "else:", "    b = g.L - g.D"],
+        3,
+        "a + g.F: adds m and N",
+    ),
+    "in a block": (
+        ["with np.errstate():", "    a = g.L + 2 * g.D", "    b = 2 * a + g.F", "    c = a - b"],
+        3,
+        "2 * a + g.F: adds m and N",
+    ),
+    "in an attempt": (
+        ["try:", "    a = g.L + 2 * g.D", "    b = a + g.F", "except ValueError:", "    b = g.F"],
+        3,
+        "a + g.F: adds m and N",
+    ),
+    "divided by a number that should have a unit": (
+        ["h = 0.01", "x = g.L / g.t + g.D / h"],
+        2,
+        "g.L / g.t + g.D / h: adds m/s and m; h has no unit, and would fit with s",
+    ),
     "of a name of its cell alone": (["_a = 2 * g.L", "b = _a + 3 * N"], 2, "34, _a + 3 * N: adds m and N"),
     "assertion": (["a = 2 * g.L", "assert a < 300 * N"], 2, "a < 300 * N: compares m with N"),
     "choice": (["a = where(g.n > 2, g.L, g.F)"], 1, "where(g.n > 2, g.L, g.F): chooses between m and N"),

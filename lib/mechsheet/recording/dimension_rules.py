@@ -16,7 +16,7 @@ from mechsheet.quantities.lines import Recording, Residual, Solved
 from mechsheet.quantities.node import Node
 from mechsheet.quantities.quantity import Quantity
 from mechsheet.recording.codes import ANY, LITERAL, NUMBER, UNKNOWN, WRONG, Codes, each, kinds, only, simple
-from mechsheet.recording.pinpoint import Mistake, Places
+from mechsheet.recording.pinpoint import Mistake, Part, Places
 from mechsheet.units import PURE, Dims
 from mechsheet.worksheet import inputs
 from mechsheet.worksheet import numbers as shown_numbers
@@ -110,7 +110,7 @@ class Reader:
             if taken != NUMBER:
                 self.taken(node, taken)
             return taken
-        self.tell(node, _SAID[node.op].format(self.word(a), self.word(b)), node.operands)
+        self.tell(node, _SAID[node.op].format(self.word(a), self.word(b)), node.operands, a, b)
         return WRONG
 
     def number(self, node: Node, a: int) -> int:
@@ -188,7 +188,7 @@ class Reader:
         codes = self.codes[node]
         return codes if isinstance(codes, int) else UNKNOWN
 
-    def tell(self, node: Node, why: str, operands: tuple[Node, ...]) -> None:
+    def tell(self, node: Node, why: str, operands: tuple[Node, ...], *codes: int) -> None:
         if (node.line, why) in self.told:
             return
         self.told.add((node.line, why))
@@ -197,9 +197,19 @@ class Reader:
             if not (function and self.unfit(function, operands[0])):
                 self.add(Mistake(node.line, "find", "the function and what it equals: " + why))
             return
-        line, part = self.places.find(node.line, node.op, [self.leaf_names(operand) for operand in operands])
-        if not self.places.is_erratum(line):
-            self.add(Mistake(line, part, why))
+        part = self.places.find(node.line, node.op, [self.leaf_names(operand) for operand in operands])
+        if not self.places.is_erratum(part.line):
+            self.add(Mistake(part.line, part.text, why + self.lacking(part, *codes)))
+
+    def lacking(self, part: Part, *codes: int) -> str:
+        """The number of a sum that has no unit, and would fit with one, or several of them."""
+        match part.literals if codes else ():
+            case [(literal, operand, power)]:
+                missing = self.power(self.product(codes[1 - operand], codes[operand], -1.0), power)
+                return f"; {literal} has no unit, and would fit with {self.word(missing)}"
+            case [_, *_] as several:
+                return f"; {', '.join(dict.fromkeys(literal for literal, *_ in several))} have no unit"
+        return ""
 
     def add(self, mistake: Mistake) -> None:
         """Note a mistake, of a line the first."""

@@ -20,9 +20,12 @@ _SIGNS: dict[str, tuple[type[ast.AST], ...]] = {
 # The functions that do one operation each, but for those that may do any.
 _OWN: dict[str, tuple[str, ...]] = {
     "sin": ("sin",), "cos": ("cos",), "tan": ("tan",), "exp": ("exp", "sin", "cos"), "log": ("log",),
-    **dict.fromkeys(("sqrt", "range", "len", "enumerate", "zip"), ()),
+    **dict.fromkeys(("sqrt", "range", "len", "enumerate", "zip", "append", "extend", "insert"), ()),
 }  # fmt: skip
 _LIKE = 0.5  # more than this part of the names are the same
+_BLOCKS = (ast.For, ast.While, ast.If, ast.With, ast.Try, ast.TryStar, ast.Match)  # statements with lines within
+_DOING = (ast.BinOp, ast.AugAssign, ast.Compare, ast.Call)  # parts that do operations
+_SIGN = 0.25  # so much likelier is what has the very sign
 _LONGEST = 60  # characters of a part that is told
 
 
@@ -35,6 +38,14 @@ class Mistake(NamedTuple):
 
     def __str__(self) -> str:
         return f"line {self.line}, {self.part}: {self.why}" if self.line else f"{self.part}: {self.why}"
+
+
+class Part(NamedTuple):
+    """A part of a worksheet that does an operation: its line and its text."""
+
+    line: int
+    text: str
+    literals: tuple[tuple[str, int, float], ...] = ()  # factors without a unit, of which operand, to what power
 
 
 class Places:
@@ -112,27 +123,53 @@ class Places:
         ordered = (n.value for n in sorted(numbers, key=lambda n: (n.lineno, n.col_offset)))
         return [repr(x) for x in ordered if isinstance(x, int | float) and scientific(x, 1)[2] != "0"]
 
-    def find(self, line: int, op: str, operands: list[set[str]]) -> tuple[int, str]:
-        """Line and text of the part that does an operation on what is made of the names of its operands."""
-        best, likest = _LIKE, None
-        for part in self.parts(line):
-            own = _locals(part)
-            for node in source.nodes(part):
-                if isinstance(node, ast.expr) and (likeness := _likeness(node, op, operands, own)) > best:
-                    best, likest = likeness, node
+    @cached_property
+    def undeclared(self) -> set[str]:
+        """Names of lines that no operand is known by: they have no unit."""
+        return self.lines.keys() - {name for name, line in self.known.items() if line.has_value}
+
+    def find(self, line: int, op: str, operands: list[set[str]]) -> Part:
+        """The part of the statement of a line that does an operation on what is made of the names of its operands."""
+        owns = [(part, self.undeclared | _locals(part)) for part in self.parts(line)]
+        doing = [(node, own) for part, own in owns for node in source.nodes(part) if isinstance(node, _DOING)]
+        rated = [(node, _likeness(node, op, operands, own)) for node, own in doing]
+        rated = [(node, likeness + _SIGN * _is_sign(node, op)) for node, likeness in rated if likeness > _LIKE]
+        likest = max(rated, key=lambda each: each[1])[0] if rated else None
         statement = self.statements.get(line)
         able = [n for n in source.nodes(statement) if _does(n, op)] if statement else []
-        if not likest and able and (len(able) == 1 or isinstance(statement, ast.For | ast.While)):
-            own = _locals(self.statements[line])
-            likest = max(able, key=lambda n: (_is_sign(n, op), _likeness(n, op, operands, own)))
+        if not likest and statement and able and (len(able) == 1 or isinstance(statement, _BLOCKS)):
+            own = self.undeclared | _locals(statement)
+            ranks = [(_is_sign(n, op), _likeness(n, op, operands, own)) for n in able]
+            first = able[ranks.index(max(ranks))]
+            if ranks.count(max(ranks)) == 1 or not isinstance(first, ast.Compare):  # of two conditions it may be either
+                likest = first
         if likest:
-            return likest.lineno, _short(ast.unparse(likest))
+            return Part(likest.lineno, _short(ast.unparse(likest)), tuple(self.literal_factors(likest)))
         match statement:
             case ast.Assign(value=value) | ast.AugAssign(value=value) | ast.Expr(value):
-                return line, _short(ast.unparse(value))
+                return Part(line, _short(ast.unparse(value)))
             case ast.stmt():
-                return line, _short(ast.unparse(statement).partition("\n")[0].removesuffix(":"))
-        return line, "its statement"
+                return Part(line, _short(ast.unparse(statement).partition("\n")[0].removesuffix(":")))
+        return Part(line, "its statement")
+
+    def literal_factors(self, part: ast.AST) -> Iterator[tuple[str, int, float]]:
+        """Numbers without a unit, or names of such, by which an operand of a sum is multiplied."""
+        match part:
+            case ast.BinOp(left, ast.Add() | ast.Sub(), right) | ast.AugAssign(left, ast.Add() | ast.Sub(), right):
+                for n, operand in enumerate((left, right)):
+                    for factor, power in _factors(operand, 1.0):
+                        if self.is_literal(factor):
+                            yield _short(ast.unparse(factor)), n, power
+
+    def is_literal(self, factor: ast.expr) -> bool:
+        """Whether a factor is a number of several digits, or a name that one line binds to a number without a unit."""
+        match factor:
+            case ast.Name(name) if name in self.undeclared:
+                bind = [s for s in self.statements.values() if name in bound(s)]
+                match bind:
+                    case [ast.Assign([ast.Name()], ast.Constant(float()))]:
+                        return True
+        return bool(self.literals(factor)) if isinstance(factor, ast.Constant) else False
 
 
 def _short(text: str) -> str:
@@ -140,23 +177,35 @@ def _short(text: str) -> str:
     return text if len(text) <= _LONGEST else text[: _LONGEST - 2] + " …"
 
 
-def _does(node: ast.AST, op: str) -> TypeGuard[ast.expr]:
-    """Whether an expression is written with the sign of an operation."""
+def _factors(part: ast.expr, power: float) -> Iterator[tuple[ast.expr, float]]:
+    """What a product is made of, and to what power."""
+    match part:
+        case ast.BinOp(left, ast.Mult() | ast.Div() as sign, right):
+            yield from _factors(left, power)
+            yield from _factors(right, power if isinstance(sign, ast.Mult) else -power)
+        case ast.UnaryOp(_, operand):
+            yield from _factors(operand, power)
+        case _:
+            yield part, power
+
+
+def _does(node: ast.AST, op: str) -> TypeGuard[ast.BinOp | ast.AugAssign | ast.Compare]:
+    """Whether a part is written with the sign of an operation."""
     match node:
-        case ast.BinOp(op=sign) | ast.Compare(ops=[sign, *_]):
+        case ast.BinOp(op=sign) | ast.AugAssign(op=sign) | ast.Compare(ops=[sign, *_]):
             return isinstance(sign, _SIGNS.get(op, ()))
     return False
 
 
-def _is_sign(node: ast.expr, op: str) -> bool:
-    """Whether an expression has the very sign of an operation: another one may be recorded as it."""
-    return isinstance(node, ast.BinOp) and type(node.op).__name__.lower() == op
+def _is_sign(node: ast.AST, op: str) -> bool:
+    """Whether a part has the very sign of an operation: another one may be recorded as it."""
+    return isinstance(node, ast.BinOp | ast.AugAssign) and type(node.op).__name__.lower() == op
 
 
-def _likeness(node: ast.expr, op: str, operands: list[set[str]], own: set[str]) -> float:
-    """How well the names in the operands of an expression are those of an operation, from 0 to 1."""
+def _likeness(node: ast.AST, op: str, operands: list[set[str]], own: set[str]) -> float:
+    """How well the names in the operands of a part are those of an operation, from 0 to 1."""
     match node:
-        case ast.BinOp(left, sign, right) if isinstance(sign, _SIGNS.get(op, ())):
+        case ast.BinOp(left, sign, right) | ast.AugAssign(left, sign, right) if isinstance(sign, _SIGNS.get(op, ())):
             return _alike([left], operands[0], own) / 2 + _alike([right], operands[1], own) / 2
         case ast.Compare(left, _, others) if _does(node, op):
             pairs = pairwise([left, *others])
@@ -178,11 +227,11 @@ def _alike(parts: list[ast.expr], names: set[str], own: set[str]) -> float:
 
 
 def _locals(part: ast.stmt) -> set[str]:
-    """Names that functions in a statement call their own, and those that its loops bind."""
+    """Names that functions in a statement call their own, and those that it binds in the lines within it."""
     functions = [f for f in source.nodes(part) if isinstance(f, ast.FunctionDef | ast.Lambda)]
     arguments = {a.arg for f in functions for a in source.nodes(f.args) if isinstance(a, ast.arg)}
-    loops = [part, *functions] if isinstance(part, ast.For | ast.While) else functions
-    return arguments.union(*(bound(s) for f in loops if not isinstance(f, ast.Lambda) for s in f.body))
+    within = (bound(s) for f in functions if not isinstance(f, ast.Lambda) for s in f.body)
+    return arguments.union(*within, bound(part) if isinstance(part, _BLOCKS) else ())
 
 
 _CALLED = frozenset(["g", "np", "pi", "abs", "sqrt", "sin", "cos", "tan", "exp", "real", "imag"])
