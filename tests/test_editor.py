@@ -436,6 +436,18 @@ def test_what_would_be_left_out_without_a_word_is_told():
     ]
 
 
+def test_a_unit_without_brackets_is_told_and_no_other_comment():
+    bare = "s = 2 * g.D  # mm diameter\nf = s  # m/s speed\nt = 2 * s  # [m] twice"
+    other = "a = 3.0  # m is the module\nb = 4.0  # s. above\nc = 2.0  # a note\nd = 2.0  # in mm\ne = 2.0  # deg of it"
+    more = "name = 'x'  # mm name\nk = g.D / g.L  # D/L ratio\nh = 2.0  # mm\np = 2.0  # bar length\n_q = 1  # mm own"
+    found = bar(f"{bare}\ntypeset()", f"{other}\n{more}", "def A(x):\n    return x**2  # mm**2 area")
+    assert found.texts(told_by.unsaid(found.cells, found.names)) == [
+        "c3: line 1, s = 2 * g.D: # mm diameter has no brackets: # [mm] diameter",
+        "c3: line 2, f = s: # m/s speed has no brackets: # [m/s] speed",
+        "c5: line 1, def A(x): # mm**2 area has no brackets: # [mm**2] area",
+    ]
+
+
 def test_lines_below_the_last_typeset_and_units_that_do_not_match_their_names_are_told():
     below = "A = 2 * g.D  # [m] twice\ntypeset()\nB = A\n\ndef C(A):\n    return 2 * A * B  # [m**2] other"
     found = bar(below, "D, E = 1, 2  # [m] one\nF = D  # [m] one", "typeset()\n'text'")

@@ -135,3 +135,10 @@ def test_commands_that_would_harm_are_refused() -> None:
     assert told in refusal("serve", "guide", "--host=0.0.0.0") and told in refusal("serve", "--host", "0.0.0.0")
     for port in ("99999", "-1", "x"):
         assert f"port = {port} must be a number from 1 to 65535" in refusal("edit", "guide", f"--port={port}")
+
+
+def test_a_unit_without_brackets_is_told(tmp_path: Path) -> None:
+    """Such a line was neither typeset nor mentioned."""
+    run = as_script(worksheet(tmp_path, "s = g.F / g.L**2  # MPa stress"))
+    says = "told.py, line 34, s = g.F / g.L**2: # MPa stress has no brackets: # [MPa] stress"
+    assert run.returncode == 0 and says in run.stdout, run.stdout

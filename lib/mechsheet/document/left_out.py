@@ -6,11 +6,13 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from mechsheet.units import Constant
 from mechsheet.worksheet import source
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.lines import Formula, formulas, names_read, undeclaring
 from mechsheet.worksheet.source import bound
 from mechsheet.worksheet.typeset import typeset_lines
+from mechsheet.worksheet.unbracketed import unbracketed
 
 
 class LeftOut(NamedTuple):
@@ -48,10 +50,31 @@ def left_out(cells: Iterable[source.Cell], names: Mapping[str, Any]) -> Iterator
                 yield LeftOut(
                     n, node.lineno, f"{name} is not shown: a cell shows its last line, so give it to typeset()"
                 )
+            if bare := _unbracketed(cells[n], node, names):
+                yield LeftOut(n, node.lineno, bare)
+                continue
             match node:
                 case ast.Assign([ast.Name(name)]) if name in met - own and is_numeric(names.get(name)):
                     why = f"{name} stands in formulas and is not shown: end its line in # [unit] meaning"
                     yield LeftOut(n, node.lineno, why)
+
+
+def _unbracketed(cell: source.Cell, node: ast.stmt, names: Mapping[str, Any]) -> str:
+    """Why the comment of a line declares no unit, where it begins with one; "" where it is no more than a comment."""
+    match node:
+        case ast.Assign([ast.Name(name)]) if callable(names.get(name)) or is_numeric(names.get(name)):
+            pass
+        case ast.FunctionDef(name):
+            pass
+        case _:
+            return ""
+    read = {n.id if isinstance(n, ast.Name) else n.attr for n in source.nodes(node) if isinstance(n, _NAMED)}
+    comment = cell.comments.get(node.end_lineno or node.lineno, "")
+    meant = comment and unbracketed(comment, {each for each in read if not isinstance(names.get(each), Constant)})
+    return "" if not meant or name.startswith("_") else f"# {comment} has no brackets: # {meant}"
+
+
+_NAMED = (ast.Name, ast.Attribute)
 
 
 def _bare(node: ast.stmt) -> str:
