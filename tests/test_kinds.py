@@ -214,7 +214,11 @@ def test_inputs_of_all_kinds_are_values(bolt: Path) -> None:
             'a: float = one_of({"x": 1.0}, "x")  # o',
             "options of a must be objects of one class of inputs",
         ),
-        ("a: float  # [m] length\n    b: float = 1.0  # [m] width", "input a needs a value, such as a: float = 1.0"),
+        (
+            "a: float  # [m] length\n    b: float = 1.0  # [m] width\n    c: float = 1.0  # [m] height",
+            "input a needs a value, such as a: float = 1.0; in a class of rows or options no field has one: "
+            "there that of b, c must go",
+        ),
         ("a: float = 1.0  # metre", "input a needs a comment with its unit, such as # \\[m\\] meaning"),
         ("a: str  # name", "a: the fields of options and rows are floats, or ints without unit"),
         ("a: int  # [mm] length", "a: the fields of options and rows are floats, or ints without unit"),

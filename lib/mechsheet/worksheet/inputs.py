@@ -138,9 +138,10 @@ def _declared(cls: type, cell: source.Cell, names: Mapping[str, Any]) -> tuple[I
         places[name] = place
     if without := [f.name for f in found if f.name not in vars(cls)]:
         if len(without) < len(found):
-            raise SheetError(
-                f"{places[without[0]]}: input {without[0]} needs a value, such as {without[0]}: float = 1.0"
-            )
+            needs = f"input {without[0]} needs a value, such as {without[0]}: float = 1.0"
+            valued = ", ".join(f.name for f in found if f.name not in without)
+            rows = f"in a class of rows or options no field has one: there that of {valued} must go"
+            raise SheetError(f"{places[without[0]]}: {needs}; {rows}")
         if other := next((f.name for f in found if not (f.continuous or (type(f) is Input and f.counted))), ""):
             kinds = "the fields of options and rows are floats, or ints without unit"
             raise SheetError(f"{places[other]}: {other}: {kinds}")
