@@ -75,6 +75,7 @@ def _hash(self: Any) -> int:
     return hash(tuple(np.asarray(value).tobytes() for value in values))
 
 
+_LISTED = 3  # names at most
 _LOST = '; the editor loses one that ends the setup cell, so end the class with a line such as """Rows."""'
 
 
@@ -139,8 +140,9 @@ def _declared(cls: type, cell: source.Cell, names: Mapping[str, Any]) -> tuple[I
     if without := [f.name for f in found if f.name not in vars(cls)]:
         if len(without) < len(found):
             needs = f"input {without[0]} needs a value, such as {without[0]}: float = 1.0"
-            valued = ", ".join(f.name for f in found if f.name not in without)
-            rows = f"in a class of rows or options no field has one: there that of {valued} must go"
+            valued = [f.name for f in found if f.name not in without]
+            of = ", ".join(valued) if len(valued) <= _LISTED else "the others"
+            rows = f"in a class of rows or options no field has one: there that of {of} must go"
             raise SheetError(f"{places[without[0]]}: {needs}; {rows}")
         if other := next((f.name for f in found if not (f.continuous or (type(f) is Input and f.counted))), ""):
             kinds = "the fields of options and rows are floats, or ints without unit"

@@ -127,9 +127,22 @@ def why(error: BaseException, known: Iterable[str], text: str = "", inputs: Cont
     if " " not in said:  # the bare name of a key, or nothing
         said = f"{type(error).__name__}: {said}".removesuffix(": ")
     hint = next((hint for pattern, hint in _HINTS.items() if re.search(pattern, said)), "")
-    if hint == _SEVERAL and (typed := _TYPED.search(text)):  # often it is a line further up
+    if hint == _SEVERAL and (name := _list(error, said, text)):
+        done = "multiplied" if "multiply" in said else "computed"
+        hint = f"{name} is a list: np.array([..]) is {done} element by element"
+    elif hint == _SEVERAL and (typed := _TYPED.search(text)):  # often it is a line further up
         hint += f", as in {typed[0].strip()}"
     return said + (f" ({hint})" if hint else "")
+
+
+def _list(error: BaseException, said: str, text: str) -> str:
+    """The list that a line computes with, by its name or its bracket; "" where it is something else."""
+    values, read = dict[str, object](), ""
+    for frame, line in [*walk_tb(error.__traceback__)][-1:]:
+        values = {as_written(name): value for name, value in {**frame.f_globals, **frame.f_locals}.items()}
+        read = "".join(text.splitlines()[line - 1 : line]).partition("#")[0]
+    named = (name for name in re.findall(r"[^\W\d]\w*", read) if isinstance(values.get(name), list))
+    return next(named, "[..]" if re.search(r"\blist\b", said) or re.search(r"(?<![\w\])])\[", read) else "")
 
 
 def unread(error: SyntaxError) -> str:
@@ -148,8 +161,9 @@ _SEVERAL = "several values stand there: a decimal number has a point, not a comm
 _HINTS = {
     r"for \^|'bitwise_xor'": "a power is written **, not ^",
     r"'(int|float|complex|numpy\.\w+|Quantity)' object is not callable": "is a * missing before the bracket?",
-    r"can't multiply sequence|'tuple' and|and 'tuple'|'list' and|and 'list'": _SEVERAL,
-    r"for unary .: 'tuple'|return arrays must be of ArrayType|positional arguments? but \d+ were given": _SEVERAL,
+    r"can't multiply sequence|'tuple' and|and 'tuple'|'list' and|and 'list'|concatenate (list|tuple)": _SEVERAL,
+    r"for unary .: '(tuple|list)'": _SEVERAL,
+    r"return arrays must be of ArrayType|positional arguments? but \d+ were given": _SEVERAL,
     r"'[A-Z]\w*' object (is not (iterable|subscriptable)|has no len)|type '[A-Z]\w*' has no len|non-iterable [A-Z]": (
         "inputs are read by their names: g.L, and a table's as g.bolts.x, or for bolt in g.bolts"
     ),
