@@ -402,11 +402,14 @@ def test_mistakes_in_names_and_of_python_are_put_in_words():
     assert found.texts(told_by.unknown(found.cells, found.names, {"M": "c2"})) == [
         "c3: line 1, S_1 = 2 * g.LL: there is no input LL (did you mean L?)",
         "c4: line 1, S_2 = S3 * 2: the name S3 is not defined in any cell (did you mean S_3?)",
-        "c5: S_3 is defined in two cells: rename it in one of them",
-        "c6: S_3 is defined in two cells: rename it in one of them",
+        "c5: S_3 is defined in two cells: rename it in one of them; a name such as _S_3 stays in its cell",
+        "c6: S_3 is defined in two cells: rename it in one of them; a name such as _S_3 stays in its cell",
         "c6: line 1, S_3 = M: the cell that defines M has a mistake or was deleted",
     ]
     assert "c5: line 1, S_3 = 1 / 0: division by zero" in found.texts(told_by.failed(found.cells))
+    two = bar("a = 1; k = 2", "k = 1; a = 2")
+    both = "a, k are defined in two cells: rename them in one of them; a name such as _a stays in its cell"
+    assert found.texts(told_by.unknown(two.cells, two.names)) == [f"c3: {both}", f"c4: {both}"]
     unit = bar("S_1 = 2 * mm", "S_2 = 2 * W")
     assert found.texts(told_by.unknown(unit.cells, unit.names)) == [
         "c3: line 1, S_1 = 2 * mm: the name mm is not defined in any cell "

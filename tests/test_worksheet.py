@@ -332,6 +332,16 @@ def test_a_name_that_two_cells_define_is_refused_with_both_places(tmp_path):
         load(path)
 
 
+def test_all_names_that_two_cells_define_are_told_at_once(tmp_path):
+    path = tmp_path / "sheet.py"
+    path.write_text(cells("a = 1\nk = 2", "b = a", "a = 3\nk = 4\nb = 5"))
+    with pytest.raises(SheetError) as refused:
+        load(path)
+    stays = "rename them in one of them; a name such as _a stays in its cell"
+    last = "lines 12 and 17: b is defined in two cells: rename it in one of them; a name such as _b stays in its cell"
+    assert str(refused.value) == f"sheet.py, lines 6 and 17: a, k are defined in two cells: {stays}; {last}"
+
+
 def test_a_name_of_the_setup_that_a_cell_defines_is_refused_as_the_page_does(tmp_path):
     """A unit that is imported, a constant, a class: the page would not open, so a script does not run either."""
     path = tmp_path / "sheet.py"

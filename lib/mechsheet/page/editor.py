@@ -82,8 +82,8 @@ def unknown(
     twice = [name for name, count in Counter(name for cell in cells for name in cell.defs).items() if count > 1]
     fields = [field.name for field in getattr(type(names.get("g")), "__inputs__", ())]
     for cell in cells:
-        for name in cell.defs.intersection(twice):
-            yield Note(cell.cell_id, f"{name} is defined in two cells: rename it in one of them")
+        if names_twice := sorted(cell.defs.intersection(twice)):
+            yield Note(cell.cell_id, mistakes.twice(*names_twice))
         missing = cell.refs - defined - set(dir(builtins))
         for node in _read(cell.code):
             why = ""

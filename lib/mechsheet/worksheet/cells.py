@@ -378,8 +378,8 @@ def _refuse_deep(lines: Iterable[ast.stmt], path: Path) -> None:
 def _refuse_twice(
     nodes: Iterable[ast.FunctionDef], gives: Iterable[Iterable[str]], shared: Mapping[str, int], path: Path
 ) -> None:
-    """Raise SheetError for the first name that two cells define, or a cell and what stands before the cells."""
-    first = dict[str, int]()
+    """Raise SheetError for names that two cells define, or a cell and what stands before the cells."""
+    first, twice = dict[str, int](), dict[str, list[str]]()
     for node, names in zip(nodes, gives, strict=True):
         for name in names:
             if name in shared:
@@ -388,8 +388,9 @@ def _refuse_twice(
                     f"{path.name}, {places}: {name} is of the setup: a cell must call its own another name"
                 )
             if first.setdefault(name, node.lineno) != node.lineno:
-                places = f"lines {first[name]} and {node.lineno}"
-                raise SheetError(f"{path.name}, {places}: {name} is defined in two cells: rename it in one of them")
+                twice.setdefault(f"lines {first[name]} and {node.lineno}", []).append(name)
+    if twice:
+        raise SheetError(f"{path.name}, {'; '.join(f'{at}: {mistakes.twice(*names)}' for at, names in twice.items())}")
 
 
 def read_outside(scope: SymbolTable) -> Iterator[str]:

@@ -41,6 +41,13 @@ def undefined(name: str, known: Iterable[str]) -> str:
     return f"the name {name} is not defined in any cell{hint}"
 
 
+def twice(*names: str) -> str:
+    """What is told of names that the same cells define."""
+    are, them = ("are", "them") if len(names) > 1 else ("is", "it")
+    rename = f"rename {them} in one of them; a name such as _{names[0]} stays in its cell"
+    return f"{', '.join(names)} {are} defined in two cells: {rename}"
+
+
 def no_input(name: str, known: Iterable[str]) -> str:
     return f"there is no input {name}{_near(name, known)}"
 
