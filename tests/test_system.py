@@ -344,6 +344,12 @@ def test_starts_around_the_guess_tell_of_solutions_where_the_guess_leads_to_none
     assert wider.value.x == pytest.approx(-1.7692923542386314, rel=1e-15)
 
 
+def test_a_guess_from_which_another_solution_is_only_seen_is_told_what_to_do() -> None:
+    found = find(lambda x, y: (x**3 - 2 * x + 2, y - x), x=0.0, y=0.5)
+    assert not found.solved
+    assert found.reason.endswith("; starts around it see x = -1.7693, y = -1.7693: give a guess nearer to it")
+
+
 @pytest.mark.parametrize(
     ("asked", "message"),
     [

@@ -250,7 +250,10 @@ def _reason(words: Words, seen: Seen, every: Seen, i: int) -> str:
     left = numbers.amount(r[worst], words.equation_units[worst])
     reason = f"{how}: {words.equations[worst]} leaves {left} at the nearest, {words.point(x)}"
     others = [words.point(s) for s in every.x[:, :, i].T.tolist() if not np.isnan(s).any()] if words.guessed else []
-    return f"{reason}; starts around it see {'; '.join(others[:_LISTED])}" if others else reason
+    if not others:
+        return reason
+    nearer = "it" if len(others) == 1 else "one of them"
+    return f"{reason}; starts around it see {'; '.join(others[:_LISTED])}: give a guess nearer to {nearer}"
 
 
 def _nothing(problem: Asked, least: bool) -> Solution:
