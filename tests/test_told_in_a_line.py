@@ -79,6 +79,16 @@ def test_warnings_of_what_a_line_calls_are_told_at_the_line(tmp_path: Path) -> N
     assert all("told.py, line 35, y = x[x > 99].mean(): " in line for line in run.stderr.splitlines()), run.stderr
 
 
+@pytest.mark.parametrize("ends", ["z = 1 / 0", "z = find(lambda x: x**2 + 1, 0.0, 1.0).value"])
+def test_an_error_that_ends_the_run_says_alone_what_is_invalid(ends: str, tmp_path: Path) -> None:
+    lines = "x = g.L * np.zeros(3)  # [m] x\ny = x / x  # [-] y"
+    whole = as_script(worksheet(tmp_path, lines))
+    assert whole.stderr.endswith("told.py, line 35, y = x / x: invalid value encountered in divide\n"), whole.stderr
+    run = as_script(worksheet(tmp_path, f"{lines}\n{ends}"))
+    assert run.returncode == 1 and len(run.stderr.splitlines()) == 1, run.stderr
+    assert run.stderr.startswith("error: ") and "invalid value" not in run.stderr
+
+
 def test_units_that_do_not_fit_are_told_three_at_a_time_in_units_of_mechanics(tmp_path: Path) -> None:
     lines = "\n".join(f"y_{k} = {k} * g.F * g.L  # [N] moment" for k in range(1, 6))
     run = as_script(worksheet(tmp_path, lines))

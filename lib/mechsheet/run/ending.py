@@ -12,12 +12,14 @@ from mechsheet.worksheet.errors import SheetError
 INTERRUPTED = 130  # the exit code of a program that Ctrl-C ended, as shells have it
 MISUSED = 2  # what was given cannot be used, as most commands have it
 _over = list[bool]()
+_held = list[str]()  # warnings that an error which ends the run says better
 _UNREAD = 141  # of one whose reader has gone, as head does after its last line
 
 
 def watch(worksheet: str) -> None:
     """Begin a run of the worksheet: whatever it raises ends in one line on stderr and the exit code."""
     _over.clear()
+    _held.clear()
     sys.excepthook = partial(_end, worksheet)
 
 
@@ -30,11 +32,21 @@ def is_over() -> bool:
     return bool(_over)
 
 
+def warn(line: str) -> None:
+    """Print a warning; one of an invalid value once the run has something to say: an error that ends it says why."""
+    if ": invalid value encountered" in line:
+        _held.append(line)
+    else:
+        print(line, file=sys.stderr)
+
+
 def say(*lines: object) -> None:
-    """Print at once, so that what refuses it does so here.
+    """Print at once, so that what refuses it does so here, behind the warnings that were held back.
 
     Raises SheetError naming why standard output cannot be written; BrokenPipeError where its reader has gone.
     """
+    while _held:
+        print(_held.pop(0), file=sys.stderr)
     try:
         print(*(f"{line}\n" for line in lines), sep="", end="", flush=True)
     except BrokenPipeError:

@@ -15,7 +15,7 @@ from io import StringIO
 from pathlib import Path
 from typing import Any
 
-from mechsheet.run.ending import is_over, watch
+from mechsheet.run.ending import is_over, warn, watch
 
 _END = 'if __name__ == "__main__":\n    app.run()'  # of a worksheet, as marimo writes it
 _reporting = list[str]()  # the worksheet that is to be reported at the exit
@@ -108,7 +108,7 @@ def _warn(
     from mechsheet.worksheet import mistakes  # on use: most runs warn of nothing
 
     text = worksheet.read_text(encoding="utf-8").splitlines()
-    print(f"{mistakes.at(worksheet, line, text[line - 1])}: {message}", file=sys.stderr)
+    warn(f"{mistakes.at(worksheet, line, text[line - 1])}: {message}")
 
 
 if __name__ == "__main__":
