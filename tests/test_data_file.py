@@ -123,7 +123,14 @@ def test_another_file_is_given_by_a_scene_beside_it(engine: Path, tmp_path: Path
     ("text", "message"),
     [
         ("V [cm**3];p [bar]\n100;x\n", "row 2, column p: pressure gas.p (1) = 'x' bar is no number"),
-        ("V;p\n100;1\n\n200;\n", "row 4, column p: pressure gas.p (2) = '' bar is no number"),
+        (
+            "V;p\n100;1\n\n200;\n",
+            "row 4, column p: pressure gas.p (2) = '' bar is no number: fill it or leave out the row",
+        ),
+        (
+            "V [cm**3];p\n100;NaN\n",
+            "row 2, column p: pressure gas.p (1) = 'NaN' bar is no number: fill it or leave out",
+        ),
         ("V;p\n100;1\n\n-5;2\n", "row 4, column V: volume gas.V (2) = -5.0 cm³ must be positive"),
         ("V;q\n100;1\n", "row 1: no column p; it has V, q"),
         ("V;p;p\n100;1;1\n", "row 1: column p stands there twice"),
@@ -139,6 +146,7 @@ def test_what_cannot_be_used_is_one_line_with_its_place(engine: Path, text: str,
     with pytest.raises(SheetError) as error:
         evaluate(engine, ["W"], gas="bad.csv")
     assert str(error.value).startswith(f"file {engine.parent / 'bad.csv'}") and message in str(error.value)
+    assert "fill it" not in str(error.value) or "fill it" in message
     assert "\n" not in str(error.value)
 
 

@@ -14,6 +14,7 @@ from typing import Any
 from mechsheet.worksheet.errors import SheetError, cut
 
 ENDINGS = (".csv", ".tsv", ".txt", ".xlsx")
+MISSING = frozenset(["", "nan", "na", "n/a", "#n/a", "none", "null", "-"])  # as programs write what was not measured
 _HEAD = re.compile(r"\s*(\w+)\s*(?:\[([^\]]*)\])?\s*")
 _MOST = 100_000  # rows that are looked at
 

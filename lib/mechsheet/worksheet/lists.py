@@ -71,7 +71,8 @@ class Rows(Input):
                     _of_row(column, k).read(cell)
                 except SheetError as error:
                     place = f"file {file.path}, row {file.rows[k]}, column {name}"
-                    raise SheetError(f"{place}: {error}", self.name) from None
+                    remedy = ": fill it or leave out the row" * (str(cell).strip().lower() in data_file.MISSING)
+                    raise SheetError(f"{place}: {error}{remedy}", self.name) from None
             found[column.name] = xs = np.array([column.read(cell) for cell in file.cells[name]])
             own = tuple(limit for limit in column.limits if not re.match(r"[^\W\d]", limit[1]))
             for holds, refusal in limits.rules([replace(column, limits=own)], {column.name: xs}):
