@@ -244,8 +244,9 @@ def test_a_matrix_is_assembled_of_rows_with_neighbours(tmp_path: Path) -> None:
 def test_a_function_that_keeps_its_values_is_followed(keeps: str, inside: bool, tmp_path: Path) -> None:
     """In each recording anew: what it kept of another one is none of it."""
     helpers = f"import functools\n@{keeps}\ndef square(v):\n    return v**2\n"
-    helpers += f"@{keeps}\ndef cube(v):\n    return v * square(v)"
-    lines = "p = 2 / square(g.F)  # [-] line\nq = 3 / cube(g.a)  # [-] line"
+    helpers += f"@{keeps}\ndef cube(v):\n    return v * square(v)\nLAWS, POWERS = {{'cube': cube}}, [square]"
+    lines = "p = 2 / square(g.F)  # [-] line\nq = 3 / cube(g.a)  # [-] line\n"
+    lines += "r = LAWS['cube'](g.F) + POWERS[0](g.a)  # [-] line"
     sheet = own(tmp_path, f"{helpers}\n{lines}" if inside else lines)
     if not inside:
         path, indented = Path(sheet.path), helpers.replace("\n", "\n    ")
@@ -256,3 +257,4 @@ def test_a_function_that_keeps_its_values_is_followed(keeps: str, inside: bool, 
         assert not recording.gaps and not [guard for guard in recording.guards.values() if not guard.rows]
         assert value_of(recording, "p", {"F": 4.0}) == 2 / 4.0**2
         assert value_of(recording, "q", {"a": 3.0}) == 3 / 3.0**3
+        assert value_of(recording, "r", {"F": 4.0, "a": 3.0}) == 4.0**3 + 3.0**2

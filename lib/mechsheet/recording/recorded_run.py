@@ -319,9 +319,10 @@ class Run(OfPositions):
         if not touched or any(held(self.namespace.get(name)) for name in final) or not final.issuperset(touched):
             if not (isinstance(reason, Unrepeatable) and reason in self.lost.values()):  # what rests on that is known
                 public, gaps = tuple(name for name in touched if not name.startswith("_")), self.recording.gaps
-                if gaps and gaps[-1][1:] == (graph.line, str(reason)):  # of another name that the line binds
-                    public = gaps.pop().names + public
-                gaps.append(Gap(public, graph.line, str(reason)))
+                gap = Gap(public, graph.line, as_written(str(reason)))
+                if gaps and gaps[-1][1:] == gap[1:]:  # of another name that the line binds
+                    gap = gap._replace(names=gaps.pop().names + public)
+                gaps.append(gap)
             for guard in guards:
                 self.note(guard)
         known = [name for name in touched if name in final and name in self.namespace]
@@ -359,7 +360,7 @@ class Run(OfPositions):
         if isinstance(error, AttributeError) and error.obj is None:  # which what shows gives here
             return NotRecorded(f"it goes on with the {error.name} of a table, figure or check that it shows")
         said = str(error).splitlines()[0] if str(error) else repr(error)
-        return NotRecorded(f"it does not run with recorded quantities ({as_written(said)})")
+        return NotRecorded(f"it does not run with recorded quantities ({said})")
 
     def differing(self, stage: Stage, names: Iterable[str]) -> list[str]:
         """Names whose recorded numbers are not the worksheet's own."""

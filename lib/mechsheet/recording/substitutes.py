@@ -53,12 +53,20 @@ _NOWHERE = frozenset({"require", "refuse", "summary", "export", "typeset"})  # o
 def shared(common: Mapping[str, Any]) -> dict[str, Any]:
     """The shared names of a worksheet, with what takes recorded quantities in place of what does not."""
     own: dict[str, Any] = {**_NAMES, "__builtins__": BUILTINS}
-    for name, value in common.items():
-        if name == "__builtins__":
-            continue
-        f: Any = value.__wrapped__ if isinstance(value, _lru_cache_wrapper) else value
-        of_sheet = isinstance(f, FunctionType) and f.__globals__ is common
-        own[name] = rebuilt(f, own) if of_sheet else instead(value)
+
+    def meant(value: Any) -> Any:
+        match value:
+            case _lru_cache_wrapper() if isinstance(value.__wrapped__, FunctionType):
+                return meant(value.__wrapped__)  # it would give one recording what it kept of another
+            case FunctionType() if value.__globals__ is common:
+                return rebuilt(value, own)
+            case dict() if type(value) is dict and any(map(callable, value.values())):
+                return {key: meant(each) for key, each in value.items()}
+            case list() if type(value) is list and any(map(callable, value)):
+                return list(map(meant, value))
+        return instead(value)
+
+    own |= {name: meant(value) for name, value in common.items() if name != "__builtins__"}
     return own
 
 
@@ -96,7 +104,7 @@ def instead(value: Any) -> Any:
     if isinstance(value, ModuleType):
         return _module(value)
     if value is cache or value is lru_cache:
-        return _uncached
+        return _caching
     if isinstance(value, units.Constant):
         return lift(current.get(), value)
     if value is units.celsius:
@@ -126,7 +134,7 @@ def instead(value: Any) -> Any:
     if isinstance(value, FunctionType) and room.startswith("scipy."):
         return scipy_rules.solved(value, _on_stage("rooted"), _integrated) or _of_scipy(value)
     if isinstance(value, _lru_cache_wrapper) and not room.startswith("mechsheet."):
-        return instead(value.__wrapped__)  # the cache would give one recording what it kept of another
+        return instead(value.__wrapped__)
     return value
 
 
@@ -172,9 +180,9 @@ def _of_package(value: Any, room: str) -> Any:
     return _refused(value.__name__) if room.startswith("mechsheet.studies.") else value
 
 
-def _uncached(f: Any = None, *_: Any, **__: Any) -> Any:
+def _caching(f: Any = None, *_: Any, **__: Any) -> Any:
     """In place of what lets a function keep its values: the function itself."""
-    return f if callable(f) else _uncached
+    return f if callable(f) else _caching
 
 
 def _laid_out(start: Any, stop: Any, *args: Any, **kwargs: Any) -> Any:
