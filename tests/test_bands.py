@@ -239,6 +239,13 @@ def test_a_verdict_that_rests_on_a_jump_and_is_the_same_in_all_cases_says_so(tmp
     assert re.search(r"^2 +– +– +1\.\.3", out, re.MULTILINE) and "jumping: pass in all of 1000 random cases" in out
 
 
+def test_cases_print_and_warn_of_nothing(tmp_path, capsys):
+    more = "\nj = np.floor(g.F)  # [-] jumps\nprint('of a line', g.F)\nv = np.log(np.array([g.F - 2.5]))  # [-] none"
+    with pytest.warns(RuntimeWarning, match="divide by zero") as warned:
+        bands(off(tmp_path, 9, "± 1", "", more))
+    assert len(warned) == 1 and capsys.readouterr().out.splitlines().count("of a line 2.5") <= 2
+
+
 def test_cases_without_numbers_are_told(tmp_path):
     more = """
 j = math.floor(g.F)  # [-] jumps

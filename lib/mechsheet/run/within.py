@@ -1,7 +1,10 @@
 """Runs of a worksheet for cases within the tolerances of its inputs, one by one: lines may go another way in each."""
 
+import warnings
 from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager, redirect_stdout
 from dataclasses import replace
+from io import StringIO
 from itertools import product
 from typing import Any
 
@@ -32,7 +35,8 @@ def cases(
     for each in np.concatenate([_ends(len(by)), _drawn([*by.values()])]):
         moved = {name: t.value + part * t.size for (name, t), part in zip(by.items(), each.tolist(), strict=True)}
         try:
-            names = sheet.run(want, {"g": replace(g, **moved)})
+            with _silently():
+                names = sheet.run(want, {"g": replace(g, **moved)})
         except OF_NUMBERS as error:
             reasons.append(str(error))
             holds.append({})
@@ -46,6 +50,14 @@ def cases(
     common = set.intersection(*(set(each) for each in holds if each)) if any(holds) else set()
     held = {name: np.array([each.get(name, False) for each in holds]) for name in common}
     return Cases(COUNT, spans, held, len(reasons), next(iter(reasons), ""))
+
+
+@contextmanager
+def _silently() -> Iterator[None]:
+    """What lines print, and warn of, the worksheet's own run has told."""
+    with warnings.catch_warnings(), redirect_stdout(StringIO()):
+        warnings.simplefilter("ignore")
+        yield
 
 
 def _ends(count: int) -> Values:
