@@ -57,6 +57,8 @@ def _taken(reader: Reader, node: Node, unit: str, line: Formula | None, deep: in
             return None if (a := of(node.args[0])) is None else -a
         case "add" | "sub":
             a, b = map(of, node.args)
+            if node.op == "add" and unit == "K":  # what is added to a temperature is a difference
+                a, b = (0.0 if _is_given(x) else n for x, n in zip(node.args, (a, b), strict=True))
             return None if a is None or b is None else a + b if node.op == "add" else a - b
         case "mul" | "div":
             (a, factor), (b, other) = ((of(x), _plain(x)) for x in node.args)
@@ -66,6 +68,12 @@ def _taken(reader: Reader, node: Node, unit: str, line: Formula | None, deep: in
         case "reduce" if node.args[2] in ("sum", "max", "min") and (a := of(node.args[0])) is not None:
             return a * node.args[0].size / max(node.size, 1) if node.args[2] == "sum" else a
     return next((x for x in map(of, node.operands) if x is not None), None) if node.op in _FIRST else None
+
+
+def _is_given(node: Node) -> bool:
+    """Whether a quantity is a number that is typed, with a unit or without, and not less than 0."""
+    typed = node.op == "constant" or (node.op == "mul" and all(x.op == "constant" for x in node.args))
+    return typed and bool(np.all(node.value >= 0))
 
 
 def _plain(node: Node) -> float | None:
