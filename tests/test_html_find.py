@@ -117,6 +117,7 @@ SEVERAL = {
     "a guess of zero": "lambda u, v: (u + v - g.F, u - g.a * v), u=0.0, v=0.0",
     "no solution": "lambda u, v: (u**2 + v**2 + g.a, u + v - 1), u=(-9, 9), v=(-9, 9)",
     "no solution from the guess": "lambda u, v: (u**2 + g.a, v - u), u=1.0, v=1.0",
+    "one seen around the guess": "lambda u, v: (u**3 - 2 * u + 2 + 0 * g.a, v - u), u=0.0, v=0.5",
     "a double solution": "lambda u, v: ((u - g.a)**2, v - u), u=(0, 2), v=(0, 2)",
     "sizes far apart": "lambda u, v: (u * 1e-9 - g.a, v * 1e9 - u * 1e-9), u=(0, 1e10), v=(0, 1e-8)",
     "no number beside it": "lambda u, v: (np.sqrt(u - g.a), v - u), u=(0, 4), v=(0, 4)",

@@ -58,9 +58,10 @@ function reasonForSeveral(words, verdict, isAlone) {
   }
   const worst = nearest.left.indexOf(Math.max(...nearest.left));
   const left = withUnit(nearest.residual[worst], words.equation_units[worst]);
-  const others = words.guessed && isAlone ? verdict.solutions.slice(0, LISTED).map(x => pointOf(words, x)) : [];
+  const others = words.guessed && isAlone ? verdict.solutions.map(x => pointOf(words, x)) : [];
+  const nearer = others.length === 1 ? "it" : "one of them";
   return `${how}: ${words.equations[worst]} leaves ${left} at the nearest, ${pointOf(words, nearest.x)}` +
-    (others.length ? `; starts around it see ${others.join("; ")}` : "");
+    (others.length ? `; starts around it see ${others.slice(0, LISTED).join("; ")}: give a guess nearer to ${nearer}` : "");
 }
 
 // Unknowns with their values, and how many problems are solved.

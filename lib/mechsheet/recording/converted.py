@@ -56,8 +56,9 @@ def converted(reader: Reader) -> Iterator[Mistake]:
     for node in reader.codes:
         source = _source(reader, node.args[0], None, _DEEPEST) if node.op in _TAKING_ANGLES and node.line else None
         if source and source.conversion:
-            line_of = reader.places.find(node.line, node.op, [reader.leaf_names(node.args[0])])
-            yield Mistake(*line_of, f"{source.name} is in SI already: write it without {source.conversion}")
+            part = reader.places.find(node.line, node.op, [reader.leaf_names(node.args[0])])
+            why = f"{source.name} is in SI already: write it without {source.conversion}"
+            yield Mistake(part.line, part.text, why)
 
 
 def _source(reader: Reader, node: Node, line: Formula | None, deep: int) -> Source | None:
