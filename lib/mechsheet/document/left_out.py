@@ -54,7 +54,7 @@ def left_out(cells: Iterable[source.Cell], names: Mapping[str, Any]) -> Iterator
                 yield LeftOut(n, node.lineno, bare)
                 continue
             match node:
-                case ast.Assign([ast.Name(name)]) if name in met - own and is_numeric(names.get(name)):
+                case ast.Assign([ast.Name(name)]) if name in met - own and _is_quantity(names.get(name)):
                     why = f"{name} stands in formulas and is not shown: end its line in # [unit] meaning"
                     yield LeftOut(n, node.lineno, why)
 
@@ -87,6 +87,11 @@ def _bare(node: ast.stmt) -> str:
         ):
             return f"{kind} {what}"
     return ""
+
+
+def _is_quantity(value: Any) -> bool:
+    """Whether a value is numeric and no array of whole numbers, which are places in another one."""
+    return is_numeric(value) and not (np.ndim(value) and np.asarray(value).dtype.kind in "iu")
 
 
 def is_numeric(value: Any) -> bool:
