@@ -432,7 +432,8 @@ def test_what_waits_for_a_deleted_cell_is_told_in_one_line():
 
 def test_what_would_be_left_out_without_a_word_is_told():
     code = "A = 2 * g.D\nn = 3\nshown = [n]\nB = A * g.L  # [m**2] area\n"
-    code += "import numpy as np\norder = np.argsort([1.0, 0.5])\nE = np.array([1.0, 2.0])[order]  # [-] places are no quantity\ntypeset()"
+    code += "import numpy as np\norder = np.argsort([1.0, 0.5])\n"
+    code += "E = np.array([1.0, 2.0])[order]  # [-] places are no quantity\ntypeset()"
     found = bar(code, "C = 2 * B  # [m**2] twice", "k = 3  # [-]\nD = k * B  # [m**2] thrice\ntypeset()")
     assert found.texts(told_by.unsaid(found.cells, found.names)) == [
         "c3: line 1, A = 2 * g.D: A stands in formulas and is not shown: end its line in # [unit] meaning",

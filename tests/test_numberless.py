@@ -42,4 +42,4 @@ def test_a_script_tells_it_and_numpys_warning_in_a_line_each(tmp_path):
     assert "= np.sqrt(x - 1): no number at 1 of 5 places: 1\n" in done.stdout and done.returncode == 0
     warned = done.stderr.splitlines()
     assert len(warned) == 2 and all(text.startswith("own.py, line ") for text in warned)
-    assert warned[1].endswith("z = g.F / (x - x[0]): divide by zero encountered in divide")
+    assert sum(text.endswith("z = g.F / (x - x[0]): divide by zero encountered in divide") for text in warned) == 1
