@@ -15,6 +15,7 @@ from mechsheet.document import parts
 from mechsheet.quantities.operations import Values
 from mechsheet.readers.bands import Tolerance
 from mechsheet.readers.cases import RESULTS, Cases, Key
+from mechsheet.run.progress import progress
 from mechsheet.worksheet.cells import Worksheet
 from mechsheet.worksheet.check import Check
 from mechsheet.worksheet.deviation import SIGMAS
@@ -32,21 +33,24 @@ def cases(
     """What the cells behind wanted names tell in cases about the inputs ``g``; ``known`` are lines with a unit."""
     spans, holds = dict[Key, tuple[Values, Values] | None](), list[dict[str, bool]]()
     reasons = list[str]()
-    for each in np.concatenate([_ends(len(by)), _drawn([*by.values()])]):
-        moved = {name: t.value + part * t.size for (name, t), part in zip(by.items(), each.tolist(), strict=True)}
-        try:
-            with _silently():
-                names = sheet.run(want, {"g": replace(g, **moved)})
-        except OF_NUMBERS as error:
-            reasons.append(str(error))
-            holds.append({})
-            continue
-        shown = parts.values(names)
-        holds.append({check.name: check.passed for check in shown if isinstance(check, Check)})
-        for key, x in _numbers(names, known, [table for table in shown if isinstance(table, Table)]):
-            span = spans.setdefault(key, (x, x))
-            same = span is not None and span[0].shape == x.shape
-            spans[key] = (np.fmin(span[0], x), np.fmax(span[1], x)) if span is not None and same else None
+    every = np.concatenate([_ends(len(by)), _drawn([*by.values()])])
+    with progress(len(every), "cases within the tolerances") as done:
+        for each in every:
+            moved = {name: t.value + part * t.size for (name, t), part in zip(by.items(), each.tolist(), strict=True)}
+            done()
+            try:
+                with _silently():
+                    names = sheet.run(want, {"g": replace(g, **moved)})
+            except OF_NUMBERS as error:
+                reasons.append(str(error))
+                holds.append({})
+                continue
+            shown = parts.values(names)
+            holds.append({check.name: check.passed for check in shown if isinstance(check, Check)})
+            for key, x in _numbers(names, known, [table for table in shown if isinstance(table, Table)]):
+                span = spans.setdefault(key, (x, x))
+                same = span is not None and span[0].shape == x.shape
+                spans[key] = (np.fmin(span[0], x), np.fmax(span[1], x)) if span is not None and same else None
     common = set.intersection(*(set(each) for each in holds if each)) if any(holds) else set()
     held = {name: np.array([each.get(name, False) for each in holds]) for name in common}
     return Cases(COUNT, spans, held, len(reasons), next(iter(reasons), ""))
