@@ -380,6 +380,21 @@ def test_solve_block_is_typeset_as_given_and_find():
     assert "found" in text
 
 
+@pytest.mark.parametrize(
+    ("call", "given"),
+    [
+        ("q_found = find(y, 0, 2, equals=h)", "y(q) = h"),
+        ("q_found = find(y, equals=h, guess=1.0)", "y(q) = h"),
+        ("root = find(y, 0, 2, equals=h)", "y = h"),
+    ],
+)
+def test_a_function_that_is_solved_by_its_name_is_typeset_of_its_unknown(call, given):
+    """For a function without a line of its own nothing else told of what it is."""
+    lines = "from mechsheet import find\nh = 0.25  # [m**2] square\ndef y(x):\n    return x**2\n"
+    text = joined(run(f"{IMPORT}{lines}{call}\nshown = typeset()")["shown"])
+    assert rf"\text{{Given}}\quad {given}" in text
+
+
 def test_solve_block_of_several_unknowns_is_typeset_equation_by_equation():
     names = run(
         IMPORT

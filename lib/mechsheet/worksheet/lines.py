@@ -103,6 +103,10 @@ def formulas(cell: source.Cell) -> tuple[Formula | Given, ...]:
     return tuple(_formulas(cell))
 
 
+_FOUND = "_found"  # ends the name of what solves for the unknown whose name stands before it
+_OF_ONE = ("lo", "hi", "guess")  # arguments of a block with one unknown
+
+
 def _formulas(cell: source.Cell) -> Iterator[Formula | Given]:
     known, earlier = branches(cell.body), dict[str, Declared]()
     binding = dict[str, list[int]]()  # statements by the names that they bind
@@ -111,8 +115,12 @@ def _formulas(cell: source.Cell) -> Iterator[Formula | Given]:
             binding.setdefault(name, []).append(k)
     for k, node in enumerate(cell.body):
         match node:
-            case ast.Assign([ast.Name(name)], ast.Call(ast.Name("find" | "minerr"), [f, *_], keywords)):
-                yield from _given(name, f, next((k.value for k in keywords if k.arg == "equals"), ast.Constant(0)))
+            case ast.Assign([ast.Name(name)], ast.Call(ast.Name("find" | "minerr"), [f, *ends], keywords)):
+                named = {k.arg: k.value for k in keywords}
+                if isinstance(f, ast.Name) and name.endswith(_FOUND) and (ends or not named.keys().isdisjoint(_OF_ONE)):
+                    unknown = ast.Name(name.removesuffix(_FOUND), ast.Load())
+                    f = ast.fix_missing_locations(ast.copy_location(ast.Call(f, [unknown], []), f))
+                yield from _given(name, f, named.get("equals", ast.Constant(0)))
                 continue
             case ast.Expr(ast.JoinedStr()):
                 raise SheetError(f"{cell.at(node.lineno)}: a text with values in it belongs to mo.md or to typeset")
