@@ -143,3 +143,6 @@ def test_of_names_that_a_line_binds_at_once_each_is_followed_alone(tmp_path: Pat
     assert [gap.names for gap in recording.gaps] == [("q", "w")]
     recording = recording_of(own(tmp_path, "pass", further=["v, w = g.F, g.a\nv, w = w, v\nr = v - w  # [-] line"]))
     assert value_of(recording, "r", {"F": 4.0}) == 0.75 - 4
+    lines = "v = 1.0\ndef f():\n    return v * g.F * 3\nv, w = 2.0, f()\nr = w  # [-] of the first"
+    recording = recording_of(own(tmp_path, "pass", further=[lines]))
+    assert value_of(recording, "r", {"F": 4.0}) == 12

@@ -83,7 +83,10 @@ class Run(OfPositions):
     def run(self, cell: Cell, draws: bool = True) -> None:
         """Run the statements of a cell, those that only draw where it ``draws``, and name what they give."""
         stage = Stage(self.recording, self.namespace, cell)
-        lines = [part for line in cell.lines for part in self.parts(line)]
+        lines, before = list[ast.stmt](), set[str]()
+        for line in cell.lines:
+            lines += self.parts(line, before)
+            before.update(statement.touched(line))
         facts = [statement.facts(line, self.sheet.path) for line in lines]
         last = {name: n for n, fact in enumerate(facts) for name in fact.touched}
         twice = len(last) < sum(len(fact.touched) for fact in facts)
@@ -111,12 +114,13 @@ class Run(OfPositions):
                 self.listed[name] = value = self.while_same(lift(self.graph, value), self.looked.get(name, ()))
         return value
 
-    def parts(self, line: ast.stmt) -> tuple[ast.stmt, ...]:
-        """What of a statement is run."""
+    def parts(self, line: ast.stmt, before: set[str]) -> tuple[ast.stmt, ...]:
+        """What of a statement is run; names that are bound ``before`` it may be read by functions that it calls."""
         on_page = statement.on_the_page(line)
         if on_page:
             return showing.on_the_page(line, self.showing)
-        return statement.names_apart(line) or statement.texts_apart(line)
+        alone = statement.names_apart(line) if before.isdisjoint(statement.touched(line)) else ()
+        return alone or statement.texts_apart(line)
 
     def again(self) -> "Run":
         return Run(self.sheet, self.graph, self.namespace, self.want, self.lines, self.unnamed)
