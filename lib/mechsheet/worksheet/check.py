@@ -183,7 +183,8 @@ def check(name: str, residual: ArrayLike, limit: float, unit: str = "-", of: Arr
 
     Where the residual is the difference of two computations, ``of`` is the quantity that both compute, and ``limit``
     the part of its largest magnitude by which they may differ: over a thousandth it would tell nothing. Without it the
-    residual is a quantity, and what part of its limit it takes is its utilisation.
+    residual is a quantity, and what part of its limit it takes is its utilisation. A least value is checked by the part
+    of the quantity that is needed, ``check("safety", g.S_min / S, 1)``.
 
     The check is not evaluated, and says why, over no values, where a value is NaN, and where the limit tells nothing.
     """
