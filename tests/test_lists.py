@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -245,6 +246,16 @@ def test_rows_of_a_table_are_gone_through(section: Path) -> None:
     assert [len(rows[1:]), len(rows[rows.y > 0]), len(rows[5:])] == [1, 1, 0]
     with pytest.raises(IndexError, match="index 2 is out of bounds"):
         rows[2]
+
+
+@pytest.mark.parametrize("column", ["first", "row", "columns", "count", "index"])
+def test_a_column_may_have_any_name(column: str, section: Path, tmp_path: Path) -> None:
+    path = tmp_path / "named.py"
+    text = section.read_text(encoding="utf-8")
+    path.write_text(re.sub(r"\bA: float", f"{column}: float", text.replace(".A", f".{column}")), encoding="utf-8")
+    rows = load(path).inputs().stringers
+    assert [getattr(row, column) for row in rows] == getattr(rows, column).tolist() and len(rows[1:]) == 1
+    assert evaluate(path, ["A"])["A"] == evaluate(section, ["A"])["A"]
 
 
 def test_sweeps_go_through_rows_of_each_variant(section: Path, tmp_path: Path) -> None:

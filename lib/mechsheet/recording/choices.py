@@ -25,7 +25,7 @@ from mechsheet.quantities.written import Either, Written, either, text
 from mechsheet.recording.memory import Memory, may_change, names_of
 from mechsheet.worksheet.drawing import COLOURS
 from mechsheet.worksheet.kinds import Chosen, cases
-from mechsheet.worksheet.lists import Whole
+from mechsheet.worksheet.lists import Whole, first_column
 
 _NUMBERS = int | float | complex | np.number | Quantity
 ARRAYS = _NUMBERS | np.bool_ | np.ndarray
@@ -393,7 +393,7 @@ def _number(kind: type, followed: Callable[..., Any]) -> Callable[..., Any]:
 
 def length(x: Any) -> Any:
     """``len`` of anything; of a quantity over rows, and of a table of them, it is one."""
-    first = x.first if isinstance(x, Whole) else x
+    first = first_column(x) if isinstance(x, Whole) else x
     return first.count(0) if isinstance(first, Quantity) and first.ndim else len(x)
 
 

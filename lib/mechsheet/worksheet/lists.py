@@ -243,23 +243,19 @@ def _fixed(array: NDArray[np.float64]) -> NDArray[np.float64]:
 class Whole:
     """All rows of a table: its columns by their names, ``bolts.x``, its rows as ``bolts[0]`` or ``for bolt in bolts``.
 
-    A slice, or whatever else takes several rows of an array, gives a table of these.
+    A slice, or whatever else takes several rows of an array, gives a table of these. It has no other name of its own
+    than Python's, for columns may have any.
     """
 
-    row: ClassVar[type]
-
-    @property
-    def first(self) -> Any:
-        """The first column."""
-        return next(iter(vars(self).values()))
+    __row__: ClassVar[type]
 
     def __len__(self) -> int:
-        return len(self.first)
+        return len(first_column(self))
 
     def __getitem__(self, key: Any) -> Any:
         parts = {name: column[key] for name, column in vars(self).items()}
         alone = not any(part.ndim for part in parts.values())
-        found: Any = object.__new__(self.row if alone else type(self))
+        found: Any = object.__new__(self.__row__ if alone else type(self))
         for name, part in parts.items():
             object.__setattr__(found, name, part)
         return found
@@ -268,7 +264,12 @@ class Whole:
         return (self[k] for k in range(len(self)))
 
 
+def first_column(table: Whole) -> Any:
+    """The first column of a table."""
+    return next(iter(vars(table).values()))
+
+
 @cache
 def _unchecked(row: type) -> type:
     """The class of the rows for whole columns, whose numbers are checked with those of the other inputs."""
-    return type(row.__name__, (Whole, row), {"__post_init__": lambda _: None, "row": row})
+    return type(row.__name__, (Whole, row), {"__post_init__": lambda _: None, "__row__": row})
