@@ -92,10 +92,14 @@ class Book:
             sheet.set_landscape()
         # Up to a half too large is scaled down to one page; what is larger goes on over several.
         wide = 1 if size[0] < 1.5 * page[0] else math.ceil(size[0] / page[0])
-        sheet.fit_to_pages(wide, 1 if size[1] < 1.5 * page[1] else 0)
+        high = 1 if size[1] < 1.5 * page[1] else 0
+        sheet.fit_to_pages(wide, high)
         sheet.set_margins(left=0.6, right=0.6, top=0.8, bottom=0.7)
-        sheet.repeat_rows(0, top - 1)
-        sheet.repeat_columns(0)
+        # Only where there is another page: to read what is repeated, LibreOffice takes a tenth of a second a sheet.
+        if not high:
+            sheet.repeat_rows(0, top - 1)
+        if wide > 1:
+            sheet.repeat_columns(0)
         # && is an ampersand, &G and &[ ask for a picture even behind another one.
         title = re.sub(r"&(?=[G\[])", "& ", cut(self.title, 100)).replace("&", "&&")
         sheet.set_header(f"&L&8 {title}&R&8 &A")

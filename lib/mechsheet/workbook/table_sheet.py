@@ -92,6 +92,8 @@ def _long(
     wide = sum(widths) + min(charts, 1) * (width + GAP + EMPTY)
     sheet = book.sheet(name, heading, widths, FIRST, (wide, rows * ROW), behind)
     held = _break(sheet, wide, rows)
+    if not behind:
+        sheet.repeat_rows(0, FIRST - 1)
     fitting = round(held * ROW / height)
     pitch = held // fitting
     tops = [FIRST + n // fitting * held + n % fitting * pitch for n in range(charts)]
