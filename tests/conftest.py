@@ -29,7 +29,7 @@ from openpyxl import load_workbook
 from mechsheet.units import definitions
 
 if TYPE_CHECKING:
-    from playwright.sync_api import Browser, BrowserContext, ConsoleMessage, Page, ViewportSize
+    from playwright.sync_api import Browser, BrowserContext, ConsoleMessage, Locator, Page, ViewportSize
 
 ROOT = Path(__file__).resolve().parents[1]
 collect_ignore = ["benchmarks"]  # nothing there is a test, and it needs numba
@@ -375,6 +375,19 @@ def until(page: Page, holds: Callable[[], bool], otherwise: str) -> None:
     while not holds():
         assert time.monotonic() < deadline, otherwise
         page.wait_for_timeout(100)
+
+
+def in_sight(at: Locator) -> None:
+    """Scroll to what may be drawn anew meanwhile, which playwright takes for an error."""
+    from playwright.sync_api import Error
+
+    def reached() -> bool:
+        with suppress(Error):
+            at.scroll_into_view_if_needed()
+            return True
+        return False
+
+    until(at.page, reached, "it does not stay")
 
 
 def drawn(page: Page) -> None:

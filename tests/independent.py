@@ -29,7 +29,7 @@ def disagreements(stem: str, g: Any, reference: dict[str, Any], within: float = 
     """
     sheet = load(FOLDER / f"{stem}.py")
     asked = {node.id for key in reference for node in ast.walk(ast.parse(key)) if isinstance(node, ast.Name)}
-    names = sheet.run(set(sheet.results) - {"form"}, {"g": g, **SLIDERS})
+    names = sheet.run(sheet.results, {"g": g, **SLIDERS})
     found = [f"{name} has no reference" for name in sorted(set(registry(names)) - asked)]
     for key, true in reference.items():
         value, exact = np.broadcast_arrays(np.asarray(eval(key, names)), np.asarray(true))

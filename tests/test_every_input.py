@@ -103,7 +103,7 @@ class Run:
 def ran(sheet: cells.Worksheet, g: Any) -> Run:
     run, lost = Run({**sheet.common, "g": g}), set[str]()
     with raised(), np.errstate(**sheet.errors):
-        for cell in sheet.needed((name for name in sheet.results if name != "form"), {"g": g}):
+        for cell in sheet.needed(sheet.results, {"g": g}):
             try:
                 if lost.isdisjoint(cell.needs):
                     exec(cell.code, run.names)

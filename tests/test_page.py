@@ -6,7 +6,7 @@ from math import inf
 from pathlib import Path
 
 import pytest
-from conftest import SIZE, alive, drawn, marimo_server, new_page, placed, report_errors, until
+from conftest import SIZE, alive, drawn, in_sight, marimo_server, new_page, placed, report_errors, until
 from playwright.sync_api import expect
 
 HITCH = Path(__file__).parents[1] / "worksheets" / "hitch.py"
@@ -111,13 +111,13 @@ def test_the_verdict_stays_in_sight_and_leads_to_the_check_that_fails(page):
     bar = page.locator(".ms-bar")
     expect(bar, "the summary is in sight itself").to_be_hidden()
     field = page.locator(".ms-inputs tr:has-text('weight of the implement') input")
-    field.scroll_into_view_if_needed()
-    cell(page, "4.1", 1, 2).scroll_into_view_if_needed()
+    in_sight(field)
+    in_sight(cell(page, "4.1", 1, 2))
     expect(bar).to_contain_text("24 of 24 checks")
     expect(bar, "how near the worst comes to its limit").to_contain_text("91.8 %")
     field.fill("37500")
     field.press("Enter")
-    cell(page, "4.1", 1, 2).scroll_into_view_if_needed()
+    in_sight(cell(page, "4.1", 1, 2))
     expect(bar).to_contain_text("21 of 24 checks")
     expect(bar).to_contain_text("front axle keeps its least load: 20300 > 14620 N, 139 %")
     bar.get_by_role("link").last.click()
@@ -131,7 +131,7 @@ def test_bad_input_is_told_at_its_place_and_the_inputs_stay(page):
     field = page.locator(".ms-inputs tr:has-text('weight of the implement') input")
     field.fill("heavy")
     field.press("Enter")
-    page.get_by_text("P6 = 'heavy' N is no number").first.scroll_into_view_if_needed()
+    in_sight(page.get_by_text("P6 = 'heavy' N is no number").first)
     expect(page.locator(".ms-bar"), "there are no verdicts, and the mistake is in sight").to_be_hidden()
     page.wait_for_function("""() =>  // told where the verdicts of the checks were
         getComputedStyle(document.querySelector(".ms-told"), "::after").content.includes("P6 = 'heavy' N is no number")

@@ -35,6 +35,26 @@ def test_capacity_runs_only_what_it_depends_on():
     assert len(needed) < len(load(HITCH).cells) / 4
 
 
+@pytest.mark.parametrize("path", sorted(HITCH.parent.rglob("*.py")), ids=lambda path: path.stem)
+def test_where_the_inputs_are_given_no_form_is_made(path):
+    """A case of many takes as long as its cells, and not as the fields of a page."""
+    sheet = load(path)
+    cells = sheet.needed(sheet.results, ["g"])
+    assert len(cells) > 5 and not any("ask" in cell.code.co_names for cell in cells)
+    assert {"form", "g"}.isdisjoint(sheet.results)
+
+
+def test_what_more_than_the_inputs_needs_is_a_result(tmp_path):
+    path = tmp_path / "own.py"
+    path.write_text(
+        "import marimo\napp = marimo.App()\nwith app.setup:\n    from mechsheet import inputs\n\n    @inputs\n"
+        "    class Given:\n        a: float = 1.0  # [m] length\n\n@app.cell\ndef _():\n    k = 2.0\n    form = 3\n"
+        "    return form, k\n\n@app.cell\ndef _(form, k):\n    g = Given(form * k)\n    return (g,)\n\n"
+        "@app.cell\ndef _(g, k):\n    c = k * g.a\n    return (c,)\n"
+    )
+    assert load(path).results == ["k", "c"]
+
+
 def test_comments_are_those_of_pythons_own_tokens():
     """In every way in which texts and comments may hold each other, and in files of the project."""
     files = [*HITCH.parent.rglob("*.py"), *sorted(Path(__file__).parent.glob("*.py"))]

@@ -15,7 +15,7 @@ from mechsheet.accuracy.truths import TRUTHS, exact_results
 from mechsheet.quantities.unrepeatable import clock_read
 from mechsheet.recording.evaluation import evaluate
 from mechsheet.run.progress import progress
-from mechsheet.worksheet.cells import Worksheet, load, results
+from mechsheet.worksheet.cells import Worksheet, load
 from mechsheet.worksheet.lines import registry
 from mechsheet.worksheet.table import Column, Table
 from mechsheet.worksheet.title import Slider
@@ -34,7 +34,7 @@ class Whole(Measured):
 
 def _numbers_of(sheet: Worksheet) -> list[str]:
     """Names of a worksheet's numbers and checks: lines with a unit, without tables and what follows a slider."""
-    names = [name for name in results(sheet.path) if name not in ("form", "g")]
+    names = sheet.results
     found = sheet.run(names, {"g": sheet.inputs()})
     declared, sliders = registry(found), {name for name in names if isinstance(found[name], Slider)}
 
@@ -99,7 +99,7 @@ def asked_costs(number: str, path: Path, asked: Mapping[str, Sequence[str]], sec
     clock_read()  # before anything is run for it
     sheet, title = load(path), "Cost of what is asked for"
     given = {"g": sheet.inputs()}
-    wants = [list(names) or [name for name in sheet.results if name != "form"] for names in asked.values()]
+    wants = [list(names) or sheet.results for names in asked.values()]
     again = [partial(evaluate, path, want, **given) for want in wants]
     for ask in again:
         ask(), ask()  # the second time it is recorded

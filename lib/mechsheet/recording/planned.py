@@ -14,7 +14,8 @@ from mechsheet.readers.plan import REFUSED, NotPlanned, plan
 from mechsheet.recording.record import record
 from mechsheet.units import Constant
 from mechsheet.worksheet import inputs
-from mechsheet.worksheet.cells import Marimo, Worksheet, base, value
+from mechsheet.worksheet.cells import Worksheet, base, value
+from mechsheet.worksheet.marimo_on_use import Marimo
 
 _PARTIAL = frozenset(("div", "pow", "sqrt", "exp", "log", "asin", "acos"))  # of which Python refuses single numbers
 _ROOMS = frozenset(("mechsheet", "numpy", "scipy", "math", "cmath", "operator", "itertools", "functools", "builtins"))

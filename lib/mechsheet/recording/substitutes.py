@@ -35,8 +35,8 @@ from mechsheet.recording import scipy_rules, spline_rules
 from mechsheet.recording.choices import total
 from mechsheet.recording.rewritten import NAMES, rebuilt
 from mechsheet.worksheet import check, find, system, title
-from mechsheet.worksheet.cells import Marimo
 from mechsheet.worksheet.drawing import Drawing
+from mechsheet.worksheet.marimo_on_use import Marimo
 
 _ASKING = check.__name__, find.__name__, system.__name__  # modules that hand on what they are given, to be shown
 _ROOMS = ("mechsheet.mechanics.", "mechsheet.worksheet.force_diagram")

@@ -19,6 +19,7 @@ import numpy as np
 from mechsheet.worksheet import mistakes, source
 from mechsheet.worksheet.check import STATED, checks_of, refuse_open, stating
 from mechsheet.worksheet.errors import SheetError, as_given, raised
+from mechsheet.worksheet.marimo_on_use import Marimo
 from mechsheet.worksheet.no_inputs import NoInputs, declared_in, in_a_cell
 from mechsheet.worksheet.source import bound, constant, functions, is_app, parsed, texts
 
@@ -158,8 +159,14 @@ class Worksheet:
 
     @property
     def results(self) -> list[str]:
-        """Names that the cells define, but for the inputs."""
-        return [name for cell in self.cells for name in cell.gives if name != "g" or not declared_in(self.common)]
+        """Names that the cells define, but for the inputs and what these alone need, such as the form of the page."""
+        every = [name for cell in self.cells for name in cell.gives]
+        if not declared_in(self.common):
+            return every
+        reading = [cell for cell in self.cells if cell.gives == ("g",)]
+        needed = set(chain.from_iterable(cell.needs for cell in self.cells if cell not in reading))
+        asked = {"g", *chain.from_iterable(cell.needs - needed for cell in reading)}
+        return [name for name in every if name not in asked]
 
     @property
     def inputs(self) -> type:
@@ -252,27 +259,6 @@ def load(path: str | Path) -> Worksheet:
         raise SheetError(f"worksheet {path} is no text in UTF-8: {error}") from None
     except SyntaxError as error:
         raise SheetError(mistakes.told(error, str(path))) from None
-
-
-class Marimo:
-    """marimo, imported at its first use: that takes half a second, and results need nothing of it, nor texts alone."""
-
-    def md(self, text: str) -> "Markdown":
-        return Markdown(text)
-
-    def __getattr__(self, name: str) -> Any:
-        import marimo  # on use: see above
-
-        return getattr(marimo, name)
-
-
-class Markdown(str):
-    """A text that marimo lays out where something of it is asked for but the text itself."""
-
-    def __getattr__(self, name: str) -> Any:
-        import marimo  # on use: see above
-
-        return getattr(marimo.md(self), name)
 
 
 @lru_cache(maxsize=32)

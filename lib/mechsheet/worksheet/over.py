@@ -119,16 +119,16 @@ class _Written:
 
     def along(self, name: str, namespace: Mapping[str, Any], axis: tuple[int, int], several: bool) -> str:
         """The quantity along an axis of a field, which may have several of them; nothing where none is certain."""
+        # What the field is not computed from may be that of the last run: of counts, as many are the same.
         lying = [
             (head, each)
             for each in self.shown
             for head in each.heads(namespace)
             if head != name and _runs(namespace[head], axis) and namespace[head].size == axis[1]
-            if not self.moves(name, head, namespace, axis)
+            if head in self.sources(name) or (several and namespace[head].dtype.kind in "iu")
         ]
-        # What the field is not computed from may be that of the last run: of counts, as many are the same.
-        counts = {head for head, _ in lying if namespace[head].dtype.kind in "iu"}
-        known = [(head, each) for head, each in lying if head in self.sources(name) or (several and head in counts)]
+        moved = {head for head in dict(lying) if self.moves(name, head, namespace, axis)}
+        known = [(head, each) for head, each in lying if head not in moved]
         beside = [head for head, each in known if name in each.names]
         if found := beside or [head for head, _ in known if head in self.sources(name)]:
             return found[0]

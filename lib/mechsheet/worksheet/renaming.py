@@ -34,7 +34,8 @@ def renamed(path: Path, old: str, new: str, scenes: Mapping[Path, str]) -> dict[
     """
     sheet = cells.load(path)
     declared = [field.name for field in inputs.declared(sheet.inputs)]
-    known = {*declared, *(name for name in sheet.results if not name.startswith("_"))}
+    given = {name for cell in sheet.cells for name in cell.gives if not name.startswith("_")}
+    known = {*declared, *(given - {"g"} if declared else given)}
     if old not in known:
         near = difflib.get_close_matches(old, known, n=1)
         raise SheetError(f"{as_given(old)} is no symbol of {path.name}" + (f"; nearest: {near[0]}" if near else ""))

@@ -76,12 +76,11 @@ def no_number(row: Formula, value: Any) -> str:
     return "" if kind in "biufc" else f"{row.name} = {ast.unparse(row.expression)} is no number: it has no [unit]"
 
 
-def _with_constants(row: Formula | Given, namespace: Mapping[str, Any]) -> Formula | Given:
-    """A line with the units among the names that it reads, and with the unknowns of solve blocks."""
+def _with_constants(row: Formula | Given, namespace: Mapping[str, Any], blocks: Mapping[str, str]) -> Formula | Given:
+    """A line with the units among the names that it reads, and with the unknowns of solve ``blocks``."""
     found = ((name, _of_unit(name, namespace)) for name in names_read(row))
     constants = tuple((name, value.unit) for name, value in found if isinstance(value, units.Constant))
     row = replace(row, constants=constants) if constants else row
-    blocks = _unknowns(source.cells(namespace)) if isinstance(row, Formula) else {}
     solved = tuple((name, blocks[name]) for name in names_read(row) if name in blocks)
     return replace(row, solved=solved) if solved and isinstance(row, Formula) else row
 
@@ -168,7 +167,8 @@ class Typeset(Shown):
     def rows(self) -> tuple[Formula | Given, ...]:
         """The lines with what the worksheet calls by the names that they read; a workbook does not ask."""
         namespace = self.numbers.namespace if self.numbers else {}
-        return tuple(_with_constants(line, namespace) for line in self.lines)
+        blocks = _unknowns(source.cells(namespace))
+        return tuple(_with_constants(line, namespace, blocks) for line in self.lines)
 
     def at(self, position: int) -> "Typeset":
         """The same formulas with the values at one position of their fields."""
