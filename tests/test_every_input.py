@@ -22,9 +22,10 @@ from mechsheet.run import report
 from mechsheet.worksheet import cells, inputs
 from mechsheet.worksheet.check import Check, checks_of
 from mechsheet.worksheet.errors import SheetError, Waits, raised
-from mechsheet.worksheet.kinds import Choice, Input, Switch, TextLine
+from mechsheet.worksheet.kinds import Choice, Input, Switch
 from mechsheet.worksheet.lists import Rows
 from mechsheet.worksheet.shown import Shown
+from mechsheet.worksheet.text_line import TextLine
 
 T = TypeVar("T")
 ROOT = Path(__file__).parents[1]

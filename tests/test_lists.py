@@ -164,7 +164,7 @@ def test_a_list_is_given_in_many_ways(section: Path, way: Any) -> None:
         ({"stringers": [{"A": 1, "y": 2}]}, "stringers of the section stringers (1) must have the columns"),
         ({"stringers": {"A": [1], "y": [2, 3], "y_top": [3]}}, "stringers of the section stringers: columns must be"),
         ({"stringers": "other.csv; 1"}, "stringers of the section stringers (1) = 'other.csv; 1' must have"),
-        ({"stringers": 5}, "stringers of the section stringers = 5 must be rows of numbers, or columns by name"),
+        ({"stringers": 5}, "stringers of the section stringers = 5 must be rows, or columns by name"),
         ({"stringers": [5]}, "stringers of the section stringers (1) = 5 must have the columns A, y, y_top"),
     ],
 )  # fmt: skip

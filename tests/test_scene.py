@@ -16,8 +16,8 @@ from mechsheet.workbook import reading
 from mechsheet.worksheet import inputs
 from mechsheet.worksheet.cells import load
 from mechsheet.worksheet.errors import SheetError
-from mechsheet.worksheet.kinds import TextLine
 from mechsheet.worksheet.scene import Limit, Scene
+from mechsheet.worksheet.text_line import TextLine
 from worksheets.hitch import Hitch
 
 HITCH = Path(__file__).parents[1] / "worksheets" / "hitch.py"

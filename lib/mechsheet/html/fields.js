@@ -84,6 +84,17 @@ function readInputs() {
   return {si, changed, errors};
 }
 
+const typedIn = new Map(); // of the columns of texts, by their names
+const LONGEST = 200; // characters of a text
+
+// A text in one line, which has none of the signs that stand between the cells of a table.
+function readText(column, cell) {
+  const text = cell.replace(/\s+/g, " ").trim();
+  if ([...text].length > LONGEST) refuse(column, `'${text.slice(0, 60)}'..`, `must be a line of at most ${LONGEST} characters`);
+  if (/[;|]/.test(text)) refuse(column, `'${text.slice(0, 60)}'`, "must be a text without ; and |");
+  return text;
+}
+
 const same = (a, b) => Boolean(a) && a.length === b.length && a.every((x, i) => x === b[i]);
 
 function readRows(field, shown, si) {
@@ -93,6 +104,12 @@ function readRows(field, shown, si) {
     throw new Refused(`${field.meaning} ${field.name} must have 1 to ${most} rows, not ${rows.length}`);
   field.columns.forEach((column, n) => {
     const named = k => ({...column, name: `${column.name} (${k + 1})`});
+    if (column.texts) {
+      const texts = rows.map((cells, k) => readText(named(k), cells[n]));
+      typedIn.set(column.name, texts);
+      si[column.name] = Float64Array.from(texts, (text, k) => Number(text !== column.texts[k]));
+      return;
+    }
     const numbers = rows.map((cells, k) => readNumber(named(k), cells[n]));
     const own = new Map(column.shown.map((x, k) => [x, column.own[k]]));
     shown.set(column.name, numbers);

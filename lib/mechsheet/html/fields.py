@@ -4,16 +4,17 @@ from collections.abc import Container, Iterator
 from html import escape
 from typing import Any
 
-import numpy as np
+from numpy.typing import NDArray
 
 from mechsheet import units
 from mechsheet.document.markup import as_written, limits, meant
 from mechsheet.units import parse
 from mechsheet.worksheet import numbers
 from mechsheet.worksheet.inputs import declared
-from mechsheet.worksheet.kinds import Choice, Input, Switch, TextLine, number
+from mechsheet.worksheet.kinds import Choice, Input, Switch, number
 from mechsheet.worksheet.limits import LEAST, MOST
 from mechsheet.worksheet.lists import MOST_ROWS, Rows
+from mechsheet.worksheet.text_line import TextLine
 
 
 def fields(g: Any) -> str:
@@ -72,9 +73,10 @@ def _element(field: Input, value: Any) -> str:
 
 def _grid(field: Rows, columns: tuple[Input, ...]) -> str:
     """The head of a list or a table, whose rows the page puts in."""
+    kinds = (' class="ms-text"' if c.is_text else "" for c in columns)
     heads = "".join(
-        f"<th>{as_written(_short(c))}{'' if c.unit == '-' else escape(f' [{units.shown(c.unit)}]')}</th>"
-        for c in columns
+        f"<th{kind}>{as_written(_short(c))}{'' if c.unit == '-' else escape(f' [{units.shown(c.unit)}]')}</th>"
+        for c, kind in zip(columns, kinds, strict=True)
     )
     return (
         f'<div class="ms-grid" data-grid="{field.name}" tabindex="0" role="group" aria-label="{escape(field.meaning)}">'
@@ -100,13 +102,18 @@ def _told(g: Any) -> Iterator[dict[str, Any]]:
             case TextLine():
                 yield own | {"kind": "text", "own": str(value)}
             case Rows():
-                columns = [
-                    _number(c) | {"own": np.asarray(xs, float).tolist(), "shown": [c.display(float(x)) for x in xs]}
-                    for c, xs in field.leaves(value).values()
-                ]
+                columns = [_number(c) | _column(c, xs) for c, xs in field.held_by(value).values()]
                 yield own | {"kind": "rows", "columns": columns}
             case _:
                 yield own | {"kind": "number", "own": float(value), "shown": float(field.display(value))}
+
+
+def _column(column: Input, held: NDArray[Any]) -> dict[str, Any]:
+    """What a list or a column of a table holds: numbers in SI and as they are shown, or texts, each of which is 0."""
+    own = held.tolist()
+    return (
+        {"own": [0] * len(own), "texts": own} if column.is_text else {"own": own, "shown": [*map(column.display, own)]}
+    )
 
 
 def _number(field: Input) -> dict[str, Any]:

@@ -288,8 +288,13 @@ class Follower:
         at = {id(column): n for n, column in enumerate(table.columns)}
         decimals = self.argument(f"table {table.number} decimals")
         others = {} if decimals is None else {"decimals": decimals}
-        each = (self._column(c, nodes[at[id(c)]]) for c in shown)
+        each = (self._column(c, nodes[at[id(c)]]) | self._label(table, at[id(c)]) for c in shown)
         return self.mark("table", columns=[c | others if c["decimals"] else c for c in each])
+
+    def _label(self, table: Table, n: int) -> Spec:
+        """The input whose texts a column shows, and the key of their rows."""
+        name, rows = self.recording.labels.get((table.number, n), ("", None))
+        return {"label": [name, self.key(rows.re)]} if rows is not None else {}
 
     def argument(self, name: str, own: Any = None) -> Any:
         """The key of a recorded argument of what is shown, or the run's own."""

@@ -98,6 +98,7 @@ const written = (text, read) => (typeof text === "string" ? text : text.map(part
 
 function piece(part, read) {
   if (typeof part === "string") return part;
+  if ("of" in part) return (part.texts ?? typedIn.get(part.column))[read(part.of)] ?? "";
   if (!Array.isArray(part)) return written(read(part.if) ? part.then : part.else, read);
   const [key, spec, ...instead] = part, x = read(key);
   return instead.reduce((told, [old, now]) => told.replaceAll(old, () => now), formatted(typeof x === "number" ? x : x[0], spec));

@@ -15,7 +15,7 @@ function rowsIn(text, width) {
 
 // Its rows under their heads, as they are printed.
 const onPaper = field => `<table>${gridOf(field).tHead.outerHTML}<tbody>${cellsOf(field).map((cells, k) =>
-  `<tr><th>${k + 1}</th>${cells.map(text => `<td>${escaped(text)}</td>`).join("")}</tr>`).join("")}</tbody></table>`;
+  `<tr><th>${k + 1}</th>${cells.map((text, n) => `<td${field.columns[n].texts ? ' class="ms-text"' : ""}>${escaped(text)}</td>`).join("")}</tr>`).join("")}</tbody></table>`;
 
 function fillGrid(field, text) {
   const grid = gridOf(field), width = field.columns.length;
@@ -40,7 +40,10 @@ function number(field, grid) {
   for (const row of body.rows) {
     const own = isFilled(row) ? ++k : "";
     row.cells[0].textContent = own;
-    cellsIn(row).forEach((cell, n) => (cell.ariaLabel = `${names[n]}, row ${own || "to be filled in"}`));
+    cellsIn(row).forEach((cell, n) => {
+      cell.ariaLabel = `${names[n]}, row ${own || "to be filled in"}`;
+      cell.inputMode = field.columns[n].texts ? "text" : "decimal";
+    });
   }
 }
 

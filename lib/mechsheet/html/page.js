@@ -118,7 +118,13 @@ function columnTexts(column, results) {
   if (!(column.decimals >= 0 && column.decimals <= 100)) return null; // nobody knows how many, or can write as many
   if (column.key === null && (!column.fixed || !column.own)) return column.fixed ? column.texts : null;
   const values = columnValues(column, results);
-  return values && Array.from(values, x => cellText(x, column));
+  return values && (column.label ? labelsOf(column.label, values, results) : Array.from(values, x => cellText(x, column)));
+}
+
+// Texts of an input by their rows; none where the number beside one is none.
+function labelsOf([name, key], values, results) {
+  const rows = results.values[key], texts = typedIn.get(name);
+  return rows && Array.from(rows, (k, n) => (values[n] === values[n] ? texts[k] : AXIS.none));
 }
 
 // Residual, limit and verdict of a check, as the worksheet judges it; null where they are not known.

@@ -6,21 +6,23 @@ from html import unescape
 from typing import Any
 
 from mechsheet.quantities.node import Node
-from mechsheet.quantities.written import Either, Number, Written
+from mechsheet.quantities.written import Either, Number, OneOf, Piece, Written
 
 Key = Callable[[Node], str]
 _PLACE, _HELD = "\ue000", re.compile("\ue000(\\d+)\ue001")
 _MARKUP = re.compile(r"[*_`$\\\[\]<>|#\n]|&[\w#]")  # in a text that stands for another one
 
 
-def piece(part: "str | Number | Either", key: Key) -> Any:
-    """A text as it stands; of a number its key, its format and what signs stand for others; one of two by a key."""
+def piece(part: Piece, key: Key) -> Any:
+    """A text as it stands; of a number its key, its format and what signs stand for others; one of several by a key."""
     match part:
         case Number(value, spec, instead):
             spec = spec or ("d" if value.dtype.kind in "iu" else "r")
             return [key(value.re), spec, *instead]
         case Either(holds, then, otherwise):
             return {"if": key(holds.re), "then": written(then, key), "else": written(otherwise, key)}
+        case OneOf(at, texts, column, name):
+            return {"of": key(at.re)} | ({"texts": texts} if column is None else {"column": name})
     return part
 
 
@@ -45,12 +47,14 @@ def pieces(text: Written, shown: Callable[[str], str], key: Key) -> list[Any]:
     return [piece(places[int(x)], key) if n % 2 else x for n, x in enumerate(split)]
 
 
-def _is_markup(part: "str | Number | Either") -> bool:
+def _is_markup(part: Piece) -> bool:
     match part:
         case Either(_, then, otherwise):
             return any(map(_is_markup, (*then.parts, *otherwise.parts)))
         case Number(_, _, instead):
             return any(_MARKUP.search(sign) for _, sign in instead)
+        case OneOf(_, texts):
+            return any(map(_MARKUP.search, texts))
         case str():
             return bool(_MARKUP.search(part))
     return False

@@ -30,10 +30,11 @@ def _short(column: Input) -> str:
 
 
 def head(column: Input) -> dict[str, str]:
-    """A column of a grid: its full name, its heading with the unit, and the same without markup."""
+    """A column of a grid: its full name, its heading with the unit, the same without markup, and its kind."""
     unit = "" if column.unit == "-" else f" [{units.shown(column.unit)}]"
     head = as_written(_short(column)) + html.escape(unit)
-    return {"name": column.name, "head": head, "label": _short(column) + unit}
+    kind = "text" if column.is_text else "number"
+    return {"name": column.name, "head": head, "label": _short(column) + unit, "kind": kind}
 
 
 class _Fields(mo.ui.batch):

@@ -40,7 +40,7 @@
 
     show(text) {
       this.columns = JSON.parse(this.getAttribute("columns"));
-      const heads = this.columns.map((column) => `<th>${column.head}</th>`).join("");
+      const heads = this.columns.map((column) => `<th class="ms-${column.kind}">${column.head}</th>`).join("");
       this.innerHTML = `<table title="${KEYS}"><thead><tr><th></th>${heads}</tr></thead><tbody></tbody></table>`;
       this.body = this.querySelector("tbody");
       this.body.append(...this.fitting(rowsOf(text)).map((cells) => this.row(cells)));
@@ -56,7 +56,7 @@
       const row = document.createElement("tr");
       row.innerHTML =
         "<th></th>" +
-        '<td><input spellcheck="false"></td>'.repeat(this.columns.length) +
+        this.columns.map(({ kind }) => `<td><input class="ms-${kind}" spellcheck="false"></td>`).join("") +
         '<td><button tabindex="-1" aria-label="away with the row">×</button></td>';
       inputsOf(row).forEach((input, i) => (input.value = cells[i] ?? ""));
       return row;

@@ -32,11 +32,12 @@ from mechsheet.worksheet.drawing import Drawing
 from mechsheet.worksheet.errors import SheetError, Waits
 from mechsheet.worksheet.index import Index
 from mechsheet.worksheet.inputs import Used
-from mechsheet.worksheet.kinds import Choice, Input, Switch, TextLine
+from mechsheet.worksheet.kinds import Choice, Input, Switch
 from mechsheet.worksheet.lists import Rows
 from mechsheet.worksheet.said import said
 from mechsheet.worksheet.shown import Charted, Shown
 from mechsheet.worksheet.table import Column, Figure, Table
+from mechsheet.worksheet.text_line import TextLine
 from mechsheet.worksheet.title import Caption, Mark, Note, Player, SideBySide, Slider, Title
 from mechsheet.worksheet.typeset import Typeset
 from mechsheet.worksheet.verdict import Verdict
@@ -354,18 +355,20 @@ def _(used: Used) -> str:
 
 
 def _printed(field: Input, value: Any) -> str:
-    """Value of an input on paper: of a list or a table every number, up to as many as a page holds."""
+    """Value of an input on paper: of a list or a table all of it, up to as many as a page holds."""
     if isinstance(field, TextLine | Choice):
         return escape(field.brief(value))
     if not isinstance(field, Rows):
         return message(field.brief(value))
-    rows = [row.split("; ") for row in field.text(value).split("\n")]
-    if max(len(rows), len(rows[0])) > _ON_PAPER:
+    columns = [
+        [(escape if c.is_text else message)(c.text(x)) for x in xs.tolist()] for c, xs in field.held_by(value).values()
+    ]
+    if len(columns[0]) > _ON_PAPER:
         return message(field.brief(value))
     if field.row is None:
-        return message("; ".join(rows[0]))
+        return message(field.text(value))
     heads = "".join(f"<td>{fields.head(column)['head']}</td>" for column in field.columns)
-    lines = ("".join(f"<td>{message(text)}</td>" for text in row) for row in rows)
+    lines = ("".join(f"<td>{text}</td>" for text in row) for row in zip(*columns, strict=True))
     return f"<table><tr>{heads}</tr>{''.join(f'<tr>{line}</tr>' for line in lines)}</table>"
 
 

@@ -4,10 +4,12 @@ import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import reduce
+from operator import or_
 from typing import Any, NamedTuple
 
 from mechsheet.quantities.graph import Guard, current
 from mechsheet.quantities.quantity import Quantity
+from mechsheet.worksheet.kinds import Chosen, place
 
 _FORMAT = re.compile(r"\.\d{1,2}[efg]|")  # which a reader writes too
 
@@ -32,20 +34,38 @@ class Either(NamedTuple):
     otherwise: "Written"
 
 
+class OneOf(NamedTuple):
+    """One of several texts, by its number; those of a ``column`` are inputs too, whose numbers tell which differ."""
+
+    at: Quantity
+    texts: tuple[str, ...]
+    column: Quantity | None = None
+    name: str = ""  # of the column
+
+    @property
+    def now(self) -> str:
+        return self.texts[int(self.at.value)] if self.at.value >= 0 else ""  # no number is that of no text
+
+    def seen(self) -> str:
+        self.at.seen()
+        if self.column is not None:
+            self.column[self.at].seen()
+        return self.now
+
+
+Piece = str | Number | Either | OneOf
+
+
 @dataclass(frozen=True, eq=False)
 class Written:
     """Pieces of a text one after the other; nothing is noted of them until Python looks at the text as a whole."""
 
-    parts: tuple[str | Number | Either, ...]
+    parts: tuple[Piece, ...]
 
     @property
     def now(self) -> str:
         """The text with the present numbers."""
-        chosen = (part.then if part.holds.value else part.otherwise for part in self.parts if isinstance(part, Either))
-        return "".join(
-            part if isinstance(part, str) else part.now() if isinstance(part, Number) else next(chosen).now
-            for part in self.parts
-        )
+        return "".join(map(_now, self.parts))
 
     def __str__(self) -> str:
         for part in self.parts:
@@ -53,19 +73,37 @@ class Written:
                 str(part.then if part.holds else part.otherwise)
             elif isinstance(part, Number):
                 part.value.__format__(part.spec)
+            elif isinstance(part, OneOf):
+                part.seen()
         return self.now
 
     def __format__(self, spec: str) -> str:
         return str(self).__format__(spec)
 
+    def __repr__(self) -> str:
+        return repr(str(self))
+
     def __bool__(self) -> bool:
         return any(part and isinstance(part, str | Number) for part in self.parts) or bool(str(self))
 
-    def __eq__(self, other: object) -> bool:
+    def __eq__(self, other: object) -> Any:
+        match self.parts:
+            case (OneOf(at, texts, None),) if isinstance(other, str):
+                return reduce(or_, (at == k for k, text in enumerate(texts) if text == other), at != at)
         return str(self) == (str(other) if isinstance(other, Written) else other)
+
+    def __ne__(self, other: object) -> Any:
+        same = self == other
+        return not same if isinstance(same, bool) else ~same
 
     def __hash__(self) -> int:
         return hash(str(self))
+
+    def __lt__(self, other: "str | Written") -> bool:
+        return str(self) < str(other)
+
+    def __gt__(self, other: "str | Written") -> bool:
+        return str(self) > str(other)
 
     def __len__(self) -> int:
         return len(str(self))
@@ -121,6 +159,17 @@ class Written:
         return Written(tuple(_pieces([*parts, last.rstrip() if isinstance(last, str) else last])))
 
 
+def _now(part: Piece) -> str:
+    match part:
+        case Number():
+            return part.now()
+        case Either(holds, then, otherwise):
+            return (then if holds.value else otherwise).now
+        case OneOf():
+            return part.now
+    return part
+
+
 class Said(NamedTuple):
     """A text that a cell shows, and the guards under which it is the worksheet's own."""
 
@@ -133,10 +182,22 @@ def text(*parts: Any) -> Any:
     pieces = list[Any]()
     for part in parts:
         value, spec = part if isinstance(part, tuple) else (part, "")
+        if isinstance(value, Chosen):
+            options, at = place(value)
+            value = Written((OneOf(at, options),)) if isinstance(at, Quantity) else str(value)
         followed = _is_followed(value, spec)
         pieces.append(Number(value, spec) if followed and isinstance(value, Quantity) else
                       value if followed else f"{value:{spec}}")  # fmt: skip
     return "".join(pieces) if all(isinstance(part, str) for part in pieces) else Written(tuple(_pieces(pieces)))
+
+
+def joined(between: Any, parts: Any) -> Any:
+    """``between.join(parts)`` of texts, some of them with recorded numbers in them."""
+    each = list(parts) if isinstance(between, str | Written) else []
+    if not any(isinstance(part, Written) for part in each):
+        return between.join(each or parts)
+    rest = (piece for part in each[1:] for piece in (between, part))
+    return Written(tuple(_pieces([each[0], *rest])))
 
 
 def either(holds: Quantity, then: "str | Written", otherwise: "str | Written") -> Written:
@@ -171,7 +232,7 @@ def _is_followed(value: Any, spec: str) -> bool:
     return value.im is None and value.single and value.dtype.kind in "iuf"
 
 
-def _pieces(parts: list[Any]) -> Iterator[str | Number | Either]:
+def _pieces(parts: list[Any]) -> Iterator[Piece]:
     """Pieces in a row, texts that meet as one."""
     waiting = ""
     for part in [piece for whole in parts for piece in (whole.parts if isinstance(whole, Written) else (whole,))]:
@@ -186,11 +247,13 @@ def _pieces(parts: list[Any]) -> Iterator[str | Number | Either]:
         yield waiting
 
 
-def _replaced(part: str | Number | Either, old: str, new: str) -> str | Number | Either:
+def _replaced(part: Piece, old: str, new: str) -> Piece:
     match part:
         case Number():
             return part._replace(instead=(*part.instead, (old, new)))
         case Either(holds, then, otherwise):
             ways = (Written(tuple(_replaced(piece, old, new) for piece in way.parts)) for way in (then, otherwise))
             return Either(holds, *ways)
+        case OneOf():
+            return part.seen().replace(old, new)
     return part.replace(old, new)

@@ -21,7 +21,7 @@ from mechsheet.quantities.quantity import Quantity, has_quantity, is_any_length,
 from mechsheet.quantities.selected import Selected
 from mechsheet.quantities.sketch import Sketch
 from mechsheet.quantities.sketch import merged as merged_sketch
-from mechsheet.quantities.written import Either, Written, either, text
+from mechsheet.quantities.written import Either, Written, either, joined, text
 from mechsheet.recording.memory import Memory, may_change, names_of
 from mechsheet.worksheet.drawing import COLOURS
 from mechsheet.worksheet.kinds import Chosen, cases
@@ -401,7 +401,7 @@ CALLS: dict[str, Any] = {
     "choice": choice, "and": both, "or": any_of, "not": negated, "matched": matched, "element": element, "get": got,
     "handled": handled, "tried": tried,
     "len": length,
-    "unbound": UNBOUND, "text": text,
+    "unbound": UNBOUND, "text": text, "join": joined,
     "max": _extreme("max"), "min": _extreme("min"), "round": round, "sorted": ranked, "place": placed,
     "float": _number(float, lambda x: x), "int": _number(int, trunc),
     "complex": _number(complex, lambda *x: sum(a * b for a, b in zip(x, (1, 1j), strict=False))),

@@ -71,6 +71,8 @@ class _Rewriting(ast.NodeTransformer):
                 return call("get", node, container, *node.args)
             case ast.Call(ast.Attribute(values, "index"), [value], []):
                 return call("place", node, values, value)
+            case ast.Call(ast.Attribute(between, "join"), [parts], []):
+                return call("join", node, between, parts)
         return node
 
     def visit_JoinedStr(self, node: ast.JoinedStr) -> ast.AST:
@@ -343,7 +345,7 @@ def _may_be_rewritten(part: ast.AST) -> bool:
     """Whether a part of a statement is of a kind that is rewritten, as it is in few formulas."""
     if isinstance(part, ast.Call):
         match part.func:
-            case ast.Attribute(attr="get" | "index"):
+            case ast.Attribute(attr="get" | "index" | "join"):
                 return True
             case ast.Name(name):
                 return name in _NAMES or name in OF_KEPT or name == "Check"

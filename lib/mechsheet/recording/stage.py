@@ -15,6 +15,7 @@ from mechsheet.quantities.lines import Recording, Residual, Solved
 from mechsheet.quantities.node import Node
 from mechsheet.quantities.numpy_rules import arange
 from mechsheet.quantities.quantity import Quantity, lift
+from mechsheet.quantities.text_column import Texts
 from mechsheet.quantities.written import Written, seen
 from mechsheet.readers.terms import made_of
 from mechsheet.recording import showing, solving
@@ -89,11 +90,15 @@ class Stage:
         """Note the columns of a table or a figure; where rows are of a fixed number, Python sees which it lists."""
         self.shown_now.append((self.recording.tables, number))
         follows = self.graph.draws and isinstance(every, Quantity) and max(map(np.ndim, columns), default=0) == 1
-        rows = [lift(self.graph, column) for column in body(listed)(columns, 1 if follows else seen(every))]
+        labels = {n: column for n, column in enumerate(columns) if isinstance(column, Texts)}
+        given = [*(c.same if isinstance(c, Texts) else c for c in columns), *(label.at for label in labels.values())]
+        rows = [lift(self.graph, column) for column in body(listed)(given, 1 if follows else seen(every))]
         if follows:
             at = arange(self.graph, 0, rows[0].count(0), every)
             rows = [column[at] for column in rows]
-        self.recording.tables[number] = tuple(map(copy, rows))  # which later lines may set elements of
+        for (n, label), at in zip(labels.items(), rows[len(columns) :], strict=True):
+            self.recording.labels[number, n] = label.name, at
+        self.recording.tables[number] = tuple(map(copy, rows[: len(columns)]))  # which later lines may set elements of
 
     def figure(
         self,

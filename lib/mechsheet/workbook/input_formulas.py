@@ -36,6 +36,11 @@ def differs(in_si: str, as_read: str, as_exported: str) -> str:
     return f"=IF(ISERROR({in_si}),1,IF({as_read}={as_exported},0,1))"
 
 
+def differing(cell: str, text: str) -> str:
+    """0 while a cell holds a text, else 1."""
+    return f'=IF(EXACT({cell}&"",{quoted(text)}),0,1)'
+
+
 def limits(pairs: Sequence[tuple[str, str]], whole: bool, value: str, others: Mapping[str, str]) -> Iterator[str]:
     """Conditions for a ``value``; ``others`` are the cells of the inputs that limit it, several of those of a list."""
     for sign, other in pairs:

@@ -24,14 +24,15 @@ _NOTE += "worksheet with it as a scene."
 
 @dataclass(frozen=True)
 class GridColumn:
-    """A column of numbers in its ``unit``, under its full name, such as ``bolts.x``."""
+    """A column of numbers in its ``unit``, or of texts, under its full name, such as ``bolts.x``."""
 
     symbol: str
-    values: tuple[float, ...]
+    values: tuple[Any, ...]
     unit: str
     meaning: str
     limits: tuple[tuple[str, str], ...] = ()
     whole: bool = False
+    is_text: bool = False
 
     @property
     def allowed(self) -> str:
@@ -84,7 +85,8 @@ def _spots(grids: Sequence[Grid]) -> list[_Spot]:
 
 def places(grids: Sequence[Grid]) -> dict[str, Place]:
     """Where the numbers in SI units stand, by symbol."""
-    return {s.column.symbol: Place("", SHEET, _FIRST, s.held, differs=3) for s in _spots(grids)}
+    spots = _spots(grids)
+    return {s.column.symbol: Place("", SHEET, _FIRST, s.held, differs=3, typed=s.edited - s.held) for s in spots}
 
 
 def as_read(grids: Sequence[Grid]) -> dict[str, str]:
@@ -124,11 +126,17 @@ def write(book: Book, grids: Sequence[Grid], others: Mapping[str, str], formulas
         sheet.set_row_pixels(row, looks.ROW + max(count - 1, 0) * (looks.ROW - 5))
     sheet.set_row_pixels(2, looks.ROW * 2)
     by_symbol = {spot.column.symbol: spot for spot in spots}
+    counted = {column.symbol: by_symbol[_counted(grid).symbol] for grid in grids for column in grid.columns}
     for spot in spots:
         _heads(book, sheet, spot)
         _column(book, sheet, spot, formulas)
         if formulas:
-            _held(book, sheet, spot, by_symbol, others, formulas)
+            _held(book, sheet, spot, by_symbol, counted[spot.column.symbol], others, formulas)
+
+
+def _counted(grid: Grid) -> GridColumn:
+    """The column by which the rows of a table are counted: of numbers where it has some, for a text may be empty."""
+    return next((column for column in grid.columns if not column.is_text), grid.columns[0])
 
 
 def _words(column: GridColumn) -> tuple[str, str]:
@@ -137,20 +145,24 @@ def _words(column: GridColumn) -> tuple[str, str]:
 
 def _characters(column: GridColumn) -> int:
     """Characters of a column's width."""
-    return max(_WIDTH, len(column.symbol), *(len(numbers.significant(x, 15)) for x in column.values))
+    texts = (x if isinstance(x, str) else numbers.significant(x, 15) for x in column.values)
+    return max(_WIDTH, len(column.symbol), *map(len, texts))
 
 
 def _heads(book: Book, sheet: Any, spot: _Spot) -> None:
-    column, side = spot.column, {"align": "right", "text_wrap": True, "valign": "bottom"}
+    column, head = spot.column, looks.TEXT if spot.column.is_text else looks.NUMBER
+    side = {**looks.side(head), "text_wrap": True, "valign": "bottom"}
     put(sheet, 3, spot.edited, column.meaning, book.style(looks.NOTE, side))
     put(sheet, 4, spot.edited, column.allowed, book.style(looks.NOTE, side))
-    put(sheet, 5, spot.edited, column.symbol, book.style(looks.HEAD, looks.NUMBER, looks.TOP))
-    put(sheet, 6, spot.edited, shown(column.unit), book.style(looks.HEAD, looks.NUMBER, looks.BOTTOM, {"bold": False}))
+    unit = "" if column.is_text else shown(column.unit)
+    put(sheet, 5, spot.edited, column.symbol, book.style(looks.HEAD, head, looks.TOP))
+    put(sheet, 6, spot.edited, unit, book.style(looks.HEAD, head, looks.BOTTOM, {"bold": False}))
 
 
 def _column(book: Book, sheet: Any, spot: _Spot, formulas: SheetFormulas | None) -> None:
     followed = not formulas or spot.column.symbol in formulas.arrangement.followed
-    style = book.style(looks.CELL, looks.FIELD if followed else looks.NUMBER)
+    text = {**looks.TEXT, "num_format": "@"} if spot.column.is_text else {}  # what is typed stays a text
+    style = book.style(looks.CELL, looks.FIELD if followed else looks.NUMBER, text)
     for k, value in enumerate(spot.column.values):
         put(sheet, _FIRST + k, spot.edited, value, style)
 
@@ -160,6 +172,7 @@ def _held(
     sheet: Any,
     spot: _Spot,
     by_symbol: Mapping[str, _Spot],
+    counting: _Spot,
     others: Mapping[str, str],
     formulas: SheetFormulas,
 ) -> None:
@@ -167,9 +180,10 @@ def _held(
     column, node = spot.column, formulas.recording.inputs[spot.column.symbol]
     first, head = _FIRST, book.style(looks.HEAD, looks.NUMBER, looks.TOP)
     small, below = book.style(looks.CELL, looks.SI), book.style(looks.HEAD, looks.NUMBER, looks.BOTTOM, {"bold": False})
-    heads = ("in SI units", "as read", "as exported", "differs")
-    count = Live(f"=COUNTA({spot.cell(first)}:{spot.cell(first + MOST_ROWS - 1)})", float(node.size))
-    under: tuple[Content, ...] = (shown(si(column.unit)), count, "", "")
+    heads = ("differs" if column.is_text else "in SI units", "as read", "as exported", "differs")
+    filled = sum(value != "" for value in counting.column.values)
+    count = Live(f"=COUNTA({counting.cell(first)}:{counting.cell(first + MOST_ROWS - 1)})", float(filled))
+    under: tuple[Content, ...] = ("" if column.is_text else shown(si(column.unit)), count, "", "")
     for n, (name, beneath) in enumerate(zip(heads, under, strict=True)):
         put(sheet, 5, spot.held + n, name, head)
         put(sheet, 6, spot.held + n, beneath, below)
@@ -180,14 +194,19 @@ def _held(
         limiting |= {name: other.cell(row, 1) for name, other in by_symbol.items()}
         rules = [
             *input_formulas.limits(column.limits, column.whole, spot.cell(row, 1), limiting),
-            f"{counted}={node.size}",
+            f"{counted}={filled}",
         ]
         unit = f"${letters(spot.edited)}${first}"
         read, exported = spot.cell(row, 1), node.value.reshape(-1)[k].item()
+        held: tuple[str, float] = (
+            (input_formulas.differing(spot.cell(row), value), 0.0)
+            if isinstance(value, str)
+            else (input_formulas.read(spot.cell(row)), value)
+        )
         cells: tuple[Content, ...] = (
             Live(input_formulas.in_si(read, unit, column.unit, rules), exported),
-            Live(input_formulas.read(spot.cell(row)), value),
-            value,
+            Live(*held),
+            held[1],
             Live(input_formulas.differs(spot.cell(row, 0), read, spot.cell(row, 2)), 0.0),
         )
         for n, cell in enumerate(cells):
@@ -198,6 +217,8 @@ def _held(
 def _validation(spot: _Spot, by_symbol: Mapping[str, _Spot], others: Mapping[str, str]) -> dict[str, object]:
     """What a spreadsheet program takes into the cells of a column; a text is judged by its value in SI units."""
     column, cell = spot.column, spot.cell(_FIRST)
+    if column.is_text:
+        return {"validate": "any", **_told(column, column.meaning)}
     rules = [f"ISNUMBER({cell})", *input_formulas.limits([], column.whole, cell, {})]
     for pair in column.limits:
         beside = by_symbol.get(pair[1])
@@ -209,11 +230,13 @@ def _validation(spot: _Spot, by_symbol: Mapping[str, _Spot], others: Mapping[str
         "validate": "custom",
         "value": f"=IF(ISTEXT({cell}),TRUE,AND({','.join(rules)}))",
         "ignore_blank": True,  # rows may be taken out
-        "input_title": cut(allowed(column.symbol), 32),
-        "input_message": cut(
-            allowed(f"{column.meaning} [{shown(column.unit)}]. {limits}Decimal point, or comma as text."), 255
-        ),
+        **_told(column, f"{column.meaning} [{shown(column.unit)}]. {limits}Decimal point, or comma as text."),
         "error_title": "Outside the limits",
         "error_message": cut(allowed(f"{column.symbol}: {column.allowed or 'a number'}"), 255),
         "error_type": "stop",
     }
+
+
+def _told(column: GridColumn, message: str) -> dict[str, object]:
+    """What a spreadsheet program shows beside a cell that is edited."""
+    return {"input_title": cut(allowed(column.symbol), 32), "input_message": cut(allowed(message), 255)}

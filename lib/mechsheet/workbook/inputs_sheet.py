@@ -69,7 +69,7 @@ def rows(g: Any) -> list[Item]:
                 shown += _properties(field)
             case Rows():
                 columns = (
-                    GridColumn(c.name, tuple(written[c.name].tolist()), c.unit, c.meaning, c.limits, c.whole)
+                    GridColumn(c.name, tuple(written[c.name].tolist()), c.unit, c.meaning, c.limits, c.whole, c.is_text)
                     for c in field.columns
                 )
                 asked.append(Grid(field.name, field.meaning, field.section, tuple(columns)))
@@ -122,6 +122,7 @@ def write(book: Book, items: Sequence[Item], formulas: SheetFormulas | None) -> 
         fields += [("in SI units", looks.SI), ("Unit", looks.TEXT), ("Name", looks.TEXT)]
         fields += [("As read", looks.SI), ("As exported", looks.SI), ("Differs", looks.SI)]
     listed: list[tuple[Content, ...]] = []
+    empty = [""] * (len(fields) - 5)
     cells = {item.symbol: f"$I${n + 1}" for n, item in listed_rows(items) if isinstance(item, InputRow)}
     tables = grids(items)
     read = cells | input_tables_sheet.as_read(tables)
@@ -130,9 +131,10 @@ def write(book: Book, items: Sequence[Item], formulas: SheetFormulas | None) -> 
             case InputRow():
                 bounds = ", ".join(filter(None, (item.allowed, item.tolerance)))
                 line: tuple[Content, ...] = (item.symbol, item.value, shown(item.unit), item.meaning, bounds)
-                listed.append((*line, *(_computed(item, n + 1, read, formulas) if formulas else ())))
+                held = formulas and (item.leaf or item.symbol) in formulas.recording.inputs  # but for texts of options
+                listed.append((*line, *(_computed(item, n + 1, read, formulas) if formulas and held else empty)))
             case Grid():
-                listed.append((item.symbol, "", "", item.meaning, item.told, *[""] * (len(fields) - 5)))
+                listed.append((item.symbol, "", "", item.meaning, item.told, *empty))
             case heading:
                 listed.append((heading,))
     sheet = book.listing(_SHEET, f"{book.title} - inputs", fields, listed, printed=_SI)
@@ -199,7 +201,7 @@ def _computed(row: InputRow, n: int, read: dict[str, str], formulas: SheetFormul
 def _option(row: InputRow, cell: str) -> str:
     """Formula of the number of the option that a cell holds; of a text 0 while it is the exported one, else 1."""
     if not row.options:
-        return f'=IF(EXACT({cell}&"",{quoted(str(row.value))}),0,1)'
+        return input_formulas.differing(cell, str(row.value))
     comma = any("," in option for option in row.options)
     held = f'TRIM({cell}&"")' if comma else f'SUBSTITUTE(TRIM({cell}&""),",",".")'
     same = f"EXACT({held},{{{';'.join(map(quoted, row.options))}}})"

@@ -1,7 +1,7 @@
 """A place in a workbook: the cell or column where a quantity stands, and the defined name that means it."""
 
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 
 _ADDRESS = re.compile(r"[A-Za-z]{1,3}\d+|[rR]\d*([cC]\d*)?|[cC]\d*|[rR]\d+[cC]\d+")
@@ -31,7 +31,8 @@ class Place:
     """Where a quantity stands: a cell or a column, and the name that means it (in a column: the cell of its row).
 
     The name of a column whose rows are not those of the tables means all of it: it is not ``aligned``. Of an input,
-    ``differs`` is how many columns further it stands whether it differs from the exported one.
+    ``differs`` is how many columns further it stands whether it differs from the exported one, ``typed`` likewise
+    where one of several is typed.
     """
 
     name: str
@@ -40,10 +41,15 @@ class Place:
     column: int
     aligned: bool = True
     differs: int = 0
+    typed: int = 0
 
     def at(self, k: int = 0) -> str:
         """Address of the k-th cell."""
         return f"{quoted(self.sheet)}!${letters(self.column)}${self.row + k + 1}"
+
+    def text(self, k: int) -> str:
+        """Address of the cell in which the k-th is typed."""
+        return replace(self, column=self.column + self.typed).at(k)
 
     def range(self, first: int, last: int) -> str:
         """Address of the cells from the first one to the last."""

@@ -155,6 +155,8 @@ class _Cell:
 
 def _read(field: Input, value: object, unit: str, cell: _Cell, unit_cell: _Cell) -> object:
     """The value of an input as it stands in its cell, with the other unit that somebody has typed beside it."""
+    if value is None and field.is_text and not cell.formula():
+        return ""
     if value is None:
         formula = cell.formula()
         holds = f"the formula {cut(formula)} has no value; open and save the file in the spreadsheet program"

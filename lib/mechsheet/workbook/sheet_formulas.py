@@ -1,5 +1,6 @@
 """The formulas that stand on the sheets of a workbook: of inputs, tables, found values, checks, marks and lines."""
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 from mechsheet import units
@@ -61,10 +62,18 @@ class SheetFormulas:
             return [self.as_exported(x).formula for x in values] if self._may_differ(table, n) else None
         if (table.number, n) in self.arrangement.own:
             return self._formulas(node)
+        if label := self.recording.labels.get((table.number, n)):
+            return self._labels(*label, self._cells.references(node, 1.0))
         factor = units.parse(table.columns[n].unit).factor
         if node.size == 1:
             return [self._cells.reference(node, factor)] * len(table.columns[n].values)
         return self._cells.references(node, factor)
+
+    def _labels(self, name: str, rows: Quantity, same: Sequence[str]) -> list[str]:
+        """Formulas of texts of an input: what is typed in their rows, while there is a number ``same`` of each."""
+        place = self.arrangement.places[self.recording.inputs[name]]
+        cells = [place.text(k) for k in rows.value.reshape(-1).tolist()]
+        return [f'=IF(ISNUMBER({x[1:]}),{cell}&"",NA())' for x, cell in zip(same, cells, strict=True)]
 
     def moves_along(self, figure: Figure) -> bool:
         """Whether the positions over which a figure is drawn, or what it marks there, rest on inputs."""

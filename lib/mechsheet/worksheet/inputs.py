@@ -16,9 +16,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from mechsheet.worksheet import deviation, errors, limits, lines, source
 from mechsheet.worksheet.errors import SheetError, refuse
-from mechsheet.worksheet.kinds import Choice, Input, Offer, Switch, TextLine
+from mechsheet.worksheet.kinds import Choice, Input, Offer, Switch
 from mechsheet.worksheet.lists import Rows
 from mechsheet.worksheet.shown import Shown
+from mechsheet.worksheet.text_line import TextLine
 
 T = TypeVar("T")
 
@@ -35,7 +36,8 @@ def inputs(cls: type[T]) -> type[T]:
     The kind of an input is its type: ``float``, ``int``, ``bool`` (a switch), ``str`` (a text),
     ``Literal["single", "double"]`` (a choice of names), what `one_of` gives (options with properties), ``list[float]``
     (an array of any length), or a list of objects of a class (a table, whose columns are arrays). A class of lines
-    without values is not asked for: it declares the properties of such options, or the columns of such a table.
+    without values is not asked for: it declares the properties of such options, or the columns of such a table, which
+    are numbers or texts.
 
     Building one with a value that is no finite number or breaks a limit raises SheetError naming it.
     """
@@ -144,8 +146,10 @@ def _declared(cls: type, cell: source.Cell, names: Mapping[str, Any]) -> tuple[I
             of = ", ".join(valued) if len(valued) <= _LISTED else "the others"
             rows = f"in a class of rows or options no field has one: there that of {of} must go"
             raise SheetError(f"{places[without[0]]}: {needs}; {rows}")
-        if other := next((f.name for f in found if not (f.continuous or (type(f) is Input and f.counted))), ""):
-            kinds = "the fields of options and rows are floats, or ints without unit"
+        if other := next(
+            (f.name for f in found if not (f.is_text or f.continuous or (type(f) is Input and f.counted))), ""
+        ):
+            kinds = "the fields of options and rows are floats, texts, or ints without unit"
             raise SheetError(f"{places[other]}: {other}: {kinds}")
     unknown = {field.name for field in found if field.mistake}
     found = [_without(field, unknown) for field in found] if unknown else found
@@ -232,7 +236,7 @@ def _refusals(g: Any, fields: Iterable[Input], given: Iterable[Input]) -> Iterat
     """Why values cannot be used, of those that are given and those whose limits name them."""
     pairs = [(field, getattr(g, field.name)) for field in fields if type(field) is Input]
     for table in (field for field in fields if isinstance(field, Rows)):
-        pairs += table.leaves(getattr(g, table.name)).values()
+        pairs += (leaf for leaf in table.leaves(getattr(g, table.name)).values() if not leaf[0].is_text)
     names = {each.name for field in given for each in (field.columns if isinstance(field, Rows) else [field])}
     near = limits.touched((field for field, _ in pairs), names)
     compared = {name for field in near for name in (field.name, *(other for _, other in field.limits))}

@@ -1,4 +1,4 @@
-"""The kinds of inputs: a number, a choice of named options, a switch, a text.
+"""The kinds of inputs: a number, a choice of named options, a switch; a text is `TextLine`.
 
 Each kind reads what is typed, converts it from the display unit and back, and says what it is made of: its leaves are
 the numbers by which a recording, a sweep and a workbook know it.
@@ -6,13 +6,14 @@ the numbers by which a recording, a sweep and a workbook know it.
 
 import difflib
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from math import inf
 from operator import index
 from typing import Any, TypeVar
 
 import numpy as np
+from numpy.typing import NDArray
 
 from mechsheet import units
 from mechsheet.worksheet import errors, numbers
@@ -23,7 +24,7 @@ T = TypeVar("T")
 _NUMBER = re.compile(r"([+−-]?(?:\d+(?:[.,]\d*)?|[.,]\d+)(?:[eE][+−-]?\d+)?)(.*)", re.DOTALL)
 _THOUSANDS = re.compile(r"\W?[1-9]\d{0,2},\d{3}(?!\d)")  # elsewhere read as such, here as a number with a decimal comma
 _UNIT = 40  # characters of a unit at most
-_LONGEST = 200  # characters of a text, so that a formula of a workbook can hold it
+_COMPARED = 200  # characters by which the nearest option is looked for
 
 
 @dataclass(frozen=True)
@@ -49,6 +50,11 @@ class Input:
     def continuous(self) -> bool:
         """Whether it is a number that may be varied a little."""
         return type(self) is Input and not self.whole
+
+    @property
+    def is_text(self) -> bool:
+        """Whether it is a text, on which no number rests."""
+        return False
 
     @property
     def counted(self) -> bool:
@@ -125,6 +131,10 @@ class Input:
             read = numbers.significant(self.read(value), 15)
             yield f"{self.name} = {read}{numbers.suffix(self.unit)}, read with a decimal comma"
 
+    def array(self, values: Iterable[Any]) -> NDArray[Any]:
+        """Several values as an array."""
+        return np.array([*values], object if self.is_text else None)
+
     def same(self, a: Any, b: Any) -> bool:
         """Whether two values are the same."""
         return bool(np.all(a == b))
@@ -149,8 +159,12 @@ class Input:
         return self.si(int(shown), np.nan)
 
     def leaves(self, value: Any) -> "dict[str, tuple[Input, Any]]":
-        """Numbers of which a value is made, by name, each with its declaration."""
+        """Numbers of which a value is made, by name, each with its declaration; of a text 0."""
         return {self.name: (self, value)}
+
+    def texts(self, value: Any) -> tuple[str, ...]:
+        """Texts of which a value is made."""
+        return ()
 
     def leaf(self, column: Any, default: Any) -> Any:
         """What is held of many variants, from an array as it is shown."""
@@ -217,6 +231,11 @@ class Chosen:
         return self._properties[name]
 
 
+def place(chosen: Chosen) -> tuple[tuple[str, ...], Any]:
+    """The names of all options, and the number of the chosen one."""
+    return chosen._options, chosen._at
+
+
 def cases(chosen: Chosen) -> dict[str, Any]:
     """Whether each of the options is the chosen one, by name."""
     return {option: chosen == option for option in chosen._options}
@@ -253,11 +272,11 @@ def one_of(options: Mapping[str, T], name: str) -> T:
 
 @dataclass(frozen=True)
 class Choice(Input):
-    """A choice of named options; ``table`` has a row of properties for each, in SI."""
+    """A choice of named options; ``table`` has a row of properties for each, numbers in SI or texts."""
 
     options: tuple[str, ...] = ()
     properties: tuple[Input, ...] = ()
-    table: tuple[tuple[float, ...], ...] = ()
+    table: tuple[tuple[Any, ...], ...] = ()
 
     def display(self, value: Any) -> Any:
         return str(value)
@@ -269,7 +288,7 @@ class Choice(Input):
         if name not in self.options and name.replace(",", ".") in self.options:
             name = name.replace(",", ".")
         if name not in self.options:
-            near = difflib.get_close_matches(name[:_LONGEST], self.options, n=1, cutoff=0.6)
+            near = difflib.get_close_matches(name[:_COMPARED], self.options, n=1, cutoff=0.6)
             hint = f"; nearest: {near[0]}" if near and len(self.options) > 5 else ""
             offered = ", ".join(self.options)
             raise SheetError(f"{self.says(errors.as_given(value))} must be one of {offered}{hint}", self.name)
@@ -299,15 +318,20 @@ class Choice(Input):
         return self.si(self.read(value), None) if isinstance(value, str) else value
 
     def leaves(self, value: Any) -> dict[str, tuple[Input, Any]]:
-        columns = zip(self.properties, zip(*self.table, strict=True), strict=True) if self.table else ()
         at: tuple[Input, Any] = (self, self.options.index(str(value)))
-        return {self.name: at, **{f"{self.name}.{p.name}": (p, np.array(column)) for p, column in columns}}
+        columns = {f"{self.name}.{p.name}": (p, np.array(own)) for p, own in self.columns() if not p.is_text}
+        return {self.name: at, **columns}
+
+    def columns(self) -> Iterator[tuple[Input, tuple[Any, ...]]]:
+        """Each property with those of all options."""
+        for k, each in enumerate(self.properties):
+            yield each, tuple(row[k] for row in self.table)
 
     def held(self, leaves: Mapping[str, Any]) -> Any:
         at, properties = leaves[self.name], dict[str, Any]()
-        for k, each in enumerate(self.properties):
-            column = [row[k] for row in self.table]
-            own = np.take(column, at) if isinstance(at, np.ndarray) else column[at] if isinstance(at, int) else None
+        for each, column in self.columns():
+            held = each.array(column) if isinstance(at, np.ndarray) else column
+            own = held[at] if isinstance(at, np.ndarray | int) else None
             properties[each.name] = leaves.get(f"{self.name}.{each.name}", own)
         return Chosen(self.options, at, properties)
 
@@ -353,41 +377,6 @@ class Switch(Input):
 
 
 _SAID = dict.fromkeys(("yes", "true", "on", "1"), True) | dict.fromkeys(("no", "false", "off", "0"), False)
-
-
-@dataclass(frozen=True)
-class TextLine(Input):
-    """A text, which no number rests on: in a recording its use is a guard."""
-
-    def display(self, value: Any) -> Any:
-        return value
-
-    def read(self, value: object) -> Any:
-        text = " ".join(str(value).split())
-        if isinstance(value, bool | list | dict) or len(text) > _LONGEST or not text.isprintable():
-            must = f"must be a line of at most {_LONGEST} characters"
-            raise SheetError(f"{self.says(errors.as_given(value))} {must}", self.name)
-        return text
-
-    def si(self, value: Any, default: Any) -> Any:
-        return value
-
-    def first(self, value: Any) -> Any:
-        return self.read(value)
-
-    def written(self, value: Any, default: Any) -> Any:
-        return value
-
-    def text(self, value: Any) -> str:
-        return str(value)
-
-    brief = text
-
-    def readings(self, value: object) -> Iterator[str]:
-        yield from ()
-
-    def leaves(self, value: Any) -> dict[str, tuple[Input, Any]]:
-        return {self.name: (self, 0)}
 
 
 def number(text: object) -> float:

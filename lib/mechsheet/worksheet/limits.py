@@ -43,7 +43,7 @@ def read(text: str, field: str, place: str) -> Iterator[tuple[str, str]]:
 
 def comparable(fields: Iterable[Input], places: Mapping[str, str]) -> None:
     """SheetError where a limit is neither a number nor an input in the same unit."""
-    units_of = {field.name: field.unit for field in fields}
+    units_of = {field.name: field.unit for field in fields if not field.is_text}
     for field in fields:
         for sign, other in field.limits:
             said = f"{places[field.name]}: limit {sign} {other} of {field.name}"

@@ -1,7 +1,7 @@
-"""Lists and tables of numbers as inputs: each column a declared number, each element read and converted as one."""
+"""Lists and tables as inputs: each column a declared number or text, each element read and converted as one."""
 
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
@@ -31,12 +31,12 @@ class Rows(Input):
     folder: str = ""  # of the worksheet
 
     def display(self, value: Any) -> Any:
-        return {name: np.array([c.display(float(x)) for x in xs]) for name, (c, xs) in self.leaves(value).items()}
+        return {name: c.array(map(c.display, xs.tolist())) for name, (c, xs) in self.held_by(value).items()}
 
     def read(self, value: object) -> Any:
         """Columns from a text of rows, a list of rows, or a mapping of columns.
 
-        A row of a text ends with its line or with ``|``, its numbers are apart by ``;`` or a tab; a text that ends
+        A row of a text ends with its line or with ``|``, its cells are apart by ``;`` or a tab; a text that ends
         as the name of a file does is one, in the current folder or beside the worksheet.
         """
         if isinstance(value, str) and value.strip().lower().endswith(data_file.ENDINGS):
@@ -57,14 +57,14 @@ class Rows(Input):
             raise
 
     def _read(self, given: Mapping[str, list[Any]]) -> Any:
-        return {c.name: np.array([_of_row(c, k).read(x) for k, x in enumerate(given[c.name])]) for c in self.columns}
+        return {c.name: c.array(_of_row(c, k).read(x) for k, x in enumerate(given[c.name])) for c in self.columns}
 
     def of_file(self, path: Path) -> Any:
         """Columns of a file, by their names in it."""
         beside = Path(self.folder) / path
         short = {c.name.rpartition(".")[2]: c for c in self.columns}
         file = data_file.columns(path if path.is_file() else beside, short)
-        found = dict[str, NDArray[np.float64]]()
+        found = dict[str, NDArray[Any]]()
         for name, column in short.items():
             for k, cell in enumerate(file.cells[name]):
                 try:
@@ -73,7 +73,9 @@ class Rows(Input):
                     place = f"file {file.path}, row {file.rows[k]}, column {name}"
                     remedy = ": fill it or leave out the row" * (str(cell).strip().lower() in data_file.MISSING)
                     raise SheetError(f"{place}: {error}{remedy}", self.name) from None
-            found[column.name] = xs = np.array([column.read(cell) for cell in file.cells[name]])
+            found[column.name] = xs = column.array(map(column.read, file.cells[name]))
+            if column.is_text:
+                continue
             own = tuple(limit for limit in column.limits if not re.match(r"[^\W\d]", limit[1]))
             for holds, refusal in limits.rules([replace(column, limits=own)], {column.name: xs}):
                 for k in np.flatnonzero(~np.broadcast_to(holds, xs.shape))[:1]:
@@ -83,29 +85,30 @@ class Rows(Input):
     def si(self, value: Any, default: Any) -> Any:
         return self.held(self._si(value, default))
 
-    def _si(self, value: Any, default: Any) -> dict[str, NDArray[np.float64]]:
-        found = dict[str, NDArray[np.float64]]()
-        for name, (column, own) in self.leaves(default).items():
-            known = {column.display(float(x)): float(x) for x in own}
-            found[name] = np.array([known[x] if x in known else column.si(x, np.nan) for x in value[name].tolist()])
+    def _si(self, value: Any, default: Any) -> dict[str, NDArray[Any]]:
+        found = dict[str, NDArray[Any]]()
+        for name, (column, own) in self.held_by(default).items():
+            known = {column.display(x): x for x in own.tolist()}
+            found[name] = column.array(known[x] if x in known else column.si(x, np.nan) for x in value[name].tolist())
         return found
 
     def written(self, value: Any, default: Any) -> Any:
         shown = self.display(value)
         read = self._si(shown, default)
         return {
-            name: np.array(
-                [s if r == x else c.written(x, np.nan) for s, r, x in zip(shown[name], read[name], xs, strict=True)]
+            name: c.array(
+                s if r == x else c.written(x, np.nan) for s, r, x in zip(shown[name], read[name], xs, strict=True)
             )
-            for name, (c, xs) in self.leaves(value).items()
+            for name, (c, xs) in self.held_by(value).items()
         }
 
     def text(self, value: Any) -> str:
-        columns = [[c.text(float(x)) for x in xs] for c, xs in self.leaves(value).values()]
-        return ("; " if self.row is None else "\n").join(map("; ".join, zip(*columns, strict=True)))
+        columns = [map(c.text, xs.tolist()) for c, xs in self.held_by(value).values()]
+        rows = ("; ".join(row) or ";" for row in zip(*columns, strict=True))  # a row of one empty text is one too
+        return ("; " if self.row is None else "\n").join(rows)
 
     def brief(self, value: Any) -> str:
-        columns = [[c.brief(float(x)) for x in xs] for c, xs in self.leaves(value).values()]
+        columns = [map(c.brief, xs.tolist()) for c, xs in self.held_by(value).values()]
         rows = list(map("; ".join, zip(*columns, strict=True)))
         count = f" ({len(rows)} rows)" if len(rows) > _BRIEF else ""
         shown = [*rows[:3], "..", rows[-1]] if count else rows
@@ -121,7 +124,7 @@ class Rows(Input):
 
     def first(self, value: Any) -> Any:
         if isinstance(value, data_file.DataFile):
-            none = self.held({column.name: np.empty(0) for column in self.columns})
+            none = self.held({column.name: column.array(()) for column in self.columns})
             return self.si(self.of_file(Path(self.folder) / value.name), none)
         return self.taken(value)
 
@@ -138,7 +141,13 @@ class Rows(Input):
         if not isinstance(value, list | tuple) or not all(hasattr(row, n) for row in value for n in own.values()):
             must = f"must be a list of rows such as {self.row.__name__}({', '.join(own.values())})"
             raise SheetError(f"{self.name} = {errors.as_given(value)} {must}", self.name)
-        return self.held({full: self._numbers([getattr(row, name) for row in value]) for full, name in own.items()})
+        given = {column: [getattr(row, own[column.name]) for row in value] for column in self.columns}
+        return self.held({c.name: self._texts(c, xs) if c.is_text else self._numbers(xs) for c, xs in given.items()})
+
+    def _texts(self, column: Input, given: Sequence[Any]) -> NDArray[Any]:
+        """An array of its own of the texts of a column."""
+        self._counted(len(given))
+        return _fixed(column.array(_of_row(column, k).read(x) for k, x in enumerate(given)))
 
     def _numbers(self, value: Any) -> NDArray[np.float64]:
         """An array of its own of a list of numbers."""
@@ -157,6 +166,13 @@ class Rows(Input):
             raise SheetError(f"{self.meaning} {self.name} {must}, not {count}", self.name)
 
     def leaves(self, value: Any) -> dict[str, tuple[Input, Any]]:
+        return {name: (c, np.zeros(len(xs)) if c.is_text else xs) for name, (c, xs) in self.held_by(value).items()}
+
+    def texts(self, value: Any) -> tuple[str, ...]:
+        return tuple(text for column, xs in self.held_by(value).values() if column.is_text for text in xs)
+
+    def held_by(self, value: Any) -> dict[str, tuple[Input, NDArray[Any]]]:
+        """The columns of a value by name, each with its declaration: of numbers and of texts."""
         if self.row is None:
             return {self.name: (self.columns[0], value)}
         return {c.name: (c, getattr(value, c.name.rpartition(".")[2])) for c in self.columns}
@@ -178,7 +194,7 @@ class Rows(Input):
         return table
 
     def same(self, a: Any, b: Any) -> bool:
-        pairs = zip(self.leaves(a).values(), self.leaves(b).values(), strict=True)
+        pairs = zip(self.held_by(a).values(), self.held_by(b).values(), strict=True)
         return all(np.array_equal(x, y) for (_, x), (_, y) in pairs)
 
     def _columns(self, value: Any) -> dict[str, list[Any]]:
@@ -221,7 +237,7 @@ class Rows(Input):
             raise SheetError(f"{self.meaning} {at} must have the columns {names}; it has {errors.cut(has)}", at)
 
     def _form(self) -> str:
-        return 'a list such as "1; 2,5; 3"' if self.row is None else "rows of numbers, or columns by name"
+        return 'a list such as "1; 2,5; 3"' if self.row is None else "rows, or columns by name"
 
 
 def _cells(text: str, width: int) -> list[list[str]]:
@@ -235,7 +251,7 @@ def _of_row(column: Input, k: int) -> Input:
     return replace(column, name=f"{column.name} ({k + 1})")
 
 
-def _fixed(array: NDArray[np.float64]) -> NDArray[np.float64]:
+def _fixed(array: NDArray[Any]) -> NDArray[Any]:
     array.flags.writeable = False
     return array
 
@@ -254,7 +270,7 @@ class Whole:
 
     def __getitem__(self, key: Any) -> Any:
         parts = {name: column[key] for name, column in vars(self).items()}
-        alone = not any(part.ndim for part in parts.values())
+        alone = not any(getattr(part, "ndim", 0) for part in parts.values())  # a text has none
         found: Any = object.__new__(self.__row__ if alone else type(self))
         for name, part in parts.items():
             object.__setattr__(found, name, part)
@@ -265,8 +281,9 @@ class Whole:
 
 
 def first_column(table: Whole) -> Any:
-    """The first column of a table."""
-    return next(iter(vars(table).values()))
+    """The first column of a table, of numbers where it has some."""
+    columns = list(vars(table).values())
+    return next((column for column in columns if column.dtype != object), columns[0])
 
 
 @cache

@@ -181,11 +181,11 @@ def table(
 ) -> Table:
     """Table of the given quantities: symbols, units and meanings are read from the lines that define them.
 
-    An argument is a name, an input such as ``g.F`` or ``g.bolts.x``, ``P23_S.real`` or ``.imag`` (columns X23, Y23 of
-    a point, R56x, R56y of a force) or ``abs(R56)`` (column R56). Quantities over several axes are listed with the last
-    one running fastest. ``show`` gives another display unit for some columns, by heading or as the argument is
-    written. ``note`` stands below the table. ``decimals`` are printed in all columns, by default as many as the unit
-    asks for; whole numbers have none. ``every`` lists only every so many positions, from the first.
+    An argument is a name, an input such as ``g.F``, ``g.bolts.x`` or, of texts, ``g.bolts.name``, ``P23_S.real`` or
+    ``.imag`` (columns X23, Y23 of a point, R56x, R56y of a force) or ``abs(R56)`` (column R56). Quantities over several
+    axes are listed with the last one running fastest. ``show`` gives another display unit for some columns, by heading
+    or as the argument is written. ``note`` stands below the table. ``decimals`` are printed in all columns, by default
+    as many as the unit asks for; whole numbers have none. ``every`` lists only every so many positions, from the first.
     """
     _named("table", number, title, every)
     if not (decimals is None or (isinstance(decimals, int | np.integer) and decimals >= 0)):
@@ -242,7 +242,8 @@ def _columns(
     for node, value, row in zip(nodes, values, rows, strict=True):
         given = _input(frame.f_globals, node)
         name, part = (_of_table(node), "") if given else _name(node)
-        if (kind := np.asarray(value).dtype.kind) not in "iufb":
+        is_label = bool(given and given.is_text and np.ndim(value)) and of.startswith("table")
+        if (kind := np.asarray(value).dtype.kind) not in "iufb" and not is_label:
             why = (
                 f"a point or a force: take {name}.real and {name}.imag, or abs({name})" if kind == "c" else "no number"
             )
@@ -265,6 +266,9 @@ def _columns(
         own, names = "" if given else symbol.stem(name), (label, ast.unparse(node), *([] if part else [name]))
         called |= dict.fromkeys(names, label)
         unit = next((_shown_in(of, label, line.unit, show[n]) for n in names if n in show), line.unit)
+        if is_label:
+            columns.append(Column(label, "", line.meaning, 0, row))
+            continue
         shown = row / units.parse(unit).factor
         usual = decimals is None and kind == "f"
         places = 0 if kind in "iu" else usual_decimals(unit) if decimals is None else decimals
