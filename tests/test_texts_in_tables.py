@@ -271,6 +271,17 @@ def test_no_number_rests_on_the_text_of_other_inputs(line: str, draws: bool, tmp
         np.testing.assert_allclose(found, by_cells(path, ["y"], **given)["y"], rtol=1e-12, err_msg=str(given))
 
 
+@pytest.mark.parametrize("line", [HELD[0], HELD[2]])
+def test_what_is_asked_for_again_is_of_the_text_that_is_given(line: str, tmp_path: Path) -> None:
+    """What `evaluate` has recorded for other texts is not what is computed."""
+    given = 'note: str = "one"  # note\n' + GIVEN
+    path = tmp_path / "again.py"
+    path.write_text(written(SETUP, given, f"y = {line}  # [-] result\nz = len(g.note) * g.W  # [-] result"))
+    for asked in [*OTHERS[:5], {"note": "fourteen"}] * 3:
+        found, known = evaluate(path, ["y", "z"], **asked), by_cells(path, ["y", "z"], **asked)
+        assert found == known, asked
+
+
 def test_studies_leave_texts_as_they_are(cases: Path) -> None:
     many = sweep(cases, ["sigma"], {"cases": ["a; 12; 80 | b; 8; 150", "c; 6; 80 | d; 4; 150", "e|f; 1; 2"]})
     np.testing.assert_allclose(many["sigma"][0], 2 * many["sigma"][1], rtol=1e-14)

@@ -79,6 +79,7 @@ def _ways(g: Any) -> tuple[Any, ...]:
     ways: list[Any] = [type(g)]
     for field in inputs.declared(type(g)):
         if not field.continuous:
+            ways += field.texts(getattr(g, field.name))
             for _, held in field.leaves(getattr(g, field.name)).values():
                 ways.append(held if isinstance(held, int | str) else np.shape(held))
     return tuple(ways)
