@@ -55,7 +55,9 @@ def section_1():
     (names to choose from), `one_of(GRADES, "8.8")` (options with properties, `g.bolt.R_m`), `list[float]` (load
     cases), a list of rows of another class (a table, whose column is `g.bolts.x`, and whose rows are gone through by
     `for bolt in g.bolts`), or either from a file beside the worksheet, `from_file("gas.csv")`; both are grids, into
-    which the cells of a spreadsheet are pasted. Unit names are constants: `640 * MPa`, `3 * inch`.
+    which the cells of a spreadsheet are pasted. Rows and options may have texts, `name: str`: they are labels, in a
+    sentence or the name of a check `bolt.name`, as a column of a table `g.bolts.name`. Unit names are constants:
+    `640 * MPa`, `3 * inch`.
     """)
     return
 
