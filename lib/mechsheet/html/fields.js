@@ -90,7 +90,7 @@ const LONGEST = 200; // characters of a text
 // A text in one line, which has none of the signs that stand between the cells of a table.
 function readText(column, cell) {
   const text = cell.replace(/\s+/g, " ").trim();
-  if ([...text].length > LONGEST) refuse(column, `'${text.slice(0, 60)}'..`, `must be a line of at most ${LONGEST} characters`);
+  if ([...text].length > LONGEST || /\p{C}/u.test(text)) refuse(column, `'${text.slice(0, 60)}'..`, `must be a line of at most ${LONGEST} characters`);
   if (/[;|]/.test(text)) refuse(column, `'${text.slice(0, 60)}'`, "must be a text without ; and |");
   return text;
 }

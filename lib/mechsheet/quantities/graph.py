@@ -26,6 +26,7 @@ _GIVEN = frozenset(("constant", "input", "exported"))  # of which no number is c
 MOST = 1_000_000  # numbers that one statement may compute, many of them each a cell of a workbook
 _NODES = 50_000  # operations that it may have, of however few numbers: they take time in Python
 _SET = "an array whose elements are set one by one is a new one each time, a list that is appended to is not"
+_ANOTHER = "it reads a text that is another one for these inputs"
 MOST_DRAWN = 2_000_000  # the same where no cell holds them: in a page in one file, or a function of the inputs
 
 
@@ -146,6 +147,11 @@ class Graph(Lengths):
         """Note that Python looks at the shape of a quantity."""
         for axis in range(-len(node.shape), 0) if node.stretches else ():
             self.see(self.same(self.length(node, axis)))
+
+    def read(self, text: Node) -> None:
+        """Note that Python reads a text, or several, of which numbers tell whether they are others."""
+        self.measure(text)
+        self.see(self.same(text), why=_ANOTHER if self.draws else "")  # cells are made for all that is seen
 
     def own_length(self, node: Node, axis: int) -> Node:
         return self._kept(("length", node, axis), "length", (node, axis), lambda: np.array(node.shape[axis]), False)

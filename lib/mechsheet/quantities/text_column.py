@@ -51,7 +51,7 @@ class Texts:
     def seen(self) -> NDArray[Any]:
         """The texts for Python to look at; a guard tells while they are the same."""
         rows = self.at.seen()
-        self.same.seen()
+        self.at.graph.read(self.same.re)
         return np.array([self._texts[k] for k in rows], object)
 
     def __repr__(self) -> str:

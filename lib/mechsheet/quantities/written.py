@@ -49,7 +49,7 @@ class OneOf(NamedTuple):
     def seen(self) -> str:
         self.at.seen()
         if self.column is not None:
-            self.column[self.at].seen()
+            self.at.graph.read(self.column[self.at].re)
         return self.now
 
 

@@ -62,7 +62,7 @@ def _texts(graph: Graph, table: Rows, value: Any, leaves: Mapping[str, Node]) ->
 
 def _read(graph: Graph, node: Node, text: str) -> property:
     def read(_: Any) -> str:
-        graph.see(graph.same(node))
+        graph.read(node)
         return text
 
     return property(read)

@@ -146,7 +146,7 @@ def _words(column: GridColumn) -> tuple[str, str]:
 def _characters(column: GridColumn) -> int:
     """Characters of a column's width."""
     texts = (x if isinstance(x, str) else numbers.significant(x, 15) for x in column.values)
-    return max(_WIDTH, len(column.symbol), *map(len, texts))
+    return max(_WIDTH, len(column.symbol), *(min(len(text), looks.WIDEST) for text in texts))
 
 
 def _heads(book: Book, sheet: Any, spot: _Spot) -> None:
