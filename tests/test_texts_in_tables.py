@@ -219,6 +219,8 @@ FOLLOWED = [  # of which no text is looked at
     "len(g.cases.name) * g.W",
     "2.0 if g.steel.standard == 'EN 1' else g.W",
     "g.W if g.steel.standard != 'EN 1' else 2.0",
+    "{'EN 1': 2.0, 'DIN': 3.0}[g.steel.standard]",
+    "{'EN 1': 2.0}.get(g.steel.standard, 3.0) * g.W",
 ]
 HELD = [
     "g.cases.F[g.cases.name == 'braking'].sum()",
@@ -241,7 +243,6 @@ HELD = [
     "isinstance(g.cases[0].name, str) * g.W",
     "next((c for c in g.cases if c.name == 'cornering'), g.cases[0]).F",
     "len(g.steel.standard) * g.W",
-    "{'EN 1': 2.0, 'DIN': 3.0}[g.steel.standard]",
 ]
 OTHERS: list[dict[str, Any]] = [
     {},

@@ -21,7 +21,7 @@ from mechsheet.quantities.quantity import Quantity, has_quantity, is_any_length,
 from mechsheet.quantities.selected import Selected
 from mechsheet.quantities.sketch import Sketch
 from mechsheet.quantities.sketch import merged as merged_sketch
-from mechsheet.quantities.written import Either, Written, either, joined, text
+from mechsheet.quantities.written import Either, OneOf, Written, either, joined, text
 from mechsheet.recording.memory import Memory, may_change, names_of
 from mechsheet.worksheet.drawing import COLOURS
 from mechsheet.worksheet.kinds import Chosen, cases
@@ -214,8 +214,8 @@ def matched(value: Any) -> Any:
 
 def element(container: Any, key: Any) -> Any:
     """``container[key]``: where the key is a quantity, the one of several numbers that it points at."""
-    if isinstance(key, Chosen) and isinstance(container, dict):
-        return _of_option(container, key, cases(key))
+    if isinstance(container, dict) and (is_it := _each(key)):
+        return _of_option(container, key, is_it)
     if isinstance(key, Written) and isinstance(container, dict):
         return _of_text(container, key)
     if isinstance(key, tuple) and isinstance(container, np.ndarray) and has_quantity(key):
@@ -269,9 +269,8 @@ def _at_key(values: dict[Any, Any], key: Quantity, otherwise: Any) -> Any:
 
 
 def got(container: Any, key: Any, *otherwise: Any) -> Any:
-    """``container.get(key, otherwise)``, where the key may be a quantity or a chosen option."""
-    if isinstance(container, dict) and isinstance(key, Chosen):
-        is_it = cases(key)
+    """``container.get(key, otherwise)``, where the key may be a quantity, a chosen option or a text of it."""
+    if isinstance(container, dict) and (is_it := _each(key)):
         return _of_option({option: container.get(option, *otherwise) for option in is_it}, key, is_it)
     known = isinstance(container, dict) and isinstance(key, Quantity) and key.single and otherwise
     if known and all(isinstance(v, _NUMBERS) for v in (*container, *container.values(), *otherwise)):
@@ -279,7 +278,17 @@ def got(container: Any, key: Any, *otherwise: Any) -> Any:
     return container.get(key.seen().item() if isinstance(key, Quantity) else key, *otherwise)
 
 
-def _of_option(container: dict[Any, Any], key: Chosen, is_it: dict[str, Any]) -> Any:
+def _each(key: Any) -> dict[str, Any]:
+    """Whether each option is the chosen one, or has its text, by that name; none of any other key."""
+    match key:
+        case Chosen():
+            return cases(key)
+        case Written((OneOf(_, texts, None),)):
+            return {text: key == text for text in dict.fromkeys(texts)}
+    return {}
+
+
+def _of_option(container: dict[Any, Any], key: Any, is_it: dict[str, Any]) -> Any:
     """``container[key]`` of a chosen option: numbers, rows of them and functions of all options, else what is now."""
     rows = {option: container[option] for option in is_it if option in container}
     if any(condition.value and option not in rows for option, condition in is_it.items()):
