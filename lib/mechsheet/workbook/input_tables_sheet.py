@@ -126,7 +126,7 @@ def write(book: Book, grids: Sequence[Grid], others: Mapping[str, str], formulas
         sheet.set_row_pixels(row, looks.ROW + max(count - 1, 0) * (looks.ROW - 5))
     sheet.set_row_pixels(2, looks.ROW * 2)
     by_symbol = {spot.column.symbol: spot for spot in spots}
-    counted = {column.symbol: by_symbol[_counted(grid).symbol] for grid in grids for column in grid.columns}
+    counted = {column.symbol: by_symbol[_counted(column, grid).symbol] for grid in grids for column in grid.columns}
     for spot in spots:
         _heads(book, sheet, spot)
         _column(book, sheet, spot, formulas)
@@ -134,9 +134,9 @@ def write(book: Book, grids: Sequence[Grid], others: Mapping[str, str], formulas
             _held(book, sheet, spot, by_symbol, counted[spot.column.symbol], others, formulas)
 
 
-def _counted(grid: Grid) -> GridColumn:
-    """The column by which the rows of a table are counted: of numbers where it has some, for a text may be empty."""
-    return next((column for column in grid.columns if not column.is_text), grid.columns[0])
+def _counted(column: GridColumn, grid: Grid) -> GridColumn:
+    """The column by which rows are counted: itself, of texts, which may be empty, one of numbers where there is one."""
+    return next((each for each in grid.columns if not each.is_text), column) if column.is_text else column
 
 
 def _words(column: GridColumn) -> tuple[str, str]:
