@@ -410,6 +410,10 @@ def test_the_grid_of_a_page_takes_texts(serve: Any, page: Page, cases: Path, con
     name.fill("x" * 201)
     name.press("Enter")
     page.get_by_text("must be a line of at most 200 characters").first.wait_for()
+    name.fill("a; b")
+    name.press("Enter")
+    page.get_by_text("must have the columns name, F, arm").first.wait_for()
+    assert page.get_by_label("F [kN], row 2").input_value() == "1", "and nothing is lost"
     name.fill("2")
     name.press("Enter")
     page.get_by_text("all braking, 2;").wait_for()

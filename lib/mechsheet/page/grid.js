@@ -19,7 +19,7 @@
     constructor() {
       super();
       this.addEventListener("input", () => this.number());
-      this.addEventListener("change", ({ target }) => this.fill(target, target.value));
+      this.addEventListener("change", ({ target }) => this.changed(target));
       this.addEventListener("paste", (event) => this.pasted(event));
       this.addEventListener("keydown", (event) => this.pressed(event));
       this.addEventListener("click", ({ target }) => target.matches("button") && this.away(target.closest("tr")));
@@ -94,6 +94,12 @@
       Object.getOwnPropertyDescriptor(HTMLTextAreaElement.prototype, "value").set.call(this.area, text);
       this.area.dispatchEvent(new InputEvent("input", { bubbles: true }));
       this.area.dispatchEvent(new FocusEvent("focusout", { bubbles: true }));
+    }
+
+    // What is typed may be several numbers; a text is one, and is refused where it has a sign that stands between cells.
+    changed(input) {
+      if (input.matches(".ms-text")) this.send();
+      else this.fill(input, input.value);
     }
 
     // Rows and columns from a cell on; what is more than the columns hold stays in the last, and is refused there.
