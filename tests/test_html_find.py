@@ -70,6 +70,11 @@ ONE = {
     "neither branch": "lambda t, s: s * np.sqrt(t - 0.5 * g.a), 0, 2, equals=30, branches=(1, -1), branch=-1",
     "array": "lambda t: t**3 + g.a * t, 0, 9, equals=x",
     "array with gaps": "lambda t: np.sin(t) * g.a, 0, 1.5, equals=x - 1",
+    # In space, the square of a distance: the number of problems is that of what is summed over its last axis.
+    "array of vectors": (
+        "lambda t: ((np.asarray(t)[..., None] * np.array([g.a, 1.0, 0.5]) - x[:, None] * [0.1, 0.2, 0.1])**2)"
+        ".sum(axis=-1), 0, 9, equals=g.F"
+    ),
 }
 ROUGH = {
     "no solution": 1e-6,

@@ -71,6 +71,11 @@ class Lengths(ABC):
             parts = [(node.args[0] if node.op == "state" else node.args[2], axis)]
         elif node.op == "found":
             parts = [(part, axis) for part in node.args[0].residuals if part.shape == node.shape]
+        elif node.op == "reduce":
+            shown = node.args[3].shows(axis, len(node.args[0].shape))
+            if shown is None:
+                return self.constant(node.shape[axis])
+            parts = [(node.args[0], shown)]
         elif node.op == "join":
             sources, joined = node.args[0], node.args[3].along(len(node.shape))
             if joined is not None and joined[0] != axis:

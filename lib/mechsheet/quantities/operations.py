@@ -107,6 +107,17 @@ class Along(NamedTuple):
     keepdims: bool = False
     so_far: bool = False
 
+    def shows(self, axis: int, axes: int) -> int | None:
+        """Which of so many axes an axis of the result shows, both counted from the last one; None where none."""
+        if self.so_far:
+            return axis
+        if self.axis is None:
+            return None
+        reduced = self.axis - axes
+        if self.keepdims:
+            return axis if axis != reduced else None
+        return axis if axis > reduced else axis - 1
+
 
 def _every(moved: Moved, axes: int) -> tuple[Any, ...] | None:
     """The numbers, slices and new axes of an index, for every axis; None where it is not of these alone."""
