@@ -39,6 +39,8 @@ FOLLOWED = [
     "np.linalg.det(np.array([[g.F, 1.0, 2], [g.a, 3.0, 1], [4, 5, g.F]]))",
     "np.linalg.inv(np.array([[g.F, 1.0], [g.a, 3.0]]))", "np.linalg.norm(x)",
     "np.array([[g.F, 1.0], [g.a, 3.0]]) @ np.array([1.0, g.F])", "np.outer(x, x)", "x @ x", "np.dot(x, x)",
+    "((g.F + 1j * x).conjugate() * (x + 1j)).conj()", "np.array([[g.F, 1.0], [g.a, 3.0]]).flatten('F')",
+    "x.take([0, 2])",
     "np.where(x > g.F, x, g.a)", "np.select([x > 3 * g.a, x > g.a], [x, g.F], 0.0)",
     "np.piecewise(x, [x < g.F, x >= g.F], [lambda v: v**2, lambda v: 2 * v])",
     "np.clip(x, g.a, g.F)", "np.round(x, 2)", "np.floor(x)", "np.ceil(x)", "np.trunc(-x)", "x // g.a", "x % g.a",

@@ -25,9 +25,9 @@ UFUNCS: dict[Any, Callable[..., "Quantity"]] = {}  # of quantities
 FUNCTIONS: dict[Any, Callable[..., Any]] = {}  # of the graph and whatever numpy's function takes
 REDUCTIONS: dict[Any, str] = {}  # kinds that the reduce and accumulate of a ufunc stand for
 METHODS = frozenset({
-    "all", "any", "argmax", "argmin", "argsort", "clip", "conj", "conjugate", "copy", "cumprod", "cumsum", "diagonal",
-    "dot", "max", "mean", "min", "nonzero", "prod", "ptp", "ravel", "repeat", "round", "sort", "squeeze", "std", "sum",
-    "swapaxes", "trace", "transpose", "var",
+    "all", "any", "argmax", "argmin", "argsort", "clip", "copy", "cumprod", "cumsum", "diagonal", "dot",
+    "max", "mean", "min", "nonzero", "prod", "ptp", "ravel", "repeat", "round", "searchsorted", "sort", "squeeze",
+    "std", "sum", "swapaxes", "take", "trace", "transpose", "var",
 })  # fmt: skip
 
 
@@ -253,6 +253,15 @@ class Quantity(NDArrayOperatorsMixin):
     def T(self) -> "Quantity":
         """Transposed."""
         return self.rearranged(np.transpose)
+
+    def conjugate(self) -> "Quantity":
+        conjugated: Quantity = UFUNCS[np.conjugate](self)
+        return conjugated
+
+    conj = conjugate
+
+    def flatten(self, *order: Any) -> "Quantity":
+        return self.rearranged(np.ravel, *order).__copy__()
 
     def astype(self, kind: Any, **_: Any) -> "Quantity":
         if (dtype := np.dtype(kind)).kind in "fc" and np.finfo(dtype).precision < 15:
