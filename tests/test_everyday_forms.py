@@ -119,6 +119,23 @@ SEARCHED = [
     ),
     "v = g.F\nif v > 3:\n    v = 3.0\n    kind = 'much'\nelse:\n    kind = 'some'\ny = v * 2",
 ]
+BEARINGS = "T = {'6205': (4, 14.0), '6206': (6, 19.5), '6207': (8, 25.5), '6208': (13, 30.7)}\n"
+WALKED = [  # tables gone through until a row fits, which a dict, zip and enumerate give as a list does
+    BEARINGS + "for name, (d, C) in T.items():\n    if d > 2 * g.F and C > 9 * g.a:\n        break\ny = C * g.a",
+    (
+        BEARINGS + "name = '-'\nfor key, (d, C) in T.items():\n    if d > 3 * g.F:\n        name = key\n        break\n"
+        "y = T[name][1] * g.a if name in T else 0.0"
+    ),
+    BEARINGS + "for name in T:\n    if T[name][0] > 2 * g.F:\n        break\ny = T[name][1] if name != '6207' else g.a",
+    (
+        BEARINGS + "def bearing(d):\n    for name, (bore, C) in T.items():\n        if bore > d:\n"
+        "            return name, C\n    return '-', 0.0\nname, C = bearing(3 * g.F)\ny = C * g.a"
+    ),
+    "C = 0\nfor d, c in {1: 2.0, 2: 3.0, 3: 7.0}.items():\n    if d > g.F:\n        C = c\n        break\ny = C * g.a",
+    "for i, d in enumerate([1, 2, 3, 5, 8]):\n    if d > g.F:\n        break\ny = d * g.a + i",
+    "for d, P in zip([1, 2, 3, 5], [1.0, g.a, 2.0, 2.5], strict=True):\n    if d > g.F:\n        break\ny = d * P",
+    "y = g.a if g.k in (1, 2) else g.F if g.k not in {0: 1, 3: 2} else 7.0",
+]
 SELECTED = [
     "y = x[x > 0.6 * g.F].min() * len(x[x > g.F])",
     "y = np.max(x[x < g.F]) + max(x[x < g.F]) + sum(x[x < g.F])",
@@ -155,12 +172,13 @@ GUARDED = [  # where other inputs change what there is
     "y = np.cumsum(x[x > g.F])[-1]",
     "y = np.zeros(len(x[x > g.F])) + x[x > g.F] + g.a",
     "y = x[x > g.F][1:].sum() + g.a",
+    "T = zip([1, 2, 3, 5, 8], 'abcde')\nfor d, _ in T:\n    if d > g.F:\n        break\ny = next(T)[0] * g.a",
     "row = {'R': g.F, 'n': 'x'} if g.F > 3 else {'R': 2.0, 'n': 'yy'}\ny = row['R'] * len(row['n'])",
 ]
 
 
 @pytest.mark.filterwarnings("ignore")
-@pytest.mark.parametrize("lines", [*KEPT, *CHOSEN, *SET, *SEARCHED, *SELECTED, *GUARDED])
+@pytest.mark.parametrize("lines", [*KEPT, *CHOSEN, *SET, *SEARCHED, *WALKED, *SELECTED, *GUARDED])
 def test_an_everyday_form_is_followed(lines: str, tmp_path: Path) -> None:
     sheet = own(tmp_path, f"{lines}\nresult = np.atleast_1d(y) * 1  # [-] line")
     _, recording = recorded(sheet)

@@ -38,6 +38,7 @@ FOLLOWED += [
         "from dataclasses import dataclass\n@dataclass(frozen=True)\nclass Bolt:\n    name: str\n    d: float\n"
         "B = [Bolt('M6', 6.0), Bolt('M10', 10.0)]\nb = next(b for b in B if b.d > 2 * g.F)\ny = b.d * g.a"
     ),
+    "name, d, P = next(r for r in T if r[1] > 2 * g.F)\ny = d * (2 if name == 'M6' else 1)",
     "n = next(n for n, d, P in T if 2 * g.F < d < 12)\ny = {n: P for n, d, P in T}[n] * g.a",
 ]
 WITH_A_CONDITION = [  # that there is such a row
@@ -52,7 +53,6 @@ WITH_A_CONDITION = [  # that there is such a row
     "y = {2: ('a', 3.0), 3: ('b', g.F)}[g.k][1] * g.a",
 ]
 HELD = [
-    "name, d, P = next(r for r in T if r[1] > 2 * g.F)\ny = d * (2 if name == 'M6' else 1)",
     "name, d, P = next(r for r in T if r[1] > 2 * g.F)\ny = d * len(f'{name} x')",
     "name, d, P = next(r for r in T if r[1] > 2 * g.F)\ny = d * float(name.removeprefix('M'))",
     "name, d, P = next(r for r in T if r[1] > 2 * g.F)\ny = d * isinstance(name, str)",

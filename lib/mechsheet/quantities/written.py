@@ -7,6 +7,7 @@ from functools import reduce
 from operator import or_
 from typing import Any, NamedTuple
 
+from mechsheet.quantities.arithmetic import choice
 from mechsheet.quantities.graph import Guard, current
 from mechsheet.quantities.quantity import Quantity
 from mechsheet.worksheet.kinds import Chosen, place
@@ -87,14 +88,26 @@ class Written:
         return any(part and isinstance(part, str | Number) for part in self.parts) or bool(str(self))
 
     def __eq__(self, other: object) -> Any:
-        match self.parts:
-            case (OneOf(at, texts, None),) if isinstance(other, str):
-                return reduce(or_, (at == k for k, text in enumerate(texts) if text == other), at != at)
-        return str(self) == (str(other) if isinstance(other, Written) else other)
+        same = self._is(other) if isinstance(other, str) else None
+        return str(self) == (str(other) if isinstance(other, Written) else other) if same is None else same
 
     def __ne__(self, other: object) -> Any:
         same = self == other
-        return not same if isinstance(same, bool) else ~same
+        return not same if isinstance(same, bool) else same == 0
+
+    def _is(self, text: str) -> Any:
+        """Whether it is a text, as a condition; None where it has numbers in it."""
+        match self.parts:
+            case () | (str(),):
+                return self.now == text
+            case (OneOf(at, texts, None),):
+                return reduce(or_, (at == k for k, each in enumerate(texts) if each == text), at != at)
+            case (Either(holds, then, otherwise),):
+                ways = then._is(text), otherwise._is(text)
+                if any(way is None for way in ways) or ways[0] is ways[1]:
+                    return None if ways[1] is None else ways[0]
+                return choice(holds.graph, holds, *ways)
+        return None
 
     def __hash__(self) -> int:
         return hash(str(self))

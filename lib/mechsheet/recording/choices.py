@@ -85,7 +85,7 @@ def merged(condition: Quantity, x: Any, y: Any) -> Any:
     """``x`` where the condition holds, else ``y``; None where these are not of one kind."""
     if x is y:
         return x
-    if (x if condition.value else y) is UNBOUND:
+    if (x if condition.value else y) is UNBOUND and not condition.graph.supposed:
         return UNBOUND
     x, y = _bound(x, y), _bound(y, x)
     if type(x) is type(y) and isinstance(x, tuple | list) and len(x) == len(y):
@@ -205,6 +205,17 @@ def negated(value: Any) -> Any:
     )
 
 
+def member(value: Any, several: Any) -> Any:
+    """``value in several``: of a number, an option or a text that may be another one, the condition."""
+    single = isinstance(value, Written | Chosen) or (isinstance(value, Quantity) and value.single)
+    if not single or not isinstance(several, dict | list | tuple | set | frozenset):
+        return value in several
+    same = [value == each for each in several if isinstance(each, str | _NUMBERS | Chosen)]
+    if not all(isinstance(each, bool | np.bool_) or is_condition(each) for each in same):
+        return value in several
+    return reduce(operator.or_, same, False)
+
+
 def matched(value: Any) -> Any:
     """A value that is compared with True and False themselves, which no quantity is."""
     if isinstance(value, tuple | list) and has_quantity(value):
@@ -217,7 +228,9 @@ def element(container: Any, key: Any) -> Any:
     if isinstance(container, dict) and (is_it := _each(key)):
         return _of_option(container, key, is_it)
     if isinstance(key, Written) and isinstance(container, dict):
-        return _of_text(container, key)
+        if key.now not in container:
+            raise KeyError(key.now)
+        return _supposed(_of_text, container, key)
     if isinstance(key, tuple) and isinstance(container, np.ndarray) and has_quantity(key):
         return lift(current.get(), container)[key]
     if not isinstance(key, Quantity) or isinstance(container, Quantity | Whole):
@@ -252,13 +265,23 @@ def _row_at(values: dict[Any, Any], key: Quantity) -> Any:
     return None
 
 
+def _supposed(f: Callable[..., Any], *given: Any) -> Any:
+    """What a function makes of ways that Python does not take: what these alone have is kept."""
+    graph = current.get()
+    graph.supposed += 1
+    try:
+        return f(*given)
+    finally:
+        graph.supposed -= 1
+
+
 def _of_text(container: dict[Any, Any], key: Written) -> Any:
     """``container[key]`` of a text that is one of several."""
     match key.parts:
         case (Either(holds, then, otherwise),):
             ways = (_of_text(container, way) if way.parts else UNBOUND for way in (then, otherwise))
             return _part_of(holds, *ways)
-    return container[str(key)]
+    return container.get(str(key), UNBOUND)
 
 
 def _at_key(values: dict[Any, Any], key: Quantity, otherwise: Any) -> Any:
@@ -407,7 +430,8 @@ def length(x: Any) -> Any:
 
 
 CALLS: dict[str, Any] = {
-    "choice": choice, "and": both, "or": any_of, "not": negated, "matched": matched, "element": element, "get": got,
+    "choice": choice, "and": both, "or": any_of, "not": negated, "matched": matched, "member": member,
+    "element": element, "get": got,
     "handled": handled, "tried": tried,
     "len": length,
     "unbound": UNBOUND, "text": text, "join": joined,

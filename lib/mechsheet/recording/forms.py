@@ -108,6 +108,24 @@ def as_choice(node: ast.Match) -> ast.If | None:
     return ast.fix_missing_locations(ast.copy_location(choice, node)) if isinstance(choice, ast.If) else None
 
 
+def gone_through(items: ast.expr) -> ast.expr:
+    """What a loop goes through, where it numbers or pairs other values as a list: any of its turns can be looked at."""
+    match items:
+        case ast.Call(ast.Name("enumerate" | "zip") as function, parts, keywords):
+            return ast.copy_location(ast.Call(call("all_of", items).func, [function, *parts], keywords), items)
+    return items
+
+
+def member(node: ast.Compare) -> ast.expr:
+    """Whether a value is one of several, as a call; any other comparison as it is."""
+    match node.ops[0]:
+        case ast.In():
+            return call("member", node, node.left, *node.comparators)
+        case ast.NotIn():
+            return call("not", node, call("member", node, node.left, *node.comparators))
+    return node
+
+
 OF_KEPT = {"next": "first", "min": "min", "max": "max", "sum": "sum", "len": "len"}
 
 

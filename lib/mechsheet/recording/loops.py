@@ -1,7 +1,7 @@
 """Loops that end by what they compute, for recorded quantities: readers repeat the turns for the inputs they have."""
 
 import operator
-from collections.abc import Mapping, Sequence
+from collections.abc import ItemsView, KeysView, Mapping, Sequence, Sized, ValuesView
 from functools import partial, reduce
 from itertools import repeat
 from types import FunctionType
@@ -23,6 +23,7 @@ def iterated(turn: FunctionType, items: Any, item: int | None, unread: str, *sta
     The name number ``item`` is the next one of the ``items``. What is None at first, and no turn looks at, as the
     numbers of the ``unread`` ones tell, is a number in the end, or the loop is none that readers repeat.
     """
+    items = list(items) if isinstance(items, Mapping | KeysView | ValuesView | ItemsView) else items
     none = [n for n in map(int, unread.split()) if state[n] is None]
     if none and not hasattr(items, "__next__"):
         graph = current.get()
@@ -72,6 +73,7 @@ def _one_by_one(
     """
     graph, state, ended = current.get(), first, lift(current.get(), False)
     now, work, graph.looked = graph.looked, graph.work, dict(looked)
+    graph.supposed += 1  # what a turn binds that is not the last one now
     try:
         for n, value in enumerate(items):
             ends, *after = turn(*state[:item], value, *state[item + 1 :])
@@ -82,6 +84,8 @@ def _one_by_one(
         followed = graph.looked.keys() == looked.keys()
     except (Exception, NotRecorded):
         followed = False
+    finally:
+        graph.supposed -= 1
     if followed:
         return state
     graph.looked, graph.work = now, work
@@ -198,4 +202,10 @@ def known(names: Mapping[str, Any], *wanted: str) -> list[Any]:
     return [names.get(name, UNBOUND) for name in wanted]
 
 
-CALLS: dict[str, Any] = {"known": known, "iterated": iterated}
+def all_of(function: Any, *parts: Any, **named: Any) -> Any:
+    """What ``enumerate`` or ``zip`` gives, as a list where it has an end and nothing else goes through its parts."""
+    items = function(*parts, **named)
+    return list(items) if function in (enumerate, zip) and all(isinstance(part, Sized) for part in parts) else items
+
+
+CALLS: dict[str, Any] = {"known": known, "iterated": iterated, "all_of": all_of}

@@ -19,8 +19,10 @@ from mechsheet.recording.forms import (
     SCOPED,
     as_choice,
     call,
+    gone_through,
     index,
     keeps,
+    member,
     of_kept,
     one_by_one,
     set_parts,
@@ -118,7 +120,7 @@ class _Rewriting(ast.NodeTransformer):
         if len(node.ops) == 1:
             if isinstance(node.ops[0], ast.Is | ast.IsNot):
                 node.left = call("matched", node, node.left)
-            return node
+            return member(node)
         sides = [node.left, *node.comparators]
         pairs = zip(sides, node.ops, sides[1:], strict=False)
         parts = [ast.copy_location(ast.Compare(a, [op], [b]), node) for a, op, b in pairs]
@@ -197,7 +199,7 @@ class _Rewriting(ast.NodeTransformer):
         if node.orelse and all(map(_only_binds_or_ends, node.body)):
             left = [*_found(node, node.orelse), _unbound_left(node)]
             return [line for one in map(self.visit, left) for line in (one if isinstance(one, list) else [one])]
-        return self._repeated(node, node.target.id, node.iter, node.body)
+        return self._repeated(node, node.target.id, gone_through(node.iter), node.body)
 
     def _repeated(self, node: ast.While | ast.For, item: str | None, items: ast.expr, body: list[ast.stmt]) -> Any:
         """A loop that may end by what it computes, and does nothing but give names values, as a function of a turn."""
@@ -255,14 +257,14 @@ def _only_binds(line: ast.stmt) -> bool:
         case ast.If(test, body, orelse):
             return not _is_of_the_whole(test) and all(map(_only_binds, [*body, *orelse]))
         case ast.Assign(targets, value):
-            targets = [t for target in targets for t in (target.elts if isinstance(target, ast.Tuple) else [target])]
+            names = all(isinstance(p, ast.Name | ast.Tuple | ast.Store) for t in targets for p in ast.walk(t))
         case ast.AugAssign(target, _, value) | ast.AnnAssign(target, _, ast.expr() as value):
-            targets = [target]
+            names = isinstance(target, ast.Name)
         case ast.Pass():
             return True
         case _:
             return False
-    return all(isinstance(t, ast.Name) for t in targets) and not any(map(_is_of_the_whole, ast.walk(value)))
+    return names and not any(map(_is_of_the_whole, ast.walk(value)))
 
 
 def _only_binds_or_ends(line: ast.stmt) -> bool:
