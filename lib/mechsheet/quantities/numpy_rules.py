@@ -320,6 +320,7 @@ _OF_FUNCTIONS: dict[Any, Callable[..., Any]] = {
     ),
     np.histogram: histogram,
     np.trace: lambda graph, A: lift(graph, A)[np.arange(len(A)), np.arange(len(A))].reduced("sum"),
+    np.trim_zeros: polynomial_rules.without_zeros,
     np.polyval: polynomial_rules.value, np.polyder: polynomial_rules.derivative, np.polyint: polynomial_rules.integral,
     np.convolve: polynomial_rules.convolved, np.polymul: polynomial_rules.convolved,
     np.polyadd: polynomial_rules.added, np.polysub: lambda graph, p, q: np.polyadd(p, -lift(graph, q)),

@@ -5,8 +5,8 @@ from typing import Any
 import numpy as np
 
 from mechsheet.quantities.arithmetic import choice
-from mechsheet.quantities.graph import Graph, NotRecorded
-from mechsheet.quantities.quantity import lift
+from mechsheet.quantities.graph import Graph, NotRecorded, current
+from mechsheet.quantities.quantity import has_quantity, lift
 
 
 def value(graph: Graph, p: Any, x: Any) -> Any:
@@ -33,14 +33,17 @@ def roots(graph: Graph, p: Any) -> Any:
     return lift(graph, [-half + 1j * np.sqrt(-apart), -half - 1j * np.sqrt(-apart)])
 
 
-def derivative(graph: Graph, p: Any) -> Any:
+def derivative(graph: Graph, p: Any, m: int = 1) -> Any:
     p = lift(graph, p)
-    return p[:-1] * np.arange(len(p) - 1, 0, -1)
+    return p if not m else derivative(graph, p[:-1] * np.arange(len(p) - 1, 0, -1), m - 1)
 
 
-def integral(graph: Graph, p: Any) -> Any:
-    p = lift(graph, p)
-    return np.concatenate([p / np.arange(len(p), 0, -1), np.zeros(1)])
+def integral(graph: Graph, p: Any, m: int = 1, k: Any = None) -> Any:
+    p, k = lift(graph, p), lift(graph, 0.0 if k is None else k)
+    for n in range(m):
+        constant = k[n] if k.ndim and len(k) > 1 else k.reshape(())
+        p = np.concatenate([p / np.arange(len(p), 0, -1), constant[None]])
+    return p
 
 
 def convolved(graph: Graph, p: Any, q: Any, mode: str = "full") -> Any:
@@ -57,3 +60,18 @@ def added(graph: Graph, p: Any, q: Any) -> Any:
     count = max(len(p), len(q))
     longer = [np.concatenate([np.zeros(count - len(r)), r]) for r in (p, q)]
     return longer[0] + longer[1]
+
+
+def without_zeros(graph: Graph, p: Any, trim: str = "fb") -> Any:
+    """numpy's trim_zeros, of which Python sees which coefficients are none."""
+    p = lift(graph, p)
+    while "f" in trim.lower() and len(p) and p[0] == 0:
+        p = p[1:]
+    while "b" in trim.lower() and len(p) and p[-1] == 0:
+        p = p[:-1]
+    return p
+
+
+def polynomial(p: Any, *given: Any, **named: Any) -> np.poly1d:
+    """numpy's poly1d."""
+    return np.poly1d(lift(current.get(), p) if has_quantity(p) else p, *given, **named)

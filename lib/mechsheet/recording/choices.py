@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from mechsheet.quantities.arithmetic import choice as where
-from mechsheet.quantities.arithmetic import elementwise, trunc
+from mechsheet.quantities.arithmetic import trunc
 from mechsheet.quantities.graph import PARTIAL, NotRecorded, current
 from mechsheet.quantities.node import bottom_up
 from mechsheet.quantities.options import is_object, parted
@@ -27,8 +27,8 @@ from mechsheet.worksheet.drawing import COLOURS
 from mechsheet.worksheet.kinds import Chosen, cases
 from mechsheet.worksheet.lists import Whole, first_column
 
-_NUMBERS = int | float | complex | np.number | Quantity
-ARRAYS = _NUMBERS | np.bool_ | np.ndarray
+NUMBERS = int | float | complex | np.number | Quantity
+ARRAYS = NUMBERS | np.bool_ | np.ndarray
 _LIBRARY = str(Path(__file__).parents[1])
 _ROWS = 200  # of a table at which a quantity points
 _DEEPEST = 8  # ways in one another that are recorded though Python does not take them
@@ -173,56 +173,6 @@ def way_may_change(f: Callable[..., Any]) -> bool:
     return may_change([f.__code__, *(g.__code__ for g in inner)], f.__globals__)
 
 
-def both(*parts: FunctionType) -> Any:
-    """``x and y``: of conditions whether all hold."""
-    return _all(parts, True)
-
-
-def any_of(*parts: FunctionType) -> Any:
-    """``x or y``."""
-    return _all(parts, False)
-
-
-def _all(parts: tuple[FunctionType, ...], wanted: bool) -> Any:
-    value = parts[0]()
-    for part in parts[1:]:
-        if is_condition(value):
-            value = choice(value, part, _given(value)) if wanted else choice(value, _given(value), part)
-        elif bool(value) is wanted:
-            value = part()
-        else:
-            return value
-    return value
-
-
-def _given(value: Any) -> Any:
-    return lambda: value
-
-
-def negated(value: Any) -> Any:
-    return (
-        elementwise("not")(value != 0 if value.re.value.dtype != bool else value) if is_condition(value) else not value
-    )
-
-
-def member(value: Any, several: Any) -> Any:
-    """``value in several``: of a number, an option or a text that may be another one, the condition."""
-    single = isinstance(value, Written | Chosen) or (isinstance(value, Quantity) and value.single)
-    if not single or not isinstance(several, dict | list | tuple | set | frozenset):
-        return value in several
-    same = [value == each for each in several if isinstance(each, str | _NUMBERS | Chosen)]
-    if not all(isinstance(each, bool | np.bool_) or is_condition(each) for each in same):
-        return value in several
-    return reduce(operator.or_, same, False)
-
-
-def matched(value: Any) -> Any:
-    """A value that is compared with True and False themselves, which no quantity is."""
-    if isinstance(value, tuple | list) and has_quantity(value):
-        return type(value)(map(matched, value))
-    return bool(value) if is_condition(value) and value.re.value.dtype == bool else value
-
-
 def element(container: Any, key: Any) -> Any:
     """``container[key]``: where the key is a quantity, the one of several numbers that it points at."""
     if isinstance(container, dict) and (is_it := _each(key)):
@@ -239,10 +189,10 @@ def element(container: Any, key: Any) -> Any:
         return lift(key.graph, container)[key]
     values = container if isinstance(container, dict) else dict(enumerate(container))
     row = None
-    if key.single and key.value >= 0 and all(isinstance(known, _NUMBERS) for known in values):
+    if key.single and key.value >= 0 and all(isinstance(known, NUMBERS) for known in values):
         if not any(key.value == known for known in values):
             raise KeyError(key.value.item()) if isinstance(container, dict) else IndexError(f"no element {key.value}")
-        if all(isinstance(value, _NUMBERS) for value in values.values()):
+        if all(isinstance(value, NUMBERS) for value in values.values()):
             return _at_key(values, key, np.nan)
         row = _row_at(values, key)
     if row is not None:
@@ -296,7 +246,7 @@ def got(container: Any, key: Any, *otherwise: Any) -> Any:
     if isinstance(container, dict) and (is_it := _each(key)):
         return _of_option({option: container.get(option, *otherwise) for option in is_it}, key, is_it)
     known = isinstance(container, dict) and isinstance(key, Quantity) and key.single and otherwise
-    if known and all(isinstance(v, _NUMBERS) for v in (*container, *container.values(), *otherwise)):
+    if known and all(isinstance(v, NUMBERS) for v in (*container, *container.values(), *otherwise)):
         return _at_key(container, key, *otherwise)
     return container.get(key.seen().item() if isinstance(key, Quantity) else key, *otherwise)
 
@@ -389,7 +339,7 @@ def placed(values: Any, value: Any) -> Any:
     """``values.index(value)``: the first place of a number in a list."""
     if not isinstance(values, list | tuple) or not has_quantity([values, value]):
         return values.index(value)
-    if not all(isinstance(v, _NUMBERS) for v in (*values, value)):
+    if not all(isinstance(v, NUMBERS) for v in (*values, value)):
         return values.index(value)
     hit = lift(current.get(), values) == value
     some = hit.reduced("any")
@@ -402,7 +352,7 @@ def placed(values: Any, value: Any) -> Any:
 def ranked(values: Iterable[Any], *, reverse: Any = False, **given: Any) -> Any:
     """Python's sorted."""
     each = list(values)
-    if given or not has_quantity(each) or not all(isinstance(v, _NUMBERS) for v in each):
+    if given or not has_quantity(each) or not all(isinstance(v, NUMBERS) for v in each):
         return sorted(each, reverse=reverse, **given)
     found: Any = np.sort(lift(current.get(), each))
     return list(found)[::-1] if reverse else list(found)
@@ -430,8 +380,7 @@ def length(x: Any) -> Any:
 
 
 CALLS: dict[str, Any] = {
-    "choice": choice, "and": both, "or": any_of, "not": negated, "matched": matched, "member": member,
-    "element": element, "get": got,
+    "choice": choice, "element": element, "get": got,
     "handled": handled, "tried": tried,
     "len": length,
     "unbound": UNBOUND, "text": text, "join": joined,

@@ -13,7 +13,7 @@ from collections.abc import Iterator
 from types import CodeType, FunctionType
 from typing import Any
 
-from mechsheet.recording import choices, in_place, kept, loops
+from mechsheet.recording import choices, conditions, in_place, kept, loops
 from mechsheet.recording.forms import (
     OF_KEPT,
     SCOPED,
@@ -32,7 +32,7 @@ from mechsheet.recording.forms import (
 from mechsheet.worksheet import source
 from mechsheet.worksheet.source import bound
 
-CALLS = choices.CALLS | in_place.CALLS | kept.CALLS | loops.CALLS
+CALLS = choices.CALLS | conditions.CALLS | in_place.CALLS | kept.CALLS | loops.CALLS
 _NAMES = {"float", "int", "complex", "len", "max", "min", "pow", "round", "sorted"}
 _KINDS = (
     *(ast.Import, ast.ImportFrom, ast.JoinedStr, ast.Subscript, ast.IfExp, ast.BoolOp, ast.Compare, ast.Match, ast.Not),

@@ -27,12 +27,14 @@ from mechsheet.quantities.graph import NotRecorded, current
 from mechsheet.quantities.node import Node
 from mechsheet.quantities.numpy_rules import arange, filled, linspace, simpson, trapezoid_so_far
 from mechsheet.quantities.once import once
+from mechsheet.quantities.polynomial_rules import polynomial
 from mechsheet.quantities.quantity import FUNCTIONS, Quantity, has_quantity, lift
 from mechsheet.quantities.sketch import Sketch, drawing
 from mechsheet.quantities.unrepeatable import instead_of_chance
 from mechsheet.quantities.written import looked_at, seen
 from mechsheet.recording import scipy_rules, spline_rules
 from mechsheet.recording.choices import total
+from mechsheet.recording.conditions import every, some
 from mechsheet.recording.rewritten import NAMES, rebuilt
 from mechsheet.worksheet import check, find, system, title
 from mechsheet.worksheet.drawing import Drawing
@@ -94,7 +96,11 @@ def _distance(p: Any, q: Any) -> Any:
     return _hypot(*(lift(graph, p) - lift(graph, q)))
 
 
-_MATH |= {math.hypot: _hypot, math.dist: _distance}  # of any number of coordinates
+def _logarithm(x: Any, *base: Any) -> Any:
+    return np.log(x) / np.log(base[0]) if base else np.log(x)
+
+
+_MATH |= {math.hypot: _hypot, math.dist: _distance, math.log: _logarithm}  # of any number of coordinates, to any base
 
 
 def instead(value: Any) -> Any:
@@ -115,6 +121,10 @@ def instead(value: Any) -> Any:
         return _takes(_MATH[value])
     if isinstance(value, np.ufunc) or (callable(value) and _of_numpy(value)):
         return _takes(value)
+    if value is np.vectorize:
+        return _each
+    if value is np.poly1d:
+        return polynomial
     if value is Drawing:
         return drawing
     if isinstance(value, Drawing) and current.get().draws:
@@ -136,6 +146,25 @@ def instead(value: Any) -> Any:
     if isinstance(value, _lru_cache_wrapper) and not room.startswith("mechsheet."):
         return instead(value.__wrapped__)
     return value
+
+
+def _each(f: Any = None, *given: Any, **named: Any) -> Any:
+    """numpy's vectorize: a function of numbers for arrays of them, one by one."""
+    if given[1:] or named.keys() - {"otypes", "doc", "cache"}:
+        raise NotRecorded("numpy's vectorize but of whole numbers of one argument each")
+    if f is None:
+        return _each
+
+    def function(*args: Any) -> Any:
+        graph = current.get()
+        values = [lift(graph, x) for x in args]
+        shape = np.broadcast_shapes(*(x.extent for x in values))
+        flat = [x.like(*values).ravel() if shape else x for x in values]
+        if not shape:
+            return instead(f)(*flat)
+        return lift(graph, [instead(f)(*each) for each in zip(*flat, strict=True)]).reshape(shape)
+
+    return function
 
 
 _PRINTING = frozenset({"leastsq", "curve_fit"})  # what a function of the worksheet raises in them
@@ -267,7 +296,15 @@ def _opened(file: Any, mode: str = "r", *args: Any, **kwargs: Any) -> Any:
 
 
 # An import inside a cell is one of what takes quantities too.
-BUILTINS = {**vars(builtins), "__import__": _imported, "sum": total, "print": _unsaid, "open": _opened}
+BUILTINS = {
+    **vars(builtins),
+    "__import__": _imported,
+    "sum": total,
+    "any": some,
+    "all": every,
+    "print": _unsaid,
+    "open": _opened,
+}
 
 
 @cache

@@ -1,0 +1,89 @@
+"""Conditions of recorded quantities: all or one of several, what is none, what is one of some values."""
+
+import builtins
+import operator
+from collections.abc import Callable
+from functools import reduce
+from types import FunctionType
+from typing import Any
+
+import numpy as np
+
+from mechsheet.quantities.arithmetic import elementwise
+from mechsheet.quantities.quantity import Quantity, has_quantity
+from mechsheet.quantities.selected import Selected
+from mechsheet.quantities.written import Written
+from mechsheet.recording.choices import ARRAYS, NUMBERS, choice, is_condition
+from mechsheet.worksheet.kinds import Chosen
+
+
+def both(*parts: FunctionType) -> Any:
+    """``x and y``: of conditions whether all hold."""
+    return _all(parts, True)
+
+
+def any_of(*parts: FunctionType) -> Any:
+    """``x or y``."""
+    return _all(parts, False)
+
+
+def _all(parts: tuple[FunctionType, ...], wanted: bool) -> Any:
+    value = parts[0]()
+    for part in parts[1:]:
+        if is_condition(value):
+            value = choice(value, part, _given(value)) if wanted else choice(value, _given(value), part)
+        elif bool(value) is wanted:
+            value = part()
+        else:
+            return value
+    return value
+
+
+def _given(value: Any) -> Any:
+    return lambda: value
+
+
+def negated(value: Any) -> Any:
+    return (
+        elementwise("not")(value != 0 if value.re.value.dtype != bool else value) if is_condition(value) else not value
+    )
+
+
+def member(value: Any, several: Any) -> Any:
+    """``value in several``: of a number, an option or a text that may be another one, the condition."""
+    single = isinstance(value, Written | Chosen) or (isinstance(value, Quantity) and value.single)
+    if not single or not isinstance(several, dict | list | tuple | set | frozenset):
+        return value in several
+    same = [value == each for each in several if isinstance(each, str | NUMBERS | Chosen)]
+    if not all(isinstance(each, bool | np.bool_) or is_condition(each) for each in same):
+        return value in several
+    return reduce(operator.or_, same, False)
+
+
+def matched(value: Any) -> Any:
+    """A value that is compared with True and False themselves, which no quantity is."""
+    if isinstance(value, tuple | list) and has_quantity(value):
+        return type(value)(map(matched, value))
+    return bool(value) if is_condition(value) and value.re.value.dtype == bool else value
+
+
+def some(values: Any) -> Any:
+    """Python's any."""
+    return _whether(values, "any", operator.or_)
+
+
+def every(values: Any) -> Any:
+    """Python's all."""
+    return _whether(values, "all", operator.and_)
+
+
+def _whether(values: Any, kind: str, fold: Callable[[Any, Any], Any]) -> Any:
+    if isinstance(values, Selected) or (isinstance(values, Quantity) and values.ndim == 1):
+        return (values if values.dtype == bool else values != 0).reduced(kind)
+    each = list(values)
+    if not any(map(is_condition, each)) or not all(isinstance(x, ARRAYS) for x in each):
+        return getattr(builtins, kind)(each)
+    return reduce(fold, (x != 0 if isinstance(x, Quantity) and x.dtype != bool else x for x in each))
+
+
+CALLS: dict[str, Any] = {"and": both, "or": any_of, "not": negated, "matched": matched, "member": member}
