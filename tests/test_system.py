@@ -359,7 +359,11 @@ def test_a_guess_from_which_another_solution_is_only_seen_is_told_what_to_do() -
         ({"x": 1.0}, "the equations are of x, y, the unknowns given are x"),
         ({"x": 1.0, "y": 1.0, "equals": (1, 2, 3)}, "equals has 3 values for 2 equations"),
         ({"x": 1.0, "y": 1.0, "unit": ("m",)}, "unit has 1 units for 2 equations"),
-        ({"x": 1.0, "y": 1.0, "guess": 1.0}, "find takes either an interval and a guess, or the unknowns x, y"),
+        (
+            {"x": 1.0, "y": 1.0, "guess": 1.0},
+            "find takes either an interval with equals, guess, branch, branches, unknown, quantity, unit and "
+            "unknown_unit, or the unknowns x, y",
+        ),
     ],
 )
 def test_bad_input_is_one_line(asked, message):

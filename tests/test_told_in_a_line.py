@@ -45,6 +45,25 @@ REFUSED = {
 }  # fmt: skip
 
 
+IN_WORDS = {  # what Python says in words about values that nobody sees in the line
+    "a function as a number": ("f = lambda x: g.F * x  # [N] f\ny = 2 * f  # [N] y", "in its brackets, such as"),
+    "a function in square brackets": ("f = lambda x: x  # [-] f\ny = f[2]  # [-] y", "in its brackets, such as"),
+    "a choice of many": ("x = np.arange(3)  # [-] x\ny = 1 if x > 1 else 2  # [-] y", "np.where(condition, "),
+    "no size is large enough": ("d = np.arange(3)  # [-] d\ny = d[d > 9][0]  # [-] y", "none meets the condition"),
+    "rounding up of none": ("y = int(np.sqrt(-g.L))  # [-] y", "is none, as the root of a negative one"),
+    "no return": ("def f(x):\n    x * 2\ny = 2 * f(1)  # [-] y", "a function without return gives None"),
+    "the imaginary unit": ("y = 2 * j  # [-] y", "(the imaginary unit is 1j)"),
+    "a switch": ("y = 2 * yes  # [-] y", "(did you mean True?)"),
+    "another unit": ("from mechsheet.units import Rpm\ny = g.F  # [N] y", "has no Rpm (did you mean rpm?)"),
+    "marks without names": (
+        "from mechsheet import figure\nx = np.arange(3)  # [-] x\nfig = figure('1', 'x', x, x, marks=2)",
+        "figure 1: marks must be positions by their names",
+    ),
+    "another name": ("y = find(lambda x: x, 0, 1, equal=0.5).value  # [-] y", "or the unknowns equal"),
+}
+REFUSED |= {what: (lines, GIVEN, "", said) for what, (lines, said) in IN_WORDS.items()}
+
+
 @pytest.mark.parametrize("what", REFUSED)
 def test_what_is_refused(what: str, tmp_path: Path) -> None:
     lines, given, end, said = REFUSED[what]
@@ -60,6 +79,24 @@ def test_a_class_of_rows_with_values_of_its_own_is_told(tmp_path: Path) -> None:
     path.write_text(path.read_text().replace(f"{begin} Given", f"{rows}{begin} Given", 1))
     run = as_script(path)
     assert "class Case of its rows has values: write P: float without one" in run.stderr, run.stderr
+
+
+@pytest.mark.parametrize(
+    ("read", "said"),
+    [
+        ("g.cases.p", "no column p (did you mean P?)"),
+        ("g.cases['P']", "read by its name"),
+        ("2 * g.on", "no number: its"),
+    ],
+)
+def test_how_a_column_or_a_property_is_read_is_told(read: str, said: str, tmp_path: Path) -> None:
+    given = "cases: list[Case] = [Case(1.0), Case(2.0)]  # load cases\non: Case = one_of({'a': Case(3.0)}, 'a')  # case"
+    path = worksheet(tmp_path, f"y = {read}  # [N] y", given)
+    begin = "@app.class_definition\n@inputs\nclass"
+    rows = f"{begin} Case:\n    P: float  # [N] load\n\n\n"
+    path.write_text(path.read_text().replace(f"{begin} Given", f"{rows}{begin} Given", 1))
+    run = as_script(path)
+    assert run.returncode == 1 and len(run.stderr.splitlines()) == 1 and said in run.stderr, run.stderr
 
 
 def test_a_whole_number_that_no_float_is_has_a_limit(tmp_path: Path) -> None:

@@ -288,7 +288,8 @@ def find(  # type: ignore[misc]
     function(f, "find")
     if unknowns:
         if any(given is not None for given in (lo, hi, guess, branch, branches)):
-            raise SheetError(f"find takes either an interval and a guess, or the unknowns {', '.join(unknowns)}")
+            names = "equals, guess, branch, branches, unknown, quantity, unit and unknown_unit"
+            raise SheetError(f"find takes either an interval with {names}, or the unknowns {', '.join(unknowns)}")
         return solve(f, equals, unit, unknown_unit, unknowns)
     measured(unit), measured(unknown_unit)
     return sought(f, _Words(unknown, quantity, unit, unknown_unit), lo, hi, equals, guess, branch, branches)

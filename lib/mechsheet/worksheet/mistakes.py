@@ -3,6 +3,7 @@
 import builtins
 import difflib
 import re
+import sys
 from collections.abc import Container, Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -38,7 +39,14 @@ _BY_CELL = re.compile(r"(?<!\w)_cell(\d+|_[^\W_]+)(?=_)")
 def undefined(name: str, known: Iterable[str]) -> str:
     is_unit = len(name) > 1 and name in units.names()  # a letter is as often a quantity
     hint = f" (for the unit: from mechsheet.units import {name})" if is_unit else _near(name, known)
+    hint = f" ({_ELSEWHERE[name]})" if name in _ELSEWHERE else hint
     return f"the name {name} is not defined in any cell{hint}"
+
+
+_ELSEWHERE = {  # names of other languages
+    "i": "the imaginary unit is 1j", "j": "the imaginary unit is 1j", "yes": "did you mean True?",
+    "no": "did you mean False?", "true": "did you mean True?", "false": "did you mean False?",
+}  # fmt: skip
 
 
 def twice(*names: str) -> str:
@@ -127,9 +135,15 @@ def why(error: BaseException, known: Iterable[str], text: str = "", inputs: Cont
                 return f"{called} has no value there: none of the ways that the lines above it went gives it one"
             return f"{called} is defined below its use: move its line up"
         return undefined(called, (name for name in known if not name.startswith("_")))
-    fields = getattr(type(error.obj), "__inputs__", ()) if isinstance(error, AttributeError) else ()
-    if fields:
-        return no_input(str(getattr(error, "name", "")), (field.name for field in fields))
+    if isinstance(error, AttributeError):
+        name, kind = str(error.name or ""), type(error.obj)
+        if fields := getattr(kind, "__inputs__", ()):
+            return no_input(name, (field.name for field in fields))
+        if hasattr(kind, "__row__"):
+            return f"the table has no column {name}{_near(name, vars(error.obj))}"
+    if imported := re.match(r"cannot import name '(\w+)' from '([\w.]+)'", str(error)):
+        name, module = imported.groups()
+        return f"{module} has no {name}{_near(name, dir(sys.modules.get(module)))}"
     said = " ".join(as_written(str(error)).split())
     if " " not in said:  # the bare name of a key, or nothing
         said = f"{type(error).__name__}: {said}".removesuffix(": ")
@@ -175,6 +189,13 @@ _HINTS = {
         "inputs are read by their names: g.L, and a table's as g.bolts.x, or for bolt in g.bolts"
     ),
     r"'(Found|Solution)'|type (Found|Solution)\b": "what a Find has found is its .value",
+    r"\bfunction'|type function\b": "a function is computed with what stands in its brackets, such as s(phi)",
+    r"'Chosen'": "an option is no number: its properties are read by their names, such as g.steel.R_e",
+    r"'NoneType'": "a function without return gives None",
+    r"truth value of an array": "of many values each is chosen by np.where(condition, this, that)",
+    r"out of bounds for axis 0 with size 0": "no element is left there: none meets the condition",
+    r"^only integers, slices": "a column of a table is read by its name: g.bolts.x",
+    r"cannot convert float (NaN|infinity) to integer": "what it is made of is none, as the root of a negative one",
     r"^StopIteration$": "next has found nothing for which its condition holds",
     r"unhashable type": "an array, a list or a table can be no key, and no member of a set",
 }

@@ -211,6 +211,9 @@ def figure(
     ``every`` marks only every so many positions of a smooth curve by a point: those that a table lists.
     """
     _named("figure", number, title, every)
+    if not isinstance(marks or {}, Mapping):
+        must = "must be positions by their names, such as {'phi_1': phi_1}"
+        refuse(SheetError(f"figure {number}: marks {must}, not {as_given(marks)}"))
     frame = sys._getframe(1)
     first, *rest = _columns(f"figure {number}", frame, source.call(frame).args[2:], (x, *lines), show or {})
     factor = units.parse(first.unit).factor
