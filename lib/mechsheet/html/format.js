@@ -50,10 +50,13 @@ function inFull(values, decimals) {
 }
 
 // So many decimals, or more where these show numbers in full, or left less than two digits of the largest: then three.
+// Of one with more than six digits before its point only so many that these are nine in all.
 function enough(values, usual) {
   const decimals = inFull(values, usual);
   const largest = Math.max(0, ...Array.from(values, Math.abs).filter(Number.isFinite));
-  return largest >= 10 ** (1 - decimals) || largest < SMALLEST ? decimals : 2 - Math.floor(Math.log10(largest));
+  if (largest < SMALLEST) return decimals;
+  const place = Math.floor(Math.log10(largest));
+  return largest >= 10 ** (1 - decimals) ? Math.min(decimals, Math.max(8 - place, 0)) : 2 - place;
 }
 
 function fixed(x, decimals, to) {

@@ -74,12 +74,19 @@ def _in_full(values: Iterable[float], decimals: int) -> int:
 def enough(values: Collection[float], decimals: int) -> int:
     """So many decimals, or more where these show numbers in full, or left less than two digits of the largest: three.
 
+    Of one with more than six digits before its point only so many that these are nine in all.
+
     >>> enough([0, 2.3e-4], 1), enough([0.2, 1.3], 1), enough([3.15, 12.5], 1), enough([1e-12], 1)
     (6, 1, 2, 1)
+    >>> enough([1 / 3, 7654321.1], 3), enough([1 / 3, 4.8e14], 3)
+    (2, 0)
     """
     decimals = _in_full(values, decimals)
     largest = max((abs(x) for x in values if isfinite(x)), default=0.0)
-    return decimals if largest >= 10.0 ** (1 - decimals) or largest < _SMALLEST else 2 - floor(log10(largest))
+    if largest < _SMALLEST:
+        return decimals
+    place = floor(log10(largest))
+    return min(decimals, max(8 - place, 0)) if largest >= 10.0 ** (1 - decimals) else 2 - place
 
 
 def scientific(x: float, decimals: int, to: Notation = PLAIN) -> str:
