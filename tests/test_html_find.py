@@ -228,7 +228,7 @@ def test_values_whose_count_only_their_own_equations_tell_are_refused_in_a_line(
     sheet = own(
         tmp_path,
         "c = np.array([1.0, 2.0, 3.0])\n"
-        "pull = lambda u: np.sum(np.maximum(np.asarray(u)[..., None] * c - 0.1, 0), axis=-1)\n"
+        "pull = lambda u: np.sort(np.maximum(np.asarray(u)[..., None] * c - 0.1, 0), axis=-1)[..., 0]\n"
         "two = find(lambda u, v: (pull(u) * v - x, u + v), equals=(0, 3), u=(0.5, 2.5), v=(0.5, 2.5))\n"
         "y = pull(two.value.u)  # [-] line\n"
         'table_2 = table("2", "Two", y)',
