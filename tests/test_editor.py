@@ -469,15 +469,20 @@ def test_a_unit_that_declares_nothing_and_what_only_a_last_line_would_show_are_t
     bare = "D = 2 * L  # [m] twice\ntable_1 = table('1', 'Own', D)\ntable_1\ntypeset()"
     called = "check('own', 1.0, 2.0)\ntypeset()"
     shown = "'a text alone'\nE = 1  # [m] one\ntypeset()\ntable_1"
-    cells = source.of_texts(tuple((text, "") for text in (inside, looped, bare, called, shown)))
+    title = "title_block('Own')\nmo.md('text')\nsummary(check_1)\nform"
+    cells = source.of_texts(tuple((text, "") for text in (inside, looped, bare, called, shown, title)))
     nothing = "this [unit] is read by nobody: it is read behind NAME = FORMULA, in a line of its own, not in a block"
-    given = "is not shown: a cell shows its last line, so give it to typeset()"
+    own = "is not shown: a cell shows its last line, so"
+    given = f"{own} give it to typeset()"
     assert [tuple(told) for told in left_out(cells, {})] == [
         (0, 2, nothing),
         (1, 2, nothing),
         (1, 3, nothing),
         (2, 3, f"table_1 {given}"),
         (3, 1, f"check own {given}"),
+        (5, 1, f"title_block() {own} give it a cell of its own"),
+        (5, 2, f"mo.md() {own} give it a cell of its own, or write the text alone, without mo.md"),
+        (5, 3, f"summary() {own} give it to typeset()"),
     ]
 
 

@@ -65,11 +65,15 @@ if __name__ == "__main__":
 """
 
 
-@pytest.mark.parametrize("mode", ["run", "edit"])
-def test_a_page_without_title_block_has_style_and_scripts(serve, page, tmp_path, console_errors, mode):
-    """They come with the first value that is shown, once: two checks in one cell bring them one time."""
+@pytest.mark.parametrize(("mode", "above"), [("run", ""), ("edit", ""), ("run", 'title_block("Beam")\n    ')])
+def test_a_page_without_title_block_has_style_and_scripts(serve, page, tmp_path, console_errors, mode, above):
+    """They come with the first value that is shown, once: two checks in one cell bring them one time.
+
+    A title block above the last line of its cell is none: all values had stayed out of sight.
+    """
     path = tmp_path / "bare.py"
-    path.write_text(BARE, encoding="utf-8")
+    text = BARE.replace("import check", "import check, title_block").replace('mo.md("', f'{above}mo.md("')
+    path.write_text(text, encoding="utf-8")
     page.goto(serve(mode, path))
     expect(page.locator(".ms-badge.ms-PASS")).to_have_count(2)
     page.wait_for_function("customElements.get('ms-numbers') && document.querySelector('style.ms-style')")

@@ -312,7 +312,7 @@ def test_a_text_is_a_column_of_a_table_and_of_no_figure(cases: Path, tmp_path: P
     sheet = load(cases)
     found = sheet.run(sheet.results, {"g": sheet.inputs()})
     column = found["table_1"].columns[0]
-    assert (column.symbol, column.unit, column.texts()) == ("name_cases", "", ["braking", "cornering"])
+    assert (column.symbol, column.unit, column.texts()) == ("name", "", ["braking", "cornering"])
     assert [check.name for check in checks_of(found)] == ["stress, braking", "stress, cornering"]
     path = sheet_of(tmp_path, LINES.replace('table("1", f"Cases, {g.steel.standard}"', 'figure("1", "Cases"'))
     with pytest.raises(SheetError, match="name_cases is no number"):

@@ -23,6 +23,11 @@ class LeftOut(NamedTuple):
     why: str
 
 
+_GIVEN = "so give it to typeset()"
+_REMEDY = {
+    "title_block()": "so give it a cell of its own",
+    "mo.md()": "so give it a cell of its own, or write the text alone, without mo.md",
+}
 _UNREAD = "this [unit] is read by nobody: it is read behind NAME = FORMULA, in a line of its own, not in a block"
 
 
@@ -48,7 +53,7 @@ def left_out(cells: Iterable[source.Cell], names: Mapping[str, Any]) -> Iterator
                 yield LeftOut(n, line, _UNREAD)
             if node in shown and (name := _bare(node)):
                 yield LeftOut(
-                    n, node.lineno, f"{name} is not shown: a cell shows its last line, so give it to typeset()"
+                    n, node.lineno, f"{name} is not shown: a cell shows its last line, {_REMEDY.get(name, _GIVEN)}"
                 )
             if bare := _unbracketed(cells[n], node, names):
                 yield LeftOut(n, node.lineno, bare)
@@ -86,6 +91,10 @@ def _bare(node: ast.stmt) -> str:
             ast.Call(ast.Name("table" | "figure" | "check" | "caption" as kind), [ast.Constant(str(what)), *_])
         ):
             return f"{kind} {what}"
+        case ast.Expr(ast.Call(ast.Name("title_block" | "summary" as kind))):
+            return f"{kind}()"
+        case ast.Expr(ast.Call(ast.Attribute(ast.Name("mo"), "md"))):
+            return "mo.md()"
     return ""
 
 

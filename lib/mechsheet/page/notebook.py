@@ -3,9 +3,11 @@
 A version of marimo that keeps them otherwise makes `running` raise `Unlike`, and nothing else rests on them.
 """
 
+import ast
 from collections.abc import AsyncIterator, Callable, Iterable, Mapping, Set
 from contextlib import asynccontextmanager, suppress
 from dataclasses import dataclass
+from functools import lru_cache
 from pathlib import Path
 from typing import Any, Protocol
 
@@ -168,15 +170,24 @@ def file() -> Path:
         return Path()
 
 
-def reads(name: str) -> bool:
-    """Whether a cell of the calling cell's page reads a name; no where this version of marimo does not tell."""
+def shows(name: str) -> bool:
+    """Whether a cell of the calling cell's page may show what a name gives; no where this marimo does not tell."""
     try:
         from marimo._runtime.context import get_context  # on use: a version may lack it
 
         notebook: Any = get_context()
-        return any(name in cell.refs for cell in list(notebook.graph.cells.values()))
+        cells = [cell for cell in notebook.graph.cells.values() if name in cell.refs]
+        return any(_is_kept(cell.code, name) for cell in cells)
     except (ImportError, AttributeError):
         return False
+
+
+@lru_cache
+def _is_kept(code: str, name: str) -> bool:
+    """Whether a cell reads a name elsewhere than in lines above its last whose value nobody takes."""
+    *above, last = ast.parse(code).body
+    kept = [last, *(node for node in above if not isinstance(node, ast.Expr))]
+    return any(isinstance(part, ast.Name) and part.id == name for node in kept for part in source.nodes(node))
 
 
 def is_first() -> bool:

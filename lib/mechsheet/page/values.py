@@ -54,7 +54,7 @@ def written(value: object) -> tuple[str, str]:
         text = html(value)
     except Exception as error:  # which marimo would leave out without a word
         text = failed(f"this {type(value).__name__} cannot be shown: {mistakes.why(error, ())}", ends=False)
-    titled = mo.running_in_notebook() and notebook.reads("title_block")
+    titled = mo.running_in_notebook() and notebook.shows("title_block")
     if mo.running_in_notebook() and (isinstance(value, Title) or (not titled and notebook.is_first())):
         return "text/html", needed(notebook.file()) + text
     placed = _placed(value) and not _HEADED.search(text)

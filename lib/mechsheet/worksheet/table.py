@@ -270,7 +270,7 @@ def _columns(
         called |= dict.fromkeys(names, label)
         unit = next((_shown_in(of, label, line.unit, show[n]) for n in names if n in show), line.unit)
         if is_label:
-            columns.append(Column(label, "", line.meaning, 0, row))
+            columns.append(Column(line.name.rpartition(".")[2], "", line.meaning, 0, row))
             continue
         shown = row / units.parse(unit).factor
         usual = decimals is None and kind == "f"
