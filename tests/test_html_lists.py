@@ -86,11 +86,14 @@ FOLLOWED = [
     "sum(F)", "sum(F, g.a)", "np.quantile(F, 0.3)", "np.percentile(y, [10, 90])", "x[np.argsort(y)]", "min(x)",
     "g.points[0].x * g.points[-1].y", "g.points[1:].y.sum()", "len(g.points) * g.a", "g.points[::-1].x - g.points.x",
     "g.points[x > 1].y.sum()", "g.points[np.argmax(y)].x",
+    "sum(v * w for v, w in zip(x, y))", "np.array([v * g.a for v in F])", "sum(p.x * p.y for p in g.points)",
+    "max(p.y if p.x > 1.5 else g.a for p in g.points)", "any(p.y > 5 for p in g.points) * g.a",
+    "sum([1 / max(v, 1.0) for v in F])", "np.vectorize(lambda v: v**2 if v > 0 else g.a)(F)", "sum(1 for v in F) * g.a",
     "F[F > 0].sum() + len(F[F > 0])", "F[F > 0][-1]", "x[np.flatnonzero(y > 2)].max() * g.a",
 ]  # fmt: skip
 COUNTED_BY_PYTHON = {  # lines, and the list whose rows are counted
-    "sum(v * w for v, w in zip(x, y))": "points", "np.array([v * g.a for v in F])": "F", "np.cumsum(F[F > 0])": "F",
-    "np.fft.fft(F).real": "F", "sum(p.x * p.y for p in g.points)": "points", "[p.x for p in g.points][1]": "points",
+    "np.array([[v, g.a] for v in F]).sum(axis=0)": "F", "np.cumsum(F[F > 0])": "F", "np.fft.fft(F).real": "F",
+    "sum(v for v in np.sin(x))": "points", "[p.x for p in g.points][1]": "points",
     "max(g.points, key=lambda p: p.y).x": "points", "sum(a.x * b.y for a, b in zip(g.points, g.points[1:]))": "points",
 }  # fmt: skip
 CURVE = [(1, 2.5), (2, 4), (4, 3.5), (5, 6)]

@@ -80,6 +80,26 @@ FOLLOWED = [
     "np.trapezoid(x[4:], dx=g.a) + g.a",
     "np.cumsum(np.linspace(0, 1, g.n)[5:]).sum() + g.a",
 ]
+LOOPED = [  # which add something for each row
+    "y = 0.0\nfor v in x:\n    y += v**2 * g.a",
+    "y, n = 0, 0\nfor v, w in zip(x, x**2):\n    n += 1\n    y = y + v * w\ny = y / n + v + w",
+    (
+        "y = 0.0\nfor v in x:\n    w = v**2\n    u = w * g.a\n    if u > g.F:\n        y += u / 2\n    elif w > 1:\n"
+        "        y += w\n    else:\n        y -= 1\ny = y + u"
+    ),
+    "def total(xs):\n    s = 0.0\n    for v in xs:\n        s += v * g.a\n    return s\ny = total(x) + total([1, g.F])",
+    "def life(S):\n    if S > g.F:\n        return 9 / S\n    return 7 / S**2\ny = sum(1 / life(v) for v in x)",
+]
+AS_PYTHON = [  # what a turn takes of the one before, or leaves behind
+    "y, w = 0.0, 0.0\nfor v in x:\n    y += v * w\n    w = v",
+    "y, w = 0.0, 0.0\nfor v in x:\n    w = max(w, v)\n    y += v\ny = y * w",
+    "y = 0.0\nfor v in x:\n    y += y * v + 1",
+    "y, s = 0.0, ''\nfor v in x:\n    y += v\n    s += 'a'\ny = y * len(s)",
+    "L = []\ny = sum([L.append(v) or v for v in x]) + sum(L)",
+    "L = []\ndef add(v):\n    L.append(v)\n    return v\ny = 0.0\nfor v in x:\n    y += add(v)\ny = y + len(L)",
+    "w = x**2\ny = np.array([v * w for v in x]).sum(axis=0)",
+    "y = np.zeros(2)\nfor v in x:\n    y += np.array([v, g.a])",
+]
 ROWS: list[dict[str, Any]] = [{}, {"n": 3}, {"n": 4, "F": 3.25}, {"n": 12, "a": 0.3}, {"n": 40, "F": -1.0}]
 
 
@@ -95,6 +115,22 @@ def test_what_is_made_of_rows_is_read_for_any_number_of_them(expression: str, tm
         value = value_of(recording, "y", given)
         assert np.shape(value) == expected.shape, given
         np.testing.assert_allclose(value, expected + 0, rtol=1e-12, atol=1e-13, err_msg=str(given))
+
+
+@pytest.mark.filterwarnings("ignore")
+@pytest.mark.parametrize("lines", [*LOOPED, *AS_PYTHON])
+def test_a_loop_that_adds_for_each_row_is_a_sum_of_any_number_of_them(lines: str, tmp_path: Path) -> None:
+    """Of a table that somebody adds a row to on a page all that a loop had computed was grey."""
+    sheet = own(tmp_path, f"{lines}\nresult = y * 1  # [-] line")
+    _, recording = recorded(sheet)
+    assert not recording.gaps
+    for given in ROWS:
+        expected = np.asarray(by_cells(sheet.path, ["result"], **given)["result"])
+        value = value_of(recording, "result", given)
+        if lines in LOOPED or "n" not in given:
+            np.testing.assert_allclose(value, expected, rtol=1e-12, atol=1e-13, err_msg=str(given))
+        else:
+            assert np.isnan(value).all(), given
 
 
 @pytest.mark.parametrize("ends", ["g.a, g.F, g.n", "0, 2 * np.pi, g.n + 1", "0, g.F, 8 * g.n, endpoint=False"])
@@ -113,7 +149,7 @@ def test_a_page_has_positions_to_the_last_bit(ends: str, tmp_path: Path) -> None
     "expression",
     [
         "sum(x)",
-        "np.array([v * g.a for v in x])",
+        "np.array([[v, g.a] for v in x])[:, 0]",
         "np.sort(np.sin(x))",
         "np.cumsum(x[x > 1])",
         "x * np.array([1.0, 2, 3, 4, 5])",

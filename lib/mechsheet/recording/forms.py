@@ -1,7 +1,8 @@
 """Forms of statements and expressions in others that are recorded: elements set one by one, elements that are kept."""
 
 import ast
-from collections.abc import Iterator, Sequence
+import copy
+from collections.abc import Iterable, Iterator, Sequence
 
 from mechsheet.worksheet.source import bound
 
@@ -149,6 +150,45 @@ def of_kept(node: ast.expr, kind: str, some: ast.ListComp | ast.GeneratorExp, *r
     return call("of_kept", node, ast.Constant(kind), ast.copy_location(ast.GeneratorExp(pair, every), some), *rest)
 
 
+_OF_ROWS = {"sum": "sum", "min": "min", "max": "max", "any": "any", "all": "all", "array": "array", "asarray": "array"}
+_PARTS = ast.Name, ast.Attribute, ast.BinOp, ast.UnaryOp, ast.Subscript, ast.Slice, ast.Constant, ast.Tuple
+_SIGNS = ast.operator, ast.unaryop, ast.expr_context
+
+
+def changes(part: ast.AST) -> bool:
+    """Whether a part of an expression may change something, as a list that is added to."""
+    of_list = "append", "extend", "insert", "update", "add", "sort", "pop", "remove", "clear", "setdefault"
+    return isinstance(part, SCOPED) or (isinstance(part, ast.Attribute) and part.attr in of_list)
+
+
+def rows_of(target: ast.expr, items: ast.expr) -> tuple[list[str], list[ast.expr]] | None:
+    """The names that rows have one after the other, and the columns or tables that give them; None of anything else."""
+    targets, sources = [target], [items]
+    match target, items:
+        case ast.Tuple(parts), ast.Call(ast.Name("zip"), columns, []) if len(parts) == len(columns):
+            targets, sources = parts, columns
+    names = [each.id for each in targets if isinstance(each, ast.Name)]
+    known = all(isinstance(part, (*_PARTS, *_SIGNS)) for source in sources for part in ast.walk(source))
+    return (names, sources) if known and len(names) == len(targets) else None
+
+
+def of_rows(node: ast.Call) -> ast.Call | None:
+    """A call with a value for each row, as one with a function of a row, and the call itself; None of any other."""
+    match node:
+        case ast.Call(
+            ast.Name(name) | ast.Attribute(ast.Name("np" | "numpy"), name),
+            [ast.ListComp(value, [each]) | ast.GeneratorExp(value, [each]) as some],
+            [],
+        ) if name in _OF_ROWS and not each.ifs and not each.is_async and not hasattr(some, "of_rows"):
+            rows = rows_of(each.target, each.iter)
+            if rows is None or any(map(changes, ast.walk(value))):
+                return None
+            some.of_rows = True  # type: ignore[union-attr]  # it is looked at no more
+            row = taking(rows[0], copy.deepcopy(value))
+            return call("of_rows", node, ast.Constant(_OF_ROWS[name]), row, later(node), *copy.deepcopy(rows[1]))
+    return None
+
+
 def index(key: ast.expr) -> ast.expr:
     """An index as a value: slices are calls of ``slice`` outside of brackets."""
     if isinstance(key, ast.Slice):
@@ -180,6 +220,16 @@ def tried(node: ast.Try | ast.TryStar | ast.With) -> None:
 
 def _called(node: ast.With) -> Iterator[ast.expr]:
     return (item.context_expr.func for item in node.items if isinstance(item.context_expr, ast.Call))
+
+
+def later(value: ast.expr) -> ast.expr:
+    return taking((), value)
+
+
+def taking(names: Iterable[str], value: ast.expr) -> ast.expr:
+    """A function of some names."""
+    given = ast.arguments([], [ast.arg(name) for name in names], None, [], [], None, [])
+    return ast.copy_location(ast.Lambda(given, value), value)
 
 
 def call(name: str, at: ast.AST, *args: ast.expr) -> ast.Call:

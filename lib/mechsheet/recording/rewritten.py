@@ -13,7 +13,7 @@ from collections.abc import Iterator
 from types import CodeType, FunctionType
 from typing import Any
 
-from mechsheet.recording import choices, conditions, in_place, kept, loops
+from mechsheet.recording import choices, conditions, in_place, kept, loops, per_row
 from mechsheet.recording.forms import (
     OF_KEPT,
     SCOPED,
@@ -22,21 +22,25 @@ from mechsheet.recording.forms import (
     gone_through,
     index,
     keeps,
+    later,
     member,
     of_kept,
+    of_rows,
     one_by_one,
     set_parts,
     sets_beside,
     tried,
 )
+from mechsheet.recording.summed import as_sums
 from mechsheet.worksheet import source
 from mechsheet.worksheet.source import bound
 
-CALLS = choices.CALLS | conditions.CALLS | in_place.CALLS | kept.CALLS | loops.CALLS
+CALLS = choices.CALLS | conditions.CALLS | in_place.CALLS | kept.CALLS | loops.CALLS | per_row.CALLS
 _NAMES = {"float", "int", "complex", "len", "max", "min", "pow", "round", "sorted"}
 _KINDS = (
     *(ast.Import, ast.ImportFrom, ast.JoinedStr, ast.Subscript, ast.IfExp, ast.BoolOp, ast.Compare, ast.Match, ast.Not),
     *(ast.AugAssign, ast.If, ast.While, ast.For, ast.FunctionDef, ast.Try, ast.TryStar, ast.With),
+    *(ast.ListComp, ast.GeneratorExp),
 )
 
 
@@ -54,6 +58,8 @@ class _Rewriting(ast.NodeTransformer):
 
     def visit_Call(self, node: ast.Call) -> ast.AST:
         """What Python decides by itself; the reason of a check, which only the worksheet's own run tells, is none."""
+        if rows := of_rows(node):
+            return self.generic_visit(rows)
         match node:
             case ast.Call(ast.Name("Check"), [name, residual, limit, unit, _, *rest]):
                 node.args = [name, residual, limit, unit, ast.Constant(""), *rest]
@@ -107,13 +113,13 @@ class _Rewriting(ast.NodeTransformer):
         self.generic_visit(node)
         if any(isinstance(n, SCOPED) for n in ast.walk(node)):
             return node
-        return call("choice", node, node.test, _later(node.body), _later(node.orelse))
+        return call("choice", node, node.test, later(node.body), later(node.orelse))
 
     def visit_BoolOp(self, node: ast.BoolOp) -> ast.AST:
         self.generic_visit(node)
         if any(isinstance(n, SCOPED) for n in ast.walk(node)):
             return node
-        return call("and" if isinstance(node.op, ast.And) else "or", node, *map(_later, node.values))
+        return call("and" if isinstance(node.op, ast.And) else "or", node, *map(later, node.values))
 
     def visit_Compare(self, node: ast.Compare) -> ast.AST:
         self.generic_visit(node)
@@ -124,7 +130,7 @@ class _Rewriting(ast.NodeTransformer):
         sides = [node.left, *node.comparators]
         pairs = zip(sides, node.ops, sides[1:], strict=False)
         parts = [ast.copy_location(ast.Compare(a, [op], [b]), node) for a, op, b in pairs]
-        return call("and", node, *map(_later, parts))
+        return call("and", node, *map(later, parts))
 
     def visit_Match(self, node: ast.Match) -> Any:
         if (choice := as_choice(node)) is not None:
@@ -194,8 +200,9 @@ class _Rewriting(ast.NodeTransformer):
             if all(map(_only_binds_or_ends, body := [parts, *node.body])):
                 node.target, node.body = ast.Name(row, ast.Store()), body
         if not (ends and isinstance(node.target, ast.Name)):
-            self.generic_visit(node)
-            return node
+            sums = None if ends or hasattr(node, "as_sums") else as_sums(node)
+            node.as_sums = True  # type: ignore[attr-defined]  # it is looked at no more
+            return [self.generic_visit(line) for line in sums or [node]]
         if node.orelse and all(map(_only_binds_or_ends, node.body)):
             left = [*_found(node, node.orelse), _unbound_left(node)]
             return [line for one in map(self.visit, left) for line in (one if isinstance(one, list) else [one])]
@@ -405,11 +412,6 @@ def _bound_anew(node: ast.stmt, name: str, change: str, *args: ast.expr) -> tupl
     known = ast.Name(name, ast.Load())
     bind = ast.Assign([ast.Name(name, ast.Store())], call(change, node, known, *args))
     return ast.copy_location(bind, node), ast.copy_location(ast.Expr(call("settled", node, known)), node)
-
-
-def _later(value: ast.expr) -> ast.expr:
-    nothing = ast.arguments([], [], None, [], [], None, [])
-    return ast.copy_location(ast.Lambda(nothing, value), value)
 
 
 def compiled(statement: ast.stmt, path: str) -> CodeType:

@@ -35,6 +35,7 @@ from mechsheet.quantities.written import looked_at, seen
 from mechsheet.recording import scipy_rules, spline_rules
 from mechsheet.recording.choices import total
 from mechsheet.recording.conditions import every, some
+from mechsheet.recording.per_row import of_rows
 from mechsheet.recording.rewritten import NAMES, rebuilt
 from mechsheet.worksheet import check, find, system, title
 from mechsheet.worksheet.drawing import Drawing
@@ -159,10 +160,14 @@ def _each(f: Any = None, *given: Any, **named: Any) -> Any:
         graph = current.get()
         values = [lift(graph, x) for x in args]
         shape = np.broadcast_shapes(*(x.extent for x in values))
-        flat = [x.like(*values).ravel() if shape else x for x in values]
         if not shape:
-            return instead(f)(*flat)
-        return lift(graph, [instead(f)(*each) for each in zip(*flat, strict=True)]).reshape(shape)
+            return instead(f)(*values)
+        flat = [x.like(*values).ravel() for x in values]
+
+        def one_by_one() -> Any:
+            return lift(graph, [instead(f)(*each) for each in zip(*flat, strict=True)]).reshape(shape)
+
+        return of_rows("array", instead(f), one_by_one, *flat) if len(shape) == 1 else one_by_one()
 
     return function
 

@@ -1,0 +1,80 @@
+"""Loops that only add something for each row, as sums: ``for row in rows: D += row.n / N(row.S)``."""
+
+import ast
+import copy
+from collections.abc import Iterator
+
+from mechsheet.recording.forms import call, changes, rows_of, taking
+from mechsheet.worksheet.source import bound
+
+_SCOPES = ast.Lambda, ast.ListComp, ast.SetComp, ast.DictComp, ast.GeneratorExp
+_NONE = ""  # the name of what is no step
+_Added = tuple[str, ast.operator, ast.expr]  # what is added to a name, or taken away from it
+
+
+def as_sums(node: ast.For) -> list[ast.stmt] | None:
+    """A loop over rows as the sums that it makes, where they are followed, else as it is; None of any other loop.
+
+    What is named in it beside, and the row, have the values of the last one in the end.
+    """
+    rows = rows_of(node.target, node.iter)
+    if rows is None or node.orelse or any(isinstance(part, _SCOPES) or changes(part) for part in ast.walk(node)):
+        return None
+    steps = dict[str, ast.expr]()
+    added = [*_added(node.body, [], steps)]
+    totals, own = {name for name, *_ in added}, {*rows[0]}
+    values = [*steps.values(), *(value for *_, value in added)]
+    read = {part.id for value in values for part in ast.walk(value) if isinstance(part, ast.Name)}
+    if not added or _NONE in steps or totals & own or steps.keys() & (own | totals) or read & (steps.keys() | totals):
+        return None
+    known = ast.Name(f"recorded sums {node.lineno}", ast.Load())
+    each = taking(rows[0], ast.Tuple([value for *_, value in added], ast.Load()))
+    asked = ast.Assign([ast.Name(known.id, ast.Store())], call("sums", node, each, *copy.deepcopy(rows[1])))
+    lines: list[ast.stmt] = []
+    for n, (name, operation, _) in enumerate(added):
+        total = ast.Subscript(known, ast.Constant(n), ast.Load())
+        lines.append(ast.AugAssign(ast.Name(name, ast.Store()), operation, total))
+    last = [ast.Subscript(copy.deepcopy(source), ast.Constant(-1), ast.Load()) for source in rows[1]]
+    lines += [ast.Assign([ast.Name(name, ast.Store())], value) for name, value in zip(rows[0], last, strict=True)]
+    lines += [line for line in copy.deepcopy(node.body) if isinstance(line, ast.Assign) and {*bound(line)} <= {*steps}]
+    either = ast.If(known, [ast.copy_location(line, node) for line in lines], [node])
+    return [ast.fix_missing_locations(ast.copy_location(line, node)) for line in (asked, either)]
+
+
+def _added(body: list[ast.stmt], tests: list[ast.expr], steps: dict[str, ast.expr]) -> Iterator[_Added]:
+    """What the lines of a turn add, with the formulas of its ``steps``, among them one for a line that does more."""
+    for line in body:
+        match line:
+            case ast.AugAssign(ast.Name(name), ast.Add() | ast.Sub() as operation, value):
+                yield name, operation, _with(steps, _where(tests, value))
+            case ast.Assign([ast.Name(name)], ast.BinOp(ast.Name(same), ast.Add() | ast.Sub() as operation, value)) if (
+                name == same
+            ):
+                yield name, operation, _with(steps, _where(tests, value))
+            case ast.Assign([ast.Name(name)], value) if not tests and name not in steps:
+                steps[name] = _with(steps, value)
+            case ast.If(test, then, otherwise):
+                yield from _added(then, [*tests, test], steps)
+                yield from _added(otherwise, [*tests, ast.UnaryOp(ast.Not(), test)], steps)
+            case _:
+                steps[_NONE] = ast.Constant(None)
+
+
+def _where(tests: list[ast.expr], value: ast.expr) -> ast.expr:
+    if not tests:
+        return value
+    return ast.IfExp(ast.BoolOp(ast.And(), tests) if len(tests) > 1 else tests[0], value, ast.Constant(0.0))
+
+
+def _with(steps: dict[str, ast.expr], value: ast.expr) -> ast.expr:
+    """An expression with those of the steps in place of their names."""
+    named: ast.expr = _Named(steps).visit(copy.deepcopy(value))
+    return named
+
+
+class _Named(ast.NodeTransformer):
+    def __init__(self, values: dict[str, ast.expr]) -> None:
+        self.values = values
+
+    def visit_Name(self, node: ast.Name) -> ast.expr:
+        return copy.deepcopy(self.values.get(node.id, node))
