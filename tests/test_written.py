@@ -13,7 +13,7 @@ from mechsheet.html import markdown, wording
 from mechsheet.quantities.graph import Graph, current
 from mechsheet.quantities.quantity import Quantity
 from mechsheet.quantities.sketch import Sketch
-from mechsheet.quantities.written import Number, Written, text
+from mechsheet.quantities.written import Number, Written, joined, text
 from mechsheet.recording.choices import choice
 from mechsheet.worksheet.drawing import Drawing
 
@@ -41,6 +41,21 @@ def test_a_text_of_plain_numbers_or_another_format_is_one_of_python(graph: Graph
     x = quantity(graph, "x", 2.5)
     assert text("a", (2.5, ".1f")) == "a2.5" and not graph.looked
     assert text((x, ">8.2f")) == f"{2.5:>8.2f}" and graph.looked
+
+
+def test_a_format_without_digits_has_six_and_a_part_is_in_per_cent(graph: Graph) -> None:
+    x = quantity(graph, "x", 0.123456789)
+    for spec, followed in (("g", ".6g"), ("e", ".6e"), ("f", ".6f"), ("%", ".6f"), (".1%", ".1f")):
+        told = text("a ", (x, spec), "!")
+        assert told.now == f"a {x.value.item():{spec}}!" and not graph.looked
+        assert told.parts[1].spec == followed
+
+
+def test_texts_that_are_joined_are_looked_at_by_nobody(graph: Graph) -> None:
+    x = quantity(graph, "x", 2.5)
+    told = joined(", ", [text((x, ".1f")), "b", text((2 * x, ""))])
+    assert told.now == "2.5, b, 5.0" and not graph.looked
+    assert joined("-", (c for c in "ab")) == "a-b"
 
 
 def test_one_of_two_texts_is_chosen_by_a_number(graph: Graph) -> None:

@@ -111,7 +111,15 @@ def floor_divide(x: Quantity, y: Quantity) -> Any:
     return elementwise("round")((x - x % y) / y)
 
 
+def whole(x: Quantity) -> Quantity:
+    """What Python has as a whole number: a text shows it without decimals."""
+    x.graph.whole.add(x.re)
+    return x
+
+
 def trunc(x: Quantity) -> Any:
+    if x.dtype.kind in "iu":
+        return x
     down = elementwise("floor")
     return choice(x.graph, x < 0, -down(-x), down(x))
 

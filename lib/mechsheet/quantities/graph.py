@@ -86,6 +86,7 @@ class Graph(Lengths):
         self.most = MOST_DRAWN if draws or bodies else MOST  # that these may be
         self.counts = set[Node]()  # which rest on numbers of rows, and are these themselves
         self.always = set[Node]()  # which are numbers whatever the inputs are
+        self.whole = set[Node]()  # which are whole numbers to Python, of no decimals in a text
         self.pivots = set[Node]()  # conditions that put the rows of linear equations in order, which may be unlike
         self.nodes: dict[Any, Node] = {}
         self.alike: dict[Any, list[tuple[float, Node]]] = {}  # exported, by what they rest on and shape

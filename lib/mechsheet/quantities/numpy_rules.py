@@ -305,7 +305,7 @@ _OF_FUNCTIONS: dict[Any, Callable[..., Any]] = {
     np.mean: mean, np.average: average, np.nanmean: known_mean, np.var: variance, np.median: median,
     np.std: lambda graph, x, axis=None, ddof=0: np.sqrt(variance(graph, x, axis, ddof)), np.quantile: quantile,
     np.percentile: lambda graph, x, q, axis=None: quantile(graph, x, lift(graph, q) / 100, axis),
-    np.count_nonzero: lambda graph, x, axis=None: choice(graph, x, 1.0, 0.0).reduced("sum", axis),
+    np.count_nonzero: lambda graph, x, axis=None: choice(graph, x, 1, 0).reduced("sum", axis),
     np.cumsum: _so_far("sum"), np.cumprod: _so_far("prod"), np.diff: _difference, np.ediff1d: _difference,
     np.trapezoid: _trapezoid, np.gradient: _gradient, np.interp: interpolated, np.searchsorted: searched,
     np.digitize: digitized, np.sort: ordered, np.cov: covariance, np.corrcoef: correlation, np.kron: kron,

@@ -154,7 +154,9 @@ class Quantity(NDArrayOperatorsMixin):
             size = abs(self) * 10.0**digits
             if not abs(size - np.floor(size) - 0.5) > numbers.ROUNDING * np.maximum(size, 1):
                 raise NotRecorded("which way a half is rounded")
-        return np.round(self, digits or 0)
+        rounded: Any = np.round(self, digits or 0)
+        self.graph.whole.update([rounded.re] if digits is None else ())
+        return rounded
 
     def __format__(self, spec: str) -> str:
         """Its text, for Python to look at; of a number the same while nothing but rounding changes it."""

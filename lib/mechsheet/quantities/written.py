@@ -7,12 +7,16 @@ from functools import reduce
 from operator import or_
 from typing import Any, NamedTuple
 
+import numpy as np
+
 from mechsheet.quantities.arithmetic import choice
 from mechsheet.quantities.graph import Guard, current
+from mechsheet.quantities.node import Node
 from mechsheet.quantities.quantity import Quantity
 from mechsheet.worksheet.kinds import Chosen, place
 
-_FORMAT = re.compile(r"\.\d{1,2}[efg]|")  # which a reader writes too
+_FORMAT = re.compile(r"\.\d{1,2}[efg]|d|")  # which a reader writes too
+_SHORT = re.compile(r"(\.\d{1,2})?([efg%])")
 
 
 class Number(NamedTuple):
@@ -23,7 +27,8 @@ class Number(NamedTuple):
     instead: tuple[tuple[str, str], ...] = ()
 
     def now(self) -> str:
-        text: str = self.value.re.value.item().__format__(self.spec)
+        value = self.value.re.value.item()
+        text: str = (int(value) if self.spec == "d" else value).__format__(self.spec)
         return reduce(lambda told, pair: told.replace(*pair), self.instead, text)
 
 
@@ -192,25 +197,52 @@ class Said(NamedTuple):
 
 def text(*parts: Any) -> Any:
     """What an f-string gives: its texts, and its values each with its format."""
-    pieces = list[Any]()
-    for part in parts:
-        value, spec = part if isinstance(part, tuple) else (part, "")
-        if isinstance(value, Chosen):
-            options, at = place(value)
-            value = Written((OneOf(at, options),)) if isinstance(at, Quantity) else str(value)
-        followed = _is_followed(value, spec)
-        pieces.append(Number(value, spec) if followed and isinstance(value, Quantity) else
-                      value if followed else f"{value:{spec}}")  # fmt: skip
-    return "".join(pieces) if all(isinstance(part, str) for part in pieces) else Written(tuple(_pieces(pieces)))
+    shown = [piece for part in parts for piece in _shown(*(part if isinstance(part, tuple) else (part, "")))]
+    return "".join(shown) if all(isinstance(part, str) for part in shown) else Written(tuple(_pieces(shown)))
 
 
-def joined(between: Any, parts: Any) -> Any:
-    """``between.join(parts)`` of texts, some of them with recorded numbers in them."""
-    each = list(parts) if isinstance(between, str | Written) else []
-    if not any(isinstance(part, Written) for part in each):
-        return between.join(each or parts)
-    rest = (piece for part in each[1:] for piece in (between, part))
-    return Written(tuple(_pieces([each[0], *rest])))
+def said(value: Any) -> Any:
+    """One of two values in a text, of which Python need not see which one it is."""
+    return Written((value,)) if isinstance(value, str) and current.get().draws else value
+
+
+def _shown(value: Any, spec: str) -> Iterator[Any]:
+    """Pieces of a text for a value in its format."""
+    end = ""
+    if isinstance(value, Chosen):
+        options, at = place(value)
+        value = Written((OneOf(at, options),)) if isinstance(at, Quantity) else str(value)
+    elif isinstance(value, Quantity) and (short := _SHORT.fullmatch(spec)):
+        digits, kind = short[1] or ".6", short[2]
+        value, spec, end = (value * 100, f"{digits}f", kind) if kind == "%" else (value, digits + kind, "")
+    elif isinstance(value, Quantity) and not spec and _is_whole(value.re):
+        spec = "d"
+    followed = _is_followed(value, spec)
+    yield Number(value, spec) if followed and isinstance(value, Quantity) else value if followed else f"{value:{spec}}"
+    yield end
+
+
+def _is_whole(node: Node) -> bool:
+    """Whether Python has a whole number there, where it has one at all."""
+    if node in current.get().whole or node.value.dtype.kind in "iu":
+        return True
+    match node.op:
+        case "sized":
+            return _is_whole(node.args[0])
+        case "where":
+            return all(_is_whole(part) or np.isnan(part.value).all() for part in node.args[1:])
+        case "add" | "sub" | "mul" | "neg":
+            return all(map(_is_whole, node.args))
+    return False
+
+
+def joined(sign: Any, parts: Any) -> Any:
+    """``sign.join(parts)`` of texts, some of them with recorded numbers in them."""
+    each = list(parts) if isinstance(sign, str | Written) else None
+    if each is None or not any(isinstance(part, Written) for part in (sign, *each)):
+        return sign.join(parts if each is None else each)
+    pieces = [piece for part in each for piece in (sign, part)][1:]
+    return Written(tuple(_pieces(pieces)))
 
 
 def either(holds: Quantity, then: "str | Written", otherwise: "str | Written") -> Written:

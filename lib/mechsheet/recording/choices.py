@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from mechsheet.quantities.arithmetic import choice as where
-from mechsheet.quantities.arithmetic import trunc
+from mechsheet.quantities.arithmetic import trunc, whole
 from mechsheet.quantities.graph import PARTIAL, NotRecorded, current
 from mechsheet.quantities.node import bottom_up
 from mechsheet.quantities.options import is_object, parted
@@ -21,7 +21,7 @@ from mechsheet.quantities.quantity import Quantity, has_quantity, is_any_length,
 from mechsheet.quantities.selected import Selected
 from mechsheet.quantities.sketch import Sketch
 from mechsheet.quantities.sketch import merged as merged_sketch
-from mechsheet.quantities.written import Either, OneOf, Written, either, joined, text
+from mechsheet.quantities.written import Either, OneOf, Written, either, joined, said, text
 from mechsheet.recording.memory import Memory, may_change, names_of
 from mechsheet.worksheet.drawing import COLOURS
 from mechsheet.worksheet.kinds import Chosen, cases
@@ -380,12 +380,12 @@ def length(x: Any) -> Any:
 
 
 CALLS: dict[str, Any] = {
-    "choice": choice, "element": element, "get": got,
+    "choice": choice, "said": said, "element": element, "get": got,
     "handled": handled, "tried": tried,
     "len": length,
     "unbound": UNBOUND, "text": text, "join": joined,
     "max": _extreme("max"), "min": _extreme("min"), "round": round, "sorted": ranked, "place": placed,
-    "float": _number(float, lambda x: x), "int": _number(int, trunc),
+    "float": _number(float, lambda x: x), "int": _number(int, lambda x: whole(trunc(x))),
     "complex": _number(complex, lambda *x: sum(a * b for a, b in zip(x, (1, 1j), strict=False))),
     "pow": lambda *x: x[0] ** x[1] if has_quantity(x) else pow(*x),
 }  # fmt: skip

@@ -23,6 +23,7 @@ from mechsheet.recording.forms import (
     index,
     keeps,
     later,
+    left_for,
     member,
     of_kept,
     of_rows,
@@ -93,8 +94,11 @@ class _Rewriting(ast.NodeTransformer):
     def _piece(self, part: ast.expr) -> ast.expr:
         if not isinstance(part, ast.FormattedValue):
             return part
-        spec = part.format_spec or ast.Constant("")
-        return ast.copy_location(ast.Tuple([self.visit(part.value), spec], ast.Load()), part)
+        if isinstance(part.value, ast.IfExp):  # of two texts Python sees none
+            ways = part.value.body, part.value.orelse
+            part.value.body, part.value.orelse = (call("said", way, way) for way in ways)
+        spec, value = part.format_spec or ast.Constant(""), self.visit(part.value)
+        return ast.copy_location(ast.Tuple([value, spec], ast.Load()), part)
 
     def visit_Subscript(self, node: ast.Subscript) -> ast.AST:
         match node:
@@ -235,7 +239,7 @@ class _Rewriting(ast.NodeTransformer):
         if not any(_is_of_the_whole(part) for part in ast.walk(node)):
             node.body = [as_choice(line) or line if isinstance(line, ast.Match) else line for line in node.body]
             for n, line in enumerate(node.body):
-                if isinstance(line, ast.For) and _ends(node.body[n + 1 :]) and (left := _left_for(line)):
+                if isinstance(line, ast.For) and _ends(node.body[n + 1 :]) and (left := left_for(line)):
                     node.body[n:] = [*_found(line, node.body[n + 1 :]), left]
                     break
             for n, line in enumerate(node.body):
@@ -282,30 +286,6 @@ def _only_binds_or_ends(line: ast.stmt) -> bool:
         case ast.Break() | ast.Continue():
             return True
     return _only_binds(line)
-
-
-def _left_for(node: ast.For) -> ast.stmt | None:
-    """Let a loop that only looks for what the function returns be left with it; what returns it then. Else None."""
-    ends = [part for line in node.body for part in ast.walk(line) if isinstance(part, ast.Return | ast.Break)]
-    whole = any(
-        isinstance(part, ast.For | ast.While | ast.FunctionDef) for line in node.body for part in ast.walk(line)
-    )
-    if node.orelse or whole or not ends or not all(isinstance(end, ast.Return) and end.value for end in ends):
-        return None
-    found = f"recorded found {node.lineno}"
-    node.body = [each for line in node.body for each in _leaving(line, found)]
-    return ast.copy_location(ast.Return(ast.Name(found, ast.Load())), node)
-
-
-def _leaving(line: ast.stmt, found: str) -> Iterator[ast.stmt]:
-    if isinstance(line, ast.Return) and line.value:
-        yield ast.copy_location(ast.Assign([ast.Name(found, ast.Store())], line.value), line)
-        line = ast.copy_location(ast.Break(), line)
-    if isinstance(line, ast.If):
-        line.body, line.orelse = (
-            [new for one in way for new in _leaving(one, found)] for way in (line.body, line.orelse)
-        )
-    yield line
 
 
 def _unbound_left(node: ast.For) -> ast.stmt:

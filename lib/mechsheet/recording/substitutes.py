@@ -23,6 +23,7 @@ from typing import Any
 import numpy as np
 
 from mechsheet import units
+from mechsheet.quantities.arithmetic import whole
 from mechsheet.quantities.graph import NotRecorded, current
 from mechsheet.quantities.node import Node
 from mechsheet.quantities.numpy_rules import arange, filled, linspace, simpson, trapezoid_so_far
@@ -101,6 +102,12 @@ def _logarithm(x: Any, *base: Any) -> Any:
     return np.log(x) / np.log(base[0]) if base else np.log(x)
 
 
+def _whole(f: Callable[..., Any]) -> Callable[..., Any]:
+    """A function that gives whole numbers in the module math."""
+    return lambda x: whole(f(x)) if has_quantity(x) else f(x)
+
+
+_MATH |= {getattr(math, f.__name__): _whole(f) for f in (np.floor, np.ceil, np.trunc)}
 _MATH |= {math.hypot: _hypot, math.dist: _distance, math.log: _logarithm}  # of any number of coordinates, to any base
 
 

@@ -1,0 +1,60 @@
+"""Prose with numbers and texts in it: on the page it is for other inputs what the worksheet says there."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+from urllib.parse import quote
+
+import pytest
+from own_worksheet import written
+from test_html_page import read
+
+from mechsheet.html import write
+from mechsheet.worksheet import cells, inputs
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Page
+
+SETUP = """import math
+from typing import Literal
+import marimo as mo
+import numpy as np
+from mechsheet import ask, inputs, one_of, read
+
+@inputs
+class Steel:
+    R: float  # [-] strength
+
+STEELS = {"S235": Steel(235.0), "S355": Steel(355.0)}"""
+GIVEN = """F: float = 2.5  # [-] number; > 0
+side: Literal["left", "right"] = "left"  # side
+steel: Steel = one_of(STEELS, "S235")  # steel
+v: list[float] = [1.0, 4.0, 2.0]  # [-] values"""
+SAID = [
+    "{int(3 * g.F)} or {math.ceil(g.F) + 1} or {round(g.F)}", "level {int(np.argmax(g.v)) + 1} of {len(g.v)}",
+    "{np.count_nonzero(g.v > g.F)} above", "{g.steel}, {g.side} side", "a{'' if g.side == 'left' else ', turned'}.",
+    "{'long' if g.F > 3 else f'short by {3 - g.F:.2f}'}", "{g.F / 7:g} and {g.F / 7:.1%} and {1e9 * g.F:e} and {g.F:f}",
+    "{', '.join(f'{x:.1f} mm' for x in (g.F, 2 * g.F))}", "{-(-g.F // 1):.0f}", "{np.floor(g.F)}", "{2 * int(g.F) - 1}",
+]  # fmt: skip
+CHANGED = [{"F": "3.75"}, {"side": "right", "F": "1"}, {"steel": "S355", "v": "5; 1; 2; 7"}]
+
+
+@pytest.mark.parametrize("given", CHANGED)
+def test_prose_is_that_of_the_worksheet(given: dict[str, str], blank: "Page", tmp_path: Path) -> None:
+    """What stood in it as a whole number, an option, one of two words or in per cent had made all of it grey."""
+    path = tmp_path / "prose.py"
+    text = written(SETUP, GIVEN, "y = g.F  # [-] y")
+    said = (
+        f'@app.cell\ndef said_{k}(g):\n    mo.md(f"""A{k} {words}""")\n    return\n\n\n' for k, words in enumerate(SAID)
+    )
+    path.write_text(text.replace("if __name__", "".join([*said, "if __name__"])))
+    sheet = cells.load(path)
+    own, other = tmp_path / "own.html", tmp_path / "other.html"
+    own.write_text(write.page(sheet, sheet.inputs()), encoding="utf-8")
+    other.write_text(write.page(sheet, inputs.build(sheet.inputs, given)), encoding="utf-8")
+    shown = []
+    for page, address in ((own, "&".join(f"{k}={quote(v)}" for k, v in given.items())), (other, "")):
+        blank.goto("about:blank")
+        blank.goto(page.as_uri() + (f"#{address}" if address else ""))
+        blank.wait_for_selector("body[data-ready]")
+        shown.append(read(blank)["texts"])
+    assert shown[0] == shown[1] and len(shown[0]) >= len(SAID)
