@@ -259,7 +259,7 @@ TOLD = [  # what is typed, the text and the last heading then
     ("a", "2", "At a force of 2.50 it is small.", "2.1 Case 2"),
     ("F", "2.75", "At a force of 2.75 it is small.", "2.1 Case 2"),
     ("k", "1", "At a force of 2.75 it is small.", "2.1 Case 1"),
-    ("F", "4", "", ""),
+    ("F", "4", "At a force of 4.00 it is large.", "2.1 Case 1"),
 ]
 
 
