@@ -17,7 +17,6 @@ from mechsheet.html.follow import Follower
 from mechsheet.quantities.graph import Graph
 from mechsheet.quantities.lines import Recording
 from mechsheet.worksheet import cells
-from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.typeset import Numbers
 from mechsheet.worksheet.verdict import Verdict
 
@@ -224,7 +223,10 @@ def assert_same(found: list[float], expected: list[float], within: float = 1e-14
     np.testing.assert_allclose(found, expected, rtol=within, atol=1e-29)
 
 
-def test_values_whose_count_only_their_own_equations_tell_are_refused_in_a_line(tmp_path: Path) -> None:
+def test_how_many_values_are_found_is_told_by_what_equations_sum_along_another_axis(
+    blank: Page, tmp_path: Path
+) -> None:
+    """Such a worksheet had no page."""
     sheet = own(
         tmp_path,
         "c = np.array([1.0, 2.0, 3.0])\n"
@@ -233,5 +235,13 @@ def test_values_whose_count_only_their_own_equations_tell_are_refused_in_a_line(
         "y = pull(two.value.u)  # [-] line\n"
         'table_2 = table("2", "Two", y)',
     )
-    with pytest.raises(SheetError, match="line 39: how many values are found there is not known before"):
-        html.page(sheet, sheet.inputs())
+    assert len(html.page(sheet, sheet.inputs()))
+    _, recording = recorded(sheet)
+    (column,) = recording.tables["2"]
+    assert column is not None
+    given: list[dict[str, Any]] = [{}, {"F": 2.25}]
+    for inputs, each in zip(
+        given, evaluated(blank, javascript.module(recording, {"y": column.re}), given), strict=True
+    ):
+        expected = sheet.run(["y"], {"g": sheet.inputs(**inputs)})["y"]
+        np.testing.assert_allclose(each["values"]["y"], expected, rtol=1e-9)

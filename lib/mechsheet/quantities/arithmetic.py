@@ -118,8 +118,6 @@ def whole(x: Quantity) -> Quantity:
 
 
 def trunc(x: Quantity) -> Any:
-    if x.dtype.kind in "iu":
-        return x
     down = elementwise("floor")
     return choice(x.graph, x < 0, -down(-x), down(x))
 
