@@ -17,6 +17,7 @@ from mechsheet.html.follow import Follower
 from mechsheet.quantities.graph import Graph
 from mechsheet.quantities.lines import Recording
 from mechsheet.worksheet import cells
+from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.typeset import Numbers
 from mechsheet.worksheet.verdict import Verdict
 
@@ -230,7 +231,7 @@ def test_how_many_values_are_found_is_told_by_what_equations_sum_along_another_a
     sheet = own(
         tmp_path,
         "c = np.array([1.0, 2.0, 3.0])\n"
-        "pull = lambda u: np.sort(np.maximum(np.asarray(u)[..., None] * c - 0.1, 0), axis=-1)[..., 0]\n"
+        "pull = lambda u: np.sum(np.maximum(np.asarray(u)[..., None] * c - 0.1, 0), axis=-1)\n"
         "two = find(lambda u, v: (pull(u) * v - x, u + v), equals=(0, 3), u=(0.5, 2.5), v=(0.5, 2.5))\n"
         "y = pull(two.value.u)  # [-] line\n"
         'table_2 = table("2", "Two", y)',
@@ -245,3 +246,17 @@ def test_how_many_values_are_found_is_told_by_what_equations_sum_along_another_a
     ):
         expected = sheet.run(["y"], {"g": sheet.inputs(**inputs)})["y"]
         np.testing.assert_allclose(each["values"]["y"], expected, rtol=1e-9)
+
+
+def test_values_whose_count_only_their_own_equations_tell_are_refused_in_a_line(tmp_path: Path) -> None:
+    """What sorts tells no length."""
+    sheet = own(
+        tmp_path,
+        "c = np.array([1.0, 2.0, 3.0])\n"
+        "pull = lambda u: np.sort(np.maximum(np.asarray(u)[..., None] * c - 0.1, 0), axis=-1)[..., 0]\n"
+        "two = find(lambda u, v: (pull(u) * v - x, u + v), equals=(0, 3), u=(0.5, 2.5), v=(0.5, 2.5))\n"
+        "y = pull(two.value.u)  # [-] line\n"
+        'table_2 = table("2", "Two", y)',
+    )
+    with pytest.raises(SheetError, match="line 39: how many values are found there is not known before"):
+        html.page(sheet, sheet.inputs())
