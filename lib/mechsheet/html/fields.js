@@ -85,12 +85,11 @@ function readInputs() {
 }
 
 const typedIn = new Map(); // of the columns of texts, by their names
-const LONGEST = 200; // characters of a text
 
 // A text in one line, which has none of the signs that stand between the cells of a table.
 function readText(column, cell) {
-  const text = cell.replace(/\s+/g, " ").trim();
-  if ([...text].length > LONGEST || /\p{C}/u.test(text)) refuse(column, `'${text.slice(0, 60)}'..`, `must be a line of at most ${LONGEST} characters`);
+  const text = cell.replace(/\s+/g, " ").trim(), {longest} = told.inputs;
+  if ([...text].length > longest || /\p{C}/u.test(text)) refuse(column, `'${text.slice(0, 60)}'..`, `must be a line of at most ${longest} characters`);
   if (/[;|]/.test(text)) refuse(column, `'${text.slice(0, 60)}'`, "must be a text without ; and |");
   return text;
 }

@@ -14,7 +14,7 @@ from mechsheet.worksheet.inputs import declared
 from mechsheet.worksheet.kinds import Choice, Input, Switch, number
 from mechsheet.worksheet.limits import LEAST, MOST
 from mechsheet.worksheet.lists import MOST_ROWS, Rows
-from mechsheet.worksheet.text_line import TextLine
+from mechsheet.worksheet.text_line import LONGEST, TextLine
 
 
 def fields(g: Any) -> str:
@@ -86,7 +86,7 @@ def _grid(field: Rows, columns: tuple[Input, ...]) -> str:
 
 def told(g: Any) -> dict[str, Any]:
     """What the page must know of the inputs, and of the sizes that they may have, as JSON."""
-    return {"fields": list(_told(g)), "most": MOST, "least": LEAST, "rows": MOST_ROWS}
+    return {"fields": list(_told(g)), "most": MOST, "least": LEAST, "rows": MOST_ROWS, "longest": LONGEST}
 
 
 def _told(g: Any) -> Iterator[dict[str, Any]]:

@@ -176,7 +176,7 @@ def shows(name: str) -> bool:
         from marimo._runtime.context import get_context  # on use: a version may lack it
 
         notebook: Any = get_context()
-        cells = [cell for cell in notebook.graph.cells.values() if name in cell.refs]
+        cells = [cell for cell in list(notebook.graph.cells.values()) if name in cell.refs]
         return any(_is_kept(cell.code, name) for cell in cells)
     except (ImportError, AttributeError):
         return False

@@ -133,7 +133,7 @@ class Input:
 
     def array(self, values: Iterable[Any]) -> NDArray[Any]:
         """Several values as an array."""
-        return np.array([*values], object if self.is_text else None)
+        return np.array([*values])
 
     def same(self, a: Any, b: Any) -> bool:
         """Whether two values are the same."""
@@ -271,15 +271,32 @@ def one_of(options: Mapping[str, T], name: str) -> T:
 
 
 @dataclass(frozen=True)
-class Choice(Input):
+class Worded(Input):
+    """An input that is typed and shown as a word or a text, not as a number."""
+
+    def display(self, value: Any) -> Any:
+        return str(value)
+
+    def written(self, value: Any, default: Any) -> Any:
+        return self.display(value)
+
+    def text(self, value: Any) -> str:
+        return str(value)
+
+    def brief(self, value: Any) -> str:
+        return self.text(value)
+
+    def readings(self, value: object) -> Iterator[str]:
+        yield from ()
+
+
+@dataclass(frozen=True)
+class Choice(Worded):
     """A choice of named options; ``table`` has a row of properties for each, numbers in SI or texts."""
 
     options: tuple[str, ...] = ()
     properties: tuple[Input, ...] = ()
     table: tuple[tuple[Any, ...], ...] = ()
-
-    def display(self, value: Any) -> Any:
-        return str(value)
 
     def read(self, value: object) -> Any:
         """Name of the option; a number is the option that is called so."""
@@ -302,17 +319,6 @@ class Choice(Input):
 
     def leaf(self, column: Any, default: Any) -> Any:
         return np.array([self.options.index(name) if name in self.options else -1 for name in column])
-
-    def written(self, value: Any, default: Any) -> Any:
-        return str(value)
-
-    def text(self, value: Any) -> str:
-        return str(value)
-
-    brief = text
-
-    def readings(self, value: object) -> Iterator[str]:
-        yield from ()
 
     def taken(self, value: Any) -> Any:
         return self.si(self.read(value), None) if isinstance(value, str) else value
@@ -337,7 +343,7 @@ class Choice(Input):
 
 
 @dataclass(frozen=True)
-class Switch(Input):
+class Switch(Worded):
     """What is so or not."""
 
     def display(self, value: Any) -> Any:
@@ -361,16 +367,8 @@ class Switch(Input):
     def leaf(self, column: Any, default: Any) -> Any:
         return column.astype(bool)
 
-    def written(self, value: Any, default: Any) -> Any:
-        return bool(value)
-
     def text(self, value: Any) -> str:
         return "yes" if value else "no"
-
-    brief = text
-
-    def readings(self, value: object) -> Iterator[str]:
-        yield from ()
 
     def taken(self, value: Any) -> Any:
         return self.read(value) if isinstance(value, str) else value
