@@ -282,6 +282,37 @@ def test_no_number_rests_on_the_text_of_other_inputs(line: str, draws: bool, tmp
         np.testing.assert_allclose(found, by_cells(path, ["y"], **given)["y"], rtol=1e-12, err_msg=str(given))
 
 
+ROW_BY_ROW = [
+    "y = sum(c.F * c.arm for c in g.cases)",
+    "y = max(c.F for c in g.cases) + np.array([c.F / g.W for c in g.cases]).sum()",
+    "y = 0\nfor c in g.cases:\n    y += c.F / g.W",
+]
+BY_THEIR_TEXTS = "(2.0 if g.cases[0].name == 'braking' else 1.0) * sum(c.F * (c.name == 'braking') for c in g.cases)"
+
+
+@pytest.mark.parametrize("lines", [*ROW_BY_ROW, f"y = {BY_THEIR_TEXTS}"])
+def test_rows_with_texts_are_gone_through_whatever_their_number(lines: str, tmp_path: Path) -> None:
+    """One formula for all rows holds for a row that is put in; what reads the text of each is none."""
+    path = sheet_of(
+        tmp_path, f"{lines}\nresult = np.atleast_1d(y) * 1.0  # [-] result\ntable_1 = table('1', 'All', result)"
+    )
+    sheet = load(path)
+    own: Any = sheet.inputs()
+    names = sheet.run(sheet.results, {"g": own})
+    recording = record({**names, "__file__": sheet.path}, whole=True, every=1, draws=True, lists=True)
+    (column,) = recording.tables["1"]
+    assert column is not None
+    for rows in ("braking; 7; 80 | x; 9; 70 | braking; 5; 60", "braking; 4; 20", "x; 4; 20 | braking; 6; 50"):
+        g = built(path, cases=rows)
+        texts = [float(n >= 2 or text != own.cases.name[n]) for n, text in enumerate(g.cases.name)]
+        told = {"cases.name": np.array(texts), "cases.F": g.cases.F, "cases.arm": g.cases.arm}
+        found = numbers([column.re], {recording.inputs[name]: x for name, x in told.items()})[column.re]
+        if lines in ROW_BY_ROW or not np.isnan(found).all():
+            np.testing.assert_allclose(
+                found, by_cells(path, ["result"], cases=rows)["result"], rtol=1e-12, err_msg=rows
+            )
+
+
 @pytest.mark.parametrize("line", [HELD[0], HELD[2]])
 def test_what_is_asked_for_again_is_of_the_text_that_is_given(line: str, tmp_path: Path) -> None:
     """What `evaluate` has recorded for other texts is not what is computed."""

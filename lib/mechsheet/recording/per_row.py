@@ -7,6 +7,7 @@ from mechsheet.quantities.graph import NotRecorded, current
 from mechsheet.quantities.node import Node, bottom_up
 from mechsheet.quantities.operations import ELEMENTWISE
 from mechsheet.quantities.quantity import Quantity, lift
+from mechsheet.quantities.text_column import Texts
 from mechsheet.readers.replaced import replaced
 from mechsheet.recording.choices import way_may_change
 from mechsheet.worksheet.lists import Whole
@@ -56,7 +57,9 @@ def _are_rows(sources: tuple[Any, ...]) -> bool:
 
 
 def _columns(source: Any) -> list[Any]:
-    return [*vars(source).values()] if isinstance(source, Whole) else [source]
+    """A column, or those of a table but for its texts."""
+    held = vars(source).values() if isinstance(source, Whole) else (source,)
+    return [each for each in held if not isinstance(each, Texts) or each is source]
 
 
 def _row(source: Any, rows: dict[Node, Node]) -> Any:
@@ -64,7 +67,10 @@ def _row(source: Any, rows: dict[Node, Node]) -> Any:
     if isinstance(source, Whole):
         row = source[0]
         for name, column in vars(source).items():
-            object.__setattr__(row, name, _row(column, rows))
+            if isinstance(column, Texts):
+                object.__delattr__(row, name)  # what reads it is no formula of all rows
+            else:
+                object.__setattr__(row, name, _row(column, rows))
         return row
     parts = [source.graph.state(part) for part in source.whole()[0].parts]
     rows.update(zip(parts, source.whole().parts, strict=True))
