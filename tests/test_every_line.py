@@ -205,3 +205,37 @@ def test_an_infinite_number_that_is_chosen_is_none_to_compute_with(
     assert front["ratio"] == "#N/A"
     said = {row[0]: row[4] for row in there["Checks"].iter_rows(values_only=True)}
     assert (said["ratio"], said["difference"], said["fewest"]) == ("not evaluated", "not evaluated", "PASS")
+
+
+LIFE = """N_1 = 2e6 * (300.0 / g.F) ** 5 if g.F > 300.0 else np.inf  # [-] turns
+N = np.where(linspace(0.5, 1.5, 3) * g.F > 300.0, 2e6 * (300.0 / g.F) ** 5, np.inf)  # [-] turns of three parts
+used = 1e5 / N_1 + (1e4 / N).sum()  # [-] used up
+hours = N_1 / (60 * g.n)  # [-] hours
+more = 5.0 - (N_1 + g.L)  # [-] below all
+least = min(3 * hours * g.L, 1e9) + max(more, -1e8)  # [-] of what is not
+parts = N * g.L  # [-] of each part
+shortest = np.minimum(parts, 1e8)  # [-] limited
+left = np.exp(-N_1 / 1e6)  # [-] what no cell follows
+ok = check("used up", used, 1.0)"""
+
+
+@pytest.mark.office
+@pytest.mark.parametrize("force", [200.0, 400.0, 1200.0])
+def test_a_number_over_an_infinite_one_is_nothing(
+    recalculated_all: Callable[[list[Path]], list[Any]], tmp_path: Path, force: float
+) -> None:
+    """The damage of a load that is endured for ever had no number: neither had all that stands behind it."""
+    path = tmp_path / "life.py"
+    path.write_text(written(SETUP, GIVEN, LIFE, "Life"))
+    exported = computed(path, tmp_path, {"F": force})
+    changes = [{"F": 200.0}, {"F": 400.0}, {"F": 1200.0}, {"F": 250.0, "L": 0.2}]
+    edited = [edit(exported, change, tmp_path / f"{n}.xlsx") for n, change in enumerate(changes)]
+    for n, (change, there) in enumerate(zip(changes, recalculated_all(edited), strict=True)):
+        (tmp_path / f"{n}").mkdir()
+        here = load_workbook(computed(path, tmp_path / f"{n}", change), data_only=True)
+        for (sheet, name), (_, values) in lines(here).items():
+            cells = lines(there)[sheet, name][1]
+            if name == "left" and change != {"F": force} and change["F"] < 300.0:
+                assert cells == ["#N/A"]
+            else:
+                assert cells == pytest.approx(values, rel=1e-12), (sheet, name)

@@ -17,6 +17,10 @@ from mechsheet.readers.numbers import moved_elements
 from mechsheet.worksheet import numbers
 
 _KEEPING = ("neg", "abs", "max", "min", "where")  # give an infinite number of infinite ones alone
+_MOVING = ("take", "join", *SHAPED, "at")
+_COMPARING = ("lt", "le", "gt", "ge", "eq", "ne", "and", "or", "not", "finite")
+_EXTREME = ("max", "min", "nanmax", "nanmin")
+_ARITHMETIC = ("add", "sub", "mul", "div")
 _WHY = "where an infinite number stands on its way, which no cell holds, the workbook has this of the exported inputs"
 _BESIDE = "the workbook has this of the exported inputs: a whole number, or the one below, by rounding alone"
 
@@ -68,34 +72,64 @@ def _named(recording: Recording, node: Node) -> Iterator[str]:
     yield from own or (line.symbol for line in lines if node in line.node.operands)
 
 
+def endless(node: Node, known: dict[Node, bool]) -> bool:
+    """Whether cells of a quantity may hold what stands for an infinite number there; ``known`` is added to.
+
+    It comes of a constant that is infinite, which is chosen, compared, moved, or computed with by a number.
+    """
+    for part in bottom_up([node], known) if node not in known else ():
+        if part.op in ("constant", "exported"):
+            known[part] = part.value.dtype.kind == "f" and bool(np.isinf(part.value).any())
+        elif part.op in _ARITHMETIC:
+            first, second = (known.get(operand, False) for operand in part.args)
+            known[part] = first > second if part.op == "div" else first != second
+        else:
+            over = _read(part)[part.op == "where" :]
+            extreme = part.op == "reduce" and part.args[2] in _EXTREME
+            known[part] = (extreme or part.op in (*_KEEPING, *_MOVING)) and any(known.get(x, False) for x in over)
+    return known[node]
+
+
+def carries(node: Node, known: dict[Node, bool]) -> bool:
+    """Whether it is a sum, product or quotient of a number and what is ``endless``, which has a value all the same."""
+    return node.op in _ARITHMETIC and sum(endless(operand, known) for operand in node.args) == 1
+
+
 def lost(roots: Iterable[Node]) -> Iterator[Node]:
     """Quantities with elements that are numbers or truths though an infinite number stands on their way.
 
     One that is chosen by a condition, moved, or compared with a constant that is infinite is not among them.
     """
-    errors = dict[Node, Values]()  # elements that a cell would have as an error value
+    errors, known = dict[Node, Values](), dict[Node, bool]()  # elements that a cell would have as an error value
     for node in bottom_up(roots, ()):
-        wrong = _errors(node, errors)
+        wrong = _errors(node, errors, known)
         if wrong is None:
             continue
-        known = True if node.value.dtype == bool else np.isfinite(node.value)
-        if np.any(wrong & known) or (passes_over(node) and node.op == "reduce"):
+        there = True if node.value.dtype == bool else np.isfinite(node.value)
+        if np.any(wrong & there) or (passes_over(node) and node.op == "reduce"):
             yield node
         else:
             errors[node] = wrong
 
 
-def _errors(node: Node, errors: Mapping[Node, Values]) -> Values | None:
+def _errors(node: Node, errors: Mapping[Node, Values], known: dict[Node, bool]) -> Values | None:
     """The elements of a quantity that a cell would have as an error value; None for none."""
-    if node.op in (*LEAVES, "finite", "rows", "length", "exported", "found", "state"):
+    if node.op in (*LEAVES, "rows", "length", "exported", "found", "state"):
         return None
-    under = [errors.get(operand) for operand in _read(node)]
-    if all(part is None for part in under):
-        new = np.asarray(_made(node))
-        return new if new.any() else None
-    masks = [np.zeros(x.shape, bool) if part is None else part for x, part in zip(_read(node), under, strict=True)]
-    wrong = _over(node, masks)
+    taking = _takes(node) or carries(node, known)
+    unheld = [x for x in _read(node) if x in errors or (not taking and endless(x, known))]
+    wrong = np.asarray(_made(node, known))
+    if unheld:
+        masks = [errors.get(x, np.isinf(x.value)) if x in unheld else np.zeros(x.shape, bool) for x in _read(node)]
+        wrong = wrong | _over(node, masks)
     return wrong if wrong.any() else None
+
+
+def _takes(node: Node) -> bool:
+    """Whether an operation has a value of what stands for an infinite number."""
+    if node.op == "reduce":
+        return node.args[2] in _EXTREME or node.args[2].startswith("arg")
+    return node.op in (*_KEEPING, *_MOVING, *_COMPARING)
 
 
 def _read(node: Node) -> tuple[Node, ...]:
@@ -119,9 +153,14 @@ def _over(node: Node, masks: list[Values]) -> Values:
         case "reduce":
             groups: Any = node.args[1]
             return np.array([masks[0].reshape(-1)[group].any() for group in groups]).reshape(node.shape)
-    return np.broadcast_to(np.logical_or.reduce(np.broadcast_arrays(*masks)) | _made(node), node.shape)
+        case "finite":
+            return np.zeros(node.shape, bool)
+    return np.broadcast_to(np.logical_or.reduce(np.broadcast_arrays(*masks)), node.shape)
 
 
-def _made(node: Node) -> Any:
+def _made(node: Node, known: dict[Node, bool]) -> Any:
     """The elements in which an operation itself may make an infinite number."""
-    return node.op in ELEMENTWISE and node.op not in (*_KEEPING, *SHAPED) and np.isinf(node.value)
+    made = node.op in ELEMENTWISE and node.op not in (*_KEEPING, *SHAPED) and np.isinf(node.value)
+    if made is not False and carries(node, known):
+        return made & ~np.logical_or.reduce(np.broadcast_arrays(*(np.isinf(x.value) for x in node.args)))
+    return made

@@ -10,6 +10,7 @@ import numpy as np
 from mechsheet import units
 from mechsheet.quantities.lines import Line, Recording
 from mechsheet.quantities.node import LEAVES, Node, bottom_up, steps_of
+from mechsheet.readers.infinite import carries
 from mechsheet.workbook.cell_formula import CellFormulas, nesting, written_of
 from mechsheet.workbook.place import DefinedNames, Place, called
 from mechsheet.worksheet.table import Table
@@ -124,6 +125,9 @@ class Arrangement:
                     names[part] = called(stated) + (f"_{m}" if len(check.parts) > 1 else "")
         sure = {each.sure: names.get(each.node, "root") for each in self.recording.found.values() if each.sure}
         named = names.keys() | self.recording.graph.labels.keys() | sure.keys() | self.recording.lost.keys()
+        if not self.finite:  # their formulas have what they compute with twice
+            infinite = dict[Node, bool]()
+            named = {*named, *(node for node in bottom_up(self._roots(), ()) if carries(node, infinite))}
         placed = [node for node in needing_place(self._roots(), named, self.places) if node not in self.places]
         waiting = {node: node for node in placed}
         sections: dict[str, list[Line]] = {}

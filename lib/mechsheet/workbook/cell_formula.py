@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from mechsheet.quantities.node import Node, bottom_up, is_number, passes_over
+from mechsheet.readers.infinite import carries, endless
 from mechsheet.workbook.column_rows import COUNTED, Index, Rows, Unlike
 from mechsheet.workbook.place import Place
 
@@ -38,7 +39,6 @@ _OF_RANGE = {
 _FIRST = np.zeros(1, np.intp)
 _ALONE = Rows(_FIRST, (), 0, alone=True)
 _INFINITE = "1E+307"  # stands for an infinite number, which is compared and chosen, and is else none
-_ENDLESS = ("max", "min", "neg", "abs", "where", "take", "join", "like", "sized", "at")  # may have it of their operands
 _COMPARING = {
     *("max", "min", "neg", "abs", "where", "lt", "le", "gt", "ge", "eq", "ne", "and", "or", "not"),
 }  # which may take it
@@ -106,16 +106,7 @@ class CellFormulas:
 
     def endless(self, node: Node) -> bool:
         """Whether the cells of a quantity may have the number that stands for an infinite one."""
-        if self.finite:
-            return False
-        for part in bottom_up([node], self._endless) if node not in self._endless else ():
-            ends = part.op == "reduce" and part.args[2] in ("max", "min", "nanmax", "nanmin")
-            if part.op in ("constant", "exported"):
-                self._endless[part] = bool(part.value.dtype.kind == "f" and np.isinf(part.value).any())
-            else:
-                over = written_of(part)[1:] if part.op == "where" else written_of(part)
-                self._endless[part] = (ends or part.op in _ENDLESS) and any(self._endless.get(x, False) for x in over)
-        return self._endless[node]
+        return not self.finite and endless(node, self._endless)
 
     def _finite(self, node: Node, text: str) -> str:
         """The text of a quantity as it is shown and computed with: none of an infinite number."""
@@ -226,6 +217,8 @@ class CellFormulas:
                 return self._as_exported(node, node.args, at, rows)
             case "found":
                 return self._as_exported(node, self._inputs_under(node), at, rows)
+        if not self.finite and carries(node, self._endless):
+            return self._to_infinity(node, at, rows), 5
         form, binding, needs = _TEXT[node.op]
         shape, texts = node.shape, []
         for operand, need in zip(node.args, needs, strict=True):
@@ -238,6 +231,19 @@ class CellFormulas:
         if node.op == "neg" and "^" in texts[0] and tight < 5:  # -x^2 is (-x)^2 to a spreadsheet
             return f"-({texts[0]})", binding
         return form.format(*texts), binding
+
+    def _to_infinity(self, node: Node, at: Index, rows: Rows) -> str:
+        """A sum, product or quotient of which one operand may be infinite."""
+        a, b = (f"({self._element(x, _position(x.shape, node.shape, at), rows)[0]})" for x in node.args)
+        first = self.endless(node.args[0])
+        one, other = (a, b) if first else (b, a)
+        if node.op == "div" and not first:
+            beyond = f"0*{other}"
+        elif node.op in ("mul", "div"):
+            beyond = f"{one}*SIGN{other}/({other}<>0)"
+        else:
+            beyond = f"{'-' if node.op == 'sub' and not first else ''}{one}+0*{other}"
+        return f"IF(ABS{one}<{_INFINITE},{_TEXT[node.op][0].format(a, b)},{beyond})"
 
     def _as_exported(self, node: Node, under: Iterable[Node], at: Index, rows: Rows) -> tuple[str, int]:
         """The numbers of the worksheet's own run while what is under them is unchanged."""

@@ -16,7 +16,7 @@ class Live(NamedTuple):
 
 
 Content = str | float | Live
-LARGEST = 1e307  # Excel's numbers end at 9.99e307
+LARGEST = 1e307  # stands for an infinite number; Excel's end at 9.99e307
 _PART = 100  # letters of a text in a formula, whose 255 units a quotation mark takes two of
 
 
@@ -59,7 +59,7 @@ def quoted(text: str) -> str:
 
 def fits(value: float) -> bool:
     """Whether Excel can hold the number; it has no NaN."""
-    return abs(value) < LARGEST
+    return abs(value) <= LARGEST
 
 
 def allowed(text: str) -> str:

@@ -10,7 +10,7 @@ from mechsheet.units import shown, si
 from mechsheet.workbook import looks, table_sheet
 from mechsheet.workbook.arrangement import Section
 from mechsheet.workbook.book import Book
-from mechsheet.workbook.content import Content, computed
+from mechsheet.workbook.content import LARGEST, Content, computed
 from mechsheet.workbook.place import letters
 from mechsheet.workbook.sheet_formulas import SheetFormulas
 from mechsheet.worksheet.table import Column
@@ -66,4 +66,7 @@ def _told(line: Line) -> tuple[str, str, str]:
 
 
 def _contents(line: Line, formulas: SheetFormulas) -> Sequence[Content]:
-    return computed(formulas.line(line), np.asarray(line.node.value, float).reshape(-1).tolist())
+    values, texts = np.asarray(line.node.value, float).reshape(-1), formulas.line(line)
+    if texts and formulas.holds_infinite(line.node):
+        values = np.clip(values, -LARGEST, LARGEST)
+    return computed(texts, values.tolist())

@@ -103,6 +103,10 @@ class SheetFormulas:
         plain = line.node.op == "constant" and line.node.value.dtype != bool  # 1 is not TRUE to a spreadsheet
         return None if plain else self._formulas(line.node)
 
+    def holds_infinite(self, node: Node) -> bool:
+        """Whether cells of a quantity have what stands for an infinite number."""
+        return node not in self.recording.lost and self._cells.endless(node)
+
     def reference(self, node: Node) -> str:
         """Formula of a single number that stands elsewhere, in SI."""
         return self._cells.reference(node)
