@@ -29,11 +29,11 @@ LOST = {  # by the argument, what shows numbers that a workbook cannot show anot
     "title of a figure": "figure('4', f'Words of {g.k}', x, y)",
     "essential": "Check('essential', -1.0, 2.0, essential=on)",
     "agreement": "Check('agreement', 1.0, 2.0, '-', '', False, on)",
-    "name": "check(f'Words of {g.k}', y, 99.0)",
 }
 FOLLOWED = [
     "figure('5', 'Words', x, y, marks={'k': 1.0 * g.k})",
     "check('limit', y, 2.0 * g.k)",
+    "check(f'Words of {g.k}', y, 99.0)",
     "check('of', 1e-6 * y, 1e-3, of=y * g.k)",
     "Check('limit of a Check', 1.0, 3.5 - g.k)",
     "table('8', 'Words', five, decimals=g.k)",

@@ -66,6 +66,7 @@ def test_lines_declare_unit_meaning_section_and_limits(Arm):
         ({"L5": ""}, "lower link L5 = '' m is no number"),
         ({"L5": True}, "lower link L5 = True m is no number"),
         ({"L55": 1}, "input L55 is unknown; nearest: L5"),
+        ({"l5": 1}, "input l5 is unknown; nearest: L5"),
     ],
 )
 def test_bad_input_is_named_with_value_and_limit(Arm, values, message):

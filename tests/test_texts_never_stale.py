@@ -1,5 +1,7 @@
 """A text that is chosen by an input names numbers of these inputs alone: with others there is no number under it."""
 
+from collections.abc import Mapping
+from itertools import chain
 from pathlib import Path
 from typing import Any
 
@@ -12,6 +14,7 @@ from mechsheet.html import write
 from mechsheet.quantities.lines import Recording
 from mechsheet.quantities.node import Node
 from mechsheet.quantities.quantity import Quantity
+from mechsheet.quantities.written import Either, Number, Written
 from mechsheet.readers.numbers import numbers
 from mechsheet.recording.record import record
 from mechsheet.worksheet import cells
@@ -60,6 +63,20 @@ def held(recording: Recording) -> list[Node]:
     return nodes
 
 
+def text_at(text: Written, known: Mapping[Node, Any]) -> str:
+    """A text by the numbers that are known."""
+    told = ""
+    for part in text.parts:
+        match part:
+            case Number(value, spec):
+                told += format(known[value.re].item(), spec)
+            case Either(holds, then, otherwise):
+                told += text_at(then if known[holds.re] else otherwise, known)
+            case str():
+                told += part
+    return told
+
+
 def sheet_of(tmp_path: Path, chosen: str, shown: str) -> cells.Worksheet:
     lines = f"y = np.sin(x) * g.a  # [-] result\n{CHOSEN[chosen]}\n{SHOWN[shown]}"
     sheet = own(tmp_path, lines)
@@ -77,13 +94,20 @@ def test_no_number_stands_under_the_text_of_other_inputs(chosen: str, shown: str
     sheet = sheet_of(tmp_path, chosen, shown)
     names, recording = recorded(sheet)
     nodes, same = held(recording), set[bool]()
+    named = {name: check.said for name, check in recording.checks.items() if check.said}
     assert nodes and not recording.gaps
     for given in ({}, *OTHER):
         inputs = {recording.inputs[name]: float(x) for name, x in given.items()}
-        known = numbers([*nodes, *recording.guards], inputs)
-        as_it_was = by_cells(sheet.path, ["said_now"], **given)["said_now"] == names["said"]
+        known = numbers([*nodes, *recording.guards, *chain(*(text.nodes for text in named.values()))], inputs)
+        now = by_cells(sheet.path, ["said_now"], **given)["said_now"]
+        as_it_was = now == names["said"]
         guarded = not all(known[guard].all() for guard in recording.guards)
         numbered = [bool(np.isfinite(known[node]).all()) for node in nodes]
+        if named:  # which follow: then all is of these inputs
+            said = {name.replace(names["said"], now) for name in named}
+            assert {text_at(text, known) for text in named.values()} == said and all(numbered) and not guarded
+            same.add(as_it_was)
+            continue
         assert as_it_was or (guarded and not any(numbered)), given
         assert given or (not guarded and all(numbered))
         same.add(as_it_was)

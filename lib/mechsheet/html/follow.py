@@ -352,6 +352,12 @@ class Follower:
             **spec,
         )
 
+    def name(self, check: Check) -> str:
+        """HTML of the name of a check, which follows as far as it is recorded."""
+        held = self.recording.checks.get(check.name)
+        said = held and held.said
+        return self._written(said, self.in_words, {}) if said else self.in_words(check.name)
+
     def found(self, found: Verdict) -> str:
         """Attribute of the verdict of a solve block, with its words where the page solves it again."""
         names = self.numbers.namespace if self.numbers else {}

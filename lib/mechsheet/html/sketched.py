@@ -9,7 +9,7 @@ from mechsheet.html import wording
 from mechsheet.quantities.node import Node
 from mechsheet.quantities.quantity import Quantity
 from mechsheet.quantities.sketch import Drawn
-from mechsheet.quantities.written import Either, Number, Written
+from mechsheet.quantities.written import Number, OneOf, Written
 from mechsheet.worksheet.drawing import Drawing, Element
 
 Spec = dict[str, Any]
@@ -51,16 +51,19 @@ def _element(e: Any, key: Key) -> Spec:
 
 
 def _name(name: Written, kind: str, key: Key) -> Any:
-    """The parts of a printed name that has numbers in it: before its first space stands a symbol or a number."""
-    match name.parts:
-        case (Either(holds, then, otherwise),) if kind != "text":
-            return {"if": key(holds.re), "then": _name(then, kind, key), "else": _name(otherwise, kind, key)}
+    """The parts of a printed name that has numbers in it: it begins with a symbol, a number or a text of an input."""
+    begin: list[Any]
+    if kind != "text" and (ways := name.ways()):
+        then, otherwise = (_name(way, kind, key) for way in (ways.then, ways.otherwise))
+        return {"if": key(ways.holds.re), "then": then, "else": otherwise}
     split = None if kind == "text" else name.head()
     if split is None:
         return [wording.written(name, key), "", "", ""]
     first, rest = split
-    if isinstance(first, Number):
-        begin: list[Any] = ["", [wording.piece(first._replace(instead=(*first.instead, ("-", "−"))), key)], "", ""]
+    if isinstance(first, OneOf):
+        begin = [[wording.piece(first, key)], "", "", ""]
+    elif isinstance(first, Number):
+        begin = ["", [wording.piece(first._replace(instead=(*first.instead, ("-", "−"))), key)], "", ""]
     else:
         begin = list(as_printed(first)[0])
     return [*begin[:3], wording.written(rest, key)]

@@ -258,7 +258,7 @@ def _(check: Check, page: Follower) -> str:
     return (
         f'<div class="ms-check" id="{_anchor(check)}"{page.check(check)}>'
         f'<span class="ms-badge ms-{kind}">{verdict}</span> '
-        f'{page.in_words(check.name)}<span class="ms-compared" data-part="{float(check.utilisation)}">{told}</span> '
+        f'{page.name(check)}<span class="ms-compared" data-part="{float(check.utilisation)}">{told}</span> '
         f'<span class="ms-note">{message(check.reason)}</span></div>'
     )
 
@@ -271,7 +271,7 @@ def _anchor(check: Check) -> str:
 def _(summary: Summary, page: Follower) -> str:
     items = "".join(
         f'<span data-of="{_anchor(check)}"><span class="ms-badge"></span> '
-        f'<a href="#{_anchor(check)}">{page.in_words(check.name)}</a> <span class="ms-note"></span></span>'
+        f'<a href="#{_anchor(check)}">{page.name(check)}</a> <span class="ms-note"></span></span>'
         for check in summary.checks
     )
     return f'<div class="ms-summary" role="status"><b></b><div class="ms-row">{items}</div></div>'

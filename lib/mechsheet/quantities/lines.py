@@ -36,6 +36,7 @@ class Residual:
     """What a check compares, in SI: the largest of some magnitudes, or one signed number, with its limit.
 
     ``where`` it looks, if at some positions alone: those that tables list, where the worksheet looks at all of them.
+    ``said`` is its name, where that has recorded numbers or texts in it.
     """
 
     parts: list[Node]
@@ -43,6 +44,7 @@ class Residual:
     unit: str
     signed: bool = False
     where: str = ""
+    said: Written | None = None
 
 
 class Told(NamedTuple):
@@ -148,7 +150,7 @@ class Recording:
         columns = chain.from_iterable(self.tables.values())
         yield from chain.from_iterable(column.parts for column in columns if column is not None)
         for check in self.checks.values():
-            yield from (*check.parts, check.limit)
+            yield from (*check.parts, check.limit, *(check.said.nodes if check.said else ()))
         for solved in self.found.values():
             yield from filter(None, (solved.node, solved.inverse, solved.residual))
         for marks in self.marks.values():

@@ -73,6 +73,23 @@ class Written:
         """The text with the present numbers."""
         return "".join(map(_now, self.parts))
 
+    @property
+    def fixed(self) -> str:
+        """What of the text is the same for all inputs, with a sign for the rest."""
+        return "".join(part if isinstance(part, str) else "…" for part in self.parts)
+
+    @property
+    def nodes(self) -> Iterator[Node]:
+        """What stands in it, or decides what does."""
+        for part in self.parts:
+            match part:
+                case Number(value):
+                    yield value.re
+                case OneOf(at):
+                    yield at.re
+                case Either(holds, then, otherwise):
+                    yield from (holds.re, *then.nodes, *otherwise.nodes)
+
     def __str__(self) -> str:
         for part in self.parts:
             if isinstance(part, Either):
@@ -150,21 +167,29 @@ class Written:
             return str(self).replace(old, new, count)
         return Written(tuple(_replaced(part, old, new) for part in self.parts))
 
-    def head(self) -> "tuple[str | Number, Written] | None":
+    def head(self) -> "tuple[str | Number | OneOf, Written] | None":
         """What stands before the first space, where it is a text or a number alone, and the rest."""
         match self.parts:
             case (str(first), *rest) if " " in first:
                 begin, space, more = first.partition(" ")
                 return begin, Written((space + more, *rest))
+            case (OneOf() as first, *rest):
+                return first, Written(tuple(rest))
             case (Number() as first, *rest) if not rest or (isinstance(rest[0], str) and rest[0][0] == " "):
                 return first, Written(tuple(rest))
         return None
 
+    def ways(self) -> "Either | None":
+        """The whole text as one of two, where it begins with one of two."""
+        match self.parts:
+            case (Either(holds, then, otherwise), *rest):
+                return Either(holds, *(Written(tuple(_pieces([way, *rest]))) for way in (then, otherwise)))
+        return None
+
     def is_name(self) -> bool:
         """Whether a reader can tell its `head`, whichever of two texts it is."""
-        match self.parts:
-            case (Either(_, then, otherwise),):
-                return then.is_name() and otherwise.is_name()
+        if either := self.ways():
+            return either.then.is_name() and either.otherwise.is_name()
         return not self.parts or self.head() is not None
 
     def strip(self, signs: str | None = None) -> "str | Written":
@@ -203,7 +228,7 @@ def text(*parts: Any) -> Any:
 
 def said(value: Any) -> Any:
     """One of two values in a text, of which Python need not see which one it is."""
-    return Written((value,)) if isinstance(value, str) and current.get().draws else value
+    return Written((value,)) if isinstance(value, str) else value
 
 
 def _shown(value: Any, spec: str) -> Iterator[Any]:
@@ -268,8 +293,6 @@ def looked_at(value: Any) -> Any:
 
 
 def _is_followed(value: Any, spec: str) -> bool:
-    if not current.get().draws:
-        return False
     if isinstance(value, Written):
         return not spec
     if not isinstance(value, Quantity) or value.re.op == "constant" or not _FORMAT.fullmatch(spec):

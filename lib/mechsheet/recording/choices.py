@@ -94,7 +94,7 @@ def merged(condition: Quantity, x: Any, y: Any) -> Any:
             return _made_like(x, parts)
     if isinstance(x, Sketch) and isinstance(y, Sketch):
         return merged_sketch(condition, x, y)
-    if condition.graph.draws and _are_written(x, y):
+    if _are_written(x, y):
         return either(condition, x, y)
     if isinstance(x, ARRAYS) and isinstance(y, ARRAYS) and _lengths(x) == _lengths(y):
         return where(condition.graph, condition.reshape(()), x, y)

@@ -182,13 +182,22 @@ class Stage:
         instead(closed)(words.unknown, words.unknown_unit, found, value, tolerance)
         solved.compared = self.shown_now[-1][1]
 
-    def judged(self, name: str, residual: Any, limit: Any, unit: str, size: Any = np.inf, tells: Any = True) -> None:
+    def judged(
+        self, name: str | Written, residual: Any, limit: Any, unit: str, size: Any = np.inf, tells: Any = True
+    ) -> None:
         parts = [lift(self.graph, r) for r in (residual if isinstance(residual, list) else [residual])]
         bound = limit if tells is True else np.where(lift(self.graph, tells), limit, np.nan)
         self._check(name, [abs(p).re for p in parts], bound, unit)
 
     def stated(
-        self, name: str, residual: Any, limit: Any, unit: str = "-", reason: str = "", *kind: Any, **named: Any
+        self,
+        name: str | Written,
+        residual: Any,
+        limit: Any,
+        unit: str = "-",
+        reason: str = "",
+        *kind: Any,
+        **named: Any,
     ) -> None:
         for each in (*kind, *named.values()):
             seen(each)
@@ -216,6 +225,7 @@ class Stage:
             own, where = slope[middle] if slope.ndim else slope, "at the middle position"
         limit = np.maximum(1e-7 * size, 10 * abs(fine - coarse).max())
         self.judged(name, own - fine, limit, unit, size, limit <= AGREED * size)
+        name = self.shown_now[-1][1]
         self.recording.checks[name] = replace(self.recording.checks[name], where=where)
 
     def meanings(self) -> dict[str, str]:
@@ -224,12 +234,13 @@ class Stage:
             raise NotRecorded("diagrams are drawn")
         return {}
 
-    def _check(self, name: str, parts: list[Node], limit: Any, unit: str, signed: bool = False) -> None:
+    def _check(self, name: str | Written, parts: list[Node], limit: Any, unit: str, signed: bool = False) -> None:
         bound = lift(self.graph, limit)
         if not bound.single:
             raise NotRecorded(f"check {name!r} has several limits")
+        said, name = (name, name.now) if isinstance(name, Written) else (None, name)
         self.shown_now.append((self.recording.checks, name))
-        self.recording.checks[name] = Residual(parts, bound.re, unit, signed)
+        self.recording.checks[name] = Residual(parts, bound.re, unit, signed, said=said)
 
     def forget(self) -> None:
         """Take back what the present statement has shown."""

@@ -50,7 +50,11 @@ _ARRAYS = (np.array, np.asarray, np.asanyarray, np.ascontiguousarray)
 
 staged: ContextVar[Mapping[str, Any]] = ContextVar("staged")  # what those of `SHOWING` do in the cell that is run
 SHOWING = frozenset({"table", "figure", "sought", "solve", "closed_form", "check_slope", "judged", "Check", "meanings"})
-_UNSAID = {"table": ("show",), "figure": ("show",), "Check": (3, 4, "unit", "reason")}  # names of no number
+_NAME = (0, "name")  # of a check, which may follow
+_UNSAID = {  # names of no number
+    "table": ("show",), "figure": ("show",), "judged": _NAME, "check_slope": _NAME,
+    "Check": (*_NAME, 3, 4, "unit", "reason"),
+}  # fmt: skip
 _NOWHERE = frozenset({"require", "refuse", "summary", "export", "typeset"})  # of no use in a workbook
 
 
@@ -383,7 +387,7 @@ def _itself(f: Any) -> Callable[..., Any]:
     def function(*args: Any, **kwargs: Any) -> Any:
         if not (always or has_quantity((args, kwargs))):
             return f(*args, **kwargs)
-        if always:
+        if always and f.__module__ != check.__name__:  # whose texts are looked at where they are used
             args, kwargs = tuple(map(looked_at, args)), {key: looked_at(value) for key, value in kwargs.items()}
         graph = current.get()
         short = None if graph.bodies else _short().get(f)

@@ -1,6 +1,5 @@
 """What units hold: their definitions, prefixes, dimensions, and units of one's own."""
 
-import difflib
 import re
 import sys
 from fractions import Fraction
@@ -172,6 +171,8 @@ def nearest(name: str) -> list[str]:
     plain = {*BASE, *DEFINED}
     if together := [f"{a}*{b}" for a, b in halves if a in known and (b in plain or (b in known and a[-1].isupper()))]:
         return together
+    import difflib  # on use: only a mistaken unit needs it
+
     alike = [n for n in known if n.lower() == name.lower()]
     common = [n for n in known if n in DEFINED or n in BASE or n[:1] in "umckMG"]
     return alike[:3] or difflib.get_close_matches(name, common, n=2, cutoff=0.6)

@@ -108,8 +108,7 @@ class Arrangement:
             told = solved.inverse, solved.residual, solved.target, solved.sure
             yield from (n for n in (solved.node, *told, *(solved.interval or ())) if n)
         for check in self.recording.checks.values():
-            yield from check.parts
-            yield check.limit
+            yield from (*check.parts, check.limit, *(check.said.nodes if check.said else ()))
         for marks in self.recording.marks.values():
             yield from marks.values()
         yield from self.recording.worded.values()
@@ -119,7 +118,8 @@ class Arrangement:
     def _place_others(self, name: Callable[[str, str], str]) -> list[Section]:
         """Sheets for all that stands neither on a table's sheet nor among inputs and found values."""
         names = dict(self.recording.names)
-        for stated, check in self.recording.checks.items():
+        checks = [(each.said.fixed if each.said else name, each) for name, each in self.recording.checks.items()]
+        for stated, check in checks:
             for m, part in enumerate(check.parts, 1):
                 if part not in names and part.operands:
                     names[part] = called(stated) + (f"_{m}" if len(check.parts) > 1 else "")
@@ -136,7 +136,7 @@ class Arrangement:
                 if waiting.pop(line.node, None):
                     sections.setdefault(title, []).extend(self._parts_of(line, waiting))
                     sections[title].append(line)
-        for stated, residual in self.recording.checks.items():
+        for stated, residual in checks:
             bound = Line(residual.limit, f"{called(stated)}_limit", residual.unit, f"limit: {stated}")
             parts = [Line(part, names.get(part, ""), residual.unit, f"residual: {stated}") for part in residual.parts]
             for line in [*parts, bound]:

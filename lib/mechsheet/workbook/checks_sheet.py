@@ -44,7 +44,7 @@ def write(
             rows.append((Check(_MADE, 0.0, 0.0, reason=formulas.looked()), Live(guard, 0.0), 0.0))
         listed += [
             (
-                _name(c, formulas),
+                formulas.name_of(c.name),
                 residual,
                 limit,
                 shown(c.unit),
@@ -58,7 +58,7 @@ def write(
         title = Live(f'="Checks: "&COUNTIF({cells},"PASS")&" of "&ROWS({cells})&" passed"', known)
     if proved:
         fields = (*fields, ("Digits proved", looks.NUMBER))
-        shown_digits = (_digits(row[0], proved, formulas) for row in listed)
+        shown_digits = (_digits(check.name, proved, formulas) for check, *_ in rows)
         listed = [(*row, digits) for row, digits in zip(listed, shown_digits, strict=True)]
     sheet = book.listing("Checks", title, fields, listed)
     quantity = book.style(looks.CELL, looks.QUANTITY)
@@ -68,10 +68,10 @@ def write(
     verdicts(book, sheet, len(listed), 4, 4)
 
 
-def _digits(name: Content, proved: Mapping[str, float], formulas: SheetFormulas | None) -> Content:
+def _digits(name: str, proved: Mapping[str, float], formulas: SheetFormulas | None) -> Content:
     if name not in proved:
         return ""
-    return formulas.as_exported(proved[str(name)]) if formulas else proved[str(name)]
+    return formulas.as_exported(proved[name]) if formulas else proved[name]
 
 
 def verdict(check: Check) -> str:
@@ -81,12 +81,6 @@ def verdict(check: Check) -> str:
 
 def _title(passed: int, count: int) -> str:
     return f"Checks: {passed} of {count} passed"
-
-
-def _name(check: Check, formulas: SheetFormulas) -> str:
-    """The name of a check, and whether it looks at fewer positions than that of the worksheet."""
-    known = formulas.recording.checks.get(check.name)
-    return f"{check.name}, {known.where}" if known and known.where else check.name
 
 
 def _compared(check: Check, formulas: SheetFormulas, fixed: bool) -> tuple[Content, Content]:

@@ -1,6 +1,5 @@
 """An exported workbook read back: the sheet of its inputs, edited in Excel or LibreOffice, is a scene."""
 
-import difflib
 import warnings
 from collections.abc import Container, Iterator, Mapping, Sequence
 from contextlib import contextmanager
@@ -14,14 +13,13 @@ from openpyxl import load_workbook  # type: ignore[import-untyped]
 from openpyxl.utils import get_column_letter  # type: ignore[import-untyped]
 
 from mechsheet.units import shown
-from mechsheet.worksheet.errors import SheetError, cut
+from mechsheet.worksheet.errors import SheetError, cut, nearest
 from mechsheet.worksheet.kinds import Choice, Input
 from mechsheet.worksheet.lists import Rows
 
 _SHEET = "Inputs"
 _TABLES = "Input tables"
 _HEADS = ("Symbol", "Value", "Unit")
-_NAME = 60  # characters by which the nearest input is looked for
 _COLUMNS = {_SHEET: 100, _TABLES: 400}  # among which the headings are looked for: a sheet may have 16384
 _WHOLE = ("xl/workbook.xml", "xl/sharedStrings.xml", "xl/styles.xml")  # parts of the file that are read as a whole
 _LARGEST = 10_000_000  # bytes of each, unpacked
@@ -77,7 +75,7 @@ def _listed(
         if name in elsewhere:
             raise SheetError(f"{_at(path, at[1])}: the rows of {name} stand on the sheet {_TABLES}")
         if name not in fields:
-            near = difflib.get_close_matches(name[:_NAME], fields, n=3, cutoff=0.5)
+            near = nearest(name, fields, 3, cutoff=0.5)
             hint = f"; nearest: {', '.join(near)}" if near else ""
             raise SheetError(f"{_at(path, at[0])}: {cut(name) or 'an empty cell'} is no input{hint}")
         if name in places:

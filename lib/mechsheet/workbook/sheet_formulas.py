@@ -1,6 +1,7 @@
 """The formulas that stand on the sheets of a workbook: of inputs, tables, found values, checks, marks and lines."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import NamedTuple
 
 from mechsheet import units
@@ -11,6 +12,7 @@ from mechsheet.workbook.arrangement import Arrangement
 from mechsheet.workbook.cell_formula import CellFormulas, written
 from mechsheet.workbook.content import Content, Live, quoted
 from mechsheet.workbook.place import Place
+from mechsheet.workbook.text_formula import text_formula
 from mechsheet.worksheet.table import Figure, Table
 
 
@@ -135,6 +137,21 @@ class SheetFormulas:
         left = reference(solved.residual, target) if solved.residual else None
         low, high = (reference(end, factor) for end in solved.interval) if solved.interval else (None, None)
         return value, left, low, high, reference(solved.target, target) if solved.target else None
+
+    def name_of(self, check: str) -> Content:
+        """The name of a check, with the numbers and texts in it, and whether it looks at fewer positions."""
+        held = self.recording.checks.get(check)
+        where = f", {held.where}" if held and held.where else ""
+        if held is None or held.said is None:
+            return check + where
+        said = held.said + where
+        return Live(text_formula(said, lambda node: self._cells.reference(node)[1:], self._typed), said.now)
+
+    def _typed(self, name: str) -> str:
+        """Address of the cells in which the texts of an input are typed."""
+        node = self.recording.inputs[name]
+        place = self.arrangement.places[node]
+        return replace(place, column=place.column + place.typed).range(0, node.size - 1)
 
     def words(self, key: str, text: str, otherwise: str = "") -> Content:
         """A title or a note: where inputs change it, what stands there ``otherwise`` for others."""

@@ -1,7 +1,6 @@
 """The cells of a worksheet file: of those that some results need, in an order in which they can run."""
 
 import ast
-import difflib
 import re
 from collections.abc import Iterable, Iterator, Mapping
 from copy import copy, deepcopy
@@ -18,7 +17,7 @@ import numpy as np
 
 from mechsheet.worksheet import mistakes, source
 from mechsheet.worksheet.check import STATED, checks_of, refuse_open, stating
-from mechsheet.worksheet.errors import SheetError, as_given, raised
+from mechsheet.worksheet.errors import SheetError, as_given, nearest, raised
 from mechsheet.worksheet.marimo_on_use import Marimo
 from mechsheet.worksheet.no_inputs import NoInputs, declared_in, in_a_cell
 from mechsheet.worksheet.source import bound, constant, functions, is_app, parsed, texts
@@ -127,7 +126,7 @@ class Worksheet:
                 if hasattr(declared_in(self.common), name):
                     line = f"{name}_1 = g.{name} in a line is one"
                     raise SheetError(f"{name} is an input of {self.path}, not a result: {line}")
-                near = difflib.get_close_matches(name, givers, n=3)
+                near = nearest(name, givers, 3)
                 hint = f"; nearest: {', '.join(near)}" if near else ""
                 raise SheetError(f"{name} is defined by no cell of {self.path}{hint}")
             if givers[name] in begun:
@@ -231,7 +230,7 @@ def _is_stop(error: BaseException) -> bool:
 
 
 def _no_check(name: str, known: Iterable[str]) -> SheetError:
-    near = difflib.get_close_matches(name, list(known), n=1)
+    near = nearest(name, known)
     return SheetError(f"no check is named {name!r}" + (f"; nearest: {near[0]!r}" if near else ""))
 
 

@@ -1,7 +1,7 @@
 """The one error that a worksheet raises to its reader."""
 
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
 from typing import Any, NoReturn
@@ -40,6 +40,21 @@ def cut(text: str) -> str:
     ('P6', '9999999999.. (5000 characters)')
     """
     return text if len(text) <= _LONG else f"{text[:_LONG]}.. ({len(text)} characters)"
+
+
+def nearest(name: str, known: Iterable[str], count: int = 1, cutoff: float = 0.6) -> list[str]:
+    """Known names that are most like another one, whatever letters are capitals: the most like first.
+
+    >>> nearest("p6", ["phi_P6", "P6", "L5"])
+    ['P6']
+    """
+    import difflib  # on use: only a mistaken name needs it
+
+    alike = dict[str, list[str]]()
+    for each in known:
+        alike.setdefault(each.lower(), []).append(each)
+    near = difflib.get_close_matches(name[:_LONG].lower(), alike, n=count, cutoff=cutoff)
+    return [each for lowered in near for each in alike[lowered]][:count]
 
 
 def as_given(value: object) -> str:

@@ -2,7 +2,6 @@
 
 import ast
 import dataclasses
-import difflib
 import sys
 from collections.abc import Container, Iterable, Iterator, Mapping
 from dataclasses import dataclass
@@ -349,7 +348,7 @@ def _shared(column: NDArray[Any]) -> Any:
 def known(fields: Mapping[str, Input], name: str) -> Input:
     """The input of that name; SheetError with the nearest names where there is none."""
     if name not in fields:
-        near = difflib.get_close_matches(name, fields, n=3, cutoff=0.5)
+        near = errors.nearest(name, fields, 3, cutoff=0.5)
         which = f"nearest: {', '.join(near or fields)}" if fields else "the worksheet has none"
         raise SheetError(f"input {errors.cut(name)} is unknown; {which}")
     return fields[name]

@@ -4,7 +4,6 @@ Each kind reads what is typed, converts it from the display unit and back, and s
 the numbers by which a recording, a sweep and a workbook know it.
 """
 
-import difflib
 import re
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
@@ -24,7 +23,6 @@ T = TypeVar("T")
 _NUMBER = re.compile(r"([+−-]?(?:\d+(?:[.,]\d*)?|[.,]\d+)(?:[eE][+−-]?\d+)?)(.*)", re.DOTALL)
 _THOUSANDS = re.compile(r"\W?[1-9]\d{0,2},\d{3}(?!\d)")  # elsewhere read as such, here as a number with a decimal comma
 _UNIT = 40  # characters of a unit at most
-_COMPARED = 200  # characters by which the nearest option is looked for
 
 
 @dataclass(frozen=True)
@@ -305,7 +303,7 @@ class Choice(Worded):
         if name not in self.options and name.replace(",", ".") in self.options:
             name = name.replace(",", ".")
         if name not in self.options:
-            near = difflib.get_close_matches(name[:_COMPARED], self.options, n=1, cutoff=0.6)
+            near = errors.nearest(name, self.options)
             hint = f"; nearest: {near[0]}" if near and len(self.options) > 5 else ""
             offered = ", ".join(self.options)
             raise SheetError(f"{self.says(errors.as_given(value))} must be one of {offered}{hint}", self.name)

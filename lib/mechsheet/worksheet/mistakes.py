@@ -1,7 +1,6 @@
 """Mistakes in a worksheet, in words: what Python could not compute, and in which line."""
 
 import builtins
-import difflib
 import re
 import sys
 from collections.abc import Container, Iterable, Iterator
@@ -11,7 +10,7 @@ from traceback import walk_tb
 from types import FrameType
 
 from mechsheet import units
-from mechsheet.worksheet.errors import SheetError
+from mechsheet.worksheet.errors import SheetError, nearest
 
 
 def place(file: str | Path, line: int) -> str:
@@ -208,6 +207,5 @@ _MEANT = {  # by the line that cannot be read
 
 
 def _near(name: str, known: Iterable[str]) -> str:
-    every = list(known)
-    near = [other for other in every if other.lower() == name.lower()] or difflib.get_close_matches(name, every, n=1)
+    near = nearest(name, known)
     return f" (did you mean {near[0]}?)" if near else ""

@@ -2,7 +2,6 @@
 
 import ast
 import builtins
-import difflib
 import io
 import keyword
 import re
@@ -15,7 +14,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from mechsheet.worksheet import cells, inputs, mistakes
-from mechsheet.worksheet.errors import SheetError, as_given
+from mechsheet.worksheet.errors import SheetError, as_given, nearest
 from mechsheet.worksheet.scene import is_of
 from mechsheet.worksheet.source import functions
 
@@ -37,7 +36,7 @@ def renamed(path: Path, old: str, new: str, scenes: Mapping[Path, str]) -> dict[
     given = {name for cell in sheet.cells for name in cell.gives if not name.startswith("_")}
     known = {*declared, *(given - {"g"} if declared else given)}
     if old not in known:
-        near = difflib.get_close_matches(old, known, n=1)
+        near = nearest(old, known)
         raise SheetError(f"{as_given(old)} is no symbol of {path.name}" + (f"; nearest: {near[0]}" if near else ""))
     if not new.isidentifier() or keyword.iskeyword(new):
         raise SheetError(f"{as_given(new)} is no name: it must be letters, digits and _, first a letter")

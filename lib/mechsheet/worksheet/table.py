@@ -1,7 +1,6 @@
 """Tables and figures as values, one description for the page, the workbook and pandas."""
 
 import ast
-import difflib
 import sys
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -13,7 +12,7 @@ from numpy.typing import NDArray
 
 from mechsheet import units
 from mechsheet.worksheet import lines, numbers, source, symbol
-from mechsheet.worksheet.errors import SheetError, as_given, measured, refuse, texts
+from mechsheet.worksheet.errors import SheetError, as_given, measured, nearest, refuse, texts
 from mechsheet.worksheet.kinds import Input
 from mechsheet.worksheet.shown import Shown
 
@@ -280,9 +279,9 @@ def _columns(
         columns.append(Column(label, unit, line.meaning, places, shown, of=own, want=want, usual=usual))
     for name in show:
         if name not in called:
-            near = difflib.get_close_matches(name, called, n=1, cutoff=0.5)
-            nearest = f"nearest: {', '.join(near or dict.fromkeys(called.values()))}"
-            refuse(SheetError(f"{of}: show has {as_given(name)}, which is no column; {nearest}"))
+            near = nearest(name, called, cutoff=0.5)
+            offered = f"nearest: {', '.join(near or dict.fromkeys(called.values()))}"
+            refuse(SheetError(f"{of}: show has {as_given(name)}, which is no column; {offered}"))
     return tuple(columns)
 
 
