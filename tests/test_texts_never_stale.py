@@ -94,7 +94,7 @@ def test_no_number_stands_under_the_text_of_other_inputs(chosen: str, shown: str
     sheet = sheet_of(tmp_path, chosen, shown)
     names, recording = recorded(sheet)
     nodes, same = held(recording), set[bool]()
-    named = {name: check.said for name, check in recording.checks.items() if check.said}
+    named = {text.now: text for text in recording.said.values()}
     assert nodes and not recording.gaps
     for given in ({}, *OTHER):
         inputs = {recording.inputs[name]: float(x) for name, x in given.items()}

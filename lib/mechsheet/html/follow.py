@@ -141,14 +141,14 @@ class Follower:
         guards = self._guards(self.recording.looked.get(name, ()))
         return f"<div{self.mark('own', fixed=True, of=name, **guards)}>{shown}</div>" if guards else shown
 
-    def title(self, of: str, title: str) -> str:
-        """HTML of the title of a table or a figure, which follows as far as it is recorded."""
-        holds = self.recording.worded.get(f"{of} title")
+    def words(self, key: str, text: str, shown: Callable[[str], str] = escape) -> str:
+        """HTML of a title or a note of a table or a figure, which follows as far as it is recorded."""
+        holds = self.recording.worded.get(key)
         if holds is None:
-            return self.own(escape(title), title)
+            return self.own(shown(text), text)
         if holds.op != "constant":
-            self.key(holds)  # where it is not known, the title is not
-        return self._written(self.recording.titles.get(of) or Written((title,)), escape, {})
+            self.key(holds)  # where it is not known, the text is not
+        return self._written(self.recording.said.get(key, Written((text,))), shown, {})
 
     @property
     def wanted(self) -> dict[str, Node]:
@@ -354,9 +354,8 @@ class Follower:
 
     def name(self, check: Check) -> str:
         """HTML of the name of a check, which follows as far as it is recorded."""
-        held = self.recording.checks.get(check.name)
-        said = held and held.said
-        return self._written(said, self.in_words, {}) if said else self.in_words(check.name)
+        said = self.recording.said.get(f"check {check.name}")
+        return self._written(said, self.in_words, {}) if said is not None else self.in_words(check.name)
 
     def found(self, found: Verdict) -> str:
         """Attribute of the verdict of a solve block, with its words where the page solves it again."""

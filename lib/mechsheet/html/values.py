@@ -152,11 +152,10 @@ def _line(
 def _(table: Table, page: Follower) -> str:
     named = f'role="group" aria-labelledby="{_place("Table", table.number)}"'
     parts = "".join(_block(columns, page.columns(table, columns), named) for columns in blocks(table))
-    note = (
-        f'<div class="ms-note">{page.own(page.in_words(table.note, table.said), table.note)}</div>'
-        if table.note
-        else ""
-    )
+    note = ""
+    if table.note:
+        told = page.words(f"table {table.number} note", table.note, lambda text: page.in_words(text, table.said))
+        note = f'<div class="ms-note">{told}</div>'
     return f'<div class="ms-table">{_caption("Table", table.number, table.title, page)}{parts}{note}</div>'
 
 
@@ -202,7 +201,7 @@ def _(value: Caption, page: Follower) -> str:
 
 
 def _caption(what: str, number: str, title: str, page: Follower) -> str:
-    return _titled(what, number, page.title(f"{what.lower()} {number}", title))
+    return _titled(what, number, page.words(f"{what.lower()} {number} title", title))
 
 
 def _titled(what: str, number: str, words: str) -> str:

@@ -36,7 +36,6 @@ class Residual:
     """What a check compares, in SI: the largest of some magnitudes, or one signed number, with its limit.
 
     ``where`` it looks, if at some positions alone: those that tables list, where the worksheet looks at all of them.
-    ``said`` is its name, where that has recorded numbers or texts in it.
     """
 
     parts: list[Node]
@@ -44,7 +43,6 @@ class Residual:
     unit: str
     signed: bool = False
     where: str = ""
-    said: Written | None = None
 
 
 class Told(NamedTuple):
@@ -83,8 +81,8 @@ class Recording:
     ``tables`` are the columns by the number of a table, of a figure under ``Fig 1``, ``constants`` those of them that
     hold the same numbers for all inputs, ``labels`` those of texts: the name of their input, and its rows;
     ``arguments`` others that are recorded, by names such as ``table 1 decimals``,
-    ``worded`` what is a number while a ``table 1 title`` or note that inputs change is that of the run, ``titles``
-    those of ``table 1`` or ``figure 1`` with recorded numbers in them; ``marks`` the marks of a figure by its number
+    ``worded`` what is a number while a ``table 1 title`` or note that inputs change is that of the run, ``said`` those,
+    and names as ``check stress``, with recorded numbers or texts in them; ``marks`` the marks of a figure by its number
     and their labels; ``lines`` those of a section, ``others`` such as are the same for all inputs or but another name
     for a quantity; ``names`` the name that each node has in the worksheet. ``gaps`` are what keeps the numbers of the
     worksheet's own run, with the reasons, ``unsolved`` what does so in the cells of a workbook alone: found values, and
@@ -110,7 +108,7 @@ class Recording:
     marks: dict[str, dict[str, Node]] = field(default_factory=dict)
     drawings: dict[int, list[Drawn | None]] = field(default_factory=dict)
     positions: dict[str, Node] = field(default_factory=dict)
-    titles: dict[str, Written] = field(default_factory=dict)
+    said: dict[str, Written] = field(default_factory=dict)
     captions: dict[str, Said] = field(default_factory=dict)
     texts: dict[int, list[Said]] = field(default_factory=dict)
     gaps: list[Gap] = field(default_factory=list)
@@ -150,7 +148,8 @@ class Recording:
         columns = chain.from_iterable(self.tables.values())
         yield from chain.from_iterable(column.parts for column in columns if column is not None)
         for check in self.checks.values():
-            yield from (*check.parts, check.limit, *(check.said.nodes if check.said else ()))
+            yield from (*check.parts, check.limit)
+        yield from chain.from_iterable(text.nodes for text in self.said.values())
         for solved in self.found.values():
             yield from filter(None, (solved.node, solved.inverse, solved.residual))
         for marks in self.marks.values():

@@ -83,8 +83,12 @@ class Stage:
         if not showing.stands(self.cell, text):
             self.shown_now.append((self.recording.worded, f"{of} {what}"))
             self.recording.worded[f"{of} {what}"] = self.graph.constant(1.0)
-        if what == "title" and isinstance(text, Written):
-            self.recording.titles[of] = text
+        if isinstance(text, Written):
+            self._say(f"{of} {what}", text)
+
+    def _say(self, key: str, text: Written) -> None:
+        self.shown_now.append((self.recording.said, key))
+        self.recording.said[key] = text
 
     def _show(self, number: str, columns: tuple[Any, ...], every: Any) -> None:
         """Note the columns of a table or a figure; where rows are of a fixed number, Python sees which it lists."""
@@ -240,7 +244,9 @@ class Stage:
             raise NotRecorded(f"check {name!r} has several limits")
         said, name = (name, name.now) if isinstance(name, Written) else (None, name)
         self.shown_now.append((self.recording.checks, name))
-        self.recording.checks[name] = Residual(parts, bound.re, unit, signed, said=said)
+        self.recording.checks[name] = Residual(parts, bound.re, unit, signed)
+        if said is not None:
+            self._say(f"check {name}", said)
 
     def forget(self) -> None:
         """Take back what the present statement has shown."""

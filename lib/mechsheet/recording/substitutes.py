@@ -50,9 +50,9 @@ _ARRAYS = (np.array, np.asarray, np.asanyarray, np.ascontiguousarray)
 
 staged: ContextVar[Mapping[str, Any]] = ContextVar("staged")  # what those of `SHOWING` do in the cell that is run
 SHOWING = frozenset({"table", "figure", "sought", "solve", "closed_form", "check_slope", "judged", "Check", "meanings"})
-_NAME = (0, "name")  # of a check, which may follow
+_NAME, _WORDS = (0, "name"), (1, "title", "note")  # of a check, a table or a figure, which may follow
 _UNSAID = {  # names of no number
-    "table": ("show",), "figure": ("show",), "judged": _NAME, "check_slope": _NAME,
+    "table": (*_WORDS, "show"), "figure": (*_WORDS, "show"), "judged": _NAME, "check_slope": _NAME,
     "Check": (*_NAME, 3, 4, "unit", "reason"),
 }  # fmt: skip
 _NOWHERE = frozenset({"require", "refuse", "summary", "export", "typeset"})  # of no use in a workbook

@@ -108,17 +108,21 @@ class Arrangement:
             told = solved.inverse, solved.residual, solved.target, solved.sure
             yield from (n for n in (solved.node, *told, *(solved.interval or ())) if n)
         for check in self.recording.checks.values():
-            yield from (*check.parts, check.limit, *(check.said.nodes if check.said else ()))
+            yield from check.parts
+            yield check.limit
         for marks in self.recording.marks.values():
             yield from marks.values()
         yield from self.recording.worded.values()
+        yield from chain.from_iterable(text.nodes for text in self.recording.said.values())
         yield from self.recording.guards
         yield from (line.node for line in self.own_lines)
 
     def _place_others(self, name: Callable[[str, str], str]) -> list[Section]:
         """Sheets for all that stands neither on a table's sheet nor among inputs and found values."""
         names = dict(self.recording.names)
-        checks = [(each.said.fixed if each.said else name, each) for name, each in self.recording.checks.items()]
+        said = self.recording.said
+        checks = [(said[key].fixed if (key := f"check {name}") in said else name, each)
+                  for name, each in self.recording.checks.items()]  # fmt: skip
         for stated, check in checks:
             for m, part in enumerate(check.parts, 1):
                 if part not in names and part.operands:

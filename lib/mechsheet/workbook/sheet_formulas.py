@@ -8,9 +8,10 @@ from mechsheet import units
 from mechsheet.quantities.lines import Line, leaves_of
 from mechsheet.quantities.node import Node, bottom_up
 from mechsheet.quantities.quantity import Quantity
+from mechsheet.quantities.written import Written
 from mechsheet.workbook.arrangement import Arrangement
 from mechsheet.workbook.cell_formula import CellFormulas, written
-from mechsheet.workbook.content import Content, Live, quoted
+from mechsheet.workbook.content import Content, Live, allowed, quoted
 from mechsheet.workbook.place import Place
 from mechsheet.workbook.text_formula import text_formula
 from mechsheet.worksheet.table import Figure, Table
@@ -140,12 +141,12 @@ class SheetFormulas:
 
     def name_of(self, check: str) -> Content:
         """The name of a check, with the numbers and texts in it, and whether it looks at fewer positions."""
-        held = self.recording.checks.get(check)
+        held, said = self.recording.checks.get(check), self.recording.said.get(f"check {check}")
         where = f", {held.where}" if held and held.where else ""
-        if held is None or held.said is None:
-            return check + where
-        said = held.said + where
-        return Live(text_formula(said, lambda node: self._cells.reference(node)[1:], self._typed), said.now)
+        return Live(f"={self._said(said + where)}", check + where) if said is not None else check + where
+
+    def _said(self, text: Written) -> str:
+        return text_formula(text, lambda node: self._cells.reference(node)[1:], self._typed)
 
     def _typed(self, name: str) -> str:
         """Address of the cells in which the texts of an input are typed."""
@@ -155,10 +156,18 @@ class SheetFormulas:
 
     def words(self, key: str, text: str, otherwise: str = "") -> Content:
         """A title or a note: where inputs change it, what stands there ``otherwise`` for others."""
-        holds = self.recording.worded.get(key)
-        if not text or holds is None or holds.op == "constant":
+        holds, said = self.recording.worded.get(key), self.recording.said.get(key)
+        if not text or holds is None:
             return text
-        return Live(f"=IF(ISNUMBER({self._cells.reference(holds)[1:]}),{quoted(text)},{quoted(otherwise)})", text)
+        now = quoted(text)
+        if (
+            said is not None and (known := allowed(said.now)) and known in text
+        ):  # else it is but what stands before the numbers
+            before, _, behind = text.partition(known)
+            now = self._said(before + said + behind)
+        if holds.op != "constant":
+            now = f"IF(ISNUMBER({self._cells.reference(holds)[1:]}),{now},{quoted(otherwise)})"
+        return text if now == quoted(text) else Live(f"={now}", text)
 
     def as_exported(self, value: float | str, otherwise: str = "") -> Live:
         """What is known for the exported inputs alone: for others no number, and no text or another one."""

@@ -13,7 +13,7 @@ _UNKNOWN = '"…"'
 
 
 def text_formula(text: Written, reference: Callable[[Node], str], typed: Callable[[str], str]) -> str:
-    """Its pieces, by the ``reference`` of a quantity and the cells in which the texts of a column are ``typed``.
+    """Its pieces joined, by the ``reference`` of a quantity and the cells in which the texts of a column are ``typed``.
 
     A number in a format that no cell writes stands there for the exported inputs; for others, as for one that does not
     exist, there is a sign.
@@ -41,4 +41,4 @@ def text_formula(text: Written, reference: Callable[[Node], str], typed: Callabl
     def whole(text: Written) -> str:
         return "&".join(map(piece, text.parts)) or '""'
 
-    return f"={whole(text)}"
+    return whole(text)

@@ -109,8 +109,10 @@ def workbook(
 
 def _tab(table: Table, recording: Recording | None) -> str:
     """What a table's sheet is called, whose name cannot follow a title that inputs change."""
-    said = recording.worded.get(f"table {table.number} title") if recording else None
-    return f"{table.number} {table.title}" if said is None or said.op == "constant" else f"Table {table.number}"
+    key = f"table {table.number} title"
+    said = recording.worded.get(key) if recording and key not in recording.said else None
+    follows = recording and (key in recording.said or (said is not None and said.op != "constant"))
+    return f"Table {table.number}" if follows else f"{table.number} {table.title}"
 
 
 def _listed(table: Table, sheet: str, grey: Sequence[int]) -> Listed:

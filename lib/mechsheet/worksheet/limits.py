@@ -50,7 +50,7 @@ def comparable(fields: Iterable[Input], places: Mapping[str, str]) -> None:
             if other in units_of:
                 if units_of[other] != field.unit:
                     theirs, own = (numbers.in_text(unit) for unit in (units_of[other], field.unit))
-                    raise SheetError(f"{said}: {other} is in {theirs}, {field.name} in {own}")
+                    raise SheetError(f"{said}: {other} is in {theirs}, {field.name} in {own}: give both in one unit")
                 continue
             try:
                 number(other)
