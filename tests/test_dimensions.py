@@ -350,6 +350,13 @@ def test_a_literal_says_once_what_it_is_taken_for(told: Callable[..., Dimensions
     assert [str(note) for note in found.notes] == [f"line {FIRST}, 0.3: taken in m"]
 
 
+def test_a_check_whose_unit_was_forgotten_says_what_it_is_shown_in(told: Callable[..., Dimensions]) -> None:
+    """A stress stood there as a number of eight digits."""
+    found = told("c = check('c', g.F, 2 * g.F)", "d = check('d', g.F / g.F, 3.0)", "e = check('e', g.F, 9.0, 'N')")
+    assert [str(note) for note in found.notes] == [f"line {FIRST}, check 'c': no unit is given: shown in N"]
+    assert found.check().passed and "shown in N" in found.check().reason
+
+
 def test_a_number_in_a_text_is_no_literal(told: Callable[..., Dimensions]) -> None:
     """Which nobody has typed, and which is compared with itself while the text stays the same."""
     found = told("M = 0.003 * g.F * g.L  # [N*m] M", 'table_9 = table("9", f"Under {M:.5g}", M)')

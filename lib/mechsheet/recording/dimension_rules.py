@@ -164,6 +164,11 @@ class Reader:
                 line = self.places.of_check(name, (part.line, check.limit.line))
                 self.add(Mistake(line, f"check {name!r}", why))
                 return
+        shown = next((code for code in (given, *map(self.one, check.parts)) if self.exponents[code]), NUMBER)
+        if check.unit == "-" and not check.signed and shown != NUMBER:
+            line = self.places.of_check(name, (*(part.line for part in check.parts), check.limit.line))
+            why = f"no unit is given: shown in {self.word(shown)}"
+            self.notes.setdefault(line, Mistake(line, f"check {name!r}", why))
 
     def solved(self, solved: Solved) -> None:
         """Compare a found value with its interval, and what it solves with the unit that is told of it."""
