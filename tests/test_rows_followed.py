@@ -187,6 +187,21 @@ def test_the_columns_of_a_table_are_as_long_as_there_are_rows(tmp_path: Path) ->
     assert [known[column].shape for column in columns] == [(8,), (8,), (8,)]
 
 
+@pytest.mark.parametrize(
+    "total", ["np.trapezoid(x**2, x)", "x.sum(axis=0)", "np.max(x, axis=-1) + g.a", "np.mean(x, 0)"]
+)
+def test_a_number_made_of_rows_along_an_axis_is_one_number(total: str, tmp_path: Path) -> None:
+    """A check whose limit an integral gives was not followed, "has several limits", nor any other of its statement."""
+    lines = f'from mechsheet import check\nW = {total}  # [-] one\ny = 2 * W  # [-] line\nc = check("c", g.F, y)'
+    sheet = own(tmp_path, lines)
+    _, recording = recorded(sheet)
+    assert not recording.gaps and not [guard for guard in recording.guards.values() if not guard.rows]
+    limit = recording.checks["c"].limit
+    for given in ROWS:
+        known = numbers([limit], {recording.inputs[key]: float(x) for key, x in given.items()})
+        np.testing.assert_allclose(known[limit], evaluate(sheet.path, ["y"], **given)["y"], rtol=1e-12)
+
+
 def test_a_workbook_has_a_check_of_the_number_of_its_rows(tmp_path: Path) -> None:
     _, recording = recorded(own(tmp_path, "y = x.mean()  # [-] line"))
     (guard,) = recording.guards.values()

@@ -119,7 +119,9 @@ class Graph(Lengths):
         known = self.nodes.get(key)
         if known is None:
             along = any(a.stretches for a in args) if stretches is None else stretches
-            known = self.nodes[key] = Node(op, args, _fixed(value()), self.line, along)
+            own = _fixed(value())
+            along = along and own.ndim > 0  # one number has no rows, whatever it is made of
+            known = self.nodes[key] = Node(op, args, own, self.line, along)
             if op not in _GIVEN:
                 self.work += max(known.size, self.most // _NODES)
             under = known.operands
