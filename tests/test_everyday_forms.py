@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 from by_cells import by_cells
+from never_stale import assert_never_stale
 from own_worksheet import ELSEWHERE, own, recorded, value_of
 from test_recalculation import edit
 
@@ -41,6 +42,28 @@ KEPT = [
     THREADS + "d, P = next((d, P) for d, P in T if d > 2 * g.F)\ny = d * P * g.a",
     THREADS + "row = next(r for r in T if r[0] > 2 * g.F)\ny = row[0] * row[1] * g.a",
     "T = {'M6': (6.0, 1.0), 'M8': (9.0, 1.25)}\ny = next(v for v in T.values() if v[0] > 2 * g.F)[1] * g.a",
+    # of a list that has a name
+    SIZES + "fit = [d for d in D if d >= 3 * g.F]\ny = len(fit) / len(D) + fit[0] * g.a + fit[-1]",
+    SIZES + "fit = [d for d in D if d >= 5 * g.F]\ny = min(fit) if fit else D[-1] * g.a",
+    SIZES + "fit = [d * g.a for d in D if d > 3 * g.F]\ny = sum(fit) / len(fit) + max(fit)",
+    SIZES + "fit = [d for d in D if d >= 6 * g.F]\ny = 1.0\nif not fit:\n    y = g.a",
+    (
+        THREADS + "fit = [r for r in T if r[0] >= 3 * g.F]\n"
+        "r = min(fit, key=lambda r: r[1]) if fit else max(T, key=lambda r: r[1])\ny = r[0] * r[1] * g.a"
+    ),
+    SIZES + "k = 3\nfit = [d * k for d in D if d >= k * g.F]\nk = 5\ny = sum(fit) * g.a",
+]
+READ_OTHERWISE = [  # of which Python sees each element
+    SIZES + "fit = [d for d in D if d >= 3 * g.F]\ny = np.array(fit).sum()",
+    SIZES + "fit = [d for d in D if d >= 3 * g.F]\ny = 0.0\nfor d in fit:\n    y += d",
+    SIZES + "fit = [d for d in D if d >= 3 * g.F]\nfit.append(g.a)\ny = sum(fit) + len(fit)",
+    SIZES + "fit = [d for d in D if d >= 3 * g.F]\ny = sum([1.0, g.a] + fit) + fit[1:][0]",
+    SIZES + "fit = [d for d in D if d >= 3 * g.F]\na, *b = fit\ny = a * g.a + len(b)",
+    SIZES + "fit = [d for d in D if d >= 3 * g.F]\ny = float(len(str(fit))) + (10.0 in fit) + fit.index(12.0)",
+    SIZES + "fit = [d for d in D if d >= 3 * g.F]\ny = float(sum(sorted(fit, reverse=True)[:2]) + len(tuple(fit)))",
+    SIZES + "L = []\nfit = [L.append(d) or d for d in D if d >= 1.5 * g.F]\ny = sum(L) * g.a",
+    SIZES + "if g.F > 3:\n    fit = [d for d in D if d >= g.F]\nelse:\n    fit = [g.a]\ny = len(fit) + sum(fit)",
+    SIZES + "fit = [d for d in D if d >= 3 * g.F]\nother = fit\nif g.a > 1:\n    other.append(1.0)\ny = len(fit) * 1.0",
 ]
 CHOSEN = [
     "y = {0: 1.0, 2: 2.0}.get(g.k, g.F) * g.a",
@@ -206,6 +229,12 @@ def test_an_everyday_form_is_followed(lines: str, tmp_path: Path) -> None:
         value = value_of(recording, "result", given)
         if not (lines in GUARDED and np.isnan(value).all()):
             np.testing.assert_allclose(value, own_value, rtol=1e-12, err_msg=str(given))
+
+
+@pytest.mark.parametrize("lines", READ_OTHERWISE)
+def test_a_list_of_those_that_are_kept_is_never_stale(lines: str, tmp_path: Path) -> None:
+    """Whatever reads it but for its count, its first, its last, its sum and its extremes."""
+    assert_never_stale(lines, tmp_path)
 
 
 @pytest.mark.office

@@ -23,6 +23,7 @@ from mechsheet.quantities.sketch import Sketch
 from mechsheet.quantities.sketch import merged as merged_sketch
 from mechsheet.quantities.written import Either, OneOf, Written, either, joined, said, text
 from mechsheet.recording.memory import Memory, may_change, names_of
+from mechsheet.recording.sifted import Sifted
 from mechsheet.worksheet.drawing import COLOURS
 from mechsheet.worksheet.kinds import Chosen, cases
 from mechsheet.worksheet.lists import Whole, first_column
@@ -47,6 +48,11 @@ def is_condition(value: Any) -> bool:
     return isinstance(value, Quantity) and value.single and value.im is None and value.re.op != "constant"
 
 
+def as_condition(value: Any) -> Any:
+    """Whether a list of those that are kept has any; anything else as it is."""
+    return value.some if isinstance(value, Sifted) and value.pairs else value
+
+
 def choice(condition: Any, x: FunctionType, y: FunctionType, *given: Any) -> Any:
     """What ``x`` or else ``y`` gives: of numbers those that the condition says, else those of the way that is taken.
 
@@ -56,6 +62,7 @@ def choice(condition: Any, x: FunctionType, y: FunctionType, *given: Any) -> Any
 
 
 def _chosen(condition: Any, x: Callable[..., Any], y: Callable[..., Any], *given: Any, **named: Any) -> Any:
+    condition = as_condition(condition)
     if not is_condition(condition):
         return (x if condition else y)(*given, **named)
     graph, (now, later) = condition.graph, (x, y) if condition.value else (y, x)
@@ -307,6 +314,8 @@ def _extreme(name: str) -> Callable[..., Any]:
     def function(*args: Any, **kwargs: Any) -> Any:
         if len(args) == 1 and not kwargs and _is_whole(args[0]):
             return args[0].reduced(name)
+        if len(args) == 1 and len(kwargs) <= 1 and isinstance(args[0], Sifted) and args[0].pairs:
+            return args[0].of(f"{name} by" if "key" in kwargs else name, *kwargs.values())
         values = list(args[0]) if len(args) == 1 and isinstance(args[0], Iterable) else list(args)
         key = kwargs.get("key") or (lambda value: value)
         keys = [key(value) for value in values]
@@ -360,6 +369,8 @@ def ranked(values: Iterable[Any], *, reverse: Any = False, **given: Any) -> Any:
 
 def total(values: Any, start: Any = 0) -> Any:
     """Python's sum."""
+    if isinstance(values, Sifted) and values.pairs:
+        return values.of("sum", start)
     return values.reduced("sum") + start if _is_whole(values) else sum(values, start)
 
 
@@ -375,6 +386,8 @@ def _number(kind: type, followed: Callable[..., Any]) -> Callable[..., Any]:
 
 def length(x: Any) -> Any:
     """``len`` of anything; of a quantity over rows, and of a table of them, it is one."""
+    if isinstance(x, Sifted) and x.pairs:
+        return x.of("len")
     first = first_column(x) if isinstance(x, Whole) else x
     return first.count(0) if isinstance(first, Quantity) and first.ndim else len(x)
 

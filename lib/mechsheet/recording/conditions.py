@@ -13,7 +13,7 @@ from mechsheet.quantities.arithmetic import elementwise
 from mechsheet.quantities.quantity import Quantity, has_quantity
 from mechsheet.quantities.selected import Selected
 from mechsheet.quantities.written import Written
-from mechsheet.recording.choices import ARRAYS, NUMBERS, choice, is_condition
+from mechsheet.recording.choices import ARRAYS, NUMBERS, as_condition, choice, is_condition
 from mechsheet.worksheet.kinds import Chosen
 
 
@@ -44,6 +44,7 @@ def _given(value: Any) -> Any:
 
 
 def negated(value: Any) -> Any:
+    value = as_condition(value)
     return (
         elementwise("not")(value != 0 if value.re.value.dtype != bool else value) if is_condition(value) else not value
     )

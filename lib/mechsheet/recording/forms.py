@@ -139,6 +139,15 @@ def keeps(some: ast.ListComp | ast.GeneratorExp) -> bool:
 
 def of_kept(node: ast.expr, kind: str, some: ast.ListComp | ast.GeneratorExp, *rest: ast.expr) -> ast.Call:
     """A call with all elements, each with the condition under which it is kept and a function that gives its value."""
+    return call("of_kept", node, ast.Constant(kind), _every(some), *rest)
+
+
+def sifted(node: ast.ListComp) -> ast.Call:
+    """A list of those that are kept, as a call with all elements."""
+    return call("sifted", node, _every(node))
+
+
+def _every(some: ast.ListComp | ast.GeneratorExp) -> ast.expr:
     inner = some.generators[-1]
     names = dict.fromkeys(n.id for each in some.generators for n in ast.walk(each.target) if isinstance(n, ast.Name))
     given = ast.arguments(
@@ -147,7 +156,7 @@ def of_kept(node: ast.expr, kind: str, some: ast.ListComp | ast.GeneratorExp, *r
     holds = ast.BoolOp(ast.And(), inner.ifs) if len(inner.ifs) > 1 else inner.ifs[0]
     pair = ast.Tuple([holds, ast.Lambda(given, some.elt)], ast.Load())
     every = [*some.generators[:-1], ast.comprehension(inner.target, inner.iter, [], 0)]
-    return call("of_kept", node, ast.Constant(kind), ast.copy_location(ast.GeneratorExp(pair, every), some), *rest)
+    return ast.copy_location(ast.GeneratorExp(pair, every), some)
 
 
 _OF_ROWS = {"sum": "sum", "min": "min", "max": "max", "any": "any", "all": "all", "array": "array", "asarray": "array"}

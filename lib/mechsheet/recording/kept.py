@@ -14,6 +14,7 @@ from mechsheet.quantities.arithmetic import choice as where
 from mechsheet.quantities.graph import NotRecorded, current
 from mechsheet.quantities.quantity import lift
 from mechsheet.recording.choices import UNBOUND, _missing, is_condition, part_of, way_may_change
+from mechsheet.recording.sifted import Sifted
 
 _FURTHER = 200  # elements behind the first one that is kept now: an iterator may have no end
 _Pair = tuple[Any, FunctionType]  # whether an element is kept, and what gives its value
@@ -50,6 +51,32 @@ def _of_all(kind: str, pairs: list[_Pair], otherwise: tuple[Any, ...], ends: boo
         graph.looked = looked
         return _plainly(kind, pairs, otherwise)
     return found
+
+
+def sifted(pairs: Iterable[_Pair]) -> list[Any]:
+    """A list of the elements that are kept; their values are those of now, whatever reads them later."""
+    graph, every, sure = current.get(), list[tuple[Any, Any]](), True
+    for holds, value in pairs:
+        if not is_condition(holds):
+            if holds:
+                every.append((True, value()))
+            continue
+        sure = sure and not way_may_change(value)
+        if holds.value:
+            every.append((holds if holds.dtype == bool else holds != 0, value()))
+        elif sure:
+            graph.supposed += 1
+            try:
+                every.append((holds if holds.dtype == bool else holds != 0, value()))
+            except (Exception, NotRecorded):  # there is no such element
+                sure = False
+            finally:
+                graph.supposed -= 1
+        if not sure:
+            bool(holds)
+    if sure and len(every) <= _FURTHER and any(holds is not True for holds, _ in every):
+        return Sifted(every, _of_all)
+    return [value for holds, value in every if holds]
 
 
 def _decided(pairs: Iterable[_Pair]) -> Iterable[_Pair]:
@@ -140,4 +167,4 @@ _KINDS: dict[str, Callable[..., Any]] = {
 }  # fmt: skip
 
 
-CALLS: dict[str, Any] = {"of_kept": of_kept}
+CALLS: dict[str, Any] = {"of_kept": of_kept, "sifted": sifted}

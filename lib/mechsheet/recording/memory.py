@@ -23,6 +23,7 @@ import numpy as np
 
 from mechsheet.quantities.node import Node
 from mechsheet.quantities.quantity import Quantity, owner
+from mechsheet.recording.sifted import Sifted
 
 _SETS = {"STORE_SUBSCR", "STORE_ATTR", "STORE_SLICE", "DELETE_SUBSCR", "DELETE_ATTR"}
 _MAY_CHANGE = {*_SETS, "POP_TOP", "STORE_DEREF"}
@@ -72,7 +73,8 @@ class Memory:
 
 
 def _is_fixed(value: Any) -> bool:
-    return isinstance(value, _UNCHANGED) or type(value).__module__.startswith("mechsheet.")
+    own = type(value).__module__.startswith("mechsheet.") and not isinstance(value, Sifted)
+    return own or isinstance(value, _UNCHANGED)
 
 
 def _foreign(value: Any, own: Mapping[str, Any]) -> bool:
@@ -85,6 +87,8 @@ def _foreign(value: Any, own: Mapping[str, Any]) -> bool:
 def _parts(value: Any) -> list[Any] | None:
     """What a value holds now, in a form that does not change with it; None where nobody can look into it."""
     match value:
+        case Sifted():
+            return value.held()
         case list() | tuple() | deque() | set() | frozenset():
             return list(value)
         case dict() | MappingProxyType():

@@ -30,6 +30,7 @@ from mechsheet.recording.forms import (
     one_by_one,
     set_parts,
     sets_beside,
+    sifted,
     tried,
 )
 from mechsheet.recording.summed import as_sums
@@ -112,6 +113,10 @@ class _Rewriting(ast.NodeTransformer):
         if not isinstance(node.ctx, ast.Load) or all(isinstance(key, known) for key in keys):
             return node
         return call("element", node, node.value, index(node.slice))
+
+    def visit_ListComp(self, node: ast.ListComp) -> ast.AST:
+        """A list of some elements is asked how many these are, or for the first or the least of them, elsewhere."""
+        return self.generic_visit(sifted(node) if keeps(node) else node)
 
     def visit_IfExp(self, node: ast.IfExp) -> ast.AST:
         self.generic_visit(node)
