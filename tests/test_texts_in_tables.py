@@ -409,8 +409,8 @@ def test_a_page_in_one_file_shows_the_texts_that_are_typed(cases: Path, tmp_path
     type_in("name, row 2", "curve <left>")
     rows, words, state = shown()
     assert rows[1][0] == "curve <left>" and "Worst: curve <left>" in words and "all braking, curve <left>" in words
-    assert "not known" not in state
-    assert "stress, curve <left>: 133.33" in page.locator(".ms-check").nth(1).inner_text()
+    assert page.locator(".ms-check .ms-name").all_inner_texts() == ["stress, braking", "stress, curve <left>"]
+    assert state == "changed: cases" and page.locator(".ms-check .ms-PASS").count() == 2
     type_in("F, row 2", "1")
     assert "Worst: braking" in shown()[1]
     type_in("name, row 2", "a;b")
@@ -428,6 +428,52 @@ def test_a_page_in_one_file_shows_the_texts_that_are_typed(cases: Path, tmp_path
     assert [row[0] for row in shown()[0]] == ["braking", "cornering", "third"]
     page.reload()  # with the address that it has now
     assert [row[0] for row in shown()[0]] == ["braking", "cornering", "third"]
+
+
+SHOWN = "    typeset(*checks_1)\n    return chosen"
+NAMED = """
+chosen = next((c for c in g.cases if c.F >= g.W * 1e9), g.cases[-1])
+fitting = [c for c in g.cases if c.F >= g.W * 1e9]
+n = len(fitting)  # [-] how many
+checks_1 = (check(f"force of {chosen.name}, {n} do", chosen.F, 10 * kN, "kN"), check("n", n, 2.0))
+"""
+
+
+def test_a_check_that_is_called_by_what_was_chosen_follows(tmp_path: Path, page: Page) -> None:
+    """It was not known once another row was chosen, and every other check that its words stand beside."""
+    path = sheet_of(tmp_path, NAMED)
+    shown = "@app.cell\ndef all_of_them(checks_1):\n    summary(*checks_1)\n    return\n\n\n"
+    text = path.read_text().replace("import ask,", "import summary, ask,").replace("    return chosen", SHOWN)
+    path.write_text(text.replace("@app.cell\ndef workbook", f"{shown}@app.cell\ndef workbook"))
+    sheet, file = load(path), tmp_path / "named.html"
+    file.write_text(write.page(sheet, sheet.inputs()), encoding="utf-8")
+    page.goto(file.as_uri())
+
+    def told() -> list[str]:
+        names = page.locator(".ms-name").all_inner_texts()
+        assert len(names) == 2 and names[0] == names[1], "where they are summed up and where it stands"
+        return [names[0], page.locator(".ms-check .ms-badge").first.inner_text()]
+
+    assert told() == ["force of braking, 1 do", "FAIL"]
+    for F, name, verdict in (("7", "one", "PASS"), ("30", "cornering", "PASS"), ("7", "<b>", "PASS")):
+        page.get_by_label("F, row 1").fill(F)
+        page.get_by_label("name, row 1").fill(name)
+        chosen = name if float(F) >= 9 else "cornering"
+        number = int(float(F) >= 9)
+        assert told() == [f"force of {chosen}, {number} do", "FAIL" if float(F) > 10 else verdict]
+    page.locator(".ms-back").click()
+    assert told() == ["force of braking, 1 do", "FAIL"]
+    page.get_by_label("name, row 1").fill("again")
+    assert told() == ["force of again, 1 do", "FAIL"]
+    page.get_by_label("name, row to be filled in").fill("third")
+    page.get_by_label("F, row 3").fill("1")
+    page.get_by_label("arm, row 3").fill("1")
+    page.get_by_label("F, row 1").fill("2")
+    page.get_by_label("F, row 3").fill("30")
+    page.get_by_label("name, row to be filled in").fill("last")
+    page.get_by_label("F, row 4").fill("1")
+    page.get_by_label("arm, row 4").fill("1")
+    assert told() == ["force of …, … do", "not known"]
 
 
 def test_the_grid_of_a_page_takes_texts(serve: Any, page: Page, cases: Path, console_errors: list[str]) -> None:

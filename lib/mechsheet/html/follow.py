@@ -336,6 +336,8 @@ class Follower:
         """Attribute of the verdict of a check."""
         held = self.recording.checks.get(check.name)
         spec = {"name": check.name, "essential": check.essential, "agreement": check.agreement}
+        if held and (said := self.recording.said.get(of := f"check {check.name} name")) is not None:
+            spec["title"] = wording.of_name(said, self.in_words, self.key, self.key(self.recording.worded[of]))
         if held is None:
             return self.mark("check", keys=None, **spec)
         unit = check.unit if held.unit == "-" else held.unit
@@ -352,10 +354,13 @@ class Follower:
             **spec,
         )
 
-    def name(self, check: Check) -> str:
-        """HTML of the name of a check, which follows as far as it is recorded."""
-        said = self.recording.said.get(f"check {check.name}")
-        return self._written(said, self.in_words, {}) if said is not None else self.in_words(check.name)
+    def check_name(self, check: Check) -> str:
+        """HTML of the name of a check."""
+        said = self.recording.said.get(f"check {check.name} name")
+        if said is None or check.name not in self.recording.checks:
+            return self.in_words(check.name)
+        shown = "".join(self.in_words(p) if isinstance(p, str) else escape(Written((p,)).now) for p in said.parts)
+        return f'<span class="ms-name">{shown}</span>'
 
     def found(self, found: Verdict) -> str:
         """Attribute of the verdict of a solve block, with its words where the page solves it again."""

@@ -39,7 +39,8 @@ const show = {
     return columns.every(Boolean);
   },
   check(spec, element, results) {
-    const verdict = judged(spec, results);
+    const verdict = judged(spec, results), name = element.querySelector(".ms-name");
+    if (name && spec.title) set(name, nameHTML(spec.title, results));
     if (verdict) tell(element, verdict, spec);
     else tell(element, {kind: "OPEN", word: "not known", compared: "", reason: ""}, spec); // it is told as of others
     return Boolean(verdict);
@@ -125,6 +126,12 @@ function columnTexts(column, results) {
 function labelsOf([name, key], values, results) {
   const rows = results.values[key], texts = typedIn.get(name);
   return rows && Array.from(rows, (k, n) => (values[n] === values[n] ? texts[k] : AXIS.none));
+}
+
+// The name of a check, of which nobody knows some pieces where it rests on what is not known.
+function nameHTML(pieces, {values}) {
+  const of = part => (part.keys.every(key => values[key] !== undefined) ? escaped(piece(part.piece, key => values[key])) : "…");
+  return pieces.map(part => (typeof part === "string" ? part : of(part))).join("");
 }
 
 // Residual, limit and verdict of a check, as the worksheet judges it; null where they are not known.
@@ -265,7 +272,8 @@ function sum() {
       const check = document.getElementById(item.dataset.of), badge = check?.querySelector(".ms-badge");
       const kind = /ms-(PASS|FAIL|OPEN)/.exec(badge?.className)?.[1] ?? "OPEN";
       counts[kind]++;
-      const own = item.querySelector(".ms-badge");
+      const own = item.querySelector(".ms-badge"), name = check?.querySelector(".ms-name");
+      if (name) set(item.querySelector(".ms-name"), name.innerHTML);
       if (own.textContent !== badge.textContent) Object.assign(own, {className: badge.className, textContent: badge.textContent});
       const part = Number(check?.querySelector(".ms-compared").dataset.part ?? NaN), reason = check?.querySelector(".ms-note").textContent;
       item.querySelector(".ms-note").textContent = utilised(part) || reason;
@@ -290,7 +298,7 @@ function lacking(results) {
   return [...found].map(([why, names]) => (names.size ? `not known: ${listed([...names])} (${why})` : why));
 }
 
-const nameOf = (spec, element) => spec.of ?? spec.name ?? spec.key ?? element.closest(".ms-table, .ms-figure")?.querySelector(".ms-caption b").textContent;
+const nameOf = (spec, element) => spec.of ?? (spec.title && element.querySelector(".ms-name")?.textContent) ?? spec.name ?? spec.key ?? element.closest(".ms-table, .ms-figure")?.querySelector(".ms-caption b").textContent;
 const listed = names => names.slice(0, LISTED).join(", ") + (names.length > LISTED ? ` and ${names.length - LISTED} more` : "");
 
 function say(changed, errors) {

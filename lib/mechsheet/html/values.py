@@ -257,7 +257,7 @@ def _(check: Check, page: Follower) -> str:
     return (
         f'<div class="ms-check" id="{_anchor(check)}"{page.check(check)}>'
         f'<span class="ms-badge ms-{kind}">{verdict}</span> '
-        f'{page.name(check)}<span class="ms-compared" data-part="{float(check.utilisation)}">{told}</span> '
+        f'{page.check_name(check)}<span class="ms-compared" data-part="{float(check.utilisation)}">{told}</span> '
         f'<span class="ms-note">{message(check.reason)}</span></div>'
     )
 
@@ -270,7 +270,7 @@ def _anchor(check: Check) -> str:
 def _(summary: Summary, page: Follower) -> str:
     items = "".join(
         f'<span data-of="{_anchor(check)}"><span class="ms-badge"></span> '
-        f'<a href="#{_anchor(check)}">{page.name(check)}</a> <span class="ms-note"></span></span>'
+        f'<a href="#{_anchor(check)}">{page.check_name(check)}</a> <span class="ms-note"></span></span>'
         for check in summary.checks
     )
     return f'<div class="ms-summary" role="status"><b></b><div class="ms-row">{items}</div></div>'

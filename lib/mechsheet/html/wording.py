@@ -47,6 +47,20 @@ def pieces(text: Written, shown: Callable[[str], str], key: Key) -> list[Any]:
     return [piece(places[int(x)], key) if n % 2 else x for n, x in enumerate(split)]
 
 
+def of_name(name: Written, shown: Callable[[str], str], key: Key, holds: str) -> list[Any]:
+    """Pieces of a name, with the keys without which each is not known, of all the one of whether it ``holds``."""
+    found = list[Any]()
+    for part in name.parts:
+        asked = [holds]
+
+        def noted(node: Node, asked: list[str] = asked) -> str:
+            asked.append(key(node))
+            return asked[-1]
+
+        found.append(shown(part) if isinstance(part, str) else {"piece": piece(part, noted), "keys": asked})
+    return found
+
+
 def _is_markup(part: Piece) -> bool:
     match part:
         case Either(_, then, otherwise):

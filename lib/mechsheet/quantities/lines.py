@@ -81,8 +81,9 @@ class Recording:
     ``tables`` are the columns by the number of a table, of a figure under ``Fig 1``, ``constants`` those of them that
     hold the same numbers for all inputs, ``labels`` those of texts: the name of their input, and its rows;
     ``arguments`` others that are recorded, by names such as ``table 1 decimals``,
-    ``worded`` what is a number while a ``table 1 title`` or note that inputs change is that of the run, ``said`` those,
-    and names as ``check stress``, with recorded numbers or texts in them; ``marks`` the marks of a figure by its number
+    ``worded`` what is a number while a ``table 1 title`` or note, or a ``check stress name``, that inputs change is
+    that of the run or can be said, ``said`` those with recorded numbers or texts in them; ``marks`` the marks of a
+    figure by its number
     and their labels; ``lines`` those of a section, ``others`` such as are the same for all inputs or but another name
     for a quantity; ``names`` the name that each node has in the worksheet. ``gaps`` are what keeps the numbers of the
     worksheet's own run, with the reasons, ``unsolved`` what does so in the cells of a workbook alone: found values, and

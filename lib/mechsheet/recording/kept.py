@@ -154,7 +154,7 @@ def _least_by(wins: Callable[[Any, Any], Any]) -> Callable[..., Any]:
 
 def _sum(kept: Iterable[tuple[Any, Any]], otherwise: tuple[Any, ...]) -> Any:
     graph = current.get()
-    return reduce(operator.add, (where(graph, holds, value, 0.0) for holds, value in kept), *(otherwise or (0,)))
+    return reduce(operator.add, (where(graph, holds, value, 0) for holds, value in kept), *(otherwise or (0,)))
 
 
 def _count(kept: Iterable[tuple[Any, Any]], _: tuple[Any, ...]) -> Any:

@@ -84,11 +84,8 @@ class Stage:
             self.shown_now.append((self.recording.worded, f"{of} {what}"))
             self.recording.worded[f"{of} {what}"] = self.graph.constant(1.0)
         if isinstance(text, Written):
-            self._say(f"{of} {what}", text)
-
-    def _say(self, key: str, text: Written) -> None:
-        self.shown_now.append((self.recording.said, key))
-        self.recording.said[key] = text
+            self.shown_now.append((self.recording.said, f"{of} {what}"))
+            self.recording.said[f"{of} {what}"] = text
 
     def _show(self, number: str, columns: tuple[Any, ...], every: Any) -> None:
         """Note the columns of a table or a figure; where rows are of a fixed number, Python sees which it lists."""
@@ -208,7 +205,7 @@ class Stage:
         self._check(name, [lift(self.graph, residual).re], limit, "-", signed=True)
 
     def check_slope(
-        self, name: str, slope: Any, f: Callable[..., Any], x: Any, lo: Any, hi: Any, unit: str = "-"
+        self, name: str | Written, slope: Any, f: Callable[..., Any], x: Any, lo: Any, hi: Any, unit: str = "-"
     ) -> None:
         """The slope by central differences, at some of the positions; two steps tell how good they are.
 
@@ -229,7 +226,7 @@ class Stage:
             own, where = slope[middle] if slope.ndim else slope, "at the middle position"
         limit = np.maximum(1e-7 * size, 10 * abs(fine - coarse).max())
         self.judged(name, own - fine, limit, unit, size, limit <= AGREED * size)
-        name = self.shown_now[-1][1]
+        name = name.now if isinstance(name, Written) else name
         self.recording.checks[name] = replace(self.recording.checks[name], where=where)
 
     def meanings(self) -> dict[str, str]:
@@ -246,7 +243,7 @@ class Stage:
         self.shown_now.append((self.recording.checks, name))
         self.recording.checks[name] = Residual(parts, bound.re, unit, signed)
         if said is not None:
-            self._say(f"check {name}", said)
+            self._word(f"check {name}", said, "name")
 
     def forget(self) -> None:
         """Take back what the present statement has shown."""

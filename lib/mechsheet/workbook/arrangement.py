@@ -121,7 +121,7 @@ class Arrangement:
         """Sheets for all that stands neither on a table's sheet nor among inputs and found values."""
         names = dict(self.recording.names)
         said = self.recording.said
-        checks = [(said[key].fixed if (key := f"check {name}") in said else name, each)
+        checks = [(said[key].fixed if (key := f"check {name} name") in said else name, each)
                   for name, each in self.recording.checks.items()]  # fmt: skip
         for stated, check in checks:
             for m, part in enumerate(check.parts, 1):

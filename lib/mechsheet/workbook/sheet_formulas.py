@@ -8,7 +8,6 @@ from mechsheet import units
 from mechsheet.quantities.lines import Line, leaves_of
 from mechsheet.quantities.node import Node, bottom_up
 from mechsheet.quantities.quantity import Quantity
-from mechsheet.quantities.written import Written
 from mechsheet.workbook.arrangement import Arrangement
 from mechsheet.workbook.cell_formula import CellFormulas, written
 from mechsheet.workbook.content import Content, Live, allowed, quoted
@@ -141,12 +140,9 @@ class SheetFormulas:
 
     def name_of(self, check: str) -> Content:
         """The name of a check, with the numbers and texts in it, and whether it looks at fewer positions."""
-        held, said = self.recording.checks.get(check), self.recording.said.get(f"check {check}")
+        held, said = self.recording.checks.get(check), self.recording.said.get(f"check {check} name")
         where = f", {held.where}" if held and held.where else ""
-        return Live(f"={self._said(said + where)}", check + where) if said is not None else check + where
-
-    def _said(self, text: Written) -> str:
-        return text_formula(text, lambda node: self._cells.reference(node)[1:], self._typed)
+        return self.words(f"check {check} name", check + where, said.fixed + where if said is not None else "")
 
     def _typed(self, name: str) -> str:
         """Address of the cells in which the texts of an input are typed."""
@@ -164,7 +160,7 @@ class SheetFormulas:
             said is not None and (known := allowed(said.now)) and known in text
         ):  # else it is but what stands before the numbers
             before, _, behind = text.partition(known)
-            now = self._said(before + said + behind)
+            now = text_formula(before + said + behind, lambda node: self._cells.reference(node)[1:], self._typed)
         if holds.op != "constant":
             now = f"IF(ISNUMBER({self._cells.reference(holds)[1:]}),{now},{quoted(otherwise)})"
         return text if now == quoted(text) else Live(f"={now}", text)
