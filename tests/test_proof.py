@@ -303,6 +303,19 @@ n = np.sqrt(-g.F) * 1  # [-] no number"""
     assert told["n"].least == 16, "that it is no number is proved"
 
 
+def test_what_is_endured_for_ever_is_proved_beside_numbers(tmp_path: Path) -> None:
+    """One infinite number of a column had taken the digits of all others, and said that it is not decided."""
+    lines = """
+N = np.array([np.inf if v < 1 else 2e6 * (g.F / v) ** 5 for v in x])  # [-] endured
+D = (1 / N).sum()  # [-] damage
+L = -g.F * np.inf  # [-] least of all
+c = np.where(np.sqrt(g.a) ** 2 <= g.a, np.inf, 2.0) * g.F  # [-] decided by rounding
+table_2 = table("2", "Two", N)"""
+    told = {column.name: column for column in sheet_of(tmp_path, lines.strip()).columns}
+    assert told["N"].least > 14 and told["D"].least > 14 and told["L"].least == 16
+    assert told["c"].least == 0 and "which of two numbers is greater is not decided" in told["c"].why
+
+
 # --- the documents -----------------------------------------------------------------------------------------------
 
 EXCEPTIONS = {

@@ -1,7 +1,7 @@
 """The ball rules of operations: what encloses the exact result where balls enclose the operands.
 
-A ball is a midpoint with a radius (`flint.arb`); one that is not finite says nothing. `NONE` is a result that is proved
-to be no number, as the root of what is surely negative. A condition is 1 where it surely holds, 0 where it surely does
+A ball is a midpoint with a radius (`flint.arb`); one of no finite radius says nothing. `NONE` is a result that is
+proved to be no number, as the root of what is surely negative. A condition is 1 where it surely holds, 0 where it surely does
 not, and `UNDECIDED` where the balls of what it compares do not tell.
 """
 
@@ -20,6 +20,17 @@ from mechsheet.quantities.operations import Values
 NONE = None
 UNDECIDED = 0.5
 _HALF, _UNKNOWN = arb(0.5), arb.nan()
+
+
+def endless(x: Any) -> bool:
+    """Whether infinite itself, as life below a limit is, of one sign: a ball that says nothing has none."""
+    return bool(abs(x) > 0 and not x.is_finite())
+
+
+def leaves_open(balls: Values) -> bool:
+    """Whether one of some balls says nothing."""
+    shut = (x != UNDECIDED if isinstance(x, float) else x is NONE or x.is_finite() or endless(x) for x in balls.flat)
+    return not all(shut)
 
 
 def _of_number(f: Callable[[Any], Any]) -> Callable[[Any], Any]:

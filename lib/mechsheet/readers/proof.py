@@ -21,7 +21,7 @@ from mechsheet.quantities.node import LEAVES, Node, bottom_up, steps_of
 from mechsheet.quantities.operations import SHAPED, Values
 from mechsheet.quantities.quantity import Quantity
 from mechsheet.readers import lone_root
-from mechsheet.readers.ball_rules import NONE, UNDECIDED, constant
+from mechsheet.readers.ball_rules import NONE, UNDECIDED, constant, endless, leaves_open
 from mechsheet.readers.balls import Balls, is_least, precision, unfollowed
 from mechsheet.readers.gradients import adjoints
 from mechsheet.worksheet import numbers
@@ -330,7 +330,7 @@ class _Digits:
         """What keeps digits from being proved: the first operation that leaves something open, or their rounding."""
         known = self.last.known if shown.node in self.last.known else self.first.known
         for part in bottom_up([shown.node] if shown.node else (), ()):
-            if part in known and _open(known[part]) and not any(_open(known[o]) for o in part.operands):
+            if part in known and leaves_open(known[part]) and not any(leaves_open(known[o]) for o in part.operands):
                 gap = next((str(gap) for gap in self.recording.gaps if gap.line == part.line), "")
                 if part.op == "exported" and gap:
                     return gap
@@ -387,11 +387,7 @@ def _is_count(node: Node) -> bool:
 def _small(x: Any, size: float) -> bool:
     if x is NONE or isinstance(x, float):
         return x is NONE or x != UNDECIDED
-    return bool(x.is_finite() and x.rad() <= _SMALL * size)
-
-
-def _open(balls: Values) -> bool:
-    return any(x == UNDECIDED if isinstance(x, float) else x is not NONE and not x.is_finite() for x in balls.flat)
+    return bool(x.is_finite() and x.rad() <= _SMALL * size) or endless(x)
 
 
 def _no_longer(node: Node, balls: Values) -> bool:
@@ -410,6 +406,8 @@ def _digits_of(x: Any, own: float, unit: Any, size: float) -> float:
         return _ALL if x is NONE and np.isnan(own) else 0.0
     if isinstance(x, float):
         x = arb(x) if x != UNDECIDED else arb.nan()
+    if np.isinf(own):
+        return _ALL if endless(x) and (x > 0) == (own > 0) else 0.0
     off = abs(x / unit - own).upper()
     if not off.is_finite() or off.is_zero() or not size:
         return _ALL if off.is_zero() else 0.0
