@@ -76,7 +76,7 @@ FOLLOWED = [
     "np.arange(len(F)) * F", "np.outer(F, x).sum(axis=1)", "F[:, None] * y", "(F[:, None] * y).max(axis=0)",
     "np.interp(g.a + 1, x, y)", "np.interp(np.linspace(0, 6, 7), x, y)", "np.trapezoid(y, x)", "x @ y", "F @ F",
     "np.exp(1j * F).sum()", "np.linalg.norm(F)", "np.any(F < 0) * 1.0", "np.count_nonzero(F > 0)", "np.ptp(F)",
-    "np.stack([x, y])[1]", "np.stack([x, y]).sum(axis=0)", "np.append(F, g.a)", "np.repeat(F, 2)", "np.roll(x, 1)",
+    "np.stack([x, y])[1]", "np.stack([x, y]).sum(axis=0)", "np.append(F, g.a)", "np.repeat(F, 2)", "np.roll(x, 1)", "np.roll(x, -1)", "np.abs(np.roll(F, -2) - F)",
     "np.full_like(F, g.a)", "np.zeros(len(F)) + g.a", "np.gradient(y, x)", "x.shape[0] * g.a", "np.prod(x)",
     "find(lambda t: t**3 + t - F, -9, 9, unknown='t').value", "(x * y).sum() / y.sum()", "np.average(y, weights=x)",
     "find(lambda t: F.sum() * t**3 + t - g.a, -9, 9, unknown='t').value", "np.maximum.accumulate(F)", "np.tile(F, 2)",

@@ -12,7 +12,7 @@ _AXES = (np.transpose, np.moveaxis, np.swapaxes)
 _SAME_ORDER = (np.ravel, np.expand_dims, np.squeeze, np.atleast_1d, np.atleast_2d)
 # How many elements there are after it, of n, and which of them each one is.
 _AT = {
-    np.roll: "n=>[n,i=>mod(i-{0},n)]", np.repeat: "n=>[n*{0},i=>floor(i/{0})]", np.tile: "n=>[n*{0},i=>i%n]",
+    np.roll: "n=>[n,i=>mod(i-({0}),n)]", np.repeat: "n=>[n*{0},i=>floor(i/{0})]", np.tile: "n=>[n*{0},i=>i%n]",
 }  # fmt: skip
 _PRIMES = (2, 3, 5, 7, 11, 13, 17, 19)
 
