@@ -41,6 +41,18 @@ KEPT = [
     ),
     THREADS + "d, P = next((d, P) for d, P in T if d > 2 * g.F)\ny = d * P * g.a",
     THREADS + "row = next(r for r in T if r[0] > 2 * g.F)\ny = row[0] * row[1] * g.a",
+    SIZES + "fits = [d for d in D if d >= 5 * g.F]\ny = (min(fits) if fits else 33.0) * g.a",
+    SIZES + "fits = [d for d in D if d >= 7 * g.F]\ny = (fits[0] if fits else 33.0) * g.a + len(fits)",
+    SIZES + "fits = [d for d in D if d <= 2 * g.F]\nif not fits:\n    y = 2.0\nelse:\n    y = fits[-1] * g.a",
+    (
+        NAMED + "fits = [r for r in T if r[1] > 2 * g.F if r[2] > g.a]\n"
+        "row = max(fits, key=lambda r: r[2]) if fits else T[-1]\ny = row[1] * row[2]"
+    ),
+    (
+        SIZES + "def next_size(need, sizes=D):\n    fits = [d for d in sizes if d >= need]\n"
+        "    return min(fits, key=lambda d: d) if fits else sizes[-1]\ny = next_size(5 * g.F) * g.a"
+    ),
+    SIZES + "fits = [d for d in D if d >= 3 * g.F]\ny = min(fits, default=1.0) * g.a",
     "T = {'M6': (6.0, 1.0), 'M8': (9.0, 1.25)}\ny = next(v for v in T.values() if v[0] > 2 * g.F)[1] * g.a",
     # of a list that has a name
     SIZES + "fit = [d for d in D if d >= 3 * g.F]\ny = len(fit) / len(D) + fit[0] * g.a + fit[-1]",

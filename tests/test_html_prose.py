@@ -34,6 +34,7 @@ SAID = [
     "{np.count_nonzero(g.v > g.F)} above", "{g.steel}, {g.side} side", "a{'' if g.side == 'left' else ', turned'}.",
     "{'long' if g.F > 3 else f'short by {3 - g.F:.2f}'}", "{g.F / 7:g} and {g.F / 7:.1%} and {1e9 * g.F:e} and {g.F:f}",
     "{', '.join(f'{x:.1f} mm' for x in (g.F, 2 * g.F))}", "{-(-g.F // 1):.0f}", "{np.floor(g.F)}", "{2 * int(g.F) - 1}",
+    "{len([x for x in (1.0, 2.0, 3.0) if x > g.F])} of 3", "{len(above)}, {'some' if above else 'none'}",
 ]  # fmt: skip
 CHANGED = [{"F": "3.75"}, {"side": "right", "F": "1"}, {"steel": "S355", "v": "5; 1; 2; 7"}]
 
@@ -42,9 +43,10 @@ CHANGED = [{"F": "3.75"}, {"side": "right", "F": "1"}, {"steel": "S355", "v": "5
 def test_prose_is_that_of_the_worksheet(given: dict[str, str], blank: "Page", tmp_path: Path) -> None:
     """What stood in it as a whole number, an option, one of two words or in per cent had made all of it grey."""
     path = tmp_path / "prose.py"
-    text = written(SETUP, GIVEN, "y = g.F  # [-] y")
+    text = written(SETUP, GIVEN, "y = g.F  # [-] y\nabove = [x for x in (1.0, 2.0, 3.0) if x > g.F]")
     said = (
-        f'@app.cell\ndef said_{k}(g):\n    mo.md(f"""A{k} {words}""")\n    return\n\n\n' for k, words in enumerate(SAID)
+        f'@app.cell\ndef said_{k}(g, above):\n    mo.md(f"""A{k} {words}""")\n    return\n\n\n'
+        for k, words in enumerate(SAID)
     )
     path.write_text(text.replace("if __name__", "".join([*said, "if __name__"])))
     sheet = cells.load(path)

@@ -1,8 +1,8 @@
 """The ball rules of operations: what encloses the exact result where balls enclose the operands.
 
 A ball is a midpoint with a radius (`flint.arb`); one of no finite radius says nothing. `NONE` is a result that is
-proved to be no number, as the root of what is surely negative. A condition is 1 where it surely holds, 0 where it surely does
-not, and `UNDECIDED` where the balls of what it compares do not tell.
+proved to be no number, as the root of what is surely negative. A condition is 1 where it surely holds, 0 where it
+surely does not, and `UNDECIDED` where the balls of what it compares do not tell.
 """
 
 from collections.abc import Callable, Sequence

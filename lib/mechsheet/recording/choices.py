@@ -21,6 +21,7 @@ from mechsheet.quantities.quantity import Quantity, has_quantity, is_any_length,
 from mechsheet.quantities.selected import Selected
 from mechsheet.quantities.sketch import Sketch
 from mechsheet.quantities.sketch import merged as merged_sketch
+from mechsheet.quantities.text_column import Texts
 from mechsheet.quantities.written import Either, OneOf, Written, either, joined, said, text
 from mechsheet.recording.memory import Memory, may_change, names_of
 from mechsheet.recording.sifted import Sifted
@@ -190,7 +191,7 @@ def element(container: Any, key: Any) -> Any:
         return _supposed(_of_text, container, key)
     if isinstance(key, tuple) and isinstance(container, np.ndarray) and has_quantity(key):
         return lift(current.get(), container)[key]
-    if not isinstance(key, Quantity) or isinstance(container, Quantity | Whole):
+    if not isinstance(key, Quantity) or isinstance(container, Quantity | Whole | Texts):
         return container[key]
     if isinstance(container, np.ndarray) and container.dtype.kind in "biufc":
         return lift(key.graph, container)[key]

@@ -108,7 +108,8 @@ def _plainly(kind: str, pairs: Iterable[_Pair], otherwise: tuple[Any, ...]) -> A
 
 def _first(kept: Iterable[tuple[Any, Any]], otherwise: tuple[Any, ...]) -> Any:
     every = [*kept]
-    if not otherwise and not any(holds if holds is True else holds.value for holds, _ in every):
+    none = not any(holds if holds is True else holds.value for holds, _ in every)
+    if not otherwise and none and not current.get().supposed:
         return UNBOUND
     result = otherwise[0] if otherwise else _missing(every[-1][1])
     for holds, value in reversed(every):
@@ -130,7 +131,7 @@ def _least(fold: Callable[[Any, Any], Any]) -> Callable[..., Any]:
             some = some | holds
         if otherwise:
             return where(graph, some, result, otherwise[0])
-        return result if some.value else None
+        return result if some.value or graph.supposed else None
 
     return function
 
@@ -147,7 +148,7 @@ def _least_by(wins: Callable[[Any, Any], Any]) -> Callable[..., Any]:
             taken = holds & (~some | wins(own, best))
             result, best = part_of(taken, value, result), where(current.get(), taken, own, best)
             some = some | holds
-        return result if some.value else None
+        return result if some.value or current.get().supposed else None
 
     return function
 
