@@ -90,6 +90,8 @@ FOLLOWED = [
     "sum(v * w for v, w in zip(x, y))", "np.array([v * g.a for v in F])", "sum(p.x * p.y for p in g.points)",
     "max(p.y if p.x > 1.5 else g.a for p in g.points)", "any(p.y > 5 for p in g.points) * g.a",
     "sum([1 / max(v, 1.0) for v in F])", "np.vectorize(lambda v: v**2 if v > 0 else g.a)(F)", "sum(1 for v in F) * g.a",
+    "(F.sum() * np.array([1.0, 3.0, 2.0]))[np.argmax(F.sum() * np.array([1.0, 3.0, 2.0]))]",
+    "(F.sum() * np.linspace(1, 2, 3))[np.argsort(-F.sum() * np.linspace(1, 2, 3))]",
     "F[F > 0].sum() + len(F[F > 0])", "F[F > 0][-1]", "x[np.flatnonzero(y > 2)].max() * g.a",
 ]  # fmt: skip
 COUNTED_BY_PYTHON = {  # lines, and the list whose rows are counted

@@ -217,6 +217,7 @@ FOLLOWED = [  # of which no text is looked at
     "sum(c.F for c in g.cases[1:])",
     "g.cases[g.cases.F > 9e3].F.sum()",
     "len(g.cases.name) * g.W",
+    "len([g.cases.name[np.argmax(g.cases.F)]]) * g.W",
     "2.0 if g.steel.standard == 'EN 1' else g.W",
     "g.W if g.steel.standard != 'EN 1' else 2.0",
     "{'EN 1': 2.0, 'DIN': 3.0}[g.steel.standard]",
@@ -286,6 +287,7 @@ ROW_BY_ROW = [
     "y = sum(c.F * c.arm for c in g.cases)",
     "y = max(c.F for c in g.cases) + np.array([c.F / g.W for c in g.cases]).sum()",
     "y = 0\nfor c in g.cases:\n    y += c.F / g.W",
+    "A = np.interp(g.cases.arm, [0.0, 0.1], [1.0, 2.0])\ny = sum(a * c.F for a, c in zip(A, g.cases))",
 ]
 BY_THEIR_TEXTS = "(2.0 if g.cases[0].name == 'braking' else 1.0) * sum(c.F * (c.name == 'braking') for c in g.cases)"
 

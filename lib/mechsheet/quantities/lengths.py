@@ -67,6 +67,8 @@ class Lengths(ABC):
         parts = list[tuple[Node, int]]()
         if node.op in ELEMENTWISE:
             parts = [(part, axis) for part in node.args if len(part.shape) >= -axis]
+        elif node.op == "at":  # as many as the places are
+            parts = [(node.args[1], axis)]
         elif node.op in ("state", "iterated"):  # which is as it was at first
             parts = [(node.args[0] if node.op == "state" else node.args[2], axis)]
         elif node.op == "found":

@@ -162,7 +162,8 @@ class _Measured:
     def whole(self, node: Node) -> Quantity:
         """The measure of each element, where it is one of all too."""
         measured = self.of(node)
-        return measured if measured.shape == node.shape else measured.like(Quantity(self.graph, node))
+        alike = measured.extent == node.shape and measured.re.stretches == node.stretches  # nobody looks at a length
+        return measured if alike else measured.like(Quantity(self.graph, node))
 
     def largest(self, one: Quantity, other: Quantity) -> Quantity:
         return Quantity(self.graph, self.graph.fold("max", one.re, other.re))
