@@ -175,6 +175,18 @@ p, q = s_found.value  # [-] one, [-] other"""
     assert not check.passed and "no root is proved there" in check.reason and "line " in check.reason
 
 
+def test_numbers_in_the_order_of_their_size_are_proved(tmp_path: Path) -> None:
+    """None of them is less than itself, though its ball does not tell: no order had been proved."""
+    lines = """
+U = np.sqrt(np.array([g.F, 7.0, g.a, 3.0]))  # [-] numbers
+s = U[np.argsort(-U)]  # [-] the largest first
+m = np.sqrt(x)[np.argsort(np.sin(9 * x))]  # [-] by another one
+t = np.sort(U)  # [-] the least first
+table_2, table_3 = table("2", "Few", s, t), table("3", "Many", m)"""
+    proof = sheet_of(tmp_path, lines.strip())
+    assert all(column.least > 14 for column in proof.columns), [str(column) for column in proof.columns]
+
+
 def test_a_root_of_the_largest_or_least_of_several_is_proved(tmp_path: Path) -> None:
     lines = """
 s = linspace(0.4, 1.3, 9)  # [-] positions

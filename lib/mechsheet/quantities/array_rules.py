@@ -96,7 +96,8 @@ def order(graph: Graph, x: Any, axis: Any = -1, kind: Any = None, stable: Any = 
             return np.argsort(x.seen(), axis=-1, kind="stable")
         number = np.arange(count)
     one, other = x[..., :, None], x[..., None, :]
-    before: Any = (other < one) | ((other == one) & (number < number[:, None]))
+    beside = number != number[:, None]  # a number only known within bounds may not be seen to be no less than itself
+    before: Any = ((other < one) & beside) | ((other == one) & (number < number[:, None]))
     rank = choice(graph, before, 1, 0).reduced("sum", -1)
     there = choice(graph, rank[..., None, :] == number[:, None], number, 0)
     return moved(there.reduced("sum", -1), -1, axis)
