@@ -34,6 +34,9 @@ SAID = [
     "{np.count_nonzero(g.v > g.F)} above", "{g.steel}, {g.side} side", "a{'' if g.side == 'left' else ', turned'}.",
     "{'long' if g.F > 3 else f'short by {3 - g.F:.2f}'}", "{g.F / 7:g} and {g.F / 7:.1%} and {1e9 * g.F:e} and {g.F:f}",
     "{', '.join(f'{x:.1f} mm' for x in (g.F, 2 * g.F))}", "{-(-g.F // 1):.0f}", "{np.floor(g.F)}", "{2 * int(g.F) - 1}",
+    "{'**long**, too' if g.F > 3 else f'`short` by {3 - g.F:.2f} <b>'} of {g.F:.1f} ",
+    "{'$x^2$' if g.side == 'left' else '&'} and {'_one_' if g.F > 3 else 'two'} {g.side}",
+    "{'**yes**' if g.F > 3 else 'no'}, {'*yes*' if g.F > 2 else 'no'}, {'_yes_' if g.F > 1.5 else 'no'}",
     "{len([x for x in (1.0, 2.0, 3.0) if x > g.F])} of 3", "{len(above)}, {'some' if above else 'none'}",
 ]  # fmt: skip
 CHANGED = [{"F": "3.75"}, {"side": "right", "F": "1"}, {"steel": "S355", "v": "5; 1; 2; 7"}]

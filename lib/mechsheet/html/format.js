@@ -107,6 +107,14 @@ function piece(part, read) {
   return instead.reduce((told, [old, now]) => told.replaceAll(old, () => now), formatted(typeof x === "number" ? x : x[0], spec));
 }
 
+// HTML of pieces: as they stand, of numbers and texts, or of the way of a choice that has markup of its own.
+function htmlOf(pieces, read) {
+  return pieces.map(part => {
+    if (typeof part === "string") return part;
+    return part.ways ? htmlOf(part.ways[read(part.by) ? 0 : 1], read) : escaped(piece(part, read));
+  }).join("");
+}
+
 // Five significant digits or all before the point, six of what has no more; a power of ten outside 1e-3..1e6.
 function usual(x, to) {
   if (!Number.isFinite(x)) return unlimited(x, to);

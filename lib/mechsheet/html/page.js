@@ -59,7 +59,7 @@ const show = {
   text(spec, element, results) {
     const known = spec.keys.every(key => results.values[key] !== undefined);
     const read = key => results.values[key];
-    set(element, known ? spec.pieces.map(part => (typeof part === "string" ? part : escaped(piece(part, read)))).join("") : "");
+    set(element, known ? htmlOf(spec.pieces, read) : "");
     return known;
   },
   numbers(spec, element, results) {

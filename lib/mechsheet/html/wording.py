@@ -10,7 +10,8 @@ from mechsheet.quantities.written import Either, Number, OneOf, Piece, Written
 
 Key = Callable[[Node], str]
 _PLACE, _HELD = "\ue000", re.compile("\ue000(\\d+)\ue001")
-_MARKUP = re.compile(r"[*_`$\\\[\]<>|#\n]|&[\w#]")  # in a text that stands for another one
+_MOST_WAYS = 16  # of a text: four choices between two
+_MARKUP = re.compile(r"[*_`$\\\[\]<>|#\n]|&[\w#]|^\s*([-+]|\d+[.)])\s")  # in a text that stands for another one
 
 
 def piece(part: Piece, key: Key) -> Any:
@@ -30,10 +31,18 @@ def written(text: Written, key: Key) -> list[Any]:
     return [piece(part, key) for part in text.parts]
 
 
-def pieces(text: Written, shown: Callable[[str], str], key: Key) -> list[Any]:
+def pieces(text: Written, shown: Callable[[str], str], key: Key, ways: int = _MOST_WAYS) -> list[Any]:
     """Pieces of the HTML that ``shown`` makes of a text, and between them those with numbers; none where one of these
-    is more than a text there, as it is in a formula."""
+    is more than a text there, as it is in a formula.
+
+    Of a choice with markup in it the whole HTML has so many ``ways``, each with pieces of its own.
+    """
     places = [part for part in text.parts if not isinstance(part, str)]
+    for n, part in enumerate(text.parts):
+        if isinstance(part, Either) and _is_markup(part) and ways > 1:
+            by = (Written((*text.parts[:n], *way.parts, *text.parts[n + 1 :])) for way in (part.then, part.otherwise))
+            each = [pieces(way, shown, key, ways // 2) for way in by]
+            return [{"by": key(part.holds.re), "ways": each}] if all(each) else []
     numbers = iter(range(len(places)))
     marked = "".join(p if isinstance(p, str) else f"{_PLACE}{next(numbers)}\ue001" for p in text.parts)
     html = shown(marked)
