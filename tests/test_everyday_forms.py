@@ -65,6 +65,14 @@ KEPT = [
     ),
     SIZES + "k = 3\nfit = [d * k for d in D if d >= k * g.F]\nk = 5\ny = sum(fit) * g.a",
 ]
+RANKED = [  # rows in the order of a number of theirs
+    THREADS + "T = sorted(T, key=lambda r: abs(r[0] - 3 * g.F))\ny = T[0][1] * g.a + T[-1][0]",
+    NAMED + "T = sorted(T, key=lambda r: abs(r[1] - 3 * g.F), reverse=True)\ny = np.array([r[2] for r in T[:2]]) * g.a",
+    THREADS
+    + "fit = [r for r in sorted(T, key=lambda r: abs(r[0] - 8 * g.a)) if r[0] > 2 * g.F]\ny = fit[0][1] if fit else 0",
+    SIZES + "y = sorted(D, key=lambda d: abs(d - 4 * g.F))[0] * g.a",
+    "y = sum(k * v for k, v in enumerate(sorted([g.F, 2.0, g.a, 2.0], key=lambda v: -v)))",
+]
 READ_OTHERWISE = [  # of which Python sees each element
     SIZES + "fit = [d for d in D if d >= 3 * g.F]\ny = np.array(fit).sum()",
     SIZES + "fit = [d for d in D if d >= 3 * g.F]\ny = 0.0\nfor d in fit:\n    y += d",
@@ -75,6 +83,9 @@ READ_OTHERWISE = [  # of which Python sees each element
     SIZES + "fit = [d for d in D if d >= 3 * g.F]\ny = float(sum(sorted(fit, reverse=True)[:2]) + len(tuple(fit)))",
     SIZES + "L = []\nfit = [L.append(d) or d for d in D if d >= 1.5 * g.F]\ny = sum(L) * g.a",
     SIZES + "if g.F > 3:\n    fit = [d for d in D if d >= g.F]\nelse:\n    fit = [g.a]\ny = len(fit) + sum(fit)",
+    NAMED + "T = sorted(T, key=lambda r: r[1] * g.F)\ny = len(T[0][0]) * g.a",
+    SIZES + "T = sorted(D, key=lambda d: np.sqrt(d - 3 * g.F + 4))\ny = T[0] * g.a",
+    "T = sorted(['a', 'b'], key=lambda t: {'a': g.F, 'b': 3.0}[t])\ny = (T[0] == 'a') * g.a",
     SIZES + "fit = [d for d in D if d >= 3 * g.F]\nother = fit\nif g.a > 1:\n    other.append(1.0)\ny = len(fit) * 1.0",
 ]
 CHOSEN = [
@@ -229,7 +240,7 @@ GUARDED = [  # where other inputs change what there is
 
 @pytest.mark.filterwarnings("ignore")
 @pytest.mark.parametrize(
-    "lines", [*KEPT, *CHOSEN, *SET, *POLYNOMIALS, *VECTORIZED, *SEARCHED, *WALKED, *SELECTED, *GUARDED]
+    "lines", [*KEPT, *RANKED, *CHOSEN, *SET, *POLYNOMIALS, *VECTORIZED, *SEARCHED, *WALKED, *SELECTED, *GUARDED]
 )
 def test_an_everyday_form_is_followed(lines: str, tmp_path: Path) -> None:
     sheet = own(tmp_path, f"{lines}\nresult = np.atleast_1d(y) * 1  # [-] line")

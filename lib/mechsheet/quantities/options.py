@@ -60,6 +60,12 @@ class Thing:
         return self._merge(getattr(x, name), getattr(y, name))
 
 
+def changed(change: Callable[[Any], Any], one: "Row | Fields | Thing") -> Any:
+    """One of two rows or objects, each of its parts changed."""
+    merge, both = one._merge, one._things if isinstance(one, Thing) else one._rows
+    return type(one)(lambda x, y: change(merge(x, y)), *both)
+
+
 def parted(merge: Merge, x: Any, y: Any) -> Any:
     """One of two rows or objects, by its parts; None where these are not of one kind."""
     if isinstance(x, dict | Row) and isinstance(y, dict | Row):

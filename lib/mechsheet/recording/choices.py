@@ -16,7 +16,7 @@ from mechsheet.quantities.arithmetic import choice as where
 from mechsheet.quantities.arithmetic import trunc, whole
 from mechsheet.quantities.graph import PARTIAL, NotRecorded, current
 from mechsheet.quantities.node import bottom_up
-from mechsheet.quantities.options import is_object, parted
+from mechsheet.quantities.options import Fields, Row, Thing, changed, is_object, parted
 from mechsheet.quantities.quantity import Quantity, has_quantity, is_any_length, lift, quantities
 from mechsheet.quantities.selected import Selected
 from mechsheet.quantities.sketch import Sketch
@@ -32,6 +32,7 @@ from mechsheet.worksheet.lists import Whole, first_column
 NUMBERS = int | float | complex | np.number | Quantity
 ARRAYS = NUMBERS | np.bool_ | np.ndarray
 _LIBRARY = str(Path(__file__).parents[1])
+_SORTED = 10  # rows that are put in order: each may stand at each place
 _ROWS = 200  # of a table at which a quantity points
 _DEEPEST = 8  # ways in one another that are recorded though Python does not take them
 
@@ -155,6 +156,8 @@ def _missing(value: Any) -> Any:
         return _NOTHING
     if isinstance(value, tuple | list):
         return _made_like(value, map(_missing, value))
+    if isinstance(value, Row | Fields | Thing):
+        return changed(_missing, value)
     if isinstance(value, dict):
         return {key: _missing(part) for key, part in value.items()}
     if is_object(value):
@@ -359,13 +362,41 @@ def placed(values: Any, value: Any) -> Any:
     return place
 
 
-def ranked(values: Iterable[Any], *, reverse: Any = False, **given: Any) -> Any:
-    """Python's sorted."""
+def ranked(values: Iterable[Any], *, key: Any = None, reverse: Any = False) -> Any:
+    """Python's sorted: numbers by their size, a few rows by numbers of theirs, all else as it is sorted now."""
     each = list(values)
-    if given or not has_quantity(each) or not all(isinstance(v, NUMBERS) for v in each):
-        return sorted(each, reverse=reverse, **given)
-    found: Any = np.sort(lift(current.get(), each))
-    return list(found)[::-1] if reverse else list(found)
+    if key is None and has_quantity(each) and all(isinstance(v, NUMBERS) for v in each):
+        found: Any = np.sort(lift(current.get(), each))
+        return list(found)[::-1] if reverse else list(found)
+    keys = [key(value) for value in each] if key is not None and 1 < len(each) <= _SORTED else []
+    follows = has_quantity(keys) and all(isinstance(k, NUMBERS) for k in keys) and not isinstance(reverse, Quantity)
+    return (follows and _by_rank(each, keys, bool(reverse))) or sorted(each, key=key, reverse=reverse)
+
+
+def _by_rank(each: list[Any], keys: list[Any], reverse: bool) -> list[Any] | None:
+    """The rows in the order of their keys, those of equal ones as they stand; None of what is no row."""
+    graph, later = current.get(), operator.gt if reverse else operator.lt
+    own = [lift(graph, key) for key in keys]
+    if not all(key.single and key.im is None for key in own):
+        return None
+    ranks = [
+        sum(later(b, a) | (b == a) if n < k else later(b, a) for n, b in enumerate(own) if n != k)
+        for k, a in enumerate(own)
+    ]
+    finite: Any = np.isfinite(lift(graph, own))
+    if not (exist := finite.reduced("all")).value:
+        return None
+    result = list[Any]()
+    for place in range(len(each)):
+        (now,) = (row for row, rank in zip(each, ranks, strict=True) if rank.value == place)
+        for row, rank in zip(each, ranks, strict=True):
+            now = now if now is None else part_of(rank == place, row, now)
+        result.append(now)
+    if any(row is None for row in result):
+        return None
+    if exist.re not in graph.fixed and any(key.re not in graph.always for key in own):
+        bool(exist)  # of what is no number nobody knows the order
+    return result
 
 
 def total(values: Any, start: Any = 0) -> Any:
