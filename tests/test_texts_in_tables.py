@@ -15,7 +15,7 @@ from cells import run
 from openpyxl import Workbook
 from own_worksheet import written
 from test_lists import script, typed
-from test_recalculation import edit
+from test_recalculation import computed, edit
 
 from mechsheet import evaluate, grid, load, sensitivity, sweep
 from mechsheet.html import write
@@ -476,6 +476,28 @@ def test_a_check_that_is_called_by_what_was_chosen_follows(tmp_path: Path, page:
     page.get_by_label("F, row 4").fill("1")
     page.get_by_label("arm, row 4").fill("1")
     assert told() == ["force of …, … do", "not known"]
+
+
+@pytest.mark.office
+def test_a_column_of_texts_may_have_a_name_of_its_own(recalculated: Any, tmp_path: Path, page: Page) -> None:
+    """It was refused as no number, though a table takes names; what is made of texts is, with what may stand there."""
+    path = sheet_of(tmp_path, 'name = g.cases.name\nF = g.cases.F  # [kN] force\ntable_1 = table("1", "Two", name, F)')
+    path.write_text(path.read_text().replace("    return name", "    typeset(table_1)\n    return name"))
+    made = load(path).run(["table_1"], {"g": built(path)})["table_1"]
+    assert made.columns[0].values.tolist() == ["braking", "cornering"] and made.columns[0].meaning == "name of the case"
+    edited = edit(computed(path, tmp_path, {}), {"cases.name (2)": "other"}, tmp_path / "edited.xlsx")
+    assert [row[0] for row in recalculated(edited)["1 Two"].iter_rows(min_row=5, values_only=True)] == [
+        "braking",
+        "other",
+    ]
+    file = tmp_path / "named.html"
+    file.write_text(write.page(load(path), load(path).inputs()), encoding="utf-8")
+    page.goto(file.as_uri())
+    page.get_by_label("name, row 2").fill("typed")
+    assert page.locator(".ms-table tbody td.ms-text").all_inner_texts() == ["braking", "typed"]
+    path.write_text(path.read_text().replace("name = g.cases.name", "name = np.array([c.name for c in g.cases])"))
+    with pytest.raises(SheetError, match=r"column name: name is no number; texts are those of .* such as g.bolts.name"):
+        load(path).run(["table_1"], {"g": built(path)})
 
 
 def test_the_grid_of_a_page_takes_texts(serve: Any, page: Page, cases: Path, console_errors: list[str]) -> None:

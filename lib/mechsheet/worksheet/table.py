@@ -242,13 +242,12 @@ def _columns(
     rows = _as_long_as_each_other(nodes, values, every)
     called = dict[str, str]()  # columns by what they may be called in ``show``
     for node, value, row in zip(nodes, values, rows, strict=True):
-        given = _input(frame.f_globals, node)
-        name, part = (_of_table(node), "") if given else _name(node)
+        given = _input(frame.f_globals, node) or _texts_of(frame.f_globals, value)
+        name, part = _name(node) if not given or isinstance(node, ast.Name) else (_of_table(node), "")
         is_label = bool(given and given.is_text and np.ndim(value)) and of.startswith("table")
         if (kind := np.asarray(value).dtype.kind) not in "iufb" and not is_label:
-            why = (
-                f"a point or a force: take {name}.real and {name}.imag, or abs({name})" if kind == "c" else "no number"
-            )
+            why = _NOT_SHOWN.get(kind if kind == "c" or of.startswith("table") else "", "no number")
+            why = why.replace("NAME", name)
             refuse(SheetError(f"column {ast.unparse(node)}: {name} is {why}"))
         try:
             line = given or known[name]
@@ -334,6 +333,26 @@ def _input(namespace: Mapping[str, Any], node: ast.expr) -> Input | None:
     fields: tuple[Input, ...] = getattr(type(given), "__inputs__", ())
     leaves = (field.leaves(getattr(given, field.name)) for field in fields)
     return next((each[name][0] for each in leaves if name in each), None)
+
+
+def _texts_of(namespace: Mapping[str, Any], value: Any) -> Input | None:
+    """The declaration of the column of texts that a value is, whatever the worksheet calls it."""
+    if not isinstance(value, np.ndarray) or value.dtype != object:
+        return None
+    tables = (
+        (field, getattr(given, field.name))
+        for given in namespace.values()
+        for field in getattr(type(given), "__inputs__", ())
+    )
+    every = ((leaf, getattr(table, leaf.name.rpartition(".")[2], None))
+             for field, table in tables for leaf, _ in field.leaves(table).values() if leaf.is_text)  # fmt: skip
+    return next((leaf for leaf, held in every if held is value), None)
+
+
+_NOT_SHOWN = {
+    "c": "a point or a force: take NAME.real and NAME.imag, or abs(NAME)",
+    **dict.fromkeys("OU", "no number; texts are those of a column of the inputs, such as g.bolts.name, in their order"),
+}
 
 
 def _of_table(node: ast.expr) -> str:
