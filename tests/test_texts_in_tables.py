@@ -387,6 +387,46 @@ def test_cells_show_the_texts_that_are_typed(cases: Path, tmp_path: Path, recalc
     assert script(cases, f"--scene={tmp_path / 'added.xlsx'}", f"--out={tmp_path / 'again'}").returncode == 0
 
 
+ORDERED = """
+sigma = g.cases.F * g.cases.arm / g.W  # [MPa] stress
+order = np.argsort(-sigma)
+s = sigma[order]  # [MPa] the greatest first
+b = sigma[::-1]  # [MPa] the last first
+table_1 = table("1", "By stress", g.cases.name[order], s)
+table_2 = table("2", "Back", g.cases.name[::-1], b)
+typeset(table_1, table_2)
+"""
+SORTED = [  # what is changed, and the texts by the stress and from the last one on
+    ({}, ["cornering", "braking"], ["cornering", "braking"]),
+    ({"cases.F (1)": 60}, ["braking", "cornering"], ["cornering", "braking"]),
+    ({"cases.F (1)": 60, "cases.name (1)": "b"}, ["b", "cornering"], ["cornering", "b"]),
+]
+
+
+@pytest.mark.office
+def test_texts_stand_in_the_order_of_numbers(tmp_path: Path, recalculated_all: Any, page: Page) -> None:
+    """A table sorted by size says whose numbers these are: such a column had been refused."""
+    path = sheet_of(tmp_path, ORDERED)
+    sheet, file = load(path), tmp_path / "cases.html"
+    assert script(path, f"--out={tmp_path}").returncode == 0
+    books = [edit(tmp_path / "cases.xlsx", changes, tmp_path / f"{n}.xlsx") for n, (changes, *_) in enumerate(SORTED)]
+    file.write_text(write.page(sheet, sheet.inputs()), encoding="utf-8")
+    for (changes, *wanted), book in zip(SORTED, recalculated_all(books), strict=True):
+        for number, names in enumerate(wanted, 1):
+            (title,) = (title for title in book.sheetnames if title in (f"{number} By stress", f"{number} Back"))
+            rows = book[title].iter_rows(min_row=5, max_row=6, values_only=True)
+            assert [row[0] for row in rows] == names, (changes, title)
+        F, name = changes.get("cases.F (1)", 12), changes.get("cases.name (1)", "braking")
+        page.goto("about:blank")
+        page.goto(f"{file.as_uri()}#cases={name}; {F}; 80 | cornering; 8; 150")
+        shown = page.locator(".ms-table tbody tr td:first-child").all_inner_texts()
+        assert shown == [*wanted[0], *wanted[1]], changes
+    column = "name = g.cases.name[order]  # [-] name\ntable_1 = table('1', 'By stress', name, s)"
+    other = ORDERED.replace('table_1 = table("1", "By stress", g.cases.name[order], s)', column)
+    with pytest.raises(SheetError, match=r"name is no number; texts are columns as inputs, .* g.bolts.name\[order\]"):
+        evaluate(sheet_of(tmp_path, other), ["table_1"])
+
+
 def test_a_page_in_one_file_shows_the_texts_that_are_typed(cases: Path, tmp_path: Path, page: Page) -> None:
     """In tables, sentences and names of checks."""
     sheet, file = load(cases), tmp_path / "cases.html"
@@ -496,7 +536,7 @@ def test_a_column_of_texts_may_have_a_name_of_its_own(recalculated: Any, tmp_pat
     page.get_by_label("name, row 2").fill("typed")
     assert page.locator(".ms-table tbody td.ms-text").all_inner_texts() == ["braking", "typed"]
     path.write_text(path.read_text().replace("name = g.cases.name", "name = np.array([c.name for c in g.cases])"))
-    with pytest.raises(SheetError, match=r"column name: name is no number; texts are those of .* such as g.bolts.name"):
+    with pytest.raises(SheetError, match=r"column name: name is no number; texts are columns as inputs, such as g.bolts.name"):
         load(path).run(["table_1"], {"g": built(path)})
 
 

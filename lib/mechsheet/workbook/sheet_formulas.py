@@ -74,7 +74,12 @@ class SheetFormulas:
     def _labels(self, name: str, rows: Quantity, same: Sequence[str]) -> list[str]:
         """Formulas of texts of an input: what is typed in their rows, while there is a number ``same`` of each."""
         place = self.arrangement.places[self.recording.inputs[name]]
-        cells = [place.text(k) for k in rows.value.reshape(-1).tolist()]
+        if _are_fixed(rows.re):
+            cells = [place.text(k) for k in rows.value.reshape(-1).tolist()]
+        else:  # of rows in an order that numbers give
+            last = place.text(self.recording.inputs[name].size - 1).rpartition("!")[2]
+            at = self._cells.references(rows.re, 1.0)
+            cells = [f"INDEX({place.text(0)}:{last},{each[1:]}+1)" for each in at]
         return [f'=IF(ISNUMBER({x[1:]}),{cell}&"",NA())' for x, cell in zip(same, cells, strict=True)]
 
     def moves_along(self, figure: Figure) -> bool:
@@ -223,3 +228,8 @@ class SheetFormulas:
         """Formula of the position that a figure marks; None where it is a plain number."""
         node = self.recording.marks.get(figure, {}).get(label)
         return self._cells.reference(node, units.parse(unit).factor) if node else None
+
+
+def _are_fixed(rows: Node) -> bool:
+    """Whether these are the same rows of a table whatever is computed."""
+    return rows.op in ("rows", "constant") or (rows.op == "take" and _are_fixed(rows.args[0]))

@@ -180,11 +180,12 @@ def table(
 ) -> Table:
     """Table of the given quantities: symbols, units and meanings are read from the lines that define them.
 
-    An argument is a name, an input such as ``g.F``, ``g.bolts.x`` or, of texts, ``g.bolts.name``, ``P23_S.real`` or
-    ``.imag`` (columns X23, Y23 of a point, R56x, R56y of a force) or ``abs(R56)`` (column R56). Quantities over several
-    axes are listed with the last one running fastest. ``show`` gives another display unit for some columns, by heading
-    or as the argument is written. ``note`` stands below the table. ``decimals`` are printed in all columns, by default
-    as many as the unit asks for; whole numbers have none. ``every`` lists only every so many positions, from the first.
+    An argument is a name, an input such as ``g.F``, ``g.bolts.x`` or, of texts, ``g.bolts.name``, in another order
+    ``g.bolts.name[order]``, ``P23_S.real`` or ``.imag`` (columns X23, Y23 of a point, R56x, R56y of a force) or
+    ``abs(R56)`` (column R56). Quantities over several axes are listed with the last one running fastest. ``show`` gives
+    another display unit for some columns, by heading or as the argument is written. ``note`` stands below the table.
+    ``decimals`` are printed in all columns, by default as many as the unit asks for; whole numbers have none. ``every``
+    lists only every so many positions, from the first.
     """
     _named("table", number, title, every)
     if not (decimals is None or (isinstance(decimals, int | np.integer) and decimals >= 0)):
@@ -242,6 +243,7 @@ def _columns(
     rows = _as_long_as_each_other(nodes, values, every)
     called = dict[str, str]()  # columns by what they may be called in ``show``
     for node, value, row in zip(nodes, values, rows, strict=True):
+        node = _of_texts(node, value)
         given = _input(frame.f_globals, node) or _texts_of(frame.f_globals, value)
         name, part = _name(node) if not given or isinstance(node, ast.Name) else (_of_table(node), "")
         is_label = bool(given and given.is_text and np.ndim(value)) and of.startswith("table")
@@ -335,6 +337,11 @@ def _input(namespace: Mapping[str, Any], node: ast.expr) -> Input | None:
     return next((each[name][0] for each in leaves if name in each), None)
 
 
+def _of_texts(node: ast.expr, value: Any) -> ast.expr:
+    """Of texts in another order, ``g.bolts.name[order]``, those that are put in order; any other column itself."""
+    return node.value if isinstance(node, ast.Subscript) and np.asarray(value).dtype.kind == "O" else node
+
+
 def _texts_of(namespace: Mapping[str, Any], value: Any) -> Input | None:
     """The declaration of the column of texts that a value is, whatever the worksheet calls it."""
     if not isinstance(value, np.ndarray) or value.dtype != object:
@@ -351,7 +358,7 @@ def _texts_of(namespace: Mapping[str, Any], value: Any) -> Input | None:
 
 _NOT_SHOWN = {
     "c": "a point or a force: take NAME.real and NAME.imag, or abs(NAME)",
-    **dict.fromkeys("OU", "no number; texts are those of a column of the inputs, such as g.bolts.name, in their order"),
+    **dict.fromkeys("OU", "no number; texts are columns as inputs, such as g.bolts.name or g.bolts.name[order]"),
 }
 
 
