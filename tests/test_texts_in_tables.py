@@ -536,7 +536,7 @@ def test_a_column_of_texts_may_have_a_name_of_its_own(recalculated: Any, tmp_pat
     page.get_by_label("name, row 2").fill("typed")
     assert page.locator(".ms-table tbody td.ms-text").all_inner_texts() == ["braking", "typed"]
     path.write_text(path.read_text().replace("name = g.cases.name", "name = np.array([c.name for c in g.cases])"))
-    with pytest.raises(SheetError, match="name is no number; texts are columns as inputs, such as g.bolts.name"):
+    with pytest.raises(SheetError, match=r"name is no number; texts are columns as inputs, such as g.bolts.name"):
         load(path).run(["table_1"], {"g": built(path)})
 
 
