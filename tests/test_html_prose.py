@@ -35,6 +35,8 @@ SAID = [
     "{'long' if g.F > 3 else f'short by {3 - g.F:.2f}'}", "{g.F / 7:g} and {g.F / 7:.1%} and {1e9 * g.F:e} and {g.F:f}",
     "{', '.join(f'{x:.1f} mm' for x in (g.F, 2 * g.F))}", "{-(-g.F // 1):.0f}", "{np.floor(g.F)}", "{2 * int(g.F) - 1}",
     "{'**long**, too' if g.F > 3 else f'`short` by {3 - g.F:.2f} <b>'} of {g.F:.1f} ",
+    "$F = {g.F:.2f}\\,\\mathrm{{N}}$, $x_{{{g.F * 2:.0f}}} < {g.F:.1f}^2$, but $-3 - y = {1.5 - g.F:.2f}$ {g.F:.1f}",
+    "$$\\sigma = \\frac{{{g.F:.1f}}}{{{g.F + 1:.3g}}} \\tag{{4}}$$",
     "{'$x^2$' if g.side == 'left' else '&'} and {'_one_' if g.F > 3 else 'two'} {g.side}",
     "{'**yes**' if g.F > 3 else 'no'}, {'*yes*' if g.F > 2 else 'no'}, {'_yes_' if g.F > 1.5 else 'no'}",
     "{len([x for x in (1.0, 2.0, 3.0) if x > g.F])} of 3", "{len(above)}, {'some' if above else 'none'}",
@@ -48,7 +50,7 @@ def test_prose_is_that_of_the_worksheet(given: dict[str, str], blank: "Page", tm
     path = tmp_path / "prose.py"
     text = written(SETUP, GIVEN, "y = g.F  # [-] y\nabove = [x for x in (1.0, 2.0, 3.0) if x > g.F]")
     said = (
-        f'@app.cell\ndef said_{k}(g, above):\n    mo.md(f"""A{k} {words}""")\n    return\n\n\n'
+        f'@app.cell\ndef said_{k}(g, above):\n    mo.md(rf"""A{k} {words}""")\n    return\n\n\n'
         for k, words in enumerate(SAID)
     )
     path.write_text(text.replace("if __name__", "".join([*said, "if __name__"])))

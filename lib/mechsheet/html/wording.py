@@ -10,6 +10,9 @@ from mechsheet.quantities.written import Either, Number, OneOf, Piece, Written
 
 Key = Callable[[Node], str]
 _PLACE, _HELD = "\ue000", re.compile("\ue000(\\d+)\ue001")
+_FORMULA = re.compile(r"(\${1,2})(?:[^$\\]|\\.)+?\1")
+_IN_FORMULA = re.compile(r"<mn>9071(\d{4})9071</mn>")
+_NEGATIVE = re.compile(r"<mo(?: [^>]*)?>−</mo><mn>")
 _MOST_WAYS = 16  # of a text: four choices between two
 _MARKUP = re.compile(r"[*_`$\\\[\]<>|#\n]|&[\w#]|^\s*([-+]|\d+[.)])\s")  # in a text that stands for another one
 
@@ -33,7 +36,7 @@ def written(text: Written, key: Key) -> list[Any]:
 
 def pieces(text: Written, shown: Callable[[str], str], key: Key, ways: int = _MOST_WAYS) -> list[Any]:
     """Pieces of the HTML that ``shown`` makes of a text, and between them those with numbers; none where one of these
-    is more than a text there, as it is in a formula.
+    is more than a text there, or than a number in a formula.
 
     Of a choice with markup in it the whole HTML has so many ``ways``, each with pieces of its own.
     """
@@ -46,14 +49,30 @@ def pieces(text: Written, shown: Callable[[str], str], key: Key, ways: int = _MO
     numbers = iter(range(len(places)))
     marked = "".join(p if isinstance(p, str) else f"{_PLACE}{next(numbers)}\ue001" for p in text.parts)
     html = shown(marked)
-    outside = re.sub(r"<math.*?</math>|<[^>]*>", "", html, flags=re.DOTALL)
+    if "<math" in html:
+        html = _IN_FORMULA.sub(f"<mn>{_PLACE}\\1\ue001</mn>", shown(_FORMULA.sub(_in_formula, marked)))
+        for n in map(int, re.findall(f"<mn>{_PLACE}(\\d+)", html)):
+            if isinstance(place := places[n], Number):
+                places[n] = place._replace(instead=(*place.instead, ("-", "−")))
+    outside = re.sub(r"<[^>]*>", "", re.sub(r"<math>(?:(?!<math).)*?</math>", _told, html, flags=re.DOTALL))
     if [int(n) for n in _HELD.findall(outside)] != [*range(len(places))] or any(map(_is_markup, places)):
         return []
     split = _HELD.split(html)
     now = (Written((places[int(x)],)).now if n % 2 else unescape(x) for n, x in enumerate(split))
-    if "".join(now) != unescape(shown(text.now)):  # such as 2. at the beginning, which makes a list
+    alike = (_NEGATIVE.sub("<mn>−", each) for each in ("".join(now), unescape(shown(text.now))))
+    if len({*alike}) > 1:  # such as 2. at the beginning, which makes a list
         return []
     return [piece(places[int(x)], key) if n % 2 else x for n, x in enumerate(split)]
+
+
+def _in_formula(formula: re.Match[str]) -> str:
+    """A formula with numbers in its places, which are then those of no other text."""
+    return _HELD.sub(lambda place: f"9071{int(place[1]):04d}9071", formula[0])
+
+
+def _told(formula: re.Match[str]) -> str:
+    """The places in a formula that are numbers of their own."""
+    return "".join(re.findall(f"<mn>({_PLACE}\\d+\ue001)</mn>", formula[0]))
 
 
 def of_name(name: Written, shown: Callable[[str], str], key: Key, holds: str) -> list[Any]:
