@@ -78,6 +78,7 @@ def test_only_of_a_positive_limit_a_quantity_takes_a_part():
     limits = {2.0: "pass  c: 1 <= 2 N, 50 %", 1.0: "pass  c: 1 <= 1 N, 100 %", 0.0: "FAIL  c: 1 <= 0 N"}
     assert {limit: str(check("c", 1.0, limit, "N")) for limit in limits} == limits
     assert check("c", 100.0001, 100.0).utilised == "100.0001 %", "told apart from all of it"
+    assert check("c", 1e-11, 1.0).utilised == "under 0.01 %" and check("c", 0.0, 1.0).utilised == "0 %"
     assert not check("c", 1.0, -2.0).utilised and not check("c", [], 2.0).utilised
 
 

@@ -22,6 +22,7 @@ from mechsheet.worksheet.shown import Shown
 from mechsheet.worksheet.system import Solution
 from mechsheet.worksheet.verdict import is_heard, tell
 
+LITTLE = 1e-4  # of a limit: what takes less takes nothing of it
 AGREED = 1e-3  # of a quantity: what may differ by more has not been compared
 
 
@@ -67,6 +68,8 @@ class Check(Shown):
     def utilised(self) -> str:
         """The utilisation in per cent, told apart from 100; nothing where there is none."""
         part = self.utilisation
+        if 0 < part < LITTLE:
+            return f"under {100 * LITTLE:g} %"
         return f"{numbers.apart([100 * part, 100.0], digits=3)[0]} %" if np.isfinite(part) else ""
 
     def shown_in(self, unit: str) -> "Check":
