@@ -54,7 +54,10 @@ def read(name: str) -> Symbol:
     (Symbol(base='WIDTH', index='', mark=''), Symbol(base='LENGTH', index='2', mark=''))
     >>> read("ds"), read("λ_max"), read("pins23").base
     (Symbol(base='s', index='', mark='d'), Symbol(base='λ', index='max', mark=''), 'pins')
+    >>> read("_sigma_max")
+    Symbol(base='σ', index='max', mark='')
     """
+    name = name.lstrip("_") or name  # those of one cell alone begin so
     if re.fullmatch("d[a-z]", name):
         return Symbol(name[1], mark="d")
     if title := re.fullmatch(rf"(d?)([{_CAPITAL}]{{5,}})(\d*)(?:_(\w+))?", name):
