@@ -216,7 +216,8 @@ least = min(3 * hours * g.L, 1e9) + max(more, -1e8)  # [-] of what is not
 parts = N * g.L  # [-] of each part
 shortest = np.minimum(parts, 1e8)  # [-] limited
 left = np.exp(-N_1 / 1e6)  # [-] what no cell follows
-ok = check("used up", used, 1.0)"""
+pull = N_1 * kN / 1e6  # [kN] pull
+ok = check("used up", used, 1.0), check("pull", pull, 2 * kN, "kN"), check("h", hours, 9.0), check("parts", N, 9e5)"""
 
 
 @pytest.mark.office
@@ -239,3 +240,6 @@ def test_a_number_over_an_infinite_one_is_nothing(
                 assert cells == ["#N/A"]
             else:
                 assert cells == pytest.approx(values, rel=1e-12), (sheet, name)
+        judged = [[row[:5] for row in book["Checks"].iter_rows(min_row=3, values_only=True)] for book in (here, there)]
+        assert [row[4] for row in judged[1]] == [row[4] for row in judged[0]]
+        assert [row[1] for row in judged[1]] == pytest.approx([row[1] for row in judged[0]], rel=1e-12)

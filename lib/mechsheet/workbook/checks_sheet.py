@@ -1,12 +1,13 @@
 """The sheet of the checks, and the colours of their verdicts."""
 
+import math
 from collections.abc import Container, Mapping, Sequence
 from typing import Any
 
 from mechsheet.units import shown
 from mechsheet.workbook import looks
 from mechsheet.workbook.book import Book
-from mechsheet.workbook.content import Content, Live, put
+from mechsheet.workbook.content import LARGEST, Content, Live, put
 from mechsheet.workbook.sheet_formulas import SheetFormulas
 from mechsheet.worksheet.check import Check
 
@@ -65,6 +66,9 @@ def write(
     for n, (check, *compared) in enumerate(rows, 2):
         for col, value in enumerate(compared if not check.agreement else (), 1):
             put(sheet, n, col, value, quantity)
+    if formulas and not formulas.arrangement.finite:  # for another condition the format of the numbers has no room
+        infinite = {"type": "cell", "criteria": ">=", "value": LARGEST, "format": book.file.add_format(looks.INFINITE)}
+        sheet.conditional_format(2, 1, len(listed) + 2, 1, infinite)
     verdicts(book, sheet, len(listed), 4, 4)
 
 
@@ -88,7 +92,8 @@ def _compared(check: Check, formulas: SheetFormulas, fixed: bool) -> tuple[Conte
     live = formulas.check(check.name)
     if not live:
         return formulas.as_exported(check.residual), check.limit
-    return Live(live.residual, check.residual), check.limit if fixed else Live(live.limit, live.bound)
+    residual = math.copysign(LARGEST, check.residual) if math.isinf(check.residual) else check.residual
+    return Live(live.residual, residual), check.limit if fixed else Live(live.limit, live.bound)
 
 
 def _reason(check: Check, formulas: SheetFormulas) -> Content:

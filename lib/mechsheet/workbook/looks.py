@@ -18,6 +18,7 @@ VALUE: Look = {**NUMBER, "num_format": "0.000000"}
 SMALL: Look = {**NUMBER, "num_format": "0.0E+00;-0.0E+00;0"}
 QUANTITY: Look = {**NUMBER, "num_format": "[>=100]0;[>=0.01]0.000;General"}  # of any size
 SI: Look = {**NUMBER, "num_format": '[>=1E+307]"∞";[<=-1E+307]"-∞";General', "font_color": "#595959"}
+INFINITE: Look = {"num_format": '"∞"'}
 SI_DECIMALS = 6
 EXPORTED: Look = {"bg_color": "#E4E4E4", "font_color": "#595959"}  # does not follow other inputs
 BEHIND = "#A6A6A6"  # tabs of sheets behind the tables

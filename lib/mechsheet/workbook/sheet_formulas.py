@@ -10,7 +10,7 @@ from mechsheet.quantities.node import Node, bottom_up
 from mechsheet.quantities.quantity import Quantity
 from mechsheet.workbook.arrangement import Arrangement
 from mechsheet.workbook.cell_formula import CellFormulas, written
-from mechsheet.workbook.content import Content, Live, allowed, quoted
+from mechsheet.workbook.content import LARGEST, Content, Live, allowed, quoted
 from mechsheet.workbook.place import Place
 from mechsheet.workbook.text_formula import text_formula
 from mechsheet.worksheet.table import Figure, Table
@@ -198,15 +198,22 @@ class SheetFormulas:
         check = self.recording.checks.get(name)
         if check is None:
             return None
-        places, reference = self.arrangement.places, self._cells.reference
-        parts = [
-            places[p].range(0, p.size - 1) if p.size > 1 else reference(p)[1:] if p.size else "NA()"
-            for p in check.parts
-        ]
+        reference, parts = self._cells.reference, [*map(self._judged, check.parts)]
         largest = parts[0] if check.signed else f"MAX({','.join(parts)})"
         factor = units.parse(check.unit).factor
         residual = f"={largest}" + (f"/{factor!r}" if factor != 1 else "")
+        if factor != 1 and any(map(self.holds_infinite, check.parts)):
+            residual = f"=IF({largest}<{written(LARGEST)},{residual[1:]},{largest})"
         return Compared(residual, reference(check.limit, factor), check.limit.value.item() / factor)
+
+    def _judged(self, part: Node) -> str:
+        """The cells of what a check compares, which may be infinite."""
+        place = self.arrangement.places.get(part)
+        if not part.size:
+            return "NA()"
+        if place and part.size > 1:
+            return place.range(0, part.size - 1)
+        return place.name if place and self.holds_infinite(part) else self._cells.reference(part)[1:]
 
     def guard(self) -> str:
         """Formula of how many of the conditions that the worksheet's code looked at have changed; "" without any.
