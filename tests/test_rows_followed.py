@@ -79,6 +79,7 @@ FOLLOWED = [
     "np.cumsum(x[4:]).sum() + g.a",
     "np.trapezoid(x[4:], dx=g.a) + g.a",
     "np.cumsum(np.linspace(0, 1, g.n)[5:]).sum() + g.a",
+    "max(v for v in linspace(0, g.F, g.n))",
 ]
 LOOPED = [  # which add something for each row
     "y = 0.0\nfor v in x:\n    y += v**2 * g.a",
@@ -158,7 +159,6 @@ def test_a_page_has_positions_to_the_last_bit(ends: str, tmp_path: Path) -> None
         "float(len(repr(x.shape))) + x.sum()",
         "np.fft.fft(x).real",
         "sum(linspace(0, 1, g.n))",
-        "max(v for v in linspace(0, g.F, g.n))",
         "x[:5] * np.arange(5)",
     ],
 )

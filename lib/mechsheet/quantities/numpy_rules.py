@@ -267,9 +267,9 @@ def _like(value: Any) -> Callable[..., Any]:
 def _first(kind: str) -> Callable[..., Any]:
     def operation(graph: Graph, x: Any, axis: Any = None, keepdims: bool = False) -> Any:
         x = lift(graph, x)
-        if x.re.value.dtype == bool:
+        if x.dtype == bool:
             return choice(graph, x, 1.0, 0.0).reduced(kind, axis, keepdims)
-        graph.chosen.append((x, axis, kind))
+        graph.chosen.append((x.compared(kind) if isinstance(x, Selected) and x.compares else x, axis, kind))
         return x.reduced(kind, axis, keepdims)
 
     return operation

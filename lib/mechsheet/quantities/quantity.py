@@ -362,8 +362,18 @@ def moved(x: "Quantity", source: Any, destination: Any) -> "Quantity":
     return x.rearranged(np.moveaxis, source, destination)
 
 
+class Listed(list[Any]):
+    """A list with an element for each row."""
+
+    def column(self) -> Quantity | None:
+        """Its elements as one quantity; None where they are no numbers, or Python looks at each."""
+        raise NotImplementedError
+
+
 def quantities(value: Any) -> Iterator[Quantity]:
     """Quantities in a value, in lists, dictionaries and the fields of dataclasses."""
+    if isinstance(value, Listed) and (column := value.column()) is not None:
+        value = column
     if isinstance(value, Quantity):
         yield value
     elif isinstance(value, list | tuple):
@@ -388,6 +398,8 @@ def lift(graph: Graph, value: Any) -> Quantity:
     """A number, an array or a list as a quantity of this recording."""
     if isinstance(value, Quantity):
         return value
+    if isinstance(value, Listed) and (column := value.column()) is not None:
+        return column
     if isinstance(value, list | tuple) and has_quantity(value):
         return stack([lift(graph, v) for v in value])
     if isinstance(value, Constant):

@@ -55,6 +55,9 @@ class Selected(Quantity):
     def single(self) -> bool:
         return False
 
+    def __copy__(self) -> Quantity:
+        return Selected(self.of, self.holds)
+
     def count(self, axis: Any = None) -> Any:
         if axis != 0 and self.ndim > 1:
             return super().count(axis)
@@ -65,14 +68,40 @@ class Selected(Quantity):
             return self[key[0]][key[1:]]
         if isinstance(key, tuple) and key[0] == slice(None):
             return Selected(self.of[key], self.holds)
-        if not isinstance(key, int | np.integer) or isinstance(key, bool):
+        pointed = isinstance(key, Quantity) and key.single and key.im is None and key.dtype != bool
+        if not pointed and (not isinstance(key, int | np.integer) or isinstance(key, bool)):
             return super().__getitem__(key)
-        number: Any = choice(self.graph, self.holds, 1, 0).cumsum()
-        hit = self.holds & (number == (key + 1 if key >= 0 else number[-1] + key + 1))
+        number: Any = self._numbered()
+        from_end = number[-1] + key + 1
+        wanted = choice(self.graph, key >= 0, key + 1, from_end) if pointed else key + 1 if key >= 0 else from_end
+        hit = self.holds & (number == wanted)
         if not (exists := hit.reduced("any")).value and not self.graph.supposed:
             raise IndexError(f"no element {key} of {self.extent[0]}")
         one: Quantity = choice(self.graph, exists, self.of[np.argmax(hit)], nan)
         return one
+
+    def _numbered(self) -> Any:
+        """How many it holds for up to each one."""
+        return choice(self.graph, self.holds, 1, 0).cumsum()
+
+    @property
+    def compares(self) -> bool:
+        """Whether a place among them is followed, as no cell does: it is that of a number, so that there is one."""
+        return (
+            self.graph.draws
+            and self.ndim == 1
+            and self.of.im is None
+            and bool(np.isfinite(self.value).all() and self.value.size)
+        )
+
+    def compared(self, kind: str) -> Quantity:
+        """All elements, those for which it does not hold as the one that ``argmax`` or ``argmin`` takes."""
+        every: Quantity = choice(self.graph, self.holds, self.of, self.of[self._taken(kind.removeprefix("arg"))])
+        return every
+
+    def _taken(self, end: str) -> Any:
+        """Which of all elements is the first one that is the greatest or the least of those for which it holds."""
+        return np.argmax(self.holds & (self.of == self.filled(end).reduced(end)))
 
     def filled(self, kind: str) -> Quantity:
         """All elements, those for which it does not hold as ones that change nothing."""
@@ -82,6 +111,13 @@ class Selected(Quantity):
         return every
 
     def reduced(self, kind: str, axis: Any = None, keepdims: bool = False) -> Quantity:
+        if kind in ("argmax", "argmin") and self.compares:
+            taken = self._taken(end := kind.removeprefix("arg"))
+            best = self.filled(end).reduced(end)
+            place: Quantity = choice(
+                self.graph, self.holds.reduced("any") & (best == best), self._numbered()[taken] - 1, nan
+            )
+            return place
         result = self.filled(kind).reduced(kind, axis, keepdims)
         if kind not in ("max", "min"):
             return result

@@ -21,13 +21,13 @@ class Texts:
     __hash__ = None  # type: ignore[assignment]  # as of an array
 
     def __init__(self, name: str, column: Quantity, texts: tuple[str, ...], at: Quantity) -> None:
-        self.name, self._column, self._texts, self.at = name, column, texts, at
+        self.name, self.column, self.texts, self.at = name, column, texts, at
 
     def __getitem__(self, key: Any) -> "Written | Texts":
-        at, column = self.at[key], self._column
+        at, column = self.at[key], self.column
         if at.ndim:
-            return Texts(self.name, column, self._texts, at)
-        return Written((OneOf(at, self._texts, column, self.name),))
+            return Texts(self.name, column, self.texts, at)
+        return Written((OneOf(at, self.texts, column, self.name),))
 
     def __len__(self) -> int:
         return index(self.at.count(0))
@@ -46,13 +46,13 @@ class Texts:
     @property
     def same(self) -> Quantity:
         """Where a text is the exported one 0, else 1: what stands in a table for it."""
-        return self._column[self.at]
+        return self.column[self.at]
 
     def seen(self) -> NDArray[Any]:
         """The texts for Python to look at; a guard tells while they are the same."""
         rows = self.at.seen()
         self.at.graph.read(self.same.re)
-        return np.array([self._texts[k] for k in rows], object)
+        return np.array([self.texts[k] for k in rows], object)
 
     def __repr__(self) -> str:
         return repr(self.seen())

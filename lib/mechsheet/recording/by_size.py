@@ -6,7 +6,7 @@ import numpy as np
 
 from mechsheet.quantities.graph import Graph, NotRecorded
 from mechsheet.quantities.operations import Values
-from mechsheet.quantities.quantity import lift
+from mechsheet.quantities.quantity import Quantity, lift
 from mechsheet.quantities.ufunc_rules import finite
 from mechsheet.readers.terms import terms_of
 from mechsheet.worksheet import numbers
@@ -20,19 +20,25 @@ def decided(graph: Graph) -> None:
     Of all of them that is seen for other inputs too; of two that come next to each other for those of the run alone.
     """
     for x, axis, kind in tuple(graph.chosen):
-        along = axis if (x := lift(graph, x)).ndim > 1 else None
-        low, high = (x.reduced(end, along) for end in ("min", "max"))
-        terms = terms_of(x, deep=graph.draws).reduced("max", along)
-        if np.isinf(terms.value).any() and not graph.draws:
-            raise NotRecorded("an infinite number is among those compared, which no cell of a spreadsheet holds")
-        nothing = (low == 0) & (high == 0)  # as a spreadsheet program has it where next to nothing is left
-        rounding = (high - low <= numbers.ROUNDING * terms) & ((high > low) | nothing) & (terms > 0) & finite(terms)
-        holds = (~rounding).reduced("all")
-        if not holds.value:
-            raise NotRecorded(_BY_ROUNDING)
-        if _tied(kind, x.value, along, numbers.ROUNDING * terms.value):
-            raise NotRecorded("two of the numbers differ by rounding alone, which tells no place")
-        graph.see(holds.re, why=_BY_ROUNDING)
+        decide(lift(graph, x), axis, kind)
+
+
+def decide(x: Quantity, axis: Any, kind: str) -> None:
+    """The same of the places that are taken of one quantity."""
+    graph = x.graph
+    along = axis if x.ndim > 1 else None
+    low, high = (x.reduced(end, along) for end in ("min", "max"))
+    terms = terms_of(x, deep=graph.draws).reduced("max", along)
+    if np.isinf(terms.value).any() and not graph.draws:
+        raise NotRecorded("an infinite number is among those compared, which no cell of a spreadsheet holds")
+    nothing = (low == 0) & (high == 0)  # as a spreadsheet program has it where next to nothing is left
+    rounding = (high - low <= numbers.ROUNDING * terms) & ((high > low) | nothing) & (terms > 0) & finite(terms)
+    holds = (~rounding).reduced("all")
+    if not holds.value:
+        raise NotRecorded(_BY_ROUNDING)
+    if _tied(kind, x.value, along, numbers.ROUNDING * terms.value):
+        raise NotRecorded("two of the numbers differ by rounding alone, which tells no place")
+    graph.see(holds.re, why=_BY_ROUNDING)
 
 
 def _tied(kind: str, values: Values, axis: Any, rounding: Any) -> bool:

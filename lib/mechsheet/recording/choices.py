@@ -17,7 +17,7 @@ from mechsheet.quantities.arithmetic import trunc, whole
 from mechsheet.quantities.graph import PARTIAL, NotRecorded, current
 from mechsheet.quantities.node import bottom_up
 from mechsheet.quantities.options import Fields, Row, Thing, changed, is_object, parted
-from mechsheet.quantities.quantity import Quantity, has_quantity, is_any_length, lift, quantities
+from mechsheet.quantities.quantity import Listed, Quantity, has_quantity, is_any_length, lift, quantities
 from mechsheet.quantities.selected import Selected
 from mechsheet.quantities.sketch import Sketch
 from mechsheet.quantities.sketch import merged as merged_sketch
@@ -100,7 +100,7 @@ def merged(condition: Quantity, x: Any, y: Any) -> Any:
     if type(x) is type(y) and isinstance(x, tuple | list) and len(x) == len(y):
         parts = [part_of(condition, a, b) for a, b in zip(x, y, strict=True)]
         if all(part is not None for part in parts):
-            return _made_like(x, parts)
+            return made_like(x, parts)
     if isinstance(x, Sketch) and isinstance(y, Sketch):
         return merged_sketch(condition, x, y)
     if _are_written(x, y):
@@ -132,7 +132,7 @@ def _bound(value: Any, other: Any) -> Any:
     return _missing(other) if value is UNBOUND else value
 
 
-def _made_like(row: tuple[Any, ...] | list[Any], parts: Iterable[Any]) -> Any:
+def made_like(row: tuple[Any, ...] | list[Any], parts: Iterable[Any]) -> Any:
     """A tuple, a named one or a list of other parts."""
     return getattr(type(row), "_make", type(row))(parts)
 
@@ -155,7 +155,7 @@ def _missing(value: Any) -> Any:
     if isinstance(value, str | Written):
         return _NOTHING
     if isinstance(value, tuple | list):
-        return _made_like(value, map(_missing, value))
+        return made_like(value, map(_missing, value))
     if isinstance(value, Row | Fields | Thing):
         return changed(_missing, value)
     if isinstance(value, dict):
@@ -194,7 +194,7 @@ def element(container: Any, key: Any) -> Any:
         return _supposed(_of_text, container, key)
     if isinstance(key, tuple) and isinstance(container, np.ndarray) and has_quantity(key):
         return lift(current.get(), container)[key]
-    if not isinstance(key, Quantity) or isinstance(container, Quantity | Whole | Texts):
+    if not isinstance(key, Quantity) or isinstance(container, Quantity | Whole | Texts | Listed):
         return container[key]
     if isinstance(container, np.ndarray) and container.dtype.kind in "biufc":
         return lift(key.graph, container)[key]

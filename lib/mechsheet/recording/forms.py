@@ -155,8 +155,29 @@ def _every(some: ast.ListComp | ast.GeneratorExp) -> ast.expr:
     )
     holds = ast.BoolOp(ast.And(), inner.ifs) if len(inner.ifs) > 1 else inner.ifs[0]
     pair = ast.Tuple([holds, ast.Lambda(given, some.elt)], ast.Load())
-    every = [*some.generators[:-1], ast.comprehension(inner.target, inner.iter, [], 0)]
-    return ast.copy_location(ast.GeneratorExp(pair, every), some)
+    rows = None if some.generators[1:] or any(map(changes, ast.walk(some))) else _sources(inner)
+    through = rows[2] if rows else inner.iter
+    every = [*some.generators[:-1], ast.comprehension(inner.target, through, [], 0)]
+    one_by_one = ast.copy_location(ast.GeneratorExp(pair, every), some)
+    if rows is None:
+        return one_by_one
+    each = taking(rows[0], copy.deepcopy(ast.copy_location(ast.Tuple([holds, some.elt], ast.Load()), some)))
+    return call("kept_rows", some, each, taking(rows[3], one_by_one), *rows[1])
+
+
+def _sources(each: ast.comprehension) -> tuple[list[str], list[ast.expr], ast.expr, list[str]] | None:
+    """The names that rows have, what gives their columns or tables, and these gone through by names of their own."""
+    targets, sources, paired = [each.target], [each.iter], None
+    match each.target, each.iter:
+        case ast.Tuple(parts), ast.Call(ast.Name("zip"), columns, keywords) if len(parts) == len(columns):
+            targets, sources, paired = parts, columns, keywords
+    names = [target.id for target in targets if isinstance(target, ast.Name)]
+    if len(names) != len(targets) or any(isinstance(s, (ast.Starred, *SCOPED)) for x in sources for s in ast.walk(x)):
+        return None
+    own = [f"recorded source {n}" for n, _ in enumerate(sources)]  # each is made once
+    known: list[ast.expr] = [ast.Name(name, ast.Load()) for name in own]
+    through = known[0] if paired is None else ast.Call(ast.Name("zip", ast.Load()), known, paired)
+    return names, sources, ast.copy_location(through, each.iter), own
 
 
 _OF_ROWS = {"sum": "sum", "min": "min", "max": "max", "any": "any", "all": "all", "array": "array", "asarray": "array"}
@@ -189,12 +210,13 @@ def of_rows(node: ast.Call) -> ast.Call | None:
             [ast.ListComp(value, [each]) | ast.GeneratorExp(value, [each]) as some],
             [],
         ) if name in _OF_ROWS and not each.ifs and not each.is_async and not hasattr(some, "of_rows"):
-            rows = rows_of(each.target, each.iter)
+            rows = _sources(each)
             if rows is None or any(map(changes, ast.walk(value))):
                 return None
             some.of_rows = True  # type: ignore[union-attr]  # it is looked at no more
             row = taking(rows[0], copy.deepcopy(value))
-            return call("of_rows", node, ast.Constant(_OF_ROWS[name]), row, later(node), *copy.deepcopy(rows[1]))
+            each.iter = rows[2]
+            return call("of_rows", node, ast.Constant(_OF_ROWS[name]), row, taking(rows[3], node), *rows[1])
     return None
 
 

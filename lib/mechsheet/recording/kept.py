@@ -12,16 +12,26 @@ import numpy as np
 
 from mechsheet.quantities.arithmetic import choice as where
 from mechsheet.quantities.graph import NotRecorded, current
-from mechsheet.quantities.quantity import lift
+from mechsheet.quantities.quantity import Quantity, lift
+from mechsheet.recording import choices
 from mechsheet.recording.choices import UNBOUND, _missing, is_condition, part_of, way_may_change
+from mechsheet.recording.each_row import EachRow, each_row, every_row
 from mechsheet.recording.sifted import Sifted
 
 _FURTHER = 200  # elements behind the first one that is kept now: an iterator may have no end
 _Pair = tuple[Any, FunctionType]  # whether an element is kept, and what gives its value
 
 
-def of_kept(kind: str, pairs: Iterable[_Pair], *otherwise: Any) -> Any:
+def kept_rows(f: FunctionType, one_by_one: Callable[..., Iterable[_Pair]], *sources: Any) -> Iterable[_Pair] | EachRow:
+    """The elements that are kept of the rows of a table, however many these are, else the pairs of all of them."""
+    rows = each_row(f, _of_all, *sources)
+    return one_by_one(*sources) if rows is None else rows
+
+
+def of_kept(kind: str, pairs: Iterable[_Pair] | EachRow, *otherwise: Any) -> Any:
     """What ``min``, ``max``, ``sum``, ``len`` or ``next`` gives for the elements of the ``pairs`` that are kept."""
+    if isinstance(pairs, EachRow):
+        return pairs.of(kind, *otherwise)
     if kind != "first":
         return _of_all(kind, list(pairs), otherwise)
     source, met = iter(pairs), list[_Pair]()
@@ -53,8 +63,10 @@ def _of_all(kind: str, pairs: list[_Pair], otherwise: tuple[Any, ...], ends: boo
     return found
 
 
-def sifted(pairs: Iterable[_Pair]) -> list[Any]:
+def sifted(pairs: Iterable[_Pair] | EachRow) -> list[Any]:
     """A list of the elements that are kept; their values are those of now, whatever reads them later."""
+    if isinstance(pairs, EachRow):
+        return pairs
     graph, every, sure = current.get(), list[tuple[Any, Any]](), True
     for holds, value in pairs:
         if not is_condition(holds):
@@ -168,4 +180,25 @@ _KINDS: dict[str, Callable[..., Any]] = {
 }  # fmt: skip
 
 
-CALLS: dict[str, Any] = {"of_kept": of_kept, "sifted": sifted}
+def _extreme(name: str) -> Callable[..., Any]:
+    plainly = choices.CALLS[name]
+
+    def function(*given: Any, **named: Any) -> Any:
+        rows = every_row(given[0], _of_all) if len(given) == 1 and [*named] == ["key"] else None
+        found = None if rows is None else rows.followed(f"{name} by", named["key"])
+        return plainly(*given, **named) if found is None else found
+
+    return function
+
+
+def ranked(values: Iterable[Any], *, key: Any = None, reverse: Any = False) -> Any:
+    """Python's sorted, of the rows of a table however many these are."""
+    rows = None if isinstance(reverse, Quantity) else every_row(values, _of_all)
+    found = None if rows is None else rows.in_order(key, bool(reverse))
+    return choices.ranked(values, key=key, reverse=reverse) if found is None else found
+
+
+CALLS: dict[str, Any] = {
+    "of_kept": of_kept, "sifted": sifted, "kept_rows": kept_rows, "max": _extreme("max"), "min": _extreme("min"),
+    "sorted": ranked,
+}  # fmt: skip

@@ -3,33 +3,56 @@
 from collections.abc import Callable, Collection
 from typing import Any
 
+import numpy as np
+
 from mechsheet.quantities.graph import NotRecorded, current
 from mechsheet.quantities.node import Node, bottom_up
 from mechsheet.quantities.operations import ELEMENTWISE
 from mechsheet.quantities.quantity import Quantity, lift
+from mechsheet.quantities.selected import Selected
 from mechsheet.quantities.text_column import Texts
+from mechsheet.quantities.written import OneOf, Written
 from mechsheet.readers.replaced import replaced
-from mechsheet.recording.choices import way_may_change
+from mechsheet.recording.choices import made_like, way_may_change
 from mechsheet.worksheet.lists import Whole
 
 
-def of_rows(kind: str, f: Callable[..., Any], plainly: Callable[[], Any], *sources: Any) -> Any:
+def of_rows(kind: str, f: Callable[..., Any], plainly: Callable[..., Any], *sources: Any) -> Any:
     """The ``sum`` and the like of what ``f`` gives for each row, or all of it as an array.
 
     ``plainly`` gives what Python makes of them one by one: that is it where ``f`` is no formula of single numbers.
     """
-    found = None if way_may_change(f) else _followed(lambda *row: [f(*row)], sources)
-    return _whole(kind, found[0]) if found else plainly()
+    found = None if way_may_change(f) else _followed(lambda *row: [f(*row)], sources, _numbers)
+    return _whole(kind, found[0]) if found else plainly(*sources)
 
 
 def sums(f: Callable[..., Any], *sources: Any) -> list[Any] | None:
     """Sums of each of the values that ``f`` gives for a row; None where these are no formulas of single numbers."""
-    found = None if way_may_change(f) else _followed(f, sources)
+    found = None if way_may_change(f) else _followed(f, sources, _numbers)
     return [_whole("sum", each) for each in found] if found else None
 
 
-def _followed(f: Callable[..., Any], sources: tuple[Any, ...]) -> list[Quantity] | None:
-    """Each of the values that ``f`` gives for a row, for all rows as a whole."""
+def columns(f: Callable[..., Any], *sources: Any) -> Any:
+    """What ``f`` gives for a row, for all rows as a whole, in their form: a number is a column, a row its table.
+
+    None where it rests on more than single numbers of the row, as on what its texts are.
+    """
+    return None if way_may_change(f) else _followed(f, sources, _in_their_form)
+
+
+class Together:
+    """Columns of the parts of a tuple or a list that there is for each row."""
+
+    def __init__(self, parts: Any) -> None:
+        self.parts = parts
+
+    def __getitem__(self, row: Any) -> Any:
+        found = made_like(self.parts, [part[row] for part in self.parts])
+        return Together(found) if isinstance(row, slice) or np.ndim(row) else found
+
+
+def _followed(f: Callable[..., Any], sources: tuple[Any, ...], made: Callable[..., Any]) -> Any:
+    """What is ``made``, for all rows as a whole, of what ``f`` gives for one; None where Python has to look."""
     if not _are_rows(sources):
         return None
     graph = current.get()
@@ -37,9 +60,10 @@ def _followed(f: Callable[..., Any], sources: tuple[Any, ...]) -> list[Quantity]
     graph.supposed += 1
     try:
         with graph.labelled({**graph.labels}):
-            values = [lift(graph, value) for value in f(*(_row(source, rows) for source in sources))]
-            if graph.looked.keys() == looked.keys() and all(_is_formula(each, rows) for each in values):
-                return [_of_all(each, rows) for each in values]
+            each = [_row(source, rows) for source in sources]
+            values = f(*each)
+            if graph.looked.keys() == looked.keys():
+                return made(values, rows, [*zip(each, sources, strict=True)])
     except (Exception, NotRecorded):
         pass
     finally:
@@ -48,18 +72,38 @@ def _followed(f: Callable[..., Any], sources: tuple[Any, ...]) -> list[Quantity]
     return None
 
 
+def _numbers(values: Any, rows: dict[Node, Node], _: Any) -> list[Quantity]:
+    return [_column(lift(current.get(), value), rows) for value in values]
+
+
+def _in_their_form(value: Any, rows: dict[Node, Node], known: list[tuple[Any, Any]]) -> Any:
+    for row, source in known:
+        if value is row:
+            return source
+    match value:
+        case tuple() | list():
+            return Together(made_like(value, [_in_their_form(part, rows, known) for part in value]))
+        case Written((OneOf(at, texts, Quantity() as column, name),)):
+            return Texts(name, column, texts, _column(at, rows))
+    return _column(lift(current.get(), value), rows)
+
+
 def _are_rows(sources: tuple[Any, ...]) -> bool:
     """Whether all are columns or tables, with as many rows as the inputs say."""
-    columns = [column for source in sources for column in _columns(source)]
-    if not columns or not all(isinstance(c, Quantity) and c.ndim == 1 and c.re.stretches for c in columns):
+    columns = [column for source in sources for column in _columns_of(source)]
+    if not columns or not all(
+        isinstance(c, Quantity) and not isinstance(c, Selected) and c.ndim == 1 and c.re.stretches for c in columns
+    ):
         return False
     return len({c.graph.size(part) for c in columns for part in c.parts}) == 1
 
 
-def _columns(source: Any) -> list[Any]:
-    """A column, or those of a table but for its texts."""
+def _columns_of(source: Any) -> list[Any]:
+    """A column, or those of a table; of texts their places."""
+    if isinstance(source, Together):
+        return [column for part in source.parts for column in _columns_of(part)]
     held = vars(source).values() if isinstance(source, Whole) else (source,)
-    return [each for each in held if not isinstance(each, Texts) or each is source]
+    return [each.at if isinstance(each, Texts) else each for each in held]
 
 
 def _row(source: Any, rows: dict[Node, Node]) -> Any:
@@ -67,11 +111,12 @@ def _row(source: Any, rows: dict[Node, Node]) -> Any:
     if isinstance(source, Whole):
         row = source[0]
         for name, column in vars(source).items():
-            if isinstance(column, Texts):
-                object.__delattr__(row, name)  # what reads it is no formula of all rows
-            else:
-                object.__setattr__(row, name, _row(column, rows))
+            object.__setattr__(row, name, _row(column, rows))
         return row
+    if isinstance(source, Texts):  # whoever reads one is seen
+        return Written((OneOf(_row(source.at, rows), source.texts, source.column, source.name),))
+    if isinstance(source, Together):
+        return made_like(source.parts, [_row(part, rows) for part in source.parts])
     parts = [source.graph.state(part) for part in source.whole()[0].parts]
     rows.update(zip(parts, source.whole().parts, strict=True))
     return Quantity(source.graph, *parts)
@@ -89,7 +134,10 @@ def _is_formula(each: Quantity, rows: Collection[Node]) -> bool:
     return not each.ndim
 
 
-def _of_all(each: Quantity, rows: dict[Node, Node]) -> Quantity:
+def _column(each: Quantity, rows: dict[Node, Node]) -> Quantity:
+    """The values of a formula for all rows."""
+    if not _is_formula(each, rows):
+        raise NotRecorded("it is no formula of single numbers")
     new = replaced(each.graph, each.parts, rows)
     column = Quantity(each.graph, next(iter(rows.values())))
     return each.each(lambda part: new.get(part, part)).like(column)

@@ -175,7 +175,7 @@ def _each(f: Any = None, *given: Any, **named: Any) -> Any:
             return instead(f)(*values)
         flat = [x.like(*values).ravel() for x in values]
 
-        def one_by_one() -> Any:
+        def one_by_one(*_: Any) -> Any:
             return lift(graph, [instead(f)(*each) for each in zip(*flat, strict=True)]).reshape(shape)
 
         return of_rows("array", instead(f), one_by_one, *flat) if len(shape) == 1 else one_by_one()
