@@ -92,12 +92,11 @@ FOLLOWED = [
     "sum([1 / max(v, 1.0) for v in F])", "np.vectorize(lambda v: v**2 if v > 0 else g.a)(F)", "sum(1 for v in F) * g.a",
     "(F.sum() * np.array([1.0, 3.0, 2.0]))[np.argmax(F.sum() * np.array([1.0, 3.0, 2.0]))]",
     "(F.sum() * np.linspace(1, 2, 3))[np.argsort(-F.sum() * np.linspace(1, 2, 3))]",
-    "sum(v for v in np.sin(x))", "max(g.points, key=lambda p: p.y).x",
+    "sum(v for v in np.sin(x))", "[p.x for p in g.points][1]", "max(g.points, key=lambda p: p.y).x",
     "F[F > 0].sum() + len(F[F > 0])", "F[F > 0][-1]", "x[np.flatnonzero(y > 2)].max() * g.a",
 ]  # fmt: skip
 COUNTED_BY_PYTHON = {  # lines, and the list whose rows are counted
     "np.array([[v, g.a] for v in F]).sum(axis=0)": "F", "np.cumsum(F[F > 0])": "F", "np.fft.fft(F).real": "F",
-    "[p.x for p in g.points][1]": "points",
     "sum(a.x * b.y for a, b in zip(g.points, g.points[1:]))": "points",
 }  # fmt: skip
 CURVE = [(1, 2.5), (2, 4), (4, 3.5), (5, 6)]

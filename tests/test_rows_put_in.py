@@ -12,6 +12,7 @@ from test_html_lists import leaves
 
 from mechsheet.html import javascript
 from mechsheet.quantities.lines import Recording
+from mechsheet.quantities.quantity import Quantity
 from mechsheet.recording.record import record
 from mechsheet.worksheet import cells, inputs
 
@@ -66,6 +67,12 @@ FOLLOWED = [
     "g.bolts[g.bolts.d * g.a >= 1][np.argmin(g.bolts[g.bolts.d * g.a >= 1].w)].x",
     "max(g.bolts[g.bolts.d > 2], key=lambda b: b.w).x",
     "sum(b.x for b in g.bolts[g.bolts.d > 2] if b.w < 6)",
+    "sum(g.bolts.w[k] * b for k, b in enumerate(g.bolts.x)) * g.a",
+    "sum(g.bolts.w[k] * g.bolts.x[k] for k in range(len(g.bolts))) * g.a",
+    "max(range(len(g.bolts)), key=lambda k: g.bolts.w[k]) + g.a",
+    "next(k for k, b in enumerate(g.bolts, 1) if b.d > 2) + g.a",
+    "max(zip(g.bolts.w, g.bolts.x), key=lambda p: p[0])[1] * g.a",
+    "len(g.bolts[g.bolts.d > g.a].name) * 1.0",
     "(g.bolts[g.bolts.d > 2].x)[np.argmax(g.bolts[g.bolts.d > 2].w)]",
 ]  # fmt: skip
 NAMED = [
@@ -75,7 +82,33 @@ NAMED = [
     "fits = [b.x for b in g.bolts if b.d > 2]\nNAME = fits[len(fits) - 1] + sum(fits) / len(fits)",
     "fits = g.bolts[g.bolts.d * g.a >= 1]\nNAME = fits[np.argmin(fits.d)].x",
     "up = sorted([b for b in g.bolts if b.d > 2], key=lambda b: b.d)\nNAME = up[0].x * g.a + up[-1].w",
+    "S = [b.w * g.a for b in g.bolts]\nNAME = max(S) + sum(S) / len(S) + S[0] + S.index(max(S))",
+    "S = [b.w * g.a for b in g.bolts]\nNAME = g.bolts[np.argmax(S)].x",
+    "S = [(b.x, b.w) for b in g.bolts if b.d > 2]\nx, w = S[0]\nNAME = x * w + sum(x * w for x, w in S)",
+    "fits = [b for b in g.bolts if b.d > 2]\nNAME = sum(f.x for f in fits) + len([f for f in fits if f.w > g.a])",
+    "fits = [b for b in g.bolts if b.d > 2]\ns = 0.0\nfor f in fits:\n    s += f.x * f.w\nNAME = s * g.a",
+    "def fit(rows, d):\n    ok = [r for r in rows if r.d > d]\n"
+    "    return min(ok, key=lambda r: r.w) if ok else rows[-1]\nNAME = fit(g.bolts, 2).x * fit(g.bolts, 100.0).d",
     "worst = max(g.bolts, key=lambda b: b.w)\nNAME = worst.d * worst.x",
+]
+HELD = [  # what a list that Python looks into, its texts, or their order gives is right or told
+    "fits = [b for b in g.bolts if b.d > g.a]\nfits.append(g.bolts[0])\nNAME = len(fits) + fits[-1].x",
+    "fits = [b.x for b in g.bolts if b.d > 2]\nfits.sort()\nNAME = fits[0] * 1.0",
+    "fits = [b.x for b in g.bolts if b.d > g.a]\nfits += [g.a]\nNAME = sum(fits) * 1.0",
+    "S = [b.w for b in g.bolts]\nS[0] = 3.0\nNAME = sum(S) * g.a",
+    "fits = [(b.x, b.w) for b in g.bolts if b.d > 2]\nNAME = max(fits)[1] * 1.0",
+    "NAME = len([b for b in g.bolts if b.name == 'a']) * g.a",
+    "NAME = next((b for b in g.bolts if b.name.startswith('b')), g.bolts[0]).d * 1.0",
+    "NAME = len(max(g.bolts, key=lambda b: b.w).name) * g.a",
+    "NAME = {'b': 1.0, 'a': 2.0}.get(max(g.bolts, key=lambda b: b.w).name, 9.0) * g.a",
+    "T = {'b': 1.0, 'a': 2.0}\nNAME = sum(T.get(b.name, 7.0) * b.w for b in g.bolts if b.d > g.a) * 1.0",
+    "L = []\nNAME = sum(L.append(b.x) or b.x for b in g.bolts if b.d > g.a) + len(L)",
+    "NAME = max(g.bolts, key=lambda b: (b.w, b.d)).x * 1.0",
+    "NAME = max(g.bolts, key=lambda b: np.sqrt(b.x - 0.75)).d * 1.0",
+    "it = iter([b.x for b in g.bolts if b.d > 2])\nNAME = next(it) + next(it, 0.0)",
+    "best = g.bolts[0]\nfor b in g.bolts:\n    if b.w > best.w:\n        best = b\nNAME = best.x * 1.0",
+    "NAME = sum(b.x for b in g.bolts if all(b.d >= c.d - 3 for c in g.bolts)) * 1.0",
+    "NAME = next((b for b in g.bolts if b.d > g.a), None).x * 1.0",
 ]
 BOLTS = [("b", 4, 3, 1), ("a", 3, 5, 2), ("c", 6, 4, 4.5), ("d", 5, 5, 3)]
 GIVES: list[dict[str, Any]] = [
@@ -96,6 +129,36 @@ def test_what_python_picks_of_rows_is_followed_for_any_number_of_them(blank: Pag
             number, why = found["values"][str(k)], found["gaps"].get(str(k))
             assert number is not None, (line, given, why)
             np.testing.assert_allclose(number, expected, rtol=1e-12, atol=1e-13, err_msg=f"{line} {given}")
+
+
+def test_what_python_looks_at_is_right_or_told(blank: Page, tmp_path: Path) -> None:
+    sheet, recording = recorded(tmp_path, HELD)
+    held = {str(k): recording.values.get(f"y_{k}") for k in range(len(HELD))}
+    parts = {k: value.re for k, value in held.items() if isinstance(value, Quantity)}
+    assert len(parts) == len(HELD)
+    other = [
+        {"bolts": [(name, *row[1:]) for name, row in zip(names, BOLTS, strict=True)]} for names in ("bxcd", "dacb")
+    ]
+    given = [*GIVES, *other, {"bolts": [("b", 4, 7, 1), ("a", 3, 5, 2), ("c", 6, 4, 4.5), ("d", 5, 8, 3)]}]
+    script = javascript.module(recording, parts)
+    known = 0
+    for each, found in zip(given, evaluated(blank, script, [typed(sheet, x) for x in given]), strict=True):
+        for k, line in enumerate(HELD):
+            number, why = found["values"][str(k)], found["gaps"].get(str(k))
+            if number is None:
+                assert why, (line, each)
+                continue
+            expected = sheet.run([f"y_{k}"], {"g": inputs.build(sheet.inputs, each)})[f"y_{k}"]
+            np.testing.assert_allclose(number, expected, rtol=1e-12, atol=1e-13, err_msg=f"{line} {each}")
+            known += 1
+    assert known >= len(HELD)
+
+
+def typed(sheet: cells.Worksheet, given: dict[str, Any]) -> dict[str, Any]:
+    """Inputs in SI; of a text whether it is another one than the exported one."""
+    names = [row[0] for row in given.get("bolts", BOLTS)]
+    same = [k < len(BOLTS) and name == BOLTS[k][0] for k, name in enumerate(names)]
+    return leaves(sheet, given) | {"bolts.name": [float(not each) for each in same]}
 
 
 def recorded(tmp_path: Path, each: list[str]) -> tuple[cells.Worksheet, Recording]:

@@ -420,7 +420,7 @@ def length(x: Any) -> Any:
     """``len`` of anything; of a quantity over rows, and of a table of them, it is one."""
     if isinstance(x, Sifted) and x.pairs:
         return x.of("len")
-    first = first_column(x) if isinstance(x, Whole) else x
+    first = first_column(x) if isinstance(x, Whole) else x.at if isinstance(x, Texts) else x
     return first.count(0) if isinstance(first, Quantity) and first.ndim else len(x)
 
 

@@ -9,23 +9,21 @@ import numpy as np
 from mechsheet.quantities.arithmetic import choice as where
 from mechsheet.quantities.array_rules import SORTED
 from mechsheet.quantities.graph import NotRecorded, current
-from mechsheet.quantities.quantity import Listed, Quantity, is_any_length, lift
+from mechsheet.quantities.quantity import Listed, Quantity, has_quantity, is_any_length, lift
 from mechsheet.quantities.selected import Selected
 from mechsheet.quantities.text_column import Texts
 from mechsheet.quantities.ufunc_rules import finite
-from mechsheet.recording import per_row
+from mechsheet.recording import choices, per_row
+from mechsheet.recording.among import of_all
 from mechsheet.recording.by_size import decide
 from mechsheet.recording.choices import part_of, way_may_change
 from mechsheet.recording.per_row import columns
 from mechsheet.recording.sifted import Sifted
-from mechsheet.worksheet.lists import Whole, first_column
+from mechsheet.worksheet.lists import Whole
 
 
-def each_row(f: Callable[..., Any], plainly: Callable[..., Any], *sources: Any) -> "EachRow | None":
-    """Those rows for which the first of what ``f`` gives holds, each with the second; None where they are not followed.
-
-    ``plainly`` is what Python makes of pairs of elements, of so many rows as there are now.
-    """
+def each_row(f: Callable[..., Any], *sources: Any) -> "EachRow | None":
+    """The second of what ``f`` gives for those rows for which the first holds; None where they are not followed."""
     if not current.get().draws:
         return None
     every = [_unselected(source) for source in sources]
@@ -35,34 +33,103 @@ def each_row(f: Callable[..., Any], plainly: Callable[..., Any], *sources: Any) 
     if found is None or not isinstance(holds := found.parts[0], Quantity):
         return None
     holds = holds if holds.dtype == bool else holds != 0
-    return EachRow(found.parts[1], holds if every[0][1] is None else holds & every[0][1], plainly)
+    return EachRow(found.parts[1], holds if every[0][1] is None else holds & every[0][1])
+
+
+def listed(f: FunctionType, plainly: Callable[..., Any], *sources: Any) -> Any:
+    """A list of what ``f`` gives for each row, of a table or of those rows of one for which a condition holds."""
+    every = [_unselected(source) for source in sources]
+    if not current.get().draws:
+        return plainly(*sources)
+    if any(holds is not None for _, holds in every):
+        rows = None if way_may_change(f) else each_row(lambda *row: (True, f(*row)), *sources)
+    else:
+        found = columns(f, *(source for source, _ in every))
+        rows = None if found is None else _all(found, *(source for source, _ in every))
+    return plainly(*sources) if rows is None else rows
 
 
 def of_rows(kind: str, f: FunctionType, plainly: Callable[..., Any], *sources: Any) -> Any:
     """What ``f`` gives for each row in all, of a table or of those rows of one for which a condition holds."""
-    if any(_unselected(source)[1] is not None for source in sources):
-        rows = each_row(lambda *row: (True, f(*row)), lambda *_: None, *sources) if not way_may_change(f) else None
+    every = [_unselected(source) for source in sources]
+    if any(holds is not None for _, holds in every):
+        rows = None if way_may_change(f) else each_row(lambda *row: (True, f(*row)), *sources)
         found = None if rows is None else rows.column() if kind == "array" else rows.followed(kind)
         return plainly(*sources) if found is None else found
-    return per_row.of_rows(kind, f, plainly, *sources)
+    return per_row.of_rows(kind, f, lambda *_: plainly(*sources), *(source for source, _ in every))
 
 
-def every_row(values: Any, plainly: Callable[..., Any]) -> "EachRow | None":
+def sums(f: FunctionType, *sources: Any) -> list[Any] | None:
+    """Sums of each of the values that ``f`` gives for a row; None where they are not followed."""
+    every = [_unselected(source) for source in sources]
+    if all(holds is None for _, holds in every):
+        return per_row.sums(f, *(source for source, _ in every))
+    rows = None if way_may_change(f) else each_row(lambda *row: (True, f(*row)), *sources)
+    if rows is None or not rows.some.value:  # the names of the loop are bound to its last row
+        return None
+    return [EachRow(part, rows.holds).of("sum") for part in rows.parts.parts]
+
+
+def paired(*sources: Any, **named: Any) -> Any:
+    """Python's zip."""
+    every = [_unselected(source)[0] for source in sources if _unselected(source)[1] is None]
+    if current.get().draws and len(every) == len(sources) > 0 and per_row.are_rows(every):
+        return _all(per_row.Together(tuple(every)), *every)
+    return zip(*sources, **named)  # noqa: B905
+
+
+def numbered(source: Any, start: Any = 0) -> Any:
+    """Python's enumerate."""
+    values, holds = _unselected(source)
+    if current.get().draws and holds is None and type(start) is int and per_row.are_rows([values]):
+        column = per_row.first_of(values)
+        rows = per_row.Numbers(Quantity(column.graph, column.graph.rows(column.count(0).re)), start)
+        return _all(per_row.Together((rows, values)), values)
+    return enumerate(source, start)
+
+
+def counted(*ends: Any) -> Any:
+    """Python's range; of so many as there are rows one by one."""
+    count, graph = ends[0], current.get()
+    if len(ends) == 1 and graph.draws and isinstance(count, Quantity) and count.re in graph.counts:
+        rows = Quantity(graph, graph.rows(count.re))
+        if is_any_length(rows):
+            return _all(per_row.Numbers(rows), rows)
+    return range(*ends)
+
+
+def placed(values: Any, value: Any) -> Any:
+    """``values.index(value)``: the first place of a number in a list."""
+    column = values.column() if isinstance(values, EachRow) else None
+    if column is None or not isinstance(value, Quantity | int | float) or isinstance(column, Selected):
+        return choices.placed(values, value)
+    hit: Quantity = column == value
+    if not (some := hit.reduced("any")).value:
+        return list(values).index(value)
+    return where(column.graph, some, np.argmax(hit), np.nan)
+
+
+def _all(parts: Any, *sources: Any) -> "EachRow":
+    """A list of all rows of some columns."""
+    true = lift(current.get(), True).like(per_row.first_of(sources[0]))
+    return EachRow(parts, true, every=True)
+
+
+def every_row(values: Any) -> "EachRow | None":
     """All rows of a table or a column that may have any number of them; None of anything else."""
     if isinstance(values, EachRow):
         return values if values.pairs else None
     values, holds = _unselected(values)
-    column = first_column(values) if isinstance(values, Whole) else values
-    if not is_any_length(column):
+    if not per_row.are_rows([values]) or not current.get().draws:
         return None
-    return EachRow(values, lift(current.get(), True).like(column) if holds is None else holds, plainly)
+    return _all(values, values) if holds is None else EachRow(values, holds)
 
 
 def _unselected(source: Any) -> tuple[Any, Quantity | None]:
     """All rows of a column or a table, and for which of them a condition holds where only these are meant."""
     match source:
         case EachRow(pairs=[_, *_]):
-            return source.parts, source.holds
+            return source.parts, None if source.every else source.holds
         case Selected(of=of, holds=holds):
             return of, holds
         case Texts(at=Selected(of=of, holds=holds)):
@@ -83,10 +150,14 @@ class EachRow(Sifted, Listed):
     Whatever else reads the list sees how many rows there are, and which of them are kept.
     """
 
-    def __init__(self, parts: Any, holds: Quantity, plainly: Callable[..., Any]) -> None:
-        """``parts`` are columns of what the elements are, whether kept or not, by its number."""
+    def __new__(cls, *given: Any, **_: Any) -> Any:
+        """One that is made of the elements of another one is a list as any."""
+        return list.__new__(cls) if given[1:] else list(*given)
+
+    def __init__(self, parts: Any, holds: Quantity, every: bool = False) -> None:
+        """``parts`` are columns of what the elements are, whether kept or not; ``every`` one may be."""
         list.__init__(self)
-        self.parts, self.holds, self._plainly = parts, holds, plainly
+        self.parts, self.holds, self.every = parts, holds, every
         self.pairs = [(holds, parts)]
 
     def of(self, kind: str, *otherwise: Any) -> Any:
@@ -94,7 +165,7 @@ class EachRow(Sifted, Listed):
         if found is not None:
             return found
         each = range(len(self.holds))  # so many rows as there are
-        return self._plainly(kind, [(self.holds[k], lambda k=k: self.parts[k]) for k in each], otherwise)
+        return of_all(kind, [(self.holds[k], lambda k=k: self.parts[k]) for k in each], otherwise)
 
     def followed(self, kind: str, *otherwise: Any) -> Any:
         """What it is for any number of rows; None where Python has to look."""
@@ -189,13 +260,16 @@ class EachRow(Sifted, Listed):
             keys = self._kept_of(-keys if reverse else keys, np.argmax(self.holds))
             decide(keys, None, "argsort")
             order: Any = np.argsort(keys)
-            return EachRow(self.parts[order], self.holds[order], self._plainly)
+            return EachRow(self.parts[order], self.holds[order], self.every)
         except (Exception, NotRecorded):
             graph.looked = looked
             return None
 
     def column(self) -> Quantity | None:
-        return Selected(self.parts, self.holds) if self.pairs and isinstance(self.parts, Quantity) else None
+        parts = self.parts.column + self.parts.start if isinstance(self.parts, per_row.Numbers) else self.parts
+        if not self.pairs or not isinstance(parts, Quantity):
+            return None
+        return parts if self.every else Selected(parts, self.holds)
 
     def held(self) -> list[Any]:
         return [*self.pairs[0]] if self.pairs else [*list.__iter__(self)]
@@ -206,10 +280,13 @@ class EachRow(Sifted, Listed):
             if found is None:
                 raise IndexError("list index out of range")
             return found
+        whole = self.every and isinstance(self.parts, Quantity)  # several columns are told no more to be of one length
+        if self.pairs and whole and isinstance(key, slice) and not has_quantity([key.start, key.stop, key.step]):
+            return EachRow(self.parts[key], self.holds[key], every=True)
         if self.pairs and isinstance(key, slice) and key.step is None and _from_start(key.start, key.stop):
             so_far: Any = self._count.cumsum()
             holds = self.holds & (so_far > (key.start or 0))
-            return EachRow(self.parts, holds if key.stop is None else holds & (so_far <= key.stop), self._plainly)
+            return EachRow(self.parts, holds if key.stop is None else holds & (so_far <= key.stop))
         self._look()
         return list.__getitem__(self, key)
 
@@ -224,4 +301,7 @@ def _from_start(*ends: Any) -> bool:
     return all(end is None or (type(end) is int and end >= 0) for end in ends)
 
 
-CALLS: dict[str, Any] = {"of_rows": of_rows}
+CALLS: dict[str, Any] = {
+    "of_rows": of_rows, "sums": sums, "listed": listed, "zip": paired, "enumerate": numbered, "range": counted,
+    "place": placed,
+}  # fmt: skip

@@ -2,7 +2,7 @@
 
 import ast
 import copy
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 
 from mechsheet.worksheet.source import bound
 
@@ -147,6 +147,19 @@ def sifted(node: ast.ListComp) -> ast.Call:
     return call("sifted", node, _every(node))
 
 
+def listed(node: ast.ListComp) -> ast.expr:
+    """A list with an element for each row, as a call with a function of a row; any other as it is."""
+    each, *inner = node.generators
+    if inner or each.ifs or each.is_async or hasattr(node, "of_rows") or any(map(changes, ast.walk(node))):
+        return node
+    if (rows := _sources(each)) is None:
+        return node
+    node.of_rows = True  # type: ignore[attr-defined]  # it is looked at no more
+    row = rows[0](copy.deepcopy(node.elt))
+    each.iter = rows[2]
+    return call("listed", node, row, taking(rows[3], node), *rows[1])
+
+
 def _every(some: ast.ListComp | ast.GeneratorExp) -> ast.expr:
     inner = some.generators[-1]
     names = dict.fromkeys(n.id for each in some.generators for n in ast.walk(each.target) if isinstance(n, ast.Name))
@@ -161,23 +174,40 @@ def _every(some: ast.ListComp | ast.GeneratorExp) -> ast.expr:
     one_by_one = ast.copy_location(ast.GeneratorExp(pair, every), some)
     if rows is None:
         return one_by_one
-    each = taking(rows[0], copy.deepcopy(ast.copy_location(ast.Tuple([holds, some.elt], ast.Load()), some)))
+    each = rows[0](copy.deepcopy(ast.copy_location(ast.Tuple([holds, some.elt], ast.Load()), some)))
     return call("kept_rows", some, each, taking(rows[3], one_by_one), *rows[1])
 
 
-def _sources(each: ast.comprehension) -> tuple[list[str], list[ast.expr], ast.expr, list[str]] | None:
-    """The names that rows have, what gives their columns or tables, and these gone through by names of their own."""
+_Of = Callable[[ast.expr], ast.expr]  # a function of a row for an expression
+
+
+def _sources(each: ast.comprehension) -> tuple[_Of, list[ast.expr], ast.expr, list[str]] | None:
+    """What makes functions of a row, what gives the columns or tables, and these gone through by names of their own."""
     targets, sources, paired = [each.target], [each.iter], None
     match each.target, each.iter:
         case ast.Tuple(parts), ast.Call(ast.Name("zip"), columns, keywords) if len(parts) == len(columns):
             targets, sources, paired = parts, columns, keywords
-    names = [target.id for target in targets if isinstance(target, ast.Name)]
-    if len(names) != len(targets) or any(isinstance(s, (ast.Starred, *SCOPED)) for x in sources for s in ast.walk(x)):
+    named = [target.elts if isinstance(target, ast.Tuple) else [target] for target in targets]
+    names = [part.id for parts in named for part in parts if isinstance(part, ast.Name)]
+    bound = any(isinstance(part, (ast.Starred, *SCOPED)) for source in sources for part in ast.walk(source))
+    if bound or len(names) != sum(map(len, named)):
         return None
+
+    def of_row(value: ast.expr) -> ast.expr:
+        if all(isinstance(target, ast.Name) for target in targets):
+            return taking(names, value)
+        rows = [f"recorded row {n}" for n, _ in enumerate(targets)]
+        given: list[ast.expr] = [ast.Name(row, ast.Load()) for row in rows]
+        parts = [
+            ast.Starred(row, ast.Load()) if isinstance(target, ast.Tuple) else row
+            for row, target in zip(given, targets, strict=True)
+        ]
+        return taking(rows, ast.copy_location(ast.Call(taking(names, value), parts, []), value))
+
     own = [f"recorded source {n}" for n, _ in enumerate(sources)]  # each is made once
     known: list[ast.expr] = [ast.Name(name, ast.Load()) for name in own]
     through = known[0] if paired is None else ast.Call(ast.Name("zip", ast.Load()), known, paired)
-    return names, sources, ast.copy_location(through, each.iter), own
+    return of_row, sources, ast.copy_location(through, each.iter), own
 
 
 _OF_ROWS = {"sum": "sum", "min": "min", "max": "max", "any": "any", "all": "all", "array": "array", "asarray": "array"}
@@ -214,7 +244,7 @@ def of_rows(node: ast.Call) -> ast.Call | None:
             if rows is None or any(map(changes, ast.walk(value))):
                 return None
             some.of_rows = True  # type: ignore[union-attr]  # it is looked at no more
-            row = taking(rows[0], copy.deepcopy(value))
+            row = rows[0](copy.deepcopy(value))
             each.iter = rows[2]
             return call("of_rows", node, ast.Constant(_OF_ROWS[name]), row, taking(rows[3], node), *rows[1])
     return None

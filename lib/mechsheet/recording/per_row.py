@@ -1,6 +1,6 @@
 """A value for each row, by one formula for all of them: so a comprehension holds for any number of rows."""
 
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Sequence
 from typing import Any
 
 import numpy as np
@@ -51,9 +51,23 @@ class Together:
         return Together(found) if isinstance(row, slice) or np.ndim(row) else found
 
 
+class Numbers:
+    """The number of each row, of any one that Python knows a whole number of its own."""
+
+    def __init__(self, column: Quantity, start: int = 0) -> None:
+        self.column, self.start = column, start
+
+    def __getitem__(self, row: Any) -> Any:
+        if isinstance(row, int) and 0 <= row < self.column.extent[0]:
+            return row + self.start
+        number = self.column[row] + self.start
+        number.graph.whole.update(number.parts)
+        return number
+
+
 def _followed(f: Callable[..., Any], sources: tuple[Any, ...], made: Callable[..., Any]) -> Any:
     """What is ``made``, for all rows as a whole, of what ``f`` gives for one; None where Python has to look."""
-    if not _are_rows(sources):
+    if not are_rows(sources):
         return None
     graph = current.get()
     looked, numbered, work, rows = dict(graph.looked), dict(graph.numbered), graph.work, dict[Node, Node]()
@@ -88,7 +102,12 @@ def _in_their_form(value: Any, rows: dict[Node, Node], known: list[tuple[Any, An
     return _column(lift(current.get(), value), rows)
 
 
-def _are_rows(sources: tuple[Any, ...]) -> bool:
+def first_of(source: Any) -> Any:
+    """The first column of a table or of parts, or a column itself."""
+    return _columns_of(source)[0]
+
+
+def are_rows(sources: Sequence[Any]) -> bool:
     """Whether all are columns or tables, with as many rows as the inputs say."""
     columns = [column for source in sources for column in _columns_of(source)]
     if not columns or not all(
@@ -102,6 +121,8 @@ def _columns_of(source: Any) -> list[Any]:
     """A column, or those of a table; of texts their places."""
     if isinstance(source, Together):
         return [column for part in source.parts for column in _columns_of(part)]
+    if isinstance(source, Numbers):
+        return [source.column]
     held = vars(source).values() if isinstance(source, Whole) else (source,)
     return [each.at if isinstance(each, Texts) else each for each in held]
 
@@ -115,6 +136,8 @@ def _row(source: Any, rows: dict[Node, Node]) -> Any:
         return row
     if isinstance(source, Texts):  # whoever reads one is seen
         return Written((OneOf(_row(source.at, rows), source.texts, source.column, source.name),))
+    if isinstance(source, Numbers):
+        return _row(source.column, rows) + source.start
     if isinstance(source, Together):
         return made_like(source.parts, [_row(part, rows) for part in source.parts])
     parts = [source.graph.state(part) for part in source.whole()[0].parts]

@@ -24,6 +24,7 @@ from mechsheet.recording.forms import (
     keeps,
     later,
     left_for,
+    listed,
     member,
     of_kept,
     of_rows,
@@ -38,7 +39,7 @@ from mechsheet.worksheet import source
 from mechsheet.worksheet.source import bound
 
 CALLS = choices.CALLS | conditions.CALLS | in_place.CALLS | kept.CALLS | loops.CALLS | per_row.CALLS | each_row.CALLS
-_NAMES = {"float", "int", "complex", "len", "max", "min", "pow", "round", "sorted"}
+_NAMES = {"float", "int", "complex", "len", "max", "min", "pow", "round", "sorted", "zip", "enumerate", "range"}
 _KINDS = (
     *(ast.Import, ast.ImportFrom, ast.JoinedStr, ast.Subscript, ast.IfExp, ast.BoolOp, ast.Compare, ast.Match, ast.Not),
     *(ast.AugAssign, ast.If, ast.While, ast.For, ast.FunctionDef, ast.Try, ast.TryStar, ast.With),
@@ -116,7 +117,7 @@ class _Rewriting(ast.NodeTransformer):
 
     def visit_ListComp(self, node: ast.ListComp) -> ast.AST:
         """A list of some elements is asked how many these are, or for the first or the least of them, elsewhere."""
-        return self.generic_visit(sifted(node) if keeps(node) else node)
+        return self.generic_visit(sifted(node) if keeps(node) else listed(node))
 
     def visit_IfExp(self, node: ast.IfExp) -> ast.AST:
         self.generic_visit(node)
