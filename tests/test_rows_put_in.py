@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
+from urllib.parse import quote
 
 import numpy as np
 from in_browser import evaluated
 from own_worksheet import written
 from test_html_lists import leaves
+from test_html_page import read
 
-from mechsheet.html import javascript
+from mechsheet.html import javascript, write
 from mechsheet.quantities.lines import Recording
 from mechsheet.quantities.quantity import Quantity
 from mechsheet.recording.record import record
@@ -168,3 +170,66 @@ def recorded(tmp_path: Path, each: list[str]) -> tuple[cells.Worksheet, Recordin
     sheet = cells.load(path)
     names = sheet.run(sheet.results, {"g": sheet.inputs()})
     return sheet, record({**names, "__file__": sheet.path}, every=1, draws=True, lists=True)
+
+
+SHOWN = """
+worst = max(g.bolts, key=lambda b: b.w)
+fits = [b for b in g.bolts if b.d > g.a]
+n = len(fits)  # [-] how many
+least = min(fits, key=lambda b: b.w)
+U = g.bolts.w / 8  # [-] used
+checks_1 = [check(f"bolt {b.name}", u, 1.0) for b, u in zip(g.bolts, U)]
+"""
+WORDS = """@app.cell
+def words(g, worst, n, least, U, checks_1):
+    mo.md(f"Worst {worst.name} of {len(g.bolts)} at {worst.x:.1f}, {n} fit, the least of them {least.name}, "
+          f"no. {np.argmax(U) + 1} is {g.bolts.name[np.argmax(U)]}, "
+          f"first {next(b.name for b in g.bolts if b.d > g.a)}.")
+    return
+
+
+@app.cell
+def shown(checks_1):
+    summary(*checks_1)
+    return
+
+
+"""
+
+
+def test_a_page_names_the_rows_and_judges_those_that_it_has_checks_of(blank: Page, tmp_path: Path) -> None:
+    """Of a row that is put in there is no check: nobody may take it for one that has passed."""
+    path = tmp_path / "shown.py"
+    text = written(SETUP.replace("import ask,", "import ask, export, summary,"), GIVEN, SHOWN, "Shown")
+    text = text.replace("import numpy", "import marimo as mo\n    import numpy").replace(
+        "    return worst", "    typeset(*checks_1)\n    return worst"
+    )
+    path.write_text(text.replace("@app.cell\ndef workbook", WORDS + "@app.cell\ndef workbook"), encoding="utf-8")
+    sheet = cells.load(path)
+    own = tmp_path / "own.html"
+    own.write_text(write.page(sheet, sheet.inputs()), encoding="utf-8")
+    for rows in (BOLTS, BOLTS[1:], BOLTS[:2], [*BOLTS, ("new", 4.5, 1, 7)], [("new", 9, 9.5, 7), *BOLTS]):
+        fresh = tmp_path / "fresh.html"
+        fresh.write_text(write.page(sheet, inputs.build(sheet.inputs, {"bolts": rows})), encoding="utf-8")
+        typed_in = quote(" | ".join("; ".join(map(str, row)) for row in rows))
+        here, there = (shown_by(blank, each) for each in (f"{own.as_uri()}#bolts={typed_in}", fresh.as_uri()))
+        assert here["texts"] == there["texts"] and here["lines"] == there["lines"], rows
+        assert here["texts"], "prose"
+        for k, (name, verdict) in enumerate(here["checks"]):
+            if len(rows) == len(BOLTS) or k < min(len(rows), len(BOLTS) - 1):
+                assert (name, verdict) == there["checks"][k], rows
+            else:
+                assert verdict == "not known", rows
+        passed = sum(verdict == "PASS" for _, verdict in here["checks"])
+        assert here["sum"].startswith(f"{passed} of {len(BOLTS)} checks pass")
+        assert ("have no check" in here["state"]) == (len(rows) != len(BOLTS))
+
+
+def shown_by(page: Page, address: str) -> Any:
+    page.goto("about:blank")
+    page.goto(address)
+    page.wait_for_selector("body[data-ready]")
+    read_off: dict[str, Any] = read(page)
+    of = "e => [e.querySelector('.ms-name')?.textContent, e.querySelector('.ms-badge').textContent]"
+    checks = page.evaluate(f"[...document.querySelectorAll('.ms-check')].map({of})")
+    return read_off | {"checks": [tuple(each) for each in checks]}

@@ -157,7 +157,9 @@ def listed(node: ast.ListComp) -> ast.expr:
     node.of_rows = True  # type: ignore[attr-defined]  # it is looked at no more
     row = rows[0](copy.deepcopy(node.elt))
     each.iter = rows[2]
-    return call("listed", node, row, taking(rows[3], node), *rows[1])
+    named = node.elt.func if isinstance(node.elt, ast.Call) else None
+    kind = "checked" if isinstance(named, ast.Name) and named.id == "check" else "listed"
+    return call(kind, node, row, taking(rows[3], node), *rows[1])
 
 
 def _every(some: ast.ListComp | ast.GeneratorExp) -> ast.expr:

@@ -13,7 +13,7 @@ from collections.abc import Iterator
 from types import CodeType, FunctionType
 from typing import Any
 
-from mechsheet.recording import choices, conditions, each_row, in_place, kept, loops, per_row
+from mechsheet.recording import choices, conditions, each_row, in_place, kept, loops, per_row, rows_checked
 from mechsheet.recording.forms import (
     OF_KEPT,
     SCOPED,
@@ -38,7 +38,8 @@ from mechsheet.recording.summed import as_sums
 from mechsheet.worksheet import source
 from mechsheet.worksheet.source import bound
 
-CALLS = choices.CALLS | conditions.CALLS | in_place.CALLS | kept.CALLS | loops.CALLS | per_row.CALLS | each_row.CALLS
+CALLS = choices.CALLS | conditions.CALLS | in_place.CALLS | kept.CALLS | loops.CALLS
+CALLS |= per_row.CALLS | each_row.CALLS | rows_checked.CALLS
 _NAMES = {"float", "int", "complex", "len", "max", "min", "pow", "round", "sorted", "zip", "enumerate", "range"}
 _KINDS = (
     *(ast.Import, ast.ImportFrom, ast.JoinedStr, ast.Subscript, ast.IfExp, ast.BoolOp, ast.Compare, ast.Match, ast.Not),

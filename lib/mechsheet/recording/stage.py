@@ -10,6 +10,7 @@ from typing import Any, TypeVar
 import numpy as np
 
 from mechsheet import units
+from mechsheet.quantities.arithmetic import choice as where
 from mechsheet.quantities.graph import Guard, NotRecorded
 from mechsheet.quantities.lines import Recording, Residual, Solved
 from mechsheet.quantities.node import Node
@@ -19,6 +20,7 @@ from mechsheet.quantities.text_column import Texts
 from mechsheet.quantities.written import Written, seen
 from mechsheet.readers.terms import made_of
 from mechsheet.recording import showing, solving
+from mechsheet.recording.rows_checked import exists
 from mechsheet.recording.substitutes import body, instead
 from mechsheet.worksheet import find, system
 from mechsheet.worksheet.cells import Cell
@@ -219,15 +221,15 @@ class Stage:
             if x.extent[0] < 5:
                 raise NotRecorded("few positions")
             fine, coarse = _differences(f, x[some], step)
-            own, where = slope[some] if slope.ndim else slope, "at three of the positions"
+            own, place = slope[some] if slope.ndim else slope, "at three of the positions"
         except (Exception, NotRecorded):  # of whatever cannot take an array
             graph.looked, graph.numbered = seen_before
             fine, coarse = _differences(f, x[middle], step)
-            own, where = slope[middle] if slope.ndim else slope, "at the middle position"
+            own, place = slope[middle] if slope.ndim else slope, "at the middle position"
         limit = np.maximum(1e-7 * size, 10 * abs(fine - coarse).max())
         self.judged(name, own - fine, limit, unit, size, limit <= AGREED * size)
         name = name.now if isinstance(name, Written) else name
-        self.recording.checks[name] = replace(self.recording.checks[name], where=where)
+        self.recording.checks[name] = replace(self.recording.checks[name], where=place)
 
     def meanings(self) -> dict[str, str]:
         """No words: of diagrams only the drawings are recorded, where they are at all."""
@@ -239,6 +241,8 @@ class Stage:
         bound = lift(self.graph, limit)
         if not bound.single:
             raise NotRecorded(f"check {name!r} has several limits")
+        if (of_row := exists.get()) is not None:
+            parts = [where(self.graph, of_row, Quantity(self.graph, part), np.nan).re for part in parts]
         said, name = (name, name.now) if isinstance(name, Written) else (None, name)
         self.shown_now.append((self.recording.checks, name))
         self.recording.checks[name] = Residual(parts, bound.re, unit, signed)
