@@ -66,6 +66,8 @@ FOLLOWED = [
     "sum(v * w for v, w in zip(np.interp(g.bolts.d, [0.0, 10.0], [0.0, g.a]), g.bolts.w))",
     "sum(v * w for v, w in zip(np.sin(g.bolts.d), g.bolts.w, strict=True) if v > -0.5)",
     "sum(v for v in np.sin(g.bolts.x))",
+    "sum(v for _, _, v in zip(g.bolts.d, g.bolts.w, g.bolts.x)) * g.a",
+    "sum([v * g.a for _, _, v in [(b.d, b.w, b.x) for b in g.bolts if b.d > 2]])",
     "g.bolts[g.bolts.d * g.a >= 1][np.argmin(g.bolts[g.bolts.d * g.a >= 1].w)].x",
     "max(g.bolts[g.bolts.d > 2], key=lambda b: b.w).x",
     "sum(b.x for b in g.bolts[g.bolts.d > 2] if b.w < 6)",

@@ -194,6 +194,7 @@ def _sources(each: ast.comprehension) -> tuple[_Of, list[ast.expr], ast.expr, li
     bound = any(isinstance(part, (ast.Starred, *SCOPED)) for source in sources for part in ast.walk(source))
     if bound or len(names) != sum(map(len, named)):
         return None
+    names = [f"recorded unused {n}" if name in names[n + 1 :] else name for n, name in enumerate(names)]  # as for _, _
 
     def of_row(value: ast.expr) -> ast.expr:
         if all(isinstance(target, ast.Name) for target in targets):
