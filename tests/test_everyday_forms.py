@@ -214,6 +214,28 @@ SELECTED = [
     TABLE + "y = T[T[:, 0] > g.F / 1.5][:, 1].min() * g.a + T[T[:, 0] == g.k - 1][0, 1]",
     "v = np.where(x > g.F, np.nan, x)\ny = np.nanmax(v[x > g.a / 9]) + np.isnan(v[x > 1]).sum()",
 ]
+LAW = """def f(t):
+    out, low = np.zeros_like(t), t < g.F / 2
+    out[low], out[~low] = t[low] ** 2 * g.a, np.where(t[~low] > 3, 3.0, np.sqrt(t[~low] - g.F / 2))
+    return out
+"""
+PLACED = [  # by a condition that tells other elements for other inputs
+    "s = np.zeros(g.n)\ns[x > g.F] = g.a\ny = s @ x",
+    "s, m = np.zeros_like(x), x > g.F / 2\ns[m] = g.a * (x[m] - g.F / 2) ** 2\ns[~m] = x[~m]\ny = s.sum()",
+    "s = x * 1\ns[s > g.F] = g.F\ns[s < g.a] *= g.a\ny = s.sum()",
+    LAW + "y = f(x).sum()",
+    (
+        "s, ends = np.zeros(g.n), [0.0, g.a, 2 * g.a, 2 * g.F]\nfor low, high in zip(ends, ends[1:]):\n"
+        "    m = (x >= low) & (x < high)\n    t = (x[m] - low) / (high - low)\n    s[m] = 10 * t**3 - 15 * t**4 + g.a\n"
+        "y = s.sum()"
+    ),
+    "s, m = np.zeros(g.n), x > g.F\nif m.any():\n    s[m] = np.log(x[m] / g.F)\ny = s.sum()",
+    "s, m = np.zeros(g.n), x > 3 * g.a\nif m.any():\n    s[m] = 1.0\ny = s @ x",
+    "s, i = np.zeros(g.n), np.where(x > g.F)\ns[i] = np.interp(x[i], [0.0, 3.0, 9.0], [0.0, g.a, 2.0])\ny = s.sum()",
+    "n = np.zeros(g.n, int)\nn[x > g.F / 2] = 2\ny = n @ x",
+    "z = x + 1j * g.a\nz[np.flatnonzero(x > g.F)] = 2.0\ny = abs(z).sum()",
+    "Z = np.outer(x, [1.0, g.a])\nZ[Z > g.F] = 0.0\ny = Z.sum()",
+]
 FOUND = (
     "found = None\nfor d in (0.5, 1.0, 2.0, 3.0):\n    w = g.F / d\n    if w > 4 or w < 0.1:\n        continue\n"
     "    if w < 1.2:\n        found = d\n        break\n"
@@ -240,7 +262,8 @@ GUARDED = [  # where other inputs change what there is
 
 @pytest.mark.filterwarnings("ignore")
 @pytest.mark.parametrize(
-    "lines", [*KEPT, *RANKED, *CHOSEN, *SET, *POLYNOMIALS, *VECTORIZED, *SEARCHED, *WALKED, *SELECTED, *GUARDED]
+    "lines",
+    [*KEPT, *RANKED, *CHOSEN, *SET, *POLYNOMIALS, *VECTORIZED, *SEARCHED, *WALKED, *SELECTED, *PLACED, *GUARDED],
 )
 def test_an_everyday_form_is_followed(lines: str, tmp_path: Path) -> None:
     sheet = own(tmp_path, f"{lines}\nresult = np.atleast_1d(y) * 1  # [-] line")
@@ -262,9 +285,9 @@ def test_a_list_of_those_that_are_kept_is_never_stale(lines: str, tmp_path: Path
 
 @pytest.mark.office
 def test_cells_select_as_the_worksheet_does(recalculated_all: Any, tmp_path: Path) -> None:
-    """What nothing is left for has no number."""
-    lines = [f"{line}\nr_{k} = abs(y) * 1  # [-] line" for k, line in enumerate(SELECTED)]
-    lines += [f"every = np.array([{', '.join(f'r_{k}' for k in range(len(SELECTED)))}])  # [-] all"]
+    """And set those for which a condition holds; what nothing is left for has no number."""
+    lines = [f"{line}\nr_{k} = abs(y) * 1  # [-] line" for k, line in enumerate([*SELECTED, *PLACED])]
+    lines += [f"every = np.array([{', '.join(f'r_{k}' for k in range(len(SELECTED) + len(PLACED)))}])  # [-] all"]
     lines += ['last = x[x > g.a * g.F].max()  # [-] greatest\ntable_2 = table("2", "All", every, last)']
     sheet = own(tmp_path, "\n".join(lines))
     names = sheet.run(sheet.results, {"g": sheet.inputs()})

@@ -42,7 +42,7 @@ from mechsheet.quantities.linear_rules import (
 )
 from mechsheet.quantities.operations import REDUCE_SO_FAR
 from mechsheet.quantities.quantity import FUNCTIONS, REDUCTIONS, Quantity, has_quantity, joined, lift, moved, plain
-from mechsheet.quantities.selected import Selected
+from mechsheet.quantities.selected import Selected, also_of_selected
 from mechsheet.quantities.statistics_rules import (
     average,
     correlation,
@@ -406,3 +406,6 @@ def linspace(graph: Graph, start: Any, stop: Any, count: Any = 50, endpoint: boo
         return places
     last = choice(graph, pieces > 0, stop, start) if isinstance(pieces, Quantity) else stop if pieces > 0 else start
     return choice(graph, rows < pieces, places, last)
+
+
+FUNCTIONS.update(also_of_selected(FUNCTIONS))

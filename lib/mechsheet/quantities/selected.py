@@ -1,5 +1,6 @@
 """Elements of a list, or rows of a table, for which a condition holds, such as ``x[x > a]``, however many these are."""
 
+from collections.abc import Callable
 from math import inf, nan
 from typing import Any
 
@@ -14,6 +15,10 @@ _OF_NONE: dict[str, float] = {
     "sum": 0, "nansum": 0, "max": -inf, "min": inf, "nanmax": nan, "nanmin": nan, "any": False, "all": True,
 }  # fmt: skip
 _NUMBERS = int | float | complex | np.number
+_ELEMENTWISE: dict[Any, tuple[int, int]] = {  # which arguments are elements
+    np.where: (0, 3), np.clip: (0, 3), np.real: (0, 1), np.imag: (0, 1), np.angle: (0, 1), np.nan_to_num: (0, 1),
+    np.zeros_like: (0, 1), np.ones_like: (0, 1), np.full_like: (0, 2), np.interp: (0, 1), np.polyval: (1, 2),
+}  # fmt: skip
 
 
 class Selected(Quantity):
@@ -57,6 +62,13 @@ class Selected(Quantity):
 
     def __copy__(self) -> Quantity:
         return Selected(self.of, self.holds)
+
+    def are_places(self) -> bool:
+        """Whether these are the places of what the condition holds for, as `places` gives them."""
+        places = self.of.re
+        if self.of.ndim != 1 or places.op not in ("rows", "constant"):
+            return False
+        return places.op == "rows" or np.array_equal(places.value, np.arange(len(places.value)))
 
     def count(self, axis: Any = None) -> Any:
         if axis != 0 and self.ndim > 1:
@@ -128,15 +140,37 @@ class Selected(Quantity):
         return known
 
     def __array_ufunc__(self, ufunc: Any, method: str, *inputs: Any, **kwargs: Any) -> Any:
-        if method != "__call__" or kwargs or ufunc.signature or ufunc.nout > 1 or not all(map(self._is_beside, inputs)):
-            return super().__array_ufunc__(ufunc, method, *inputs, **kwargs)
-        return Selected(ufunc(*(x.of if isinstance(x, Selected) else x for x in inputs)), self.holds)
+        each = None if method != "__call__" or kwargs or ufunc.signature or ufunc.nout > 1 else of_each(ufunc, *inputs)
+        return super().__array_ufunc__(ufunc, method, *inputs, **kwargs) if each is None else each
 
-    def _is_beside(self, x: Any) -> bool:
+    def is_beside(self, x: Any) -> bool:
         """Whether one number, or of the same elements."""
         if isinstance(x, Selected):
             return x.holds.re is self.holds.re and x.ndim == self.ndim
         return isinstance(x, _NUMBERS) or (isinstance(x, Quantity) and x.single)
+
+
+def of_each(function: Callable[..., Any], *given: Any) -> Selected | None:
+    """What a function of single elements makes of those of a list; None where not all are of the same elements."""
+    some = next((x for x in given if isinstance(x, Selected)), None)
+    if some is None or not all(map(some.is_beside, given)):
+        return None
+    return Selected(lift(some.graph, function(*(x.of if isinstance(x, Selected) else x for x in given))), some.holds)
+
+
+def also_of_selected(rules: dict[Any, Callable[..., Any]]) -> dict[Any, Callable[..., Any]]:
+    """The rules of functions of single elements, which give of the elements of a list those of the same."""
+    return {f: _also_of_selected(rules[f], *which) for f, which in _ELEMENTWISE.items()}
+
+
+def _also_of_selected(rule: Callable[..., Any], first: int, last: int) -> Callable[..., Any]:
+    def operation(graph: Graph, *args: Any, **kwargs: Any) -> Any:
+        each = None
+        if len(args) >= last and not kwargs:
+            each = of_each(lambda *xs: rule(graph, *args[:first], *xs, *args[last:]), *args[first:last])
+        return rule(graph, *args, **kwargs) if each is None else each
+
+    return operation
 
 
 def selected(graph: Graph, x: Quantity, key: Any) -> Quantity | None:

@@ -18,7 +18,7 @@ from mechsheet.quantities.graph import PARTIAL, NotRecorded, current
 from mechsheet.quantities.node import bottom_up
 from mechsheet.quantities.options import Fields, Row, Thing, changed, is_object, parted
 from mechsheet.quantities.quantity import Listed, Quantity, has_quantity, is_any_length, lift, quantities
-from mechsheet.quantities.selected import Selected
+from mechsheet.quantities.selected import Selected, of_each
 from mechsheet.quantities.sketch import Sketch
 from mechsheet.quantities.sketch import merged as merged_sketch
 from mechsheet.quantities.text_column import Texts
@@ -105,6 +105,8 @@ def merged(condition: Quantity, x: Any, y: Any) -> Any:
         return merged_sketch(condition, x, y)
     if _are_written(x, y):
         return either(condition, x, y)
+    if (each := of_each(lambda a, b: where(condition.graph, condition.reshape(()), a, b), x, y)) is not None:
+        return each
     if isinstance(x, ARRAYS) and isinstance(y, ARRAYS) and _lengths(x) == _lengths(y):
         return where(condition.graph, condition.reshape(()), x, y)
     if isinstance(x, FunctionType | np.poly1d) and isinstance(y, FunctionType | np.poly1d):

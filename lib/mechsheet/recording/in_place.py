@@ -6,8 +6,10 @@ from typing import Any
 
 import numpy as np
 
+from mechsheet.quantities.arithmetic import choice
 from mechsheet.quantities.graph import NotRecorded
 from mechsheet.quantities.quantity import Quantity, has_quantity, joined, lift, owner, plain, quantities
+from mechsheet.quantities.selected import Selected
 from mechsheet.recording.choices import element
 
 _NOT_SET = object()  # an element that there is not
@@ -23,7 +25,28 @@ def put(array: Any, key: Any, value: Any) -> Any:
     graph = next(quantities([array, key, value])).graph
     graph.gone.append(weakref.ref(owner(array)))
     old, new = lift(graph, array), lift(graph, value)
-    return joined([old, new.astype(int) if old.dtype.kind in "iu" else new], _placed, plain(key))
+    new = new.astype(int) if old.dtype.kind in "iu" else new
+    chosen = _where(old, key, new)
+    return joined([old, new], _placed, plain(key)) if chosen is None else chosen
+
+
+def _where(old: Quantity, key: Any, new: Quantity) -> Quantity | None:
+    """The array in which a condition tells what is set, of as many elements; None where Python has to look at it."""
+    if isinstance(key, tuple) and len(key) == 1:
+        (key,) = key
+    if isinstance(key, Selected) and key.are_places():
+        key = key.holds
+    if not isinstance(key, Quantity) or key.dtype != bool or isinstance(old, Selected) or key.extent != old.extent:
+        return None
+    graph = old.graph
+    if graph.thin > 1 or key.re in graph.fixed or graph.size(key.re) != graph.size(old.whole().re):
+        return None
+    if isinstance(new, Selected) and new.holds.re is key.re and new.of.extent == old.extent:
+        new = new.of
+    elif isinstance(new, Selected) or not new.single:
+        return None
+    set_to: Quantity = choice(graph, key, new, old)
+    return set_to
 
 
 def part_of(array: Any, key: Any) -> Any:
