@@ -236,6 +236,13 @@ PLACED = [  # by a condition that tells other elements for other inputs
     "z = x + 1j * g.a\nz[np.flatnonzero(x > g.F)] = 2.0\ny = abs(z).sum()",
     "Z = np.outer(x, [1.0, g.a])\nZ[Z > g.F] = 0.0\ny = Z.sum()",
 ]
+WORDS = [  # one of two texts, and a condition as a number
+    "kind = 'root' if g.F > 3 else 'flank'\ny = 2.0 if kind == 'root' else g.a",
+    "kind = 'root'\nif g.F > 3:\n    kind = 'flank'\nR = {'root': 2.0, 'flank': g.a}\ny = R[kind] * (kind in R) * g.F",
+    "def f(v, law):\n    return v**2 if law == 'even' else v\ny = f(x, 'even' if g.k % 2 == 0 else 'odd')",
+    "kind = 'root' if g.F > 3 else 'flank'\nmatch kind:\n    case 'root':\n        y = g.a\n    case _:\n        y = 3",
+    "y = np.array([g.a, 2.0])[int(g.F > 3)] * 2 * int(g.F < 4) + float(g.a > 1)",
+]
 FOUND = (
     "found = None\nfor d in (0.5, 1.0, 2.0, 3.0):\n    w = g.F / d\n    if w > 4 or w < 0.1:\n        continue\n"
     "    if w < 1.2:\n        found = d\n        break\n"

@@ -39,6 +39,7 @@ SAID = [
     "$$\\sigma = \\frac{{{g.F:.1f}}}{{{g.F + 1:.3g}}} \\tag{{4}}$$",
     "{'$x^2$' if g.side == 'left' else '&'} and {'_one_' if g.F > 3 else 'two'} {g.side}",
     "{'**yes**' if g.F > 3 else 'no'}, {'*yes*' if g.F > 2 else 'no'}, {'_yes_' if g.F > 1.5 else 'no'}",
+    "{kind} and **{kind}**, {'of' if kind == 'long' else 'at'} {g.F:.1f}",
     "{len([x for x in (1.0, 2.0, 3.0) if x > g.F])} of 3", "{len(above)}, {'some' if above else 'none'}",
 ]  # fmt: skip
 CHANGED = [{"F": "3.75"}, {"side": "right", "F": "1"}, {"steel": "S355", "v": "5; 1; 2; 7"}]
@@ -48,9 +49,13 @@ CHANGED = [{"F": "3.75"}, {"side": "right", "F": "1"}, {"steel": "S355", "v": "5
 def test_prose_is_that_of_the_worksheet(given: dict[str, str], blank: "Page", tmp_path: Path) -> None:
     """What stood in it as a whole number, an option, one of two words or in per cent had made all of it grey."""
     path = tmp_path / "prose.py"
-    text = written(SETUP, GIVEN, "y = g.F  # [-] y\nabove = [x for x in (1.0, 2.0, 3.0) if x > g.F]")
+    text = written(
+        SETUP,
+        GIVEN,
+        "y = g.F  # [-] y\nkind = 'long' if y > 3 else 'short'\nabove = [x for x in (1.0, 2.0, 3.0) if x > g.F]",
+    )
     said = (
-        f'@app.cell\ndef said_{k}(g, above):\n    mo.md(rf"""A{k} {words}""")\n    return\n\n\n'
+        f'@app.cell\ndef said_{k}(g, above, kind):\n    mo.md(rf"""A{k} {words}""")\n    return\n\n\n'
         for k, words in enumerate(SAID)
     )
     path.write_text(text.replace("if __name__", "".join([*said, "if __name__"])))

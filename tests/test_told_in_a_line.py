@@ -158,7 +158,7 @@ def test_a_condition_of_the_workbook_names_its_lines(tmp_path: Path) -> None:
     lines = "w = 'many' if g.n > 2 else 'few'\ny = len(w) * g.F  # [N] by a text"
     as_script(worksheet(tmp_path, lines))
     rows = load_workbook(tmp_path / "told.xlsx")["Checks"].iter_rows(values_only=True)
-    assert any(str(row[0]).startswith("made for these inputs") and row[5] == "looked at in line 34" for row in rows)
+    assert any(str(row[0]).startswith("made for these inputs") and row[5] == "looked at in line 35" for row in rows)
 
 
 def test_a_file_that_is_no_text_is_no_scene_to_rename_in(tmp_path: Path) -> None:

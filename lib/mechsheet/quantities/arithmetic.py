@@ -118,6 +118,8 @@ def whole(x: Quantity) -> Quantity:
 
 
 def trunc(x: Quantity) -> Any:
+    if x.dtype == bool:
+        return choice(x.graph, x, 1, 0)
     down = elementwise("floor")
     return choice(x.graph, x < 0, -down(-x), down(x))
 

@@ -25,7 +25,6 @@ from mechsheet.quantities.text_column import Texts
 from mechsheet.quantities.written import Either, OneOf, Written, either, joined, said, text
 from mechsheet.recording.memory import Memory, may_change, names_of
 from mechsheet.recording.sifted import Sifted
-from mechsheet.worksheet.drawing import COLOURS
 from mechsheet.worksheet.kinds import Chosen, cases
 from mechsheet.worksheet.lists import Whole, first_column
 
@@ -140,10 +139,8 @@ def made_like(row: tuple[Any, ...] | list[Any], parts: Iterable[Any]) -> Any:
 
 
 def _are_written(x: Any, y: Any) -> bool:
-    """Whether two texts with numbers in them, or two colours: of any other text Python sees which one it is."""
-    if isinstance(x, Written) or isinstance(y, Written):
-        return isinstance(x, str | Written) and isinstance(y, str | Written)
-    return isinstance(x, str) and isinstance(y, str) and {x, y} <= {"", *COLOURS}
+    """Whether two texts: Python sees which one it is once it reads it."""
+    return isinstance(x, str | Written) and isinstance(y, str | Written)
 
 
 def _lengths(value: Any) -> tuple[Any, ...]:

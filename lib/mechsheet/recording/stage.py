@@ -237,7 +237,9 @@ class Stage:
             raise NotRecorded("diagrams are drawn")
         return {}
 
-    def _check(self, name: str | Written, parts: list[Node], limit: Any, unit: str, signed: bool = False) -> None:
+    def _check(
+        self, name: str | Written, parts: list[Node], limit: Any, unit: str | Written, signed: bool = False
+    ) -> None:
         bound = lift(self.graph, limit)
         if not bound.single:
             raise NotRecorded(f"check {name!r} has several limits")
@@ -245,7 +247,8 @@ class Stage:
             parts = [where(self.graph, of_row, Quantity(self.graph, part), np.nan).re for part in parts]
         said, name = (name, name.now) if isinstance(name, Written) else (None, name)
         self.shown_now.append((self.recording.checks, name))
-        self.recording.checks[name] = Residual(parts, bound.re, unit, signed)
+        shown = unit.now if isinstance(unit, Written) else unit  # a number is right beside the unit that it was given
+        self.recording.checks[name] = Residual(parts, bound.re, shown, signed)
         if said is not None:
             self._word(f"check {name}", said, "name")
 

@@ -52,7 +52,7 @@ staged: ContextVar[Mapping[str, Any]] = ContextVar("staged")  # what those of `S
 SHOWING = frozenset({"table", "figure", "sought", "solve", "closed_form", "check_slope", "judged", "Check", "meanings"})
 _NAME, _WORDS = (0, "name"), (1, "title", "note")  # of a check, a table or a figure, which may follow
 _UNSAID = {  # names of no number
-    "table": (*_WORDS, "show"), "figure": (*_WORDS, "show"), "judged": _NAME, "check_slope": _NAME,
+    "table": (*_WORDS, "show"), "figure": (*_WORDS, "show"), "judged": (*_NAME, 3, "unit"), "check_slope": _NAME,
     "Check": (*_NAME, 3, 4, "unit", "reason"),
 }  # fmt: skip
 _NOWHERE = frozenset({"require", "refuse", "summary", "export", "typeset"})  # of no use in a workbook
