@@ -17,7 +17,7 @@ from mechsheet.recording import choices, per_row
 from mechsheet.recording.among import of_all
 from mechsheet.recording.by_size import decide
 from mechsheet.recording.choices import part_of, way_may_change
-from mechsheet.recording.per_row import columns
+from mechsheet.recording.per_row import Together, columns
 from mechsheet.recording.sifted import Sifted
 from mechsheet.worksheet.lists import Whole
 
@@ -74,7 +74,7 @@ def paired(*sources: Any, **named: Any) -> Any:
     """Python's zip."""
     every = [_unselected(source)[0] for source in sources if _unselected(source)[1] is None]
     if current.get().draws and len(every) == len(sources) > 0 and per_row.are_rows(every):
-        return _all(per_row.Together(tuple(every)), *every)
+        return _all(Together(tuple(every)), *every)
     return zip(*sources, **named)  # noqa: B905
 
 
@@ -84,7 +84,7 @@ def numbered(source: Any, start: Any = 0) -> Any:
     if current.get().draws and holds is None and type(start) is int and per_row.are_rows([values]):
         column = per_row.first_of(values)
         rows = per_row.Numbers(Quantity(column.graph, column.graph.rows(column.count(0).re)), start)
-        return _all(per_row.Together((rows, values)), values)
+        return _all(Together((rows, values)), values)
     return enumerate(source, start)
 
 
@@ -165,6 +165,10 @@ class EachRow(Sifted, Listed):
         if found is not None:
             return found
         each = range(len(self.holds))  # so many rows as there are
+        name, _, by = kind.partition(" ")
+        if self.every and name in ("min", "max"):
+            named = {"key" if by else "default": one for one in otherwise}
+            return choices.CALLS[name]([self.parts[k] for k in each], **named)
         return of_all(kind, [(self.holds[k], lambda k=k: self.parts[k]) for k in each], otherwise)
 
     def followed(self, kind: str, *otherwise: Any) -> Any:
@@ -180,15 +184,15 @@ class EachRow(Sifted, Listed):
         return found
 
     def _by(self, kind: str, key: Any) -> Any:
-        """The first element whose key is the greatest or the least."""
-        keys, end = self._keys(key), kind.removesuffix(" by")
-        row: Any = np.argmax(self.holds & (keys == Selected(keys, self.holds).filled(end).reduced(end)))
-        decide(self._kept_of(keys, row), None, f"arg{end}")
-        return self._at(row, self.some)
-
-    def _kept_of(self, keys: Quantity, row: Any) -> Quantity:
-        """Numbers of the rows that are kept, and for all others that of the ``row``."""
-        return lift(keys.graph, where(keys.graph, self.holds, keys, keys[row]))
+        """The first element whose key is the greatest or the least; of tuples by the first part that differs."""
+        end, best = kind.removesuffix(" by"), self.holds
+        keys = self.parts if key is None else columns(key, self.parts)
+        for part in keys.parts if isinstance(keys, Together) else [keys]:
+            each = self._keys(part)
+            closer: Quantity = best & (each == Selected(each, best).filled(end).reduced(end))
+            decide(_of_some(best, each, np.argmax(closer)), None, f"arg{end}")
+            best = closer
+        return self._at(np.argmax(best), self.some)
 
     def _followed(self, kind: str, *given: Any) -> Any:
         graph, some = current.get(), self.some
@@ -196,6 +200,8 @@ class EachRow(Sifted, Listed):
             return self._first(0 if kind == "first" else -1, *given)
         if kind == "len":
             return self._count.reduced("sum")
+        if kind in ("min", "max") and isinstance(self.parts, Together) and not given:
+            return self._by(kind, None)
         if not isinstance(self.parts, Quantity):
             return None
         if kind in ("any", "all"):
@@ -236,18 +242,18 @@ class EachRow(Sifted, Listed):
             return self._at(row, exists)
         return part_of(exists, self.parts[where(current.get(), exists, row, np.nan)], otherwise[0])
 
-    def _keys(self, key: Any) -> Quantity:
+    def _keys(self, keys: Any) -> Quantity:
         """A number of each row, by which rows are compared; of what is none nobody knows the order."""
-        graph, keys = current.get(), self.parts if key is None else columns(key, self.parts)
+        graph = current.get()
         if not isinstance(keys, Quantity) or keys.im is not None:
             raise NotRecorded("what is compared is no number")
-        keys = where(graph, keys, 1, 0) if keys.dtype == bool else keys
-        known = (finite(keys) | ~self.holds).reduced("all")
+        each: Quantity = where(graph, keys, 1, 0) if keys.dtype == bool else keys
+        known = (finite(each) | ~self.holds).reduced("all")
         if not known.value:
             raise NotRecorded("what is compared is no number")
-        if keys.re not in graph.always:
+        if each.re not in graph.always:
             graph.see(known.re)
-        return keys
+        return each
 
     def in_order(self, key: Any, reverse: bool) -> "EachRow | None":
         """The same by their size, equal ones as they stand; None where Python has to look."""
@@ -256,8 +262,8 @@ class EachRow(Sifted, Listed):
         graph = current.get()
         looked = dict(graph.looked)
         try:
-            keys = self._keys(key)
-            keys = self._kept_of(-keys if reverse else keys, np.argmax(self.holds))
+            keys = self._keys(self.parts if key is None else columns(key, self.parts))
+            keys = _of_some(self.holds, -keys if reverse else keys, np.argmax(self.holds))
             decide(keys, None, "argsort")
             order: Any = np.argsort(keys)
             return EachRow(self.parts[order], self.holds[order], self.every)
@@ -272,7 +278,7 @@ class EachRow(Sifted, Listed):
         return parts if self.every else Selected(parts, self.holds)
 
     def held(self) -> list[Any]:
-        return [*self.pairs[0]] if self.pairs else [*list.__iter__(self)]
+        return [self.holds, *per_row.held_by(self.parts)] if self.pairs else [*list.__iter__(self)]
 
     def __getitem__(self, key: Any) -> Any:
         if self.pairs and (isinstance(key, int | np.integer) or (isinstance(key, Quantity) and key.single)):
@@ -292,9 +298,14 @@ class EachRow(Sifted, Listed):
 
     def _look(self) -> None:
         if self.pairs:
-            rows = np.flatnonzero(self.holds.seen())
+            rows = range(len(self.holds)) if self.every else np.flatnonzero(self.holds.seen())
             if not list.__len__(self):
                 list.extend(self, [self.parts[int(k)] for k in rows])
+
+
+def _of_some(holds: Quantity, keys: Quantity, row: Any) -> Quantity:
+    """Numbers of the rows for which a condition holds, and for all others that of the ``row``."""
+    return lift(keys.graph, where(keys.graph, holds, keys, keys[row]))
 
 
 def _from_start(*ends: Any) -> bool:

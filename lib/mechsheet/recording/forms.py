@@ -231,8 +231,16 @@ def rows_of(target: ast.expr, items: ast.expr) -> tuple[list[str], list[ast.expr
         case ast.Tuple(parts), ast.Call(ast.Name("zip"), columns, []) if len(parts) == len(columns):
             targets, sources = parts, columns
     names = [each.id for each in targets if isinstance(each, ast.Name)]
-    known = all(isinstance(part, (*_PARTS, *_SIGNS)) for source in sources for part in ast.walk(source))
+    known = all(_is_plain(part) for source in sources for part in ast.walk(source))
     return (names, sources) if known and len(names) == len(targets) else None
+
+
+def _is_plain(part: ast.AST) -> bool:
+    """Whether a part of what rows are made of may be made twice, as the number of each."""
+    match part:
+        case ast.Call(ast.Name("range" | "len"), [_], []):
+            return True
+    return isinstance(part, (*_PARTS, *_SIGNS))
 
 
 def of_rows(node: ast.Call) -> ast.Call | None:

@@ -107,6 +107,15 @@ def first_of(source: Any) -> Any:
     return _columns_of(source)[0]
 
 
+def held_by(parts: Any) -> list[Any]:
+    """All that columns are made of."""
+    if isinstance(parts, Together):
+        return [each for part in parts.parts for each in held_by(part)]
+    if isinstance(parts, Whole):
+        return [each for part in vars(parts).values() for each in held_by(part)]
+    return [parts.at, parts.column] if isinstance(parts, Texts) else _columns_of(parts)
+
+
 def are_rows(sources: Sequence[Any]) -> bool:
     """Whether all are columns or tables, with as many rows as the inputs say."""
     columns = [column for source in sources for column in _columns_of(source)]
