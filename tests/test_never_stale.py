@@ -209,6 +209,7 @@ CONSTRUCTS = [
     "try:\n    k = sqrt(g.a - 0.5)\nexcept ValueError:\n    k = 7.0\ny = k * g.F",
     "try:\n    k = sqrt(g.a - 0.5)\nexcept* ValueError:\n    k = 7.0\ny = k * g.F",
     "try:\n    k = [3.0][int(g.F > 3)]\nexcept* IndexError:\n    k = 7.0\ny = k * g.a",
+    "try:\n    k = [3.0, 4.0, 5.0][round(g.F / 6) + 2]\nexcept IndexError:\n    k = 7.0\ny = k * g.a",
     "try:\n    k = sqrt(0.5 - g.a)\nexcept ValueError:\n    k = 7.0\ny = k * g.F",
     "try:\n    k = min(1 / (g.k - 3), 99.0)\nexcept ZeroDivisionError:\n    k = 7.0\ny = k * g.a",
     "try:\n    k = 1 / (1 / (g.k - 3) + g.F)\nexcept ZeroDivisionError:\n    k = 7.0\ny = k * g.a",

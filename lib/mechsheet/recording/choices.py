@@ -15,7 +15,7 @@ import numpy as np
 from mechsheet.quantities.arithmetic import choice as where
 from mechsheet.quantities.arithmetic import trunc, whole
 from mechsheet.quantities.graph import PARTIAL, NotRecorded, current
-from mechsheet.quantities.node import bottom_up
+from mechsheet.quantities.node import Node, bottom_up
 from mechsheet.quantities.options import Fields, Row, Thing, changed, is_object, parted
 from mechsheet.quantities.quantity import Listed, Quantity, has_quantity, is_any_length, lift, quantities
 from mechsheet.quantities.selected import Selected, of_each
@@ -303,6 +303,9 @@ def tried(*values: Any) -> Any:
             finite: Any = np.isfinite(Quantity(graph, node))
             if not finite.reduced("all"):
                 raise NotRecorded("it may handle an error")
+        elif node.op == "where" and np.isfinite(node.value).all() and any(np.isnan(a.value).any() for a in node.args):
+            finite = np.isfinite(Quantity(graph, node))  # such as an element that there is
+            bool(finite.reduced("all"))
     return values[0] if values else None
 
 
