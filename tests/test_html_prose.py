@@ -24,11 +24,17 @@ from mechsheet import ask, inputs, one_of, read
 class Steel:
     R: float  # [-] strength
 
+@inputs
+class Case:
+    name: str  # name
+    P: float  # [-] power
+
 STEELS = {"S235": Steel(235.0), "S355": Steel(355.0)}"""
 GIVEN = """F: float = 2.5  # [-] number; > 0
 side: Literal["left", "right"] = "left"  # side
 steel: Steel = one_of(STEELS, "S235")  # steel
-v: list[float] = [1.0, 4.0, 2.0]  # [-] values"""
+v: list[float] = [1.0, 4.0, 2.0]  # [-] values
+cases: list[Case] = [Case("start", 1.0), Case("full", 4.0), Case("idle", 2.0)]  # cases"""
 SAID = [
     "{int(3 * g.F)} or {math.ceil(g.F) + 1} or {round(g.F)}", "level {int(np.argmax(g.v)) + 1} of {len(g.v)}",
     "{np.count_nonzero(g.v > g.F)} above", "{g.steel}, {g.side} side", "a{'' if g.side == 'left' else ', turned'}.",
@@ -40,9 +46,16 @@ SAID = [
     "{'$x^2$' if g.side == 'left' else '&'} and {'_one_' if g.F > 3 else 'two'} {g.side}",
     "{'**yes**' if g.F > 3 else 'no'}, {'*yes*' if g.F > 2 else 'no'}, {'_yes_' if g.F > 1.5 else 'no'}",
     "{kind} and **{kind}**, {'of' if kind == 'long' else 'at'} {g.F:.1f}",
+    "{', '.join(c.name for c in g.cases if c.P > g.F)} are above, {' and '.join(over)} too",
     "{len([x for x in (1.0, 2.0, 3.0) if x > g.F])} of 3", "{len(above)}, {'some' if above else 'none'}",
 ]  # fmt: skip
-CHANGED = [{"F": "3.75"}, {"side": "right", "F": "1"}, {"steel": "S355", "v": "5; 1; 2; 7"}]
+CHANGED = [
+    {"F": "3.75"},
+    {"side": "right", "F": "1"},
+    {"steel": "S355", "v": "5; 1; 2; 7"},
+    {"cases": "jog; 3 | full; 1 | stop; 2.6"},
+    {"F": "9"},
+]
 
 
 @pytest.mark.parametrize("given", CHANGED)
@@ -52,10 +65,12 @@ def test_prose_is_that_of_the_worksheet(given: dict[str, str], blank: "Page", tm
     text = written(
         SETUP,
         GIVEN,
-        "y = g.F  # [-] y\nkind = 'long' if y > 3 else 'short'\nabove = [x for x in (1.0, 2.0, 3.0) if x > g.F]",
+        "y = g.F  # [-] y\nkind = 'long' if y > 3 else 'short'\n"
+        "over = [c.name for c, v in zip(g.cases, (1, 2, 3)) if v * c.P > g.F]\n"
+        "above = [x for x in (1.0, 2.0, 3.0) if x > g.F]",
     )
     said = (
-        f'@app.cell\ndef said_{k}(g, above, kind):\n    mo.md(rf"""A{k} {words}""")\n    return\n\n\n'
+        f'@app.cell\ndef said_{k}(g, above, kind, over):\n    mo.md(rf"""A{k} {words}""")\n    return\n\n\n'
         for k, words in enumerate(SAID)
     )
     path.write_text(text.replace("if __name__", "".join([*said, "if __name__"])))

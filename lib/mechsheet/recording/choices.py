@@ -15,16 +15,16 @@ import numpy as np
 from mechsheet.quantities.arithmetic import choice as where
 from mechsheet.quantities.arithmetic import trunc, whole
 from mechsheet.quantities.graph import PARTIAL, NotRecorded, current
-from mechsheet.quantities.node import Node, bottom_up
+from mechsheet.quantities.node import bottom_up
 from mechsheet.quantities.options import Fields, Row, Thing, changed, is_object, parted
 from mechsheet.quantities.quantity import Listed, Quantity, has_quantity, is_any_length, lift, quantities
 from mechsheet.quantities.selected import Selected, of_each
 from mechsheet.quantities.sketch import Sketch
 from mechsheet.quantities.sketch import merged as merged_sketch
 from mechsheet.quantities.text_column import Texts
-from mechsheet.quantities.written import Either, OneOf, Written, either, joined, said, text
+from mechsheet.quantities.written import Either, OneOf, Written, either, said, text
 from mechsheet.recording.memory import Memory, may_change, names_of
-from mechsheet.recording.sifted import Sifted
+from mechsheet.recording.sifted import Sifted, joined_kept
 from mechsheet.worksheet.kinds import Chosen, cases
 from mechsheet.worksheet.lists import Whole, first_column
 
@@ -430,7 +430,7 @@ CALLS: dict[str, Any] = {
     "choice": choice, "said": said, "element": element, "get": got,
     "handled": handled, "tried": tried,
     "len": length,
-    "unbound": UNBOUND, "text": text, "join": joined,
+    "unbound": UNBOUND, "text": text, "join": joined_kept,
     "max": _extreme("max"), "min": _extreme("min"), "round": round, "sorted": ranked, "place": placed,
     "float": _number(float, lambda x: x), "int": _number(int, lambda x: whole(trunc(x))),
     "complex": _number(complex, lambda *x: sum(a * b for a, b in zip(x, (1, 1j), strict=False))),

@@ -75,6 +75,8 @@ class _Rewriting(ast.NodeTransformer):
                 rest += [keyword.value for keyword in keywords if keyword.arg == "default" and name in ("min", "max")]
                 if name in OF_KEPT and keeps(some) and len(rest) == len(node.args) - 1 + len(keywords):
                     return self.generic_visit(of_kept(node, OF_KEPT[name], some, *rest))
+            case ast.Call(ast.Attribute(_, "join"), [ast.GeneratorExp() as some], []):  # which reads all of it at once
+                node.args = [ast.copy_location(ast.ListComp(some.elt, some.generators), some)]
         self.generic_visit(node)
         if isinstance(node.func, ast.Name) and node.func.id in _NAMES:
             node.func = ast.copy_location(ast.Name(f"recorded {node.func.id}", ast.Load()), node.func)

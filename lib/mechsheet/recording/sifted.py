@@ -7,6 +7,7 @@ from typing import Any
 
 from mechsheet.quantities.graph import NotRecorded
 from mechsheet.quantities.quantity import Quantity
+from mechsheet.quantities.written import Written, either, joined
 
 Pairs = list[tuple[Any, Any]]  # of every element whether it is kept, and its value
 _READ = (
@@ -58,6 +59,25 @@ class Sifted(list[Any]):
     def _look(self) -> None:
         for holds, _ in self.pairs:
             bool(holds)
+
+
+def joined_kept(sign: Any, parts: Any) -> Any:
+    """``sign.join(parts)``, of texts that are kept by conditions as well."""
+    texts = (
+        isinstance(sign, str)
+        and isinstance(parts, Sifted)
+        and all(isinstance(x, str | Written) for _, x in parts.pairs)
+    )
+    if not texts or not parts.pairs:
+        return joined(sign, parts)
+    said, before = list[str | Written](), None
+    for holds, value in parts.pairs:
+        behind = joined(sign, ["", value])
+        if before is not None:
+            value = behind if before is True else either(before, behind, value)
+        said.append(value if holds is True else either(holds, value, ""))
+        before = True if before is True or holds is True else holds if before is None else before | holds
+    return joined("", [Written(()), *said])
 
 
 def _now(holds: Any) -> bool:
