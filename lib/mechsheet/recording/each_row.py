@@ -277,6 +277,11 @@ class EachRow(Sifted, Listed):
             return None
         return parts if self.every else Selected(parts, self.holds)
 
+    def each(self) -> list[tuple[Any, Any]]:
+        """As many as there are rows now."""
+        rows = range(len(self.holds)) if self.pairs else ()
+        return [(True if self.every else self.holds[k], self.parts[k]) for k in rows]
+
     def held(self) -> list[Any]:
         return [self.holds, *per_row.held_by(self.parts)] if self.pairs else [*list.__iter__(self)]
 

@@ -40,6 +40,10 @@ class Sifted(list[Any]):
         """Whether there are any."""
         return reduce(or_, (holds for holds, _ in self.pairs))
 
+    def each(self) -> Pairs:
+        """Of every element whether it is kept, and the element."""
+        return self.pairs
+
     def held(self) -> list[Any]:
         """All that it is made of, for who does not read it."""
         return [*list.__iter__(self), *(part for pair in self.pairs for part in pair)]
@@ -63,15 +67,11 @@ class Sifted(list[Any]):
 
 def joined_kept(sign: Any, parts: Any) -> Any:
     """``sign.join(parts)``, of texts that are kept by conditions as well."""
-    texts = (
-        isinstance(sign, str)
-        and isinstance(parts, Sifted)
-        and all(isinstance(x, str | Written) for _, x in parts.pairs)
-    )
-    if not texts or not parts.pairs:
+    pairs = parts.each() if isinstance(sign, str) and isinstance(parts, Sifted) else []
+    if not pairs or not all(isinstance(x, str | Written) for _, x in pairs):
         return joined(sign, parts)
     said, before = list[str | Written](), None
-    for holds, value in parts.pairs:
+    for holds, value in pairs:
         behind = joined(sign, ["", value])
         if before is not None:
             value = behind if before is True else either(before, behind, value)
