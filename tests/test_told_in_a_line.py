@@ -10,6 +10,7 @@ from test_launcher import refusal
 
 from mechsheet.run import rename
 from mechsheet.studies import asked_design
+from mechsheet.worksheet import mistakes
 
 HITCH = Path(__file__).parents[1] / "worksheets" / "hitch.py"
 SETUP = (
@@ -54,7 +55,7 @@ IN_WORDS = {  # what Python says in words about values that nobody sees in the l
     "no return": ("def f(x):\n    x * 2\ny = 2 * f(1)  # [-] y", "a function without return gives None"),
     "the imaginary unit": ("y = 2 * j  # [-] y", "(the imaginary unit is 1j)"),
     "a switch": ("y = 2 * yes  # [-] y", "(did you mean True?)"),
-    "another unit": ("from mechsheet.units import Rpm\ny = g.F  # [N] y", "has no Rpm (did you mean rpm?)"),
+    "another unit": ("from mechsheet.units import Rpm\ny = g.F  # [N] y", "unit Rpm is not known; nearest: rpm"),
     "marks without names": (
         "from mechsheet import figure\nx = np.arange(3)  # [-] x\nfig = figure('1', 'x', x, x, marks=2)",
         "figure 1: marks must be positions by their names",
@@ -189,3 +190,14 @@ def test_a_unit_without_brackets_is_told(tmp_path: Path) -> None:
     run = as_script(worksheet(tmp_path, "s = g.F / g.L**2  # MPa stress"))
     says = "told.py, line 34, s = g.F / g.L**2: # MPa stress has no brackets: # [MPa] stress"
     assert run.returncode == 0 and says in run.stdout, run.stdout
+
+
+@pytest.mark.parametrize(
+    ("name", "told"),
+    [("hour", "unit hour is not known; nearest: h"), ("Newton", "unit Newton is not known; nearest: N"),
+     ("kw", "unit kw is not known; nearest: kW"), ("qqqq", "mechsheet.units has no qqqq")],
+)  # fmt: skip
+def test_of_a_unit_that_is_taken_in_by_another_name_the_one_that_is_meant_is_told(name: str, told: str) -> None:
+    with pytest.raises(ImportError) as raised:
+        exec(f"from mechsheet.units import {name}")
+    assert mistakes.why(raised.value, ()) == told

@@ -142,6 +142,8 @@ def why(error: BaseException, known: Iterable[str], text: str = "", inputs: Cont
             return f"the table has no column {name}{_near(name, vars(error.obj))}"
     if imported := re.match(r"cannot import name '(\w+)' from '([\w.]+)'", str(error)):
         name, module = imported.groups()
+        if module == "mechsheet.units" and (meant := units.nearest(name)):
+            return f"unit {name} is not known; nearest: {', '.join(meant)}"
         return f"{module} has no {name}{_near(name, dir(sys.modules.get(module)))}"
     said = " ".join(as_written(str(error)).split())
     if " " not in said:  # the bare name of a key, or nothing
