@@ -73,6 +73,8 @@ CONSTRUCTS = [
     "K = np.array([[2 * g.F, -g.F], [-g.F, g.F + g.a]])\ny = np.linalg.solve(K, [1.0, 2.0])",
     "K = np.array([[2 * g.F, -g.F], [-g.F, g.F + g.a]])\ny = np.linalg.eigvalsh(K)",
     "K = np.array([[2 * g.F, -g.F], [-g.F, g.F + g.a]])\ny = np.sqrt(np.linalg.eigh(K)[0])",
+    "K = np.array([[2 * g.F, -g.F], [-g.F, g.F + g.a]])\nw, V = np.linalg.eigh(K)\ny = V[1] / V[0]",
+    "K = np.array([[2 * g.F, -g.F], [-g.F, g.F + g.a]])\nw, V = np.linalg.eigh(K)\ny = w * len(f'{V}')",
     "K = np.array([[2 * g.F, -g.F], [-g.F, g.F + g.a]])\ny = np.linalg.inv(K)[0] @ np.array([1.0, g.a])",
     "K = np.array([[2 * g.F, -g.F], [-g.F, g.F + g.a]])\ny = np.linalg.det(K) + np.linalg.norm(K) + np.trace(K)",
     "K = np.array([[2 * g.F, -g.F], [-g.F, g.F + g.a]])\ny = np.linalg.matrix_power(K, 2)[0]",

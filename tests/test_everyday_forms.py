@@ -236,6 +236,10 @@ PLACED = [  # by a condition that tells other elements for other inputs
     "z = x + 1j * g.a\nz[np.flatnonzero(x > g.F)] = 2.0\ny = abs(z).sum()",
     "Z = np.outer(x, [1.0, g.a])\nZ[Z > g.F] = 0.0\ny = Z.sum()",
 ]
+EIGEN = [  # of which the vectors have a sign as numpy's steps end
+    "w, V = np.linalg.eigh(np.array([[2 * g.F, -g.F], [-g.F, g.F + g.a]]))\ny = np.sqrt(w)",
+    "r = np.linalg.eigh(np.diag([g.F, 2.0, 3.0]) - g.a)\ny = r[1] * 0 + r.eigenvalues if g.F < 0 else r[0]",
+]
 WORDS = [  # one of two texts, and a condition as a number
     "kind = 'root' if g.F > 3 else 'flank'\ny = 2.0 if kind == 'root' else g.a",
     "kind = 'root'\nif g.F > 3:\n    kind = 'flank'\nR = {'root': 2.0, 'flank': g.a}\ny = R[kind] * (kind in R) * g.F",
@@ -276,7 +280,7 @@ def test_an_everyday_form_is_followed(lines: str, tmp_path: Path) -> None:
     sheet = own(tmp_path, f"{lines}\nresult = np.atleast_1d(y) * 1  # [-] line")
     _, recording = recorded(sheet)
     told = recording.gaps or [guard for guard in recording.guards.values() if not guard.rows]
-    assert bool(told) is (lines in [*GUARDED, *POLYNOMIALS])
+    assert bool(told) is (lines in [*GUARDED, *POLYNOMIALS, EIGEN[0]])
     for given in ELSEWHERE:
         own_value = by_cells(sheet.path, ["result"], **given)["result"]
         value = value_of(recording, "result", given)

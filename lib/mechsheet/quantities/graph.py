@@ -76,6 +76,7 @@ class Graph(Lengths):
     def __init__(self, thin: int = 1, draws: bool = False, lists: bool = False, bodies: bool = False) -> None:
         super().__init__()
         self.thin = thin
+        self.untold: list[str] = []  # why the present statement has numbers of now alone
         self.bodies = bodies
         self.draws = draws  # drawings are recorded too
         self.lists = lists  # those among the inputs may have any length

@@ -1,6 +1,6 @@
 """Matrix products and small systems of linear equations of recorded quantities."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import partial, reduce
 from itertools import combinations
 from typing import Any
@@ -8,7 +8,9 @@ from typing import Any
 import numpy as np
 
 from mechsheet.quantities.arithmetic import absolute, choice
+from mechsheet.quantities.array_rules import ordered
 from mechsheet.quantities.graph import Graph, NotRecorded
+from mechsheet.quantities.node import bottom_up
 from mechsheet.quantities.quantity import Quantity, lift, moved
 
 _MOST = 6  # equations
@@ -186,3 +188,39 @@ def eigenvalues(graph: Graph, A: Any, UPLO: str = "L") -> list[Any]:
             a[min(r, p)][max(r, p)], a[min(r, q)][max(r, q)] = c * (x - turn * y), c * (turn * x + y)
         a[p][q] = lift(graph, 0.0)
     return [a[k][k] for k in range(len(a))]
+
+
+class Eigen(Sequence[Any]):
+    """What numpy's eigh gives; of eigenvectors only those of now are known, for their sign is as its own steps end."""
+
+    def __init__(self, matrix: Quantity, UPLO: Any) -> None:
+        self._matrix, self._of = matrix, UPLO
+
+    @property
+    def eigenvalues(self) -> Any:
+        return eigenvalues_in_order(self._matrix.graph, self._matrix, self._of)
+
+    @property
+    def eigenvectors(self) -> Any:
+        graph = self._matrix.graph
+        under = [node for node in bottom_up(self._matrix.parts, ()) if node.op == "input"]
+        graph.untold.append("eigenvectors: their sign is as numpy's own steps end")
+        return Quantity(graph, graph.exported(under, np.linalg.eigh(self._matrix.value, self._of)[1]))
+
+    def __len__(self) -> int:
+        return 2
+
+    def __getitem__(self, key: Any) -> Any:
+        return (self.eigenvalues if key in (0, -2) else self.eigenvectors) if key in (0, 1, -1, -2) else ()[key]
+
+
+def eigenvalues_in_order(graph: Graph, A: Any, UPLO: str = "L") -> Any:
+    """numpy's eigvalsh."""
+    return ordered(graph, moved(lift(graph, eigenvalues(graph, A, UPLO)), 0, -1))
+
+
+def eigen(graph: Graph, A: Any, UPLO: str = "L") -> Eigen:
+    """numpy's eigh; scipy's of two matrices is another one."""
+    if not isinstance(UPLO, str):
+        raise NotRecorded("eigenvalues of a matrix over another one")
+    return Eigen(lift(graph, A), UPLO)

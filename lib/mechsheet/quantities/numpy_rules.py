@@ -28,7 +28,8 @@ from mechsheet.quantities.graph import Graph, NotRecorded
 from mechsheet.quantities.linear_rules import (
     determinant,
     diagonal,
-    eigenvalues,
+    eigen,
+    eigenvalues_in_order,
     inverse,
     kron,
     lower,
@@ -315,9 +316,8 @@ _OF_FUNCTIONS: dict[Any, Callable[..., Any]] = {
     np.outer: outer, np.linalg.solve: solution, np.linalg.det: determinant, np.linalg.norm: norm,
     np.linalg.inv: inverse, np.cumulative_sum: _so_far("sum"),
     np.sinc: lambda graph, x: choice(graph, lift(graph, x) == 0, 1.0, np.sin(np.pi * x) / (np.pi * x)),
-    np.linalg.eigvalsh: lambda graph, A, UPLO="L": ordered(
-        graph, moved(lift(graph, eigenvalues(graph, A, UPLO)), 0, -1)
-    ),
+    np.linalg.eigvalsh: eigenvalues_in_order,
+    np.linalg.eigh: eigen,
     np.histogram: histogram,
     np.trace: lambda graph, A: lift(graph, A)[np.arange(len(A)), np.arange(len(A))].reduced("sum"),
     np.trim_zeros: polynomial_rules.without_zeros,

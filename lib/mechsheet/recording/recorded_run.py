@@ -202,6 +202,8 @@ class Run(OfPositions):
         differs: list[str] = []
         try:
             exec(facts.code, self.names)
+            self.recording.gaps += [Gap((), graph.line, why) for why in graph.untold]
+            graph.untold.clear()
             self.measure(touched, reads)
             differs = self.differing(stage, final)
             if graph.thin > 1:

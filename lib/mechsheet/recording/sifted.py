@@ -70,7 +70,8 @@ def joined_kept(sign: Any, parts: Any) -> Any:
     pairs = parts.each() if isinstance(sign, str) and isinstance(parts, Sifted) else []
     if not pairs or not all(isinstance(x, str | Written) for _, x in pairs):
         return joined(sign, parts)
-    said, before = list[str | Written](), None
+    said = list[str | Written]()
+    before: Any = None  # whether any is kept before it
     for holds, value in pairs:
         behind = joined(sign, ["", value])
         if before is not None:

@@ -69,7 +69,7 @@ class Check(Shown):
         """The utilisation in per cent, told apart from 100; nothing where there is none."""
         part = self.utilisation
         if 0 < part < LITTLE:
-            return f"under {100 * LITTLE:g} %"
+            return f"under {numbers.significant(100 * LITTLE, 1)} %"
         return f"{numbers.apart([100 * part, 100.0], digits=3)[0]} %" if np.isfinite(part) else ""
 
     def shown_in(self, unit: str) -> "Check":
