@@ -202,8 +202,12 @@ class Run(OfPositions):
         differs: list[str] = []
         try:
             exec(facts.code, self.names)
-            self.recording.gaps += [Gap((), graph.line, why) for why in graph.untold]
-            graph.untold.clear()
+            if graph.untold:
+                alone = {
+                    name for name in final if getattr(getattr(self.names.get(name), "re", None), "op", "") == "exported"
+                }
+                self.recording.gaps.append(Gap(tuple(sorted(alone)), graph.line, graph.untold[0]))
+                graph.untold.clear()
             self.measure(touched, reads)
             differs = self.differing(stage, final)
             if graph.thin > 1:
