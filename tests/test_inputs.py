@@ -3,13 +3,16 @@
 import re
 from dataclasses import replace
 from math import pi
+from pathlib import Path
 
 import numpy as np
 import pytest
 from cells import run
 from hypothesis import given
 from hypothesis import strategies as st
+from own_worksheet import written
 
+from mechsheet import load
 from mechsheet.worksheet import inputs, limits
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.kinds import number
@@ -86,7 +89,7 @@ def test_replaced_inputs_are_checked_too(Arm):
 def test_inputs_of_which_the_declared_ones_break_a_limit_are_refused_until_they_are_replaced(order):
     """Whatever is built first: what is known of a class's own values is no reason to look away."""
     Arm = run(CELL.replace("S_max: float = 0.67", "S_max: float = 0.40"))["Arm"]
-    unmet = "least stroke S_min = 0.42 m must be < S_max = 0.4"
+    unmet = ", line 10: least stroke S_min = 0.42 m must be < S_max = 0.4"
     for k in order:
         values, says = [({}, unmet), ({"L5": 0.5}, unmet), ({"S_max": 0.5}, ""), ({"S_min": 0.3}, "")][k]
         if not says:
@@ -94,7 +97,7 @@ def test_inputs_of_which_the_declared_ones_break_a_limit_are_refused_until_they_
             continue
         with pytest.raises(SheetError) as error:
             inputs.build(Arm, values)
-        assert str(error.value) == says
+        assert str(error.value).endswith(says)
 
 
 def test_display_units_at_the_edge(Arm):
@@ -240,3 +243,27 @@ def test_an_array_is_checked_in_the_display_unit(Arm):
     cell = CELL.replace("# [deg] angle", "# [deg] angle; < 90")
     with pytest.raises(SheetError, match=r"angle phi = 100\.0\d* deg must be < 90"):
         replace(run(cell)["Arm"](), phi=np.deg2rad([80.0, 100.0]))
+
+
+@pytest.mark.parametrize(
+    ("line", "said"),
+    [
+        (
+            "a: float = 20  # [deg] angle; > 0 <= 25",
+            "angle a = 1145.9155.* deg must be <= 25; 20 is taken in rad: write 20 ",
+        ),
+        ("a: float = 30 * deg  # [deg] angle; > 0 <= 25", "angle a = 30.* deg must be <= 25$"),
+        ("a: float = -2.0  # [m] arm; > 0", r"arm a = -2.0 m must be positive$"),
+    ],
+)
+def test_a_value_of_the_class_that_cannot_be_used_is_told_with_its_line(line: str, said: str, tmp_path: Path) -> None:
+    """A number without a unit was told as another one, and nobody said where it stood."""
+    path = tmp_path / "angle.py"
+    setup = "from mechsheet import ask, inputs, read\nfrom mechsheet.units import deg"
+    path.write_text(written(setup, line, "y = g.a  # [-] y"))
+    number = next(n for n, text in enumerate(path.read_text().splitlines(), 1) if line in text)
+    with pytest.raises(SheetError, match=rf"^angle\.py, line {number}: {said}"):
+        load(path).inputs()
+    with pytest.raises(SheetError, match=r"^[^:]*$"):
+        inputs.build(load(path).inputs, {"a": -1.0})
+    assert inputs.build(load(path).inputs, {"a": 3.0}).a > 0

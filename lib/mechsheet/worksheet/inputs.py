@@ -13,7 +13,8 @@ from typing import Any, Literal, TypeVar, dataclass_transform, get_args, get_ori
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mechsheet.worksheet import deviation, errors, limits, lines, source
+from mechsheet.units import parse, si
+from mechsheet.worksheet import deviation, errors, limits, lines, numbers, source
 from mechsheet.worksheet.errors import SheetError, refuse
 from mechsheet.worksheet.kinds import Choice, Input, Offer, Switch
 from mechsheet.worksheet.lists import Rows
@@ -97,6 +98,7 @@ def _declared(cls: type, cell: source.Cell, names: Mapping[str, Any]) -> tuple[I
     body = next(node for node in nodes if isinstance(node, ast.ClassDef) and node.name == cls.__name__)
     folder = str(Path(names.get("__file__") or "x").resolve().parent)
     found, places, section, line = list[Input](), dict[str, str](), "", body.lineno
+    written = dict[str, tuple[str, str, str]]()  # place, what is written there, and the unit of each
     for node in body.body:
         between = [cell.comments[n] for n in range(line + 1, node.lineno) if n in cell.comments]
         section, line = between[-1] if between else section, node.end_lineno or node.lineno
@@ -138,6 +140,8 @@ def _declared(cls: type, cell: source.Cell, names: Mapping[str, Any]) -> tuple[I
                 raise SheetError(f"{place}: {error}") from None
         found.append(own)
         places[name] = place
+        alone = kind is float and isinstance(node.value, ast.Constant) and not mistake and parse(unit).factor != 1
+        written[name] = place, ast.unparse(node.value) if alone and node.value else "", unit
     if without := [f.name for f in found if f.name not in vars(cls)]:
         if len(without) < len(found):
             needs = f"input {without[0]} needs a value, such as {without[0]}: float = 1.0"
@@ -153,6 +157,7 @@ def _declared(cls: type, cell: source.Cell, names: Mapping[str, Any]) -> tuple[I
     unknown = {field.name for field in found if field.mistake}
     found = [_without(field, unknown) for field in found] if unknown else found
     limits.comparable(found, places)
+    cls.__places__ = written  # type: ignore[attr-defined]
     return tuple(found)
 
 
@@ -228,7 +233,17 @@ def _validate(self: Any) -> None:
     for field in given:
         object.__setattr__(self, field.name, field.taken(getattr(self, field.name)))
     for refusal in _refusals(self, fields, given if cls.__within__ else fields):
-        raise refusal
+        raise refusal if cls.__within__ else _at_its_line(cls, refusal)
+
+
+def _at_its_line(cls: Any, refusal: SheetError) -> SheetError:
+    """Why a value cannot be used; of one of the class, where it stands, and in what unit a number alone is taken."""
+    name, fields = refusal.of, declared(cls)
+    if name not in cls.__places__ or str(refusal) not in map(str, _refusals(cls, fields, fields)):
+        return refusal
+    place, text, unit = cls.__places__[name]
+    taken = f"; {text} is taken in {numbers.in_text(si(unit))}: write {text} * {unit}" if text else ""
+    return SheetError(f"{place}: {refusal}{taken}", name)
 
 
 def _refusals(g: Any, fields: Iterable[Input], given: Iterable[Input]) -> Iterator[SheetError]:
