@@ -230,14 +230,16 @@ def test_every_session_has_its_own_inputs(serve, browser, page):
 
 def test_outline_leads_to_the_sections(page):
     page.wait_for_function("() => 'measured' in document.documentElement.dataset")
-    page.mouse.move(1240, 0.25 * 1600 + 30)  # the marks at the right edge open it
-    page.get_by_text("6 Steering stability").last.click()
     heading = page.get_by_role("heading", name="6 Steering stability")
     places = [inf]
 
-    def rests_in_sight() -> bool:  # it scrolls smoothly
+    def rests_in_sight() -> bool:  # it scrolls smoothly, and past it where something above is drawn meanwhile
         places.append(heading.bounding_box()["y"])
         drawn(page)
+        if places[-1] == places[-2] and not -1 < places[-1] < 800:
+            page.mouse.move(600, 400)
+            page.mouse.move(1240, 0.25 * 1600 + 30)  # the marks at the right edge open it
+            page.get_by_text("6 Steering stability").last.click()
         return -1 < places[-1] < 800 and places[-1] == places[-2]
 
     until(page, rests_in_sight, "the section is not in sight")
