@@ -336,8 +336,9 @@ class Follower:
         """Attribute of the verdict of a check."""
         held = self.recording.checks.get(check.name)
         spec = {"name": check.name, "essential": check.essential, "agreement": check.agreement}
-        if held and (said := self.recording.said.get(of := f"check {check.name} name")) is not None:
-            spec["title"] = wording.of_name(said, self.in_words, self.key, self.key(self.recording.worded[of]))
+        if held and (said := self.recording.name_said(check.name)) is not None:
+            holds = self.key(self.recording.worded[f"check {check.name} name"])
+            spec["title"] = wording.of_name(said, self.in_words, self.key, holds)
         if held is None:
             return self.mark("check", keys=None, **spec)
         unit = check.unit if held.unit == "-" else held.unit
@@ -356,7 +357,7 @@ class Follower:
 
     def check_name(self, check: Check) -> str:
         """HTML of the name of a check."""
-        said = self.recording.said.get(f"check {check.name} name")
+        said = self.recording.name_said(check.name)
         if said is None or check.name not in self.recording.checks:
             return self.in_words(check.name)
         shown = "".join(self.in_words(p) if isinstance(p, str) else escape(Written((p,)).now) for p in said.parts)

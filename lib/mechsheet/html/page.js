@@ -15,7 +15,6 @@ const state = {changed: new Set(), refused: false, results: null};
 const moving = new Map(); // by the name of the control: its positions, pictures and marks, and which of them is shown
 
 const ENDS = 100; // rows at either end of a table that are shown: see `rows` of the document
-const LITTLE = 1e-4; // of a limit: what takes less takes nothing of it, as a check of the worksheet says
 
 // Each kind of element: from the results to what stands in it; nothing where that is not known.
 const show = {
@@ -157,7 +156,7 @@ function judged(spec, results) {
 
 // What part of its limit a quantity takes, told apart from 100 %.
 const utilised = part =>
-  (isFinite(part) ? (part > 0 && part < LITTLE ? `under ${100 * LITTLE} %` : `${apart([100 * part, 100], 3)[0]} %`) : "");
+  (isFinite(part) ? (part > 0 && part < told.little ? `under ${100 * told.little} %` : `${apart([100 * part, 100], 3)[0]} %`) : "");
 
 function tell(element, {kind, word, compared, reason, part = NaN}) {
   const badge = element.querySelector(".ms-badge");

@@ -26,7 +26,7 @@ from mechsheet.recording.memory import names_of
 from mechsheet.recording.record import record
 from mechsheet.worksheet import symbol as symbols
 from mechsheet.worksheet.cells import Cell, Worksheet
-from mechsheet.worksheet.check import Check, Summary, checks_of, refuse_open
+from mechsheet.worksheet.check import LITTLE, Check, Summary, checks_of, refuse_open
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.force_diagram import polar_diagrams
 from mechsheet.worksheet.inputs import Used, declared
@@ -111,6 +111,7 @@ def _page(sheet: Worksheet, namespace: dict[str, Any], lists: bool) -> str:
         "name": Path(sheet.path).stem,
         "inputs": fields.told(inputs_of(namespace)),
         "shown": follower.specs,
+        "little": LITTLE,
         "symbols": _symbols(namespace, shown),
         "pictures": follower.pictures,
         "units": follower.units,

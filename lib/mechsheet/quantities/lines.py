@@ -144,6 +144,10 @@ class Recording:
             if self.names.get(part.node) != part.symbol:
                 self.others.setdefault(section, []).append(part)
 
+    def name_said(self, check: str) -> Written | None:
+        """The name of a check with the recorded numbers or texts in it; None of one without."""
+        return self.said.get(f"check {check} name")
+
     def shown(self) -> Iterator[Node]:
         """What the tables, figures, checks, found values and marks are made of."""
         columns = chain.from_iterable(self.tables.values())

@@ -120,8 +120,7 @@ class Arrangement:
     def _place_others(self, name: Callable[[str, str], str]) -> list[Section]:
         """Sheets for all that stands neither on a table's sheet nor among inputs and found values."""
         names = dict(self.recording.names)
-        said = self.recording.said
-        checks = [(said[key].fixed if (key := f"check {name} name") in said else name, each)
+        checks = [(name if (said := self.recording.name_said(name)) is None else said.fixed, each)
                   for name, each in self.recording.checks.items()]  # fmt: skip
         for stated, check in checks:
             for m, part in enumerate(check.parts, 1):

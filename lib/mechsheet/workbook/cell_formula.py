@@ -240,7 +240,7 @@ class CellFormulas:
         if node.op == "div" and not first:
             beyond = f"0*{other}"
         elif node.op in ("mul", "div"):
-            beyond = f"{one}*SIGN{other}/({other}<>0)"
+            beyond = f"IF({other}=0,NA(),{one}*SIGN{other})"
         else:
             beyond = f"{'-' if node.op == 'sub' and not first else ''}{one}+0*{other}"
         return f"IF(ABS{one}<{_INFINITE},{_TEXT[node.op][0].format(a, b)},{beyond})"

@@ -77,9 +77,7 @@ class SheetFormulas:
         if _are_fixed(rows.re):
             cells = [place.text(k) for k in rows.value.reshape(-1).tolist()]
         else:  # of rows in an order that numbers give
-            last = place.text(self.recording.inputs[name].size - 1).rpartition("!")[2]
-            at = self._cells.references(rows.re, 1.0)
-            cells = [f"INDEX({place.text(0)}:{last},{each[1:]}+1)" for each in at]
+            cells = [f"INDEX({self._typed(name)},{each[1:]}+1)" for each in self._cells.references(rows.re, 1.0)]
         return [f'=IF(ISNUMBER({x[1:]}),{cell}&"",NA())' for x, cell in zip(same, cells, strict=True)]
 
     def moves_along(self, figure: Figure) -> bool:
@@ -145,7 +143,7 @@ class SheetFormulas:
 
     def name_of(self, check: str) -> Content:
         """The name of a check, with the numbers and texts in it, and whether it looks at fewer positions."""
-        held, said = self.recording.checks.get(check), self.recording.said.get(f"check {check} name")
+        held, said = self.recording.checks.get(check), self.recording.name_said(check)
         where = f", {held.where}" if held and held.where else ""
         return self.words(f"check {check} name", check + where, said.fixed + where if said is not None else "")
 
@@ -160,10 +158,8 @@ class SheetFormulas:
         holds, said = self.recording.worded.get(key), self.recording.said.get(key)
         if not text or holds is None:
             return text
-        now = quoted(text)
-        if (
-            said is not None and (known := allowed(said.now)) and known in text
-        ):  # else it is but what stands before the numbers
+        now, known = quoted(text), allowed(said.now) if said is not None else ""
+        if said is not None and known and known in text:  # of others it is but what stands before the numbers
             before, _, behind = text.partition(known)
             now = text_formula(before + said + behind, lambda node: self._cells.reference(node)[1:], self._typed)
         if holds.op != "constant":
