@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 from conftest import ROOT, WITHIN, until
-from playwright.sync_api import expect
+from playwright.sync_api import Route, expect
 
 from mechsheet import evaluate, units
 
@@ -63,6 +63,32 @@ def test_a_step_back_and_on_the_documents_own_and_a_link(
     expect(states).to_contain_text("as in the document")
     expect(field).to_have_value(own)
     until(page, lambda: "#" not in page.url, "the address has not followed")
+
+
+def test_undo_and_redo_hold_however_long_the_page_computes(press: Path, left_open: Callable[[Path, str], Page]) -> None:
+    """With what it was computing before, too: that is no step of its own."""
+    page = left_open(press, "as in the document")
+    states, held = page.locator("ms-states"), list[Route]()
+    for text, told in (("52", "r = 52 mm"), ("0,055 m", "r = 55 mm")):
+        fill(page, "r", text)
+        expect(states).to_contain_text(told)
+    fill(page, "r", "-1")
+    expect(states).to_contain_text("not computed with what the fields say")
+    page.route("**/set_ui_element_value", lambda route: held.append(route))
+    states.get_by_role("button", name="undo").dblclick()
+    until(page, lambda: bool(held), "the fields have told of nothing")
+    page.wait_for_timeout(1500)  # a slow machine
+    while held:
+        held.pop(0).continue_()
+    page.unroute("**/set_ui_element_value")
+    expect(states).to_contain_text("r = 52 mm")
+    expect(states.get_by_role("button", name="redo")).to_be_enabled()
+    states.get_by_role("button", name="redo").click()
+    expect(states).to_contain_text("r = 55 mm")
+    expect(states.get_by_role("button", name="redo")).to_be_disabled()
+    for told in ("r = 52 mm", "as in the document"):
+        states.get_by_role("button", name="undo").click()
+        expect(states).to_contain_text(told)
 
 
 DEAF_ONCE = """() => {

@@ -5,11 +5,10 @@
   let fields = []; // as they were last computed with
   const steps = []; // sets of texts that the page has computed, by the names of the inputs
   let at = -1;
-  let wanted = null; // a set on its way through the page
-  let asked = null; // the last one that was asked for
-  let typed = true; // whether the page has heard all its fields: a busy machine draws them late, and hears them later still
-  const heard = new Set(); // which have told their values since they were typed into
-  const QUIET = 500; // ms without a run: what was typed has been computed with
+  let asked; // the set that was last typed into the fields
+  let wanted = false; // whether the page has yet to compute it, and the user has typed nothing since
+  let linked = false; // whether an address wants it, perhaps in other words than the page: 0,055 m is told as 55
+  const heard = new Set(); // fields that have told their values since they were typed into
 
   // The element beside the fields tells of all that have changed; of each alone marimo would keep the last, and lose
   // what was typed before it while the page computed.
@@ -22,6 +21,15 @@
   };
   window.addEventListener("marimo-value-ready", hear, true);
 
+  // What the user types is a step of its own; what is typed here does not leave the field's shadow.
+  const byHand = ({ target, isTrusted }) => {
+    const cell = isTrusted && target.closest?.("td[data-input]");
+    if (!cell) return;
+    heard.add(cell.dataset.input);
+    wanted = false;
+  };
+  ["input", "change", "click"].forEach((kind) => document.addEventListener(kind, byHand, true));
+
   const setter = (kind) => Object.getOwnPropertyDescriptor(kind.prototype, "value").set;
   const same = (a, b) => Object.keys(a).every((name) => a[name] === b[name]);
 
@@ -33,8 +41,7 @@
   function typeAll(names, texts, tries = 300) {
     if (asked !== texts) return; // another set has been asked for since
     const late = names.filter((name) => !heard.has(name));
-    typed = !tries || !late.length;
-    if (typed) return eachBar((bar) => bar.follow());
+    if (!tries || !late.length) return;
     late.filter(fieldOf).forEach((name) => type(name, texts[name]));
     setTimeout(() => typeAll(late, texts, tries - 1), 100);
   }
@@ -114,21 +121,20 @@
     follow() {
       const now = Object.fromEntries(fields.map(({ name, text }) => [name, text]));
       const first = at < 0;
-      if (wanted && same(wanted, now)) wanted = null;
-      if (!wanted && (first || !same(steps[at], now))) steps.splice(++at, steps.length, now);
-      clearTimeout(this.quiet);
-      // What an address says in other words than the page, such as 0,055 m, is never the same.
-      if (wanted && typed) this.quiet = setTimeout(() => (wanted = null, this.follow()), QUIET);
+      if (!first && same(steps[at], now)) wanted = false;
+      else if (!wanted) steps.splice(++at, steps.length, now);
+      else if (linked && !same(steps[at - 1], now)) steps[at] = now;
       this.show();
       const given = textsIn(location.hash);
       if (first && given.size) this.open(given);
-      else if (!wanted) whenIdle(() => this.address()); // which takes longer than all else here
+      else if (same(steps[at], now)) whenIdle(() => this.address()); // which takes longer than all else here
     }
 
     // What a link carries holds from the beginning.
     open(given) {
       const known = Object.keys(steps[at]).filter((name) => given.has(name));
       this.to({ ...steps[at], ...Object.fromEntries(known.map((name) => [name, given.get(name)])) });
+      linked = true;
     }
 
     // Whether the fields show the last set that was computed, which is on its way again.
@@ -192,9 +198,7 @@
       const now = Object.fromEntries(fields.map(({ name, text }) => [name, shown(name) ?? text]));
       const others = Object.keys(texts).filter((name) => texts[name] !== now[name]);
       if (!same(steps[at], texts)) steps.splice(++at, steps.length, texts);
-      const reached = fields.every(({ name, text }) => texts[name] === text);
-      wanted = reached ? null : texts;
-      asked = texts;
+      [asked, wanted, linked] = [texts, others.length > 0, false];
       heard.clear();
       typeAll(others, texts);
     }
