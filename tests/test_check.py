@@ -207,7 +207,7 @@ def test_limits_of_an_assembly_are_two():
         (("a", "big", 2.0), "check a: its residual must be numbers, not 'big'"),
         (("a", 1.0, "2"), "check a: its limit must be one number, not '2'"),
         (("a", 1.0, np.array([1.0, 2.0])), "check a: its limit must be one number, not [1. 2.]"),
-        (("a", 1.0, None), "check a: its limit must be one number, not None"),
+        (("a", 1.0, None), "check a: it has no limit: give the limit behind the quantity, or at_least="),
         (("a", 1.0, 2.0, "mmm"), "check a: unit [mmm] is not known"),
     ],
 )

@@ -251,9 +251,10 @@ def test_every_requirement_is_a_check_of_the_design(run):
     names = evaluate(DESIGN, ["design", "checks_design"], dG_req=-50, dRa_req=5, mu_req=5, Y56_req=0.5, **QUICK)
     checks = names["checks_design"]
     assert len(checks) == 9 and all(check.passed for check in checks)
+    assert (checks[0].at_least, checks[0].limit) == (True, pytest.approx(-50))
     found = evaluate(HITCH, ["dGS65", "dRa"], **names["design"].inputs)
-    assert checks[0].residual == pytest.approx(-50 - 100 * np.min(found["dGS65"]), abs=1e-9)
-    assert checks[1].residual == pytest.approx(5 - 100 * np.min(found["dRa"]), abs=1e-9)
+    assert checks[0].residual == pytest.approx(100 * np.min(found["dGS65"]), abs=1e-9)
+    assert checks[1].residual == pytest.approx(100 * np.min(found["dRa"]), abs=1e-9)
 
 
 # The scene file

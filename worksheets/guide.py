@@ -210,8 +210,8 @@ def section_6():
     the top of the page, in the workbook, and in the exit code of a run: a check that could not look at anything has not
     passed. Of a limit the check tells how much is taken, in per cent; the bar at the foot of the page names the worst
     one wherever you read, and a click leads to it. With `of`, the size of what two computations share, a check tells
-    within what they agree. What must be at least something is checked by the part that is needed,
-    `check("safety", g.S_min / S, 1)`. `check_slope` compares a derivative with differences.
+    within what they agree. What must be at least something, such as a safety, is checked from below:
+    `check("safety", S, at_least=g.S_min)`. `check_slope` compares a derivative with differences.
 
     **Try** a force of 90 kN. Then find with the field of `h` how much of the stroke the drive can work.
     """)

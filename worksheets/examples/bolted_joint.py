@@ -324,7 +324,7 @@ def strength(A_s, F_K0, F_S1, g, k_t, F_M):
         check("pull and torsion", sigma_r, g.grade.R_p, "ksi"),
         check("amplitude of the stress", sigma_a, sigma_A, "ksi"),
         check("pressure under the head", p_K, g.part.p_G, "ksi"),
-        check("grip at the gasket: F_R less F_K0", maximum(F_R - F_K0, 0), 0, "lbf"),
+        check("grip at the gasket: F_K0 less F_R", F_K0 - F_R, at_least=0, unit="lbf"),
     )
     typeset(*checks_strength)
     return F_R, S_F, checks_strength, sigma_r

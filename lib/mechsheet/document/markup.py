@@ -120,6 +120,8 @@ def compared(check: Check, unit: str, to: Notation = HTML) -> str:
 
     >>> compared(Check("stress", 330.0, 355.0, "MPa"), "MPa")
     '330 ≤ 355 MPa, 93 %'
+    >>> compared(Check("safety", 2.0, 1.5, at_least=True), "-")
+    '2 ≥ 1.5, 75 %'
     >>> compared(Check("loop", 2e-16, 1e-12, agreement=True), "-")
     'within 1\u202f·\u202f10<sup>−12</sup>'
     """
@@ -128,7 +130,8 @@ def compared(check: Check, unit: str, to: Notation = HTML) -> str:
     if check.agrees:
         return f"within {limit}"
     part = f", {check.utilised}" if check.utilised else ""
-    return f"{residual} {'≤' if check.passed else '&gt;'} {limit}{part}"
+    sign = ("≥" if check.passed else "&lt;") if check.at_least else "≤" if check.passed else "&gt;"
+    return f"{residual} {sign} {limit}{part}"
 
 
 def where(field: Any, over: Over | None) -> str:

@@ -351,6 +351,7 @@ class Follower:
             own=limit is not None,
             factor=factor,
             signed=held.signed,
+            least=held.at_least,
             behind=numbers.behind(unit, HTML),
             **spec,
         )

@@ -142,15 +142,17 @@ function judged(spec, results) {
   const all = parts.flatMap(part => (typeof part === "number" ? [part] : [...part]));
   const lost = all.filter(x => x !== x).length, limit = bound / (spec.own ? 1 : spec.factor);
   const sum = spec.essential && !spec.signed;
-  const residual = (sum ? all.reduce((a, b) => a + b, 0) : Math.max(...all)) / spec.factor;
+  const residual = (sum ? all.reduce((a, b) => a + b, 0) : Math[spec.least ? "min" : "max"](...all)) / spec.factor;
   const open = reason => ({kind: "OPEN", word: "not evaluated", compared: "", reason});
   if (!all.length) return open("there is nothing to check");
   if (lost) return open(`${lost} of ${all.length} values do not exist`);
   if (limit !== limit) return open("there is no limit");
-  const passed = residual <= limit, kind = passed ? "PASS" : "FAIL", agrees = spec.agreement && passed;
+  const passed = spec.least ? residual >= limit : residual <= limit, kind = passed ? "PASS" : "FAIL", agrees = spec.agreement && passed;
   const [a, b] = compared(residual, limit, agrees).map(inWords);
-  const told = agrees ? `within ${b}${spec.behind}` : `${a} ${passed ? "≤" : "&gt;"} ${b}${spec.behind}`;
-  const part = limit > 0 && !spec.agreement ? residual / limit : NaN, used = utilised(part);
+  const sign = passed ? (spec.least ? "≥" : "≤") : spec.least ? "&lt;" : "&gt;";
+  const told = agrees ? `within ${b}${spec.behind}` : `${a} ${sign} ${b}${spec.behind}`;
+  const [needs, has] = spec.least ? [limit, residual] : [residual, limit];
+  const part = limit > 0 && has > 0 && !spec.agreement ? needs / has : NaN, used = utilised(part);
   return {kind, word: kind, compared: `: ${told}${used && `, ${used}`}`, reason: "", part};
 }
 

@@ -35,6 +35,7 @@ class Line:
 class Residual:
     """What a check compares, in SI: the largest of some magnitudes, or one signed number, with its limit.
 
+    With ``at_least`` it is the smallest of some signed numbers that has a limit from below.
     ``where`` it looks, if at some positions alone: those that tables list, where the worksheet looks at all of them.
     """
 
@@ -43,6 +44,7 @@ class Residual:
     unit: str
     signed: bool = False
     where: str = ""
+    at_least: bool = False
 
 
 class Told(NamedTuple):

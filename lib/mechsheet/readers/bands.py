@@ -175,10 +175,11 @@ class Bands:
         if all(_is_step(part) for part, _ in parts):
             return self._at_ends(residual, passed)
         spread, limit = list[Values](), residual.limit.value
+        most = -1.0 if residual.at_least else 1.0
         for part, signed in parts:
             for sign in (1.0,) if signed else (1.0, -1.0):
-                reserve = np.asarray(limit - sign * part.value).reshape(1, -1)
-                moves = (_flat(bands[residual.limit].moves) - sign * _flat(bands[part].moves)) + 0.0 * reserve
+                reserve = np.asarray(most * (limit - sign * part.value)).reshape(1, -1)
+                moves = most * (_flat(bands[residual.limit].moves) - sign * _flat(bands[part].moves)) + 0.0 * reserve
                 spread.append(np.concatenate([reserve, moves]))
         return self._by_reserves(np.concatenate(spread, axis=1), passed)
 
@@ -204,7 +205,8 @@ class Bands:
         for node, t in zip(self.inputs, self.by, strict=True):
             for end in (t.value - t.size, t.value + t.size):
                 there = recomputed([*residual.parts, residual.limit], {node: end})
-                holds = all((there[part] <= there[residual.limit]).all() for part in residual.parts)
+                kept = np.greater_equal if residual.at_least else np.less_equal
+                holds = all(kept(there[part], there[residual.limit]).all() for part in residual.parts)
                 if holds != passed:
                     word = "fails" if passed else "holds"
                     f = t.field
@@ -219,16 +221,18 @@ def _flat(moves: Values) -> Values:
 def _judged(residual: Residual) -> list[tuple[Node, bool]]:
     """What a check compares with its limit, each with whether by its sign: of the greater of two numbers both.
 
-    The slopes of the greater one are those of one alone, which may be another within the tolerances.
+    The slopes of the greater one are those of one alone, which may be another within the tolerances. Of a least value
+    it is the lesser one.
     """
-    found, left = list[tuple[Node, bool]](), [(part, residual.signed) for part in reversed(residual.parts)]
+    by_sign, extreme = residual.signed or residual.at_least, "min" if residual.at_least else "max"
+    found, left = list[tuple[Node, bool]](), [(part, by_sign) for part in reversed(residual.parts)]
     while left:
         part, signed = left.pop()
         node = _bare(part, signed)
         of, signed = node.operands, signed or _is_no_less_than_0(node)
-        if node.op == "max" and signed and all(x.shape in ((), node.shape) for x in of):
+        if node.op == extreme and signed and all(x.shape in ((), node.shape) for x in of):
             left += [(x, True) for x in reversed(of)]
-        elif node.op == "reduce" and node.args[2] == "max" and node.args[3].axis is None and signed:
+        elif node.op == "reduce" and node.args[2] == extreme and node.args[3].axis is None and signed:
             left.append((of[0], True))
         else:
             found.append((node, signed))

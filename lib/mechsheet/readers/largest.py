@@ -29,7 +29,7 @@ def narrow(recording: Recording) -> None:
         for name, check in recording.checks.items():
             own = [new.get(part, part) for part in check.parts]
             if not check.signed:
-                own = [one for part in own for one in parts.largest("max", part)]
+                own = [one for part in own for one in parts.largest("min" if check.at_least else "max", part)]
             recording.checks[name] = replace(check, parts=own, limit=new.get(check.limit, check.limit))
 
 

@@ -186,11 +186,18 @@ class Stage:
         solved.compared = self.shown_now[-1][1]
 
     def judged(
-        self, name: str | Written, residual: Any, limit: Any, unit: str, size: Any = np.inf, tells: Any = True
+        self,
+        name: str | Written,
+        residual: Any,
+        limit: Any,
+        unit: str,
+        size: Any = np.inf,
+        tells: Any = True,
+        at_least: bool = False,
     ) -> None:
         parts = [lift(self.graph, r) for r in (residual if isinstance(residual, list) else [residual])]
         bound = limit if tells is True else np.where(lift(self.graph, tells), limit, np.nan)
-        self._check(name, [abs(p).re for p in parts], bound, unit)
+        self._check(name, [(p if at_least else abs(p)).re for p in parts], bound, unit, at_least=at_least)
 
     def stated(
         self,
@@ -199,12 +206,13 @@ class Stage:
         limit: Any,
         unit: str = "-",
         reason: str = "",
-        *kind: Any,
-        **named: Any,
+        essential: Any = False,
+        agreement: Any = False,
+        at_least: Any = False,
     ) -> None:
-        for each in (*kind, *named.values()):
+        for each in (essential, agreement, at_least):
             seen(each)
-        self._check(name, [lift(self.graph, residual).re], limit, "-", signed=True)
+        self._check(name, [lift(self.graph, residual).re], limit, "-", signed=True, at_least=bool(at_least))
 
     def check_slope(
         self, name: str | Written, slope: Any, f: Callable[..., Any], x: Any, lo: Any, hi: Any, unit: str = "-"
@@ -238,7 +246,13 @@ class Stage:
         return {}
 
     def _check(
-        self, name: str | Written, parts: list[Node], limit: Any, unit: str | Written, signed: bool = False
+        self,
+        name: str | Written,
+        parts: list[Node],
+        limit: Any,
+        unit: str | Written,
+        signed: bool = False,
+        at_least: bool = False,
     ) -> None:
         bound = lift(self.graph, limit)
         if not bound.single:
@@ -248,7 +262,7 @@ class Stage:
         said, name = (name, name.now) if isinstance(name, Written) else (None, name)
         self.shown_now.append((self.recording.checks, name))
         shown = unit.now if isinstance(unit, Written) else unit  # a number is right beside the unit that it was given
-        self.recording.checks[name] = Residual(parts, bound.re, shown, signed)
+        self.recording.checks[name] = Residual(parts, bound.re, shown, signed, at_least=at_least)
         if said is not None:
             self._word(f"check {name}", said, "name")
 
@@ -351,7 +365,7 @@ class Stage:
             case Check():
                 self.shown.append((recording.checks, own.name))
                 numbers = [graph.exported(rests_on, x) for x in (own.residual, own.limit)]
-                recording.checks[own.name] = Residual(numbers[:1], numbers[1], "-", signed=True)
+                recording.checks[own.name] = Residual(numbers[:1], numbers[1], "-", True, at_least=own.at_least)
             case Verdict():
                 found = solving.kept(graph, own, exported)
                 self._note(found, own)

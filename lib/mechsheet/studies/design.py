@@ -51,10 +51,10 @@ class Requirement:
         return np.maximum(0.0, -self.reserve) / (abs(self.limit) or 1.0)
 
     def check(self) -> Check:
-        """The requirement of a single variant; the residual is the reserve with its sign turned."""
+        """The requirement of a single variant."""
         factor = units.parse(self.unit).factor
-        reserve = float(self.reserve[0])
-        return Check(self.name, -reserve / factor, 0.0, self.unit, f"it is {_text(self.values[0], self.unit)}, {self}")
+        value, limit = float(self.values[0]) / factor, self.limit / factor
+        return Check(self.name, value, limit, self.unit, at_least=self.at_least)
 
     def __str__(self) -> str:
         return f"required at {'least' if self.at_least else 'most'} {_text(self.limit, self.unit)}"

@@ -13,7 +13,7 @@ from mechsheet.worksheet.check import Check
 
 _WITHIN = "inputs within their limits"
 _MADE = "made for these inputs: where this fails, export the worksheet again"
-_VERDICT = '=IF(ISNUMBER(B{0}-C{0}),IF(B{0}<=C{0},"PASS","FAIL"),"not evaluated")'
+_VERDICT = '=IF(ISNUMBER(B{0}-C{0}),IF(B{0}{1}C{0},"PASS","FAIL"),"not evaluated")'
 
 
 def write(
@@ -49,7 +49,7 @@ def write(
                 residual,
                 limit,
                 shown(c.unit),
-                Live(_VERDICT.format(n), verdict(c)),
+                Live(_VERDICT.format(n, ">=" if c.at_least else "<="), verdict(c)),
                 _reason(c, formulas),
             )
             for n, (c, residual, limit) in enumerate(rows, 3)
@@ -62,10 +62,10 @@ def write(
         shown_digits = (_digits(check.name, proved, formulas) for check, *_ in rows)
         listed = [(*row, digits) for row, digits in zip(listed, shown_digits, strict=True)]
     sheet = book.listing("Checks", title, fields, listed)
-    quantity = book.style(looks.CELL, looks.QUANTITY)
-    for n, (check, *compared) in enumerate(rows, 2):
-        for col, value in enumerate(compared if not check.agreement else (), 1):
-            put(sheet, n, col, value, quantity)
+    for n, (check, residual, limit) in enumerate(rows, 2):
+        if not check.agreement:
+            put(sheet, n, 1, residual, book.style(looks.CELL, looks.QUANTITY))
+            put(sheet, n, 2, limit, book.style(looks.CELL, looks.AT_LEAST if check.at_least else looks.QUANTITY))
     if formulas and not formulas.arrangement.finite:  # for another condition the format of the numbers has no room
         infinite = {"type": "cell", "criteria": ">=", "value": LARGEST, "format": book.file.add_format(looks.INFINITE)}
         sheet.conditional_format(2, 1, len(listed) + 2, 1, infinite)

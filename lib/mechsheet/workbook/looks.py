@@ -17,6 +17,7 @@ FIELD: Look = {**NUMBER, "bg_color": "#FFF8D6", "border": 4, "border_color": RUL
 VALUE: Look = {**NUMBER, "num_format": "0.000000"}
 SMALL: Look = {**NUMBER, "num_format": "0.0E+00;-0.0E+00;0"}
 QUANTITY: Look = {**NUMBER, "num_format": "[>=100]0;[>=0.01]0.000;General"}  # of any size
+AT_LEAST: Look = {**NUMBER, "num_format": '[>=100]"≥ "0;[>=0.01]"≥ "0.000;"≥ "General'}
 SI: Look = {**NUMBER, "num_format": '[>=1E+307]"∞";[<=-1E+307]"-∞";General', "font_color": "#595959"}
 INFINITE: Look = {"num_format": '"∞"'}
 SI_DECIMALS = 6

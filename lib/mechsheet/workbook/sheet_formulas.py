@@ -195,11 +195,12 @@ class SheetFormulas:
         if check is None:
             return None
         reference, parts = self._cells.reference, [*map(self._judged, check.parts)]
-        largest = parts[0] if check.signed else f"MAX({','.join(parts)})"
+        most = parts[0] if check.signed else f"{'MIN' if check.at_least else 'MAX'}({','.join(parts)})"
         factor = units.parse(check.unit).factor
-        residual = f"={largest}" + (f"/{factor!r}" if factor != 1 else "")
+        residual = f"={most}" + (f"/{factor!r}" if factor != 1 else "")
         if factor != 1 and any(map(self.holds_infinite, check.parts)):
-            residual = f"=IF({largest}<{written(LARGEST)},{residual[1:]},{largest})"
+            size = f"ABS({most})" if check.at_least else most
+            residual = f"=IF({size}<{written(LARGEST)},{residual[1:]},{most})"
         return Compared(residual, reference(check.limit, factor), check.limit.value.item() / factor)
 
     def _judged(self, part: Node) -> str:

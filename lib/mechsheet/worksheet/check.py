@@ -30,9 +30,10 @@ AGREED = 1e-3  # of a quantity: what may differ by more has not been compared
 class Check(Shown):
     """One statement that a worksheet proves about itself.
 
-    ``residual`` and ``limit`` are in ``unit``; the check passes where ``residual <= limit``. Where one of them is NaN
-    it is not evaluated, which is no pass. A check that is ``essential`` stops a script run before anything is written.
-    In an ``agreement`` the residual is the difference of two computations: rounding and no value, while it passes.
+    ``residual`` and ``limit`` are in ``unit``; the check passes where ``residual <= limit``, or ``>=`` where the limit
+    is what a quantity must be ``at_least``. Where one of them is NaN it is not evaluated, which is no pass. A check
+    that is ``essential`` stops a script run before anything is written. In an ``agreement`` the residual is the
+    difference of two computations: rounding and no value, while it passes.
     """
 
     name: str
@@ -42,12 +43,13 @@ class Check(Shown):
     reason: str = ""
     essential: bool = False
     agreement: bool = False
+    at_least: bool = False
 
     @property
     def passed(self) -> bool:
         if (stated := _stated.get()) is not None:
             stated.pop(id(self), None)  # who reads a verdict uses it: it is no statement that is forgotten
-        return self.residual <= self.limit
+        return self.residual >= self.limit if self.at_least else self.residual <= self.limit
 
     @property
     def evaluated(self) -> bool:
@@ -61,8 +63,9 @@ class Check(Shown):
 
     @property
     def utilisation(self) -> float:
-        """What part of its limit a quantity takes; NaN where that tells nothing."""
-        return self.residual / self.limit if self.limit > 0 and not self.agreement else np.nan
+        """What part of its limit a quantity takes, or of a quantity what is needed; NaN where that tells nothing."""
+        part, whole = (self.limit, self.residual) if self.at_least else (self.residual, self.limit)
+        return part / whole if self.limit > 0 and whole > 0 and not self.agreement else np.nan
 
     @property
     def utilised(self) -> str:
@@ -97,7 +100,7 @@ class Check(Shown):
 
     def __str__(self) -> str:
         residual, limit = self.compared
-        said = f"within {limit}" if self.agrees else f"{residual} <= {limit}"
+        said = f"within {limit}" if self.agrees else f"{residual} {'>=' if self.at_least else '<='} {limit}"
         compared = f": {said}{numbers.suffix(self.unit)}" if self.evaluated else ""
         part = f", {self.utilised}" if self.utilised else ""
         return f"{self.verdict}  {self.name}{compared}{part}" + (f"; {self.reason}" if self.reason else "")
@@ -181,16 +184,33 @@ def summary(*checks: Check | Sequence[Check]) -> Summary:
     return Summary(tuple(every))
 
 
-def check(name: str, residual: ArrayLike, limit: float, unit: str = "-", of: ArrayLike | None = None) -> Check:
+def check(
+    name: str,
+    residual: ArrayLike,
+    limit: float | None = None,
+    unit: str = "-",
+    of: ArrayLike | None = None,
+    *,
+    at_least: float | None = None,
+) -> Check:
     """Check that the largest magnitude of ``residual`` is at most ``limit``, both in SI; shown in ``unit``.
+
+    Instead of the limit a check may have what the smallest value, with its sign, must be ``at_least``, such as a
+    safety: ``check("safety", S, at_least=1.5)``.
 
     Where the residual is the difference of two computations, ``of`` is the quantity that both compute, and ``limit``
     the part of its largest magnitude by which they may differ: over a thousandth it would tell nothing. Without it the
-    residual is a quantity, and what part of its limit it takes is its utilisation. A least value is checked by the part
-    of the quantity that is needed, ``check("safety", g.S_min / S, 1)``.
+    residual is a quantity, and what part of its limit it takes is its utilisation.
 
     The check is not evaluated, and says why, over no values, where a value is NaN, and where the limit tells nothing.
     """
+    if at_least is not None:
+        if limit is not None or of is not None:
+            other = "a limit" if of is None else "of="
+            refuse(SheetError(f"check {name}: it has at_least= and {other}: give one of them, or two checks"))
+        return judged(name, residual, at_least, unit, at_least=True)
+    if limit is None:
+        refuse(SheetError(f"check {name}: it has no limit: give the limit behind the quantity, or at_least="))
     if of is None:
         return judged(name, residual, limit, unit)
     if isinstance(of, np.ndarray | list | tuple) and not np.size(of):
@@ -199,18 +219,28 @@ def check(name: str, residual: ArrayLike, limit: float, unit: str = "-", of: Arr
     return judged(name, residual, limit * size, unit, size, limit <= AGREED)
 
 
-def judged(name: str, residual: ArrayLike, limit: float, unit: str, size: float = np.inf, tells: bool = True) -> Check:
+def judged(
+    name: str,
+    residual: ArrayLike,
+    limit: float,
+    unit: str,
+    size: float = np.inf,
+    tells: bool = True,
+    at_least: bool = False,
+) -> Check:
     """Check of a residual, of two computations of a quantity of that size; all in SI. Whether its limit ``tells``."""
     of = f"check {name if isinstance(name, str) else as_given(name)}"
     texts(of, name=name, unit=unit)
     if np.asarray(residual).dtype.kind == "b" or isinstance(limit, bool | np.bool_):
-        told = "a condition, which is no number: give what must be at most the limit"
+        told = "a condition, which is no number: give a quantity and its limit, or at_least="
         refuse(SheetError(f"{of}: its {'limit' if isinstance(limit, bool | np.bool_) else 'residual'} is {told}"))
     if np.asarray(residual).dtype.kind not in "iufc":
         refuse(SheetError(f"{of}: its residual must be numbers, not {as_given(residual)}"))
     if np.ndim(limit) or np.asarray(limit).dtype.kind not in "biuf":
         refuse(SheetError(f"{of}: its limit must be one number, not {as_given(limit)}"))
-    sizes, factor = np.abs(residual), measured(unit, of).factor
+    if at_least and np.iscomplexobj(residual):
+        refuse(SheetError(f"{of}: it has a complex number, of which none is the least"))
+    sizes, factor = np.asarray(residual) if at_least else np.abs(residual), measured(unit, of).factor
     reason, lost = "", int(np.count_nonzero(np.isnan(sizes)))
     if not sizes.size:
         reason = "there is nothing to check"
@@ -221,10 +251,11 @@ def judged(name: str, residual: ArrayLike, limit: float, unit: str, size: float 
         reason = f"the limit, {least}, is more than a thousandth of what is compared, {compared}{numbers.suffix(unit)}"
     elif np.isinf(limit):
         reason = "its limit is infinite"
-    residual = np.nan if reason else float(np.max(sizes)) / factor
+    residual = np.nan if reason else float(np.min(sizes) if at_least else np.max(sizes)) / factor
     if size == 0 and residual > 0:
         reason = "what is compared is 0, and so is any part of it: without of= the limit is a number of its own"
-    return _state(Check(name, residual, limit / factor, unit, reason, agreement=bool(np.isfinite(size))))
+    agreement = bool(np.isfinite(size))
+    return _state(Check(name, residual, limit / factor, unit, reason, agreement=agreement, at_least=at_least))
 
 
 def balance(

@@ -76,7 +76,7 @@ def quantities(name: str, namespace: Mapping[str, Any]) -> list[Displayed]:
 def limited(values: Iterable[Any], limits: Mapping[str, Limit], namespace: Mapping[str, Any]) -> list[Any]:
     """Results of a run, its checks under the limits of a scene, and a check more for each limit of a result.
 
-    Raises SheetError for a check with a least value, and for what is no real number.
+    Raises SheetError for a check with a limit on its other side, and for what is no real number.
     """
     judged, more = list(values), list[Check]()
     held = {check.name: check for check in judged if isinstance(check, Check)}
@@ -85,9 +85,10 @@ def limited(values: Iterable[Any], limits: Mapping[str, Limit], namespace: Mappi
             more += _checks(name, limit, namespace)
             continue
         check = held[name] if name in held else value(name, namespace)
-        if limit.max is None or limit.min is not None:
-            raise SheetError(f"limit of the check {name!r} must be {{max = NUMBER}}")
-        judged = [replace(v, limit=limit.max) if v is check else v for v in judged]
+        bound, none, word = (limit.min, limit.max, "min") if check.at_least else (limit.max, limit.min, "max")
+        if bound is None or none is not None:
+            raise SheetError(f"limit of the check {name!r} must be {{{word} = NUMBER}}")
+        judged = [replace(v, limit=bound) if v is check else v for v in judged]
     return judged + more
 
 
@@ -95,12 +96,9 @@ def _checks(name: str, limit: Limit, namespace: Mapping[str, Any]) -> Iterator[C
     quantity, *more = quantities(name, namespace)
     if more:
         raise SheetError(f"limit of {name}: it is complex; limit {name}.real, {name}.imag or abs({name})")
-    unit = numbers.suffix(quantity.unit)
-    reason = quantity.gaps or f"it is {quantity.span}{unit}"
-    # Residuals as worksheets write them, at most 0; NaN stays NaN and fails.
-    if limit.min is not None:
-        residual = float(limit.min - np.min(quantity.values))
-        yield Check(f"{name} >= {numbers.significant(limit.min, 10)}{unit}", residual, 0.0, quantity.unit, reason)
-    if limit.max is not None:
-        residual = float(np.max(quantity.values) - limit.max)
-        yield Check(f"{name} <= {numbers.significant(limit.max, 10)}{unit}", residual, 0.0, quantity.unit, reason)
+    unit, values = numbers.suffix(quantity.unit), quantity.values
+    reason = quantity.gaps or (f"it is {quantity.span}{unit}" if values.size > 1 else "")
+    for bound, sign, worst in ((limit.min, ">=", np.min), (limit.max, "<=", np.max)):  # NaN stays NaN and fails
+        if bound is not None:
+            title = f"{name} {sign} {numbers.significant(bound, 10)}{unit}"
+            yield Check(title, float(worst(values)), bound, quantity.unit, reason, at_least=sign == ">=")
