@@ -13,7 +13,7 @@ from mechsheet import evaluate
 from mechsheet.html import write
 from mechsheet.quantities import graph
 from mechsheet.readers.numbers import numbers
-from mechsheet.readers.terms import recorded_terms, terms_of
+from mechsheet.readers.terms import Terms
 from mechsheet.worksheet.errors import SheetError
 
 STEPS, CALLS = 300, 260  # of calls in one another Python takes 1000: with fewer, fewer steps tell as much
@@ -92,6 +92,6 @@ def test_page_is_written_of_steps_whose_terms_are_more_than_are_recorded(
         value = recorded(sheet)[1].values[name]
         value.graph.work = 0
         with pytest.raises(graph.NotRecorded):
-            terms_of(value, deep)
+            Terms(value.graph).of(value, deep)
     y, z = (recorded(sheet)[1].values[name] for name in "yz")
-    assert recorded_terms(y).value > abs(y.value) and recorded_terms(z).value == abs(z.value)
+    assert Terms(y.graph).recorded(y).value > abs(y.value) and Terms(z.graph).recorded(z).value == abs(z.value)

@@ -23,7 +23,7 @@ from mechsheet.quantities.node import Node, bottom_up
 from mechsheet.quantities.quantity import Quantity, has_quantity, lift
 from mechsheet.quantities.sketch import Drawn
 from mechsheet.quantities.written import Said, Written
-from mechsheet.readers.terms import recorded_terms
+from mechsheet.readers.terms import Terms
 from mechsheet.recording import showing
 from mechsheet.worksheet import numbers
 from mechsheet.worksheet.check import Check
@@ -52,6 +52,7 @@ class Follower:
         self.recording = recording
         self.numbers = numbers  # of the run, by the names that formulas read
         self._said = said(numbers.namespace) if numbers else None
+        self.terms = Terms(recording.graph)
         self.keys: dict[Node, str] = {}
         self.specs: list[Spec] = []
         self.drawn: dict[int, Drawn] = {}  # recorded drawings by the identity of what is shown
@@ -230,13 +231,13 @@ class Follower:
         held = self.recording.values.get(line.formula.name)
         if not isinstance(held, Quantity) or not may_be_rounding(line.value, line.formula.unit):
             return False
-        return numbers.is_rounding(line.value, recorded_terms(held).value)
+        return numbers.is_rounding(line.value, self.terms.recorded(held).value)
 
     def _terms(self, line: Line, held: Quantity) -> Spec:
         """Keys of what a line adds, and of what it and all behind it add: for other inputs rounding may be left."""
         if held.dtype.kind not in "fc":
             return {}
-        behind = recorded_terms(held)
+        behind = self.terms.recorded(held)
         added = terms(line.formula.expression, self.recording.values)
         own = [abs(part).re for part in (held.real, held.imag)]
         told = {"terms": added.re} if isinstance(added, Quantity) else {}

@@ -102,14 +102,15 @@ def _is_guarded(recording: Recording, node: Node) -> bool:
 
 def _told(recording: Recording, scope: Scope, wanted: Mapping[str, Node], found: Mapping[str, Node]) -> Iterable[str]:
     """Statements that empty what rests on numbers that nobody knows for other inputs, and say why."""
-    under, told = dict[Node, frozenset[tuple[str, str]]](), dict[tuple[str, str], list[str]]()
+    reasons, under = dict[tuple[str, str], int](), dict[Node, int]()  # of each node the reasons that it has, a bit each
     every = {**wanted, **{f"found {key}": node for key, node in found.items()}}
     for node in bottom_up(every.values(), under):
         own = _reason(recording, scope, node)
-        under[node] = frozenset().union(*(under[operand] for operand in node.operands), [own] if own else [])
-    for key, node in every.items():
-        for reason in sorted(under[node]):
-            told.setdefault(reason, []).append(key)
+        bits = 1 << reasons.setdefault(own, len(reasons)) if own else 0
+        for operand in node.operands:
+            bits |= under[operand]
+        under[node] = bits
+    told = {reason: [key for key, node in every.items() if under[node] >> bit & 1] for reason, bit in reasons.items()}
     conditions = dict[tuple[str, str], dict[str, None]]()  # of the same with the same reason
     for (condition, why), keys in told.items():
         conditions.setdefault((why, ",".join(map(_key, keys))), {})[condition] = None

@@ -7,6 +7,7 @@ import json
 import re
 import zlib
 from collections.abc import Iterable, Iterator, Mapping
+from contextlib import suppress
 from html import escape, unescape
 from inspect import cleandoc
 from pathlib import Path
@@ -31,6 +32,7 @@ from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.force_diagram import polar_diagrams
 from mechsheet.worksheet.inputs import Used, declared
 from mechsheet.worksheet.lines import registry
+from mechsheet.worksheet.lists import Rows
 from mechsheet.worksheet.no_inputs import NoInputs, beforehand, inputs_of
 from mechsheet.worksheet.source import constant, standing
 from mechsheet.worksheet.title import SideBySide, Title
@@ -83,11 +85,12 @@ def page(sheet: Worksheet, g: Any) -> str:
     namespace = sheet.run(sheet.results, beforehand(g))
     refuse_open(checks_of(namespace))
     parts.values(namespace)  # which tells of what goes by one name
-    try:
-        text = _page(sheet, namespace, lists=True)
-    except SheetError:  # how many values are found is not known before the list is
-        text = ""
-    return text if 0 < len(text.encode()) < _MOST else _page(sheet, namespace, lists=False)
+    if any(isinstance(field, Rows) for field in declared(type(inputs_of(namespace)))):
+        with suppress(SheetError):  # how many values are found is not known before the list is
+            text = _page(sheet, namespace, lists=True)
+            if len(text.encode()) < _MOST:
+                return text
+    return _page(sheet, namespace, lists=False)
 
 
 @np.errstate(all="ignore")  # of ways that the worksheet does not go, as while it is recorded

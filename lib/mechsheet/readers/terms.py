@@ -66,27 +66,32 @@ def measure(graph: Graph, node: Node, named: Container[Node]) -> Quantity:
     return _Measured(graph, named).of(node)
 
 
-def terms_of(value: Quantity, deep: bool = True) -> Quantity:
-    """The largest terms of its elements, of all that these are made of, as much as they move them; of a point its own.
+class Terms:
+    """The largest terms of quantities of one graph, of all that these are made of, as much as they move them."""
 
-    Where it is not ``deep`` only those of the last sums, which take a tenth of the operations.
-    """
-    measured = (_MeasuredToTheEnd if deep else _MeasuredBySums)(value.graph, ())
-    real, *imaginary = map(measured.of, value.parts)
-    return reduce(lambda a, b: Quantity(value.graph, value.graph.fold("max", a.re, b.re)), imaginary, real)
+    def __init__(self, graph: Graph) -> None:
+        self.graph = graph
+        self.measured = {True: _MeasuredToTheEnd(graph, ()), False: _MeasuredBySums(graph, ())}
 
+    def of(self, value: Quantity, deep: bool = True) -> Quantity:
+        """Those of each element, of a point its own.
 
-def recorded_terms(value: Quantity) -> Quantity:
-    """The same by as much as a recording holds, as of many steps: at last by itself, beside which nothing is small."""
-    for deep in (True, False):
-        value.graph.work = 0  # which limits a statement of the worksheet, and here what is said of one quantity
-        try:
-            return terms_of(value, deep)
-        except NotRecorded:
-            pass
-        finally:
-            value.graph.work = 0
-    return lift(value.graph, abs(value))
+        Where it is not ``deep`` only those of the last sums, which take a tenth of the operations.
+        """
+        real, *imaginary = map(self.measured[deep].of, value.parts)
+        return reduce(lambda a, b: Quantity(self.graph, self.graph.fold("max", a.re, b.re)), imaginary, real)
+
+    def recorded(self, value: Quantity) -> Quantity:
+        """The same by as much as a recording holds, as of many steps: at last itself, beside which nothing is small."""
+        for deep in (True, False):
+            self.graph.work = 0  # which limits a statement of the worksheet, and here what is said of one quantity
+            try:
+                return self.of(value, deep)
+            except NotRecorded:
+                pass
+            finally:
+                self.graph.work = 0
+        return lift(self.graph, abs(value))
 
 
 class _Measured:

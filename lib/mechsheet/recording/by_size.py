@@ -8,7 +8,7 @@ from mechsheet.quantities.graph import Graph, NotRecorded
 from mechsheet.quantities.operations import Values
 from mechsheet.quantities.quantity import Quantity, lift
 from mechsheet.quantities.ufunc_rules import finite
-from mechsheet.readers.terms import terms_of
+from mechsheet.readers.terms import Terms
 from mechsheet.worksheet import numbers
 
 _BY_ROUNDING = "the numbers differ by rounding alone, which tells no place"
@@ -28,7 +28,7 @@ def decide(x: Quantity, axis: Any, kind: str) -> None:
     graph = x.graph
     along = axis if x.ndim > 1 else None
     low, high = (x.reduced(end, along) for end in ("min", "max"))
-    terms = terms_of(x, deep=graph.draws).reduced("max", along)
+    terms = Terms(graph).of(x, deep=graph.draws).reduced("max", along)
     if np.isinf(terms.value).any() and not graph.draws:
         raise NotRecorded("an infinite number is among those compared, which no cell of a spreadsheet holds")
     nothing = (low == 0) & (high == 0)  # as a spreadsheet program has it where next to nothing is left

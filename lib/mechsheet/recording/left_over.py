@@ -6,7 +6,7 @@ from typing import Any
 
 from mechsheet.quantities.graph import NotRecorded
 from mechsheet.quantities.quantity import Quantity
-from mechsheet.readers.terms import recorded_terms
+from mechsheet.readers.terms import Terms
 from mechsheet.recording.record import record
 from mechsheet.worksheet import numbers
 from mechsheet.worksheet.errors import SheetError
@@ -26,7 +26,7 @@ def is_left_over(value: Any, line: Formula, namespace: Mapping[str, Any]) -> boo
         found = record(namespace, every=1, want=[line.name]).values.get(line.name)
     except (SheetError, NotRecorded):
         return False
-    return isinstance(found, Quantity) and numbers.is_rounding(value, recorded_terms(found).value)
+    return isinstance(found, Quantity) and numbers.is_rounding(value, Terms(found.graph).recorded(found).value)
 
 
 def _multiplies(part: ast.expr, namespace: Mapping[str, Any], lines: Mapping[str, Formula]) -> bool:
