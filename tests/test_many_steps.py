@@ -65,6 +65,31 @@ def test_loop_of_many_steps_is_followed_by_every_reader(few_calls: None, tmp_pat
     assert 'id="line-left"' in write.page(sheet, sheet.inputs())
 
 
+SET = """
+M = 1200
+p = np.zeros(M + 1)  # [-] way
+q = np.zeros((M + 1, 2))
+p[0], q[:, 1] = g.F, g.a
+for i in range(M):
+    q[i + 1, 0] = q[i, 0] - 1e-3 * g.a * p[i]
+    p[i + 1] = p[i] + 1e-3 * q[i + 1, 0]
+ends = np.array([p[-1], p.min(), q[-1, 0], q[0].sum()])  # [-] of a motion in arrays of their own length
+table_2 = table("2", "Motion", p, every=100)
+table_3 = table("3", "Ends", ends)"""
+
+
+def test_arrays_whose_elements_are_set_one_by_one_are_followed(tmp_path: Path) -> None:
+    """Each was a new one made of the last: of 1200 elements that were more operations than a line may have."""
+    _, recording = recorded(own(tmp_path, SET))
+    assert not recording.gaps
+    (column,) = recording.tables["3"]
+    known = numbers([column.re], {recording.inputs["F"]: 3.25, recording.inputs["a"]: 0.9})[column.re]
+    expected = evaluate(tmp_path / "own.py", ["ends"], F=3.25, a=0.9)["ends"]
+    np.testing.assert_allclose(known, expected, rtol=1e-12)
+    whole = [node for node in recording.graph.nodes.values() if node.op == "join" and node.size > 1000]
+    assert not any(source.op == "join" for node in whole for source in node.args[0]), "they are no chain"
+
+
 def test_formula_that_is_too_deep_to_be_read_is_refused_at_its_line(tmp_path: Path) -> None:
     deep = " + ".join(f"{n} * g.F" for n in range(600))
     with pytest.raises(SheetError, match=r"own.py, line 38: 60\d operations in one another, and 300 are read"):

@@ -24,6 +24,7 @@ PARTIAL = frozenset(("div", "pow", "sqrt", "exp", "log", "tan", "asin", "acos", 
 _MOVING = frozenset(("input", "rows", "length", "take", "join", "reduce"))
 _GIVEN = frozenset(("constant", "input", "exported"))  # of which no number is computed
 MOST = 1_000_000  # numbers that one statement may compute, many of them each a cell of a workbook
+_COPIED = 8  # numbers that are only put together, of which none has a cell, count as one that is computed
 _NODES = 50_000  # operations that it may have, of however few numbers: they take time in Python
 _SET = "an array whose elements are set one by one is a new one each time, a list that is appended to is not"
 _ANOTHER = "it reads a text that is another one for these inputs"
@@ -124,7 +125,8 @@ class Graph(Lengths):
             along = along and own.ndim > 0  # one number has no rows, whatever it is made of
             known = self.nodes[key] = Node(op, args, own, self.line, along)
             if op not in _GIVEN:
-                self.work += max(known.size, self.most // _NODES)
+                own_size = known.size // (_COPIED if op == "join" and not along else 1)
+                self.work += max(own_size, self.most // _NODES)
             under = known.operands
             if op == "constant" or (under and op != "state" and self.fixed.issuperset(under)):
                 self.fixed.add(known)
@@ -296,9 +298,11 @@ class Graph(Lengths):
 
         ``moved`` has put them together.
         """
+        stretches = any(source.stretches for source in sources)
+        if not stretches:
+            sources, where = _apart(sources, where)
         ends = np.cumsum([source.size for source in sources])
         which = np.searchsorted(ends, where, side="right")
-        stretches = any(source.stretches for source in sources)
         inside = where - np.concatenate([[0], ends])[which]
         args = tuple(sources), _fixed(which), _fixed(inside), moved if stretches else None
         flat = np.concatenate([source.value.reshape(-1) for source in sources])
@@ -398,6 +402,27 @@ def _exists(node: Node) -> bool:
     if node.op == "div":
         return node.args[1].op == "constant" and bool(np.all(node.args[1].value))
     return node.op in _MOVING or (node.op in ELEMENTWISE and node.op not in PARTIAL)
+
+
+def _apart(sources: Sequence[Node], where: Values) -> tuple[Sequence[Node], Values]:
+    """What joins are made of instead of these, as far as elements of it are taken.
+
+    So an array of which the elements are set one by one is no chain of arrays.
+    """
+    if not any(source.op == "join" for source in sources):
+        return sources, where
+    parts, places, end = list[Node](), list[Values](), 0  # of each element its place among those of all parts
+    for source in sources:
+        own, which, inside, _ = source.args if source.op == "join" else ((source,), 0, np.arange(source.size), None)
+        starts = end + np.cumsum([0, *(part.size for part in own)])
+        places.append((starts[which] + inside).reshape(-1))
+        parts, end = [*parts, *own], int(starts[-1])
+    sizes = np.array([part.size for part in parts])
+    found = np.concatenate(places)[where]
+    of = np.repeat(np.arange(len(parts)), sizes)
+    taken = np.bincount(of[found.reshape(-1)], minlength=len(parts)) > 0
+    gone = np.cumsum(np.where(taken, 0, sizes))
+    return [part for part, some in zip(parts, taken.tolist(), strict=True) if some], found - gone[of[found]]
 
 
 def _joined(node: Node) -> tuple[Node, ...]:

@@ -70,6 +70,7 @@ class CellFormulas:
         self.sure, self.lost, self.finite = sure, lost, finite
         self._inputs: dict[Node, tuple[Node, ...]] = {}
         self._endless: dict[Node, bool] = {}
+        self._failing: dict[Node, bool] = {}
         self._fixed: dict[Node, frozenset[Node]] = {}
 
     def formula(self, node: Node, factor: float = 1.0) -> str:
@@ -126,13 +127,14 @@ class CellFormulas:
 
     def _fails(self, node: Node) -> bool:
         """Whether a formula may give an error value where its operands give none."""
-        stack = [node]
-        while stack:
-            here = stack.pop()
-            if here.op in _FAILS and not _safe(here):
-                return True
-            stack.extend(operand for operand in written_of(here) if operand not in self.places)
-        return False
+        if node not in self._failing:  # each row of a column asks
+            stack, found = [node], False
+            while stack and not found:
+                here = stack.pop()
+                found = here.op in _FAILS and not _safe(here)
+                stack.extend(operand for operand in written_of(here) if operand not in self.places)
+            self._failing[node] = found
+        return self._failing[node]
 
     def _inputs_under(self, node: Node) -> tuple[Node, ...]:
         """Inputs on which a found value rests."""
