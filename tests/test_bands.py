@@ -227,6 +227,53 @@ def test_what_only_goes_on_in_another_way_keeps_its_band(text, tmp_path):
     assert np.allclose(next(b for b in found.banded if b.name == "k").worst, 1.0)
 
 
+TOLD = """
+t = np.sqrt(np.array([g.F - 2.0, g.F]))  # [-] none for some
+word = "few" if g.F < 3 else "many"
+check_3 = check(f"called {word}", g.F, 9)
+if g.F > 3.4:
+    raise ValueError("no size for that")"""
+SLOPE = """
+from mechsheet import check_slope
+check_5 = check_slope("of a square", 2 * x, lambda x: x**2, x, 0, 9)"""
+
+
+FOLLOWED = [text for kind, text in JUMPS.items() if kind != "loop"]
+
+
+@pytest.mark.parametrize("text", [*FOLLOWED, FIRST_OVER + SLOPE, TOLD])
+def test_recordings_of_few_cases_tell_what_runs_one_by_one_do(text, tmp_path, monkeypatch):
+    is_line = not text.startswith("\n")
+    more = f"{FIRST_OVER}\nj = {text}  # [-] jumps" if is_line else f"\nj = np.floor(g.F)  # [-] jumps{text}"
+    sheet = off(tmp_path, 7, "± 1", "± 0.5 normal", f"{more}\ncheck_2 = check('jumping', j + g.a, 3)")
+    monkeypatch.setattr(within, "COUNT", 400)
+    names, run, runs = sheet.run(sheet.results, {"g": sheet.inputs()}), cells.Worksheet.run, []
+    monkeypatch.setattr(cells.Worksheet, "run", lambda *args: runs.append(1) or run(*args))
+    given = names["g"], sheet, sheet.results, registry(names), tolerances(names["g"])
+    fast, few = cases(*given), len(runs)
+    slow = cases(*given, ways=0)
+    assert few < 150 < 400 < len(runs) - few, "few cases are run"
+    assert (fast.lost, fast.reason) == (slow.lost, slow.reason) and fast.spans.keys() == slow.spans.keys()
+    for key, span in slow.spans.items():
+        assert np.allclose(fast.spans[key], span, rtol=1e-9, equal_nan=True), key
+    for name, holds in slow.holds.items():
+        told = fast.holds if name in fast.holds else fast.ran.holds
+        assert np.array_equal(told[name], holds), name
+    assert set(fast.holds) <= set(slow.holds)
+
+
+@pytest.mark.parametrize(
+    "more", [f"\nj = np.floor(g.F)  # [-] jumps{TEXT}", f"{FIRST_OVER}\nj = first_over(g.F)  # [-] jumps"]
+)
+def test_what_no_recording_tells_runs_one_by_one(more, tmp_path, monkeypatch):
+    sheet = off(tmp_path, 7, "± 1", "± 0.5", more)
+    monkeypatch.setattr(within, "COUNT", 150)
+    names = sheet.run(sheet.results, {"g": sheet.inputs()})
+    given = names["g"], sheet, sheet.results, registry(names), tolerances(names["g"])
+    fast, slow = cases(*given), cases(*given, ways=0)
+    assert all(np.array_equal(fast.spans[key], span) for key, span in slow.spans.items()) and fast.ran is None
+
+
 def test_a_verdict_that_rests_on_a_jump_and_is_the_same_in_all_cases_says_so(tmp_path, capsys):
     more = "\nj = np.floor(g.F)  # [-] jumps\ncheck_2 = check('jumping', j, 9)\ncheck_3 = check('failing', j, 0.5)"
     sheet = off(tmp_path, 9, "± 1", "", more)

@@ -1,7 +1,8 @@
 """What runs within tolerances tell of numbers and checks that jump there: slopes tell nothing of them."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -21,7 +22,8 @@ class Cases:
 
     ``spans`` are the least and the greatest numbers, in display units, by where they are shown and their name, None of
     what has other rows in some case; ``holds`` is whether each check does in each case. In the ``lost`` ones the
-    worksheet gives no numbers, in the first of them for the ``reason``.
+    worksheet gives no numbers, in the first of them for the ``reason``. What recordings of cases do not tell of others,
+    a check at some of its positions, ``alone`` tells by running each.
     """
 
     count: int
@@ -29,10 +31,18 @@ class Cases:
     holds: Mapping[str, Values]
     lost: int = 0
     reason: str = ""
+    alone: "Callable[[], Cases] | None" = None
+
+    @cached_property
+    def ran(self) -> "Cases | None":
+        """The same by running each."""
+        return self.alone() if self.alone else None
 
     def sure(self, name: str, passed: bool) -> str:
         """How sure the verdict of a check is."""
         if (holds := self.holds.get(name)) is None:
+            if self.ran:
+                return self.ran.sure(name, passed)
             return "how sure is not known: not every case has a check of this name"
         if np.all(holds == passed):
             return f"in all of {self.count} random cases"

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from mechsheet.quantities.lines import Recording
 from mechsheet.quantities.node import Node, bottom_up
 from mechsheet.quantities.quantity import Quantity, lift
 from mechsheet.readers.plan import REFUSED, NotPlanned, plan
@@ -25,21 +26,30 @@ _READING |= {"open", "input", "exec", "eval", "compile", "globals", "vars", "set
 
 
 @dataclass(frozen=True)
-class Results:
-    """Wanted results of a worksheet in the recording of one run.
+class Followed:
+    """The recording of one run of a worksheet, and ``own``, the names of that run.
 
-    ``inputs`` by their names; ``roots`` are the names in the worksheet, by what is wanted of them, ``parts`` their
-    quantities and ``own`` the values of that run. The worksheet has the same for other inputs while all of ``same``
-    hold and all of ``exist`` are numbers; ``found`` are the values that a Find of it gives.
+    The worksheet has the same for other inputs while all of ``same`` hold and all of ``exist`` are numbers; ``found``
+    are the values that a Find of it gives.
     """
 
-    inputs: Mapping[str, Node]
-    roots: Mapping[str, str]
-    parts: Mapping[str, Sequence[Node]]
+    recording: Recording
     own: Mapping[str, Any]
     same: Sequence[Node]
     exist: Sequence[Node]
     found: Sequence[Node]
+
+
+@dataclass(frozen=True)
+class Results:
+    """Wanted results of a worksheet in what is followed ``of`` it.
+
+    ``roots`` are the names in the worksheet, by what is wanted of them, and ``parts`` their quantities.
+    """
+
+    of: Followed
+    roots: Mapping[str, str]
+    parts: Mapping[str, Sequence[Node]]
 
     @property
     def wanted(self) -> list[Node]:
@@ -47,7 +57,7 @@ class Results:
         return [part for parts in self.parts.values() for part in parts]
 
 
-def results(only: Worksheet, want: Sequence[str], g: Any) -> Results:
+def followed(only: Worksheet, want: Sequence[str], g: Any) -> Followed:
     """The recording of a worksheet whose cells are all needed for what is wanted of it.
 
     Raises NotPlanned where the worksheet may give something else at each run, or where something is not recorded.
@@ -58,20 +68,25 @@ def results(only: Worksheet, want: Sequence[str], g: Any) -> Results:
     recording = record(own, only, whole=True, every=1, bodies=True)
     if recording.integrals:
         raise NotPlanned("an integral by scipy's own places has other digits at corners")
+    seen = [guard.holds for guards in recording.looked.values() for guard in guards]
+    quantities = (q for q in recording.values.values() if isinstance(q, Quantity))
+    under = bottom_up([part for quantity in quantities for part in quantity.parts], set())
+    exist = [node for node in under if node.shape == () and node.op in _PARTIAL]
+    found = [solved.node for solved in recording.found.values()]
+    return Followed(recording, own, [*seen, *recording.guards], exist, found)
+
+
+def results(only: Worksheet, want: Sequence[str], g: Any) -> Results:
+    """What is wanted of a worksheet whose cells are all needed for it; raises NotPlanned as `followed` does."""
+    of = followed(only, want, g)
     roots = {name: base(name) for name in want}
     parts = dict[str, Sequence[Node]]()
     for root in roots.values():
-        known = recording.values.get(root)
+        known = of.recording.values.get(root)
         if not isinstance(known, Quantity) and np.asarray(known).dtype.kind not in "biufc":
             raise NotPlanned(f"{root} is no recorded number")
-        parts[root] = [*lift(recording.graph, known).parts]
-    seen = [guard.holds for guards in recording.looked.values() for guard in guards]
-    followed = (q for q in recording.values.values() if isinstance(q, Quantity))
-    under = bottom_up([part for quantity in followed for part in quantity.parts], set())
-    exist = [node for node in under if node.shape == () and node.op in _PARTIAL]
-    found = [solved.node for solved in recording.found.values()]
-    own = {root: own[root] for root in parts}
-    return Results(recording.inputs, roots, parts, own, [*seen, *recording.guards], exist, found)
+        parts[root] = [*lift(of.recording.graph, known).parts]
+    return Results(of, roots, parts)
 
 
 def planned(only: Worksheet, want: Sequence[str], g: Any) -> Callable[[Any], dict[str, Any] | None]:
@@ -80,9 +95,10 @@ def planned(only: Worksheet, want: Sequence[str], g: Any) -> Callable[[Any], dic
     None where only the worksheet itself can tell, which may refuse the inputs, or have no number. Raises NotPlanned
     where it could never do other.
     """
-    of = results(only, want, g)
-    names, leaves = [*of.inputs], [*of.inputs.values()]
-    compute = plan(leaves, of.wanted, of.same, of.exist)
+    found = results(only, want, g)
+    of, leaves_of = found.of, found.of.recording.inputs
+    names, leaves = [*leaves_of], [*leaves_of.values()]
+    compute = plan(leaves, found.wanted, of.same, of.exist)
     singles = [node.shape == () for node in leaves]
 
     def again(g: Any) -> dict[str, Any] | None:
@@ -91,16 +107,16 @@ def planned(only: Worksheet, want: Sequence[str], g: Any) -> Callable[[Any], dic
         if not all(isinstance(x, float | int) for x, single in zip(numbers, singles, strict=True) if single):
             return None  # variants, or numbers of a type of numpy's, which a worksheet may tell apart
         try:
-            found = iter(compute(numbers))
+            computed = iter(compute(numbers))
         except REFUSED:
             return None
         space = dict[str, Any]()
-        for root, nodes in of.parts.items():
-            each = [next(found) for _ in nodes]
+        for root, nodes in found.parts.items():
+            each = [next(computed) for _ in nodes]
             if not all(map(_finite, each)) or not _is_kind(of.own[root], each):
                 return None
             space[root] = _like(of.own[root], each)
-        return {name: value(name, space) for name in of.roots}
+        return {name: value(name, space) for name in found.roots}
 
     return again
 

@@ -5,7 +5,7 @@ these: so a line may take means and maxima, pick elements, or ask whether someth
 """
 
 from collections import Counter
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -14,12 +14,15 @@ from numpy.typing import NDArray
 from mechsheet.quantities.node import Block, Node, bottom_up
 from mechsheet.quantities.operations import ELEMENTWISE, REDUCE, REDUCE_SO_FAR, Values
 from mechsheet.readers.plan import NotPlanned
-from mechsheet.recording.planned import results
+from mechsheet.recording.planned import Followed, results
 from mechsheet.worksheet.cells import Worksheet, value
 from mechsheet.worksheet.find import find
 from mechsheet.worksheet.system import solve
 
 _MOST = 100_000  # numbers of a quantity at a time: they fit a processor's cache
+
+
+Together = Callable[[Mapping[str, NDArray[np.float64]]], tuple[dict[Node, Values], NDArray[np.bool_]]]
 
 
 class Known(NamedTuple):
@@ -38,12 +41,39 @@ def variants(
     no number somewhere, and for which it goes another way than for ``g``. Raises NotPlanned where a quantity cannot
     be followed for many variants.
     """
-    of = results(only, want, g)
+    found = results(only, want, g)
+    compute = together(found.of, found.wanted, varied)
+
+    def again(given: Mapping[str, NDArray[np.float64]]) -> Known:
+        numbers, known = compute(given)
+        for node in dict.fromkeys(found.wanted):
+            known = known & _every(np.isfinite(numbers[node]))
+        space = dict[str, Any]()
+        for root, parts in found.parts.items():
+            own = np.asarray(found.of.own[root])
+            made = np.empty((len(known), *own.shape), complex if len(parts) > 1 or own.dtype.kind == "c" else float)
+            each = [_under(numbers[part], len(part.shape), made.ndim - 1) for part in parts]
+            if len(each) == 1:
+                made[...] = each[0]
+            else:
+                made.real, made.imag = each
+            space[root] = made
+        return Known({name: value(name, space) for name in found.roots}, known)
+
+    return again
+
+
+def together(of: Followed, wanted: Iterable[Node], varied: Sequence[str]) -> Together:
+    """What gives quantities of a recording for many variants, in front of their own axes, and which of these it knows.
+
+    Raises NotPlanned where a quantity cannot be followed for many variants.
+    """
+    wanted, inputs = [*dict.fromkeys(wanted)], of.recording.inputs
     for name in varied:
-        if name in of.inputs and of.inputs[name].shape:
+        if name in inputs and inputs[name].shape:
             raise NotPlanned(f"{name} is no single number")
-    leaves = {of.inputs[name]: name for name in varied if name in of.inputs}
-    roots = [*dict.fromkeys([*of.wanted, *of.same, *of.exist, *of.found])]
+    leaves = {inputs[name]: name for name in varied if name in inputs}
+    roots = [*dict.fromkeys([*wanted, *of.same, *of.exist, *of.found])]
     order = [node for node in bottom_up(roots, leaves) if node.op not in ("constant", "input")]
     moving = _moving(order, leaves)
     order = [node for node in order if node in moving]
@@ -52,7 +82,7 @@ def variants(
     uses = Counter([*roots, *(operand for node in order for operand in node.operands)])
 
     @np.errstate(all="ignore")
-    def together(given: Mapping[str, NDArray[np.float64]]) -> Known:
+    def some(given: Mapping[str, NDArray[np.float64]]) -> tuple[list[Values], NDArray[np.bool_]]:
         count = len(next(iter(given.values())))
         numbers: dict[Node, Values] = {node: given[name] for node, name in leaves.items()}
         left, solved = uses.copy(), dict[Block, list[Values]]()
@@ -66,35 +96,27 @@ def variants(
         def whole(node: Node) -> Values:
             return np.broadcast_to(numbers.get(node, node.value), (count, *node.shape))
 
-        def every(holds: Values) -> NDArray[np.bool_]:
-            return np.asarray(holds.reshape(count, -1).all(1))
-
         known = np.ones(count, dtype=bool)
         for node in of.same:
-            known &= every(whole(node))
-        for node in (*of.exist, *of.found, *of.wanted):
-            known &= every(np.isfinite(whole(node)))
-        space = dict[str, Any]()
-        for root, parts in of.parts.items():
-            own = np.asarray(of.own[root])
-            made = np.empty((count, *own.shape), complex if len(parts) > 1 or own.dtype.kind == "c" else float)
-            each = [_under(whole(part), len(part.shape), made.ndim - 1) for part in parts]
-            if len(each) == 1:
-                made[...] = each[0]
-            else:
-                made.real, made.imag = each
-            space[root] = made
-        return Known({name: value(name, space) for name in of.roots}, known)
+            known &= _every(whole(node))
+        for node in (*of.exist, *of.found):
+            known &= _every(np.isfinite(whole(node)))
+        return [whole(node) for node in wanted], known
 
     few = max(1, _MOST // max((node.size for node in order), default=1))
 
-    def again(given: Mapping[str, NDArray[np.float64]]) -> Known:
+    def every(given: Mapping[str, NDArray[np.float64]]) -> tuple[dict[Node, Values], NDArray[np.bool_]]:
         starts = range(0, len(next(iter(given.values()))), few)
-        parts = [together({name: x[at : at + few] for name, x in given.items()}) for at in starts]
-        values = {name: np.concatenate([part.values[name] for part in parts]) for name in of.roots}
-        return Known(values, np.concatenate([part.known for part in parts]))
+        parts = [some({name: x[at : at + few] for name, x in given.items()}) for at in starts]
+        values = [np.concatenate(each) for each in zip(*(numbers for numbers, _ in parts), strict=True)]
+        return dict(zip(wanted, values, strict=True)), np.concatenate([known for _, known in parts])
 
-    return again
+    return every
+
+
+def _every(holds: Values) -> NDArray[np.bool_]:
+    """Of which variants a condition holds at all places."""
+    return np.asarray(holds.reshape(len(holds), -1).all(1))
 
 
 def _moving(order: Sequence[Node], leaves: Mapping[Node, str]) -> set[Node]:

@@ -1,9 +1,10 @@
 """Runs of a worksheet for cases within the tolerances of its inputs, one by one: lines may go another way in each."""
 
 import warnings
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, redirect_stdout
 from dataclasses import replace
+from functools import partial
 from io import StringIO
 from itertools import product
 from typing import Any
@@ -12,9 +13,12 @@ import numpy as np
 
 from mechsheet import units
 from mechsheet.document import parts
+from mechsheet.quantities.graph import NotRecorded
 from mechsheet.quantities.operations import Values
 from mechsheet.readers.bands import Tolerance
 from mechsheet.readers.cases import RESULTS, Cases, Key
+from mechsheet.readers.plan import NotPlanned
+from mechsheet.run.many_cases import Told, Way, way
 from mechsheet.run.progress import progress
 from mechsheet.worksheet.cells import Worksheet
 from mechsheet.worksheet.check import Check
@@ -24,36 +28,124 @@ from mechsheet.worksheet.lines import Formula
 from mechsheet.worksheet.table import Table
 
 COUNT = 1000  # random cases
+WAYS = 4  # recordings at most
+_PAYS = 100  # cases that take as long alone as a recording, and more
 _ALL_ENDS = 6  # inputs of which all ends are put together; of more each alone
 
 
 def cases(
-    g: Any, sheet: Worksheet, want: Sequence[str], known: Mapping[str, Formula], by: Mapping[str, Tolerance]
+    g: Any,
+    sheet: Worksheet,
+    want: Sequence[str],
+    known: Mapping[str, Formula],
+    by: Mapping[str, Tolerance],
+    ways: int = WAYS,
 ) -> Cases:
-    """What the cells behind wanted names tell in cases about the inputs ``g``; ``known`` are lines with a unit."""
-    spans, holds = dict[Key, tuple[Values, Values] | None](), list[dict[str, bool]]()
-    reasons = list[str]()
+    """What the cells behind wanted names tell in cases about the inputs ``g``; ``known`` are lines with a unit.
+
+    Recordings of so many of them compute all others that these know, and what is left runs one by one.
+    """
     every = np.concatenate([_ends(len(by)), _drawn([*by.values()])])
-    with progress(len(every), "cases within the tolerances") as done:
-        for each in every:
-            moved = {name: t.value + part * t.size for (name, t), part in zip(by.items(), each.tolist(), strict=True)}
+    at = {name: t.value + part * t.size for (name, t), part in zip(by.items(), every.T, strict=True)}
+    runs = _Runs(g, sheet, want, known, at)
+    left = np.arange(len(every))[::-1]  # the random ones first, which go the most usual ways
+    with progress(len(every), "cases within the tolerances") as done, _silently():
+        while left.size:
+            first, left = left[0], left[1:]
+            told = runs.alone(first)
             done()
-            try:
-                with _silently():
-                    names = sheet.run(want, {"g": replace(g, **moved)})
-            except OF_NUMBERS as error:
-                reasons.append(str(error))
-                holds.append({})
-                continue
-            shown = parts.values(names)
-            holds.append({check.name: check.passed for check in shown if isinstance(check, Check)})
-            for key, x in _numbers(names, known, [table for table in shown if isinstance(table, Table)]):
-                span = spans.setdefault(key, (x, x))
-                same = span is not None and span[0].shape == x.shape
-                spans[key] = (np.fmin(span[0], x), np.fmax(span[1], x)) if span is not None and same else None
-    common = set.intersection(*(set(each) for each in holds if each)) if any(holds) else set()
-    held = {name: np.array([each.get(name, False) for each in holds]) for name in common}
-    return Cases(COUNT, spans, held, len(reasons), next(iter(reasons), ""))
+            if told and ways and len(left) >= _PAYS:
+                ways -= 1
+                try:
+                    of_others = runs.others(first, told, left)
+                except (NotPlanned, NotRecorded):
+                    ways = 0
+                    continue
+                left = left[~of_others]
+                for _ in range(np.count_nonzero(of_others)):
+                    done()
+    return runs.cases(partial(cases, g, sheet, want, known, by, ways=0) if runs.recorded else None)
+
+
+class _Runs:
+    """What cases tell, of which ``at`` has the inputs that differ in SI: one alone, or many at once."""
+
+    def __init__(
+        self,
+        g: Any,
+        sheet: Worksheet,
+        want: Sequence[str],
+        known: Mapping[str, Formula],
+        at: Mapping[str, Values],
+    ) -> None:
+        self.g, self.sheet, self.want, self.known, self.at = g, sheet, want, known, at
+        self.count = len(next(iter(at.values())))
+        self.spans, self.holds = dict[Key, tuple[Values, Values] | None](), dict[str, Values]()
+        self.lost, self.recorded = dict[int, str](), False
+
+    def alone(self, k: int) -> Told | None:
+        """What one case tells, for which all lines run; None of one without numbers."""
+        try:
+            told = self._run(k)
+        except OF_NUMBERS as error:
+            self.lost[k] = str(error)
+            return None
+        self._add(told, np.array([k]))
+        return told
+
+    def others(self, k: int, alone: Told, left: Values) -> Values:
+        """Which of the cases that are left the recording of one knows, that tells of this what it does alone.
+
+        Raises NotPlanned or NotRecorded where it cannot.
+        """
+        only = replace(self.sheet, cells=tuple(self.sheet.needed(self.want, ["g"])))
+        by = way(only, self.want, self._g(k), self.known, [*self.at])
+        told, known = next(by.told(self._rows(np.array([k]))))
+        are_told, start = np.zeros(len(left), dtype=bool), 0
+        if not (known[0] and by.agrees(told, 0, alone)):
+            return are_told
+        for told, known in by.told(self._rows(left)):
+            here = np.flatnonzero(known)
+            if here.size and all(self._agrees(by, told, n, left[start + n]) for n in here[[0, -1]]):
+                self._add(told.some(here), left[start + here])
+                are_told[start + here] = self.recorded = True
+            start += len(known)
+        return are_told
+
+    def _agrees(self, by: Way, told: Told, n: int, k: int) -> bool:
+        """Whether the ``n``-th of what is told is what the worksheet tells of its case alone."""
+        try:
+            return by.agrees(told, n, self._run(k))
+        except OF_NUMBERS:
+            return False
+
+    def cases(self, alone: Callable[[], Cases] | None) -> Cases:
+        """What all of them tell; of checks those that every case with numbers has."""
+        there = np.array([k not in self.lost for k in range(self.count)])
+        held = {name: holds == 1 for name, holds in self.holds.items() if not np.isnan(holds[there]).any()}
+        return Cases(COUNT, self.spans, held, len(self.lost), next(iter(self.lost.values()), ""), alone)
+
+    def _g(self, k: int) -> Any:
+        return replace(self.g, **{name: x[k].item() for name, x in self.at.items()})
+
+    def _rows(self, which: Values) -> dict[str, Values]:
+        return {name: x[which] for name, x in self.at.items()}
+
+    def _run(self, k: int) -> Told:
+        names = self.sheet.run(self.want, {"g": self._g(k)})
+        shown = parts.values(names)
+        numbers = _numbers(names, self.known, [table for table in shown if isinstance(table, Table)])
+        holds = {check.name: np.array([check.passed]) for check in shown if isinstance(check, Check)}
+        return Told({key: x[None] for key, x in numbers}, holds)
+
+    def _add(self, told: Told, which: Values) -> None:
+        for key, x in told.numbers.items():
+            low, high = np.fmin.reduce(x), np.fmax.reduce(x)
+            span = self.spans.setdefault(key, (low, high))
+            same = span is not None and span[0].shape == low.shape
+            self.spans[key] = (np.fmin(span[0], low), np.fmax(span[1], high)) if span is not None and same else None
+        for name, holds in told.holds.items():
+            self.holds.setdefault(name, np.full(self.count, np.nan))[which] = holds
 
 
 @contextmanager
