@@ -13,6 +13,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from openpyxl import Workbook
+from own_worksheet import own
 from test_kinds import SHEET, use
 
 from mechsheet.run import compare
@@ -156,6 +157,26 @@ def test_infinities_of_other_signs_differ_and_so_do_numbers_whose_difference_is_
 @pytest.mark.parametrize("beside", [inf, 1e12])
 def test_a_great_number_hides_no_change_of_another(beside: float) -> None:
     assert numbers_that_differ({"N": [beside], "x": [0.5]}, {"N": [beside], "x": [0.9]}) == {"x": "+0.4 (+80 %)"}
+
+
+FAR_APART = """
+from mechsheet import check
+N = 1e16 * g.F / (g.F + 1e-9)  # [-] life
+s = 1.5 * g.a  # [-] safety
+left = g.F ** 0.5 * g.F ** 0.5 - g.F + g.a ** (1 / 3) * g.a ** (2 / 3) - g.a  # [-] zero but for rounding
+c_1 = check("safety", 1 / s, 1)"""
+
+
+def test_a_greater_number_of_the_same_dimension_hides_only_what_rounding_moves_as_much(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = Path(own(tmp_path, FAR_APART).path)
+    for name, text in {"old": "a = 0.75", "new": "a = 0.8", "other": "a = 0.75\nF = 7.3"}.items():
+        (tmp_path / f"{name}.toml").write_text(f"[inputs]\n{text}\n", encoding="utf-8")
+    code, out, _ = compared(path, monkeypatch, capsys, "old.toml", "new.toml")
+    assert code == 1 and "s: 1.125 -> 1.2  +0.075 (+6.67 %)" in out and "left" not in out and "N:" not in out
+    code, out, _ = compared(path, monkeypatch, capsys, "old.toml", "other.toml")
+    assert code == 1 and "left" not in out and " s:" not in out
 
 
 def test_rounding_is_no_difference() -> None:

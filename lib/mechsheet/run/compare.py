@@ -10,8 +10,10 @@ import subprocess
 import sys
 import tarfile
 import tempfile
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack
+from dataclasses import replace
+from functools import cache, partial
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -22,11 +24,12 @@ from mechsheet import units
 from mechsheet.document import parts
 from mechsheet.run import arguments
 from mechsheet.run.ending import say, watch
+from mechsheet.run.within import silently
 from mechsheet.workbook.checks_sheet import verdict
 from mechsheet.worksheet import inputs, mistakes, numbers, results
 from mechsheet.worksheet.cells import Worksheet, load
 from mechsheet.worksheet.check import Check
-from mechsheet.worksheet.errors import SheetError
+from mechsheet.worksheet.errors import OF_NUMBERS, SheetError
 from mechsheet.worksheet.kinds import Input
 from mechsheet.worksheet.lines import registry
 from mechsheet.worksheet.no_inputs import beforehand
@@ -34,7 +37,10 @@ from mechsheet.worksheet.results import Displayed
 from mechsheet.worksheet.scene import Scene
 
 _SAME = 1e-12  # of the greatest value of a result: what differs by less is rounding
-_ZERO = 1e-13  # of the greatest value of its dimension: a result that is less is zero but for rounding
+_ZERO = 1e-13  # of the greatest value of its dimension: a result that is less may be zero but for rounding
+_DRAWS = 4  # of inputs off by some roundings, which moves what is zero but for rounding
+_ROUNDINGS = 64  # of an input at most
+_AS_MUCH = 16  # times what these move it by: roundings of another kind may leave as much
 
 
 class State(NamedTuple):
@@ -44,6 +50,7 @@ class State(NamedTuple):
     formulas: dict[str, str]
     numbers: dict[str, Displayed]
     verdicts: dict[str, str]
+    shaken: Callable[[], dict[str, float]] | None = None  # how much roundings of the inputs move numbers, in SI
 
 
 class Change(NamedTuple):
@@ -75,7 +82,7 @@ def _compared(worksheet: Path, options: Sequence[str]) -> list[Change]:
         raise SheetError("compare takes a worksheet, two states and --markdown, such as hitch HEAD heavy.toml")
     with ExitStack() as folders:
         old, new = (state(worksheet, name, folders) for name in names)
-    return list(changes(old, new))
+        return list(changes(old, new))
 
 
 def state(worksheet: Path, name: str, folders: ExitStack) -> State:
@@ -115,12 +122,49 @@ def _of(sheet: Worksheet, scene: Scene) -> State:
     lines = registry(names)
     values = [value for value in parts.values(names) if isinstance(value, Check)]
     judged = results.limited(values, scene.limits, names)
+    shown = _numbers(names)
     return State(
         {f.name: _shown(f, getattr(g, f.name)) for f in inputs.declared(sheet.inputs)},
         {name: ast.unparse(line.expression) for name, line in lines.items()},
-        {q.name: q for name, line in lines.items() for q in _quantities(name, line.arguments, names)},
+        shown,
         {check.name: verdict(check) for check in judged},
+        partial(_shaken, sheet, g, shown),
     )
+
+
+def _shaken(sheet: Worksheet, g: Any, own: Mapping[str, Displayed]) -> dict[str, float]:
+    """By how much numbers move, in SI, where inputs are off by some roundings; runs to the end tell."""
+    moved, rng = dict.fromkeys(own, 0.0), np.random.default_rng(0)
+    for _ in range(_DRAWS):
+        try:
+            with silently():
+                there = _numbers(sheet.run(sheet.results, beforehand(_by_roundings(g, rng))))
+        except OF_NUMBERS:
+            continue
+        for name in own.keys() & there.keys():
+            a, b = _si(own[name]), _si(there[name])
+            if a.shape == b.shape:
+                moved[name] = max(moved[name], _greatest(b - a))
+    return moved
+
+
+def _by_roundings(g: Any, rng: np.random.Generator) -> Any:
+    """Inputs that are off by some roundings each."""
+
+    def off(x: Any) -> Any:
+        near = x * (1 + np.finfo(float).eps * rng.integers(-_ROUNDINGS, _ROUNDINGS + 1, np.shape(x)))
+        return near if isinstance(x, np.ndarray) else float(near)
+
+    near = dict[str, Any]()
+    for field in inputs.declared(type(g)):
+        leaves = field.leaves(getattr(g, field.name))
+        near[field.name] = field.held({name: off(x) if f.continuous else x for name, (f, x) in leaves.items()})
+    return replace(g, **near) if near else g
+
+
+def _numbers(names: dict[str, Any]) -> dict[str, Displayed]:
+    lines = registry(names)
+    return {q.name: q for name, line in lines.items() for q in _quantities(name, line.arguments, names)}
 
 
 def _shown(field: Input, value: Any) -> tuple[str, str]:
@@ -146,8 +190,14 @@ def changes(old: State, new: State) -> Iterator[Change]:
     for q in (*old.numbers.values(), *new.numbers.values()):
         dims = units.parse(q.unit).dims
         sizes[dims] = max(sizes.get(dims, 0.0), _greatest(_si(q)))
+
+    @cache
+    def rounding() -> dict[str, float]:
+        both = [each.shaken() if each.shaken else dict.fromkeys(each.numbers, np.inf) for each in (old, new)]
+        return {name: max(moved.get(name, 0.0) for moved in both) for name in old.numbers}
+
     for name in dict.fromkeys([*old.numbers, *new.numbers]):
-        yield from _changed(name, old.numbers.get(name), new.numbers.get(name), sizes)
+        yield from _changed(name, old.numbers.get(name), new.numbers.get(name), sizes, rounding)
     for name in dict.fromkeys([*old.verdicts, *new.verdicts]):
         if old.verdicts.get(name) != new.verdicts.get(name):
             yield Change("verdict", name, old.verdicts.get(name, ""), new.verdicts.get(name, ""))
@@ -162,7 +212,13 @@ def _greatest(values: NDArray[np.float64]) -> float:
     return float(np.abs(values[np.isfinite(values)]).max(initial=0.0))
 
 
-def _changed(name: str, old: Displayed | None, new: Displayed | None, sizes: Mapping[Any, float]) -> Iterator[Change]:
+def _changed(
+    name: str,
+    old: Displayed | None,
+    new: Displayed | None,
+    sizes: Mapping[Any, float],
+    rounding: Callable[[], Mapping[str, float]],
+) -> Iterator[Change]:
     """A number that differs: by the greatest difference, in the new unit, and its part of the old greatest value."""
     said = ["" if q is None else f"{q.span}{numbers.suffix(q.unit)}{q.partly}" for q in (old, new)]
     if old is None or new is None:
@@ -180,7 +236,9 @@ def _changed(name: str, old: Displayed | None, new: Displayed | None, sizes: Map
         by = np.where(finite, b - a, 0.0)
     most = float(by.ravel()[int(np.abs(by).argmax())])
     greatest, size = _greatest(a), max(_greatest(a), _greatest(b))
-    if not gaps.any() and (abs(most) <= _SAME * size or size <= _ZERO * sizes[dims]):
+    if not gaps.any() and abs(most) <= _SAME * size:
+        return
+    if not gaps.any() and size <= _ZERO * sizes[dims] and abs(most) <= _AS_MUCH * rounding()[name]:
         return
     part = f" ({_signed(100 * most / greatest, 3)} %)" if greatest else ""
     told = f"{_signed(most / own.factor, 4)}{numbers.suffix(new.unit)}{part}" if most else ""

@@ -49,7 +49,7 @@ def cases(
     at = {name: t.value + part * t.size for (name, t), part in zip(by.items(), every.T, strict=True)}
     runs = _Runs(g, sheet, want, known, at)
     left = np.arange(len(every))[::-1]  # the random ones first, which go the most usual ways
-    with progress(len(every), "cases within the tolerances") as done, _silently():
+    with progress(len(every), "cases within the tolerances") as done, silently():
         while left.size:
             first, left = left[0], left[1:]
             told = runs.alone(first)
@@ -149,7 +149,7 @@ class _Runs:
 
 
 @contextmanager
-def _silently() -> Iterator[None]:
+def silently() -> Iterator[None]:
     """What lines print, and warn of, the worksheet's own run has told."""
     with warnings.catch_warnings(), redirect_stdout(StringIO()):
         warnings.simplefilter("ignore")
