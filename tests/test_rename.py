@@ -144,3 +144,39 @@ def test_an_argument_of_another_function_keeps_its_name(tmp_path: Path, inside: 
 def test_a_named_argument_of_find_is_none_of_its_unknowns(tmp_path: Path) -> None:
     path = Path(own(tmp_path, "\nguess = 1.0  # [-] start\nx_0 = find(lambda x: x - 2, guess=guess).value").path)
     assert "x - 2, guess=x_s)" in renamed(path, "guess", "x_s", {})[path]
+
+
+ROWS = """
+from mechsheet import check
+@inputs
+class Case:
+    x: float  # [m] way; > 0 < m
+    m: float  # [kg] mass
+cases = [Case(x=1.0, m=2.0), Case(3.0, 4.0)]
+m = 2 * g.F  # [m] way of m, 5 m/s or 3 m
+s = sum(case.x + m for case in cases)  # [m] all
+y_1 = check("m over s in 5 m", s - m, 99, "m")
+y_2 = check(f"at {m:.1f} m", x=m) if False else {"m": s[m] if False else m}"""
+
+
+def test_columns_of_rows_and_units_keep_their_names(tmp_path: Path) -> None:
+    path = Path(own(tmp_path, ROWS).path)
+    text = renamed(path, "m", "m_1", {tmp_path / "s.toml": ""})[path]
+    for kept in (
+        "x: float  # [m] way; > 0 < m",
+        " m: float  # [kg] mass",
+        "Case(x=1.0, m=2.0)",
+        "m_1 = 2 * g.F  # [m] way of m_1, 5 m/s or 3 m",
+        "case.x + m_1 for case in cases)  # [m] all",
+        'check("m_1 over s in 5 m", s - m_1, 99, "m")',  # its last text is a unit
+        'f"at {m_1:.1f} m", x=m_1) if False else {"m_1": s[m_1] if False else m_1}',
+    ):
+        assert kept in text
+    assert "sum(case.x + m" in renamed(path, "s", "s_1", {})[path]
+
+
+def test_a_scene_keeps_units_and_columns(tmp_path: Path) -> None:
+    path, scene = Path(own(tmp_path, ROWS).path), tmp_path / "scene.toml"
+    held = 'want = ["m", "s"]\n[inputs]\nF = "3 m"  # m, of m\n[limits]\nm = {max = 3}\n'
+    now = 'want = ["m_1", "s"]\n[inputs]\nF = "3 m"  # m, of m_1\n[limits]\nm_1 = {max = 3}\n'
+    assert renamed(path, "m", "m_1", {scene: held})[scene] == now

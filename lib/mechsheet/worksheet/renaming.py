@@ -13,6 +13,7 @@ from itertools import accumulate
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from mechsheet import units
 from mechsheet.worksheet import cells, inputs, mistakes
 from mechsheet.worksheet.errors import SheetError, as_given, nearest
 from mechsheet.worksheet.scene import is_of
@@ -26,8 +27,8 @@ def renamed(path: Path, old: str, new: str, scenes: Mapping[Path, str]) -> dict[
     """New texts of the worksheet and of those of the ``scenes`` that are its own and name the symbol.
 
     A symbol is an input or what a cell defines. Everything of that name follows: arguments, ``g.OLD``, keys of scenes,
-    whole words of comments and texts. Attributes of other things, arguments of functions that are not the worksheet's
-    own, and a field ``OLD_S`` keep theirs.
+    whole words of comments and texts. Attributes of other things, columns of rows and properties of options among them,
+    arguments of functions that are not the worksheet's own, units, and a field ``OLD_S`` keep theirs.
 
     Raises SheetError where OLD is no symbol, or NEW is no name or one that stands there already.
     """
@@ -49,7 +50,7 @@ def renamed(path: Path, old: str, new: str, scenes: Mapping[Path, str]) -> dict[
             raise SheetError(f"{mistakes.place(path, line)}: {new} stands there already")
     if new in dir(builtins):
         raise SheetError(f"{new} is a name of Python's own")
-    made = {path: _in_worksheet(text, old, new, old in declared)}
+    made = {path: _in_worksheet(text, old, new, sheet.inputs.__name__ if old in declared else "")}
     ast.parse(made[path])
     for scene, held in scenes.items():
         if is_of(held, declared) and (other := _in_scene(held, old, new)) != held:
@@ -57,15 +58,16 @@ def renamed(path: Path, old: str, new: str, scenes: Mapping[Path, str]) -> dict[
     return made
 
 
-def _in_worksheet(text: str, old: str, new: str, is_input: bool) -> str:
-    stay, before = _keywords_of_others(text, old), ["", ""]
-    places = list[tuple[int, int, str]]()
+def _in_worksheet(text: str, old: str, new: str, inputs_class: str) -> str:
+    """The text of a worksheet; ``inputs_class`` declares the symbol where it is an input."""
+    found = _Others(text, old, inputs_class)
+    before, places = ["", ""], list[tuple[int, int, str]]()
     for token in _tokens(text):
-        if token.type == tokenize.NAME and token.string == old and token.start not in stay:
-            if before[1] != "." or (before[0] == "g" and is_input) or before[0] == "value":
+        if token.type == tokenize.NAME and token.string == old and not found.keeps(token.start):
+            if before[1] != "." or (before[0] == "g" and inputs_class) or before[0] == "value":
                 places.append((token.start, token.end, new))
-        elif token.type in (tokenize.COMMENT, tokenize.STRING):
-            within = {place - token.start for place in stay}
+        elif token.type in (tokenize.COMMENT, tokenize.STRING) and not found.keeps(token.start):
+            within = {place - token.start for place in found.arguments}
             places.append((token.start, token.end, _in_words(token.string, old, new, within)))
         if token.string.strip():
             before = [before[1], token.string]
@@ -74,32 +76,71 @@ def _in_worksheet(text: str, old: str, new: str, is_input: bool) -> str:
     return text
 
 
-def _keywords_of_others(text: str, name: str) -> set[int]:
-    """Where a name is that of an argument of a function that is none of the worksheet's own, as in ``diff(x, n=2)``.
+class _Others:
+    """Where a name in a worksheet is that of something else than the symbol."""
 
-    What takes any names, as `find` does its unknowns, takes symbols.
-    """
-    tree, starts = ast.parse(text), _starts(text)
-    own = {node.name for node in ast.walk(tree) if isinstance(node, ast.FunctionDef | ast.ClassDef)}
-    own -= {cell.name for cell in functions(tree)}
-    imported, found = dict[str, Any](), set[int]()
-    for node in ast.walk(tree):
-        match node:
-            case ast.Assign([ast.Name(function)], ast.Lambda()):
-                own.add(function)
-            case ast.ImportFrom(str(module), names):
-                there = sys.modules.get(module)
-                imported |= {each.asname or each.name: getattr(there, each.name, None) for each in names}
-    for node in ast.walk(tree):
-        match node:
-            case ast.Call(ast.Name(function)) if function in own or _takes_any(imported.get(function), name):
-                continue
-            case ast.Call(keywords=keywords):
-                for k in keywords:
-                    if k.arg == name:
-                        line = text[starts[k.lineno - 1] :].encode()  # its columns are bytes
-                        found.add(starts[k.lineno - 1] + len(line[: k.col_offset].decode()))
-    return found
+    def __init__(self, text: str, name: str, inputs_class: str) -> None:
+        self.text, self.name, self.starts, tree = text, name, _starts(text), ast.parse(text)
+        self.arguments, self.spans = set[int](), list[tuple[int, int]]()
+        own = {node.name for node in ast.walk(tree) if isinstance(node, ast.FunctionDef | ast.ClassDef)}
+        own -= {cell.name for cell in functions(tree)}
+        imported = dict[str, Any]()
+        for node in ast.walk(tree):
+            match node:
+                case ast.Assign([ast.Name(function)], ast.Lambda()):
+                    own.add(function)
+                case ast.ImportFrom(str(module), names):
+                    there = sys.modules.get(module)
+                    imported |= {each.asname or each.name: getattr(there, each.name, None) for each in names}
+                case ast.ClassDef(of) if of != inputs_class and _has_field(node, name):
+                    own.discard(of)
+                    self.spans.append((self._at(node.lineno, 0), self.starts[node.end_lineno or node.lineno]))
+        for node in ast.walk(tree):
+            if isinstance(node, ast.Call):
+                function = node.func.id if isinstance(node.func, ast.Name) else ""
+                if function not in own:
+                    self._add_units(node, imported.get(function))
+                    if not _takes_any(imported.get(function), name):
+                        self._add_arguments(node)
+
+    def keeps(self, place: int) -> bool:
+        """Whether what stands at a place keeps its name."""
+        return place in self.arguments or any(start <= place < end for start, end in self.spans)
+
+    def _add_arguments(self, call: ast.Call) -> None:
+        """An argument of a function that is none of the worksheet's own, as in ``diff(x, n=2)``.
+
+        What takes any names, as `find` does its unknowns, takes symbols.
+        """
+        self.arguments |= {self._at(k.lineno, k.col_offset) for k in call.keywords if k.arg == self.name}
+
+    def _add_units(self, call: ast.Call, function: Any) -> None:
+        """Texts that are given as units."""
+        given = [(k.arg, k.value) for k in call.keywords] + list(zip(_parameters(function), call.args, strict=False))
+        for node in (part for name, value in given if name in _UNITS for part in ast.walk(value)):
+            if isinstance(node, ast.Constant) and isinstance(node.value, str):
+                start = self._at(node.lineno, node.col_offset)
+                self.spans.append((start, start + 1))
+
+    def _at(self, line: int, column: int) -> int:
+        """Where a place of the tree is in the text: its columns are bytes."""
+        start = self.starts[line - 1]
+        return start + len(self.text[start:].encode()[:column].decode())
+
+
+_UNITS = ("unit", "unknown_unit")
+
+
+def _has_field(node: ast.ClassDef, name: str) -> bool:
+    """Whether a class declares a field of that name: a column of rows, or a property of options."""
+    return any(isinstance(line, ast.AnnAssign) and ast.unparse(line.target) == name for line in node.body)
+
+
+def _parameters(function: Any) -> list[str]:
+    try:
+        return list(signature(function).parameters)
+    except (TypeError, ValueError):  # none, or one of C
+        return []
 
 
 def _takes_any(function: Any, name: str) -> bool:
@@ -112,19 +153,45 @@ def _takes_any(function: Any, name: str) -> bool:
 
 
 def _in_words(text: str, old: str, new: str, stay: Set[int]) -> str:
-    """Whole words of comments and texts, and ``g.OLD``; a word of English between ``$``, backticks or braces alone."""
-    symbol = rf"(?:{_FIRST}|(?<=\bg\.)){re.escape(old)}{_LAST}"
+    """Whole words of comments and texts, and ``g.OLD``; a word of English between ``$``, backticks or braces alone.
+
+    Of a name that a unit has too those in brackets and behind numbers are units, and a text that is one.
+    """
+    symbol, is_unit = rf"(?:{_FIRST}|(?<=\bg\.)){re.escape(old)}{_LAST}", _is_unit(old)
+    if is_unit and text.strip("\"'") != old and _is_unit(text.strip("\"'")):
+        return text
+    in_units = [found.span() for found in re.finditer(rf"{_IN_BRACKETS}|{_BEHIND_A_NUMBER}", text) if is_unit]
 
     def follow(part: str, start: int) -> str:
-        return re.sub(symbol, lambda word: old if start + word.start() in stay else new, part)
+        def word(found: re.Match[str]) -> str:
+            place = start + found.start()
+            stays = place in stay or any(first <= place < last for first, last in in_units)
+            return old if stays else new
+
+        return re.sub(symbol, word, part)
 
     if old not in _WORDS:
         return follow(text, 0)
     return re.sub(r"\$[^$]*\$|`[^`]*`|\{[^}]*\}", lambda found: follow(found[0], found.start()), text)
 
 
+_IN_BRACKETS = r"(?<![\w\])])\[[^\]\n\"']*\]"  # and no index
+_BEHIND_A_NUMBER = r"(?:(?<![\w.])\d[\d.,]*(?:e[+-]?\d+)?|\}) ?[^\W\d]+(?:[*/·^]+-?\w+)*"
+
+
+def _is_unit(text: str) -> bool:
+    try:
+        units.parse(text)
+    except ValueError:
+        return False
+    return True
+
+
 def _in_scene(text: str, old: str, new: str) -> str:
-    return re.sub(rf"{_FIRST}{re.escape(old)}{_LAST}", new, text)
+    """What a scene names; in braces are columns of rows, behind numbers and first in a comment units."""
+    others = [r"\{[^{}]*\}", *([_BEHIND_A_NUMBER, r"#\s*[^\s,;]+"] if _is_unit(old) else [])]
+    symbol = rf"(?P<other>{'|'.join(others)})|{_FIRST}{re.escape(old)}{_LAST}"
+    return re.sub(symbol, lambda found: found["other"] or new, text)
 
 
 class _Token(NamedTuple):
