@@ -287,6 +287,30 @@ def test_a_verdict_that_rests_on_a_jump_and_is_the_same_in_all_cases_says_so(tmp
     assert re.search(r"^2 +– +– +1\.\.3", out, re.MULTILINE) and "jumping: pass in all of 1000 random cases" in out
 
 
+AT_ITS_LEAST = """
+e = (g.F - 2.5) ** 2  # [-] least at the value itself
+s = 2 if e < 0.04 else 5  # [-] size by it
+z = np.sqrt(g.F - 2.0)  # [-] none for some
+check_2 = check("least", e, 0.5)
+check_3 = check("greatest", 0.9 / np.cos(g.F - 2.5), 1)
+check_4 = check("size", 3 * s, 10)
+check_5 = check("there", z, 1)
+check_6 = check("far", e, 1.1)"""
+
+
+def test_what_slopes_mislead_about_is_told_by_cases(tmp_path):
+    """At its least a number moves by no slope at all, and still by the tolerance."""
+    found, _ = bands(off(tmp_path, 9, "± 1", "± 0.5", AT_ITS_LEAST))
+    share = {"least": 0.71, "greatest": 0.45, "size": 0.2, "there": 0.5}
+    for name, part in share.items():
+        told = re.fullmatch(r"in (\S+) % of cases, fails at worst \(it bends\)", found.sure[name])
+        assert told and float(told[1]) / 100 == pytest.approx(part, abs=0.06), name
+    assert found.sure["far"] == "in all the tolerances"
+    by_name = {b.name: b.cells() for b in found.banded}
+    assert re.match(r"it bends: \S+\.\.1 in 1000 random cases", by_name["e"][-1])
+    assert by_name["s"][-1].startswith("it bends: 2..5 in") and by_name["z"][-1] == "it ends within the tolerances"
+
+
 def test_cases_print_and_warn_of_nothing(tmp_path, capsys):
     more = "\nj = np.floor(g.F)  # [-] jumps\nprint('of a line', g.F)\nv = np.log(np.array([g.F - 2.5]))  # [-] none"
     with pytest.warns(RuntimeWarning, match="divide by zero") as warned:

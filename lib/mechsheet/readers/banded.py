@@ -10,7 +10,7 @@ from mechsheet.quantities.lines import Recording
 from mechsheet.quantities.node import LEAVES, Node
 from mechsheet.quantities.operations import Values
 from mechsheet.quantities.quantity import Quantity, lift
-from mechsheet.readers.bands import Band, Bands, Tolerance
+from mechsheet.readers.bands import BENDS, Band, Bands, Tolerance
 from mechsheet.readers.cases import RESULTS, Cases
 from mechsheet.worksheet import numbers
 from mechsheet.worksheet.check import Check
@@ -51,11 +51,15 @@ class Banded:
         own = deviations.reshape(-1) / units.parse(self.unit).factor
         return np.where(np.isnan(self.values.reshape(-1)), np.nan, own)
 
-    def jumping(self, cases: Cases, turns: str) -> "Banded":
-        """The same with what cases tell in place of a band that they are outside of, for ``turns`` goes another way."""
+    def told_by(self, cases: Cases, what: str, why: str = "") -> "Banded":
+        """The same with what cases tell in place of a band that they are outside of: ``what`` it does, and why."""
         if not (outside := cases.outside((self.where, self.name), self.values, self.worst, self.unit)):
             return self
-        return replace(self, band=self.band.none(f"it jumps: {outside} ({turns})"))
+        return self.without(f"{what}: {outside}{why}")
+
+    def without(self, why: str) -> "Banded":
+        """The same of which no band is known, and why."""
+        return replace(self, band=self.band.none(why))
 
     def cells(self) -> list[str]:
         """Where, name, value, worst case, root of squares: of several numbers those whose worst case is greatest."""
@@ -131,10 +135,14 @@ def run_bands(
     jumping = bands.jumps(node for nodes in seen for node in nodes)
     for k, nodes in enumerate(seen):
         if jump := next((jumping[node] for node in nodes if node in jumping), None):
-            banded[k] = banded[k].jumping(bands.cases, bands.turns(jump))
+            banded[k] = banded[k].told_by(bands.cases, "it jumps", f" ({bands.turns(jump)})")
+    bands.look(node for nodes in seen for node in nodes)
+    for k, (node, *guards) in enumerate(seen):
+        if not banded[k].band.why and (how := bands.misled(node, guards)):
+            banded[k] = banded[k].told_by(bands.cases, how) if how == BENDS else banded[k].without(how)
     moved = tuple(each for each in banded if each.band.why or np.any(each.band.moves))
     sure = {name: bands.sure(name, passed) for name, (_, passed) in judged.items()}
-    return RunBands(by, moved, sure, tuple(bands.cases.told()) if jumping else ())
+    return RunBands(by, moved, sure, tuple(bands.cases.told()) if bands.ran else ())
 
 
 def _of_lines(recording: Recording, known: Mapping[str, Formula], listed: set[str]) -> Iterator[_Shown]:

@@ -22,12 +22,17 @@ from mechsheet.readers.numbers import numbers as recomputed
 from mechsheet.readers.slopes import seen, slopes, unfollowed
 from mechsheet.worksheet import inputs, numbers
 from mechsheet.worksheet.deviation import LIKE, SIGMAS
-from mechsheet.worksheet.errors import SheetError
+from mechsheet.worksheet.errors import OF_NUMBERS, SheetError
 from mechsheet.worksheet.kinds import Input
 
 _CASES = 20_000  # random ones by which a check is judged
+_CORNERS = 8  # random ones at which it is looked whether slopes mislead, beside both ends of each tolerance
+_MISLED = 1.5  # times a band: what gets farther off there has none by the slopes
+_LITTLE = 0.1  # of how far a check moves: a reserve that is less may be another one by what bends a little
 _CRITICAL = 100  # elements of a check that are judged at a time
+BENDS, ENDS = "it bends", "it ends within the tolerances"  # what slopes do not tell
 _EPS = float(np.finfo(float).eps)
+_ROUNDING = 1e-9  # of the greatest number
 
 
 class Tolerance(NamedTuple):
@@ -106,11 +111,15 @@ class Bands:
     def __init__(self, recording: Recording, by: Mapping[str, Tolerance], run: Callable[[], Cases]) -> None:
         self.recording, self.by, self.run = recording, list(by.values()), run
         self.inputs = [recording.inputs[name] for name in by]
-        self.known = dict[Node, Band]()
+        self.known, self.ran = dict[Node, Band](), False
+        rng, ends = np.random.default_rng(0), np.eye(len(by))
+        self.places = np.concatenate([ends, -ends, rng.choice([-1.0, 1.0], (_CORNERS, len(by)))])
+        self.there = [dict[Node, Values]() for _ in self.places]
 
     @cached_property
     def cases(self) -> Cases:
-        """Cases within the tolerances, which only what jumps there needs."""
+        """Cases within the tolerances, which only what jumps or bends there needs."""
+        self.ran = True
         return self.run()
 
     def of(self, nodes: Iterable[Node]) -> dict[Node, Band]:
@@ -157,6 +166,34 @@ class Bands:
         """What goes another way, and by which inputs."""
         return f"line {jump.line} goes another way by {', '.join(self.by[k].field.name for k in jump.by)}"
 
+    def look(self, nodes: Iterable[Node]) -> None:
+        """What quantities are at some ends of the tolerances; best of all at once, for they share what they rest on."""
+        new = [node for node in dict.fromkeys(nodes) if node not in self.there[0]]
+        for place, there in zip(self.places, self.there, strict=True):
+            at = {x: t.value + part * t.size for x, t, part in zip(self.inputs, self.by, place.tolist(), strict=True)}
+            try:
+                found = recomputed(new, at)
+            except OF_NUMBERS:  # as of a Find that has no interval there
+                found = {node: np.full(node.shape, np.nan) for node in new}
+            there |= {node: found[node] for node in new}
+
+    def misled(self, node: Node, guards: Sequence[Node] = ()) -> str:
+        """Why the slopes of a quantity with a band tell nothing of it, as where it is at its least; else nothing.
+
+        It is recorded under ``guards``, which may not hold at some end.
+        """
+        self.look([node, *guards])
+        known, worst = np.isfinite(node.value), self.known[node].worst
+        within = _MISLED * worst + _ROUNDING * np.max(np.abs(node.value), initial=0.0, where=known)
+        bends = False
+        for there in self.there:
+            if not all(there[guard].all() for guard in guards):
+                bends = True
+            elif np.isnan(there[node][known]).any():
+                return ENDS
+            bends |= bool(np.any((np.abs(there[node] - node.value) > within) & known))
+        return BENDS if bends else ""
+
     def compared(self, residual: Residual) -> list[Node]:
         """What a check compares with its limit, and that limit, whose bands tell how sure it is."""
         return [*(part for part, _ in _judged(residual)), residual.limit]
@@ -181,7 +218,22 @@ class Bands:
                 reserve = np.asarray(most * (limit - sign * part.value)).reshape(1, -1)
                 moves = most * (_flat(bands[residual.limit].moves) - sign * _flat(bands[part].moves)) + 0.0 * reserve
                 spread.append(np.concatenate([reserve, moves]))
-        return self._by_reserves(np.concatenate(spread, axis=1), passed)
+        reserves = np.concatenate(spread, axis=1)
+        if self._misleads(residual, reserves):
+            return f"{self.cases.sure(name, passed)} ({BENDS})"
+        return self._by_reserves(reserves, passed)
+
+    def _misleads(self, residual: Residual, reserves: Values) -> bool:
+        """Whether a check holds at some end of the tolerances where the slopes say that it fails, or fails there."""
+        self.look([*residual.parts, residual.limit])
+        little = _LITTLE * np.abs(reserves[1:]).sum(0)
+        for place, there in zip(self.places, self.there, strict=True):
+            parts = [there[part] if residual.signed else np.abs(there[part]) for part in residual.parts]
+            holds = all((part <= there[residual.limit]).all() for part in parts)
+            said = reserves[0] + place @ reserves[1:]
+            if np.any(said < -little) if holds else np.all(said > little):
+                return True
+        return False
 
     def _by_reserves(self, reserves: Values, passed: bool) -> str:
         """By the reserve of each element, in the first row, and how each input moves it."""
