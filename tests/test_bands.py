@@ -287,6 +287,25 @@ def test_a_verdict_that_rests_on_a_jump_and_is_the_same_in_all_cases_says_so(tmp
     assert re.search(r"^2 +– +– +1\.\.3", out, re.MULTILINE) and "jumping: pass in all of 1000 random cases" in out
 
 
+def test_a_lost_case_names_its_line_and_takes_no_other_result_with_it(tmp_path, capsys):
+    path = Path(off(tmp_path, 9, "± 1", "± 0.5", "\npass").path)
+    cell = """@app.cell
+def sized(g):
+    size = min(size for size in (1.0, 2.0, 3.0) if size >= g.F)  # [-] next size
+    return (size,)
+
+"""
+    path.write_text(path.read_text(encoding="utf-8").replace("if __name__", f"{cell}if __name__"), encoding="utf-8")
+    sheet = cells.load(str(path))
+    found, _ = bands(sheet)
+    assert re.search(r"no numbers: own\.py, line \d+, size = min\(.*: min\(\) ", "\n".join(found.lines()))
+    asked = arguments.read(["--tolerances", "--want=y,size"], declared(sheet.inputs))
+    batch.answer(sheet.path, asked)
+    out = capsys.readouterr().out
+    assert re.search(r"^5\.75 .*\d\.\.8\.\d+", out, re.MULTILINE) and out.count("random cases have no value") == 1
+    assert re.search(r"have no value: own\.py, line \d+, size", out)
+
+
 AT_ITS_LEAST = """
 e = (g.F - 2.5) ** 2  # [-] least at the value itself
 s = 2 if e < 0.04 else 5  # [-] size by it

@@ -77,20 +77,28 @@ def lines(
         found = bands.of(nodes.values())
         here = Used(namespace["g"]).given()
         drawn = {name: here[name] for name in given.inputs}
-        sampled = shown.study("tolerance")(sheet.path, [*nodes], None, "monte carlo", seed=1, count=_CASES, **drawn)
+        sampled = _sampled(sheet, [*nodes], drawn)
         bounds = _bounds(nodes.values(), recording.inputs, by)
         jumping = bands.jumps(nodes.values())
         for name, node in nodes.items():
             band, factor = found[node], units.parse(known[base(name)].unit).factor
-            ends, worst = (sampled[name].least, sampled[name].greatest), band.worst / factor
+            ends, worst = (sampled[name][name].least, sampled[name][name].greatest), band.worst / factor
             if node in jumping and is_outside(node.value / factor, *ends, worst):
                 band = band.none(f"it jumps ({bands.turns(jumping[node])})")
-            yield from _in_all_ways(name, node, known[base(name)], band, sampled, bounds[node], by)
+            yield from _in_all_ways(name, node, known[base(name)], band, sampled[name], bounds[node], by)
     for table in (value for name in given.want if isinstance(value := namespace.get(name), Table)):
         yield from _of_table(table, run_bands(recording, [table], (), {}, by, run).banded)
     for check in _own(checks, namespace):
         if check.evaluated and check.name in recording.checks:
             yield f"{check.name}: {check.verdict} {bands.sure(check.name, check.passed)}"
+
+
+def _sampled(sheet: Worksheet, names: Sequence[str], given: Mapping[str, Any]) -> dict[str, Any]:
+    """Random cases of each result: of all at once, but where one has no value in some of them the others may."""
+    draw = partial(shown.study("tolerance"), sheet.path, method="monte carlo", seed=1, count=_CASES, **given)
+    together = draw(names)
+    alone = together.lost and len(names) > 1
+    return {name: draw([name]) if alone else together for name in names}
 
 
 def part_of(name: str, values: Mapping[str, Any]) -> Node | None:

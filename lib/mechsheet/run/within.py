@@ -20,6 +20,7 @@ from mechsheet.readers.cases import RESULTS, Cases, Key
 from mechsheet.readers.plan import NotPlanned
 from mechsheet.run.many_cases import Told, Way, way
 from mechsheet.run.progress import progress
+from mechsheet.worksheet import mistakes
 from mechsheet.worksheet.cells import Worksheet
 from mechsheet.worksheet.check import Check
 from mechsheet.worksheet.deviation import SIGMAS
@@ -88,7 +89,7 @@ class _Runs:
         try:
             told = self._run(k)
         except OF_NUMBERS as error:
-            self.lost[k] = str(error)
+            self.lost[k] = mistakes.reason(error, self.sheet.path)
             return None
         self._add(told, np.array([k]))
         return told

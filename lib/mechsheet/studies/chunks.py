@@ -174,7 +174,7 @@ class Job:
         except OF_NUMBERS as error:
             if count > 1 and not self._in_common(columns):
                 return np.concatenate([self._reasons(half) for half in _halves(columns)])
-            add(str(error) if isinstance(error, ValueError) else mistakes.told(error, self.path))
+            add(mistakes.reason(error, self.path))
         among = count if varied(columns) else None
         for name in (name for cell in cells for name in cell.gives):
             held = names.get(name)

@@ -107,6 +107,14 @@ def told(error: BaseException, path: str) -> str:
     return f"{at(file, line, text.splitlines()[line - 1])}: {why(error, known, text, given)}"
 
 
+def reason(error: BaseException, path: str) -> str:
+    """Why one of several runs has no numbers: in the words of what the worksheet raises itself, else with the line."""
+    if places := [] if isinstance(error, SheetError) else _places(error, Path(path).resolve()):
+        line = Path(path).read_text(encoding="utf-8").splitlines()[places[-1][1] - 1]
+        return str(error) if line.strip().startswith("raise ") else told(error, path)
+    return str(error) if isinstance(error, ValueError) else told(error, path)
+
+
 @contextmanager
 def unbound(gives: Container[str], certain: Container[str], path: str) -> Iterator[None]:
     """SheetError where a name has no value that only some ways of a cell bind: of other inputs it may have one."""
