@@ -1,7 +1,7 @@
 """Bands of a recording: how far its quantities are off where inputs lie within their tolerances, by the slopes.
 
-To the first order: where a quantity bends within the tolerances its band does not tell, Monte Carlo and balls do. At a
-corner it is the steeper side that counts.
+To the first order: where a quantity bends within the tolerances its band does not tell, Monte Carlo and balls do; where
+some corners of the tolerances show that the slopes mislead, cases do. At a corner it is the steeper side that counts.
 """
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -26,7 +26,7 @@ from mechsheet.worksheet.errors import OF_NUMBERS, SheetError
 from mechsheet.worksheet.kinds import Input
 
 _CASES = 20_000  # random ones by which a check is judged
-_CORNERS = 8  # random ones at which it is looked whether slopes mislead, beside both ends of each tolerance
+_CORNERS = 8  # random ones of all tolerances, at which and opposite to which it is looked whether slopes mislead
 _MISLED = 1.5  # times a band: what gets farther off there has none by the slopes
 _LITTLE = 0.1  # of how far a check moves: a reserve that is less may be another one by what bends a little
 _CRITICAL = 100  # elements of a check that are judged at a time
@@ -112,8 +112,8 @@ class Bands:
         self.recording, self.by, self.run = recording, list(by.values()), run
         self.inputs = [recording.inputs[name] for name in by]
         self.known, self.ran = dict[Node, Band](), False
-        rng, ends = np.random.default_rng(0), np.eye(len(by))
-        self.places = np.concatenate([ends, -ends, rng.choice([-1.0, 1.0], (_CORNERS, len(by)))])
+        corners = np.random.default_rng(0).choice([-1.0, 1.0], (_CORNERS, len(by)))
+        self.places = np.unique(np.concatenate([corners, -corners]), axis=0)
         self.there = [dict[Node, Values]() for _ in self.places]
 
     @cached_property
