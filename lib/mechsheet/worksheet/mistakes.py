@@ -111,7 +111,7 @@ def reason(error: BaseException, path: str) -> str:
     """Why one of several runs has no numbers: in the words of what the worksheet raises itself, else with the line."""
     if places := [] if isinstance(error, SheetError) else _places(error, Path(path).resolve()):
         line = Path(path).read_text(encoding="utf-8").splitlines()[places[-1][1] - 1]
-        return str(error) if line.strip().startswith("raise ") else told(error, path)
+        return str(error) if re.search(r"(^|[:;])\s*raise\b", line) else told(error, path)
     return str(error) if isinstance(error, ValueError) else told(error, path)
 
 
