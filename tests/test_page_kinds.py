@@ -197,3 +197,11 @@ def test_a_bad_cell_is_told_at_its_place_and_nothing_is_lost(serve, page, sectio
     pasted(page.get_by_label("y_top [cm], row 2"), "30\t7")  # beside the columns
     page.get_by_text("stringers (2) = '0.5; -25; 30; 7' must have the columns A, y, y_top").first.wait_for()
     assert console_errors == []
+
+
+def test_the_editor_tells_what_the_setup_refuses(serve, page, tmp_path):
+    """Of that cell it shows nothing but what it raises: all other cells had waited for it, without a word."""
+    path = tmp_path / "section.py"
+    path.write_text(displayed(SECTION), encoding="utf-8")
+    page.goto(serve("edit", path))
+    page.get_by_text("the editor loses one that ends the setup cell").first.wait_for()

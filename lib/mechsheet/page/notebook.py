@@ -86,6 +86,17 @@ def stopped(cell_id: str = "") -> tuple[tuple[source.Cell, ...], tuple[Cell, ...
         return (), (), ""
 
 
+def is_setup() -> bool:
+    """Whether the calling cell is the setup; not where this version of marimo does not tell."""
+    try:
+        from marimo._ast.names import SETUP_CELL_NAME  # on use, as this: a version may lack it
+        from marimo._runtime.context import get_context  # on use
+
+        return str(get_context().cell_id) == SETUP_CELL_NAME
+    except (ImportError, AttributeError):
+        return False
+
+
 def tell_of_failures(
     told: Callable[[object, str, Mapping[str, Any]], str], kept: Callable[[str, Mapping[str, Any]], str]
 ) -> None:

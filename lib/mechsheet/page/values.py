@@ -78,8 +78,11 @@ def slider(value: Slider) -> Any:
 
 
 def refused(error: Exception, shown: Any) -> None:
-    """Stop the running cell with an error in its place, or ``shown``; return where no page is running."""
-    if mo.running_in_notebook():
+    """Stop the running cell with an error in its place, or ``shown``; return where no page is running.
+
+    And in the setup of an editor, which shows of that cell nothing but what it raises.
+    """
+    if mo.running_in_notebook() and not (notebook.is_setup() and mo.app_meta().mode == "edit"):
         of = error.of if isinstance(error, SheetError) else ""
         mo.stop(True, mo.Html(failed("" if isinstance(error, Waits) else str(error), of, str(error), shown)))
 
