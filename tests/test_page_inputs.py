@@ -35,6 +35,13 @@ def fill(page: Page, name: str, text: str) -> None:
     field.blur()
 
 
+def let_go(page: Page, held: list[Route]) -> None:
+    """Send what the fields have told meanwhile."""
+    while held:
+        held.pop(0).continue_()
+    page.unroute("**/set_ui_element_value")
+
+
 def test_a_step_back_and_on_the_documents_own_and_a_link(
     press: Path, left_open: Callable[[Path, str], Page], tmp_path: Path
 ) -> None:
@@ -78,9 +85,7 @@ def test_undo_and_redo_hold_however_long_the_page_computes(press: Path, left_ope
     states.get_by_role("button", name="undo").dblclick()
     until(page, lambda: bool(held), "the fields have told of nothing")
     page.wait_for_timeout(1500)  # a slow machine
-    while held:
-        held.pop(0).continue_()
-    page.unroute("**/set_ui_element_value")
+    let_go(page, held)
     expect(states).to_contain_text("r = 52 mm")
     expect(states.get_by_role("button", name="redo")).to_be_enabled()
     states.get_by_role("button", name="redo").click()
@@ -89,6 +94,147 @@ def test_undo_and_redo_hold_however_long_the_page_computes(press: Path, left_ope
     for told in ("r = 52 mm", "as in the document"):
         states.get_by_role("button", name="undo").click()
         expect(states).to_contain_text(told)
+
+
+KINDS = """\
+import marimo
+
+app = marimo.App()
+
+with app.setup:
+    from typing import Literal
+
+    from mechsheet import Used, ask, inputs, read
+
+
+@app.class_definition
+@inputs
+class Given:
+    a: float = 0.6  # [m] width; > 0
+    duty: Literal["light", "heavy"] = "light"  # service
+    spare: bool = False  # one in reserve
+    parts: list[float] = [1.0, 2.0, 3.0]  # [-] parts; > 0
+
+    \"""Rows.\"""
+
+
+@app.cell
+def _():
+    form = ask(Given)
+    form
+    return (form,)
+
+
+@app.cell
+def _(form):
+    g = read(Given, form)
+    Used(g)
+    return (g,)
+
+
+if __name__ == "__main__":
+    app.run()
+"""
+OWN = {"a": "0.6", "duty": "light", "spare": "no", "parts": "1; 2; 3"}
+
+
+@pytest.fixture(scope="module")
+def kinds(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A worksheet with an input of each kind that a field has."""
+    path = tmp_path_factory.mktemp("kinds") / "kinds.py"
+    path.write_text(KINDS, encoding="utf-8")
+    return path
+
+
+def computed(page: Page, **others: str) -> None:
+    """Wait until the page has computed with its own inputs but for these, and its fields show them."""
+    told = "(JSON.parse(document.querySelector('ms-used')?.getAttribute('told') ?? '[]'))"
+    known = f"Object.fromEntries({told}.map(({{ name, text }}) => [name, text]))"
+    until(page, lambda: page.evaluate(known) == OWN | others, f"it has not computed with {others}")
+    expect(page.locator('td[data-input="a"] input')).to_have_value((OWN | others)["a"])
+    expect(page.locator('td[data-input="duty"] select option:checked')).to_have_text((OWN | others)["duty"])
+    expect(page.get_by_role("checkbox")).to_be_checked(checked="spare" in others)
+    rows = page.locator("ms-grid input").evaluate_all("all => all.map(each => each.value).filter(Boolean).join('; ')")
+    assert rows == (OWN | others)["parts"]
+
+
+def part(page: Page, row: int, text: str) -> None:
+    page.get_by_label(f"parts, row {row}").fill(text)
+    page.keyboard.press("Enter")
+
+
+@pytest.mark.parametrize("kind", OWN)
+def test_a_step_back_and_on_at_once_is_none(kinds: Path, left_open: Callable[[Path, str], Page], kind: str) -> None:
+    """Of fields of every kind, whatever the page is still computing."""
+    page = left_open(kinds, "as in the document")
+    states, held = page.locator("ms-states"), list[Route]()
+    match kind:
+        case "a":
+            fill(page, "a", "0.7")
+        case "duty":
+            page.locator('td[data-input="duty"] select').select_option("heavy")
+        case "spare":
+            page.get_by_role("checkbox").click()
+        case "parts":
+            part(page, 2, "5")
+    changed = {kind: {"a": "0.7", "duty": "heavy", "spare": "yes", "parts": "1; 5; 3"}[kind]}
+    computed(page, **changed)
+    page.route("**/set_ui_element_value", lambda route: held.append(route))
+    states.get_by_role("button", name="undo").click()
+    until(page, lambda: bool(held), "the field has told of nothing")
+    states.get_by_role("button", name="redo").click()
+    page.wait_for_timeout(500)
+    let_go(page, held)
+    computed(page, **changed)
+    states.get_by_role("button", name="undo").click()
+    computed(page)
+
+
+def test_what_a_grid_refuses_is_taken_back_alone(kinds: Path, left_open: Callable[[Path, str], Page]) -> None:
+    page = left_open(kinds, "as in the document")
+    states = page.locator("ms-states")
+    part(page, 2, "abc")
+    expect(states).to_contain_text("not computed with what the fields say")
+    states.get_by_role("button", name="back to the document").click()
+    computed(page)
+    part(page, 2, "5")
+    computed(page, parts="1; 5; 3")
+    part(page, 2, "-1")
+    expect(states).to_contain_text("not computed with what the fields say")
+    states.get_by_role("button", name="undo").click()
+    computed(page, parts="1; 5; 3")
+    states.get_by_role("button", name="undo").click()
+    computed(page)
+
+
+def test_undo_takes_back_what_the_page_has_not_computed_yet(
+    kinds: Path, left_open: Callable[[Path, str], Page]
+) -> None:
+    page = left_open(kinds, "as in the document")
+    held = list[Route]()
+    for text in ("0.7", "0.8"):
+        fill(page, "a", text)
+        computed(page, a=text)
+    page.route("**/set_ui_element_value", lambda route: held.append(route))
+    fill(page, "a", "0.9")
+    until(page, lambda: bool(held), "the field has told of nothing")
+    page.locator("ms-states").get_by_role("button", name="undo").click()
+    let_go(page, held)
+    computed(page, a="0.8")
+
+
+def test_a_link_that_is_pasted_into_the_open_page_holds(kinds: Path, left_open: Callable[[Path, str], Page]) -> None:
+    """For all inputs, as in a page that is opened by it: it carries those that differ from the document."""
+    page = left_open(kinds, "as in the document")
+    part(page, 2, "5")
+    computed(page, parts="1; 5; 3")
+    page.evaluate("location.hash = 'a=700 mm&duty=heavy'")
+    expect(page.locator("ms-states")).to_contain_text("a = 0.7 m")
+    expect(page.locator("ms-states")).not_to_contain_text("parts")
+    page.locator("ms-states").get_by_role("button", name="undo").click()
+    computed(page, parts="1; 5; 3")
+    page.locator("ms-states").get_by_role("button", name="redo").click()
+    computed(page, a="0.7", duty="heavy")
 
 
 DEAF_ONCE = """() => {

@@ -2,13 +2,11 @@
 (() => {
   if (customElements.get("ms-used")) return;
 
-  let fields = []; // as they were last computed with
+  let fields = []; // as they were last computed with: the text of each, and what its field said, such as 0,055 m
   const steps = []; // sets of texts that the page has computed, by the names of the inputs
   let at = -1;
-  let asked; // the set that was last typed into the fields
-  let wanted = false; // whether the page has yet to compute it, and the user has typed nothing since
-  let linked = false; // whether an address wants it, perhaps in other words than the page: 0,055 m is told as 55
-  const heard = new Set(); // fields that have told their values since they were typed into
+  let asked; // the set that was typed into the fields and is on its way through the page
+  const unheard = new Set(); // fields that have not told their values since they were typed into
 
   // The element beside the fields tells of all that have changed; of each alone marimo would keep the last, and lose
   // what was typed before it while the page computed.
@@ -16,17 +14,16 @@
   const hear = (event) => {
     const field = alone(event.detail);
     if (!field) return;
-    heard.add(field.closest("td").dataset.input);
+    unheard.delete(field.closest("td").dataset.input);
     event.stopImmediatePropagation();
   };
   window.addEventListener("marimo-value-ready", hear, true);
 
-  // What the user types is a step of its own; what is typed here does not leave the field's shadow.
-  const byHand = ({ target, isTrusted }) => {
-    const cell = isTrusted && target.closest?.("td[data-input]");
-    if (!cell) return;
-    heard.add(cell.dataset.input);
-    wanted = false;
+  // What the user types stays; what is typed here does not leave the field's shadow.
+  const byHand = (event) => {
+    const cell = event.isTrusted && event.target.closest?.("td[data-input]");
+    const changes = event.type !== "click" || event.composedPath()[0].closest?.("button, [role=checkbox]");
+    if (cell && changes) unheard.delete(cell.dataset.input);
   };
   ["input", "change", "click"].forEach((kind) => document.addEventListener(kind, byHand, true));
 
@@ -38,12 +35,10 @@
   const fieldOf = (name) => hostOf(name)?.shadowRoot?.querySelector("input, textarea, select, button");
 
   // Typed into until it is heard: a field that is there may not listen yet.
-  function typeAll(names, texts, tries = 300) {
-    if (asked !== texts) return; // another set has been asked for since
-    const late = names.filter((name) => !heard.has(name));
-    if (!tries || !late.length) return;
-    late.filter(fieldOf).forEach((name) => type(name, texts[name]));
-    setTimeout(() => typeAll(late, texts, tries - 1), 100);
+  function typeAll(texts, tries = 300) {
+    if (asked !== texts || !tries || !unheard.size) return; // another set may have been asked for since
+    [...unheard].filter((name) => name in texts && fieldOf(name)).forEach((name) => type(name, texts[name]));
+    setTimeout(() => typeAll(texts, tries - 1), 100);
   }
 
   // A field takes its text as from the hand.
@@ -54,8 +49,7 @@
       setter(HTMLSelectElement).call(field, option?.value ?? text);
       field.dispatchEvent(new Event("change", { bubbles: true }));
     } else if (field.matches("button, [type=checkbox]")) {
-      const checked = field.ariaChecked === "true" || field.getAttribute("aria-checked") === "true" || field.checked === true;
-      if (checked !== (text === "yes")) field.click();
+      if (words(name) !== text) field.click();
     } else {
       // First another text: one that is there already is no change.
       for (const each of ["", text]) {
@@ -68,11 +62,31 @@
     }
   }
 
-  const shown = (name) => {
-    const field = hostOf(name)?.shadowRoot?.querySelector("input");
-    return field && field.type !== "checkbox" ? field.value : undefined;
-  };
+  // What a field shows, however it came there; nothing of one that is not drawn yet.
+  function words(name) {
+    const field = fieldOf(name);
+    if (field?.matches("select")) return field.selectedOptions[0]?.text ?? "";
+    if (!field?.matches("button, [type=checkbox]")) return field?.value;
+    return field.getAttribute("aria-checked") === "true" || field.checked === true ? "yes" : "no";
+  }
 
+  // Names of the fields that show anything but a set of texts, be it in other words.
+  function others(texts) {
+    const shows = ({ name, said, text }) => {
+      const now = words(name) ?? said;
+      return now === texts[name] || (now === said && text === texts[name]);
+    };
+    return fields.filter((field) => field.name in texts && !shows(field)).map(({ name }) => name);
+  }
+
+  // Whether the page has computed with all that was asked for, but for what the user has typed over it since.
+  function arrived() {
+    const typed = new Set(others(asked).filter((name) => !unheard.has(name)));
+    const due = fields.filter(({ name }) => name in asked && !typed.has(name));
+    return due.every(({ name, said, text }) => [said, text].includes(asked[name]));
+  }
+
+  const textsNow = () => Object.fromEntries(fields.map(({ name, text }) => [name, text]));
   const ownTexts = () => Object.fromEntries(fields.map((field) => [field.name, field.own]));
 
   // The inputs that the page computes with, told anew with each run; nothing while one of them is refused.
@@ -118,28 +132,25 @@
       return !document.querySelector("ms-used");
     }
 
+    // Of a set on its way the states in between are no steps of their own.
     follow() {
-      const now = Object.fromEntries(fields.map(({ name, text }) => [name, text]));
+      const now = textsNow();
       const first = at < 0;
-      if (!first && same(steps[at], now)) wanted = false;
-      else if (!wanted) steps.splice(++at, steps.length, now);
-      else if (linked && !same(steps[at - 1], now)) steps[at] = now;
+      if (asked && arrived()) {
+        asked = undefined;
+        unheard.clear();
+      }
+      if (first || !(asked || same(steps[at], now))) steps.splice(++at, steps.length, now);
       this.show();
+      if (first && this.open()) return;
+      if (!asked) whenIdle(() => this.address()); // which takes longer than all else here
+    }
+
+    // What a link carries, whether it carries anything; all else is as in the document.
+    open() {
       const given = textsIn(location.hash);
-      if (first && given.size) this.open(given);
-      else if (same(steps[at], now)) whenIdle(() => this.address()); // which takes longer than all else here
-    }
-
-    // What a link carries holds from the beginning.
-    open(given) {
-      const known = Object.keys(steps[at]).filter((name) => given.has(name));
-      this.to({ ...steps[at], ...Object.fromEntries(known.map((name) => [name, given.get(name)])) });
-      linked = true;
-    }
-
-    // Whether the fields show the last set that was computed, which is on its way again.
-    get isBack() {
-      return Object.entries(steps[at]).every(([name, text]) => (shown(name) ?? text) === text);
+      if (given.size) this.to({ ...ownTexts(), ...Object.fromEntries(given) });
+      return given.size > 0;
     }
 
     get given() {
@@ -153,27 +164,43 @@
       if (text || location.hash.includes("=")) history.replaceState(history.state, "", page + (text && `#${text}`));
     }
 
+    // The buttons stay the same ones: one that is drawn anew between press and release is not clicked.
+    draw() {
+      const button = (name, label, title) => `<button name="${name}" title="${title}">${label}</button>`;
+      this.innerHTML =
+        `<div class="ms-row">${button("undo", "↶ undo", "the inputs before the last change")}` +
+        button("redo", "↷ redo", "the inputs after it") +
+        button("back", "back to the document", "all inputs as the document has them") +
+        button("link", "copy a link", "an address with these inputs") +
+        button("scene", "save as a scene", "a file of these inputs, for --scene and compare") +
+        `<span class="ms-scenes"></span><span role="status"></span></div><div class="ms-row"></div>`;
+    }
+
+    enable() {
+      const changed = this.given.length > 0;
+      const can = { undo: at > 0 || this.refused, redo: at < steps.length - 1, back: changed || this.refused, scene: changed };
+      Object.entries(can).forEach(([name, is]) => (this.querySelector(`[name=${name}]`).disabled = !is));
+    }
+
     show() {
+      if (!this.firstChild) this.draw();
+      this.enable();
       const differs = new Set(this.given.map(({ name }) => name));
       document.querySelectorAll("td[data-input]").forEach((cell) => cell.classList.toggle("ms-changed", differs.has(cell.dataset.input)));
+      const list = this.querySelector(".ms-scenes");
+      list.innerHTML = this.list();
+      list.hidden = !list.firstChild;
+      const as = differs.size ? "" : "as in the document";
+      this.querySelector("[role=status]").textContent = this.refused ? "not computed with what the fields say" : as;
       const changed = this.given.map(
         ({ head, text, own, unit }) => `<span>${head} = <b>${plain(text)}</b> ${plain(unit)} <i>(${plain(own)} in the document)</i></span>`,
       );
-      const button = (name, label, title, is) => `<button name="${name}" title="${title}"${is ? "" : " disabled"}>${label}</button>`;
-      this.innerHTML =
-        `<div class="ms-row">${button("undo", "↶ undo", "the inputs before the last change", at > 0 || this.refused)}` +
-        button("redo", "↷ redo", "the inputs after it", at < steps.length - 1) +
-        button("back", "back to the document", "all inputs as the document has them", changed.length || this.refused) +
-        button("link", "copy a link", "an address with these inputs", true) +
-        button("scene", "save as a scene", "a file of these inputs, for --scene and compare", changed.length) +
-        this.list() +
-        `<span role="status">${this.refused ? "not computed with what the fields say" : changed.length ? "" : "as in the document"}</span></div>` +
-        `<div class="ms-row">${changed.join("")}</div>`;
+      this.lastElementChild.innerHTML = changed.join("");
     }
 
     // The scenes beside the worksheet; shown is the one that the inputs are as they stand.
     list() {
-      const now = Object.fromEntries(fields.map(({ name, text }) => [name, text]));
+      const now = textsNow();
       const options = this.scenes.map(({ name, texts, why }, n) => {
         const is = texts && !this.refused && same({ ...ownTexts(), ...texts }, now) ? " selected" : why ? " disabled" : "";
         return `<option value="${n}"${is}>${plain(name)}${why ? `: ${plain(why)}` : ""}</option>`;
@@ -184,7 +211,8 @@
 
     act(name) {
       const acts = {
-        undo: () => this.to(this.refused && !this.isBack ? steps[at] : steps[(at = Math.max(0, at - 1))]),
+        // What is typed and not computed with yet, or refused, goes first.
+        undo: () => this.to(others(steps[at]).length ? steps[at] : steps[(at = Math.max(0, at - 1))]),
         redo: () => this.to(steps[(at = Math.min(steps.length - 1, at + 1))]),
         back: () => this.to(ownTexts()),
         link: () => this.copy(),
@@ -193,14 +221,12 @@
       acts[name]?.();
     }
 
-    // Only the fields that differ are typed into; until all have arrived the states in between are no steps of their own.
+    // Only the fields that differ are typed into.
     to(texts) {
-      const now = Object.fromEntries(fields.map(({ name, text }) => [name, shown(name) ?? text]));
-      const others = Object.keys(texts).filter((name) => texts[name] !== now[name]);
-      if (!same(steps[at], texts)) steps.splice(++at, steps.length, texts);
-      [asked, wanted, linked] = [texts, others.length > 0, false];
-      heard.clear();
-      typeAll(others, texts);
+      others(texts).forEach((name) => unheard.add(name));
+      asked = texts;
+      typeAll(texts);
+      this.enable();
     }
 
     copy() {
@@ -209,6 +235,9 @@
       this.querySelector("[role=status]").textContent = "the address above carries these inputs";
     }
   }
+
+  // An address typed or pasted into the page that is open; a link to a place in it carries no inputs.
+  window.addEventListener("hashchange", () => document.querySelector("ms-states")?.open());
 
   const plain = (text) => String(text).replace(/[&<>"]/g, (sign) => ({ "&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;" })[sign]);
   customElements.define("ms-states", States);

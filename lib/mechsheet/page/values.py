@@ -353,7 +353,9 @@ def _(used: Used) -> str:
         )
         own = field.text(getattr(type(used.g), field.name))
         text = field.text(value) if field.name in changed else own
-        told.append({"name": field.name, "head": name, "kind": _kind(field), "text": text, "own": own, "unit": unit})
+        said = used.said.get(field.name)
+        its = {"name": field.name, "head": name, "kind": _kind(field), "text": text, "own": own, "unit": unit}
+        told.append(its | {"said": said if isinstance(said, str) else text})
     return f'{element("ms-used", told=told)}<table class="ms-print" style="display:none">{"".join(rows)}</table>'
 
 

@@ -390,13 +390,18 @@ def readings(fields: Iterable[Input], values: Mapping[str, object]) -> list[str]
     return [text for field in fields if field.name in values for text in field.readings(values[field.name])]
 
 
+_SAID = "__said__"
+
+
 def read(cls: type[T], form: Any) -> T:
     """Inputs as the text fields that `ask` gives hold them, checked as in `build`."""
     values: dict[str, object] = form.value
     try:
-        return build(cls, values)
+        g = build(cls, values)
     except SheetError as error:
         refuse(error)
+    object.__setattr__(g, _SAID, values)  # beside what they mean, for the page alone
+    return g
 
 
 @dataclass(frozen=True)
@@ -411,6 +416,11 @@ class Used(Shown):
         return [
             (field, field.written(getattr(self.g, field.name), getattr(cls, field.name))) for field in declared(cls)
         ]
+
+    @property
+    def said(self) -> Mapping[str, object]:
+        """What stood in the fields by which they were read; nothing where there were none."""
+        return getattr(self.g, _SAID, {})
 
     def given(self) -> dict[str, Any]:
         """What gives these values when it is read as inputs: of a list or table its text, which is no variants."""
