@@ -283,6 +283,18 @@ def test_units_are_read_and_the_changed_input_is_marked_and_kept_in_the_address(
     assert g.P6 == 30e3
 
 
+def test_percent_are_a_unit_of_a_number_without_one(document: Callable[..., Path], offline: Page) -> None:
+    """As on the command line and in the editor."""
+    page = opened(offline, document("examples/bolted_joint"))
+    first = read(page)["lines"]
+    fill(page, "nu", "90 %")
+    assert read(page)["lines"] == first
+    fill(page, "nu", "0.8")
+    told = read(page)["lines"]
+    fill(page, "nu", "80 %")
+    assert read(page)["lines"] == told != first
+
+
 def test_a_link_within_the_page_leaves_the_inputs(document: Callable[..., Path], offline: Page) -> None:
     page = opened(offline, document("hitch"))
     fill(page, "P6", "30000")

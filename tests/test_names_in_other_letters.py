@@ -89,5 +89,6 @@ def test_links_and_saved_scenes_carry_them(blank: Page) -> None:
     read = {how: dict(blank.evaluate("hash => [...textsIn(hash)]", f"#{text}")) for how, text in spelt.items()}
     assert read["as written"] == read["as a browser tells it"] == GIVEN and read["μ"] == {"μ": "0.25"}
     assert dict(blank.evaluate("() => [...textsIn('#P6=5 %&%=3')]")) == {"P6": "5 %", "%": "3"}, "a sign as it stands"
+    assert dict(blank.evaluate("() => [...textsIn('#mu=5%20%')]")) == {"mu": "5 %"}, "as a browser takes what is typed"
     saved = tomllib.loads(blank.evaluate("given => sceneText(given)", given))["inputs"]
     assert saved == {"β_1": 18, "μ": 0.25, "угол": "7,5", "единый": False, "марка": 'Ст"3 🙂'}

@@ -124,7 +124,8 @@ def _number(field: Input) -> dict[str, Any]:
         "meaning": field.meaning,
         "unit": "" if field.unit == "-" else numbers.in_text(field.unit),  # of messages
         "factor": parse(field.unit).factor,
-        "units": units.convertible(field.unit) if field.unit != "-" else {},  # by what a number in each is multiplied
+        # By what a number in each is multiplied; nobody writes the sign of a number without a unit.
+        "units": {unit: factor for unit, factor in units.convertible(field.unit).items() if unit != "-"},
         "whole": field.whole,
         "limits": limits,
     }

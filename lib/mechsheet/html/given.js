@@ -4,9 +4,9 @@ const addressOf = given => given.map(({name, text}) => [name, text].map(encodeUR
 function textsIn(hash) {
   const decoded = text => {
     try {
-      return decodeURIComponent(text);
+      return decodeURIComponent(text.replace(/%(?![\da-f]{2})/gi, "%25")); // a percent sign as it stands
     } catch {
-      return text; // a percent sign as it stands
+      return text;
     }
   };
   const parts = hash.slice(1).split("&").filter(part => part.includes("="));
