@@ -223,6 +223,24 @@ def test_undo_takes_back_what_the_page_has_not_computed_yet(
     computed(page, a="0.8")
 
 
+def test_a_page_that_is_opened_again_shows_what_the_editor_computes_with(
+    kinds: Path, serve: Callable[[str, Path], str], page: Page
+) -> None:
+    """Also where its address has not followed: the fields had begun anew, and stood there beside other numbers."""
+    address = serve("edit", kinds)
+    page.goto(address)
+    page.get_by_text("as in the document").first.wait_for()
+    fill(page, "a", "0.7")
+    computed(page, a="0.7")
+    part(page, 2, "5")
+    computed(page, a="0.7", parts="1; 5; 3")
+    page.goto("about:blank")
+    page.goto(address)
+    page.get_by_text("copy a link").first.wait_for()
+    expect(page.locator('td[data-input="parts"] input').nth(1)).to_have_value("5")
+    computed(page, a="0.7", parts="1; 5; 3")
+
+
 def test_a_link_that_is_pasted_into_the_open_page_holds(kinds: Path, left_open: Callable[[Path, str], Page]) -> None:
     """For all inputs, as in a page that is opened by it: it carries those that differ from the document."""
     page = left_open(kinds, "as in the document")

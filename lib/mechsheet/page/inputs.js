@@ -7,6 +7,7 @@
   let at = -1;
   let asked; // the set that was typed into the fields and is on its way through the page
   const unheard = new Set(); // fields that have not told their values since they were typed into
+  const moved = new Set(); // fields that have been typed into since the page is open
 
   // The element beside the fields tells of all that have changed; of each alone marimo would keep the last, and lose
   // what was typed before it while the page computed.
@@ -14,7 +15,9 @@
   const hear = (event) => {
     const field = alone(event.detail);
     if (!field) return;
-    unheard.delete(field.closest("td").dataset.input);
+    const name = field.closest("td").dataset.input;
+    unheard.delete(name);
+    moved.add(name);
     event.stopImmediatePropagation();
   };
   window.addEventListener("marimo-value-ready", hear, true);
@@ -23,7 +26,9 @@
   const byHand = (event) => {
     const cell = event.isTrusted && event.target.closest?.("td[data-input]");
     const changes = event.type !== "click" || event.composedPath()[0].closest?.("button, [role=checkbox]");
-    if (cell && changes) unheard.delete(cell.dataset.input);
+    if (!cell || !changes) return;
+    unheard.delete(cell.dataset.input);
+    moved.add(cell.dataset.input);
   };
   ["input", "change", "click"].forEach((kind) => document.addEventListener(kind, byHand, true));
 
@@ -143,7 +148,17 @@
       if (first || !(asked || same(steps[at], now))) steps.splice(++at, steps.length, now);
       this.show();
       if (first && this.open()) return;
+      this.resume();
       if (!asked) whenIdle(() => this.address()); // which takes longer than all else here
+    }
+
+    // Fields begin anew where a page is opened again on an editor that still computes with what was typed before.
+    resume(tries = 100) {
+      if (tries && !fields.every(({ name }) => fieldOf(name))) return setTimeout(() => this.resume(tries - 1), 100);
+      const stale = fields.filter(({ name, said, text }) => !moved.has(name) && ![said, text].includes(words(name) ?? said));
+      if (!stale.length) return;
+      stale.forEach(({ name }) => unheard.add(name));
+      this.to({ ...textsNow(), ...asked });
     }
 
     // What a link carries, whether it carries anything; all else is as in the document.
