@@ -14,6 +14,7 @@ import test_integral
 import test_recorded_worksheet
 import test_rows_followed
 import test_rows_with_texts
+import test_scipy_rules
 from in_browser import evaluated
 from own_worksheet import ELSEWHERE, OTHER, own, recorded
 
@@ -57,6 +58,7 @@ def test_what_meets_a_condition_is_selected(lines: str, blank: Page, tmp_path: P
     [
         *(test_integral.IMPORT + lines for lines in test_integral.FOLLOWED[:4]),
         *(test_guessed.IMPORT + lines for lines in test_guessed.FOLLOWED[1:3]),
+        *test_scipy_rules.SEVERAL,
         *(test_rows_with_texts.ROWS + lines for lines in test_rows_with_texts.FOLLOWED[3:5]),
     ],
 )

@@ -7,6 +7,8 @@ import pytest
 from own_worksheet import ELSEWHERE, own, recorded, value_of
 
 from mechsheet import evaluate
+from mechsheet.readers.numbers import numbers
+from mechsheet.readers.searched import search
 from mechsheet.readers.slopes import slopes
 from mechsheet.recording.dimensions import dimensions
 from mechsheet.worksheet.lines import registry
@@ -41,7 +43,16 @@ SPLINES = [
     "make_interp_spline(T, V, k=2)(g.a * np.linspace(0.1, 2, 9))",
     "interp1d(T, V * g.F, kind='cubic', fill_value='extrapolate')(g.a) + interp1d(T, V, kind='cubic')(g.a / 2)",
 ]
+SEVERAL = [  # roots of which scipy finds one, one at an end, a jump, a stretch of zeros
+    ROOT + "y = brentq(lambda v: (v - g.F) * (v - 5 * g.a) * (v - 9 * g.a), 0.05, 20.0, xtol=1e-14) * 1.0",
+    ROOT + "y = bisect(lambda v: (v - g.F) * (v - 5 * g.a) * (v - 9 * g.a), 0.05, 20.0, xtol=1e-14) * 1.0",
+    ROOT + "y = brentq(lambda v: v * (v - g.F), 0.0, 10.0) + bisect(lambda v: (v - g.F) * (v - 9), 3 - g.a, 9.0)",
+    ROOT + "y = brentq(lambda v: g.F - 4 * (v > g.a) - v * 0.1, 0.0, 10.0, xtol=1e-14) * 1.0",
+    ROOT + "y = bisect(lambda v: g.F - 4 * (v > g.a) - v * 0.1, 0.0, 10.0, xtol=1e-14) * 1.0",
+    ROOT + "y = brentq(lambda v: g.F - (v >= 1.5) - 3 * (v >= 3 * g.a), 0.0, 10.0, xtol=1e-14) * 1.0",
+]
 FOLLOWED = [
+    *SEVERAL,
     ROOT + "y = brentq(lambda v: v**3 + g.a * v - g.F, 0.0, 9.0) * 1.0",
     ROOT + "y = brentq(lambda v, c: v**3 + c * v - g.F, 0.0, 2 * g.F, args=(g.a,)) * 1.0",
     ROOT + "y = np.array([bisect(lambda v: v**2 - c * g.F, 0.0, 9.0) for c in (1.0, 2.0)])",
@@ -78,6 +89,19 @@ def test_it_is_followed(lines: str, tmp_path: Path) -> None:
         np.testing.assert_allclose(value_of(recording, "result", given), own_value, rtol=1e-11, err_msg=str(given))
 
 
+@pytest.mark.parametrize("lines", SEVERAL)
+def test_of_several_roots_cells_have_the_one_that_scipy_finds_or_none(lines: str, tmp_path: Path) -> None:
+    sheet = own(tmp_path, f"{lines}\nresult = np.atleast_1d(y) * 1  # [-] line")
+    _, recording = recorded(sheet)
+    search(recording)
+    for given in [{}, *ELSEWHERE[2:6]]:
+        inputs = {recording.inputs[name]: float(x) for name, x in given.items()}
+        for solved in (solved for solved in recording.found.values() if solved.inverse is not None):
+            known = numbers([solved.inverse, solved.node], inputs)
+            found, own_value = known[solved.inverse], known[solved.node]
+            assert np.isnan(found) or found == pytest.approx(own_value, rel=1e-11), given
+
+
 @pytest.mark.parametrize("lines", NAMED)
 def test_what_is_not_followed_is_named(lines: str, tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
     _, recording = recorded(own(tmp_path, f"{lines}\nresult = np.atleast_1d(y) * 1  # [-] line"))
@@ -87,7 +111,7 @@ def test_what_is_not_followed_is_named(lines: str, tmp_path: Path, capfd: pytest
 
 def test_a_root_has_the_slopes_of_its_equation(tmp_path: Path) -> None:
     """dv/dF of v³ + a v = F is 1 / (3 v² + a), which differences of the solver's numbers tell less well."""
-    _, recording = recorded(own(tmp_path, f"{FOLLOWED[0]}\nresult = np.atleast_1d(y) * 1  # [-] line"))
+    _, recording = recorded(own(tmp_path, f"{FOLLOWED[len(SEVERAL)]}\nresult = np.atleast_1d(y) * 1  # [-] line"))
     (node,) = (node for node, name in recording.names.items() if name == "result")
     v = node.value[0]
     for side in slopes([node], [recording.inputs["F"]])[node]:

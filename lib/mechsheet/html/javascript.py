@@ -18,7 +18,7 @@ from mechsheet.quantities.node import Block, Node, bottom_up
 from mechsheet.units import parse
 from mechsheet.worksheet.equations import longest_step
 
-_NUMBERS, _FIND, _SOLVE = "numbers.js", "find.js", "solve.js"
+_NUMBERS, _FIND, _SOLVE, _BETWEEN = "numbers.js", "find.js", "solve.js", "between.js"
 _COUNTED = "its elements are not known for this number of rows"
 _WORDS = "I NaN do for if in let new of p i try var out"
 
@@ -41,7 +41,10 @@ def module(recording: Recording, wanted: Mapping[str, Node]) -> str:
     results = [*wanted.values(), *found.values()]
     every = list(bottom_up(results, ()))
     single = {node.args[0].single for node in every if node.op == "found"}
-    functions = runtime(*(_NUMBERS, _FIND, _SOLVE)[: 3 if False in single else 1 + len(single)])
+    files = [_NUMBERS, _FIND, _SOLVE][: 3 if False in single else 1 + len(single)]
+    if any(node.op == "found" and node.args[0].method for node in every):
+        files.append(_BETWEEN)
+    functions = runtime(*files)
     program = Program(recording.graph, RULES, frozenset(_WORDS.split()) | set(re.findall(r"[A-Za-z]\w*", functions)))
     names = {node: json.dumps(name) for name, node in recording.inputs.items()}
     program.inputs = {node: f"I[{name}]" for node, name in names.items()}
@@ -268,6 +271,8 @@ def _solved(scope: Scope, block: Block) -> str:
     if block.single:
         ends = ",".join([*(starts.get(name, ["null"])[0] for name in ("lo", "hi", "guess")), equals])
         call = f"find({function},{ends})"
+        if block.method:
+            call = f"root_by({json.dumps(block.method)},{function},{ends})"
         if block.branch is not None and not node.shape:
             on = (f"[{s},{_residuals(scope, block, [f], unknowns, shape)}]" for s, f in block.branches.items())
             call = f"on_branch({scope.text(block.branch)},{call},[{','.join(on)}],{ends})"

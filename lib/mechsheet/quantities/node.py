@@ -22,6 +22,7 @@ class Block:
     assembly ``branches`` the quantity is another one; that of the first side is on the ``branch`` that is wanted.
     Where squares are made ``least``, the slopes of their sum by the unknowns are ``level``: none where not known.
     Where Python has ``seen`` something of the unknowns, residuals are those of the worksheet while that is the same.
+    A root that scipy finds between two ends is that of its ``method``: of several the one that this leads to.
     """
 
     starts: Mapping[str, tuple["Node", ...]]
@@ -39,6 +40,7 @@ class Block:
     branch: "Node | None" = None
     branches: Mapping[int, "Node"] = field(default_factory=dict)
     seen: bool = False
+    method: str = ""
 
     @property
     def equations(self) -> tuple["Node", ...]:
@@ -48,7 +50,7 @@ class Block:
     @property
     def asked(self) -> tuple[Any, ...]:
         """What tells it from other blocks of the same unknowns."""
-        return self.starts, self.residuals, self.sides, self.targets, self.branch, self.branches
+        return self.starts, self.residuals, self.sides, self.targets, self.branch, self.branches, self.method
 
     def rest(self) -> None:
         """Find out what the block rests on, once its residuals are known."""

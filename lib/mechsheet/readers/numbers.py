@@ -7,6 +7,7 @@ import numpy as np
 
 from mechsheet.quantities.node import Block, Loop, Node, bottom_up, passes_over
 from mechsheet.quantities.operations import ELEMENTWISE, REDUCE, REDUCE_SO_FAR, Values
+from mechsheet.readers import between
 from mechsheet.worksheet.find import find
 from mechsheet.worksheet.system import solve
 from mechsheet.worksheet.verdict import values_only
@@ -185,6 +186,8 @@ def _again(block: Block, known: Mapping[Node, Values]) -> list[Values]:
     with values_only():
         if block.single:
             lo, hi, guess = ((starts.get(name) or (None,))[0] for name in ("lo", "hi", "guess"))
+            if block.method:
+                return [np.asarray(between.root(block.method, lambda x: of(np.asarray(x))[0], lo, hi))]
             found = find(lambda x: of(x)[0], lo, hi, guess=guess)
             return [np.asarray(found.value if found.valued is not False else np.nan)]
         given: dict[str, Any] = {name: ends if len(ends) > 1 else ends[0] for name, ends in starts.items()}

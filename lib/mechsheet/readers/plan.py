@@ -133,7 +133,7 @@ class _Writing:
     def found(self, node: Node) -> str:
         """A Find of one number, with its equation as a function of many numbers and as one of a single one."""
         block, _ = node.args
-        if not (block.single and block.elementwise and node.shape == ()):
+        if not (block.single and block.elementwise and node.shape == ()) or block.method:
             raise NotPlanned("a Find that is not of one number")
         starts = [block.starts[end][0] if end in block.starts else None for end in ("lo", "hi", "guess")]
         for given in (*starts, block.sides[1]):

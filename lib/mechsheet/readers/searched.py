@@ -152,6 +152,8 @@ def _searched(block: Block, a: Quantity, b: Quantity, guess: Quantity, unit: str
     known = np.any(changed & ~above, axis=-1), np.any(changed & above, axis=-1)
     parts = [_part(x, left, side) for side in sides]
     sure = _unseen(left) == 0
+    if block.method:  # of several it may find any, and of a stretch of zeros
+        sure = sure & (np.sum(changed * 1.0, axis=-1) == 1) & (np.sum((left == 0) * 1.0, axis=-1) <= 1)
     for look in range(2, _EARLY + 1):
         closer = [_closer(block, *pair, unit) for pair in zip(parts, (f"{look}", f"{look}_above"), strict=True)]
         parts = [part for part, _ in closer]
@@ -170,7 +172,8 @@ def _searched(block: Block, a: Quantity, b: Quantity, guess: Quantity, unit: str
     early = part.most
     for look in range(_EARLY + 1, _LOOKS + 1):
         part, _ = _closer(block, part, f"{look}", unit)
-    return np.where(sure & (part.most <= _LESS * early), part.start, np.nan)
+    closes = True if block.method else part.most <= _LESS * early
+    return np.where(sure & closes, part.start, np.nan)
 
 
 def _farther(part: _Part, guess: Quantity) -> Any:

@@ -11,6 +11,7 @@ import numpy as np
 
 from mechsheet.quantities.graph import Graph, NotRecorded, current
 from mechsheet.quantities.quantity import Quantity, has_quantity, lift
+from mechsheet.readers.between import SHARP
 from mechsheet.recording import solving, spline_rules
 from mechsheet.recording.guessed import GUESSED, guessed
 from mechsheet.recording.integral import Note, integral
@@ -55,14 +56,13 @@ def root(f: Callable[..., Any], note: Callable[[solving.Solving], Any]) -> Calla
         graph, more = current.get(), args if isinstance(args, tuple) else (args,)
         if options.keys() - {"xtol", "rtol", "maxiter"}:
             raise NotRecorded(f"scipy's {f.__name__}")
-        sharp = {"xtol": 1e-300, "rtol": 4 * np.finfo(float).eps, "maxiter": 2000}  # as it will be solved again
         with solving.tried(graph) as of:
-            value = f(of(lambda x: g(x, *more)), solving.now(a), solving.now(b), **sharp)
+            value = f(of(lambda x: g(x, *more)), solving.now(a), solving.now(b), **SHARP)  # as it will be solved again
         number = sum(key[0] == "found" for key in graph.nodes)
         words = SimpleNamespace(unknown=f"root {number + 1}", quantity="f(x)", unit="-", unknown_unit="-")
         found: Any = SimpleNamespace(words=words, _value=value)
         given = {"lo": a, "hi": b, "guess": None}
-        solved = solving.one(graph, found, lambda x: g(x, *more), given, 0.0, None, None)
+        solved = solving.one(graph, found, lambda x: g(x, *more), given, 0.0, None, None, f.__name__)
         note(solved)
         return solved.value
 

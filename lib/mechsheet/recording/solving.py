@@ -67,10 +67,17 @@ def listed(graph: Graph, values: Any) -> Any:
 
 
 def one(
-    graph: Graph, found: Found, f: Callable[..., Any], given: dict[str, Any], equals: Any, branch: Any, branches: Any
+    graph: Graph,
+    found: Found,
+    f: Callable[..., Any],
+    given: dict[str, Any],
+    equals: Any,
+    branch: Any,
+    branches: Any,
+    method: str = "",
 ) -> Solving:
     """A value of one equation, as it was found from what is ``given`` of its interval and its guess."""
-    return _first(lambda n: _one(graph, found, f, given, equals, branch, branches, n))
+    return _first(lambda n: _one(graph, found, f, given, equals, branch, branches, method, n))
 
 
 def _first(solved: Callable[[int], tuple[Block, Solving]]) -> Solving:
@@ -91,10 +98,11 @@ def _one(
     equals: Any,
     branch: Any,
     branches: Any,
+    method: str,
     n: int,
 ) -> tuple[Block, Solving]:
     starts = {k: (lift(graph, x).re,) for k, x in given.items() if x is not None}
-    block = Block(starts, single=True)
+    block = Block(starts, single=True, method=method)
     name = f"{found.words.unknown}, line {graph.line}, {n}"
     block.nodes = (graph.found(block, 0, name, listed(graph, found._value)),)
     x, target = Quantity(graph, block.nodes[0]), lift(graph, equals)

@@ -131,8 +131,8 @@ def _moving(order: Sequence[Node], leaves: Mapping[Node, str]) -> set[Node]:
 def _check(node: Node, moving: set[Node]) -> None:
     if node.op not in ELEMENTWISE.keys() | _RULES.keys() | {"found"}:
         raise NotPlanned(node.op)
-    if node.op == "found" and not node.args[0].elementwise:
-        raise NotPlanned("a Find whose equations are not of each number")
+    if node.op == "found" and (node.args[0].method or not node.args[0].elementwise):
+        raise NotPlanned("a Find whose equations are not of each number, or one of scipy's")
 
 
 def _number(node: Node, numbers: Mapping[Node, Values], solved: dict[Block, list[Values]]) -> Values:
