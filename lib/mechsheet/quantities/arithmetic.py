@@ -43,21 +43,22 @@ def subtract(x: Quantity, y: Quantity) -> Quantity:
     return Quantity(graph, graph.sub(x.re, y.re), graph.sub(imaginary(x), imaginary(y)))
 
 
-def _zero(x: Quantity) -> bool:
+def is_zero(x: Quantity) -> bool:
+    """Whether a number is 0 whatever the inputs are."""
     return is_number(x.re, 0) and (x.im is None or is_number(x.im, 0))
 
 
 def _none_times(x: Quantity, y: Quantity) -> bool:
     """Whether one of two is 0 and the other one may be no number, which their product then isn't either."""
     always = x.graph.always
-    return any(_zero(a) and not (b.re in always and (b.im is None or b.im in always)) for a, b in ((x, y), (y, x)))
+    return any(is_zero(a) and not (b.re in always and (b.im is None or b.im in always)) for a, b in ((x, y), (y, x)))
 
 
 @_whole_shape
 def multiply(x: Quantity, y: Quantity) -> Quantity:
     graph = x.graph
     if _none_times(x, y):
-        zero, other = (x, y) if _zero(x) else (y, x)
+        zero, other = (x, y) if is_zero(x) else (y, x)
         if other.im is not None:  # both parts are none where one is
             none = graph.fold("mul", zero.re, graph.add(other.re, other.im))
             return Quantity(graph, none, none)
@@ -71,7 +72,7 @@ def multiply(x: Quantity, y: Quantity) -> Quantity:
 @_whole_shape
 def divide(x: Quantity, y: Quantity) -> Quantity:
     graph = x.graph
-    if y.im is None and _zero(x):
+    if y.im is None and is_zero(x):
         return x.each(lambda part: graph.fold("div", part, y.re))
     if y.im is None:
         return x.each(lambda part: graph.div(part, y.re))

@@ -1,5 +1,6 @@
-"""Matrix products and small systems of linear equations of recorded quantities."""
+"""Matrix products and systems of linear equations of recorded quantities."""
 
+import operator
 from collections.abc import Callable, Sequence
 from functools import partial, reduce
 from itertools import combinations
@@ -7,13 +8,13 @@ from typing import Any
 
 import numpy as np
 
-from mechsheet.quantities.arithmetic import absolute, choice
+from mechsheet.quantities.arithmetic import absolute, choice, is_zero
 from mechsheet.quantities.array_rules import ordered
 from mechsheet.quantities.graph import Graph, NotRecorded
 from mechsheet.quantities.node import bottom_up
 from mechsheet.quantities.quantity import Quantity, lift, moved
 
-_MOST = 6  # equations
+_MOST = 40  # equations, far fewer where most coefficients are no zeros: what a line may compute ends it before
 _OF_STRESS = 3  # rows of a symmetric matrix whose eigenvalues are recorded
 _SWEEPS = 5  # of Jacobi's rotations: the third one reaches the last digits
 _TOO_MANY = f"a system of more than {_MOST} linear equations"
@@ -109,17 +110,20 @@ def _rows(graph: Graph, A: Any) -> list[list[Any]]:
     return [[A[..., i, j] for j in range(size)] for i in range(size)]
 
 
-def _eliminated(graph: Graph, rows: list[list[Any]]) -> tuple[list[list[Any]], Any]:
-    """Upper triangles of square matrices, and the signs of their rows' orders, greatest pivots first.
+def _eliminated(graph: Graph, rows: list[list[Any]]) -> tuple[list[list[Any]], Any, bool]:
+    """Upper triangles of square matrices, the signs of their rows' orders, and whether steps were left out.
 
-    Right sides that stand behind the matrices in their rows are changed with them.
+    The greatest pivots come first. Right sides that stand behind the matrices in their rows are changed with them. An
+    element that is 0 whatever the inputs are takes no step: of frames and chains of springs most are.
     """
-    size = len(rows)
+    size, short = len(rows), False
     if size > _MOST:
         raise NotRecorded(_TOO_MANY)
     sign = lift(graph, 1.0)
     for j in range(size):
-        for i in range(j + 1, size):
+        under = [i for i in range(j + 1, size) if not is_zero(rows[i][j])]
+        short = short or len(under) < size - j - 1
+        for i in under:
             greater = absolute(rows[i][j]) > absolute(rows[j][j])
             graph.pivots.update(greater.parts)
             sign = choice(graph, greater, -sign, sign)
@@ -127,24 +131,34 @@ def _eliminated(graph: Graph, rows: list[list[Any]]) -> tuple[list[list[Any]], A
             rows[j], rows[i] = (
                 [choice(graph, greater, q, p) for p, q in pairs], [choice(graph, greater, p, q) for p, q in pairs]
             )  # fmt: skip
-        for i in range(j + 1, size):
+        for i in under:
             part = rows[i][j] / rows[j][j]
-            rows[i] = [p - part * q if k > j else p for k, (p, q) in enumerate(zip(rows[i], rows[j], strict=True))]
-    return rows, sign
+            rows[i] = [
+                p - part * q if k > j and not is_zero(q) else p
+                for k, (p, q) in enumerate(zip(rows[i], rows[j], strict=True))
+            ]
+    return rows, sign, short
 
 
 def solved_rows(graph: Graph, rows: list[list[Any]]) -> list[list[Any]]:
-    """The unknowns of square linear equations for each of the right sides that stand behind them in their rows."""
+    """The unknowns of square linear equations for each of the right sides that stand behind them in their rows.
+
+    Without a pivot none of them is a number, nor with a right side that is none.
+    """
     size = len(rows)
-    rows, _ = _eliminated(graph, rows)
+    rows, _, short = _eliminated(graph, rows)
     solved = list[list[Any]]()
     for k in range(size, len(rows[0])):
         x: list[Any] = [None] * size
         for i in reversed(range(size)):
             rest = rows[i][k]
             for j in range(i + 1, size):
-                rest = rest - rows[i][j] * x[j]
+                rest = rest if is_zero(rows[i][j]) else rest - rows[i][j] * x[j]
             x[i] = rest / rows[i][i]
+        if short:
+            exist = [absolute(rows[i][i]) > 0 for i in range(size)] + [np.isfinite(rows[i][k]) for i in range(size)]
+            solvable = reduce(operator.and_, exist)
+            x = [choice(graph, solvable, each, np.nan) for each in x]
         solved.append(x)
     return solved
 
@@ -160,7 +174,7 @@ def solution(graph: Graph, A: Any, b: Any) -> Any:
 
 
 def determinant(graph: Graph, A: Any) -> Any:
-    rows, sign = _eliminated(graph, _rows(graph, A))
+    rows, sign, _ = _eliminated(graph, _rows(graph, A))
     for i, row in enumerate(rows):
         sign = sign * row[i]
     return lift(graph, sign)
