@@ -133,7 +133,20 @@ SET = [
         "M, T = np.zeros(3), np.zeros(3)\nfor i in range(3):\n    if i < g.F:\n        M[i] = i\n        T[i] = g.a\n"
         "    else:\n        T[i] = 2 * g.a\ny = M + T"
     ),
+    (  # where the condition does not hold, there is no such element or no such key
+        "n = 8\nK = np.eye(n) * g.F\nfor i in range(n):\n    if i < n - 1:\n        K[i, i + 1] -= g.a\n"
+        "    if i > 0:\n        K[i, i - 1] -= 1.0\ny = np.linalg.solve(K, np.arange(n) * g.a) + np.linalg.inv(K)[2]"
+    ),
+    (
+        "dofs, free = [('A', 0), ('A', 1), ('B', 0)], [('A', 1), ('B', 0)]\nK = np.zeros((2, 2))\n"
+        "for r, p in enumerate(dofs):\n    for s, q in enumerate(dofs):\n        if p in free and q in free:\n"
+        "            K[free.index(p), free.index(q)] += g.F * (r + s)\ny = K.sum(axis=0) * g.a"
+    ),
     "d = {'x': 2.0}\nif g.F > 3:\n    d['x'] = g.a\ny = d['x'] * 2",
+    (
+        "K = np.array([[np.sin(i * j + g.F) for i in range(9)] for j in range(9)]) + 9 * np.eye(9)\n"
+        "y = np.linalg.solve(K, np.arange(9))"
+    ),
     "y = math.log(8, 2) * g.a + math.log(g.F, g.a + 2) + math.log(g.F)",
     "y = math.hypot(g.F, g.a, 3.0) + math.hypot(-g.F) + math.dist((g.F, 1.0, 0.0), [0.0, g.a, 2.0])",
     "import statistics as s\nv = [g.F, g.a, 2]\ny = s.mean(v) + s.fmean(v) * s.stdev(v) + s.median(v) - s.pstdev(v)",

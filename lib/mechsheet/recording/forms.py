@@ -27,7 +27,7 @@ def set_parts(node: ast.If) -> Sequence[tuple[ast.Subscript, ast.expr]]:
     values = []
     for key, target in targets.items():
         a, b = (
-            way[key][1] if key in way else call("part_of", target, target.value, index(target.slice))
+            way[key][1] if key in way else call("part_of", target, target.value, later(index(target.slice)))
             for way in (then, otherwise)
         )
         values.append((target, ast.copy_location(ast.IfExp(node.test, a, b), node)))

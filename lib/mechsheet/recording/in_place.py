@@ -2,6 +2,7 @@
 
 import operator
 import weakref
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -15,10 +16,13 @@ from mechsheet.recording.choices import element
 _NOT_SET = object()  # an element that there is not
 
 
+def put_where(array: Any, key: Callable[[], Any], value: Any) -> Any:
+    """The array after a condition has set ``array[key()]``, or left what is there as it is."""
+    return array if value is _NOT_SET else put(array, key(), value)
+
+
 def put(array: Any, key: Any, value: Any) -> Any:
     """The array after ``array[key] = value``."""
-    if value is _NOT_SET:
-        return array
     if not isinstance(array, np.ndarray | Quantity) or not has_quantity([array, key, value]):
         array[key] = value
         return array
@@ -49,11 +53,11 @@ def _where(old: Quantity, key: Any, new: Quantity) -> Quantity | None:
     return set_to
 
 
-def part_of(array: Any, key: Any) -> Any:
-    """``array[key]``, where a way does not set it; there may be none, as behind the last row."""
+def part_of(array: Any, key: Callable[[], Any]) -> Any:
+    """``array[key()]``, where a way does not set it; there may be none, as behind the last row, nor such a key."""
     try:
-        return element(array, key)
-    except (IndexError, KeyError):
+        return element(array, key())
+    except (IndexError, KeyError, ValueError):
         return _NOT_SET
 
 
@@ -98,4 +102,6 @@ def part(number: Any, name: str, value: Any) -> Any:
     return Quantity(graph, own, old.imag.re) if name == "real" else Quantity(graph, old.re, own)
 
 
-CALLS: dict[str, Any] = {"put": put, "part_of": part_of, "changed": changed, "settled": settled, "part": part}
+CALLS: dict[str, Any] = {
+    "put": put, "put_where": put_where, "part_of": part_of, "changed": changed, "settled": settled, "part": part,
+}  # fmt: skip

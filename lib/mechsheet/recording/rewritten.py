@@ -184,8 +184,7 @@ class _Rewriting(ast.NodeTransformer):
     def visit_If(self, node: ast.If) -> Any:
         """A statement whose ways only bind names gives the names the values of both ways."""
         if parts := set_parts(node):
-            each = [ast.copy_location(ast.Assign([target], value), node) for target, value in parts]
-            return [line for one in map(self.visit, each) for line in one]
+            return [line for part in parts for line in self._put_where(node, *part)]
         ways = node.body, node.orelse
         if not all(_only_binds(line) for way in ways for line in way):
             self.generic_visit(node)
@@ -200,6 +199,12 @@ class _Rewriting(ast.NodeTransformer):
         for name in sorted(then ^ otherwise):
             lines.append(_unbound(name, node))
         return lines
+
+    def _put_where(self, node: ast.If, target: ast.Subscript, value: ast.expr) -> tuple[ast.stmt, ast.Expr]:
+        """The element is looked for only where the statement sets it."""
+        key = later(index(target.slice))
+        name: Any = target.value
+        return _bound_anew(node, name.id, "put_where", self.visit(key), self.visit(value))
 
     def visit_While(self, node: ast.While) -> Any:
         ended = ast.If(ast.UnaryOp(ast.Not(), node.test), [ast.Break()], [])
