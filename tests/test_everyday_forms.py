@@ -15,6 +15,8 @@ from own_worksheet import ELSEWHERE, own, recorded, value_of
 from test_recalculation import edit
 
 from mechsheet import evaluate
+from mechsheet.quantities.written import Written
+from mechsheet.readers.searched import search
 from mechsheet.run import report
 from mechsheet.worksheet import cells
 
@@ -392,3 +394,20 @@ def test_a_function_that_keeps_its_values_is_followed(keeps: str, inside: bool, 
         assert value_of(recording, "p", {"F": 4.0}) == 2 / 4.0**2
         assert value_of(recording, "q", {"a": 3.0}) == 3 / 3.0**3
         assert value_of(recording, "r", {"F": 4.0, "a": 3.0}) == 4.0**3 + 3.0**2
+
+
+def test_a_number_under_many_conditions_is_told_in_a_text(tmp_path: Path) -> None:
+    """Whether it is a whole one is asked of a number that is there while hundreds of conditions hold."""
+    kept = "more = []\nfor d in range(700):\n    if d * g.a > 400:\n        more.append(d)\n"
+    count = "k = len([v for v in (1, 2, 3) if v > g.F]) + len(more)"
+    _, recording = recorded(own(tmp_path, f'{kept}{count}\nsaid = f"{{k}} of them"'))
+    told = recording.values["said"]
+    assert not recording.gaps and isinstance(told, Written) and told.now == "167 of them"
+
+
+def test_a_root_that_cells_cannot_tell_is_told_in_words(tmp_path: Path) -> None:
+    """Where no line is what is found, by what it is and not by an end of its interval."""
+    lines = "from scipy.optimize import brentq\ny = brentq(lambda v: (v - g.F) * (v - 3) * (v - 7), 0, 9) + 1"
+    _, recording = recorded(own(tmp_path, f"{lines}\nresult = y * 1  # [-] line"))
+    search(recording)
+    assert [gap.names for gap in recording.unsolved] == [("root 1",)]

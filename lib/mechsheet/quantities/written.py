@@ -249,16 +249,22 @@ def _shown(value: Any, spec: str) -> Iterator[Any]:
 
 def _is_whole(node: Node) -> bool:
     """Whether Python has a whole number there, where it has one at all."""
-    if node in current.get().whole or node.value.dtype.kind in "iu":
-        return True
-    match node.op:
-        case "sized":
-            return _is_whole(node.args[0])
-        case "where":
-            return all(_is_whole(part) or np.isnan(part.value).all() for part in node.args[1:])
-        case "add" | "sub" | "mul" | "neg":
-            return all(map(_is_whole, node.args))
-    return False
+    waiting, known = [node], set(current.get().whole)
+    while waiting:
+        part = waiting.pop()
+        if part in known or part.value.dtype.kind in "iu":
+            continue
+        known.add(part)
+        match part.op:
+            case "sized":
+                waiting.append(part.args[0])
+            case "where":
+                waiting += (way for way in part.args[1:] if not np.isnan(way.value).all())
+            case "add" | "sub" | "mul" | "neg":
+                waiting += part.args
+            case _:
+                return False
+    return True
 
 
 def joined(sign: Any, parts: Any) -> Any:

@@ -51,7 +51,7 @@ def search(recording: Recording) -> None:
         except NotRecorded as reason:
             for solved in unknowns:
                 solved.inverse, solved.searched = None, ""
-            recording.unsolved.append(Gap(_named(recording, block), block.nodes[0].line, f"{_KEPT}: {reason}"))
+            recording.unsolved.append(Gap(_named(recording, unknowns), block.nodes[0].line, f"{_KEPT}: {reason}"))
         for solved in unknowns:
             recording.define_steps("Search" if solved.searched else _section(recording, solved.node), solved)
     recording.unsolved += _counted(recording)
@@ -100,9 +100,9 @@ def _counted(recording: Recording) -> Iterator[Gap]:
 _KEPT = "the workbook has this of the exported inputs"
 
 
-def _named(recording: Recording, block: Block) -> tuple[str, ...]:
-    """The lines that are what a block finds, else its unknowns."""
-    return tuple(recording.names.get(node, name) for node, name in zip(block.nodes, block.starts, strict=False))
+def _named(recording: Recording, unknowns: Sequence[Solved]) -> tuple[str, ...]:
+    """The lines that are what a block finds, else its unknowns in words."""
+    return tuple(recording.names.get(solved.node, solved.words.unknown) for solved in unknowns)
 
 
 def _at_hand(recording: Recording, found: Node, root: Any) -> Node:
