@@ -7,6 +7,8 @@ from never_stale import assert_never_stale
 
 CONSTRUCTS = [
     "y = np.log(g.F - 2.0) * 0 + x * g.a",
+    "y = g.a + len(f'{math.floor(g.F)}')",
+    "T = {'M1': 0.25, 'M2': 0.4, 'M3': 0.5, 'M4': 0.7}\ny = T[f'M{math.floor(g.F)}'] * g.a",
     "y = 0.0 * np.sqrt(g.F - x) + g.a",
     "y = np.abs(0.0 * np.exp(1j * np.arcsin(g.F - 1.5))) + g.a",
     "y = np.abs(0j * np.sqrt(g.F - 2.0)) + np.abs((x + 0j) * 0.0) * g.a",

@@ -150,6 +150,18 @@ SET = [
         "y = np.linalg.solve(K, np.arange(9))"
     ),
     "y = math.log(8, 2) * g.a + math.log(g.F, g.a + 2) + math.log(g.F)",
+    (
+        "import cmath\ny = cmath.phase(g.F + 1j * g.a) + sum(cmath.polar(1j * g.a)) + "
+        "abs(cmath.exp(1j * g.F) + cmath.rect(2, g.a))"
+    ),
+    (
+        "import cmath\ny = cmath.sqrt(2.9 - g.F).imag + cmath.log(1j * g.a).real + "
+        "cmath.cos(1j * g.F).real + cmath.sin(g.a).real"
+    ),
+    (
+        "y = math.gcd(g.n * 6, g.k * 4, 10) * g.a + math.lcm(g.n, g.k + 1) + math.gcd(0, g.k) + "
+        "math.lcm(4, 6) + math.gcd(g.k)"
+    ),
     "y = math.hypot(g.F, g.a, 3.0) + math.hypot(-g.F) + math.dist((g.F, 1.0, 0.0), [0.0, g.a, 2.0])",
     "import statistics as s\nv = [g.F, g.a, 2]\ny = s.mean(v) + s.fmean(v) * s.stdev(v) + s.median(v) - s.pstdev(v)",
 ]

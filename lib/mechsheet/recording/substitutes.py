@@ -6,15 +6,13 @@ Nothing of the running program is exchanged: pages that are served at the same t
 """
 
 import builtins
-import math
 import os
 import sys
 import warnings
-from bisect import bisect_left, bisect_right
 from collections.abc import Callable, Mapping
 from contextvars import ContextVar
 from copy import copy
-from functools import _lru_cache_wrapper, cache, lru_cache, partial, reduce
+from functools import _lru_cache_wrapper, cache, lru_cache, partial
 from inspect import unwrap
 from io import StringIO
 from types import BuiltinFunctionType, FunctionType, GenericAlias, ModuleType
@@ -23,7 +21,6 @@ from typing import Any
 import numpy as np
 
 from mechsheet import units
-from mechsheet.quantities.arithmetic import whole
 from mechsheet.quantities.graph import NotRecorded, current
 from mechsheet.quantities.node import Node
 from mechsheet.quantities.numpy_rules import arange, filled, linspace, simpson, trapezoid_so_far
@@ -36,6 +33,7 @@ from mechsheet.quantities.written import looked_at, seen
 from mechsheet.recording import scipy_rules, spline_rules
 from mechsheet.recording.choices import total
 from mechsheet.recording.conditions import every, some
+from mechsheet.recording.math_rules import MATH, STATISTICS
 from mechsheet.recording.per_row import of_rows
 from mechsheet.recording.rewritten import NAMES, rebuilt
 from mechsheet.worksheet import check, find, system, title
@@ -78,43 +76,6 @@ def shared(common: Mapping[str, Any]) -> dict[str, Any]:
     return own
 
 
-_SAME = (
-    "sqrt", "exp", "log", "log10", "log2", "log1p", "expm1", "sin", "cos", "tan", "sinh", "cosh", "tanh", "hypot",
-    "degrees", "radians", "floor", "ceil", "trunc", "copysign", "isnan", "isfinite", "isinf", "fmod", "cbrt",
-    "prod",
-)  # fmt: skip
-_OTHER = {"asin": "arcsin", "acos": "arccos", "atan": "arctan", "atan2": "arctan2", "asinh": "arcsinh"}
-_OTHER |= {"acosh": "arccosh", "atanh": "arctanh", "fabs": "abs", "pow": "power", "fsum": "sum"}
-_MATH: dict[Any, Any] = {getattr(math, name): getattr(np, _OTHER.get(name, name)) for name in [*_SAME, *_OTHER]}
-_MATH |= {f: f for f in (math.isclose, bisect_left, bisect_right)}  # which are not those of numpy
-_STATISTICS: dict[str, tuple[Any, dict[str, int]]] = {
-    "mean": (np.mean, {}), "fmean": (np.mean, {}), "median": (np.median, {}), "pstdev": (np.std, {}),
-    "pvariance": (np.var, {}), "stdev": (np.std, {"ddof": 1}), "variance": (np.var, {"ddof": 1}),
-}  # fmt: skip
-
-
-def _hypot(*parts: Any) -> Any:
-    return reduce(np.hypot, parts) if len(parts) > 1 else np.abs(parts[0])
-
-
-def _distance(p: Any, q: Any) -> Any:
-    graph = current.get()
-    return _hypot(*(lift(graph, p) - lift(graph, q)))
-
-
-def _logarithm(x: Any, *base: Any) -> Any:
-    return np.log(x) / np.log(base[0]) if base else np.log(x)
-
-
-def _whole(f: Callable[..., Any]) -> Callable[..., Any]:
-    """A function that gives whole numbers in the module math."""
-    return lambda x: whole(f(x)) if has_quantity(x) else f(x)
-
-
-_MATH |= {getattr(math, f.__name__): _whole(f) for f in (np.floor, np.ceil, np.trunc)}
-_MATH |= {math.hypot: _hypot, math.dist: _distance, math.log: _logarithm}  # of any number of coordinates, to any base
-
-
 def instead(value: Any) -> Any:
     """What takes quantities in place of a function, class or module; anything else is itself."""
     if isinstance(value, Marimo) or value is sys.modules.get("marimo"):
@@ -129,8 +90,8 @@ def instead(value: Any) -> Any:
         return lambda degrees: (degrees + units.celsius(0)) * lift(current.get(), units.constant("K"))
     if (refusing := instead_of_chance(value)) is not None:
         return refusing
-    if isinstance(value, BuiltinFunctionType) and value in _MATH:
-        return _takes(_MATH[value])
+    if isinstance(value, BuiltinFunctionType) and value in MATH:
+        return _takes(MATH[value])
     if isinstance(value, np.ufunc) or (callable(value) and _of_numpy(value)):
         return _takes(value)
     if value is np.vectorize:
@@ -146,8 +107,8 @@ def instead(value: Any) -> Any:
         return unspoken
     if isinstance(value, FunctionType | type) and room.startswith("mechsheet."):
         return _of_package(value, room)
-    if room == "statistics" and value.__name__ in _STATISTICS:
-        function, options = _STATISTICS[value.__name__]
+    if room == "statistics" and value.__name__ in STATISTICS:
+        function, options = STATISTICS[value.__name__]
         return partial(_takes(function), **options)
     if spline_rules.is_spline(value):
         return spline_rules.spline(value)

@@ -1,0 +1,81 @@
+"""Python's functions of numbers, of the modules math, cmath and statistics, by those of numpy that take quantities."""
+
+import cmath
+import math
+from bisect import bisect_left, bisect_right
+from collections.abc import Callable
+from functools import reduce
+from typing import Any
+
+import numpy as np
+
+from mechsheet.quantities.arithmetic import choice, whole
+from mechsheet.quantities.graph import current
+from mechsheet.quantities.quantity import has_quantity, lift
+
+_SAME = (
+    "sqrt", "exp", "log", "log10", "log2", "log1p", "expm1", "sin", "cos", "tan", "sinh", "cosh", "tanh", "hypot",
+    "degrees", "radians", "floor", "ceil", "trunc", "copysign", "isnan", "isfinite", "isinf", "fmod", "cbrt",
+    "prod",
+)  # fmt: skip
+_OTHER = {"asin": "arcsin", "acos": "arccos", "atan": "arctan", "atan2": "arctan2", "asinh": "arcsinh"}
+_OTHER |= {"acosh": "arccosh", "atanh": "arctanh", "fabs": "abs", "pow": "power", "fsum": "sum"}
+MATH: dict[Any, Any] = {getattr(math, name): getattr(np, _OTHER.get(name, name)) for name in [*_SAME, *_OTHER]}
+MATH |= {f: f for f in (math.isclose, bisect_left, bisect_right)}  # which are not those of numpy
+STATISTICS: dict[str, tuple[Any, dict[str, int]]] = {
+    "mean": (np.mean, {}), "fmean": (np.mean, {}), "median": (np.median, {}), "pstdev": (np.std, {}),
+    "pvariance": (np.var, {}), "stdev": (np.std, {"ddof": 1}), "variance": (np.var, {"ddof": 1}),
+}  # fmt: skip
+_DIVISIONS = 24  # of Euclid's algorithm: they end for any two numbers up to 75 024
+
+
+def _hypot(*parts: Any) -> Any:
+    return reduce(np.hypot, parts) if len(parts) > 1 else np.abs(parts[0])
+
+
+def _distance(p: Any, q: Any) -> Any:
+    graph = current.get()
+    return _hypot(*(lift(graph, p) - lift(graph, q)))
+
+
+def _logarithm(x: Any, *base: Any) -> Any:
+    return np.log(x) / np.log(base[0]) if base else np.log(x)
+
+
+def _whole(f: Callable[..., Any]) -> Callable[..., Any]:
+    """A function that gives whole numbers in the module math."""
+    return lambda x: whole(f(x)) if has_quantity(x) else f(x)
+
+
+def _common(a: Any, b: Any) -> Any:
+    """The greatest common divisor of two whole numbers; none of those that take more divisions."""
+    graph = current.get()
+    a, b = np.abs(lift(graph, a)), np.abs(lift(graph, b))
+    for _ in range(_DIVISIONS):
+        ended = b == 0
+        a, b = choice(graph, ended, a, b), choice(graph, ended, 0, a % choice(graph, ended, 1, b))
+    return whole(choice(graph, b == 0, a, np.nan))
+
+
+def _divisor(*numbers: Any) -> Any:
+    return reduce(_common, numbers, 0)
+
+
+def _multiple(*numbers: Any) -> Any:
+    def of_two(a: Any, b: Any) -> Any:
+        divisor = _common(a, b)
+        return whole(np.abs(a * b) / choice(current.get(), divisor == 0, 1, divisor))
+
+    return reduce(of_two, numbers, 1)
+
+
+def _complex(f: Callable[..., Any]) -> Callable[..., Any]:
+    """A function of the module cmath, which takes any number for a complex one."""
+    return lambda z: f(z + 0j)
+
+
+MATH |= {getattr(math, f.__name__): _whole(f) for f in (np.floor, np.ceil, np.trunc)}
+MATH |= {math.hypot: _hypot, math.dist: _distance, math.log: _logarithm}  # of any number of coordinates, to any base
+MATH |= {math.gcd: _divisor, math.lcm: _multiple, cmath.phase: np.angle}
+MATH |= {cmath.rect: lambda r, phi: r * np.exp(1j * phi), cmath.polar: lambda z: (np.abs(z), np.angle(z))}
+MATH |= {getattr(cmath, f.__name__): _complex(f) for f in (np.exp, np.sqrt, np.log, np.sin, np.cos)}
