@@ -49,6 +49,10 @@ SAID = [
     "{', '.join(c.name for c in g.cases if c.P > g.F)} are above, {' and '.join(over)} too",
     "{len([x for x in (1.0, 2.0, 3.0) if x > g.F])} of 3", "{len(above)}, {'some' if above else 'none'}",
 ]  # fmt: skip
+PUT_TOGETHER = [  # or under a name, or one of two
+    "note", "f'B {g.F:.1f} ' + kind + f' {g.side}'", "'C much' if g.F > 3 else 'C little'", "'D ' + kind",
+    "'E {0:.2f} N, {1} {0:.1f}'.format(g.F, kind)", "'F {:.2f} N, {} {n}'.format(g.F, kind, n=g.side)",
+]  # fmt: skip
 CHANGED = [
     {"F": "3.75"},
     {"side": "right", "F": "1"},
@@ -67,13 +71,17 @@ def test_prose_is_that_of_the_worksheet(given: dict[str, str], blank: "Page", tm
         GIVEN,
         "y = g.F  # [-] y\nkind = 'long' if y > 3 else 'short'\n"
         "over = [c.name for c, v in zip(g.cases, (1, 2, 3)) if v * c.P > g.F]\n"
-        "above = [x for x in (1.0, 2.0, 3.0) if x > g.F]",
+        "above = [x for x in (1.0, 2.0, 3.0) if x > g.F]\nnote = f'A {g.F:.3f} {kind}'",
     )
     said = (
         f'@app.cell\ndef said_{k}(g, above, kind, over):\n    mo.md(rf"""A{k} {words}""")\n    return\n\n\n'
         for k, words in enumerate(SAID)
     )
-    path.write_text(text.replace("if __name__", "".join([*said, "if __name__"])))
+    put = (
+        f"@app.cell\ndef put_{k}(g, kind, note):\n    mo.md({words})\n    return\n\n\n"
+        for k, words in enumerate(PUT_TOGETHER)
+    )
+    path.write_text(text.replace("if __name__", "".join([*said, *put, "if __name__"])))
     sheet = cells.load(path)
     own, other = tmp_path / "own.html", tmp_path / "other.html"
     own.write_text(write.page(sheet, sheet.inputs()), encoding="utf-8")
@@ -84,4 +92,4 @@ def test_prose_is_that_of_the_worksheet(given: dict[str, str], blank: "Page", tm
         blank.goto(page.as_uri() + (f"#{address}" if address else ""))
         blank.wait_for_selector("body[data-ready]")
         shown.append(read(blank)["texts"])
-    assert shown[0] == shown[1] and len(shown[0]) >= len(SAID)
+    assert shown[0] == shown[1] and len(shown[0]) >= len(SAID) + len(PUT_TOGETHER)

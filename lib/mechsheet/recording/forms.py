@@ -3,6 +3,8 @@
 import ast
 import copy
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from itertools import count
+from string import Formatter
 
 from mechsheet.worksheet.source import bound
 
@@ -125,6 +127,26 @@ def member(node: ast.Compare) -> ast.expr:
         case ast.NotIn():
             return call("not", node, call("member", node, node.left, *node.comparators))
     return node
+
+
+def formatted(node: ast.Call) -> ast.JoinedStr | None:
+    """``"{:.2f} N".format(F)`` as ``f"{F:.2f} N"``; None of any other call, and of what is not simply formatted."""
+    match node:
+        case ast.Call(ast.Attribute(ast.Constant(str(text)), "format"), args, keywords):
+            known = {str(n): value for n, value in enumerate(args)} | {part.arg: part.value for part in keywords}
+        case _:
+            return None
+    pieces, numbers = list[ast.expr](), count()
+    for literal, field, spec, conversion in Formatter().parse(text):
+        pieces.append(ast.Constant(literal))
+        if field is None:
+            continue
+        value = known.get(field or str(next(numbers)))
+        if value is None or isinstance(value, ast.Starred) or conversion or "{" in str(spec):
+            return None
+        form = ast.JoinedStr([ast.Constant(spec)]) if spec else None
+        pieces.append(ast.FormattedValue(copy.deepcopy(value), -1, form))
+    return ast.fix_missing_locations(ast.copy_location(ast.JoinedStr(pieces), node))
 
 
 OF_KEPT = {"next": "first", "min": "min", "max": "max", "sum": "sum", "len": "len"}

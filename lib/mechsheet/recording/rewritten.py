@@ -19,6 +19,7 @@ from mechsheet.recording.forms import (
     SCOPED,
     as_choice,
     call,
+    formatted,
     gone_through,
     index,
     keeps,
@@ -64,6 +65,8 @@ class _Rewriting(ast.NodeTransformer):
         """What Python decides by itself; the reason of a check, which only the worksheet's own run tells, is none."""
         if rows := of_rows(node):
             return self.generic_visit(rows)
+        if (text := formatted(node)) is not None:
+            return self.visit_JoinedStr(text)
         match node:
             case ast.Call(ast.Name("Check"), [name, residual, limit, unit, _, *rest]):
                 node.args = [name, residual, limit, unit, ast.Constant(""), *rest]
@@ -348,7 +351,7 @@ def _may_be_rewritten(part: ast.AST) -> bool:
     """Whether a part of a statement is of a kind that is rewritten, as it is in few formulas."""
     if isinstance(part, ast.Call):
         match part.func:
-            case ast.Attribute(attr="get" | "index" | "join"):
+            case ast.Attribute(attr="get" | "index" | "join" | "format"):
                 return True
             case ast.Name(name):
                 return name in _NAMES or name in OF_KEPT or name == "Check"

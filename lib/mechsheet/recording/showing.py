@@ -12,6 +12,7 @@ from typing import Any
 
 from mechsheet.quantities.lines import SLIDER, Recording
 from mechsheet.quantities.quantity import Quantity
+from mechsheet.recording.forms import formatted
 from mechsheet.recording.memory import names_of
 from mechsheet.worksheet import source
 from mechsheet.worksheet.cells import Cell, Worksheet
@@ -101,7 +102,17 @@ def texts(cell: Cell) -> list[ast.expr]:
     match cell.lines[-1:]:
         case [ast.Expr(ast.Call(ast.Attribute(ast.Name("mo"), "md"), [text]))]:
             shown.append(text)
-    return [text for text in shown if isinstance(text, ast.JoinedStr)]
+    return [text for text in shown if _follows(text)]
+
+
+def _follows(text: ast.expr) -> bool:
+    """Whether a text may be another one for other inputs: one with numbers in it, under a name too, or put together."""
+    match text:
+        case ast.BinOp(left, ast.Add(), right):
+            return _follows(left) or _follows(right)
+        case ast.Call():
+            return formatted(text) is not None
+    return isinstance(text, ast.JoinedStr | ast.Name | ast.IfExp)
 
 
 def captions(cell: Cell) -> dict[str, ast.expr]:
