@@ -74,7 +74,7 @@ CONSTRUCTS = [
     "y = np.gradient(np.sin(x)) * g.a",
     "K = np.array([[2 * g.F, -g.F], [-g.F, g.F + g.a]])\ny = np.linalg.solve(K, [1.0, 2.0])",
     "K = np.diag([g.F - 2.5, g.a, 1.0])\ny = np.linalg.solve(K, [1.0, 2.0, 3.0]) if g.F != 2.5 else np.zeros(3)",
-    "K = np.array([[0, g.F, 0], [g.a, 0, 0], [0, 0, 1.0]])\ny = np.linalg.solve(K, [1.0, g.a / (g.F > 3), 2.0])",
+    "K = np.array([[0, g.F, 0], [g.a, 0, 0], [0, 0, 1.0]])\ny = np.linalg.solve(K, [1.0, np.log(g.F - 1.9), g.a])",
     "K = np.array([[2 * g.F, -g.F], [-g.F, g.F + g.a]])\ny = np.linalg.eigvalsh(K)",
     "K = np.array([[2 * g.F, -g.F], [-g.F, g.F + g.a]])\ny = np.sqrt(np.linalg.eigh(K)[0])",
     "K = np.array([[2 * g.F, -g.F], [-g.F, g.F + g.a]])\nw, V = np.linalg.eigh(K)\ny = V[1] / V[0]",
