@@ -159,6 +159,15 @@ def test_within_the_tolerances_a_check_is_as_sure_as_plain_runs_say(
     assert re.search(r"by itself: .*of cases", out)
 
 
+@pytest.mark.parametrize(("at", "told"), [(0.985, "in all the tolerances"), (0.99, r"in 8\d(\.\d)? % of cases")])
+def test_at_a_greatest_value_the_ends_of_the_tolerances_tell(at: float, told: str, tmp_path: Path) -> None:
+    """By its slope a cosine of 0 keeps still."""
+    path, lines = tmp_path / "turned.py", f'c = check("cosine", np.cos(g.beta), at_least={at})'
+    path.write_text(written(SETUP, "beta: float = 0 * deg  # [deg] angle; ± 9.9", lines, "Turned"))
+    (line,) = [x for x in as_script(path, "--tolerances").stdout.splitlines() if "cosine" in x]
+    assert re.search(told, line), line
+
+
 def test_a_scene_sets_what_must_be_at_least(sheet: Path) -> None:
     for bound, told in (("min = 5.0", "FAIL  safety: 2.2305 >= 5"), ("max = 5.0", r"'safety' must be {min = NUMBER}")):
         scene = sheet.with_name("scene.toml")

@@ -8,8 +8,11 @@ from itertools import chain
 from operator import attrgetter
 from typing import Any, NamedTuple
 
+import numpy as np
+
 from mechsheet.quantities.graph import Gap, Graph, Guard
 from mechsheet.quantities.node import Node, steps_of
+from mechsheet.quantities.operations import Values
 from mechsheet.quantities.quantity import Quantity
 from mechsheet.quantities.sketch import Drawn
 from mechsheet.quantities.written import Said, Written
@@ -45,6 +48,13 @@ class Residual:
     signed: bool = False
     where: str = ""
     at_least: bool = False
+
+    def holds(self, there: Mapping[Node, Values]) -> bool:
+        """Whether the check does where its quantities have these numbers."""
+        limit, parts = there[self.limit], [there[part] for part in self.parts]
+        if self.at_least:
+            return all((part >= limit).all() for part in parts)
+        return all(((part if self.signed else np.abs(part)) <= limit).all() for part in parts)
 
 
 class Told(NamedTuple):

@@ -228,8 +228,7 @@ class Bands:
         self.look([*residual.parts, residual.limit])
         little = _LITTLE * np.abs(reserves[1:]).sum(0)
         for place, there in zip(self.places, self.there, strict=True):
-            parts = [there[part] if residual.signed else np.abs(there[part]) for part in residual.parts]
-            holds = all((part <= there[residual.limit]).all() for part in parts)
+            holds = residual.holds(there)
             said = reserves[0] + place @ reserves[1:]
             if np.any(said < -little) if holds else np.all(said > little):
                 return True
@@ -257,9 +256,7 @@ class Bands:
         for node, t in zip(self.inputs, self.by, strict=True):
             for end in (t.value - t.size, t.value + t.size):
                 there = recomputed([*residual.parts, residual.limit], {node: end})
-                kept = np.greater_equal if residual.at_least else np.less_equal
-                holds = all(kept(there[part], there[residual.limit]).all() for part in residual.parts)
-                if holds != passed:
+                if residual.holds(there) != passed:
                     word = "fails" if passed else "holds"
                     f = t.field
                     return f"{word} for {f.name} = {numbers.significant(f.display(end), 6)}{numbers.suffix(f.unit)}"
